@@ -20,7 +20,7 @@ const FORCES_PN: [f64; 7] = [1.0, 2.0, 3.0, 4.0, 5.0, 7.0, 10.0];
 const AZIMUTHS: u32 = 6;
 /// Rows of each quantity.
 const GROUPS: usize = 5;
-/// Where the program reads them.
+/// Folder from which the program reads them.
 const COMMITTED: &str = "crates/actin-sim/src/assembly";
 const FILE: &str = "extrapolation.csv";
 
@@ -48,7 +48,7 @@ pub(super) fn run(out: &Path, write: bool, tell: Tell<'_>) -> Result<(), String>
     Ok(())
 }
 
-/// What a rod of segments of 10 nm takes beyond the data of its law, and its errors, under each force.
+/// Strains of a rod of segments of 10 nm beyond the data of its law, and its errors, under each force.
 fn excesses(out: &Path, rises: f64) -> Result<Vec<Excess>, String> {
     let name = format!("{rises} rises, beyond");
     let case = Case::forces(Group::Beside, name, rises, (None, 0.0, &FORCES_PN));

@@ -10,7 +10,7 @@ const DRAWN: usize = 64;
 const SEGMENT_NM: f64 = 10.0;
 const FINE_NM: f64 = 2.5;
 
-/// What a filament is made of.
+/// Composition of a filament.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Made {
     /// Name in files and messages.

@@ -30,10 +30,10 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-/// What is measured, and where it goes.
+/// Subject and output of the study.
 #[derive(Clone, Debug)]
 pub struct Options {
-    /// Where to write tables and pictures, and to keep equilibria of monomers.
+    /// Folder of tables and pictures, and of kept equilibria of monomers.
     pub out: PathBuf,
     /// Fewer cases, azimuths and samplings.
     pub quick: bool,
@@ -41,7 +41,7 @@ pub struct Options {
     pub laws: Vec<String>,
     /// Also into `docs/tables/load-cases.md`.
     pub write: bool,
-    /// What is measured.
+    /// Subject of the measurement.
     pub subject: Subject,
 }
 
@@ -99,7 +99,7 @@ pub fn run(options: &Options, tell: Tell<'_>) -> Result<(), String> {
     Ok(())
 }
 
-/// How much is computed of a law.
+/// Extent of the computation for a law.
 #[derive(Clone, Copy)]
 struct Effort {
     quick: bool,

@@ -24,10 +24,10 @@ pub(super) struct Row {
     pub error_mean: Option<f64>,
     pub error_drawn: Option<f64>,
     pub error_fine: Option<f64>,
-    /// What single filaments of drawn bonds differ by, in the same measure.
+    /// Deviation of single filaments of drawn bonds, in the same measure.
     pub scatter: Option<f64>,
     pub bound: Bound,
-    /// What else to know.
+    /// Remarks.
     pub note: String,
 }
 
@@ -176,7 +176,7 @@ fn shape_row(row: Row, monomers: &Monomers, rods: &Rods) -> Row {
     }
 }
 
-/// Where states differ, are doubtful, or are missing.
+/// Remarks on states that differ, are doubtful, or are missing.
 fn note(monomers: &Monomers, rods: &Rods) -> String {
     let mut all = Vec::new();
     let filaments = || monomers.mean.iter().chain(&monomers.drawn);

@@ -21,7 +21,7 @@ const ROD_STEP: f64 = 0.01;
 /// Unit forces.
 const ALONG: [f64; 3] = [0.0, 0.0, 1.0];
 const ACROSS: [f64; 3] = [1.0, 0.0, 0.0];
-/// How far each end of a buckled filament is pushed in (nm).
+/// Distance by which each end of a buckled filament is pushed in (nm).
 const PUSHED_NM: f64 = 7.5;
 
 /// Results of a filament under the loads of a case.

@@ -58,7 +58,7 @@ fn yes_or_no(met: Option<bool>) -> String {
         .to_owned()
 }
 
-/// How many bounds are met, and the largest error over its bound, in words.
+/// Number of met bounds, and the largest error over its bound, in words.
 fn score(rows: &[&Row], against: usize) -> [String; 2] {
     let verdicts = || rows.iter().filter_map(|row| row.is_met()[against]);
     let (judged, good) = (verdicts().count(), verdicts().filter(|met| *met).count());
@@ -92,7 +92,7 @@ pub(super) fn page(rows: &[Row]) -> String {
     text
 }
 
-/// By case and law, how many bounds are met.
+/// Numbers of met bounds by case and law.
 pub(super) fn summary(rows: &[Row]) -> String {
     let mut text = "\n| case | law | met, mean | worst | met, drawn | worst |\n\
                     | --- | --- | ---: | ---: | ---: | ---: |\n"

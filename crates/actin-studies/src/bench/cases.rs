@@ -4,13 +4,12 @@
 pub(super) struct Case {
     /// Its name.
     pub(super) name: &'static str,
-    /// What it runs.
     pub(super) work: Work,
     /// The rate that was aimed at (elements per second, or times one thread), where one was set.
     pub(super) target: Option<f64>,
 }
 
-/// What a case runs.
+/// Work of a case.
 #[derive(Clone, Copy)]
 pub(super) enum Work {
     /// Whole time steps.
@@ -24,7 +23,7 @@ pub(super) enum Work {
     Ensemble(Replicated),
 }
 
-/// What there are replicas of: a filament of 160 nm on a wall.
+/// Replicated scene: a filament of 160 nm on a wall.
 #[derive(Clone, Copy)]
 pub(super) enum Replicated {
     /// A rod of 64 segments in a heat bath.
@@ -40,16 +39,15 @@ pub(super) enum Replicated {
 /// Undamped motion of clamped filaments, straight at first, under a force across the tip.
 #[derive(Clone, Copy)]
 pub(super) struct Motion {
-    /// What each filament is made of.
     pub(super) filament: Filament,
-    /// How many there are. Independent filaments are scenes of their own: one after the other
+    /// Number of filaments. Independent filaments are scenes of their own: one after the other
     /// makes the steps of a batch.
     pub(super) copies: usize,
     /// The scene's integrator.
     pub(super) integrator: &'static str,
 }
 
-/// What a filament is made of.
+/// Composition of a filament.
 #[derive(Clone, Copy)]
 pub(super) enum Filament {
     /// A rod of 160 nm under a law; an element is a segment.

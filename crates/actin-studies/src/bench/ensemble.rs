@@ -1,4 +1,4 @@
-//! How much faster replicas run on two threads than on one.
+//! Speed of replicas on two threads over one.
 
 use super::cases::Replicated;
 use super::{Measured, median};

@@ -15,7 +15,7 @@ const BUDGET_S: f64 = 2.0;
 /// Most repeats.
 const REPEATS: usize = 50;
 
-/// What one solve came to.
+/// Result of one solve.
 struct Solved {
     assembly: Assembly,
     seconds: f64,

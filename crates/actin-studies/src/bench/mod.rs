@@ -27,13 +27,13 @@ pub(crate) struct Options {
     peers: bool,
 }
 
-/// What was measured of a case.
+/// Measurement of a case.
 struct Measured {
     /// Best of the repeats: other work on the machine only ever slows one down.
     best: f64,
     /// Median of the repeats.
     median: f64,
-    /// What a reader has to know.
+    /// Remarks.
     note: String,
 }
 

@@ -16,7 +16,7 @@ const SCENE: &str = "Scene(
 /// Changes a finished run directory, `run`, or what lies beside it.
 type Spoil = fn(&Path) -> io::Result<()>;
 
-/// What stands in the way of `--overwrite`.
+/// Obstacles to `--overwrite`.
 const IN_THE_WAY: [(&str, Spoil); 7] = [
     ("no manifest: a folder of somebody else", |folder| {
         fs::remove_file(folder.join("run/actin-run.json"))
@@ -45,7 +45,7 @@ const IN_THE_WAY: [(&str, Spoil); 7] = [
     }),
 ];
 
-/// What stands in the way of results, in the place of their unfinished names: as a disk that is full, it
+/// Obstacles to results, in the place of their unfinished names: as a disk that is full, each
 /// lets no file be made there.
 const OBSTACLES: [&str; 3] = ["scene.ron.part", "states.npz.part", "summary.json.part"];
 

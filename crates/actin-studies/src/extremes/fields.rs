@@ -61,7 +61,7 @@ pub(super) fn rows(is_wanted: bool) -> Vec<Row> {
     values.iter().map(row).collect()
 }
 
-/// How the trials ended, in numbers.
+/// Numbers of trials by their ends.
 fn counted(trials: &[Trial]) -> Outcome {
     let count = |is: fn(&Verdict) -> bool| trials.iter().filter(|t| is(&t.verdict)).count();
     let not_finite = |trial: &&Trial| matches!(trial.verdict, Verdict::NotFinite(_));
@@ -83,7 +83,7 @@ fn counted(trials: &[Trial]) -> Outcome {
 /// Most steps of a motion that is run; a longer one is looked at by its estimate alone.
 const MOST_STEPS: u64 = 2_000;
 
-/// How far a scene came.
+/// Stage that a scene reached.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Verdict {
     /// Refused when read, built or estimated, with its place in the text.
@@ -134,7 +134,7 @@ fn finite(trajectory: &Trajectory) -> Verdict {
     Verdict::Ran
 }
 
-/// Where a number stands in a text, and the key before it.
+/// Place of a number in a text, and the key before it.
 #[derive(Clone, Debug, PartialEq)]
 struct Number {
     place: Range<usize>,

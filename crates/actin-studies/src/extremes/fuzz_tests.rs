@@ -11,7 +11,7 @@ use std::time::Instant;
 /// Cases of each property where the environment does not say.
 const CASES: u32 = 300;
 
-/// How many cases a property is tried with: `ACTIN_FUZZ_CASES`, or a few seconds' worth.
+/// Number of cases of a property: `ACTIN_FUZZ_CASES`, or a few seconds' worth.
 fn config() -> Config {
     let wanted = std::env::var("ACTIN_FUZZ_CASES").ok();
     let cases = wanted.map_or(CASES, |text| {

@@ -22,10 +22,10 @@ use std::fs;
 use std::path::PathBuf;
 use std::time::Instant;
 
-/// What is computed, and where it goes.
+/// Extent and output of the study.
 #[derive(clap::Args, Debug)]
 pub(crate) struct Options {
-    /// Where to write the table and the pictures.
+    /// Folder of the table and the pictures.
     #[arg(long, default_value = "target/extremes")]
     out: PathBuf,
     /// Also the rows that take minutes: 1e6 bodies, 1e7 steps.

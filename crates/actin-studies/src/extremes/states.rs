@@ -7,7 +7,7 @@ use actin_sim::rod_constants::{TABLE_4_SHEAR, XI_COEFFICIENTS};
 use actin_sim::shape::Ribbon;
 use std::f64::consts::PI;
 
-/// How many modes are neutral: rigid motions of free filaments and floppy modes of monomers at rest.
+/// Number of neutral modes: rigid motions of free filaments and floppy modes of monomers at rest.
 #[derive(Clone, Copy)]
 enum Modes {
     None,

@@ -54,7 +54,7 @@ fn step_at(system: &System, scheme: &Composition, share: f64) -> f64 {
     stable_step(scheme, frequency, share).expect("it is positive")
 }
 
-/// Where small motion about the present state begins to grow, over the limit that the largest frequency predicts. A wrong
+/// Step at which small motion about the present state begins to grow, over the limit that the largest frequency predicts. A wrong
 /// mass, a frequency that misses the stiffest term or a table with a wrong limit would each change it.
 fn measured_limit(system: &mut System, integrator: Integrator) -> f64 {
     let predicted = step_at(system, integrator.composition(), 1.0);

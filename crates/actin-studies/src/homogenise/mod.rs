@@ -18,13 +18,13 @@ use std::fs;
 use std::path::PathBuf;
 use std::time::Instant;
 
-/// What is computed, and where it goes.
+/// Parts and output of the study.
 #[derive(clap::Args, Debug)]
 pub(crate) struct Options {
     /// Parts to compute, all if none is named.
     #[arg(value_enum)]
     parts: Vec<Part>,
-    /// Where to write tables; slices of the grid that are there are kept.
+    /// Folder of tables; slices of the grid that are there are kept.
     #[arg(long, default_value = "target/homogenise")]
     out: PathBuf,
     /// A coarser grid and fewer samples.
@@ -38,7 +38,7 @@ pub(crate) struct Options {
 /// A part of the study.
 #[derive(clap::ValueEnum, Clone, Copy, Debug, PartialEq, Eq)]
 enum Part {
-    /// Where a twisted and bent cell has several states, and how it bends in a plane.
+    /// Several states of twisted and bent cells, and their bending in a plane.
     States,
     /// Energy, loads and tangent over all strains.
     Grid,

@@ -66,7 +66,7 @@ impl Row {
         }
     }
 
-    /// What it stores and bears, as a law has it.
+    /// Energy, loads and tangent.
     pub(super) fn jet(&self) -> PotentialJet {
         PotentialJet {
             energy: self.energy,

@@ -1,4 +1,4 @@
-//! Where a twisted and bent cell has several states, bent along a helix or in a plane, and how stiff it is in both.
+//! Strains at which a twisted and bent cell has several states, bent along a helix or in a plane, and its stiffness in both.
 //!
 //! A cell under uniform strains is bent along a helix where it is twisted. In a plane it is one whose lattice turns by another angle
 //! and closes after another number of monomers.

@@ -26,7 +26,7 @@ const RANGE: Region = Region::new([0.01, 0.048, 0.015], [-2e-3, 6e-3]);
 const LOADED: u64 = 8000;
 const OTHER_LOADED: u64 = 2500;
 
-/// Where cells are strained at random, how many: a little beyond the range, and under compression.
+/// Regions of randomly strained cells, and numbers of cells: a little beyond the range, and under compression.
 const STRAINED: [(Region, u64); 2] = [
     (Region::new([0.0125, 0.055, 0.018], [-2.2e-3, 7e-3]), 6000),
     (Region::new([0.011, 0.015, 0.016], [-2.2e-3, 0.0]), 6000),
@@ -91,7 +91,7 @@ fn normal<'a>(
     Ok(Normal::new(form, &terms, &weighted))
 }
 
-/// Where the tangent is held positive.
+/// Strains at which the tangent is held positive.
 fn firm(strained: &[Row]) -> Vec<SixVector> {
     let firm = strained.iter().filter(|row| POSITIVITY.least(row) > FIRM);
     firm.map(Row::six).collect()
