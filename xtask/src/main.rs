@@ -14,8 +14,8 @@ use std::process::ExitCode;
 #[derive(Debug, Parser)]
 #[command(
     name = "cargo xtask",
-    after_help = "Studies (`cargo xtask STUDY --help`): bench, bonds, docs, extremes, fit-parameters, homogenise, \
-        load-cases, reproduce-figures"
+    after_help = "Studies (`cargo xtask STUDY --help`): bench, docs, extremes, fit-parameters, homogenise, \
+        load-cases, reproduce-figures, tradeoff"
 )]
 struct Arguments {
     #[command(subcommand)]

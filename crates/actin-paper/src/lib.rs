@@ -5,11 +5,8 @@
 //!   a page.
 //! - [`committed`]: how rows differ from those that the documents were written from.
 //! - [`fit`]: laws of the rod fitted to measured rows.
-//! - [`bonds`]: which bonds monomers have, and what depends on it.
-//! - [`homogenise`]: what monomers store per length under all six strains.
+//! - [`cells`]: periodic cells of monomers under strains and loads.
 //! - [`load_cases`]: how far rods under a law are from monomers, load case by load case.
-//! - [`extremes`]: every number of a scene, taken to where it breaks.
-//! - [`mod@bench`]: rates of fixed cases.
 //!
 //! Scenes and committed numbers are those of the workspace that the crate was built in: `scenarios` and
 //! `docs`. How pictures and pages look is decided in `actin-draw`, how scenes run in `actin-sim`.
@@ -18,13 +15,10 @@
 #[doc = include_str!("../README.md")]
 struct Readme;
 
-pub mod bench;
-pub mod bonds;
+pub mod cells;
 pub mod committed;
-pub mod extremes;
 pub mod figures;
 pub mod fit;
-pub mod homogenise;
 pub mod load_cases;
 pub mod measure;
 mod palette;

@@ -6,7 +6,6 @@
 mod streams;
 
 mod bench;
-mod bonds;
 mod docs;
 mod extremes;
 mod figures;
@@ -31,13 +30,11 @@ struct Arguments {
 enum Task {
     /// Measures rates of fixed cases beside their targets.
     Bench(bench::Options),
-    /// Compares drawn and weighted bonds, and the shortest bond, on the paper's tables and figures.
-    Bonds(bonds::Options),
     /// Takes every number of a scene to its limits and lists the outcomes.
     Extremes(extremes::Options),
     /// Fits a rod's laws to tables or to filaments of monomers.
     FitParameters(fit::Options),
-    /// Measures what monomers store per length under all strains, on a grid.
+    /// Measures the energy per length of monomers under all strains, on a grid, and fits laws of rods to it.
     Homogenise(homogenise::Options),
     /// Measures how far rods under a law are from filaments of monomers, load case by load case.
     LoadCases(load_cases::Options),
@@ -62,11 +59,10 @@ fn main() -> ExitCode {
 fn carry_out(task: Task) -> anyhow::Result<()> {
     actin_sim::mechanics::wide::chosen_arch().map_err(anyhow::Error::msg)?;
     match task {
-        Task::Bench(options) => bench::run(options),
-        Task::Bonds(options) => bonds::run(options),
-        Task::Extremes(options) => extremes::run(options),
+        Task::Bench(options) => bench::run(&options),
+        Task::Extremes(options) => extremes::run(&options),
         Task::FitParameters(options) => fit::run(options),
-        Task::Homogenise(options) => homogenise::run(options),
+        Task::Homogenise(options) => homogenise::run(&options),
         Task::LoadCases(options) => load_cases::run(options),
         Task::ReproduceFigures(options) => figures::run(options),
         Task::Tradeoff(options) => tradeoff::run(&options),

@@ -29,10 +29,20 @@ pub(super) fn check(case: &mut Case<'_>) -> Result<Tally, String> {
     }
     let ending = program::finish(case.folder, &["check", "scene.ron"], CHECKING)?;
     match ending.code {
-        Some(0) => Ok(once("accepted")),
+        Some(0) => check_written(&text).map(|()| once("accepted")),
         Some(2) => check_place(&ending, &text).map(|()| once("refused with their place")),
         _ => Err(format!("{ending:?}")),
     }
+}
+
+/// Refuses a scene that reads differently once it is written.
+fn check_written(text: &[u8]) -> Result<(), String> {
+    let read = |text: &str| Scene::from_ron(text).map_err(|e| e.to_string());
+    let written = read(&String::from_utf8_lossy(text))?.to_ron();
+    if read(&written)?.to_ron() == written {
+        return Ok(());
+    }
+    Err(format!("another scene once written: {written}"))
 }
 
 /// A scene with other numbers under `actin run`.

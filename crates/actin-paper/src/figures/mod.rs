@@ -19,6 +19,7 @@ mod print;
 mod progress;
 mod schematics;
 mod settles;
+mod surface;
 mod tables;
 
 pub use crate::palette::Palette;

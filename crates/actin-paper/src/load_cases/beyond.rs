@@ -1,10 +1,9 @@
 //! Errors of cantilevers that leave the data of `Homogenised`: the numbers that the warning gives.
 
-use super::bound::Group;
-use super::case::{Case, Kind};
+use super::case::{Case, Group};
 use super::ends::of_mean_filament;
-use super::filament::{Made, RISE_NM, Rod};
-use super::solve::course;
+use super::filament::Made;
+use super::solve::scene;
 use crate::Tell;
 use crate::measure::follow;
 use actin_draw::report::save;
@@ -13,15 +12,15 @@ use rayon::prelude::*;
 use std::fmt::Write as _;
 use std::path::Path;
 
-/// From the wall to the load, less half a rise: 62, 100, 160, 220, 303 nm.
-const RISES: [u32; 5] = [22, 36, 58, 80, 110];
+/// From the wall to the load (rises): 62, 100, 160, 220, 303 nm.
+const RISES: [f64; 5] = [22.5, 36.5, 58.5, 80.5, 110.5];
 /// Forces across the tip (pN).
 const FORCES_PN: [f64; 7] = [1.0, 2.0, 3.0, 4.0, 5.0, 7.0, 10.0];
 /// Azimuths of the lattice.
 const AZIMUTHS: u32 = 6;
 /// Rows of each quantity.
 const GROUPS: usize = 5;
-/// Where the program reads them.
+/// Folder from which the program reads them.
 const COMMITTED: &str = "crates/actin-sim/src/assembly";
 const FILE: &str = "extrapolation.csv";
 
@@ -38,14 +37,9 @@ struct Excess {
 /// # Errors
 /// A rod or monomers without an equilibrium, and a file that cannot be written.
 pub(super) fn run(out: &Path, write: bool, tell: Tell<'_>) -> Result<(), String> {
-    let folder = out.join("monomers");
-    std::fs::create_dir_all(&folder).map_err(|e| format!("{}: {e}", folder.display()))?;
-    let all = RISES.par_iter().map(|&rises| excesses(&folder, rises));
-    let all = all
-        .collect::<Result<Vec<_>, String>>()?
-        .into_iter()
-        .flatten();
-    let table = table(all.collect());
+    let all = RISES.par_iter().map(|&rises| excesses(out, rises));
+    let all = all.collect::<Result<Vec<_>, String>>()?;
+    let table = table(all.into_iter().flatten().collect());
     tell(format_args!("{table}"));
     save(out, FILE, &table)?;
     if write {
@@ -54,20 +48,13 @@ pub(super) fn run(out: &Path, write: bool, tell: Tell<'_>) -> Result<(), String>
     Ok(())
 }
 
-/// What a rod of segments of 10 nm takes beyond the data of its law, and its errors, under each force.
-fn excesses(folder: &Path, rises: u32) -> Result<Vec<Excess>, String> {
-    let case = Case {
-        group: Group::Beside,
-        name: format!("{rises} rises, beyond"),
-        kind: Kind::Cantilever {
-            rises,
-            tension_pn: 0.0,
-            forces_pn: FORCES_PN.to_vec(),
-        },
-    };
-    let monomers = of_mean_filament(folder, &case, AZIMUTHS)?;
-    let rod = Made::Rod(Rod::coarse(&RodLaw::Homogenised));
-    let ends = follow(&course(&case.kind).scene(&rod)).map_err(|e| e.to_string())?;
+/// Strains of a rod of segments of 10 nm beyond the data of its law, and its errors, under each force.
+fn excesses(out: &Path, rises: f64) -> Result<Vec<Excess>, String> {
+    let name = format!("{rises} rises, beyond");
+    let case = Case::forces(Group::Beside, name, rises, (None, 0.0, &FORCES_PN));
+    let monomers = of_mean_filament(out, &case, AZIMUTHS)?;
+    let (scene, _) = scene(&case, &Made::coarse(&RodLaw::Homogenised));
+    let ends = follow(&scene).map_err(|e| e.to_string())?;
     if let Some(ended) = ends.ended {
         return Err(ended.to_string());
     }
@@ -89,11 +76,9 @@ fn excesses(folder: &Path, rises: u32) -> Result<Vec<Excess>, String> {
             });
         }
     }
-    let length = (f64::from(rises) + 0.5) * RISE_NM;
-    let whole = monomers.iter().all(|m| m.values.len() == FORCES_PN.len());
-    whole
-        .then_some(all)
-        .ok_or_else(|| format!("{length:.0} nm of monomers: not every force was reached"))
+    let is_whole = monomers.iter().all(|m| m.values.len() == FORCES_PN.len());
+    let lost = || format!("{}: not every force was reached", case.name);
+    is_whole.then_some(all).ok_or_else(lost)
 }
 
 /// For each quantity groups of about equal size by value, with the largest errors up to there.

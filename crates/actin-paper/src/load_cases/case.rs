@@ -1,209 +1,310 @@
-//! The load cases: how a filament is held and loaded, and what is read. How that is computed is in `solve.rs`.
+//! Load cases: how a filament is held and loaded, which quantity is read, and how far a rod may be off. Cases and bounds
+//! were set before any result was seen.
 
-use super::bound::Group;
 use super::filament::RISE_NM;
+use actin_sim::Slides;
 
 /// A load case.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Case {
-    /// Which row of the table it belongs to.
+    /// Section of the table.
     pub group: Group,
     /// Name in tables and files.
     pub name: String,
-    /// How the filament is loaded.
-    pub kind: Kind,
+    /// Length in rises; of a cantilever to where the force acts, midway between the last two monomers.
+    pub rises: f64,
+    pub loading: Loading,
 }
 
-/// Ways of loading. Lengths are in rises.
+/// Ways of loading.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) enum Kind {
-    /// Held at one end, pulled along the axis, then pushed across the tip with each force (pN). Read: how
-    /// far the tip goes along the force (nm), from where the tension alone brought it.
-    Cantilever {
-        /// From the wall to where the force acts, less half a rise: on monomers midway between the last two.
-        rises: u32,
-        tension_pn: f64,
-        forces_pn: Vec<f64>,
-    },
-    /// Both ends held against turning, the far one slides freely; pulled along, then pushed across. Read:
-    /// displacement over force (nm/pN).
-    Guided {
-        rises: u32,
+pub(super) enum Loading {
+    /// Held at the start, turned (deg per 73.94 nm) or pulled (pN), then loaded with each force (pN): along the axis if the far
+    /// end slides along it, else across. Read: far end displacement (nm) of a cantilever, over the force (nm/pN) if it
+    /// slides freely, secant stretching rigidity (pN) if it slides along the axis.
+    Forces {
+        far_end: Option<Slides>,
+        turn_deg: f64,
         tension_pn: f64,
         forces_pn: Vec<f64>,
     },
     /// Figure 5, or Figure 6. Read: energy (pN nm) and centre line.
     Linked { figure: u32 },
-    /// 110 rises, each end turned so far (deg) and pushed in by 7.5 nm. Read: height (nm), couple (pN nm),
-    /// thrust (pN).
+    /// Each end turned by this angle (deg) and pushed in by 7.5 nm. Read: height (nm), couple (pN nm), thrust (pN).
     Buckled { turn_deg: f64 },
-    /// Turned by so many deg per 73.94 nm, free to change its length. Read: secant twisting rigidity
+    /// Turned by these angles (deg) per 73.94 nm, free to change its length. Read: secant twisting rigidity
     /// (pN nm^2) and change of length.
-    Twisted { rises: u32, turns_deg: Vec<f64> },
-    /// Turned by `turn_deg` per 73.94 nm, then pulled with each force (pN). Read: secant stretching rigidity
-    /// (pN).
-    Stretched {
-        rises: u32,
-        turn_deg: f64,
-        forces_pn: Vec<f64>,
-    },
+    Twisted { turns_deg: Vec<f64> },
 }
 
 /// The length to which turns refer (nm): that of Tables 3 and 5, 27 rises.
 pub(super) const TURNED_NM: f64 = 27.0 * RISE_NM;
 
-/// Forces across a cantilever that is not pulled (pN).
+/// Forces across and tensions of cantilevers of 160.2 nm (pN).
 const ACROSS_PN: [f64; 5] = [0.05, 0.2, 1.0, 2.0, 5.0];
-/// Forces across what is pulled (pN).
 const SMALL_PN: [f64; 2] = [0.1, 0.5];
-/// Tensions of cantilevers and of guided beams (pN).
 const PULL_PN: [f64; 4] = [1.0, 5.0, 10.0, 40.0];
+/// Tensions of guided beams (pN), and spans with and without a bound: 60, 90, 150 nm; 25, 30, 40 nm.
 const GUIDED_PULL_PN: [f64; 3] = [0.0, 5.0, 10.0];
-/// Spans of guided beams with and without a bound: 60, 90, 150 nm; 25, 30, 40 nm.
-const GUIDED: [u32; 3] = [22, 33, 55];
-const SHORT: [u32; 3] = [9, 11, 15];
-/// From the wall to the load of a cantilever, less half a rise: 160.2 nm.
-const CANTILEVER: u32 = 58;
+const SPANS: [(Group, [f64; 3]); 2] = [
+    (Group::Guided, [22.0, 33.0, 55.0]),
+    (Group::Beside, [9.0, 11.0, 15.0]),
+];
+/// Turns of buckled filaments (deg).
+const BUCKLED_DEG: [f64; 4] = [180.0, -180.0, 270.0, -270.0];
 /// Turns (deg) of which Tables 3 and 5 have rows.
-const TURNS_DEG: [f64; 5] = [10.0, 40.0, 80.0, 120.0, 180.0];
-/// Forces along a filament (pN).
+const TURNS_DEG: [f64; 10] = [
+    10.0, -10.0, 40.0, -40.0, 80.0, -80.0, 120.0, -120.0, 180.0, -180.0,
+];
+/// Forces along a filament (pN), and twist under which it is stretched (deg per 73.94 nm).
 const ALONG_PN: [f64; 3] = [2.0, 10.0, 40.0];
-/// Twist under which filaments are stretched (deg per 73.94 nm).
 const HELD_DEG: [f64; 3] = [0.0, 80.0, -80.0];
 
-/// All cases; the first and last of each list if `quick`.
+/// All cases; a few that cover most of the table if `quick`.
 pub(super) fn all(quick: bool) -> Vec<Case> {
+    let cantilever = |group, pull: f64, forces: &[f64]| {
+        let name = format!("160 nm, tension {pull} pN");
+        Case::forces(group, name, 58.5, (None, pull, forces))
+    };
     let mut all = vec![cantilever(Group::Cantilever, 0.0, &ACROSS_PN)];
     all.extend(PULL_PN.map(|pull| cantilever(Group::PulledCantilever, pull, &SMALL_PN)));
-    for (group, spans) in [(Group::Guided, GUIDED), (Group::Beside, SHORT)] {
+    for (group, spans) in SPANS {
         for rises in spans {
-            all.extend(GUIDED_PULL_PN.map(|pull| guided(group, rises, pull)));
+            all.extend(GUIDED_PULL_PN.map(|pull| Case::guided(group, rises, pull)));
         }
     }
-    all.extend([5, 6].map(linked));
-    all.extend([180.0, -180.0, 270.0, -270.0].map(buckled));
-    all.push(twisted());
+    all.extend([5, 6].map(|figure| {
+        let loading = Loading::Linked { figure };
+        Case::new(Group::Linked, format!("Figure {figure}"), f64::NAN, loading)
+    }));
+    all.extend(BUCKLED_DEG.map(|turn_deg| {
+        let name = format!("turned {turn_deg:+} deg");
+        Case::buckled(Group::Buckled, name, turn_deg)
+    }));
+    let turns_deg = TURNS_DEG.to_vec();
+    let twisted = Loading::Twisted { turns_deg };
+    all.push(Case::new(Group::Twisted, "74 nm", 27.0, twisted));
     for turn_deg in HELD_DEG {
-        all.extend([1.0, -1.0].map(|sign| stretched(turn_deg, sign)));
+        for (what, sign) in [("pulled", 1.0), ("pushed", -1.0)] {
+            let name = format!("74 nm, turned {turn_deg:+} deg, {what}");
+            let forces = ALONG_PN.map(|force| sign * force);
+            all.push(Case::stretched(
+                Group::Stretched,
+                name,
+                27.0,
+                (turn_deg, &forces),
+            ));
+        }
     }
-    if quick {
-        all.retain(is_quick);
-    }
+    all.retain(|case| !quick || case.is_quick());
     all
 }
 
-/// What takes little time and covers most of the table.
-fn is_quick(case: &Case) -> bool {
-    match &case.kind {
-        Kind::Cantilever { tension_pn, .. } => *tension_pn < 10.0,
-        Kind::Guided { rises, .. } => *rises == GUIDED[1],
-        Kind::Linked { figure } => *figure == 5,
-        Kind::Buckled { turn_deg } => (90.0..=180.0).contains(turn_deg),
-        Kind::Twisted { .. } => true,
-        Kind::Stretched { turn_deg, .. } => *turn_deg == 0.0,
+impl Case {
+    pub(super) fn new(group: Group, name: impl Into<String>, rises: f64, loading: Loading) -> Self {
+        Self {
+            group,
+            name: name.into(),
+            rises,
+            loading,
+        }
     }
-}
 
-fn cantilever(group: Group, tension_pn: f64, forces_pn: &[f64]) -> Case {
-    Case {
-        group,
-        name: format!("160 nm, tension {tension_pn} pN"),
-        kind: Kind::Cantilever {
-            rises: CANTILEVER,
+    /// Held at the start, pulled by a tension (pN), then pushed across by each force (pN).
+    pub(super) fn forces(
+        group: Group,
+        name: String,
+        rises: f64,
+        (far_end, tension_pn, forces_pn): (Option<Slides>, f64, &[f64]),
+    ) -> Self {
+        let loading = Loading::Forces {
+            far_end,
+            turn_deg: 0.0,
             tension_pn,
             forces_pn: forces_pn.to_vec(),
-        },
-    }
-}
-
-/// A guided beam.
-pub(super) fn guided(group: Group, rises: u32, tension_pn: f64) -> Case {
-    let nm = f64::from(rises) * RISE_NM;
-    Case {
-        group,
-        name: format!("guided {nm:.0} nm, tension {tension_pn} pN"),
-        kind: Kind::Guided {
-            rises,
-            tension_pn,
-            forces_pn: SMALL_PN.to_vec(),
-        },
-    }
-}
-
-fn linked(figure: u32) -> Case {
-    Case {
-        group: Group::Linked,
-        name: format!("Figure {figure}"),
-        kind: Kind::Linked { figure },
-    }
-}
-
-fn buckled(turn_deg: f64) -> Case {
-    Case {
-        group: Group::Buckled,
-        name: format!("turned {turn_deg:+} deg"),
-        kind: Kind::Buckled { turn_deg },
-    }
-}
-
-fn twisted() -> Case {
-    Case {
-        group: Group::Twisted,
-        name: "74 nm".to_owned(),
-        kind: Kind::Twisted {
-            rises: 27,
-            turns_deg: TURNS_DEG
-                .into_iter()
-                .flat_map(|turn| [turn, -turn])
-                .collect(),
-        },
-    }
-}
-
-fn stretched(turn_deg: f64, sign: f64) -> Case {
-    let what = if sign > 0.0 { "pulled" } else { "pushed" };
-    Case {
-        group: Group::Stretched,
-        name: format!("74 nm, turned {turn_deg:+} deg, {what}"),
-        kind: Kind::Stretched {
-            rises: 27,
-            turn_deg,
-            forces_pn: ALONG_PN.map(|force| sign * force).to_vec(),
-        },
-    }
-}
-
-impl Case {
-    /// Azimuths of the lattice at which the mean filament and one sampling are loaded (deg). Without a
-    /// direction across the axis there is one.
-    pub(super) fn azimuths_deg(&self, quick: bool) -> [Vec<f64>; 2] {
-        let round = |count: u32| -> Vec<f64> {
-            let step = 360.0 / f64::from(count);
-            (0..count).map(|k| f64::from(k) * step).collect()
         };
-        let (mean, drawn) = match self.kind {
-            Kind::Cantilever { .. } | Kind::Guided { .. } => (6, 4),
-            Kind::Linked { .. } => (6, 2),
-            Kind::Buckled { .. } => (3, 1),
-            Kind::Twisted { .. } | Kind::Stretched { .. } => (1, 1),
-        };
-        if quick {
-            return [round(u32::min(mean, 2)), round(1)];
+        Self::new(group, name, rises, loading)
+    }
+
+    /// Both ends held against turning, the far one slides freely.
+    pub(super) fn guided(group: Group, rises: f64, tension_pn: f64) -> Self {
+        let name = format!("guided {:.0} nm, tension {tension_pn} pN", rises * RISE_NM);
+        let loads = (Some(Slides::Freely), tension_pn, &SMALL_PN[..]);
+        Self::forces(group, name, rises, loads)
+    }
+
+    /// Turned (deg per 73.94 nm), then pulled along the axis by each force (pN).
+    pub(super) fn stretched(
+        group: Group,
+        name: String,
+        rises: f64,
+        (turned, forces_pn): (f64, &[f64]),
+    ) -> Self {
+        let loads = (Some(Slides::AlongAxis), 0.0, forces_pn);
+        let mut case = Self::forces(group, name, rises, loads);
+        if let Loading::Forces { turn_deg, .. } = &mut case.loading {
+            *turn_deg = turned;
         }
-        [round(mean), round(drawn)]
+        case
+    }
+
+    /// 301.2 nm, turned at both ends and pushed together.
+    pub(super) fn buckled(group: Group, name: String, turn_deg: f64) -> Self {
+        Self::new(group, name, 110.0, Loading::Buckled { turn_deg })
+    }
+
+    pub(super) fn length_nm(&self) -> f64 {
+        self.rises * RISE_NM
+    }
+
+    /// Cases of a quick run.
+    fn is_quick(&self) -> bool {
+        match &self.loading {
+            Loading::Linked { figure } => *figure == 5,
+            Loading::Buckled { turn_deg } => (90.0..=180.0).contains(turn_deg),
+            Loading::Twisted { .. } => true,
+            Loading::Forces {
+                far_end,
+                turn_deg,
+                tension_pn,
+                ..
+            } => match far_end {
+                None => *tension_pn < 10.0,
+                Some(Slides::AlongAxis) => *turn_deg == 0.0,
+                Some(_) => (32.5..33.5).contains(&self.rises),
+            },
+        }
+    }
+
+    /// Azimuths of the lattice at which the mean filament and one sampling are loaded (deg): one if no direction across the
+    /// axis is distinguished.
+    pub(super) fn azimuths_deg(&self, quick: bool) -> [Vec<f64>; 2] {
+        let counts = match &self.loading {
+            Loading::Twisted { .. } => [1, 1],
+            Loading::Forces { far_end, .. } if *far_end == Some(Slides::AlongAxis) => [1, 1],
+            Loading::Forces { .. } => [6, 4],
+            Loading::Linked { .. } => [6, 2],
+            Loading::Buckled { .. } => [3, 1],
+        };
+        let [mean, drawn] = counts;
+        let counts = if quick {
+            [u32::min(mean, 2), 1]
+        } else {
+            [mean, drawn]
+        };
+        counts.map(azimuths_deg)
     }
 
     /// Its name as part of a file's.
     pub(super) fn file(&self) -> String {
         let name = format!("{:?}-{}", self.group, self.name);
-        let plain = |c: char| {
-            if c.is_ascii_alphanumeric() || "+-.".contains(c) {
-                c
-            } else {
-                '_'
-            }
-        };
-        name.chars().map(plain).collect()
+        name.replace(
+            |c: char| !c.is_ascii_alphanumeric() && !"+-.".contains(c),
+            "_",
+        )
+    }
+}
+
+/// Azimuths at equal distances (deg).
+pub(super) fn azimuths_deg(count: u32) -> Vec<f64> {
+    let step = 360.0 / f64::from(count);
+    (0..count).map(|k| f64::from(k) * step).collect()
+}
+
+/// Sections of the table.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Group {
+    Cantilever,
+    PulledCantilever,
+    Guided,
+    Linked,
+    Buckled,
+    Twisted,
+    Stretched,
+    /// Rods joined to monomers, over all resolutions.
+    Mixed,
+    /// Free filaments in a heat bath.
+    Thermal,
+    /// Shown, without a bound.
+    Beside,
+}
+
+/// A bound of an error.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Bound {
+    /// Relative difference.
+    Relative(f64),
+    /// Largest distance of centre lines (nm), averaged over filaments.
+    Distance(f64),
+    /// One standard deviation of single filaments of drawn bonds.
+    Scatter,
+    /// Largest minus smallest over the mean.
+    Spread(f64),
+    /// None.
+    Open,
+}
+
+/// Groups in the order of tables, with their names there and their bounds.
+const GROUPS: [(Group, &str, Bound); 10] = [
+    (Group::Cantilever, "cantilever", TWO),
+    (Group::PulledCantilever, "cantilever under tension", THREE),
+    (Group::Guided, "guided beam", FIVE),
+    (Group::Linked, "linkers, Figures 5 and 6", FIVE),
+    (Group::Buckled, "buckling, Figures 8 and 10", THREE),
+    (Group::Twisted, "twist, Tables 3 and 5", Bound::Scatter),
+    (Group::Stretched, "stretch and compression", FIVE),
+    (Group::Mixed, "mixed filaments", Bound::Spread(0.02)),
+    (Group::Thermal, "heat", FIVE),
+    (Group::Beside, "beside the table", Bound::Open),
+];
+const TWO: Bound = Bound::Relative(0.02);
+const THREE: Bound = Bound::Relative(0.03);
+const FIVE: Bound = Bound::Relative(0.05);
+
+impl Group {
+    /// All, in the order of tables.
+    pub(super) fn all() -> [Self; 10] {
+        GROUPS.map(|(group, ..)| group)
+    }
+
+    /// Name in tables.
+    pub(super) fn name(self) -> &'static str {
+        GROUPS[self as usize].1
+    }
+
+    /// The bound of a quantity.
+    pub(super) fn bound(self, quantity: &str) -> Bound {
+        match (self, quantity) {
+            (Self::Linked, "shape") => Bound::Distance(1.5),
+            (Self::Thermal, "persistence length") => THREE,
+            _ => GROUPS[self as usize].2,
+        }
+    }
+}
+
+impl Bound {
+    /// Its size; `scatter` is the relative deviation of single filaments.
+    pub(super) fn size(self, scatter: Option<f64>) -> Option<f64> {
+        match self {
+            Self::Relative(bound) | Self::Distance(bound) | Self::Spread(bound) => Some(bound),
+            Self::Scatter => scatter,
+            Self::Open => None,
+        }
+    }
+
+    /// Whether an error is within it; `None` without a bound.
+    pub(super) fn is_met(self, error: f64, scatter: Option<f64>) -> Option<bool> {
+        self.size(scatter).map(|bound| error.abs() <= bound)
+    }
+
+    /// In tables.
+    pub(super) fn text(self) -> String {
+        match self {
+            Self::Relative(bound) | Self::Spread(bound) => format!("{:.0} %", 100.0 * bound),
+            Self::Distance(bound) => format!("{bound} nm"),
+            Self::Scatter => "scatter".to_owned(),
+            Self::Open => String::new(),
+        }
     }
 }
 
@@ -217,11 +318,33 @@ mod tests {
     fn the_table_is_covered() {
         let cases = all(false);
         let groups: BTreeSet<Group> = cases.iter().map(|case| case.group).collect();
-        let own = Group::ALL.into_iter();
+        let own = Group::all().into_iter();
         let own = own.filter(|group| ![Group::Mixed, Group::Thermal].contains(group));
         assert_eq!(groups, own.collect());
         let files: BTreeSet<String> = cases.iter().map(Case::file).collect();
         assert_eq!(files.len(), cases.len());
-        assert!(all(true).iter().all(|case| cases.contains(case)));
+        let names: BTreeSet<String> = all(true).iter().map(Case::file).collect();
+        assert!(names.is_subset(&files) && names.len() < files.len());
+    }
+
+    /// The table, as it was asked for.
+    #[test]
+    fn bounds_are_those_of_the_table() {
+        let texts = Group::all().map(|group| group.bound("").text());
+        let expected = [
+            "2 %", "3 %", "5 %", "5 %", "3 %", "scatter", "5 %", "2 %", "5 %", "",
+        ];
+        assert_eq!(texts, expected);
+        assert_eq!(Group::Linked.bound("shape"), Bound::Distance(1.5));
+        let length = Group::Thermal.bound("persistence length");
+        assert_eq!(length, Bound::Relative(0.03));
+    }
+
+    #[test]
+    fn errors_of_either_sign_count() {
+        assert_eq!(Bound::Relative(0.02).is_met(-0.021, None), Some(false));
+        assert_eq!(Bound::Scatter.is_met(-0.02, Some(0.03)), Some(true));
+        assert_eq!(Bound::Scatter.is_met(0.02, None), None);
+        assert_eq!(Bound::Open.is_met(9.0, None), None);
     }
 }

@@ -1,31 +1,15 @@
-//! One law beside monomers, for a report: numbers with what is expected of them. Nothing is kept on disk but the
-//! picture.
+//! One law compared with monomers, for a report. Only the picture is written to disk.
 
-use super::bound::{Bound, Group};
-use super::filament::{self, Made, Rod};
-use super::row::{self, Rods, Row};
-use super::{case, mixed, monomers, picture, solve, thermal};
-use rayon::prelude::*;
+use super::case::{self, Bound, Group};
+use super::filament;
+use super::row::Row;
+use super::{Effort, monomers, of_law, picture};
+use actin_draw::report::{self, Origin};
 use std::path::Path;
 
-/// A number of a rod, and what monomers have.
-#[derive(Clone, Debug)]
-pub(crate) struct Compared {
-    /// The load case.
-    pub case: String,
-    /// What is compared.
-    pub quantity: String,
-    /// Its unit.
-    pub unit: &'static str,
-    /// The rod's; of shapes the distance from monomers, of mixed filaments the spread.
-    pub rod: f64,
-    /// That of the mean filament; zero for distances and spreads, none where nothing is asked.
-    pub monomers: Option<f64>,
-    /// How far they may be apart.
-    pub largest_difference: Option<f64>,
-    /// Drawn filaments, and what else to know.
-    pub note: String,
-}
+/// The load case, the quantity, and the number of the rod (of shapes the distance from monomers, of mixed filaments the
+/// spread) against the mean filament.
+pub(crate) type Compared = (String, String, report::Row);
 
 /// All load cases of a law, with segments of 10 nm; draws `load-cases.svg`. A quick run leaves out motion, whose
 /// numbers depend on rounding. `done` is told of each filament of monomers.
@@ -41,59 +25,41 @@ pub(crate) fn compared(
     let law = filament::law(name)?;
     let cases = case::all(quick);
     let monomers = monomers(None, &cases, quick, &|_| done())?;
-    let missing = || Err("not computed".to_owned());
-    let rods = cases.par_iter().map(|case| -> Rods {
-        let coarse = solve::solve(case, &Made::Rod(Rod::coarse(&law)));
-        [coarse, missing(), missing()]
-    });
-    let rods: Vec<Rods> = rods.collect();
-    let mut rows = Vec::new();
-    for ((case, monomers), rods) in cases.iter().zip(&monomers).zip(&rods) {
-        rows.extend(row::rows(case.group, &case.name, name, monomers, rods));
-    }
-    rows.extend(mixed::rows(name, &law, quick));
-    if !quick {
-        rows.extend(thermal::rows(name, &law, quick));
-    }
+    let effort = Effort {
+        quick,
+        only_coarse: true,
+    };
+    let rows = of_law(&(name.to_owned(), law), &cases, &monomers, effort);
     picture::draw(out, &rows)?;
     let mut all: Vec<Compared> = rows.iter().filter_map(of_row).collect();
-    all.push(unsolved(rows.len() - all.len()));
+    let unsolved = (rows.len() - all.len()) as f64;
+    let note = "quantities of cases in which the rod has no equilibrium";
+    let unsolved = judged(("", unsolved, note.to_owned()), Some((0.0, 0.0)));
+    all.push(("all".to_owned(), "unsolved".to_owned(), unsolved));
     Ok(all)
 }
 
-/// How many numbers the rod has not, for want of an equilibrium.
-fn unsolved(count: usize) -> Compared {
-    Compared {
-        case: "all".to_owned(),
-        quantity: "unsolved".to_owned(),
-        unit: "",
-        rod: count as f64,
-        monomers: Some(0.0),
-        largest_difference: Some(0.0),
-        note: "quantities of cases in which the rod has no equilibrium".to_owned(),
+/// A number with its unit and note, against an expected value and the largest difference.
+fn judged((unit, ours, note): (&'static str, f64, String), to: Option<(f64, f64)>) -> report::Row {
+    let row = report::Row::measured("law", "", unit, ours, note);
+    match to {
+        Some((expected, largest)) => row.against(expected, largest).of(Origin::Bound),
+        None => row,
     }
 }
 
-/// None where the rod has no equilibrium.
+/// `None` where the rod has no equilibrium.
 fn of_row(row: &Row) -> Option<Compared> {
     let mean = row.mean.map(|sampled| sampled.mean);
-    let relative = |bound: f64| (row.rod, mean, mean.map(|m| bound * m.abs()));
-    let absolute = |bound: f64| (row.error_mean, Some(0.0), Some(bound));
-    let (rod, monomers, largest_difference) = match row.bound {
+    let relative = |bound: f64| (row.rod, mean.map(|m| (m, bound * m.abs())));
+    let (rod, to) = match row.bound {
         Bound::Relative(bound) => relative(bound),
         Bound::Scatter => relative(row.scatter?),
-        Bound::Distance(bound) | Bound::Spread(bound) => absolute(bound),
-        Bound::Open => (row.rod, None, None),
+        Bound::Distance(bound) | Bound::Spread(bound) => (row.error_mean, Some((0.0, bound))),
+        Bound::Open => (row.rod, None),
     };
-    Some(Compared {
-        case: row.case.clone(),
-        quantity: row.quantity.clone(),
-        unit: unit(row),
-        rod: rod?,
-        monomers,
-        largest_difference,
-        note: note(row, mean),
-    })
+    let judged = judged((unit(row), rod?, note(row, mean)), to);
+    Some((row.case.clone(), row.quantity.clone(), judged))
 }
 
 fn unit(row: &Row) -> &'static str {
@@ -102,16 +68,11 @@ fn unit(row: &Row) -> &'static str {
         (Bound::Distance(_), _) => "nm",
         (_, "persistence length") => "um",
         (_, "C") => "pN nm^2",
+        (_, name) if name.starts_with("nm/pN") => "nm/pN",
         (_, name) => {
             let units = ["pN nm^2", "pN nm", "pN", "nm"];
-            let known = units
-                .into_iter()
-                .find(|u| name.ends_with(&format!("({u})")));
-            known.unwrap_or(if name.starts_with("nm/pN") {
-                "nm/pN"
-            } else {
-                ""
-            })
+            let is_own = |unit: &&str| name.ends_with(&format!("({unit})"));
+            units.into_iter().find(is_own).unwrap_or("")
         }
     }
 }

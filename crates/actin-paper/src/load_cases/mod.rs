@@ -1,41 +1,39 @@
 //! A rod's laws against filaments of monomers, load case by load case: how far each is off, and whether that
-//! is within what is asked of a law.
+//! is within what is asked of a law (`case.rs`).
 //!
-//! Cases, bounds and protocols are fixed before any law is looked at (`bound.rs`, `case.rs`). Equilibria of
-//! monomers are kept in the folder of results, so that another law costs its rods only.
+//! Equilibria of monomers are kept in the folder of results, so that another law costs its rods only.
 
 mod beyond;
-mod bound;
 mod case;
 mod compared;
 mod ends;
 mod filament;
-mod junctions;
 mod mixed;
 mod picture;
 mod row;
 mod solve;
-mod store;
 mod thermal;
 mod write;
 
-pub(crate) use compared::{Compared, compared};
+pub(crate) use compared::compared;
 
 use crate::Tell;
-use actin_sim::RodLaw;
-use bound::Group;
+use actin_draw::report::write_atomically;
+use actin_sim::{Monomers as Model, RodLaw};
 use case::Case;
-use filament::{Made, Rod};
+use filament::Made;
 use rayon::prelude::*;
 use row::{Monomers, Rods, Row};
+use serde::{Deserialize, Serialize};
+use solve::{Found, solve};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-/// What is measured, and where it goes.
+/// Subject and output of the study.
 #[derive(Clone, Debug)]
 pub struct Options {
-    /// Where to write tables and pictures, and to keep equilibria of monomers.
+    /// Folder of tables and pictures, and of kept equilibria of monomers.
     pub out: PathBuf,
     /// Fewer cases, azimuths and samplings.
     pub quick: bool,
@@ -43,7 +41,7 @@ pub struct Options {
     pub laws: Vec<String>,
     /// Also into `docs/tables/load-cases.md`.
     pub write: bool,
-    /// What is measured.
+    /// Subject of the measurement.
     pub subject: Subject,
 }
 
@@ -52,7 +50,7 @@ pub struct Options {
 pub enum Subject {
     /// All load cases.
     Cases,
-    /// Length that is missing at the ends of short spans.
+    /// Errors at short spans, and of beams that are half rod.
     Ends,
     /// Errors of cantilevers that leave the data of `Homogenised`.
     BeyondData,
@@ -91,7 +89,7 @@ pub fn run(options: &Options, tell: Tell<'_>) -> Result<(), String> {
     if options.write {
         write::page_into(&crate::workspace_root().join("docs/tables"), &page)?;
     }
-    write::tell_summary(&rows, tell);
+    tell(format_args!("{}", write::summary(&rows)));
     let seconds = clock.elapsed().as_secs_f64();
     tell(format_args!(
         "{} rows in {seconds:.0} s: {}",
@@ -101,63 +99,82 @@ pub fn run(options: &Options, tell: Tell<'_>) -> Result<(), String> {
     Ok(())
 }
 
+/// Extent of the computation for a law.
+#[derive(Clone, Copy)]
+struct Effort {
+    quick: bool,
+    /// Rods with segments of 10 nm in the place of the mean filament alone, and without motion in a quick run.
+    only_coarse: bool,
+}
+
 /// The rows of all cases under all laws, in the order of the table.
 fn measured(out: &Path, laws: &[Law], quick: bool, tell: Tell<'_>) -> Result<Vec<Row>, String> {
-    let folder = out.join("monomers");
-    fs::create_dir_all(&folder).map_err(|e| format!("{}: {e}", folder.display()))?;
     let cases = case::all(quick);
     let clock = Instant::now();
-    let monomers = monomers(Some(&folder), &cases, quick, &|error| {
+    let timed = |name: &str, since: Instant| {
+        tell(format_args!(
+            "{name}: {:.0} s",
+            since.elapsed().as_secs_f64()
+        ));
+    };
+    let monomers = monomers(Some(&folder(out)?), &cases, quick, &|error| {
         if let Some(error) = error {
             tell(format_args!("{error}"));
         }
     })?;
-    tell(format_args!(
-        "monomers: {:.0} s",
-        clock.elapsed().as_secs_f64()
-    ));
+    timed("monomers", clock);
+    let effort = Effort {
+        quick,
+        only_coarse: false,
+    };
     let mut rows = Vec::new();
-    for (name, law) in laws {
+    for law in laws {
         let clock = Instant::now();
-        let rods: Vec<Rods> = cases.par_iter().map(|case| of_rods(case, law)).collect();
-        for ((case, monomers), rods) in cases.iter().zip(&monomers).zip(&rods) {
-            rows.extend(row::rows(case.group, &case.name, name, monomers, rods));
-        }
-        rows.extend(mixed::rows(name, law, quick));
-        rows.extend(thermal::rows(name, law, quick));
-        tell(format_args!(
-            "{name}: {:.0} s",
-            clock.elapsed().as_secs_f64()
-        ));
+        rows.extend(of_law(law, &cases, &monomers, effort));
+        timed(&law.0, clock);
     }
-    // By group, case and quantity, in the order in which they came, laws beside each other.
-    let place = |row: &Row| Group::ALL.iter().position(|group| *group == row.group);
-    let names: Vec<(String, String)> = rows.iter().map(named).collect();
+    // By group, case and quantity, in the order in which they came, with the laws of each in turn.
+    let named = |row: &Row| (row.group, row.case.clone(), row.quantity.clone());
+    let names: Vec<_> = rows.iter().map(named).collect();
     let first = |row: &Row| names.iter().position(|name| *name == named(row));
-    rows.sort_by_key(|row| (place(row), first(row)));
+    rows.sort_by_key(|row| (row.group, first(row)));
     Ok(rows)
 }
 
-fn named(row: &Row) -> (String, String) {
-    (
-        format!("{:?} {}", row.group, row.case),
-        row.quantity.clone(),
-    )
-}
-
-fn of_rods(case: &Case, law: &RodLaw) -> Rods {
-    let solved = |rod: Rod| solve::solve(case, &Made::Rod(rod));
-    let coarse = solved(Rod::coarse(law));
-    // Other laws know nothing of bonds.
-    let of_drawn = match law {
-        RodLaw::Homogenised | RodLaw::HomogenisedAthermal => solved(Rod::of_drawn(law)),
-        _ => coarse.clone(),
+/// The rows of all cases under a law.
+fn of_law(
+    (name, law): &Law,
+    cases: &[Case],
+    monomers: &[Monomers],
+    Effort { quick, only_coarse }: Effort,
+) -> Vec<Row> {
+    let rods = |case: &Case| -> Rods {
+        let coarse = solve(case, &Made::coarse(law));
+        if only_coarse {
+            let missing = || Err("not computed".to_owned());
+            return [coarse, missing(), missing()];
+        }
+        // Only these laws depend on the bonds that a rod stands for.
+        let of_drawn = match law {
+            RodLaw::Homogenised | RodLaw::HomogenisedAthermal => solve(case, &Made::of_drawn(law)),
+            _ => coarse.clone(),
+        };
+        [coarse, solve(case, &Made::fine(law)), of_drawn]
     };
-    [coarse, solved(Rod::fine(law)), of_drawn]
+    let rods: Vec<Rods> = cases.par_iter().map(rods).collect();
+    let mut rows = Vec::new();
+    for ((case, monomers), rods) in cases.iter().zip(monomers).zip(&rods) {
+        rows.extend(row::rows(case.group, &case.name, name, monomers, rods));
+    }
+    rows.extend(mixed::rows(name, law, quick));
+    if !(quick && only_coarse) {
+        rows.extend(thermal::rows(name, law, quick));
+    }
+    rows
 }
 
-/// Filaments of monomers under all cases, side by side; what is in the folder is not computed again. `done` is
-/// told of each, and of new ones without an equilibrium why.
+/// Filaments of monomers under all cases, side by side; equilibria in the folder are not computed again. `done` is
+/// called for each, with the error of new ones without an equilibrium.
 fn monomers(
     folder: Option<&Path>,
     cases: &[Case],
@@ -171,26 +188,19 @@ fn monomers(
     });
     let jobs: Vec<(usize, Made)> = jobs.collect();
     let solved = jobs.par_iter().map(|(i, made)| {
-        let (outcome, was_there) = store::kept(folder, &cases[*i], made)?;
+        let (outcome, was_there) = kept(folder, &cases[*i], made)?;
         let new_error = outcome.as_ref().err().filter(|_| !was_there);
         done(new_error.map(String::as_str));
         Ok(outcome)
     });
     let solved = solved.collect::<Result<Vec<_>, String>>()?;
-    let mut all = vec![
-        Monomers {
-            mean: Vec::new(),
-            drawn: Vec::new(),
-            failures: Vec::new(),
-        };
-        cases.len()
-    ];
+    let mut all = vec![Monomers::default(); cases.len()];
     for ((i, made), outcome) in jobs.into_iter().zip(solved) {
         let own = &mut all[i];
-        match (outcome, made) {
-            (Ok(found), Made::Mean { .. }) => own.mean.push(found),
-            (Ok(found), _) => own.drawn.push(found),
-            (Err(error), _) => own.failures.push(error),
+        match outcome {
+            Ok(found) if made.is_drawn() => own.drawn.push(found),
+            Ok(found) => own.mean.push(found),
+            Err(error) => own.failures.push(error),
         }
     }
     Ok(all)
@@ -199,16 +209,82 @@ fn monomers(
 /// The mean filament at its azimuths, and samplings at theirs, each sampling turned further round.
 fn filaments(case: &Case, samplings: u64, quick: bool) -> Vec<Made> {
     let [mean, drawn] = case.azimuths_deg(quick);
-    let mean = mean
-        .into_iter()
-        .map(|azimuth_deg| Made::Mean { azimuth_deg });
     let drawn = (0..samplings).flat_map(|seed| {
         let turned = seed as f64 * 360.0 / samplings as f64;
         let azimuths = drawn.clone().into_iter();
-        azimuths.map(move |azimuth| Made::Drawn {
-            seed,
-            azimuth_deg: (azimuth + turned) % 360.0,
-        })
+        azimuths.map(move |azimuth| Made::drawn(seed, (azimuth + turned) % 360.0))
     });
-    mean.chain(drawn).collect()
+    mean.into_iter().map(Made::mean).chain(drawn).collect()
+}
+
+/// Folder of the equilibria of monomers.
+fn folder(out: &Path) -> Result<PathBuf, String> {
+    let folder = out.join("monomers");
+    fs::create_dir_all(&folder).map_err(|e| format!("{}: {e}", folder.display()))?;
+    Ok(folder)
+}
+
+/// Raised when results of the same parameters change.
+const VERSION: u32 = 3;
+
+/// File of an equilibrium, or of the error of a filament without one.
+#[derive(Deserialize, Serialize)]
+struct Kept {
+    key: String,
+    outcome: Result<Found, String>,
+}
+
+/// Equilibria of monomers, from a file with the same key if there is one, and whether there was; without a folder they are
+/// computed.
+///
+/// # Errors
+/// A file that cannot be written.
+fn kept(
+    folder: Option<&Path>,
+    case: &Case,
+    made: &Made,
+) -> Result<(Result<Found, String>, bool), String> {
+    let Some(folder) = folder else {
+        return Ok((solve(case, made), false));
+    };
+    let key = format!(
+        "version {VERSION}, {case:?}, {made:?}, {:?}",
+        Model::default()
+    );
+    let path = folder.join(format!("{}-{}.json", case.file(), made.name));
+    let text = fs::read_to_string(&path).ok();
+    let there = text.and_then(|text| serde_json::from_str::<Kept>(&text).ok());
+    if let Some(there) = there.filter(|there| there.key == key) {
+        return Ok((there.outcome, true));
+    }
+    let outcome = solve(case, made);
+    let kept = Kept { key, outcome };
+    let text = serde_json::to_string(&kept).map_err(|e| e.to_string())?;
+    write_atomically(&path, &text)?;
+    Ok((kept.outcome, false))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use case::Group;
+
+    /// The second time an outcome comes from its file, to the last bit; under other loads it is computed.
+    #[test]
+    fn outcomes_come_back() {
+        let folder = tempfile::tempdir().unwrap();
+        let mut case = Case::guided(Group::Beside, 9.0, 5.0);
+        let made = Made::mean(0.0);
+        let (first, was_there) = kept(Some(folder.path()), &case, &made).unwrap();
+        assert!(!was_there && first.as_ref().unwrap().values.len() == 2);
+        let (again, was_there) = kept(Some(folder.path()), &case, &made).unwrap();
+        assert!(was_there);
+        assert_eq!(again, first);
+        if let case::Loading::Forces { forces_pn, .. } = &mut case.loading {
+            forces_pn.truncate(1);
+        }
+        let (other, was_there) = kept(Some(folder.path()), &case, &made).unwrap();
+        assert!(!was_there);
+        assert_eq!(other.unwrap().values, first.unwrap().values[..1]);
+    }
 }

@@ -1,6 +1,6 @@
 //! Errors of all laws over their bounds, case by case.
 
-use super::bound::Bound;
+use super::case::Bound;
 use super::row::Row;
 use crate::palette;
 use actin_draw::{Chart, Series};
@@ -41,7 +41,7 @@ pub(super) fn draw(out: &Path, rows: &[Row]) -> Result<(), String> {
 }
 
 /// Each once, in the order in which they come.
-fn distinct<T: PartialEq>(all: impl Iterator<Item = T>) -> Vec<T> {
+pub(super) fn distinct<T: PartialEq>(all: impl Iterator<Item = T>) -> Vec<T> {
     let mut kept = Vec::new();
     for one in all {
         if !kept.contains(&one) {

@@ -1,6 +1,6 @@
-//! A rod under one law beside monomers, in one quantity of one case.
+//! A rod under one law compared with monomers, in one quantity of one case.
 
-use super::bound::{Bound, Group};
+use super::case::{Bound, Group};
 use super::solve::Found;
 use crate::measure::Sampled;
 
@@ -24,15 +24,15 @@ pub(super) struct Row {
     pub error_mean: Option<f64>,
     pub error_drawn: Option<f64>,
     pub error_fine: Option<f64>,
-    /// What single filaments of drawn bonds differ by, in the same measure.
+    /// Deviation of single filaments of drawn bonds, in the same measure.
     pub scatter: Option<f64>,
     pub bound: Bound,
-    /// What else to know.
+    /// Remarks.
     pub note: String,
 }
 
 /// Filaments of monomers under a case.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(super) struct Monomers {
     /// The mean filament at some azimuths.
     pub mean: Vec<Found>,
@@ -49,6 +49,27 @@ pub(super) type Rods = [Result<Found, String>; 3];
 const OTHER_STATE: f64 = 0.1;
 
 impl Row {
+    /// A row without results.
+    pub(super) fn open(group: Group, case: &str, quantity: &str, law: &str) -> Self {
+        Self {
+            group,
+            case: case.to_owned(),
+            quantity: quantity.to_owned(),
+            law: law.to_owned(),
+            mean: None,
+            drawn: None,
+            rod: None,
+            fine: None,
+            rod_of_drawn: None,
+            error_mean: None,
+            error_drawn: None,
+            error_fine: None,
+            scatter: None,
+            bound: group.bound(quantity),
+            note: String::new(),
+        }
+    }
+
     /// Whether the rod is within the bound, against the mean filament and against drawn ones; none where
     /// there is nothing to decide. A rod without an equilibrium is not.
     pub(super) fn is_met(&self) -> [Option<bool>; 2] {
@@ -63,18 +84,9 @@ impl Row {
         ]
     }
 
-    /// Whether any verdict is bad.
-    pub(super) fn is_missed(&self) -> bool {
-        self.is_met().contains(&Some(false))
-    }
-
     /// Errors against the mean filament and drawn ones over the bound.
     pub(super) fn shares_of_bound(&self) -> [Option<f64>; 2] {
-        let bound = match self.bound {
-            Bound::Relative(bound) | Bound::Distance(bound) | Bound::Spread(bound) => Some(bound),
-            Bound::Scatter => self.scatter,
-            Bound::Open => None,
-        };
+        let bound = self.bound.size(self.scatter);
         let share = |error: Option<f64>| Some(error?.abs() / bound?);
         [self.error_mean, self.error_drawn].map(share)
     }
@@ -91,21 +103,8 @@ pub(super) fn rows(
     let first = monomers.mean.first();
     let names = first.map_or(&[][..], |found| &found.values).iter();
     let row = |quantity: &str| Row {
-        group,
-        case: case.to_owned(),
-        quantity: quantity.to_owned(),
-        law: law.to_owned(),
-        mean: None,
-        drawn: None,
-        rod: None,
-        fine: None,
-        rod_of_drawn: None,
-        error_mean: None,
-        error_drawn: None,
-        error_fine: None,
-        scatter: None,
-        bound: group.bound(quantity),
         note: note(monomers, rods),
+        ..Row::open(group, case, quantity, law)
     };
     let mut all: Vec<Row> = names
         .map(|(name, _)| value_row(row(name), monomers, rods))
@@ -177,21 +176,20 @@ fn shape_row(row: Row, monomers: &Monomers, rods: &Rods) -> Row {
     }
 }
 
-/// Where states differ, are doubtful, or are missing.
+/// Remarks on states that differ, are doubtful, or are missing.
 fn note(monomers: &Monomers, rods: &Rods) -> String {
     let mut all = Vec::new();
     let filaments = || monomers.mean.iter().chain(&monomers.drawn);
-    let count = |what: fn(&Found) -> bool| filaments().filter(|found| what(found)).count();
     let total = filaments().count();
-    for (number, what) in [
-        (count(|f| f.doubtful > 0), "not certified as minima"),
-        (count(|f| f.jumps > 0), "with jumps"),
-        (count(|f| !f.unreached.is_empty()), "with paths that ended"),
-    ] {
+    let mut count = |what: &str, is: &dyn Fn(&Found) -> bool| {
+        let number = filaments().filter(|found| is(found)).count();
         if number > 0 {
             all.push(format!("{number} of {total} filaments of monomers {what}"));
         }
-    }
+    };
+    count("not certified as minima", &|f| f.doubtful > 0);
+    count("with jumps", &|f| f.jumps > 0);
+    count("with paths that ended", &|f| !f.unreached.is_empty());
     if !monomers.failures.is_empty() {
         let number = monomers.failures.len();
         all.push(format!(
@@ -245,7 +243,6 @@ mod tests {
         assert_eq!(near.is_met(), [Some(true); 2]);
         let far = row([10.5, 10.7]);
         assert_eq!(far.is_met(), [Some(true), Some(false)]);
-        assert!(far.is_missed() && !near.is_missed());
         assert!((far.shares_of_bound()[1].unwrap() - (0.5 / 10.6) / 0.02).abs() < 1e-9);
         let lost: Rods = [(); 3].map(|()| Err("no".into()));
         let rows = rows(Group::Cantilever, "c", "Law", &monomers([9.9, 10.1]), &lost);

@@ -1,31 +1,33 @@
-//! A load case of one filament: its scene, the certified equilibria along its path, and what is read of them.
+//! Load case of one filament: its scene, the certified equilibria along its path, and the quantities read from them.
 
-use super::case::{Case, Kind, TURNED_NM};
-use super::filament::{Made, RISE_NM};
+use super::case::{Case, Loading, TURNED_NM};
+use super::filament::Made;
 use crate::figures::linked::centre_line::CentreLine;
-use crate::measure::{Specimen, far_end_shift, follow, reaction, twist};
-use crate::run::{clamp, run_to_end, scenario};
+use crate::measure::{Evidence, Specimen, far_end_shift, follow, reaction, twist};
+use crate::run::{clamp, free, run_to_end, scenario};
 use actin_mechanics::{State, Vector3};
 use actin_sim::shape::Ribbon;
 use actin_sim::{
-    Assembly, End, Equilibrium, Hold, Load, Output, Part, Scene, Setting, Slides, Stage, Task,
+    Assembly, End, Equilibrium, Hold, Load, Pace, Part, Scene, Setting, Slides, Stage, Task,
 };
 use serde::{Deserialize, Serialize};
 
 /// Turns of a free filament about its axis from which equilibria are sought (deg).
 const STARTS_DEG: [f64; 4] = [0.0, 90.0, 180.0, 270.0];
-/// Most iterations for one equilibrium of a rod, and the smallest step along its path.
+/// Most iterations for one equilibrium of a rod, and the smallest step along its path: monomers with their soft directions
+/// may need thousands, rods fail there too.
 const ROD_ITERATIONS: usize = 300;
 const ROD_STEP: f64 = 0.01;
-/// How far each end of a buckled filament is pushed in (nm).
+/// Unit forces.
+const ALONG: [f64; 3] = [0.0, 0.0, 1.0];
+const ACROSS: [f64; 3] = [1.0, 0.0, 0.0];
+/// Distance by which each end of a buckled filament is pushed in (nm).
 const PUSHED_NM: f64 = 7.5;
-/// Length of a buckled filament: 301.2 nm.
-pub(super) const BUCKLED: u32 = 110;
 
-/// What a filament does under the loads of a case.
+/// Results of a filament under the loads of a case.
 #[derive(Clone, Debug, Default, Deserialize, PartialEq, Serialize)]
 pub(super) struct Found {
-    /// What is compared, by name.
+    /// Compared quantities by name.
     pub values: Vec<(String, f64)>,
     /// Centre line, where shapes are compared.
     pub line: Option<CentreLine>,
@@ -33,8 +35,7 @@ pub(super) struct Found {
     pub writhe: Option<f64>,
     /// Equilibria that are not minima beyond doubt.
     pub doubtful: usize,
-    /// Saddles that were left, and sudden jumps.
-    pub saddles_left: usize,
+    /// Sudden jumps.
     pub jumps: usize,
     /// Values that were not reached, and why.
     pub unreached: Vec<String>,
@@ -46,6 +47,11 @@ impl Found {
         let found = self.values.iter().find(|(own, _)| own == name);
         found.map(|(_, value)| *value)
     }
+
+    fn count(&mut self, evidence: &Evidence) {
+        self.doubtful += usize::from(!evidence.is_stable());
+        self.jumps += evidence.jumps;
+    }
 }
 
 /// Solves a case.
@@ -53,28 +59,19 @@ impl Found {
 /// # Errors
 /// A scene that is refused, one without an equilibrium, and a number that is not finite.
 pub(super) fn solve(case: &Case, made: &Made) -> Result<Found, String> {
-    let found = match &case.kind {
-        Kind::Linked { figure } => linked(*figure, made),
-        Kind::Buckled { turn_deg } => buckled(*turn_deg, made),
-        Kind::Twisted { rises, turns_deg } => twisted(length(*rises), turns_deg, made),
-        _ => loaded(&case.kind, made),
+    let found = match &case.loading {
+        Loading::Linked { figure } => linked(*figure, made),
+        Loading::Buckled { turn_deg } => buckled(case.length_nm(), *turn_deg, made),
+        Loading::Twisted { turns_deg } => twisted(case.length_nm(), turns_deg, made),
+        Loading::Forces {
+            far_end, forces_pn, ..
+        } => loaded(case, (*far_end, forces_pn), made),
     };
-    let found = found.map_err(|e| format!("{}, {}: {e}", case.name, made.name()))?;
+    let named = |e: String| format!("{}, {}: {e}", case.name, made.name);
+    let found = found.map_err(named)?;
     match found.values.iter().find(|(_, value)| !value.is_finite()) {
-        Some((name, value)) => Err(format!("{}, {}: {name} is {value}", case.name, made.name())),
+        Some((name, value)) => Err(named(format!("{name} is {value}"))),
         None => Ok(found),
-    }
-}
-
-fn length(rises: u32) -> f64 {
-    f64::from(rises) * RISE_NM
-}
-
-fn force(force_pn: [f64; 3]) -> Load {
-    Load::EndForce {
-        filament: 0,
-        end: End::End,
-        force_pn,
     }
 }
 
@@ -86,114 +83,86 @@ fn turn(end: End, turn_deg: f64) -> Setting {
     }
 }
 
-/// Settings of a path that tries each stage at once. What a rod does not reach in a few hundred iterations and
-/// steps of a hundredth it does not reach in thousands, which monomers with their soft directions may need.
+fn stage(set: impl Into<Vec<Setting>>) -> Stage {
+    Stage {
+        set: set.into(),
+        duration_ns: None,
+        pace: Pace::Smooth,
+    }
+}
+
+/// Settings of a path that tries each stage at once.
 fn solver(made: &Made) -> Equilibrium {
-    let default = Equilibrium::default();
-    let (iterations, smallest_step) = if matches!(made, Made::Rod(_)) {
-        (ROD_ITERATIONS, ROD_STEP)
-    } else {
-        (default.iterations, default.smallest_step)
-    };
-    Equilibrium {
-        iterations,
-        smallest_step,
+    let mut solver = Equilibrium {
         largest_step: 1.0,
         accept_jumps: true,
-        ..default
-    }
-}
-
-/// A path of stages that set one load each: first those that are not read, then the last load at each value.
-pub(super) struct Course<'a> {
-    /// Unit forces on the end. Each is set by a stage.
-    directions: &'static [[f64; 3]],
-    before: Vec<Setting>,
-    forces_pn: &'a [f64],
-    far_end: Option<Slides>,
-    length_nm: f64,
-    /// Direction along which displacements are read.
-    along: Vector3,
-    /// Name and value of a quantity from force (pN) and displacement (nm).
-    read: fn(f64, f64, f64) -> (String, f64),
-}
-
-pub(super) fn course(kind: &Kind) -> Course<'_> {
-    match kind {
-        Kind::Cantilever {
-            rises,
-            tension_pn,
-            forces_pn,
-        } => Course {
-            far_end: None,
-            length_nm: length(*rises) + 0.5 * RISE_NM,
-            read: |force, moved, _| (format!("tip at {force} pN (nm)"), moved),
-            ..across(*tension_pn, forces_pn)
-        },
-        Kind::Guided {
-            rises,
-            tension_pn,
-            forces_pn,
-        } => Course {
-            length_nm: length(*rises),
-            ..across(*tension_pn, forces_pn)
-        },
-        Kind::Stretched {
-            rises,
-            turn_deg,
-            forces_pn,
-        } => along(length(*rises), *turn_deg, forces_pn),
-        _ => unreachable!("other cases have paths of their own"),
-    }
-}
-
-/// Pulled along, then pushed across at an end that slides; the length is the caller's.
-fn across(tension_pn: f64, forces_pn: &[f64]) -> Course<'_> {
-    let tension = Setting::LoadFactor {
-        load: 0,
-        factor: tension_pn,
+        ..Equilibrium::default()
     };
-    let is_pulled = tension_pn != 0.0;
-    Course {
-        directions: if is_pulled {
-            &[[0.0, 0.0, 1.0], [1.0, 0.0, 0.0]]
-        } else {
-            &[[1.0, 0.0, 0.0]]
-        },
-        before: is_pulled.then_some(tension).into_iter().collect(),
-        forces_pn,
-        far_end: Some(Slides::Freely),
-        length_nm: 0.0,
-        along: Vector3::x(),
-        read: |force, moved, _| (format!("nm/pN at {force} pN"), moved / force),
+    if made.is_rod() {
+        (solver.iterations, solver.smallest_step) = (ROD_ITERATIONS, ROD_STEP);
     }
+    solver
 }
 
-/// Turned by so much per length of Tables 3 and 5, then pulled along.
-fn along(length_nm: f64, turn_deg: f64, forces_pn: &[f64]) -> Course<'_> {
-    let turned = turn(End::End, turn_deg * length_nm / TURNED_NM);
-    Course {
-        directions: &[[0.0, 0.0, 1.0]],
-        before: (turn_deg != 0.0).then_some(turned).into_iter().collect(),
+/// The scene of a case of forces, and how many stages come before those of the forces.
+pub(super) fn scene(case: &Case, made: &Made) -> (Scene, usize) {
+    let Loading::Forces {
+        far_end,
+        turn_deg,
+        tension_pn,
         forces_pn,
-        far_end: Some(Slides::AlongAxis),
-        length_nm,
-        along: Vector3::z(),
-        read: |force, moved, length| (format!("S3 at {force} pN (pN)"), force * length / moved),
+    } = &case.loading
+    else {
+        unreachable!("other cases have scenes of their own")
+    };
+    let factor = |load, factor| Setting::LoadFactor { load, factor };
+    let mut before = Vec::new();
+    if *turn_deg != 0.0 {
+        let turn_deg = turn_deg * case.length_nm() / TURNED_NM;
+        before.push(turn(End::End, turn_deg));
     }
+    // Unit forces on the end; the last one is set to each value.
+    let is_along = *far_end == Some(Slides::AlongAxis);
+    let mut directions = vec![if is_along { ALONG } else { ACROSS }];
+    if *tension_pn != 0.0 {
+        directions.insert(0, ALONG);
+        before.push(factor(0, *tension_pn));
+    }
+    let last = directions.len() - 1;
+    let count = before.len();
+    let forces = forces_pn.iter().map(|&force| factor(last, force));
+    let path = before.into_iter().chain(forces);
+    let mut clamps = vec![clamp(End::Start, Slides::Nowhere)];
+    clamps.extend(far_end.map(|slides| clamp(End::End, slides)));
+    let load = |force_pn| Load::EndForce {
+        filament: 0,
+        end: End::End,
+        force_pn,
+    };
+    let scene = Scene {
+        clamps,
+        loads: directions.into_iter().map(load).collect(),
+        path: path.map(|setting| stage([setting])).collect(),
+        task: Task::Equilibrium(solver(made)),
+        ..free("Load case", made.filament(case.length_nm()))
+    };
+    (scene, count)
 }
 
 /// A filament that is loaded step by step, read at each.
-fn loaded(kind: &Kind, made: &Made) -> Result<Found, String> {
-    let course = course(kind);
-    let before = course.before.len();
-    let ends = follow(&course.scene(made)).map_err(|e| e.to_string())?;
+fn loaded(
+    case: &Case,
+    (far_end, forces_pn): (Option<Slides>, &[f64]),
+    made: &Made,
+) -> Result<Found, String> {
+    let (scene, before) = scene(case, made);
+    let ends = follow(&scene).map_err(|e| e.to_string())?;
     let assembly = &ends.assembly;
-    let place = |state: &State| match course.far_end {
+    let place = |state: &State| match far_end {
         Some(_) => far_end_shift(assembly, state),
         None => assembly.tip_nm(state, End::End),
     };
-    // From where what acts before has brought it.
+    // Displacements start from the state under the loads before.
     let start = match before {
         0 => place(&assembly.rest),
         _ => ends
@@ -203,50 +172,19 @@ fn loaded(kind: &Kind, made: &Made) -> Result<Found, String> {
     };
     let mut found = Found::default();
     for stop in &ends.stops {
-        found.doubtful += usize::from(!stop.evidence.is_stable());
-        found.saddles_left += stop.evidence.saddles_left;
-        found.jumps += stop.evidence.jumps;
+        found.count(&stop.evidence);
     }
-    let stops = ends.stops.iter().skip(before);
-    for (&force, stop) in course.forces_pn.iter().zip(stops) {
-        let moved = (place(&stop.state) - start).dot(&course.along);
-        let length = assembly.length_nm();
-        found.values.push((course.read)(force, moved, length));
+    let length = assembly.length_nm();
+    for (&force, stop) in forces_pn.iter().zip(ends.stops.iter().skip(before)) {
+        let moved = place(&stop.state) - start;
+        found.values.push(match far_end {
+            None => (format!("tip at {force} pN (nm)"), moved.x),
+            Some(Slides::AlongAxis) => (format!("S3 at {force} pN (pN)"), force * length / moved.z),
+            Some(_) => (format!("nm/pN at {force} pN"), moved.x / force),
+        });
     }
     found.unreached = ends.ended.map(|e| e.to_string()).into_iter().collect();
     Ok(found)
-}
-
-impl Course<'_> {
-    pub(super) fn scene(&self, made: &Made) -> Scene {
-        let stage = |setting: Setting| Stage {
-            set: vec![setting],
-            duration_ns: None,
-            pace: actin_sim::Pace::Smooth,
-        };
-        let at = |&factor: &f64| Setting::LoadFactor {
-            load: self.directions.len() - 1,
-            factor,
-        };
-        let settings = self.before.iter().copied();
-        let path = settings.chain(self.forces_pn.iter().map(at)).map(stage);
-        let mut clamps = vec![clamp(End::Start, Slides::Nowhere)];
-        clamps.extend(self.far_end.map(|slides| clamp(End::End, slides)));
-        Scene {
-            title: "Load case".to_owned(),
-            filament: made.filament(self.length_nm),
-            further: Vec::new(),
-            clamps,
-            loads: self.directions.iter().copied().map(force).collect(),
-            linkers: Vec::new(),
-            repulsion: None,
-            path: path.collect(),
-            observe: Vec::new(),
-            burn_in_ns: None,
-            output: Output::default(),
-            task: Task::Equilibrium(solver(made)),
-        }
-    }
 }
 
 /// Twist by the protocol of Tables 3 and 5.
@@ -269,9 +207,7 @@ fn twisted(length_nm: f64, turns_deg: &[f64], made: &Made) -> Result<Found, Stri
             .values
             .push((value("B3", " (pN nm^2)"), point.rigidity_pn_nm2));
         found.values.push((value("dL/L", ""), length));
-        found.doubtful += usize::from(!point.evidence.is_stable());
-        found.saddles_left += point.evidence.saddles_left;
-        found.jumps += point.evidence.jumps;
+        found.count(&point.evidence);
     }
     let unreached = curve.unreached.into_iter();
     found.unreached = unreached
@@ -314,22 +250,16 @@ fn linked(figure: u32, made: &Made) -> Result<Found, String> {
         .ok_or_else(|| "no start".to_owned())
 }
 
-/// Holds every clamped end by a wall.
-fn hold_by_walls(scene: &mut Scene) {
+/// A filament whose ends are turned and pushed together, in both orders: the lower equilibrium.
+fn buckled(length_nm: f64, turn_deg: f64, made: &Made) -> Result<Found, String> {
+    let mut scene = scenario("figure-8/rod-140.ron")?;
+    scene.filament = made.filament(length_nm);
+    if let (Task::Equilibrium(task), true) = (&mut scene.task, made.is_rod()) {
+        (task.iterations, task.smallest_step) = (ROD_ITERATIONS, ROD_STEP);
+    }
     for clamp in &mut scene.clamps {
         clamp.hold = Hold::Wall;
     }
-}
-
-/// A filament whose ends are turned and pushed together, in both orders: the lower equilibrium.
-fn buckled(turn_deg: f64, made: &Made) -> Result<Found, String> {
-    let mut scene = scenario("figure-8/rod-140.ron")?;
-    let length_nm = length(BUCKLED);
-    scene.filament = made.filament(length_nm);
-    if let (Task::Equilibrium(task), Made::Rod(_)) = (&mut scene.task, made) {
-        (task.iterations, task.smallest_step) = (ROD_ITERATIONS, ROD_STEP);
-    }
-    hold_by_walls(&mut scene);
     for linker in &mut scene.linkers {
         linker.at_nm = 0.5 * length_nm;
     }
@@ -337,12 +267,6 @@ fn buckled(turn_deg: f64, made: &Made) -> Result<Found, String> {
         filament: 0,
         end,
         shift_nm: [0.0, 0.0, by],
-    };
-    let (duration_ns, pace) = (None, actin_sim::Pace::Smooth);
-    let stage = |set: [Setting; 2]| Stage {
-        set: set.into(),
-        duration_ns,
-        pace,
     };
     let stages = [
         stage([turn(End::Start, -turn_deg), turn(End::End, turn_deg)]),
@@ -383,14 +307,12 @@ fn buckled_along(scene: &Scene, turn_deg: f64) -> Result<(f64, Found), String> {
         ("couple (pN nm)", end.torque_pn_nm.z * turn_deg.signum()),
         ("thrust (pN)", -end.force_pn.z),
     ];
-    let found = Found {
+    let mut found = Found {
         values: values.map(|(name, value)| (name.to_owned(), value)).into(),
         writhe: ribbon.writhe(),
-        doubtful: usize::from(!stop.evidence.is_stable()),
-        saddles_left: stop.evidence.saddles_left,
-        jumps: stop.evidence.jumps,
         ..Found::default()
     };
+    found.count(&stop.evidence);
     Ok((energy, found))
 }
 
@@ -404,17 +326,15 @@ fn elastic(assembly: &Assembly) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::load_cases::bound::Group;
-    use crate::load_cases::case::guided;
-    use crate::load_cases::filament::Rod;
+    use crate::load_cases::case::Group;
     use actin_sim::RodLaw;
 
     /// A case of tension 0 has no load along the axis, one of 5 pN a load of which a stage sets 5 times 1 pN.
     #[test]
     fn tension_is_what_the_case_says() {
-        let made = Made::Rod(Rod::coarse(&RodLaw::Constant));
+        let made = Made::coarse(&RodLaw::Constant);
         for (tension, along) in [(0.0, 0.0), (5.0, 5.0)] {
-            let scene = course(&guided(Group::Guided, 22, tension).kind).scene(&made);
+            let (scene, _) = scene(&Case::guided(Group::Guided, 22.0, tension), &made);
             scene.validate().unwrap();
             let factor = |load: usize| {
                 let mut settings = scene.path.iter().flat_map(|stage| &stage.set);

@@ -1,91 +1,64 @@
 //! The table as CSV and as Markdown.
 
-use super::bound::{Bound, Group};
+use super::case::{Bound, Group};
+use super::picture::distinct;
 use super::row::Row;
-use crate::Tell;
 use crate::measure::Sampled;
 use actin_draw::report::{save, write_csv};
 use std::fmt::Write as _;
 use std::path::Path;
 
-const HEADER: [&str; 23] = [
-    "group",
-    "case",
-    "quantity",
-    "law",
-    "mean_filament",
-    "mean_filament_sd",
-    "azimuths",
-    "drawn",
-    "drawn_sd",
-    "filaments",
-    "rod",
-    "rod_fine",
-    "rod_of_drawn",
-    "error_mean",
-    "error_drawn",
-    "error_fine",
-    "scatter",
-    "bound",
-    "share_of_bound_mean",
-    "share_of_bound_drawn",
-    "met_mean",
-    "met_drawn",
-    "note",
+/// A column of `load-cases.csv`.
+type Column = (&'static str, fn(&Row) -> String);
+
+const COLUMNS: [Column; 23] = [
+    ("group", |r| r.group.name().to_owned()),
+    ("case", |r| r.case.clone()),
+    ("quantity", |r| r.quantity.clone()),
+    ("law", |r| r.law.clone()),
+    ("mean_filament", |r| number(r.mean.map(|s| s.mean))),
+    ("mean_filament_sd", |r| number(r.mean.map(|s| s.deviation))),
+    ("azimuths", |r| count(r.mean)),
+    ("drawn", |r| number(r.drawn.map(|s| s.mean))),
+    ("drawn_sd", |r| number(r.drawn.map(|s| s.deviation))),
+    ("filaments", |r| count(r.drawn)),
+    ("rod", |r| number(r.rod)),
+    ("rod_fine", |r| number(r.fine)),
+    ("rod_of_drawn", |r| number(r.rod_of_drawn)),
+    ("error_mean", |r| number(r.error_mean)),
+    ("error_drawn", |r| number(r.error_drawn)),
+    ("error_fine", |r| number(r.error_fine)),
+    ("scatter", |r| number(r.scatter)),
+    ("bound", |r| r.bound.text()),
+    ("share_of_bound_mean", |r| number(r.shares_of_bound()[0])),
+    ("share_of_bound_drawn", |r| number(r.shares_of_bound()[1])),
+    ("met_mean", |r| yes_or_no(r.is_met()[0])),
+    ("met_drawn", |r| yes_or_no(r.is_met()[1])),
+    ("note", |r| r.note.clone()),
 ];
 
 /// Writes `load-cases.csv`.
 pub(super) fn csv(out: &Path, rows: &[Row]) -> Result<(), String> {
-    write_csv(out, "load-cases.csv", &HEADER, rows.iter().map(cells))
+    let cells = |row: &Row| COLUMNS.map(|(_, cell)| cell(row)).to_vec();
+    let header = COLUMNS.map(|(name, _)| name);
+    write_csv(out, "load-cases.csv", &header, rows.iter().map(cells))
 }
 
-fn cells(row: &Row) -> Vec<String> {
-    let number = |value: Option<f64>| {
-        let finite = value.filter(|v| v.is_finite());
-        finite.map_or(String::new(), |v| format!("{v:.6e}"))
-    };
-    let sampled = |sampled: Option<Sampled>| {
-        let count = sampled.map_or(0, |s| s.count).to_string();
-        [
-            number(sampled.map(|s| s.mean)),
-            number(sampled.map(|s| s.deviation)),
-            count,
-        ]
-    };
-    let mut all = vec![
-        row.group.name().to_owned(),
-        row.case.clone(),
-        row.quantity.clone(),
-        row.law.clone(),
-    ];
-    all.extend(sampled(row.mean));
-    all.extend(sampled(row.drawn));
-    let others = [
-        row.rod,
-        row.fine,
-        row.rod_of_drawn,
-        row.error_mean,
-        row.error_drawn,
-        row.error_fine,
-        row.scatter,
-    ];
-    all.extend(others.map(number));
-    all.push(row.bound.text());
-    all.extend(row.shares_of_bound().map(number));
-    all.extend(row.is_met().map(|met| yes_or_no(met).to_owned()));
-    all.push(row.note.clone());
-    all
+fn number(value: Option<f64>) -> String {
+    let finite = value.filter(|v| v.is_finite());
+    finite.map_or(String::new(), |v| format!("{v:.6e}"))
 }
 
-fn yes_or_no(met: Option<bool>) -> &'static str {
-    match met {
-        Some(true) => "yes",
-        Some(false) => "no",
-        None => "",
-    }
+fn count(sampled: Option<Sampled>) -> String {
+    sampled.map_or(0, |s| s.count).to_string()
 }
 
-/// How many bounds are met, and the largest error over its bound, in words.
+fn yes_or_no(met: Option<bool>) -> String {
+    met.map_or("", |met| if met { "yes" } else { "no" })
+        .to_owned()
+}
+
+/// Number of met bounds, and the largest error over its bound, in words.
 fn score(rows: &[&Row], against: usize) -> [String; 2] {
     let verdicts = || rows.iter().filter_map(|row| row.is_met()[against]);
     let (judged, good) = (verdicts().count(), verdicts().filter(|met| *met).count());
@@ -109,18 +82,8 @@ pub(super) fn page(rows: &[Row]) -> String {
         filament; of drawn: under the law of drawn bonds) are relative, those of a shape largest distances, those \
         of mixed filaments spreads over resolutions. Worst: the largest error over its bound.\n"
         .to_owned();
-    text += "\n| case | law | met, mean | worst | met, drawn | worst |\n\
-             | --- | --- | ---: | ---: | ---: | ---: |\n";
-    for (group, law) in pairs(rows) {
-        let own: Vec<&Row> = of_pair(rows, group, law);
-        let ([met, worst], [met_drawn, worst_drawn]) = (score(&own, 0), score(&own, 1));
-        let name = group.name();
-        _ = writeln!(
-            text,
-            "| {name} | {law} | {met} | {worst} | {met_drawn} | {worst_drawn} |"
-        );
-    }
-    for group in Group::ALL {
+    text += &summary(rows);
+    for group in Group::all() {
         let own: Vec<&Row> = rows.iter().filter(|row| row.group == group).collect();
         if !own.is_empty() {
             text += &section(group, &own);
@@ -129,22 +92,26 @@ pub(super) fn page(rows: &[Row]) -> String {
     text
 }
 
-fn of_pair<'a>(rows: &'a [Row], group: Group, law: &str) -> Vec<&'a Row> {
-    let own = rows.iter();
-    own.filter(|row| row.group == group && row.law == law)
-        .collect()
-}
-
-/// Groups that have a bound, with each law.
-fn pairs(rows: &[Row]) -> Vec<(Group, &str)> {
-    let mut all: Vec<(Group, &str)> = Vec::new();
-    for row in rows.iter().filter(|row| row.bound != Bound::Open) {
-        let pair = (row.group, row.law.as_str());
-        if !all.contains(&pair) {
-            all.push(pair);
-        }
+/// Numbers of met bounds by case and law.
+pub(super) fn summary(rows: &[Row]) -> String {
+    let mut text = "\n| case | law | met, mean | worst | met, drawn | worst |\n\
+                    | --- | --- | ---: | ---: | ---: | ---: |\n"
+        .to_owned();
+    let judged = rows.iter().filter(|row| row.bound != Bound::Open);
+    let pairs = distinct(judged.map(|row| (row.group, &*row.law)));
+    for (group, law) in pairs {
+        let own = rows
+            .iter()
+            .filter(|row| row.group == group && row.law == law);
+        let own: Vec<&Row> = own.collect();
+        let ([met, worst], [met_drawn, worst_drawn]) = (score(&own, 0), score(&own, 1));
+        let name = group.name();
+        _ = writeln!(
+            text,
+            "| {name} | {law} | {met} | {worst} | {met_drawn} | {worst_drawn} |"
+        );
     }
-    all
+    text
 }
 
 fn section(group: Group, rows: &[&Row]) -> String {
@@ -236,30 +203,6 @@ fn digits_of(value: f64, significant: u8) -> String {
 /// Writes `load-cases.md` into a folder.
 pub(super) fn page_into(folder: &Path, page: &str) -> Result<(), String> {
     save(folder, "load-cases.md", page)
-}
-
-/// Prints, by law, how many bounds are met, and each that is missed.
-pub(super) fn tell_summary(rows: &[Row], tell: Tell<'_>) {
-    for (group, law) in pairs(rows) {
-        let own = of_pair(rows, group, law);
-        let [mean, drawn] = [0, 1].map(|against| score(&own, against)[0].clone());
-        let name = group.name();
-        tell(format_args!(
-            "{law:>14} {name:28} mean {mean:>9}, drawn {drawn:>9}"
-        ));
-    }
-    for row in rows.iter().filter(|row| row.is_missed()) {
-        let error = |value: Option<f64>| value.map_or("none".to_owned(), |v| shown(row, v));
-        tell(format_args!(
-            "missed: {:>12} {}: {}, {} (mean), {} (drawn), bound {}",
-            row.law,
-            row.case,
-            row.quantity,
-            error(row.error_mean),
-            error(row.error_drawn),
-            row.bound.text()
-        ));
-    }
 }
 
 #[cfg(test)]

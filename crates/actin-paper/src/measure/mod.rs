@@ -63,6 +63,7 @@ pub use stretch::{StretchPoint, stretch_by_force, stretch_by_shift};
 pub use sweep::{Curve, Unreached};
 pub(crate) use sweep::{far_end_shift, reaction};
 pub use tension::{PulledTwistPoint, free_turn_under_tension, twist_under_tension};
+pub(crate) use turns::{ROOM_PN_NM, far_lengths, turns_in_bath};
 pub use turns::{Turns, jackknife, steps_in};
 pub use twist::{TwistPoint, twist, twist_in_order};
 pub use twisted::{HelixPoint, PulledBendPoint, bend_twisted, bend_under_tension};

@@ -1,8 +1,9 @@
 //! What is measured.
 
+use crate::run::free;
 use actin_sim::{
-    Clamp, End, Equilibrium, Filament, Hold, Load, Monomers, Output, RodModel, Scene, Section,
-    Slides, Stage, Task,
+    Clamp, End, Equilibrium, Filament, Hold, Load, Monomers, RodModel, Scene, Section, Slides,
+    Stage, Task,
 };
 
 /// A filament to be measured, how it is held and how far equilibria are solved.
@@ -69,18 +70,11 @@ impl Specimen {
         let mut clamps = vec![self.clamp(End::Start, Slides::Nowhere)];
         clamps.extend(far_end.map(|slides| self.clamp(End::End, slides)));
         Scene {
-            title: title.to_owned(),
-            filament: self.filament.clone(),
-            further: Vec::new(),
             clamps,
             loads,
-            linkers: Vec::new(),
-            repulsion: None,
             path,
-            observe: Vec::new(),
-            burn_in_ns: None,
-            output: Output::default(),
             task: Task::Equilibrium(self.solver.clone()),
+            ..free(title, self.filament.clone())
         }
     }
 

@@ -3,7 +3,20 @@
 //! At distance `s`, `<cos theta> = exp(-s / lp)` and `<phi^2> = s kT / C`, where `theta` tilts the axis
 //! and `phi` goes about it; `lp` is the persistence length and `C` the twisting rigidity.
 
+use crate::run::free;
+use actin_integrate::{Bath, Composition, Drag, advance_in, largest_frequency, stable_step};
 use actin_mechanics::{State, UnitQuaternion, rotation};
+use actin_sim::{Assembly, BOLTZMANN_PN_NM_PER_K, Filament};
+
+/// Thermal energy at 298 K (pN nm).
+pub(crate) const ROOM_PN_NM: f64 = BOLTZMANN_PN_NM_PER_K * 298.0;
+/// Drag rate (1/ns): near critical for the slowest bending of 110 nm.
+const DRAG: f64 = 5.0;
+/// Motion before the first sample, ten relaxations of the slowest bending, and between samples (ns).
+const WARM_UP_NS: f64 = 5.0;
+const APART_NS: f64 = 0.25;
+/// Samples of one filament.
+const SAMPLES: u32 = 400;
 
 /// Means over samples of one filament, by separation of frames.
 #[derive(Clone, Debug, PartialEq)]
@@ -43,6 +56,52 @@ impl Turns {
             }
         }
     }
+}
+
+/// Turns of a free filament in a heat bath at 298 K, moved at a share of the stability limit at rest; replicas differ
+/// in their noise.
+///
+/// # Errors
+/// A filament that cannot be built or moved.
+pub(crate) fn turns_in_bath(
+    filament: Filament,
+    (scheme, share): (&Composition, f64),
+    replica: u64,
+) -> Result<Turns, String> {
+    let scene = free("Free filament in a heat bath", filament);
+    let mut assembly = Assembly::build(&scene).map_err(|e| e.to_string())?;
+    let frequency = largest_frequency(&assembly.system).map_err(|e| e.to_string())?;
+    let step = stable_step(scheme, frequency, share).map_err(|e| e.to_string())?;
+    let drag = Drag::new(DRAG, DRAG).map_err(|e| e.to_string())?;
+    let bath = Bath::new(drag, ROOM_PN_NM, replica + 1).map_err(|e| e.to_string())?;
+    let (warm_up, apart) = (steps_in(WARM_UP_NS, step), steps_in(APART_NS, step));
+    let mut turns = Turns::new(assembly.rest.frames.len());
+    advance_in(&mut assembly.system, scheme, step, warm_up, &bath, 0);
+    for sample in 0..SAMPLES {
+        let first = warm_up + u64::from(sample) * apart;
+        advance_in(&mut assembly.system, scheme, step, apart, &bath, first);
+        turns.add(&assembly.rest, assembly.system.state(), SAMPLES as usize);
+    }
+    Ok(turns)
+}
+
+/// Persistence length (nm) and twisting rigidity over kT (nm) with their standard errors, from slopes between 1/5 and 3/5
+/// of the length, which the wobble of single monomers does not enter; frames are `apart_nm` from each other.
+pub(crate) fn far_lengths(all: &[Turns], apart_nm: f64) -> [(f64, f64); 2] {
+    let count = all[0].cosine.len();
+    let (from, to) = (count / 5, 3 * count / 5);
+    let slope = |value: &dyn Fn(&[&Turns], usize) -> f64| {
+        jackknife(all, |chosen| {
+            (to - from) as f64 * apart_nm / (value(chosen, to) - value(chosen, from))
+        })
+    };
+    let mean = |chosen: &[&Turns], of: fn(&Turns) -> &[f64], k: usize| {
+        chosen.iter().map(|turns| of(turns)[k]).sum::<f64>() / chosen.len() as f64
+    };
+    [
+        slope(&|chosen, k| -mean(chosen, |t| &t.cosine, k).ln()),
+        slope(&|chosen, k| mean(chosen, |t| &t.twist, k)),
+    ]
 }
 
 /// Steps of `h` in a duration, the last one included.

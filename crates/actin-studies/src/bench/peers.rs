@@ -3,8 +3,7 @@
 //! What each runs is in `docs/peers`. A peer that is not installed is left out, and it is said how to
 //! install it.
 
-use actin_paper::Tell;
-use actin_paper::bench::Entry;
+use super::Entry;
 use actin_paper::workspace_root;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -29,20 +28,20 @@ struct Rate {
 }
 
 /// Runs the peers and prints a table of rates; what is missing below it.
-pub(crate) fn compare(ours: &[Entry], tell: Tell<'_>) {
+pub(crate) fn compare(ours: &[Entry]) {
     let mut missing = Vec::new();
-    tell(format_args!(
+    println!(
         "{:20} {:>10} {:12} {:>10} {:>12}",
         "case", "ours 1e6/s", "peer", "1e6/s", "ours / peer"
-    ));
+    );
     for result in commands().into_iter().map(|peer| peer.and_then(output)) {
         match result {
-            Ok(text) => rows(ours, &parse(&text)).for_each(|row| tell(format_args!("{row}"))),
+            Ok(text) => rows(ours, &parse(&text)).for_each(|row| println!("{row}")),
             Err(reason) => missing.push(reason),
         }
     }
     for reason in missing {
-        tell(format_args!("missing: {reason}"));
+        println!("missing: {reason}");
     }
 }
 

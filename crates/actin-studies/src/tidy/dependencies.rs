@@ -63,11 +63,15 @@ const ALLOWED: [(&str, &[&str]); 18] = [
         ],
     ),
     ("xtask", &[]),
-    // Scenes for the reference of their keys.
+    // Laws and their fits for the provenance of committed numbers, scenes for the reference of their keys.
     (
         "actin-studies",
         &[
+            "actin-cosserat",
             "actin-draw",
+            "actin-fit",
+            "actin-integrate",
+            "actin-mechanics",
             "actin-paper",
             "actin-sim",
             "actin-sweep",

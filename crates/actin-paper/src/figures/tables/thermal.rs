@@ -1,13 +1,18 @@
 //! The persistence length from thermal motion, of monomers as they are and without the factor 1.4.
 
 use super::ensemble::Kind;
-use crate::bonds::persistence_length_um;
 use crate::figures::Run;
+use crate::measure::{Turns, far_lengths, turns_in_bath};
 use actin_draw::report::Row;
-use actin_sim::{Monomers, ellipsoid_constants as monomer};
+use actin_integrate::POSITION_VERLET;
+use actin_sim::{Filament, Monomers, Section, ellipsoid_constants as monomer};
+use rayon::prelude::*;
 
 /// Filaments of each kind: a standard error of 2 to 3 %.
 const FILAMENTS: u64 = 32;
+/// Length (nm), and time step over the stability limit.
+const LENGTH_NM: f64 = 110.0;
+const SHARE: f64 = 0.4;
 
 /// Two rows, beside the lengths that the paper expects of the one and reports of the other.
 pub(super) fn rows(Run { progress, .. }: Run<'_>) -> Result<Vec<Row>, String> {
@@ -23,7 +28,7 @@ pub(super) fn rows(Run { progress, .. }: Run<'_>) -> Result<Vec<Row>, String> {
     let reported =
         "interfaces of the published rigidity, of which the paper cites a simulated length";
     let row = |quantity, monomers: &Monomers, paper, what| {
-        let (length, error) = persistence_length_um(monomers, FILAMENTS, || progress.done())?;
+        let (length, error) = persistence_length_um(monomers, || progress.done())?;
         let note = format!(
             "slope of -ln <cos theta> between 22 and 66 nm at 298 K, {what}; {FILAMENTS} free filaments of \
              110 nm, 64 drawn bonds, 400 samples of each, standard error {error:.2}; position Verlet at \
@@ -41,4 +46,34 @@ pub(super) fn rows(Run { progress, .. }: Run<'_>) -> Result<Vec<Row>, String> {
             reported,
         )?,
     ])
+}
+
+/// Persistence length (um) of monomers at 298 K with its standard error, from free filaments
+/// that differ in their noise and in the sampling of their bonds.
+fn persistence_length_um(
+    monomers: &Monomers,
+    done: impl Fn() + Sync,
+) -> Result<(f64, f64), String> {
+    let section = Section::Ellipsoids {
+        from_nm: 0.0,
+        to_nm: LENGTH_NM,
+        altered: None,
+    };
+    let replica = |replica: u64| {
+        let filament = Filament {
+            monomers: Monomers {
+                seed: replica,
+                ..monomers.clone()
+            },
+            ..Filament::new(vec![section.clone()])
+        };
+        turns_in_bath(filament, (&POSITION_VERLET, SHARE), replica)
+    };
+    let all: Vec<Turns> = (0..FILAMENTS)
+        .into_par_iter()
+        .map(replica)
+        .inspect(|_| done())
+        .collect::<Result<_, _>>()?;
+    let [(length, error), _] = far_lengths(&all, monomers.rise_nm);
+    Ok((1e-3 * length, 1e-3 * error))
 }

@@ -1,0 +1,120 @@
+//! Cuts through the energy surface: the law `Homogenised` as lines, relaxed cells as dots.
+
+use crate::cells::{mean, strain, twisted};
+use actin_cosserat::Homogenised;
+use actin_draw::report::Picture;
+use actin_draw::{Chart, Ramp, Series};
+use actin_sim::ellipsoid::{Cell, SixVector};
+use rayon::prelude::*;
+use std::path::Path;
+
+/// Curvature (rad/nm), twist (rad/nm), shear, extension.
+type Point = [f64; 4];
+
+/// Where the energy is cut: over the strain of one place up to a value, a line for each value of another.
+struct Cut {
+    file: &'static str,
+    title: &'static str,
+    over: (usize, &'static str),
+    range: [f64; 2],
+    by: (usize, &'static str),
+    values: [f64; 4],
+}
+
+const CUTS: [Cut; 3] = [
+    Cut {
+        file: "surface-twist.svg",
+        title: "Energy of the twisted and bent filament",
+        over: (1, "twist (rad/nm)"),
+        range: [-0.03, 0.03],
+        by: (0, "curvature (rad/nm)"),
+        values: [0.0, 2.5e-3, 5e-3, 1e-2],
+    },
+    Cut {
+        file: "surface-stretch.svg",
+        title: "Energy of the twisted and stretched filament",
+        over: (3, "stretch beyond the free filament"),
+        range: [-2e-3, 4e-3],
+        by: (1, "twist (rad/nm)"),
+        values: [-0.02, 0.0, 0.01, 0.02],
+    },
+    Cut {
+        file: "surface-shear.svg",
+        title: "Energy of the stretched and sheared filament, without twist",
+        over: (2, "shear strain"),
+        range: [0.0, 0.015],
+        by: (3, "stretch beyond the free filament"),
+        values: [0.0, 5e-4, 1.5e-3, 3e-3],
+    },
+];
+
+/// Points of a line, and cells.
+const POINTS: u32 = 60;
+const CELLS: u32 = 12;
+
+/// Draws all cuts.
+pub(super) fn draw(out: &Path) -> Result<Vec<Picture>, String> {
+    let cell = mean()?;
+    let law = Homogenised::mean_filament();
+    CUTS.iter().map(|cut| cut.draw(&cell, law, out)).collect()
+}
+
+impl Cut {
+    fn draw(&self, cell: &Cell, law: &Homogenised, out: &Path) -> Result<Picture, String> {
+        let mut series = Vec::new();
+        for (k, value) in self.values.into_iter().enumerate() {
+            let colour = Ramp::RED_YELLOW_BLUE.at(k as f64 / (self.values.len() - 1) as f64);
+            let line = self.places(value, POINTS);
+            let of_law = line.map(|(x, point)| (x, law.energy_density(&six(law, point))));
+            series.push(Series {
+                label: Some(format!("{} {value}", self.by.1)),
+                colour,
+                points: of_law.collect(),
+                dots: false,
+            });
+            let cells: Vec<_> = self.places(value, CELLS).collect();
+            let energy = |&(x, point): &(f64, Point)| -> Result<(f64, f64), String> {
+                let start = twisted(cell, point[1])?;
+                let relaxed = cell.relax(&six(law, point), Some(&start.displacements));
+                Ok((x, relaxed.map_err(|e| e.to_string())?.energy))
+            };
+            let points: Result<_, String> = cells.par_iter().map(energy).collect();
+            series.push(Series {
+                label: None,
+                colour,
+                points: points?,
+                dots: true,
+            });
+        }
+        let chart = Chart {
+            title: self.title,
+            x_label: self.over.1,
+            y_label: "energy per length (pN)",
+            series,
+            equal_axes: false,
+        };
+        chart.draw(&out.join(self.file))?;
+        Ok(Picture {
+            file: self.file.to_owned(),
+            caption: format!("{}: the law (lines) and relaxed cells (dots).", self.title),
+        })
+    }
+
+    /// Places on the line of one value, and where they stand on the axis.
+    fn places(&self, value: f64, count: u32) -> impl Iterator<Item = (f64, Point)> {
+        let ([from, to], by, over) = (self.range, self.by.0, self.over.0);
+        (0..=count).map(move |n| {
+            let x = from + (to - from) * f64::from(n) / f64::from(count);
+            let mut point = [0.0; 4];
+            point[by] = value;
+            point[over] = x;
+            (x, point)
+        })
+    }
+}
+
+/// The six strains.
+fn six(law: &Homogenised, [curvature, twist, shear, extension]: Point) -> SixVector {
+    let stretch = law.form().natural_stretch(twist) + extension;
+    strain([curvature, twist, shear, stretch, 0.0])
+}

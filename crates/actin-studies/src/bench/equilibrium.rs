@@ -1,0 +1,119 @@
+//! Times of equilibria, every monomer resolved.
+
+use super::{Measured, median};
+use actin_sim::{Assembly, End, Plan, RunError, Scene, Task};
+use std::time::Instant;
+
+/// Residual that is asked for (pN, and pN nm).
+const RESIDUAL: f64 = 1e-7;
+/// Largest residual that counts as the floor of rounding; beyond it a case has failed.
+const HIGHEST_FLOOR: f64 = 1e-5;
+/// Largest relative change of the tip's displacement under a tighter solve.
+const TIP_ERROR: f64 = 1e-3;
+/// Time that the repeats of a case may take (s); there is one at least.
+const BUDGET_S: f64 = 2.0;
+/// Most repeats.
+const REPEATS: usize = 50;
+
+/// Result of one solve.
+struct Solved {
+    assembly: Assembly,
+    seconds: f64,
+    residual: f64,
+    iterations: u64,
+}
+
+/// Time from the straight state to the equilibrium.
+pub(super) fn measure(length_nm: f64) -> Result<Measured, String> {
+    let mut tolerance = RESIDUAL;
+    let first = loop {
+        match solve(length_nm, tolerance) {
+            Ok(solved) => break solved,
+            Err(error) if tolerance * 10.0 > HIGHEST_FLOOR => return Err(error),
+            Err(_) => tolerance *= 10.0,
+        }
+    };
+    let mut times = vec![first.seconds];
+    while times.len() < REPEATS && times.iter().sum::<f64>() < BUDGET_S {
+        times.push(solve(length_nm, tolerance)?.seconds);
+    }
+    let floor = if tolerance > RESIDUAL {
+        format!(" (asked for {tolerance:.0e}, the floor of rounding)")
+    } else {
+        String::new()
+    };
+    let (iterations, residual) = (first.iterations, first.residual);
+    let tip = tighter(first, tolerance)?;
+    let note = format!("{iterations} iterations, residual {residual:.1e} pN{floor}; tip {tip}");
+    Ok(Measured {
+        best: times.iter().copied().fold(f64::INFINITY, f64::min),
+        median: median(times),
+        note,
+    })
+}
+
+fn solve(length_nm: f64, tolerance: f64) -> Result<Solved, String> {
+    let scene = Scene::from_ron(&scene(length_nm, tolerance)).map_err(|e| e.to_string())?;
+    let assembly = Assembly::build(&scene).map_err(|error| error.to_string())?;
+    solve_on(assembly).map_err(|error| error.to_string())
+}
+
+/// Solves from the state of the assembly, which is then in its equilibrium.
+fn solve_on(mut assembly: Assembly) -> Result<Solved, RunError> {
+    let started = Instant::now();
+    let (trajectory, report) = Plan::new(&assembly)?.run()?;
+    let seconds = started.elapsed().as_secs_f64();
+    let last = trajectory.records.last();
+    if let Some(last) = last {
+        *assembly.system.state_mut() = last.state.clone();
+    }
+    Ok(Solved {
+        assembly,
+        seconds,
+        residual: last.map_or(f64::NAN, |record| record.residual_force_pn),
+        iterations: report.equilibrium.map_or(0, |e| e.newton_iterations),
+    })
+}
+
+/// Solves on to a tenth of the tolerance, and says by how much the tip moved, as a share of its
+/// displacement.
+fn tighter(solved: Solved, tolerance: f64) -> Result<String, String> {
+    let before = displacement(&solved.assembly);
+    let mut assembly = solved.assembly;
+    if let Task::Equilibrium(task) = &mut assembly.scene.task {
+        task.force_pn = 0.1 * tolerance;
+        task.torque_pn_nm = 0.1 * tolerance;
+    }
+    let Ok(tight) = solve_on(assembly) else {
+        return Ok("unchanged: no tighter solve, this is the floor of rounding".to_owned());
+    };
+    let change = (displacement(&tight.assembly) / before - 1.0).abs();
+    if change > TIP_ERROR {
+        return Err(format!("a tighter solve moves the tip by {change:.1e}"));
+    }
+    Ok(format!(
+        "within {change:.0e} of a solve to {:.1e} pN",
+        tight.residual
+    ))
+}
+
+/// Distance of the tip from where it was built (nm).
+fn displacement(assembly: &Assembly) -> f64 {
+    let now = assembly.tip_nm(assembly.system.state(), End::End);
+    (now - assembly.tip_nm(&assembly.rest, End::End)).norm()
+}
+
+/// A cantilever of monomers whose tip force bends it by the same angle at every length.
+fn scene(length_nm: f64, tolerance: f64) -> String {
+    let force = -2.0 * (160.0 / length_nm).powi(2);
+    format!(
+        "Scene(
+            filament: Filament(sections: [Ellipsoids(from_nm: 0.0, to_nm: {length_nm:?})]),
+            clamps: [Clamp(end: Start)],
+            loads: [EndForce(end: End, force_pn: ({force:?}, 0.0, 0.0))],
+            task: Equilibrium(
+                force_pn: {tolerance:?}, torque_pn_nm: {tolerance:?}, iterations: 2000,
+            ),
+        )"
+    )
+}

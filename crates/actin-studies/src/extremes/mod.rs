@@ -1,0 +1,142 @@
+//! `cargo xtask extremes`: every number that a user can write, taken to where it breaks, as a table with pictures. The
+//! result is right to a stated accuracy, or a message says why there is none.
+
+mod directories;
+mod fields;
+#[cfg(test)]
+mod fuzz_tests;
+mod loads;
+mod motion;
+mod row;
+mod scenes;
+mod sizes;
+mod states;
+mod steps;
+mod write;
+
+use actin_paper::workspace_root;
+use anyhow::{Context, Error, Result, bail};
+use rayon::prelude::*;
+use row::Row;
+use std::fs;
+use std::path::PathBuf;
+use std::time::Instant;
+
+/// Extent and output of the study.
+#[derive(clap::Args, Debug)]
+pub(crate) struct Options {
+    /// Folder of the table and the pictures.
+    #[arg(long, default_value = "target/extremes")]
+    out: PathBuf,
+    /// Also the rows that take minutes: 1e6 bodies, 1e7 steps.
+    #[arg(long)]
+    long: bool,
+    /// Also into `docs/tables/extremes.md`, with the pictures of `docs/extremes.md`, if all rows are sound.
+    #[arg(long, requires = "long")]
+    write: bool,
+}
+
+/// Computes the table, prints the defects in it, and writes it with its pictures.
+///
+/// # Errors
+/// A row that is neither right nor refused, and a file that cannot be written.
+pub(crate) fn run(options: &Options) -> Result<()> {
+    let out = &options.out;
+    fs::create_dir_all(out).with_context(|| out.display().to_string())?;
+    let clock = Instant::now();
+    let rows = table(options.long);
+    write::table(&rows, out).map_err(Error::msg)?;
+    steps::draw(out).map_err(Error::msg)?;
+    println!(
+        "{} rows in {:.0} s, written to {}",
+        rows.len(),
+        clock.elapsed().as_secs_f64(),
+        out.display()
+    );
+    let wrong = defects(&rows);
+    if !wrong.is_empty() {
+        bail!("neither right nor refused:\n  {}", wrong.join("\n  "));
+    }
+    if options.write {
+        let docs = workspace_root().join("docs");
+        write::document(&rows, out, &docs).map_err(Error::msg)?;
+    }
+    Ok(())
+}
+
+/// A name, and what computes the rows.
+type Group<'a> = (&'static str, &'a (dyn Fn() -> Vec<Row> + Sync));
+
+/// The table, in the order in which it is printed; in tests without the rows that take long, and without fields, which
+/// have a test of their own.
+fn table(is_long: bool) -> Vec<Row> {
+    let is_test = cfg!(test);
+    let steps = match (is_test, is_long) {
+        (true, _) => 50_000,
+        (false, false) => 100_000,
+        (false, true) => 10_000_000,
+    };
+    // Alone on the machine: the rows hold their times and their memory.
+    let sizes = timed(&("sizes", &|| sizes::sizes(is_long)));
+    let groups: [Group<'_>; 20] = [
+        ("time steps", &steps::limits),
+        ("energy below the limit", &steps::energies),
+        ("time steps of scenes", &steps::asked),
+        ("stiffness contrast", &loads::contrast),
+        ("twist", &|| states::twist(!is_test)),
+        ("turns of a segment", &states::one_segment),
+        ("turns that slip", &states::slipping),
+        ("straight rods", &states::straight),
+        ("segments", &loads::segments),
+        ("bonds", &loads::bonds),
+        ("forces", &loads::forces),
+        ("neutral modes", &states::neutral_modes),
+        ("compression", &states::compression),
+        ("sizes, as above", &|| sizes.clone()),
+        ("drag", &motion::drag),
+        ("undamped motion", &|| motion::undamped(steps)),
+        ("origin", &sizes::origin),
+        ("fields", &|| fields::rows(!is_test)),
+        ("guards", &sizes::guards),
+        ("directories", &directories::rows),
+    ];
+    let rows = groups.par_iter().with_max_len(1).map(timed);
+    rows.collect::<Vec<_>>().concat()
+}
+
+/// The rows of a group; prints how long they took.
+fn timed((name, rows): &Group<'_>) -> Vec<Row> {
+    let clock = Instant::now();
+    let rows = rows();
+    println!("{name}: {:.1} s", clock.elapsed().as_secs_f64());
+    rows
+}
+
+/// Rows with an unexpected outcome, in words.
+fn defects(rows: &[Row]) -> Vec<String> {
+    let defects = rows.iter().filter(|row| !row.is_sound());
+    defects.map(Row::words).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Every row ends as its case says.
+    #[test]
+    fn every_case_ends_as_expected() {
+        let rows = table(false);
+        for row in &rows {
+            println!("{}", row.words());
+        }
+        assert_eq!(defects(&rows), Vec::<String>::new());
+    }
+
+    /// The same over all the steps of the table.
+    #[test]
+    #[ignore = "takes minutes; run by hand with --ignored --nocapture"]
+    fn undamped_motion_of_ten_million_steps() {
+        let defects = defects(&motion::undamped(10_000_000));
+        assert_eq!(defects, Vec::<String>::new());
+    }
+}

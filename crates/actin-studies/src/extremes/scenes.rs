@@ -1,0 +1,177 @@
+//! Scenes as text, their runs, and the balance of the equilibria that they reach.
+
+use super::row::Outcome;
+use actin_mechanics::{System, Vector3};
+use actin_sim::{
+    Assembly, End, Failure, Load, Plan, RunError, Scene, SceneError, SceneProblem, Status,
+    Trajectory,
+};
+
+/// Parts of a scene; what is empty is left out.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Parts {
+    pub(super) sections: String,
+    /// Keys of the filament after its sections and its monomers.
+    pub(super) models: String,
+    /// Clamps, loads and so on.
+    pub(super) rest: String,
+    pub(super) task: String,
+}
+
+/// Bonds per interface: enough for a filament that holds together.
+const BONDS: usize = 16;
+
+impl Parts {
+    pub(super) fn new(
+        sections: impl Into<String>,
+        rest: impl Into<String>,
+        task: impl Into<String>,
+    ) -> Self {
+        Self {
+            sections: sections.into(),
+            models: String::new(),
+            rest: rest.into(),
+            task: task.into(),
+        }
+    }
+
+    /// A free filament in motion.
+    pub(super) fn free(sections: &str) -> Self {
+        Self::new(sections, "", "Dynamics(duration_ns: 1.0)")
+    }
+
+    /// A filament on a wall under a force on its tip (pN), in equilibrium to a share of 1e-6 of it.
+    pub(super) fn pulled(sections: &str, [x, y, z]: [f64; 3]) -> Self {
+        let force = Vector3::new(x, y, z).norm();
+        let (tolerance, torque) = (1e-6 * force, 1e-5 * force);
+        let rest = format!(
+            "clamps: [Clamp(end: Start)],
+                 loads: [EndForce(end: End, force_pn: ({x:?}, {y:?}, {z:?}))],"
+        );
+        let task = format!("Equilibrium(force_pn: {tolerance:?}, torque_pn_nm: {torque:?})");
+        Self::new(sections, rest, task)
+    }
+
+    /// The text of the scene.
+    pub(super) fn text(&self) -> String {
+        let Self {
+            sections,
+            models,
+            rest,
+            task,
+        } = self;
+        // Rods of constant rigidities, of which theory is exact.
+        let rod = if models.contains("rod:") {
+            ""
+        } else {
+            "rod: RodModel(law: Constant),"
+        };
+        format!(
+            "Scene(
+                filament: Filament(
+                    sections: [{sections}],
+                    monomers: Monomers(anchors: Independent, lateral_bonds: {BONDS}, longitudinal_bonds: {BONDS}),
+                    {models} {rod}
+                ),
+                {rest}
+                task: {task},
+            )"
+        )
+    }
+
+    pub(super) fn build(&self) -> Result<Assembly, Outcome> {
+        build(&self.text())
+    }
+
+    pub(super) fn run(&self) -> Result<Ran, Outcome> {
+        run(&self.text())
+    }
+}
+
+/// The bodies of a free filament.
+pub(super) fn free(sections: &str) -> Result<System, Outcome> {
+    Ok(Parts::free(sections).build()?.system)
+}
+
+/// A scene that ran to its end; the assembly is in its last state.
+#[derive(Debug)]
+pub(super) struct Ran {
+    pub(super) assembly: Assembly,
+    pub(super) report: actin_sim::Outcome,
+    pub(super) trajectory: Trajectory,
+}
+
+/// The assembly of a scene.
+pub(super) fn build(text: &str) -> Result<Assembly, Outcome> {
+    let scene = Scene::from_ron(text).map_err(|error| Outcome::Refused(error.to_string()))?;
+    Assembly::build(&scene).map_err(|problem| refused(&problem, text))
+}
+
+/// A scene, run to its end.
+pub(super) fn run(text: &str) -> Result<Ran, Outcome> {
+    let ran = run_to_saddle(text)?;
+    if ran.report.status == Status::Failed {
+        return Err(Outcome::Fails("the run ends on a saddle".to_owned()));
+    }
+    Ok(ran)
+}
+
+/// The same, where it may end on a saddle.
+pub(super) fn run_to_saddle(text: &str) -> Result<Ran, Outcome> {
+    let mut assembly = build(text)?;
+    let mut trajectory = Trajectory::default();
+    let plan = Plan::new(&assembly).map_err(|problem| refused(&problem, text))?;
+    let report = match plan.run_into(&mut trajectory) {
+        Ok(report) => report,
+        Err(RunError::Failed(failed)) if matches!(failed.failure, Failure::Saddle(_)) => {
+            failed.outcome
+        }
+        Err(RunError::Refused(problem)) => return Err(refused(&problem, text)),
+        Err(error) => return Err(Outcome::Fails(error.to_string())),
+    };
+    let last = trajectory.records.last().expect("a run has records");
+    *assembly.system.state_mut() = last.state.clone();
+    Ok(Ran {
+        assembly,
+        report,
+        trajectory,
+    })
+}
+
+fn refused(problem: &SceneProblem, text: &str) -> Outcome {
+    Outcome::Refused(SceneError::locate(problem, text).to_string())
+}
+
+impl Ran {
+    /// Reaction of a clamp: force (pN), torque (pN nm).
+    pub(super) fn reaction(&mut self, clamp: usize) -> (Vector3, Vector3) {
+        let loads = self.assembly.system.loads().clone();
+        let state = self.assembly.system.state();
+        let reaction = self.assembly.clamps[clamp].reaction(state, &loads);
+        (reaction.force_pn, reaction.torque_pn_nm)
+    }
+
+    /// Difference of the wall's reaction from the forces on the tip and their moment, relative to them: neither a state
+    /// that is no equilibrium of these loads nor one without a load has a small one.
+    pub(super) fn imbalance(&mut self) -> f64 {
+        let (force_pn, torque_pn_nm) = self.reaction(0);
+        let state = self.assembly.system.state();
+        let arm = self.assembly.tip_nm(state, End::End) - self.assembly.clamps[0].point_nm(state);
+        let loads = self.assembly.scene.loads.iter().map(|load| match load {
+            Load::EndForce { force_pn, .. } => (*force_pn).into(),
+            _ => Vector3::zeros(),
+        });
+        let applied: Vector3 = loads.sum();
+        let moment = arm.cross(&applied);
+        let force = (force_pn + applied).norm() / applied.norm();
+        // Of a force along the filament the moment is zero, and its lever the measure.
+        let whole = arm.norm() * applied.norm();
+        force.max((torque_pn_nm + moment).norm() / whole)
+    }
+
+    /// Displacement of the tip from where it was built (nm).
+    pub(super) fn tip_displacement(&self) -> Vector3 {
+        let (assembly, state) = (&self.assembly, self.assembly.system.state());
+        assembly.tip_nm(state, End::End) - assembly.tip_nm(&assembly.rest, End::End)
+    }
+}

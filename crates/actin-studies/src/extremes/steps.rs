@@ -1,0 +1,276 @@
+//! Time steps around the stability limit: where motion begins to grow, and the energy below; with pictures.
+
+use super::row::{Expected, Outcome, Row, Tried, bounded, correct, larger};
+use super::scenes::{Parts, free};
+use actin_draw::{Chart, Colour, Series};
+use actin_integrate::{Composition, Drag, advance, largest_frequency, stable_step};
+use actin_mechanics::{System, Xorshift, randomise_velocities};
+use actin_sim::{Integrator, Plan};
+use std::path::Path;
+
+const INTEGRATORS: [Integrator; 5] = [
+    Integrator::PositionVerlet,
+    Integrator::Pefrl,
+    Integrator::Vefrl,
+    Integrator::ForestRuth,
+    Integrator::Suzuki,
+];
+
+/// A filament of each kind.
+pub(super) const MODELS: [(&str, &str); 3] = [
+    ("rod", "Rod(from_nm: 0.0, to_nm: 30.0, segments: 3)"),
+    ("monomers", "Ellipsoids(from_nm: 0.0, to_nm: 14.0)"),
+    (
+        "mixed",
+        "Ellipsoids(from_nm: 0.0, to_nm: 9.0), Rod(from_nm: 9.0, to_nm: 29.0, segments: 2)",
+    ),
+];
+
+/// Steps after which motion that grows at all, a 1e-4th above the limit, has grown by far more
+/// than [`GROWN`]: there a mode grows by about `sqrt(2e-4)` in each.
+const STEPS: u64 = 2_000;
+/// Growth of the kinetic energy that no bounded motion shows. Below the limit, a mode's energy is
+/// up to the inverse of the distance to it, relative, times what it began with.
+const GROWN: f64 = 1e6;
+/// Shares of the limit at which the energy is looked at.
+const SHARES: [f64; 10] = [1e-3, 3e-3, 1e-2, 3e-2, 0.1, 0.25, 0.5, 0.75, 0.9, 0.99];
+/// Rounding of the energy in `energy_error`: places of 30 nm are known to 4e-15 nm, motion
+/// of 1e-3 nm/ns at 500 rad/ns reaches 2e-6 nm, and its energy is known to twice the quotient, 4e-9.
+/// Five times that, for many bodies.
+const ENERGY_ROUNDING: f64 = 2e-8;
+
+/// Rows of all methods on all filaments.
+fn each(rows: impl Fn(&str, &str, Integrator) -> Vec<Row>) -> Vec<Row> {
+    let all = MODELS
+        .into_iter()
+        .flat_map(|model| INTEGRATORS.map(|i| (model, i)));
+    all.flat_map(|((model, sections), integrator)| rows(model, sections, integrator))
+        .collect()
+}
+
+/// The step at a share of the limit (ns).
+fn step_at(system: &System, scheme: &Composition, share: f64) -> f64 {
+    let frequency = largest_frequency(system).expect("loads at rest are finite");
+    stable_step(scheme, frequency, share).expect("it is positive")
+}
+
+/// Step at which small motion about the present state begins to grow, over the limit that the largest frequency predicts. A wrong
+/// mass, a frequency that misses the stiffest term or a table with a wrong limit would each change it.
+fn measured_limit(system: &mut System, integrator: Integrator) -> f64 {
+    let predicted = step_at(system, integrator.composition(), 1.0);
+    let (mut low, mut high) = (0.5, 2.0);
+    if grows(system, integrator, low * predicted) {
+        (low, high) = (0.0, low);
+    }
+    // To 1e-4 of the limit.
+    for _ in 0..14 {
+        let middle = 0.5 * (low + high);
+        if grows(system, integrator, middle * predicted) {
+            high = middle;
+        } else {
+            low = middle;
+        }
+    }
+    0.5 * (low + high)
+}
+
+/// The measured limit against the predicted one.
+pub(super) fn limit(system: &mut System, integrator: Integrator, bound: f64) -> Tried {
+    let error = (measured_limit(system, integrator) - 1.0).abs();
+    correct("measured limit against predicted", error, bound)
+}
+
+/// Whether motion of 1e-8 nm/ns and rad/ns grows at step `h` (ns). Leaves the state as it was.
+fn grows(system: &mut System, integrator: Integrator, h: f64) -> bool {
+    let rest = system.state().clone();
+    randomise_velocities(system.state_mut(), &mut Xorshift::new(3), 1e-8, 1e-8);
+    let start = system.state().kinetic_energy();
+    let is_grown = (0..STEPS / 50).any(|_| {
+        advance(system, integrator.composition(), h, 50, &Drag::NONE);
+        let kinetic = system.state().kinetic_energy();
+        !(kinetic.is_finite() && kinetic < GROWN * start)
+    });
+    system.state_mut().clone_from(&rest);
+    is_grown
+}
+
+/// Measured against predicted limits: bisection to 1e-4, frequencies to 1e-4.
+pub(super) fn limits() -> Vec<Row> {
+    each(|model, sections, integrator| {
+        let tried = free(sections).and_then(|mut system| limit(&mut system, integrator, 5e-4));
+        let case = format!("{model}, {integrator:?}, to 2 times the limit");
+        vec![Row::new("time step", case, tried)]
+    })
+}
+
+/// Largest deviation of the energy over 1000 steps of small motion at a share of the limit,
+/// relative to what it begins with.
+fn energy_error(system: &mut System, integrator: Integrator, share: f64) -> f64 {
+    let scheme = integrator.composition();
+    let h = step_at(system, scheme, share);
+    let rest = system.state().clone();
+    randomise_velocities(system.state_mut(), &mut Xorshift::new(3), 1e-3, 1e-3);
+    let start = system.total_energy();
+    let mut largest: f64 = 0.0;
+    for _ in 0..100 {
+        advance(system, scheme, h, 10, &Drag::NONE);
+        largest = larger(largest, (system.total_energy() - start).abs());
+    }
+    system.state_mut().clone_from(&rest);
+    largest / start
+}
+
+/// Twice the share of its energy by which a mode at the share `s` of its limit fluctuates: `s^2/(1 - s^2)`
+/// with Verlet's method, exactly, and less than `s^4/(1 - s^2)` in order four.
+fn fluctuation(scheme: &Composition, share: f64) -> f64 {
+    let order = scheme.order().cast_signed();
+    2.0 * share.powi(order) / (1.0 - share * share)
+}
+
+/// Fluctuation of the energy from a thousandth of the limit to just below it: a wrong coefficient costs an order, which
+/// shows at small steps.
+pub(super) fn energies() -> Vec<Row> {
+    each(|model, sections, integrator| {
+        let tried = free(sections).and_then(|mut system| {
+            let of_bound = |share| {
+                let error = energy_error(&mut system, integrator, share);
+                error / (fluctuation(integrator.composition(), share) + ENERGY_ROUNDING)
+            };
+            let share = SHARES.map(of_bound).into_iter().fold(0.0, larger);
+            bounded("energy fluctuation", share)
+        });
+        let case = format!("{model}, {integrator:?}, 0.001 to 0.99 of the limit");
+        vec![Row::new("time step", case, tried)]
+    })
+}
+
+/// Steps that a scene asks for, as a multiple of the limit: above it a step is refused, and breaks with a report if it is
+/// allowed.
+const ASKED: [(f64, bool, Expected); 4] = [
+    (1e-3, false, Expected::Correct),
+    (1.01, false, Expected::Refused),
+    (1.01, true, Expected::Fails(&[])),
+    (2.0, true, Expected::Fails(&[])),
+];
+
+pub(super) fn asked() -> Vec<Row> {
+    each(|model, sections, integrator| {
+        let row = |(share, allowed, expected)| {
+            let words = if allowed { ", allowed" } else { "" };
+            let case = format!("{model}, {integrator:?}, {share} of the limit{words}");
+            let tried = at_share(sections, integrator, share, allowed);
+            Row::new("time step", case, tried).expecting(expected)
+        };
+        ASKED.map(row).to_vec()
+    })
+}
+
+/// A cantilever under a force, moving for 4000 steps at a share of the limit.
+fn at_share(sections: &str, integrator: Integrator, share: f64, allowed: bool) -> Tried {
+    let pulled = Parts::pulled(sections, [0.1, 0.0, 0.0]);
+    let task = |step: f64| Parts {
+        task: format!(
+            "Dynamics(integrator: {integrator:?}, duration_ns: {:?}, time_step_ns: {step:?},
+             allow_unstable_step: {allowed})",
+            4000.0 * step
+        ),
+        ..pulled.clone()
+    };
+    let assembly = task(1e-9).build()?;
+    let plan = Plan::new(&assembly).map_err(|e| Outcome::Wrong(e.to_string()))?;
+    let limit = plan.estimate().expect("a motion").stability_limit_ns;
+    let system = task(share * limit).run()?.assembly.system;
+    // From rest without strain: the energy stays zero, the force's own included.
+    let error = system.total_energy().abs() / system.state().kinetic_energy();
+    let bound = fluctuation(integrator.composition(), share).max(1e-8);
+    correct("energy against that of the motion", error, bound)
+}
+
+/// A colour for each integrator or model.
+const COLOURS: [[u8; 3]; 5] = [
+    [30, 70, 180],
+    [190, 25, 35],
+    [235, 140, 20],
+    [40, 150, 70],
+    [120, 60, 150],
+];
+
+fn series(label: &str, colour: [u8; 3], points: Vec<(f64, f64)>, dots: bool) -> Series {
+    Series {
+        label: Some(label.to_owned()),
+        colour: Colour(colour),
+        points,
+        dots,
+    }
+}
+
+/// Draws `extremes-limits.svg`, measured limits of `omega h` against those of the methods, and `extremes-energy.svg`,
+/// the fluctuation of the energy against the step.
+pub(super) fn draw(out: &Path) -> Result<(), String> {
+    let diagonal = vec![(1.4, 1.4), (3.6, 3.6)];
+    let mut limits = vec![series("equal", [160; 3], diagonal, false)];
+    for ((model, sections), colour) in MODELS.into_iter().zip(COLOURS) {
+        let mut system = free(sections).map_err(|outcome| outcome.words())?;
+        let point = |integrator: Integrator| {
+            let predicted = integrator.composition().stability_limit();
+            (
+                predicted,
+                predicted * measured_limit(&mut system, integrator),
+            )
+        };
+        limits.push(series(model, colour, INTEGRATORS.map(point).to_vec(), true));
+    }
+    let chart = Chart {
+        title: "Where small motion begins to grow",
+        x_label: "limit of the method, omega h",
+        y_label: "measured limit, omega h",
+        series: limits,
+        equal_axes: false,
+    };
+    chart.draw(&out.join("extremes-limits.svg"))?;
+    let (model, sections) = MODELS[2];
+    let mut system = free(sections).map_err(|outcome| outcome.words())?;
+    let mut energies = Vec::new();
+    for (integrator, colour) in INTEGRATORS.into_iter().zip(COLOURS) {
+        let point = |share: f64| {
+            let error = energy_error(&mut system, integrator, share);
+            (share.log10(), error.max(1e-16).log10())
+        };
+        let points = SHARES.map(point).to_vec();
+        energies.push(series(&format!("{integrator:?}"), colour, points, false));
+    }
+    let chart = Chart {
+        title: &format!("Energy of a {model} filament over 1000 steps of small motion"),
+        x_label: "log10 of the step over the stability limit",
+        y_label: "log10 of the largest relative deviation",
+        series: energies,
+        equal_axes: false,
+    };
+    chart.draw(&out.join("extremes-energy.svg"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Below the limit the energy fluctuates, less the shorter the step: 81 times less at a third of it,
+    /// for a method of order four.
+    #[test]
+    fn energy_fluctuates_with_the_order_of_the_method() {
+        for (model, sections) in MODELS {
+            let mut system = free(sections).unwrap();
+            let coarse = SHARES[4];
+            let [pefrl, vefrl] = [1, 2].map(|i| {
+                let of = |s| energy_error(&mut system, INTEGRATORS[i], s);
+                let [a, b] = [coarse, coarse / 3.0].map(of);
+                println!("{model}: {a:e} and {b:e}");
+                (a / b).log(3.0)
+            });
+            // The next order takes part, and the largest of 100 samples scatters.
+            assert!(
+                pefrl > 3.0 && vefrl > 3.0,
+                "{model}: orders {pefrl} and {vefrl}"
+            );
+        }
+    }
+}

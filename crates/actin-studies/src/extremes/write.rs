@@ -1,0 +1,58 @@
+//! The table of extremes as CSV and as Markdown.
+
+use super::row::Row;
+use actin_draw::report::{save, write_csv};
+use std::fmt::Write as _;
+use std::fs;
+use std::path::Path;
+
+/// Writes `extremes.csv`, and `extremes.md` with a table for each number that was varied.
+pub(super) fn table(rows: &[Row], out: &Path) -> Result<(), String> {
+    let header = ["varied", "case", "is_sound", "outcome"];
+    let cells = rows.iter().map(|row| {
+        let is_sound = row.is_sound().to_string();
+        vec![
+            row.varied.to_owned(),
+            row.case.clone(),
+            is_sound,
+            row.outcome.words(),
+        ]
+    });
+    write_csv(out, "extremes.csv", &header, cells)?;
+    save(out, "extremes.md", &tables(rows))
+}
+
+/// Writes the page and the pictures of the documents, these from `out`.
+pub(super) fn document(rows: &[Row], out: &Path, docs: &Path) -> Result<(), String> {
+    save(
+        docs,
+        "tables/extremes.md",
+        &(HEAD.to_owned() + &tables(rows)),
+    )?;
+    for picture in ["extremes-limits.svg", "extremes-energy.svg"] {
+        let path = docs.join(picture);
+        fs::copy(out.join(picture), &path).map_err(|e| format!("{}: {e}", path.display()))?;
+    }
+    Ok(())
+}
+
+/// Head of the page.
+const HEAD: &str = "# Extremes, case by case
+
+Computed by `cargo xtask extremes --long --write`; the short rows are tests (`cargo test -p actin-studies
+extremes`). [Extremes](../extremes.md) says what they show.
+";
+
+/// A table for each number that was varied.
+fn tables(rows: &[Row]) -> String {
+    let mut text = String::new();
+    for group in rows.chunk_by(|a, b| a.varied == b.varied) {
+        let varied = group[0].varied;
+        _ = writeln!(text, "\n### {varied}\n\n| case | outcome |\n|---|---|");
+        for row in group {
+            let outcome = row.outcome.words().replace('|', "\\|").replace('\n', " ");
+            _ = writeln!(text, "| {} | {outcome} |", row.case);
+        }
+    }
+    text
+}

@@ -1,0 +1,90 @@
+//! The law of filaments of drawn bonds: the same terms, weights and places, at cells that all have bonds of their own.
+//!
+//! A filament bends under a couple as its sections do one after the other: least squares over the strains of many
+//! cells under one load find the mean. Bonds that are drawn differ, and the filament of all their means resists more than
+//! they do together.
+
+use super::super::axes::Axes;
+use super::super::fit::coefficients;
+use super::super::rows::{self, Row};
+use super::tables::{stability, under_loads};
+use super::{
+    BENT, LOADED, OTHER_LOADED, POSITIVITY, STRAINED, fitted_form, loaded, normal, samples,
+};
+use actin_cosserat::HomogenisedForm;
+use actin_draw::report::save;
+use actin_paper::cells::{self, PERIOD, twisted};
+use actin_sim::ellipsoid::Cell;
+use rayon::prelude::*;
+use std::path::Path;
+
+/// Cells, and the first of the seeds of those that are fitted and of those that are not: no load case has these bonds.
+const CELLS: u64 = 32;
+const FITTED: u64 = 10_001;
+const OTHERS: u64 = 20_001;
+/// Cells under each load. With one, loads that hardly bend it would bend it as its own bonds have it, and the law would be as
+/// much too stiff as the square of what that scatters by.
+const EACH: usize = 4;
+/// What rows on disk were computed with; to be changed with the places.
+const VERSION: u32 = 1;
+
+/// Fits, prints and writes.
+pub(super) fn run(out: &Path, axes: &Axes, pure: &[&Row]) -> Result<(), String> {
+    let cells = cells(FITTED)?;
+    let form = form(&cells, axes)?;
+    println!("natural lengths of {CELLS} drawn cells");
+    let key = format!(
+        "version {VERSION}, {CELLS} cells, {EACH} a load, {:?}",
+        form.natural()
+    );
+    let kept = |name: &str, compute: &dyn Fn() -> Result<Vec<Row>, String>| {
+        rows::kept(&out.join(format!("drawn-{name}.csv")), &key, None, || {
+            let rows = compute()?;
+            println!("{name}: {} drawn cells", rows.len());
+            Ok(rows)
+        })
+    };
+    let loaded = kept("loaded", &|| {
+        Ok(loaded::rows((&cells, EACH), &form, 0, LOADED))
+    })?;
+    let pure = kept("pure", &|| samples::again(&cells, pure))?;
+    let strained = kept("strained", &|| samples::strained(&cells, &form, &STRAINED))?;
+    let bent = kept("bent", &|| samples::strained(&cells, &form, &[BENT]))?;
+    let others = kept("others", &|| {
+        Ok(loaded::rows(
+            (&self::cells(OTHERS)?, EACH),
+            &form,
+            LOADED,
+            OTHER_LOADED,
+        ))
+    })?;
+    let fitted: Vec<&Row> = strained.iter().chain(&bent).chain(&pure).collect();
+    let law = normal(&form, &fitted, &loaded)?.positive(&super::firm(&strained), &POSITIVITY)?;
+    let table = stability(&law, &strained) + &under_loads(&law, &others);
+    println!("{table}");
+    save(out, "law-drawn.md", &table)?;
+    save(out, "drawn_filament.csv", &coefficients(&law))
+}
+
+/// Cells of bonds of their own, from a seed on.
+fn cells(first: u64) -> Result<Vec<Cell>, String> {
+    let seeds = (first..first + CELLS).into_par_iter();
+    seeds.map(|seed| cells::drawn(seed, 2 * PERIOD)).collect()
+}
+
+/// The form with the mean natural lengths of the cells.
+fn form(cells: &[Cell], axes: &Axes) -> Result<HomogenisedForm, String> {
+    let natural = |&twist: &f64| {
+        let all = cells
+            .par_iter()
+            .map(|cell| Ok(twisted(cell, twist)?.strain[5]));
+        let all: Vec<f64> = all.collect::<Result<_, String>>()?;
+        Ok(all.iter().sum::<f64>() / all.len() as f64)
+    };
+    let lengths: Vec<f64> = axes
+        .twist
+        .iter()
+        .map(natural)
+        .collect::<Result<_, String>>()?;
+    fitted_form(axes, &lengths)
+}

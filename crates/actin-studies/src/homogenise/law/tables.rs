@@ -1,0 +1,94 @@
+//! Tables of how far a law follows cells.
+
+use super::super::region::Region;
+use super::super::rows::Row;
+use super::RANGE;
+use super::weights::strain_sums;
+use actin_cosserat::Homogenised;
+use actin_sim::ellipsoid::SixVector;
+use std::fmt::Write as _;
+
+/// Strains at which the tangent is looked at that were not used to hold it positive.
+const LOOKS: u64 = 20_000;
+
+/// Cells bent beyond the range.
+const STRONGLY_BENT: &str = "strongly bent";
+
+/// The kind of a loaded cell.
+fn kind(row: &Row) -> &'static str {
+    match row.loads[5] {
+        _ if row.strain[0] > RANGE.curvature => STRONGLY_BENT,
+        n if n > 0.1 => "pulled",
+        n if n < -0.1 => "pushed",
+        _ => "neither",
+    }
+}
+
+/// By how much the law strains more under given loads than cells that were not fitted: medians, so that differences between
+/// drawn bonds cancel.
+pub(super) fn under_loads(law: &Homogenised, rows: &[Row]) -> String {
+    let mut table = String::from("\n| cells | number | bending | twist | shear | stretch |\n");
+    let _ = writeln!(table, "| --- |{}", " ---: |".repeat(5));
+    for name in ["pulled", "neither", "pushed", STRONGLY_BENT] {
+        let here: Vec<[f64; 4]> = rows
+            .iter()
+            .filter(|row| kind(row) == name)
+            .map(|row| more(law, row))
+            .collect();
+        let column = |k: usize| {
+            let mut all: Vec<f64> = here.iter().map(|more| more[k]).collect();
+            all.sort_by(f64::total_cmp);
+            format!("{:+.1} %", 100.0 * all[all.len() / 2])
+        };
+        let columns = [0, 1, 2, 3].map(column).join(" | ");
+        let _ = writeln!(table, "| {name} | {} | {columns} |", here.len());
+    }
+    table
+}
+
+/// By how much more a law bends, twists, shears and stretches under the loads of a cell, in the direction of its strain, as
+/// shares.
+fn more(law: &Homogenised, row: &Row) -> [f64; 4] {
+    let off = row.loads - law.loads(&row.six());
+    let sums = strain_sums(row);
+    let by = |k: usize| sums[k].dot(&off);
+    let [_, twist, _, stretch, angle] = row.strain;
+    let (sin, cos) = angle.to_radians().sin_cos();
+    [
+        cos * by(0) + sin * by(1),
+        by(2) * twist.signum(),
+        by(3),
+        by(5) * stretch.signum(),
+    ]
+}
+
+/// At how many strains, which were not used to hold it positive, the tangent is positive: within the range, and up
+/// to twice the range; and at how many strained cells the tangents of cell and law are.
+pub(super) fn stability(law: &Homogenised, cells: &[Row]) -> String {
+    let mut text = String::new();
+    let twice = |x: f64| 2.0 * x;
+    let sizes = [RANGE.curvature, RANGE.twist, RANGE.shear];
+    let beyond = Region::new(sizes.map(twice), RANGE.extension.map(twice));
+    for (name, region) in [("the range", RANGE), ("twice the range", beyond)] {
+        let strains = region.strains(law.form(), LOOKS, LOOKS);
+        let least = |strain: &SixVector| law.tangent(strain).symmetric_eigenvalues().min();
+        let least: Vec<f64> = strains.iter().map(least).collect();
+        let positive = least.iter().filter(|x| **x > 0.0).count();
+        let _ = writeln!(
+            text,
+            "\nwithin {name}: tangent positive at {positive} of {LOOKS} strains, least eigenvalue {:.1} pN",
+            least.iter().copied().fold(f64::INFINITY, f64::min)
+        );
+    }
+    let is_stable = |row: &&Row| row.least_stiffness() > 0.0;
+    let of_cells = cells.iter().filter(is_stable).count();
+    let of_both = cells.iter().filter(is_stable);
+    let of_both = of_both.filter(|row| law.tangent(&row.six()).symmetric_eigenvalues().min() > 0.0);
+    let _ = writeln!(
+        text,
+        "\nof {} strained cells {of_cells} have a positive tangent, of these the law at {}",
+        cells.len(),
+        of_both.count()
+    );
+    text
+}
