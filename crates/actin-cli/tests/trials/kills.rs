@@ -15,7 +15,8 @@ const MOST_KILLS: u32 = 200;
 /// An undisturbed run; it is interrupted after that time, which is a failure.
 const UNDISTURBED: Duration = Duration::from_mins(5);
 
-/// Kills a run at random moments until it is done; its files are those of one that was not killed.
+/// Kills a run, on one to four threads, at random moments until it is done; its files are those of one that was not
+/// killed.
 pub(super) fn kill(case: &mut Case<'_>) -> Result<Tally, String> {
     let length = whole(case)?;
     let (mut kills, mut survived) = (0, 0);
@@ -26,7 +27,8 @@ pub(super) fn kill(case: &mut Case<'_>) -> Result<Tally, String> {
         } else {
             "--overwrite"
         };
-        let mut started = program::start(case.folder, &arguments("a", go_on))?;
+        let threads = 1 + kills % 4;
+        let mut started = program::start(case.folder, &arguments("a", go_on), threads)?;
         // Later kills come later: on a busy machine a run may not get any further at first.
         let factor = f64::from(1 + kills / 8);
         let patience = factor * between(&mut case.random, 0.01, 0.5) * length.as_secs_f64();
@@ -50,7 +52,7 @@ pub(super) fn kill(case: &mut Case<'_>) -> Result<Tally, String> {
 /// Interrupts a run, damages what it keeps, and goes on: refused by name, or the same bytes.
 pub(super) fn damage(case: &mut Case<'_>) -> Result<Tally, String> {
     whole(case)?;
-    let mut started = program::start(case.folder, &arguments("a", "--overwrite"))?;
+    let mut started = program::start(case.folder, &arguments("a", "--overwrite"), 1)?;
     while !case.folder.join("a/checkpoint.bin").exists() {
         if started.wait(Duration::from_millis(2))? {
             return Ok(once("done before the interrupt"));

@@ -59,7 +59,7 @@ fn spoilt_scenes_are_run() {
 /// Runs that are killed at random moments until they are done: the same bytes.
 #[test]
 fn killed_runs_are_resumed() {
-    let tally = try_all("kill", (1, 20), kills::kill);
+    let tally = try_all("kill", (2, 20), kills::kill);
     assert!(
         tally["kills"] > 0,
         "every run was done before it was killed"
