@@ -1,6 +1,6 @@
 //! Newton's method and damped dynamics end in the same state.
 
-use super::common::{build, run, solved};
+use super::common::{apart, build, run, solved};
 
 /// A short filament of both kinds, bent askew.
 fn scene(task: &str) -> String {
@@ -44,14 +44,7 @@ pub(crate) fn assert_dynamics_ends_with_newton(scene: impl Fn(&str) -> String) {
         "{} steps were not enough",
         report.steps
     );
-    let positions =
-        |assembly: &actin_sim::Assembly| assembly.system.state().points.position.clone();
-    let (a, b) = (positions(&newton), positions(&moving));
-    let apart = a
-        .iter()
-        .zip(b.iter())
-        .map(|(x, y)| (x - y).norm())
-        .fold(0.0, f64::max);
+    let apart = apart(newton.system.state(), moving.system.state());
     println!(
         "dynamics, {} evaluations: {apart:.1e} nm from Newton",
         report.force_evaluations

@@ -141,35 +141,6 @@ fn rest_that_is_not_certified_is_told() {
     assert!(output.contains(told), "{output}");
 }
 
-/// Twist that slips through a joint ends a run with exit code 3 and its last good state.
-#[test]
-fn lost_twist_is_a_failure() {
-    let place = Workplace::with(
-        "Scene(
-            filament: Filament(sections: [
-                Rod(from_nm: 0.0, to_nm: 40.0, segments: 4), Ellipsoids(from_nm: 40.0, to_nm: 60.0),
-            ]),
-            clamps: [Clamp(end: Start), Clamp(end: End, slides: AlongAxis)],
-            path: [Stage(set: [Turn(end: End, turn_deg: (0.0, 0.0, 1500.0))])],
-            task: Equilibrium(accept_jumps: true),
-        )",
-    );
-    let said = place.fail(3, &["run", "scene.ron", "--out", "a"]);
-    assert_has(
-        &said,
-        &[
-            "in stage 1 of 1, at path parameter 0.",
-            "filament 0 has lost 1 turn(s)",
-        ],
-    );
-    assert_has(&said, &["the joint at s = "]);
-    let shape = &summary(&place)["shape"];
-    let number = |key: &str| shape[key].as_f64().unwrap();
-    let sum = number("twist_turns") + number("writhe");
-    // Solid angles to round-off.
-    assert!((sum - number("link_turns")).abs() < 1e-9);
-}
-
 /// A tolerance that no sum of such forces can meet: the equilibrium ends at the floor of rounding, which
 /// is told; one that can be met is met without a word.
 #[test]

@@ -52,35 +52,6 @@ fn convergence_is_quadratic_near_the_solution() {
     assert!(equilibrium.history.len() <= 7, "{residuals:?}");
 }
 
-/// The tip of the elastica, with second order in the length of the segments.
-///
-/// Oracle: alpha = F L^2 / B = 2 gives 0.4934574804 of the length.
-#[test]
-fn elastica_to_second_order() {
-    let (force, bending): (f64, f64) = (3.0, 3.9e4);
-    let length = (2.0 * bending / force).sqrt();
-    let error = |segments: usize| {
-        let rod = Rod {
-            segments,
-            length,
-            // Strains of 3e-7: far below the discretisation error.
-            shear: Vector3::repeat(1e7),
-            bending: Vector3::new(bending, bending, 1.3e4),
-        };
-        let (mut state, terms) = cantilever(&rod, Vector3::x() * force);
-        let equilibrium = rod.newton(&state).solve(&mut state, &terms).unwrap();
-        assert!(!equilibrium.is_saddle());
-        rod.tip(&state).x / length - 0.493_457_480_4
-    };
-    let errors = [20, 40, 80].map(error);
-    println!("errors of the elastica {errors:?}");
-    for pair in errors.windows(2) {
-        let order = (pair[0] / pair[1]).log2();
-        assert!((order - 2.0).abs() < 0.05, "order {order}");
-    }
-    assert!(errors[2].abs() < 1e-4);
-}
-
 /// The minimum of a rod under a tip force is unique: whatever the start, the same end.
 #[test]
 fn the_start_does_not_matter() {
