@@ -10,6 +10,7 @@ pub use second_order::{assert_are_second_derivatives, assert_is_stiffness, stiff
 
 use crate::wide::Arch;
 use crate::{Interaction, Loads, State, Vector3, rotation};
+use std::fmt::{self, Debug, Formatter};
 use std::ops::{Add, Mul, Sub};
 
 /// The kinds of processors that this one can be, from one lane to as many as it has: vector code is tested on each.
@@ -71,6 +72,36 @@ pub fn loads_of(interaction: &dyn Interaction, state: &State) -> Loads {
     let mut loads = Loads::zeros(state);
     interaction.add_loads(state, &mut loads);
     loads
+}
+
+/// An interaction without energy and without elements, whose loads a closure adds.
+pub struct Loading<F> {
+    /// Name of the term.
+    pub term: &'static str,
+    /// Adds the loads.
+    pub add: F,
+}
+
+impl<F> Debug for Loading<F> {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        f.debug_tuple("Loading").field(&self.term).finish()
+    }
+}
+
+impl<F: Fn(&State, &mut Loads) + Send + Sync> Interaction for Loading<F> {
+    fn term(&self) -> &'static str {
+        self.term
+    }
+
+    fn add_loads(&self, state: &State, loads: &mut Loads) {
+        (self.add)(state, loads);
+    }
+
+    fn elements(&self) -> usize {
+        0
+    }
+
+    fn write_energies(&self, _: &State, _: &mut [f64]) {}
 }
 
 /// Asserts that the loads are minus the gradient of the energy.

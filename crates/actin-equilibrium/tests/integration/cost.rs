@@ -23,11 +23,7 @@ fn work(segments: usize, order: Order) -> actin_equilibrium::SolverWork {
         length: 10.0 * segments as f64,
         ..ACTIN
     };
-    let mut state = rod.state();
-    let control = state.add_control(1e-6);
-    let load = PointLoad::new(&state, vec![(segments, 1.0)], Vector3::x(), control).unwrap();
-    let mut terms = rod.interactions();
-    terms.push(Box::new(load));
+    let (mut state, terms) = rod.loaded(Vector3::x(), 1e-6);
     let layout = order(&rod, &state);
     let mut newton = Newton::new(layout, NewtonOptions::default()).unwrap();
     newton.solve(&mut state, &terms).unwrap().work

@@ -10,21 +10,11 @@ use common::{ACTIN, Rod, Springs, actin, bonded_filament, in_order, point};
 
 type Terms = Vec<Box<dyn Interaction>>;
 
-/// A clamped rod with a force on its tip.
-fn cantilever(rod: &Rod, force: Vector3) -> (State, Terms) {
-    let mut state = rod.state();
-    let control = state.add_control(1.0);
-    let load = PointLoad::new(&state, vec![(rod.segments, 1.0)], force, control).unwrap();
-    let mut terms = rod.interactions();
-    terms.push(Box::new(load));
-    (state, terms)
-}
-
 /// Newton on the exact second derivative converges quadratically; with one wrong or missing term
 /// the residual would fall by a constant factor per step.
 #[test]
 fn convergence_is_quadratic_near_the_solution() {
-    let (mut state, terms) = cantilever(&ACTIN, Vector3::x() * 2.0);
+    let (mut state, terms) = ACTIN.loaded(Vector3::x() * 2.0, 1.0);
     let mut newton = ACTIN.newton(&state);
     newton.solve(&mut state, &terms).unwrap();
     perturb(&mut state, &mut Xorshift::new(5), 0.0, 3e-3);
@@ -55,7 +45,7 @@ fn convergence_is_quadratic_near_the_solution() {
 /// The minimum of a rod under a tip force is unique: whatever the start, the same end.
 #[test]
 fn the_start_does_not_matter() {
-    let (state, terms) = cantilever(&ACTIN, Vector3::new(2.0, 0.5, 1.0));
+    let (state, terms) = ACTIN.loaded(Vector3::new(2.0, 0.5, 1.0), 1.0);
     let mut newton = ACTIN.newton(&state);
     let mut straight = state.clone();
     newton.solve(&mut straight, &terms).unwrap();
@@ -142,7 +132,7 @@ fn indefinite_starts_lead_to_the_buckled_column() {
         bending: Vector3::new(3.9e4, bending, 1.3e4),
     };
     let critical = std::f64::consts::PI.powi(2) * bending / (4.0 * 160.0 * 160.0);
-    let (mut state, terms) = cantilever(&rod, Vector3::z() * (-1.151_730 * critical));
+    let (mut state, terms) = rod.loaded(Vector3::z() * (-1.151_730 * critical), 1.0);
     let mut newton = rod.newton(&state);
     for i in 1..=80 {
         let bump = Vector3::new(0.02 * (i as f64 / 10.0).sin(), 0.01, 0.0);
@@ -170,7 +160,7 @@ fn a_cantilever_takes_few_steps_at_every_length() {
             ..ACTIN
         };
         let force = Vector3::x() * 2.0 * (160.0 / length).powi(2);
-        let (mut state, terms) = cantilever(&rod, force);
+        let (mut state, terms) = rod.loaded(force, 1.0);
         let equilibrium = rod.newton(&state).solve(&mut state, &terms).unwrap();
         println!("{length} nm: {:?}", equilibrium.work);
         assert!(equilibrium.history.len() <= 6);
@@ -184,7 +174,7 @@ fn a_cantilever_takes_few_steps_at_every_length() {
 /// A tolerance below round-off ends at the floor, and says so.
 #[test]
 fn round_off_floor_is_reported() {
-    let (mut state, terms) = cantilever(&ACTIN, Vector3::x() * 2.0);
+    let (mut state, terms) = ACTIN.loaded(Vector3::x() * 2.0, 1.0);
     let options = NewtonOptions {
         tolerance: Residual {
             force: 1e-18,
@@ -305,7 +295,7 @@ fn unsuitable_interactions_are_refused() {
 /// A start that is not a number is refused and left alone.
 #[test]
 fn a_start_that_is_not_finite_is_refused() {
-    let (mut state, terms) = cantilever(&ACTIN, Vector3::x());
+    let (mut state, terms) = ACTIN.loaded(Vector3::x(), 1.0);
     state.points.position.set(3, Vector3::repeat(f64::NAN));
     let failure = ACTIN.newton(&state).solve(&mut state, &terms).unwrap_err();
     assert_eq!(failure.cause, SolveError::NotFinite);

@@ -7,6 +7,7 @@ use actin_equilibrium::{
     SecondOrder, SolveError, State, Stiffness, Vector3, relax,
 };
 use actin_mechanics::UnitQuaternion;
+use actin_mechanics::testing::Loading;
 use common::{ACTIN, Rod, frame, point};
 
 /// The compressed column is straight: a solver by itself stays there, on a saddle.
@@ -26,25 +27,12 @@ fn a_column_under_too_much_force_buckles() {
     assert!(ACTIN.tip(&state).xy().norm() > 0.1 * ACTIN.length);
 }
 
-/// A load without second derivatives.
-#[derive(Debug)]
-struct Unknown;
-
-impl Interaction for Unknown {
-    fn term(&self) -> &'static str {
-        "unknown"
-    }
-    fn add_loads(&self, _: &State, _: &mut Loads) {}
-    fn elements(&self) -> usize {
-        0
-    }
-    fn write_energies(&self, _: &State, _: &mut [f64]) {}
-}
-
 #[test]
 fn what_cannot_be_relaxed_is_named() {
     let mut state = ACTIN.state();
-    let terms: Vec<Box<dyn Interaction>> = vec![Box::new(Unknown)];
+    let term = "unknown";
+    let add = |_: &State, _: &mut Loads| {};
+    let terms: Vec<Box<dyn Interaction>> = vec![Box::new(Loading { term, add })];
     match relax(&mut state, &terms) {
         Err(EquilibriumError::Newton(failure)) => {
             assert_eq!(failure.cause, SolveError::NoStiffness("unknown"));

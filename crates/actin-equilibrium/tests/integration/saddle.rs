@@ -4,25 +4,13 @@ use crate::common;
 use actin_equilibrium::{Layout, Newton, NewtonOptions, Stability, StepSize};
 use actin_mechanics::{Coordinates, Interaction, PointLoad, State, Vector3};
 use actin_mechanics::{Xorshift, perturb};
-use common::{ACTIN, Rod, Springs, point};
+use common::{COLUMN, Springs, point};
 use nalgebra::{DMatrix, SymmetricEigen};
 
 type Terms = Vec<Box<dyn Interaction>>;
 
-/// A column, softest about its y axis.
-const COLUMN: Rod = Rod {
-    segments: 16,
-    bending: Vector3::new(3.9e4, 3.0e4, 1.3e4),
-    ..ACTIN
-};
-
 fn compressed(force: f64) -> (State, Terms) {
-    let mut state = COLUMN.state();
-    let control = state.add_control(1.0);
-    let load = PointLoad::new(&state, vec![(16, 1.0)], Vector3::z() * -force, control).unwrap();
-    let mut terms = COLUMN.interactions();
-    terms.push(Box::new(load));
-    (state, terms)
+    COLUMN.loaded(Vector3::z() * -force, 1.0)
 }
 
 /// Eigenvalues of the stiffness in the metric of the options, by a dense solver.

@@ -4,9 +4,9 @@ use crate::common;
 use actin_integrate::{
     Composition, Drag, PEFRL, POSITION_VERLET, Reason, Run, StopRule, VEFRL, advance,
 };
+use actin_mechanics::testing::Loading;
 use actin_mechanics::{
-    Frame, Inertia, Interaction, Loads, Point, Slider, State, System, UnitQuaternion, Vector3,
-    rotation,
+    Frame, Inertia, Loads, Point, Slider, State, System, UnitQuaternion, Vector3, rotation,
 };
 use common::{Springs, chain, distance, spinning_tops, three_tops};
 
@@ -57,30 +57,6 @@ fn free_motion_decays_exponentially_at_any_step() {
     }
 }
 
-/// A constant force on every point and a constant body torque on every frame.
-#[derive(Debug)]
-struct Constant {
-    force: Vector3,
-    torque: Vector3,
-}
-
-impl Interaction for Constant {
-    fn term(&self) -> &'static str {
-        "constant"
-    }
-
-    fn add_loads(&self, state: &State, loads: &mut Loads) {
-        (0..state.points.len()).for_each(|i| loads.force.add(i, self.force));
-        (0..state.frames.len()).for_each(|i| loads.torque.add(i, self.torque));
-    }
-
-    fn elements(&self) -> usize {
-        0
-    }
-
-    fn write_energies(&self, _: &State, _: &mut [f64]) {}
-}
-
 const MASS: f64 = 0.07;
 const AXIAL: f64 = 2.0;
 
@@ -117,11 +93,12 @@ fn driven_bodies(force: f64, torque: f64, drag: &Drag, h: f64) -> System {
         .frames
         .angular_momentum
         .set(0, Vector3::z() * momentum);
-    let loads = Constant {
-        force: Vector3::z() * force,
-        torque: Vector3::z() * torque,
+    let add = move |state: &State, loads: &mut Loads| {
+        (0..state.points.len()).for_each(|i| loads.force.add(i, Vector3::z() * force));
+        loads.torque.add(0, Vector3::z() * torque);
     };
-    System::new(state, vec![Box::new(loads)])
+    let term = "constant";
+    System::new(state, vec![Box::new(Loading { term, add })])
 }
 
 /// `F h/(m gamma)` a step from 1e-3 to 1e4 per ns, for points, sliders and tops under rates of their

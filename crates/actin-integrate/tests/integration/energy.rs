@@ -48,12 +48,7 @@ impl Interaction for Source {
 
 /// Six points in a row, stretched, with a source that is there from step `step` on.
 fn heated(step: u64, energy: f64) -> System {
-    let springs = Springs {
-        name: "springs",
-        pairs: (1..6).map(|i| (i - 1, i)).collect(),
-        stiffness: 4.0,
-        rest: 1.0,
-    };
+    let springs = Springs::chain(6, 4.0, 1.0);
     let mut state = chain(6, 4.0, 1.0).state().clone();
     state.points.position.add(2, Vector3::x() * 0.1);
     let source = Source {

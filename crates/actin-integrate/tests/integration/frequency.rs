@@ -45,12 +45,7 @@ fn local_mode_in_a_long_chain() {
         stiffness: 0.5 * k,
         rest: 1.0,
     };
-    let springs = Springs {
-        name: "springs",
-        pairs: (1..n).map(|i| (i - 1, i)).collect(),
-        stiffness: k,
-        rest: 1.0,
-    };
+    let springs = Springs::chain(n, k, 1.0);
     let state = chain(n, k, m).state().clone();
     let system = System::new(state, vec![Box::new(springs), Box::new(stiffer)]);
     let r: f64 = 1.0 / (2.0 * 1.5 - 1.0);

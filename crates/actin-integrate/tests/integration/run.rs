@@ -5,6 +5,7 @@ use actin_integrate::{
     Body, Drag, FailureKind, Moment, Observer, PEFRL, POSITION_VERLET, Reason, Run,
     RunSettingError, StopRule, VEFRL, largest_frequency, stable_step,
 };
+use actin_mechanics::testing::Loading;
 use actin_mechanics::{Interaction, Loads, State, System, Vector3};
 use common::{Springs, Torsion, chain, distance, spinning_tops, three_tops, vibrating_tops};
 use std::ops::ControlFlow;
@@ -268,38 +269,19 @@ fn a_frame_that_spins_up_is_found() {
     assert_eq!((failure.term, failure.last_good_step), ("torsion", 0));
 }
 
-/// A term whose loads cease to be numbers when point 2 passes x = 2.2.
-#[derive(Debug)]
-struct Singular;
-
-impl Interaction for Singular {
-    fn term(&self) -> &'static str {
-        "singular"
-    }
-
-    fn add_loads(&self, state: &State, loads: &mut Loads) {
-        let room = 2.2 - state.points.position.get(2).x;
-        loads.force.add(2, Vector3::x() * (1e-3 * room.sqrt()));
-    }
-
-    fn elements(&self) -> usize {
-        0
-    }
-
-    fn write_energies(&self, _state: &State, _energies: &mut [f64]) {}
-}
-
 /// Not-a-number spreads to every body within a few steps; the report names where it began.
 #[test]
 fn a_load_that_is_not_a_number_is_traced_to_its_term() {
-    let springs = Springs {
-        name: "springs",
-        pairs: (1..6).map(|i| (i - 1, i)).collect(),
-        stiffness: 4.0,
-        rest: 1.0,
-    };
+    let springs = Springs::chain(6, 4.0, 1.0);
     let state = chain(6, 4.0, 1.0).state().clone();
-    let mut system = System::new(state, vec![Box::new(springs), Box::new(Singular)]);
+    // Loads cease to be numbers when point 2 passes x = 2.2.
+    let add = |state: &State, loads: &mut Loads| {
+        let room = 2.2 - state.points.position.get(2).x;
+        loads.force.add(2, Vector3::x() * (1e-3 * room.sqrt()));
+    };
+    let term = "singular";
+    let singular = Loading { term, add };
+    let mut system = System::new(state, vec![Box::new(springs), Box::new(singular)]);
     system.state_mut().points.velocity.set(2, Vector3::x());
     let failure = Run::new(&POSITION_VERLET, 0.05, 100)
         .unwrap()

@@ -11,7 +11,7 @@ mod rod;
 mod rod_terms;
 
 pub(crate) use bonds::{Bond, Bonds, Springs, bonded_filament};
-pub(crate) use rod::{ACTIN, Rod};
+pub(crate) use rod::{ACTIN, COLUMN, Rod};
 
 use actin_equilibrium::{BodyOrder, Layout, Newton, NewtonOptions};
 use actin_mechanics::{

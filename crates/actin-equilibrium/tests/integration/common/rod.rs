@@ -3,7 +3,7 @@
 use super::rod_terms::{Bending, Segments};
 use super::{frame, point};
 use actin_equilibrium::{BodyOrder, Layout, Newton, NewtonOptions};
-use actin_mechanics::{Interaction, State, UnitQuaternion, Vector3};
+use actin_mechanics::{Interaction, PointLoad, State, UnitQuaternion, Vector3};
 
 /// A rod along z from the origin, clamped by a held wall frame (frame 0) and point 0.
 #[derive(Debug)]
@@ -20,6 +20,13 @@ pub(crate) const ACTIN: Rod = Rod {
     length: 160.0,
     shear: Vector3::new(1.6e4, 1.6e4, 3.4e4),
     bending: Vector3::new(3.9e4, 3.9e4, 1.3e4),
+};
+
+/// A column, softest about its y axis.
+pub(crate) const COLUMN: Rod = Rod {
+    segments: 16,
+    bending: Vector3::new(3.9e4, 3.0e4, 1.3e4),
+    ..ACTIN
 };
 
 impl Rod {
@@ -55,6 +62,22 @@ impl Rod {
                 rigidity: self.bending,
             }),
         ]
+    }
+
+    /// The rod under a force on its tip (pN) times a control.
+    pub(crate) fn loaded(
+        &self,
+        force: Vector3,
+        control: f64,
+    ) -> (State, Vec<Box<dyn Interaction>>) {
+        let mut state = self.state();
+        let control = state.add_control(control);
+        let tip = vec![(self.segments, 1.0)];
+        let mut terms = self.interactions();
+        terms.push(Box::new(
+            PointLoad::new(&state, tip, force, control).unwrap(),
+        ));
+        (state, terms)
     }
 
     pub(crate) fn order(&self) -> BodyOrder {

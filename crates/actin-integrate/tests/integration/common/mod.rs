@@ -16,6 +16,18 @@ pub(crate) struct Springs {
     pub(crate) rest: f64,
 }
 
+impl Springs {
+    /// Between neighbours of `n` points.
+    pub(crate) fn chain(n: usize, stiffness: f64, rest: f64) -> Self {
+        Self {
+            name: "springs",
+            pairs: (1..n).map(|i| (i - 1, i)).collect(),
+            stiffness,
+            rest,
+        }
+    }
+}
+
 impl Interaction for Springs {
     fn term(&self) -> &'static str {
         self.name
@@ -210,13 +222,7 @@ pub(crate) fn chain(n: usize, stiffness: f64, mass: f64) -> System {
     }
     state.points.hold(0);
     state.points.hold(n - 1);
-    let springs = Springs {
-        name: "springs",
-        pairs: (1..n).map(|i| (i - 1, i)).collect(),
-        stiffness,
-        rest: 1.0,
-    };
-    System::new(state, vec![Box::new(springs)])
+    System::new(state, vec![Box::new(Springs::chain(n, stiffness, 1.0))])
 }
 
 /// All coordinates and motions in one row.
