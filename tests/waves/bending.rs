@@ -46,7 +46,7 @@ impl Mode {
     }
 
     /// Its frequency (rad/ns) on a mesh, with a rigidity against shear (pN), from the zeros of its amplitude over
-    /// almost three periods.
+    /// ten periods.
     fn measured(&self, segments: usize, inertia: &str, shear: f64) -> f64 {
         let period = 2.0 * PI / self.slender();
         let mut assembly = build(&format!(
@@ -61,7 +61,7 @@ impl Mode {
                 clamps: [Clamp(end: Start)],
                 task: Dynamics(duration_ns: {:?}, record_every_ns: {:?}),
             )",
-            2.7 * period,
+            10.2 * period,
             0.005 * period,
         ));
         set(&mut assembly, &|s| {

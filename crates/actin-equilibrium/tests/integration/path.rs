@@ -6,7 +6,7 @@ use actin_equilibrium::{
     PathOptions, PathPoint, Saddles,
 };
 use actin_mechanics::{Interaction, PointLoad, State, Vector3, rotation};
-use common::{ACTIN, Rod, Springs, point};
+use common::{ACTIN, Rod, point, springs};
 use std::f64::consts::PI;
 use std::ops::ControlFlow;
 
@@ -26,12 +26,12 @@ fn arch(rise: f64, force: f64) -> (State, Terms, Newton) {
     point(&mut state, Vector3::y() * rise);
     let control = state.add_control(0.0);
     let rest = rise.hypot(10.0);
-    let springs = Springs(vec![(0, 2, 50.0, rest), (1, 2, 50.0, rest)]);
+    let springs = springs(&state, vec![(0, 2, 50.0, rest), (1, 2, 50.0, rest)]);
     let load = PointLoad::new(&state, vec![(2, 1.0)], Vector3::y() * -force, control).unwrap();
     let top = Group::sliding(vec![2], vec![], Vector3::y());
     let layout = Layout::new(&state, None, vec![top]).unwrap();
     let newton = Newton::new(layout, NewtonOptions::default()).unwrap();
-    (state, vec![Box::new(springs), Box::new(load)], newton)
+    (state, vec![springs, Box::new(load)], newton)
 }
 
 /// The force on the top at height `y`, and the largest: `L^3 = L0 a^2` there.

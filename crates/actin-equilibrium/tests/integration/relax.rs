@@ -59,10 +59,10 @@ fn failure(mut state: State, rod: &Rod, force: f64) -> SolveError {
     }
 }
 
-/// A net force on an unclamped rod: large, small, and below the tolerance.
+/// A net force on an unclamped rod, large and small.
 #[test]
 fn a_net_load_on_a_rigid_motion_has_no_equilibrium() {
-    for force in [1.0, 1e-3, 5e-9] {
+    for force in [1.0, 1e-3] {
         let mut unclamped = State::default();
         for (i, x) in UNCLAMPED.state().points.position.iter().enumerate() {
             assert_eq!(point(&mut unclamped, x), i);

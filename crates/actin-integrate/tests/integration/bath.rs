@@ -12,7 +12,7 @@ use actin_mechanics::testing::Loading;
 use actin_mechanics::{
     Frame, Inertia, Loads, Point, Slider, State, System, UnitQuaternion, Vector3, Vectors,
 };
-use common::{Springs, chain, distance, three_tops};
+use common::{chain, distance, springs, three_tops};
 
 const KT: f64 = 4.0;
 /// Standard errors that an estimate may be off by.
@@ -148,12 +148,12 @@ fn held_bodies_stay_cold_and_sliding_ones_move_as_one() {
 /// show here and in no single body.
 #[test]
 fn a_free_chain_moves_as_one_body() {
-    let springs = Springs::chain(6, 4.0, 0.0);
     let mut state = State::default();
     for mass in [1.0, 0.2, 3.0, 0.5, 2.0, 1.0] {
         let position = Vector3::zeros();
         state.points.push(Point { position, mass });
     }
+    let springs = springs(&state, 4.0, 0.0);
     let mut system = System::new(state, vec![Box::new(springs)]);
     let bath = bath(5.0, 5.0, 1e-3, 31);
     let samples = 10_000;

@@ -8,7 +8,7 @@ use actin_mechanics::testing::Loading;
 use actin_mechanics::{
     Frame, Inertia, Loads, Point, Slider, State, System, UnitQuaternion, Vector3, rotation,
 };
-use common::{Springs, chain, distance, spinning_tops, three_tops};
+use common::{chain, distance, spinning_tops, springs, three_tops};
 
 /// A free point and a free top in motion, and a driven point.
 fn free_bodies() -> System {
@@ -146,12 +146,7 @@ fn relaxation(scheme: &Composition, gamma: f64, omega: f64, h: f64, rate: f64) -
     }
     state.points.hold(0);
     state.points.position.set(1, Vector3::x());
-    let spring = Springs {
-        name: "spring",
-        pairs: vec![(0, 1)],
-        stiffness: omega * omega,
-        rest: 0.0,
-    };
+    let spring = springs(&state, omega * omega, 0.0);
     let mut system = System::new(state, vec![Box::new(spring)]);
     let drag = Drag::new(gamma, 0.0).unwrap();
     // The fast part is then below 1e-13 of the slow one.

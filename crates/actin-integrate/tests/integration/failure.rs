@@ -7,7 +7,7 @@ use actin_integrate::{
 };
 use actin_mechanics::testing::Loading;
 use actin_mechanics::{Interaction, Loads, Split, State, System, Vector3};
-use common::{Springs, chain, vibrating_tops};
+use common::{chain, springs, vibrating_tops};
 use proptest::prelude::*;
 use std::ops::ControlFlow;
 use std::sync::Arc;
@@ -28,8 +28,8 @@ fn poison(point: usize, from: f64, value: f64) -> Box<dyn Interaction> {
 
 /// Six points in a row, stretched, with what poisons one of them.
 fn poisoned(poison: Box<dyn Interaction>) -> System {
-    let springs = Springs::chain(6, 4.0, 1.0);
     let mut state = chain(6, 4.0, 1.0).state().clone();
+    let springs = springs(&state, 4.0, 1.0);
     state.points.position.add(2, Vector3::x() * 0.1);
     System::new(state, vec![Box::new(springs), poison])
 }
@@ -117,8 +117,8 @@ fn unstable(system: &mut System, excess: f64) -> RunFailure {
 #[test]
 fn growth_is_noticed_in_a_bounded_number_of_steps() {
     for excess in [1e-5, 1e-4, 1e-3, 1e-2, 0.1, 0.5] {
-        let linear = Springs::chain(10, 4.0, 0.0);
         let state = chain(10, 4.0, 1.0).state().clone();
+        let linear = springs(&state, 4.0, 0.0);
         let mut chain = System::new(state, vec![Box::new(linear)]);
         for i in 1..9 {
             let sign = if i % 2 == 0 { 0.01 } else { -0.01 };

@@ -6,9 +6,10 @@ use actin_integrate::{
     largest_frequency_with, stable_step,
 };
 use actin_mechanics::{
-    Frame, Inertia, Interaction, Loads, Point, Split, State, System, UnitQuaternion, Vector3,
+    Frame, Inertia, Interaction, Loads, Point, Split, Springs, State, System, UnitQuaternion,
+    Vector3,
 };
-use common::{Springs, Torsion, chain, spinning_tops};
+use common::{Torsion, chain, spinning_tops, springs};
 use std::f64::consts::PI;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -39,15 +40,11 @@ fn chain_of_springs() {
 #[test]
 fn local_mode_in_a_long_chain() {
     let (n, k, m) = (3000, 2000.0, 0.07);
-    let stiffer = Springs {
-        name: "stiffer",
-        pairs: vec![(n / 2, n / 2 + 1)],
-        stiffness: 0.5 * k,
-        rest: 1.0,
-    };
-    let springs = Springs::chain(n, k, 1.0);
     let state = chain(n, k, m).state().clone();
-    let system = System::new(state, vec![Box::new(springs), Box::new(stiffer)]);
+    let mut all = springs(&state, k, 1.0).springs().to_vec();
+    all[n / 2].stiffness *= 1.5;
+    let springs = Springs::new(&state, all).unwrap();
+    let system = System::new(state, vec![Box::new(springs)]);
     let r: f64 = 1.0 / (2.0 * 1.5 - 1.0);
     let exact = (k / m * (2.0 + r + 1.0 / r)).sqrt();
     let ratio = largest_frequency(&system).unwrap() / exact;

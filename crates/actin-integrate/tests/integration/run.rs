@@ -6,8 +6,8 @@ use actin_integrate::{
     RunSettingError, StopRule, VEFRL, largest_frequency, stable_step,
 };
 use actin_mechanics::testing::Loading;
-use actin_mechanics::{Interaction, Loads, State, System, Vector3};
-use common::{Springs, Torsion, chain, distance, spinning_tops, three_tops, vibrating_tops};
+use actin_mechanics::{Interaction, Loads, Spring, Springs, State, System, Vector3};
+use common::{Torsion, chain, distance, spinning_tops, springs, three_tops, vibrating_tops};
 use std::ops::ControlFlow;
 
 /// A stretched chain of 8 free points.
@@ -211,16 +211,18 @@ fn explosion_is_blamed_on_the_stiff_term() {
     let soft = chain(10, 4.0, 1.0);
     let mut state = soft.state().clone();
     state.points.position.add(9, Vector3::x() * 0.5);
-    let springs = |name, pairs, stiffness| Springs {
-        name,
-        pairs,
-        stiffness,
-        rest: 1.0,
+    let one = Spring {
+        points: [6, 7],
+        stiffness: 400.0,
+        rest_length: 1.0,
     };
-    let terms: Vec<Box<dyn Interaction>> = vec![
-        Box::new(springs("soft", (1..10).map(|i| (i - 1, i)).collect(), 4.0)),
-        Box::new(springs("stiff", vec![(6, 7)], 400.0)),
-    ];
+    let one = Springs::new(&state, vec![one]).unwrap();
+    let stiff = Loading {
+        term: "stiff",
+        add: move |state: &State, loads: &mut Loads| one.add_loads(state, loads),
+    };
+    let soft = springs(&state, 4.0, 1.0);
+    let terms: Vec<Box<dyn Interaction>> = vec![Box::new(soft), Box::new(stiff)];
     let mut system = System::new(state, terms);
     let mut good: Option<(u64, State)> = None;
     let mut keep = |moment: &mut Moment<'_>| {
@@ -272,8 +274,8 @@ fn a_frame_that_spins_up_is_found() {
 /// Not-a-number spreads to every body within a few steps; the report names where it began.
 #[test]
 fn a_load_that_is_not_a_number_is_traced_to_its_term() {
-    let springs = Springs::chain(6, 4.0, 1.0);
     let state = chain(6, 4.0, 1.0).state().clone();
+    let springs = springs(&state, 4.0, 1.0);
     // Loads cease to be numbers when point 2 passes x = 2.2.
     let add = |state: &State, loads: &mut Loads| {
         let room = 2.2 - state.points.position.get(2).x;

@@ -1,9 +1,10 @@
 //! A clamped rod.
 
-use super::rod_terms::{Bending, Segments};
-use super::{frame, point};
+use actin_cosserat::{
+    EnergyGradient, Rigidities, RodClamp, RodEnd, RodLayout, RodMaterial, StraightRod,
+};
 use actin_equilibrium::{BodyOrder, Layout, Newton, NewtonOptions};
-use actin_mechanics::{Interaction, PointLoad, State, UnitQuaternion, Vector3};
+use actin_mechanics::{Interaction, PointLoad, State, Vector3};
 
 /// A rod along z from the origin, clamped by a held wall frame (frame 0) and point 0.
 #[derive(Debug)]
@@ -30,38 +31,25 @@ pub(crate) const COLUMN: Rod = Rod {
 };
 
 impl Rod {
-    pub(crate) fn state(&self) -> State {
+    /// The rod at rest.
+    fn built(&self) -> (State, RodLayout) {
         let mut state = State::default();
-        let step = self.length / self.segments as f64;
-        for i in 0..=self.segments {
-            point(&mut state, Vector3::z() * (step * i as f64));
-        }
-        for _ in 0..=self.segments {
-            frame(&mut state, UnitQuaternion::identity());
-        }
-        state.points.hold(0);
-        state.frames.hold(0);
-        state
+        let rod = StraightRod::uniform(self.segments, self.length / self.segments as f64);
+        let layout = rod.push_clamped(RodClamp::Wall, RodEnd::Start, &mut state);
+        (state, layout.unwrap())
+    }
+
+    pub(crate) fn state(&self) -> State {
+        self.built().0
     }
 
     pub(crate) fn interactions(&self) -> Vec<Box<dyn Interaction>> {
-        let step = self.length / self.segments as f64;
-        let segments = (0..self.segments)
-            .map(|i| (i, i + 1, i + 1, step))
-            .collect();
-        let elements = (0..self.segments)
-            .map(|i| (i, i + 1, if i == 0 { 0.5 * step } else { step }))
-            .collect();
-        vec![
-            Box::new(Segments {
-                elements: segments,
-                rigidity: self.shear,
-            }),
-            Box::new(Bending {
-                elements,
-                rigidity: self.bending,
-            }),
-        ]
+        let rigidities = Rigidities {
+            shear: self.shear,
+            bend: self.bending,
+        };
+        let material = RodMaterial::new(rigidities).unwrap();
+        vec![Box::new(EnergyGradient::new(self.built().1, material))]
     }
 
     /// The rod under a force on its tip (pN) times a control.

@@ -3,62 +3,19 @@
 
 use actin_integrate::{Drag, POSITION_VERLET, advance};
 use actin_mechanics::{
-    Frame, Inertia, Interaction, Loads, Point, State, System, UnitQuaternion, Vector3, rotation,
+    Frame, Inertia, Interaction, Loads, Point, Spring, Springs, State, System, UnitQuaternion,
+    Vector3, rotation,
 };
 use actin_mechanics::{Xorshift, perturb, randomise_velocities};
 
-/// Springs between points, energy `k/2 (|d| - rest)^2`.
-#[derive(Clone, Debug)]
-pub(crate) struct Springs {
-    pub(crate) name: &'static str,
-    pub(crate) pairs: Vec<(usize, usize)>,
-    pub(crate) stiffness: f64,
-    pub(crate) rest: f64,
-}
-
-impl Springs {
-    /// Between neighbours of `n` points.
-    pub(crate) fn chain(n: usize, stiffness: f64, rest: f64) -> Self {
-        Self {
-            name: "springs",
-            pairs: (1..n).map(|i| (i - 1, i)).collect(),
-            stiffness,
-            rest,
-        }
-    }
-}
-
-impl Interaction for Springs {
-    fn term(&self) -> &'static str {
-        self.name
-    }
-
-    fn add_loads(&self, state: &State, loads: &mut Loads) {
-        let x = &state.points.position;
-        for &(i, j) in &self.pairs {
-            let d = x.get(j) - x.get(i);
-            // At zero rest length the spring has no direction to lose.
-            let pull = if self.rest == 0.0 {
-                self.stiffness * d
-            } else {
-                self.stiffness * (1.0 - self.rest / d.norm()) * d
-            };
-            loads.force.add(i, pull);
-            loads.force.add(j, -pull);
-        }
-    }
-
-    fn elements(&self) -> usize {
-        self.pairs.len()
-    }
-
-    fn write_energies(&self, state: &State, energies: &mut [f64]) {
-        let x = &state.points.position;
-        for (energy, &(i, j)) in energies.iter_mut().zip(&self.pairs) {
-            let stretch = (x.get(j) - x.get(i)).norm() - self.rest;
-            *energy = 0.5 * self.stiffness * stretch * stretch;
-        }
-    }
+/// Springs between neighbours in the order of the points.
+pub(crate) fn springs(state: &State, stiffness: f64, rest_length: f64) -> Springs {
+    let spring = |i| Spring {
+        points: [i - 1, i],
+        stiffness,
+        rest_length,
+    };
+    Springs::new(state, (1..state.points.len()).map(spring).collect()).unwrap()
 }
 
 /// Bonds between anchors fixed in frames: body `i` is point `i` with frame `i`.
@@ -222,7 +179,8 @@ pub(crate) fn chain(n: usize, stiffness: f64, mass: f64) -> System {
     }
     state.points.hold(0);
     state.points.hold(n - 1);
-    System::new(state, vec![Box::new(Springs::chain(n, stiffness, 1.0))])
+    let springs = springs(&state, stiffness, 1.0);
+    System::new(state, vec![Box::new(springs)])
 }
 
 /// All coordinates and motions in one row.
