@@ -8,21 +8,6 @@ use actin_mechanics::{State, Vector3, rotation};
 use common::{ALL_WALLS, material, rod, strained_rod};
 use nalgebra::DVector;
 
-/// Without the geometric part of either element, or with it not made symmetric, the error is of
-/// the order of the strain or the angle: tenths.
-#[test]
-fn stiffness_is_the_derivative_of_the_loads_far_from_rest() {
-    let mut noise = Xorshift::new(11);
-    for walls in ALL_WALLS {
-        for segments in [1, 2, 5] {
-            let (state, layout) = strained_rod(segments, walls, &mut noise);
-            let rod = EnergyGradient::new(layout, material());
-            // h = 0.01 nm and rad: truncation and round-off are measured below 1e-12; 1e-10 is safe.
-            assert_is_stiffness(&rod, &state, 0.01, 1e-10);
-        }
-    }
-}
-
 /// Two segments whose second frame is turned by `theta` from the first.
 fn turned_pair(theta: Vector3) -> (State, RodLayout) {
     let mut state = State::default();
