@@ -1,19 +1,12 @@
 //! Newton's method and damped dynamics end in the same state.
 
-use super::common::{apart, build, run, solved};
+use super::common::{MIXED, apart, build, run, solved};
 
 /// A short filament of both kinds, bent askew.
 fn scene(task: &str) -> String {
     format!(
         "Scene(
-            filament: Filament(
-                sections: [
-                    Ellipsoids(from_nm: 0.0, to_nm: 20.0),
-                    Rod(from_nm: 20.0, to_nm: 40.0, segments: 2),
-                ],
-                monomers: Monomers(anchors: Independent, lateral_bonds: 16, longitudinal_bonds: 16),
-                rod: RodModel(law: Constant),
-            ),
+            filament: {MIXED},
             clamps: [Clamp(end: Start)],
             loads: [EndForce(end: End, force_pn: (-2.0, 0.5, 0.0))],
             task: {task},

@@ -1,6 +1,6 @@
 //! Anchors that a path moves, and linkers whose sites change their model.
 
-use super::common::{apart, build, run, solved};
+use super::common::{MIXED, apart, build, run, solved};
 use actin_mechanics::Vector3;
 use actin_sim::Assembly;
 
@@ -16,14 +16,7 @@ fn clamped(displaced: [Vector3; 2], shifts: Option<[Vector3; 2]>, task: &str) ->
     let [a, b] = displaced.map(show);
     format!(
         "Scene(
-            filament: Filament(
-                sections: [
-                    Ellipsoids(from_nm: 0.0, to_nm: 20.0),
-                    Rod(from_nm: 20.0, to_nm: 40.0, segments: 2),
-                ],
-                monomers: Monomers(anchors: Independent, lateral_bonds: 16, longitudinal_bonds: 16),
-                rod: RodModel(law: Constant),
-            ),
+            filament: {MIXED},
             clamps: [Clamp(end: Start)],
             loads: [EndForce(end: End, force_pn: (0.0, 1.0, 0.0))],
             linkers: [

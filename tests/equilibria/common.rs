@@ -3,7 +3,8 @@
 use crate::theory::bisect;
 use actin_cosserat::{Rigidities, RodMaterial};
 use actin_equilibrium::{BodyOrder, Layout, Newton, NewtonOptions, Residual};
-use actin_mechanics::{Frame, Inertia, Interaction, Point, State, UnitQuaternion, Vector3};
+use actin_mechanics::testing::{push_frame, push_point};
+use actin_mechanics::{Interaction, State, UnitQuaternion, Vector3};
 use actin_sim::{Assembly, Outcome};
 
 pub(crate) use crate::common::{apart, build, failure, ran, run, run_anyway};
@@ -13,6 +14,16 @@ pub(crate) fn solved(text: &str) -> (Assembly, Outcome) {
     let (assembly, _, outcome) = ran(text);
     (assembly, outcome)
 }
+
+/// A short filament of both kinds.
+pub(crate) const MIXED: &str = "Filament(
+    sections: [
+        Ellipsoids(from_nm: 0.0, to_nm: 20.0),
+        Rod(from_nm: 20.0, to_nm: 40.0, segments: 2),
+    ],
+    monomers: Monomers(anchors: Independent, lateral_bonds: 16, longitudinal_bonds: 16),
+    rod: RodModel(law: Constant),
+)";
 
 /// A cantilever of a rod as a scene: 160 nm, `B = 3.9e4` pN nm^2, under a force on its tip (pN).
 ///
@@ -93,15 +104,10 @@ pub(crate) fn material(shear: [f64; 3], bend: [f64; 3]) -> RodMaterial {
 
 /// A point of unit mass.
 pub(crate) fn point(state: &mut State, position: Vector3) -> usize {
-    let mass = 1.0;
-    state.points.push(Point { position, mass })
+    push_point(state, position, 1.0)
 }
 
 /// A frame of moments 1, 1, 2.
 pub(crate) fn frame(state: &mut State, orientation: UnitQuaternion) -> usize {
-    let inertia = Inertia::from_moments([1.0, 1.0, 2.0]).unwrap();
-    state.frames.push(Frame {
-        orientation,
-        inertia,
-    })
+    push_frame(state, orientation, [1.0, 1.0, 2.0])
 }

@@ -1,7 +1,7 @@
 //! Filaments joined by linkers between two sites, and a filament joined to itself.
 
 use super::agreement::assert_dynamics_ends_with_newton;
-use super::common::{BEND, LENGTH, SHEAR, apart, build, cantilever, newton, solved, to};
+use super::common::{BEND, LENGTH, MIXED, SHEAR, apart, build, cantilever, newton, solved, to};
 use actin_equilibrium::{BodyOrder, Layout, Newton};
 use actin_mechanics::Vector3;
 use actin_sim::{Assembly, End};
@@ -108,14 +108,7 @@ fn tied(task: &str) -> String {
     format!(
         "Scene(
             filaments: [
-                Filament(
-                    sections: [
-                        Ellipsoids(from_nm: 0.0, to_nm: 20.0),
-                        Rod(from_nm: 20.0, to_nm: 40.0, segments: 2),
-                    ],
-                    monomers: Monomers(anchors: Independent, lateral_bonds: 16, longitudinal_bonds: 16),
-                    rod: RodModel(law: Constant),
-                ),
+                {MIXED},
                 Filament(
                     sections: [
                         Rod(from_nm: 0.0, to_nm: 20.0, segments: 2),

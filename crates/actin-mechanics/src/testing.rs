@@ -9,7 +9,7 @@ pub use random_stress::assert_fluctuates;
 pub use second_order::{assert_are_second_derivatives, assert_is_stiffness, stiffness_matrix};
 
 use crate::wide::Arch;
-use crate::{Interaction, Loads, State, Vector3, rotation};
+use crate::{Frame, Inertia, Interaction, Loads, Point, State, UnitQuaternion, Vector3, rotation};
 use std::fmt::{self, Debug, Formatter};
 use std::ops::{Add, Mul, Sub};
 
@@ -38,6 +38,23 @@ pub fn assert_same_with_any_lanes(run: impl Fn(Arch) -> Vec<f64>) {
             pair[1]
         );
     }
+}
+
+/// Adds a point to a state; returns its number.
+pub fn push_point(state: &mut State, position: Vector3, mass: f64) -> usize {
+    state.points.push(Point { position, mass })
+}
+
+/// Adds a frame with these moments of inertia to a state; returns its number.
+///
+/// # Panics
+/// If no top has these moments.
+pub fn push_frame(state: &mut State, orientation: UnitQuaternion, moments: [f64; 3]) -> usize {
+    let inertia = Inertia::from_moments(moments).expect("moments of a top");
+    state.frames.push(Frame {
+        orientation,
+        inertia,
+    })
 }
 
 /// Moves the whole state rigidly: first turned about the origin by `turn`, then shifted.

@@ -1,22 +1,12 @@
 //! A sweep as a workflow for Snakemake, killed half way and run again.
 #![cfg(unix)]
 
-use crate::common::{Workplace, with_actin};
+use crate::common::{Workplace, pushed, with_actin};
 use std::fs;
 use std::os::unix::process::CommandExt;
 use std::path::Path;
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
-
-const SCENE: &str = "Scene(
-    filament: Filament(
-        sections: [Ellipsoids(from_nm: 0.0, to_nm: 10.0), Rod(from_nm: 10.0, to_nm: 30.0)],
-        monomers: Monomers(anchors: Independent, lateral_bonds: 8, longitudinal_bonds: 8),
-    ),
-    clamps: [Clamp(end: Start)],
-    loads: [EndForce(end: End, force_pn: (-2.0, 0.0, 0.0))],
-    task: Dynamics(duration_ns: 60.0, record_every_ns: 1.0),
-)";
 
 const SWEEP: &str = "Sweep(
     scene: \"scene.ron\",
@@ -83,7 +73,7 @@ fn kill_half_way(place: &Workplace, command: &mut Command) {
 /// rows.
 #[test]
 fn a_workflow_that_is_killed_ends_with_the_same_table() {
-    let place = Workplace::with(SCENE);
+    let place = Workplace::with(&pushed(60.0));
     let folder = place.path("");
     place.write("sweep.ron", SWEEP);
     let emit = "sweep sweep.ron --out workflow --emit snakemake";

@@ -1,21 +1,9 @@
 //! `actin sweep`: from a sweep and a scene to one table, however it is interrupted.
 
-use crate::common::{Workplace, assert_has, code, signal, stderr};
+use crate::common::{Workplace, assert_has, code, pushed, signal, stderr};
 use std::fs;
 use std::process::Child;
 use std::time::{Duration, Instant};
-
-/// Monomers with drawn bonds under a force, in time; a hundredth of a second or so.
-const SCENE: &str = "Scene(
-    title: \"swept\",
-    filament: Filament(
-        sections: [Ellipsoids(from_nm: 0.0, to_nm: 10.0), Rod(from_nm: 10.0, to_nm: 30.0)],
-        monomers: Monomers(anchors: Independent, lateral_bonds: 8, longitudinal_bonds: 8),
-    ),
-    clamps: [Clamp(end: Start)],
-    loads: [EndForce(end: End, force_pn: (-2.0, 0.0, 0.0))],
-    task: Dynamics(duration_ns: 2.0, record_every_ns: 1.0),
-)";
 
 /// Two forces, one of which no scene takes with this tolerance, and two lengths; three samples.
 const SWEEP: &str = "Sweep(
@@ -30,7 +18,7 @@ const SWEEP: &str = "Sweep(
 )";
 
 fn place(sweep: &str) -> Workplace {
-    let place = Workplace::with(SCENE);
+    let place = Workplace::with(&pushed(2.0));
     place.write("sweep.ron", sweep);
     place
 }
@@ -124,7 +112,7 @@ fn begin(place: &Workplace, out: &str) -> Child {
 fn a_sweep_that_is_killed_goes_on_to_the_same_tables() {
     let sweep = SWEEP.replace("-1.5, inf", "-1.5");
     let place = place(&sweep);
-    let longer = SCENE.replace("duration_ns: 2.0", "duration_ns: 40.0");
+    let longer = pushed(40.0);
     place.write("scene.ron", longer);
     place.succeed(&["sweep", "sweep.ron", "--out", "whole"]);
     let mut kills = 0;
@@ -155,7 +143,7 @@ fn a_sweep_that_is_killed_goes_on_to_the_same_tables() {
 #[test]
 fn a_signal_leaves_checkpoints() {
     let place = place(&SWEEP.replace("-1.5, inf", "-1.5"));
-    let longer = SCENE.replace("duration_ns: 2.0", "duration_ns: 4000.0");
+    let longer = pushed(4000.0);
     place.write("scene.ron", longer);
     let child = begin(&place, "a");
     while !place.path("a/runs/0/checkpoint.bin").exists() {

@@ -7,11 +7,10 @@ use crate::common;
 use actin_integrate::{
     Bath, Composition, Drag, PEFRL, POSITION_VERLET, Run, VELOCITY_VERLET, advance, advance_in,
 };
+use actin_mechanics::testing::{push_frame, push_point};
 
 use actin_mechanics::testing::Loading;
-use actin_mechanics::{
-    Frame, Inertia, Loads, Point, Slider, State, System, UnitQuaternion, Vector3, Vectors,
-};
+use actin_mechanics::{Loads, Slider, State, System, UnitQuaternion, Vector3, Vectors};
 use common::{chain, distance, springs, three_tops};
 
 const KT: f64 = 4.0;
@@ -27,14 +26,8 @@ fn bath(translational: f64, rotational: f64, kt: f64, seed: u64) -> Bath {
 fn crowd(count: usize) -> System {
     let mut state = State::default();
     for i in 0..count {
-        state.points.push(Point {
-            position: Vector3::zeros(),
-            mass: 0.07,
-        });
-        state.frames.push(Frame {
-            orientation: UnitQuaternion::identity(),
-            inertia: Inertia::from_moments([0.2, 0.2, 0.1]).unwrap(),
-        });
+        push_point(&mut state, Vector3::zeros(), 0.07);
+        push_frame(&mut state, UnitQuaternion::identity(), [0.2, 0.2, 0.1]);
         state.points.velocity.set(i, Vector3::new(9.0, -5.0, 0.0));
         let l = Vector3::new(0.0, 0.0, 0.8);
         state.frames.angular_momentum.set(i, l);
@@ -114,10 +107,7 @@ fn free_motion_has_its_law_at_any_step() {
 fn held_bodies_stay_cold_and_sliding_ones_move_as_one() {
     let mut state = State::default();
     for mass in [0.1, 0.2, 0.05] {
-        state.points.push(Point {
-            position: Vector3::zeros(),
-            mass,
-        });
+        push_point(&mut state, Vector3::zeros(), mass);
     }
     (0..3).for_each(|i| state.points.hold(i));
     let driven = Vector3::new(0.0, 3.0, 0.0);
@@ -151,7 +141,7 @@ fn a_free_chain_moves_as_one_body() {
     let mut state = State::default();
     for mass in [1.0, 0.2, 3.0, 0.5, 2.0, 1.0] {
         let position = Vector3::zeros();
-        state.points.push(Point { position, mass });
+        push_point(&mut state, position, mass);
     }
     let springs = springs(&state, 4.0, 0.0);
     let mut system = System::new(state, vec![Box::new(springs)]);

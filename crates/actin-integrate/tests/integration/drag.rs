@@ -5,27 +5,20 @@ use actin_integrate::{
     Composition, Drag, PEFRL, POSITION_VERLET, Reason, Run, StopRule, VEFRL, advance,
 };
 use actin_mechanics::testing::Loading;
-use actin_mechanics::{
-    Frame, Inertia, Loads, Point, Slider, State, System, UnitQuaternion, Vector3, rotation,
-};
+use actin_mechanics::testing::{push_frame, push_point};
+use actin_mechanics::{Loads, Slider, State, System, UnitQuaternion, Vector3, rotation};
 use common::{chain, distance, spinning_tops, springs, three_tops};
 
 /// A free point and a free top in motion, and a driven point.
 fn free_bodies() -> System {
     let mut state = State::default();
     for _ in 0..2 {
-        state.points.push(Point {
-            position: Vector3::zeros(),
-            mass: 0.07,
-        });
+        push_point(&mut state, Vector3::zeros(), 0.07);
     }
     state.points.hold(1);
     state.points.velocity.set(0, Vector3::new(1.0, -2.0, 3.0));
     state.points.velocity.set(1, Vector3::y());
-    state.frames.push(Frame {
-        orientation: UnitQuaternion::identity(),
-        inertia: Inertia::from_moments([1.0, 1.0, 2.0]).unwrap(),
-    });
+    push_frame(&mut state, UnitQuaternion::identity(), [1.0, 1.0, 2.0]);
     let l = Vector3::new(0.5, 0.2, -0.4);
     state.frames.angular_momentum.set(0, l);
     System::new(state, Vec::new())
@@ -67,7 +60,7 @@ fn driven_bodies(force: f64, torque: f64, drag: &Drag, h: f64) -> System {
     for _ in 0..3 {
         let position = Vector3::zeros();
         let mass = MASS;
-        state.points.push(Point { position, mass });
+        push_point(&mut state, position, mass);
     }
     (1..3).for_each(|i| state.points.hold(i));
     state.sliders.push(Slider {
@@ -75,10 +68,7 @@ fn driven_bodies(force: f64, torque: f64, drag: &Drag, h: f64) -> System {
         directions: vec![Vector3::z()],
         mass: 0.3,
     });
-    state.frames.push(Frame {
-        orientation: UnitQuaternion::identity(),
-        inertia: Inertia::from_moments([1.0, 1.0, AXIAL]).unwrap(),
-    });
+    push_frame(&mut state, UnitQuaternion::identity(), [1.0, 1.0, AXIAL]);
     let (translation, rotation) = drag.recorded_drift(h);
     let speed = translation * force / drag.translational();
     // Both points of the slider are pulled.
@@ -142,7 +132,7 @@ fn relaxation(scheme: &Composition, gamma: f64, omega: f64, h: f64, rate: f64) -
     let mut state = State::default();
     for _ in 0..2 {
         let (position, mass) = (Vector3::zeros(), 1.0);
-        state.points.push(Point { position, mass });
+        push_point(&mut state, position, mass);
     }
     state.points.hold(0);
     state.points.position.set(1, Vector3::x());

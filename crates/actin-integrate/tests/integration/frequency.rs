@@ -5,10 +5,8 @@ use actin_integrate::{
     Drag, FrequencyError, KRYLOV_VECTORS, POSITION_VERLET, advance, largest_frequency,
     largest_frequency_with, stable_step,
 };
-use actin_mechanics::{
-    Frame, Inertia, Interaction, Loads, Point, Split, Springs, State, System, UnitQuaternion,
-    Vector3,
-};
+use actin_mechanics::testing::{push_frame, push_point};
+use actin_mechanics::{Interaction, Loads, Split, Springs, State, System, UnitQuaternion, Vector3};
 use common::{Torsion, chain, spinning_tops, springs};
 use std::f64::consts::PI;
 use std::sync::Arc;
@@ -71,10 +69,7 @@ fn fewer_vectors_find_less_and_never_more() {
 fn frame_on_a_torsion_spring() {
     let mut state = State::default();
     for moments in [[1e-6, 1e-6, 1e-6], [0.5, 0.5, 0.2]] {
-        state.frames.push(Frame {
-            orientation: UnitQuaternion::identity(),
-            inertia: Inertia::from_moments(moments).unwrap(),
-        });
+        push_frame(&mut state, UnitQuaternion::identity(), moments);
     }
     state.frames.hold(0);
     let torsion = Torsion {
@@ -170,10 +165,7 @@ impl Interaction for Linear {
 fn linear(n: usize, rows: [[f64; 3]; 3]) -> (System, Arc<AtomicU64>) {
     let mut state = State::default();
     for _ in 0..n {
-        state.points.push(Point {
-            position: Vector3::new(1.0, -2.0, 0.5),
-            mass: 2.0,
-        });
+        push_point(&mut state, Vector3::new(1.0, -2.0, 0.5), 2.0);
     }
     let evaluations = Arc::new(AtomicU64::new(0));
     let force = Linear {
@@ -210,10 +202,7 @@ fn cost_in_evaluations() {
     // Unequal masses open it: 300 different eigenvalues.
     let mut state = State::default();
     for i in 0..100_u32 {
-        state.points.push(Point {
-            position: Vector3::zeros(),
-            mass: 1.0 + f64::from(i),
-        });
+        push_point(&mut state, Vector3::zeros(), 1.0 + f64::from(i));
     }
     *system.state_mut() = state;
     evaluations.store(0, Ordering::Relaxed);
@@ -263,10 +252,7 @@ fn sound_terms_are_evaluated_twice_for_each_vector() {
         let (_, evaluations) = linear(1, [[0.0; 3]; 3]);
         let mut state = State::default();
         for i in 0..100_u32 {
-            state.points.push(Point {
-                position: Vector3::zeros(),
-                mass: 1.0 + f64::from(i),
-            });
+            push_point(&mut state, Vector3::zeros(), 1.0 + f64::from(i));
         }
         let term = |_| -> Box<dyn Interaction> {
             Box::new(Linear {

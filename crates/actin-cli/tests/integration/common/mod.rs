@@ -31,6 +31,22 @@ pub(crate) const MOTION: &str = "Scene(
     ),
 )";
 
+/// A short rod, monomers and a junction under a force: a record each ns for so many ns (a hundredth of a second in 2 ns
+/// or so).
+pub(crate) fn pushed(duration_ns: f64) -> String {
+    format!(
+        "Scene(
+    filament: Filament(
+        sections: [Ellipsoids(from_nm: 0.0, to_nm: 10.0), Rod(from_nm: 10.0, to_nm: 30.0)],
+        monomers: Monomers(anchors: Independent, lateral_bonds: 8, longitudinal_bonds: 8),
+    ),
+    clamps: [Clamp(end: Start)],
+    loads: [EndForce(end: End, force_pn: (-2.0, 0.0, 0.0))],
+    task: Dynamics(duration_ns: {duration_ns:?}, record_every_ns: 1.0),
+)"
+    )
+}
+
 /// The motion, shortened to a few records.
 pub(crate) fn short_motion() -> String {
     let short = MOTION.replace("150.0", "1.0").replace("50.0", "0.5");

@@ -7,9 +7,8 @@ pub(crate) use rod::{ACTIN, COLUMN, Rod};
 
 use actin_ellipsoid::{Bonds, EllipsoidModel, EllipsoidParameters, Placement};
 use actin_equilibrium::{BodyOrder, Layout, Newton, NewtonOptions};
-use actin_mechanics::{
-    Frame, Inertia, Interaction, Point, Spring, Springs, State, UnitQuaternion, Vector3,
-};
+use actin_mechanics::testing::{push_frame, push_point};
+use actin_mechanics::{Interaction, Point, Spring, Springs, State, UnitQuaternion, Vector3};
 
 /// `n` monomers along z, the first two held, `bonds` per interface with draws of their own: floppy at rest, stiff once
 /// deformed.
@@ -49,16 +48,11 @@ pub(crate) fn chain() -> (State, Vec<Box<dyn Interaction>>) {
 }
 
 pub(crate) fn point(state: &mut State, position: Vector3) -> usize {
-    let mass = 0.0697;
-    state.points.push(Point { position, mass })
+    push_point(state, position, 0.0697)
 }
 
 pub(crate) fn frame(state: &mut State, orientation: UnitQuaternion) -> usize {
-    let inertia = Inertia::from_moments([1.0, 1.0, 2.0]).unwrap();
-    state.frames.push(Frame {
-        orientation,
-        inertia,
-    })
+    push_frame(state, orientation, [1.0, 1.0, 2.0])
 }
 
 /// Order along a filament whose bodies stand in order.

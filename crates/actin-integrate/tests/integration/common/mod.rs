@@ -2,9 +2,9 @@
 #![allow(dead_code, reason = "each test file uses its own part")]
 
 use actin_integrate::{Drag, POSITION_VERLET, advance};
+use actin_mechanics::testing::{push_frame, push_point};
 use actin_mechanics::{
-    Frame, Inertia, Interaction, Loads, Point, Spring, Springs, State, System, UnitQuaternion,
-    Vector3, rotation,
+    Interaction, Loads, Spring, Springs, State, System, UnitQuaternion, Vector3, rotation,
 };
 use actin_mechanics::{Xorshift, perturb, randomise_velocities};
 
@@ -123,14 +123,12 @@ pub(crate) fn three_tops() -> System {
         .into_iter()
         .enumerate()
     {
-        state.points.push(Point {
-            position: Vector3::new(2.0 * i as f64, 0.3 * i as f64, 0.0),
-            mass: 1.0 + 0.5 * i as f64,
-        });
-        state.frames.push(Frame {
-            orientation: UnitQuaternion::identity(),
-            inertia: Inertia::from_moments(moments).unwrap(),
-        });
+        push_point(
+            &mut state,
+            Vector3::new(2.0 * i as f64, 0.3 * i as f64, 0.0),
+            1.0 + 0.5 * i as f64,
+        );
+        push_frame(&mut state, UnitQuaternion::identity(), moments);
     }
     let bonds = Bonds {
         pairs: BOND_ENDS
@@ -172,10 +170,7 @@ pub(crate) fn vibrating_tops(seed: u64) -> System {
 pub(crate) fn chain(n: usize, stiffness: f64, mass: f64) -> System {
     let mut state = State::default();
     for i in 0..n {
-        state.points.push(Point {
-            position: Vector3::new(i as f64, 0.0, 0.0),
-            mass,
-        });
+        push_point(&mut state, Vector3::new(i as f64, 0.0, 0.0), mass);
     }
     state.points.hold(0);
     state.points.hold(n - 1);
