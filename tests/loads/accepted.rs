@@ -2,7 +2,19 @@
 
 use crate::common::refusal;
 
-/// A rod of 100 nm with these clamps, loads and task is not refused.
+/// Asserts that a rod of 100 nm with these clamps, loads and task is not refused.
+fn assert_is_accepted(clamps: &str, loads: &str, task: &str) {
+    let text = format!(
+        "Scene(
+            filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 100.0)], rod: RodModel(law: Constant)),
+            clamps: [{clamps}],
+            loads: [{loads}],
+            task: {task},
+        )"
+    );
+    assert_eq!(refusal(&text), "", "{text}");
+}
+
 #[test]
 fn what_makes_sense_is_accepted() {
     let wall = "Clamp(end: Start)";
@@ -12,6 +24,8 @@ fn what_makes_sense_is_accepted() {
     let sine = format!("{force} Sine(period_ns: 1.0))");
     let ramp = format!("{force} Ramp(duration_ns: 6.0))");
     let bend = "Couple(end: End, couple_pn_nm: (1.0, 0.0, 0.0))";
+    let small = "Couple(end: End, couple_pn_nm: (0.0, 0.0, 1e-7))";
+    let lines = "ForcePerLength(force_pn_per_nm: (0.0, 1e-8, 0.0))";
     let pin = "Clamp(end: Start, hold: Pin)";
     let hinge = "Clamp(end: Start, hold: Pin, hinge: (bend_pn_nm_per_rad: 10.0, twist_pn_nm_per_rad: 10.0))";
     let slide = format!("{pin}, Clamp(end: End, hold: Pin, slides: AlongAxis)");
@@ -24,16 +38,8 @@ fn what_makes_sense_is_accepted() {
         // What has no potential, changes in time or is below a tolerance, in motion.
         (wall, follower, motion),
         (wall, &sine, motion),
-        (
-            wall,
-            "Couple(end: End, couple_pn_nm: (0.0, 0.0, 1e-7))",
-            motion,
-        ),
-        (
-            wall,
-            "ForcePerLength(force_pn_per_nm: (0.0, 1e-8, 0.0))",
-            motion,
-        ),
+        (wall, small, motion),
+        (wall, lines, motion),
         // Couples that a hinge, two pins or the other couple bears.
         (hinge, bend, statics),
         (&slide, bend, statics),
@@ -43,14 +49,6 @@ fn what_makes_sense_is_accepted() {
         (wall, &ramp, stop),
         (wall, &ramp, "Dynamics(duration_ns: 10.0, leave_saddles: 2)"),
     ] {
-        let text = format!(
-            "Scene(
-                filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 100.0)], rod: RodModel(law: Constant)),
-                clamps: [{clamps}],
-                loads: [{loads}],
-                task: {task},
-            )"
-        );
-        assert_eq!(refusal(&text), "", "{text}");
+        assert_is_accepted(clamps, loads, task);
     }
 }

@@ -291,7 +291,7 @@ fn a_run_killed_while_it_writes_results_loses_nothing() {
         let summary = place.path("a/summary.json").exists();
         assert!(place.path("a/checkpoint.bin").exists() || summary, "{name}");
         let output = place.resume("a");
-        println!("{name}: {}", output);
+        println!("{name}: {output}");
         let _ = fs::remove_file(place.path("a/records.bin"));
         place.write("a/.actin-run.lock", "");
         assert_same_files(&place.path("whole"), &place.path("a"));

@@ -173,7 +173,7 @@ fn a_rod_beyond_the_data_of_its_law_is_reported() {
         let output = place.run("a");
         let sign = if turn.starts_with('-') { "-" } else { "" };
         let line = format!("beyond the data of its law: twist {sign}0.0698 rad/nm at s = ");
-        println!("{turn}: {}", output);
+        println!("{turn}: {output}");
         assert_eq!(output.matches(&line).count(), usize::from(beyond));
         let summary = place.read("a/summary.json");
         assert_eq!(

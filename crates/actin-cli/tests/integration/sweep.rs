@@ -278,7 +278,7 @@ fn all_mistakes_of_a_sweep_are_told() {
         assert_eq!(told.len(), lines.len(), "{found}");
         for (told, line) in told.iter().zip(lines) {
             assert!(told.starts_with(&format!("sweep.ron:{line}")), "{told}");
-            assert_has(&told, &["^^^"]);
+            assert_has(told, &["^^^"]);
         }
     }
 }
@@ -358,7 +358,7 @@ fn other_directories_are_left_alone() {
     let place = place(SWEEP);
     let refused = |arguments: &[&str]| {
         let output = place.fail(2, &[&["sweep"], arguments].concat());
-        output.to_owned()
+        output.clone()
     };
     assert!(refused(&["sweep.ron", "--out", "."]).contains("is not empty and holds no sweep"));
     place.succeed(&["sweep", "sweep.ron", "--out", "a", "--only", "12"]);

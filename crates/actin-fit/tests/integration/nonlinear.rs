@@ -378,7 +378,7 @@ fn a_start_where_the_model_is_not_finite_is_reported() {
 }
 
 #[test]
-fn what_does_not_fit_together_is_refused() {
+fn bounds_and_options_out_of_order_are_refused() {
     let bounds = Bounds::new(&[(0.0, 1.0), (2.0, 1.0)]);
     let message = "bounds of parameter 1 must be in order, but are 2 and 1";
     assert_eq!(refused(bounds), message);
@@ -389,32 +389,31 @@ fn what_does_not_fit_together_is_refused() {
         ..Options::default()
     };
     assert!(LevenbergMarquardt::new(options).is_err());
+}
 
+#[test]
+fn what_does_not_fit_together_is_refused() {
     let half = Bounds::new(&[(0.0, 9.0), (0.0, f64::INFINITY)]).unwrap();
-    let one = Starts::at(&[1.0, 1.0]);
+    let [one, out, short] = [&[1.0, 1.0][..], &[1.0, -1.0], &[1.0]].map(Starts::at);
+    let [some, none] = [3, 0].map(|count| Starts::drawn(count, 1));
     for (points, bounds, starts, message) in [
         (
             15,
             &half,
-            Starts::at(&[1.0, -1.0]),
+            out,
             "start 0 must lie within bounds, but its parameter 1 is -1",
         ),
+        (15, &half, short, " must have length 2, but has 1"),
         (
             15,
             &half,
-            Starts::at(&[1.0]),
-            " must have length 2, but has 1",
+            some,
+            "finite bounds, but those of parameter 1 are 0 and inf",
         ),
         (
             15,
             &half,
-            Starts::drawn(3, 1),
-            "starts are drawn within finite bounds, but those of parameter 1 are 0 and inf",
-        ),
-        (
-            15,
-            &half,
-            Starts::drawn(0, 1),
+            none,
             "a nonlinear fit needs a start, but none was given",
         ),
         (

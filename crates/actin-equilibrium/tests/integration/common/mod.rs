@@ -26,7 +26,7 @@ pub(crate) fn filament(n: usize, bonds: usize, seed: u64) -> (State, Bonds) {
 }
 
 /// Springs: two points, stiffness and rest length of each.
-pub(crate) fn springs(state: &State, all: Vec<(usize, usize, f64, f64)>) -> Box<Springs> {
+pub(crate) fn springs(state: &State, all: Vec<(usize, usize, f64, f64)>) -> Box<dyn Interaction> {
     let spring = |(a, b, stiffness, rest_length)| Spring {
         points: [a, b],
         stiffness,
