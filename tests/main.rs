@@ -1,6 +1,7 @@
 //! Tests across crates: scenes against theory, other methods and their own files.
 
 mod checkpoints;
+mod common;
 mod dynamics;
 mod equilibria;
 mod follow;

@@ -4,6 +4,9 @@ use actin_sim::{
     Assembly, CheckpointError, Checkpoints, Outcome, Plan, Record, Recorded, RunDirectory,
     RunPosition, Scene, Sink, Trajectory,
 };
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 use std::time::Duration;
@@ -224,4 +227,23 @@ pub(crate) fn advance(
     let outcome = outcome.unwrap();
     let trajectory = Trajectory::read(&checkpoints).unwrap();
     (assembly, trajectory, outcome)
+}
+
+/// Files of a run and of its pictures by name, the summary without the time that the run took.
+pub(crate) fn files(run: &Path) -> BTreeMap<String, Vec<u8>> {
+    let folders = [run.to_owned(), run.join("vtk")];
+    let there = folders.iter().filter(|folder| folder.exists());
+    let entries = there.flat_map(|folder| fs::read_dir(folder).unwrap());
+    let paths = entries.map(|entry| entry.unwrap().path());
+    let named = paths.filter(|path| path.is_file()).map(|path| {
+        let name = path.file_name().unwrap().to_str().unwrap().to_owned();
+        let mut bytes = fs::read(&path).unwrap();
+        if name == "summary.json" {
+            let text = String::from_utf8(bytes).unwrap();
+            let lines = text.lines().filter(|line| !line.contains("\"wall_s\""));
+            bytes = lines.collect::<String>().into_bytes();
+        }
+        (name, bytes)
+    });
+    named.collect()
 }

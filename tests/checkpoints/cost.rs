@@ -1,11 +1,10 @@
-//! What checks and checkpoints cost in time. Nothing is asserted. The table of checks in
+//! What checks cost in time. Nothing is asserted. The table of checks in
 //! `docs/measured/motion.md` is what `cost_of_checks` prints.
 
-use super::common::{build, checkpoints};
-use actin_integrate::{DEFAULT_CHECK_EVERY, Moment, Observer, Pause, Run, advance, stable_step};
+use super::common::build;
+use actin_integrate::{DEFAULT_CHECK_EVERY, Run, advance, stable_step};
 use actin_mechanics::System;
-use actin_sim::{MotionPosition, Plan, Recorded, RunDirectory, RunPosition, Scene, Sink};
-use std::ops::ControlFlow;
+use actin_sim::Scene;
 use std::time::Instant;
 
 /// Filaments by name.
@@ -85,51 +84,5 @@ fn cost_of_checks() {
             1e6 * often,
             100.0 * (often - step) / (step * DEFAULT_CHECK_EVERY as f64)
         );
-    }
-}
-
-/// Keeps the first pause of a run.
-struct First(Option<RunPosition>);
-
-impl Observer for First {
-    fn observe(&mut self, _: &mut Moment<'_>) -> ControlFlow<()> {
-        ControlFlow::Continue(())
-    }
-
-    fn pause(&mut self, pause: &Pause<'_>) -> ControlFlow<()> {
-        self.0 = Some(RunPosition::Motion(Box::new(MotionPosition {
-            checkpoint: pause.checkpoint(),
-            pushes: Vec::new(),
-            events: Vec::new(),
-            behind_switch: None,
-        })));
-        ControlFlow::Break(())
-    }
-}
-
-/// Bytes and time of a checkpoint, with nothing new to record.
-#[test]
-#[ignore = "prints times; run by hand with --ignored --nocapture"]
-fn cost_of_checkpoints() {
-    println!("| filament | bytes | time, ms |");
-    println!("|---|---|---|");
-    for (name, section) in FILAMENTS {
-        let folder = tempfile::tempdir().unwrap();
-        let directory = RunDirectory::create(folder.path().join("run"), false).unwrap();
-        let assembly = build(&scene(section));
-        let plan = Plan::new(&assembly).unwrap();
-        let mut files = checkpoints(&directory, &plan);
-        let run = Run::new(&actin_integrate::POSITION_VERLET, 1e-3, 1000).unwrap();
-        let mut first = First(None);
-        let outcome = run.execute(
-            &mut assembly.system.in_state(assembly.rest.clone()),
-            &mut [&mut first],
-        );
-        assert!(outcome.is_ok());
-        let position = first.0.unwrap();
-        let none = Recorded::of(&plan, []);
-        let time = least(|| files.checkpoint(&position, &none, 0.0));
-        let bytes = std::fs::metadata(directory.path().join("checkpoint.bin")).unwrap();
-        println!("| {name} | {} | {:.2} |", bytes.len(), 1e3 * time);
     }
 }

@@ -1,9 +1,8 @@
 //! Runs that observe and keep no states: interrupted anywhere, they leave the bytes of a run that was not; and
 //! their files are those of a run that keeps states.
 
-use super::common::{Leaving, build, checkpoints};
+use super::common::{Leaving, build, checkpoints, files};
 use actin_sim::{Plan, Records, RunDirectory, Scene, Status};
-use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 
@@ -83,24 +82,6 @@ fn run(scene: &Scene, path: &Path, leave: &[u64]) -> (u64, usize) {
             return (size, files.count());
         }
     }
-}
-
-/// Files by name, the summary without the time that the run took.
-fn files(path: &Path) -> BTreeMap<String, Vec<u8>> {
-    let entries = fs::read_dir(path).unwrap().map(|entry| entry.unwrap());
-    let files = entries.filter(|entry| entry.path().is_file());
-    let named = files.map(|entry| {
-        let name = entry.file_name().into_string().unwrap();
-        let bytes = fs::read(entry.path()).unwrap();
-        let text = String::from_utf8_lossy(&bytes).into_owned();
-        let lines = text.lines().filter(|line| !line.contains("\"wall_s\""));
-        let kept = match name.as_str() {
-            "summary.json" => lines.collect::<String>().into_bytes(),
-            _ => bytes.clone(),
-        };
-        (name, kept)
-    });
-    named.collect()
 }
 
 #[test]

@@ -1,10 +1,8 @@
 //! A run that was left and taken up again gives what a run gives that was not.
 
-use super::common::{Choice, IN_TIME, advance};
+use super::common::{Choice, IN_TIME, advance, files};
 use actin_sim::{Outcome, Plan, Record, RunDirectory, Scene, Status, Trajectory};
 use proptest::prelude::*;
-use std::fs;
-use std::path::Path;
 
 /// A report without the time that it took, which is the one thing that differs.
 fn timeless(report: &Outcome) -> String {
@@ -37,22 +35,6 @@ fn assert_same(one: &Trajectory, other: &Trajectory) {
         assert_eq!(bits(a), bits(b), "record {i}");
         assert_eq!(a.state, b.state, "record {i}");
     }
-}
-
-/// Every file but the summary, whose time differs.
-fn files(folder: &Path) -> Vec<(String, Vec<u8>)> {
-    let mut files = Vec::new();
-    for folder in [folder.to_owned(), folder.join("vtk")] {
-        for entry in fs::read_dir(folder).unwrap() {
-            let path = entry.unwrap().path();
-            let name = path.file_name().unwrap().to_str().unwrap().to_owned();
-            if path.is_file() && name != "summary.json" {
-                files.push((name, fs::read(&path).unwrap()));
-            }
-        }
-    }
-    files.sort();
-    files
 }
 
 /// Runs a scene in one piece and in pieces, and compares what they leave.

@@ -1,13 +1,13 @@
 //! Overdamped motion of scenes: where it comes to rest, how fast, and its noise.
 
 use super::contact::pushed_across;
+use crate::common::{build, ran, run_anyway};
 use actin_sim::mechanics::Vector3;
-use actin_sim::{Assembly, End, Plan, Record, Scene};
+use actin_sim::{Assembly, End, Plan, Record};
 
 /// The records of a scene.
 fn run(text: &str) -> (Assembly, Vec<Record>) {
-    let assembly = Assembly::build(&Scene::from_ron(text).unwrap()).unwrap();
-    let (trajectory, _) = Plan::new(&assembly).unwrap().run().unwrap();
+    let (assembly, trajectory, _) = ran(text);
     (assembly, trajectory.records)
 }
 
@@ -94,28 +94,6 @@ fn free_filaments_follow_a_flow() {
     }
 }
 
-/// What `Brownian` cannot do is refused with its key.
-#[test]
-fn what_has_no_sense_is_refused() {
-    let refused = |text: &str| Scene::from_ron(text).unwrap_err().to_string();
-    let rod = SECTIONS[0];
-    let hot = refused(&cantilever(
-        rod,
-        "Brownian(duration_ms: 1.0, temperature_k: -1.0)",
-    ));
-    assert!(hot.contains("task.temperature_k"), "{hot}");
-    let thick = "Brownian(duration_ms: 1.0, temperature_k: 0.0, drag: Water(radius_nm: 16.0))";
-    let thick = refused(&cantilever(rod, thick));
-    assert!(thick.contains("task.drag.radius_nm"), "{thick}");
-    let follower = cantilever(rod, "Brownian(duration_ms: 1.0, temperature_k: 0.0)");
-    let follower = refused(&follower.replace("EndForce(end", "Force(follows: true, end"));
-    assert!(follower.contains("loads[0].follows"), "{follower}");
-    let shear = "Shear(rate_per_s: 1.0, along: (1.0, 0.0, 0.0), across: (1.0, 0.0, 1.0))";
-    let oblique = format!("Brownian(duration_ms: 1.0, temperature_k: 0.0, flow: {shear})");
-    let oblique = refused(&cantilever(rod, &oblique));
-    assert!(oblique.contains("task.flow.across"), "{oblique}");
-}
-
 /// The default step of a rod of six segments of 20 nm.
 fn default_step(rest: &str, task: &str) -> f64 {
     let text = format!(
@@ -125,13 +103,9 @@ fn default_step(rest: &str, task: &str) -> f64 {
             task: Brownian(duration_ms: 1.0, temperature_k: 298.0{task}),
         )"
     );
-    let scene = Scene::from_ron(&text).unwrap_or_else(|error| panic!("{error}"));
-    let assembly = Assembly::build(&scene).unwrap();
-    Plan::new(&assembly)
-        .unwrap()
-        .estimate()
-        .unwrap()
-        .time_step_ns
+    let assembly = build(&text);
+    let plan = Plan::new(&assembly).unwrap();
+    plan.estimate().unwrap().time_step_ns
 }
 
 /// The default step of rods is that in which drag bends a segment, `3.0 x 20^4 / 4e4` = 12 ns, unless something changes faster or
@@ -167,8 +141,7 @@ fn athermal_tips(scene: &str, duration_ns: f64, step: &str) -> (f64, Vec<Vector3
         1e-6 * duration_ns,
         0.1 * duration_ns
     );
-    let text = format!("Scene({scene}{task})");
-    let assembly = Assembly::build(&Scene::from_ron(&text).unwrap()).unwrap();
+    let assembly = build(&format!("Scene({scene}{task})"));
     let plan = Plan::new(&assembly).unwrap();
     let records = plan.run().unwrap().0.records;
     let tips = records.iter().map(|r| assembly.tip_nm(&r.state, End::End));
@@ -222,12 +195,9 @@ fn default_steps_without_heat_resolve_the_tip() {
 fn long_steps_are_told() {
     let notes = |sections: &str, temperature: f64, step: &str| {
         let task = format!("Brownian(duration_ms: 1e-5, temperature_k: {temperature:?}{step})");
-        let assembly = Assembly::build(&Scene::from_ron(&cantilever(sections, &task)).unwrap());
-        let notes = Plan::new(&assembly.unwrap()).unwrap().notes();
-        notes
-            .into_iter()
-            .map(|note| note.message)
-            .collect::<Vec<_>>()
+        let assembly = build(&cantilever(sections, &task));
+        let notes = Plan::new(&assembly).unwrap().notes().into_iter();
+        notes.map(|note| note.message).collect::<Vec<_>>()
     };
     let told = |notes: &[String]| {
         notes
@@ -284,9 +254,7 @@ fn rods_have_their_energy_in_long_steps() {
 #[test]
 fn what_passes_through_a_filament_fails() {
     let task = "Brownian(duration_ms: 1e-5, temperature_k: 0.0, time_step_ns: 0.2)";
-    let text = pushed_across("1.0", task);
-    let assembly = Assembly::build(&Scene::from_ron(&text).unwrap()).unwrap();
-    let result = Plan::new(&assembly).unwrap().run().map(drop);
-    let failure = result.unwrap_err().to_string();
+    let (_, outcome) = run_anyway(&mut build(&pushed_across("1.0", task)));
+    let failure = outcome.unwrap_err().to_string();
     assert!(failure.contains("pass through each other"), "{failure}");
 }

@@ -1,9 +1,10 @@
 //! Filaments that fly into each other and into walls: order, energy, momenta, time step.
 
 use super::record::scientific;
+use crate::common::{apart, build, ran, run_anyway};
 use actin_integrate::{Drag, PEFRL, POSITION_VERLET, advance};
-use actin_mechanics::{State, System, Vector3};
-use actin_sim::{Assembly, Plan, Scene, Trajectory};
+use actin_mechanics::{System, Vector3};
+use actin_sim::Plan;
 
 const TASK: &str = "task: Dynamics(duration_ns: 1.0)";
 
@@ -20,7 +21,7 @@ fn colliding() -> System {
             {TASK},
         )"
     );
-    let assembly = Assembly::build(&Scene::from_ron(&text).unwrap()).unwrap();
+    let assembly = build(&text);
     let points = assembly.filaments[1].points.clone();
     let mut system = assembly.system;
     let state = system.state_mut();
@@ -38,12 +39,6 @@ fn after(scheme: &actin_integrate::Composition, steps: u32) -> System {
     let h = TIME / f64::from(steps);
     advance(&mut system, scheme, h, steps.into(), &Drag::NONE);
     system
-}
-
-fn distance(a: &State, b: &State) -> f64 {
-    let (a, b) = (&a.points.position, &b.points.position);
-    let apart = a.iter().zip(b.iter()).map(|(a, b)| (a - b).norm());
-    apart.fold(0.0, f64::max)
 }
 
 /// Methods keep their order through a hit: a kernel with a jump in its third derivative, or a list of neighbours that
@@ -68,8 +63,7 @@ fn methods_keep_their_order_through_a_hit() {
         "{half} pN nm half way"
     );
     for (scheme, steps, bound) in [(&POSITION_VERLET, 400, 0.1), (&PEFRL, 100, 0.15)] {
-        let errors =
-            [1, 2, 4].map(|n| distance(after(scheme, n * steps).state(), reference.state()));
+        let errors = [1, 2, 4].map(|n| apart(after(scheme, n * steps).state(), reference.state()));
         let orders = [errors[0] / errors[1], errors[1] / errors[2]].map(f64::log2);
         println!(
             "{}: errors {}, orders {orders:.3?}",
@@ -112,7 +106,7 @@ fn the_time_step_knows_contact_before_it_happens() {
     ] {
         for stiffness in [1e3, 1e5] {
             let build = |x: f64| {
-                let text = format!(
+                build(&format!(
                     "Scene(
                         filaments: [
                             Filament(sections: [{section}], rod: RodModel(law: Constant)),
@@ -122,8 +116,7 @@ fn the_time_step_knows_contact_before_it_happens() {
                         repulsion: Repulsion(stiffness_pn_per_nm: {stiffness:?}),
                         {TASK},
                     )"
-                );
-                Assembly::build(&Scene::from_ron(&text).unwrap()).unwrap()
+                ))
             };
             let (apart, pressed) = (build(20.0), build(4.6));
             let plan = Plan::new(&apart).unwrap();
@@ -166,10 +159,7 @@ pub(crate) fn pushed_across(stiffness: &str, task: &str) -> String {
 fn passing_through_between_records_fails() {
     let run = |stiffness: &str| {
         let task = "Dynamics(duration_ns: 0.2, record_every_ns: 0.2)";
-        let scene = Scene::from_ron(&pushed_across(stiffness, task)).unwrap();
-        let assembly = Assembly::build(&scene).unwrap();
-        let mut trajectory = Trajectory::default();
-        let result = Plan::new(&assembly).unwrap().run_into(&mut trajectory);
+        let (trajectory, result) = run_anyway(&mut build(&pushed_across(stiffness, task)));
         (trajectory.records.len(), result)
     };
     let (records, result) = run("1.0");
@@ -196,7 +186,6 @@ fn a_motion_that_begins_late_goes_on() {
         loads: [Force(end: End, force_pn: (0.0, 0.0, 5.0), factor: Ramp(begin_ns: 0.21, duration_ns: 0.1))],
         task: Dynamics(duration_ns: 0.8, record_every_ns: 0.8),
     )";
-    let assembly = Assembly::build(&Scene::from_ron(text).unwrap()).unwrap();
-    let (trajectory, _) = Plan::new(&assembly).unwrap().run().unwrap();
+    let (_, trajectory, _) = ran(text);
     assert!(trajectory.records[1].kinetic_pn_nm > 1e-4);
 }

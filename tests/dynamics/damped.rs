@@ -2,19 +2,12 @@
 //! rest as theory says.
 
 use super::modes::Modes;
+use crate::common::ran;
 use actin_mechanics::{State, Vector3, rotation};
-use actin_sim::{Assembly, End, Scene, Trajectory};
+use actin_sim::End;
 
 /// Drag rates (1/ns); the default step of a rod is 0.003 ns.
 const RATES: [f64; 6] = [0.0, 1.0, 10.0, 100.0, 1e3, 1e4];
-
-/// Builds and runs a scene.
-fn run(text: &str) -> (Assembly, Trajectory) {
-    let scene = Scene::from_ron(text).unwrap();
-    let assembly = Assembly::build(&scene).unwrap();
-    let (trajectory, _) = actin_sim::Plan::new(&assembly).unwrap().run().unwrap();
-    (assembly, trajectory)
-}
 
 fn drag(translational: f64, rotational: f64) -> String {
     format!("drag: (translational_per_ns: {translational:?}, rotational_per_ns: {rotational:?}),")
@@ -44,7 +37,7 @@ fn a_cantilever_creeps_as_its_modes_do() {
     let (segments, force) = (4, 1e-3);
     for integrator in ["Pefrl", "PositionVerlet"] {
         for rate in RATES {
-            let (assembly, trajectory) = run(&format!(
+            let (assembly, trajectory, _) = ran(&format!(
                 "Scene(
                     filament: Filament(sections: [
                         Rod(from_nm: 0.0, to_nm: 40.0, segments: {segments}),
@@ -125,7 +118,7 @@ fn a_free_filament_turns_as_the_couple_says() {
             // Until the slowest bending, of some 30 rad/ns, has relaxed; turns stay small.
             let duration = (0.04f64 * translational).max(4.0);
             let force = 1e-6 * translational / duration;
-            let (assembly, trajectory) = run(&format!(
+            let (assembly, trajectory, _) = ran(&format!(
                 "Scene(
                     filament: Filament(
                         sections: [{sections}],
@@ -161,7 +154,7 @@ fn a_free_filament_turns_as_the_couple_says() {
 
 /// Places of the tip every half nanosecond, half monomers, half rod, released under 2 pN.
 fn let_go(integrator: &str, share: f64, rate: f64) -> Vec<Vector3> {
-    let (assembly, trajectory) = run(&format!(
+    let (assembly, trajectory, _) = ran(&format!(
         "Scene(
             filament: Filament(sections: [
                 Ellipsoids(from_nm: 0.0, to_nm: 80.0),

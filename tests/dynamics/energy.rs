@@ -37,38 +37,27 @@ fn heated(filament: Filament, level: f64, share: f64) -> EnergyRecord {
 /// stability limit: the rod at room temperature, filaments with monomers at a hundredth of it
 /// (a tenth of the amplitude). Loads that are not the gradient of the energy pump it: the printed
 /// balance, at the same start, moves the mean of the mixed filament by twice the fluctuation.
-#[test]
-fn energy_is_bounded_without_a_trend_at_half_the_limit() {
-    for (filament, level) in [
-        (ROD, 1.0),
-        (ELLIPSOIDS, 0.01),
-        (MIXED, 0.01),
-        (ROD_AT_BOTH_ENDS, 0.01),
-    ] {
-        let record = heated(filament, level, 0.5);
-        let (early, wander, trend) = (record.early(), record.wander(), record.trend());
-        // The energy of the fastest modes comes and goes.
-        assert!(
-            wander < 1.5 * early,
-            "{}: {early:e} became {wander:e}",
-            filament.0
-        );
-        assert!(trend.abs() < 0.1 * early, "{}: {trend:e}", filament.0);
-        // (omega h)^4 of the fastest modes, as far as they take part: measured 3e-4 to 6e-3.
-        assert!(wander < 1e-2, "{}: {wander:e}", filament.0);
-    }
-}
-
+///
 /// Nor does it go anywhere nearer to the limit, while amplitudes are small enough for the limit to
 /// mean what it says: that of the rod hardly depends on its strains, that of monomers does. At a
 /// hundredth of room temperature and 0.9 of the limit they gain energy or explode, as is printed.
 #[test]
 fn energy_is_bounded_without_a_trend_up_to_the_limit() {
-    for (filament, level, share) in [(ROD, 1.0, 0.9), (ELLIPSOIDS, 1e-4, 0.8), (MIXED, 1e-4, 0.8)] {
+    // (omega h)^4 of the fastest modes, as far as they take part: measured 3e-4 to 6e-3 at half the limit.
+    for (filament, level, share, most) in [
+        (ROD, 1.0, 0.5, 1e-2),
+        (ELLIPSOIDS, 0.01, 0.5, 1e-2),
+        (MIXED, 0.01, 0.5, 1e-2),
+        (ROD_AT_BOTH_ENDS, 0.01, 0.5, 1e-2),
+        (ROD, 1.0, 0.9, f64::INFINITY),
+        (ELLIPSOIDS, 1e-4, 0.8, f64::INFINITY),
+        (MIXED, 1e-4, 0.8, f64::INFINITY),
+    ] {
         let record = heated(filament, level, share);
         let (early, wander, trend) = (record.early(), record.wander(), record.trend());
+        // The energy of the fastest modes comes and goes.
         assert!(
-            wander < 1.5 * early,
+            wander < 1.5 * early && wander < most,
             "{}: {early:e} became {wander:e}",
             filament.0
         );

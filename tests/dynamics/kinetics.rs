@@ -1,6 +1,7 @@
 //! Linkers that break, form and step while filaments move: the ledger of energies, and what they do to a filament.
 
-use actin_sim::{Assembly, Happening, Plan, Scene};
+use crate::common::ran;
+use actin_sim::{Assembly, Happening};
 
 /// A rod, free and without drag, under linkers with rates; and what happened to these.
 fn moved(linkers: &str, task: &str) -> (Assembly, Vec<f64>, Vec<f64>, Vec<actin_sim::LinkerEvent>) {
@@ -11,9 +12,7 @@ fn moved(linkers: &str, task: &str) -> (Assembly, Vec<f64>, Vec<f64>, Vec<actin_
             task: Dynamics({task}),
         )"
     );
-    let assembly =
-        Assembly::build(&Scene::from_ron(&text).unwrap_or_else(|e| panic!("{e}"))).unwrap();
-    let (trajectory, outcome) = Plan::new(&assembly).unwrap().run().unwrap();
+    let (assembly, trajectory, outcome) = ran(&text);
     let booked = |r: &actin_sim::Record| assembly.booked(&r.state).events_pn_nm;
     let total = |r: &actin_sim::Record| r.potential_pn_nm() + r.kinetic_pn_nm;
     let totals = trajectory.records.iter().map(total).collect();
@@ -73,8 +72,7 @@ fn a_motor_pulls_until_it_stalls() {
         task: Dynamics(duration_ns: 20.0, record_every_ns: 0.5,
             drag: (translational_per_ns: 5.0, rotational_per_ns: 5.0)),
     )";
-    let assembly = Assembly::build(&Scene::from_ron(text).unwrap()).unwrap();
-    let (trajectory, outcome) = Plan::new(&assembly).unwrap().run().unwrap();
+    let (assembly, trajectory, outcome) = ran(text);
     let last = &trajectory.records.last().unwrap().state;
     let (bound, at_nm) = assembly.switched(0, last).unwrap();
     let force = 0.5 * (at_nm - 30.0);

@@ -1,8 +1,9 @@
 //! What runs in a heat bath observe, against statistical mechanics, within the errors that they tell.
 
+use crate::common::build;
 use actin_sim::statistics::BlockAverages;
 use actin_sim::{
-    Assembly, BOLTZMANN_PN_NM_PER_K, MeanSummary, Plan, Record, RunDirectory, Scene, Summary,
+    Assembly, BOLTZMANN_PN_NM_PER_K, MeanSummary, Plan, Record, RunDirectory, Summary,
 };
 
 /// Standard errors by which a mean may be off; seeds are fixed.
@@ -12,7 +13,7 @@ const ERRORS: f64 = 4.5;
 fn run(text: &str) -> (Assembly, Vec<Record>, Summary) {
     let folder = tempfile::tempdir().unwrap();
     let directory = RunDirectory::create(folder.path(), false).unwrap();
-    let assembly = Assembly::build(&Scene::from_ron(text).unwrap()).unwrap();
+    let assembly = build(text);
     let plan = Plan::new(&assembly).unwrap();
     let (trajectory, outcome) = plan.run().unwrap();
     let summary = directory.write(&plan, &trajectory, &outcome).unwrap();
@@ -203,7 +204,7 @@ fn a_persistence_length_is_that_of_heat_alone() {
 fn means_of_one_record_are_noted() {
     let notes = |task: &str, scene: &str| {
         let text = heated(")])", scene, task);
-        let assembly = Assembly::build(&Scene::from_ron(&text).unwrap()).unwrap();
+        let assembly = build(&text);
         let notes = Plan::new(&assembly).unwrap().notes();
         notes
             .into_iter()

@@ -114,23 +114,3 @@ fn neighbouring_sections_are_one_chain() {
     // Thermal motion forgets where it began: stiffness differs by what 400 ns tell of it.
     assert!((two / one - 1.0).abs() < 0.02, "{one}, {two}");
 }
-
-#[test]
-fn what_cannot_be_sampled_is_refused() {
-    let refused = |task: &str| {
-        let text = format!(
-            "Scene(filament: Filament(sections: [Ellipsoids(from_nm: 0.0, to_nm: 25.0)]), task: {task})"
-        );
-        let built = Scene::from_ron(&text).map_err(|error| error.to_string());
-        built.and_then(|scene| Assembly::build(&scene).map_err(|error| error.to_string()))
-    };
-    let cold = "Brownian(duration_ms: 1.0, temperature_k: 0.0, interfaces: QuasiHarmonic())";
-    let cold = refused(cold).unwrap_err();
-    assert!(cold.contains("task.interfaces"), "{cold}");
-    let short = "Brownian(duration_ms: 1.0, temperature_k: 298.0, interfaces: QuasiHarmonic(sampled_ns: 0.1))";
-    let short = refused(short).unwrap_err();
-    assert!(short.contains("task.interfaces.sampled_ns"), "{short}");
-    let none = "Brownian(duration_ms: 1.0, temperature_k: 298.0, interfaces: QuasiHarmonic(sampled_ns: 0.0))";
-    let none = refused(none).unwrap_err();
-    assert!(none.contains("task.interfaces.sampled_ns"), "{none}");
-}

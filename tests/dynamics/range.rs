@@ -1,7 +1,8 @@
 //! Fluctuations in a heat bath that leave the data of the rods' laws: summed up, not listed.
 
+use crate::common::build;
 use actin_cosserat::BendingElement;
-use actin_sim::{Assembly, BeyondRange, Scene};
+use actin_sim::{Assembly, BeyondRange};
 
 /// Length of the segments of the first filament (nm). At this length twist fluctuates by 0.02
 /// rad/nm and curvature by 0.01, where the data reach 0.0472 and 0.015.
@@ -26,7 +27,7 @@ const SCENE: &str = "Scene(
 /// largest value, all as counted here element by element.
 #[test]
 fn fluctuations_beyond_the_data_are_summed_up() {
-    let assembly = Assembly::build(&Scene::from_ron(SCENE).unwrap()).unwrap();
+    let assembly = build(SCENE);
     let (trajectory, _) = actin_sim::Plan::new(&assembly).unwrap().run().unwrap();
     let records = &trajectory.records;
     let states = || records.iter().map(|record| &record.state);
@@ -91,7 +92,7 @@ fn counted<'a>(
 #[test]
 fn without_heat_each_section_is_listed() {
     let text = SCENE.replace("thermal: (temperature_k: 298.0, seed: 7),", "");
-    let assembly = Assembly::build(&Scene::from_ron(&text).unwrap()).unwrap();
+    let assembly = build(&text);
     let mut bent = [assembly.rest.clone(), assembly.rest.clone()];
     for (state, angle) in bent.iter_mut().zip([0.12, 0.15]) {
         for (frame, arm) in [(1, 1.0), (assembly.frames.len() - 1, 20.0)] {

@@ -1,6 +1,7 @@
 //! Where motions come to rest: certificates, saddles, and two ways off a saddle.
 
-use actin_sim::{Assembly, End, Failure, Outcome, Plan, RunError, Scene, Status, Trajectory};
+use crate::common::{build, failure, run, run_anyway};
+use actin_sim::{End, Failure, Outcome, RunError, Status, Trajectory};
 
 /// A rod of 200 nm between two walls, pushed together by 60 nm within 5 ns.
 fn pushed(filament: &str, task: &str) -> String {
@@ -29,25 +30,12 @@ fn damped(keys: &str) -> String {
 const STOP: &str = "stop: (force_pn: 1e-6, torque_pn_nm: 1e-6, kinetic_pn_nm: 1e-10),";
 
 fn moved(text: &str) -> Result<(Trajectory, Outcome), RunError> {
-    let (trajectory, outcome) = moved_anyway(text);
-    outcome.map(|outcome| (trajectory, outcome))
+    run(&mut build(text))
 }
 
 /// The same, with what was recorded whether it fails or not.
 fn moved_anyway(text: &str) -> (Trajectory, Result<Outcome, RunError>) {
-    let scene = Scene::from_ron(text).unwrap_or_else(|error| panic!("{error}\n{text}"));
-    let assembly = Assembly::build(&scene).unwrap();
-    let mut trajectory = Trajectory::default();
-    let outcome = Plan::new(&assembly).unwrap().run_into(&mut trajectory);
-    (trajectory, outcome)
-}
-
-/// What went wrong, and what is known up to there.
-fn failure(outcome: Result<Outcome, RunError>) -> (Failure, Outcome) {
-    match outcome {
-        Err(RunError::Failed(failed)) => (failed.failure, failed.outcome),
-        other => panic!("{other:?}"),
-    }
+    run_anyway(&mut build(text))
 }
 
 fn energy(trajectory: &Trajectory) -> f64 {
@@ -169,58 +157,46 @@ fn a_free_filament_is_neutral() {
     assert_eq!(moved(&pulled).unwrap().1.at_rest, None);
 }
 
-/// Twist that slips ends the run, with the last good state: two turns and a half in a few ps, faster
-/// than they spread over six segments.
+/// Twist that slips ends the run, with the last good state: two turns and a half in a few ps, faster than they spread
+/// over the segments. So does that of an arc, whose end is turned about lab z and tilts with that. Slowly enough, the
+/// same turn arrives.
 #[test]
 fn twist_that_slips_is_an_error() {
-    let text = "Scene(
-        filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 60.0, segments: 6)], rod: RodModel(law: Constant)),
-        clamps: [Clamp(end: Start), Clamp(end: End, slides: AlongAxis)],
-        path: [Stage(set: [Turn(end: End, turn_deg: (0.0, 0.0, 900.0))], duration_ns: 0.02)],
-        task: Dynamics(
-            duration_ns: 2.0, record_every_ns: 0.002,
-            drag: (translational_per_ns: 5.0, rotational_per_ns: 5.0),
-        ),
-    )";
-    let (trajectory, ended) = moved_anyway(text);
-    let (Failure::TwistLost { place, slip }, report) = failure(ended) else {
-        panic!("nothing slipped");
-    };
-    println!("{place}{slip}");
-    assert!((slip.lost_turns().abs() - 1.0).abs() < 1e-12 && slip.joint_deg.abs() > 90.0);
-    assert_eq!(report.status, Status::Failed);
-    let last = trajectory.records.last().unwrap();
-    assert!(last.at.value() < slip.at.value());
-    // Slowly enough, the same turn arrives.
-    let slowly = text.replace("duration_ns: 0.02", "duration_ns: 1.5");
-    let (trajectory, _) = moved(&slowly).unwrap();
-    assert!((trajectory.records.last().unwrap().at.value() - 2.0).abs() < 1e-12);
-}
-
-/// The same of an arc, whose end is turned about lab z and tilts with that: turned fast it slips, slowly it does not.
-#[test]
-fn twist_that_slips_in_an_arc_is_an_error() {
-    let text = "Scene(
-        filament: Filament(
-            sections: [Rod(from_nm: 0.0, to_nm: 100.0)], shape: Arc(radius_nm: 100.0),
-            rod: RodModel(law: Constant),
-        ),
-        clamps: [Clamp(end: Start), Clamp(end: End)],
-        path: [Stage(set: [Turn(end: End, turn_deg: (0.0, 0.0, 900.0))], duration_ns: 0.05)],
-        task: Dynamics(
-            duration_ns: 6.0, record_every_ns: 0.005,
-            drag: (translational_per_ns: 5.0, rotational_per_ns: 5.0),
-        ),
-    )";
-    let (_, ended) = moved_anyway(text);
-    let (Failure::TwistLost { place, slip }, _) = failure(ended) else {
-        panic!("nothing slipped");
-    };
-    println!("{place}{slip}");
-    assert!((slip.lost_turns().abs() - 1.0).abs() < 1e-12);
-    let slowly = text.replace("duration_ns: 0.05", "duration_ns: 5.0");
-    let (trajectory, _) = moved(&slowly).unwrap();
-    assert!((trajectory.records.last().unwrap().at.value() - 6.0).abs() < 1e-12);
+    let straight = ("Rod(from_nm: 0.0, to_nm: 60.0, segments: 6)", "");
+    let arc = (
+        "Rod(from_nm: 0.0, to_nm: 100.0)",
+        "shape: Arc(radius_nm: 100.0),",
+    );
+    for ((section, shape), slides, fast, slow, end) in [
+        (straight, ", slides: AlongAxis", 0.02, 1.5, 2.0),
+        (arc, "", 0.05, 5.0, 6.0),
+    ] {
+        let turned = |duration: f64| {
+            moved_anyway(&format!(
+                "Scene(
+                    filament: Filament(sections: [{section}], {shape} rod: RodModel(law: Constant)),
+                    clamps: [Clamp(end: Start), Clamp(end: End{slides})],
+                    path: [Stage(set: [Turn(end: End, turn_deg: (0.0, 0.0, 900.0))], duration_ns: {duration:?})],
+                    task: Dynamics(
+                        duration_ns: {end:?}, record_every_ns: {:?},
+                        drag: (translational_per_ns: 5.0, rotational_per_ns: 5.0),
+                    ),
+                )",
+                0.1 * fast
+            ))
+        };
+        let (trajectory, ended) = turned(fast);
+        let (Failure::TwistLost { place, slip }, report) = failure(ended) else {
+            panic!("nothing slipped in {section} {shape}");
+        };
+        println!("{place}{slip}");
+        assert!((slip.lost_turns().abs() - 1.0).abs() < 1e-12 && slip.joint_deg.abs() > 90.0);
+        assert_eq!(report.status, Status::Failed);
+        assert!(trajectory.records.last().unwrap().at.value() < slip.at.value());
+        let (trajectory, ended) = turned(slow);
+        ended.unwrap();
+        assert!((trajectory.records.last().unwrap().at.value() - end).abs() < 1e-12);
+    }
 }
 
 /// A rod with a hinge at its start.

@@ -1,8 +1,9 @@
 //! Time steps: what a junction costs, and how they grow with segments.
 
 use super::invariants::step;
+use crate::common::build;
 use actin_integrate::PEFRL;
-use actin_sim::{Assembly, Plan, Scene};
+use actin_sim::Plan;
 
 /// The stability limit (ns) of a filament on a wall.
 fn limit(sections: &str, rotary_inertia: &str) -> f64 {
@@ -16,8 +17,7 @@ fn limit(sections: &str, rotary_inertia: &str) -> f64 {
             task: Dynamics(duration_ns: 1.0),
         )"
     );
-    let scene = Scene::from_ron(&text).unwrap();
-    step(&Assembly::build(&scene).unwrap().system, &PEFRL, 1.0)
+    step(&build(&text).system, &PEFRL, 1.0)
 }
 
 fn rod(from: f64, segment: f64) -> String {
@@ -77,7 +77,7 @@ fn the_law_of_a_section_shortens_the_step() {
                 task: Dynamics(duration_ns: 100.0),
             )"
         );
-        let assembly = Assembly::build(&Scene::from_ron(&text).unwrap()).unwrap();
+        let assembly = build(&text);
         let plan = Plan::new(&assembly).unwrap();
         let estimate = plan.estimate().unwrap();
         estimate.time_step_ns / estimate.stability_limit_ns

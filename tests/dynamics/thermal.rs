@@ -5,10 +5,11 @@
 
 use super::filaments::{FILAMENTS, KBT, assemble};
 use super::modes::Modes;
+use crate::common::{build, ran};
 use actin_integrate::{Bath, Drag, PEFRL, advance_in, largest_frequency, stable_step};
 
 use actin_mechanics::{State, System};
-use actin_sim::{Assembly, ForceLaw, Scene};
+use actin_sim::{Assembly, ForceLaw};
 use std::collections::BTreeMap;
 
 const ERRORS: f64 = 4.5;
@@ -101,92 +102,99 @@ fn every_kind_of_body_has_the_temperature() {
     }
 }
 
-/// Every mode of a rod on a wall has kT/2 of potential energy, slow bending and fast shear alike.
-/// It is cold enough (kT/100) for its energy to be that of its modes; a bath inside the stages, or
-/// halves on one side only, would cool the fast modes.
-#[test]
-fn every_mode_of_a_clamped_rod_has_its_share() {
-    let text = "Scene(
-        filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 40.0, segments: 4)], rod: RodModel(law: Constant)),
-        clamps: [Clamp(end: Start)],
-        task: Dynamics(duration_ns: 1.0),
-    )";
-    let scene = Scene::from_ron(text).unwrap();
-    let mut system = Assembly::build(&scene).unwrap().system;
-    let rest = system.state().clone();
-    let modes = Modes::of(&system);
-    let kt = 0.01 * KBT;
-    let h = step(&system);
-    // Critical for the slowest mode, 2.7 rad/ns, which then relaxes within 0.4 ns.
-    let bath = bath(5.0, kt, 8);
-    advance_in(&mut system, &PEFRL, h, 2000, &bath, 0);
-    let (blocks, samples, apart) = (40, 50, 60);
-    let mut now = 2000;
-    // Slow, middle and fast thirds of the modes, and all.
-    let mut shares = [(); 4].map(|()| Vec::new());
-    for _ in 0..blocks {
-        let mut sums = [0.0; 4];
-        for _ in 0..samples {
-            advance_in(&mut system, &PEFRL, h, apart, &bath, now);
-            now += apart;
-            let energies = modes.energies(&rest, system.state());
-            let third = energies.len() / 3;
-            for (k, energy) in energies.iter().enumerate() {
-                let share = energy / (kt * f64::from(samples));
-                sums[k / third] += share / third as f64;
-                sums[3] += share / energies.len() as f64;
+/// A rod on a wall, 10 nm a segment, in a bath so cold (kT/100) that its energy is that of its modes; when it is sampled
+/// (steps): after so many, and so many apart.
+struct Sampled {
+    segments: usize,
+    h_over_step: f64,
+    drag: Drag,
+    seed: u64,
+    warm: u64,
+    apart: u64,
+}
+
+impl Sampled {
+    /// Potential energies of the slow, middle and fast thirds of the modes and of all, over what they should be: means
+    /// of 50 samples, 40 of each.
+    fn shares(&self) -> [Vec<f64>; 4] {
+        let kt = 0.01 * KBT;
+        let mut system = build(&format!(
+            "Scene(
+                filament: Filament(
+                    sections: [Rod(from_nm: 0.0, to_nm: {}0.0, segments: {})], rod: RodModel(law: Constant),
+                ),
+                clamps: [Clamp(end: Start)],
+                task: Dynamics(duration_ns: 1.0),
+            )",
+            self.segments, self.segments
+        ))
+        .system;
+        let rest = system.state().clone();
+        let modes = Modes::of(&system);
+        let h = self.h_over_step * step(&system);
+        let bath = Bath::new(self.drag, kt, self.seed).unwrap();
+        let mut now = self.warm;
+        advance_in(&mut system, &PEFRL, h, now, &bath, 0);
+        let mut shares = [(); 4].map(|()| Vec::new());
+        for _ in 0..40 {
+            let mut sums = [0.0; 4];
+            for _ in 0..50 {
+                advance_in(&mut system, &PEFRL, h, self.apart, &bath, now);
+                now += self.apart;
+                let energies = modes.energies(&rest, system.state());
+                let third = energies.len() / 3;
+                for (k, energy) in energies.iter().enumerate() {
+                    let share = energy / (50.0 * kt);
+                    sums[k / third] += share / third as f64;
+                    sums[3] += share / energies.len() as f64;
+                }
+            }
+            for (shares, sum) in shares.iter_mut().zip(sums) {
+                shares.push(sum);
             }
         }
-        for (shares, sum) in shares.iter_mut().zip(sums) {
-            shares.push(sum);
-        }
-    }
-    for (what, blocks) in ["slow", "middle", "fast", "all"].iter().zip(&shares) {
-        assert_is_one(what, blocks);
+        shares
     }
 }
 
-/// So they have where drag is far stronger than a step resolves, unlike on places and turns, and
-/// rescales the conservative step of points and of frames by times of their own: `g h` of 3 and 1 here.
+/// Every mode of a rod on a wall has kT/2 of potential energy, slow bending and fast shear alike. A bath inside the
+/// stages, or halves on one side only, would cool the fast modes. So they have where drag is far stronger than a step
+/// resolves, unlike on places and turns, and rescales the conservative step of points and of frames by times of their
+/// own: `g h` of 3 and 1 there.
 #[test]
-fn strong_and_unlike_drag_leaves_every_mode_its_share() {
-    let text = "Scene(
-        filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 20.0, segments: 2)], rod: RodModel(law: Constant)),
-        clamps: [Clamp(end: Start)],
-        task: Dynamics(duration_ns: 1.0),
-    )";
-    let scene = Scene::from_ron(text).unwrap();
-    let mut system = Assembly::build(&scene).unwrap().system;
-    let rest = system.state().clone();
-    let modes = Modes::of(&system);
-    let kt = 0.01 * KBT;
-    let h = 2.0 * step(&system);
-    let drag = Drag::new(1000.0, 350.0).unwrap();
-    let bath = Bath::new(drag, kt, 9).unwrap();
-    // The slowest mode relaxes in 1000/11^2 = 8 ns.
-    let mut now = 50_000;
-    advance_in(&mut system, &PEFRL, h, now, &bath, 0);
-    let mut shares = [(); 3].map(|()| Vec::new());
-    for _ in 0..40 {
-        let mut sums = [0.0; 3];
-        for _ in 0..50 {
-            advance_in(&mut system, &PEFRL, h, 400, &bath, now);
-            now += 400;
-            let energies = modes.energies(&rest, system.state());
-            let third = energies.len() / 3;
-            for (k, energy) in energies.iter().enumerate() {
-                sums[k / third] += energy / (kt * 50.0 * third as f64);
-            }
+fn every_mode_of_a_clamped_rod_has_its_share() {
+    for (what, sampled) in [
+        // Critical for the slowest mode, 2.7 rad/ns, which then relaxes within 0.4 ns.
+        (
+            "resolved drag",
+            Sampled {
+                segments: 4,
+                h_over_step: 1.0,
+                drag: Drag::new(5.0, 5.0).unwrap(),
+                seed: 8,
+                warm: 2000,
+                apart: 60,
+            },
+        ),
+        // The slowest mode relaxes in 1000/11^2 = 8 ns.
+        (
+            "strong and unlike drag",
+            Sampled {
+                segments: 2,
+                h_over_step: 2.0,
+                drag: Drag::new(1000.0, 350.0).unwrap(),
+                seed: 9,
+                warm: 50_000,
+                apart: 400,
+            },
+        ),
+    ] {
+        for (modes, blocks) in ["slow", "middle", "fast", "all"]
+            .iter()
+            .zip(sampled.shares())
+        {
+            assert_is_one(&format!("{what}, {modes}"), &blocks);
         }
-        for (shares, sum) in shares.iter_mut().zip(sums) {
-            shares.push(sum);
-        }
-    }
-    for (what, blocks) in ["slow", "middle", "fast"].iter().zip(&shares) {
-        let (mean, error) = estimate(blocks);
-        println!("unlike drag, {what}: {mean:.4} +- {error:.4}");
-        assert!((mean - 1.0).abs() < ERRORS * error, "{what}");
-        assert!(error < 0.05, "{what}: {error}");
     }
 }
 
@@ -212,9 +220,7 @@ fn end_of_scene(seed: u64, record_every_ns: f64) -> State {
             ),
         )"
     );
-    let scene = Scene::from_ron(&text).unwrap();
-    let assembly = Assembly::build(&scene).unwrap();
-    let (mut trajectory, _) = actin_sim::Plan::new(&assembly).unwrap().run().unwrap();
+    let (_, mut trajectory, _) = ran(&text);
     trajectory.records.pop().unwrap().state
 }
 

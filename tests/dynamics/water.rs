@@ -1,7 +1,8 @@
 //! Inertial motion in water beside overdamped motion: the same drag, the same noise, the same time scales.
 
+use crate::common::{build, ran};
 use actin_sim::mechanics::Vector3;
-use actin_sim::{Assembly, End, Plan, Record, Scene};
+use actin_sim::{End, Plan, Record};
 
 /// The assembly, its tip in all records, and the work.
 fn tips(sections: &str, force_pn: f64, task: &str) -> (Vec<Vector3>, u64) {
@@ -13,9 +14,7 @@ fn tips(sections: &str, force_pn: f64, task: &str) -> (Vec<Vector3>, u64) {
             task: {task},
         )"
     );
-    let scene = Scene::from_ron(&text).unwrap_or_else(|error| panic!("{error}"));
-    let assembly = Assembly::build(&scene).unwrap();
-    let (trajectory, report) = Plan::new(&assembly).unwrap().run().unwrap();
+    let (assembly, trajectory, report) = ran(&text);
     let tip = |record: &Record| assembly.tip_nm(&record.state, End::End);
     let tips = trajectory.records.iter().map(tip).collect();
     (tips, report.force_evaluations)
@@ -99,16 +98,8 @@ fn tips_fluctuate_alike_with_inertia_and_without() {
         )
     };
     // Compliance under a force, from statics.
-    let (bent, _) = tips(
-        "Rod(from_nm: 0.0, to_nm: 60.0, segments: 3)",
-        0.1,
-        "Equilibrium()",
-    );
-    let (straight, _) = tips(
-        "Rod(from_nm: 0.0, to_nm: 60.0, segments: 3)",
-        0.0,
-        "Equilibrium()",
-    );
+    let rod = "Rod(from_nm: 0.0, to_nm: 60.0, segments: 3)";
+    let [bent, straight] = [0.1, 0.0].map(|force| tips(rod, force, "Equilibrium()").0);
     let theory = 1.380_649e-2 * 298.0 * (bent[0].x - straight[0].x) / 0.1;
     for task in [with, without(0.25), without(5.0)] {
         let (mean, error, evaluations) = variance(&task);
@@ -122,28 +113,25 @@ fn tips_fluctuate_alike_with_inertia_and_without() {
     }
 }
 
-/// No drag is too strong for a step: the default one is that of the stiffness. Other integrators are refused, and `check` has relaxation times.
+/// No drag is too strong for a step: the default one is that of the stiffness, and `check` has relaxation times.
 #[test]
 fn steps_in_water_are_those_of_the_stiffness() {
-    let plan = |rest: &str| {
-        let text = format!(
+    let planned = |rest: &str| {
+        let assembly = build(&format!(
             "Scene(
                 filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 60.0, segments: 3)], rod: RodModel(law: Constant)),
                 task: Dynamics(duration_ns: 1.0{rest}),
             )"
-        );
-        let scene = Scene::from_ron(&text).map_err(|error| error.to_string())?;
-        let assembly = Assembly::build(&scene).unwrap();
+        ));
         let plan = Plan::new(&assembly).unwrap();
-        let times = plan.relaxation_times();
-        Ok::<_, String>((plan.estimate().unwrap().time_step_ns, times))
+        (
+            plan.estimate().unwrap().time_step_ns,
+            plan.relaxation_times().is_some(),
+        )
     };
-    let verlet = plan(", integrator: PositionVerlet").unwrap();
-    let water = plan(", drag: Water()").unwrap();
-    assert!((water.0 / verlet.0 - 1.0).abs() < 1e-12);
-    assert!(verlet.1.is_none() && water.1.is_some());
-    let refused = plan(", drag: Water(), integrator: Suzuki").unwrap_err();
-    assert!(refused.contains("task.integrator"), "{refused}");
-    let unstable = plan(", drag: Water(), thermal: (temperature_k: 298.0, seed: 1)");
-    assert!(unstable.is_ok());
+    let (verlet, is_relaxing) = planned(", integrator: PositionVerlet");
+    let water = planned(", drag: Water()");
+    assert!(!is_relaxing && water.1);
+    assert!((water.0 / verlet - 1.0).abs() < 1e-12);
+    planned(", drag: Water(), thermal: (temperature_k: 298.0, seed: 1)");
 }

@@ -1,19 +1,12 @@
 //! Newton's method and damped dynamics end in the same state.
 
-use super::common::{build, run, solved};
+use super::common::{MIXED, apart, build, run, solved};
 
 /// A short filament of both kinds, bent askew.
 fn scene(task: &str) -> String {
     format!(
         "Scene(
-            filament: Filament(
-                sections: [
-                    Ellipsoids(from_nm: 0.0, to_nm: 20.0),
-                    Rod(from_nm: 20.0, to_nm: 40.0, segments: 2),
-                ],
-                monomers: Monomers(anchors: Independent, lateral_bonds: 16, longitudinal_bonds: 16),
-                rod: RodModel(law: Constant),
-            ),
+            filament: {MIXED},
             clamps: [Clamp(end: Start)],
             loads: [EndForce(end: End, force_pn: (-2.0, 0.5, 0.0))],
             task: {task},
@@ -44,14 +37,7 @@ pub(crate) fn assert_dynamics_ends_with_newton(scene: impl Fn(&str) -> String) {
         "{} steps were not enough",
         report.steps
     );
-    let positions =
-        |assembly: &actin_sim::Assembly| assembly.system.state().points.position.clone();
-    let (a, b) = (positions(&newton), positions(&moving));
-    let apart = a
-        .iter()
-        .zip(b.iter())
-        .map(|(x, y)| (x - y).norm())
-        .fold(0.0, f64::max);
+    let apart = apart(newton.system.state(), moving.system.state());
     println!(
         "dynamics, {} evaluations: {apart:.1e} nm from Newton",
         report.force_evaluations

@@ -1,6 +1,6 @@
 //! Anchors that a path moves, and linkers whose sites change their model.
 
-use super::common::{build, run, solved};
+use super::common::{MIXED, apart, build, run, solved};
 use actin_mechanics::Vector3;
 use actin_sim::Assembly;
 
@@ -16,14 +16,7 @@ fn clamped(displaced: [Vector3; 2], shifts: Option<[Vector3; 2]>, task: &str) ->
     let [a, b] = displaced.map(show);
     format!(
         "Scene(
-            filament: Filament(
-                sections: [
-                    Ellipsoids(from_nm: 0.0, to_nm: 20.0),
-                    Rod(from_nm: 20.0, to_nm: 40.0, segments: 2),
-                ],
-                monomers: Monomers(anchors: Independent, lateral_bonds: 16, longitudinal_bonds: 16),
-                rod: RodModel(law: Constant),
-            ),
+            filament: {MIXED},
             clamps: [Clamp(end: Start)],
             loads: [EndForce(end: End, force_pn: (0.0, 1.0, 0.0))],
             linkers: [
@@ -45,13 +38,6 @@ fn clamped(displaced: [Vector3; 2], shifts: Option<[Vector3; 2]>, task: &str) ->
 const TIGHT: &str = "Equilibrium(force_pn: 1e-9, torque_pn_nm: 1e-9)";
 const SHIFTS: [[f64; 3]; 2] = [[2.0, 0.5, 1.0], [-3.0, 0.0, 2.0]];
 
-/// Largest distance of two states' points (nm).
-fn apart(a: &Assembly, b: &Assembly) -> f64 {
-    let (a, b) = (a.system.state(), b.system.state());
-    let pairs = a.points.position.iter().zip(b.points.position.iter());
-    pairs.map(|(x, y)| (x - y).norm()).fold(0.0, f64::max)
-}
-
 /// The end of a path is the equilibrium for anchors that stand where it leads. A track that moved
 /// the wrong linker, or the load whose control stands before those of anchors, would end elsewhere.
 #[test]
@@ -59,7 +45,7 @@ fn a_path_of_anchors_ends_where_they_stand() {
     let shifts = SHIFTS.map(Vector3::from);
     let (at_once, _) = solved(&clamped(shifts, None, TIGHT));
     let (moved, _) = solved(&clamped([Vector3::zeros(); 2], Some(shifts), TIGHT));
-    let distance = apart(&at_once, &moved);
+    let distance = apart(at_once.system.state(), moved.system.state());
     println!("path of anchors: {distance:.1e} nm");
     // Residuals of 1e-9 pN on floppy modes that the load has stiffened to some pN/nm.
     assert!(distance < 1e-6, "{distance:e} nm apart");
@@ -108,7 +94,7 @@ fn anchors_move_smoothly_in_time() {
         );
     }
     let (still, _) = solved(&clamped([Vector3::zeros(); 2], Some(shifts), TIGHT));
-    let distance = apart(&still, &moving);
+    let distance = apart(still.system.state(), moving.system.state());
     println!("ramp of anchors: {distance:.1e} nm from statics");
     // The stop rule's 1e-8 pN on modes of some 0.1 pN/nm.
     assert!(distance < 1e-6, "{distance:e} nm apart");

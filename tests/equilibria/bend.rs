@@ -1,11 +1,12 @@
 //! The 45-degree bend of Bathe and Bolourchi: a curved cantilever pulled out of its plane.
 
 use super::common::{frame, material, point, to};
+use crate::common::ran;
 use crate::theory::second_order_limit;
 use actin_cosserat::{RodElements, RodJoint, RodSegment};
 use actin_equilibrium::{Layout, Newton};
 use actin_mechanics::{Interaction, Matrix3, PointLoad, State, UnitQuaternion, Vector3, rotation};
-use actin_sim::{Assembly, At, End, Plan, Scene};
+use actin_sim::{At, End};
 use std::f64::consts::FRAC_PI_4;
 
 /// Radius of the arc.
@@ -184,8 +185,7 @@ fn tips_of_scene(n: usize) -> Vec<[f64; 3]> {
         "Equilibrium()",
         "Equilibrium(force_pn: 1e-6, torque_pn_nm: 1e-6)",
     );
-    let assembly = Assembly::build(&Scene::from_ron(&text).unwrap()).unwrap();
-    let (trajectory, _) = Plan::new(&assembly).unwrap().run().unwrap();
+    let (assembly, trajectory, _) = ran(&text);
     let ends = [1.0, 2.0, 3.0].map(|end| {
         let record = trajectory.records.iter().rfind(|r| r.at == At::Path(end));
         let tip = assembly.tip_nm(&record.expect("stages end in a record").state, End::End);

@@ -1,52 +1,29 @@
-//! Scenes as text, solvers for them, and a search for critical loads.
+//! Solvers for scenes, and a search for critical loads.
 
 use crate::theory::bisect;
 use actin_cosserat::{Rigidities, RodMaterial};
 use actin_equilibrium::{BodyOrder, Layout, Newton, NewtonOptions, Residual};
-use actin_mechanics::{Frame, Inertia, Interaction, Point, State, UnitQuaternion, Vector3};
-use actin_sim::{Assembly, Failure, Outcome, Plan, RunError, Scene, Trajectory};
+use actin_mechanics::testing::{push_frame, push_point};
+use actin_mechanics::{Interaction, State, UnitQuaternion, Vector3};
+use actin_sim::{Assembly, Outcome};
 
-/// The assembly of a scene.
-pub(crate) fn build(text: &str) -> Assembly {
-    let scene = Scene::from_ron(text).unwrap_or_else(|error| panic!("{error}\n{text}"));
-    Assembly::build(&scene).unwrap_or_else(|problem| panic!("{problem}\n{text}"))
-}
-
-/// Runs an assembly as its scene asks, which is then in its last state.
-pub(crate) fn run(assembly: &mut Assembly) -> Result<(Trajectory, Outcome), RunError> {
-    let (trajectory, outcome) = run_anyway(assembly);
-    outcome.map(|outcome| (trajectory, outcome))
-}
-
-/// The same, with what was recorded whether it fails or not.
-pub(crate) fn run_anyway(assembly: &mut Assembly) -> (Trajectory, Result<Outcome, RunError>) {
-    let mut trajectory = Trajectory::default();
-    let plan = Plan::new(assembly).map_err(RunError::from);
-    let outcome = plan.and_then(|plan| plan.run_into(&mut trajectory));
-    if let Some(last) = trajectory.records.last() {
-        *assembly.system.state_mut() = last.state.clone();
-    }
-    (trajectory, outcome)
-}
-
-/// What went wrong in a run, with what is known up to there.
-///
-/// # Panics
-/// If it went well, or did not begin.
-pub(crate) fn failure(outcome: Result<Outcome, RunError>) -> (Failure, Outcome) {
-    match outcome {
-        Err(RunError::Failed(failed)) => (failed.failure, failed.outcome),
-        Err(RunError::Refused(problem)) => panic!("refused: {problem}"),
-        Ok(_) => panic!("nothing went wrong"),
-    }
-}
+pub(crate) use crate::common::{apart, build, failure, ran, run, run_anyway};
 
 /// Runs a scene that must reach its end; the assembly is then in the last state.
 pub(crate) fn solved(text: &str) -> (Assembly, Outcome) {
-    let mut assembly = build(text);
-    let (_, report) = run(&mut assembly).unwrap_or_else(|error| panic!("{error}\n{text}"));
-    (assembly, report)
+    let (assembly, _, outcome) = ran(text);
+    (assembly, outcome)
 }
+
+/// A short filament of both kinds.
+pub(crate) const MIXED: &str = "Filament(
+    sections: [
+        Ellipsoids(from_nm: 0.0, to_nm: 20.0),
+        Rod(from_nm: 20.0, to_nm: 40.0, segments: 2),
+    ],
+    monomers: Monomers(anchors: Independent, lateral_bonds: 16, longitudinal_bonds: 16),
+    rod: RodModel(law: Constant),
+)";
 
 /// A cantilever of a rod as a scene: 160 nm, `B = 3.9e4` pN nm^2, under a force on its tip (pN).
 ///
@@ -127,15 +104,10 @@ pub(crate) fn material(shear: [f64; 3], bend: [f64; 3]) -> RodMaterial {
 
 /// A point of unit mass.
 pub(crate) fn point(state: &mut State, position: Vector3) -> usize {
-    let mass = 1.0;
-    state.points.push(Point { position, mass })
+    push_point(state, position, 1.0)
 }
 
 /// A frame of moments 1, 1, 2.
 pub(crate) fn frame(state: &mut State, orientation: UnitQuaternion) -> usize {
-    let inertia = Inertia::from_moments([1.0, 1.0, 2.0]).unwrap();
-    state.frames.push(Frame {
-        orientation,
-        inertia,
-    })
+    push_frame(state, orientation, [1.0, 1.0, 2.0])
 }

@@ -1,9 +1,9 @@
 //! Filaments joined by linkers between two sites, and a filament joined to itself.
 
 use super::agreement::assert_dynamics_ends_with_newton;
-use super::common::{BEND, LENGTH, SHEAR, build, cantilever, newton, solved, to};
+use super::common::{BEND, LENGTH, MIXED, SHEAR, apart, build, cantilever, newton, solved, to};
 use actin_equilibrium::{BodyOrder, Layout, Newton};
-use actin_mechanics::{State, Vector3};
+use actin_mechanics::Vector3;
 use actin_sim::{Assembly, End};
 
 /// `count` rods of [`cantilever`] side by side, 10 nm apart along lab x, with these linkers.
@@ -108,14 +108,7 @@ fn tied(task: &str) -> String {
     format!(
         "Scene(
             filaments: [
-                Filament(
-                    sections: [
-                        Ellipsoids(from_nm: 0.0, to_nm: 20.0),
-                        Rod(from_nm: 20.0, to_nm: 40.0, segments: 2),
-                    ],
-                    monomers: Monomers(anchors: Independent, lateral_bonds: 16, longitudinal_bonds: 16),
-                    rod: RodModel(law: Constant),
-                ),
+                {MIXED},
                 Filament(
                     sections: [
                         Rod(from_nm: 0.0, to_nm: 20.0, segments: 2),
@@ -245,12 +238,6 @@ fn the_order_of_elimination_changes_the_fill_only() {
         // Each to the 1e-9 at which the iteration ends.
         assert!((other.2 / least.2 - 1.0).abs() < 1e-6);
     }
-}
-
-/// Largest distance of two states' points (nm).
-fn apart(a: &State, b: &State) -> f64 {
-    let pairs = a.points.position.iter().zip(b.points.position.iter());
-    pairs.map(|(a, b)| (a - b).norm()).fold(0.0, f64::max)
 }
 
 /// Four rods cross-linked every 40 nm, and pulled askew.

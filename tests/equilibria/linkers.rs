@@ -1,7 +1,7 @@
 //! Filaments held by linkers: a value from outside, balance, and dynamics beside statics.
 
 use super::agreement::assert_dynamics_ends_with_newton;
-use super::common::solved;
+use super::common::{MIXED, solved};
 use actin_mechanics::{Vector3, rotation};
 use actin_sim::{Assembly, BodyKind};
 
@@ -68,14 +68,7 @@ fn the_halves_of_the_clamped_rod_are_mirror_images() {
 fn mixed(task: &str) -> String {
     format!(
         "Scene(
-            filament: Filament(
-                sections: [
-                    Ellipsoids(from_nm: 0.0, to_nm: 20.0),
-                    Rod(from_nm: 20.0, to_nm: 40.0, segments: 2),
-                ],
-                monomers: Monomers(anchors: Independent, lateral_bonds: 16, longitudinal_bonds: 16),
-                rod: RodModel(law: Constant),
-            ),
+            filament: {MIXED},
             clamps: [Clamp(end: Start)],
             linkers: [
                 Linker(

@@ -1,8 +1,9 @@
 //! Twist that is lost between held ends is said wherever twist plus writhe can tell it, and nothing is
 //! said to be lost that is not.
 
-use super::common::{build, failure, run, run_anyway};
-use actin_sim::{Failure, Plan, Summary};
+use super::common::{build, failure, ran, run_anyway};
+use crate::common::refusal;
+use actin_sim::{Failure, Summary};
 
 const MIXED: &str =
     "Rod(from_nm: 0.0, to_nm: 40.0, segments: 3), Ellipsoids(from_nm: 40.0, to_nm: 80.0)";
@@ -75,24 +76,18 @@ fn ends_that_pass_each_other_lose_nothing() {
              imperfection: (amplitude_nm: 0.01, seed: 1)"
         );
         let shift = format!("Shift(end: End, shift_nm: ({aside:?}, 0.0, -55.0))");
-        let mut assembly = build(&driven(&filament, "", &shift));
-        let (trajectory, report) = run(&mut assembly).unwrap();
-        let last = trajectory.records.last().unwrap();
-        let notes = Summary::new(&assembly, last, &report).notes;
-        let says_so = notes
-            .iter()
-            .any(|note| note.contains("has lost twist is not known"));
+        let unknown = unknown(&driven(&filament, "", &shift));
         assert_eq!(
-            says_so, !is_known,
-            "{segments} segments, {aside} nm aside: {notes:?}"
+            unknown == 0,
+            is_known,
+            "{segments} segments, {aside} nm aside"
         );
     }
 }
 
 /// The notes of a run that say that lost twist is not known.
 fn unknown(text: &str) -> usize {
-    let mut assembly = build(text);
-    let (trajectory, report) = run(&mut assembly).unwrap();
+    let (assembly, trajectory, report) = ran(text);
     let last = trajectory.records.last().unwrap();
     let notes = Summary::new(&assembly, last, &report).notes;
     let says_so = |note: &&String| note.contains("has lost twist is not known");
@@ -165,13 +160,10 @@ fn turns_count_about_the_tangent() {
         let filament = "sections: [Rod(from_nm: 0.0, to_nm: 80.0, segments: 10)],
             shape: Arc(radius_nm: 50.92958178940651)";
         let setting = format!("Turn(end: End, turn_deg: ({degrees:?}, 0.0, 0.0))");
-        let assembly = build(&driven(filament, "", &setting));
-        Plan::new(&assembly)
-            .map_err(|problem| problem.to_string())
-            .err()
+        refusal(&driven(filament, "", &setting))
     };
-    assert_eq!(turned(1790.0), None);
-    let refused = turned(1810.0).unwrap();
+    assert_eq!(turned(1790.0), "");
+    let refused = turned(1810.0);
     assert!(refused.contains("turned by 1810 deg"), "{refused}");
     assert!(refused.contains("181 deg in a joint"), "{refused}");
 }

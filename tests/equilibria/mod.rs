@@ -14,7 +14,6 @@ mod contact;
 mod elastica;
 mod extremes;
 mod helical;
-mod history;
 mod homogenised;
 mod joined;
 mod linkers;

@@ -1,6 +1,7 @@
 //! What equilibria observe, against beam theory.
 
-use actin_sim::{Assembly, Plan, Scene, Summary};
+use crate::common::ran;
+use actin_sim::Summary;
 use std::collections::BTreeMap;
 
 /// Bending rigidity (pN nm^2), length (nm).
@@ -24,9 +25,7 @@ fn observed(load: &str, observe: &str) -> BTreeMap<String, f64> {
             task: Equilibrium(),
         )"
     );
-    let assembly = Assembly::build(&Scene::from_ron(&text).unwrap()).unwrap();
-    let plan = Plan::new(&assembly).unwrap();
-    let (trajectory, outcome) = plan.run().unwrap();
+    let (assembly, trajectory, outcome) = ran(&text);
     // A column for each record of the path, computed as it was taken.
     let columns = trajectory.records[0].observed.len();
     assert!(trajectory.records.len() > 2 && columns > 0);

@@ -1,9 +1,8 @@
 //! Twist, writhe and link of simulated filaments.
 
-use super::common::{build, run};
+use super::common::{build, ran};
 use actin_sim::At;
 use actin_sim::shape::{Ribbon, link};
-use actin_sim::{Assembly, Trajectory};
 
 /// Sections of 300 nm, ends turned against each other by twice `turn` (deg) and moved in by 7.5 nm
 /// each. Straight, it is a saddle, which the solver leaves along its softest mode.
@@ -32,16 +31,10 @@ fn buckled(sections: &str, turn: f64) -> String {
     )
 }
 
-fn end_of(text: &str) -> (Assembly, Trajectory) {
-    let mut assembly = build(text);
-    let (trajectory, _) = run(&mut assembly).unwrap_or_else(|error| panic!("{error}\n{text}"));
-    (assembly, trajectory)
-}
-
 /// Twist, writhe and largest distance at the end; the sum of the first two is held against the
 /// link at every equilibrium of the path.
 fn measured(what: &str, text: &str) -> [f64; 3] {
-    let (assembly, trajectory) = end_of(text);
+    let (assembly, trajectory, _) = ran(text);
     let mut worst: f64 = 0.0;
     for record in &trajectory.records {
         let ribbon = Ribbon::new(&assembly, &record.state);
@@ -94,7 +87,7 @@ fn twist_and_writhe_of_monomers_make_their_link() {
 /// A ring from a motion in time: the link follows the ramp.
 #[test]
 fn the_link_follows_the_path_in_time() {
-    let (assembly, trajectory) = end_of(
+    let (assembly, trajectory, _) = ran(
         "Scene(
             filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 60.0, segments: 4)], rod: RodModel(law: Constant)),
             clamps: [Clamp(end: Start), Clamp(end: End)],

@@ -1,7 +1,9 @@
 //! A cantilever as a scene, and beam theory by integration along the arc.
 
+pub(crate) use crate::common::build;
+use crate::common::ran;
 use crate::theory::bisect;
-use actin_sim::{Assembly, Plan, Scene, Trajectory};
+use actin_sim::{Assembly, Trajectory};
 
 /// Length (nm), rigidities against bending and twist (pN nm^2).
 pub(crate) const LENGTH: f64 = 160.0;
@@ -41,18 +43,9 @@ pub(crate) fn twisting(
     )
 }
 
-pub(crate) fn build(text: &str) -> Assembly {
-    let scene = Scene::from_ron(text).unwrap_or_else(|error| panic!("{error}\n{text}"));
-    Assembly::build(&scene).unwrap_or_else(|problem| panic!("{problem}\n{text}"))
-}
-
 /// Runs a scene to its end; the assembly is then in its last state.
 pub(crate) fn run(text: &str) -> (Assembly, Trajectory) {
-    let mut assembly = build(text);
-    let result = Plan::new(&assembly).map(|plan| plan.run()).unwrap();
-    let (trajectory, _) = result.unwrap_or_else(|error| panic!("{error}\n{text}"));
-    let last = trajectory.records.last().expect("a run has a record");
-    *assembly.system.state_mut() = last.state.clone();
+    let (assembly, trajectory, _) = ran(text);
     (assembly, trajectory)
 }
 

@@ -3,10 +3,10 @@
 //!
 //! Bounds were set before results were seen; orders and limits are printed with `--nocapture`.
 
+mod accepted;
 mod common;
 mod ends;
 mod motion;
-mod refused;
 mod rods;
 mod sections;
 mod shapes;

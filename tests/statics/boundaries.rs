@@ -1,7 +1,7 @@
 //! Where sections end, and that monomers stand where they stand whatever else is resolved:
 //! `docs/conventions.md`, as properties of random filaments.
 
-use super::common::build;
+use crate::common::build;
 use actin_mechanics::Xorshift;
 use actin_mechanics::{State, Vector3};
 use actin_sim::{Assembly, End, Part, Resolution};

@@ -1,7 +1,8 @@
 //! Scenes as text, and their way to rest.
 
+use crate::common::ran;
 use actin_mechanics::{State, Vector3};
-use actin_sim::{Assembly, End, Outcome, Plan, Record, Scene, Trajectory};
+use actin_sim::{Assembly, End, Outcome, Record, Trajectory};
 
 /// A cantilever of one rod: damped dynamics to rest.
 #[derive(Clone, Debug)]
@@ -100,24 +101,9 @@ impl Settled {
     }
 }
 
-/// The assembly of a scene.
-pub(crate) fn build(text: &str) -> Assembly {
-    let scene = Scene::from_ron(text).unwrap_or_else(|error| panic!("{error}\n{text}"));
-    Assembly::build(&scene).unwrap_or_else(|problem| panic!("{problem}\n{text}"))
-}
-
-/// Runs an assembly as its scene asks, which is then in its last state.
-pub(crate) fn run(assembly: &mut Assembly) -> (Trajectory, Outcome) {
-    let (trajectory, outcome) = Plan::new(assembly).unwrap().run().unwrap();
-    let last = trajectory.records.last().unwrap();
-    *assembly.system.state_mut() = last.state.clone();
-    (trajectory, outcome)
-}
-
 /// Runs a scene until its stop rule is met.
 pub(crate) fn settle(text: &str) -> Settled {
-    let mut assembly = build(text);
-    let (trajectory, report) = run(&mut assembly);
+    let (assembly, trajectory, report) = ran(text);
     let settled = Settled {
         assembly,
         trajectory,

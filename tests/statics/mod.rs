@@ -5,9 +5,8 @@
 
 mod balance;
 mod boundaries;
+mod clamps;
 mod common;
-mod elastica;
-mod frequency;
 mod independence;
 mod rest;
 mod scenes;

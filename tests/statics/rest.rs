@@ -1,6 +1,6 @@
 //! The filament as built is at rest: nothing pulls or turns any of its bodies.
 
-use super::common::build;
+use crate::common::build;
 use actin_mechanics::Loads;
 
 /// Largest force (pN) and torque (pN nm) on any body of the built scene, held ones included.

@@ -61,7 +61,7 @@ fn good_scenes_read_build_and_have_a_stable_step() {
 fn bad_scenes_say_what_is_wrong_and_where() {
     let folder = scenarios().join("bad");
     let all = scenes(&folder);
-    assert!(all.len() >= 12);
+    assert!(all.len() >= 200, "{}", all.len());
     for path in all {
         let text = fs::read_to_string(&path).unwrap();
         let first = text.lines().next().unwrap();
@@ -72,27 +72,5 @@ fn bad_scenes_say_what_is_wrong_and_where() {
             Some(start) => assert!(found.starts_with(start), "{}: {found}", path.display()),
             None => assert_eq!(found, expected, "{}", path.display()),
         }
-    }
-}
-
-/// The mistakes that have to be there, by file name.
-#[test]
-fn no_mistake_is_missing() {
-    for name in [
-        "unknown-key",
-        "missing-key",
-        "negative-length",
-        "zero-segments",
-        "one-monomer-section",
-        "non-finite-number",
-        "clamp-on-a-missing-end",
-        "overlapping-sections",
-        "interface-without-bonds",
-        "time-step-above-stability-limit",
-        "unknown-unit-suffix",
-        "empty",
-    ] {
-        let path = scenarios().join("bad").join(name).with_extension("ron");
-        assert!(path.exists(), "{}", path.display());
     }
 }

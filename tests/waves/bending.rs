@@ -1,6 +1,7 @@
 //! Slow bending of a clamped rod: what a rigid segment's rotary inertia costs it, and the mesh.
 
 use super::field::{Motion, build, frequency_of, set};
+use crate::theory::second_order_limit;
 use actin_mechanics::Vector3;
 use actin_sim::{Assembly, Trajectory};
 use std::f64::consts::PI;
@@ -44,8 +45,9 @@ impl Mode {
         (self.beta_l / LENGTH).powi(2) * (BEND / DENSITY).sqrt()
     }
 
-    /// Its frequency (rad/ns) on a mesh, from the zeros of its amplitude over ten periods.
-    fn measured(&self, segments: usize, inertia: &str) -> f64 {
+    /// Its frequency (rad/ns) on a mesh, with a rigidity against shear (pN), from the zeros of its amplitude over
+    /// ten periods.
+    fn measured(&self, segments: usize, inertia: &str, shear: f64) -> f64 {
         let period = 2.0 * PI / self.slender();
         let mut assembly = build(&format!(
             "Scene(
@@ -53,7 +55,7 @@ impl Mode {
                     sections: [Rod(from_nm: 0.0, to_nm: {LENGTH:?}, segments: {segments})],
                     rod: RodModel(law: Constant, 
                         rotary_inertia: {inertia},
-                        material: Rigidities(shear_pn: (3.4e4, 3.4e4, 3.4e4), bend_pn_nm2: ({BEND:?}, {BEND:?}, 1.3e4)),
+                        material: Rigidities(shear_pn: ({shear:?}, {shear:?}, 3.4e4), bend_pn_nm2: ({BEND:?}, {BEND:?}, 1.3e4)),
                     ),
                 ),
                 clamps: [Clamp(end: Start)],
@@ -89,6 +91,29 @@ impl Mode {
     }
 }
 
+/// Area of the cross-section (nm^2), and rigidity against shear (pN).
+const AREA: f64 = 38.5;
+const SHEAR: f64 = 1.6e4;
+
+/// Masses, moments of inertia and rigidities together: a mass that is counted twice at the tip, or the inertia of a
+/// solid segment instead of that of its cross-section, moves the frequency by a tenth or by a percent. Rotary inertia
+/// and shear take `(A / 4 pi + B / S) / 2` times the mean square of the slope over that of the displacement off it, to
+/// first order.
+#[test]
+fn the_first_flexural_frequency_is_that_of_the_beam() {
+    let mode = &MODES[0];
+    let slender = mode.slender();
+    assert!((slender - 0.170).abs() < 5e-4, "{slender}");
+    let radii = 0.5 * (AREA / (4.0 * PI) + BEND / SHEAR);
+    let theory = slender * (1.0 - radii * mode.slopes / (LENGTH * LENGTH));
+    let values = [8, 16, 32].map(|segments| mode.measured(segments, "CrossSection", SHEAR));
+    // Against the slender beam, on segments of 10 nm.
+    assert!((values[1] / slender - 1.0).abs() < 0.01, "{values:?}");
+    let limit = second_order_limit("first flexural frequency", values, theory, 0.05);
+    // Second-order terms of the thickness and fourth-order ones of the mesh, each about 1e-6.
+    assert!(limit.abs() < 1e-5, "{limit:e}");
+}
+
 /// By Rayleigh's quotient segments of length `h` that turn as rigid pieces slow a mode by a relative
 /// `h^2/24` times the mean square of its slope over that of its displacement, to higher powers of that.
 #[test]
@@ -99,7 +124,7 @@ fn rigid_segments_slow_bending_as_rayleigh_says() {
     for (m, mode) in MODES.iter().enumerate() {
         for segments in [4, 8, 16].into_iter().skip(m) {
             let [section, rigid] =
-                ["CrossSection", "RigidSegment"].map(|i| mode.measured(segments, i));
+                ["CrossSection", "RigidSegment"].map(|i| mode.measured(segments, i, 3.4e4));
             let (slower, h) = (1.0 - rigid / section, 1.0 / segments as f64);
             let expected = h * h / 24.0 * mode.slopes;
             println!(

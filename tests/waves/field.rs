@@ -1,7 +1,8 @@
 //! Small motions of a straight filament, given along its arc length.
 
+pub(crate) use crate::common::build;
 use actin_mechanics::{State, Vector3, rotation};
-use actin_sim::{Assembly, Scene};
+use actin_sim::Assembly;
 use std::f64::consts::PI;
 
 /// How the cross-section at one arc length is moved, whatever resolves it there.
@@ -15,12 +16,6 @@ pub(crate) struct Motion {
     pub(crate) velocity: Vector3,
     /// Angular velocity (rad/ns).
     pub(crate) spin: Vector3,
-}
-
-/// The assembly of a scene.
-pub(crate) fn build(text: &str) -> Assembly {
-    let scene = Scene::from_ron(text).unwrap_or_else(|error| panic!("{error}\n{text}"));
-    Assembly::build(&scene).unwrap_or_else(|problem| panic!("{problem}\n{text}"))
 }
 
 /// Moves every free body of a straight filament as the cross-section at its arc length.

@@ -7,6 +7,7 @@
 //! mesh and the making of the pulse leave behind.
 
 use super::field::{Motion, build, set};
+use crate::common::run;
 use actin_mechanics::{State, Vector3};
 use actin_sim::{Assembly, End, shape};
 use std::f64::consts::TAU;
@@ -159,8 +160,7 @@ fn reflected(pulse: Pulse, segment: f64, beyond: Beyond) -> f64 {
     let (mut assembly, half) = filament(pulse, segment, beyond);
     let middle = half - REACH * pulse.width;
     set(&mut assembly, &|s| pulse.motion(s - middle));
-    let (trajectory, _) = actin_sim::Plan::new(&assembly).unwrap().run().unwrap();
-    *assembly.system.state_mut() = trajectory.records.last().unwrap().state.clone();
+    run(&mut assembly).unwrap();
     let (first, all) = energies(&assembly, half, segment);
     first / all
 }

@@ -26,7 +26,7 @@ struct Arguments {
 enum Task {
     /// Formatting, lints as errors, documentation, benches that build, tidiness.
     Check,
-    /// Tests the program with random input, kills, damaged files and equivalent scenes.
+    /// Tests the program with random input, kills and equivalent scenes.
     Trials(trials::Options),
     /// Runs a study in the release profile.
     #[command(external_subcommand)]

@@ -1,5 +1,5 @@
 //! `cargo xtask trials`: thousands of cases of the trials in `crates/actin-cli/tests/trials`, which try
-//! the program with random input, kills, damaged files and scenes changed without effect.
+//! the program with random input, kills and scenes changed without effect.
 
 use crate::command::cargo;
 
@@ -25,8 +25,6 @@ enum Kind {
     Run,
     /// Runs that are killed until they are done.
     Kill,
-    /// Damaged checkpoints and records.
-    Damage,
     /// Scenes changed in ways that must not change the answer.
     Metamorphic,
 }
@@ -38,7 +36,6 @@ impl Kind {
             Self::Check => "spoilt_scenes_are_checked",
             Self::Run => "spoilt_scenes_are_run",
             Self::Kill => "killed_runs_are_resumed",
-            Self::Damage => "damaged_checkpoints_are_refused",
             Self::Metamorphic => "scenes_changed_without_effect_agree",
         }
     }

@@ -8,7 +8,7 @@ mod common;
 
 use actin_equilibrium::{Layout, Newton, NewtonOptions};
 use actin_mechanics::{Interaction, PointLoad, State, Vector3};
-use common::{ACTIN, Rod, actin, in_order};
+use common::{ACTIN, Rod, in_order};
 use std::time::Instant;
 
 fn main() {
@@ -50,7 +50,7 @@ fn rod(segments: usize, again: bool) {
 }
 
 fn filament(monomers: usize) {
-    let (mut state, bonds) = actin::filament(monomers, 32, 5);
+    let (mut state, bonds) = common::filament(monomers, 32, 5);
     let length = 160.0 * monomers as f64 / 60.0;
     let control = state.add_control(2.0 * (160.0 / length).powi(2));
     let shares = vec![(monomers - 1, 0.5), (monomers - 2, 0.5)];

@@ -189,21 +189,16 @@ mod tests {
     use crate::layout::{BodyOrder, Layout};
     use crate::pattern::Pattern;
     use actin_mechanics::Xorshift;
-    use actin_mechanics::{Coordinates, Frame, Inertia, Matrix3, Point, Stiffness};
+    use actin_mechanics::testing::{push_frame, push_point};
+    use actin_mechanics::{Coordinates, Matrix3, Stiffness};
     use actin_mechanics::{State, UnitQuaternion, Vector3};
 
     /// A chain of `n` bodies, each coupled with the next two, one of them with a frame that is held.
     fn chain(n: usize) -> (Pattern, Layout) {
         let mut state = State::default();
         for _ in 0..n {
-            state.points.push(Point {
-                position: Vector3::zeros(),
-                mass: 1.0,
-            });
-            state.frames.push(Frame {
-                orientation: UnitQuaternion::identity(),
-                inertia: Inertia::from_moments([1.0; 3]).unwrap(),
-            });
+            push_point(&mut state, Vector3::zeros(), 1.0);
+            push_frame(&mut state, UnitQuaternion::identity(), [1.0; 3]);
         }
         // Panels of three columns besides those of six.
         state.frames.hold(n / 2);

@@ -283,7 +283,8 @@ fn go_on(start: &State, middle: &mut State, i: usize) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use actin_mechanics::{Coordinates, Matrix3, Point, Stiffness, Vector3};
+    use actin_mechanics::testing::push_point;
+    use actin_mechanics::{Coordinates, Matrix3, Stiffness, Vector3};
 
     /// Adds 4 to the diagonal of each point.
     struct Four;
@@ -302,10 +303,7 @@ mod tests {
         let mut state = State::default();
         for _ in 0..2 {
             let position = Vector3::zeros();
-            state.points.push(Point {
-                position,
-                mass: 1.0,
-            });
+            push_point(&mut state, position, 1.0);
         }
         state.points.hold(1);
         let mut loads = Loads::zeros(&state);

@@ -241,6 +241,7 @@ impl SecondOrder for Couple {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::testing::push_frame;
     use crate::testing::{assert_is_gradient, assert_is_stiffness, loads_of};
     use crate::{Frame, Inertia, Xorshift, rotation};
 
@@ -251,10 +252,7 @@ mod tests {
         let control = state.add_control(0.8);
         let mut noise = Xorshift::new(5);
         for _ in 0..2 {
-            state.frames.push(Frame {
-                orientation: rotation::exp(noise.vector()),
-                inertia: Inertia::from_moments([1.0, 1.0, 2.0]).unwrap(),
-            });
+            push_frame(&mut state, rotation::exp(noise.vector()), [1.0, 1.0, 2.0]);
         }
         let moment = Vector3::new(1.2, -3.0, 1.8);
         let couple = Couple::new(&mut state, &[(0, 0.25), (1, 0.75)], moment, kind, control);

@@ -165,7 +165,8 @@ fn axes(state: &State, frame: usize) -> Matrix3 {
 mod tests {
     use super::*;
     use crate::testing::{assert_is_balanced, assert_is_gradient, assert_is_stiffness};
-    use crate::{Frame, Inertia, Interaction, Point, SecondOrder, Xorshift, perturb};
+    use crate::testing::{push_frame, push_point};
+    use crate::{Interaction, SecondOrder, Xorshift, perturb};
 
     /// Both between two bodies, as an interaction.
     #[derive(Debug)]
@@ -206,14 +207,12 @@ mod tests {
         let mut state = State::default();
         for k in 0..2 {
             let position = Vector3::z() * f64::from(k);
-            state.points.push(Point {
-                position,
-                mass: 1.0,
-            });
-            state.frames.push(Frame {
-                orientation: rotation::exp(Vector3::new(0.3, 0.1, 2.8) * f64::from(k)),
-                inertia: Inertia::from_moments([1.0; 3]).unwrap(),
-            });
+            push_point(&mut state, position, 1.0);
+            push_frame(
+                &mut state,
+                rotation::exp(Vector3::new(0.3, 0.1, 2.8) * f64::from(k)),
+                [1.0; 3],
+            );
         }
         let rest = rotation::exp(Vector3::new(0.25, 0.1, 2.7));
         perturb(&mut state, &mut Xorshift::new(3), 0.1, 0.2);

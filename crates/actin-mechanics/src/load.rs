@@ -164,7 +164,8 @@ impl SecondOrder for PointLoad {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Point;
+
+    use crate::testing::push_point;
 
     /// A load of its own control pulls at once, with all of its force, and beside other controls.
     #[test]
@@ -172,7 +173,7 @@ mod tests {
         let mut state = State::default();
         for mass in [1.0, 2.0] {
             let position = Vector3::zeros();
-            state.points.push(Point { position, mass });
+            push_point(&mut state, position, mass);
         }
         state.add_control(7.0);
         let load = PointLoad::shared(&mut state, &[0, 1], Vector3::x() * 3.0).unwrap();
@@ -186,7 +187,7 @@ mod tests {
     fn loads_on_what_is_not_there_are_refused() {
         let mut state = State::default();
         let (position, mass) = (Vector3::zeros(), 1.0);
-        state.points.push(Point { position, mass });
+        push_point(&mut state, position, mass);
         let own = state.add_control(1.0);
         let other = state.clone().add_control(1.0);
         let refusal = |point, share, force, control| {

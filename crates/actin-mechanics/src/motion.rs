@@ -109,23 +109,15 @@ impl State {
 
 #[cfg(test)]
 mod tests {
-    use crate::{
-        Frame, Inertia, Point, State, UnitQuaternion, Vector3, Xorshift, perturb,
-        randomise_velocities,
-    };
+    use crate::testing::{push_frame, push_point};
+    use crate::{State, UnitQuaternion, Vector3, Xorshift, perturb, randomise_velocities};
 
     /// Two states of the same bodies, one of which moves in every way.
     fn states() -> [State; 2] {
         let mut state = State::default();
         for _ in 0..3 {
-            state.points.push(Point {
-                position: Vector3::zeros(),
-                mass: 1.0,
-            });
-            state.frames.push(Frame {
-                orientation: UnitQuaternion::identity(),
-                inertia: Inertia::from_moments([1.0, 1.0, 2.0]).unwrap(),
-            });
+            push_point(&mut state, Vector3::zeros(), 1.0);
+            push_frame(&mut state, UnitQuaternion::identity(), [1.0, 1.0, 2.0]);
         }
         let controls = [0.0; 2].map(|value| state.add_control(value));
         let mut moved = state.clone();

@@ -106,7 +106,8 @@ impl Slider {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Point, PointLoad, Split, System};
+    use crate::testing::push_point;
+    use crate::{PointLoad, Split, System};
 
     /// Two held points under a force on one of them slide along z as one body of twice the mass,
     /// exactly as a free point of that mass; across z nothing moves.
@@ -114,10 +115,7 @@ mod tests {
     fn a_pair_slides_as_one_body() {
         let mut state = State::default();
         for x in [0.0, 1.0] {
-            state.points.push(Point {
-                position: Vector3::new(x, 0.0, 0.0),
-                mass: 0.5,
-            });
+            push_point(&mut state, Vector3::new(x, 0.0, 0.0), 0.5);
         }
         (0..2).for_each(|i| state.points.hold(i));
         state.sliders.push(Slider {

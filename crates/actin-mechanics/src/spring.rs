@@ -220,17 +220,15 @@ impl SecondOrder for Springs {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Point;
+
+    use crate::testing::push_point;
     use crate::testing::{assert_is_balanced, assert_is_gradient, assert_is_stiffness};
     use crate::{Xorshift, perturb};
 
     fn triangle() -> State {
         let mut state = State::default();
         for position in [Vector3::zeros(), Vector3::x(), Vector3::y() * 2.0] {
-            state.points.push(Point {
-                position,
-                mass: 1.0,
-            });
+            push_point(&mut state, position, 1.0);
         }
         state
     }

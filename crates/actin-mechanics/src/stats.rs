@@ -116,7 +116,8 @@ fn frames<S: Simd>(simd: S, frames: &Frames) -> (f64, S::f64s) {
 mod tests {
     use super::*;
     use crate::testing::architectures;
-    use crate::{Frame, Inertia, Point, Slider, UnitQuaternion, Vector3};
+    use crate::testing::{push_frame, push_point};
+    use crate::{Slider, UnitQuaternion, Vector3};
     use crate::{Xorshift, perturb, randomise_velocities};
 
     /// Points and frames in motion, the second of each held, and the third point sliding along z.
@@ -124,14 +125,8 @@ mod tests {
         let mut state = State::default();
         let tops = [[2.0, 1.0, 1.0], [1.0, 2.0, 1.0], [1.0, 1.0, 2.0]];
         for i in 0..bodies {
-            state.points.push(Point {
-                position: Vector3::zeros(),
-                mass: 1.0 + i as f64,
-            });
-            state.frames.push(Frame {
-                orientation: UnitQuaternion::identity(),
-                inertia: Inertia::from_moments(tops[i % 3]).unwrap(),
-            });
+            push_point(&mut state, Vector3::zeros(), 1.0 + i as f64);
+            push_frame(&mut state, UnitQuaternion::identity(), tops[i % 3]);
         }
         let mut noise = Xorshift::new(8);
         perturb(&mut state, &mut noise, 1.0, 1.0);

@@ -355,17 +355,15 @@ impl Thermostat for System {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Frame, Inertia, Point, Slider, UnitQuaternion, Vector3};
+    use crate::testing::{push_frame, push_point};
+    use crate::{Slider, UnitQuaternion, Vector3};
 
     /// Two points of mass 4, the second held; a pair of held points that slides along z as one
     /// body of mass 16; two tops of moments (1, 1, 9), the second held.
     fn bodies() -> System {
         let mut state = State::default();
         for mass in [4.0, 4.0, 2.0, 2.0] {
-            state.points.push(Point {
-                position: Vector3::zeros(),
-                mass,
-            });
+            push_point(&mut state, Vector3::zeros(), mass);
         }
         (1..4).for_each(|i| state.points.hold(i));
         state.sliders.push(Slider {
@@ -374,10 +372,7 @@ mod tests {
             mass: 16.0,
         });
         for _ in 0..2 {
-            state.frames.push(Frame {
-                orientation: UnitQuaternion::identity(),
-                inertia: Inertia::from_moments([1.0, 1.0, 9.0]).unwrap(),
-            });
+            push_frame(&mut state, UnitQuaternion::identity(), [1.0, 1.0, 9.0]);
         }
         state.frames.hold(1);
         System::new(state, Vec::new())
@@ -399,7 +394,7 @@ mod tests {
         assert!(!is_refused(|state| state.points.hold(0)));
         assert!(is_refused(|state| {
             let (position, mass) = (Vector3::zeros(), 1.0);
-            state.points.push(Point { position, mass });
+            push_point(state, position, mass);
         }));
         assert!(is_refused(|state| state.points.velocity = Vectors::zeros(1)));
         assert!(is_refused(

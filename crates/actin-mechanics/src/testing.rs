@@ -9,7 +9,8 @@ pub use random_stress::assert_fluctuates;
 pub use second_order::{assert_are_second_derivatives, assert_is_stiffness, stiffness_matrix};
 
 use crate::wide::Arch;
-use crate::{Interaction, Loads, State, Vector3, rotation};
+use crate::{Frame, Inertia, Interaction, Loads, Point, State, UnitQuaternion, Vector3, rotation};
+use std::fmt::{self, Debug, Formatter};
 use std::ops::{Add, Mul, Sub};
 
 /// The kinds of processors that this one can be, from one lane to as many as it has: vector code is tested on each.
@@ -37,6 +38,23 @@ pub fn assert_same_with_any_lanes(run: impl Fn(Arch) -> Vec<f64>) {
             pair[1]
         );
     }
+}
+
+/// Adds a point to a state; returns its number.
+pub fn push_point(state: &mut State, position: Vector3, mass: f64) -> usize {
+    state.points.push(Point { position, mass })
+}
+
+/// Adds a frame with these moments of inertia to a state; returns its number.
+///
+/// # Panics
+/// If no top has these moments.
+pub fn push_frame(state: &mut State, orientation: UnitQuaternion, moments: [f64; 3]) -> usize {
+    let inertia = Inertia::from_moments(moments).expect("moments of a top");
+    state.frames.push(Frame {
+        orientation,
+        inertia,
+    })
 }
 
 /// Moves the whole state rigidly: first turned about the origin by `turn`, then shifted.
@@ -71,6 +89,36 @@ pub fn loads_of(interaction: &dyn Interaction, state: &State) -> Loads {
     let mut loads = Loads::zeros(state);
     interaction.add_loads(state, &mut loads);
     loads
+}
+
+/// An interaction without energy and without elements, whose loads a closure adds.
+pub struct Loading<F> {
+    /// Name of the term.
+    pub term: &'static str,
+    /// Adds the loads.
+    pub add: F,
+}
+
+impl<F> Debug for Loading<F> {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        f.debug_tuple("Loading").field(&self.term).finish()
+    }
+}
+
+impl<F: Fn(&State, &mut Loads) + Send + Sync> Interaction for Loading<F> {
+    fn term(&self) -> &'static str {
+        self.term
+    }
+
+    fn add_loads(&self, state: &State, loads: &mut Loads) {
+        (self.add)(state, loads);
+    }
+
+    fn elements(&self) -> usize {
+        0
+    }
+
+    fn write_energies(&self, _: &State, _: &mut [f64]) {}
 }
 
 /// Asserts that the loads are minus the gradient of the energy.

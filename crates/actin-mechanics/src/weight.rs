@@ -85,17 +85,15 @@ impl SecondOrder for Weight {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::testing::push_point;
     use crate::testing::{assert_is_gradient, loads_of};
-    use crate::{Point, Split, System};
+    use crate::{Split, System};
 
     fn stones() -> (State, Weight) {
         let mut state = State::default();
         let weight = Weight::new(&mut state, Vector3::new(0.5, 0.0, -2.0)).unwrap();
         for mass in [1.0, 3.0] {
-            state.points.push(Point {
-                position: Vector3::repeat(mass),
-                mass,
-            });
+            push_point(&mut state, Vector3::repeat(mass), mass);
         }
         (state, weight)
     }

@@ -13,7 +13,7 @@
 //! runs nothing, `<!-- exit: 2 -->` expects another exit code, `<!-- not run: REASON -->` leaves it out.
 #![cfg(unix)]
 
-use std::env;
+use crate::common::{python, with_actin};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
@@ -78,25 +78,6 @@ fn missing<'a>(expected: &'a str, output: &str) -> Option<&'a str> {
         .find(|pattern| !lines.any(|line| matches(pattern, line)))
 }
 
-/// A Python with numpy, for a block. Where there is none its test says so, or fails if
-/// `ACTIN_REQUIRE_PYTHON` is set, as `.ci/run` does.
-fn python(place: &str) -> Option<String> {
-    let named = env::var("PYTHON").ok();
-    let usual = ["python3", "/usr/bin/python3"].map(str::to_owned);
-    let has_numpy = |python: &String| {
-        let mut command = Command::new(python);
-        let output = command.args(["-c", "import numpy"]).output();
-        output.is_ok_and(|output| output.status.success())
-    };
-    let found = named.into_iter().chain(usual).find(has_numpy);
-    if found.is_none() {
-        let message = format!("{place}: no python3 with numpy: this block is NOT TESTED");
-        assert!(env::var_os("ACTIN_REQUIRE_PYTHON").is_none(), "{message}");
-        eprintln!("{message}");
-    }
-    found
-}
-
 /// A page on its way: its folder, and what its last block printed.
 struct Page {
     name: String,
@@ -157,23 +138,18 @@ impl Page {
     fn command(&self, block: &Block, place: &str) -> Option<Command> {
         let (program, arguments) = match block.language.as_str() {
             "sh" => ("sh".to_owned(), vec!["-e", "-c", &block.code]),
-            "python" => (python(place)?, vec!["-c", &block.code]),
+            "python" => (
+                python("numpy", "ACTIN_REQUIRE_PYTHON", place)?,
+                vec!["-c", &block.code],
+            ),
             "ron" => {
                 fs::write(self.folder.path().join("block.ron"), &block.code).unwrap();
                 ("actin".to_owned(), vec!["check", "block.ron"])
             }
             other => panic!("{place}: a block of {other:?} that nothing runs"),
         };
-        let program_folder = Path::new(env!("CARGO_BIN_EXE_actin")).parent().unwrap();
-        let path = env::var_os("PATH").unwrap_or_default();
-        let folders = [program_folder.to_owned()].into_iter();
-        let path = env::join_paths(folders.chain(env::split_paths(&path))).unwrap();
-        let mut command = Command::new(program);
-        command
-            .args(arguments)
-            .env("PATH", path)
-            .current_dir(self.folder.path())
-            .stdin(Stdio::null());
+        let mut command = with_actin(&program, self.folder.path());
+        command.args(arguments).stdin(Stdio::null());
         Some(command)
     }
 }

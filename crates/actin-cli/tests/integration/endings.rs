@@ -1,8 +1,6 @@
 //! How runs end: results beyond use, saddles, twist that is lost, residuals at the floor of rounding.
 
-use crate::workplace;
-use std::fs;
-use workplace::{Workplace, code, stderr, stdout};
+use crate::common::{Workplace, assert_has};
 
 /// Monomers that are pushed through their own wall: exit code 3, what is beyond use and where, and all of
 /// it on disk with the status of a failure.
@@ -16,22 +14,22 @@ fn a_result_outside_the_model_is_a_failure() {
             task: Equilibrium(),
         )",
     );
-    let output = place.actin(&["run", "scene.ron", "--out", "a"]);
-    assert_eq!(code(&output), 3, "{}", stdout(&output));
-    let message = stderr(&output);
+    let message = place.fail(3, &["run", "scene.ron", "--out", "a"]);
     println!("{message}");
-    for part in [
-        "does not apply to the result: the bonds at s = ",
-        " (limit 1)",
-        "are in a",
-    ] {
-        assert!(message.contains(part), "{part:?} in {message}");
-    }
-    let summary = fs::read_to_string(place.path("a/summary.json")).unwrap();
-    assert!(summary.contains("\"status\": \"failed\""), "{summary}");
-    assert!(summary.contains("\"quantity\": \"bonds\""), "{summary}");
-    let again = place.actin(&["run", "scene.ron", "--out", "a", "--resume"]);
-    assert_eq!((code(&again), stderr(&again)), (3, message));
+    assert_has(
+        &message,
+        &[
+            "does not apply to the result: the bonds at s = ",
+            " (limit 1)",
+            "are in a",
+        ],
+    );
+    assert_has(
+        &place.read("a/summary.json"),
+        &["\"status\": \"failed\"", "\"quantity\": \"bonds\""],
+    );
+    let again = place.fail(3, &["run", "scene.ron", "--out", "a", "--resume"]);
+    assert_eq!(again, message);
 }
 
 /// A column beyond its critical load leaves the straight state, from which it could have gone the other
@@ -47,10 +45,9 @@ fn saddles_that_were_left_are_reported() {
                 task: Equilibrium(),
             )"
         ));
-        let output = place.actin(&["run", "scene.ron", "--out", "a"]);
-        assert_eq!(code(&output), 0, "{}", stderr(&output));
+        let output = place.run("a");
         let words = "1 saddle(s) were left and 0 sudden jump(s) made";
-        let printed = stdout(&output);
+        let printed = output;
         assert_eq!(printed.contains(words), saddles > 0, "{printed}");
         assert_eq!(summary(&place)["saddles_left"], saddles);
     }
@@ -78,7 +75,7 @@ fn damped(keys: &str) -> String {
 }
 
 fn summary(place: &Workplace) -> serde_json::Value {
-    let text = fs::read_to_string(place.path("a/summary.json")).unwrap();
+    let text = place.read("a/summary.json");
     serde_json::from_str(&text).unwrap()
 }
 
@@ -88,15 +85,10 @@ fn summary(place: &Workplace) -> serde_json::Value {
 fn an_end_on_a_saddle_is_a_failure() {
     for task in [damped(""), "Equilibrium(leave_saddles: 0)".into()] {
         let place = straight("", &task);
-        let output = place.actin(&["run", "scene.ron", "--out", "a"]);
-        assert_eq!(code(&output), 3, "{}", stdout(&output));
-        let said = stderr(&output);
+        let said = place.fail(3, &["run", "scene.ron", "--out", "a"]);
         println!("{said}");
         assert!(said.starts_with("error: scene.ron:7:"), "{said}");
-        assert!(
-            said.contains("task.leave_saddles = 0: the run ends on a saddle"),
-            "{said}"
-        );
+        assert_has(&said, &["task.leave_saddles = 0: the run ends on a saddle"]);
         assert!(said.trim_end().ends_with("all results are in a"), "{said}");
         let json = summary(&place);
         assert_eq!(
@@ -105,8 +97,8 @@ fn an_end_on_a_saddle_is_a_failure() {
         );
         assert!(json["stability"]["negative_eigenvalues"].as_u64() > Some(0));
         assert!(place.path("a/states.npz").is_file());
-        let again = place.actin(&["run", "scene.ron", "--out", "a", "--resume"]);
-        assert_eq!((code(&again), stderr(&again)), (3, said));
+        let again = place.fail(3, &["run", "scene.ron", "--out", "a", "--resume"]);
+        assert_eq!(again, said);
     }
 }
 
@@ -117,18 +109,14 @@ fn a_motion_at_rest_says_in_what() {
     let imperfection = "imperfection: (amplitude_nm: 0.01, seed: 1),";
     for (filament, keys, pushes) in [(imperfection, "", 0), ("", "leave_saddles: 3,", 1)] {
         let place = straight(filament, &damped(keys));
-        let output = place.actin(&["run", "scene.ron", "--out", "a"]);
-        assert_eq!(code(&output), 0, "{}", stderr(&output));
-        let last = stdout(&output).lines().last().unwrap();
-        println!("{}", stdout(&output));
+        let output = place.run("a");
+        let last = output.lines().last().unwrap();
+        println!("{output}");
         assert!(
             last.starts_with("at rest, stable") && last.ends_with("; written to a"),
             "{last}"
         );
-        assert_eq!(
-            stdout(&output).matches("pushed off a saddle").count(),
-            pushes
-        );
+        assert_eq!(output.matches("pushed off a saddle").count(), pushes);
         let json = summary(&place);
         assert_eq!(json["stability"]["negative_eigenvalues"], 0);
         assert_eq!(json["saddles_left"], pushes);
@@ -148,40 +136,9 @@ fn rest_that_is_not_certified_is_told() {
         "rod: RodModel(law: Constant, force_law: PaperBalance),",
         &damped(stop),
     );
-    let output = place.actin(&["run", "scene.ron", "--out", "a"]);
-    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    let output = place.run("a");
     let told = "warning: the stop rule was met, but it is not known whether";
-    assert!(stdout(&output).contains(told), "{}", stdout(&output));
-}
-
-/// Twist that slips through a joint ends a run with exit code 3 and its last good state.
-#[test]
-fn lost_twist_is_a_failure() {
-    let place = Workplace::with(
-        "Scene(
-            filament: Filament(sections: [
-                Rod(from_nm: 0.0, to_nm: 40.0, segments: 4), Ellipsoids(from_nm: 40.0, to_nm: 60.0),
-            ]),
-            clamps: [Clamp(end: Start), Clamp(end: End, slides: AlongAxis)],
-            path: [Stage(set: [Turn(end: End, turn_deg: (0.0, 0.0, 1500.0))])],
-            task: Equilibrium(accept_jumps: true),
-        )",
-    );
-    let output = place.actin(&["run", "scene.ron", "--out", "a"]);
-    assert_eq!(code(&output), 3, "{}", stdout(&output));
-    let said = stderr(&output);
-    for part in [
-        "in stage 1 of 1, at path parameter 0.",
-        "filament 0 has lost 1 turn(s)",
-    ] {
-        assert!(said.contains(part), "{said}");
-    }
-    assert!(said.contains("the joint at s = "), "{said}");
-    let shape = &summary(&place)["shape"];
-    let number = |key: &str| shape[key].as_f64().unwrap();
-    let sum = number("twist_turns") + number("writhe");
-    // Solid angles to round-off.
-    assert!((sum - number("link_turns")).abs() < 1e-9);
+    assert!(output.contains(told), "{output}");
 }
 
 /// A tolerance that no sum of such forces can meet: the equilibrium ends at the floor of rounding, which
@@ -197,11 +154,10 @@ fn a_residual_at_the_floor_of_rounding_is_told() {
                 task: Equilibrium(force_pn: {tolerance}, torque_pn_nm: {tolerance}),
             )"
         ));
-        let output = place.actin(&["run", "scene.ron", "--out", "a"]);
-        assert_eq!(code(&output), 0, "{}", stderr(&output));
+        let output = place.run("a");
         let words = "the tolerance is below round-off";
-        assert_eq!(stdout(&output).contains(words), told, "{}", stdout(&output));
-        let summary = fs::read_to_string(place.path("a/summary.json")).unwrap();
+        assert_eq!(output.contains(words), told, "{output}");
+        let summary = place.read("a/summary.json");
         let is_null = summary.contains("\"residual_floor\": null");
         assert_eq!(is_null, !told, "{summary}");
     }

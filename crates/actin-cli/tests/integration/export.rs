@@ -4,12 +4,11 @@
 //! `ACTIN_READERS` names, or python3. Where one is missing its test says so and skips, unless
 //! `ACTIN_REQUIRE_READERS` lists it.
 
-use crate::workplace;
+use crate::common::{Workplace, assert_has, stderr, stdout};
 use std::env;
 use std::fs;
 use std::path::Path;
 use std::process::Command;
-use workplace::{Workplace, code, stderr, stdout};
 
 /// Two filaments with monomers of two shapes, a rod, a junction, a linker between them and one to a place.
 const SCENE: &str = "Scene(
@@ -35,8 +34,7 @@ const SCENE: &str = "Scene(
 /// A folder with the run of the scene in `run`.
 fn ran(scene: &str) -> Workplace {
     let place = Workplace::with(scene);
-    let output = place.actin(&["run", "scene.ron", "--out", "run"]);
-    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    place.succeed(&["run", "scene.ron", "--out", "run"]);
     place
 }
 
@@ -69,8 +67,7 @@ fn read(place: &Workplace, script: &str, packages: &[&str]) {
 }
 
 fn export(place: &Workplace, arguments: &[&str]) {
-    let output = place.actin(&[&["export", "run"], arguments].concat());
-    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    place.succeed(&[&["export", "run"], arguments].concat());
 }
 
 #[test]
@@ -93,9 +90,8 @@ fn simularium_is_read_by_its_own_package() {
 fn mistakes_are_told() {
     let place = ran(&SCENE.replace("vtk: false", "vtk: false, states: false"));
     let refused = |arguments: &[&str], message: &str| {
-        let output = place.actin(arguments);
-        assert_eq!(code(&output), 2, "{arguments:?}");
-        assert!(stderr(&output).contains(message), "{}", stderr(&output));
+        let output = place.fail(2, arguments);
+        assert!(output.contains(message), "{output}");
     };
     let to_gsd = |run| ["export", run, "--to", "gsd"];
     refused(
@@ -115,29 +111,21 @@ fn files_stay() {
     let place = ran(SCENE);
     export(&place, &["--to", "gsd"]);
     let before = fs::read(place.path("run.gsd")).unwrap();
-    let again = place.actin(&["export", "run/", "--to", "gsd"]);
-    assert_eq!(code(&again), 2);
-    assert!(stderr(&again).contains("run.gsd exists: files are never overwritten"));
+    let again = place.fail(2, &["export", "run/", "--to", "gsd"]);
+    assert_has(&again, &["run.gsd exists: files are never overwritten"]);
     export(&place, &["--to", "gsd", "--overwrite"]);
     assert_eq!(
         fs::read(place.path("run.gsd")).unwrap(),
         before,
         "the same bytes"
     );
-    let into_folder = place.actin(&["export", "run", "--to", "gsd", "--out", "run"]);
-    assert_eq!(code(&into_folder), 2);
-    let nowhere = place.actin(&["export", "run", "--to", "gsd", "--out", "none/a.gsd"]);
-    assert_eq!(code(&nowhere), 74, "{}", stderr(&nowhere));
+    place.fail(2, &["export", "run", "--to", "gsd", "--out", "run"]);
+    place.fail(74, &["export", "run", "--to", "gsd", "--out", "none/a.gsd"]);
     // A damaged array, found half way.
     let bytes = fs::read(place.path("run/states.npz")).unwrap();
-    fs::write(place.path("run/states.npz"), &bytes[..bytes.len() - 1]).unwrap();
-    let damaged = place.actin(&["export", "run", "--to", "gsd", "--out", "b.gsd"]);
-    assert_eq!(code(&damaged), 2, "{}", stderr(&damaged));
-    assert!(
-        stderr(&damaged).contains("states.npz"),
-        "{}",
-        stderr(&damaged)
-    );
+    place.write("run/states.npz", &bytes[..bytes.len() - 1]);
+    let damaged = place.fail(2, &["export", "run", "--to", "gsd", "--out", "b.gsd"]);
+    assert_has(&damaged, &["states.npz"]);
     let left = fs::read_dir(place.path("")).unwrap();
     let mut left: Vec<_> = left.map(|entry| entry.unwrap().file_name()).collect();
     left.sort();

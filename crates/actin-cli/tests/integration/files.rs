@@ -2,8 +2,10 @@
 //! computed is lost, and nothing goes that a run has not written.
 #![cfg(unix)]
 
-use crate::common;
-use common::{ATTEMPTS, MOTION, Workplace, assert_same_files, code, contents, stderr, stdout};
+use crate::common::{
+    ATTEMPTS, MOTION, Workplace, assert_has, assert_same_files, code, contents, short_motion,
+    stderr,
+};
 use std::fs;
 use std::os::unix::fs::symlink;
 use std::path::Path;
@@ -28,18 +30,12 @@ const SHORT_PATH: &str = "Scene(
     task: Equilibrium(largest_step: 0.5),
 )";
 
-/// The motion, shortened to a few records.
-fn short_motion() -> String {
-    let short = MOTION.replace("150.0", "1.0").replace("50.0", "0.5");
-    short.replace("1.5", "0.25")
-}
-
 /// A reader that leaves before the first line, or after it: no panic, nothing on standard error, exit code
 /// 0, and of a run every file.
 #[test]
 fn a_closed_pipe_ends_nothing() {
     let place = Workplace::with(&short_motion());
-    assert_eq!(code(&place.actin(&["--out", "whole"])), 0);
+    place.run("whole");
     // The program does not write before the reader has gone.
     let closed = "| { exec <&-; echo gone > gone; }";
     let after = "until test -e gone; do sleep 0.01; done;";
@@ -55,7 +51,7 @@ fn a_closed_pipe_ends_nothing() {
             let line = format!("{{ {wait} actin {command}; echo $? > code; }} {reader}");
             let output = place.shell(&line);
             assert_eq!(stderr(&output), "", "{line}");
-            let code = fs::read_to_string(place.path("code")).unwrap();
+            let code = place.read("code");
             assert_eq!(code, "0\n", "{line}");
             if command.starts_with("run scene.ron") {
                 assert_same_files(&place.path("whole"), &place.path("a"));
@@ -68,7 +64,7 @@ fn a_closed_pipe_ends_nothing() {
 #[test]
 fn closed_standard_error_changes_no_exit_code() {
     let place = Workplace::with(&short_motion());
-    assert_eq!(code(&place.actin(&["--out", "whole"])), 0);
+    place.run("whole");
     let limit = "ulimit -f 8;";
     for (limit, command, expected) in [
         ("", "check absent.ron", "2\n"),
@@ -79,7 +75,7 @@ fn closed_standard_error_changes_no_exit_code() {
         let line =
             format!("{{ sleep 0.1; ({limit} actin {command}); echo $? > code; }} 2>&1 | true");
         place.shell(&line);
-        let code = fs::read_to_string(place.path("code")).unwrap();
+        let code = place.read("code");
         assert_eq!(code, expected, "{line}");
     }
     assert_same_files(&place.path("whole"), &place.path("a"));
@@ -112,27 +108,28 @@ fn refusal(place: &Workplace, arguments: &str, folders: &[&str]) -> String {
     stderr(&output).to_owned()
 }
 
-/// A run is replaced by another as if it had been the first; notes beside it stay.
+/// Without `--overwrite` a run is left alone; with it, it is replaced by another as if it had been the first; notes beside it stay.
 #[test]
 fn an_earlier_run_is_replaced() {
     let place = Workplace::with(&short_motion());
-    assert_eq!(code(&place.actin(&["--out", "a"])), 0);
-    fs::write(place.path("a/notes.txt"), "mine").unwrap();
-    fs::write(place.path("scene.ron"), EQUILIBRIUM).unwrap();
-    let output = place.actin(&["--out", "a", "--overwrite"]);
-    assert_eq!(code(&output), 0, "{}", stderr(&output));
-    assert_eq!(code(&place.actin(&["--out", "b"])), 0);
+    place.run("a");
+    place.write("a/notes.txt", "mine");
+    let message = refusal(&place, "scene.ron --out a", &["a", "a/vtk"]);
+    assert_has(&message, &["a exists and is not empty"]);
+    place.write("scene.ron", EQUILIBRIUM);
+    place.succeed(&["run", "scene.ron", "--out", "a", "--overwrite"]);
+    place.run("b");
     assert_eq!(fs::read(place.path("a/notes.txt")).unwrap(), b"mine");
     fs::remove_file(place.path("a/notes.txt")).unwrap();
     assert_same_files(&place.path("b"), &place.path("a"));
 }
 
 /// The scene that is to run lies in the directory that is to be overwritten, or a link leads to it: it
-/// would be gone. A scene in a run directory that was edited is kept as well.
+/// would be gone.
 #[test]
 fn a_scene_is_not_overwritten() {
     let place = Workplace::with(EQUILIBRIUM);
-    assert_eq!(code(&place.actin(&["--out", "a"])), 0);
+    place.run("a");
     symlink("a/scene.ron", place.path("link.ron")).unwrap();
     for scene in ["a/scene.ron", "./a/../a/scene.ron", "link.ron"] {
         let message = refusal(
@@ -140,77 +137,27 @@ fn a_scene_is_not_overwritten() {
             &format!("{scene} --out a --overwrite"),
             &["a", "a/vtk"],
         );
-        assert!(
-            message.contains("lies in a, which is to be overwritten"),
-            "{message}"
-        );
+        assert_has(&message, &["lies in a, which is to be overwritten"]);
     }
-    fs::write(place.path("a/scene.ron"), SHORT_PATH).unwrap();
-    let message = refusal(&place, "scene.ron --out a --overwrite", &["a", "a/vtk"]);
-    assert!(
-        message.contains("a/scene.ron has been changed"),
-        "{message}"
-    );
     // A folder that holds nothing but a scene of one's own.
     fs::create_dir(place.path("b")).unwrap();
-    fs::write(place.path("b/scene.ron"), EQUILIBRIUM).unwrap();
+    place.write("b/scene.ron", EQUILIBRIUM);
     let message = refusal(&place, "scene.ron --out b --overwrite", &["b"]);
-    assert!(
-        message.contains("b is not empty and has no actin-run.json"),
-        "{message}"
-    );
-}
-
-/// Folders that no run has made, manifests that list files of others, links: refused, all bytes stay.
-#[test]
-fn only_what_a_run_has_written_is_overwritten() {
-    let place = Workplace::with(EQUILIBRIUM);
-    fs::create_dir_all(place.path("mine/vtk")).unwrap();
-    for name in ["energies.csv", "vtk/0000.vtp", "vtk/0001.vtp"] {
-        fs::write(place.path("mine").join(name), "mine").unwrap();
-    }
-    let folders = ["mine", "mine/vtk", "a"];
-    fs::create_dir(place.path("a")).unwrap();
-    let message = refusal(&place, "scene.ron --out mine --overwrite", &folders);
-    assert!(
-        message.contains("mine is not empty and has no actin-run.json"),
-        "{message}"
-    );
-
-    assert_eq!(code(&place.actin(&["--out", "a"])), 0);
-    symlink("a", place.path("latest")).unwrap();
-    let message = refusal(&place, "scene.ron --out latest/ --overwrite", &folders);
-    assert!(message.contains("latest is a link to a: "), "{message}");
-    let manifest = fs::read_to_string(place.path("a/actin-run.json")).unwrap();
-    let forged = manifest.replace("summary.json", "../mine/energies.csv");
-    fs::write(place.path("a/actin-run.json"), forged).unwrap();
-    let message = refusal(&place, "scene.ron --out a --overwrite", &folders);
-    assert!(
-        message.contains("lists \"../mine/energies.csv\""),
-        "{message}"
-    );
-    fs::write(place.path("a/actin-run.json"), manifest).unwrap();
-    fs::remove_dir_all(place.path("a/vtk")).unwrap();
-    symlink("../mine/vtk", place.path("a/vtk")).unwrap();
-    let message = refusal(&place, "scene.ron --out a --overwrite", &folders);
-    assert!(
-        message.contains("a/vtk was not written by the run"),
-        "{message}"
-    );
+    assert_has(&message, &["b is not empty and has no actin-run.json"]);
 }
 
 /// Where nothing may be written nothing is removed. (An administrator may always write.)
 #[test]
 fn a_read_only_directory_stays() {
     let place = Workplace::with(EQUILIBRIUM);
-    assert_eq!(code(&place.actin(&["--out", "a"])), 0);
+    place.run("a");
     let chmod = |mode: &str| place.shell(&format!("chmod {mode} a a/vtk"));
     chmod("555");
     if fs::write(place.path("a/probe"), "").is_ok() {
         println!("SKIPPED: permissions do not bind this user");
     } else {
         let message = refusal(&place, "scene.ron --out a --overwrite", &["a", "a/vtk"]);
-        assert!(message.contains("ermission denied"), "{message}");
+        assert_has(&message, &["ermission denied"]);
     }
     chmod("755");
 }
@@ -267,7 +214,7 @@ fn a_limit_on_the_size_of_files_loses_nothing() {
     let mut kept = [0, 0];
     for scene in [EQUILIBRIUM, SHORT_PATH, &short_motion()] {
         let place = Workplace::with(scene);
-        assert_eq!(code(&place.actin(&["--out", "whole"])), 0);
+        place.run("whole");
         let mut codes = Vec::new();
         for limit in (0..40).chain([60, 100, 1000, 4000]) {
             let _ = fs::remove_dir_all(place.path("out"));
@@ -291,7 +238,7 @@ fn a_full_disk_loses_nothing() {
     let mut codes = Vec::new();
     for scene in [EQUILIBRIUM, &short_motion()] {
         let place = Workplace::with(scene);
-        assert_eq!(code(&place.actin(&["--out", "whole"])), 0);
+        place.run("whole");
         fs::create_dir(place.path("out")).unwrap();
         for kilobytes in (8..96).step_by(4).chain([160, 1600]) {
             let mount = place.shell(&format!("mount -t tmpfs -o size={kilobytes}k none out"));
@@ -325,7 +272,7 @@ impl Drop for Mounted<'_> {
 #[test]
 fn a_run_killed_while_it_writes_results_loses_nothing() {
     let place = Workplace::with(&MOTION.replace("duration_ns: 150.0", "duration_ns: 60.0"));
-    assert_eq!(code(&place.actin(&["--out", "whole"])), 0);
+    place.run("whole");
     for name in [
         "a/energies.csv.part",
         "a/vtk/0030.vtp.part",
@@ -343,11 +290,10 @@ fn a_run_killed_while_it_writes_results_loses_nothing() {
         );
         let summary = place.path("a/summary.json").exists();
         assert!(place.path("a/checkpoint.bin").exists() || summary, "{name}");
-        let output = place.actin(&["--out", "a", "--resume"]);
-        assert_eq!(code(&output), 0, "{}", stderr(&output));
-        println!("{name}: {}", stdout(&output));
+        let output = place.resume("a");
+        println!("{name}: {output}");
         let _ = fs::remove_file(place.path("a/records.bin"));
-        fs::write(place.path("a/.actin-run.lock"), "").unwrap();
+        place.write("a/.actin-run.lock", "");
         assert_same_files(&place.path("whole"), &place.path("a"));
     }
 }

@@ -1,8 +1,7 @@
 //! Runs of sections that follow a motion: their directories, interrupted, killed, resumed and replaced.
 #![cfg(unix)]
 
-use crate::common;
-use common::{Workplace, assert_same_files, code, signal, stderr, stdout};
+use crate::common::{Workplace, assert_has, assert_same_files, signal, stdout};
 use std::fs;
 use std::path::Path;
 
@@ -52,9 +51,8 @@ fn assert_same(one: &Path, other: &Path) {
 #[test]
 fn a_motion_that_is_followed_goes_on_to_the_same_bytes() {
     let place = Workplace::with(SWINGING);
-    let whole = place.actin(&["--out", "whole"]);
-    assert_eq!(code(&whole), 0, "{}", stderr(&whole));
-    assert!(stdout(&whole).contains("switch(es) added"));
+    let whole = place.run("whole");
+    assert_has(&whole, &["switch(es) added"]);
     for (name, how) in [
         ("stretches/0000/scene.ron", "-INT"),
         ("stretches/0003/scene.ron", "-INT"),
@@ -65,8 +63,7 @@ fn a_motion_that_is_followed_goes_on_to_the_same_bytes() {
         let mut child = place.start(&arguments, &format!("parts/{name}"));
         signal(&child, how);
         child.wait().unwrap();
-        let output = place.actin(&["--out", "parts", "--resume"]);
-        assert_eq!(code(&output), 0, "{how} {name}: {}", stderr(&output));
+        place.resume("parts");
         assert_same(&place.path("whole"), &place.path("parts"));
         fs::remove_dir_all(place.path("parts")).unwrap();
     }
@@ -76,8 +73,7 @@ fn a_motion_that_is_followed_goes_on_to_the_same_bytes() {
 #[test]
 fn overdamped_motion_that_is_followed_goes_on_to_the_same_bytes() {
     let place = Workplace::with(OVERDAMPED);
-    let whole = place.actin(&["--out", "whole"]);
-    assert_eq!(code(&whole), 0, "{}", stderr(&whole));
+    place.run("whole");
     for stretch in ["0004", "0020"] {
         let arguments = ["--out", "parts", "--checkpoint-every", "0.01", "--resume"];
         let mut child = place.start(&arguments, &format!("parts/stretches/{stretch}/scene.ron"));
@@ -85,9 +81,8 @@ fn overdamped_motion_that_is_followed_goes_on_to_the_same_bytes() {
         child.wait().unwrap();
     }
     // As of one that was killed between its results and the removal of its checkpoint.
-    fs::write(place.path("parts/stretches/0000/checkpoint.bin"), "left").unwrap();
-    let output = place.actin(&["--out", "parts", "--resume"]);
-    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    place.write("parts/stretches/0000/checkpoint.bin", "left");
+    place.resume("parts");
     assert_same(&place.path("whole"), &place.path("parts"));
 }
 
@@ -96,19 +91,25 @@ fn overdamped_motion_that_is_followed_goes_on_to_the_same_bytes() {
 #[test]
 fn stretches_are_replaced_with_the_run() {
     let place = Workplace::with(SWINGING);
-    assert_eq!(code(&place.actin(&["--out", "a"])), 0);
-    let again = place.actin(&["--out", "a", "--resume"]);
+    place.run("a");
+    let again = place.actin(&["run", "scene.ron", "--out", "a", "--resume"]);
     assert!(stdout(&again).contains("finished"), "{}", stdout(&again));
-    assert_eq!(code(&place.actin(&["--out", "a"])), 2);
-    let shorter = ["--out", "a", "--overwrite", "--set", "task.duration_ns=2.0"];
-    let output = place.actin(&shorter);
-    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    place.fail(2, &["run", "scene.ron", "--out", "a"]);
+    let shorter = [
+        "run",
+        "scene.ron",
+        "--out",
+        "a",
+        "--overwrite",
+        "--set",
+        "task.duration_ns=2.0",
+    ];
+    place.succeed(&shorter);
     let stretches = fs::read_dir(place.path("a/stretches")).unwrap().count();
-    let beginnings = fs::read_to_string(place.path("a/stretches.json")).unwrap();
+    let beginnings = place.read("a/stretches.json");
     assert_eq!(beginnings.matches("\"index\"").count(), stretches);
-    fs::write(place.path("a/stretches/0000/notes.txt"), "mine").unwrap();
-    let output = place.actin(&["--out", "a", "--overwrite"]);
-    assert_eq!(code(&output), 2, "{}", stderr(&output));
+    place.write("a/stretches/0000/notes.txt", "mine");
+    place.fail(2, &["run", "scene.ron", "--out", "a", "--overwrite"]);
     let notes = fs::read_to_string(place.path("a/stretches/0000/notes.txt"));
     assert_eq!(notes.unwrap(), "mine");
 }

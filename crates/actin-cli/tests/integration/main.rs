@@ -16,4 +16,3 @@ mod sweep;
 mod traced;
 mod trade;
 mod view;
-mod workplace;

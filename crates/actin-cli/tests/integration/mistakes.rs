@@ -1,9 +1,8 @@
 //! What deliberate mistakes print, line by line: `scenarios/bad/printed.txt`.
 
-use crate::workplace;
+use crate::common::{Workplace, code, stderr, stdout};
 use std::fs;
 use std::path::Path;
-use workplace::{Workplace, code, stderr, stdout};
 
 /// Scenes of `scenarios/bad`, with a mistake of each kind.
 const MISTAKES: [&str; 45] = [
@@ -54,7 +53,8 @@ const MISTAKES: [&str; 45] = [
     "time-step-above-stability-limit",
 ];
 
-/// Exit code 2, nothing on standard output, and every mistake with its line.
+/// Exit code 2, nothing on standard output, and every mistake with its line, by `check` as by `run`, which
+/// writes nothing.
 #[test]
 fn mistakes_print_what_they_should() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenarios/bad");
@@ -65,9 +65,12 @@ fn mistakes_print_what_they_should() {
         fs::copy(folder.join(&file), place.path(&file)).unwrap();
         let output = place.actin(&["check", &file]);
         assert_eq!((code(&output), stdout(&output)), (2, ""), "{name}");
-        printed += stderr(&output);
+        let run = place.fail(2, &["run", &file]);
+        assert_eq!(run, stderr(&output), "{name}");
+        printed += &run;
         printed += "\n";
     }
+    assert!(!place.path("runs").exists());
     let expected = fs::read_to_string(folder.join("printed.txt")).unwrap_or_default();
     assert!(
         printed == expected,

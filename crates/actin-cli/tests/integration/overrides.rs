@@ -1,10 +1,6 @@
 //! Scenes from standard input, and keys that arguments set.
 
-use crate::workplace;
-use std::fs;
-use std::io::Write;
-use std::process::{Command, Stdio};
-use workplace::{Workplace, code, stderr, stdout};
+use crate::common::{Workplace, assert_has, code, stderr};
 
 const SCENE: &str = "Scene(
     filament: Filament(
@@ -28,8 +24,7 @@ fn what_is_set_is_run_and_kept() {
         "loads[0].force_pn[2]=-1.5",
     ];
     let run = [&["run", "--seed", "3", "scene.ron", "--out", "a"][..], &set].concat();
-    let output = place.actin(&run);
-    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    place.succeed(&run);
     let written = SCENE
         .replace("anchors: Independent", "anchors: Independent, seed: 3")
         .replace("clamps", "    // set\n    clamps")
@@ -38,24 +33,17 @@ fn what_is_set_is_run_and_kept() {
             "        monomers",
             "        rod: RodModel(law: Fitted),\n        monomers",
         );
-    fs::write(place.path("written.ron"), written).unwrap();
+    place.write("written.ron", written);
     for (scene, out) in [("written.ron", "b"), ("a/scene.ron", "c")] {
-        let output = place.actin(&["run", scene, "--out", out]);
-        assert_eq!(code(&output), 0, "{}", stderr(&output));
-        for name in ["scene.ron", "energies.csv", "profile.csv"] {
-            let [a, b] = ["a", out].map(|run| fs::read(place.path(run).join(name)).unwrap());
-            assert!(a == b, "{name} of {out} differs");
-        }
+        place.succeed(&["run", scene, "--out", out]);
+        place.assert_same(["a", out], &["scene.ron", "energies.csv", "profile.csv"]);
     }
-    let again = place.actin(&[&run[..], &["--resume"]].concat());
-    assert_eq!(code(&again), 0, "{}", stderr(&again));
-    assert!(stdout(&again).contains("is finished"), "{}", stdout(&again));
-    let other = place.actin(&["run", "scene.ron", "--out", "a", "--resume"]);
-    assert_eq!(code(&other), 2, "another scene: {}", stdout(&other));
+    let again = place.succeed(&[&run[..], &["--resume"]].concat());
+    assert_has(&again, &["is finished"]);
+    place.fail(2, &["run", "scene.ron", "--out", "a", "--resume"]);
     let check = [&["check", "--seed", "3", "scene.ron"][..], &set].concat();
-    let check = place.actin(&check);
-    let kept = fs::read_to_string(place.path("a/scene.ron")).unwrap();
-    assert!(stdout(&check).starts_with(&kept), "{}", stdout(&check));
+    let check = place.succeed(&check);
+    assert!(check.starts_with(&place.read("a/scene.ron")), "{check}");
 }
 
 /// Exit code 2, nothing written, and a message that begins with the override, where it is one.
@@ -79,19 +67,14 @@ fn what_cannot_be_set_is_refused_by_name() {
         ),
         (["--seed", "-1"], "error: "),
     ] {
-        let output = place.actin(&[&["check", "scene.ron"][..], &arguments].concat());
-        let found = stderr(&output);
-        assert_eq!(
-            code(&output),
-            if message.is_empty() { 0 } else { 2 },
-            "{found}"
-        );
+        let code = if message.is_empty() { 0 } else { 2 };
+        let found = place.fail(code, &[&["check", "scene.ron"][..], &arguments].concat());
         assert!(found.starts_with(message), "{found}");
     }
     let drawn = ["--set", "filament.monomers.anchors=Cubature", "--seed", "3"];
-    let output = place.actin(&[&["run", "scene.ron"][..], &drawn].concat());
+    let found = place.fail(2, &[&["run", "scene.ron"][..], &drawn].concat());
     let message = "error: --seed 3: scene.ron draws nothing: no bonds, thermal noise, imperfections or events of linkers\n";
-    assert_eq!((code(&output), stderr(&output)), (2, message));
+    assert_eq!(found, message);
     assert!(!place.path("runs").exists());
 }
 
@@ -99,20 +82,8 @@ fn what_cannot_be_set_is_refused_by_name() {
 #[test]
 fn a_scene_may_come_from_standard_input() {
     let place = Workplace::with("");
-    let run = |scene: &str| {
-        let mut child = Command::new(env!("CARGO_BIN_EXE_actin"))
-            .args(["run", "--set", "filament.rod.law=Fitted", "-"])
-            .current_dir(place.path("scene.ron").parent().unwrap())
-            .stdin(Stdio::piped())
-            .stdout(Stdio::piped())
-            .stderr(Stdio::piped())
-            .spawn()
-            .unwrap();
-        let mut input = child.stdin.take().unwrap();
-        input.write_all(scene.as_bytes()).unwrap();
-        drop(input);
-        child.wait_with_output().unwrap()
-    };
+    let set = ["run", "--set", "filament.rod.law=Fitted", "-"];
+    let run = |scene: &str| place.piped(&set, scene);
     let bad = run(&SCENE.replace("30.0", "3.0"));
     assert_eq!(code(&bad), 2);
     assert!(

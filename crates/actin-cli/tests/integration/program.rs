@@ -1,10 +1,8 @@
 //! The built program, from its arguments to its exit code, its two streams and its files.
 
-use crate::workplace;
+use crate::common::{Workplace, assert_has, code, stderr, stdout};
 use actin_sim::Scene;
 use std::fs;
-use std::path::{Path, PathBuf};
-use workplace::{Workplace, code, stderr, stdout};
 
 /// A short rod, monomers and a junction under a force; a thousand steps or so.
 const TINY: &str = "Scene(
@@ -21,20 +19,8 @@ const TINY: &str = "Scene(
     task: Dynamics(duration_ns: 1.0, record_every_ns: 0.25),
 )";
 
-/// The files of a folder with their contents.
-fn contents(folder: &Path) -> Vec<(PathBuf, Vec<u8>)> {
-    let mut files: Vec<_> = fs::read_dir(folder)
-        .unwrap()
-        .map(|entry| entry.unwrap().path())
-        .filter(|path| path.is_file())
-        .map(|path| (path.clone(), fs::read(path).unwrap()))
-        .collect();
-    files.sort();
-    files
-}
-
-/// Exit code 0, every file of a run directory, a report on standard output, and no progress bar
-/// where there is no terminal.
+/// Exit code 0, a record for each time, a report on standard output, and no progress bar where there is no
+/// terminal.
 #[test]
 fn a_scene_runs_into_its_directory() {
     let place = Workplace::with(TINY);
@@ -42,144 +28,68 @@ fn a_scene_runs_into_its_directory() {
     assert_eq!(code(&output), 0, "{}", stderr(&output));
     assert_eq!(stderr(&output), "");
     assert!(stdout(&output).contains("written to results/a"));
-    for name in [
-        "scene.ron",
-        "summary.json",
-        "energies.csv",
-        "profile.csv",
-        "states.npz",
-        "run.pvd",
-        "open_in_paraview.py",
-    ] {
-        assert!(place.path("results/a").join(name).is_file(), "{name}");
-    }
-    let energies = fs::read_to_string(place.path("results/a/energies.csv")).unwrap();
+    let energies = place.read("results/a/energies.csv");
     // A header and the records at 0, 0.25, 0.5, 0.75 and 1 ns.
     assert_eq!(energies.lines().count(), 6, "{energies}");
-    let summary = fs::read_to_string(place.path("results/a/summary.json")).unwrap();
-    assert!(summary.contains("\"status\": \"completed\""), "{summary}");
+    assert_has(
+        &place.read("results/a/summary.json"),
+        &["\"status\": \"completed\""],
+    );
 }
 
 /// Without `--out` results go to `runs/` and the name of the scene.
 #[test]
 fn results_have_a_place_by_default() {
     let place = Workplace::with(TINY);
-    assert_eq!(code(&place.actin(&["run", "scene.ron"])), 0);
+    place.succeed(&["run", "scene.ron"]);
     assert!(place.path("runs/scene/summary.json").is_file());
-}
-
-/// The scene that a run keeps gives the same run, bit for bit.
-#[test]
-fn a_run_can_be_repeated_from_the_scene_it_kept() {
-    let place = Workplace::with(TINY);
-    assert_eq!(code(&place.actin(&["run", "scene.ron", "--out", "a"])), 0);
-    assert_eq!(code(&place.actin(&["run", "a/scene.ron", "--out", "b"])), 0);
-    for name in ["scene.ron", "energies.csv"] {
-        let [a, b] = ["a", "b"].map(|run| fs::read(place.path(run).join(name)).unwrap());
-        assert!(a == b, "{name} differs");
-    }
-}
-
-#[test]
-fn a_bad_scene_is_refused_with_file_line_and_column() {
-    let place = Workplace::with(&TINY.replace("to_nm: 30.0", "to_nm: 5.0"));
-    for command in ["run", "check"] {
-        let output = place.actin(&[command, "scene.ron"]);
-        assert_eq!(code(&output), 2);
-        assert_eq!(stdout(&output), "");
-        assert_eq!(
-            stderr(&output),
-            "error: scene.ron:6:32: filament.sections[1].to_nm = 5.0: a section's length is \
-             positive: must be greater than from_nm = 10.0\n  \
-             |\n\
-             6 |             Rod(from_nm: 10.0, to_nm: 5.0),\n  \
-             |                                ^^^^^^^^^^\n"
-        );
-    }
-    assert!(!place.path("runs").exists(), "nothing is left behind");
-}
-
-/// A rule that needs the largest frequency is broken: still before anything is written.
-#[test]
-fn an_unstable_step_is_refused_before_anything_is_written() {
-    let place =
-        Workplace::with(&TINY.replace("duration_ns: 1.0", "duration_ns: 1.0, time_step_ns: 0.1"));
-    let output = place.actin(&["run", "scene.ron"]);
-    assert_eq!(code(&output), 2);
-    assert!(stderr(&output).starts_with("error: scene.ron:12:38: task.time_step_ns = 0.1: above"));
-    assert!(!place.path("runs").exists());
 }
 
 #[test]
 fn what_is_no_scene_or_no_argument_is_bad_input() {
     let place = Workplace::with(TINY);
-    let missing = place.actin(&["run", "absent.ron"]);
-    assert_eq!(code(&missing), 2);
-    assert!(stderr(&missing).starts_with("error: absent.ron: "));
-    fs::write(place.path("binary.ron"), b"Scene(\n  \xe9").unwrap();
-    let binary = place.actin(&["check", "binary.ron"]);
-    assert_eq!(code(&binary), 2);
-    let message = stderr(&binary);
+    let missing = place.fail(2, &["run", "absent.ron"]);
+    assert!(missing.starts_with("error: absent.ron: "));
+    place.write("binary.ron", b"Scene(\n  \xe9");
+    let message = place.fail(2, &["check", "binary.ron"]);
     let start = "error: binary.ron:2:3: byte 0xe9 is not UTF-8";
     assert!(message.starts_with(start), "{message}");
-    assert_eq!(code(&place.actin(&["walk", "scene.ron"])), 2);
-}
-
-/// Refused with every byte in place, also when what is there was not written by a run.
-#[test]
-fn an_earlier_run_is_not_overwritten_unless_asked() {
-    let place = Workplace::with(TINY);
-    assert_eq!(code(&place.actin(&["run", "scene.ron", "--out", "a"])), 0);
-    fs::write(place.path("a/notes.txt"), "mine").unwrap();
-    let before = contents(&place.path("a"));
-    let again = place.actin(&["run", "scene.ron", "--out", "a"]);
-    assert_eq!(code(&again), 2);
-    assert!(
-        stderr(&again).contains("a exists and is not empty"),
-        "{}",
-        stderr(&again)
-    );
-    assert!(contents(&place.path("a")) == before, "nothing has changed");
-    let asked = place.actin(&["run", "scene.ron", "--out", "a", "--overwrite"]);
-    assert_eq!(code(&asked), 0, "{}", stderr(&asked));
-    assert_eq!(
-        fs::read_to_string(place.path("a/notes.txt")).unwrap(),
-        "mine"
-    );
+    place.fail(2, &["walk", "scene.ron"]);
 }
 
 /// Thrice the stability limit: exit code 3, the step, the body in words and the term, and the
-/// records up to the last good state on disk, all of them finite.
+/// records up to the last good state on disk, all of them finite. Resumed, the run fails again in the same words.
 #[test]
 fn an_explosion_is_reported_and_what_was_good_is_kept() {
     let unstable = "duration_ns: 100.0, time_step_ns: 0.0105, allow_unstable_step: true";
     let place = Workplace::with(&TINY.replace("duration_ns: 1.0", unstable));
-    let output = place.actin(&["run", "scene.ron", "--out", "a"]);
-    assert_eq!(code(&output), 3, "{}", stderr(&output));
-    let message = stderr(&output);
+    let message = place.fail(3, &["run", "scene.ron", "--out", "a"]);
     println!("{message}");
-    for part in [
-        "at step ",
-        " acts most strongly",
-        " at s = ",
-        "last good state",
-        " is in a",
-    ] {
-        assert!(message.contains(part), "{part:?} in {message}");
-    }
+    assert_has(
+        &message,
+        &[
+            "at step ",
+            " acts most strongly",
+            " at s = ",
+            "last good state",
+            " is in a",
+        ],
+    );
     assert!(
         ["bonds", "rod", "junction"]
             .iter()
             .any(|term| message.contains(&format!("{term:?}")))
     );
-    let energies = fs::read_to_string(place.path("a/energies.csv")).unwrap();
+    let energies = place.read("a/energies.csv");
     assert!(energies.lines().count() >= 2, "{energies}");
     for value in energies.lines().skip(1).flat_map(|line| line.split(',')) {
         assert!(value.parse::<f64>().unwrap().is_finite());
     }
     assert!(place.path("a/states.npz").is_file());
-    let summary = fs::read_to_string(place.path("a/summary.json")).unwrap();
-    assert!(summary.contains("\"status\": \"failed\""), "{summary}");
+    assert_has(&place.read("a/summary.json"), &["\"status\": \"failed\""]);
+    assert!(place.path("a/checkpoint.bin").exists());
+    let again = place.fail(3, &["run", "scene.ron", "--out", "a", "--resume"]);
+    assert_eq!(again, message);
 }
 
 /// Two percent above the limit the energy grows slowly: caught when the motion has more of it than
@@ -188,14 +98,9 @@ fn an_explosion_is_reported_and_what_was_good_is_kept() {
 fn a_slow_explosion_is_caught() {
     let unstable = "duration_ns: 1000.0, time_step_ns: 0.00602, allow_unstable_step: true";
     let place = Workplace::with(&TINY.replace("duration_ns: 1.0", unstable));
-    let output = place.actin(&["run", "scene.ron", "--out", "a"]);
-    assert_eq!(code(&output), 3, "{}", stderr(&output));
-    assert!(
-        stderr(&output).contains("the energy has reached"),
-        "{}",
-        stderr(&output)
-    );
-    let energies = fs::read_to_string(place.path("a/energies.csv")).unwrap();
+    let output = place.fail(3, &["run", "scene.ron", "--out", "a"]);
+    assert_has(&output, &["the energy has reached"]);
+    let energies = place.read("a/energies.csv");
     let mut names = energies.lines().next().unwrap().split(',');
     let column = names.position(|name| name == "kinetic_pn_nm").unwrap();
     for row in energies.lines().skip(1) {
@@ -209,26 +114,23 @@ fn a_slow_explosion_is_caught() {
 #[test]
 fn what_check_prints_is_the_scene() {
     let place = Workplace::with(TINY);
-    let output = place.actin(&["check", "scene.ron"]);
-    assert_eq!(code(&output), 0, "{}", stderr(&output));
-    let printed = stdout(&output);
+    let printed = place.succeed(&["check", "scene.ron"]);
     println!("{printed}");
-    let scene = Scene::from_ron(printed).unwrap();
+    let scene = Scene::from_ron(&printed).unwrap();
     let written = Scene::from_ron(TINY).unwrap();
     assert_eq!(scene.filament.monomers, written.filament.monomers);
     assert_eq!(
         (&scene.clamps, &scene.loads),
         (&written.clamps, &written.loads)
     );
-    for default in [
+    let defaults = [
         "seed: 0",
         "segments: 2",
         "integrator: Pefrl",
         "weight: Shared",
         "hold: Wall",
-    ] {
-        assert!(printed.contains(default), "{default}");
-    }
+    ];
+    assert_has(&printed, &defaults);
     let open = printed.lines().filter(|line| line.contains("None"));
     let open: Vec<&str> = open.map(str::trim).collect();
     assert_eq!(
@@ -241,9 +143,9 @@ fn what_check_prints_is_the_scene() {
         ],
         "no imperfection, no spring at an end, no heat, no rule to stop; all else is resolved"
     );
-    fs::write(place.path("resolved.ron"), printed).unwrap();
-    let again = place.actin(&["check", "resolved.ron"]);
-    assert_eq!(untimed(stdout(&again)), untimed(printed));
+    place.write("resolved.ron", &printed);
+    let again = place.succeed(&["check", "resolved.ron"]);
+    assert_eq!(untimed(&again), untimed(&printed));
     let files = fs::read_dir(place.path("")).unwrap().count();
     assert_eq!(files, 2, "checking writes nothing");
 }
@@ -268,13 +170,12 @@ fn a_rod_beyond_the_data_of_its_law_is_reported() {
     };
     for (turn, beyond) in [("300.0", true), ("-300.0", true), ("180.0", false)] {
         let place = Workplace::with(&scene(turn));
-        let output = place.actin(&["run", "scene.ron", "--out", "a"]);
-        assert_eq!(code(&output), 0, "{}", stderr(&output));
+        let output = place.run("a");
         let sign = if turn.starts_with('-') { "-" } else { "" };
         let line = format!("beyond the data of its law: twist {sign}0.0698 rad/nm at s = ");
-        println!("{turn}: {}", stdout(&output));
-        assert_eq!(stdout(&output).matches(&line).count(), usize::from(beyond));
-        let summary = fs::read_to_string(place.path("a/summary.json")).unwrap();
+        println!("{turn}: {output}");
+        assert_eq!(output.matches(&line).count(), usize::from(beyond));
+        let summary = place.read("a/summary.json");
         assert_eq!(
             summary.matches("\"range_per_nm\": 0.0472").count(),
             usize::from(beyond)
@@ -305,12 +206,12 @@ fn a_rod_pushed_beyond_the_bound_of_its_twist_is_reported() {
         assert_eq!(stdout(&output).contains(line), unstable);
         let said = "the records: compression 16.77 pN";
         assert_eq!(stdout(&output).contains(said), unstable);
-        let summary = fs::read_to_string(place.path("a/summary.json")).unwrap();
+        let summary = place.read("a/summary.json");
         assert_eq!(summary.contains("\"unstable_twist\": []"), !unstable);
         assert_eq!(summary.contains("\"bound_pn\": 13.8"), unstable);
         assert_eq!(summary.contains("\"code\": \"unstable-twist\""), unstable);
-        assert_eq!(code(&place.actin(&["view", "a"])), 0);
-        let page = fs::read_to_string(place.path("a/view.html")).unwrap();
+        place.succeed(&["view", "a"]);
+        let page = place.read("a/view.html");
         assert_eq!(page.contains("warning: twist is UNSTABLE in "), unstable);
     }
 }
@@ -333,19 +234,19 @@ fn a_law_in_a_bath_is_noted_and_its_fluctuations_are_summed_up() {
         )",
     );
     let note = "warning: rods under the law Fitted in a heat bath: ";
-    let checked = place.actin(&["check", "scene.ron"]);
-    assert_eq!(stdout(&checked).matches(&format!("// {note}")).count(), 1);
-    assert!(Scene::from_ron(stdout(&checked)).is_ok());
-    let output = place.actin(&["run", "scene.ron", "--out", "a"]);
-    println!("{}", stdout(&output));
-    assert_eq!(stdout(&output).matches(note).count(), 1);
+    let checked = place.succeed(&["check", "scene.ron"]);
+    assert_eq!(checked.matches(&format!("// {note}")).count(), 1);
+    assert!(Scene::from_ron(&checked).is_ok());
+    let printed = place.run("a");
+    println!("{printed}");
+    assert_eq!(printed.matches(note).count(), 1);
     for quantity in ["twist", "curvature"] {
         let line = format!("fluctuations beyond the data of a law: {quantity} in ");
-        assert_eq!(stdout(&output).matches(&line).count(), 1);
+        assert_eq!(printed.matches(&line).count(), 1);
     }
-    let summary = fs::read_to_string(place.path("a/summary.json")).unwrap();
+    let summary = place.read("a/summary.json");
     assert!(summary.contains(&note[9..]) && summary.contains("\"share_of_records\": "));
-    assert!(summary.contains("\"unstable_twist\": []"));
+    assert_has(&summary, &["\"unstable_twist\": []"]);
 }
 
 /// `check` prints the cost of an equilibrium with its measured time.
@@ -359,9 +260,7 @@ fn check_prints_the_cost() {
             task: Equilibrium(),
         )",
     );
-    let output = place.actin(&["check", "scene.ron"]);
-    assert_eq!(code(&output), 0, "{}", stderr(&output));
-    let printed = stdout(&output);
+    let printed = place.succeed(&["check", "scene.ron"]);
     let cost = "// cost: 1428 bonds and 0 elements; ";
     assert!(printed.contains(cost), "{printed}");
     let time = printed.lines().find(|line| line.starts_with("// time: "));
@@ -376,14 +275,13 @@ fn check_prints_the_cost() {
 fn completions_and_manual_pages_name_every_command() {
     let place = Workplace::with("");
     for shell in ["bash", "zsh", "fish", "elvish", "powershell"] {
-        let output = place.actin(&["completions", shell]);
-        assert_eq!(code(&output), 0);
+        let output = place.succeed(&["completions", shell]);
         for word in ["run", "sweep", "check", "export", "overwrite"] {
-            assert!(stdout(&output).contains(word), "{shell}: {word}");
+            assert!(output.contains(word), "{shell}: {word}");
         }
     }
-    assert_eq!(code(&place.actin(&["completions", "nothing"])), 2);
-    assert_eq!(code(&place.actin(&["man", "man1"])), 0);
+    place.fail(2, &["completions", "nothing"]);
+    place.succeed(&["man", "man1"]);
     for (page, line) in [
         ("actin.1", "actin\\-export"),
         ("actin-run.1", "resume"),

@@ -2,15 +2,15 @@
 //! exit code and the bytes of the files.
 #![cfg(unix)]
 
-use crate::common;
-use common::{
-    MOTION, PATH, Workplace, assert_same_files, code, contents, files, observed, signal, stderr,
+use crate::common::{
+    MOTION, PATH, Workplace, assert_has, assert_same_files, code, contents, files, observed,
+    short_motion, signal, stderr,
 };
 use std::fs;
 use std::os::unix::process::ExitStatusExt;
-use std::process::{Child, Command, Output};
+use std::process::{Child, Command};
 use std::thread::sleep;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// The lock of a run into `a`.
 const LOCK: &str = "a/.actin-run.lock";
@@ -40,16 +40,17 @@ fn an_interrupted_run_goes_on_to_the_same_bytes() {
         (MOTION, &hangup),
     ] {
         let place = Workplace::with(scene);
-        assert_eq!(code(&place.actin(&["--out", "whole"])), 0);
+        place.run("whole");
         let output = place.interrupted("parts", "checkpoint.bin", signals);
         assert_eq!(code(&output), 130);
         assert!(stderr(&output).contains("actin run scene.ron --out parts --resume"));
-        let summary = fs::read_to_string(place.path("parts/summary.json")).unwrap();
-        assert!(summary.contains("\"status\": \"interrupted\""));
-        let energies = fs::read_to_string(place.path("parts/energies.csv")).unwrap();
+        assert_has(
+            &place.read("parts/summary.json"),
+            &["\"status\": \"interrupted\""],
+        );
+        let energies = place.read("parts/energies.csv");
         assert!(energies.lines().count() > 1);
-        let output = place.actin(&["--out", "parts", "--resume"]);
-        assert_eq!(code(&output), 0, "{}", stderr(&output));
+        place.resume("parts");
         assert_same_files(&place.path("whole"), &place.path("parts"));
     }
 }
@@ -72,7 +73,7 @@ fn a_killed_run_can_be_looked_at() {
         let page = || {
             let output = place.shell("actin view a");
             assert_eq!(code(&output), 0, "{}", stderr(&output));
-            fs::read_to_string(place.path("a/view.html")).unwrap()
+            place.read("a/view.html")
         };
         let before = contents(&place.path("a"));
         assert!(page().contains(told), "{told}");
@@ -91,86 +92,6 @@ fn a_second_signal_kills() {
     let output = place.interrupted("a", "scene.ron", &["-STOP", "-INT", "-TERM", "-CONT"]);
     assert_eq!(output.status.code(), None, "{}", stderr(&output));
     assert!(matches!(output.status.signal(), Some(2 | 15)));
-}
-
-/// Numbers that look random and are the same every time.
-fn next(seed: &mut u64) -> u64 {
-    *seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
-    *seed >> 33
-}
-
-/// Kills of one run that are so many that it will never get to its end.
-const MOST_KILLS: usize = 200;
-/// After as many kills patience doubles, for good.
-const KILLS_PER_DOUBLING: usize = 16;
-
-/// How a run ends, if it does within `patience`; it is killed if not.
-fn end_or_kill(mut child: Child, patience: Duration) -> Option<Output> {
-    let started = Instant::now();
-    while child.try_wait().unwrap().is_none() {
-        if started.elapsed() > patience {
-            child.kill().unwrap();
-            child.wait().unwrap();
-            return None;
-        }
-        sleep(Duration::from_millis(1));
-    }
-    Some(child.wait_with_output().unwrap())
-}
-
-/// Kills a run after random times until it gets to its end; returns the number of kills that left a
-/// checkpoint, from which the run went on.
-///
-/// On a busy machine a run may be killed before it has got any further: the next has twice the time.
-fn kill_until_done(place: &Workplace, most_ms: u64, seed: &mut u64) -> usize {
-    let checkpoint = || fs::read(place.path("a/checkpoint.bin")).ok();
-    let (mut survived, mut stalls) = (0, 0);
-    for kills in 0..MOST_KILLS {
-        let before = checkpoint();
-        let go_on = match before {
-            Some(_) => "--resume",
-            None => "--overwrite",
-        };
-        let mut command = place.command(&["--out", "a", "--checkpoint-every", "0.02", go_on]);
-        command.env("RAYON_NUM_THREADS", (1 + kills % 4).to_string());
-        let factor = 1 << (stalls + kills / KILLS_PER_DOUBLING).min(10);
-        let patience = Duration::from_millis(factor * (20 + next(seed) % most_ms));
-        if let Some(output) = end_or_kill(command.spawn().unwrap(), patience) {
-            assert_eq!(code(&output), 0, "{}", stderr(&output));
-            return survived;
-        }
-        let after = checkpoint();
-        survived += usize::from(after.is_some());
-        stalls = if after == before { stalls + 1 } else { 0 };
-    }
-    panic!("not done after {MOST_KILLS} kills, {survived} of them with a checkpoint");
-}
-
-/// SIGKILL cannot be caught: whatever is on the disk then must do. The runs go on to the bytes of
-/// one that was not killed.
-fn assert_survives(scenes: &[&str], rounds: usize, most_ms: u64) {
-    let mut seed = 8;
-    let mut kills = 0;
-    for round in 0..rounds {
-        let place = Workplace::with(scenes[round % scenes.len()]);
-        assert_eq!(code(&place.actin(&["--out", "whole"])), 0);
-        kills += kill_until_done(&place, most_ms, &mut seed);
-        assert_same_files(&place.path("whole"), &place.path("a"));
-    }
-    println!("{kills} kills survived in {rounds} runs");
-    assert!(kills > 0, "no run was killed after a checkpoint");
-}
-
-#[test]
-fn a_killed_run_goes_on_to_the_same_bytes() {
-    assert_survives(&[MOTION, &observed()], 1, 400);
-}
-
-/// The same some hundred times, in a minute or more.
-#[test]
-#[ignore = "takes a minute; run by hand with --ignored --nocapture"]
-fn many_killed_runs_go_on_to_the_same_bytes() {
-    assert_survives(&[MOTION, PATH], 40, 100);
 }
 
 /// Under `nohup` SIGHUP is ignored, and stays so: the run gets to its end.
@@ -193,36 +114,29 @@ fn a_hangup_that_was_ignored_before_is_ignored() {
 #[test]
 fn a_full_disk_loses_no_checkpoint() {
     let place = Workplace::with(MOTION);
-    assert_eq!(code(&place.actin(&["--out", "whole"])), 0);
+    place.run("whole");
     let output =
         place.shell("ulimit -f 64; exec actin run scene.ron --out a --checkpoint-every 0.01");
     println!("{}", stderr(&output));
     assert_eq!(code(&output), 74);
     assert!(stderr(&output).contains("warning: no checkpoint: a/records.bin: "));
     assert!(stderr(&output).contains("a checkpoint is kept; once the cause is removed"));
-    let output = place.actin(&["--out", "a", "--resume"]);
-    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    place.resume("a");
     assert_same_files(&place.path("whole"), &place.path("a"));
 }
 
 /// Where there is nothing to go on from, a run begins.
 #[test]
 fn what_has_not_begun_begins() {
-    let place = Workplace::with(
-        &MOTION
-            .replace("150.0", "1.0")
-            .replace("50.0", "0.5")
-            .replace("1.5", "0.5"),
-    );
-    let absent = place.actin(&["--out", "a", "--resume"]);
-    assert_eq!(code(&absent), 0, "{}", stderr(&absent));
-    assert_eq!(code(&place.actin(&["--out", "b"])), 0);
+    let place = Workplace::with(&short_motion());
+    place.resume("a");
+    place.run("b");
     assert_same_files(&place.path("a"), &place.path("b"));
     // What a run leaves that is killed before it has a checkpoint.
     for name in ["summary.json", "states.npz", "run.pvd"] {
         fs::remove_file(place.path("b").join(name)).unwrap();
     }
-    assert_eq!(code(&place.actin(&["--out", "b", "--resume"])), 0);
+    place.resume("b");
     assert_same_files(&place.path("a"), &place.path("b"));
 }
 
@@ -230,52 +144,29 @@ fn what_has_not_begun_begins() {
 /// finished says so and is left alone.
 #[test]
 fn what_cannot_be_resumed_is_refused() {
-    let place = Workplace::with(
-        &MOTION
-            .replace("150.0", "1.0")
-            .replace("50.0", "0.5")
-            .replace("1.5", "0.5"),
-    );
-    assert_eq!(code(&place.actin(&["--out", "a"])), 0);
+    let place = Workplace::with(&short_motion());
+    place.run("a");
     assert!(!place.path("a/checkpoint.bin").exists());
     let before = files(&place.path("a"));
-    let finished = place.actin(&["--out", "a", "--resume"]);
-    assert_eq!(code(&finished), 0);
-    let said = std::str::from_utf8(&finished.stdout).unwrap();
+    let said = place.resume("a");
     assert!(
         said.ends_with("a is finished (time is up): nothing to resume\n"),
         "{said}"
     );
     assert!(files(&place.path("a")) == before);
-    fs::write(
-        place.path("a/checkpoint.bin"),
+    place.write(
+        "a/checkpoint.bin",
         "nonsense of some length, at least 28 bytes",
-    )
-    .unwrap();
-    let damaged = place.actin(&["--out", "a", "--resume"]);
-    assert_eq!(code(&damaged), 2);
-    assert!(stderr(&damaged).contains("a/checkpoint.bin: not a checkpoint"));
+    );
+    let damaged = place.fail(2, &["run", "scene.ron", "--out", "a", "--resume"]);
+    assert_has(&damaged, &["a/checkpoint.bin: not a checkpoint"]);
     for arguments in [
         ["--resume", "--overwrite"],
         ["--checkpoint-every", "-1"],
         ["--checkpoint-every", "NaN"],
     ] {
-        assert_eq!(code(&place.actin(&arguments)), 2);
+        place.fail(2, &[&["run", "scene.ron"][..], &arguments].concat());
     }
-}
-
-/// Thrice the stability limit: exit code 3 with a checkpoint of the last good state, from which the
-/// run fails again in the same words.
-#[test]
-fn a_failed_run_fails_again_in_the_same_words() {
-    let unstable = "duration_ns: 100.0, time_step_ns: 0.0105, allow_unstable_step: true";
-    let scene = MOTION.replace("duration_ns: 150.0", unstable);
-    let place = Workplace::with(&scene.replace("duration_ns: 50.0", "duration_ns: 5.0"));
-    let first = place.actin(&["--out", "a"]);
-    assert_eq!(code(&first), 3);
-    assert!(place.path("a/checkpoint.bin").exists());
-    let again = place.actin(&["--out", "a", "--resume"]);
-    assert_eq!((code(&again), stderr(&again)), (3, stderr(&first)));
 }
 
 /// A force that is smaller than the rounding of others: exit code 3, with the place in the scene, and
@@ -290,21 +181,21 @@ fn an_equilibrium_with_a_load_below_the_residual_is_kept() {
             task: Equilibrium(force_pn: 1e-13, torque_pn_nm: 1e-12),
         )",
     );
-    let first = place.actin(&["--out", "a"]);
-    assert_eq!(code(&first), 3, "{}", stderr(&first));
-    let message = stderr(&first);
+    let message = place.fail(3, &["run", "scene.ron", "--out", "a"]);
     println!("{message}");
-    for part in [
-        "error: scene.ron:4:",
-        "loads[0].force_pn = [0.0, 0.0, 1e-12]: is below 100 times the residual of",
-        "; the equilibria are in a",
-    ] {
-        assert!(message.contains(part), "{part:?} in {message}");
-    }
-    let summary = fs::read_to_string(place.path("a/summary.json")).unwrap();
-    assert!(summary.contains("\"status\": \"failed\""), "{summary}");
-    assert!(summary.contains("\"negative_eigenvalues\": 0"), "{summary}");
-    let energies = fs::read_to_string(place.path("a/energies.csv")).unwrap();
+    assert_has(
+        &message,
+        &[
+            "error: scene.ron:4:",
+            "loads[0].force_pn = [0.0, 0.0, 1e-12]: is below 100 times the residual of",
+            "; the equilibria are in a",
+        ],
+    );
+    assert_has(
+        &place.read("a/summary.json"),
+        &["\"status\": \"failed\"", "\"negative_eigenvalues\": 0"],
+    );
+    let energies = place.read("a/energies.csv");
     assert_eq!(energies.lines().count(), 2, "{energies}");
     // The checkpoint holds the time that the run has taken.
     let results = || {
@@ -313,8 +204,8 @@ fn an_equilibrium_with_a_load_below_the_residual_is_kept() {
         all
     };
     let before = results();
-    let again = place.actin(&["--out", "a", "--resume"]);
-    assert_eq!((code(&again), stderr(&again)), (3, message));
+    let again = place.fail(3, &["run", "scene.ron", "--out", "a", "--resume"]);
+    assert_eq!(again, message);
     assert!(results() == before);
 }
 
@@ -331,10 +222,9 @@ fn a_directory_in_use_is_left_alone() {
     let id = first.id();
     let before = contents(&place.path("a"));
     for flag in ["--resume", "--overwrite", "--checkpoint-every=1"] {
-        let second = place.actin(&["--out", "a", flag]);
-        assert_eq!(code(&second), 2);
+        let second = place.fail(2, &["run", "scene.ron", "--out", "a", flag]);
         assert_eq!(
-            stderr(&second),
+            second,
             format!(
                 "error: a is in use: another run (process {id}) is writing into it; wait for its \
                  end, or name another directory\n"
@@ -346,15 +236,14 @@ fn a_directory_in_use_is_left_alone() {
     first.wait().unwrap();
     assert!(place.path(LOCK).exists());
     let short = MOTION.replace("150.0", "1.0").replace("50.0", "0.5");
-    fs::write(place.path("scene.ron"), short).unwrap();
-    let other_scene = place.actin(&["--out", "a", "--resume"]);
+    place.write("scene.ron", short);
+    let other_scene = place.actin(&["run", "scene.ron", "--out", "a", "--resume"]);
     assert!(
         !stderr(&other_scene).contains("in use"),
         "{}",
         stderr(&other_scene)
     );
-    let done = place.actin(&["--out", "a", "--overwrite"]);
-    assert_eq!(code(&done), 0, "{}", stderr(&done));
+    place.succeed(&["run", "scene.ron", "--out", "a", "--overwrite"]);
     assert_eq!(fs::read(place.path(LOCK)).unwrap(), b"");
 }
 
@@ -362,26 +251,19 @@ fn a_directory_in_use_is_left_alone() {
 /// written where the lock belongs is refused itself.
 #[test]
 fn files_of_others_are_left_alone() {
-    let place = Workplace::with(
-        &MOTION
-            .replace("150.0", "1.0")
-            .replace("50.0", "0.5")
-            .replace("1.5", "0.5"),
-    );
-    fs::write(place.path("notes.txt"), "mine").unwrap();
-    fs::write(place.path("lock"), "mine").unwrap();
+    let place = Workplace::with(&short_motion());
+    place.write("notes.txt", "mine");
+    place.write("lock", "mine");
     let before = contents(place.folder.path());
     for arguments in [&["--out", "."][..], &["--out", ".", "--resume"]] {
-        assert_eq!(code(&place.actin(arguments)), 2);
+        place.fail(2, &[&["run", "scene.ron"], arguments].concat());
         assert!(contents(place.folder.path()) == before, "{arguments:?}");
     }
     fs::create_dir(place.path("a")).unwrap();
     fs::write(place.path(LOCK), "mine").unwrap();
     for flag in ["--resume", "--overwrite", "--checkpoint-every=1"] {
-        let refused = place.actin(&["--out", "a", flag]);
-        assert_eq!(code(&refused), 2);
-        let message = stderr(&refused);
-        assert!(message.contains("was not written by a run"), "{message}");
+        let message = place.fail(2, &["run", "scene.ron", "--out", "a", flag]);
+        assert_has(&message, &["was not written by a run"]);
         assert_eq!(fs::read(place.path(LOCK)).unwrap(), b"mine");
     }
 }
@@ -390,27 +272,15 @@ fn files_of_others_are_left_alone() {
 /// everybody from it, as a folder without permission to write does, and even an administrator.)
 #[test]
 fn what_writes_nothing_needs_no_lock() {
-    let place = Workplace::with(
-        &MOTION
-            .replace("150.0", "1.0")
-            .replace("50.0", "0.5")
-            .replace("1.5", "0.5"),
-    );
-    assert_eq!(code(&place.actin(&["--out", "a"])), 0);
+    let place = Workplace::with(&short_motion());
+    place.run("a");
     fs::remove_file(place.path(LOCK)).unwrap();
     fs::create_dir(place.path(LOCK)).unwrap();
-    let again = place.actin(&["--out", "a", "--resume"]);
-    assert_eq!(code(&again), 0, "{}", stderr(&again));
-    let said = String::from_utf8_lossy(&again.stdout);
+    let said = place.resume("a");
     assert!(
         said.ends_with("a is finished (time is up): nothing to resume\n"),
         "{said}"
     );
-    let refused = place.actin(&["--out", "a"]);
-    assert_eq!(code(&refused), 2);
-    assert!(
-        stderr(&refused).contains("is not empty"),
-        "{}",
-        stderr(&refused)
-    );
+    let refused = place.fail(2, &["run", "scene.ron", "--out", "a"]);
+    assert_has(&refused, &["is not empty"]);
 }

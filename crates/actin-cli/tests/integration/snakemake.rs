@@ -1,23 +1,12 @@
 //! A sweep as a workflow for Snakemake, killed half way and run again.
 #![cfg(unix)]
 
-use crate::workplace;
+use crate::common::{Workplace, pushed, with_actin};
 use std::fs;
 use std::os::unix::process::CommandExt;
 use std::path::Path;
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
-use workplace::{Workplace, code, stderr, stdout};
-
-const SCENE: &str = "Scene(
-    filament: Filament(
-        sections: [Ellipsoids(from_nm: 0.0, to_nm: 10.0), Rod(from_nm: 10.0, to_nm: 30.0)],
-        monomers: Monomers(anchors: Independent, lateral_bonds: 8, longitudinal_bonds: 8),
-    ),
-    clamps: [Clamp(end: Start)],
-    loads: [EndForce(end: End, force_pn: (-2.0, 0.0, 0.0))],
-    task: Dynamics(duration_ns: 60.0, record_every_ns: 1.0),
-)";
 
 const SWEEP: &str = "Sweep(
     scene: \"scene.ron\",
@@ -39,14 +28,10 @@ fn snakemake(folder: &Path) -> Option<Command> {
         println!("SKIPPED: there is no snakemake");
         return None;
     }
-    let actin = Path::new(env!("CARGO_BIN_EXE_actin")).parent().unwrap();
-    let path = std::env::var("PATH").unwrap();
-    let mut command = Command::new(program);
+    let mut command = with_actin(&program, &folder.join("workflow"));
     command
         .args(["--cores", "2", "--quiet", "all"])
-        .env("PATH", format!("{}:{path}", actin.display()))
         .env("XDG_CACHE_HOME", folder.join("cache"))
-        .current_dir(folder.join("workflow"))
         .stdout(Stdio::null());
     Some(command)
 }
@@ -88,30 +73,24 @@ fn kill_half_way(place: &Workplace, command: &mut Command) {
 /// rows.
 #[test]
 fn a_workflow_that_is_killed_ends_with_the_same_table() {
-    let place = Workplace::with(SCENE);
+    let place = Workplace::with(&pushed(60.0));
     let folder = place.path("");
-    fs::write(place.path("sweep.ron"), SWEEP).unwrap();
+    place.write("sweep.ron", SWEEP);
     let emit = "sweep sweep.ron --out workflow --emit snakemake";
     let emit: Vec<&str> = emit.split(' ').collect();
-    let output = place.actin(&emit);
-    assert_eq!(code(&output), 0, "{}", stderr(&output));
-    assert!(stdout(&output).ends_with("cd workflow && snakemake --cores all\n"));
+    let output = place.succeed(&emit);
+    assert!(output.ends_with("cd workflow && snakemake --cores all\n"));
     // Checkpoints come so quickly that one is there when it is killed.
-    let workflow = fs::read_to_string(place.path("workflow/Snakefile")).unwrap();
+    let workflow = place.read("workflow/Snakefile");
     let quick = workflow.replace("--only", "--checkpoint-every 0.01 --only");
-    fs::write(place.path("workflow/Snakefile"), quick).unwrap();
+    place.write("workflow/Snakefile", quick);
     let Some(mut command) = snakemake(&folder) else {
         return;
     };
     kill_half_way(&place, &mut command);
     let again = snakemake(&folder).unwrap().status().unwrap();
     assert!(again.success());
-    let whole = place.actin(&["sweep", "sweep.ron", "--out", "whole"]);
-    assert_eq!(code(&whole), 0, "{}", stderr(&whole));
-    for name in ["table.csv", "runs.csv"] {
-        let [one, other] =
-            ["workflow", "whole"].map(|out| fs::read(place.path(out).join(name)).unwrap());
-        assert!(one == other, "{name} differs");
-    }
+    place.succeed(&["sweep", "sweep.ron", "--out", "whole"]);
+    place.assert_same(["workflow", "whole"], &["table.csv", "runs.csv"]);
     assert!(!has(&place, "checkpoint.bin"));
 }

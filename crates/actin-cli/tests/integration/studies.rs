@@ -1,11 +1,10 @@
 //! The studies of the book: their scenes and sweeps run in short, and their scripts draw what they left.
 
-use crate::workplace;
+use crate::common::{Workplace, code, python, stderr, stdout};
 use std::env;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
-use workplace::{Workplace, code, stderr, stdout};
 
 /// A study: its sweep, and what is put in place of what in copies of sweep and scene, so that it is short.
 struct Study {
@@ -163,8 +162,7 @@ fn scenes_run() {
             .into_iter()
             .chain(set)
             .collect();
-        let output = place.actin(&arguments);
-        assert_eq!(code(&output), 0, "{}: {}", study.name, stderr(&output));
+        place.succeed(&arguments);
     }
 }
 
@@ -172,20 +170,19 @@ fn scenes_run() {
 /// with matplotlib the test says so, or fails if `ACTIN_REQUIRE_MATPLOTLIB` is set, as `.ci/run` does.
 #[test]
 fn sweeps_run_and_scripts_draw_them() {
-    let python = python();
+    let what = "the scripts of the studies are";
+    let python = python("numpy, matplotlib", "ACTIN_REQUIRE_MATPLOTLIB", what);
     for study in STUDIES {
         let (place, name) = (place(&study), study.name);
         let sweep = format!("{name}-sweep");
-        let output = place.actin(&["sweep", &format!("{sweep}.ron")]);
-        assert_eq!(code(&output), 0, "{name}: {}", stderr(&output));
+        place.succeed(&["sweep", &format!("{sweep}.ron")]);
         let table = fs::read_to_string(place.path(&format!("sweeps/{sweep}/table.csv"))).unwrap();
         assert!(
             table.matches('\n').count() > study.points,
             "{name}: {table}"
         );
         if name == "bundle" {
-            let output = place.actin(&["sweep", "bundle-push-sweep.ron"]);
-            assert_eq!(code(&output), 0, "{name}: {}", stderr(&output));
+            place.succeed(&["sweep", "bundle-push-sweep.ron"]);
         }
         let Some(python) = &python else { continue };
         let page = "page.md";
@@ -209,28 +206,6 @@ fn sweeps_run_and_scripts_draw_them() {
         assert!(page.lines().count() > 5, "{name}: {page}");
         assert!(!page.contains("nan"), "{name}: {page}");
     }
-}
-
-/// A Python with numpy and matplotlib.
-fn python() -> Option<String> {
-    let named = env::var("PYTHON").ok();
-    let usual = ["python3", "/usr/bin/python3"].map(str::to_owned);
-    let has_both = |python: &String| {
-        let mut command = Command::new(python);
-        let output = command.args(["-c", "import numpy, matplotlib"]).output();
-        output.is_ok_and(|output| output.status.success())
-    };
-    let found = named.into_iter().chain(usual).find(has_both);
-    if found.is_none() {
-        let message =
-            "no python3 with numpy and matplotlib: the scripts of the studies are NOT TESTED";
-        assert!(
-            env::var_os("ACTIN_REQUIRE_MATPLOTLIB").is_none(),
-            "{message}"
-        );
-        eprintln!("{message}");
-    }
-    found
 }
 
 /// What is written by `make_bundle.py` is what it writes.

@@ -1,22 +1,9 @@
 //! `actin sweep`: from a sweep and a scene to one table, however it is interrupted.
 
-use crate::workplace;
+use crate::common::{Workplace, assert_has, code, pushed, signal, stderr};
 use std::fs;
-use std::process::{Child, Command, Output, Stdio};
+use std::process::Child;
 use std::time::{Duration, Instant};
-use workplace::{Workplace, code, stderr, stdout};
-
-/// Monomers with drawn bonds under a force, in time; a hundredth of a second or so.
-const SCENE: &str = "Scene(
-    title: \"swept\",
-    filament: Filament(
-        sections: [Ellipsoids(from_nm: 0.0, to_nm: 10.0), Rod(from_nm: 10.0, to_nm: 30.0)],
-        monomers: Monomers(anchors: Independent, lateral_bonds: 8, longitudinal_bonds: 8),
-    ),
-    clamps: [Clamp(end: Start)],
-    loads: [EndForce(end: End, force_pn: (-2.0, 0.0, 0.0))],
-    task: Dynamics(duration_ns: 2.0, record_every_ns: 1.0),
-)";
 
 /// Two forces, one of which no scene takes with this tolerance, and two lengths; three samples.
 const SWEEP: &str = "Sweep(
@@ -31,30 +18,21 @@ const SWEEP: &str = "Sweep(
 )";
 
 fn place(sweep: &str) -> Workplace {
-    let place = Workplace::with(SCENE);
-    fs::write(place.path("sweep.ron"), sweep).unwrap();
+    let place = Workplace::with(&pushed(2.0));
+    place.write("sweep.ron", sweep);
     place
-}
-
-fn read(place: &Workplace, name: &str) -> String {
-    fs::read_to_string(place.path(name)).unwrap()
-}
-
-fn assert_done(output: &Output) {
-    assert_eq!(code(output), 0, "{}{}", stdout(output), stderr(output));
 }
 
 /// 18 runs, 6 of which fail as rows. Means and errors are those of the runs.
 #[test]
 fn a_sweep_becomes_a_table() {
     let place = place(SWEEP);
-    let output = place.actin(&["sweep", "sweep.ron", "--out", "a"]);
-    assert_done(&output);
     assert_eq!(
-        stdout(&output),
+        place.succeed(&["sweep", "sweep.ron", "--out", "a"]),
         "18 run(s), 6 failed, runs.csv says why; written to a/table.csv\n"
     );
-    let runs: Vec<String> = read(&place, "a/runs.csv")
+    let runs: Vec<String> = place
+        .read("a/runs.csv")
         .lines()
         .map(str::to_owned)
         .collect();
@@ -66,7 +44,8 @@ fn a_sweep_becomes_a_table() {
     let begins = |row: usize, start: &str| assert!(runs[row].starts_with(start), "{}", runs[row]);
     begins(8, "7,2,-1.5,30.0,2,completed,-");
     begins(13, "12,4,inf,30.0,1,failed,,,,\"loads[0].force_pn[2]=inf: ");
-    let table: Vec<Vec<String>> = read(&place, "a/table.csv")
+    let table: Vec<Vec<String>> = place
+        .read("a/table.csv")
         .lines()
         .map(|line| line.split(',').map(str::to_owned).collect())
         .collect();
@@ -89,75 +68,42 @@ fn a_sweep_becomes_a_table() {
 #[test]
 fn a_run_of_a_sweep_is_a_run() {
     let place = place(SWEEP);
-    assert_done(&place.actin(&["sweep", "sweep.ron", "--out", "a", "--only", "7"]));
-    let alone = [
-        "run",
-        "scene.ron",
-        "--set",
-        "filament.rod.law=Fitted",
-        "--set",
-        "loads[0].force_pn[2]=-1.5",
-        "--seed",
-        "2",
-        "--out",
-        "alone",
-    ];
-    assert_done(&place.actin(&alone));
-    for name in ["scene.ron", "energies.csv", "profile.csv"] {
-        assert_eq!(
-            read(&place, &format!("alone/{name}")),
-            read(&place, &format!("a/runs/7/{name}"))
-        );
-    }
+    place.succeed(&["sweep", "sweep.ron", "--out", "a", "--only", "7"]);
+    let alone = "run scene.ron --set filament.rod.law=Fitted --set loads[0].force_pn[2]=-1.5 --seed 2 --out alone";
+    place.succeed(&alone.split(' ').collect::<Vec<_>>());
+    let names = ["scene.ron", "energies.csv", "profile.csv"];
+    place.assert_same(["alone", "a/runs/7"], &names);
 }
 
 /// One core and two, in pieces, in any order, resumed and run again from its own directory: the same bytes.
 #[test]
 fn tables_do_not_depend_on_how_they_were_made() {
     let place = place(SWEEP);
-    assert_done(&place.actin(&["sweep", "sweep.ron", "--jobs", "1"]));
-    assert_done(&place.actin(&["sweep", "sweep.ron", "--out", "b", "--jobs", "2"]));
+    place.succeed(&["sweep", "sweep.ron", "--jobs", "1"]);
+    place.succeed(&["sweep", "sweep.ron", "--out", "b", "--jobs", "2"]);
     for runs in ["12-17,3", "0-2,3"] {
-        assert_done(&place.actin(&["sweep", "sweep.ron", "--out", "c", "--only", runs]));
+        place.succeed(&["sweep", "sweep.ron", "--out", "c", "--only", runs]);
         assert!(!place.path("c/table.csv").exists());
     }
-    assert_done(&place.actin(&["sweep", "sweep.ron", "--out", "c", "--resume"]));
-    assert_done(&place.actin(&["sweep", "c/sweep.ron", "--out", "d", "--resume"]));
-    for name in ["table.csv", "runs.csv", "parameters.csv", "sweep.ron"] {
-        let expected = read(&place, &format!("sweeps/sweep/{name}"));
-        for out in ["b", "c", "d"] {
-            assert_eq!(
-                read(&place, &format!("{out}/{name}")),
-                expected,
-                "{name} of {out}"
-            );
-        }
+    place.succeed(&["sweep", "sweep.ron", "--out", "c", "--resume"]);
+    place.succeed(&["sweep", "c/sweep.ron", "--out", "d", "--resume"]);
+    let names = ["table.csv", "runs.csv", "parameters.csv", "sweep.ron"];
+    for out in ["b", "c", "d"] {
+        place.assert_same(["sweeps/sweep", out], &names);
     }
     // Another column needs no run.
     fs::remove_file(place.path("d/runs/4/energies.csv")).unwrap();
     let more = SWEEP.replace("\"energy_pn_nm.total\"", "\"work.steps\"");
-    fs::write(place.path("more.ron"), more).unwrap();
-    assert_done(&place.actin(&["sweep", "more.ron", "--out", "d", "--resume"]));
-    assert!(read(&place, "d/table.csv").contains("work.steps error"));
+    place.write("more.ron", more);
+    place.succeed(&["sweep", "more.ron", "--out", "d", "--resume"]);
+    assert!(place.read("d/table.csv").contains("work.steps error"));
     assert!(!place.path("d/runs/4/energies.csv").exists());
 }
 
 fn begin(place: &Workplace, out: &str) -> Child {
-    Command::new(env!("CARGO_BIN_EXE_actin"))
-        .args([
-            "sweep",
-            "sweep.ron",
-            "--out",
-            out,
-            "--resume",
-            "--checkpoint-every",
-            "0.02",
-        ])
-        .current_dir(place.path("sweep.ron").parent().unwrap())
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped())
-        .spawn()
-        .unwrap()
+    let line = format!("sweep sweep.ron --out {out} --resume --checkpoint-every 0.02");
+    let arguments: Vec<&str> = line.split(' ').collect();
+    place.command(&arguments).spawn().unwrap()
 }
 
 /// Killed every now and then until it is done: the tables of a sweep that was not, to the byte. Patience
@@ -166,9 +112,9 @@ fn begin(place: &Workplace, out: &str) -> Child {
 fn a_sweep_that_is_killed_goes_on_to_the_same_tables() {
     let sweep = SWEEP.replace("-1.5, inf", "-1.5");
     let place = place(&sweep);
-    let longer = SCENE.replace("duration_ns: 2.0", "duration_ns: 40.0");
-    fs::write(place.path("scene.ron"), longer).unwrap();
-    assert_done(&place.actin(&["sweep", "sweep.ron", "--out", "whole"]));
+    let longer = pushed(40.0);
+    place.write("scene.ron", longer);
+    place.succeed(&["sweep", "sweep.ron", "--out", "whole"]);
     let mut kills = 0;
     loop {
         let mut child = begin(&place, "parts");
@@ -178,7 +124,8 @@ fn a_sweep_that_is_killed_goes_on_to_the_same_tables() {
             std::thread::sleep(Duration::from_millis(2));
         }
         if child.try_wait().unwrap().is_some() {
-            assert_done(&child.wait_with_output().unwrap());
+            let output = child.wait_with_output().unwrap();
+            assert_eq!(code(&output), 0, "{}", stderr(&output));
             break;
         }
         child.kill().unwrap();
@@ -188,12 +135,7 @@ fn a_sweep_that_is_killed_goes_on_to_the_same_tables() {
     }
     println!("{kills} kills");
     assert!(kills > 1, "it was never interrupted");
-    for name in ["table.csv", "runs.csv"] {
-        assert_eq!(
-            read(&place, &format!("parts/{name}")),
-            read(&place, &format!("whole/{name}"))
-        );
-    }
+    place.assert_same(["parts", "whole"], &["table.csv", "runs.csv"]);
 }
 
 /// What a signal interrupts has exit code 130, and says how to go on.
@@ -201,23 +143,22 @@ fn a_sweep_that_is_killed_goes_on_to_the_same_tables() {
 #[test]
 fn a_signal_leaves_checkpoints() {
     let place = place(&SWEEP.replace("-1.5, inf", "-1.5"));
-    let longer = SCENE.replace("duration_ns: 2.0", "duration_ns: 4000.0");
-    fs::write(place.path("scene.ron"), longer).unwrap();
+    let longer = pushed(4000.0);
+    place.write("scene.ron", longer);
     let child = begin(&place, "a");
     while !place.path("a/runs/0/checkpoint.bin").exists() {
         std::thread::sleep(Duration::from_millis(2));
     }
-    let id = child.id().to_string();
-    Command::new("kill").args(["-INT", &id]).status().unwrap();
+    signal(&child, "-INT");
     let output = child.wait_with_output().unwrap();
     assert_eq!(code(&output), 130, "{}", stderr(&output));
     let message = "interrupted: 0 of 12 runs have ended and are in runs.csv and table.csv, the others that had begun \
                    have checkpoints; to continue: actin sweep sweep.ron --out a --resume\n";
     assert_eq!(stderr(&output), message);
     // Both tables stand, with what has not ended.
-    let runs = read(&place, "a/runs.csv");
+    let runs = place.read("a/runs.csv");
     assert_eq!(runs.matches(",unfinished,").count(), 12, "{runs}");
-    let table = read(&place, "a/table.csv");
+    let table = place.read("a/table.csv");
     let counts: Vec<&str> = table
         .lines()
         .skip(1)
@@ -230,13 +171,9 @@ fn a_signal_leaves_checkpoints() {
 #[test]
 fn a_sweep_of_which_every_run_fails_is_a_failure() {
     let place = place(&SWEEP.replace("0.0, -1.5, inf", "inf"));
-    let output = place.actin(&["sweep", "sweep.ron", "--out", "a"]);
-    assert_eq!(code(&output), 3, "{}", stderr(&output));
-    assert_eq!(
-        stderr(&output),
-        "error: all 6 run(s) failed: a/runs.csv says why\n"
-    );
-    assert!(read(&place, "a/runs.csv").contains("must be finite"));
+    let output = place.fail(3, &["sweep", "sweep.ron", "--out", "a"]);
+    assert_eq!(output, "error: all 6 run(s) failed: a/runs.csv says why\n");
+    assert!(place.read("a/runs.csv").contains("must be finite"));
 }
 
 /// What is written in place of what, and what it prints.
@@ -305,9 +242,7 @@ fn mistakes_of_a_sweep_have_their_place() {
     for (from, to, message) in MISTAKES {
         let place = place(&SWEEP.replacen(from, to, 1));
         for flag in ["--check", "--resume"] {
-            let output = place.actin(&["sweep", "sweep.ron", flag]);
-            let found = stderr(&output);
-            assert_eq!(code(&output), 2, "{found}");
+            let found = place.fail(2, &["sweep", "sweep.ron", flag]);
             assert!(found.starts_with(&format!("error: {message}")), "{found}");
         }
         assert!(!place.path("sweeps").exists());
@@ -338,14 +273,12 @@ fn all_mistakes_of_a_sweep_are_told() {
             ],
         ),
     ] {
-        let output = place(&sweep).actin(&["sweep", "sweep.ron", "--check"]);
-        let found = stderr(&output);
-        assert_eq!(code(&output), 2, "{found}");
+        let found = place(&sweep).fail(2, &["sweep", "sweep.ron", "--check"]);
         let told: Vec<&str> = found.split("error: ").skip(1).collect();
         assert_eq!(told.len(), lines.len(), "{found}");
         for (told, line) in told.iter().zip(lines) {
             assert!(told.starts_with(&format!("sweep.ron:{line}")), "{told}");
-            assert!(told.contains("^^^"), "{told}");
+            assert_has(told, &["^^^"]);
         }
     }
 }
@@ -367,7 +300,7 @@ const HEATED: &str = "Scene(
 #[test]
 fn observables_are_results() {
     let place = place("");
-    fs::write(place.path("scene.ron"), HEATED).unwrap();
+    place.write("scene.ron", HEATED);
     let columns = [
         "observables.tip[0]_z_nm.mean",
         "observables.tip[0]_z_nm.error",
@@ -380,9 +313,9 @@ fn observables_are_results() {
             columns[0], columns[1], columns[2]
         )
     };
-    fs::write(place.path("sweep.ron"), sweep("work.steps")).unwrap();
-    assert_done(&place.actin(&["sweep", "sweep.ron", "--out", "a"]));
-    let runs = read(&place, "a/runs.csv");
+    place.write("sweep.ron", sweep("work.steps"));
+    place.succeed(&["sweep", "sweep.ron", "--out", "a"]);
+    let runs = place.read("a/runs.csv");
     for row in runs.lines().skip(1) {
         let number = |k: usize| row.split(',').nth(k).unwrap().parse::<f64>();
         let [tip, error, length] = [4, 5, 6].map(|k| number(k).unwrap());
@@ -393,11 +326,7 @@ fn observables_are_results() {
         assert!(length > 1000.0, "{row}");
     }
     assert!(!place.path("a/runs/0/states.npz").exists());
-    fs::write(
-        place.path("sweep.ron"),
-        sweep("observables.tip[1]_z_nm.mean"),
-    )
-    .unwrap();
+    place.write("sweep.ron", sweep("observables.tip[1]_z_nm.mean"));
     let output = place.actin(&["sweep", "sweep.ron", "--out", "b"]);
     assert!(
         stderr(&output).contains("summary.json has no tip there"),
@@ -410,18 +339,15 @@ fn observables_are_results() {
 #[test]
 fn a_result_that_is_lacking_is_told() {
     let place = place("");
-    fs::write(
-        place.path("sweep.ron"),
+    place.write(
+        "sweep.ron",
         "Sweep(scene: \"scene.ron\", results: [\"work.steps\", \"filaments[1].tip_nm[0]\"])",
-    )
-    .unwrap();
-    let output = place.actin(&["sweep", "sweep.ron", "--out", "out"]);
-    assert_eq!(code(&output), 3, "{}", stdout(&output));
-    let told = stderr(&output);
+    );
+    let told = place.fail(3, &["sweep", "sweep.ron", "--out", "out"]);
     assert!(told.starts_with("error: all 1 run(s) failed"), "{told}");
     let reason = "its summary has no value of filaments[1].tip_nm[0]";
     for table in ["out/runs.csv", "out/table.csv"] {
-        let text = read(&place, table);
+        let text = place.read(table);
         assert!(text.lines().nth(1).unwrap().contains(reason), "{text}");
     }
 }
@@ -431,16 +357,15 @@ fn a_result_that_is_lacking_is_told() {
 fn other_directories_are_left_alone() {
     let place = place(SWEEP);
     let refused = |arguments: &[&str]| {
-        let output = place.actin(&[&["sweep"], arguments].concat());
-        assert_eq!(code(&output), 2, "{}", stdout(&output));
-        stderr(&output).to_owned()
+        let output = place.fail(2, &[&["sweep"], arguments].concat());
+        output.clone()
     };
     assert!(refused(&["sweep.ron", "--out", "."]).contains("is not empty and holds no sweep"));
-    assert_done(&place.actin(&["sweep", "sweep.ron", "--out", "a", "--only", "12"]));
+    place.succeed(&["sweep", "sweep.ron", "--out", "a", "--only", "12"]);
     assert!(refused(&["sweep.ron", "--out", "a"]).contains("--resume continues it"));
-    fs::write(place.path("other.ron"), SWEEP.replace("35.5", "36.5")).unwrap();
+    place.write("other.ron", SWEEP.replace("35.5", "36.5"));
     let message = refused(&["other.ron", "--out", "a", "--resume"]);
-    assert!(message.contains("line 5 of parameters.csv is"), "{message}");
+    assert_has(&message, &["line 5 of parameters.csv is"]);
     assert!(refused(&["sweep.ron", "--out", "a", "--only", "18"]).contains("there is no run 18"));
 }
 
@@ -448,17 +373,16 @@ fn other_directories_are_left_alone() {
 #[test]
 fn a_sweep_can_be_checked() {
     let place = place(SWEEP);
-    let output = place.actin(&["sweep", "sweep.ron", "--check"]);
-    assert_done(&output);
-    let said = stdout(&output);
-    for part in [
-        "18 runs: 6 point(s), 3 run(s) of each\n  loads[0].force_pn[2]: 0.0, -1.5, inf\n",
-        "  seeds 1 to 3\n",
-        "a run of point 1, the largest of 4 built: ",
-        "all 18 runs, each as long as this one: ",
-        "2 point(s) will fail:\n  point 4: loads[0].force_pn[2]=inf: loads[0].force_pn = [-2.0, 0.0, inf]",
-    ] {
-        assert!(said.contains(part), "{part} in {said}");
-    }
+    let said = place.succeed(&["sweep", "sweep.ron", "--check"]);
+    assert_has(
+        &said,
+        &[
+            "18 runs: 6 point(s), 3 run(s) of each\n  loads[0].force_pn[2]: 0.0, -1.5, inf\n",
+            "  seeds 1 to 3\n",
+            "a run of point 1, the largest of 4 built: ",
+            "all 18 runs, each as long as this one: ",
+            "2 point(s) will fail:\n  point 4: loads[0].force_pn[2]=inf: loads[0].force_pn = [-2.0, 0.0, inf]",
+        ],
+    );
     assert!(!place.path("sweeps").exists());
 }

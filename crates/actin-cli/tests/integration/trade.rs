@@ -1,8 +1,7 @@
 //! `actin trade`: table, files and error messages.
 
-use crate::workplace;
+use crate::common::{Workplace, assert_has};
 use std::fs;
-use workplace::{Workplace, code, stderr, stdout};
 
 const BENT: &str = "Scene(
     filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 108.0)]),
@@ -25,18 +24,16 @@ fn a_trade_writes_a_table_a_picture_and_a_scene() {
         "--out",
         "a",
     ];
-    let output = place.actin(&arguments);
-    assert_eq!(code(&output), 0, "{}", stderr(&output));
-    let printed = stdout(&output);
-    assert!(printed.contains("reference: every monomer: "), "{printed}");
-    let table = fs::read_to_string(place.path("a/trade.csv")).unwrap();
+    let printed = place.succeed(&arguments);
+    assert_has(&printed, &["reference: every monomer: "]);
+    let table = place.read("a/trade.csv");
     let mut rows = csv::Reader::from_reader(table.as_bytes());
     let header = rows.headers().unwrap().clone();
     assert!(
         header.iter().any(|column| column == "tip error"),
         "{header:?}"
     );
-    let picture = fs::read_to_string(place.path("a/trade.svg")).unwrap();
+    let picture = place.read("a/trade.svg");
     let names: Vec<String> = rows
         .records()
         .map(|row| row.unwrap()[0].to_owned())
@@ -48,20 +45,18 @@ fn a_trade_writes_a_table_a_picture_and_a_scene() {
             "{name}"
         );
     }
-    assert!(picture.contains("wanted: 5 %"));
-    let best = place.actin(&["run", "a/best.ron", "--out", "b"]);
-    assert_eq!(code(&best), 0, "{}", stderr(&best));
+    assert_has(&picture, &["wanted: 5 %"]);
+    place.succeed(&["run", "a/best.ron", "--out", "b"]);
 }
 
 #[test]
 fn an_earlier_trade_is_not_overwritten() {
     let place = Workplace::with(BENT);
     fs::create_dir(place.path("a")).unwrap();
-    fs::write(place.path("a/best.ron"), "mine").unwrap();
-    let output = place.actin(&["trade", "scene.ron", "--out", "a"]);
-    assert_eq!(code(&output), 2);
-    assert!(stderr(&output).contains("--overwrite replaces it"));
-    let kept = fs::read_to_string(place.path("a/best.ron")).unwrap();
+    place.write("a/best.ron", "mine");
+    let output = place.fail(2, &["trade", "scene.ron", "--out", "a"]);
+    assert_has(&output, &["--overwrite replaces it"]);
+    let kept = place.read("a/best.ron");
     assert_eq!(kept, "mine");
 }
 
@@ -80,8 +75,10 @@ fn invalid_options_are_refused() {
         (["--loads=-1.0", "--all"], "loads = -1.0: must be positive"),
         (["--budget", "never"], "not a number"),
     ] {
-        let output = place.actin(&[&["trade", "scene.ron", "--out", "a"][..], &arguments].concat());
-        assert_eq!(code(&output), 2, "{arguments:?}");
-        assert!(stderr(&output).contains(message), "{}", stderr(&output));
+        let output = place.fail(
+            2,
+            &[&["trade", "scene.ron", "--out", "a"][..], &arguments].concat(),
+        );
+        assert!(output.contains(message), "{output}");
     }
 }

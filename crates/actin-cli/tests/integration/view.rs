@@ -1,13 +1,12 @@
 //! `actin view`: its page in a browser, its films, and what it says of directories that are not whole.
 
-use crate::workplace;
 #[path = "../../../actin-view/tests/chromium/mod.rs"]
 mod chromium;
 
+use crate::common::{Workplace, assert_has};
 use chromium::{Mode, browser, count, probed};
 use serde_json::{Value, json};
 use std::fs;
-use workplace::{Workplace, code, stderr, stdout};
 
 const PROBE: &str = include_str!("view_probe.js");
 /// A phone and a laptop (pixels).
@@ -53,15 +52,13 @@ const PATH: &str = "Scene(
 
 fn ran(scene: &str) -> Workplace {
     let place = Workplace::with(scene);
-    let output = place.actin(&["run", "scene.ron", "--out", "a"]);
-    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    place.run("a");
     place
 }
 
 fn page(place: &Workplace) -> String {
-    let output = place.actin(&["view", "a"]);
-    assert_eq!(code(&output), 0, "{}", stderr(&output));
-    fs::read_to_string(place.path("a/view.html")).unwrap()
+    place.succeed(&["view", "a"]);
+    place.read("a/view.html")
 }
 
 /// Symptoms of the plausible bugs: a shader that does not compile, a blank canvas, a slider that moves nothing, a
@@ -148,16 +145,11 @@ fn only_pages_are_replaced() {
     let place = ran(PATH);
     page(&place);
     page(&place);
-    fs::write(place.path("mine.html"), "<!doctype html>mine").unwrap();
-    let output = place.actin(&["view", "a", "--out", "mine.html"]);
-    assert_eq!(code(&output), 2);
-    assert!(stderr(&output).contains("mine.html: exists and is no page of a run"));
-    assert_eq!(
-        fs::read_to_string(place.path("mine.html")).unwrap(),
-        "<!doctype html>mine"
-    );
-    let output = place.actin(&["run", "scene.ron", "--out", "a", "--overwrite"]);
-    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    place.write("mine.html", "<!doctype html>mine");
+    let output = place.fail(2, &["view", "a", "--out", "mine.html"]);
+    assert_has(&output, &["mine.html: exists and is no page of a run"]);
+    assert_eq!(place.read("mine.html"), "<!doctype html>mine");
+    place.succeed(&["run", "scene.ron", "--out", "a", "--overwrite"]);
 }
 
 /// What is no run is refused with 2; what is damaged or missing is said, and the rest is shown.
@@ -165,9 +157,8 @@ fn only_pages_are_replaced() {
 fn directories_that_are_not_whole() {
     let place = ran(MOTION);
     let refused = |what: &str, reason: &str| {
-        let output = place.actin(&["view", what]);
-        assert_eq!(code(&output), 2, "{}", stdout(&output));
-        assert!(stderr(&output).contains(reason), "{}", stderr(&output));
+        let output = place.fail(2, &["view", what]);
+        assert!(output.contains(reason), "{output}");
     };
     refused("absent", "absent: No such file");
     refused("scene.ron", "not a directory");
@@ -178,21 +169,17 @@ fn directories_that_are_not_whole() {
         let page = page(&place);
         assert!(page.contains(remark), "{remark}");
     };
-    fs::write(place.path("a/states.npz"), &states[..states.len() / 3]).unwrap();
+    place.write("a/states.npz", &states[..states.len() / 3]);
     told("states.npz is damaged");
     fs::remove_file(place.path("a/states.npz")).unwrap();
     told("There is no states.npz: filaments are shown as built.");
-    fs::write(
-        place.path("a/energies.csv"),
-        "time_ns,total_pn_nm\n0.0,what\n",
-    )
-    .unwrap();
+    place.write("a/energies.csv", "time_ns,total_pn_nm\n0.0,what\n");
     told("energies.csv is damaged: row 1, total_pn_nm: &quot;what&quot; is no number.");
-    fs::write(place.path("a/summary.json"), "{}").unwrap();
+    place.write("a/summary.json", "{}");
     told("summary.json is damaged");
     fs::remove_file(place.path("a/summary.json")).unwrap();
     told("There is no summary.json that can be read: the run has not ended");
-    fs::write(place.path("a/scene.ron"), "Scene(\n    nothing: 1)").unwrap();
+    place.write("a/scene.ron", "Scene(\n    nothing: 1)");
     refused("a", "scene.ron:2:");
 }
 
@@ -201,8 +188,7 @@ fn directories_that_are_not_whole() {
 fn films_are_pictures_in_order() {
     let place = ran(PATH);
     let film = ["view", "a", "--film", "film", "--size", "320x200"];
-    let output = place.actin(&film);
-    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    place.succeed(&film);
     let mut names: Vec<_> = fs::read_dir(place.path("film"))
         .unwrap()
         .collect::<Result<_, _>>()
@@ -219,13 +205,8 @@ fn films_are_pictures_in_order() {
         assert_ne!(bytes, before, "picture {k} is that before it");
         before = bytes;
     }
-    let output = place.actin(&film);
-    assert_eq!(code(&output), 2);
-    assert!(
-        stderr(&output).contains("film: is not empty"),
-        "{}",
-        stderr(&output)
-    );
+    let output = place.fail(2, &film);
+    assert_has(&output, &["film: is not empty"]);
 }
 
 /// The camera goes around, and what is no size or number is refused.
@@ -244,10 +225,9 @@ fn films_that_turn_and_arguments_that_are_refused() {
         "--pictures",
         "4",
     ];
-    assert_eq!(code(&place.actin(&turn)), 0);
+    place.succeed(&turn);
     assert_eq!(fs::read_dir(place.path("turn")).unwrap().count(), 4);
     for bad in [["--size", "5x9"], ["--size", "640"], ["--pictures", "0"]] {
-        let output = place.actin(&[&["view", "a", "--film", "b"][..], &bad].concat());
-        assert_eq!(code(&output), 2);
+        place.fail(2, &[&["view", "a", "--film", "b"][..], &bad].concat());
     }
 }

@@ -1,10 +1,9 @@
-//! Runs that are killed, and checkpoints that are damaged: in the end the bytes of a whole run.
+//! Runs that are killed: in the end the bytes of a whole run.
 
 use super::common::files;
 use super::program::{self, Ending};
-use super::spoil::{below, between};
-use super::{Case, Tally, once, scenes};
-use rand::Rng;
+use super::spoil::between;
+use super::{Case, Tally, scenes};
 use std::fs;
 use std::path::Path;
 use std::time::Duration;
@@ -15,7 +14,8 @@ const MOST_KILLS: u32 = 200;
 /// An undisturbed run; it is interrupted after that time, which is a failure.
 const UNDISTURBED: Duration = Duration::from_mins(5);
 
-/// Kills a run at random moments until it is done; its files are those of one that was not killed.
+/// Kills a run, on one to four threads, at random moments until it is done; its files are those of one that was not
+/// killed.
 pub(super) fn kill(case: &mut Case<'_>) -> Result<Tally, String> {
     let length = whole(case)?;
     let (mut kills, mut survived) = (0, 0);
@@ -26,7 +26,8 @@ pub(super) fn kill(case: &mut Case<'_>) -> Result<Tally, String> {
         } else {
             "--overwrite"
         };
-        let mut started = program::start(case.folder, &arguments("a", go_on))?;
+        let threads = 1 + kills % 4;
+        let mut started = program::start(case.folder, &arguments("a", go_on), threads)?;
         // Later kills come later: on a busy machine a run may not get any further at first.
         let factor = f64::from(1 + kills / 8);
         let patience = factor * between(&mut case.random, 0.01, 0.5) * length.as_secs_f64();
@@ -44,31 +45,6 @@ pub(super) fn kill(case: &mut Case<'_>) -> Result<Tally, String> {
         if kills > MOST_KILLS {
             return Err(format!("not done after {kills} kills"));
         }
-    }
-}
-
-/// Interrupts a run, damages what it keeps, and goes on: refused by name, or the same bytes.
-pub(super) fn damage(case: &mut Case<'_>) -> Result<Tally, String> {
-    whole(case)?;
-    let mut started = program::start(case.folder, &arguments("a", "--overwrite"))?;
-    while !case.folder.join("a/checkpoint.bin").exists() {
-        if started.wait(Duration::from_millis(2))? {
-            return Ok(once("done before the interrupt"));
-        }
-    }
-    started.signal("INT")?;
-    started.wait(UNDISTURBED)?;
-    if started.ending(true)?.code != Some(130) {
-        return Ok(once("done before the interrupt"));
-    }
-    let files = ["checkpoint.bin", "records.bin"];
-    let name = files[below(&mut case.random, 2)];
-    spoil_file(case, &case.folder.join("a").join(name))?;
-    let ending = program::finish(case.folder, &arguments("a", "--resume"), UNDISTURBED)?;
-    match ending.code {
-        Some(2) if ending.stderr.contains(name) => Ok(once("refused by name")),
-        Some(0) => same(case.folder, "a", &ending).map(|()| once("harmless: the same bytes")),
-        _ => Err(format!("{name}: {ending:?}")),
     }
 }
 
@@ -94,24 +70,6 @@ fn arguments<'a>(out: &'a str, go_on: &'a str) -> [&'a str; 7] {
         "0.01",
         go_on,
     ]
-}
-
-/// Flips a bit, cuts, appends, fills with noise, or swaps two stretches.
-fn spoil_file(case: &mut Case<'_>, path: &Path) -> Result<(), String> {
-    let mut bytes = fs::read(path).map_err(|e| format!("{}: {e}", path.display()))?;
-    let random = &mut case.random;
-    let at = below(random, bytes.len());
-    match below(random, 5) {
-        0 => bytes[at] ^= 1 << below(random, 8),
-        1 => bytes.truncate(at),
-        2 => bytes.extend((0..=below(random, 999)).map(|i| i.to_le_bytes()[0])),
-        3 => {
-            let end = (at + 16).min(bytes.len());
-            bytes[at..end].fill_with(|| random.next_u64().to_le_bytes()[0]);
-        }
-        _ => bytes.rotate_left(at),
-    }
-    fs::write(path, bytes).map_err(|e| e.to_string())
 }
 
 /// Refuses an end without success, and files other than those of `whole`.

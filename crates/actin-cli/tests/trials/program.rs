@@ -36,15 +36,14 @@ pub(super) struct Started {
     stderr: PathBuf,
 }
 
-/// Starts it in `folder`; what it says goes to files there.
-pub(super) fn start(folder: &Path, arguments: &[&str]) -> Result<Started, String> {
+/// Starts it in `folder` on so many threads; what it says goes to files there.
+pub(super) fn start(folder: &Path, arguments: &[&str], threads: u32) -> Result<Started, String> {
     let stderr = folder.join("stderr.txt");
     let create = |path: &Path| File::create(path).map_err(|e| e.to_string());
     let child = Command::new(PATH)
         .args(arguments)
         .current_dir(folder)
-        // Cases run side by side.
-        .env("RAYON_NUM_THREADS", "1")
+        .env("RAYON_NUM_THREADS", threads.to_string())
         .stdout(create(&folder.join("stdout.txt"))?)
         .stderr(create(&stderr)?)
         .spawn()
@@ -61,7 +60,8 @@ pub(super) fn finish(
     arguments: &[&str],
     patience: Duration,
 ) -> Result<Ending, String> {
-    let mut started = start(folder, arguments)?;
+    // Cases run side by side.
+    let mut started = start(folder, arguments, 1)?;
     let interrupted = !started.wait(patience)?;
     if interrupted {
         started.signal("INT")?;

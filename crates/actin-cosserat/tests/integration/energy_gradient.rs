@@ -1,43 +1,12 @@
-//! The gradient law: that it is one, what follows from invariance, and states known by hand.
+//! The gradient law in states known by hand.
 
 use crate::common;
 use actin_cosserat::{EnergyGradient, Rigidities, RodEnd, RodLayout, RodMaterial, StraightRod};
 use actin_mechanics::Xorshift;
-use actin_mechanics::testing::{
-    assert_is_balanced, assert_is_gradient, assert_is_invariant, loads_of,
-};
+use actin_mechanics::testing::loads_of;
 use actin_mechanics::{Interaction, State, Vector3, rotation};
 use common::{ALL_WALLS, material, rod, strained_rod};
-use proptest::prelude::*;
 use std::f64::consts::TAU;
-
-/// A wrong Jacobian, or the small-angle truncation, is off by the square of the angle: percents.
-#[test]
-fn loads_are_minus_the_gradient_far_from_rest() {
-    let mut noise = Xorshift::new(1);
-    for walls in ALL_WALLS {
-        for segments in [1, 2, 5] {
-            let (state, layout) = strained_rod(segments, walls, &mut noise);
-            let rod = EnergyGradient::new(layout, material());
-            // h = 0.01 nm and rad: truncation and round-off are measured below 1e-12; 1e-10 is safe.
-            assert_is_gradient(&rod, &state, 0.01, 1e-10);
-        }
-    }
-}
-
-proptest! {
-    /// Invariance of the energy implies both balances; loads that are checked only one by one
-    /// may still leave a small resultant that drives a free rod.
-    #[test]
-    fn free_rods_keep_their_momenta(seed: u64, segments in 1_usize..9, walls in 0_usize..4) {
-        let mut noise = Xorshift::new(seed);
-        let (state, layout) = strained_rod(segments, ALL_WALLS[walls], &mut noise);
-        let rod = EnergyGradient::new(layout, material());
-        // Sums of a few dozen products: some units in the last place.
-        assert_is_balanced(&rod, &state, 1e-14);
-        assert_is_invariant(&rod, &state, 1e-13);
-    }
-}
 
 /// The built rod is the rest state, whichever way it lies. What is left is the round-off of
 /// positions (1e-15 nm) times rigidity over length.
@@ -70,6 +39,10 @@ fn neighbours_feel_nothing() {
     }
 }
 
+fn table4() -> RodMaterial {
+    RodMaterial::new(Rigidities::table4()).unwrap()
+}
+
 /// Sixteen segments of 10 nm along z.
 fn actin_rod() -> (State, RodLayout) {
     let mut state = State::default();
@@ -79,10 +52,7 @@ fn actin_rod() -> (State, RodLayout) {
 
 /// Asserts that nothing acts but a couple on the first frame and its opposite on the last.
 fn assert_only_end_couples(state: &State, layout: &RodLayout, couple: Vector3) {
-    let law = EnergyGradient::new(
-        layout.clone(),
-        RodMaterial::new(Rigidities::table4()).unwrap(),
-    );
+    let law = EnergyGradient::new(layout.clone(), table4());
     let loads = loads_of(&law, state);
     for (i, torque) in loads.torque.iter().enumerate() {
         let expected = if i == layout.end_frame(RodEnd::Start) {
@@ -135,7 +105,7 @@ fn an_end_moment_closes_a_circle() {
 fn uniform_stretch() {
     let (mut state, layout) = actin_rod();
     state.points.position.scale(1.01);
-    let law = EnergyGradient::new(layout, RodMaterial::new(Rigidities::table4()).unwrap());
+    let law = EnergyGradient::new(layout, table4());
     let loads = loads_of(&law, &state);
     for (i, force) in loads.force.iter().enumerate() {
         let expected = match i {
@@ -156,7 +126,7 @@ fn simple_shear() {
     let mut state = State::default();
     let layout = StraightRod::uniform(1, 10.0).push(&mut state).unwrap();
     state.points.position.add(1, Vector3::x() * 0.1);
-    let law = EnergyGradient::new(layout, RodMaterial::new(Rigidities::table4()).unwrap());
+    let law = EnergyGradient::new(layout, table4());
     let loads = loads_of(&law, &state);
     assert!((loads.force.get(0) - Vector3::x() * 160.0).norm() < 1e-9);
     assert!((loads.torque.get(0) - Vector3::y() * 1600.0).norm() < 1e-9);
@@ -174,7 +144,7 @@ fn walls_bend_over_half_a_segment() {
     let [wall, first, second] = [0, 1, 2];
     let turn = rotation::exp(Vector3::y() * 0.01);
     state.frames.orientation.set(first, turn);
-    let law = EnergyGradient::new(layout, RodMaterial::new(Rigidities::table4()).unwrap());
+    let law = EnergyGradient::new(layout, table4());
     let loads = loads_of(&law, &state);
     let couple = |frame: usize| loads.torque.get(frame).y;
     assert!((couple(wall) - 3.9e4 * 0.01 / 5.0).abs() < 1e-9);
@@ -188,7 +158,7 @@ fn energies_stand_in_the_order_of_the_elements() {
     let last = layout.end_frame(RodEnd::Start);
     let turned = rotation::exp(Vector3::z() * 0.01);
     state.frames.orientation.set(last, turned);
-    let law = EnergyGradient::new(layout, RodMaterial::new(Rigidities::table4()).unwrap());
+    let law = EnergyGradient::new(layout, table4());
     let mut energies = vec![f64::NAN; law.elements()];
     law.write_energies(&state, &mut energies);
     assert_eq!(energies.len(), 31);

@@ -1,6 +1,5 @@
 //! Rods.
 
-mod cantilever;
 mod common;
 mod energy_gradient;
 mod homogenised;

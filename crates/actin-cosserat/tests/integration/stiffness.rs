@@ -3,25 +3,10 @@
 use crate::common;
 use actin_cosserat::{EnergyGradient, RodLayout, StraightRod};
 use actin_mechanics::Xorshift;
-use actin_mechanics::testing::assert_is_stiffness;
-use actin_mechanics::{Coordinates, Interaction, State, Stiffness, Vector3, rotation};
+use actin_mechanics::testing::{assert_is_stiffness, stiffness_matrix};
+use actin_mechanics::{State, Vector3, rotation};
 use common::{ALL_WALLS, material, rod, strained_rod};
-use nalgebra::{DMatrix, DVector};
-
-/// Without the geometric part of either element, or with it not made symmetric, the error is of
-/// the order of the strain or the angle: tenths.
-#[test]
-fn stiffness_is_the_derivative_of_the_loads_far_from_rest() {
-    let mut noise = Xorshift::new(11);
-    for walls in ALL_WALLS {
-        for segments in [1, 2, 5] {
-            let (state, layout) = strained_rod(segments, walls, &mut noise);
-            let rod = EnergyGradient::new(layout, material());
-            // h = 0.01 nm and rad: truncation and round-off are measured below 1e-12; 1e-10 is safe.
-            assert_is_stiffness(&rod, &state, 0.01, 1e-10);
-        }
-    }
-}
+use nalgebra::DVector;
 
 /// Two segments whose second frame is turned by `theta` from the first.
 fn turned_pair(theta: Vector3) -> (State, RodLayout) {
@@ -49,28 +34,6 @@ fn stiffness_is_right_from_no_angle_to_3_rad() {
     }
 }
 
-/// The whole matrix: three rows per point, then three per frame.
-fn matrix(interaction: &dyn Interaction, state: &State) -> DMatrix<f64> {
-    let mut stiffness = Stiffness::default();
-    let second_order = interaction.second_order().unwrap();
-    second_order.add_stiffness(state, &mut stiffness);
-    let first = |c: Coordinates| match c {
-        Coordinates::Point(i) => 3 * i,
-        Coordinates::Frame(i) => 3 * (state.points.len() + i),
-    };
-    let n = 3 * (state.points.len() + state.frames.len());
-    let mut matrix = DMatrix::zeros(n, n);
-    for &(a, b, block) in stiffness.blocks() {
-        let mut place = matrix.fixed_view_mut::<3, 3>(first(a), first(b));
-        place += block;
-        if a != b {
-            let mut place = matrix.fixed_view_mut::<3, 3>(first(b), first(a));
-            place += block.transpose();
-        }
-    }
-    matrix
-}
-
 /// The change of all coordinates by a shift, or by a turn about the origin.
 fn rigid_motion(state: &State, shift: Vector3, turn: Vector3) -> DVector<f64> {
     let points = state.points.position.iter().map(|x| shift + turn.cross(&x));
@@ -93,7 +56,7 @@ fn only_rigid_motions_are_free_at_rest() {
         ..StraightRod::uniform(0, 0.0)
     };
     let layout = built.push(&mut state).unwrap();
-    let matrix = matrix(&EnergyGradient::new(layout, material()), &state);
+    let matrix = stiffness_matrix(&EnergyGradient::new(layout, material()), &state);
     let scale = matrix.amax();
     for k in 0..3 {
         let e = Vector3::ith(k, 1.0);
@@ -119,7 +82,7 @@ fn only_rigid_motions_are_free_at_rest() {
 fn shifts_are_free_in_every_state() {
     let mut noise = Xorshift::new(14);
     let (state, layout) = strained_rod(4, ALL_WALLS[0], &mut noise);
-    let matrix = matrix(&EnergyGradient::new(layout, material()), &state);
+    let matrix = stiffness_matrix(&EnergyGradient::new(layout, material()), &state);
     let shift = rigid_motion(&state, noise.vector(), Vector3::zeros());
     assert!((&matrix * shift).amax() < 1e-14 * matrix.amax());
 }
@@ -130,7 +93,7 @@ fn blocks_stand_on_the_rods_own_bodies() {
     let mut noise = Xorshift::new(15);
     let (state, layout) = rod(3, ALL_WALLS[3], &mut noise);
     let (points, frames) = (layout.points(), layout.bending_chain());
-    let matrix = matrix(&EnergyGradient::new(layout, material()), &state);
+    let matrix = stiffness_matrix(&EnergyGradient::new(layout, material()), &state);
     for i in 0..matrix.nrows() / 3 {
         let own = match i.checked_sub(state.points.len()) {
             None => points.contains(&i),

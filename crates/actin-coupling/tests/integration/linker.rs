@@ -6,7 +6,8 @@ use actin_mechanics::testing::{
     assert_fluctuates, assert_is_balanced, assert_is_gradient, assert_is_invariant,
     assert_is_stiffness, loads_of, resultant, stiffness_matrix,
 };
-use actin_mechanics::{Frame, Inertia, Interaction, Point, State, Vector3, rotation};
+use actin_mechanics::testing::{push_frame, push_point};
+use actin_mechanics::{Interaction, State, Vector3, rotation};
 use actin_mechanics::{Xorshift, perturb};
 use proptest::prelude::*;
 use std::f64::consts::FRAC_PI_2;
@@ -23,14 +24,12 @@ fn scene(noise: &mut Xorshift) -> Scene {
     let mut state = State::default();
     let rod = StraightRod::uniform(3, 10.0).push(&mut state).unwrap();
     let monomers = [35.0, 38.0].map(|height| {
-        let point = state.points.push(Point {
-            position: Vector3::z() * height,
-            mass: 0.0697,
-        });
-        let frame = state.frames.push(Frame {
-            orientation: rotation::exp(Vector3::z() * height),
-            inertia: Inertia::from_moments([0.2, 0.15, 0.15]).unwrap(),
-        });
+        let point = push_point(&mut state, Vector3::z() * height, 0.0697);
+        let frame = push_frame(
+            &mut state,
+            rotation::exp(Vector3::z() * height),
+            [0.2, 0.15, 0.15],
+        );
         (point, frame)
     });
     perturb(&mut state, noise, 1.0, 0.8);

@@ -8,7 +8,8 @@ use actin_mechanics::testing::{
     assert_are_second_derivatives, assert_is_balanced, assert_is_gradient, assert_is_invariant,
     loads_of,
 };
-use actin_mechanics::{Frame, Inertia, Interaction, Loads, Point, State, Vector3, rotation};
+use actin_mechanics::testing::{push_frame, push_point};
+use actin_mechanics::{Interaction, Loads, State, Vector3, rotation};
 use actin_mechanics::{Xorshift, perturb};
 use std::f64::consts::PI;
 
@@ -33,7 +34,7 @@ fn chain(
         .map(|k| {
             let position = from + along.normalize() * (length * k as f64);
             let mass = 0.2;
-            state.points.push(Point { position, mass })
+            push_point(state, position, mass)
         })
         .collect();
     let of = |(k, pair): (usize, &[usize])| {
@@ -49,14 +50,8 @@ fn monomers(state: &mut State, filament: usize, from: Vector3, count: usize) -> 
     let of = |k: usize| {
         let turn = rotation::exp(Vector3::z() * (2.9 * k as f64));
         let centre = from + Vector3::z() * (rise * k as f64) + turn * Vector3::x() * radius;
-        let point = state.points.push(Point {
-            position: centre,
-            mass: 0.0697,
-        });
-        let frame = state.frames.push(Frame {
-            orientation: turn,
-            inertia: Inertia::from_moments([0.2, 0.15, 0.15]).unwrap(),
-        });
+        let point = push_point(state, centre, 0.0697);
+        let frame = push_frame(state, turn, [0.2, 0.15, 0.15]);
         let arms = [-0.5, 0.5].map(|h| Vector3::new(-radius, 0.0, h * rise));
         let axis = Axis::Body { point, frame, arms };
         Capsule::new(axis, rise, (filament, rise * k as f64)).unwrap()

@@ -4,7 +4,8 @@
 use super::*;
 use crate::{Anchors, EllipsoidParameters, Placement};
 use actin_mechanics::testing::{assert_same_with_any_lanes, loads_of};
-use actin_mechanics::{Coordinates, Frame, Inertia, Point, Stiffness, UnitQuaternion};
+use actin_mechanics::testing::{push_frame, push_point};
+use actin_mechanics::{Coordinates, Stiffness, UnitQuaternion};
 use actin_mechanics::{Xorshift, perturb};
 
 /// A run of monomers with other bodies before and after, displaced at random.
@@ -25,10 +26,7 @@ fn run_of(anchors: Anchors, count: usize, bonds: [usize; 2]) -> (State, Bonds) {
     for _ in 0..3 {
         push_stranger(&mut state);
     }
-    state.points.push(Point {
-        position: Vector3::zeros(),
-        mass: 1.0,
-    });
+    push_point(&mut state, Vector3::zeros(), 1.0);
     let monomers = model
         .build(&mut state, &Placement::default(), -4, count)
         .unwrap();
@@ -40,14 +38,8 @@ fn run_of(anchors: Anchors, count: usize, bonds: [usize; 2]) -> (State, Bonds) {
 
 /// A body that has nothing to do with the bonds.
 fn push_stranger(state: &mut State) {
-    state.points.push(Point {
-        position: Vector3::zeros(),
-        mass: 1.0,
-    });
-    state.frames.push(Frame {
-        orientation: UnitQuaternion::identity(),
-        inertia: Inertia::from_moments([1.0, 1.0, 2.0]).unwrap(),
-    });
+    push_point(state, Vector3::zeros(), 1.0);
+    push_frame(state, UnitQuaternion::identity(), [1.0, 1.0, 2.0]);
 }
 
 /// The loads, bond by bond in the lab frame: the textbook form.

@@ -7,7 +7,7 @@ use actin_mechanics::{
     Coordinates, Interaction, Loads, Matrix3, SecondOrder, State, Stiffness, UnitQuaternion,
     Vector3,
 };
-use common::{ACTIN, Springs, frame, in_order, point};
+use common::{ACTIN, chain, frame, in_order, point};
 
 type Terms = Vec<Box<dyn Interaction>>;
 
@@ -172,13 +172,7 @@ fn neutral_modes_of_rods_and_springs_are_counted() {
         assert_eq!(found, Stability::Neutral { modes: 6 }, "{segments}");
     }
 
-    let mut state = State::default();
-    for z in 0..5 {
-        point(&mut state, Vector3::z() * f64::from(z));
-    }
-    state.points.hold(0);
-    let springs = (0..4).map(|i| (i, i + 1, 10.0, 1.0)).collect();
-    let terms: Terms = vec![Box::new(Springs(springs))];
+    let (mut state, terms) = chain();
     assert_eq!(stability(&state, &terms), Stability::Neutral { modes: 8 });
     // Frames beside it that nothing acts on.
     frame(&mut state, UnitQuaternion::identity());
@@ -199,13 +193,7 @@ fn neutral_modes_are_left_out_of_the_lowest_eigenvalue() {
             .lowest_eigenvalue(state, terms, &certificate)
             .unwrap()
     };
-    let mut chain = State::default();
-    for z in 0..5 {
-        point(&mut chain, Vector3::z() * f64::from(z));
-    }
-    chain.points.hold(0);
-    let springs = (0..4).map(|i| (i, i + 1, 10.0, 1.0)).collect();
-    let terms: Terms = vec![Box::new(Springs(springs))];
+    let (chain, terms) = chain();
     let exact = 40.0 * (std::f64::consts::PI / 18.0).sin().powi(2);
     let found = lowest(&chain, &terms).unwrap();
     println!("lowest eigenvalue {found} instead of {exact} pN/nm");

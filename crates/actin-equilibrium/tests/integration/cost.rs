@@ -3,7 +3,7 @@
 use crate::common;
 use actin_equilibrium::{Layout, Newton, NewtonOptions, Residual};
 use actin_mechanics::{Interaction, PointLoad, State, Vector3};
-use common::{ACTIN, Rod, actin, in_order};
+use common::{ACTIN, Rod, filament, in_order};
 
 /// Monomers, and the most Newton steps and factorisations that a floppy filament of so many takes: 19 and 58, 17
 /// and 44, 20 and 66, and a third more, since rounding changes them. On straight lines it is 31 and 100 of 234
@@ -23,11 +23,7 @@ fn work(segments: usize, order: Order) -> actin_equilibrium::SolverWork {
         length: 10.0 * segments as f64,
         ..ACTIN
     };
-    let mut state = rod.state();
-    let control = state.add_control(1e-6);
-    let load = PointLoad::new(&state, vec![(segments, 1.0)], Vector3::x(), control).unwrap();
-    let mut terms = rod.interactions();
-    terms.push(Box::new(load));
+    let (mut state, terms) = rod.loaded(Vector3::x(), 1e-6);
     let layout = order(&rod, &state);
     let mut newton = Newton::new(layout, NewtonOptions::default()).unwrap();
     newton.solve(&mut state, &terms).unwrap().work
@@ -60,7 +56,7 @@ fn a_chain_keeps_the_order_given() {
 /// Newton steps, factorisations and the energy of a cantilever of floppy monomers under a force on its tip that
 /// bends it by the same angle at every length.
 fn floppy(monomers: usize) -> (u64, u64, f64) {
-    let (mut state, bonds) = actin::filament(monomers, 10, 5);
+    let (mut state, bonds) = filament(monomers, 10, 5);
     let control = state.add_control(2.0 * (60.0 / monomers as f64).powi(2));
     let shares = vec![(monomers - 1, 0.5), (monomers - 2, 0.5)];
     let load = PointLoad::new(&state, shares, Vector3::x(), control).unwrap();

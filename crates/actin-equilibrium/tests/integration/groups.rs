@@ -3,7 +3,7 @@
 use crate::common;
 use actin_equilibrium::{Group, Layout, LayoutError, Newton, NewtonOptions, Pivot, Stability};
 use actin_mechanics::{Coordinates, Interaction, PointLoad, Slider, State, Vector3, rotation};
-use common::{Springs, actin, frame, in_order, point};
+use common::{filament, frame, in_order, point, springs};
 
 type Terms = Vec<Box<dyn Interaction>>;
 
@@ -20,7 +20,7 @@ fn move_pair(state: &mut State, n: usize, turn: f64, shift: f64) {
 
 fn twisted(groups: Vec<Group>, shift: f64) -> (State, f64, Newton) {
     let n = 14;
-    let (mut state, bonds) = actin::filament(n, 24, 2);
+    let (mut state, bonds) = filament(n, 24, 2);
     move_pair(&mut state, n, 0.4, shift);
     let layout = Layout::new(&state, Some(&in_order(&state)), groups).unwrap();
     let terms: Terms = vec![Box::new(bonds)];
@@ -38,7 +38,7 @@ fn a_sliding_pair_finds_the_place_of_least_energy() {
     let sliding = Group::sliding(bodies.clone(), bodies.clone(), Vector3::z());
     let (state, energy, newton) = twisted(vec![sliding], 0.0);
     assert_eq!(newton.layout().unknowns(), 10 * 6 + 1);
-    let rest = actin::filament(14, 24, 2).0;
+    let rest = filament(14, 24, 2).0;
     let shift = state.points.position.get(13).z - rest.points.position.get(13).z;
     let turned = rotation::exp(Vector3::z() * 0.4) * rest.points.position.get(13);
     let off = state.points.position.get(13) - turned;
@@ -75,8 +75,7 @@ fn sliding_bodies_of_the_state_are_groups() {
     let control = state.add_control(1.0);
     let load =
         PointLoad::new(&state, vec![(2, 1.0)], Vector3::new(3.0, 9.0, 0.0), control).unwrap();
-    let springs = Springs(vec![(0, 1, 6.0, 1.0)]);
-    let terms: Terms = vec![Box::new(springs), Box::new(load)];
+    let terms: Terms = vec![springs(&state, vec![(0, 1, 6.0, 1.0)]), Box::new(load)];
     let mut newton = Newton::new(Layout::free(&state), NewtonOptions::default()).unwrap();
     newton.solve(&mut state, &terms).unwrap();
     for (i, x) in [(1, 1.5), (2, 2.5)] {
@@ -105,8 +104,7 @@ fn a_rigid_group_turns_into_the_force() {
         control,
     )
     .unwrap();
-    let springs = Springs(vec![(0, 1, 20.0, 0.5)]);
-    let terms: Terms = vec![Box::new(springs), Box::new(load)];
+    let terms: Terms = vec![springs(&state, vec![(0, 1, 20.0, 0.5)]), Box::new(load)];
     let layout = Layout::new(&state, None, vec![bar]).unwrap();
     let mut newton = Newton::new(layout, NewtonOptions::default()).unwrap();
     let equilibrium = newton.minimize(&mut state, &terms, 3).unwrap();
@@ -127,7 +125,7 @@ fn a_rigid_group_turns_into_the_force() {
 #[test]
 fn tied_ends_do_not_fill_the_factor() {
     let entries = |n: usize| {
-        let (mut state, bonds) = actin::filament(n, 4, 1);
+        let (mut state, bonds) = filament(n, 4, 1);
         let bodies = vec![2, n - 1];
         let ring = Group::rigid(bodies.clone(), bodies);
         let layout = Layout::new(&state, Some(&in_order(&state)), vec![ring]).unwrap();
@@ -167,7 +165,7 @@ fn directions_are_made_orthonormal_and_can_be_replaced() {
 /// A step and the difference of the states that it connects are inverse to each other.
 #[test]
 fn difference_inverts_apply() {
-    let (state, _) = actin::filament(6, 1, 1);
+    let (state, _) = filament(6, 1, 1);
     let groups = vec![
         Group::rigid(vec![3, 4], vec![3, 4]),
         Group::sliding(vec![5], vec![5], Vector3::new(1.0, 2.0, 2.0)),
@@ -187,7 +185,7 @@ fn difference_inverts_apply() {
 /// Each mistake in a layout is refused with what is wrong.
 #[test]
 fn mistakes_are_refused() {
-    let (state, _) = actin::filament(4, 1, 1);
+    let (state, _) = filament(4, 1, 1);
     let refused = |groups| Layout::new(&state, None, groups).unwrap_err();
     let slide = |points, frames| Group::sliding(points, frames, Vector3::z());
     assert_eq!(

@@ -4,28 +4,15 @@ use crate::common;
 use actin_equilibrium::{
     Equilibrium, Found, Iteration, Known, Newton, NewtonOptions, Search, SearchObserver, SolveError,
 };
-use actin_mechanics::{Interaction, PointLoad, State, Vector3, Xorshift, perturb};
-use common::{ACTIN, Rod};
+use actin_mechanics::{Interaction, State, Vector3};
+use common::COLUMN;
 use std::ops::ControlFlow;
-
-/// A column, softest about its y axis.
-const COLUMN: Rod = Rod {
-    segments: 16,
-    bending: Vector3::new(3.9e4, 3.0e4, 1.3e4),
-    ..ACTIN
-};
 
 /// A column under a share of the critical load of its softer axis, and a solver.
 fn column(share: f64) -> (State, Vec<Box<dyn Interaction>>, Newton) {
-    let mut state = COLUMN.state();
     let critical = std::f64::consts::PI.powi(2) * 3.0e4 / (4.0 * COLUMN.length.powi(2));
-    let control = state.add_control(1.0);
-    let force = Vector3::z() * (-share * critical);
-    let load = PointLoad::new(&state, vec![(16, 1.0)], force, control).unwrap();
-    let mut terms = COLUMN.interactions();
-    terms.push(Box::new(load));
+    let (state, terms) = COLUMN.loaded(Vector3::z() * (-share * critical), 1.0);
     let newton = Newton::new(COLUMN.layout(&state), NewtonOptions::default()).unwrap();
-    perturb(&mut state, &mut Xorshift::new(3), 0.0, 0.0);
     (state, terms, newton)
 }
 

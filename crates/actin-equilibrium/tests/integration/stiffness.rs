@@ -2,10 +2,9 @@
 
 use crate::common;
 use actin_equilibrium::{Group, Layout, Pivot};
-use actin_mechanics::testing::assert_is_gradient;
 use actin_mechanics::{Interaction, PointLoad, Vector3};
 use actin_mechanics::{Xorshift, perturb};
-use common::{ACTIN, Rod, assert_is_second_derivative, bonded_filament, in_order};
+use common::{ACTIN, Rod, assert_is_second_derivative, filament, in_order};
 
 fn bent_rod() -> (actin_mechanics::State, Vec<Box<dyn Interaction>>) {
     let rod = Rod {
@@ -18,18 +17,6 @@ fn bent_rod() -> (actin_mechanics::State, Vec<Box<dyn Interaction>>) {
     (state, rod.interactions())
 }
 
-/// The models of the tests are what they claim to be; otherwise nothing below means anything.
-#[test]
-fn loads_are_gradients() {
-    let (state, interactions) = bent_rod();
-    for interaction in &interactions {
-        assert_is_gradient(interaction.as_ref(), &state, 1e-2, 1e-9);
-    }
-    let (mut state, bonds) = bonded_filament(4, 3);
-    perturb(&mut state, &mut Xorshift::new(2), 0.2, 0.1);
-    assert_is_gradient(&bonds, &state, 1e-2, 1e-9);
-}
-
 /// A missing geometric part, a transposed block or a wrong sign shows at large strain.
 #[test]
 fn stiffness_is_the_derivative_of_the_loads_with_and_without_a_given_order() {
@@ -40,7 +27,7 @@ fn stiffness_is_the_derivative_of_the_loads_with_and_without_a_given_order() {
     };
     assert_is_second_derivative(&interactions, &state, Layout::free(&state), 1e-8);
     assert_is_second_derivative(&interactions, &state, rod.layout(&state), 1e-8);
-    let (mut state, bonds) = bonded_filament(5, 4);
+    let (mut state, bonds) = filament(5, 4, 2);
     perturb(&mut state, &mut Xorshift::new(2), 0.2, 0.1);
     let layout = Layout::new(&state, Some(&in_order(&state)), vec![]).unwrap();
     assert_is_second_derivative(&[Box::new(bonds)], &state, layout, 1e-8);
@@ -50,7 +37,7 @@ fn stiffness_is_the_derivative_of_the_loads_with_and_without_a_given_order() {
 /// stiffness of a loaded group would be wrong by the moment of the load.
 #[test]
 fn stiffness_of_groups_includes_the_second_order_of_their_turn() {
-    let (mut state, bonds) = bonded_filament(6, 4);
+    let (mut state, bonds) = filament(6, 4, 2);
     perturb(&mut state, &mut Xorshift::new(4), 0.2, 0.1);
     let control = state.add_control(1.0);
     let load = PointLoad::new(

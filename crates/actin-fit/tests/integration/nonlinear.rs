@@ -2,27 +2,11 @@
 
 use crate::common;
 use actin_fit::{
-    Bounds, ClosureModel, Data, Fit, FitError, LevenbergMarquardt, Model, Observations, Options,
+    Bounds, ClosureModel, Data, FitError, LevenbergMarquardt, Model, Observations, Options,
     Polynomial, Starts, Status, Termination, check_gradient,
 };
-use common::{Gauss, Sigmoid, clean, places, values};
+use common::{Gauss, Sigmoid, clean, decay, fit, places, refused, values};
 use proptest::prelude::*;
-
-fn fit(model: &dyn Model, data: &Data, bounds: &Bounds, start: &[f64]) -> Result<Fit, FitError> {
-    LevenbergMarquardt::default().fit(model, data, bounds, &Starts::at(start))
-}
-
-/// `p0 exp(-p1 x)`.
-fn decay() -> impl Model {
-    ClosureModel::new(
-        2,
-        |x, p| p[0] * (-p[1] * x[0]).exp(),
-        |x, p, gradient| {
-            gradient[0] = (-p[1] * x[0]).exp();
-            gradient[1] = -x[0] * p[0] * gradient[0];
-        },
-    )
-}
 
 fn noisy(model: &dyn Model, x: &[f64], p: &[f64], deviation: f64, seed: u64) -> Data {
     let mut noise = Gauss::new(seed);
@@ -107,15 +91,15 @@ fn the_search_does_not_depend_on_units() {
     let (a, b) = (2.0_f64.powi(30), 2.0_f64.powi(-24));
     let scaled = ClosureModel::new(
         2,
-        move |x, p| decay().value(x, &[p[0] / a, p[1] / b]),
+        move |x, p| decay(1.0).value(x, &[p[0] / a, p[1] / b]),
         move |x, p, gradient| {
-            decay().gradient(x, &[p[0] / a, p[1] / b], gradient);
+            decay(1.0).gradient(x, &[p[0] / a, p[1] / b], gradient);
             gradient[0] /= a;
             gradient[1] /= b;
         },
     );
-    let data = noisy(&decay(), &places(0.0, 3.0, 15), &[2.0, 1.3], 0.05, 3);
-    let plain = fit(&decay(), &data, &Bounds::none(2), &[5.0, 0.2]).unwrap();
+    let data = noisy(&decay(1.0), &places(0.0, 3.0, 15), &[2.0, 1.3], 0.05, 3);
+    let plain = fit(&decay(1.0), &data, &Bounds::none(2), &[5.0, 0.2]).unwrap();
     let other = fit(&scaled, &data, &Bounds::none(2), &[5.0 * a, 0.2 * b]).unwrap();
     assert_eq!(
         other.parameters,
@@ -133,9 +117,9 @@ fn the_search_does_not_depend_on_units() {
 #[test]
 fn a_parameter_stops_at_its_bound() {
     let x = places(0.0, 3.0, 15);
-    let data = noisy(&decay(), &x, &[2.0, 1.3], 0.05, 3);
+    let data = noisy(&decay(1.0), &x, &[2.0, 1.3], 0.05, 3);
     let bounds = Bounds::new(&[(0.0, 10.0), (0.0, 1.0)]).unwrap();
-    let fit = fit(&decay(), &data, &bounds, &[5.0, 0.2]).unwrap();
+    let fit = fit(&decay(1.0), &data, &bounds, &[5.0, 0.2]).unwrap();
     assert_eq!(fit.parameters[1].to_bits(), 1.0_f64.to_bits());
     assert_eq!(fit.statuses, [Status::Determined, Status::AtUpperBound]);
     assert_eq!(fit.precision.standard_error(1), None);
@@ -158,7 +142,7 @@ fn a_parameter_stops_at_its_bound() {
 /// it would count as free.
 #[test]
 fn bounds_are_met_to_the_last_bit() {
-    let data = noisy(&decay(), &places(0.0, 3.0, 15), &[2.0, 1.3], 0.05, 3);
+    let data = noisy(&decay(1.0), &places(0.0, 3.0, 15), &[2.0, 1.3], 0.05, 3);
     for k in 1..40 {
         let shift = 0.017 * f64::from(k);
         for (rates, start, bound, status) in [
@@ -166,7 +150,7 @@ fn bounds_are_met_to_the_last_bit() {
             ((2.1, 9.0), 2.11 + shift, 2.1_f64, Status::AtLowerBound),
         ] {
             let bounds = Bounds::new(&[(0.0, 10.0), rates]).unwrap();
-            let fit = fit(&decay(), &data, &bounds, &[2.0, start]).unwrap();
+            let fit = fit(&decay(1.0), &data, &bounds, &[2.0, start]).unwrap();
             assert_eq!(fit.parameters[1].to_bits(), bound.to_bits());
             assert_eq!(fit.statuses[1], status);
         }
@@ -176,10 +160,10 @@ fn bounds_are_met_to_the_last_bit() {
 /// A bound that the minimum does not touch changes nothing, even for a start on it.
 #[test]
 fn a_bound_is_left_again() {
-    let data = noisy(&decay(), &places(0.0, 3.0, 15), &[2.0, 1.3], 0.05, 3);
-    let open = fit(&decay(), &data, &Bounds::none(2), &[5.0, 0.2]).unwrap();
+    let data = noisy(&decay(1.0), &places(0.0, 3.0, 15), &[2.0, 1.3], 0.05, 3);
+    let open = fit(&decay(1.0), &data, &Bounds::none(2), &[5.0, 0.2]).unwrap();
     let bounds = Bounds::new(&[(0.0, 10.0), (0.1, 4.0)]).unwrap();
-    let closed = fit(&decay(), &data, &bounds, &[10.0, 0.1]).unwrap();
+    let closed = fit(&decay(1.0), &data, &bounds, &[10.0, 0.1]).unwrap();
     assert_eq!(closed.statuses, [Status::Determined; 2]);
     assert!((closed.parameters[1] - open.parameters[1]).abs() < 1e-9);
 }
@@ -187,13 +171,13 @@ fn a_bound_is_left_again() {
 /// Equal bounds hold a parameter; the fit is then that of the others.
 #[test]
 fn equal_bounds_hold_a_parameter() {
-    let data = clean(&decay(), &places(0.0, 3.0, 15), &[2.0, 1.3]);
+    let data = clean(&decay(1.0), &places(0.0, 3.0, 15), &[2.0, 1.3]);
     let bounds = Bounds::new(&[(2.0, 2.0), (0.1, 4.0)]).unwrap();
-    let one = fit(&decay(), &data, &bounds, &[2.0, 0.5]).unwrap();
+    let one = fit(&decay(1.0), &data, &bounds, &[2.0, 0.5]).unwrap();
     assert_eq!(one.statuses, [Status::Held, Status::Determined]);
     assert!((one.parameters[1] - 1.3).abs() < 1e-12);
     let bounds = Bounds::new(&[(2.0, 2.0), (1.0, 1.0)]).unwrap();
-    let none = fit(&decay(), &data, &bounds, &[2.0, 1.0]).unwrap();
+    let none = fit(&decay(1.0), &data, &bounds, &[2.0, 1.0]).unwrap();
     assert_eq!((none.starts[0].iterations, none.precision.rank), (1, 0));
 }
 
@@ -222,7 +206,7 @@ fn factors_of_a_product_are_not_determined() {
     assert_eq!(fit.goodness.degrees_of_freedom, 13);
     assert_eq!(fit.precision.standard_error(0), None);
     // The rate and its error are those of the model with one factor.
-    let two = self::fit(&decay(), &data, &Bounds::none(2), &[1.0, 1.0]).unwrap();
+    let two = common::fit(&decay(1.0), &data, &Bounds::none(2), &[1.0, 1.0]).unwrap();
     assert!((fit.parameters[2] - two.parameters[1]).abs() < 1e-8);
     let errors = (
         fit.precision.standard_error(2).unwrap(),
@@ -349,11 +333,11 @@ fn searches_that_do_not_end_are_reported() {
         iterations: 3,
         ..Options::default()
     };
-    let data = noisy(&decay(), &places(0.0, 3.0, 15), &[2.0, 1.3], 0.05, 3);
+    let data = noisy(&decay(1.0), &places(0.0, 3.0, 15), &[2.0, 1.3], 0.05, 3);
     let starts = Starts::at(&[50.0, 0.01]).and_at(&[40.0, 0.02]);
     let error = LevenbergMarquardt::new(options)
         .unwrap()
-        .fit(&decay(), &data, &Bounds::none(2), &starts)
+        .fit(&decay(1.0), &data, &Bounds::none(2), &starts)
         .unwrap_err();
     let message = error.to_string();
     for part in [
@@ -394,66 +378,59 @@ fn a_start_where_the_model_is_not_finite_is_reported() {
 }
 
 #[test]
-fn bounds_out_of_order_are_refused() {
-    let error = Bounds::new(&[(0.0, 1.0), (2.0, 1.0)]).unwrap_err();
-    assert_eq!(
-        error,
-        FitError::BadBounds {
-            parameter: 1,
-            lower: 2.0,
-            upper: 1.0
-        }
-    );
+fn bounds_and_options_out_of_order_are_refused() {
+    let bounds = Bounds::new(&[(0.0, 1.0), (2.0, 1.0)]);
+    let message = "bounds of parameter 1 must be in order, but are 2 and 1";
+    assert_eq!(refused(bounds), message);
     assert!(Bounds::new(&[(f64::NAN, 1.0)]).is_err());
     assert!(Bounds::new(&[(f64::INFINITY, f64::INFINITY)]).is_err());
-}
-
-#[test]
-fn starts_that_do_not_fit_are_refused() {
-    let data = clean(&decay(), &places(0.0, 3.0, 15), &[2.0, 1.3]);
-    let bounds = Bounds::new(&[(0.0, 9.0), (0.0, f64::INFINITY)]).unwrap();
-    let solver = LevenbergMarquardt::default();
-    let refused = |starts: &Starts| solver.fit(&decay(), &data, &bounds, starts).unwrap_err();
-    assert_eq!(
-        refused(&Starts::at(&[1.0, -1.0])),
-        FitError::StartOutside {
-            start: 0,
-            parameter: 1,
-            value: -1.0
-        }
-    );
-    assert!(matches!(
-        refused(&Starts::at(&[1.0])),
-        FitError::Dimension { .. }
-    ));
-    assert!(matches!(
-        refused(&Starts::drawn(3, 1)),
-        FitError::Unbounded { parameter: 1, .. }
-    ));
-    assert_eq!(refused(&Starts::drawn(0, 1)), FitError::NoStart);
-}
-
-#[test]
-fn too_few_points_and_other_bounds_are_refused() {
-    let data = clean(&decay(), &[0.0, 1.0], &[2.0, 1.3]);
-    assert_eq!(
-        fit(&decay(), &data, &Bounds::none(2), &[1.0, 1.0]).unwrap_err(),
-        FitError::TooFewPoints {
-            points: 2,
-            needed: 3
-        }
-    );
-    assert!(matches!(
-        fit(&decay(), &data, &Bounds::none(3), &[1.0, 1.0, 1.0]).unwrap_err(),
-        FitError::Dimension {
-            what: "bounds",
-            expected: 2,
-            found: 3
-        }
-    ));
     let options = Options {
         cosine: 0.0,
         ..Options::default()
     };
     assert!(LevenbergMarquardt::new(options).is_err());
+}
+
+#[test]
+fn what_does_not_fit_together_is_refused() {
+    let half = Bounds::new(&[(0.0, 9.0), (0.0, f64::INFINITY)]).unwrap();
+    let [one, out, short] = [&[1.0, 1.0][..], &[1.0, -1.0], &[1.0]].map(Starts::at);
+    let [some, none] = [3, 0].map(|count| Starts::drawn(count, 1));
+    for (points, bounds, starts, message) in [
+        (
+            15,
+            &half,
+            out,
+            "start 0 must lie within bounds, but its parameter 1 is -1",
+        ),
+        (15, &half, short, " must have length 2, but has 1"),
+        (
+            15,
+            &half,
+            some,
+            "finite bounds, but those of parameter 1 are 0 and inf",
+        ),
+        (
+            15,
+            &half,
+            none,
+            "a nonlinear fit needs a start, but none was given",
+        ),
+        (
+            2,
+            &half,
+            one.clone(),
+            "3 points are needed, but there are 2",
+        ),
+        (
+            15,
+            &Bounds::none(3),
+            one,
+            "bounds must have length 2, but has 3",
+        ),
+    ] {
+        let data = clean(&decay(1.0), &places(0.0, 3.0, points), &[2.0, 1.3]);
+        let found = refused(LevenbergMarquardt::default().fit(&decay(1.0), &data, bounds, &starts));
+        assert!(found.ends_with(message), "{found}");
+    }
 }

@@ -2,23 +2,10 @@
 
 use crate::common;
 use actin_fit::{
-    Bounds, ClosureModel, Data, Fit, FitError, LevenbergMarquardt, Mat, Model, Observations,
-    Polynomial, Starts, Status, fit_linear,
+    Bounds, ClosureModel, Data, Fit, Mat, Model, Observations, Polynomial, Status, fit_linear,
 };
-use common::{Gauss, errors, places};
+use common::{Gauss, decay, errors, fit, places, refused};
 use proptest::prelude::*;
-
-/// `p0 exp(-p1 x)`, with `p0` in units of `unit`.
-fn decay(unit: f64) -> impl Model {
-    ClosureModel::new(
-        2,
-        move |x, p| unit * p[0] * (-p[1] * x[0]).exp(),
-        move |x, p, gradient| {
-            gradient[0] = unit * (-p[1] * x[0]).exp();
-            gradient[1] = -x[0] * p[0] * gradient[0];
-        },
-    )
-}
 
 fn noisy(unit: f64) -> Vec<f64> {
     let mut noise = Gauss::new(5);
@@ -26,26 +13,21 @@ fn noisy(unit: f64) -> Vec<f64> {
     places(0.0, 3.0, 15).iter().map(at).collect()
 }
 
-fn fit(model: &dyn Model, observations: Observations) -> Result<Fit, FitError> {
-    let data = Data::new(&places(0.0, 3.0, 15), observations)?;
-    let starts = Starts::at(&[5.0, 0.2]);
-    LevenbergMarquardt::default().fit(model, &data, &Bounds::none(2), &starts)
-}
-
-fn refused<T>(result: Result<T, FitError>) -> String {
-    result.err().expect("this must be refused").to_string()
+fn fitted(unit: f64, observations: Observations) -> Fit {
+    let data = Data::new(&places(0.0, 3.0, 15), observations).unwrap();
+    fit(&decay(unit), &data, &Bounds::none(2), &[5.0, 0.2]).unwrap()
 }
 
 /// In units from 1e-98 to 1e98 a fit has the same parameters, errors and residuals, with noise that
 /// is unknown, and with deviations that are as small or as large.
 #[test]
 fn the_size_of_the_data_changes_nothing() {
-    let plain = fit(&decay(1.0), Observations::new(&noisy(1.0)).unwrap()).unwrap();
+    let plain = fitted(1.0, Observations::new(&noisy(1.0)).unwrap());
     for unit in [1e-98, 1e-40, 1e40, 1e98] {
         let unknown = Observations::new(&noisy(unit)).unwrap();
         let known = unknown.clone().with_deviations(&[0.02 * unit; 15]).unwrap();
         for (observations, is_known) in [(unknown, false), (known, true)] {
-            let scaled = fit(&decay(unit), observations).unwrap();
+            let scaled = fitted(unit, observations);
             for (a, b) in plain.parameters.iter().zip(&scaled.parameters) {
                 // A search ends at a cosine of 1e-10 times errors of 1 %.
                 assert!((a / b - 1.0).abs() < 1e-11, "{unit:e}: {a} {b}");
@@ -149,9 +131,7 @@ fn variances_that_are_no_numbers_are_refused() {
             },
         );
         let data = Data::new(&places(0.0, 3.0, 15), y.clone()).unwrap();
-        let starts = Starts::at(&[5.0 * unit, 0.2]);
-        let message =
-            refused(LevenbergMarquardt::default().fit(&scaled, &data, &Bounds::none(2), &starts));
+        let message = refused(fit(&scaled, &data, &Bounds::none(2), &[5.0 * unit, 0.2]));
         assert!(
             message.starts_with("the variance of parameter 0 is too"),
             "{message}"
@@ -167,11 +147,9 @@ fn variances_that_are_no_numbers_are_refused() {
 fn wide_bounds_change_nothing() {
     let y = Observations::new(&noisy(1.0)).unwrap();
     let data = Data::new(&places(0.0, 3.0, 15), y).unwrap();
-    let starts = Starts::at(&[5.0, 0.2]);
     let within = |size: f64| {
         let bounds = Bounds::new(&[(-size, size); 2]).unwrap();
-        let fit = LevenbergMarquardt::default().fit(&decay(1.0), &data, &bounds, &starts);
-        let fit = fit.unwrap();
+        let fit = fit(&decay(1.0), &data, &bounds, &[5.0, 0.2]).unwrap();
         assert_eq!(fit.statuses, [Status::Determined; 2], "{size:e}");
         errors(&fit)
     };
@@ -194,9 +172,7 @@ fn a_start_that_overflows_is_named() {
         |x, p, gradient| gradient[0] = x[0] * (p[0] * x[0]).exp(),
     );
     for (rate, point) in [(300.0, 2), (150.0, 2), (710.0, 0)] {
-        let starts = Starts::at(&[rate]);
-        let result = LevenbergMarquardt::default().fit(&growth, &data, &Bounds::none(1), &starts);
-        let message = refused(result);
+        let message = refused(fit(&growth, &data, &Bounds::none(1), &[rate]));
         assert!(
             message.contains("infinite, not a number or too large to be squared at point ")
                 && message.contains(&format!("at point {point}")),
@@ -242,7 +218,7 @@ proptest! {
             prop_assert!(fit.goodness.chi_squared.is_finite() && fit.goodness.rms.is_finite());
         }
         let bounds = Bounds::none(2);
-        let search = LevenbergMarquardt::default().fit(&line, &data, &bounds, &Starts::at(&[1.0, 0.0]));
+        let search = fit(&line, &data, &bounds, &[1.0, 0.0]);
         if let Ok(fit) = search {
             let goodness = &fit.goodness;
             prop_assert!(goodness.chi_squared.is_finite() && goodness.rms.is_finite());

@@ -7,12 +7,11 @@ use crate::common;
 use actin_integrate::{
     Bath, Composition, Drag, PEFRL, POSITION_VERLET, Run, VELOCITY_VERLET, advance, advance_in,
 };
+use actin_mechanics::testing::{push_frame, push_point};
 
-use actin_mechanics::{
-    Frame, Inertia, Interaction, Loads, Point, Slider, State, System, UnitQuaternion, Vector3,
-    Vectors,
-};
-use common::{Springs, chain, distance, three_tops};
+use actin_mechanics::testing::Loading;
+use actin_mechanics::{Loads, Slider, State, System, UnitQuaternion, Vector3, Vectors};
+use common::{chain, distance, springs, three_tops};
 
 const KT: f64 = 4.0;
 /// Standard errors that an estimate may be off by.
@@ -27,14 +26,8 @@ fn bath(translational: f64, rotational: f64, kt: f64, seed: u64) -> Bath {
 fn crowd(count: usize) -> System {
     let mut state = State::default();
     for i in 0..count {
-        state.points.push(Point {
-            position: Vector3::zeros(),
-            mass: 0.07,
-        });
-        state.frames.push(Frame {
-            orientation: UnitQuaternion::identity(),
-            inertia: Inertia::from_moments([0.2, 0.2, 0.1]).unwrap(),
-        });
+        push_point(&mut state, Vector3::zeros(), 0.07);
+        push_frame(&mut state, UnitQuaternion::identity(), [0.2, 0.2, 0.1]);
         state.points.velocity.set(i, Vector3::new(9.0, -5.0, 0.0));
         let l = Vector3::new(0.0, 0.0, 0.8);
         state.frames.angular_momentum.set(i, l);
@@ -114,10 +107,7 @@ fn free_motion_has_its_law_at_any_step() {
 fn held_bodies_stay_cold_and_sliding_ones_move_as_one() {
     let mut state = State::default();
     for mass in [0.1, 0.2, 0.05] {
-        state.points.push(Point {
-            position: Vector3::zeros(),
-            mass,
-        });
+        push_point(&mut state, Vector3::zeros(), mass);
     }
     (0..3).for_each(|i| state.points.hold(i));
     let driven = Vector3::new(0.0, 3.0, 0.0);
@@ -148,17 +138,12 @@ fn held_bodies_stay_cold_and_sliding_ones_move_as_one() {
 /// show here and in no single body.
 #[test]
 fn a_free_chain_moves_as_one_body() {
-    let springs = Springs {
-        name: "springs",
-        pairs: (1..6).map(|i| (i - 1, i)).collect(),
-        stiffness: 4.0,
-        rest: 0.0,
-    };
     let mut state = State::default();
     for mass in [1.0, 0.2, 3.0, 0.5, 2.0, 1.0] {
         let position = Vector3::zeros();
-        state.points.push(Point { position, mass });
+        push_point(&mut state, position, mass);
     }
+    let springs = springs(&state, 4.0, 0.0);
     let mut system = System::new(state, vec![Box::new(springs)]);
     let bath = bath(5.0, 5.0, 1e-3, 31);
     let samples = 10_000;
@@ -174,29 +159,6 @@ fn a_free_chain_moves_as_one_body() {
     let mean = sum / (3 * samples) as f64;
     println!("whole chain: {mean:.4} kT");
     assert_mean("whole", mean, 1.0, 2.0, 30_000);
-}
-
-/// Every point on a spring of its own to the origin, energy `k/2 |x|^2`.
-#[derive(Debug)]
-struct Traps(f64);
-
-impl Interaction for Traps {
-    fn term(&self) -> &'static str {
-        "traps"
-    }
-
-    fn add_loads(&self, state: &State, loads: &mut Loads) {
-        for i in 0..state.points.len() {
-            let x = state.points.position.get(i);
-            loads.force.add(i, -self.0 * x);
-        }
-    }
-
-    fn elements(&self) -> usize {
-        0
-    }
-
-    fn write_energies(&self, _: &State, _: &mut [f64]) {}
 }
 
 /// Velocities have exactly kT; positions are too warm or too cold by the error of the scheme.
@@ -239,7 +201,13 @@ fn oscillator_has_the_temperature_of_its_scheme() {
 fn oscillator_temperatures(scheme: &Composition, theta: f64) -> [f64; 2] {
     let (mass, stiffness): (f64, f64) = (0.07, 30.0);
     let state = crowd(300).state().clone();
-    let mut system = System::new(state, vec![Box::new(Traps(stiffness))]);
+    // Every point on a spring of its own to the origin.
+    let add = move |state: &State, loads: &mut Loads| {
+        let places = state.points.position.iter().enumerate();
+        places.for_each(|(i, x)| loads.force.add(i, -stiffness * x));
+    };
+    let term = "traps";
+    let mut system = System::new(state, vec![Box::new(Loading { term, add })]);
     let h = theta * (mass / stiffness).sqrt();
     // Strong damping: positions are forgotten within a few oscillations.
     let bath = bath((stiffness / mass).sqrt(), 1.0, KT, 23);
@@ -257,26 +225,6 @@ fn oscillator_temperatures(scheme: &Composition, theta: f64) -> [f64; 2] {
     means
 }
 
-/// Every point pulled by the same force.
-#[derive(Debug)]
-struct Pull(Vector3);
-
-impl Interaction for Pull {
-    fn term(&self) -> &'static str {
-        "pull"
-    }
-
-    fn add_loads(&self, state: &State, loads: &mut Loads) {
-        (0..state.points.len()).for_each(|i| loads.force.add(i, self.0));
-    }
-
-    fn elements(&self) -> usize {
-        0
-    }
-
-    fn write_energies(&self, _: &State, _: &mut [f64]) {}
-}
-
 /// Under a force points drift with `F/(m g)` and diffuse with `kT/(m g)`, at any step.
 ///
 /// From the start, where all have the same velocity of a temperature: the variance grows as
@@ -290,7 +238,10 @@ fn points_drift_and_diffuse_as_they_should_at_any_step() {
             let h = g_h / gamma;
             let mut state = crowd(4000).state().clone();
             state.points.velocity = Vectors::zeros(4000);
-            let pull = Pull(Vector3::new(3.0, 0.0, 0.0));
+            let add = |state: &State, loads: &mut Loads| {
+                (0..state.points.len()).for_each(|i| loads.force.add(i, Vector3::x() * 3.0));
+            };
+            let pull = Loading { term: "pull", add };
             let mut system = System::new(state, vec![Box::new(pull)]);
             let bath = bath(gamma, 1.0, KT, 41);
             // Until velocities have their law.

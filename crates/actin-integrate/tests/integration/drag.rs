@@ -4,28 +4,21 @@ use crate::common;
 use actin_integrate::{
     Composition, Drag, PEFRL, POSITION_VERLET, Reason, Run, StopRule, VEFRL, advance,
 };
-use actin_mechanics::{
-    Frame, Inertia, Interaction, Loads, Point, Slider, State, System, UnitQuaternion, Vector3,
-    rotation,
-};
-use common::{Springs, chain, distance, spinning_tops, three_tops};
+use actin_mechanics::testing::Loading;
+use actin_mechanics::testing::{push_frame, push_point};
+use actin_mechanics::{Loads, Slider, State, System, UnitQuaternion, Vector3, rotation};
+use common::{chain, distance, spinning_tops, springs, three_tops};
 
 /// A free point and a free top in motion, and a driven point.
 fn free_bodies() -> System {
     let mut state = State::default();
     for _ in 0..2 {
-        state.points.push(Point {
-            position: Vector3::zeros(),
-            mass: 0.07,
-        });
+        push_point(&mut state, Vector3::zeros(), 0.07);
     }
     state.points.hold(1);
     state.points.velocity.set(0, Vector3::new(1.0, -2.0, 3.0));
     state.points.velocity.set(1, Vector3::y());
-    state.frames.push(Frame {
-        orientation: UnitQuaternion::identity(),
-        inertia: Inertia::from_moments([1.0, 1.0, 2.0]).unwrap(),
-    });
+    push_frame(&mut state, UnitQuaternion::identity(), [1.0, 1.0, 2.0]);
     let l = Vector3::new(0.5, 0.2, -0.4);
     state.frames.angular_momentum.set(0, l);
     System::new(state, Vec::new())
@@ -57,30 +50,6 @@ fn free_motion_decays_exponentially_at_any_step() {
     }
 }
 
-/// A constant force on every point and a constant body torque on every frame.
-#[derive(Debug)]
-struct Constant {
-    force: Vector3,
-    torque: Vector3,
-}
-
-impl Interaction for Constant {
-    fn term(&self) -> &'static str {
-        "constant"
-    }
-
-    fn add_loads(&self, state: &State, loads: &mut Loads) {
-        (0..state.points.len()).for_each(|i| loads.force.add(i, self.force));
-        (0..state.frames.len()).for_each(|i| loads.torque.add(i, self.torque));
-    }
-
-    fn elements(&self) -> usize {
-        0
-    }
-
-    fn write_energies(&self, _: &State, _: &mut [f64]) {}
-}
-
 const MASS: f64 = 0.07;
 const AXIAL: f64 = 2.0;
 
@@ -91,7 +60,7 @@ fn driven_bodies(force: f64, torque: f64, drag: &Drag, h: f64) -> System {
     for _ in 0..3 {
         let position = Vector3::zeros();
         let mass = MASS;
-        state.points.push(Point { position, mass });
+        push_point(&mut state, position, mass);
     }
     (1..3).for_each(|i| state.points.hold(i));
     state.sliders.push(Slider {
@@ -99,10 +68,7 @@ fn driven_bodies(force: f64, torque: f64, drag: &Drag, h: f64) -> System {
         directions: vec![Vector3::z()],
         mass: 0.3,
     });
-    state.frames.push(Frame {
-        orientation: UnitQuaternion::identity(),
-        inertia: Inertia::from_moments([1.0, 1.0, AXIAL]).unwrap(),
-    });
+    push_frame(&mut state, UnitQuaternion::identity(), [1.0, 1.0, AXIAL]);
     let (translation, rotation) = drag.recorded_drift(h);
     let speed = translation * force / drag.translational();
     // Both points of the slider are pulled.
@@ -117,11 +83,12 @@ fn driven_bodies(force: f64, torque: f64, drag: &Drag, h: f64) -> System {
         .frames
         .angular_momentum
         .set(0, Vector3::z() * momentum);
-    let loads = Constant {
-        force: Vector3::z() * force,
-        torque: Vector3::z() * torque,
+    let add = move |state: &State, loads: &mut Loads| {
+        (0..state.points.len()).for_each(|i| loads.force.add(i, Vector3::z() * force));
+        loads.torque.add(0, Vector3::z() * torque);
     };
-    System::new(state, vec![Box::new(loads)])
+    let term = "constant";
+    System::new(state, vec![Box::new(Loading { term, add })])
 }
 
 /// `F h/(m gamma)` a step from 1e-3 to 1e4 per ns, for points, sliders and tops under rates of their
@@ -165,16 +132,11 @@ fn relaxation(scheme: &Composition, gamma: f64, omega: f64, h: f64, rate: f64) -
     let mut state = State::default();
     for _ in 0..2 {
         let (position, mass) = (Vector3::zeros(), 1.0);
-        state.points.push(Point { position, mass });
+        push_point(&mut state, position, mass);
     }
     state.points.hold(0);
     state.points.position.set(1, Vector3::x());
-    let spring = Springs {
-        name: "spring",
-        pairs: vec![(0, 1)],
-        stiffness: omega * omega,
-        rest: 0.0,
-    };
+    let spring = springs(&state, omega * omega, 0.0);
     let mut system = System::new(state, vec![Box::new(spring)]);
     let drag = Drag::new(gamma, 0.0).unwrap();
     // The fast part is then below 1e-13 of the slow one.

@@ -6,7 +6,7 @@ use actin_integrate::{
     RunFailure, RunSettingError, largest_frequency, stable_step,
 };
 use actin_mechanics::{Interaction, Loads, State, System, Vector3};
-use common::{Springs, chain};
+use common::{chain, springs};
 use std::ops::ControlFlow;
 
 const H: f64 = 0.05;
@@ -48,13 +48,8 @@ impl Interaction for Source {
 
 /// Six points in a row, stretched, with a source that is there from step `step` on.
 fn heated(step: u64, energy: f64) -> System {
-    let springs = Springs {
-        name: "springs",
-        pairs: (1..6).map(|i| (i - 1, i)).collect(),
-        stiffness: 4.0,
-        rest: 1.0,
-    };
     let mut state = chain(6, 4.0, 1.0).state().clone();
+    let springs = springs(&state, 4.0, 1.0);
     state.points.position.add(2, Vector3::x() * 0.1);
     let source = Source {
         point: 3,

@@ -5,52 +5,33 @@ use actin_integrate::{
     Body, Checkpoint, DEFAULT_CHECK_EVERY, Moment, Observer, POSITION_VERLET, Run, RunFailure,
     VELOCITY_VERLET, largest_frequency,
 };
+use actin_mechanics::testing::Loading;
 use actin_mechanics::{Interaction, Loads, Split, State, System, Vector3};
-use common::{Springs, chain, vibrating_tops};
+use common::{chain, springs, vibrating_tops};
 use proptest::prelude::*;
 use std::ops::ControlFlow;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
 
-/// A load on one body that is no number from some time on.
-#[derive(Debug)]
-struct Poison {
-    body: Body,
-    from: f64,
-    value: f64,
-}
-
-impl Interaction for Poison {
-    fn term(&self) -> &'static str {
-        "poison"
-    }
-
-    fn add_loads(&self, state: &State, loads: &mut Loads) {
-        if state.time < self.from {
-            return;
+/// A load on one point that is no number from some time on.
+fn poison(point: usize, from: f64, value: f64) -> Box<dyn Interaction> {
+    let add = move |state: &State, loads: &mut Loads| {
+        if state.time >= from {
+            loads.force.add(point, Vector3::y() * value);
         }
-        match self.body {
-            Body::Point(i) => loads.force.add(i, Vector3::y() * self.value),
-            Body::Frame(i) => loads.torque.add(i, Vector3::y() * self.value),
-        }
-    }
-
-    fn elements(&self) -> usize {
-        0
-    }
-
-    fn write_energies(&self, _state: &State, _energies: &mut [f64]) {}
+    };
+    Box::new(Loading {
+        term: "poison",
+        add,
+    })
 }
 
 /// Six points in a row, stretched, with what poisons one of them.
-fn poisoned(poison: Poison) -> System {
-    let springs = Springs {
-        name: "springs",
-        pairs: (1..6).map(|i| (i - 1, i)).collect(),
-        stiffness: 4.0,
-        rest: 1.0,
-    };
+fn poisoned(poison: Box<dyn Interaction>) -> System {
     let mut state = chain(6, 4.0, 1.0).state().clone();
+    let springs = springs(&state, 4.0, 1.0);
     state.points.position.add(2, Vector3::x() * 0.1);
-    System::new(state, vec![Box::new(springs), Box::new(poison)])
+    System::new(state, vec![Box::new(springs), poison])
 }
 
 proptest! {
@@ -66,7 +47,7 @@ proptest! {
         let h = 0.05;
         // Position Verlet evaluates loads in the middle of a step.
         let from = (step as f64 - 0.75) * h;
-        let mut system = poisoned(Poison { body: Body::Point(body), from, value });
+        let mut system = poisoned(poison(body, from, value));
         let failure = Run::new(&POSITION_VERLET, h, 1_000_000)
             .unwrap()
             .observing_every(1_000_000)
@@ -94,68 +75,28 @@ fn noticing_costs_at_most_two_intervals() {
     }
     for step in [1, 99, 100, 101, 777, 5003] {
         let from = (step as f64 - 0.75) * 0.05;
-        let body = Body::Point(3);
-        let mut counted = Counting::new(Poison {
-            body,
-            from,
-            value: f64::NAN,
-        });
-        let evaluations = counted.evaluations.clone();
+        let evaluations = Arc::new(AtomicU64::new(0));
+        let tally = Arc::clone(&evaluations);
+        let add = move |_: &State, _: &mut Loads| {
+            tally.fetch_add(1, Ordering::Relaxed);
+        };
+        let tally = Loading { term: "tally", add };
+        let state = chain(6, 4.0, 1.0).state().clone();
+        let mut system = System::new(state, vec![poison(3, from, f64::NAN), Box::new(tally)]);
         let run = Run::new(&POSITION_VERLET, 0.05, 1_000_000).unwrap();
         let run = run.observing_every(1000).unwrap();
         let mut work = Work(u64::MAX);
-        let failure = run
-            .execute(&mut counted.system, &mut [&mut work])
-            .unwrap_err();
+        let failure = run.execute(&mut system, &mut [&mut work]).unwrap_err();
         assert_eq!(failure.step, step);
         // The checkpoint of the last good state is that of the last observation.
         assert_eq!(work.0, (step - 1) / 1000 * 1000);
-        let made = evaluations.load(std::sync::atomic::Ordering::Relaxed);
+        let made = evaluations.load(Ordering::Relaxed);
         // Two more for what the report asks of the terms, and one for the state put back.
         let most = step + 2 * DEFAULT_CHECK_EVERY + 4;
         assert!(
             made <= most,
             "{made} evaluations for a break at step {step}"
         );
-    }
-}
-
-/// A system whose evaluations can be counted after its counter has been put back.
-struct Counting {
-    system: System,
-    evaluations: std::sync::Arc<std::sync::atomic::AtomicU64>,
-}
-
-/// Counts evaluations.
-#[derive(Debug)]
-struct Tally(std::sync::Arc<std::sync::atomic::AtomicU64>);
-
-impl Interaction for Tally {
-    fn term(&self) -> &'static str {
-        "tally"
-    }
-
-    fn add_loads(&self, _state: &State, _loads: &mut Loads) {
-        self.0.fetch_add(1, std::sync::atomic::Ordering::Relaxed);
-    }
-
-    fn elements(&self) -> usize {
-        0
-    }
-
-    fn write_energies(&self, _state: &State, _energies: &mut [f64]) {}
-}
-
-impl Counting {
-    fn new(poison: Poison) -> Self {
-        let evaluations = std::sync::Arc::default();
-        let tally = Tally(std::sync::Arc::clone(&evaluations));
-        let state = chain(6, 4.0, 1.0).state().clone();
-        let system = System::new(state, vec![Box::new(poison), Box::new(tally)]);
-        Self {
-            system,
-            evaluations,
-        }
     }
 }
 
@@ -176,13 +117,8 @@ fn unstable(system: &mut System, excess: f64) -> RunFailure {
 #[test]
 fn growth_is_noticed_in_a_bounded_number_of_steps() {
     for excess in [1e-5, 1e-4, 1e-3, 1e-2, 0.1, 0.5] {
-        let linear = Springs {
-            name: "springs",
-            pairs: (1..10).map(|i| (i - 1, i)).collect(),
-            stiffness: 4.0,
-            rest: 0.0,
-        };
         let state = chain(10, 4.0, 1.0).state().clone();
+        let linear = springs(&state, 4.0, 0.0);
         let mut chain = System::new(state, vec![Box::new(linear)]);
         for i in 1..9 {
             let sign = if i % 2 == 0 { 0.01 } else { -0.01 };

@@ -5,10 +5,9 @@ use actin_integrate::{
     Drag, FrequencyError, KRYLOV_VECTORS, POSITION_VERLET, advance, largest_frequency,
     largest_frequency_with, stable_step,
 };
-use actin_mechanics::{
-    Frame, Inertia, Interaction, Loads, Point, Split, State, System, UnitQuaternion, Vector3,
-};
-use common::{Springs, Torsion, chain, spinning_tops};
+use actin_mechanics::testing::{push_frame, push_point};
+use actin_mechanics::{Interaction, Loads, Split, Springs, State, System, UnitQuaternion, Vector3};
+use common::{Torsion, chain, spinning_tops, springs};
 use std::f64::consts::PI;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -39,20 +38,11 @@ fn chain_of_springs() {
 #[test]
 fn local_mode_in_a_long_chain() {
     let (n, k, m) = (3000, 2000.0, 0.07);
-    let stiffer = Springs {
-        name: "stiffer",
-        pairs: vec![(n / 2, n / 2 + 1)],
-        stiffness: 0.5 * k,
-        rest: 1.0,
-    };
-    let springs = Springs {
-        name: "springs",
-        pairs: (1..n).map(|i| (i - 1, i)).collect(),
-        stiffness: k,
-        rest: 1.0,
-    };
     let state = chain(n, k, m).state().clone();
-    let system = System::new(state, vec![Box::new(springs), Box::new(stiffer)]);
+    let mut all = springs(&state, k, 1.0).springs().to_vec();
+    all[n / 2].stiffness *= 1.5;
+    let springs = Springs::new(&state, all).unwrap();
+    let system = System::new(state, vec![Box::new(springs)]);
     let r: f64 = 1.0 / (2.0 * 1.5 - 1.0);
     let exact = (k / m * (2.0 + r + 1.0 / r)).sqrt();
     let ratio = largest_frequency(&system).unwrap() / exact;
@@ -79,10 +69,7 @@ fn fewer_vectors_find_less_and_never_more() {
 fn frame_on_a_torsion_spring() {
     let mut state = State::default();
     for moments in [[1e-6, 1e-6, 1e-6], [0.5, 0.5, 0.2]] {
-        state.frames.push(Frame {
-            orientation: UnitQuaternion::identity(),
-            inertia: Inertia::from_moments(moments).unwrap(),
-        });
+        push_frame(&mut state, UnitQuaternion::identity(), moments);
     }
     state.frames.hold(0);
     let torsion = Torsion {
@@ -178,10 +165,7 @@ impl Interaction for Linear {
 fn linear(n: usize, rows: [[f64; 3]; 3]) -> (System, Arc<AtomicU64>) {
     let mut state = State::default();
     for _ in 0..n {
-        state.points.push(Point {
-            position: Vector3::new(1.0, -2.0, 0.5),
-            mass: 2.0,
-        });
+        push_point(&mut state, Vector3::new(1.0, -2.0, 0.5), 2.0);
     }
     let evaluations = Arc::new(AtomicU64::new(0));
     let force = Linear {
@@ -218,10 +202,7 @@ fn cost_in_evaluations() {
     // Unequal masses open it: 300 different eigenvalues.
     let mut state = State::default();
     for i in 0..100_u32 {
-        state.points.push(Point {
-            position: Vector3::zeros(),
-            mass: 1.0 + f64::from(i),
-        });
+        push_point(&mut state, Vector3::zeros(), 1.0 + f64::from(i));
     }
     *system.state_mut() = state;
     evaluations.store(0, Ordering::Relaxed);
@@ -271,10 +252,7 @@ fn sound_terms_are_evaluated_twice_for_each_vector() {
         let (_, evaluations) = linear(1, [[0.0; 3]; 3]);
         let mut state = State::default();
         for i in 0..100_u32 {
-            state.points.push(Point {
-                position: Vector3::zeros(),
-                mass: 1.0 + f64::from(i),
-            });
+            push_point(&mut state, Vector3::zeros(), 1.0 + f64::from(i));
         }
         let term = |_| -> Box<dyn Interaction> {
             Box::new(Linear {

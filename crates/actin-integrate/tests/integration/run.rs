@@ -5,8 +5,9 @@ use actin_integrate::{
     Body, Drag, FailureKind, Moment, Observer, PEFRL, POSITION_VERLET, Reason, Run,
     RunSettingError, StopRule, VEFRL, largest_frequency, stable_step,
 };
-use actin_mechanics::{Interaction, Loads, State, System, Vector3};
-use common::{Springs, Torsion, chain, distance, spinning_tops, three_tops, vibrating_tops};
+use actin_mechanics::testing::Loading;
+use actin_mechanics::{Interaction, Loads, Spring, Springs, State, System, Vector3};
+use common::{Torsion, chain, distance, spinning_tops, springs, three_tops, vibrating_tops};
 use std::ops::ControlFlow;
 
 /// A stretched chain of 8 free points.
@@ -210,16 +211,18 @@ fn explosion_is_blamed_on_the_stiff_term() {
     let soft = chain(10, 4.0, 1.0);
     let mut state = soft.state().clone();
     state.points.position.add(9, Vector3::x() * 0.5);
-    let springs = |name, pairs, stiffness| Springs {
-        name,
-        pairs,
-        stiffness,
-        rest: 1.0,
+    let one = Spring {
+        points: [6, 7],
+        stiffness: 400.0,
+        rest_length: 1.0,
     };
-    let terms: Vec<Box<dyn Interaction>> = vec![
-        Box::new(springs("soft", (1..10).map(|i| (i - 1, i)).collect(), 4.0)),
-        Box::new(springs("stiff", vec![(6, 7)], 400.0)),
-    ];
+    let one = Springs::new(&state, vec![one]).unwrap();
+    let stiff = Loading {
+        term: "stiff",
+        add: move |state: &State, loads: &mut Loads| one.add_loads(state, loads),
+    };
+    let soft = springs(&state, 4.0, 1.0);
+    let terms: Vec<Box<dyn Interaction>> = vec![Box::new(soft), Box::new(stiff)];
     let mut system = System::new(state, terms);
     let mut good: Option<(u64, State)> = None;
     let mut keep = |moment: &mut Moment<'_>| {
@@ -268,38 +271,19 @@ fn a_frame_that_spins_up_is_found() {
     assert_eq!((failure.term, failure.last_good_step), ("torsion", 0));
 }
 
-/// A term whose loads cease to be numbers when point 2 passes x = 2.2.
-#[derive(Debug)]
-struct Singular;
-
-impl Interaction for Singular {
-    fn term(&self) -> &'static str {
-        "singular"
-    }
-
-    fn add_loads(&self, state: &State, loads: &mut Loads) {
-        let room = 2.2 - state.points.position.get(2).x;
-        loads.force.add(2, Vector3::x() * (1e-3 * room.sqrt()));
-    }
-
-    fn elements(&self) -> usize {
-        0
-    }
-
-    fn write_energies(&self, _state: &State, _energies: &mut [f64]) {}
-}
-
 /// Not-a-number spreads to every body within a few steps; the report names where it began.
 #[test]
 fn a_load_that_is_not_a_number_is_traced_to_its_term() {
-    let springs = Springs {
-        name: "springs",
-        pairs: (1..6).map(|i| (i - 1, i)).collect(),
-        stiffness: 4.0,
-        rest: 1.0,
-    };
     let state = chain(6, 4.0, 1.0).state().clone();
-    let mut system = System::new(state, vec![Box::new(springs), Box::new(Singular)]);
+    let springs = springs(&state, 4.0, 1.0);
+    // Loads cease to be numbers when point 2 passes x = 2.2.
+    let add = |state: &State, loads: &mut Loads| {
+        let room = 2.2 - state.points.position.get(2).x;
+        loads.force.add(2, Vector3::x() * (1e-3 * room.sqrt()));
+    };
+    let term = "singular";
+    let singular = Loading { term, add };
+    let mut system = System::new(state, vec![Box::new(springs), Box::new(singular)]);
     system.state_mut().points.velocity.set(2, Vector3::x());
     let failure = Run::new(&POSITION_VERLET, 0.05, 100)
         .unwrap()

@@ -179,7 +179,8 @@ pub(super) fn all_loads(loads: &Loads) -> DVector<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Frame, Inertia, Point, SecondOrder};
+    use crate::SecondOrder;
+    use crate::testing::{push_frame, push_point};
     use Coordinates::{Frame as F, Point as P};
 
     /// A spring of stiffness 2 from the origin to a point of a body: energy `(x + Q b)^2`.
@@ -239,14 +240,12 @@ mod tests {
 
     fn check(geometric: f64) {
         let mut state = State::default();
-        state.points.push(Point {
-            position: Vector3::new(0.3, -1.0, 0.7),
-            mass: 1.0,
-        });
-        state.frames.push(Frame {
-            orientation: rotation::exp(Vector3::new(0.4, 1.0, -0.2)),
-            inertia: Inertia::from_moments([1.0, 1.0, 2.0]).unwrap(),
-        });
+        push_point(&mut state, Vector3::new(0.3, -1.0, 0.7), 1.0);
+        push_frame(
+            &mut state,
+            rotation::exp(Vector3::new(0.4, 1.0, -0.2)),
+            [1.0, 1.0, 2.0],
+        );
         let arm = Vector3::new(1.0, 0.5, -0.4);
         // The energy is smooth on the scale of 1: 0.02^8 and 1e-16 / 0.02 are both below 1e-13.
         assert_is_stiffness(&Spring { arm, geometric }, &state, 0.02, 1e-12);

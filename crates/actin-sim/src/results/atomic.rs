@@ -142,16 +142,8 @@ pub(super) fn sync_all(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::results::fixture::names;
     use std::io::Write;
-
-    fn names(folder: &Path) -> Vec<String> {
-        let entries = fs::read_dir(folder).unwrap();
-        let mut names: Vec<_> = entries
-            .map(|entry| entry.unwrap().file_name().into_string().unwrap())
-            .collect();
-        names.sort();
-        names
-    }
 
     /// What was there before stays whole, and the unfinished file is gone; both ways of replacing.
     #[test]

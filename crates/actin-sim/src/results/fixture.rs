@@ -3,6 +3,8 @@
 use crate::{Assembly, At, Booked, Linker, LinkerSite, Outcome, Record, Scene, Status, Trajectory};
 use actin_mechanics::{Loads, State};
 use actin_mechanics::{Xorshift, perturb, randomise_velocities};
+use std::path::Path;
+use vtkio::model::{DataSet, Piece, PolyDataPiece, Vtk};
 
 /// Monomers at a clamped start, then a rod; the title has everything that XML escapes.
 const CLAMPED_START: &str = r#"Scene(
@@ -83,6 +85,27 @@ pub(super) fn pair() -> Assembly {
 /// A rod clamped at its end, with a force at its start.
 pub(super) fn clamped_end() -> Assembly {
     build(CLAMPED_END)
+}
+
+/// Sorted names of what lies in a folder.
+pub(super) fn names(folder: &Path) -> Vec<String> {
+    let entries = std::fs::read_dir(folder).unwrap();
+    let mut names: Vec<_> = entries
+        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+        .collect();
+    names.sort();
+    names
+}
+
+/// What vtkio, which shares no code with the writer, reads of a picture.
+pub(super) fn parsed(picture: &[u8]) -> Box<PolyDataPiece> {
+    let DataSet::PolyData { mut pieces, .. } = Vtk::parse_xml(picture).unwrap().data else {
+        panic!("not PolyData");
+    };
+    let Piece::Inline(piece) = pieces.remove(0) else {
+        panic!("not inline");
+    };
+    piece
 }
 
 /// Three records of random states near rest; all numbers differ, held bodies excepted.

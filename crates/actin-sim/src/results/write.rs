@@ -254,7 +254,7 @@ impl<'a> Results<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::results::fixture;
+    use crate::results::fixture::{self, names};
     use crate::results::lock::LOCK;
     use crate::results::names::MANIFEST;
     use crate::{At, Trajectory};
@@ -308,13 +308,13 @@ mod tests {
             );
         }
         assert_eq!(
-            all_names(folder.path()),
+            names(folder.path()),
             [
                 LOCK, MANIFEST, ENERGIES, MACRO, PROFILE, COLLECTION, SCENE, STATES, SUMMARY,
                 PICTURES
             ]
         );
-        assert_eq!(all_names(&folder.path().join(PICTURES)).len(), 3);
+        assert_eq!(names(&folder.path().join(PICTURES)).len(), 3);
     }
 
     /// A run that is killed before it has results leaves its scene; changed, it is not overwritten.
@@ -348,7 +348,7 @@ mod tests {
         directory
             .write(&plan(&assembly), &trajectory, &outcome)
             .unwrap();
-        assert_eq!(all_names(&folder.path().join(PICTURES)), ["0000.vtp"]);
+        assert_eq!(names(&folder.path().join(PICTURES)), ["0000.vtp"]);
     }
 
     /// All files or none: what cannot be written, here because something stands in the place of its
@@ -382,7 +382,7 @@ mod tests {
         directory
             .write(&plan(&assembly), &longer, &outcome)
             .unwrap();
-        assert_eq!(all_names(&folder.path().join(PICTURES)).len(), 3);
+        assert_eq!(names(&folder.path().join(PICTURES)).len(), 3);
     }
 
     /// A text that somebody has changed is refused by name, to go on as to overwrite, and stays.
@@ -530,7 +530,7 @@ mod tests {
             .write(&plan(assembly), trajectory, &fixture::outcome())
             .unwrap_err();
         assert!(error.to_string().starts_with(message), "{error}");
-        assert_eq!(all_names(folder.path()), [LOCK, MANIFEST]);
+        assert_eq!(names(folder.path()), [LOCK, MANIFEST]);
     }
 
     /// The files of a run directory with their bytes.
@@ -544,14 +544,5 @@ mod tests {
             .collect();
         all.sort();
         all
-    }
-
-    fn all_names(path: &std::path::Path) -> Vec<String> {
-        let entries = fs::read_dir(path).unwrap();
-        let mut names: Vec<_> = entries
-            .map(|entry| entry.unwrap().file_name().into_string().unwrap())
-            .collect();
-        names.sort();
-        names
     }
 }

@@ -5,6 +5,8 @@
 
 pub(crate) mod axis;
 mod buckle;
+#[cfg(test)]
+mod fixture;
 mod link;
 mod linking;
 mod profile;

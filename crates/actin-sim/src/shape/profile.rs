@@ -158,6 +158,7 @@ fn spread(energy: f64, [from, to]: [f64; 2], cells: &[f64], energies: &mut [f64]
 mod tests {
     use super::*;
     use crate::Scene;
+    use crate::shape::fixture::{CLAMPS, SECTIONS};
     use actin_mechanics::{Xorshift, perturb};
 
     const QUASI_HARMONIC: &str = "Brownian(
@@ -180,19 +181,6 @@ mod tests {
         );
         Assembly::build(&Scene::from_ron(&text).unwrap()).unwrap()
     }
-
-    const SECTIONS: [&str; 4] = [
-        "Rod(from_nm: 0.0, to_nm: 60.0)",
-        "Ellipsoids(from_nm: 0.0, to_nm: 60.0)",
-        "Ellipsoids(from_nm: 0.0, to_nm: 30.0), Rod(from_nm: 30.0, to_nm: 60.0)",
-        "Rod(from_nm: 0.0, to_nm: 20.0), Ellipsoids(from_nm: 20.0, to_nm: 40.0),
-         Rod(from_nm: 40.0, to_nm: 60.0)",
-    ];
-    const CLAMPS: [&str; 3] = [
-        "",
-        "Clamp(end: Start)",
-        "Clamp(end: Start), Clamp(end: End)",
-    ];
 
     /// Every element has a span, and no energy is lost or counted twice; the linker's is not the
     /// filament's.

@@ -288,6 +288,7 @@ fn outermost(assembly: &Assembly, clamp: usize, end: End) -> Option<usize> {
 mod tests {
     use super::*;
     use crate::Scene;
+    use crate::shape::fixture::{CLAMPS, SECTIONS};
     use actin_mechanics::rotation;
     use actin_mechanics::testing::move_rigidly;
     use actin_mechanics::{Xorshift, perturb};
@@ -302,19 +303,6 @@ mod tests {
         );
         Assembly::build(&Scene::from_ron(&text).unwrap()).unwrap()
     }
-
-    const SECTIONS: [&str; 4] = [
-        "Rod(from_nm: 0.0, to_nm: 60.0)",
-        "Ellipsoids(from_nm: 0.0, to_nm: 60.0)",
-        "Ellipsoids(from_nm: 0.0, to_nm: 30.0), Rod(from_nm: 30.0, to_nm: 60.0)",
-        "Rod(from_nm: 0.0, to_nm: 20.0), Ellipsoids(from_nm: 20.0, to_nm: 40.0),
-         Rod(from_nm: 40.0, to_nm: 60.0)",
-    ];
-    const CLAMPS: [&str; 3] = [
-        "",
-        "Clamp(end: Start)",
-        "Clamp(end: Start), Clamp(end: End)",
-    ];
 
     /// At rest the ribbon is the axis, its frames are the lab's, and each lies in the middle of its
     /// edge: a monomer too many or too few, or its own azimuth, would show.

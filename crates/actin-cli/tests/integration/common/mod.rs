@@ -2,7 +2,9 @@
 #![allow(dead_code, reason = "each test binary uses some of it")]
 
 use std::collections::BTreeMap;
+use std::env;
 use std::fs;
+use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Output, Stdio};
 use std::thread::sleep;
@@ -28,6 +30,28 @@ pub(crate) const MOTION: &str = "Scene(
         drag: (translational_per_ns: 0.01, rotational_per_ns: 0.01),
     ),
 )";
+
+/// A short rod, monomers and a junction under a force: a record each ns for so many ns (a hundredth of a second in 2 ns
+/// or so).
+pub(crate) fn pushed(duration_ns: f64) -> String {
+    format!(
+        "Scene(
+    filament: Filament(
+        sections: [Ellipsoids(from_nm: 0.0, to_nm: 10.0), Rod(from_nm: 10.0, to_nm: 30.0)],
+        monomers: Monomers(anchors: Independent, lateral_bonds: 8, longitudinal_bonds: 8),
+    ),
+    clamps: [Clamp(end: Start)],
+    loads: [EndForce(end: End, force_pn: (-2.0, 0.0, 0.0))],
+    task: Dynamics(duration_ns: {duration_ns:?}, record_every_ns: 1.0),
+)"
+    )
+}
+
+/// The motion, shortened to a few records.
+pub(crate) fn short_motion() -> String {
+    let short = MOTION.replace("150.0", "1.0").replace("50.0", "0.5");
+    short.replace("1.5", "0.25")
+}
 
 /// The same in a heat bath, observed, with no states kept.
 pub(crate) fn observed() -> String {
@@ -70,10 +94,18 @@ impl Workplace {
         self.folder.path().join(name)
     }
 
+    pub(crate) fn read(&self, name: &str) -> String {
+        fs::read_to_string(self.path(name)).unwrap()
+    }
+
+    pub(crate) fn write(&self, name: &str, text: impl AsRef<[u8]>) {
+        fs::write(self.path(name), text).unwrap();
+    }
+
+    /// The program in the folder; none of its streams is a terminal.
     pub(crate) fn command(&self, arguments: &[&str]) -> Command {
         let mut command = Command::new(env!("CARGO_BIN_EXE_actin"));
-        command.args(["run", "scene.ron"]).args(arguments);
-        command.current_dir(self.folder.path());
+        command.args(arguments).current_dir(self.folder.path());
         command.stdout(Stdio::piped()).stderr(Stdio::piped());
         command
     }
@@ -82,22 +114,60 @@ impl Workplace {
         self.command(arguments).output().unwrap()
     }
 
+    /// Runs the program to exit code 0; returns its standard output.
+    pub(crate) fn succeed(&self, arguments: &[&str]) -> String {
+        let output = self.actin(arguments);
+        let told = || format!("{arguments:?}: {}{}", stdout(&output), stderr(&output));
+        assert_eq!(code(&output), 0, "{}", told());
+        stdout(&output).to_owned()
+    }
+
+    /// Runs the program to another exit code; returns its standard error.
+    pub(crate) fn fail(&self, expected: i32, arguments: &[&str]) -> String {
+        let output = self.actin(arguments);
+        let told = || format!("{arguments:?}: {}{}", stdout(&output), stderr(&output));
+        assert_eq!(code(&output), expected, "{}", told());
+        stderr(&output).to_owned()
+    }
+
+    /// Runs the program with a text on its standard input.
+    pub(crate) fn piped(&self, arguments: &[&str], input: &str) -> Output {
+        let mut command = self.command(arguments);
+        let mut child = command.stdin(Stdio::piped()).spawn().unwrap();
+        let mut pipe = child.stdin.take().unwrap();
+        pipe.write_all(input.as_bytes()).unwrap();
+        drop(pipe);
+        child.wait_with_output().unwrap()
+    }
+
+    /// Asserts that two folders have the same files of these names.
+    pub(crate) fn assert_same(&self, [one, other]: [&str; 2], names: &[&str]) {
+        for name in names {
+            let [a, b] = [one, other].map(|folder| fs::read(self.path(folder).join(name)).unwrap());
+            assert!(a == b, "{name} of {one} is not that of {other}");
+        }
+    }
+
+    /// Runs `scene.ron` into a directory, which must go well; returns standard output.
+    pub(crate) fn run(&self, out: &str) -> String {
+        self.succeed(&["run", "scene.ron", "--out", out])
+    }
+
+    /// Goes on with the run in a directory, which must go well; returns standard output.
+    pub(crate) fn resume(&self, out: &str) -> String {
+        self.succeed(&["run", "scene.ron", "--out", out, "--resume"])
+    }
+
     /// What a shell makes of a command, in which `actin` is the program.
     pub(crate) fn shell(&self, command: &str) -> Output {
-        let program = Path::new(env!("CARGO_BIN_EXE_actin"));
-        let path = std::env::var("PATH").unwrap();
-        let folder = program.parent().unwrap().display();
-        Command::new("sh")
-            .args(["-c", command])
-            .env("PATH", format!("{folder}:{path}"))
-            .current_dir(self.folder.path())
-            .output()
-            .unwrap()
+        let mut shell = with_actin("sh", self.folder.path());
+        shell.args(["-c", command]).output().unwrap()
     }
 
     /// Starts a run and waits until its directory holds `name`, or it has ended.
     pub(crate) fn start(&self, arguments: &[&str], name: &str) -> Child {
-        let mut child = self.command(arguments).spawn().unwrap();
+        let run = [&["run", "scene.ron"], arguments].concat();
+        let mut child = self.command(&run).spawn().unwrap();
         let patience = Instant::now();
         while !self.path(name).exists() && child.try_wait().unwrap().is_none() {
             if patience.elapsed() > Duration::from_mins(2) {
@@ -129,6 +199,36 @@ impl Workplace {
     }
 }
 
+/// A program in a folder, for which `actin` is on the path.
+pub(crate) fn with_actin(program: &str, folder: &Path) -> Command {
+    let own = Path::new(env!("CARGO_BIN_EXE_actin")).parent().unwrap();
+    let path = env::var_os("PATH").unwrap_or_default();
+    let folders = [own.to_owned()].into_iter().chain(env::split_paths(&path));
+    let mut command = Command::new(program);
+    command.env("PATH", env::join_paths(folders).unwrap());
+    command.current_dir(folder);
+    command
+}
+
+/// A Python that can import some packages. Where there is none the test of `what` says so, or fails if the
+/// environment variable `required` is set, as in `.ci/run`.
+pub(crate) fn python(packages: &str, required: &str, what: &str) -> Option<String> {
+    let named = env::var("PYTHON").ok();
+    let usual = ["python3", "/usr/bin/python3"].map(str::to_owned);
+    let has_packages = |python: &String| {
+        let mut command = Command::new(python);
+        let output = command.args(["-c", &format!("import {packages}")]).output();
+        output.is_ok_and(|output| output.status.success())
+    };
+    let found = named.into_iter().chain(usual).find(has_packages);
+    if found.is_none() {
+        let message = format!("no python3 with {packages}: {what} NOT TESTED");
+        assert!(env::var_os(required).is_none(), "{message}");
+        eprintln!("{message}");
+    }
+    found
+}
+
 /// The exit code; -1 of a program that a signal has ended.
 pub(crate) fn code(output: &Output) -> i32 {
     output.status.code().unwrap_or(-1)
@@ -146,6 +246,13 @@ pub(crate) fn signal(child: &Child, name: &str) {
     let id = child.id().to_string();
     let sent = Command::new("kill").args([name, &id]).status().unwrap();
     assert!(sent.success());
+}
+
+/// Asserts that a text has each part.
+pub(crate) fn assert_has(text: &str, parts: &[&str]) {
+    for part in parts {
+        assert!(text.contains(part), "{part:?} is not in {text}");
+    }
 }
 
 /// The files of a folder itself.

@@ -13,9 +13,8 @@ use actin_mechanics::testing::{
     assert_is_balanced, assert_is_gradient, assert_is_invariant, assert_is_stiffness, loads_of,
     move_rigidly,
 };
-use actin_mechanics::{
-    Frame, Inertia, Interaction, Point, State, UnitQuaternion, Vector3, rotation,
-};
+use actin_mechanics::testing::{push_frame, push_point};
+use actin_mechanics::{Interaction, State, UnitQuaternion, Vector3, rotation};
 use actin_mechanics::{Xorshift, perturb};
 use proptest::prelude::*;
 use std::ops::Range;
@@ -47,14 +46,12 @@ fn push_monomers(state: &mut State, heights: &[f64]) -> Vec<AttachedMonomer> {
     let monomer = |(k, &height): (usize, &f64)| {
         let turn = rotation::exp(Vector3::z() * (0.4 - 2.9 * k as f64));
         AttachedMonomer {
-            point: state.points.push(Point {
-                position: turn * Vector3::x() * 1.8 + Vector3::z() * height,
-                mass: 0.0697,
-            }),
-            frame: state.frames.push(Frame {
-                orientation: turn,
-                inertia: Inertia::from_moments([0.2, 0.15, 0.15]).unwrap(),
-            }),
+            point: push_point(
+                state,
+                turn * Vector3::x() * 1.8 + Vector3::z() * height,
+                0.0697,
+            ),
+            frame: push_frame(state, turn, [0.2, 0.15, 0.15]),
         }
     };
     heights.iter().enumerate().map(monomer).collect()

@@ -1,39 +1,58 @@
-//! Small models with analytic second derivatives, shared by the tests.
-#![allow(
-    dead_code,
-    unused_imports,
-    reason = "each test binary uses some of them"
-)]
+//! Rods, filaments and springs, shared by the tests.
+#![allow(dead_code, unused_imports, reason = "the example uses some of them")]
 
-pub(crate) mod actin;
-mod bonds;
 mod rod;
-mod rod_terms;
 
-pub(crate) use bonds::{Bond, Bonds, Springs, bonded_filament};
-pub(crate) use rod::{ACTIN, Rod};
+pub(crate) use rod::{ACTIN, COLUMN, Rod};
 
+use actin_ellipsoid::{Bonds, EllipsoidModel, EllipsoidParameters, Placement};
 use actin_equilibrium::{BodyOrder, Layout, Newton, NewtonOptions};
-use actin_mechanics::{
-    Frame, Inertia, Interaction, Matrix3, Point, State, UnitQuaternion, Vector3,
-};
+use actin_mechanics::testing::{push_frame, push_point};
+use actin_mechanics::{Interaction, Point, Spring, Springs, State, UnitQuaternion, Vector3};
 
-/// `[v]x`.
-pub(crate) fn cross(v: Vector3) -> Matrix3 {
-    v.cross_matrix()
+/// `n` monomers along z, the first two held, `bonds` per interface with draws of their own: floppy at rest, stiff once
+/// deformed.
+pub(crate) fn filament(n: usize, bonds: usize, seed: u64) -> (State, Bonds) {
+    let model = EllipsoidModel::new(EllipsoidParameters::drawn(bonds, seed)).unwrap();
+    let mut state = State::default();
+    let monomers = model
+        .build(&mut state, &Placement::default(), 0, n)
+        .unwrap();
+    for i in 0..2 {
+        state.points.hold(i);
+        state.frames.hold(i);
+    }
+    (state, model.bonds(&monomers).unwrap())
+}
+
+/// Springs: two points, stiffness and rest length of each.
+pub(crate) fn springs(state: &State, all: Vec<(usize, usize, f64, f64)>) -> Box<dyn Interaction> {
+    let spring = |(a, b, stiffness, rest_length)| Spring {
+        points: [a, b],
+        stiffness,
+        rest_length,
+    };
+    Box::new(Springs::new(state, all.into_iter().map(spring).collect()).unwrap())
+}
+
+/// Five points along z with springs of 10 pN/nm at rest between them; the first is held.
+pub(crate) fn chain() -> (State, Vec<Box<dyn Interaction>>) {
+    let mut state = State::default();
+    for z in 0..5 {
+        point(&mut state, Vector3::z() * f64::from(z));
+    }
+    state.points.hold(0);
+    let links = (0..4).map(|i| (i, i + 1, 10.0, 1.0)).collect();
+    let springs = springs(&state, links);
+    (state, vec![springs])
 }
 
 pub(crate) fn point(state: &mut State, position: Vector3) -> usize {
-    let mass = 0.0697;
-    state.points.push(Point { position, mass })
+    push_point(state, position, 0.0697)
 }
 
 pub(crate) fn frame(state: &mut State, orientation: UnitQuaternion) -> usize {
-    let inertia = Inertia::from_moments([1.0, 1.0, 2.0]).unwrap();
-    state.frames.push(Frame {
-        orientation,
-        inertia,
-    })
+    push_frame(state, orientation, [1.0, 1.0, 2.0])
 }
 
 /// Order along a filament whose bodies stand in order.

@@ -1,9 +1,10 @@
 //! A clamped rod.
 
-use super::rod_terms::{Bending, Segments};
-use super::{frame, point};
+use actin_cosserat::{
+    EnergyGradient, Rigidities, RodClamp, RodEnd, RodLayout, RodMaterial, StraightRod,
+};
 use actin_equilibrium::{BodyOrder, Layout, Newton, NewtonOptions};
-use actin_mechanics::{Interaction, State, UnitQuaternion, Vector3};
+use actin_mechanics::{Interaction, PointLoad, State, Vector3};
 
 /// A rod along z from the origin, clamped by a held wall frame (frame 0) and point 0.
 #[derive(Debug)]
@@ -22,39 +23,49 @@ pub(crate) const ACTIN: Rod = Rod {
     bending: Vector3::new(3.9e4, 3.9e4, 1.3e4),
 };
 
+/// A column, softest about its y axis.
+pub(crate) const COLUMN: Rod = Rod {
+    segments: 16,
+    bending: Vector3::new(3.9e4, 3.0e4, 1.3e4),
+    ..ACTIN
+};
+
 impl Rod {
-    pub(crate) fn state(&self) -> State {
+    /// The rod at rest.
+    fn built(&self) -> (State, RodLayout) {
         let mut state = State::default();
-        let step = self.length / self.segments as f64;
-        for i in 0..=self.segments {
-            point(&mut state, Vector3::z() * (step * i as f64));
-        }
-        for _ in 0..=self.segments {
-            frame(&mut state, UnitQuaternion::identity());
-        }
-        state.points.hold(0);
-        state.frames.hold(0);
-        state
+        let rod = StraightRod::uniform(self.segments, self.length / self.segments as f64);
+        let layout = rod.push_clamped(RodClamp::Wall, RodEnd::Start, &mut state);
+        (state, layout.unwrap())
+    }
+
+    pub(crate) fn state(&self) -> State {
+        self.built().0
     }
 
     pub(crate) fn interactions(&self) -> Vec<Box<dyn Interaction>> {
-        let step = self.length / self.segments as f64;
-        let segments = (0..self.segments)
-            .map(|i| (i, i + 1, i + 1, step))
-            .collect();
-        let elements = (0..self.segments)
-            .map(|i| (i, i + 1, if i == 0 { 0.5 * step } else { step }))
-            .collect();
-        vec![
-            Box::new(Segments {
-                elements: segments,
-                rigidity: self.shear,
-            }),
-            Box::new(Bending {
-                elements,
-                rigidity: self.bending,
-            }),
-        ]
+        let rigidities = Rigidities {
+            shear: self.shear,
+            bend: self.bending,
+        };
+        let material = RodMaterial::new(rigidities).unwrap();
+        vec![Box::new(EnergyGradient::new(self.built().1, material))]
+    }
+
+    /// The rod under a force on its tip (pN) times a control.
+    pub(crate) fn loaded(
+        &self,
+        force: Vector3,
+        control: f64,
+    ) -> (State, Vec<Box<dyn Interaction>>) {
+        let mut state = self.state();
+        let control = state.add_control(control);
+        let tip = vec![(self.segments, 1.0)];
+        let mut terms = self.interactions();
+        terms.push(Box::new(
+            PointLoad::new(&state, tip, force, control).unwrap(),
+        ));
+        (state, terms)
     }
 
     pub(crate) fn order(&self) -> BodyOrder {

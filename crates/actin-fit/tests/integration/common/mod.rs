@@ -1,7 +1,9 @@
 //! Noise, sigmoids and statistics shared by the tests.
 #![allow(dead_code, reason = "each test file uses its part of this")]
 
-use actin_fit::{Data, Fit, Model, Observations};
+use actin_fit::{
+    Bounds, ClosureModel, Data, Fit, FitError, LevenbergMarquardt, Model, Observations, Starts,
+};
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
@@ -63,6 +65,33 @@ pub(crate) fn values(model: &dyn Model, x: &[f64], p: &[f64]) -> Vec<f64> {
 pub(crate) fn clean(model: &dyn Model, x: &[f64], p: &[f64]) -> Data {
     let observations = Observations::new(&values(model, x, p)).unwrap();
     Data::new(x, observations).unwrap()
+}
+
+/// `p0 exp(-p1 x)`, with `p0` in units of `unit`.
+pub(crate) fn decay(unit: f64) -> impl Model {
+    ClosureModel::new(
+        2,
+        move |x, p| unit * p[0] * (-p[1] * x[0]).exp(),
+        move |x, p, gradient| {
+            gradient[0] = unit * (-p[1] * x[0]).exp();
+            gradient[1] = -x[0] * p[0] * gradient[0];
+        },
+    )
+}
+
+/// The fit from one start.
+pub(crate) fn fit(
+    model: &dyn Model,
+    data: &Data,
+    bounds: &Bounds,
+    start: &[f64],
+) -> Result<Fit, FitError> {
+    LevenbergMarquardt::default().fit(model, data, bounds, &Starts::at(start))
+}
+
+/// The message of what is refused.
+pub(crate) fn refused<T>(result: Result<T, FitError>) -> String {
+    result.err().expect("this must be refused").to_string()
 }
 
 /// Decimal digits in which two numbers agree.

@@ -2,51 +2,20 @@
 #![allow(dead_code, reason = "each test file uses its own part")]
 
 use actin_integrate::{Drag, POSITION_VERLET, advance};
+use actin_mechanics::testing::{push_frame, push_point};
 use actin_mechanics::{
-    Frame, Inertia, Interaction, Loads, Point, State, System, UnitQuaternion, Vector3, rotation,
+    Interaction, Loads, Spring, Springs, State, System, UnitQuaternion, Vector3, rotation,
 };
 use actin_mechanics::{Xorshift, perturb, randomise_velocities};
 
-/// Springs between points, energy `k/2 (|d| - rest)^2`.
-#[derive(Clone, Debug)]
-pub(crate) struct Springs {
-    pub(crate) name: &'static str,
-    pub(crate) pairs: Vec<(usize, usize)>,
-    pub(crate) stiffness: f64,
-    pub(crate) rest: f64,
-}
-
-impl Interaction for Springs {
-    fn term(&self) -> &'static str {
-        self.name
-    }
-
-    fn add_loads(&self, state: &State, loads: &mut Loads) {
-        let x = &state.points.position;
-        for &(i, j) in &self.pairs {
-            let d = x.get(j) - x.get(i);
-            // At zero rest length the spring has no direction to lose.
-            let pull = if self.rest == 0.0 {
-                self.stiffness * d
-            } else {
-                self.stiffness * (1.0 - self.rest / d.norm()) * d
-            };
-            loads.force.add(i, pull);
-            loads.force.add(j, -pull);
-        }
-    }
-
-    fn elements(&self) -> usize {
-        self.pairs.len()
-    }
-
-    fn write_energies(&self, state: &State, energies: &mut [f64]) {
-        let x = &state.points.position;
-        for (energy, &(i, j)) in energies.iter_mut().zip(&self.pairs) {
-            let stretch = (x.get(j) - x.get(i)).norm() - self.rest;
-            *energy = 0.5 * self.stiffness * stretch * stretch;
-        }
-    }
+/// Springs between neighbours in the order of the points.
+pub(crate) fn springs(state: &State, stiffness: f64, rest_length: f64) -> Springs {
+    let spring = |i| Spring {
+        points: [i - 1, i],
+        stiffness,
+        rest_length,
+    };
+    Springs::new(state, (1..state.points.len()).map(spring).collect()).unwrap()
 }
 
 /// Bonds between anchors fixed in frames: body `i` is point `i` with frame `i`.
@@ -154,14 +123,12 @@ pub(crate) fn three_tops() -> System {
         .into_iter()
         .enumerate()
     {
-        state.points.push(Point {
-            position: Vector3::new(2.0 * i as f64, 0.3 * i as f64, 0.0),
-            mass: 1.0 + 0.5 * i as f64,
-        });
-        state.frames.push(Frame {
-            orientation: UnitQuaternion::identity(),
-            inertia: Inertia::from_moments(moments).unwrap(),
-        });
+        push_point(
+            &mut state,
+            Vector3::new(2.0 * i as f64, 0.3 * i as f64, 0.0),
+            1.0 + 0.5 * i as f64,
+        );
+        push_frame(&mut state, UnitQuaternion::identity(), moments);
     }
     let bonds = Bonds {
         pairs: BOND_ENDS
@@ -203,19 +170,11 @@ pub(crate) fn vibrating_tops(seed: u64) -> System {
 pub(crate) fn chain(n: usize, stiffness: f64, mass: f64) -> System {
     let mut state = State::default();
     for i in 0..n {
-        state.points.push(Point {
-            position: Vector3::new(i as f64, 0.0, 0.0),
-            mass,
-        });
+        push_point(&mut state, Vector3::new(i as f64, 0.0, 0.0), mass);
     }
     state.points.hold(0);
     state.points.hold(n - 1);
-    let springs = Springs {
-        name: "springs",
-        pairs: (1..n).map(|i| (i - 1, i)).collect(),
-        stiffness,
-        rest: 1.0,
-    };
+    let springs = springs(&state, stiffness, 1.0);
     System::new(state, vec![Box::new(springs)])
 }
 

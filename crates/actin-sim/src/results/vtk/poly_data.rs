@@ -180,8 +180,9 @@ pub(super) fn to_i64(index: usize) -> i64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::results::fixture::parsed;
     use std::fmt::Debug;
-    use vtkio::model::{Attribute, DataSet, IOBuffer, PolyDataPiece, VertexNumbers, Vtk};
+    use vtkio::model::{Attribute, IOBuffer, PolyDataPiece, VertexNumbers};
 
     fn picture() -> PolyData {
         PolyData {
@@ -215,14 +216,7 @@ mod tests {
     fn parse(picture: &PolyData) -> Box<PolyDataPiece> {
         let mut bytes = Vec::new();
         picture.write(&mut bytes).unwrap();
-        let vtk = Vtk::parse_xml(bytes.as_slice()).unwrap();
-        let DataSet::PolyData { mut pieces, .. } = vtk.data else {
-            panic!("not PolyData");
-        };
-        let vtkio::model::Piece::Inline(piece) = pieces.remove(0) else {
-            panic!("not inline");
-        };
-        piece
+        parsed(&bytes)
     }
 
     fn floats(values: &[f64]) -> IOBuffer {

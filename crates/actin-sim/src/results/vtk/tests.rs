@@ -3,7 +3,7 @@
 use super::*;
 use crate::results::fixture;
 use actin_mechanics::Matrix3;
-use vtkio::model::{Attribute, DataSet, IOBuffer, Piece, PolyDataPiece, VertexNumbers, Vtk};
+use vtkio::model::{Attribute, IOBuffer, PolyDataPiece, VertexNumbers};
 
 /// The second record of the mixed filament, drawn and parsed.
 fn drawn() -> (Assembly, State, Box<PolyDataPiece>) {
@@ -13,14 +13,7 @@ fn drawn() -> (Assembly, State, Box<PolyDataPiece>) {
     picture.ensure_finite("0001.vtp").unwrap();
     let mut bytes = Vec::new();
     picture.write(&mut bytes).unwrap();
-    let DataSet::PolyData { mut pieces, .. } = Vtk::parse_xml(bytes.as_slice()).unwrap().data
-    else {
-        panic!("not PolyData");
-    };
-    let Piece::Inline(piece) = pieces.remove(0) else {
-        panic!("not inline");
-    };
-    (assembly, record.state, piece)
+    (assembly, record.state, fixture::parsed(&bytes))
 }
 
 fn data<'a>(piece: &'a PolyDataPiece, name: &str) -> &'a IOBuffer {

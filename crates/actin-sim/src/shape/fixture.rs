@@ -1,0 +1,14 @@
+//! Filaments of 60 nm of every kind, held and free, for the tests of this module.
+
+pub(super) const SECTIONS: [&str; 4] = [
+    "Rod(from_nm: 0.0, to_nm: 60.0)",
+    "Ellipsoids(from_nm: 0.0, to_nm: 60.0)",
+    "Ellipsoids(from_nm: 0.0, to_nm: 30.0), Rod(from_nm: 30.0, to_nm: 60.0)",
+    "Rod(from_nm: 0.0, to_nm: 20.0), Ellipsoids(from_nm: 20.0, to_nm: 40.0),
+     Rod(from_nm: 40.0, to_nm: 60.0)",
+];
+pub(super) const CLAMPS: [&str; 3] = [
+    "",
+    "Clamp(end: Start)",
+    "Clamp(end: Start), Clamp(end: End)",
+];
