@@ -31,8 +31,15 @@
 //! contact) are right in steps that resolve how their bodies relax against them, and too cold in longer ones.
 //!
 //! It is solved by Newton's method, whose matrix is the stiffness with friction, `K + Z/h`, and with what stresses add. The
-//! first iteration and any whose matrix is not positive definite leave out what forces add to the
-//! stiffness; bodies carry one another along. Where iterations do not shrink, friction of the iteration is added.
+//! first iteration leaves out what forces add to the stiffness. So do later ones if the matrix is not positive definite: at
+//! first for springs, which give way across if compressed, then for the filaments with negative pivots, then for all. Bodies of
+//! a filament carry one another along, and its mean keeps its displacement. Where iterations grow, friction is added. A step is
+//! solved when the rest is within the limits, or below a thousandth of the displacement of the first iteration.
+//!
+//! Rods that are isotropic about their axes spin by a radian in steps of some microseconds. Their energy does not depend on it,
+//! their stress is taken as drawn when seen from outside, and the matrix couples spins to one another alone, so that spins of
+//! any size do not slow the iteration ([`Brownian::with_bare_frames`]). Linked filaments are solved by conjugate gradients,
+//! with the factors of the single filaments as preconditioner, where that costs less than a factorisation of the whole.
 //!
 //! Friction is that half way and its noise that of the start, as Fixman has it: the elements that are stiff make of the two a
 //! mobility that depends on the shape, and with friction or noise of another place the drift that goes with it is lost.
@@ -227,12 +234,11 @@ impl Brownian {
         }
     }
 
-    /// The same where these frames carry nothing off their axes, such as linkers: frames of slender bodies that are isotropic
-    /// about their axes, if interactions say so, may then turn about them as far as noise leads them.
+    /// Lets frames of rods that are isotropic about their axes spin without effect on other unknowns. `bare` tells which frames
+    /// have nothing attached off their axes, such as linkers; all frames of a rod must be bare.
     #[must_use]
     pub fn with_bare_frames(mut self, system: &System, bare: impl Fn(usize) -> bool) -> Self {
-        let axial = self.stresses.axial_frames(system.interactions());
-        self.axial = axial.into_iter().filter(|&frame| bare(frame)).collect();
+        self.axial = self.stresses.let_spin(system.interactions(), bare);
         self.solver.let_spin(&self.axial);
         self
     }

@@ -26,6 +26,8 @@ pub(crate) struct Stresses {
     /// Of each interaction whether second derivatives are those of the stresses that balance its elements, which leave nothing but
     /// their stiffness: it is positive.
     is_balanced: Vec<bool>,
+    /// Of each interaction whether its axial frames turn about their axes by themselves.
+    spins: Vec<bool>,
 }
 
 type Interactions = [Box<dyn Interaction>];
@@ -44,6 +46,7 @@ impl Stresses {
         Self {
             noise: Noise::of_purpose(PURPOSE, seed, (end.div_ceil(VECTOR), 0)),
             is_balanced: vec![false; parts.len()],
+            spins: vec![false; parts.len()],
             parts,
             drawn: vec![0.0; end],
             turned: vec![0.0; end],
@@ -69,19 +72,31 @@ impl Stresses {
         }
     }
 
-    /// Returns the frames whose turns about their own axes change no stress.
-    pub(crate) fn axial_frames(&self, interactions: &Interactions) -> Vec<usize> {
-        let parts = self.parts.iter();
-        parts
-            .flat_map(|(k, _)| of(interactions, *k).axial_frames())
-            .collect()
+    /// Lets the axial frames of each interaction turn about their axes by themselves if all of them are `bare`; returns these
+    /// frames.
+    pub(crate) fn let_spin(
+        &mut self,
+        interactions: &Interactions,
+        bare: impl Fn(usize) -> bool,
+    ) -> Vec<usize> {
+        let mut frames = Vec::new();
+        for ((k, _), spins) in self.parts.iter().zip(&mut self.spins) {
+            let axial = of(interactions, *k).axial_frames();
+            *spins = !axial.is_empty() && axial.clone().all(&bare);
+            frames.extend(axial.filter(|_| *spins));
+        }
+        frames
     }
 
     /// Takes the stresses in the axes of frames that have turned about their own axes by `spins` (rad) since they were drawn.
     pub(crate) fn turn_back(&mut self, interactions: &Interactions, spins: &[f64]) {
-        for (k, range) in &self.parts {
+        for ((k, range), has_spin) in self.parts.iter().zip(&self.spins) {
             let (drawn, turned) = (&self.drawn[range.clone()], &mut self.turned[range.clone()]);
-            of(interactions, *k).turn_back(spins, drawn, turned);
+            if *has_spin {
+                of(interactions, *k).turn_back(spins, drawn, turned);
+            } else {
+                turned.copy_from_slice(drawn);
+            }
         }
     }
 
@@ -146,14 +161,19 @@ impl SecondOrder for Added<'_> {
     fn add_stiffness(&self, state: &State, stiffness: &mut Stiffness) {
         self.friction.add_stiffness(state, stiffness);
         let stresses = self.stresses;
-        for ((k, range), is_balanced) in stresses.parts.iter().zip(&stresses.is_balanced) {
+        let choices = stresses.is_balanced.iter().zip(&stresses.spins);
+        for ((k, range), (is_balanced, spins)) in stresses.parts.iter().zip(choices) {
             let values = match is_balanced {
                 true => &stresses.balancing,
                 false => &stresses.turned,
             };
             let values = &values[range.clone()];
             let stress = of(self.interactions, *k);
-            stress.add_stress_stiffness(state, values, stiffness);
+            if *spins {
+                stress.add_turned_stiffness(state, values, stiffness);
+            } else {
+                stress.add_stress_stiffness(state, values, stiffness);
+            }
             stress.add_convexity(state, *is_balanced, stiffness);
         }
     }

@@ -297,21 +297,25 @@ impl RandomStress for EnergyGradient {
             rod: self,
             stresses,
         };
-        if self.axial_frames().is_empty() {
-            parts
-                .forces()
-                .for_each(|force| force.add_stiffness(state, stiffness));
-            parts
-                .couples()
-                .for_each(|couple| couple.add_stiffness(state, stiffness));
-        } else {
-            parts
-                .forces()
-                .for_each(|force| force.add_stiffness_without_spin(state, stiffness));
-            parts
-                .couples()
-                .for_each(|couple| couple.add_stiffness_without_spin(state, stiffness));
-        }
+        parts
+            .forces()
+            .for_each(|force| force.add_stiffness(state, stiffness));
+        parts
+            .couples()
+            .for_each(|couple| couple.add_stiffness(state, stiffness));
+    }
+
+    fn add_turned_stiffness(&self, state: &State, stresses: &[f64], stiffness: &mut Stiffness) {
+        let parts = Parts {
+            rod: self,
+            stresses,
+        };
+        parts
+            .forces()
+            .for_each(|force| force.add_stiffness_without_spin(state, stiffness));
+        parts
+            .couples()
+            .for_each(|couple| couple.add_stiffness_without_spin(state, stiffness));
     }
 }
 
@@ -327,6 +331,41 @@ mod tests {
         let rod = StraightRod::uniform(4, 10.0);
         let layout = rod.push_clamped(RodClamp::Wall, RodEnd::Start, &mut state);
         (state, layout.unwrap())
+    }
+
+    /// Stresses that are turned back exert the same forces after a spin of all frames, and no torque about the axes.
+    #[test]
+    fn turned_stresses_exert_the_same_forces_after_a_spin() {
+        let mut state = State::default();
+        let layout = StraightRod::uniform(4, 10.0).push(&mut state).unwrap();
+        perturb(&mut state, &mut Xorshift::new(3), 0.5, 0.1);
+        let material = RodMaterial::new(Rigidities::table4()).unwrap();
+        let rod = EnergyGradient::new(layout.clone(), material);
+        assert_eq!(rod.axial_frames(), layout.frames());
+        let mut random = Xorshift::new(4);
+        let drawn: Vec<f64> = (0..rod.components()).map(|_| random.sample()).collect();
+        let loads_of = |state: &State, stresses: &[f64]| {
+            let mut loads = Loads::zeros(state);
+            rod.add_stress_loads(state, stresses, &mut loads);
+            loads
+        };
+        let before = loads_of(&state, &drawn);
+        let turn = actin_mechanics::rotation::exp(Vector3::z() * 0.7);
+        for frame in layout.frames() {
+            let q = state.frames.orientation.get(frame);
+            state.frames.orientation.set(frame, q * turn);
+        }
+        let mut turned = vec![0.0; drawn.len()];
+        rod.turn_back(&vec![0.7; state.frames.len()], &drawn, &mut turned);
+        let after = loads_of(&state, &turned);
+        for i in layout.points() {
+            let difference = after.force.get(i) - before.force.get(i);
+            assert!(difference.norm() < 1e-12, "{difference:?}");
+        }
+        for frame in layout.frames() {
+            let difference = turn * after.torque.get(frame) - before.torque.get(frame);
+            assert!(difference.norm() < 1e-11, "{difference:?}");
+        }
     }
 
     /// Stretched and twisted, as bending and shear are without their torques about the axis.

@@ -123,3 +123,73 @@ fn add(to: &mut [f64], factor: f64, from: &[f64]) {
         *to += factor * from;
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::layout::BodyOrder;
+    use actin_mechanics::{
+        Coordinates, Loads, Matrix3, Point, SecondOrder, State, Stiffness, Vector3,
+    };
+
+    /// Springs along two chains of ten points, with soft springs across at every third point, and friction.
+    struct Ladder;
+
+    impl SecondOrder for Ladder {
+        fn add_stiffness(&self, _: &State, stiffness: &mut Stiffness) {
+            let mut spring = |i: usize, j: usize, k: f64| {
+                let [a, b] = [i, j].map(Coordinates::Point);
+                let block = Matrix3::from_diagonal(&Vector3::new(k, 2.0 * k, 3.0 * k));
+                stiffness.push(a, a, block);
+                stiffness.push(b, b, block);
+                stiffness.push(a, b, -block);
+            };
+            for i in (0..9).chain(10..19) {
+                spring(i, i + 1, 50.0);
+            }
+            (0..10).step_by(3).for_each(|i| spring(i, i + 10, 0.5));
+            for i in (0..20).map(Coordinates::Point) {
+                stiffness.push(i, i, Matrix3::identity() * 0.1);
+            }
+        }
+    }
+
+    /// The solution is that of a factorisation of the whole.
+    #[test]
+    fn linked_chains_are_solved_as_by_their_factors() {
+        let mut state = State::default();
+        for _ in 0..20 {
+            let position = Vector3::zeros();
+            state.points.push(Point {
+                position,
+                mass: 1.0,
+            });
+        }
+        let order = BodyOrder {
+            points: (0..20).map(f64::from).collect(),
+            frames: Vec::new(),
+        };
+        let layout = Layout::new(&state, Some(&order), Vec::new()).unwrap();
+        let across = (0..10).map(|i| [i, i + 10].map(Coordinates::Point));
+        let mut layout = layout.with_loose(across);
+        let loads = Loads::zeros(&state);
+        let mut assembly = Assembly::new(1.0);
+        assembly.update_with(&[], Some(&Ladder), (&state, &loads), &mut layout);
+        let metric = vec![0.0; layout.unknowns()];
+        let mut gradients = Gradients::new(&assembly, &layout);
+        assert!(gradients.factorize(&assembly, &metric));
+        assert!(gradients.places.len() < assembly.values.len());
+        let load: Vec<f64> = (0..layout.unknowns()).map(|i| (i as f64).sin()).collect();
+        let mut found = load.clone();
+        assert!(gradients.solve(&assembly, &mut found, 1e-12));
+        let mut factor = Factor::new(&assembly.pattern().symbolic);
+        let upper = assembly.pattern().symbolic.as_ref();
+        factor.factorize(upper, &assembly.values, &metric, 0.0);
+        let mut expected = load;
+        factor.solve(&mut expected);
+        let largest = expected.iter().fold(0.0, |a: f64, b| a.max(b.abs()));
+        for (a, b) in found.iter().zip(&expected) {
+            assert!((a - b).abs() < 1e-9 * largest, "{a} {b}");
+        }
+    }
+}

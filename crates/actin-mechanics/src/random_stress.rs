@@ -34,7 +34,7 @@ pub trait RandomStress {
 
     /// Returns the frames whose turns about their third axes change neither energies nor, after
     /// [`turn_back`](Self::turn_back), stresses: those of slender bodies that are isotropic about their axes. None by
-    /// default.
+    /// default. Other elements of the system may still resist such turns.
     fn axial_frames(&self) -> Range<usize> {
         0..0
     }
@@ -47,6 +47,12 @@ pub trait RandomStress {
 
     /// Adds the second derivatives of the energy `-s . e(x)`.
     fn add_stress_stiffness(&self, state: &State, stresses: &[f64], stiffness: &mut Stiffness);
+
+    /// Adds the derivatives of the loads of stresses that are turned back, in the same blocks: axial frames turn about their third
+    /// axes without effect. By default the second derivatives.
+    fn add_turned_stiffness(&self, state: &State, stresses: &[f64], stiffness: &mut Stiffness) {
+        self.add_stress_stiffness(state, stresses, stiffness);
+    }
 }
 
 /// Turns `N` independent deviates of mean 0 and variance 1 into some of covariance `c` (symmetric), by its Cholesky
