@@ -52,7 +52,7 @@ impl Progress {
         } else if self.is_even {
             self.damping = if before > 1.0 { before / DAMPING } else { 0.0 };
         }
-        self.is_even = self.damping == before;
+        self.is_even = self.damping.total_cmp(&before).is_eq();
         self.last = extent;
         self.iterations += 1;
         if is_first {

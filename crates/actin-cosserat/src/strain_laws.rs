@@ -15,12 +15,9 @@ pub struct StrainLaws {
 impl StrainLaws {
     /// Whether shear and bending are isotropic about the axis.
     pub(crate) fn are_axisymmetric(&self) -> bool {
-        let [shear_x, shear_y] = self.shear.linear;
-        let has_one_bend = match self.bend {
-            BendLaw::Constant([bend_x, bend_y]) => bend_x == bend_y,
-            _ => false,
-        };
-        shear_x == shear_y && has_one_bend
+        let are_equal = |[x, y]: [f64; 2]| (x - y).abs() <= f64::EPSILON * x;
+        let has_one_bend = matches!(self.bend, BendLaw::Constant(bend) if are_equal(bend));
+        are_equal(self.shear.linear) && has_one_bend
     }
 
     /// Constant rigidities, which were validated.

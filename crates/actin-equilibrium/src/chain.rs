@@ -16,7 +16,7 @@
 
 use crate::layout::{Layout, Node};
 use crate::ties::Ties;
-use actin_mechanics::{State, Vectors, rotation};
+use actin_mechanics::{Coordinates, State, Vectors, rotation};
 use std::collections::BTreeMap;
 
 mod clusters;
@@ -96,6 +96,14 @@ impl Chain {
 }
 
 impl Link {
+    /// Returns the body that follows.
+    fn follower(self) -> Coordinates {
+        match self {
+            Self::Frame { to, .. } => Coordinates::Frame(to),
+            Self::Point { to, .. } => Coordinates::Point(to),
+        }
+    }
+
     /// Puts the following body of `to` where a step leads it relative to the body that it follows.
     fn carry(
         self,

@@ -217,8 +217,8 @@ impl Factor {
     pub(crate) fn indefinite_columns(&self) -> impl Iterator<Item = usize> {
         (0..self.diagonal.len()).filter(|&column| {
             let rounding = PIVOT_ROUNDINGS * f64::EPSILON * self.diagonal[column];
-            // Written so that a pivot that is not a number counts.
-            !(self.pivot(column) > rounding)
+            let pivot = self.pivot(column);
+            pivot <= rounding || pivot.is_nan()
         })
     }
 

@@ -74,8 +74,7 @@ impl Gradients {
         for iteration in 0..MOST_ITERATIONS {
             assembly.multiply(&self.direction, &mut self.product);
             let curvature = dot(&self.direction, &self.product);
-            // Written so that a curvature that is not a number ends the iteration.
-            if !(curvature > 0.0) {
+            if curvature <= 0.0 || curvature.is_nan() {
                 if iteration == 0 {
                     b.copy_from_slice(&self.direction);
                 }

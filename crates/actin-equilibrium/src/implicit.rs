@@ -68,7 +68,9 @@ impl ImplicitSolver {
     pub fn let_spin(&mut self, frames: &[usize]) {
         let count = frames.iter().max().map_or(0, |most| most + 1);
         self.spins = vec![false; count];
-        frames.iter().for_each(|&frame| self.spins[frame] = true);
+        for &frame in frames {
+            self.spins[frame] = true;
+        }
         self.find_uncoupled();
     }
 

@@ -61,12 +61,9 @@ impl Clusters {
                 Coordinates::Frame(i) => clusters[place].frames.push(i),
             }
         }
+        let place_of = |hangs: &mut Hangs, body| places[&hangs.root(body)];
         for &link in &chain.0 {
-            let follower = match link {
-                Link::Frame { to, .. } => Coordinates::Frame(to),
-                Link::Point { to, .. } => Coordinates::Point(to),
-            };
-            let cluster = &mut clusters[places[&hangs.root(follower)]];
+            let cluster = &mut clusters[place_of(&mut hangs, link.follower())];
             // Where ends meet again at a second held place, a chain closes badly.
             if cluster.holds < 2 {
                 cluster.links.push(link);
@@ -106,7 +103,9 @@ impl Clusters {
     ) -> StepSize {
         let spinning = layout.spinning(spins);
         let mut tilts = step.to_vec();
-        spinning.iter().for_each(|&(_, at)| tilts[at] = 0.0);
+        for &(_, at) in &spinning {
+            tilts[at] = 0.0;
+        }
         let velocities = layout.velocities(from, &tilts);
         let mut scales = vec![1.0; from.frames.len()];
         let mut extent = StepSize::default();
@@ -115,7 +114,9 @@ impl Clusters {
             let scale = (largest_turn / own.rotation).min(1.0);
             layout.apply_to(&cluster.nodes, to, &tilts, scale);
             cluster.carry(from, &velocities, scale, to);
-            cluster.frames.iter().for_each(|&i| scales[i] = scale);
+            for &i in &cluster.frames {
+                scales[i] = scale;
+            }
             extent.displacement = extent.displacement.max(own.displacement);
             extent.rotation = extent.rotation.max(own.rotation);
         }
