@@ -152,48 +152,32 @@ pub trait Criterion: Debug + Send + Sync {
 
 impl Criterion for Where {
     fn wish(&self, cell: &Cell<'_>) -> Wish {
-        let by = |value: f64, high: f64, low: f64| {
-            if value > high {
-                Wish::Monomers
-            } else if value < low {
-                Wish::Rod
-            } else {
-                Wish::Stay
-            }
+        let (_, [low, high]) = self.thresholds();
+        let value = self.value(cell);
+        let [is_needed, is_superfluous] = match self {
+            Self::Linker { .. } => [value < low, value > high],
+            _ => [value > high, value < low],
         };
+        match (is_needed, is_superfluous) {
+            (true, _) => Wish::Monomers,
+            (false, true) => Wish::Rod,
+            (false, false) => Wish::Stay,
+        }
+    }
+}
+
+impl Where {
+    /// Returns the quantity that the thresholds apply to.
+    fn value(&self, cell: &Cell<'_>) -> f64 {
         match *self {
-            Self::Curvature {
-                above_per_nm,
-                below_per_nm,
-            } => by(cell.curvature_per_nm, above_per_nm, below_per_nm),
-            Self::Twist {
-                above_per_nm,
-                below_per_nm,
-            } => by(cell.twist_per_nm.abs(), above_per_nm, below_per_nm),
-            Self::Extension { above, below } => by(cell.extension.abs(), above, below),
-            Self::Force { above_pn, below_pn } => {
-                by(cell.mean_load().force_pn.norm(), above_pn, below_pn)
-            }
-            Self::Couple {
-                above_pn_nm,
-                below_pn_nm,
-            } => by(
-                cell.mean_load().couple_pn_nm.norm(),
-                above_pn_nm,
-                below_pn_nm,
-            ),
-            Self::Energy { above_pn, below_pn } => {
-                by(cell.energy_per_length_pn(), above_pn, below_pn)
-            }
-            Self::LargestEnergy { above, below } => by(cell.energy_over_largest(), above, below),
-            Self::Linker {
-                linker,
-                within_nm,
-                beyond_nm,
-            } => {
-                let distance = distance_nm(cell, linker);
-                by(-distance, -within_nm, -beyond_nm)
-            }
+            Self::Curvature { .. } => cell.curvature_per_nm,
+            Self::Twist { .. } => cell.twist_per_nm.abs(),
+            Self::Extension { .. } => cell.extension.abs(),
+            Self::Force { .. } => cell.mean_load().force_pn.norm(),
+            Self::Couple { .. } => cell.mean_load().couple_pn_nm.norm(),
+            Self::Energy { .. } => cell.energy_per_length_pn(),
+            Self::LargestEnergy { .. } => cell.energy_over_largest(),
+            Self::Linker { linker, .. } => distance_nm(cell, linker),
         }
     }
 }

@@ -100,13 +100,12 @@ fn relaxation(assembly: &Assembly, fluid: &Fluid) -> Result<Relaxation, ScenePro
 pub(super) fn estimate(assembly: &Assembly, task: &Task) -> Result<Estimate, SceneProblem> {
     assembly.check_slip()?;
     let motion = task.as_motion();
-    let fastest_ns = 1.0 / relaxation(assembly, &task.drag)?.highest_rate();
-    let is_stiff = fastest_ns.is_finite() && fastest_ns > 0.0;
+    let of_midpoints = OF_FASTEST / relaxation(assembly, &task.drag)?.highest_rate();
+    let is_stiff = of_midpoints.is_finite() && of_midpoints > 0.0;
     if !is_stiff && task.time_step_ns.is_none() {
         let rule = "has no stiffness by which a time step could be set: write time_step_ns";
         return Err(SceneProblem::new("filament", "", rule));
     }
-    let of_midpoints = OF_FASTEST * fastest_ns;
     let default = match long_steps::longest(assembly, task)? {
         None => of_midpoints,
         Some(ns) if motion.thermal.is_none() => ns,
@@ -117,15 +116,12 @@ pub(super) fn estimate(assembly: &Assembly, task: &Task) -> Result<Estimate, Sce
     task.flow.check_step(steps.length_ns)?;
     check_records(assembly, &motion, &steps)?;
     assembly.check_rates(steps.length_ns)?;
-    let has_bonds = assembly.counts().bonds > 0;
     let longest_sound_step = motion.thermal.map(|_| LongestStep {
         ns: default,
         of_midpoints_ns: of_midpoints,
-        has_bonds,
+        has_bonds: assembly.counts().bonds > 0,
     });
-    if has_bonds && motion.thermal.is_some() && steps.length_ns > OF_BONDS * default {
-        return Err(too_long(wanted, default));
-    }
+    check_length(wanted, longest_sound_step.as_ref())?;
     let mut estimate = Estimate {
         largest_frequency_rad_per_ns: 0.0,
         stability_limit_ns: f64::INFINITY,
@@ -144,16 +140,20 @@ pub(super) fn estimate(assembly: &Assembly, task: &Task) -> Result<Estimate, Sce
     Ok(estimate)
 }
 
-/// Refusal of a time step (ns) of bonds with noise; `default` is the default step (ns).
-fn too_long(wanted: f64, default: f64) -> SceneProblem {
-    SceneProblem::new(
-        "task.time_step_ns",
-        format!("{wanted:?}"),
-        format!(
-            "above {OF_BONDS} times the default step of {default:.4e} ns, at which bonds of monomers diverge in thermal \
-             noise; leave it out, or take longer steps with interfaces: QuasiHarmonic()"
-        ),
-    )
+/// Refuses time steps (ns) of bonds with noise that diverge.
+fn check_length(wanted: f64, longest: Option<&LongestStep>) -> Result<(), SceneProblem> {
+    match longest {
+        Some(longest) if longest.has_bonds && wanted > OF_BONDS * longest.ns => {
+            let rule = format!(
+                "above {OF_BONDS} times the default step of {:.4e} ns, at which bonds of monomers diverge in thermal noise; leave \
+                 it out, or take longer steps with interfaces: QuasiHarmonic()",
+                longest.ns
+            );
+            let value = format!("{wanted:?}");
+            Err(SceneProblem::new("task.time_step_ns", value, rule))
+        }
+        _ => Ok(()),
+    }
 }
 
 impl Estimate {

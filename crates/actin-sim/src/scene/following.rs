@@ -180,7 +180,7 @@ fn check_where(scene: &Scene, key: &str, criterion: &Where) -> Result<(), SceneP
 
 impl Where {
     /// Returns the keys of the lower and the upper threshold, and their values.
-    fn thresholds(&self) -> ([&'static str; 2], [f64; 2]) {
+    pub(crate) fn thresholds(&self) -> ([&'static str; 2], [f64; 2]) {
         match *self {
             Self::Curvature {
                 above_per_nm,
