@@ -32,14 +32,14 @@
 //!
 //! It is solved by Newton's method, whose matrix is the stiffness with friction, `K + Z/h`, and with what stresses add. The
 //! first iteration leaves out what forces add to the stiffness. So do later ones if the matrix is not positive definite: at
-//! first for springs, which give way across if compressed, then for the filaments with negative pivots, then for all. Bodies of
-//! a filament carry one another along, and its mean keeps its displacement. Where iterations grow, friction is added. A step is
+//! first for springs, which give way across if compressed, then for the chains with negative pivots, then for all. Bodies of
+//! a chain carry one another along, and its mean keeps its displacement. Where iterations grow, friction is added. A step is
 //! solved when the rest is within the limits, or below a thousandth of the displacement of the first iteration.
 //!
 //! Rods that are isotropic about their axes spin by a radian in steps of some microseconds. Their energy does not depend on it,
 //! their stress is taken as drawn when seen from outside, and the matrix couples spins to one another alone, so that spins of
-//! any size do not slow the iteration ([`Brownian::with_bare_frames`]). Linked filaments are solved by conjugate gradients,
-//! with the factors of the single filaments as preconditioner, where that costs less than a factorisation of the whole.
+//! any size do not slow the iteration ([`Brownian::with_spinning_frames`]). Linked chains are solved by conjugate gradients,
+//! with the factors of the single chains as preconditioner, where that costs less than a factorisation of the whole.
 //!
 //! Friction is that half way and its noise that of the start, as Fixman has it: the elements that are stiff make of the two a
 //! mobility that depends on the shape, and with friction or noise of another place the drift that goes with it is lost.
@@ -234,11 +234,15 @@ impl Brownian {
         }
     }
 
-    /// Lets frames of rods that are isotropic about their axes spin without effect on other unknowns. `bare` tells which frames
-    /// have nothing attached off their axes, such as linkers; all frames of a rod must be bare.
+    /// Lets frames of rods that are isotropic about their axes spin without effect on other unknowns. `is_bare` tells which frames
+    /// have nothing attached off their axes; all frames of a rod must be bare.
     #[must_use]
-    pub fn with_bare_frames(mut self, system: &System, bare: impl Fn(usize) -> bool) -> Self {
-        self.axial = self.stresses.let_spin(system.interactions(), bare);
+    pub fn with_spinning_frames(
+        mut self,
+        system: &System,
+        is_bare: impl Fn(usize) -> bool,
+    ) -> Self {
+        self.axial = self.stresses.let_spin(system.interactions(), is_bare);
         self.solver.let_spin(&self.axial);
         self
     }
@@ -437,7 +441,7 @@ impl Brownian {
         Ok(())
     }
 
-    /// Finds the step of an iteration with the stiffness, what stresses add and friction times `factor`. Filaments whose
+    /// Finds the step of an iteration with the stiffness, what stresses add and friction times `factor`. Chains whose
     /// stiffness is not positive definite, and all in the first iteration, are without what forces add to it.
     fn find_step(&mut self, system: &System, factor: f64) {
         let (state, interactions) = (system.state(), system.interactions());

@@ -72,17 +72,17 @@ impl Stresses {
         }
     }
 
-    /// Lets the axial frames of each interaction turn about their axes by themselves if all of them are `bare`; returns these
+    /// Lets the axial frames of each interaction turn about their axes by themselves if all of them are bare; returns these
     /// frames.
     pub(crate) fn let_spin(
         &mut self,
         interactions: &Interactions,
-        bare: impl Fn(usize) -> bool,
+        is_bare: impl Fn(usize) -> bool,
     ) -> Vec<usize> {
         let mut frames = Vec::new();
         for ((k, _), spins) in self.parts.iter().zip(&mut self.spins) {
             let axial = of(interactions, *k).axial_frames();
-            *spins = !axial.is_empty() && axial.clone().all(&bare);
+            *spins = !axial.is_empty() && axial.clone().all(&is_bare);
             frames.extend(axial.filter(|_| *spins));
         }
         frames

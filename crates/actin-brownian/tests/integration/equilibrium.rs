@@ -63,7 +63,7 @@ fn strains_have_their_share_of_energy_at_long_steps() {
 fn steps_that_are_not_solved_are_halved() {
     let kt = 4.11;
     let (mut system, stepper, _) = free_rod(8, 160.0, (kt, 5), |_, _| Vec::new());
-    let most = 2;
+    let most = 3;
     let limits = StepLimits {
         iterations: most,
         ..StepLimits::default()

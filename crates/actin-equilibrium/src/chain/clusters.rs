@@ -1,6 +1,6 @@
 //! Steps of filaments, each by itself: how far it turns, and how its bodies carry one another along.
 
-use super::open::Hangs;
+use super::open::Components;
 use super::{Chain, Link};
 use crate::layout::{Layout, Node};
 use crate::motion::StepSize;
@@ -30,8 +30,8 @@ pub(crate) struct Clusters(Vec<Cluster>);
 impl Clusters {
     /// Returns the clusters of bodies that are tied; groups of bodies are clusters of their own.
     pub(crate) fn new(layout: &Layout, ties: &Ties, chain: &Chain) -> Self {
-        let mut hangs = Hangs::of(layout, ties);
-        let holds = hangs.holds();
+        let mut components = Components::of(layout, ties);
+        let holds = components.holds();
         let mut places = BTreeMap::new();
         let mut clusters: Vec<Cluster> = Vec::new();
         for k in 0..layout.len() {
@@ -47,7 +47,7 @@ impl Clusters {
                     continue;
                 }
             };
-            let root = hangs.root(body);
+            let root = components.root(body);
             let place = *places.entry(root).or_insert_with(|| {
                 clusters.push(Cluster {
                     holds: holds.get(&root).copied().unwrap_or(0),
@@ -61,9 +61,9 @@ impl Clusters {
                 Coordinates::Frame(i) => clusters[place].frames.push(i),
             }
         }
-        let place_of = |hangs: &mut Hangs, body| places[&hangs.root(body)];
+        let place_of = |components: &mut Components, body| places[&components.root(body)];
         for &link in &chain.0 {
-            let cluster = &mut clusters[place_of(&mut hangs, link.follower())];
+            let cluster = &mut clusters[place_of(&mut components, link.follower())];
             // Where ends meet again at a second held place, a chain closes badly.
             if cluster.holds < 2 {
                 cluster.links.push(link);

@@ -1,4 +1,4 @@
-//! Whether what hangs together hangs on one place only, so that bodies can carry one another along freely.
+//! Whether what components together components on one place only, so that bodies can carry one another along freely.
 
 use crate::layout::Layout;
 use crate::ties::Ties;
@@ -7,9 +7,9 @@ use std::collections::{BTreeMap, BTreeSet};
 
 /// Sets of bodies that hang together.
 #[derive(Default)]
-struct Sets(BTreeMap<Coordinates, Coordinates>);
+struct DisjointSets(BTreeMap<Coordinates, Coordinates>);
 
-impl Sets {
+impl DisjointSets {
     /// The root of a set; links on the way are halved, so that `n` joins take `n log n` steps.
     fn root(&mut self, mut body: Coordinates) -> Coordinates {
         while let Some(&above) = self.0.get(&body) {
@@ -32,27 +32,27 @@ impl Sets {
 
 /// Bodies that hang together by ties, and the places at which they are held.
 #[derive(Default)]
-pub(super) struct Hangs {
-    all: Sets,
-    held: Sets,
+pub(super) struct Components {
+    all: DisjointSets,
+    held: DisjointSets,
     places: BTreeSet<Coordinates>,
 }
 
-impl Hangs {
+impl Components {
     pub(super) fn of(layout: &Layout, ties: &Ties) -> Self {
-        let mut hangs = Self::default();
+        let mut components = Self::default();
         for (i, j, f) in ties.seen() {
-            hangs.join(layout, Point(i), Point(j));
-            hangs.join(layout, Point(i), Frame(f));
-            hangs.join(layout, Point(j), Frame(f));
+            components.join(layout, Point(i), Point(j));
+            components.join(layout, Point(i), Frame(f));
+            components.join(layout, Point(j), Frame(f));
         }
         for (a, b) in ties.frames() {
-            hangs.join(layout, Frame(a), Frame(b));
+            components.join(layout, Frame(a), Frame(b));
         }
         for (i, j) in ties.points() {
-            hangs.join(layout, Point(i), Point(j));
+            components.join(layout, Point(i), Point(j));
         }
-        hangs
+        components
     }
 
     fn join(&mut self, layout: &Layout, a: Coordinates, b: Coordinates) {
@@ -88,8 +88,9 @@ impl Hangs {
 /// Whether no two held bodies that are not tied to each other hold the same bodies, and no bodies are coupled
 /// but no neighbours: a filament held at one end is open, one held at both or linked to another is not.
 pub(crate) fn is_open(layout: &Layout, ties: &Ties) -> bool {
-    let is_held_once = |hangs: &mut Hangs| hangs.holds().values().all(|&places| places == 1);
-    !layout.has_loose() && is_held_once(&mut Hangs::of(layout, ties))
+    let is_held_once =
+        |components: &mut Components| components.holds().values().all(|&places| places == 1);
+    !layout.has_loose() && is_held_once(&mut Components::of(layout, ties))
 }
 
 #[cfg(test)]
@@ -99,7 +100,7 @@ mod tests {
     /// A long chain: with links that are not shortened a million lookups of a million links each.
     #[test]
     fn long_chains_are_joined_quickly() {
-        let mut clusters = Sets::default();
+        let mut clusters = DisjointSets::default();
         let count = 300_000;
         for i in 1..count {
             clusters.join(Point(i - 1), Point(i));

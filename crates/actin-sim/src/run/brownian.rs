@@ -174,7 +174,7 @@ impl Estimate {
             .map_err(|error| SceneProblem::new("task", "", error.to_string()))?;
         Ok(if self.has_random_stress() {
             let linked = linked_off_axis(assembly);
-            stepper.with_bare_frames(system, |frame| !linked[assembly.filament_of_frame(frame)])
+            stepper.with_spinning_frames(system, |frame| !linked[assembly.filament_of_frame(frame)])
         } else {
             stepper.by_midpoints()
         })

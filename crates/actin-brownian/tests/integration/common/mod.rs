@@ -67,7 +67,7 @@ pub(crate) fn free_rod(
     let system = System::new(state, interactions);
     let noise = (thermal_energy, seed);
     let steps = Brownian::new(&system, layout, friction_of(&rod), noise).unwrap();
-    let steps = steps.with_bare_frames(&system, |_| true);
+    let steps = steps.with_spinning_frames(&system, |_| true);
     (system, steps, rod)
 }
 
