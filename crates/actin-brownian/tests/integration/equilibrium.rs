@@ -71,7 +71,7 @@ fn steps_that_are_not_solved_are_halved() {
     let mut stepper = stepper.with_limits(limits);
     let mut energy = 0.0;
     let steps = 500;
-    advance(&mut system, &mut stepper, (0, steps), 200.0, |system| {
+    advance(&mut system, &mut stepper, (0, steps), 2e4, |system| {
         energy += system.interactions()[0].energy(system.state());
     });
     assert!(
