@@ -65,6 +65,9 @@ impl ImplicitSolver {
 
     /// Lets these frames turn about their third axes without effect on other unknowns than such turns of other frames: the matrix
     /// has no other couplings, and steps along filaments turn them after all else.
+    ///
+    /// # Panics
+    /// If nothing has been factorised.
     pub fn let_spin(&mut self, frames: &[usize]) {
         let count = frames.iter().max().map_or(0, |most| most + 1);
         self.spins = vec![false; count];

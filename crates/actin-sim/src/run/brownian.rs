@@ -6,8 +6,8 @@ use super::sink::{Clock, Saved, Sink};
 use super::steps::{LongestStep, Steps};
 use super::unknowns::layout;
 use super::{Estimate, Failure, Outcome, Plan, Status, long_steps};
-use crate::Assembly;
 use crate::scene::{Brownian as Task, Fluid, SceneProblem, Task as AnyTask};
+use crate::{Assembly, SectionSpan};
 use actin_brownian::{Brownian, Layout, Relaxation};
 use actin_coupling::LinkerEnd;
 use actin_integrate::{POSITION_VERLET, Run, Split};
@@ -173,17 +173,20 @@ impl Estimate {
         let stepper = Brownian::new(system, layout, friction, noise)
             .map_err(|error| SceneProblem::new("task", "", error.to_string()))?;
         Ok(if self.has_random_stress() {
-            let linked = linked_off_axis(assembly);
-            stepper.with_spinning_frames(system, |frame| !linked[assembly.filament_of_frame(frame)])
+            let held = held_off_axis(assembly);
+            stepper.with_spinning_frames(system, |frame| !held[assembly.filament_of_frame(frame)])
         } else {
             stepper.by_midpoints()
         })
     }
 }
 
-/// Whether each filament has linkers that hold off its axis, where a turn about the axis moves them.
-fn linked_off_axis(assembly: &Assembly) -> Vec<bool> {
-    let mut linked = vec![false; assembly.filaments.len()];
+/// Returns for each filament whether monomers or linkers off its axis resist turns of its frames about the axis.
+fn held_off_axis(assembly: &Assembly) -> Vec<bool> {
+    let sections = (0..assembly.filaments.len()).map(|filament| assembly.sections_of(filament));
+    let mut held: Vec<bool> = sections
+        .map(|sections| sections.iter().any(SectionSpan::is_ellipsoids))
+        .collect();
     let ends = assembly.linkers.iter().flat_map(|linker| {
         let other = match linker.end() {
             LinkerEnd::Site(site) => Some(site),
@@ -192,9 +195,9 @@ fn linked_off_axis(assembly: &Assembly) -> Vec<bool> {
         [Some(linker.site()), other].into_iter().flatten()
     });
     for site in ends.filter(|site| site.arm() != Vector3::zeros()) {
-        linked[assembly.filament_of_frame(site.frame())] = true;
+        held[assembly.filament_of_frame(site.frame())] = true;
     }
-    linked
+    held
 }
 
 /// Runs the motion.
