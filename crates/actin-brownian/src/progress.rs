@@ -44,9 +44,15 @@ impl Progress {
         let before = self.damping;
         let is_first = self.is_first();
         if is_first {
-            self.first = extent;
+            (self.first, self.last, self.is_even) = (extent, extent, true);
         }
-        let ratio = extent.displacement / self.last.displacement;
+        // Iterations with different friction do not tell how they shrink.
+        let was_even = self.is_even;
+        let ratios = [
+            extent.displacement / self.last.displacement,
+            extent.rotation / self.last.rotation,
+        ];
+        let ratio = ratios[0].max(ratios[1]);
         if self.is_even && self.iterations >= FREE_ITERATIONS && ratio > 1.0 {
             self.damping = (DAMPING * before).clamp(1.0, MOST_DAMPING);
         } else if self.is_even {
@@ -64,10 +70,11 @@ impl Progress {
             ..*limits
         };
         // As far as the iteration would have gone without added friction.
-        let rest = (1.0 + before) * ratio.min(1.0);
+        let rests =
+            ratios.map(|ratio| if was_even { ratio.min(1.0) } else { 1.0 } * (1.0 + before));
         limits.hold(&StepSize {
-            displacement: rest * extent.displacement,
-            rotation: rest * extent.rotation,
+            displacement: rests[0] * extent.displacement,
+            rotation: rests[1] * extent.rotation,
             ..extent
         })
     }

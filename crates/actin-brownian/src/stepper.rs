@@ -341,9 +341,9 @@ impl Brownian {
             self.residual.add(&self.random);
             self.friction
                 .add_loads(&self.middle, &self.velocities, &mut self.residual);
-            self.find_step(system, self.progress.friction() / h);
+            let is_found = self.find_step(system, self.progress.friction() / h);
             extent = self.solver.advance_along(system.state_mut(), LARGEST_TURN);
-            if self.progress.is_solved(extent, &self.limits) {
+            if self.progress.is_solved(extent, &self.limits) && is_found {
                 return Ok(());
             }
         }
@@ -442,8 +442,9 @@ impl Brownian {
     }
 
     /// Finds the step of an iteration with the stiffness, what stresses add and friction times `factor`. Chains whose
-    /// stiffness is not positive definite, and all in the first iteration, are without what forces add to it.
-    fn find_step(&mut self, system: &System, factor: f64) {
+    /// stiffness is not positive definite, and all in the first iteration, are without what forces add to it. Returns false if
+    /// the equations are not solved.
+    fn find_step(&mut self, system: &System, factor: f64) -> bool {
         let (state, interactions) = (system.state(), system.interactions());
         let friction = self.friction.times(factor).in_axes_of(&self.middle);
         self.stresses.balance_all(self.progress.is_first());
@@ -458,15 +459,14 @@ impl Brownian {
             let is_positive = self.solver.factorize(at, interactions, &added);
             let worst = if is_positive {
                 if self.solver.find_step(state, &self.residual) {
-                    return;
+                    return true;
                 }
                 Vec::new()
             } else {
                 self.solver.indefinite_frames()
             };
             if !self.stresses.balance_more(interactions, &worst) {
-                self.solver.find_step(state, &self.residual);
-                return;
+                return self.solver.find_step(state, &self.residual);
             }
         }
     }

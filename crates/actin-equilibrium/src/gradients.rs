@@ -74,7 +74,7 @@ impl Gradients {
         for iteration in 0..MOST_ITERATIONS {
             assembly.multiply(&self.direction, &mut self.product);
             let curvature = dot(&self.direction, &self.product);
-            if curvature <= 0.0 || curvature.is_nan() {
+            if curvature <= 0.0 || size <= 0.0 || curvature.is_nan() || size.is_nan() {
                 if iteration == 0 {
                     b.copy_from_slice(&self.direction);
                 }
@@ -85,8 +85,8 @@ impl Gradients {
             add(&mut self.residual, -length, &self.product);
             self.precondition();
             let next = dot(&self.residual, &self.preconditioned);
-            if next <= enough {
-                break;
+            if (0.0..=enough).contains(&next) {
+                return true;
             }
             let ratio = next / size;
             for (direction, new) in self.direction.iter_mut().zip(&self.preconditioned) {
@@ -94,7 +94,7 @@ impl Gradients {
             }
             size = next;
         }
-        true
+        false
     }
 
     fn precondition(&mut self) {

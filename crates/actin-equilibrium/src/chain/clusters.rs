@@ -101,6 +101,13 @@ impl Clusters {
         step: &[f64],
         (spins, largest_turn): (&[bool], f64),
     ) -> StepSize {
+        if step.iter().any(|value| !value.is_finite()) {
+            return StepSize {
+                displacement: f64::INFINITY,
+                rotation: f64::INFINITY,
+                strain: f64::INFINITY,
+            };
+        }
         let spinning = layout.spinning(spins);
         let mut tilts = step.to_vec();
         for &(_, at) in &spinning {

@@ -181,12 +181,16 @@ impl Estimate {
     }
 }
 
-/// Returns for each filament whether monomers or linkers off its axis resist turns of its frames about the axis.
+/// Returns for each filament whether anything but one rod resists turns of its frames about the axis: other sections, hinged
+/// walls, or linkers off the axis.
 fn held_off_axis(assembly: &Assembly) -> Vec<bool> {
     let sections = (0..assembly.filaments.len()).map(|filament| assembly.sections_of(filament));
     let mut held: Vec<bool> = sections
-        .map(|sections| sections.iter().any(SectionSpan::is_ellipsoids))
+        .map(|sections| sections.len() != 1 || sections.iter().any(SectionSpan::is_ellipsoids))
         .collect();
+    for clamp in assembly.scene.clamps.iter().filter(|c| c.hinge.is_some()) {
+        held[clamp.filament] = true;
+    }
     let ends = assembly.linkers.iter().flat_map(|linker| {
         let other = match linker.end() {
             LinkerEnd::Site(site) => Some(site),
