@@ -260,8 +260,8 @@ fn what_passes_through_a_filament_fails() {
 }
 
 /// Twelve rods of five segments with thirty linkers of no length in steps of 2 us, in which filaments spin by more than a radian
-/// and stretch has relaxed a thousand times. Rods and linkers together have half of the thermal energy for each of the 33
-/// coordinates of a rod, less the spins of the rods and the displacements and turns of the whole.
+/// and stretch has relaxed a thousand times. Each rod has 33 coordinates; one spin of each rod and six rigid motions of the
+/// whole meet no resistance. Each of the other coordinates has half of the thermal energy.
 #[test]
 fn linked_rods_have_their_energy_in_long_steps() {
     const RODS: usize = 12;

@@ -35,7 +35,7 @@ fn tips<'a>(runs: impl Iterator<Item = (&'a Assembly, &'a [Record])>) -> Vec<(f6
     all.collect()
 }
 
-/// Root mean square of the difference over that of the reference, at the times of the reference.
+/// Relative root-mean-square difference at the times of the reference.
 fn error(found: &[(f64, [f64; 3])], reference: &[(f64, [f64; 3])]) -> f64 {
     let (mut difference, mut size) = (0.0, 0.0);
     for (time, tip) in reference {

@@ -36,7 +36,7 @@ fn cells_stay_for_the_least_time() {
 }
 
 /// Loads and energies of the four cells of a cantilever agree with a slender rod, and criteria compare them with their
-/// thresholds: in between, a cell stays as it is.
+/// thresholds. Between two thresholds a cell does not change.
 #[test]
 fn criteria_read_loads_and_energies_of_cells() {
     let text = "Scene(
@@ -59,7 +59,7 @@ fn criteria_read_loads_and_energies_of_cells() {
         assert!((load.force_pn.norm() - 0.5).abs() < 1e-3, "{load:?}");
         let couple = load.couple_pn_nm.norm() / (0.5 * (from + to));
         assert!((couple - 1.0).abs() < 0.01, "{couple}");
-        // Energy of shear is below 2 % of that of bending in the last cell.
+        // The shear energy is below 2 % of the bending energy in the last cell.
         let of_bending = (from * from + from * to + to * to) / (6.0 * bend);
         let energy = cell.energy_per_length_pn() / of_bending;
         assert!((energy - 1.0).abs() < 0.05, "{energy}");
@@ -70,8 +70,8 @@ fn criteria_read_loads_and_energies_of_cells() {
     }
 }
 
-/// Criteria with thresholds between bending moments of 20 and 55 pN nm at a bending rigidity `bend` (pN nm^2), and what they
-/// want of four cells with 63, 45, 27 and 9 pN nm under 0.5 pN.
+/// Criteria with thresholds between bending moments of 20 and 55 pN nm at a bending rigidity `bend` (pN nm^2), and the wishes
+/// for four cells with 63, 45, 27 and 9 pN nm under 0.5 pN.
 fn criteria(bend: f64) -> [(Where, [Wish; 4]); 5] {
     let (monomers, stay, rod) = (Wish::Monomers, Wish::Stay, Wish::Rod);
     let force = Where::Force {

@@ -1,4 +1,4 @@
-//! Loads close to those that are refused (`scenarios/bad`), which make sense.
+//! Accepted loads close to refused ones (`scenarios/bad`).
 
 use crate::common::refusal;
 
@@ -35,12 +35,12 @@ fn what_makes_sense_is_accepted() {
     let balanced = [couple(20.0, -1.0), couple(50.0, 1.0)].concat();
     let stop = "Dynamics(duration_ns: 10.0, stop: (force_pn: 1e-4, torque_pn_nm: 1e-4, kinetic_pn_nm: 1e-8))";
     for (clamps, loads, task) in [
-        // What has no potential, changes in time or is below a tolerance, in motion.
+        // Motion accepts loads without a potential, loads that change in time and small loads.
         (wall, follower, motion),
         (wall, &sine, motion),
         (wall, small, motion),
         (wall, lines, motion),
-        // Couples that a hinge, two pins or the other couple bears.
+        // Couples balanced by a hinge, two pins or another couple.
         (hinge, bend, statics),
         (&slide, bend, statics),
         (&pins, &couple(50.0, 0.0), statics),

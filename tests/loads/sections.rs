@@ -183,7 +183,7 @@ fn a_softened_middle_bends_and_twists_by_itself() {
     }
 }
 
-/// Masses change where a scene says so.
+/// Mass factors of a scene change the masses of their section only.
 #[test]
 fn masses_are_multiplied() {
     let assembly = build(&text(&middle("altered: (mass_factor: 1.5)"), ""));

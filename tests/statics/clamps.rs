@@ -1,8 +1,8 @@
-//! What clamps and the law of forces do to a rod under a force across its tip.
+//! Effect of clamps and force laws on a rod under a force across its tip.
 
 use super::common::Rod;
 
-/// Small force across the tip of actin's rod: deflection over that of a beam with shear.
+/// Deflection under a small force across the tip of actin's rod, relative to a beam with shear.
 fn small_deflection(hold: &'static str, segments: usize) -> f64 {
     let rod = Rod {
         hold,

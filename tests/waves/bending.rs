@@ -96,9 +96,8 @@ const AREA: f64 = 38.5;
 const SHEAR: f64 = 1.6e4;
 
 /// Masses, moments of inertia and rigidities together: a mass that is counted twice at the tip, or the inertia of a
-/// solid segment instead of that of its cross-section, moves the frequency by a tenth or by a percent. Rotary inertia
-/// and shear take `(A / 4 pi + B / S) / 2` times the mean square of the slope over that of the displacement off it, to
-/// first order.
+/// solid segment in place of its cross-section, moves the frequency by a tenth or by a percent. To first order, rotary inertia
+/// and shear reduce it by `(A / 4 pi + B / S) / 2` times the mean square slope over the mean square displacement.
 #[test]
 fn the_first_flexural_frequency_is_that_of_the_beam() {
     let mode = &MODES[0];

@@ -23,7 +23,7 @@ pub(crate) struct Progress {
     iterations: usize,
     /// Added friction in units of the friction over the time step.
     damping: f64,
-    /// Whether the last iteration had the friction of the one before.
+    /// True if the last two iterations had equal friction.
     is_even: bool,
 }
 

@@ -36,9 +36,9 @@
 //! a chain carry one another along, and its mean keeps its displacement. Where iterations grow, friction is added. A step is
 //! solved when the rest is within the limits, or below a thousandth of the displacement of the first iteration.
 //!
-//! Rods that are isotropic about their axes spin by a radian in steps of some microseconds. Their energy does not depend on it,
-//! their stress is taken as drawn when seen from outside, and the matrix couples spins to one another alone, so that spins of
-//! any size do not slow the iteration ([`Brownian::with_spinning_frames`]). Linked chains are solved by conjugate gradients,
+//! Rods that are isotropic about their axes spin by a radian in steps of some microseconds. Energies do not depend on the spin,
+//! and stresses keep their directions in the lab. The matrix couples spins to spins alone, so that large spins do not slow the
+//! iteration ([`Brownian::with_spinning_frames`]). Linked chains are solved by conjugate gradients,
 //! with the factors of the single chains as preconditioner, where that costs less than a factorisation of the whole.
 //!
 //! Friction is that half way and its noise that of the start, as Fixman has it: the elements that are stiff make of the two a
@@ -234,8 +234,8 @@ impl Brownian {
         }
     }
 
-    /// Lets frames of rods that are isotropic about their axes spin without effect on other unknowns. `is_bare` tells which frames
-    /// have nothing attached off their axes; all frames of a rod must be bare.
+    /// Lets frames of rods that are isotropic about their axes spin without effect on other unknowns. Frames must be bare: without
+    /// bodies attached off their axes. A rod spins if all its frames are bare.
     #[must_use]
     pub fn with_spinning_frames(
         mut self,
@@ -521,10 +521,15 @@ impl Brownian {
     }
 }
 
-/// The turn of frame `i` from one state to another (rad, body frame).
+/// Turn of frame `i` from one state of a step to another (rad, body frame), up to a whole turn: quaternions change continuously
+/// within a step, so that their signs tell a turn from its complement.
 fn turn(from: &State, to: &State, i: usize) -> Vector3 {
-    let q = from.frames.orientation.get(i);
-    rotation::log(q.inverse() * to.frames.orientation.get(i))
+    let q = from.frames.orientation.get(i).inverse() * to.frames.orientation.get(i);
+    if q.w >= 0.0 {
+        return rotation::log(q);
+    }
+    let sine = q.imag().norm();
+    q.imag() * (2.0 * sine.atan2(q.w) / sine)
 }
 
 /// The turn of frame `i` about its third axis from one state to another (rad).

@@ -23,10 +23,10 @@ pub(crate) struct Stresses {
     turned: Vec<f64>,
     /// Those that balance the elements' own.
     balancing: Vec<f64>,
-    /// Of each interaction whether second derivatives are those of the stresses that balance its elements, which leave nothing but
-    /// their stiffness: it is positive.
+    /// True for each interaction whose second derivatives are computed with balancing stresses: the elements' stiffness, which is
+    /// positive, remains.
     is_balanced: Vec<bool>,
-    /// Of each interaction whether its axial frames turn about their axes by themselves.
+    /// True for each interaction whose axial frames spin freely.
     spins: Vec<bool>,
 }
 
@@ -72,8 +72,7 @@ impl Stresses {
         }
     }
 
-    /// Lets the axial frames of each interaction turn about their axes by themselves if all of them are bare; returns these
-    /// frames.
+    /// Lets the axial frames of each interaction spin if all of them are bare; returns the spinning frames.
     pub(crate) fn let_spin(
         &mut self,
         interactions: &Interactions,
@@ -100,13 +99,13 @@ impl Stresses {
         }
     }
 
-    /// Takes second derivatives of all interactions as they are, or balanced.
+    /// Sets all interactions to balancing stresses, or to the stresses that act.
     pub(crate) fn balance_all(&mut self, is_balanced: bool) {
         self.is_balanced.fill(is_balanced);
     }
 
-    /// Balances interactions without axial frames, such as springs, which give way across if compressed; then those that have
-    /// one of these frames as axial, then all. Returns false if all were balanced before.
+    /// Balances interactions without axial frames, such as springs with negative stiffness across; then rods with one of these
+    /// axial frames, then all interactions. Returns false if all were balanced before.
     pub(crate) fn balance_more(&mut self, interactions: &Interactions, frames: &[usize]) -> bool {
         let axial = |k: usize| of(interactions, k).axial_frames();
         let has_one = |k: usize| frames.iter().any(|frame| axial(k).contains(frame));

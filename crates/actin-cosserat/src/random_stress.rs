@@ -297,12 +297,12 @@ impl RandomStress for EnergyGradient {
             rod: self,
             stresses,
         };
-        parts
-            .forces()
-            .for_each(|force| force.add_stiffness(state, stiffness));
-        parts
-            .couples()
-            .for_each(|couple| couple.add_stiffness(state, stiffness));
+        for force in parts.forces() {
+            force.add_stiffness(state, stiffness);
+        }
+        for couple in parts.couples() {
+            couple.add_stiffness(state, stiffness);
+        }
     }
 
     fn add_turned_stiffness(&self, state: &State, stresses: &[f64], stiffness: &mut Stiffness) {
@@ -310,12 +310,12 @@ impl RandomStress for EnergyGradient {
             rod: self,
             stresses,
         };
-        parts
-            .forces()
-            .for_each(|force| force.add_stiffness_without_spin(state, stiffness));
-        parts
-            .couples()
-            .for_each(|couple| couple.add_stiffness_without_spin(state, stiffness));
+        for force in parts.forces() {
+            force.add_stiffness_without_spin(state, stiffness);
+        }
+        for couple in parts.couples() {
+            couple.add_stiffness_without_spin(state, stiffness);
+        }
     }
 }
 

@@ -1,6 +1,6 @@
 //! Conjugate gradients for linked chains, preconditioned by the factors of the chains.
 //!
-//! The factorisation of a network fills with the links between its filaments; that of each filament alone keeps its band.
+//! The factorisation of a network fills with the links between its filaments; factors of single filaments keep their bands.
 //! Links are soft compared with the stretch and shear of filaments, so that the number of iterations does not grow with the
 //! number of filaments.
 //!
@@ -153,7 +153,7 @@ mod tests {
         }
     }
 
-    /// The solution is that of a factorisation of the whole.
+    /// The solution equals the one by a factorisation of the whole.
     #[test]
     fn linked_chains_are_solved_as_by_their_factors() {
         let mut state = State::default();

@@ -26,7 +26,7 @@ pub struct ImplicitSolver {
     metric: Vec<f64>,
     step: Vec<f64>,
     clusters: Clusters,
-    /// Whether each frame turns about its third axis by itself.
+    /// True for each frame that spins about its third axis.
     spins: Vec<bool>,
     /// Values that couple such turns to other unknowns.
     uncoupled: Vec<usize>,
@@ -37,7 +37,7 @@ pub struct ImplicitSolver {
 /// Solver of the linear equations of a step.
 #[derive(Debug)]
 enum Linear {
-    /// Nothing has been factorised.
+    /// Before the first factorisation.
     Unknown,
     Direct(Box<Factor>),
     Gradients(Box<Gradients>),

@@ -218,7 +218,7 @@ impl Layout {
         self
     }
 
-    /// Whether steps are solved by conjugate gradients; known after the first solve.
+    /// True if steps are solved by conjugate gradients; known after the first solve.
     pub(crate) fn has_gradients(&self) -> bool {
         self.has_gradients
     }
@@ -229,7 +229,7 @@ impl Layout {
         self.settle();
     }
 
-    /// Whether conjugate gradients may be chosen.
+    /// True if conjugate gradients may be chosen.
     pub(crate) fn allows_gradients(&self) -> bool {
         self.allows_gradients && self.order == Order::Compared && self.has_loose()
     }

@@ -126,7 +126,7 @@ fn neighbours(blocks: &[Block], layout: &Layout) -> Vec<Vec<usize>> {
 /// Iterations of conjugate gradients in a step, about.
 const ITERATIONS: usize = 20;
 
-/// Couplings between neighbours alone: within each column of nodes those that are not loose.
+/// Returns the couplings of each column of nodes without the loose ones.
 fn without_loose(neighbours: &[Vec<usize>], layout: &Layout) -> Vec<Vec<usize>> {
     let body = |node| match layout.node(node) {
         Node::Point(i) => Some(Coordinates::Point(i)),

@@ -28,19 +28,19 @@ pub trait RandomStress {
     /// the elements themselves exert none: hardly anything resists such a turn, and bodies would turn to meet the stress.
     fn add_stress_loads(&self, state: &State, stresses: &[f64], loads: &mut Loads);
 
-    /// Adds, if `is_wanted`, what the stiffness of strains lacks to be positive: compressed springs give way across. Otherwise
-    /// zeros, in the same blocks. Nothing by default.
+    /// Adds the negative part of the stiffness of strains with the opposite sign if `is_wanted`, otherwise zeros in the same
+    /// blocks. Compressed springs have negative stiffness across. The default adds no blocks.
     fn add_convexity(&self, _state: &State, _is_wanted: bool, _stiffness: &mut Stiffness) {}
 
-    /// Returns the frames whose turns about their third axes change neither energies nor, after
-    /// [`turn_back`](Self::turn_back), stresses: those of slender bodies that are isotropic about their axes. None by
-    /// default. Other elements of the system may still resist such turns.
+    /// Returns the frames of slender bodies that are isotropic about their third axes: turns about these axes change neither
+    /// energies nor, after [`turn_back`](Self::turn_back), stresses. The default is an empty range. Other elements of the
+    /// system may still resist such turns.
     fn axial_frames(&self) -> Range<usize> {
         0..0
     }
 
     /// Writes stresses in the axes of frames that have turned about their third axes by `spins` (rad, one for each frame)
-    /// since the stresses were drawn: seen from outside they stay as they are. They are copied by default.
+    /// since the stresses were drawn: their directions in the lab do not change. The default copies them.
     fn turn_back(&self, _spins: &[f64], drawn: &[f64], turned: &mut [f64]) {
         turned.copy_from_slice(drawn);
     }

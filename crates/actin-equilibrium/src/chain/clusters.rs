@@ -1,4 +1,4 @@
-//! Steps of filaments, each by itself: how far it turns, and how its bodies carry one another along.
+//! Steps of single filaments: their length, and the motion of bodies that carry one another along.
 
 use super::open::Components;
 use super::{Chain, Link};
@@ -28,7 +28,7 @@ struct Cluster {
 pub(crate) struct Clusters(Vec<Cluster>);
 
 impl Clusters {
-    /// Returns the clusters of bodies that are tied; groups of bodies are clusters of their own.
+    /// Returns the clusters of bodies that are tied; each group of bodies is a cluster.
     pub(crate) fn new(layout: &Layout, ties: &Ties, chain: &Chain) -> Self {
         let mut components = Components::of(layout, ties);
         let holds = components.holds();
@@ -64,7 +64,7 @@ impl Clusters {
         let place_of = |components: &mut Components, body| places[&components.root(body)];
         for &link in &chain.0 {
             let cluster = &mut clusters[place_of(&mut components, link.follower())];
-            // Where ends meet again at a second held place, a chain closes badly.
+            // A chain with a second held place closes badly.
             if cluster.holds < 2 {
                 cluster.links.push(link);
             }
@@ -91,9 +91,10 @@ impl Clusters {
     }
 
     /// Moves the bodies of `to`, a copy of `from`, by a step. The step of each cluster is shortened where it turns a body by more
-    /// than `largest_turn` (rad). Bodies keep their places relative to those that they follow, up to the step of the tie between
+    /// than `largest_turn` (rad). Bodies keep their places relative to the bodies that they follow, up to the step of the tie between
     /// them, and free clusters the displacement of their mean. Frames that may spin turn about their third axes after all
-    /// else, by any angle. Returns the extent of the whole step without these turns.
+    /// else, by any angle. Returns the extent of the whole step; spins count
+    /// as turns.
     pub(crate) fn advance(
         &self,
         layout: &Layout,
@@ -126,6 +127,9 @@ impl Clusters {
             }
             extent.displacement = extent.displacement.max(own.displacement);
             extent.rotation = extent.rotation.max(own.rotation);
+        }
+        for &(_, at) in &spinning {
+            extent.rotation = extent.rotation.max(step[at].abs());
         }
         for (i, at) in spinning {
             let turn = rotation::exp(Vector3::z() * (step[at] * scales[i]));

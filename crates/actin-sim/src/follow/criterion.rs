@@ -51,7 +51,7 @@ impl<'a> FilamentState<'a> {
         self.energies_per_length_pn.get_or_init(energies)
     }
 
-    /// Returns the cells in order; `is_monomers` tells which are resolved.
+    /// Returns the cells in order; `is_monomers` is true for each resolved cell.
     pub fn cells(&self, is_monomers: &'a [bool]) -> impl Iterator<Item = Cell<'_>> {
         let axis = Axis::of(self.assembly, self.state);
         let spans = self.boundaries_nm.windows(2).enumerate();
@@ -119,7 +119,7 @@ impl Cell<'_> {
         self.filament.energies_per_length_pn()[self.index]
     }
 
-    /// Returns the energy per length over that of the cell with the largest; 0 without energy.
+    /// Returns the energy per length in units of the largest of all cells; 0 without energy.
     pub fn energy_over_largest(&self) -> f64 {
         let energies = self.filament.energies_per_length_pn().iter().copied();
         let largest = energies.fold(0.0, f64::max);
