@@ -1,130 +1,101 @@
-//! Where a bracket is missing.
+//! Location of missing brackets.
 //!
-//! Every bracket behind a missing one closes another than was meant, so the place where the text stops making
-//! sense is not the place to mend. Better signs are a key in a list, an element without a key among keys, and
-//! lines that are not indented as what they belong to.
+//! Every bracket after a missing one closes another than was meant, so the text stops making sense later than the
+//! mistake. Better signs are a key in a list, an element without a key among keys, and indentation.
 
 use super::SceneError;
-use super::outline::{MOST_DEPTH, Misfit, Outline, line_and_column};
+use super::parse::{MOST_DEPTH, Parsed, word};
+use super::position::line_and_column;
+use super::tree::SceneValue;
 
-/// The mistake in the brackets of a text that is no RON; none where they say nothing.
-pub(super) fn mistake(text: &str) -> Option<SceneError> {
-    let outline = Outline::of(text);
-    if let Some(at) = outline.too_deep {
+/// The mistake in the brackets of a text, if there is one.
+pub(super) fn mistake(text: &str, file: &str, parsed: &Parsed) -> Option<SceneError> {
+    let brackets = parsed.brackets;
+    let error = |at: usize, message: &str| Some(SceneError::new(line_and_column(text, at), message));
+    if let Some(at) = brackets.too_deep {
         let message = format!("brackets are nested more than {MOST_DEPTH} deep here");
-        return Some(SceneError::new(line_and_column(text, at), &message));
+        return error(at, &message);
+    }
+    if let Some((at, None)) = brackets.misfit {
+        return error(at, &format!("this {} closes nothing", &text[at..=at]));
+    }
+    let is_broken = brackets.misfit.is_some() || brackets.is_unclosed;
+    if !is_broken && !brackets.has_listed_key {
+        return None;
     }
     let signs = Signs {
         text,
-        outline: &outline,
-        lines: lines(text),
+        root: &parsed.root,
+        is_broken,
     };
-    if let Some(Misfit { at, open: None }) = outline.misfit {
-        let closing = &text[at..=at];
-        let message = format!("this {closing} closes nothing");
-        return Some(SceneError::new(line_and_column(text, at), &message));
+    let misfit = brackets.misfit.and_then(|(at, open)| Some((open?, at)));
+    match signs.suspect(&parsed.root).or(misfit) {
+        Some((open, at)) => Some(signs.describe(open, at)),
+        None => error(
+            text.len(),
+            &format!("the text ends before the {file} does: a bracket is not closed"),
+        ),
     }
-    let is_broken =
-        outline.misfit.is_some() || outline.nodes.iter().any(|n| is_unclosed(n.open, n.close));
-    let nodes = 0..outline.nodes.len();
-    let suspect = nodes.rev().find_map(|node| {
-        let at = signs.missing_before(node, is_broken)?;
-        Some((node, at))
-    });
-    let misfit = outline
-        .misfit
-        .and_then(|misfit| Some((misfit.open?, misfit.at)));
-    let (node, at) = suspect.or(misfit)?;
-    Some(signs.describe(node, at))
-}
-
-fn is_unclosed(open: Option<(char, usize)>, close: Option<usize>) -> bool {
-    open.is_some() && close.is_none()
 }
 
 struct Signs<'a> {
     text: &'a str,
-    outline: &'a Outline,
-    lines: Vec<Line>,
-}
-
-/// A line of the text.
-struct Line {
-    /// Its first byte.
-    start: usize,
-    /// Blanks at its beginning.
-    indent: usize,
-    /// Its first byte that is not white.
-    begin: usize,
-}
-
-fn lines(text: &str) -> Vec<Line> {
-    let mut start = 0;
-    let line = |content: &str| {
-        let line = Line {
-            start,
-            indent: content.len() - content.trim_start_matches([' ', '\t']).len(),
-            begin: start + content.len() - content.trim_start().len(),
-        };
-        start += content.len();
-        line
-    };
-    text.split_inclusive('\n').map(line).collect()
+    root: &'a SceneValue,
+    is_broken: bool,
 }
 
 impl Signs<'_> {
-    /// What a closing bracket of this node is missing before, if one seems to be.
-    fn missing_before(&self, node: usize, is_broken: bool) -> Option<usize> {
-        let (kind, open) = self.outline.nodes[node].open?;
-        let children = self.outline.children(Some(node));
-        let has_keys = children
-            .first()
-            .is_some_and(|&first| self.outline.nodes[first].key.is_some());
-        let indent = self.indent(open);
-        let is_strange = |&&child: &&usize| {
-            let child = &self.outline.nodes[child];
-            let is_key = child.key.is_some();
-            let is_of_another = match kind {
-                '[' => is_key,
-                _ => is_broken && has_keys != is_key,
-            };
-            let is_outdented = is_broken
-                && self.begins_line(child.start)
-                && self.line(child.start) > self.line(open)
-                && self.indent(child.start) <= indent;
-            is_of_another || is_outdented
-        };
-        let strange = children.iter().find(is_strange);
-        let strange = strange.map(|&child| self.outline.nodes[child].start);
-        strange.or_else(|| {
-            let close = self.outline.nodes[node].close?;
-            let is_outdented = self.begins_line(close)
-                && self.line(close) > self.line(open)
-                && self.indent(close) < indent;
-            (is_broken && is_outdented).then_some(close)
-        })
+    /// The last bracket that seems to lack its closing one, and the place before which that is missing.
+    fn suspect(&self, node: &SceneValue) -> Option<(usize, usize)> {
+        let mut inner = node.children().iter().rev();
+        let within = inner.find_map(|child| self.suspect(child));
+        within.or_else(|| Some((node.place.open?, self.missing_before(node)?)))
     }
 
-    fn describe(&self, node: usize, at: usize) -> SceneError {
-        let (kind, open) = self.outline.nodes[node].open.expect("its bracket is open");
+    fn missing_before(&self, node: &SceneValue) -> Option<usize> {
+        let open = node.place.open?;
+        let has_keys = node.children().first()?.key.is_some();
+        let is_strange = |child: &&SceneValue| {
+            let is_key = child.key.is_some();
+            let is_of_another = if node.is_list() {
+                is_key
+            } else {
+                self.is_broken && has_keys != is_key
+            };
+            is_of_another || self.is_outdented(child.place.start, open, true)
+        };
+        let strange = node.children().iter().find(is_strange);
+        let close = || node.place.close.filter(|close| self.is_outdented(*close, open, false));
+        strange.map(|child| child.place.start).or_else(close)
+    }
+
+    /// Whether a place begins a later line than a bracket, with less indentation or `equal`.
+    fn is_outdented(&self, at: usize, open: usize, equal: bool) -> bool {
+        let line = |at: usize| self.text[..at].rfind('\n').map_or(0, |end| end + 1);
+        let indent = |at: usize| {
+            let rest = &self.text[line(at)..];
+            rest.len() - rest.trim_start_matches([' ', '\t']).len()
+        };
+        let is_first = at == line(at) + indent(at);
+        self.is_broken
+            && is_first
+            && line(at) > line(open)
+            && (indent(at) < indent(open) || equal && indent(at) == indent(open))
+    }
+
+    fn describe(&self, open: usize, at: usize) -> SceneError {
+        let kind = &self.text[open..=open];
         let closing = match kind {
-            '(' => ')',
-            '[' => ']',
+            "(" => ')',
+            "[" => ']',
             _ => '}',
         };
         let rest = &self.text[at..];
-        let is_part = |c: char| c.is_alphanumeric() || c == '_';
-        let end = rest.find(|c| !is_part(c)).unwrap_or(rest.len()).max(1);
-        let before = &rest[..rest
-            .char_indices()
-            .map(|(i, _)| i)
-            .find(|&i| i >= end)
-            .unwrap_or(rest.len())];
-        let path = self.outline.path(node);
-        let of = if path.is_empty() {
-            String::new()
-        } else {
-            format!(" of {path}")
+        let first = rest.chars().next().map_or(0, char::len_utf8);
+        let before = &rest[..word(rest).len().max(first)];
+        let of = match self.root.path(&self.root.indices_at(open)) {
+            path if path.is_empty() => path,
+            path => format!(" of {path}"),
         };
         let (line, column) = line_and_column(self.text, open);
         let message = format!(
@@ -132,24 +103,16 @@ impl Signs<'_> {
         );
         SceneError::new(line_and_column(self.text, at), &message)
     }
-
-    /// Number of the line of a place, from 0.
-    fn line(&self, at: usize) -> usize {
-        self.lines.partition_point(|line| line.start <= at) - 1
-    }
-
-    fn indent(&self, at: usize) -> usize {
-        self.lines[self.line(at)].indent
-    }
-
-    fn begins_line(&self, at: usize) -> bool {
-        at <= self.lines[self.line(at)].begin
-    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::parse::parse;
+
+    fn found(text: &str) -> Option<SceneError> {
+        mistake(text, "scene", &parse(text, "scene"))
+    }
 
     const SCENE: &str = "Scene(
     filament: Filament(
@@ -222,14 +185,15 @@ mod tests {
     fn a_missing_bracket_is_blamed_where_it_is_missing() {
         for &(from, to, place, before) in MISSING {
             let text = SCENE.replacen(from, to, 1);
-            let error = mistake(&text).unwrap_or_else(|| panic!("{from}"));
+            let error = found(&text).unwrap_or_else(|| panic!("{from}"));
             let found = error.to_string();
             assert_eq!((error.line, error.column), place, "{from}: {found}");
             assert!(found.contains(before), "{from}: {found}");
         }
-        assert_eq!(mistake(SCENE), None);
-        assert_eq!(mistake(SCENE.trim_end().trim_end_matches(')')), None);
-        let extra = mistake(&format!("{SCENE})")).unwrap();
+        assert_eq!(found(SCENE), None);
+        let unclosed = found(SCENE.trim_end().trim_end_matches(')')).unwrap();
+        assert!(unclosed.message.contains("ends before"), "{unclosed}");
+        let extra = found(&format!("{SCENE})")).unwrap();
         assert_eq!(extra.to_string(), "12:1: this ) closes nothing");
     }
 }

@@ -53,22 +53,24 @@ pub struct Brownian {
 /// A fluid and the drag in it, which follows from its viscosity. Rates of `Dynamics` are numerical damping.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
 pub enum Fluid {
-    /// A viscous fluid at rest, felt locally, along, across and about each piece of filament: a cylinder of the filament's
-    /// length shares its drag out evenly (Tirado, Lopez Martinez and Garcia de la Torre 1984).
-    Water {
-        /// Viscosity; positive. By default that of water at 25 degrees C.
-        #[serde(default = "water")]
-        viscosity_mpa_s: f64,
-        /// Radius of the cylinder; positive, at most a sixth of the length of each filament.
-        #[serde(default = "radius")]
-        radius_nm: f64,
-        /// Whether part of the drag across acts at the ends, so that straight filaments turn end over end as fast as they
-        /// should.
-        #[serde(default = "yes")]
-        at_ends: bool,
-    },
+    /// A viscous fluid at rest.
+    Water(Water),
+}
+
+/// A viscous fluid at rest, felt locally, along, across and about each piece of filament: a cylinder of the filament's
+/// length shares its drag out evenly (Tirado, Lopez Martinez and Garcia de la Torre 1984).
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields, default)]
+pub struct Water {
+    /// Viscosity; positive. By default that of water at 25 degrees C.
+    pub viscosity_mpa_s: f64,
+    /// Radius of the cylinder; positive, at most a sixth of the length of each filament.
+    pub radius_nm: f64,
+    /// Whether part of the drag across acts at the ends, so that straight filaments turn end over end as fast as they
+    /// should.
+    pub at_ends: bool,
 }
 
 /// What holds the monomers of an overdamped motion together.
@@ -109,26 +111,20 @@ fn sampled_ns() -> f64 {
     400.0
 }
 
-fn water() -> f64 {
-    0.89
-}
-
-/// That of a circle of 38.5 nm^2, the cross-section of rods.
-fn radius() -> f64 {
-    3.5
-}
-
-fn yes() -> bool {
-    true
+impl Default for Water {
+    fn default() -> Self {
+        Self {
+            viscosity_mpa_s: 0.89,
+            // A circle of 38.5 nm^2, the cross-section of rods.
+            radius_nm: 3.5,
+            at_ends: true,
+        }
+    }
 }
 
 impl Default for Fluid {
     fn default() -> Self {
-        Self::Water {
-            viscosity_mpa_s: water(),
-            radius_nm: radius(),
-            at_ends: yes(),
-        }
+        Self::Water(Water::default())
     }
 }
 
@@ -203,18 +199,18 @@ pub(super) fn check(brownian: &Brownian) -> Result<(), SceneProblem> {
 impl Fluid {
     /// Checks its numbers.
     pub(super) fn check(&self) -> Result<(), SceneProblem> {
-        let Self::Water {
+        let Self::Water(Water {
             viscosity_mpa_s,
             radius_nm,
             ..
-        } = *self;
+        }) = *self;
         positive("task.drag.viscosity_mpa_s", viscosity_mpa_s)?;
         positive("task.drag.radius_nm", radius_nm)
     }
 
     /// Refuses filaments that are not slender.
     pub(super) fn check_filaments(&self, scene: &Scene) -> Result<(), SceneProblem> {
-        let Self::Water { radius_nm, .. } = *self;
+        let Self::Water(Water { radius_nm, .. }) = *self;
         let diameter = 2.0 * radius_nm;
         let mut lengths = scene.filaments().map(Filament::length_nm);
         let short = lengths.find(|length| *length < LEAST_RATIO * diameter);

@@ -1,12 +1,9 @@
 //! What slows a motion with inertia, as a scene writes it: numerical damping, or a fluid.
 
-use super::brownian::Fluid;
+use super::brownian::{Fluid, Water};
 use super::rules::non_negative;
-use super::value::SceneValue;
 use super::{Dynamics, Integrator, SceneProblem};
-use serde::de::{Error as _, MapAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize};
-use std::fmt;
 
 /// Numerical damping, proportional to mass: velocities decay as `exp(-rate t)`. No fluid has such rates: `Water` has those that
 /// follow from its viscosity.
@@ -90,84 +87,18 @@ pub(super) fn check(dynamics: &Dynamics) -> Result<(), SceneProblem> {
     ))
 }
 
+/// Keys without a name are those of `Drag`.
 impl<'de> Deserialize<'de> for DragModel {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        let read = match SceneValue::from(Tree::deserialize(deserializer)?) {
-            SceneValue::Keys(one) if one.len() == 1 && one[0].0 == "Drag" => {
-                DragRates::deserialize(&one[0].1).map(Self::Rates)
-            }
-            SceneValue::Keys(one) if one.len() == 1 && one[0].0.starts_with(char::is_uppercase) => {
-                Fluid::deserialize(&SceneValue::Keys(one)).map(Self::Fluid)
-            }
-            SceneValue::Keys(keys) => {
-                DragRates::deserialize(&SceneValue::Keys(keys)).map(Self::Rates)
-            }
-            _ => {
-                return Err(D::Error::custom(
-                    "drag is (translational_per_ns: .., rotational_per_ns: ..), or Water(viscosity_mpa_s: ..)",
-                ));
-            }
-        };
-        read.map_err(|refusal| D::Error::custom(refusal.rule()))
-    }
-}
-
-/// Whatever is written: what it is meant to be is told by its name or its keys.
-#[derive(Deserialize)]
-#[serde(untagged)]
-enum Tree {
-    Bool(bool),
-    Whole(i64),
-    Number(f64),
-    Text(String),
-    Nothing(()),
-    Keys(Keys),
-    List(Vec<Tree>),
-}
-
-/// Keys in order, as often as they are written.
-struct Keys(Vec<(String, Tree)>);
-
-impl<'de> Deserialize<'de> for Keys {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        deserializer.deserialize_map(KeysVisitor)
-    }
-}
-
-struct KeysVisitor;
-
-impl<'de> Visitor<'de> for KeysVisitor {
-    type Value = Keys;
-
-    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str("keys")
-    }
-
-    fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Keys, A::Error> {
-        let mut keys = Vec::new();
-        while let Some(entry) = map.next_entry()? {
-            keys.push(entry);
+        #[derive(Deserialize)]
+        enum Drag {
+            Drag(DragRates),
+            Water(Water),
         }
-        Ok(Keys(keys))
-    }
-}
-
-impl From<Tree> for SceneValue {
-    fn from(tree: Tree) -> Self {
-        match tree {
-            Tree::Bool(value) => Self::Bool(value),
-            Tree::Whole(value) => Self::Whole(value.into()),
-            Tree::Number(value) => Self::Number(value),
-            Tree::Text(value) => Self::Text(value),
-            // A choice without keys.
-            Tree::Nothing(()) => Self::Keys(Vec::new()),
-            Tree::List(values) if values.is_empty() => Self::Keys(Vec::new()),
-            Tree::List(values) => Self::List(values.into_iter().map(Self::from).collect()),
-            Tree::Keys(Keys(keys)) => {
-                let keys = keys.into_iter().map(|(key, tree)| (key, tree.into()));
-                Self::Keys(keys.collect())
-            }
-        }
+        Ok(match Drag::deserialize(deserializer)? {
+            Drag::Drag(rates) => Self::Rates(rates),
+            Drag::Water(water) => Self::Fluid(Fluid::Water(water)),
+        })
     }
 }
 

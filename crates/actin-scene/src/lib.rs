@@ -11,6 +11,7 @@ struct Readme;
 mod brackets;
 mod brownian;
 mod curve;
+mod deserialize;
 mod drag;
 mod factor;
 mod fitted;
@@ -22,14 +23,15 @@ mod law;
 mod linker;
 mod load;
 mod load_rules;
-mod locate;
 mod magnitude;
-mod mistakes;
+mod meant;
 mod model;
 mod observable;
-mod outline;
+mod parse;
 pub mod path;
 mod place;
+mod position;
+mod print;
 mod problem;
 mod read;
 mod repulsion;
@@ -41,19 +43,19 @@ mod section;
 mod section_rules;
 mod sections;
 mod seeds;
+mod serialize;
 mod shape;
 mod stage;
 mod support;
-mod syntax;
 mod text;
 mod thermal;
 mod trace;
+mod tree;
 mod types;
 mod validate;
-mod value;
 mod written;
 
-pub use brownian::{Brownian, Fluid, Interfaces};
+pub use brownian::{Brownian, Fluid, Interfaces, Water};
 pub use curve::{Curve, swept};
 pub use drag::{DragModel, DragRates};
 pub use factor::Factor;
@@ -69,14 +71,13 @@ pub use law::{
 pub use linker::{Linker, LinkerSite};
 pub use load::Resultant;
 pub use load::{Acceleration, Couple, CouplePerLength, Force, ForcePerLength, Load};
-pub use mistakes::{Readings, read_all};
 pub use model::{
     Anchors, ForceLaw, JunctionModel, JunctionWeight, Material, Monomers, RodModel, RotaryInertia,
 };
 pub use observable::{Observable, Output, Point};
 pub use place::HeldEnds;
 pub use problem::{SceneError, SceneProblem};
-pub use read::read_ron;
+pub use read::{Readings, read_all, read_ron, to_ron};
 pub use repulsion::{Plane, Repulsion, Sphere, SphereSide};
 #[cfg(feature = "schema")]
 pub use schema::schema;
@@ -88,9 +89,9 @@ pub use stage::unset_loads;
 pub use support::is_across;
 pub use text::{Override, SceneText};
 pub use thermal::{BOLTZMANN_PN_NM_PER_K, Thermal};
+pub use tree::{Kind, SceneValue};
 pub use types::{
     Clamp, Dynamics, End, Equilibrium, Filament, Hinge, Hold, Integrator, Pace, Scene, Setting,
     Slides, Stage, StopTolerances, Task,
 };
 pub use validate::MOST_COUNTED;
-pub use value::SceneValue;

@@ -3,7 +3,8 @@
 //! Between them products of a few numbers neither overflow nor vanish, so that what is wrong is the
 //! number that a scene wrote and not what became of it. What is not finite has rules of its own.
 
-use super::{Scene, SceneProblem, SceneValue};
+use super::tree::{Kind, SceneValue};
+use super::{Scene, SceneProblem};
 
 /// Largest magnitude of a number: of such a stiffness over the smallest mass, the square of the
 /// frequency is 1e120.
@@ -17,29 +18,19 @@ pub(super) fn check(scene: &Scene) -> Result<(), SceneProblem> {
     walk(&scene.to_value(), "")
 }
 
-/// Goes through a structure whose key is `path`.
+/// Checks the numbers of a value whose path is `path`.
 fn walk(value: &SceneValue, path: &str) -> Result<(), SceneProblem> {
-    match value {
-        SceneValue::Number(number) if number.is_finite() => within(path, *number),
-        SceneValue::List(items) => items
-            .iter()
-            .enumerate()
-            .try_for_each(|(i, item)| walk(item, &format!("{path}[{i}]"))),
-        SceneValue::Keys(fields) => fields
-            .iter()
-            .try_for_each(|(key, field)| walk(field, &below(path, key))),
-        _ => Ok(()),
+    if let Kind::Number(number) = value.kind
+        && number.is_finite()
+    {
+        return within(path, number);
     }
-}
-
-/// The path of a key; names of variants, such as `Rod`, are no part of it.
-fn below(path: &str, key: &str) -> String {
-    let is_variant = key.starts_with(char::is_uppercase);
-    match (path.is_empty(), is_variant) {
-        (_, true) => path.to_owned(),
-        (true, false) => key.to_owned(),
-        (false, false) => format!("{path}.{key}"),
-    }
+    let mut children = value.children().iter().enumerate();
+    children.try_for_each(|(i, child)| match child.key() {
+        None => walk(child, &format!("{path}[{i}]")),
+        Some(key) if path.is_empty() => walk(child, key),
+        Some(key) => walk(child, &format!("{path}.{key}")),
+    })
 }
 
 fn within(path: &str, number: f64) -> Result<(), SceneProblem> {

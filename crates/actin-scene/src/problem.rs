@@ -1,6 +1,6 @@
 //! What is wrong with a scene, and where.
 
-use super::locate;
+use super::SceneText;
 use std::borrow::Cow;
 use std::fmt;
 
@@ -93,16 +93,7 @@ impl SceneError {
     /// Places a problem in the text of its scene: at its key, or at the innermost key above it
     /// that is written there.
     pub fn locate(problem: &SceneProblem, text: &str) -> Self {
-        // Filament 0 of a scene may stand in a list of one.
-        let is_listed =
-            !locate::is_written(text, "filament") && locate::is_written(text, "filaments");
-        let problem = if is_listed {
-            problem.clone().with_filament("filaments[0]")
-        } else {
-            problem.clone()
-        };
-        let place = locate::position(text, &problem.key);
-        Self::new(place, &problem.to_string())
+        SceneText::new(text).locate(problem)
     }
 }
 

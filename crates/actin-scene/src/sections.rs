@@ -1,10 +1,10 @@
 //! The sections of a filament: written one by one, chosen by the program, or following a motion.
 
 use super::rules::{positive, show};
-use super::{Following, SceneProblem, Section, Where};
-use serde::de::{self, Deserializer, MapAccess, SeqAccess, Visitor};
-use serde::ser::{SerializeStructVariant, Serializer};
-use serde::{Deserialize, Serialize};
+use super::{Following, SceneProblem, Section};
+use serde::de::value::{EnumAccessDeserializer, MapAccessDeserializer, SeqAccessDeserializer};
+use serde::de::{EnumAccess, MapAccess, SeqAccess, Visitor};
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::fmt;
 use std::ops::{Deref, DerefMut};
 
@@ -29,8 +29,9 @@ impl PartialEq for Sections {
     }
 }
 
-/// What sections are left to.
-#[derive(Clone, Debug, PartialEq)]
+/// Sections that the program chooses.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename = "Sections")]
 enum Left {
     Adaptive(Adaptive),
     Following(Following),
@@ -298,155 +299,46 @@ impl Serialize for Sections {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         match &self.left {
             None => self.list.serialize(serializer),
-            Some(Left::Adaptive(adaptive)) => {
-                let is_also = !adaptive.also.is_empty();
-                let count = 2 + usize::from(is_also) + usize::from(adaptive.monomers.is_some());
-                let mut keys =
-                    serializer.serialize_struct_variant("Sections", 0, "Adaptive", count)?;
-                keys.serialize_field("length_nm", &adaptive.length_nm)?;
-                keys.serialize_field("want", &adaptive.want)?;
-                if is_also {
-                    keys.serialize_field("also", &adaptive.also)?;
-                }
-                if let Some(most) = adaptive.monomers {
-                    keys.serialize_field("monomers", &most)?;
-                }
-                keys.end()
-            }
-            Some(Left::Following(following)) => {
-                let mut keys =
-                    serializer.serialize_struct_variant("Sections", 1, "Following", 5)?;
-                keys.serialize_field("length_nm", &following.length_nm)?;
-                keys.serialize_field("monomers_where", &following.monomers_where)?;
-                keys.serialize_field("cell_nm", &following.cell_nm)?;
-                keys.serialize_field("segments", &following.segments)?;
-                keys.serialize_field("least_ns", &following.least_ns)?;
-                keys.end()
-            }
+            Some(left) => left.serialize(serializer),
         }
     }
 }
 
 impl<'de> Deserialize<'de> for Sections {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        deserializer.deserialize_any(ListOrAdaptive)
+        deserializer.deserialize_any(ListOrLeft)
     }
 }
 
-/// Keys of `Adaptive` and of `Following`, as their texts have them.
-const KEYS: &[&str] = &[
-    "length_nm",
-    "want",
-    "also",
-    "monomers",
-    "monomers_where",
-    "cell_nm",
-    "segments",
-    "least_ns",
-];
+struct ListOrLeft;
 
-/// What a text may have of either.
-#[derive(Default)]
-struct Keys {
-    length_nm: Option<f64>,
-    want: Option<Want>,
-    also: Option<Vec<Want>>,
-    monomers: Option<usize>,
-    monomers_where: Option<Vec<Where>>,
-    cell_nm: Option<f64>,
-    segments: Option<usize>,
-    least_ns: Option<f64>,
-}
-
-impl Keys {
-    fn read<'de, A: MapAccess<'de>>(&mut self, key: &str, access: &mut A) -> Result<(), A::Error> {
-        match key {
-            "length_nm" => self.length_nm = Some(access.next_value()?),
-            "want" => self.want = Some(access.next_value()?),
-            "also" => self.also = Some(access.next_value()?),
-            "monomers" => self.monomers = Some(access.next_value()?),
-            "monomers_where" => self.monomers_where = Some(access.next_value()?),
-            "cell_nm" => self.cell_nm = Some(access.next_value()?),
-            "segments" => self.segments = Some(access.next_value()?),
-            "least_ns" => self.least_ns = Some(access.next_value()?),
-            "from_nm" | "to_nm" => {
-                let rule = "is a list of sections, as in [Rod(..)], Adaptive(..) or Following(..)";
-                return Err(de::Error::custom(rule));
-            }
-            unknown => return Err(de::Error::unknown_field(unknown, KEYS)),
-        }
-        Ok(())
-    }
-
-    fn sections<E: de::Error>(self) -> Result<Sections, E> {
-        let missing = |key| move || E::missing_field(key);
-        let length_nm = self.length_nm.ok_or_else(missing("length_nm"))?;
-        let Some(monomers_where) = self.monomers_where else {
-            let is_following =
-                self.cell_nm.is_some() || self.segments.is_some() || self.least_ns.is_some();
-            if is_following {
-                return Err(E::missing_field("monomers_where"));
-            }
-            let want = self.want.ok_or_else(missing("want"))?;
-            return Ok(Adaptive {
-                length_nm,
-                want,
-                also: self.also.unwrap_or_default(),
-                monomers: self.monomers,
-            }
-            .into());
-        };
-        if self.want.is_some() || self.monomers.is_some() {
-            let rule =
-                "has `want` or `monomers` of Adaptive(..) and `monomers_where` of Following(..)";
-            return Err(E::custom(rule));
-        }
-        let mut following = Following::new(length_nm, monomers_where);
-        following.cell_nm = self.cell_nm.unwrap_or(following.cell_nm);
-        following.segments = self.segments.unwrap_or(following.segments);
-        following.least_ns = self.least_ns.unwrap_or(following.least_ns);
-        Ok(following.into())
-    }
-}
-
-struct ListOrAdaptive;
-
-impl<'de> Visitor<'de> for ListOrAdaptive {
+impl<'de> Visitor<'de> for ListOrLeft {
     type Value = Sections;
 
     fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(
-            f,
-            "a list of sections, Adaptive(length_nm: .., want: ..) or Following(length_nm: .., monomers_where: [..])"
-        )
+        f.write_str("a list of sections, as in [Rod(..)], Adaptive(..) or Following(..)")
     }
 
-    fn visit_seq<A: SeqAccess<'de>>(self, mut access: A) -> Result<Sections, A::Error> {
-        let mut list = Vec::new();
-        while let Some(section) = access.next_element()? {
-            list.push(section);
-        }
+    fn visit_seq<A: SeqAccess<'de>>(self, list: A) -> Result<Sections, A::Error> {
+        let list: Vec<Section> = Deserialize::deserialize(SeqAccessDeserializer::new(list))?;
         Ok(list.into())
     }
 
-    /// RON gives the keys of `Adaptive(..)` or `Following(..)`, a dictionary has them under that name.
-    fn visit_map<A: MapAccess<'de>>(self, mut access: A) -> Result<Sections, A::Error> {
-        let mut keys = Keys::default();
-        while let Some(key) = access.next_key::<String>()? {
-            let named: Sections = match key.as_str() {
-                "Adaptive" => access.next_value::<Adaptive>()?.into(),
-                "Following" => access.next_value::<Following>()?.into(),
-                other => {
-                    keys.read(other, &mut access)?;
-                    continue;
-                }
-            };
-            return match access.next_key::<String>()? {
-                None => Ok(named),
-                Some(other) => Err(de::Error::unknown_field(&other, &[])),
-            };
+    fn visit_enum<A: EnumAccess<'de>>(self, left: A) -> Result<Sections, A::Error> {
+        Left::deserialize(EnumAccessDeserializer::new(left)).map(Sections::from)
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, left: A) -> Result<Sections, A::Error> {
+        Left::deserialize(MapAccessDeserializer::new(left)).map(Sections::from)
+    }
+}
+
+impl From<Left> for Sections {
+    fn from(left: Left) -> Self {
+        match left {
+            Left::Adaptive(adaptive) => adaptive.into(),
+            Left::Following(following) => following.into(),
         }
-        keys.sections()
     }
 }
 

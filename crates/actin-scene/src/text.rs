@@ -1,12 +1,23 @@
 //! The text of a scene, and values that keys of it are given from outside.
 
-use super::locate::{path_at, without_mark};
-use super::outline::{Outline, Step, line_and_column, place, steps};
-use super::{Scene, SceneError, SceneProblem, mistakes};
-use ron::value::RawValue;
+use super::deserialize::{Refusal, deserialize};
+use super::parse::{Parsed, parse};
+use super::position::{line_and_column, place, without_mark};
+use super::tree::{Kind, SceneValue, Source};
+use super::{Readings, Scene, SceneError, SceneProblem, brackets, trace, validate};
+use super::{validate::validate, written::Written};
+use serde::de::DeserializeOwned;
+use std::borrow::Cow;
 use std::fmt;
 use std::ops::Range;
+use std::path::Path;
 use std::str::FromStr;
+
+/// Most mistakes that are looked for.
+const MOST: usize = 20;
+
+/// Most bytes that are read to find mistakes: each takes a reading of the whole text.
+const MOST_BYTES: usize = 2_000_000;
 
 /// A value for a key of a scene, both as text: `filament.rod.law=Constant`.
 ///
@@ -34,10 +45,8 @@ impl FromStr for Override {
                 "{key:?} is not the path of a key, as loads[0].force_pn[2] is"
             ));
         }
-        let error = RawValue::from_ron(&value).err();
-        error.map_or(Ok(Self { key, value }), |error| {
-            Err(format!("its value is not RON: {}", error.code))
-        })
+        let one = Self { key, value };
+        one.parsed().map(|_| one.clone())
     }
 }
 
@@ -59,23 +68,33 @@ fn is_path(key: &str) -> bool {
     })
 }
 
+impl Override {
+    /// The value as a tree.
+    fn parsed(&self) -> Result<SceneValue, String> {
+        let Parsed {
+            root,
+            mistakes,
+            brackets,
+        } = parse(&self.value, "value");
+        let refused = |what: &str| Err(format!("its value is not RON: {what}"));
+        match mistakes.first() {
+            _ if self.value.is_empty() => refused("there is no value"),
+            _ if brackets.are_mistaken() => refused("a bracket is not closed, or closes nothing"),
+            Some((_, mistake)) => refused(mistake),
+            None if root.kind == Kind::Unread => refused("a value is expected"),
+            None => Ok(root),
+        }
+    }
+}
+
 impl fmt::Display for Override {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}={}", self.key, self.value)
     }
 }
 
-/// Where a byte of a text comes from.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Origin {
-    /// From a place of the text as written.
-    Written(usize),
-    /// From an override, by its index.
-    Set(usize),
-}
-
-/// The text of a scene with overrides applied, which knows where each of its bytes comes from: what is
-/// wrong is placed in the text as written, or names the override.
+/// The text of a scene as a tree of values, with overrides: a mistake is placed in the text as written, or names the
+/// override.
 ///
 /// ```
 /// use actin_scene::SceneText;
@@ -95,31 +114,37 @@ enum Origin {
 #[derive(Clone, Debug)]
 pub struct SceneText {
     written: String,
-    text: String,
-    origins: Vec<Origin>,
+    /// Name of the outermost structure.
+    name: String,
+    parsed: Parsed,
     overrides: Vec<Override>,
 }
 
 impl SceneText {
-    /// The text as written.
+    /// The text of a scene.
     pub fn new(text: &str) -> Self {
+        Self::named(text, "Scene")
+    }
+
+    /// The text of a structure of this name.
+    pub(super) fn named(text: &str, name: &str) -> Self {
         let written = without_mark(text).to_owned();
         Self {
-            text: written.clone(),
-            origins: (0..written.len()).map(Origin::Written).collect(),
+            parsed: parse(&written, &name.to_lowercase()),
+            name: name.to_owned(),
             overrides: Vec::new(),
             written,
         }
     }
 
-    /// The text with all overrides.
-    pub fn text(&self) -> &str {
-        &self.text
-    }
-
-    /// The text without them.
+    /// The text without overrides.
     pub fn written(&self) -> &str {
         &self.written
+    }
+
+    /// The text with all overrides and points of files, on one line.
+    pub fn text(&self) -> String {
+        self.parsed.root.to_string()
     }
 
     /// Gives a key a value, whether the text has the key or not. Later overrides win.
@@ -128,32 +153,26 @@ impl SceneText {
     /// A key that cannot be: in what has no keys, or beyond the end of a list. Whether the scene knows the
     /// key, and what it may be, is found when the scene is read.
     pub fn set(&mut self, one: Override) -> Result<(), SceneError> {
-        let edit = self.edit(&one);
-        let (range, inserted) = edit.map_err(|message| SceneError {
+        let value = one.parsed().and_then(|mut value| {
+            value.place.source = Source::Override(self.overrides.len());
+            let set = self.parsed.root.set(&one.key, value);
+            set.map_err(|problem| problem.rule)
+        });
+        value.map_err(|message| SceneError {
             set: Some(one.to_string()),
             ..SceneError::new((1, 1), &message)
         })?;
-        let origin = Origin::Set(self.overrides.len());
-        let from = std::iter::repeat_n(origin, inserted.len());
-        self.origins.splice(range.clone(), from);
-        self.text.replace_range(range, &inserted);
         self.overrides.push(one);
         Ok(())
     }
 
-    /// Replaces what is written in ascending ranges, each by something that comes from the same place.
-    pub(super) fn replace(&mut self, parts: &[(Range<usize>, String)]) {
-        let (mut text, mut origins, mut done) = (String::new(), Vec::new(), 0);
-        for (range, inserted) in parts {
-            text.extend([&self.text[done..range.start], inserted]);
-            origins.extend(&self.origins[done..range.start]);
-            let origin = self.origins[range.start];
-            origins.extend(std::iter::repeat_n(origin, inserted.len()));
-            done = range.end;
-        }
-        text.push_str(&self.text[done..]);
-        origins.extend(&self.origins[done..]);
-        (self.text, self.origins) = (text, origins);
+    /// Takes the points of every `Points(file: ...)` from the file, whose path is relative to `folder`.
+    ///
+    /// # Errors
+    /// A file that cannot be read, or a row in it that is no point, at the key that names the file.
+    pub fn read_points(&mut self, folder: &Path) -> Result<(), SceneError> {
+        let read = trace::read_points(&mut self.parsed.root, folder);
+        read.map_err(|problem| self.locate(&problem))
     }
 
     /// The scene that the text describes.
@@ -170,8 +189,10 @@ impl SceneText {
     /// # Errors
     /// A text that is no scene.
     pub fn read(&self) -> Result<(Scene, Option<SceneError>), SceneError> {
-        let read = Scene::read(&self.text).map_err(|error| self.placed(error));
-        read.map(|(scene, problem)| (scene, problem.map(|problem| self.locate(&problem))))
+        let written = self.readings::<Written>().into_result()?;
+        let scene = Scene::try_from(written).map_err(|problem| self.locate(&problem))?;
+        let problem = validate(&scene).err();
+        Ok((scene, problem.map(|problem| self.locate(&problem))))
     }
 
     /// The mistakes of the text, as far as one does not hide another; none of a scene that is read. Of a text with
@@ -179,13 +200,98 @@ impl SceneText {
     ///
     /// The first is that of [`scene`](Self::scene), or stands before it in the text.
     pub fn mistakes(&self) -> Vec<SceneError> {
-        let (errors, problems) = mistakes::all(&self.text);
-        let errors = errors.into_iter().map(|error| self.placed(error));
+        let Readings { value, mistakes } = self.readings::<Written>();
+        let problems = match value.map(Scene::try_from) {
+            Some(Ok(scene)) => validate::problems(&scene, self.most()),
+            Some(Err(problem)) => vec![problem],
+            None => Vec::new(),
+        };
         let problems = problems.iter().map(|problem| self.locate(problem));
-        let mut all: Vec<_> = errors.chain(problems).collect();
+        let mut all: Vec<_> = mistakes.into_iter().chain(problems).collect();
         all.sort_by_key(|error| (error.line, error.column));
         all.dedup();
         all
+    }
+
+    /// The number of mistakes that are looked for: fewer in a long text.
+    fn most(&self) -> usize {
+        (MOST_BYTES / self.written.len().max(1)).clamp(1, MOST)
+    }
+
+    /// Reads a type and finds every mistake. What is refused is left out, and the rest read again; a key that is missing
+    /// since its value was refused is no mistake.
+    pub(super) fn readings<T: DeserializeOwned>(&self) -> Readings<T> {
+        if let Some(mistake) = self.mistake_of_whole() {
+            let (value, mistakes) = (None, vec![mistake]);
+            return Readings { value, mistakes };
+        }
+        let mut tree = Cow::Borrowed(&self.parsed.root);
+        let syntax = self.parsed.mistakes.iter();
+        let mut mistakes: Vec<SceneError> = syntax
+            .map(|(at, message)| self.error(*at, &tree.path(&tree.indices_at(*at)), message))
+            .collect();
+        let mut is_whole = mistakes.is_empty();
+        let mut value = None;
+        for _ in 0..self.most() {
+            let refusal = match deserialize(&tree, &self.written) {
+                Ok(read) => {
+                    value = Some(read).filter(|_| is_whole);
+                    break;
+                }
+                Err(refusal) => refusal,
+            };
+            is_whole &= refusal.is_needless;
+            if !is_consequence(&tree, &refusal) {
+                mistakes.push(self.refused(&tree, &refusal));
+            }
+            let indices = tree.without_components(refusal.indices());
+            if indices.is_empty() {
+                break;
+            }
+            let node = tree.to_mut().at_mut(&indices);
+            node.kind = Kind::Refused;
+            node.key = refusal.meant.or(node.key.take());
+        }
+        mistakes.sort_by_key(|error| (error.line, error.column));
+        Readings { value, mistakes }
+    }
+
+    /// A mistake after which nothing else can be judged.
+    fn mistake_of_whole(&self) -> Option<SceneError> {
+        let file = self.name.to_lowercase();
+        let is_blank = |line: &str| line.trim().is_empty() || line.trim().starts_with("//");
+        if self.written.lines().all(is_blank) {
+            let message = format!("the {file} is empty: it must begin with {}(", self.name);
+            return Some(SceneError::new((1, 1), &message));
+        }
+        brackets::mistake(&self.written, &file, &self.parsed)
+    }
+
+    fn error(&self, at: usize, path: &str, message: &str) -> SceneError {
+        let colon = if path.is_empty() { "" } else { ": " };
+        let place = line_and_column(&self.written, at);
+        SceneError::new(place, &format!("{path}{colon}{message}"))
+    }
+
+    /// A refusal in the words of a mistake.
+    fn refused(&self, tree: &SceneValue, refusal: &Refusal) -> SceneError {
+        let indices = refusal.indices();
+        let path = match refusal.is_complete {
+            true => String::new(),
+            false => tree.path(&indices),
+        };
+        let error = self.error(refusal.at.unwrap_or_default(), &path, &refusal.to_string());
+        let meant = refusal.meant.clone();
+        let set = self.blamed(tree, &indices);
+        SceneError { set, meant, ..error }
+    }
+
+    /// The override that a value comes from.
+    fn blamed(&self, tree: &SceneValue, indices: &[usize]) -> Option<String> {
+        match tree.at(indices).place.source {
+            Source::Override(set) => Some(self.overrides[set].to_string()),
+            _ => None,
+        }
     }
 
     /// What to underline of a mistake, in bytes of the text as written: the key with its value, the value, or
@@ -193,11 +299,12 @@ impl SceneText {
     pub fn span(&self, error: &SceneError) -> Range<usize> {
         let text = &self.written;
         let at = place(text, (error.line, error.column));
-        let outline = Outline::of(text);
-        let node = outline.at(at).map(|node| &outline.nodes[node]);
-        let end = match node {
-            Some(node) if at < node.value.end => node.value.end,
-            _ => at + text[at..].chars().next().map_or(0, char::len_utf8),
+        let root = &self.parsed.root;
+        let value = &root.at(&root.indices_at(at)).place.value;
+        let end = if at < value.end {
+            value.end
+        } else {
+            at + text[at..].chars().next().map_or(0, char::len_utf8)
         };
         let line_end = text[at..].find('\n').map_or(text.len(), |line| at + line);
         at..end.min(line_end)
@@ -206,138 +313,64 @@ impl SceneText {
     /// Path of the key or list element that a mistake is about; empty outside of all, and the key of the override
     /// where one is to blame.
     pub fn key(&self, error: &SceneError) -> String {
-        match error.set.as_ref().and_then(|set| set.split_once('=')) {
-            Some((key, _)) => key.to_owned(),
-            None => path_at(&self.written, (error.line, error.column)),
+        if let Some((key, _)) = error.set.as_ref().and_then(|set| set.split_once('=')) {
+            return key.to_owned();
         }
+        let at = place(&self.written, (error.line, error.column));
+        let root = &self.parsed.root;
+        root.path(&root.indices_at(at))
     }
 
-    /// Places a problem: in an override that sets its key, or something above or below it, or in the text.
+    /// Places a problem: at its key, or at the innermost key above it that is written; or in the override that sets the
+    /// key, or something above or below it.
     pub fn locate(&self, problem: &SceneProblem) -> SceneError {
-        let key = self.resolved(&problem.key);
-        let mut overrides = self.overrides.iter().rev();
-        let is_meant = |one: &&Override| {
-            let set = self.resolved(&one.key);
-            is_within(&key, &set) || (!problem.value.is_empty() && is_within(&set, &key))
+        let root = &self.parsed.root;
+        let steps = root.resolved(&problem.key);
+        let indices = root.follow(&steps);
+        let is_written = indices.len() == steps.len();
+        let inner = (is_written && !problem.value.is_empty())
+            .then(|| last_override(root.at(&indices)))
+            .flatten();
+        let indices = root.without_components(indices);
+        let set = match inner {
+            Some(set) => Some(self.overrides[set].to_string()),
+            None => self.blamed(root, &indices),
         };
-        let blamed = overrides.find(is_meant).map(Override::to_string);
-        let error = SceneError::locate(problem, &self.text);
-        match blamed {
-            None => self.placed(error),
-            set => SceneError { set, ..error },
-        }
+        let start = match indices.is_empty() {
+            true => 0,
+            false => root.at(&indices).place.start,
+        };
+        let shown = match self.is_listed(&problem.key) {
+            true => problem.clone().with_filament("filaments[0]"),
+            false => problem.clone(),
+        };
+        let error = SceneError::new(line_and_column(&self.written, start), &shown.to_string());
+        SceneError { set, ..error }
     }
 
-    /// An error of the text with overrides, with its place in the text as written.
-    pub(super) fn placed(&self, error: SceneError) -> SceneError {
-        let at = place(&self.text, (error.line, error.column));
-        let mut before = self.origins[..at.min(self.origins.len())].iter().rev();
-        let (line, column) = match self.origins.get(at) {
-            Some(&Origin::Written(at)) => line_and_column(&self.written, at),
-            Some(&Origin::Set(set)) => {
-                let last = before.find_map(|origin| match origin {
-                    Origin::Written(at) => Some(*at),
-                    Origin::Set(_) => None,
-                });
-                let (line, column) = line_and_column(&self.written, last.unwrap_or_default());
-                let set = Some(self.overrides[set].to_string());
-                return SceneError {
-                    line,
-                    column,
-                    set,
-                    ..error
-                };
-            }
-            None => line_and_column(&self.written, self.written.len()),
-        };
-        SceneError {
-            line,
-            column,
-            ..error
-        }
-    }
-
-    /// A key as the text writes it: filament 0 may stand alone or in a list.
-    fn resolved(&self, key: &str) -> String {
-        let outline = Outline::of(&self.text);
-        let is_written = |key: &str| outline.follow(&steps(key)).1 == 1;
-        let other = |from: &str, to: &str| {
-            let rest = key.strip_prefix(from)?;
-            let is_whole = rest.is_empty() || rest.starts_with('.');
-            (is_whole && !is_written(from.trim_end_matches("[0]"))).then(|| format!("{to}{rest}"))
-        };
-        let listed = is_written("filaments").then(|| other("filament", "filaments[0]"));
-        let alone = is_written("filament").then(|| other("filaments[0]", "filament"));
-        let resolved = listed.flatten().or(alone.flatten());
-        resolved.unwrap_or_else(|| key.to_owned())
-    }
-
-    /// What to put where, so that a key has a value.
-    fn edit(&self, one: &Override) -> Result<(Range<usize>, String), String> {
-        let outline = Outline::of(&self.text);
-        let path = steps(&self.resolved(&one.key));
-        let (node, taken) = outline.follow(&path);
-        let nodes = &outline.nodes;
-        if taken == path.len()
-            && let Some(node) = node
-        {
-            return Ok((nodes[node].value.clone(), one.value.clone()));
-        }
-        let host = node.or_else(|| outline.children(None).first().copied());
-        let host = host.ok_or("the text has no scene")?;
-        let host = outline.innermost(host);
-        let inserted = || entry(&path[taken..], &one.value);
-        let value = &self.text[nodes[host].value.clone()];
-        let name = match outline.path(host) {
-            path if path.is_empty() => "the scene".to_owned(),
-            path => path,
-        };
-        let elements = outline.children(Some(host));
-        match (nodes[host].open.map(|open| open.0), &path[taken]) {
-            (None, Step::Key(_)) if value == "None" => {
-                return Ok((nodes[host].value.clone(), format!("({})", inserted()?)));
-            }
-            (None, _) => return Err(format!("{name} is {value}, which has no keys")),
-            (Some('['), Step::Key(_)) => {
-                return Err(format!("{name} is a list: write {name}[0]"));
-            }
-            (Some('['), &Step::Index(index)) if index > elements.len() => {
-                let count = elements.len();
-                return Err(format!("{name} has {count} elements, counted from 0"));
-            }
-            (Some('['), _) | (_, Step::Key(_)) => {}
-            (Some(_), Step::Index(_)) => return Err(format!("{name} is not a list")),
-        }
-        let (at, comma) = match (elements.last(), nodes[host].open) {
-            (Some(&last), _) => (nodes[last].value.end, ", "),
-            (None, open) => (open.map_or(nodes[host].start, |(_, at)| at + 1), ""),
-        };
-        Ok((at..at, format!("{comma}{}", inserted()?)))
+    /// Whether the key is of filament 0, which the text has in a list.
+    fn is_listed(&self, key: &str) -> bool {
+        let resolved = self.parsed.root.resolved(key);
+        resolved.len() > super::tree::steps(key).len()
     }
 }
 
-/// What is written for steps that a text does not have, in the bracket of the last that it has.
-fn entry(path: &[Step], value: &str) -> Result<String, String> {
-    let Some((first, rest)) = path.split_first() else {
-        return Ok(value.to_owned());
+/// The last override that a value or one within it comes from.
+fn last_override(node: &SceneValue) -> Option<usize> {
+    let own = match node.place.source {
+        Source::Override(set) => Some(set),
+        _ => None,
     };
-    let inside = entry(rest, value)?;
-    let inside = match rest.first() {
-        None => inside,
-        Some(Step::Key(_)) => format!("({inside})"),
-        Some(Step::Index(0)) => format!("[{inside}]"),
-        Some(Step::Index(_)) => return Err("a new list begins with [0]".into()),
-    };
-    Ok(match first {
-        Step::Key(key) => format!("{key}: {inside}"),
-        Step::Index(_) => inside,
-    })
+    node.children().iter().map(last_override).fold(own, Option::max)
 }
 
-/// Whether `key` is `above` or lies below it.
-fn is_within(key: &str, above: &str) -> bool {
-    let rest = key.strip_prefix(above);
-    rest.is_some_and(|rest| rest.is_empty() || rest.starts_with(['.', '[']))
+/// Whether a key is missing since its value was refused.
+fn is_consequence(tree: &SceneValue, refusal: &Refusal) -> bool {
+    let Some(missing) = refusal.missing else {
+        return false;
+    };
+    let mut values = tree.at(&refusal.indices()).children().iter();
+    values.any(|value| value.kind == Kind::Refused && value.key() == Some(missing))
 }
 
 #[cfg(test)]

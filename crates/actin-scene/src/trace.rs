@@ -1,52 +1,61 @@
 //! Points of a shape that stand in a file of their own: found beside the scene, and put into its text.
 
-use super::outline::{Outline, line_and_column};
-use super::{SceneError, SceneProblem, SceneText};
+use super::SceneProblem;
+use super::tree::{Kind, SceneValue};
 use std::path::Path;
 
-impl SceneText {
-    /// Puts the points of every `Points(file: ...)` into the text in the place of the file, whose path is
-    /// relative to `folder`: lines stay as they are numbered.
-    ///
-    /// # Errors
-    /// A file that cannot be read, or a row in it that is no point, at the key that names the file.
-    pub fn read_points(&mut self, folder: &Path) -> Result<(), SceneError> {
-        let outline = Outline::of(self.text());
-        let mut parts = Vec::new();
-        for (i, node) in outline.nodes.iter().enumerate() {
-            let path = match node.key.as_deref() {
-                Some("file") => outline.path(i),
-                _ => continue,
-            };
-            let value = &self.text()[node.value.clone()];
-            let file = ron::from_str::<Option<String>>(value);
-            let file = file.or_else(|_| ron::from_str(value).map(Some));
-            // RON refuses what is not a string.
-            let (true, Ok(Some(file))) = (path.ends_with(".shape.file"), file) else {
-                continue;
-            };
-            let refused = |rule: String| {
-                let problem = SceneProblem::new(&path, format!("{file:?}"), rule);
-                self.placed(SceneError::new(
-                    line_and_column(self.text(), node.start),
-                    &problem.to_string(),
-                ))
-            };
-            let points = points(&folder.join(&file)).map_err(refused)?;
-            let written: Vec<String> = points
-                .iter()
-                .map(|[x, y, z]| format!("({x:?}, {y:?}, {z:?})"))
-                .collect();
-            let inserted = format!("nm: [{}]", written.join(", "));
-            parts.push((node.start..node.value.end, inserted));
+/// Takes the points of every `Points(file: ...)` from the file, whose path is relative to `folder`.
+///
+/// # Errors
+/// A file that cannot be read, or a row in it that is no point.
+pub(super) fn read_points(scene: &mut SceneValue, folder: &Path) -> Result<(), SceneProblem> {
+    for value in scene.children_mut() {
+        match value.key() {
+            Some("filament") => of_filament(value, "filament", folder)?,
+            Some("filaments") => {
+                for (i, filament) in value.children_mut().iter_mut().enumerate() {
+                    of_filament(filament, &format!("filaments[{i}]"), folder)?;
+                }
+            }
+            _ => {}
         }
-        self.replace(&parts);
-        Ok(())
     }
+    Ok(())
+}
+
+fn of_filament(filament: &mut SceneValue, key: &str, folder: &Path) -> Result<(), SceneProblem> {
+    let mut keys = filament.children_mut().iter_mut();
+    let Some(shape) = keys.find(|value| value.key() == Some("shape")) else {
+        return Ok(());
+    };
+    let Kind::Group(_, values) = &mut shape.kind else {
+        return Ok(());
+    };
+    // A list without points is one that is left out.
+    values.retain(|value| !(value.key() == Some("nm") && value.kind == Kind::List(Vec::new())));
+    for value in values {
+        let Kind::Text(file) = &value.kind else {
+            continue;
+        };
+        if value.key() != Some("file") {
+            continue;
+        }
+        let points = points(&folder.join(file)).map_err(|rule| {
+            SceneProblem::new(format!("{key}.shape.file"), format!("{file:?}"), rule)
+        })?;
+        let point = |point: [f64; 3]| {
+            let numbers = point.map(|x| SceneValue::from(Kind::Number(x)));
+            SceneValue::from(Kind::Group(None, numbers.into()))
+        };
+        let place = value.place.clone();
+        *value = SceneValue::from(Kind::List(points.into_iter().map(point).collect())).with_key("nm");
+        value.move_to(&place);
+    }
+    Ok(())
 }
 
 /// The points of a file.
-pub(super) fn points(path: &Path) -> Result<Vec<[f64; 3]>, String> {
+fn points(path: &Path) -> Result<Vec<[f64; 3]>, String> {
     let text = std::fs::read_to_string(path).map_err(|error| format!("cannot be read: {error}"))?;
     let rows = text.trim_start_matches('\u{feff}').lines().zip(1..);
     let mut rows = rows.filter(|(line, _)| !line.trim().is_empty()).peekable();
@@ -82,7 +91,7 @@ fn refusal(line: &str, number: usize) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Shape;
+    use crate::{SceneError, SceneText, Shape};
 
     const SCENE: &str = "Scene(
     filament: Filament(

@@ -1,0 +1,582 @@
+//! Types from the tree of values, with the place of what is refused.
+
+use super::meant::{meant, unknown_choice, unknown_key};
+use super::tree::{Kind, SceneValue, Source};
+use serde::de::value::{StrDeserializer, StringDeserializer};
+use serde::de::{
+    self, DeserializeOwned, DeserializeSeed, Deserializer, EnumAccess, IntoDeserializer, MapAccess, SeqAccess,
+    VariantAccess, Visitor,
+};
+use std::borrow::Cow;
+use std::fmt;
+
+/// Name of a newtype of a text that holds a value as it is written.
+pub(super) const AS_WRITTEN: &str = "$written";
+
+/// A value that is refused.
+#[derive(Debug)]
+pub(super) struct Refusal {
+    reason: Reason,
+    /// Place in the text; `None` until the value is known.
+    pub(super) at: Option<usize>,
+    /// Indices of children that lead to the value, from the innermost outwards.
+    steps: Vec<usize>,
+    /// The key or choice that was probably meant.
+    pub(super) meant: Option<String>,
+    /// Whether the text means the same without the value.
+    pub(super) is_needless: bool,
+    /// The key that is missing.
+    pub(super) missing: Option<&'static str>,
+    /// Whether the message is a sentence that names its key.
+    pub(super) is_complete: bool,
+}
+
+#[derive(Debug)]
+enum Reason {
+    UnknownKey(String, &'static [&'static str]),
+    UnknownChoice(String, &'static [&'static str]),
+    Missing(&'static str),
+    Duplicate(&'static str),
+    Message(String),
+}
+
+impl From<Reason> for Refusal {
+    fn from(reason: Reason) -> Self {
+        Self {
+            reason,
+            at: None,
+            steps: Vec::new(),
+            meant: None,
+            is_needless: false,
+            missing: None,
+            is_complete: false,
+        }
+    }
+}
+
+impl Refusal {
+    fn new(at: usize, message: impl Into<String>) -> Self {
+        let unplaced = Self::from(Reason::Message(message.into()));
+        let at = Some(at);
+        Self { at, ..unplaced }
+    }
+
+    /// Indices of children that lead to the value.
+    pub(super) fn indices(&self) -> Vec<usize> {
+        self.steps.iter().rev().copied().collect()
+    }
+
+    /// The same seen from the value that holds `node` as its child `step`.
+    fn under(mut self, step: usize, node: &SceneValue) -> Self {
+        self.steps.push(step);
+        self.at.get_or_insert(node.place.value.start);
+        self
+    }
+
+    /// Says what is wrong with the keys of a structure: at one of its values, or at its end.
+    fn of_keys(self, name: &str, node: &SceneValue, index: usize) -> Self {
+        let child = || node.children()[index].place.start;
+        let (at, message) = match &self.reason {
+            Reason::UnknownKey(found, known) => (child(), unknown_key(found, known, name)),
+            Reason::Duplicate(key) => (child(), format!("key {key} is written twice in {name}")),
+            Reason::Missing(key) => {
+                let place = &node.place;
+                let end = place.close.unwrap_or(place.value.end);
+                (end, format!("missing key {key} in {name}"))
+            }
+            _ => return self,
+        };
+        let meant = match &self.reason {
+            Reason::UnknownKey(found, known) => meant(found, known),
+            _ => None,
+        };
+        let missing = match self.reason {
+            Reason::Missing(key) => Some(key),
+            _ => None,
+        };
+        let refusal = Self {
+            meant,
+            missing,
+            is_needless: missing.is_none(),
+            is_complete: true,
+            ..Self::new(at, message)
+        };
+        if missing.is_some() {
+            refusal
+        } else {
+            refusal.under(index, &node.children()[index])
+        }
+    }
+
+    /// Says that a choice is not known.
+    fn of_choice(self, kind: &str, node: &SceneValue) -> Self {
+        let Reason::UnknownChoice(found, known) = &self.reason else {
+            return self;
+        };
+        Self {
+            meant: meant(found, known),
+            is_complete: true,
+            ..Self::new(node.place.value.start, unknown_choice(found, known, kind))
+        }
+    }
+}
+
+impl fmt::Display for Refusal {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match &self.reason {
+            Reason::Message(message) => f.write_str(message),
+            reason => write!(f, "{reason:?}"),
+        }
+    }
+}
+
+impl std::error::Error for Refusal {}
+
+impl de::Error for Refusal {
+    fn custom<T: fmt::Display>(message: T) -> Self {
+        Reason::Message(message.to_string()).into()
+    }
+
+    fn unknown_field(found: &str, known: &'static [&'static str]) -> Self {
+        Reason::UnknownKey(found.to_owned(), known).into()
+    }
+
+    fn unknown_variant(found: &str, known: &'static [&'static str]) -> Self {
+        Reason::UnknownChoice(found.to_owned(), known).into()
+    }
+
+    fn missing_field(key: &'static str) -> Self {
+        Reason::Missing(key).into()
+    }
+
+    fn duplicate_field(key: &'static str) -> Self {
+        Reason::Duplicate(key).into()
+    }
+}
+
+/// Reads a type from a value of a text.
+pub(super) fn deserialize<T: DeserializeOwned>(node: &SceneValue, text: &str) -> Result<T, Refusal> {
+    T::deserialize(Value::new(node, text))
+}
+
+/// A value that is deserialised, with its text.
+#[derive(Clone, Copy)]
+struct Value<'de> {
+    node: &'de SceneValue,
+    text: &'de str,
+    /// Whether the name before the bracket is that of a choice, which has been read.
+    is_chosen: bool,
+}
+
+impl<'de> Value<'de> {
+    fn new(node: &'de SceneValue, text: &'de str) -> Self {
+        let is_chosen = false;
+        Self {
+            node,
+            text,
+            is_chosen,
+        }
+    }
+
+    fn child(self, index: usize) -> Self {
+        Self::new(&self.node.children()[index], self.text)
+    }
+
+    /// The value as it is written.
+    fn written(&self) -> Cow<'de, str> {
+        match self.node.place.source {
+            Source::Ron | Source::Json => self.text[self.node.place.value.clone()].into(),
+            Source::Memory | Source::Override(_) => self.node.to_string().into(),
+        }
+    }
+
+    fn refused(&self, message: impl Into<String>) -> Refusal {
+        Refusal::new(self.node.place.value.start, message)
+    }
+
+    /// A value of another kind than is expected.
+    fn expected(&self, what: &str, remedy: &str) -> Refusal {
+        if self.node.is_dictionary() {
+            return self.refused(format!("{what} is expected, not {}", self.node));
+        }
+        match self.node.kind {
+            Kind::Text(_) if remedy.is_empty() => {
+                self.refused(format!("{what} is expected, without quotation marks"))
+            }
+            _ => self.refused(format!("{what} is expected{remedy}")),
+        }
+    }
+
+    fn whole<T: TryFrom<i128>>(&self) -> Result<T, Refusal> {
+        let what = "a whole number";
+        match self.node.kind {
+            Kind::Whole(value) => T::try_from(value).map_err(|_| {
+                let refusal = self.expected(what, ", not negative and not beyond 2^64");
+                let at = Some(self.node.place.value.end);
+                Refusal { at, ..refusal }
+            }),
+            Kind::Number(_) => {
+                let refusal = self.expected(what, "");
+                let fraction = match self.node.place.source {
+                    Source::Ron => self.written().find(['.', 'e', 'E']).unwrap_or_default(),
+                    _ => 0,
+                };
+                let at = refusal.at.map(|at| at + fraction);
+                Err(Refusal { at, ..refusal })
+            }
+            _ => Err(self.expected(what, "")),
+        }
+    }
+
+    fn number(&self) -> Result<f64, Refusal> {
+        match self.node.kind {
+            Kind::Whole(value) => Ok(value as f64),
+            Kind::Number(value) => Ok(value),
+            _ => Err(self.expected("a number", "")),
+        }
+    }
+
+    /// A value in place of one in round brackets, named if `name` is not empty.
+    fn unbracketed(&self, name: &str) -> Refusal {
+        let node = self.node;
+        match &node.kind {
+            _ if node.is_dictionary() && name.is_empty() => self.expected("a list", ""),
+            _ if node.is_dictionary() => self.refused(format!("{name} is a dictionary of keys")),
+            Kind::Name(found) if name.is_empty() || found == name => Refusal::new(
+                node.place.value.end,
+                format!(
+                    "{found} is written with round brackets, even if nothing is in them: {found}()"
+                ),
+            ),
+            Kind::Name(found) => self.refused(format!("{name} is expected, not {found}")),
+            Kind::Bool(found) if !name.is_empty() => {
+                self.refused(format!("{name}(...) is expected, not {found}"))
+            }
+            _ => self
+                .refused("a ( is expected: structures and vectors are written in round brackets"),
+        }
+    }
+
+    /// Reads the keys of a structure or choice of this name.
+    fn keys<V: Visitor<'de>>(self, name: &str, visitor: V) -> Result<V::Value, Refusal> {
+        let mut children = Children {
+            value: self,
+            next: 0,
+        };
+        let value = visitor.visit_map(&mut children);
+        value.map_err(|refusal| refusal.of_keys(name, self.node, children.next.max(1) - 1))
+    }
+
+    fn list<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Refusal> {
+        visitor.visit_seq(&mut Children {
+            value: self,
+            next: 0,
+        })
+    }
+
+    /// What stands in the place of a key.
+    fn unkeyed(&self) -> Refusal {
+        let place = &self.node.place;
+        let at = place.value.start;
+        match &self.node.kind {
+            Kind::Name(name) if name.starts_with(|c: char| c.is_lowercase() || c == '_') => {
+                Refusal::new(place.value.end, "a colon is expected between key and value")
+            }
+            Kind::Number(_) | Kind::Whole(_) => self.refused(format!(
+                "a key is expected, not {}; decimals are written with a point",
+                self.written()
+            )),
+            Kind::Text(_) => self.expected("a name", ""),
+            Kind::Unread if self.text[at..].starts_with('#') => {
+                self.refused("a key is expected; comments begin with //")
+            }
+            _ => self.expected("a name", ""),
+        }
+    }
+}
+
+impl<'de> Deserializer<'de> for Value<'de> {
+    type Error = Refusal;
+
+    fn deserialize_any<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Refusal> {
+        let node = self.node;
+        match &node.kind {
+            Kind::None | Kind::Unread | Kind::Refused => visitor.visit_unit(),
+            Kind::Bool(value) => visitor.visit_bool(*value),
+            Kind::Whole(_) => visitor.visit_i64(self.whole()?),
+            Kind::Number(value) => visitor.visit_f64(*value),
+            Kind::Text(text) | Kind::Name(text) => visitor.visit_borrowed_str(text),
+            Kind::List(_) => self.list(visitor),
+            Kind::Group(..) => visitor.visit_enum(Choice { value: self, default: "" }),
+        }
+    }
+
+    fn deserialize_bool<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Refusal> {
+        match self.node.kind {
+            Kind::Bool(value) => visitor.visit_bool(value),
+            _ => Err(self.expected("true or false", "")),
+        }
+    }
+
+    fn deserialize_i64<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Refusal> {
+        visitor.visit_i64(self.whole()?)
+    }
+
+    fn deserialize_u64<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Refusal> {
+        visitor.visit_u64(self.whole()?)
+    }
+
+    fn deserialize_f64<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Refusal> {
+        visitor.visit_f64(self.number()?)
+    }
+
+    fn deserialize_str<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Refusal> {
+        match &self.node.kind {
+            Kind::Text(text) => visitor.visit_borrowed_str(text),
+            _ => Err(self.expected("text", ", in quotation marks")),
+        }
+    }
+
+    fn deserialize_string<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Refusal> {
+        self.deserialize_str(visitor)
+    }
+
+    fn deserialize_option<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Refusal> {
+        match self.node.kind {
+            Kind::None => visitor.visit_none(),
+            _ => visitor.visit_some(self),
+        }
+    }
+
+    fn deserialize_newtype_struct<V: Visitor<'de>>(
+        self,
+        name: &'static str,
+        visitor: V,
+    ) -> Result<V::Value, Refusal> {
+        if name == AS_WRITTEN {
+            let written = self.written().trim().to_owned();
+            let written: StringDeserializer<Refusal> = written.into_deserializer();
+            return visitor.visit_newtype_struct(written);
+        }
+        visitor.visit_newtype_struct(self)
+    }
+
+    fn deserialize_seq<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Refusal> {
+        match self.node.kind {
+            Kind::List(_) => self.list(visitor),
+            _ => Err(self.expected("a list", ", in square brackets")),
+        }
+    }
+
+    fn deserialize_tuple<V: Visitor<'de>>(
+        self,
+        count: usize,
+        visitor: V,
+    ) -> Result<V::Value, Refusal> {
+        let node = self.node;
+        match &node.kind {
+            Kind::List(_) if node.is_dictionary() => {}
+            Kind::Group(None, _) => {}
+            _ => return Err(self.unbracketed("")),
+        }
+        let values = node.children();
+        if values.len() == count {
+            return self.list(visitor);
+        }
+        let checked = (0..values.len()).try_for_each(|i| match values[i].kind {
+            Kind::Unread => Err(self.child(i).expected("a number", "").under(i, &values[i])),
+            _ => Ok(()),
+        });
+        checked?;
+        let place = &node.place;
+        let at = values.get(count).map(|extra| extra.place.start);
+        let at = at.or(place.close).unwrap_or(place.value.start);
+        let found = values.len();
+        let message = format!("{count} numbers are expected, not {found}");
+        Err(Refusal::new(at, message))
+    }
+
+    fn deserialize_struct<V: Visitor<'de>>(
+        self,
+        name: &'static str,
+        _fields: &'static [&'static str],
+        visitor: V,
+    ) -> Result<V::Value, Refusal> {
+        match &self.node.kind {
+            Kind::Group(Some(found), _) if !self.is_chosen && found != name => {
+                Err(self.refused(format!("{name} is expected, not {found}")))
+            }
+            Kind::Group(..) => self.keys(name, visitor),
+            _ => Err(self.unbracketed(name)),
+        }
+    }
+
+    fn deserialize_enum<V: Visitor<'de>>(
+        self,
+        kind: &'static str,
+        choices: &'static [&'static str],
+        visitor: V,
+    ) -> Result<V::Value, Refusal> {
+        let node = self.node;
+        match &node.kind {
+            Kind::Name(_) | Kind::Group(Some(_), _) => {}
+            Kind::Text(_) if node.is_dictionary() => {}
+            Kind::Group(None, _) if choices.contains(&kind) => {}
+            _ if node.is_dictionary() => {
+                let (first, known) = (choices.first().unwrap_or(&""), choices.join(", "));
+                return Err(self.refused(format!(
+                    "{kind} is a name, or a name with its keys as in {{\"{first}\": {{}}}}: known are {known}"
+                )));
+            }
+            _ => return Err(self.expected("a name", "")),
+        }
+        let value = visitor.visit_enum(Choice {
+            value: self,
+            default: kind,
+        });
+        value.map_err(|refusal| refusal.of_choice(kind, node))
+    }
+
+    fn deserialize_ignored_any<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Refusal> {
+        visitor.visit_unit()
+    }
+
+    serde::forward_to_deserialize_any! {
+        i8 i16 i32 i128 u8 u16 u32 u128 f32 char bytes byte_buf unit unit_struct tuple_struct map identifier
+    }
+}
+
+/// The values in a bracket, one after the other.
+struct Children<'de> {
+    value: Value<'de>,
+    next: usize,
+}
+
+impl<'de> Children<'de> {
+    /// The next value that has not been refused.
+    fn next(&mut self) -> Option<Value<'de>> {
+        let all = self.value.node.children();
+        while matches!(all.get(self.next)?.kind, Kind::Refused) {
+            self.next += 1;
+        }
+        self.next += 1;
+        Some(self.value.child(self.next - 1))
+    }
+}
+
+impl<'de> SeqAccess<'de> for &mut Children<'de> {
+    type Error = Refusal;
+
+    fn next_element_seed<T: DeserializeSeed<'de>>(
+        &mut self,
+        seed: T,
+    ) -> Result<Option<T::Value>, Refusal> {
+        let Some(value) = self.next() else {
+            return Ok(None);
+        };
+        let index = self.next - 1;
+        let read = seed.deserialize(value);
+        read.map(Some).map_err(|refusal| refusal.under(index, value.node))
+    }
+}
+
+impl<'de> MapAccess<'de> for &mut Children<'de> {
+    type Error = Refusal;
+
+    fn next_key_seed<K: DeserializeSeed<'de>>(
+        &mut self,
+        seed: K,
+    ) -> Result<Option<K::Value>, Refusal> {
+        let Some(value) = self.next() else {
+            return Ok(None);
+        };
+        let Some(key) = &value.node.key else {
+            return Err(value.unkeyed().under(self.next - 1, value.node));
+        };
+        let key: StrDeserializer<'_, Refusal> = key.as_str().into_deserializer();
+        seed.deserialize(key).map(Some)
+    }
+
+    fn next_value_seed<T: DeserializeSeed<'de>>(&mut self, seed: T) -> Result<T::Value, Refusal> {
+        let index = self.next - 1;
+        let value = self.value.child(index);
+        let read = seed.deserialize(value);
+        read.map_err(|refusal| refusal.under(index, value.node))
+    }
+}
+
+/// A choice by its name.
+struct Choice<'de> {
+    value: Value<'de>,
+    /// The name of a group that has none.
+    default: &'static str,
+}
+
+impl<'de> Choice<'de> {
+    fn name(&self) -> &'de str {
+        match &self.value.node.kind {
+            Kind::Name(name) | Kind::Text(name) | Kind::Group(Some(name), _) => name,
+            _ => self.default,
+        }
+    }
+
+    /// The keys of the choice.
+    fn inner(&self) -> Result<Value<'de>, Refusal> {
+        let (value, name) = (self.value, self.name());
+        match value.node.kind {
+            Kind::Group(..) => Ok(Value {
+                is_chosen: true,
+                ..value
+            }),
+            _ if value.node.is_dictionary() => Err(value.refused(format!(
+                "{name} has keys: write {{\"{name}\": {{}}}} with them"
+            ))),
+            _ => Err(value.unbracketed(name)),
+        }
+    }
+}
+
+impl<'de> EnumAccess<'de> for Choice<'de> {
+    type Error = Refusal;
+    type Variant = Self;
+
+    fn variant_seed<V: DeserializeSeed<'de>>(self, seed: V) -> Result<(V::Value, Self), Refusal> {
+        let name: StrDeserializer<'_, Refusal> = self.name().into_deserializer();
+        Ok((seed.deserialize(name)?, self))
+    }
+}
+
+impl<'de> VariantAccess<'de> for Choice<'de> {
+    type Error = Refusal;
+
+    fn unit_variant(self) -> Result<(), Refusal> {
+        let (node, name) = (self.value.node, self.name());
+        match node.kind {
+            Kind::Group(..) if node.is_dictionary() => Err(self
+                .value
+                .refused(format!("{name} has no keys: write \"{name}\""))),
+            Kind::Group(..) => {
+                let at = node.place.open.unwrap_or(node.place.value.start);
+                let message = "a choice without keys is written without brackets";
+                Err(Refusal::new(at, message))
+            }
+            _ => Ok(()),
+        }
+    }
+
+    fn newtype_variant_seed<T: DeserializeSeed<'de>>(self, seed: T) -> Result<T::Value, Refusal> {
+        seed.deserialize(self.inner()?)
+    }
+
+    fn tuple_variant<V: Visitor<'de>>(self, _: usize, visitor: V) -> Result<V::Value, Refusal> {
+        self.inner()?.list(visitor)
+    }
+
+    fn struct_variant<V: Visitor<'de>>(
+        self,
+        _fields: &'static [&'static str],
+        visitor: V,
+    ) -> Result<V::Value, Refusal> {
+        self.inner()?.keys(self.name(), visitor)
+    }
+}

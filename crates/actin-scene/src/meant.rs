@@ -1,0 +1,64 @@
+//! Keys and choices that were probably meant in place of unknown ones.
+
+/// Suffixes that keys carry for their units; a suffix stands before those that it ends with.
+const UNIT_SUFFIXES: [&str; 10] = [
+    "_mpa_s", "_ms", "_per_ns", "_per_nm", "_nm", "_nm2", "_pn", "_ns", "_deg", "_ag",
+];
+
+/// Longest word that is compared with those that are known.
+const LONGEST_KEY: usize = 100;
+
+/// Says that a key of a structure is not known.
+pub(super) fn unknown_key(found: &str, known: &[&'static str], structure: &str) -> String {
+    let hint = unit_hint(known, found);
+    let hint = hint.unwrap_or_else(|| format!("known are {}", known.join(", ")));
+    format!("unknown key {found} in {structure}: {hint}")
+}
+
+/// Says that a choice is not known.
+pub(super) fn unknown_choice(found: &str, known: &[&'static str], kind: &str) -> String {
+    format!("unknown {kind} {found}: known are {}", known.join(", "))
+}
+
+/// The key or choice that is close to one which is not known.
+pub(super) fn meant(found: &str, known: &[&'static str]) -> Option<String> {
+    if found.len() > LONGEST_KEY {
+        return None;
+    }
+    if let Some(key) = key_of_unit(known, found) {
+        return Some(key.to_owned());
+    }
+    // One slip for every three letters.
+    let most = (found.chars().count() / 3).max(1);
+    let near = known.iter().map(|&key| {
+        let distance = strsim::damerau_levenshtein(&key.to_lowercase(), &found.to_lowercase());
+        (distance, key)
+    });
+    let (distance, key) = near.min_by_key(|(distance, _)| *distance)?;
+    (distance <= most).then(|| key.to_owned())
+}
+
+/// The remedy if `found` is a known key with another unit or none.
+fn unit_hint(known: &[&'static str], found: &str) -> Option<String> {
+    let key = key_of_unit(known, found);
+    key.map(|key| format!("the unit is part of the key, write {key}"))
+}
+
+/// The key that is `found` with another unit or none.
+fn key_of_unit(known: &[&'static str], found: &str) -> Option<&'static str> {
+    let is_meant = |key: &&&str| {
+        let stem = stem(key);
+        let rest = found.strip_prefix(stem);
+        stem != **key && rest.is_some_and(|rest| rest.is_empty() || rest.starts_with('_'))
+    };
+    let meant = known.iter().filter(is_meant);
+    meant.max_by_key(|key| key.len()).copied()
+}
+
+/// A key without its unit.
+fn stem(key: &str) -> &str {
+    let shorter = UNIT_SUFFIXES
+        .iter()
+        .find_map(|suffix| key.strip_suffix(suffix));
+    shorter.map_or(key, stem)
+}

@@ -1,0 +1,492 @@
+//! The reader of RON and JSON: text becomes a tree of values with places. It reads on after a mistake, so that all that
+//! follows is found too.
+
+use super::position::without_mark;
+use super::tree::{Kind, Place, SceneValue, Source};
+
+/// Most brackets within each other.
+pub(super) const MOST_DEPTH: usize = 128;
+
+/// A text that is read.
+#[derive(Clone, Debug)]
+pub(super) struct Parsed {
+    /// The first value.
+    pub(super) root: SceneValue,
+    /// Mistakes in what is between values, with their places.
+    pub(super) mistakes: Vec<(usize, String)>,
+    pub(super) brackets: Brackets,
+}
+
+/// Mistakes in brackets.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Brackets {
+    /// The first closing bracket that closes nothing, or another bracket than the last that is open; with the place of that.
+    pub(super) misfit: Option<(usize, Option<usize>)>,
+    /// The first bracket beyond [`MOST_DEPTH`], where reading stopped.
+    pub(super) too_deep: Option<usize>,
+    /// Whether a bracket is not closed.
+    pub(super) is_unclosed: bool,
+    /// Whether a list has a key.
+    pub(super) has_listed_key: bool,
+}
+
+impl Brackets {
+    /// Whether a bracket is missing, or seems to be.
+    pub(super) fn are_mistaken(self) -> bool {
+        let is_odd = self.is_unclosed || self.has_listed_key;
+        is_odd || self.misfit.is_some() || self.too_deep.is_some()
+    }
+}
+
+/// Reads the text of a file of this kind, such as `scene`.
+pub(super) fn parse(text: &str, file: &str) -> Parsed {
+    let text = without_mark(text);
+    let mut parser = Parser {
+        text,
+        at: 0,
+        source: Source::Ron,
+        opens: Vec::new(),
+        mistakes: Vec::new(),
+        brackets: Brackets::default(),
+    };
+    parser.skip_attributes();
+    if parser.rest().starts_with('{') {
+        parser.source = Source::Json;
+    }
+    let root = parser.element();
+    parser.skip_blank();
+    if !parser.rest().is_empty() {
+        let message = format!("unexpected text after the {file}");
+        parser.mistakes.push((parser.at, message));
+        while let Some(c) = parser.rest().chars().next() {
+            let before = parser.at;
+            parser.element();
+            if parser.at == before {
+                parser.at += c.len_utf8();
+            }
+            parser.skip_blank();
+        }
+    }
+    Parsed {
+        root,
+        mistakes: parser.mistakes,
+        brackets: parser.brackets,
+    }
+}
+
+struct Parser<'a> {
+    text: &'a str,
+    at: usize,
+    source: Source,
+    /// Open brackets with their places.
+    opens: Vec<(char, usize)>,
+    mistakes: Vec<(usize, String)>,
+    brackets: Brackets,
+}
+
+fn is_part(c: char) -> bool {
+    c.is_alphanumeric() || c == '_'
+}
+
+/// The word at the beginning of a text.
+pub(super) fn word(text: &str) -> &str {
+    &text[..text.find(|c| !is_part(c)).unwrap_or(text.len())]
+}
+
+/// Whether a key with its colon comes first.
+fn begins_with_key(rest: &str) -> bool {
+    let word = word(rest);
+    let is_word = word.starts_with(|c: char| c.is_alphabetic() || c == '_');
+    is_word && rest[word.len()..].trim_start().starts_with(':')
+}
+
+impl<'a> Parser<'a> {
+    fn rest(&self) -> &'a str {
+        &self.text[self.at..]
+    }
+
+    fn skip_blank(&mut self) {
+        loop {
+            let rest = self.rest();
+            let blank = rest.len() - rest.trim_start().len();
+            if blank > 0 {
+                self.at += blank;
+            } else if rest.starts_with("//") {
+                self.skip_to("\n");
+            } else if rest.starts_with("/*") {
+                self.skip_block_comment();
+            } else {
+                return;
+            }
+        }
+    }
+
+    /// Skips the next `mark` and everything before it.
+    fn skip_to(&mut self, mark: &str) {
+        let found = self.rest().find(mark);
+        self.at = found.map_or(self.text.len(), |found| self.at + found + mark.len());
+    }
+
+    fn skip_block_comment(&mut self) {
+        let mut depth = 0;
+        loop {
+            let (step, length) = match self.rest().as_bytes() {
+                [b'/', b'*', ..] => (1, 2),
+                [b'*', b'/', ..] => (-1, 2),
+                _ => (0, self.rest().chars().next().map_or(0, char::len_utf8)),
+            };
+            depth += step;
+            self.at += length;
+            if depth == 0 || length == 0 {
+                return;
+            }
+        }
+    }
+
+    fn skip_attributes(&mut self) {
+        self.skip_blank();
+        while self.rest().starts_with("#![") {
+            self.skip_to("]");
+            self.skip_blank();
+        }
+    }
+
+    /// Reads a value with its key, to the comma or bracket that ends it.
+    fn element(&mut self) -> SceneValue {
+        self.skip_blank();
+        let start = self.at;
+        let key = self.key();
+        self.skip_blank();
+        let mut value = self.value();
+        (value.key, value.place.start) = (key, start);
+        let end = self.at;
+        self.skip_blank();
+        let mut is_mistaken = self.opens.is_empty();
+        while !self.rest().is_empty() && !self.rest().starts_with([',', ')', ']', '}']) {
+            if !is_mistaken {
+                is_mistaken = true;
+                let mistake = self.unseparated(&value, end);
+                self.mistakes.push(mistake);
+            } else if self.opens.is_empty() {
+                break;
+            }
+            if begins_with_key(self.rest()) {
+                break;
+            }
+            self.value();
+            self.skip_blank();
+        }
+        value.place.until = self.at;
+        value
+    }
+
+    /// A word that a colon follows; in JSON a text.
+    fn key(&mut self) -> Option<String> {
+        if self.opens.is_empty() {
+            return None;
+        }
+        if begins_with_key(self.rest()) {
+            let key = word(self.rest()).to_owned();
+            self.at += key.len();
+            self.skip_to(":");
+            return Some(key);
+        }
+        if self.source != Source::Json || !self.rest().starts_with('"') {
+            return None;
+        }
+        let start = self.at;
+        let text = self.string();
+        self.skip_blank();
+        match text {
+            Kind::Text(key) if self.rest().starts_with(':') => {
+                self.at += 1;
+                Some(key)
+            }
+            _ => {
+                self.at = start;
+                None
+            }
+        }
+    }
+
+    /// What is wrong where a value ends at `end` and something else than a comma or bracket comes.
+    fn unseparated(&self, value: &SceneValue, end: usize) -> (usize, String) {
+        let rest = self.rest();
+        let is_key = value.key.is_none() && self.opens.last().is_some_and(|open| open.0 != '[');
+        let name = match &value.kind {
+            Kind::Name(name) if name.starts_with(|c: char| c.is_lowercase() || c == '_') => {
+                Some(name)
+            }
+            _ => None,
+        };
+        if let (true, Some(_)) = (is_key, name) {
+            return match rest.strip_prefix('=') {
+                Some(_) => (self.at, "a colon is expected in place of =".to_owned()),
+                None => (end, "a colon is expected between key and value".to_owned()),
+            };
+        }
+        (self.at, before_comma(rest))
+    }
+
+    fn value(&mut self) -> SceneValue {
+        let start = self.at;
+        let mut place = Place {
+            source: self.source,
+            start,
+            ..Place::default()
+        };
+        let rest = self.rest();
+        let number = number(rest);
+        let mut kind = match rest.chars().next() {
+            None | Some(',' | ')' | ']' | '}') => Kind::Unread,
+            Some('"') => self.string(),
+            Some('r') if rest[1..].trim_start_matches('#').starts_with('"') => self.raw_string(),
+            Some('(' | '[' | '{') => self.group(None, &mut place),
+            Some('#') => {
+                self.skip_to("\n");
+                Kind::Unread
+            }
+            Some(_) if number > 0 => {
+                let text = rest[..number].to_owned();
+                self.at += number;
+                of_number(&text)
+            }
+            Some(c) if is_part(c) => self.named(&mut place),
+            Some(c) => {
+                self.at += c.len_utf8();
+                Kind::Unread
+            }
+        };
+        if self.source == Source::Json {
+            kind = kind.choice();
+        }
+        place.value = start..self.at;
+        let key = None;
+        SceneValue { key, kind, place }
+    }
+
+    /// A name, alone or before a bracket.
+    fn named(&mut self, place: &mut Place) -> Kind {
+        let name = word(self.rest()).to_owned();
+        self.at += name.len();
+        let end = self.at;
+        self.skip_blank();
+        if self.rest().starts_with('(') {
+            return match self.group(Some(name), place) {
+                Kind::Group(Some(name), mut values)
+                    if name == "Some" && values.len() == 1 && values[0].key.is_none() =>
+                {
+                    let inner = values.remove(0);
+                    (place.open, place.close) = (inner.place.open, inner.place.close);
+                    inner.kind
+                }
+                group => group,
+            };
+        }
+        self.at = end;
+        match name.as_str() {
+            "true" => Kind::Bool(true),
+            "false" => Kind::Bool(false),
+            "None" => Kind::None,
+            "null" if self.source == Source::Json => Kind::None,
+            _ => Kind::Name(name),
+        }
+    }
+
+    fn group(&mut self, name: Option<String>, place: &mut Place) -> Kind {
+        let open = self.at;
+        if self.opens.len() == MOST_DEPTH {
+            self.brackets.too_deep = Some(open);
+            self.at = self.text.len();
+            return Kind::Unread;
+        }
+        let bracket = self.text.as_bytes()[open] as char;
+        self.at += 1;
+        self.opens.push((bracket, open));
+        let values = self.elements(place);
+        place.open = Some(open);
+        if bracket != '[' {
+            return Kind::Group(name, values);
+        }
+        self.brackets.has_listed_key |= values.iter().any(|value| value.key.is_some());
+        Kind::List(values)
+    }
+
+    /// The values up to a closing bracket, which is not taken if it belongs to an outer one.
+    fn elements(&mut self, place: &mut Place) -> Vec<SceneValue> {
+        let depth = self.opens.len();
+        let (mut values, mut is_separated) = (Vec::new(), true);
+        loop {
+            self.skip_blank();
+            match self.rest().chars().next() {
+                None => {
+                    self.opens.truncate(depth - 1);
+                    self.brackets.is_unclosed = true;
+                    return values;
+                }
+                Some(c @ (')' | ']' | '}')) => {
+                    let at = self.at;
+                    if self.close(c) {
+                        place.close = Some(at);
+                    }
+                    return values;
+                }
+                Some(',') if !is_separated => {
+                    self.at += 1;
+                    is_separated = true;
+                }
+                Some(c) => {
+                    values.push(self.element());
+                    is_separated = c == ',';
+                    if is_separated {
+                        self.at += 1;
+                    }
+                }
+            }
+        }
+    }
+
+    /// Closes the innermost bracket, and takes the closing one unless it is that of an outer one.
+    fn close(&mut self, closing: char) -> bool {
+        let opening = match closing {
+            ')' => '(',
+            ']' => '[',
+            _ => '{',
+        };
+        let meant = self.opens.iter().rposition(|open| open.0 == opening);
+        let last = self.opens.pop();
+        let is_last = meant == Some(self.opens.len());
+        if !is_last {
+            let misfit = (self.at, last.map(|open| open.1));
+            self.brackets.misfit.get_or_insert(misfit);
+        }
+        let is_closed = is_last || meant.is_none();
+        if is_closed {
+            self.at += 1;
+        } else {
+            self.brackets.is_unclosed = true;
+        }
+        is_closed
+    }
+
+    fn string(&mut self) -> Kind {
+        let mut text = String::new();
+        let mut characters = self.rest().char_indices().skip(1);
+        let (mut end, mut is_text) = (None, true);
+        while let Some((at, c)) = characters.next() {
+            match c {
+                '"' => {
+                    end = Some(at + 1);
+                    break;
+                }
+                '\\' => {
+                    let escaped = characters.next().map(|(_, c)| c);
+                    let c = escaped.and_then(|c| unescaped(c, &mut characters));
+                    is_text &= c.is_some();
+                    text.extend(c);
+                }
+                c => text.push(c),
+            }
+        }
+        self.at += end.unwrap_or(self.rest().len());
+        if is_text && end.is_some() {
+            Kind::Text(text)
+        } else {
+            Kind::Unread
+        }
+    }
+
+    fn raw_string(&mut self) -> Kind {
+        let marks = self.rest()[1..].find('"').unwrap_or_default();
+        let end = format!("\"{}", "#".repeat(marks));
+        let start = self.at + 2 + marks;
+        self.at = start;
+        self.skip_to(&end);
+        let text = self.text[start..self.at].strip_suffix(&end);
+        text.map_or(Kind::Unread, |text| Kind::Text(text.to_owned()))
+    }
+}
+
+/// The character of an escape.
+fn unescaped(c: char, rest: &mut impl Iterator<Item = (usize, char)>) -> Option<char> {
+    let mut rest = rest.map(|(_, c)| c);
+    let digits: String = match c {
+        'n' => return Some('\n'),
+        'r' => return Some('\r'),
+        't' => return Some('\t'),
+        '0' => return Some('\0'),
+        'b' => return Some('\u{8}'),
+        'f' => return Some('\u{c}'),
+        '"' | '\'' | '\\' | '/' => return Some(c),
+        'x' => rest.take(2).collect(),
+        'u' => match rest.next()? {
+            '{' => rest.take_while(|c| *c != '}').collect(),
+            first => std::iter::once(first).chain(rest.take(3)).collect(),
+        },
+        _ => return None,
+    };
+    char::from_u32(u32::from_str_radix(&digits, 16).ok()?)
+}
+
+/// Length of the number at the beginning of a text.
+fn number(text: &str) -> usize {
+    let digits = |from: usize| {
+        let rest = &text[from..];
+        let end = rest.find(|c: char| !c.is_ascii_digit() && c != '_');
+        end.unwrap_or(rest.len())
+    };
+    let sign = usize::from(text.starts_with(['+', '-']));
+    let rest = &text[sign..];
+    if matches!(word(rest), "inf" | "NaN") {
+        return sign + 3;
+    }
+    if rest.starts_with(['.', '0', '1', '2', '3', '4', '5', '6', '7', '8', '9']) {
+        if rest.starts_with("0x") || rest.starts_with("0b") || rest.starts_with("0o") {
+            return sign + word(rest).len();
+        }
+        let mut end = sign + digits(sign);
+        if text[end..].starts_with('.') {
+            end += 1 + digits(end + 1);
+        }
+        if text[end..].starts_with(['e', 'E']) {
+            let signed = usize::from(text[end + 1..].starts_with(['+', '-']));
+            let exponent = digits(end + 1 + signed);
+            if exponent > 0 {
+                end += 1 + signed + exponent;
+            }
+        }
+        return end;
+    }
+    0
+}
+
+fn of_number(text: &str) -> Kind {
+    let text = text.replace('_', "");
+    let (sign, digits) = match text.strip_prefix('-') {
+        Some(digits) => (-1, digits),
+        None => (1, text.trim_start_matches('+')),
+    };
+    let whole = match digits.get(..2) {
+        Some("0x") => i128::from_str_radix(&digits[2..], 16),
+        Some("0o") => i128::from_str_radix(&digits[2..], 8),
+        Some("0b") => i128::from_str_radix(&digits[2..], 2),
+        _ => digits.parse(),
+    };
+    match (whole, text.parse()) {
+        (Ok(whole), _) => Kind::Whole(sign * whole),
+        (_, Ok(number)) => Kind::Number(number),
+        _ => Kind::Unread,
+    }
+}
+
+/// What stands where a value has ended and a comma is expected.
+fn before_comma(rest: &str) -> String {
+    let word: String = rest.chars().take_while(char::is_ascii_alphabetic).collect();
+    if rest.starts_with("()") {
+        "a choice without keys is written without brackets".to_owned()
+    } else if !word.is_empty() && !begins_with_key(rest) && !rest[word.len()..].starts_with('(') {
+        format!("a comma is expected, not {word}; units are part of keys")
+    } else {
+        "a comma is missing before this".to_owned()
+    }
+}

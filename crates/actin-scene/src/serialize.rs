@@ -1,0 +1,312 @@
+//! The tree of values from types.
+
+use super::tree::{Kind, SceneValue};
+use serde::Serialize;
+use serde::ser::{
+    Error as _, Impossible, SerializeSeq, SerializeStruct, SerializeStructVariant, SerializeTuple,
+    Serializer,
+};
+use std::fmt;
+
+/// A type of scenes as a value, with the names of structures or without. Without them, an optional key that is not set is left
+/// out.
+///
+/// # Panics
+/// On bytes, maps and tuples with names, which no scene holds.
+pub(super) fn to_value<T: Serialize + ?Sized>(value: &T, has_names: bool) -> SceneValue {
+    let value = value.serialize(Writer { has_names });
+    value.expect("scenes hold numbers, names, lists and structures only")
+}
+
+/// A type that no scene holds.
+#[derive(Debug)]
+pub(super) struct Unwritable(String);
+
+impl fmt::Display for Unwritable {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.0)
+    }
+}
+
+impl std::error::Error for Unwritable {}
+
+impl serde::ser::Error for Unwritable {
+    fn custom<T: fmt::Display>(message: T) -> Self {
+        Self(message.to_string())
+    }
+}
+
+type Written = Result<SceneValue, Unwritable>;
+
+fn unwritable<T>(what: &str) -> Result<T, Unwritable> {
+    Err(Unwritable::custom(format!("no scene holds {what}")))
+}
+
+fn written(kind: Kind) -> Written {
+    Ok(kind.into())
+}
+
+#[derive(Clone, Copy)]
+struct Writer {
+    has_names: bool,
+}
+
+/// The values of a bracket.
+struct Values {
+    writer: Writer,
+    /// The name before the bracket.
+    name: Option<&'static str>,
+    values: Vec<SceneValue>,
+}
+
+impl Writer {
+    fn values(self, name: Option<&'static str>) -> Values {
+        let (writer, values) = (self, Vec::new());
+        Values {
+            writer,
+            name,
+            values,
+        }
+    }
+}
+
+impl Values {
+    fn push<T: ?Sized + Serialize>(
+        &mut self,
+        key: Option<&str>,
+        value: &T,
+    ) -> Result<(), Unwritable> {
+        let value = value.serialize(self.writer)?;
+        if self.writer.has_names || key.is_none() || value.kind != Kind::None {
+            let key = key.map(str::to_owned);
+            self.values.push(SceneValue { key, ..value });
+        }
+        Ok(())
+    }
+
+    fn group(self) -> Written {
+        written(Kind::Group(self.name.map(str::to_owned), self.values))
+    }
+}
+
+impl Serializer for Writer {
+    type Ok = SceneValue;
+    type Error = Unwritable;
+    type SerializeSeq = Values;
+    type SerializeTuple = Values;
+    type SerializeTupleStruct = Impossible<SceneValue, Unwritable>;
+    type SerializeTupleVariant = Impossible<SceneValue, Unwritable>;
+    type SerializeMap = Impossible<SceneValue, Unwritable>;
+    type SerializeStruct = Values;
+    type SerializeStructVariant = Values;
+
+    fn serialize_bool(self, value: bool) -> Written {
+        written(Kind::Bool(value))
+    }
+
+    fn serialize_i8(self, value: i8) -> Written {
+        self.serialize_i128(value.into())
+    }
+
+    fn serialize_i16(self, value: i16) -> Written {
+        self.serialize_i128(value.into())
+    }
+
+    fn serialize_i32(self, value: i32) -> Written {
+        self.serialize_i128(value.into())
+    }
+
+    fn serialize_i64(self, value: i64) -> Written {
+        self.serialize_i128(value.into())
+    }
+
+    fn serialize_i128(self, value: i128) -> Written {
+        written(Kind::Whole(value))
+    }
+
+    fn serialize_u8(self, value: u8) -> Written {
+        self.serialize_i128(value.into())
+    }
+
+    fn serialize_u16(self, value: u16) -> Written {
+        self.serialize_i128(value.into())
+    }
+
+    fn serialize_u32(self, value: u32) -> Written {
+        self.serialize_i128(value.into())
+    }
+
+    fn serialize_u64(self, value: u64) -> Written {
+        self.serialize_i128(value.into())
+    }
+
+    fn serialize_f32(self, value: f32) -> Written {
+        self.serialize_f64(value.into())
+    }
+
+    fn serialize_f64(self, value: f64) -> Written {
+        written(Kind::Number(value))
+    }
+
+    fn serialize_char(self, value: char) -> Written {
+        written(Kind::Text(value.into()))
+    }
+
+    fn serialize_str(self, value: &str) -> Written {
+        written(Kind::Text(value.to_owned()))
+    }
+
+    fn serialize_bytes(self, _: &[u8]) -> Written {
+        unwritable("bytes")
+    }
+
+    fn serialize_none(self) -> Written {
+        written(Kind::None)
+    }
+
+    fn serialize_some<T: ?Sized + Serialize>(self, value: &T) -> Written {
+        value.serialize(self)
+    }
+
+    fn serialize_unit(self) -> Written {
+        written(Kind::None)
+    }
+
+    fn serialize_unit_struct(self, name: &'static str) -> Written {
+        self.values(Some(name).filter(|_| self.has_names)).group()
+    }
+
+    fn serialize_unit_variant(self, _: &'static str, _: u32, variant: &'static str) -> Written {
+        written(Kind::Name(variant.to_owned()))
+    }
+
+    fn serialize_newtype_struct<T: ?Sized + Serialize>(
+        self,
+        name: &'static str,
+        value: &T,
+    ) -> Written {
+        let value = value.serialize(self)?;
+        match value.kind {
+            Kind::Text(text) if name == super::deserialize::AS_WRITTEN => written(Kind::Name(text)),
+            kind => written(kind),
+        }
+    }
+
+    fn serialize_newtype_variant<T: ?Sized + Serialize>(
+        self,
+        _: &'static str,
+        _: u32,
+        variant: &'static str,
+        value: &T,
+    ) -> Written {
+        let SceneValue { kind, .. } = value.serialize(self)?;
+        match kind {
+            Kind::Group(_, values) => written(Kind::Group(Some(variant.to_owned()), values)),
+            _ => unwritable(variant),
+        }
+    }
+
+    fn serialize_seq(self, _: Option<usize>) -> Result<Values, Unwritable> {
+        Ok(self.values(None))
+    }
+
+    fn serialize_tuple(self, _: usize) -> Result<Values, Unwritable> {
+        Ok(self.values(None))
+    }
+
+    fn serialize_tuple_struct(
+        self,
+        name: &'static str,
+        _: usize,
+    ) -> Result<Self::SerializeTupleStruct, Unwritable> {
+        unwritable(name)
+    }
+
+    fn serialize_tuple_variant(
+        self,
+        _: &'static str,
+        _: u32,
+        variant: &'static str,
+        _: usize,
+    ) -> Result<Self::SerializeTupleVariant, Unwritable> {
+        unwritable(variant)
+    }
+
+    fn serialize_map(self, _: Option<usize>) -> Result<Self::SerializeMap, Unwritable> {
+        unwritable("maps")
+    }
+
+    fn serialize_struct(self, name: &'static str, _: usize) -> Result<Values, Unwritable> {
+        Ok(self.values(Some(name).filter(|_| self.has_names)))
+    }
+
+    fn serialize_struct_variant(
+        self,
+        _: &'static str,
+        _: u32,
+        variant: &'static str,
+        _: usize,
+    ) -> Result<Values, Unwritable> {
+        Ok(self.values(Some(variant)))
+    }
+}
+
+impl SerializeSeq for Values {
+    type Ok = SceneValue;
+    type Error = Unwritable;
+
+    fn serialize_element<T: ?Sized + Serialize>(&mut self, value: &T) -> Result<(), Unwritable> {
+        self.push(None, value)
+    }
+
+    fn end(self) -> Written {
+        written(Kind::List(self.values))
+    }
+}
+
+impl SerializeTuple for Values {
+    type Ok = SceneValue;
+    type Error = Unwritable;
+
+    fn serialize_element<T: ?Sized + Serialize>(&mut self, value: &T) -> Result<(), Unwritable> {
+        self.push(None, value)
+    }
+
+    fn end(self) -> Written {
+        self.group()
+    }
+}
+
+impl SerializeStruct for Values {
+    type Ok = SceneValue;
+    type Error = Unwritable;
+
+    fn serialize_field<T: ?Sized + Serialize>(
+        &mut self,
+        key: &'static str,
+        value: &T,
+    ) -> Result<(), Unwritable> {
+        self.push(Some(key), value)
+    }
+
+    fn end(self) -> Written {
+        self.group()
+    }
+}
+
+impl SerializeStructVariant for Values {
+    type Ok = SceneValue;
+    type Error = Unwritable;
+
+    fn serialize_field<T: ?Sized + Serialize>(
+        &mut self,
+        key: &'static str,
+        value: &T,
+    ) -> Result<(), Unwritable> {
+        self.push(Some(key), value)
+    }
+
+    fn end(self) -> Written {
+        self.group()
+    }
+}

@@ -1,0 +1,357 @@
+//! The tree of values that texts and dictionaries are read into, with the place of each value.
+
+use super::SceneProblem;
+use std::fmt;
+use std::ops::Range;
+
+/// A scene, or a part of one, as a tree of values.
+///
+/// | RON | dictionaries | kind |
+/// |---|---|---|
+/// | `(from_nm: 0.0)`, `Filament(..)` | keys with values | `Group` |
+/// | `Ellipsoids(from_nm: 0.0)`, a choice with keys | one key, the name | `Group` with this name |
+/// | `Start`, a choice without keys | a string | `Name` or `Text` |
+/// | `[1.0, 2.0]` | a list | `List` |
+/// | `(1.0, 2.0, 3.0)` | a list | `Group` without keys, `List` |
+#[derive(Clone, Debug)]
+pub struct SceneValue {
+    pub(crate) key: Option<String>,
+    pub(crate) kind: Kind,
+    pub(crate) place: Place,
+}
+
+/// What a value is.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Kind {
+    /// Nothing: an optional key that is not set.
+    None,
+    /// A truth value.
+    Bool(bool),
+    /// A whole number.
+    Whole(i128),
+    /// A number.
+    Number(f64),
+    /// A text.
+    Text(String),
+    /// A word without quotation marks: a choice without keys.
+    Name(String),
+    /// Values in square brackets.
+    List(Vec<SceneValue>),
+    /// Values with keys, or a vector, after the name of a structure or choice.
+    Group(Option<String>, Vec<SceneValue>),
+    /// Text that is no value.
+    Unread,
+    /// A value that has been refused.
+    Refused,
+}
+
+/// Origin of a value. Values in memory and in JSON write choices as strings and vectors as lists.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) enum Source {
+    #[default]
+    Memory,
+    Json,
+    Ron,
+    /// An override, by its index.
+    Override(usize),
+}
+
+/// Place of a value in its text, in bytes.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Place {
+    pub(crate) source: Source,
+    /// Start of the key, or of an element without one.
+    pub(crate) start: usize,
+    /// The value, with the name before its bracket.
+    pub(crate) value: Range<usize>,
+    /// The comma or bracket that ends it, or the end of the text.
+    pub(crate) until: usize,
+    /// Its opening and closing brackets.
+    pub(crate) open: Option<usize>,
+    pub(crate) close: Option<usize>,
+}
+
+/// One step of a path: a key of a structure or an index of a list.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) enum Step {
+    Key(String),
+    Index(usize),
+}
+
+/// Parses a path such as `filament.sections[1].to_nm`.
+pub(crate) fn steps(path: &str) -> Vec<Step> {
+    path.split(['.', '['])
+        .map(|step| match step.strip_suffix(']') {
+            Some(index) => index.parse().map_or(Step::Key(index.into()), Step::Index),
+            None => Step::Key(step.into()),
+        })
+        .collect()
+}
+
+/// Equal values, wherever they are written.
+impl PartialEq for SceneValue {
+    fn eq(&self, other: &Self) -> bool {
+        self.key == other.key && self.kind == other.kind
+    }
+}
+
+impl From<Kind> for SceneValue {
+    fn from(kind: Kind) -> Self {
+        let place = Place::default();
+        let key = None;
+        Self { key, kind, place }
+    }
+}
+
+impl SceneValue {
+    /// A dictionary. One key that begins with a capital letter is the name of a choice.
+    pub fn keys(entries: Vec<(String, Self)>) -> Self {
+        let named = entries.into_iter().map(|(key, value)| value.with_key(key));
+        Kind::Group(None, named.collect()).choice().into()
+    }
+
+    pub(crate) fn with_key(self, key: impl Into<String>) -> Self {
+        let key = Some(key.into());
+        Self { key, ..self }
+    }
+
+    /// The kind of value.
+    pub fn kind(&self) -> &Kind {
+        &self.kind
+    }
+
+    /// The key of the value in its dictionary.
+    pub fn key(&self) -> Option<&str> {
+        self.key.as_deref()
+    }
+
+    /// The values in its bracket.
+    pub fn children(&self) -> &[Self] {
+        match &self.kind {
+            Kind::List(values) | Kind::Group(_, values) => values,
+            _ => &[],
+        }
+    }
+
+    pub(crate) fn children_mut(&mut self) -> &mut [Self] {
+        match &mut self.kind {
+            Kind::List(values) | Kind::Group(_, values) => values,
+            _ => &mut [],
+        }
+    }
+
+    pub(crate) fn is_list(&self) -> bool {
+        matches!(self.kind, Kind::List(_))
+    }
+
+    /// Whether choices are strings and vectors lists.
+    pub(crate) fn is_dictionary(&self) -> bool {
+        matches!(self.place.source, Source::Memory | Source::Json)
+    }
+
+    /// The index of the child that a step leads to.
+    fn child(&self, step: &Step) -> Option<usize> {
+        let mut children = self.children().iter().enumerate();
+        let found = children.find(|(i, child)| match step {
+            Step::Key(key) => child.key.as_ref() == Some(key),
+            Step::Index(index) => child.key.is_none() && i == index,
+        });
+        found.map(|(i, _)| i)
+    }
+
+    /// The indices of children that a path leads through, as far as it is written. Filament 0 is found under `filament`
+    /// and under `filaments`.
+    pub(crate) fn follow(&self, path: &[Step]) -> Vec<usize> {
+        let (mut node, mut taken) = (self, Vec::new());
+        for step in path {
+            let Some(child) = node.child(step) else {
+                break;
+            };
+            taken.push(child);
+            node = &node.children()[child];
+        }
+        taken
+    }
+
+    /// A path as the tree writes it: the one filament is `filament` or `filaments[0]`.
+    pub(crate) fn resolved(&self, path: &str) -> Vec<Step> {
+        let mut path = steps(path);
+        let has = |key: &str| self.child(&Step::Key(key.into())).is_some();
+        let [alone, all] = ["filament", "filaments"].map(|key| Step::Key(key.into()));
+        if path[0] == alone && !has("filament") && has("filaments") {
+            path.splice(..1, [all, Step::Index(0)]);
+        } else if path.starts_with(&[all.clone(), Step::Index(0)])
+            && !has("filaments")
+            && has("filament")
+        {
+            path.splice(..2, [alone]);
+        }
+        path
+    }
+
+    /// The value at indices of children.
+    pub(crate) fn at(&self, indices: &[usize]) -> &Self {
+        indices.iter().fold(self, |node, i| &node.children()[*i])
+    }
+
+    pub(crate) fn at_mut(&mut self, indices: &[usize]) -> &mut Self {
+        let mut node = self;
+        for i in indices {
+            node = &mut node.children_mut()[*i];
+        }
+        node
+    }
+
+    /// Indices of children to the innermost value that begins at or before a place and does not end before it.
+    pub(crate) fn indices_at(&self, place: usize) -> Vec<usize> {
+        let holds = |child: &Self| child.place.start <= place && place < child.place.until;
+        let (mut node, mut indices) = (self, Vec::new());
+        while let Some(child) = node.children().iter().position(holds) {
+            indices.push(child);
+            node = &node.children()[child];
+        }
+        indices
+    }
+
+    /// The path in words of the value at indices of children.
+    pub(crate) fn path(&self, indices: &[usize]) -> String {
+        let (mut node, mut path) = (self, String::new());
+        for i in indices {
+            let child = &node.children()[*i];
+            match &child.key {
+                _ if node.is_list() => path.extend(["[", &i.to_string(), "]"]),
+                Some(key) if path.is_empty() => path.clone_from(key),
+                Some(key) => path.extend([".", key]),
+                None => {}
+            }
+            node = child;
+        }
+        path
+    }
+
+    /// The indices without those of components of vectors, which have no place of their own.
+    pub(crate) fn without_components(&self, mut indices: Vec<usize>) -> Vec<usize> {
+        while let Some((last, above)) = indices.split_last() {
+            let parent = self.at(above);
+            if parent.is_list() || parent.children()[*last].key.is_some() {
+                break;
+            }
+            indices.pop();
+        }
+        indices
+    }
+
+    /// Gives a key a value, whether the key is written or not. The path is that of an [`Override`](super::Override).
+    ///
+    /// ```
+    /// use actin_scene::{Kind::Whole, SceneValue};
+    /// let keys = |name: &str, value| SceneValue::keys(vec![(name.into(), value)]);
+    /// let all = |to_nm| keys("section", keys("Rod", keys("to_nm", to_nm)));
+    /// let mut scene = all(Whole(40).into());
+    /// scene.set("section.to_nm", Whole(80).into())?;
+    /// assert_eq!(scene, all(Whole(80).into()));
+    /// assert!(scene.set("section[3]", Whole(1).into()).is_err());
+    /// # Ok::<(), actin_scene::SceneProblem>(())
+    /// ```
+    ///
+    /// # Errors
+    /// A key in a value without keys, an index beyond the end of a list.
+    pub fn set(&mut self, path: &str, value: Self) -> Result<(), SceneProblem> {
+        let refused = |rule: String| SceneProblem::new(path, "", rule);
+        let steps = self.resolved(path);
+        let indices = self.follow(&steps);
+        let name = match self.path(&indices) {
+            name if name.is_empty() => "the scene".to_owned(),
+            name => name,
+        };
+        let host = self.at_mut(&indices);
+        let steps = &steps[indices.len()..];
+        let place = Place {
+            source: value.place.source,
+            ..host.place.clone()
+        };
+        let mut value = value;
+        value.move_to(&place);
+        let Some((first, inner)) = steps.split_first() else {
+            let key = host.key.take();
+            *host = Self { key, ..value };
+            return Ok(());
+        };
+        let value = nested(inner, value).map_err(refused)?;
+        if let (Kind::None, Step::Key(_)) = (&host.kind, first) {
+            host.kind = Kind::Group(None, Vec::new());
+        }
+        let shown = host.to_string();
+        match (&mut host.kind, first) {
+            (Kind::Group(_, values), Step::Key(key)) => values.push(value.with_key(key)),
+            (Kind::List(values), Step::Index(index)) if *index == values.len() => {
+                values.push(value);
+            }
+            (Kind::List(values), Step::Index(_)) => {
+                let count = values.len();
+                return Err(refused(format!(
+                    "{name} has {count} elements, counted from 0"
+                )));
+            }
+            (Kind::List(_), Step::Key(_)) => {
+                return Err(refused(format!("{name} is a list: write {name}[0]")));
+            }
+            (Kind::Group(..), Step::Index(_)) => {
+                return Err(refused(format!("{name} is not a list")));
+            }
+            _ => return Err(refused(format!("{name} is {shown}, which has no keys"))),
+        }
+        Ok(())
+    }
+
+    /// Places a value and all in it where another one is written.
+    pub(crate) fn move_to(&mut self, place: &Place) {
+        self.place = place.clone();
+        for child in self.children_mut() {
+            child.move_to(place);
+        }
+    }
+}
+
+/// A value within new structures and lists.
+fn nested(steps: &[Step], value: SceneValue) -> Result<SceneValue, String> {
+    let Some((first, rest)) = steps.split_first() else {
+        return Ok(value);
+    };
+    let place = value.place.clone();
+    let inner = nested(rest, value)?;
+    let kind = match first {
+        Step::Key(key) => Kind::Group(None, vec![inner.with_key(key)]),
+        Step::Index(0) => Kind::List(vec![inner]),
+        Step::Index(_) => return Err("a new list begins with [0]".into()),
+    };
+    let key = None;
+    Ok(SceneValue { key, kind, place })
+}
+
+impl Kind {
+    /// A dictionary of one key that names a choice, as that choice.
+    pub(crate) fn choice(self) -> Self {
+        match self {
+            Self::Group(None, mut only)
+                if only.len() == 1
+                    && only[0].key().is_some_and(|key| key.starts_with(char::is_uppercase))
+                    && matches!(only[0].kind, Self::Group(None, _)) =>
+            {
+                let SceneValue { key, kind, .. } = only.remove(0);
+                let Self::Group(_, values) = kind else {
+                    unreachable!("it is a group");
+                };
+                Self::Group(key, values)
+            }
+            other => other,
+        }
+    }
+}
+
+/// RON on one line.
+impl fmt::Display for SceneValue {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&super::print::print(self, 0))
+    }
+}
