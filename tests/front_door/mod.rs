@@ -6,7 +6,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The crates that can be used alone.
-const LIBRARIES: [&str; 11] = [
+const LIBRARIES: [&str; 12] = [
     "actin-mechanics",
     "actin-ellipsoid",
     "actin-cosserat",
@@ -15,6 +15,7 @@ const LIBRARIES: [&str; 11] = [
     "actin-equilibrium",
     "actin-brownian",
     "actin-fit",
+    "actin-scene",
     "actin-sim",
     "actin-sweep",
     "actin-export",

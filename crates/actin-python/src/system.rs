@@ -163,7 +163,7 @@ fn settings_of(assembly: &Assembly, plan: &Plan<'_>) -> PyResult<Settings> {
     match &assembly.scene.task {
         Task::Equilibrium(_) => Ok(Settings::default()),
         Task::Dynamics(task) if task.drag.fluid().is_none() => {
-            let scheme = task.integrator.composition();
+            let scheme = actin_sim::composition(task.integrator);
             let is_set = task.time_step_ns.is_some();
             Ok(Settings {
                 scheme,

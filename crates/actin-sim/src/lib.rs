@@ -24,7 +24,6 @@ mod notes;
 mod observe;
 mod results;
 mod run;
-mod scene;
 pub mod shape;
 pub mod statistics;
 pub mod trade;
@@ -38,6 +37,22 @@ pub use actin_ellipsoid::constants as ellipsoid_constants;
 pub use actin_equilibrium as equilibrium;
 pub use actin_integrate as integrate;
 pub use actin_mechanics as mechanics;
+use actin_scene as scene;
+pub use actin_scene::fitted_laws;
+#[cfg(feature = "schema")]
+pub use actin_scene::schema;
+pub use actin_scene::{
+    Acceleration, Adaptive, Altered, AlteredRod, Anchors, BOLTZMANN_PN_NM_PER_K, BendLaw, Breaking,
+    Brownian, Catch, Clamp, Couple, CouplePerLength, DragModel, DragRates, Drawn, Dynamics, End,
+    Equilibrium, Factor, Filament, Flow, Fluid, Following, Force, ForceLaw, ForcePerLength,
+    Forming, Hinge, Hold, Imperfection, Integrator, Interfaces, JunctionModel, JunctionWeight,
+    Kinetics, Linker, LinkerSite, Load, Material, Monomers, Observable, Output, Override, Pace,
+    Plane, Point, Quantity, Repulsion, RodLaw, RodLaws, RodModel, RotaryInertia, Scene, SceneError,
+    SceneProblem, SceneText, SceneValue, Section, Sections, Setting, Shape, ShearLaw, Slides,
+    Sphere, SphereSide, Stage, Stepping, StopTolerances, StretchLaw, Task, Thermal, TwistLaw,
+    TwistRise, TwistStretchLaw, Want, Where,
+};
+pub use actin_scene::{Readings, read_all, read_ron};
 pub use assembly::{
     Assembly, BeyondRange, BeyondUse, BodyKind, Booked, Clamped, Counts, Drive, FilamentSpan,
     Fluctuations, FrameInfo, Happening, JunctionBond, LinkerEvent, MeasuredError, Part, PointInfo,
@@ -59,20 +74,6 @@ pub use run::{
     Arrival, At, BehindSwitch, EquilibriumReport, Estimate, FailedRun, Failure, HingeSlip,
     LongestStep, MotionPosition, Outcome, PathPosition, Plan, Progress, Record, RecordIter,
     Recorded, Records, RelaxationTimes, Row, RowIter, RunError, RunPosition, SaddlePush, Saved,
-    Sink, Slip, StableState, StableStates, Status, Trajectory, near_equilibrium, solver,
+    Sink, Slip, StableState, StableStates, Status, Trajectory, composition, near_equilibrium,
+    solver,
 };
-pub use scene::fitted::laws as fitted_laws;
-#[cfg(feature = "schema")]
-pub use scene::schema;
-pub use scene::{
-    Acceleration, Adaptive, Altered, AlteredRod, Anchors, BOLTZMANN_PN_NM_PER_K, BendLaw, Breaking,
-    Brownian, Catch, Clamp, Couple, CouplePerLength, DragModel, DragRates, Drawn, Dynamics, End,
-    Equilibrium, Factor, Filament, Flow, Fluid, Following, Force, ForceLaw, ForcePerLength,
-    Forming, Hinge, Hold, Imperfection, Integrator, Interfaces, JunctionModel, JunctionWeight,
-    Kinetics, Linker, LinkerSite, Load, Material, Monomers, Observable, Output, Override, Pace,
-    Plane, Point, Quantity, Repulsion, RodLaw, RodLaws, RodModel, RotaryInertia, Scene, SceneError,
-    SceneProblem, SceneText, SceneValue, Section, Sections, Setting, Shape, ShearLaw, Slides,
-    Sphere, SphereSide, Stage, Stepping, StopTolerances, StretchLaw, Task, Thermal, TwistLaw,
-    TwistRise, TwistStretchLaw, Want, Where,
-};
-pub use scene::{Readings, read_all, read_ron};

@@ -69,7 +69,7 @@ impl Assembly {
             let rod = vec![false; cells.count()];
             let mut built = Self::build(&cells.scene(scene, &rod))?;
             let sections = &mut built.scene.filament.sections;
-            *sections = std::mem::take(sections).which_follow(following.clone());
+            *sections = std::mem::take(sections).with_following(following.clone());
             return Ok(built);
         }
         let mut builder = Builder::new(scene)?;

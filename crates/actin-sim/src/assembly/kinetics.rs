@@ -1,7 +1,7 @@
 //! Linkers that break, form and step: events at the ends of time steps, and their log.
 
 use super::Assembly;
-use crate::scene::{Breaking, Kinetics as Rates, SceneProblem, Stepping};
+use crate::scene::{Kinetics as Rates, SceneProblem};
 use actin_coupling::{Linker, SwitchedLinker};
 use actin_mechanics::{ControlId, Interaction, State, StepEnd};
 use rand::{Rng, SeedableRng};
@@ -293,24 +293,6 @@ impl Switching {
         // Two numbers of two 32-bit words each.
         generator.set_word_pos(4 * self.index as u128);
         std::array::from_fn(|_| (generator.next_u64() >> 11) as f64 * SPACING)
-    }
-}
-
-impl Breaking {
-    /// Rate (1/ns) at a tension (pN).
-    fn rate(&self, tension: f64) -> f64 {
-        let growth = self.force_pn.map_or(0.0, |force| tension / force);
-        let catch = self.catch.map_or(0.0, |catch| {
-            catch.rate_per_ns * (-tension / catch.force_pn).exp()
-        });
-        self.rate_per_ns * growth.exp() + catch
-    }
-}
-
-impl Stepping {
-    /// Rate (1/ns) against a force (pN).
-    fn rate(&self, resistance: f64) -> f64 {
-        self.rate_per_ns * (1.0 - resistance / self.stall_pn).clamp(0.0, 1.0)
     }
 }
 

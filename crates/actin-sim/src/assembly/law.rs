@@ -3,13 +3,12 @@
 use super::{Ranges, TwistWatch};
 use crate::scene::{
     self, AlteredRod, Filament, ForceLaw, Material, Monomers, RodLaw, RodLaws, RodModel,
-    SceneProblem, Section, fitted,
+    SceneProblem, Section, fitted_laws,
 };
 use actin_cosserat::{
-    BendLaw, CubicShear, EndShear, EnergyGradient, Homogenised, JoinedElement, PaperBalance,
-    PolynomialStretch, RodKey, RodLayout, RodMaterial, RodParameterError, RootedStretch,
-    SegmentCurvature, SegmentLaw, SidedTwist, Stiffening, StretchLaw, TanhTwist, TwistLaw,
-    TwistRise, TwistStretch, constants,
+    EndShear, EnergyGradient, Homogenised, JoinedElement, PaperBalance, RodKey, RodLayout,
+    RodMaterial, RodParameterError, SegmentCurvature, SegmentLaw, TanhTwist, TwistLaw,
+    TwistStretch, constants,
 };
 use actin_mechanics::Interaction;
 
@@ -80,7 +79,7 @@ impl Law {
                 let law = TwistStretch::linear(constants::C3, rigidities.shear.z);
                 published(material, law)?
             }
-            RodLaw::Fitted => with_laws(material, &fitted::laws())?,
+            RodLaw::Fitted => with_laws(material, &fitted_laws())?,
             RodLaw::Homogenised if in_bath => heated(),
             RodLaw::Homogenised | RodLaw::HomogenisedAthermal => athermal(monomers),
             RodLaw::HomogenisedAt298K => heated(),
@@ -283,7 +282,10 @@ fn check_written(law: scene::BendLaw) -> Result<(), SceneProblem> {
         twist_per_nm,
         shear,
         ..
-    } = law;
+    } = law
+    else {
+        return Ok(());
+    };
     for (key, value) in [("twist_per_nm", twist_per_nm), ("shear", shear)] {
         if value.is_some_and(f64::is_infinite) {
             return Err(SceneProblem::new(
@@ -294,121 +296,4 @@ fn check_written(law: scene::BendLaw) -> Result<(), SceneProblem> {
         }
     }
     Ok(())
-}
-
-impl From<scene::BendLaw> for BendLaw {
-    fn from(law: scene::BendLaw) -> Self {
-        let scene::BendLaw::Stiffening {
-            rest_pn_nm2,
-            rise_pn_nm2,
-            curvature_per_nm,
-            twist_per_nm,
-            shear,
-            range_per_nm,
-        } = law;
-        Self::Stiffening(Stiffening {
-            rest: rest_pn_nm2,
-            rise: rise_pn_nm2,
-            curvature: curvature_per_nm,
-            twist: twist_per_nm.unwrap_or(f64::INFINITY),
-            shear: shear.unwrap_or(f64::INFINITY),
-            range: range_per_nm,
-        })
-    }
-}
-
-impl From<scene::TwistLaw> for TwistLaw {
-    fn from(law: scene::TwistLaw) -> Self {
-        match law {
-            scene::TwistLaw::Tanh {
-                b_plus_pn_nm2,
-                b_minus_pn_nm2,
-                lambda,
-                range_per_nm,
-            } => Self::Tanh(TanhTwist {
-                b_plus: b_plus_pn_nm2,
-                b_minus: b_minus_pn_nm2,
-                lambda,
-                range: range_per_nm,
-            }),
-            scene::TwistLaw::Sided {
-                rest_pn_nm2,
-                under,
-                over,
-                range_per_nm,
-            } => Self::Sided(SidedTwist {
-                rest: rest_pn_nm2,
-                under: under.into(),
-                over: over.into(),
-                range: range_per_nm,
-            }),
-        }
-    }
-}
-
-impl From<scene::TwistRise> for TwistRise {
-    fn from(side: scene::TwistRise) -> Self {
-        Self {
-            rise: side.rise_pn_nm2,
-            half: side.half_per_nm,
-            slow: side.slow_per_nm,
-        }
-    }
-}
-
-impl From<scene::StretchLaw> for StretchLaw {
-    fn from(law: scene::StretchLaw) -> Self {
-        match law {
-            scene::StretchLaw::Constant { rigidity_pn } => Self::Constant(rigidity_pn),
-            scene::StretchLaw::Sided {
-                tension_pn,
-                compression_pn,
-                width,
-            } => Self::Sided {
-                tension: tension_pn,
-                compression: compression_pn,
-                width,
-            },
-        }
-    }
-}
-
-impl From<scene::ShearLaw> for CubicShear {
-    fn from(law: scene::ShearLaw) -> Self {
-        let scene::ShearLaw::Cubic {
-            linear_pn,
-            cubic_pn,
-        } = law;
-        Self {
-            linear: linear_pn,
-            cubic: cubic_pn,
-        }
-    }
-}
-
-impl From<scene::TwistStretchLaw> for TwistStretch {
-    fn from(law: scene::TwistStretchLaw) -> Self {
-        match law {
-            scene::TwistStretchLaw::Polynomial {
-                coefficients,
-                range_per_nm,
-            } => Self::Polynomial(PolynomialStretch {
-                coefficients,
-                range: range_per_nm,
-            }),
-            scene::TwistStretchLaw::Rooted {
-                slope_nm,
-                bend_nm,
-                half_per_nm,
-                cubic_nm3,
-                range_per_nm,
-            } => Self::Rooted(RootedStretch {
-                slope: slope_nm,
-                bend: bend_nm,
-                half: half_per_nm,
-                cubic: cubic_nm3,
-                range: range_per_nm,
-            }),
-        }
-    }
 }

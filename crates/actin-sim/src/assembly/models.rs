@@ -4,72 +4,8 @@ use crate::scene::{self, End, Hold, Monomers, SceneProblem};
 use actin_cosserat::{RodClamp, RodEnd, RotaryInertia};
 use actin_ellipsoid::{
     EllipsoidKey, EllipsoidModel, EllipsoidParameterError, EllipsoidParameters, InterfaceError,
-    InterfaceKey, InterfaceKind, InterfaceParameters,
+    InterfaceKey, InterfaceKind,
 };
-
-impl From<scene::Anchors> for actin_ellipsoid::Anchors {
-    fn from(anchors: scene::Anchors) -> Self {
-        match anchors {
-            scene::Anchors::Independent => Self::Independent,
-            scene::Anchors::Identical => Self::Identical,
-            scene::Anchors::Cubature => Self::Cubature,
-        }
-    }
-}
-
-impl From<&Monomers> for EllipsoidParameters {
-    fn from(m: &Monomers) -> Self {
-        Self {
-            radius: m.radius_nm,
-            rise: m.rise_nm,
-            turn: m.turn_deg.to_radians(),
-            azimuth: m.azimuth_deg.to_radians(),
-            semi_axes: m.semi_axes_nm,
-            lateral: InterfaceParameters {
-                rigidity: m.lateral_rigidity_pn_per_nm,
-                bonds: m.lateral_bonds,
-                minimum_length: m.min_bond_nm,
-                maximum_length: m.lateral_max_bond_nm,
-            },
-            longitudinal: InterfaceParameters {
-                rigidity: m.longitudinal_rigidity_pn_per_nm,
-                bonds: m.longitudinal_bonds,
-                minimum_length: m.min_bond_nm,
-                maximum_length: m.longitudinal_max_bond_nm,
-            },
-            anchors: m.anchors.into(),
-            seed: m.seed,
-            sampling: 0,
-            mass: m.mass_ag,
-        }
-    }
-}
-
-impl From<&EllipsoidParameters> for Monomers {
-    fn from(p: &EllipsoidParameters) -> Self {
-        Self {
-            seed: p.seed,
-            anchors: match p.anchors {
-                actin_ellipsoid::Anchors::Independent => scene::Anchors::Independent,
-                actin_ellipsoid::Anchors::Identical => scene::Anchors::Identical,
-                actin_ellipsoid::Anchors::Cubature => scene::Anchors::Cubature,
-            },
-            lateral_bonds: p.lateral.bonds,
-            longitudinal_bonds: p.longitudinal.bonds,
-            min_bond_nm: p.lateral.minimum_length.min(p.longitudinal.minimum_length),
-            lateral_rigidity_pn_per_nm: p.lateral.rigidity,
-            longitudinal_rigidity_pn_per_nm: p.longitudinal.rigidity,
-            lateral_max_bond_nm: p.lateral.maximum_length,
-            longitudinal_max_bond_nm: p.longitudinal.maximum_length,
-            radius_nm: p.radius,
-            semi_axes_nm: p.semi_axes,
-            rise_nm: p.rise,
-            turn_deg: p.turn.to_degrees(),
-            azimuth_deg: p.azimuth.to_degrees(),
-            mass_ag: p.mass,
-        }
-    }
-}
 
 /// The monomers' model of filament `index`, whose bonds are sampled independently of those of
 /// other filaments; what it refuses is named by the scene's keys.
@@ -141,12 +77,11 @@ pub(super) fn unbonded(error: &InterfaceError, monomers: &Monomers) -> SceneProb
     )
 }
 
-impl From<scene::JunctionWeight> for actin_coupling::JunctionWeight {
-    fn from(weight: scene::JunctionWeight) -> Self {
-        match weight {
-            scene::JunctionWeight::Shared => Self::Shared,
-            scene::JunctionWeight::Full => Self::Full,
-        }
+/// The weight of the bonds of a junction.
+pub(super) fn junction_weight(weight: scene::JunctionWeight) -> actin_coupling::JunctionWeight {
+    match weight {
+        scene::JunctionWeight::Shared => actin_coupling::JunctionWeight::Shared,
+        scene::JunctionWeight::Full => actin_coupling::JunctionWeight::Full,
     }
 }
 

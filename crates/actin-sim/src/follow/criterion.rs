@@ -153,7 +153,7 @@ pub trait Criterion: Debug + Send + Sync {
 impl Criterion for Where {
     fn wish(&self, cell: &Cell<'_>) -> Wish {
         let (_, [low, high]) = self.thresholds();
-        let value = self.value(cell);
+        let value = value(self, cell);
         let [is_needed, is_superfluous] = match self {
             Self::Linker { .. } => [value < low, value > high],
             _ => [value > high, value < low],
@@ -166,19 +166,17 @@ impl Criterion for Where {
     }
 }
 
-impl Where {
-    /// Returns the quantity that the thresholds apply to.
-    fn value(&self, cell: &Cell<'_>) -> f64 {
-        match *self {
-            Self::Curvature { .. } => cell.curvature_per_nm,
-            Self::Twist { .. } => cell.twist_per_nm.abs(),
-            Self::Extension { .. } => cell.extension.abs(),
-            Self::Force { .. } => cell.mean_load().force_pn.norm(),
-            Self::Couple { .. } => cell.mean_load().couple_pn_nm.norm(),
-            Self::Energy { .. } => cell.energy_per_length_pn(),
-            Self::LargestEnergy { .. } => cell.energy_over_largest(),
-            Self::Linker { linker, .. } => distance_nm(cell, linker),
-        }
+/// The quantity that the thresholds of a criterion apply to.
+fn value(criterion: &Where, cell: &Cell<'_>) -> f64 {
+    match *criterion {
+        Where::Curvature { .. } => cell.curvature_per_nm,
+        Where::Twist { .. } => cell.twist_per_nm.abs(),
+        Where::Extension { .. } => cell.extension.abs(),
+        Where::Force { .. } => cell.mean_load().force_pn.norm(),
+        Where::Couple { .. } => cell.mean_load().couple_pn_nm.norm(),
+        Where::Energy { .. } => cell.energy_per_length_pn(),
+        Where::LargestEnergy { .. } => cell.energy_over_largest(),
+        Where::Linker { linker, .. } => distance_nm(cell, linker),
     }
 }
 

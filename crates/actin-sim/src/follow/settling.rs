@@ -73,7 +73,7 @@ impl Transfer<'_> {
     /// Lets what is free settle with inertia: in a drag, or in the bath of the motion under that drag.
     fn settle(&self, system: &mut System, dynamics: &Dynamics) -> Result<(), Box<dyn Error>> {
         let step = dynamics.time_step_ns.unwrap_or(TIME_NS);
-        let run = Run::over(dynamics.composition(), step, TIME_NS)?;
+        let run = Run::over(crate::run::composition_of(dynamics), step, TIME_NS)?;
         let drag = Drag::new(RATE_PER_NS, RATE_PER_NS)?;
         let run = match &dynamics.thermal {
             None => run.with_drag(drag),

@@ -6,7 +6,7 @@ use super::sink::{Clock, Saved, Sink};
 use super::steps::{LongestStep, Steps};
 use super::unknowns::layout;
 use super::{Estimate, Failure, Outcome, Plan, Status, long_steps};
-use crate::scene::{Brownian as Task, Fluid, SceneProblem, Task as AnyTask};
+use crate::scene::{Brownian as Task, Flow, Fluid, SceneProblem, Task as AnyTask};
 use crate::{Assembly, SectionSpan};
 use actin_brownian::{Brownian, Layout, Relaxation};
 use actin_coupling::LinkerEnd;
@@ -204,6 +204,30 @@ fn held_off_axis(assembly: &Assembly) -> Vec<bool> {
     held
 }
 
+/// The flow of a scene in nm and ns.
+fn physical_flow(flow: &Flow) -> actin_brownian::Flow {
+    const UM_PER_S: f64 = 1e-6;
+    const PER_S: f64 = 1e-9;
+    let unit = |direction: [f64; 3]| {
+        let direction = Vector3::from(direction);
+        (direction / direction.amax()).normalize()
+    };
+    match *flow {
+        Flow::AtRest => actin_brownian::Flow::default(),
+        Flow::Stream { velocity_um_per_s } => {
+            actin_brownian::Flow::stream(Vector3::from(velocity_um_per_s) * UM_PER_S)
+        }
+        Flow::Shear {
+            rate_per_s,
+            along,
+            across,
+        } => {
+            let [along, across] = [along, across].map(unit);
+            actin_brownian::Flow::shear(rate_per_s * PER_S, along, across)
+        }
+    }
+}
+
 /// Runs the motion.
 pub(super) fn run(
     assembly: &Assembly,
@@ -219,7 +243,7 @@ pub(super) fn run(
     let mut recorder = Recorder::new(assembly, &motion, saved, clock, sink);
     // The order of unknowns is that of the state as built, wherever a run is resumed.
     let mut stepper = estimate.stepper((assembly, task), &system, layout(assembly)?)?;
-    stepper = stepper.in_flow(task.flow.physical());
+    stepper = stepper.in_flow(physical_flow(&task.flow));
     // The method is not looked at: the stepper makes the steps.
     let run = Run::new(&POSITION_VERLET, estimate.time_step_ns, estimate.steps)
         .and_then(|run| run.observing_every(estimate.steps_between_records))

@@ -38,33 +38,22 @@ pub struct Estimate {
     pub longest_sound_step: Option<LongestStep>,
 }
 
-impl Integrator {
-    /// The coefficient table of the integrator.
-    pub fn composition(self) -> &'static Composition {
-        match self {
-            Self::PositionVerlet => &actin_integrate::POSITION_VERLET,
-            Self::Pefrl => &actin_integrate::PEFRL,
-            Self::Vefrl => &actin_integrate::VEFRL,
-            Self::ForestRuth => &actin_integrate::FOREST_RUTH,
-            Self::Suzuki => &actin_integrate::SUZUKI,
-        }
+/// The coefficient table of an integrator.
+pub fn composition(integrator: Integrator) -> &'static Composition {
+    match integrator {
+        Integrator::PositionVerlet => &actin_integrate::POSITION_VERLET,
+        Integrator::Pefrl => &actin_integrate::PEFRL,
+        Integrator::Vefrl => &actin_integrate::VEFRL,
+        Integrator::ForestRuth => &actin_integrate::FOREST_RUTH,
+        Integrator::Suzuki => &actin_integrate::SUZUKI,
     }
 }
 
-impl Dynamics {
-    /// Whether drag acts.
-    pub(crate) fn has_drag(&self) -> bool {
-        let rates = self.drag.rates();
-        let rates = [rates.translational_per_ns, rates.rotational_per_ns];
-        self.drag.fluid().is_some() || rates.iter().any(|rate| *rate > 0.0)
-    }
-
-    /// The coefficient table of its steps; in a fluid that of their conservative part.
-    pub fn composition(&self) -> &'static Composition {
-        match self.drag.fluid() {
-            None => self.integrator.composition(),
-            Some(_) => &actin_integrate::POSITION_VERLET,
-        }
+/// The coefficient table of the steps of a motion; in a fluid of their conservative part.
+pub(crate) fn composition_of(dynamics: &Dynamics) -> &'static Composition {
+    match dynamics.drag.fluid() {
+        None => composition(dynamics.integrator),
+        Some(_) => &actin_integrate::POSITION_VERLET,
     }
 }
 
@@ -117,7 +106,7 @@ fn estimate_at(
     dynamics: &Dynamics,
     frequency: f64,
 ) -> Result<Estimate, SceneProblem> {
-    let scheme = dynamics.composition();
+    let scheme = composition_of(dynamics);
     let limit =
         actin_integrate::stable_step(scheme, frequency, 1.0).map_err(|error| no_step(&error))?;
     let share = dynamics.step_safety * share_of_laws(assembly, dynamics);
@@ -368,7 +357,7 @@ fn plan(dynamics: &Dynamics, estimate: &Estimate) -> Result<Run, SceneProblem> {
     let drag = Drag::new(rates.translational_per_ns, rates.rotational_per_ns)
         .map_err(|error| refused("drag", &error))?;
     let step = estimate.time_step_ns;
-    let scheme = dynamics.composition();
+    let scheme = composition_of(dynamics);
     let run = Run::new(scheme, step, estimate.steps)
         .and_then(|run| run.observing_every(estimate.steps_between_records))
         .map_err(|error| refused("time_step_ns", &error))?;

@@ -3,7 +3,7 @@
 
 use crate::Assembly;
 use crate::assembly::COARSEST;
-use crate::scene::{Brownian as Task, Factor, Filament, Resultant, SceneProblem, Setting};
+use crate::scene::{Brownian as Task, Filament, Resultant, SceneProblem, Setting};
 
 /// Steps in the time that a stage, a ramp, a period or an interval of a table takes: what follows half a step late is late by
 /// half a hundredth of it.
@@ -124,31 +124,4 @@ fn of_rates(assembly: &Assembly) -> Vec<f64> {
     let linkers = assembly.scene.linkers.iter();
     let rates = linkers.filter_map(|linker| Some(linker.kinetics.as_ref()?.rates()));
     rates.flatten().map(|(_, rate)| COARSEST / rate).collect()
-}
-
-impl Factor {
-    /// The largest magnitude that it takes.
-    fn largest(&self) -> f64 {
-        match self {
-            Self::Constant => 1.0,
-            Self::Ramp { from, to, .. } => from.abs().max(to.abs()),
-            Self::Sine {
-                amplitude, mean, ..
-            } => amplitude.abs() + mean.abs(),
-            Self::Table { factor, .. } => factor.iter().fold(0.0, |most, f| most.max(f.abs())),
-        }
-    }
-
-    /// The shortest time in which it changes (ns); none of a constant.
-    fn shortest(&self) -> Option<f64> {
-        match self {
-            Self::Constant => None,
-            Self::Ramp { duration_ns, .. } => Some(*duration_ns),
-            Self::Sine { period_ns, .. } => Some(*period_ns),
-            Self::Table { time_ns, .. } => {
-                let times = time_ns.windows(2).map(|pair| pair[1] - pair[0]);
-                times.reduce(f64::min)
-            }
-        }
-    }
 }

@@ -23,7 +23,8 @@ mod taken;
 mod unknowns;
 
 pub use brownian::RelaxationTimes;
-pub use dynamics::Estimate;
+pub(crate) use dynamics::composition_of;
+pub use dynamics::{Estimate, composition};
 pub use equilibrium::EquilibriumReport;
 pub use hinge::HingeSlip;
 pub use outcome::{FailedRun, Failure, Outcome, RunError, Status};

@@ -1,6 +1,6 @@
 //! How many time steps a motion takes and how many lie between its records.
 
-use super::Estimate;
+use super::{Estimate, composition};
 use crate::notes::{Note, codes};
 use crate::scene::{Dynamics, Scene, SceneProblem, Task};
 use actin_integrate::Drag;
@@ -167,7 +167,7 @@ impl Estimate {
         let (translation, rotation) = drag.unwrap_or(Drag::NONE).time_rescaling(step);
         // Of points and frames: the mode is either's, and nearer to the truth where drag is stronger.
         let theta = translation.max(rotation) * self.largest_frequency_rad_per_ns * step;
-        let scheme = dynamics.integrator.composition();
+        let scheme = composition(dynamics.integrator);
         scheme.configurational_temperature(theta)
     }
 

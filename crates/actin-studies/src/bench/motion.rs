@@ -73,7 +73,7 @@ pub(super) fn elements(all: &[Assembly]) -> usize {
 fn plan(assembly: &Assembly, steps: u64) -> Result<Run, String> {
     let plan = Plan::new(assembly).map_err(|error| error.to_string())?;
     let estimate = plan.estimate().ok_or("a motion has time steps")?;
-    let scheme = integrator(assembly)?.composition();
+    let scheme = actin_sim::composition(integrator(assembly)?);
     let run = Run::new(scheme, estimate.time_step_ns, steps);
     // Observers would see the ends of a batch, and there are none.
     run.and_then(|run| run.observing_every(steps))

@@ -57,7 +57,7 @@ fn step_at(system: &System, scheme: &Composition, share: f64) -> f64 {
 /// Step at which small motion about the present state begins to grow, over the limit that the largest frequency predicts. A wrong
 /// mass, a frequency that misses the stiffest term or a table with a wrong limit would each change it.
 fn measured_limit(system: &mut System, integrator: Integrator) -> f64 {
-    let predicted = step_at(system, integrator.composition(), 1.0);
+    let predicted = step_at(system, actin_sim::composition(integrator), 1.0);
     let (mut low, mut high) = (0.5, 2.0);
     if grows(system, integrator, low * predicted) {
         (low, high) = (0.0, low);
@@ -86,7 +86,13 @@ fn grows(system: &mut System, integrator: Integrator, h: f64) -> bool {
     randomise_velocities(system.state_mut(), &mut Xorshift::new(3), 1e-8, 1e-8);
     let start = system.state().kinetic_energy();
     let is_grown = (0..STEPS / 50).any(|_| {
-        advance(system, integrator.composition(), h, 50, &Drag::NONE);
+        advance(
+            system,
+            actin_sim::composition(integrator),
+            h,
+            50,
+            &Drag::NONE,
+        );
         let kinetic = system.state().kinetic_energy();
         !(kinetic.is_finite() && kinetic < GROWN * start)
     });
@@ -106,7 +112,7 @@ pub(super) fn limits() -> Vec<Row> {
 /// Largest deviation of the energy over 1000 steps of small motion at a share of the limit,
 /// relative to what it begins with.
 fn energy_error(system: &mut System, integrator: Integrator, share: f64) -> f64 {
-    let scheme = integrator.composition();
+    let scheme = actin_sim::composition(integrator);
     let h = step_at(system, scheme, share);
     let rest = system.state().clone();
     randomise_velocities(system.state_mut(), &mut Xorshift::new(3), 1e-3, 1e-3);
@@ -134,7 +140,7 @@ pub(super) fn energies() -> Vec<Row> {
         let tried = free(sections).and_then(|mut system| {
             let of_bound = |share| {
                 let error = energy_error(&mut system, integrator, share);
-                error / (fluctuation(integrator.composition(), share) + ENERGY_ROUNDING)
+                error / (fluctuation(actin_sim::composition(integrator), share) + ENERGY_ROUNDING)
             };
             let share = SHARES.map(of_bound).into_iter().fold(0.0, larger);
             bounded("energy fluctuation", share)
@@ -182,7 +188,7 @@ fn at_share(sections: &str, integrator: Integrator, share: f64, allowed: bool) -
     let system = task(share * limit).run()?.assembly.system;
     // From rest without strain: the energy stays zero, the force's own included.
     let error = system.total_energy().abs() / system.state().kinetic_energy();
-    let bound = fluctuation(integrator.composition(), share).max(1e-8);
+    let bound = fluctuation(actin_sim::composition(integrator), share).max(1e-8);
     correct("energy against that of the motion", error, bound)
 }
 
@@ -212,7 +218,7 @@ pub(super) fn draw(out: &Path) -> Result<(), String> {
     for ((model, sections), colour) in MODELS.into_iter().zip(COLOURS) {
         let mut system = free(sections).map_err(|outcome| outcome.words())?;
         let point = |integrator: Integrator| {
-            let predicted = integrator.composition().stability_limit();
+            let predicted = actin_sim::composition(integrator).stability_limit();
             (
                 predicted,
                 predicted * measured_limit(&mut system, integrator),

@@ -4,7 +4,7 @@ use cargo_metadata::{DependencyKind, MetadataCommand};
 use std::path::Path;
 
 /// Each crate and the crates of ours that it may depend on.
-const ALLOWED: [(&str, &[&str]); 18] = [
+const ALLOWED: [(&str, &[&str]); 19] = [
     ("actin-mechanics", &[]),
     ("actin-ellipsoid", &["actin-mechanics"]),
     ("actin-cosserat", &["actin-mechanics"]),
@@ -19,9 +19,14 @@ const ALLOWED: [(&str, &[&str]); 18] = [
     ("actin-fit", &[]),
     ("actin-draw", &[]),
     (
+        "actin-scene",
+        &["actin-mechanics", "actin-cosserat", "actin-ellipsoid"],
+    ),
+    (
         "actin-sim",
         &[
             "actin-mechanics",
+            "actin-scene",
             "actin-ellipsoid",
             "actin-cosserat",
             "actin-coupling",

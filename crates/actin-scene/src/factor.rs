@@ -1,0 +1,238 @@
+//! How a load changes in time.
+
+use super::SceneProblem;
+use super::rules::{finite, positive, show};
+use serde::{Deserialize, Serialize};
+use std::f64::consts::TAU;
+
+/// Factor of a load in time, in `Dynamics` and `Brownian`. Where the path sets the factor of the load too, the two are
+/// multiplied.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub enum Factor {
+    /// 1 throughout.
+    #[default]
+    Constant,
+    /// From one value to another, smoothly: velocity and acceleration are continuous at both ends.
+    Ramp {
+        /// When it begins; finite.
+        #[serde(default)]
+        begin_ns: f64,
+        /// How long it takes; positive.
+        duration_ns: f64,
+        /// Factor before; finite.
+        #[serde(default)]
+        from: f64,
+        /// Factor behind; finite.
+        #[serde(default = "one")]
+        to: f64,
+    },
+    /// `mean + amplitude sin(360 deg time / period + phase)`. Not with `stop` of `Dynamics`.
+    Sine {
+        /// Period; positive.
+        period_ns: f64,
+        /// Phase at time 0; finite.
+        #[serde(default)]
+        phase_deg: f64,
+        /// Amplitude; finite.
+        #[serde(default = "one")]
+        amplitude: f64,
+        /// Mean; finite.
+        #[serde(default)]
+        mean: f64,
+    },
+    /// Straight lines between points; constant before the first and after the last.
+    Table {
+        /// Times; finite, at least one, ascending.
+        time_ns: Vec<f64>,
+        /// Factors at these times, as many; finite.
+        factor: Vec<f64>,
+    },
+}
+
+fn one() -> f64 {
+    1.0
+}
+
+/// What grows from 0 to 1 with x, its first two derivatives zero at both ends: `x^3 (10 - 15 x + 6 x^2)`.
+pub fn smooth(x: f64) -> f64 {
+    x.powi(3) * (10.0 + x * (6.0 * x - 15.0))
+}
+
+impl Factor {
+    /// Whether it is 1 at all times.
+    pub fn is_constant(&self) -> bool {
+        *self == Self::Constant
+    }
+
+    /// Its value at a time (ns).
+    pub fn at(&self, time: f64) -> f64 {
+        match self {
+            Self::Constant => 1.0,
+            Self::Ramp {
+                begin_ns,
+                duration_ns,
+                from,
+                to,
+            } => from + (to - from) * smooth(((time - begin_ns) / duration_ns).clamp(0.0, 1.0)),
+            Self::Sine {
+                period_ns,
+                phase_deg,
+                amplitude,
+                mean,
+            } => mean + amplitude * (TAU * (time / period_ns) + phase_deg.to_radians()).sin(),
+            Self::Table { time_ns, factor } => between(time_ns, factor, time),
+        }
+    }
+
+    /// From when on it stays as it is (ns).
+    pub fn settles_at(&self) -> f64 {
+        match self {
+            Self::Constant => 0.0,
+            Self::Ramp {
+                begin_ns,
+                duration_ns,
+                ..
+            } => (begin_ns + duration_ns).max(0.0),
+            Self::Sine { .. } => f64::INFINITY,
+            Self::Table { time_ns, .. } => time_ns.last().map_or(0.0, |last| last.max(0.0)),
+        }
+    }
+
+    /// The largest magnitude that it takes.
+    pub fn largest(&self) -> f64 {
+        match self {
+            Self::Constant => 1.0,
+            Self::Ramp { from, to, .. } => from.abs().max(to.abs()),
+            Self::Sine {
+                amplitude, mean, ..
+            } => amplitude.abs() + mean.abs(),
+            Self::Table { factor, .. } => factor.iter().fold(0.0, |most, f| most.max(f.abs())),
+        }
+    }
+
+    /// The shortest time in which it changes (ns); none of a constant.
+    pub fn shortest(&self) -> Option<f64> {
+        match self {
+            Self::Constant => None,
+            Self::Ramp { duration_ns, .. } => Some(*duration_ns),
+            Self::Sine { period_ns, .. } => Some(*period_ns),
+            Self::Table { time_ns, .. } => {
+                let times = time_ns.windows(2).map(|pair| pair[1] - pair[0]);
+                times.reduce(f64::min)
+            }
+        }
+    }
+
+    /// Refuses numbers without a meaning; keys begin with `key`.
+    pub(super) fn check(&self, key: &str) -> Result<(), SceneProblem> {
+        let key = |name: &str| format!("{key}.{name}");
+        match self {
+            Self::Constant => Ok(()),
+            Self::Ramp {
+                begin_ns,
+                duration_ns,
+                from,
+                to,
+            } => {
+                finite(&key("begin_ns"), *begin_ns)?;
+                positive(&key("duration_ns"), *duration_ns)?;
+                finite(&key("from"), *from)?;
+                finite(&key("to"), *to)
+            }
+            Self::Sine {
+                period_ns,
+                phase_deg,
+                amplitude,
+                mean,
+            } => {
+                positive(&key("period_ns"), *period_ns)?;
+                finite(&key("phase_deg"), *phase_deg)?;
+                finite(&key("amplitude"), *amplitude)?;
+                finite(&key("mean"), *mean)
+            }
+            Self::Table { time_ns, factor } => check_table(&key, time_ns, factor),
+        }
+    }
+}
+
+fn check_table(
+    key: &impl Fn(&str) -> String,
+    times: &[f64],
+    factors: &[f64],
+) -> Result<(), SceneProblem> {
+    for (name, values) in [("time_ns", times), ("factor", factors)] {
+        for (i, value) in values.iter().enumerate() {
+            finite(&format!("{}[{i}]", key(name)), *value)?;
+        }
+    }
+    let refused = |name: &str, value: String, rule: &str| {
+        Err(SceneProblem::new(key(name), value, rule.to_owned()))
+    };
+    if times.is_empty() {
+        return refused("time_ns", "[]".into(), "a table has at least one time");
+    }
+    if factors.len() != times.len() {
+        let rule = format!("must be as many as times: {}", times.len());
+        return refused("factor", format!("{} values", factors.len()), &rule);
+    }
+    match times.windows(2).position(|pair| pair[1] <= pair[0]) {
+        Some(i) => refused(
+            &format!("time_ns[{}]", i + 1),
+            show(times[i + 1]),
+            "times ascend: must be greater than the one before",
+        ),
+        None => Ok(()),
+    }
+}
+
+/// The value at `x` on straight lines through points of ascending places; constant outside.
+fn between(places: &[f64], values: &[f64], x: f64) -> f64 {
+    let above = places.partition_point(|place| *place <= x);
+    if above == 0 || above == places.len() {
+        return values[above.saturating_sub(1)];
+    }
+    let (x0, x1) = (places[above - 1], places[above]);
+    let (y0, y1) = (values[above - 1], values[above]);
+    y0 + (y1 - y0) * ((x - x0) / (x1 - x0))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn is_near(factor: &Factor, time: f64, value: f64) -> bool {
+        (factor.at(time) - value).abs() < 1e-15
+    }
+
+    #[test]
+    fn factors_by_hand() {
+        let ramp = Factor::Ramp {
+            begin_ns: 1.0,
+            duration_ns: 2.0,
+            from: 3.0,
+            to: 5.0,
+        };
+        assert!(is_near(&ramp, 0.5, 3.0) && is_near(&ramp, 2.0, 4.0) && is_near(&ramp, 9.0, 5.0));
+        let sine = Factor::Sine {
+            period_ns: 4.0,
+            phase_deg: 90.0,
+            amplitude: 2.0,
+            mean: 0.5,
+        };
+        assert!(is_near(&sine, 0.0, 2.5) && is_near(&sine, 1.0, 0.5) && is_near(&sine, 2.0, -1.5));
+        let table = Factor::Table {
+            time_ns: vec![1.0, 2.0, 4.0],
+            factor: vec![1.0, 0.0, 3.0],
+        };
+        for (time, value) in [(0.0, 1.0), (1.5, 0.5), (2.0, 0.0), (3.0, 1.5), (7.0, 3.0)] {
+            assert!(is_near(&table, time, value), "{time}");
+        }
+        let settle = [&ramp, &sine, &table].map(Factor::settles_at);
+        assert_eq!(
+            settle.map(f64::to_bits),
+            [3.0, f64::INFINITY, 4.0].map(f64::to_bits)
+        );
+    }
+}

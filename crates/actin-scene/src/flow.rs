@@ -1,0 +1,101 @@
+//! How a fluid moves, as a scene writes it.
+
+use super::rules::{all_finite, finite, show};
+use super::{SceneProblem, rules};
+use actin_mechanics::Vector3;
+use serde::{Deserialize, Serialize};
+
+/// A rate per second in 1/ns.
+const PER_S: f64 = 1e-9;
+
+/// Largest turn (rad) of the fluid in one step.
+const LARGEST_TURN: f64 = 0.1;
+
+/// Cosine of the angle between directions that count as perpendicular.
+const PERPENDICULAR: f64 = 1e-6;
+
+/// How the fluid moves (lab frame).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub enum Flow {
+    /// Not at all.
+    #[default]
+    AtRest,
+    /// With the same velocity everywhere.
+    Stream {
+        /// Velocity; finite.
+        velocity_um_per_s: [f64; 3],
+    },
+    /// In one direction, the faster the farther in another; at rest at the origin.
+    Shear {
+        /// Growth of the velocity with distance; finite.
+        rate_per_s: f64,
+        /// Direction of the velocity, of any length but zero.
+        along: [f64; 3],
+        /// Direction in which it grows, perpendicular to `along`, of any length but zero.
+        across: [f64; 3],
+    },
+}
+
+impl Flow {
+    pub(super) fn check(&self) -> Result<(), SceneProblem> {
+        match *self {
+            Self::AtRest => Ok(()),
+            Self::Stream { velocity_um_per_s } => {
+                all_finite("task.flow.velocity_um_per_s", velocity_um_per_s)
+            }
+            Self::Shear {
+                rate_per_s,
+                along,
+                across,
+            } => {
+                finite("task.flow.rate_per_s", rate_per_s)?;
+                rules::direction("task.flow.along", along)?;
+                rules::direction("task.flow.across", across)?;
+                let [u, v] = [along, across].map(unit);
+                if u.dot(&v).abs() <= PERPENDICULAR {
+                    return Ok(());
+                }
+                let rule = "must be perpendicular to task.flow.along";
+                Err(SceneProblem::new("task.flow.across", show(across), rule))
+            }
+        }
+    }
+
+    /// The longest step (ns) in which the fluid does not turn far.
+    pub fn longest_step(&self) -> f64 {
+        match *self {
+            Self::Shear { rate_per_s, .. } => LARGEST_TURN / (rate_per_s.abs() * PER_S),
+            Self::AtRest | Self::Stream { .. } => f64::INFINITY,
+        }
+    }
+
+    /// Refuses steps (ns) in which the fluid turns far.
+    ///
+    /// # Errors
+    /// A turn of more than 0.1 rad in one step.
+    pub fn check_step(&self, step_ns: f64) -> Result<(), SceneProblem> {
+        let Self::Shear { rate_per_s, .. } = *self else {
+            return Ok(());
+        };
+        if rate_per_s.abs() * PER_S * step_ns <= LARGEST_TURN {
+            return Ok(());
+        }
+        let rule = format!(
+            "must be at most {:e}: the fluid may turn by {LARGEST_TURN} rad in a step of {step_ns:e} ns",
+            LARGEST_TURN / step_ns / PER_S
+        );
+        Err(SceneProblem::new(
+            "task.flow.rate_per_s",
+            show(rate_per_s),
+            rule,
+        ))
+    }
+}
+
+/// Of unit length, however large or small it is written.
+fn unit(direction: [f64; 3]) -> Vector3 {
+    let direction = Vector3::from(direction);
+    (direction / direction.amax()).normalize()
+}

@@ -1,0 +1,96 @@
+//! Scenes of actin filaments: types of the format, strict reading, validation and defaults.
+//!
+//! A [`Scene`] lists filaments, clamps, loads, linkers and a task. [`Scene::from_ron`] refuses unknown and missing keys and
+//! values against a rule, each with line and column; [`Scene::to_ron`] writes every default.
+//! Units: nm, pN, ns, rad (degrees where a key says so); mass in ag = 1e-21 kg = pN ns^2/nm.
+
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;
+
+mod brackets;
+mod brownian;
+mod curve;
+mod drag;
+mod factor;
+mod fitted;
+mod flow;
+mod following;
+mod imperfection;
+mod kinetics;
+mod law;
+mod linker;
+mod load;
+mod load_rules;
+mod locate;
+mod magnitude;
+mod mistakes;
+mod model;
+mod observable;
+mod outline;
+pub mod path;
+mod place;
+mod problem;
+mod read;
+mod repulsion;
+mod rules;
+mod saddles;
+#[cfg(feature = "schema")]
+mod schema;
+mod section;
+mod section_rules;
+mod sections;
+mod seeds;
+mod shape;
+mod stage;
+mod support;
+mod syntax;
+mod text;
+mod thermal;
+mod trace;
+mod types;
+mod validate;
+mod value;
+mod written;
+
+pub use brownian::{Brownian, Fluid, Interfaces};
+pub use curve::{Curve, swept};
+pub use drag::{DragModel, DragRates};
+pub use factor::Factor;
+pub use factor::smooth;
+pub use fitted::laws as fitted_laws;
+pub use flow::Flow;
+pub use following::{Following, Where};
+pub use imperfection::Imperfection;
+pub use kinetics::{Breaking, Catch, Forming, Kinetics, Stepping};
+pub use law::{
+    BendLaw, RodLaw, RodLaws, ShearLaw, StretchLaw, TwistLaw, TwistRise, TwistStretchLaw,
+};
+pub use linker::{Linker, LinkerSite};
+pub use load::Resultant;
+pub use load::{Acceleration, Couple, CouplePerLength, Force, ForcePerLength, Load};
+pub use mistakes::{Readings, read_all};
+pub use model::{
+    Anchors, ForceLaw, JunctionModel, JunctionWeight, Material, Monomers, RodModel, RotaryInertia,
+};
+pub use observable::{Observable, Output, Point};
+pub use place::HeldEnds;
+pub use problem::{SceneError, SceneProblem};
+pub use read::read_ron;
+pub use repulsion::{Plane, Repulsion, Sphere, SphereSide};
+#[cfg(feature = "schema")]
+pub use schema::schema;
+pub use section::{Altered, AlteredRod, Section};
+pub use sections::{Adaptive, Quantity, Sections, Want};
+pub use seeds::Drawn;
+pub use shape::Shape;
+pub use stage::unset_loads;
+pub use support::is_across;
+pub use text::{Override, SceneText};
+pub use thermal::{BOLTZMANN_PN_NM_PER_K, Thermal};
+pub use types::{
+    Clamp, Dynamics, End, Equilibrium, Filament, Hinge, Hold, Integrator, Pace, Scene, Setting,
+    Slides, Stage, StopTolerances, Task,
+};
+pub use validate::MOST_COUNTED;
+pub use value::SceneValue;

@@ -1,0 +1,173 @@
+//! Linkers, as a scene writes them, and the rules of their numbers.
+
+use super::rules::{finite, non_negative, positive};
+use super::{Kinetics, Scene, SceneProblem, kinetics};
+use serde::{Deserialize, Serialize};
+
+/// A Hookean linker between a site of a filament and an anchor outside of it, or another site.
+///
+/// Where it holds is said by arc length, distance from the axis and azimuth in the filament as
+/// built, so that a scene means the same whichever model resolves the site. The other end is
+/// another site, or an anchor given by its place or by its displacement from the site: exactly one
+/// of the three.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct Linker {
+    /// Index of the filament.
+    #[serde(default)]
+    pub filament: usize,
+    /// Arc length of the site; from 0 to the length of the filament.
+    pub at_nm: f64,
+    /// Distance of the site from the axis; at least 0.
+    #[serde(default)]
+    pub radius_nm: f64,
+    /// Azimuth of the site in the filament as built; finite. 0 is lab +x of a filament along lab +z.
+    #[serde(default)]
+    pub azimuth_deg: f64,
+    /// The site at the other end; another place than this one. Exactly one of `to`, `anchor_nm` and
+    /// `displaced_nm` is given.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub to: Option<LinkerSite>,
+    /// Place of the anchor (lab frame); finite.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub anchor_nm: Option<[f64; 3]>,
+    /// Place of the anchor from that of the site in the filament as built (lab frame); finite, and not
+    /// zero if there is a rest length.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub displaced_nm: Option<[f64; 3]>,
+    /// Stiffness; positive.
+    pub stiffness_pn_per_nm: f64,
+    /// Rest length; at least 0.
+    #[serde(default)]
+    pub rest_length_nm: f64,
+    /// Rates at which it breaks, forms and steps; by default it holds throughout.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub kinetics: Option<Kinetics>,
+}
+
+/// Where on a filament a linker holds.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields, rename = "Site")]
+pub struct LinkerSite {
+    /// Index of the filament.
+    #[serde(default)]
+    pub filament: usize,
+    /// Arc length; from 0 to the length of the filament.
+    pub at_nm: f64,
+    /// Distance from the axis; at least 0.
+    #[serde(default)]
+    pub radius_nm: f64,
+    /// Azimuth in the filament as built; finite.
+    #[serde(default)]
+    pub azimuth_deg: f64,
+}
+
+impl Linker {
+    /// The site from which the linker goes.
+    pub fn site(&self) -> LinkerSite {
+        LinkerSite {
+            filament: self.filament,
+            at_nm: self.at_nm,
+            radius_nm: self.radius_nm,
+            azimuth_deg: self.azimuth_deg,
+        }
+    }
+
+    /// The key by which the other end is given.
+    pub fn end_key(&self) -> &'static str {
+        match (self.to, self.anchor_nm) {
+            (Some(_), _) => "to",
+            (None, Some(_)) => "anchor_nm",
+            (None, None) => "displaced_nm",
+        }
+    }
+
+    /// Anchor or displacement as written; none of a linker between sites.
+    pub fn anchor(&self) -> Option<[f64; 3]> {
+        self.anchor_nm.or(self.displaced_nm)
+    }
+}
+
+impl LinkerSite {
+    /// Whether the other site is the same place in the same filament.
+    fn is_at(&self, other: &Self) -> bool {
+        let same = |a: f64, b: f64| (a - b).abs() <= 0.0;
+        let same_side = (self.azimuth_deg - other.azimuth_deg).rem_euclid(360.0) <= 0.0;
+        self.filament == other.filament
+            && same(self.at_nm, other.at_nm)
+            && same(self.radius_nm, other.radius_nm)
+            && (self.radius_nm <= 0.0 || same_side)
+    }
+}
+
+/// Checks linker `i` of a scene whose sections are known to be sound.
+pub(super) fn check(scene: &Scene, i: usize, linker: &Linker) -> Result<(), SceneProblem> {
+    let key = |name: &str| format!("linkers[{i}].{name}");
+    check_site(scene, &format!("linkers[{i}]"), &linker.site())?;
+    positive(&key("stiffness_pn_per_nm"), linker.stiffness_pn_per_nm)?;
+    non_negative(&key("rest_length_nm"), linker.rest_length_nm)?;
+    check_one_end(i, linker)?;
+    if let Some(other) = &linker.to {
+        check_site(scene, &key("to"), other)?;
+        if other.is_at(&linker.site()) {
+            let rule = "is the site at which the linker starts: must be another place";
+            return Err(SceneProblem::new(key("to"), "", rule));
+        }
+    }
+    match linker.anchor() {
+        Some(place) if place.iter().any(|v| !v.is_finite()) => {
+            let key = key(linker.end_key());
+            Err(SceneProblem::new(key, show(place), "must be finite"))
+        }
+        _ => kinetics::check(scene, i, linker),
+    }
+}
+
+/// Exactly one of the three ends is given.
+fn check_one_end(i: usize, linker: &Linker) -> Result<(), SceneProblem> {
+    let first = linker.end_key();
+    let rule = || match first {
+        "to" => "the other end is given by to already: write one of the two".to_owned(),
+        first => format!("the other end is given by {first} already: write one of the two"),
+    };
+    let ends = [
+        ("anchor_nm", linker.anchor_nm),
+        ("displaced_nm", linker.displaced_nm),
+    ];
+    for (name, value) in ends {
+        if let Some(value) = value.filter(|_| name != first) {
+            return Err(SceneProblem::new(
+                format!("linkers[{i}].{name}"),
+                show(value),
+                rule(),
+            ));
+        }
+    }
+    if linker.to.is_none() && linker.anchor().is_none() {
+        let rule = "has no other end: write anchor_nm, displaced_nm or to";
+        return Err(SceneProblem::new(format!("linkers[{i}]"), "", rule));
+    }
+    Ok(())
+}
+
+/// Checks a site, whose keys stand under `key`.
+fn check_site(scene: &Scene, key: &str, site: &LinkerSite) -> Result<(), SceneProblem> {
+    let filament = scene.named_filament(&format!("{key}.filament"), site.filament)?;
+    let length = filament.length_nm();
+    if !(0.0..=length).contains(&site.at_nm) {
+        let rule = format!("must lie on the filament, from 0 to {length:?}");
+        return Err(SceneProblem::new(
+            format!("{key}.at_nm"),
+            show(site.at_nm),
+            rule,
+        ));
+    }
+    non_negative(&format!("{key}.radius_nm"), site.radius_nm)?;
+    finite(&format!("{key}.azimuth_deg"), site.azimuth_deg)
+}
+
+fn show(value: impl std::fmt::Debug) -> String {
+    format!("{value:?}")
+}

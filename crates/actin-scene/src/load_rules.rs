@@ -1,0 +1,157 @@
+//! The rules of loads: where they may act, how large they are, and what a task asks of them.
+
+use super::rules::{all_finite, check_exactly_one, show};
+use super::{
+    Couple, Dynamics, Force, HeldEnds, Hold, Load, Resultant, Scene, SceneProblem, Slides,
+};
+
+impl Load {
+    /// Refuses load `i` of a scene where it makes no sense.
+    pub(super) fn check(
+        &self,
+        i: usize,
+        (scene, held): (&Scene, &HeldEnds),
+    ) -> Result<(), SceneProblem> {
+        let key = format!("loads[{i}]");
+        scene.named_filament(&format!("{key}.filament"), self.filament())?;
+        let (name, size) = self.written();
+        all_finite(&format!("{key}.{name}"), size)?;
+        self.factor().check(&format!("{key}.factor"))?;
+        self.check_place(&key, scene)?;
+        self.check_interval(&key, scene)?;
+        self.check_end(&key, (scene, held))
+    }
+
+    /// One end or one arc length on the filament.
+    fn check_place(&self, key: &str, scene: &Scene) -> Result<(), SceneProblem> {
+        let (Self::Force(Force { end, at_nm, .. }) | Self::Couple(Couple { end, at_nm, .. })) =
+            self
+        else {
+            return Ok(());
+        };
+        check_exactly_one(
+            key,
+            [("end", end.map(show)), ("at_nm", at_nm.map(show))],
+            "says where it acts",
+        )?;
+        let filament = scene.named_filament(&format!("{key}.filament"), self.filament())?;
+        let length = filament.length_nm();
+        match at_nm.filter(|at| !(0.0..=length).contains(at)) {
+            None => Ok(()),
+            Some(at) => {
+                let rule = format!("must lie on the filament, from 0 to {length:?}");
+                Err(SceneProblem::new(format!("{key}.at_nm"), show(at), rule))
+            }
+        }
+    }
+
+    fn check_interval(&self, key: &str, scene: &Scene) -> Result<(), SceneProblem> {
+        let Some([from, to]) = self.interval(scene) else {
+            return Ok(());
+        };
+        let filament = scene.named_filament(&format!("{key}.filament"), self.filament())?;
+        let length = filament.length_nm();
+        if !(0.0..length).contains(&from) {
+            let rule = format!("must be at least 0 and below the filament's length, {length:?}");
+            return Err(SceneProblem::new(
+                format!("{key}.from_nm"),
+                show(from),
+                rule,
+            ));
+        }
+        if !(to > from && to <= length) {
+            let rule = format!(
+                "must be greater than from_nm = {from:?}, and at most the filament's length, {length:?}"
+            );
+            return Err(SceneProblem::new(format!("{key}.to_nm"), show(to), rule));
+        }
+        Ok(())
+    }
+
+    /// A force on an end that cannot move, or a couple on one that cannot turn, does nothing.
+    fn check_end(&self, key: &str, (scene, held): (&Scene, &HeldEnds)) -> Result<(), SceneProblem> {
+        let Some(end) = self.end() else {
+            return Ok(());
+        };
+        let clamp = held.clamp_at(self.filament(), end);
+        let Some(clamp) = clamp.map(|c| &scene.clamps[c]) else {
+            return Ok(());
+        };
+        let is_couple = matches!(self, Self::Couple(_));
+        let rule = if is_couple && clamp.hold == Hold::Pin {
+            return Ok(());
+        } else if is_couple {
+            "this end is clamped: a couple on it turns nothing"
+        } else if clamp.slides == Slides::Nowhere {
+            "this end is clamped: a force on it moves nothing"
+        } else {
+            return Ok(());
+        };
+        Err(SceneProblem::new(format!("{key}.end"), show(end), rule))
+    }
+
+    /// That the size of load `i` breaks a rule.
+    pub fn problem(&self, i: usize, rule: String) -> SceneProblem {
+        let (name, size) = self.written();
+        SceneProblem::new(format!("loads[{i}].{name}"), show(size), rule)
+    }
+
+    /// The key and size of what a body takes of it at least, as a force (pN) or torque (pN nm) to be
+    /// compared with tolerances: half of what acts at a place, what acts on a nanometre of an interval.
+    pub(super) fn least(&self, scene: &Scene) -> Resultant {
+        let part = match self.interval(scene) {
+            None => 0.5,
+            Some([from, to]) => (1.0 / (to - from)).min(1.0),
+        };
+        match self.resultant(scene) {
+            Resultant::Force(force) => Resultant::Force(force * part),
+            Resultant::Couple(couple) => Resultant::Couple(couple * part),
+        }
+    }
+}
+
+/// What `Equilibrium` asks of loads: a potential, and no time.
+pub(super) fn check_statics(scene: &Scene) -> Result<(), SceneProblem> {
+    for (i, load) in scene.loads.iter().enumerate() {
+        if load.follows() {
+            let rule = "a load that turns with the filament has no potential, of which Equilibrium finds \
+                        minima: damped Dynamics takes it";
+            return Err(SceneProblem::new(format!("loads[{i}].follows"), true, rule));
+        }
+        if !load.factor().is_constant() {
+            let rule = "Equilibrium knows no time: leave the factor out, and let stages of the path set \
+                        it (LoadFactor)";
+            return Err(SceneProblem::new(format!("loads[{i}].factor"), "", rule));
+        }
+    }
+    Ok(())
+}
+
+/// What `stop` and `leave_saddles` ask of loads: nothing is at rest before they have ended their changes.
+pub(super) fn check_rest(scene: &Scene, dynamics: &Dynamics) -> Result<(), SceneProblem> {
+    let key = match dynamics {
+        Dynamics { stop: Some(_), .. } => "stop",
+        Dynamics {
+            leave_saddles: 1.., ..
+        } => "leave_saddles",
+        _ => return Ok(()),
+    };
+    let settles = |load: &Load| load.factor().settles_at();
+    let late = |load: &Load| settles(load) >= dynamics.duration_ns;
+    let Some(i) = scene.loads.iter().position(late) else {
+        return Ok(());
+    };
+    let until = settles(&scene.loads[i]);
+    let rule = if until.is_infinite() {
+        format!(
+            "loads[{i}] has a Sine for a factor, under which nothing comes to rest: leave {key} out"
+        )
+    } else {
+        format!(
+            "the factor of loads[{i}] changes until {until:?} ns, and nothing is at rest before: must be \
+             below duration_ns = {:?}, or leave {key} out",
+            dynamics.duration_ns
+        )
+    };
+    Err(SceneProblem::new(format!("task.{key}"), "", rule))
+}

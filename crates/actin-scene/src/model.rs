@@ -1,0 +1,344 @@
+//! Parameters of the models, as a scene writes them.
+
+use super::RodLaw;
+use actin_cosserat::Rigidities;
+use actin_ellipsoid::{EllipsoidParameters, InterfaceParameters, constants};
+use serde::{Deserialize, Serialize};
+
+/// Parameters of the monomers.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields, default)]
+pub struct Monomers {
+    /// Seed of drawn bonds. Left out with `Cubature`, which draws none.
+    pub seed: u64,
+    /// How the bonds of an interface are chosen.
+    pub anchors: Anchors,
+    /// Bonds per lateral interface (monomer i to i + 1): 4 to 64 weighted, 12 by default; or 1 to 10,000
+    /// drawn, 64 by default.
+    #[serde(default = "by_anchors")]
+    #[cfg_attr(feature = "schema", schemars(extend("default" = 12)))]
+    pub lateral_bonds: usize,
+    /// Bonds per longitudinal interface (monomer i to i + 2): the same.
+    #[serde(default = "by_anchors")]
+    #[cfg_attr(feature = "schema", schemars(extend("default" = 12)))]
+    pub longitudinal_bonds: usize,
+    /// Shortest bond of either kind; at least 0, below both longest ones. Shorter bonds are drawn again.
+    pub min_bond_nm: f64,
+    /// Rigidity of a lateral interface, shared by its bonds; positive.
+    pub lateral_rigidity_pn_per_nm: f64,
+    /// Rigidity of a longitudinal interface, shared by its bonds; positive.
+    pub longitudinal_rigidity_pn_per_nm: f64,
+    /// Longest lateral bond; greater than `min_bond_nm`.
+    pub lateral_max_bond_nm: f64,
+    /// Longest longitudinal bond; greater than `min_bond_nm`.
+    pub longitudinal_max_bond_nm: f64,
+    /// Distance of monomer centres from the axis; positive.
+    pub radius_nm: f64,
+    /// Semi-axes along the radial, tangential and axial direction; positive, two of them equal.
+    pub semi_axes_nm: [f64; 3],
+    /// Rise from monomer i to i + 1; positive.
+    pub rise_nm: f64,
+    /// Turn about the axis from monomer i to i + 1, right-handed; finite.
+    pub turn_deg: f64,
+    /// Azimuth of lattice index 0; finite.
+    pub azimuth_deg: f64,
+    /// Mass of a monomer (ag = 1e-21 kg); positive. Rods take their mass per length from it.
+    pub mass_ag: f64,
+}
+
+/// How the bonds of an interface are chosen.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub enum Anchors {
+    /// Each interface has bonds of its own, drawn at random.
+    Independent,
+    /// All interfaces of a kind share one pattern, drawn at random.
+    Identical,
+    /// All interfaces of a kind have the same weighted bonds, which represent all that could be drawn:
+    /// the mean filament.
+    Cubature,
+}
+
+impl Anchors {
+    /// Bonds of an interface if a scene does not say how many.
+    pub fn usual_bonds(self) -> usize {
+        match self {
+            Self::Independent | Self::Identical => constants::BONDS_PER_INTERFACE,
+            Self::Cubature => constants::POINTS_PER_INTERFACE,
+        }
+    }
+}
+
+/// A number of bonds that a scene does not give: more than any interface may have.
+const BY_ANCHORS: usize = usize::MAX;
+
+fn by_anchors() -> usize {
+    BY_ANCHORS
+}
+
+/// Parameters of the rod.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields, default)]
+pub struct RodModel {
+    /// How strains and curvatures become loads. `PaperBalance` takes the laws `Constant` and
+    /// `PublishedExtension` only.
+    pub force_law: ForceLaw,
+    /// Rigidities.
+    pub material: Material,
+    /// Constitutive law. `Fitted` and the laws `Homogenised` need the default material: a material of your own is written with
+    /// `law: Constant`.
+    pub law: RodLaw,
+    /// Transverse inertia of segments.
+    pub rotary_inertia: RotaryInertia,
+}
+
+impl RodModel {
+    /// Rods under this law, all else as it is where a scene leaves it out.
+    pub fn of_law(law: RodLaw) -> Self {
+        Self {
+            law,
+            ..Self::default()
+        }
+    }
+}
+
+/// What the transverse inertia of a segment holds. It matters in `Dynamics` alone, and not for means and
+/// fluctuations in a heat bath.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub enum RotaryInertia {
+    /// That of the cross-section. The time step does not grow with the length of segments beyond 10 nm.
+    #[default]
+    CrossSection,
+    /// In addition that of a rigid piece of rod, `mass length^2 / 12`: the time step grows with the length of
+    /// segments, and slow bending is slower by `(2 pi length / wavelength)^2 / 24`.
+    RigidSegment,
+}
+
+/// The two force laws of the rod.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub enum ForceLaw {
+    /// Loads are minus the gradient of an energy.
+    #[default]
+    EnergyGradient,
+    /// The balance equations as the paper prints them. They have no potential: `Dynamics` only.
+    PaperBalance,
+}
+
+/// Rigidities of the rod.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub enum Material {
+    /// Table 4 of the paper.
+    #[default]
+    Table4,
+    /// Table 2 of the paper: the preceding paper's parameters with a section of 38.5 nm^2.
+    PrecedingPaper,
+    /// Your own numbers.
+    Rigidities {
+        /// Shearing (twice) and stretching rigidity; each positive.
+        shear_pn: [f64; 3],
+        /// Bending (twice) and twisting rigidity; each positive.
+        bend_pn_nm2: [f64; 3],
+    },
+}
+
+/// Parameters of the junctions.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields, default)]
+pub struct JunctionModel {
+    /// Weight of each bond.
+    pub weight: JunctionWeight,
+    /// Number of monomers that are attached: 1 or 2.
+    pub attached_monomers: usize,
+}
+
+/// Weight of each bond of a junction.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub enum JunctionWeight {
+    /// The bonds of a junction share the rod's rigidity.
+    Shared,
+    /// Every bond has the rod's full rigidity, as the paper's text has it.
+    Full,
+}
+
+impl Default for JunctionModel {
+    fn default() -> Self {
+        Self {
+            weight: JunctionWeight::Shared,
+            attached_monomers: 2,
+        }
+    }
+}
+
+impl Default for Monomers {
+    fn default() -> Self {
+        Self::from(&EllipsoidParameters::default())
+    }
+}
+
+impl Monomers {
+    /// The default monomers with so many bonds drawn for each interface, from a seed.
+    pub fn drawn(bonds: usize, seed: u64) -> Self {
+        Self {
+            seed,
+            anchors: Anchors::Independent,
+            lateral_bonds: bonds,
+            longitudinal_bonds: bonds,
+            ..Self::default()
+        }
+    }
+
+    /// Where each interface has bonds of its own, how many: the harmonic mean of lateral and longitudinal ones.
+    pub fn drawn_bonds(&self) -> Option<usize> {
+        let (a, b) = (self.lateral_bonds, self.longitudinal_bonds);
+        (self.anchors == Anchors::Independent).then(|| 2 * a * b / (a + b))
+    }
+
+    /// The default monomers with so many weighted bonds in each interface.
+    pub fn weighted(points: usize) -> Self {
+        Self {
+            anchors: Anchors::Cubature,
+            ..Self::drawn(points, 0)
+        }
+    }
+
+    /// Puts the usual numbers of bonds where a scene gives none.
+    pub(super) fn resolve(&mut self) {
+        let usual = self.anchors.usual_bonds();
+        for bonds in [&mut self.lateral_bonds, &mut self.longitudinal_bonds] {
+            if *bonds == BY_ANCHORS {
+                *bonds = usual;
+            }
+        }
+    }
+}
+
+impl Material {
+    /// The rigidities that the name stands for, not yet validated.
+    pub fn rigidities(&self) -> Rigidities {
+        match *self {
+            Self::Table4 => Rigidities::table4(),
+            Self::PrecedingPaper => Rigidities::preceding_paper(),
+            Self::Rigidities {
+                shear_pn,
+                bend_pn_nm2,
+            } => Rigidities {
+                shear: shear_pn.into(),
+                bend: bend_pn_nm2.into(),
+            },
+        }
+    }
+}
+
+impl From<Anchors> for actin_ellipsoid::Anchors {
+    fn from(anchors: Anchors) -> Self {
+        match anchors {
+            Anchors::Independent => Self::Independent,
+            Anchors::Identical => Self::Identical,
+            Anchors::Cubature => Self::Cubature,
+        }
+    }
+}
+
+impl From<&Monomers> for EllipsoidParameters {
+    fn from(m: &Monomers) -> Self {
+        Self {
+            radius: m.radius_nm,
+            rise: m.rise_nm,
+            turn: m.turn_deg.to_radians(),
+            azimuth: m.azimuth_deg.to_radians(),
+            semi_axes: m.semi_axes_nm,
+            lateral: InterfaceParameters {
+                rigidity: m.lateral_rigidity_pn_per_nm,
+                bonds: m.lateral_bonds,
+                minimum_length: m.min_bond_nm,
+                maximum_length: m.lateral_max_bond_nm,
+            },
+            longitudinal: InterfaceParameters {
+                rigidity: m.longitudinal_rigidity_pn_per_nm,
+                bonds: m.longitudinal_bonds,
+                minimum_length: m.min_bond_nm,
+                maximum_length: m.longitudinal_max_bond_nm,
+            },
+            anchors: m.anchors.into(),
+            seed: m.seed,
+            sampling: 0,
+            mass: m.mass_ag,
+        }
+    }
+}
+
+impl From<&EllipsoidParameters> for Monomers {
+    fn from(p: &EllipsoidParameters) -> Self {
+        Self {
+            seed: p.seed,
+            anchors: match p.anchors {
+                actin_ellipsoid::Anchors::Independent => Anchors::Independent,
+                actin_ellipsoid::Anchors::Identical => Anchors::Identical,
+                actin_ellipsoid::Anchors::Cubature => Anchors::Cubature,
+            },
+            lateral_bonds: p.lateral.bonds,
+            longitudinal_bonds: p.longitudinal.bonds,
+            min_bond_nm: p.lateral.minimum_length.min(p.longitudinal.minimum_length),
+            lateral_rigidity_pn_per_nm: p.lateral.rigidity,
+            longitudinal_rigidity_pn_per_nm: p.longitudinal.rigidity,
+            lateral_max_bond_nm: p.lateral.maximum_length,
+            longitudinal_max_bond_nm: p.longitudinal.maximum_length,
+            radius_nm: p.radius,
+            semi_axes_nm: p.semi_axes,
+            rise_nm: p.rise,
+            turn_deg: p.turn.to_degrees(),
+            azimuth_deg: p.azimuth.to_degrees(),
+            mass_ag: p.mass,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Scene;
+
+    fn monomers(text: &str) -> Monomers {
+        let text = format!(
+            "Scene(
+                filament: Filament(
+                    sections: [Ellipsoids(from_nm: 0.0, to_nm: 30.0)],
+                    monomers: Monomers({text}),
+                ),
+                clamps: [Clamp(end: Start)],
+                task: Equilibrium(),
+            )"
+        );
+        let scene = Scene::from_ron(&text).expect("the scene is valid");
+        // What is written out in full is read back as it was.
+        assert_eq!(Scene::from_ron(&scene.to_ron()).as_ref(), Ok(&scene));
+        scene.filament.monomers
+    }
+
+    /// How many bonds an interface has goes with how they are chosen, unless a scene says.
+    #[test]
+    fn numbers_of_bonds_go_with_how_they_are_chosen() {
+        let bonds = |text| {
+            let monomers = monomers(text);
+            (monomers.lateral_bonds, monomers.longitudinal_bonds)
+        };
+        assert_eq!(bonds("anchors: Independent"), (64, 64));
+        assert_eq!(bonds("anchors: Identical, lateral_bonds: 20"), (20, 64));
+        assert_eq!(bonds("anchors: Cubature"), (12, 12));
+        assert_eq!(bonds("anchors: Cubature, longitudinal_bonds: 16"), (12, 16));
+        assert_eq!(bonds(""), (12, 12));
+        assert_eq!(monomers(""), Monomers::default());
+        assert_eq!(monomers("anchors: Cubature"), Monomers::weighted(12));
+        assert_eq!(Monomers::default(), Monomers::weighted(12));
+        let drawn = "anchors: Independent, lateral_bonds: 9, longitudinal_bonds: 9, seed: 4";
+        assert_eq!(monomers(drawn), Monomers::drawn(9, 4));
+    }
+}

@@ -1,0 +1,116 @@
+//! What the settings of a path mean: the values of a control at the ends of its stages. What moves,
+//! and how, is no business of this file.
+
+use super::{Setting, Stage};
+
+/// The values of a control at the ends of the stages, of which the first, 0, is before the path.
+///
+/// It begins at zero and stays where a stage does not set it. Only the stages that set it are kept,
+/// so that as many controls as stages take no square of either.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Values<T> {
+    /// Ends of stages, counted from 1, and what is set there; ascending.
+    set: Vec<(usize, T)>,
+}
+
+impl<T: Copy + Default> Values<T> {
+    /// The value at the end of so many stages.
+    pub fn after(&self, stages: usize) -> T {
+        let known = self.set.partition_point(|(end, _)| *end <= stages);
+        known.checked_sub(1).map_or(T::default(), |k| self.set[k].1)
+    }
+
+    /// The ends of stages at which it is set, ascending.
+    pub fn ends(&self) -> impl Iterator<Item = usize> + '_ {
+        self.set.iter().map(|(end, _)| *end)
+    }
+
+    /// Sets it at the end of a stage that is not before any other that set it; of several settings
+    /// in one stage the last counts.
+    fn push(&mut self, end: usize, value: T) {
+        match self.set.last_mut() {
+            Some((last, known)) if *last == end => *known = value,
+            _ => self.set.push((end, value)),
+        }
+    }
+}
+
+/// The values of each of `count` controls; `None` of one that no stage sets. `find` gives the index
+/// and the value of the control that a setting sets, if it is one of these.
+pub fn values<T: Copy + Default>(
+    path: &[Stage],
+    count: usize,
+    find: impl Fn(&Setting) -> Option<(usize, T)>,
+) -> Vec<Option<Values<T>>> {
+    let mut values: Vec<Option<Values<T>>> = (0..count).map(|_| None).collect();
+    for (stage, end) in path.iter().zip(1..) {
+        for (index, value) in stage.set.iter().filter_map(&find) {
+            if let Some(control) = values.get_mut(index) {
+                control.get_or_insert_with(Values::default).push(end, value);
+            }
+        }
+    }
+    values
+}
+
+/// Factors of `count` loads, as [`values`]; `None` of a load that no stage sets, whose factor is
+/// [`UNSET`].
+pub fn load_factors(path: &[Stage], count: usize) -> Vec<Option<Values<f64>>> {
+    values(path, count, |setting| match *setting {
+        Setting::LoadFactor { load, factor } => Some((load, factor)),
+        _ => None,
+    })
+}
+
+/// Factor of a load that no stage sets.
+pub const UNSET: f64 = 1.0;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn stage(factors: &[(usize, f64)]) -> Stage {
+        let set = |&(load, factor): &(usize, f64)| Setting::LoadFactor { load, factor };
+        Stage {
+            set: factors.iter().map(set).collect(),
+            duration_ns: None,
+            pace: crate::Pace::Smooth,
+        }
+    }
+
+    /// Zero before the path, the last of a stage, what it was where a stage sets others; nothing for a
+    /// load that is never set.
+    #[test]
+    fn factors_by_hand() {
+        let path = [
+            stage(&[(0, 0.5)]),
+            stage(&[(1, 3.0), (0, 7.0), (1, 4.0)]),
+            stage(&[(1, -1.0)]),
+        ];
+        let factors = load_factors(&path, 3);
+        let of = |load: usize| {
+            let values = factors[load].as_ref().unwrap();
+            [0, 1, 2, 3].map(|stages| values.after(stages))
+        };
+        assert_eq!(
+            of(0).map(f64::to_bits),
+            [0.0, 0.5, 7.0, 7.0].map(f64::to_bits)
+        );
+        assert_eq!(
+            of(1).map(f64::to_bits),
+            [0.0, 0.0, 4.0, -1.0].map(f64::to_bits)
+        );
+        assert_eq!(factors[2], None);
+        assert_eq!(load_factors(&[], 1), [None]);
+    }
+
+    /// As many controls as stages, each set once: what is kept is what was written.
+    #[test]
+    fn what_is_kept_grows_with_the_settings_alone() {
+        let count = 300;
+        let path: Vec<Stage> = (0..count).map(|i| stage(&[(i, 1.0)])).collect();
+        let factors = load_factors(&path, count);
+        let kept = |values: &Option<Values<f64>>| values.as_ref().map_or(0, |v| v.set.len());
+        assert_eq!(factors.iter().map(kept).sum::<usize>(), count);
+    }
+}

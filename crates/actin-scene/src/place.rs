@@ -1,0 +1,265 @@
+//! Which filament a scene means by an index, and where each is built.
+
+use super::curve::Curve;
+use super::types::along_z;
+use super::{
+    End, Filament, Hold, JunctionModel, Monomers, RodModel, Scene, SceneProblem, Section, Slides,
+};
+use actin_mechanics::{UnitQuaternion, Vector3};
+use nalgebra::Quaternion;
+
+impl Filament {
+    /// A filament of these sections along lab +z from the origin, every parameter the default.
+    pub fn new(sections: Vec<Section>) -> Self {
+        Self {
+            sections: sections.into(),
+            monomers: Monomers::default(),
+            rod: RodModel::default(),
+            junction: JunctionModel::default(),
+            at_nm: [0.0; 3],
+            direction: along_z(),
+            roll_deg: 0.0,
+            shape: None,
+            imperfection: None,
+        }
+    }
+
+    /// Unit vector along the filament as built (lab frame).
+    pub fn axis(&self) -> Vector3 {
+        let direction = Vector3::from(self.direction);
+        // Scaled first, so that squares neither overflow nor underflow.
+        (direction / direction.amax()).normalize()
+    }
+
+    /// The turn that takes a filament along lab +z, its azimuth 0 at +x, to where it is built: by
+    /// `roll_deg` about lab z, then by the shortest turn that takes lab z to the axis (where they
+    /// are opposite: half a turn about lab x).
+    pub fn rotation(&self) -> UnitQuaternion {
+        let axis = self.axis();
+        let (sine, cosine) = (Vector3::z().cross(&axis), axis.z);
+        // Sine and cosine of half the angle, the smaller of the two from the larger.
+        let larger = (0.5 * (1.0 + cosine.abs())).sqrt();
+        let smaller = 0.5 * sine.norm() / larger;
+        let about = sine.try_normalize(0.0).unwrap_or_else(Vector3::x);
+        let (cos, sin) = if cosine < 0.0 {
+            (smaller, larger)
+        } else {
+            (larger, smaller)
+        };
+        let tilt = Quaternion::from_parts(cos, about * sin);
+        let tilt = UnitQuaternion::from_quaternion(tilt);
+        let roll = self.roll_deg.to_radians();
+        tilt * UnitQuaternion::from_axis_angle(&Vector3::z_axis(), roll)
+    }
+
+    /// The rods of its sections, but for factors and what they are like at rest.
+    pub fn rod_models(&self) -> impl Iterator<Item = RodModel> {
+        let rods = self.sections.iter().filter(|section| section.is_rod());
+        rods.map(|section| section.rod_model(&self.rod))
+    }
+
+    /// Where its sections begin (nm), as written.
+    pub fn boundaries(&self) -> Vec<f64> {
+        self.sections.iter().map(|s| s.span_nm().0).collect()
+    }
+
+    /// Unit vector along the filament at one end as built (lab frame).
+    pub fn axis_at(&self, end: End) -> Vector3 {
+        if self.shape.is_none() {
+            return self.axis();
+        }
+        let s_nm = match end {
+            End::Start => 0.0,
+            End::End => self.length_nm(),
+        };
+        let (_, frame) = Curve::of(self, &self.boundaries()).at(s_nm);
+        self.rotation() * frame * Vector3::z()
+    }
+
+    /// Index of the section at one end.
+    pub fn end_index(&self, end: End) -> usize {
+        match end {
+            End::Start => 0,
+            End::End => self.sections.len() - 1,
+        }
+    }
+
+    /// Arc length at its end, as written (nm).
+    pub fn length_nm(&self) -> f64 {
+        self.sections.last().map_or(0.0, |s| s.span_nm().1)
+    }
+
+    /// Whether a rod is at one end.
+    pub fn is_rod_at(&self, end: End) -> bool {
+        matches!(self.sections[self.end_index(end)], Section::Rod { .. })
+    }
+}
+
+impl Scene {
+    /// All filaments in the order of their indices.
+    pub fn filaments(&self) -> impl Iterator<Item = &Filament> {
+        std::iter::once(&self.filament).chain(&self.further)
+    }
+
+    /// All filaments, to be changed.
+    pub fn filaments_mut(&mut self) -> impl Iterator<Item = &mut Filament> {
+        std::iter::once(&mut self.filament).chain(&mut self.further)
+    }
+
+    /// Number of filaments.
+    pub fn number_of_filaments(&self) -> usize {
+        1 + self.further.len()
+    }
+
+    /// Filament `index`, if there is one.
+    pub fn filament_at(&self, index: usize) -> Option<&Filament> {
+        match index.checked_sub(1) {
+            None => Some(&self.filament),
+            Some(further) => self.further.get(further),
+        }
+    }
+
+    /// The key of filament `index` in a scene's text.
+    pub fn filament_key(&self, index: usize) -> String {
+        if self.further.is_empty() {
+            "filament".to_owned()
+        } else {
+            format!("filaments[{index}]")
+        }
+    }
+
+    /// The filament that `key` names by its index.
+    ///
+    /// # Errors
+    /// An index beyond the last.
+    pub(super) fn named_filament(
+        &self,
+        key: &str,
+        index: usize,
+    ) -> Result<&Filament, SceneProblem> {
+        self.filament_at(index).ok_or_else(|| {
+            let rule = match self.number_of_filaments() {
+                1 => "there is one filament, which is 0".to_owned(),
+                count => format!("there are {count} filaments, counted from 0"),
+            };
+            SceneProblem::new(key, index, rule)
+        })
+    }
+}
+
+/// Which clamp holds each end of each filament, found once for all of them.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct HeldEnds {
+    clamps: Vec<[Option<usize>; 2]>,
+    /// Of these, those that hold the orientation of the end.
+    fixed: Vec<[Option<usize>; 2]>,
+    /// These, and those with a hinge.
+    turned: Vec<[Option<usize>; 2]>,
+}
+
+impl HeldEnds {
+    /// Those of a scene. Of several clamps at one end the first counts, and what names no filament
+    /// holds none.
+    pub fn of(scene: &Scene) -> Self {
+        let mut held = vec![[None; 2]; scene.number_of_filaments()];
+        for (i, clamp) in scene.clamps.iter().enumerate() {
+            if let Some(ends) = held.get_mut(clamp.filament) {
+                ends[clamp.end as usize].get_or_insert(i);
+            }
+        }
+        let is_fixed = |clamp: &usize| scene.clamps[*clamp].hold != Hold::Pin;
+        let is_turned = |clamp: &usize| is_fixed(clamp) || scene.clamps[*clamp].hinge.is_some();
+        let fixed = held.iter().map(|ends| ends.map(|c| c.filter(is_fixed)));
+        let turned = held.iter().map(|ends| ends.map(|c| c.filter(is_turned)));
+        Self {
+            fixed: fixed.collect(),
+            turned: turned.collect(),
+            clamps: held,
+        }
+    }
+
+    /// The index of the clamp at one end of a filament; none if it is free.
+    pub fn clamp_at(&self, filament: usize, end: End) -> Option<usize> {
+        self.clamps.get(filament)?[end as usize]
+    }
+
+    /// The same of a clamp that holds the orientation of the end, which a pin does not.
+    pub fn fixed_at(&self, filament: usize, end: End) -> Option<usize> {
+        self.fixed.get(filament)?[end as usize]
+    }
+
+    /// The same of a clamp that holds a frame: at the end, or behind the spring of a hinge.
+    pub fn turned_at(&self, filament: usize, end: End) -> Option<usize> {
+        self.turned.get(filament)?[end as usize]
+    }
+
+    /// Whether an end is held.
+    pub fn is_held(&self, filament: usize, end: End) -> bool {
+        self.clamp_at(filament, end).is_some()
+    }
+}
+
+impl Slides {
+    /// The directions, orthonormal (lab frame), at a filament whose axis as built is `axis`.
+    pub fn directions(self, axis: Vector3) -> Vec<Vector3> {
+        match self {
+            Self::Nowhere => Vec::new(),
+            Self::AlongAxis => vec![axis],
+            Self::Freely => vec![Vector3::x(), Vector3::y(), Vector3::z()],
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn along(direction: [f64; 3], roll_deg: f64) -> Filament {
+        Filament {
+            direction,
+            roll_deg,
+            ..Filament::new(Vec::new())
+        }
+    }
+
+    /// By default nothing is turned, to the last bit: results of scenes that place nothing stay.
+    #[test]
+    fn the_default_turns_nothing() {
+        assert_eq!(
+            along([0.0, 0.0, 1.0], 0.0).rotation(),
+            UnitQuaternion::identity()
+        );
+        assert_eq!(
+            along([0.0, 0.0, 7e200], 0.0).rotation(),
+            UnitQuaternion::identity()
+        );
+    }
+
+    /// Lab z goes to the direction, of any length and opposite to z too; the roll is about it.
+    #[test]
+    fn the_axis_and_the_azimuth_go_where_they_are_sent() {
+        for direction in [
+            [3.0, 0.0, 4.0],
+            [0.0, -2.0, -1e-9],
+            [1e-200, 0.0, 0.0],
+            [1e-9, 0.0, -1.0],
+            [0.0, 0.0, -1.0],
+        ] {
+            let filament = along(direction, 90.0);
+            let axis = filament.axis();
+            assert!((axis.norm() - 1.0).abs() < 1e-15);
+            let unrolled = along(direction, 0.0).rotation();
+            // Rounding of square roots and a rotation.
+            assert!(
+                (unrolled * Vector3::z() - axis).norm() < 1e-15,
+                "{direction:?}"
+            );
+            let (x, y) = (unrolled * Vector3::x(), unrolled * Vector3::y());
+            assert!((filament.rotation() * Vector3::x() - y).norm() < 1e-15);
+            assert!(x.cross(&y).dot(&axis) > 0.999);
+        }
+        // The shortest turn from z to x takes x to -z.
+        let turned = along([1.0, 0.0, 0.0], 0.0).rotation() * Vector3::x();
+        assert!((turned + Vector3::z()).norm() < 1e-15);
+    }
+}

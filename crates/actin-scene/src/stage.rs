@@ -1,0 +1,167 @@
+//! The rules of a path: what its stages may set, and how long they take.
+
+use super::path::load_factors;
+use super::rules::{all_finite, finite, positive, show};
+use super::support::is_along;
+use super::{End, HeldEnds, Hold, Scene, SceneProblem, Setting, Slides, Stage};
+
+/// Checks that what stage `i` sets exists and may be set.
+pub(super) fn check(
+    scene: &Scene,
+    held: &HeldEnds,
+    (i, stage): (usize, &Stage),
+) -> Result<(), SceneProblem> {
+    for (k, setting) in stage.set.iter().enumerate() {
+        let key = |name: &str| format!("path[{i}].set[{k}].{name}");
+        let exists = |name: &str, index: usize, count: usize| {
+            let rule = format!("there are {count} {name}s, counted from 0");
+            let missing = || SceneProblem::new(key(name), index, rule);
+            (index < count).then_some(()).ok_or_else(missing)
+        };
+        match *setting {
+            Setting::LoadFactor { load, factor } => {
+                exists("load", load, scene.loads.len())?;
+                finite(&key("factor"), factor)?;
+            }
+            Setting::Anchor { linker, shift_nm } => {
+                exists("linker", linker, scene.linkers.len())?;
+                if scene.linkers[linker].to.is_some() {
+                    let rule = "this linker joins two sites: it has no anchor to be moved";
+                    return Err(SceneProblem::new(key("linker"), linker, rule));
+                }
+                all_finite(&key("shift_nm"), shift_nm)?;
+            }
+            Setting::Shift {
+                filament,
+                end,
+                shift_nm,
+            } => {
+                all_finite(&key("shift_nm"), shift_nm)?;
+                check_shift((scene, held), &key(""), (filament, end), shift_nm)?;
+            }
+            Setting::Turn {
+                filament,
+                end,
+                turn_deg,
+            } => {
+                all_finite(&key("turn_deg"), turn_deg)?;
+                check_turns((scene, held), &key(""), (filament, end))?;
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Checks that a path that sets factors of loads sets those of all loads without a factor in time.
+pub(super) fn check_loads(scene: &Scene) -> Result<(), SceneProblem> {
+    let unset = unset_loads(scene);
+    match unset.first() {
+        Some(&i) if scene.path.iter().any(sets_a_load) => {
+            let rule = format!(
+                "no stage of the path sets this load, but the path sets others: it would act in full from the start. \
+                 Add LoadFactor(load: {i}, factor: ..) to a stage: 1.0 where it acts, 0.0 where it does not"
+            );
+            Err(scene.loads[i].problem(i, rule))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Indices of loads that act in full along the whole path: no stage sets them, and they have no factor in time.
+pub fn unset_loads(scene: &Scene) -> Vec<usize> {
+    if scene.path.is_empty() {
+        return Vec::new();
+    }
+    let factors = load_factors(&scene.path, scene.loads.len());
+    let loads = scene.loads.iter().zip(factors).enumerate();
+    let unset = loads.filter(|(_, (load, set))| set.is_none() && load.factor().is_constant());
+    unset.map(|(i, _)| i).collect()
+}
+
+fn sets_a_load(stage: &Stage) -> bool {
+    stage
+        .set
+        .iter()
+        .any(|setting| matches!(setting, Setting::LoadFactor { .. }))
+}
+
+/// What a setting moves from outside is held; its keys begin with `prefix`.
+fn check_held(
+    (scene, held): (&Scene, &HeldEnds),
+    prefix: &str,
+    filament: usize,
+    end: End,
+) -> Result<(), SceneProblem> {
+    scene.named_filament(&format!("{prefix}filament"), filament)?;
+    if held.is_held(filament, end) {
+        return Ok(());
+    }
+    let rule = "this end is free: only a clamped end can be moved";
+    Err(SceneProblem::new(format!("{prefix}end"), show(end), rule))
+}
+
+/// What is shifted from outside is held, and does not slide along the shift.
+fn check_shift(
+    (scene, held): (&Scene, &HeldEnds),
+    prefix: &str,
+    (filament, end): (usize, End),
+    shift_nm: [f64; 3],
+) -> Result<(), SceneProblem> {
+    check_held((scene, held), prefix, filament, end)?;
+    let clamp = held.clamp_at(filament, end);
+    let axis = scene.filament_at(filament).map(|f| f.axis_at(end));
+    let (Some(clamp), Some(axis)) = (clamp, axis) else {
+        return Ok(());
+    };
+    let slides = scene.clamps[clamp].slides;
+    if !is_along(shift_nm.into(), &slides.directions(axis)) {
+        return Ok(());
+    }
+    let remedy = match slides {
+        Slides::Freely => "leave the shift out, or let the clamp slide AlongAxis or Nowhere",
+        _ => "shift it across its axis only, or let the clamp slide Nowhere",
+    };
+    let rule = format!(
+        "moves this end along directions in which clamps[{clamp}].slides = {slides:?} leaves it free, and \
+         would do nothing there: {remedy}"
+    );
+    let key = format!("{prefix}shift_nm");
+    Err(SceneProblem::new(key, show(shift_nm), rule))
+}
+
+/// What is turned from outside is held, and does not turn by itself.
+fn check_turns(
+    (scene, held): (&Scene, &HeldEnds),
+    prefix: &str,
+    (filament, end): (usize, End),
+) -> Result<(), SceneProblem> {
+    check_held((scene, held), prefix, filament, end)?;
+    let clamp = held.clamp_at(filament, end).map(|c| &scene.clamps[c]);
+    if clamp.is_some_and(|c| c.hold == Hold::Pin && c.hinge.is_none()) {
+        let rule = "this end is pinned: it turns by itself";
+        return Err(SceneProblem::new(format!("{prefix}end"), show(end), rule));
+    }
+    Ok(())
+}
+
+/// In time, every stage takes some.
+pub(super) fn check_durations(scene: &Scene, duration_ns: f64) -> Result<(), SceneProblem> {
+    for (i, stage) in scene.path.iter().enumerate() {
+        let key = format!("path[{i}].duration_ns");
+        let Some(duration) = stage.duration_ns else {
+            let rule =
+                "in Dynamics and Brownian every stage of the path takes a time: write duration_ns";
+            return Err(SceneProblem::new(key, "none", rule));
+        };
+        positive(&key, duration)?;
+    }
+    let whole: f64 = scene.path.iter().filter_map(|s| s.duration_ns).sum();
+    if whole > duration_ns {
+        return Err(SceneProblem::new(
+            "task.duration_ns",
+            show(duration_ns),
+            format!("must be at least {whole:?}, which the stages of the path take"),
+        ));
+    }
+    Ok(())
+}

@@ -1,0 +1,146 @@
+//! Points of a shape that stand in a file of their own: found beside the scene, and put into its text.
+
+use super::outline::{Outline, line_and_column};
+use super::{SceneError, SceneProblem, SceneText};
+use std::path::Path;
+
+impl SceneText {
+    /// Puts the points of every `Points(file: ...)` into the text in the place of the file, whose path is
+    /// relative to `folder`: lines stay as they are numbered.
+    ///
+    /// # Errors
+    /// A file that cannot be read, or a row in it that is no point, at the key that names the file.
+    pub fn read_points(&mut self, folder: &Path) -> Result<(), SceneError> {
+        let outline = Outline::of(self.text());
+        let mut parts = Vec::new();
+        for (i, node) in outline.nodes.iter().enumerate() {
+            let path = match node.key.as_deref() {
+                Some("file") => outline.path(i),
+                _ => continue,
+            };
+            let value = &self.text()[node.value.clone()];
+            let file = ron::from_str::<Option<String>>(value);
+            let file = file.or_else(|_| ron::from_str(value).map(Some));
+            // RON refuses what is not a string.
+            let (true, Ok(Some(file))) = (path.ends_with(".shape.file"), file) else {
+                continue;
+            };
+            let refused = |rule: String| {
+                let problem = SceneProblem::new(&path, format!("{file:?}"), rule);
+                self.placed(SceneError::new(
+                    line_and_column(self.text(), node.start),
+                    &problem.to_string(),
+                ))
+            };
+            let points = points(&folder.join(&file)).map_err(refused)?;
+            let written: Vec<String> = points
+                .iter()
+                .map(|[x, y, z]| format!("({x:?}, {y:?}, {z:?})"))
+                .collect();
+            let inserted = format!("nm: [{}]", written.join(", "));
+            parts.push((node.start..node.value.end, inserted));
+        }
+        self.replace(&parts);
+        Ok(())
+    }
+}
+
+/// The points of a file.
+pub(super) fn points(path: &Path) -> Result<Vec<[f64; 3]>, String> {
+    let text = std::fs::read_to_string(path).map_err(|error| format!("cannot be read: {error}"))?;
+    let rows = text.trim_start_matches('\u{feff}').lines().zip(1..);
+    let mut rows = rows.filter(|(line, _)| !line.trim().is_empty()).peekable();
+    rows.next_if(|(line, _)| is_heading(line));
+    rows.map(|(line, number)| point(line).ok_or_else(|| refusal(line, number)))
+        .collect()
+}
+
+fn point(line: &str) -> Option<[f64; 3]> {
+    let numbers = line.split(',').map(|number| number.trim().parse().ok());
+    let numbers: Vec<f64> = numbers.collect::<Option<_>>()?;
+    numbers.try_into().ok()
+}
+
+/// Whether no word of a row is a number.
+fn is_heading(line: &str) -> bool {
+    let mut words = line.split(|c: char| c.is_whitespace() || c == ',' || c == ';');
+    words.all(|word| word.parse::<f64>().is_err())
+}
+
+fn refusal(line: &str, number: usize) -> String {
+    let separator = match line.trim() {
+        line if line.contains(';') => ", not by semicolons",
+        line if line.contains('\t') => ", not by tabs",
+        line if line.contains(' ') && !line.contains(',') => ", not by spaces",
+        _ => "",
+    };
+    format!(
+        "line {number}: must be three numbers x, y, z (nm) with decimal points, separated by commas{separator}"
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Shape;
+
+    const SCENE: &str = "Scene(
+    filament: Filament(
+        sections: [Rod(from_nm: 0.0, to_nm: 40.0)],
+        shape: Points(file: \"trace.csv\"), roll_deg: 5.0,
+    ),
+    task: Dynamics(duration_ns: 1.0),
+)";
+
+    fn read(csv: &str) -> Result<SceneText, SceneError> {
+        let folder = tempfile::tempdir().unwrap();
+        std::fs::write(folder.path().join("trace.csv"), csv).unwrap();
+        let mut text = SceneText::new(SCENE);
+        text.read_points(folder.path()).map(|()| text)
+    }
+
+    /// Headings, blank lines and spaces are skipped; what is read is a scene by itself, with the points.
+    #[test]
+    fn points_come_from_their_file() {
+        let text = read("x_nm,y_nm,z_nm\n0, 0, 0\n\n0,5.5,20\n1e0,0,41\n").unwrap();
+        let scene = text.scene().unwrap();
+        let nm = vec![[0.0, 0.0, 0.0], [0.0, 5.5, 20.0], [1.0, 0.0, 41.0]];
+        let expected = Shape::Points { nm, file: None };
+        assert_eq!(scene.filament.shape, Some(expected));
+        assert!((scene.filament.roll_deg - 5.0).abs() < 1e-15);
+        assert_eq!(crate::Scene::from_ron(&scene.to_ron()), Ok(scene));
+    }
+
+    /// Each mistake stands at the key of the file; a text alone has no folder to look in.
+    #[test]
+    fn files_without_points_are_refused() {
+        let told = |csv| read(csv).map(|_| ()).unwrap_err().to_string();
+        let place = "4:23: filament.shape.file = \"trace.csv\": ";
+        let rule = "must be three numbers x, y, z (nm) with decimal points, separated by commas";
+        for (csv, line, more) in [
+            ("0,0,0\n1,2\n", 2, ""),
+            // The first row is a heading only if no word of it is a number.
+            ("0,0,O\n0,0,41\n", 1, ""),
+            ("x,y,z\n0,0\n", 2, ""),
+            ("0;0;0\n0;0;41\n", 1, ", not by semicolons"),
+            ("0,5;0,0;0,0\n", 1, ", not by semicolons"),
+            ("x y z\n0 0 0\n", 2, ", not by spaces"),
+            ("0\t0\t0\n", 1, ", not by tabs"),
+        ] {
+            assert_eq!(told(csv), format!("{place}line {line}: {rule}{more}"));
+        }
+        let mut text = SceneText::new(SCENE);
+        let missing = text.read_points(Path::new("/nowhere")).unwrap_err();
+        assert!(
+            missing
+                .to_string()
+                .starts_with(&format!("{place}cannot be read: ")),
+            "{missing}"
+        );
+        let alone = crate::Scene::from_ron(SCENE).unwrap_err().to_string();
+        assert!(alone.starts_with(&format!("{place}is not read")), "{alone}");
+        // Later lines are still where they were.
+        let short = read("0,0,0\n0,0,10\n").unwrap().scene().unwrap_err();
+        assert_eq!((short.line, short.column), (4, 23), "{short}");
+    }
+}
