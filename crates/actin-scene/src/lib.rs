@@ -8,6 +8,7 @@
 #[doc = include_str!("../README.md")]
 struct Readme;
 
+mod arrangement;
 mod brackets;
 mod brownian;
 mod curve;
@@ -20,6 +21,7 @@ mod imperfection;
 mod kinetics;
 mod law;
 mod linker;
+mod linkers_between;
 mod load;
 mod load_rules;
 mod locate;
@@ -53,6 +55,7 @@ mod validate;
 mod value;
 mod written;
 
+pub use arrangement::{Arrangement, Orientation};
 pub use brownian::{Brownian, Fluid, Interfaces};
 pub use curve::{Curve, swept};
 pub use drag::{DragModel, DragRates};
@@ -67,6 +70,7 @@ pub use law::{
     BendLaw, RodLaw, RodLaws, ShearLaw, StretchLaw, TwistLaw, TwistRise, TwistStretchLaw,
 };
 pub use linker::{Linker, LinkerSite};
+pub use linkers_between::LinkersBetween;
 pub use load::Resultant;
 pub use load::{Acceleration, Couple, CouplePerLength, Force, ForcePerLength, Load};
 pub use mistakes::{Readings, read_all};
