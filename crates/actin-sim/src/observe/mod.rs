@@ -16,6 +16,7 @@ mod linker;
 mod local;
 mod means;
 mod memory;
+mod network;
 mod reaction;
 mod tangents;
 mod tip;
@@ -139,6 +140,7 @@ fn build(one: Observable, scene: &Scene, energies: &EnergyNames) -> Box<dyn Obse
             Box::new(buckling::Buckling { filament, points })
         }
         Observable::Energies => Box::new(energies::Energies::new(energies.clone())),
+        Observable::Network => Box::new(network::Network),
         Observable::SquaredDisplacement {
             filament,
             of,

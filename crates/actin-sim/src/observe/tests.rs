@@ -4,11 +4,11 @@ use super::View;
 use crate::{Assembly, At, Booked, End, Plan, Record, Scene, Summary};
 use actin_mechanics::{State, Vector3, Xorshift, perturb, rotation};
 
-fn build(text: &str) -> Assembly {
+pub(super) fn build(text: &str) -> Assembly {
     Assembly::build(&Scene::from_ron(text).unwrap()).unwrap()
 }
 
-fn observe(assembly: &Assembly, state: &State) -> Vec<f64> {
+pub(super) fn observe(assembly: &Assembly, state: &State) -> Vec<f64> {
     let energies: Vec<f64> = assembly
         .system
         .interactions()
@@ -21,7 +21,7 @@ fn observe(assembly: &Assembly, state: &State) -> Vec<f64> {
 }
 
 /// The value of a column.
-fn of(assembly: &Assembly, row: &[f64], column: &str) -> f64 {
+pub(super) fn value(assembly: &Assembly, row: &[f64], column: &str) -> f64 {
     let columns = assembly.observers.columns();
     let place = columns.iter().position(|name| name == column);
     row[place.unwrap_or_else(|| panic!("{column} is none of {columns:?}"))]
@@ -88,7 +88,7 @@ fn observables_agree_with_the_summary() {
         ("energy_kinetic_pn_nm", 0.25),
         ("squared_displacement[0]_tip_nm2", 0.0),
     ] {
-        let found = of(&assembly, &record.observed, column);
+        let found = value(&assembly, &record.observed, column);
         assert_eq!(found.to_bits(), expected.to_bits(), "{column}");
         let told = summary.observables[column];
         assert_eq!((told.last, told.mean), (Some(expected), None), "{column}");
@@ -106,7 +106,7 @@ fn columns_belong_together() {
     names.sort();
     names.dedup();
     assert_eq!(names.len(), columns.len());
-    let of = |column: &str| of(&assembly, &record.observed, column);
+    let of = |column: &str| value(&assembly, &record.observed, column);
     assert!(of("squared_displacement[0]_centre_over_0.5ns_nm2").is_nan());
     let parts = ["section_0", "junction_0_1", "section_1"];
     let parts = parts.map(|part| of(&format!("energy_{part}_pn_nm")));
@@ -141,7 +141,7 @@ fn an_even_curve_has_its_curvature_twist_and_correlation() {
             state.frames.orientation.set(i, q);
         }
         let row = observe(&assembly, &state);
-        let of = |column: &str| of(&assembly, &row, column);
+        let of = |column: &str| value(&assembly, &row, column);
         assert!((of("curvature[0]_at_33.3nm_rad_per_nm") - 0.005).abs() < 1e-12);
         assert!(of("twist[0]_at_33.3nm_rad_per_nm").abs() < 1e-12);
         // The straight line between two frames misses `kappa^2 h^2 / 8` of the cosine, 3e-4 at 10 nm.
@@ -173,7 +173,7 @@ fn a_straight_filament_has_its_length() {
         ("contour[0]_gyration_radius_nm", length / 12.0_f64.sqrt()),
         ("end_to_end[0]_nm", length),
     ] {
-        let found = of(&assembly, &row, column);
+        let found = value(&assembly, &row, column);
         assert!((found - expected).abs() < 1e-12, "{column}: {found}");
     }
 }
@@ -266,7 +266,7 @@ fn ends_are_told_apart() {
     let row = observe(&assembly, &assembly.rest);
     let start = assembly.tip_nm(&assembly.rest, End::Start);
     assert_eq!(
-        of(&assembly, &row, "start[0]_z_nm").to_bits(),
+        value(&assembly, &row, "start[0]_z_nm").to_bits(),
         start.z.to_bits()
     );
 }
