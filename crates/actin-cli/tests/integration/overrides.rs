@@ -1,4 +1,4 @@
-//! Scenes from standard input, and keys that arguments set.
+//! Scenes from standard input, and overrides of keys.
 
 use crate::common::{Workplace, assert_has, code, stderr};
 
@@ -12,8 +12,7 @@ const SCENE: &str = "Scene(
     task: Equilibrium(),
 )";
 
-/// What was set is in the scene that is kept with the results, which gives the same results again and
-/// resumes; the text that says the same gives them too.
+/// The written scene contains the overrides and reproduces the results.
 #[test]
 fn what_is_set_is_run_and_kept() {
     let place = Workplace::with(SCENE);
@@ -46,7 +45,7 @@ fn what_is_set_is_run_and_kept() {
     assert!(check.starts_with(&place.read("a/scene.ron")), "{check}");
 }
 
-/// Exit code 2, nothing written, and a message that begins with the override, where it is one.
+/// Invalid overrides: exit code 2, nothing written, and a message that begins with the override.
 #[test]
 fn what_cannot_be_set_is_refused_by_name() {
     let place = Workplace::with(SCENE);
@@ -73,12 +72,11 @@ fn what_cannot_be_set_is_refused_by_name() {
     }
     let drawn = ["--set", "filament.monomers.anchors=Cubature", "--seed", "3"];
     let found = place.fail(2, &[&["run", "scene.ron"][..], &drawn].concat());
-    let message = "error: --seed 3: scene.ron draws nothing: no bonds, thermal noise, imperfections or events of linkers\n";
+    let message = "error: --seed 3: scene.ron has nothing random (sampled bonds, thermal noise, imperfections, linker events): remove --seed\n";
     assert_eq!(found, message);
     assert!(!place.path("runs").exists());
 }
 
-/// A scene from standard input has a directory by default; its errors have lines and columns.
 #[test]
 fn a_scene_may_come_from_standard_input() {
     let place = Workplace::with("");
