@@ -112,7 +112,7 @@ fn files_stay() {
     export(&place, &["--to", "gsd"]);
     let before = fs::read(place.path("run.gsd")).unwrap();
     let again = place.fail(2, &["export", "run/", "--to", "gsd"]);
-    assert_has(&again, &["run.gsd exists: files are never overwritten"]);
+    assert_has(&again, &["run.gsd exists: name another file"]);
     export(&place, &["--to", "gsd", "--overwrite"]);
     assert_eq!(
         fs::read(place.path("run.gsd")).unwrap(),

@@ -204,7 +204,7 @@ const MISTAKES: &[(&str, &str, &str)] = &[
     (
         "[35.5]",
         "[35.5, 1]",
-        "sweep.ron:6:67: vary[1].rows[1] = 2 values: a row has a value for each of the 1 keys",
+        "sweep.ron:6:67: vary[1].rows[1] = 2 values: a row must have a value for each of the 1 keys",
     ),
     (
         "counts.segments",
@@ -219,7 +219,7 @@ const MISTAKES: &[(&str, &str, &str)] = &[
     (
         "of: [Bonds]",
         "of: [Noise]",
-        "sweep.ron:8:5: samples: the scene draws nothing",
+        "sweep.ron:8:5: samples: the scene has nothing random",
     ),
     (
         "filament.sections[1].to_nm",
