@@ -59,7 +59,7 @@ fn a_killed_run_can_be_looked_at() {
         (MOTION, "record(s) up to its last checkpoint, at "),
         (
             &observed,
-            "this is its last record before its last checkpoint",
+            "the page shows the last record before its last checkpoint",
         ),
     ] {
         let place = Workplace::with(scene);
