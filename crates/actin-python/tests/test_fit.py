@@ -1,4 +1,4 @@
-"""Least squares of functions and columns."""
+"""Least-squares fits of functions and linear models."""
 
 import actin
 import numpy as np
@@ -21,7 +21,7 @@ def test_a_decay_is_found_with_its_errors():
     assert "p[1]" in found._repr_html_()
 
 
-def test_derivatives_of_ones_own_give_the_same():
+def test_a_given_jacobian_agrees_with_differences():
     def jacobian(x, p):
         return np.stack([np.exp(-p[1] * x), -x * decay(x, p)], axis=1)
 
