@@ -168,8 +168,7 @@ impl Chain<'_> {
     }
 
     /// Returns the stretch to run next and whether it has a checkpoint. Directories after a stretch without results
-    /// are
-    /// removed.
+    /// are removed.
     fn take_up(&mut self) -> Result<(Stretch, bool), Failure> {
         let refused = |problem| self.opened.refuse(&problem);
         let first = self.done().count();

@@ -1,11 +1,9 @@
 //! `println!` and `eprintln!` that do not panic on write errors.
 //!
 //! The macros of the standard library panic if a line cannot be written, which would lose the run. After the reader
-//! of
-//! standard output has closed the pipe (`| head`), lines are dropped and the exit code is unaffected. Other failures
-//! of
-//! standard output (disk full) are returned by [`ending`]. Control characters, which file names can contain, are
-//! escaped as `\u{1b}`.
+//! of standard output has closed the pipe (`| head`), lines are dropped and the exit code is unaffected. Other
+//! failures of standard output (disk full) are returned by [`ending`]. Control characters, which file names can
+//! contain, are escaped as `\u{1b}`.
 
 use std::fmt;
 use std::io::{self, Write};

@@ -17,8 +17,7 @@ pub(crate) struct TradeArguments {
     #[command(flatten)]
     source: SceneArguments,
     /// Compared quantities, separated by commas: tip, height, end-force, end-couple, energy, curvature, linker-force,
-    /// or
-    /// the prefix of a column of observables.csv. By default the observables of the scene and its tips.
+    /// or the prefix of a column of observables.csv. By default the observables of the scene and its tips.
     #[arg(long, value_name = "NAME", value_delimiter = ',')]
     quantity: Vec<String>,
     /// Largest accepted relative error.

@@ -9,8 +9,7 @@ const LEAST_NM: f64 = 10.0;
 /// Returns the edges of a box centred at the lab origin that contains all particles of all records (nm).
 ///
 /// Each edge is four times the largest coordinate plus radius. Two particles are then less than half an edge apart,
-/// so
-/// that periodic minimum images do not change distances.
+/// so that periodic minimum images do not change distances.
 ///
 /// # Errors
 /// If the states cannot be read.

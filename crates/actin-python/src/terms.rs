@@ -145,8 +145,7 @@ pub(crate) struct Field {
 
 impl Field {
     /// Creates the term from `force(position) -> force`, both `[n, 3]`, and `energy(position) -> float`. Exceptions
-    /// are
-    /// stored in `error`.
+    /// are stored in `error`.
     pub(crate) fn new(
         force: Py<PyAny>,
         energy: Option<Py<PyAny>>,

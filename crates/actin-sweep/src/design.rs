@@ -78,8 +78,7 @@ impl Design {
     }
 
     /// Selects at most `most` points, in order. The points are divided into `most` equal parts and one of each is
-    /// drawn;
-    /// the first and the last point are included. The selection is deterministic.
+    /// drawn; the first and the last point are included. The selection is deterministic.
     pub(crate) fn drawn(&self, most: usize) -> Vec<usize> {
         let count = self.points.len();
         if count <= most {

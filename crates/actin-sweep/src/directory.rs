@@ -23,13 +23,11 @@ impl SweepDirectory {
     /// Creates the directory of a sweep, or opens it to continue the same sweep.
     ///
     /// Two sweeps are the same if scene, runs and program version are equal. Their `results` may differ, which
-    /// requires
-    /// no new runs.
+    /// requires no new runs.
     ///
     /// # Errors
     /// If the directory contains another sweep or other files, contains the same sweep and `resume` is false, or a
-    /// file
-    /// system operation fails.
+    /// file system operation fails.
     pub fn create(
         path: impl AsRef<Path>,
         opened: &Opened,

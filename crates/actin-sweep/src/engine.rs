@@ -66,8 +66,7 @@ impl SweepDirectory {
     /// Makes all runs that have not ended, and writes `runs.csv` and `table.csv`.
     ///
     /// After an interruption, the tables list the remaining runs as `unfinished`. The final tables are bitwise
-    /// independent
-    /// of the number of threads and of interruptions.
+    /// independent of the number of threads and of interruptions.
     ///
     /// # Errors
     /// If another process makes the runs of this directory, or results cannot be written. Failed runs are rows of the

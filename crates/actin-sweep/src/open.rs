@@ -89,8 +89,8 @@ impl Opened {
     ///
     /// # Errors
     /// The first violated rule: an invalid number of the sweep, a key or value that the scene does not accept, an
-    /// unknown
-    /// result, or samples of a scene without random parts. Points with scenes that violate other rules fail when run.
+    /// unknown result, or samples of a scene without random parts. Points with scenes that violate other rules fail
+    /// when run.
     pub fn new(sweep: Sweep, scene: String) -> Result<Self, SceneProblem> {
         Self::with(sweep, scene).map_err(|problems| problems[0].clone())
     }

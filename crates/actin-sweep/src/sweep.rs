@@ -7,8 +7,7 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer};
 /// A sweep: a scene, its varied keys, the number of samples, and the tabulated results.
 ///
 /// The points are all combinations of the values of all axes; the last axis changes fastest. Each point is run once,
-/// or
-/// once for each sample.
+/// or once for each sample.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]

@@ -234,8 +234,7 @@ mod tests {
         assert_eq!(monomers.len(), shown.pose.strands[0].monomers.len());
         assert!(!text.contains("null"));
         // A body takes 7 numbers and 3 for its centre line, of at most 8 characters. A monomer takes 16 bonds of 6
-        // numbers of
-        // at most 5 characters, and their keys.
+        // numbers of at most 5 characters, and their keys.
         let bodies = shown.pose.lines[0].len();
         let all = value["states"][0]["strands"].as_array().unwrap().iter();
         let all: usize = all.map(|s| s["monomers"].as_array().unwrap().len()).sum();

@@ -7,8 +7,7 @@ use std::path::Path;
 /// Plots error versus run time to an SVG file, with logarithmic axes.
 ///
 /// Each point is the largest error of a candidate. One line connects the Pareto front, another marks the target
-/// error.
-/// Candidates with zero or unknown error have no point.
+/// error. Candidates with zero or unknown error have no point.
 ///
 /// # Errors
 /// If the file cannot be written.

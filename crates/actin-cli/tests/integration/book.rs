@@ -1,6 +1,5 @@
 //! Runs the code blocks of the README and of the book in order. Each page runs in its own empty folder, with the
-//! built
-//! program on the path.
+//! built program on the path.
 //!
 //! | block | action |
 //! |---|---|

@@ -90,8 +90,7 @@ fn an_explosion_is_reported_and_what_was_good_is_kept() {
 }
 
 /// Two percent above the stability limit, the energy grows slowly. The run fails when the energy exceeds what the
-/// load
-/// can have supplied, long before overflow.
+/// load can have supplied, long before overflow.
 #[test]
 fn a_slow_explosion_is_caught() {
     let unstable = "duration_ns: 1000.0, time_step_ns: 0.00602, allow_unstable_step: true";
@@ -148,8 +147,7 @@ fn what_check_prints_is_the_scene() {
 }
 
 /// A twist of 0.0698 rad/nm exceeds the range of the rod law, 0.0472 rad/nm, and is reported once per rod and
-/// quantity.
-/// Half of it is not reported.
+/// quantity. Half of it is not reported.
 #[test]
 fn a_rod_beyond_the_data_of_its_law_is_reported() {
     let scene = |turn: &str| {

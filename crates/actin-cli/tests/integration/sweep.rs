@@ -107,8 +107,7 @@ fn begin(place: &Workplace, out: &str) -> Child {
 }
 
 /// A sweep that is killed repeatedly has the tables of an undisturbed sweep. The time between kills grows, so that
-/// the
-/// test ends on any machine.
+/// the test ends on any machine.
 #[test]
 fn a_sweep_that_is_killed_goes_on_to_the_same_tables() {
     let sweep = SWEEP.replace("-1.5, inf", "-1.5");

@@ -15,8 +15,7 @@ const MOST_KILLS: u32 = 200;
 const UNDISTURBED: Duration = Duration::from_mins(5);
 
 /// Kills a run, on one to four threads, at random times until it is done. Its files must equal those of an
-/// undisturbed
-/// run.
+/// undisturbed run.
 pub(super) fn kill(case: &mut Case<'_>) -> Result<Tally, String> {
     let length = whole(case)?;
     let (mut kills, mut survived) = (0, 0);

@@ -1,8 +1,8 @@
 //! File layer of GSD, version 2.1: named arrays in frames.
 //!
 //! The file consists of a header of 256 bytes, the arrays, the list of names, and the index. An index entry holds
-//! frame,
-//! shape, location, name and type of an array. Entries are sorted by frame and name. Numbers are little-endian.
+//! frame, shape, location, name and type of an array. Entries are sorted by frame and name. Numbers are
+//! little-endian.
 //!
 //! # Source
 //! GSD documentation, "File layer", version 2.x (glotzerlab/gsd).

@@ -13,8 +13,7 @@
 //! | `log/particles/s_nm`, `log/particles/filament` | arc length and filament; -1 for ends of linkers |
 //!
 //! Data that do not change are stored in the first frame only, as the schema specifies. The box is four times as
-//! large
-//! as the run, so that periodic minimum images do not change distances.
+//! large as the run, so that periodic minimum images do not change distances.
 //!
 //! # Source
 //! GSD documentation, "HOOMD schema" and "Shape visualization" (glotzerlab/gsd).

@@ -69,8 +69,7 @@ mod tests {
     }
 
     /// All corners lie on the ellipsoid. The tetrahedra from the centre to the faces have positive volume, and their
-    /// sum is
-    /// 4/3 pi abc except for the discretisation error.
+    /// sum is 4/3 pi abc except for the discretisation error.
     #[test]
     fn faces_close_the_ellipsoid() {
         let axes = [0.7, 1.0, 0.9];

@@ -23,8 +23,7 @@ pub struct Bonds(BTreeMap<i64, [Interface; 2]>);
 
 impl Bonds {
     /// Returns the lattice index of the first monomer of a section, the number of bonds of an interface, and the
-    /// displayed
-    /// bonds; `None` for a rod.
+    /// displayed bonds; `None` for a rod.
     pub(crate) fn of(assembly: &Assembly, section: usize) -> Option<(i64, usize, Self)> {
         let Resolution::Ellipsoids { first_index, .. } = assembly.sections[section].resolution
         else {
@@ -45,8 +44,7 @@ impl Bonds {
     }
 
     /// Returns whether all interfaces in both are equal. Monomers at the end of a section have no bonds beyond it,
-    /// which is
-    /// compatible with any bonds.
+    /// which is compatible with any bonds.
     fn agrees(&self, other: &Self) -> bool {
         other.0.iter().all(|(index, theirs)| {
             self.0.get(index).is_none_or(|ours| {

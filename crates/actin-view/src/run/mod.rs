@@ -1,8 +1,7 @@
 //! Run directories and their pages.
 //!
 //! A directory must contain a valid `scene.ron`. Other missing or damaged files are reported on the page. Records of
-//! a
-//! running or interrupted run are read from its checkpoint. Without any states, the page shows the initial shape.
+//! a running or interrupted run are read from its checkpoint. Without any states, the page shows the initial shape.
 
 mod curves;
 mod data;

@@ -1,8 +1,7 @@
 //! Thinning of records.
 
 /// Returns evenly spaced indices below `count`, including the first and the last. Their number is at most `most`, but
-/// at
-/// least two.
+/// at least two.
 pub(super) fn evenly(count: usize, most: usize) -> Vec<usize> {
     let kept = most.max(2).min(count);
     if kept == count {

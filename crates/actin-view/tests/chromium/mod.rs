@@ -1,6 +1,5 @@
 //! Tests of pages in headless Chromium, for several crates. A script in a copy of a page returns its findings for
-//! each
-//! width, in light and dark mode.
+//! each width, in light and dark mode.
 //!
 //! The browser is `CHROME` or a Chromium on the path. Without one, tests are skipped with a message, or fail if
 //! `ACTIN_REQUIRE_BROWSER` is set, as in `.ci/run`.
@@ -58,8 +57,7 @@ pub(crate) fn probed(
 }
 
 /// Returns a page that shows the copy in frames of each width and collects the results of the scripts. A window
-/// cannot
-/// be as narrow as a phone.
+/// cannot be as narrow as a phone.
 fn around(widths: &[u32]) -> String {
     let mut left = 0;
     let frames = widths.iter().map(|width| {

@@ -177,8 +177,7 @@ impl Workplace {
     }
 
     /// Starts a run into `out`, sends `signals` as soon as `out` contains `name`, and waits for its end. Repeats if
-    /// the
-    /// run ends earlier.
+    /// the run ends earlier.
     pub(crate) fn interrupted(&self, out: &str, name: &str, signals: &[&str]) -> Output {
         for _ in 0..ATTEMPTS {
             let arguments = ["--out", out, "--checkpoint-every", "0.01"];
@@ -209,8 +208,7 @@ pub(crate) fn with_actin(program: &str, folder: &Path) -> Command {
 }
 
 /// Returns a Python that can import `packages`. If there is none, prints that the test of `what` is skipped, or fails
-/// if
-/// the environment variable `required` is set, as in `.ci/run`.
+/// if the environment variable `required` is set, as in `.ci/run`.
 pub(crate) fn python(packages: &str, required: &str, what: &str) -> Option<String> {
     let named = env::var("PYTHON").ok();
     let usual = ["python3", "/usr/bin/python3"].map(str::to_owned);
