@@ -1,4 +1,4 @@
-//! `cargo xtask tradeoff`: errors and times of `actin trade` on the scenes of `scenarios/trade`.
+//! `cargo xtask tradeoff`: errors and run times of `actin trade` for the scenes of `scenarios/trade`.
 
 use actin_sim::trade::{Candidate, Measure, Options as TradeOptions, Trade, Watch, trade};
 use actin_sim::{Assembly, Scene};
@@ -7,23 +7,21 @@ use std::fmt::Write as _;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// Folder of the scenes.
 const SCENES: &str = "scenarios/trade";
-/// Page of the book and folder of its pictures.
+/// Page of the book, and folder of its figures.
 const PAGE: &str = "docs/measured/trade.md";
 const PICTURES: &str = "docs/measured/trade";
-/// Wanted errors in descending order.
+/// Target errors in descending order.
 const WANTED: [f64; 3] = [0.05, 0.02, 0.01];
 
-/// Options of the study.
 #[derive(clap::Args, Debug)]
 pub(crate) struct Options {
     /// Names of scenes in `scenarios/trade`; all by default.
     names: Vec<String>,
-    /// Output folder of tables and pictures.
+    /// Output folder of tables and figures.
     #[arg(long, default_value = "target/tradeoff")]
     out: PathBuf,
-    /// Writes `docs/measured/trade.md` and its pictures, too.
+    /// Also writes `docs/measured/trade.md` and its figures.
     #[arg(long)]
     write: bool,
 }

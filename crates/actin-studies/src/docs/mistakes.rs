@@ -12,7 +12,7 @@ const PRINTED: &str = "scenarios/bad/printed.txt";
 const MISTAKES: [(&str, &str); 20] = [
     ("missing-unit", "A key without its unit"),
     ("unknown-unit-suffix", "A key in another unit"),
-    ("unit-behind-a-number", "A unit behind the number"),
+    ("unit-behind-a-number", "A unit after the number"),
     ("decimal-comma", "A comma in a number"),
     ("wrong-type", "A number in quotation marks"),
     (
@@ -35,7 +35,7 @@ const MISTAKES: [(&str, &str); 20] = [
     ("force-on-a-clamped-end", "A force on the clamped end"),
     (
         "equilibrium-of-a-free-filament",
-        "A filament that nothing holds",
+        "An unconstrained filament",
     ),
     ("thermal-without-drag", "Thermal noise without drag"),
     ("time-step-above-stability-limit", "Too long a time step"),

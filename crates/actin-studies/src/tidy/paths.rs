@@ -1,12 +1,12 @@
-//! Paths that the documentation names.
+//! Paths in the documentation exist.
 
 use super::files;
 use std::path::Path;
 
-/// Beginnings by which a word in backticks is taken for a path of this workspace.
+/// Prefixes of words in backticks that are checked as paths.
 const FOLDERS: [&str; 5] = ["crates/", "docs/", "scenarios/", "xtask/", "tests/"];
 
-/// Paths in backticks that do not exist.
+/// Returns paths in backticks that do not exist.
 pub(super) fn findings(root: &Path) -> Result<Vec<String>, String> {
     let mut all = Vec::new();
     for (file, text) in files(root, "md")? {
