@@ -12,7 +12,6 @@ fn workspace_root() -> PathBuf {
         .to_path_buf()
 }
 
-/// Returns a cargo command in the workspace.
 pub(crate) fn cargo(arguments: &[&str]) -> Command {
     let mut command = Command::new("cargo");
     command.args(arguments).current_dir(workspace_root());

@@ -28,7 +28,6 @@ enum Kind {
 }
 
 impl Kind {
-    /// Returns the name of the test.
     fn test(self) -> &'static str {
         match self {
             Self::Check => "spoilt_scenes_are_checked",
@@ -39,7 +38,6 @@ impl Kind {
     }
 }
 
-/// Runs the trials; fails if any case fails.
 pub(crate) fn run(options: &Options) -> anyhow::Result<()> {
     let cases = options.cases.map(|cases| cases.to_string());
     let mut test = cargo(&["test", "--workspace", "--test", "trials", "--"]);

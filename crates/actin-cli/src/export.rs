@@ -44,7 +44,6 @@ impl Target {
     }
 }
 
-/// Writes the file and prints its path.
 pub(crate) fn export(arguments: &ExportArguments) -> Result<(), Failure> {
     let format = arguments.to.format();
     let run = FinishedRun::open(&arguments.run).map_err(ExportError::from)?;

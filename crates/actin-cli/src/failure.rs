@@ -9,7 +9,6 @@ use std::io::Read as _;
 use std::path::Path;
 use std::process::ExitCode;
 
-/// A failure, with its message.
 #[derive(Debug)]
 pub(crate) enum Failure {
     /// The scene, the arguments or the output directory are not usable: exit code 2.
@@ -69,7 +68,6 @@ pub(crate) struct Read {
 }
 
 impl Read {
-    /// Reads the scene and applies the overrides of the arguments.
     pub(crate) fn new(source: &SceneArguments) -> Result<Self, Failure> {
         let name = source.scene.display().to_string();
         let bytes = if source.is_standard_input() {
@@ -102,7 +100,6 @@ impl Read {
         Ok(Self { scene, text, name })
     }
 
-    /// Reports a problem that was found after parsing.
     pub(crate) fn refuse(&self, problem: &actin_sim::SceneProblem) -> Failure {
         all(&self.name, &self.text, self.text.locate(problem))
     }
@@ -133,7 +130,6 @@ impl Opened {
         })
     }
 
-    /// Returns the plan of the run.
     pub(crate) fn plan(&self) -> Result<Plan<'_>, Failure> {
         Plan::new(&self.assembly).map_err(|problem| self.refuse(&problem))
     }
@@ -170,7 +166,6 @@ fn all(name: &str, text: &SceneText, first: SceneError) -> Failure {
 /// Largest number of mistakes that are listed.
 const LISTED: usize = 20;
 
-/// Lists the mistakes of a file, each with its line underlined.
 pub(crate) fn listed(name: &str, text: &SceneText, mistakes: &[SceneError]) -> Failure {
     let told = mistakes.iter().take(LISTED);
     let told = told.map(|mistake| shown(name, text, mistake));
@@ -183,7 +178,6 @@ pub(crate) fn listed(name: &str, text: &SceneText, mistakes: &[SceneError]) -> F
     Failure::Input(told)
 }
 
-/// Returns a mistake with its position and its line.
 fn shown(name: &str, text: &SceneText, mistake: &SceneError) -> String {
     format!("{}{}", placed(name, mistake), excerpt::of(text, mistake))
 }

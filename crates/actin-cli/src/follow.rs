@@ -20,7 +20,6 @@ struct Chain<'a> {
     beginnings: Vec<Beginning>,
 }
 
-/// Runs or resumes the scene in its directory.
 pub(crate) fn run(arguments: &RunArguments, opened: &Opened) -> Result<(), Failure> {
     let out = arguments.out.clone();
     let out = out.unwrap_or_else(|| by_default(&arguments.source));
@@ -83,7 +82,6 @@ fn ending(directory: &Path) -> Option<Status> {
     (summary.status != Status::Interrupted).then_some(summary.status)
 }
 
-/// Creates or opens the directory and returns its lock.
 fn claim(arguments: &RunArguments, out: &Path, is_new: bool) -> Result<RunLock, Failure> {
     if !is_new {
         return Ok(RunLock::take(out)?);
@@ -183,7 +181,6 @@ impl Chain<'_> {
         Ok((stretch, is_begun))
     }
 
-    /// Creates the directory of a stretch.
     fn create(&self, stretch: &Stretch, plan: &Plan<'_>) -> Result<(), Failure> {
         let directory = RunDirectory::create(self.path(stretch), true)?;
         directory.write_scene(plan.scene())?;

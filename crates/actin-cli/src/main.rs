@@ -99,7 +99,6 @@ impl SceneArguments {
         self.scene.as_os_str() == "-"
     }
 
-    /// Returns whether the scene is the unmodified file.
     fn is_as_written(&self) -> bool {
         !self.is_standard_input() && self.set.is_empty() && self.seed.is_none()
     }

@@ -6,7 +6,6 @@ use clap::CommandFactory;
 use clap_complete::Shell;
 use std::path::Path;
 
-/// Prints shell completions.
 pub(crate) fn completions(shell: Shell) {
     let mut text = Vec::new();
     clap_complete::generate(shell, &mut Arguments::command(), "actin", &mut text);

@@ -21,7 +21,6 @@ impl Progress {
         Self { bar }
     }
 
-    /// Updates the bar.
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,
@@ -56,7 +55,6 @@ pub(crate) fn pictures(count: usize) -> ProgressBar {
     bar
 }
 
-/// Creates a line that shows the current activity.
 pub(crate) fn spinner() -> ProgressBar {
     let bar = ProgressBar::new_spinner();
     bar.enable_steady_tick(std::time::Duration::from_millis(200));

@@ -13,7 +13,6 @@ use actin_sim::{
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-/// Runs or resumes a scene in its directory.
 pub(crate) fn run(arguments: &RunArguments) -> Result<(), Failure> {
     let opened = Opened::open(&arguments.source)?;
     let plan = opened.plan()?;
@@ -33,7 +32,6 @@ pub(crate) fn run(arguments: &RunArguments) -> Result<(), Failure> {
     run_plan(arguments, &opened, &plan)
 }
 
-/// Runs or resumes a plan in its directory.
 fn run_plan(arguments: &RunArguments, opened: &Opened, plan: &Plan<'_>) -> Result<(), Failure> {
     let out = arguments.out.clone();
     let out = out.unwrap_or_else(|| by_default(&arguments.source));
@@ -67,7 +65,6 @@ fn run_plan(arguments: &RunArguments, opened: &Opened, plan: &Plan<'_>) -> Resul
     Ok(())
 }
 
-/// Returns the default run directory of a scene.
 pub(crate) fn by_default(source: &SceneArguments) -> PathBuf {
     let name = match source.scene.file_stem() {
         Some(name) if !source.is_standard_input() => name,
@@ -76,7 +73,6 @@ pub(crate) fn by_default(source: &SceneArguments) -> PathBuf {
     Path::new("runs").join(name)
 }
 
-/// Refuses to overwrite the directory that contains the scene.
 pub(crate) fn refuse_own_scene(arguments: &RunArguments, out: &Path) -> Result<(), Failure> {
     if arguments.overwrite && RunDirectory::existing(out).holds(&arguments.source.scene) {
         let (scene, out) = (arguments.source.scene.display(), out.display());
@@ -87,7 +83,6 @@ pub(crate) fn refuse_own_scene(arguments: &RunArguments, out: &Path) -> Result<(
     Ok(())
 }
 
-/// Creates or opens the run directory and returns its lock.
 fn claim(arguments: &RunArguments, out: &Path) -> Result<Option<RunLock>, Failure> {
     refuse_own_scene(arguments, out)?;
     if arguments.overwrite && FollowedDirectory::is_at(out) {
@@ -108,7 +103,6 @@ fn claim(arguments: &RunArguments, out: &Path) -> Result<Option<RunLock>, Failur
     Ok(Some(lock))
 }
 
-/// Start of a run.
 enum Beginning {
     /// Starts a new run.
     New,
@@ -216,7 +210,6 @@ fn unwritten(
     })
 }
 
-/// Returns the command that continues a run.
 fn go_on(arguments: &RunArguments, directory: &RunDirectory) -> String {
     let place = directory.path().display();
     if !arguments.source.is_as_written() {
@@ -246,7 +239,6 @@ impl<'a> Watched<'a> {
         }
     }
 
-    /// Removes the progress bar.
     pub(crate) fn finish(&mut self) {
         self.progress.finish();
     }
@@ -276,7 +268,6 @@ impl Sink for Watched<'_> {
     }
 }
 
-/// A run and its directory.
 struct Task<'a> {
     arguments: &'a RunArguments,
     opened: &'a Opened,
@@ -285,7 +276,6 @@ struct Task<'a> {
 }
 
 impl Task<'_> {
-    /// Runs the plan.
     fn advance(
         &self,
         saved: Option<Saved>,
@@ -327,7 +317,6 @@ impl Task<'_> {
         Failure::Interrupted(format!("{message}; to continue: {go_on}"))
     }
 
-    /// Writes the records of a failed run and returns the failure.
     fn broken(&self, checkpoints: &Checkpoints, failed: &FailedRun) -> Failure {
         let (why, kept) = match &failed.failure {
             Broken::LoadLost(problem) => (self.opened.locate(problem), "the equilibria are"),

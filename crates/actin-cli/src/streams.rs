@@ -36,7 +36,6 @@ pub(crate) fn print_line(line: fmt::Arguments<'_>) {
     }
 }
 
-/// Writes a line to standard error. Write errors are ignored.
 pub(crate) fn print_error_line(line: fmt::Arguments<'_>) {
     if cfg!(test) {
         return std::eprintln!("{line}");
@@ -44,7 +43,6 @@ pub(crate) fn print_error_line(line: fmt::Arguments<'_>) {
     let _ = writeln!(io::stderr(), "{}", visible(line));
 }
 
-/// Escapes control characters except line feeds and tabs.
 fn visible(line: fmt::Arguments<'_>) -> String {
     let line = line.to_string();
     let mut visible = String::with_capacity(line.len());

@@ -63,7 +63,6 @@ enum Engine {
 #[derive(Clone, Debug)]
 struct Numbers(Vec<usize>);
 
-/// Parses numbers and ranges separated by commas.
 fn numbers(text: &str) -> Result<Numbers, String> {
     let mut all = Vec::new();
     for part in text.split(',') {
@@ -84,7 +83,6 @@ fn numbers(text: &str) -> Result<Numbers, String> {
     Ok(Numbers(all))
 }
 
-/// Runs, checks or emits a sweep, depending on the arguments.
 pub(crate) fn sweep(arguments: &SweepArguments) -> Result<(), Failure> {
     let opened = Opened::open(&arguments.sweep)?;
     if arguments.check {
@@ -109,7 +107,6 @@ pub(crate) fn sweep(arguments: &SweepArguments) -> Result<(), Failure> {
     finish(arguments, &out, ended)
 }
 
-/// Makes the runs with a progress bar.
 fn make(
     arguments: &SweepArguments,
     opened: &Opened,
@@ -142,7 +139,6 @@ fn make(
     Ok(ended?)
 }
 
-/// Prints the outcome.
 fn finish(arguments: &SweepArguments, out: &Path, ended: Ended) -> Result<(), Failure> {
     let (out, sweep) = (out.display(), arguments.sweep.display());
     if ended.is_interrupted() {
@@ -174,7 +170,6 @@ fn finish(arguments: &SweepArguments, out: &Path, ended: Ended) -> Result<(), Fa
     Ok(())
 }
 
-/// Prints the first values of each key.
 fn print_values(design: &Design) {
     for (k, key) in design.keys.iter().enumerate() {
         let mut values: Vec<&str> = Vec::new();
@@ -189,7 +184,6 @@ fn print_values(design: &Design) {
     }
 }
 
-/// Prints the number of runs and their cost.
 fn check(opened: &Opened) {
     let design = &opened.design;
     println!(

@@ -9,7 +9,6 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::Ordering;
 use std::time::Duration;
 
-/// Output files.
 const FILES: [&str; 3] = ["trade.csv", "trade.svg", "best.ron"];
 
 #[derive(Debug, clap::Args)]

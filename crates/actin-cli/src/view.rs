@@ -77,7 +77,6 @@ pub(crate) fn view(arguments: &ViewArguments) -> Result<(), Failure> {
     }
 }
 
-/// Writes the pictures of a film.
 fn film(arguments: &ViewArguments, run: &Run, folder: &Path) -> Result<(), Failure> {
     let refused = |reason: &str| Failure::Input(format!("{}: {reason}", folder.display()));
     let is_empty = match fs::read_dir(folder) {

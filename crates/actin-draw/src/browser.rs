@@ -2,7 +2,6 @@
 
 use std::path::PathBuf;
 
-/// Names of the executable.
 const NAMES: [&str; 4] = [
     "chromium",
     "chromium-browser",

@@ -91,7 +91,6 @@ mod tests {
         assert_eq!(Ramp::VIRIDIS.at(2.0), Colour(Ramp::VIRIDIS.stops()[5]));
     }
 
-    /// Each colour has a higher contrast on white than the previous one.
     #[test]
     fn viridis_darkens_throughout() {
         let shades: Vec<f64> = (0..=40)

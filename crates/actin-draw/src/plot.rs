@@ -53,7 +53,6 @@ impl Series {
 /// Length of a dash and of a gap, relative to the range of the line.
 const DASH: f64 = 0.018;
 
-/// Returns the dashes of a line.
 fn dashes(points: &[(f64, f64)], equal_axes: bool) -> Vec<Vec<(f64, f64)>> {
     let width = range(points.iter().map(|p| p.0));
     let height = range(points.iter().map(|p| p.1));
@@ -174,7 +173,6 @@ fn key<'a>(
     }
 }
 
-/// Returns dots, or samples along a line.
 fn along(series: &Series) -> Vec<(f64, f64)> {
     if series.dots {
         return series.points.clone();
@@ -243,7 +241,6 @@ fn ranges(chart: &Chart<'_>) -> Option<(std::ops::Range<f64>, std::ops::Range<f6
     Some((x.0..x.1, y.0..y.1))
 }
 
-/// Widens a range about its midpoint.
 fn widen((low, high): (f64, f64), width: f64) -> (f64, f64) {
     let middle = 0.5 * (low + high);
     (middle - 0.5 * width, middle + 0.5 * width)

@@ -109,13 +109,11 @@ fn render(picture: &Scatter<'_>, root: &Area<'_>) -> Outcome {
     Ok(root.present()?)
 }
 
-/// Returns the colour of a point and its text style.
 fn painted(point: &ScatterPoint) -> (RGBColor, TextStyle<'static>) {
     let colour = RGBColor::from(point.colour);
     (colour, FONT.into_font().color(&colour))
 }
 
-/// Draws the list of points.
 fn list(picture: &Scatter<'_>, area: &Area<'_>) -> Outcome {
     let black = FONT.into_font().color(&BLACK);
     area.draw(&Text::new(picture.list_title, (0, 20), black))?;
@@ -129,7 +127,6 @@ fn list(picture: &Scatter<'_>, area: &Area<'_>) -> Outcome {
     Ok(())
 }
 
-/// Returns a slightly extended range of values.
 fn decades(values: impl Iterator<Item = f64> + Clone) -> (f64, f64) {
     let low = values.clone().fold(f64::INFINITY, f64::min);
     let high = values.fold(0.0, f64::max);

@@ -157,7 +157,6 @@ impl<'a> Particles<'a> {
         }
     }
 
-    /// Adds a particle to the species with its name and shape.
     fn push(&mut self, name: &str, shape: Shape) {
         let alike = |s: &Species| s.shape == shape && s.name.starts_with(name);
         let found = self.species.iter().position(alike);

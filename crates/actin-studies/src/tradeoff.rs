@@ -72,7 +72,6 @@ trade; the largest ratio counts. \"Runs\" is the time of the reference and all c
 |---|---|---|---|---|---|---|---|---|---|
 ";
 
-/// Returns names and files of the selected scenes, in order.
 fn scenes(names: &[String]) -> Result<Vec<(String, PathBuf)>> {
     let mut found = Vec::new();
     for entry in fs::read_dir(SCENES).context(SCENES)? {
@@ -118,7 +117,6 @@ fn best(trade: &Trade, error: f64) -> Option<(usize, &Candidate)> {
     least.filter(|(_, candidate)| candidate.wall_s < trade.reference.wall_s)
 }
 
-/// Returns the row of the summary for one scene.
 fn row(name: &str, first: &Trade, second: &Trade) -> String {
     let mut again: f64 = 1.0;
     let cells = WANTED.map(|wanted| match best(first, wanted) {
@@ -140,7 +138,6 @@ fn row(name: &str, first: &Trade, second: &Trade) -> String {
     )
 }
 
-/// Returns the leading comment of a scene.
 fn comment(text: &str) -> String {
     let lines = text.lines().map_while(|line| line.strip_prefix("//"));
     lines.map(str::trim).collect::<Vec<_>>().join(" ")

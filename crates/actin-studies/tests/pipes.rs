@@ -4,7 +4,6 @@
 use std::path::Path;
 use std::process::{Command, Output, Stdio};
 
-/// Runs a task with a reader, or with a closed pipe.
 fn task(arguments: &[&str], out: Option<&Path>, has_reader: bool) -> Output {
     let mut command = Command::new(env!("CARGO_BIN_EXE_actin-studies"));
     command.args(arguments).args(out.map(Path::as_os_str));
@@ -22,7 +21,6 @@ fn task(arguments: &[&str], out: Option<&Path>, has_reader: bool) -> Output {
         .unwrap()
 }
 
-/// A task that only prints, a task that writes files, and a task that fails.
 #[test]
 fn a_closed_pipe_ends_no_task() {
     let folder = tempfile::tempdir().unwrap();

@@ -45,7 +45,6 @@ fn key<'a>(path: &'a str, fields: &Map<String, Value>) -> (&'a str, &'a str) {
     known.map_or_else(|| step(path), |key| inside.split_at(key.len()))
 }
 
-/// Converts a number or Boolean.
 pub(crate) fn number(value: &Value) -> Option<f64> {
     value.as_bool().map(f64::from).or_else(|| value.as_f64())
 }

@@ -29,7 +29,6 @@ pub struct Run {
 }
 
 impl Design {
-    /// Creates the design of a valid sweep.
     pub(crate) fn new(sweep: &Sweep) -> Self {
         let mut points = vec![Vec::new()];
         for axis in &sweep.vary {
@@ -113,7 +112,6 @@ impl Samples {
 }
 
 impl Axis {
-    /// Returns the varied keys.
     pub(crate) fn keys(&self) -> Vec<&str> {
         match self {
             Self::List { key, .. } | Self::Grid { key, .. } => vec![key],
@@ -122,7 +120,6 @@ impl Axis {
         }
     }
 
-    /// Returns the number of values of each key.
     pub(crate) fn len(&self) -> usize {
         match self {
             Self::List { values, .. } => values.len(),
@@ -165,7 +162,6 @@ impl Axis {
 mod tests {
     use super::*;
 
-    /// Few of many points are drawn: the first, the last, and one of each part.
     #[test]
     fn of_many_points_few_are_drawn() {
         let design = |count: usize| Design {

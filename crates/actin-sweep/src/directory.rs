@@ -76,7 +76,6 @@ impl SweepDirectory {
         Ok(RunLock::take(&self.path)?)
     }
 
-    /// Returns whether the directory contains hidden files only.
     fn is_empty(&self) -> Result<bool, SweepError> {
         let entries = fs::read_dir(&self.path).map_err(SweepError::io(&self.path))?;
         let mut names = entries.filter_map(|entry| Some(entry.ok()?.file_name()));

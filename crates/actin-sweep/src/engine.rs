@@ -131,7 +131,6 @@ impl SweepDirectory {
 }
 
 impl SweepDirectory {
-    /// Removes checkpoints of runs that were killed after writing their results.
     fn remove_checkpoints(&self, runs: &[usize], left: &[usize]) -> Result<(), SweepError> {
         // `left` is a subsequence of `runs`.
         let mut left = left.iter().peekable();

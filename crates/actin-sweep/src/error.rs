@@ -82,7 +82,6 @@ fn lines(file: &Path, mistakes: &[SceneError]) -> String {
 }
 
 impl SweepError {
-    /// Creates an error from mistakes in any order.
     pub(crate) fn refused(file: &Path, text: &str, mut mistakes: Vec<SceneError>) -> Self {
         mistakes.sort_by_key(|mistake| (mistake.line, mistake.column));
         mistakes.dedup();

@@ -95,7 +95,6 @@ impl Opened {
         Self::with(sweep, scene).map_err(|problems| problems[0].clone())
     }
 
-    /// Returns all violated rules, at least one.
     fn with(sweep: Sweep, scene: String) -> Result<Self, Vec<SceneProblem>> {
         let all = |problems: Vec<SceneProblem>| {
             if problems.is_empty() {
@@ -125,7 +124,6 @@ impl Opened {
         all(problems).map(|()| opened)
     }
 
-    /// Returns the text of the scene of a point.
     fn text(&self, point: usize) -> Result<SceneText, SceneError> {
         let mut text = self.base.clone();
         for one in self.design.overrides(point) {
@@ -149,7 +147,6 @@ impl Opened {
         Ok((scene, text))
     }
 
-    /// Returns the first invalid value of each axis.
     fn problems_of_values(&self) -> Vec<SceneProblem> {
         let mut first = 0;
         let axes = self.sweep.vary.iter().enumerate();
@@ -180,7 +177,6 @@ impl Opened {
         Ok(())
     }
 
-    /// Returns the scene of the first valid point.
     fn example(&self) -> Option<Scene> {
         let points = 0..self.design.points.len();
         points
@@ -269,7 +265,6 @@ fn kind(value: &str) -> &str {
     }
 }
 
-/// Returns the position of a value of an axis.
 fn place(i: usize, axis: &Axis, row: usize, column: usize) -> String {
     match axis {
         Axis::List { .. } => format!("vary[{i}].values[{row}]"),

@@ -4,7 +4,6 @@ use crate::sweep::{Plan, Scale, Span};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
-/// Returns the values of all spans, point by point, in RON.
 pub(crate) fn points(number: usize, seed: u64, plan: Plan, over: &[Span]) -> Vec<Vec<String>> {
     let mut random = ChaCha8Rng::seed_from_u64(seed);
     let columns: Vec<Vec<String>> = over
@@ -47,7 +46,6 @@ impl Span {
     }
 }
 
-/// Interpolates between two numbers, exactly at the ends.
 pub(crate) fn between((from, to): (f64, f64), scale: Scale, share: f64) -> f64 {
     if share <= 0.0 {
         return from;
@@ -84,7 +82,6 @@ mod tests {
             .collect()
     }
 
-    /// One point in each tenth of each span, in different orders; reproducible from the seed.
     #[test]
     fn a_latin_hypercube_has_one_point_in_each_part() {
         let over = [span(Scale::Linear, false), span(Scale::Logarithmic, false)];
@@ -105,7 +102,6 @@ mod tests {
         assert_ne!(points, drawn(10, 8, Plan::LatinHypercube, &over));
     }
 
-    /// Independent points fill the span; numbers of a `whole` span are integers.
     #[test]
     fn independent_points_lie_in_the_span() {
         let points = drawn(500, 1, Plan::Independent, &[span(Scale::Linear, true)]);

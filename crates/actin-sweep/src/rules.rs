@@ -15,7 +15,6 @@ const MOST_PROBLEMS: usize = 20;
 
 type Checked = Result<(), SceneProblem>;
 
-/// Returns all violated rules, one for each key.
 pub(crate) fn problems(sweep: &Sweep) -> Vec<SceneProblem> {
     let mut found: Vec<SceneProblem> = Vec::new();
     let mut note = |checked: Checked| {
@@ -137,7 +136,6 @@ fn check_ends(prefix: &str, (from, to): (f64, f64), scale: Scale) -> Checked {
     Ok(())
 }
 
-/// Returns an error if `count` is zero.
 fn some(key: &str, count: usize, what: &str) -> Checked {
     let rule = || format!("must have at least one {what}");
     let none = || SceneProblem::new(key, count, rule());

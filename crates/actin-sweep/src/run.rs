@@ -10,7 +10,6 @@ use serde_json::Value;
 use std::path::Path;
 use std::sync::Arc;
 
-/// State of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum State {
     /// Ended, successfully or not, with a summary.
@@ -19,7 +18,6 @@ pub(crate) enum State {
     Interrupted,
 }
 
-/// Returns the summary of a run that has ended.
 pub(crate) fn summary(directory: &Path) -> Option<Value> {
     let text = std::fs::read_to_string(directory.join("summary.json")).ok()?;
     let summary: Value = serde_json::from_str(&text).ok()?;
@@ -56,7 +54,6 @@ pub(crate) fn make(
     }
 }
 
-/// Makes a run with a valid plan.
 fn make_planned(
     path: &Path,
     plan: &Plan<'_>,

@@ -3,7 +3,6 @@
 use crate::files::{self, PROFILE, SNAKEFILE};
 use crate::{Opened, Priced, SweepDirectory, SweepError};
 
-/// Template of the workflow.
 const WORKFLOW: &str = r#"# A sweep of actin scenes for Snakemake 9, written by `actin sweep --emit snakemake`.
 #
 #   snakemake --cores all                    on this machine

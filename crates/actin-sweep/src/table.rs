@@ -37,7 +37,6 @@ impl Row {
         }
     }
 
-    /// Creates a row from a summary.
     pub(crate) fn of(summary: &Value, names: &[String]) -> Self {
         let text = |key: &str| summary[key].as_str().unwrap_or_default().to_owned();
         let status = text("status");
@@ -84,7 +83,6 @@ impl<'a> Table<'a> {
         files::replace(directory.path(), TABLE, &self.points())
     }
 
-    /// Returns the table of runs.
     fn runs(&self) -> Vec<u8> {
         let (design, sweep) = (&self.opened.design, &self.opened.sweep);
         let head = words(&["run", "point"])

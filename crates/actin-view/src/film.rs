@@ -93,7 +93,6 @@ impl Film {
         })
     }
 
-    /// Returns a camera in which all records are visible.
     fn camera(&self, run: &Run) -> Camera {
         let [width, height] = self.size.map(|n| n as f64);
         let places: Vec<Vector3> = run
@@ -134,7 +133,6 @@ impl Film {
         picture
     }
 
-    /// Draws the scale bar and the clock.
     fn write_clock(&self, run: &Run, record: usize, camera: Camera, picture: &mut Picture) {
         let [width, height] = self.size.map(|n| n as f64);
         let foot = height - 16.0;
@@ -274,7 +272,6 @@ impl Scene<'_> {
         turn.to_rotation_matrix().into_inner()
     }
 
-    /// Draws an arrow for a force; all arrows have equal length.
     fn arrow(&mut self, at: Vector3, force: Vector3) {
         let per_nm = self.canvas.per_nm();
         let along = force.normalize();

@@ -139,7 +139,6 @@ mod tests {
     use actin_draw::Colour;
     use actin_draw::page::DARK_CARD;
 
-    /// On the dark page, parts have at least the contrast that they have on white paper.
     #[test]
     fn every_thing_is_seen_on_the_dark_card() {
         let contrast = |one, other| Colour(one).contrast(Colour(other));

@@ -121,7 +121,6 @@ mod tests {
         strands.flat_map(|s| s.monomers.clone()).collect()
     }
 
-    /// A pose contains every body at its position, for one filament and for three linked filaments.
     #[test]
     fn a_pose_holds_the_bodies_of_the_assembly() {
         for assembly in [mixed(), built("crosslinked.ron")] {
@@ -160,7 +159,6 @@ mod tests {
         }
     }
 
-    /// Linkers between filaments have no anchors. Filaments share quadrature bonds; sampled bonds differ.
     #[test]
     fn linked_filaments_keep_their_sites_and_bonds_apart() {
         let assembly = built("crosslinked.ron");
@@ -220,7 +218,6 @@ mod tests {
         assert_eq!(seen, 8 * model.pairs().len());
     }
 
-    /// The file contains no null, which would replace a non-finite number, and has the expected size.
     #[test]
     fn a_file_of_states_is_finite_and_small() {
         let folder = tempfile::tempdir().unwrap();

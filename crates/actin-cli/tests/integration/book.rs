@@ -52,7 +52,6 @@ fn blocks(text: &str) -> Vec<Block> {
     all
 }
 
-/// Matches a line against a pattern, in which `...` matches anything.
 fn matches(pattern: &str, line: &str) -> bool {
     let mut parts = pattern.trim_end().split("...");
     let Some(mut rest) = line.trim_end().strip_prefix(parts.next().unwrap_or("")) else {
@@ -156,7 +155,6 @@ impl Page {
     }
 }
 
-/// Returns both streams, standard output first.
 fn both(output: &Output) -> String {
     let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
     text(&output.stdout) + &text(&output.stderr)
@@ -166,7 +164,6 @@ fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
 }
 
-/// Returns whether a crate includes a page in its documentation tests.
 fn is_doc_test(page: &str) -> bool {
     let include = format!("#[doc = include_str!(\"../../../{page}\")]");
     let crates = fs::read_dir(root().join("crates")).unwrap();
@@ -235,7 +232,6 @@ fn output_that_differs_is_found() {
     assert_eq!(missing("c\na\n", "a\nb\nc\n"), Some("a"));
 }
 
-/// A block that fails or prints other output fails the test.
 #[test]
 #[should_panic(expected = "not in the output")]
 fn a_page_with_stale_output_fails() {

@@ -31,7 +31,6 @@ fn a_result_outside_the_model_is_a_failure() {
     assert_eq!(again, message);
 }
 
-/// A column beyond its critical load leaves the straight state.
 #[test]
 fn saddles_that_were_left_are_reported() {
     for (force, saddles) in [(2.0, 0), (8.0, 1)] {
@@ -99,7 +98,6 @@ fn an_end_on_a_saddle_is_a_failure() {
     }
 }
 
-/// A motion that comes to rest reports its stability and the saddles it was pushed off.
 #[test]
 fn a_motion_at_rest_says_in_what() {
     let imperfection = "imperfection: (amplitude_nm: 0.01, seed: 1),";
@@ -124,7 +122,6 @@ fn a_motion_at_rest_says_in_what() {
     }
 }
 
-/// Without an energy, the stability of an equilibrium is unknown, and the run warns about it.
 #[test]
 fn rest_that_is_not_certified_is_told() {
     let stop = "stop: (force_pn: 1e-3, torque_pn_nm: 1e-3, kinetic_pn_nm: 1e-6),";
@@ -137,7 +134,6 @@ fn rest_that_is_not_certified_is_told() {
     assert!(output.contains(told), "{output}");
 }
 
-/// A tolerance below round-off produces a warning.
 #[test]
 fn a_residual_at_the_floor_of_rounding_is_told() {
     for (tolerance, told) in [("1e-7", false), ("1e-16", true)] {

@@ -38,7 +38,6 @@ fn ran(scene: &str) -> Workplace {
     place
 }
 
-/// Runs a script of `tests/readers` in the folder.
 fn read(place: &Workplace, script: &str, packages: &[&str]) {
     let python = env::var("ACTIN_READERS").unwrap_or_else(|_| "python3".to_owned());
     for package in packages {
@@ -105,7 +104,6 @@ fn mistakes_are_told() {
     );
 }
 
-/// Existing files are kept without `--overwrite`; a failed export leaves no file.
 #[test]
 fn files_stay() {
     let place = ran(SCENE);

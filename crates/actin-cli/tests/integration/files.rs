@@ -56,7 +56,6 @@ fn a_closed_pipe_ends_nothing() {
     }
 }
 
-/// With standard error closed, exit codes and results are unchanged.
 #[test]
 fn closed_standard_error_changes_no_exit_code() {
     let place = Workplace::with(&short_motion());
@@ -77,7 +76,6 @@ fn closed_standard_error_changes_no_exit_code() {
     assert_same_files(&place.path("whole"), &place.path("a"));
 }
 
-/// Output lost on a full device is an error.
 #[cfg(target_os = "linux")]
 #[test]
 fn output_that_is_lost_is_told() {
@@ -104,7 +102,6 @@ fn refusal(place: &Workplace, arguments: &str, folders: &[&str]) -> String {
     stderr(&output).to_owned()
 }
 
-/// `--overwrite` replaces an earlier run and keeps other files.
 #[test]
 fn an_earlier_run_is_replaced() {
     let place = Workplace::with(&short_motion());
@@ -120,7 +117,6 @@ fn an_earlier_run_is_replaced() {
     assert_same_files(&place.path("b"), &place.path("a"));
 }
 
-/// A scene inside the directory to be overwritten, directly or through a link, is kept.
 #[test]
 fn a_scene_is_not_overwritten() {
     let place = Workplace::with(EQUILIBRIUM);
@@ -141,7 +137,6 @@ fn a_scene_is_not_overwritten() {
     assert_has(&message, &["b is not empty and has no actin-run.json"]);
 }
 
-/// A read-only directory is unchanged. (Permissions do not restrict an administrator.)
 #[test]
 fn a_read_only_directory_stays() {
     let place = Workplace::with(EQUILIBRIUM);
@@ -260,7 +255,6 @@ impl Drop for Mounted<'_> {
     }
 }
 
-/// A run killed while writing results leaves complete or unfinished-named files, and resumes to identical bytes.
 #[test]
 fn a_run_killed_while_it_writes_results_loses_nothing() {
     let place = Workplace::with(&MOTION.replace("duration_ns: 150.0", "duration_ns: 60.0"));

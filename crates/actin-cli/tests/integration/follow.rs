@@ -47,7 +47,6 @@ fn assert_same(one: &Path, other: &Path) {
     }
 }
 
-/// Interrupted and killed runs resume to identical bytes.
 #[test]
 fn a_motion_that_is_followed_goes_on_to_the_same_bytes() {
     let place = Workplace::with(SWINGING);
@@ -85,7 +84,6 @@ fn overdamped_motion_that_is_followed_goes_on_to_the_same_bytes() {
     assert_same(&place.path("whole"), &place.path("parts"));
 }
 
-/// A finished run is not resumed. `--overwrite` replaces it with its stretches and keeps other files.
 #[test]
 fn stretches_are_replaced_with_the_run() {
     let place = Workplace::with(SWINGING);

@@ -12,7 +12,6 @@ const SCENE: &str = "Scene(
     task: Equilibrium(),
 )";
 
-/// The written scene contains the overrides and reproduces the results.
 #[test]
 fn what_is_set_is_run_and_kept() {
     let place = Workplace::with(SCENE);

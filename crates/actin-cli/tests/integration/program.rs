@@ -106,7 +106,6 @@ fn a_slow_explosion_is_caught() {
     }
 }
 
-/// The output of `check` is an equivalent scene with all defaults.
 #[test]
 fn what_check_prints_is_the_scene() {
     let place = Workplace::with(TINY);
@@ -263,7 +262,6 @@ fn check_prints_the_cost() {
     );
 }
 
-/// Completions and manual pages contain every command of the help.
 #[test]
 fn completions_and_manual_pages_name_every_command() {
     let place = Workplace::with("");

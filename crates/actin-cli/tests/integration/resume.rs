@@ -13,7 +13,6 @@ use std::time::Duration;
 
 const LOCK: &str = "a/.actin-run.lock";
 
-/// Stops a process and waits until it has stopped or ended.
 fn stop(child: &Child) {
     signal(child, "-STOP");
     let id = child.id().to_string();
@@ -51,7 +50,6 @@ fn an_interrupted_run_goes_on_to_the_same_bytes() {
     }
 }
 
-/// `actin view` shows the records of a killed run up to its last checkpoint.
 #[test]
 fn a_killed_run_can_be_looked_at() {
     let observed = observed();
@@ -80,7 +78,6 @@ fn a_killed_run_can_be_looked_at() {
     }
 }
 
-/// Both signals arrive while the process is stopped; the second kills it when it continues.
 #[test]
 fn a_second_signal_kills() {
     let place = Workplace::with(MOTION);
@@ -89,7 +86,6 @@ fn a_second_signal_kills() {
     assert!(matches!(output.status.signal(), Some(2 | 15)));
 }
 
-/// Under `nohup`, SIGHUP remains ignored.
 #[test]
 fn a_hangup_that_was_ignored_before_is_ignored() {
     let place = Workplace::with(MOTION);
@@ -119,7 +115,6 @@ fn a_full_disk_loses_no_checkpoint() {
     assert_same_files(&place.path("whole"), &place.path("a"));
 }
 
-/// `--resume` without a checkpoint starts the run.
 #[test]
 fn what_has_not_begun_begins() {
     let place = Workplace::with(&short_motion());

@@ -69,7 +69,6 @@ fn kill_half_way(place: &Workplace, command: &mut Command) {
     );
 }
 
-/// A killed workflow continues from checkpoints, and its tables are identical to those of `actin sweep`.
 #[test]
 fn a_workflow_that_is_killed_ends_with_the_same_table() {
     let place = Workplace::with(&pushed(60.0));

@@ -151,7 +151,6 @@ fn place(study: &Study) -> Workplace {
     place
 }
 
-/// Each scene, with overrides.
 #[test]
 fn scenes_run() {
     for study in STUDIES {
@@ -208,7 +207,6 @@ fn sweeps_run_and_scripts_draw_them() {
     }
 }
 
-/// The stored bundle scene equals the output of `make_bundle.py`.
 #[test]
 fn the_bundle_is_what_its_script_writes() {
     let place = Workplace::with("");

@@ -64,7 +64,6 @@ fn a_sweep_becomes_a_table() {
     assert_eq!(table[5][3..7], ["3", "3", "", ""].map(str::to_owned));
 }
 
-/// A run of a sweep is identical to `actin run` of the same scene.
 #[test]
 fn a_run_of_a_sweep_is_a_run() {
     let place = place(SWEEP);
@@ -75,7 +74,6 @@ fn a_run_of_a_sweep_is_a_run() {
     place.assert_same(["alone", "a/runs/7"], &names);
 }
 
-/// Tables are independent of the number of cores, of the order of runs and of interruptions.
 #[test]
 fn tables_do_not_depend_on_how_they_were_made() {
     let place = place(SWEEP);
@@ -251,7 +249,6 @@ fn mistakes_of_a_sweep_have_their_place() {
     }
 }
 
-/// All mistakes of a sweep are reported, each with its line.
 #[test]
 fn all_mistakes_of_a_sweep_are_told() {
     let unread = SWEEP
@@ -298,7 +295,6 @@ const HEATED: &str = "Scene(
         ),
     )";
 
-/// Means and standard errors of observables are columns; unknown names are refused.
 #[test]
 fn observables_are_results() {
     let place = place("");
@@ -337,7 +333,6 @@ fn observables_are_results() {
     );
 }
 
-/// A completed run that lacks a result counts as failed.
 #[test]
 fn a_result_that_is_lacking_is_told() {
     let place = place("");
@@ -354,7 +349,6 @@ fn a_result_that_is_lacking_is_told() {
     }
 }
 
-/// Directories of another sweep, of the same sweep without `--resume`, and foreign directories are unchanged.
 #[test]
 fn other_directories_are_left_alone() {
     let place = place(SWEEP);

@@ -32,7 +32,6 @@ fn a_trace_stands_beside_its_scene() {
     place.assert_same(["a", "b"], &["profile.csv"]);
 }
 
-/// With a scene from standard input, paths are relative to the working directory.
 #[test]
 fn standard_input_looks_into_the_working_directory() {
     let place = Workplace::with(SCENE);
@@ -46,7 +45,6 @@ fn standard_input_looks_into_the_working_directory() {
     );
 }
 
-/// A sweep stores the points in its directory.
 #[test]
 fn a_sweep_keeps_the_points() {
     let place = Workplace::with(SCENE);

@@ -134,7 +134,6 @@ fn assert_plays(found: &Value, records: u64) {
     assert!(count(&found["picked"]) <= records / 4, "{found}");
 }
 
-/// A page replaces an older page, but no other file.
 #[test]
 fn only_pages_are_replaced() {
     let place = ran(PATH);
@@ -181,7 +180,6 @@ fn directories_that_are_not_whole() {
     refused("a", "scene.ron:2:");
 }
 
-/// Pictures have the requested size and show bodies on white; existing files are kept.
 #[test]
 fn films_are_pictures_in_order() {
     let place = ran(PATH);
@@ -207,7 +205,6 @@ fn films_are_pictures_in_order() {
     assert_has(&output, &["film: is not empty"]);
 }
 
-/// The camera rotates; invalid sizes and numbers are refused.
 #[test]
 fn films_that_turn_and_arguments_that_are_refused() {
     let place = ran(PATH);

@@ -27,12 +27,10 @@ type Tally = BTreeMap<&'static str, u64>;
 /// Counts of a case, or the reason why it failed.
 type Outcome = Result<Tally, String>;
 
-/// Returns a tally with one entry.
 fn once(what: &'static str) -> Tally {
     Tally::from([(what, 1)])
 }
 
-/// Input of a case.
 struct Case<'a> {
     /// Scenes of the repository.
     corpus: &'a [String],
@@ -42,19 +40,16 @@ struct Case<'a> {
     random: ChaCha8Rng,
 }
 
-/// Corrupted scenes of the repository under `actin check`.
 #[test]
 fn spoilt_scenes_are_checked() {
     try_all("check", (100, 4000), spoilt::check);
 }
 
-/// Corrupted scenes under `actin run`, interrupted after a time limit.
 #[test]
 fn spoilt_scenes_are_run() {
     try_all("run", (10, 400), spoilt::run);
 }
 
-/// Runs killed at random times and resumed until they are done have identical files.
 #[test]
 fn killed_runs_are_resumed() {
     let tally = try_all("kill", (2, 20), kills::kill);
@@ -64,13 +59,11 @@ fn killed_runs_are_resumed() {
     );
 }
 
-/// Scenes changed in ways that must not change the result.
 #[test]
 fn scenes_changed_without_effect_agree() {
     try_all("metamorphic", (10, 200), metamorphic::compare);
 }
 
-/// Parses a number from an environment variable.
 fn number(variable: &str) -> Option<u64> {
     let text = std::env::var(variable).ok()?;
     Some(

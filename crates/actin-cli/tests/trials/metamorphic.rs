@@ -60,7 +60,6 @@ fn moved(case: &mut Case<'_>) -> Result<Tally, String> {
     agree(&one, &two, NEAR).map(|()| once("moved"))
 }
 
-/// The filament together with another, unconnected filament.
 fn accompanied(case: &mut Case<'_>) -> Result<Tally, String> {
     let draft = Draft::random(&mut case.random);
     let mut friend = Draft::random(&mut case.random);
@@ -87,7 +86,6 @@ fn listed(case: &mut Case<'_>) -> Result<Tally, String> {
     both(case, &draft, &other).map(|()| once("listed otherwise"))
 }
 
-/// A load split into two halves.
 fn halved(case: &mut Case<'_>) -> Result<Tally, String> {
     let draft = Draft::random(&mut case.random);
     let mut other = draft.clone();
@@ -143,7 +141,6 @@ fn written(case: &mut Case<'_>) -> Result<Tally, String> {
     same_files(&one, &case.folder.join("two/out")).map(|()| once("written and run again"))
 }
 
-/// Runs and compares both scenes.
 fn both(case: &Case<'_>, one: &Draft, two: &Draft) -> Result<(), String> {
     let one = answer(case, "one", &one.text())?;
     let two = answer(case, "two", &two.text())?;

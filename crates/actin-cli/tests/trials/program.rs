@@ -7,7 +7,6 @@ use std::process::{Child, Command};
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 
-/// The `actin` program.
 const PATH: &str = env!("CARGO_BIN_EXE_actin");
 
 /// Polling interval of a process.
@@ -89,7 +88,6 @@ impl Started {
         }
     }
 
-    /// Sends a signal, given by name.
     pub(super) fn signal(&self, name: &str) -> Result<(), String> {
         let status = Command::new("kill")
             .args(["-s", name, &self.child.id().to_string()])
@@ -102,7 +100,6 @@ impl Started {
         self.child.wait().map(drop).map_err(|e| e.to_string())
     }
 
-    /// Waits for the process and returns its end.
     pub(super) fn ending(mut self, interrupted: bool) -> Result<Ending, String> {
         let status = self.child.wait().map_err(|e| e.to_string())?;
         let stderr = fs::read(&self.stderr).map_err(|e| e.to_string())?;

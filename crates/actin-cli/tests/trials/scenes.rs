@@ -101,7 +101,6 @@ impl Draft {
         lean * UnitQuaternion::from_axis_angle(&Vector3::z_axis(), self.roll.to_radians())
     }
 
-    /// Returns the text of the scene.
     pub(super) fn text(&self) -> String {
         let [held, loaded] = self.ends;
         let mut loads = String::new();
@@ -128,7 +127,6 @@ impl Draft {
         )
     }
 
-    /// Returns the text of the filament.
     pub(super) fn filament_text(&self) -> String {
         format!(
             "Filament({}, at_nm: {}, direction: {}, roll_deg: {:?})",

@@ -63,7 +63,6 @@ pub(super) fn one_of<'a, T: ?Sized>(random: &mut ChaCha8Rng, all: &[&'a T]) -> &
     all[below(random, all.len())]
 }
 
-/// Draws a number from `low` to `high`.
 pub(super) fn between(random: &mut ChaCha8Rng, low: f64, high: f64) -> f64 {
     low + (high - low) * (random.next_u64() >> 11) as f64 / (1u64 << 53) as f64
 }
@@ -81,7 +80,6 @@ pub(super) fn spoil(text: &str, corpus: &[String], random: &mut ChaCha8Rng) -> V
     bytes
 }
 
-/// Returns a text with changed numbers.
 pub(super) fn other_numbers(text: &str, random: &mut ChaCha8Rng) -> Vec<u8> {
     let mut bytes = text.as_bytes().to_vec();
     for _ in 0..=below(random, 3) {

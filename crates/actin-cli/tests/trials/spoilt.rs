@@ -20,7 +20,6 @@ const MOST_BODIES: f64 = 2e4;
 /// Largest number of bonds of a scene that is run.
 const MOST_BONDS: f64 = 2e6;
 
-/// Checks a corrupted scene with `actin check`.
 pub(super) fn check(case: &mut Case<'_>) -> Result<Tally, String> {
     let text = spoilt(case);
     write(case.folder, &text)?;
@@ -45,7 +44,6 @@ fn check_written(text: &[u8]) -> Result<(), String> {
     Err(format!("another scene once written: {written}"))
 }
 
-/// Runs a scene with changed numbers.
 pub(super) fn run(case: &mut Case<'_>) -> Result<Tally, String> {
     let which = below(&mut case.random, case.corpus.len());
     let text = other_numbers(&case.corpus[which], &mut case.random);
@@ -64,7 +62,6 @@ pub(super) fn run(case: &mut Case<'_>) -> Result<Tally, String> {
     }
 }
 
-/// Returns a corrupted scene of the repository.
 fn spoilt(case: &mut Case<'_>) -> Vec<u8> {
     let which = below(&mut case.random, case.corpus.len());
     spoil(&case.corpus[which], case.corpus, &mut case.random)

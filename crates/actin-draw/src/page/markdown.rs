@@ -66,7 +66,6 @@ impl Columns {
     }
 }
 
-/// Lowers headings by one level.
 fn lowered(event: Event<'_>) -> Event<'_> {
     match event {
         Event::Start(Tag::Heading {

@@ -234,7 +234,6 @@ pub fn name(id: &str) -> String {
 /// are larger than 10. Its box scrolls.
 const SMALLEST: f64 = 0.74;
 
-/// Returns the anchor of picture `k` of an artefact.
 fn anchor(id: &str, k: usize) -> String {
     format!("{id}-picture-{k}")
 }

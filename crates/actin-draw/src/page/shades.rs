@@ -23,7 +23,6 @@ type Colour = [u8; 3];
 pub(super) struct Shades(BTreeMap<Colour, usize>);
 
 impl Shades {
-    /// Replaces the colours of a picture by variables.
     pub(super) fn embed(&mut self, svg: &str) -> String {
         let mut text = String::with_capacity(svg.len());
         let mut rest = svg;
@@ -37,7 +36,6 @@ impl Shades {
         text
     }
 
-    /// Returns the variable of a colour.
     pub(super) fn variable(&mut self, colour: Colour) -> String {
         let known = self.0.len();
         let number = *self.0.entry(colour).or_insert(known);
@@ -115,7 +113,6 @@ mod tests {
         <text fill=\"#000000\">fill=\"red\" #123456</text><path stroke=\"#be1923\" fill=\"#FFFFFF\"/>\
         <stop stop-color=\"#be1923\"/><path stroke=\"#be19231\"/></g></svg>";
 
-    /// Replacing variables by their values on a light page restores the file.
     #[test]
     fn a_light_page_shows_the_file_as_it_is() {
         let mut shades = Shades::default();

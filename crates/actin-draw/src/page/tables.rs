@@ -82,7 +82,6 @@ pub(super) fn judged(artefact: &Artefact, misses: &Misses<'_>) -> Markup {
     }
 }
 
-/// Returns the table of verdicts, with buttons that filter it.
 pub(super) fn verdicts(parts: &str) -> Markup {
     let choices = [
         ("all", "all"),

@@ -84,7 +84,6 @@ impl Sum for Verdicts {
 mod tests {
     use super::*;
 
-    /// A number without a verdict does not count as a success.
     #[test]
     fn verdicts_are_counted() {
         let row = |ours| Row::measured("fig1", "q", "nm", ours, "");

@@ -73,12 +73,10 @@ impl Camera {
         self.turn(point - self.target)
     }
 
-    /// Transforms a direction to camera coordinates.
     pub(super) fn turn(&self, v: Vector3) -> Vector3 {
         Vector3::from(self.rows.map(|row| row.dot(&v)))
     }
 
-    /// Transforms a direction from camera coordinates to the lab frame.
     fn lab(&self, seen: Vector3) -> Vector3 {
         let [right, up, towards] = self.rows;
         right * seen.x + up * seen.y + towards * seen.z

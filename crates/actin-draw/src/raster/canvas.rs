@@ -5,7 +5,6 @@ use super::{Camera, Matrix3, Vector3};
 /// Supersampling factor along each side.
 pub(super) const FINER: usize = 2;
 
-/// Direction to the light.
 const LIGHT: [f64; 3] = [-0.45, 0.6, 0.75];
 
 /// A pixel: colour, depth (nm towards the viewer), and whether it casts shade.
@@ -68,7 +67,6 @@ impl Canvas {
         self.camera.rows[2]
     }
 
-    /// Returns cells per nm.
     pub(super) fn scale(&self) -> f64 {
         FINER as f64 * self.camera.per_nm
     }

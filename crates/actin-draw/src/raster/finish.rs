@@ -35,7 +35,6 @@ impl Canvas {
         Picture::new([width, height], pixels)
     }
 
-    /// Returns offsets of samples, one of each pair.
     #[expect(clippy::cast_possible_truncation, reason = "a few cells")]
     fn offsets(&self) -> [(isize, isize); PAIRS] {
         let wide = (HOLLOW_NM * self.scale()).clamp(3.0, WIDEST);

@@ -216,13 +216,11 @@ const LETTERS: [(char, &[Line]); 20] = [
     ),
 ];
 
-/// Returns the strokes of a character; empty if unknown.
 pub(super) fn strokes(letter: char) -> &'static [Line] {
     let known = LETTERS.iter().find(|(known, _)| *known == letter);
     known.map_or(&[], |(_, lines)| lines)
 }
 
-/// Returns the distance to the next character.
 pub(super) fn advance(letter: char) -> f64 {
     match letter {
         '.' => 2.2,

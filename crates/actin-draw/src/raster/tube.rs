@@ -103,7 +103,6 @@ impl Canvas {
         }
     }
 
-    /// Draws the lateral surface of a piece.
     fn piece(&mut self, piece: &Piece, r: f64, look: Look, nearer: f64) {
         let [p, q] = piece.ends;
         let along = q - p;

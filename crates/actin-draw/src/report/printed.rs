@@ -70,7 +70,6 @@ impl Row {
 mod tests {
     use super::*;
 
-    /// All formats of numbers in the paper.
     #[test]
     fn half_a_unit_of_the_last_digit() {
         let cases = [
@@ -92,7 +91,6 @@ mod tests {
         }
     }
 
-    /// The tolerance is half a unit of the last digit plus two standard deviations.
     #[test]
     fn scatter_counts_twice() {
         let row = |ours| Row::measured("table4", "q", "pN", ours, "");

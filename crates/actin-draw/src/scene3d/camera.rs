@@ -21,7 +21,6 @@ pub(super) struct Camera {
 }
 
 impl Camera {
-    /// Creates a camera that looks at `target` from a distance.
     pub(super) fn new(view: &View, target: Vector3, distance: f64) -> Self {
         let forward = -view.towards_viewer.normalize();
         let right = forward.cross(&view.up).normalize();
@@ -43,7 +42,6 @@ impl Camera {
         self.turn(point - self.eye)
     }
 
-    /// Returns the picture coordinates of a point.
     pub(super) fn project(&self, point: Vector3) -> [f64; 2] {
         let seen = self.see(point);
         [seen.x / seen.z, seen.y / seen.z]

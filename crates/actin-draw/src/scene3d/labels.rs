@@ -25,7 +25,6 @@ const LEADER_COLOUR: Colour = Colour([120, 120, 120]);
 /// Left, top, right, bottom.
 type Area = [f64; 4];
 
-/// Draws all labels of a panel.
 pub(super) fn paint(labels: &[Label], frame: &Frame, canvas: &mut Canvas) {
     let mut taken: Vec<Area> = Vec::new();
     for label in labels {
@@ -81,7 +80,6 @@ fn free_area(label: &Label, named: [f64; 2], panel: Area, taken: &[Area]) -> Are
 mod tests {
     use super::*;
 
-    /// Labels at the same point do not overlap, and are inside the panel.
     #[test]
     fn labels_keep_clear_of_edges_and_of_one_another() {
         let label = Label {

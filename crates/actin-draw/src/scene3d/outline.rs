@@ -45,7 +45,6 @@ pub(super) fn ellipsoid(camera: &Camera, centre: Vector3, semi_axes: &Matrix3) -
 }
 
 impl Ellipse {
-    /// Returns the corners of the bounding box.
     pub(super) fn bounds(&self) -> [[f64; 2]; 2] {
         let (sin, cos) = self.angle.sin_cos();
         let [a, b] = self.semi_axes;
@@ -102,7 +101,6 @@ mod tests {
     use crate::scene3d::camera::View;
     use nalgebra::Rotation3;
 
-    /// In every direction, the outline agrees with the farthest projected point of the surface.
     #[test]
     fn the_outline_is_that_of_the_sampled_surface() {
         let view = View {
@@ -138,7 +136,6 @@ mod tests {
         assert!((image[0] - ellipse.centre[0]).hypot(image[1] - ellipse.centre[1]) > 1e-3);
     }
 
-    /// Points inside and on the edges of a square are removed.
     #[test]
     fn a_hull_keeps_corners_only() {
         let square = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];

@@ -39,7 +39,6 @@ const SHORT: f64 = 0.38;
 const GREY: Colour = Colour([90, 90, 90]);
 
 impl Panel {
-    /// Draws title, scene, labels, scale bar and axes.
     pub(super) fn paint(&self, canvas: &mut Canvas) {
         let frame = self.frame();
         let mut order: Vec<(f64, &Item)> = self
@@ -64,7 +63,6 @@ impl Panel {
         self.paint_axes(&frame, canvas);
     }
 
-    /// Returns camera and scale with which everything fits.
     fn frame(&self) -> Frame {
         let middles: Vec<Vector3> = self.items.iter().map(|i| i.solid.middle()).collect();
         let target = middles.iter().sum::<Vector3>() / middles.len().max(1) as f64;

@@ -93,14 +93,12 @@ impl Item {
         Self { nearer_nm, ..self }
     }
 
-    /// Returns the depth for the drawing order.
     pub(super) fn depth(&self, camera: &Camera) -> f64 {
         camera.see(self.solid.middle()).norm() - self.nearer_nm
     }
 }
 
 impl Solid {
-    /// Returns the centre.
     pub(super) fn middle(&self) -> Vector3 {
         match self {
             Self::Ellipsoid { centre, .. } => *centre,

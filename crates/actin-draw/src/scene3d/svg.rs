@@ -33,7 +33,6 @@ pub(super) struct Paint {
     pub opacity: f64,
 }
 
-/// Alignment of text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Align {
     Start,
@@ -101,7 +100,6 @@ impl Canvas {
         )
     }
 
-    /// Draws a disc with an edge.
     pub(super) fn dot(&mut self, [x, y]: [f64; 2], radius: f64, paint: Paint) {
         let (fill, edge) = (paint.fill.hex(), paint.fill.darker(0.4).hex());
         self.push(format_args!(
@@ -111,7 +109,6 @@ impl Canvas {
         ));
     }
 
-    /// Draws a filled polygon with an edge.
     pub(super) fn polygon(&mut self, corners: &[[f64; 2]], paint: Paint) {
         let corners: Vec<String> = corners
             .iter()
@@ -160,7 +157,6 @@ impl Canvas {
         self.polygon(&[side(1.0), to, side(-1.0)], paint);
     }
 
-    /// Draws text with a background halo.
     pub(super) fn text(
         &mut self,
         [x, y]: [f64; 2],
@@ -182,7 +178,6 @@ impl Canvas {
         ));
     }
 
-    /// Returns the file.
     pub(super) fn finish(self) -> String {
         let [width, height] = self.size;
         let shadings: String = self

@@ -16,7 +16,6 @@ const ENTRY_BYTES: usize = 32;
 /// The size of the list of names is a multiple of this.
 const NAME_BYTES: usize = 64;
 
-/// Contents of the header.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Header {
     /// Name of the writing program, at most 63 bytes.
@@ -40,7 +39,6 @@ pub(super) enum Chunk {
 }
 
 impl Chunk {
-    /// Type code of the format.
     fn code(&self) -> u8 {
         match self {
             Self::U8(_) => 1,
@@ -235,7 +233,6 @@ mod tests {
         u64::from_le_bytes(bytes[at..at + 8].try_into().unwrap())
     }
 
-    /// Two frames, compared with the specification byte by byte.
     #[test]
     fn header_names_and_index_are_where_the_specification_has_them() {
         let mut out = Cursor::new(Vec::new());

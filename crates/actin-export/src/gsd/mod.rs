@@ -76,7 +76,6 @@ fn step(run: &FinishedRun, i: usize) -> u64 {
     }
 }
 
-/// Writes arrays that do not change.
 fn write_fixed(
     writer: &mut Writer<impl Write + Seek>,
     particles: &Particles<'_>,
@@ -103,7 +102,6 @@ fn write_fixed(
     write_bonds(writer, particles)
 }
 
-/// Writes arc length and filament of each particle.
 fn write_places_along(
     writer: &mut Writer<impl Write + Seek>,
     particles: &Particles<'_>,
@@ -139,7 +137,6 @@ fn write_bonds(
     writer.write("bonds/group", &groups, 2)
 }
 
-/// Writes arrays that change with each frame.
 fn write_moving(
     writer: &mut Writer<impl Write + Seek>,
     particles: &Particles<'_>,
@@ -153,7 +150,6 @@ fn write_moving(
     writer.write("particles/velocity", &flat(particles.velocities(state)), 3)
 }
 
-/// Writes null-terminated texts, padded to equal width.
 fn write_texts(
     writer: &mut Writer<impl Write + Seek>,
     name: &str,
@@ -180,7 +176,6 @@ fn shape(shape: Shape) -> String {
     shape.to_string()
 }
 
-/// Converts to single precision.
 #[expect(
     clippy::cast_possible_truncation,
     reason = "the precision of the format"

@@ -69,7 +69,6 @@ pub fn write_simularium(
     Ok(out.flush()?)
 }
 
-/// Returns the trajectory info.
 fn info(run: &FinishedRun, agents: &Agents<'_>, size: [f64; 3]) -> serde_json::Value {
     let step = match run.at() {
         [first, second, ..] => second.value() - first.value(),
@@ -132,7 +131,6 @@ impl<'a> Agents<'a> {
         }
     }
 
-    /// Returns the numbers of a frame.
     fn frame(&self, state: &State) -> Vec<f32> {
         let mut buffer = Buffer::default();
         let assembly = self.particles.assembly();
@@ -171,7 +169,6 @@ struct Buffer {
 }
 
 impl Buffer {
-    /// Appends an agent without its subpoints.
     #[expect(
         clippy::cast_possible_truncation,
         reason = "single precision is sufficient for display"

@@ -7,7 +7,6 @@ pub(super) struct Case {
     pub(super) target: Option<f64>,
 }
 
-/// Work of a case.
 #[derive(Clone, Copy)]
 pub(super) enum Work {
     /// Time steps.
@@ -136,7 +135,6 @@ pub(super) const CASES: [Case; 22] = [
 ];
 
 impl Case {
-    /// Returns the unit of the result.
     pub(super) fn unit(&self) -> &'static str {
         match self.work {
             Work::Motion(Motion {

@@ -22,7 +22,6 @@ struct Solved {
     iterations: u64,
 }
 
-/// Measures the time from the straight state to the equilibrium.
 pub(super) fn measure(length_nm: f64) -> Result<Measured, String> {
     let mut tolerance = RESIDUAL;
     let first = loop {
@@ -57,7 +56,6 @@ fn solve(length_nm: f64, tolerance: f64) -> Result<Solved, String> {
     solve_on(assembly).map_err(|error| error.to_string())
 }
 
-/// Solves from the current state of the assembly.
 fn solve_on(mut assembly: Assembly) -> Result<Solved, RunError> {
     let started = Instant::now();
     let (trajectory, report) = Plan::new(&assembly)?.run()?;

@@ -45,7 +45,6 @@ struct Entry {
     unit: &'static str,
 }
 
-/// Measures and prints.
 pub(crate) fn run(options: &Options) -> Result<()> {
     let entries = measure(options).map_err(Error::msg)?;
     if options.json {
@@ -91,7 +90,6 @@ fn measure(options: &Options) -> Result<Vec<Entry>, String> {
     Ok(entries)
 }
 
-/// Prints a case; rates are in millions per second.
 fn print_row(case: &Case, measured: &Measured) {
     let ratio = case
         .target
@@ -153,7 +151,6 @@ mod tests {
         assert!(chosen(&["rod-pv-17".to_owned()]).is_err());
     }
 
-    /// Replicas of every ensemble differ and run.
     #[test]
     fn ensembles_run() {
         for case in &CASES {
@@ -164,7 +161,6 @@ mod tests {
         }
     }
 
-    /// Scenes have the number of elements and bonds in their names.
     #[test]
     fn scenes_hold_what_their_names_say() {
         for (name, elements) in [

@@ -17,7 +17,6 @@ const SECONDS: f64 = 4.0;
 /// Rise of a monomer (nm).
 const RISE_NM: f64 = 71.2 / 26.0;
 
-/// Measures the rate of a case.
 pub(super) fn measure(motion: &Motion) -> Result<Measured, String> {
     let mut all = assemble(motion)?;
     let elements = elements(&all);
@@ -52,14 +51,12 @@ pub(super) fn measure(motion: &Motion) -> Result<Measured, String> {
     })
 }
 
-/// Assembles the filaments of a case.
 pub(super) fn assemble(motion: &Motion) -> Result<Vec<Assembly>, String> {
     let scene = Scene::from_ron(&scene(motion)).map_err(|error| error.to_string())?;
     let build = |_| Assembly::build(&scene).map_err(|error| error.to_string());
     (0..motion.copies).map(build).collect()
 }
 
-/// Returns the number of segments or bonds.
 pub(super) fn elements(all: &[Assembly]) -> usize {
     let of = |assembly: &Assembly| {
         let counts = assembly.counts();
@@ -68,7 +65,6 @@ pub(super) fn elements(all: &[Assembly]) -> usize {
     all.iter().map(of).sum()
 }
 
-/// Plans a batch with the default time step of the scene.
 fn plan(assembly: &Assembly, steps: u64) -> Result<Run, String> {
     let plan = Plan::new(assembly).map_err(|error| error.to_string())?;
     let estimate = plan.estimate().ok_or("a motion has time steps")?;

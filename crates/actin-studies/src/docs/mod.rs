@@ -30,7 +30,6 @@ pub(crate) struct Options {
     words: bool,
 }
 
-/// Checks or writes the generated pages.
 pub(crate) fn run(options: &Options) -> Result<(), String> {
     let root = workspace_root();
     if let Some(path) = &options.report {
@@ -77,7 +76,6 @@ pub(crate) fn findings(root: &Path) -> Result<Vec<String>, String> {
     Ok(all)
 }
 
-/// Returns the generated files with their paths and contents.
 fn generated(root: &Path) -> Result<BTreeMap<String, String>, String> {
     let mut files = scenes::files();
     files.extend(mistakes::file(root)?);

@@ -55,7 +55,6 @@ fn page(head: &str, name: &str, schema: &Value) -> String {
     text
 }
 
-/// Returns the types that a definition refers to, in order.
 fn references(definition: &Value) -> Vec<String> {
     let mut all = Vec::new();
     for (_, key) in properties(definition) {
@@ -97,7 +96,6 @@ fn section(name: &str, definition: &Value) -> String {
     text
 }
 
-/// Formats a variant of an enum, or several unit variants.
 fn choice(variant: &Value) -> String {
     if let Some(name) = variant["const"].as_str() {
         return format!("\n- `{name}`: {}\n", words(variant));
@@ -116,7 +114,6 @@ fn choice(variant: &Value) -> String {
     text
 }
 
-/// Returns a table of keys, required ones first.
 fn keys(definition: &Value) -> String {
     let mut text =
         "\n| key | unit | type | default | meaning |\n|---|---|---|---|---|\n".to_owned();
@@ -162,13 +159,11 @@ fn list<'a>(value: &'a Value, key: &str) -> &'a [Value] {
     value[key].as_array().map_or(&[], Vec::as_slice)
 }
 
-/// Returns the description as a single line.
 fn words(value: &Value) -> String {
     let text = value["description"].as_str().unwrap_or_default();
     text.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
-/// Returns the unit in the suffix of a key.
 fn unit(key: &str) -> &'static str {
     const UNITS: [(&str, &str); 15] = [
         ("_pn_nm_per_rad", "pN nm/rad"),
@@ -198,7 +193,6 @@ fn unit(key: &str) -> &'static str {
     })
 }
 
-/// Returns the type of a key.
 fn kind(key: &Value) -> String {
     let named = |path: &str| {
         let name = path.rsplit('/').next().unwrap_or(path);
@@ -235,7 +229,6 @@ fn kind(key: &Value) -> String {
     }
 }
 
-/// Returns the default of a key.
 fn default(key: &Value) -> String {
     match &key["default"] {
         Value::Null => "none".to_owned(),
@@ -251,7 +244,6 @@ fn default(key: &Value) -> String {
     }
 }
 
-/// Formats a number without insignificant digits.
 fn number(value: &Value) -> String {
     match value.as_f64() {
         Some(x) if value.is_f64() => super::tables::digits(x, 7),

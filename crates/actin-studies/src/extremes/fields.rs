@@ -38,7 +38,6 @@ struct Trial {
     verdict: Verdict,
 }
 
-/// Replaces each number of `text` by `value` in turn.
 fn trials(text: &str, value: &'static str) -> Vec<Trial> {
     let trial = |number: Number| Trial {
         verdict: verdict(&with_number(text, &number, value)),
@@ -60,7 +59,6 @@ pub(super) fn rows(is_wanted: bool) -> Vec<Row> {
     values.iter().map(row).collect()
 }
 
-/// Counts the outcomes of trials.
 fn counted(trials: &[Trial]) -> Outcome {
     let count = |is: fn(&Verdict) -> bool| trials.iter().filter(|t| is(&t.verdict)).count();
     let not_finite = |trial: &&Trial| matches!(trial.verdict, Verdict::NotFinite(_));
@@ -97,7 +95,6 @@ pub(super) enum Verdict {
     NotFinite(String),
 }
 
-/// Reads, builds, estimates and runs a scene.
 pub(super) fn verdict(text: &str) -> Verdict {
     let scene = match Scene::from_ron(text) {
         Ok(scene) => scene,
@@ -172,12 +169,10 @@ fn numbers(text: &str) -> Vec<Number> {
     found
 }
 
-/// Returns the length of the leading token.
 fn token(text: &str, belongs: impl Fn(char) -> bool) -> usize {
     text.find(|c| !belongs(c)).unwrap_or(text.len())
 }
 
-/// Returns the text with a number replaced.
 fn with_number(text: &str, number: &Number, value: &str) -> String {
     let Range { start, end } = number.place;
     format!("{}{value}{}", &text[..start], &text[end..])

@@ -25,7 +25,6 @@ fn config() -> Config {
     }
 }
 
-/// The seed is fixed by `.cargo/config.toml`, so that runs are reproducible.
 #[test]
 fn random_input_can_be_drawn_again() {
     let seed = config().rng_seed;
@@ -177,7 +176,6 @@ fn evaluate(text: &str) -> Result<(), SceneProblem> {
     Ok(())
 }
 
-/// Scenes have finite loads and a stable time step, or are refused with a key.
 #[test]
 fn random_scenes_are_built_or_refused() {
     let outcome = TestRunner::new(config()).run(&scene(), |text| {

@@ -103,7 +103,6 @@ fn table(is_long: bool) -> Vec<Row> {
     rows.collect::<Vec<_>>().concat()
 }
 
-/// Computes the rows of a group and prints the time.
 fn timed((name, rows): &Group<'_>) -> Vec<Row> {
     let clock = Instant::now();
     let rows = rows();
@@ -111,7 +110,6 @@ fn timed((name, rows): &Group<'_>) -> Vec<Row> {
     rows
 }
 
-/// Describes rows with an unexpected outcome.
 fn defects(rows: &[Row]) -> Vec<String> {
     let defects = rows.iter().filter(|row| !row.is_sound());
     defects.map(Row::words).collect()
@@ -121,7 +119,6 @@ fn defects(rows: &[Row]) -> Vec<String> {
 mod tests {
     use super::*;
 
-    /// Every row has the expected kind of outcome.
     #[test]
     fn every_case_ends_as_expected() {
         let rows = table(false);
@@ -131,7 +128,6 @@ mod tests {
         assert_eq!(defects(&rows), Vec::<String>::new());
     }
 
-    /// The full number of steps of the table.
     #[test]
     #[ignore = "takes minutes; run by hand with --ignored --nocapture"]
     fn undamped_motion_of_ten_million_steps() {

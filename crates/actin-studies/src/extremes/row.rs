@@ -1,6 +1,5 @@
 //! Rows of the table: a case, its outcome, and the expected kind of outcome.
 
-/// Outcome of a case.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Outcome {
     /// Largest error against a known result: relative, or absolute if `what` names a unit.
@@ -39,7 +38,6 @@ pub(super) fn bounded(what: &'static str, share: f64) -> Tried {
 }
 
 impl Outcome {
-    /// Describes the outcome.
     pub(super) fn words(&self) -> String {
         match self {
             Self::Correct { what, error } => format!("correct to {error:.0e}: {what}"),
@@ -97,7 +95,6 @@ pub(super) struct Row {
 }
 
 impl Row {
-    /// Creates a row that should be correct.
     pub(super) fn new(varied: &'static str, case: impl Into<String>, tried: Tried) -> Self {
         Self {
             varied,
@@ -116,7 +113,6 @@ impl Row {
         self.expected.is_met(&self.outcome)
     }
 
-    /// Describes the row.
     pub(super) fn words(&self) -> String {
         format!("{}, {}: {}", self.varied, self.case, self.outcome.words())
     }

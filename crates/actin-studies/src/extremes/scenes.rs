@@ -35,7 +35,6 @@ impl Parts {
         }
     }
 
-    /// Creates a free filament in motion.
     pub(super) fn free(sections: &str) -> Self {
         Self::new(sections, "", "Dynamics(duration_ns: 1.0)")
     }
@@ -52,7 +51,6 @@ impl Parts {
         Self::new(sections, rest, task)
     }
 
-    /// Returns the text of the scene.
     pub(super) fn text(&self) -> String {
         let Self {
             sections,
@@ -88,7 +86,6 @@ impl Parts {
     }
 }
 
-/// Returns the system of a free filament.
 pub(super) fn free(sections: &str) -> Result<System, Outcome> {
     Ok(Parts::free(sections).build()?.system)
 }
@@ -101,7 +98,6 @@ pub(super) struct Ran {
     pub(super) trajectory: Trajectory,
 }
 
-/// Builds a scene.
 pub(super) fn build(text: &str) -> Result<Assembly, Outcome> {
     let scene = Scene::from_ron(text).map_err(|error| Outcome::Refused(error.to_string()))?;
     Assembly::build(&scene).map_err(|problem| refused(&problem, text))
@@ -116,7 +112,6 @@ pub(super) fn run(text: &str) -> Result<Ran, Outcome> {
     Ok(ran)
 }
 
-/// Runs a scene, which may end on a saddle.
 pub(super) fn run_to_saddle(text: &str) -> Result<Ran, Outcome> {
     let mut assembly = build(text)?;
     let mut trajectory = Trajectory::default();

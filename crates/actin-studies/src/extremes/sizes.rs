@@ -149,7 +149,6 @@ const BEYOND: &str = include_str!("guards.csv");
 /// Time limit of a refusal (s), a thousand times longer than usual. Running the scenes would take hours.
 const PATIENCE_S: f64 = 30.0;
 
-/// Scenes are refused before memory is allocated.
 pub(super) fn guards() -> Vec<Row> {
     let row = |line: Result<[String; 3], csv::Error>| {
         let [case, sections, task] = line.expect("three columns");
@@ -212,7 +211,6 @@ fn shifted(shift: f64) -> Tried {
     correct(what, largest, 10.0 * rounding)
 }
 
-/// Sums the loads of all interactions.
 pub(super) fn loads(interactions: &[Box<dyn Interaction>], state: &State) -> Loads {
     let mut loads = Loads::zeros(state);
     for interaction in interactions {

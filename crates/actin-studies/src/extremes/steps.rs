@@ -39,7 +39,6 @@ const SHARES: [f64; 10] = [1e-3, 3e-3, 1e-2, 3e-2, 0.1, 0.25, 0.5, 0.75, 0.9, 0.
 /// for many bodies.
 const ENERGY_ROUNDING: f64 = 2e-8;
 
-/// Returns rows of all methods on all filaments.
 fn each(rows: impl Fn(&str, &str, Integrator) -> Vec<Row>) -> Vec<Row> {
     let all = MODELS
         .into_iter()
@@ -73,7 +72,6 @@ fn measured_limit(system: &mut System, integrator: Integrator) -> f64 {
     0.5 * (low + high)
 }
 
-/// Compares the measured limit with the predicted one.
 pub(super) fn limit(system: &mut System, integrator: Integrator, bound: f64) -> Tried {
     let error = (measured_limit(system, integrator) - 1.0).abs();
     correct("measured limit against predicted", error, bound)
@@ -253,7 +251,6 @@ pub(super) fn draw(out: &Path) -> Result<(), String> {
 mod tests {
     use super::*;
 
-    /// The energy fluctuation is of the order of the method.
     #[test]
     fn energy_fluctuates_with_the_order_of_the_method() {
         for (model, sections) in MODELS {

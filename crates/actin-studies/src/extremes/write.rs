@@ -42,7 +42,6 @@ Computed by `cargo xtask extremes --long --write`; the short rows are tests (`ca
 extremes`). [Extremes](../extremes.md) says what they show.
 ";
 
-/// Returns a table for each varied number.
 fn tables(rows: &[Row]) -> String {
     let mut text = String::new();
     for group in rows.chunk_by(|a, b| a.varied == b.varied) {

@@ -12,7 +12,6 @@ pub(super) struct Axes {
     pub(super) angle_deg: Vec<f64>,
     /// Curvature of bending (rad/nm).
     pub(super) curvature: Vec<f64>,
-    /// Shear strain.
     pub(super) shear: Vec<f64>,
 }
 
@@ -41,7 +40,6 @@ impl Axes {
         }
     }
 
-    /// Returns the number of points of a slice.
     pub(super) fn points(&self) -> usize {
         let bent = self.curvature.iter().filter(|&&k| k > 0.0).count();
         let sheared = self.shear.iter().filter(|&&g| g > 0.0).count();

@@ -25,13 +25,11 @@ const NEWTON_STEPS: usize = 30;
 /// Largest number of step halvings in the line search.
 const HALVINGS: i32 = 12;
 
-/// Returns term and power of each coefficient.
 fn columns(terms: &[Term]) -> Vec<(Term, usize)> {
     let powers = |&term: &Term| (0..=term.degree()).map(move |power| (term, power));
     terms.iter().flat_map(powers).collect()
 }
 
-/// Returns energy, torque and force.
 fn numbers(jet: &PotentialJet) -> [f64; 7] {
     let [a, b, c, d, e, f] = jet.loads.into();
     [jet.energy, a, b, c, d, e, f]
@@ -52,7 +50,6 @@ pub(super) struct Weighted<'a> {
 }
 
 impl Weighted<'_> {
-    /// Returns the weighted data of a jet.
     fn of(&self, jet: &PotentialJet) -> Vec<f64> {
         let known = numbers(jet).into_iter().zip(self.numbers);
         let known = known.filter(|(_, weight)| *weight > 0.0);
@@ -111,7 +108,6 @@ impl<'a> Normal<'a> {
         }
     }
 
-    /// Returns the best fit without conditions on the tangent.
     pub(super) fn best(&self) -> Result<Homogenised, String> {
         self.law(&Conditions::default().solve(self, None)?)
     }
@@ -142,7 +138,6 @@ impl<'a> Normal<'a> {
         self.law(&found)
     }
 
-    /// Creates the law from its coefficients.
     fn law(&self, found: &DVector<f64>) -> Result<Homogenised, String> {
         let columns = columns(&self.terms);
         let of_term = |term| {
@@ -219,7 +214,6 @@ impl Positivity {
     }
 }
 
-/// Returns the jets of unit coefficients.
 fn units(form: &HomogenisedForm, terms: &[Term], strain: &SixVector) -> Vec<PotentialJet> {
     let units = |&term: &Term| form.units(term, strain);
     terms.iter().flat_map(units).collect()
@@ -241,7 +235,6 @@ const MARGIN: f64 = 1.3;
 const HARD: f64 = 1e5;
 
 impl Conditions {
-    /// Returns the weight of condition `k`.
     fn strength(&self, k: usize) -> f64 {
         if k < self.hard { HARD } else { self.strength }
     }
@@ -289,7 +282,6 @@ impl Conditions {
         Ok(found)
     }
 
-    /// Returns the objective, up to a constant.
     fn objective(&self, normal: &Normal<'_>, found: &DVector<f64>) -> f64 {
         let fit = found.dot(&(0.5 * (&normal.matrix * found) - &normal.right));
         let lack = |(k, row): (usize, &DVector<f64>)| {

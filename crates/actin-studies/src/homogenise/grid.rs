@@ -15,7 +15,6 @@ const VERSION: u32 = 3;
 /// Relative difference of the energies of two distinct minima at the same strains.
 const SAME: f64 = 1e-7;
 
-/// Computes missing slices and returns all rows.
 pub(super) fn compute(out: &Path, axes: &Axes) -> Result<Vec<Row>, String> {
     let folder = out.join("grid");
     std::fs::create_dir_all(&folder).map_err(|e| format!("{}: {e}", folder.display()))?;

@@ -52,7 +52,6 @@ impl Region {
         }
     }
 
-    /// Returns `count` strains of a low-discrepancy sequence, after the first `skip`.
     pub(super) fn strains(self, form: &HomogenisedForm, skip: u64, count: u64) -> Vec<SixVector> {
         let draw = |k| {
             let [a, b, c, d, e] = evenly(k);
@@ -74,7 +73,6 @@ impl Region {
     }
 }
 
-/// Returns the strains of several regions.
 pub(super) fn strains(form: &HomogenisedForm, regions: &[(Region, u64)]) -> Vec<SixVector> {
     let of = |(region, count): &(Region, u64)| region.strains(form, 0, *count);
     regions.iter().flat_map(of).collect()

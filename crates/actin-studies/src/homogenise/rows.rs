@@ -53,7 +53,6 @@ pub(super) fn upper() -> impl Iterator<Item = (usize, usize)> {
 }
 
 impl Row {
-    /// Creates a row from a response.
     pub(super) fn new(strain: [f64; 5], extension: f64, response: &CellResponse) -> Self {
         Self {
             strain,
@@ -65,7 +64,6 @@ impl Row {
         }
     }
 
-    /// Returns energy, loads and tangent.
     pub(super) fn jet(&self) -> PotentialJet {
         PotentialJet {
             energy: self.energy,
@@ -74,7 +72,6 @@ impl Row {
         }
     }
 
-    /// Returns the strain vector.
     pub(super) fn six(&self) -> SixVector {
         let [curvature, twist, shear, stretch, angle] = self.strain;
         strain([curvature, twist, shear, stretch, angle.to_radians()])
@@ -127,7 +124,6 @@ pub(super) fn kept(
     Ok(rows)
 }
 
-/// Writes rows after a line with the key, atomically.
 pub(super) fn write(path: &Path, key: &str, rows: &[Row]) -> Result<(), String> {
     let mut text = format!("# {key}\n{}\n", header().join(","));
     for row in rows {
@@ -138,7 +134,6 @@ pub(super) fn write(path: &Path, key: &str, rows: &[Row]) -> Result<(), String> 
     write_atomically(path, &text)
 }
 
-/// Reads the rows of a file with the same key.
 fn read(path: &Path, key: &str) -> Option<Vec<Row>> {
     let text = std::fs::read_to_string(path).ok()?;
     let (first, table) = text.split_once('\n')?;
@@ -156,7 +151,6 @@ fn read(path: &Path, key: &str) -> Option<Vec<Row>> {
 mod tests {
     use super::*;
 
-    /// Rows are read back exactly; a file with another key has no rows.
     #[test]
     fn rows_come_back() {
         let folder = tempfile::tempdir().unwrap();

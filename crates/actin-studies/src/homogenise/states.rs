@@ -114,7 +114,6 @@ impl Bent {
         })
     }
 
-    /// Describes the range of curvatures with several states.
     fn several(&self) -> String {
         let steps = 0..self.apart.len();
         let mut inside = steps.filter(|&step| self.apart[step].is_some());

@@ -37,7 +37,6 @@ pub(super) fn findings(root: &Path) -> Result<Vec<String>, String> {
     Ok(left_out.chain(broken).collect())
 }
 
-/// Returns the problem of a link, if any.
 fn broken(
     root: &Path,
     pages: &BTreeMap<PathBuf, Page>,
@@ -55,7 +54,6 @@ fn broken(
         .then(|| format!("{place}: {to}: there is no such heading"))
 }
 
-/// Collects links to files and figures, and headings.
 fn read(text: &str) -> Page {
     let mut page = Page::default();
     let mut heading: Option<String> = None;
@@ -84,7 +82,6 @@ fn read(text: &str) -> Page {
     page
 }
 
-/// Returns the anchor of a heading.
 fn name(heading: &str) -> String {
     let kept = heading.trim().to_lowercase();
     let kept = kept

@@ -6,7 +6,6 @@ use std::path::Path;
 /// Prefixes of words in backticks that are checked as paths.
 const FOLDERS: [&str; 5] = ["crates/", "docs/", "scenarios/", "xtask/", "tests/"];
 
-/// Returns paths in backticks that do not exist.
 pub(super) fn findings(root: &Path) -> Result<Vec<String>, String> {
     let mut all = Vec::new();
     for (file, text) in files(root, "md")? {

@@ -32,7 +32,6 @@ const FORBIDDEN: [(&str, &[&str]); 6] = [
     ),
 ];
 
-/// Returns lines with a forbidden word.
 pub(super) fn findings(name: &str, text: &str) -> Vec<String> {
     let forbidden: Vec<&str> = FORBIDDEN
         .iter()

@@ -102,7 +102,6 @@ mod tests {
         )
     }
 
-    /// Sections of one filament share bonds; another filament has separate bonds.
     #[test]
     fn bonds_that_agree_are_kept_once() {
         let mut all = Vec::new();

@@ -125,7 +125,6 @@ impl Pose {
         }
     }
 
-    /// Returns whether all numbers are finite.
     pub(crate) fn is_finite(&self) -> bool {
         let (rods, strands) = (self.rods.iter(), self.strands.iter());
         let bodies = strands.clone().flat_map(|s| s.monomers.iter().flatten());

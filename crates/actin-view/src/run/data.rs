@@ -17,12 +17,10 @@ use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use serde_json::{Value, json};
 
-/// Number of fields.
 const FIELDS: usize = 4;
 /// Largest number of monomers with bonds on the page; each takes 500 bytes.
 const MOST_WITH_BONDS: usize = 1000;
 
-/// Returns the size of a record.
 pub(super) fn bytes_per_record(assembly: &Assembly) -> usize {
     let besides =
         8 * assembly.linkers.len() + 12 * assembly.clamps.len() + 6 * assembly.scene.loads.len();
@@ -30,7 +28,6 @@ pub(super) fn bytes_per_record(assembly: &Assembly) -> usize {
 }
 
 impl Run {
-    /// Returns the data of the page.
     pub(super) fn data(&self) -> Value {
         let Self {
             assembly, states, ..
@@ -69,7 +66,6 @@ impl Run {
     }
 }
 
-/// Returns monomer sections, rods, and bonds.
 fn sections(assembly: &Assembly) -> (Vec<Value>, Vec<Value>, Vec<Bonds>) {
     let (mut strands, mut rods, mut bonds) = (Vec::new(), Vec::new(), Vec::new());
     let with_bonds = assembly.counts().monomers <= MOST_WITH_BONDS;
@@ -143,7 +139,6 @@ struct Field {
     values: Vec<f64>,
 }
 
-/// Returns the fields.
 fn fields(run: &Run) -> Vec<Value> {
     let field = |name, unit, is_signed| Field {
         name,

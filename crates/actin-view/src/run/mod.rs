@@ -161,7 +161,6 @@ impl Run {
         !self.later.is_empty()
     }
 
-    /// Returns the assembly of a loaded record.
     pub(crate) fn assembly_of(&self, shown: usize) -> &Assembly {
         let first = self.states.len() - self.of_later.len();
         match shown.checked_sub(first) {
@@ -190,7 +189,6 @@ pub fn is_page(bytes: &[u8]) -> bool {
     ))
 }
 
-/// Builds the scene of a run.
 fn assembly(path: &Path) -> Result<Assembly, ViewError> {
     let not_a_run = |reason: String| ViewError::NotARun {
         path: path.to_owned(),

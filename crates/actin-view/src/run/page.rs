@@ -99,7 +99,6 @@ impl Run {
         }
     }
 
-    /// Returns the final state and the computational work.
     fn facts(&self) -> Markup {
         let Some(summary) = &self.summary else {
             return Markup::default();
@@ -175,12 +174,10 @@ fn made(summary: &Summary) -> Facts {
     all
 }
 
-/// Returns the icon of a button.
 fn sign(path: &str, class: &str) -> Markup {
     html! { svg class=(class) viewBox="0 0 16 16" aria-hidden="true" { path d=(path) {} } }
 }
 
-/// Returns the view with its controls and legend.
 fn stage() -> Markup {
     html! {
         section class="stage" {
@@ -211,7 +208,6 @@ fn stage() -> Markup {
     }
 }
 
-/// Returns the playback controls.
 fn transport() -> Markup {
     html! {
         div class="transport" {
@@ -229,7 +225,6 @@ fn transport() -> Markup {
     }
 }
 
-/// Returns the final status of a run.
 fn ending(summary: Option<&Summary>) -> Markup {
     let Some(summary) = summary else {
         return html! { li class="bad" { "not ended" } };
@@ -271,7 +266,6 @@ fn notes(summary: &Summary) -> Markup {
     }
 }
 
-/// Formats a number with five digits.
 fn number(x: f64) -> String {
     actin_draw::page::significant(x)
 }

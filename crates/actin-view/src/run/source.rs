@@ -70,7 +70,6 @@ impl Source {
         }
     }
 
-    /// Reads the results of a finished run.
     fn read_results(&mut self, path: &Path, directory: &RunDirectory, assembly: &Assembly) {
         if self.summary.is_none() {
             self.remark(
@@ -104,7 +103,6 @@ impl Source {
         }
     }
 
-    /// Reads the records of an unfinished run from its checkpoint.
     fn read_checkpoint(&mut self, directory: &RunDirectory, assembly: &Assembly) {
         match checkpointed(directory, assembly) {
             Ok((at, states, curves)) => {

@@ -111,7 +111,6 @@ fn dumped(browser: &Path, mode: Mode, folder: &Path) -> String {
     fs::read_to_string(dump).unwrap()
 }
 
-/// Returns a count.
 pub(crate) fn count(value: &Value) -> u64 {
     value
         .as_u64()

@@ -137,7 +137,6 @@ impl Workplace {
         child.wait_with_output().unwrap()
     }
 
-    /// Asserts that files of two folders are identical.
     pub(crate) fn assert_same(&self, [one, other]: [&str; 2], names: &[&str]) {
         for name in names {
             let [a, b] = [one, other].map(|folder| fs::read(self.path(folder).join(name)).unwrap());
@@ -145,17 +144,14 @@ impl Workplace {
         }
     }
 
-    /// Runs `scene.ron` successfully and returns standard output.
     pub(crate) fn run(&self, out: &str) -> String {
         self.succeed(&["run", "scene.ron", "--out", out])
     }
 
-    /// Resumes a run successfully and returns standard output.
     pub(crate) fn resume(&self, out: &str) -> String {
         self.succeed(&["run", "scene.ron", "--out", out, "--resume"])
     }
 
-    /// Runs a shell command, with `actin` on the path.
     pub(crate) fn shell(&self, command: &str) -> Output {
         let mut shell = with_actin("sh", self.folder.path());
         shell.args(["-c", command]).output().unwrap()
@@ -196,7 +192,6 @@ impl Workplace {
     }
 }
 
-/// Returns a command in a folder, with `actin` on the path.
 pub(crate) fn with_actin(program: &str, folder: &Path) -> Command {
     let own = Path::new(env!("CARGO_BIN_EXE_actin")).parent().unwrap();
     let path = env::var_os("PATH").unwrap_or_default();
@@ -251,7 +246,6 @@ pub(crate) fn assert_has(text: &str, parts: &[&str]) {
     }
 }
 
-/// Returns the files of a folder, without subfolders.
 pub(crate) fn contents(folder: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
     let entries = fs::read_dir(folder).unwrap();
     let paths = entries.map(|entry| entry.unwrap().path());

@@ -104,7 +104,6 @@ pub(super) fn compute(out: &Path, kt: f64, quick: bool) -> Result<Vec<Row>, Stri
     Ok(all)
 }
 
-/// Returns all rows of a set of axes.
 fn slices(
     cell: &Cell,
     kt: f64,
@@ -157,7 +156,6 @@ fn slice(
     Ok(rows)
 }
 
-/// Samples the response at a point.
 fn sample(
     cell: &Cell,
     point: [f64; 5],
@@ -189,7 +187,6 @@ fn row(strain: [f64; 5], extension: f64, response: &HeatResponse) -> Row {
 #[cfg(test)]
 mod tests {
     use super::*;
-    /// A slice is independent of the number of threads, since random streams are assigned to points.
     #[test]
     fn slices_do_not_depend_on_threads() {
         let cell = cells::mean().unwrap();

@@ -77,7 +77,6 @@ pub(super) fn run(out: &Path, temperature_k: f64, rows: &[Row]) -> Result<(), St
     save(out, &file, &coefficients(&law))
 }
 
-/// Returns the unit residuals of torque and force.
 fn deviations(row: &Row) -> [f64; 6] {
     let loads = &row.loads;
     let [couple, twisting, force, tension] = FLOORS;
@@ -167,7 +166,6 @@ fn residuals(law: &Homogenised, rows: &[Row]) -> String {
     table
 }
 
-/// Formats the residuals of some rows.
 fn printed(law: &Homogenised, rows: &[&Row]) -> String {
     let (mut sums, mut tangents) = ([0.0; 6], 0.0);
     for row in rows {

@@ -28,7 +28,6 @@ pub(super) fn run(out: &Path, temperature_k: f64, quick: bool) -> Result<(), Str
     table::run(out, kt, quick)
 }
 
-/// Returns the sampling settings of a point.
 fn heat(kt: f64, samples: usize, stream: u64) -> Heat {
     Heat {
         kt,

@@ -67,7 +67,6 @@ fn printed(sizes: &[usize], relaxed: &[Option<f64>], cells: &[Vec<Number>]) -> S
     table
 }
 
-/// Returns the values for one cell.
 fn numbers(cell: &Cell, kt: f64, samples: usize, stream: u64) -> Result<Vec<Number>, String> {
     let free = natural(cell, kt, None, stream)?;
     let held = || straight(cell, kt, &free, samples, stream + 100);

@@ -64,13 +64,11 @@ pub(super) fn run(out: &Path, axes: &Axes, pure: &[&Row]) -> Result<(), String> 
     save(out, "drawn_filament.csv", &coefficients(&law))
 }
 
-/// Returns cells with sampled bonds, with consecutive seeds.
 fn cells(first: u64) -> Result<Vec<Cell>, String> {
     let seeds = (first..first + CELLS).into_par_iter();
     seeds.map(|seed| cells::drawn(seed, 2 * PERIOD)).collect()
 }
 
-/// Returns the form with the mean natural lengths of the cells.
 fn form(cells: &[Cell], axes: &Axes) -> Result<HomogenisedForm, String> {
     let natural = |&twist: &f64| {
         let all = cells

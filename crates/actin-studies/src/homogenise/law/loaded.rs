@@ -100,7 +100,6 @@ fn loaded(cell: &Cell, k: u64) -> Option<CellResponse> {
     reached
 }
 
-/// Returns the mean response of cells under the same load.
 fn mean(all: &[CellResponse]) -> CellResponse {
     let share = (all.len() as f64).recip();
     CellResponse {

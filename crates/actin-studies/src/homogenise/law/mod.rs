@@ -64,7 +64,6 @@ pub(super) fn run(out: &Path, axes: &Axes, grid: &[Row]) -> Result<(), String> {
     save(out, "mean_filament.csv", &coefficients(&law))
 }
 
-/// Fits the law of filaments with sampled bonds.
 pub(super) fn run_drawn(out: &Path, axes: &Axes, grid: &[Row]) -> Result<(), String> {
     let within: Vec<&Row> = grid.iter().filter(|row| is_in_range(row)).collect();
     drawn::run(out, axes, &pure(&within).collect::<Vec<_>>())
@@ -90,7 +89,6 @@ fn normal<'a>(
     Ok(Normal::new(form, &terms, &weighted))
 }
 
-/// Returns the strains at which the tangent must be positive.
 fn firm(strained: &[Row]) -> Vec<SixVector> {
     let firm = strained.iter().filter(|row| POSITIVITY.least(row) > FIRM);
     firm.map(Row::six).collect()
@@ -105,7 +103,6 @@ fn is_in_range(row: &Row) -> bool {
         && row.extension >= close * least
 }
 
-/// Returns the form with the natural lengths of the grid.
 fn form(axes: &Axes, grid: &[Row]) -> Result<HomogenisedForm, String> {
     let natural = |twist: &f64| {
         let found = grid
@@ -118,7 +115,6 @@ fn form(axes: &Axes, grid: &[Row]) -> Result<HomogenisedForm, String> {
     fitted_form(axes, &lengths)
 }
 
-/// Fits the natural lengths, one for each twist.
 fn fitted_form(axes: &Axes, lengths: &[f64]) -> Result<HomogenisedForm, String> {
     // Relative errors, with a floor of 1e-5.
     let sizes: Vec<f64> = lengths.iter().map(|n| 1e-5 + 0.01 * n.abs()).collect();

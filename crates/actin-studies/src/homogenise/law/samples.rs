@@ -44,7 +44,6 @@ pub(super) fn again(cells: &[Cell], rows: &[&Row]) -> Result<Vec<Row>, String> {
     of_all(rows.par_iter().enumerate().map(row))
 }
 
-/// Collects the rows that exist.
 fn of_all(
     rows: impl ParallelIterator<Item = Result<Option<Row>, String>>,
 ) -> Result<Vec<Row>, String> {

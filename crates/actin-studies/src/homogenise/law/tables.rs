@@ -13,7 +13,6 @@ const LOOKS: u64 = 20_000;
 
 const STRONGLY_BENT: &str = "strongly bent";
 
-/// Returns the kind of a loaded cell.
 fn kind(row: &Row) -> &'static str {
     match row.loads[5] {
         _ if row.strain[0] > RANGE.curvature => STRONGLY_BENT,

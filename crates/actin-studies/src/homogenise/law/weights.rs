@@ -64,7 +64,6 @@ fn deviations(row: &Row) -> [f64; 7] {
     [energy + SHARE * row.energy, m, m, m3, n, n, n3]
 }
 
-/// Returns the weights of a row and of its tangent.
 fn weights(row: &Row) -> (f64, f64) {
     let [curvature, twist, shear, ..] = row.strain;
     let [pushed, rest] = REST_EXTENSION;
