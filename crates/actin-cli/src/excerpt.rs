@@ -3,7 +3,6 @@
 use actin_sim::{SceneError, SceneText};
 use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
 
-/// Largest number of columns shown.
 const WIDTH: usize = 120;
 
 /// Returns the line of a mistake, underlined, with a suggested spelling.

@@ -5,7 +5,6 @@ use actin_export::{ExportError, FinishedRun, Format};
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
 
-/// Exit codes, for the help text.
 pub(crate) const EXIT_CODES: &str = "Exit codes:
     0  done
     2  bad input: not a run directory, no states.npz in it, or the output file exists
@@ -26,7 +25,6 @@ pub(crate) struct ExportArguments {
     overwrite: bool,
 }
 
-/// Output formats.
 #[derive(Clone, Copy, Debug, ValueEnum)]
 enum Target {
     #[value(help = "GSD: OVITO, MDAnalysis, HOOMD-blue")]

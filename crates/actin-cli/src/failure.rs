@@ -60,7 +60,6 @@ impl fmt::Display for Failure {
     }
 }
 
-/// A parsed scene with its text, which locates problems.
 pub(crate) struct Read {
     pub(crate) scene: Scene,
     text: SceneText,
@@ -113,12 +112,10 @@ pub(crate) struct Opened {
 }
 
 impl Opened {
-    /// Returns notes and warnings that are known before the run.
     pub(crate) fn notes(&self, plan: &Plan<'_>) -> Vec<Note> {
         [self.assembly.notes(), plan.notes()].concat()
     }
 
-    /// Reads the scene, applies the overrides of the arguments and builds it.
     pub(crate) fn open(source: &SceneArguments) -> Result<Self, Failure> {
         let Read { scene, text, name } = Read::new(source)?;
         let assembly =
@@ -134,7 +131,6 @@ impl Opened {
         Plan::new(&self.assembly).map_err(|problem| self.refuse(&problem))
     }
 
-    /// Reports a problem that was found while planning or running the scene.
     pub(crate) fn refuse(&self, problem: &actin_sim::SceneProblem) -> Failure {
         Failure::Input(self.show(problem))
     }
@@ -144,7 +140,6 @@ impl Opened {
         placed(&self.name, &self.text.locate(problem))
     }
 
-    /// Returns a problem with its position and the line that contains it.
     fn show(&self, problem: &actin_sim::SceneProblem) -> String {
         shown(&self.name, &self.text, &self.text.locate(problem))
     }
@@ -154,7 +149,6 @@ fn input(name: &str, error: &SceneError) -> Failure {
     Failure::Input(placed(name, error))
 }
 
-/// Returns all mistakes of a text, or `first` if no others are found.
 fn all(name: &str, text: &SceneText, first: SceneError) -> Failure {
     let mut mistakes = text.mistakes();
     if mistakes.is_empty() {
@@ -163,7 +157,6 @@ fn all(name: &str, text: &SceneText, first: SceneError) -> Failure {
     listed(name, text, &mistakes)
 }
 
-/// Largest number of mistakes that are listed.
 const LISTED: usize = 20;
 
 pub(crate) fn listed(name: &str, text: &SceneText, mistakes: &[SceneError]) -> Failure {

@@ -11,7 +11,6 @@ use actin_sim::{
 };
 use std::path::Path;
 
-/// A chain of stretches and its output directory.
 struct Chain<'a> {
     arguments: &'a RunArguments,
     opened: &'a Opened,
@@ -93,7 +92,6 @@ fn claim(arguments: &RunArguments, out: &Path, is_new: bool) -> Result<RunLock, 
 }
 
 impl Chain<'_> {
-    /// Runs the stretches in order and returns the summary of the whole motion.
     fn advance(mut self) -> Result<Summary, Failure> {
         if let Some(summary) = self.all_done()? {
             return Ok(summary);
@@ -138,7 +136,6 @@ impl Chain<'_> {
         Plan::new(&stretch.assembly).map_err(|problem| self.opened.refuse(&problem))
     }
 
-    /// Returns the directories of the leading stretches that have ended.
     fn done(&self) -> impl Iterator<Item = RunDirectory> + '_ {
         let paths = self.beginnings.iter();
         let paths = paths.map(|one| self.directory.stretch(one.index));
@@ -208,7 +205,6 @@ impl Chain<'_> {
         Ok(())
     }
 
-    /// Runs a stretch until its end or the next switch.
     fn left(
         &self,
         stretch: &Stretch,
@@ -225,7 +221,6 @@ impl Chain<'_> {
         })
     }
 
-    /// Writes the records of a failed motion and returns the failure.
     fn broken(
         &self,
         (stretch, plan): (&Stretch, &Plan<'_>),

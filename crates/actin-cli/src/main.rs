@@ -27,7 +27,6 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 use std::time::Duration;
 
-/// Exit codes, for the help text.
 const EXIT_CODES: &str = "Exit codes:
     0  done, also for --resume of a finished run
     2  bad input: scene, arguments, directory or checkpoint; nothing was computed

@@ -104,9 +104,7 @@ fn claim(arguments: &RunArguments, out: &Path) -> Result<Option<RunLock>, Failur
 }
 
 enum Beginning {
-    /// Starts a new run.
     New,
-    /// Continues an interrupted run.
     Saved(Box<Saved>),
     /// The run is finished; a message has been printed.
     Finished,
@@ -187,7 +185,6 @@ fn hint(out: &Path, error: RunDirectoryError) -> Failure {
     }
 }
 
-/// Reports results that could not be written and whether a checkpoint holds them.
 fn unwritten(
     arguments: &RunArguments,
     directory: &RunDirectory,
@@ -341,5 +338,4 @@ impl Task<'_> {
     }
 }
 
-/// Results available after a numerical failure.
 const GOOD: &str = "everything up to the last good state is";

@@ -10,7 +10,6 @@ use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-/// Exit codes, for the help text.
 pub(crate) const EXIT_CODES: &str = "Exit codes:
     0  done; failed runs are rows of runs.csv with the reason
     2  bad input: sweep, scene, arguments or directory
@@ -18,10 +17,8 @@ pub(crate) const EXIT_CODES: &str = "Exit codes:
    74  results could not be written; once the cause is removed, --resume continues
   130  interrupted: finished runs are kept, other started runs have checkpoints; --resume continues";
 
-/// Largest number of values of one key, and of refused points, that `--check` shows.
 const SHOWN: usize = 8;
 
-/// Largest number of points that `--check` builds.
 const BUILT: usize = 1000;
 
 #[derive(Debug, Args)]

@@ -48,7 +48,6 @@ fn budget(text: &str) -> Result<Duration, String> {
     crate::seconds(text.strip_suffix('s').unwrap_or(text))
 }
 
-/// Runs the trade, prints the table and writes the files.
 pub(crate) fn trade(arguments: &TradeArguments) -> Result<(), Failure> {
     let read = Read::new(&arguments.source)?;
     let out = folder(arguments)?;

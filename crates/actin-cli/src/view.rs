@@ -9,7 +9,6 @@ use std::num::NonZero;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
-/// Arguments of `actin view`.
 #[derive(Debug, clap::Args)]
 pub(crate) struct ViewArguments {
     /// Run directory of a finished, running or interrupted run.
@@ -57,7 +56,6 @@ fn size(text: &str) -> Result<[usize; 2], String> {
     Ok([side(sides.0)?, side(sides.1)?])
 }
 
-/// Writes the page or the film of a run.
 pub(crate) fn view(arguments: &ViewArguments) -> Result<(), Failure> {
     let run = Run::open(&arguments.directory, Limits::default());
     let run = run.map_err(|error| Failure::Input(error.to_string()))?;
@@ -135,7 +133,6 @@ fn page(arguments: &ViewArguments, run: &Run) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Refuses to replace a file that was not written by `actin view`.
 fn refuse_foreign(out: &Path) -> Result<(), Failure> {
     let refused = |reason: String| Err(Failure::Input(format!("{}: {reason}", out.display())));
     match fs::symlink_metadata(out) {
@@ -152,7 +149,6 @@ fn refuse_foreign(out: &Path) -> Result<(), Failure> {
     }
 }
 
-/// Opens a file with the default program of the system.
 fn open(page: &Path) -> Result<(), Failure> {
     let program = if cfg!(target_os = "macos") {
         "open"

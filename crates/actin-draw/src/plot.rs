@@ -92,7 +92,6 @@ fn range(values: impl Iterator<Item = f64> + Clone) -> f64 {
     if range > 0.0 { range } else { 1.0 }
 }
 
-/// Size of a chart in pixels.
 const SIZE: (u32, u32) = (900, 560);
 /// Size of the plot area in pixels, for equal scales.
 const PLANE: (f64, f64) = (800.0, 450.0);
@@ -160,7 +159,6 @@ fn render(
     Ok(())
 }
 
-/// Returns the symbol of a series in the legend.
 fn key<'a>(
     dots: bool,
     colour: RGBColor,
@@ -188,10 +186,8 @@ fn along(series: &Series) -> Vec<(f64, f64)> {
     steps.collect()
 }
 
-/// Number of samples between two points of a line.
 const STEPS: u8 = 8;
 
-/// Returns the corner in which the legend covers the fewest samples.
 fn emptiest_corner(chart: &Chart<'_>) -> SeriesLabelPosition {
     let Some((x, y)) = ranges(chart) else {
         return SeriesLabelPosition::UpperRight;

@@ -60,7 +60,6 @@ impl Scatter<'_> {
 }
 
 impl Scatter<'_> {
-    /// Returns the ranges of both axes, including the horizontal line.
     fn ranges(&self) -> ((f64, f64), (f64, f64)) {
         let places = || self.points.iter().map(|point| point.place);
         let level = self.level.map(|(level, _)| level);

@@ -5,7 +5,6 @@ use actin_paper::figures;
 use anyhow::{Error, Result};
 use std::path::PathBuf;
 
-/// Options of `cargo xtask reproduce-figures`.
 #[expect(clippy::struct_excessive_bools, reason = "flags of a command line")]
 #[derive(clap::Args, Clone, Debug)]
 pub(crate) struct Options {
@@ -43,7 +42,6 @@ enum Palette {
     ColourBlind,
 }
 
-/// Computes the artefacts, writes reports, and prints differences from the committed reports.
 pub(crate) fn run(options: Options) -> Result<()> {
     let (quick, write) = (options.quick, options.write);
     let options = figures::Options {

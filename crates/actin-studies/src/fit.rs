@@ -4,7 +4,6 @@ use actin_paper::fit;
 use anyhow::{Error, Result};
 use std::path::PathBuf;
 
-/// Options of `cargo xtask fit-parameters`.
 #[derive(clap::Args, Debug)]
 pub(crate) struct Options {
     /// Fits a table with columns of twist, length, bending or stretch (docs/how-to/fit-a-rod-law.md).

@@ -4,7 +4,6 @@ use actin_paper::load_cases::{self, Subject};
 use anyhow::{Error, Result};
 use std::path::PathBuf;
 
-/// Options of `cargo xtask load-cases`.
 #[derive(clap::Args, Clone, Debug)]
 #[allow(clippy::struct_excessive_bools, reason = "flags of a command line")]
 pub(crate) struct Options {

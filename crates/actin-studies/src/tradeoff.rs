@@ -11,7 +11,6 @@ const SCENES: &str = "scenarios/trade";
 /// Page of the book, and folder of its figures.
 const PAGE: &str = "docs/measured/trade.md";
 const PICTURES: &str = "docs/measured/trade";
-/// Target errors in descending order.
 const WANTED: [f64; 3] = [0.05, 0.02, 0.01];
 
 #[derive(clap::Args, Debug)]
@@ -26,7 +25,6 @@ pub(crate) struct Options {
     write: bool,
 }
 
-/// Runs the trade of each scene twice, prints the tables and writes the page.
 pub(crate) fn run(options: &Options) -> Result<()> {
     fs::create_dir_all(&options.out)?;
     let mut summary = String::new();
@@ -109,7 +107,6 @@ fn traded(scene: &Scene) -> Result<Trade> {
     Ok(trade(scene, &options, &Watch::NOBODY)?)
 }
 
-/// Returns the fastest candidate within an error, if it is faster than the reference.
 fn best(trade: &Trade, error: f64) -> Option<(usize, &Candidate)> {
     let all = trade.candidates.iter().enumerate();
     let good = all.filter(|(_, c)| c.failure.is_none() && c.worst_error() <= error);

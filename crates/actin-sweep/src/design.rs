@@ -128,7 +128,6 @@ impl Axis {
         }
     }
 
-    /// Returns the values of the keys, point by point.
     pub(crate) fn rows(&self) -> Vec<Vec<String>> {
         match self {
             Self::List { values, .. } => values.iter().map(|v| vec![v.0.clone()]).collect(),

@@ -82,7 +82,6 @@ impl SweepDirectory {
         Ok(names.all(|name| name.to_string_lossy().starts_with('.')))
     }
 
-    /// Returns an error if scene, runs or program version differ.
     fn ensure_same(&self, opened: &Opened) -> Result<(), SweepError> {
         for (name, given) in identity(opened) {
             if name == SWEEP {

@@ -152,7 +152,6 @@ fn threads(settings: &Settings) -> usize {
     settings.jobs.map_or_else(cores, NonZeroUsize::get)
 }
 
-/// Data shared by the threads.
 struct Crew<'a> {
     opened: &'a Opened,
     directory: &'a SweepDirectory,
@@ -164,7 +163,6 @@ struct Crew<'a> {
 }
 
 impl Crew<'_> {
-    /// Makes the remaining runs and returns the number of ended runs.
     fn make_all(self, report: &(impl Fn(usize) + Sync)) -> Result<usize, SweepError> {
         std::thread::scope(|scope| {
             for _ in 0..threads(self.settings).min(self.left.len()) {
@@ -178,7 +176,6 @@ impl Crew<'_> {
         }
     }
 
-    /// Makes runs until none remain or the sweep is interrupted.
     fn work(&self, report: &(impl Fn(usize) + Sync)) {
         let interrupted = &self.settings.interrupted;
         while !interrupted.load(Ordering::Relaxed) {

@@ -35,7 +35,6 @@ fn stratified(number: usize, random: &mut ChaCha8Rng) -> Vec<f64> {
 }
 
 impl Span {
-    /// Returns the number at a fraction of the span, in RON.
     fn at(&self, share: f64) -> String {
         let number = between((self.from, self.to), self.scale, share);
         if self.whole {

@@ -10,7 +10,6 @@ const MOST_RUNS: f64 = 1e6;
 /// Largest number of set and varied keys, which are compared pairwise.
 const MOST_KEYS: usize = 1000;
 
-/// Largest number of reported problems.
 const MOST_PROBLEMS: usize = 20;
 
 type Checked = Result<(), SceneProblem>;

@@ -129,7 +129,6 @@ fn write(
     Ok(State::Ended)
 }
 
-/// Writes the summary of a run that could not start.
 fn fail(path: &Path, title: &str, why: &str) -> Result<State, SweepError> {
     let (directory, _lock) = RunDirectory::create_locked(path, true)?;
     directory.write_failure(title, why)?;

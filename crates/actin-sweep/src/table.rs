@@ -8,20 +8,17 @@ use serde_json::Value;
 /// Status of a run that has not ended.
 const UNFINISHED: &str = "unfinished";
 
-/// Results of all runs, in order.
 #[derive(Debug)]
 pub(crate) struct Table<'a> {
     opened: &'a Opened,
     rows: Vec<Row>,
 }
 
-/// Results of a run.
 #[derive(Debug)]
 pub(crate) struct Row {
     status: String,
     /// Reason of the failure, or missing results; empty for a successful run.
     pub(crate) failure: String,
-    /// Codes of warnings.
     warnings: String,
     /// Values of the results; `None` if missing.
     results: Vec<Option<Value>>,
@@ -67,7 +64,6 @@ impl Row {
 }
 
 impl<'a> Table<'a> {
-    /// Reads the summaries of all runs that have ended.
     pub(crate) fn new(opened: &'a Opened, directory: &SweepDirectory) -> Self {
         let results = &opened.sweep.results;
         let row = |run| match summary(&directory.run(run)) {

@@ -20,7 +20,6 @@ use std::thread;
 const THROUGH_NM: f64 = 8.0;
 /// Scale below which monomers are connected by a line (pixels per nm).
 const FAR: f64 = 0.8;
-/// Margin around all bodies (nm).
 const MARGIN_NM: f64 = 7.0;
 /// Height of the strip with scale bar and clock (pixels).
 const FOOT: f64 = 44.0;
@@ -186,7 +185,6 @@ impl Run {
     }
 }
 
-/// Renders a state.
 struct Scene<'a> {
     canvas: Canvas,
     assembly: &'a Assembly,

@@ -19,7 +19,6 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 use tempfile::TempDir;
 
-/// A fenced block of a page.
 #[derive(Debug, PartialEq)]
 struct Block {
     /// Line number of the opening fence, from 1.
@@ -82,7 +81,6 @@ struct Page {
     folder: TempDir,
     /// Output of the last block that ran; `None` after a skipped block.
     output: Option<String>,
-    /// Number of blocks that have run.
     run: usize,
 }
 
@@ -135,7 +133,6 @@ impl Page {
         self.run += 1;
     }
 
-    /// Returns the command that runs a block; `None` if Python is missing.
     fn command(&self, block: &Block, place: &str) -> Option<Command> {
         let (program, arguments) = match block.language.as_str() {
             "sh" => ("sh".to_owned(), vec!["-e", "-c", &block.code]),
@@ -171,7 +168,6 @@ fn is_doc_test(page: &str) -> bool {
     sources.any(|lib| fs::read_to_string(lib).is_ok_and(|text| text.contains(&include)))
 }
 
-/// Runs a page and returns the number of blocks that ran.
 fn run(name: &str) -> usize {
     let text = fs::read_to_string(root().join(name)).unwrap();
     let mut page = Page::new(name);

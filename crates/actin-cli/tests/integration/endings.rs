@@ -50,7 +50,6 @@ fn saddles_that_were_left_are_reported() {
     }
 }
 
-/// A rod between two walls, compressed along its axis within 2 ns.
 fn straight(filament: &str, task: &str) -> Workplace {
     Workplace::with(&format!(
         "Scene(

@@ -31,7 +31,6 @@ const SCENE: &str = "Scene(
     task: Dynamics(duration_ns: 0.4, record_every_ns: 0.1),
 )";
 
-/// Returns a folder with a run of the scene in `run`.
 fn ran(scene: &str) -> Workplace {
     let place = Workplace::with(scene);
     place.succeed(&["run", "scene.ron", "--out", "run"]);

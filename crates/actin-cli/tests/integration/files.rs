@@ -88,7 +88,6 @@ fn output_that_is_lost_is_told() {
     assert!(place.path("a/summary.json").exists());
 }
 
-/// Runs `actin run`, asserts exit code 2 and unchanged `folders`, and returns the message.
 fn refusal(place: &Workplace, arguments: &str, folders: &[&str]) -> String {
     let all = || -> Vec<_> {
         let folders = folders.iter().map(|folder| place.path(folder));
@@ -188,7 +187,6 @@ fn assert_nothing_is_lost(
     (code(&output), kept)
 }
 
-/// Returns the names of all files of a run directory and its `vtk` folder.
 fn names(folder: &Path) -> Vec<String> {
     let folders = [folder.to_owned(), folder.join("vtk")];
     let there = folders.iter().filter(|folder| folder.exists());
@@ -245,7 +243,6 @@ fn a_full_disk_loses_nothing() {
     assert!(codes.contains(&(74, true)) && codes.contains(&(0, false)));
 }
 
-/// A disk mounted at `out`, unmounted when dropped.
 struct Mounted<'a>(&'a Workplace);
 
 impl Drop for Mounted<'_> {

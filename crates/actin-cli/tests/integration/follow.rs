@@ -20,7 +20,6 @@ const SWINGING: &str = "Scene(
     task: Dynamics(duration_ns: 300.0, record_every_ns: 0.1),
 )";
 
-/// An overdamped filament with thermal noise, which causes switches.
 const OVERDAMPED: &str = "Scene(
     filament: Filament(
         sections: Following(
@@ -35,7 +34,6 @@ const OVERDAMPED: &str = "Scene(
         interfaces: QuasiHarmonic(sampled_ns: 10.0)),
 )";
 
-/// Asserts identical files of the directory and of all stretches.
 fn assert_same(one: &Path, other: &Path) {
     assert_same_files(one, other);
     let stretches = |folder: &Path| fs::read_dir(folder.join("stretches")).unwrap().count();

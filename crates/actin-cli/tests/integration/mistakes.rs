@@ -4,7 +4,6 @@ use crate::common::{Workplace, code, stderr, stdout};
 use std::fs;
 use std::path::Path;
 
-/// Scenes of `scenarios/bad`.
 const MISTAKES: [&str; 45] = [
     "several-mistakes",
     "several-broken-rules",

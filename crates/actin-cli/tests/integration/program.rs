@@ -283,7 +283,6 @@ fn completions_and_manual_pages_name_every_command() {
     }
 }
 
-/// Returns the output of `check` without its measured times.
 fn untimed(printed: &str) -> Vec<&str> {
     let lines = printed.lines();
     lines

@@ -36,7 +36,6 @@ fn snakemake(folder: &Path) -> Option<Command> {
     Some(command)
 }
 
-/// Returns whether the directory of any run contains the file.
 fn has(place: &Workplace, name: &str) -> bool {
     let runs = fs::read_dir(place.path("workflow/runs"));
     let mut runs = runs.into_iter().flatten();

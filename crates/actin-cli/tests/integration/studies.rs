@@ -6,13 +6,10 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// A study, its sweep, and text replacements that shorten it.
 struct Study {
     name: &'static str,
     shorter: &'static [(&'static str, &'static str)],
-    /// Number of table rows.
     points: usize,
-    /// Overrides for a single run of the scene.
     set: &'static [&'static str],
 }
 
@@ -124,7 +121,6 @@ fn folder() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenarios/studies")
 }
 
-/// Copies the studies into a folder and shortens one of them.
 fn place(study: &Study) -> Workplace {
     let place = Workplace::with("");
     for entry in fs::read_dir(folder()).unwrap() {

@@ -5,7 +5,6 @@ use std::fs;
 use std::process::Child;
 use std::time::{Duration, Instant};
 
-/// Three forces, one of them invalid, and two lengths; three samples each.
 const SWEEP: &str = "Sweep(
     scene: \"scene.ron\",
     set: [Set(key: \"filament.rod.law\", value: Fitted)],
@@ -282,7 +281,6 @@ fn all_mistakes_of_a_sweep_are_told() {
     }
 }
 
-/// A rod in a heat bath with observables.
 const HEATED: &str = "Scene(
         filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 30.0)]),
         clamps: [Clamp(end: Start)],

@@ -82,7 +82,6 @@ fn pages_work_in_a_browser() {
     }
 }
 
-/// Returns the warnings of the summary as the page shows them.
 fn warnings(place: &Workplace) -> Vec<String> {
     let summary = fs::read(place.path("a/summary.json")).unwrap();
     let summary: Value = serde_json::from_slice(&summary).unwrap();

@@ -8,10 +8,8 @@ use std::fs;
 use std::path::Path;
 use std::time::Duration;
 
-/// Number of kills after which a run counts as stuck.
 const MOST_KILLS: u32 = 200;
 
-/// Time limit of an undisturbed run.
 const UNDISTURBED: Duration = Duration::from_mins(5);
 
 /// Kills a run, on one to four threads, at random times until it is done. Its files must equal those of an
@@ -48,7 +46,6 @@ pub(super) fn kill(case: &mut Case<'_>) -> Result<Tally, String> {
     }
 }
 
-/// Runs a random scene into `whole` and returns its run time.
 fn whole(case: &mut Case<'_>) -> Result<Duration, String> {
     let text = scenes::long(&mut case.random);
     fs::write(case.folder.join("scene.ron"), text).map_err(|e| e.to_string())?;
@@ -80,7 +77,6 @@ fn same(folder: &Path, name: &str, ending: &Ending) -> Result<(), String> {
     same_files(&folder.join("whole"), &folder.join(name))
 }
 
-/// Returns an error for run directories that differ, except in run times.
 pub(super) fn same_files(one: &Path, other: &Path) -> Result<(), String> {
     let [one, other] = [one, other].map(|folder| {
         let mut files = files(folder);

@@ -24,7 +24,6 @@ use std::time::Instant;
 /// Counts of outcomes.
 type Tally = BTreeMap<&'static str, u64>;
 
-/// Counts of a case, or the reason why it failed.
 type Outcome = Result<Tally, String>;
 
 fn once(what: &'static str) -> Tally {
@@ -32,11 +31,8 @@ fn once(what: &'static str) -> Tally {
 }
 
 struct Case<'a> {
-    /// Scenes of the repository.
     corpus: &'a [String],
-    /// An empty folder.
     folder: &'a Path,
-    /// Random number generator of the case.
     random: ChaCha8Rng,
 }
 
@@ -106,7 +102,6 @@ fn try_all(kind: &str, (few, many): (u64, u64), attempt: fn(&mut Case<'_>) -> Ou
     tally
 }
 
-/// Runs one case in a new folder, which is removed on success.
 fn try_one(
     kind: &str,
     number: u64,

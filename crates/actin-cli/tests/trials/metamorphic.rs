@@ -17,10 +17,8 @@ use std::time::Duration;
 /// Tolerance of positions (nm) and energies (pN nm) of equilibria.
 const NEAR: f64 = 1e-6;
 
-/// Time limit of a run.
 const PATIENCE: Duration = Duration::from_mins(2);
 
-/// Results that are compared.
 struct Answer {
     /// Elastic energy of filament 0 (pN nm).
     energy: f64,
@@ -147,7 +145,6 @@ fn both(case: &Case<'_>, one: &Draft, two: &Draft) -> Result<(), String> {
     agree(&one, &two, NEAR)
 }
 
-/// Runs a scene in a new folder and reads its results.
 fn answer(case: &Case<'_>, name: &str, text: &str) -> Result<Answer, String> {
     let folder: PathBuf = case.folder.join(name);
     fs::create_dir_all(&folder).map_err(|e| e.to_string())?;

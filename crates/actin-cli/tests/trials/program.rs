@@ -9,20 +9,17 @@ use std::time::{Duration, Instant};
 
 const PATH: &str = env!("CARGO_BIN_EXE_actin");
 
-/// Polling interval of a process.
 const LOOK: Duration = Duration::from_millis(2);
 
 /// Time within which an interrupted process must end.
 const GRACE: Duration = Duration::from_mins(1);
 
-/// End of a process.
 #[derive(Debug)]
 pub(super) struct Ending {
     /// Exit code; `None` after a signal.
     pub(super) code: Option<i32>,
     /// Signal that ended the process.
     pub(super) signal: Option<i32>,
-    /// Standard error.
     pub(super) stderr: String,
     /// True if the process was interrupted after its time limit.
     pub(super) interrupted: bool,

@@ -7,7 +7,6 @@ use std::fmt::Write;
 use std::fs;
 use std::path::Path;
 
-/// Returns all scenes in a folder and its subfolders, sorted by path.
 pub(super) fn repository(folder: &Path) -> Vec<String> {
     let mut paths: Vec<_> = fs::read_dir(folder)
         .unwrap()
@@ -24,10 +23,8 @@ pub(super) fn repository(folder: &Path) -> Vec<String> {
     texts.collect()
 }
 
-/// A scene whose parts can be changed separately.
 #[derive(Clone, Debug)]
 pub(super) struct Draft {
-    /// Arguments of `Filament(...)`: sections and models.
     pub(super) filament: String,
     /// Position (nm), direction (lab frame) and roll (deg) of the filament.
     pub(super) at: Vector3,
@@ -37,7 +34,6 @@ pub(super) struct Draft {
     pub(super) forces: Vec<Vector3>,
     /// The clamped and the loaded end.
     pub(super) ends: [&'static str; 2],
-    /// Further keys: path, linkers, clamps.
     pub(super) rest: String,
     pub(super) task: String,
 }
@@ -83,7 +79,6 @@ impl Draft {
         }
     }
 
-    /// Replaces the equilibrium by a short motion with drag.
     pub(super) fn moving(mut self, record_every_ns: f64) -> Self {
         self.task = format!(
             "Dynamics(duration_ns: 0.4, time_step_ns: 0.001, record_every_ns: {record_every_ns:?},
@@ -138,7 +133,6 @@ impl Draft {
     }
 }
 
-/// Draws a force with components of up to 3 pN.
 pub(super) fn force(random: &mut ChaCha8Rng) -> Vector3 {
     Vector3::from_fn(|_, _| between(random, -3.0, 3.0))
 }

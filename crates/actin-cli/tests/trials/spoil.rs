@@ -27,7 +27,6 @@ const NUMBERS: [&str; 20] = [
     "\"1\"",
 ];
 
-/// Fragments of scenes and of RON.
 const PIECES: [&str; 22] = [
     "Rod(",
     "Ellipsoids(",
@@ -53,7 +52,6 @@ const PIECES: [&str; 22] = [
     "é",
 ];
 
-/// Draws a whole number in `0..end`; `end` must not be zero.
 pub(super) fn below(random: &mut ChaCha8Rng, end: usize) -> usize {
     let wide = random.next_u64() % end.max(1) as u64;
     usize::try_from(wide).expect("it is below a usize")
@@ -67,7 +65,6 @@ pub(super) fn between(random: &mut ChaCha8Rng, low: f64, high: f64) -> f64 {
     low + (high - low) * (random.next_u64() >> 11) as f64 / (1u64 << 53) as f64
 }
 
-/// Returns a text with one to four changes, half of them to numbers.
 pub(super) fn spoil(text: &str, corpus: &[String], random: &mut ChaCha8Rng) -> Vec<u8> {
     let mut bytes = text.as_bytes().to_vec();
     for _ in 0..=below(random, 4) {

@@ -8,16 +8,13 @@ use std::fs;
 use std::path::Path;
 use std::time::Duration;
 
-/// Time limit of a check.
 const CHECKING: Duration = Duration::from_mins(1);
 
-/// Time after which a run is interrupted.
 const RUNNING: Duration = Duration::from_secs(2);
 
 /// Largest number of bodies of a scene that is run; above every scene of the repository, and below the memory limit.
 const MOST_BODIES: f64 = 2e4;
 
-/// Largest number of bonds of a scene that is run.
 const MOST_BONDS: f64 = 2e6;
 
 pub(super) fn check(case: &mut Case<'_>) -> Result<Tally, String> {
@@ -34,7 +31,6 @@ pub(super) fn check(case: &mut Case<'_>) -> Result<Tally, String> {
     }
 }
 
-/// Returns an error if the scene changes when it is written and read.
 fn check_written(text: &[u8]) -> Result<(), String> {
     let read = |text: &str| Scene::from_ron(text).map_err(|e| e.to_string());
     let written = read(&String::from_utf8_lossy(text))?.to_ron();
@@ -99,7 +95,6 @@ fn is_large(text: &[u8]) -> bool {
     !(tried(bodies, MOST_BODIES) && tried(bonds, MOST_BONDS))
 }
 
-/// Returns an error for a message without a line and column within the text.
 fn check_place(ending: &Ending, text: &[u8]) -> Result<(), String> {
     let message = &ending.stderr;
     let place = message.split("scene.ron:").nth(1).unwrap_or_default();
@@ -120,7 +115,6 @@ fn check_place(ending: &Ending, text: &[u8]) -> Result<(), String> {
     }
 }
 
-/// Returns an error for results that contain a non-finite number.
 fn check_results(out: &Path) -> Result<(), String> {
     let read = |name: &str| fs::read_to_string(out.join(name)).map_err(|e| format!("{name}: {e}"));
     let summary = read("summary.json")?;

@@ -16,7 +16,6 @@ pub(super) fn rendered(markdown: &str) -> String {
     text
 }
 
-/// Position in a table.
 #[derive(Default)]
 struct Columns {
     heads: Vec<String>,

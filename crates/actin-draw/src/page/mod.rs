@@ -264,7 +264,6 @@ fn read(picture: &Picture, folder: &Path) -> Result<String, String> {
     fs::read_to_string(&path).map_err(|e| format!("{}: {e}", path.display()))
 }
 
-/// File types of pictures next to the page.
 const KINDS: [(&str, &str); 3] = [("svg", "SVG"), ("pdf", "PDF"), ("png", "PNG")];
 
 fn picture(

@@ -5,15 +5,12 @@ use std::collections::BTreeMap;
 
 /// Background of pictures on a dark page, as in `style.css`.
 pub const DARK_CARD: [u8; 3] = [0x1c, 0x20, 0x24];
-/// Text colour of a dark page, as in `style.css`.
 const DARK_INK: [u8; 3] = [0xe6, 0xe6, 0xe2];
 /// Largest difference of the components of a grey.
 const GREY: u8 = 12;
 /// Fraction of white mixed with other colours on a dark page.
 const LIFT: f64 = 0.3;
-/// SVG attributes with a colour, up to its digits.
 const ATTRIBUTES: [&str; 3] = [" fill=\"#", " stroke=\"#", " stop-color=\"#"];
-/// Number of digits of a colour.
 const DIGITS: usize = 6;
 
 type Colour = [u8; 3];
@@ -42,7 +39,6 @@ impl Shades {
         format!("var(--p{number})")
     }
 
-    /// Returns the values of the variables on light and dark pages.
     pub(super) fn style(&self) -> String {
         let rules = |shade: fn(Colour) -> Colour| -> String {
             let rule = |(colour, number): (&Colour, &usize)| {
@@ -59,7 +55,6 @@ impl Shades {
     }
 }
 
-/// Finds the first colour. Returns the text before it, the colour, and the text after it.
 fn next_colour(svg: &str) -> Option<(&str, Colour, &str)> {
     let mut from = 0;
     loop {

@@ -101,7 +101,6 @@ pub(super) fn verdicts(parts: &str) -> Markup {
     }
 }
 
-/// Returns a row with the reason of the following rows.
 fn reason(title: &str, text: &str) -> Markup {
     html! {
         tr class="why" { td colspan=(COLUMNS) class="wide" { strong { (title) "." } " " (text) } }

@@ -37,7 +37,6 @@ pub struct Canvas {
     half: Vector3,
 }
 
-/// A range of columns and rows.
 pub(super) struct Area {
     pub(super) columns: std::ops::Range<usize>,
     pub(super) rows: std::ops::Range<usize>,
@@ -91,7 +90,6 @@ impl Canvas {
         }
     }
 
-    /// Returns the centre of a cell in camera coordinates (nm).
     pub(super) fn place(&self, column: usize, row: usize) -> [f64; 2] {
         let [width, height] = self.size;
         let scale = self.scale();

@@ -9,9 +9,7 @@ const HAZE: f32 = 0.45;
 const HOLLOW_NM: f64 = 5.0;
 /// Its largest value (cells).
 const WIDEST: f64 = 68.0;
-/// Number of sample pairs around a cell.
 const PAIRS: usize = 10;
-/// Colour and opacity of outlines.
 const OUTLINE: ([f32; 3], f32) = ([10.0, 13.0, 18.0], 0.62);
 
 impl Canvas {
@@ -45,7 +43,6 @@ impl Canvas {
         })
     }
 
-    /// Returns the cell at an offset, clamped to the picture.
     fn beside(&self, (column, row): (usize, usize), (dx, dy): (isize, isize)) -> &Cell {
         let [width, height] = self.size;
         let column = column.saturating_add_signed(dx).min(width - 1);

@@ -32,12 +32,10 @@ impl Camera {
         }
     }
 
-    /// Transforms a direction to camera coordinates: right, up, forward.
     pub(super) fn turn(&self, v: Vector3) -> Vector3 {
         Vector3::new(v.dot(&self.right), v.dot(&self.up), v.dot(&self.forward))
     }
 
-    /// Transforms a point to camera coordinates: right, up, depth.
     pub(super) fn see(&self, point: Vector3) -> Vector3 {
         self.turn(point - self.eye)
     }

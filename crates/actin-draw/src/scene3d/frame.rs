@@ -2,7 +2,6 @@
 
 use super::camera::Camera;
 
-/// Mapping of a scene to the pixels of a panel.
 #[derive(Debug)]
 pub(super) struct Frame {
     pub camera: Camera,
@@ -19,7 +18,6 @@ pub(super) struct Frame {
 }
 
 impl Frame {
-    /// Converts picture coordinates to pixels.
     pub(super) fn pixel(&self, [x, y]: [f64; 2]) -> [f64; 2] {
         [
             self.middle[0] + self.scale * (x - self.picture[0]),

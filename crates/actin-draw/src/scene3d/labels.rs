@@ -16,13 +16,11 @@ pub struct Label {
     pub offset: [f64; 2],
 }
 
-/// Font size in pixels.
 pub(super) const LETTERS: f64 = 14.0;
 /// Distance in pixels above which a label is connected to its point by a line.
 const LEADER: f64 = 18.0;
 const LEADER_COLOUR: Colour = Colour([120, 120, 120]);
 
-/// Left, top, right, bottom.
 type Area = [f64; 4];
 
 pub(super) fn paint(labels: &[Label], frame: &Frame, canvas: &mut Canvas) {

@@ -3,7 +3,6 @@
 use super::camera::Camera;
 use super::{Matrix3, Vector3};
 
-/// An ellipse in the plane of the picture.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Ellipse {
     pub centre: [f64; 2],
@@ -54,7 +53,6 @@ impl Ellipse {
     }
 }
 
-/// Number of points on the rim of a disc.
 const RIM: usize = 72;
 
 /// Returns the rim of a disc (nm, lab frame).

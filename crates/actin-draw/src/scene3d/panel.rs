@@ -29,9 +29,7 @@ pub struct Panel {
 
 /// Distance of the viewer relative to the extent of the scene, a compromise between depth and accurate lengths.
 const DISTANCE: f64 = 3.5;
-/// Height of the title in pixels.
 const TITLE: f64 = 26.0;
-/// Height of the strip with scale bar and axes in pixels.
 const FOOT: f64 = 46.0;
 const AXIS: f64 = 24.0;
 /// Axes that appear shorter than this fraction are omitted.
@@ -116,7 +114,6 @@ impl Panel {
         );
     }
 
-    /// Draws the lab axes in the lower right corner.
     fn paint_axes(&self, frame: &Frame, canvas: &mut Canvas) {
         let [left, top, width, height] = self.place;
         let origin = [left + width - 48.0, top + height - 32.0];

@@ -58,7 +58,6 @@ impl Sheet {
         canvas.finish()
     }
 
-    /// Returns the positions of legend entries, in as many rows as needed.
     fn legend_places(&self) -> Vec<[f64; 2]> {
         let (mut x, mut y) = (MARGIN, 0.0);
         let entries = self.legend.iter();
@@ -77,7 +76,6 @@ impl Sheet {
 }
 
 impl Key {
-    /// Draws the symbol to the right of a point.
     fn paint(self, [x, y]: [f64; 2], canvas: &mut Canvas) {
         let ends = [[x, y], [x + KEY, y]];
         let middle = [x + 0.5 * KEY, y];

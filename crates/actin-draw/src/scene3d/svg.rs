@@ -26,7 +26,6 @@ impl Stroke {
     }
 }
 
-/// Fill of a shape.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Paint {
     pub fill: Colour,
@@ -73,7 +72,6 @@ impl Canvas {
         self.body.push('\n');
     }
 
-    /// Draws a shaded ellipse, rotated clockwise by an angle (deg).
     pub(super) fn ball(&mut self, [x, y]: [f64; 2], [a, b]: [f64; 2], angle: f64, paint: Paint) {
         #[expect(
             clippy::cast_possible_truncation,
@@ -140,7 +138,6 @@ impl Canvas {
         ));
     }
 
-    /// Draws an arrow; a short one consists of the head only.
     pub(super) fn arrow(&mut self, [from, to]: [[f64; 2]; 2], stroke: Stroke) {
         let along = [to[0] - from[0], to[1] - from[1]];
         let length = along[0].hypot(along[1]).max(1e-9);

@@ -26,7 +26,6 @@ pub(super) struct Header {
     pub schema_version: (u16, u16),
 }
 
-/// Data of one array.
 #[derive(Clone, Debug)]
 pub(super) enum Chunk {
     U8(Vec<u8>),
@@ -74,7 +73,6 @@ impl Chunk {
     }
 }
 
-/// Index entry of an array.
 #[derive(Clone, Copy, Debug)]
 struct Entry {
     frame: u64,
@@ -98,11 +96,9 @@ impl Entry {
     }
 }
 
-/// Writer of a file, frame by frame.
 #[derive(Debug)]
 pub(super) struct Writer<W> {
     out: W,
-    /// Offset of the next array.
     location: u64,
     frame: u64,
     names: Vec<String>,
@@ -153,7 +149,6 @@ impl<W: Write + Seek> Writer<W> {
         Ok(())
     }
 
-    /// Returns the index of a name, which is added if new.
     fn number(&mut self, name: &str) -> u16 {
         let known = self.names.iter().position(|known| known == name);
         let number = known.unwrap_or_else(|| {

@@ -184,7 +184,6 @@ fn single(values: impl IntoIterator<Item = f64>) -> Chunk {
     Chunk::F32(values.into_iter().map(|value| value as f32).collect())
 }
 
-/// Converts to 32-bit integers.
 fn indices(values: impl IntoIterator<Item = usize>) -> Chunk {
     let narrow = |value| u32::try_from(value).expect("memory holds fewer than 2^32 particles");
     Chunk::U32(values.into_iter().map(narrow).collect())

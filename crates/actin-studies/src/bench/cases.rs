@@ -9,23 +9,19 @@ pub(super) struct Case {
 
 #[derive(Clone, Copy)]
 pub(super) enum Work {
-    /// Time steps.
     Motion(Motion),
     /// Equilibrium of an all-monomer filament under a tip force, from the straight state.
     Equilibrium {
         /// Length of the filament (nm).
         length_nm: f64,
     },
-    /// Replicas of a scene on two threads, relative to one thread.
     Ensemble(Replicated),
 }
 
-/// Replicated scene: a clamped filament of 160 nm.
 #[derive(Clone, Copy)]
 pub(super) enum Replicated {
     /// A rod of 64 segments in a heat bath.
     Rod,
-    /// Monomers in a heat bath.
     Monomers,
     /// 40 nm of monomers at the wall and 12 segments of rod, in a heat bath.
     Mixed,

@@ -8,7 +8,6 @@ use std::time::Instant;
 
 /// Number of replicas, sufficient to balance the threads within a few per cent.
 const REPLICAS: usize = 48;
-/// Number of threads compared with one.
 const THREADS: NonZeroUsize = NonZeroUsize::new(2).unwrap();
 /// Time of a case (s), and smallest number of pairs of runs.
 const SECONDS: f64 = 12.0;

@@ -12,7 +12,6 @@ const HIGHEST_FLOOR: f64 = 1e-5;
 const TIP_ERROR: f64 = 1e-3;
 /// Time for repeats of a case (s); at least one solve is made.
 const BUDGET_S: f64 = 2.0;
-/// Largest number of repeats.
 const REPEATS: usize = 50;
 
 struct Solved {

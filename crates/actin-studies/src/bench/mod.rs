@@ -12,7 +12,6 @@ mod peers;
 use anyhow::{Error, Result};
 use cases::{CASES, Case, Work};
 
-/// Cases and output format.
 #[derive(clap::Args, Debug)]
 pub(crate) struct Options {
     /// Names of cases; all by default.
@@ -26,7 +25,6 @@ pub(crate) struct Options {
     peers: bool,
 }
 
-/// Result of a case.
 struct Measured {
     /// Best of the repeats, least affected by other load on the machine.
     best: f64,
@@ -35,7 +33,6 @@ struct Measured {
     note: String,
 }
 
-/// Entry of the JSON output.
 #[derive(Clone, Copy, Debug)]
 struct Entry {
     case: &'static str,
@@ -62,7 +59,6 @@ pub(crate) fn run(options: &Options) -> Result<()> {
     Ok(())
 }
 
-/// Measures the cases; prints a table unless JSON is requested.
 fn measure(options: &Options) -> Result<Vec<Entry>, String> {
     if !options.json {
         println!(
@@ -114,7 +110,6 @@ fn print_row(case: &Case, measured: &Measured) {
     );
 }
 
-/// Returns the cases with these names, in the order of the list.
 fn chosen(names: &[String]) -> Result<Vec<&'static Case>, String> {
     for name in names {
         if !CASES.iter().any(|case| case.name == name) {

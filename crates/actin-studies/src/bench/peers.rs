@@ -7,7 +7,6 @@ use actin_paper::workspace_root;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// Environment variable that selects another Python.
 const PYTHON: &str = "ACTIN_PEERS";
 
 const INSTALL: &str = "python3 -m venv target/peers
@@ -16,7 +15,6 @@ const INSTALL: &str = "python3 -m venv target/peers
 /// Compiler flags that match the floating-point defaults of Rust.
 const FLAGS: [&str; 4] = ["-O3", "-fno-math-errno", "-fno-trapping-math", "-lm"];
 
-/// Rate of another program in a case.
 #[derive(Debug, PartialEq)]
 struct Rate {
     case: String,
@@ -25,7 +23,6 @@ struct Rate {
     millions: f64,
 }
 
-/// Runs the other programs, and prints a table of rates and the missing programs.
 pub(crate) fn compare(ours: &[Entry]) {
     let mut missing = Vec::new();
     println!(
@@ -43,7 +40,6 @@ pub(crate) fn compare(ours: &[Entry]) {
     }
 }
 
-/// Returns the commands, or reasons why they are missing.
 fn commands() -> Vec<Result<Command, String>> {
     let root = workspace_root();
     let mut all: Vec<_> = instructions()

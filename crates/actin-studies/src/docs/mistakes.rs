@@ -8,7 +8,6 @@ use std::path::Path;
 const PAGE: &str = "docs/reference/mistakes.md";
 const PRINTED: &str = "scenarios/bad/printed.txt";
 
-/// Scenes of `scenarios/bad`, with descriptions of the mistakes.
 const MISTAKES: [(&str, &str); 20] = [
     ("missing-unit", "A key without its unit"),
     ("unknown-unit-suffix", "A key in another unit"),

@@ -16,7 +16,6 @@ use std::path::{Path, PathBuf};
 /// Largest number of words of pages that are not generated.
 const MOST_WORDS: usize = 15_000;
 
-/// Options of `cargo xtask docs`.
 #[derive(clap::Args, Debug)]
 pub(crate) struct Options {
     /// Report of `reproduce-figures` whose artefacts replace those in `docs/report.json`.
@@ -83,7 +82,6 @@ fn generated(root: &Path) -> Result<BTreeMap<String, String>, String> {
     Ok(files)
 }
 
-/// Merges the artefacts of a report into the committed one.
 fn take_over(root: &Path, report: &Path) -> Result<(), String> {
     let mut rows = by_name(report::read(&root.join(REFERENCE))?);
     let others = by_name(report::read(report)?);

@@ -6,7 +6,6 @@ use std::fmt::Write as _;
 
 pub(super) const FOLDER: &str = "docs/tables/";
 
-/// Number of significant digits.
 const DIGITS: u8 = 4;
 
 /// Returns the page of verdicts and the page of each artefact, with their paths.
@@ -21,7 +20,6 @@ pub(super) fn files(rows: &[Row]) -> BTreeMap<String, String> {
     files
 }
 
-/// Returns the title of an artefact, for example "Figure 4" for `fig4`.
 fn title(artefact: &str) -> String {
     if artefact == "law" {
         return "The law of the rod".to_owned();

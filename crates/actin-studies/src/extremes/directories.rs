@@ -15,7 +15,6 @@ const SCENE: &str = "Scene(
 /// Changes the finished run directory `run` or its surroundings.
 type Spoil = fn(&Path) -> io::Result<()>;
 
-/// Obstacles to `--overwrite`.
 const IN_THE_WAY: [(&str, Spoil); 7] = [
     ("no manifest: a folder of somebody else", |folder| {
         fs::remove_file(folder.join("run/actin-run.json"))
@@ -61,7 +60,6 @@ pub(super) fn rows() -> Vec<Row> {
     overwritten.into_iter().chain(refused).collect()
 }
 
-/// Outcome of a trial that could not be made.
 fn not_tried(error: &str) -> Outcome {
     Outcome::Wrong(format!("not tried: {error}"))
 }
@@ -96,7 +94,6 @@ impl Made {
         directory.write(&plan, trajectory, report).map(drop)
     }
 
-    /// Returns a message without the path of the temporary folder.
     fn message(&self, error: &RunDirectoryError) -> String {
         let folder = format!("{}/", self.folder.path().display());
         error.to_string().replace(&folder, "")

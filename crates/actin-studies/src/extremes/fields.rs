@@ -4,15 +4,12 @@ use super::row::{Expected, Outcome, Row};
 use actin_sim::{Assembly, Plan, RunError, Scene, SceneError, SceneProblem, Trajectory};
 use std::ops::Range;
 
-/// Replacements of each number.
 const VALUES: [&str; 12] = [
     "NaN", "inf", "-inf", "1e400", "1e308", "-1e308", "1e-310", "1e59", "-1e59", "1e-59", "0", "-1",
 ];
 
-/// A driven and linked filament of monomers and rod, in motion.
 const MOTION: &str = include_str!("motion.ron");
 
-/// Twisted rods with tabulated laws.
 const LAWS: [&str; 2] = [
     include_str!("laws-tanh.ron"),
     include_str!("laws-sided.ron"),
@@ -31,7 +28,6 @@ fn scenes() -> Vec<String> {
     all.map(written).to_vec()
 }
 
-/// A replacement and its outcome.
 struct Trial {
     number: Number,
     value: &'static str,
@@ -77,10 +73,8 @@ fn counted(trials: &[Trial]) -> Outcome {
     ))
 }
 
-/// Largest number of steps of a motion that is run.
 const MOST_STEPS: u64 = 2_000;
 
-/// Outcome of a scene.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Verdict {
     /// Refused when read, built or estimated, with a position in the text.
@@ -130,7 +124,6 @@ fn finite(trajectory: &Trajectory) -> Verdict {
     Verdict::Ran
 }
 
-/// Position of a number in a text.
 #[derive(Clone, Debug, PartialEq)]
 struct Number {
     place: Range<usize>,
@@ -138,7 +131,6 @@ struct Number {
     key: String,
 }
 
-/// Returns all numbers of a text, except in comments, strings and names.
 fn numbers(text: &str) -> Vec<Number> {
     let bytes = text.as_bytes();
     let (mut found, mut key, mut i) = (Vec::new(), String::new(), 0);

@@ -7,10 +7,8 @@ use proptest::prelude::*;
 use proptest::test_runner::{Config, RngSeed, TestRunner};
 use std::time::Instant;
 
-/// Default number of cases.
 const CASES: u32 = 300;
 
-/// Returns the settings, with the number of cases from `ACTIN_FUZZ_CASES`.
 fn config() -> Config {
     let wanted = std::env::var("ACTIN_FUZZ_CASES").ok();
     let cases = wanted.map_or(CASES, |text| {
@@ -127,7 +125,6 @@ fn linkers() -> impl Strategy<Value = String> {
     prop::collection::vec(one, 0..3).prop_map(|all| all.concat())
 }
 
-/// Draws a scene whose numbers satisfy the rules of their keys.
 fn scene() -> impl Strategy<Value = String> {
     let clamps = prop::sample::select(vec![
         "",
@@ -190,7 +187,6 @@ fn random_scenes_are_built_or_refused() {
 /// Time limit (s), 1e4 times longer than usual, for busy machines.
 const PATIENCE_S: f64 = 60.0;
 
-/// Reads a text; an error must have a position within the text.
 fn check(text: &str) {
     let clock = Instant::now();
     if let Err(error) = Scene::from_ron(text) {

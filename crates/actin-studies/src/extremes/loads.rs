@@ -11,7 +11,6 @@ const BEND: f64 = 3.9e4;
 const SHEAR: f64 = 1.6e4;
 const STRETCH: f64 = 3.4e4;
 
-/// Sections of the cases.
 const ROD: &str = "Rod(from_nm: 0.0, to_nm: 100.0, segments: 10)";
 const MONOMERS: &str = "Ellipsoids(from_nm: 0.0, to_nm: 30.0)";
 
@@ -20,7 +19,6 @@ const FORCES: [f64; 11] = [
     1e-12, 1e-10, 1e-8, 1e-6, 1e-4, 1e-2, 1.0, 1e2, 1e4, 1e5, 1e6,
 ];
 
-/// Cases: name, sections and direction of the force.
 const DIRECTIONS: [(&str, &str, [f64; 3]); 6] = [
     ("across the rod", ROD, [1.0, 0.0, 0.0]),
     ("along the rod", ROD, [0.0, 0.0, 1.0]),
@@ -169,7 +167,6 @@ pub(super) fn bonds() -> Vec<Row> {
     BONDS.map(row).to_vec()
 }
 
-/// Ratio of the rod's rigidities to those of actin.
 const FACTORS: [f64; 7] = [1e-6, 1e-4, 1e-2, 1.0, 1e2, 1e4, 1e6];
 
 /// Equilibrium and stable time step of a mixed filament.

@@ -22,7 +22,6 @@ use std::fs;
 use std::path::PathBuf;
 use std::time::Instant;
 
-/// Extent and output of the study.
 #[derive(clap::Args, Debug)]
 pub(crate) struct Options {
     /// Output folder of the table and the figures.
@@ -64,7 +63,6 @@ pub(crate) fn run(options: &Options) -> Result<()> {
     Ok(())
 }
 
-/// Name and rows of a group.
 type Group<'a> = (&'static str, &'a (dyn Fn() -> Vec<Row> + Sync));
 
 /// Returns the table. Tests omit rows that take long, and fields, which have a separate test.

@@ -14,7 +14,6 @@ use actin_mechanics::{State, System, Vector3, Xorshift, randomise_velocities};
 const RATES: [f64; 7] = [0.0, 1e-3, 1.0, 1e2, 1e4, 1e5, 1e6];
 const LOADED: [f64; 6] = [0.0, 1.0, 10.0, 1e2, 1e3, 1e4];
 
-/// Sections of 100 nm of each kind.
 const LONG: [(&str, &str); 3] = [
     ("rod", "Rod(from_nm: 0.0, to_nm: 100.0)"),
     ("monomers", "Ellipsoids(from_nm: 0.0, to_nm: 100.0)"),
@@ -72,7 +71,6 @@ fn step(system: &System, share: f64) -> f64 {
     stable_step(&PEFRL, frequency, share).expect("it is positive")
 }
 
-/// Returns the number of steps of `h` in a time (ns).
 fn steps(h: f64, time: f64) -> u64 {
     let run = Run::over(&PEFRL, h, time).expect("steps and times are positive");
     run.steps()
@@ -100,7 +98,6 @@ fn flight(mut system: System, rate: f64) -> Tried {
     correct("momentum exp(-gamma t), of what it was", error, 1e-13)
 }
 
-/// Returns the total mass and the centre of mass.
 fn centre(state: &State) -> (f64, Vector3) {
     let masses = || state.points.inverse_mass().iter().map(|m| 1.0 / m);
     let mass = masses().sum::<f64>();
@@ -108,7 +105,6 @@ fn centre(state: &State) -> (f64, Vector3) {
     (mass, places.map(|(x, m)| x * m).sum::<Vector3>() / mass)
 }
 
-/// Runs a damped motion; `keys` are additional keys of the task.
 fn damped(
     sections: &str,
     rest: &str,

@@ -3,14 +3,17 @@
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Outcome {
     /// Largest error against a known result: relative, or absolute if `what` names a unit.
-    Correct { what: &'static str, error: f64 },
-    /// Ratio of a quantity to its bound.
-    Bounded { what: &'static str, share: f64 },
+    Correct {
+        what: &'static str,
+        error: f64,
+    },
+    Bounded {
+        what: &'static str,
+        share: f64,
+    },
     /// The scene was refused before it ran.
     Refused(String),
-    /// The run ended early.
     Fails(String),
-    /// Incorrect result without a message: a defect.
     Wrong(String),
 }
 
@@ -49,19 +52,15 @@ impl Outcome {
     }
 }
 
-/// Expected kinds of outcomes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Expected {
-    /// Correct, or within the bound.
     Correct,
     Refused,
     /// Ended early with a message that contains one of these texts, if there are any.
     Fails(&'static [&'static str]),
-    /// Refused or ended early.
     Stops,
     /// Correct, or ended early with one of these texts.
     CorrectOrFails(&'static [&'static str]),
-    /// Any outcome without a defect.
     Sound,
 }
 
@@ -86,9 +85,7 @@ impl Expected {
 
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Row {
-    /// Name of the varied number.
     pub(super) varied: &'static str,
-    /// Model and value.
     pub(super) case: String,
     pub(super) outcome: Outcome,
     expected: Expected,
@@ -108,7 +105,6 @@ impl Row {
         Self { expected, ..self }
     }
 
-    /// Returns whether the outcome is of the expected kind.
     pub(super) fn is_sound(&self) -> bool {
         self.expected.is_met(&self.outcome)
     }

@@ -7,18 +7,15 @@ use actin_sim::{
     Trajectory,
 };
 
-/// Parts of the text of a scene; empty parts are omitted.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Parts {
     pub(super) sections: String,
     /// Keys of the filament after its sections and monomers.
     pub(super) models: String,
-    /// Clamps, loads etc.
     pub(super) rest: String,
     pub(super) task: String,
 }
 
-/// Bonds per interface.
 const BONDS: usize = 16;
 
 impl Parts {
@@ -90,7 +87,6 @@ pub(super) fn free(sections: &str) -> Result<System, Outcome> {
     Ok(Parts::free(sections).build()?.system)
 }
 
-/// A completed run; the assembly is in the last state.
 #[derive(Debug)]
 pub(super) struct Ran {
     pub(super) assembly: Assembly,

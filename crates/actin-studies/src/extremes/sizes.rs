@@ -11,7 +11,6 @@ use actin_sim::Plan;
 use actin_sim::coupling::Linker;
 use std::time::Instant;
 
-/// The smallest valid filaments, and smaller ones.
 const SMALLEST: [(&str, &str); 3] = [
     ("1 segment", "Rod(from_nm: 0.0, to_nm: 10.0, segments: 1)"),
     ("3 monomers", "Ellipsoids(from_nm: 0.0, to_nm: 2.7)"),
@@ -108,7 +107,6 @@ fn driven(count: u32) -> Tried {
     correct("factors", error.fold(0.0, f64::max), 0.0)
 }
 
-/// Returns `count` free filaments, 20 nm apart.
 fn side_by_side(count: u32, sections: &str) -> String {
     let filament = |i: u32| {
         let at = 20 * i;
@@ -143,7 +141,6 @@ fn moved(text: &str, steps: u64) -> Tried {
     correct("momentum", error, 1e-13 * points.sqrt().max(10.0))
 }
 
-/// Scenes that exceed the memory of any machine.
 const BEYOND: &str = include_str!("guards.csv");
 
 /// Time limit of a refusal (s), a thousand times longer than usual. Running the scenes would take hours.
@@ -175,7 +172,6 @@ const SHIFTS: [f64; 4] = [1e2, 1e4, 1e5, 1e6];
 /// Largest stiffness (pN/nm): stretch of a segment of 5 nm.
 const STIFFNESS: f64 = 3.4e4 / 5.0;
 
-/// A linked filament of both models.
 const LINKED: &str = include_str!("linked.ron");
 
 /// Compares the loads of a shifted filament with the loads at the origin.

@@ -16,7 +16,6 @@ const INTEGRATORS: [Integrator; 5] = [
     Integrator::Suzuki,
 ];
 
-/// A filament of each kind.
 pub(super) const MODELS: [(&str, &str); 3] = [
     ("rod", "Rod(from_nm: 0.0, to_nm: 30.0, segments: 3)"),
     ("monomers", "Ellipsoids(from_nm: 0.0, to_nm: 14.0)"),
@@ -32,7 +31,6 @@ const STEPS: u64 = 2_000;
 /// Growth of the kinetic energy that indicates instability. Below the limit, the energy of a mode grows at most by
 /// the inverse relative distance to the limit.
 const GROWN: f64 = 1e6;
-/// Fractions of the limit at which the energy is sampled.
 const SHARES: [f64; 10] = [1e-3, 3e-3, 1e-2, 3e-2, 0.1, 0.25, 0.5, 0.75, 0.9, 0.99];
 /// Round-off of the energy in `energy_error`. Positions of 30 nm have round-off of 4e-15 nm. Motion of 1e-3 nm/ns at
 /// 500 rad/ns has an amplitude of 2e-6 nm, so that its relative energy error is 4e-9. The bound is five times larger,

@@ -6,7 +6,6 @@ use std::fmt::Write as _;
 use std::fs;
 use std::path::Path;
 
-/// Writes `extremes.csv`, and `extremes.md` with a table for each varied number.
 pub(super) fn table(rows: &[Row], out: &Path) -> Result<(), String> {
     let header = ["varied", "case", "is_sound", "outcome"];
     let cells = rows.iter().map(|row| {
@@ -22,7 +21,6 @@ pub(super) fn table(rows: &[Row], out: &Path) -> Result<(), String> {
     save(out, "extremes.md", &tables(rows))
 }
 
-/// Writes the page of the book, and copies its figures from `out`.
 pub(super) fn document(rows: &[Row], out: &Path, docs: &Path) -> Result<(), String> {
     save(
         docs,

@@ -16,7 +16,6 @@ pub(super) struct Axes {
 }
 
 impl Axes {
-    /// Creates the axes of the study, or fewer values.
     pub(super) fn new(quick: bool) -> Self {
         if quick {
             return Self {

@@ -22,7 +22,6 @@ const UNBOUNDED: [(Term, f64); 3] = [
 /// Largest number of searches for soft directions, and of Newton steps in each.
 const ROUNDS: usize = 20;
 const NEWTON_STEPS: usize = 30;
-/// Largest number of step halvings in the line search.
 const HALVINGS: i32 = 12;
 
 fn columns(terms: &[Term]) -> Vec<(Term, usize)> {
@@ -35,10 +34,8 @@ fn numbers(jet: &PotentialJet) -> [f64; 7] {
     [jet.energy, a, b, c, d, e, f]
 }
 
-/// Indices of an entry of the tangent.
 type Place = (usize, usize);
 
-/// A cell with the weights of its data.
 pub(super) struct Weighted<'a> {
     pub(super) row: &'a Row,
     /// Weights of energy, torque and force; 0 for unknown values.
@@ -74,7 +71,6 @@ impl Weighted<'_> {
     }
 }
 
-/// Normal equations of the coefficients.
 pub(super) struct Normal<'a> {
     form: &'a HomogenisedForm,
     terms: Vec<Term>,
@@ -239,7 +235,6 @@ impl Conditions {
         if k < self.hard { HARD } else { self.strength }
     }
 
-    /// Minimises the sum of squared residuals and weighted squared violations.
     fn solve(
         &self,
         normal: &Normal<'_>,

@@ -18,7 +18,6 @@ use std::fs;
 use std::path::PathBuf;
 use std::time::Instant;
 
-/// Parts and output of the study.
 #[derive(clap::Args, Debug)]
 pub(crate) struct Options {
     /// Parts to compute; all by default.

@@ -6,7 +6,6 @@ use actin_paper::cells::strain;
 use actin_sim::ellipsoid::{CellResponse, SixMatrix, SixVector};
 use std::path::Path;
 
-/// Strain and response of a cell.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Row {
     /// Curvature (rad/nm), twist (rad/nm), shear, stretch, angle between curvature and shear (deg).

@@ -7,14 +7,12 @@ use std::path::{Component, Path, PathBuf};
 
 const SUMMARY: &str = "docs/SUMMARY.md";
 
-/// Links of a page with their lines, and the anchors of its headings.
 #[derive(Debug, Default)]
 struct Page {
     links: Vec<(usize, String)>,
     headings: Vec<String>,
 }
 
-/// Returns pages that are missing in the summary, and broken links.
 pub(super) fn findings(root: &Path) -> Result<Vec<String>, String> {
     let found = files(root, "md")?.into_iter();
     let inside = |path: PathBuf| path.strip_prefix(root).map(Path::to_path_buf).ok();
@@ -90,7 +88,6 @@ fn name(heading: &str) -> String {
     kept.collect::<String>().replace(' ', "-")
 }
 
-/// Returns the file of a link, relative to the root, and the anchor in it.
 fn target<'a>(page: &Path, link: &'a str) -> (PathBuf, &'a str) {
     let (file, heading) = link.split_once('#').unwrap_or((link, ""));
     if file.is_empty() {

@@ -4,7 +4,6 @@ use super::files;
 use clap::CommandFactory;
 use std::path::Path;
 
-/// Commands of `xtask` itself.
 const TASKS: [&str; 2] = ["check", "trials"];
 
 /// Options and folders of programs: `tests/NAME/main.rs` or `tests/NAME.rs`, in the root and in each crate.
@@ -14,7 +13,6 @@ const KINDS: [(&str, &str); 3] = [
     ("--bench", "benches"),
 ];
 
-/// Returns commands with a missing task, test program or example.
 pub(super) fn findings(root: &Path) -> Result<Vec<String>, String> {
     let arguments = crate::Arguments::command();
     let studies = arguments.get_subcommands().map(clap::Command::get_name);
@@ -50,7 +48,6 @@ fn commands(text: &str) -> Vec<(&str, &str)> {
         .collect()
 }
 
-/// Returns whether a program exists in the folder of the root or of a crate.
 fn is_program(root: &Path, folder: &str, name: &str) -> Result<bool, String> {
     let lies_in = |parent: &Path| {
         let place = parent.join(folder);

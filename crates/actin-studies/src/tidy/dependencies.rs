@@ -3,7 +3,6 @@
 use cargo_metadata::{DependencyKind, MetadataCommand};
 use std::path::Path;
 
-/// Allowed dependencies of each crate on crates of this workspace.
 const ALLOWED: [(&str, &[&str]); 18] = [
     ("actin-mechanics", &[]),
     ("actin-ellipsoid", &["actin-mechanics"]),
@@ -80,7 +79,6 @@ const ALLOWED: [(&str, &[&str]); 18] = [
     ),
 ];
 
-/// Returns dependencies that are not allowed, and crates without a rule.
 pub(super) fn findings(root: &Path) -> Result<Vec<String>, String> {
     let manifest = root.join("Cargo.toml");
     let metadata = MetadataCommand::new()

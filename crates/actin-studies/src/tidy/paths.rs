@@ -3,7 +3,6 @@
 use super::files;
 use std::path::Path;
 
-/// Prefixes of words in backticks that are checked as paths.
 const FOLDERS: [&str; 5] = ["crates/", "docs/", "scenarios/", "xtask/", "tests/"];
 
 pub(super) fn findings(root: &Path) -> Result<Vec<String>, String> {

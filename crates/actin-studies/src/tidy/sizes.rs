@@ -3,7 +3,6 @@
 /// Largest number of lines of a file.
 const MOST_LINES: usize = 600;
 
-/// Returns files that are too long or have no module documentation.
 pub(super) fn findings(name: &str, text: &str) -> Vec<String> {
     let mut all = Vec::new();
     let lines = text.lines().count();

@@ -1,6 +1,5 @@
 //! Words that are forbidden in a crate.
 
-/// Folders, and words that are forbidden in them.
 const FORBIDDEN: [(&str, &[&str]); 6] = [
     (
         "crates/actin-mechanics/src",

@@ -29,7 +29,6 @@ pub fn plates(assembly: &Assembly, state: &State, half_nm: f64) -> Vec<[Vector3;
         .collect()
 }
 
-/// Returns the rotation of a frame from its initial orientation.
 fn turn_from_rest(assembly: &Assembly, state: &State, frame: usize) -> UnitQuaternion {
     let rest = assembly.rest.frames.orientation.get(frame);
     state.frames.orientation.get(frame) * rest.inverse()

@@ -3,7 +3,6 @@
 use super::thin;
 use std::path::Path;
 
-/// A column of a table.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Curve {
     /// Name in the file.

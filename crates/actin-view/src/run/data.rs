@@ -123,14 +123,12 @@ fn linkers(assembly: &Assembly, state: &State) -> Vec<f64> {
     .collect()
 }
 
-/// Returns position and force of each load, rounded for display.
 fn forces(assembly: &Assembly, state: &State) -> Vec<[f64; 6]> {
     let all = bodies::forces(assembly, state).into_iter();
     all.map(|(p, f)| [p.x, p.y, p.z, f.x, f.y, f.z].map(|x| (x * 1e4).round() / 1e4))
         .collect()
 }
 
-/// A quantity at all points of all records.
 struct Field {
     name: &'static str,
     unit: &'static str,
@@ -184,7 +182,6 @@ fn local(assembly: &Assembly, state: &State) -> Vec<[f64; 3]> {
     all
 }
 
-/// Returns the displacement of each point (nm).
 fn moved<'a>(
     assembly: &'a Assembly,
     first: &'a State,

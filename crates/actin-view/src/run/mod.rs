@@ -41,7 +41,6 @@ pub enum ViewError {
 
 /// Folder of the stretches of a run with time-dependent resolution.
 const STRETCHES: &str = "stretches";
-/// Largest number of stretches.
 const MOST_STRETCHES: usize = 1_000_000;
 
 /// Limits on the size of a page.
@@ -75,9 +74,7 @@ pub struct Run {
     summary: Option<Summary>,
     /// Missing, damaged or omitted data, as sentences.
     remarks: Vec<String>,
-    /// Number of records of the run.
     records: usize,
-    /// Indices of the loaded records.
     which: Vec<usize>,
     pub(crate) at: Vec<At>,
     pub(crate) states: Vec<State>,
@@ -128,7 +125,6 @@ impl Run {
         })
     }
 
-    /// Reads the stretches of a run with time-dependent resolution.
     fn open_stretches(path: &Path, limits: Limits) -> Result<Self, ViewError> {
         let folder = |index: usize| path.join(STRETCHES).join(format!("{index:04}"));
         let folders: Vec<PathBuf> = (0..MOST_STRETCHES)

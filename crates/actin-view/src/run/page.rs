@@ -63,7 +63,6 @@ impl Run {
         folder.to_string_lossy().into_owned()
     }
 
-    /// Returns the final status and the composition of the run.
     fn chips(&self) -> Markup {
         let counts = self.assembly.counts();
         let many = |count: usize, what: &str| match count {
@@ -87,7 +86,6 @@ impl Run {
         }
     }
 
-    /// Returns the warnings of the run, and remarks on unreadable files.
     fn warnings(&self) -> Markup {
         let of_run = self.summary.iter().flat_map(|summary| &summary.warnings);
         let of_run = of_run.map(ToString::to_string);
@@ -249,7 +247,6 @@ fn list(entries: &[(&str, String)]) -> Markup {
     html! { dl { @for (name, value) in entries { dt { (name) } dd { (value) } } } }
 }
 
-/// Returns notes of the run, and a reference to other states.
 fn notes(summary: &Summary) -> Markup {
     let others = summary.states.iter().map(|states| {
         format!("{states}. Other states are in other_states.npz; this page shows the result.")

@@ -11,7 +11,6 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 use std::time::Duration;
 
-/// Data found in a run directory.
 pub(super) struct Source {
     pub summary: Option<Summary>,
     pub remarks: Vec<String>,
@@ -28,7 +27,6 @@ enum States {
 }
 
 impl Source {
-    /// Reads a directory; missing and damaged files are reported as remarks.
     pub(super) fn of(path: &Path, assembly: &Assembly) -> Self {
         let mut source = Self {
             summary: None,
@@ -145,7 +143,6 @@ impl Source {
     }
 }
 
-/// Returns a remark on the records of an unfinished run.
 fn begun(at: &[At], has_states: bool) -> String {
     let Some(last) = at.last() else {
         return "The run has not ended, and has no record yet. The initial shape is shown.".into();
@@ -168,7 +165,6 @@ fn begun(at: &[At], has_states: bool) -> String {
 
 type Checkpointed = (Vec<At>, Vec<State>, Vec<Curve>);
 
-/// Reads times, states and curves from a checkpoint, without writing.
 fn checkpointed(directory: &RunDirectory, assembly: &Assembly) -> Result<Checkpointed, String> {
     let plan = Plan::new(assembly).map_err(|problem| problem.to_string())?;
     let never = Arc::new(AtomicBool::new(false));
@@ -185,7 +181,6 @@ fn checkpointed(directory: &RunDirectory, assembly: &Assembly) -> Result<Checkpo
     Ok((at, states, curves_of(assembly, &rows)))
 }
 
-/// Returns the curves of total energies, residuals and observables.
 fn curves_of(assembly: &Assembly, rows: &[Row]) -> Vec<Curve> {
     let potential = |row: &Row| row.energies_pn_nm.iter().sum::<f64>();
     let mut names: Vec<String> = [

@@ -11,7 +11,6 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
-/// Time limit, sufficient for a busy machine.
 const LIMIT: Duration = Duration::from_mins(8);
 
 /// Returns the browser. If there is none, prints a message, or fails if one is required.
@@ -27,7 +26,6 @@ pub(crate) fn browser() -> Option<PathBuf> {
     found
 }
 
-/// Colour scheme.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Mode {
     Light,

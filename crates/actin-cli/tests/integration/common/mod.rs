@@ -60,7 +60,6 @@ pub(crate) fn observed() -> String {
     MOTION.replace("path:", observe).replace("drag:", heat)
 }
 
-/// A path of a hundred equilibria.
 pub(crate) const PATH: &str = "Scene(
     filament: Filament(
         sections: [Ellipsoids(from_nm: 0.0, to_nm: 90.0), Rod(from_nm: 90.0, to_nm: 150.0)],
@@ -73,7 +72,6 @@ pub(crate) const PATH: &str = "Scene(
     task: Equilibrium(largest_step: 0.02, lowest_eigenvalue: true),
 )";
 
-/// Number of attempts to interrupt a run.
 pub(crate) const ATTEMPTS: usize = 5;
 
 pub(crate) struct Workplace {

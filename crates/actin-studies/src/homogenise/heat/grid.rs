@@ -38,7 +38,6 @@ const WIDE: Bent<8> = [
 ];
 const QUICK: Bent<4> = [[0.0, 0.01, 0.0, 5e-3], [0.0, 0.0, 0.015, 7.5e-3], [0.0; 4]];
 
-/// Strains and number of samples of each.
 #[derive(Clone, Debug, PartialEq)]
 struct HeatAxes {
     /// Twist `kappa_3` (rad/nm).
@@ -61,7 +60,6 @@ impl HeatAxes {
         }
     }
 
-    /// Returns the two sets of axes of the study, or fewer strains.
     fn sets(quick: bool) -> [(&'static str, Self); 2] {
         let wide = [-8e-3, 5e-4, 8e-3];
         if quick {
@@ -82,7 +80,6 @@ impl HeatAxes {
     }
 }
 
-/// Computes missing slices, and writes and returns all rows.
 pub(super) fn compute(out: &Path, kt: f64, quick: bool) -> Result<Vec<Row>, String> {
     let folder = out.join("heat");
     std::fs::create_dir_all(&folder).map_err(|e| format!("{}: {e}", folder.display()))?;

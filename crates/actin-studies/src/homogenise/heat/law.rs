@@ -44,7 +44,6 @@ const POSITIVE: [(Region, u64); 2] = [
     ),
 ];
 
-/// Positivity condition of the tangent.
 const POSITIVITY: Positivity = Positivity {
     units: [20.0, 20.0, 0.5, 1.0, 1.0, 1.0],
     strength: 10.0,
@@ -113,7 +112,6 @@ fn weighted(row: &Row) -> Weighted<'_> {
     }
 }
 
-/// Returns the form with the natural lengths at the temperature.
 fn form(rows: &[Row]) -> Result<HomogenisedForm, String> {
     let mut lengths: Vec<(f64, f64)> = Vec::new();
     for row in rows {
@@ -145,7 +143,6 @@ fn form(rows: &[Row]) -> Result<HomogenisedForm, String> {
 /// Number of coefficients of the natural length.
 const NATURAL: usize = 5;
 
-/// Returns root-mean-square and largest residuals by curvature and shear.
 fn residuals(law: &Homogenised, rows: &[Row]) -> String {
     let mut table = String::from(
         "| curvature (rad/nm) | shear | points | couple | twisting couple | shear force | tension | tangent |\n",

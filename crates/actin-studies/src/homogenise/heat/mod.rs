@@ -12,7 +12,6 @@ use std::path::Path;
 
 /// Target acceptance rate of trajectories, which does not affect means.
 const ACCEPTANCE: f64 = 0.8;
-/// Random seed; points have different streams.
 const SEED: u64 = 1;
 
 pub(super) fn run(out: &Path, temperature_k: f64, quick: bool) -> Result<(), String> {

@@ -9,7 +9,6 @@ const SAMPLES: [usize; 3] = [200, 400, 1600];
 /// Largest Newton step of twist (rad/nm) and stretch.
 const LONGEST: f64 = 5e-3;
 
-/// Natural twist and stretch, and an initial state.
 pub(super) struct Natural {
     pub(super) twist: f64,
     pub(super) stretch: f64,
@@ -48,7 +47,6 @@ pub(super) fn natural(
     Ok(natural)
 }
 
-/// Samples the straight filament at a twist and stretch.
 pub(super) fn straight(
     cell: &Cell,
     kt: f64,

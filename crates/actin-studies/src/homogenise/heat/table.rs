@@ -12,7 +12,6 @@ use std::path::Path;
 /// Number of random streams of each cell.
 const STREAMS: u64 = 1000;
 
-/// A value with its standard error.
 type Number = (f64, f64);
 
 const NAMES: [&str; 15] = [

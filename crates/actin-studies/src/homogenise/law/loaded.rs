@@ -25,7 +25,6 @@ const SHARE: f64 = 0.25;
 const SMALLEST: f64 = 0.01;
 const JUMP: f64 = 0.02;
 
-/// Maps a uniform number to zero or a logarithmic scale.
 fn magnitude(([least, most], none): ([f64; 2], f64), x: f64) -> f64 {
     if x < none {
         return 0.0;
@@ -51,7 +50,6 @@ pub(super) fn rows(
     places.into_par_iter().filter_map(row).collect()
 }
 
-/// Returns the controls of load `k` at a fraction of the load.
 fn controls(k: u64) -> impl Fn(f64) -> [Control; 6] {
     let [a, b, c, d, e, f, g, h] = evenly::<8>(k);
     let azimuth = TAU * h;

@@ -22,7 +22,6 @@ use weights::weighted;
 
 /// Range of the law. The strains of fitted cells extend slightly beyond it.
 const RANGE: Region = Region::new([0.01, 0.048, 0.015], [-2e-3, 6e-3]);
-/// Number of loaded cells for the fit and for validation.
 const LOADED: u64 = 8000;
 const OTHER_LOADED: u64 = 2500;
 
@@ -94,7 +93,6 @@ fn firm(strained: &[Row]) -> Vec<SixVector> {
     firm.map(Row::six).collect()
 }
 
-/// Returns whether a grid point is within the range.
 fn is_in_range(row: &Row) -> bool {
     let close = 1.0 + 1e-9;
     let [least, _] = RANGE.extension;

@@ -52,7 +52,6 @@ const SOFT: f64 = 2.0;
 /// Stiffness of a prescribed twist (pN).
 const HELD: f64 = 1e9;
 
-/// Returns the unit residuals of energy, torque and force.
 fn deviations(row: &Row) -> [f64; 7] {
     let [energy, couple, twisting, force, tension] = FLOORS;
     let is_straight = row.strain[0] == 0.0 && row.strain[2] == 0.0 && row.extension >= 0.0;
@@ -112,7 +111,6 @@ pub(super) fn weighted<'a>(
     strained.chain(loaded.iter().map(of_loaded)).collect()
 }
 
-/// Reduces the weight of a combination with a large residual.
 fn robust(row: &Row, sum: SixVector, law: Option<&Homogenised>) -> SixVector {
     let off = law.map_or(0.0, |law| sum.dot(&(law.loads(&row.six()) - row.loads)));
     sum / (off / ROBUST).hypot(1.0)
@@ -157,7 +155,6 @@ fn compliance(tangent: &SixMatrix, is_held: bool) -> SixMatrix {
     vectors * SixMatrix::from_diagonal(&inverse) * vectors.transpose()
 }
 
-/// Returns the entries of the tangent that are fitted, with their weights.
 fn entries(row: &Row) -> Vec<((usize, usize), f64)> {
     let diagonal = row.tangent.diagonal();
     let is_firm = (0..6).all(|k| diagonal[k] > STIFF[k]) && row.least_stiffness() > BRANCH;
