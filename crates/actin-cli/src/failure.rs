@@ -104,7 +104,6 @@ impl Read {
     }
 }
 
-/// A scene that is parsed and built, with its text, which locates problems.
 pub(crate) struct Opened {
     pub(crate) assembly: Assembly,
     pub(crate) text: SceneText,
@@ -135,7 +134,6 @@ impl Opened {
         Failure::Input(self.show(problem))
     }
 
-    /// Returns a problem with its position in the file or the override that caused it.
     pub(crate) fn locate(&self, problem: &actin_sim::SceneProblem) -> String {
         placed(&self.name, &self.text.locate(problem))
     }

@@ -75,7 +75,6 @@ fn is_finished(out: &Path, follower: &Follower) -> Result<bool, Failure> {
     }
 }
 
-/// Returns the final status of a run or stretch, `None` if it was interrupted.
 fn ending(directory: &Path) -> Option<Status> {
     let summary = RunDirectory::existing(directory).summary().ok()?;
     (summary.status != Status::Interrupted).then_some(summary.status)
@@ -240,7 +239,6 @@ impl Chain<'_> {
         })
     }
 
-    /// Writes the records of an interrupted motion and returns the message with the command that continues it.
     fn interrupted(&self, last: &Summary) -> Result<Failure, Failure> {
         self.directory.write(&self.beginnings, last)?;
         let place = self.directory.path().display();

@@ -6,7 +6,6 @@ use indicatif::{ProgressBar, ProgressStyle};
 /// Resolution of the bar: thousandths of the duration.
 const TICKS: u64 = 1000;
 
-/// Progress bar of simulated time.
 pub(crate) struct Progress {
     bar: ProgressBar,
 }
@@ -46,7 +45,6 @@ impl Progress {
     }
 }
 
-/// Creates a bar for pictures, which is hidden if standard error is not a terminal.
 pub(crate) fn pictures(count: usize) -> ProgressBar {
     let bar = ProgressBar::new(count as u64);
     let style = ProgressStyle::with_template("{bar:32} {pos} of {len} pictures  remaining {eta}")

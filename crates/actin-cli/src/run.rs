@@ -217,7 +217,6 @@ fn go_on(arguments: &RunArguments, directory: &RunDirectory) -> String {
     format!("actin run {scene} --out {place} --resume")
 }
 
-/// Sink of a run: checkpoints and the progress bar.
 pub(crate) struct Watched<'a> {
     checkpoints: &'a mut Checkpoints,
     progress: Progress,
@@ -290,7 +289,6 @@ impl Task<'_> {
         })
     }
 
-    /// Writes the records of an interrupted run and returns the message with the command that continues it.
     fn interrupted(&self, checkpoints: &Checkpoints, outcome: &Outcome) -> Failure {
         let directory = self.directory;
         let place = directory.path().display();

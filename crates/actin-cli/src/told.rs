@@ -39,7 +39,6 @@ pub(crate) fn print(summary: &Summary, known: &[Note], out: &Path) {
     println!("{ending}written to {}", out.display());
 }
 
-/// Prints notes, warnings and alternative states of a run, including a failed one.
 pub(crate) fn print_remarks(summary: &Summary, known: &[Note]) {
     if let Some(states) = &summary.states {
         println!("{states}");

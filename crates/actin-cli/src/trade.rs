@@ -95,7 +95,6 @@ fn measure(name: &str) -> Measure {
     }
 }
 
-/// Creates the output folder; existing files are an error without `--overwrite`.
 fn folder(arguments: &TradeArguments) -> Result<PathBuf, Failure> {
     let name = arguments
         .source

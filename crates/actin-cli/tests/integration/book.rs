@@ -67,7 +67,6 @@ fn matches(pattern: &str, line: &str) -> bool {
     rest.is_empty() || last == Some("") || last.is_some_and(|last| rest.ends_with(last))
 }
 
-/// Returns the first line of `expected` that is not in the output, in order.
 fn missing<'a>(expected: &'a str, output: &str) -> Option<&'a str> {
     let mut lines = output.lines();
     expected
@@ -75,7 +74,6 @@ fn missing<'a>(expected: &'a str, output: &str) -> Option<&'a str> {
         .find(|pattern| !lines.any(|line| matches(pattern, line)))
 }
 
-/// State of a page: its folder and the output of its last block.
 struct Page {
     name: String,
     folder: TempDir,

@@ -2,7 +2,6 @@
 
 use crate::common::{Workplace, assert_has};
 
-/// Monomers pushed through the wall: exit code 3, the exceeded limit and its position; all results are written.
 #[test]
 fn a_result_outside_the_model_is_a_failure() {
     let place = Workplace::with(
@@ -75,7 +74,6 @@ fn summary(place: &Workplace) -> serde_json::Value {
     serde_json::from_str(&text).unwrap()
 }
 
-/// A dynamic or static run that ends on a saddle has exit code 3 and writes all results, also when resumed.
 #[test]
 fn an_end_on_a_saddle_is_a_failure() {
     for task in [damped(""), "Equilibrium(leave_saddles: 0)".into()] {

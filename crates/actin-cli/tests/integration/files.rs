@@ -27,7 +27,6 @@ const SHORT_PATH: &str = "Scene(
     task: Equilibrium(largest_step: 0.5),
 )";
 
-/// If the reader closes the pipe, a run still writes all files and exits with 0 and no messages.
 #[test]
 fn a_closed_pipe_ends_nothing() {
     let place = Workplace::with(&short_motion());
@@ -217,7 +216,6 @@ fn a_limit_on_the_size_of_files_loses_nothing() {
     assert!(kept[1] > 0, "no checkpoint was left by a limit");
 }
 
-/// A small disk that fills up and is then enlarged. Skipped without the right to mount a disk.
 #[cfg(target_os = "linux")]
 #[test]
 fn a_full_disk_loses_nothing() {

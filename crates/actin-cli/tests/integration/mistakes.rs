@@ -52,7 +52,6 @@ const MISTAKES: [&str; 45] = [
     "time-step-above-stability-limit",
 ];
 
-/// `check` and `run` exit with 2, print every mistake with its line, and write nothing.
 #[test]
 fn mistakes_print_what_they_should() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenarios/bad");

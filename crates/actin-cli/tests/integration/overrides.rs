@@ -44,7 +44,6 @@ fn what_is_set_is_run_and_kept() {
     assert!(check.starts_with(&place.read("a/scene.ron")), "{check}");
 }
 
-/// Invalid overrides: exit code 2, nothing written, and a message that begins with the override.
 #[test]
 fn what_cannot_be_set_is_refused_by_name() {
     let place = Workplace::with(SCENE);

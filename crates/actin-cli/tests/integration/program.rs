@@ -19,7 +19,6 @@ const TINY: &str = "Scene(
     task: Dynamics(duration_ns: 1.0, record_every_ns: 0.25),
 )";
 
-/// Exit code 0, one record per time, a report on standard output, and no progress bar without a terminal.
 #[test]
 fn a_scene_runs_into_its_directory() {
     let place = Workplace::with(TINY);
@@ -55,7 +54,6 @@ fn what_is_no_scene_or_no_argument_is_bad_input() {
     place.fail(2, &["walk", "scene.ron"]);
 }
 
-/// Three times the stability limit: exit code 3, the step, body and force term, and finite records on disk.
 #[test]
 fn an_explosion_is_reported_and_what_was_good_is_kept() {
     let unstable = "duration_ns: 100.0, time_step_ns: 0.0105, allow_unstable_step: true";

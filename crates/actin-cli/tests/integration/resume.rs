@@ -99,8 +99,6 @@ fn a_hangup_that_was_ignored_before_is_ignored() {
     assert!(place.path("a/summary.json").exists());
 }
 
-/// With a file size limit, the run continues with a warning, its results cannot be written, and the last checkpoint
-/// is kept.
 #[test]
 fn a_full_disk_loses_no_checkpoint() {
     let place = Workplace::with(MOTION);
@@ -129,7 +127,6 @@ fn what_has_not_begun_begins() {
     assert_same_files(&place.path("a"), &place.path("b"));
 }
 
-/// Another scene, a damaged checkpoint and contradictory arguments: exit code 2. A finished run is unchanged.
 #[test]
 fn what_cannot_be_resumed_is_refused() {
     let place = Workplace::with(&short_motion());
@@ -157,8 +154,6 @@ fn what_cannot_be_resumed_is_refused() {
     }
 }
 
-/// A force below the residual: exit code 3 with its position in the scene; the equilibrium is written, also when
-/// resumed.
 #[test]
 fn an_equilibrium_with_a_load_below_the_residual_is_kept() {
     let place = Workplace::with(
@@ -234,8 +229,6 @@ fn a_directory_in_use_is_left_alone() {
     assert_eq!(fs::read(place.path(LOCK)).unwrap(), b"");
 }
 
-/// Refused commands change no other files, including a file named `lock`. A foreign file in place of the lock is
-/// refused.
 #[test]
 fn files_of_others_are_left_alone() {
     let place = Workplace::with(&short_motion());
@@ -255,8 +248,6 @@ fn files_of_others_are_left_alone() {
     }
 }
 
-/// Commands that write nothing succeed without a lock. (A folder in place of the lock prevents locking, even for an
-/// administrator.)
 #[test]
 fn what_writes_nothing_needs_no_lock() {
     let place = Workplace::with(&short_motion());

@@ -42,7 +42,6 @@ fn has(place: &Workplace, name: &str) -> bool {
     runs.any(|run| run.unwrap().path().join(name).exists())
 }
 
-/// Kills Snakemake with all its jobs as soon as one run has a checkpoint and another has ended.
 fn kill_half_way(place: &Workplace, command: &mut Command) {
     let mut child = command.process_group(0).spawn().unwrap();
     let patience = Instant::now();

@@ -22,7 +22,6 @@ fn place(sweep: &str) -> Workplace {
     place
 }
 
-/// 18 runs, 6 of which fail.
 #[test]
 fn a_sweep_becomes_a_table() {
     let place = place(SWEEP);
@@ -135,7 +134,6 @@ fn a_sweep_that_is_killed_goes_on_to_the_same_tables() {
     place.assert_same(["parts", "whole"], &["table.csv", "runs.csv"]);
 }
 
-/// After a signal: exit code 130 and the command that continues.
 #[cfg(unix)]
 #[test]
 fn a_signal_leaves_checkpoints() {
@@ -235,7 +233,6 @@ const MISTAKES: &[(&str, &str, &str)] = &[
     ("scene.ron", "absent.ron", "absent.ron: "),
 ];
 
-/// Exit code 2 with file, line, column, value and rule; nothing is written.
 #[test]
 fn mistakes_of_a_sweep_have_their_place() {
     for (from, to, message) in MISTAKES {

@@ -15,7 +15,6 @@ const SCENE: &str = "Scene(
 
 const POINTS: &str = "x_nm,y_nm,z_nm\n0,0,0\n0,3,20\n0,10,40\n0,20,60\n";
 
-/// The file is found next to the scene. The scene in the run directory contains the points and needs no file.
 #[test]
 fn a_trace_stands_beside_its_scene() {
     let place = Workplace::with("");

@@ -120,7 +120,6 @@ fn assert_works(found: &Value, width: u32) {
     }
 }
 
-/// The picture changes, cursors move, and playback ends at the last record with the earlier picture.
 fn assert_plays(found: &Value, records: u64) {
     assert!(count(&found["moved"]) > 1000, "{found}");
     assert_eq!(found["after_play"], 0, "{found}");
@@ -148,7 +147,6 @@ fn only_pages_are_replaced() {
     place.succeed(&["run", "scene.ron", "--out", "a", "--overwrite"]);
 }
 
-/// Directories without a run: exit code 2. Damaged or missing files are reported, and the rest is shown.
 #[test]
 fn directories_that_are_not_whole() {
     let place = ran(MOTION);

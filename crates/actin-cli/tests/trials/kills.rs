@@ -69,7 +69,6 @@ fn arguments<'a>(out: &'a str, go_on: &'a str) -> [&'a str; 7] {
     ]
 }
 
-/// Returns an error for an unsuccessful end or files that differ from those of `whole`.
 fn same(folder: &Path, name: &str, ending: &Ending) -> Result<(), String> {
     if ending.code != Some(0) {
         return Err(format!("{ending:?}"));

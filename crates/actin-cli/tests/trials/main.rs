@@ -21,7 +21,6 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-/// Counts of outcomes.
 type Tally = BTreeMap<&'static str, u64>;
 
 type Outcome = Result<Tally, String>;

@@ -42,7 +42,6 @@ pub(super) fn compare(case: &mut Case<'_>) -> Result<Tally, String> {
     RELATIONS[below(&mut case.random, RELATIONS.len())](case)
 }
 
-/// The filament and its forces under a rigid motion.
 fn moved(case: &mut Case<'_>) -> Result<Tally, String> {
     let random = &mut case.random;
     let draft = Draft::random(random);
@@ -74,7 +73,6 @@ fn accompanied(case: &mut Case<'_>) -> Result<Tally, String> {
     agree(&one, &two, NEAR).map(|()| once("accompanied"))
 }
 
-/// Two loads in reverse order, and a zero load.
 fn listed(case: &mut Case<'_>) -> Result<Tally, String> {
     let mut draft = Draft::random(&mut case.random);
     draft.forces.push(force(&mut case.random));
@@ -125,7 +123,6 @@ fn recorded(case: &mut Case<'_>) -> Result<Tally, String> {
     agree(&one, &two, 1e-9).map(|()| once("recorded otherwise"))
 }
 
-/// The resolved scene that a run writes, run again, gives identical files.
 fn written(case: &mut Case<'_>) -> Result<Tally, String> {
     let draft = Draft::random(&mut case.random);
     let draft = match below(&mut case.random, 2) {
@@ -168,7 +165,6 @@ fn read(path: &Path) -> Option<Answer> {
     })
 }
 
-/// Returns an error if the results differ by more than `tolerance`, relative to values above one.
 fn agree(one: &Answer, two: &Answer, tolerance: f64) -> Result<(), String> {
     near("energy", one.energy, two.energy, tolerance)?;
     near(

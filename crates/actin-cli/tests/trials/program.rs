@@ -31,7 +31,6 @@ pub(super) struct Started {
     stderr: PathBuf,
 }
 
-/// Starts a process in `folder` with a number of threads; its output goes to files there.
 pub(super) fn start(folder: &Path, arguments: &[&str], threads: u32) -> Result<Started, String> {
     let stderr = folder.join("stderr.txt");
     let create = |path: &Path| File::create(path).map_err(|e| e.to_string());
@@ -71,7 +70,6 @@ pub(super) fn finish(
 }
 
 impl Started {
-    /// Waits for up to `patience` and returns whether the process has ended.
     pub(super) fn wait(&mut self, patience: Duration) -> Result<bool, String> {
         let clock = Instant::now();
         loop {
@@ -110,7 +108,6 @@ impl Started {
 }
 
 impl Ending {
-    /// Returns an error for signals, panics, undocumented exit codes, and failures without a message.
     fn check(&self, arguments: &[&str]) -> Result<(), String> {
         let shown = || {
             let head: String = self.stderr.chars().take(500).collect();

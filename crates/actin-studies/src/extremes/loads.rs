@@ -169,7 +169,6 @@ pub(super) fn bonds() -> Vec<Row> {
 
 const FACTORS: [f64; 7] = [1e-6, 1e-4, 1e-2, 1.0, 1e2, 1e4, 1e6];
 
-/// Equilibrium and stable time step of a mixed filament.
 pub(super) fn contrast() -> Vec<Row> {
     let rows = FACTORS.into_iter().flat_map(|factor| {
         let case = |what: &str| format!("rod {factor:.0e} times as stiff, {what}");

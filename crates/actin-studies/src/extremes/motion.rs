@@ -65,7 +65,6 @@ pub(super) fn drag() -> Vec<Row> {
     rows
 }
 
-/// Returns a fraction of the stability limit of PEFRL (ns).
 fn step(system: &System, share: f64) -> f64 {
     let frequency = largest_frequency(system).expect("loads at rest are finite");
     stable_step(&PEFRL, frequency, share).expect("it is positive")
@@ -164,7 +163,6 @@ const CANTILEVER: (&str, &str) = (
     "clamps: [Clamp(end: Start)], loads: [EndForce(end: End, force_pn: (2.0, 0.0, 0.0))],",
 );
 
-/// A damped cantilever comes to rest in the equilibrium.
 fn at_rest(rate: f64) -> Tried {
     let (sections, rest) = CANTILEVER;
     // 30 relaxation times of the slowest mode: 2/g for g < 22 per ns, g/120 ns^2 otherwise.
@@ -177,7 +175,6 @@ fn at_rest(rate: f64) -> Tried {
     correct("tip against statics", error, 1e-7)
 }
 
-/// Compares the state at two thirds of the relaxation with a step that is eight times smaller.
 fn creeping(rate: f64) -> Tried {
     let (sections, rest) = CANTILEVER;
     let time = if rate > 22.0 { rate / 120.0 } else { 0.15 };
@@ -312,7 +309,6 @@ fn drift(mut system: System, count: u64, is_flying: bool) -> Vec<(&'static str, 
     all
 }
 
-/// Sets random velocities, and removes the momentum unless `is_flying`.
 fn set_moving(state: &mut State, is_flying: bool) {
     randomise_velocities(state, &mut Xorshift::new(11), 2.0, 0.5);
     if is_flying {
@@ -330,7 +326,6 @@ const MOMENTA: [&str; 3] = [
     "angular momentum about the centre of mass",
 ];
 
-/// Returns momentum, angular momentum about the origin, and angular momentum about the centre of mass.
 fn all_momenta(state: &State) -> [Vector3; 3] {
     let (linear, angular) = (state.momentum(), state.angular_momentum());
     [linear, angular, angular - centre(state).1.cross(&linear)]

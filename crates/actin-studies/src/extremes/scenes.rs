@@ -99,7 +99,6 @@ pub(super) fn build(text: &str) -> Result<Assembly, Outcome> {
     Assembly::build(&scene).map_err(|problem| refused(&problem, text))
 }
 
-/// Runs a scene. A final saddle is an error.
 pub(super) fn run(text: &str) -> Result<Ran, Outcome> {
     let ran = run_to_saddle(text)?;
     if ran.report.status == Status::Failed {
@@ -159,7 +158,6 @@ impl Ran {
         force.max((torque_pn_nm + moment).norm() / whole)
     }
 
-    /// Returns the displacement of the tip (nm).
     pub(super) fn tip_displacement(&self) -> Vector3 {
         let (assembly, state) = (&self.assembly, self.assembly.system.state());
         assembly.tip_nm(state, End::End) - assembly.tip_nm(&assembly.rest, End::End)

@@ -118,7 +118,6 @@ fn side_by_side(count: u32, sections: &str) -> String {
     format!("Scene(filaments: [{filaments}], task: Dynamics(duration_ns: 1.0))")
 }
 
-/// Returns the peak memory of this process (MB), or NaN if unknown.
 fn peak_memory_mb() -> f64 {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
     let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"));
@@ -126,7 +125,6 @@ fn peak_memory_mb() -> f64 {
     kilobytes.map_or(f64::NAN, |kb| kb / 1024.0)
 }
 
-/// Makes time steps of perturbed filaments and compares the momentum with its initial value.
 fn moved(text: &str, steps: u64) -> Tried {
     let mut assembly = build(text)?;
     let plan = Plan::new(&assembly).map_err(|problem| Outcome::Refused(problem.to_string()))?;
@@ -174,13 +172,11 @@ const STIFFNESS: f64 = 3.4e4 / 5.0;
 
 const LINKED: &str = include_str!("linked.ron");
 
-/// Compares the loads of a shifted filament with the loads at the origin.
 pub(super) fn origin() -> Vec<Row> {
     let row = |by| Row::new("origin", format!("moved by {by:.0e} nm"), shifted(by));
     SHIFTS.map(row).to_vec()
 }
 
-/// Returns the largest change of a force or torque, compared with round-off of positions times stiffness.
 fn shifted(shift: f64) -> Tried {
     let mut assembly = build(LINKED)?;
     let shaken = assembly.system.state_mut();

@@ -229,8 +229,6 @@ const BOTH: &str =
     "Rod(from_nm: 0.0, to_nm: 40.0, segments: 4), Ellipsoids(from_nm: 40.0, to_nm: 60.0)";
 const JUMPS: &str = "Equilibrium(accept_jumps: true)";
 
-/// Returns a filament whose sliding end is rotated by `degrees` about the axis, in a damped motion of `ns` or in
-/// statics.
 fn turned(sections: &str, degrees: f64, statics: &str, ns: Option<f64>) -> Parts {
     let duration = ns.map_or(String::new(), |ns| format!("duration_ns: {ns:?}"));
     let rest = format!(
@@ -321,7 +319,6 @@ pub(super) fn slipping() -> Vec<Row> {
     SLIPPING.map(row).to_vec()
 }
 
-/// Compares twist plus writhe with the rotation of the ends.
 fn linked(parts: &Parts) -> Tried {
     let ran = parts.run()?;
     let ribbon = Ribbon::new(&ran.assembly, ran.assembly.system.state());
@@ -335,7 +332,6 @@ fn linked(parts: &Parts) -> Tried {
     correct("twist and writhe (turns)", error, 1e-9)
 }
 
-/// Compares the torque with `B3` times the uniform twist.
 fn uniform(sections: &str, length: f64, degrees: f64, ns: Option<f64>) -> Tried {
     let mut ran = turned(sections, degrees, "Equilibrium()", ns).run()?;
     let exact = TWIST * degrees.to_radians() / length;
@@ -343,12 +339,10 @@ fn uniform(sections: &str, length: f64, degrees: f64, ns: Option<f64>) -> Tried 
     correct("couple B3 phi / L", error, 1e-8)
 }
 
-/// Returns the torque about the axis at a clamp (pN nm).
 fn couple(ran: &mut Ran, clamp: usize) -> f64 {
     ran.reaction(clamp).1.z
 }
 
-/// Equilibria of monomers are certified, and the torques of both ends balance.
 fn certified(degrees: f64, task: &str) -> Tried {
     let mut ran = turned(LONG_MONOMERS, degrees, task, None).run()?;
     let found = ran.report.equilibrium.as_ref();

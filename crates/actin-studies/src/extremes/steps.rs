@@ -45,7 +45,6 @@ fn each(rows: impl Fn(&str, &str, Integrator) -> Vec<Row>) -> Vec<Row> {
         .collect()
 }
 
-/// Returns the step at a fraction of the limit (ns).
 fn step_at(system: &System, scheme: &Composition, share: f64) -> f64 {
     let frequency = largest_frequency(system).expect("loads at rest are finite");
     stable_step(scheme, frequency, share).expect("it is positive")
@@ -89,7 +88,6 @@ fn grows(system: &mut System, integrator: Integrator, h: f64) -> bool {
     is_grown
 }
 
-/// Measured and predicted limits; bisection and frequencies are accurate to 1e-4.
 pub(super) fn limits() -> Vec<Row> {
     each(|model, sections, integrator| {
         let tried = free(sections).and_then(|mut system| limit(&mut system, integrator, 5e-4));
@@ -162,7 +160,6 @@ pub(super) fn asked() -> Vec<Row> {
     })
 }
 
-/// Runs a cantilever for 4000 steps at a fraction of the limit.
 fn at_share(sections: &str, integrator: Integrator, share: f64, allowed: bool) -> Tried {
     let pulled = Parts::pulled(sections, [0.1, 0.0, 0.0]);
     let task = |step: f64| Parts {
@@ -200,8 +197,6 @@ fn series(label: &str, colour: [u8; 3], points: Vec<(f64, f64)>, dots: bool) -> 
     }
 }
 
-/// Draws `extremes-limits.svg` (measured and theoretical limits of `omega h`) and `extremes-energy.svg` (energy
-/// fluctuation versus time step).
 pub(super) fn draw(out: &Path) -> Result<(), String> {
     let diagonal = vec![(1.4, 1.4), (3.6, 3.6)];
     let mut limits = vec![series("equal", [160; 3], diagonal, false)];

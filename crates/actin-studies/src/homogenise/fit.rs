@@ -59,7 +59,6 @@ impl Weighted<'_> {
             .collect()
     }
 
-    /// Returns the matrix and right side of the equations of the coefficients.
     fn equations(&self, form: &HomogenisedForm, terms: &[Term]) -> (DMatrix<f64>, DVector<f64>) {
         let right = self.of(&self.row.jet());
         let units = units(form, terms, &self.row.six());

@@ -34,7 +34,6 @@ pub(super) struct Region {
 }
 
 impl Region {
-    /// Creates a region from largest curvature, twist and shear, and a range of extensions.
     pub(super) const fn new([curvature, twist, shear]: [f64; 3], extension: [f64; 2]) -> Self {
         Self {
             curvature,

@@ -46,7 +46,6 @@ fn header() -> Vec<String> {
     names
 }
 
-/// Returns the indices of the upper triangle, row by row.
 pub(super) fn upper() -> impl Iterator<Item = (usize, usize)> {
     (0..6).flat_map(|i| (i..6).map(move |j| (i, j)))
 }

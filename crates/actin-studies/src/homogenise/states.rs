@@ -71,7 +71,6 @@ pub(super) fn run(out: &Path) -> Result<(), String> {
     save(out, "states.md", &table)
 }
 
-/// Response of a cell to increasing and decreasing curvature.
 struct Bent {
     /// Bending torque after [`BENT`] increments (pN nm).
     couple: f64,

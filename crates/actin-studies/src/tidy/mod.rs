@@ -16,7 +16,6 @@ mod words;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// Returns all files in `root` with this extension and their texts, without build output.
 pub(crate) fn files(root: &Path, extension: &str) -> Result<Vec<(PathBuf, String)>, String> {
     let mut found = Vec::new();
     let mut folders = vec![root.to_path_buf()];

@@ -97,7 +97,6 @@ impl Workplace {
         fs::write(self.path(name), text).unwrap();
     }
 
-    /// Returns the command in the folder; none of its streams is a terminal.
     pub(crate) fn command(&self, arguments: &[&str]) -> Command {
         let mut command = Command::new(env!("CARGO_BIN_EXE_actin"));
         command.args(arguments).current_dir(self.folder.path());
@@ -109,7 +108,6 @@ impl Workplace {
         self.command(arguments).output().unwrap()
     }
 
-    /// Runs the program, asserts exit code 0, and returns its standard output.
     pub(crate) fn succeed(&self, arguments: &[&str]) -> String {
         let output = self.actin(arguments);
         let told = || format!("{arguments:?}: {}{}", stdout(&output), stderr(&output));
@@ -117,7 +115,6 @@ impl Workplace {
         stdout(&output).to_owned()
     }
 
-    /// Runs the program, asserts another exit code, and returns its standard error.
     pub(crate) fn fail(&self, expected: i32, arguments: &[&str]) -> String {
         let output = self.actin(arguments);
         let told = || format!("{arguments:?}: {}{}", stdout(&output), stderr(&output));
@@ -125,7 +122,6 @@ impl Workplace {
         stderr(&output).to_owned()
     }
 
-    /// Runs the program with a text as standard input.
     pub(crate) fn piped(&self, arguments: &[&str], input: &str) -> Output {
         let mut command = self.command(arguments);
         let mut child = command.stdin(Stdio::piped()).spawn().unwrap();
@@ -155,7 +151,6 @@ impl Workplace {
         shell.args(["-c", command]).output().unwrap()
     }
 
-    /// Starts a run and waits until its directory contains `name` or the run has ended.
     pub(crate) fn start(&self, arguments: &[&str], name: &str) -> Child {
         let run = [&["run", "scene.ron"], arguments].concat();
         let mut child = self.command(&run).spawn().unwrap();
@@ -219,7 +214,6 @@ pub(crate) fn python(packages: &str, required: &str, what: &str) -> Option<Strin
     found
 }
 
-/// Returns the exit code; -1 after a signal.
 pub(crate) fn code(output: &Output) -> i32 {
     output.status.code().unwrap_or(-1)
 }
@@ -253,7 +247,6 @@ pub(crate) fn contents(folder: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
         .collect()
 }
 
-/// Returns all files of a run directory, without the run time of the summary.
 pub(crate) fn files(folder: &Path) -> Vec<(String, Vec<u8>)> {
     let mut files = Vec::new();
     let folders = [folder.to_owned(), folder.join("vtk")];

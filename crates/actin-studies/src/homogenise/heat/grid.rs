@@ -122,7 +122,6 @@ fn slices(
     Ok(all)
 }
 
-/// Computes the points of one twist; `first` is their first random stream.
 fn slice(
     cell: &Cell,
     kt: f64,

@@ -74,7 +74,6 @@ fn controls(k: u64) -> impl Fn(f64) -> [Control; 6] {
     }
 }
 
-/// Increases the load of a cell from zero; `None` without an equilibrium.
 fn loaded(cell: &Cell, k: u64) -> Option<CellResponse> {
     let controls = controls(k);
     let mut reached: Option<CellResponse> = None;
@@ -109,7 +108,6 @@ fn mean(all: &[CellResponse]) -> CellResponse {
     }
 }
 
-/// Converts a response to axes whose first is along the shear.
 fn row(response: &CellResponse, form: &HomogenisedForm) -> Option<Row> {
     let s = response.strain;
     let turn = about_axis(s[4].atan2(s[3]));
@@ -127,7 +125,6 @@ fn row(response: &CellResponse, form: &HomogenisedForm) -> Option<Row> {
     })
 }
 
-/// Returns the rotation of strains and loads about the filament by `angle` (rad).
 fn about_axis(angle: f64) -> SixMatrix {
     let (sin, cos) = angle.sin_cos();
     let mut turn = SixMatrix::from_diagonal(&SixVector::new(cos, cos, 1.0, cos, cos, 1.0));

@@ -7,7 +7,6 @@ use actin_paper::cells::{shortening, strain, twisted};
 use actin_sim::ellipsoid::{Cell, SixVector};
 use rayon::prelude::*;
 
-/// Returns cells at `count` strains of each region, excluding those without an equilibrium.
 pub(super) fn strained(
     cells: &[Cell],
     form: &HomogenisedForm,
@@ -29,7 +28,6 @@ pub(super) fn strained(
     of_all(strains.par_iter().enumerate().map(row))
 }
 
-/// Recomputes the strains and extensions of some rows with cells in turn, excluding those without an equilibrium.
 pub(super) fn again(cells: &[Cell], rows: &[&Row]) -> Result<Vec<Row>, String> {
     let row = |(k, row): (usize, &&Row)| {
         let [curvature, twist, shear, _, angle] = row.strain;

@@ -44,7 +44,6 @@ pub(super) fn under_loads(law: &Homogenised, rows: &[Row]) -> String {
     table
 }
 
-/// Returns the relative excess of bending, twist, shear and stretch of the law under the loads of a cell.
 fn more(law: &Homogenised, row: &Row) -> [f64; 4] {
     let off = row.loads - law.loads(&row.six());
     let sums = strain_sums(row);
