@@ -34,7 +34,7 @@
     return count;
   };
 
-  // Does something, waits until the view was drawn anew, and gives its pixels.
+  // Performs an action, waits until the view is redrawn, and returns its pixels.
   async function after(canvas, act) {
     const before = canvas.dataset.drawn;
     act();

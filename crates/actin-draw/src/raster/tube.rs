@@ -110,7 +110,7 @@ impl Canvas {
         let u = along / length;
         let across = 1.0 - u.z * u.z;
         if across < 1e-9 {
-            return; // seen from its end: nothing of the mantle shows
+            return; // seen end-on: the lateral surface is not visible
         }
         let middle = p + 0.5 * along;
         let half = [0, 1].map(|k| 0.5 * along[k].abs() + 1.4 * r);
