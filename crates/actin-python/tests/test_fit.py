@@ -37,7 +37,7 @@ def test_bounds_hold_and_starts_are_drawn():
     assert found.parameters[0] == 1.0 and found.statuses[0] == "AtUpperBound" and found.starts == 8
 
 
-def test_what_a_function_raises_comes_through():
+def test_exceptions_of_a_function_are_raised():
     with pytest.raises(ZeroDivisionError):
         actin.fit(lambda x, p: 1 / 0, X, X, [1.0])
     with pytest.raises(ValueError, match="must return shape"):

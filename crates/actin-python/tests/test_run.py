@@ -80,7 +80,7 @@ def test_a_directory_is_written_and_read_back(motion, tmp_path):
         actin.load(tmp_path / "none")
 
 
-def test_a_run_that_breaks_says_where(motion):
+def test_a_failed_run_reports_its_location(motion):
     wild = motion.set("task.time_step_ns", 1.0).set("task.allow_unstable_step", True)
     with pytest.raises(actin.RunFailed) as caught:
         actin.run(wild)
@@ -188,7 +188,7 @@ def test_sweep(scene, tmp_path):
     actin.sweep(scene, together, ["tip_displacement_nm[1]"], out=tmp_path / "sweep", resume=True)
 
 
-def test_sweeps_name_what_is_wrong(scene):
+def test_sweeps_report_mistakes(scene):
     with pytest.raises(actin.SceneError) as caught:
         actin.sweep(scene, {"loads[0].forse_pn": [(0.0, 0.0, 1.0)]}, ["tip_nm[0]"])
     assert caught.value.key == "vary[0].rows[0][0]" and "force_pn" in caught.value.rule
@@ -220,7 +220,7 @@ def test_ctrl_c_ends_a_sweep_that_can_be_resumed(scene, tmp_path):
     assert np.array_equal(resumed["tip_nm[0]"], whole["tip_nm[0]"])
 
 
-def test_what_is_shown(scene, motion):
+def test_representations(scene, motion):
     found = actin.equilibrium(scene)
     assert repr(found).startswith("Equilibrium(stable, energy -")
     assert "certificate" in found._repr_html_() and "stable" in found._repr_html_()

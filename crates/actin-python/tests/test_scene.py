@@ -119,7 +119,7 @@ def test_seeds(scene):
         actin.Scene(filament=rod, clamps=[{"end": "Start"}], task={"Equilibrium": {}}).reseed(7)
 
 
-def test_check_says_what_it_resolves_to(scene, motion):
+def test_check_resolves_the_scene(scene, motion):
     assert scene.check()["counts"] == {"monomers": 16, "bonds": 348, "segments": 8, "junctions": 1, "dofs": 141}
     found = motion.check()
     assert found["scene"].to_dict()["task"]["Dynamics"]["time_step_ns"] == found["time_step_ns"]
@@ -127,7 +127,7 @@ def test_check_says_what_it_resolves_to(scene, motion):
     assert found["seconds"] > 0.0 and "evaluations" in found["cost"]
 
 
-def test_what_is_shown(scene):
+def test_representations(scene):
     assert repr(scene) == "Scene(1 filament, Equilibrium)"
     assert repr(scene.set("title", "<b>")) == 'Scene("<b>", 1 filament, Equilibrium)'
     html = scene.set("title", "<b>")._repr_html_()

@@ -138,7 +138,7 @@ def test_a_scene_by_hand_finds_its_equilibrium(scene):
     assert np.abs(system.position - half.position_nm).max() < 1e-6
 
 
-def test_steps_that_explode_say_where(motion):
+def test_diverging_steps_report_their_location(motion):
     system = actin.System.from_scene(motion)
     before = system.position
     with pytest.raises(actin.RunFailed) as caught:
@@ -193,7 +193,7 @@ def test_quaternions_have_unit_length():
         system.quaternion = 2.0 * system.quaternion
 
 
-def test_heat_has_its_temperature():
+def test_noise_has_its_temperature():
     """Equipartition: 3 k T / 2 for each point, within four standard errors of 500 points."""
     system = actin.System()
     system.add_points(np.zeros((500, 3)), 1.0)
@@ -251,7 +251,7 @@ def test_points_in_parts_of_steps_diffuse():
     assert abs(squares.mean() - theory) < 5 * theory * np.sqrt(2 / 3 / 500)
 
 
-def test_time_goes_on_where_the_step_changes():
+def test_time_continues_when_the_step_changes():
     system, _ = thread()
     for number, h in ((10, 1e-3), (5, 2e-3), (7, 2e-3), (1, 1e-3)):
         system.step(number, h=h)

@@ -162,7 +162,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn of_many_points_few_are_drawn() {
+    fn few_of_many_points_are_drawn() {
         let design = |count: usize| Design {
             keys: Vec::new(),
             points: vec![Vec::new(); count],

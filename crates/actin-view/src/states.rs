@@ -183,7 +183,7 @@ mod tests {
 
     /// The displayed bonds are bonds of the model: in the initial state their lengths are the rest lengths.
     #[test]
-    fn bonds_of_the_viewer_are_those_that_act() {
+    fn displayed_bonds_are_bonds_of_the_model() {
         let assembly = mixed();
         let mut pose = shown(&assembly).pose;
         let mut sets = Vec::new();

@@ -96,7 +96,7 @@ fn an_end_on_a_saddle_is_a_failure() {
 }
 
 #[test]
-fn a_motion_at_rest_says_in_what() {
+fn a_motion_at_rest_reports_its_stability() {
     let imperfection = "imperfection: (amplitude_nm: 0.01, seed: 1),";
     for (filament, keys, pushes) in [(imperfection, "", 0), ("", "leave_saddles: 3,", 1)] {
         let place = straight(filament, &damped(keys));
@@ -120,7 +120,7 @@ fn a_motion_at_rest_says_in_what() {
 }
 
 #[test]
-fn rest_that_is_not_certified_is_told() {
+fn uncertified_rest_is_warned_about() {
     let stop = "stop: (force_pn: 1e-3, torque_pn_nm: 1e-3, kinetic_pn_nm: 1e-6),";
     let place = straight(
         "rod: RodModel(law: Constant, force_law: PaperBalance),",
@@ -132,7 +132,7 @@ fn rest_that_is_not_certified_is_told() {
 }
 
 #[test]
-fn a_residual_at_the_floor_of_rounding_is_told() {
+fn a_residual_at_round_off_is_warned_about() {
     for (tolerance, told) in [("1e-7", false), ("1e-16", true)] {
         let place = Workplace::with(&format!(
             "Scene(

@@ -85,7 +85,7 @@ fn simularium_is_read_by_its_own_package() {
 }
 
 #[test]
-fn mistakes_are_told() {
+fn mistakes_are_reported() {
     let place = ran(&SCENE.replace("vtk: false", "vtk: false, states: false"));
     let refused = |arguments: &[&str], message: &str| {
         let output = place.fail(2, arguments);
@@ -104,7 +104,7 @@ fn mistakes_are_told() {
 }
 
 #[test]
-fn files_stay() {
+fn existing_files_are_kept() {
     let place = ran(SCENE);
     export(&place, &["--to", "gsd"]);
     let before = fs::read(place.path("run.gsd")).unwrap();

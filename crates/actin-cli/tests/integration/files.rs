@@ -77,7 +77,7 @@ fn closed_standard_error_changes_no_exit_code() {
 
 #[cfg(target_os = "linux")]
 #[test]
-fn output_that_is_lost_is_told() {
+fn lost_output_is_an_error() {
     let place = Workplace::with(&short_motion());
     for command in ["check scene.ron", "run scene.ron --out a"] {
         let output = place.shell(&format!("actin {command} > /dev/full"));

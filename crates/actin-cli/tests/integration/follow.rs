@@ -46,7 +46,7 @@ fn assert_same(one: &Path, other: &Path) {
 }
 
 #[test]
-fn a_motion_that_is_followed_goes_on_to_the_same_bytes() {
+fn a_motion_of_changing_resolution_resumes_to_the_same_bytes() {
     let place = Workplace::with(SWINGING);
     let whole = place.run("whole");
     assert_has(&whole, &["switch(es) added"]);
@@ -67,7 +67,7 @@ fn a_motion_that_is_followed_goes_on_to_the_same_bytes() {
 }
 
 #[test]
-fn overdamped_motion_that_is_followed_goes_on_to_the_same_bytes() {
+fn overdamped_motion_of_changing_resolution_resumes_to_the_same_bytes() {
     let place = Workplace::with(OVERDAMPED);
     place.run("whole");
     for stretch in ["0004", "0020"] {

@@ -53,7 +53,7 @@ const MISTAKES: [&str; 45] = [
 ];
 
 #[test]
-fn mistakes_print_what_they_should() {
+fn mistakes_print_the_expected_messages() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenarios/bad");
     let place = Workplace::with("");
     let mut printed = String::new();

@@ -13,7 +13,7 @@ const SCENE: &str = "Scene(
 )";
 
 #[test]
-fn what_is_set_is_run_and_kept() {
+fn overrides_are_run_and_stored() {
     let place = Workplace::with(SCENE);
     let set = [
         "--set",
@@ -45,7 +45,7 @@ fn what_is_set_is_run_and_kept() {
 }
 
 #[test]
-fn what_cannot_be_set_is_refused_by_name() {
+fn invalid_overrides_are_refused_by_name() {
     let place = Workplace::with(SCENE);
     for (arguments, message) in [
         (

@@ -43,7 +43,7 @@ fn results_have_a_place_by_default() {
 }
 
 #[test]
-fn what_is_no_scene_or_no_argument_is_bad_input() {
+fn invalid_scenes_and_arguments_are_bad_input() {
     let place = Workplace::with(TINY);
     let missing = place.fail(2, &["run", "absent.ron"]);
     assert!(missing.starts_with("error: absent.ron: "));
@@ -55,7 +55,7 @@ fn what_is_no_scene_or_no_argument_is_bad_input() {
 }
 
 #[test]
-fn an_explosion_is_reported_and_what_was_good_is_kept() {
+fn an_explosion_is_reported_and_valid_records_are_kept() {
     let unstable = "duration_ns: 100.0, time_step_ns: 0.0105, allow_unstable_step: true";
     let place = Workplace::with(&TINY.replace("duration_ns: 1.0", unstable));
     let message = place.fail(3, &["run", "scene.ron", "--out", "a"]);
@@ -105,7 +105,7 @@ fn a_slow_explosion_is_caught() {
 }
 
 #[test]
-fn what_check_prints_is_the_scene() {
+fn check_prints_the_scene() {
     let place = Workplace::with(TINY);
     let printed = place.succeed(&["check", "scene.ron"]);
     println!("{printed}");

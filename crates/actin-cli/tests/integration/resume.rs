@@ -25,7 +25,7 @@ fn stop(child: &Child) {
 /// After the first SIGINT, SIGTERM or SIGHUP: exit code 130, a checkpoint, the records, and the command that
 /// continues to identical bytes. SIGHUP can arrive twice, from the terminal and from its shell.
 #[test]
-fn an_interrupted_run_goes_on_to_the_same_bytes() {
+fn an_interrupted_run_resumes_to_the_same_bytes() {
     let hangup = ["-STOP", "-HUP", "-TERM", "-CONT", "-HUP"];
     let observed = observed();
     for (scene, signals) in [
@@ -51,7 +51,7 @@ fn an_interrupted_run_goes_on_to_the_same_bytes() {
 }
 
 #[test]
-fn a_killed_run_can_be_looked_at() {
+fn a_killed_run_can_be_viewed() {
     let observed = observed();
     for (scene, told) in [
         (MOTION, "record(s) up to its last checkpoint, at "),
@@ -114,7 +114,7 @@ fn a_full_disk_loses_no_checkpoint() {
 }
 
 #[test]
-fn what_has_not_begun_begins() {
+fn resume_without_a_checkpoint_starts_the_run() {
     let place = Workplace::with(&short_motion());
     place.resume("a");
     place.run("b");
@@ -128,7 +128,7 @@ fn what_has_not_begun_begins() {
 }
 
 #[test]
-fn what_cannot_be_resumed_is_refused() {
+fn invalid_resumes_are_refused() {
     let place = Workplace::with(&short_motion());
     place.run("a");
     assert!(!place.path("a/checkpoint.bin").exists());
@@ -195,7 +195,7 @@ fn an_equilibrium_with_a_load_below_the_residual_is_kept() {
 /// Any second run in the directory of a stopped run is refused and changes nothing. After the first is killed, its
 /// lock does not block other runs and is emptied.
 #[test]
-fn a_directory_in_use_is_left_alone() {
+fn a_directory_in_use_is_unchanged() {
     let place = Workplace::with(&MOTION.replace("duration_ns: 150.0", "duration_ns: 1500.0"));
     let arguments = ["--out", "a", "--checkpoint-every", "0.01"];
     let mut first = place.start(&arguments, "a/checkpoint.bin");
@@ -230,7 +230,7 @@ fn a_directory_in_use_is_left_alone() {
 }
 
 #[test]
-fn files_of_others_are_left_alone() {
+fn foreign_files_are_unchanged() {
     let place = Workplace::with(&short_motion());
     place.write("notes.txt", "mine");
     place.write("lock", "mine");

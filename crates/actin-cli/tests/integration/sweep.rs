@@ -105,7 +105,7 @@ fn begin(place: &Workplace, out: &str) -> Child {
 /// A sweep that is killed repeatedly has the tables of an undisturbed sweep. The time between kills grows, so that
 /// the test ends on any machine.
 #[test]
-fn a_sweep_that_is_killed_goes_on_to_the_same_tables() {
+fn a_killed_sweep_resumes_to_the_same_tables() {
     let sweep = SWEEP.replace("-1.5, inf", "-1.5");
     let place = place(&sweep);
     let longer = pushed(40.0);
@@ -246,7 +246,7 @@ fn mistakes_of_a_sweep_have_their_place() {
 }
 
 #[test]
-fn all_mistakes_of_a_sweep_are_told() {
+fn all_mistakes_of_a_sweep_are_reported() {
     let unread = SWEEP
         .replace("vary:", "varies:")
         .replace("number: 3", "number: 0");
@@ -329,7 +329,7 @@ fn observables_are_results() {
 }
 
 #[test]
-fn a_result_that_is_lacking_is_told() {
+fn a_missing_result_is_reported() {
     let place = place("");
     place.write(
         "sweep.ron",
@@ -345,7 +345,7 @@ fn a_result_that_is_lacking_is_told() {
 }
 
 #[test]
-fn other_directories_are_left_alone() {
+fn other_directories_are_unchanged() {
     let place = place(SWEEP);
     let refused = |arguments: &[&str]| {
         let output = place.fail(2, &[&["sweep"], arguments].concat());

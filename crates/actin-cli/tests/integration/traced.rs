@@ -16,7 +16,7 @@ const SCENE: &str = "Scene(
 const POINTS: &str = "x_nm,y_nm,z_nm\n0,0,0\n0,3,20\n0,10,40\n0,20,60\n";
 
 #[test]
-fn a_trace_stands_beside_its_scene() {
+fn a_trace_is_found_next_to_its_scene() {
     let place = Workplace::with("");
     fs::create_dir(place.path("scenes")).unwrap();
     place.write("scenes/curved.ron", SCENE);
@@ -32,7 +32,7 @@ fn a_trace_stands_beside_its_scene() {
 }
 
 #[test]
-fn standard_input_looks_into_the_working_directory() {
+fn paths_of_standard_input_are_relative_to_the_working_directory() {
     let place = Workplace::with(SCENE);
     place.write("trace.csv", POINTS);
     let output = place.piped(&["check", "-"], SCENE);

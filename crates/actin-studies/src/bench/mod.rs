@@ -157,7 +157,7 @@ mod tests {
     }
 
     #[test]
-    fn scenes_hold_what_their_names_say() {
+    fn scenes_match_their_names() {
         for (name, elements) in [
             ("rod-pv-16", 16),
             ("rod-pv-64x64", 4096),

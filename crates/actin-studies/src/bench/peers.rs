@@ -186,7 +186,7 @@ ellipsoid-pv-60      LAMMPS       24.66
     }
 
     #[test]
-    fn a_peer_that_is_missing_is_named_with_how_to_install_it() {
+    fn a_missing_peer_is_named_with_its_installation() {
         let message = peers_in(Path::new("."), Path::new("/nowhere/bin/python")).unwrap_err();
         for part in [
             "PyElastica",

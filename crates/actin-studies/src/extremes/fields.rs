@@ -177,7 +177,7 @@ mod tests {
     /// Non-finite, overflowing and subnormal numbers are refused with their key, line and column. Other numbers are
     /// refused or give finite results. Unbounded ranges of laws may be infinite.
     #[test]
-    fn no_field_takes_what_is_no_number() {
+    fn invalid_numbers_are_refused_in_every_field() {
         let refused_anywhere = ["NaN", "inf", "-inf", "1e400", "1e308", "-1e308", "1e-310"];
         for text in scenes() {
             for value in VALUES {
