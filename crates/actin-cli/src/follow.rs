@@ -144,7 +144,7 @@ impl Chain<'_> {
 
     /// Returns the summary of the whole motion if all stretches have ended.
     ///
-    /// The directory of the next stretch is created before a stretch ends, so the last directory is that of the last
+    /// The directory of the next stretch is created before a stretch ends, so the last directory belongs to the last
     /// stretch.
     fn all_done(&self) -> Result<Option<Summary>, Failure> {
         // A killed process can leave a checkpoint next to final results.

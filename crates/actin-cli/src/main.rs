@@ -74,7 +74,7 @@ enum Command {
         #[command(flatten)]
         source: SceneArguments,
     },
-    /// Compares the error and run time of cheaper models of a scene with those of the all-monomer model.
+    /// Compares error and run time of cheaper models of a scene with the all-monomer model.
     Trade(trade::TradeArguments),
     /// Writes an HTML page with a 3D view of a run, its records and its curves, or the pictures of a film.
     View(view::ViewArguments),
@@ -113,8 +113,8 @@ struct RunArguments {
     /// Replaces an earlier run in that directory. Only files listed in its actin-run.json are removed.
     #[arg(long)]
     overwrite: bool,
-    /// Continues from the checkpoint in that directory. The results are bitwise identical to those of an
-    /// uninterrupted run. Without a checkpoint the run starts from the beginning.
+    /// Continues from the checkpoint in that directory. The results are bitwise identical to an uninterrupted
+    /// run. Without a checkpoint the run starts from the beginning.
     #[arg(long, conflicts_with = "overwrite")]
     resume: bool,
     /// Wall-clock time between checkpoints.

@@ -216,7 +216,7 @@ impl Opened {
 
     /// Estimates the cost: builds the first run of at most `most` points, and times the largest of them.
     ///
-    /// Of a larger design, one point is drawn from each of `most` equal parts, including the first and the last
+    /// A larger design is sampled, with one point from each of `most` equal parts, including the first and the last
     /// point.
     pub fn price(&self, most: usize) -> Priced {
         let mut all = Priced::default();

@@ -1,6 +1,6 @@
 //! Films of a run: numbered PNG pictures, rendered in software.
 //!
-//! The view and colours of the first picture are those of the page. The camera is fixed or rotates about the vertical
+//! The view and colours of the first picture agree with the page. The camera is fixed or rotates about the vertical
 //! axis. Each picture shows the time and a scale bar.
 
 use crate::pose::{PLATE_NM, bodies};

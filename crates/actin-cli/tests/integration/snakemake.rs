@@ -21,11 +21,8 @@ fn snakemake(folder: &Path) -> Option<Command> {
     let is_there = Command::new(&program).arg("--version").output();
     if !is_there.is_ok_and(|output| output.status.success()) {
         let required = std::env::var_os("ACTIN_REQUIRE_SNAKEMAKE").is_some();
-        assert!(
-            !required,
-            "there is no snakemake (SNAKEMAKE or on the path)"
-        );
-        println!("SKIPPED: there is no snakemake");
+        assert!(!required, "snakemake is missing (SNAKEMAKE or on the path)");
+        println!("SKIPPED: snakemake is missing");
         return None;
     }
     let mut command = with_actin(&program, &folder.join("workflow"));

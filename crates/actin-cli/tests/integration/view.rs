@@ -166,13 +166,13 @@ fn directories_that_are_not_whole() {
     place.write("a/states.npz", &states[..states.len() / 3]);
     told("states.npz is damaged");
     fs::remove_file(place.path("a/states.npz")).unwrap();
-    told("There is no states.npz: filaments are shown as built.");
+    told("There is no states.npz. The initial shape is shown.");
     place.write("a/energies.csv", "time_ns,total_pn_nm\n0.0,what\n");
-    told("energies.csv is damaged: row 1, total_pn_nm: &quot;what&quot; is no number.");
+    told("energies.csv is damaged: row 1, total_pn_nm: &quot;what&quot; is not a number.");
     place.write("a/summary.json", "{}");
     told("summary.json is damaged");
     fs::remove_file(place.path("a/summary.json")).unwrap();
-    told("There is no summary.json that can be read: the run has not ended");
+    told("There is no readable summary.json: the run has not ended");
     place.write("a/scene.ron", "Scene(\n    nothing: 1)");
     refused("a", "scene.ron:2:");
 }

@@ -1,4 +1,4 @@
-//! Scenes of trials: those of the repository, and random valid scenes.
+//! Scenes of trials: scenes of the repository, and random valid scenes.
 
 use super::spoil::{below, between, one_of};
 use actin_mechanics::{UnitQuaternion, Vector3};

@@ -134,7 +134,7 @@ impl Workplace {
     pub(crate) fn assert_same(&self, [one, other]: [&str; 2], names: &[&str]) {
         for name in names {
             let [a, b] = [one, other].map(|folder| fs::read(self.path(folder).join(name)).unwrap());
-            assert!(a == b, "{name} of {one} is not that of {other}");
+            assert!(a == b, "{name} of {one} differs from {other}");
         }
     }
 
