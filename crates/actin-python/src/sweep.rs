@@ -1,4 +1,4 @@
-//! Sweeps: all runs of a design on all cores, into a directory.
+//! Sweeps in a directory.
 
 use crate::errors;
 use crate::scene::Scene;
@@ -13,7 +13,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::time::Duration;
 
-/// Time between two looks at how far the runs are.
+/// Interval of progress updates.
 const LOOK: Duration = Duration::from_millis(50);
 
 fn refused(py: Python<'_>, error: &SweepError) -> PyErr {
@@ -27,7 +27,7 @@ fn refused(py: Python<'_>, error: &SweepError) -> PyErr {
     }
 }
 
-/// Makes the runs of a sweep in a directory; returns how many there are and how many failed.
+/// Makes the runs of a sweep in a directory. Returns the numbers of runs and of failed runs.
 #[pyfunction]
 #[pyo3(signature = (scene, out, vary, results, samples, first_seed, jobs, resume, progress))]
 #[expect(clippy::too_many_arguments, reason = "called by the package alone")]
@@ -84,7 +84,7 @@ pub(crate) fn carry_out(
     }
 }
 
-/// Makes the runs on threads of their own, while this one looks on: signals come to it alone.
+/// Makes the runs on worker threads. Signals are handled by the main thread.
 fn make(
     directory: &SweepDirectory,
     opened: &Opened,

@@ -1,4 +1,4 @@
-//! One run of a sweep in its directory: begun, resumed or left alone, and never twice.
+//! Execution of one run of a sweep.
 
 use crate::design::Run;
 use crate::{Opened, Settings, SweepDirectory, SweepError};
@@ -10,27 +10,24 @@ use serde_json::Value;
 use std::path::Path;
 use std::sync::Arc;
 
-/// How a run of a sweep stands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum State {
-    /// Its summary is there, of a run that has ended in some way.
+    /// Ended, successfully or not, with a summary.
     Ended,
-    /// It was interrupted, with a checkpoint if it had begun.
+    /// Interrupted, with a checkpoint if it had started.
     Interrupted,
 }
 
-/// The summary of a run that has ended; none of any other.
 pub(crate) fn summary(directory: &Path) -> Option<Value> {
     let text = std::fs::read_to_string(directory.join("summary.json")).ok()?;
     let summary: Value = serde_json::from_str(&text).ok()?;
     (summary["status"] != "interrupted").then_some(summary)
 }
 
-/// Makes a run, unless it has ended already.
+/// Makes a run, unless it has ended.
 ///
 /// # Errors
-/// Results that cannot be written, and files in its directory that no run has written. All that is wrong with
-/// the run itself is in its summary.
+/// If results cannot be written, or the directory contains foreign files. Failures of the run are in its summary.
 pub(crate) fn make(
     opened: &Opened,
     directory: &SweepDirectory,
@@ -57,7 +54,6 @@ pub(crate) fn make(
     }
 }
 
-/// Makes a run of which all is known before.
 fn make_planned(
     path: &Path,
     plan: &Plan<'_>,
@@ -90,7 +86,7 @@ fn make_planned(
     }
 }
 
-/// Opens the directory of a run: what it goes on from, and what keeps others out.
+/// Opens the directory of a run and returns its saved state and its lock.
 fn begin(
     kept: &RunDirectory,
     plan: &Plan<'_>,
@@ -112,7 +108,7 @@ fn begin(
     Ok((None, lock))
 }
 
-/// Writes what a run gave; a number that cannot be written is a failure of the run.
+/// Writes the results of a run. A non-finite result is a failure of the run.
 fn write(
     kept: &RunDirectory,
     plan: &Plan<'_>,
@@ -133,7 +129,6 @@ fn write(
     Ok(State::Ended)
 }
 
-/// Notes why there is no run.
 fn fail(path: &Path, title: &str, why: &str) -> Result<State, SweepError> {
     let (directory, _lock) = RunDirectory::create_locked(path, true)?;
     directory.write_failure(title, why)?;

@@ -1,4 +1,4 @@
-//! What neither compiler nor lints check: the invariants of `docs/architecture.md`.
+//! Invariants of `docs/architecture.md` that neither the compiler nor lints check.
 
 #[cfg(test)]
 mod book;
@@ -16,7 +16,6 @@ mod words;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// All files below `root` with this extension and their texts, build output left out.
 pub(crate) fn files(root: &Path, extension: &str) -> Result<Vec<(PathBuf, String)>, String> {
     let mut found = Vec::new();
     let mut folders = vec![root.to_path_buf()];
@@ -46,10 +45,10 @@ fn read(path: &Path) -> Result<String, String> {
 mod tests {
     use super::*;
 
-    /// Everything that is not tidy, one line each.
+    /// Returns all violations, one line each.
     ///
     /// # Errors
-    /// A file that cannot be read.
+    /// If a file cannot be read.
     fn findings(root: &Path) -> Result<Vec<String>, String> {
         let sources = files(root, "rs")?;
         let mut all = dependencies::findings(root)?;
@@ -69,7 +68,6 @@ mod tests {
         Ok(all)
     }
 
-    /// The workspace keeps its own rules.
     #[test]
     fn the_workspace_is_tidy() {
         let root = actin_paper::workspace_root();
