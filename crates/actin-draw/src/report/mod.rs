@@ -200,7 +200,7 @@ pub fn text(mut rows: Vec<Row>) -> Result<String, String> {
     rows.sort_by(|a, b| (a.artefact, &a.quantity).cmp(&(b.artefact, &b.quantity)));
     if let Some(bad) = rows.iter().find(|row| !row.ours.is_finite()) {
         return Err(format!(
-            "{} {} is {}: numbers in a report must be finite"
+            "{} {} is {}: numbers in a report must be finite",
             bad.artefact, bad.quantity, bad.ours
         ));
     }
