@@ -9,6 +9,8 @@ mod dependencies;
 #[cfg(test)]
 mod paths;
 #[cfg(test)]
+mod prose;
+#[cfg(test)]
 mod sizes;
 #[cfg(test)]
 mod words;
@@ -56,6 +58,18 @@ mod tests {
         all.extend(book::findings(root)?);
         all.extend(commands::findings(root)?);
         all.extend(crate::docs::findings(root)?);
+        let mut texts = sources.clone();
+        let is_written = |path: &Path| {
+            let mut parts = path.iter();
+            !parts.any(|part| part == "tables" || part == "measured")
+                && !path.ends_with("CHANGELOG.md")
+        };
+        texts.extend(
+            files(root, "md")?
+                .into_iter()
+                .filter(|(path, _)| is_written(path)),
+        );
+        all.extend(prose::findings(root, &texts));
         for (path, text) in &sources {
             let name = path
                 .strip_prefix(root)
