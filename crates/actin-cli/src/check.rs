@@ -1,14 +1,14 @@
 //! `actin check`: the resolved scene, its cost, and its run time estimated from its first steps.
 
 use crate::SceneArguments;
-use crate::failure::{Failure, Opened};
+use crate::failure::{BuiltScene, Failure};
 use actin_sim::{Assembly, Estimate, RelaxationTimes, Resolution, SectionSpan, Task};
 
 /// Validates a scene and prints it with all defaults, its counts and its cost.
 ///
 /// Additional information is printed as RON comments, so that the output is a valid scene.
 pub(crate) fn check(source: &SceneArguments) -> Result<(), Failure> {
-    let opened = Opened::open(source)?;
+    let opened = BuiltScene::open(source)?;
     let plan = opened.plan()?;
     let assembly = plan.assembly();
     println!("{}", plan.scene().to_ron());

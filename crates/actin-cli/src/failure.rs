@@ -60,13 +60,13 @@ impl fmt::Display for Failure {
     }
 }
 
-pub(crate) struct Read {
+pub(crate) struct ParsedScene {
     pub(crate) scene: Scene,
     text: SceneText,
     name: String,
 }
 
-impl Read {
+impl ParsedScene {
     pub(crate) fn new(source: &SceneArguments) -> Result<Self, Failure> {
         let name = source.scene.display().to_string();
         let bytes = if source.is_standard_input() {
@@ -104,19 +104,19 @@ impl Read {
     }
 }
 
-pub(crate) struct Opened {
+pub(crate) struct BuiltScene {
     pub(crate) assembly: Assembly,
     pub(crate) text: SceneText,
     name: String,
 }
 
-impl Opened {
+impl BuiltScene {
     pub(crate) fn notes(&self, plan: &Plan<'_>) -> Vec<Note> {
         [self.assembly.notes(), plan.notes()].concat()
     }
 
     pub(crate) fn open(source: &SceneArguments) -> Result<Self, Failure> {
-        let Read { scene, text, name } = Read::new(source)?;
+        let ParsedScene { scene, text, name } = ParsedScene::new(source)?;
         let assembly =
             Assembly::build(&scene).map_err(|problem| all(&name, &text, text.locate(&problem)))?;
         Ok(Self {
@@ -158,15 +158,15 @@ fn all(name: &str, text: &SceneText, first: SceneError) -> Failure {
 const LISTED: usize = 20;
 
 pub(crate) fn listed(name: &str, text: &SceneText, mistakes: &[SceneError]) -> Failure {
-    let told = mistakes.iter().take(LISTED);
-    let told = told.map(|mistake| shown(name, text, mistake));
-    let mut told = told.collect::<Vec<_>>().join("\nerror: ");
+    let listed = mistakes.iter().take(LISTED);
+    let listed = listed.map(|mistake| shown(name, text, mistake));
+    let mut listed = listed.collect::<Vec<_>>().join("\nerror: ");
     if mistakes.len() >= LISTED {
         let more =
             format!("\nerror: {name} may contain more mistakes; the first {LISTED} are shown");
-        told.push_str(&more);
+        listed.push_str(&more);
     }
-    Failure::Input(told)
+    Failure::Input(listed)
 }
 
 fn shown(name: &str, text: &SceneText, mistake: &SceneError) -> String {

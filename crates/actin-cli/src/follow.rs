@@ -1,9 +1,9 @@
 //! `actin run` with time-dependent resolution: a chain of run directories, one for each stretch.
 
 use crate::RunArguments;
-use crate::failure::{Failure, Opened};
-use crate::run::{Watched, by_default, checkpoints, refuse_own_scene};
-use crate::told::print;
+use crate::failure::{BuiltScene, Failure};
+use crate::report::print;
+use crate::run::{RunSink, by_default, checkpoints, refuse_own_scene};
 use actin_sim::follow::{Beginning, Follower, Left, Stretch};
 use actin_sim::{
     Checkpoints, FollowedDirectory, Outcome, Plan, RunDirectory, RunError, RunLock, Saved, Sink,
@@ -13,13 +13,13 @@ use std::path::Path;
 
 struct Chain<'a> {
     arguments: &'a RunArguments,
-    opened: &'a Opened,
+    opened: &'a BuiltScene,
     follower: &'a Follower,
     directory: FollowedDirectory,
     beginnings: Vec<Beginning>,
 }
 
-pub(crate) fn run(arguments: &RunArguments, opened: &Opened) -> Result<(), Failure> {
+pub(crate) fn run(arguments: &RunArguments, opened: &BuiltScene) -> Result<(), Failure> {
     let out = arguments.out.clone();
     let out = out.unwrap_or_else(|| by_default(&arguments.source));
     let follower = Follower::new(&opened.assembly.scene).map_err(|p| opened.refuse(&p))?;
@@ -211,7 +211,7 @@ impl Chain<'_> {
         saved: Option<Saved>,
         kept: &mut Checkpoints,
     ) -> Result<Left, Failure> {
-        let mut sink = Watched::new(kept);
+        let mut sink = RunSink::new(kept);
         let left = self.follower.advance((stretch, plan), saved, &mut sink);
         sink.finish();
         left.map_err(|error| match error {

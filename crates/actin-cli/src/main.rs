@@ -13,10 +13,10 @@ mod failure;
 mod follow;
 mod manual;
 mod progress;
+mod report;
 mod run;
 mod signals;
 mod sweep;
-mod told;
 mod trade;
 mod view;
 

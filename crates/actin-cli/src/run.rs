@@ -1,10 +1,10 @@
 //! `actin run`: runs a scene and writes its run directory.
 
-use crate::failure::{Failure, Opened};
+use crate::failure::{BuiltScene, Failure};
 use crate::follow;
 use crate::progress::Progress;
+use crate::report::{in_words, print, print_remarks};
 use crate::signals;
-use crate::told::{in_words, print, print_remarks};
 use crate::{RunArguments, SceneArguments};
 use actin_sim::{
     Checkpoints, FailedRun, Failure as Broken, FollowedDirectory, Outcome, Plan, Record, Recorded,
@@ -14,7 +14,7 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 pub(crate) fn run(arguments: &RunArguments) -> Result<(), Failure> {
-    let opened = Opened::open(&arguments.source)?;
+    let opened = BuiltScene::open(&arguments.source)?;
     let plan = opened.plan()?;
     for note in opened.notes(&plan) {
         println!("{note}");
@@ -32,7 +32,7 @@ pub(crate) fn run(arguments: &RunArguments) -> Result<(), Failure> {
     run_plan(arguments, &opened, &plan)
 }
 
-fn run_plan(arguments: &RunArguments, opened: &Opened, plan: &Plan<'_>) -> Result<(), Failure> {
+fn run_plan(arguments: &RunArguments, opened: &BuiltScene, plan: &Plan<'_>) -> Result<(), Failure> {
     let out = arguments.out.clone();
     let out = out.unwrap_or_else(|| by_default(&arguments.source));
     let directory = RunDirectory::existing(&out);
@@ -217,7 +217,7 @@ fn go_on(arguments: &RunArguments, directory: &RunDirectory) -> String {
     format!("actin run {scene} --out {place} --resume")
 }
 
-pub(crate) struct Watched<'a> {
+pub(crate) struct RunSink<'a> {
     checkpoints: &'a mut Checkpoints,
     progress: Progress,
     started: Instant,
@@ -225,7 +225,7 @@ pub(crate) struct Watched<'a> {
     first: Option<u64>,
 }
 
-impl<'a> Watched<'a> {
+impl<'a> RunSink<'a> {
     pub(crate) fn new(checkpoints: &'a mut Checkpoints) -> Self {
         Self {
             checkpoints,
@@ -240,7 +240,7 @@ impl<'a> Watched<'a> {
     }
 }
 
-impl Sink for Watched<'_> {
+impl Sink for RunSink<'_> {
     fn record(&mut self, record: &Record) {
         self.checkpoints.record(record);
     }
@@ -266,7 +266,7 @@ impl Sink for Watched<'_> {
 
 struct Task<'a> {
     arguments: &'a RunArguments,
-    opened: &'a Opened,
+    opened: &'a BuiltScene,
     plan: &'a Plan<'a>,
     directory: &'a RunDirectory,
 }
@@ -277,7 +277,7 @@ impl Task<'_> {
         saved: Option<Saved>,
         checkpoints: &mut Checkpoints,
     ) -> Result<Outcome, Failure> {
-        let mut sink = Watched::new(checkpoints);
+        let mut sink = RunSink::new(checkpoints);
         let outcome = match saved {
             None => self.plan.run_into(&mut sink),
             Some(saved) => self.plan.resume_into(saved, &mut sink),

@@ -3,7 +3,9 @@
 use crate::failure::{self, Failure};
 use crate::{seconds, signals};
 use actin_sim::{RunDirectoryError, SceneText};
-use actin_sweep::{Design, Ended, Opened, Priced, Progress, Settings, SweepDirectory, SweepError};
+use actin_sweep::{
+    Design, Progress, Settings, SweepCost, SweepDirectory, SweepError, SweepOutcome, ValidatedSweep,
+};
 use clap::{Args, ValueEnum};
 use indicatif::{ProgressBar, ProgressStyle};
 use std::num::NonZeroUsize;
@@ -81,7 +83,7 @@ fn numbers(text: &str) -> Result<Numbers, String> {
 }
 
 pub(crate) fn sweep(arguments: &SweepArguments) -> Result<(), Failure> {
-    let opened = Opened::open(&arguments.sweep)?;
+    let opened = ValidatedSweep::open(&arguments.sweep)?;
     if arguments.check {
         check(&opened);
         return Ok(());
@@ -106,9 +108,9 @@ pub(crate) fn sweep(arguments: &SweepArguments) -> Result<(), Failure> {
 
 fn make(
     arguments: &SweepArguments,
-    opened: &Opened,
+    opened: &ValidatedSweep,
     directory: &SweepDirectory,
-) -> Result<Ended, Failure> {
+) -> Result<SweepOutcome, Failure> {
     let interrupted = signals::interruption()
         .map_err(|error| Failure::Input(format!("cannot install signal handlers: {error}")))?;
     let settings = Settings {
@@ -136,7 +138,7 @@ fn make(
     Ok(ended?)
 }
 
-fn finish(arguments: &SweepArguments, out: &Path, ended: Ended) -> Result<(), Failure> {
+fn finish(arguments: &SweepArguments, out: &Path, ended: SweepOutcome) -> Result<(), Failure> {
     let (out, sweep) = (out.display(), arguments.sweep.display());
     if ended.is_interrupted() {
         let (done, of) = (ended.ended, ended.of);
@@ -181,7 +183,7 @@ fn print_values(design: &Design) {
     }
 }
 
-fn check(opened: &Opened) {
+fn check(opened: &ValidatedSweep) {
     let design = &opened.design;
     println!(
         "{} runs: {} point(s), {} run(s) of each",
@@ -210,7 +212,7 @@ fn check(opened: &Opened) {
 }
 
 /// Prints the memory of a run and the run time of the whole sweep, estimated from one point.
-fn print_cost(design: &Design, priced: &Priced) {
+fn print_cost(design: &Design, priced: &SweepCost) {
     println!("at most {:.0} MB for each run", (priced.bytes / 1e6).ceil());
     let (Some(point), Some(timing)) = (priced.timed, priced.timing) else {
         return;

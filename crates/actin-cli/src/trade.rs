@@ -1,6 +1,6 @@
 //! `actin trade`: error versus run time of models of a scene, as a table, a figure and the cheapest accurate scene.
 
-use crate::failure::{Failure, Read};
+use crate::failure::{Failure, ParsedScene};
 use crate::progress;
 use crate::{SceneArguments, signals};
 use actin_sim::trade::{Measure, Options, Trade, TradeError, Watch, trade as run};
@@ -49,7 +49,7 @@ fn budget(text: &str) -> Result<Duration, String> {
 }
 
 pub(crate) fn trade(arguments: &TradeArguments) -> Result<(), Failure> {
-    let read = Read::new(&arguments.source)?;
+    let read = ParsedScene::new(&arguments.source)?;
     let out = folder(arguments)?;
     let interrupted = signals::interruption()
         .map_err(|error| Failure::Input(format!("cannot install signal handlers: {error}")))?;

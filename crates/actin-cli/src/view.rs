@@ -64,7 +64,7 @@ pub(crate) fn view(arguments: &ViewArguments) -> Result<(), Failure> {
     }
     match &arguments.film {
         Some(folder) => film(arguments, &run, folder),
-        None if run.is_followed() => {
+        None if run.has_changing_resolution() => {
             let place = arguments.directory.display();
             Err(Failure::Input(format!(
                 "{place}: the resolution of this run changes with time, and a page shows one resolution only: \

@@ -17,19 +17,19 @@ use std::ops::ControlFlow;
 use std::sync::{Arc, Mutex, PoisonError};
 
 /// Ends the steps after a signal or an exception of a Python callback.
-struct Looker {
+struct InterruptObserver {
     watch: Watch,
     raised: Arc<Mutex<Option<PyErr>>>,
 }
 
-impl Looker {
+impl InterruptObserver {
     fn has_raised(&self) -> bool {
         let raised = self.raised.lock();
         raised.unwrap_or_else(PoisonError::into_inner).is_some()
     }
 }
 
-impl Observer for Looker {
+impl Observer for InterruptObserver {
     fn observe(&mut self, _moment: &mut Moment<'_>) -> ControlFlow<()> {
         ControlFlow::Continue(())
     }
@@ -83,7 +83,7 @@ impl System {
         };
         let run = self.plan(h, number)?;
         let watch = Watch::new(None);
-        let mut looker = Looker {
+        let mut looker = InterruptObserver {
             watch,
             raised: Arc::clone(&self.error),
         };

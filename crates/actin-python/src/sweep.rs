@@ -3,7 +3,9 @@
 use crate::errors;
 use crate::scene::Scene;
 use crate::watch::{Watch, callback, finish};
-use actin_sweep::{Axis, Ended, Opened, Ron, Samples, Settings, Sweep, SweepDirectory, SweepError};
+use actin_sweep::{
+    Axis, Ron, Samples, Settings, Sweep, SweepDirectory, SweepError, SweepOutcome, ValidatedSweep,
+};
 use pyo3::exceptions::{PyOSError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -63,7 +65,7 @@ pub(crate) fn carry_out(
             of: actin_sim::Drawn::ALL.to_vec(),
         }),
     };
-    let opened = py.detach(|| Opened::new(sweep, scene.inner.to_ron()));
+    let opened = py.detach(|| ValidatedSweep::new(sweep, scene.inner.to_ron()));
     let opened = opened.map_err(|problem| errors::problem(py, &problem))?;
     let directory = SweepDirectory::create(&out, &opened, resume);
     let directory = directory.map_err(|error| refused(py, &error))?;
@@ -87,10 +89,10 @@ pub(crate) fn carry_out(
 /// Makes the runs on worker threads. Signals are handled by the main thread.
 fn make(
     directory: &SweepDirectory,
-    opened: &Opened,
+    opened: &ValidatedSweep,
     settings: &Settings,
     mut watch: Watch,
-) -> (Result<Ended, SweepError>, Option<PyErr>) {
+) -> (Result<SweepOutcome, SweepError>, Option<PyErr>) {
     let (done, of) = (AtomicUsize::new(0), AtomicUsize::new(0));
     let note = |progress: actin_sweep::Progress| {
         of.store(progress.of, Ordering::Relaxed);

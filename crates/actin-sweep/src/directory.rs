@@ -8,7 +8,7 @@
 //! | `runs.csv`, `table.csv` | results |
 
 use crate::files::{self, MANIFEST, PARAMETERS, SCENE, SWEEP};
-use crate::{Opened, SweepError};
+use crate::{SweepError, ValidatedSweep};
 use actin_sim::{Difference, RunLock, first_difference};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -30,7 +30,7 @@ impl SweepDirectory {
     /// file system operation fails.
     pub fn create(
         path: impl AsRef<Path>,
-        opened: &Opened,
+        opened: &ValidatedSweep,
         resume: bool,
     ) -> Result<Self, SweepError> {
         let path = path.as_ref();
@@ -82,7 +82,7 @@ impl SweepDirectory {
         Ok(names.all(|name| name.to_string_lossy().starts_with('.')))
     }
 
-    fn ensure_same(&self, opened: &Opened) -> Result<(), SweepError> {
+    fn ensure_same(&self, opened: &ValidatedSweep) -> Result<(), SweepError> {
         for (name, given) in identity(opened) {
             if name == SWEEP {
                 continue;
@@ -106,7 +106,7 @@ impl SweepDirectory {
 }
 
 /// Returns the files that identify the sweep. The manifest, which marks the directory as a sweep, is the first.
-fn identity(opened: &Opened) -> [(&'static str, Vec<u8>); 4] {
+fn identity(opened: &ValidatedSweep) -> [(&'static str, Vec<u8>); 4] {
     let mut sweep = opened.sweep.clone();
     SCENE.clone_into(&mut sweep.scene);
     let manifest = serde_json::json!({
@@ -125,7 +125,7 @@ fn identity(opened: &Opened) -> [(&'static str, Vec<u8>); 4] {
 }
 
 /// Returns the table of all runs: index, point, varied values, set values, seed.
-fn parameters(opened: &Opened) -> Vec<u8> {
+fn parameters(opened: &ValidatedSweep) -> Vec<u8> {
     let design = &opened.design;
     let set = &opened.sweep.set;
     let head = ["run", "point"].map(str::to_owned).into_iter();

@@ -2,7 +2,7 @@
 
 use crate::run::{State, make, summary};
 use crate::table::{Row, Table};
-use crate::{Opened, SweepDirectory, SweepError};
+use crate::{SweepDirectory, SweepError, ValidatedSweep};
 use actin_sim::{CheckpointError, RunDirectory};
 use std::num::NonZeroUsize;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
@@ -46,7 +46,7 @@ pub struct Progress {
 
 /// Outcome of an execution.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Ended {
+pub struct SweepOutcome {
     /// Number of runs that have ended.
     pub ended: usize,
     /// Number of runs that failed or lack a result.
@@ -55,7 +55,7 @@ pub struct Ended {
     pub of: usize,
 }
 
-impl Ended {
+impl SweepOutcome {
     /// Returns whether some runs have not ended.
     pub fn is_interrupted(&self) -> bool {
         self.ended < self.of
@@ -73,10 +73,10 @@ impl SweepDirectory {
     /// tables, not errors.
     pub fn carry_out(
         &self,
-        opened: &Opened,
+        opened: &ValidatedSweep,
         settings: &Settings,
         progress: &(dyn Fn(Progress) + Sync),
-    ) -> Result<Ended, SweepError> {
+    ) -> Result<SweepOutcome, SweepError> {
         let _lock = self.lock()?;
         let all: Vec<usize> = (0..opened.design.len()).collect();
         let ended = self.make_runs(opened, &all, settings, progress)?;
@@ -91,11 +91,11 @@ impl SweepDirectory {
     /// Errors of [`carry_out`](Self::carry_out), or an invalid index.
     pub fn make_runs(
         &self,
-        opened: &Opened,
+        opened: &ValidatedSweep,
         runs: &[usize],
         settings: &Settings,
         progress: &(dyn Fn(Progress) + Sync),
-    ) -> Result<Ended, SweepError> {
+    ) -> Result<SweepOutcome, SweepError> {
         let count = opened.design.len();
         let mut runs = runs.to_vec();
         runs.sort_unstable();
@@ -126,7 +126,7 @@ impl SweepDirectory {
             summary.is_some_and(|summary| !Row::of(&summary, results).failure.is_empty())
         };
         let failed = runs.iter().filter(has_failed).count();
-        Ok(Ended { ended, failed, of })
+        Ok(SweepOutcome { ended, failed, of })
     }
 }
 
@@ -153,7 +153,7 @@ fn threads(settings: &Settings) -> usize {
 }
 
 struct Crew<'a> {
-    opened: &'a Opened,
+    opened: &'a ValidatedSweep,
     directory: &'a SweepDirectory,
     left: &'a [usize],
     settings: &'a Settings,
@@ -184,7 +184,7 @@ impl Crew<'_> {
             };
             let run = self.opened.design.run(index);
             match make(self.opened, self.directory, run, self.settings) {
-                Ok(State::Ended) => report(self.ended.fetch_add(1, Ordering::Relaxed) + 1),
+                Ok(State::Finished) => report(self.ended.fetch_add(1, Ordering::Relaxed) + 1),
                 Ok(State::Interrupted) => {}
                 Err(error) => {
                     let mut first = self.error.lock().unwrap_or_else(PoisonError::into_inner);

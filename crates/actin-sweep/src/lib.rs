@@ -1,7 +1,7 @@
 //! Sweeps: runs of one scene for many values of its keys and many seeds, and a table of results.
 //!
 //! - [`Sweep`] is read from RON.
-//! - [`Opened`] is a sweep validated with its scene; its [`Design`] lists all runs.
+//! - [`ValidatedSweep`] is a sweep validated with its scene; its [`Design`] lists all runs.
 //! - [`SweepDirectory`] contains a run directory for each run.
 //! - [`SweepDirectory::carry_out`] makes the missing runs in parallel and writes the table.
 //!
@@ -29,9 +29,9 @@ mod table;
 pub use actin_sim as sim;
 pub use design::{Design, Run};
 pub use directory::SweepDirectory;
-pub use engine::{Ended, Progress, Settings};
+pub use engine::{Progress, Settings, SweepOutcome};
 pub use error::SweepError;
-pub use open::{Opened, Priced};
+pub use open::{SweepCost, ValidatedSweep};
 pub use sweep::{Axis, Plan, Ron, Samples, Scale, Span, Sweep, Value};
 
 /// Returns the JSON schema of sweep files.

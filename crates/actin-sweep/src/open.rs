@@ -12,7 +12,7 @@ use std::path::Path;
 
 /// A valid sweep with its scene.
 #[derive(Clone, Debug)]
-pub struct Opened {
+pub struct ValidatedSweep {
     /// Sweep.
     pub sweep: Sweep,
     /// Points and runs.
@@ -25,7 +25,7 @@ pub struct Opened {
 
 /// Estimated cost of a sweep.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Priced {
+pub struct SweepCost {
     /// Index of the timed point, the one with the most evaluations of bonds and elements.
     pub timed: Option<usize>,
     /// Measured time of its first run on one core of this machine; `None` if not measured.
@@ -38,14 +38,14 @@ pub struct Priced {
     pub points: usize,
 }
 
-impl Priced {
+impl SweepCost {
     /// Returns the estimated time of the timed run (s).
     pub fn run_s(&self) -> Option<f64> {
         self.timing?.total_s
     }
 }
 
-impl Opened {
+impl ValidatedSweep {
     /// Reads a sweep and its scene from files.
     ///
     /// # Errors
@@ -218,8 +218,8 @@ impl Opened {
     ///
     /// A larger design is sampled, with one point from each of `most` equal parts, including the first and the last
     /// point.
-    pub fn price(&self, most: usize) -> Priced {
-        let mut all = Priced::default();
+    pub fn price(&self, most: usize) -> SweepCost {
+        let mut all = SweepCost::default();
         let points = self.design.drawn(most);
         all.points = points.len();
         let mut most_work = 0.0;

@@ -1,7 +1,7 @@
 //! Execution of one run of a sweep.
 
 use crate::design::Run;
-use crate::{Opened, Settings, SweepDirectory, SweepError};
+use crate::{Settings, SweepDirectory, SweepError, ValidatedSweep};
 use actin_sim::{
     Assembly, CheckpointError, Checkpoints, Outcome, Plan, RunDirectory, RunDirectoryError,
     RunError, RunLock, Saved, SceneText, Status,
@@ -12,8 +12,8 @@ use std::sync::Arc;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum State {
-    /// Ended, successfully or not, with a summary.
-    Ended,
+    /// Finished, successfully or not, with a summary.
+    Finished,
     /// Interrupted, with a checkpoint if it had started.
     Interrupted,
 }
@@ -29,14 +29,14 @@ pub(crate) fn summary(directory: &Path) -> Option<Value> {
 /// # Errors
 /// If results cannot be written, or the directory contains foreign files. Failures of the run are in its summary.
 pub(crate) fn make(
-    opened: &Opened,
+    opened: &ValidatedSweep,
     directory: &SweepDirectory,
     run: Run,
     settings: &Settings,
 ) -> Result<State, SweepError> {
     let path = directory.run(run.index);
     if summary(&path).is_some() {
-        return Ok(State::Ended);
+        return Ok(State::Finished);
     }
     let title = &opened.sweep.title;
     let (scene, text) = match opened.scene_of(run) {
@@ -80,7 +80,7 @@ fn make_planned(
             let why = text.locate(&problem).to_string();
             kept.write_failure(&plan.scene().title, &why)?;
             kept.remove_checkpoint()?;
-            Ok(State::Ended)
+            Ok(State::Finished)
         }
         Err(RunError::Failed(failed)) => write(&kept, plan, &checkpoints, &failed.outcome),
     }
@@ -126,11 +126,11 @@ fn write(
         Err(error) => return Err(error.into()),
     }
     kept.remove_checkpoint()?;
-    Ok(State::Ended)
+    Ok(State::Finished)
 }
 
 fn fail(path: &Path, title: &str, why: &str) -> Result<State, SweepError> {
     let (directory, _lock) = RunDirectory::create_locked(path, true)?;
     directory.write_failure(title, why)?;
-    Ok(State::Ended)
+    Ok(State::Finished)
 }

@@ -1,7 +1,7 @@
 //! Export of a sweep as a Snakemake workflow.
 
 use crate::files::{self, PROFILE, SNAKEFILE};
-use crate::{Opened, Priced, SweepDirectory, SweepError};
+use crate::{SweepCost, SweepDirectory, SweepError, ValidatedSweep};
 
 const WORKFLOW: &str = r#"# A sweep of actin scenes for Snakemake 9, written by `actin sweep --emit snakemake`.
 #
@@ -74,7 +74,11 @@ impl SweepDirectory {
     ///
     /// # Errors
     /// If a file system operation fails.
-    pub fn write_snakemake(&self, opened: &Opened, priced: &Priced) -> Result<(), SweepError> {
+    pub fn write_snakemake(
+        &self,
+        opened: &ValidatedSweep,
+        priced: &SweepCost,
+    ) -> Result<(), SweepError> {
         let runs = opened.design.len() as f64;
         // A run of unknown duration is a separate job.
         let run_s = priced.run_s().unwrap_or(JOB_S).max(1e-3);

@@ -189,7 +189,7 @@ impl schemars::JsonSchema for Ron {
 }
 
 impl Sweep {
-    /// Reads a sweep from RON. [`Opened::new`](crate::Opened::new) validates it.
+    /// Reads a sweep from RON. [`ValidatedSweep::new`](crate::ValidatedSweep::new) validates it.
     ///
     /// # Errors
     /// If the text is not RON, or has unknown or missing keys. The error has line and column.

@@ -2,7 +2,7 @@
 
 use crate::files::{self, RUNS, TABLE};
 use crate::run::summary;
-use crate::{Opened, SweepDirectory, SweepError, chosen};
+use crate::{SweepDirectory, SweepError, ValidatedSweep, chosen};
 use serde_json::Value;
 
 /// Status of a run that has not ended.
@@ -10,7 +10,7 @@ const UNFINISHED: &str = "unfinished";
 
 #[derive(Debug)]
 pub(crate) struct Table<'a> {
-    opened: &'a Opened,
+    opened: &'a ValidatedSweep,
     rows: Vec<Row>,
 }
 
@@ -64,7 +64,7 @@ impl Row {
 }
 
 impl<'a> Table<'a> {
-    pub(crate) fn new(opened: &'a Opened, directory: &SweepDirectory) -> Self {
+    pub(crate) fn new(opened: &'a ValidatedSweep, directory: &SweepDirectory) -> Self {
         let results = &opened.sweep.results;
         let row = |run| match summary(&directory.run(run)) {
             Some(summary) => Row::of(&summary, results),

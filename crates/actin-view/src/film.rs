@@ -5,7 +5,7 @@
 
 use crate::pose::{PLATE_NM, bodies};
 use crate::{Attitude, Palette, Run, Things};
-use actin_draw::raster::{Camera, Canvas, Look, Picture};
+use actin_draw::raster::{Camera, Canvas, Picture, TubeStyle};
 use actin_draw::scene3d::Matrix3;
 use actin_sim::Assembly;
 use actin_sim::mechanics::{State, Vector3};
@@ -255,7 +255,7 @@ impl Scene<'_> {
             .map(|i| self.state.points.position.get(i));
         let frames = span.frames.clone().map(|i| self.axes(i));
         let (nodes, frames): (Vec<_>, Vec<_>) = (nodes.collect(), frames.collect());
-        let look = Look {
+        let look = TubeStyle {
             colour: self.palette.ramp().at(1.0).lighter(0.12).0,
             stripe: 0.7,
             seam: 0.55,

@@ -25,6 +25,6 @@ mod tube;
 pub use camera::Camera;
 pub use canvas::Canvas;
 pub use picture::Picture;
-pub use tube::Look;
+pub use tube::TubeStyle;
 
 use crate::scene3d::{Matrix3, Vector3};

@@ -4,7 +4,7 @@ use super::{Canvas, Matrix3, Vector3};
 
 /// Appearance of a tube.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Look {
+pub struct TubeStyle {
     /// Colour.
     pub colour: [u8; 3],
     /// Fraction of white in the stripes along the first axis, on both sides; 0 for no stripe.
@@ -30,7 +30,7 @@ struct Piece {
 impl Canvas {
     /// Draws a tube of radius r (nm) through nodes, mitred between pieces. The columns of `frames` are the axes of
     /// each piece, which are interpolated between the middles of pieces.
-    pub fn tube(&mut self, nodes: &[Vector3], frames: &[Matrix3], r: f64, look: Look) {
+    pub fn tube(&mut self, nodes: &[Vector3], frames: &[Matrix3], r: f64, look: TubeStyle) {
         let nodes: Vec<Vector3> = nodes.iter().map(|&p| self.camera.see(p)).collect();
         let axes = |k: usize| [0, 1].map(|c| self.camera.turn(frames[k].column(c).into()));
         let axes: Vec<[Vector3; 2]> = (0..frames.len()).map(axes).collect();
@@ -80,7 +80,7 @@ impl Canvas {
         nearer: f64,
     ) {
         let r = r.max(0.5 * pixels / self.camera.per_nm);
-        let look = Look {
+        let look = TubeStyle {
             colour,
             stripe: 0.0,
             seam: 1.0,
@@ -103,7 +103,7 @@ impl Canvas {
         }
     }
 
-    fn piece(&mut self, piece: &Piece, r: f64, look: Look, nearer: f64) {
+    fn piece(&mut self, piece: &Piece, r: f64, look: TubeStyle, nearer: f64) {
         let [p, q] = piece.ends;
         let along = q - p;
         let length = along.norm();
@@ -162,7 +162,7 @@ impl Canvas {
 
 impl Piece {
     /// Returns the colour at a fraction of the length, at a distance from the nearer end (nm), with normal n.
-    fn colour(&self, (share, edge): (f64, f64), n: Vector3, look: Look) -> [f64; 3] {
+    fn colour(&self, (share, edge): (f64, f64), n: Vector3, look: TubeStyle) -> [f64; 3] {
         let colour = look.colour.map(f64::from);
         if look.stripe == 0.0 {
             return colour;

@@ -15,7 +15,7 @@ const SCENE: &str = "Scene(
 /// Changes the finished run directory `run` or its surroundings.
 type Spoil = fn(&Path) -> io::Result<()>;
 
-const IN_THE_WAY: [(&str, Spoil); 7] = [
+const OVERWRITE_OBSTACLES: [(&str, Spoil); 7] = [
     ("no manifest: a folder of somebody else", |folder| {
         fs::remove_file(folder.join("run/actin-run.json"))
     }),
@@ -48,7 +48,7 @@ const OBSTACLES: [&str; 3] = ["scene.ron.part", "states.npz.part", "summary.json
 
 /// Only files of a run are removed, and results are written completely or not at all.
 pub(super) fn rows() -> Vec<Row> {
-    let overwritten = IN_THE_WAY.map(|(case, spoil)| {
+    let overwritten = OVERWRITE_OBSTACLES.map(|(case, spoil)| {
         let tried = overwritten(spoil).map_err(|e| not_tried(&e));
         Row::new("overwrite", case, tried).expecting(Expected::Refused)
     });

@@ -1,7 +1,7 @@
 //! Tip forces from 1e-12 to 1e6 pN, segments from 0.1 nm to 1 µm, very short bonds, and ratios of rigidity between
 //! monomers and rod up to 1e6.
 
-use super::row::{Expected, Row, Tried, correct};
+use super::row::{CaseResult, Expected, Row, correct};
 use super::scenes::{self, Parts};
 use super::steps::limit;
 use actin_sim::Integrator;
@@ -75,7 +75,7 @@ fn chain_compliance(n: u32, l: f64) -> f64 {
 }
 
 /// Compares the deflection of a rod with segments of `l` nm with the linear chain.
-fn deflection(sections: &str, segments: u32, l: f64, force: f64) -> Tried {
+fn deflection(sections: &str, segments: u32, l: f64, force: f64) -> CaseResult {
     let ran = Parts::pulled(sections, [force, 0.0, 0.0]).run()?;
     let exact = force * chain_compliance(segments, l);
     let error = (ran.tip_displacement().x / exact - 1.0).abs();
@@ -84,7 +84,7 @@ fn deflection(sections: &str, segments: u32, l: f64, force: f64) -> Tried {
 
 /// Transverse force on the rod. Up to 1e-4 pN the deflection is compared with linear theory, whose relative error is
 /// the square of the angle, 1e-10. For larger forces the reaction of the clamp is compared.
-fn across(force: f64) -> Tried {
+fn across(force: f64) -> CaseResult {
     if force > 1e-4 {
         return balanced(ROD, [force, 0.0, 0.0], 1e-5);
     }
@@ -92,7 +92,7 @@ fn across(force: f64) -> Tried {
 }
 
 /// Axial force on the rod, compared with the extension `L F / S3`.
-fn along(force: f64) -> Tried {
+fn along(force: f64) -> CaseResult {
     let ran = Parts::pulled(ROD, [0.0, 0.0, force]).run()?;
     let exact = 100.0 * force / STRETCH;
     let error = ran.tip_displacement().z / exact - 1.0;
@@ -104,7 +104,7 @@ fn along(force: f64) -> Tried {
 
 /// Compares the reaction of the clamp with the load. The bound contains the tolerance, 1e-6 of the force, for about a
 /// dozen bodies with lever arms of a few nm, and 1e-10 pN of round-off.
-fn balanced(sections: &str, force: [f64; 3], bound: f64) -> Tried {
+fn balanced(sections: &str, force: [f64; 3], bound: f64) -> CaseResult {
     let mut ran = Parts::pulled(sections, force).run()?;
     correct("reaction of the wall", ran.imbalance(), bound)
 }
@@ -200,7 +200,7 @@ fn stiff(factor: f64, force: f64, task: impl Into<String>) -> Parts {
 
 /// Compares the reaction under a force that bends the softer part by a few degrees. The bound is the tolerance summed
 /// over two dozen bodies with their lever arms.
-fn contrast_balance(factor: f64) -> Tried {
+fn contrast_balance(factor: f64) -> CaseResult {
     let tolerance = 1e-7 * factor.min(1.0);
     let torque = 10.0 * tolerance;
     let task = format!("Equilibrium(force_pn: {tolerance:?}, torque_pn_nm: {torque:?})");
@@ -208,7 +208,7 @@ fn contrast_balance(factor: f64) -> Tried {
     correct("reaction of the wall", ran.imbalance(), 1e-4)
 }
 
-fn contrast_limit(factor: f64) -> Tried {
+fn contrast_limit(factor: f64) -> CaseResult {
     let mut assembly = stiff(factor, 0.0, "Dynamics(duration_ns: 1e-6)").build()?;
     limit(&mut assembly.system, Integrator::Pefrl, 2e-3)
 }

@@ -1,7 +1,7 @@
 //! Drag up to 1e6 per ns (momentum, terminal velocity, creep, rest, diffusion, temperature), and long undamped
 //! motion.
 
-use super::row::{Outcome, Row, Tried, correct, larger};
+use super::row::{CaseResult, Outcome, Row, correct, larger};
 use super::scenes::{Parts, Ran, free};
 use super::steps::MODELS;
 use actin_integrate::{
@@ -80,7 +80,7 @@ fn uniform(rate: f64) -> Drag {
 }
 
 /// The momentum decays as `exp(-gamma t)`, independently of the step and of internal forces.
-fn flight(mut system: System, rate: f64) -> Tried {
+fn flight(mut system: System, rate: f64) -> CaseResult {
     let (h, steps) = (step(&system, 0.5), 100);
     let points = &mut system.state_mut().points;
     for i in 0..points.len() {
@@ -126,7 +126,7 @@ fn damped(
 ///
 /// In a heat bath, the displacement is relative to the same filament without the force and with the same noise, since
 /// internal forces do not move the centre of mass.
-fn pulled(sections: &str, rate: f64, kelvin: Option<u32>) -> Tried {
+fn pulled(sections: &str, rate: f64, kelvin: Option<u32>) -> CaseResult {
     let thermal = kelvin.map(|t| format!("thermal: (temperature_k: {t}.0, seed: 3),"));
     let keys = format!("record_every_ns: 1.0, {}", thermal.unwrap_or_default());
     let way = |force: f64| {
@@ -163,7 +163,7 @@ const CANTILEVER: (&str, &str) = (
     "clamps: [Clamp(end: Start)], loads: [EndForce(end: End, force_pn: (2.0, 0.0, 0.0))],",
 );
 
-fn at_rest(rate: f64) -> Tried {
+fn at_rest(rate: f64) -> CaseResult {
     let (sections, rest) = CANTILEVER;
     // 30 relaxation times of the slowest mode: 2/g for g < 22 per ns, g/120 ns^2 otherwise.
     let duration = 60.0 / rate + 0.25 * rate;
@@ -175,7 +175,7 @@ fn at_rest(rate: f64) -> Tried {
     correct("tip against statics", error, 1e-7)
 }
 
-fn creeping(rate: f64) -> Tried {
+fn creeping(rate: f64) -> CaseResult {
     let (sections, rest) = CANTILEVER;
     let time = if rate > 22.0 { rate / 120.0 } else { 0.15 };
     let tip = |share: f64| {
@@ -194,7 +194,7 @@ fn creeping(rate: f64) -> Tried {
 /// <x^2> = 2 kT/(M g) (t - c (1 - exp(-g t))/g)     along each axis
 /// c     = g h / sinh(g h)                          1 in continuous time
 /// ```
-fn diffusion(mut system: System, rate: f64) -> Tried {
+fn diffusion(mut system: System, rate: f64) -> CaseResult {
     let (h, samples) = (step(&system, 0.5), 2000);
     let bath = Bath::new(uniform(rate), KT, 29).expect("it is positive");
     let g_h = rate * h;
@@ -225,7 +225,7 @@ fn diffusion(mut system: System, rate: f64) -> Tried {
 
 /// Compares mean kinetic and strain energies of a free rod at kT/100 with equipartition: `kT/2` for each of 21
 /// coordinates. Six are rigid motions without strain energy.
-fn temperature(mut system: System, rate: f64) -> Tried {
+fn temperature(mut system: System, rate: f64) -> CaseResult {
     let (h, kt) = (step(&system, 0.5), 0.01 * KT);
     let bath = Bath::new(uniform(rate), kt, 31).expect("it is positive");
     let coordinates = 3.0 * (system.state().points.len() + system.state().frames.len()) as f64;
@@ -279,7 +279,7 @@ pub(super) fn undamped(count: u64) -> Vec<Row> {
 /// Runs at a quarter of the stability limit with 1000 samples. Returns the trend of the energy and the relative
 /// changes of momentum and angular momentum (about the origin and the centre of mass). With the centre at rest, the
 /// momentum has no scale.
-fn drift(mut system: System, count: u64, is_flying: bool) -> Vec<(&'static str, Tried)> {
+fn drift(mut system: System, count: u64, is_flying: bool) -> Vec<(&'static str, CaseResult)> {
     set_moving(system.state_mut(), is_flying);
     let h = step(&system, 0.25);
     let start = system.total_energy();

@@ -18,10 +18,10 @@ pub(super) enum Outcome {
 }
 
 /// An outcome, also as an error for use with `?`.
-pub(super) type Tried = Result<Outcome, Outcome>;
+pub(super) type CaseResult = Result<Outcome, Outcome>;
 
 /// Returns `Correct`, or a defect if the error exceeds its bound or is not a number.
-pub(super) fn correct(what: &'static str, error: f64, bound: f64) -> Tried {
+pub(super) fn correct(what: &'static str, error: f64, bound: f64) -> CaseResult {
     if error <= bound {
         return Ok(Outcome::Correct { what, error });
     }
@@ -31,7 +31,7 @@ pub(super) fn correct(what: &'static str, error: f64, bound: f64) -> Tried {
 }
 
 /// Returns `Bounded`, or a defect if the ratio exceeds 1.
-pub(super) fn bounded(what: &'static str, share: f64) -> Tried {
+pub(super) fn bounded(what: &'static str, share: f64) -> CaseResult {
     if share <= 1.0 {
         return Ok(Outcome::Bounded { what, share });
     }
@@ -92,7 +92,7 @@ pub(super) struct Row {
 }
 
 impl Row {
-    pub(super) fn new(varied: &'static str, case: impl Into<String>, tried: Tried) -> Self {
+    pub(super) fn new(varied: &'static str, case: impl Into<String>, tried: CaseResult) -> Self {
         Self {
             varied,
             case: case.into(),

@@ -1,7 +1,7 @@
 //! Filaments with very few and very many bodies, scenes that exceed the memory, and a filament far from the origin.
 
 use super::fields::{Verdict, verdict};
-use super::row::{Expected, Outcome, Row, Tried, correct, larger};
+use super::row::{CaseResult, Expected, Outcome, Row, correct, larger};
 use super::scenes::{Parts, build};
 use actin_integrate::{Drag, PEFRL, advance};
 use actin_mechanics::{
@@ -89,7 +89,7 @@ fn largest(count: u32) -> Vec<Row> {
 }
 
 /// A rod with `count` loads and stages, each of which sets the factor of one load; compares the final factors.
-fn driven(count: u32) -> Tried {
+fn driven(count: u32) -> CaseResult {
     let load = "EndForce(end: End, force_pn: (0.001, 0.0, 0.0)), ".repeat(count as usize);
     let stage = |i: u32| format!("Stage(set: [LoadFactor(load: {i}, factor: {}.0)]), ", i + 1);
     let stages: String = (0..count).map(stage).collect();
@@ -125,7 +125,7 @@ fn peak_memory_mb() -> f64 {
     kilobytes.map_or(f64::NAN, |kb| kb / 1024.0)
 }
 
-fn moved(text: &str, steps: u64) -> Tried {
+fn moved(text: &str, steps: u64) -> CaseResult {
     let mut assembly = build(text)?;
     let plan = Plan::new(&assembly).map_err(|problem| Outcome::Refused(problem.to_string()))?;
     let step = plan.estimate().expect("a motion").time_step_ns;
@@ -177,7 +177,7 @@ pub(super) fn origin() -> Vec<Row> {
     SHIFTS.map(row).to_vec()
 }
 
-fn shifted(shift: f64) -> Tried {
+fn shifted(shift: f64) -> CaseResult {
     let mut assembly = build(LINKED)?;
     let shaken = assembly.system.state_mut();
     perturb(shaken, &mut Xorshift::new(7), 0.05, 0.02);

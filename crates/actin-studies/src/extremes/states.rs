@@ -1,7 +1,7 @@
 //! Equilibria with zero-stiffness modes, beyond the twist instability, beyond buckling, and beyond half a turn of a
 //! joint.
 
-use super::row::{Expected, Outcome, Row, Tried, correct};
+use super::row::{CaseResult, Expected, Outcome, Row, correct};
 use super::scenes::{Parts, Ran, run, run_to_saddle};
 use actin_sim::Setting;
 use actin_sim::rod_constants::{TABLE_4_SHEAR, XI_COEFFICIENTS};
@@ -60,7 +60,7 @@ pub(super) fn neutral_modes() -> Vec<Row> {
     AT_REST.map(row).to_vec()
 }
 
-fn neutral(count: i64, (model, length): (&str, f64), clamps: &str, modes: Modes) -> Tried {
+fn neutral(count: i64, (model, length): (&str, f64), clamps: &str, modes: Modes) -> CaseResult {
     let filament = |i: i64| {
         format!(
             "Filament(
@@ -134,7 +134,7 @@ fn unstable_modes(share: f64) -> usize {
 
 /// Checks the warning about the twist instability, its bound, and the number of unstable modes in the certificate.
 /// The law `Fitted` also has unstable shear modes.
-fn compressed(law: &str, shift: f64, bound: f64, share: f64) -> Tried {
+fn compressed(law: &str, shift: f64, bound: f64, share: f64) -> CaseResult {
     let parts = Parts {
         models: format!("rod: RodModel(law: {law}),"),
         ..Parts::new(
@@ -319,7 +319,7 @@ pub(super) fn slipping() -> Vec<Row> {
     SLIPPING.map(row).to_vec()
 }
 
-fn linked(parts: &Parts) -> Tried {
+fn linked(parts: &Parts) -> CaseResult {
     let ran = parts.run()?;
     let ribbon = Ribbon::new(&ran.assembly, ran.assembly.system.state());
     let link = ran.assembly.scene.path.iter().flat_map(|stage| &stage.set);
@@ -332,7 +332,7 @@ fn linked(parts: &Parts) -> Tried {
     correct("twist and writhe (turns)", error, 1e-9)
 }
 
-fn uniform(sections: &str, length: f64, degrees: f64, ns: Option<f64>) -> Tried {
+fn uniform(sections: &str, length: f64, degrees: f64, ns: Option<f64>) -> CaseResult {
     let mut ran = turned(sections, degrees, "Equilibrium()", ns).run()?;
     let exact = TWIST * degrees.to_radians() / length;
     let error = (couple(&mut ran, 1) / exact - 1.0).abs();
@@ -343,7 +343,7 @@ fn couple(ran: &mut Ran, clamp: usize) -> f64 {
     ran.reaction(clamp).1.z
 }
 
-fn certified(degrees: f64, task: &str) -> Tried {
+fn certified(degrees: f64, task: &str) -> CaseResult {
     let mut ran = turned(LONG_MONOMERS, degrees, task, None).run()?;
     let found = ran.report.equilibrium.as_ref();
     let negative = found.map(|e| e.certificate.negative);

@@ -1,6 +1,6 @@
 //! Time steps near the stability limit: onset of growth, and energy fluctuation below it, with figures.
 
-use super::row::{Expected, Outcome, Row, Tried, bounded, correct, larger};
+use super::row::{CaseResult, Expected, Outcome, Row, bounded, correct, larger};
 use super::scenes::{Parts, free};
 use actin_draw::{Chart, Colour, Series};
 use actin_integrate::{Composition, Drag, advance, largest_frequency, stable_step};
@@ -69,7 +69,7 @@ fn measured_limit(system: &mut System, integrator: Integrator) -> f64 {
     0.5 * (low + high)
 }
 
-pub(super) fn limit(system: &mut System, integrator: Integrator, bound: f64) -> Tried {
+pub(super) fn limit(system: &mut System, integrator: Integrator, bound: f64) -> CaseResult {
     let error = (measured_limit(system, integrator) - 1.0).abs();
     correct("measured limit against predicted", error, bound)
 }
@@ -166,7 +166,7 @@ pub(super) fn asked() -> Vec<Row> {
     })
 }
 
-fn at_share(sections: &str, integrator: Integrator, share: f64, allowed: bool) -> Tried {
+fn at_share(sections: &str, integrator: Integrator, share: f64, allowed: bool) -> CaseResult {
     let pulled = Parts::pulled(sections, [0.1, 0.0, 0.0]);
     let task = |step: f64| Parts {
         task: format!(

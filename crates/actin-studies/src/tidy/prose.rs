@@ -42,7 +42,7 @@ pub(super) fn findings(root: &Path, files: &[(PathBuf, String)]) -> Vec<String> 
     for (path, text) in files {
         let path = path.strip_prefix(root).unwrap_or(path);
         let name = path.display().to_string();
-        let found = paragraphs(&name, text)
+        let found = paragraphs(path, text)
             .into_iter()
             .flat_map(|(line, text)| {
                 let kinds = kinds(&text, &patterns).into_iter();
@@ -85,8 +85,8 @@ fn folder(path: &Path) -> String {
 }
 
 /// Returns paragraphs of prose with their first lines: comments of sources, text of pages.
-fn paragraphs(name: &str, text: &str) -> Vec<(usize, String)> {
-    let is_page = name.ends_with(".md");
+fn paragraphs(path: &Path, text: &str) -> Vec<(usize, String)> {
+    let is_page = path.extension().is_some_and(|e| e == "md");
     let mut all: Vec<(usize, String)> = Vec::new();
     let (mut is_code, mut is_open) = (false, false);
     for (i, line) in text.lines().enumerate() {

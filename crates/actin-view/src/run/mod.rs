@@ -153,7 +153,7 @@ impl Run {
     }
 
     /// Returns whether the resolution changes with time. Such a run can be shown by a film, but not by a page.
-    pub fn is_followed(&self) -> bool {
+    pub fn has_changing_resolution(&self) -> bool {
         !self.later.is_empty()
     }
 

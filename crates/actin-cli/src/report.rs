@@ -3,6 +3,9 @@
 use actin_sim::{Note, StabilitySummary, Status, Summary};
 use std::path::Path;
 
+/// Largest number of further filaments with a printed tip displacement.
+const MOST_TIPS: usize = 8;
+
 /// Prints the report of a run, without the notes in `known`, which were printed before it.
 pub(crate) fn print(summary: &Summary, known: &[Note], out: &Path) {
     let work = &summary.work;
@@ -65,12 +68,18 @@ fn print_pushes(summary: &Summary) {
     }
 }
 
+/// Prints the tip displacements of the first filaments.
 fn print_tips(summary: &Summary) {
     let [x, y, z] = summary.tip_displacement_nm;
     println!("tip displacement ({x:.4}, {y:.4}, {z:.4}) nm");
-    for (i, filament) in summary.filaments.iter().enumerate().skip(1) {
+    let others = summary.filaments.iter().enumerate().skip(1);
+    for (i, filament) in others.take(MOST_TIPS) {
         let [x, y, z] = filament.tip_displacement_nm;
         println!("  of filament {i} ({x:.4}, {y:.4}, {z:.4}) nm");
+    }
+    let rest = summary.filaments.len().saturating_sub(1 + MOST_TIPS);
+    if rest > 0 {
+        println!("  and of {rest} more filaments in summary.json");
     }
 }
 
