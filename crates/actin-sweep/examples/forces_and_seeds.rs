@@ -1,7 +1,7 @@
 //! Five bond samples at each of two forces, tabulated.
 
 use actin_sweep::sim::SimError;
-use actin_sweep::{Opened, Settings, Sweep, SweepDirectory};
+use actin_sweep::{ValidatedSweep, Settings, Sweep, SweepDirectory};
 
 /// A monomer filament with sampled bonds and a transverse tip force.
 const SCENE: &str = "Scene(
@@ -24,7 +24,7 @@ const SWEEP: &str = "Sweep(
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let sweep = Sweep::from_ron(SWEEP).map_err(SimError::from)?;
-    let opened = Opened::new(sweep, SCENE.into())?;
+    let opened = ValidatedSweep::new(sweep, SCENE.into())?;
     let folder = std::env::temp_dir().join(format!("actin-sweep-{}", std::process::id()));
     let directory = SweepDirectory::create(&folder, &opened, false)?;
     let ended = directory.carry_out(&opened, &Settings::default(), &|_| ())?;
