@@ -61,7 +61,7 @@ pub enum CylinderError {
     #[error("the {0} must be positive and finite, got {1}")]
     Number(&'static str, f64),
     /// The cylinder is too short.
-    #[error("the length of {length} nm is less than {LEAST_RATIO} diameters of {diameter} nm")]
+    #[error("a length of {length} nm is less than {LEAST_RATIO} diameters of {diameter} nm")]
     Short {
         /// Length (nm).
         length: f64,
