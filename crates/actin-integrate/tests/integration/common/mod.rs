@@ -1,4 +1,4 @@
-//! Small systems that the tests of this crate share.
+//! Small systems shared by the tests.
 #![allow(dead_code, reason = "each test file uses its own part")]
 
 use actin_integrate::{Drag, POSITION_VERLET, advance};
@@ -8,7 +8,7 @@ use actin_mechanics::{
 };
 use actin_mechanics::{Xorshift, perturb, randomise_velocities};
 
-/// Springs between neighbours in the order of the points.
+/// Springs between consecutive points.
 pub(crate) fn springs(state: &State, stiffness: f64, rest_length: f64) -> Springs {
     let spring = |i| Spring {
         points: [i - 1, i],
@@ -18,7 +18,7 @@ pub(crate) fn springs(state: &State, stiffness: f64, rest_length: f64) -> Spring
     Springs::new(state, (1..state.points.len()).map(spring).collect()).unwrap()
 }
 
-/// Bonds between anchors fixed in frames: body `i` is point `i` with frame `i`.
+/// Bonds between anchors fixed in frames. Body `i` consists of point `i` and frame `i`.
 #[derive(Clone, Debug)]
 pub(crate) struct Bonds {
     /// First body and anchor, second body and anchor (body axes).
@@ -69,7 +69,6 @@ impl Interaction for Bonds {
     }
 }
 
-/// Torsion springs between frames, energy `k/2 |log(Qi^T Qj)|^2`.
 #[derive(Clone, Debug)]
 pub(crate) struct Torsion {
     pub(crate) pairs: Vec<(usize, usize)>,
@@ -91,7 +90,8 @@ impl Interaction for Torsion {
 
     fn add_loads(&self, state: &State, loads: &mut Loads) {
         for (pair, &(i, j)) in self.pairs.iter().enumerate() {
-            // The gradient is parallel to the angle, on which the inverse Jacobians do nothing.
+            // The gradient is parallel to the angle, so that the inverse Jacobians are the
+            // identity.
             let couple = self.stiffness * self.angle(state, pair);
             loads.torque.add(i, couple);
             loads.torque.add(j, -couple);
@@ -109,14 +109,14 @@ impl Interaction for Torsion {
     }
 }
 
-/// Bodies and places on them that bonds join.
+/// Bonded bodies with anchors.
 const BOND_ENDS: [(usize, [f64; 3], usize, [f64; 3]); 3] = [
     (0, [0.5, 0.3, -0.2], 1, [-0.4, 0.2, 0.3]),
     (1, [0.5, -0.3, 0.2], 2, [-0.5, 0.1, -0.3]),
     (0, [0.1, -0.6, 0.4], 2, [-0.2, -0.5, 0.1]),
 ];
 
-/// Three free tops with different axes of symmetry, bonded off their centres, coupled in torsion.
+/// Three free tops with different axes of symmetry, with eccentric bonds and torsion springs.
 pub(crate) fn three_tops() -> System {
     let mut state = State::default();
     for (i, moments) in [[2.0, 1.0, 1.0], [0.8, 1.5, 0.8], [1.0, 1.0, 1.7]]
@@ -144,7 +144,7 @@ pub(crate) fn three_tops() -> System {
     System::new(state, vec![Box::new(bonds), Box::new(torsion)])
 }
 
-/// [`three_tops`] turned, displaced, moving and spinning.
+/// [`three_tops`] with random displacements and velocities.
 pub(crate) fn spinning_tops() -> System {
     let mut system = three_tops();
     let mut noise = Xorshift::new(7);
@@ -153,8 +153,7 @@ pub(crate) fn spinning_tops() -> System {
     system
 }
 
-/// [`three_tops`] at rest in equilibrium, then set in small random vibrations: the bonds have an
-/// rms strain of 2.6 % (measured with seed 7).
+/// [`three_tops`] in equilibrium with small random vibrations: rms bond strain of 2.6 % for seed 7.
 pub(crate) fn vibrating_tops(seed: u64) -> System {
     let mut system = three_tops();
     let drag = Drag::new(0.5, 0.5).unwrap();
@@ -166,7 +165,7 @@ pub(crate) fn vibrating_tops(seed: u64) -> System {
     system
 }
 
-/// `n` points in a row along x, one apart, with springs between neighbours; the ends are held.
+/// `n` points at unit distances along x with springs between neighbours and fixed ends.
 pub(crate) fn chain(n: usize, stiffness: f64, mass: f64) -> System {
     let mut state = State::default();
     for i in 0..n {
@@ -178,7 +177,7 @@ pub(crate) fn chain(n: usize, stiffness: f64, mass: f64) -> System {
     System::new(state, vec![Box::new(springs)])
 }
 
-/// All coordinates and motions in one row.
+/// All coordinates and momenta.
 pub(crate) fn flatten(state: &State) -> Vec<f64> {
     let q = &state.frames.orientation;
     let vectors = [
@@ -195,7 +194,7 @@ pub(crate) fn flatten(state: &State) -> Vec<f64> {
         .collect()
 }
 
-/// Euclidean distance of two states in all coordinates and motions.
+/// Euclidean distance of two states in all coordinates and momenta.
 pub(crate) fn distance(a: &State, b: &State) -> f64 {
     let squares = flatten(a)
         .into_iter()
