@@ -1,5 +1,3 @@
-//! Friction of straight cylinders in a viscous fluid.
-
 use std::f64::consts::PI;
 use thiserror::Error;
 

@@ -1,5 +1,3 @@
-//! Linear flows.
-
 use actin_mechanics::{Matrix3, UnitQuaternion, Vector3};
 
 /// Linear flow `u(x) = velocity + gradient x` (lab frame).

@@ -1,5 +1,3 @@
-//! Friction of bodies in a fluid: forces, matrix blocks and noise.
-
 use actin_mechanics::{
     Coordinates, Loads, Matrix3, SecondOrder, State, Stiffness, Vector3, Vectors,
 };
@@ -112,7 +110,6 @@ impl Friction {
         }
     }
 
-    /// Adds random loads: `strength` times the square roots of the frictions times the deviates.
     pub(crate) fn add_noise(
         &self,
         state: &State,
@@ -143,7 +140,6 @@ impl Friction {
     }
 }
 
-/// Multiple of the friction as a matrix.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Scaled<'a> {
     friction: &'a Friction,
@@ -152,7 +148,6 @@ pub(crate) struct Scaled<'a> {
 }
 
 impl<'a> Scaled<'a> {
-    /// Uses the axes of another state.
     pub(crate) fn in_axes_of(self, state: &'a State) -> Self {
         Self {
             axes: Some(state),

@@ -1,5 +1,3 @@
-//! Motion with inertia in a fluid.
-
 use crate::friction::{Scaled, Velocities};
 use crate::{BrownianError, Friction};
 use actin_equilibrium::{ImplicitSolver, Layout};
@@ -76,7 +74,6 @@ impl Langevin {
         })
     }
 
-    /// Applies friction and noise for a time `h`.
     fn rub(&mut self, system: &mut System, step: u64, h: f64) {
         let state = system.state();
         self.velocities.points.clone_from(&state.points.velocity);
@@ -133,7 +130,6 @@ impl Stepper for Langevin {
     }
 }
 
-/// Inertia over the time step plus half of the friction.
 struct Resistance<'a> {
     friction: Scaled<'a>,
     h: f64,

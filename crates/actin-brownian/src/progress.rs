@@ -1,5 +1,3 @@
-//! Convergence of the iterations of a step.
-
 use crate::StepLimits;
 use actin_equilibrium::StepSize;
 
@@ -15,7 +13,6 @@ const DAMPING: f64 = 4.0;
 /// Largest added friction in units of the friction over the time step.
 const MOST_DAMPING: f64 = 64.0;
 
-/// State of the iterations of a step.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Progress {
     first: StepSize,

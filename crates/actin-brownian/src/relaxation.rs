@@ -1,5 +1,3 @@
-//! Relaxation rates of small displacements.
-
 use crate::Friction;
 use actin_equilibrium::{ImplicitSolver, Layout, SolveError};
 use actin_mechanics::{Loads, System, Xorshift};
@@ -63,7 +61,6 @@ impl Relaxation {
     }
 }
 
-/// Lowest rates by inverse subspace iteration.
 fn lowest(stiffness: &mut ImplicitSolver, fluid: &ImplicitSolver, count: usize) -> Vec<f64> {
     let n = stiffness.unknowns();
     let size = (count + BEYOND).min(n);
@@ -107,7 +104,6 @@ fn has_converged(before: &[f64], now: &[f64]) -> bool {
     before.len() == now.len() && before.iter().zip(now).all(is_settled)
 }
 
-/// Orthonormalises vectors in the metric of the friction, twice to reduce rounding errors.
 fn orthonormalise(vectors: &mut [Vec<f64>], fluid: &ImplicitSolver) {
     for k in 0..vectors.len() {
         let (before, rest) = vectors.split_at_mut(k);
@@ -124,7 +120,6 @@ fn orthonormalise(vectors: &mut [Vec<f64>], fluid: &ImplicitSolver) {
     }
 }
 
-/// Highest rate by power iteration.
 fn highest(stiffness: &ImplicitSolver, fluid: &mut ImplicitSolver) -> f64 {
     let mut noise = Xorshift::new(SEED);
     let mut v: Vec<f64> = (0..stiffness.unknowns()).map(|_| noise.sample()).collect();

@@ -288,7 +288,6 @@ impl Brownian {
         system.book_work(0.5 * h);
     }
 
-    /// Adds work and heat of a completed step to the energy balance.
     fn book(&self, system: &mut System, h: f64) {
         system.book_work(0.5 * h);
         if self.books_heat(system) {
@@ -331,7 +330,6 @@ impl Brownian {
         Err(self.failure(system, &extent))
     }
 
-    /// Solves a step with random stress and the friction at half the step.
     fn solve_stressed(&mut self, system: &mut System, h: f64) -> Result<(), StepFailure> {
         let strength = (2.0 * self.thermal_energy / h).sqrt();
         let noise = (&self.noise.points, &self.noise.frames);
@@ -492,7 +490,6 @@ impl Brownian {
         }
     }
 
-    /// Body with the largest displacement in a failed step.
     fn worst(&self, state: &State) -> Body {
         let moved = |i: usize| {
             let d = state.points.position.get(i) - self.start.points.position.get(i);

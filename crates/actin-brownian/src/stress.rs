@@ -1,5 +1,3 @@
-//! Random stresses of the interactions, and the matrix blocks of a step.
-
 use crate::friction::Scaled;
 use actin_integrate::Noise;
 use actin_mechanics::{Interaction, Loads, RandomStress, SecondOrder, State, Stiffness};
@@ -11,7 +9,6 @@ const PURPOSE: [u8; 8] = *b"stresses";
 /// Numbers per index of the noise.
 const VECTOR: usize = 3;
 
-/// Random stresses of one system.
 #[derive(Debug)]
 pub(crate) struct Stresses {
     noise: Noise,
@@ -54,7 +51,6 @@ impl Stresses {
         }
     }
 
-    /// Draws the stresses of a step for the stiffness at `state`.
     pub(crate) fn draw(
         &mut self,
         interactions: &Interactions,
@@ -72,8 +68,6 @@ impl Stresses {
         }
     }
 
-    /// Enables free spin of each interaction whose axial frames are all bare; returns the spinning
-    /// frames.
     pub(crate) fn let_spin(
         &mut self,
         interactions: &Interactions,
@@ -101,7 +95,6 @@ impl Stresses {
         }
     }
 
-    /// Selects balancing or acting stresses for all interactions.
     pub(crate) fn balance_all(&mut self, is_balanced: bool) {
         self.is_balanced.fill(is_balanced);
     }
@@ -117,7 +110,6 @@ impl Stresses {
             || self.balance_if(|_| true)
     }
 
-    /// Returns `true` if the choice changes anything.
     fn balance_if(&mut self, choice: impl Fn(usize) -> bool) -> bool {
         let mut has_changed = false;
         for ((k, _), is_balanced) in self.parts.iter().zip(&mut self.is_balanced) {
@@ -137,7 +129,6 @@ impl Stresses {
         }
     }
 
-    /// Adds the loads of the stresses.
     pub(crate) fn add_loads(&self, interactions: &Interactions, state: &State, loads: &mut Loads) {
         for (k, range) in &self.parts {
             let stresses = &self.turned[range.clone()];
@@ -151,7 +142,6 @@ fn of(interactions: &Interactions, k: usize) -> &dyn RandomStress {
     stress.expect("interactions do not lose their random stress")
 }
 
-/// Friction over a time step, and second derivatives of stresses.
 pub(crate) struct Added<'a> {
     pub(crate) friction: Scaled<'a>,
     pub(crate) interactions: &'a Interactions,

@@ -1,5 +1,3 @@
-//! Bond between a monomer and the end of a rod.
-
 use actin_cosserat::{BendingElement, JoinedElement, RodMaterial, ShearElement};
 use actin_mechanics::{Loads, State, Stiffness, UnitQuaternion, Vector3};
 
@@ -27,7 +25,6 @@ pub(crate) struct Bond {
     pub(crate) lacking: Vector3,
 }
 
-/// Bending element with its material and the two orientations.
 type Bend<'a> = (
     BendingElement,
     &'a RodMaterial,
@@ -40,7 +37,6 @@ impl Bond {
         self.frames[1]
     }
 
-    /// Bending element between the junction frame and the end segment.
     pub(crate) fn joined(&self) -> JoinedElement {
         let k = usize::from(self.monomer == 0);
         JoinedElement {
@@ -50,13 +46,11 @@ impl Bond {
         }
     }
 
-    /// Bending element at the monomer.
     pub(crate) fn towards_monomer(&self) -> (BendingElement, &RodMaterial) {
         let k = usize::from(self.monomer != 0);
         (self.bending[k], &self.materials[k])
     }
 
-    /// Bending element at the rod.
     pub(crate) fn towards_rod(&self) -> (BendingElement, &RodMaterial) {
         let k = usize::from(self.monomer == 0);
         (self.bending[k], &self.materials[k])
@@ -77,7 +71,6 @@ impl Bond {
         self.shear.strain(q, self.vector(state))
     }
 
-    /// Rotations from the junction frame at rest to each body frame.
     #[inline]
     pub(crate) fn offsets(&self) -> [UnitQuaternion; 3] {
         let mut offsets = [UnitQuaternion::identity(); 3];
@@ -85,7 +78,6 @@ impl Bond {
         offsets
     }
 
-    /// Orientations of the three frames, without the rest offset of the monomer.
     #[inline]
     fn orientations(&self, state: &State) -> [UnitQuaternion; 3] {
         let mut q = self.frames.map(|frame| state.frames.orientation.get(frame));
@@ -93,13 +85,11 @@ impl Bond {
         q
     }
 
-    /// Bending elements with the orientations that they join.
     #[inline]
     fn bends(&self, q: &[UnitQuaternion; 3]) -> [Bend<'_>; 2] {
         [0, 1].map(|k| (self.bending[k], &self.materials[k], q[k], q[k + 1]))
     }
 
-    /// Vector between the points (lab frame).
     #[inline]
     fn vector(&self, state: &State) -> Vector3 {
         let x = &state.points.position;

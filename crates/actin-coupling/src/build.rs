@@ -1,5 +1,3 @@
-//! Junction frames.
-
 use crate::JunctionError;
 use actin_cosserat::CrossSection;
 use actin_mechanics::{Frame, Inertia, State, UnitQuaternion};

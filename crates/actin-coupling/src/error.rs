@@ -1,5 +1,3 @@
-//! Errors of junctions and linkers.
-
 use actin_cosserat::{RodError, RodParameterError};
 use std::fmt;
 use thiserror::Error;

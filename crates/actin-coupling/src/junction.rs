@@ -1,5 +1,3 @@
-//! Junctions between monomers and rods.
-
 use crate::JunctionError;
 use crate::bond::Bond;
 use crate::build::{check_count, check_distance};

@@ -1,5 +1,3 @@
-//! Linkers: springs at sites of filaments.
-
 use crate::site::{Site, ensure};
 use crate::{LinkerError, LinkerKey};
 use actin_mechanics::{
@@ -162,13 +160,11 @@ impl Linker {
         self.spring.force(self.reach(state))
     }
 
-    /// Vector from the site to the other end (lab frame).
     #[inline]
     fn reach(&self, state: &State) -> Vector3 {
         self.end_position(state) - self.site.position(state)
     }
 
-    /// Coordinates of both ends with the derivatives of the linker vector.
     fn slopes(&self, state: &State) -> Vec<(Coordinates, Matrix3)> {
         let mut slopes: Vec<_> = self.site.slopes(state).map(|(c, j)| (c, -j)).collect();
         if let LinkerEnd::Site(other) = &self.end {
@@ -253,7 +249,6 @@ impl SecondOrder for Linker {
     }
 }
 
-/// The stress is a force in the lab frame, conjugate to the linker vector.
 impl RandomStress for Linker {
     fn components(&self) -> usize {
         3
@@ -289,7 +284,6 @@ impl RandomStress for Linker {
     }
 }
 
-/// Absolute value of the negative part of a symmetric matrix.
 fn negative_part(m: Matrix3) -> Matrix3 {
     let eigen = m.symmetric_eigen();
     let sizes = eigen.eigenvalues.map(|value| (-value).max(0.0));
@@ -297,7 +291,6 @@ fn negative_part(m: Matrix3) -> Matrix3 {
     vectors * Matrix3::from_diagonal(&sizes) * vectors.transpose()
 }
 
-/// Symmetric part; removes rounding errors.
 fn symmetric(m: Matrix3) -> Matrix3 {
     0.5 * (m + m.transpose())
 }

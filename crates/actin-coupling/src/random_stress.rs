@@ -32,7 +32,6 @@ const OF_BOND: usize = 3;
 /// Components of a vector.
 const VECTOR: usize = 3;
 
-/// Random vector of covariance `c` from standard normal deviates.
 fn drawn(c: Matrix3, deviates: [f64; VECTOR]) -> Vector3 {
     let mut values = deviates;
     correlate(c, &mut values);
@@ -40,7 +39,6 @@ fn drawn(c: Matrix3, deviates: [f64; VECTOR]) -> Vector3 {
 }
 
 impl Bond {
-    /// Internal force and torques of a bond.
     fn internal(
         &self,
         [force, end, centre]: [Vector3; OF_BOND],
@@ -106,7 +104,6 @@ impl Junction {
         self.bonds.iter().map(of).sum::<Vector3>() / self.bonds.len() as f64
     }
 
-    /// Elastic stress of a bond.
     fn own(&self, bond: &Bond, state: &State) -> [Vector3; OF_BOND] {
         let (_, of_end) = bond.towards_monomer();
         let (_, of_rod) = bond.towards_rod();
@@ -119,7 +116,6 @@ impl Junction {
     }
 }
 
-/// Iterates over the vectors of each bond.
 fn written(stresses: &[f64]) -> impl Iterator<Item = [Vector3; OF_BOND]> + '_ {
     let (vectors, _) = stresses.as_chunks::<VECTOR>();
     let (vectors, _) = vectors.as_chunks::<OF_BOND>();

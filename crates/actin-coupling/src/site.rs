@@ -1,5 +1,3 @@
-//! Sites: material points of filaments.
-
 use crate::{LinkerError, LinkerKey};
 use actin_cosserat::RodLayout;
 use actin_mechanics::{Coordinates, Loads, Matrix3, State, Vector3};
@@ -142,7 +140,6 @@ impl Site {
         loads.torque.add(self.frame, self.arm.cross(&body));
     }
 
-    /// Derivatives of the position with respect to each coordinate.
     pub(crate) fn slopes(&self, state: &State) -> impl Iterator<Item = (Coordinates, Matrix3)> {
         let q = state.frames.orientation.get(self.frame);
         let turn = -(q.to_rotation_matrix().matrix() * self.arm.cross_matrix());

@@ -1,5 +1,3 @@
-//! Dead and follower forces at sites.
-
 use crate::Site;
 use actin_mechanics::{
     ControlId, Coordinates, Interaction, LoadError, Loads, SecondOrder, State, Stiffness,
@@ -118,7 +116,6 @@ impl Interaction for SiteForce {
         self.sites.len()
     }
 
-    /// Zero for followers.
     fn write_energies(&self, state: &State, energies: &mut [f64]) {
         energies.fill(0.0);
         if !self.is_conservative() {
@@ -136,7 +133,6 @@ impl Interaction for SiteForce {
 }
 
 impl SecondOrder for SiteForce {
-    /// Only sites with an arm contribute.
     fn add_stiffness(&self, state: &State, stiffness: &mut Stiffness) {
         for (site, weight, _, rest) in &self.sites {
             if site.arm() == Vector3::zeros() {
@@ -158,7 +154,6 @@ mod tests {
     };
     use actin_mechanics::{Xorshift, perturb};
 
-    /// Two sites on a deformed rod, one of them off the axis.
     fn loaded(kind: ForceKind) -> (State, SiteForce) {
         let mut state = State::default();
         let rod = StraightRod::uniform(3, 10.0).push(&mut state).unwrap();

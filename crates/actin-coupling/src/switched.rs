@@ -1,5 +1,3 @@
-//! Linkers that bind and unbind.
-
 use crate::Linker;
 use actin_mechanics::{ControlId, Interaction, Loads, RandomStress, SecondOrder, State, Stiffness};
 
@@ -101,7 +99,6 @@ impl Interaction for SwitchedLinker {
     }
 }
 
-/// Random stress of the current linker, if bound.
 impl RandomStress for SwitchedLinker {
     fn components(&self) -> usize {
         self.places[0].components()

@@ -1,5 +1,3 @@
-//! Geodesic acceleration of a step.
-
 use crate::problem::Linearisation;
 use crate::step::{Damped, Step};
 use faer::Mat;
@@ -22,7 +20,6 @@ impl Probe<'_> {
         step.iter().map(|s| PART * s).collect()
     }
 
-    /// Negative second derivative of the weighted model along the step.
     fn second(&self, step: &[f64]) -> Vec<f64> {
         let rows = self.before.iter().zip(self.after).enumerate();
         rows.map(|(i, (before, after))| {

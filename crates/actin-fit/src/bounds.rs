@@ -1,5 +1,3 @@
-//! Bounds of parameters.
-
 use crate::error::{FitError, same_length};
 
 /// Lower and upper bound of each parameter.
@@ -66,7 +64,6 @@ impl Bounds {
         self.upper[parameter]
     }
 
-    /// Distance of the two bounds of a parameter, possibly infinite.
     pub(crate) fn width(&self, parameter: usize) -> f64 {
         self.upper[parameter] - self.lower[parameter]
     }

@@ -1,5 +1,3 @@
-//! Independent variables and observations.
-
 use crate::error::{FitError, all_finite, same_length};
 use crate::observations::Observations;
 

@@ -1,5 +1,3 @@
-//! Levenberg-Marquardt search from one start.
-
 use crate::acceleration::{Probe, accelerated};
 use crate::options::Options;
 use crate::problem::{Linearisation, Problem};
@@ -19,7 +17,6 @@ const SHORTENED: f64 = 0.9;
 const SHORTER: [f64; 2] = [0.5, 0.1];
 const HALVINGS: usize = 8;
 
-/// State of a search.
 struct Descent<'a> {
     problem: &'a Problem<'a>,
     options: &'a Options,
@@ -96,7 +93,6 @@ impl<'a> Descent<'a> {
         }
     }
 
-    /// Makes one linearisation and one step; returns the termination if the search has ended.
     fn iterate(&mut self) -> Option<Termination> {
         if !self.chi_squared.is_finite() {
             let point = largest(&self.residuals);
@@ -132,7 +128,6 @@ impl<'a> Descent<'a> {
         }
     }
 
-    /// Updates the scales. Columns that have always been zero get an arbitrary nonzero scale.
     fn measure(&mut self, linear: &Linearisation) {
         let units = self.problem.units(&self.p);
         for (j, scale) in self.scales.iter_mut().enumerate() {
@@ -202,7 +197,6 @@ impl<'a> Descent<'a> {
         Trial::Ended(Termination::Stalled)
     }
 
-    /// Step with half its acceleration, or `None` if the curvature requires a shorter step.
     fn accelerated(
         &mut self,
         damped: &Damped<'_>,
@@ -252,7 +246,6 @@ impl<'a> Descent<'a> {
         self.chi_squared = chi_squared;
     }
 
-    /// Point after a step, exactly on a bound where the step reaches it.
     fn moved(&self, room: &Room, step: &[f64]) -> Vec<f64> {
         let bounds = self.problem.bounds;
         let to = |(j, (p, s)): (usize, (&f64, &f64))| {
@@ -278,14 +271,12 @@ fn relaxed(damped: &Damped<'_>, damping: f64, length: f64, kept: f64) -> f64 {
     (damping * factor).max(SMALLEST_DAMPING)
 }
 
-/// Free parameter with the steepest descent of chi squared.
 fn steepest(linear: &Linearisation, free: &[bool]) -> Option<usize> {
     let of = |j: &usize| linear.descent[*j].abs();
     let candidates = (0..free.len()).filter(|&j| free[j]);
     candidates.max_by(|a, b| of(a).total_cmp(&of(b)))
 }
 
-/// First point with a residual that is not finite, or the point with the largest residual.
 fn largest(residuals: &[f64]) -> usize {
     let order = |a: &usize, b: &usize| residuals[*a].abs().total_cmp(&residuals[*b].abs());
     let first = residuals.iter().position(|r| !r.is_finite());
@@ -299,7 +290,6 @@ pub(crate) fn not_finite(derivatives: &Mat<f64>) -> usize {
     (0..derivatives.nrows()).find(is_bad).unwrap_or(0)
 }
 
-/// Marks parameters that are not fixed and not pushed against a bound.
 pub(crate) fn free(problem: &Problem<'_>, p: &[f64], linear: &Linearisation) -> Vec<bool> {
     let bounds = problem.bounds;
     (0..p.len())

@@ -1,5 +1,3 @@
-//! Errors of data, options and fits.
-
 use crate::search_report::StartReport;
 use thiserror::Error;
 
@@ -146,7 +144,6 @@ pub enum FitError {
     },
 }
 
-/// Message about the search with the least chi squared.
 fn closest(starts: &[StartReport], cosine: f64) -> String {
     let size = |start: &StartReport| match start.chi_squared {
         chi_squared if chi_squared.is_nan() => f64::INFINITY,
@@ -241,7 +238,6 @@ pub(crate) fn squares_hold(
     }
 }
 
-/// Checks that scaling did not cause overflow or underflow.
 pub(crate) fn not_lost(
     what: &'static str,
     parameter: usize,

@@ -1,5 +1,3 @@
-//! QR and singular value decomposition of a matrix with scaled columns.
-
 use crate::error::FitError;
 use faer::linalg::solvers::{Qr, SolveLstsq, Svd};
 use faer::{Mat, MatRef};
@@ -54,7 +52,6 @@ impl Factor {
         self.rank
     }
 
-    /// Largest over smallest singular value of the scaled matrix.
     pub(crate) fn condition(&self) -> f64 {
         match (self.singular.first(), self.singular.last()) {
             (Some(largest), Some(smallest)) => largest / smallest,
@@ -71,7 +68,6 @@ impl Factor {
             .collect()
     }
 
-    /// Marks columns without a component in the null space.
     pub(crate) fn determined(&self) -> Vec<bool> {
         let n = self.lengths.len();
         (0..n)
@@ -100,7 +96,6 @@ impl Factor {
     }
 }
 
-/// Column norms; `None` for columns that count as zero.
 fn column_lengths(matrix: MatRef<'_, f64>, units: &[f64], tolerance: f64) -> Vec<Option<f64>> {
     let lengths: Vec<f64> = (0..matrix.ncols())
         .map(|j| matrix.col(j).norm_l2())
@@ -116,7 +111,6 @@ fn column_lengths(matrix: MatRef<'_, f64>, units: &[f64], tolerance: f64) -> Vec
         .collect()
 }
 
-/// Singular values in descending order, and right singular vectors.
 fn singular(triangle: MatRef<'_, f64>) -> Result<(Vec<f64>, Mat<f64>), FitError> {
     let (rows, columns) = triangle.shape();
     if columns == 0 {
@@ -131,7 +125,6 @@ fn singular(triangle: MatRef<'_, f64>) -> Result<(Vec<f64>, Mat<f64>), FitError>
 mod tests {
     use super::*;
 
-    /// Scaling would turn a column of rounding errors into a valid one.
     #[test]
     fn a_column_of_rounding_counts_as_zero() {
         let matrix = Mat::from_fn(

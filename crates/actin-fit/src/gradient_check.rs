@@ -1,5 +1,3 @@
-//! Comparison of model derivatives with finite differences.
-
 use crate::data::Data;
 use crate::error::{FitError, same_length};
 use crate::model::Model;
@@ -86,7 +84,6 @@ pub fn check_gradient(
     Ok(worst)
 }
 
-/// Gradients at all points, concatenated.
 fn analytic(model: &dyn Model, data: &Data, p: &[f64]) -> Result<Vec<f64>, FitError> {
     let mut all = vec![0.0; data.len() * p.len()];
     for (point, gradient) in all.chunks_exact_mut(p.len().max(1)).enumerate() {

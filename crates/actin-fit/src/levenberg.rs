@@ -1,5 +1,3 @@
-//! Nonlinear least squares from several starts.
-
 use crate::bounds::Bounds;
 use crate::data::Data;
 use crate::descent::{descend, free, not_finite};
@@ -124,7 +122,6 @@ impl LevenbergMarquardt {
     }
 }
 
-/// First search whose chi squared equals the least one within rounding.
 fn best(starts: &[StartReport], rounding: f64) -> Option<usize> {
     let converged = || starts.iter().filter(|s| s.ending.is_converged());
     let least = converged().map(|s| s.chi_squared).min_by(f64::total_cmp)?;

@@ -1,5 +1,3 @@
-//! Linear least squares.
-
 use crate::error::{FitError, RANGE, all_finite, all_within, enough_points, same_length};
 use crate::factor::Factor;
 use crate::observations::Observations;

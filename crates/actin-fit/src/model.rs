@@ -1,5 +1,3 @@
-//! Model functions and their derivatives.
-
 use std::fmt;
 
 /// Function `f(x; p)` with derivatives with respect to the parameters.

@@ -1,5 +1,3 @@
-//! Observations and their noise.
-
 use crate::error::{
     FitError, RANGE, all_finite, all_positive, all_within, same_length, squares_hold,
 };
@@ -114,7 +112,6 @@ impl Observations {
         self.noise
     }
 
-    /// Required number of points, including one for an estimate of the noise.
     pub(crate) fn needed(&self, parameters: usize) -> usize {
         parameters + usize::from(self.noise != Noise::Known)
     }

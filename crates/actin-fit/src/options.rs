@@ -1,5 +1,3 @@
-//! Options of the nonlinear search.
-
 use crate::error::{FitError, all_positive};
 
 /// Options of [`LevenbergMarquardt`](crate::LevenbergMarquardt).

@@ -1,5 +1,3 @@
-//! Polynomials as linear models.
-
 use crate::data::Data;
 use crate::error::{FitError, not_lost, same_length};
 use crate::linear::{LinearFit, fit_linear};

@@ -1,5 +1,3 @@
-//! Goodness of fit and covariance of parameters.
-
 use crate::error::{FitError, not_lost};
 use crate::factor::Factor;
 use crate::observations::{Noise, Observations};

@@ -1,5 +1,3 @@
-//! Weighted residuals and linearisation of a fit.
-
 use crate::bounds::Bounds;
 use crate::data::Data;
 use crate::model::Model;
@@ -25,7 +23,6 @@ impl Problem<'_> {
         sum
     }
 
-    /// Weighted Jacobian, one row per point.
     pub(crate) fn derivatives(&self, p: &[f64]) -> Mat<f64> {
         let deviations = self.data.observations().deviations();
         let mut matrix = Mat::zeros(self.data.len(), p.len());
@@ -39,17 +36,14 @@ impl Problem<'_> {
         matrix
     }
 
-    /// Rounding error of chi squared.
     pub(crate) fn rounding(&self, chi_squared: f64) -> f64 {
         2.0 * ROUNDINGS * f64::EPSILON * self.size() * chi_squared.sqrt() + self.least()
     }
 
-    /// Chi squared of an exact fit, due to rounding.
     pub(crate) fn least(&self) -> f64 {
         (ROUNDINGS * f64::EPSILON * self.size()).powi(2)
     }
 
-    /// Norm of the weighted observations.
     fn size(&self) -> f64 {
         let observations = self.data.observations();
         let measured = observations.values().iter().zip(observations.deviations());
@@ -92,7 +86,6 @@ pub(crate) struct Linearisation {
 }
 
 impl Linearisation {
-    /// Factors Jacobian and residuals; `None` if a number is not finite.
     pub(crate) fn new(matrix: MatRef<'_, f64>, residuals: &[f64]) -> Option<Self> {
         let (points, n) = matrix.shape();
         let lengths: Vec<f64> = (0..n).map(|j| matrix.col(j).norm_l2()).collect();
@@ -136,13 +129,11 @@ impl Linearisation {
         (0..self.rotated.len()).map(row).collect()
     }
 
-    /// Predicted decrease of chi squared for a step.
     pub(crate) fn promised(&self, step: &[f64]) -> f64 {
         let square = |v: &[f64]| v.iter().map(|x| x * x).sum::<f64>();
         square(&self.rotated) - square(&self.remainder(step))
     }
 
-    /// Cosine between the residuals and the column of a parameter.
     pub(crate) fn cosine(&self, parameter: usize, chi_squared: f64) -> f64 {
         if chi_squared > 0.0 {
             self.descent[parameter] / chi_squared.sqrt()

@@ -1,5 +1,3 @@
-//! Results of a nonlinear fit.
-
 use crate::precision::{Goodness, Precision};
 use crate::search_report::StartReport;
 

@@ -1,5 +1,3 @@
-//! Termination and convergence of a search.
-
 use std::fmt;
 
 /// Reason why a search ended.
@@ -85,7 +83,6 @@ pub struct StartReport {
 }
 
 impl StartReport {
-    /// Reason why the search ended, as a predicate without a subject.
     pub(crate) fn reason(&self, allowed: f64) -> String {
         let Progress {
             cosine,

@@ -1,5 +1,3 @@
-//! Starting points of nonlinear searches.
-
 use crate::bounds::Bounds;
 use crate::error::FitError;
 use rand::{Rng, SeedableRng};
@@ -109,7 +107,6 @@ fn latin_hypercube(count: usize, seed: u64, bounds: &Bounds) -> Result<Vec<Vec<f
     Ok(points)
 }
 
-/// Seed in little-endian order, padded with zeros; independent of the seeding of the generator.
 fn key(seed: u64) -> [u8; 32] {
     let mut key = [0; 32];
     key[..8].copy_from_slice(&seed.to_le_bytes());
@@ -137,7 +134,6 @@ fn shuffled(count: usize, generator: &mut ChaCha8Rng) -> Vec<usize> {
 mod tests {
     use super::*;
 
-    /// Any change of generator, key or conversion would change all seeded fits.
     #[test]
     fn starts_are_those_of_the_first_release() {
         let bounds = Bounds::new(&[(-1.0, 1.0), (0.0, 10.0)]).unwrap();

@@ -1,5 +1,3 @@
-//! Damped steps within bounds.
-
 use crate::problem::Linearisation;
 use faer::Mat;
 use faer::linalg::solvers::{Qr, SolveLstsq};
@@ -13,7 +11,6 @@ const LENGTH_TOLERANCE: f64 = 0.05;
 /// Maximum number of bisections; ten reach the tolerance.
 const BISECTIONS: usize = 60;
 
-/// Distances to the bounds, and the free parameters.
 #[derive(Clone, Debug)]
 pub(crate) struct Room {
     pub(crate) down: Vec<f64>,
@@ -21,7 +18,6 @@ pub(crate) struct Room {
     pub(crate) free: Vec<bool>,
 }
 
-/// Step, and the parameters that it does not move to a bound.
 #[derive(Clone, Debug)]
 pub(crate) struct Step {
     pub(crate) values: Vec<f64>,
@@ -168,7 +164,6 @@ mod tests {
         }
     }
 
-    /// With and without an active bound.
     #[test]
     fn dampings_give_lengths() {
         let linear = linear();

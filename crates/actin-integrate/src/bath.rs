@@ -1,5 +1,3 @@
-//! Heat baths.
-
 use crate::Drag;
 use thiserror::Error;
 

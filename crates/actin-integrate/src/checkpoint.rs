@@ -1,5 +1,3 @@
-//! Checkpoints of runs.
-
 use actin_mechanics::{Motion, Split, State, System};
 
 /// Sound, synchronised state between two batches of steps.
@@ -73,7 +71,6 @@ impl Snapshot {
         }
     }
 
-    /// Restores the state of a system with equal bodies and terms.
     pub(crate) fn restore(&self, system: &mut System) {
         system.restore(&self.motion, self.loads_are_current, self.force_evaluations);
     }

@@ -1,5 +1,3 @@
-//! Composition methods. The tables are in `schemes`.
-
 use std::fmt;
 use thiserror::Error;
 

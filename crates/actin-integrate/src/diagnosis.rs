@@ -1,5 +1,3 @@
-//! Checks of states, and the causes of failures.
-
 use crate::{Body, FailureKind};
 use actin_mechanics::{
     Interaction, Loads, Split, State, StateStats, System, Thermostat, Vector3, Vectors,
@@ -16,7 +14,6 @@ const LARGEST_GROWTH: f64 = 1e8;
 /// is ignored.
 const STILL: f64 = 1e-4;
 
-/// Checks the states of a run.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Watch {
     pub(crate) h: f64,
@@ -50,7 +47,6 @@ impl Watch {
         self.look_closer(state)
     }
 
-    /// Comparisons are written to detect infinity and NaN.
     fn is_sound(&self, kinetic: f64) -> bool {
         let before = self.largest_kinetic.max(STILL);
         let grown = self.largest_kinetic > 0.0 && kinetic > LARGEST_GROWTH * before;
@@ -104,7 +100,6 @@ pub(crate) fn blame(
     (body, strongest_term(interactions, sighted, body))
 }
 
-/// Term with the largest load on a body; `none` if no term acts on it.
 pub(crate) fn strongest_term(
     interactions: &[Box<dyn Interaction>],
     state: &State,
@@ -172,7 +167,6 @@ impl Thermostat for Probe<'_> {
     }
 }
 
-/// First load that is not finite: body and term.
 fn broken_load(system: &System) -> Option<(Body, &'static str)> {
     let (state, interactions) = (system.state(), system.interactions());
     let (k, loads) = first_broken(interactions, state)?;
@@ -213,7 +207,6 @@ pub(crate) fn first_broken(
     Some((sound, loads))
 }
 
-/// First term whose energy is not finite, and the body with its largest load.
 pub(crate) fn broken_energy(
     interactions: &[Box<dyn Interaction>],
     state: &State,

@@ -1,5 +1,3 @@
-//! Exact drag, proportional to mass.
-
 use thiserror::Error;
 
 /// Exponential decay of velocities and angular momenta of free bodies:

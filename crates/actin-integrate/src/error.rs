@@ -1,5 +1,3 @@
-//! Common error type of this crate.
-
 use crate::{
     BathError, CompositionError, DragError, FrequencyError, RunFailure, RunSettingError, StepError,
     StopRuleError, UnknownScheme,

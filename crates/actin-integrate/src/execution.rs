@@ -1,5 +1,3 @@
-//! Execution of runs: steps, checks, observations and failure analysis.
-
 use crate::diagnosis::{Probe, Watch, blame, broken_energy, strongest_term};
 use crate::{
     Body, Checkpoint, FailureKind, Moment, Observer, Pause, Reason, Run, RunFailure, RunOutcome,
@@ -88,7 +86,6 @@ impl<'a, 'o> Execution<'a, 'o> {
         self.go_on(ended)
     }
 
-    /// Continues from a checkpoint, possibly of the end.
     pub(crate) fn run_on(mut self) -> Result<RunOutcome, RunFailure> {
         // The start of a continuation has not been observed.
         let is_observed = self.step == self.last_good.step
@@ -153,7 +150,6 @@ impl<'a, 'o> Execution<'a, 'o> {
         Ok(())
     }
 
-    /// Checks the state, including its total energy if `is_shown`.
     fn check(&mut self, is_shown: bool) -> Result<(), RunFailure> {
         let kinetic = match self.inspect(is_shown) {
             Ok(_) if self.passed().is_some() => return Err(self.fail(FailureKind::PassesThrough)),
@@ -175,7 +171,6 @@ impl<'a, 'o> Execution<'a, 'o> {
         Ok(kinetic)
     }
 
-    /// Body that has passed through another since the last check, with the repulsive term.
     fn passed(&self) -> Option<(Body, &'static str)> {
         let (before, here) = (&self.sound.1, self.system.state());
         let mut all = self.system.interactions().iter();
@@ -206,7 +201,6 @@ impl<'a, 'o> Execution<'a, 'o> {
         self.sound.1.copy_motion_from(self.system.state());
     }
 
-    /// Calls all observers and returns the reason if the run ends.
     fn observe(&mut self) -> Option<Reason> {
         let time = self.run.time(self.step);
         let mut moment = Moment::new(self.step, time, self.system);
@@ -234,7 +228,6 @@ impl<'a, 'o> Execution<'a, 'o> {
             .is_some_and(|rule| rule.is_met(moment.residual(), moment.kinetic_energy()))
     }
 
-    /// Lets observers change the state; returns `true` if one of them continues the run.
     fn intervene(&mut self, time: f64, at_rest: bool) -> bool {
         let mut goes_on = false;
         for observer in self.observers.iter_mut() {
@@ -285,14 +278,12 @@ impl<'a, 'o> Execution<'a, 'o> {
         }
     }
 
-    /// Analyses a failed step and restores the last sound state.
     fn fail_step(&mut self, failure: StepFailure) -> RunFailure {
         self.step += 1;
         let term = strongest_term(self.system.interactions(), &self.sound.1, failure.body);
         self.put_back(failure.problem, failure.body, term)
     }
 
-    /// Analyses an unsound state and restores the last sound state.
     fn fail(&mut self, problem: FailureKind) -> RunFailure {
         let problem = match problem {
             FailureKind::TooMuchEnergy(_) => self.retrace(problem),
@@ -324,7 +315,6 @@ impl<'a, 'o> Execution<'a, 'o> {
         }
     }
 
-    /// Body and term that cause the failure in the present state, one step after `before`.
     fn culprit(&mut self, problem: FailureKind, before: &State) -> (Body, &'static str) {
         if problem == FailureKind::PassesThrough
             && let Some(passed) = self.passed()
@@ -384,7 +374,6 @@ impl<'a, 'o> Execution<'a, 'o> {
         (found, before)
     }
 
-    /// Repeats one step from `before` to find the first load that is not finite.
     fn probe(&mut self, before: &State) -> Option<(Body, &'static str)> {
         self.system.state_mut().clone_from(before);
         let mut probe = Probe {

@@ -1,5 +1,3 @@
-//! Failures of runs.
-
 use std::fmt;
 use thiserror::Error;
 
@@ -53,7 +51,6 @@ fn too_much(energy: f64) -> String {
     }
 }
 
-/// Texts before and after the name of the term, and the remedy.
 fn words(problem: FailureKind) -> [&'static str; 3] {
     match problem {
         FailureKind::PassesThrough => ["against ", "", "a larger stiffness of that term may help"],

@@ -1,5 +1,3 @@
-//! Largest frequency of a system, without a matrix.
-
 use crate::diagnosis::first_broken;
 use crate::lanczos::{Operator, largest_eigenvalue};
 use actin_mechanics::{Interaction, Loads, State, System, Vector3, rotation};
@@ -77,7 +75,6 @@ pub struct FrequencyError {
     pub term: &'static str,
 }
 
-/// Buffers of trial motions.
 struct Trial<'a> {
     interactions: &'a [Box<dyn Interaction>],
     rest: &'a State,

@@ -1,18 +1,14 @@
-//! Largest eigenvalue of an operator by Krylov subspaces.
-
 use nalgebra::DMatrix;
 use std::collections::VecDeque;
 
 /// Relative size of a remainder that is due to rounding errors of differenced loads.
 const NOISE: f64 = 1e-6;
 
-/// Kind of the operator.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Operator {
     /// Symmetric operator (Lanczos): each new vector is orthogonalised against the last two.
     /// Rounding creates copies of converged eigenvalues, without changing them.
     Symmetric,
-    /// General operator (Arnoldi): each new vector is orthogonalised against all others.
     Any,
 }
 
@@ -136,7 +132,6 @@ mod tests {
         .unwrap_or_else(|never| match never {})
     }
 
-    /// With as many vectors as coordinates the result is exact.
     #[test]
     fn full_space_is_exact() {
         let diagonal = |i, j| if i == j { (i + 1) as f64 } else { 0.0 };
@@ -145,7 +140,6 @@ mod tests {
         }
     }
 
-    /// Two different eigenvalues close the space after two vectors.
     #[test]
     fn repeated_eigenvalues_close_the_space() {
         let diagonal = |i, j| match (i == j, i < 6) {

@@ -1,5 +1,3 @@
-//! Normal deviates as a function of seed, step, half and body.
-
 use actin_mechanics::{Vector3, Vectors};
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -8,12 +6,9 @@ use std::f64::consts::TAU;
 /// Separates this noise from other uses of the same seed.
 const PURPOSE: [u8; 8] = *b"thermal\0";
 
-/// Half of a step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Half {
-    /// Before the conservative step.
     Before,
-    /// After the conservative step.
     After,
 }
 
@@ -59,7 +54,6 @@ impl Noise {
         }
     }
 
-    /// Draws the deviates of a half step, with standard deviations `spreads` of points and frames.
     pub(crate) fn draw(&mut self, step: u64, half: Half, spreads: (f64, f64)) {
         self.draw_stream(2 * step + u64::from(half == Half::After), spreads);
     }
@@ -108,7 +102,6 @@ mod tests {
         noise
     }
 
-    /// Deviates do not depend on the number of bodies or on earlier draws.
     #[test]
     fn deviates_belong_to_step_half_and_body() {
         let few = drawn(3, (2, 1), 7, Half::After);

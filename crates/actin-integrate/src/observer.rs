@@ -1,5 +1,3 @@
-//! Observers of runs.
-
 use crate::{Checkpoint, Pause};
 use actin_mechanics::{Interaction, Residual, State, System};
 use std::ops::ControlFlow;

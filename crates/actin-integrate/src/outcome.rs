@@ -1,5 +1,3 @@
-//! Outcomes of runs.
-
 use actin_mechanics::Residual;
 
 /// Reason why a run ended.

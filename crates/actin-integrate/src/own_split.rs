@@ -1,5 +1,3 @@
-//! Runs of custom `Split` systems.
-
 use crate::{Reason, Run, RunSettingError, advance};
 use actin_mechanics::Split;
 use std::ops::ControlFlow;

@@ -1,5 +1,3 @@
-//! Custom steps in the run loop.
-
 use crate::execution::Execution;
 use crate::{Body, Checkpoint, FailureKind, Observer, Run, RunFailure, RunOutcome};
 use actin_mechanics::System;

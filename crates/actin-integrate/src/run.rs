@@ -1,5 +1,3 @@
-//! Settings of runs.
-
 use crate::execution::Execution;
 use crate::{
     Bath, Checkpoint, Composition, Drag, Observer, RunFailure, RunOutcome, StopRule, advance,
@@ -278,7 +276,6 @@ impl Run {
     ///
     /// # Errors
     /// See [`execute`](Self::execute).
-    /// As [`execute`](Self::execute).
     ///
     /// # Panics
     /// If the numbers of bodies or controls differ from those of `system`.

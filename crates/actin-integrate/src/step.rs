@@ -1,5 +1,3 @@
-//! Stable time steps.
-
 use crate::Composition;
 use thiserror::Error;
 

@@ -1,5 +1,3 @@
-//! Integration loop of all methods.
-
 use crate::surroundings::{Dragging, Heating, Nothing, Surroundings};
 use crate::{Bath, Composition, Drag, Stage};
 use actin_mechanics::{Split, Thermostat};
@@ -83,7 +81,6 @@ fn integrate<S: Split + ?Sized>(
     surroundings.after(system);
 }
 
-/// Applies all stages between the first and the last of a step.
 #[inline]
 fn apply_inner<S: Split + ?Sized>(
     system: &mut S,

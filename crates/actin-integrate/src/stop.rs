@@ -1,5 +1,3 @@
-//! Stop rules of damped runs.
-
 use actin_mechanics::Residual;
 use thiserror::Error;
 
@@ -53,7 +51,6 @@ pub struct StopRuleError {
 mod tests {
     use super::*;
 
-    /// Each of the three conditions is necessary.
     #[test]
     fn all_three_tolerances_must_hold() {
         let rule = StopRule::new(1.0, 2.0, 3.0).unwrap();

@@ -1,17 +1,12 @@
-//! Actions between conservative steps: none, drag, or a heat bath.
-
 use crate::noise::{Half, Noise};
 use crate::{Bath, Drag, Stage};
 use actin_mechanics::{Split, Thermostat};
 
 pub(crate) trait Surroundings<S: Split + ?Sized> {
-    /// Acts for half a step before a conservative step.
     fn before(&mut self, system: &mut S);
 
-    /// Acts for half a step after a conservative step.
     fn after(&mut self, system: &mut S);
 
-    /// Relative durations of kicks on points and on frames.
     fn kicks(&self) -> (f64, f64) {
         (1.0, 1.0)
     }
@@ -38,7 +33,6 @@ pub(crate) trait Surroundings<S: Split + ?Sized> {
     }
 }
 
-/// No action: the outer stages of neighbouring steps are merged.
 pub(crate) struct Nothing;
 
 impl<S: Split + ?Sized> Surroundings<S> for Nothing {
@@ -51,7 +45,6 @@ impl<S: Split + ?Sized> Surroundings<S> for Nothing {
     }
 }
 
-/// Factors for points and for frames.
 type Factors = (f64, f64);
 
 fn times(a: Factors, b: Factors) -> Factors {
@@ -86,7 +79,6 @@ impl Halves {
     }
 }
 
-/// Drag, with merged halves between steps.
 pub(crate) struct Dragging {
     halves: Halves,
     whole: Factors,
@@ -111,7 +103,6 @@ fn damp<S: Split + ?Sized>(system: &mut S, factors: Factors, scales: [Factors; 2
     system.damp(factors.0, factors.1);
 }
 
-/// Kinetic energy for velocities that are scaled by `scale`.
 fn energy(kinetic: (f64, f64), scale: Factors) -> f64 {
     kinetic.0 / (scale.0 * scale.0) + kinetic.1 / (scale.1 * scale.1)
 }

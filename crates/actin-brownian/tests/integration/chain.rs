@@ -1,5 +1,3 @@
-//! Rods in long steps compared with the exact chain of segments and the worm-like chain.
-
 use crate::common;
 use actin_brownian::mechanics::{PointLoad, UnitQuaternion, Vector3, Xorshift, rotation};
 use common::{advance, free_rod, rigidities, tip};
@@ -58,7 +56,6 @@ impl Chain {
         found
     }
 
-    /// Rotation of a joint: normal variates, accepted with the density of the Haar measure.
     fn joint(&self, random: &mut Xorshift) -> UnitQuaternion {
         let spread = (rigidities().bend / (KT * self.length)).map(|a| a.recip().sqrt());
         loop {
@@ -70,7 +67,6 @@ impl Chain {
         }
     }
 
-    /// Distance of the ends of the free chain, drawn from its exact distribution.
     fn drawn(&self, random: &mut Xorshift) -> f64 {
         let spread = (rigidities().shear * (self.length / KT)).map(|a| a.recip().sqrt());
         let (mut q, mut ends) = (UnitQuaternion::identity(), Vector3::zeros());
@@ -82,7 +78,6 @@ impl Chain {
         ends.norm()
     }
 
-    /// Mean extension along the force: derivative of the free energy by the transfer matrix.
     fn extension(&self) -> f64 {
         let joints = self.joint_moments();
         let df = 1e-3 * self.force;
@@ -90,7 +85,6 @@ impl Chain {
         KT * (logs[1] - logs[0]) / (2.0 * df)
     }
 
-    /// Means of the Legendre polynomials of the cosine of the bend angle of a joint.
     fn joint_moments(&self) -> Vec<f64> {
         const N: i32 = 30;
         let bend = rigidities().bend / (self.length * KT);
@@ -113,7 +107,6 @@ impl Chain {
         sums.iter().map(|sum| sum / weight).collect()
     }
 
-    /// Logarithm of the partition function, up to a constant.
     fn log_partition(&self, force: f64, joints: &[f64]) -> f64 {
         let places = gauss_legendre();
         let shear = rigidities().shear;
@@ -150,7 +143,6 @@ impl Chain {
     }
 }
 
-/// Standard normal variate.
 fn normal(random: &mut Xorshift) -> f64 {
     let u = 0.5 * (random.sample() + 1.0);
     let phase = std::f64::consts::PI * random.sample();
@@ -166,7 +158,6 @@ fn legendre(c: f64) -> Vec<f64> {
     p
 }
 
-/// Points and weights of Gauss-Legendre quadrature.
 fn gauss_legendre() -> Vec<(f64, f64)> {
     let n = PLACES as f64;
     let root = |k: usize| {
@@ -186,7 +177,6 @@ fn gauss_legendre() -> Vec<(f64, f64)> {
     (0..PLACES).map(root).collect()
 }
 
-/// Mean of the block means and its standard error.
 fn mean_and_error(blocks: &[Vec<f64>], of: impl Fn(f64) -> f64) -> (f64, f64) {
     let means: Vec<f64> = blocks
         .iter()

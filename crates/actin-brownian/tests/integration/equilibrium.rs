@@ -1,5 +1,3 @@
-//! Equilibrium distributions.
-
 use crate::common;
 use actin_brownian::{Brownian, Relaxation, StepLimits};
 use actin_cosserat::{EnergyGradient, Rigidities, RodMaterial, StraightRod};

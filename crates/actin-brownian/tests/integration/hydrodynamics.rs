@@ -25,7 +25,6 @@ fn across_of_beads(number: usize, length: f64) -> DMatrix<f64> {
     })
 }
 
-/// Local friction of the beads as in `Brownian`.
 fn local(cylinder: &Cylinder, number: usize) -> DVector<f64> {
     let each = cylinder.between_ends() * cylinder.length() / number as f64;
     let mut friction = DVector::from_element(number, each);
@@ -34,7 +33,6 @@ fn local(cylinder: &Cylinder, number: usize) -> DVector<f64> {
     friction
 }
 
-/// Total friction of the translation across and of the rotation end over end.
 fn of_whole(mobility: &DMatrix<f64>, length: f64) -> [f64; 2] {
     let n = mobility.nrows();
     let places = DVector::from_fn(n, |i, _| length * ((i as f64 + 0.5) / n as f64 - 0.5));
@@ -46,7 +44,6 @@ fn of_whole(mobility: &DMatrix<f64>, length: f64) -> [f64; 2] {
     [moved.sum(), solved.solve(&places).dot(&places)]
 }
 
-/// Number of beads with the transverse friction of the cylinder.
 fn number_of_beads(cylinder: &Cylinder) -> usize {
     let whole = cylinder.across() * cylinder.length();
     let usual = (1..2000)
@@ -64,7 +61,6 @@ fn number_of_beads(cylinder: &Cylinder) -> usize {
         .expect("the list of numbers is not empty")
 }
 
-/// Bending stiffness of a free chain of beads.
 fn stiffness(number: usize, length: f64) -> DMatrix<f64> {
     let l = length / number as f64;
     let mut k = DMatrix::zeros(number, number);
@@ -102,8 +98,6 @@ fn of_wave(q: f64) -> f64 {
     4.0 * PI * VISCOSITY / ((2.0 / (q * RADIUS)).ln() - 0.577_216 + 0.5)
 }
 
-/// Ratios of local friction to the friction of interacting beads (total, fifteen modes) and of
-/// waves.
 fn compared(length: f64) -> ([f64; 2], Vec<f64>, Vec<f64>) {
     let cylinder = Cylinder::new(VISCOSITY, length, RADIUS).unwrap();
     let number = number_of_beads(&cylinder);

@@ -1,5 +1,3 @@
-//! Motion with inertia in a fluid: drift, diffusion and energy for weak and strong friction.
-
 use crate::common;
 use actin_brownian::Langevin;
 use actin_cosserat::StraightRod;
@@ -29,7 +27,6 @@ fn pulled(segments: usize, direction: Vector3, factor: f64) -> (System, Langevin
     (system, steps)
 }
 
-/// Time step of `share` of the stability limit.
 fn step_of(system: &System, share: f64) -> f64 {
     stable_step(&POSITION_VERLET, largest_frequency(system).unwrap(), share).unwrap()
 }

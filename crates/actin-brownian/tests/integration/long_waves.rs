@@ -76,7 +76,6 @@ fn long_waves() {
     }
 }
 
-/// Mean of independent values and its standard error.
 fn mean_and_error(values: &[f64]) -> (f64, f64) {
     let n = values.len() as f64;
     let mean = values.iter().sum::<f64>() / n;

@@ -1,12 +1,9 @@
-//! Diffusion, relaxation, order and flow.
-
 use crate::common;
 use actin_brownian::{Flow, Relaxation};
 use actin_cosserat::{RodClamp, RodEnd, RodLayout, StraightRod};
 use actin_mechanics::{State, System, UnitQuaternion, Vector3, rotation};
 use common::{FRICTION, advance, free_rod, friction_of, law, layout_of, rigidities, tip};
 
-/// Middle, direction and central frame of a short rod.
 fn pose(system: &System, rod: &RodLayout) -> (Vector3, Vector3, UnitQuaternion) {
     let x = &system.state().points.position;
     let (start, end) = (x.get(0), x.get(tip(rod)));
@@ -68,7 +65,6 @@ fn a_rod_diffuses_with_its_friction() {
     }
 }
 
-/// Boundary conditions of a rod.
 #[derive(Clone, Copy, Debug)]
 enum Hold {
     Free,
@@ -77,7 +73,6 @@ enum Hold {
 }
 
 impl Hold {
-    /// Wave numbers of the first modes times the length.
     fn roots(self) -> [f64; 5] {
         match self {
             Self::Free => [4.730_041, 7.853_205, 10.995_608, 14.137_165, 17.278_760],

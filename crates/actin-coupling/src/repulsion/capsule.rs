@@ -1,5 +1,3 @@
-//! Straight segments of filaments with circular cross-section.
-
 use actin_mechanics::{Coordinates, Loads, Matrix3, State, Vector3};
 use thiserror::Error;
 
@@ -123,7 +121,6 @@ impl Capsule {
         }
     }
 
-    /// A body of the capsule.
     pub(super) fn body(&self) -> Coordinates {
         match self.axis {
             Axis::Points([first, _]) => Coordinates::Point(first),
@@ -150,7 +147,6 @@ impl Capsule {
         }
     }
 
-    /// Bodies with the derivatives of the two ends.
     pub(super) fn slopes(&self, state: &State) -> [(Coordinates, [Matrix3; 2]); 2] {
         let (unit, zero) = (Matrix3::identity(), Matrix3::zeros());
         match self.axis {
@@ -190,7 +186,6 @@ impl Capsule {
     }
 }
 
-/// Equidistant integration points of a capsule.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Row {
     /// Number of points.
@@ -214,7 +209,6 @@ impl Row {
         }
     }
 
-    /// Relative position of point `k` along the axis.
     pub(super) fn share(&self, k: usize) -> f64 {
         (k as f64 + 0.5) / self.count as f64
     }
@@ -224,7 +218,6 @@ impl Row {
 mod tests {
     use super::*;
 
-    /// Each filament has its own limit of the contour distance.
     #[test]
     fn each_filament_has_its_own_reach() {
         let capsule = |filament: usize, middle: f64, reach: f64| {

@@ -1,5 +1,3 @@
-//! Repulsion between capsules.
-
 use super::capsule::{Capsule, RepulsionError, Row, positive};
 use super::distance;
 use super::kernel::Kernel;
@@ -191,7 +189,6 @@ impl Contacts {
         neighbours
     }
 
-    /// Visits all pairs of capsules with an axis distance below `within` in order of their indices.
     fn visit(&self, state: &State, within: f64, mut visit: impl FnMut([usize; 2], &Pair)) {
         let known = self.neighbours(state);
         for &[i, j] in &known.pairs {

@@ -1,5 +1,3 @@
-//! Smallest distance between two line segments.
-
 use actin_mechanics::Vector3;
 
 /// Squared distance and relative positions of the nearest points.

@@ -1,5 +1,3 @@
-//! Contact energies of points.
-
 use actin_mechanics::{Matrix3, Vector3};
 use std::f64::consts::PI;
 

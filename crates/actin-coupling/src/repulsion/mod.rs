@@ -11,7 +11,6 @@
 //! points of both axes, spaced by a third of a radius or less. It is as smooth as the kernel, with
 //! three continuous derivatives, and nearly independent of the division into capsules. Smallest
 //! distances only select pairs and define gaps.
-//! summed and say how far surfaces are apart.
 
 mod capsule;
 mod contacts;

@@ -1,5 +1,3 @@
-//! Neighbour lists of capsules, found with an R*-tree.
-
 use super::Capsule;
 use super::distance;
 use super::passing::comes_within;
@@ -10,7 +8,6 @@ use rstar::{AABB, RTree};
 /// Limit of coordinates (nm) for the detection of divergent motions.
 const FARTHEST: f64 = 1e12;
 
-/// Lengths of a neighbour list.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Reach {
     /// Distance of axes (nm) within which the list is complete.
@@ -97,7 +94,6 @@ impl Neighbours {
     }
 }
 
-/// Axis-aligned box.
 #[derive(Clone, Copy, Debug)]
 struct Bounds {
     lower: Vector3,
@@ -105,7 +101,6 @@ struct Bounds {
 }
 
 impl Bounds {
-    /// Box around an axis.
     fn around([a, b]: &[Vector3; 2]) -> Self {
         Self {
             lower: a.inf(b),
@@ -113,7 +108,6 @@ impl Bounds {
         }
     }
 
-    /// Box around two boxes.
     fn with(&self, other: &Self) -> Self {
         Self {
             lower: self.lower.inf(&other.lower),
@@ -121,13 +115,11 @@ impl Bounds {
         }
     }
 
-    /// Returns `false` for divergent motions.
     fn is_near(&self) -> bool {
         self.lower.amax() < FARTHEST && self.upper.amax() < FARTHEST
     }
 }
 
-/// Sorted pairs of capsules that can interact and whose boxes come within a distance.
 fn meeting(boxes: &[Bounds], capsules: &[Capsule], apart: f64, within: f64) -> Vec<[usize; 2]> {
     let near = || boxes.iter().enumerate().filter(|(_, b)| b.is_near());
     let leaves = near().map(|(i, b)| {

@@ -1,5 +1,3 @@
-//! Sums over the points of two capsules.
-
 use super::capsule::Row;
 use super::kernel::Kernel;
 use actin_mechanics::{Matrix3, Vector3};
@@ -78,7 +76,6 @@ impl Pair {
         forces
     }
 
-    /// Second derivatives with respect to the four ends.
     pub(super) fn tangents(&self, kernel: &Kernel) -> [[Matrix3; 4]; 4] {
         let mut blocks = [[Matrix3::zeros(); 4]; 4];
         self.touches(kernel, |t| {

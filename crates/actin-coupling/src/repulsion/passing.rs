@@ -1,5 +1,3 @@
-//! Detection of straight lines that pass through each other.
-
 use super::distance;
 use actin_mechanics::Vector3;
 
@@ -47,7 +45,6 @@ mod tests {
     use super::*;
     use actin_mechanics::Xorshift;
 
-    /// Comparison with the smallest distance at many times.
     #[test]
     fn finds_what_sampling_finds() {
         let mut noise = Xorshift::new(8);
@@ -77,7 +74,6 @@ mod tests {
         assert!(found.iter().all(|&n| n > 40), "{found:?}");
     }
 
-    /// Lines that cross in one step have the same distance before and after it.
     #[test]
     fn finds_a_crossing_within_one_step() {
         let (x, y, z) = (Vector3::x(), Vector3::y(), Vector3::z());

@@ -1,5 +1,3 @@
-//! Bound of the contact stiffness for the choice of the time step.
-
 use super::capsule::{Capsule, Row};
 use actin_mechanics::{Interaction, Loads, State, Vector3};
 

@@ -1,5 +1,3 @@
-//! Repulsion of capsules from planes and spheres.
-
 use super::capsule::{Capsule, RepulsionError, Row, positive};
 use super::contacts::Gap;
 use super::distance;
@@ -189,7 +187,6 @@ impl WallContact {
         }
     }
 
-    /// Visits the points of capsule `i` in contact.
     fn touches(&self, i: usize, [start, end]: [Vector3; 2], mut visit: impl FnMut(&Touch)) {
         let row = self.rows[i];
         for k in 0..row.count {

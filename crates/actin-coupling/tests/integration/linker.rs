@@ -1,5 +1,3 @@
-//! Linkers: gradient, stiffness, balance and limits.
-
 use actin_cosserat::{RodLayout, StraightRod};
 use actin_coupling::{Anchor, Linker, LinkerEnd, LinkerError, LinkerKey, RodPlace, Site};
 use actin_mechanics::testing::{
@@ -65,7 +63,6 @@ fn anchor() -> LinkerEnd {
     LinkerEnd::Anchor(Anchor::fixed(Vector3::new(3.0, -2.0, 17.0)))
 }
 
-/// Linkers between all kinds of ends. The last two join sites with common bodies.
 fn all(scene: &Scene, rest_length: f64) -> Vec<Linker> {
     let pairs = [
         (scene.on_rod(1, 0.3), anchor()),
@@ -111,7 +108,6 @@ fn stiffness_is_the_derivative_of_the_loads() {
     }
 }
 
-/// Both ends on one rigid body.
 #[test]
 fn a_linker_within_a_rigid_body_does_nothing() {
     let scene = scene(&mut Xorshift::new(13));
@@ -127,7 +123,6 @@ fn a_linker_within_a_rigid_body_does_nothing() {
 }
 
 proptest! {
-    /// Linkers between sites are balanced. The reaction of an anchor balances the others.
     #[test]
     fn forces_and_torques_balance(seed: u64, slack in 0_usize..3) {
         let scene = scene(&mut Xorshift::new(seed));
@@ -201,7 +196,6 @@ fn a_linker_pulls_by_its_extension() {
     assert!(loads.torque.get(0).norm() == 0.0);
 }
 
-/// Zero length without and with a rest length, and length equal to the rest length.
 #[test]
 fn limits_are_defined() {
     let scene = scene(&mut Xorshift::new(15));

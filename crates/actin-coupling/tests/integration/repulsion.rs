@@ -1,5 +1,3 @@
-//! Repulsion: gradient, balance, closed forms, independence of discretisation and neighbour lists.
-
 use actin_coupling::repulsion::{
     Axis, Capsule, ContactParameters, Contacts, RepulsionError, Side, Tethers, Wall, WallContact,
 };
@@ -23,7 +21,6 @@ fn parameters() -> ContactParameters {
     }
 }
 
-/// Adds a straight chain of `count` capsules between nodes of a filament.
 fn chain(
     state: &mut State,
     (filament, from, along): (usize, Vector3, Vector3),
@@ -58,7 +55,6 @@ fn monomers(state: &mut State, filament: usize, from: Vector3, count: usize) -> 
     (0..count).map(of).collect()
 }
 
-/// Monomers and two oblique chains in contact, all perturbed.
 fn tangle() -> (State, Vec<Capsule>) {
     let mut state = State::default();
     let (z, x) = (Vector3::z(), Vector3::x());
@@ -107,7 +103,6 @@ fn walls_are_the_gradient_of_their_energy() {
     }
 }
 
-/// Force along `across` on the second of two straight filaments.
 fn force_between(
     first: (Vector3, Vector3),
     second: (Vector3, Vector3),
@@ -192,7 +187,6 @@ fn greatest_stiffness_equals_the_parameter() {
     );
 }
 
-/// Loads are bitwise equal for old and new neighbour lists.
 #[test]
 fn loads_do_not_depend_on_the_age_of_the_neighbour_list() {
     let (mut state, capsules) = tangle();
@@ -217,7 +211,6 @@ fn loads_do_not_depend_on_the_age_of_the_neighbour_list() {
     }
 }
 
-/// The sides of a hairpin repel each other, and its bend does not.
 #[test]
 fn distant_parts_of_a_filament_repel_each_other() {
     let mut state = State::default();
@@ -311,7 +304,6 @@ fn invalid_numbers_are_refused() {
     assert!(wall(sphere(3.0, Side::Outside)).is_ok());
 }
 
-/// Crossings in short steps (neighbour list) and long steps, and crossings of a sphere.
 #[test]
 fn crossings_are_detected() {
     let crossing = |height: f64, aside: f64| {

@@ -71,7 +71,6 @@ fn sigmoid_with_known_noise() {
     assert!((chi_squared - 26.0).abs() < 1.8, "{chi_squared}");
 }
 
-/// Equal noise of unknown size, estimated from the residuals.
 #[test]
 fn sigmoid_with_unknown_noise() {
     let truth = [3.0, 11.0, 0.01, 0.03];

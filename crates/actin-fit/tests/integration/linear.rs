@@ -1,5 +1,3 @@
-//! Linear least squares: exact recovery, normal equations, weights, rank and errors.
-
 use crate::common;
 use actin_fit::{Data, Mat, Observations, Polynomial, fit_linear};
 use common::{Gauss, places, refused};
@@ -10,7 +8,6 @@ fn observations(y: &[f64]) -> Observations {
 }
 
 proptest! {
-    /// Exact data return the coefficients in any unit of x.
     #[test]
     fn polynomials_are_recovered(
         p in prop::collection::vec(-1.0..1.0_f64, 5),
@@ -31,7 +28,6 @@ proptest! {
     }
 }
 
-/// Compares parameters, covariance and chi squared for a well-conditioned problem.
 #[test]
 fn qr_agrees_with_normal_equations() {
     let mut noise = Gauss::new(1);
@@ -121,7 +117,6 @@ fn propagation_uses_covariances() {
     assert!((correlation[(1, 1)] - 1.0).abs() < 1e-15);
 }
 
-/// Parallel columns, a zero column, and a cubic at three distinct points.
 #[test]
 fn undetermined_parameters_are_listed() {
     let five = observations(&[1.0, 2.0, 3.0, 5.0, 8.0]);
@@ -147,7 +142,6 @@ fn undetermined_parameters_are_listed() {
     );
 }
 
-/// With equal numbers of points and parameters the noise must be known.
 #[test]
 fn too_few_points_are_refused() {
     let line = Polynomial::new(1);

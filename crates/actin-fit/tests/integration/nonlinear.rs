@@ -1,5 +1,3 @@
-//! Levenberg-Marquardt: recovery, bounds, undetermined parameters, starts and errors.
-
 use crate::common;
 use actin_fit::{
     Bounds, ClosureModel, Data, FitError, LevenbergMarquardt, Model, Observations, Options,
@@ -20,7 +18,6 @@ fn noisy(model: &dyn Model, x: &[f64], p: &[f64], deviation: f64, seed: u64) -> 
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(64))]
 
-    /// Data without noise return the parameters within rounding.
     #[test]
     fn sigmoids_are_recovered(
         low in -5.0..5.0_f64, rise in 1.0..9.0_f64, c in -0.5..0.5_f64, w in 0.3..1.0_f64,
@@ -50,7 +47,6 @@ proptest! {
     }
 }
 
-/// Parameters and covariance of a linear model agree with the linear fit.
 #[test]
 fn a_linear_model_gives_the_linear_fit() {
     let cubic = Polynomial::new(3);
@@ -109,7 +105,6 @@ fn the_search_does_not_depend_on_units() {
     );
 }
 
-/// At the bound of the rate the amplitude equals the linear fit for that rate.
 #[test]
 fn a_parameter_stops_at_its_bound() {
     let x = places(0.0, 3.0, 15);
@@ -134,7 +129,6 @@ fn a_parameter_stops_at_its_bound() {
     assert!((error - deviation / square.sqrt()).abs() < 1e-12);
 }
 
-/// A parameter next to its bound, even by one bit, would count as free.
 #[test]
 fn bounds_are_met_to_the_last_bit() {
     let data = noisy(&decay(1.0), &places(0.0, 3.0, 15), &[2.0, 1.3], 0.05, 3);
@@ -152,7 +146,6 @@ fn bounds_are_met_to_the_last_bit() {
     }
 }
 
-/// An inactive bound has no effect, even for a start on it.
 #[test]
 fn a_bound_is_left_again() {
     let data = noisy(&decay(1.0), &places(0.0, 3.0, 15), &[2.0, 1.3], 0.05, 3);
@@ -209,7 +202,6 @@ fn factors_of_a_product_are_not_determined() {
     assert!((errors.0 / errors.1 - 1.0).abs() < 1e-8, "{errors:?}");
 }
 
-/// Derivatives with respect to position and width of a step of zero height are rounding errors.
 #[test]
 fn a_step_of_no_height_has_no_place() {
     let x = places(-3.0, 3.0, 25);
@@ -221,7 +213,6 @@ fn a_step_of_no_height_has_no_place() {
     assert_eq!(fit.precision.rank, 2);
 }
 
-/// The standard error of the position exceeds the distance of its bounds.
 #[test]
 fn a_step_lost_in_noise_is_weak() {
     let data = noisy(
@@ -271,7 +262,6 @@ fn several_starts_find_the_lowest_minimum() {
     assert!((several.goodness.chi_squared / least - 1.0).abs() < 1e-9);
 }
 
-/// A plane over (u, v).
 #[test]
 fn rows_hold_several_variables() {
     let plane = ClosureModel::new(

@@ -1,5 +1,3 @@
-//! Data, deviations and coordinates of extreme magnitude.
-
 use crate::common;
 use actin_fit::{
     Bounds, ClosureModel, Data, Fit, Mat, Model, Observations, Polynomial, Status, fit_linear,
@@ -18,7 +16,6 @@ fn fitted(unit: f64, observations: Observations) -> Fit {
     fit(&decay(unit), &data, &Bounds::none(2), &[5.0, 0.2]).unwrap()
 }
 
-/// Parameters, errors and residuals do not depend on the unit of the data.
 #[test]
 fn the_size_of_the_data_changes_nothing() {
     let plain = fitted(1.0, Observations::new(&noisy(1.0)).unwrap());
@@ -152,7 +149,6 @@ fn wide_bounds_change_nothing() {
     assert_eq!(within(1e3), within(f64::MAX));
 }
 
-/// An exponential overflows at the start, or is too large to be squared.
 #[test]
 fn a_start_that_overflows_is_named() {
     let data = Data::new(

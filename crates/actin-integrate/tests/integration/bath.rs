@@ -264,7 +264,6 @@ fn points_drift_and_diffuse_as_they_should_at_any_step() {
     }
 }
 
-/// The error of the temperature of positions has the order of the method.
 #[test]
 fn error_of_the_temperature_is_of_the_order_of_the_scheme() {
     for scheme in Composition::all() {
@@ -278,7 +277,6 @@ fn error_of_the_temperature_is_of_the_order_of_the_scheme() {
     }
 }
 
-/// The motions agree except for rounding due to merged halves.
 #[test]
 fn at_zero_temperature_a_bath_is_drag() {
     let cold = bath(0.3, 0.2, 0.0, 1);
@@ -312,7 +310,6 @@ fn end_of_run(seed: u64, observe_every: u64, resume: Option<u64>) -> State {
     system.state().clone()
 }
 
-/// Bitwise equality for any observations and interruptions; other seeds give other runs.
 #[test]
 fn runs_are_functions_of_the_seed_alone() {
     let reference = end_of_run(1, 1000, None);

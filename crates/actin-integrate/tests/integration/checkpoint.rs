@@ -1,5 +1,3 @@
-//! Interrupted and resumed runs agree bitwise with uninterrupted ones.
-
 use crate::common;
 use actin_integrate::{
     Bath, Checkpoint, Composition, Drag, Moment, Observer, Pause, Run, RunOutcome, StopRule,
@@ -12,7 +10,6 @@ use std::ops::ControlFlow;
 /// Thermal energy of runs with noise, with velocities of 0.07 like the other motions.
 const KT: f64 = 5e-3;
 
-/// Held end on a circular path.
 #[derive(Debug)]
 struct Circle;
 
@@ -26,7 +23,6 @@ impl Drive for Circle {
     }
 }
 
-/// Bonded tops, a chain, or a chain driven at its end.
 fn build(kind: usize) -> System {
     let mut system = match kind {
         0 => vibrating_tops(3),
@@ -118,7 +114,6 @@ fn plan(
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(400))]
 
-    /// State, observations, reason, steps and evaluations agree.
     #[test]
     fn a_resumed_run_agrees_bitwise(
         kind in 0_usize..3,

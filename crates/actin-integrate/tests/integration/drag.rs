@@ -1,5 +1,3 @@
-//! Drag: exact decay, terminal motion, relaxation and equilibria.
-
 use crate::common;
 use actin_integrate::{
     Composition, Drag, PEFRL, POSITION_VERLET, Reason, Run, StopRule, VEFRL, advance,
@@ -9,7 +7,6 @@ use actin_mechanics::testing::{push_frame, push_point};
 use actin_mechanics::{Loads, Slider, State, System, UnitQuaternion, Vector3, rotation};
 use common::{chain, distance, spinning_tops, springs, three_tops};
 
-/// A free point and a free top in motion, and a driven point.
 fn free_bodies() -> System {
     let mut state = State::default();
     for _ in 0..2 {
@@ -178,7 +175,6 @@ fn modes_relax_at_their_rate_at_any_drag() {
     }
 }
 
-/// Steps backwards in time return to the start.
 #[test]
 fn steps_with_drag_are_symmetric_in_time() {
     for (translational, rotational) in [(0.3, 40.0), (40.0, 0.3)] {
@@ -196,7 +192,6 @@ fn steps_with_drag_are_symmetric_in_time() {
     }
 }
 
-/// Runs to rest with different drag on translations and rotations end in the same state.
 #[test]
 fn equilibrium_does_not_depend_on_the_drag() {
     let rest = |translational, rotational, h| {

@@ -1,5 +1,3 @@
-//! Detection of excessive energy.
-
 use crate::common;
 use actin_integrate::{
     Body, Checkpoint, FailureKind, Moment, Observer, PEFRL, POSITION_VERLET, Pause, Run,
@@ -14,7 +12,6 @@ const H: f64 = 0.05;
 /// Far above the energy of the chains (0.04 pN nm), far below the energy of a [`Source`].
 const LIMIT: f64 = 1e3;
 
-/// Energy, and force on one point, after some time.
 #[derive(Clone, Copy, Debug)]
 struct Source {
     point: usize,
@@ -46,7 +43,6 @@ impl Interaction for Source {
     }
 }
 
-/// Six points in a row, stretched, with a source from step `step`.
 fn heated(step: u64, energy: f64) -> System {
     let mut state = chain(6, 4.0, 1.0).state().clone();
     let springs = springs(&state, 4.0, 1.0);
@@ -93,7 +89,6 @@ fn the_first_step_with_too_much_energy_is_reported() {
     }
 }
 
-/// Keeps all pauses and the checkpoint of a failure.
 #[derive(Default)]
 struct Keeper {
     pauses: Vec<Checkpoint>,
@@ -115,7 +110,6 @@ impl Observer for Keeper {
     }
 }
 
-/// Runs resumed from any pause or from the last sound state fail with the same message.
 #[test]
 fn a_resumed_run_fails_with_the_same_message() {
     let run = run(1000, 100);
@@ -135,7 +129,6 @@ fn a_resumed_run_fails_with_the_same_message() {
     }
 }
 
-/// A stretched chain at rest has strain energy only. The start itself has too much.
 #[test]
 fn strain_at_the_start_counts() {
     let mut system = chain(10, 4.0, 1.0);

@@ -1,5 +1,3 @@
-//! Detection of failures, with its cost in evaluations of the loads.
-
 use crate::common;
 use actin_integrate::{
     Body, Checkpoint, DEFAULT_CHECK_EVERY, Moment, Observer, POSITION_VERLET, Run, RunFailure,
@@ -13,7 +11,6 @@ use std::ops::ControlFlow;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// Load on one point that is not a number after some time.
 fn poison(point: usize, from: f64, value: f64) -> Box<dyn Interaction> {
     let add = move |state: &State, loads: &mut Loads| {
         if state.time >= from {
@@ -26,7 +23,6 @@ fn poison(point: usize, from: f64, value: f64) -> Box<dyn Interaction> {
     })
 }
 
-/// Six points in a row, stretched, with a failing load on one of them.
 fn poisoned(poison: Box<dyn Interaction>) -> System {
     let mut state = chain(6, 4.0, 1.0).state().clone();
     let springs = springs(&state, 4.0, 1.0);
@@ -35,7 +31,6 @@ fn poisoned(poison: Box<dyn Interaction>) -> System {
 }
 
 proptest! {
-    /// The report contains step, body and term of the failure, found within one interval of checks.
     #[test]
     fn loads_that_are_not_numbers_are_detected_within_a_check(
         step in 1_u64..5000,
@@ -98,7 +93,6 @@ fn detection_costs_at_most_two_intervals() {
     }
 }
 
-/// Failure of a run at `excess` above the stability limit.
 fn unstable(system: &mut System, excess: f64) -> RunFailure {
     let limit = 2.0 / largest_frequency(system).unwrap();
     Run::new(&VELOCITY_VERLET, (1.0 + excess) * limit, 10_000_000)

@@ -1,5 +1,3 @@
-//! Largest frequencies compared with exact spectra.
-
 use crate::common;
 use actin_integrate::{
     Drag, FrequencyError, KRYLOV_VECTORS, POSITION_VERLET, advance, largest_frequency,
@@ -17,7 +15,6 @@ fn chain_frequency(n: usize, stiffness: f64, mass: f64) -> f64 {
     2.0 * (stiffness / mass).sqrt() * (0.5 * PI / (n as f64 + 1.0)).cos()
 }
 
-/// The spectrum is dense at its upper end.
 #[test]
 fn chain_of_springs() {
     for n in [1, 2, 10, 200, 3000] {
@@ -123,7 +120,6 @@ fn estimates_are_reproducible_and_do_not_change_the_system() {
     assert_eq!(system.force_evaluations(), count);
 }
 
-/// Linear force on all points with any matrix; counts its evaluations.
 #[derive(Debug)]
 struct Linear {
     rows: [Vector3; 3],
@@ -171,7 +167,6 @@ fn linear(n: usize, rows: [[f64; 3]; 3]) -> (System, Arc<AtomicU64>) {
     (System::new(state, vec![Box::new(force)]), evaluations)
 }
 
-/// A circulatory force about the z axis does not contribute to the symmetric part.
 #[test]
 fn loads_without_an_energy_do_not_fail() {
     let (system, _) = linear(1, [[8.0, 5.0, 0.0], [-5.0, 8.0, 0.0], [0.0, 0.0, 2.0]]);
@@ -216,7 +211,6 @@ fn loads_that_are_not_finite_are_named() {
     );
 }
 
-/// Bisection finds the failing term with few evaluations of each.
 #[test]
 fn a_broken_term_among_many_is_found_in_few_evaluations() {
     let terms: u64 = 1024;

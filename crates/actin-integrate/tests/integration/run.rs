@@ -1,5 +1,3 @@
-//! Run loop: observers, stop rule, interruption, failure, continuation.
-
 use crate::common;
 use actin_integrate::{
     Body, Drag, FailureKind, Moment, Observer, PEFRL, POSITION_VERLET, Reason, Run,
@@ -93,7 +91,6 @@ fn work_of_a_run() {
     }
 }
 
-/// The rule is met at the end of the run and at no earlier observation.
 #[test]
 fn stop_rule_ends_a_damped_run() {
     let rule = StopRule::new(1e-6, 1e-6, 1e-10).unwrap();
@@ -131,7 +128,6 @@ fn rest_is_recognised_at_once() {
     assert_eq!((outcome.reason, outcome.steps), (Reason::Converged, 0));
 }
 
-/// Observer that ends the run at a step.
 struct Until(u64);
 
 impl Observer for Until {
@@ -144,7 +140,6 @@ impl Observer for Until {
     }
 }
 
-/// The run ends after all observers have seen the state.
 #[test]
 fn interruption() {
     let mut system = spinning_tops();
@@ -268,7 +263,6 @@ fn a_frame_that_spins_up_is_found() {
     assert_eq!((failure.term, failure.last_good_step), ("torsion", 0));
 }
 
-/// The report names the origin of the failure, which spreads to all bodies.
 #[test]
 fn a_load_that_is_not_a_number_is_traced_to_its_term() {
     let state = chain(6, 4.0, 1.0).state().clone();
@@ -318,7 +312,6 @@ fn kinetic_limit() {
     assert!(above.execute(&mut system, &mut []).is_ok());
 }
 
-/// The kinetic energy rises by twenty orders of magnitude from rest under a constant load.
 #[test]
 fn a_load_on_a_resting_state_is_no_failure() {
     let mut system = stretched_chain();
@@ -335,7 +328,6 @@ fn a_load_on_a_resting_state_is_no_failure() {
     assert!(distance(system.state(), stretched_chain().state()) < 1e-13);
 }
 
-/// Moves a point whenever the system is at rest, up to twice.
 #[derive(Default)]
 struct Restless {
     moved: Vec<f64>,

@@ -1,12 +1,9 @@
-//! Tables of the methods, and their application to one degree of freedom.
-
 use actin_integrate::{
     Composition, Drag, FOREST_RUTH, PEFRL, POSITION_VERLET, SUZUKI, SUZUKI_WEIGHT, Stage, VEFRL,
     VELOCITY_VERLET, advance,
 };
 use actin_mechanics::Split;
 
-/// One degree of freedom of unit mass with a force that depends on its position.
 struct OneDegree {
     q: f64,
     p: f64,
@@ -173,7 +170,6 @@ fn pendulum_error(scheme: &Composition, steps: u32) -> f64 {
     (end[0] - reference[0]).hypot(end[1] - reference[1])
 }
 
-/// Errors of an independent implementation, to four digits.
 #[test]
 fn pendulum_errors_are_the_known_ones() {
     let known = [
@@ -214,7 +210,6 @@ fn one_step_by_hand() {
     }
 }
 
-/// Methods that begin with a kick need one more evaluation in the first step.
 #[test]
 fn work_per_step() {
     let expected = [

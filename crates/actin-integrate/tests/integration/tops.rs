@@ -1,5 +1,3 @@
-//! Order, reversal, momenta and energy of free tops that spin about different axes.
-
 use crate::common;
 use actin_integrate::{
     Composition, Drag, FOREST_RUTH, PEFRL, POSITION_VERLET, SUZUKI, VEFRL, VELOCITY_VERLET,

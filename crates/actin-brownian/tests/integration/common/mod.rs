@@ -1,4 +1,3 @@
-//! Rods in a fluid.
 #![allow(dead_code, reason = "each test uses some of it")]
 
 use actin_brownian::{Brownian, Dashpot, Friction, TurnDashpot};
@@ -14,7 +13,6 @@ pub(crate) fn rigidities() -> Rigidities {
     Rigidities::table4()
 }
 
-/// Uniform friction of a rod.
 pub(crate) fn friction_of(rod: &RodLayout) -> Friction {
     let [along, across, about, tilt] = FRICTION;
     let mut friction = Friction::default();
@@ -33,7 +31,6 @@ pub(crate) fn friction_of(rod: &RodLayout) -> Friction {
     friction
 }
 
-/// Order of unknowns along a rod, for a banded matrix.
 pub(crate) fn layout_of(state: &State, rod: &RodLayout) -> Layout {
     let point = |i: usize| i as f64 - rod.points().start as f64;
     let frame = |i: usize| i as f64 - rod.frames().start as f64 + 0.5;
@@ -49,7 +46,6 @@ pub(crate) fn law(rod: &RodLayout) -> Box<dyn Interaction> {
     Box::new(EnergyGradient::new(rod.clone(), material))
 }
 
-/// A free rod with additional interactions, and its stepper for the thermal energy `kT`.
 pub(crate) fn free_rod(
     segments: usize,
     length: f64,

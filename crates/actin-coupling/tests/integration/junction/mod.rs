@@ -1,5 +1,3 @@
-//! Junctions: gradient, stiffness, balance and stiffness values.
-
 mod stress;
 
 use actin_cosserat::{
@@ -23,7 +21,6 @@ const RISE: f64 = 71.2 / 26.0;
 const SIDES: [JunctionSide; 2] = [JunctionSide::MonomersFirst, JunctionSide::RodFirst];
 const WEIGHTS: [JunctionWeight; 2] = [JunctionWeight::Shared, JunctionWeight::Full];
 
-/// Distinct rigidities detect exchanged axes.
 fn material() -> RodMaterial {
     RodMaterial::new(Rigidities {
         shear: Vector3::new(1.6e4, 2.1e4, 3.4e4),
@@ -104,13 +101,11 @@ impl Filament {
         }
     }
 
-    /// Moves the whole filament as a rigid body.
     fn moved(mut self, noise: &mut Xorshift) -> Self {
         move_rigidly(&mut self.state, noise.vector(), noise.vector() * 10.0);
         self
     }
 
-    /// Rotates and shifts the monomers about the axis of the filament at rest.
     fn move_monomers(&mut self, turn: f64, shift: f64) {
         let turn = rotation::exp(Vector3::z() * turn);
         for monomer in &self.monomers {
@@ -129,7 +124,6 @@ impl Filament {
     }
 }
 
-/// All kinds of junctions.
 fn all() -> impl Iterator<Item = (JunctionSide, JunctionWeight, usize)> {
     SIDES.into_iter().flat_map(|side| {
         WEIGHTS
@@ -162,7 +156,6 @@ fn stiffness_is_the_derivative_of_the_loads_far_from_rest() {
     }
 }
 
-/// Checks the bending elements at the rod, whose frame has the index `side`.
 fn assert_joined(junction: &Junction, state: &State, side: usize, rod: usize) {
     let joined = junction.joined_elements();
     assert_eq!(joined.len(), 2);
@@ -246,7 +239,6 @@ fn the_built_filament_is_at_rest() {
     }
 }
 
-/// Monomers and junction frames rotate as one body, so that all twist is over `D_C`.
 #[test]
 fn rotation_of_monomers_and_junction_frames_twists_the_rod_element() {
     let turn = 0.02;
@@ -274,7 +266,6 @@ fn rotation_of_monomers_and_junction_frames_twists_the_rod_element() {
     }
 }
 
-/// Fixed junction frames and rotated monomers give twist over `D_E`, in axes of each monomer.
 #[test]
 fn monomers_twist_against_their_junction_frames() {
     for side in SIDES {
@@ -326,13 +317,11 @@ fn a_stretched_junction_pulls_together() {
     }
 }
 
-/// Frames of the first bond from monomer to rod.
 fn bond_frames(f: &Filament, side: JunctionSide) -> [usize; 3] {
     let rod = f.rod.end_frame(side.rod_end());
     [f.monomers[0].frame, f.frames.start, rod]
 }
 
-/// A filament and its copy rotated by pi about a transverse axis have equal energies.
 #[test]
 fn both_sides_are_mirror_images() {
     let half_turn = rotation::exp(Vector3::x() * std::f64::consts::PI);
@@ -393,7 +382,6 @@ fn weights_scale_the_whole_junction() {
     }
 }
 
-/// Only the end of the rod, the attached monomers and the junction frames have loads.
 #[test]
 fn distant_nodes_have_no_loads() {
     let mut noise = Xorshift::new(7);

@@ -1,5 +1,3 @@
-//! Random stress of junctions.
-
 use super::{JunctionParts, all, filament};
 use actin_cosserat::{EnergyGradient, Homogenised, RodMaterial, SegmentCurvature, SegmentLaw};
 use actin_coupling::{Junction, JunctionSide};
@@ -15,7 +13,6 @@ fn stretch(state: &mut State) {
     }
 }
 
-/// Axial stretch exerts no torque on the frames, so that the covariance is exact.
 #[test]
 fn stress_has_the_covariance_of_the_stiffness() {
     for (side, weight, attached) in all() {

@@ -1,4 +1,3 @@
-//! Noise, sigmoids and statistics shared by the tests.
 #![allow(dead_code, reason = "each test file uses its part of this")]
 
 use actin_fit::{
@@ -30,7 +29,6 @@ impl Model for Sigmoid {
     }
 }
 
-/// Standard normal random numbers.
 pub(crate) struct Gauss(ChaCha8Rng);
 
 impl Gauss {
@@ -59,7 +57,6 @@ pub(crate) fn values(model: &dyn Model, x: &[f64], p: &[f64]) -> Vec<f64> {
     x.iter().map(|x| model.value(&[*x], p)).collect()
 }
 
-/// Data without noise.
 pub(crate) fn clean(model: &dyn Model, x: &[f64], p: &[f64]) -> Data {
     let observations = Observations::new(&values(model, x, p)).unwrap();
     Data::new(x, observations).unwrap()
@@ -94,7 +91,6 @@ pub(crate) fn digits(a: f64, b: f64) -> f64 {
     -((a - b).abs() / b.abs()).max(1e-16).log10()
 }
 
-/// Smallest number of digits in which two lists agree.
 pub(crate) fn least_digits(a: &[f64], b: &[f64]) -> f64 {
     assert_eq!(a.len(), b.len());
     a.iter()
@@ -103,7 +99,6 @@ pub(crate) fn least_digits(a: &[f64], b: &[f64]) -> f64 {
         .fold(16.0, f64::min)
 }
 
-/// Standard errors of parameters that are all determined.
 pub(crate) fn errors(fit: &Fit) -> Vec<f64> {
     (0..fit.parameters.len())
         .map(|j| fit.precision.standard_error(j).unwrap())

@@ -1,5 +1,3 @@
-//! Dual numbers: values with derivatives with respect to the parameters.
-
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// Maximum number of parameters.
@@ -11,7 +9,6 @@ pub(crate) struct Dual {
     pub(crate) slopes: [f64; MOST],
 }
 
-/// Independent variables with unit derivatives.
 pub(crate) fn variables(p: &[f64]) -> Vec<Dual> {
     let variable = |(j, &value): (usize, &f64)| {
         let mut slopes = [0.0; MOST];
@@ -22,7 +19,6 @@ pub(crate) fn variables(p: &[f64]) -> Vec<Dual> {
 }
 
 impl Dual {
-    /// Function value with derivative `slope`, by the chain rule.
     fn chain(self, value: f64, slope: f64) -> Self {
         Self {
             value,
@@ -55,7 +51,6 @@ impl Dual {
         self * self
     }
 
-    /// Power of a positive value.
     pub(crate) fn power(self, exponent: Self) -> Self {
         let power = self.value.powf(exponent.value);
         (self.ln() * exponent).chain(power, power)

@@ -1,5 +1,3 @@
-//! Linear problems.
-
 #![allow(
     clippy::unreadable_literal,
     clippy::inconsistent_digit_grouping,

@@ -1,5 +1,3 @@
-//! Nonlinear problems from both starts of NIST.
-
 use super::problems::{Problem, all};
 use crate::common::{digits, errors, least_digits};
 use actin_fit::{Bounds, Fit, LevenbergMarquardt, Starts};
@@ -43,7 +41,6 @@ fn fit(problem: &Problem, start: &[f64]) -> Fit {
         .unwrap_or_else(|e| panic!("{} from {start:?}: {e}", problem.name))
 }
 
-/// Agreeing digits of parameters, errors and sum of squares.
 fn agreement(problem: &Problem, fit: &Fit) -> [f64; 3] {
     [
         least_digits(&fit.parameters, &problem.parameters),
@@ -93,7 +90,6 @@ fn certified_values_from_both_starts() {
     }
 }
 
-/// Some starts within these wide bounds do not reach the minimum.
 #[test]
 fn box_bod_from_drawn_starts() {
     let problems = all();

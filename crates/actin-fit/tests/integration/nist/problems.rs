@@ -1,5 +1,3 @@
-//! Functions and data of the nonlinear problems.
-
 use super::dual::{Dual, variables};
 use actin_fit::{Data, Model, Observations};
 use std::f64::consts::PI;
@@ -104,7 +102,6 @@ fn function(name: &str, row: &[f64], b: &[Dual]) -> Dual {
     }
 }
 
-/// Annual cycle and two cycles of variable period.
 fn oscillations(x: f64, b: &[Dual]) -> Dual {
     let wave = |period: Dual, a: Dual, c: Dual| {
         let angle = 2.0 * PI * x / period;

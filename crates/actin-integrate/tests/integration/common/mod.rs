@@ -1,4 +1,3 @@
-//! Small systems shared by the tests.
 #![allow(dead_code, reason = "each test file uses its own part")]
 
 use actin_integrate::{Drag, POSITION_VERLET, advance};
@@ -8,7 +7,6 @@ use actin_mechanics::{
 };
 use actin_mechanics::{Xorshift, perturb, randomise_velocities};
 
-/// Springs between consecutive points.
 pub(crate) fn springs(state: &State, stiffness: f64, rest_length: f64) -> Springs {
     let spring = |i| Spring {
         points: [i - 1, i],
@@ -116,7 +114,6 @@ const BOND_ENDS: [(usize, [f64; 3], usize, [f64; 3]); 3] = [
     (0, [0.1, -0.6, 0.4], 2, [-0.2, -0.5, 0.1]),
 ];
 
-/// Three free tops with different axes of symmetry, with eccentric bonds and torsion springs.
 pub(crate) fn three_tops() -> System {
     let mut state = State::default();
     for (i, moments) in [[2.0, 1.0, 1.0], [0.8, 1.5, 0.8], [1.0, 1.0, 1.7]]
@@ -144,7 +141,6 @@ pub(crate) fn three_tops() -> System {
     System::new(state, vec![Box::new(bonds), Box::new(torsion)])
 }
 
-/// [`three_tops`] with random displacements and velocities.
 pub(crate) fn spinning_tops() -> System {
     let mut system = three_tops();
     let mut noise = Xorshift::new(7);
@@ -165,7 +161,6 @@ pub(crate) fn vibrating_tops(seed: u64) -> System {
     system
 }
 
-/// `n` points at unit distances along x with springs between neighbours and fixed ends.
 pub(crate) fn chain(n: usize, stiffness: f64, mass: f64) -> System {
     let mut state = State::default();
     for i in 0..n {
@@ -177,7 +172,6 @@ pub(crate) fn chain(n: usize, stiffness: f64, mass: f64) -> System {
     System::new(state, vec![Box::new(springs)])
 }
 
-/// All coordinates and momenta.
 pub(crate) fn flatten(state: &State) -> Vec<f64> {
     let q = &state.frames.orientation;
     let vectors = [
@@ -194,7 +188,6 @@ pub(crate) fn flatten(state: &State) -> Vec<f64> {
         .collect()
 }
 
-/// Euclidean distance of two states in all coordinates and momenta.
 pub(crate) fn distance(a: &State, b: &State) -> f64 {
     let squares = flatten(a)
         .into_iter()
