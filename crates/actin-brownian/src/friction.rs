@@ -8,9 +8,9 @@ use actin_mechanics::{
 /// u = w_1 v_1 + w_2 v_2 + omega x arm,   F_c = -zeta_c u_c
 /// ```
 ///
-/// `v` are the velocities of the points (nm/ns) with weights `w`, `omega` is the angular velocity
-/// of the frame (rad/ns), and `F` the force at the place (pN). Index `c` denotes axes of the frame.
-/// Loads on the bodies follow from the virtual work, so that the friction matrix is symmetric.
+/// `v` are the velocities of the points (nm/ns) with weights `w`, and `omega` is the angular
+/// velocity of the frame (rad/ns). `F` is the force at the place (pN), in axes `c` of the frame.
+/// Loads follow from the virtual work, so that the friction matrix is symmetric.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Dashpot {
     /// Points and their weights; points of zero weight are ignored.

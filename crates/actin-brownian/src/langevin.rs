@@ -19,10 +19,10 @@ const PURPOSE: [u8; 8] = *b"langevin";
 /// (M + h Z/2) v' = (M - h Z/2) v + sqrt(2 kT h) B xi,   B B^T = Z
 /// ```
 ///
-/// This preserves the Maxwell distribution. For constant `Z` and any `h Z/M` the scheme is exact
-/// for the drift and velocity `F/Z` under a constant load, the diffusion `kT/Z`, and the mean
-/// energy `kT/2` of linear modes at stable steps. The stable limit is 2 over the largest frequency.
-/// Velocities alternate in sign for `h Z/M > 2`.
+/// This preserves the Maxwell distribution. For constant `Z` and any `h Z/M` the following are
+/// exact: drift and velocity `F/Z` under a constant load, diffusion `kT/Z`, and mean energy `kT/2`
+/// of linear modes. Steps are stable below 2 over the largest frequency. Velocities alternate in
+/// sign for `h Z/M > 2`.
 ///
 /// The noise is a function of the seed, the number of the step and the index of the dashpot.
 ///

@@ -6,11 +6,9 @@
 //! ```
 //!
 //! `Z(q)` is the friction, `f(q)` are the loads, and `v` are the velocities of points (lab frame)
-//! and the angular velocities of frames (body axes). The Boltzmann distribution with the Haar
-//! measure of the rotations is stationary if the noise is of Stratonovich type with a drift
-//! `kT sum_k b_k div b_k`, where `b_k` are the columns of `Z^-1 B`. The divergences are zero for
-//! these frictions. Dashpots with an arm must be the only ones on their point, or share their frame
-//! with the others.
+//! and the angular velocities of frames (body axes). For these frictions the Boltzmann distribution
+//! is stationary with Stratonovich noise and without a drift term. Dashpots with an arm must be the
+//! only ones on their point, or share their frame with the others.
 //!
 //! # Steps with random stress
 //! ```text
@@ -26,33 +24,28 @@
 //! x_1 = x_0 / (1 + z) + noise of variance (kT / k) (2 z + z^2) / (1 + z)^2
 //! ```
 //!
-//! The variance is `kT/k` for any step; `2 z` is due to friction and `z^2` due to stress. Fast
-//! modes are sampled independently in each step, and the slope of the correlation is too small by
-//! `z/2`. Stress acts on strains, with any rotation of the bodies, and does not rotate frames of
+//! The variance is `kT/k` for any step; `2 z` is due to friction and `z^2` due to stress. The slope
+//! of the correlation is too small by `z/2`. Stress acts on strains and does not rotate frames of
 //! rods about their own axes. Steps can be thousands of times longer than the relaxation of stretch
 //! and shear.
 //!
-//! Means are exact for short steps, and also for long ones if the strains are independent, as in an
-//! open chain with constant rigidities. Otherwise their error is of first order in the step.
-//! Interactions without random stress (loads, contacts) need steps that resolve their relaxation;
-//! longer steps give too little energy.
+//! Means are exact for short steps, and for independent strains also for long steps. Otherwise
+//! their error is of first order. Interactions without random stress (loads, contacts) need steps
+//! that resolve their relaxation.
 //!
 //! The friction is taken at half the step and its noise at the start (Fixman). Other places would
 //! lose the drift due to stiff elements with shape-dependent mobility.
 //!
 //! # Solution
 //! Newton's method uses the matrix `K + Z/h` with the contribution of the stresses. The first
-//! iteration omits the geometric stiffness. Later iterations omit it as well if the matrix is not
-//! positive definite: first for springs, which are unstable in compression, then for chains with
-//! negative pivots, then for all. Bodies of a chain move with its frames, and its mean displacement
-//! is kept. If iterations grow, friction is added. A step is solved if the remaining change is
+//! iteration omits the geometric stiffness, and so do later ones if the matrix is not positive
+//! definite. If iterations grow, friction is added. A step is solved if the remaining change is
 //! within the limits, or below a thousandth of the first iteration.
 //!
 //! Rods that are isotropic about their axes spin by a radian in steps of microseconds. Energies do
-//! not depend on the spin, and stresses keep their directions in the lab. Spins couple only to
-//! spins in the matrix ([`Brownian::with_spinning_frames`]), so that large spins do not slow the
-//! iteration. Coupled chains use conjugate gradients, preconditioned by the factors of the single
-//! chains, if that is cheaper than a factorisation of the whole.
+//! not depend on the spin, so that the matrix couples spins only to spins
+//! ([`Brownian::with_spinning_frames`]). Coupled chains use conjugate gradients, preconditioned by
+//! the factors of the single chains, if that is cheaper than a factorisation of the whole.
 //!
 //! # Accuracy
 //! Mean of `1 - cos` of the angle between segments of free rods over its exact value, from 400,000
@@ -75,17 +68,16 @@
 //! converge is halved.
 //!
 //! # Midpoint steps
-//! Optional, with noise: the implicit midpoint rule in body axes, with displacements and rotations
-//! `d` over half the step, `q_m = q_0 exp(d)` and `q_1 = q_m exp(d)`.
+//! The optional implicit midpoint rule with noise, in body axes: `d` are displacements and
+//! rotations over half the step, `q_m = q_0 exp(d)` and `q_1 = q_m exp(d)`.
 //!
 //! ```text
 //! Z(q_m) 2 d / h = f(q_m) + sqrt(2 kT / h) B(q_m) xi
 //! ```
 //!
 //! Linear modes have the variance `kT/k` at any step. Modes that relax faster than a step alternate
-//! in sign and decay over `z/4` steps. The energy of stretch and shear of 40 nm is too large by 0.2
-//! % in steps of 0.3 ns and by 8.6 % in steps of 1 ns. The first steps are fully implicit,
-//! `f(q_1)`, to damp initial imbalances.
+//! in sign. The energy of stretch and shear of 40 nm is too large by 0.2 % in steps of 0.3 ns and
+//! by 8.6 % in steps of 1 ns. The first steps are fully implicit to damp initial imbalances.
 //!
 //! # Source
 //! Implicit steps at the start: Rannacher, Numer. Math. 43 (1984) 309. Noise of the start: Fixman,

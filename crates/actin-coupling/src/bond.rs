@@ -3,8 +3,8 @@ use actin_mechanics::{Loads, State, Stiffness, UnitQuaternion, Vector3};
 
 /// Bond with its junction frame, in filament order.
 ///
-/// It consists of a shear element between the centre of the monomer and the end of the rod, and of
-/// two bending elements between monomer frame, junction frame and frame of the end segment.
+/// A shear element joins the centre of the monomer and the end of the rod. Two bending elements
+/// join the frames of monomer, junction and end segment.
 #[derive(Clone, Debug)]
 pub(crate) struct Bond {
     pub(crate) points: [usize; 2],

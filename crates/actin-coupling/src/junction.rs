@@ -93,8 +93,9 @@ impl Junction {
     /// Creates a junction that is at rest in `state`.
     ///
     /// # Errors
-    /// If there are not one or two monomers, the number of frames differs, a monomer is on the
-    /// wrong side of the end of the rod, or a junction frame is not parallel to the end segment.
+    /// If there are not one or two monomers or the number of frames differs. Also if a monomer is
+    /// on the wrong side of the end of the rod, or a junction frame is not parallel to the end
+    /// segment.
     pub fn new(state: &State, parts: JunctionParts<'_>) -> Result<Self, JunctionError> {
         let JunctionParts {
             side,

@@ -56,12 +56,12 @@ pub enum LinkerEnd {
 /// E = k (|d| - L)^2 / 2,   F = k (|d| - L) d / |d|
 /// ```
 ///
-/// `d` is the vector from the site to the other end (nm, lab frame), `k` the stiffness (pN/nm), `L`
-/// the rest length (nm) and `F` the force on the site (pN, lab frame). Forces and torques on the
-/// bodies are the negative gradient of `E`.
+/// `d` is the vector from the site to the other end (nm, lab frame). `k` is the stiffness (pN/nm),
+/// `L` the rest length (nm) and `F` the force on the site (pN, lab frame). Loads are the negative
+/// gradient of `E`.
 ///
 /// At `d = 0` with a positive rest length the stiffness is negative in every direction, see
-/// [`Hooke`]. Such a state is therefore not a minimum.
+/// [`Hooke`]. This state is not a minimum.
 ///
 /// # Source
 /// arXiv 2203.01284, Section 3. The paper uses statically equivalent forces that are not a
@@ -83,7 +83,7 @@ impl Linker {
     /// use actin_coupling::{Anchor, Linker, LinkerEnd, RodPlace, Site, State, StraightRod, Vector3};
     /// let mut state = State::default();
     /// let rod = StraightRod::uniform(2, 10.0).push(&mut state)?;
-    /// A site at a quarter of segment 1, on the axis, 3 nm from the anchor along x.
+    /// // A site at a quarter of segment 1, on the axis, 3 nm from the anchor along x.
     /// let place = RodPlace { segment: 1, fraction: 0.25, ..RodPlace::default() };
     /// let site = Site::on_rod(&rod, place)?;
     /// let anchor = LinkerEnd::Anchor(Anchor::fixed(Vector3::new(3.0, 0.0, 12.5)));

@@ -6,10 +6,9 @@
 //! -(|lhat| n . sigma + D_E m_E . kappa_E + D_C m_C . kappa_C)
 //! ```
 //!
-//! For a rod with coupled strain and curvature, the stress of the rod includes half of its end
-//! segment beyond the last frame, by the mean of `kappa_C`. The covariance of the torques on
-//! `kappa_C` of `b` bonds with weights `w` is then the tangent of bending times the positive matrix
-//! with
+//! If strain and curvature of the rod are coupled, its stress includes half of the end segment
+//! beyond the last frame. The covariance of the torques on `kappa_C` of `b` bonds with weights `w`
+//! is then the tangent of bending times the positive matrix with
 //!
 //! ```text
 //! w D_C on the diagonal, minus L / (2 b^2) in all entries

@@ -42,9 +42,9 @@ enum Trial {
 /// Levenberg-Marquardt search from one start, with step lengths of a trust region.
 ///
 /// The first step is at most as long as the start, in the scaled norm. A rejected step is halved.
-/// If the ratio of actual to predicted decrease is below one half, the damping grows, so that the
-/// next step ends at the minimum of a parabola along the last one. Otherwise the damping falls.
-/// Steps that the curvature of the model shortens include the geodesic acceleration.
+/// The damping falls if the ratio of actual to predicted decrease is above one half. Otherwise it
+/// grows, to the minimum of a parabola along the last step. Steps shortened by curvature include
+/// the geodesic acceleration.
 ///
 /// # Source
 /// More, Lecture Notes in Mathematics 630 (1978) 105, for scales and lengths; Nielsen,

@@ -31,7 +31,7 @@ pub struct GradientCheck {
 ///
 /// let data = Data::new(&[1.0, 2.0], Observations::new(&[0.0, 0.0])?)?;
 /// let slip = ClosureModel::new(1, |x, p| p[0] * p[0] * x[0], |x, p, g| g[0] = p[0] * x[0]);
-/// The factor 2 is missing in the derivative.
+/// // The factor 2 is missing in the derivative.
 /// let check = check_gradient(&slip, &data, &[3.0])?;
 /// assert!((check.error - 0.5).abs() < 1e-9);
 /// # Ok::<(), actin_fit::FitError>(())

@@ -18,13 +18,13 @@ pub struct LinearFit {
 /// Minimises `sum_i ((y_i - sum_j A_ij p_j) / sigma_i)^2` over `p`.
 ///
 /// Shapes: `m` observations and `n` columns -> `n` parameters. The method is QR of the weighted
-/// design with columns scaled to unit length, so that errors grow with the reported condition
-/// number and not with its square. Singular values below `m` units of rounding count as zero.
+/// design with columns of unit length. Errors grow with the reported condition number, not with its
+/// square. Singular values below `m` units of rounding count as zero.
 ///
 /// ```
 /// use actin_fit::{Mat, Observations, fit_linear};
 ///
-/// Mean of 1, 2 and 6 with the standard error sqrt(7) / sqrt(3).
+/// // Mean of 1, 2 and 6 with the standard error sqrt(7) / sqrt(3).
 /// let ones = Mat::full(3, 1, 1.0);
 /// let fit = fit_linear(ones.as_ref(), &Observations::new(&[1.0, 2.0, 6.0])?)?;
 /// assert!((fit.parameters[0] - 3.0).abs() < 1e-14);

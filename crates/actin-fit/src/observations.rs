@@ -20,7 +20,7 @@ pub enum Noise {
 ///
 /// let observations = Observations::new(&[1.0, 2.0])?.with_weights(&[1.0, 4.0])?;
 /// assert_eq!(observations.noise(), Noise::Relative);
-/// A weight is an inverse variance.
+/// // A weight is an inverse variance.
 /// assert_eq!(observations.deviations(), [1.0, 0.5]);
 /// # Ok::<(), actin_fit::FitError>(())
 /// ```

@@ -11,7 +11,7 @@ use rand_chacha::ChaCha8Rng;
 /// let bounds = Bounds::new(&[(0.0, 4.0)])?;
 /// let mut drawn = Starts::drawn(4, 7).points(&bounds)?;
 /// drawn.sort_by(|a, b| a[0].total_cmp(&b[0]));
-/// One start in each quarter of the range.
+/// // One start in each quarter of the range.
 /// let quarters: Vec<f64> = drawn.iter().map(|p| p[0].floor()).collect();
 /// assert_eq!(quarters, [0.0, 1.0, 2.0, 3.0]);
 /// # Ok::<(), actin_fit::FitError>(())

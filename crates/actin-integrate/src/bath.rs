@@ -22,7 +22,7 @@ use thiserror::Error;
 /// ```
 /// use actin_integrate::{Bath, Drag};
 /// let bath = Bath::new(Drag::new(0.5, 0.0).unwrap(), 4.0, 1).unwrap();
-/// sqrt(kT (1 - exp(-1))) for velocities; no noise without drag.
+/// // sqrt(kT (1 - exp(-1))) for velocities; no noise without drag.
 /// let (translational, rotational) = bath.spreads(1.0);
 /// assert!((translational - (4.0 * (1.0 - (-1.0f64).exp())).sqrt()).abs() < 1e-15);
 /// assert_eq!(rotational, 0.0);

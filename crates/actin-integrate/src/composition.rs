@@ -166,7 +166,7 @@ impl Composition {
     /// `-c x^2 + b (v/omega)^2`. The ratio is `-b/c`; it is meaningless above the stability limit.
     ///
     /// ```
-    /// Position Verlet: the temperature of positions is too low by (omega h)^2/4.
+    /// // Position Verlet: the temperature of positions is too low by (omega h)^2/4.
     /// let ratio = actin_integrate::POSITION_VERLET.configurational_temperature(1.0);
     /// assert!((ratio - 0.75).abs() < 1e-15);
     /// ```

@@ -3,16 +3,14 @@ use thiserror::Error;
 
 /// Default fraction of the stability limit.
 ///
-/// The limit is that of the linearised system. Frequencies rise with deformation, the estimate may
-/// be low by 1 %, and nonlinear systems have resonances between fast modes and the step. Those of
-/// Verlet at 0.87 (third order) and 0.71 (fourth order) of the limit are harmful.
+/// The limit applies to the linearised system. Frequencies rise with deformation, and the estimate
+/// may be low by 1 %. Verlet has harmful resonances between fast modes and the step at 0.87 (third
+/// order) and 0.71 (fourth order) of the limit.
 ///
-/// Measured energy drift of three bonded tops over 1e5 steps: for an rms bond strain of 2.6 %
-/// (eight random starts) there is no trend beyond a tenth of the fluctuation at half the limit.
-/// VEFRL diffuses by up to 0.3 % there and has no trend at 0.4 of the limit. Larger motion needs
-/// smaller steps (one start each). At half the limit PEFRL and VEFRL drift at 6 % strain, VEFRL
-/// fails at 15 % and all methods fail at 31 %. At a quarter of the limit the energy changes by 1 %
-/// (Forest-Ruth) to 70 % (PEFRL) at 31 % strain.
+/// Measured for three bonded tops over 1e5 steps at half the limit: at an rms bond strain of 2.6 %
+/// the energy does not drift, except with VEFRL (0.3 %; no drift at 0.4 of the limit). At 6 % PEFRL
+/// and VEFRL drift, at 15 % VEFRL fails, and at 31 % all methods fail. At a quarter of the limit
+/// and 31 % the energy changes by 1 % (Forest-Ruth) to 70 % (PEFRL).
 ///
 /// # Source
 /// Schlick, Mandziuk, Skeel and Srinivas, J. Comput. Phys. 140 (1998) 1, for the resonances.

@@ -86,7 +86,7 @@ impl Contacts {
     /// use actin_coupling::repulsion::{Axis, Capsule, ContactParameters, Contacts};
     /// use actin_coupling::{Interaction, Loads, Point, State, Vector3};
     /// let mut state = State::default();
-    /// Two pieces of 20 nm that cross at a right angle at a distance of 5 nm.
+    /// // Two pieces of 20 nm that cross at a right angle at a distance of 5 nm.
     /// let ends = [(10.0, 0.0, 0.0), (-10.0, 0.0, 0.0), (0.0, 10.0, 5.0), (0.0, -10.0, 5.0)];
     /// let points = ends.map(|(x, y, z)| {
     ///     state.points.push(Point { position: Vector3::new(x, y, z), mass: 1.0 })

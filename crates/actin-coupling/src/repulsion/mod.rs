@@ -6,11 +6,10 @@
 //! largest possible contact stiffness, as a bound for the time step.
 //!
 //! # Integration along axes
-//! The smallest distance of two capsules has no second derivative if they are parallel or if the
-//! nearest point is at an end, which is common in bundles. The energy is therefore a sum over
-//! points of both axes, spaced by a third of a radius or less. It is as smooth as the kernel, with
-//! three continuous derivatives, and nearly independent of the division into capsules. Smallest
-//! distances only select pairs and define gaps.
+//! The smallest distance of two capsules has no second derivative for parallel capsules or nearest
+//! points at an end. The energy is therefore a sum over points of both axes, spaced by a third of a
+//! radius or less. It has the three continuous derivatives of the kernel, and is nearly independent
+//! of the division into capsules.
 
 mod capsule;
 mod contacts;
