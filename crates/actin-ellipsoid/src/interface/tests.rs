@@ -1,15 +1,13 @@
-//! Where bonds may be, how many there are, and which ones a seed gives.
+//! Geometry, number and reproducibility of bonds.
 
 use super::*;
 use crate::{EllipsoidModel, Helix};
 use InterfaceKind::{Lateral, Longitudinal};
 
-/// Default parameters with many bonds, for statistics.
 fn with_bonds(bonds: usize) -> EllipsoidParameters {
     EllipsoidParameters::drawn(bonds, 0)
 }
 
-/// Default parameters as they are without a shortest bond, with drawn bonds.
 fn without_shortest(bonds: usize, seed: u64) -> EllipsoidParameters {
     let mut parameters = EllipsoidParameters::drawn(bonds, seed);
     parameters.lateral.minimum_length = 0.0;
@@ -17,13 +15,11 @@ fn without_shortest(bonds: usize, seed: u64) -> EllipsoidParameters {
     parameters
 }
 
-/// The gap of an interface with the default parameters.
 fn gap(kind: InterfaceKind) -> Gap {
     Gap::new(&without_shortest(1, 0), kind)
 }
 
-/// Bonds run along the line of centres, from surface to surface, and no further than they
-/// may: an exit root, or a line the wrong way, would fail one of these.
+/// Excludes the exit root and the opposite direction.
 #[test]
 fn bonds_bridge_the_gap_parallel_to_the_line_of_centres() {
     for kind in InterfaceKind::ALL {
@@ -38,7 +34,6 @@ fn bonds_bridge_the_gap_parallel_to_the_line_of_centres() {
             for end in [bond.lower, bond.upper] {
                 assert!((gap.ellipsoid.normal(end).dot(&end) - 1.0).abs() < 1e-13);
             }
-            // It leaves the lower monomer and enters the upper one.
             assert!(gap.ellipsoid.normal(bond.lower).dot(&axis) > 0.0);
             let axis = interface.neighbour.rotation.tr_mul(&axis);
             assert!(gap.ellipsoid.normal(bond.upper).dot(&axis) < 0.0);
@@ -46,8 +41,7 @@ fn bonds_bridge_the_gap_parallel_to_the_line_of_centres() {
     }
 }
 
-/// With the default parameters the published rule (shortest root in absolute value, on
-/// whatever side) accepts exactly the same points.
+/// The published rule takes the shorter root in absolute value.
 #[test]
 fn published_rule_accepts_the_same_points() {
     for kind in InterfaceKind::ALL {
@@ -74,8 +68,8 @@ fn published_rule_accepts_the_same_points() {
     }
 }
 
-/// Radius of the disc that is as large as the interface seen along the line of centres, by
-/// the midpoint rule on a square grid of lines: no random numbers, no sampler.
+/// Radius of the disc of equal area to the interface, projected along the line of centres. Midpoint
+/// rule on a square grid of lines.
 fn radius(gap: &Gap) -> f64 {
     const SPACING: f64 = 0.02;
     let axis = gap.neighbour.offset.normalize();
@@ -91,8 +85,7 @@ fn radius(gap: &Gap) -> f64 {
     (bonds.count() as f64 * SPACING * SPACING / std::f64::consts::PI).sqrt()
 }
 
-/// The maximum lengths are those that give both interfaces a radius of about 1.8 nm. The grid
-/// knows the radii to 0.005 nm; the last digit is checked so that a change does not pass.
+/// The maximum lengths give both interfaces a radius of about 1.8 nm. The grid error is 0.005 nm.
 #[test]
 fn interfaces_have_a_radius_of_about_1_8_nm() {
     for (kind, expected) in [(Lateral, 1.86), (Longitudinal, 1.76)] {
@@ -101,8 +94,8 @@ fn interfaces_have_a_radius_of_about_1_8_nm() {
     }
 }
 
-/// Sampled bonds fill the interface that the grid sees: seen along the line of centres, the
-/// accepted share of the surface (74.2 nm^2, oblate spheroid) has the same area.
+/// The accepted fraction of the surface (74.2 nm^2, oblate spheroid), projected along the line of
+/// centres, has the area of the grid.
 #[test]
 fn sampled_bonds_fill_the_interface() {
     let (a, c): (f64, f64) = (2.7, 1.9);
@@ -118,14 +111,14 @@ fn sampled_bonds_fill_the_interface() {
         let area = surface * slopes.sum::<f64>() / interface.attempts as f64;
         let radius = radius(&gap(kind));
         let ratio = area / (std::f64::consts::PI * radius * radius);
-        // 20 000 bonds know an area to 0.7 %; five times that, and the grid's 0.5 %.
+        // Statistical error of 20 000 bonds: 0.7 %. Bound: five times that, plus 0.5 % for the
+        // grid.
         assert!((ratio - 1.0).abs() < 0.04, "{kind}: {ratio}");
     }
 }
 
-/// A bond limit below the gap leaves nothing: a typed error, not an endless loop.
 #[test]
-fn a_limit_below_the_gap_is_an_error() {
+fn a_maximum_length_below_the_gap_is_an_error() {
     let mut parameters = without_shortest(64, 0);
     parameters.longitudinal.maximum_length = 0.05;
     let model = EllipsoidModel::new(parameters).unwrap();
@@ -141,13 +134,12 @@ fn a_limit_below_the_gap_is_an_error() {
         }
     );
     let message = error.to_string();
-    assert!(message.starts_with("bond limit that leaves an interface without bonds"));
+    assert!(message.starts_with("no longitudinal bond of 0.0 to 0.05 nm"));
 }
 
-/// A bond limit that leaves two points in ten thousand: an interface of many bonds is given up after
-/// a bounded number of draws, however steadily they succeed.
+/// Only about 2e-4 of the samples give a bond.
 #[test]
-fn a_limit_that_leaves_hardly_any_bonds_is_an_error() {
+fn a_limit_with_too_few_bonds_is_an_error() {
     let gap = gap(Lateral);
     let mut stream = Stream::new(4, 0, 0);
     let points = (0..100_000).map(|_| gap.ellipsoid.sample(&mut stream));
@@ -165,13 +157,12 @@ fn a_limit_that_leaves_hardly_any_bonds_is_an_error() {
     else {
         panic!("{error}");
     };
-    // 2e6 draws, of which 2e-4 succeed; five standard deviations of the 20 that say so.
+    // 2e6 samples with probability 2e-4; bound of five standard deviations of the 20 observed.
     assert!((1..1000).contains(&found), "{found}");
     assert!(attempts < 2_000_000 + MAXIMUM_ATTEMPTS);
 }
 
-/// Where the ellipsoids overlap no bond starts inside the neighbour: with the absolute value
-/// of a negative root such bonds would be accepted.
+/// A negative root in absolute value would place bonds inside the neighbour.
 #[test]
 fn overlapping_monomers_are_bonded_outside_the_overlap() {
     let mut parameters = with_bonds(200);
@@ -189,8 +180,7 @@ fn overlapping_monomers_are_bonded_outside_the_overlap() {
     }
 }
 
-/// Independent interfaces differ from index to index, negative ones included; identical ones
-/// do not, but differ between kinds.
+/// Independent interfaces differ between indices; identical ones only between kinds.
 #[test]
 fn draws_are_keyed_by_kind_and_index() {
     let mut parameters = with_bonds(1);
@@ -216,8 +206,7 @@ fn draws_are_keyed_by_kind_and_index() {
     );
 }
 
-/// The first anchors of seed 7, for good. Sines of the helix may differ in the last digit
-/// between machines, hence the tolerance.
+/// Sines of the helix may differ in the last digit between machines.
 #[test]
 fn anchors_are_those_of_the_first_release() {
     let parameters = without_shortest(64, 7);
@@ -282,8 +271,7 @@ const GOLDEN: [Golden; 3] = [
     ),
 ];
 
-/// Bonds below the shortest are drawn again: those that are left are the ones drawn without it, in the
-/// same order, and a length below all of them changes nothing.
+/// Rejection by length keeps the order of the remaining bonds.
 #[test]
 fn short_bonds_are_drawn_again() {
     let draw = |shortest, bonds| {
