@@ -1,4 +1,4 @@
-//! Prints how many bonds per second the loads and the second derivatives handle, on one thread.
+//! Prints the evaluation rate of loads and second derivatives in bonds per second on one thread.
 //!
 //! `cargo run --release -p actin-ellipsoid --example bond_rate`
 
@@ -21,7 +21,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// A filament away from rest.
+/// Displaced filament.
 fn filament(
     count: usize,
     parameters: EllipsoidParameters,
@@ -60,7 +60,7 @@ fn print_rates(kind: &str, state: &State, bonds: &Bonds) {
     );
 }
 
-/// Seconds per evaluation: the best of many short batches, as other work only ever slows one down.
+/// Seconds per evaluation: minimum over many short batches.
 fn seconds(evaluations: usize, mut evaluate: impl FnMut()) -> f64 {
     let batch = || {
         let start = Instant::now();

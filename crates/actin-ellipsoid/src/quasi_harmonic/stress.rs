@@ -1,19 +1,19 @@
-//! The random stress of links: six numbers each, conjugate to the strain.
+//! Random stress of links: six components each, conjugate to the strain.
 //!
-//! A link turns its frames about their own axes by as much as at its pose. What beyond that the sum of its own stress and the
-//! random one would turn them by, where they are displaced, is left out. Nothing resists a turn of the whole chain about its axis: in
-//! steps in which bending relaxes it would turn, and with it the bend that the stress of this step asks for, until random forces
-//! bend it further; free filaments of 110 nm were too soft by 2 to 4 % for that, at any such step. The sum is small where the step
-//! ends, so that steps without end stay exact.
+//! The sum of elastic and random stress of a displaced link would also rotate its frames about
+//! their own axes, relative to the mean pose. This part is omitted. A chain has no stiffness
+//! against rotation about its axis, so a time step in which bending relaxes would rotate it, and
+//! the bend with it. Free filaments of 110 nm were 2 to 4 % too soft with this part. The sum is
+//! small at the end of a time step, so long time steps remain exact.
 
 use super::QuasiHarmonic;
 use crate::SixVector;
 use actin_mechanics::{Loads, RandomStress, State, Stiffness, correlate};
 
-/// Numbers of a strain.
+/// Components of a strain.
 const SIX: usize = 6;
 
-/// The stress of each link.
+/// Stress of each link.
 fn written(stresses: &[f64]) -> impl Iterator<Item = SixVector> {
     let (links, _) = stresses.as_chunks::<SIX>();
     links.iter().map(|s| SixVector::from(*s))

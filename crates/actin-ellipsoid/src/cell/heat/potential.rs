@@ -1,4 +1,4 @@
-//! What is sampled: energy of the cell, work of the given loads, measure of rotations.
+//! Potential of the sampled distribution.
 
 use super::super::jets::log_density;
 use super::super::pairs::Derivatives;
@@ -6,15 +6,16 @@ use super::super::{Cell, STRAINS, SixVector};
 use actin_mechanics::Matrix3;
 use nalgebra::{DMatrix, DVector};
 
-/// The potential whose Boltzmann factor is the density of displacements and turns in their components.
+/// Potential whose Boltzmann factor is the density of displacements and rotation vectors: energy of
+/// the cell minus work of the given loads, plus the measure of rotations.
 #[derive(Debug)]
 pub(super) struct Potential<'a> {
     pub(super) cell: &'a Cell,
     /// Thermal energy (pN nm).
     pub(super) kt: f64,
-    /// Strains that are free.
+    /// Indices of the free strains.
     pub(super) free: Vec<usize>,
-    /// Loads: those of the free strains count.
+    /// Loads; only those of the free strains are used.
     pub(super) loads: SixVector,
 }
 
@@ -24,7 +25,7 @@ impl Potential<'_> {
         self.cell.coordinates() + STRAINS
     }
 
-    /// Its value (pN nm) at `place`, coordinates then strains; its derivatives go to `gradient`.
+    /// Value (pN nm) at `place` (coordinates, then strains). Writes the derivatives to `gradient`.
     pub(super) fn slopes(&self, place: &DVector<f64>, gradient: &mut DVector<f64>) -> f64 {
         let mut energy = self.cell.slopes(place, gradient);
         for (row, turn) in self.cell.turns(place) {
@@ -41,7 +42,7 @@ impl Potential<'_> {
         energy
     }
 
-    /// The energy of the cell, with the second derivatives of the potential.
+    /// Energy of the cell, with the second derivatives of the potential.
     pub(super) fn derivatives(&self, place: &DVector<f64>) -> Derivatives {
         let coordinates = self.cell.coordinates();
         let strain: SixVector = place.fixed_rows::<STRAINS>(coordinates).into();
@@ -57,13 +58,13 @@ impl Potential<'_> {
         all
     }
 
-    /// Orthonormal directions of all that moves, one per column.
+    /// Orthonormal directions of unconstrained motion, one per column.
     pub(super) fn directions(&self) -> DMatrix<f64> {
         let (coordinates, held) = (self.cell.coordinates(), &self.cell.held);
         let moving = coordinates - held.nrows();
         let mut basis = DMatrix::zeros(self.size(), moving + self.free.len());
         let projector = DMatrix::identity(coordinates, coordinates) - held.tr_mul(held);
-        // Eigenvalues are 0 and 1; those of 1 come where they come.
+        // Eigenvalues of a projector are 0 and 1, in unspecified order.
         let eigen = projector.symmetric_eigen();
         let columns = (0..coordinates).filter(|&k| eigen.eigenvalues[k] > 0.5);
         for (column, k) in columns.enumerate() {
@@ -76,7 +77,7 @@ impl Potential<'_> {
         basis
     }
 
-    /// Work of the load of strain `k` per strain (pN nm).
+    /// Derivative of the work of the loads with respect to strain `k` (pN nm).
     fn work_per_strain(&self, k: usize) -> f64 {
         self.cell.length() * self.loads[k]
     }
