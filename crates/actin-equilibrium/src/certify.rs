@@ -1,16 +1,15 @@
-//! Counts the negative eigenvalues of the stiffness at an equilibrium.
+//! Number of negative eigenvalues of the stiffness at an equilibrium.
 //!
-//! Eigenvalues `lambda` are those of `K v = lambda M v` with `M` one for displacements (nm) and
-//! `l^2` for turns (rad), `l` the turn length of the options. Their signs are counted by
-//! Sylvester's law from the pivots of `K + s M` and `K - s M`, where `s`, the resolution, is the
-//! error that factorisation and coordinates may have made: eigenvalues below `-s` are negative
-//! beyond doubt. Those within `[-s, s]` are looked at more closely, since `s` is a bound for the
-//! worst case, which long filaments, whose lowest eigenvalues fall with the fourth power of the
-//! length, do not meet: the count is repeated with the coordinates and the matrix changed at
-//! random by some roundings. If it never changes, and no pivot is exactly zero in any repetition, it
-//! is taken; else they cannot be told from zero. A body that nothing acts on has as many eigenvalues
-//! of exactly zero as it has unknowns: changes in proportion to them would leave them zero, and the
-//! signs of their pivots mean nothing.
+//! The eigenvalues are those of `K v = lambda M v` with the metric `M`: 1 for displacements (nm)
+//! and `l^2` for rotations (rad), `l` the turn length of the options. Their signs follow from the
+//! pivots of `K + s M` and `K - s M` by Sylvester's law of inertia, where the resolution `s` bounds
+//! the error of factorisation and coordinates. Eigenvalues below `-s` are negative.
+//!
+//! The bound is pessimistic for long filaments, whose lowest eigenvalues decrease with the fourth
+//! power of the length. Eigenvalues within `[-s, s]` are therefore counted repeatedly with random
+//! changes of the coordinates and the matrix by a few roundings. The count is accepted if it never
+//! changes and no pivot is exactly zero. A body without any stiffness has pivots of exactly zero
+//! under relative changes, whose signs are meaningless.
 
 use crate::certificate::{Certificate, Stability};
 use crate::direction::Solver;
@@ -20,7 +19,7 @@ use crate::newton::Newton;
 use crate::outcome::SolveError;
 use actin_mechanics::{Interaction, State, Xorshift};
 
-/// Counts the eigenvalues of the stiffness of the last assembly, made at `state`.
+/// Counts the eigenvalues of the last assembled stiffness, which belongs to `state`.
 pub(crate) fn certify(
     solver: &mut Solver,
     state: &State,
@@ -36,8 +35,8 @@ pub(crate) fn certify(
 }
 
 impl Newton {
-    /// The lowest eigenvalue of the stiffness at `state` that is not neutral (pN/nm), to 1e-9 of it; `None` if all
-    /// are neutral. Neutral ones are counted by the `certificate` of the state.
+    /// Lowest eigenvalue of the stiffness at `state` that is not neutral (pN/nm), with relative
+    /// accuracy 1e-9. Returns `None` if all are neutral. The certificate counts the neutral ones.
     ///
     /// # Errors
     /// If an interaction has no potential or no second derivatives.
@@ -63,8 +62,8 @@ impl Newton {
     }
 }
 
-/// The lowest eigenvalue of the stiffness of the last assembly above the `count` lowest, which are below `least`, by
-/// bisection; `None` if there are no more.
+/// Lowest eigenvalue above the `count` lowest ones, which are below `least`, by bisection. Returns
+/// `None` if there are no more.
 fn first_above(solver: &mut Solver, count: usize, least: f64) -> Option<f64> {
     if count >= solver.layout.unknowns() {
         return None;
@@ -84,14 +83,14 @@ fn first_above(solver: &mut Solver, count: usize, least: f64) -> Option<f64> {
     Some(bounds[1])
 }
 
-/// Counts with a stiffness that is known up to `uncertainty` (largest sum of a row); three
-/// factorisations, rarely more.
+/// Counts eigenvalues of a stiffness with error bound `uncertainty` (row sum norm). Usually three
+/// factorisations.
 fn count(solver: &mut Solver, uncertainty: f64) -> Certificate {
     let lightest = solver.lightest();
     let negative_pivots = solver.factorize(0.0).negative;
     let rounding = ROUNDINGS * f64::EPSILON;
     let largest = solver.assembly.largest_entry();
-    // A shift of zero would tell nothing: what is exactly zero is to lie between the two counts.
+    // A positive shift includes eigenvalues of exactly zero.
     let least = uncertainty.max(rounding * largest).max(f64::MIN_POSITIVE);
     let mut resolution = least / lightest;
     let mut attempt = 1;
@@ -101,7 +100,7 @@ fn count(solver: &mut Solver, uncertainty: f64) -> Certificate {
         let below = solver.factorize(-resolution);
         growth = growth.max(solver.growth());
         let error = rounding * growth / lightest;
-        // An error above the resolution means that an indefinite matrix met a small pivot.
+        // An error above the resolution indicates a small pivot of an indefinite matrix.
         if error > GROWTH_ALLOWED * resolution && attempt < ATTEMPTS {
             resolution = error;
             attempt += 1;
@@ -116,11 +115,11 @@ fn count(solver: &mut Solver, uncertainty: f64) -> Certificate {
     }
 }
 
-/// Takes the count of negative pivots where it is the same for all realisations of rounding, and no
-/// pivot is zero in any.
+/// Accepts the number of negative pivots if it is the same for all random roundings and no pivot is
+/// zero.
 ///
-/// Before that the residual is brought down by a step of Newton's method: what it leaves of a
-/// zero eigenvalue is the same in all realisations and would pass for a sign.
+/// A Newton step first reduces the residual, whose contribution to a zero eigenvalue would be the
+/// same in all repetitions.
 fn resolve(
     solver: &mut Solver,
     state: &State,
@@ -158,8 +157,8 @@ fn resolve(
     certificate.unresolved = 0;
 }
 
-/// One step from `state`, at which the stiffness is then assembled; `None`, with the assembly as
-/// it was, if the step does not bring the residual down.
+/// Performs one step from `state` and assembles the stiffness there. Returns `None` and leaves the
+/// assembly unchanged if the step does not reduce the residual.
 fn polish(
     solver: &mut Solver,
     state: &State,
@@ -174,7 +173,7 @@ fn polish(
     let evaluation = Evaluation::new(interactions, &polished);
     solver.work.evaluations += 1;
     let after = solver.layout.residual(&polished, &evaluation.loads);
-    // What is at its floor already may rise a little.
+    // A residual at its rounding error may increase slightly.
     if !(evaluation.is_finite() && after.is_within(&residual.max(&floor))) {
         return None;
     }
@@ -182,10 +181,10 @@ fn polish(
     Some(polished)
 }
 
-/// How the stiffness changes when each coordinate changes by `amplitude` roundings.
+/// Change of the stiffness if each coordinate changes by `amplitude` roundings.
 ///
-/// A bond of length `l` turns rounding of its ends into a geometric stiffness of that times its
-/// stiffness over `l`: with short bonds far more than the rounding of the matrix.
+/// For a bond of length `l` this is the rounding of its ends times its stiffness over `l`, much
+/// more than the rounding of the matrix if the bond is short.
 fn change(
     solver: &mut Solver,
     state: &State,
@@ -212,7 +211,7 @@ fn change(
     changes
 }
 
-/// The largest sum of absolute values in a row of a matrix of the present pattern.
+/// Largest row sum of absolute values of a matrix with the current pattern.
 fn largest_row_sum(solver: &mut Solver, mut matrix: Vec<f64>) -> f64 {
     let n = solver.layout.unknowns();
     let mut sums = vec![0.0; n];
@@ -222,18 +221,18 @@ fn largest_row_sum(solver: &mut Solver, mut matrix: Vec<f64>) -> f64 {
     sums.into_iter().fold(0.0, f64::max)
 }
 
-/// Factor by which bounds of an eigenvalue are moved apart.
+/// Factor of the bracketing of an eigenvalue.
 const FASTER: f64 = 16.0;
-/// Relative precision of an eigenvalue found by bisection.
+/// Relative accuracy of an eigenvalue from bisection.
 const PRECISION: f64 = 1e-9;
-/// Roundings of the largest entry that assembly and factorisation may have made.
+/// Rounding error of assembly and factorisation, in units of the largest entry.
 const ROUNDINGS: f64 = 8.0;
-/// Growth over the largest diagonal entry that is taken for accurate.
+/// Largest growth factor considered accurate.
 const GROWTH_ALLOWED: f64 = 16.0;
-/// How often the interval of unresolved eigenvalues is widened.
+/// Maximum number of increases of the resolution.
 const ATTEMPTS: u32 = 4;
-/// How often a count is repeated with changed roundings. An eigenvalue of zero passes all of
-/// them by chance once in some hundred times.
+/// Repetitions of a count with random roundings. A zero eigenvalue passes all by chance with a
+/// probability below 1 %.
 const REALIZATIONS: usize = 8;
-/// Roundings by which coordinates and entries are changed then.
+/// Amplitude of the random changes, in roundings.
 const AMPLITUDE: f64 = 4.0;

@@ -1,21 +1,20 @@
-//! Energy and loads of a state, with the precision that acceptance of a step needs.
+//! Energy and loads of a state.
 
 use actin_mechanics::{Interaction, Loads, State};
 
-/// Loads and energy of each element at one state.
+/// Loads and element energies of a state.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Evaluation {
     pub(crate) loads: Loads,
     energies: Vec<f64>,
     pub(crate) energy: f64,
-    /// Sum of the absolute energies of all elements: `eps` times this is the least round-off.
+    /// Sum of the absolute energies of all elements, scale of the rounding error.
     pub(crate) magnitude: f64,
-    /// Whether the way here led bodies through each other: then the energy counts as infinite.
+    /// The last motion moved bodies through each other; the energy counts as infinite.
     passed: bool,
 }
 
 impl Evaluation {
-    /// Evaluates all interactions.
     pub(crate) fn new(interactions: &[Box<dyn Interaction>], state: &State) -> Self {
         let elements = interactions.iter().map(|i| i.elements()).sum();
         let mut evaluation = Self {
@@ -27,7 +26,7 @@ impl Evaluation {
         evaluation
     }
 
-    /// Evaluates all interactions into the same memory.
+    /// Evaluates all interactions in place.
     pub(crate) fn update(&mut self, interactions: &[Box<dyn Interaction>], state: &State) {
         self.passed = false;
         self.loads.clear();
@@ -42,7 +41,7 @@ impl Evaluation {
         self.magnitude = self.energies.iter().map(|e| e.abs()).sum();
     }
 
-    /// Evaluates all interactions in `state`, to which the straight way leads from another.
+    /// Evaluates all interactions at `state`, reached by a straight motion from `from`.
     pub(crate) fn follow(
         &mut self,
         interactions: &[Box<dyn Interaction>],
@@ -52,13 +51,12 @@ impl Evaluation {
         self.passed = passes_through(interactions, from, state);
     }
 
-    /// Whether the way here led bodies through each other.
     pub(crate) fn has_passed(&self) -> bool {
         self.passed
     }
 
-    /// The energy here less that of `other`, added up from the differences of elements: the
-    /// round-off of a sum over a long filament would hide what one element does.
+    /// Energy difference to `other`, summed over the differences of elements. The rounding error of
+    /// the total energy of a long filament could exceed the change of one element.
     pub(crate) fn energy_above(&self, other: &Self) -> f64 {
         if self.passed {
             return f64::INFINITY;
@@ -70,7 +68,6 @@ impl Evaluation {
             .sum()
     }
 
-    /// Whether energy and loads are finite.
     pub(crate) fn is_finite(&self) -> bool {
         !self.passed
             && self.energy.is_finite()
@@ -82,8 +79,8 @@ impl Evaluation {
     }
 }
 
-/// Whether bodies that some interaction keeps apart pass through each other on the straight way between
-/// two states.
+/// Returns `true` if a straight motion between two states moves bodies through each other that an
+/// interaction separates.
 pub(crate) fn passes_through(
     interactions: &[Box<dyn Interaction>],
     from: &State,
