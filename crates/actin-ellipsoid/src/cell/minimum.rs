@@ -40,7 +40,7 @@ pub(super) struct Problem<'a> {
     pub(super) loads: SixVector,
 }
 
-/// Minimum with derivatives and number of iterations. d 52
+/// Minimum with derivatives and number of iterations.
 #[derive(Debug)]
 pub(super) struct Minimum {
     pub(super) state: CellState,
