@@ -21,7 +21,6 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// Displaced filament.
 fn filament(
     count: usize,
     parameters: EllipsoidParameters,
@@ -36,7 +35,6 @@ fn filament(
     Ok((state, bonds))
 }
 
-/// Prints both rates of one filament.
 fn print_rates(kind: &str, state: &State, bonds: &Bonds) {
     let number = bonds.number_of_bonds();
     let mut loads = Loads::zeros(state);

@@ -21,7 +21,6 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// Prints the points of one kind of interface.
 fn print(kind: InterfaceKind, found: &Cubature) {
     let name = kind.to_string().to_uppercase();
     let certificate = found.certificate;

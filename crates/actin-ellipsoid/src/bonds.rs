@@ -44,7 +44,6 @@ use actin_mechanics::{Interaction, Loads, Matrix3, SecondOrder, State, Vector3};
 pub struct Bonds {
     monomers: Monomers,
     pairs: Vec<Pair>,
-    /// Lateral and longitudinal bonds.
     tables: [BondTable; 2],
     arch: Arch,
 }
@@ -64,7 +63,6 @@ pub struct Pair {
     pub rigidity: f64,
 }
 
-/// Current centre and orientation of a monomer.
 #[derive(Clone, Copy, Debug)]
 struct Body {
     centre: Vector3,
@@ -176,12 +174,10 @@ impl Bonds {
 }
 
 impl Body {
-    /// Converts a point from the body frame to the lab frame.
     fn to_lab(self, point: Vector3) -> Vector3 {
         self.centre + self.axes * point
     }
 
-    /// Pose of this body in the frame of `lower`.
     fn relative_to(&self, lower: &Self) -> Relative {
         Relative {
             rotation: lower.axes.tr_mul(&self.axes),

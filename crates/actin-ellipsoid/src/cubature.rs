@@ -21,20 +21,18 @@ use search::{Bounds, UNKNOWNS, search};
 use std::sync::Arc;
 use thiserror::Error;
 
-/// Largest accepted deviation of a moment, relative to the root mean square of its feature. It is a
-/// tenth of the 1 % accuracy required of the quadrature.
+/// Tolerance of the moments, relative to the root mean square of their feature: a tenth of the
+/// required accuracy.
 const MET: f64 = 1e-3;
 
-/// Deviation at which no further initial guess is tried. The best 12 points reach 1e-5 to 2e-4.
+/// Deviation at which the search ends.
 const ENOUGH: f64 = 1e-4;
 
-/// Minimum weight relative to the mean. Without this bound, weights and thereby points vanish.
+/// Minimum weight relative to the mean.
 const LEAST_WEIGHT: f64 = 0.05;
 
-/// Maximum number of random initial guesses.
 const STARTS: u64 = 30;
 
-/// Seed of the random initial guesses.
 const SEED: u64 = 0x0063_7562_6174_7572;
 
 /// Point of the quadrature: a bond parallel to the line of centres.
@@ -155,7 +153,7 @@ impl Cubature {
         cache::get(parameters, kind)
     }
 
-    /// Uncached computation, starting from the built-in points and then from random bonds.
+    /// Starts from the built-in points, then from random bonds.
     fn find(parameters: &EllipsoidParameters, kind: InterfaceKind) -> Result<Self, CubatureError> {
         let count = kind.parameters(parameters).bonds;
         let finder = Finder::new(parameters, kind)?;
@@ -235,15 +233,14 @@ impl MomentCheck {
     }
 }
 
-/// Transverse unit vectors (body frame of the lower monomer): away from the filament axis midway
-/// between the monomers, and the line of centres times it.
+/// Away from the filament axis midway between the monomers, and the line of centres times it (body
+/// frame of the lower monomer).
 fn transverse(direction: Vector3, half_turn: f64) -> [Vector3; 2] {
     let (sin, cos) = half_turn.sin_cos();
     let outwards = Vector3::new(cos, sin, 0.0);
     [outwards, direction.cross(&outwards)]
 }
 
-/// Data shared by the searches of one geometry.
 #[derive(Debug)]
 struct Finder {
     gap: Gap,
@@ -275,7 +272,6 @@ impl Finder {
         })
     }
 
-    /// Random initial guesses.
     fn drawn_starts(
         &self,
         kind: InterfaceKind,
@@ -289,7 +285,6 @@ impl Finder {
         })
     }
 
-    /// Random bond, distributed as sampled bonds.
     fn draw(&self, stream: &mut Stream) -> Site {
         loop {
             let point = self.gap.ellipsoid.sample(stream);
@@ -299,7 +294,6 @@ impl Finder {
         }
     }
 
-    /// Quadrature from one initial guess.
     fn search(&self, start: &[(Site, f64)]) -> Cubature {
         let [least, most] = self.drawn.map(|length| length * self.moments.inverse);
         let bounds = Bounds {
@@ -347,14 +341,12 @@ impl Finder {
     }
 }
 
-/// Minimum and maximum of some values.
 fn range(values: impl Iterator<Item = f64>) -> [f64; 2] {
     values.fold([f64::INFINITY, f64::NEG_INFINITY], |[least, most], x| {
         [least.min(x), most.max(x)]
     })
 }
 
-/// Parameters that determine the quadrature.
 fn numbers(parameters: &EllipsoidParameters, kind: InterfaceKind) -> [f64; 8] {
     let interface = kind.parameters(parameters);
     let [x, y, z] = parameters.semi_axes;

@@ -6,18 +6,14 @@ use actin_mechanics::Vector3;
 /// Gap between two neighbours, with the range of bond lengths.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Gap {
-    /// Shape of both monomers.
     pub(crate) ellipsoid: Ellipsoid,
-    /// Pose of the upper monomer in the frame of the lower one.
     pub(crate) neighbour: Neighbour,
-    /// Minimum bond length (nm).
+    /// Range of bond lengths (nm).
     pub(crate) minimum: f64,
-    /// Maximum bond length (nm).
     pub(crate) maximum: f64,
 }
 
 impl Gap {
-    /// Gap of an interface at rest.
     pub(crate) fn new(parameters: &EllipsoidParameters, kind: InterfaceKind) -> Self {
         let interface = kind.parameters(parameters);
         Self {

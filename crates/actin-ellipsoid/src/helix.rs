@@ -115,7 +115,6 @@ impl Helix {
     }
 }
 
-/// Rotation by `angle` about lab z.
 fn about_axis(angle: f64) -> UnitQuaternion {
     actin_mechanics::rotation::exp(Vector3::new(0.0, 0.0, angle))
 }

@@ -13,8 +13,7 @@ use thiserror::Error;
 /// 1e-5 of the surface fails by chance once in 2e4.
 const MAXIMUM_ATTEMPTS: u64 = 1_000_000;
 
-/// Additional samples allowed per bond: sampling fails if fewer than about 1e-3 of them give a
-/// bond.
+/// Additional samples per bond.
 const ATTEMPTS_PER_BOND: u64 = 1_000;
 
 /// Kind of interface between two monomers.
@@ -46,7 +45,6 @@ impl InterfaceKind {
         }
     }
 
-    /// Index of the kind: 0 or 1.
     pub(crate) fn number(self) -> u64 {
         match self {
             Self::Lateral => 0,
@@ -54,8 +52,8 @@ impl InterfaceKind {
         }
     }
 
-    /// Number of the random stream of the interface above `index`. It is unique per kind and index
-    /// for indices below 2^61; shared patterns have separate streams.
+    /// Stream of the interface above `index`, unique for indices below 2^61; shared patterns have
+    /// separate streams.
     fn stream_number(self, anchors: Anchors, index: i64) -> u64 {
         if anchors.are_shared() {
             2 | self.number()
@@ -246,7 +244,6 @@ impl Interface {
     }
 }
 
-/// Samples points on the lower monomer until one gives a bond.
 fn draw_bond(
     gap: &Gap,
     kind: InterfaceKind,

@@ -11,20 +11,15 @@ use actin_mechanics::wide::{self, ColumnsMut, ShiftedUp, Simd, Wide3, WideMatrix
 use actin_mechanics::{Loads, State};
 use std::ops::Range;
 
-/// Added to squared lengths to avoid division by zero. It is the smallest normal number, so lengths
-/// above 1e-146 nm are unaffected.
+/// Avoids division by zero. Lengths above 1e-146 nm are unaffected.
 pub(crate) const GUARD: f64 = f64::MIN_POSITIVE;
 
-/// Vectorised loop over pairs.
 #[derive(Debug)]
 pub(crate) struct AddLoads<'a> {
-    /// Monomers of the run.
     pub(crate) monomers: Monomers,
     /// Bonds of each monomer with the next one and with the second next one.
     pub(crate) tables: &'a [BondTable; 2],
-    /// Current state.
     pub(crate) state: &'a State,
-    /// Loads to add to.
     pub(crate) loads: &'a mut Loads,
 }
 
@@ -32,7 +27,6 @@ pub(crate) struct AddLoads<'a> {
 #[derive(Clone, Copy, Debug)]
 struct Lower<S: Simd> {
     orientation: [S::f64s; 4],
-    /// Rotation from the body frame to the lab.
     axes: WideMatrix<S>,
 }
 
@@ -59,7 +53,6 @@ impl<S: Simd> Action<S> {
         }
     }
 
-    /// Zero in lanes where `mask` is not set.
     #[inline(always)]
     fn where_set(self, simd: S, mask: S::m64s) -> Self {
         let zero = simd.splat_f64s(0.0);
@@ -77,7 +70,7 @@ impl<S: Simd> Action<S> {
     }
 }
 
-/// Loads on upper bodies, shifted to the lanes of these bodies.
+/// Loads on upper bodies, shifted to their lanes.
 #[derive(Clone, Copy, Debug)]
 struct Moved<S: Simd> {
     force: ShiftedUp<S, 3>,
@@ -105,7 +98,7 @@ impl<S: Simd> Moved<S> {
 impl WithSimd for AddLoads<'_> {
     type Output = ();
 
-    /// Adds all contributions to a body at once, in an order independent of the number of lanes.
+    /// Adds in an order independent of the number of lanes.
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
         let (points, frames) = (self.points(&self.bodies()), self.frames(&self.bodies()));
@@ -147,13 +140,11 @@ impl AddLoads<'_> {
     }
 }
 
-/// Range of bodies of the state for a range of monomers of the run.
 #[inline(always)]
 fn shifted(bodies: &Range<usize>, first: usize) -> Range<usize> {
     first + bodies.start..first + bodies.end
 }
 
-/// Read-only access to the bodies of a run.
 #[derive(Clone, Copy, Debug)]
 struct Pairs<'a> {
     monomers: Monomers,
@@ -161,19 +152,16 @@ struct Pairs<'a> {
 }
 
 impl Pairs<'_> {
-    /// Points of a range of monomers.
     #[inline(always)]
     fn points(&self, bodies: &Range<usize>) -> Range<usize> {
         shifted(bodies, self.monomers.first_point)
     }
 
-    /// Frames of a range of monomers.
     #[inline(always)]
     fn frames(&self, bodies: &Range<usize>) -> Range<usize> {
         shifted(bodies, self.monomers.first_frame)
     }
 
-    /// Bodies of a group.
     #[inline(always)]
     fn lower<S: Simd>(&self, simd: S, group: usize) -> Lower<S> {
         let first = group * S::F64_LANES;
@@ -229,7 +217,6 @@ impl Pairs<'_> {
         ]
     }
 
-    /// Rotations and offsets of the upper bodies in the frames of the lower ones.
     #[inline(always)]
     fn relative<S: Simd>(
         &self,

@@ -71,7 +71,6 @@ pub struct Monomers {
 }
 
 impl Monomers {
-    /// Appends `count` monomers starting with lattice index `first_index`.
     pub(crate) fn push(
         helix: &Helix,
         (mass, inertia): (f64, Inertia),

@@ -187,7 +187,6 @@ impl EllipsoidParameters {
 }
 
 impl InterfaceParameters {
-    /// Validates the parameters of this kind of interface.
     fn validate(&self, kind: InterfaceKind) -> Result<(), EllipsoidParameterError> {
         let key = |key| EllipsoidKey::Interface(kind, key);
         positive(key(InterfaceKey::Rigidity), self.rigidity)?;

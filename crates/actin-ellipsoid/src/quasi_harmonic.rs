@@ -98,7 +98,6 @@ struct Slopes {
     upper: SixMatrix,
 }
 
-/// Position and rotation parts of a six-vector.
 fn parts(v: &SixVector) -> [Vector3; 2] {
     [
         v.fixed_rows::<3>(0).into_owned(),
@@ -117,14 +116,12 @@ impl Pose {
         }
     }
 
-    /// Displacement of this pose from `rest`.
     fn displacements(&self, rest: &Self) -> SixVector {
         let turn = rotation::log(rest.turn.inverse() * self.turn);
         let place = self.place - rest.place;
         SixVector::new(place.x, place.y, place.z, turn.x, turn.y, turn.z)
     }
 
-    /// Pose with the given displacement.
     fn displaced(&self, by: &SixVector) -> Self {
         let [place, turn] = parts(by);
         Self {
@@ -182,7 +179,6 @@ impl QuasiHarmonic {
         Pose::of_link(&self.monomers, k, state).displacements(&self.links[k].pose)
     }
 
-    /// Strains of all elements.
     fn strains<'a>(&'a self, state: &'a State) -> impl Iterator<Item = SixVector> + 'a {
         let mut below = match self.reach().start {
             start if start < self.elements.start => self.displacements(start, state),
@@ -196,14 +192,13 @@ impl QuasiHarmonic {
         })
     }
 
-    /// Stresses `P w` of all elements.
     fn stresses<'a>(&'a self, state: &'a State) -> impl Iterator<Item = SixVector> + 'a {
         let links = &self.links[self.elements.clone()];
         let strains = self.strains(state).zip(links);
         strains.map(|(strain, link)| link.stiffness * strain)
     }
 
-    /// Forces and torques on the displacement of each link in reach, for the energy `-sum s . w`.
+    /// Forces and torques of the links for the energy `-sum s . w`.
     fn pulls(&self, stresses: impl Iterator<Item = SixVector>) -> impl Iterator<Item = Pull> {
         let reach = self.reach();
         let mut pulls = vec![SixVector::zeros(); reach.len()];
@@ -284,7 +279,6 @@ impl QuasiHarmonic {
         }
     }
 
-    /// Adds the block of two monomers, or the upper triangle of one.
     fn push_block(&self, [a, b]: [usize; 2], block: &SixMatrix, stiffness: &mut Stiffness) {
         let bodies = |k: usize| [Point(self.monomers.point(k)), Frame(self.monomers.frame(k))];
         for (i, of_a) in bodies(a).into_iter().enumerate() {
@@ -302,7 +296,6 @@ impl QuasiHarmonic {
     }
 }
 
-/// Force and torque of a link.
 struct Pull {
     place: Vector3,
     force: InternalForce,

@@ -7,13 +7,12 @@ use actin_mechanics::Vector3;
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
-/// Stream of `ChaCha8`. The key consists of seed and sampling (little endian, zero padded). Streams
-/// with different numbers are independent.
+/// `ChaCha8`; the key consists of seed and sampling. Streams with different numbers are
+/// independent.
 #[derive(Clone, Debug)]
 pub(crate) struct Stream(ChaCha8Rng);
 
 impl Stream {
-    /// Stream `number` of a sampling of `seed`.
     pub(crate) fn new(seed: u64, sampling: u64, number: u64) -> Self {
         let mut key = [0; 32];
         key[..8].copy_from_slice(&seed.to_le_bytes());

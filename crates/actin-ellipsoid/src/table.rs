@@ -6,20 +6,16 @@ use actin_mechanics::{Matrix3, Vector3};
 /// Pairs per group: a multiple of the lanes of all supported processors.
 pub(crate) const GROUP: usize = 8;
 
-/// One bond of each pair of a group: lower anchor, upper anchor (body frames) and rest length. Zero
-/// in lanes without a pair, except in shared records.
+/// Lower anchor, upper anchor (body frames) and rest length of one bond of each pair.
 pub(crate) type Record = [[f64; GROUP]; 7];
 
-/// Bonds of all interfaces of one kind in a run. Each interface has the same number of bonds.
+/// Bonds of all interfaces of one kind in a run.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct BondTable {
-    /// Lattice steps from the lower to the upper body.
     pub(crate) step: usize,
-    /// Number of bonds per pair.
     pub(crate) bonds: usize,
     /// Stiffness of each bond, or total stiffness of weighted bonds.
     pub(crate) stiffness: f64,
-    /// Number of pairs.
     pub(crate) pairs: usize,
     /// One record per bond for each group of pairs, or for a single group if bonds are shared.
     records: Vec<Record>,
@@ -29,21 +25,18 @@ pub(crate) struct BondTable {
     weights: Vec<f64>,
 }
 
-/// Bonds of a group of pairs.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Group<'a> {
-    /// One record per bond.
     pub(crate) records: &'a [Record],
-    /// One weight per bond; empty for equal weights.
+    /// Empty for equal weights.
     pub(crate) weights: &'a [f64],
 }
 
-/// Current pose of the upper body of a pair in the frame of the lower one.
+/// Current pose of the upper body in the frame of the lower one.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Relative {
-    /// Rotation from the frame of the upper body to that of the lower one.
     pub(crate) rotation: Matrix3,
-    /// Vector from the lower to the upper centre, in the frame of the lower body.
+    /// In the frame of the lower body.
     pub(crate) offset: Vector3,
 }
 
@@ -79,7 +72,6 @@ impl BondTable {
         }
     }
 
-    /// Appends the pair with the next lower body.
     pub(crate) fn push(&mut self, bonds: &[Bond]) {
         let lane = self.pairs % GROUP;
         if lane == 0 {
@@ -96,7 +88,6 @@ impl BondTable {
         self.pairs += 1;
     }
 
-    /// Bonds of the group that contains the pair of lower body `pair`.
     #[inline]
     pub(crate) fn group(&self, pair: usize) -> Group<'_> {
         let group = if self.shared { 0 } else { pair / GROUP };
@@ -107,7 +98,6 @@ impl BondTable {
         }
     }
 
-    /// Bonds of one pair.
     pub(crate) fn bonds_of(&self, pair: usize) -> impl Iterator<Item = Bond> + '_ {
         let Group { records, weights } = self.group(pair);
         let alike = 1.0 / self.bonds as f64;

@@ -11,12 +11,11 @@ use actin_mechanics::{
 use nalgebra::{Matrix3x6, Matrix6};
 use std::collections::BTreeMap;
 
-/// Stiffness in the unknowns of a layout, upper triangle by columns.
+/// Stiffness in the unknowns, upper triangle by columns.
 #[derive(Debug, Default)]
 pub(crate) struct Assembly {
     blocks: Stiffness,
     pattern: Option<Pattern>,
-    /// Values in the order of the pattern.
     pub(crate) values: Vec<f64>,
     ties: Ties,
     /// Motion (nm) of each tie equivalent to unit strain, at the last assembled state.
@@ -24,7 +23,7 @@ pub(crate) struct Assembly {
     chain: Chain,
     tie_blocks: Stiffness,
     tie_places: Vec<Place>,
-    /// Values of the last assembled matrix of ties.
+    /// Last assembled matrix of ties.
     pub(crate) tie_values: Vec<f64>,
     turning_blocks: Stiffness,
     turning_places: Vec<Place>,
@@ -32,7 +31,7 @@ pub(crate) struct Assembly {
 }
 
 impl Assembly {
-    /// Empty assembly; `turn_length` (nm) weights a rotation of 1 rad in the regularisation.
+    /// `turn_length` (nm) weights a rotation of 1 rad.
     pub(crate) fn new(turn_length: f64) -> Self {
         Self {
             turn_length,
@@ -40,9 +39,6 @@ impl Assembly {
         }
     }
 
-    /// Assembles the stiffness at `state` with the loads there.
-    ///
-    /// Returns `true` if the pattern is new; the unknowns may then have been reordered.
     pub(crate) fn update(
         &mut self,
         interactions: &[Box<dyn Interaction>],
@@ -53,7 +49,8 @@ impl Assembly {
         self.update_with(interactions, None, (state, loads), layout)
     }
 
-    /// As [`update`](Self::update), with the blocks of `other` added.
+    /// Assembles the stiffness with additional blocks. Returns `true` if the pattern is new; the
+    /// unknowns may then have been reordered.
     pub(crate) fn update_with(
         &mut self,
         interactions: &[Box<dyn Interaction>],
@@ -86,7 +83,7 @@ impl Assembly {
         is_new
     }
 
-    /// Adds the contribution of the chart of the chain, at the last assembled state and its loads.
+    /// Adds the contribution of the chart of the chain.
     pub(crate) fn add_turning(&mut self, state: &State, loads: &Loads, layout: &Layout) {
         let pattern = self.pattern.as_ref().expect("the stiffness is assembled");
         self.turning_blocks.clear();
@@ -100,8 +97,7 @@ impl Assembly {
     }
 
     /// Softness of each tie (pN/nm): magnitude of the most negative stiffness between its points,
-    /// or zero. For ties of frames, the softness of points seen from them. At the last assembled
-    /// state.
+    /// or zero.
     pub(crate) fn giving_way(&self) -> Vec<f64> {
         let mut between = BTreeMap::<(usize, usize), Matrix3>::new();
         for &(a, b, block) in self.blocks.blocks() {
@@ -123,7 +119,7 @@ impl Assembly {
         self.ties.spread(|i, j| of(i, j).unwrap_or(0.0))
     }
 
-    /// Assembles the matrix of ties with the given weights, at the last assembled state.
+    /// Assembles the matrix of ties at the last assembled state.
     pub(crate) fn assemble_ties(&mut self, state: &State, layout: &Layout, weights: &[f64]) {
         let pattern = self.pattern.as_ref().expect("the stiffness is assembled");
         self.tie_blocks.clear();
@@ -135,29 +131,24 @@ impl Assembly {
         target.add_all(state, &self.tie_blocks, &self.tie_places);
     }
 
-    /// Ties between coupled bodies.
     pub(crate) fn ties(&self) -> &Ties {
         &self.ties
     }
 
-    /// Motion (nm) of each tie equivalent to unit strain, at the last assembled state.
     pub(crate) fn tie_lengths(&self) -> &[f64] {
         &self.tie_lengths
     }
 
-    /// Chain in which bodies follow one another.
     pub(crate) fn chain(&self) -> &Chain {
         &self.chain
     }
 
-    /// Current pattern.
     pub(crate) fn pattern(&self) -> &Pattern {
         self.pattern
             .as_ref()
             .expect("the stiffness has been assembled")
     }
 
-    /// Largest absolute diagonal entry.
     pub(crate) fn largest_diagonal(&self) -> f64 {
         // The diagonal entry is the last of its column.
         let ends = &self.pattern().symbolic.col_ptr()[1..];
@@ -165,7 +156,6 @@ impl Assembly {
         diagonal.fold(0.0, f64::max)
     }
 
-    /// Largest absolute entry.
     pub(crate) fn largest_entry(&self) -> f64 {
         self.values
             .iter()
@@ -174,9 +164,8 @@ impl Assembly {
     }
 
     /// Scale of the rounding error of each entry: its magnitude, or the geometric mean of the
-    /// largest entries of the diagonal blocks of the two bodies if that is larger. Directions
-    /// without stiffness are thus perturbed in any orientation, but bodies without interactions are
-    /// not.
+    /// diagonal blocks if that is larger. Directions without stiffness are perturbed, bodies
+    /// without interactions are not.
     pub(crate) fn scales(&self, layout: &Layout) -> Vec<f64> {
         let symbolic = &self.pattern().symbolic;
         let (starts, rows) = (symbolic.col_ptr(), symbolic.row_idx());
@@ -224,7 +213,6 @@ impl Assembly {
     }
 }
 
-/// Matrix under assembly.
 struct Target<'a> {
     values: &'a mut [f64],
     columns: &'a [usize],
@@ -233,14 +221,12 @@ struct Target<'a> {
 }
 
 impl<'a> Target<'a> {
-    /// Zero matrix.
     fn new(values: &'a mut Vec<f64>, pattern: &'a Pattern, layout: &'a Layout) -> Self {
         values.clear();
         values.resize(pattern.symbolic.row_idx().len(), 0.0);
         Self::onto(values, pattern, layout)
     }
 
-    /// Existing matrix.
     fn onto(values: &'a mut [f64], pattern: &'a Pattern, layout: &'a Layout) -> Self {
         Self {
             values,
@@ -322,8 +308,7 @@ impl<'a> Target<'a> {
         }
     }
 
-    /// `A^T block B` with the derivatives `A` and `B` of the coordinates of both bodies with
-    /// respect to their unknowns.
+    /// `A^T block B` with the derivatives `A`, `B` with respect to the unknowns.
     fn in_unknowns(
         &self,
         state: &State,
@@ -336,7 +321,7 @@ impl<'a> Target<'a> {
         a.transpose() * (block * b)
     }
 
-    /// Derivative of the coordinates of a body with respect to its unknowns, zero padded.
+    /// Zero padded.
     fn derivative(&self, state: &State, body: Coordinates) -> Matrix3x6<f64> {
         let mut derivative = Matrix3x6::zeros();
         let node = self.layout.node_of(body).map(|node| self.layout.node(node));
@@ -351,10 +336,10 @@ impl<'a> Target<'a> {
         derivative
     }
 
-    /// Adds the second derivative of a rotated point, `x = p + exp(theta) r`, times its force:
+    /// Second derivative of a rotated point `x = p + exp(theta) r` times its force:
     ///
     /// `d^2 x . g = (theta . g)(theta . r) - theta^2 (g . r)` with `g = -force`. Frames have no
-    /// such term, since `exp(theta) Q = Q exp(Q^T theta)`.
+    /// such term.
     fn add_turning_of_groups(&mut self, state: &State, loads: &Loads) {
         let layout = self.layout;
         for k in 0..layout.len() {
@@ -392,7 +377,7 @@ fn turning(group: &Group, state: &State, loads: &Loads) -> Matrix3 {
         .sum()
 }
 
-/// Velocity of a body per unknown of its group.
+/// Velocity of a body per unknown.
 fn columns_of<'a>(
     group: &'a Group,
     state: &'a State,

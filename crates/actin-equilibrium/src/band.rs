@@ -12,10 +12,9 @@ use faer::sparse::SymbolicSparseColMatRef;
 use faer::sparse::linalg::cholesky::simplicial::SymbolicSimplicialCholesky;
 use std::ops::Range;
 
-/// Maximum number of columns of a panel: point and frame of a body.
+/// Maximum number of columns of a panel.
 const WIDEST: usize = 6;
 
-/// Storage of a factor without gaps.
 #[derive(Debug)]
 pub(crate) struct Band {
     /// Start of each column, and end of the last.
@@ -43,7 +42,7 @@ impl Band {
         Some(Self { starts, panels })
     }
 
-    /// Copies a matrix, given by its upper triangle, to the storage of its factor.
+    /// Copies the upper triangle of a matrix to the storage of its factor.
     pub(crate) fn place(
         &self,
         upper: SymbolicSparseColMatRef<'_, usize>,
@@ -63,14 +62,10 @@ impl Band {
     }
 }
 
-/// Vectorised elimination.
 pub(crate) struct Eliminate<'a> {
-    /// Storage of the columns.
     pub(crate) band: &'a Band,
-    /// Lower triangle of the matrix, overwritten by its factor: pivots, and columns of `L` below
-    /// them.
+    /// Lower triangle, overwritten by its factor.
     pub(crate) values: &'a mut [f64],
-    /// Replacement of a zero pivot.
     pub(crate) least: f64,
 }
 
@@ -95,9 +90,8 @@ impl WithSimd for Eliminate<'_> {
     }
 }
 
-/// Eliminates the columns of a panel of `rows` rows from each other.
-///
-/// Entries below the pivots remain unscaled. Returns the reciprocals of the pivots.
+/// Eliminates the columns of a panel from each other, without scaling; returns the reciprocals of
+/// the pivots.
 #[inline(always)]
 fn eliminate_panel(own: &mut [f64], (rows, width): (usize, usize), least: f64) -> [f64; WIDEST] {
     let mut reciprocals = [0.0; WIDEST];

@@ -19,7 +19,6 @@ use crate::newton::Newton;
 use crate::outcome::SolveError;
 use actin_mechanics::{Interaction, State, Xorshift};
 
-/// Counts the eigenvalues of the last assembled stiffness, which belongs to `state`.
 pub(crate) fn certify(
     solver: &mut Solver,
     state: &State,
@@ -62,8 +61,7 @@ impl Newton {
     }
 }
 
-/// Lowest eigenvalue above the `count` lowest ones, which are below `least`, by bisection. Returns
-/// `None` if there are no more.
+/// Lowest eigenvalue above the `count` lowest ones, which are below `least`, by bisection.
 fn first_above(solver: &mut Solver, count: usize, least: f64) -> Option<f64> {
     if count >= solver.layout.unknowns() {
         return None;
@@ -83,8 +81,7 @@ fn first_above(solver: &mut Solver, count: usize, least: f64) -> Option<f64> {
     Some(bounds[1])
 }
 
-/// Counts eigenvalues of a stiffness with error bound `uncertainty` (row sum norm). Usually three
-/// factorisations.
+/// Counts eigenvalues; `uncertainty` bounds the row sums of the error.
 fn count(solver: &mut Solver, uncertainty: f64) -> Certificate {
     let lightest = solver.lightest();
     let negative_pivots = solver.factorize(0.0).negative;
@@ -115,11 +112,8 @@ fn count(solver: &mut Solver, uncertainty: f64) -> Certificate {
     }
 }
 
-/// Accepts the number of negative pivots if it is the same for all random roundings and no pivot is
-/// zero.
-///
-/// A Newton step first reduces the residual, whose contribution to a zero eigenvalue would be the
-/// same in all repetitions.
+/// Accepts the number of negative pivots if random roundings do not change it. A Newton step first
+/// reduces the residual, which would bias all repetitions equally.
 fn resolve(
     solver: &mut Solver,
     state: &State,
@@ -157,8 +151,7 @@ fn resolve(
     certificate.unresolved = 0;
 }
 
-/// Performs one step from `state` and assembles the stiffness there. Returns `None` and leaves the
-/// assembly unchanged if the step does not reduce the residual.
+/// Performs one step; `None` if the residual does not decrease.
 fn polish(
     solver: &mut Solver,
     state: &State,
@@ -181,10 +174,8 @@ fn polish(
     Some(polished)
 }
 
-/// Change of the stiffness if each coordinate changes by `amplitude` roundings.
-///
-/// For a bond of length `l` this is the rounding of its ends times its stiffness over `l`, much
-/// more than the rounding of the matrix if the bond is short.
+/// Change of the stiffness by `amplitude` roundings of each coordinate. For short bonds it exceeds
+/// the rounding of the matrix.
 fn change(
     solver: &mut Solver,
     state: &State,
@@ -211,7 +202,6 @@ fn change(
     changes
 }
 
-/// Largest row sum of absolute values of a matrix with the current pattern.
 fn largest_row_sum(solver: &mut Solver, mut matrix: Vec<f64>) -> f64 {
     let n = solver.layout.unknowns();
     let mut sums = vec![0.0; n];
@@ -221,18 +211,16 @@ fn largest_row_sum(solver: &mut Solver, mut matrix: Vec<f64>) -> f64 {
     sums.into_iter().fold(0.0, f64::max)
 }
 
-/// Factor of the bracketing of an eigenvalue.
+/// Bracketing factor.
 const FASTER: f64 = 16.0;
-/// Relative accuracy of an eigenvalue from bisection.
+/// Relative accuracy of an eigenvalue.
 const PRECISION: f64 = 1e-9;
-/// Rounding error of assembly and factorisation, in units of the largest entry.
+/// Rounding error in units of the largest entry.
 const ROUNDINGS: f64 = 8.0;
 /// Largest growth factor considered accurate.
 const GROWTH_ALLOWED: f64 = 16.0;
-/// Maximum number of increases of the resolution.
 const ATTEMPTS: u32 = 4;
-/// Repetitions of a count with random roundings. A zero eigenvalue passes all by chance with a
-/// probability below 1 %.
+/// Repetitions; a zero eigenvalue passes all with a probability below 1 %.
 const REALIZATIONS: usize = 8;
-/// Amplitude of the random changes, in roundings.
+/// Amplitude in roundings.
 const AMPLITUDE: f64 = 4.0;

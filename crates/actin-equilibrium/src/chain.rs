@@ -24,7 +24,6 @@ mod turning;
 pub(crate) use clusters::Clusters;
 pub(crate) use open::is_open;
 
-/// Body that follows another one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Link {
     /// A frame follows a frame.
@@ -38,8 +37,7 @@ enum Link {
 pub(crate) struct Chain(Vec<Link>);
 
 impl Chain {
-    /// Links each free body to the latest preceding body that it is tied to. Held bodies and groups
-    /// come first; bodies without preceding ties have no link.
+    /// Links each free body to the latest preceding body that it is tied to.
     pub(crate) fn new(layout: &Layout, ties: &Ties, points: usize, frames: usize) -> Self {
         let mut place = Places::new(layout, points, frames);
         let frame_ties = neighbours(ties.frames());
@@ -77,8 +75,8 @@ impl Chain {
         Self(links)
     }
 
-    /// Replaces the straight motion of the bodies of `to`, by `scale` times a step from `from`, by
-    /// the carried motion. `moved` and `turned` are the velocities of the step (lab frame).
+    /// Replaces a straight motion by `scale` times a step by the carried motion; velocities in the
+    /// lab frame.
     pub(crate) fn carry(
         &self,
         from: &State,
@@ -93,7 +91,6 @@ impl Chain {
 }
 
 impl Link {
-    /// Body that follows.
     fn follower(self) -> Coordinates {
         match self {
             Self::Frame { to, .. } => Coordinates::Frame(to),
@@ -101,7 +98,7 @@ impl Link {
         }
     }
 
-    /// Moves the following body of `to` relative to its predecessor.
+    /// Moves the following body relative to its predecessor.
     fn carry(
         self,
         from: &State,
@@ -134,7 +131,7 @@ impl Link {
     }
 }
 
-/// Position of each body in the sequence of the layout; zero for held bodies and groups.
+/// Position in the sequence of the layout; zero for held bodies and groups.
 struct Places {
     points: Vec<Option<usize>>,
     frames: Vec<Option<usize>>,

@@ -13,9 +13,8 @@ use composed::Composed;
 
 /// Sufficient decrease parameter (Armijo).
 const ENOUGH: f64 = 1e-4;
-/// Energy change relative to the sum of absolute energies below which the work of the loads is used
-/// instead. The energy of an element is the square of a small strain, whose relative rounding error
-/// is much larger than one rounding.
+/// Relative energy change below which the work of the loads is used instead. The energy of an
+/// element is the square of a small strain, with a large relative rounding error.
 const ROUND_OFF: f64 = 1e-8;
 /// Bounds of the factor that shortens a rejected step.
 const SHORTEN: [f64; 2] = [0.05, 0.5];
@@ -23,34 +22,30 @@ const SHORTEN: [f64; 2] = [0.05, 0.5];
 const SHORTEST: f64 = 1e-12;
 /// Fraction of the predicted decrease of a good step.
 const GOOD: f64 = 0.5;
-/// Maximum displacement per step relative to the size of the system. It preserves the accuracy of
-/// the coordinates along unconstrained directions.
+/// Maximum displacement relative to the size of the system, to preserve the accuracy of
+/// coordinates.
 const FARTHEST: f64 = 1e6;
 /// Fraction of the predicted decrease below which a step is poor.
 const POOR: f64 = 0.25;
 /// Stiffening relative to the initial guess below which it is dropped.
 const NEGLIGIBLE: f64 = 1e-2;
-/// Minimum stiffening relative to the initial guess with [`MANY`] bodies. With so many, some tie is
-/// always about to buckle; without stiffening a step overshoots there and takes ten more to return.
-/// Convergence remains quadratic, since the stiffening of a tie is proportional to its motion.
+/// Minimum stiffening with [`MANY`] bodies. Otherwise steps overshoot at some buckling tie and take
+/// ten more to return.
 const KEPT: f64 = 1.0 / 64.0;
-/// Number of points, frames and groups above which this minimum applies.
 const MANY: usize = 2000;
 /// Factor that raises or lowers the stiffening of ties.
 const STIFFER: f64 = 4.0;
-/// Excess of steps blocked by contact over half of the other steps at which a solve ends.
+/// Excess of blocked steps at which a solve ends.
 const BLOCKED: usize = 20;
 /// Growth of the reach after an immediately accepted step.
 const REACH_GROWTH: f64 = 2.0;
 
-/// Accepted step.
 pub(crate) struct Taken {
     pub(crate) fraction: f64,
     pub(crate) extent: StepSize,
     pub(crate) verdict: Verdict,
 }
 
-/// Start of an excursion.
 #[derive(Debug)]
 struct Anchor {
     state: State,
@@ -60,34 +55,30 @@ struct Anchor {
     steps_left: usize,
 }
 
-/// Current state and search for a lower one.
 #[derive(Debug)]
 pub(crate) struct Descent {
     pub(crate) state: State,
     pub(crate) here: Evaluation,
     trial: State,
     there: Evaluation,
-    /// Trial state of the carried step.
+    /// Carried trial state.
     carried: State,
     beyond: Evaluation,
     anchor: Option<Anchor>,
-    /// Largest distance of a point from the first one at the start (nm).
+    /// Size of the initial state (nm).
     pub(crate) size: f64,
-    /// Positions at the start.
     start: Vectors,
-    /// Maximum displacement per step (nm).
     farthest: f64,
     /// Fraction of the step limits in use.
     reach: f64,
-    /// Number of steps before the next excursion, after an unsuccessful one.
+    /// Steps before the next excursion.
     rest: usize,
-    /// Stiffening of ties per motion (pN/nm^2).
+    /// Stiffening per motion (pN/nm^2).
     cubic: f64,
-    /// The current step was shortened because bodies would pass through each other.
+    /// Shortened by contact.
     is_cut: bool,
-    /// Twice the number of such steps minus the number of other steps.
+    /// Twice the blocked steps minus the others.
     blocked: usize,
-    /// State of the carried steps.
     composed: Composed,
     options: NewtonOptions,
 }
@@ -123,7 +114,7 @@ impl Descent {
         }
     }
 
-    /// Returns `true` if a body has moved so far that the energy must be unbounded.
+    /// Returns `true` if the energy must be unbounded.
     pub(crate) fn is_far(&self) -> bool {
         let limit = FARTHEST * self.size.max(self.options.turn_length);
         let positions = self.state.points.position.iter();
@@ -135,12 +126,12 @@ impl Descent {
         self.anchor.is_some()
     }
 
-    /// Returns `true` if one of the last steps was blocked by contact.
+    /// Returns `true` if a recent step was blocked by contact.
     pub(crate) fn is_blocked(&self) -> bool {
         self.blocked > 0
     }
 
-    /// Returns `true` if steps have been blocked for too long.
+    /// Returns `true` if steps are blocked persistently.
     pub(crate) fn stays_blocked(&self) -> bool {
         self.blocked >= 2 * BLOCKED
     }
@@ -158,7 +149,6 @@ impl Descent {
         is_lost
     }
 
-    /// Returns to the start of the current excursion, if any.
     pub(crate) fn end_excursion(&mut self) -> bool {
         self.anchor.take().is_some_and(|anchor| {
             self.state = anchor.state;
@@ -167,8 +157,7 @@ impl Descent {
         })
     }
 
-    /// Takes a step from the current state, whose stiffness is assembled. Returns `None` if none is
-    /// accepted.
+    /// Takes a step; `None` if none is accepted.
     ///
     /// # Errors
     /// If the stiffness cannot be factorised.
@@ -227,7 +216,7 @@ impl Descent {
         Ok(taken.map(|taken| (direction, taken)))
     }
 
-    /// Full step along `direction`, within the limits, if acceptable.
+    /// Full step within the limits, if acceptable.
     fn attempt(
         &mut self,
         solver: &mut Solver,
@@ -246,7 +235,6 @@ impl Descent {
         Some(taken(direction, fraction, verdict))
     }
 
-    /// Fraction of a step within the limits.
     fn fraction(&self, extent: &StepSize) -> f64 {
         let part = self.part_of_limits(extent);
         if part > self.reach {
@@ -256,7 +244,6 @@ impl Descent {
         }
     }
 
-    /// Extent of a step relative to the limits.
     fn part_of_limits(&self, extent: &StepSize) -> f64 {
         (extent.rotation / self.options.largest_rotation)
             .max(extent.strain / self.options.largest_strain)
@@ -267,7 +254,7 @@ impl Descent {
         taken(direction, self.fraction(&direction.extent), verdict)
     }
 
-    /// Evaluates the straight and the carried step at `fraction` and keeps the one of lower energy.
+    /// Evaluates the straight and the carried step; keeps the lower one.
     fn try_step(
         &mut self,
         solver: &mut Solver,
@@ -293,7 +280,7 @@ impl Descent {
         self.is_cut |= self.there.has_passed();
     }
 
-    /// Verdict on the trial state; `None` if it is rejected.
+    /// `None` if the trial state is rejected.
     fn judge(&self, solver: &Solver, direction: &Direction, fraction: f64) -> Option<Verdict> {
         if !self.there.is_finite() {
             return None;
@@ -312,7 +299,7 @@ impl Descent {
             .then_some(Verdict::RoundOff)
     }
 
-    /// Reference state (start of the step or the excursion) and the decrease predicted there.
+    /// Reference state and the decrease predicted there.
     fn reference(&self, direction: &Direction, fraction: f64) -> (&Evaluation, f64) {
         match &self.anchor {
             Some(anchor) => (
@@ -323,7 +310,7 @@ impl Descent {
         }
     }
 
-    /// Adapts the stiffening of ties to the ratio of actual to predicted decrease.
+    /// Adapts the stiffening to the ratio of actual to predicted decrease.
     fn adapt(&mut self, solver: &Solver, direction: &Direction, gain: f64) {
         let least = solver.least_cubic();
         let present = direction.cubic.max(self.cubic);
@@ -344,8 +331,7 @@ impl Descent {
         };
     }
 
-    /// Returns `true` if the loads do positive work along the step (trapezoidal rule) and are
-    /// smaller at its end.
+    /// The work of the loads is positive (trapezoidal rule), and the loads are smaller at the end.
     fn is_better_in_loads(&self, solver: &Solver, direction: &Direction, fraction: f64) -> bool {
         let there = solver.work_along(&self.trial, &self.there.loads, &direction.step);
         let work = 0.5 * fraction * (direction.slope + there);
@@ -370,7 +356,7 @@ impl Descent {
         self.accept();
     }
 
-    /// Returns to the start of the excursion and takes a shorter step there.
+    /// Reverts the excursion and takes a shorter step.
     fn go_back(
         &mut self,
         solver: &mut Solver,
@@ -385,7 +371,6 @@ impl Descent {
         Some((anchor.direction, taken))
     }
 
-    /// Shortens a rejected step until it is accepted; `None` if it never is.
     fn shorten(
         &mut self,
         solver: &mut Solver,
@@ -414,7 +399,7 @@ impl Descent {
         }
     }
 
-    /// Bounded minimum of the parabola through both energies and the initial slope.
+    /// Minimum of the parabola through both energies and the initial slope.
     fn next_factor(&self, direction: &Direction, fraction: f64) -> f64 {
         let change = self.there.energy_above(&self.here);
         let descent = fraction * direction.slope;
@@ -427,13 +412,13 @@ impl Descent {
     }
 }
 
-/// Returns `true` if the energy of `a` is lower, or not comparable.
+/// Returns `true` for NaN.
 fn is_lower(a: &Evaluation, b: &Evaluation) -> bool {
     let difference = a.energy_above(b);
     difference.is_nan() || difference < 0.0
 }
 
-/// Decrease of the quadratic model over `fraction` of a step.
+/// Quadratic model.
 fn predicted_decrease(direction: &Direction, fraction: f64) -> f64 {
     fraction * (direction.slope - 0.5 * fraction * direction.curvature)
 }

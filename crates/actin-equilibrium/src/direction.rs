@@ -14,7 +14,7 @@ use actin_mechanics::{Interaction, Loads, State};
 const GROW: f64 = 8.0;
 /// Ratio of the first regularisation to the negative curvature found.
 const BEYOND: f64 = 2.0;
-/// Divisor of a sufficient regularisation that gives the next initial guess.
+/// Divisor for the next initial guess.
 const GUESS: f64 = GROW;
 /// Maximum regularisation, relative to the largest diagonal entry.
 const LIMIT: f64 = 1e3;
@@ -24,8 +24,7 @@ const TOO_LONG: f64 = 4.0;
 const SHORT: f64 = 1e-6;
 /// Iterations for the stiffening and the motion of ties.
 const ROUNDS: usize = 2;
-/// Initial guess for the change of the stiffness of a tie that moves by its own length, relative to
-/// the largest stiffness.
+/// Relative change of the stiffness of a tie that moves by its own length, initial guess.
 const STIFFNESS_CHANGE: f64 = 0.3;
 /// Minimum regularisation, in roundings of the largest diagonal entry.
 const LEAST_ROUNDINGS: f64 = 4.0;
@@ -40,7 +39,6 @@ const STIFFEST_DROP: f64 = 0.3;
 /// Growth factor of an insufficient stiffening.
 const STIFFEST_GROWTH: f64 = 3.0;
 
-/// Linear algebra of one layout.
 #[derive(Debug)]
 pub(crate) struct Solver {
     pub(crate) layout: Layout,
@@ -49,25 +47,22 @@ pub(crate) struct Solver {
     /// 1 for displacements, squared turn length for rotations.
     pub(crate) metric: Vec<f64>,
     turn_length: f64,
-    /// Generalised loads of the last assembly.
     pub(crate) reduced: Vec<f64>,
-    /// Rounding errors of the generalised loads.
+    /// Rounding errors of `reduced`.
     rounding: Vec<f64>,
     pub(crate) work: SolverWork,
 }
 
-/// Descent direction.
 #[derive(Clone, Debug)]
 pub(crate) struct Direction {
     pub(crate) step: Vec<f64>,
     pub(crate) extent: StepSize,
     /// `f . p`: initial rate of descent.
     pub(crate) slope: f64,
-    /// `p . K p` with the stiffness without regularisation.
+    /// `p . K p`.
     pub(crate) curvature: f64,
     pub(crate) negative_pivots: usize,
     pub(crate) regularization: f64,
-    /// Motion (nm) of each tie.
     motions: Vec<f64>,
     /// Stiffening of ties per motion (pN/nm^2).
     pub(crate) cubic: f64,
@@ -87,7 +82,6 @@ impl Solver {
         }
     }
 
-    /// Checks for potentials and second derivatives.
     pub(crate) fn check(interactions: &[Box<dyn Interaction>]) -> Result<(), SolveError> {
         for interaction in interactions {
             if !interaction.is_conservative() {
@@ -100,7 +94,6 @@ impl Solver {
         Ok(())
     }
 
-    /// Evaluates loads and stiffness at a state.
     pub(crate) fn prepare(
         &mut self,
         state: &State,
@@ -116,7 +109,6 @@ impl Solver {
         Ok(())
     }
 
-    /// Assembles stiffness and generalised loads at a state with the given loads.
     pub(crate) fn assemble(
         &mut self,
         interactions: &[Box<dyn Interaction>],
@@ -139,8 +131,7 @@ impl Solver {
         self.layout.reduce(state, loads, &mut self.reduced);
     }
 
-    /// Residual of the last assembly and its rounding error `eps |K| |u|`, where `u` holds the
-    /// components of positions, and 1 for rotations.
+    /// Residual and its rounding error `eps |K| |u|`, where `u` is 1 for rotations.
     pub(crate) fn residual_and_floor(&mut self, state: &State) -> (Residual, Residual) {
         let mut magnitudes = vec![0.0; self.layout.unknowns()];
         self.layout.magnitudes(state, &mut magnitudes);
@@ -152,11 +143,8 @@ impl Solver {
         (self.layout.largest(&self.reduced), floor)
     }
 
-    /// Returns `true` if the loads of each body are within the tolerance or `multiple` times their
-    /// rounding error, from the last [`residual_and_floor`](Solver::residual_and_floor).
-    ///
-    /// The test is per body: the rounding error of a stiff joint far from the origin must not stop
-    /// the solve elsewhere.
+    /// Returns `true` if all loads are within the tolerance or `multiple` times their rounding
+    /// error. The test is per body: rounding at a stiff joint must not stop the solve elsewhere.
     pub(crate) fn is_at_floor(&self, tolerance: &Residual, multiple: f64) -> bool {
         let rounding = (self.rounding.as_slice(), multiple);
         self.layout.are_within(&self.reduced, tolerance, rounding)
@@ -174,8 +162,7 @@ impl Solver {
         )
     }
 
-    /// Norms over all bodies of the part of the last assembled loads along motions without
-    /// stiffness. Returns `None` if the stiffness has negative eigenvalues.
+    /// Loads along motions without stiffness; `None` if the stiffness is indefinite.
     pub(crate) fn unresisted(&mut self) -> Option<Residual> {
         let shift = self.least_shift();
         if !self.factorize(shift).is_positive() {
@@ -189,59 +176,52 @@ impl Solver {
         Some(self.layout.total(&part))
     }
 
-    /// Norms of the last assembled loads over all bodies.
     pub(crate) fn total(&self) -> Residual {
         self.layout.total(&self.reduced)
     }
 
-    /// Returns `true` if the last assembled stiffness has no negative eigenvalue beyond rounding.
+    /// No negative eigenvalue beyond rounding.
     pub(crate) fn is_stable(&mut self) -> bool {
         let shift = self.least_shift();
         self.factorize(shift).is_positive()
     }
 
-    /// Returns `true` if the last assembled stiffness has an eigenvalue that is not positive beyond
-    /// rounding.
+    /// Some eigenvalue is not positive beyond rounding.
     pub(crate) fn has_weak_mode(&mut self) -> bool {
         let shift = self.least_shift();
         !self.factorize(-shift).is_positive()
     }
 
-    /// Smallest multiple of the metric above the rounding error of the stiffness.
+    /// Smallest shift above the rounding error.
     fn least_shift(&self) -> f64 {
         let least = LEAST_ROUNDINGS * f64::EPSILON * self.largest_in_metric();
         least.max(f64::MIN_POSITIVE)
     }
 
-    /// Solution of the last factorisation for the last assembled loads.
     pub(crate) fn plain_step(&mut self) -> Vec<f64> {
         let mut step = self.reduced.clone();
         self.solve(&mut step);
         step
     }
 
-    /// Solves with the last factorisation, in place.
     pub(crate) fn solve(&mut self, b: &mut [f64]) {
         let factor = self.factor.as_mut().expect("the stiffness is assembled");
         factor.solve(b);
     }
 
-    /// Transforms independent random numbers in place to a step whose covariance is the inverse of
-    /// the last factorised, positive definite matrix.
+    /// Transforms white noise to a step whose covariance is the inverse of the factorised matrix.
     pub(crate) fn spread(&self, noise: &mut [f64]) {
         let factor = self.factor.as_ref().expect("the stiffness is assembled");
         factor.spread(noise);
     }
 
-    /// Factorises the stiffness plus the smallest multiple of the metric that makes it positive
-    /// definite. `inertia` belongs to the current factorisation.
+    /// Factorises with the smallest sufficient shift, starting from `inertia`.
     pub(crate) fn make_positive(&mut self, inertia: Inertia) -> Result<f64, SolveError> {
         self.make_positive_from(inertia, false, 0.0)
     }
 
-    /// As [`make_positive`](Self::make_positive), for a step of the current loads. No shift is
-    /// added if the loads meet no negative curvature, since a shift that exceeds a small rotational
-    /// stiffness would slow down the stretching of a rod by orders of magnitude.
+    /// No shift is added if the loads meet no negative curvature: it could slow down the stretching
+    /// of a rod by orders of magnitude.
     fn make_positive_for_loads(
         &mut self,
         inertia: Inertia,
@@ -256,7 +236,7 @@ impl Solver {
         self.make_positive_from(inertia, with_ties, guess)
     }
 
-    /// As [`make_positive`](Self::make_positive), with a first shift of at least `guess`.
+    /// The first shift is at least `guess`.
     fn make_positive_from(
         &mut self,
         mut inertia: Inertia,
@@ -286,23 +266,22 @@ impl Solver {
         Ok(shift)
     }
 
-    /// Shift that removes the negative curvature of the last factorisation; zero if none was found.
+    /// Shift that removes the negative curvature of the last factorisation, if any.
     fn beyond_curvature(&self) -> f64 {
         let factor = self.factor.as_ref().expect("the stiffness is assembled");
         -BEYOND * factor.negative_curvature(&self.metric).unwrap_or(0.0)
     }
 
-    /// Estimate of the largest eigenvalue of the last assembly in the metric.
+    /// Estimate of the largest eigenvalue.
     pub(crate) fn largest_in_metric(&self) -> f64 {
         self.assembly.largest_diagonal() / self.lightest()
     }
 
-    /// Smallest entry of the metric.
     pub(crate) fn lightest(&self) -> f64 {
         self.metric.iter().copied().fold(f64::INFINITY, f64::min)
     }
 
-    /// Number of directions with almost no stiffness in the last factorised matrix.
+    /// Number of directions with almost no stiffness.
     pub(crate) fn floppy(&self) -> usize {
         let factor = self.factor.as_ref().expect("the stiffness is assembled");
         factor.floppy()
@@ -313,7 +292,6 @@ impl Solver {
         factor.growth()
     }
 
-    /// Largest diagonal entry of the last factorised matrix.
     pub(crate) fn largest_diagonal(&self) -> f64 {
         let factor = self.factor.as_ref().expect("the stiffness is assembled");
         factor.largest_diagonal()
@@ -330,12 +308,10 @@ impl Solver {
         )
     }
 
-    /// Newton direction of the last assembly, which belongs to `state` and has just been factorised
-    /// with inertia `plain`.
+    /// Newton direction; `plain` is the inertia of the current factorisation.
     ///
-    /// The stiffness is made positive definite unless the loads meet no negative curvature. Ties
-    /// are stiffened in proportion to their motion if the step strains neighbours by much more than
-    /// `strain`, or if `cubic` is positive; see [`crate::ties`].
+    /// Ties are stiffened in proportion to their motion if the step strains neighbours by much more
+    /// than `strain`, or if `cubic` is positive; see [`crate::ties`].
     pub(crate) fn direction(
         &mut self,
         state: &State,
@@ -364,8 +340,7 @@ impl Solver {
         self.stiffened_direction(state, plain, cubic, (motions, shift / GUESS))
     }
 
-    /// Direction with ties stiffened by `cubic` times their motions, from initial guesses of
-    /// motions and regularisation.
+    /// Direction with ties stiffened by `cubic` times their motions.
     fn stiffened_direction(
         &mut self,
         state: &State,
@@ -392,10 +367,8 @@ impl Solver {
         }
     }
 
-    /// Newton direction of the last assembly, which belongs to `state`, with stiffened soft ties.
-    /// The stiffening is proportional to the softness and about the smallest that makes the
-    /// stiffness positive definite. The search starts from a fraction of the last value `stiffest`
-    /// (pN/nm). Returns `None` if no stiffening suffices.
+    /// Newton direction with soft ties stiffened just enough for a positive definite stiffness. The
+    /// search starts from a fraction of `stiffest` (pN/nm).
     pub(crate) fn composed_direction(
         &mut self,
         state: &State,
@@ -432,14 +405,14 @@ impl Solver {
         }
     }
 
-    /// Initial guess for the rate of change of the stiffness of a tie with its motion.
+    /// Initial guess for the change of stiffness per motion of a tie.
     pub(crate) fn least_cubic(&self) -> f64 {
         let lengths = self.assembly.tie_lengths();
         let mean = lengths.iter().sum::<f64>() / lengths.len().max(1) as f64;
         STIFFNESS_CHANGE * self.largest_diagonal() / mean
     }
 
-    /// Solves with the current factorisation, which includes `shift` and the `weights` of ties.
+    /// The current factorisation includes `shift` and `weights`.
     fn solve_direction(
         &mut self,
         state: &State,
@@ -474,7 +447,7 @@ impl Solver {
         }
     }
 
-    /// Work of the loads per unit of `step`.
+    /// Work per unit of `step`.
     pub(crate) fn work_along(&self, state: &State, loads: &Loads, step: &[f64]) -> f64 {
         let mut reduced = vec![0.0; step.len()];
         self.layout.reduce(state, loads, &mut reduced);

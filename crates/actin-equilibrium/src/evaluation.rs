@@ -2,15 +2,14 @@
 
 use actin_mechanics::{Interaction, Loads, State};
 
-/// Loads and element energies of a state.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Evaluation {
     pub(crate) loads: Loads,
     energies: Vec<f64>,
     pub(crate) energy: f64,
-    /// Sum of the absolute energies of all elements, scale of the rounding error.
+    /// Scale of the rounding error of the energy.
     pub(crate) magnitude: f64,
-    /// The last motion moved bodies through each other; the energy counts as infinite.
+    /// Bodies passed through each other; the energy counts as infinite.
     passed: bool,
 }
 
@@ -26,7 +25,6 @@ impl Evaluation {
         evaluation
     }
 
-    /// Evaluates all interactions in place.
     pub(crate) fn update(&mut self, interactions: &[Box<dyn Interaction>], state: &State) {
         self.passed = false;
         self.loads.clear();
@@ -41,7 +39,7 @@ impl Evaluation {
         self.magnitude = self.energies.iter().map(|e| e.abs()).sum();
     }
 
-    /// Evaluates all interactions at `state`, reached by a straight motion from `from`.
+    /// Evaluates a state reached by a straight motion.
     pub(crate) fn follow(
         &mut self,
         interactions: &[Box<dyn Interaction>],
@@ -55,8 +53,7 @@ impl Evaluation {
         self.passed
     }
 
-    /// Energy difference to `other`, summed over the differences of elements. The rounding error of
-    /// the total energy of a long filament could exceed the change of one element.
+    /// Sum of the differences of elements, more accurate than the difference of sums.
     pub(crate) fn energy_above(&self, other: &Self) -> f64 {
         if self.passed {
             return f64::INFINITY;
@@ -79,8 +76,8 @@ impl Evaluation {
     }
 }
 
-/// Returns `true` if a straight motion between two states moves bodies through each other that an
-/// interaction separates.
+/// Returns `true` if a straight motion moves bodies through each other that an interaction
+/// separates.
 pub(crate) fn passes_through(
     interactions: &[Box<dyn Interaction>],
     from: &State,

@@ -21,35 +21,31 @@ use faer::{Conj, MatMut, Par};
 /// A pivot within this many roundings of its diagonal entry is doubtful.
 const PIVOT_ROUNDINGS: f64 = 8.0;
 
-/// Fraction of the energy of a step below which the contribution of a pivot is rounding: amplitudes
-/// of 1e-12.
+/// Energy fraction of a pivot below rounding: amplitudes of 1e-12.
 const UNSEEN: f64 = 1e-24;
 
-/// Ratio of pivot to diagonal entry below which a direction has no stiffness.
+/// Pivots below this fraction of their diagonal entry have no stiffness.
 const FLOPPY: f64 = 1e-10;
 
-/// Inertia of the shifted matrix.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Inertia {
-    /// Number of negative pivots, equal to the number of negative eigenvalues by Sylvester's law.
+    /// Number of negative pivots, or eigenvalues by Sylvester's law.
     pub(crate) negative: usize,
-    /// Number of pivots that are zero within rounding, including negative ones.
+    /// Number of pivots that are zero within rounding.
     pub(crate) doubtful: usize,
-    /// Number of pivots that are exactly zero or not finite, all of them doubtful.
+    /// Number of pivots that are exactly zero or not finite.
     pub(crate) zero: usize,
 }
 
 impl Inertia {
-    /// Returns `true` if the matrix is positive definite beyond rounding.
+    /// Positive definite beyond rounding.
     pub(crate) fn is_positive(&self) -> bool {
         self.negative == 0 && self.doubtful == 0
     }
 }
 
-/// Factor of one pattern, with its work space.
 pub(crate) struct Factor {
     symbolic: simplicial::SymbolicSimplicialCholesky<usize>,
-    /// Band of a factor without gaps.
     band: Option<Band>,
     values: Vec<f64>,
     shifted: Vec<f64>,
@@ -94,25 +90,21 @@ impl Factor {
         }
     }
 
-    /// Number of entries of the factor.
     pub(crate) fn entries(&self) -> usize {
         self.symbolic.len_val()
     }
 
-    /// Returns `true` if the columns have no gaps.
     #[cfg(test)]
     pub(crate) fn is_band(&self) -> bool {
         self.band.is_some()
     }
 
-    /// Disables the band.
     #[cfg(test)]
     pub(crate) fn with_gaps(mut self) -> Self {
         self.band = None;
         self
     }
 
-    /// Factorises `K + shift M` with the diagonal `metric`.
     pub(crate) fn factorize(
         &mut self,
         upper: SymbolicSparseColMatRef<'_, usize>,
@@ -125,7 +117,7 @@ impl Factor {
         self.factorize_shifted(upper, metric, shift)
     }
 
-    /// Factorises `K + T + shift M` with a matrix `T` of the same pattern.
+    /// Factorises `K + T + shift M`.
     pub(crate) fn factorize_sum(
         &mut self,
         upper: SymbolicSparseColMatRef<'_, usize>,
@@ -139,8 +131,8 @@ impl Factor {
         self.factorize_shifted(upper, metric, shift)
     }
 
-    /// Factorises the matrix in `shifted`. Pivots of exactly zero, as of zero-stiffness modes at
-    /// rest, are replaced by one rounding of the largest diagonal entry and counted as doubtful.
+    /// Pivots of exactly zero are replaced by one rounding of the largest diagonal entry and are
+    /// doubtful.
     fn factorize_shifted(
         &mut self,
         upper: SymbolicSparseColMatRef<'_, usize>,
@@ -171,7 +163,7 @@ impl Factor {
         self.inertia(least)
     }
 
-    /// Elimination with gaps. A non-finite pivot ends it; the remaining pivots count as doubtful.
+    /// A non-finite pivot ends the elimination; the remaining pivots are doubtful.
     fn eliminate_with_gaps(&mut self, upper: SymbolicSparseColMatRef<'_, usize>, least: f64) {
         let regularization = LdltRegularization {
             dynamic_regularization_signs: None,
@@ -190,7 +182,7 @@ impl Factor {
         }
     }
 
-    /// Inertia of the factor; pivots equal to `least` replace zeros.
+    /// Pivots equal to `least` replace zeros.
     fn inertia(&self, least: f64) -> Inertia {
         let mut inertia = Inertia::default();
         for column in 0..self.diagonal.len() {
@@ -204,14 +196,14 @@ impl Factor {
         inertia
     }
 
-    /// Number of pivots that are almost zero: directions without stiffness.
+    /// Number of directions without stiffness.
     pub(crate) fn floppy(&self) -> usize {
         let diagonal = self.diagonal.iter().enumerate();
         let is_floppy = |&(column, own): &(usize, &f64)| self.pivot(column).abs() <= FLOPPY * own;
         diagonal.filter(is_floppy).count()
     }
 
-    /// Columns with pivots that are not positive beyond rounding.
+    /// Columns with pivots not positive beyond rounding.
     pub(crate) fn indefinite_columns(&self) -> impl Iterator<Item = usize> {
         (0..self.diagonal.len()).filter(|&column| {
             let rounding = PIVOT_ROUNDINGS * f64::EPSILON * self.diagonal[column];
@@ -224,7 +216,6 @@ impl Factor {
         self.values[self.symbolic.col_ptr()[column]]
     }
 
-    /// Solves `L D L^T x = b` in place.
     pub(crate) fn solve(&mut self, b: &mut [f64]) {
         let rows = b.len();
         simplicial::SimplicialLdltRef::new(&self.symbolic, &self.values).solve_in_place_with_conj(
@@ -235,8 +226,7 @@ impl Factor {
         );
     }
 
-    /// Solves `L^T x = |D|^(-1/2) b` in place. For independent `b` of unit variance, `x` has the
-    /// covariance `(L |D| L^T)^(-1)`.
+    /// Solves `L^T x = |D|^(-1/2) b`: white noise `b` gives the covariance `(L |D| L^T)^(-1)`.
     pub(crate) fn spread(&self, b: &mut [f64]) {
         for column in (0..b.len()).rev() {
             let below: f64 = self.below(column).map(|(row, value)| value * b[row]).sum();
@@ -268,7 +258,6 @@ impl Factor {
         true
     }
 
-    /// Largest absolute diagonal entry of the last factorised matrix.
     pub(crate) fn largest_diagonal(&self) -> f64 {
         self.diagonal.iter().copied().fold(0.0, f64::max)
     }
@@ -286,7 +275,6 @@ impl Factor {
         growth.into_iter().fold(0.0, f64::max)
     }
 
-    /// Entries of `L` below the diagonal of one column.
     fn below(&self, column: usize) -> impl Iterator<Item = (usize, f64)> + '_ {
         let range = self.symbolic.col_ptr()[column] + 1..self.symbolic.col_ptr()[column + 1];
         let rows = &self.symbolic.row_idx()[range.clone()];

@@ -13,14 +13,12 @@ use crate::factor::Factor;
 use crate::layout::Layout;
 use faer::sparse::SymbolicSparseColMat;
 
-/// Maximum number of iterations.
 const MOST_ITERATIONS: usize = 500;
 
-/// Preconditioner and vectors of the iteration.
 #[derive(Debug)]
 pub(crate) struct Gradients {
     chains: SymbolicSparseColMat<usize>,
-    /// Index of each entry of the chains in the full matrix.
+    /// Index in the full matrix.
     places: Vec<usize>,
     values: Vec<f64>,
     factor: Factor,
@@ -31,7 +29,6 @@ pub(crate) struct Gradients {
 }
 
 impl Gradients {
-    /// Solver for the last assembled matrix.
     pub(crate) fn new(assembly: &Assembly, layout: &Layout) -> Self {
         let (chains, places) = assembly.pattern().chains(layout);
         let zeros = vec![0.0; layout.unknowns()];
@@ -47,7 +44,6 @@ impl Gradients {
         }
     }
 
-    /// Factorises the chains; returns `true` if all are positive definite.
     pub(crate) fn factorize(&mut self, assembly: &Assembly, metric: &[f64]) -> bool {
         for (value, &place) in self.values.iter_mut().zip(&self.places) {
             *value = assembly.values[place];
@@ -57,14 +53,12 @@ impl Gradients {
         inertia.is_positive()
     }
 
-    /// Unknowns with negative or doubtful pivots.
     pub(crate) fn indefinite_columns(&self) -> Vec<usize> {
         self.factor.indefinite_columns().collect()
     }
 
-    /// Solves for the right-hand side `b` in place, until the residual norm of the preconditioner
-    /// has decreased by `tolerance`. Returns `false` at a direction of negative curvature, with the
-    /// solution up to it.
+    /// Solves in place until the preconditioned residual norm has decreased by `tolerance`. Returns
+    /// `false` at negative curvature.
     pub(crate) fn solve(&mut self, assembly: &Assembly, b: &mut [f64], tolerance: f64) -> bool {
         self.residual.copy_from_slice(b);
         b.fill(0.0);

@@ -68,7 +68,6 @@ impl Group {
         }
     }
 
-    /// Group of a sliding body.
     pub(crate) fn from_slider(slider: &Slider) -> Self {
         Self {
             translations: slider.directions.clone(),
@@ -96,12 +95,10 @@ impl Group {
         self.translations.len() + self.rotations.len()
     }
 
-    /// Displacement for the unknowns `step`.
     pub(crate) fn displacement(&self, step: &[f64]) -> Vector3 {
         combine(&self.translations, step)
     }
 
-    /// Rotation vector for the unknowns `step`.
     pub(crate) fn rotation(&self, step: &[f64]) -> Vector3 {
         combine(&self.rotations, &step[self.translations.len()..])
     }
@@ -111,7 +108,7 @@ fn combine(directions: &[Vector3], amounts: &[f64]) -> Vector3 {
     directions.iter().zip(amounts).map(|(d, a)| d * *a).sum()
 }
 
-/// Orthonormalised directions; `None` if they are linearly dependent or not finite.
+/// `None` if linearly dependent or not finite.
 pub(crate) fn orthonormal(directions: &[Vector3]) -> Option<Vec<Vector3>> {
     // Sine of the angle to the span of the others below which a direction is dependent.
     const SMALLEST_SINE: f64 = 1e-6;

@@ -58,7 +58,6 @@ pub struct SolverWork {
 }
 
 impl SolverWork {
-    /// Cost since `earlier`, with the current number of entries of the factor.
     pub(crate) fn since(&self, earlier: &Self) -> Self {
         Self {
             iterations: self.iterations - earlier.iterations,

@@ -27,21 +27,17 @@ pub struct ImplicitSolver {
     spins: Vec<bool>,
     /// Matrix entries that couple spins to other unknowns.
     uncoupled: Vec<usize>,
-    /// Copy of the state at the start of a step.
     from: Option<State>,
 }
 
-/// Solver of the linear equations.
 #[derive(Debug)]
 enum Linear {
-    /// Before the first factorisation.
     Unknown,
     Direct(Box<Factor>),
     Gradients(Box<Gradients>),
 }
 
-/// Relative tolerance of conjugate gradients. Steps are iterated, so later iterations correct the
-/// error.
+/// Relative tolerance; later iterations of the step correct the error.
 const TOLERANCE: f64 = 1e-2;
 
 impl ImplicitSolver {
@@ -74,7 +70,6 @@ impl ImplicitSolver {
         self.find_uncoupled();
     }
 
-    /// Finds the entries of the pattern that couple spins to other unknowns.
     fn find_uncoupled(&mut self) {
         let mut is_spin = vec![false; self.layout.unknowns()];
         for (node, range) in self.layout.nodes() {
@@ -262,7 +257,6 @@ impl ImplicitSolver {
 }
 
 impl Linear {
-    /// Solves in place; returns `false` if the matrix proves indefinite.
     fn solve(&mut self, assembly: &Assembly, b: &mut [f64]) -> bool {
         match self {
             Self::Unknown => panic!("a matrix is factorised before"),
@@ -275,7 +269,6 @@ impl Linear {
     }
 }
 
-/// Repeats the motion of point `i` from `start` to `middle`.
 fn go_on(start: &State, middle: &mut State, i: usize) {
     let half = middle.points.position.get(i) - start.points.position.get(i);
     middle.points.position.add(i, half);

@@ -85,11 +85,8 @@ pub enum LayoutError {
 /// Bodies that share unknowns: a single body or a group.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Node {
-    /// Free point.
     Point(usize),
-    /// Free frame.
     Frame(usize),
-    /// Index of a group.
     Group(usize),
 }
 
@@ -106,7 +103,7 @@ pub struct Layout {
     frame_node: Vec<Option<usize>>,
     groups: Vec<Group>,
     order: Order,
-    /// Index of each node in the order in which bodies follow one another.
+    /// Index of each node in the prescribed order.
     sequence: Vec<usize>,
     /// Coupled pairs of bodies that are not neighbours, ordered.
     loose: BTreeSet<(Coordinates, Coordinates)>,
@@ -213,28 +210,25 @@ impl Layout {
         self
     }
 
-    /// Returns `true` if steps are solved by conjugate gradients; known after the first solve.
     pub(crate) fn has_gradients(&self) -> bool {
         self.has_gradients
     }
 
-    /// Selects conjugate gradients in the given order.
     pub(crate) fn choose_gradients(&mut self) {
         self.has_gradients = true;
         self.settle();
     }
 
-    /// Returns `true` if conjugate gradients may be selected.
     pub(crate) fn allows_gradients(&self) -> bool {
         self.allows_gradients && self.order == Order::Compared && self.has_loose()
     }
 
-    /// Returns `true` if coupled bodies may be no neighbours.
+    /// Some couplings may be loose.
     pub(crate) fn has_loose(&self) -> bool {
         self.loose_beyond.is_some() || !self.loose.is_empty()
     }
 
-    /// Returns `true` if two coupled bodies are not neighbours.
+    /// The bodies are not neighbours.
     pub(crate) fn is_loose(&self, a: Coordinates, b: Coordinates) -> bool {
         let are_apart = self.loose_beyond.as_ref().is_some_and(|(order, reach)| {
             let place = |body| match body {
@@ -291,7 +285,6 @@ impl Layout {
         Ok(())
     }
 
-    /// Nodes in the order of their unknowns.
     pub(crate) fn nodes(&self) -> impl Iterator<Item = (Node, Range<usize>)> + '_ {
         self.nodes
             .iter()
@@ -307,12 +300,10 @@ impl Layout {
         self.nodes.len()
     }
 
-    /// Unknowns of node `k`.
     pub(crate) fn range(&self, k: usize) -> Range<usize> {
         self.offsets[k]..self.offsets[k + 1]
     }
 
-    /// Node of a body.
     pub(crate) fn node_of(&self, body: Coordinates) -> Option<usize> {
         match body {
             Coordinates::Point(i) => self.point_node[i],
@@ -320,22 +311,20 @@ impl Layout {
         }
     }
 
-    /// Source of the order.
     pub(crate) fn order(&self) -> Order {
         self.order
     }
 
-    /// Fixes the current order.
     pub(crate) fn settle(&mut self) {
         self.order = Order::Settled;
     }
 
-    /// Index of each node in the order in which bodies follow one another.
+    /// Index of each node in the prescribed order.
     pub(crate) fn sequence(&self) -> &[usize] {
         &self.sequence
     }
 
-    /// Moves node `order[k]` to position `k` and fixes the order.
+    /// Moves node `order[k]` to position `k`.
     pub(crate) fn reorder(&mut self, order: &[usize]) {
         if self.order == Order::Compared {
             for (place, &node) in order.iter().enumerate() {
@@ -347,7 +336,6 @@ impl Layout {
         self.number();
     }
 
-    /// Computes the offsets and the node of each body.
     fn number(&mut self) {
         self.offsets.clear();
         self.offsets.push(0);
@@ -380,7 +368,6 @@ impl Layout {
     }
 }
 
-/// Group of each body.
 struct Ties {
     points: Vec<Option<usize>>,
     frames: Vec<Option<usize>>,
@@ -408,7 +395,6 @@ impl Ties {
     }
 }
 
-/// Assigns body `i` to `group`.
 fn tie(
     ties: &mut [Option<usize>],
     i: usize,
@@ -450,7 +436,6 @@ fn orthonormalised(index: usize, mut group: Group) -> Result<Group, LayoutError>
     Ok(group)
 }
 
-/// Free bodies outside of groups, by index, then groups.
 fn nodes_of(state: &State, ties: &Ties, groups: &[Group]) -> Vec<Node> {
     let points = (0..state.points.len())
         .filter(|&i| state.points.is_free(i) && ties.points[i].is_none())
@@ -493,10 +478,7 @@ fn check_order(state: &State, order: &BodyOrder) -> Result<(), LayoutError> {
     )
 }
 
-/// Position of a node along the filament.
-///
-/// A group that connects distant bodies has the position of the last one, so it is eliminated late
-/// and fills few rows.
+/// Groups have the position of their last body, so they fill few rows.
 fn key(node: Node, order: &BodyOrder, groups: &[Group]) -> f64 {
     match node {
         Node::Point(i) => order.points[i],

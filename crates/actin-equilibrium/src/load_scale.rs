@@ -2,10 +2,9 @@
 
 use actin_mechanics::{Interaction, Loads, Residual, State, Stiffness, Vectors};
 
-/// Residual relative to the loads below which further steps are useless.
+/// Relative residual below which further steps are useless.
 const SMALL: f64 = 1e-8;
-/// Resultant relative to the loads above which they are unbalanced: more than rounding to six
-/// digits.
+/// Relative resultant of unbalanced loads.
 const UNBALANCED: f64 = 1e-3;
 
 /// Largest load of any single interaction, since the loads cancel in equilibrium.
@@ -13,8 +12,7 @@ const UNBALANCED: f64 = 1e-3;
 pub(crate) struct LoadScale(Residual);
 
 impl LoadScale {
-    /// Largest force on a point and torque on a frame, including held ones. Arms between two
-    /// lengths (nm) convert forces to torques and torques to forces.
+    /// Includes held bodies. Arms between two lengths (nm) relate forces and torques.
     pub(crate) fn new(
         interactions: &[Box<dyn Interaction>],
         state: &State,
@@ -34,19 +32,17 @@ impl LoadScale {
         })
     }
 
-    /// Returns `true` if a residual is small compared with the loads.
     pub(crate) fn dwarfs(&self, residual: &Residual) -> bool {
         residual.is_within(&self.0.scaled(SMALL))
     }
 
-    /// Returns `true` if loads along zero-stiffness motions are within the error of the loads.
+    /// The loads along zero-stiffness motions are within their error.
     pub(crate) fn outweighs(&self, unresisted: &Residual) -> bool {
         unresisted.is_within(&self.0.scaled(UNBALANCED))
     }
 }
 
-/// Returns `true` if an interaction without stiffness, such as a dead load, exerts a load. Torques
-/// and forces at an arm have a stiffness.
+/// Returns `true` if an interaction without stiffness exerts a load.
 pub(crate) fn is_loaded(interactions: &[Box<dyn Interaction>], state: &State) -> bool {
     let mut loads = Loads::zeros(state);
     let mut stiffness = Stiffness::default();

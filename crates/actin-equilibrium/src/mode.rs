@@ -11,11 +11,11 @@ use crate::outcome::SolveError;
 use actin_mechanics::Xorshift;
 use nalgebra::{DMatrix, SymmetricEigen};
 
-/// Relative residual of the converged eigenvalue of the inverse.
+/// Relative residual of the eigenvalue.
 const ACCURACY: f64 = 1e-9;
 /// Maximum number of Lanczos vectors.
 const VECTORS: usize = 80;
-/// New vectors between two solutions of the tridiagonal problem.
+/// New vectors between solutions of the small problem.
 const PERIOD: usize = 5;
 
 /// Mode of the smallest eigenvalue of `K v = lambda M v`. The metric `M` is 1 for displacements
@@ -31,7 +31,6 @@ pub struct Mode {
     pub shape: Vec<f64>,
 }
 
-/// Lowest mode of the last assembled stiffness; `None` without unknowns.
 pub(crate) fn lowest(solver: &mut Solver) -> Result<Option<Mode>, SolveError> {
     let n = solver.layout.unknowns();
     if n == 0 {
@@ -75,7 +74,6 @@ struct Lanczos {
     beta: Vec<f64>,
 }
 
-/// Ritz value, vector and residual.
 struct Ritz {
     value: f64,
     residual: f64,
@@ -83,7 +81,6 @@ struct Ritz {
 }
 
 impl Lanczos {
-    /// Starts with a reproducible random vector.
     fn new(n: usize) -> Self {
         let mut noise = Xorshift::new(1);
         let start: Vec<f64> = (0..n).map(|_| noise.sample()).collect();
@@ -99,7 +96,7 @@ impl Lanczos {
         &self.basis[self.basis.len() - 1]
     }
 
-    /// Adds the operator times the last vector; returns `true` if the space is exhausted.
+    /// Returns `true` if the space is exhausted.
     fn push(&mut self, mut w: Vec<f64>) -> bool {
         let before = dot(&w, &w).sqrt();
         self.alpha.push(dot(self.last(), &w));
@@ -119,7 +116,6 @@ impl Lanczos {
         false
     }
 
-    /// Largest Ritz value.
     fn largest(&self) -> Ritz {
         let size = self.alpha.len();
         let matrix = DMatrix::from_fn(size, size, |i, j| match i.abs_diff(j) {

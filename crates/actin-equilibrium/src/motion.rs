@@ -18,7 +18,6 @@ pub struct StepSize {
 }
 
 impl StepSize {
-    /// Extent of `factor` times the step.
     pub(crate) fn scaled(&self, factor: f64) -> Self {
         Self {
             displacement: self.displacement * factor,
@@ -40,7 +39,6 @@ impl Layout {
         }
     }
 
-    /// Moves the bodies of some nodes by `scale` times `step`.
     pub(crate) fn apply_to(&self, nodes: &[usize], state: &mut State, step: &[f64], scale: f64) {
         for &k in nodes {
             self.apply_node(self.node(k), state, &step[self.range(k)], scale);
@@ -58,8 +56,7 @@ impl Layout {
         }
     }
 
-    /// Writes the generalised loads: negative derivative of the energy with respect to each
-    /// unknown.
+    /// Generalised loads: negative derivative of the energy.
     pub(crate) fn reduce(&self, state: &State, loads: &Loads, reduced: &mut [f64]) {
         for (node, range) in self.nodes() {
             let out = &mut reduced[range];
@@ -77,7 +74,7 @@ impl Layout {
         }
     }
 
-    /// Largest norms over nodes of a vector of generalised loads.
+    /// Largest norms over nodes.
     pub(crate) fn largest(&self, reduced: &[f64]) -> Residual {
         self.nodes()
             .map(|(node, range)| self.norms(node, &reduced[range]))
@@ -86,7 +83,7 @@ impl Layout {
             })
     }
 
-    /// Norms over all nodes of a vector of generalised loads.
+    /// Norms over all nodes.
     pub(crate) fn total(&self, reduced: &[f64]) -> Residual {
         let norms = self
             .nodes()
@@ -97,8 +94,7 @@ impl Layout {
         })
     }
 
-    /// Returns `true` if the loads of each node are within `limit` or `multiple` times their
-    /// rounding error. Non-finite rounding errors count as zero.
+    /// All loads are within `limit` or `multiple` times their rounding error, if finite.
     pub(crate) fn are_within(
         &self,
         loads: &[f64],
@@ -112,7 +108,6 @@ impl Layout {
         })
     }
 
-    /// Norms of the generalised loads of one node.
     fn norms(&self, node: Node, values: &[f64]) -> Residual {
         let translations = match node {
             Node::Point(_) => values.len(),
@@ -133,7 +128,7 @@ impl Layout {
         self.largest(&reduced)
     }
 
-    /// Largest displacement and rotation of a step, without its strain.
+    /// Without strain.
     pub(crate) fn step_extent(&self, step: &[f64]) -> StepSize {
         let largest = self.largest(step);
         StepSize {
@@ -143,7 +138,6 @@ impl Layout {
         }
     }
 
-    /// Largest displacement and rotation of some nodes.
     pub(crate) fn extent_of(&self, nodes: &[usize], step: &[f64]) -> StepSize {
         let norms = nodes
             .iter()
@@ -156,7 +150,7 @@ impl Layout {
         }
     }
 
-    /// Velocities of points and angular velocities of frames (lab frame) of a step.
+    /// Linear and angular velocities (lab frame).
     pub(crate) fn velocities(&self, state: &State, step: &[f64]) -> (Vectors, Vectors) {
         let mut moved = Vectors::zeros(state.points.len());
         let mut turned = Vectors::zeros(state.frames.len());
@@ -206,8 +200,7 @@ impl Layout {
         step
     }
 
-    /// Writes the magnitude of each coordinate, to which its rounding error is proportional:
-    /// components of positions, and 1 for rotations.
+    /// Magnitudes of coordinates, to which rounding is proportional: 1 for rotations.
     pub(crate) fn magnitudes(&self, state: &State, magnitudes: &mut [f64]) {
         for (node, range) in self.nodes() {
             let out = &mut magnitudes[range];
@@ -227,7 +220,7 @@ impl Layout {
         }
     }
 
-    /// Writes the metric: 1 for displacements, `length^2` for rotations.
+    /// 1 for displacements, `length^2` for rotations.
     pub(crate) fn metric(&self, length: f64, metric: &mut [f64]) {
         for (node, range) in self.nodes() {
             let translations = match node {
@@ -256,7 +249,7 @@ fn project(out: &mut [f64], directions: &[Vector3], v: Vector3) {
     }
 }
 
-/// Normalises the product of rotations against rounding.
+/// Corrects rounding of products.
 fn with_unit_length(q: UnitQuaternion) -> UnitQuaternion {
     UnitQuaternion::new_normalize(q.into_inner())
 }
@@ -280,7 +273,7 @@ fn move_group(group: &Group, state: &mut State, step: &[f64], scale: f64) {
     }
 }
 
-/// Total force on a group and total torque about its pivot (lab frame).
+/// Force and torque about the pivot (lab frame).
 fn resultant(group: &Group, state: &State, loads: &Loads) -> (Vector3, Vector3) {
     let pivot = group.pivot.position(state);
     let mut force = Vector3::zeros();
@@ -300,7 +293,7 @@ fn displacement(from: &State, to: &State, i: usize) -> Vector3 {
     to.points.position.get(i) - from.points.position.get(i)
 }
 
-/// Displacement of the material point at the pivot and rotation of a group between two states.
+/// Displacement of the material point at the pivot, and rotation.
 fn group_difference(group: &Group, from: &State, to: &State) -> (Vector3, Vector3) {
     let turned = group.frames.first().map_or(Vector3::zeros(), |&i| {
         rotation::log(to.frames.orientation.get(i) * from.frames.orientation.get(i).inverse())
@@ -320,7 +313,6 @@ fn largest_component(positions: &Vectors, points: &[usize]) -> f64 {
         .fold(0.0, f64::max)
 }
 
-/// Replaces non-finite parts by zero.
 fn if_finite(residual: &Residual) -> Residual {
     let part = |value: f64| if value.is_finite() { value } else { 0.0 };
     Residual {

@@ -7,16 +7,13 @@ use crate::newton::{NEAR_FLOOR, Newton, STILL_FALLING};
 use crate::outcome::SolveError;
 use actin_mechanics::{Interaction, State};
 
-/// Maximum number of steps; convergence is quadratic.
 const STEPS: usize = 8;
-/// Maximum rotation (rad), or displacement relative to the size of the system, of a step to a
-/// nearby state.
+/// Maximum rotation (rad), or relative displacement, of a step.
 const FARTHEST: f64 = 0.5;
-/// Shift of the stiffness in roundings of its largest eigenvalue. It limits steps along directions
-/// without stiffness and does not slow down others.
+/// Shift in roundings of the largest eigenvalue. It limits steps along directions without
+/// stiffness.
 const SHIFT: f64 = 1e3;
 
-/// Largest extent of the points along an axis (nm).
 fn size(state: &State) -> f64 {
     let position = &state.points.position;
     let span = |values: &[f64]| {
@@ -68,8 +65,7 @@ impl Newton {
         }))
     }
 
-    /// State of smallest residual reached from `state` with evaluation `here`, if within the
-    /// tolerance or the rounding error.
+    /// State of smallest residual, if within the tolerance or rounding.
     fn reach(
         &mut self,
         state: &State,
@@ -112,7 +108,6 @@ impl Newton {
         best.map(|(_, state)| state)
     }
 
-    /// Undamped Newton step of the last assembly.
     fn undamped_step(&mut self) -> Vec<f64> {
         let shift = SHIFT * f64::EPSILON * self.solver.largest_in_metric();
         self.solver.factorize(shift);

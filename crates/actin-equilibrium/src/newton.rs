@@ -32,14 +32,13 @@ use actin_mechanics::Residual;
 use actin_mechanics::{Interaction, Loads, State};
 use std::ops::ControlFlow;
 
-/// Multiple of the estimated rounding error below which a residual is negligible.
+/// Multiple of the rounding error considered negligible.
 const AT_FLOOR: f64 = 8.0;
-/// The same multiple if no further step is possible.
+/// The same if no further step is possible.
 pub(crate) const NEAR_FLOOR: f64 = 100.0;
-/// Factor by which a decreasing residual falls at least per step.
+/// Minimum decrease of a residual per step.
 pub(crate) const STILL_FALLING: f64 = 0.5;
-/// Fraction of the residual along zero-stiffness motions above which a failed solve has no
-/// equilibrium. Rigid motions have a fraction of 1; the lowest mode of a long filament has less.
+/// Fraction of the residual along zero-stiffness motions that makes an equilibrium impossible.
 const UNRESISTED: f64 = 0.9;
 
 /// Newton solver for one model: layout, options and reusable factorisation.
@@ -235,7 +234,6 @@ struct Run<'a> {
 }
 
 impl Run<'_> {
-    /// Iterates until termination; returns the reason and the energy.
     fn execute(
         &mut self,
         state: &mut State,
@@ -268,13 +266,11 @@ impl Run<'_> {
         result
     }
 
-    /// Residual and rounding error of the current state, whose stiffness is assembled.
     fn measure(&mut self, descent: &Descent) {
         let (residual, floor) = self.solver.residual_and_floor(&descent.state);
         (self.residual, self.floor) = (residual, floor);
     }
 
-    /// Performs one step, or returns the reason for termination.
     fn step(&mut self, descent: &mut Descent) -> Result<Option<Convergence>, SolveError> {
         self.solver
             .assemble(self.interactions, &descent.state, &descent.here.loads);
@@ -318,11 +314,8 @@ impl Run<'_> {
         Ok(None)
     }
 
-    /// Reason for termination at the current state, if any.
-    ///
-    /// Within the tolerance, steps continue as long as they halve the residual, until it is small
-    /// compared with the loads. An excursion that ends in an equilibrium above its start is
-    /// reverted.
+    /// Reason for termination, if any. Within the tolerance, steps continue as long as they halve
+    /// the residual, until it is small compared with the loads.
     ///
     /// # Errors
     /// If the remaining load acts along motions without stiffness.
@@ -346,14 +339,14 @@ impl Run<'_> {
         self.accept(&scale, ending)
     }
 
-    /// Returns `true` if a residual within the tolerance may decrease further: it exceeds the
-    /// rounding error or a dead load acts. Steps from a saddle would move away from it.
+    /// The residual exceeds rounding or a dead load acts. Steps from a saddle would move away from
+    /// it.
     fn is_worth_another_step(&mut self, descent: &Descent) -> bool {
         let is_rounding = self.solver.is_at_floor(&Residual::default(), AT_FLOOR);
         (!is_rounding || is_loaded(self.interactions, &descent.state)) && self.solver.is_stable()
     }
 
-    /// Accepts the equilibrium unless part of the loads acts along motions without stiffness.
+    /// Rejects loads along motions without stiffness.
     fn accept(
         &mut self,
         scale: &LoadScale,
@@ -368,8 +361,7 @@ impl Run<'_> {
         }
     }
 
-    /// Magnitude of the current loads, with arms between the turn length and the size of the
-    /// system.
+    /// Arms range from the turn length to the size of the system.
     fn load_scale(&mut self, descent: &Descent) -> LoadScale {
         self.solver.work.evaluations += 1;
         let shortest = self.options.turn_length;
@@ -377,8 +369,7 @@ impl Run<'_> {
         LoadScale::new(self.interactions, &descent.state, arms)
     }
 
-    /// Termination without further steps: the residual is within the tolerance or near the rounding
-    /// error, or the solve fails with `cause`.
+    /// Termination without further steps: near the rounding error, or failure.
     fn give_up(
         &mut self,
         descent: &Descent,

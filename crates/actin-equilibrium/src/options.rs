@@ -61,10 +61,6 @@ pub struct OptionsError {
 }
 
 impl NewtonOptions {
-    /// Validates the options.
-    ///
-    /// # Errors
-    /// The first invalid option.
     pub(crate) fn check(&self) -> Result<(), OptionsError> {
         // The logarithm of a relative rotation is unique below pi.
         let below_half_turn = self.largest_rotation < std::f64::consts::PI;
@@ -82,12 +78,10 @@ impl NewtonOptions {
     }
 }
 
-/// Requires `value > 0`.
 pub(crate) fn positive(name: &'static str, value: f64) -> Result<(), OptionsError> {
     rule(name, "positive", value, value > 0.0)
 }
 
-/// Requires `holds`.
 pub(crate) fn rule(
     name: &'static str,
     rule: &'static str,

@@ -16,15 +16,15 @@ use actin_mechanics::{Interaction, State};
 use std::ops::ControlFlow;
 use thiserror::Error;
 
-/// Ratio of the motion to the extrapolated motion above which a step is a jump. Near a limit point
-/// the motion grows with the square root of the distance, which is more gradual.
+/// Ratio to the extrapolated motion above which a step is a jump. Motion before a limit point is
+/// more gradual.
 const SUDDEN: f64 = 4.0;
-/// Motion (rad, or strain of neighbours) below which no step is a jump. An almost perfect filament
-/// bends suddenly at its critical load, but by small steps.
+/// Motion (rad, or strain) below which no step is a jump, such as sudden but small bending at a
+/// critical load.
 const SMALL_MOTION: f64 = 0.1;
-/// Motion (rad, or strain of neighbours) below which deviations from the prediction are ignored.
+/// Motion (rad, or strain) whose direction is not tested.
 const NEGLIGIBLE_MOTION: f64 = 1e-3;
-/// Fraction of a motion normal to the prediction above which the step deviates.
+/// Fraction of a motion normal to the prediction above which it deviates.
 const UNEXPLAINED: f64 = 0.5;
 
 /// Path of controls for parameters from 0 to 1.
@@ -172,14 +172,13 @@ impl Path {
 
 type Set<'a> = &'a mut dyn FnMut(&mut State, f64);
 
-/// Path in progress.
 struct Walk<'a> {
     options: &'a PathOptions,
     newton: &'a mut Newton,
     interactions: &'a [Box<dyn Interaction>],
     at: PathCheckpoint,
     last: Option<Equilibrium>,
-    /// Cached linear response at the last equilibrium.
+    /// Cached.
     response: Option<Vec<f64>>,
 }
 
@@ -188,7 +187,6 @@ struct Trial {
     parameter: f64,
     state: State,
     equilibrium: Equilibrium,
-    /// Motion since the last point.
     moved: StepSize,
 }
 
@@ -232,8 +230,7 @@ impl<'a> Walk<'a> {
         Ok(())
     }
 
-    /// Fixes the order of unknowns of a continued path without counting the evaluation. States are
-    /// compared across solves.
+    /// Fixes the order of unknowns of a continued path.
     fn settle_order(&mut self, state: &State) {
         let before = self.newton.work();
         self.newton.settle_order(state, self.interactions);
@@ -244,10 +241,8 @@ impl<'a> Walk<'a> {
         });
     }
 
-    /// Performs one step, reduced until it succeeds.
-    ///
-    /// Steps that are near but deviate from the direction of the path are reduced too. If no
-    /// smaller step succeeds, the original step is accepted as a jump.
+    /// One step, reduced until it succeeds. Deviating steps are reduced too; if no smaller step
+    /// succeeds, the original one is accepted as a jump.
     fn advance(
         &mut self,
         state: &mut State,
@@ -293,7 +288,6 @@ impl<'a> Walk<'a> {
         }
     }
 
-    /// Equilibrium at the next parameter.
     fn attempt(
         &mut self,
         state: &State,
@@ -323,7 +317,7 @@ impl<'a> Walk<'a> {
         }
     }
 
-    /// Classifies the next equilibrium by its distance and its deviation from the path.
+    /// Classifies an equilibrium.
     fn continuation(&self, trial: &Trial, deviation: f64) -> Continuation {
         let is_smallest = self.at.step <= self.options.smallest_step;
         let far = trial.moved.rotation > self.options.largest_turn
@@ -344,7 +338,6 @@ impl<'a> Walk<'a> {
         }
     }
 
-    /// Loss of stability if the nearest equilibrium of the next step is a saddle.
     fn lost_stability(&mut self, state: &State, next: f64, set: Set<'_>) -> Option<PathError> {
         let predicted = self.predict(state, next, set).ok()?;
         let nearest = self.newton.nearest(&predicted, self.interactions);
@@ -352,7 +345,7 @@ impl<'a> Walk<'a> {
         (negative > 0).then_some(PathError::Unstable { negative })
     }
 
-    /// Motion of the unknowns per parameter in the last step, unless it was a jump.
+    /// Motion per parameter in the last step, unless it was a jump.
     fn secant(&self, state: &State) -> Option<Vec<f64>> {
         let (previous, before) = self.at.previous.as_ref()?;
         let from = state.in_motion(previous.clone());
@@ -361,8 +354,7 @@ impl<'a> Walk<'a> {
         Some(way.into_iter().map(|way| way / stretch).collect())
     }
 
-    /// Linear response: motion of the unknowns per parameter for the smallest step. Returns `None`
-    /// if the stiffness is not positive definite beyond rounding.
+    /// Motion per parameter by linear response; `None` if the stiffness is not positive definite.
     fn linear_response(&mut self, state: &State, set: Set<'_>) -> Option<Vec<f64>> {
         let solver = &mut self.newton.solver;
         solver.prepare(state, self.interactions).ok()?;
@@ -382,12 +374,8 @@ impl<'a> Walk<'a> {
         Some(rate)
     }
 
-    /// Fraction of the motion to a trial that deviates from the prediction: the secant, or the
-    /// linear response for the first step and after a jump. Returns 0 without prediction, for small
-    /// motions, and for motions off a saddle.
-    ///
-    /// Near a limit point the linear response is too large to detect a small snap, unlike the
-    /// secant.
+    /// Fraction of the motion that deviates from the secant, or from the linear response without a
+    /// secant. Near a limit point the linear response is too large to detect a small snap.
     fn deviation(&mut self, state: &State, trial: &Trial, set: Set<'_>) -> f64 {
         if trial.equilibrium.saddles_left > 0 || motion(&trial.moved) <= NEGLIGIBLE_MOTION {
             return 0.0;
@@ -402,8 +390,7 @@ impl<'a> Walk<'a> {
         response.map_or(0.0, |rate| self.deviation_from(rate, state, trial))
     }
 
-    /// Fraction of the motion to a trial normal to `rate`, whose component is limited to a few
-    /// times the predicted motion.
+    /// Fraction of the motion normal to `rate`.
     fn deviation_from(&self, rate: &[f64], state: &State, trial: &Trial) -> f64 {
         let way = self.newton.layout().difference(state, &trial.state);
         let metric = &self.newton.solver.metric;
@@ -417,8 +404,7 @@ impl<'a> Walk<'a> {
         (product(&off, &off) / product(&way, &way).max(f64::MIN_POSITIVE)).sqrt()
     }
 
-    /// Returns `true` if the motion is much larger than extrapolated: a snap-through. Motions off a
-    /// saddle are always large and not tested.
+    /// Detects snap-through. Motions off a saddle are always large and not tested.
     fn is_sudden(&self, trial: &Trial) -> bool {
         let motion = motion(&trial.moved);
         let stretch = trial.parameter - self.at.parameter;
@@ -428,7 +414,7 @@ impl<'a> Walk<'a> {
             && expected.is_some_and(|expected| motion > SUDDEN * expected)
     }
 
-    /// Parameter of the next step; extended to 1 if less than the smallest step would remain.
+    /// Extended to 1 if less than the smallest step would remain.
     fn next_parameter(&self) -> f64 {
         let next = self.at.parameter + self.at.step;
         if next > 1.0 - self.options.smallest_step {
@@ -438,7 +424,7 @@ impl<'a> Walk<'a> {
         }
     }
 
-    /// Initial guess with controls set, extrapolated if this lowers the energy.
+    /// Controls set, and extrapolated if this lowers the energy.
     ///
     /// # Errors
     /// If the prescribed motion moves bodies through each other.
@@ -503,7 +489,7 @@ impl<'a> Walk<'a> {
         }
     }
 
-    /// Adapts the next step. Along a smooth path the deviation grows with the step.
+    /// Along a smooth path the deviation grows with the step.
     fn adapt(&mut self, equilibrium: &Equilibrium, deviation: f64) {
         let iterations = equilibrium.history.len();
         let step = &mut self.at.step;
@@ -556,7 +542,6 @@ impl<'a> Walk<'a> {
     }
 }
 
-/// Relation of an equilibrium to the path.
 enum Continuation {
     /// Next point of the path.
     Accepted { jumped: bool },

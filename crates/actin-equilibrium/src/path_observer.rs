@@ -64,7 +64,6 @@ pub struct PathCheckpoint {
 }
 
 impl PathCheckpoint {
-    /// Checkpoint before the first equilibrium.
     pub(crate) fn start(options: &PathOptions) -> Self {
         Self {
             parameter: 0.0,

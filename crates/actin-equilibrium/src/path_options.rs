@@ -66,10 +66,6 @@ impl Default for PathOptions {
 }
 
 impl PathOptions {
-    /// Validates the options.
-    ///
-    /// # Errors
-    /// The first invalid option.
     pub(crate) fn check(&self) -> Result<(), OptionsError> {
         positive("smallest_step", self.smallest_step)?;
         positive("largest_strain", self.largest_strain)?;

@@ -9,7 +9,6 @@ use faer::sparse::linalg::amd;
 use faer::sparse::linalg::cholesky::simplicial;
 use faer::sparse::{SymbolicSparseColMat, SymbolicSparseColMatRef};
 
-/// Position of a block.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Place {
     /// Not stored: one of the bodies does not move.
@@ -17,18 +16,15 @@ pub(crate) enum Place {
     /// On the diagonal of a node.
     Diagonal {
         node: usize,
-        /// The transposed block is added as well: the block couples two bodies of one group.
+        /// The transposed block is added as well.
         twice: bool,
     },
     /// Above the diagonal.
     Above {
-        /// Node of the rows.
         row: usize,
-        /// Node of the columns.
         column: usize,
         /// Index of the first row within each column.
         local: usize,
-        /// The block is stored transposed.
         transposed: bool,
     },
 }
@@ -36,11 +32,10 @@ pub(crate) enum Place {
 /// Sparsity of a stiffness with the position of each block.
 #[derive(Debug)]
 pub(crate) struct Pattern {
-    /// Upper triangle by columns.
     pub(crate) symbolic: SymbolicSparseColMat<usize>,
-    /// Position of each block, in the order of the blocks.
+    /// In the order of the blocks.
     pub(crate) places: Vec<Place>,
-    /// Index of the first diagonal row within the columns of each node.
+    /// First diagonal row within the columns of each node.
     pub(crate) diagonal: Vec<usize>,
     bodies: Vec<(Coordinates, Coordinates)>,
     neighbours: Vec<Vec<usize>>,
@@ -48,7 +43,7 @@ pub(crate) struct Pattern {
 }
 
 impl Pattern {
-    /// Pattern of `stiffness`; fixes the order of the nodes of `layout`.
+    /// Fixes the order of the nodes of `layout`.
     pub(crate) fn new(stiffness: &Stiffness, layout: &mut Layout) -> Self {
         let blocks = stiffness.blocks();
         let mut neighbours = neighbours(blocks, layout);
@@ -69,12 +64,12 @@ impl Pattern {
         }
     }
 
-    /// Positions of other blocks whose pairs are in the pattern.
+    /// Positions of blocks within the pattern.
     pub(crate) fn places_of(&self, stiffness: &Stiffness, layout: &Layout) -> Vec<Place> {
         places(stiffness.blocks(), layout, &self.neighbours, &self.starts)
     }
 
-    /// Upper triangle without loose couplings, with the index of each entry in the full pattern.
+    /// Upper triangle without loose couplings, with indices in the full pattern.
     pub(crate) fn chains(&self, layout: &Layout) -> (SymbolicSparseColMat<usize>, Vec<usize>) {
         let chains = upper_triangle(&without_loose(&self.neighbours, layout), layout);
         let (whole, mut places) = (&self.symbolic, Vec::new());
@@ -90,7 +85,7 @@ impl Pattern {
         (chains, places)
     }
 
-    /// Returns `true` if the blocks couple the same bodies in the same order as the pattern.
+    /// The blocks couple the same bodies in the same order.
     pub(crate) fn fits(&self, stiffness: &Stiffness) -> bool {
         let blocks = stiffness.blocks();
         blocks.len() == self.bodies.len()
@@ -123,7 +118,7 @@ fn neighbours(blocks: &[Block], layout: &Layout) -> Vec<Vec<usize>> {
 /// Typical number of iterations of conjugate gradients.
 const ITERATIONS: usize = 20;
 
-/// Couplings of each column of nodes without loose ones.
+/// Couplings without loose ones.
 fn without_loose(neighbours: &[Vec<usize>], layout: &Layout) -> Vec<Vec<usize>> {
     let body = |node| match layout.node(node) {
         Node::Point(i) => Some(Coordinates::Point(i)),
@@ -143,8 +138,7 @@ fn without_loose(neighbours: &[Vec<usize>], layout: &Layout) -> Vec<Vec<usize>> 
         .collect()
 }
 
-/// Returns `true` if conjugate gradients cost less than a factorisation with `direct`
-/// multiplications.
+/// Compares with a factorisation with `direct` multiplications.
 fn prefers_gradients(neighbours: &[Vec<usize>], layout: &Layout, direct: usize) -> bool {
     let whole = upper_triangle(neighbours, layout);
     let chains = upper_triangle(&without_loose(neighbours, layout), layout);
@@ -153,7 +147,7 @@ fn prefers_gradients(neighbours: &[Vec<usize>], layout: &Layout, direct: usize) 
     iterative < 3 * direct
 }
 
-/// Fixes the order of a layout with couplings `present`; returns the couplings in the new order.
+/// Fixes the order; returns the couplings in the new order.
 fn settle(present: Vec<Vec<usize>>, blocks: &[Block], layout: &mut Layout) -> Vec<Vec<usize>> {
     let mut sought = layout.clone();
     sought.reorder(&minimum_degree(&present));
@@ -177,7 +171,6 @@ fn settle(present: Vec<Vec<usize>>, blocks: &[Block], layout: &mut Layout) -> Ve
     reordered
 }
 
-/// Approximate minimum degree ordering of the nodes.
 fn minimum_degree(neighbours: &[Vec<usize>]) -> Vec<usize> {
     let n = neighbours.len();
     let columns = running_sum(neighbours.iter().map(Vec::len));
@@ -236,7 +229,6 @@ fn place(
     }
 }
 
-/// Upper triangle: full rows of the neighbours above the triangle of each node.
 fn upper_triangle(neighbours: &[Vec<usize>], layout: &Layout) -> SymbolicSparseColMat<usize> {
     let n = layout.unknowns();
     let mut columns = Vec::with_capacity(n + 1);
@@ -264,8 +256,7 @@ fn running_sum(lengths: impl Iterator<Item = usize>) -> Vec<usize> {
     sums
 }
 
-/// Number of multiplications of a factorisation: half the sum of the squared column counts of the
-/// factor.
+/// Half the sum of the squared column counts of the factor.
 fn factor_operations(upper: SymbolicSparseColMatRef<'_, usize>) -> usize {
     let n = upper.ncols();
     let (mut tree, mut counts) = (vec![0isize; n], vec![0usize; n]);

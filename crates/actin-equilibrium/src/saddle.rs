@@ -98,7 +98,6 @@ impl Newton {
         Ok(Some(Push { mode, extent }))
     }
 
-    /// Lowest mode, if its eigenvalue is negative beyond its error.
     fn unstable_mode(
         &mut self,
         state: &State,
@@ -159,7 +158,7 @@ impl Newton {
     }
 }
 
-/// Saddle, or a nearby state, with its direction of negative curvature.
+/// Saddle, or a nearby state, with its mode.
 struct Ridge<'a> {
     state: &'a State,
     interactions: &'a [Box<dyn Interaction>],
@@ -177,7 +176,7 @@ impl<'a> Ridge<'a> {
         }
     }
 
-    /// Energy relative to the saddle (pN nm) and state at `amplitude` times the mode.
+    /// Relative energy (pN nm) and state at `amplitude`.
     fn at(&self, newton: &mut Newton, amplitude: f64) -> (f64, State) {
         let mut moved = self.state.clone();
         newton
@@ -189,7 +188,7 @@ impl<'a> Ridge<'a> {
         (there.energy_above(&self.energies), moved)
     }
 
-    /// Direction of lower energy (1 or -1, 1 if equal), with energy and state at `amplitude`.
+    /// Direction of lower energy, with energy and state there.
     fn lower_side(&self, newton: &mut Newton, amplitude: f64) -> (f64, (f64, State)) {
         let (plus, minus) = (self.at(newton, amplitude), self.at(newton, -amplitude));
         if plus.0 <= minus.0 {

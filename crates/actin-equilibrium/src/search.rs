@@ -15,12 +15,11 @@ use crate::outcome::{Equilibrium, SolveError};
 use actin_mechanics::{Interaction, State, Xorshift};
 use std::ops::ControlFlow;
 
-/// Largest rotations of a body (rad) in the initial guesses, in turn.
+/// Largest rotations (rad) of the initial guesses.
 const TURNS: [f64; 4] = [0.5, 1.0, 2.0, 3.0];
 /// Energy difference (pN nm) below which two equilibria are identical: a thousandth of the thermal
 /// energy, and above the error of soft modes at a loose tolerance.
 const SAME: f64 = 4e-3;
-/// Maximum number of saddles left from each start.
 const SADDLES: usize = 8;
 
 /// Options of a search.
@@ -151,8 +150,7 @@ impl Newton {
         Ok(found)
     }
 
-    /// Random state about another one. Bodies rotate by at most `turn` (rad) in addition to being
-    /// carried.
+    /// Random state. Bodies rotate by at most `turn` (rad) in addition to being carried.
     fn drawn(
         &mut self,
         state: &State,
@@ -191,7 +189,6 @@ impl Newton {
         }
     }
 
-    /// Adds an equilibrium, or increments the count of an identical one.
     fn sort_in(
         &mut self,
         found: &mut Found,

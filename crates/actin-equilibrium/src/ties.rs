@@ -17,7 +17,6 @@ use std::collections::{BTreeMap, BTreeSet};
 /// Distance of two points (nm) below which they coincide.
 const COINCIDENT: f64 = 1e-9;
 
-/// Pair of bodies with its relative motion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Tie {
     /// Two points: `dx_j - dx_i`.
@@ -28,7 +27,6 @@ enum Tie {
     Frames(usize, usize),
 }
 
-/// Ties of all coupled bodies.
 #[derive(Debug, Default)]
 pub(crate) struct Ties {
     ties: Vec<Tie>,
@@ -68,7 +66,7 @@ impl Ties {
         Self { ties, turn_length }
     }
 
-    /// Pairs of tied frames in both orders.
+    /// In both orders.
     pub(crate) fn frames(&self) -> impl Iterator<Item = (usize, usize)> + '_ {
         let of = |tie: &Tie| match *tie {
             Tie::Frames(a, b) => vec![(a, b), (b, a)],
@@ -77,7 +75,7 @@ impl Ties {
         self.ties.iter().flat_map(of)
     }
 
-    /// Pairs of tied points without a common frame.
+    /// Without a common frame.
     pub(crate) fn points(&self) -> impl Iterator<Item = (usize, usize)> + '_ {
         self.ties.iter().filter_map(|tie| match *tie {
             Tie::Points(i, j) => Some((i, j)),
@@ -85,7 +83,7 @@ impl Ties {
         })
     }
 
-    /// Pairs of tied points with a common frame.
+    /// With a common frame.
     pub(crate) fn seen(&self) -> impl Iterator<Item = (usize, usize, usize)> + '_ {
         self.ties.iter().filter_map(|tie| match *tie {
             Tie::Seen(i, j, f) => Some((i, j, f)),
@@ -93,8 +91,7 @@ impl Ties {
         })
     }
 
-    /// One number per tie: the value `of` its points, or the largest value of points seen from one
-    /// of its frames.
+    /// Values of the points; for frames the largest value of points seen from them.
     pub(crate) fn spread(&self, of: impl Fn(usize, usize) -> f64) -> Vec<f64> {
         let mut seen_from = BTreeMap::<usize, f64>::new();
         for (i, j, f) in self.seen() {
@@ -140,7 +137,7 @@ impl Ties {
         }
     }
 
-    /// Magnitude of the motion (nm) of each tie in a step.
+    /// Magnitudes (nm) in a step.
     pub(crate) fn motions(&self, layout: &Layout, state: &State, step: &[f64]) -> Vec<f64> {
         let (moved, turned) = layout.velocities(state, step);
         let of = |tie: &Tie| match *tie {
@@ -154,8 +151,7 @@ impl Ties {
         self.ties.iter().map(of).collect()
     }
 
-    /// Largest finite relative motion between two states: rotation between two frames (rad), or
-    /// relative displacement of two points over their distance.
+    /// Largest finite strain between two states.
     pub(crate) fn strain_between(&self, from: &State, to: &State) -> f64 {
         let turn =
             |f: usize| to.frames.orientation.get(f) * from.frames.orientation.get(f).inverse();
@@ -173,8 +169,7 @@ impl Ties {
         self.ties.iter().map(of).fold(0.0, f64::max)
     }
 
-    /// Motion (nm) equivalent to unit strain: the distance of two points, or the turn length for
-    /// rotations and coincident points.
+    /// Motion (nm) equivalent to unit strain.
     pub(crate) fn lengths(&self, state: &State) -> Vec<f64> {
         let of = |tie: &Tie| match *tie {
             Tie::Points(i, j) | Tie::Seen(i, j, _) => self.length(between(state, i, j)),
@@ -183,7 +178,7 @@ impl Ties {
         self.ties.iter().map(of).collect()
     }
 
-    /// Reference length of two points separated by `d` (nm).
+    /// Distance, or the turn length for coincident points.
     fn length(&self, d: Vector3) -> f64 {
         let length = d.norm();
         if length > COINCIDENT {

@@ -11,7 +11,7 @@ use crate::table::{BondTable, GROUP, Group};
 use actin_mechanics::State;
 use actin_mechanics::wide::{self, Simd, WithSimd};
 
-/// Vectorised loop over bonds: returns the weighted `sum (|d| - L)^2` of each pair.
+/// Vectorised sum of `(|d| - L)^2` over the bonds of each pair, weighted.
 #[derive(Debug)]
 struct SumSquares<'a> {
     relatives: &'a Relatives,
@@ -48,7 +48,7 @@ impl WithSimd for SumSquares<'_> {
 }
 
 impl Bonds {
-    /// Energies of up to [`GROUP`] pairs of one table, starting with lower body `first`.
+    /// Energies of up to [`GROUP`] pairs, starting with lower body `first`.
     fn energies_of_group<'a>(
         &self,
         table: &BondTable,
@@ -75,8 +75,6 @@ impl Bonds {
         &energies[..count]
     }
 
-    /// Writes the energy of each interface: the lateral one of each lower monomer, then the
-    /// longitudinal one.
     pub(super) fn write_pairs(&self, state: &State, energies: &mut [f64]) {
         let mut places = energies.iter_mut();
         for first in (0..self.monomers.count).step_by(GROUP) {

@@ -78,7 +78,6 @@ impl LowerBlocks {
     }
 }
 
-/// Entry of a symmetric matrix that is stored as its upper triangle.
 fn symmetric<const N: usize>(upper: &[[f64; N]; N], i: usize, j: usize) -> f64 {
     upper[i.min(j)][i.max(j)]
 }
@@ -93,7 +92,6 @@ fn axial(m: &Matrix3) -> Vector3 {
 }
 
 impl Bonds {
-    /// Adds the blocks of one pair: upper triangle over its four coordinates, row by row.
     fn push_pair(
         &self,
         [k, l]: [usize; 2],
@@ -121,7 +119,6 @@ impl Bonds {
         stiffness.push(fj, fj, turn);
     }
 
-    /// Adds the blocks of up to [`GROUP`] pairs, starting with lower monomer `first`.
     fn push_group(
         &self,
         table: &BondTable,

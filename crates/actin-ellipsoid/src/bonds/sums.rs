@@ -8,7 +8,6 @@ use crate::kernel::{Ends, GUARD, place_of};
 use crate::table::{GROUP, Group, Relative};
 use actin_mechanics::wide::{self, Simd, Wide3, WideMatrix, WithSimd};
 
-/// One number per pair of a group.
 type Lanes = [f64; GROUP];
 
 /// Upper bodies of a group of pairs in the frames of the lower ones.
@@ -31,25 +30,19 @@ pub(crate) struct Sums {
     ends: [[Lanes; 4]; 4],
 }
 
-/// Sums of one pair.
 #[derive(Debug)]
 pub(crate) struct PairSums {
-    /// `L/r q q^T`, upper triangle.
     pub(crate) lines: [[f64; 6]; 6],
-    /// `(1 - L/r) (1, a) (1, y)^T`.
     pub(crate) ends: [[f64; 4]; 4],
 }
 
-/// Vectorised loop over bonds.
 #[derive(Debug)]
 pub(crate) struct SumBonds<'a> {
     pub(crate) relatives: &'a Relatives,
     pub(crate) group: Group<'a>,
-    /// Overwritten with the sums.
     pub(crate) sums: &'a mut Sums,
 }
 
-/// Sums of one vector of pairs.
 #[derive(Clone, Copy, Debug)]
 struct WideSums<S: Simd> {
     lines: [[S::f64s; 6]; 6],
@@ -57,7 +50,6 @@ struct WideSums<S: Simd> {
 }
 
 impl Relatives {
-    /// Stores one pair in its lane.
     pub(crate) fn set(&mut self, lane: usize, relative: &Relative) {
         for i in 0..3 {
             for j in 0..3 {
@@ -78,7 +70,6 @@ impl Relatives {
 }
 
 impl Sums {
-    /// Sums of the pair in one lane.
     pub(crate) fn of(&self, lane: usize) -> PairSums {
         PairSums {
             lines: self.lines.map(|row| row.map(|lanes| lanes[lane])),
@@ -110,7 +101,7 @@ impl WithSimd for SumBonds<'_> {
     }
 }
 
-/// Sums of vector `place` of the group. A bond of zero length contributes `k d^2 / 2` only.
+/// A bond of zero length contributes `k d^2 / 2` only.
 #[inline(always)]
 fn sum_bonds<S: Simd>(
     simd: S,
@@ -145,7 +136,6 @@ fn sum_bonds<S: Simd>(
     sums
 }
 
-/// Adds `s q q^T` to the upper triangle of `sum`.
 #[inline(always)]
 fn add_outer<S: Simd>(simd: S, sum: &mut [[S::f64s; 6]; 6], s: S::f64s, q: [S::f64s; 6]) {
     for i in 0..6 {
@@ -156,7 +146,6 @@ fn add_outer<S: Simd>(simd: S, sum: &mut [[S::f64s; 6]; 6], s: S::f64s, q: [S::f
     }
 }
 
-/// Adds `s (1, a) (1, y)^T` to `sum`.
 #[inline(always)]
 fn add_ends<S: Simd>(simd: S, sum: &mut [[S::f64s; 4]; 4], s: S::f64s, a: Wide3<S>, y: Wide3<S>) {
     let [ax, ay, az] = wide::scale(simd, a, s);

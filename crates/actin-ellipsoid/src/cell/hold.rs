@@ -25,7 +25,6 @@ impl Hold {
     /// All choices.
     pub const ALL: [Self; 3] = [Self::Means, Self::AxisPoints, Self::Places];
 
-    /// Conditions as orthonormal rows, for monomers with the given offsets from the axis.
     pub(super) fn rows(self, offsets: &[Vector3]) -> DMatrix<f64> {
         let mut rows = DMatrix::zeros(6, PER_MONOMER * offsets.len());
         for (i, offset) in offsets.iter().enumerate() {
@@ -50,7 +49,7 @@ impl Hold {
     }
 }
 
-/// Gram-Schmidt orthonormalisation of the rows, repeated once against rounding.
+/// Gram-Schmidt process, repeated once against rounding.
 fn orthonormal(mut rows: DMatrix<f64>) -> DMatrix<f64> {
     for _ in 0..2 {
         for k in 0..rows.nrows() {

@@ -31,7 +31,7 @@ fn stumpff(p: f64) -> [f64; 8] {
     c
 }
 
-/// `(n c_{n+2} - c_{n+1}) / 2`: derivatives of the Stumpff functions with respect to `p`.
+/// Derivatives of the Stumpff functions with respect to `p`: `(n c_{n+2} - c_{n+1}) / 2`.
 fn slopes<const N: usize, const M: usize>(c: &[f64; N]) -> [f64; M] {
     std::array::from_fn(|n| 0.5 * (n as f64 * c[n + 2] - c[n + 1]))
 }
@@ -57,7 +57,6 @@ pub(super) fn log_density(p: f64) -> [f64; 3] {
 /// Matrix function of a rotation vector `w` (rad), with derivatives.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct MatrixJet {
-    /// Value.
     pub(super) value: Matrix3,
     /// First derivatives with respect to the components of `w`.
     pub(super) first: [Matrix3; 3],

@@ -7,7 +7,6 @@ use nalgebra::{DMatrix, DVector, Dyn};
 
 /// Largest residual force (pN) or torque (pN nm) on a monomer: a hundred times the rounding error.
 const ALLOWED: f64 = 1e-9;
-/// Maximum number of Newton steps.
 const MOST_STEPS: usize = 400;
 /// Largest displacement (nm) or rotation (rad) of a step.
 const LONGEST: f64 = 0.2;
@@ -23,7 +22,6 @@ const MARGINAL: f64 = 1e-6;
 /// Displacement (nm, rad) away from a saddle along its most unstable mode.
 const KICK: f64 = 0.02;
 
-/// Coordinates and strain of a cell.
 #[derive(Clone, Debug)]
 pub(super) struct CellState {
     pub(super) coordinates: Displacements,
@@ -34,13 +32,11 @@ pub(super) struct CellState {
 #[derive(Debug)]
 pub(super) struct Problem<'a> {
     pub(super) cell: &'a Cell,
-    /// Indices of the free strains.
     pub(super) free: Vec<usize>,
-    /// Loads; only those of the free strains are used.
+    /// Loads of the free strains; others are ignored.
     pub(super) loads: SixVector,
 }
 
-/// Minimum with derivatives and number of iterations.
 #[derive(Debug)]
 pub(super) struct Minimum {
     pub(super) state: CellState,
@@ -49,7 +45,6 @@ pub(super) struct Minimum {
 }
 
 impl Problem<'_> {
-    /// Number of unknowns.
     fn size(&self) -> usize {
         self.cell.coordinates() + self.free.len()
     }
@@ -61,7 +56,6 @@ impl Problem<'_> {
             .map_or(k, |k| coordinates + self.free[k])
     }
 
-    /// Work of the loads (pN nm).
     fn work(&self, strain: &SixVector) -> f64 {
         let work = |&k: &usize| self.loads[k] * strain[k];
         self.free.iter().map(work).sum::<f64>() * self.cell.length()
@@ -71,8 +65,8 @@ impl Problem<'_> {
         self.cell.energy(&state.coordinates, &state.strain) - self.work(&state.strain)
     }
 
-    /// Gradient and Hessian with respect to the unknowns, projected onto the admissible directions.
-    /// Springs in the held directions make the Hessian regular.
+    /// Gradient and Hessian in the admissible directions. Springs in the held directions make the
+    /// Hessian regular.
     fn reduce(&self, all: &Derivatives) -> (DVector<f64>, DMatrix<f64>) {
         let (size, coordinates) = (self.size(), self.cell.coordinates());
         let mut gradient = DVector::from_fn(size, |k, _| all.gradient[self.place(k)]);
@@ -86,7 +80,6 @@ impl Problem<'_> {
         (gradient, self.cell.project(hessian))
     }
 
-    /// State after the fraction `share` of a step.
     fn moved(&self, from: &CellState, step: &DVector<f64>, share: f64) -> CellState {
         let coordinates = self.cell.coordinates();
         let mut state = from.clone();
@@ -97,7 +90,6 @@ impl Problem<'_> {
         state
     }
 
-    /// Minimum reached from `start`.
     pub(super) fn minimise(&self, start: CellState) -> Result<Minimum, CellError> {
         let mut state = start;
         let mut residual = f64::INFINITY;
@@ -142,7 +134,7 @@ impl Problem<'_> {
         }
     }
 
-    /// Step along an unstable mode, in the direction of lower energy.
+    /// Step in the direction of lower energy.
     fn kick(&self, state: &CellState, mode: &DVector<f64>) -> DVector<f64> {
         let step = mode * (KICK / mode.amax());
         let side = |sign: f64| self.energy(&self.moved(state, &step, sign));
@@ -150,7 +142,7 @@ impl Problem<'_> {
     }
 }
 
-/// Newton step; the Hessian is shifted if it is not positive definite.
+/// Shifts the Hessian if it is not positive definite.
 fn newton_step(gradient: &DVector<f64>, hessian: &DMatrix<f64>) -> DVector<f64> {
     let mut damping = 0.0;
     let factor = loop {
@@ -186,15 +178,14 @@ fn unstable_mode(hessian: DMatrix<f64>) -> Option<DVector<f64>> {
 }
 
 impl Cell {
-    /// Removes the held directions from a vector of unknowns (coordinates first).
+    /// Removes the held directions (coordinates first).
     pub(super) fn project_vector(&self, vector: &mut DVector<f64>) {
         let mut rows = vector.rows_mut(0, self.coordinates());
         let along = &self.held * &rows;
         rows -= self.held.tr_mul(&along);
     }
 
-    /// `P K P + c A^T A` with the held rows `A` and `P = 1 - A^T A`, for a symmetric matrix of
-    /// unknowns (coordinates first).
+    /// `P K P + c A^T A` with the held rows `A` and `P = 1 - A^T A` (coordinates first).
     pub(super) fn project(&self, mut matrix: DMatrix<f64>) -> DMatrix<f64> {
         let coordinates = self.coordinates();
         let rows = &self.held * matrix.rows(0, coordinates);

@@ -22,7 +22,6 @@ use std::f64::consts::{PI, TAU};
 
 /// Coordinates per monomer: displacement, then rotation vector.
 const PER_MONOMER: usize = 6;
-/// Number of strains: curvature, then shear and stretch.
 const STRAINS: usize = 6;
 
 /// Strains of a rod: `kappa_1`, `kappa_2`, `kappa_3` (rad/nm), `sigma_1`, `sigma_2`, `sigma_3`; or
@@ -152,7 +151,6 @@ impl Cell {
         self.monomers() as f64 * self.rise
     }
 
-    /// Number of coordinates of the monomers.
     fn coordinates(&self) -> usize {
         PER_MONOMER * self.monomers()
     }

@@ -6,30 +6,25 @@ use crate::Interface;
 use actin_mechanics::{Matrix3, Vector3};
 use nalgebra::{DMatrix, DVector, SMatrix, SVector};
 
-/// Variables of the energy of a pair: `u`, `w` of the lower and of the upper monomer, then the
-/// strains.
+/// Variables of a pair: `u`, `w` of both monomers, then the strains.
 const OF_PAIR: usize = 2 * PER_MONOMER + STRAINS;
 type Row = SVector<f64, OF_PAIR>;
 type Square = SMatrix<f64, OF_PAIR, OF_PAIR>;
-/// Variables of the vector of a bond, three each: relative displacement of the ends, rotations of
-/// both monomers, curvature. The first is the same for all bonds of a pair.
+/// Variables of a bond, three each: relative displacement of the ends, rotations of both monomers,
+/// curvature.
 const OF_BOND: usize = 12;
-/// Derivatives of the bond vector with respect to these variables.
 type Gradients = SMatrix<f64, 3, OF_BOND>;
-/// Derivatives of these variables with respect to the variables of the pair.
 type Displaced = SMatrix<f64, OF_BOND, OF_PAIR>;
 
-/// Two bonded monomers of a cell.
 #[derive(Clone, Debug)]
 pub(super) struct CellPair {
     pub(super) lower: usize,
     pub(super) upper: usize,
-    /// Lattice steps between the monomers.
     pub(super) steps: usize,
     pub(super) bonds: Vec<CellBond>,
 }
 
-/// Bond with anchors relative to the centres, in the orientation of the built filament.
+/// Anchors relative to the centres, in the orientation of the built filament.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct CellBond {
     pub(super) lower: Vector3,
@@ -39,25 +34,22 @@ pub(super) struct CellBond {
     pub(super) stiffness: f64,
 }
 
-/// Monomer in the frame of the axis at its position.
 struct Body {
     centre: Vector3,
     turn: MatrixJet,
 }
 
-/// Rigid motion along the axis from the lower to the upper monomer, as a function of the strains.
+/// Rigid motion from the lower to the upper monomer as a function of the strains.
 pub(super) struct Motion {
     /// Arc length (nm).
     pub(super) length: f64,
     pub(super) rotation: MatrixJet,
-    /// Left Jacobian of the rotation.
     pub(super) jacobian: MatrixJet,
     /// `e3 + sigma`.
     direction: Vector3,
 }
 
-/// Energy of a cell (pN nm) and its derivatives with respect to all displacements and rotations,
-/// then the strains.
+/// Energy (pN nm) and its derivatives with respect to coordinates and strains.
 #[derive(Debug)]
 pub(super) struct Derivatives {
     pub(super) energy: f64,
@@ -65,7 +57,6 @@ pub(super) struct Derivatives {
     pub(super) hessian: DMatrix<f64>,
 }
 
-/// Energy of one pair and its derivatives.
 struct OfPair {
     energy: f64,
     gradient: Row,
@@ -73,7 +64,6 @@ struct OfPair {
 }
 
 impl CellPair {
-    /// Pair of monomers of the cell with the orientations `axes` in the built filament.
     pub(super) fn new(
         [lower, upper]: [usize; 2],
         interface: &Interface,
@@ -173,7 +163,6 @@ impl Motion {
         }
     }
 
-    /// Translation (nm).
     pub(super) fn shift(&self) -> Vector3 {
         self.jacobian.value * self.direction * self.length
     }
@@ -203,7 +192,7 @@ impl Motion {
     }
 }
 
-/// Sums over the bonds of a pair that determine all `f . d''`.
+/// Sums over the bonds that determine all `f . d''`.
 #[derive(Default)]
 struct Curved {
     /// `f`.
@@ -262,7 +251,6 @@ impl Cell {
         (self.offsets.iter().enumerate().map(body).collect(), motions)
     }
 
-    /// Energy of the cell (pN nm).
     pub(super) fn energy(&self, coordinates: &DVector<f64>, strain: &SixVector) -> f64 {
         let (bodies, motions) = self.geometry(coordinates, strain);
         let energy = |pair: &CellPair| {
@@ -272,7 +260,6 @@ impl Cell {
         self.pairs.iter().map(energy).sum()
     }
 
-    /// Energy of the cell with its derivatives.
     pub(super) fn derivatives(
         &self,
         coordinates: &DVector<f64>,

@@ -8,13 +8,11 @@ use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 /// Kind, number of points, and bits of the geometric parameters.
 type Key = (InterfaceKind, usize, [u64; 8]);
 
-/// Result of a computation.
 type Found = Result<Arc<Cubature>, CubatureError>;
 
 /// Entries are filled by the first caller while others wait.
 static FOUND: Mutex<Option<HashMap<Key, Arc<OnceLock<Found>>>>> = Mutex::new(None);
 
-/// Cached or computed quadrature of an interface.
 pub(super) fn get(parameters: &EllipsoidParameters, kind: InterfaceKind) -> Found {
     let numbers = numbers(parameters, kind);
     let key = (

@@ -27,7 +27,6 @@ pub(super) fn legendre(n: usize) -> Vec<(f64, f64)> {
         .collect()
 }
 
-/// Legendre polynomial of degree `n` and its derivative.
 fn polynomial(n: usize, x: f64) -> (f64, f64) {
     let (mut before, mut value) = (0.0, 1.0);
     for k in 0..n {

@@ -21,13 +21,10 @@ pub(crate) const MOMENTS: usize = 46;
 /// Position and inverse length of a bond, in units of their root mean squares.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Site {
-    /// Transverse position.
     pub(crate) place: [f64; 2],
-    /// Inverse length.
     pub(crate) inverse: f64,
 }
 
-/// Contribution of a site to each moment.
 pub(crate) type Features = [f64; MOMENTS];
 
 /// Averages of the features over all bonds, and their scales.
@@ -37,17 +34,14 @@ pub(crate) struct Moments {
     pub(crate) distance: f64,
     /// Root mean square of the inverse length (1/nm).
     pub(crate) inverse: f64,
-    /// Averages of the features.
     averages: Features,
     /// Root mean squares of the features.
     sizes: Features,
 }
 
-/// Powers 0 to 4 of a number.
 type Powers = [f64; 5];
 
 impl Site {
-    /// Features `x^i y^j u^k`.
     pub(crate) fn features(&self) -> Features {
         let mut features = [0.0; MOMENTS];
         let ([x, y], u) = (self.place.map(powers), powers(self.inverse));
@@ -57,7 +51,6 @@ impl Site {
         features
     }
 
-    /// Derivatives of the features with respect to `x`, `y` and `u`.
     pub(crate) fn slopes(&self) -> [Features; 3] {
         let mut slopes = [[0.0; MOMENTS]; 3];
         let ([x, y], u) = (self.place.map(powers), powers(self.inverse));
@@ -76,7 +69,6 @@ fn powers(x: f64) -> Powers {
     [1.0, x, square, square * x, square * square]
 }
 
-/// Derivatives of the powers.
 fn falling([one, x, square, cube, _]: Powers) -> Powers {
     [0.0, one, 2.0 * x, 3.0 * square, 4.0 * cube]
 }
@@ -90,7 +82,6 @@ fn exponents() -> impl Iterator<Item = (usize, usize, usize)> {
 }
 
 impl Moments {
-    /// Moments of a distribution of bonds.
     pub(crate) fn of(shares: &[Share]) -> Self {
         let mean = |value: &dyn Fn(&Share) -> f64| -> f64 {
             shares.iter().map(|s| s.weight * value(s)).sum()
@@ -116,7 +107,6 @@ impl Moments {
         moments
     }
 
-    /// Converts a bond to dimensionless units.
     pub(crate) fn site(&self, place: [f64; 2], length: f64) -> Site {
         Site {
             place: place.map(|x| x / self.distance),
@@ -124,7 +114,7 @@ impl Moments {
         }
     }
 
-    /// Weighted sums of the features minus their averages, divided by their root mean squares.
+    /// Deviations of the weighted sums, relative to the root mean squares.
     pub(crate) fn residuals(&self, sites: &[(Site, f64)]) -> Features {
         let mut sums = self.averages.map(|average| -average);
         for (site, weight) in sites {

@@ -5,9 +5,7 @@ use crate::gap::Gap;
 use actin_mechanics::Vector3;
 use std::f64::consts::TAU;
 
-/// Number of rays (trapezoidal rule over directions).
 const RAYS: usize = 192;
-/// Gauss points per ray.
 const POINTS_PER_RAY: usize = 48;
 /// Bisections of an interval on a ray: full precision.
 const HALVINGS: usize = 60;
@@ -22,23 +20,18 @@ const HALVINGS: usize = 60;
 #[derive(Clone, Debug)]
 pub(crate) struct Patch {
     gap: Gap,
-    /// Semi-axes of the lower monomer (nm).
     scale: Vector3,
     /// Unit vectors after scaling: along the lines, and two transverse ones.
     along: Vector3,
     across: [Vector3; 2],
-    /// Transverse unit vectors (body frame of the lower monomer).
+    /// Body frame of the lower monomer.
     transverse: [Vector3; 2],
-    /// Shortest line.
     middle: [f64; 2],
-    /// Length of the shortest line (nm).
     shortest: f64,
 }
 
-/// Node of the quadrature over all possible bonds.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Share {
-    /// Weight of the node.
     pub(crate) weight: f64,
     /// Position across the line of centres (nm).
     pub(crate) place: [f64; 2],
@@ -46,7 +39,6 @@ pub(crate) struct Share {
 }
 
 impl Patch {
-    /// Patch of a gap. The azimuth changes by `half_turn` from the lower monomer to the middle.
     pub(crate) fn new(gap: Gap, half_turn: f64) -> Self {
         let scale = Vector3::from(gap.ellipsoid.semi_axes());
         let direction = gap.direction();
@@ -124,7 +116,6 @@ impl Patch {
         Some(lower.dot(&direction) + 0.5 * self.length_at(place)? - 0.5 * offset.norm())
     }
 
-    /// Line at a transverse position (nm).
     fn line_at(&self, place: [f64; 2]) -> [f64; 2] {
         // Any point of the line has the same transverse components.
         let point = place[0] * self.transverse[0] + place[1] * self.transverse[1];
@@ -144,7 +135,6 @@ impl Patch {
         self.shares_by(RAYS, POINTS_PER_RAY)
     }
 
-    /// As [`Self::shares`], with the given numbers of rays and points per ray.
     fn shares_by(&self, rays: usize, points: usize) -> Option<Vec<Share>> {
         let least = self.gap.minimum;
         let nodes = gauss::legendre(points);

@@ -3,7 +3,6 @@
 use super::moments::{Features, MOMENTS, Moments, Site};
 use nalgebra::{DMatrix, DVector};
 
-/// Maximum number of steps.
 const STEPS: usize = 600;
 /// Residual at which the search stops, a hundredth of the tolerance.
 const ENDED: f64 = 1e-5;
@@ -12,7 +11,6 @@ const DAMPING: (f64, f64) = (1e-2, 1e-13);
 /// Unknowns per point: position (2), inverse length, square root of the weight above its minimum.
 pub(super) const UNKNOWNS: usize = 4;
 
-/// Bounds of the inverse length, and the minimum weight.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Bounds {
     pub(super) least: f64,
@@ -21,7 +19,6 @@ pub(super) struct Bounds {
 }
 
 impl Bounds {
-    /// Half the width of the interval, at least the smallest positive number.
     fn half(self) -> f64 {
         0.5 * (self.most - self.least).max(f64::MIN_POSITIVE)
     }
@@ -44,7 +41,6 @@ impl Bounds {
     }
 }
 
-/// Unknowns of all points.
 #[derive(Clone, Debug)]
 struct Unknowns(DVector<f64>, Bounds);
 
@@ -61,7 +57,7 @@ impl Unknowns {
         )
     }
 
-    /// Points of these unknowns. A weight is the minimum plus a square.
+    /// A weight is the minimum plus a square.
     fn sites(&self) -> Vec<(Site, f64)> {
         let (points, _) = self.0.as_slice().as_chunks::<UNKNOWNS>();
         points
@@ -74,7 +70,6 @@ impl Unknowns {
             .collect()
     }
 
-    /// Jacobian of the residuals.
     fn jacobian(&self, moments: &Moments) -> DMatrix<f64> {
         let mut jacobian = DMatrix::zeros(MOMENTS, self.0.len());
         for (p, (site, weight)) in self.sites().iter().enumerate() {

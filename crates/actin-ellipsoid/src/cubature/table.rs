@@ -6,11 +6,9 @@ use super::moments::Site;
 use super::{Cubature, CubaturePoint, MomentCheck, numbers};
 use crate::{EllipsoidParameters, InterfaceKind};
 
-/// Relative tolerance of the comparison of geometries: conversion to degrees and back changes the
-/// last digits.
+/// Relative tolerance: conversion to degrees and back changes the last digits.
 const SAME: f64 = 1e-12;
 
-/// Built-in points of one kind of interface.
 struct Known {
     certificate: MomentCheck,
     /// Position (nm), height (nm), length (nm), weight.
@@ -25,7 +23,6 @@ impl Known {
         }
     }
 
-    /// Points with weights normalised to 1.
     fn points(&self) -> impl Iterator<Item = CubaturePoint> + '_ {
         let total: f64 = self.points.iter().map(|point| point[4]).sum();
         let points = self.points.iter();

@@ -10,13 +10,11 @@ use thiserror::Error;
 #[derive(Clone, Debug)]
 pub struct Fluctuations {
     monomers: Monomers,
-    /// Poses as built, reference of the displacements.
     built: Vec<Pose>,
     sums: Vec<Sums>,
     states: u64,
 }
 
-/// Sums of one link.
 #[derive(Clone, Copy, Debug, Default)]
 struct Sums {
     displacement: SixVector,

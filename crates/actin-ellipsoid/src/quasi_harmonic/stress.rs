@@ -10,10 +10,8 @@ use super::QuasiHarmonic;
 use crate::SixVector;
 use actin_mechanics::{Loads, RandomStress, State, Stiffness, correlate};
 
-/// Components of a strain.
 const SIX: usize = 6;
 
-/// Stress of each link.
 fn written(stresses: &[f64]) -> impl Iterator<Item = SixVector> {
     let (links, _) = stresses.as_chunks::<SIX>();
     links.iter().map(|s| SixVector::from(*s))

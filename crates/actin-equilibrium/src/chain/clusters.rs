@@ -14,18 +14,15 @@ struct Cluster {
     nodes: Vec<usize>,
     points: Vec<usize>,
     frames: Vec<usize>,
-    /// Links of the chain; empty if the cluster is held at two places.
+    /// Empty if held at two places.
     links: Vec<Link>,
-    /// Number of places at which the cluster is held.
     holds: usize,
 }
 
-/// Clusters of a layout, ordered by first node.
 #[derive(Debug, Default)]
 pub(crate) struct Clusters(Vec<Cluster>);
 
 impl Clusters {
-    /// Clusters of tied bodies; each group of bodies is a cluster.
     pub(crate) fn new(layout: &Layout, ties: &Ties, chain: &Chain) -> Self {
         let mut components = Components::of(layout, ties);
         let holds = components.holds();
@@ -69,7 +66,7 @@ impl Clusters {
         Self(clusters)
     }
 
-    /// Free frames of all clusters that contain one of the given unknowns (ascending).
+    /// Free frames of clusters with one of the unknowns (ascending).
     pub(crate) fn frames_with(&self, layout: &Layout, unknowns: &[usize]) -> Vec<usize> {
         let has_one = |cluster: &&Cluster| {
             let mut nodes = cluster.nodes.iter();
@@ -87,11 +84,9 @@ impl Clusters {
             .collect()
     }
 
-    /// Moves the bodies of `to`, a copy of `from`, by a step and returns the extent of the whole
-    /// step. The step of each cluster is shortened if it rotates a body by more than `largest_turn`
-    /// (rad). Bodies are carried along the links; free clusters keep the displacement of their
-    /// mean. Spins about third axes are applied last and may have any angle; they count as
-    /// rotations.
+    /// Moves the bodies of `to`, a copy of `from`, and returns the extent of the whole step. The
+    /// step of each cluster is limited to `largest_turn` (rad). Free clusters keep their mean
+    /// displacement. Spins about third axes are applied last.
     pub(crate) fn advance(
         &self,
         layout: &Layout,
@@ -139,7 +134,7 @@ impl Clusters {
 }
 
 impl Layout {
-    /// Free frames that may spin, with the index of the unknown of their spin.
+    /// Frames that may spin, with the index of their unknown.
     fn spinning(&self, spins: &[bool]) -> Vec<(usize, usize)> {
         let frames = self.nodes().filter_map(|(node, range)| match node {
             Node::Frame(i) => Some((i, range.start + 2)),

@@ -10,7 +10,6 @@ use std::collections::{BTreeMap, BTreeSet};
 struct DisjointSets(BTreeMap<Coordinates, Coordinates>);
 
 impl DisjointSets {
-    /// Root of a set, with path halving.
     fn root(&mut self, mut body: Coordinates) -> Coordinates {
         while let Some(&above) = self.0.get(&body) {
             let Some(&higher) = self.0.get(&above) else {
@@ -30,7 +29,7 @@ impl DisjointSets {
     }
 }
 
-/// Components of tied bodies, with the places at which they are held.
+/// Components of tied bodies with their held places.
 #[derive(Default)]
 pub(super) struct Components {
     all: DisjointSets,
@@ -65,13 +64,11 @@ impl Components {
             .extend([a, b].into_iter().filter(|&body| is_held(body)));
     }
 
-    /// Representative of the component of a body.
     pub(super) fn root(&mut self, body: Coordinates) -> Coordinates {
         self.all.root(body)
     }
 
-    /// Number of places at which each held component is held. Held bodies tied to each other count
-    /// once.
+    /// Number of held places per component. Held bodies tied to each other count once.
     pub(super) fn holds(&mut self) -> BTreeMap<Coordinates, usize> {
         let clusters: BTreeSet<_> = self
             .places
@@ -87,7 +84,7 @@ impl Components {
 }
 
 /// Returns `true` if each component is held at one place at most and no bodies are coupled without
-/// a tie. A filament held at one end is open; one held at both ends or linked to another is not.
+/// a tie.
 pub(crate) fn is_open(layout: &Layout, ties: &Ties) -> bool {
     let is_held_once =
         |components: &mut Components| components.holds().values().all(|&places| places == 1);

@@ -22,23 +22,19 @@ use actin_mechanics::Interaction;
 const FEWEST: usize = 400;
 /// Directions without stiffness per body above which a start is floppy.
 const FLOPPY: f64 = 1.0 / 16.0;
-/// Maximum number of trials per step.
 const ATTEMPTS: usize = 4;
-/// Minimum factor that shortens a step.
 const SHORTEN: f64 = 0.1;
 /// Straight steps after a failure, doubled after each consecutive failure.
 const REST: usize = 1;
 
-/// State of the carried steps.
 #[derive(Debug)]
 pub(super) struct Composed {
-    /// Use of carried steps; `None` until the first factorisation.
+    /// `None` until the first factorisation.
     is_used: Option<bool>,
-    /// Number of consecutive failures.
     failures: u32,
-    /// Number of straight steps before the next carried one.
+    /// Straight steps before the next carried one.
     rest: usize,
-    /// Largest stiffening of a tie in the last carried step (pN/nm).
+    /// Largest stiffening in the last step (pN/nm).
     stiffest: f64,
     /// Requested also for starts that are not floppy.
     is_wanted: bool,
@@ -57,8 +53,7 @@ impl Composed {
         }
     }
 
-    /// Decides once, from the factorised stiffness of the start; returns `true` if carried steps
-    /// are chosen.
+    /// Decides at the start; returns `true` if carried steps are chosen.
     pub(super) fn begins(&mut self, solver: &Solver) -> bool {
         if self.is_used.is_some() {
             return false;
@@ -73,7 +68,6 @@ impl Composed {
         is_used
     }
 
-    /// Returns `true` if the next step is a carried one.
     fn is_due(&mut self) -> bool {
         let is_due = self.rest == 0;
         self.rest = self.rest.saturating_sub(1);
@@ -89,8 +83,7 @@ impl Composed {
 }
 
 impl Descent {
-    /// Takes a carried step. If none is due or none decreases the energy, returns `None` and
-    /// restores the stiffness.
+    /// Takes a carried step. `None` if none is due or accepted; the stiffness is then restored.
     pub(super) fn compose(
         &mut self,
         solver: &mut Solver,
@@ -115,7 +108,6 @@ impl Descent {
         found
     }
 
-    /// Moves along a direction, shortened until the energy decreases.
     fn carry_along(
         &mut self,
         solver: &mut Solver,

@@ -14,13 +14,11 @@ const APART: usize = 3;
 /// Maximum time step; the period of the modes is 2 pi.
 const LONGEST: f64 = 1.0;
 
-/// Markov chain with its current state, metric and time step.
 pub(super) struct Chain<'a> {
     potential: &'a Potential<'a>,
     normal: Normal,
     /// Coordinates, then strains.
     pub(super) place: DVector<f64>,
-    /// Gradient of the potential.
     pub(super) gradient: DVector<f64>,
     energy: f64,
     /// Transformation from coordinates in which the mean Hessian over kT is the identity.
@@ -30,7 +28,6 @@ pub(super) struct Chain<'a> {
 }
 
 impl<'a> Chain<'a> {
-    /// Chain at `place`.
     pub(super) fn new(potential: &'a Potential<'a>, place: DVector<f64>, normal: Normal) -> Self {
         let mut gradient = DVector::zeros(potential.size());
         let energy = potential.slopes(&place, &mut gradient);
@@ -45,8 +42,8 @@ impl<'a> Chain<'a> {
         }
     }
 
-    /// Equilibrates the chain and adapts the metric and the time step to the given acceptance rate.
-    /// Returns the mean Hessian of the metric.
+    /// Adapts metric and time step to the given acceptance rate. Returns the mean Hessian of the
+    /// metric.
     pub(super) fn warm_up(&mut self, acceptance: f64) -> DMatrix<f64> {
         let directions = self.potential.directions();
         let mut mean = self.potential.derivatives(&self.place).hessian;
@@ -68,7 +65,7 @@ impl<'a> Chain<'a> {
         mean
     }
 
-    /// Response of the unconstrained coordinates to forces: inverse of the mean Hessian.
+    /// Inverse of the mean Hessian times `force`.
     pub(super) fn mobility(&self, force: &DMatrix<f64>) -> DMatrix<f64> {
         &self.map * self.map.tr_mul(force) / self.potential.kt
     }
@@ -109,7 +106,6 @@ impl<'a> Chain<'a> {
     }
 }
 
-/// Next larger integer.
 #[expect(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,
@@ -119,8 +115,7 @@ fn count(number: f64) -> usize {
     number.ceil() as usize
 }
 
-/// Directions scaled such that the Hessian along them is kT times the identity, with a minimum
-/// stiffness.
+/// Directions along which the Hessian is kT times the identity, with a minimum stiffness.
 fn metric(directions: &DMatrix<f64>, hessian: &DMatrix<f64>, kt: f64) -> DMatrix<f64> {
     let reduced = directions.tr_mul(&(hessian * directions));
     let eigen = reduced.symmetric_eigen();

@@ -5,8 +5,7 @@ use super::super::{STRAINS, SixMatrix, SixVector};
 use super::potential::Potential;
 use nalgebra::{DMatrix, DVector};
 
-/// Directions of the derivatives with respect to the strains, one per column. The means are
-/// independent of the components along unconstrained coordinates.
+/// Directions of the derivatives with respect to the strains, one per column.
 #[derive(Debug)]
 pub(super) struct Moves {
     pub(super) along: DMatrix<f64>,
@@ -14,7 +13,6 @@ pub(super) struct Moves {
     pub(super) origin: DVector<f64>,
 }
 
-/// Sums over samples.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Sums {
     count: f64,
@@ -30,14 +28,12 @@ pub(super) struct Sums {
     energy: f64,
 }
 
-/// Means of the samples.
 #[derive(Clone, Debug)]
 pub(super) struct Means {
-    /// Mean strains relative to the origin.
+    /// Relative to the origin.
     pub(super) strain: SixVector,
     pub(super) covariance: SixMatrix,
-    /// Derivatives of the free energy with respect to the strains, with and without control
-    /// variates.
+    /// Derivatives of the free energy, with and without control variates.
     pub(super) slope: SixVector,
     pub(super) plain: SixVector,
     pub(super) curvature: SixMatrix,
@@ -48,7 +44,6 @@ pub(super) struct Means {
 }
 
 impl Sums {
-    /// Adds a state with the gradient of its potential.
     pub(super) fn add(
         &mut self,
         place: &DVector<f64>,
@@ -73,7 +68,6 @@ impl Sums {
         self.turn += turns / potential.cell.monomers() as f64;
     }
 
-    /// Adds energy and Hessian of a state.
     pub(super) fn add_derivatives(&mut self, of: &Derivatives, moves: &Moves) {
         let along = moves.along.tr_mul(&(&of.hessian * &moves.along));
         self.hessian += along.fixed_view::<STRAINS, STRAINS>(0, 0);
@@ -81,7 +75,6 @@ impl Sums {
         self.hessians += 1.0;
     }
 
-    /// Adds a multiple of other sums.
     fn add_sums(&mut self, other: &Self, share: f64) {
         self.count += share * other.count;
         self.slope += other.slope * share;
@@ -115,7 +108,6 @@ impl Sums {
     }
 }
 
-/// Means over all blocks and their jackknife standard errors.
 pub(super) fn with_errors(blocks: &[Sums], kt: f64) -> (Means, Means) {
     let mut all = Sums::default();
     for block in blocks {

@@ -168,7 +168,6 @@ impl Cell {
         }
     }
 
-    /// Means and errors. Statistics of the chain are left at zero.
     fn respond_to(
         &self,
         potential: &Potential<'_>,
@@ -204,7 +203,7 @@ impl Cell {
         }
     }
 
-    /// Displacement of the coordinates with the strains in the harmonic cell with the mean Hessian.
+    /// Displacements with the strains in the harmonic cell with the mean Hessian.
     fn moves(&self, potential: &Potential<'_>, chain: &Chain<'_>, hessian: &DMatrix<f64>) -> Moves {
         let mixed = hessian.columns(self.coordinates(), STRAINS).into_owned();
         let mut along = -chain.mobility(&mixed);

@@ -13,7 +13,6 @@ pub(super) struct Normal {
 }
 
 impl Normal {
-    /// Generator for stream `number` of a seed.
     pub(super) fn new(seed: u64, number: u64) -> Self {
         Self {
             stream: Stream::new(seed, MOTION, number),

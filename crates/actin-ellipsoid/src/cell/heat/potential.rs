@@ -6,21 +6,17 @@ use super::super::{Cell, STRAINS, SixVector};
 use actin_mechanics::Matrix3;
 use nalgebra::{DMatrix, DVector};
 
-/// Potential whose Boltzmann factor is the density of displacements and rotation vectors: energy of
-/// the cell minus work of the given loads, plus the measure of rotations.
+/// Energy minus work of the given loads, plus the measure of rotations.
 #[derive(Debug)]
 pub(super) struct Potential<'a> {
     pub(super) cell: &'a Cell,
-    /// Thermal energy (pN nm).
     pub(super) kt: f64,
-    /// Indices of the free strains.
     pub(super) free: Vec<usize>,
-    /// Loads; only those of the free strains are used.
+    /// Loads of the free strains; others are ignored.
     pub(super) loads: SixVector,
 }
 
 impl Potential<'_> {
-    /// Number of coordinates and strains.
     pub(super) fn size(&self) -> usize {
         self.cell.coordinates() + STRAINS
     }
@@ -42,7 +38,6 @@ impl Potential<'_> {
         energy
     }
 
-    /// Energy of the cell, with the second derivatives of the potential.
     pub(super) fn derivatives(&self, place: &DVector<f64>) -> Derivatives {
         let coordinates = self.cell.coordinates();
         let strain: SixVector = place.fixed_rows::<STRAINS>(coordinates).into();
@@ -58,7 +53,7 @@ impl Potential<'_> {
         all
     }
 
-    /// Orthonormal directions of unconstrained motion, one per column.
+    /// Orthonormal basis of unconstrained motion.
     pub(super) fn directions(&self) -> DMatrix<f64> {
         let (coordinates, held) = (self.cell.coordinates(), &self.cell.held);
         let moving = coordinates - held.nrows();
@@ -77,7 +72,6 @@ impl Potential<'_> {
         basis
     }
 
-    /// Derivative of the work of the loads with respect to strain `k` (pN nm).
     fn work_per_strain(&self, k: usize) -> f64 {
         self.cell.length() * self.loads[k]
     }

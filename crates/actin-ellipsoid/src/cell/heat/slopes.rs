@@ -6,7 +6,6 @@ use super::super::{Cell, PER_MONOMER, SixVector};
 use actin_mechanics::{Matrix3, Vector3};
 use nalgebra::DVector;
 
-/// Monomer in the frame of the axis at its position.
 struct Placed {
     centre: Vector3,
     turn: Matrix3,
@@ -15,13 +14,13 @@ struct Placed {
 }
 
 impl Placed {
-    /// Derivative with respect to the rotation vector of an energy with the given torque.
+    /// Derivative with respect to the rotation vector.
     fn couple(&self, couple: Vector3) -> Vector3 {
         self.jacobian.tr_mul(&couple)
     }
 }
 
-/// Force on the lower centre, torques on the lower and upper monomer of a pair, in the lower frame.
+/// Force on the lower centre and torques, in the lower frame.
 struct PairLoads {
     energy: f64,
     force: Vector3,
@@ -30,8 +29,7 @@ struct PairLoads {
 }
 
 impl CellPair {
-    /// Loads for the upper monomer rotated by `turn` and translated by `shift` relative to the
-    /// lower one.
+    /// Loads for a relative pose in the lower frame.
     fn loads(&self, turn: &Matrix3, shift: &Vector3) -> PairLoads {
         let mut sum = PairLoads {
             energy: 0.0,
@@ -106,7 +104,7 @@ impl Cell {
         })
     }
 
-    /// Rotation vectors of all monomers with the indices of their first components.
+    /// Rotation vectors with the indices of their first components.
     pub(super) fn turns(&self, place: &DVector<f64>) -> impl Iterator<Item = (usize, Vector3)> {
         let rows = (0..self.monomers()).map(|i| PER_MONOMER * i + 3);
         rows.map(|row| (row, place.fixed_rows::<3>(row).into()))
