@@ -1,8 +1,4 @@
-//! Quadrature bonds: a small set of weighted bonds that reproduces the moments of all possible
-//! bonds.
-//!
-//! [`moments`] defines the moments, [`patch`] computes them, [`search`] fits the points, and
-//! [`table`] stores the points of the default parameters.
+//! Quadrature bonds: weighted bonds that reproduce the moments of all possible bonds.
 
 mod cache;
 mod gauss;

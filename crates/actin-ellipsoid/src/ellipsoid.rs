@@ -1,5 +1,3 @@
-//! Ellipsoid in its principal frame: surface points, line intersections, inertia.
-
 use crate::EllipsoidParameterError;
 use crate::stream::Stream;
 use actin_mechanics::{Inertia, Vector3};
@@ -106,20 +104,17 @@ mod tests {
     use actin_mechanics::Xorshift;
     use std::f64::consts::FRAC_PI_2;
 
-    /// Bins of the surface: slices of equal height of the unit sphere, divided by azimuth, folded
-    /// into one octant.
+    /// Bins: slices of equal height of the unit sphere, divided by azimuth, in one octant.
     const SLICES: usize = 6;
     const SECTORS: usize = 5;
 
     fn bin(ellipsoid: &Ellipsoid, point: Vector3) -> usize {
         let q = point.component_div(&ellipsoid.semi_axes).abs();
-        // Number of inner boundaries below x.
         let part = |x: f64, n: usize| (1..n).filter(|k| x * n as f64 >= *k as f64).count();
         part(q.z, SLICES) * SECTORS + part(q.y.atan2(q.x) / FRAC_PI_2, SECTORS)
     }
 
-    /// Fraction of the surface in each bin. Midpoint rule with the area element `a b c |q / (a, b,
-    /// c)|`; relative accuracy 1e-4.
+    /// Midpoint rule with the area element `a b c |q / (a, b, c)|`; relative accuracy 1e-4.
     fn shares(ellipsoid: &Ellipsoid) -> Vec<f64> {
         const STEPS: usize = 40;
         let mut areas = vec![0.0; SLICES * SECTORS];
@@ -137,7 +132,7 @@ mod tests {
         areas.iter().map(|a| a / total).collect()
     }
 
-    /// Chi-square statistic of sampled points against the uniform distribution.
+    /// Statistic of sampled points against the uniform distribution.
     fn chi_square(ellipsoid: &Ellipsoid, draw: impl Fn(&mut Stream) -> Vector3) -> f64 {
         const POINTS: usize = 100_000;
         let mut stream = Stream::new(11, 0, 0);
@@ -153,7 +148,7 @@ mod tests {
             .sum()
     }
 
-    /// Mean of chi-square plus five standard deviations.
+    /// Mean plus five standard deviations.
     fn bound() -> f64 {
         let freedoms = (SLICES * SECTORS - 1) as f64;
         freedoms + 5.0 * (2.0 * freedoms).sqrt()
@@ -175,7 +170,6 @@ mod tests {
         }
     }
 
-    /// Control of the test above.
     #[test]
     fn scaled_directions_are_not_uniform() {
         let ellipsoid = Ellipsoid::new([1.9, 2.7, 2.7]);
@@ -183,7 +177,6 @@ mod tests {
         assert!(chi_square(&ellipsoid, scaled) > 10.0 * bound());
     }
 
-    /// On a sphere no sample is rejected.
     #[test]
     fn sphere_keeps_every_direction() {
         let sphere = Ellipsoid::new([2.0; 3]);
@@ -201,7 +194,6 @@ mod tests {
         let mut stream = Stream::new(5, 0, 0);
         for _ in 0..1000 {
             let point = ellipsoid.sample(&mut stream);
-            // Equal to 1 on the surface.
             assert!((ellipsoid.normal(point).dot(&point) - 1.0).abs() < 1e-14);
         }
     }
@@ -220,7 +212,7 @@ mod tests {
                 for lambda in [near, far] {
                     let point = origin + lambda * direction;
                     let level = ellipsoid.normal(point).dot(&point);
-                    // A point at 100 nm has a rounding error of 1e-14 nm.
+                    // The rounding error at 100 nm is 1e-14 nm.
                     assert!((level - 1.0).abs() < 1e-13 * (1.0 + distance), "{level}");
                 }
             }

@@ -1,5 +1,3 @@
-//! Gap between two neighbours at rest: possible bonds and their lengths.
-
 use crate::{Bond, Ellipsoid, EllipsoidParameters, Helix, InterfaceKind, Neighbour};
 use actin_mechanics::Vector3;
 

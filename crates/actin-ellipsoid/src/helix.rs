@@ -1,7 +1,3 @@
-//! Centres and orientations of monomers on a helix about lab +z.
-//!
-//! [`crate::Placement`] moves the helix elsewhere.
-
 use crate::{EllipsoidParameters, InterfaceKind};
 use actin_mechanics::{Matrix3, UnitQuaternion, Vector3};
 
@@ -144,7 +140,7 @@ mod tests {
             let q = helix().orientation(index);
             let centre = helix().centre(index);
             let radial = Vector3::new(centre.x, centre.y, 0.0) / helix().radius();
-            // The azimuth of index 500 is 1450 rad, with a rounding error of 2e-13.
+            // The rounding error of 1450 rad is 2e-13.
             assert!((q * Vector3::x() - radial).norm() < 1e-12);
             assert!((q * Vector3::z() - Vector3::z()).norm() < 1e-15);
             assert!((q * Vector3::y() - Vector3::z().cross(&radial)).norm() < 1e-12);

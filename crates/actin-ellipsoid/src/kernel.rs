@@ -1,5 +1,4 @@
-//! Inner loop of the bond loads. Each vector lane holds one pair; the number of lanes is determined
-//! at run time.
+//! Inner loop of the bond loads, one pair per vector lane.
 #![allow(
     clippy::inline_always,
     reason = "vector code must be compiled into the function that enables the instructions"

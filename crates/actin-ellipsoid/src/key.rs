@@ -1,5 +1,3 @@
-//! Parameter names in errors.
-
 use crate::InterfaceKind;
 use std::fmt;
 

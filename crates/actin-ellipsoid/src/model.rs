@@ -1,5 +1,3 @@
-//! Validated ellipsoid model.
-
 use crate::{
     Bonds, Ellipsoid, EllipsoidParameterError, EllipsoidParameters, Helix, Interface,
     InterfaceError, InterfaceKind, LatticeError, Monomers, Placement,

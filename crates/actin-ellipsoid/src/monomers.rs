@@ -1,5 +1,3 @@
-//! A run of consecutive monomers on a state.
-
 use crate::Helix;
 use actin_mechanics::{Frame, Inertia, Point, State, UnitQuaternion, Vector3};
 use thiserror::Error;

@@ -1,5 +1,3 @@
-//! Parameters of the ellipsoid model and their validation.
-
 use crate::{EllipsoidKey, InterfaceKey, InterfaceKind, constants};
 use actin_mechanics::InertiaError;
 use thiserror::Error;
@@ -238,7 +236,6 @@ mod tests {
 
     type Setter = fn(&mut EllipsoidParameters, f64);
 
-    /// Name of the parameter for which the model is refused.
     fn refused(set: Setter, value: f64) -> Option<String> {
         let mut parameters = EllipsoidParameters::default();
         set(&mut parameters, value);
@@ -251,7 +248,6 @@ mod tests {
         }
     }
 
-    /// Each parameter is reported by its own name.
     #[test]
     fn numbers_that_break_their_rule_are_refused_by_name() {
         let positive: [(&str, Setter); 9] = [

@@ -1,10 +1,10 @@
-//! Quasi-harmonic chain: monomers at finite temperature with a quadratic energy in place of bonds.
+//! Quasi-harmonic chain: a quadratic energy of the relative poses of neighbours replaces the bonds.
 //!
-//! Bonds are strongly nonlinear in thermal motion, and their fastest motion takes picoseconds. The
-//! relative poses of neighbours are nevertheless almost normally distributed. A quadratic energy
-//! with their mean, covariance and covariance with the link below has the same stiffness at this
-//! temperature. Its elements have positive stiffness and can be sampled (see [`RandomStress`]),
-//! which allows overdamped time steps that are ten thousand times longer.
+//! Bonds are strongly nonlinear in thermal motion and require time steps of picoseconds. The
+//! relative poses of neighbours are almost normally distributed. A quadratic energy with the same
+//! mean and covariances has the same stiffness at this temperature. Its elements have positive
+//! stiffness and can be sampled ([`RandomStress`]), so overdamped time steps may be ten thousand
+//! times longer.
 //!
 //! Link `i` joins monomers `i` and `i + 1`:
 //!
@@ -18,10 +18,8 @@
 //! p, O   mean pose of the upper monomer in the frame of the lower one
 //! ```
 //!
-//! Bonds reach the second neighbour, so displacements of adjacent links are correlated; strains are
-//! independent. This is the maximum entropy distribution with these moments. It is valid near the
-//! mean pose and at its temperature only: it has no limit of bond lengths and no stiffening of
-//! shear under tension.
+//! This is the maximum entropy distribution with these moments. It is valid near the mean pose and
+//! at its temperature only: bond lengths are not limited, and shear does not stiffen under tension.
 //!
 //! # Source
 //! Karplus and Kushick, Macromolecules 14 (1981) 325; for chains (DNA) Gonzalez, Petkeviciute and

@@ -1,7 +1,5 @@
-//! Keyed random streams, identical on every machine.
-//!
-//! Only integer operations, multiplications and square roots are used, which are exact or correctly
-//! rounded everywhere.
+//! Keyed random streams, identical on every machine: integer operations, multiplications and square
+//! roots are exact or correctly rounded.
 
 use actin_mechanics::Vector3;
 use rand::{Rng, SeedableRng};

@@ -1,4 +1,4 @@
-//! Storage of bonds for the inner loops, vectorised over neighbouring pairs.
+//! Storage of bonds, vectorised over neighbouring pairs.
 
 use crate::Bond;
 use actin_mechanics::{Matrix3, Vector3};

@@ -1,5 +1,4 @@
-//! Time of a solve against the number of bodies: clamped rods of 10 nm segments with a tip force
-//! that bends them by the same angle at every length.
+//! Time of a solve against the number of bodies.
 //!
 //! `cargo run --release -p actin-equilibrium --example scaling`
 

@@ -1,4 +1,4 @@
-//! Assembly of the sparse stiffness from blocks of second derivatives.
+//! Assembly of the sparse stiffness.
 
 use crate::chain::Chain;
 use crate::group::Group;

@@ -1,7 +1,5 @@
-//! Elimination of a factor whose columns have contiguous rows, as for a filament.
-//!
-//! Columns with the same last row form a panel. A panel is eliminated column by column and then
-//! subtracted as a whole from the columns to its right.
+//! Elimination of a factor whose columns have contiguous rows, as for a filament. Columns with the
+//! same last row form a panel.
 #![allow(
     clippy::inline_always,
     reason = "vector code must be compiled into the function that enables the instructions"
@@ -192,7 +190,6 @@ mod tests {
             push_point(&mut state, Vector3::zeros(), 1.0);
             push_frame(&mut state, UnitQuaternion::identity(), [1.0; 3]);
         }
-        // Gives panels of three columns.
         state.frames.hold(n / 2);
         let order = BodyOrder {
             points: (0..n).map(|i| i as f64).collect(),
@@ -213,7 +210,6 @@ mod tests {
         (Pattern::new(&blocks, &mut layout), layout)
     }
 
-    /// Random matrix, positive definite for a large diagonal.
     fn matrix(pattern: &Pattern, seed: u64, diagonal: f64) -> Vec<f64> {
         let mut noise = Xorshift::new(seed);
         let upper = pattern.symbolic.as_ref();
@@ -224,7 +220,7 @@ mod tests {
         values
     }
 
-    /// Rounding grows with the ratio of entries to pivots, at most 1e3 for the indefinite matrix.
+    /// Rounding grows with the ratio of entries to pivots, at most 1e3.
     #[test]
     fn band_elimination_agrees_with_general_elimination() {
         for (n, diagonal, tolerance) in [(1, 9.0, 1e-14), (7, 40.0, 1e-13), (40, 4.0, 1e-9)] {
@@ -249,7 +245,6 @@ mod tests {
         }
     }
 
-    /// Zero and non-finite pivots.
     #[test]
     fn zero_pivots_are_doubtful() {
         let (pattern, layout) = chain(4);

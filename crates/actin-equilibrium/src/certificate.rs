@@ -1,5 +1,3 @@
-//! Stability of an equilibrium from the eigenvalues of its stiffness.
-
 /// Counts of the eigenvalues of the stiffness, without regularisation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]

@@ -1,15 +1,13 @@
 //! Number of negative eigenvalues of the stiffness at an equilibrium.
 //!
-//! The eigenvalues are those of `K v = lambda M v` with the metric `M`: 1 for displacements (nm)
-//! and `l^2` for rotations (rad), `l` the turn length of the options. Their signs follow from the
-//! pivots of `K + s M` and `K - s M` by Sylvester's law of inertia, where the resolution `s` bounds
-//! the error of factorisation and coordinates. Eigenvalues below `-s` are negative.
+//! Eigenvalues refer to `K v = lambda M v` with the metric `M`: 1 for displacements (nm) and `l^2`
+//! for rotations (rad), `l` the turn length. Their signs follow from the pivots of `K + s M` and `K
+//! - s M` by Sylvester's law of inertia, where the resolution `s` bounds the error of factorisation
+//! and coordinates.
 //!
-//! The bound is pessimistic for long filaments, whose lowest eigenvalues decrease with the fourth
-//! power of the length. Eigenvalues within `[-s, s]` are therefore counted repeatedly with random
-//! changes of the coordinates and the matrix by a few roundings. The count is accepted if it never
-//! changes and no pivot is exactly zero. A body without any stiffness has pivots of exactly zero
-//! under relative changes, whose signs are meaningless.
+//! This bound is pessimistic for long filaments. Eigenvalues within `[-s, s]` are therefore counted
+//! repeatedly with coordinates and matrix changed randomly by a few roundings. The count is
+//! accepted if it never changes and no pivot is exactly zero.
 
 use crate::certificate::{Certificate, Stability};
 use crate::direction::Solver;
@@ -87,7 +85,7 @@ fn count(solver: &mut Solver, uncertainty: f64) -> Certificate {
     let negative_pivots = solver.factorize(0.0).negative;
     let rounding = ROUNDINGS * f64::EPSILON;
     let largest = solver.assembly.largest_entry();
-    // A positive shift includes eigenvalues of exactly zero.
+    // Includes eigenvalues of exactly zero.
     let least = uncertainty.max(rounding * largest).max(f64::MIN_POSITIVE);
     let mut resolution = least / lightest;
     let mut attempt = 1;
@@ -97,7 +95,7 @@ fn count(solver: &mut Solver, uncertainty: f64) -> Certificate {
         let below = solver.factorize(-resolution);
         growth = growth.max(solver.growth());
         let error = rounding * growth / lightest;
-        // An error above the resolution indicates a small pivot of an indefinite matrix.
+        // Small pivot of an indefinite matrix.
         if error > GROWTH_ALLOWED * resolution && attempt < ATTEMPTS {
             resolution = error;
             attempt += 1;
@@ -166,7 +164,6 @@ fn polish(
     let evaluation = Evaluation::new(interactions, &polished);
     solver.work.evaluations += 1;
     let after = solver.layout.residual(&polished, &evaluation.loads);
-    // A residual at its rounding error may increase slightly.
     if !(evaluation.is_finite() && after.is_within(&residual.max(&floor))) {
         return None;
     }

@@ -1,5 +1,3 @@
-//! Energy and loads of a state.
-
 use actin_mechanics::{Interaction, Loads, State};
 
 #[derive(Clone, Debug, Default)]

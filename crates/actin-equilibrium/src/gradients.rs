@@ -1,8 +1,7 @@
-//! Conjugate gradients for networks, preconditioned by factors of the single filaments.
+//! Conjugate gradients for networks, preconditioned by the banded factors of the single filaments.
 //!
-//! Links between filaments fill the factor of a network, whereas factors of single filaments remain
-//! banded. Links are soft compared with the stretching and shear of filaments, so the number of
-//! iterations does not grow with the number of filaments.
+//! Links are soft compared with the stretching and shear of filaments, so the number of iterations
+//! does not grow with the number of filaments.
 //!
 //! # Source
 //! M. R. Hestenes and E. Stiefel, J. Res. Natl. Bur. Stand. 49 (1952) 409; truncation at negative
@@ -126,7 +125,7 @@ mod tests {
         Coordinates, Loads, Matrix3, Point, SecondOrder, State, Stiffness, Vector3,
     };
 
-    /// Two chains of ten points with soft springs across at every third point, and friction.
+    /// Two chains of ten points with soft springs across, and friction.
     struct Ladder;
 
     impl SecondOrder for Ladder {

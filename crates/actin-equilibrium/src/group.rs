@@ -1,5 +1,3 @@
-//! Groups of bodies that move together.
-
 use actin_mechanics::{Slider, State, Vector3};
 
 /// Centre of rotation of a group.

@@ -1,5 +1,3 @@
-//! History and cost of a solve.
-
 use crate::motion::StepSize;
 use actin_mechanics::Residual;
 

@@ -1,5 +1,4 @@
-//! Linear solve of an implicit time step: `(K + A) p = f` with blocks `A` of the caller, such as
-//! friction over a time step.
+//! Linear solve of an implicit time step.
 
 use crate::assemble::Assembly;
 use crate::chain::Clusters;

@@ -1,5 +1,3 @@
-//! Map from unknowns to bodies, and order of the unknowns.
-
 use crate::group::{Group, orthonormal};
 use actin_mechanics::{Coordinates, State, Vector3};
 use std::collections::BTreeSet;

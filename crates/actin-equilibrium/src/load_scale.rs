@@ -1,5 +1,3 @@
-//! Magnitude of the loads of a state, for relative residuals.
-
 use actin_mechanics::{Interaction, Loads, Residual, State, Stiffness, Vectors};
 
 /// Relative residual below which further steps are useless.

@@ -1,7 +1,5 @@
-//! Lowest eigenvalue of the stiffness with its mode.
-//!
-//! Lanczos iteration on the inverse of `K + shift M` with the smallest positive definite shift,
-//! whose largest eigenvalue belongs to the lowest eigenvalue of `K`.
+//! Lowest eigenvalue of the stiffness by Lanczos iteration on the inverse of `K + shift M` with the
+//! smallest positive definite shift.
 //!
 //! # Source
 //! B. N. Parlett, The Symmetric Eigenvalue Problem (1980), chapter 13 (full reorthogonalisation).

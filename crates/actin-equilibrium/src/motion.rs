@@ -261,7 +261,6 @@ fn move_group(group: &Group, state: &mut State, step: &[f64], scale: f64) {
     let turns = !group.rotations.is_empty();
     for &i in &group.points {
         let x = state.points.position.get(i);
-        // Avoids rounding without rotations.
         let moved = if turns { pivot + turn * (x - pivot) } else { x };
         state.points.position.set(i, moved + shift);
     }

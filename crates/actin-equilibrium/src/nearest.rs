@@ -1,5 +1,3 @@
-//! Nearest equilibrium of a state almost at rest, minimum or saddle.
-
 use crate::certificate::Certificate;
 use crate::direction::Solver;
 use crate::evaluation::Evaluation;
@@ -97,7 +95,6 @@ impl Newton {
             }
             let step = self.undamped_step();
             let extent = self.layout().step_extent(&step);
-            // Also rejects NaN.
             if !(extent.rotation <= FARTHEST && extent.displacement <= FARTHEST * size) {
                 break;
             }

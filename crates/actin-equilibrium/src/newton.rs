@@ -1,19 +1,13 @@
 //! Newton's method for minima of the potential energy.
 //!
-//! Each step solves `(K + mu M) p = f` with the full stiffness `K`. The shift `mu` is zero if `K`
-//! is positive definite and otherwise just large enough to make the sum positive definite. If the
-//! stiffness changes much within a step, as in floppy filaments, ties between neighbours are
-//! stiffened in proportion to their relative motion (see `ties`). The step is limited by the
-//! options and accepted by the energy.
+//! Each step solves `(K + mu M) p = f` with the full stiffness `K` and the smallest shift `mu` that
+//! makes the sum positive definite. If the stiffness changes much within a step, ties between
+//! neighbours are stiffened in proportion to their relative motion (see `ties`).
 //!
-//! Bodies move straight or, if the energy is lower, each is carried along by its predecessor, which
-//! bends a filament without stretching it (see `chain`). A few steps above the initial energy are
-//! allowed, because the stretch of a straight step relaxes quickly in the following ones (watchdog
-//! technique). Such an excursion is reverted if it does not reduce the energy.
-//!
-//! Starts with many bodies and zero-stiffness modes, such as a long filament at rest, are far from
-//! equilibrium. Carried steps with the corresponding second derivatives are used there as long as
-//! they reduce the energy (see `descent/composed`).
+//! Bodies move straight or, if the energy is lower, each is carried along by its predecessor (see
+//! `chain`). A few steps above the initial energy are allowed, because the stretch of a straight
+//! step relaxes quickly in the following ones (watchdog technique). An unsuccessful excursion is
+//! reverted.
 //!
 //! # Source
 //! J. Nocedal and S. J. Wright, Numerical Optimization, 2nd ed. (2006), sections 3.4 (modified

@@ -1,5 +1,3 @@
-//! Options of Newton's method.
-
 use actin_mechanics::Residual;
 use thiserror::Error;
 

@@ -1,5 +1,3 @@
-//! Result of a solve: equilibrium or failure.
-
 use crate::certificate::{Certificate, Stability};
 use crate::history::{Iteration, SolverWork};
 use actin_mechanics::Residual;

@@ -1,8 +1,7 @@
-//! Path following: equilibria along a path of controls with adaptive steps.
+//! Equilibria along a path of controls with adaptive steps.
 //!
-//! Steps shrink if Newton's method fails or if the equilibrium moves too far or away from the
-//! prediction. They grow if iterations are few. At a limit point no nearby equilibrium exists
-//! beyond it. The steps then shrink to the minimum, and the path ends with the last equilibrium.
+//! Steps shrink if Newton's method fails or the equilibrium deviates from the prediction. At a
+//! limit point they shrink to the minimum, and the path ends with the last equilibrium.
 
 use crate::evaluation::{Evaluation, passes_through};
 use crate::history::SolverWork;
@@ -520,7 +519,6 @@ impl<'a> Walk<'a> {
         let at = &mut self.at;
         let goes_on = at.points > 0 && !jumped;
         at.rate = goes_on.then(|| motion(&moved) / (parameter - at.parameter));
-        // No extrapolation across a jump.
         at.previous = goes_on.then(|| (left.into_motion(), at.parameter));
         at.parameter = parameter;
         at.points += 1;
@@ -534,7 +532,6 @@ impl<'a> Walk<'a> {
             waypoint: at,
         });
         self.last = Some(equilibrium);
-        // Nothing remains to be interrupted at the end.
         if flow.is_break() && parameter < 1.0 {
             return Err((parameter, PathError::Interrupted));
         }

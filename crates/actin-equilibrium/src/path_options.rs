@@ -1,5 +1,3 @@
-//! Options of path following.
-
 use crate::options::{OptionsError, positive, rule};
 
 /// Treatment of saddles on the path.

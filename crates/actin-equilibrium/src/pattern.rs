@@ -1,6 +1,5 @@
-//! Sparsity pattern of a stiffness: positions of its blocks in a sparse symmetric matrix.
-//!
-//! The matrix is stored as its upper triangle by columns with sorted rows.
+//! Positions of stiffness blocks in a sparse symmetric matrix, stored as its upper triangle by
+//! columns with sorted rows.
 
 use crate::layout::{Layout, Node, Order};
 use actin_mechanics::{Coordinates, Matrix3, Stiffness};

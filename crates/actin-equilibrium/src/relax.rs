@@ -1,5 +1,3 @@
-//! Equilibrium in one call, and the common error type.
-
 use crate::{
     Equilibrium, Layout, LayoutError, Newton, NewtonFailure, NewtonOptions, OptionsError,
     PathFailure, SolveError,

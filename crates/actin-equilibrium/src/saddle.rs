@@ -1,5 +1,3 @@
-//! Motion off a saddle along a direction of negative curvature.
-
 use crate::evaluation::Evaluation;
 use crate::history::Iteration;
 use crate::mode::{self, Mode};

@@ -1,11 +1,8 @@
 //! Random search for further stable equilibria of the same bodies.
 //!
-//! Newton's method finds the minimum in whose basin it starts. Filaments beyond a critical load, or
-//! bonds that open and close, have several. Initial guesses are sampled like thermal fluctuations
-//! about a known equilibrium with constant stiffness: large along soft modes, small along stiff
-//! ones. Each is scaled to a largest rotation, cycling through several sizes, and minimised. One
-//! third of them is sampled about a reference state instead, such as a straight filament. The
-//! search may miss equilibria.
+//! Initial guesses are sampled like thermal fluctuations about a known equilibrium with constant
+//! stiffness, scaled to a largest rotation, and minimised. One third of them is sampled about a
+//! reference state instead, such as a straight filament. The search may miss equilibria.
 
 use crate::direction::Solver;
 use crate::evaluation::{Evaluation, passes_through};

@@ -1,11 +1,9 @@
 //! Ties: relative motions of coupled bodies, and the stiffness that regularises them.
 //!
-//! Each coupled pair of bodies is a tie with a relative motion `r` (nm), linear in the step. The
-//! regularisation adds a stiffness `w` proportional to its motion to each tie, which bounds an
-//! energy with bounded third derivatives from above. Stiff ties and ties that hardly move are
-//! unaffected, for any length of the filament. A multiple of the unit matrix would suppress the
-//! soft modes of a long filament, in which bodies move far and neighbours hardly move relative to
-//! each other.
+//! The regularisation adds a stiffness proportional to its relative motion to each tie, which
+//! bounds an energy with bounded third derivatives from above. A multiple of the unit matrix would
+//! suppress the soft modes of a long filament, in which bodies move far and neighbours hardly move
+//! relative to each other.
 //!
 //! # Source
 //! Y. Nesterov and B. T. Polyak, Math. Program. 108 (2006) 177, applied to each tie.

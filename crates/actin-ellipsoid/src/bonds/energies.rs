@@ -1,4 +1,3 @@
-//! Energies of all interfaces, one pair per lane.
 #![allow(
     clippy::inline_always,
     reason = "vector code must be compiled into the function that enables the instructions"

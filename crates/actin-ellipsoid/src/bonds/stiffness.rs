@@ -1,4 +1,4 @@
-//! Second derivatives of the bond energy: blocks of pairs, assembled from sums over bonds.
+//! Second derivatives of the bond energy.
 
 use super::sums::{PairSums, Relatives, SumBonds, Sums};
 use super::{Body, Bonds};

@@ -1,4 +1,4 @@
-//! Inner loop of the second derivatives: sums over the bonds of a pair, one pair per lane.
+//! Inner loop of the second derivatives.
 #![allow(
     clippy::inline_always,
     reason = "vector code must be compiled into the function that enables the instructions"

@@ -1,5 +1,3 @@
-//! Bond loads and stiffness with any number of lanes, and bonds of zero length.
-
 use super::*;
 use crate::{Anchors, EllipsoidParameters, Placement};
 use actin_mechanics::testing::{assert_same_with_any_lanes, loads_of};
@@ -77,7 +75,7 @@ fn difference(a: &Loads, b: &Loads) -> f64 {
     largest(pairs(a, b)) / largest(pairs(b, &zero))
 }
 
-/// Sums of about a hundred terms of size 1 have a rounding error of 1e-14.
+/// Sums of a hundred terms have a rounding error of 1e-14.
 #[test]
 fn loads_match_the_reference_on_any_processor() {
     for anchors in [Anchors::Independent, Anchors::Identical, Anchors::Cubature] {
@@ -96,7 +94,6 @@ fn loads_match_the_reference_on_any_processor() {
     }
 }
 
-/// The order of summation does not depend on the number of lanes.
 #[test]
 fn loads_are_the_same_with_any_number_of_lanes() {
     for anchors in [Anchors::Independent, Anchors::Cubature] {
@@ -184,14 +181,13 @@ fn coincident_anchors_exert_no_force() {
     let (mut state, bonds) = coincident();
     assert_eq!(loads_of(&bonds, &state), Loads::zeros(&state));
     assert!((bonds.energy(&state) - 1.5).abs() < 1e-15);
-    // The full force acts at an arbitrarily small displacement.
     let apart = Vector3::new(1.0 + 1e-9, 0.0, 0.0);
     state.points.position.set(1, apart);
     let force = loads_of(&bonds, &state).force.get(1);
     assert!((force - Vector3::new(3.0, 0.0, 0.0)).norm() < 1e-8);
 }
 
-/// At zero length the stiffness is `k 1`; nearby it is `k` along and `k (1 - L / |d|)` across.
+/// `k 1` at zero length; nearby `k` along and `k (1 - L / |d|)` across.
 #[test]
 fn coincident_anchors_have_a_finite_stiffness() {
     let (mut state, bonds) = coincident();
@@ -203,7 +199,6 @@ fn coincident_anchors_have_a_finite_stiffness() {
         blocks[0].2
     };
     assert_eq!(place(&state), Matrix3::from_diagonal_element(3.0));
-    // A power of two is exact in all sums.
     let distance = 2.0_f64.powi(-30);
     let apart = Vector3::new(1.0 + distance, 0.0, 0.0);
     state.points.position.set(1, apart);

@@ -1,5 +1,3 @@
-//! Errors of cells.
-
 use crate::InterfaceError;
 use thiserror::Error;
 

@@ -1,5 +1,3 @@
-//! Conditions that attach the monomers of a cell to its axis.
-
 use super::PER_MONOMER;
 use actin_mechanics::Vector3;
 use nalgebra::DMatrix;

@@ -1,5 +1,4 @@
-//! Rotation matrix and left Jacobian of SO(3) as functions of a rotation vector, with first and
-//! second derivatives.
+//! Rotation matrix and left Jacobian of SO(3) with first and second derivatives.
 
 use actin_mechanics::{Matrix3, Vector3};
 
@@ -118,7 +117,6 @@ mod tests {
         [1.5, 1.0, -2.0],
     ];
 
-    /// The rotation is that of the quaternion, and the Jacobian the inverse of its inverse.
     #[test]
     fn values_are_those_of_the_rotation_group() {
         for turn in TURNS.map(Vector3::from) {
@@ -130,7 +128,6 @@ mod tests {
         }
     }
 
-    /// Rotation and Jacobian without derivatives are those with; the density is the square of a cardinal sine.
     #[test]
     fn functions_without_jets_are_the_same() {
         for turn in TURNS.map(Vector3::from) {

@@ -1,4 +1,4 @@
-//! Energy minimum of a cell under given strains and loads: damped Newton method.
+//! Damped Newton method for the energy minimum of a cell.
 
 use super::pairs::Derivatives;
 use super::{Cell, CellError, Displacements, STRAINS, SixVector};

@@ -1,6 +1,4 @@
-//! Periodic cell of monomers under uniform strain: energy per length of a filament.
-//!
-//! [`Cell::relax`] is the entry point. `heat/` has the cell at finite temperature.
+//! Periodic cell of monomers under uniform strain.
 
 mod error;
 mod heat;

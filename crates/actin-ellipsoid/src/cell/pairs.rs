@@ -1,5 +1,3 @@
-//! Energy of the pairs of a cell with first and second derivatives.
-
 use super::jets::MatrixJet;
 use super::{Cell, PER_MONOMER, STRAINS, SixVector};
 use crate::Interface;

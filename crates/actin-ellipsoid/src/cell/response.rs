@@ -1,5 +1,3 @@
-//! Energy per length, loads and tangent stiffness of a relaxed cell.
-
 use super::minimum::{CellState, Minimum, Problem};
 use super::{Cell, CellError, Displacements, STRAINS, SixMatrix, SixVector};
 use nalgebra::DVector;

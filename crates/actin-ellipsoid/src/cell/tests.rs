@@ -1,5 +1,3 @@
-//! Derivatives, limits and consistency of the energy of a cell.
-
 use super::{
     Cell,
     Control::{Load, Strain},
@@ -18,13 +16,11 @@ fn cell(parameters: EllipsoidParameters, monomers: usize, hold: Hold) -> Cell {
     Cell::new(&model, monomers, hold).unwrap()
 }
 
-/// Bending, twist, shear and stretch.
 fn strain() -> SixVector {
     SixVector::new(4e-3, -2e-3, 0.011, 6e-3, 3e-3, -4e-3)
 }
 
-/// Eight-point differences along every coordinate and strain. Sampled bonds exclude symmetries that
-/// could hide a wrong index.
+/// Eight-point differences. Sampled bonds exclude symmetries that could hide a wrong index.
 #[test]
 fn derivatives_of_the_cell_are_exact() {
     let cell = cell(EllipsoidParameters::drawn(7, 3), 13, Hold::Means);
@@ -90,7 +86,6 @@ fn loads_and_tangent_are_derivatives_of_the_relaxed_energy() {
     }
 }
 
-/// Equal bonds relax periodically.
 #[test]
 fn longer_cells_of_equal_bonds_are_the_same() {
     let short = weighted(13, Hold::Means).relax(&strain(), None).unwrap();
@@ -101,8 +96,7 @@ fn longer_cells_of_equal_bonds_are_the_same() {
 
 /// Stretched at fixed twist, bonds along the lines of centres (axial distance z, transverse chord
 /// t, length l, rigidity k) resist as `sum k (t^2 x + z^2)^2 / l^2 / rise` if only the radius
-/// relaxes, by the fraction `x`: 34708 pN at the optimum. All other relaxation lowers this by less
-/// than 0.1 %.
+/// relaxes, by the fraction `x`: 34708 pN at the optimum.
 #[test]
 fn the_built_filament_is_at_rest() {
     let cell = weighted(13, Hold::Means);
@@ -145,8 +139,7 @@ fn cells_are_whole_periods() {
     }
 }
 
-/// Twist by strain and pre-twist are equivalent for a straight filament. Bending in a plane is 7 %
-/// stiffer than along a helix.
+/// Bending in a plane is 7 % stiffer than along a helix.
 #[test]
 fn pre_twist_is_equivalent_to_twist() {
     let model = EllipsoidModel::new(EllipsoidParameters::default()).unwrap();

@@ -1,5 +1,3 @@
-//! Cache of quadratures: one computation per geometry and process.
-
 use super::{Cubature, CubatureError, numbers, table};
 use crate::{EllipsoidParameters, InterfaceKind};
 use std::collections::HashMap;

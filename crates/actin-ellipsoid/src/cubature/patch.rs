@@ -1,4 +1,4 @@
-//! Region of possible bonds of an interface, and averages over it by numerical quadrature.
+//! Region of possible bonds of an interface, and averages over it.
 
 use super::{gauss, transverse};
 use crate::gap::Gap;
@@ -193,7 +193,6 @@ mod tests {
     use crate::stream::Stream;
     use crate::{EllipsoidParameters, Helix, InterfaceKind};
 
-    /// Default parameters, a minimum length, and a geometry whose longest bonds are tangential.
     fn patches() -> Vec<Patch> {
         let standard = EllipsoidParameters::default();
         let (mut floor, mut wide) = (standard.clone(), standard.clone());
@@ -213,7 +212,6 @@ mod tests {
             .collect()
     }
 
-    /// Largest difference of the moments, relative to their size.
     fn difference(of: &Moments, shares: &[Share]) -> f64 {
         let sites: Vec<_> = shares
             .iter()
@@ -224,7 +222,7 @@ mod tests {
             .fold(0.0, |worst, r| r.abs().max(worst))
     }
 
-    /// Bound of five standard errors, 1/316 of the size of the moments each.
+    /// Five standard errors.
     #[test]
     fn moments_agree_with_sampled_bonds() {
         const DRAWS: usize = 100_000;

@@ -1,5 +1,3 @@
-//! Nonlinear least squares for position, length and weight of the quadrature points.
-
 use super::moments::{Features, MOMENTS, Moments, Site};
 use nalgebra::{DMatrix, DVector};
 

@@ -14,7 +14,6 @@ fn parameters(points: usize, shortest: f64) -> EllipsoidParameters {
     parameters
 }
 
-/// Geometries around the default.
 #[test]
 fn twelve_points_meet_the_moments() {
     let change = |set: fn(&mut EllipsoidParameters)| {
@@ -145,7 +144,7 @@ fn points_are_cached() {
     ));
 }
 
-/// The ends of a sampled bond lie on the surfaces; those of a point are equally far from them.
+/// The ends of a sampled bond lie on the surfaces; ends of a point are equally far from them.
 #[test]
 fn bonds_lie_along_the_line_of_centres() {
     let model = EllipsoidModel::new(parameters(12, 0.2)).unwrap();
@@ -160,13 +159,12 @@ fn bonds_lie_along_the_line_of_centres() {
             let [lower_surface, upper_surface] = surfaces(&model, kind, bond);
             let above = (bond.lower - lower_surface).dot(&axis);
             let below = (upper_surface - upper).dot(&axis);
-            // The table has twelve decimals.
             assert!((above - below).abs() < 1e-11, "{kind}: {above} {below}");
         }
     }
 }
 
-/// Exit point from the lower monomer and entry point into the upper one along a bond.
+/// Exit from the lower monomer and entry into the upper one along a bond.
 fn surfaces(model: &EllipsoidModel, kind: InterfaceKind, bond: &crate::Bond) -> [Vector3; 2] {
     let Neighbour { rotation, offset } = model.helix().neighbour(kind);
     let axis = offset.normalize();

@@ -1,5 +1,3 @@
-//! Geometry, number and reproducibility of bonds.
-
 use super::*;
 use crate::{EllipsoidModel, Helix};
 use InterfaceKind::{Lateral, Longitudinal};
@@ -19,7 +17,6 @@ fn gap(kind: InterfaceKind) -> Gap {
     Gap::new(&without_shortest(1, 0), kind)
 }
 
-/// Excludes the exit root and the opposite direction.
 #[test]
 fn bonds_bridge_the_gap_parallel_to_the_line_of_centres() {
     for kind in InterfaceKind::ALL {
@@ -68,8 +65,7 @@ fn published_rule_accepts_the_same_points() {
     }
 }
 
-/// Radius of the disc of equal area to the interface, projected along the line of centres. Midpoint
-/// rule on a square grid of lines.
+/// Radius of a disc with the area of the projected interface. Midpoint rule on a square grid.
 fn radius(gap: &Gap) -> f64 {
     const SPACING: f64 = 0.02;
     let axis = gap.neighbour.offset.normalize();
@@ -85,7 +81,7 @@ fn radius(gap: &Gap) -> f64 {
     (bonds.count() as f64 * SPACING * SPACING / std::f64::consts::PI).sqrt()
 }
 
-/// The maximum lengths give both interfaces a radius of about 1.8 nm. The grid error is 0.005 nm.
+/// The grid error is 0.005 nm.
 #[test]
 fn interfaces_have_a_radius_of_about_1_8_nm() {
     for (kind, expected) in [(Lateral, 1.86), (Longitudinal, 1.76)] {
@@ -94,8 +90,7 @@ fn interfaces_have_a_radius_of_about_1_8_nm() {
     }
 }
 
-/// The accepted fraction of the surface (74.2 nm^2, oblate spheroid), projected along the line of
-/// centres, has the area of the grid.
+/// The surface of the oblate spheroid is 74.2 nm^2.
 #[test]
 fn sampled_bonds_fill_the_interface() {
     let (a, c): (f64, f64) = (2.7, 1.9);
@@ -111,8 +106,7 @@ fn sampled_bonds_fill_the_interface() {
         let area = surface * slopes.sum::<f64>() / interface.attempts as f64;
         let radius = radius(&gap(kind));
         let ratio = area / (std::f64::consts::PI * radius * radius);
-        // Statistical error of 20 000 bonds: 0.7 %. Bound: five times that, plus 0.5 % for the
-        // grid.
+        // Five times the statistical error of 0.7 %, plus 0.5 % for the grid.
         assert!((ratio - 1.0).abs() < 0.04, "{kind}: {ratio}");
     }
 }
@@ -137,7 +131,6 @@ fn a_maximum_length_below_the_gap_is_an_error() {
     assert!(message.starts_with("no longitudinal bond of 0.0 to 0.05 nm"));
 }
 
-/// Only about 2e-4 of the samples give a bond.
 #[test]
 fn a_limit_with_too_few_bonds_is_an_error() {
     let gap = gap(Lateral);
@@ -157,12 +150,11 @@ fn a_limit_with_too_few_bonds_is_an_error() {
     else {
         panic!("{error}");
     };
-    // 2e6 samples with probability 2e-4; bound of five standard deviations of the 20 observed.
+    // Five standard deviations of the 20 observed.
     assert!((1..1000).contains(&found), "{found}");
     assert!(attempts < 2_000_000 + MAXIMUM_ATTEMPTS);
 }
 
-/// A negative root in absolute value would place bonds inside the neighbour.
 #[test]
 fn overlapping_monomers_are_bonded_outside_the_overlap() {
     let mut parameters = with_bonds(200);
@@ -180,7 +172,6 @@ fn overlapping_monomers_are_bonded_outside_the_overlap() {
     }
 }
 
-/// Independent interfaces differ between indices; identical ones only between kinds.
 #[test]
 fn draws_are_keyed_by_kind_and_index() {
     let mut parameters = with_bonds(1);
@@ -271,7 +262,6 @@ const GOLDEN: [Golden; 3] = [
     ),
 ];
 
-/// Rejection by length keeps the order of the remaining bonds.
 #[test]
 fn short_bonds_are_drawn_again() {
     let draw = |shortest, bonds| {

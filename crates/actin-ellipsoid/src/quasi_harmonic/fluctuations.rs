@@ -1,5 +1,3 @@
-//! Moments of the relative poses of neighbouring monomers.
-
 use super::{Link, Pose, QuasiHarmonic};
 use crate::{Monomers, SixMatrix, SixVector};
 use actin_mechanics::State;

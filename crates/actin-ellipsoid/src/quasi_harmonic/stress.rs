@@ -1,10 +1,9 @@
-//! Random stress of links: six components each, conjugate to the strain.
+//! Random stress of links.
 //!
-//! The sum of elastic and random stress of a displaced link would also rotate its frames about
-//! their own axes, relative to the mean pose. This part is omitted. A chain has no stiffness
-//! against rotation about its axis, so a time step in which bending relaxes would rotate it, and
-//! the bend with it. Free filaments of 110 nm were 2 to 4 % too soft with this part. The sum is
-//! small at the end of a time step, so long time steps remain exact.
+//! The rotation of frames about their own axes by the sum of elastic and random stress is omitted.
+//! A chain has no stiffness against rotation about its axis, so a time step in which bending
+//! relaxes would rotate the bend. Free filaments of 110 nm were 2 to 4 % too soft with it. Long
+//! time steps remain exact, since the sum is small at their end.
 
 use super::QuasiHarmonic;
 use crate::SixVector;

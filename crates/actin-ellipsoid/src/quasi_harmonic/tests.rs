@@ -1,5 +1,3 @@
-//! Derivatives and moments of chains.
-
 use super::*;
 use crate::{EllipsoidModel, EllipsoidParameters, Placement};
 use actin_mechanics::testing::{
@@ -38,7 +36,6 @@ fn chain(count: usize) -> (QuasiHarmonic, State) {
     (QuasiHarmonic::new(monomers, links), state)
 }
 
-/// Includes parts that begin and end within the chain.
 #[test]
 fn chains_are_the_gradient_of_their_energy() {
     let (chain, mut state) = chain(6);
@@ -68,7 +65,7 @@ fn parts_add_up() {
     assert!((sum / chain.energy(&state) - 1.0).abs() < 1e-13);
 }
 
-/// Tolerance for 40 000 states: 4.5 standard errors, `sqrt(2 / 40 000)` of the stiffness each.
+/// 4.5 standard errors of 40 000 states, `sqrt(2 / 40 000)` each.
 #[test]
 fn moments_reproduce_the_chain() {
     let (chain, mut state) = chain(5);
@@ -100,7 +97,6 @@ fn moments_reproduce_the_chain() {
     assert!((0.5..2.0).contains(&distance), "{distance}");
     let error = 4.5 * (2.0 / f64::from(states)).sqrt();
     for (link, expected) in found.links().iter().zip(chain.links()) {
-        // Relative to the original stiffness.
         let root = expected.stiffness.cholesky().unwrap().l();
         let inverse = root.try_inverse().unwrap();
         let ratio = inverse * link.stiffness * inverse.transpose();

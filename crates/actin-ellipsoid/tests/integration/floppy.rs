@@ -1,16 +1,14 @@
 //! Zero-stiffness modes of an unconstrained filament at rest.
 //!
 //! The bonds of an interface are parallel, so it resists 3 of 6 relative motions: 3 (2N - 3) in
-//! total. For each of the N - 2 triangles (i, i+1, i+2) one of these is redundant, because the
-//! relative rotations about the triangle's normal add up to zero. This leaves 6N - (5N - 7) = N + 7
-//! modes.
+//! total. Each of the N - 2 triangles (i, i+1, i+2) makes one of them redundant. This leaves 6N -
+//! (5N - 7) = N + 7 modes.
 
 use crate::common;
 use actin_mechanics::testing::stiffness_matrix;
 use common::{filament, models};
 use nalgebra::DMatrix;
 
-/// Absolute eigenvalues in ascending order.
 fn spectrum_of(stiffness: &DMatrix<f64>) -> Vec<f64> {
     let eigenvalues = stiffness.symmetric_eigenvalues();
     let mut spectrum: Vec<f64> = eigenvalues.iter().map(|e| e.abs()).collect();
@@ -18,8 +16,7 @@ fn spectrum_of(stiffness: &DMatrix<f64>) -> Vec<f64> {
     spectrum
 }
 
-/// The smallest non-zero eigenvalue is at least 5e-5 of the largest; rounding is 1e-14 of the
-/// largest.
+/// The smallest non-zero eigenvalue is at least 5e-5 of the largest.
 #[test]
 fn an_unconstrained_filament_has_n_plus_7_zero_stiffness_modes() {
     for count in [12, 30] {

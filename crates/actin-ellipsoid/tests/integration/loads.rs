@@ -1,5 +1,3 @@
-//! Gradient, balance, invariance and closed forms of bond loads.
-
 use crate::common;
 use actin_ellipsoid::EllipsoidModel;
 use actin_mechanics::testing::{
@@ -9,9 +7,8 @@ use actin_mechanics::{Interaction, Vector3, rotation};
 use actin_mechanics::{Xorshift, perturb};
 use common::{filament, model, models, weighted};
 
-/// Anchors are displaced by up to 1 nm. The shortest bonds are 0.16 nm long, so the error of
-/// eight-point differences with a step of 1e-4 nm is far below 1e-8, and rounding, 1e-16 E/h, is
-/// 1e-11 of the loads.
+/// The shortest bonds are 0.16 nm long, so the error of eight-point differences with a step of 1e-4
+/// nm is below 1e-8; rounding is 1e-11 of the loads.
 #[test]
 fn loads_are_the_gradient_of_the_energy() {
     for seed in 0..4 {
@@ -52,7 +49,7 @@ fn an_interface_pulled_along_the_line_of_centres_is_one_spring() {
     }
 }
 
-/// Transverse energy for a small displacement `s`: `K/8 s^4 <1/L^2>`.
+/// Energy for small `s`: `K/8 s^4 <1/L^2>`.
 #[test]
 fn an_interface_sheared_resists_with_the_cube_only() {
     for model in [model(3, 64), weighted(12)] {
@@ -80,8 +77,7 @@ fn assert_shear_is_cubic(model: &EllipsoidModel) {
     assert!((energy(shear) / expected - 1.0).abs() < 1e-4);
 }
 
-/// Tilt stiffness is the second moment of the bonds about the tilt axis; torsion has zero
-/// stiffness.
+/// Tilt stiffness is the second moment of the bonds; torsion has zero stiffness.
 #[test]
 fn an_interface_resists_tilt_but_not_torsion() {
     for model in [model(3, 64), weighted(12)] {

@@ -1,5 +1,3 @@
-//! The built filament is at rest and independent of the range of indices.
-
 use crate::common;
 use actin_ellipsoid::{Anchors, EllipsoidModel, EllipsoidParameters, Placement};
 use actin_mechanics::testing::loads_of;
@@ -13,9 +11,8 @@ proptest! {
         ..ProptestConfig::with_cases(100)
     })]
 
-    /// Positions and azimuths have rounding errors of 1e-14 up to 100 nm from the origin. The
-    /// largest stiffness is 3e4 pN/nm, which gives residuals of 3e-10 pN, and as much from the
-    /// placement.
+    /// Positions have rounding errors of 1e-14 up to 100 nm from the origin. The largest stiffness
+    /// is 3e4 pN/nm: residuals of 3e-10 pN, and as much from the placement.
     #[test]
     fn the_built_filament_is_free_of_loads(
         seed: u64,
@@ -51,7 +48,6 @@ proptest! {
     }
 }
 
-/// Otherwise a resolution study would measure sampling noise.
 #[test]
 fn the_same_monomers_have_the_same_anchors_in_any_run() {
     for anchors in [Anchors::Independent, Anchors::Identical, Anchors::Cubature] {

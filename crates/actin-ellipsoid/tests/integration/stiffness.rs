@@ -1,5 +1,3 @@
-//! Second derivatives of the bond energy.
-
 use crate::common;
 use actin_mechanics::testing::{assert_is_stiffness, loads_of, stiffness_matrix};
 use actin_mechanics::{State, Vector3};
@@ -7,9 +5,8 @@ use actin_mechanics::{Xorshift, perturb};
 use common::{filament, model, models, weighted};
 use nalgebra::DVector;
 
-/// At rest and far from it. The shortest bonds are 0.16 nm long, so the error of eight-point
-/// differences with a step of 1e-3 nm is (1e-3 / 0.16)^8 of the stiffness, and rounding is 1e-14 of
-/// the loads over 1e-3.
+/// The shortest bonds are 0.16 nm long, so the relative error of eight-point differences with a
+/// step of 1e-3 nm is (1e-3 / 0.16)^8; rounding is 1e-14 of the loads over 1e-3.
 #[test]
 fn stiffness_is_the_derivative_of_the_loads() {
     for count in [2, 5, 11] {
@@ -24,7 +21,7 @@ fn stiffness_is_the_derivative_of_the_loads() {
     }
 }
 
-/// Three components for each point, then for each frame.
+/// Points, then frames.
 fn stacked(
     state: &State,
     point: impl Fn(usize) -> Vector3,
@@ -35,9 +32,8 @@ fn stacked(
     DVector::from_vec(both.flat_map(|v| [v.x, v.y, v.z]).collect())
 }
 
-/// A translation gives zero. A rotation `omega` rotates the gradient in the lab frame, `omega x g`
-/// with `g = -f`, and leaves `tau x Q^T omega / 2` in the chart of the frames. The rounding error
-/// is 1e-14 of the sum of the terms of a row.
+/// A rotation `omega` rotates the gradient in the lab frame, `omega x g` with `g = -f`, and leaves
+/// `tau x Q^T omega / 2` in the chart of the frames.
 #[test]
 fn rigid_motion_only_rotates_the_loads() {
     let drawn = (0..5).map(|seed| model(seed, 16));

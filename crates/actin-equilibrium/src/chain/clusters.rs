@@ -1,5 +1,3 @@
-//! Carried steps of single filaments.
-
 use super::open::Components;
 use super::{Chain, Link};
 use crate::layout::{Layout, Node};

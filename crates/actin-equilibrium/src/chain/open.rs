@@ -1,5 +1,3 @@
-//! Test whether components of tied bodies are held at one place at most.
-
 use crate::layout::Layout;
 use crate::ties::Ties;
 use actin_mechanics::Coordinates::{self, Frame, Point};
@@ -95,7 +93,7 @@ pub(crate) fn is_open(layout: &Layout, ties: &Ties) -> bool {
 mod tests {
     use super::*;
 
-    /// Without path halving the cost would be quadratic.
+    /// Quadratic cost without path halving.
     #[test]
     fn long_chains_are_joined_quickly() {
         let mut clusters = DisjointSets::default();

@@ -1,9 +1,8 @@
 //! Contribution of the chart of [`Chain::carry`] to the second derivatives.
 //!
 //! Stiffness blocks refer to straight motion: `x + t v` for points, `Q exp(t phi)` for frames.
-//! Carried motion adds the unbalanced loads times the accelerations, which grow with the distance
-//! over which a rotation is carried. Without this term the stiffness of a long filament to bending
-//! is wrong far from equilibrium. It vanishes in equilibrium.
+//! Carried motion adds the unbalanced loads times the accelerations. The term is large for long
+//! filaments far from equilibrium and vanishes in equilibrium.
 //!
 //! A point carried by frame `f` with rotation `R(t)` moves as `x_j = x_i + R (d + t s)` with `s =
 //! v_j - v_i - theta_f x d`. A frame that follows another one rotates by `R_b = R_a exp(t (theta_b
@@ -14,8 +13,8 @@
 //! x_j'' = x_i'' - theta_f x (theta_f x d) + 2 theta_f x (v_j - v_i) + c_f x d
 //! ```
 //!
-//! With the resultant loads `F_j` of a point and `T_b` of a frame, including all carried bodies,
-//! each term couples neighbours only.
+//! With the resultant loads of a body and all bodies that it carries, each term couples neighbours
+//! only.
 
 use super::{Chain, Link};
 use actin_mechanics::Coordinates::{Frame, Point};

@@ -1,13 +1,9 @@
-//! Carried Newton steps with the second derivatives in their chart.
+//! Carried Newton steps with the second derivatives in their chart,
+//! [`Chain::carry`](crate::chain::Chain::carry), for long filaments with zero-stiffness modes.
 //!
-//! A long filament with zero-stiffness modes is far from equilibrium: its end moves along an arc,
-//! and thousands of neighbours buckle in either direction. Here a step is a Newton step in the
-//! chart of [`Chain::carry`](crate::chain::Chain::carry), in which strains are linear for any
-//! motion. If the stiffness is indefinite, ties are stiffened in proportion to their own negative
+//! If the stiffness is indefinite, ties are stiffened in proportion to their own negative
 //! transverse stiffness, with the smallest sufficient factor. A multiple of the unit matrix would
 //! prevent large motion, and equal stiffening would stiffen ties that need none.
-//!
-//! A filament held at two places does not close under carried steps, so straight steps are used.
 //!
 //! Each step decreases the energy. After a failure, straight steps are used for a while.
 
@@ -42,7 +38,6 @@ pub(super) struct Composed {
 
 impl Composed {
     pub(super) fn new(options: &NewtonOptions) -> Self {
-        // Carried bodies may move by any distance.
         let is_free = options.largest_displacement.is_infinite();
         Self {
             is_used: if is_free { None } else { Some(false) },

@@ -1,16 +1,12 @@
-//! Linear growth of the cost with the number of bodies.
-
 use crate::common;
 use actin_equilibrium::{Layout, Newton, NewtonOptions, Residual};
 use actin_mechanics::{Interaction, PointLoad, State, Vector3};
 use common::{ACTIN, Rod, filament, in_order};
 
-/// Monomers, and the largest number of Newton steps and factorisations for a floppy filament.
-/// Measured: 19 and 58, 17 and 44, 20 and 66; the margin of one third covers rounding. Straight
-/// steps need 31 and 100 for 234 monomers, 110 and 489 for 585.
+/// Monomers, maximum number of Newton steps and of factorisations. Measured: 19 and 58, 17 and 44,
+/// 20 and 66; straight steps need 31 and 100, 110 and 489 for the longer ones.
 const STEPS: [(usize, u64, u64); 3] = [(61, 25, 77), (234, 23, 59), (585, 27, 88)];
 
-/// Order of the unknowns of a rod.
 type Order = fn(&Rod, &State) -> Layout;
 
 const GIVEN: Order = Rod::layout;
@@ -51,8 +47,8 @@ fn a_chain_keeps_the_order_given() {
     assert_eq!(cheaper, given);
 }
 
-/// Newton steps, factorisations and energy of a cantilever of floppy monomers under a tip force
-/// that bends it by the same angle at every length.
+/// Newton steps, factorisations and energy of a cantilever of floppy monomers, bent by the same
+/// angle at every length.
 fn floppy(monomers: usize) -> (u64, u64, f64) {
     let (mut state, bonds) = filament(monomers, 10, 5);
     let control = state.add_control(2.0 * (60.0 / monomers as f64).powi(2));
@@ -78,7 +74,6 @@ fn floppy(monomers: usize) -> (u64, u64, f64) {
     )
 }
 
-/// 160, 640 and 1600 nm.
 #[test]
 fn steps_hardly_grow_with_length() {
     for (monomers, steps, factorizations) in STEPS {

@@ -1,5 +1,3 @@
-//! Groups of bodies and errors of layouts.
-
 use crate::common;
 use actin_equilibrium::{Group, Layout, LayoutError, Newton, NewtonOptions, Pivot, Stability};
 use actin_mechanics::{Coordinates, Interaction, PointLoad, Slider, State, Vector3, rotation};
@@ -7,7 +5,7 @@ use common::{filament, frame, in_order, point, springs};
 
 type Terms = Vec<Box<dyn Interaction>>;
 
-/// Rotates the last two monomers of a filament about z and shifts them along z.
+/// Rotates the last two monomers about z and shifts them along z.
 fn move_pair(state: &mut State, n: usize, turn: f64, shift: f64) {
     let turn = rotation::exp(Vector3::z() * turn);
     for i in [n - 2, n - 1] {
@@ -30,8 +28,6 @@ fn twisted(groups: Vec<Group>, shift: f64) -> (State, f64, Newton) {
     (state, equilibrium.energy, newton)
 }
 
-/// The energy as a function of the prescribed position has its minimum at the equilibrium of the
-/// group.
 #[test]
 fn a_sliding_pair_finds_the_place_of_least_energy() {
     let bodies = vec![12, 13];
@@ -83,7 +79,7 @@ fn sliding_bodies_of_the_state_are_groups() {
     }
 }
 
-/// Large rotations about a moving pivot, including the second order term of the rotation.
+/// Large rotations about a moving pivot.
 #[test]
 fn a_rigid_group_turns_into_the_force() {
     let mut state = State::default();
@@ -118,7 +114,6 @@ fn a_rigid_group_turns_into_the_force() {
     assert_eq!(stability, Stability::Neutral { modes: 1 });
 }
 
-/// A group that connects both ends is eliminated last.
 #[test]
 fn tied_ends_do_not_fill_the_factor() {
     let entries = |n: usize| {

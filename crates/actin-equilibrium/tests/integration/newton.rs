@@ -1,5 +1,3 @@
-//! Convergence, correctness and failures of Newton's method.
-
 use crate::common;
 use actin_equilibrium::{
     Convergence, Iteration, Layout, Newton, NewtonOptions, Residual, SolveError, Stability, Verdict,
@@ -10,7 +8,6 @@ use common::{ACTIN, Rod, chain, filament, in_order, point, springs};
 
 type Terms = Vec<Box<dyn Interaction>>;
 
-/// A wrong or missing second derivative would give linear convergence.
 #[test]
 fn convergence_is_quadratic_near_the_solution() {
     let (mut state, terms) = ACTIN.loaded(Vector3::x() * 2.0, 1.0);
@@ -41,7 +38,6 @@ fn convergence_is_quadratic_near_the_solution() {
     assert!(equilibrium.history.len() <= 7, "{residuals:?}");
 }
 
-/// The minimum of a rod under a tip force is unique.
 #[test]
 fn the_equilibrium_does_not_depend_on_the_start() {
     let (state, terms) = ACTIN.loaded(Vector3::new(2.0, 0.5, 1.0), 1.0);
@@ -70,7 +66,7 @@ fn the_equilibrium_does_not_depend_on_the_start() {
     }
 }
 
-/// Bonded filaments have zero stiffness at rest against most motions.
+/// Bonded filaments have zero-stiffness modes at rest.
 #[test]
 fn floppy_filaments_are_neutral_at_rest_and_solved_under_load() {
     let n = 31;
@@ -99,7 +95,6 @@ fn floppy_filaments_are_neutral_at_rest_and_solved_under_load() {
     }
 }
 
-/// Extreme case of zero-stiffness modes.
 #[test]
 fn a_chain_hangs_along_the_force() {
     let (mut state, mut terms) = chain();
@@ -113,8 +108,6 @@ fn a_chain_hangs_along_the_force() {
     assert!((end - Vector3::x() * 6.0).norm() < 1e-7, "{end}");
 }
 
-/// Column beyond its Euler load with an indefinite initial stiffness.
-///
 /// Elastica: `P / P_cr = (2 K(k) / pi)^2` with `k = sin(alpha / 2)`, so the tip angle 60 deg needs
 /// `P = 1.151730 P_cr`.
 #[test]
@@ -140,8 +133,8 @@ fn indefinite_starts_lead_to_the_buckled_column() {
     assert_eq!(stability, Stability::Stable);
     let tangent = state.frames.orientation.get(80) * Vector3::z();
     let angle = tangent.z.acos().to_degrees();
-    // Half a segment before the tip, and a discretisation error of 1e-4 of P_cr; the angle is
-    // proportional to the square root of P - P_cr.
+    // The angle is measured half a segment before the tip and depends on the square root of P -
+    // P_cr, which is accurate to 1e-4 P_cr.
     assert!((angle - 60.0).abs() < 0.3, "tip angle {angle}");
 }
 
@@ -182,8 +175,8 @@ fn round_off_floor_is_reported() {
     assert!(equilibrium.floor.force < 1e-8);
 }
 
-/// Loads of a joint at 1e12 nm have a rounding error of 2e-5 pN. An inverted pendulum on a spring,
-/// 0.01 nm off, has a residual of 1e-6 pN, which grows before it decreases.
+/// Loads of a joint at 1e12 nm have a rounding error of 2e-5 pN. An inverted pendulum, 0.01 nm off,
+/// has a residual of 1e-6 pN.
 #[test]
 fn rounding_of_one_body_does_not_stop_another() {
     let mut state = State::default();
@@ -207,10 +200,10 @@ fn rounding_of_one_body_does_not_stop_another() {
     assert!((end - Vector3::z() * -1.1).norm() < 1e-4, "{end}");
 }
 
-/// The returned state must not be the stretched one of an excursion.
+/// Not the stretched state of an excursion.
 #[test]
 fn too_few_steps_keep_the_best_state() {
-    // With both ends held, a straight step stretches the filament in either direction.
+    // With both ends held, a straight step stretches the filament.
     let mut state = ACTIN.state();
     state.points.hold(ACTIN.segments);
     state.frames.hold(ACTIN.segments);
@@ -335,7 +328,7 @@ fn options_are_checked() {
     }
 }
 
-/// A search for a shift with zero or overflowing stiffness would not end.
+/// A search for a shift would not end.
 #[test]
 fn stiffness_without_scale_is_refused() {
     for stiffness in [1.5e308, 1e306, 1e200, 1e-200, 1e-307, 1e-320, 0.0] {
@@ -371,8 +364,7 @@ fn stiffness_without_scale_is_refused() {
     }
 }
 
-/// With thousands of floppy bodies, overshooting at some of them would cost steps of the whole
-/// system.
+/// Overshooting at a few bodies would cost steps of the whole system.
 #[test]
 fn long_floppy_filaments_hardly_overshoot() {
     let n = 1200;
@@ -396,7 +388,6 @@ fn long_floppy_filaments_hardly_overshoot() {
     let is_outing = |step: &&Iteration| step.verdict != Verdict::Decrease;
     let outings = found.history.iter().filter(is_outing).count();
     println!("{outings} of {} steps overshoot", found.history.len());
-    // Measured: 43 and 7; 98 and 39 without stiffening. Rounding changes both by some tens of
-    // percent.
+    // Measured: 43 and 7; 98 and 39 without stiffening.
     assert!(found.history.len() <= 65 && outings <= 15);
 }

@@ -1,5 +1,3 @@
-//! Paths of controls: prescribed rotations, buckling, limit points, interruption.
-
 use crate::common;
 use actin_equilibrium::{
     Group, Jumps, Layout, Newton, NewtonOptions, Path, PathEnd, PathError, PathFailure,
@@ -12,11 +10,9 @@ use std::ops::ControlFlow;
 
 type Terms = Vec<Box<dyn Interaction>>;
 
-/// Rise of an arch (nm).
 const RISE: f64 = 2.0;
 
-/// Shallow arch of two bars with half span 10 nm. Its top moves vertically under `force` at control
-/// 1.
+/// Two bars with half span 10 nm. The top moves vertically under `force` at control 1.
 fn arch(rise: f64, force: f64) -> (State, Terms, Newton) {
     let mut state = State::default();
     for x in [-10.0, 10.0] {
@@ -34,7 +30,7 @@ fn arch(rise: f64, force: f64) -> (State, Terms, Newton) {
     (state, vec![springs, Box::new(load)], newton)
 }
 
-/// Force on the top at height `y`, with its maximum at `L^3 = L0 a^2`.
+/// The maximum is at `L^3 = L0 a^2`.
 fn arch_force(rise: f64, y: f64) -> f64 {
     let length = (100.0 + y * y).sqrt();
     2.0 * 50.0 * (rise.hypot(10.0) / length - 1.0) * y
@@ -46,7 +42,7 @@ fn arch_limit(rise: f64) -> (f64, f64) {
     (y, arch_force(rise, y))
 }
 
-/// Follows a path; returns its result and the values of `see` at all points.
+/// Follows a path and collects the values of `see`.
 fn followed<T>(
     options: PathOptions,
     (newton, state, terms): (&mut Newton, &mut State, &Terms),
@@ -74,7 +70,7 @@ fn a_limit_point_ends_the_path() {
     let solver = (&mut newton, &mut state, &terms);
     let (end, _) = followed(PathOptions::default(), solver, &mut proportional, |_| ());
     let failure = end.unwrap_err();
-    // The limit is at one half, reached to within the smallest step.
+    // The limit is at one half.
     assert!(
         failure.parameter <= 0.5 && failure.parameter > 0.5 - 2e-4,
         "{failure}"
@@ -123,7 +119,6 @@ fn compressed() -> (State, Terms) {
     COLUMN.loaded(Vector3::z() * -6.0, 0.0)
 }
 
-/// Euler load of a clamped-free column.
 #[test]
 fn the_euler_load_ends_a_path_that_must_be_stable() {
     let (mut state, terms) = compressed();
@@ -138,7 +133,7 @@ fn the_euler_load_ends_a_path_that_must_be_stable() {
     assert_eq!(failure.cause, PathError::Unstable { negative: 1 });
     let euler = PI.powi(2) * 3.0e4 / (4.0 * 160.0 * 160.0);
     let found = 6.0 * failure.parameter;
-    // Segments of 1/32: the discrete load deviates by (pi/64)^2 / 12 = 2e-4; steps of 6e-4 pN.
+    // The discrete load deviates by (pi/64)^2 / 12 = 2e-4; steps of 6e-4 pN.
     assert!((found / euler - 1.0).abs() < 6e-4, "{found} not {euler}");
 }
 
@@ -227,7 +222,7 @@ fn options_are_checked() {
     assert_eq!(Path::new(options).unwrap_err().to_string(), message);
 }
 
-/// Very shallow arch, whose motion is too small to be a jump by its size.
+/// The motion is too small to be a jump by its size.
 #[test]
 fn a_small_snap_is_reported() {
     let rise = 0.2;
@@ -242,14 +237,13 @@ fn a_small_snap_is_reported() {
     );
     println!("jumps at {jumps:?}, {} steps refused", end.refused);
     assert_eq!(jumps.len(), 1);
-    // At most eleven halvings before the limit and at it.
+    // At most eleven halvings, twice.
     assert!(end.refused <= 22, "{}", end.refused);
-    // To within the smallest step.
     assert!((jumps[0] - 0.5).abs() < 2e-4, "{jumps:?}");
     assert!(state.points.position.get(2).y < -rise);
 }
 
-/// The end of a rod bends in one direction and then abruptly in another one.
+/// The end of a rod abruptly bends in another direction.
 #[test]
 fn a_change_of_direction_is_not_a_jump() {
     let mut state = ACTIN.state();

@@ -1,5 +1,3 @@
-//! Stable equilibria in one call, and errors.
-
 use crate::common;
 use actin_equilibrium::{
     Coordinates, EquilibriumError, Interaction, Loads, Matrix3, Newton, NewtonOptions, PointLoad,
@@ -47,7 +45,7 @@ const UNCLAMPED: Rod = Rod {
     ..ACTIN
 };
 
-/// Cause of failure of a rod under a transverse tip force (pN).
+/// Transverse tip force (pN).
 fn failure(mut state: State, rod: &Rod, force: f64) -> SolveError {
     let mut terms = rod.interactions();
     let load = PointLoad::at(&mut state, rod.segments, Vector3::x() * force).unwrap();
@@ -58,7 +56,6 @@ fn failure(mut state: State, rod: &Rod, force: f64) -> SolveError {
     }
 }
 
-/// Net force on an unconstrained rod.
 #[test]
 fn a_net_load_on_a_rigid_motion_has_no_equilibrium() {
     for force in [1.0, 1e-3] {
@@ -71,7 +68,7 @@ fn a_net_load_on_a_rigid_motion_has_no_equilibrium() {
     }
 }
 
-/// The lowest stiffness of a long filament is close to rounding, but not zero.
+/// The lowest stiffness is close to rounding.
 #[test]
 fn a_long_filament_is_not_unbounded() {
     let rod = Rod {
@@ -142,7 +139,7 @@ fn an_energy_without_lower_bound_has_no_equilibrium() {
     }
 }
 
-/// Displacement (nm) of the tip of a rotated clamped rod by a transverse force.
+/// Displacement (nm) of the tip of a rotated rod by a transverse force.
 fn tip_moved(rod: &Rod, turn: UnitQuaternion, force: f64) -> f64 {
     let mut state = rod.state();
     for i in 0..=rod.segments {
@@ -174,14 +171,13 @@ fn forces_below_the_tolerance_are_solved() {
             let theory = force * rod.length.powi(3) / (3.0 * rod.bending.x);
             let moved = tip_moved(&rod, turn, force);
             println!("{force:e} pN: {moved:e} nm, {theory:e} in theory");
-            // The discretisation error is 1 / (2 n^2) = 5e-5. Coordinates of 1e4 nm have a rounding
-            // error of 1e-12 nm, about 1e-7 of the smallest deflection.
+            // The discretisation error is 1 / (2 n^2) = 5e-5.
             assert!((moved / theory - 1.0).abs() < 1e-4, "{moved:e}");
         }
     }
 }
 
-/// Large deflection of a rod with stiffness and load scaled by the same factor.
+/// Large deflection.
 #[test]
 fn stiffness_and_loads_scale_together() {
     let tip = |scale: f64| {
@@ -196,7 +192,7 @@ fn stiffness_and_loads_scale_together() {
     for scale in [1e-3, 1e-6, 1e-9, 1e-12] {
         let scaled = tip(scale);
         println!("scale {scale:e}: {scaled:.12} nm instead of {full:.12} nm");
-        // Residuals of 1e-8 of the load at each of 16 nodes, over the stiffness of the tip.
+        // Residuals of 1e-8 of the load at each of 16 nodes.
         assert!((scaled / full - 1.0).abs() < 16e-8, "{scale:e}: {scaled}");
     }
 }

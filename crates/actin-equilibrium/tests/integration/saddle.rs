@@ -1,5 +1,3 @@
-//! Certificates, lowest modes and motion off saddles.
-
 use crate::common;
 use actin_equilibrium::{Layout, Newton, NewtonOptions, Stability, StepSize};
 use actin_mechanics::{Coordinates, Interaction, PointLoad, State, Vector3};
@@ -13,7 +11,7 @@ fn compressed(force: f64) -> (State, Terms) {
     COLUMN.loaded(Vector3::z() * -force, 1.0)
 }
 
-/// Eigenvalues of the stiffness in the metric, from a dense solver.
+/// In the metric of the options.
 fn dense_spectrum(newton: &mut Newton, state: &State, terms: &Terms) -> Vec<f64> {
     let n = newton.layout().unknowns();
     let mut matrix = DMatrix::zeros(n, n);
@@ -56,16 +54,13 @@ fn certificate_and_lowest_mode_agree_with_a_dense_solver() {
         assert_eq!(certificate.negative, negative, "{force} pN");
         assert_eq!(certificate.unresolved, 0);
         let mode = newton.lowest_mode(&state, &terms).unwrap().unwrap();
-        // A dense solver is accurate to rounding of the largest eigenvalue.
+        // Rounding of the largest eigenvalue.
         let accuracy = mode.error + 1e-15 * spectrum[spectrum.len() - 1] * 100.0;
         let error = (mode.eigenvalue - spectrum[0]).abs();
         assert!(error <= accuracy, "{} not {}", mode.eigenvalue, spectrum[0]);
     }
 }
 
-/// A straight column is an equilibrium at any load, with two negative eigenvalues between the first
-/// and the second Euler load in both planes.
-///
 /// Euler loads: (2 n - 1)^2 pi^2 B / (4 L^2) = 2.89 pN and 3.76 pN; the next are nine times larger.
 #[test]
 fn a_straight_column_beyond_the_euler_load_is_a_saddle() {
@@ -80,7 +75,6 @@ fn a_straight_column_beyond_the_euler_load_is_a_saddle() {
     }
 }
 
-/// The minimum is bent about the soft axis.
 #[test]
 fn a_saddle_is_left_along_its_lowest_mode() {
     let (mut state, terms) = compressed(8.0);
@@ -112,7 +106,6 @@ fn a_minimum_is_not_left() {
     assert_eq!(state, before);
 }
 
-/// Rigid motions of an unconstrained body.
 #[test]
 fn rigid_motions_are_neutral() {
     let mut state = State::default();
@@ -138,7 +131,7 @@ fn rigid_motions_are_neutral() {
     assert_eq!(certificate.stability(), Stability::Neutral { modes: 6 });
 }
 
-/// Random displacements of up to 1e-3 nm and 1e-4 rad per axis.
+/// Random displacements of up to 1e-3 nm and 1e-4 rad.
 fn disturbed(straight: &State) -> State {
     let mut state = straight.clone();
     perturb(&mut state, &mut Xorshift::new(4), 1e-3, 1e-4);
@@ -151,7 +144,7 @@ fn disturbed(straight: &State) -> State {
     state
 }
 
-/// The straight column is a minimum below the Euler load and a saddle above.
+/// Minimum below the Euler load, saddle above.
 #[test]
 fn the_nearest_equilibrium_may_be_a_saddle() {
     for (force, negative) in [(2.0, 0), (8.0, 2)] {
@@ -189,7 +182,6 @@ fn an_accelerating_body_has_no_nearest_equilibrium() {
     assert_eq!(newton.nearest(&state, &terms).unwrap(), None);
 }
 
-/// Velocities are unchanged, and a minimum is not displaced.
 #[test]
 fn a_push_has_the_requested_size() {
     let (mut state, terms) = compressed(8.0);

@@ -1,5 +1,3 @@
-//! Assembled stiffness as second derivative of the energy.
-
 use crate::common;
 use actin_equilibrium::{Group, Layout, Pivot};
 use actin_mechanics::{Interaction, PointLoad, Vector3};

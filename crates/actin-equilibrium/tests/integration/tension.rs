@@ -1,18 +1,15 @@
-//! Straight rods under extreme tension.
-
 use crate::common;
 use actin_equilibrium::Convergence;
 use actin_mechanics::{Interaction, PointLoad, State, UnitQuaternion, Vector3};
 use common::{ACTIN, Rod};
 
-/// Ten segments of 10 nm.
 const SHORT: Rod = Rod {
     segments: 10,
     length: 100.0,
     ..ACTIN
 };
 
-/// Clamped rod along the rotated z axis under a longitudinal tip force.
+/// Clamped rod along the rotated z axis with a longitudinal tip force.
 fn pulled(force: f64, turn: UnitQuaternion) -> (State, Vec<Box<dyn Interaction>>) {
     let mut state = SHORT.state();
     for i in 0..=SHORT.segments {
@@ -28,10 +25,9 @@ fn pulled(force: f64, turn: UnitQuaternion) -> (State, Vec<Box<dyn Interaction>>
     (state, terms)
 }
 
-/// A straight rod is linear, `L F / S3`, at any tension. Beyond the critical tension of the next
-/// test the stiffness has negative eigenvalues, which loads along the axis do not meet.
-/// Regularising them would slow down the convergence a thousandfold. In other directions rounding
-/// may lead off the saddle.
+/// `L F / S3` at any tension. Beyond the critical tension of the next test the stiffness has
+/// negative eigenvalues, which loads along the axis do not meet. In other directions rounding may
+/// lead off the saddle.
 #[test]
 fn a_straight_rod_stretches_linearly_at_any_tension() {
     for (force, is_saddle) in [(1e2, false), (3e4, false), (1e5, true), (1e6, true)] {
@@ -48,9 +44,8 @@ fn a_straight_rod_stretches_linearly_at_any_tension() {
             );
             let is_at_floor = found.ending == Convergence::FloorReached;
             assert!(is_at_floor || found.residual.force <= 1e-8, "{force}");
-            // Rounding about a state that rotates freely about the axis may delay convergence.
+            // Rounding may delay convergence.
             assert!(steps <= 150 || is_at_floor, "{force}: {steps}");
-            // Rounding of positions, and the tolerance of 1e-8 pN.
             let is_straight = (strain - exact).abs() < 1e-12 * (1.0 + exact);
             assert!(is_straight || !is_exact, "{force}: {strain}");
             assert_eq!(found.is_saddle(), is_saddle && is_straight, "{force}");
@@ -61,10 +56,9 @@ fn a_straight_rod_stretches_linearly_at_any_tension() {
     }
 }
 
-/// Shear instability of a rod with S1 < S3 beyond `F* = S1 S3 / (S3 - S1)` (3.0e4 pN). Its frames
-/// rotate to `cos(theta) = F* / F`, and the tip moves along the force by `F / S1` of the length.
-/// With the force `n`, `r' = Q (e3 + S^-1 Q^T n)` and `B theta'' = F sin(theta) (1 - F cos(theta) /
-/// F*)`.
+/// Shear instability beyond `F* = S1 S3 / (S3 - S1)` (3.0e4 pN). The frames rotate to `cos(theta) =
+/// F* / F`, and the tip moves along the force by `F / S1` of the length. With the force `n`, `r' =
+/// Q (e3 + S^-1 Q^T n)` and `B theta'' = F sin(theta) (1 - F cos(theta) / F*)`.
 #[test]
 fn a_rod_under_great_tension_turns_its_frames() {
     let [shear, stretch] = [ACTIN.shear.x, ACTIN.shear.z];
@@ -91,7 +85,7 @@ fn a_rod_under_great_tension_turns_its_frames() {
         last.norm()
     );
     assert!(found.saddles_left >= 1 && !found.is_saddle());
-    // A rotation of a frame against its neighbours decays by a factor of a thousand per segment.
+    // Rotations decay by a factor of a thousand per segment.
     assert!((tangent.z - critical / force).abs() < 1e-3);
     assert!((last.norm() / 10.0 - force / shear).abs() < 1e-3);
 }

@@ -1,5 +1,3 @@
-//! Means over a chain, with block errors.
-
 use super::super::pairs::Derivatives;
 use super::super::{STRAINS, SixMatrix, SixVector};
 use super::potential::Potential;

@@ -1,5 +1,3 @@
-//! Normal random numbers from a keyed stream.
-
 use crate::stream::Stream;
 
 /// Separates these streams from the streams of bonds.

@@ -1,5 +1,3 @@
-//! Potential of the sampled distribution.
-
 use super::super::jets::log_density;
 use super::super::pairs::Derivatives;
 use super::super::{Cell, STRAINS, SixVector};
@@ -59,7 +57,6 @@ impl Potential<'_> {
         let moving = coordinates - held.nrows();
         let mut basis = DMatrix::zeros(self.size(), moving + self.free.len());
         let projector = DMatrix::identity(coordinates, coordinates) - held.tr_mul(held);
-        // Eigenvalues of a projector are 0 and 1, in unspecified order.
         let eigen = projector.symmetric_eigen();
         let columns = (0..coordinates).filter(|&k| eigen.eigenvalues[k] > 0.5);
         for (column, k) in columns.enumerate() {

@@ -1,4 +1,4 @@
-//! Energy of a cell with its gradient only, for trajectories.
+//! Energy and gradient of a cell, for trajectories.
 
 use super::super::jets::turned;
 use super::super::pairs::{CellPair, Motion};

@@ -1,11 +1,8 @@
-//! Gradient of the potential and known limits of the sampling.
-
 use super::*;
 use crate::cell::Control::{Load, Strain};
 use crate::{EllipsoidModel, EllipsoidParameters, Hold};
 use actin_mechanics::testing::derivative;
 
-/// kT at 298 K.
 const ROOM: f64 = 4.114;
 
 fn cell() -> Cell {
@@ -17,7 +14,6 @@ fn held(strain: [f64; 6]) -> [Control; 6] {
     strain.map(Strain)
 }
 
-/// Bending, twist, shear and stretch.
 const STRAINED: [f64; 6] = [4e-3, -2e-3, 0.011, 6e-3, 3e-3, -4e-3];
 
 /// Tolerance in standard errors: 100 numbers exceed it by chance once in 1500 runs.
@@ -33,7 +29,7 @@ fn heat(kt: f64, samples: usize) -> Heat {
     }
 }
 
-/// Includes loads and measure of rotations; eight-point differences.
+/// Eight-point differences.
 #[test]
 fn the_gradient_matches_differences_of_the_potential() {
     let cell = cell();
@@ -68,7 +64,7 @@ fn the_gradient_matches_differences_of_the_potential() {
     }
 }
 
-/// Thermal contributions are of order kT: at 1e-7 pN nm, 2e-8 of those at 298 K.
+/// Thermal contributions are of order kT: 2e-8 of those at 298 K.
 #[test]
 fn a_cold_cell_agrees_with_the_relaxed_one() {
     let cell = cell();
@@ -92,7 +88,6 @@ fn a_cold_cell_agrees_with_the_relaxed_one() {
     }
 }
 
-/// A wrong acceptance test would make means depend on the time step.
 #[test]
 fn means_do_not_depend_on_the_step() {
     let cell = cell();
@@ -150,7 +145,7 @@ fn the_tangent_matches_differences_of_the_loads() {
     }
 }
 
-/// Large fluctuations of the strains of one cell limit the agreement to 10 %.
+/// Fluctuations of the strains of one cell limit the agreement to 10 %.
 #[test]
 fn free_strains_fluctuate_by_their_compliance() {
     let cell = cell();
@@ -188,7 +183,6 @@ fn sampling_is_reproducible() {
     assert_ne!(with(3), with(4));
 }
 
-/// Five standard errors of 1e5 numbers.
 #[test]
 fn normal_numbers_are_normal() {
     let mut normal = Normal::new(1, 2);

@@ -1,14 +1,10 @@
-//! Filaments for integration tests.
-
 use actin_ellipsoid::{Anchors, Bonds, EllipsoidModel, EllipsoidParameters, Monomers, Placement};
 use actin_mechanics::State;
 
-/// Default model with the given seed and number of sampled bonds per interface.
 pub(crate) fn model(seed: u64, bonds: usize) -> EllipsoidModel {
     model_with(Anchors::Independent, seed, bonds)
 }
 
-/// Default model with the given choice of bonds.
 pub(crate) fn model_with(anchors: Anchors, seed: u64, bonds: usize) -> EllipsoidModel {
     let mut parameters = EllipsoidParameters {
         anchors,
@@ -20,19 +16,18 @@ pub(crate) fn model_with(anchors: Anchors, seed: u64, bonds: usize) -> Ellipsoid
     EllipsoidModel::new(parameters).expect("the defaults are valid")
 }
 
-/// Default model with the given number of quadrature bonds per interface.
+/// Quadrature bonds.
 #[allow(dead_code, reason = "not every test asks for weighted bonds")]
 pub(crate) fn weighted(points: usize) -> EllipsoidModel {
     model_with(Anchors::Cubature, 0, points)
 }
 
-/// Sampled bonds, few and many, and the built-in quadrature.
 #[allow(dead_code, reason = "not every test asks for all models")]
 pub(crate) fn models(seed: u64) -> [EllipsoidModel; 3] {
     [model(seed, 8), model(seed, 64), weighted(12)]
 }
 
-/// Filament of `count` monomers at rest, starting with lattice index 0.
+/// `count` monomers at rest, starting with lattice index 0.
 pub(crate) fn filament(model: &EllipsoidModel, count: usize) -> (State, Monomers, Bonds) {
     let mut state = State::default();
     let monomers = model

@@ -1,5 +1,3 @@
-//! Second derivative of the energy along carried steps.
-
 use crate::assemble::Assembly;
 use crate::evaluation::Evaluation;
 use crate::{BodyOrder, Layout};
@@ -10,7 +8,7 @@ use actin_mechanics::{
     Vector3, Xorshift, rotation,
 };
 
-/// Springs of zero rest length between anchors of bodies `i` and `i + step`.
+/// Springs of zero rest length between bodies `i` and `i + step`.
 #[derive(Debug)]
 struct Joints {
     bodies: usize,
@@ -69,7 +67,6 @@ impl SecondOrder for Joints {
         for [i, j] in self.pairs() {
             let (_, d) = self.geometry(state, [i, j]);
             let axes = |k| super::matrix(state, k);
-            // Derivatives of the vector between the anchors with respect to the rotations.
             let by_turn = [
                 axes(i) * self.ends[0].cross_matrix(),
                 axes(j) * self.ends[1].cross_matrix() * -1.0,
@@ -93,7 +90,7 @@ impl SecondOrder for Joints {
     }
 }
 
-/// Irregular chain of bodies, each tied to the next two, with a force on the last one.
+/// Irregular chain, each body tied to the next two, with a force on the last one.
 fn chain(held: bool) -> (State, Vec<Box<dyn Interaction>>, Layout) {
     let bodies = 7;
     let (mut state, mut noise) = (State::default(), Xorshift::new(11));
@@ -129,7 +126,6 @@ fn chain(held: bool) -> (State, Vec<Box<dyn Interaction>>, Layout) {
     (state, terms, layout)
 }
 
-/// Far from equilibrium, along steps that move and rotate every body.
 #[test]
 fn stiffness_is_the_second_derivative_along_carried_steps() {
     for held in [true, false] {
@@ -158,7 +154,7 @@ fn stiffness_is_the_second_derivative_along_carried_steps() {
                 assembly.multiply(&step, &mut product);
                 crate::direction::dot(&product, &step)
             };
-            // Rounding of energies of size 100, over 1e-2 twice: 1e-10. The h^8 error is far below.
+            // Rounding of energies of size 100, over 1e-2 twice: 1e-10.
             let is_close = |a: f64, b: f64| (a - b).abs() < 1e-7 * b.abs().max(1.0);
             let (straight, carried) = (along(&plain), along(&turned));
             assert!(is_close(straight, second(false)), "{straight}");

@@ -10,7 +10,7 @@ use actin_equilibrium::{BodyOrder, Layout, Newton, NewtonOptions};
 use actin_mechanics::testing::{push_frame, push_point};
 use actin_mechanics::{Interaction, Point, Spring, Springs, State, UnitQuaternion, Vector3};
 
-/// `n` monomers along z, the first two held, with `bonds` sampled independently per interface.
+/// `n` monomers along z, the first two held, with `bonds` sampled bonds per interface.
 pub(crate) fn filament(n: usize, bonds: usize, seed: u64) -> (State, Bonds) {
     let model = EllipsoidModel::new(EllipsoidParameters::drawn(bonds, seed)).unwrap();
     let mut state = State::default();
@@ -24,7 +24,7 @@ pub(crate) fn filament(n: usize, bonds: usize, seed: u64) -> (State, Bonds) {
     (state, model.bonds(&monomers).unwrap())
 }
 
-/// Springs given by two points, stiffness and rest length.
+/// Two points, stiffness and rest length each.
 pub(crate) fn springs(state: &State, all: Vec<(usize, usize, f64, f64)>) -> Box<dyn Interaction> {
     let spring = |(a, b, stiffness, rest_length)| Spring {
         points: [a, b],
@@ -54,7 +54,6 @@ pub(crate) fn frame(state: &mut State, orientation: UnitQuaternion) -> usize {
     push_frame(state, orientation, [1.0, 1.0, 2.0])
 }
 
-/// Order by index.
 pub(crate) fn in_order(state: &State) -> BodyOrder {
     BodyOrder {
         points: (0..state.points.len()).map(|i| i as f64).collect(),
@@ -62,10 +61,9 @@ pub(crate) fn in_order(state: &State) -> BodyOrder {
     }
 }
 
-/// Asserts that the stiffness is the derivative of the loads in all directions of a layout.
+/// Asserts that the stiffness is the derivative of the loads.
 ///
-/// Along `apply(step, t)` each body moves on a geodesic, so the work of the loads has the
-/// derivative `-step . K step`.
+/// Along `apply(step, t)` the work of the loads has the derivative `-step . K step`.
 pub(crate) fn assert_is_second_derivative(
     interactions: &[Box<dyn Interaction>],
     state: &State,

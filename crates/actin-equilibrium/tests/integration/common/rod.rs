@@ -1,5 +1,3 @@
-//! Clamped rod.
-
 use actin_cosserat::{
     EnergyGradient, Rigidities, RodClamp, RodEnd, RodLayout, RodMaterial, StraightRod,
 };
