@@ -164,7 +164,7 @@ fn a_rod_beyond_the_data_of_its_law_is_reported() {
         let place = Workplace::with(&scene(turn));
         let output = place.run("a");
         let sign = if turn.starts_with('-') { "-" } else { "" };
-        let line = format!("beyond the data of its law: twist {sign}0.0698 rad/nm at s = ");
+        let line = format!("twist {sign}0.0698 rad/nm at s = ");
         println!("{turn}: {output}");
         assert_eq!(output.matches(&line).count(), usize::from(beyond));
         let summary = place.read("a/summary.json");
@@ -194,7 +194,7 @@ fn a_rod_pushed_beyond_the_bound_of_its_twist_is_reported() {
         ));
         let output = place.actin(&["run", "scene.ron", "--out", "a"]);
         println!("{shift}: {}", stdout(&output));
-        let line = " nm, where the bound is 13.80 pN (twist 0.0000 rad/nm)";
+        let line = " nm exceeds the critical value 13.80 pN (twist 0.0000 rad/nm)";
         assert_eq!(stdout(&output).contains(line), unstable);
         let said = "the records: compression 16.77 pN";
         assert_eq!(stdout(&output).contains(said), unstable);
@@ -232,7 +232,7 @@ fn a_law_in_a_bath_is_noted_and_its_fluctuations_are_summed_up() {
     println!("{printed}");
     assert_eq!(printed.matches(note).count(), 1);
     for quantity in ["twist", "curvature"] {
-        let line = format!("fluctuations beyond the data of a law: {quantity} in ");
+        let line = format!("{quantity} fluctuates beyond the data of the rod law in ");
         assert_eq!(printed.matches(&line).count(), 1);
     }
     let summary = place.read("a/summary.json");
