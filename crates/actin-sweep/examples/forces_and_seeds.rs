@@ -1,7 +1,7 @@
 //! Five bond samples at each of two forces, tabulated.
 
 use actin_sweep::sim::SimError;
-use actin_sweep::{ValidatedSweep, Settings, Sweep, SweepDirectory};
+use actin_sweep::{Settings, Sweep, SweepDirectory, ValidatedSweep};
 
 /// A monomer filament with sampled bonds and a transverse tip force.
 const SCENE: &str = "Scene(
