@@ -1,7 +1,6 @@
 #!/usr/bin/env bash
-# Tests the Python package: pytest, types, stubs. Without an argument on the library of the development profile, which
-# `cargo test --workspace` shares; with `release` on the wheel to give away, whose size it says, installed into an environment of
-# its own. All below `target`; says how long each part took.
+# Tests the Python package: pytest, types, stubs. By default uses the library of the development profile, which
+# `cargo test --workspace` shares. With `release`, builds and installs the wheel. All output is below `target`.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 tools="$PWD/target/tools/python"
@@ -27,7 +26,7 @@ if [ "${1:-}" = release ]; then
   [ "$bytes" -lt "$most_bytes" ] || { echo "the wheel has more than $most_bytes bytes"; exit 1; }
   "$tools/bin/pip" install --quiet --force-reinstall --no-deps "$wheel"
 else
-  # All that the tests of the workspace build, so that crates have the same features.
+  # Builds the same targets as the tests of the workspace, so that crates have the same features.
   cargo build --quiet --workspace --lib --bins --tests --examples
   rm -rf "$site"
   version=$(cargo pkgid -p actin-python | sed 's/.*[@#]//')

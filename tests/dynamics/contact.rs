@@ -166,7 +166,7 @@ fn passing_through_between_records_fails() {
     let failure = result.unwrap_err().to_string();
     println!("{failure}");
     assert!(
-        failure.starts_with("bodies that are to stay apart pass through each other at step")
+        failure.starts_with("bodies pass through each other despite their repulsion at step")
             && failure.contains("\"repulsion\"")
             && failure.contains("of filament"),
         "{failure}"

@@ -215,14 +215,14 @@ fn means_of_one_record_are_noted() {
     let told = notes("duration_ns: 2.0, record_every_ns: 2.0", "");
     assert_eq!(told.len(), 1, "{told:?}");
     assert!(
-        told[0].starts_with("observe: means are of 1 record(s)"),
+        told[0].starts_with("observe: means average 1 record(s)"),
         "{told:?}"
     );
     let told = notes("duration_ns: 2.0, record_every_ns: 5.0", "");
     assert_eq!(told.len(), 2, "{told:?}");
     assert!(told[0].contains("longer than the motion"), "{told:?}");
     assert!(
-        told[1].starts_with("observe: means are of 1 record(s)"),
+        told[1].starts_with("observe: means average 1 record(s)"),
         "{told:?}"
     );
     let told = notes("duration_ns: 2.0, record_every_ns: 0.5", "burn_in_ns: 1.6,");

@@ -252,7 +252,7 @@ fn a_path_does_not_lead_filaments_through_each_other() {
         let (failure, _) = failure(outcome);
         let reason = failure.to_string();
         println!("{stiffness} pN/nm, steps of {largest_step}: {reason}");
-        assert!(reason.contains("an interaction keeps away"), "{reason}");
+        assert!(reason.contains("an interaction forbids"), "{reason}");
         // The axis of the one is still on its side of the other.
         let last = &trajectory.records.last().unwrap().state.points.position;
         let x = |filament: usize| {

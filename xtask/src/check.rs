@@ -1,9 +1,9 @@
-//! `cargo xtask check`: everything that must hold before a commit, except the tests.
+//! `cargo xtask check`: all checks before a commit except the tests.
 
 use crate::command::{cargo, execute};
 use anyhow::{Context, Result};
 
-/// A step that cargo carries out.
+/// A step, which is a cargo command.
 struct Step {
     purpose: &'static str,
     arguments: &'static [&'static str],
@@ -36,7 +36,7 @@ const STEPS: [Step; 5] = [
     },
     Step {
         purpose: "benches build",
-        // In the profile of the tests, which build the same libraries.
+        // The test profile shares the compiled libraries of the tests.
         arguments: &["test", "--workspace", "--benches", "--no-run"],
         variable: None,
     },
@@ -47,7 +47,7 @@ const STEPS: [Step; 5] = [
     },
 ];
 
-/// Runs all steps; the first that fails ends it.
+/// Runs the steps in order; stops at the first failure.
 pub(crate) fn run() -> Result<()> {
     for step in STEPS {
         let (purpose, arguments) = (step.purpose, step.arguments);

@@ -1,27 +1,27 @@
-//! Commands of cargo in this workspace.
+//! Cargo commands in this workspace.
 
 use anyhow::{Context, Result, bail};
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode};
 
-/// The folder of the workspace's manifest.
 fn workspace_root() -> PathBuf {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).parent();
-    folder.expect("xtask lies one folder below").to_path_buf()
+    folder
+        .expect("xtask is a subfolder of the workspace")
+        .to_path_buf()
 }
 
-/// A command of cargo, to be executed in the workspace.
 pub(crate) fn cargo(arguments: &[&str]) -> Command {
     let mut command = Command::new("cargo");
     command.args(arguments).current_dir(workspace_root());
     command
 }
 
-/// Executes a command.
+/// Runs a command.
 ///
 /// # Errors
-/// If it does not start or does not succeed.
+/// If the command does not start or fails.
 pub(crate) fn execute(command: &mut Command) -> Result<()> {
     let status = command
         .status()
@@ -32,7 +32,7 @@ pub(crate) fn execute(command: &mut Command) -> Result<()> {
     bail!("{command:?} failed")
 }
 
-/// Runs a study of `actin-studies` in the release profile; its exit code.
+/// Runs a study of `actin-studies` in the release profile and returns its exit code.
 pub(crate) fn study(arguments: &[OsString]) -> ExitCode {
     let mut command = cargo(&[
         "run",

@@ -1,6 +1,7 @@
 //! Tasks of this workspace: `cargo xtask <task>`.
 //!
-//! This program depends on none of the crates, so that `cargo xtask check` compiles each of them once, as the tests do.
+//! This crate depends on no other crate of the workspace, so that `cargo xtask check` compiles each of them only
+//! once.
 
 mod check;
 mod command;
@@ -24,7 +25,7 @@ struct Arguments {
 
 #[derive(Debug, Subcommand)]
 enum Task {
-    /// Formatting, lints as errors, documentation, benches that build, tidiness.
+    /// Checks formatting, lints, documentation, benches and tidiness.
     Check,
     /// Tests the program with random input, kills and equivalent scenes.
     Trials(trials::Options),

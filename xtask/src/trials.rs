@@ -1,14 +1,13 @@
-//! `cargo xtask trials`: thousands of cases of the trials in `crates/actin-cli/tests/trials`, which try
-//! the program with random input, kills and scenes changed without effect.
+//! `cargo xtask trials`: thousands of cases of the randomised tests in `crates/actin-cli/tests/trials`.
 
 use crate::command::cargo;
 
-/// What is tried, and how often.
+/// Options of `cargo xtask trials`.
 #[derive(clap::Args, Debug)]
 pub(crate) struct Options {
-    /// Which trials; all by default.
+    /// Kinds of trials; all by default.
     kinds: Vec<Kind>,
-    /// Cases of each trial; by default some minutes' worth on two cores.
+    /// Number of cases of each kind; by default a few minutes of work on two cores.
     #[arg(long)]
     cases: Option<u64>,
     /// Seed of all cases.
@@ -16,21 +15,19 @@ pub(crate) struct Options {
     seed: u64,
 }
 
-/// A kind of trial.
 #[derive(Clone, Copy, Debug, clap::ValueEnum)]
 enum Kind {
-    /// Spoilt scenes under `actin check`.
+    /// Corrupted scenes under `actin check`.
     Check,
-    /// The same under `actin run`.
+    /// Corrupted scenes under `actin run`.
     Run,
-    /// Runs that are killed until they are done.
+    /// Runs that are killed and resumed until they are done.
     Kill,
-    /// Scenes changed in ways that must not change the answer.
+    /// Scenes changed in ways that must not change the result.
     Metamorphic,
 }
 
 impl Kind {
-    /// The test that tries it.
     fn test(self) -> &'static str {
         match self {
             Self::Check => "spoilt_scenes_are_checked",
@@ -41,7 +38,6 @@ impl Kind {
     }
 }
 
-/// Runs the trials; fails if any case did.
 pub(crate) fn run(options: &Options) -> anyhow::Result<()> {
     let cases = options.cases.map(|cases| cases.to_string());
     let mut test = cargo(&["test", "--workspace", "--test", "trials", "--"]);

@@ -1,4 +1,4 @@
-//! A body diffuses in a fluid, ten times as fast along its axis as across.
+//! Diffusion of a body that is ten times as fast along its axis as across.
 
 use actin_brownian::{
     Brownian, Dashpot, Frame, Friction, Inertia, Layout, Point, State, Stepper, System,
@@ -6,7 +6,7 @@ use actin_brownian::{
 };
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
-    // A body along z that is ten times as hard to move across as along, and hardly turns.
+    // A body along z with tenfold transverse friction and large rotational friction.
     let (mut state, mass, arm) = (State::default(), 1.0, Vector3::zeros());
     let position = Vector3::zeros();
     let point = state.points.push(Point { position, mass });

@@ -1,31 +1,34 @@
-//! Friction of a straight cylinder in a viscous fluid, per length of it.
-
 use std::f64::consts::PI;
 use thiserror::Error;
 
-/// Least ratio of length to diameter: below 2.2 more friction than there is would act at the ends.
+/// Smallest ratio of length to diameter. Below 2.2 the friction at the ends exceeds the total.
 const LEAST_RATIO: f64 = 3.0;
 
-/// A straight cylinder in a fluid: its friction as a whole, shared out along it.
+/// Straight cylinder in a fluid, with its total friction distributed along its length.
 ///
-/// With the viscosity `eta`, the length `L`, the radius `a` and `p = L/(2 a)`, per length:
+/// Friction per length for viscosity `eta`, length `L`, radius `a` and `p = L/(2 a)`:
 ///
-/// - along the axis `2 pi eta / (ln p - 0.207 + 0.980/p - 0.133/p^2)`,
-/// - across it `4 pi eta / (ln p + 0.839 + 0.185/p + 0.233/p^2)`, of which part acts at the ends,
-/// - about it `4 pi eta a^2`,
-/// - of cross-sections that tilt against the axis `pi eta a^2`.
+/// ```text
+/// along the axis:              2 pi eta / (ln p - 0.207 + 0.980/p - 0.133/p^2)
+/// across, including the ends:  4 pi eta / (ln p + 0.839 + 0.185/p + 0.233/p^2)
+/// rotation about the axis:     4 pi eta a^2
+/// tilt of cross-sections:      pi eta a^2
+/// ```
 ///
-/// Friction shared out evenly turns a cylinder end over end too easily, by a third for `p = 20`: fluid that one half drags
-/// along helps the other half when both go the same way only. So friction `e` acts at each end, and the rest evenly,
-/// such that the cylinder moves across with the friction above and turns with
-/// `pi eta L^3 / (3 (ln p - 0.662 + 0.917/p - 0.050/p^2))`.
+/// Uniform friction underestimates the rotational friction end over end by a third for `p = 20`.
+/// Part of the transverse friction is therefore concentrated at the ends, so that the total of the
+/// end-over-end rotation is
 ///
-/// Accuracy: 1 % of numerical solutions for `p` from 2 to 30 along and across (their fit); beyond, the logarithms are
-/// exact in the limit. About the axis it is exact for an infinite cylinder; the ends, left out, add 2 % at
-/// `p = 10` and 8 % at `p = 5`.
+/// ```text
+/// pi eta L^3 / (3 (ln p - 0.662 + 0.917/p - 0.050/p^2))
+/// ```
 ///
-/// For a flexible cylinder these are local frictions: fluid that one part sets in motion carries no other along,
-/// except in the mean through the logarithm. Modes of shorter wavelength have a little more friction than this.
+/// The fits along and across agree with numerical solutions to 1 % for `p` from 2 to 30 and have
+/// the correct limit. The friction about the axis is that of an infinite cylinder; the ends add 2 %
+/// at `p = 10` and 8 % at `p = 5`.
+///
+/// For flexible cylinders the friction is local. Hydrodynamic interaction enters the logarithm
+/// only, and modes of shorter wavelength have slightly more friction.
 ///
 /// ```
 /// use actin_brownian::Cylinder;
@@ -37,10 +40,10 @@ const LEAST_RATIO: f64 = 3.0;
 /// ```
 ///
 /// # Source
-/// Tirado, Lopez Martinez and Garcia de la Torre, J. Chem. Phys. 81 (1984) 2047 (along, across, end over end). About
-/// the axis: Lamb, Hydrodynamics, 6th ed. (1932), article 333; Tirado and Garcia de la Torre, J. Chem. Phys. 73
-/// (1980) 1986, have `3.841 pi eta a^2 (1 + 0.677/p - 0.183/p^2)`. Tilt: the flow `w = omega a^2 cos(phi)/r` along the axis
-/// is harmonic, meets `omega a cos(phi)` on the surface, and its shear stress has this moment.
+/// Along, across, end over end: Tirado, Lopez Martinez and Garcia de la Torre, J. Chem. Phys. 81
+/// (1984) 2047. About the axis: Lamb, Hydrodynamics, 6th ed. (1932), article 333. Tirado and Garcia
+/// de la Torre, J. Chem. Phys. 73 (1980) 1986, give `3.841 pi eta a^2 (1 + 0.677/p - 0.183/p^2)`.
+/// Tilt: moment of the harmonic flow `w = omega a^2 cos(phi)/r` along the axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cylinder {
     viscosity: f64,
@@ -48,28 +51,29 @@ pub struct Cylinder {
     radius: f64,
 }
 
-/// A cylinder whose friction is not known.
+/// Error of the construction of a cylinder.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum CylinderError {
     /// A number is not positive and finite.
     #[error("the {0} must be positive and finite, got {1}")]
     Number(&'static str, f64),
-    /// It is too short.
+    /// The cylinder is too short.
     #[error("a length of {length} nm is less than {LEAST_RATIO} diameters of {diameter} nm")]
     Short {
-        /// Its length (nm).
+        /// Length (nm).
         length: f64,
-        /// Its diameter (nm).
+        /// Diameter (nm).
         diameter: f64,
     },
 }
 
 impl Cylinder {
-    /// A cylinder of `length` and `radius` (nm) in a fluid of `viscosity` (mPa s, which is pN ns/nm^2).
+    /// Creates a cylinder of `length` and `radius` (nm) in a fluid of `viscosity` (mPa s = pN
+    /// ns/nm^2).
     ///
     /// # Errors
-    /// A number that is not positive and finite, a length below three diameters.
+    /// If a number is not positive and finite, or the length is below three diameters.
     pub fn new(viscosity: f64, length: f64, radius: f64) -> Result<Self, CylinderError> {
         let numbers = [
             ("viscosity", viscosity),
@@ -103,7 +107,7 @@ impl Cylinder {
         2.0 * PI * self.viscosity / (p.ln() - 0.207 + 0.980 / p - 0.133 / (p * p))
     }
 
-    /// Friction across the axis, per length (pN ns/nm^2), what acts at the ends included.
+    /// Friction across the axis, per length (pN ns/nm^2), including the ends.
     pub fn across(&self) -> f64 {
         let p = self.ratio();
         4.0 * PI * self.viscosity / (p.ln() + 0.839 + 0.185 / p + 0.233 / (p * p))
@@ -114,20 +118,21 @@ impl Cylinder {
         4.0 * PI * self.viscosity * self.radius * self.radius
     }
 
-    /// Friction of a cross-section that tilts against the axis, per length (pN ns).
+    /// Friction of the tilt of cross-sections, per length (pN ns).
     pub fn tilt(&self) -> f64 {
         0.25 * self.about()
     }
 
-    /// Friction of the cylinder that turns end over end about its middle (pN nm ns).
+    /// Total friction of the rotation end over end about the middle (pN nm ns).
     pub fn end_over_end(&self) -> f64 {
         let p = self.ratio();
         let logarithm = p.ln() - 0.662 + 0.917 / p - 0.050 / (p * p);
         PI * self.viscosity * self.length.powi(3) / (3.0 * logarithm)
     }
 
-    /// Friction across the axis at each end (pN ns/nm): `3 Z_r/L^2 - Z_t/4` with the friction `Z_r` of
-    /// [`end_over_end`](Self::end_over_end), less that of [`tilt`](Self::tilt), and `Z_t` across of the whole cylinder.
+    /// Friction across the axis at each end (pN ns/nm): `3 Z_r/L^2 - Z_t/4`. `Z_r` is the friction
+    /// [`end_over_end`](Self::end_over_end) without [`tilt`](Self::tilt), and `Z_t` the total
+    /// friction across.
     pub fn at_ends(&self) -> f64 {
         let of_whole = self.across() * self.length;
         let turning = self.end_over_end() - self.tilt() * self.length;
@@ -148,7 +153,6 @@ impl Cylinder {
 mod tests {
     use super::*;
 
-    /// What is shared out adds up again: across, and end over end about the middle.
     #[test]
     fn parts_make_up_the_whole() {
         for length in [21.0, 70.0, 160.0, 1000.0, 2e4] {
@@ -165,7 +169,6 @@ mod tests {
         }
     }
 
-    /// A long cylinder is twice as hard to move across as along, to within 1/ln p.
     #[test]
     fn long_cylinders_have_the_friction_of_slender_bodies() {
         let c = Cylinder::new(1.0, 7e8, 3.5).unwrap();

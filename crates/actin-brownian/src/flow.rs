@@ -1,8 +1,6 @@
-//! A fluid that moves.
-
 use actin_mechanics::{Matrix3, UnitQuaternion, Vector3};
 
-/// A flow that is linear in place: `u(x) = velocity + gradient x` (lab frame).
+/// Linear flow `u(x) = velocity + gradient x` (lab frame).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Flow {
     /// Velocity at the origin (nm/ns).
@@ -12,7 +10,7 @@ pub struct Flow {
 }
 
 impl Flow {
-    /// The same velocity everywhere (nm/ns).
+    /// Creates a uniform flow with a velocity (nm/ns).
     pub fn stream(velocity: Vector3) -> Self {
         Self {
             velocity,
@@ -20,7 +18,8 @@ impl Flow {
         }
     }
 
-    /// A velocity in the direction `along` that grows by `rate` (1/ns) in the direction `across`, zero at the origin.
+    /// Creates a shear flow in direction `along` with the shear rate `rate` (1/ns) in direction
+    /// `across`.
     ///
     /// ```
     /// use actin_brownian::{Flow, Vector3};
@@ -34,13 +33,13 @@ impl Flow {
         }
     }
 
-    /// Velocity at a place (nm/ns).
+    /// Velocity at a position (nm/ns).
     pub fn velocity_at(&self, place: Vector3) -> Vector3 {
         self.velocity + self.gradient * place
     }
 
-    /// The angular velocity (rad/ns, axes of the body) at which a slender piece along the body's third axis turns with
-    /// the fluid: across as a line in it does, `t x G t`, about itself by half of the curl.
+    /// Angular velocity (rad/ns, body axes) of a slender body along its third axis `t`: `t x G t`
+    /// across the axis and half of the vorticity about it.
     pub(crate) fn turning(&self, q: UnitQuaternion) -> Vector3 {
         let g = &self.gradient;
         let curl = Vector3::new(

@@ -1,38 +1,39 @@
-//! Friction of bodies in a fluid at rest, as dashpots: their forces, their blocks, and the noise that
-//! belongs to them.
-
 use actin_mechanics::{
     Coordinates, Loads, Matrix3, SecondOrder, State, Stiffness, Vector3, Vectors,
 };
 
-/// Friction of a place that goes with one or two points and is seen from a frame.
+/// Friction at a place that moves with one or two points and a frame.
 ///
-/// The place moves at `u = w_1 v_1 + w_2 v_2 + omega x arm`, and in axes of the frame `c` each component of `u`
-/// meets a force `-zeta_c u_c`. What acts on the bodies follows from the virtual work, so that Onsager's
-/// relations hold.
+/// ```text
+/// u = w_1 v_1 + w_2 v_2 + omega x arm,   F_c = -zeta_c u_c
+/// ```
+///
+/// `v` are the velocities of the points (nm/ns) with weights `w`, and `omega` is the angular
+/// velocity of the frame (rad/ns). `F` is the force at the place (pN), in axes `c` of the frame.
+/// Loads follow from the virtual work, so that the friction matrix is symmetric.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Dashpot {
-    /// Points and their weights; a weight of zero stands for no point.
+    /// Points and their weights; points of zero weight are ignored.
     pub points: [(usize, f64); 2],
-    /// The frame.
+    /// Index of the frame.
     pub frame: usize,
-    /// From the points to the place (nm, body frame).
+    /// Vector from the points to the place (nm, body frame).
     pub arm: Vector3,
-    /// Friction along each axis of the frame (pN ns/nm); at least 0.
+    /// Friction along each axis of the frame (pN ns/nm), at least 0.
     pub friction: Vector3,
 }
 
-/// Friction of a frame that turns.
+/// Rotational friction of a frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TurnDashpot {
-    /// The frame.
+    /// Index of the frame.
     pub frame: usize,
-    /// Friction about each of its axes (pN nm ns); at least 0.
+    /// Friction about each axis of the frame (pN nm ns), at least 0.
     pub friction: Vector3,
 }
 
 impl Dashpot {
-    /// Friction `friction` (pN ns/nm, axes of `frame`) of a place that goes with `point` and `frame`.
+    /// Friction `friction` (pN ns/nm, axes of `frame`) at a place fixed in a body.
     pub fn of_body(point: usize, frame: usize, arm: Vector3, friction: Vector3) -> Self {
         Self {
             points: [(point, 1.0), (point, 0.0)],
@@ -42,9 +43,9 @@ impl Dashpot {
         }
     }
 
-    /// Friction that is spread evenly between two points, as seen from `frame`: with the whole of it,
-    /// `friction` (pN ns/nm), at the middle, and a twelfth on the difference of the two velocities. For velocities
-    /// that are linear in between this is exact.
+    /// Friction spread uniformly between two points, in axes of `frame`. It consists of the total
+    /// `friction` (pN ns/nm) at the middle, and a twelfth of it on the velocity difference. Exact
+    /// for velocities that are linear along the line.
     pub fn of_line([first, second]: [usize; 2], frame: usize, friction: Vector3) -> [Self; 2] {
         let with = |points, friction| Self {
             points,
@@ -62,7 +63,7 @@ impl Dashpot {
         self.points.into_iter().filter(|(_, weight)| *weight != 0.0)
     }
 
-    /// Adds a force (axes of the frame) where the dashpot is.
+    /// Adds the loads of a force at the place (axes of the frame).
     fn add_force(&self, state: &State, force: Vector3, loads: &mut Loads) {
         let in_lab = state.frames.orientation.get(self.frame) * force;
         for (i, weight) in self.points() {
@@ -79,13 +80,13 @@ impl Dashpot {
 /// All friction of a system.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Friction {
-    /// Of places.
+    /// Friction of translations.
     pub dashpots: Vec<Dashpot>,
-    /// Of turns.
+    /// Friction of rotations.
     pub turns: Vec<TurnDashpot>,
 }
 
-/// How bodies move: velocities of points (lab frame) and angular velocities of frames (body frame).
+/// Velocities of points (lab frame) and angular velocities of frames (body frame).
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Velocities {
     pub(crate) points: Vectors,
@@ -93,7 +94,6 @@ pub(crate) struct Velocities {
 }
 
 impl Friction {
-    /// Adds what friction does to the bodies of a state that move with these velocities.
     pub(crate) fn add_loads(&self, state: &State, velocities: &Velocities, loads: &mut Loads) {
         for dashpot in &self.dashpots {
             let q = state.frames.orientation.get(dashpot.frame);
@@ -110,7 +110,6 @@ impl Friction {
         }
     }
 
-    /// Adds random loads: `strength` times the root of each friction times the deviates of each dashpot and each turn.
     pub(crate) fn add_noise(
         &self,
         state: &State,
@@ -131,7 +130,7 @@ impl Friction {
         }
     }
 
-    /// The friction times `factor`, as blocks, in the axes of the state that they are asked for at.
+    /// Friction times `factor` as a matrix, in axes of the state of evaluation.
     pub(crate) fn times(&self, factor: f64) -> Scaled<'_> {
         Scaled {
             friction: self,
@@ -141,7 +140,6 @@ impl Friction {
     }
 }
 
-/// A multiple of the friction, as blocks.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Scaled<'a> {
     friction: &'a Friction,
@@ -150,7 +148,6 @@ pub(crate) struct Scaled<'a> {
 }
 
 impl<'a> Scaled<'a> {
-    /// The same in the axes of another state.
     pub(crate) fn in_axes_of(self, state: &'a State) -> Self {
         Self {
             axes: Some(state),

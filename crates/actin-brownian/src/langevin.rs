@@ -1,5 +1,3 @@
-//! Motion with inertia in a fluid: steps that resolve the stiffness, not the friction.
-
 use crate::friction::{Scaled, Velocities};
 use crate::{BrownianError, Friction};
 use actin_equilibrium::{ImplicitSolver, Layout};
@@ -8,25 +6,28 @@ use actin_mechanics::{
     Coordinates, Loads, Matrix3, SecondOrder, Split, State, Stiffness, System, Thermostat, Vectors,
 };
 
-/// Parts the key of this noise from other uses of the same seed.
+/// Separates this noise from other uses of the same seed.
 const PURPOSE: [u8; 8] = *b"langevin";
 
-/// Makes steps of bodies with inertia that meet friction, with thermal noise or without.
+/// Steps with inertia and friction, with or without thermal noise.
 ///
-/// A step of `h` kicks for `h/2`, drifts for `h/2`, lets friction act, drifts and kicks again. With the inertia `M` and the
-/// friction `Z` of the middle, friction and its noise take velocities `v` to
+/// A step of time `h` consists of a kick over `h/2`, a drift over `h/2`, friction, a drift and a
+/// kick. With the inertia `M` and the friction `Z` at half the step, friction and noise change the
+/// velocities `v` to `v'`:
 ///
-/// `(M + h Z/2) v' = (M - h Z/2) v + sqrt(2 kT h) B xi`, `B B^T = Z`,
+/// ```text
+/// (M + h Z/2) v' = (M - h Z/2) v + sqrt(2 kT h) B xi,   B B^T = Z
+/// ```
 ///
-/// which leaves Maxwell's distribution as it is. For constant `Z` drift under a constant load (`F/Z`, and velocities at the ends of
-/// steps are that), diffusion (`kT/Z`) and the energy of linear modes (`kT/2` at each stable step, 2 over the largest
-/// frequency) are exact however large `h Z/M` is: nothing is split that would be off. Velocities change sign from step to step
-/// where `h Z/M` exceeds 2, and mean little then.
+/// This preserves the Maxwell distribution. For constant `Z` and any `h Z/M` the following are
+/// exact: drift and velocity `F/Z` under a constant load, diffusion `kT/Z`, and mean energy `kT/2`
+/// of linear modes. Steps are stable below 2 over the largest frequency. Velocities alternate in
+/// sign for `h Z/M > 2`.
 ///
 /// The noise is a function of the seed, the number of the step and the index of the dashpot.
 ///
 /// # Source
-/// Gronbech-Jensen and Farago, Mol. Phys. 111 (2013) 983, here with a matrix of friction.
+/// Gronbech-Jensen and Farago, Mol. Phys. 111 (2013) 983, with a friction matrix.
 #[derive(Debug)]
 pub struct Langevin {
     friction: Friction,
@@ -38,10 +39,11 @@ pub struct Langevin {
 }
 
 impl Langevin {
-    /// Steps of `system` with the free unknowns of `layout` and a thermal energy (pN nm; 0 for none) with the seed of its noise.
+    /// Creates the steps of `system` for the unknowns of `layout`, with the thermal energy (pN nm)
+    /// and the seed of the noise. Zero thermal energy disables the noise.
     ///
     /// # Errors
-    /// A thermal energy that is none.
+    /// If the thermal energy is invalid.
     pub fn new(
         system: &System,
         layout: Layout,
@@ -52,7 +54,7 @@ impl Langevin {
         let state = system.state();
         let loads = Loads::zeros(state);
         let mut solver = ImplicitSolver::new(layout);
-        // Settles the order of unknowns.
+        // Determines the order of unknowns.
         let step = 1.0;
         solver.factorize((state, &loads), &[], &Resistance::of(&friction, step));
         Ok(Self {
@@ -72,7 +74,6 @@ impl Langevin {
         })
     }
 
-    /// Lets friction and its noise act for a time `h`.
     fn rub(&mut self, system: &mut System, step: u64, h: f64) {
         let state = system.state();
         self.velocities.points.clone_from(&state.points.velocity);
@@ -99,7 +100,6 @@ impl Langevin {
     }
 }
 
-/// Adds to the velocities of points and the angular velocities of frames.
 fn add(state: &mut State, points: &Vectors, frames: &Vectors) {
     for (i, gain) in points.iter().enumerate() {
         state.points.velocity.add(i, gain);
@@ -130,7 +130,6 @@ impl Stepper for Langevin {
     }
 }
 
-/// Inertia over a time step, and half of the friction.
 struct Resistance<'a> {
     friction: Scaled<'a>,
     h: f64,
@@ -154,7 +153,7 @@ impl SecondOrder for Resistance<'_> {
         for i in points {
             stiffness.push(Point(i), Point(i), of_mass(state.points.mass(i)));
         }
-        // The whole mass of what slides, whatever its points have.
+        // The mass of a slider replaces that of its points.
         for slider in state.sliders.iter() {
             let share = slider.mass / slider.points.len() as f64;
             for &i in &slider.points {

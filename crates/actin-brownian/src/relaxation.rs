@@ -1,31 +1,27 @@
-//! How fast small displacements relax: eigenvalues of the stiffness over those of the friction.
-
 use crate::Friction;
 use actin_equilibrium::{ImplicitSolver, Layout, SolveError};
 use actin_mechanics::{Loads, System, Xorshift};
 use nalgebra::{DMatrix, SymmetricEigen};
 
-/// Most iterations of the subspace: each gains at least the ratio of rates inside to those outside it.
+/// Maximum number of subspace iterations.
 const ITERATIONS: usize = 60;
 
-/// Relative change of all rates in an iteration below which the iteration has converged.
+/// Relative tolerance of the rates.
 const CONVERGED: f64 = 1e-8;
 
-/// Change of a rate over the highest of those that are asked for, below which it is zero to round-off.
+/// Tolerance of zero rates, relative to the highest requested rate.
 const ZERO: f64 = 1e-12;
 
-/// Vectors of the subspace beyond those that are asked for.
+/// Additional vectors of the subspace.
 const BEYOND: usize = 8;
 
-/// What is added to all rates (1/ns) while systems are solved, so that motion without stiffness does not make
-/// them singular; far below what relaxes in a millisecond.
+/// Shift of all rates (1/ns) that avoids singular matrices for zero-stiffness modes.
 const SHIFT: f64 = 1e-9;
 
-/// Seed of the vectors at the start.
 const SEED: u64 = 17;
 
-/// Relaxation of small displacements from a state: solutions of `K v = rate Z v`, with the stiffness `K` as it stands
-/// and the friction `Z`.
+/// Small displacements from a state: eigenvalues of `K v = rate Z v` with the stiffness `K` and the
+/// friction `Z`.
 #[derive(Debug)]
 pub struct Relaxation {
     stiffness: ImplicitSolver,
@@ -33,10 +29,10 @@ pub struct Relaxation {
 }
 
 impl Relaxation {
-    /// That from the present state of `system`, with what `layout` lets move.
+    /// Linearises `system` at its present state for the unknowns of `layout`.
     ///
     /// # Errors
-    /// Interactions without a potential or second derivatives.
+    /// If an interaction has no potential or no second derivatives.
     pub fn new(system: &System, layout: Layout, friction: &Friction) -> Result<Self, SolveError> {
         ImplicitSolver::check(system.interactions())?;
         let state = system.state();
@@ -45,7 +41,7 @@ impl Relaxation {
             interaction.add_loads(state, &mut loads);
         }
         let at = (state, &loads);
-        // The order of unknowns is settled once, for both matrices.
+        // Both matrices use the same order of unknowns.
         let mut stiffness = ImplicitSolver::new(layout);
         stiffness.factorize(at, system.interactions(), &friction.times(SHIFT));
         let mut fluid = ImplicitSolver::new(stiffness.layout().clone());
@@ -53,19 +49,18 @@ impl Relaxation {
         Ok(Self { stiffness, fluid })
     }
 
-    /// The `count` lowest rates (1/ns), in ascending order. Motion that nothing resists has the rate zero to round-off,
-    /// about 1e-13 of the highest; where the state is unstable, rates are negative.
+    /// The `count` lowest rates (1/ns) in ascending order. Zero-stiffness modes have rates of about
+    /// 1e-13 times the highest one. Rates of unstable modes are negative.
     pub fn lowest_rates(&mut self, count: usize) -> Vec<f64> {
         lowest(&mut self.stiffness, &self.fluid, count)
     }
 
-    /// The highest rate (1/ns), from below, to about a hundredth.
+    /// Lower bound of the highest rate (1/ns), accurate to about 1 %.
     pub fn highest_rate(&mut self) -> f64 {
         highest(&self.stiffness, &mut self.fluid)
     }
 }
 
-/// The lowest rates by inverse iteration of a subspace.
 fn lowest(stiffness: &mut ImplicitSolver, fluid: &ImplicitSolver, count: usize) -> Vec<f64> {
     let n = stiffness.unknowns();
     let size = (count + BEYOND).min(n);
@@ -109,7 +104,6 @@ fn has_converged(before: &[f64], now: &[f64]) -> bool {
     before.len() == now.len() && before.iter().zip(now).all(is_settled)
 }
 
-/// Makes vectors orthonormal in the metric of the friction, twice, so that round-off does not spoil it.
 fn orthonormalise(vectors: &mut [Vec<f64>], fluid: &ImplicitSolver) {
     for k in 0..vectors.len() {
         let (before, rest) = vectors.split_at_mut(k);
@@ -126,7 +120,6 @@ fn orthonormalise(vectors: &mut [Vec<f64>], fluid: &ImplicitSolver) {
     }
 }
 
-/// The highest rate by power iteration.
 fn highest(stiffness: &ImplicitSolver, fluid: &mut ImplicitSolver) -> f64 {
     let mut noise = Xorshift::new(SEED);
     let mut v: Vec<f64> = (0..stiffness.unknowns()).map(|_| noise.sample()).collect();

@@ -1,51 +1,56 @@
 //! Overdamped steps that are implicit in the stiffness.
 //!
-//! # The equation
-//! Friction `Z(q)`, loads `f(q)` and thermal noise balance: `Z v = f + noise`, `v` the velocities of points
-//! in the lab and the angular velocities of frames in their own axes. The equilibrium distribution is that of
-//! Boltzmann with the measure of the places and of the rotations (Haar's) if the noise is read in the sense of
-//! Stratonovich and a drift is added: with `Z v = f + sqrt(2 kT) B xi`, `B B^T = Z`, it is
-//! `kT sum_k b_k div b_k`, over the columns `b_k` of `Z^-1 B`. Here it vanishes. A column that moves points has components
-//! that depend on orientations, not on places; one that turns a frame has constant components in the axes of that
-//! frame; so has one that moves a body of a point and a frame. Divergences of all of these are zero, on places and on
-//! rotations. (That asks of dashpots with an arm that each is the only one on its point, or on the same frame as the others.)
+//! # Equation of motion
+//! ```text
+//! Z v = f + sqrt(2 kT) B xi,   B B^T = Z
+//! ```
+//!
+//! `Z(q)` is the friction, `f(q)` are the loads, and `v` are the velocities of points (lab frame)
+//! and the angular velocities of frames (body axes). For these frictions the Boltzmann distribution
+//! is stationary with Stratonovich noise and without a drift term. Dashpots with an arm must be the
+//! only ones on their point, or share their frame with the others.
 //!
 //! # Steps with random stress
-//! From `q_0` over `h`, with the displacements and turns `d` from there to `q_1`,
+//! ```text
+//! Z(q_m) d / h = f(q_1) + sqrt(2 kT / h) B(q_0) xi + sum_e (de/dq)(q_1)^T s_e
+//! ```
 //!
-//! `Z(q_m) d / h = f(q_1) + sqrt(2 kT / h) B(q_0) xi + sum_e (de/dq)(q_1)^T s_e`,
+//! `d` are the displacements and rotations from `q_0` to `q_1` in the time `h`, and `q_m` contains
+//! the frames at half the step. `s_e` is a random stress of an element with strain `e`, of
+//! covariance `kT C` for its stiffness `C` (see [`RandomStress`](actin_mechanics::RandomStress)). A
+//! linear mode `f = -k x` with `z = k h / zeta` becomes
 //!
-//! friction in the axes of frames half way, `q_m`, its noise in those of the start. The last term is the work of the step: a
-//! random stress `s_e` on each element of strain `e`, of the covariance `kT C` with the element's stiffness `C` (see
-//! [`RandomStress`](actin_mechanics::RandomStress)). For loads that are linear, `f = -k x`, with `z = k h / zeta`:
+//! ```text
+//! x_1 = x_0 / (1 + z) + noise of variance (kT / k) (2 z + z^2) / (1 + z)^2
+//! ```
 //!
-//! `x_1 = x_0 / (1 + z) + noise` of the variance `kT/k (2 z + z^2) / (1 + z)^2`,
+//! The variance is `kT/k` for any step; `2 z` is due to friction and `z^2` due to stress. The slope
+//! of the correlation is too small by `z/2`. Stress acts on strains and does not rotate frames of
+//! rods about their own axes. Steps can be thousands of times longer than the relaxation of stretch
+//! and shear.
 //!
-//! so that the variance is `kT/k` at every step. `2 z` is the part of friction, `z^2` that of stress: what is
-//! slow moves as it does without the stress, what relaxes within a step is drawn anew in each and does not remember. Stress
-//! acts on strains, however far bodies turn in a step, and turns no frame of a rod about its own axis. So steps may be
-//! thousands of times longer than stretch and shear take to relax. The slope of a mode's correlation is too small by `z/2`.
+//! Means are exact for short steps, and for independent strains also for long steps. Otherwise
+//! their error is of first order. Interactions without random stress (loads, contacts) need steps
+//! that resolve their relaxation.
 //!
-//! Where strains can be chosen freely, as in an open chain with constant rigidities, steps without end would be exact;
-//! so are steps without length. In between means are of first order in the step. Interactions without random stress (loads,
-//! contact) are right in steps that resolve how their bodies relax against them, and too cold in longer ones.
+//! The friction is taken at half the step and its noise at the start (Fixman). Other places would
+//! lose the drift due to stiff elements with shape-dependent mobility.
 //!
-//! It is solved by Newton's method, whose matrix is the stiffness with friction, `K + Z/h`, and with what stresses add. The
-//! first iteration leaves out what forces add to the stiffness. So do later ones if the matrix is not positive definite: at
-//! first for springs, which give way across if compressed, then for the chains with negative pivots, then for all. Bodies of
-//! a chain carry one another along, and its mean keeps its displacement. Where iterations grow, friction is added. A step is
-//! solved when the rest is within the limits, or below a thousandth of the displacement of the first iteration.
+//! # Solution
+//! Newton's method uses the matrix `K + Z/h` with the contribution of the stresses. The first
+//! iteration omits the geometric stiffness, and so do later ones if the matrix is not positive
+//! definite. If iterations grow, friction is added. A step is solved if the remaining change is
+//! within the limits, or below a thousandth of the first iteration.
 //!
-//! Rods that are isotropic about their axes spin by a radian in steps of some microseconds. Energies do not depend on the spin,
-//! and stresses keep their directions in the lab. The matrix couples spins to spins alone, so that large spins do not slow the
-//! iteration ([`Brownian::with_spinning_frames`]). Linked chains are solved by conjugate gradients,
-//! with the factors of the single chains as preconditioner, where that costs less than a factorisation of the whole.
+//! Rods that are isotropic about their axes spin by a radian in steps of microseconds. Energies do
+//! not depend on the spin, so that the matrix couples spins only to spins
+//! ([`Brownian::with_spinning_frames`]). Coupled chains use conjugate gradients, preconditioned by
+//! the factors of the single chains, if that is cheaper than a factorisation of the whole.
 //!
-//! Friction is that half way and its noise that of the start, as Fixman has it: the elements that are stiff make of the two a
-//! mobility that depends on the shape, and with friction or noise of another place the drift that goes with it is lost.
-//!
-//! Measured on free rods (`cargo test --release -p actin-brownian --test integration long_waves:: -- --ignored --nocapture`): `1 - cos` of the angle
-//! over one and over ten segments over its exact value, 400,000 steps each:
+//! # Accuracy
+//! Mean of `1 - cos` of the angle between segments of free rods over its exact value, from 400,000
+//! steps
+//! (`cargo test --release -p actin-brownian --test integration long_waves:: -- --ignored --nocapture`):
 //!
 //! | segments | step (ns) | one segment | ten segments |
 //! | --- | --- | --- | --- |
@@ -57,25 +62,27 @@
 //! | 12 of 100 nm | 4000 | 1.0012 +- 0.0012 | 0.9937 +- 0.0106 |
 //!
 //! # Steps without noise
-//! An implicit step, `Z(q_1) d / h = f(q_1)`, over `h` to `a` and two over `h/2` to `b`, then as far again from `b` as it is from
-//! `a` (Richardson's extrapolation, in body axes). Of second order; a mode of `z = k h / zeta` is multiplied by
-//! `2/(1 + z/2)^2 - 1/(1 + z)`, so that what is stiff is at rest after each step, however long. A step that is not solved
-//! goes in two halves.
+//! Richardson extrapolation, in body axes, of one implicit step `Z(q_1) d / h = f(q_1)` over `h`
+//! and two over `h/2`. The order is two. A mode with `z = k h / zeta` is multiplied by
+//! `2/(1 + z/2)^2 - 1/(1 + z)`, so that stiff modes relax in one step. A step that does not
+//! converge is halved.
 //!
 //! # Midpoint steps
-//! With noise, where it is asked for: the implicit midpoint rule, in body axes. From `q_0` over `h`, with `d` displacements
-//! and turns over half of the step, `q_m = q_0 exp(d)`, `q_1 = q_m exp(d)`, and
+//! The optional implicit midpoint rule with noise, in body axes: `d` are displacements and
+//! rotations over half the step, `q_m = q_0 exp(d)` and `q_1 = q_m exp(d)`.
 //!
-//! `Z(q_m) 2 d / h = f(q_m) + sqrt(2 kT / h) B(q_m) xi`.
+//! ```text
+//! Z(q_m) 2 d / h = f(q_m) + sqrt(2 kT / h) B(q_m) xi
+//! ```
 //!
-//! Linear modes have `kT/k` at every step. Modes that relax faster than a step change sign
-//! from step to step and forget over `z/4` of them. With noise, stretch and shear of
-//! 40 nm are too warm by 0.2 % in steps of 0.3 ns, 8.6 % in 1 ns: bodies go straight while frames turn. The first steps are
-//! implicit altogether, `f(q_1)`, so that what is out of balance at the start does not alternate for as long.
+//! Linear modes have the variance `kT/k` at any step. Modes that relax faster than a step alternate
+//! in sign. The energy of stretch and shear of 40 nm is too large by 0.2 % in steps of 0.3 ns and
+//! by 8.6 % in steps of 1 ns. The first steps are fully implicit to damp initial imbalances.
 //!
 //! # Source
-//! Implicit steps at the start: Rannacher, Numer. Math. 43 (1984) 309. Noise of the start: Fixman, J. Chem. Phys. 69 (1978)
-//! 1527. Drift: Hutter and Ottinger, J. Chem. Soc. Faraday Trans. 94 (1998) 1403.
+//! Implicit steps at the start: Rannacher, Numer. Math. 43 (1984) 309. Noise of the start: Fixman,
+//! J. Chem. Phys. 69 (1978) 1527. Drift: Hutter and Ottinger, J. Chem. Soc. Faraday Trans. 94
+//! (1998) 1403.
 
 use crate::friction::Velocities;
 use crate::progress::Progress;
@@ -86,29 +93,29 @@ use actin_integrate::{Body, FailureKind, Noise, StepFailure, Stepper};
 use actin_mechanics::{Loads, Split, State, System, Thermostat, Vector3, Vectors, rotation};
 use thiserror::Error;
 
-/// Parts the key of this noise from other uses of the same seed.
+/// Separates this noise from other uses of the same seed.
 const PURPOSE: [u8; 8] = *b"brownian";
 
-/// Midpoint steps at the start that are implicit altogether.
+/// Fully implicit midpoint steps at the start.
 const DAMPED_STEPS: u64 = 4;
 
-/// Longest turn (rad) that one iteration may ask for.
+/// Largest rotation (rad) of an iteration.
 const LARGEST_TURN: f64 = 0.5;
 
-/// How often a step that is not solved is halved.
+/// Largest number of successive halvings of a step.
 const HALVINGS: u32 = 8;
 
-/// Streams of noise of one step: one for each part of it.
+/// Streams of noise per step: one for each part.
 const PARTS: u64 = 1 << (HALVINGS + 1);
 
-/// When a step counts as solved.
+/// Convergence limits of a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StepLimits {
-    /// Largest displacement (nm) of the last iteration; positive.
+    /// Largest displacement (nm) of the last iteration, positive.
     pub displacement: f64,
-    /// Largest turn (rad) of the last iteration; positive.
+    /// Largest rotation (rad) of the last iteration, positive.
     pub rotation: f64,
-    /// Most iterations; at least 1.
+    /// Maximum number of iterations, at least 1.
     pub iterations: usize,
 }
 
@@ -122,7 +129,7 @@ impl Default for StepLimits {
     }
 }
 
-/// Why there are no steps.
+/// Error of the construction of a stepper.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum BrownianError {
@@ -135,7 +142,6 @@ pub enum BrownianError {
 }
 
 impl BrownianError {
-    /// Refuses a thermal energy (pN nm) that is none.
     pub(crate) fn check_thermal_energy(thermal_energy: f64) -> Result<(), Self> {
         if thermal_energy.is_finite() && thermal_energy >= 0.0 {
             Ok(())
@@ -145,7 +151,7 @@ impl BrownianError {
     }
 }
 
-/// Makes overdamped steps of one system.
+/// Overdamped steps of a system.
 ///
 /// The noise is a function of the seed, the number of the step and the index of the dashpot.
 #[derive(Debug)]
@@ -157,19 +163,19 @@ pub struct Brownian {
     solver: ImplicitSolver,
     noise: Noise,
     stresses: Stresses,
-    /// Whether steps are those with random stress.
+    /// Whether the steps include random stress.
     has_stress: bool,
-    /// Frames whose turns about their own axes couple to twist and friction alone.
+    /// Frames with free spin about their own axes.
     axial: Vec<usize>,
-    /// Turn of each of these frames about its axis since the start of a step (rad); zero of others.
+    /// Spin of these frames since the start of a step (rad); zero for others.
     spins: Vec<f64>,
     progress: Progress,
     start: State,
-    /// Loads at the start, where heat is booked.
+    /// Loads at the start, for the heat.
     before: Loads,
-    /// The frames half way through a step with random stress.
+    /// Frames at half the step.
     middle: State,
-    /// The noise of friction in a step with random stress.
+    /// Random loads of the friction.
     random: Loads,
     loads: Loads,
     residual: Loads,
@@ -178,12 +184,13 @@ pub struct Brownian {
 }
 
 impl Brownian {
-    /// Steps of `system` with what `layout` lets move, in `friction`, at the thermal energy `kT` (pN nm);
-    /// at zero there is no noise. Where the order of unknowns is still to be found it is that of the present
-    /// state.
+    /// Creates the steps of `system` for the unknowns of `layout`, with `friction` and the thermal
+    /// energy `kT` (pN nm). Zero thermal energy disables the noise. An unspecified order of
+    /// unknowns is derived from the present state.
     ///
     /// # Errors
-    /// Interactions without a potential or second derivatives, a thermal energy that is none.
+    /// If an interaction has no potential or no second derivatives, or the thermal energy is
+    /// invalid.
     pub fn new(
         system: &System,
         layout: Layout,
@@ -225,7 +232,7 @@ impl Brownian {
         })
     }
 
-    /// The same by midpoint steps: for elements whose strains are far from linear in thermal motion.
+    /// Selects midpoint steps, for elements with strongly nonlinear strains in thermal motion.
     #[must_use]
     pub fn by_midpoints(self) -> Self {
         Self {
@@ -234,8 +241,8 @@ impl Brownian {
         }
     }
 
-    /// Lets frames of rods that are isotropic about their axes spin without effect on other unknowns. Frames must be bare: without
-    /// bodies attached off their axes. A rod spins if all its frames are bare.
+    /// Decouples the spin of rods that are isotropic about their axes from other unknowns. A rod
+    /// spins freely if all its frames are bare, that is, without bodies attached off their axes.
     #[must_use]
     pub fn with_spinning_frames(
         mut self,
@@ -247,25 +254,24 @@ impl Brownian {
         self
     }
 
-    /// The same in a fluid that flows. Steps have to be short against the inverse of the velocity gradient.
+    /// Sets the flow of the fluid. Steps must be short compared with the inverse velocity gradient.
     #[must_use]
     pub fn in_flow(self, flow: Flow) -> Self {
         Self { flow, ..self }
     }
 
-    /// The same with other limits.
+    /// Sets the convergence limits.
     #[must_use]
     pub fn with_limits(self, limits: StepLimits) -> Self {
         Self { limits, ..self }
     }
 
-    /// Iterations, each with a factorisation, of all steps so far.
+    /// Number of iterations of all steps, each with a factorisation.
     pub fn iterations(&self) -> u64 {
         self.iterations
     }
 
-    /// Begins a step of a time `h` here: half of the work of what is driven is booked at each end of it, where a ledger is
-    /// kept.
+    /// Saves the start of a step and adds half of the work of driven bodies to the energy balance.
     fn begin(&mut self, system: &mut System, h: f64) {
         self.start.copy_motion_from(system.state());
         if self.books_heat(system) {
@@ -274,7 +280,6 @@ impl Brownian {
         system.book_work(0.5 * h);
     }
 
-    /// Books what comes from outside in a step that has been made.
     fn book(&self, system: &mut System, h: f64) {
         system.book_work(0.5 * h);
         if self.books_heat(system) {
@@ -282,14 +287,15 @@ impl Brownian {
         }
     }
 
-    /// Whether heat is booked: not with noise. What relaxes within a step then takes and gives about kT in each, so that a
-    /// thousandth that the mean of two loads misses would add up to more than all else.
+    /// Returns `true` if heat is recorded, which is without noise only. With noise, modes that
+    /// relax within a step exchange about kT per step, and the error of a thousandth would dominate
+    /// the balance.
     fn books_heat(&self, system: &System) -> bool {
         system.keeps_ledger() && self.thermal_energy == 0.0
     }
 
-    /// Moves the free bodies of `system` by what friction and noise allow within a time `h`, from
-    /// `self.start`; the noise is that of a step of `of`. Loads, friction and noise are those of the end.
+    /// Solves the implicit step of time `h` from `self.start`, with the noise of a step of time
+    /// `of`. Loads, friction and noise are taken at the end.
     fn solve(&mut self, system: &mut System, h: f64, of: f64) -> Result<(), StepFailure> {
         let strength = (2.0 * self.thermal_energy / of).sqrt();
         let mut extent = StepSize::default();
@@ -316,7 +322,6 @@ impl Brownian {
         Err(self.failure(system, &extent))
     }
 
-    /// The same with random stress; friction is that half way.
     fn solve_stressed(&mut self, system: &mut System, h: f64) -> Result<(), StepFailure> {
         let strength = (2.0 * self.thermal_energy / h).sqrt();
         let noise = (&self.noise.points, &self.noise.frames);
@@ -350,8 +355,8 @@ impl Brownian {
         Err(self.failure(system, &extent))
     }
 
-    /// A step with random stress; one that is not solved goes in two halves, each with noise of its own, which are parts `2 part`
-    /// and `2 part + 1` of the step.
+    /// Makes a step with random stress. A step that does not converge is halved; the halves have
+    /// the numbers `2 part` and `2 part + 1` and separate noise.
     fn step_stressed(
         &mut self,
         system: &mut System,
@@ -380,7 +385,8 @@ impl Brownian {
         self.step_stressed(system, (step, 2 * part + 1), 0.5 * h)
     }
 
-    /// A step without noise; one that is not solved goes in two halves. `parts` is how many of it make up the whole step.
+    /// Makes a step without noise, which is one of `parts` of the whole. It is halved if it does
+    /// not converge.
     fn step_without_noise(
         &mut self,
         system: &mut System,
@@ -389,7 +395,7 @@ impl Brownian {
     ) -> Result<(), StepFailure> {
         self.begin(system, h);
         let start = self.start.clone();
-        // Solves go back to the start, without losing the work booked there.
+        // Restarts must keep the work recorded in the controls.
         self.start.controls.copy_from(&system.state().controls);
         let solved = self.solve_extrapolated(system, h);
         self.start.copy_motion_from(&start);
@@ -404,7 +410,6 @@ impl Brownian {
         self.step_without_noise(system, 2 * parts, 0.5 * h)
     }
 
-    /// An implicit step and two over its halves, extrapolated.
     fn solve_extrapolated(&mut self, system: &mut System, h: f64) -> Result<(), StepFailure> {
         system.drift(h);
         self.solve(system, h, h)?;
@@ -419,7 +424,6 @@ impl Brownian {
         Ok(())
     }
 
-    /// A midpoint step; the first ones are implicit altogether.
     fn step_by_midpoints(
         &mut self,
         system: &mut System,
@@ -441,9 +445,9 @@ impl Brownian {
         Ok(())
     }
 
-    /// Finds the step of an iteration with the stiffness, what stresses add and friction times `factor`. Chains whose
-    /// stiffness is not positive definite, and all in the first iteration, are without what forces add to it. Returns false if
-    /// the equations are not solved.
+    /// Finds the step of an iteration, with the friction times `factor`. The geometric stiffness is
+    /// omitted in the first iteration and where the matrix is indefinite. Returns `false` if the
+    /// equations are not solved.
     fn find_step(&mut self, system: &System, factor: f64) -> bool {
         let (state, interactions) = (system.state(), system.interactions());
         let friction = self.friction.times(factor).in_axes_of(&self.middle);
@@ -478,7 +482,6 @@ impl Brownian {
         }
     }
 
-    /// The body that has moved most in a step that failed.
     fn worst(&self, state: &State) -> Body {
         let moved = |i: usize| {
             let d = state.points.position.get(i) - self.start.points.position.get(i);
@@ -490,7 +493,6 @@ impl Brownian {
         worst.map_or(Body::Frame(0), Body::Point)
     }
 
-    /// Frames half way to `state`.
     fn find_middle(&mut self, state: &State) {
         for i in 0..state.frames.len() {
             let half = rotation::exp(turn(&self.start, state, i) * 0.5);
@@ -499,7 +501,8 @@ impl Brownian {
         }
     }
 
-    /// Velocities over a time `h` from the start to `state`, less those of the fluid at the share `way` of it.
+    /// Velocities relative to the fluid from the start to `state` over a time `h`. The fluid
+    /// velocity is taken at the fraction `way` of the displacement.
     fn find_velocities(&mut self, state: &State, h: f64, way: f64) {
         let (start, velocities) = (&self.start, &mut self.velocities);
         let flows = self.flow != Flow::default();
@@ -521,8 +524,8 @@ impl Brownian {
     }
 }
 
-/// Turn of frame `i` from one state of a step to another (rad, body frame), up to a whole turn: quaternions change continuously
-/// within a step, so that their signs tell a turn from its complement.
+/// Rotation of frame `i` within a step (rad, body frame), up to a full turn. The sign of a
+/// continuous quaternion distinguishes a rotation from its complement.
 fn turn(from: &State, to: &State, i: usize) -> Vector3 {
     let q = from.frames.orientation.get(i).inverse() * to.frames.orientation.get(i);
     if q.w >= 0.0 {
@@ -532,7 +535,7 @@ fn turn(from: &State, to: &State, i: usize) -> Vector3 {
     q.imag() * (2.0 * sine.atan2(q.w) / sine)
 }
 
-/// The turn of frame `i` about its third axis from one state to another (rad).
+/// Rotation of frame `i` about its third axis within a step (rad).
 fn spin(from: &State, to: &State, i: usize) -> f64 {
     let q = from.frames.orientation.get(i).inverse() * to.frames.orientation.get(i);
     2.0 * q.k.atan2(q.w)
@@ -546,7 +549,8 @@ impl StepLimits {
 
 impl Stepper for Brownian {
     fn step(&mut self, system: &mut System, step: u64, h: f64) -> Result<(), StepFailure> {
-        // What is driven goes on to the place of its time; free bodies have no velocity.
+        // Driven bodies move to their position at the end of the step; free bodies have no
+        // velocity.
         if self.thermal_energy == 0.0 {
             self.step_without_noise(system, 1, h)?;
         } else if self.has_stress {

@@ -1,32 +1,29 @@
-//! The random stresses of all interactions, and the blocks that a step adds to the stiffness.
-
 use crate::friction::Scaled;
 use actin_integrate::Noise;
 use actin_mechanics::{Interaction, Loads, RandomStress, SecondOrder, State, Stiffness};
 use std::ops::Range;
 
-/// Parts the key of this noise from other uses of the same seed.
+/// Separates this noise from other uses of the same seed.
 const PURPOSE: [u8; 8] = *b"stresses";
 
-/// Numbers that one index of the noise has.
+/// Numbers per index of the noise.
 const VECTOR: usize = 3;
 
-/// Random stresses of one system.
 #[derive(Debug)]
 pub(crate) struct Stresses {
     noise: Noise,
-    /// The interactions that have any, and where theirs stand.
+    /// Interactions with random stress, and the ranges of their components.
     parts: Vec<(usize, Range<usize>)>,
-    /// As drawn.
+    /// Stresses at the start of the step.
     drawn: Vec<f64>,
-    /// In the axes of frames that have turned since.
+    /// Stresses in the axes of frames that have spun since.
     turned: Vec<f64>,
-    /// Those that balance the elements' own.
+    /// Stresses equal to the elastic stresses of the elements.
     balancing: Vec<f64>,
-    /// True for each interaction whose second derivatives are computed with balancing stresses: the elements' stiffness, which is
-    /// positive, remains.
+    /// Whether the second derivatives of an interaction use balancing stresses. Only the positive
+    /// elastic stiffness then remains.
     is_balanced: Vec<bool>,
-    /// True for each interaction whose axial frames spin freely.
+    /// Whether the axial frames of an interaction spin freely.
     spins: Vec<bool>,
 }
 
@@ -54,7 +51,6 @@ impl Stresses {
         }
     }
 
-    /// Those of a step, with the stiffness at `state`.
     pub(crate) fn draw(
         &mut self,
         interactions: &Interactions,
@@ -72,7 +68,6 @@ impl Stresses {
         }
     }
 
-    /// Lets the axial frames of each interaction spin if all of them are bare; returns the spinning frames.
     pub(crate) fn let_spin(
         &mut self,
         interactions: &Interactions,
@@ -87,7 +82,8 @@ impl Stresses {
         frames
     }
 
-    /// Takes the stresses in the axes of frames that have turned about their own axes by `spins` (rad) since they were drawn.
+    /// Transforms the stresses to the axes of frames that have spun by `spins` (rad) since the
+    /// start.
     pub(crate) fn turn_back(&mut self, interactions: &Interactions, spins: &[f64]) {
         for ((k, range), has_spin) in self.parts.iter().zip(&self.spins) {
             let (drawn, turned) = (&self.drawn[range.clone()], &mut self.turned[range.clone()]);
@@ -99,13 +95,13 @@ impl Stresses {
         }
     }
 
-    /// Sets all interactions to balancing stresses, or to the stresses that act.
     pub(crate) fn balance_all(&mut self, is_balanced: bool) {
         self.is_balanced.fill(is_balanced);
     }
 
-    /// Balances interactions without axial frames, such as springs with negative stiffness across; then rods with one of these
-    /// axial frames, then all interactions. Returns false if all were balanced before.
+    /// Balances further interactions: first those without axial frames, such as compressed springs,
+    /// then chains with one of the given frames, then all. Returns `false` if all were balanced
+    /// before.
     pub(crate) fn balance_more(&mut self, interactions: &Interactions, frames: &[usize]) -> bool {
         let axial = |k: usize| of(interactions, k).axial_frames();
         let has_one = |k: usize| frames.iter().any(|frame| axial(k).contains(frame));
@@ -114,7 +110,6 @@ impl Stresses {
             || self.balance_if(|_| true)
     }
 
-    /// Returns true if the choice changes anything.
     fn balance_if(&mut self, choice: impl Fn(usize) -> bool) -> bool {
         let mut has_changed = false;
         for ((k, _), is_balanced) in self.parts.iter().zip(&mut self.is_balanced) {
@@ -125,7 +120,6 @@ impl Stresses {
         has_changed
     }
 
-    /// Finds the stresses of the interactions that are balanced.
     pub(crate) fn find_balance(&mut self, interactions: &Interactions, state: &State) {
         for ((k, range), is_balanced) in self.parts.iter().zip(&self.is_balanced) {
             if *is_balanced {
@@ -135,7 +129,6 @@ impl Stresses {
         }
     }
 
-    /// Adds the loads of those drawn.
     pub(crate) fn add_loads(&self, interactions: &Interactions, state: &State, loads: &mut Loads) {
         for (k, range) in &self.parts {
             let stresses = &self.turned[range.clone()];
@@ -146,10 +139,9 @@ impl Stresses {
 
 fn of(interactions: &Interactions, k: usize) -> &dyn RandomStress {
     let stress = interactions[k].random_stress();
-    stress.expect("an interaction keeps its kind")
+    stress.expect("interactions do not lose their random stress")
 }
 
-/// Friction over a time step, and the second derivatives of stresses.
 pub(crate) struct Added<'a> {
     pub(crate) friction: Scaled<'a>,
     pub(crate) interactions: &'a Interactions,

@@ -1,14 +1,14 @@
-//! `actin check`: a scene as resolved, its cost, and its time measured on its first steps.
+//! `actin check`: the resolved scene, its cost, and its run time estimated from its first steps.
 
 use crate::SceneArguments;
-use crate::failure::{Failure, Opened};
+use crate::failure::{BuiltScene, Failure};
 use actin_sim::{Assembly, Estimate, RelaxationTimes, Resolution, SectionSpan, Task};
 
-/// Validates a scene and prints it with every default, its counts and its cost.
+/// Validates a scene and prints it with all defaults, its counts and its cost.
 ///
-/// What is not part of the scene is printed as comments, so that the whole is a scene again.
+/// Additional information is printed as RON comments, so that the output is a valid scene.
 pub(crate) fn check(source: &SceneArguments) -> Result<(), Failure> {
-    let opened = Opened::open(source)?;
+    let opened = BuiltScene::open(source)?;
     let plan = opened.plan()?;
     let assembly = plan.assembly();
     println!("{}", plan.scene().to_ron());
@@ -35,7 +35,7 @@ pub(crate) fn check(source: &SceneArguments) -> Result<(), Failure> {
 }
 
 fn print_sections(assembly: &Assembly) {
-    println!("// sections, as resolved on the lattice of monomers:");
+    println!("// sections, on the lattice of monomers:");
     for filament in 0..assembly.filaments.len() {
         if assembly.filaments.len() > 1 {
             let span = &assembly.filaments[filament];
@@ -100,8 +100,8 @@ fn print_thermal(assembly: &Assembly, estimate: Option<&Estimate>) {
             0.5 * energy * assembly.counts().dofs as f64
         );
         println!(
-            "// positions of the fastest mode have {:.4} times the temperature at this step, slower \
-             ones are nearer to it",
+            "// at this time step the positional temperature of the fastest mode is {:.4} times the set \
+             temperature; slower modes deviate less",
             estimate.warmth_of_the_fastest_mode(dynamics)
         );
     }
@@ -132,13 +132,13 @@ fn print_relaxation(times: &RelaxationTimes) {
     let slowest = times.slowest_ns.iter().take(5);
     let slowest: Vec<String> = slowest.map(|time| format!("{time:.4e}")).collect();
     let slowest = if slowest.is_empty() {
-        "the slowest meet no resistance".to_owned()
+        "the slowest modes have zero stiffness".to_owned()
     } else {
         let (slowest, unresisted) = (slowest.join(", "), times.unresisted);
-        format!("slowest in {slowest} ns; {unresisted} motions meet no resistance")
+        format!("slowest {slowest} ns; {unresisted} zero-stiffness modes")
     };
     println!(
-        "// relaxation of small displacements from the state as built: fastest in {:.4e} ns, {slowest}",
+        "// relaxation times of small displacements from the initial state: fastest {:.4e} ns, {slowest}",
         times.fastest_ns
     );
 }

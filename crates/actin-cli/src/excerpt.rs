@@ -1,16 +1,13 @@
-//! The line of a scene in which a mistake is, underlined.
-//!
-//! By `annotate-snippets`, which draws the messages of cargo and brings no crate that clap and indicatif do not.
-//! (miette has error types of its own and brings backtraces, ariadne brings colours of its own.)
+//! The line of a scene that contains a mistake, underlined.
 
 use actin_sim::{SceneError, SceneText};
 use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
 
-/// Columns of a line that are shown.
 const WIDTH: usize = 120;
 
-/// The line of a mistake, underlined, with what was probably meant; what was meant alone where an override is
-/// to blame. Begins with a line feed unless it is empty.
+/// Returns the line of a mistake, underlined, with a suggested spelling.
+///
+/// For a mistake in an override, returns the suggestion only. The text begins with a line feed unless it is empty.
 pub(crate) fn of(text: &SceneText, mistake: &SceneError) -> String {
     let meant = mistake
         .meant

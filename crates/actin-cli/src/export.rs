@@ -1,32 +1,30 @@
-//! `actin export`: a finished run as a file of another program.
+//! `actin export`: conversion of a finished run to a file format of another program.
 
 use crate::failure::Failure;
 use actin_export::{ExportError, FinishedRun, Format};
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
 
-/// What exit codes mean, for the help.
 pub(crate) const EXIT_CODES: &str = "Exit codes:
     0  done
-    2  bad input: a directory without a run or its states, or a file that exists
-   74  the file could not be written; nothing is left of it";
+    2  bad input: not a run directory, no states.npz in it, or the output file exists
+   74  the file could not be written; no partial file remains";
 
 #[derive(Debug, Args)]
 pub(crate) struct ExportArguments {
-    /// The run directory.
+    /// Run directory to convert.
     run: PathBuf,
-    /// Format of the file.
+    /// Output format.
     #[arg(long, value_name = "FORMAT")]
     to: Target,
-    /// The file; by default beside the run directory, with the format behind its name.
+    /// Output file; by default the name of the run directory with the extension of the format.
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
-    /// Replace the file if it exists.
+    /// Replaces an existing file.
     #[arg(long)]
     overwrite: bool,
 }
 
-/// Formats of files.
 #[derive(Clone, Copy, Debug, ValueEnum)]
 enum Target {
     #[value(help = "GSD: OVITO, MDAnalysis, HOOMD-blue")]
@@ -44,7 +42,6 @@ impl Target {
     }
 }
 
-/// Writes the file and says where it is.
 pub(crate) fn export(arguments: &ExportArguments) -> Result<(), Failure> {
     let format = arguments.to.format();
     let run = FinishedRun::open(&arguments.run).map_err(ExportError::from)?;

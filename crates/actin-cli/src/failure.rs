@@ -1,4 +1,4 @@
-//! Why the program ends without a result.
+//! Failures of the program and their exit codes.
 
 use crate::{SceneArguments, excerpt};
 use actin_sim::{
@@ -9,16 +9,15 @@ use std::io::Read as _;
 use std::path::Path;
 use std::process::ExitCode;
 
-/// A failure and the exit code that goes with it.
 #[derive(Debug)]
 pub(crate) enum Failure {
-    /// The scene, or where it should be written to, is not usable: exit code 2.
+    /// The scene, the arguments or the output directory are not usable: exit code 2.
     Input(String),
-    /// The computation broke down: exit code 3.
+    /// Numerical failure: exit code 3.
     Numerical(String),
-    /// What was computed, or printed, could not be written: exit code 74.
+    /// Results or standard output could not be written: exit code 74.
     Unwritten(String),
-    /// A signal asked for the end: exit code 130.
+    /// Interrupted by a signal: exit code 130.
     Interrupted(String),
 }
 
@@ -29,7 +28,7 @@ impl Failure {
             Self::Numerical(_) => ExitCode::from(3),
             // `EX_IOERR` of `sysexits.h`.
             Self::Unwritten(_) => ExitCode::from(74),
-            // What a shell reports of a program that SIGINT, 2, has ended: 128 + 2.
+            // 128 + 2, as a shell reports a program ended by SIGINT (signal 2).
             Self::Interrupted(_) => ExitCode::from(130),
         }
     }
@@ -61,15 +60,13 @@ impl fmt::Display for Failure {
     }
 }
 
-/// A scene that is read, with its text to place problems in.
-pub(crate) struct Read {
+pub(crate) struct ParsedScene {
     pub(crate) scene: Scene,
     text: SceneText,
     name: String,
 }
 
-impl Read {
-    /// Reads the scene and sets what the arguments set.
+impl ParsedScene {
     pub(crate) fn new(source: &SceneArguments) -> Result<Self, Failure> {
         let name = source.scene.display().to_string();
         let bytes = if source.is_standard_input() {
@@ -85,7 +82,7 @@ impl Read {
             text.set(one.clone())
                 .map_err(|error| input(&name, &error))?;
         }
-        // Of standard input, which is in no folder, the working directory.
+        // Standard input has no folder: paths are relative to the working directory.
         let beside = source.scene.parent();
         let folder = beside.filter(|_| !source.is_standard_input());
         let read = text.read_points(folder.unwrap_or(Path::new("")));
@@ -95,35 +92,31 @@ impl Read {
             let reseeded = Drawn::ALL.map(|what| scene.reseed(what, seed));
             if reseeded.iter().sum::<usize>() == 0 {
                 return Err(Failure::Input(format!(
-                    "--seed {seed}: {name} draws nothing: no bonds, thermal noise, imperfections or events of linkers"
+                    "--seed {seed}: {name} has nothing random (sampled bonds, thermal noise, imperfections, linker events): remove --seed"
                 )));
             }
         }
         Ok(Self { scene, text, name })
     }
 
-    /// A problem that showed later.
     pub(crate) fn refuse(&self, problem: &actin_sim::SceneProblem) -> Failure {
         all(&self.name, &self.text, self.text.locate(problem))
     }
 }
 
-/// A scene, read and built, with its text to place later problems in.
-pub(crate) struct Opened {
+pub(crate) struct BuiltScene {
     pub(crate) assembly: Assembly,
     pub(crate) text: SceneText,
     name: String,
 }
 
-impl Opened {
-    /// Notes and warnings that are known before the run.
+impl BuiltScene {
     pub(crate) fn notes(&self, plan: &Plan<'_>) -> Vec<Note> {
         [self.assembly.notes(), plan.notes()].concat()
     }
 
-    /// Reads the scene, sets what the arguments set, and builds it.
     pub(crate) fn open(source: &SceneArguments) -> Result<Self, Failure> {
-        let Read { scene, text, name } = Read::new(source)?;
+        let ParsedScene { scene, text, name } = ParsedScene::new(source)?;
         let assembly =
             Assembly::build(&scene).map_err(|problem| all(&name, &text, text.locate(&problem)))?;
         Ok(Self {
@@ -133,22 +126,18 @@ impl Opened {
         })
     }
 
-    /// What its run will do.
     pub(crate) fn plan(&self) -> Result<Plan<'_>, Failure> {
         Plan::new(&self.assembly).map_err(|problem| self.refuse(&problem))
     }
 
-    /// A problem that showed only when the scene was to run.
     pub(crate) fn refuse(&self, problem: &actin_sim::SceneProblem) -> Failure {
         Failure::Input(self.show(problem))
     }
 
-    /// A problem with its place in the file, or the override that it comes from.
     pub(crate) fn locate(&self, problem: &actin_sim::SceneProblem) -> String {
         placed(&self.name, &self.text.locate(problem))
     }
 
-    /// The same with the line that is to blame.
     fn show(&self, problem: &actin_sim::SceneProblem) -> String {
         shown(&self.name, &self.text, &self.text.locate(problem))
     }
@@ -158,7 +147,6 @@ fn input(name: &str, error: &SceneError) -> Failure {
     Failure::Input(placed(name, error))
 }
 
-/// Every mistake of a text, of which one is known.
 fn all(name: &str, text: &SceneText, first: SceneError) -> Failure {
     let mut mistakes = text.mistakes();
     if mistakes.is_empty() {
@@ -167,22 +155,20 @@ fn all(name: &str, text: &SceneText, first: SceneError) -> Failure {
     listed(name, text, &mistakes)
 }
 
-/// Most mistakes that are listed.
 const LISTED: usize = 20;
 
-/// Mistakes of a file of this name, each with its line underlined.
 pub(crate) fn listed(name: &str, text: &SceneText, mistakes: &[SceneError]) -> Failure {
-    let told = mistakes.iter().take(LISTED);
-    let told = told.map(|mistake| shown(name, text, mistake));
-    let mut told = told.collect::<Vec<_>>().join("\nerror: ");
+    let listed = mistakes.iter().take(LISTED);
+    let listed = listed.map(|mistake| shown(name, text, mistake));
+    let mut listed = listed.collect::<Vec<_>>().join("\nerror: ");
     if mistakes.len() >= LISTED {
-        let more = format!("\nerror: {name} may have more mistakes: these are the first {LISTED}");
-        told.push_str(&more);
+        let more =
+            format!("\nerror: {name} may contain more mistakes; the first {LISTED} are shown");
+        listed.push_str(&more);
     }
-    Failure::Input(told)
+    Failure::Input(listed)
 }
 
-/// A mistake with its place and the line that is to blame.
 fn shown(name: &str, text: &SceneText, mistake: &SceneError) -> String {
     format!("{}{}", placed(name, mistake), excerpt::of(text, mistake))
 }

@@ -1,9 +1,9 @@
-//! `actin run` of a scene whose sections follow its motion: a chain of run directories.
+//! `actin run` with time-dependent resolution: a chain of run directories, one for each stretch.
 
 use crate::RunArguments;
-use crate::failure::{Failure, Opened};
-use crate::run::{Watched, by_default, checkpoints, refuse_own_scene};
-use crate::told::print;
+use crate::failure::{BuiltScene, Failure};
+use crate::report::print;
+use crate::run::{RunSink, by_default, checkpoints, refuse_own_scene};
 use actin_sim::follow::{Beginning, Follower, Left, Stretch};
 use actin_sim::{
     Checkpoints, FollowedDirectory, Outcome, Plan, RunDirectory, RunError, RunLock, Saved, Sink,
@@ -11,17 +11,15 @@ use actin_sim::{
 };
 use std::path::Path;
 
-/// A chain of stretches and where it is written to.
 struct Chain<'a> {
     arguments: &'a RunArguments,
-    opened: &'a Opened,
+    opened: &'a BuiltScene,
     follower: &'a Follower,
     directory: FollowedDirectory,
     beginnings: Vec<Beginning>,
 }
 
-/// Runs the scene, or what is left of it, into its directory.
-pub(crate) fn run(arguments: &RunArguments, opened: &Opened) -> Result<(), Failure> {
+pub(crate) fn run(arguments: &RunArguments, opened: &BuiltScene) -> Result<(), Failure> {
     let out = arguments.out.clone();
     let out = out.unwrap_or_else(|| by_default(&arguments.source));
     let follower = Follower::new(&opened.assembly.scene).map_err(|p| opened.refuse(&p))?;
@@ -35,7 +33,7 @@ pub(crate) fn run(arguments: &RunArguments, opened: &Opened) -> Result<(), Failu
         println!("{} is finished: nothing to resume", out.display());
         return Ok(());
     }
-    // Held to the end of the run.
+    // Held until the end of the run.
     let _lock = claim(arguments, &out, beginnings.is_empty())?;
     if beginnings.is_empty() {
         directory.remove_from(0)?;
@@ -52,7 +50,7 @@ pub(crate) fn run(arguments: &RunArguments, opened: &Opened) -> Result<(), Failu
     print(&summary, &opened.notes(&opened.plan()?), &out);
     if let Some(following) = &summary.following {
         println!(
-            "{} switch(es) added {:.4} pN nm; {:.0} % of the cells were monomers",
+            "{} resolution switch(es) added {:.4} pN nm; on average {:.0} % of the cells were monomers",
             following.switches,
             following.switches_pn_nm,
             100.0 * following.share_of_monomers
@@ -61,7 +59,7 @@ pub(crate) fn run(arguments: &RunArguments, opened: &Opened) -> Result<(), Failu
     Ok(())
 }
 
-/// Whether the motion has ended whose stretches are there; it has to be that of this scene.
+/// Returns whether the run in `out` has ended. A run of another scene or a failed run is an error.
 fn is_finished(out: &Path, follower: &Follower) -> Result<bool, Failure> {
     let place = out.display();
     let written = std::fs::read_to_string(out.join("scene.ron")).unwrap_or_default();
@@ -71,19 +69,17 @@ fn is_finished(out: &Path, follower: &Follower) -> Result<bool, Failure> {
     }
     match ending(out) {
         Some(Status::Failed) => Err(Failure::Numerical(format!(
-            "{place} holds a run that failed; it keeps nothing to resume"
+            "{place} holds a failed run, which cannot be resumed: use --overwrite"
         ))),
         ended => Ok(ended.is_some()),
     }
 }
 
-/// How a run or a stretch has ended.
 fn ending(directory: &Path) -> Option<Status> {
     let summary = RunDirectory::existing(directory).summary().ok()?;
     (summary.status != Status::Interrupted).then_some(summary.status)
 }
 
-/// Makes or opens the directory; what keeps other runs out of it.
 fn claim(arguments: &RunArguments, out: &Path, is_new: bool) -> Result<RunLock, Failure> {
     if !is_new {
         return Ok(RunLock::take(out)?);
@@ -95,7 +91,6 @@ fn claim(arguments: &RunArguments, out: &Path, is_new: bool) -> Result<RunLock, 
 }
 
 impl Chain<'_> {
-    /// Runs stretch after stretch; the summary of all.
     fn advance(mut self) -> Result<Summary, Failure> {
         if let Some(summary) = self.all_done()? {
             return Ok(summary);
@@ -140,7 +135,6 @@ impl Chain<'_> {
         Plan::new(&stretch.assembly).map_err(|problem| self.opened.refuse(&problem))
     }
 
-    /// Directories of the stretches at the beginning that have ended.
     fn done(&self) -> impl Iterator<Item = RunDirectory> + '_ {
         let paths = self.beginnings.iter();
         let paths = paths.map(|one| self.directory.stretch(one.index));
@@ -148,9 +142,12 @@ impl Chain<'_> {
         ended.map(RunDirectory::existing)
     }
 
-    /// The summary of all, where every stretch has ended: each but the last is begun before the one before it ends.
+    /// Returns the summary of the whole motion if all stretches have ended.
+    ///
+    /// The directory of the next stretch is created before a stretch ends, so the last directory belongs to the last
+    /// stretch.
     fn all_done(&self) -> Result<Option<Summary>, Failure> {
-        // One that was killed may have left its checkpoint beside its results.
+        // A killed process can leave a checkpoint next to final results.
         for directory in self.done() {
             directory.remove_checkpoint()?;
         }
@@ -164,8 +161,8 @@ impl Chain<'_> {
         Ok(Some(self.directory.write(&self.beginnings, &last)?))
     }
 
-    /// The stretch with which the chain begins or goes on, and whether it has a checkpoint. What was begun behind one that has
-    /// no results is made again.
+    /// Returns the stretch to run next and whether it has a checkpoint. Directories after a stretch without results
+    /// are removed.
     fn take_up(&mut self) -> Result<(Stretch, bool), Failure> {
         let refused = |problem| self.opened.refuse(&problem);
         let first = self.done().count();
@@ -180,14 +177,13 @@ impl Chain<'_> {
         Ok((stretch, is_begun))
     }
 
-    /// Makes the directory of a stretch.
     fn create(&self, stretch: &Stretch, plan: &Plan<'_>) -> Result<(), Failure> {
         let directory = RunDirectory::create(self.path(stretch), true)?;
         directory.write_scene(plan.scene())?;
         Ok(self.directory.note(&self.beginnings)?)
     }
 
-    /// Makes the directory of a stretch behind a switch, with its first record and a checkpoint.
+    /// Creates the directory of the stretch after a switch, with its first record and a checkpoint.
     fn begin(&mut self, stretch: &Stretch, saved: &Saved) -> Result<(), Failure> {
         self.beginnings.push(stretch.beginning.clone());
         let plan = self.planned(stretch)?;
@@ -202,13 +198,12 @@ impl Chain<'_> {
         kept.checkpoint(&saved.position, &saved.recorded, saved.wall_s);
         if kept.last_failed() {
             let place = directory.path().display();
-            let message = format!("the beginning of {place} could not be written");
+            let message = format!("the initial state of {place} could not be written");
             return Err(Failure::Unwritten(message));
         }
         Ok(())
     }
 
-    /// Runs a stretch until it is left.
     fn left(
         &self,
         stretch: &Stretch,
@@ -216,7 +211,7 @@ impl Chain<'_> {
         saved: Option<Saved>,
         kept: &mut Checkpoints,
     ) -> Result<Left, Failure> {
-        let mut sink = Watched::new(kept);
+        let mut sink = RunSink::new(kept);
         let left = self.follower.advance((stretch, plan), saved, &mut sink);
         sink.finish();
         left.map_err(|error| match error {
@@ -225,7 +220,6 @@ impl Chain<'_> {
         })
     }
 
-    /// Keeps what a broken motion has recorded, and says why it broke.
     fn broken(
         &self,
         (stretch, plan): (&Stretch, &Plan<'_>),
@@ -245,7 +239,6 @@ impl Chain<'_> {
         })
     }
 
-    /// Writes what an interrupted motion has recorded, and says how to go on.
     fn interrupted(&self, last: &Summary) -> Result<Failure, Failure> {
         self.directory.write(&self.beginnings, last)?;
         let place = self.directory.path().display();

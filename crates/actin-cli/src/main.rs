@@ -1,7 +1,7 @@
-//! The `actin` program: runs and checks scenes, sweeps over them, and shows runs.
+//! The `actin` program: checks, runs, sweeps, compares, exports and shows scenes of actin filaments.
 //!
-//! Exit codes: 0 done, 2 bad input, 3 numerical failure, 74 output that could not be written, 130
-//! interrupted with a checkpoint written. A closed pipe on standard output changes nothing.
+//! Exit codes: 0 done, 2 bad input, 3 numerical failure, 74 output could not be written, 130 interrupted with a
+//! checkpoint. A closed pipe on standard output does not change the exit code.
 
 #[macro_use]
 mod streams;
@@ -13,10 +13,10 @@ mod failure;
 mod follow;
 mod manual;
 mod progress;
+mod report;
 mod run;
 mod signals;
 mod sweep;
-mod told;
 mod trade;
 mod view;
 
@@ -27,15 +27,14 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 use std::time::Duration;
 
-/// What exit codes mean, for the help.
 const EXIT_CODES: &str = "Exit codes:
-    0  done (or --resume of a run that is done)
+    0  done, also for --resume of a finished run
     2  bad input: scene, arguments, directory or checkpoint; nothing was computed
-    3  numerical failure: the message names step, time, body and term; or the run ended on a saddle, a
-       filament lost twist, a load is below 100 times the residual, or neighbours moved against each
-       other by their own size. What was computed before is on disk
-   74  the run has ended, but its results could not be written (disk full, limit on file sizes): the
-       message says whether a checkpoint holds them; if so, --resume writes them
+    3  numerical failure; the message names step, time, body and force term. Also: the run ended on a
+       saddle, a filament lost its twist, a load is below 100 times the residual, or neighbouring
+       monomers moved relative to each other by more than their size. Earlier results are on disk
+   74  the run has ended, but its results could not be written (disk full, file size limit); if the
+       message mentions a checkpoint, --resume writes them
   130  interrupted (SIGINT, SIGTERM, SIGHUP): --resume continues; a second SIGINT or SIGTERM ends the
        program at once";
 
@@ -52,44 +51,44 @@ enum Command {
     /// Runs a scene and writes a run directory.
     #[command(after_help = EXIT_CODES)]
     Run(RunArguments),
-    /// Runs a scene for many values of its keys and many seeds, on all cores, into one table.
+    /// Runs a scene for many values of its keys and many seeds, on all cores, and writes one table.
     #[command(after_help = sweep::EXIT_CODES)]
     Sweep(sweep::SweepArguments),
-    /// Writes a finished run as a file of another program.
+    /// Converts a finished run to a file format of another program.
     #[command(after_help = export::EXIT_CODES)]
     Export(export::ExportArguments),
-    /// Prints completions of commands and options for a shell.
+    /// Prints shell completions.
     #[command(hide = true)]
     Completions {
-        /// The shell.
+        /// Shell to complete for.
         shell: clap_complete::Shell,
     },
-    /// Writes manual pages, one for each command, into a folder.
+    /// Writes the manual pages, one for each command.
     #[command(hide = true)]
     Man {
-        /// The folder.
+        /// Output folder.
         folder: PathBuf,
     },
-    /// Validates a scene; prints every default, what it resolves to, its time step and cost. Runs nothing.
+    /// Validates a scene without running it; prints all defaults, the resolved sections, the time step and the cost.
     Check {
         #[command(flatten)]
         source: SceneArguments,
     },
-    /// Runs a scene with every monomer and in cheaper ways beside it: what each costs, and how far it is off.
+    /// Compares error and run time of cheaper models of a scene with the all-monomer model.
     Trade(trade::TradeArguments),
-    /// Writes a page that shows a run in three dimensions, plays through its records and draws its curves.
+    /// Writes an HTML page with a 3D view of a run, its records and its curves, or the pictures of a film.
     View(view::ViewArguments),
 }
 
 #[derive(Debug, Args)]
 struct SceneArguments {
-    /// The scene; `-` reads it from standard input.
+    /// Scene file; `-` reads standard input.
     scene: PathBuf,
-    /// Sets a key of the scene, whether it is written there or not: a path of keys, with indices of lists
-    /// and vectors in brackets, and a value in RON, as in `loads[0].force_pn[2]=-4.0`.
+    /// Overrides a key of the scene, present or not. KEY is a path with indices of lists and vectors in
+    /// brackets; VALUE is RON. Example: `loads[0].force_pn[2]=-4.0`.
     #[arg(long, value_name = "KEY=VALUE")]
     set: Vec<Override>,
-    /// Sets the seed of everything that the scene draws: bonds, thermal noise, imperfections.
+    /// Sets all seeds of the scene: sampled bonds, thermal noise, imperfections, linker events.
     #[arg(long)]
     seed: Option<u64>,
 }
@@ -99,7 +98,6 @@ impl SceneArguments {
         self.scene.as_os_str() == "-"
     }
 
-    /// Whether the file alone is the scene.
     fn is_as_written(&self) -> bool {
         !self.is_standard_input() && self.set.is_empty() && self.seed.is_none()
     }
@@ -109,17 +107,17 @@ impl SceneArguments {
 struct RunArguments {
     #[command(flatten)]
     source: SceneArguments,
-    /// Run directory; by default `runs/` and the name of the scene, `stdin` for standard input.
+    /// Run directory; by default `runs/` and the name of the scene (`runs/stdin` for standard input).
     #[arg(long)]
     out: Option<PathBuf>,
-    /// Replace an earlier run in that directory: only the files that its actin-run.json lists.
+    /// Replaces an earlier run in that directory. Only files listed in its actin-run.json are removed.
     #[arg(long)]
     overwrite: bool,
-    /// Continue from the checkpoint in that directory: the results are those of an uninterrupted run,
-    /// bit for bit. Without a checkpoint the run begins.
+    /// Continues from the checkpoint in that directory. The results are bitwise identical to an uninterrupted
+    /// run. Without a checkpoint the run starts from the beginning.
     #[arg(long, conflicts_with = "overwrite")]
     resume: bool,
-    /// Time between checkpoints.
+    /// Wall-clock time between checkpoints.
     #[arg(long, value_name = "SECONDS", default_value = "60", value_parser = seconds)]
     checkpoint_every: Duration,
 }

@@ -1,4 +1,4 @@
-//! Completions for shells and manual pages, made from the arguments themselves.
+//! Shell completions and manual pages, generated from the argument definitions.
 
 use crate::Arguments;
 use crate::failure::Failure;
@@ -6,15 +6,13 @@ use clap::CommandFactory;
 use clap_complete::Shell;
 use std::path::Path;
 
-/// Prints completions for a shell.
 pub(crate) fn completions(shell: Shell) {
     let mut text = Vec::new();
     clap_complete::generate(shell, &mut Arguments::command(), "actin", &mut text);
     println!("{}", String::from_utf8_lossy(&text).trim_end());
 }
 
-/// Writes `actin.1` and the page of each command, such as `actin-run.1`, into a folder, in the place of those
-/// that are there.
+/// Writes `actin.1` and one page for each command, such as `actin-run.1`, into a folder. Existing pages are replaced.
 pub(crate) fn pages(folder: &Path) -> Result<(), Failure> {
     let unwritten = |error| Failure::Unwritten(format!("{}: {error}", folder.display()));
     std::fs::create_dir_all(folder).map_err(unwritten)?;

@@ -1,18 +1,17 @@
-//! A progress bar on a terminal, nothing elsewhere.
+//! Progress bars, shown on a terminal only.
 
 use actin_sim::At;
 use indicatif::{ProgressBar, ProgressStyle};
 
-/// Steps by which the bar counts simulated time: thousandths of the duration.
+/// Resolution of the bar: thousandths of the duration.
 const TICKS: u64 = 1000;
 
-/// Progress through simulated time.
 pub(crate) struct Progress {
     bar: ProgressBar,
 }
 
 impl Progress {
-    /// A bar; indicatif hides it where standard error is no terminal.
+    /// Creates a bar, which is hidden if standard error is not a terminal.
     pub(crate) fn new() -> Self {
         let bar = ProgressBar::new(TICKS);
         let style = ProgressStyle::with_template("{bar:32} {percent:>3} %  {msg}  remaining {eta}")
@@ -21,11 +20,10 @@ impl Progress {
         Self { bar }
     }
 
-    /// Shows how far the run is.
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,
-        reason = "a share between 0 and 1 of a thousand ticks"
+        reason = "the position is between 0 and 1000"
     )]
     pub(crate) fn show(&self, at: &actin_sim::Progress, steps_per_s: f64) {
         let share = (at.at.value() / at.end).clamp(0.0, 1.0);
@@ -42,13 +40,11 @@ impl Progress {
         ));
     }
 
-    /// Removes the bar.
     pub(crate) fn finish(&self) {
         self.bar.finish_and_clear();
     }
 }
 
-/// A bar of pictures; indicatif hides it where standard error is no terminal.
 pub(crate) fn pictures(count: usize) -> ProgressBar {
     let bar = ProgressBar::new(count as u64);
     let style = ProgressStyle::with_template("{bar:32} {pos} of {len} pictures  remaining {eta}")
@@ -57,7 +53,6 @@ pub(crate) fn pictures(count: usize) -> ProgressBar {
     bar
 }
 
-/// A line that says what runs.
 pub(crate) fn spinner() -> ProgressBar {
     let bar = ProgressBar::new_spinner();
     bar.enable_steady_tick(std::time::Duration::from_millis(200));

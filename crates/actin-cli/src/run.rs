@@ -1,10 +1,10 @@
-//! `actin run`: a scene to its end, and everything it gave into a run directory.
+//! `actin run`: runs a scene and writes its run directory.
 
-use crate::failure::{Failure, Opened};
+use crate::failure::{BuiltScene, Failure};
 use crate::follow;
 use crate::progress::Progress;
+use crate::report::{in_words, print, print_remarks};
 use crate::signals;
-use crate::told::{in_words, print, print_remarks};
 use crate::{RunArguments, SceneArguments};
 use actin_sim::{
     Checkpoints, FailedRun, Failure as Broken, FollowedDirectory, Outcome, Plan, Record, Recorded,
@@ -13,9 +13,8 @@ use actin_sim::{
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-/// Runs a scene, or what is left of it, into its directory.
 pub(crate) fn run(arguments: &RunArguments) -> Result<(), Failure> {
-    let opened = Opened::open(&arguments.source)?;
+    let opened = BuiltScene::open(&arguments.source)?;
     let plan = opened.plan()?;
     for note in opened.notes(&plan) {
         println!("{note}");
@@ -33,17 +32,16 @@ pub(crate) fn run(arguments: &RunArguments) -> Result<(), Failure> {
     run_plan(arguments, &opened, &plan)
 }
 
-/// Runs a plan, or what is left of it, into its directory.
-fn run_plan(arguments: &RunArguments, opened: &Opened, plan: &Plan<'_>) -> Result<(), Failure> {
+fn run_plan(arguments: &RunArguments, opened: &BuiltScene, plan: &Plan<'_>) -> Result<(), Failure> {
     let out = arguments.out.clone();
     let out = out.unwrap_or_else(|| by_default(&arguments.source));
     let directory = RunDirectory::existing(&out);
     let mut checkpoints = checkpoints(arguments, plan, &directory)?;
-    // Before the lock: where nothing will be written, none is needed.
+    // Checked before locking: no lock is needed if nothing will be written.
     if arguments.resume && is_finished(plan, &directory)? {
         return Ok(());
     }
-    // Held to the end of the run.
+    // Held until the end of the run.
     let _lock = claim(arguments, &out)?;
     let saved = match begin(arguments, plan, &directory, &mut checkpoints)? {
         Beginning::New => None,
@@ -67,7 +65,6 @@ fn run_plan(arguments: &RunArguments, opened: &Opened, plan: &Plan<'_>) -> Resul
     Ok(())
 }
 
-/// The run directory of a scene for which none is named.
 pub(crate) fn by_default(source: &SceneArguments) -> PathBuf {
     let name = match source.scene.file_stem() {
         Some(name) if !source.is_standard_input() => name,
@@ -76,22 +73,20 @@ pub(crate) fn by_default(source: &SceneArguments) -> PathBuf {
     Path::new("runs").join(name)
 }
 
-/// Refuses to overwrite the directory in which the scene lies.
 pub(crate) fn refuse_own_scene(arguments: &RunArguments, out: &Path) -> Result<(), Failure> {
     if arguments.overwrite && RunDirectory::existing(out).holds(&arguments.source.scene) {
         let (scene, out) = (arguments.source.scene.display(), out.display());
         return Err(Failure::Input(format!(
-            "{scene} lies in {out}, which is to be overwritten: copy the scene to another place first"
+            "{scene} lies in {out}, which --overwrite would replace: move the scene to another folder"
         )));
     }
     Ok(())
 }
 
-/// Makes or opens the run directory; what keeps other runs out of it.
 fn claim(arguments: &RunArguments, out: &Path) -> Result<Option<RunLock>, Failure> {
     refuse_own_scene(arguments, out)?;
     if arguments.overwrite && FollowedDirectory::is_at(out) {
-        // Of a run that sections followed.
+        // An earlier run with time-dependent resolution.
         FollowedDirectory::at(out).remove_from(0)?;
     }
     if !arguments.resume {
@@ -102,20 +97,16 @@ fn claim(arguments: &RunArguments, out: &Path) -> Result<Option<RunLock>, Failur
     if RunDirectory::existing(out).has_checkpoint() {
         return Ok(Some(RunLock::take(out)?));
     }
-    // There is nothing to resume: the run begins, in the place of one that was killed before it had a
-    // checkpoint or results.
+    // Nothing to resume. A run that was killed before its first checkpoint or results is replaced.
     let is_left = RunDirectory::existing(out).is_unfinished();
     let (_, lock) = RunDirectory::create_locked(out, is_left)?;
     Ok(Some(lock))
 }
 
-/// What there is to begin with.
 enum Beginning {
-    /// A new run.
     New,
-    /// One that was interrupted.
     Saved(Box<Saved>),
-    /// One that is finished, which has been said.
+    /// The run is finished; a message has been printed.
     Finished,
 }
 
@@ -129,7 +120,7 @@ fn begin(
         directory.write_scene(plan.scene())?;
         return Ok(Beginning::New);
     }
-    // Again, now that no other process writes.
+    // Checked again under the lock.
     if is_finished(plan, directory)? {
         return Ok(Beginning::Finished);
     }
@@ -158,7 +149,7 @@ pub(crate) fn checkpoints(
     ))
 }
 
-/// Whether the run has ended and its checkpoint is gone, which is said.
+/// Returns whether the run is finished and has no checkpoint; if so, prints a message.
 fn is_finished(plan: &Plan<'_>, directory: &RunDirectory) -> Result<bool, Failure> {
     if directory.has_checkpoint() {
         return Ok(false);
@@ -168,7 +159,8 @@ fn is_finished(plan: &Plan<'_>, directory: &RunDirectory) -> Result<bool, Failur
     };
     let place = directory.path().display();
     if status == Status::Failed {
-        let message = format!("{place} holds a run that failed; it keeps nothing to resume");
+        let message =
+            format!("{place} holds a failed run, which cannot be resumed: use --overwrite");
         return Err(Failure::Numerical(message));
     }
     println!(
@@ -178,7 +170,7 @@ fn is_finished(plan: &Plan<'_>, directory: &RunDirectory) -> Result<bool, Failur
     Ok(true)
 }
 
-/// An error of the directory; where it keeps a checkpoint, what can be done with that.
+/// Converts an error of the directory. If it holds a checkpoint, the message suggests `--resume`.
 fn hint(out: &Path, error: RunDirectoryError) -> Failure {
     let is_free = !matches!(
         error,
@@ -193,7 +185,6 @@ fn hint(out: &Path, error: RunDirectoryError) -> Failure {
     }
 }
 
-/// Says that a run has results which could not be written, and where they are now.
 fn unwritten(
     arguments: &RunArguments,
     directory: &RunDirectory,
@@ -209,34 +200,32 @@ fn unwritten(
     Failure::Unwritten(if directory.has_checkpoint() {
         let go_on = go_on(arguments, directory);
         format!(
-            "{message}; a checkpoint is kept; once the cause is removed, this writes them: {go_on}"
+            "{message}; a checkpoint is kept; once the cause is removed, write them with: {go_on}"
         )
     } else {
         format!("{message}; a checkpoint could not be written either, so they are lost")
     })
 }
 
-/// The command that goes on with a run.
 fn go_on(arguments: &RunArguments, directory: &RunDirectory) -> String {
     let place = directory.path().display();
     if !arguments.source.is_as_written() {
-        // The scene as it runs, which says the same.
+        // The resolved scene in the run directory, which is equivalent.
         return format!("actin run {place}/scene.ron --out {place} --resume");
     }
     let scene = arguments.source.scene.display();
     format!("actin run {scene} --out {place} --resume")
 }
 
-/// The sink of a run: its directory, and the progress bar.
-pub(crate) struct Watched<'a> {
+pub(crate) struct RunSink<'a> {
     checkpoints: &'a mut Checkpoints,
     progress: Progress,
     started: Instant,
-    /// Steps at the first look.
+    /// Number of steps at the first update.
     first: Option<u64>,
 }
 
-impl<'a> Watched<'a> {
+impl<'a> RunSink<'a> {
     pub(crate) fn new(checkpoints: &'a mut Checkpoints) -> Self {
         Self {
             checkpoints,
@@ -246,13 +235,12 @@ impl<'a> Watched<'a> {
         }
     }
 
-    /// Takes the progress bar away.
     pub(crate) fn finish(&mut self) {
         self.progress.finish();
     }
 }
 
-impl Sink for Watched<'_> {
+impl Sink for RunSink<'_> {
     fn record(&mut self, record: &Record) {
         self.checkpoints.record(record);
     }
@@ -276,22 +264,20 @@ impl Sink for Watched<'_> {
     }
 }
 
-/// What is to be run, and where.
 struct Task<'a> {
     arguments: &'a RunArguments,
-    opened: &'a Opened,
+    opened: &'a BuiltScene,
     plan: &'a Plan<'a>,
     directory: &'a RunDirectory,
 }
 
 impl Task<'_> {
-    /// The run itself.
     fn advance(
         &self,
         saved: Option<Saved>,
         checkpoints: &mut Checkpoints,
     ) -> Result<Outcome, Failure> {
-        let mut sink = Watched::new(checkpoints);
+        let mut sink = RunSink::new(checkpoints);
         let outcome = match saved {
             None => self.plan.run_into(&mut sink),
             Some(saved) => self.plan.resume_into(saved, &mut sink),
@@ -303,7 +289,6 @@ impl Task<'_> {
         })
     }
 
-    /// Writes what an interrupted run has recorded, and says how to go on.
     fn interrupted(&self, checkpoints: &Checkpoints, outcome: &Outcome) -> Failure {
         let directory = self.directory;
         let place = directory.path().display();
@@ -327,7 +312,6 @@ impl Task<'_> {
         Failure::Interrupted(format!("{message}; to continue: {go_on}"))
     }
 
-    /// Keeps what a broken run has recorded, and says why it broke.
     fn broken(&self, checkpoints: &Checkpoints, failed: &FailedRun) -> Failure {
         let (why, kept) = match &failed.failure {
             Broken::LoadLost(problem) => (self.opened.locate(problem), "the equilibria are"),
@@ -352,5 +336,4 @@ impl Task<'_> {
     }
 }
 
-/// What is kept of a run that broke off.
 const GOOD: &str = "everything up to the last good state is";

@@ -1,21 +1,21 @@
-//! Signals: which ask a run to leave, and which must not end the program.
+//! Signal handling.
 
 use std::io;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
-/// A flag that SIGINT, SIGTERM and SIGHUP set. The second SIGINT or SIGTERM ends the program
-/// at once; SIGHUP, which a terminal that closes may send more than once, does not.
+/// Returns a flag that SIGINT, SIGTERM and SIGHUP set. A second SIGINT or SIGTERM ends the program at once.
 ///
-/// SIGHUP stays ignored if it was when the program started, as `nohup` has it.
+/// A second SIGHUP does not, since a closing terminal can send several. SIGHUP remains ignored if it was ignored when
+/// the program started (`nohup`).
 pub(crate) fn interruption() -> io::Result<Arc<AtomicBool>> {
     let interrupted = Arc::new(AtomicBool::new(false));
     register(&interrupted)?;
     Ok(interrupted)
 }
 
-/// Lets a write beyond the limit on the size of files (`ulimit -f`) fail with an error, which is told,
-/// where SIGXFSZ would end the program.
+/// Ignores SIGXFSZ, so that a write beyond the file size limit (`ulimit -f`) returns an error instead of ending the
+/// program.
 pub(crate) fn outlive_file_size_limit() -> io::Result<()> {
     #[cfg(unix)]
     signal_hook::flag::register(signal_hook::consts::SIGXFSZ, Arc::default())?;
@@ -27,7 +27,7 @@ fn register(interrupted: &Arc<AtomicBool>) -> io::Result<()> {
     use signal_hook::flag;
     let asked = Arc::new(AtomicBool::new(false));
     for signal in [SIGINT, SIGTERM] {
-        // In this order: the first signal finds the flag still down, and is not yet the second.
+        // The order matters: at the first signal the flag is still unset.
         flag::register_conditional_default(signal, Arc::clone(&asked))?;
         flag::register(signal, Arc::clone(&asked))?;
         flag::register(signal, Arc::clone(interrupted))?;
@@ -39,7 +39,7 @@ fn register(interrupted: &Arc<AtomicBool>) -> io::Result<()> {
     Ok(())
 }
 
-/// Whether the program was started with `signal` ignored, as far as the system tells: Linux does.
+/// Returns whether `signal` was ignored at the start of the program; always false outside Linux.
 #[cfg(unix)]
 fn is_ignored(signal: i32) -> bool {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();

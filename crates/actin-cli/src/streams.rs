@@ -1,16 +1,15 @@
-//! Lines for the standard streams: `println!` and `eprintln!` as this program means them.
+//! `println!` and `eprintln!` that do not panic on write errors.
 //!
-//! Those of the standard library panic where a line cannot be written, and a run would be lost with
-//! its reader. Those of this module stand in their place. A reader that has gone away (`| head`) wants no
-//! more lines: they are dropped, the program goes on, and its exit code says what it has done. If standard
-//! output fails for another reason (a full disk), [`ending`] tells. Control characters, which names of files may hold,
-//! are written as `\u{1b}`: no terminal obeys them.
+//! The macros of the standard library panic if a line cannot be written, which would lose the run. After the reader
+//! of standard output has closed the pipe (`| head`), lines are dropped and the exit code is unaffected. Other
+//! failures of standard output (disk full) are returned by [`ending`]. Control characters, which file names can
+//! contain, are escaped as `\u{1b}`.
 
 use std::fmt;
 use std::io::{self, Write};
 use std::sync::{Mutex, PoisonError};
 
-/// Why standard output is not written to any more.
+/// First write error of standard output.
 static FAILURE: Mutex<Option<io::Error>> = Mutex::new(None);
 
 macro_rules! println {
@@ -25,10 +24,10 @@ macro_rules! eprintln {
     };
 }
 
-/// Writes a line to standard output, as long as that can be written to.
+/// Writes a line to standard output, unless an earlier write failed.
 pub(crate) fn print_line(line: fmt::Arguments<'_>) {
     if cfg!(test) {
-        // Which the test harness captures.
+        // Captured by the test harness.
         return std::println!("{line}");
     }
     let mut failure = FAILURE.lock().unwrap_or_else(PoisonError::into_inner);
@@ -37,7 +36,6 @@ pub(crate) fn print_line(line: fmt::Arguments<'_>) {
     }
 }
 
-/// Writes a line to standard error. A failure to write there is ignored.
 pub(crate) fn print_error_line(line: fmt::Arguments<'_>) {
     if cfg!(test) {
         return std::eprintln!("{line}");
@@ -45,7 +43,6 @@ pub(crate) fn print_error_line(line: fmt::Arguments<'_>) {
     let _ = writeln!(io::stderr(), "{}", visible(line));
 }
 
-/// A line with control characters in words, but for line feeds and tabs.
 fn visible(line: fmt::Arguments<'_>) -> String {
     let line = line.to_string();
     let mut visible = String::with_capacity(line.len());
@@ -59,7 +56,7 @@ fn visible(line: fmt::Arguments<'_>) -> String {
     visible
 }
 
-/// Whether all lines have been written to standard output, or to a reader that has had enough of them.
+/// Flushes standard output and returns its first write error. A closed pipe is not an error.
 pub(crate) fn ending() -> Result<(), String> {
     let mut failure = FAILURE.lock().unwrap_or_else(PoisonError::into_inner);
     let failure = failure.take().or_else(|| io::stdout().flush().err());

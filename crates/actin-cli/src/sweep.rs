@@ -1,70 +1,67 @@
-//! `actin sweep`: many runs of a scene, and one table.
+//! `actin sweep`: runs a scene many times and tabulates the results.
 
 use crate::failure::{self, Failure};
 use crate::{seconds, signals};
 use actin_sim::{RunDirectoryError, SceneText};
-use actin_sweep::{Design, Ended, Opened, Priced, Progress, Settings, SweepDirectory, SweepError};
+use actin_sweep::{
+    Design, Progress, Settings, SweepCost, SweepDirectory, SweepError, SweepOutcome, ValidatedSweep,
+};
 use clap::{Args, ValueEnum};
 use indicatif::{ProgressBar, ProgressStyle};
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-/// What exit codes mean, for the help.
 pub(crate) const EXIT_CODES: &str = "Exit codes:
-    0  done; runs that failed are rows of runs.csv, with the reason
+    0  done; failed runs are rows of runs.csv with the reason
     2  bad input: sweep, scene, arguments or directory
-    3  every run failed; runs.csv has the reasons
-   74  results could not be written; once the cause is removed, --resume goes on
-  130  interrupted: runs that have ended stay, the others have checkpoints; --resume continues";
+    3  every run failed; the reasons are in runs.csv
+   74  results could not be written; once the cause is removed, --resume continues
+  130  interrupted: finished runs are kept, other started runs have checkpoints; --resume continues";
 
-/// Points that `--check` shows of one key, and refusals that it shows.
 const SHOWN: usize = 8;
 
-/// Points that `--check` builds at most.
 const BUILT: usize = 1000;
 
 #[derive(Debug, Args)]
 pub(crate) struct SweepArguments {
-    /// The sweep.
+    /// Sweep file.
     sweep: PathBuf,
     /// Sweep directory; by default `sweeps/` and the name of the sweep.
     #[arg(long)]
     out: Option<PathBuf>,
-    /// Continue: runs that have ended stay, the others go on from their checkpoints. The tables are those of
-    /// a sweep that was not interrupted, byte for byte. Where there is nothing to continue the sweep begins.
+    /// Continues an earlier sweep: finished runs are kept, others continue from their checkpoints. The tables are
+    /// identical to those of an uninterrupted sweep. Without an earlier sweep, a new one begins.
     #[arg(long)]
     resume: bool,
-    /// Say how many runs there are and what they cost; run nothing.
+    /// Prints the number of runs and their cost without running them.
     #[arg(long, conflicts_with_all = ["resume", "only", "emit"])]
     check: bool,
-    /// Runs made at the same time, each on one core; as many as there are cores by default.
+    /// Number of simultaneous runs, each on one core; by default the number of cores.
     #[arg(long, value_name = "N")]
     jobs: Option<NonZeroUsize>,
-    /// Make or continue these runs alone, as in 3,10-19, and no table. Several processes may do so in one
-    /// directory.
+    /// Makes or continues only these runs, for example 3,10-19, and writes no table. Several processes can use
+    /// this option in one directory.
     #[arg(long, value_name = "RUNS", value_parser = numbers, conflicts_with = "emit")]
     only: Option<Numbers>,
-    /// Write a workflow that makes the runs into the directory, and run nothing.
+    /// Writes a workflow into the directory without running it.
     #[arg(long, value_name = "ENGINE")]
     emit: Option<Engine>,
-    /// Time between checkpoints of a run.
+    /// Wall-clock time between checkpoints of a run.
     #[arg(long, value_name = "SECONDS", default_value = "60", value_parser = seconds)]
     checkpoint_every: Duration,
 }
 
-/// What runs a workflow.
+/// Workflow engines.
 #[derive(Clone, Copy, Debug, ValueEnum)]
 enum Engine {
-    /// Snakemake 9: one machine, or Slurm, Kubernetes and others through its executors.
+    /// Snakemake 9, on one machine or through its executors for Slurm, Kubernetes and others.
     Snakemake,
 }
 
-/// Numbers of runs.
 #[derive(Clone, Debug)]
 struct Numbers(Vec<usize>);
 
-/// Numbers and ranges of numbers with commas between them.
 fn numbers(text: &str) -> Result<Numbers, String> {
     let mut all = Vec::new();
     for part in text.split(',') {
@@ -76,7 +73,7 @@ fn numbers(text: &str) -> Result<Numbers, String> {
             ));
         };
         if from > to {
-            return Err(format!("{part:?} runs backwards: write {to}-{from}"));
+            return Err(format!("{part:?} is a reversed range: write {to}-{from}"));
         }
         all.extend(from..=to);
     }
@@ -85,9 +82,8 @@ fn numbers(text: &str) -> Result<Numbers, String> {
     Ok(Numbers(all))
 }
 
-/// Makes the runs of a sweep, or does with it what else the arguments say.
 pub(crate) fn sweep(arguments: &SweepArguments) -> Result<(), Failure> {
-    let opened = Opened::open(&arguments.sweep)?;
+    let opened = ValidatedSweep::open(&arguments.sweep)?;
     if arguments.check {
         check(&opened);
         return Ok(());
@@ -110,19 +106,18 @@ pub(crate) fn sweep(arguments: &SweepArguments) -> Result<(), Failure> {
     finish(arguments, &out, ended)
 }
 
-/// Makes the runs, with a progress bar on a terminal.
 fn make(
     arguments: &SweepArguments,
-    opened: &Opened,
+    opened: &ValidatedSweep,
     directory: &SweepDirectory,
-) -> Result<Ended, Failure> {
+) -> Result<SweepOutcome, Failure> {
     let interrupted = signals::interruption()
         .map_err(|error| Failure::Input(format!("cannot install signal handlers: {error}")))?;
     let settings = Settings {
         jobs: arguments.jobs,
         checkpoint_every: arguments.checkpoint_every,
         interrupted,
-        warn: |error| eprintln!("warning: {error}; the run goes on without it"),
+        warn: |error| eprintln!("warning: {error}; the run continues without it"),
     };
     let bar = ProgressBar::new(0);
     let style = ProgressStyle::with_template("{bar:32} {pos} of {len} runs  remaining {eta}")
@@ -143,8 +138,7 @@ fn make(
     Ok(ended?)
 }
 
-/// Says how it ended.
-fn finish(arguments: &SweepArguments, out: &Path, ended: Ended) -> Result<(), Failure> {
+fn finish(arguments: &SweepArguments, out: &Path, ended: SweepOutcome) -> Result<(), Failure> {
     let (out, sweep) = (out.display(), arguments.sweep.display());
     if ended.is_interrupted() {
         let (done, of) = (ended.ended, ended.of);
@@ -153,19 +147,19 @@ fn finish(arguments: &SweepArguments, out: &Path, ended: Ended) -> Result<(), Fa
             Some(_) => "",
         };
         return Err(Failure::Interrupted(format!(
-            "{done} of {of} runs have ended{table}, the others that had begun have checkpoints; to continue: \
+            "{done} of {of} runs have ended{table}; other started runs have checkpoints; to continue: \
              actin sweep {sweep} --out {out} --resume"
         )));
     }
     let (runs, failed) = (ended.of, ended.failed);
     if failed == runs && arguments.only.is_none() {
         return Err(Failure::Numerical(format!(
-            "all {runs} run(s) failed: {out}/runs.csv says why"
+            "all {runs} run(s) failed: the reasons are in {out}/runs.csv"
         )));
     }
     let failures = match failed {
         0 => "none failed".to_owned(),
-        failed => format!("{failed} failed, runs.csv says why"),
+        failed => format!("{failed} failed (reasons in runs.csv)"),
     };
     let table = match arguments.only {
         None => format!("{out}/table.csv"),
@@ -175,7 +169,6 @@ fn finish(arguments: &SweepArguments, out: &Path, ended: Ended) -> Result<(), Fa
     Ok(())
 }
 
-/// Prints the first values of each key.
 fn print_values(design: &Design) {
     for (k, key) in design.keys.iter().enumerate() {
         let mut values: Vec<&str> = Vec::new();
@@ -190,8 +183,7 @@ fn print_values(design: &Design) {
     }
 }
 
-/// How many runs there are and what they cost.
-fn check(opened: &Opened) {
+fn check(opened: &ValidatedSweep) {
     let design = &opened.design;
     println!(
         "{} runs: {} point(s), {} run(s) of each",
@@ -219,8 +211,8 @@ fn check(opened: &Opened) {
     }
 }
 
-/// Prints memory, and the time of one point times the number of runs.
-fn print_cost(design: &Design, priced: &Priced) {
+/// Prints the memory of a run and the run time of the whole sweep, estimated from one point.
+fn print_cost(design: &Design, priced: &SweepCost) {
     println!("at most {:.0} MB for each run", (priced.bytes / 1e6).ceil());
     let (Some(point), Some(timing)) = (priced.timed, priced.timing) else {
         return;

@@ -1,6 +1,6 @@
-//! `actin trade`: error against time for a scene, as a table, a picture and the cheapest scene within an error.
+//! `actin trade`: error versus run time of models of a scene, as a table, a figure and the cheapest accurate scene.
 
-use crate::failure::{Failure, Read};
+use crate::failure::{Failure, ParsedScene};
 use crate::progress;
 use crate::{SceneArguments, signals};
 use actin_sim::trade::{Measure, Options, Trade, TradeError, Watch, trade as run};
@@ -9,24 +9,23 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::Ordering;
 use std::time::Duration;
 
-/// Output files.
 const FILES: [&str; 3] = ["trade.csv", "trade.svg", "best.ron"];
 
 #[derive(Debug, clap::Args)]
 pub(crate) struct TradeArguments {
     #[command(flatten)]
     source: SceneArguments,
-    /// Compared quantities, separated by commas: tip, height, end-force, end-couple, energy, curvature, linker-force, or
-    /// the prefix of a column of observables.csv. By default the observables of the scene and its tips.
+    /// Compared quantities, separated by commas: tip, height, end-force, end-couple, energy, curvature, linker-force,
+    /// or the prefix of a column of observables.csv. By default the observables of the scene and its tips.
     #[arg(long, value_name = "NAME", value_delimiter = ',')]
     quantity: Vec<String>,
     /// Largest accepted relative error.
     #[arg(long, default_value_t = 0.02)]
     error: f64,
-    /// Longest time of one run, in seconds.
+    /// Longest wall-clock time of one run, in seconds.
     #[arg(long, value_name = "SECONDS", default_value = "60s", value_parser = budget)]
     budget: Duration,
-    /// Fractions of the loads at which candidates within the error run again; 1 for no further runs.
+    /// Load fractions at which candidates within the error are run again; 1 disables further runs.
     #[arg(
         long,
         value_name = "SHARE",
@@ -40,7 +39,7 @@ pub(crate) struct TradeArguments {
     /// Folder of trade.csv, trade.svg and best.ron; by default `trades/` and the name of the scene.
     #[arg(long)]
     out: Option<PathBuf>,
-    /// Replaces trade.csv, trade.svg and best.ron of an earlier trade.
+    /// Replaces existing trade.csv, trade.svg and best.ron.
     #[arg(long)]
     overwrite: bool,
 }
@@ -49,9 +48,8 @@ fn budget(text: &str) -> Result<Duration, String> {
     crate::seconds(text.strip_suffix('s').unwrap_or(text))
 }
 
-/// Runs the trade, prints the table and writes the files.
 pub(crate) fn trade(arguments: &TradeArguments) -> Result<(), Failure> {
-    let read = Read::new(&arguments.source)?;
+    let read = ParsedScene::new(&arguments.source)?;
     let out = folder(arguments)?;
     let interrupted = signals::interruption()
         .map_err(|error| Failure::Input(format!("cannot install signal handlers: {error}")))?;
@@ -97,7 +95,6 @@ fn measure(name: &str) -> Measure {
     }
 }
 
-/// Creates the output folder; existing files are an error without `--overwrite`.
 fn folder(arguments: &TradeArguments) -> Result<PathBuf, Failure> {
     let name = arguments
         .source

@@ -1,4 +1,4 @@
-//! `actin view`: a page that shows a run, or a film of it.
+//! `actin view`: a page or a film of a run.
 
 use crate::failure::Failure;
 use crate::progress;
@@ -9,26 +9,24 @@ use std::num::NonZero;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
-/// What is shown, and where to.
 #[derive(Debug, clap::Args)]
 pub(crate) struct ViewArguments {
-    /// The run directory, of a run that has ended, goes on or was interrupted.
+    /// Run directory of a finished, running or interrupted run.
     directory: PathBuf,
-    /// The page to write; by default `view.html` in the run directory. An existing file is replaced only if
-    /// it is such a page.
+    /// HTML file to write; by default `view.html` in the run directory. An existing file is replaced only if it was
+    /// written by `actin view`.
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
     /// Opens the page in the browser.
     #[arg(long)]
     open: bool,
-    /// Writes pictures 00001.png, 00002.png, ... into this folder, which is new or empty, in place of the
-    /// page.
+    /// Writes pictures 00001.png, 00002.png, ... into this new or empty folder instead of a page.
     #[arg(long, value_name = "FOLDER", conflicts_with_all = ["out", "open"])]
     film: Option<PathBuf>,
-    /// Width and height of the pictures in pixels, each at most 8192.
+    /// Width and height of the pictures in pixels, at most 8192 each.
     #[arg(long, value_name = "WxH", default_value = "1280x720", value_parser = size, requires = "film")]
     size: [usize; 2],
-    /// By how much the camera goes around in the film; without --pictures in 120 pictures at least.
+    /// Total rotation of the camera during the film. If not zero, the film has at least 120 pictures by default.
     #[arg(
         long,
         value_name = "DEGREES",
@@ -37,14 +35,14 @@ pub(crate) struct ViewArguments {
         allow_negative_numbers = true
     )]
     turn: f64,
-    /// Number of pictures, by default that of the records; some are shown twice or left out if it is another.
+    /// Number of pictures; by default the number of records. Records are repeated or skipped to fit.
     #[arg(long, value_name = "N", requires = "film")]
     pictures: Option<NonZero<usize>>,
 }
 
-/// Most pixels of a side of a picture.
+/// Largest width and height of a picture, in pixels.
 const WIDEST: usize = 8192;
-/// Pictures of a turn around a run with fewer records.
+/// Smallest default number of pictures of a film with a rotating camera.
 const OF_A_TURN: usize = 120;
 
 fn size(text: &str) -> Result<[usize; 2], String> {
@@ -58,7 +56,6 @@ fn size(text: &str) -> Result<[usize; 2], String> {
     Ok([side(sides.0)?, side(sides.1)?])
 }
 
-/// Writes the page or the film of a run.
 pub(crate) fn view(arguments: &ViewArguments) -> Result<(), Failure> {
     let run = Run::open(&arguments.directory, Limits::default());
     let run = run.map_err(|error| Failure::Input(error.to_string()))?;
@@ -67,18 +64,17 @@ pub(crate) fn view(arguments: &ViewArguments) -> Result<(), Failure> {
     }
     match &arguments.film {
         Some(folder) => film(arguments, &run, folder),
-        None if run.is_followed() => {
+        None if run.has_changing_resolution() => {
             let place = arguments.directory.display();
             Err(Failure::Input(format!(
-                "{place}: sections follow this motion, and a page shows one resolution: --film FOLDER shows all of it, \
-                 actin view {place}/stretches/0000 one stretch"
+                "{place}: the resolution of this run changes with time, and a page shows one resolution only: \
+                 use --film FOLDER for the whole run, or actin view {place}/stretches/0000 for one stretch"
             )))
         }
         None => page(arguments, &run),
     }
 }
 
-/// Writes the pictures of a film.
 fn film(arguments: &ViewArguments, run: &Run, folder: &Path) -> Result<(), Failure> {
     let refused = |reason: &str| Failure::Input(format!("{}: {reason}", folder.display()));
     let is_empty = match fs::read_dir(folder) {
@@ -116,7 +112,6 @@ fn film(arguments: &ViewArguments, run: &Run, folder: &Path) -> Result<(), Failu
     Ok(())
 }
 
-/// Writes the page.
 fn page(arguments: &ViewArguments, run: &Run) -> Result<(), Failure> {
     let out = arguments.out.clone();
     let out = out.unwrap_or_else(|| arguments.directory.join("view.html"));
@@ -138,22 +133,22 @@ fn page(arguments: &ViewArguments, run: &Run) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Refuses to replace a file that is no page of a run.
 fn refuse_foreign(out: &Path) -> Result<(), Failure> {
     let refused = |reason: String| Err(Failure::Input(format!("{}: {reason}", out.display())));
     match fs::symlink_metadata(out) {
         Err(_) => return Ok(()),
-        Ok(data) if !data.is_file() => return refused("not a regular file: left alone".into()),
+        Ok(data) if !data.is_file() => {
+            return refused("not a regular file; name another file".into());
+        }
         Ok(_) => {}
     }
     match fs::read(out) {
         Ok(bytes) if is_page(&bytes) => Ok(()),
-        Ok(_) => refused("exists and is no page of a run: left alone; name another file".into()),
+        Ok(_) => refused("exists and was not written by actin view; name another file".into()),
         Err(error) => refused(error.to_string()),
     }
 }
 
-/// Opens a file with the program of the system for it.
 fn open(page: &Path) -> Result<(), Failure> {
     let program = if cfg!(target_os = "macos") {
         "open"

@@ -1,4 +1,4 @@
-//! A monomer joined to the start of a rod is pulled away: the junction resists as the rod does.
+//! Extension of a junction between a monomer and the start of a rod.
 
 use actin_coupling::{
     AttachedMonomer, CrossSection, Frame, Inertia, Interaction, Junction, JunctionParts,
@@ -7,8 +7,8 @@ use actin_coupling::{
 };
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
-    // One monomer 2 nm before the start of a rod along z, on its axis for simplicity. Bodies stand
-    // in filament order: monomer, junction frame, rod.
+    // One monomer 2 nm before the start of a rod along z, on its axis. Bodies are in filament
+    // order.
     let (mut state, along_z) = (State::default(), UnitQuaternion::identity());
     let (position, mass) = (Vector3::z() * -2.0, 0.0697);
     let inertia = Inertia::from_moments([0.2, 0.15, 0.15])?;
@@ -31,7 +31,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     };
     let junction = Junction::new(&state, parts)?;
 
-    // By 0.001 of 2 nm: S3 = 3.4e4 pN times the strain.
+    // Extension of 0.001 of the 2 nm; the rigidity is S3 = 3.4e4 pN.
     state
         .points
         .position

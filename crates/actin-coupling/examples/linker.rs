@@ -1,4 +1,4 @@
-//! A linker holds a rod to an anchor that is moved: its force against Hooke's law.
+//! Hooke's law of a linker between a rod and a movable anchor.
 
 use actin_coupling::{
     Anchor, Linker, LinkerEnd, LinkerError, RodPlace, Site, State, StraightRod, Vector3,
@@ -8,7 +8,7 @@ fn main() -> Result<(), LinkerError> {
     let mut state = State::default();
     let rod = StraightRod::uniform(2, 10.0).push(&mut state)?;
 
-    // A quarter of the way along the second segment, on the axis.
+    // On the axis, at a quarter of the second segment.
     let place = RodPlace {
         segment: 1,
         fraction: 0.25,
@@ -20,7 +20,7 @@ fn main() -> Result<(), LinkerError> {
     let linker = Linker::new(site, LinkerEnd::Anchor(anchor), stiffness, rest_length)?;
 
     println!("force at rest: {} pN", linker.force(&state).norm());
-    let [x, ..] = anchor.controls.expect("it is movable");
+    let [x, ..] = anchor.controls.expect("the anchor is movable");
     state.controls[x] = 2.0;
     let force = linker.force(&state);
     println!("force at 2 nm along x: {} pN; k d = 4 pN", force.x);

@@ -1,35 +1,30 @@
-//! One bond between a monomer and a rod's end: its rest quantities, energy, loads and stiffness.
-
 use actin_cosserat::{BendingElement, JoinedElement, RodMaterial, ShearElement};
 use actin_mechanics::{Loads, State, Stiffness, UnitQuaternion, Vector3};
 
-/// A bond with its junction frame. The rod's own elements make it up: a shear element between the
-/// monomer's centre and the rod's end, and two bending elements along the chain of the monomer's
-/// frame, the junction frame and that of the rod's end segment.
+/// Bond with its junction frame, in filament order.
 ///
-/// All stand in filament order, so that nothing here asks which section comes first.
+/// A shear element joins the centre of the monomer and the end of the rod. Two bending elements
+/// join the frames of monomer, junction and end segment.
 #[derive(Clone, Debug)]
 pub(crate) struct Bond {
-    /// The two points.
     pub(crate) points: [usize; 2],
-    /// The three frames; the junction frame is the middle one.
+    /// Frames; the second one is the junction frame.
     pub(crate) frames: [usize; 3],
-    /// Which of the frames, the first or the last, is the monomer's.
+    /// Index of the monomer frame in `frames`: 0 or 2.
     pub(crate) monomer: usize,
-    /// From the junction basis at rest to the monomer's body frame: `Q_m(0)^T Q_MR(0)`.
+    /// Rotation from the junction frame at rest to the monomer frame: `Q_m(0)^T Q_MR(0)`.
     pub(crate) offset: UnitQuaternion,
-    /// From point to point, in the junction frame.
+    /// Shear element between the points, in the junction frame.
     pub(crate) shear: ShearElement,
-    /// Between the first two frames and between the last two.
+    /// Bending elements between the first two and the last two frames.
     pub(crate) bending: [BendingElement; 2],
-    /// Their materials: the rod's, straight at rest towards the monomer, towards the rod bent by what half
-    /// of its end segment is.
+    /// Materials of the bending elements. The element at the rod has the rest curvature of its rod
+    /// part.
     pub(crate) materials: [RodMaterial; 2],
-    /// Curvature at rest (rad/nm) that the element beside the rod lacks of the rod's.
+    /// Rest curvature of the rod minus that of the element at the rod (rad/nm).
     pub(crate) lacking: Vector3,
 }
 
-/// A bending element with its material and the two orientations that it joins.
 type Bend<'a> = (
     BendingElement,
     &'a RodMaterial,
@@ -38,14 +33,11 @@ type Bend<'a> = (
 );
 
 impl Bond {
-    /// The junction frame.
     pub(crate) fn junction(&self) -> usize {
         self.frames[1]
     }
 
-    /// The bending element that the junction frame forms with the rod's end.
     pub(crate) fn joined(&self) -> JoinedElement {
-        // The monomer is at one end of the chain, the rod at the other.
         let k = usize::from(self.monomer == 0);
         JoinedElement {
             frames: [self.frames[k], self.frames[k + 1]],
@@ -54,35 +46,31 @@ impl Bond {
         }
     }
 
-    /// The bending element towards the monomer, with its material.
     pub(crate) fn towards_monomer(&self) -> (BendingElement, &RodMaterial) {
         let k = usize::from(self.monomer != 0);
         (self.bending[k], &self.materials[k])
     }
 
-    /// That towards the rod.
     pub(crate) fn towards_rod(&self) -> (BendingElement, &RodMaterial) {
         let k = usize::from(self.monomer == 0);
         (self.bending[k], &self.materials[k])
     }
 
-    /// Curvature (rad/nm) of the element towards the monomer.
+    /// Curvature of the element at the monomer (rad/nm).
     pub(crate) fn curvature_towards_monomer(&self, state: &State) -> Vector3 {
         self.curvatures(state)[usize::from(self.monomer != 0)]
     }
 
-    /// Curvature (rad/nm) of that towards the rod.
+    /// Curvature of the element at the rod (rad/nm).
     pub(crate) fn curvature_towards_rod(&self, state: &State) -> Vector3 {
         self.curvatures(state)[usize::from(self.monomer == 0)]
     }
 
-    /// Strain of the shear element.
     pub(crate) fn strain(&self, state: &State) -> Vector3 {
         let q = state.frames.orientation.get(self.junction());
         self.shear.strain(q, self.vector(state))
     }
 
-    /// What turns the junction basis at rest into each body's own frame.
     #[inline]
     pub(crate) fn offsets(&self) -> [UnitQuaternion; 3] {
         let mut offsets = [UnitQuaternion::identity(); 3];
@@ -90,7 +78,6 @@ impl Bond {
         offsets
     }
 
-    /// The three frames as they are now, the monomer's turned into the junction basis.
     #[inline]
     fn orientations(&self, state: &State) -> [UnitQuaternion; 3] {
         let mut q = self.frames.map(|frame| state.frames.orientation.get(frame));
@@ -98,29 +85,22 @@ impl Bond {
         q
     }
 
-    /// Each bending element with the two orientations that it joins, of those of the chain.
-    ///
-    /// Nothing else says in which order they are joined, and constant rigidities would not show
-    /// it: [`curvatures`](Self::curvatures), which do, are tested.
     #[inline]
     fn bends(&self, q: &[UnitQuaternion; 3]) -> [Bend<'_>; 2] {
         [0, 1].map(|k| (self.bending[k], &self.materials[k], q[k], q[k + 1]))
     }
 
-    /// From the first point to the second (lab frame).
     #[inline]
     fn vector(&self, state: &State) -> Vector3 {
         let x = &state.points.position;
         x.get(self.points[1]) - x.get(self.points[0])
     }
 
-    /// Curvatures of the two bending elements (rad/nm).
     pub(crate) fn curvatures(&self, state: &State) -> [Vector3; 2] {
         let bends = self.bends(&self.orientations(state));
         bends.map(|(element, _, a, b)| element.curvature(a, b))
     }
 
-    /// Energy at weight 1 (pN nm).
     pub(crate) fn energy(&self, material: &RodMaterial, state: &State) -> f64 {
         let q = self.orientations(state);
         let bends = self
@@ -129,7 +109,6 @@ impl Bond {
         self.shear.energy(material, q[1], self.vector(state)) + bends[0] + bends[1]
     }
 
-    /// Adds `weight` times the loads.
     #[inline]
     pub(crate) fn add_loads(
         &self,
@@ -153,7 +132,6 @@ impl Bond {
         }
     }
 
-    /// Adds `weight` times the second derivatives of the energy.
     pub(crate) fn add_stiffness(
         &self,
         weight: f64,

@@ -1,22 +1,18 @@
-//! Puts the frames of a junction on a state.
-
 use crate::JunctionError;
 use actin_cosserat::CrossSection;
 use actin_mechanics::{Frame, Inertia, State, UnitQuaternion};
 use std::ops::Range;
 
-/// Appends the junction frames to a state and returns where they stand.
+/// Appends the junction frames of a junction to a state and returns their indices.
 ///
-/// There is one for each attached monomer, in filament order. `axial_distances` are the distances
-/// along the axis from each monomer's centre to the rod's end (nm): with a rise `z` and the rod's
-/// end half a rise from the last monomer, `[3 z / 2, z / 2]` before a rod and `[z / 2, 3 z / 2]`
-/// after it. Each frame is oriented as the rod's segments are at rest (`orientation`, body to
-/// lab), and has the inertia of a piece of rod as long as that distance, twice the rest distance
-/// `D_E` over which the bond bends towards the monomer; across the axis more, so that it does not swing
-/// faster than monomers.
+/// `axial_distances` (nm) are measured from the centre of each monomer to the end of the rod along
+/// the axis, in filament order. With a rise `z` and the rod end half a rise from the last monomer
+/// they are `[3 z / 2, z / 2]` before a rod and `[z / 2, 3 z / 2]` after it. `orientation` (body to
+/// lab) is the rest orientation of the segments. Each frame has the inertia of a piece of rod of
+/// its axial distance, with a larger transverse inertia next to the monomer.
 ///
 /// # Errors
-/// Other than one or two monomers, or a distance that is not positive and finite; the state is
+/// If there are not one or two monomers, or a distance is not positive and finite. The state is
 /// then unchanged.
 pub fn push_junction_frames(
     state: &mut State,
@@ -38,18 +34,18 @@ pub fn push_junction_frames(
     Ok(first..state.frames.len())
 }
 
-/// Length (nm) over which a junction frame swings as a rod's frame does.
+/// Length (nm) that limits the frequency of junction frames.
 ///
-/// Bent over a distance `D` alone it swings at `sqrt(B / i) / D`, with `i` the transverse inertia of the rod
-/// per length: at 870 rad/ns half a rise from its monomer, where bonds have 470. Inertia larger by
-/// `(l / D)^2` gives `sqrt(B / i) / l`. The larger `l`, the longer the time step, up to that of the rod, and the
-/// more of a short wave comes back: for 80 nm of monomers beside 80 nm of rod in 8 segments the limit is 0.57
-/// of the rod's without it, 0.97 with 5.5, 0.98 with 6.1, 0.99 with 7.5 nm (`actin check`), and of an axial pulse 20 nm
-/// wide 3.1 % come back without it, 4.1, 4.2 and 4.3 % with it, of one of 40 nm 2.5, 2.6, 2.6, 2.7 %
-/// (`cargo test --workspace --test integration waves::pulses -- --nocapture`).
+/// A frame with bending rigidity `B` over a distance `D` and transverse inertia `i` per length of
+/// the rod has the frequency `sqrt(B / i) / D`: 870 rad/ns half a rise from its monomer, compared
+/// with 470 rad/ns of bonds. An inertia larger by `(l / D)^2` reduces it to `sqrt(B / i) / l`.
+/// Larger `l` increases the time step and the reflection of short waves. Values of 0 (off), 5.5,
+/// 6.1 and 7.5 nm were compared for 80 nm of monomers next to 80 nm of rod in 8 segments. The time
+/// step limit is 0.57, 0.97, 0.98 and 0.99 times that of the rod (`actin check`). The reflection of
+/// axial pulses is 3.1, 4.1, 4.2 and 4.3 % for a width of 20 nm, and 2.5, 2.6, 2.6 and 2.7 % for 40
+/// nm (`cargo test --workspace --test integration waves::pulses -- --nocapture`).
 const SWING_NM: f64 = 6.1;
 
-/// Inertia of the junction frame of a monomer at an axial distance (nm).
 fn inertia(cross_section: &CrossSection, distance: f64) -> Inertia {
     let piece = cross_section.segment_inertia(distance);
     let transverse = piece.transverse * (SWING_NM / distance).max(1.0).powi(2);
@@ -59,7 +55,6 @@ fn inertia(cross_section: &CrossSection, distance: f64) -> Inertia {
     }
 }
 
-/// Refuses other than one or two attached monomers.
 pub(crate) fn check_count(monomers: usize) -> Result<(), JunctionError> {
     match monomers {
         1 | 2 => Ok(()),
@@ -67,7 +62,6 @@ pub(crate) fn check_count(monomers: usize) -> Result<(), JunctionError> {
     }
 }
 
-/// Refuses monomers that are not on their own side of the rod's end.
 pub(crate) fn check_distance(monomer: usize, distance: f64) -> Result<(), JunctionError> {
     if distance.is_finite() && distance > 0.0 {
         Ok(())
@@ -81,8 +75,7 @@ mod tests {
     use super::*;
     use actin_mechanics::Vector3;
 
-    /// About the axis the inertia of a junction frame is that of rod of the given length; across, a frame near
-    /// its monomer has that of a longer one.
+    /// The axial inertia equals that of a piece of rod; the transverse inertia has a lower limit.
     #[test]
     fn frames_have_the_inertia_of_a_piece_of_rod() {
         let section = CrossSection::actin();

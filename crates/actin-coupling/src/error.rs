@@ -1,42 +1,40 @@
-//! Why a junction or a linker was refused.
-
 use actin_cosserat::{RodError, RodParameterError};
 use std::fmt;
 use thiserror::Error;
 
-/// Why a junction was refused.
+/// Error of the construction of a junction.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum JunctionError {
-    /// A parameter is out of range.
+    /// Invalid parameter of the rod material.
     #[error(transparent)]
     Parameter(#[from] RodParameterError),
-    /// The rod of the junction was refused.
+    /// Invalid rod.
     #[error(transparent)]
     Rod(#[from] RodError),
-    /// Too few or too many attached monomers.
+    /// The number of attached monomers is not one or two.
     #[error("attached monomers = {0}: must be 1 or 2")]
     AttachedMonomers(usize),
-    /// Not one junction frame for each attached monomer.
-    #[error("{frames} junction frames for {monomers} attached monomers: must be as many")]
+    /// The number of junction frames differs from that of the attached monomers.
+    #[error("{frames} junction frames for {monomers} attached monomers: the numbers must be equal")]
     JunctionFrames {
         /// Number of junction frames.
         frames: usize,
         /// Number of attached monomers.
         monomers: usize,
     },
-    /// A monomer that is not on its own side of the rod's end.
+    /// A monomer is on the wrong side of the end of the rod.
     #[error(
-        "attached monomer {monomer} stands {distance} nm from the rod's end along the axis, away \
-         from the rod: must be positive and finite"
+        "attached monomer {monomer} is at {distance} nm from the rod's end along the axis, away from \
+         the rod: the distance must be positive and finite"
     )]
     AxialDistance {
-        /// Which attached monomer, counted from 0.
+        /// Index of the attached monomer.
         monomer: usize,
-        /// Its axial distance from the rod's end, away from the rod (nm).
+        /// Axial distance from the end of the rod, away from the rod (nm).
         distance: f64,
     },
-    /// A junction frame that is not parallel to the rod's end in the state given as at rest.
+    /// A junction frame is not parallel to the end of the rod at rest.
     #[error(
         "junction frame {frame} is turned by {angle:e} rad from the rod's end segment: they must \
          be parallel at rest"
@@ -49,49 +47,49 @@ pub enum JunctionError {
     },
 }
 
-/// Why a linker or its site was refused.
+/// Error of the construction of a linker or site.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum LinkerError {
-    /// A number that breaks the rule of its key.
+    /// Invalid parameter.
     #[error("{key} = {value}: must be {rule}")]
     Parameter {
-        /// Which parameter.
+        /// Parameter.
         key: LinkerKey,
-        /// What it was.
+        /// Rejected value.
         value: f64,
-        /// What it must be.
+        /// Violated rule.
         rule: &'static str,
     },
-    /// The rod of the site was refused.
+    /// Invalid rod.
     #[error(transparent)]
     Rod(#[from] RodError),
-    /// A segment that the rod does not have.
-    #[error("segment {segment} of a rod that has {segments}, counted from 0")]
+    /// The segment does not exist.
+    #[error("segment {segment} does not exist: the rod has {segments} segments, counted from 0")]
     Segment {
-        /// Which segment was asked for.
+        /// Requested segment.
         segment: usize,
-        /// Number of segments of the rod.
+        /// Number of segments.
         segments: usize,
     },
 }
 
-/// A number of a linker or of its site.
+/// Parameter of a linker or site.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LinkerKey {
-    /// Where on a segment, as a share of it.
+    /// Relative position on a segment.
     Fraction,
     /// Distance from the axis.
     Radius,
     /// Azimuth about the axis.
     Azimuth,
-    /// Place in the frame of a monomer.
+    /// Position in the frame of a monomer.
     Arm,
     /// Stiffness of the spring.
     Stiffness,
-    /// Length of the spring at rest.
+    /// Rest length of the spring.
     RestLength,
-    /// Place of an anchor.
+    /// Position of an anchor.
     Anchor,
 }
 

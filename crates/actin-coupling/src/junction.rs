@@ -1,5 +1,3 @@
-//! The junction as an interaction. What one bond does is in `bond.rs`.
-
 use crate::JunctionError;
 use crate::bond::Bond;
 use crate::build::{check_count, check_distance};
@@ -9,98 +7,95 @@ use actin_mechanics::{
 };
 use std::ops::Range;
 
-/// Largest angle (rad) between frames that count as parallel: far above the round-off of any
-/// construction, far below any strain of interest.
+/// Largest angle (rad) between parallel frames: far above rounding errors and far below relevant
+/// strains.
 const PARALLEL: f64 = 1e-9;
 
-/// How strongly each bond of a junction acts.
+/// Weight of the bonds of a junction.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum JunctionWeight {
-    /// The bonds share the rod's rigidity: each has 1 over their number.
+    /// Inverse number of bonds, so that the bonds share the rigidity of the rod.
     #[default]
     Shared,
-    /// Every bond has the rod's full rigidity, as the paper's text has it.
+    /// Full rigidity of the rod for every bond, as in the paper.
     Full,
 }
 
-/// Which section comes first along the filament.
+/// Order of the sections along the filament.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum JunctionSide {
-    /// Monomers, then the rod: they are attached to its start.
+    /// Monomers before the start of the rod.
     MonomersFirst,
-    /// The rod, then monomers: they are attached to its end.
+    /// Monomers after the end of the rod.
     RodFirst,
 }
 
-/// A monomer that is attached to a rod.
+/// Monomer attached to a rod.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct AttachedMonomer {
-    /// The point at its centre.
+    /// Index of the point at its centre.
     pub point: usize,
-    /// Its frame.
+    /// Index of its frame.
     pub frame: usize,
 }
 
-/// What a junction is made of.
+/// Components of a junction.
 #[derive(Clone, Debug)]
 pub struct JunctionParts<'a> {
-    /// Which section comes first.
+    /// Order of the sections.
     pub side: JunctionSide,
-    /// How strongly each bond acts.
+    /// Weight of each bond.
     pub weight: JunctionWeight,
-    /// One or two monomers, in filament order: attached to the start of the rod, or, if the rod
-    /// comes first, to its end.
+    /// One or two attached monomers, in filament order.
     pub monomers: &'a [AttachedMonomer],
-    /// Their junction frames, from [`push_junction_frames`](crate::push_junction_frames).
+    /// Junction frames from [`push_junction_frames`](crate::push_junction_frames).
     pub frames: Range<usize>,
     /// The rod.
     pub rod: &'a RodLayout,
-    /// Its material.
+    /// Material of the rod.
     pub material: RodMaterial,
 }
 
-/// The junction of one or two monomers with a rod's end: term `junction`, one element per bond.
+/// Junction of one or two monomers with the end of a rod: term `junction`, one element per bond.
 ///
-/// With `r` the rod's end, `R` the monomer's centre, `Q_m`, `Q_J`, `Q_r` the frames of monomer,
-/// junction and rod, and hats for the state in which the junction was made, the energy of a bond
-/// is
+/// ```text
+/// E = w [ W(sigma) |lhat| + U(kappa_E) D_E + U(kappa_C) D_C ]
 ///
-/// `E = w [ W(sigma) |lhat| + U(kappa_E) D_E + U(kappa_C) D_C ]`,
+/// sigma   = Q_J^T l / |lhat| - d,   l = r - R,   d = Qhat_J^T lhat / |lhat|
+/// kappa_E = log(G^T Q_J) / D_E,     G = Q_m Qhat_m^T Qhat_J,   D_E = |lhat . d3| / 2
+/// kappa_C = log(Q_J^T Q_r) / D_C,   D_C = D_E + half the rest length of the end segment
+/// ```
 ///
-/// with the rod material's energies per length `W`, `U`, the weight `w`, and
+/// `E` is the energy of a bond (pN nm), `w` its weight, and `W`, `U` are the energies per length of
+/// the rod material (pN). `r` is the end of the rod and `R` the centre of the monomer (nm, lab
+/// frame). `Q_m`, `Q_J` and `Q_r` are the frames of monomer, junction and rod, and hats mark the
+/// rest state. For a rod before monomers `l = R - r`, and the rotations in both logarithms are
+/// inverted.
 ///
-/// - `sigma = Q_J^T l / |lhat| - d`, `l = r - R`, `d = Qhat_J^T lhat / |lhat|`;
-/// - `kappa_E = log(G^T Q_J) / D_E`, `G = Q_m Qhat_m^T Qhat_J`, `D_E = |lhat . d3| / 2`;
-/// - `kappa_C = log(Q_J^T Q_r) / D_C`, `D_C` half the rest length of the rod's end segment plus
-///   `D_E`.
-///
-/// A rod that is bent at rest bends the part of `D_C` that is rod: `kappa_C` is counted from its curvature
-/// at rest times the share of half the end segment in `D_C`.
-///
-/// Where the rod comes first, `l = R - r` and both logarithms are of the inverse rotation. Loads
-/// are minus the gradient, so linear and angular momentum balance. It is the same beside either
-/// force law of the rod; the printed balance has factors `1/e` and `1/E^3` here too, and signs
-/// that do not balance.
+/// The rest curvature of the rod counts for the rod part of `D_C` only. Loads are the negative
+/// gradient of `E`, so linear and angular momentum are conserved.
 ///
 /// # Source
-/// arXiv 2203.01284, Section 3, with its signs derived from this energy.
+/// arXiv 2203.01284, Section 3, with signs and factors derived from this energy. The printed
+/// balance equations do not conserve momentum.
 #[derive(Clone, Debug)]
 pub struct Junction {
     pub(crate) bonds: Vec<Bond>,
     pub(crate) weight: f64,
     pub(crate) material: RodMaterial,
-    /// Half the rest length of the rod's end segment (nm).
+    /// Half the rest length of the end segment (nm).
     pub(crate) half_segment: f64,
-    /// Whether the random stress of the rod covers this half beyond the segment's frame.
+    /// Whether the random stress of the rod includes the half segment beyond the last frame.
     pub(crate) is_covered: bool,
 }
 
 impl Junction {
-    /// The junction of these parts that is at rest in `state`.
+    /// Creates a junction that is at rest in `state`.
     ///
     /// # Errors
-    /// Other than one or two monomers, not as many frames, a monomer that is not on its side of
-    /// the rod's end, or a junction frame that is not parallel to the rod's end segment.
+    /// If there are not one or two monomers or the number of frames differs. Also if a monomer is
+    /// on the wrong side of the end of the rod, or a junction frame is not parallel to the end
+    /// segment.
     pub fn new(state: &State, parts: JunctionParts<'_>) -> Result<Self, JunctionError> {
         let JunctionParts {
             side,
@@ -134,9 +129,8 @@ impl Junction {
         })
     }
 
-    /// The same beside a rod whose strain knows of its curvature, that of the
-    /// [joined elements](Self::joined_elements) included: its [random stress](actin_mechanics::RandomStress) covers a
-    /// part of these.
+    /// Adapts the [random stress](actin_mechanics::RandomStress) to a rod whose strain depends on
+    /// the curvature, including that of the [joined elements](Self::joined_elements).
     #[must_use]
     pub fn beside_extended_rod(self) -> Self {
         Self {
@@ -145,20 +139,20 @@ impl Junction {
         }
     }
 
-    /// The junction frames.
+    /// Indices of the junction frames.
     pub fn frames(&self) -> impl ExactSizeIterator<Item = usize> + '_ {
         self.bonds.iter().map(Bond::junction)
     }
 
-    /// The bending elements that join the rod's end segment to the junction frames: with the
-    /// rod's own they give the mean curvature around that segment.
+    /// Bending elements between the end segment and the junction frames, for the mean curvature of
+    /// the end segment.
     pub fn joined_elements(&self) -> Vec<JoinedElement> {
         self.bonds.iter().map(Bond::joined).collect()
     }
 
-    /// Curvatures (rad/nm) of each bond's two bending elements, in filament order on either side:
-    /// `kappa_E, kappa_C` before a rod, `kappa_C, kappa_E` after one. The third components are
-    /// positive for right-handed twist.
+    /// Curvatures (rad/nm) of the two bending elements of each bond, in filament order:
+    /// `kappa_E, kappa_C` before a rod and `kappa_C, kappa_E` after it. Positive third components
+    /// are right-handed twist.
     pub fn curvatures<'a>(
         &'a self,
         state: &'a State,
@@ -168,7 +162,7 @@ impl Junction {
 }
 
 impl JunctionWeight {
-    /// The weight of each of `bonds` bonds.
+    /// Weight of each bond.
     ///
     /// ```
     /// use actin_coupling::JunctionWeight::{Full, Shared};
@@ -183,7 +177,7 @@ impl JunctionWeight {
 }
 
 impl JunctionSide {
-    /// The end of the rod that the monomers are attached to.
+    /// End of the rod with the attached monomers.
     pub fn rod_end(self) -> RodEnd {
         match self {
             Self::MonomersFirst => RodEnd::Start,
@@ -192,7 +186,7 @@ impl JunctionSide {
     }
 }
 
-/// The bond of attached monomer `k` that is at rest in `state`.
+/// Bond of attached monomer `k`, at rest in `state`.
 fn bond_at_rest(
     state: &State,
     side: JunctionSide,
@@ -237,7 +231,6 @@ fn bond_at_rest(
     })
 }
 
-/// Refuses a junction frame that is not parallel to the rod's.
 fn check_parallel(state: &State, [frame, rod]: [usize; 2]) -> Result<(), JunctionError> {
     let q = &state.frames.orientation;
     let angle = rotation::log(q.get(frame).inverse() * q.get(rod)).norm();
@@ -247,8 +240,8 @@ fn check_parallel(state: &State, [frame, rod]: [usize; 2]) -> Result<(), Junctio
     Ok(())
 }
 
-/// The bending elements of a bond in filament order, with their materials; `axial` is the distance of the monomer
-/// from the rod's end along the axis, `segment` the length of its end segment (nm).
+/// Bending elements of a bond and their materials, in filament order. `axial` is the axial distance
+/// of the monomer from the end of the rod and `segment` the length of the end segment (nm).
 fn bends_at_rest(
     side: JunctionSide,
     [axial, segment]: [f64; 2],
@@ -256,11 +249,11 @@ fn bends_at_rest(
 ) -> ([BendingElement; 2], [RodMaterial; 2]) {
     let distances = [0.5 * axial, 0.5 * (segment + axial)];
     let mut bending = distances.map(|rest_distance| BendingElement { rest_distance });
-    // Only the part that is rod is bent at rest.
+    // Only the rod part has a rest curvature.
     let shares = [0.0, 0.5 * segment / distances[1]];
     let mut materials = shares.map(|share| {
         let own = material.with_rest_curvature(material.rest_curvature() * share);
-        own.expect("a share of a finite curvature is finite")
+        own.expect("fractions of a finite curvature are finite")
     });
     if side == JunctionSide::RodFirst {
         bending.reverse();

@@ -1,17 +1,13 @@
-//! What joins filaments: the junction between monomers and a Cosserat rod, and linkers; and what keeps them
-//! apart.
+//! Junctions between monomers and Cosserat rods, linkers, and repulsion of filaments.
 //!
-//! The last one or two monomers before a rod (or the first after it) are attached to the rod's
-//! end, each by one bond that shears, stretches, bends and twists as a piece of the rod does. A
-//! bond has one massive frame of its own, the junction frame. In a state these stand between the
-//! frames of the two sections: [`push_junction_frames`] puts them there while the filament is
-//! being built, [`Junction::new`] makes the interaction once all bodies stand.
+//! A [`Junction`] attaches the one or two monomers next to a rod to its end. Each bond shears,
+//! stretches, bends and twists like a piece of the rod, and has one massive junction frame.
+//! [`push_junction_frames`] adds these frames between those of the two sections. [`Junction::new`]
+//! creates the interaction once all bodies are in the state.
 //!
-//! A [`Linker`] is a spring that holds a [`Site`] of a filament, on monomer or rod, to an [`Anchor`]
-//! or to another site; a [`SwitchedLinker`] holds at one of several or not at all; a [`SiteForce`] pulls at sites. [`repulsion`] keeps filaments out of each other and
-//! out of walls.
-//!
-//! Nothing here knows how monomers hold together or where a scene puts a junction or a linker.
+//! A [`Linker`] is a spring from a [`Site`] of a filament to an [`Anchor`] or another site. A
+//! [`SwitchedLinker`] can be released and bound at several places. A [`SiteForce`] applies a force
+//! at sites. [`repulsion`] contains the contacts between filaments and with walls.
 //!
 //! # Source
 //! Gunaratne, Floyd, Ni, Papoian and Erban, arXiv 2203.01284, Section 3.
@@ -39,12 +35,12 @@ pub use site::{RodPlace, Site};
 pub use site_force::{ForceKind, SiteForce};
 pub use switched::SwitchedLinker;
 
-/// The crate of rods, whose ends are joined here.
+/// Re-export of the crate of rods.
 pub use actin_cosserat as cosserat;
 pub use actin_cosserat::{
     CrossSection, EnergyGradient, Rigidities, RodLayout, RodMaterial, StraightRod,
 };
-/// The crate of points, frames, loads and interactions that filaments are made of.
+/// Re-export of the crate of points, frames, loads and interactions.
 pub use actin_mechanics as mechanics;
 pub use actin_mechanics::{
     Frame, Inertia, InertiaError, Interaction, Loads, Point, State, UnitQuaternion, Vector3,

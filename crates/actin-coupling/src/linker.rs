@@ -1,5 +1,3 @@
-//! The linker as an interaction: a spring to a site. Where sites are is in `site.rs`.
-
 use crate::site::{Site, ensure};
 use crate::{LinkerError, LinkerKey};
 use actin_mechanics::{
@@ -7,17 +5,17 @@ use actin_mechanics::{
     Stiffness, Vector3, correlate,
 };
 
-/// A point outside of the filament that holds one end of a linker.
+/// External point at one end of a linker.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Anchor {
-    /// Where it is before it is moved (nm, lab frame).
+    /// Position without displacement (nm, lab frame).
     pub position: Vector3,
-    /// The three components of its displacement (nm, lab frame); none if it stays.
+    /// Components of the displacement (nm, lab frame), or `None` for a fixed anchor.
     pub controls: Option<[ControlId; 3]>,
 }
 
 impl Anchor {
-    /// An anchor that stays at `position` (nm, lab frame).
+    /// Creates a fixed anchor at `position` (nm, lab frame).
     pub fn fixed(position: Vector3) -> Self {
         Self {
             position,
@@ -25,8 +23,8 @@ impl Anchor {
         }
     }
 
-    /// An anchor at `position` (nm, lab frame) that three controls of its own displace, which begin
-    /// at zero.
+    /// Creates a movable anchor at `position` (nm, lab frame) and adds the three controls of its
+    /// displacement to the state.
     pub fn movable(state: &mut State, position: Vector3) -> Self {
         Self {
             position,
@@ -34,7 +32,7 @@ impl Anchor {
         }
     }
 
-    /// Where it is in `state` (nm, lab frame).
+    /// Current position (nm, lab frame).
     pub fn position(&self, state: &State) -> Vector3 {
         let displacement = self
             .controls
@@ -43,28 +41,31 @@ impl Anchor {
     }
 }
 
-/// What holds the other end of a linker.
+/// Second end of a linker.
 #[derive(Clone, Debug, PartialEq)]
 pub enum LinkerEnd {
-    /// A point outside of the filament.
+    /// External point.
     Anchor(Anchor),
-    /// Another site, of the same filament or of another.
+    /// Site of the same or another filament.
     Site(Site),
 }
 
-/// A Hookean linker between a site and an anchor or another site: term `linker`, one element.
+/// Hookean spring between a site and an anchor or another site: term `linker`, one element.
 ///
-/// With `d` from the site to the other end (nm), `k` the stiffness (pN/nm) and `L` the rest length
-/// (nm), `E = k (|d| - L)^2 / 2`. The force on the site is `k (|d| - L) d / |d|`, that on the other
-/// end the opposite; on a segment or monomer either acts as the site's own derivative has it, so
-/// that forces and couples are the gradient of `E`.
+/// ```text
+/// E = k (|d| - L)^2 / 2,   F = k (|d| - L) d / |d|
+/// ```
 ///
-/// At `d = 0` with a rest length [`Hooke`] has a negative stiffness in every direction, so a state
-/// in which a linker is shut is never taken for a minimum.
+/// `d` is the vector from the site to the other end (nm, lab frame). `k` is the stiffness (pN/nm),
+/// `L` the rest length (nm) and `F` the force on the site (pN, lab frame). Loads are the negative
+/// gradient of `E`.
+///
+/// At `d = 0` with a positive rest length the stiffness is negative in every direction, see
+/// [`Hooke`]. This state is not a minimum.
 ///
 /// # Source
-/// arXiv 2203.01284, Section 3, whose linker forces come in halves with a couple about the middle
-/// of the segment: statically equivalent, but not the gradient of an energy.
+/// arXiv 2203.01284, Section 3. The paper uses statically equivalent forces that are not a
+/// gradient.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Linker {
     site: Site,
@@ -73,16 +74,16 @@ pub struct Linker {
 }
 
 impl Linker {
-    /// A linker of a stiffness (pN/nm) and a rest length (nm).
+    /// Creates a linker with a stiffness (pN/nm) and a rest length (nm).
     ///
     /// # Errors
-    /// A stiffness that is not positive, a negative rest length, or an anchor that is not finite.
+    /// If the stiffness is not positive, the rest length is negative, or the anchor is not finite.
     ///
     /// ```
     /// use actin_coupling::{Anchor, Linker, LinkerEnd, RodPlace, Site, State, StraightRod, Vector3};
     /// let mut state = State::default();
     /// let rod = StraightRod::uniform(2, 10.0).push(&mut state)?;
-    /// // A quarter of the way from node 1 to node 2, on the axis, pulled along x by 3 nm.
+    /// // A site at a quarter of segment 1, on the axis, 3 nm from the anchor along x.
     /// let place = RodPlace { segment: 1, fraction: 0.25, ..RodPlace::default() };
     /// let site = Site::on_rod(&rod, place)?;
     /// let anchor = LinkerEnd::Anchor(Anchor::fixed(Vector3::new(3.0, 0.0, 12.5)));
@@ -123,17 +124,17 @@ impl Linker {
         Ok(Self { site, end, spring })
     }
 
-    /// The site.
+    /// First end.
     pub fn site(&self) -> &Site {
         &self.site
     }
 
-    /// What holds the other end.
+    /// Second end.
     pub fn end(&self) -> &LinkerEnd {
         &self.end
     }
 
-    /// The controls of the displacement of its anchor, if it has one that moves.
+    /// Controls of a movable anchor.
     pub fn anchor_controls(&self) -> Option<[ControlId; 3]> {
         match &self.end {
             LinkerEnd::Anchor(anchor) => anchor.controls,
@@ -141,7 +142,7 @@ impl Linker {
         }
     }
 
-    /// Where the other end is (nm, lab frame).
+    /// Position of the second end (nm, lab frame).
     pub fn end_position(&self, state: &State) -> Vector3 {
         match &self.end {
             LinkerEnd::Anchor(anchor) => anchor.position(state),
@@ -149,24 +150,21 @@ impl Linker {
         }
     }
 
-    /// Length beyond the rest length (nm); negative where the linker is shorter.
+    /// Length minus rest length (nm).
     pub fn extension(&self, state: &State) -> f64 {
         self.reach(state).norm() - self.spring.rest_length
     }
 
-    /// Force on the filament at the site (pN, lab frame). What holds the other end feels the
-    /// opposite.
+    /// Force on the filament at the site (pN, lab frame). The force on the other end is opposite.
     pub fn force(&self, state: &State) -> Vector3 {
         self.spring.force(self.reach(state))
     }
 
-    /// From the site to the other end (lab frame).
     #[inline]
     fn reach(&self, state: &State) -> Vector3 {
         self.end_position(state) - self.site.position(state)
     }
 
-    /// Every coordinate that the linker follows, and the derivative of its vector by it.
     fn slopes(&self, state: &State) -> Vec<(Coordinates, Matrix3)> {
         let mut slopes: Vec<_> = self.site.slopes(state).map(|(c, j)| (c, -j)).collect();
         if let LinkerEnd::Site(other) = &self.end {
@@ -175,7 +173,7 @@ impl Linker {
         slopes
     }
 
-    /// Adds the loads of a force on the filament at the site (pN, lab frame).
+    /// Adds the loads of a force at the site (pN, lab frame).
     fn add_force(&self, force: Vector3, state: &State, loads: &mut Loads) {
         self.site.add_force(force, state, loads);
         if let LinkerEnd::Site(other) = &self.end {
@@ -183,8 +181,8 @@ impl Linker {
         }
     }
 
-    /// Pushes `J^T K J` with `J` the derivative of the linker's vector by each coordinate and `K` that of its force, and
-    /// for each frame the part in which the force turns the arm.
+    /// Adds `J^T K J` and the geometric stiffness of the arms. `J` is the derivative of the linker
+    /// vector and `K` the tangent of the force.
     fn push_stiffness(
         &self,
         (force, spring): (Vector3, Matrix3),
@@ -197,7 +195,8 @@ impl Linker {
             for &(b, slope_b) in &slopes[k + 1..] {
                 let block = slope_a.transpose() * spring * slope_b;
                 if a == b {
-                    // Both sites follow this body: the block and its transpose are on the diagonal.
+                    // Both sites follow this body, so the block and its transpose are on the
+                    // diagonal.
                     stiffness.push(a, a, block + block.transpose());
                 } else {
                     stiffness.push(a, b, block);
@@ -250,7 +249,6 @@ impl SecondOrder for Linker {
     }
 }
 
-/// A force in the lab frame, conjugate to the linker's vector.
 impl RandomStress for Linker {
     fn components(&self) -> usize {
         3
@@ -286,7 +284,6 @@ impl RandomStress for Linker {
     }
 }
 
-/// Returns the matrix with the sizes of the negative eigenvalues of `m` (symmetric) and zeros for the others.
 fn negative_part(m: Matrix3) -> Matrix3 {
     let eigen = m.symmetric_eigen();
     let sizes = eigen.eigenvalues.map(|value| (-value).max(0.0));
@@ -294,7 +291,6 @@ fn negative_part(m: Matrix3) -> Matrix3 {
     vectors * Matrix3::from_diagonal(&sizes) * vectors.transpose()
 }
 
-/// The symmetric part, which differs from `m` by round-off.
 fn symmetric(m: Matrix3) -> Matrix3 {
     0.5 * (m + m.transpose())
 }

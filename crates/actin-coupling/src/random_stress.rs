@@ -1,18 +1,23 @@
-//! Random stress of junctions: a force and two couples for each bond, as of a rod's elements.
+//! Random stress of junctions: a force and two torques per bond.
 //!
-//! With the strain `sigma` and the curvatures `kappa_E`, `kappa_C` of a bond, its stress has the energy
-//! `-(|lhat| n . sigma + D_E m_E . kappa_E + D_C m_C . kappa_C)`.
+//! The stress of a bond with strain `sigma` and curvatures `kappa_E`, `kappa_C` has the energy
 //!
-//! The stress of a rod whose strain knows of its curvature covers half of its end segment beyond its last frame, by the
-//! mean of `kappa_C`. Of `b` bonds with weights `w` it is then
+//! ```text
+//! -(|lhat| n . sigma + D_E m_E . kappa_E + D_C m_C . kappa_C)
+//! ```
 //!
-//! `w D_C` on the diagonal, `- L / (2 b^2)` everywhere, `L` the length of the segment,
+//! If strain and curvature of the rod are coupled, its stress includes half of the end segment
+//! beyond the last frame. The covariance of the torques on `kappa_C` of `b` bonds with weights `w`
+//! is then the tangent of bending times the positive matrix with
 //!
-//! that is left to the couples on `kappa_C` (times the tangent of bending), and that is positive.
+//! ```text
+//! w D_C on the diagonal, minus L / (2 b^2) in all entries
+//! ```
 //!
-//! A bond lies across the axis and turns frames about their own: by as much as at rest. What beyond that the sum of the bond's own
-//! stress and the random one would turn them by when they are displaced is left out, as of a rod: in steps in which bending relaxes
-//! it would turn frames until the random forces on them bend them further.
+//! for a segment of length `L`.
+//!
+//! The stress in excess of the elastic stress exerts torques about the frame axes as at rest. Their
+//! change with displacements would bend filaments further in long time steps.
 
 use crate::Junction;
 use crate::bond::Bond;
@@ -21,12 +26,11 @@ use actin_mechanics::{
     correlate,
 };
 
-/// Vectors of a bond: force, couples towards the monomer and towards the rod.
+/// Vectors per bond: force, torque at the monomer, torque at the rod.
 const OF_BOND: usize = 3;
-/// Numbers of a vector.
+/// Components of a vector.
 const VECTOR: usize = 3;
 
-/// Deviates, made such of covariance `c`.
 fn drawn(c: Matrix3, deviates: [f64; VECTOR]) -> Vector3 {
     let mut values = deviates;
     correlate(c, &mut values);
@@ -34,13 +38,12 @@ fn drawn(c: Matrix3, deviates: [f64; VECTOR]) -> Vector3 {
 }
 
 impl Bond {
-    /// What stresses act on.
     fn internal(
         &self,
         [force, end, centre]: [Vector3; OF_BOND],
     ) -> (InternalForce, [InternalCouple; 2]) {
         let offsets = self.offsets();
-        // Towards the monomer is the first of the chain where the monomer is.
+        // The chain starts at the monomer or at the rod.
         let couples = if self.monomer == 0 {
             [end, centre]
         } else {
@@ -65,7 +68,7 @@ impl Bond {
 }
 
 impl Junction {
-    /// Half of the rod's end segment (nm), where its stress covers that: a part of each `D_C`.
+    /// Half of the end segment (nm) if the stress of the rod includes it, else 0.
     fn covered(&self) -> f64 {
         if self.is_covered {
             self.half_segment
@@ -74,7 +77,7 @@ impl Junction {
         }
     }
 
-    /// The matrix of the header, row by row of its lower triangle, by the Cholesky factor.
+    /// Lower triangle of the Cholesky factor of the matrix in the module documentation.
     fn factor(&self) -> [[f64; 2]; 2] {
         let n = self.bonds.len() as f64;
         let shared = self.covered() / (n * n);
@@ -94,13 +97,12 @@ impl Junction {
         ]
     }
 
-    /// Mean curvature (rad/nm) of the elements towards the rod, as its law sees it.
+    /// Mean curvature (rad/nm) of the elements at the rod, including the rest curvature of the rod.
     fn curvature_of_rod(&self, state: &State) -> Vector3 {
         let of = |bond: &Bond| bond.curvature_towards_rod(state) + bond.lacking;
         self.bonds.iter().map(of).sum::<Vector3>() / self.bonds.len() as f64
     }
 
-    /// The stress of a bond's own elements.
     fn own(&self, bond: &Bond, state: &State) -> [Vector3; OF_BOND] {
         let (_, of_end) = bond.towards_monomer();
         let (_, of_rod) = bond.towards_rod();
@@ -113,7 +115,6 @@ impl Junction {
     }
 }
 
-/// The vectors of each bond.
 fn written(stresses: &[f64]) -> impl Iterator<Item = [Vector3; OF_BOND]> + '_ {
     let (vectors, _) = stresses.as_chunks::<VECTOR>();
     let (vectors, _) = vectors.as_chunks::<OF_BOND>();

@@ -1,14 +1,16 @@
-//! Where on a filament a linker holds. What holds it there is in `linker.rs`.
-
 use crate::{LinkerError, LinkerKey};
 use actin_cosserat::RodLayout;
 use actin_mechanics::{Coordinates, Loads, Matrix3, State, Vector3};
 
-/// A point of a filament that follows its bodies: `r = sum_k w_k x_k + Q b`.
+/// Material point of a filament:
 ///
-/// `x_k` are points (lab frame, nm) with weights `w_k` that sum to 1, `Q` a frame and `b` an arm
-/// fixed in it (body frame, nm). On a monomer there is one point, its centre; on a rod there are
-/// the two nodes of a segment, and the arm lies across the segment.
+/// ```text
+/// r = sum_k w_k x_k + Q b
+/// ```
+///
+/// `x_k` are points (nm, lab frame) with weights `w_k` that sum to 1, and `b` is an arm (nm, body
+/// frame) in the frame `Q`. A site on a monomer has one point. A site on a rod has the two nodes of
+/// a segment.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Site {
     shares: Vec<(usize, f64)>,
@@ -16,24 +18,24 @@ pub struct Site {
     arm: Vector3,
 }
 
-/// A place on a rod, as [`Site::on_rod`] takes it.
+/// Position of a site on a rod, for [`Site::on_rod`].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct RodPlace {
-    /// Which segment, counted from 0.
+    /// Index of the segment, counted from 0.
     pub segment: usize,
-    /// Share `A` of the segment's length, from 0 at its first node to 1 at its second.
+    /// Relative position `A` along the segment, from 0 to 1.
     pub fraction: f64,
     /// Distance `R` from the axis (nm).
     pub radius: f64,
-    /// Angle `phi` from the segment's d1 towards its d2 (rad).
+    /// Angle `phi` from d1 to d2 of the segment (rad).
     pub azimuth: f64,
 }
 
 impl Site {
-    /// A site on a monomer: `r = x + Q b`, with `b = arm` fixed in its body frame (nm).
+    /// Creates a site on a monomer: `r = x + Q b` with the arm `b` (nm, body frame).
     ///
     /// # Errors
-    /// An arm that is not finite.
+    /// If the arm is not finite.
     ///
     /// ```
     /// use actin_coupling::Site;
@@ -59,12 +61,15 @@ impl Site {
         })
     }
 
-    /// A site on segment `i` of a rod:
-    /// `r = (1 - A) x_i + A x_{i+1} + R Q_i (cos phi, sin phi, 0)`.
+    /// Creates a site on segment `i` of a rod:
+    ///
+    /// ```text
+    /// r = (1 - A) x_i + A x_{i+1} + R Q_i (cos phi, sin phi, 0)
+    /// ```
     ///
     /// # Errors
-    /// A segment that the rod does not have, a fraction outside 0 to 1, a negative radius, or an
-    /// azimuth that is not finite.
+    /// If the segment does not exist, the fraction is outside 0 to 1, the radius is negative, or
+    /// the azimuth is not finite.
     ///
     /// # Source
     /// arXiv 2203.01284, Section 3 (`A_0`, `R`, `phi_0`).
@@ -98,22 +103,22 @@ impl Site {
         })
     }
 
-    /// The points that the site follows, each with its weight.
+    /// Points with their weights.
     pub fn shares(&self) -> &[(usize, f64)] {
         &self.shares
     }
 
-    /// The frame that the site follows.
+    /// Index of the frame.
     pub fn frame(&self) -> usize {
         self.frame
     }
 
-    /// The arm in axes of the frame (nm).
+    /// Arm (nm, body frame).
     pub fn arm(&self) -> Vector3 {
         self.arm
     }
 
-    /// Where the site is (nm, lab frame).
+    /// Position (nm, lab frame).
     #[inline]
     pub fn position(&self, state: &State) -> Vector3 {
         let points = self
@@ -123,8 +128,8 @@ impl Site {
         points.sum::<Vector3>() + state.frames.orientation.get(self.frame) * self.arm
     }
 
-    /// Adds what a force at the site (pN, lab frame) does to the bodies: `w_k F` on each point and
-    /// the couple `b x Q^T F` on the frame.
+    /// Adds the loads of a force at the site (pN, lab frame): `w_k F` on each point and the torque
+    /// `b x Q^T F` on the frame.
     #[inline]
     pub(crate) fn add_force(&self, force: Vector3, state: &State, loads: &mut Loads) {
         for &(i, weight) in &self.shares {
@@ -135,7 +140,6 @@ impl Site {
         loads.torque.add(self.frame, self.arm.cross(&body));
     }
 
-    /// The derivative of the site's place by each coordinate that it follows.
     pub(crate) fn slopes(&self, state: &State) -> impl Iterator<Item = (Coordinates, Matrix3)> {
         let q = state.frames.orientation.get(self.frame);
         let turn = -(q.to_rotation_matrix().matrix() * self.arm.cross_matrix());
@@ -145,8 +149,8 @@ impl Site {
             .chain([(Coordinates::Frame(self.frame), turn)])
     }
 
-    /// Second derivative, by the turn of the frame, of the work `g . r` of a fixed vector `g` (lab
-    /// frame): `(c b^T + b c^T) / 2 - (c . b) 1` with `c = Q^T g`.
+    /// Second derivative of the work `g . r` of a constant vector `g` (lab frame) with respect to
+    /// the rotation of the frame: `(c b^T + b c^T) / 2 - (c . b) 1` with `c = Q^T g`.
     pub(crate) fn curvature_of_work(&self, g: Vector3, state: &State) -> Matrix3 {
         let q = state.frames.orientation.get(self.frame);
         let product = q.inverse_transform_vector(&g) * self.arm.transpose();
@@ -154,7 +158,6 @@ impl Site {
     }
 }
 
-/// Refuses a number that breaks its rule.
 pub(crate) fn ensure(
     holds: bool,
     key: LinkerKey,

@@ -1,28 +1,25 @@
-//! Forces at sites: dead ones, and those that turn with what they act on. Where sites are is in
-//! `site.rs`.
-
 use crate::Site;
 use actin_mechanics::{
     ControlId, Coordinates, Interaction, LoadError, Loads, SecondOrder, State, Stiffness,
     UnitQuaternion, Vector3,
 };
 
-/// Whether a force keeps its direction.
+/// Direction of a force.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ForceKind {
-    /// It keeps its direction in the lab: its potential is minus the force times the displacement.
+    /// Constant direction in the lab frame, with the potential `-F . u` of the displacement `u`.
     Dead,
-    /// It turns with the frame of its site, and has no potential.
+    /// Direction fixed in the frame of the site, without a potential.
     Follower,
 }
 
-/// A force at sites, scaled by a control: one element for each site.
+/// Force at sites, scaled by a control: one element per site.
 ///
-/// Each site takes the force times its weight: shares of a force, or lengths where the force is one per
-/// length.
+/// The force on a site is `force` times its weight. Weights are fractions of a force, or lengths
+/// for a force per length.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SiteForce {
-    /// Each site with its weight, its place and the orientation of its frame at the beginning.
+    /// Sites with weight, initial position and initial orientation of the frame.
     sites: Vec<(Site, f64, Vector3, UnitQuaternion)>,
     /// Force at control value 1 and weight 1 (pN, lab frame).
     force: Vector3,
@@ -31,8 +28,8 @@ pub struct SiteForce {
 }
 
 impl SiteForce {
-    /// The force (pN, lab frame, at control value 1) on sites where they are now, each with its weight;
-    /// `control` is its factor.
+    /// Creates a force (pN, lab frame) on sites at their current positions, with a weight each.
+    /// `control` is the factor of the force.
     ///
     /// ```
     /// use actin_coupling::{ForceKind, Interaction, RodPlace, Site, SiteForce, State, StraightRod};
@@ -50,10 +47,10 @@ impl SiteForce {
     /// ```
     ///
     /// # Errors
-    /// A control that `state` does not have, a force or a weight that is not finite.
+    /// If the control does not exist, or the force or a weight is not finite.
     ///
     /// # Panics
-    /// If `state` does not have the bodies of a site.
+    /// If a body of a site does not exist.
     pub fn new(
         state: &State,
         sites: Vec<(Site, f64)>,
@@ -81,12 +78,12 @@ impl SiteForce {
         })
     }
 
-    /// Its factor.
+    /// Control of the factor.
     pub fn control(&self) -> ControlId {
         self.control
     }
 
-    /// The force on a site whose frame was in the orientation `rest` (pN, lab frame).
+    /// Force on a site (pN, lab frame); `rest` is the initial orientation of its frame.
     fn force_on(&self, site: &Site, rest: UnitQuaternion, state: &State) -> Vector3 {
         let force = self.force * state.controls[self.control];
         match self.kind {
@@ -119,7 +116,6 @@ impl Interaction for SiteForce {
         self.sites.len()
     }
 
-    /// Zero of a follower, which has no potential.
     fn write_energies(&self, state: &State, energies: &mut [f64]) {
         energies.fill(0.0);
         if !self.is_conservative() {
@@ -137,7 +133,6 @@ impl Interaction for SiteForce {
 }
 
 impl SecondOrder for SiteForce {
-    /// Only an arm gives a dead force a stiffness.
     fn add_stiffness(&self, state: &State, stiffness: &mut Stiffness) {
         for (site, weight, _, rest) in &self.sites {
             if site.arm() == Vector3::zeros() {
@@ -159,7 +154,6 @@ mod tests {
     };
     use actin_mechanics::{Xorshift, perturb};
 
-    /// Two sites, one of them off the axis of a shaken rod.
     fn loaded(kind: ForceKind) -> (State, SiteForce) {
         let mut state = State::default();
         let rod = StraightRod::uniform(3, 10.0).push(&mut state).unwrap();
@@ -190,7 +184,6 @@ mod tests {
         assert!((force - expected).norm() < 1e-14);
     }
 
-    /// Followers turn with the rod, and say that they have no potential.
     #[test]
     fn followers_turn_along() {
         let (mut state, load) = loaded(ForceKind::Follower);

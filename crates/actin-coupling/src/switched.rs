@@ -1,13 +1,9 @@
-//! A linker that holds or does not, and at one of several places. What switches it is no business of this
-//! crate.
-
 use crate::Linker;
 use actin_mechanics::{ControlId, Interaction, Loads, RandomStress, SecondOrder, State, Stiffness};
 
-/// A linker whose site is one of several places and which may have let go, as two controls say: term
-/// `linker`, one element.
+/// Linker that can be released, and bound at one of several places: term `linker`, one element.
 ///
-/// A state that is copied, kept and restored has the linker as it was.
+/// Two controls of the state hold the current place and whether the linker is bound.
 #[derive(Clone, Debug)]
 pub struct SwitchedLinker {
     places: Vec<Linker>,
@@ -16,12 +12,12 @@ pub struct SwitchedLinker {
 }
 
 impl SwitchedLinker {
-    /// A linker at the first of its places, with the controls of whether it holds and where.
+    /// Creates a linker at the first place and adds its controls to the state.
     ///
     /// # Panics
-    /// If there is no place.
+    /// If `places` is empty.
     pub fn new(state: &mut State, places: Vec<Linker>, is_bound: bool) -> Self {
-        assert!(!places.is_empty(), "a linker has at least one place");
+        assert!(!places.is_empty(), "a linker needs at least one place");
         Self {
             places,
             bound: state.add_control(f64::from(u8::from(is_bound))),
@@ -29,17 +25,17 @@ impl SwitchedLinker {
         }
     }
 
-    /// The linker at each of its places.
+    /// Linkers of all places.
     pub fn places(&self) -> &[Linker] {
         &self.places
     }
 
-    /// Whether it holds.
+    /// Returns `true` if the linker is bound.
     pub fn is_bound(&self, state: &State) -> bool {
         state.controls[self.bound] > 0.0
     }
 
-    /// Index of its place.
+    /// Index of the current place.
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,
@@ -50,20 +46,20 @@ impl SwitchedLinker {
         place.min(self.places.len() - 1)
     }
 
-    /// The linker at its place, whether it holds or not.
+    /// Linker at the current place, bound or not.
     pub fn linker(&self, state: &State) -> &Linker {
         &self.places[self.place(state)]
     }
 
-    /// Lets go.
+    /// Releases the linker.
     pub fn release(&self, state: &mut State) {
         state.controls[self.bound] = 0.0;
     }
 
-    /// Holds at a place.
+    /// Binds the linker at a place.
     ///
     /// # Panics
-    /// If there is no such place.
+    /// If the index is out of range.
     pub fn bind(&self, state: &mut State, place: usize) {
         assert!(place < self.places.len(), "no place {place}");
         state.controls[self.bound] = 1.0;
@@ -103,7 +99,6 @@ impl Interaction for SwitchedLinker {
     }
 }
 
-/// That of the linker at its place, while it holds.
 impl RandomStress for SwitchedLinker {
     fn components(&self) -> usize {
         self.places[0].components()

@@ -1,4 +1,4 @@
-//! A measured curve beside an expected one, drawn as SVG.
+//! Plots a measured and an expected curve as SVG.
 //!
 //! `cargo run -p actin-draw --example decay -- decay.svg`
 

@@ -1,8 +1,7 @@
-//! The browser that prints pictures, and in which pages are tested.
+//! Browser for printing pictures and testing pages.
 
 use std::path::PathBuf;
 
-/// Names of the browser on the path.
 const NAMES: [&str; 4] = [
     "chromium",
     "chromium-browser",
@@ -10,7 +9,7 @@ const NAMES: [&str; 4] = [
     "google-chrome-stable",
 ];
 
-/// A Chromium: that of the variable `CHROME`, or the first on the path; none where there is none.
+/// Returns the Chromium executable: the value of `CHROME`, or the first on the path.
 pub fn browser() -> Option<PathBuf> {
     if let Some(named) = std::env::var_os("CHROME") {
         return Some(named.into());

@@ -22,13 +22,13 @@ impl From<Colour> for RGBColor {
 }
 
 impl Colour {
-    /// The colour mixed with a share of white.
+    /// Mixes the colour with a fraction of white.
     #[must_use]
     pub fn lighter(self, share: f64) -> Self {
         self.towards(255.0, share)
     }
 
-    /// The colour mixed with a share of black.
+    /// Mixes the colour with a fraction of black.
     #[must_use]
     pub fn darker(self, share: f64) -> Self {
         self.towards(0.0, share)
@@ -46,7 +46,7 @@ impl Colour {
         )
     }
 
-    /// Contrast to another colour: 1 to itself, 21 of black to white.
+    /// Returns the contrast ratio to another colour, from 1 (equal) to 21 (black and white).
     ///
     /// # Source
     /// W3C, Web Content Accessibility Guidelines 2.1, contrast ratio.
@@ -55,7 +55,7 @@ impl Colour {
         (one / other).max(other / one)
     }
 
-    /// Relative luminance in sRGB, from 0 to 1.
+    /// Returns the relative luminance in sRGB, from 0 to 1.
     ///
     /// # Source
     /// W3C, Web Content Accessibility Guidelines 2.1, relative luminance.
@@ -71,7 +71,6 @@ impl Colour {
         0.2126 * linear[0] + 0.7152 * linear[1] + 0.0722 * linear[2]
     }
 
-    /// As SVG writes it.
     pub(crate) fn hex(self) -> String {
         let [red, green, blue] = self.0;
         format!("#{red:02x}{green:02x}{blue:02x}")

@@ -1,16 +1,15 @@
-//! Pictures and pages for numbers: line charts, scatters, solids in space, and a report that sets
-//! computed numbers beside expected ones.
+//! Line charts, scatter plots, 3D scenes, and reports that compare computed numbers with expected ones.
 //!
-//! - [`Chart`] and [`Scatter`] are drawn into SVG files.
+//! - [`Chart`] and [`Scatter`] write SVG files.
 //! - [`scene3d`] draws ellipsoids, cylinders, lines and labels in perspective, as SVG.
-//! - [`raster`] draws solids into PNG pictures.
-//! - [`report`] holds rows of numbers with what they are compared with, and reads and writes them.
-//! - [`page`] puts pictures, rows and text into one HTML file without links to anything outside.
-//! - [`space`] has the scripts of views that a reader turns.
-//! - [`browser`](fn@browser) finds what prints and tests pages.
-//! - [`Ramp`] and the sets of [`lines`] are colours that keep their differences on white paper.
+//! - [`raster`] renders solids to PNG pictures.
+//! - [`report`] reads and writes rows of numbers with reference values.
+//! - [`page`] combines pictures, rows and text in a self-contained HTML file.
+//! - [`space`] contains scripts of interactive 3D views.
+//! - [`browser`](fn@browser) finds the browser that prints and tests pages.
+//! - [`Ramp`] and [`lines`] are colours that are distinguishable on white paper.
 //!
-//! Nothing here knows what is drawn: shapes, numbers and texts come from the caller.
+//! This crate is independent of actin: shapes, numbers and texts are provided by the caller.
 
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]

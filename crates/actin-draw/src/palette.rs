@@ -1,14 +1,14 @@
-//! Colours that belong together: ramps between two ends, and sets of lines.
+//! Colour ramps and sets of line colours.
 
 use crate::Colour;
 
-/// Colours at even steps between two ends, each as red, green and blue.
+/// A sequence of colours (red, green, blue) at equal steps.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Ramp(&'static [[u8; 3]]);
 
-/// Sets of colours for lines that have no order, each as red, green and blue.
+/// Sets of colours (red, green, blue) for unordered lines.
 pub mod lines {
-    /// Five hues of one lightness: red, orange, green, blue, purple.
+    /// Five hues of similar lightness: red, orange, green, blue, purple.
     pub const HUES: [[u8; 3]; 5] = [
         [190, 25, 35],
         [235, 150, 20],
@@ -16,7 +16,7 @@ pub mod lines {
         [30, 70, 180],
         [140, 70, 160],
     ];
-    /// Vermilion, orange, bluish green, blue and reddish purple, which all kinds of sight tell apart.
+    /// Colours for colour-blind readers: vermilion, orange, bluish green, blue, reddish purple.
     ///
     /// # Source
     /// M. Okabe and K. Ito, Color Universal Design (2008).
@@ -30,7 +30,7 @@ pub mod lines {
 }
 
 impl Ramp {
-    /// From red through yellow to blue, dark enough in the middle to be seen on white.
+    /// Red through yellow to blue, dark enough to be visible on white.
     pub const RED_YELLOW_BLUE: Self = Self(&[
         [190, 25, 35],
         [235, 110, 40],
@@ -38,8 +38,8 @@ impl Ramp {
         [90, 165, 215],
         [30, 70, 180],
     ]);
-    /// Entries 7 to 2 of the eight of viridis: its yellow end would vanish on white, its black one
-    /// could not be told from ink.
+    /// Entries 7 to 2 of eight colours of viridis. Its yellow end is not visible on white, and its dark end resembles
+    /// black.
     ///
     /// # Source
     /// S. van der Walt and N. Smith, matplotlib 1.5 (2015), as sampled by `viridisLite::viridis(8)`.
@@ -52,13 +52,12 @@ impl Ramp {
         [70, 51, 126],
     ]);
 
-    /// The colours at even steps, from the first end to the last.
+    /// Returns the colours at equal steps.
     pub fn stops(self) -> &'static [[u8; 3]] {
         self.0
     }
 
-    /// The colour at a share of the way, which is taken to be at least 0 and at most 1; between the
-    /// stops in a straight line.
+    /// Interpolates linearly at a fraction from 0 to 1; other fractions are clamped.
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,
@@ -92,9 +91,6 @@ mod tests {
         assert_eq!(Ramp::VIRIDIS.at(2.0), Colour(Ramp::VIRIDIS.stops()[5]));
     }
 
-    /// Colours are in the order of their lightness, so that they differ for every kind of sight
-    /// and in grey: each is seen better on white than the one before. Symptom of a swapped or mistyped
-    /// stop: a step back.
     #[test]
     fn viridis_darkens_throughout() {
         let shades: Vec<f64> = (0..=40)
@@ -104,8 +100,7 @@ mod tests {
         assert!(shades.is_sorted_by(|a, b| a < b), "{shades:?}");
     }
 
-    /// Nothing is drawn that cannot be seen on white: 1.5 is the contrast of a light yellow pencil,
-    /// 1 that of white on white.
+    /// All colours are visible on white, with a contrast of at least 1.5.
     #[test]
     fn every_colour_is_seen_on_white() {
         for ramp in BOTH {
@@ -116,7 +111,7 @@ mod tests {
         }
     }
 
-    /// A contrast of 3 to the dark card, what graphics need to be told from their ground.
+    /// All colours have a contrast of 3 to the dark background, the minimum for graphics.
     ///
     /// # Source
     /// W3C, Web Content Accessibility Guidelines 2.1, success criterion 1.4.11.

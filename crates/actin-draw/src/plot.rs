@@ -1,4 +1,4 @@
-//! Line charts as SVG, in one style for all figures.
+//! Line charts as SVG.
 
 use crate::Colour;
 use plotters::prelude::*;
@@ -7,17 +7,17 @@ use std::path::Path;
 /// One line of a chart.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Series {
-    /// Name in the legend; series without a name are drawn only.
+    /// Name in the legend, if any.
     pub label: Option<String>,
     /// Colour.
     pub colour: Colour,
     /// Points in data coordinates.
     pub points: Vec<(f64, f64)>,
-    /// Whether the points are drawn as dots instead of a line.
+    /// True for dots instead of a line.
     pub dots: bool,
 }
 
-/// A chart of lines and dots on linear axes; the legend goes to the corner where it hides least.
+/// A chart of lines and dots on linear axes. The legend is placed in the emptiest corner.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Chart<'a> {
     /// Text above the chart.
@@ -26,15 +26,15 @@ pub struct Chart<'a> {
     pub x_label: &'a str,
     /// Quantity and unit of the vertical axis.
     pub y_label: &'a str,
-    /// What is drawn, the last on top.
+    /// Lines and dots, in drawing order.
     pub series: Vec<Series>,
-    /// Whether both axes have the same scale.
+    /// True for equal scales on both axes.
     pub equal_axes: bool,
 }
 
 impl Series {
-    /// The line in dashes, so that lines below it are seen; `equal_axes` is that of the chart. The
-    /// first dash keeps the label.
+    /// Splits the line into dashes, so that lines below it are visible; `equal_axes` must be that of the chart. The
+    /// first dash has the label.
     pub fn dashed(self, equal_axes: bool) -> Vec<Self> {
         let Self {
             mut label, colour, ..
@@ -50,10 +50,9 @@ impl Series {
     }
 }
 
-/// Length of a dash, and of the gap behind it, as a share of the range of the line.
+/// Length of a dash and of a gap, relative to the range of the line.
 const DASH: f64 = 0.018;
 
-/// Every other piece of a line.
 fn dashes(points: &[(f64, f64)], equal_axes: bool) -> Vec<Vec<(f64, f64)>> {
     let width = range(points.iter().map(|p| p.0));
     let height = range(points.iter().map(|p| p.1));
@@ -86,23 +85,22 @@ fn dashes(points: &[(f64, f64)], equal_axes: bool) -> Vec<Vec<(f64, f64)>> {
     all
 }
 
-/// Largest minus smallest value, 1 if they are the same.
+/// Returns the difference of the largest and the smallest value, or 1 if they are equal.
 fn range(values: impl Iterator<Item = f64> + Clone) -> f64 {
     let high = values.clone().fold(f64::NEG_INFINITY, f64::max);
     let range = high - values.fold(f64::INFINITY, f64::min);
     if range > 0.0 { range } else { 1.0 }
 }
 
-/// Size of a chart in pixels.
 const SIZE: (u32, u32) = (900, 560);
-/// Pixels of the plane inside labels and margins, used to make scales equal.
+/// Size of the plot area in pixels, for equal scales.
 const PLANE: (f64, f64) = (800.0, 450.0);
 
 impl Chart<'_> {
-    /// Draws the chart into the SVG file `path`.
+    /// Writes the chart to an SVG file.
     ///
     /// # Errors
-    /// A chart without points, or a file that cannot be written.
+    /// If the chart has no points, or the file cannot be written.
     pub fn draw(&self, path: &Path) -> Result<(), String> {
         let (x, y) = ranges(self).ok_or_else(|| format!("{}: nothing to draw", self.title))?;
         let root = SVGBackend::new(path, SIZE).into_drawing_area();
@@ -161,7 +159,6 @@ fn render(
     Ok(())
 }
 
-/// What stands for a series in the legend: a stretch of its line, or one of its dots.
 fn key<'a>(
     dots: bool,
     colour: RGBColor,
@@ -174,7 +171,6 @@ fn key<'a>(
     }
 }
 
-/// Dots, or places along a line at even steps between its points.
 fn along(series: &Series) -> Vec<(f64, f64)> {
     if series.dots {
         return series.points.clone();
@@ -190,10 +186,8 @@ fn along(series: &Series) -> Vec<(f64, f64)> {
     steps.collect()
 }
 
-/// Places along a stretch of a line.
 const STEPS: u8 = 8;
 
-/// The corner where the legend hides the least of the lines and dots.
 fn emptiest_corner(chart: &Chart<'_>) -> SeriesLabelPosition {
     let Some((x, y)) = ranges(chart) else {
         return SeriesLabelPosition::UpperRight;
@@ -221,10 +215,10 @@ fn emptiest_corner(chart: &Chart<'_>) -> SeriesLabelPosition {
     emptiest.map_or(SeriesLabelPosition::UpperRight, |(_, corner)| corner)
 }
 
-/// Share of the plane, across and up, that a legend takes.
+/// Size of the legend relative to the plot area.
 const LEGEND: (f64, f64) = (0.25, 0.45);
 
-/// Data ranges with a margin, made to have equal scales where the chart asks for it.
+/// Returns data ranges with a margin, with equal scales if requested.
 fn ranges(chart: &Chart<'_>) -> Option<(std::ops::Range<f64>, std::ops::Range<f64>)> {
     let points = || chart.series.iter().flat_map(|s| &s.points);
     points().next()?;
@@ -243,7 +237,6 @@ fn ranges(chart: &Chart<'_>) -> Option<(std::ops::Range<f64>, std::ops::Range<f6
     Some((x.0..x.1, y.0..y.1))
 }
 
-/// The range of the given width about the same middle.
 fn widen((low, high): (f64, f64), width: f64) -> (f64, f64) {
     let middle = 0.5 * (low + high);
     (middle - 0.5 * width, middle + 0.5 * width)
@@ -253,8 +246,7 @@ fn widen((low, high): (f64, f64), width: f64) -> (f64, f64) {
 mod tests {
     use super::*;
 
-    /// Half of a straight line is drawn, in pieces that follow one another, and one has the label; so
-    /// it is with many points, and with two that are many dashes apart.
+    /// The dashes cover half of a straight line, do not overlap, and one of them has the label.
     #[test]
     fn dashes_cover_half_of_a_line() {
         for stretches in [1, 50] {
@@ -268,7 +260,7 @@ mod tests {
             let dashes = line.dashed(true);
             let ends = |dash: &Series| (dash.points[0].0, dash.points[dash.points.len() - 1].0);
             let drawn: f64 = dashes.iter().map(ends).map(|(from, to)| to - from).sum();
-            // A dash and a gap are 1.8 long each.
+            // Dashes and gaps are 1.8 long.
             assert!((drawn - 50.0).abs() < 2.0, "{drawn}");
             let follow = |pair: &[Series]| ends(&pair[0]).1 < ends(&pair[1]).0;
             assert!(dashes.windows(2).all(follow));

@@ -1,15 +1,15 @@
-//! Points on logarithmic axes as SVG: numbered, with a list of what the numbers are, and a line
-//! through those that stand out.
+//! Scatter plots on logarithmic axes as SVG, with numbered points, a list of their names, and a line through the
+//! front.
 
 use crate::Colour;
 use plotters::coord::Shift;
 use plotters::prelude::*;
 use std::path::Path;
 
-/// A picture of points on two logarithmic axes.
+/// A scatter plot on two logarithmic axes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scatter<'a> {
-    /// Text above the picture.
+    /// Title.
     pub title: &'a str,
     /// Quantity and unit of the horizontal axis.
     pub x_label: &'a str,
@@ -17,41 +17,39 @@ pub struct Scatter<'a> {
     pub y_label: &'a str,
     /// Points, numbered in this order.
     pub points: Vec<ScatterPoint>,
-    /// A height above zero at which a line across is drawn, and what it is.
+    /// Position and label of a horizontal line, if any; must be positive.
     pub level: Option<(f64, &'a str)>,
-    /// Text above the list of points.
+    /// Heading of the list of points.
     pub list_title: &'a str,
 }
 
-/// One point of a [`Scatter`].
+/// A point of a [`Scatter`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct ScatterPoint {
-    /// Its place in data coordinates, both above zero.
+    /// Position in data coordinates, both positive.
     pub place: (f64, f64),
-    /// Its colour, in the plot and in the list.
+    /// Colour in the plot and in the list.
     pub colour: Colour,
-    /// What it is.
+    /// Name.
     pub name: String,
-    /// Whether the line goes through it, in the order of the points; such points are marked `*`.
+    /// True for points on the line, which connects them in order. They are marked `*`.
     pub on_front: bool,
 }
 
-/// Pixels of the picture, and of the plot in it.
+/// Size of the picture and width of the plot in pixels.
 const SIZE: (u32, u32) = (1240, 720);
 const PLOT_WIDTH: u32 = 840;
-/// Font of labels.
 const FONT: (&str, i32) = ("sans-serif", 13);
-/// Height of a line of the list, in pixels.
 const LINE: i32 = 16;
 
 type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 type Outcome = Result<(), Box<dyn std::error::Error>>;
 
 impl Scatter<'_> {
-    /// Draws the picture into the SVG file `path`; nothing if there is no point.
+    /// Writes the plot to an SVG file. Without points, no file is written.
     ///
     /// # Errors
-    /// A file that cannot be written.
+    /// If the file cannot be written.
     pub fn draw(&self, path: &Path) -> Result<(), String> {
         if self.points.is_empty() {
             return Ok(());
@@ -62,7 +60,6 @@ impl Scatter<'_> {
 }
 
 impl Scatter<'_> {
-    /// The ranges of both axes, with the level in the vertical one.
     fn ranges(&self) -> ((f64, f64), (f64, f64)) {
         let places = || self.points.iter().map(|point| point.place);
         let level = self.level.map(|(level, _)| level);
@@ -111,13 +108,11 @@ fn render(picture: &Scatter<'_>, root: &Area<'_>) -> Outcome {
     Ok(root.present()?)
 }
 
-/// The colour of a point, and its text in that colour.
 fn painted(point: &ScatterPoint) -> (RGBColor, TextStyle<'static>) {
     let colour = RGBColor::from(point.colour);
     (colour, FONT.into_font().color(&colour))
 }
 
-/// What the numbers are; those of the front are marked.
 fn list(picture: &Scatter<'_>, area: &Area<'_>) -> Outcome {
     let black = FONT.into_font().color(&BLACK);
     area.draw(&Text::new(picture.list_title, (0, 20), black))?;
@@ -131,7 +126,6 @@ fn list(picture: &Scatter<'_>, area: &Area<'_>) -> Outcome {
     Ok(())
 }
 
-/// The range of values on a logarithmic axis, a little wider than they are.
 fn decades(values: impl Iterator<Item = f64> + Clone) -> (f64, f64) {
     let low = values.clone().fold(f64::INFINITY, f64::min);
     let high = values.fold(0.0, f64::max);

@@ -1,4 +1,4 @@
-//! Loads of bonded monomers, by bonds.
+//! Bond loads of monomers.
 //!
 //! `cargo bench -p actin-ellipsoid --bench bond_loads`
 

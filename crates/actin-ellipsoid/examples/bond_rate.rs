@@ -1,4 +1,4 @@
-//! Prints how many bonds per second the loads and the second derivatives handle, on one thread.
+//! Prints the evaluation rate of loads and second derivatives in bonds per second on one thread.
 //!
 //! `cargo run --release -p actin-ellipsoid --example bond_rate`
 
@@ -21,7 +21,6 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// A filament away from rest.
 fn filament(
     count: usize,
     parameters: EllipsoidParameters,
@@ -36,7 +35,6 @@ fn filament(
     Ok((state, bonds))
 }
 
-/// Prints both rates of one filament.
 fn print_rates(kind: &str, state: &State, bonds: &Bonds) {
     let number = bonds.number_of_bonds();
     let mut loads = Loads::zeros(state);
@@ -60,7 +58,7 @@ fn print_rates(kind: &str, state: &State, bonds: &Bonds) {
     );
 }
 
-/// Seconds per evaluation: the best of many short batches, as other work only ever slows one down.
+/// Seconds per evaluation: minimum over many short batches.
 fn seconds(evaluations: usize, mut evaluate: impl FnMut()) -> f64 {
     let batch = || {
         let start = Instant::now();

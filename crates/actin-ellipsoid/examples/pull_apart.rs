@@ -1,4 +1,4 @@
-//! Two monomers are pulled apart along the line of their centres: a spring of known rigidity.
+//! Separates two monomers along their line of centres and compares with a spring.
 
 use actin_ellipsoid::{EllipsoidModel, EllipsoidParameters, Interaction, Loads, Placement, State};
 
@@ -8,7 +8,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let monomers = model.build(&mut state, &Placement::default(), 0, 2)?;
     let bonds = model.bonds(&monomers)?;
 
-    // All bonds are parallel to the line of centres, so they act with their full rigidity.
+    // All bonds are parallel to the line of centres and extend equally.
     let apart = 0.01;
     let direction = (model.helix().centre(1) - model.helix().centre(0)).normalize();
     state

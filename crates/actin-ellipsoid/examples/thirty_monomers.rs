@@ -1,4 +1,4 @@
-//! Thirty monomers are pulled along their axis: how much longer they become, against rod theory.
+//! Pulls thirty monomers along their axis and compares the elongation with rod theory.
 
 use actin_ellipsoid::{EllipsoidModel, EllipsoidParameters, Placement, PointLoad, State, Vector3};
 use actin_equilibrium::relax;
@@ -13,7 +13,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         state.frames.hold(monomers.frame(k));
     }
 
-    // 100 pN along z, shared by the last two monomers, which are free to turn.
+    // 100 pN along z, shared by the last two monomers, which are free to rotate.
     let force = 100.0;
     let ends = [monomers.point(28), monomers.point(29)];
     let load = PointLoad::shared(&mut state, &ends, Vector3::z() * force)?;
@@ -27,8 +27,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     relax(&mut state, &[Box::new(bonds), Box::new(load)])?;
     let longer = mean_height(&state) - before;
 
-    // A helix that is pulled unwinds: with the stretching rigidity S3, the twisting rigidity B3 and
-    // their coupling C3 (pN, pN nm^2, pN nm) its stiffness is S3 - C3^2 / B3 where it may turn.
+    // Stretching rigidity S3 (pN), twisting rigidity B3 (pN nm^2), coupling C3 (pN nm). A filament
+    // that is free to rotate unwinds under tension: its stiffness is S3 - C3^2 / B3.
     let (s3, b3, c3) = (3.4e4, 1.3e4, 9.63e3);
     let theory = force * 28.0 * model.helix().rise() / (s3 - c3 * c3 / b3);
     println!("longer by {longer:.4} nm; F L / (S3 - C3^2 / B3) = {theory:.4} nm");

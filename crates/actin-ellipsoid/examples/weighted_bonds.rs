@@ -1,5 +1,5 @@
-//! Prints the weighted bonds of an interface and what they were held against, as the table of
-//! `src/cubature/table.rs` has them.
+//! Prints the quadrature bonds of an interface and their certificate in the format of
+//! `src/cubature/table.rs`.
 //!
 //! `cargo run -p actin-ellipsoid --example weighted_bonds [POINTS] [SHORTEST_NM]`
 
@@ -21,7 +21,6 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// Prints the points of one kind of interface.
 fn print(kind: InterfaceKind, found: &Cubature) {
     let name = kind.to_string().to_uppercase();
     let certificate = found.certificate;

@@ -1,7 +1,4 @@
-//! All bonds of a run of monomers: the term that acts on the state.
-//!
-//! The loop over bonds is in `kernel.rs`, second derivatives are in `bonds/stiffness.rs`; drawing
-//! anchors is in `interface.rs`.
+//! Interaction of all bonds of a run of monomers.
 
 mod energies;
 mod stiffness;
@@ -13,25 +10,33 @@ use crate::{Bond, EllipsoidModel, InterfaceError, InterfaceKind, Monomers};
 use actin_mechanics::wide::{self, Arch};
 use actin_mechanics::{Interaction, Loads, Matrix3, SecondOrder, State, Vector3};
 
-/// The harmonic bonds of a run of consecutive monomers: term `bonds`, one element per interface.
+/// Harmonic bonds of a run of consecutive monomers: term `bonds`, one element per interface.
 ///
-/// A bond from anchor `a` of the lower monomer to anchor `b` of the upper one (body frames) has
-/// the energy `k/2 (|d| - L)^2`, where `d` is the vector between the anchors, `L` its rest length
-/// and `k` the interface's rigidity times the bond's weight, one over their number for drawn ones. With `d` in the lower body's
-/// frame, `f = k (1 - L/|d|) d` acts on the lower monomer and `-f` on the upper one. With
-/// `F = sum f`, `T = sum a x f` and `D` the vector between the centres, the torque on the lower
-/// monomer is `T`, and that on the upper one, in the lower one's frame, `-(T - D x F)`.
+/// Energy of a bond, loads on the lower and on the upper monomer:
 ///
-/// In the built filament all of these vanish to round-off. Rest lengths are those of the ideal
-/// helix, but positions and azimuths are stored to 1e-16 of their own size: with the default
-/// parameters forces of about 1e-10 pN remain 100 nm from the origin, and in proportion beyond.
+/// ```text
+/// E   = k/2 (|d| - L)^2
+/// f   = k (1 - L/|d|) d             force of one bond on the lower monomer
+/// F   = sum f,  T = sum a x f       force and torque on the lower monomer
+/// -F, -(T - D x F)                  force and torque on the upper monomer
 ///
-/// Loads are summed with as many lanes, and with fused products, as the processor offers; their
-/// last digits may differ from one kind of processor to another.
+/// a, b   anchors on the lower and upper monomer (nm, body frames)
+/// d      vector from a to b (nm)
+/// D      vector between the centres (nm)
+/// L      rest length (nm)
+/// k      rigidity of the interface times the weight of the bond (pN/nm)
+/// ```
 ///
-/// A bond whose anchors coincide has no direction: it exerts no force then (its energy has a
-/// kink there), and never a value that is not finite. Its second derivatives are then those of
-/// `k d^2 / 2` alone; nearby, the stiffness across the bond diverges as `-k L / |d|`.
+/// Vectors without a stated frame are in the body frame of the lower monomer.
+///
+/// The built filament is free of loads up to rounding: with the default parameters, forces of about
+/// 1e-10 pN remain 100 nm from the origin and grow in proportion to the distance. The number of
+/// vector lanes and the use of fused products depend on the processor, and so do the last digits of
+/// loads.
+///
+/// A bond of zero length exerts no force, because its direction is undefined. Its second
+/// derivatives are then those of `k d^2 / 2`. Near zero length the transverse stiffness diverges as
+/// `-k L / |d|`.
 ///
 /// # Source
 /// arXiv 2203.01284, Section 2.1.
@@ -39,7 +44,6 @@ use actin_mechanics::{Interaction, Loads, Matrix3, SecondOrder, State, Vector3};
 pub struct Bonds {
     monomers: Monomers,
     pairs: Vec<Pair>,
-    /// Lateral bonds, longitudinal bonds.
     tables: [BondTable; 2],
     arch: Arch,
 }
@@ -49,17 +53,16 @@ pub struct Bonds {
 pub struct Pair {
     /// Kind of the interface between them.
     pub kind: InterfaceKind,
-    /// Place of the lower monomer in the run.
+    /// Index of the lower monomer in the run.
     pub lower: usize,
-    /// Place of the upper monomer in the run.
+    /// Index of the upper monomer in the run.
     pub upper: usize,
     /// Number of bonds.
     pub bonds: usize,
-    /// Rigidity that the bonds share (pN/nm): the stiffness of each is this times its weight.
+    /// Rigidity of the interface (pN/nm). The stiffness of a bond is this times its weight.
     pub rigidity: f64,
 }
 
-/// One monomer where it now is.
 #[derive(Clone, Copy, Debug)]
 struct Body {
     centre: Vector3,
@@ -67,8 +70,7 @@ struct Body {
 }
 
 impl Bonds {
-    /// Draws all interfaces within the run whose lower monomer is among the first `lowers`, or looks up
-    /// their weighted bonds.
+    /// Bonds of all interfaces whose lower monomer is among the first `lowers` of the run.
     pub(crate) fn new(
         model: &EllipsoidModel,
         monomers: Monomers,
@@ -103,7 +105,6 @@ impl Bonds {
         })
     }
 
-    /// The bonds of all interfaces of one kind.
     fn tabulate(
         model: &EllipsoidModel,
         kind: InterfaceKind,
@@ -131,8 +132,8 @@ impl Bonds {
         &self.monomers
     }
 
-    /// The bonded pairs in the order of the elements: for each lower monomer the lateral
-    /// interface, then the longitudinal one.
+    /// Bonded pairs in the order of the elements: the lateral interface of each lower monomer, then
+    /// the longitudinal one.
     pub fn pairs(&self) -> &[Pair] {
         &self.pairs
     }
@@ -142,13 +143,12 @@ impl Bonds {
         self.pairs.iter().map(|pair| pair.bonds).sum()
     }
 
-    /// The bonds of one pair.
+    /// Bonds of one pair.
     pub fn bonds_of(&self, pair: &Pair) -> impl Iterator<Item = Bond> + '_ {
         self.table(pair.kind).bonds_of(pair.lower)
     }
 
-    /// Both ends of every bond of one pair (nm, lab frame): on the lower, then on the upper
-    /// monomer.
+    /// Ends of every bond of one pair (nm, lab frame): on the lower monomer, then on the upper one.
     pub fn ends_of(&self, pair: &Pair, state: &State) -> impl Iterator<Item = [Vector3; 2]> {
         let lower = self.body(state, pair.lower);
         let upper = self.body(state, pair.upper);
@@ -156,7 +156,6 @@ impl Bonds {
             .map(move |bond| [lower.to_lab(bond.lower), upper.to_lab(bond.upper)])
     }
 
-    /// The bonds of one kind.
     fn table(&self, kind: InterfaceKind) -> &BondTable {
         let [lateral, longitudinal] = &self.tables;
         match kind {
@@ -165,7 +164,6 @@ impl Bonds {
         }
     }
 
-    /// Monomer `k` of the run.
     fn body(&self, state: &State, k: usize) -> Body {
         let orientation = state.frames.orientation.get(self.monomers.frame(k));
         Body {
@@ -176,12 +174,10 @@ impl Bonds {
 }
 
 impl Body {
-    /// A point of the body in the lab frame.
     fn to_lab(self, point: Vector3) -> Vector3 {
         self.centre + self.axes * point
     }
 
-    /// This body as `lower` sees it.
     fn relative_to(&self, lower: &Self) -> Relative {
         Relative {
             rotation: lower.axes.tr_mul(&self.axes),

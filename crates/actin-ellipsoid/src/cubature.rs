@@ -1,8 +1,4 @@
-//! Weighted bonds: a few that stand for all that could be drawn in an interface.
-//!
-//! [`Cubature::of`] finds them once for a geometry; [`moments`] says what they have in common with
-//! all bonds, [`patch`] averages over those, [`search`] moves the points, [`table`] holds those of
-//! the default parameters.
+//! Quadrature bonds: weighted bonds that reproduce the moments of all possible bonds.
 
 mod cache;
 mod gauss;
@@ -21,129 +17,131 @@ use search::{Bounds, UNKNOWNS, search};
 use std::sync::Arc;
 use thiserror::Error;
 
-/// Largest deviation of a moment, in units of its feature's root mean square, with which the moments
-/// count as met: a tenth of the 1 % to which the points are to stand for many drawn bonds.
+/// Tolerance of the moments, relative to the root mean square of their feature: a tenth of the
+/// required accuracy.
 const MET: f64 = 1e-3;
 
-/// Deviation with which no further start is tried. Of twelve points the best have 1e-5 to 2e-4.
+/// Deviation at which the search ends.
 const ENOUGH: f64 = 1e-4;
 
-/// Least weight as a share of the mean one: without a bound weights vanish, and with them points.
+/// Minimum weight relative to the mean.
 const LEAST_WEIGHT: f64 = 0.05;
 
-/// Searches from drawn bonds before the points are given up.
 const STARTS: u64 = 30;
 
-/// Seed of the bonds that searches start from.
 const SEED: u64 = 0x0063_7562_6174_7572;
 
-/// A bond of a weighted interface, as seen along the line of centres.
+/// Point of the quadrature: a bond parallel to the line of centres.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CubaturePoint {
-    /// Place across the line of centres (nm): away from the filament's axis, midway between the two
-    /// monomers, and along the line of centres times that direction.
+    /// Position across the line of centres (nm). The first direction points away from the filament
+    /// axis, midway between the monomers; the second is the line of centres times the first.
     pub place: [f64; 2],
-    /// Height of its middle along the line of centres, above the middle of that line (nm): that of a
-    /// bond drawn at this place.
+    /// Height of the bond's midpoint above the midpoint of the line of centres (nm): the value of a
+    /// sampled bond at this position.
     pub height: f64,
-    /// Length at rest (nm).
+    /// Rest length (nm).
     pub length: f64,
-    /// Share of the interface's rigidity.
+    /// Fraction of the rigidity of the interface.
     pub weight: f64,
 }
 
-/// What the points of an interface were held against.
+/// Certificate of a quadrature.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MomentCheck {
-    /// Largest deviation of one of the 46 moments, in units of the root mean square of what it is
-    /// the average of.
+    /// Largest deviation of the 46 moments, each relative to the root mean square of its feature.
     pub residual: f64,
-    /// Least and largest weight.
+    /// Minimum and maximum weight.
     pub weights: [f64; 2],
-    /// Least and largest length (nm).
+    /// Minimum and maximum length (nm).
     pub lengths: [f64; 2],
-    /// Least and largest length of all bonds that could be drawn (nm).
+    /// Minimum and maximum length of all possible bonds (nm).
     pub drawn_lengths: [f64; 2],
-    /// Points outside the convex outline of the places of all bonds.
+    /// Number of points outside the convex outline of all possible bonds.
     pub outside: usize,
 }
 
-/// Weighted bonds that stand for all bonds of an interface.
+/// Quadrature bonds of an interface.
 ///
-/// All bonds of an interface are parallel to the line of centres at rest, so that their energy
-/// depends on the joint distribution of place `rho` across it and length `L`. Expanding the length of
-/// a slipped bond shows by which moments: `rho^a` for `|a| <= 2`, `rho^a / L` for `|a| <= 3`,
-/// `rho^a / L^2` and `rho^a / L^3` for `|a| <= 4`, 46 in all. Their values for bonds drawn uniformly
-/// on the lower monomer's surface are found by quadrature; places, lengths and weights of the points
-/// by least squares. Twelve points, with 48 unknowns, meet them; fewer come as near as they can.
+/// At rest, all bonds of an interface are parallel to the line of centres. The energy therefore
+/// depends on the joint distribution of transverse position `rho` and length `L`. Expanding the
+/// length of a sheared bond gives 46 moments:
 ///
-/// The gap between the monomers is tilted and bent, so that the middles of bonds lie at different
-/// heights along the line of centres: points have theirs where drawn bonds have it at the same place.
+/// ```text
+/// rho^a,  |a| <= 2;    rho^a / L,  |a| <= 3;    rho^a / L^2  and  rho^a / L^3,  |a| <= 4
+/// ```
 ///
-/// Nothing is drawn that depends on a seed, and all interfaces of a kind have the same points. They
-/// are found once per geometry and process; those of the default parameters are built in.
+/// The moments of bonds uniformly distributed on the surface of the lower monomer are computed by
+/// numerical quadrature. Position, length and weight of the points follow from nonlinear least
+/// squares. Twelve points (48 unknowns) match all moments; fewer points minimise the deviation.
 ///
-/// An interface between two alike ellipsoids of a helix has a two-fold axis, but drawing on the
-/// lower one's surface does not respect it, so the moments have no symmetry to use.
+/// The gap between the monomers is tilted and curved. Points therefore have the midpoint height of
+/// a sampled bond at the same position.
+///
+/// The result is independent of any seed and identical for all interfaces of a kind. It is computed
+/// once per geometry and process; the points of the default parameters are built in. The two-fold
+/// axis of an interface is not a symmetry of the moments, because bonds are distributed uniformly
+/// on the lower monomer only.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Cubature {
-    /// The points.
+    /// Points of the quadrature.
     pub points: Vec<CubaturePoint>,
-    /// What they were held against.
+    /// Certificate of the points.
     pub certificate: MomentCheck,
 }
 
-/// Why there are no weighted bonds.
+/// Error of the computation of quadrature bonds.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum CubatureError {
-    /// No bond could be drawn.
-    #[error("no bond is between {minimum_nm:?} and {maximum_nm:?} nm long")]
+    /// No possible bond has an admissible length.
+    #[error(
+        "no bond is between {minimum_nm:?} and {maximum_nm:?} nm long: widen the range of bond lengths"
+    )]
     NoBonds {
-        /// Shortest bond that would have been accepted (nm).
+        /// Minimum bond length (nm).
         minimum_nm: f64,
-        /// Longest bond that would have been accepted (nm).
+        /// Maximum bond length (nm).
         maximum_nm: f64,
     },
-    /// Bonds may be arbitrarily short: averages of inverse lengths are infinite.
+    /// The bond length has no positive lower bound, so moments of the inverse length are infinite.
     #[error(
-        "the monomers touch or overlap, and averages of inverse lengths are infinite: accept no \
-         bonds below some length, or draw bonds"
+        "the monomers touch or overlap, so averages of the inverse length are infinite: set a \
+         minimum bond length or sample the bonds"
     )]
     Touching,
-    /// No search ended with positive weights and with lengths and places within bounds.
+    /// No search gave positive weights with lengths and positions within bounds.
     #[error(
-        "{points} points with lengths between {shortest_nm:?} and {longest_nm:?} nm were not found: \
-         allow a wider range of lengths, take more points, or draw bonds"
+        "no quadrature of {points} points with lengths between {shortest_nm:?} and {longest_nm:?} nm \
+         was found: widen the range of bond lengths, use more points or sample the bonds"
     )]
     OutOfBounds {
         /// Number of points.
         points: usize,
-        /// Least length of all bonds that could be drawn (nm).
+        /// Minimum length of all possible bonds (nm).
         shortest_nm: f64,
-        /// Largest length of all bonds that could be drawn (nm).
+        /// Maximum length of all possible bonds (nm).
         longest_nm: f64,
     },
-    /// Too few points, or an odd geometry.
+    /// The moments are not matched to the tolerance.
     #[error(
-        "{points} points do not meet the moments of all bonds (nearest {nearest:.1e}, asked for \
-         {MET:.0e}): take more points, raise the shortest length, or draw bonds"
+        "{points} points match the moments of all bonds to {nearest:.1e} only (tolerance \
+         {MET:.0e}): use more points, raise the minimum bond length or sample the bonds"
     )]
     NotMet {
         /// Number of points.
         points: usize,
-        /// Largest deviation of the moments of the best search with positive weights and lengths
-        /// and places within bounds.
+        /// Smallest deviation of the moments among the admissible results.
         nearest: f64,
     },
 }
 
 impl Cubature {
-    /// The weighted bonds of one kind of interface: as many as its parameters say.
+    /// Quadrature bonds of one kind of interface; the number of points is a parameter.
     ///
     /// # Errors
-    /// No bonds, monomers that touch while no shortest bond is set, or moments that are not met to
-    /// 1e-3 by 12 points or more.
+    /// No admissible bonds, touching monomers without a minimum length, or moments that 12 or more
+    /// points match worse than 1e-3.
     pub fn of(
         parameters: &EllipsoidParameters,
         kind: InterfaceKind,
@@ -151,7 +149,7 @@ impl Cubature {
         cache::get(parameters, kind)
     }
 
-    /// The same, found anew: from the built-in points, taken to this geometry, or from drawn bonds.
+    /// Starts from the built-in points, then from random bonds.
     fn find(parameters: &EllipsoidParameters, kind: InterfaceKind) -> Result<Self, CubatureError> {
         let count = kind.parameters(parameters).bonds;
         let finder = Finder::new(parameters, kind)?;
@@ -160,8 +158,8 @@ impl Cubature {
         Self::find_from(&finder, starts, count)
     }
 
-    /// The nearest points of all starts, or the first that are near enough. Fewer unknowns than there
-    /// are moments cannot meet them: these are as near as they come.
+    /// Best result over the initial guesses, or the first sufficiently accurate one. With fewer
+    /// unknowns than moments the best result is accepted.
     fn find_from(
         finder: &Finder,
         starts: impl Iterator<Item = Vec<(Site, f64)>>,
@@ -198,15 +196,14 @@ impl Cubature {
 }
 
 impl MomentCheck {
-    /// Whether all moments are met: to 1e-3, a tenth of the 1 % to which the points are to stand for many
-    /// drawn bonds.
+    /// Returns `true` if all moments are matched to 1e-3.
     pub fn meets_moments(&self) -> bool {
         self.residual <= MET
     }
 }
 
 impl CubaturePoint {
-    /// The bond's ends: on the lower monomer in its frame, on the upper one in that one's frame.
+    /// Ends of the bond in the body frames of the lower and the upper monomer.
     pub(crate) fn ends(&self, neighbour: &Neighbour, half_turn: f64) -> [Vector3; 2] {
         let direction = neighbour.offset.normalize();
         let [outwards, sideways] = transverse(direction, half_turn);
@@ -219,11 +216,11 @@ impl CubaturePoint {
 }
 
 impl MomentCheck {
-    /// Whether weights are positive, lengths those of bonds that could be drawn, and places within
-    /// the outline of theirs.
+    /// Returns `true` if weights are positive and lengths and positions are those of possible
+    /// bonds.
     pub fn is_within_bounds(&self) -> bool {
         let [least, most] = self.drawn_lengths;
-        // The search keeps lengths between the bounds but for round-off.
+        // Rounding of the length parametrisation.
         let roundoff = 1e-12 * most;
         self.weights[0] > 0.0
             && self.lengths[0] >= least - roundoff
@@ -232,21 +229,20 @@ impl MomentCheck {
     }
 }
 
-/// Unit vectors across the line of centres (body frame of the lower monomer): away from the
-/// filament's axis midway between the monomers, and the line of centres times that.
+/// Away from the filament axis midway between the monomers, and the line of centres times it (body
+/// frame of the lower monomer).
 fn transverse(direction: Vector3, half_turn: f64) -> [Vector3; 2] {
     let (sin, cos) = half_turn.sin_cos();
     let outwards = Vector3::new(cos, sin, 0.0);
     [outwards, direction.cross(&outwards)]
 }
 
-/// What searches of one geometry share.
 #[derive(Debug)]
 struct Finder {
     gap: Gap,
     patch: Patch,
     moments: Moments,
-    /// Lengths of the bonds that could be drawn.
+    /// Minimum and maximum length of the possible bonds (nm).
     drawn: [f64; 2],
 }
 
@@ -272,7 +268,6 @@ impl Finder {
         })
     }
 
-    /// Drawn bonds for searches to start from.
     fn drawn_starts(
         &self,
         kind: InterfaceKind,
@@ -286,7 +281,6 @@ impl Finder {
         })
     }
 
-    /// A bond, drawn as those of drawn interfaces are.
     fn draw(&self, stream: &mut Stream) -> Site {
         loop {
             let point = self.gap.ellipsoid.sample(stream);
@@ -296,7 +290,6 @@ impl Finder {
         }
     }
 
-    /// The points that a search leads to.
     fn search(&self, start: &[(Site, f64)]) -> Cubature {
         let [least, most] = self.drawn.map(|length| length * self.moments.inverse);
         let bounds = Bounds {
@@ -305,7 +298,7 @@ impl Finder {
             weight: LEAST_WEIGHT / start.len() as f64,
         };
         let sites = search(&self.moments, start, bounds);
-        // The zeroth moment is met exactly.
+        // Normalised, so that the zeroth moment is exact.
         let total: f64 = sites.iter().map(|(_, weight)| weight).sum();
         let points: Vec<CubaturePoint> = sites
             .iter()
@@ -324,7 +317,6 @@ impl Finder {
         }
     }
 
-    /// What points are worth.
     fn certificate(&self, points: &[CubaturePoint]) -> MomentCheck {
         let sites: Vec<(Site, f64)> = points
             .iter()
@@ -345,14 +337,12 @@ impl Finder {
     }
 }
 
-/// Least and largest of some values.
 fn range(values: impl Iterator<Item = f64>) -> [f64; 2] {
     values.fold([f64::INFINITY, f64::NEG_INFINITY], |[least, most], x| {
         [least.min(x), most.max(x)]
     })
 }
 
-/// The numbers on which the points of an interface depend.
 fn numbers(parameters: &EllipsoidParameters, kind: InterfaceKind) -> [f64; 8] {
     let interface = kind.parameters(parameters);
     let [x, y, z] = parameters.semi_axes;

@@ -1,5 +1,3 @@
-//! One ellipsoid in its principal frame: points on its surface, lines through it, its inertia.
-
 use crate::EllipsoidParameterError;
 use crate::stream::Stream;
 use actin_mechanics::{Inertia, Vector3};
@@ -11,7 +9,7 @@ pub struct Ellipsoid {
 }
 
 impl Ellipsoid {
-    /// The ellipsoid with the given semi-axes (nm), taken as they are.
+    /// Ellipsoid with the given semi-axes (nm), without validation.
     pub fn new(semi_axes: [f64; 3]) -> Self {
         Self {
             semi_axes: semi_axes.into(),
@@ -23,10 +21,10 @@ impl Ellipsoid {
         self.semi_axes.into()
     }
 
-    /// Inertia of the solid ellipsoid: `m (b^2 + c^2) / 5` about x, and so on round.
+    /// Inertia of the solid ellipsoid: `m (b^2 + c^2) / 5` about x, and cyclically.
     ///
     /// # Errors
-    /// Semi-axes that all differ, so that the body is no symmetric top.
+    /// Three different semi-axes: the body must be a symmetric top.
     ///
     /// ```
     /// use actin_ellipsoid::Ellipsoid;
@@ -43,18 +41,18 @@ impl Ellipsoid {
         })
     }
 
-    /// The outward normal at a point of the surface, not of unit length.
+    /// Outward normal at a point of the surface, not normalised.
     pub fn normal(&self, point: Vector3) -> Vector3 {
         point
             .component_div(&self.semi_axes)
             .component_div(&self.semi_axes)
     }
 
-    /// The `lambda` of both points `origin + lambda direction` on the surface, smaller one first;
-    /// none if the line misses. A line that touches gives the same value twice.
+    /// Parameters `lambda` of the intersections `origin + lambda direction` with the surface, in
+    /// ascending order. Returns `None` if the line misses, and equal values if it is tangent.
     ///
     /// With origin and direction divided by the semi-axes, `u` and `v`, they are the roots of
-    /// `|v|^2 lambda^2 + 2 u.v lambda + |u|^2 - 1 = 0`, taken without cancellation.
+    /// `|v|^2 lambda^2 + 2 u.v lambda + |u|^2 - 1 = 0`, computed without cancellation.
     ///
     /// ```
     /// use actin_ellipsoid::Ellipsoid;
@@ -73,19 +71,18 @@ impl Ellipsoid {
         }
         let q = -(b + discriminant.sqrt().copysign(b));
         if q == 0.0 {
-            // b = 0 and c = 0: the line touches at its origin.
+            // b = c = 0: the line is tangent at its origin.
             return Some([0.0; 2]);
         }
         let (first, second) = (q / a, c / q);
         Some([first.min(second), first.max(second)])
     }
 
-    /// A point drawn uniformly from the surface.
+    /// Random point, uniform on the surface.
     ///
-    /// A direction `q`, uniform on the sphere, is scaled to `(a q_x, b q_y, c q_z)`. That
-    /// stretches the area there by `a b c |q / (a, b, c)|`, so the point is kept with
-    /// probability `min(a, b, c) |q / (a, b, c)|`, which is at most 1 whatever the order of the
-    /// semi-axes.
+    /// Rejection method: a direction `q`, uniform on the sphere, is scaled to `(a q_x, b q_y, c
+    /// q_z)`. This stretches the area by `a b c |q / (a, b, c)|`. The point is accepted with
+    /// probability `min(a, b, c) |q / (a, b, c)| <= 1`.
     ///
     /// # Source
     /// arXiv 2203.01284, Appendix A, whose `c` is the smallest semi-axis.
@@ -107,21 +104,17 @@ mod tests {
     use actin_mechanics::Xorshift;
     use std::f64::consts::FRAC_PI_2;
 
-    /// Bins of the surface, by the direction that is scaled to a point: slices of equal height,
-    /// each cut by azimuth, folded into one octant.
+    /// Bins: slices of equal height of the unit sphere, divided by azimuth, in one octant.
     const SLICES: usize = 6;
     const SECTORS: usize = 5;
 
-    /// The bin of a point.
     fn bin(ellipsoid: &Ellipsoid, point: Vector3) -> usize {
         let q = point.component_div(&ellipsoid.semi_axes).abs();
-        // The part of [0, 1] that x lies in: how many inner boundaries are below it.
         let part = |x: f64, n: usize| (1..n).filter(|k| x * n as f64 >= *k as f64).count();
         part(q.z, SLICES) * SECTORS + part(q.y.atan2(q.x) / FRAC_PI_2, SECTORS)
     }
 
-    /// Share of the surface in each bin, by the midpoint rule: the area element is
-    /// `a b c |q / (a, b, c)|` times that of the sphere. Accurate to 1e-4 of each share.
+    /// Midpoint rule with the area element `a b c |q / (a, b, c)|`; relative accuracy 1e-4.
     fn shares(ellipsoid: &Ellipsoid) -> Vec<f64> {
         const STEPS: usize = 40;
         let mut areas = vec![0.0; SLICES * SECTORS];
@@ -139,7 +132,7 @@ mod tests {
         areas.iter().map(|a| a / total).collect()
     }
 
-    /// Chi-square of the points that `draw` gives, against uniform shares.
+    /// Statistic of sampled points against the uniform distribution.
     fn chi_square(ellipsoid: &Ellipsoid, draw: impl Fn(&mut Stream) -> Vector3) -> f64 {
         const POINTS: usize = 100_000;
         let mut stream = Stream::new(11, 0, 0);
@@ -155,14 +148,13 @@ mod tests {
             .sum()
     }
 
-    /// Five standard deviations above the mean of chi-square.
+    /// Mean plus five standard deviations.
     fn bound() -> f64 {
         let freedoms = (SLICES * SECTORS - 1) as f64;
         freedoms + 5.0 * (2.0 * freedoms).sqrt()
     }
 
-    /// Points are uniform whatever the order of the semi-axes: multiplying by the third one
-    /// instead of the smallest cuts probabilities off at 1 and fails here.
+    /// Scaling by the third semi-axis instead of the smallest would truncate probabilities at 1.
     #[test]
     fn samples_are_uniform_on_the_surface() {
         for semi_axes in [
@@ -178,7 +170,6 @@ mod tests {
         }
     }
 
-    /// The test above can tell: directions that are merely scaled are far from uniform.
     #[test]
     fn scaled_directions_are_not_uniform() {
         let ellipsoid = Ellipsoid::new([1.9, 2.7, 2.7]);
@@ -186,7 +177,6 @@ mod tests {
         assert!(chi_square(&ellipsoid, scaled) > 10.0 * bound());
     }
 
-    /// On a sphere nothing is rejected: points are the directions of the stream.
     #[test]
     fn sphere_keeps_every_direction() {
         let sphere = Ellipsoid::new([2.0; 3]);
@@ -204,13 +194,11 @@ mod tests {
         let mut stream = Stream::new(5, 0, 0);
         for _ in 0..1000 {
             let point = ellipsoid.sample(&mut stream);
-            // The normal is the gradient of half the level, so this is 1 on the surface.
             assert!((ellipsoid.normal(point).dot(&point) - 1.0).abs() < 1e-14);
         }
     }
 
-    /// Both ends lie on the surface, also where the line starts far away, where the textbook
-    /// formula loses the nearer root to cancellation.
+    /// Distant origins would lose the nearer root to cancellation.
     #[test]
     fn lines_meet_the_surface_twice() {
         let ellipsoid = Ellipsoid::new([1.9, 2.7, 2.7]);
@@ -224,7 +212,7 @@ mod tests {
                 for lambda in [near, far] {
                     let point = origin + lambda * direction;
                     let level = ellipsoid.normal(point).dot(&point);
-                    // A point at a distance of 100 nm is known to 1e-14 nm.
+                    // The rounding error at 100 nm is 1e-14 nm.
                     assert!((level - 1.0).abs() < 1e-13 * (1.0 + distance), "{level}");
                 }
             }

@@ -1,24 +1,17 @@
-//! The space between two neighbours at rest, which bonds bridge: which lines do so, and how long
-//! they are.
-
 use crate::{Bond, Ellipsoid, EllipsoidParameters, Helix, InterfaceKind, Neighbour};
 use actin_mechanics::Vector3;
 
-/// The space between two neighbours, and how long a bond may be.
+/// Gap between two neighbours, with the range of bond lengths.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Gap {
-    /// The body of either monomer.
     pub(crate) ellipsoid: Ellipsoid,
-    /// The upper monomer as the lower one sees it.
     pub(crate) neighbour: Neighbour,
-    /// Shortest bond that is accepted (nm).
+    /// Range of bond lengths (nm).
     pub(crate) minimum: f64,
-    /// Longest bond that is accepted (nm).
     pub(crate) maximum: f64,
 }
 
 impl Gap {
-    /// That of an interface at rest.
     pub(crate) fn new(parameters: &EllipsoidParameters, kind: InterfaceKind) -> Self {
         let interface = kind.parameters(parameters);
         Self {
@@ -29,21 +22,20 @@ impl Gap {
         }
     }
 
-    /// Direction of all bonds: the line of centres, from the lower to the upper monomer.
+    /// Direction of all bonds: from the lower centre to the upper one.
     pub(crate) fn direction(&self) -> Vector3 {
         self.neighbour.offset.normalize()
     }
 
-    /// The bond that starts at `point` of the lower monomer's surface and runs parallel to the
-    /// line of centres, if there is one that bridges the gap and is neither too short nor too long.
+    /// Bond that starts at `point` of the lower surface and is parallel to the line of centres,
+    /// with weight
+    /// 1. Returns `None` if the line misses or the length is not admissible.
     ///
-    /// It runs *towards* the upper monomer, leaves the lower one where it starts (the outward
-    /// normal faces the upper monomer) and ends where it *enters* the upper one (the smaller
-    /// root, positive). Then the smaller root is also the shorter one, and no bond lies inside a
-    /// monomer. What this refuses beyond the published rule: points on the far side, whose bond
-    /// would run through the lower monomer, points inside the upper monomer, where monomers
-    /// overlap, and bonds below the shortest one. Its weight is that of an only bond. With the default parameters there are none of the
-    /// first two within the maximum length.
+    /// The bond leaves the lower monomer (the outward normal faces the upper one) and ends at its
+    /// entry into the upper monomer, the smaller root. No bond therefore lies inside a monomer. In
+    /// addition to the published rule, this excludes points on the far side, points inside the
+    /// upper monomer if monomers overlap, and bonds below the minimum length. The default
+    /// parameters have no points of the first two kinds within the maximum length.
     pub(crate) fn bond_from(&self, point: Vector3) -> Option<Bond> {
         let Neighbour { rotation, offset } = self.neighbour;
         let direction = self.direction();
@@ -61,8 +53,8 @@ impl Gap {
         })
     }
 
-    /// Distance from `point` of the lower monomer's surface along the line of centres to where the
-    /// upper one is entered (nm), negative where the monomers overlap; none if the line misses.
+    /// Distance from `point` of the lower surface along the line of centres to the upper surface
+    /// (nm). Negative if the monomers overlap; `None` if the line misses.
     pub(crate) fn length_from(&self, point: Vector3) -> Option<f64> {
         let Neighbour { rotation, offset } = self.neighbour;
         let origin = rotation.tr_mul(&(point - offset));

@@ -1,14 +1,10 @@
-//! Where monomers stand: centres and orientations on a helix about lab +z.
-//!
-//! Placing the helix elsewhere is the business of [`crate::Placement`].
-
 use crate::{EllipsoidParameters, InterfaceKind};
 use actin_mechanics::{Matrix3, UnitQuaternion, Vector3};
 
-/// The helix of monomers: axis along lab +z, lattice index 0 at height 0 and at `azimuth`.
+/// Helix of monomers: axis along lab +z, lattice index 0 at height 0 and azimuth `azimuth`.
 ///
-/// Lattice indices may be negative. Monomer `m` stands at azimuth `phi = azimuth + m turn` and
-/// height `m rise`. The azimuth is accurate to `4e-16 |m turn|`.
+/// Monomer `m`, possibly negative, has azimuth `phi = azimuth + m turn` and height `m rise`. The
+/// azimuth is accurate to `4e-16 |m turn|`.
 ///
 /// ```
 /// use actin_ellipsoid::{EllipsoidParameters, Helix};
@@ -26,17 +22,17 @@ pub struct Helix {
     azimuth: f64,
 }
 
-/// The upper monomer of an interface as the lower one sees it, at rest.
+/// Pose of the upper monomer of an interface in the frame of the lower one, at rest.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Neighbour {
     /// Rotation from the body frame of the upper monomer to that of the lower one.
     pub rotation: Matrix3,
-    /// Centre of the upper monomer minus that of the lower one (nm, body frame of the lower one).
+    /// Vector from the lower to the upper centre (nm, body frame of the lower monomer).
     pub offset: Vector3,
 }
 
 impl Helix {
-    /// The helix of the given parameters, taken as they are.
+    /// Helix with the given parameters, without validation.
     pub fn new(parameters: &EllipsoidParameters) -> Self {
         Self {
             radius: parameters.radius,
@@ -51,17 +47,17 @@ impl Helix {
         self.radius
     }
 
-    /// Rise from monomer to monomer (nm).
+    /// Rise per monomer (nm).
     pub fn rise(&self) -> f64 {
         self.rise
     }
 
-    /// Azimuth of a monomer (rad), not reduced to one turn.
+    /// Azimuth of a monomer (rad), not reduced modulo 2 pi.
     pub fn azimuth(&self, index: i64) -> f64 {
         index as f64 * self.turn + self.azimuth
     }
 
-    /// Arc length of a monomer (nm): index 0 stands at 0.
+    /// Arc length of a monomer (nm); 0 for index 0.
     pub fn arc_length(&self, index: i64) -> f64 {
         index as f64 * self.rise
     }
@@ -72,34 +68,35 @@ impl Helix {
         Vector3::new(self.radius * cos, self.radius * sin, self.arc_length(index))
     }
 
-    /// Orientation of a monomer, body to lab; body axes are radial, tangential, axial.
+    /// Orientation of a monomer, body to lab. Body axes are radial, tangential, axial.
     pub fn orientation(&self, index: i64) -> UnitQuaternion {
         about_axis(self.azimuth(index))
     }
 
-    /// The fixed rotation from the axis-aligned basis of a monomer to its body frame: at rest
-    /// `orientation(index) * axis_offset(index)` is the lab basis, the same for every monomer,
-    /// whose third vector is the filament's axis.
+    /// Fixed rotation from the axis-aligned basis of a monomer to its body frame. At rest
+    /// `orientation(index) * axis_offset(index)` is the lab basis; its third vector is the filament
+    /// axis.
     pub fn axis_offset(&self, index: i64) -> UnitQuaternion {
         self.orientation(index).inverse()
     }
 
-    /// The axis-aligned basis of a monomer that now has the given orientation.
+    /// Axis-aligned basis of a monomer with the given current orientation.
     pub fn axis_basis(&self, index: i64, orientation: UnitQuaternion) -> UnitQuaternion {
         orientation * self.axis_offset(index)
     }
 
-    /// The point of the centre line at a monomer, `centre - radius * radial` (nm, lab frame).
+    /// Point of the centre line at a monomer: `centre - radius * radial` (nm, lab frame).
     pub fn centre_line_point(&self, centre: Vector3, orientation: UnitQuaternion) -> Vector3 {
         centre - orientation * Vector3::new(self.radius, 0.0, 0.0)
     }
 
-    /// Turn about the axis from the lower monomer of an interface to midway to the upper one (rad).
+    /// Change of azimuth from the lower monomer of an interface to the middle (rad).
     pub(crate) fn half_turn(&self, kind: InterfaceKind) -> f64 {
         0.5 * kind.steps() as f64 * self.turn
     }
 
-    /// The upper monomer of an interface as the lower one sees it: the same all along the helix.
+    /// Pose of the upper monomer of an interface in the frame of the lower one, the same for all
+    /// indices.
     pub fn neighbour(&self, kind: InterfaceKind) -> Neighbour {
         let steps = kind.steps() as f64;
         let (sin, cos) = (steps * self.turn).sin_cos();
@@ -114,7 +111,6 @@ impl Helix {
     }
 }
 
-/// Rotation by `angle` about lab z.
 fn about_axis(angle: f64) -> UnitQuaternion {
     actin_mechanics::rotation::exp(Vector3::new(0.0, 0.0, angle))
 }
@@ -131,28 +127,26 @@ mod tests {
         })
     }
 
-    /// 26 monomers make 12 left-handed turns: a wrong sign or count would miss the first place.
+    /// 26 monomers make 12 left-handed turns.
     #[test]
     fn one_period_returns_to_the_same_azimuth() {
         let shift = helix().centre(26) - helix().centre(0);
         assert!((shift - Vector3::new(0.0, 0.0, 71.2)).norm() < 1e-13);
     }
 
-    /// The first body axis points away from the axis, the third along it, for any index.
     #[test]
     fn body_axes_are_radial_tangential_axial() {
         for index in [-27, -1, 0, 1, 2, 500] {
             let q = helix().orientation(index);
             let centre = helix().centre(index);
             let radial = Vector3::new(centre.x, centre.y, 0.0) / helix().radius();
-            // The azimuth of index 500 is 1450 rad, known to 2e-13.
+            // The rounding error of 1450 rad is 2e-13.
             assert!((q * Vector3::x() - radial).norm() < 1e-12);
             assert!((q * Vector3::z() - Vector3::z()).norm() < 1e-15);
             assert!((q * Vector3::y() - Vector3::z().cross(&radial)).norm() < 1e-12);
         }
     }
 
-    /// The junction's basis is lab-aligned for every monomer; a missing azimuth would turn it.
     #[test]
     fn axis_basis_is_the_lab_basis_at_rest() {
         for index in -3..40 {
@@ -171,7 +165,6 @@ mod tests {
         }
     }
 
-    /// The neighbour does not depend on where it is looked at from.
     #[test]
     fn neighbour_agrees_with_the_placed_monomers() {
         for (kind, steps) in [(Lateral, 1), (Longitudinal, 2)] {

@@ -1,7 +1,4 @@
-//! One interface: the anchors of the bonds between two neighbouring monomers.
-//!
-//! Everything is in the body frame of the lower monomer, where the upper one stands at the same
-//! place all along the helix.
+//! Bonds of one interface, in the body frame of the lower monomer.
 
 use crate::gap::Gap;
 use crate::stream::Stream;
@@ -12,15 +9,14 @@ use crate::{
 use actin_mechanics::Vector3;
 use thiserror::Error;
 
-/// Points that are drawn in a row without a bond before an interface is given up: one that
-/// accepts a fraction 1e-5 of the lower monomer's surface is given up by mistake once in 2e4.
+/// Consecutive rejected samples after which sampling fails. An interface that covers a fraction
+/// 1e-5 of the surface fails by chance once in 2e4.
 const MAXIMUM_ATTEMPTS: u64 = 1_000_000;
 
-/// Points that are drawn for each bond of an interface, beyond the above, before it is given up: a
-/// thousandth of the surface is little to hold on by, and drawing from less of it takes ever longer.
+/// Additional samples per bond.
 const ATTEMPTS_PER_BOND: u64 = 1_000;
 
-/// The two kinds of interface.
+/// Kind of interface between two monomers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum InterfaceKind {
     /// Between monomers `i` and `i + 1`, of different strands.
@@ -30,10 +26,10 @@ pub enum InterfaceKind {
 }
 
 impl InterfaceKind {
-    /// Both kinds.
+    /// Both kinds, in order of their index.
     pub const ALL: [Self; 2] = [Self::Lateral, Self::Longitudinal];
 
-    /// Lattice steps from the lower to the upper monomer.
+    /// Number of lattice steps from the lower to the upper monomer.
     pub fn steps(self) -> usize {
         match self {
             Self::Lateral => 1,
@@ -41,7 +37,7 @@ impl InterfaceKind {
         }
     }
 
-    /// The parameters of this kind of interface.
+    /// Parameters of this kind of interface.
     pub fn parameters(self, parameters: &EllipsoidParameters) -> &InterfaceParameters {
         match self {
             Self::Lateral => &parameters.lateral,
@@ -49,7 +45,6 @@ impl InterfaceKind {
         }
     }
 
-    /// 0 or 1.
     pub(crate) fn number(self) -> u64 {
         match self {
             Self::Lateral => 0,
@@ -57,9 +52,8 @@ impl InterfaceKind {
         }
     }
 
-    /// The number of the stream from which the interface above `index` draws: no two pairs of
-    /// kind and index share one while indices stay below 2^61, and the shared patterns have
-    /// streams of their own.
+    /// Stream of the interface above `index`, unique for indices below 2^61; shared patterns have
+    /// separate streams.
     fn stream_number(self, anchors: Anchors, index: i64) -> u64 {
         if anchors.are_shared() {
             2 | self.number()
@@ -78,88 +72,87 @@ impl std::fmt::Display for InterfaceKind {
     }
 }
 
-/// Why an interface could not be drawn.
+/// Error of the choice of bonds of an interface.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 pub enum InterfaceError {
-    /// No bond was short enough.
+    /// No sampled point gave a bond.
     #[error(
-        "bond limit that leaves an interface without bonds: no {kind} bond of \
-         {minimum_nm:?} to {maximum_nm:?} nm among {attempts} drawn points"
+        "no {kind} bond of {minimum_nm:?} to {maximum_nm:?} nm among {attempts} sampled \
+         points: widen the range of bond lengths"
     )]
     NoBonds {
-        /// Kind of the interface.
+        /// Kind of interface.
         kind: InterfaceKind,
-        /// Shortest bond that would have been accepted (nm).
+        /// Minimum bond length (nm).
         minimum_nm: f64,
-        /// Longest bond that would have been accepted (nm).
+        /// Maximum bond length (nm).
         maximum_nm: f64,
-        /// Points drawn since the last bond.
+        /// Number of consecutive rejected samples.
         attempts: u64,
     },
-    /// Too few bonds were short enough.
+    /// Too few sampled points gave a bond.
     #[error(
-        "bond limit that leaves an interface short of bonds: {found} of {wanted} {kind} bonds of \
-         {minimum_nm:?} to {maximum_nm:?} nm among {attempts} drawn points"
+        "only {found} of {wanted} {kind} bonds of {minimum_nm:?} to {maximum_nm:?} nm among \
+         {attempts} sampled points: widen the range of bond lengths"
     )]
     FewBonds {
-        /// Kind of the interface.
+        /// Kind of interface.
         kind: InterfaceKind,
-        /// Shortest bond that would have been accepted (nm).
+        /// Minimum bond length (nm).
         minimum_nm: f64,
-        /// Longest bond that would have been accepted (nm).
+        /// Maximum bond length (nm).
         maximum_nm: f64,
-        /// Bonds that were found.
+        /// Number of bonds found.
         found: usize,
-        /// Bonds that were wanted.
+        /// Number of bonds requested.
         wanted: usize,
-        /// Points drawn in all.
+        /// Total number of samples.
         attempts: u64,
     },
-    /// No weighted bonds stand for all that could be drawn.
-    #[error("weighted {kind} bonds: {reason}")]
+    /// Quadrature bonds could not be computed.
+    #[error("quadrature of {kind} bonds: {reason}")]
     NoCubature {
-        /// Kind of the interface.
+        /// Kind of interface.
         kind: InterfaceKind,
-        /// What is wrong.
+        /// Cause.
         reason: CubatureError,
     },
 }
 
-/// One bond: its ends, fixed in the bodies, and its length at rest.
+/// One bond: anchors, rest length and weight.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bond {
-    /// End on the lower monomer (nm, its body frame).
+    /// Anchor on the lower monomer (nm, its body frame).
     pub lower: Vector3,
-    /// End on the upper monomer (nm, its body frame).
+    /// Anchor on the upper monomer (nm, its body frame).
     pub upper: Vector3,
-    /// Length in the built filament (nm).
+    /// Rest length (nm): length in the built filament.
     pub rest_length: f64,
-    /// Share of the interface's rigidity: all of those of an interface add up to 1.
+    /// Fraction of the rigidity of the interface. The weights of an interface add up to 1.
     pub weight: f64,
 }
 
-/// The bonds of one interface, drawn or weighted.
+/// Bonds of one interface.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Interface {
-    /// Kind of the interface.
+    /// Kind of interface.
     pub kind: InterfaceKind,
-    /// The upper monomer as the lower one sees it.
+    /// Pose of the upper monomer in the frame of the lower one.
     pub neighbour: Neighbour,
-    /// The bonds.
+    /// Bonds of the interface.
     pub bonds: Vec<Bond>,
-    /// Points drawn on the lower monomer's surface until all bonds were found; 0 of weighted ones.
+    /// Number of sampled points; 0 for quadrature bonds.
     pub attempts: u64,
 }
 
 impl Interface {
-    /// The interface of the given kind whose lower monomer has the given lattice index.
+    /// Interface of the given kind above the given lattice index.
     ///
-    /// Weighted bonds are the same for all interfaces of a kind. The draws of others depend on seed and sampling, the kind and the index only (not on the index where
-    /// anchors are identical), so the same monomers have the same anchors in whatever run.
+    /// Sampled bonds depend only on seed, sampling, kind and index; identical and quadrature bonds
+    /// do not depend on the index.
     ///
     /// # Errors
-    /// [`InterfaceError`] if no bond is short and long enough, or too small a part of the surface has
-    /// any, or no weighted ones are found.
+    /// [`InterfaceError`] if too few samples give a bond or the quadrature fails.
     pub(crate) fn new(
         parameters: &EllipsoidParameters,
         kind: InterfaceKind,
@@ -171,7 +164,7 @@ impl Interface {
         }
     }
 
-    /// The interface of weighted bonds.
+    /// Interface with quadrature bonds.
     fn weighted(
         parameters: &EllipsoidParameters,
         kind: InterfaceKind,
@@ -197,7 +190,7 @@ impl Interface {
         })
     }
 
-    /// Draws the bonds of an interface.
+    /// Interface with sampled bonds.
     ///
     /// # Source
     /// arXiv 2203.01284, Appendix A.
@@ -236,22 +229,21 @@ impl Interface {
         })
     }
 
-    /// Mean square distance of the bonds from the line of centres (nm^2): times half the rigidity,
-    /// the mean stiffness against tilting.
+    /// Mean square distance of the bonds from the line of centres (nm^2). Multiplied by half the
+    /// rigidity, it is the mean stiffness against tilting.
     pub fn mean_square_distance(&self) -> f64 {
         let axis = self.neighbour.offset.normalize();
         let square = |bond: &Bond| bond.weight * bond.lower.cross(&axis).norm_squared();
         self.bonds.iter().map(square).sum()
     }
 
-    /// Mean length of the bonds at rest (nm).
+    /// Mean rest length of the bonds (nm).
     pub fn mean_length(&self) -> f64 {
         let length = |bond: &Bond| bond.weight * bond.rest_length;
         self.bonds.iter().map(length).sum()
     }
 }
 
-/// Draws points on the lower monomer until one has a bond.
 fn draw_bond(
     gap: &Gap,
     kind: InterfaceKind,

@@ -1,7 +1,4 @@
-//! The hot loop: the loads of all bonds of a run, several neighbouring pairs at a time.
-//!
-//! One pair per lane, so that the geometry of a pair, its bonds and its sums all stay within a
-//! lane. How many lanes there are is found out at run time.
+//! Inner loop of the bond loads, one pair per vector lane.
 #![allow(
     clippy::inline_always,
     reason = "vector code must be compiled into the function that enables the instructions"
@@ -13,32 +10,26 @@ use actin_mechanics::wide::{self, ColumnsMut, ShiftedUp, Simd, Wide3, WideMatrix
 use actin_mechanics::{Loads, State};
 use std::ops::Range;
 
-/// Added to squared lengths: without it a bond of no length would divide zero by zero. It is
-/// the smallest normal number, so lengths above 1e-146 nm are what they would be without it.
+/// Avoids division by zero. Lengths above 1e-146 nm are unaffected.
 pub(crate) const GUARD: f64 = f64::MIN_POSITIVE;
 
-/// The loop over pairs, to be compiled for whatever instructions the machine has.
 #[derive(Debug)]
 pub(crate) struct AddLoads<'a> {
-    /// The bodies.
     pub(crate) monomers: Monomers,
-    /// Bonds of each body with the next one, and with the second after it.
+    /// Bonds of each monomer with the next one and with the second next one.
     pub(crate) tables: &'a [BondTable; 2],
-    /// Where the bodies are.
     pub(crate) state: &'a State,
-    /// What acts on them.
     pub(crate) loads: &'a mut Loads,
 }
 
-/// The lower bodies of neighbouring pairs, one per lane.
+/// Lower bodies of neighbouring pairs, one per lane.
 #[derive(Clone, Copy, Debug)]
 struct Lower<S: Simd> {
     orientation: [S::f64s; 4],
-    /// Rotation from the body frame to the lab.
     axes: WideMatrix<S>,
 }
 
-/// Forces on bodies (lab frame) and torques (body frames).
+/// Forces (lab frame) and torques (body frames).
 #[derive(Clone, Copy, Debug)]
 struct Action<S: Simd> {
     force: Wide3<S>,
@@ -61,7 +52,6 @@ impl<S: Simd> Action<S> {
         }
     }
 
-    /// Nothing in lanes where `mask` is not set.
     #[inline(always)]
     fn where_set(self, simd: S, mask: S::m64s) -> Self {
         let zero = simd.splat_f64s(0.0);
@@ -79,7 +69,7 @@ impl<S: Simd> Action<S> {
     }
 }
 
-/// What acts on lower bodies, moved to the bodies after them.
+/// Loads on upper bodies, shifted to their lanes.
 #[derive(Clone, Copy, Debug)]
 struct Moved<S: Simd> {
     force: ShiftedUp<S, 3>,
@@ -107,7 +97,7 @@ impl<S: Simd> Moved<S> {
 impl WithSimd for AddLoads<'_> {
     type Output = ();
 
-    /// Each body gets its sum at once, in an order that does not depend on the number of lanes.
+    /// Adds in an order independent of the number of lanes.
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
         let (points, frames) = (self.points(&self.bodies()), self.frames(&self.bodies()));
@@ -140,24 +130,20 @@ impl AddLoads<'_> {
         0..self.monomers.count
     }
 
-    /// Points of some bodies of the run.
     fn points(&self, bodies: &Range<usize>) -> Range<usize> {
         shifted(bodies, self.monomers.first_point)
     }
 
-    /// Frames of some bodies of the run.
     fn frames(&self, bodies: &Range<usize>) -> Range<usize> {
         shifted(bodies, self.monomers.first_frame)
     }
 }
 
-/// A range of monomers of a run as a range of bodies of the state.
 #[inline(always)]
 fn shifted(bodies: &Range<usize>, first: usize) -> Range<usize> {
     first + bodies.start..first + bodies.end
 }
 
-/// The bodies of a run, to be read.
 #[derive(Clone, Copy, Debug)]
 struct Pairs<'a> {
     monomers: Monomers,
@@ -165,19 +151,16 @@ struct Pairs<'a> {
 }
 
 impl Pairs<'_> {
-    /// Points of some bodies of the run.
     #[inline(always)]
     fn points(&self, bodies: &Range<usize>) -> Range<usize> {
         shifted(bodies, self.monomers.first_point)
     }
 
-    /// Frames of some bodies of the run.
     #[inline(always)]
     fn frames(&self, bodies: &Range<usize>) -> Range<usize> {
         shifted(bodies, self.monomers.first_frame)
     }
 
-    /// The bodies of a group.
     #[inline(always)]
     fn lower<S: Simd>(&self, simd: S, group: usize) -> Lower<S> {
         let first = group * S::F64_LANES;
@@ -188,10 +171,10 @@ impl Pairs<'_> {
         Lower { orientation, axes }
     }
 
-    /// What acts on the lower and on the upper bodies of neighbouring pairs, in the lower one's lane.
+    /// Loads on the lower and upper bodies of neighbouring pairs, in the lanes of the lower bodies.
     ///
-    /// In the lower body's frame: `F = sum k g d` and `T = sum a x k g d` act on it. In terms of
-    /// the offset `D` of the upper body's centre, the torque on that is `-(T - D x F)`.
+    /// In the frame of the lower body, `F = sum k g d` and `T = sum a x k g d` act on the lower
+    /// body and `-F` and `-(T - D x F)` on the upper one, `D` the vector between the centres.
     #[inline(always)]
     fn actions<S: Simd>(
         &self,
@@ -224,7 +207,7 @@ impl Pairs<'_> {
         if pairs.len() == S::F64_LANES {
             return [on_lower, on_upper];
         }
-        // In lanes without a pair there may be a body, whose numbers may not be any.
+        // Lanes without a pair may hold other bodies or non-finite numbers.
         let there = wide::load(simd, &[1.0; GROUP], &(0..pairs.len()));
         let there = simd.greater_than_f64s(there, simd.splat_f64s(0.0));
         [
@@ -233,7 +216,6 @@ impl Pairs<'_> {
         ]
     }
 
-    /// Rotations and offsets of upper bodies as their lower ones see them.
     #[inline(always)]
     fn relative<S: Simd>(
         &self,
@@ -257,11 +239,11 @@ impl Pairs<'_> {
     }
 }
 
-/// Sums over the bonds of each pair of `g d` and of `a x g d`, in the lower body's frame, each times
-/// its weight if bonds are `WEIGHTED`.
+/// Sums of `g d` and of `a x g d` over the bonds of each pair in the frame of the lower body,
+/// multiplied by the weights if `WEIGHTED`.
 ///
-/// With the upper body's rotation `R` and offset `D`, `d = R b + D - a` is a bond's vector and
-/// `g = 1 - L / |d|`.
+/// `d = R b + D - a` is the vector of a bond, `R` and `D` the rotation and offset of the upper
+/// body, and `g = 1 - L / |d|`.
 #[inline(always)]
 fn sum_bonds<S: Simd, const WEIGHTED: bool>(
     simd: S,
@@ -290,7 +272,7 @@ fn sum_bonds<S: Simd, const WEIGHTED: bool>(
     (force, torque)
 }
 
-/// Which vector of its group's numbers a pair stands in.
+/// Index of the vector that holds a pair within its group.
 #[inline(always)]
 pub(crate) fn place_of<S: Simd>(pair: usize) -> usize {
     pair % GROUP / S::F64_LANES
@@ -299,16 +281,16 @@ pub(crate) fn place_of<S: Simd>(pair: usize) -> usize {
 /// One bond of each pair, one pair per lane.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Ends<S: Simd> {
-    /// End on the lower body, its frame.
+    /// Anchor on the lower body, in its frame.
     pub(crate) a: Wide3<S>,
-    /// End on the upper body, its frame.
+    /// Anchor on the upper body, in its frame.
     pub(crate) b: Wide3<S>,
     /// Rest length.
     pub(crate) length: S::f64s,
 }
 
 impl<S: Simd> Ends<S> {
-    /// Those of the pairs at `place`.
+    /// Ends of the pairs in vector `place`.
     #[inline(always)]
     pub(crate) fn read(simd: S, record: &Record, place: usize) -> Self {
         let [ax, ay, az, bx, by, bz, length] = record.each_ref();

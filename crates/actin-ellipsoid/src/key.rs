@@ -1,9 +1,7 @@
-//! Names of parameters, for errors.
-
 use crate::InterfaceKind;
 use std::fmt;
 
-/// A parameter of monomers.
+/// A parameter of the ellipsoid model.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum EllipsoidKey {
     /// Distance of the centres from the axis.
@@ -14,24 +12,24 @@ pub enum EllipsoidKey {
     Turn,
     /// Azimuth of lattice index 0.
     Azimuth,
-    /// A semi-axis.
+    /// Semi-axis of a monomer.
     SemiAxes,
     /// Mass of a monomer.
     Mass,
-    /// A parameter of an interface.
+    /// Parameter of an interface.
     Interface(InterfaceKind, InterfaceKey),
 }
 
 /// A parameter of an interface.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum InterfaceKey {
-    /// Rigidity that the bonds share.
+    /// Rigidity of the interface.
     Rigidity,
     /// Number of bonds.
     Bonds,
-    /// Shortest bond.
+    /// Minimum bond length.
     MinimumLength,
-    /// Longest bond.
+    /// Maximum bond length.
     MaximumLength,
 }
 

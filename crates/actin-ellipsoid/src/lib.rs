@@ -1,13 +1,12 @@
-//! Actin filaments resolved monomer by monomer: rigid ellipsoids on a helix, joined by bonds.
+//! Actin filaments resolved into monomers: rigid ellipsoids on a helix, joined by harmonic bonds.
 //!
-//! [`EllipsoidParameters`] holds the numbers, [`EllipsoidModel`] validates them once and makes
-//! everything else: the [`Helix`] on which monomers stand, the [`Monomers`] of a run of lattice
-//! indices on a state, the [`Interface`] between two neighbours with its bonds, drawn or weighted
-//! ([`Cubature`]), and the [`Bonds`] of a run, which act on the state.
+//! [`EllipsoidModel`] validates [`EllipsoidParameters`] and constructs the [`Helix`], the
+//! [`Monomers`] of a range of lattice indices, the [`Interface`] between two neighbours, and the
+//! [`Bonds`] that act on a state. Bonds are sampled at random or placed by quadrature
+//! ([`Cubature`]).
 //!
 //! Units are nm, pN, ns and rad; masses are pN ns^2/nm = 1e-21 kg. The body frame of a monomer is
-//! its principal frame: x radial, y tangential, z axial. Nothing here knows of rods, junctions or
-//! scenes.
+//! its principal frame: x radial, y tangential, z axial.
 //!
 //! # Source
 //! Gunaratne, Floyd, Ni, Papoian and Erban, arXiv 2203.01284, Section 2 and Appendix A.
@@ -51,7 +50,7 @@ pub use parameters::{
 };
 pub use quasi_harmonic::{Fluctuations, FluctuationsError, Link, Pose, QuasiHarmonic};
 
-/// The crate of points, frames, loads and interactions that monomers are made of.
+/// Points, frames, loads and interactions.
 pub use actin_mechanics as mechanics;
 pub use actin_mechanics::{
     Interaction, LoadError, Loads, PointLoad, State, System, UnitQuaternion, Vector3, Weight,

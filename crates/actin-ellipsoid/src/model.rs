@@ -1,12 +1,10 @@
-//! The validated model: the one place where filaments of ellipsoids are made.
-
 use crate::{
     Bonds, Ellipsoid, EllipsoidParameterError, EllipsoidParameters, Helix, Interface,
     InterfaceError, InterfaceKind, LatticeError, Monomers, Placement,
 };
 use actin_mechanics::{Inertia, State};
 
-/// Parameters that have been validated, and what follows from them.
+/// Ellipsoid model with validated parameters.
 ///
 /// ```
 /// use actin_ellipsoid::{EllipsoidModel, EllipsoidParameters, Placement};
@@ -25,10 +23,10 @@ pub struct EllipsoidModel {
 }
 
 impl EllipsoidModel {
-    /// The model of the given parameters.
+    /// Model with the given parameters.
     ///
     /// # Errors
-    /// What [`EllipsoidParameters::validate`] refuses, and semi-axes that all differ.
+    /// Invalid parameters ([`EllipsoidParameters::validate`]) or three different semi-axes.
     pub fn new(parameters: EllipsoidParameters) -> Result<Self, EllipsoidParameterError> {
         parameters.validate()?;
         let inertia = Ellipsoid::new(parameters.semi_axes).inertia(parameters.mass)?;
@@ -38,17 +36,17 @@ impl EllipsoidModel {
         })
     }
 
-    /// The parameters.
+    /// Parameters of the model.
     pub fn parameters(&self) -> &EllipsoidParameters {
         &self.parameters
     }
 
-    /// The helix on which the monomers stand.
+    /// Helix of the monomers.
     pub fn helix(&self) -> Helix {
         Helix::new(&self.parameters)
     }
 
-    /// The body of one monomer.
+    /// Shape of one monomer.
     pub fn ellipsoid(&self) -> Ellipsoid {
         Ellipsoid::new(self.parameters.semi_axes)
     }
@@ -58,11 +56,11 @@ impl EllipsoidModel {
         self.inertia
     }
 
-    /// Pushes the `count` monomers from lattice index `first_index` on, at rest, where
-    /// `placement` puts them.
+    /// Appends `count` monomers at rest, starting with lattice index `first_index`, to a state.
     ///
     /// # Errors
-    /// [`LatticeError`] if there are none, or if an index is beyond 2^53 either way.
+    /// [`LatticeError`] if `count` is 0, an index exceeds 2^53 in magnitude, or the placement is
+    /// not finite.
     pub fn build(
         &self,
         state: &mut State,
@@ -74,11 +72,10 @@ impl EllipsoidModel {
         Monomers::push(&self.helix(), body, placement, (first_index, count), state)
     }
 
-    /// The interface of the given kind whose lower monomer has the given lattice index.
+    /// Interface of the given kind above the given lattice index.
     ///
     /// # Errors
-    /// [`InterfaceError`] if no bond is short and long enough, or hardly any, or no weighted bonds are
-    /// found.
+    /// [`InterfaceError`] if too few samples give a bond or the quadrature fails.
     pub fn interface(&self, kind: InterfaceKind, index: i64) -> Result<Interface, InterfaceError> {
         Interface::new(&self.parameters, kind, index)
     }
@@ -91,8 +88,8 @@ impl EllipsoidModel {
         Bonds::new(self, *monomers, monomers.count)
     }
 
-    /// The bonds of a run whose lower monomers are among the first `lowers`: those of a stretch with its own
-    /// parameters, whose last monomers are bonded to the first ones of the next.
+    /// Bonds of a run whose lower monomers are among the first `lowers`. They join a section with
+    /// its own parameters to the first monomers of the next section.
     ///
     /// # Errors
     /// As [`Self::interface`].

@@ -1,41 +1,39 @@
-//! A run of consecutive monomers on a state.
-
 use crate::Helix;
 use actin_mechanics::{Frame, Inertia, Point, State, UnitQuaternion, Vector3};
 use thiserror::Error;
 
-/// Largest lattice index: up to there indices are exact as `f64`.
+/// Largest lattice index that is exact as `f64`.
 const LARGEST_INDEX: i64 = 1 << 53;
 
-/// A run of monomers that cannot be built.
+/// Error of the construction of monomers.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum LatticeError {
-    /// No monomers.
+    /// The run is empty.
     #[error("a run must have at least one monomer")]
     Empty,
-    /// Indices that are not exact as `f64`.
-    #[error("lattice indices from {first} on, {count} of them, must be between -2^53 and 2^53")]
+    /// A lattice index is not exact as `f64`.
+    #[error("{count} lattice indices starting at {first}: must be between -2^53 and 2^53")]
     Index {
         /// Lattice index of the first monomer.
         first: i64,
         /// Number of monomers.
         count: usize,
     },
-    /// A placement with a component that is not finite.
+    /// The placement has a non-finite component.
     #[error(
-        "a filament is turned by {} and shifted by {} nm: all components must be finite",
+        "placement with rotation {} and translation {} nm: all components must be finite",
         .0.rotation.coords.transpose(), .0.translation.transpose()
     )]
     Placement(Placement),
 }
 
-/// Where a filament is put: first turned about the origin, then shifted.
+/// Rigid motion that places a filament: rotation about the origin, then translation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Placement {
-    /// Turn, from a filament along lab +z.
+    /// Rotation of a filament along lab +z.
     pub rotation: UnitQuaternion,
-    /// Shift of arc length 0 (nm, lab frame).
+    /// Position of arc length 0 (nm, lab frame).
     pub translation: Vector3,
 }
 
@@ -57,7 +55,7 @@ impl Placement {
     }
 }
 
-/// A run of consecutive monomers whose points and frames stand contiguously in a state.
+/// Run of consecutive monomers with contiguous points and frames in a state.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Monomers {
     /// Point of the first monomer.
@@ -71,7 +69,6 @@ pub struct Monomers {
 }
 
 impl Monomers {
-    /// Pushes `count` monomers from lattice index `first_index` on.
     pub(crate) fn push(
         helix: &Helix,
         (mass, inertia): (f64, Inertia),
@@ -161,7 +158,7 @@ mod tests {
     use crate::{EllipsoidModel, EllipsoidParameters, LatticeError, Placement};
     use actin_mechanics::{State, UnitQuaternion, Vector3};
 
-    /// Beyond 2^53 neighbouring monomers would stand in one place.
+    /// Beyond 2^53 neighbouring monomers would coincide.
     #[test]
     fn empty_runs_and_inexact_indices_are_refused_and_leave_the_state_alone() {
         let model = EllipsoidModel::new(EllipsoidParameters::default()).unwrap();
@@ -197,7 +194,6 @@ mod tests {
         assert_eq!(state, State::default());
     }
 
-    /// Only monomers of the run have a point, a frame and a lattice index.
     #[test]
     fn monomers_beyond_the_run_are_refused() {
         let model = EllipsoidModel::new(EllipsoidParameters::default()).unwrap();

@@ -1,16 +1,15 @@
-//! What a filament of ellipsoids is made of, and the rules that its numbers obey.
-
 use crate::{EllipsoidKey, InterfaceKey, InterfaceKind, constants};
 use actin_mechanics::InertiaError;
 use thiserror::Error;
 
-/// Fewest points of weighted bonds: one more than the motions that an interface resists at rest.
+/// Minimum number of quadrature points: one more than the relative motions an interface resists at
+/// rest.
 pub const FEWEST_POINTS: usize = 4;
-/// Most points of weighted bonds: with fewer the moments are met.
+/// Maximum number of quadrature points; fewer match all moments.
 pub const MOST_POINTS: usize = 64;
 
-/// Parameters of the ellipsoid model. The default is Table 1 and Table 4 of the paper, with the
-/// choices named in [`constants`] and weighted bonds; [`Self::drawn`] has bonds drawn at random.
+/// Parameters of the ellipsoid model. The default is Table 1 and Table 4 of the paper with
+/// quadrature bonds and the choices documented in [`constants`]. [`Self::drawn`] has sampled bonds.
 ///
 /// ```
 /// let parameters = actin_ellipsoid::EllipsoidParameters::default();
@@ -22,25 +21,25 @@ pub const MOST_POINTS: usize = 64;
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct EllipsoidParameters {
-    /// Distance of the monomers' centres from the axis (nm).
+    /// Distance of the monomer centres from the axis (nm).
     pub radius: f64,
-    /// Rise from monomer to monomer (nm).
+    /// Rise per monomer (nm).
     pub rise: f64,
-    /// Turn about the axis from monomer to monomer (rad), right-handed if positive.
+    /// Turn about the axis per monomer (rad), positive if right-handed.
     pub turn: f64,
     /// Azimuth of lattice index 0 (rad).
     pub azimuth: f64,
-    /// Semi-axes along the radial, tangential and axial direction (nm); two must be equal.
+    /// Semi-axes along the radial, tangential and axial direction (nm). Two must be equal.
     pub semi_axes: [f64; 3],
     /// Interface between monomers `i` and `i + 1`.
     pub lateral: InterfaceParameters,
     /// Interface between monomers `i` and `i + 2`.
     pub longitudinal: InterfaceParameters,
-    /// How bonds are chosen.
+    /// Choice of bonds.
     pub anchors: Anchors,
-    /// Seed of drawn bonds.
+    /// Seed of sampled bonds.
     pub seed: u64,
-    /// Which of the independent samplings of this seed: one for each filament of a scene.
+    /// Number of the independent sampling of this seed, one per filament of a scene.
     pub sampling: u64,
     /// Mass of a monomer (pN ns^2/nm = 1e-21 kg).
     pub mass: f64,
@@ -50,32 +49,32 @@ pub struct EllipsoidParameters {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct InterfaceParameters {
-    /// Rigidity that the bonds share (pN/nm): drawn ones equally, others by their weights.
+    /// Rigidity (pN/nm), divided equally among sampled bonds and by weight among quadrature bonds.
     pub rigidity: f64,
     /// Number of bonds.
     pub bonds: usize,
-    /// Shortest bond that is accepted (nm); 0 accepts all.
+    /// Minimum bond length (nm); 0 for no bound.
     pub minimum_length: f64,
-    /// Longest bond that is accepted (nm).
+    /// Maximum bond length (nm).
     pub maximum_length: f64,
 }
 
-/// How bonds are chosen.
+/// Choice of bonds.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Anchors {
-    /// Each interface has anchors of its own.
+    /// Sampled independently for each interface.
     Independent,
-    /// All interfaces of a kind share one pattern in the body frame of their lower monomer.
+    /// Sampled once per kind of interface, in the body frame of the lower monomer.
     Identical,
-    /// All interfaces of a kind have the same weighted bonds, which stand for all that could be
-    /// drawn: see [`crate::Cubature`]. Nothing is drawn, and seed and sampling do not matter.
+    /// Quadrature bonds, identical for all interfaces of a kind and independent of the seed: see
+    /// [`crate::Cubature`].
     #[default]
     Cubature,
 }
 
 impl Anchors {
-    /// Whether all interfaces of a kind have the same bonds.
+    /// Returns `true` if all interfaces of a kind have the same bonds.
     pub fn are_shared(self) -> bool {
         match self {
             Self::Independent => false,
@@ -84,25 +83,25 @@ impl Anchors {
     }
 }
 
-/// Why parameters were refused.
+/// Error of the validation of parameters.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum EllipsoidParameterError {
-    /// A number breaks the rule of its key.
+    /// A parameter violates its rule.
     #[error("{key} = {value}: must be {rule}")]
     OutOfRange {
-        /// Which parameter.
+        /// Name of the parameter.
         key: EllipsoidKey,
-        /// What it was.
+        /// Value of the parameter.
         value: f64,
-        /// What it must be.
+        /// Rule of the parameter.
         rule: &'static str,
     },
-    /// The ellipsoid is no symmetric top.
+    /// The ellipsoid is not a symmetric top.
     #[error("semi_axes = {semi_axes:?}: {reason}")]
     NotATop {
         /// Semi-axes (nm).
         semi_axes: [f64; 3],
-        /// What is wrong with the moments of inertia that follow from them.
+        /// Error of the moments of inertia.
         reason: InertiaError,
     },
 }
@@ -136,7 +135,7 @@ impl Default for EllipsoidParameters {
 }
 
 impl EllipsoidParameters {
-    /// The default with so many bonds drawn for each interface, as the paper has them.
+    /// Default parameters with the given number of sampled bonds per interface, as in the paper.
     pub fn drawn(bonds: usize, seed: u64) -> Self {
         let mut parameters = Self {
             anchors: Anchors::Independent,
@@ -148,10 +147,10 @@ impl EllipsoidParameters {
         parameters
     }
 
-    /// Checks every number; [`crate::EllipsoidModel::new`] does so.
+    /// Validates all parameters; called by [`crate::EllipsoidModel::new`].
     ///
     /// # Errors
-    /// The first number that breaks the rule of its key, or semi-axes that all differ.
+    /// The first parameter that violates its rule, or three different semi-axes.
     pub fn validate(&self) -> Result<(), EllipsoidParameterError> {
         if !(self.radius.is_finite() && self.radius >= 0.0) {
             return Err(out_of_range(
@@ -176,7 +175,7 @@ impl EllipsoidParameters {
             ] {
                 let key = EllipsoidKey::Interface(kind, InterfaceKey::Bonds);
                 if !(FEWEST_POINTS..=MOST_POINTS).contains(&interface.bonds) {
-                    let rule = "4 to 64: the points of weighted bonds";
+                    let rule = "4 to 64 for quadrature bonds";
                     return Err(out_of_range(key, interface.bonds as f64, rule));
                 }
             }
@@ -186,7 +185,6 @@ impl EllipsoidParameters {
 }
 
 impl InterfaceParameters {
-    /// Checks the numbers of an interface of this kind.
     fn validate(&self, kind: InterfaceKind) -> Result<(), EllipsoidParameterError> {
         let key = |key| EllipsoidKey::Interface(kind, key);
         positive(key(InterfaceKey::Rigidity), self.rigidity)?;
@@ -205,18 +203,16 @@ impl InterfaceParameters {
         Ok(())
     }
 
-    /// Mean stiffness of a bond (pN/nm), that of each drawn one.
+    /// Mean stiffness of a bond (pN/nm), equal to the stiffness of each sampled bond.
     pub fn bond_stiffness(&self) -> f64 {
         self.rigidity / self.bonds as f64
     }
 }
 
-/// The error for a number that breaks its rule.
 fn out_of_range(key: EllipsoidKey, value: f64, rule: &'static str) -> EllipsoidParameterError {
     EllipsoidParameterError::OutOfRange { key, value, rule }
 }
 
-/// Refuses what is not a positive finite number.
 fn positive(key: EllipsoidKey, value: f64) -> Result<(), EllipsoidParameterError> {
     if value.is_finite() && value > 0.0 {
         Ok(())
@@ -225,7 +221,6 @@ fn positive(key: EllipsoidKey, value: f64) -> Result<(), EllipsoidParameterError
     }
 }
 
-/// Refuses what is not a finite number.
 fn finite(key: EllipsoidKey, value: f64) -> Result<(), EllipsoidParameterError> {
     if value.is_finite() {
         Ok(())
@@ -239,10 +234,8 @@ mod tests {
     use super::*;
     use crate::EllipsoidModel;
 
-    /// Sets one number of otherwise valid parameters.
     type Setter = fn(&mut EllipsoidParameters, f64);
 
-    /// The key that the model of the changed parameters is refused for.
     fn refused(set: Setter, value: f64) -> Option<String> {
         let mut parameters = EllipsoidParameters::default();
         set(&mut parameters, value);
@@ -255,7 +248,6 @@ mod tests {
         }
     }
 
-    /// Every number is checked under its own key: a copied line would name another.
     #[test]
     fn numbers_that_break_their_rule_are_refused_by_name() {
         let positive: [(&str, Setter); 9] = [
@@ -303,7 +295,6 @@ mod tests {
         }
     }
 
-    /// Lengths between 0 and the longest bond, that one not included.
     #[test]
     fn the_shortest_bond_is_shorter_than_the_longest() {
         for (key, set, most) in [
@@ -327,9 +318,8 @@ mod tests {
         }
     }
 
-    /// Few points hold nothing, and many are drawn bonds again; drawn ones may be of any number.
     #[test]
-    fn weighted_bonds_are_4_to_64() {
+    fn quadrature_bonds_are_4_to_64() {
         let message = |anchors, bonds| {
             let mut parameters = EllipsoidParameters {
                 anchors,
@@ -350,7 +340,6 @@ mod tests {
         }
     }
 
-    /// Key, value and rule are all in the message.
     #[test]
     fn messages_say_what_is_wrong() {
         let parameters = EllipsoidParameters {

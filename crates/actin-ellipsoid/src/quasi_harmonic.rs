@@ -1,27 +1,29 @@
-//! Monomers at a temperature: a chain of neighbours whose places fluctuate as bonds let them, without the bonds.
+//! Quasi-harmonic chain: a quadratic energy of the relative poses of neighbours replaces the bonds.
 //!
-//! Bonds answer to their length alone. They are far from linear in thermal motion, and their fastest motion
-//! takes picoseconds. The relative places of neighbours are nearly normal all the same: a quadratic energy with
-//! their mean, their covariance and that with the link below has the same stiffness at this temperature, and elements
-//! of positive stiffness that can be drawn at random (see [`RandomStress`]), so that overdamped steps may be ten
-//! thousand times longer.
+//! Bonds are strongly nonlinear in thermal motion and require time steps of picoseconds. The
+//! relative poses of neighbours are almost normally distributed. A quadratic energy with the same
+//! mean and covariances has the same stiffness at this temperature. Its elements have positive
+//! stiffness and can be sampled ([`RandomStress`]), so overdamped time steps may be ten thousand
+//! times longer.
 //!
-//! The `link` `i` is what joins monomers `i` and `i + 1`. Its displacements `u_i` are the place of the upper centre and the turn
-//! of the upper frame, both in the frame of the lower monomer, less those of its `pose`, the mean:
+//! Link `i` joins monomers `i` and `i + 1`:
 //!
-//! `u = (Q_i^T (x_{i+1} - x_i) - p, log(O^T Q_i^T Q_{i+1}))`.
+//! ```text
+//! u_i = (Q_i^T (x_{i+1} - x_i) - p, log(O^T Q_i^T Q_{i+1}))     displacement, frame of the lower monomer
+//! w_i = u_i - A_i u_{i-1}                                       strain
+//! A_i = <u_i u_{i-1}^T> <u_{i-1} u_{i-1}^T>^-1
+//! E   = sum w_i^T P_i w_i / 2,   P_i = kT <w_i w_i^T>^-1
 //!
-//! Bonds reach from each monomer to the next but one, so that a link knows of the one below it. What it does beyond following
-//! that one is its strain, and strains of different links are independent:
+//! x, Q   centres (nm) and orientations
+//! p, O   mean pose of the upper monomer in the frame of the lower one
+//! ```
 //!
-//! `w_i = u_i - A_i u_{i-1}`, `A_i = <u_i u_{i-1}^T> <u_{i-1} u_{i-1}^T>^-1`, `E = sum w_i^T P_i w_i / 2`, `P_i = kT <w_i w_i^T>^-1`.
-//!
-//! This is the energy of most entropy with these moments of neighbouring links. It holds near the pose and at its temperature
-//! only: there are no bonds that could be stretched too far, and shear does not stiffen under tension.
+//! This is the maximum entropy distribution with these moments. It is valid near the mean pose and
+//! at its temperature only: bond lengths are not limited, and shear does not stiffen under tension.
 //!
 //! # Source
-//! Karplus and Kushick, Macromolecules 14 (1981) 325; for chains Gonzalez, Petkeviciute and Maddocks, J. Chem. Phys. 138
-//! (2013) 055102, who have neighbours' moments of DNA.
+//! Karplus and Kushick, Macromolecules 14 (1981) 325; for chains (DNA) Gonzalez, Petkeviciute and
+//! Maddocks, J. Chem. Phys. 138 (2013) 055102.
 
 mod fluctuations;
 mod stress;
@@ -36,7 +38,7 @@ use actin_mechanics::{
 };
 use std::ops::Range;
 
-/// A chain of monomers at a temperature: term `bonds`, one element per link.
+/// Quasi-harmonic chain of monomers: term `bonds`, one element per link.
 ///
 /// ```
 /// use actin_ellipsoid::{EllipsoidModel, EllipsoidParameters, Fluctuations, Interaction, Placement, State};
@@ -44,7 +46,7 @@ use std::ops::Range;
 /// let mut state = State::default();
 /// let monomers = model.build(&mut state, &Placement::default(), 0, 10).unwrap();
 /// let mut fluctuations = Fluctuations::about(&monomers, &state);
-/// // Thermal motion of the bonds goes here; noise alone has no stiffness to speak of.
+/// // Artificial noise in place of states from a thermal run.
 /// for k in 0..100 {
 ///     let mut moved = state.clone();
 ///     for i in 0..10 {
@@ -63,37 +65,37 @@ use std::ops::Range;
 pub struct QuasiHarmonic {
     monomers: Monomers,
     links: Vec<Link>,
-    /// The links whose strains count.
+    /// Links whose energy is included.
     elements: Range<usize>,
 }
 
-/// What joins a monomer to the next.
+/// Link between a monomer and the next one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Link {
-    /// Where the upper monomer stands in the mean, as the lower one sees it.
+    /// Mean pose of the upper monomer in the frame of the lower one.
     pub pose: Pose,
-    /// `A`: how displacements follow those of the link below; zero of the first link.
+    /// Regression `A` on the displacement of the link below; zero for the first link.
     pub follows: SixMatrix,
-    /// `P`: the stiffness of its strain (places before turns: pN/nm, pN, pN nm).
+    /// Stiffness `P` of the strain, position before rotation (pN/nm, pN, pN nm).
     pub stiffness: SixMatrix,
 }
 
-/// A body as another one sees it.
+/// Pose of a body in the frame of another one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pose {
-    /// From the centre of the one to that of the other (nm, frame of the one).
+    /// Vector between the centres (nm, frame of the reference body).
     pub place: Vector3,
-    /// From the axes of the other to those of the one.
+    /// Relative orientation, from the axes of the body to those of the reference body.
     pub turn: UnitQuaternion,
 }
 
-/// How displacements of a link change with its two monomers, places before turns.
+/// Derivatives of the displacement of a link with respect to its monomers, position before
+/// rotation.
 struct Slopes {
     lower: SixMatrix,
     upper: SixMatrix,
 }
 
-/// Place and turn of six components.
 fn parts(v: &SixVector) -> [Vector3; 2] {
     [
         v.fixed_rows::<3>(0).into_owned(),
@@ -102,7 +104,7 @@ fn parts(v: &SixVector) -> [Vector3; 2] {
 }
 
 impl Pose {
-    /// Of monomer `k + 1` of a run, as monomer `k` sees it.
+    /// Pose of monomer `k + 1` of a run in the frame of monomer `k`.
     fn of_link(monomers: &Monomers, k: usize, state: &State) -> Self {
         let [lower, upper] = [k, k + 1].map(|k| state.frames.orientation.get(monomers.frame(k)));
         let [from, to] = [k, k + 1].map(|k| state.points.position.get(monomers.point(k)));
@@ -112,14 +114,12 @@ impl Pose {
         }
     }
 
-    /// Displacements of this pose from that at rest.
     fn displacements(&self, rest: &Self) -> SixVector {
         let turn = rotation::log(rest.turn.inverse() * self.turn);
         let place = self.place - rest.place;
         SixVector::new(place.x, place.y, place.z, turn.x, turn.y, turn.z)
     }
 
-    /// The pose at these displacements.
     fn displaced(&self, by: &SixVector) -> Self {
         let [place, turn] = parts(by);
         Self {
@@ -130,10 +130,10 @@ impl Pose {
 }
 
 impl QuasiHarmonic {
-    /// A chain of links, one fewer than `monomers`.
+    /// Chain of links, one fewer than monomers.
     ///
     /// # Panics
-    /// If there are not as many.
+    /// If the number of links is wrong.
     pub fn new(monomers: Monomers, links: Vec<Link>) -> Self {
         assert_eq!(
             links.len() + 1,
@@ -148,7 +148,7 @@ impl QuasiHarmonic {
         }
     }
 
-    /// The same chain, of which only the links above these monomers of the run count: a stretch of it.
+    /// Part of the chain that includes only the links above the given monomers of the run.
     #[must_use]
     pub fn of_lowers(&self, lowers: Range<usize>) -> Self {
         let end = lowers.end.min(self.links.len());
@@ -158,17 +158,17 @@ impl QuasiHarmonic {
         }
     }
 
-    /// The monomers.
+    /// Monomers of the run.
     pub fn monomers(&self) -> &Monomers {
         &self.monomers
     }
 
-    /// The links of the whole chain.
+    /// Links of the whole chain.
     pub fn links(&self) -> &[Link] {
         &self.links
     }
 
-    /// The links that strains of this stretch depend on.
+    /// Links that determine the strains of this part.
     fn reach(&self) -> Range<usize> {
         self.elements.start.saturating_sub(1)..self.elements.end
     }
@@ -177,7 +177,6 @@ impl QuasiHarmonic {
         Pose::of_link(&self.monomers, k, state).displacements(&self.links[k].pose)
     }
 
-    /// The strains of all elements.
     fn strains<'a>(&'a self, state: &'a State) -> impl Iterator<Item = SixVector> + 'a {
         let mut below = match self.reach().start {
             start if start < self.elements.start => self.displacements(start, state),
@@ -191,14 +190,13 @@ impl QuasiHarmonic {
         })
     }
 
-    /// The stresses of strains, `P w`.
     fn stresses<'a>(&'a self, state: &'a State) -> impl Iterator<Item = SixVector> + 'a {
         let links = &self.links[self.elements.clone()];
         let strains = self.strains(state).zip(links);
         strains.map(|(strain, link)| link.stiffness * strain)
     }
 
-    /// What pulls at the displacements of each link that is reached, of the energy `-sum s . w`.
+    /// Forces and torques of the links for the energy `-sum s . w`.
     fn pulls(&self, stresses: impl Iterator<Item = SixVector>) -> impl Iterator<Item = Pull> {
         let reach = self.reach();
         let mut pulls = vec![SixVector::zeros(); reach.len()];
@@ -250,7 +248,8 @@ impl QuasiHarmonic {
         }
     }
 
-    /// Adds `g^T P g` of the strain of link `k`, `g` its slopes by the monomers that it joins and the one below.
+    /// Adds `g^T P g` for the strain of link `k`, where `g` is its derivative with respect to the
+    /// monomers.
     fn push_own(&self, k: usize, below: Option<&Slopes>, own: &Slopes, stiffness: &mut Stiffness) {
         let Link {
             follows,
@@ -278,7 +277,6 @@ impl QuasiHarmonic {
         }
     }
 
-    /// Adds the block of two monomers, or of one.
     fn push_block(&self, [a, b]: [usize; 2], block: &SixMatrix, stiffness: &mut Stiffness) {
         let bodies = |k: usize| [Point(self.monomers.point(k)), Frame(self.monomers.frame(k))];
         for (i, of_a) in bodies(a).into_iter().enumerate() {
@@ -296,7 +294,6 @@ impl QuasiHarmonic {
     }
 }
 
-/// A force and a couple that pull at a link.
 struct Pull {
     place: Vector3,
     force: InternalForce,

@@ -1,19 +1,16 @@
-//! Keyed streams of random numbers, the same on every machine.
-//!
-//! Only 64-bit draws, multiplications and square roots are used, all of which are exact or
-//! correctly rounded everywhere; no draw depends on the width of a machine word.
+//! Keyed random streams, identical on every machine: integer operations, multiplications and square
+//! roots are exact or correctly rounded.
 
 use actin_mechanics::Vector3;
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
-/// A stream of `ChaCha8`: its key is seed and sampling (little endian, then zeros), its number the
-/// given one, so that streams of different numbers are independent and need no order.
+/// `ChaCha8`; the key consists of seed and sampling. Streams with different numbers are
+/// independent.
 #[derive(Clone, Debug)]
 pub(crate) struct Stream(ChaCha8Rng);
 
 impl Stream {
-    /// Stream `number` of a sampling of `seed`.
     pub(crate) fn new(seed: u64, sampling: u64, number: u64) -> Self {
         let mut key = [0; 32];
         key[..8].copy_from_slice(&seed.to_le_bytes());
@@ -23,17 +20,17 @@ impl Stream {
         Self(generator)
     }
 
-    /// The next number, uniform in [0, 1): the upper 53 bits of a 64-bit draw.
+    /// Next number, uniform in [0, 1): the upper 53 bits of a 64-bit integer.
     pub(crate) fn uniform(&mut self) -> f64 {
         const SPACING: f64 = 1.0 / (1u64 << 53) as f64;
         (self.0.next_u64() >> 11) as f64 * SPACING
     }
 
-    /// A unit vector, uniform on the sphere: the direction of three independent normal numbers.
+    /// Random unit vector, uniform on the sphere.
     ///
-    /// With `u`, `v` uniform in the unit disc and `s = u^2 + v^2`, the vector
-    /// `(2 u sqrt(1 - s), 2 v sqrt(1 - s), 1 - 2 s)` has that law and needs no logarithm, whose
-    /// last digit differs between machines.
+    /// With `(u, v)` uniform in the unit disc and `s = u^2 + v^2`, the vector is `(2 u sqrt(1 - s),
+    /// 2 v sqrt(1 - s), 1 - 2 s)`. This needs no logarithm, whose last digit depends on the
+    /// machine.
     ///
     /// # Source
     /// Marsaglia, Ann. Math. Stat. 43 (1972) 645.
@@ -54,8 +51,7 @@ impl Stream {
 mod tests {
     use super::*;
 
-    /// The numbers are fixed for good: a change of generator, key or conversion would change
-    /// every filament that was ever seeded.
+    /// A change of generator, key or conversion would change every seeded filament.
     #[test]
     fn numbers_are_those_of_the_first_release() {
         let mut stream = Stream::new(7, 0, 5);
@@ -69,7 +65,6 @@ mod tests {
         0.091_969_896_764_874_88,
     ];
 
-    /// Seeds, samplings and numbers all matter, in their highest bits too.
     #[test]
     fn streams_differ() {
         let high = 1 << 63;

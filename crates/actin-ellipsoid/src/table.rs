@@ -1,54 +1,47 @@
-//! How bonds are stored for the hot loop: neighbouring pairs of monomers side by side.
+//! Storage of bonds, vectorised over neighbouring pairs.
 
 use crate::Bond;
 use actin_mechanics::{Matrix3, Vector3};
 
-/// Pairs that stand side by side: a multiple of the lanes of every machine so far.
+/// Pairs per group: a multiple of the lanes of all supported processors.
 pub(crate) const GROUP: usize = 8;
 
-/// One bond of each pair of a group: end on the lower body, end on the upper one (each in its
-/// body's frame), rest length; where there is no pair all zero, or those that pairs share.
+/// Lower anchor, upper anchor (body frames) and rest length of one bond of each pair.
 pub(crate) type Record = [[f64; GROUP]; 7];
 
-/// The bonds of all interfaces of one kind in a run of bodies; every interface has equally many.
+/// Bonds of all interfaces of one kind in a run.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct BondTable {
-    /// Steps along the run from the lower to the upper body.
     pub(crate) step: usize,
-    /// Bonds of each pair.
     pub(crate) bonds: usize,
-    /// Stiffness of each bond; of weighted ones that of all together.
+    /// Stiffness of each bond, or total stiffness of weighted bonds.
     pub(crate) stiffness: f64,
-    /// Number of pairs.
     pub(crate) pairs: usize,
-    /// For each group of pairs one record per bond; one group for all if pairs share their bonds.
+    /// One record per bond for each group of pairs, or for a single group if bonds are shared.
     records: Vec<Record>,
-    /// Whether they do.
+    /// All pairs share the same bonds.
     shared: bool,
-    /// Weights of the bonds of each pair; none where all are alike.
+    /// Weights of the bonds of a pair; empty for equal weights.
     weights: Vec<f64>,
 }
 
-/// The bonds of a group of pairs.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Group<'a> {
-    /// One per bond.
     pub(crate) records: &'a [Record],
-    /// One per bond, or none where all are alike.
+    /// Empty for equal weights.
     pub(crate) weights: &'a [f64],
 }
 
-/// The upper body of a pair as the lower one now sees it.
+/// Current pose of the upper body in the frame of the lower one.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Relative {
-    /// Rotation from the upper body's frame to the lower one's.
     pub(crate) rotation: Matrix3,
-    /// Upper centre minus lower centre, lower body's frame.
+    /// In the frame of the lower body.
     pub(crate) offset: Vector3,
 }
 
 impl BondTable {
-    /// A table without pairs, each of which has alike bonds of its own.
+    /// Table without pairs, for bonds of equal weight that differ between pairs.
     pub(crate) fn new(step: usize, bonds: usize, stiffness: f64) -> Self {
         Self {
             step,
@@ -61,7 +54,7 @@ impl BondTable {
         }
     }
 
-    /// A table of so many pairs that share their bonds.
+    /// Table of `pairs` pairs with shared bonds.
     pub(crate) fn shared(step: usize, pairs: usize, rigidity: f64, bonds: &[Bond]) -> Self {
         let mut table = Self::new(step, bonds.len(), rigidity / bonds.len() as f64);
         for _ in 0..GROUP {
@@ -79,7 +72,6 @@ impl BondTable {
         }
     }
 
-    /// Appends the pair with the next lower body.
     pub(crate) fn push(&mut self, bonds: &[Bond]) {
         let lane = self.pairs % GROUP;
         if lane == 0 {
@@ -96,7 +88,6 @@ impl BondTable {
         self.pairs += 1;
     }
 
-    /// The bonds of the group that holds the pair of lower body `pair`.
     #[inline]
     pub(crate) fn group(&self, pair: usize) -> Group<'_> {
         let group = if self.shared { 0 } else { pair / GROUP };
@@ -107,7 +98,6 @@ impl BondTable {
         }
     }
 
-    /// The bonds of one pair.
     pub(crate) fn bonds_of(&self, pair: usize) -> impl Iterator<Item = Bond> + '_ {
         let Group { records, weights } = self.group(pair);
         let alike = 1.0 / self.bonds as f64;

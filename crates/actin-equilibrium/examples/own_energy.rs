@@ -1,11 +1,11 @@
-//! A minimum of an energy of one's own: a point at the top between two wells falls into one.
+//! Minimum of a user-defined energy: a point between two wells moves to one of them.
 
 use actin_equilibrium::{
     Coordinates, EquilibriumError, Interaction, Loads, Matrix3, Point, SecondOrder, State,
     Stiffness, Vector3, relax,
 };
 
-/// `E = (x^2 - 4)^2 + y^2 + z^2` of point 0: two wells, at `x = -2` and `x = 2`.
+/// `E = (x^2 - 4)^2 + y^2 + z^2` of point 0, with minima at `x = -2` and `x = 2`.
 #[derive(Debug)]
 struct DoubleWell;
 

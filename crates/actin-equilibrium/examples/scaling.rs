@@ -1,5 +1,4 @@
-//! Time of a solve against the number of bodies: a rod of 10 nm segments, clamped, with a force on
-//! its tip that bends it by the same angle at every length.
+//! Time of a solve against the number of bodies.
 //!
 //! `cargo run --release -p actin-equilibrium --example scaling`
 

@@ -1,9 +1,9 @@
-//! A weight hangs between two springs: where it comes to rest, against the balance of forces.
+//! Weight between two springs: equilibrium position compared with the balance of forces.
 
 use actin_equilibrium::{Point, Spring, Springs, State, Vector3, Weight, relax};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
-    // A body between a ceiling and a floor, which are points that are held.
+    // Ceiling and floor are held points.
     let (stiffness, rest_length, mass, acceleration) = (50.0, 0.5, 2.0, 9.81);
     let mut state = State::default();
     let [ceiling, body, floor] = [1.0, 0.0, -1.0].map(|height| {

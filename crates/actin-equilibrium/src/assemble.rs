@@ -1,4 +1,4 @@
-//! From blocks of second derivatives to the sparse stiffness in the unknowns.
+//! Assembly of the sparse stiffness.
 
 use crate::chain::Chain;
 use crate::group::Group;
@@ -11,20 +11,19 @@ use actin_mechanics::{
 use nalgebra::{Matrix3x6, Matrix6};
 use std::collections::BTreeMap;
 
-/// The stiffness in the unknowns of a layout, upper triangle by columns.
+/// Stiffness in the unknowns, upper triangle by columns.
 #[derive(Debug, Default)]
 pub(crate) struct Assembly {
     blocks: Stiffness,
     pattern: Option<Pattern>,
-    /// Values in the order of the pattern.
     pub(crate) values: Vec<f64>,
     ties: Ties,
-    /// Motion (nm) of each tie that counts as a strain of one, at the state of the last update.
+    /// Motion (nm) of each tie equivalent to unit strain, at the last assembled state.
     tie_lengths: Vec<f64>,
     chain: Chain,
     tie_blocks: Stiffness,
     tie_places: Vec<Place>,
-    /// Values of the matrix of the ties last asked for.
+    /// Last assembled matrix of ties.
     pub(crate) tie_values: Vec<f64>,
     turning_blocks: Stiffness,
     turning_places: Vec<Place>,
@@ -32,7 +31,7 @@ pub(crate) struct Assembly {
 }
 
 impl Assembly {
-    /// Nothing yet; a turn of 1 rad counts as `turn_length` (nm) in the regularisation.
+    /// `turn_length` (nm) weights a rotation of 1 rad.
     pub(crate) fn new(turn_length: f64) -> Self {
         Self {
             turn_length,
@@ -40,9 +39,6 @@ impl Assembly {
         }
     }
 
-    /// Assembles the stiffness at `state`; `loads` are those at `state`.
-    ///
-    /// Returns whether the pattern is new, in which case the unknowns may have been reordered.
     pub(crate) fn update(
         &mut self,
         interactions: &[Box<dyn Interaction>],
@@ -53,7 +49,8 @@ impl Assembly {
         self.update_with(interactions, None, (state, loads), layout)
     }
 
-    /// The same with blocks of `other` added to those of interactions.
+    /// Assembles the stiffness with additional blocks. Returns `true` if the pattern is new; the
+    /// unknowns may then have been reordered.
     pub(crate) fn update_with(
         &mut self,
         interactions: &[Box<dyn Interaction>],
@@ -86,7 +83,7 @@ impl Assembly {
         is_new
     }
 
-    /// Adds what the chart of the chain adds to the stiffness of the last update, at its state and loads.
+    /// Adds the contribution of the chart of the chain.
     pub(crate) fn add_turning(&mut self, state: &State, loads: &Loads, layout: &Layout) {
         let pattern = self.pattern.as_ref().expect("the stiffness is assembled");
         self.turning_blocks.clear();
@@ -99,9 +96,8 @@ impl Assembly {
         target.add_all(state, &self.turning_blocks, &self.turning_places);
     }
 
-    /// By how much each tie gives way (pN/nm): the stiffness between its points in the direction in which it is
-    /// most negative, without its sign; zero where it is positive. Between frames, that of points seen from
-    /// them. At the state of the last update.
+    /// Softness of each tie (pN/nm): magnitude of the most negative stiffness between its points,
+    /// or zero.
     pub(crate) fn giving_way(&self) -> Vec<f64> {
         let mut between = BTreeMap::<(usize, usize), Matrix3>::new();
         for &(a, b, block) in self.blocks.blocks() {
@@ -123,7 +119,7 @@ impl Assembly {
         self.ties.spread(|i, j| of(i, j).unwrap_or(0.0))
     }
 
-    /// The matrix of the ties with a stiffness for each, at the state of the last update.
+    /// Assembles the matrix of ties at the last assembled state.
     pub(crate) fn assemble_ties(&mut self, state: &State, layout: &Layout, weights: &[f64]) {
         let pattern = self.pattern.as_ref().expect("the stiffness is assembled");
         self.tie_blocks.clear();
@@ -135,29 +131,24 @@ impl Assembly {
         target.add_all(state, &self.tie_blocks, &self.tie_places);
     }
 
-    /// The ties between coupled bodies.
     pub(crate) fn ties(&self) -> &Ties {
         &self.ties
     }
 
-    /// The motion (nm) of each tie that counts as a strain of one, at the state of the last update.
     pub(crate) fn tie_lengths(&self) -> &[f64] {
         &self.tie_lengths
     }
 
-    /// The order in which bodies follow one another.
     pub(crate) fn chain(&self) -> &Chain {
         &self.chain
     }
 
-    /// The pattern of the last update.
     pub(crate) fn pattern(&self) -> &Pattern {
         self.pattern
             .as_ref()
             .expect("the stiffness has been assembled")
     }
 
-    /// The largest diagonal entry, without its sign.
     pub(crate) fn largest_diagonal(&self) -> f64 {
         // The diagonal entry is the last of its column.
         let ends = &self.pattern().symbolic.col_ptr()[1..];
@@ -165,7 +156,6 @@ impl Assembly {
         diagonal.fold(0.0, f64::max)
     }
 
-    /// The largest entry, without its sign.
     pub(crate) fn largest_entry(&self) -> f64 {
         self.values
             .iter()
@@ -173,10 +163,9 @@ impl Assembly {
             .fold(0.0, f64::max)
     }
 
-    /// What rounding of each entry goes with, in the order of the values: its own size, or the mean
-    /// (geometric) of what the two bodies have on their diagonals if that is more. So a direction in
-    /// which a body meets no stiffness is changed whether it lies along an axis or not; where nothing
-    /// acts on a body, it is zero.
+    /// Scale of the rounding error of each entry: its magnitude, or the geometric mean of the
+    /// diagonal blocks if that is larger. Directions without stiffness are perturbed, bodies
+    /// without interactions are not.
     pub(crate) fn scales(&self, layout: &Layout) -> Vec<f64> {
         let symbolic = &self.pattern().symbolic;
         let (starts, rows) = (symbolic.col_ptr(), symbolic.row_idx());
@@ -200,12 +189,10 @@ impl Assembly {
         scales
     }
 
-    /// `K v`.
     pub(crate) fn multiply(&self, v: &[f64], out: &mut [f64]) {
         self.multiply_with(v, out, |value| value);
     }
 
-    /// `|K| v`, each entry without its sign.
     pub(crate) fn multiply_absolute(&self, v: &[f64], out: &mut [f64]) {
         self.multiply_with(v, out, f64::abs);
     }
@@ -226,7 +213,6 @@ impl Assembly {
     }
 }
 
-/// The matrix while blocks are added.
 struct Target<'a> {
     values: &'a mut [f64],
     columns: &'a [usize],
@@ -235,14 +221,12 @@ struct Target<'a> {
 }
 
 impl<'a> Target<'a> {
-    /// A matrix of zeros.
     fn new(values: &'a mut Vec<f64>, pattern: &'a Pattern, layout: &'a Layout) -> Self {
         values.clear();
         values.resize(pattern.symbolic.row_idx().len(), 0.0);
         Self::onto(values, pattern, layout)
     }
 
-    /// A matrix that is there.
     fn onto(values: &'a mut [f64], pattern: &'a Pattern, layout: &'a Layout) -> Self {
         Self {
             values,
@@ -324,8 +308,7 @@ impl<'a> Target<'a> {
         }
     }
 
-    /// `A^T block B`, `A` and `B` the derivatives of the two bodies' coordinates by the unknowns
-    /// of their nodes.
+    /// `A^T block B` with the derivatives `A`, `B` with respect to the unknowns.
     fn in_unknowns(
         &self,
         state: &State,
@@ -338,7 +321,7 @@ impl<'a> Target<'a> {
         a.transpose() * (block * b)
     }
 
-    /// The derivative of a body's coordinates by the unknowns of its node, filled up with zeros.
+    /// Zero padded.
     fn derivative(&self, state: &State, body: Coordinates) -> Matrix3x6<f64> {
         let mut derivative = Matrix3x6::zeros();
         let node = self.layout.node_of(body).map(|node| self.layout.node(node));
@@ -353,10 +336,10 @@ impl<'a> Target<'a> {
         derivative
     }
 
-    /// The second derivative of a turned point, `x = p + exp(theta) r`, times its force.
+    /// Second derivative of a rotated point `x = p + exp(theta) r` times its force:
     ///
-    /// `d^2 x . g = (theta . g)(theta . r) - theta^2 (g . r)` with `g = -force`. A frame has no
-    /// such term: `exp(theta) Q = Q exp(Q^T theta)` holds exactly.
+    /// `d^2 x . g = (theta . g)(theta . r) - theta^2 (g . r)` with `g = -force`. Frames have no
+    /// such term.
     fn add_turning_of_groups(&mut self, state: &State, loads: &Loads) {
         let layout = self.layout;
         for k in 0..layout.len() {
@@ -394,7 +377,7 @@ fn turning(group: &Group, state: &State, loads: &Loads) -> Matrix3 {
         .sum()
 }
 
-/// How each unknown of a group moves one of its bodies.
+/// Velocity of a body per unknown.
 fn columns_of<'a>(
     group: &'a Group,
     state: &'a State,

@@ -1,9 +1,5 @@
-//! Elimination where the rows of each column of the factor follow one another, as those of a
-//! filament do: plain loops over slices instead of lists of rows.
-//!
-//! Columns with the same last row make a panel. A panel is eliminated column by column, and then
-//! subtracted as a whole from the columns to its right, each of which is read and written once.
-//! What the factor is for, and what its pivots say, is in `factor`.
+//! Elimination of a factor whose columns have contiguous rows, as for a filament. Columns with the
+//! same last row form a panel.
 #![allow(
     clippy::inline_always,
     reason = "vector code must be compiled into the function that enables the instructions"
@@ -14,20 +10,19 @@ use faer::sparse::SymbolicSparseColMatRef;
 use faer::sparse::linalg::cholesky::simplicial::SymbolicSimplicialCholesky;
 use std::ops::Range;
 
-/// Most columns of a panel: those of a body's point and frame.
+/// Maximum number of columns of a panel.
 const WIDEST: usize = 6;
 
-/// Where a factor without gaps keeps its columns.
 #[derive(Debug)]
 pub(crate) struct Band {
-    /// Where each column begins, and where the last ends.
+    /// Start of each column, and end of the last.
     starts: Vec<usize>,
     /// Columns of each panel, and the end of their rows.
     panels: Vec<(Range<usize>, usize)>,
 }
 
 impl Band {
-    /// The band of a factor; `None` if the rows of a column have gaps.
+    /// Band of a factor; `None` if the rows of a column have gaps.
     pub(crate) fn of(symbolic: &SymbolicSimplicialCholesky<usize>) -> Option<Self> {
         let starts = symbolic.col_ptr().to_vec();
         let mut panels: Vec<(Range<usize>, usize)> = Vec::new();
@@ -45,7 +40,7 @@ impl Band {
         Some(Self { starts, panels })
     }
 
-    /// Puts a matrix given by its upper triangle where its factor will be.
+    /// Copies the upper triangle of a matrix to the storage of its factor.
     pub(crate) fn place(
         &self,
         upper: SymbolicSparseColMatRef<'_, usize>,
@@ -65,13 +60,10 @@ impl Band {
     }
 }
 
-/// The elimination, to be compiled for whatever instructions the machine has.
 pub(crate) struct Eliminate<'a> {
-    /// Where columns are.
     pub(crate) band: &'a Band,
-    /// The lower triangle of a matrix, which becomes its factor: pivots, and below them columns of `L`.
+    /// Lower triangle, overwritten by its factor.
     pub(crate) values: &'a mut [f64],
-    /// What a pivot of zero is replaced by.
     pub(crate) least: f64,
 }
 
@@ -96,9 +88,8 @@ impl WithSimd for Eliminate<'_> {
     }
 }
 
-/// Eliminates the columns of a panel of `rows` rows, one after the other in memory, from each other.
-///
-/// Entries below the pivots are left unscaled. Returns the reciprocals of the pivots.
+/// Eliminates the columns of a panel from each other, without scaling; returns the reciprocals of
+/// the pivots.
 #[inline(always)]
 fn eliminate_panel(own: &mut [f64], (rows, width): (usize, usize), least: f64) -> [f64; WIDEST] {
     let mut reciprocals = [0.0; WIDEST];
@@ -121,7 +112,7 @@ fn eliminate_panel(own: &mut [f64], (rows, width): (usize, usize), least: f64) -
     reciprocals
 }
 
-/// Subtracts a panel from a column to its right, of which `target` holds the panel's rows.
+/// Subtracts a panel from a column to its right; `target` holds the rows of the panel.
 #[inline(always)]
 fn subtract_panel(
     target: &mut [f64],
@@ -171,7 +162,6 @@ fn subtract<const N: usize>(target: &mut [f64], sources: [&[f64]; N], factors: [
     }
 }
 
-/// Divides the columns of a panel by their pivots.
 #[inline(always)]
 fn scale_panel(own: &mut [f64], (rows, width): (usize, usize), reciprocals: &[f64; WIDEST]) {
     let mut first = 0;
@@ -193,14 +183,13 @@ mod tests {
     use actin_mechanics::{Coordinates, Matrix3, Stiffness};
     use actin_mechanics::{State, UnitQuaternion, Vector3};
 
-    /// A chain of `n` bodies, each coupled with the next two, one of them with a frame that is held.
+    /// Chain of `n` bodies, each coupled with the next two; one frame is held.
     fn chain(n: usize) -> (Pattern, Layout) {
         let mut state = State::default();
         for _ in 0..n {
             push_point(&mut state, Vector3::zeros(), 1.0);
             push_frame(&mut state, UnitQuaternion::identity(), [1.0; 3]);
         }
-        // Panels of three columns besides those of six.
         state.frames.hold(n / 2);
         let order = BodyOrder {
             points: (0..n).map(|i| i as f64).collect(),
@@ -221,7 +210,6 @@ mod tests {
         (Pattern::new(&blocks, &mut layout), layout)
     }
 
-    /// Random entries; a large diagonal makes the matrix positive definite.
     fn matrix(pattern: &Pattern, seed: u64, diagonal: f64) -> Vec<f64> {
         let mut noise = Xorshift::new(seed);
         let upper = pattern.symbolic.as_ref();
@@ -232,11 +220,9 @@ mod tests {
         values
     }
 
-    /// Slices and lists of rows give the same factor. A column that is left out of a panel, or
-    /// subtracted with its neighbour's factor, changes all pivots behind it. Rounding grows with
-    /// the ratio of entries to pivots, which is 1e3 at worst where the matrix is indefinite.
+    /// Rounding grows with the ratio of entries to pivots, at most 1e3.
     #[test]
-    fn a_band_is_eliminated_as_any_matrix_is() {
+    fn band_elimination_agrees_with_general_elimination() {
         for (n, diagonal, tolerance) in [(1, 9.0, 1e-14), (7, 40.0, 1e-13), (40, 4.0, 1e-9)] {
             let (pattern, layout) = chain(n);
             let upper = pattern.symbolic.as_ref();
@@ -259,9 +245,8 @@ mod tests {
         }
     }
 
-    /// A pivot of zero is replaced and doubtful, one that is not finite is doubtful, never positive.
     #[test]
-    fn pivots_that_are_none_are_doubtful() {
+    fn zero_pivots_are_doubtful() {
         let (pattern, layout) = chain(4);
         let upper = pattern.symbolic.as_ref();
         let metric = vec![1.0; layout.unknowns()];

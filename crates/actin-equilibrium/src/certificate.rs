@@ -1,42 +1,40 @@
-//! What the stiffness at an equilibrium says about it. How eigenvalues are counted is in `certify.rs`.
-
-/// Counts of eigenvalues of the unregularised stiffness.
+/// Counts of the eigenvalues of the stiffness, without regularisation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Certificate {
     /// Number of eigenvalues below `-resolution`.
     pub negative: usize,
-    /// Number of neutral modes: eigenvalues that cannot be distinguished from zero.
+    /// Number of eigenvalues indistinguishable from zero: neutral modes.
     pub unresolved: usize,
-    /// The resolution (pN/nm), divided by the metric's smallest weight: the larger of eight times
-    /// the unit round-off times the largest diagonal entry of `|L| |D| |L^T|`, and of the change
-    /// of the stiffness when each coordinate changes by its rounding error. Of no stiffness at all
-    /// it is the smallest normal number.
+    /// Resolution (pN/nm): bound of the error of the eigenvalues. It is the maximum of 8 unit
+    /// roundings times the largest diagonal entry of `|L| |D| |L^T|` and of the change of the
+    /// stiffness by rounding of the coordinates, divided by the smallest weight of the metric. For
+    /// zero stiffness it is the smallest normal number.
     pub resolution: f64,
-    /// Number of negative pivots of the stiffness itself.
+    /// Number of negative pivots of the stiffness.
     pub negative_pivots: usize,
 }
 
-/// What an equilibrium is.
+/// Stability of an equilibrium.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stability {
-    /// All eigenvalues are positive: a minimum of the energy.
+    /// Minimum of the energy: all eigenvalues are positive.
     Stable,
-    /// No eigenvalue is negative, but some cannot be told from zero: floppy modes at rest, rigid
-    /// motions of something that floats, or a critical point.
+    /// No negative eigenvalue, but some indistinguishable from zero: zero-stiffness modes at rest,
+    /// rigid motions of unconstrained bodies, or a critical point.
     Neutral {
-        /// How many.
+        /// Number of neutral modes.
         modes: usize,
     },
-    /// Some eigenvalues are negative: an equilibrium that the slightest push leaves.
+    /// Unstable equilibrium: some eigenvalues are negative.
     Saddle {
-        /// How many.
+        /// Number of negative eigenvalues.
         negative: usize,
     },
 }
 
 impl Certificate {
-    /// What the counts mean.
+    /// Stability according to the counts.
     pub fn stability(&self) -> Stability {
         match (self.negative, self.unresolved) {
             (0, 0) => Stability::Stable,

@@ -1,16 +1,13 @@
-//! Counts the negative eigenvalues of the stiffness at an equilibrium.
+//! Number of negative eigenvalues of the stiffness at an equilibrium.
 //!
-//! Eigenvalues `lambda` are those of `K v = lambda M v` with `M` one for displacements (nm) and
-//! `l^2` for turns (rad), `l` the turn length of the options. Their signs are counted by
-//! Sylvester's law from the pivots of `K + s M` and `K - s M`, where `s`, the resolution, is the
-//! error that factorisation and coordinates may have made: eigenvalues below `-s` are negative
-//! beyond doubt. Those within `[-s, s]` are looked at more closely, since `s` is a bound for the
-//! worst case, which long filaments, whose lowest eigenvalues fall with the fourth power of the
-//! length, do not meet: the count is repeated with the coordinates and the matrix changed at
-//! random by some roundings. If it never changes, and no pivot is exactly zero in any repetition, it
-//! is taken; else they cannot be told from zero. A body that nothing acts on has as many eigenvalues
-//! of exactly zero as it has unknowns: changes in proportion to them would leave them zero, and the
-//! signs of their pivots mean nothing.
+//! Eigenvalues refer to `K v = lambda M v` with the metric `M`: 1 for displacements (nm) and `l^2`
+//! for rotations (rad), `l` the turn length. Their signs follow from the pivots of `K + s M` and `K
+//! - s M` by Sylvester's law of inertia, where the resolution `s` bounds the error of factorisation
+//! and coordinates.
+//!
+//! This bound is pessimistic for long filaments. Eigenvalues within `[-s, s]` are therefore counted
+//! repeatedly with coordinates and matrix changed randomly by a few roundings. The count is
+//! accepted if it never changes and no pivot is exactly zero.
 
 use crate::certificate::{Certificate, Stability};
 use crate::direction::Solver;
@@ -20,7 +17,6 @@ use crate::newton::Newton;
 use crate::outcome::SolveError;
 use actin_mechanics::{Interaction, State, Xorshift};
 
-/// Counts the eigenvalues of the stiffness of the last assembly, made at `state`.
 pub(crate) fn certify(
     solver: &mut Solver,
     state: &State,
@@ -36,8 +32,8 @@ pub(crate) fn certify(
 }
 
 impl Newton {
-    /// The lowest eigenvalue of the stiffness at `state` that is not neutral (pN/nm), to 1e-9 of it; `None` if all
-    /// are neutral. Neutral ones are counted by the `certificate` of the state.
+    /// Lowest eigenvalue of the stiffness at `state` that is not neutral (pN/nm), with relative
+    /// accuracy 1e-9. Returns `None` if all are neutral. The certificate counts the neutral ones.
     ///
     /// # Errors
     /// If an interaction has no potential or no second derivatives.
@@ -63,8 +59,7 @@ impl Newton {
     }
 }
 
-/// The lowest eigenvalue of the stiffness of the last assembly above the `count` lowest, which are below `least`, by
-/// bisection; `None` if there are no more.
+/// Lowest eigenvalue above the `count` lowest ones, which are below `least`, by bisection.
 fn first_above(solver: &mut Solver, count: usize, least: f64) -> Option<f64> {
     if count >= solver.layout.unknowns() {
         return None;
@@ -84,14 +79,13 @@ fn first_above(solver: &mut Solver, count: usize, least: f64) -> Option<f64> {
     Some(bounds[1])
 }
 
-/// Counts with a stiffness that is known up to `uncertainty` (largest sum of a row); three
-/// factorisations, rarely more.
+/// Counts eigenvalues; `uncertainty` bounds the row sums of the error.
 fn count(solver: &mut Solver, uncertainty: f64) -> Certificate {
     let lightest = solver.lightest();
     let negative_pivots = solver.factorize(0.0).negative;
     let rounding = ROUNDINGS * f64::EPSILON;
     let largest = solver.assembly.largest_entry();
-    // A shift of zero would tell nothing: what is exactly zero is to lie between the two counts.
+    // Includes eigenvalues of exactly zero.
     let least = uncertainty.max(rounding * largest).max(f64::MIN_POSITIVE);
     let mut resolution = least / lightest;
     let mut attempt = 1;
@@ -101,7 +95,7 @@ fn count(solver: &mut Solver, uncertainty: f64) -> Certificate {
         let below = solver.factorize(-resolution);
         growth = growth.max(solver.growth());
         let error = rounding * growth / lightest;
-        // An error above the resolution means that an indefinite matrix met a small pivot.
+        // Small pivot of an indefinite matrix.
         if error > GROWTH_ALLOWED * resolution && attempt < ATTEMPTS {
             resolution = error;
             attempt += 1;
@@ -116,11 +110,8 @@ fn count(solver: &mut Solver, uncertainty: f64) -> Certificate {
     }
 }
 
-/// Takes the count of negative pivots where it is the same for all realisations of rounding, and no
-/// pivot is zero in any.
-///
-/// Before that the residual is brought down by a step of Newton's method: what it leaves of a
-/// zero eigenvalue is the same in all realisations and would pass for a sign.
+/// Accepts the number of negative pivots if random roundings do not change it. A Newton step first
+/// reduces the residual, which would bias all repetitions equally.
 fn resolve(
     solver: &mut Solver,
     state: &State,
@@ -158,8 +149,7 @@ fn resolve(
     certificate.unresolved = 0;
 }
 
-/// One step from `state`, at which the stiffness is then assembled; `None`, with the assembly as
-/// it was, if the step does not bring the residual down.
+/// Performs one step; `None` if the residual does not decrease.
 fn polish(
     solver: &mut Solver,
     state: &State,
@@ -174,7 +164,6 @@ fn polish(
     let evaluation = Evaluation::new(interactions, &polished);
     solver.work.evaluations += 1;
     let after = solver.layout.residual(&polished, &evaluation.loads);
-    // What is at its floor already may rise a little.
     if !(evaluation.is_finite() && after.is_within(&residual.max(&floor))) {
         return None;
     }
@@ -182,10 +171,8 @@ fn polish(
     Some(polished)
 }
 
-/// How the stiffness changes when each coordinate changes by `amplitude` roundings.
-///
-/// A bond of length `l` turns rounding of its ends into a geometric stiffness of that times its
-/// stiffness over `l`: with short bonds far more than the rounding of the matrix.
+/// Change of the stiffness by `amplitude` roundings of each coordinate. For short bonds it exceeds
+/// the rounding of the matrix.
 fn change(
     solver: &mut Solver,
     state: &State,
@@ -212,7 +199,6 @@ fn change(
     changes
 }
 
-/// The largest sum of absolute values in a row of a matrix of the present pattern.
 fn largest_row_sum(solver: &mut Solver, mut matrix: Vec<f64>) -> f64 {
     let n = solver.layout.unknowns();
     let mut sums = vec![0.0; n];
@@ -222,18 +208,16 @@ fn largest_row_sum(solver: &mut Solver, mut matrix: Vec<f64>) -> f64 {
     sums.into_iter().fold(0.0, f64::max)
 }
 
-/// Factor by which bounds of an eigenvalue are moved apart.
+/// Bracketing factor.
 const FASTER: f64 = 16.0;
-/// Relative precision of an eigenvalue found by bisection.
+/// Relative accuracy of an eigenvalue.
 const PRECISION: f64 = 1e-9;
-/// Roundings of the largest entry that assembly and factorisation may have made.
+/// Rounding error in units of the largest entry.
 const ROUNDINGS: f64 = 8.0;
-/// Growth over the largest diagonal entry that is taken for accurate.
+/// Largest growth factor considered accurate.
 const GROWTH_ALLOWED: f64 = 16.0;
-/// How often the interval of unresolved eigenvalues is widened.
 const ATTEMPTS: u32 = 4;
-/// How often a count is repeated with changed roundings. An eigenvalue of zero passes all of
-/// them by chance once in some hundred times.
+/// Repetitions; a zero eigenvalue passes all with a probability below 1 %.
 const REALIZATIONS: usize = 8;
-/// Roundings by which coordinates and entries are changed then.
+/// Amplitude in roundings.
 const AMPLITUDE: f64 = 4.0;

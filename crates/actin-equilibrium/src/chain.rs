@@ -1,18 +1,16 @@
-//! Steps that carry neighbours along: the same to first order as moving every body on its own.
+//! Carried steps: to first order equal to moving every body independently.
 //!
-//! A filament that bends far moves its end along an arc. Bodies that each go straight along their
-//! own velocity leave it, which stretches ties by the square of the turn: for a long filament
-//! that costs far more energy than the bending does. Here each body instead keeps its place
-//! relative to the one before it, up to what the step does to that tie, so that a strain is linear
-//! in the step however far the whole moves.
+//! A filament that bends far moves its end along an arc. Straight motion of each body stretches
+//! ties by the square of the rotation, which costs much more energy than bending. In a carried step
+//! each body keeps its pose relative to its predecessor, up to the step of the tie between them, so
+//! strains are linear in the step.
 //!
-//! This works along a tree of ties, which a filament held at one end is. Where ends meet again,
-//! at a second held end, the step closes badly; the caller compares energies.
+//! Carried steps follow a tree of ties. If a filament is held at a second place, the step does not
+//! close.
 //!
 //! # Source
-//! The reason is that of D. Magisano, L. Leonetti and G. Garcea, Int. J. Numer. Methods Eng. 111
-//! (2017) 1177: Newton's method is slow where displacements are extrapolated linearly and strains
-//! thereby are not.
+//! Cause of slow convergence with linear extrapolation of displacements: D. Magisano, L. Leonetti
+//! and G. Garcea, Int. J. Numer. Methods Eng. 111 (2017) 1177.
 
 use crate::layout::{Layout, Node};
 use crate::ties::Ties;
@@ -26,22 +24,20 @@ mod turning;
 pub(crate) use clusters::Clusters;
 pub(crate) use open::is_open;
 
-/// A body that follows another.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Link {
     /// A frame follows a frame.
     Frame { from: usize, to: usize },
-    /// A point follows a point, seen from a frame.
+    /// A point follows a point in the axes of a frame.
     Point { from: usize, seen: usize, to: usize },
 }
 
-/// Free bodies in the order in which they follow one another.
+/// Free bodies, each after its predecessor.
 #[derive(Debug, Default)]
 pub(crate) struct Chain(Vec<Link>);
 
 impl Chain {
-    /// Lets each free body follow the latest one before it that it is tied to; bodies that are
-    /// held or in groups come first, and what is tied to nothing before it follows nothing.
+    /// Links each free body to the latest preceding body that it is tied to.
     pub(crate) fn new(layout: &Layout, ties: &Ties, points: usize, frames: usize) -> Self {
         let mut place = Places::new(layout, points, frames);
         let frame_ties = neighbours(ties.frames());
@@ -79,9 +75,8 @@ impl Chain {
         Self(links)
     }
 
-    /// Puts the bodies of `to`, which `scale` times a step has led straight from `from`, where
-    /// the same step leads them one after another; `moved` and `turned` are the velocities of
-    /// the step (lab frame).
+    /// Replaces a straight motion by `scale` times a step by the carried motion; velocities in the
+    /// lab frame.
     pub(crate) fn carry(
         &self,
         from: &State,
@@ -96,7 +91,6 @@ impl Chain {
 }
 
 impl Link {
-    /// Returns the body that follows.
     fn follower(self) -> Coordinates {
         match self {
             Self::Frame { to, .. } => Coordinates::Frame(to),
@@ -104,7 +98,7 @@ impl Link {
         }
     }
 
-    /// Puts the following body of `to` where a step leads it relative to the body that it follows.
+    /// Moves the following body relative to its predecessor.
     fn carry(
         self,
         from: &State,
@@ -137,7 +131,7 @@ impl Link {
     }
 }
 
-/// When each body is placed, counted along the sequence of the layout; held ones and groups at zero.
+/// Position in the sequence of the layout; zero for held bodies and groups.
 struct Places {
     points: Vec<Option<usize>>,
     frames: Vec<Option<usize>>,

@@ -1,4 +1,4 @@
-//! How far to go along a direction, and whether to accept where it leads.
+//! Length and acceptance of Newton steps.
 
 mod composed;
 
@@ -11,48 +11,41 @@ use crate::outcome::SolveError;
 use actin_mechanics::{Interaction, State, Vectors};
 use composed::Composed;
 
-/// Part of the predicted decrease that is enough (Armijo).
+/// Sufficient decrease parameter (Armijo).
 const ENOUGH: f64 = 1e-4;
-/// Changes of energy below this part of the sum of absolute energies are judged by the work of
-/// the loads instead. An element's energy is a square of a small strain, so that its relative
-/// round-off is that of the strain: much larger than one rounding.
+/// Relative energy change below which the work of the loads is used instead. The energy of an
+/// element is the square of a small strain, with a large relative rounding error.
 const ROUND_OFF: f64 = 1e-8;
-/// Bounds of the factor by which a refused step is shortened.
+/// Bounds of the factor that shortens a rejected step.
 const SHORTEN: [f64; 2] = [0.05, 0.5];
-/// Steps shortened by more than this are useless.
+/// Minimum fraction of a step.
 const SHORTEST: f64 = 1e-12;
-/// Part of the predicted decrease that makes a step a good one.
+/// Fraction of the predicted decrease of a good step.
 const GOOD: f64 = 0.5;
-/// Largest displacement in a step, in sizes of the whole: unconstrained directions must not fly so
-/// far that its coordinates lose all digits.
+/// Maximum displacement relative to the size of the system, to preserve the accuracy of
+/// coordinates.
 const FARTHEST: f64 = 1e6;
-/// Below this part of the predicted decrease a step is a poor one.
+/// Fraction of the predicted decrease below which a step is poor.
 const POOR: f64 = 0.25;
-/// Stiffening below this part of the first guess is dropped.
+/// Stiffening relative to the initial guess below which it is dropped.
 const NEGLIGIBLE: f64 = 1e-2;
-/// Part of the first guess that is kept where there are [`MANY`] bodies. Among so many some tie is always
-/// about to give way far: without stiffening a step overshoots there and takes ten more to come back,
-/// all of them steps of the whole. With it steps are still quadratic near the end, since the
-/// stiffness of a tie goes with its motion.
+/// Minimum stiffening with [`MANY`] bodies. Otherwise steps overshoot at some buckling tie and take
+/// ten more to return.
 const KEPT: f64 = 1.0 / 64.0;
-/// So many points, frames and groups are many.
 const MANY: usize = 2000;
-/// Factor by which the stiffening of ties is raised and lowered.
+/// Factor that raises or lowers the stiffening of ties.
 const STIFFER: f64 = 4.0;
-/// A solve ends when of its steps so many more than half of the others are cut short since bodies would
-/// pass through each other: on a way around something few are.
+/// Excess of blocked steps at which a solve ends.
 const BLOCKED: usize = 20;
-/// Growth of the reach after a step that was accepted at once.
+/// Growth of the reach after an immediately accepted step.
 const REACH_GROWTH: f64 = 2.0;
 
-/// A step that was taken.
 pub(crate) struct Taken {
     pub(crate) fraction: f64,
     pub(crate) extent: StepSize,
     pub(crate) verdict: Verdict,
 }
 
-/// Where an excursion began.
 #[derive(Debug)]
 struct Anchor {
     state: State,
@@ -62,34 +55,30 @@ struct Anchor {
     steps_left: usize,
 }
 
-/// The present state and the search for a lower one.
 #[derive(Debug)]
 pub(crate) struct Descent {
     pub(crate) state: State,
     pub(crate) here: Evaluation,
     trial: State,
     there: Evaluation,
-    /// The trial state in which bodies carry one another along.
+    /// Carried trial state.
     carried: State,
     beyond: Evaluation,
     anchor: Option<Anchor>,
-    /// The largest distance of a point from the first one at the start (nm).
+    /// Size of the initial state (nm).
     pub(crate) size: f64,
-    /// Positions at the start.
     start: Vectors,
-    /// Largest displacement in a step (nm).
     farthest: f64,
-    /// Part of the step limits that is used at present.
+    /// Fraction of the step limits in use.
     reach: f64,
-    /// Steps during which no excursion is begun, since the last one did not pay.
+    /// Steps before the next excursion.
     rest: usize,
-    /// How much ties are stiffened per motion (pN/nm^2).
+    /// Stiffening per motion (pN/nm^2).
     cubic: f64,
-    /// Whether the present step led bodies through each other and was cut short.
+    /// Shortened by contact.
     is_cut: bool,
-    /// Twice the steps of which that is so, less those of which it is not.
+    /// Twice the blocked steps minus the others.
     blocked: usize,
-    /// Steps of a far start.
     composed: Composed,
     options: NewtonOptions,
 }
@@ -125,7 +114,7 @@ impl Descent {
         }
     }
 
-    /// Whether a body has gone so far that only a motion without end leads there.
+    /// Returns `true` if the energy must be unbounded.
     pub(crate) fn is_far(&self) -> bool {
         let limit = FARTHEST * self.size.max(self.options.turn_length);
         let positions = self.state.points.position.iter();
@@ -137,17 +126,17 @@ impl Descent {
         self.anchor.is_some()
     }
 
-    /// Whether one of the last steps was cut short since bodies would have passed through each other.
+    /// Returns `true` if a recent step was blocked by contact.
     pub(crate) fn is_blocked(&self) -> bool {
         self.blocked > 0
     }
 
-    /// Whether this has gone on for so long that it will not end.
+    /// Returns `true` if steps are blocked persistently.
     pub(crate) fn stays_blocked(&self) -> bool {
         self.blocked >= 2 * BLOCKED
     }
 
-    /// Whether this is an excursion that is above where it began; if so, its next step goes back.
+    /// Returns `true` on an excursion above its start; the next step then reverts it.
     pub(crate) fn gives_up_excursion(&mut self) -> bool {
         let Some(anchor) = &mut self.anchor else {
             return false;
@@ -160,7 +149,6 @@ impl Descent {
         is_lost
     }
 
-    /// Goes back to where an excursion began, if there is one.
     pub(crate) fn end_excursion(&mut self) -> bool {
         self.anchor.take().is_some_and(|anchor| {
             self.state = anchor.state;
@@ -169,7 +157,7 @@ impl Descent {
         })
     }
 
-    /// Takes a step from the present state, whose stiffness is assembled; `None` if none helps.
+    /// Takes a step; `None` if none is accepted.
     ///
     /// # Errors
     /// If the stiffness cannot be factorised.
@@ -228,7 +216,7 @@ impl Descent {
         Ok(taken.map(|taken| (direction, taken)))
     }
 
-    /// The step along `direction`, within the limits, if it is good enough.
+    /// Full step within the limits, if acceptable.
     fn attempt(
         &mut self,
         solver: &mut Solver,
@@ -247,7 +235,6 @@ impl Descent {
         Some(taken(direction, fraction, verdict))
     }
 
-    /// The part of a step within the limits.
     fn fraction(&self, extent: &StepSize) -> f64 {
         let part = self.part_of_limits(extent);
         if part > self.reach {
@@ -257,7 +244,6 @@ impl Descent {
         }
     }
 
-    /// The extent of a step relative to the limits.
     fn part_of_limits(&self, extent: &StepSize) -> f64 {
         (extent.rotation / self.options.largest_rotation)
             .max(extent.strain / self.options.largest_strain)
@@ -268,8 +254,7 @@ impl Descent {
         taken(direction, self.fraction(&direction.extent), verdict)
     }
 
-    /// Evaluates the state at `fraction` of the step: the lower one of that in which each body
-    /// goes straight and that in which it is carried along by the one before it.
+    /// Evaluates the straight and the carried step; keeps the lower one.
     fn try_step(
         &mut self,
         solver: &mut Solver,
@@ -295,7 +280,7 @@ impl Descent {
         self.is_cut |= self.there.has_passed();
     }
 
-    /// Whether the trial state is good enough, and why.
+    /// `None` if the trial state is rejected.
     fn judge(&self, solver: &Solver, direction: &Direction, fraction: f64) -> Option<Verdict> {
         if !self.there.is_finite() {
             return None;
@@ -314,8 +299,7 @@ impl Descent {
             .then_some(Verdict::RoundOff)
     }
 
-    /// What a step is compared with: where it began, or where the excursion did, and the decrease
-    /// that was promised there.
+    /// Reference state and the decrease predicted there.
     fn reference(&self, direction: &Direction, fraction: f64) -> (&Evaluation, f64) {
         match &self.anchor {
             Some(anchor) => (
@@ -326,7 +310,7 @@ impl Descent {
         }
     }
 
-    /// Raises or lowers the stiffening of ties by what part of the promised decrease was gained.
+    /// Adapts the stiffening to the ratio of actual to predicted decrease.
     fn adapt(&mut self, solver: &Solver, direction: &Direction, gain: f64) {
         let least = solver.least_cubic();
         let present = direction.cubic.max(self.cubic);
@@ -347,8 +331,7 @@ impl Descent {
         };
     }
 
-    /// Whether the loads do work along the step, by the trapezoidal rule, and push less at its
-    /// end than at its beginning.
+    /// The work of the loads is positive (trapezoidal rule), and the loads are smaller at the end.
     fn is_better_in_loads(&self, solver: &Solver, direction: &Direction, fraction: f64) -> bool {
         let there = solver.work_along(&self.trial, &self.there.loads, &direction.step);
         let work = 0.5 * fraction * (direction.slope + there);
@@ -373,7 +356,7 @@ impl Descent {
         self.accept();
     }
 
-    /// Returns to where the excursion began and takes a shorter step there.
+    /// Reverts the excursion and takes a shorter step.
     fn go_back(
         &mut self,
         solver: &mut Solver,
@@ -388,7 +371,6 @@ impl Descent {
         Some((anchor.direction, taken))
     }
 
-    /// Shortens a refused step until it is accepted; `None` if it never is.
     fn shorten(
         &mut self,
         solver: &mut Solver,
@@ -400,7 +382,7 @@ impl Descent {
         let mut factor = SHORTEN[1];
         loop {
             fraction *= factor;
-            // Written so that a fraction that has underflown, or is not a number, ends this too.
+            // Also ends at underflow and NaN.
             let is_worth_trying = fraction > SHORTEST * refused.min(1.0);
             if !is_worth_trying {
                 return None;
@@ -417,7 +399,7 @@ impl Descent {
         }
     }
 
-    /// The minimum of the parabola through energy and slope here and energy there, in bounds.
+    /// Minimum of the parabola through both energies and the initial slope.
     fn next_factor(&self, direction: &Direction, fraction: f64) -> f64 {
         let change = self.there.energy_above(&self.here);
         let descent = fraction * direction.slope;
@@ -430,18 +412,18 @@ impl Descent {
     }
 }
 
-/// Whether the energy of `a` is below that of `b`; anything is below what is not a number.
+/// Returns `true` for NaN.
 fn is_lower(a: &Evaluation, b: &Evaluation) -> bool {
     let difference = a.energy_above(b);
     difference.is_nan() || difference < 0.0
 }
 
-/// Decrease of the quadratic model over `fraction` of a step.
+/// Quadratic model.
 fn predicted_decrease(direction: &Direction, fraction: f64) -> f64 {
     fraction * (direction.slope - 0.5 * fraction * direction.curvature)
 }
 
-/// The largest distance of a point from the first one.
+/// Largest distance of a point from the first one.
 fn size(state: &State) -> f64 {
     let mut positions = state.points.position.iter();
     let Some(first) = positions.next() else {

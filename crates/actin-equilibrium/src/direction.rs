@@ -1,4 +1,4 @@
-//! Stiffness, factor and the direction of a Newton step.
+//! Assembly, factorisation and direction of a Newton step.
 
 use crate::assemble::Assembly;
 use crate::evaluation::Evaluation;
@@ -10,67 +10,61 @@ use crate::outcome::SolveError;
 use actin_mechanics::Residual;
 use actin_mechanics::{Interaction, Loads, State};
 
-/// Factor by which a regularisation that was too small grows.
+/// Growth factor of an insufficient regularisation.
 const GROW: f64 = 8.0;
-/// How far the first regularisation goes beyond the negative curvature that was found.
+/// Ratio of the first regularisation to the negative curvature found.
 const BEYOND: f64 = 2.0;
-/// Part of a regularisation that sufficed from which one that is to suffice again is sought.
+/// Divisor for the next initial guess.
 const GUESS: f64 = GROW;
-/// A regularisation above this multiple of the largest diagonal entry is never needed.
+/// Maximum regularisation, relative to the largest diagonal entry.
 const LIMIT: f64 = 1e3;
-/// A step this many times longer than wanted calls for more regularisation.
+/// Ratio to the strain limit above which a step is regularised.
 const TOO_LONG: f64 = 4.0;
-/// A step that strains less than this needs no stiffening of ties.
+/// Strain below which ties are not stiffened.
 const SHORT: f64 = 1e-6;
-/// Rounds in which stiffening and motion of ties are made to agree.
+/// Iterations for the stiffening and the motion of ties.
 const ROUNDS: usize = 2;
-/// Part of the largest stiffness by which that of a tie is first guessed to change when the tie
-/// moves by its own length.
+/// Relative change of the stiffness of a tie that moves by its own length, initial guess.
 const STIFFNESS_CHANGE: f64 = 0.3;
-/// The least regularisation, in roundings of the largest diagonal entry.
+/// Minimum regularisation, in roundings of the largest diagonal entry.
 const LEAST_ROUNDINGS: f64 = 4.0;
-/// Ties that do not give way are stiffened by this share of the stiffest one, so that one factor makes any
-/// stiffness definite.
+/// Minimum stiffening of a tie relative to the stiffest one, so that a single factor suffices.
 const LEAST_SHARE: f64 = 0.01;
-/// The least that counts as giving way, as a part of the largest diagonal entry.
+/// Minimum softness, relative to the largest diagonal entry.
 const SOFTEST: f64 = 1e-6;
-/// The least stiffening of the tie that gives way most, as a part of that.
+/// Minimum stiffening of the softest tie, relative to its softness.
 const LEAST_STIFFENING: f64 = 0.03;
-/// Part of the last stiffening with which the next search begins.
+/// Initial stiffening of a search, relative to the last one.
 const STIFFEST_DROP: f64 = 0.3;
-/// Growth of a stiffening that was too small.
+/// Growth factor of an insufficient stiffening.
 const STIFFEST_GROWTH: f64 = 3.0;
 
-/// The linear algebra of one layout.
 #[derive(Debug)]
 pub(crate) struct Solver {
     pub(crate) layout: Layout,
     pub(crate) assembly: Assembly,
     factor: Option<Factor>,
-    /// 1 for displacements, squared turn length for turns.
+    /// 1 for displacements, squared turn length for rotations.
     pub(crate) metric: Vec<f64>,
     turn_length: f64,
-    /// Generalised loads at the state of the last assembly.
     pub(crate) reduced: Vec<f64>,
-    /// What rounding leaves of these.
+    /// Rounding errors of `reduced`.
     rounding: Vec<f64>,
     pub(crate) work: SolverWork,
 }
 
-/// A direction along which the energy falls.
 #[derive(Clone, Debug)]
 pub(crate) struct Direction {
     pub(crate) step: Vec<f64>,
     pub(crate) extent: StepSize,
-    /// `f . p`: how fast the energy falls at first.
+    /// `f . p`: initial rate of descent.
     pub(crate) slope: f64,
-    /// `p . K p` with the unregularised stiffness.
+    /// `p . K p`.
     pub(crate) curvature: f64,
     pub(crate) negative_pivots: usize,
     pub(crate) regularization: f64,
-    /// Motion (nm) of each tie.
     motions: Vec<f64>,
-    /// How much ties were stiffened per motion (pN/nm^2).
+    /// Stiffening of ties per motion (pN/nm^2).
     pub(crate) cubic: f64,
 }
 
@@ -88,7 +82,6 @@ impl Solver {
         }
     }
 
-    /// Refuses interactions that Newton's method cannot use.
     pub(crate) fn check(interactions: &[Box<dyn Interaction>]) -> Result<(), SolveError> {
         for interaction in interactions {
             if !interaction.is_conservative() {
@@ -101,7 +94,6 @@ impl Solver {
         Ok(())
     }
 
-    /// Evaluates loads and stiffness at a state.
     pub(crate) fn prepare(
         &mut self,
         state: &State,
@@ -117,7 +109,6 @@ impl Solver {
         Ok(())
     }
 
-    /// Assembles stiffness and generalised loads at a state with these loads.
     pub(crate) fn assemble(
         &mut self,
         interactions: &[Box<dyn Interaction>],
@@ -140,8 +131,7 @@ impl Solver {
         self.layout.reduce(state, loads, &mut self.reduced);
     }
 
-    /// Residual at the last assembly, and what rounding of coordinates leaves of it:
-    /// `eps |K| |u|`, `u` the components of positions or one for a turn.
+    /// Residual and its rounding error `eps |K| |u|`, where `u` is 1 for rotations.
     pub(crate) fn residual_and_floor(&mut self, state: &State) -> (Residual, Residual) {
         let mut magnitudes = vec![0.0; self.layout.unknowns()];
         self.layout.magnitudes(state, &mut magnitudes);
@@ -153,17 +143,14 @@ impl Solver {
         (self.layout.largest(&self.reduced), floor)
     }
 
-    /// Whether the loads of each body are within the tolerance or `multiple` times what rounding
-    /// leaves of them there, by the last [`residual_and_floor`](Solver::residual_and_floor).
-    ///
-    /// Body by body: what rounding leaves of a stiff joint far from the origin is no reason to
-    /// leave off elsewhere.
+    /// Returns `true` if all loads are within the tolerance or `multiple` times their rounding
+    /// error. The test is per body: rounding at a stiff joint must not stop the solve elsewhere.
     pub(crate) fn is_at_floor(&self, tolerance: &Residual, multiple: f64) -> bool {
         let rounding = (self.rounding.as_slice(), multiple);
         self.layout.are_within(&self.reduced, tolerance, rounding)
     }
 
-    /// Factorises the stiffness of the last assembly with a shift of the metric.
+    /// Factorises the last assembled stiffness plus `shift` times the metric.
     pub(crate) fn factorize(&mut self, shift: f64) -> Inertia {
         let factor = self.factor.as_mut().expect("the stiffness is assembled");
         self.work.factorizations += 1;
@@ -175,14 +162,13 @@ impl Solver {
         )
     }
 
-    /// The loads of the last assembly that act along motions without stiffness, their norms over all bodies;
-    /// `None` where some stiffness is negative.
+    /// Loads along motions without stiffness; `None` if the stiffness is indefinite.
     pub(crate) fn unresisted(&mut self) -> Option<Residual> {
         let shift = self.least_shift();
         if !self.factorize(shift).is_positive() {
             return None;
         }
-        // (K + s M) p = f: where K does nothing, s M p = f.
+        // (K + s M) p = f: s M p = f in the null space of K.
         let mut part = self.plain_step();
         for (part, mass) in part.iter_mut().zip(&self.metric) {
             *part *= shift * mass;
@@ -190,58 +176,52 @@ impl Solver {
         Some(self.layout.total(&part))
     }
 
-    /// The norms of the loads of the last assembly over all bodies.
     pub(crate) fn total(&self) -> Residual {
         self.layout.total(&self.reduced)
     }
 
-    /// Whether the stiffness of the last assembly is negative along no motion, within rounding.
+    /// No negative eigenvalue beyond rounding.
     pub(crate) fn is_stable(&mut self) -> bool {
         let shift = self.least_shift();
         self.factorize(shift).is_positive()
     }
 
-    /// Whether the stiffness of the last assembly is zero or negative along some motion, within rounding.
+    /// Some eigenvalue is not positive beyond rounding.
     pub(crate) fn has_weak_mode(&mut self) -> bool {
         let shift = self.least_shift();
         !self.factorize(-shift).is_positive()
     }
 
-    /// The least multiple of the metric that rounding of the stiffness does not hide.
+    /// Smallest shift above the rounding error.
     fn least_shift(&self) -> f64 {
         let least = LEAST_ROUNDINGS * f64::EPSILON * self.largest_in_metric();
         least.max(f64::MIN_POSITIVE)
     }
 
-    /// The step of the last factor for the loads of the last assembly.
     pub(crate) fn plain_step(&mut self) -> Vec<f64> {
         let mut step = self.reduced.clone();
         self.solve(&mut step);
         step
     }
 
-    /// Solves with the last factor, in place.
     pub(crate) fn solve(&mut self, b: &mut [f64]) {
         let factor = self.factor.as_mut().expect("the stiffness is assembled");
         factor.solve(b);
     }
 
-    /// Turns independent numbers into a step whose parts vary together as the inverse of the matrix that
-    /// was last factorised, in place; that is positive definite.
+    /// Transforms white noise to a step whose covariance is the inverse of the factorised matrix.
     pub(crate) fn spread(&self, noise: &mut [f64]) {
         let factor = self.factor.as_ref().expect("the stiffness is assembled");
         factor.spread(noise);
     }
 
-    /// Factorises the stiffness with the least multiple of the metric that makes it positive
-    /// definite; `inertia` is that of the present factor.
+    /// Factorises with the smallest sufficient shift, starting from `inertia`.
     pub(crate) fn make_positive(&mut self, inertia: Inertia) -> Result<f64, SolveError> {
         self.make_positive_from(inertia, false, 0.0)
     }
 
-    /// The same for a step of the present loads, with or without ties: nothing is added where they
-    /// meet no negative curvature. A multiple of the metric that outweighs the turning of frames,
-    /// say, would slow down a rod's stretching by orders of magnitude.
+    /// No shift is added if the loads meet no negative curvature: it could slow down the stretching
+    /// of a rod by orders of magnitude.
     fn make_positive_for_loads(
         &mut self,
         inertia: Inertia,
@@ -256,7 +236,7 @@ impl Solver {
         self.make_positive_from(inertia, with_ties, guess)
     }
 
-    /// The same; the first multiple that is tried is at least `guess`.
+    /// The first shift is at least `guess`.
     fn make_positive_from(
         &mut self,
         mut inertia: Inertia,
@@ -272,8 +252,7 @@ impl Solver {
                 .max(shift + self.beyond_curvature())
                 .max(guess)
                 .max(least);
-            // Of a stiffness that is zero or has overflowed no multiple makes anything definite,
-            // and the search would not end. Written so that a shift that is not a number fails.
+            // Zero or overflowing stiffness would loop forever. The condition also rejects NaN.
             let is_worth_trying = shift > 0.0 && shift <= LIMIT * largest / lightest;
             if !(is_worth_trying && shift.is_finite()) {
                 return Err(SolveError::NotFactorizable(shift));
@@ -287,35 +266,32 @@ impl Solver {
         Ok(shift)
     }
 
-    /// A shift that removes the negative curvature seen in the last factor; zero if none is.
+    /// Shift that removes the negative curvature of the last factorisation, if any.
     fn beyond_curvature(&self) -> f64 {
         let factor = self.factor.as_ref().expect("the stiffness is assembled");
         -BEYOND * factor.negative_curvature(&self.metric).unwrap_or(0.0)
     }
 
-    /// An estimate of the largest eigenvalue of the last assembly in the metric.
+    /// Estimate of the largest eigenvalue.
     pub(crate) fn largest_in_metric(&self) -> f64 {
         self.assembly.largest_diagonal() / self.lightest()
     }
 
-    /// The smallest entry of the metric.
     pub(crate) fn lightest(&self) -> f64 {
         self.metric.iter().copied().fold(f64::INFINITY, f64::min)
     }
 
-    /// Number of directions in which the matrix last factorised has next to no stiffness.
+    /// Number of directions with almost no stiffness.
     pub(crate) fn floppy(&self) -> usize {
         let factor = self.factor.as_ref().expect("the stiffness is assembled");
         factor.floppy()
     }
 
-    /// The growth of the last factor.
     pub(crate) fn growth(&self) -> f64 {
         let factor = self.factor.as_ref().expect("the stiffness is assembled");
         factor.growth()
     }
 
-    /// The largest diagonal entry of the matrix last factorised.
     pub(crate) fn largest_diagonal(&self) -> f64 {
         let factor = self.factor.as_ref().expect("the stiffness is assembled");
         factor.largest_diagonal()
@@ -332,12 +308,10 @@ impl Solver {
         )
     }
 
-    /// The Newton direction at the last assembly, which was made at `state` and has just been factorised:
-    /// `plain` is what its pivots say.
+    /// Newton direction; `plain` is the inertia of the current factorisation.
     ///
-    /// The stiffness is made positive definite, unless the loads meet no negative curvature. Where that leaves a step that strains
-    /// neighbours by much more than `strain`, or where `cubic` asks for it, ties are stiffened
-    /// in proportion to their motion; see [`crate::ties`].
+    /// Ties are stiffened in proportion to their motion if the step strains neighbours by much more
+    /// than `strain`, or if `cubic` is positive; see [`crate::ties`].
     pub(crate) fn direction(
         &mut self,
         state: &State,
@@ -347,7 +321,7 @@ impl Solver {
         let lengths = self.assembly.tie_lengths();
         let limits: Vec<f64> = lengths.iter().map(|length| strain * length).collect();
         if cubic > 0.0 && !plain.is_positive() {
-            // The shift that the plain stiffness needs says nothing of that with ties.
+            // The shift without ties does not apply with ties.
             return self.stiffened_direction(state, plain, cubic, (limits, 0.0));
         }
         let shift = self.make_positive_for_loads(plain, false, 0.0)?;
@@ -366,8 +340,7 @@ impl Solver {
         self.stiffened_direction(state, plain, cubic, (motions, shift / GUESS))
     }
 
-    /// The direction in which ties are stiffened by `cubic` times their motions; these and the
-    /// regularisation are first guesses.
+    /// Direction with ties stiffened by `cubic` times their motions.
     fn stiffened_direction(
         &mut self,
         state: &State,
@@ -386,7 +359,7 @@ impl Solver {
                 return Ok(Direction { cubic, ..direction });
             }
             for (motion, new) in motions.iter_mut().zip(&direction.motions) {
-                // The geometric mean solves w = cubic r, w r = f in one round.
+                // The geometric mean solves w = cubic r, w r = f in one iteration.
                 *motion = (*motion * new).sqrt();
             }
             guess = shift / GUESS;
@@ -394,10 +367,8 @@ impl Solver {
         }
     }
 
-    /// The Newton direction at the last assembly, which was made at `state`, with ties stiffened where they
-    /// give way: in proportion to that, and by no more than makes the stiffness positive definite, or nearly
-    /// so. The search begins with a part of the `stiffest` tie (pN/nm) of the last such direction. `None` if
-    /// there is none.
+    /// Newton direction with soft ties stiffened just enough for a positive definite stiffness. The
+    /// search starts from a fraction of `stiffest` (pN/nm).
     pub(crate) fn composed_direction(
         &mut self,
         state: &State,
@@ -426,7 +397,7 @@ impl Solver {
                 });
             }
             *stiffest *= STIFFEST_GROWTH;
-            // Written so that what is not a number ends this.
+            // Also rejects NaN.
             let is_worth_trying = *stiffest <= limit;
             if !is_worth_trying {
                 return None;
@@ -434,14 +405,14 @@ impl Solver {
         }
     }
 
-    /// A first guess of how fast the stiffness of a tie changes with its motion.
+    /// Initial guess for the change of stiffness per motion of a tie.
     pub(crate) fn least_cubic(&self) -> f64 {
         let lengths = self.assembly.tie_lengths();
         let mean = lengths.iter().sum::<f64>() / lengths.len().max(1) as f64;
         STIFFNESS_CHANGE * self.largest_diagonal() / mean
     }
 
-    /// Solves with the present factor, which has `shift` and `weights` of ties.
+    /// The current factorisation includes `shift` and `weights`.
     fn solve_direction(
         &mut self,
         state: &State,
@@ -476,7 +447,7 @@ impl Solver {
         }
     }
 
-    /// The work per unit of `step` that loads do along it.
+    /// Work per unit of `step`.
     pub(crate) fn work_along(&self, state: &State, loads: &Loads, step: &[f64]) -> f64 {
         let mut reduced = vec![0.0; step.len()];
         self.layout.reduce(state, loads, &mut reduced);

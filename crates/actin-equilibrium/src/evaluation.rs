@@ -1,21 +1,17 @@
-//! Energy and loads of a state, with the precision that acceptance of a step needs.
-
 use actin_mechanics::{Interaction, Loads, State};
 
-/// Loads and energy of each element at one state.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Evaluation {
     pub(crate) loads: Loads,
     energies: Vec<f64>,
     pub(crate) energy: f64,
-    /// Sum of the absolute energies of all elements: `eps` times this is the least round-off.
+    /// Scale of the rounding error of the energy.
     pub(crate) magnitude: f64,
-    /// Whether the way here led bodies through each other: then the energy counts as infinite.
+    /// Bodies passed through each other; the energy counts as infinite.
     passed: bool,
 }
 
 impl Evaluation {
-    /// Evaluates all interactions.
     pub(crate) fn new(interactions: &[Box<dyn Interaction>], state: &State) -> Self {
         let elements = interactions.iter().map(|i| i.elements()).sum();
         let mut evaluation = Self {
@@ -27,7 +23,6 @@ impl Evaluation {
         evaluation
     }
 
-    /// Evaluates all interactions into the same memory.
     pub(crate) fn update(&mut self, interactions: &[Box<dyn Interaction>], state: &State) {
         self.passed = false;
         self.loads.clear();
@@ -42,7 +37,7 @@ impl Evaluation {
         self.magnitude = self.energies.iter().map(|e| e.abs()).sum();
     }
 
-    /// Evaluates all interactions in `state`, to which the straight way leads from another.
+    /// Evaluates a state reached by a straight motion.
     pub(crate) fn follow(
         &mut self,
         interactions: &[Box<dyn Interaction>],
@@ -52,13 +47,11 @@ impl Evaluation {
         self.passed = passes_through(interactions, from, state);
     }
 
-    /// Whether the way here led bodies through each other.
     pub(crate) fn has_passed(&self) -> bool {
         self.passed
     }
 
-    /// The energy here less that of `other`, added up from the differences of elements: the
-    /// round-off of a sum over a long filament would hide what one element does.
+    /// Sum of the differences of elements, more accurate than the difference of sums.
     pub(crate) fn energy_above(&self, other: &Self) -> f64 {
         if self.passed {
             return f64::INFINITY;
@@ -70,7 +63,6 @@ impl Evaluation {
             .sum()
     }
 
-    /// Whether energy and loads are finite.
     pub(crate) fn is_finite(&self) -> bool {
         !self.passed
             && self.energy.is_finite()
@@ -82,8 +74,8 @@ impl Evaluation {
     }
 }
 
-/// Whether bodies that some interaction keeps apart pass through each other on the straight way between
-/// two states.
+/// Returns `true` if a straight motion moves bodies through each other that an interaction
+/// separates.
 pub(crate) fn passes_through(
     interactions: &[Box<dyn Interaction>],
     from: &State,

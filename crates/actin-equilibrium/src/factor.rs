@@ -1,15 +1,12 @@
-//! `K + shift M = L D L^T` without pivoting, and what its pivots say.
+//! Factorisation `K + shift M = L D L^T` without pivoting, and its inertia.
 //!
-//! The order of elimination is that of the unknowns, so that the factor of a chain keeps the band;
-//! bodies that are coupled across it are reordered before (see `layout`). Without
-//! pivoting the factor of an indefinite matrix can lose accuracy; how much is seen afterwards:
-//! the computed factors are exact for a matrix that differs from `K` by about
-//! `eps (|L| |D| |L^T|)_ij`, which by Cauchy and Schwarz is at most `eps` times the largest
-//! [`growth`](Factor::growth). For a positive definite matrix the growth is its diagonal.
+//! Elimination follows the order of unknowns, which preserves the band of a chain. The computed
+//! factors are exact for a matrix that differs from `K` by about `eps (|L| |D| |L^T|)_ij`, at most
+//! `eps` times the largest [`growth`](Factor::growth).
 //!
 //! # Source
-//! N. J. Higham, Accuracy and Stability of Numerical Algorithms, 2nd ed. (2002), theorems 10.3
-//! and 11.4; faer, `sparse::linalg::cholesky::simplicial`.
+//! N. J. Higham, Accuracy and Stability of Numerical Algorithms, 2nd ed. (2002), theorems 10.3 and
+//! 11.4; faer, `sparse::linalg::cholesky::simplicial`.
 
 use crate::band::{Band, Eliminate};
 use actin_mechanics::wide;
@@ -19,38 +16,34 @@ use faer::sparse::linalg::cholesky::simplicial;
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMat, SymbolicSparseColMatRef};
 use faer::{Conj, MatMut, Par};
 
-/// A pivot below this many roundings of its diagonal entry does not count as positive.
+/// A pivot within this many roundings of its diagonal entry is doubtful.
 const PIVOT_ROUNDINGS: f64 = 8.0;
 
-/// Share of the energy of a step below which a pivot has no part in it but rounding: amplitudes of
-/// 1e-12.
+/// Energy fraction of a pivot below rounding: amplitudes of 1e-12.
 const UNSEEN: f64 = 1e-24;
 
-/// A pivot below this share of its diagonal entry is one of a direction without stiffness.
+/// Pivots below this fraction of their diagonal entry have no stiffness.
 const FLOPPY: f64 = 1e-10;
 
-/// What the pivots say about the shifted matrix.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Inertia {
-    /// Number of negative pivots: by Sylvester's law that of negative eigenvalues.
+    /// Number of negative pivots, or eigenvalues by Sylvester's law.
     pub(crate) negative: usize,
-    /// Number of pivots that are zero to round-off; negative ones are counted above as well.
+    /// Number of pivots that are zero within rounding.
     pub(crate) doubtful: usize,
-    /// Number of pivots that are exactly zero, or not finite; all of them are doubtful.
+    /// Number of pivots that are exactly zero or not finite.
     pub(crate) zero: usize,
 }
 
 impl Inertia {
-    /// Whether the matrix is positive definite beyond doubt.
+    /// Positive definite beyond rounding.
     pub(crate) fn is_positive(&self) -> bool {
         self.negative == 0 && self.doubtful == 0
     }
 }
 
-/// The factors of one pattern, with the memory they need.
 pub(crate) struct Factor {
     symbolic: simplicial::SymbolicSimplicialCholesky<usize>,
-    /// For a factor without gaps.
     band: Option<Band>,
     values: Vec<f64>,
     shifted: Vec<f64>,
@@ -68,7 +61,7 @@ impl std::fmt::Debug for Factor {
 }
 
 impl Factor {
-    /// Finds the places of the factor's entries.
+    /// Symbolic factorisation.
     pub(crate) fn new(upper: &SymbolicSparseColMat<usize>) -> Self {
         let upper = upper.as_ref();
         let n = upper.ncols();
@@ -95,25 +88,21 @@ impl Factor {
         }
     }
 
-    /// Number of entries of the factor.
     pub(crate) fn entries(&self) -> usize {
         self.symbolic.len_val()
     }
 
-    /// Whether columns have no gaps.
     #[cfg(test)]
     pub(crate) fn is_band(&self) -> bool {
         self.band.is_some()
     }
 
-    /// The same without use of the band, if there is one.
     #[cfg(test)]
     pub(crate) fn with_gaps(mut self) -> Self {
         self.band = None;
         self
     }
 
-    /// Factorises `K + shift M`, `M` the diagonal `metric`.
     pub(crate) fn factorize(
         &mut self,
         upper: SymbolicSparseColMatRef<'_, usize>,
@@ -126,7 +115,7 @@ impl Factor {
         self.factorize_shifted(upper, metric, shift)
     }
 
-    /// Factorises `K + T + shift M`, `T` another matrix of the same pattern.
+    /// Factorises `K + T + shift M`.
     pub(crate) fn factorize_sum(
         &mut self,
         upper: SymbolicSparseColMatRef<'_, usize>,
@@ -140,8 +129,8 @@ impl Factor {
         self.factorize_shifted(upper, metric, shift)
     }
 
-    /// A pivot that is exactly zero, as those of floppy modes at rest are, is replaced by one
-    /// rounding of the largest diagonal entry and counted as doubtful.
+    /// Pivots of exactly zero are replaced by one rounding of the largest diagonal entry and are
+    /// doubtful.
     fn factorize_shifted(
         &mut self,
         upper: SymbolicSparseColMatRef<'_, usize>,
@@ -172,7 +161,7 @@ impl Factor {
         self.inertia(least)
     }
 
-    /// A pivot that is not finite ends this early; what is left of the factor then counts as doubtful.
+    /// A non-finite pivot ends the elimination; the remaining pivots are doubtful.
     fn eliminate_with_gaps(&mut self, upper: SymbolicSparseColMatRef<'_, usize>, least: f64) {
         let regularization = LdltRegularization {
             dynamic_regularization_signs: None,
@@ -191,7 +180,7 @@ impl Factor {
         }
     }
 
-    /// What the pivots say; one that is `least` to the last bit was zero.
+    /// Pivots equal to `least` replace zeros.
     fn inertia(&self, least: f64) -> Inertia {
         let mut inertia = Inertia::default();
         for column in 0..self.diagonal.len() {
@@ -205,15 +194,14 @@ impl Factor {
         inertia
     }
 
-    /// Number of pivots that are as good as zero: directions without stiffness, as those of floppy bodies at
-    /// rest, whatever rounding makes of them.
+    /// Number of directions without stiffness.
     pub(crate) fn floppy(&self) -> usize {
         let diagonal = self.diagonal.iter().enumerate();
         let is_floppy = |&(column, own): &(usize, &f64)| self.pivot(column).abs() <= FLOPPY * own;
         diagonal.filter(is_floppy).count()
     }
 
-    /// Returns the columns with pivots that are not positive beyond doubt.
+    /// Columns with pivots not positive beyond rounding.
     pub(crate) fn indefinite_columns(&self) -> impl Iterator<Item = usize> {
         (0..self.diagonal.len()).filter(|&column| {
             let rounding = PIVOT_ROUNDINGS * f64::EPSILON * self.diagonal[column];
@@ -226,7 +214,6 @@ impl Factor {
         self.values[self.symbolic.col_ptr()[column]]
     }
 
-    /// Solves `L D L^T x = b` in place.
     pub(crate) fn solve(&mut self, b: &mut [f64]) {
         let rows = b.len();
         simplicial::SimplicialLdltRef::new(&self.symbolic, &self.values).solve_in_place_with_conj(
@@ -237,8 +224,7 @@ impl Factor {
         );
     }
 
-    /// Solves `L^T x = |D|^(-1/2) b` in place: of independent `b` with variance one, `x` has the covariance
-    /// `(L |D| L^T)^(-1)`.
+    /// Solves `L^T x = |D|^(-1/2) b`: white noise `b` gives the covariance `(L |D| L^T)^(-1)`.
     pub(crate) fn spread(&self, b: &mut [f64]) {
         for column in (0..b.len()).rev() {
             let below: f64 = self.below(column).map(|(row, value)| value * b[row]).sum();
@@ -246,12 +232,12 @@ impl Factor {
         }
     }
 
-    /// Whether loads `f` meet positive pivots only, as where symmetry keeps them off the directions
-    /// in which the energy falls; no pivot may be doubtful.
+    /// Returns `true` if the loads `f` meet positive pivots only, for instance because symmetry
+    /// decouples them from directions of negative curvature. No pivot may be doubtful.
     ///
-    /// With `L y = f` the step `p` of `L D L^T p = f` has the energy `f . p = sum y_k^2 / d_k`; the
-    /// parts of negative pivots are compared with `sum f_k^2 / |K_kk|`. Where they have none, the step
-    /// leads to the minimum over all directions that the loads see.
+    /// With `L y = f` the step `p` of `L D L^T p = f` has the energy `f . p = sum y_k^2 / d_k`. The
+    /// contributions of negative pivots are compared with `sum f_k^2 / |K_kk|`. If they are
+    /// negligible, the step leads to the minimum over all directions coupled to the loads.
     pub(crate) fn is_positive_for(&self, f: &[f64]) -> bool {
         let energy = |f: f64, k: f64| if f == 0.0 { 0.0 } else { f * f / k.abs() };
         let energies = f.iter().zip(&self.diagonal).map(|(&f, &k)| energy(f, k));
@@ -259,7 +245,7 @@ impl Factor {
         let mut y = f.to_vec();
         for column in 0..y.len() {
             let (pivot, own) = (self.pivot(column), y[column]);
-            // Written so that a limit that is not a number allows nothing.
+            // Also rejects NaN.
             if !(pivot > 0.0 || energy(own, pivot) <= limit && limit.is_finite()) {
                 return false;
             }
@@ -270,12 +256,11 @@ impl Factor {
         true
     }
 
-    /// The largest diagonal entry, without its sign, of the matrix last factorised.
     pub(crate) fn largest_diagonal(&self) -> f64 {
         self.diagonal.iter().copied().fold(0.0, f64::max)
     }
 
-    /// The largest diagonal entry of `|L| |D| |L^T|`.
+    /// Largest diagonal entry of `|L| |D| |L^T|`.
     pub(crate) fn growth(&self) -> f64 {
         let mut growth = vec![0.0; self.symbolic.nrows()];
         for column in 0..growth.len() {
@@ -288,17 +273,16 @@ impl Factor {
         growth.into_iter().fold(0.0, f64::max)
     }
 
-    /// Entries of `L` below the diagonal in one column.
     fn below(&self, column: usize) -> impl Iterator<Item = (usize, f64)> + '_ {
         let range = self.symbolic.col_ptr()[column] + 1..self.symbolic.col_ptr()[column + 1];
         let rows = &self.symbolic.row_idx()[range.clone()];
         rows.iter().copied().zip(self.values[range].iter().copied())
     }
 
-    /// An upper bound of the smallest eigenvalue in the metric, if there is a negative pivot.
+    /// Upper bound of the smallest eigenvalue in the metric, if a pivot is negative.
     ///
-    /// With `L^T z = e_k` one has `z . K z = d_k`, so the smallest eigenvalue is at most
-    /// `d_k / z . M z`; `k` is the most negative pivot.
+    /// With `L^T z = e_k`, `z . K z = d_k`, so the smallest eigenvalue is at most `d_k / z . M z`;
+    /// `k` is the most negative pivot.
     pub(crate) fn negative_curvature(&self, metric: &[f64]) -> Option<f64> {
         let n = self.symbolic.nrows();
         let last = (0..n).min_by(|&a, &b| self.pivot(a).total_cmp(&self.pivot(b)))?;

@@ -1,26 +1,23 @@
-//! Conjugate gradients for linked chains, preconditioned by the factors of the chains.
+//! Conjugate gradients for networks, preconditioned by the banded factors of the single filaments.
 //!
-//! The factorisation of a network fills with the links between its filaments; factors of single filaments keep their bands.
-//! Links are soft compared with the stretch and shear of filaments, so that the number of iterations does not grow with the
-//! number of filaments.
+//! Links are soft compared with the stretching and shear of filaments, so the number of iterations
+//! does not grow with the number of filaments.
 //!
 //! # Source
-//! M. R. Hestenes and E. Stiefel, J. Res. Natl. Bur. Stand. 49 (1952) 409; truncation at negative curvature: T. Steihaug, SIAM
-//! J. Numer. Anal. 20 (1983) 626.
+//! M. R. Hestenes and E. Stiefel, J. Res. Natl. Bur. Stand. 49 (1952) 409; truncation at negative
+//! curvature: T. Steihaug, SIAM J. Numer. Anal. 20 (1983) 626.
 
 use crate::assemble::Assembly;
 use crate::factor::Factor;
 use crate::layout::Layout;
 use faer::sparse::SymbolicSparseColMat;
 
-/// Largest number of iterations.
 const MOST_ITERATIONS: usize = 500;
 
-/// Preconditioner and vectors of the iteration.
 #[derive(Debug)]
 pub(crate) struct Gradients {
     chains: SymbolicSparseColMat<usize>,
-    /// Place of each entry of the chains among the values of the whole matrix.
+    /// Index in the full matrix.
     places: Vec<usize>,
     values: Vec<f64>,
     factor: Factor,
@@ -31,7 +28,6 @@ pub(crate) struct Gradients {
 }
 
 impl Gradients {
-    /// Returns the solver of the matrix that was assembled last.
     pub(crate) fn new(assembly: &Assembly, layout: &Layout) -> Self {
         let (chains, places) = assembly.pattern().chains(layout);
         let zeros = vec![0.0; layout.unknowns()];
@@ -47,7 +43,6 @@ impl Gradients {
         }
     }
 
-    /// Factorises the chains; returns true if all of them are positive definite.
     pub(crate) fn factorize(&mut self, assembly: &Assembly, metric: &[f64]) -> bool {
         for (value, &place) in self.values.iter_mut().zip(&self.places) {
             *value = assembly.values[place];
@@ -57,13 +52,12 @@ impl Gradients {
         inertia.is_positive()
     }
 
-    /// Returns the unknowns with negative or doubtful pivots.
     pub(crate) fn indefinite_columns(&self) -> Vec<usize> {
         self.factor.indefinite_columns().collect()
     }
 
-    /// Solves for the right-hand side `b`, in place, until the residual in the norm of the inverse preconditioner has fallen
-    /// by `tolerance`. Returns false at a direction of negative curvature; `b` is then the solution up to it.
+    /// Solves in place until the preconditioned residual norm has decreased by `tolerance`. Returns
+    /// `false` at negative curvature.
     pub(crate) fn solve(&mut self, assembly: &Assembly, b: &mut [f64], tolerance: f64) -> bool {
         self.residual.copy_from_slice(b);
         b.fill(0.0);
@@ -103,7 +97,7 @@ impl Gradients {
     }
 }
 
-/// Four sums, so that additions do not wait for each other.
+/// Four partial sums allow parallel additions.
 fn dot(a: &[f64], b: &[f64]) -> f64 {
     let mut sums = [0.0; 4];
     let (a_chunks, a_rest) = a.as_chunks::<4>();
@@ -131,7 +125,7 @@ mod tests {
         Coordinates, Loads, Matrix3, Point, SecondOrder, State, Stiffness, Vector3,
     };
 
-    /// Springs along two chains of ten points, with soft springs across at every third point, and friction.
+    /// Two chains of ten points with soft springs across, and friction.
     struct Ladder;
 
     impl SecondOrder for Ladder {
@@ -153,9 +147,8 @@ mod tests {
         }
     }
 
-    /// The solution equals the one by a factorisation of the whole.
     #[test]
-    fn linked_chains_are_solved_as_by_their_factors() {
+    fn conjugate_gradients_agree_with_a_factorisation() {
         let mut state = State::default();
         for _ in 0..20 {
             let position = Vector3::zeros();

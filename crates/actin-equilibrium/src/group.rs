@@ -1,18 +1,15 @@
-//! Bodies that are tied together and move as one.
-
 use actin_mechanics::{Slider, State, Vector3};
 
-/// The point about which a group turns.
+/// Centre of rotation of a group.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Pivot {
-    /// A place in the lab frame.
+    /// Position in the lab frame (nm).
     Lab(Vector3),
-    /// The present position of a point, which may be one of the group.
+    /// Current position of a point, which may belong to the group.
     Point(usize),
 }
 
 impl Pivot {
-    /// Where the pivot is.
     pub(crate) fn position(&self, state: &State) -> Vector3 {
         match *self {
             Self::Lab(position) => position,
@@ -21,17 +18,21 @@ impl Pivot {
     }
 }
 
-/// Points and frames that move as one rigid body, along and about prescribed directions only.
+/// Points and frames that move as one rigid body along and about prescribed directions.
 ///
-/// A point of the group goes from `x` to `p + t + exp(theta) (x - p)`, a frame from `Q` to
-/// `exp(theta) Q`, with `p` the pivot, `t` a combination of `translations` and `theta` one of
-/// `rotations`, all in the lab frame. Only the span of the directions matters; they are made
-/// orthonormal when the group enters a [`Layout`](crate::Layout).
+/// ```text
+/// x -> p + t + exp(theta) (x - p),   Q -> exp(theta) Q
 ///
-/// Whether the state holds these bodies or not makes no difference: the group says how they move.
-/// A group without directions holds its bodies.
+/// p       pivot (nm)
+/// t       linear combination of `translations` (nm)
+/// theta   linear combination of `rotations` (rad)
+/// ```
 ///
-/// A pair at the end of a filament along z that slides along the axis has one translation:
+/// All vectors are in the lab frame. Only the span of the directions matters; a
+/// [`Layout`](crate::Layout) orthonormalises them. The group overrides whether the state holds its
+/// bodies. A group without directions is held.
+///
+/// Last pair of a filament along z that slides along the axis:
 ///
 /// ```
 /// use actin_equilibrium::Group;
@@ -45,16 +46,16 @@ pub struct Group {
     pub points: Vec<usize>,
     /// Frames of the group.
     pub frames: Vec<usize>,
-    /// The point about which the group turns.
+    /// Centre of rotation.
     pub pivot: Pivot,
-    /// Directions along which the group moves, lab frame.
+    /// Directions of translation (lab frame).
     pub translations: Vec<Vector3>,
-    /// Axes about which the group turns, lab frame.
+    /// Axes of rotation (lab frame).
     pub rotations: Vec<Vector3>,
 }
 
 impl Group {
-    /// A group that slides along one direction (lab frame) and does not turn.
+    /// Group that slides along one direction (lab frame) without rotation.
     pub fn sliding(points: Vec<usize>, frames: Vec<usize>, direction: Vector3) -> Self {
         Self {
             points,
@@ -65,7 +66,6 @@ impl Group {
         }
     }
 
-    /// The group of a sliding body.
     pub(crate) fn from_slider(slider: &Slider) -> Self {
         Self {
             translations: slider.directions.clone(),
@@ -73,7 +73,7 @@ impl Group {
         }
     }
 
-    /// A group with all six freedoms of a rigid body; it turns about its first point.
+    /// Group with six degrees of freedom, which rotates about its first point.
     pub fn rigid(points: Vec<usize>, frames: Vec<usize>) -> Self {
         let axes = vec![Vector3::x(), Vector3::y(), Vector3::z()];
         let pivot = points
@@ -93,25 +93,22 @@ impl Group {
         self.translations.len() + self.rotations.len()
     }
 
-    /// The displacement for the unknowns `step` of the group.
     pub(crate) fn displacement(&self, step: &[f64]) -> Vector3 {
         combine(&self.translations, step)
     }
 
-    /// The rotation vector for the unknowns `step` of the group.
     pub(crate) fn rotation(&self, step: &[f64]) -> Vector3 {
         combine(&self.rotations, &step[self.translations.len()..])
     }
 }
 
-/// `sum_k a_k d_k`.
 fn combine(directions: &[Vector3], amounts: &[f64]) -> Vector3 {
     directions.iter().zip(amounts).map(|(d, a)| d * *a).sum()
 }
 
-/// The directions made orthonormal, in order; `None` if they are dependent or not finite.
+/// `None` if linearly dependent or not finite.
 pub(crate) fn orthonormal(directions: &[Vector3]) -> Option<Vec<Vector3>> {
-    // Below this sine of the angle to the span of the others a direction counts as dependent.
+    // Sine of the angle to the span of the others below which a direction is dependent.
     const SMALLEST_SINE: f64 = 1e-6;
     let mut basis: Vec<Vector3> = Vec::with_capacity(directions.len());
     for direction in directions {

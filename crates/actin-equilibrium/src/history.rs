@@ -1,45 +1,43 @@
-//! What a solve did.
-
 use crate::motion::StepSize;
 use actin_mechanics::Residual;
 
-/// How a step was judged.
+/// Classification of a step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Verdict {
-    /// The energy fell as it should.
+    /// The energy decreased sufficiently.
     Decrease,
-    /// The energy is above where it was, and may stay so for some steps.
+    /// The energy is above its previous value, temporarily.
     Excursion,
-    /// Excursions led nowhere; back to where they began and from there a shorter step.
+    /// An unsuccessful excursion was reverted, and a shorter step made from its start.
     Return,
-    /// The step changed the energy by less than its round-off, and the work of the loads or the
-    /// residual fell.
+    /// The energy changed by less than rounding, and the work of the loads or the residual
+    /// decreased.
     RoundOff,
 }
 
-/// One Newton step: the state that it started from, and how it went.
+/// One Newton step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Iteration {
     /// Potential energy before the step (pN nm).
     pub energy: f64,
     /// Residual before the step.
     pub residual: Residual,
-    /// Negative pivots of the unregularised stiffness before the step, in the chart of the step.
+    /// Negative pivots of the stiffness before the step, without regularisation.
     pub negative_pivots: usize,
-    /// Multiple of the metric that was added to the stiffness (pN/nm); of steps in which bodies carry one
-    /// another along the largest stiffness that was added to a tie.
+    /// Multiple of the metric added to the stiffness (pN/nm); for carried steps the largest
+    /// stiffness added to a tie.
     pub regularization: f64,
-    /// Stiffness added to each tie of neighbours per motion of that tie (pN/nm^2).
+    /// Stiffness added to each tie per motion of the tie (pN/nm^2).
     pub stiffening: f64,
-    /// Fraction of the (regularised) Newton step that was taken.
+    /// Fraction of the regularised Newton step.
     pub fraction: f64,
-    /// Largest displacement and turn.
+    /// Largest displacement and rotation.
     pub extent: StepSize,
-    /// How the step was judged.
+    /// Classification of the step.
     pub verdict: Verdict,
 }
 
-/// What a solve cost.
+/// Cost of a solve.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct SolverWork {
@@ -58,7 +56,6 @@ pub struct SolverWork {
 }
 
 impl SolverWork {
-    /// What has been done since `earlier`; the entries of the factor are those of now.
     pub(crate) fn since(&self, earlier: &Self) -> Self {
         Self {
             iterations: self.iterations - earlier.iterations,

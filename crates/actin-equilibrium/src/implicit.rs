@@ -1,7 +1,4 @@
-//! The linear solve of a time step that is implicit in the stiffness: `(K + A) p = f`, with blocks `A`
-//! of the caller, such as friction over a time step.
-//!
-//! What the step is for, and whether it is good, is the caller's business.
+//! Linear solve of an implicit time step.
 
 use crate::assemble::Assembly;
 use crate::chain::Clusters;
@@ -13,11 +10,10 @@ use crate::motion::StepSize;
 use crate::outcome::SolveError;
 use actin_mechanics::{Interaction, Loads, SecondOrder, State, UnitQuaternion, Vectors};
 
-/// A layout with the memory that its solves need.
+/// Solver for the linear equations of implicit time steps.
 ///
-/// Nothing but memory is carried from one solve to the next, so that each depends on its arguments
-/// alone. That includes the order of unknowns where the layout was given one; where it is still to be
-/// found, the first factorisation settles it.
+/// Solves are independent of earlier ones. If the layout has no prescribed order, the first
+/// factorisation fixes the order of unknowns.
 #[derive(Debug)]
 pub struct ImplicitSolver {
     layout: Layout,
@@ -26,29 +22,25 @@ pub struct ImplicitSolver {
     metric: Vec<f64>,
     step: Vec<f64>,
     clusters: Clusters,
-    /// True for each frame that spins about its third axis.
+    /// Frames that spin about their third axes.
     spins: Vec<bool>,
-    /// Values that couple such turns to other unknowns.
+    /// Matrix entries that couple spins to other unknowns.
     uncoupled: Vec<usize>,
-    /// Start of a step.
     from: Option<State>,
 }
 
-/// Solver of the linear equations of a step.
 #[derive(Debug)]
 enum Linear {
-    /// Before the first factorisation.
     Unknown,
     Direct(Box<Factor>),
     Gradients(Box<Gradients>),
 }
 
-/// Residual of conjugate gradients relative to that at the start: steps are iterated, and the next iteration corrects the
-/// rest.
+/// Relative tolerance; later iterations of the step correct the error.
 const TOLERANCE: f64 = 1e-2;
 
 impl ImplicitSolver {
-    /// A solver for what may move.
+    /// Solver for the unknowns of `layout`.
     pub fn new(layout: Layout) -> Self {
         Self {
             layout,
@@ -63,8 +55,8 @@ impl ImplicitSolver {
         }
     }
 
-    /// Lets these frames turn about their third axes without effect on other unknowns than such turns of other frames: the matrix
-    /// has no other couplings, and steps along filaments turn them after all else.
+    /// Decouples the rotations of these frames about their third axes from all unknowns except such
+    /// rotations of other frames. Steps along filaments apply them last.
     ///
     /// # Panics
     /// If nothing has been factorised.
@@ -77,7 +69,6 @@ impl ImplicitSolver {
         self.find_uncoupled();
     }
 
-    /// Finds the entries of the pattern that couple turns about third axes to other unknowns.
     fn find_uncoupled(&mut self) {
         let mut is_spin = vec![false; self.layout.unknowns()];
         for (node, range) in self.layout.nodes() {
@@ -96,23 +87,22 @@ impl ImplicitSolver {
         }
     }
 
-    /// What may move.
+    /// Layout of the unknowns.
     pub fn layout(&self) -> &Layout {
         &self.layout
     }
 
-    /// Refuses interactions without a potential or without second derivatives.
+    /// Checks for potentials and second derivatives.
     ///
     /// # Errors
-    /// The first such interaction.
+    /// The first interaction without a potential or without second derivatives.
     pub fn check(interactions: &[Box<dyn Interaction>]) -> Result<(), SolveError> {
         Solver::check(interactions)
     }
 
-    /// Factorises the stiffness of `interactions` at `state`, under `loads`, with the blocks of `added`; returns
-    /// whether the sum is positive definite.
-    ///
-    /// It need not be. A pivot of zero is replaced by rounding.
+    /// Factorises the stiffness of `interactions` at `state` under `loads` plus the blocks of
+    /// `added`. Returns `true` if the sum is positive definite. Zero pivots are replaced by
+    /// rounding.
     pub fn factorize(
         &mut self,
         (state, loads): (&State, &Loads),
@@ -147,7 +137,7 @@ impl ImplicitSolver {
         }
     }
 
-    /// Returns the frames of filaments with negative or doubtful pivots in the last factorisation.
+    /// Frames of filaments with negative or doubtful pivots in the last factorisation.
     pub fn indefinite_frames(&self) -> Vec<usize> {
         match &self.linear {
             Linear::Gradients(gradients) => {
@@ -163,10 +153,10 @@ impl ImplicitSolver {
         self.layout.unknowns()
     }
 
-    /// The matrix last factorised times `v`.
+    /// Product of the last factorised matrix and `v`.
     ///
     /// # Panics
-    /// If nothing has been factorised, or `v` has not one number per unknown.
+    /// If nothing has been factorised, or the length of `v` is wrong.
     pub fn times(&self, v: &[f64]) -> Vec<f64> {
         assert_eq!(v.len(), self.unknowns(), "one number per unknown");
         let mut product = vec![0.0; v.len()];
@@ -174,7 +164,7 @@ impl ImplicitSolver {
         product
     }
 
-    /// Solves with the matrix last factorised, in place.
+    /// Solves with the last factorised matrix, in place.
     ///
     /// # Panics
     /// As [`times`](Self::times).
@@ -183,8 +173,8 @@ impl ImplicitSolver {
         self.linear.solve(&self.assembly, b);
     }
 
-    /// The solution for `loads`, as velocities of points (lab frame) and angular velocities of frames (their own axes), zero of
-    /// what is held.
+    /// Solution for `loads` as velocities of points (lab frame) and angular velocities of frames
+    /// (body axes). Zero for held bodies.
     ///
     /// # Panics
     /// If nothing has been factorised.
@@ -200,9 +190,8 @@ impl ImplicitSolver {
         (moved, turned)
     }
 
-    /// Moves the bodies of `state` by the solution for `loads`, the generalised loads of which are taken
-    /// at `state`; one that turns a body by more than `largest_turn` (rad) is shortened to that. Returns
-    /// how far the solution goes.
+    /// Moves the bodies of `state` by the solution for `loads` and returns the extent of the
+    /// solution. A step that rotates a body by more than `largest_turn` (rad) is shortened.
     ///
     /// # Panics
     /// If nothing has been factorised.
@@ -216,8 +205,8 @@ impl ImplicitSolver {
         extent
     }
 
-    /// Solves for `loads`, the generalised loads of which are taken at `state`; [`advance_along`](Self::advance_along) makes the
-    /// step. Returns false if the matrix has shown to be indefinite.
+    /// Solves for `loads`, generalised at `state`, as step for
+    /// [`advance_along`](Self::advance_along). Returns `false` if the matrix proves indefinite.
     ///
     /// # Panics
     /// If nothing has been factorised.
@@ -227,9 +216,10 @@ impl ImplicitSolver {
         self.linear.solve(&self.assembly, &mut self.step)
     }
 
-    /// Moves the bodies of `state` by the step found last. Bodies of filaments that are free or held at one place carry one
-    /// another along: the step changes strains by as much as its velocities, however far it turns what is carried. The step
-    /// of each filament that turns a body by more than `largest_turn` (rad) is shortened to that. Returns the extent of the whole step before it is shortened.
+    /// Moves the bodies of `state` by the last step found and returns its extent. Bodies of
+    /// filaments that are free or held at one place carry one another along, so strains change
+    /// linearly for any rotation of the carried bodies. The step of each filament that rotates a
+    /// body by more than `largest_turn` (rad) is shortened.
     pub fn advance_along(&mut self, state: &mut State, largest_turn: f64) -> StepSize {
         let mut from = self.from.take().unwrap_or_else(|| state.clone());
         from.copy_motion_from(state);
@@ -244,8 +234,8 @@ impl ImplicitSolver {
         extent
     }
 
-    /// Moves the free bodies of `middle` as far again as they have come from `start`: points straight, frames by
-    /// the same turn.
+    /// Repeats the motion of free bodies from `start` to `middle`: straight for points, same
+    /// rotation for frames.
     pub fn go_on(&self, start: &State, middle: &mut State) {
         for (node, _) in self.layout.nodes() {
             match node {
@@ -266,7 +256,6 @@ impl ImplicitSolver {
 }
 
 impl Linear {
-    /// Solves in place; returns false if the matrix has shown to be indefinite.
     fn solve(&mut self, assembly: &Assembly, b: &mut [f64]) -> bool {
         match self {
             Self::Unknown => panic!("a matrix is factorised before"),
@@ -279,7 +268,6 @@ impl Linear {
     }
 }
 
-/// Moves point `i` of `middle` as far again as it has come from `start`.
 fn go_on(start: &State, middle: &mut State, i: usize) {
     let half = middle.points.position.get(i) - start.points.position.get(i);
     middle.points.position.add(i, half);
@@ -302,9 +290,8 @@ mod tests {
         }
     }
 
-    /// A load of 2 on a body with 4 on its diagonal moves it by a half; a held one stays.
     #[test]
-    fn a_solve_moves_what_is_free() {
+    fn a_solve_moves_free_bodies_only() {
         let mut state = State::default();
         for _ in 0..2 {
             let position = Vector3::zeros();

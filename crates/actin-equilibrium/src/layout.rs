@@ -1,17 +1,13 @@
-//! What may move: the map from unknowns to bodies, and the order in which unknowns stand.
-//!
-//! How a step moves a state, and how loads become residuals, is in `motion`.
-
 use crate::group::{Group, orthonormal};
 use actin_mechanics::{Coordinates, State, Vector3};
 use std::collections::BTreeSet;
 use std::ops::Range;
 use thiserror::Error;
 
-/// Where each body stands along the filament, for a banded matrix.
+/// Position of each body along the filament, for a banded matrix.
 ///
-/// Any monotone measure will do, arc length (nm) for instance; points and frames are sorted
-/// together by these numbers. A group stands at the largest number of its bodies.
+/// Any monotone measure is suitable, for instance arc length (nm). Points and frames are sorted
+/// together. A group has the largest number of its bodies.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct BodyOrder {
     /// One number per point.
@@ -20,20 +16,20 @@ pub struct BodyOrder {
     pub frames: Vec<f64>,
 }
 
-/// What is wrong with a layout.
+/// Error of the construction of a layout.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum LayoutError {
-    /// A group names a body that the state does not have.
+    /// A group contains a body that the state does not have.
     #[error("group {group} has {body:?}, which the state does not have")]
     UnknownBody {
         /// Index of the group.
         group: usize,
-        /// The body.
+        /// Body that does not exist.
         body: Coordinates,
     },
     /// A body is in two groups, or twice in one.
-    #[error("{body:?} is tied twice: in group {first} and in group {second}")]
+    #[error("{body:?} belongs to group {first} and to group {second}: remove it from one of them")]
     TiedTwice {
         /// The body.
         body: Coordinates,
@@ -42,7 +38,7 @@ pub enum LayoutError {
         /// The second.
         second: usize,
     },
-    /// Directions of a group are zero, not finite, or not independent.
+    /// Directions of a group are zero, not finite or linearly dependent.
     #[error(
         "the {what} of group {group} must be independent, finite and not zero, but are {directions:?}"
     )]
@@ -51,55 +47,52 @@ pub enum LayoutError {
         group: usize,
         /// `translations` or `rotations`.
         what: &'static str,
-        /// The directions as given.
+        /// Directions as given.
         directions: Vec<Vector3>,
     },
-    /// New directions for a group would change the number of unknowns.
+    /// New directions of a group would change the number of unknowns.
     #[error("group {group} has {present} unknowns and cannot be given {given}")]
     Count {
         /// Index of the group.
         group: usize,
-        /// Unknowns so far.
+        /// Current number of unknowns.
         present: usize,
-        /// Unknowns with the new directions.
+        /// Number of unknowns with the new directions.
         given: usize,
     },
-    /// The order has not one number per body.
+    /// The length of the order differs from the number of bodies.
     #[error("the order has {given} numbers for {bodies} {kind}")]
     OrderLength {
         /// `points` or `frames`.
         kind: &'static str,
-        /// Numbers given.
+        /// Length of the order.
         given: usize,
-        /// Bodies in the state.
+        /// Number of bodies in the state.
         bodies: usize,
     },
-    /// The order has a number that is not finite.
+    /// The order contains a non-finite number.
     #[error("the place of {body:?} along the filament must be finite, but is {value}")]
     OrderValue {
         /// The body.
         body: Coordinates,
-        /// Its number.
+        /// Position of the body.
         value: f64,
     },
 }
 
-/// Bodies that share their unknowns: a single body or a group.
+/// Bodies that share unknowns: a single body or a group.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Node {
-    /// A free point.
     Point(usize),
-    /// A free frame.
     Frame(usize),
-    /// A group, by index.
     Group(usize),
 }
 
-/// The map from unknowns to bodies.
+/// Map from unknowns to bodies.
 ///
-/// A free point has three unknowns, its displacement (nm, lab frame); a free frame three, its
-/// turn `phi` in `Q -> Q exp(phi)` (rad, body frame); a [`Group`] one for each of its
-/// directions. Held bodies have none unless a group moves them.
+/// A free point has three unknowns, its displacement (nm, lab frame). A free frame has three, its
+/// rotation vector `phi` in `Q -> Q exp(phi)` (rad, body frame). A [`Group`] has one per direction.
+/// Held bodies have no unknowns unless a group moves them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Layout {
     nodes: Vec<Node>,
@@ -108,43 +101,43 @@ pub struct Layout {
     frame_node: Vec<Option<usize>>,
     groups: Vec<Group>,
     order: Order,
-    /// Places of the nodes in the order in which bodies follow one another.
+    /// Index of each node in the prescribed order.
     sequence: Vec<usize>,
-    /// Pairs of bodies that are coupled but no neighbours, the lesser first.
+    /// Coupled pairs of bodies that are not neighbours, ordered.
     loose: BTreeSet<(Coordinates, Coordinates)>,
-    /// Places of all bodies, and how far neighbours are apart at most.
+    /// Position of each body, and the maximum distance of neighbours.
     loose_beyond: Option<(BodyOrder, f64)>,
     allows_gradients: bool,
     has_gradients: bool,
 }
 
-/// Where the order of unknowns comes from.
+/// Source of the order of unknowns.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Order {
-    /// By minimum degree, once the stiffness is seen.
+    /// Minimum degree, at the first assembly.
     Sought,
-    /// As it is, or by minimum degree if that fills less, once the stiffness is seen.
+    /// Prescribed, or minimum degree if that reduces the fill, at the first assembly.
     Compared,
-    /// As it is.
+    /// Fixed.
     Settled,
 }
 
 impl Layout {
-    /// Every free body on its own, with the sliding bodies of the state, in an order that the
-    /// solver finds by minimum degree when it first sees the stiffness.
+    /// All free bodies, and the sliding bodies of the state as groups. The order is found by
+    /// minimum degree at the first assembly.
     ///
     /// # Panics
-    /// If two sliding bodies of the state share a point, or one has dependent directions.
+    /// If two sliding bodies of the state share a point, or one has linearly dependent directions.
     pub fn free(state: &State) -> Self {
         Self::new(state, None, Vec::new()).expect("sliding bodies of a state are consistent")
     }
 
-    /// Free bodies and groups, in the order given, or in one found by minimum degree.
+    /// Free bodies and groups in the given order, or ordered by minimum degree.
     ///
-    /// The sliding bodies of the state are groups as well; they stand after those given here.
+    /// The sliding bodies of the state are appended to the groups.
     ///
     /// # Errors
-    /// If a group or the order does not fit the state.
+    /// If a group or the order does not match the state.
     pub fn new(
         state: &State,
         order: Option<&BodyOrder>,
@@ -179,11 +172,9 @@ impl Layout {
         Ok(layout)
     }
 
-    /// The same bodies, eliminated in the order given or, if its factor costs less, in one found by
-    /// minimum degree: for bodies that are not coupled along the order only. Which it is shows at
-    /// the first solve and depends on which bodies are coupled, not on numbers.
-    ///
-    /// Bodies follow one another in the order given whichever it is.
+    /// Allows minimum degree elimination if its factor costs less than that of the given order, for
+    /// bodies that are not coupled along the order only. The choice is made at the first solve and
+    /// depends on the couplings only. Bodies follow one another in the given order in either case.
     #[must_use]
     pub fn with_least_fill(mut self) -> Self {
         if self.order == Order::Settled {
@@ -192,9 +183,8 @@ impl Layout {
         self
     }
 
-    /// The same, where these pairs of bodies are coupled but no neighbours: what they do to each
-    /// other is not stiffened to regularise a step, and no strain that would limit it. They swing
-    /// about a soft coupling as far as a step leads them; the energy judges.
+    /// Marks pairs of bodies that are coupled but not neighbours. Their coupling is not stiffened
+    /// to regularise a step, and their relative motion is not limited as a strain.
     #[must_use]
     pub fn with_loose(mut self, pairs: impl IntoIterator<Item = [Coordinates; 2]>) -> Self {
         let pairs = pairs.into_iter().map(|[a, b]| (a.min(b), a.max(b)));
@@ -202,44 +192,41 @@ impl Layout {
         self
     }
 
-    /// The same of all pairs whose places in an order of the bodies are farther apart than `reach`: of
-    /// pairs that may come to be coupled, such as those in contact.
+    /// Marks all pairs farther apart than `reach` in the given order as
+    /// [`with_loose`](Self::with_loose) does, for pairs that may become coupled, such as contacts.
     #[must_use]
     pub fn with_loose_beyond(mut self, order: BodyOrder, reach: f64) -> Self {
         self.loose_beyond = Some((order, reach));
         self
     }
 
-    /// Allows conjugate gradients for steps, preconditioned by chains of neighbours without loose couplings, if they cost
-    /// less than the factorisation of the whole. The choice depends on the couplings at the first solve.
+    /// Allows conjugate gradients for steps, preconditioned by chains of neighbours, if they cost
+    /// less than a factorisation. The choice depends on the couplings at the first solve.
     #[must_use]
     pub fn with_conjugate_gradients(mut self) -> Self {
         self.allows_gradients = true;
         self
     }
 
-    /// True if steps are solved by conjugate gradients; known after the first solve.
     pub(crate) fn has_gradients(&self) -> bool {
         self.has_gradients
     }
 
-    /// Chooses conjugate gradients in the order given.
     pub(crate) fn choose_gradients(&mut self) {
         self.has_gradients = true;
         self.settle();
     }
 
-    /// True if conjugate gradients may be chosen.
     pub(crate) fn allows_gradients(&self) -> bool {
         self.allows_gradients && self.order == Order::Compared && self.has_loose()
     }
 
-    /// Whether coupled bodies may be no neighbours.
+    /// Some couplings may be loose.
     pub(crate) fn has_loose(&self) -> bool {
         self.loose_beyond.is_some() || !self.loose.is_empty()
     }
 
-    /// Whether two coupled bodies are no neighbours.
+    /// The bodies are not neighbours.
     pub(crate) fn is_loose(&self, a: Coordinates, b: Coordinates) -> bool {
         let are_apart = self.loose_beyond.as_ref().is_some_and(|(order, reach)| {
             let place = |body| match body {
@@ -256,23 +243,23 @@ impl Layout {
         self.offsets[self.nodes.len()]
     }
 
-    /// The groups, their directions made orthonormal.
+    /// Groups, with orthonormal directions.
     pub fn groups(&self) -> &[Group] {
         &self.groups
     }
 
-    /// The unknowns of a body, or of the group that it belongs to; `None` if it does not move.
+    /// Unknowns of a body or its group; `None` if it does not move.
     pub fn unknowns_of(&self, body: Coordinates) -> Option<Range<usize>> {
         self.node_of(body).map(|node| self.range(node))
     }
 
-    /// Gives a group new directions, as many as before.
+    /// Sets new directions of a group, as many as before.
     ///
     /// # Errors
-    /// If they are dependent or more or fewer than before.
+    /// If the directions are linearly dependent or their number changes.
     ///
     /// # Panics
-    /// If there is no such group.
+    /// If the group does not exist.
     pub fn redirect(
         &mut self,
         group: usize,
@@ -296,7 +283,6 @@ impl Layout {
         Ok(())
     }
 
-    /// All nodes in the order of their unknowns.
     pub(crate) fn nodes(&self) -> impl Iterator<Item = (Node, Range<usize>)> + '_ {
         self.nodes
             .iter()
@@ -304,22 +290,18 @@ impl Layout {
             .map(|(k, &node)| (node, self.range(k)))
     }
 
-    /// Node `k`.
     pub(crate) fn node(&self, k: usize) -> Node {
         self.nodes[k]
     }
 
-    /// Number of nodes.
     pub(crate) fn len(&self) -> usize {
         self.nodes.len()
     }
 
-    /// The unknowns of node `k`.
     pub(crate) fn range(&self, k: usize) -> Range<usize> {
         self.offsets[k]..self.offsets[k + 1]
     }
 
-    /// The node that a body belongs to.
     pub(crate) fn node_of(&self, body: Coordinates) -> Option<usize> {
         match body {
             Coordinates::Point(i) => self.point_node[i],
@@ -327,22 +309,20 @@ impl Layout {
         }
     }
 
-    /// Where the order comes from.
     pub(crate) fn order(&self) -> Order {
         self.order
     }
 
-    /// Keeps the order for good.
     pub(crate) fn settle(&mut self) {
         self.order = Order::Settled;
     }
 
-    /// Places of all nodes in the order in which bodies follow one another.
+    /// Index of each node in the prescribed order.
     pub(crate) fn sequence(&self) -> &[usize] {
         &self.sequence
     }
 
-    /// Puts node `order[k]` in place `k`, for good.
+    /// Moves node `order[k]` to position `k`.
     pub(crate) fn reorder(&mut self, order: &[usize]) {
         if self.order == Order::Compared {
             for (place, &node) in order.iter().enumerate() {
@@ -354,7 +334,6 @@ impl Layout {
         self.number();
     }
 
-    /// Finds the offsets and the node of each body.
     fn number(&mut self) {
         self.offsets.clear();
         self.offsets.push(0);
@@ -387,7 +366,6 @@ impl Layout {
     }
 }
 
-/// Which group each body is tied to.
 struct Ties {
     points: Vec<Option<usize>>,
     frames: Vec<Option<usize>>,
@@ -415,7 +393,6 @@ impl Ties {
     }
 }
 
-/// Marks body `i` as tied to `group`.
 fn tie(
     ties: &mut [Option<usize>],
     i: usize,
@@ -457,7 +434,6 @@ fn orthonormalised(index: usize, mut group: Group) -> Result<Group, LayoutError>
     Ok(group)
 }
 
-/// Free bodies that are not tied, by index, and groups.
 fn nodes_of(state: &State, ties: &Ties, groups: &[Group]) -> Vec<Node> {
     let points = (0..state.points.len())
         .filter(|&i| state.points.is_free(i) && ties.points[i].is_none())
@@ -500,10 +476,7 @@ fn check_order(state: &State, order: &BodyOrder) -> Result<(), LayoutError> {
     )
 }
 
-/// Where a node stands along the filament.
-///
-/// A group that ties bodies far apart stands with the last of them, so that it is eliminated
-/// late and fills a few rows only.
+/// Groups have the position of their last body, so they fill few rows.
 fn key(node: Node, order: &BodyOrder, groups: &[Group]) -> f64 {
     match node {
         Node::Point(i) => order.points[i],

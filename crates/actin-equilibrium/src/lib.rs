@@ -1,12 +1,12 @@
-//! Equilibria of points and frames: Newton on a sparse stiffness, certified.
+//! Equilibria of points and frames by Newton's method with sparse stiffness matrices and
+//! certificates.
 //!
-//! [`relax`] moves a state to an equilibrium in one call. What it is made of can be used alone: a
-//! [`Layout`] says what may move and in what order unknowns stand. [`Newton`] minimises the
-//! potential energy of interactions over it, and certifies what it finds. [`Path`] does so
-//! along a path of controls. [`ImplicitSolver`] is the linear solve of a time step that is implicit in
-//! the stiffness.
+//! [`relax`] moves a state to an equilibrium in one call. A [`Layout`] selects the unknowns and
+//! their order, [`Newton`] minimises the potential energy over them, and [`Path`] follows
+//! equilibria along a path of controls. [`ImplicitSolver`] solves the linear equations of an
+//! implicit time step.
 //!
-//! This crate knows nothing of what the points and frames stand for. Units are nm, pN and rad.
+//! Units are nm, pN and rad.
 
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
@@ -64,7 +64,7 @@ pub use relax::{EquilibriumError, relax};
 pub use saddle::Push;
 pub use search::{Distinct, Found, Known, Search, SearchObserver};
 
-/// The crate of points, frames, loads and interactions whose equilibria are found.
+/// Points, frames, loads and interactions.
 pub use actin_mechanics as mechanics;
 pub use actin_mechanics::{
     Coordinates, Interaction, LoadError, Loads, Matrix3, Point, PointLoad, Residual, SecondOrder,

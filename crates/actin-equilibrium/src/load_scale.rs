@@ -1,19 +1,16 @@
-//! Size of the loads of a state, against which a residual is small or not.
-
 use actin_mechanics::{Interaction, Loads, Residual, State, Stiffness, Vectors};
 
-/// Residual, as a share of the loads, below which further steps gain nothing.
+/// Relative residual below which further steps are useless.
 const SMALL: f64 = 1e-8;
-/// Resultant, as a share of the loads, above which they are unbalanced: more than six written digits leave.
+/// Relative resultant of unbalanced loads.
 const UNBALANCED: f64 = 1e-3;
 
-/// Largest load of a single interaction: the loads of all together cancel in equilibrium.
+/// Largest load of any single interaction, since the loads cancel in equilibrium.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct LoadScale(Residual);
 
 impl LoadScale {
-    /// Largest force on a point and torque on a frame, held ones included. Forces act at arms between two lengths
-    /// (nm), which turn forces into couples and couples into forces.
+    /// Includes held bodies. Arms between two lengths (nm) relate forces and torques.
     pub(crate) fn new(
         interactions: &[Box<dyn Interaction>],
         state: &State,
@@ -33,19 +30,17 @@ impl LoadScale {
         })
     }
 
-    /// Whether a residual is small against the loads.
     pub(crate) fn dwarfs(&self, residual: &Residual) -> bool {
         residual.is_within(&self.0.scaled(SMALL))
     }
 
-    /// Whether loads along motions without stiffness are too small to be more than an error.
+    /// The loads along zero-stiffness motions are within their error.
     pub(crate) fn outweighs(&self, unresisted: &Residual) -> bool {
         unresisted.is_within(&self.0.scaled(UNBALANCED))
     }
 }
 
-/// Whether an interaction without stiffness, such as a dead load, exerts a load. Couples and forces at an arm have a
-/// stiffness.
+/// Returns `true` if an interaction without stiffness exerts a load.
 pub(crate) fn is_loaded(interactions: &[Box<dyn Interaction>], state: &State) -> bool {
     let mut loads = Loads::zeros(state);
     let mut stiffness = Stiffness::default();

@@ -1,8 +1,5 @@
-//! The lowest eigenvalue of the stiffness and its shape.
-//!
-//! Lanczos iterations on the inverse of `K + shift M`, with `shift` just large enough to make
-//! that matrix positive definite: the smallest eigenvalue of `K` is then the one that is found
-//! first, whether it is negative or not.
+//! Lowest eigenvalue of the stiffness by Lanczos iteration on the inverse of `K + shift M` with the
+//! smallest positive definite shift.
 //!
 //! # Source
 //! B. N. Parlett, The Symmetric Eigenvalue Problem (1980), chapter 13 (full reorthogonalisation).
@@ -12,27 +9,26 @@ use crate::outcome::SolveError;
 use actin_mechanics::Xorshift;
 use nalgebra::{DMatrix, SymmetricEigen};
 
-/// Relative residual at which the largest eigenvalue of the inverse counts as found.
+/// Relative residual of the eigenvalue.
 const ACCURACY: f64 = 1e-9;
-/// Most vectors.
+/// Maximum number of Lanczos vectors.
 const VECTORS: usize = 80;
-/// How often the small problem is solved: once for this many new vectors.
+/// New vectors between solutions of the small problem.
 const PERIOD: usize = 5;
 
-/// The mode of the smallest eigenvalue of `K v = lambda M v`; `M` is one for displacements (nm)
-/// and the squared turn length for turns (rad).
+/// Mode of the smallest eigenvalue of `K v = lambda M v`. The metric `M` is 1 for displacements
+/// (nm) and the squared turn length for rotations (rad).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Mode {
-    /// The eigenvalue (pN/nm).
+    /// Eigenvalue (pN/nm).
     pub eigenvalue: f64,
-    /// Bound of its error (pN/nm), that of the iteration and that of the factorisation.
+    /// Error bound (pN/nm) of iteration and factorisation.
     pub error: f64,
-    /// The shape, one number per unknown, `v . M v = 1`; to be used with
+    /// Mode shape, one number per unknown with `v . M v = 1`, for
     /// [`Layout::apply`](crate::Layout::apply).
     pub shape: Vec<f64>,
 }
 
-/// The lowest mode of the stiffness of the last assembly; `None` if there are no unknowns.
 pub(crate) fn lowest(solver: &mut Solver) -> Result<Option<Mode>, SolveError> {
     let n = solver.layout.unknowns();
     if n == 0 {
@@ -69,14 +65,13 @@ pub(crate) fn lowest(solver: &mut Solver) -> Result<Option<Mode>, SolveError> {
     }))
 }
 
-/// An orthonormal basis with the tridiagonal matrix of the operator in it.
+/// Orthonormal basis and tridiagonal matrix of the operator.
 struct Lanczos {
     basis: Vec<Vec<f64>>,
     alpha: Vec<f64>,
     beta: Vec<f64>,
 }
 
-/// An approximate eigenvalue with its vector and residual.
 struct Ritz {
     value: f64,
     residual: f64,
@@ -84,7 +79,6 @@ struct Ritz {
 }
 
 impl Lanczos {
-    /// Begins with a random vector, the same every time.
     fn new(n: usize) -> Self {
         let mut noise = Xorshift::new(1);
         let start: Vec<f64> = (0..n).map(|_| noise.sample()).collect();
@@ -100,11 +94,11 @@ impl Lanczos {
         &self.basis[self.basis.len() - 1]
     }
 
-    /// Takes the operator times the last vector; returns whether the space is exhausted.
+    /// Returns `true` if the space is exhausted.
     fn push(&mut self, mut w: Vec<f64>) -> bool {
         let before = dot(&w, &w).sqrt();
         self.alpha.push(dot(self.last(), &w));
-        // Twice is enough.
+        // Two orthogonalisations suffice.
         for _ in 0..2 {
             for v in &self.basis {
                 let along = dot(v, &w);
@@ -120,7 +114,6 @@ impl Lanczos {
         false
     }
 
-    /// The largest eigenvalue in the space so far.
     fn largest(&self) -> Ritz {
         let size = self.alpha.len();
         let matrix = DMatrix::from_fn(size, size, |i, j| match i.abs_diff(j) {

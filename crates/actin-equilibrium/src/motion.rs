@@ -1,24 +1,23 @@
-//! How unknowns move bodies and how loads act on unknowns.
+//! Motion of bodies by unknowns, and generalised loads.
 
 use crate::group::Group;
 use crate::layout::{Layout, Node};
 use actin_mechanics::Residual;
 use actin_mechanics::{Loads, State, UnitQuaternion, Vector3, Vectors, rotation};
 
-/// How far a step goes.
+/// Extent of a step.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct StepSize {
     /// Largest displacement of a body or group (nm).
     pub displacement: f64,
-    /// Largest turn of a body or group (rad).
+    /// Largest rotation of a body or group (rad).
     pub rotation: f64,
-    /// Largest relative motion of coupled bodies: turn between two frames (rad), or relative
+    /// Largest relative motion of coupled bodies: rotation between two frames (rad), or relative
     /// displacement of two points over their distance.
     pub strain: f64,
 }
 
 impl StepSize {
-    /// The extent of `factor` times the step.
     pub(crate) fn scaled(&self, factor: f64) -> Self {
         Self {
             displacement: self.displacement * factor,
@@ -29,10 +28,10 @@ impl StepSize {
 }
 
 impl Layout {
-    /// Moves the bodies of `state` by `scale` times `step`; exact on SO(3).
+    /// Moves the bodies of `state` by `scale` times `step`; rotations are exact.
     ///
     /// # Panics
-    /// If `step` has not one number per unknown.
+    /// If the length of `step` is wrong.
     pub fn apply(&self, state: &mut State, step: &[f64], scale: f64) {
         assert_eq!(step.len(), self.unknowns(), "one number per unknown");
         for (node, range) in self.nodes() {
@@ -40,7 +39,6 @@ impl Layout {
         }
     }
 
-    /// Moves the bodies of some nodes by `scale` times `step`.
     pub(crate) fn apply_to(&self, nodes: &[usize], state: &mut State, step: &[f64], scale: f64) {
         for &k in nodes {
             self.apply_node(self.node(k), state, &step[self.range(k)], scale);
@@ -58,7 +56,7 @@ impl Layout {
         }
     }
 
-    /// Writes the generalised loads: minus the derivative of the energy by each unknown.
+    /// Generalised loads: negative derivative of the energy.
     pub(crate) fn reduce(&self, state: &State, loads: &Loads, reduced: &mut [f64]) {
         for (node, range) in self.nodes() {
             let out = &mut reduced[range];
@@ -76,7 +74,7 @@ impl Layout {
         }
     }
 
-    /// The largest norms, over nodes, of numbers that are laid out as generalised loads.
+    /// Largest norms over nodes.
     pub(crate) fn largest(&self, reduced: &[f64]) -> Residual {
         self.nodes()
             .map(|(node, range)| self.norms(node, &reduced[range]))
@@ -85,7 +83,7 @@ impl Layout {
             })
     }
 
-    /// The norms, over all nodes together, of numbers that are laid out as generalised loads.
+    /// Norms over all nodes.
     pub(crate) fn total(&self, reduced: &[f64]) -> Residual {
         let norms = self
             .nodes()
@@ -96,8 +94,7 @@ impl Layout {
         })
     }
 
-    /// Whether the loads of each node are within `limit`, or within `multiple` times what rounding
-    /// leaves of them at that node. Rounding that is not finite allows nothing.
+    /// All loads are within `limit` or `multiple` times their rounding error, if finite.
     pub(crate) fn are_within(
         &self,
         loads: &[f64],
@@ -111,7 +108,6 @@ impl Layout {
         })
     }
 
-    /// The norms of what is laid out as the generalised loads of one node.
     fn norms(&self, node: Node, values: &[f64]) -> Residual {
         let translations = match node {
             Node::Point(_) => values.len(),
@@ -125,14 +121,14 @@ impl Layout {
         }
     }
 
-    /// The residual of `state` under `loads`.
+    /// Residual of `state` under `loads`.
     pub fn residual(&self, state: &State, loads: &Loads) -> Residual {
         let mut reduced = vec![0.0; self.unknowns()];
         self.reduce(state, loads, &mut reduced);
         self.largest(&reduced)
     }
 
-    /// The largest displacement and turn of a step; its strain is not looked at.
+    /// Without strain.
     pub(crate) fn step_extent(&self, step: &[f64]) -> StepSize {
         let largest = self.largest(step);
         StepSize {
@@ -142,7 +138,6 @@ impl Layout {
         }
     }
 
-    /// Returns the largest displacement and turn of some nodes in a step.
     pub(crate) fn extent_of(&self, nodes: &[usize], step: &[f64]) -> StepSize {
         let norms = nodes
             .iter()
@@ -155,7 +150,7 @@ impl Layout {
         }
     }
 
-    /// How all points move and all frames turn, lab frame, at first order in a step.
+    /// Linear and angular velocities (lab frame).
     pub(crate) fn velocities(&self, state: &State, step: &[f64]) -> (Vectors, Vectors) {
         let mut moved = Vectors::zeros(state.points.len());
         let mut turned = Vectors::zeros(state.frames.len());
@@ -179,9 +174,10 @@ impl Layout {
         (moved, turned)
     }
 
-    /// The step that leads from one state to another: the inverse of [`apply`](Layout::apply).
+    /// Step between two states: inverse of [`apply`](Layout::apply).
     ///
-    /// Of a group only what its directions can do is seen; its turn is read off its first frame.
+    /// For a group, only motion along its directions is included; its rotation is that of its first
+    /// frame.
     pub fn difference(&self, from: &State, to: &State) -> Vec<f64> {
         let mut step = vec![0.0; self.unknowns()];
         for (node, range) in self.nodes() {
@@ -204,8 +200,7 @@ impl Layout {
         step
     }
 
-    /// Writes the size of each coordinate, which its rounding error is proportional to: that of
-    /// a position's component, or one for a turn.
+    /// Magnitudes of coordinates, to which rounding is proportional: 1 for rotations.
     pub(crate) fn magnitudes(&self, state: &State, magnitudes: &mut [f64]) {
         for (node, range) in self.nodes() {
             let out = &mut magnitudes[range];
@@ -225,7 +220,7 @@ impl Layout {
         }
     }
 
-    /// Writes the metric: 1 for displacements, `length^2` for turns.
+    /// 1 for displacements, `length^2` for rotations.
     pub(crate) fn metric(&self, length: f64, metric: &mut [f64]) {
         for (node, range) in self.nodes() {
             let translations = match node {
@@ -254,7 +249,7 @@ fn project(out: &mut [f64], directions: &[Vector3], v: Vector3) {
     }
 }
 
-/// Brought back to unit length, which products leave at the rate of round-off.
+/// Corrects rounding of products.
 fn with_unit_length(q: UnitQuaternion) -> UnitQuaternion {
     UnitQuaternion::new_normalize(q.into_inner())
 }
@@ -266,7 +261,6 @@ fn move_group(group: &Group, state: &mut State, step: &[f64], scale: f64) {
     let turns = !group.rotations.is_empty();
     for &i in &group.points {
         let x = state.points.position.get(i);
-        // Without rotations the detour over the pivot would only add round-off.
         let moved = if turns { pivot + turn * (x - pivot) } else { x };
         state.points.position.set(i, moved + shift);
     }
@@ -278,7 +272,7 @@ fn move_group(group: &Group, state: &mut State, step: &[f64], scale: f64) {
     }
 }
 
-/// Total force on a group and total couple about its pivot, lab frame.
+/// Force and torque about the pivot (lab frame).
 fn resultant(group: &Group, state: &State, loads: &Loads) -> (Vector3, Vector3) {
     let pivot = group.pivot.position(state);
     let mut force = Vector3::zeros();
@@ -298,7 +292,7 @@ fn displacement(from: &State, to: &State, i: usize) -> Vector3 {
     to.points.position.get(i) - from.points.position.get(i)
 }
 
-/// Displacement of the pivot's material point and turn of a group between two states.
+/// Displacement of the material point at the pivot, and rotation.
 fn group_difference(group: &Group, from: &State, to: &State) -> (Vector3, Vector3) {
     let turned = group.frames.first().map_or(Vector3::zeros(), |&i| {
         rotation::log(to.frames.orientation.get(i) * from.frames.orientation.get(i).inverse())
@@ -318,7 +312,6 @@ fn largest_component(positions: &Vectors, points: &[usize]) -> f64 {
         .fold(0.0, f64::max)
 }
 
-/// A residual with zero for a part that is not finite.
 fn if_finite(residual: &Residual) -> Residual {
     let part = |value: f64| if value.is_finite() { value } else { 0.0 };
     Residual {

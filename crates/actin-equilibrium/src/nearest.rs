@@ -1,5 +1,3 @@
-//! The equilibrium next to a state that is nearly at rest, be it a minimum or a saddle.
-
 use crate::certificate::Certificate;
 use crate::direction::Solver;
 use crate::evaluation::Evaluation;
@@ -7,16 +5,13 @@ use crate::newton::{NEAR_FLOOR, Newton, STILL_FALLING};
 use crate::outcome::SolveError;
 use actin_mechanics::{Interaction, State};
 
-/// Most steps: next to an equilibrium each step squares what is left of the distance.
 const STEPS: usize = 8;
-/// A step that turns a body by more than this (rad), or moves one by more than this share of the size of
-/// everything, does not lead to something near.
+/// Maximum rotation (rad), or relative displacement, of a step.
 const FARTHEST: f64 = 0.5;
-/// What is added to the stiffness, in roundings of its largest eigenvalue: enough to keep a step
-/// along directions without stiffness short, far too little to slow the others down.
+/// Shift in roundings of the largest eigenvalue. It limits steps along directions without
+/// stiffness.
 const SHIFT: f64 = 1e3;
 
-/// The largest distance between points along an axis (nm).
 fn size(state: &State) -> f64 {
     let position = &state.points.position;
     let span = |values: &[f64]| {
@@ -30,25 +25,24 @@ fn size(state: &State) -> f64 {
         .fold(0.0, f64::max)
 }
 
-/// An equilibrium next to a state.
+/// Equilibrium near a state.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Nearest {
-    /// The equilibrium; velocities are those of the state that was asked about.
+    /// Equilibrium, with the velocities of the given state.
     pub state: State,
-    /// Potential energy of that state less that of the equilibrium (pN nm): negative where it is on
-    /// its way down from a saddle.
+    /// Energy of the given state minus that of the equilibrium (pN nm). Negative below a saddle.
     pub energy_above: f64,
-    /// What the stiffness says at the equilibrium.
+    /// Certificate of the equilibrium.
     pub certificate: Certificate,
 }
 
 impl Newton {
-    /// The equilibrium next to `state`, by at most eight plain steps of Newton's method; `None` if
-    /// they do not reach one.
+    /// Nearest equilibrium of `state` by at most eight undamped Newton steps; `None` if they do not
+    /// converge.
     ///
-    /// [`solve`](Newton::solve) goes downhill to a minimum. Plain steps lead to the nearest stationary
-    /// point of the energy, be it a minimum or a saddle: the one in which a motion has come to rest.
-    /// They go on until the residual no longer falls.
+    /// Unlike [`solve`](Newton::solve), which decreases the energy, undamped steps converge to the
+    /// nearest stationary point, minimum or saddle. They continue until the residual no longer
+    /// decreases.
     ///
     /// # Errors
     /// If an interaction has no potential or no second derivatives.
@@ -69,8 +63,7 @@ impl Newton {
         }))
     }
 
-    /// The state of least residual to which plain steps lead from `state`, whose evaluation is `here`,
-    /// if its residual is within the tolerance or what rounding leaves.
+    /// State of smallest residual, if within the tolerance or rounding.
     fn reach(
         &mut self,
         state: &State,
@@ -91,7 +84,7 @@ impl Newton {
             let is_reached =
                 residual.is_within(&tolerance) || self.solver.is_at_floor(&tolerance, NEAR_FLOOR);
             let residual = residual.relative_to(&tolerance);
-            // A residual within the tolerance would still pass for the sign of a neutral mode.
+            // The remaining residual could determine the sign of a neutral mode.
             let falls = best
                 .as_ref()
                 .is_none_or(|(least, _)| residual < STILL_FALLING * least);
@@ -102,7 +95,6 @@ impl Newton {
             }
             let step = self.undamped_step();
             let extent = self.layout().step_extent(&step);
-            // Written so that a step that is not a number leads nowhere.
             if !(extent.rotation <= FARTHEST && extent.displacement <= FARTHEST * size) {
                 break;
             }
@@ -113,7 +105,6 @@ impl Newton {
         best.map(|(_, state)| state)
     }
 
-    /// The step to where the loads of the last assembly vanish, to first order.
     fn undamped_step(&mut self) -> Vec<f64> {
         let shift = SHIFT * f64::EPSILON * self.solver.largest_in_metric();
         self.solver.factorize(shift);

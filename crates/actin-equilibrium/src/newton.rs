@@ -1,20 +1,13 @@
 //! Newton's method for minima of the potential energy.
 //!
-//! Each step solves `(K + mu M) p = f` with the full stiffness `K`; `mu` is zero where `K` is
-//! positive definite and else just large enough to make it so. Where the stiffness changes a lot
-//! within the step, as that of floppy filaments does, coupled neighbours are stiffened in
-//! proportion to their relative motion (see `ties`). The step is shortened to the limits of the
-//! options and judged by the energy. Bodies follow it straight or, where that is lower in energy,
-//! each carried along by the one before it, which bends a filament without stretching it (see
-//! `chain`). An excursion, a few steps above the energy where it began, is allowed: what is
-//! stretched by the straight step relaxes in the next ones, which is far quicker than to follow
-//! a bend in small steps (the watchdog technique). An excursion that does not pay is taken back.
+//! Each step solves `(K + mu M) p = f` with the full stiffness `K` and the smallest shift `mu` that
+//! makes the sum positive definite. If the stiffness changes much within a step, ties between
+//! neighbours are stiffened in proportion to their relative motion (see `ties`).
 //!
-//! A start of many bodies that is floppy, as a long filament may be at rest, is far from its
-//! equilibrium. From there each body is carried along in every step, with the second derivatives that belong
-//! to that, while such steps lower the energy (see `descent/composed`).
-//!
-//! The direction of a step is found in `direction`, its acceptance in `descent`.
+//! Bodies move straight or, if the energy is lower, each is carried along by its predecessor (see
+//! `chain`). A few steps above the initial energy are allowed, because the stretch of a straight
+//! step relaxes quickly in the following ones (watchdog technique). An unsuccessful excursion is
+//! reverted.
 //!
 //! # Source
 //! J. Nocedal and S. J. Wright, Numerical Optimization, 2nd ed. (2006), sections 3.4 (modified
@@ -33,19 +26,16 @@ use actin_mechanics::Residual;
 use actin_mechanics::{Interaction, Loads, State};
 use std::ops::ControlFlow;
 
-/// The residual counts as being at its floor below this multiple of the estimate.
+/// Multiple of the rounding error considered negligible.
 const AT_FLOOR: f64 = 8.0;
-/// Where no step helps or is allowed any more, the same with more room, since the estimate is rough.
+/// The same if no further step is possible.
 pub(crate) const NEAR_FLOOR: f64 = 100.0;
-/// A residual that falls less than by this factor in a step does not fall any more.
+/// Minimum decrease of a residual per step.
 pub(crate) const STILL_FALLING: f64 = 0.5;
-/// A failed solve has no equilibrium if more than this share of its residual acts along motions without
-/// stiffness. A rigid motion has a share of 1, up to rounding; the lowest mode of a long filament has less.
+/// Fraction of the residual along zero-stiffness motions that makes an equilibrium impossible.
 const UNRESISTED: f64 = 0.9;
 
-/// A solver for equilibria of one model: layout, options, and the memory of earlier solves.
-///
-/// Symbolic factorisation and places of blocks are kept from solve to solve.
+/// Newton solver for one model: layout, options and reusable factorisation.
 #[derive(Debug)]
 pub struct Newton {
     pub(crate) solver: Solver,
@@ -53,10 +43,10 @@ pub struct Newton {
 }
 
 impl Newton {
-    /// A solver.
+    /// Creates a solver.
     ///
     /// # Errors
-    /// If an option makes no sense.
+    /// If an option is invalid.
     pub fn new(layout: Layout, options: NewtonOptions) -> Result<Self, OptionsError> {
         options.check()?;
         Ok(Self {
@@ -65,52 +55,52 @@ impl Newton {
         })
     }
 
-    /// What may move.
+    /// Layout of the unknowns.
     pub fn layout(&self) -> &Layout {
         &self.solver.layout
     }
 
-    /// What may move, to give groups new directions.
+    /// Mutable layout, to change the directions of groups.
     pub fn layout_mut(&mut self) -> &mut Layout {
         &mut self.solver.layout
     }
 
-    /// The options.
+    /// Options of the solver.
     pub fn options(&self) -> &NewtonOptions {
         &self.options
     }
 
-    /// Whether bodies carry one another along from any start of many of them, or from floppy ones only: for starts
-    /// that are like the equilibrium but far from it.
+    /// Sets whether carried steps are used from any start with many bodies, or from floppy ones
+    /// only. Use them for starts with the shape of the equilibrium that are far from it.
     pub fn carry_along(&mut self, from_any_start: bool) {
         self.options.carries_along = from_any_start;
     }
 
-    /// What all solves so far have cost.
+    /// Cost of all solves so far.
     pub fn work(&self) -> SolverWork {
         self.solver.work
     }
 
-    /// Counts on from what an earlier solver has done that this one continues. The symbolic
-    /// factorisation that it has to repeat counts once more.
+    /// Sets the cost counters, to continue those of an earlier solver. Its symbolic factorisation
+    /// is counted again.
     pub fn count_on(&mut self, work: SolverWork) {
         self.solver.work = work;
     }
 
-    /// Settles the order of unknowns by what is coupled in `state`, for interactions whose pairs change:
-    /// what follows then does not depend on the state that is solved first. Nothing happens where an
+    /// Fixes the order of unknowns by the couplings at `state`, for interactions with changing
+    /// pairs. Later results then do not depend on the state solved first. Does nothing if an
     /// interaction has no potential or no second derivatives.
     pub fn settle_order(&mut self, state: &State, interactions: &[Box<dyn Interaction>]) {
-        // Solves refuse such interactions, with their names.
+        // The next solve returns the error.
         let _ = self.solver.prepare(state, interactions);
     }
 
-    /// Moves `state` to an equilibrium near it.
+    /// Moves `state` to a nearby equilibrium.
     ///
-    /// Held bodies and controls stay as they are, velocities are not looked at.
+    /// Held bodies, controls and velocities are unchanged.
     ///
     /// # Errors
-    /// If none is found; `state` is then the best state reached.
+    /// If no equilibrium is found; `state` is then the best state reached.
     pub fn solve(
         &mut self,
         state: &mut State,
@@ -119,10 +109,10 @@ impl Newton {
         self.solve_observed(state, interactions, &mut |_| ControlFlow::Continue(()))
     }
 
-    /// The same, with a callback after every step that may break it off.
+    /// As [`solve`](Self::solve), with a callback after every step that may interrupt it.
     ///
     /// # Errors
-    /// If no equilibrium is found or the observer breaks off; `state` is then the best state
+    /// If no equilibrium is found or the observer interrupts; `state` is then the best state
     /// reached.
     pub fn solve_observed(
         &mut self,
@@ -167,7 +157,7 @@ impl Newton {
         }
     }
 
-    /// Counts the eigenvalues of the stiffness at any state, in equilibrium or not.
+    /// Counts the eigenvalues of the stiffness at any state.
     ///
     /// # Errors
     /// If an interaction has no potential or no second derivatives.
@@ -180,15 +170,15 @@ impl Newton {
         Ok(certify(&mut self.solver, state, interactions))
     }
 
-    /// The residual of a state.
+    /// Residual of a state.
     pub fn residual(&self, state: &State, interactions: &[Box<dyn Interaction>]) -> Residual {
         let loads = self.generalised_loads(state, interactions);
         self.layout().largest(&loads)
     }
 
-    /// Minus the derivative of the energy by each unknown.
+    /// Generalised loads: negative derivative of the energy with respect to each unknown.
     ///
-    /// The order of unknowns may change at the first solve if the layout was given no order.
+    /// The order of unknowns may change at the first solve if the layout has no prescribed order.
     pub fn generalised_loads(
         &self,
         state: &State,
@@ -203,15 +193,15 @@ impl Newton {
         reduced
     }
 
-    /// The stiffness at `state` times `v`, one number per unknown: minus the derivative of the
-    /// generalised loads along `v`, to be compared with differences. If the layout was given no
-    /// order, certify or solve first: that settles the order of unknowns.
+    /// Product of the stiffness at `state` and `v` (one number per unknown): negative derivative of
+    /// the generalised loads along `v`. If the layout has no prescribed order, certify or solve
+    /// first.
     ///
     /// # Errors
     /// If an interaction has no potential or no second derivatives.
     ///
     /// # Panics
-    /// If `v` has not one number per unknown.
+    /// If the length of `v` is wrong.
     pub fn stiffness_times(
         &mut self,
         state: &State,
@@ -226,7 +216,6 @@ impl Newton {
     }
 }
 
-/// One solve.
 struct Run<'a> {
     solver: &'a mut Solver,
     options: &'a NewtonOptions,
@@ -234,12 +223,11 @@ struct Run<'a> {
     history: Vec<Iteration>,
     residual: Residual,
     floor: Residual,
-    /// Residual, relative to the tolerance, before the last step.
+    /// Previous residual relative to the tolerance.
     previous: f64,
 }
 
 impl Run<'_> {
-    /// Steps until an end is reached; returns the ending and the energy.
     fn execute(
         &mut self,
         state: &mut State,
@@ -272,13 +260,11 @@ impl Run<'_> {
         result
     }
 
-    /// Residual and floor of the present state, whose stiffness is assembled.
     fn measure(&mut self, descent: &Descent) {
         let (residual, floor) = self.solver.residual_and_floor(&descent.state);
         (self.residual, self.floor) = (residual, floor);
     }
 
-    /// One step, or the reason why none is needed.
     fn step(&mut self, descent: &mut Descent) -> Result<Option<Convergence>, SolveError> {
         self.solver
             .assemble(self.interactions, &descent.state, &descent.here.loads);
@@ -322,11 +308,8 @@ impl Run<'_> {
         Ok(None)
     }
 
-    /// Whether the present state is an equilibrium.
-    ///
-    /// Within the tolerance steps are made as long as they halve the residual, until it is small against the
-    /// loads too. An excursion that ends in an equilibrium above where it began has not paid: it is taken
-    /// back, so that a solve never ends above its start.
+    /// Reason for termination, if any. Within the tolerance, steps continue as long as they halve
+    /// the residual, until it is small compared with the loads.
     ///
     /// # Errors
     /// If the remaining load acts along motions without stiffness.
@@ -350,15 +333,14 @@ impl Run<'_> {
         self.accept(&scale, ending)
     }
 
-    /// Whether a residual within the tolerance may fall further: it is more than what rounding leaves, or a dead
-    /// load acts. Steps from a saddle would lead away from it.
+    /// The residual exceeds rounding or a dead load acts. Steps from a saddle would move away from
+    /// it.
     fn is_worth_another_step(&mut self, descent: &Descent) -> bool {
         let is_rounding = self.solver.is_at_floor(&Residual::default(), AT_FLOOR);
         (!is_rounding || is_loaded(self.interactions, &descent.state)) && self.solver.is_stable()
     }
 
-    /// The ending, unless a part of the loads acts along motions without stiffness: it would move bodies
-    /// without end.
+    /// Rejects loads along motions without stiffness.
     fn accept(
         &mut self,
         scale: &LoadScale,
@@ -373,7 +355,7 @@ impl Run<'_> {
         }
     }
 
-    /// Size of the loads of the present state, which act at arms between the turn length and the size of the whole.
+    /// Arms range from the turn length to the size of the system.
     fn load_scale(&mut self, descent: &Descent) -> LoadScale {
         self.solver.work.evaluations += 1;
         let shortest = self.options.turn_length;
@@ -381,8 +363,7 @@ impl Run<'_> {
         LoadScale::new(self.interactions, &descent.state, arms)
     }
 
-    /// No step helps or none is allowed any more: either the tolerance or the floor is reached, about which
-    /// steps may wander, or something is wrong.
+    /// Termination without further steps: near the rounding error, or failure.
     fn give_up(
         &mut self,
         descent: &Descent,

@@ -1,30 +1,29 @@
-//! What a solve may do and when it is done.
-
 use actin_mechanics::Residual;
 use thiserror::Error;
 
-/// Settings of [`Newton`](crate::Newton); the defaults suit filaments in nm, pN and rad.
+/// Options of [`Newton`](crate::Newton); the defaults suit filaments in nm, pN and rad.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NewtonOptions {
-    /// Residual at which a state is an equilibrium; 1e-8 pN and 1e-8 pN nm.
+    /// Tolerance of the residual. Default: 1e-8 pN and 1e-8 pN nm.
     pub tolerance: Residual,
-    /// Most Newton steps; 2000.
+    /// Maximum number of Newton steps. Default: 2000.
     pub iterations: usize,
-    /// Largest turn of a body in one step (rad); 0.5. Not of steps in which bodies carry one another along.
+    /// Maximum rotation of a body per step (rad). Default: 0.5. Not applied to carried steps.
     pub largest_rotation: f64,
-    /// Largest relative motion of coupled bodies in one step: turn between two frames (rad), or
-    /// relative displacement of two points over their distance; 0.3.
+    /// Maximum relative motion of coupled bodies per step: rotation between two frames (rad), or
+    /// relative displacement of two points over their distance. Default: 0.3.
     pub largest_strain: f64,
-    /// Largest displacement of a body in one step (nm); no limit.
+    /// Maximum displacement of a body per step (nm). Default: no limit.
     pub largest_displacement: f64,
-    /// Steps for which the energy may stay above where it was, so that bending may first stretch
-    /// and then relax; 12. Zero asks for a decrease in each step.
+    /// Maximum number of consecutive steps with higher energy. Bending may first stretch a
+    /// filament, which then relaxes. Default: 12; zero requires a decrease in each step.
     pub patience: usize,
-    /// Length (nm) that a turn of 1 rad counts as in eigenvalues and regularisation; 1.
+    /// Length (nm) that weights a rotation of 1 rad in eigenvalues and regularisation. Default: 1.
     pub turn_length: f64,
-    /// Whether the eigenvalues of the stiffness are counted at the end; yes.
+    /// Counts the eigenvalues of the stiffness at the end. Default: true.
     pub certify: bool,
-    /// Whether bodies carry one another along from any start of many of them, not only from floppy ones; no.
+    /// Uses carried steps from any start with many bodies, not only from floppy ones. Default:
+    /// false.
     pub carries_along: bool,
 }
 
@@ -47,25 +46,21 @@ impl Default for NewtonOptions {
     }
 }
 
-/// A setting that makes no sense.
+/// Error of an invalid option.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[error("{name} must be {rule}, but is {value}")]
 pub struct OptionsError {
-    /// Name of the setting.
+    /// Name of the option.
     pub name: &'static str,
-    /// What it must be.
+    /// Rule of the option.
     pub rule: &'static str,
-    /// What it is.
+    /// Value of the option.
     pub value: f64,
 }
 
 impl NewtonOptions {
-    /// Checks the settings.
-    ///
-    /// # Errors
-    /// If one of them makes no sense.
     pub(crate) fn check(&self) -> Result<(), OptionsError> {
-        // Beyond half a turn the logarithm of a relative rotation has another branch.
+        // The logarithm of a relative rotation is unique below pi.
         let below_half_turn = self.largest_rotation < std::f64::consts::PI;
         positive("tolerance.force", self.tolerance.force)?;
         positive("tolerance.torque", self.tolerance.torque)?;
@@ -81,12 +76,10 @@ impl NewtonOptions {
     }
 }
 
-/// An error unless `value` is above zero.
 pub(crate) fn positive(name: &'static str, value: f64) -> Result<(), OptionsError> {
     rule(name, "positive", value, value > 0.0)
 }
 
-/// An error unless `holds`.
 pub(crate) fn rule(
     name: &'static str,
     rule: &'static str,

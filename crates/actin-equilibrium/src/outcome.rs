@@ -1,95 +1,88 @@
-//! How a solve ends: an equilibrium, or a failure that says why.
-
 use crate::certificate::{Certificate, Stability};
 use crate::history::{Iteration, SolverWork};
 use actin_mechanics::Residual;
 use thiserror::Error;
 
-/// Why a solve that ended well ended.
+/// Reason for successful termination.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Convergence {
-    /// The residual is within the tolerance and at most 1e-8 of the largest load, or it is within the tolerance and
-    /// further steps are of no use: the last one did not halve it, the state is a saddle, or it is at most 8 times the
-    /// rounding error and no interaction without stiffness exerts a load. Couples and forces at an arm have a
-    /// stiffness, so that those below the rounding error cause no motion.
+    /// The residual is within the tolerance and either below 1e-8 of the largest load or not
+    /// reducible. It is not reducible if the last step did not halve it, if the state is a saddle,
+    /// or if it is within 8 times the rounding error and no interaction without stiffness exerts a
+    /// load.
     Converged,
-    /// The residual is above the tolerance and does not fall any more, but the loads of each body
-    /// are within the tolerance or within 8 times what rounding leaves of them at that body (100
-    /// times where no step, however short, helps, or the last one allowed has been made).
+    /// The residual exceeds the tolerance and does not decrease, but the loads of each body are
+    /// within the tolerance or 8 times their rounding error. The factor is 100 if no step reduces
+    /// the energy or the iteration limit is reached.
     FloorReached,
 }
 
-/// A state without residual loads, and what is known of it.
-///
-/// Whether it is stable is in the certificate; [`is_saddle`](Equilibrium::is_saddle) asks.
+/// Equilibrium with its certificate and the history of the solve.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Equilibrium {
-    /// Why the solve ended.
+    /// Reason for termination.
     pub ending: Convergence,
     /// Potential energy (pN nm).
     pub energy: f64,
     /// Residual of the state.
     pub residual: Residual,
-    /// Estimate of the residual that rounding of coordinates alone leaves.
+    /// Estimated rounding error of the residual.
     pub floor: Residual,
-    /// What the stiffness says; `None` if it was not asked for.
+    /// Certificate of stability; `None` if not requested.
     pub certificate: Option<Certificate>,
-    /// Saddles that were left on the way here.
+    /// Number of saddles left during the solve.
     pub saddles_left: usize,
-    /// The steps.
+    /// Newton steps.
     pub history: Vec<Iteration>,
-    /// What it took.
+    /// Cost of the solve.
     pub work: SolverWork,
 }
 
 impl Equilibrium {
-    /// Whether the stiffness is known to have a negative eigenvalue.
+    /// Returns `true` if the stiffness has a negative eigenvalue according to the certificate.
     pub fn is_saddle(&self) -> bool {
         self.certificate
             .is_some_and(|c| matches!(c.stability(), Stability::Saddle { .. }))
     }
 }
 
-/// Why a solve failed.
+/// Cause of a failed solve.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum SolveError {
-    /// An interaction has no energy to be minimised.
+    /// An interaction has no potential energy.
     #[error("the interaction {0:?} has no potential, so there is no energy to minimise")]
     NotConservative(&'static str),
-    /// An interaction does not know its second derivatives.
+    /// An interaction does not provide second derivatives.
     #[error("the interaction {0:?} has no second derivatives")]
     NoStiffness(&'static str),
-    /// Energy or loads at the start are not finite.
+    /// Energy or loads of the initial state are not finite.
     #[error("energy or loads at the start are not finite")]
     NotFinite,
-    /// The energy has no minimum.
+    /// The energy is unbounded below.
     #[error(
-        "a load acts along a motion that nothing resists, so that the energy falls without bound; hold a body \
-         there, or balance the loads"
+        "a load acts along a motion without stiffness, so the energy has no minimum: hold a body or balance \
+         the loads"
     )]
     Unbounded,
-    /// Too many steps.
+    /// The iteration limit was reached.
     #[error("{0} steps were not enough")]
     IterationLimit(usize),
-    /// No step, however short, lowers the energy or the residual.
-    #[error("no step, however short, lowers the energy or the residual")]
+    /// No step reduces the energy or the residual.
+    #[error("no step reduces the energy or the residual, whatever its length")]
     Stagnated,
-    /// Every step downhill leads bodies through each other that an interaction keeps apart.
-    #[error("the way to lower energy leads through what an interaction keeps away")]
+    /// Every descent step moves bodies through each other.
+    #[error("every descent step moves bodies through each other, which an interaction forbids")]
     PassesThrough,
-    /// The stiffness has entries that are not finite, or no regularisation makes it definite.
+    /// The stiffness is not finite, or no regularisation makes it positive definite.
     #[error("the stiffness cannot be made positive definite by adding {0:.3e} pN/nm")]
     NotFactorizable(f64),
-    /// The observer asked for the end.
-    #[error("the observer asked for the end")]
+    /// The observer interrupted the solve.
+    #[error("interrupted by the observer")]
     Interrupted,
 }
 
-/// A solve that did not reach an equilibrium.
-///
-/// The state that was passed in has been left at the best state reached: the one of lowest energy
-/// among those that were accepted.
+/// Failed solve. The state passed in has been set to the accepted state of lowest energy.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[error(
     "no equilibrium after {} steps: {cause}; the residual is {:.3e} pN and {:.3e} pN nm \
@@ -97,14 +90,14 @@ pub enum SolveError {
     history.len(), residual.force, residual.torque, floor.force, floor.torque
 )]
 pub struct NewtonFailure {
-    /// What went wrong.
+    /// Cause of the failure.
     pub cause: SolveError,
-    /// Residual of the state that was kept.
+    /// Residual of the returned state.
     pub residual: Residual,
-    /// Estimate of the residual that rounding alone leaves.
+    /// Estimated rounding error of the residual.
     pub floor: Residual,
-    /// The steps.
+    /// Newton steps.
     pub history: Vec<Iteration>,
-    /// What it took.
+    /// Cost of the solve.
     pub work: SolverWork,
 }

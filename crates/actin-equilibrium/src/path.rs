@@ -1,8 +1,7 @@
-//! Equilibria along a path of controls, with automatic steps.
+//! Equilibria along a path of controls with adaptive steps.
 //!
-//! Steps shrink where Newton fails, or where the equilibrium moves too far or otherwise than the path
-//! predicts, and grow where iterations are few. At a limit point, beyond which there is no equilibrium near by, the steps shrink to the
-//! smallest and the path ends with a report of the last equilibrium.
+//! Steps shrink if Newton's method fails or the equilibrium deviates from the prediction. At a
+//! limit point they shrink to the minimum, and the path ends with the last equilibrium.
 
 use crate::evaluation::{Evaluation, passes_through};
 use crate::history::SolverWork;
@@ -16,43 +15,43 @@ use actin_mechanics::{Interaction, State};
 use std::ops::ControlFlow;
 use thiserror::Error;
 
-/// Motion over what the last step lets expect that makes a step a jump. Before a limit point
-/// motion goes with the square root of the distance, which is less sudden.
+/// Ratio to the extrapolated motion above which a step is a jump. Motion before a limit point is
+/// more gradual.
 const SUDDEN: f64 = 4.0;
-/// Motion (rad, or strain of neighbours) below which nothing is a jump: the bend of a filament
-/// with a tiny imperfection at its critical load grows suddenly, too, but stays small in a step.
+/// Motion (rad, or strain) below which no step is a jump, such as sudden but small bending at a
+/// critical load.
 const SMALL_MOTION: f64 = 0.1;
-/// Motion (rad, or strain of neighbours) below which it does not matter whether it was predicted.
+/// Motion (rad, or strain) whose direction is not tested.
 const NEGLIGIBLE_MOTION: f64 = 1e-3;
-/// Share of a motion that is not along the predicted one, above which the motion is unexplained.
+/// Fraction of a motion normal to the prediction above which it deviates.
 const UNEXPLAINED: f64 = 0.5;
 
-/// A path of controls, from parameter 0 to 1.
+/// Path of controls for parameters from 0 to 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Path(PathOptions);
 
-/// The end of a path that was followed to parameter 1.
+/// Result of a path followed to parameter 1.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PathEnd {
-    /// The last equilibrium.
+    /// Last equilibrium.
     pub equilibrium: Equilibrium,
-    /// Equilibria on the path, the first and the last included.
+    /// Number of equilibria on the path, including both ends.
     pub points: usize,
-    /// Steps that were tried and made again with a smaller one.
+    /// Number of steps repeated with a smaller one.
     pub refused: usize,
-    /// What all of it took.
+    /// Total cost.
     pub work: SolverWork,
 }
 
-/// Why a path ended before parameter 1.
+/// Cause of an incomplete path.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum PathError {
-    /// No equilibrium was found at the next parameter.
+    /// Newton's method failed at the next parameter.
     #[error("{0}")]
     NoEquilibrium(Box<NewtonFailure>),
-    /// What is set at the next parameter leads bodies through each other that an interaction keeps apart.
-    #[error("what is set there leads through what an interaction keeps away")]
+    /// The prescribed controls move bodies through each other.
+    #[error("the prescribed motion moves bodies through each other, which an interaction forbids")]
     PassesThrough,
     /// The next equilibrium is a saddle.
     #[error("the equilibrium loses its stability: {negative} negative eigenvalue(s)")]
@@ -60,20 +59,18 @@ pub enum PathError {
         /// Number of negative eigenvalues.
         negative: usize,
     },
-    /// The next equilibrium is far away: a limit point, or a branch that ends.
+    /// The next equilibrium is far away: limit point, or end of a branch.
     #[error(
         "the next equilibrium is far away: a body turns by {:.2} rad, neighbours move by {:.2} \
          of their distance", .0.rotation, .0.strain
     )]
     Jump(StepSize),
-    /// The observer asked for the end.
-    #[error("the observer asked for the end")]
+    /// The observer interrupted the path.
+    #[error("interrupted by the observer")]
     Interrupted,
 }
 
-/// A path that was not followed to its end.
-///
-/// The state that was passed in is the last equilibrium reached.
+/// Incomplete path. The state passed in is the last equilibrium.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[error(
     "the path ends at {parameter:.6} of 1; at {attempted:.6}: {cause}; the last equilibrium was kept"
@@ -81,23 +78,23 @@ pub enum PathError {
 pub struct PathFailure {
     /// Parameter of the last equilibrium.
     pub parameter: f64,
-    /// Parameter that was tried in vain.
+    /// Parameter of the failed step.
     pub attempted: f64,
-    /// The last equilibrium; `None` if there is none even at parameter 0.
+    /// Last equilibrium; `None` if the first solve failed.
     pub equilibrium: Option<Equilibrium>,
-    /// Why the path ended.
+    /// Cause of the failure.
     pub cause: PathError,
-    /// Equilibria on the path.
+    /// Number of equilibria on the path.
     pub points: usize,
-    /// What all of it took.
+    /// Total cost.
     pub work: SolverWork,
 }
 
 impl Path {
-    /// A path.
+    /// Creates a path.
     ///
     /// # Errors
-    /// If an option makes no sense.
+    /// If an option is invalid.
     pub fn new(options: PathOptions) -> Result<Self, OptionsError> {
         options.check()?;
         Ok(Self(options))
@@ -105,13 +102,13 @@ impl Path {
 
     /// Follows the equilibria of `state` from parameter 0 to 1.
     ///
-    /// `set` puts controls and held bodies where they belong at a parameter. It is given a state
-    /// near the last equilibrium and leaves free bodies alone; of a group that slides it changes
-    /// what is prescribed and keeps what is free (the component along the direction, say).
-    /// `observe` sees every equilibrium and may end the path.
+    /// `set` sets controls and held bodies for a parameter. It receives a state near the last
+    /// equilibrium and must not move free bodies. For a sliding group it sets the prescribed
+    /// components and keeps the free ones. `observe` receives every equilibrium and may interrupt
+    /// the path.
     ///
     /// # Errors
-    /// If the path cannot be followed to its end; `state` is then the last equilibrium.
+    /// If the path is incomplete; `state` is then the last equilibrium.
     pub fn follow(
         &self,
         newton: &mut Newton,
@@ -123,15 +120,15 @@ impl Path {
         self.follow_from(None, newton, state, interactions, set, &mut &mut *observe)
     }
 
-    /// The same with a companion who may end the path within a solve, too, and from `waypoint` on
-    /// if there is one: `state` is then the equilibrium there, which is not shown again. What
-    /// follows is the same to the bit as in the path that was left.
+    /// As [`follow`](Self::follow), with an observer that may also interrupt a solve. With a
+    /// `waypoint`, the path continues from the equilibrium `state`, which is not reported again.
+    /// The continuation is bitwise identical to an uninterrupted path.
     ///
-    /// Work and the number of points count on from the waypoint; `newton` counts from where it
-    /// stands (see [`Newton::count_on`]).
+    /// Cost and number of points continue from the waypoint; the counters of `newton` must be set
+    /// with [`Newton::count_on`].
     ///
     /// # Errors
-    /// If the path cannot be followed to its end; `state` is then the last equilibrium.
+    /// If the path is incomplete; `state` is then the last equilibrium.
     pub fn follow_from(
         &self,
         waypoint: Option<&PathCheckpoint>,
@@ -174,23 +171,21 @@ impl Path {
 
 type Set<'a> = &'a mut dyn FnMut(&mut State, f64);
 
-/// A path while it is followed.
 struct Walk<'a> {
     options: &'a PathOptions,
     newton: &'a mut Newton,
     interactions: &'a [Box<dyn Interaction>],
     at: PathCheckpoint,
     last: Option<Equilibrium>,
-    /// Linear response at the last equilibrium, once computed.
+    /// Cached.
     response: Option<Vec<f64>>,
 }
 
-/// An equilibrium that may be the next point of a path.
+/// Candidate for the next point of a path.
 struct Trial {
     parameter: f64,
     state: State,
     equilibrium: Equilibrium,
-    /// Distance from the last point.
     moved: StepSize,
 }
 
@@ -234,8 +229,7 @@ impl<'a> Walk<'a> {
         Ok(())
     }
 
-    /// Settles the order of unknowns where a path is resumed: differences of states are compared across solves. It
-    /// counts no evaluation.
+    /// Fixes the order of unknowns of a continued path.
     fn settle_order(&mut self, state: &State) {
         let before = self.newton.work();
         self.newton.settle_order(state, self.interactions);
@@ -246,10 +240,8 @@ impl<'a> Walk<'a> {
         });
     }
 
-    /// One step, made smaller until it succeeds.
-    ///
-    /// A step that is near, but that the direction of the path does not explain, is made smaller too. Where this
-    /// ends in no equilibrium, the step is taken as it was, and counts as a jump.
+    /// One step, reduced until it succeeds. Deviating steps are reduced too; if no smaller step
+    /// succeeds, the original one is accepted as a jump.
     fn advance(
         &mut self,
         state: &mut State,
@@ -295,7 +287,6 @@ impl<'a> Walk<'a> {
         }
     }
 
-    /// Equilibrium at the next parameter.
     fn attempt(
         &mut self,
         state: &State,
@@ -325,14 +316,14 @@ impl<'a> Walk<'a> {
         }
     }
 
-    /// How the next equilibrium continues the path, from whose direction it deviates.
+    /// Classifies an equilibrium.
     fn continuation(&self, trial: &Trial, deviation: f64) -> Continuation {
         let is_smallest = self.at.step <= self.options.smallest_step;
         let far = trial.moved.rotation > self.options.largest_turn
             || trial.moved.strain > self.options.largest_strain
             || self.is_sudden(trial);
         let unexplained = deviation > UNEXPLAINED;
-        // From a saddle that is kept, iterations may lead anywhere, however short the step.
+        // Iterations from a saddle may lead far away, whatever the step.
         let keeps_saddles = self.options.saddles == Saddles::Keep;
         let accepts_jumps = is_smallest && self.options.jumps == Jumps::Accept;
         if accepts_jumps || !far && (!unexplained || is_smallest || keeps_saddles) {
@@ -346,7 +337,6 @@ impl<'a> Walk<'a> {
         }
     }
 
-    /// The loss of stability as the cause why no stable equilibrium is near: the path continues, but as a saddle.
     fn lost_stability(&mut self, state: &State, next: f64, set: Set<'_>) -> Option<PathError> {
         let predicted = self.predict(state, next, set).ok()?;
         let nearest = self.newton.nearest(&predicted, self.interactions);
@@ -354,7 +344,7 @@ impl<'a> Walk<'a> {
         (negative > 0).then_some(PathError::Unstable { negative })
     }
 
-    /// Motion of the unknowns per parameter in the last step, if that was no jump.
+    /// Motion per parameter in the last step, unless it was a jump.
     fn secant(&self, state: &State) -> Option<Vec<f64>> {
         let (previous, before) = self.at.previous.as_ref()?;
         let from = state.in_motion(previous.clone());
@@ -363,8 +353,7 @@ impl<'a> Walk<'a> {
         Some(way.into_iter().map(|way| way / stretch).collect())
     }
 
-    /// Motion of the unknowns per parameter for the smallest step, to first order. `None` if the stiffness is not
-    /// positive beyond rounding.
+    /// Motion per parameter by linear response; `None` if the stiffness is not positive definite.
     fn linear_response(&mut self, state: &State, set: Set<'_>) -> Option<Vec<f64>> {
         let solver = &mut self.newton.solver;
         solver.prepare(state, self.interactions).ok()?;
@@ -384,11 +373,8 @@ impl<'a> Walk<'a> {
         Some(rate)
     }
 
-    /// Share of the way to a trial that the path does not predict: by the secant or, after the first equilibrium and
-    /// after a jump, by the linear response. 0 where neither is known, or the way is short or leads off a saddle.
-    ///
-    /// Next to a limit point the linear response is so large that it would explain a small snap where the secant
-    /// does not.
+    /// Fraction of the motion that deviates from the secant, or from the linear response without a
+    /// secant. Near a limit point the linear response is too large to detect a small snap.
     fn deviation(&mut self, state: &State, trial: &Trial, set: Set<'_>) -> f64 {
         if trial.equilibrium.saddles_left > 0 || motion(&trial.moved) <= NEGLIGIBLE_MOTION {
             return 0.0;
@@ -403,7 +389,7 @@ impl<'a> Walk<'a> {
         response.map_or(0.0, |rate| self.deviation_from(rate, state, trial))
     }
 
-    /// Share of the way to a trial that is not along a rate, by up to a few times the motion that it predicts.
+    /// Fraction of the motion normal to `rate`.
     fn deviation_from(&self, rate: &[f64], state: &State, trial: &Trial) -> f64 {
         let way = self.newton.layout().difference(state, &trial.state);
         let metric = &self.newton.solver.metric;
@@ -417,9 +403,7 @@ impl<'a> Walk<'a> {
         (product(&off, &off) / product(&way, &way).max(f64::MIN_POSITIVE)).sqrt()
     }
 
-    /// Whether an equilibrium is much further than the last step lets expect: a snap through.
-    ///
-    /// Off a saddle the way is always long at first, so that says nothing.
+    /// Detects snap-through. Motions off a saddle are always large and not tested.
     fn is_sudden(&self, trial: &Trial) -> bool {
         let motion = motion(&trial.moved);
         let stretch = trial.parameter - self.at.parameter;
@@ -429,7 +413,7 @@ impl<'a> Walk<'a> {
             && expected.is_some_and(|expected| motion > SUDDEN * expected)
     }
 
-    /// The parameter of the next step; a rest shorter than the smallest step is added to it.
+    /// Extended to 1 if less than the smallest step would remain.
     fn next_parameter(&self) -> f64 {
         let next = self.at.parameter + self.at.step;
         if next > 1.0 - self.options.smallest_step {
@@ -439,10 +423,10 @@ impl<'a> Walk<'a> {
         }
     }
 
-    /// A state at which to begin: with controls set, and extrapolated if that is lower in energy.
+    /// Controls set, and extrapolated if this lowers the energy.
     ///
     /// # Errors
-    /// If the way to where it is set leads through what an interaction keeps away.
+    /// If the prescribed motion moves bodies through each other.
     fn predict(&self, state: &State, next: f64, set: Set<'_>) -> Result<State, PathError> {
         let mut plain = state.clone();
         set(&mut plain, next);
@@ -504,7 +488,7 @@ impl<'a> Walk<'a> {
         }
     }
 
-    /// The next step; along a smooth path the deviation grows with it.
+    /// Along a smooth path the deviation grows with the step.
     fn adapt(&mut self, equilibrium: &Equilibrium, deviation: f64) {
         let iterations = equilibrium.history.len();
         let step = &mut self.at.step;
@@ -535,7 +519,6 @@ impl<'a> Walk<'a> {
         let at = &mut self.at;
         let goes_on = at.points > 0 && !jumped;
         at.rate = goes_on.then(|| motion(&moved) / (parameter - at.parameter));
-        // Across a jump there is nothing to extrapolate.
         at.previous = goes_on.then(|| (left.into_motion(), at.parameter));
         at.parameter = parameter;
         at.points += 1;
@@ -549,7 +532,6 @@ impl<'a> Walk<'a> {
             waypoint: at,
         });
         self.last = Some(equilibrium);
-        // At the end there is nothing left to break off.
         if flow.is_break() && parameter < 1.0 {
             return Err((parameter, PathError::Interrupted));
         }
@@ -557,17 +539,16 @@ impl<'a> Walk<'a> {
     }
 }
 
-/// How an equilibrium continues a path.
 enum Continuation {
-    /// As a next point, after a jump or without one.
+    /// Next point of the path.
     Accepted { jumped: bool },
-    /// Near, but not in the direction of the path: a shorter step may do better.
+    /// Nearby, but not in the direction of the path.
     OffCourse,
-    /// Too far away for a next point.
+    /// Too far away.
     Far,
 }
 
-/// The larger of the largest turn and the largest relative motion of neighbours.
+/// Maximum of the largest rotation and the largest relative motion of neighbours.
 fn motion(moved: &StepSize) -> f64 {
     moved.rotation.max(moved.strain)
 }

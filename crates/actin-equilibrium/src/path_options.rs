@@ -1,50 +1,48 @@
-//! What a path may do.
-
 use crate::options::{OptionsError, positive, rule};
 
-/// What to do with a saddle on the path.
+/// Treatment of saddles on the path.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Saddles {
-    /// Leave it, at most this many times per step, and go on from the minimum.
+    /// Leave saddles, at most this many times per step.
     Leave(usize),
-    /// End the path at the last equilibrium that was none.
+    /// End the path at the last equilibrium before the saddle.
     Stop,
-    /// Go on along it; its certificate says what it is.
+    /// Continue along the saddle, marked by its certificate.
     Keep,
 }
 
-/// What to do where the equilibrium moves too far even in the smallest step.
+/// Treatment of steps that move too far even with the smallest step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Jumps {
     /// End the path before the jump.
     Stop,
-    /// Go on from where it leads; the point says that it jumped.
+    /// Continue after the jump, marked in the point.
     Accept,
 }
 
-/// Settings of a [`Path`](crate::Path).
+/// Options of a [`Path`](crate::Path).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PathOptions {
-    /// First step of the path parameter; 0.1.
+    /// First step of the path parameter. Default: 0.1.
     pub first_step: f64,
-    /// Smallest step; 1e-4.
+    /// Smallest step. Default: 1e-4.
     pub smallest_step: f64,
-    /// Largest step; 0.25.
+    /// Largest step. Default: 0.25.
     pub largest_step: f64,
-    /// Steps that take at most this many iterations let the next one grow; 10.
+    /// Maximum number of iterations after which the next step grows. Default: 10.
     pub easy: usize,
-    /// Steps that take more than this many iterations let the next one shrink; 40.
+    /// Number of iterations above which the next step shrinks. Default: 40.
     pub hard: usize,
-    /// Largest turn of a free body between neighbouring equilibria (rad); 0.6.
+    /// Maximum rotation of a free body per step (rad). Default: 0.6.
     pub largest_turn: f64,
-    /// Largest relative motion of neighbours between neighbouring equilibria: turn (rad), or
-    /// displacement over distance; 0.5.
+    /// Maximum relative motion of neighbours per step: rotation (rad), or displacement over
+    /// distance. Default: 0.5.
     pub largest_strain: f64,
-    /// What to do with saddles; they are left, up to 3 times per step.
+    /// Treatment of saddles. Default: leave, at most 3 times per step.
     pub saddles: Saddles,
-    /// What to do with jumps; the path ends.
+    /// Treatment of jumps. Default: stop.
     pub jumps: Jumps,
-    /// Whether steps begin from an extrapolation of the last two equilibria; yes.
+    /// Extrapolates the last two equilibria as initial guess. Default: true.
     pub extrapolate: bool,
 }
 
@@ -66,10 +64,6 @@ impl Default for PathOptions {
 }
 
 impl PathOptions {
-    /// Checks the settings.
-    ///
-    /// # Errors
-    /// If one of them makes no sense.
     pub(crate) fn check(&self) -> Result<(), OptionsError> {
         positive("smallest_step", self.smallest_step)?;
         positive("largest_strain", self.largest_strain)?;

@@ -1,7 +1,5 @@
-//! Where the blocks of a stiffness go in a sparse symmetric matrix.
-//!
-//! The matrix is kept as its upper triangle by columns, rows sorted, which is what the
-//! factorisation reads. All places are found once; values are the business of `assemble`.
+//! Positions of stiffness blocks in a sparse symmetric matrix, stored as its upper triangle by
+//! columns with sorted rows.
 
 use crate::layout::{Layout, Node, Order};
 use actin_mechanics::{Coordinates, Matrix3, Stiffness};
@@ -10,40 +8,33 @@ use faer::sparse::linalg::amd;
 use faer::sparse::linalg::cholesky::simplicial;
 use faer::sparse::{SymbolicSparseColMat, SymbolicSparseColMatRef};
 
-/// Where one block goes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Place {
-    /// Nowhere: one of the bodies does not move.
+    /// Not stored: one of the bodies does not move.
     Outside,
-    /// On the diagonal of a node; `twice` if the block couples two bodies of one group, whose
-    /// transposed block goes there too.
+    /// On the diagonal of a node.
     Diagonal {
-        /// The node.
         node: usize,
-        /// Whether the transposed block is added as well.
+        /// The transposed block is added as well.
         twice: bool,
     },
-    /// Above the diagonal: rows of `row`, columns of `column`.
+    /// Above the diagonal.
     Above {
-        /// The node of the rows.
         row: usize,
-        /// The node of the columns.
         column: usize,
-        /// Where the rows begin within each of the columns.
+        /// Index of the first row within each column.
         local: usize,
-        /// Whether the block is to be transposed.
         transposed: bool,
     },
 }
 
-/// The sparsity of a stiffness and the place of each of its blocks.
+/// Sparsity of a stiffness with the position of each block.
 #[derive(Debug)]
 pub(crate) struct Pattern {
-    /// The upper triangle by columns.
     pub(crate) symbolic: SymbolicSparseColMat<usize>,
-    /// Place of each block, in the order of the blocks.
+    /// In the order of the blocks.
     pub(crate) places: Vec<Place>,
-    /// For each node where its own rows begin within its columns.
+    /// First diagonal row within the columns of each node.
     pub(crate) diagonal: Vec<usize>,
     bodies: Vec<(Coordinates, Coordinates)>,
     neighbours: Vec<Vec<usize>>,
@@ -51,7 +42,7 @@ pub(crate) struct Pattern {
 }
 
 impl Pattern {
-    /// The pattern of `stiffness`. Settles the order of the nodes of `layout`.
+    /// Fixes the order of the nodes of `layout`.
     pub(crate) fn new(stiffness: &Stiffness, layout: &mut Layout) -> Self {
         let blocks = stiffness.blocks();
         let mut neighbours = neighbours(blocks, layout);
@@ -72,12 +63,12 @@ impl Pattern {
         }
     }
 
-    /// Places of other blocks that couple no pair beyond those of the pattern.
+    /// Positions of blocks within the pattern.
     pub(crate) fn places_of(&self, stiffness: &Stiffness, layout: &Layout) -> Vec<Place> {
         places(stiffness.blocks(), layout, &self.neighbours, &self.starts)
     }
 
-    /// Returns the upper triangle without loose couplings, and for each of its entries the place in the whole.
+    /// Upper triangle without loose couplings, with indices in the full pattern.
     pub(crate) fn chains(&self, layout: &Layout) -> (SymbolicSparseColMat<usize>, Vec<usize>) {
         let chains = upper_triangle(&without_loose(&self.neighbours, layout), layout);
         let (whole, mut places) = (&self.symbolic, Vec::new());
@@ -93,7 +84,7 @@ impl Pattern {
         (chains, places)
     }
 
-    /// Whether the blocks couple the same bodies in the same order as those of the pattern.
+    /// The blocks couple the same bodies in the same order.
     pub(crate) fn fits(&self, stiffness: &Stiffness) -> bool {
         let blocks = stiffness.blocks();
         blocks.len() == self.bodies.len()
@@ -106,7 +97,7 @@ impl Pattern {
 
 type Block = (Coordinates, Coordinates, Matrix3);
 
-/// For each node the earlier nodes that it is coupled with, sorted.
+/// Sorted earlier nodes coupled to each node.
 fn neighbours(blocks: &[Block], layout: &Layout) -> Vec<Vec<usize>> {
     let mut neighbours = vec![Vec::new(); layout.len()];
     for &(a, b, _) in blocks {
@@ -123,10 +114,10 @@ fn neighbours(blocks: &[Block], layout: &Layout) -> Vec<Vec<usize>> {
     neighbours
 }
 
-/// Iterations of conjugate gradients in a step, about.
+/// Typical number of iterations of conjugate gradients.
 const ITERATIONS: usize = 20;
 
-/// Returns the couplings of each column of nodes without the loose ones.
+/// Couplings without loose ones.
 fn without_loose(neighbours: &[Vec<usize>], layout: &Layout) -> Vec<Vec<usize>> {
     let body = |node| match layout.node(node) {
         Node::Point(i) => Some(Coordinates::Point(i)),
@@ -146,7 +137,7 @@ fn without_loose(neighbours: &[Vec<usize>], layout: &Layout) -> Vec<Vec<usize>> 
         .collect()
 }
 
-/// Returns true if conjugate gradients cost less than a factorisation with `direct` multiplications.
+/// Compares with a factorisation with `direct` multiplications.
 fn prefers_gradients(neighbours: &[Vec<usize>], layout: &Layout, direct: usize) -> bool {
     let whole = upper_triangle(neighbours, layout);
     let chains = upper_triangle(&without_loose(neighbours, layout), layout);
@@ -155,8 +146,7 @@ fn prefers_gradients(neighbours: &[Vec<usize>], layout: &Layout, direct: usize) 
     iterative < 3 * direct
 }
 
-/// Settles the order of a layout whose nodes are coupled as `present` says; returns how they are
-/// coupled then.
+/// Fixes the order; returns the couplings in the new order.
 fn settle(present: Vec<Vec<usize>>, blocks: &[Block], layout: &mut Layout) -> Vec<Vec<usize>> {
     let mut sought = layout.clone();
     sought.reorder(&minimum_degree(&present));
@@ -180,7 +170,6 @@ fn settle(present: Vec<Vec<usize>>, blocks: &[Block], layout: &mut Layout) -> Ve
     reordered
 }
 
-/// The order of nodes found by approximate minimum degree.
 fn minimum_degree(neighbours: &[Vec<usize>]) -> Vec<usize> {
     let n = neighbours.len();
     let columns = running_sum(neighbours.iter().map(Vec::len));
@@ -239,7 +228,6 @@ fn place(
     }
 }
 
-/// The upper triangle: above each node's own triangle the full rows of its neighbours.
 fn upper_triangle(neighbours: &[Vec<usize>], layout: &Layout) -> SymbolicSparseColMat<usize> {
     let n = layout.unknowns();
     let mut columns = Vec::with_capacity(n + 1);
@@ -267,8 +255,7 @@ fn running_sum(lengths: impl Iterator<Item = usize>) -> Vec<usize> {
     sums
 }
 
-/// Multiplications that factorising a matrix with this upper triangle takes: half the sum of the
-/// squared numbers of entries in each column of the factor.
+/// Half the sum of the squared column counts of the factor.
 fn factor_operations(upper: SymbolicSparseColMatRef<'_, usize>) -> usize {
     let n = upper.ncols();
     let (mut tree, mut counts) = (vec![0isize; n], vec![0usize; n]);

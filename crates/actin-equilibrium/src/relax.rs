@@ -1,5 +1,3 @@
-//! An equilibrium in one call, and the error of all of this crate's tasks.
-
 use crate::{
     Equilibrium, Layout, LayoutError, Newton, NewtonFailure, NewtonOptions, OptionsError,
     PathFailure, SolveError,
@@ -7,41 +5,40 @@ use crate::{
 use actin_mechanics::{Interaction, State};
 use thiserror::Error;
 
-/// Saddles that [`relax`] leaves before it gives up.
+/// Maximum number of saddles that [`relax`] leaves.
 const SADDLES: usize = 8;
 
-/// Why there is no equilibrium: what any function of this crate may return, for use with `?`.
+/// Error of any function of this crate, for use with `?`.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum EquilibriumError {
-    /// A setting makes no sense.
+    /// An option is invalid.
     #[error(transparent)]
     Options(#[from] OptionsError),
-    /// The unknowns do not fit the state.
+    /// The layout does not match the state.
     #[error(transparent)]
     Layout(#[from] LayoutError),
-    /// Interactions without energy or second derivatives, or with ones that are not finite.
+    /// Invalid interactions: no energy, no second derivatives, or non-finite values.
     #[error(transparent)]
     SolveError(#[from] SolveError),
-    /// The solver did not converge.
+    /// Newton's method did not converge.
     #[error(transparent)]
     Newton(#[from] Box<NewtonFailure>),
-    /// What was found is a saddle still.
-    #[error("still at a saddle after {0} saddles were left")]
+    /// The result is a saddle.
+    #[error("still at a saddle after leaving {0} saddles: displace the initial state")]
     Saddle(usize),
-    /// A path of equilibria ended too early.
+    /// A path of equilibria ended early.
     #[error(transparent)]
     Path(#[from] Box<PathFailure>),
 }
 
-/// Moves the free bodies of `state` to a stable equilibrium of `interactions` near it.
+/// Moves the free bodies of `state` to a nearby stable equilibrium of `interactions`.
 ///
-/// This is [`Newton`] with its default options, on all free bodies; saddles are left on the way.
-/// What is to be set (tolerances, order of unknowns, bodies that move as one) asks for a
-/// [`Newton`] of one's own, and several solves of one model are faster with it.
+/// Equivalent to [`Newton::minimize`] with default options on all free bodies. Use [`Newton`]
+/// directly to set tolerances, order or groups, and for repeated solves of one model.
 ///
 /// # Errors
-/// If none is found; `state` is then the best state reached.
+/// If no stable equilibrium is found; `state` is then the best state reached.
 pub fn relax(
     state: &mut State,
     interactions: &[Box<dyn Interaction>],

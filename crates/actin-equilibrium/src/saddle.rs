@@ -1,5 +1,3 @@
-//! The way off a saddle: along the direction of negative curvature, downhill, and on.
-
 use crate::evaluation::Evaluation;
 use crate::history::Iteration;
 use crate::mode::{self, Mode};
@@ -9,22 +7,22 @@ use crate::outcome::{Equilibrium, NewtonFailure, SolveError};
 use actin_mechanics::{Interaction, State};
 use std::ops::ControlFlow;
 
-/// Size (nm and rad) of the first displacement off a saddle.
+/// First displacement off a saddle (nm and rad).
 const FIRST: f64 = 1e-3;
-/// Largest extent (rad, or nm per turn length) to which the displacement is doubled.
+/// Maximum displacement by doubling (rad, or nm per turn length).
 const LAST: f64 = 0.2;
 
-/// A push off a saddle.
+/// Displacement off a saddle.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Push {
-    /// The mode along which it went.
+    /// Mode of the displacement.
     pub mode: Mode,
-    /// How far bodies were moved and turned at most; strains are not looked at.
+    /// Largest displacement and rotation; strains are not computed.
     pub extent: StepSize,
 }
 
 impl Newton {
-    /// The lowest eigenvalue of the stiffness at `state` and its shape; `None` if nothing moves.
+    /// Lowest eigenvalue of the stiffness at `state` with its mode; `None` without unknowns.
     ///
     /// # Errors
     /// If an interaction has no potential or no second derivatives.
@@ -37,13 +35,12 @@ impl Newton {
         mode::lowest(&mut self.solver)
     }
 
-    /// Moves `state` off a saddle: along the lowest mode to the side where the energy is lower,
-    /// as far as it keeps falling by doubling, at most to turns of 0.2 rad.
+    /// Moves `state` off a saddle along the lowest mode, in the direction of lower energy. The
+    /// amplitude is doubled while the energy decreases, up to rotations of 0.2 rad.
     ///
-    /// Returns the mode, or `None`, with `state` as it was, if the lowest eigenvalue is not
-    /// negative beyond its error. The sign of a mode is arbitrary: where both sides are alike it
-    /// decides the branch, always in the same way for the same input. To choose a branch,
-    /// displace the state and solve again.
+    /// Returns the mode, or `None` without moving if the lowest eigenvalue is not negative beyond
+    /// its error. If both directions have equal energy, the sign of the mode decides; the result is
+    /// reproducible. Displace the state before solving to select a branch.
     ///
     /// # Errors
     /// If an interaction has no potential or no second derivatives.
@@ -72,12 +69,12 @@ impl Newton {
         Ok(Some(mode))
     }
 
-    /// Moves `state` off a saddle by a small amount: along the lowest mode to the side where the
-    /// energy is lower, until a body has moved or turned by as much as `largest` says. Velocities
-    /// stay as they are.
+    /// Moves `state` off a saddle by a given amount along the lowest mode, in the direction of
+    /// lower energy: the largest displacement or rotation of a body is the value of `largest`.
+    /// Velocities are unchanged.
     ///
-    /// Returns what was done, or `None`, with `state` as it was, if the lowest eigenvalue is not
-    /// negative beyond its error. The side is chosen as by [`leave_saddle`](Newton::leave_saddle).
+    /// Returns the displacement, or `None` without moving if the lowest eigenvalue is not negative
+    /// beyond its error. The direction is chosen as in [`leave_saddle`](Newton::leave_saddle).
     ///
     /// # Errors
     /// If an interaction has no potential or no second derivatives.
@@ -99,7 +96,6 @@ impl Newton {
         Ok(Some(Push { mode, extent }))
     }
 
-    /// The lowest mode, if its eigenvalue is negative beyond its error.
     fn unstable_mode(
         &mut self,
         state: &State,
@@ -111,8 +107,8 @@ impl Newton {
 
     /// Moves `state` to a minimum: solves, and leaves saddles up to `attempts` times.
     ///
-    /// The equilibrium says how many saddles were left and has the history of all solves. After
-    /// the last attempt it may still be a saddle, which its certificate then says.
+    /// The equilibrium contains the number of saddles left and the history of all solves. It may
+    /// still be a saddle, see [`Equilibrium::is_saddle`].
     ///
     /// # Errors
     /// If a solve fails; `state` is then the best state reached.
@@ -127,10 +123,10 @@ impl Newton {
         })
     }
 
-    /// The same, with a callback after every step that may break it off.
+    /// As [`minimize`](Self::minimize), with a callback after every step that may interrupt it.
     ///
     /// # Errors
-    /// If a solve fails or the observer breaks off; `state` is then the best state reached.
+    /// If a solve fails or the observer interrupts; `state` is then the best state reached.
     pub fn minimize_observed(
         &mut self,
         state: &mut State,
@@ -145,7 +141,7 @@ impl Newton {
                 break;
             }
             let left = self.leave_saddle(state, interactions);
-            // The interactions have just been used for a solve, so this cannot fail on them.
+            // Cannot fail, since the interactions were used in the preceding solve.
             if !matches!(left, Ok(Some(_))) {
                 break;
             }
@@ -160,7 +156,7 @@ impl Newton {
     }
 }
 
-/// A saddle, or a state next to one, and the direction in which the energy falls on both sides.
+/// Saddle, or a nearby state, with its mode.
 struct Ridge<'a> {
     state: &'a State,
     interactions: &'a [Box<dyn Interaction>],
@@ -178,7 +174,7 @@ impl<'a> Ridge<'a> {
         }
     }
 
-    /// Energy above the saddle (pN nm) at `amplitude` times the mode, and the state there.
+    /// Relative energy (pN nm) and state at `amplitude`.
     fn at(&self, newton: &mut Newton, amplitude: f64) -> (f64, State) {
         let mut moved = self.state.clone();
         newton
@@ -190,8 +186,7 @@ impl<'a> Ridge<'a> {
         (there.energy_above(&self.energies), moved)
     }
 
-    /// The side (1 or -1) where the energy is lower, with what is `amplitude` away on it; 1 if both
-    /// are alike.
+    /// Direction of lower energy, with energy and state there.
     fn lower_side(&self, newton: &mut Newton, amplitude: f64) -> (f64, (f64, State)) {
         let (plus, minus) = (self.at(newton, amplitude), self.at(newton, -amplitude));
         if plus.0 <= minus.0 {
@@ -202,7 +197,7 @@ impl<'a> Ridge<'a> {
     }
 }
 
-/// The largest turn, or displacement over the turn length.
+/// Largest rotation, or displacement over the turn length.
 fn largest(extent: &StepSize, turn_length: f64) -> f64 {
     extent.rotation.max(extent.displacement / turn_length)
 }

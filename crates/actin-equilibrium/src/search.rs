@@ -1,14 +1,8 @@
-//! Other stable equilibria of the same bodies, from starts drawn at random about those that are known.
+//! Random search for further stable equilibria of the same bodies.
 //!
-//! Newton's method leads to the minimum in whose valley it starts. Bodies that are bent beyond a critical
-//! load, or bonds that can be closed or open, have several: whether the one that was found is the lowest
-//! shows only where the others are known. Starts are drawn as heat would spread bodies about a known
-//! equilibrium if its stiffness were the same everywhere: soft modes go far, stiff ones hardly move, and
-//! nothing is torn on the way. Each is scaled to a largest turn, of which there are several sizes in
-//! turn, and minimised. A third of them are drawn about a state of reference instead, such as one that is
-//! straight still: between two states that lean either way.
-//!
-//! What is not found may still be there: the search says what there is, not that there is nothing else.
+//! Initial guesses are sampled like thermal fluctuations about a known equilibrium with constant
+//! stiffness, scaled to a largest rotation, and minimised. One third of them is sampled about a
+//! reference state instead, such as a straight filament. The search may miss equilibria.
 
 use crate::direction::Solver;
 use crate::evaluation::{Evaluation, passes_through};
@@ -18,59 +12,57 @@ use crate::outcome::{Equilibrium, SolveError};
 use actin_mechanics::{Interaction, State, Xorshift};
 use std::ops::ControlFlow;
 
-/// Largest turns of a body (rad) to which starts are scaled, one after another.
+/// Largest rotations (rad) of the initial guesses.
 const TURNS: [f64; 4] = [0.5, 1.0, 2.0, 3.0];
-/// Energy (pN nm) below which the way from one equilibrium to another, at the stiffness of the first, is no
-/// way: a thousandth of the energy of heat, and what a loose tolerance leaves of soft modes.
+/// Energy difference (pN nm) below which two equilibria are identical: a thousandth of the thermal
+/// energy, and above the error of soft modes at a loose tolerance.
 const SAME: f64 = 4e-3;
-/// Saddles that are left from each start.
 const SADDLES: usize = 8;
 
-/// How other equilibria are looked for.
+/// Options of a search.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Search {
-    /// How many starts are drawn.
+    /// Number of initial guesses.
     pub starts: usize,
-    /// Seed of the starts; each is the same whatever the number of them.
+    /// Seed of the initial guesses. Each is independent of their number.
     pub seed: u64,
 }
 
-/// What a search begins with.
+/// Starting point of a search.
 #[derive(Clone, Copy, Debug)]
 pub struct Known<'a> {
-    /// An equilibrium.
+    /// Known equilibrium.
     pub state: &'a State,
-    /// What is known of it.
+    /// Properties of the equilibrium.
     pub equilibrium: &'a Equilibrium,
-    /// Another state, in equilibrium or not, about which starts are drawn, too: with held bodies and
-    /// controls as in that equilibrium. The equilibrium itself, if there is none.
+    /// Reference state, in equilibrium or not, with the same held bodies and controls. Pass the
+    /// equilibrium itself if there is no other.
     pub reference: &'a State,
 }
 
-/// A stable equilibrium among several.
+/// Stable equilibrium found by a search.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Distinct {
-    /// The state; velocities are those of the known equilibrium.
+    /// State, with the velocities of the known equilibrium.
     pub state: State,
-    /// What is known of it.
+    /// Properties of the equilibrium.
     pub equilibrium: Equilibrium,
-    /// How many starts led to it; that of the known one counts.
+    /// Number of starts that led to it, including the known one.
     pub found: usize,
-    /// Whether it is the known one.
+    /// Marks the known equilibrium.
     pub is_known: bool,
 }
 
-/// What a search has found.
+/// Result of a search.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Found {
-    /// Stable equilibria, the one of least energy first.
+    /// Stable equilibria, ordered by energy.
     pub states: Vec<Distinct>,
-    /// Starts from which none was reached, or none that counts.
+    /// Number of starts without an admissible equilibrium.
     pub lost: usize,
 }
 
 impl Found {
-    /// What is found before the first start.
     fn beginning(known: &Known<'_>) -> Self {
         Self {
             states: vec![Distinct {
@@ -84,14 +76,14 @@ impl Found {
     }
 }
 
-/// What a caller says of the search while it goes on.
+/// Observer of a search.
 pub trait SearchObserver {
-    /// Sees each step of Newton's method; may end the search.
+    /// Called at each Newton step; may interrupt the search.
     fn iterate(&mut self, _step: &Iteration) -> ControlFlow<()> {
         ControlFlow::Continue(())
     }
 
-    /// Whether an equilibrium counts: one that was reached through something forbidden does not.
+    /// Returns `false` to reject an equilibrium, such as one reached by a forbidden motion.
     fn counts(&mut self, _state: &State) -> bool {
         true
     }
@@ -100,15 +92,15 @@ pub trait SearchObserver {
 impl SearchObserver for () {}
 
 impl Newton {
-    /// Looks for stable equilibria besides the `known` one of `state`.
+    /// Searches for stable equilibria other than the `known` one.
     ///
-    /// Held bodies and controls stay as they are. Two equilibria are the same if the way between them would
-    /// cost less than 4e-3 pN nm at the stiffness of one of them, or if it is not known that all directions
-    /// have stiffness and their energies are as near: what can be moved without effort is one state.
+    /// Held bodies and controls are unchanged. Two equilibria are identical if their distance costs
+    /// less than 4e-3 pN nm at the stiffness of one of them. If one may have zero-stiffness modes,
+    /// they are also identical if their energies differ by less.
     ///
     /// # Errors
-    /// [`Interrupted`](SolveError::Interrupted) if the observer ends it; an interaction without a potential
-    /// or second derivatives.
+    /// [`Interrupted`](SolveError::Interrupted) if the observer interrupts; interactions without a
+    /// potential or second derivatives.
     pub fn search(
         &mut self,
         known: &Known<'_>,
@@ -119,7 +111,7 @@ impl Newton {
         Solver::check(interactions)?;
         let mut found = Found::beginning(known);
         for start in 0..search.starts {
-            // Each draws from a source of its own, about those that are known by then in turn.
+            // Separate random streams, about the known states in turn.
             let mut noise = Xorshift::new(
                 search
                     .seed
@@ -132,7 +124,7 @@ impl Newton {
                 _ => &found.states[start % found.states.len()].state,
             };
             let drawn = self.drawn(about, interactions, (&mut noise, turn, start % 3 == 0));
-            // A reference need not have a finite energy.
+            // A reference state may have an infinite energy.
             let Ok(mut trial) = drawn else {
                 found.lost += 1;
                 continue;
@@ -155,7 +147,7 @@ impl Newton {
         Ok(found)
     }
 
-    /// A state drawn about another, in which a body turns by at most `turn` (rad) on top of being carried along.
+    /// Random state. Bodies rotate by at most `turn` (rad) in addition to being carried.
     fn drawn(
         &mut self,
         state: &State,
@@ -194,7 +186,6 @@ impl Newton {
         }
     }
 
-    /// Adds an equilibrium to those that are found, or counts it if it is one of them.
     fn sort_in(
         &mut self,
         found: &mut Found,

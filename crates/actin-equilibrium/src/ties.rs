@@ -1,25 +1,20 @@
-//! Relative motions of coupled bodies: what a step does to neighbours, and the stiffness that
-//! regularises it locally.
+//! Ties: relative motions of coupled bodies, and the stiffness that regularises them.
 //!
-//! Each coupled pair of bodies is a tie with a relative motion `r` (nm), linear in the step. The
-//! regularisation adds an element of stiffness `w` to each tie, `w` proportional to the motion
-//! of that tie itself. It bounds an energy with bounded third derivatives from above, tie by
-//! tie: stiff ties and ties that hardly move feel nothing of it, however long the filament. A
-//! multiple of the unit matrix would stop the soft modes of a long filament instead, which move
-//! everything far and neighbours hardly.
+//! The regularisation adds a stiffness proportional to its relative motion to each tie, which
+//! bounds an energy with bounded third derivatives from above. A multiple of the unit matrix would
+//! suppress the soft modes of a long filament, in which bodies move far and neighbours hardly move
+//! relative to each other.
 //!
 //! # Source
-//! The bound is that of Y. Nesterov and B. T. Polyak, Math. Program. 108 (2006) 177, taken for
-//! each tie by itself.
+//! Y. Nesterov and B. T. Polyak, Math. Program. 108 (2006) 177, applied to each tie.
 
 use crate::layout::Layout;
 use actin_mechanics::{Coordinates, Matrix3, State, Stiffness, Vector3, Vectors, rotation};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Points closer than this (nm) have no distance that a motion could be measured by.
+/// Distance of two points (nm) below which they coincide.
 const COINCIDENT: f64 = 1e-9;
 
-/// A pair of bodies with a relative motion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Tie {
     /// Two points: `dx_j - dx_i`.
@@ -30,7 +25,6 @@ enum Tie {
     Frames(usize, usize),
 }
 
-/// All pairs of coupled bodies.
 #[derive(Debug, Default)]
 pub(crate) struct Ties {
     ties: Vec<Tie>,
@@ -38,7 +32,7 @@ pub(crate) struct Ties {
 }
 
 impl Ties {
-    /// The ties of bodies that share a block and are not loose in the layout.
+    /// Ties of bodies that share a block and are not loose in the layout.
     pub(crate) fn new(
         blocks: &[(Coordinates, Coordinates, Matrix3)],
         turn_length: f64,
@@ -70,7 +64,7 @@ impl Ties {
         Self { ties, turn_length }
     }
 
-    /// Pairs of tied frames, both ways round.
+    /// In both orders.
     pub(crate) fn frames(&self) -> impl Iterator<Item = (usize, usize)> + '_ {
         let of = |tie: &Tie| match *tie {
             Tie::Frames(a, b) => vec![(a, b), (b, a)],
@@ -79,7 +73,7 @@ impl Ties {
         self.ties.iter().flat_map(of)
     }
 
-    /// Pairs of tied points that no frame sees.
+    /// Without a common frame.
     pub(crate) fn points(&self) -> impl Iterator<Item = (usize, usize)> + '_ {
         self.ties.iter().filter_map(|tie| match *tie {
             Tie::Points(i, j) => Some((i, j)),
@@ -87,7 +81,7 @@ impl Ties {
         })
     }
 
-    /// Pairs of tied points with a frame from which they are seen.
+    /// With a common frame.
     pub(crate) fn seen(&self) -> impl Iterator<Item = (usize, usize, usize)> + '_ {
         self.ties.iter().filter_map(|tie| match *tie {
             Tie::Seen(i, j, f) => Some((i, j, f)),
@@ -95,8 +89,7 @@ impl Ties {
         })
     }
 
-    /// One number for each tie: that of its points as `of` has it, or the largest of those that are seen from
-    /// one of its frames.
+    /// Values of the points; for frames the largest value of points seen from them.
     pub(crate) fn spread(&self, of: impl Fn(usize, usize) -> f64) -> Vec<f64> {
         let mut seen_from = BTreeMap::<usize, f64>::new();
         for (i, j, f) in self.seen() {
@@ -111,7 +104,7 @@ impl Ties {
         self.ties.iter().map(of_tie).collect()
     }
 
-    /// Second derivatives of half the sum of weighted squared motions.
+    /// Second derivatives of half the weighted sum of squared motions.
     pub(crate) fn add_blocks(&self, state: &State, weights: &[f64], blocks: &mut Stiffness) {
         use Coordinates::{Frame, Point};
         for (&tie, &weight) in self.ties.iter().zip(weights) {
@@ -142,7 +135,7 @@ impl Ties {
         }
     }
 
-    /// The size of the motion (nm) of each tie in a step.
+    /// Magnitudes (nm) in a step.
     pub(crate) fn motions(&self, layout: &Layout, state: &State, step: &[f64]) -> Vec<f64> {
         let (moved, turned) = layout.velocities(state, step);
         let of = |tie: &Tie| match *tie {
@@ -156,8 +149,7 @@ impl Ties {
         self.ties.iter().map(of).collect()
     }
 
-    /// The largest relative motion between two states, all of it finite: turn between two frames
-    /// (rad), or relative displacement of two points over their distance.
+    /// Largest finite strain between two states.
     pub(crate) fn strain_between(&self, from: &State, to: &State) -> f64 {
         let turn =
             |f: usize| to.frames.orientation.get(f) * from.frames.orientation.get(f).inverse();
@@ -175,9 +167,7 @@ impl Ties {
         self.ties.iter().map(of).fold(0.0, f64::max)
     }
 
-    /// The motion (nm) that counts as a strain of one: the distance of two points, or the turn
-    /// length for turns and for points that stand at one place, as those of two chains may that
-    /// cross where they are joined.
+    /// Motion (nm) equivalent to unit strain.
     pub(crate) fn lengths(&self, state: &State) -> Vec<f64> {
         let of = |tie: &Tie| match *tie {
             Tie::Points(i, j) | Tie::Seen(i, j, _) => self.length(between(state, i, j)),
@@ -186,7 +176,7 @@ impl Ties {
         self.ties.iter().map(of).collect()
     }
 
-    /// What counts as the distance of two points at `d` from each other (nm).
+    /// Distance, or the turn length for coincident points.
     fn length(&self, d: Vector3) -> f64 {
         let length = d.norm();
         if length > COINCIDENT {

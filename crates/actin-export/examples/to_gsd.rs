@@ -1,4 +1,4 @@
-//! Runs a scene into a directory and writes its states as GSD.
+//! Runs a scene and exports its states to GSD.
 
 use actin_export::sim::{Assembly, Plan, RunDirectory, Scene, SimError};
 use actin_export::{FinishedRun, Format, export};
@@ -23,7 +23,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let files = export(&run, Format::Gsd, &folder.join("bent.gsd"), false)?;
     println!("{} records in {}", run.count(), files[0].display());
     let size = std::fs::metadata(&files[0])?.len();
-    // 13 particles in 44 bytes each for two records, and what goes with them.
+    // Two records of 13 particles with 44 bytes each, and the fixed data.
     assert!(size > 1000 && size < 10_000, "{size}");
     std::fs::remove_dir_all(folder)?;
     Ok(())

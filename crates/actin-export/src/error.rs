@@ -1,50 +1,49 @@
-//! Why a run cannot be exported.
+//! Errors of exports.
 
 use actin_sim::{FinishedRunError, RunDirectoryError};
 use std::io;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
 
-/// Why a run cannot be exported.
+/// Error of an export.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum ExportError {
     /// The run cannot be read.
     #[error(transparent)]
     Run(#[from] FinishedRunError),
-    /// Its states cannot be read.
+    /// The states of the run cannot be read.
     #[error(transparent)]
     States(#[from] RunDirectoryError),
-    /// There is a file of that name.
+    /// The output file exists.
     #[error(
-        "{} exists: files are never overwritten unless that is asked for; name another, or ask to overwrite",
+        "{} exists: name another file, or allow overwriting",
         .path.display()
     )]
     Exists {
         /// The file.
         path: PathBuf,
     },
-    /// The place of the file is a directory.
+    /// The output path is a directory.
     #[error("{} is a directory: name a file", .path.display())]
     IsDirectory {
         /// The directory.
         path: PathBuf,
     },
-    /// What is written to refuses.
+    /// The writer returned an error.
     #[error(transparent)]
     Output(#[from] io::Error),
-    /// The file system refused.
+    /// A file system operation failed.
     #[error("{}: {source}", .path.display())]
     Io {
         /// The file.
         path: PathBuf,
-        /// What the file system says.
+        /// Error of the file system.
         source: io::Error,
     },
 }
 
 impl ExportError {
-    /// The error of an operation on `path`.
     pub(crate) fn io(path: &Path) -> impl FnOnce(io::Error) -> Self {
         move |source| Self::Io {
             path: path.to_owned(),

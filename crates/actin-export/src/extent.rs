@@ -1,18 +1,18 @@
-//! How much room a run takes.
+//! Size of the simulation box.
 
 use crate::{ExportError, Particles};
 use actin_sim::FinishedRun;
 
-/// Least extent of a box (nm), for a run that moves in a plane or along a line.
+/// Smallest edge of the box (nm), for runs in a plane or along a line.
 const LEAST_NM: f64 = 10.0;
 
-/// Edges of the box about the lab origin that holds all particles of all records (nm).
+/// Returns the edges of a box centred at the lab origin that contains all particles of all records (nm).
 ///
-/// Each is four times the largest coordinate and radius, so that no two particles are farther apart than half
-/// of it: programs that take the box for periodic find no shorter way between them.
+/// Each edge is four times the largest coordinate plus radius. Two particles are then less than half an edge apart,
+/// so that periodic minimum images do not change distances.
 ///
 /// # Errors
-/// States that cannot be read.
+/// If the states cannot be read.
 pub(crate) fn edges_nm(
     run: &FinishedRun,
     particles: &Particles<'_>,

@@ -1,4 +1,4 @@
-//! Files of a run: which formats there are, and that no file is replaced unless that is asked for.
+//! Output files and their formats.
 
 use crate::{ExportError, simularium_meshes, write_gsd, write_simularium};
 use actin_sim::{FinishedRun, replace_file};
@@ -6,17 +6,17 @@ use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
-/// A format of files.
+/// File format.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Format {
     /// GSD with the schema of HOOMD: OVITO, `MDAnalysis`, HOOMD-blue, freud.
     Gsd,
-    /// The JSON file of the Simularium viewer.
+    /// JSON of the Simularium viewer.
     Simularium,
 }
 
 impl Format {
-    /// The end of its files' names.
+    /// Returns the file name extension.
     pub fn extension(self) -> &'static str {
         match self {
             Self::Gsd => "gsd",
@@ -24,9 +24,9 @@ impl Format {
         }
     }
 
-    /// The file of a run that goes beside its directory: `runs/bent.gsd` of `runs/bent`.
+    /// Returns the default file for a run directory: `runs/bent.gsd` for `runs/bent`.
     ///
-    /// Inside it would outlive the run that it shows when that is run again.
+    /// The file is outside the directory, since a new run replaces the directory.
     pub fn beside(self, directory: &Path) -> PathBuf {
         let directory: PathBuf = directory.components().collect();
         let mut name = directory.into_os_string();
@@ -36,11 +36,12 @@ impl Format {
     }
 }
 
-/// Writes a run into a file, whole or not at all; as [`Format::Simularium`] with meshes beside it. Returns the
-/// files.
+/// Exports a run to a file and returns the written files. [`Format::Simularium`] also writes meshes next to the file.
+///
+/// Files are written completely or not at all.
 ///
 /// # Errors
-/// A file that exists (unless `overwrite`), states that cannot be read, a refusal of the file system.
+/// If a file exists and `overwrite` is false, the states cannot be read, or the file cannot be written.
 pub fn export(
     run: &FinishedRun,
     format: Format,
@@ -77,14 +78,13 @@ fn ensure_free(path: &Path, overwrite: bool) -> Result<(), ExportError> {
     Ok(())
 }
 
-/// Puts a file on the disk when it is complete.
 fn write(
     path: &Path,
     fill: impl FnOnce(&mut BufWriter<File>) -> Result<(), ExportError>,
 ) -> Result<(), ExportError> {
     let mut unfinished = path.as_os_str().to_owned();
     unfinished.push(format!(".{}.part", std::process::id()));
-    // What the run itself is to blame for keeps its own error.
+    // Errors of the run are returned unchanged, errors of the file with its path.
     let mut of_run = None;
     let written = replace_file(path, Path::new(&unfinished), |out| {
         fill(out).map_err(|error| match error {

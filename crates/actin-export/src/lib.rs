@@ -1,9 +1,8 @@
-//! Runs of actin filaments as files that other programs open.
+//! Export of runs of actin filaments to files of other programs.
 //!
-//! [`export`] writes a run that [`FinishedRun`] has opened in a [`Format`]; [`write_gsd`] and
-//! [`write_simularium`] write into anything. A run loses nothing by this: its directory stays as it is, and
-//! single precision is that of these formats. What the bodies are is decided in one place ([`Particles`]); each
-//! format has a folder of its own that knows how its file is laid out. No physics is here.
+//! [`export`] writes a [`FinishedRun`] to a file in a [`Format`]. [`write_gsd`] and [`write_simularium`] write to any
+//! writer. [`Particles`] describes the bodies of a run as particles and bonds, for all formats. Positions are stored
+//! in single precision, and the run directory is not changed.
 
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]

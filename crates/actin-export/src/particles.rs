@@ -1,29 +1,29 @@
-//! What the bodies of a run are to a program that knows particles and bonds.
+//! Bodies of a run as particles and bonds.
 
 use actin_sim::mechanics::{State, UnitQuaternion, Vector3};
 use actin_sim::{Assembly, BodyKind, rod_constants::CROSS_SECTION_AREA};
 use std::f64::consts::PI;
 use std::ops::Range;
 
-/// Radius of the circle that has the area of the cross-section of rods (nm).
+/// Radius of a circular rod cross-section of the default area (nm).
 pub(crate) fn rod_radius_nm() -> f64 {
     (CROSS_SECTION_AREA / PI).sqrt()
 }
 
-/// Radius at which ends of linkers are drawn (nm).
+/// Radius of ends of linkers (nm), for display only.
 pub(crate) const LINKER_RADIUS_NM: f64 = 0.5;
 
-/// The shape of a particle.
+/// Shape of a particle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Shape {
-    /// Semi-axes (nm) along the axes of the particle's frame.
+    /// Semi-axes (nm) along the axes of the body frame.
     Ellipsoid([f64; 3]),
     /// Radius (nm).
     Sphere(f64),
 }
 
 impl Shape {
-    /// The largest distance of its surface from its centre (nm).
+    /// Returns the largest distance of the surface from the centre (nm).
     pub fn radius_nm(self) -> f64 {
         match self {
             Self::Ellipsoid(semi_axes) => semi_axes.into_iter().fold(0.0, f64::max),
@@ -32,17 +32,17 @@ impl Shape {
     }
 }
 
-/// Particles of one name and shape.
+/// Particles with the same name and shape.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Species {
-    /// Name: `monomer`, `node` of a rod, `linker` for the ends of linkers; further shapes of monomers are
-    /// `monomer_1` and so on.
+    /// Name: `monomer`, `node` of a rod, or `linker` for ends of linkers. Further shapes of monomers are `monomer_1`
+    /// etc.
     pub name: String,
     /// Shape.
     pub shape: Shape,
 }
 
-/// What joins two particles.
+/// Kind of a bond.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum BondKind {
     /// Monomers i and i + 1.
@@ -67,7 +67,7 @@ impl BondKind {
         Self::Linker,
     ];
 
-    /// The name that files give it.
+    /// Returns the name in files.
     pub fn name(self) -> &'static str {
         match self {
             Self::Lateral => "lateral",
@@ -79,35 +79,35 @@ impl BondKind {
     }
 }
 
-/// Two particles that are joined.
+/// A bond between two particles.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Bond {
-    /// By what.
+    /// Kind of the bond.
     pub kind: BondKind,
-    /// Their indices.
+    /// Indices of the particles.
     pub between: [usize; 2],
 }
 
-/// The particles of a run: its monomers and nodes in their order, then both ends of each linker.
+/// Particles of a run: monomers and nodes in the order of points, then both ends of each linker.
 ///
-/// Linkers with `kinetics` come and go and are left out.
+/// Linkers with `kinetics` are not included, since they bind and unbind.
 #[derive(Debug)]
 pub struct Particles<'a> {
     assembly: &'a Assembly,
-    /// What sorts there are.
+    /// Species of particles.
     pub species: Vec<Species>,
-    /// Index of the sort of each particle.
+    /// Index of the species of each particle.
     pub sort: Vec<usize>,
-    /// What joins them.
+    /// Bonds between particles.
     pub bonds: Vec<Bond>,
-    /// For each point the frame that turns it.
+    /// Index of the frame of each point, if any.
     frame: Vec<Option<usize>>,
-    /// Indices of the linkers that are shown.
+    /// Indices of the included linkers.
     pub(crate) linkers: Vec<usize>,
 }
 
 impl<'a> Particles<'a> {
-    /// The particles of an assembly.
+    /// Creates the particles of an assembly.
     pub fn new(assembly: &'a Assembly) -> Self {
         let linkers = assembly.scene.linkers.iter().enumerate();
         let lasting = linkers.filter(|(_, linker)| linker.kinetics.is_none());
@@ -136,12 +136,12 @@ impl<'a> Particles<'a> {
         particles
     }
 
-    /// Number of particles.
+    /// Returns the number of particles.
     pub fn count(&self) -> usize {
         self.sort.len()
     }
 
-    /// The assembly that they are of.
+    /// Returns the assembly.
     pub fn assembly(&self) -> &'a Assembly {
         self.assembly
     }
@@ -157,7 +157,6 @@ impl<'a> Particles<'a> {
         }
     }
 
-    /// Adds a particle to the species of its name and shape.
     fn push(&mut self, name: &str, shape: Shape) {
         let alike = |s: &Species| s.shape == shape && s.name.starts_with(name);
         let found = self.species.iter().position(alike);
@@ -173,7 +172,7 @@ impl<'a> Particles<'a> {
         self.sort.push(sort);
     }
 
-    /// Places of all particles (nm, lab frame).
+    /// Returns the positions of all particles (nm, lab frame).
     pub fn places(&self, state: &State) -> Vec<Vector3> {
         let mut places: Vec<Vector3> = state.points.position.iter().collect();
         for &i in &self.linkers {
@@ -182,13 +181,13 @@ impl<'a> Particles<'a> {
         places
     }
 
-    /// Both ends of a linker (nm, lab frame).
+    /// Returns the positions of both ends of a linker (nm, lab frame).
     pub(crate) fn linker(&self, i: usize, state: &State) -> [Vector3; 2] {
         let linker = &self.assembly.linkers[i];
         [linker.site().position(state), linker.end_position(state)]
     }
 
-    /// The turn of each particle, body to lab; none of ends of linkers.
+    /// Returns the orientations of all particles, body to lab; the identity for points without a frame.
     pub fn turns(&self, state: &State) -> Vec<UnitQuaternion> {
         let turn = |frame: &Option<usize>| {
             frame.map_or_else(UnitQuaternion::identity, |f| {
@@ -200,14 +199,14 @@ impl<'a> Particles<'a> {
         turns
     }
 
-    /// Velocities of all particles (nm/ns, lab frame); zero of ends of linkers.
+    /// Returns the velocities of all particles (nm/ns, lab frame); zero for ends of linkers.
     pub fn velocities(&self, state: &State) -> Vec<Vector3> {
         let mut velocities: Vec<Vector3> = state.points.velocity.iter().collect();
         velocities.resize(self.count(), Vector3::zeros());
         velocities
     }
 
-    /// Masses of all particles (ag), held ones included; zero of ends of linkers.
+    /// Returns the masses of all particles (ag), including clamped ones; zero for ends of linkers.
     pub fn masses_ag(&self) -> Vec<f64> {
         let points = &self.assembly.rest.points;
         let mut masses: Vec<f64> = (0..points.len()).map(|i| points.mass(i)).collect();
@@ -215,8 +214,8 @@ impl<'a> Particles<'a> {
         masses
     }
 
-    /// Principal moments of inertia of all particles (ag nm^2, axes of the particle's frame); zero of nodes and
-    /// of ends of linkers, which are points.
+    /// Returns the principal moments of inertia of all particles (ag nm^2, body frame); zero for nodes and ends of
+    /// linkers.
     pub fn moments_of_inertia_ag_nm2(&self) -> Vec<Vector3> {
         let frames = &self.assembly.rest.frames;
         let points = self.assembly.points.iter();
@@ -230,7 +229,7 @@ impl<'a> Particles<'a> {
     }
 }
 
-/// Runs of monomers, across sections that are bonded to each other, and the rods, as points.
+/// Returns ranges of points: connected monomers, also across sections, and rods.
 pub(crate) fn runs(assembly: &Assembly) -> Vec<(BodyKind, Range<usize>)> {
     let mut runs: Vec<(BodyKind, Range<usize>)> = Vec::new();
     for filament in &assembly.filaments {

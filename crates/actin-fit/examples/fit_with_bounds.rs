@@ -1,4 +1,4 @@
-//! The height and the place of a step are fitted within bounds, with their errors.
+//! Fit of the height and position of a step within bounds, with standard errors.
 
 use actin_fit::{Bounds, Data, FitError, LevenbergMarquardt, Model, Observations, Starts};
 
@@ -20,7 +20,7 @@ impl Model for Step {
 }
 
 fn main() -> Result<(), FitError> {
-    // A step of height 6 at 1, measured at six places, 0.1 too high and too low in turn.
+    // A step of height 6 at x = 1 with alternating errors of 0.1.
     let x = [-1.0, 0.0, 0.5, 1.5, 2.0, 3.0];
     let noise = [0.1, -0.1, 0.1, -0.1, 0.1, -0.1];
     let y: Vec<f64> = (0..6)
@@ -28,7 +28,7 @@ fn main() -> Result<(), FitError> {
         .collect();
     let data = Data::new(&x, Observations::new(&y)?.with_deviations(&[0.1; 6])?)?;
 
-    // Each parameter between its bounds, from eight drawn starts.
+    // Bounds of both parameters, and eight random starts within them.
     let bounds = Bounds::new(&[(0.0, 20.0), (-1.0, 3.0)])?;
     let fit = LevenbergMarquardt::default().fit(&Step, &data, &bounds, &Starts::drawn(8, 1))?;
     for (j, (name, truth)) in [("height", 6.0), ("place", 1.0)].into_iter().enumerate() {

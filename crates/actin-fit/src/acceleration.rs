@@ -1,15 +1,13 @@
-//! The acceleration of a step: what the curvature of a model adds to its straight way.
-
 use crate::problem::Linearisation;
 use crate::step::{Damped, Step};
 use faer::Mat;
 
-/// Part of the step at which the residuals are probed.
+/// Fraction of the step at which the residuals are evaluated.
 const PART: f64 = 0.1;
-/// Largest acceleration: twice its length over that of the step.
+/// Largest accepted acceleration: twice its length over the length of the step.
 const LARGEST: f64 = 0.75;
 
-/// Residuals before a step and after a part of it: they tell the second derivative along it.
+/// Residuals before a step and after a fraction of it, for the second derivative along the step.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Probe<'a> {
     pub(crate) before: &'a [f64],
@@ -18,12 +16,10 @@ pub(crate) struct Probe<'a> {
 }
 
 impl Probe<'_> {
-    /// The part of a step after which residuals are wanted.
     pub(crate) fn of(step: &[f64]) -> Vec<f64> {
         step.iter().map(|s| PART * s).collect()
     }
 
-    /// Minus the second derivative of the model along the step, over deviations.
     fn second(&self, step: &[f64]) -> Vec<f64> {
         let rows = self.before.iter().zip(self.after).enumerate();
         rows.map(|(i, (before, after))| {
@@ -35,8 +31,8 @@ impl Probe<'_> {
     }
 }
 
-/// The step and half its acceleration, for the parameters that the step does not take to a bound.
-/// `None` where the acceleration is too large for the length of the step, or not finite.
+/// Adds half the acceleration to a step, for the parameters that stay within their bounds. Returns
+/// `None` if the acceleration is not finite or too large relative to the step.
 ///
 /// # Source
 /// Transtrum and Sethna, arXiv 1201.5885.

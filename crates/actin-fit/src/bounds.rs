@@ -1,10 +1,8 @@
-//! Where parameters may be.
-
 use crate::error::{FitError, same_length};
 
-/// A lower and an upper bound for each parameter.
+/// Lower and upper bound of each parameter.
 ///
-/// Infinite bounds leave a side open; equal ones hold a parameter.
+/// Bounds may be infinite. Equal bounds fix a parameter.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Bounds {
     lower: Vec<f64>,
@@ -12,10 +10,10 @@ pub struct Bounds {
 }
 
 impl Bounds {
-    /// Bounds `(lower, upper)` of each parameter.
+    /// Creates bounds from pairs `(lower, upper)`.
     ///
     /// # Errors
-    /// If a lower bound is above the upper one, if one is not a number, or both are infinite with
+    /// If a lower bound is above the upper one, a bound is not a number, or both are infinite with
     /// the same sign.
     pub fn new(pairs: &[(f64, f64)]) -> Result<Self, FitError> {
         for (parameter, &(lower, upper)) in pairs.iter().enumerate() {
@@ -32,7 +30,7 @@ impl Bounds {
         Ok(Self { lower, upper })
     }
 
-    /// No bounds on any of `parameters` parameters.
+    /// Creates infinite bounds for all parameters.
     pub fn none(parameters: usize) -> Self {
         Self {
             lower: vec![f64::NEG_INFINITY; parameters],
@@ -45,7 +43,7 @@ impl Bounds {
         self.lower.len()
     }
 
-    /// Whether there are no parameters.
+    /// Returns `true` if the number of parameters is zero.
     pub fn is_empty(&self) -> bool {
         self.lower.is_empty()
     }
@@ -53,7 +51,7 @@ impl Bounds {
     /// Lower bound of a parameter.
     ///
     /// # Panics
-    /// If there is no such parameter.
+    /// If the index is out of range.
     pub fn lower(&self, parameter: usize) -> f64 {
         self.lower[parameter]
     }
@@ -61,27 +59,23 @@ impl Bounds {
     /// Upper bound of a parameter.
     ///
     /// # Panics
-    /// If there is no such parameter.
+    /// If the index is out of range.
     pub fn upper(&self, parameter: usize) -> f64 {
         self.upper[parameter]
     }
 
-    /// Distance of the two bounds of a parameter, infinite if one of them is.
     pub(crate) fn width(&self, parameter: usize) -> f64 {
         self.upper[parameter] - self.lower[parameter]
     }
 
-    /// Whether a parameter is held by equal bounds.
     pub(crate) fn holds(&self, parameter: usize) -> bool {
         self.lower[parameter] >= self.upper[parameter]
     }
 
-    /// Number of parameters that are not held.
     pub(crate) fn varying(&self) -> usize {
         (0..self.len()).filter(|&j| !self.holds(j)).count()
     }
 
-    /// Checks that a start has the right length and lies within.
     pub(crate) fn check(&self, start: usize, p: &[f64]) -> Result<(), FitError> {
         same_length("a start", self.len(), p.len())?;
         for (parameter, &value) in p.iter().enumerate() {

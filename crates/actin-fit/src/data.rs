@@ -1,12 +1,9 @@
-//! Places where something was measured, with what was measured there.
-
 use crate::error::{FitError, all_finite, same_length};
 use crate::observations::Observations;
 
-/// Points of a fit: rows of independent variables and their observations.
+/// Points of a fit: rows of independent variables with their observations.
 ///
-/// A row may hold anything that a model needs to know of a point: one coordinate, several, or the
-/// number of the point as a key into data that the model owns.
+/// A row can hold several coordinates, or an index into data of the model.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Data {
     width: usize,
@@ -15,18 +12,18 @@ pub struct Data {
 }
 
 impl Data {
-    /// Points with one independent variable each.
+    /// Creates points with one independent variable each.
     ///
     /// # Errors
-    /// If there are not as many places as observations, or one is not finite.
+    /// If the numbers of values and observations differ, or a value is not finite.
     pub fn new(x: &[f64], observations: Observations) -> Result<Self, FitError> {
         Self::from_rows(1, x, observations)
     }
 
-    /// Points with `width` independent variables each, row after row in `rows`.
+    /// Creates points with `width` independent variables each, stored row by row.
     ///
     /// # Errors
-    /// If `rows` does not hold `width` numbers for each observation, or one is not finite.
+    /// If `rows` does not hold `width` numbers per observation, or a number is not finite.
     pub fn from_rows(
         width: usize,
         rows: &[f64],
@@ -46,7 +43,7 @@ impl Data {
         self.observations.len()
     }
 
-    /// Whether there are none.
+    /// Returns `true` if the data contain no points.
     pub fn is_empty(&self) -> bool {
         self.observations.is_empty()
     }
@@ -54,22 +51,22 @@ impl Data {
     /// Independent variables of a point.
     ///
     /// # Panics
-    /// If there is no such point.
+    /// If the index is out of range.
     pub fn row(&self, point: usize) -> &[f64] {
         &self.rows[point * self.width..(point + 1) * self.width]
     }
 
-    /// All rows, one after the other.
+    /// Rows of all points, concatenated.
     pub fn rows(&self) -> &[f64] {
         &self.rows
     }
 
-    /// Number of independent variables of a point.
+    /// Number of independent variables per point.
     pub fn width(&self) -> usize {
         self.width
     }
 
-    /// What was measured.
+    /// Observations of the points.
     pub fn observations(&self) -> &Observations {
         &self.observations
     }

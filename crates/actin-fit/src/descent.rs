@@ -1,5 +1,3 @@
-//! The search from one start.
-
 use crate::acceleration::{Probe, accelerated};
 use crate::options::Options;
 use crate::problem::{Linearisation, Problem};
@@ -7,53 +5,50 @@ use crate::search_report::{Progress, StartReport, Termination};
 use crate::step::{Damped, LARGEST_DAMPING, Room, SMALLEST_DAMPING, Step};
 use faer::Mat;
 
-/// Least part of the promised decrease that a step must bring.
+/// Least accepted ratio of actual to predicted decrease.
 const LEAST_RATIO: f64 = 1e-4;
-/// Steps taken on trust where rounding hides whether chi squared falls.
+/// Maximum number of steps accepted while the change of chi squared is within rounding.
 const TRUSTED_STEPS: usize = 20;
-/// Acceleration is added where the last step kept less of its promise than this ...
+/// Acceleration is used if the last ratio of actual to predicted decrease was below this ...
 const KEPT: f64 = 0.9;
-/// ... and where damping leaves less than this of the length of the full step.
+/// ... and the step is shorter than this fraction of the undamped step.
 const SHORTENED: f64 = 0.9;
-/// What is left of the length of a step that was refused, the first `HALVINGS` times and later.
+/// Factors that shorten a rejected step: in the first `HALVINGS` rejections, and later.
 const SHORTER: [f64; 2] = [0.5, 0.1];
 const HALVINGS: usize = 8;
 
-/// A search: a point, its residuals and the state of the damping.
 struct Descent<'a> {
     problem: &'a Problem<'a>,
     options: &'a Options,
     p: Vec<f64>,
     residuals: Vec<f64>,
     chi_squared: f64,
-    /// Largest lengths of columns so far, by which steps are measured.
+    /// Largest column norms so far, the scales of the parameters.
     scales: Vec<f64>,
-    /// None before the first step.
+    /// `None` before the first step.
     damping: Option<f64>,
-    /// Part of its promise that the last step kept.
+    /// Ratio of actual to predicted decrease of the last step.
     kept: f64,
     trusted: usize,
     evaluations: usize,
     last: Progress,
 }
 
-/// What came of trying steps from one linearisation.
 enum Trial {
     Taken,
     Ended(Termination),
 }
 
-/// Levenberg and Marquardt's search from one start, with the step lengths of a trust region.
+/// Levenberg-Marquardt search from one start, with step lengths of a trust region.
 ///
-/// The first step is at most as long as the start, in the scaled norm. A step that is refused is
-/// halved. After a step that kept less than half of its promise, damping grows so that the step would
-/// have ended where a parabola along it is least; after a better one it falls. Where steps must be
-/// short because the model curves, half the acceleration along the step is added to it, for one more
-/// evaluation.
+/// The first step is at most as long as the start, in the scaled norm. A rejected step is halved.
+/// The damping falls if the ratio of actual to predicted decrease is above one half. Otherwise it
+/// grows, to the minimum of a parabola along the last step. Steps shortened by curvature include
+/// the geodesic acceleration.
 ///
 /// # Source
-/// More, Lecture Notes in Mathematics 630 (1978) 105, for scaling and lengths; Nielsen,
-/// IMM-REP-1999-05, for the falling damping; Transtrum and Sethna, arXiv 1201.5885, for the bend.
+/// More, Lecture Notes in Mathematics 630 (1978) 105, for scales and lengths; Nielsen,
+/// IMM-REP-1999-05, for the damping; Transtrum and Sethna, arXiv 1201.5885, for the acceleration.
 pub(crate) fn descend(problem: &Problem<'_>, options: &Options, start: &[f64]) -> StartReport {
     let mut search = Descent::new(problem, options, start);
     let mut iterations = 0;
@@ -98,7 +93,6 @@ impl<'a> Descent<'a> {
         }
     }
 
-    /// One linearisation and the step that it leads to; the ending, if it is reached.
     fn iterate(&mut self) -> Option<Termination> {
         if !self.chi_squared.is_finite() {
             let point = largest(&self.residuals);
@@ -134,8 +128,6 @@ impl<'a> Descent<'a> {
         }
     }
 
-    /// Lets the scales grow with the columns. A column that has always been zero gets some scale:
-    /// it does not move anyway.
     fn measure(&mut self, linear: &Linearisation) {
         let units = self.problem.units(&self.p);
         for (j, scale) in self.scales.iter_mut().enumerate() {
@@ -159,7 +151,7 @@ impl<'a> Descent<'a> {
         }
     }
 
-    /// The damping of the first step: its length is at most `reach` times that of the start.
+    /// Damping of the first step, whose length is at most `reach` times the length of the start.
     fn first(&self, damped: &Damped<'_>) -> f64 {
         let start = match damped.length(&self.p) {
             0.0 => damped.length(&self.problem.units(&self.p)),
@@ -168,8 +160,8 @@ impl<'a> Descent<'a> {
         damped.damping_for(self.options.reach * start, SMALLEST_DAMPING)
     }
 
-    /// Shorter and shorter steps until one is taken; or, where not even the full step promises more
-    /// than rounding hides, the full step.
+    /// Shortens the step until it is accepted. Takes the full step if its predicted decrease is
+    /// within rounding.
     fn try_steps(&mut self, damped: &Damped<'_>, derivatives: &Mat<f64>) -> Trial {
         let full = damped.step(SMALLEST_DAMPING).values;
         if damped.linear.promised(&full) <= self.problem.rounding(self.chi_squared) {
@@ -205,8 +197,6 @@ impl<'a> Descent<'a> {
         Trial::Ended(Termination::Stalled)
     }
 
-    /// A step and half its acceleration; `None` where the model curves so much that the step must be
-    /// shorter.
     fn accelerated(
         &mut self,
         damped: &Damped<'_>,
@@ -223,8 +213,8 @@ impl<'a> Descent<'a> {
         accelerated(damped, &probe, damping, step)
     }
 
-    /// Takes a full step though rounding hides whether chi squared falls, a few times: the
-    /// derivatives still tell where the minimum is.
+    /// Accepts a limited number of full steps whose effect on chi squared is within rounding, since
+    /// the derivatives still point to the minimum.
     fn trust(&mut self, room: &Room, step: &[f64]) -> Trial {
         let (moved, residuals, chi_squared) = self.evaluate(room, step);
         let rise = chi_squared - self.chi_squared;
@@ -237,7 +227,6 @@ impl<'a> Descent<'a> {
         Trial::Taken
     }
 
-    /// The point after a step, its residuals and chi squared.
     fn evaluate(&mut self, room: &Room, step: &[f64]) -> (Vec<f64>, Vec<f64>, f64) {
         self.evaluations += 1;
         let moved = self.moved(room, step);
@@ -257,7 +246,6 @@ impl<'a> Descent<'a> {
         self.chi_squared = chi_squared;
     }
 
-    /// The point after a step; exactly on a bound where the step ends there.
     fn moved(&self, room: &Room, step: &[f64]) -> Vec<f64> {
         let bounds = self.problem.bounds;
         let to = |(j, (p, s)): (usize, (&f64, &f64))| {
@@ -273,8 +261,8 @@ impl<'a> Descent<'a> {
     }
 }
 
-/// The damping after a step that kept a part `kept` of its promise: less, the better it kept it.
-/// Below a half a parabola along the step has its minimum at `1 / (2 - kept)` of its length.
+/// Damping after an accepted step with ratio `kept` of actual to predicted decrease. Below one
+/// half, a parabola along the step has its minimum at the fraction `1 / (2 - kept)` of its length.
 fn relaxed(damped: &Damped<'_>, damping: f64, length: f64, kept: f64) -> f64 {
     if kept < 0.5 {
         return damped.damping_for(length / (2.0 - kept), damping);
@@ -283,14 +271,12 @@ fn relaxed(damped: &Damped<'_>, damping: f64, length: f64, kept: f64) -> f64 {
     (damping * factor).max(SMALLEST_DAMPING)
 }
 
-/// The free parameter along which chi squared falls most steeply, if one is free.
 fn steepest(linear: &Linearisation, free: &[bool]) -> Option<usize> {
     let of = |j: &usize| linear.descent[*j].abs();
     let candidates = (0..free.len()).filter(|&j| free[j]);
     candidates.max_by(|a, b| of(a).total_cmp(&of(b)))
 }
 
-/// The first point with a residual that is not finite, or the one with the largest.
 fn largest(residuals: &[f64]) -> usize {
     let order = |a: &usize, b: &usize| residuals[*a].abs().total_cmp(&residuals[*b].abs());
     let first = residuals.iter().position(|r| !r.is_finite());
@@ -299,13 +285,11 @@ fn largest(residuals: &[f64]) -> usize {
         .unwrap_or(0)
 }
 
-/// The first point with a derivative that is not finite.
 pub(crate) fn not_finite(derivatives: &Mat<f64>) -> usize {
     let is_bad = |i: &usize| (0..derivatives.ncols()).any(|j| !derivatives[(*i, j)].is_finite());
     (0..derivatives.nrows()).find(is_bad).unwrap_or(0)
 }
 
-/// Parameters that are neither held nor pushed against a bound that they sit on.
 pub(crate) fn free(problem: &Problem<'_>, p: &[f64], linear: &Linearisation) -> Vec<bool> {
     let bounds = problem.bounds;
     (0..p.len())

@@ -1,152 +1,149 @@
-//! What can be wrong with data, settings and fits.
-
 use crate::search_report::StartReport;
 use thiserror::Error;
 
-/// Why there is no fit.
+/// Error of a fit.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum FitError {
-    /// A list has another length than the one it belongs to.
+    /// A list has the wrong length.
     #[error("{what} must have length {expected}, but has {found}")]
     Dimension {
-        /// The list.
+        /// Name of the list.
         what: &'static str,
-        /// The length that it must have.
+        /// Required length.
         expected: usize,
-        /// The length that it has.
+        /// Actual length.
         found: usize,
     },
-    /// Data hold a number that is not finite.
+    /// A number is not finite.
     #[error("{what} {index} must be finite, but is {value}")]
     NotFinite {
-        /// The list.
+        /// Name of the list.
         what: &'static str,
-        /// The place in it.
+        /// Index in the list.
         index: usize,
-        /// The number.
+        /// Value of the number.
         value: f64,
     },
-    /// A weight, deviation or setting is not positive and finite.
+    /// A weight, deviation or option is not positive and finite.
     #[error("{what} {index} must be positive and finite, but is {value}")]
     NotPositive {
-        /// The list.
+        /// Name of the list.
         what: &'static str,
-        /// The place in it.
+        /// Index in the list.
         index: usize,
-        /// The number.
+        /// Value of the number.
         value: f64,
     },
-    /// A number is so large or small that squares overflow or vanish.
+    /// The square of a number would overflow or underflow.
     #[error(
-        "{what} {index} is {value:e}: must be from {least:e} to {most:e}, or squares are lost; \
-         choose another unit"
+        "{what} {index} is {value:e}: must lie between {least:e} and {most:e}, so that squares neither \
+         overflow nor underflow; choose another unit"
     )]
     OutOfRange {
-        /// The list.
+        /// Name of the list.
         what: &'static str,
-        /// The place in it.
+        /// Index in the list.
         index: usize,
-        /// The number.
+        /// Value of the number.
         value: f64,
-        /// Its least size.
+        /// Least magnitude.
         least: f64,
-        /// Its largest size.
+        /// Largest magnitude.
         most: f64,
     },
-    /// A parameter or its variance is outside of what a number can hold.
+    /// A parameter or its variance overflows or underflows.
     #[error(
-        "the {what} of parameter {parameter} is too large or too small for a number; choose another \
-         unit for the parameter or the data"
+        "the {what} of parameter {parameter} is too large or too small for a floating-point number; \
+         choose another unit for the parameter or the data"
     )]
     Lost {
-        /// Value or variance.
+        /// `value` or `variance`.
         what: &'static str,
-        /// The parameter.
+        /// Index of the parameter.
         parameter: usize,
     },
-    /// There are fewer points than parameters and their uncertainty need.
+    /// There are too few points.
     #[error("{needed} points are needed, but there are {points}")]
     TooFewPoints {
         /// Number of points.
         points: usize,
-        /// Least number: the parameters that may vary, and one more unless deviations are known.
+        /// Required number: varying parameters, plus one unless deviations are known.
         needed: usize,
     },
-    /// The columns of a design depend on one another.
+    /// The columns of a design are linearly dependent.
     #[error(
         "the data determine {rank} of {parameters} parameters; not determined: {undetermined:?}"
     )]
     RankDeficient {
         /// Rank of the scaled design.
         rank: usize,
-        /// Number of its columns.
+        /// Number of columns.
         parameters: usize,
-        /// Parameters that take part in a combination of which the data say nothing.
+        /// Parameters that the data do not determine.
         undetermined: Vec<usize>,
     },
-    /// A lower bound is not below the upper one, or one is not a number.
+    /// A lower bound exceeds the upper one, or a bound is not a number.
     #[error("bounds of parameter {parameter} must be in order, but are {lower} and {upper}")]
     BadBounds {
-        /// The parameter.
+        /// Index of the parameter.
         parameter: usize,
-        /// Its lower bound.
+        /// Lower bound.
         lower: f64,
-        /// Its upper bound.
+        /// Upper bound.
         upper: f64,
     },
-    /// Starts cannot be drawn for a parameter without two finite bounds.
+    /// Random starts need finite bounds.
     #[error(
-        "starts are drawn within finite bounds, but those of parameter {parameter} are {lower} and {upper}"
+        "random starts need finite bounds, but the bounds of parameter {parameter} are {lower} and {upper}"
     )]
     Unbounded {
-        /// The parameter.
+        /// Index of the parameter.
         parameter: usize,
-        /// Its lower bound.
+        /// Lower bound.
         lower: f64,
-        /// Its upper bound.
+        /// Upper bound.
         upper: f64,
     },
     /// A start lies outside the bounds.
     #[error("start {start} must lie within bounds, but its parameter {parameter} is {value}")]
     StartOutside {
-        /// Number of the start.
+        /// Index of the start.
         start: usize,
-        /// The parameter.
+        /// Index of the parameter.
         parameter: usize,
-        /// Its value.
+        /// Value of the parameter.
         value: f64,
     },
     /// No start was given.
     #[error("a nonlinear fit needs a start, but none was given")]
     NoStart,
-    /// The model is not finite at a point where it is asked for.
+    /// The model is not finite at a point.
     #[error("the model is not finite at point {point}: {value}")]
     ModelNotFinite {
-        /// The point.
+        /// Index of the point.
         point: usize,
-        /// Value or derivative.
+        /// Value or derivative of the model.
         value: f64,
     },
-    /// No start converged.
+    /// No search converged.
     #[error("none of {} starts converged; {}", .starts.len(), closest(.starts, *.cosine))]
     NoConvergence {
-        /// How each ended.
+        /// Reports of all searches.
         starts: Vec<StartReport>,
-        /// The cosine that was to be reached.
+        /// Convergence tolerance, see [`Options`](crate::Options).
         cosine: f64,
     },
-    /// The singular values could not be computed.
-    #[error("the singular values of the {rows} x {columns} triangle were not found")]
+    /// The singular value decomposition failed.
+    #[error("the singular value decomposition of the {rows} x {columns} triangle did not converge")]
     NoSingularValues {
-        /// Rows of the triangle.
+        /// Number of rows.
         rows: usize,
-        /// Columns of the triangle.
+        /// Number of columns.
         columns: usize,
     },
 }
 
-/// The start that came closest, and why it ended.
 fn closest(starts: &[StartReport], cosine: f64) -> String {
     let size = |start: &StartReport| match start.chi_squared {
         chi_squared if chi_squared.is_nan() => f64::INFINITY,
@@ -160,7 +157,6 @@ fn closest(starts: &[StartReport], cosine: f64) -> String {
     })
 }
 
-/// Checks a length.
 pub(crate) fn same_length(
     what: &'static str,
     expected: usize,
@@ -176,7 +172,6 @@ pub(crate) fn same_length(
     })
 }
 
-/// Checks that all numbers are finite.
 pub(crate) fn all_finite(what: &'static str, values: &[f64]) -> Result<(), FitError> {
     match values.iter().position(|v| !v.is_finite()) {
         None => Ok(()),
@@ -188,7 +183,6 @@ pub(crate) fn all_finite(what: &'static str, values: &[f64]) -> Result<(), FitEr
     }
 }
 
-/// Checks that all numbers are positive and finite.
 pub(crate) fn all_positive(what: &'static str, values: &[f64]) -> Result<(), FitError> {
     match values.iter().position(|v| !(v.is_finite() && *v > 0.0)) {
         None => Ok(()),
@@ -200,11 +194,10 @@ pub(crate) fn all_positive(what: &'static str, values: &[f64]) -> Result<(), Fit
     }
 }
 
-/// Sizes of numbers whose squares, and the squares of whose rounding errors, neither overflow nor
-/// vanish.
+/// Magnitudes whose squares, and the squares of their rounding errors, neither overflow nor
+/// underflow.
 pub(crate) const RANGE: [f64; 2] = [1e-100, 1e100];
 
-/// Checks that sizes lie from `least` to `most`.
 pub(crate) fn all_within(
     what: &'static str,
     values: impl IntoIterator<Item = f64>,
@@ -223,8 +216,8 @@ pub(crate) fn all_within(
     })
 }
 
-/// Checks that no number is too large for its square, and not all of them too small; all of them
-/// may be zero. `names` are those of a number and of the largest one.
+/// Checks that no square overflows and that the largest does not underflow. All values may be zero.
+/// `names` describe a number and the largest one.
 pub(crate) fn squares_hold(
     names: [&'static str; 2],
     values: impl IntoIterator<Item = f64> + Clone,
@@ -245,7 +238,6 @@ pub(crate) fn squares_hold(
     }
 }
 
-/// Checks that a scaled number kept its digits.
 pub(crate) fn not_lost(
     what: &'static str,
     parameter: usize,
@@ -258,7 +250,6 @@ pub(crate) fn not_lost(
     Err(FitError::Lost { what, parameter })
 }
 
-/// Checks the number of points against the number of parameters that may vary.
 pub(crate) fn enough_points(points: usize, needed: usize) -> Result<(), FitError> {
     if points >= needed {
         return Ok(());

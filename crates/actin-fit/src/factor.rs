@@ -1,19 +1,16 @@
-//! QR of a matrix with scaled columns, and what its singular values say.
-
 use crate::error::FitError;
 use faer::linalg::solvers::{Qr, SolveLstsq, Svd};
 use faer::{Mat, MatRef};
 
-/// Part of a parameter in the directions of which the data say nothing, above which it is not
-/// determined. Singular vectors are known to about 1e-16 over the tolerance of the rank, at worst
-/// 1e-4 of this.
+/// Largest component of a determined parameter in the null space. Singular vectors are accurate to
+/// about 1e-16 over the tolerance of the rank, at worst 1e-4 of this value.
 const PARTICIPATION: f64 = 1e-6;
 
-/// `A = Q R D`, with columns of unit length in `Q R`, and the singular values of `R`.
+/// `A = Q R D` with unit columns in `Q R`, and the singular values of `R`.
 #[derive(Debug)]
 pub(crate) struct Factor {
     qr: Qr<f64>,
-    /// Lengths of the columns, the diagonal of `D`; 1 for columns that count as zero.
+    /// Column norms, the diagonal of `D`; 1 for zero columns.
     lengths: Vec<f64>,
     singular: Vec<f64>,
     right: Mat<f64>,
@@ -23,12 +20,12 @@ pub(crate) struct Factor {
 impl Factor {
     /// Factors a matrix with at least as many rows as columns.
     ///
-    /// Singular values below `tolerance` times the largest count as zero. So do columns for which
-    /// length times unit is below `tolerance` times the largest such product: what a parameter
-    /// changes is then rounding, however it is scaled.
+    /// Singular values below `tolerance` times the largest count as zero. A column counts as zero
+    /// if its norm times unit is below `tolerance` times the largest such product. Its effect is
+    /// then rounding for any scaling.
     ///
     /// # Errors
-    /// If the singular values are not found, which needs a matrix that is not finite.
+    /// If the singular value decomposition fails.
     pub(crate) fn new(
         matrix: MatRef<'_, f64>,
         units: &[f64],
@@ -55,7 +52,6 @@ impl Factor {
         self.rank
     }
 
-    /// Largest over smallest singular value of the scaled matrix.
     pub(crate) fn condition(&self) -> f64 {
         match (self.singular.first(), self.singular.last()) {
             (Some(largest), Some(smallest)) => largest / smallest,
@@ -63,7 +59,7 @@ impl Factor {
         }
     }
 
-    /// The `z` that makes `|A z - right|` least; needs full rank.
+    /// Least-squares solution of `A z = right`; requires full rank.
     pub(crate) fn solve(&self, right: &[f64]) -> Vec<f64> {
         let right = Mat::from_fn(right.len(), 1, |i, _| right[i]);
         let scaled = self.qr.solve_lstsq(&right);
@@ -72,8 +68,6 @@ impl Factor {
             .collect()
     }
 
-    /// Whether each column is determined: whether it has no part in the directions that count as
-    /// zero.
     pub(crate) fn determined(&self) -> Vec<bool> {
         let n = self.lengths.len();
         (0..n)
@@ -84,7 +78,7 @@ impl Factor {
             .collect()
     }
 
-    /// `(A^T A)^-1` on what is determined; zero in rows and columns of what is not.
+    /// `(A^T A)^-1` of the determined columns; zero in the other rows and columns.
     pub(crate) fn inverse_normal(&self) -> Mat<f64> {
         let n = self.lengths.len();
         let determined = self.determined();
@@ -102,12 +96,11 @@ impl Factor {
     }
 }
 
-/// Length of each column; `None` where it counts as zero.
 fn column_lengths(matrix: MatRef<'_, f64>, units: &[f64], tolerance: f64) -> Vec<Option<f64>> {
     let lengths: Vec<f64> = (0..matrix.ncols())
         .map(|j| matrix.col(j).norm_l2())
         .collect();
-    // As logarithms: a length times the distance of bounds may overflow.
+    // Logarithms avoid overflow for wide bounds.
     let pairs = lengths.iter().zip(units);
     let effects: Vec<f64> = pairs.map(|(l, u)| l.ln() + u.ln()).collect();
     let largest = effects.iter().copied().fold(f64::NEG_INFINITY, f64::max);
@@ -118,7 +111,6 @@ fn column_lengths(matrix: MatRef<'_, f64>, units: &[f64], tolerance: f64) -> Vec
         .collect()
 }
 
-/// Singular values, largest first, and right singular vectors.
 fn singular(triangle: MatRef<'_, f64>) -> Result<(Vec<f64>, Mat<f64>), FitError> {
     let (rows, columns) = triangle.shape();
     if columns == 0 {
@@ -133,8 +125,6 @@ fn singular(triangle: MatRef<'_, f64>) -> Result<(Vec<f64>, Mat<f64>), FitError>
 mod tests {
     use super::*;
 
-    /// A column of rounding errors would become a good one by scaling. Over the range of its
-    /// parameter it changes nothing, so it counts as zero, unless that range is large.
     #[test]
     fn a_column_of_rounding_counts_as_zero() {
         let matrix = Mat::from_fn(

@@ -1,46 +1,44 @@
-//! Derivatives of a model against differences of its values.
-
 use crate::data::Data;
 use crate::error::{FitError, same_length};
 use crate::model::Model;
 
-/// Relative step of the differences: `eps^(1/5)` balances truncation, of order `h^4`, against
-/// rounding, of order `eps / h`. What is left of a right gradient is some `eps^(4/5)`, 3e-13.
+/// Relative step: `eps^(1/5)` balances the truncation error of order `h^4` and the rounding error
+/// of order `eps / h`. The remaining relative error is about `eps^(4/5)` = 3e-13.
 const RELATIVE_STEP: f64 = 7.4e-4;
 
-/// Where derivative and difference are farthest apart.
+/// Largest deviation between analytic and numeric derivatives.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GradientCheck {
-    /// The largest distance, over the largest derivative by the same parameter at any point.
+    /// Largest deviation, relative to the largest derivative with respect to the same parameter.
     pub error: f64,
-    /// Point where it was found.
+    /// Index of the point.
     pub point: usize,
-    /// Parameter for which it was found.
+    /// Index of the parameter.
     pub parameter: usize,
-    /// What the model says there.
+    /// Derivative of the model.
     pub analytic: f64,
-    /// What the differences say there.
+    /// Derivative by finite differences.
     pub numeric: f64,
 }
 
 /// Compares the gradient of a model with central differences of fourth order at all points.
 ///
-/// The step is `7.4e-4 |p_j|`, or 7.4e-4 where `p_j = 0`: choose parameters near those of a fit. A
-/// right gradient of a smooth model leaves an error near 1e-11, a wrong one an error near 1.
+/// The step is `7.4e-4 |p_j|`, or 7.4e-4 if `p_j = 0`; choose parameters near the fitted ones. The
+/// error is near 1e-11 for a correct gradient of a smooth model and near 1 for a wrong one.
 ///
 /// ```
 /// use actin_fit::{ClosureModel, Data, Observations, check_gradient};
 ///
 /// let data = Data::new(&[1.0, 2.0], Observations::new(&[0.0, 0.0])?)?;
 /// let slip = ClosureModel::new(1, |x, p| p[0] * p[0] * x[0], |x, p, g| g[0] = p[0] * x[0]);
-/// // The factor 2 was forgotten: half of the derivative is missing.
+/// // The factor 2 is missing in the derivative.
 /// let check = check_gradient(&slip, &data, &[3.0])?;
 /// assert!((check.error - 0.5).abs() < 1e-9);
 /// # Ok::<(), actin_fit::FitError>(())
 /// ```
 ///
 /// # Errors
-/// If the number of parameters is not that of the model, or the model is not finite.
+/// If the number of parameters is wrong, or the model is not finite.
 pub fn check_gradient(
     model: &dyn Model,
     data: &Data,
@@ -86,7 +84,6 @@ pub fn check_gradient(
     Ok(worst)
 }
 
-/// Gradients at all points, one after the other.
 fn analytic(model: &dyn Model, data: &Data, p: &[f64]) -> Result<Vec<f64>, FitError> {
     let mut all = vec![0.0; data.len() * p.len()];
     for (point, gradient) in all.chunks_exact_mut(p.len().max(1)).enumerate() {
@@ -98,7 +95,6 @@ fn analytic(model: &dyn Model, data: &Data, p: &[f64]) -> Result<Vec<f64>, FitEr
     Ok(all)
 }
 
-/// `(8 (f(h) - f(-h)) - (f(2h) - f(-2h))) / 12 h`, of fourth order.
 fn difference(model: &dyn Model, x: &[f64], p: &[f64], j: usize) -> f64 {
     let size = if p[j] == 0.0 { 1.0 } else { p[j].abs() };
     let h = RELATIVE_STEP * size;

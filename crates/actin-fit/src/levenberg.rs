@@ -1,5 +1,3 @@
-//! Nonlinear least squares: several searches, the best of them, and its report.
-
 use crate::bounds::Bounds;
 use crate::data::Data;
 use crate::descent::{descend, free, not_finite};
@@ -14,42 +12,38 @@ use crate::search_report::StartReport;
 use crate::starts::Starts;
 use faer::Mat;
 
-/// Chi squared within this part of the least counts as the same: the first such start is the best,
-/// so that rounding does not choose.
+/// Relative tolerance for equal chi squared. Rounding thus does not select among equal minima.
 const SAME_CHI_SQUARED: f64 = 1e-9;
 
-/// Levenberg and Marquardt's method within bounds, from several starts.
+/// Levenberg-Marquardt method with bounds and several starts.
 ///
-/// Steps are measured by the largest lengths of the columns of derivatives so far, so that units of
-/// parameters do not matter: the same search results in nm and in m. A step that would cross a bound
-/// ends on it. Where a model curves so much that straight steps must be short, their acceleration is
-/// added, for one more evaluation each.
+/// Steps are scaled by the largest column norms of the Jacobian so far, so that a search does not
+/// depend on the units of the parameters. Steps are truncated at bounds. Strongly curved models use
+/// geodesic acceleration, at one more evaluation per step.
 ///
-/// The results are the same in each run on one machine; on another one the last digits differ, as
-/// those of exponential functions and of the kernels for matrices do.
+/// Results are reproducible on one machine. On other machines the last digits can differ.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct LevenbergMarquardt {
     options: Options,
 }
 
 impl LevenbergMarquardt {
-    /// The method with these settings.
+    /// Creates the method with the given options.
     ///
     /// # Errors
-    /// If one of them is not positive.
+    /// If an option is not positive.
     pub fn new(options: Options) -> Result<Self, FitError> {
         options.check()?;
         Ok(Self { options })
     }
 
-    /// The parameters that make `sum_i ((y_i - f(x_i; p)) / sigma_i)^2` least within bounds.
+    /// Minimises `sum_i ((y_i - f(x_i; p)) / sigma_i)^2` over `p` within the bounds.
     ///
-    /// The fit is the lowest of the minima that the searches reached; nothing says that there is no
-    /// lower one.
+    /// The result is the lowest minimum that a search reached, which may be a local one.
     ///
     /// # Errors
-    /// If bounds or starts do not match the model, there are too few points, no start converged, or
-    /// a variance is outside of what a number can hold.
+    /// If bounds or starts do not match the model, there are too few points, no search converged,
+    /// or a variance overflows or underflows.
     pub fn fit(
         &self,
         model: &dyn Model,
@@ -90,7 +84,7 @@ impl LevenbergMarquardt {
         problem.residuals(&parameters, &mut weighted);
         let derivatives = problem.derivatives(&parameters);
         let Some(linear) = Linearisation::new(derivatives.as_ref(), &weighted) else {
-            // Exact fits end before derivatives are asked for.
+            // `descend` evaluates no derivatives for exact fits.
             return Err(model_not_finite(&derivatives));
         };
         let free = free(problem, &parameters, &linear);
@@ -112,7 +106,6 @@ impl LevenbergMarquardt {
         })
     }
 
-    /// The derivatives by the free parameters, factored.
     fn factor(
         &self,
         problem: &Problem<'_>,
@@ -129,8 +122,6 @@ impl LevenbergMarquardt {
     }
 }
 
-/// The first of the lowest searches that converged; `rounding` is what an exact one may be above
-/// zero.
 fn best(starts: &[StartReport], rounding: f64) -> Option<usize> {
     let converged = || starts.iter().filter(|s| s.ending.is_converged());
     let least = converged().map(|s| s.chi_squared).min_by(f64::total_cmp)?;

@@ -1,10 +1,9 @@
-//! Least squares: functions, data, and how well the data determine what was fitted.
+//! Linear and nonlinear least squares with uncertainties.
 //!
-//! [`fit_linear`] solves linear problems by QR, [`Polynomial`] the ones with powers.
-//! [`LevenbergMarquardt`] fits a [`Model`] within [`Bounds`] from several [`Starts`]. A fit comes
-//! with covariance, residuals, what ended each search, and which parameters the data determine.
-//!
-//! This crate knows functions and data, not what they stand for.
+//! [`fit_linear`] solves linear problems by QR, and [`Polynomial`] fits polynomials.
+//! [`LevenbergMarquardt`] fits a [`Model`] within [`Bounds`] from several [`Starts`]. A fit
+//! contains the covariance, the residuals, the termination of each search and a status of each
+//! parameter.
 
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
@@ -45,5 +44,5 @@ pub use report::{Fit, Status};
 pub use search_report::{Progress, StartReport, Termination};
 pub use starts::Starts;
 
-/// The matrices of this crate: `matrix[(row, column)]`.
+/// Matrix types of this crate, indexed as `matrix[(row, column)]`.
 pub use faer::{Mat, MatRef};

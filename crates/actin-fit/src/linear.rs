@@ -1,33 +1,30 @@
-//! Linear least squares.
-
 use crate::error::{FitError, RANGE, all_finite, all_within, enough_points, same_length};
 use crate::factor::Factor;
 use crate::observations::Observations;
 use crate::precision::{Goodness, Precision};
 use faer::{Mat, MatRef};
 
-/// A linear fit: parameters, how well they are known and how well the data are met.
+/// Result of a linear fit.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LinearFit {
-    /// The parameters, one for each column of the design.
+    /// Parameters, one per column of the design.
     pub parameters: Vec<f64>,
-    /// How well they are known.
+    /// Covariance, rank and condition number.
     pub precision: Precision,
-    /// How well the data are met.
+    /// Residuals and chi squared.
     pub goodness: Goodness,
 }
 
-/// The parameters `p` that make `sum_i ((y_i - sum_j A_ij p_j) / sigma_i)^2` least.
+/// Minimises `sum_i ((y_i - sum_j A_ij p_j) / sigma_i)^2` over `p`.
 ///
-/// Shapes: `m` observations and `n` columns -> `n` parameters. Solved by QR of the weighted
-/// design, its columns scaled to unit length. Digits lost are about those of the condition number
-/// that is reported, not of its square, as with normal equations. Rank is told from singular
-/// values, which count as zero below `max(m, n)` units of rounding.
+/// Shapes: `m` observations and `n` columns -> `n` parameters. The method is QR of the weighted
+/// design with columns of unit length. Errors grow with the reported condition number, not with its
+/// square. Singular values below `m` units of rounding count as zero.
 ///
 /// ```
 /// use actin_fit::{Mat, Observations, fit_linear};
 ///
-/// // The mean of 1, 2 and 6, and its standard error sqrt(7) / sqrt(3).
+/// // Mean of 1, 2 and 6 with the standard error sqrt(7) / sqrt(3).
 /// let ones = Mat::full(3, 1, 1.0);
 /// let fit = fit_linear(ones.as_ref(), &Observations::new(&[1.0, 2.0, 6.0])?)?;
 /// assert!((fit.parameters[0] - 3.0).abs() < 1e-14);
@@ -37,9 +34,9 @@ pub struct LinearFit {
 /// ```
 ///
 /// # Errors
-/// If the design does not match the observations or is not finite, there are too few points, or its
-/// rank is deficient; if a column over its deviations is longer than 1e100, or shorter than 1e-100
-/// and not zero, or a variance is outside of what a number can hold.
+/// If the design does not match the observations or is not finite, there are too few points, or the
+/// design is rank deficient. Also if the norm of a weighted column is outside 1e-100 to 1e100 and
+/// not zero, or if a variance overflows or underflows.
 ///
 /// # Source
 /// Golub and Van Loan, Matrix Computations (2013), 5.3; Bjorck, Numerical Methods for Least Squares
@@ -63,7 +60,7 @@ pub fn fit_linear(
     let columns: Vec<f64> = columns.collect();
     let lengths = columns.iter().map(|&l| if l == 0.0 { 1.0 } else { l });
     all_within("length of column", lengths, RANGE)?;
-    // A column counts as zero only if it is zero: units are not known here.
+    // Units of the parameters are unknown, so only exactly zero columns count as zero.
     let units: Vec<f64> = columns
         .iter()
         .map(|l| 1.0 / l.max(f64::MIN_POSITIVE))

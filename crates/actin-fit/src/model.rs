@@ -1,22 +1,21 @@
-//! What is fitted: a function of a row of independent variables and of parameters.
-
 use std::fmt;
 
-/// A function `f(x; p)` with its derivatives by the parameters.
+/// Function `f(x; p)` with derivatives with respect to the parameters.
 ///
-/// [`check_gradient`](crate::check_gradient) holds `gradient` against differences of `value`.
+/// [`check_gradient`](crate::check_gradient) compares `gradient` with finite differences of
+/// `value`.
 pub trait Model {
     /// Number of parameters.
     fn parameters(&self) -> usize;
 
-    /// `f(x; p)` for a row `x` of independent variables.
+    /// Evaluates `f(x; p)` for a row `x` of independent variables.
     fn value(&self, x: &[f64], p: &[f64]) -> f64;
 
-    /// Writes `df/dp_j` for every parameter `j`; `gradient` has one place for each.
+    /// Writes `df/dp_j` of all parameters to `gradient`.
     fn gradient(&self, x: &[f64], p: &[f64], gradient: &mut [f64]);
 }
 
-/// A model of two closures.
+/// Model defined by two closures.
 ///
 /// ```
 /// use actin_fit::{ClosureModel, Model};
@@ -44,7 +43,7 @@ where
     V: Fn(&[f64], &[f64]) -> f64,
     G: Fn(&[f64], &[f64], &mut [f64]),
 {
-    /// A model of `parameters` parameters: `value(x, p)` and `gradient(x, p, out)`.
+    /// Creates a model from `value(x, p)` and `gradient(x, p, out)`.
     pub fn new(parameters: usize, value: V, gradient: G) -> Self {
         Self {
             parameters,

@@ -1,23 +1,20 @@
-//! What a search may do and when it is done.
-
 use crate::error::{FitError, all_positive};
 
-/// Settings of [`LevenbergMarquardt`](crate::LevenbergMarquardt).
+/// Options of [`LevenbergMarquardt`](crate::LevenbergMarquardt).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Options {
-    /// Most linearisations of one search; 500.
+    /// Maximum number of linearisations of a search; default 500.
     pub iterations: usize,
-    /// Largest cosine between the residuals and a column of the derivatives at a minimum; 1e-10.
-    /// The parameters are then within about as many standard errors of it, times the root of the
-    /// degrees of freedom.
+    /// Convergence tolerance; default 1e-10: largest cosine between the residuals and a column of
+    /// the Jacobian. The error of the parameters is about this fraction of their standard errors,
+    /// times the square root of the degrees of freedom.
     pub cosine: f64,
-    /// Length of the first step over that of the start, at most; 1. Lengths of both are those of
-    /// what they change in the model, each parameter by itself. A start at zero is as long as its
-    /// bounds are apart.
+    /// Largest length of the first step relative to the length of the start, in the scaled norm;
+    /// default 1. For a start at zero the distance of the bounds replaces its length.
     pub reach: f64,
-    /// Singular values of the scaled derivatives below this part of the largest count as zero;
-    /// 1e-12. So do derivatives by a parameter which change the model that much less than others,
-    /// over the range of that parameter.
+    /// Relative tolerance of the rank; default 1e-12. Smaller singular values of the scaled
+    /// Jacobian count as zero. So do columns whose effect over the range of the parameter is
+    /// smaller than this fraction of the largest effect.
     pub rank_tolerance: f64,
 }
 
@@ -33,8 +30,6 @@ impl Default for Options {
 }
 
 impl Options {
-    /// # Errors
-    /// If one of the numbers is not positive.
     pub(crate) fn check(&self) -> Result<(), FitError> {
         let numbers = [self.cosine, self.reach, self.rank_tolerance];
         all_positive("setting cosine, reach, rank_tolerance number", &numbers)

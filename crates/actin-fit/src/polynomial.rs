@@ -1,5 +1,3 @@
-//! Polynomials as linear models.
-
 use crate::data::Data;
 use crate::error::{FitError, not_lost, same_length};
 use crate::linear::{LinearFit, fit_linear};
@@ -41,7 +39,7 @@ impl Polynomial {
         }
     }
 
-    /// The powers, one for each coefficient.
+    /// Exponents of the terms, one per coefficient.
     pub fn powers(&self) -> impl Iterator<Item = i32> + use<> {
         self.lowest..=self.degree
     }
@@ -51,15 +49,15 @@ impl Polynomial {
         self.powers().count()
     }
 
-    /// Fits the coefficients of the powers of `x`, lowest first.
+    /// Fits the coefficients, in ascending order of powers.
     ///
-    /// The variable is scaled by a power of two, so that no power overflows and no digit is lost.
-    /// The scaled columns of a design of high degree, far from zero, still depend on one another:
-    /// the condition number of the fit says how much.
+    /// The variable is scaled by a power of two, which avoids overflow without rounding. For high
+    /// degrees and values far from zero the scaled columns are nearly dependent; see the condition
+    /// number.
     ///
     /// # Errors
-    /// As [`fit_linear`]; if the data have more than one independent variable, or a coefficient or
-    /// its variance is outside of what a number can hold, as that of `x^6` at 1e60.
+    /// See [`fit_linear`]. Also if the data have more than one independent variable, or a
+    /// coefficient or its variance overflows or underflows.
     pub fn fit(&self, data: &Data) -> Result<LinearFit, FitError> {
         same_length("a row of x", 1, data.width())?;
         let scale = power_of_two(data.rows());
@@ -84,23 +82,23 @@ impl Polynomial {
         Ok(fit)
     }
 
-    /// The polynomial with these coefficients at `x`, by Horner's rule.
+    /// Value of the polynomial at `x`, by Horner's rule.
     ///
     /// # Panics
-    /// If the number of coefficients is not that of the polynomial.
+    /// If the number of coefficients is wrong.
     pub fn value(&self, coefficients: &[f64], x: f64) -> f64 {
         assert_eq!(coefficients.len(), self.coefficients(), "coefficients");
         let sum = coefficients.iter().rev().fold(0.0, |sum, p| sum * x + p);
         sum * x.powi(self.lowest)
     }
 
-    /// Derivatives of the value at `x` by the coefficients: the powers of `x`.
+    /// Derivatives of the value at `x` with respect to the coefficients.
     pub fn gradient(&self, x: f64) -> Vec<f64> {
         self.powers().map(|k| x.powi(k)).collect()
     }
 }
 
-/// The power of two next above the largest size, if there is one; 1 where all is zero.
+/// Smallest power of two above the largest magnitude, or 1 if all values are zero.
 fn power_of_two(x: &[f64]) -> f64 {
     let largest = x.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
     let mut scale = 1.0;

@@ -1,27 +1,25 @@
-//! How well parameters are known, and how well data are met.
-
 use crate::error::{FitError, not_lost};
 use crate::factor::Factor;
 use crate::observations::{Noise, Observations};
 use faer::Mat;
 
-/// How well data are met.
+/// Goodness of fit.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Goodness {
     /// Observation minus model at each point, in units of the observations.
     pub residuals: Vec<f64>,
-    /// Root of the mean square of the residuals, without weights.
+    /// Unweighted root mean square of the residuals.
     pub rms: f64,
-    /// Sum of squares of residuals over deviations. Deviations are 1 where the noise is unknown.
+    /// Sum of squares of the residuals over deviations. Deviations are 1 if the noise is unknown.
     pub chi_squared: f64,
-    /// Points less parameters that the data determine.
+    /// Number of points minus rank.
     pub degrees_of_freedom: usize,
 }
 
 impl Goodness {
     pub(crate) fn new(residuals: Vec<f64>, observations: &Observations, rank: usize) -> Self {
         let points = residuals.len();
-        // Over the largest: with weights residuals may be longer than what was observed.
+        // Scaled by the largest residual to avoid overflow.
         let largest = residuals
             .iter()
             .fold(f64::MIN_POSITIVE, |most, r| r.abs().max(most));
@@ -39,39 +37,41 @@ impl Goodness {
         }
     }
 
-    /// Chi squared per degree of freedom; `None` where no degree of freedom is left. Near 1 if the
-    /// model is right and the deviations are known.
+    /// Chi squared per degree of freedom, near 1 for a correct model with known deviations. `None`
+    /// without degrees of freedom.
     pub fn reduced_chi_squared(&self) -> Option<f64> {
         let freedom = self.degrees_of_freedom;
         (freedom > 0).then(|| self.chi_squared / freedom as f64)
     }
 }
 
-/// How well parameters are known.
+/// Covariance of parameters.
 ///
-/// `C = s (J^T W J)^-1`, with the derivatives `J` of the model at the solution, the weights `W`,
-/// one over squared deviations, and `s` = 1 where deviations are known, else chi squared per degree
-/// of freedom. Exact for linear models with Gaussian noise; for others as good as the model is
-/// linear over the range of the errors.
+/// ```text
+/// C = s (J^T W J)^-1
+/// ```
+///
+/// `J` is the Jacobian of the model at the solution, and `W` contains the inverse squared
+/// deviations. The factor `s` is 1 if deviations are known, and chi squared per degree of freedom
+/// otherwise. Exact for linear models with Gaussian noise, an approximation for others.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Precision {
-    /// Covariance of the parameters, square. Rows and columns of parameters without a standard
-    /// error are zero.
+    /// Covariance matrix, square. Rows and columns of parameters without a standard error are zero.
     pub covariance: Mat<f64>,
-    /// Rank of the scaled derivatives.
+    /// Rank of the scaled Jacobian.
     pub rank: usize,
-    /// Condition number of the scaled derivatives: the factor by which relative errors of data can
-    /// grow. Infinite if the rank is deficient to the last digit.
+    /// Condition number of the scaled Jacobian, possibly infinite. It bounds the amplification of
+    /// relative errors of the data.
     pub condition: f64,
     known: Vec<bool>,
 }
 
 impl Precision {
-    /// The precision of `n` parameters, of which `columns` are those of the factor and the others
-    /// were held.
+    /// Covariance of `n` parameters. `columns` are the indices of the columns of the factor among
+    /// them.
     ///
     /// # Errors
-    /// If a variance is outside of what a number can hold.
+    /// If a variance overflows or underflows.
     pub(crate) fn new(
         n: usize,
         columns: &[usize],
@@ -103,16 +103,16 @@ impl Precision {
         })
     }
 
-    /// Standard error of a parameter; `None` if the data do not determine it or a bound holds it.
+    /// Standard error of a parameter, or `None` if it is undetermined, fixed or at a bound.
     ///
     /// # Panics
-    /// If there is no such parameter.
+    /// If the index is out of range.
     pub fn standard_error(&self, parameter: usize) -> Option<f64> {
         self.known[parameter].then(|| self.covariance[(parameter, parameter)].sqrt())
     }
 
-    /// Correlations of the parameters, square, with ones on the diagonal; zero in rows and columns
-    /// of parameters without a standard error.
+    /// Correlation matrix with unit diagonal. Rows and columns of parameters without a standard
+    /// error are zero off the diagonal.
     pub fn correlation(&self) -> Mat<f64> {
         let deviation = |j: usize| self.covariance[(j, j)].sqrt();
         Mat::from_fn(self.known.len(), self.known.len(), |i, j| {
@@ -125,10 +125,11 @@ impl Precision {
         })
     }
 
-    /// Standard error of a quantity with this gradient by the parameters: `sqrt(g . C g)`.
+    /// Standard error of a quantity with gradient `g` with respect to the parameters:
+    /// `sqrt(g . C g)`.
     ///
-    /// With the gradient of the model at a place, the uncertainty of the fitted curve there.
-    /// Parameters without a standard error count as exact.
+    /// The gradient of the model at a point gives the uncertainty of the fitted curve. Parameters
+    /// without a standard error count as exact.
     ///
     /// # Panics
     /// If the gradient is shorter than the number of parameters.

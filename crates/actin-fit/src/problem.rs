@@ -1,12 +1,9 @@
-//! A model on data: weighted residuals, chi squared and its linearisation.
-
 use crate::bounds::Bounds;
 use crate::data::Data;
 use crate::model::Model;
 use faer::linalg::solvers::Qr;
 use faer::{Mat, MatRef};
 
-/// A model, data and bounds that belong together.
 pub(crate) struct Problem<'a> {
     pub(crate) model: &'a dyn Model,
     pub(crate) data: &'a Data,
@@ -14,7 +11,7 @@ pub(crate) struct Problem<'a> {
 }
 
 impl Problem<'_> {
-    /// Writes `(y_i - f(x_i)) / sigma_i`; returns their sum of squares.
+    /// Writes `(y_i - f(x_i)) / sigma_i` and returns the sum of squares.
     pub(crate) fn residuals(&self, p: &[f64], residuals: &mut [f64]) -> f64 {
         let observations = self.data.observations();
         let measured = observations.values().iter().zip(observations.deviations());
@@ -26,7 +23,6 @@ impl Problem<'_> {
         sum
     }
 
-    /// Derivatives of the model by the parameters over deviations; one row for each point.
     pub(crate) fn derivatives(&self, p: &[f64]) -> Mat<f64> {
         let deviations = self.data.observations().deviations();
         let mut matrix = Mat::zeros(self.data.len(), p.len());
@@ -40,17 +36,14 @@ impl Problem<'_> {
         matrix
     }
 
-    /// Rounding error of chi squared: that of the weighted observations, times twice the residuals.
     pub(crate) fn rounding(&self, chi_squared: f64) -> f64 {
         2.0 * ROUNDINGS * f64::EPSILON * self.size() * chi_squared.sqrt() + self.least()
     }
 
-    /// Chi squared that rounding alone leaves.
     pub(crate) fn least(&self) -> f64 {
         (ROUNDINGS * f64::EPSILON * self.size()).powi(2)
     }
 
-    /// Length of the vector of weighted observations.
     fn size(&self) -> f64 {
         let observations = self.data.observations();
         let measured = observations.values().iter().zip(observations.deviations());
@@ -58,8 +51,8 @@ impl Problem<'_> {
         sum.sqrt()
     }
 
-    /// A length that counts as large for each parameter: the distance of its bounds, or else its
-    /// value.
+    /// Typical size of each parameter: the distance of its bounds, or its value if the bounds are
+    /// infinite.
     pub(crate) fn units(&self, p: &[f64]) -> Vec<f64> {
         let unit = |(j, v): (usize, &f64)| match self.bounds.width(j) {
             width if width.is_finite() && width > 0.0 => width,
@@ -70,24 +63,29 @@ impl Problem<'_> {
     }
 }
 
-/// Roundings that one value of a model takes, as a guess: a few function calls.
+/// Estimated number of rounding errors in a value of the model.
 const ROUNDINGS: f64 = 4.0;
 
-/// The residuals near a point, `|r - A s|^2 = |c - T L s|^2 + constant`: `T` is the triangle of the
-/// columns of `A` over their lengths `L`, with as many rows as there are parameters, or points if
-/// they are fewer. Columns of any length are reduced without overflow.
+/// Linearised residuals at a point:
+///
+/// ```text
+/// |r - A s|^2 = |c - T L s|^2 + constant
+/// ```
+///
+/// `L` holds the column norms of the weighted Jacobian `A`, and `T` is the triangle of its
+/// normalised columns with `min(parameters, points)` rows. Columns of any norm are factored without
+/// overflow.
 #[derive(Debug)]
 pub(crate) struct Linearisation {
     pub(crate) triangle: Mat<f64>,
     pub(crate) rotated: Vec<f64>,
-    /// Lengths of the columns of `A`.
+    /// Column norms of `A`.
     pub(crate) lengths: Vec<f64>,
-    /// `A^T r` over the lengths: minus half the gradient of chi squared per length of column.
+    /// `A^T r` over the column norms: minus half the scaled gradient of chi squared.
     pub(crate) descent: Vec<f64>,
 }
 
 impl Linearisation {
-    /// Reduces derivatives and residuals; `None` if a number is not finite.
     pub(crate) fn new(matrix: MatRef<'_, f64>, residuals: &[f64]) -> Option<Self> {
         let (points, n) = matrix.shape();
         let lengths: Vec<f64> = (0..n).map(|j| matrix.col(j).norm_l2()).collect();
@@ -131,13 +129,11 @@ impl Linearisation {
         (0..self.rotated.len()).map(row).collect()
     }
 
-    /// Decrease of chi squared that the linearisation promises for a step.
     pub(crate) fn promised(&self, step: &[f64]) -> f64 {
         let square = |v: &[f64]| v.iter().map(|x| x * x).sum::<f64>();
         square(&self.rotated) - square(&self.remainder(step))
     }
 
-    /// Cosine between the residuals, of squared length `chi_squared`, and the effect of a parameter.
     pub(crate) fn cosine(&self, parameter: usize, chi_squared: f64) -> f64 {
         if chi_squared > 0.0 {
             self.descent[parameter] / chi_squared.sqrt()

@@ -1,45 +1,43 @@
-//! What a nonlinear fit says of its parameters.
-
 use crate::precision::{Goodness, Precision};
 use crate::search_report::StartReport;
 
-/// What is known of a parameter.
+/// Status of a fitted parameter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Status {
-    /// The data determine it.
+    /// Determined by the data.
     Determined,
-    /// The data determine it, but less than its bounds do: its standard error is larger than the
-    /// distance of its two finite bounds.
+    /// Weakly determined: the standard error exceeds the distance of the two finite bounds.
     Weak,
-    /// It takes part in a combination of parameters that changes nothing in the data.
+    /// Part of a combination of parameters that has no effect on the data.
     Undetermined,
-    /// It sits at its lower bound, and a lower value would be better.
+    /// At the lower bound; a lower value would reduce chi squared.
     AtLowerBound,
-    /// It sits at its upper bound, and a higher value would be better.
+    /// At the upper bound; a higher value would reduce chi squared.
     AtUpperBound,
-    /// Its bounds are equal.
+    /// Fixed by equal bounds.
     Held,
 }
 
-/// A nonlinear fit.
+/// Result of a nonlinear fit.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Fit {
-    /// The parameters.
+    /// Fitted parameters.
     pub parameters: Vec<f64>,
-    /// What is known of each.
+    /// Status of each parameter.
     pub statuses: Vec<Status>,
-    /// How well they are known. Parameters at a bound and held ones count as exact.
+    /// Covariance, rank and condition number. Fixed parameters and parameters at a bound count as
+    /// exact.
     pub precision: Precision,
-    /// How well the data are met.
+    /// Residuals and chi squared.
     pub goodness: Goodness,
-    /// How the search from each start ended.
+    /// Reports of the searches from all starts.
     pub starts: Vec<StartReport>,
-    /// The start that led here.
+    /// Index of the start of the best search.
     pub best: usize,
 }
 
 impl Fit {
-    /// Number of starts that converged to the same chi squared, within `relative`, as the best.
+    /// Number of starts that converged to the best chi squared within a relative tolerance.
     pub fn agreeing_starts(&self, relative: f64) -> usize {
         let best = self.starts[self.best].chi_squared;
         self.starts

@@ -1,24 +1,22 @@
-//! What a search says of itself: why it ended, and how far it was from its end.
-
 use std::fmt;
 
-/// Why a search ended.
+/// Reason why a search ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Termination {
-    /// The model meets the data to rounding.
+    /// The residuals are zero within rounding.
     Exact,
-    /// The residuals are orthogonal to what the free parameters can change, within the tolerance.
+    /// The residuals are orthogonal to the columns of the free parameters, within the tolerance.
     Stationary,
-    /// Chi squared changes by no more than its rounding.
+    /// Changes of chi squared are within rounding.
     RoundingFloor,
-    /// No shorter step lowers chi squared, though the derivatives promise it: they may be wrong, or
-    /// the model is not smooth there.
+    /// No step reduces chi squared, although the derivatives predict a decrease. The derivatives
+    /// may be wrong, or the model may not be smooth.
     Stalled,
-    /// The iterations were used up.
+    /// The maximum number of iterations was reached.
     Iterations,
-    /// The model, its derivatives or their squares are not finite where the search is.
+    /// The model, a derivative or one of their squares is not finite.
     NotFinite {
-        /// The first such point, or the one that is farthest off.
+        /// First such point, or the one with the largest residual.
         point: usize,
     },
 }
@@ -26,66 +24,65 @@ pub enum Termination {
 impl fmt::Display for Termination {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Exact => write!(f, "meets the data to rounding"),
+            Self::Exact => write!(f, "reached an exact fit"),
             Self::Stationary => write!(f, "reached a minimum"),
-            Self::RoundingFloor => write!(f, "came down to the rounding of chi squared"),
+            Self::RoundingFloor => write!(f, "reached the rounding error of chi squared"),
             Self::Stalled => write!(
                 f,
-                "stalled: no shorter step lowers chi squared, though the derivatives promise it \
-                 (are they those of the model?)"
+                "stalled: no step reduces chi squared, although the derivatives predict a decrease; \
+                 check the derivatives of the model"
             ),
-            Self::Iterations => write!(f, "used up its iterations"),
+            Self::Iterations => write!(f, "reached the maximum number of iterations"),
             Self::NotFinite { point } => write!(
                 f,
-                "met a model or derivative that is infinite, not a number or too large to be \
-                 squared at point {point}"
+                "met a model or derivative that is infinite, not a number or too large to be squared \
+                 at point {point}"
             ),
         }
     }
 }
 
 impl Termination {
-    /// Whether what was found is a minimum within the bounds, as far as the search can tell.
+    /// Returns `true` if the search ended at a minimum within the bounds.
     pub fn is_converged(self) -> bool {
         matches!(self, Self::Exact | Self::Stationary | Self::RoundingFloor)
     }
 }
 
-/// How far a search was from its end.
+/// Convergence of a search.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Progress {
-    /// Largest cosine between the residuals and the derivatives by a free parameter, which must
-    /// fall to that of [`Options`](crate::Options).
+    /// Largest cosine between the residuals and the column of a free parameter. A search converges
+    /// when it falls below the tolerance of [`Options`](crate::Options).
     pub cosine: f64,
-    /// The parameter of that cosine; `None` where none is free.
+    /// Parameter of the largest cosine, or `None` if all parameters are fixed or at a bound.
     pub parameter: Option<usize>,
-    /// Largest change of a parameter in the last step, over its value.
+    /// Largest relative change of a parameter in the last step.
     pub step: f64,
-    /// The last damping, relative to the squared lengths of columns.
+    /// Last damping, relative to the squared scales.
     pub damping: f64,
 }
 
-/// How the search from one start ended.
+/// Report of the search from one start.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StartReport {
-    /// Where it started.
+    /// Start of the search.
     pub start: Vec<f64>,
-    /// Where it ended.
+    /// Parameters at the end of the search.
     pub parameters: Vec<f64>,
-    /// Chi squared where it ended.
+    /// Chi squared at the end of the search.
     pub chi_squared: f64,
-    /// Why it ended.
+    /// Reason why the search ended.
     pub ending: Termination,
     /// Number of linearisations.
     pub iterations: usize,
-    /// Number of times that all points were evaluated, derivatives not counted.
+    /// Number of evaluations of the model at all points, without derivatives.
     pub evaluations: usize,
-    /// How far it was from its end.
+    /// Convergence at the end of the search.
     pub last: Progress,
 }
 
 impl StartReport {
-    /// Why the search ended, in a sentence without its subject.
     pub(crate) fn reason(&self, allowed: f64) -> String {
         let Progress {
             cosine,

@@ -1,11 +1,9 @@
-//! Where searches start: points given by hand, and points drawn within bounds.
-
 use crate::bounds::Bounds;
 use crate::error::FitError;
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
-/// Where the searches of a nonlinear fit start.
+/// Starting points of the searches of a nonlinear fit.
 ///
 /// ```
 /// use actin_fit::{Bounds, Starts};
@@ -13,7 +11,7 @@ use rand_chacha::ChaCha8Rng;
 /// let bounds = Bounds::new(&[(0.0, 4.0)])?;
 /// let mut drawn = Starts::drawn(4, 7).points(&bounds)?;
 /// drawn.sort_by(|a, b| a[0].total_cmp(&b[0]));
-/// // One in each quarter of the range.
+/// // One start in each quarter of the range.
 /// let quarters: Vec<f64> = drawn.iter().map(|p| p[0].floor()).collect();
 /// assert_eq!(quarters, [0.0, 1.0, 2.0, 3.0]);
 /// # Ok::<(), actin_fit::FitError>(())
@@ -26,7 +24,7 @@ pub struct Starts {
 }
 
 impl Starts {
-    /// One start, given by hand.
+    /// Creates one explicit start.
     pub fn at(parameters: &[f64]) -> Self {
         Self {
             given: vec![parameters.to_vec()],
@@ -35,10 +33,10 @@ impl Starts {
         }
     }
 
-    /// `count` starts of a Latin hypercube within the bounds: each parameter has one value in each
-    /// of `count` equal parts of its range, in an order drawn with the seed.
+    /// Creates `count` random starts by Latin hypercube sampling within the bounds: each parameter
+    /// takes one value in each of `count` equal parts of its range.
     ///
-    /// The starts are the same on every machine.
+    /// The starts depend on the seed only and are the same on every machine.
     ///
     /// # Source
     /// `McKay`, Beckman and Conover, Technometrics 21 (1979) 239.
@@ -50,14 +48,14 @@ impl Starts {
         }
     }
 
-    /// These starts and one more, given by hand. Those given by hand come first.
+    /// Adds an explicit start. Explicit starts precede random ones.
     #[must_use]
     pub fn and_at(mut self, parameters: &[f64]) -> Self {
         self.given.push(parameters.to_vec());
         self
     }
 
-    /// These starts and `count` drawn ones; see [`drawn`](Self::drawn).
+    /// Adds `count` random starts; see [`drawn`](Self::drawn).
     #[must_use]
     pub fn and_drawn(self, count: usize, seed: u64) -> Self {
         Self {
@@ -67,11 +65,11 @@ impl Starts {
         }
     }
 
-    /// The starts.
+    /// Starting points within the given bounds.
     ///
     /// # Errors
-    /// If one does not fit the bounds, starts are to be drawn and a bound is infinite, or there is
-    /// none.
+    /// If a start does not match the bounds, a bound of random starts is infinite, or the list is
+    /// empty.
     pub fn points(&self, bounds: &Bounds) -> Result<Vec<Vec<f64>>, FitError> {
         let mut points = self.given.clone();
         for (number, point) in points.iter().enumerate() {
@@ -102,32 +100,31 @@ fn latin_hypercube(count: usize, seed: u64, bounds: &Bounds) -> Result<Vec<Vec<f
         let order = shuffled(count, &mut generator);
         for (point, part) in points.iter_mut().zip(order) {
             let fraction = (part as f64 + uniform(&mut generator)) / count as f64;
-            // Rounding must not carry a start across its bound.
+            // Rounding could otherwise move a start across its bound.
             point[parameter] = (lower + fraction * (upper - lower)).clamp(lower, upper);
         }
     }
     Ok(points)
 }
 
-/// The seed, little endian, then zeros: independent of any generator's way to stretch a seed.
 fn key(seed: u64) -> [u8; 32] {
     let mut key = [0; 32];
     key[..8].copy_from_slice(&seed.to_le_bytes());
     key
 }
 
-/// Uniform in [0, 1): the upper 53 bits of a 64-bit draw.
+/// Uniform number in [0, 1) from the upper 53 bits of a 64-bit draw.
 fn uniform(generator: &mut ChaCha8Rng) -> f64 {
     const SPACING: f64 = 1.0 / (1u64 << 53) as f64;
     (generator.next_u64() >> 11) as f64 * SPACING
 }
 
-/// `0 .. count` in random order (Fisher and Yates), from 64-bit draws on every machine.
+/// Random permutation of `0 .. count` (Fisher and Yates) from 64-bit draws.
 fn shuffled(count: usize, generator: &mut ChaCha8Rng) -> Vec<usize> {
     let mut order: Vec<usize> = (0..count).collect();
     for last in (1..count).rev() {
         let product = u128::from(generator.next_u64()) * (last as u128 + 1);
-        let other = usize::try_from(product >> 64).expect("at most `last`, which is a usize");
+        let other = usize::try_from(product >> 64).expect("the product is at most `last`");
         order.swap(last, other);
     }
     order
@@ -137,7 +134,6 @@ fn shuffled(count: usize, generator: &mut ChaCha8Rng) -> Vec<usize> {
 mod tests {
     use super::*;
 
-    /// Fixed for good: another generator, key or conversion would change every seeded fit.
     #[test]
     fn starts_are_those_of_the_first_release() {
         let bounds = Bounds::new(&[(-1.0, 1.0), (0.0, 10.0)]).unwrap();

@@ -1,19 +1,16 @@
-//! The damped step within bounds, and the damping that a step of a given length needs.
-
 use crate::problem::Linearisation;
 use faer::Mat;
 use faer::linalg::solvers::{Qr, SolveLstsq};
 
-/// Damping beyond which a step is too short to change a parameter.
+/// Damping above which a step does not change any parameter.
 pub(crate) const LARGEST_DAMPING: f64 = 1e16;
-/// Damping below which a step is that of Gauss and Newton; keeps the damped matrix regular.
+/// Damping of Gauss-Newton steps, which keeps the damped matrix regular.
 pub(crate) const SMALLEST_DAMPING: f64 = 1e-14;
-/// How near a step's length comes to the one that was asked for, relatively.
+/// Relative tolerance of the step length.
 const LENGTH_TOLERANCE: f64 = 0.05;
-/// Most halvings of the range of a damping; ten reach the tolerance.
+/// Maximum number of bisections; ten reach the tolerance.
 const BISECTIONS: usize = 60;
 
-/// Where a step may go: distances to the bounds, and which parameters may move.
 #[derive(Clone, Debug)]
 pub(crate) struct Room {
     pub(crate) down: Vec<f64>,
@@ -21,16 +18,15 @@ pub(crate) struct Room {
     pub(crate) free: Vec<bool>,
 }
 
-/// A step, and the parameters that it does not take to a bound.
 #[derive(Clone, Debug)]
 pub(crate) struct Step {
     pub(crate) values: Vec<f64>,
     pub(crate) inside: Vec<usize>,
 }
 
-/// The damped problem `|c - T L s|^2 + damping |D s|^2` at a point.
+/// Damped problem `|c - T L s|^2 + damping |D s|^2` at a point.
 ///
-/// `scales` is the diagonal of `D`, no smaller than the lengths `L` of columns.
+/// `scales` is the diagonal of `D`, at least the column norms `L`.
 ///
 /// # Source
 /// More, Lecture Notes in Mathematics 630 (1978) 105.
@@ -42,10 +38,10 @@ pub(crate) struct Damped<'a> {
 }
 
 impl Damped<'_> {
-    /// The step that makes the problem least over the free parameters.
+    /// Minimises the damped problem over the free parameters.
     ///
-    /// Where it would cross bounds it ends on them and is solved again for the others, so that
-    /// parameters at a bound do not spoil the direction of the rest.
+    /// A step that crosses bounds is truncated there and solved again for the other parameters.
+    /// Parameters at a bound thus do not distort the direction of the step.
     pub(crate) fn step(&self, damping: f64) -> Step {
         let room = self.room;
         let mut step = vec![0.0; self.scales.len()];
@@ -72,8 +68,8 @@ impl Damped<'_> {
         }
     }
 
-    /// The damped solution for the free parameters, with the others at `step`. Solved by QR of
-    /// `T L / D` above the root of the damping, never by normal equations.
+    /// Damped solution for the free parameters with the others fixed at `step`, by QR of `T L / D`
+    /// stacked on the square root of the damping.
     pub(crate) fn solve(&self, damping: f64, free: &[usize], step: &[f64]) -> Vec<f64> {
         let (linear, scales) = (self.linear, self.scales);
         let rows = linear.rotated.len();
@@ -101,19 +97,18 @@ impl Damped<'_> {
             .collect()
     }
 
-    /// `|D s|`.
     pub(crate) fn length(&self, step: &[f64]) -> f64 {
         let parts = step.iter().zip(self.scales).map(|(s, scale)| s * scale);
         parts.fold(0.0, f64::hypot)
     }
 
-    /// The least damping, not below `least`, whose step is no longer than `length`, within 5 %.
+    /// Least damping, at least `least`, with a step of at most `length` within 5 %.
     pub(crate) fn damping_for(&self, length: f64, least: f64) -> f64 {
         let far = |damping: f64| self.length(&self.step(damping).values) / length - 1.0;
         if far(least) <= LENGTH_TOLERANCE {
             return least;
         }
-        // |D s| <= |D^-1 L descent| / damping, for steps that meet no bound.
+        // Upper bound for steps within the bounds: |D s| <= |D^-1 L descent| / damping.
         let slopes = (0..self.scales.len())
             .filter(|&j| self.room.free[j])
             .map(|j| self.linear.descent[j] * (self.linear.lengths[j] / self.scales[j]));
@@ -135,7 +130,7 @@ impl Damped<'_> {
 mod tests {
     use super::*;
 
-    /// `|c - R s|^2` with `R = [[1, 1], [0, 1]]`, `c = (2, 1)`, which is least at (1, 1).
+    /// `|c - R s|^2` with `R = [[1, 1], [0, 1]]` and `c = (2, 1)`; the minimum is at (1, 1).
     fn linear() -> Linearisation {
         let matrix = Mat::from_fn(2, 2, |i, j| if i > j { 0.0 } else { 1.0 });
         Linearisation::new(matrix.as_ref(), &[2.0, 1.0]).unwrap()
@@ -149,11 +144,12 @@ mod tests {
         }
     }
 
-    /// With the second bounded by 0.5 the first is to be 1.5; a step that is only cut stays at 1.
+    /// The bound 0.5 of the second parameter moves the minimum of the first to 1.5. Truncation
+    /// alone leaves it at 1.
     #[test]
-    fn the_others_are_solved_again_where_one_meets_its_bound() {
+    fn remaining_parameters_are_solved_again_at_a_bound() {
         let linear = linear();
-        // Damping of 1e-14 moves the step by about as much.
+        // The damping of 1e-14 moves the step by about as much.
         for (up, expected, inside) in [(9.0, [1.0, 1.0], vec![0, 1]), (0.5, [1.5, 0.5], vec![0])] {
             let damped = Damped {
                 linear: &linear,
@@ -168,8 +164,6 @@ mod tests {
         }
     }
 
-    /// A damping gives the length that it was asked for, with and without a bound on the way; a
-    /// length that needs none gives the least.
     #[test]
     fn dampings_give_lengths() {
         let linear = linear();

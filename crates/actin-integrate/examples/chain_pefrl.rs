@@ -1,4 +1,4 @@
-//! A chain of points and springs of one's own swings in its slowest mode, stepped by PEFRL.
+//! Slowest vibration of a chain of points and springs, integrated by PEFRL.
 
 use actin_integrate::{
     PEFRL, Point, Run, SAFETY, Spring, Springs, State, System, Vector3, largest_frequency,
@@ -7,7 +7,7 @@ use actin_integrate::{
 use std::f64::consts::{PI, TAU};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
-    // Eleven points one apart, the ends held, the others displaced along the chain.
+    // Eleven points at unit distances with fixed ends, displaced along the chain.
     let (mass, stiffness, rest_length, amplitude) = (0.07_f64, 100.0, 1.0, 0.1);
     let mut state = State::default();
     for i in 0..=10 {
@@ -25,7 +25,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let springs = Springs::new(&state, springs.collect())?;
     let mut system = System::new(state, vec![Box::new(springs)]);
 
-    // Over one period of theory the middle comes back to where it began.
+    // The displacement repeats after one period.
     let period = TAU / (2.0 * (stiffness / mass).sqrt() * (PI / 20.0).sin());
     let step = stable_step(&PEFRL, largest_frequency(&system)?, SAFETY)?;
     let outcome = Run::over(&PEFRL, step, period)?.execute(&mut system, &mut [])?;

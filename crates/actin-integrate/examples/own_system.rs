@@ -1,4 +1,4 @@
-//! A system of one's own, known by drift, kick and damp alone: a planet on an ellipse.
+//! Integration of a custom system: a planet on an elliptic orbit.
 
 use actin_integrate::{IntegrationError, PEFRL, Run, Split, Vector3};
 use std::ops::ControlFlow;
@@ -27,7 +27,7 @@ impl Split for Planet {
 }
 
 fn main() -> Result<(), IntegrationError> {
-    // Half axis 1 and eccentricity 0.5, from the near end, over one period of Kepler's third law.
+    // Semi-major axis 1 and eccentricity 0.5, from the pericentre, over one period.
     let (place, velocity) = (Vector3::x() * 0.5, Vector3::y() * 3.0_f64.sqrt());
     let mut planet = Planet {
         place,

@@ -1,31 +1,28 @@
-//! A heat bath: drag and the noise that belongs to it. The noise itself is in `noise`.
-
 use crate::Drag;
 use thiserror::Error;
 
-/// Drag with the thermal noise that keeps every degree of freedom at the energy `kT/2`.
+/// Drag with thermal noise that gives every degree of freedom the energy `kT/2`.
 ///
-/// Velocities and body angular momenta follow Ornstein-Uhlenbeck processes, solved exactly: over a
-/// time `t`, for each component of a free point of mass `m` and about each body axis `a` of a free
-/// frame with moment `I_a`,
+/// Velocities and body angular momenta follow Ornstein-Uhlenbeck processes, which are solved
+/// exactly. For each component of a free point of mass `m`, and each body axis `a` of a free frame
+/// with the moment `I_a`, over a time `t`:
 ///
-/// - `v   <- exp(-gamma_t t) v   + sqrt(kT/m (1 - exp(-2 gamma_t t))) xi`,
-/// - `l_a <- exp(-gamma_r t) l_a + sqrt(kT I_a (1 - exp(-2 gamma_r t))) xi`,
+/// ```text
+/// v   <- exp(-gamma_t t) v   + sqrt(kT/m (1 - exp(-2 gamma_t t))) xi
+/// l_a <- exp(-gamma_r t) l_a + sqrt(kT I_a (1 - exp(-2 gamma_r t))) xi
+/// ```
 ///
-/// with independent standard normal `xi`. At every `t` this leaves the Maxwell distribution as it
-/// is; like drag, it is applied for half a step before and half a step after each conservative
-/// step. Held and driven bodies take no part; a body that slides does along its free directions,
-/// with its whole mass.
+/// `xi` are independent standard normal deviates. This preserves the Maxwell distribution for any
+/// `t`. It is applied for half a step before and after each conservative step. Held and driven
+/// bodies are excluded. Sliding bodies move along their free directions with their total mass.
 ///
-/// The noise is a function of the seed, the number of the step, the half, and the index of the body
-/// among its kind; nothing is carried on from step to step. So runs can be broken off and
-/// continued, and what a body meets does not depend on what follows it in the state, on threads, or
-/// on when the state is looked at.
+/// The noise is a function of the seed, the step, the half and the index of the body, without a
+/// running state. Resumed runs therefore agree bitwise with uninterrupted ones.
 ///
 /// ```
 /// use actin_integrate::{Bath, Drag};
 /// let bath = Bath::new(Drag::new(0.5, 0.0).unwrap(), 4.0, 1).unwrap();
-/// // Root of kT (1 - exp(-1)) for velocities; angular momenta without drag meet no noise.
+/// // sqrt(kT (1 - exp(-1))) for velocities; no noise without drag.
 /// let (translational, rotational) = bath.spreads(1.0);
 /// assert!((translational - (4.0 * (1.0 - (-1.0f64).exp())).sqrt()).abs() < 1e-15);
 /// assert_eq!(rotational, 0.0);
@@ -38,10 +35,10 @@ pub struct Bath {
 }
 
 impl Bath {
-    /// A bath of the thermal energy `kT` (pN nm), with the rates of `drag`.
+    /// Creates a bath of the thermal energy `kT` (pN nm), with the rates of `drag`.
     ///
     /// # Errors
-    /// A thermal energy that is negative or not finite.
+    /// If the thermal energy is negative or not finite.
     pub fn new(drag: Drag, thermal_energy: f64, seed: u64) -> Result<Self, BathError> {
         if !(thermal_energy.is_finite() && thermal_energy >= 0.0) {
             return Err(BathError(thermal_energy));
@@ -53,25 +50,23 @@ impl Bath {
         })
     }
 
-    /// The drag.
+    /// Drag of the bath.
     pub fn drag(&self) -> &Drag {
         &self.drag
     }
 
-    /// The thermal energy `kT` (pN nm).
+    /// Thermal energy `kT` (pN nm).
     pub fn thermal_energy(&self) -> f64 {
         self.thermal_energy
     }
 
-    /// The seed of the noise.
+    /// Seed of the noise.
     pub fn seed(&self) -> u64 {
         self.seed
     }
 
-    /// Standard deviations that the noise builds up in a time `t` (ns), in translation and in
-    /// rotation: `sqrt(kT (1 - exp(-2 gamma t)))`, to be scaled with the inertia.
-    ///
-    /// None going back in time, where drag speeds up.
+    /// Standard deviations of translation and rotation after a time `t` (ns), without the factor of
+    /// the inertia: `sqrt(kT (1 - exp(-2 gamma t)))`. Zero for negative `t`.
     pub fn spreads(&self, t: f64) -> (f64, f64) {
         let spread = |rate: f64| {
             let share = -(-2.0 * rate * t).exp_m1();
@@ -84,7 +79,7 @@ impl Bath {
     }
 }
 
-/// A thermal energy (pN nm) that was refused.
+/// Invalid thermal energy (pN nm).
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[error("the thermal energy must be finite and not negative, got {0} pN nm")]
 pub struct BathError(pub f64);
@@ -100,7 +95,7 @@ mod tests {
         }
     }
 
-    /// At small rates the difference 1 - exp(-2 gamma t) would lose its digits: 5e-8 of them here.
+    /// The difference 1 - exp(-2 gamma t) would have a relative error of 5e-8.
     #[test]
     fn weak_noise_keeps_its_digits() {
         let bath = Bath::new(Drag::new(1e-9, 0.0).unwrap(), 1.0, 0).unwrap();

@@ -1,11 +1,8 @@
-//! Where a run can be left and taken up again. Files are no business of this crate.
-
 use actin_mechanics::{Motion, Split, State, System};
 
-/// A sound, synchronised state of a run between two of its batches of steps.
+/// Sound, synchronised state between two batches of steps.
 ///
-/// Batches end at the same step numbers however often a run is left and taken up again, so that
-/// neighbouring half steps are merged in the same places and every bit is the same.
+/// The division into batches depends on step numbers only, so that resumed runs agree bitwise.
 #[derive(Debug)]
 pub struct Pause<'a> {
     /// Steps since step 0.
@@ -19,12 +16,12 @@ pub struct Pause<'a> {
 }
 
 impl Pause<'_> {
-    /// The state.
+    /// State of the system.
     pub fn state(&self) -> &State {
         self.system.state()
     }
 
-    /// What is needed to go on from here.
+    /// Creates a checkpoint of this state.
     pub fn checkpoint(&self) -> Checkpoint {
         Checkpoint {
             here: Snapshot::new(self.step, self.system, self.largest_kinetic),
@@ -34,32 +31,32 @@ impl Pause<'_> {
     }
 }
 
-/// All that a run carries at a pause. Scheme, step, drag, intervals and rules belong to the
-/// [`Run`](crate::Run), interactions and drive to the system.
+/// State of a run for resumption. Settings belong to the [`Run`](crate::Run), interactions and
+/// drive to the system.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Checkpoint {
-    /// Where the run stands.
+    /// State at the pause.
     pub here: Snapshot,
-    /// The last state that observers have seen.
+    /// Last observed state.
     pub last_good: Snapshot,
-    /// Evaluations of the loads that the system had made when the run began.
+    /// Evaluations of the loads before the run.
     pub evaluations_before: u64,
 }
 
-/// A state of a run with what goes with it.
+/// State of a run with its counters.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Snapshot {
     /// Steps since step 0.
     pub step: u64,
-    /// What moves.
+    /// Positions, momenta and controls.
     pub motion: Motion,
-    /// Whether the loads of that state had been evaluated.
+    /// Whether the loads of the state were current.
     pub loads_are_current: bool,
-    /// Evaluations of the loads that the system had made.
+    /// Evaluations of the loads of the system.
     pub force_evaluations: u64,
-    /// Largest kinetic energy (pN nm) at a check so far, against which growth is measured.
+    /// Largest kinetic energy (pN nm) at all checks.
     pub largest_kinetic: f64,
 }
 
@@ -74,7 +71,6 @@ impl Snapshot {
         }
     }
 
-    /// Puts a system of the same bodies and terms there.
     pub(crate) fn restore(&self, system: &mut System) {
         system.restore(&self.motion, self.loads_are_current, self.force_evaluations);
     }

@@ -1,19 +1,17 @@
-//! What a composition method is. The tables themselves are in `schemes`.
-
 use std::fmt;
 use thiserror::Error;
 
-/// The two flows that a method alternates.
+/// Stage of a method.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stage {
     /// Free motion.
     Drift,
-    /// Action of the loads at fixed positions.
+    /// Effect of the loads at fixed positions.
     Kick,
 }
 
 impl Stage {
-    /// The other one.
+    /// Other kind of stage.
     #[must_use]
     pub const fn other(self) -> Self {
         match self {
@@ -23,19 +21,18 @@ impl Stage {
     }
 }
 
-/// By how much the coefficients of one stage may miss 1, and a table its reverse: round-off of a
-/// dozen numbers of size one.
+/// Tolerance of sums and symmetry: rounding errors of a dozen numbers of order one.
 const ROUND_OFF: f64 = 1e-13;
 
-/// A symmetric composition of drifts and kicks, as a table with its citation.
+/// Symmetric composition of drifts and kicks: a table with its source.
 ///
-/// One step of size `h` applies the stages in turn, beginning with [`first`](Self::first), the
-/// `k`-th for a time `coefficients()[k] * h`. The table has an odd number of entries and reads the
-/// same backwards; the entries of each stage add up to 1.
+/// A step of size `h` applies alternating stages, beginning with [`first`](Self::first). Stage `k`
+/// lasts `coefficients()[k] * h`. The table has an odd number of entries and is symmetric, and the
+/// entries of each kind of stage add up to 1.
 ///
-/// The order holds only if drift and kick are flows: `drift(a)` then `drift(b)` must be
-/// `drift(a + b)`. Where a drift is only symmetric, compose steps of [`POSITION_VERLET`] by hand
-/// with the [`SUZUKI_WEIGHT`].
+/// The order holds if drift and kick are flows: `drift(a)` and `drift(b)` must equal
+/// `drift(a + b)`. For drifts that are only symmetric, compose steps of [`POSITION_VERLET`] with
+/// the [`SUZUKI_WEIGHT`].
 ///
 /// [`POSITION_VERLET`]: crate::POSITION_VERLET
 /// [`SUZUKI_WEIGHT`]: crate::SUZUKI_WEIGHT
@@ -56,16 +53,16 @@ pub struct Composition {
 }
 
 impl Composition {
-    /// A method of one's own: its `name`, the `order` of its error, what a step begins with, the
-    /// `coefficients` of its stages in units of the step, its `stability_limit` (the smallest
-    /// `omega h` at which the harmonic oscillator is not stable) and the `source` of the table.
+    /// Creates a custom method from its `name`, `order`, `first` stage, `coefficients` in units of
+    /// the step, `stability_limit` (smallest unstable `omega h` of the harmonic oscillator) and
+    /// `source`.
     ///
-    /// Order and limit are taken as they are given; only the table is checked.
+    /// Order and limit are not verified.
     ///
     /// # Errors
-    /// A table of an even number of entries or of fewer than three, with a number that is not
-    /// finite, that does not read the same backwards, or in which drifts or kicks do not add up to 1;
-    /// an order of zero; a limit that is not positive and finite.
+    /// If the table is shorter than three entries, has an even length, is not finite or not
+    /// symmetric, or if drifts or kicks do not add up to 1. Also if the order is zero or the limit
+    /// is not positive and finite.
     ///
     /// ```
     /// use actin_integrate::{Composition, CompositionError, Stage};
@@ -123,7 +120,7 @@ impl Composition {
         Ok(())
     }
 
-    /// The name by which scenes choose it.
+    /// Name of the method in scenes.
     pub fn name(&self) -> &'static str {
         self.name
     }
@@ -133,7 +130,7 @@ impl Composition {
         self.order
     }
 
-    /// What a step begins and ends with.
+    /// First and last stage of a step.
     pub fn first(&self) -> Stage {
         self.first
     }
@@ -143,17 +140,17 @@ impl Composition {
         self.coefficients
     }
 
-    /// Smallest `omega h` at which the harmonic oscillator is no longer stable.
+    /// Smallest unstable `omega h` of the harmonic oscillator.
     pub fn stability_limit(&self) -> f64 {
         self.stability_limit
     }
 
-    /// Where the table is from.
+    /// Source of the table.
     pub fn source(&self) -> &'static str {
         self.source
     }
 
-    /// The stages of one step in order, with their durations in units of the step.
+    /// Stages of a step in order, with their durations in units of the step.
     pub fn stages(&self) -> impl Iterator<Item = (Stage, f64)> + '_ {
         let pair = [self.first, self.first.other()];
         pair.into_iter()
@@ -161,16 +158,15 @@ impl Composition {
             .zip(self.coefficients.iter().copied())
     }
 
-    /// `<k x^2>/kT` of an oscillator in a heat bath, 1 in theory, if a conservative step of this method
-    /// lasts `theta` radians of it, `theta = b omega h` with `b` of
+    /// Ratio `<k x^2>/kT` of an oscillator in a heat bath, exactly 1 in theory, for a conservative
+    /// step of `theta = b omega h` with `b` of
     /// [`Drag::time_rescaling`](crate::Drag::time_rescaling). Velocities have exactly `kT`.
     ///
-    /// One step takes `(x, v/omega)` by a matrix `[[a, b], [c, a]]` of determinant 1, which leaves
-    /// `-c x^2 + b (v/omega)^2` as it is: the ratio is `-b/c`. It has no meaning above the stability
-    /// limit.
+    /// A step maps `(x, v/omega)` by a matrix `[[a, b], [c, a]]` of determinant 1, which conserves
+    /// `-c x^2 + b (v/omega)^2`. The ratio is `-b/c`; it is meaningless above the stability limit.
     ///
     /// ```
-    /// // Positions are too cold by (omega h)^2/4 with position Verlet.
+    /// // Position Verlet: the temperature of positions is too low by (omega h)^2/4.
     /// let ratio = actin_integrate::POSITION_VERLET.configurational_temperature(1.0);
     /// assert!((ratio - 0.75).abs() < 1e-15);
     /// ```
@@ -190,11 +186,10 @@ impl Composition {
 
     /// Evaluations of the loads per step in a long run.
     ///
-    /// A method that ends with a kick leaves loads that its next step begins with; the very first
-    /// step costs one more.
+    /// Methods that end with a kick reuse the loads in the next step and need one more evaluation
+    /// in the first.
     pub fn force_evaluations_per_step(&self) -> usize {
-        // Of an odd number of alternating stages, all but the repeated first of a method that
-        // begins with kicks need loads at new positions.
+        // A method that begins with a kick reuses the loads of its last stage.
         self.coefficients.len() / 2
     }
 }
@@ -205,21 +200,21 @@ impl fmt::Display for Composition {
     }
 }
 
-/// Why a table was refused.
+/// Error of the construction of a method.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum CompositionError {
     /// The number of entries is even, or less than three.
-    #[error("a table has an odd number of at least 3 entries, got {0}")]
+    #[error("a table must have an odd number of entries, at least 3, got {0}")]
     Length(usize),
     /// An entry is not finite.
     #[error("the entries of a table must be finite, got {0}")]
     NotFinite(f64),
-    /// The entry of this index, counted from 0, is not that of the same index from behind.
-    #[error("a table reads the same backwards, but entry {0} does not")]
+    /// The table is not symmetric at this index, counted from 0.
+    #[error("a table must be symmetric, but entry {0} differs from its mirror image")]
     Asymmetric(usize),
-    /// The entries of one stage do not add up to 1, so that a step would not last its time.
-    #[error("the entries of a stage must add up to 1, those of {0:?} add up to {1}")]
+    /// The entries of a stage do not add up to 1.
+    #[error("the entries of a stage must add up to 1, but those of {0:?} add up to {1}")]
     Sum(Stage, f64),
     /// The order is zero.
     #[error("the order must be at least 1, got 0")]
@@ -237,9 +232,8 @@ mod tests {
         Composition::new("mine", 2, Stage::Kick, coefficients, 2.0, "by hand")
     }
 
-    /// A table whose drifts add up to 0.6 would move a free body by 0.6 of its way without a word.
     #[test]
-    fn tables_that_are_no_steps_are_refused() {
+    fn invalid_tables_are_refused() {
         let refused = |coefficients| table(coefficients).unwrap_err();
         for (len, coefficients) in [(0, &[][..]), (1, &[1.0]), (2, &[0.5; 2]), (4, &[0.5; 4])] {
             assert_eq!(refused(coefficients), CompositionError::Length(len));
@@ -263,7 +257,7 @@ mod tests {
     }
 
     #[test]
-    fn orders_and_limits_without_a_meaning_are_refused() {
+    fn invalid_orders_and_limits_are_refused() {
         let with = |order, limit| {
             Composition::new("mine", order, Stage::Drift, &[0.5, 1.0, 0.5], limit, "")
         };
@@ -273,7 +267,6 @@ mod tests {
         }
     }
 
-    /// The tables of this crate pass the check of any other.
     #[test]
     fn known_tables_pass() {
         for scheme in Composition::all() {

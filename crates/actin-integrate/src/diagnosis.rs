@@ -1,36 +1,29 @@
-//! Whether a state is sound, and what to blame if it is not.
-
 use crate::{Body, FailureKind};
 use actin_mechanics::{
     Interaction, Loads, Split, State, StateStats, System, Thermostat, Vector3, Vectors,
 };
 use std::f64::consts::PI;
 
-/// Kinetic energy may not grow beyond that of all earlier checks by more than this factor.
+/// Largest growth of the kinetic energy relative to all earlier checks.
 ///
-/// From rest it grows fourfold while the time doubles under constant loads, sixteenfold under
-/// loads that rise steadily, and less after that; above the stability limit it grows by a factor
-/// in every step.
+/// From rest, kinetic energy grows at most sixteenfold per doubling of the time for steadily rising
+/// loads. Above the stability limit it grows by a factor in every step.
 const LARGEST_GROWTH: f64 = 1e8;
 
-/// Kinetic energy (pN nm) that counts as rest. A motion that begins late goes from what rounding moves
-/// (1e-26) to whatever its loads give it between two checks, so that growth tells nothing before it has
-/// reached 1e4 pN nm, far more than a load or heat gives a few bodies at once.
+/// Kinetic energy (pN nm) of a state at rest. Growth from rounding errors (1e-26) below this value
+/// is ignored.
 const STILL: f64 = 1e-4;
 
-/// Watches over the states of one run.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Watch {
-    /// Time step (ns), without sign.
     pub(crate) h: f64,
-    /// Kinetic energy (pN nm) that no sound state has.
+    /// Upper limit of the kinetic energy (pN nm).
     pub(crate) kinetic_limit: f64,
-    /// Largest kinetic energy seen so far.
+    /// Largest kinetic energy at all checks (pN nm).
     pub(crate) largest_kinetic: f64,
 }
 
 impl Watch {
-    /// A watch that has seen kinetic energies up to `largest_kinetic`; zero at the start.
     pub(crate) fn new(h: f64, kinetic_limit: f64, largest_kinetic: f64) -> Self {
         Self {
             h: h.abs(),
@@ -39,10 +32,9 @@ impl Watch {
         }
     }
 
-    /// The kinetic energy (pN nm) of `state`, or what is wrong with it. Changes nothing.
+    /// Kinetic energy (pN nm) of `state`, or the kind of its failure.
     ///
-    /// A sound state takes one pass without branches; only where that shows anything unusual are
-    /// all bodies looked at one by one.
+    /// Sound states take one pass without branches; only suspicious ones are checked body by body.
     pub(crate) fn inspect(&self, state: &State) -> Result<f64, FailureKind> {
         let StateStats {
             kinetic_energy,
@@ -55,15 +47,12 @@ impl Watch {
         self.look_closer(state)
     }
 
-    /// Whether a state may have this kinetic energy. Written so that an overflow to infinity or
-    /// NaN is found.
     fn is_sound(&self, kinetic: f64) -> bool {
         let before = self.largest_kinetic.max(STILL);
         let grown = self.largest_kinetic > 0.0 && kinetic > LARGEST_GROWTH * before;
         kinetic <= self.kinetic_limit && kinetic.is_finite() && !grown
     }
 
-    /// The same as [`inspect`](Self::inspect), body by body.
     fn look_closer(&self, state: &State) -> Result<f64, FailureKind> {
         if !state.is_finite() {
             return Err(FailureKind::NotFinite);
@@ -80,13 +69,11 @@ impl Watch {
         }
     }
 
-    /// Remembers the kinetic energy of a sound state.
     pub(crate) fn remember(&mut self, kinetic: f64) {
         self.largest_kinetic = self.largest_kinetic.max(kinetic);
     }
 }
 
-/// Largest angular velocity of a free frame (rad/ns).
 fn largest_angular_velocity(state: &State) -> f64 {
     let frames = &state.frames;
     (0..frames.len())
@@ -100,7 +87,7 @@ fn largest_angular_velocity(state: &State) -> f64 {
         .sqrt()
 }
 
-/// The body and the term to blame for the state `broken`, whose state one step before is given.
+/// Body and term that cause the failure in the state `broken`, given the state one step before.
 pub(crate) fn blame(
     interactions: &[Box<dyn Interaction>],
     broken: &State,
@@ -108,19 +95,17 @@ pub(crate) fn blame(
 ) -> (Body, &'static str) {
     let body =
         first_body(broken, |body| !body_is_finite(broken, body)).unwrap_or_else(|| fastest(broken));
-    // Loads at positions that are not finite say nothing: those before still do.
+    // Loads at positions that are not finite carry no information.
     let sighted = if broken.is_finite() { broken } else { before };
     (body, strongest_term(interactions, sighted, body))
 }
 
-/// The term with the largest load on a body; "none" if no term acts on it.
 pub(crate) fn strongest_term(
     interactions: &[Box<dyn Interaction>],
     state: &State,
     body: Body,
 ) -> &'static str {
-    // One buffer for all terms, of which nothing but the load on this body is read: a buffer for each
-    // would take the square of the number of terms.
+    // One buffer for all terms; clearing only the load of this body avoids quadratic cost.
     let mut loads = Loads::zeros(state);
     let strongest = interactions
         .iter()
@@ -134,10 +119,9 @@ pub(crate) fn strongest_term(
     strongest.map_or("none", |(term, _)| term)
 }
 
-/// A system that looks at the loads of each term before each kick, to catch the first that is not
-/// finite while the state still is.
+/// System that checks the loads of each term before each kick for the first that is not finite.
 ///
-/// Loads often break down within a step, at positions that neither of its ends shows.
+/// Loads often fail at positions within a step.
 #[derive(Debug)]
 pub(crate) struct Probe<'a> {
     pub(crate) system: &'a mut System,
@@ -183,7 +167,6 @@ impl Thermostat for Probe<'_> {
     }
 }
 
-/// The first load that is not finite: on which body, and of which term.
 fn broken_load(system: &System) -> Option<(Body, &'static str)> {
     let (state, interactions) = (system.state(), system.interactions());
     let (k, loads) = first_broken(interactions, state)?;
@@ -191,11 +174,10 @@ fn broken_load(system: &System) -> Option<(Body, &'static str)> {
     Some((body, interactions[k].term()))
 }
 
-/// The first term whose loads are not finite together with those before it, and these loads; `None`
-/// if all are.
+/// First term whose loads are not finite, and the sum of the loads up to it. `None` if all are
+/// finite.
 ///
-/// The terms are halved until it is found: a look at all loads after each of them would take the
-/// square of the number of terms.
+/// Bisection avoids a cost that is quadratic in the number of terms.
 pub(crate) fn first_broken(
     interactions: &[Box<dyn Interaction>],
     state: &State,
@@ -225,8 +207,6 @@ pub(crate) fn first_broken(
     Some((sound, loads))
 }
 
-/// The first term whose energy of a finite state is not finite, and the body on which it acts most
-/// strongly.
 pub(crate) fn broken_energy(
     interactions: &[Box<dyn Interaction>],
     state: &State,
@@ -239,25 +219,21 @@ pub(crate) fn broken_energy(
     Some((body, term.term()))
 }
 
-/// Loads of one interaction alone.
 fn loads_of(interaction: &dyn Interaction, state: &State) -> Loads {
     let mut loads = Loads::zeros(state);
     interaction.add_loads(state, &mut loads);
     loads
 }
 
-/// Points, then frames.
 fn bodies(state: &State) -> impl Iterator<Item = Body> + use<> {
     let points = (0..state.points.len()).map(Body::Point);
     points.chain((0..state.frames.len()).map(Body::Frame))
 }
 
-/// The first body for which `test` holds.
 fn first_body(state: &State, test: impl Fn(Body) -> bool) -> Option<Body> {
     bodies(state).find(|&body| test(body))
 }
 
-/// The force or torque on a body.
 fn load_on(loads: &Loads, body: Body) -> Vector3 {
     match body {
         Body::Point(i) => loads.force.get(i),
@@ -265,7 +241,6 @@ fn load_on(loads: &Loads, body: Body) -> Vector3 {
     }
 }
 
-/// Sets the force or torque on a body to zero.
 fn clear_load(loads: &mut Loads, body: Body) {
     match body {
         Body::Point(i) => loads.force.set(i, Vector3::zeros()),
@@ -277,7 +252,6 @@ fn is_finite(v: &Vector3) -> bool {
     v.iter().all(|c| c.is_finite())
 }
 
-/// Whether place and motion of one body are finite.
 fn body_is_finite(state: &State, body: Body) -> bool {
     match body {
         Body::Point(i) => {
@@ -291,7 +265,6 @@ fn body_is_finite(state: &State, body: Body) -> bool {
     }
 }
 
-/// Kinetic energy of one body; zero if it is held.
 fn kinetic_energy(state: &State, body: Body) -> f64 {
     match body {
         Body::Point(i) if state.points.is_free(i) => {
@@ -305,7 +278,6 @@ fn kinetic_energy(state: &State, body: Body) -> f64 {
     }
 }
 
-/// The body with the largest kinetic energy.
 fn fastest(state: &State) -> Body {
     bodies(state)
         .max_by(|&a, &b| kinetic_energy(state, a).total_cmp(&kinetic_energy(state, b)))

@@ -1,13 +1,13 @@
-//! Mass-proportional drag, solved exactly.
-
 use thiserror::Error;
 
-/// Drag that slows every free body at a rate of its own kind.
+/// Exponential decay of velocities and angular momenta of free bodies:
 ///
-/// `dv/dt = -gamma_t v` on velocities and `dl/dt = -gamma_r l` on angular momenta, rates in 1/ns.
-/// Over a time `t` this multiplies them by `exp(-gamma t)`, which is how it is applied: half a
-/// step before and half a step after each conservative step, never within. The conservative step
-/// is rescaled in time, see [`time_rescaling`](Self::time_rescaling).
+/// ```text
+/// dv/dt = -gamma_t v,   dl/dt = -gamma_r l   (rates in 1/ns)
+/// ```
+///
+/// The factors `exp(-gamma t)` are applied for half a step before and after each conservative step,
+/// which is rescaled in time, see [`time_rescaling`](Self::time_rescaling).
 ///
 /// ```
 /// use actin_integrate::Drag;
@@ -21,16 +21,16 @@ pub struct Drag {
 }
 
 impl Drag {
-    /// No drag at all; costs nothing.
+    /// No drag, without computational cost.
     pub const NONE: Self = Self {
         translational: 0.0,
         rotational: 0.0,
     };
 
-    /// Drag with the rates `translational` and `rotational` (1/ns).
+    /// Creates drag with the rates `translational` and `rotational` (1/ns).
     ///
     /// # Errors
-    /// A rate that is negative or not finite.
+    /// If a rate is negative or not finite.
     pub fn new(translational: f64, rotational: f64) -> Result<Self, DragError> {
         for (kind, rate) in [("translational", translational), ("rotational", rotational)] {
             if !(rate.is_finite() && rate >= 0.0) {
@@ -53,12 +53,12 @@ impl Drag {
         self.rotational
     }
 
-    /// Whether both rates are zero.
+    /// Returns `true` if both rates are zero.
     pub fn is_none(&self) -> bool {
         *self == Self::NONE
     }
 
-    /// Factors on velocities and on angular momenta over a time `t` (ns).
+    /// Factors of velocities and angular momenta over a time `t` (ns).
     pub fn factors(&self, t: f64) -> (f64, f64) {
         (
             (-self.translational * t).exp(),
@@ -66,13 +66,15 @@ impl Drag {
         )
     }
 
-    /// Durations of the conservative step of points and of frames, in units of the step `h` (ns):
-    /// `b = sqrt(tanh(gamma h/2) / (gamma h/2))`, 1 without drag and `1 - (gamma h)^2/24` where it is
-    /// weak.
+    /// Durations of the conservative step of points and frames relative to the step `h` (ns):
     ///
-    /// With them a body under a constant force `F` moves by `F h/(m gamma)` a step once its velocity
-    /// is terminal, and in a heat bath it diffuses with `kT/(m gamma)`, both at any step. Steps
-    /// that are not rescaled are too large by `(gamma h/2) coth(gamma h/2)` in both.
+    /// ```text
+    /// b = sqrt(tanh(gamma h/2) / (gamma h/2)) = 1 - (gamma h)^2/24 + ...
+    /// ```
+    ///
+    /// The terminal motion under a constant force `F` is then `F h/(m gamma)` per step, and the
+    /// diffusion coefficient in a heat bath is `kT/(m gamma)`, for any step. Without rescaling both
+    /// are too large by `(gamma h/2) coth(gamma h/2)`.
     ///
     /// ```
     /// use actin_integrate::Drag;
@@ -91,9 +93,13 @@ impl Drag {
         (b(self.translational), b(self.rotational))
     }
 
-    /// Terminal velocities and angular velocities at the ends of steps of `h` (ns), relative to the
-    /// displacement over a step: `b x/sinh(x)` with `x = gamma h/2`, `1 - (gamma h)^2/12` where drag
-    /// is weak. What is at the end of a step has just been slowed for half a step.
+    /// Terminal velocities at the ends of steps of `h` (ns), relative to displacement per time.
+    ///
+    /// ```text
+    /// b x/sinh(x) = 1 - (gamma h)^2/12 + ...,   x = gamma h/2
+    /// ```
+    ///
+    /// They are smaller, since each step ends with drag over half a step.
     ///
     /// ```
     /// use actin_integrate::Drag;
@@ -114,13 +120,13 @@ impl Drag {
     }
 }
 
-/// A drag rate that was refused.
+/// Invalid drag rate.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[error("the {kind} drag rate must be finite and not negative, got {rate} per ns")]
 pub struct DragError {
-    /// Which of the two rates.
+    /// `translational` or `rotational`.
     pub kind: &'static str,
-    /// Its value (1/ns).
+    /// Value (1/ns).
     pub rate: f64,
 }
 

@@ -1,41 +1,38 @@
-//! The error of all of this crate's tasks.
-
 use crate::{
     BathError, CompositionError, DragError, FrequencyError, RunFailure, RunSettingError, StepError,
     StopRuleError, UnknownScheme,
 };
 use thiserror::Error;
 
-/// Why a motion could not be set up or broke: what any function of this crate may return, for use
-/// with `?`.
+/// Any error of this crate.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum IntegrationError {
-    /// A table of coefficients was refused.
+    /// Invalid table of coefficients.
     #[error(transparent)]
     Composition(#[from] CompositionError),
-    /// There is no method of that name.
+    /// Unknown method.
     #[error(transparent)]
     Scheme(#[from] UnknownScheme),
-    /// A drag was refused.
+    /// Invalid drag.
     #[error(transparent)]
     Drag(#[from] DragError),
-    /// A heat bath was refused.
+    /// Invalid heat bath.
     #[error(transparent)]
     Bath(#[from] BathError),
-    /// A stop rule was refused.
+    /// Invalid stop rule.
     #[error(transparent)]
     StopRule(#[from] StopRuleError),
-    /// The largest frequency was not found.
+    /// The largest frequency could not be determined.
     #[error(transparent)]
     Frequency(#[from] FrequencyError),
-    /// There is no stable time step.
+    /// The time step could not be determined.
     #[error(transparent)]
     Step(#[from] StepError),
-    /// A setting of a run was refused.
+    /// Invalid setting of a run.
     #[error(transparent)]
     Run(#[from] RunSettingError),
-    /// A run broke.
+    /// Failure of a run.
     #[error(transparent)]
     Failure(#[from] RunFailure),
 }

@@ -1,5 +1,3 @@
-//! A run in progress: advancing, checking, observing, and finding out what broke.
-
 use crate::diagnosis::{Probe, Watch, blame, broken_energy, strongest_term};
 use crate::{
     Body, Checkpoint, FailureKind, Moment, Observer, Pause, Reason, Run, RunFailure, RunOutcome,
@@ -8,18 +6,17 @@ use crate::{
 use actin_mechanics::{Coordinates, Split, State, System};
 use std::ops::ControlFlow;
 
-/// A run in progress.
 pub(crate) struct Execution<'a, 'o> {
     run: &'a Run,
-    /// What makes the steps, if not the method of the run.
+    /// Custom steps, if any.
     stepper: Option<&'a mut dyn Stepper>,
     system: &'a mut System,
     observers: &'a mut [&'o mut dyn Observer],
     watch: Watch,
     step: u64,
-    /// The last state that was observed, or the start.
+    /// Last observed state, or the start.
     last_good: Snapshot,
-    /// The state at the last check, from which a failure is retraced.
+    /// State at the last check, for the failure analysis.
     sound: (u64, State),
     evaluations_before: u64,
 }
@@ -40,7 +37,6 @@ impl<'a, 'o> Execution<'a, 'o> {
         Self::standing(run, &checkpoint, stepper, system, observers)
     }
 
-    /// The run where it was left.
     pub(crate) fn resume(
         run: &'a Run,
         checkpoint: &Checkpoint,
@@ -74,7 +70,7 @@ impl<'a, 'o> Execution<'a, 'o> {
     }
 
     pub(crate) fn run(mut self) -> Result<RunOutcome, RunFailure> {
-        // What the start moves at says nothing about what the loads will do to it.
+        // The kinetic energy of the start is no measure for growth.
         if let Err(problem) = self.inspect(true) {
             return Err(self.fail(problem));
         }
@@ -90,14 +86,13 @@ impl<'a, 'o> Execution<'a, 'o> {
         self.go_on(ended)
     }
 
-    /// Goes on from a checkpoint, which may be that of the end.
     pub(crate) fn run_on(mut self) -> Result<RunOutcome, RunFailure> {
-        // The start of a continuation has not been shown, and no stop rule has seen it.
+        // The start of a continuation has not been observed.
         let is_observed = self.step == self.last_good.step
             && (self.step > self.run.first_step || self.run.first_step == 0);
-        // An observer that wanted to go on from here says so again.
+        // An observer can continue the run again.
         let time = self.run.time(self.step);
-        // Loads that are not current are those of a state that was changed since it was observed.
+        // Loads that are not current belong to a state that was changed after its observation.
         let ends_at_rest = is_observed
             && self.system.loads_are_current()
             && self.is_at_rest()
@@ -132,10 +127,9 @@ impl<'a, 'o> Execution<'a, 'o> {
         self.run.first_step + self.run.steps
     }
 
-    /// The next step number at which the state is to be looked at.
+    /// Step number of the next check.
     ///
-    /// The first checks are at powers of two, so that the growth of a run that explodes from the
-    /// start is seen against its first step.
+    /// The first checks are at powers of two, to detect growth from the start.
     fn next_check(&self, end: u64) -> u64 {
         let after = |interval: u64| (self.step / interval + 1) * interval;
         end.min(after(self.run.observe_every))
@@ -156,7 +150,6 @@ impl<'a, 'o> Execution<'a, 'o> {
         Ok(())
     }
 
-    /// Fails if the state is unsound; of one that is `shown`, its whole energy counts.
     fn check(&mut self, is_shown: bool) -> Result<(), RunFailure> {
         let kinetic = match self.inspect(is_shown) {
             Ok(_) if self.passed().is_some() => return Err(self.fail(FailureKind::PassesThrough)),
@@ -168,8 +161,8 @@ impl<'a, 'o> Execution<'a, 'o> {
         Ok(())
     }
 
-    /// The kinetic energy (pN nm) of the state, or what is wrong with it or, if asked for, with its
-    /// `whole` energy. Changes nothing.
+    /// Kinetic energy (pN nm) of the state, or the kind of its failure. The total energy is checked
+    /// if `whole`.
     fn inspect(&self, whole: bool) -> Result<f64, FailureKind> {
         let kinetic = self.watch.inspect(self.system.state())?;
         if whole {
@@ -178,7 +171,6 @@ impl<'a, 'o> Execution<'a, 'o> {
         Ok(kinetic)
     }
 
-    /// A body that has passed through another since the last check, and the term that was to prevent it.
     fn passed(&self) -> Option<(Body, &'static str)> {
         let (before, here) = (&self.sound.1, self.system.state());
         let mut all = self.system.interactions().iter();
@@ -191,7 +183,6 @@ impl<'a, 'o> Execution<'a, 'o> {
         })
     }
 
-    /// Whether there is more energy than there can be, or none that is a number.
     fn inspect_energy(&self) -> Result<(), FailureKind> {
         let limit = self.run.energy_limit;
         if limit == f64::INFINITY {
@@ -205,13 +196,11 @@ impl<'a, 'o> Execution<'a, 'o> {
         }
     }
 
-    /// A failure is retraced from here.
     fn mark_sound(&mut self) {
         self.sound.0 = self.step;
         self.sound.1.copy_motion_from(self.system.state());
     }
 
-    /// Shows the state to everyone and says whether the run ends here.
     fn observe(&mut self) -> Option<Reason> {
         let time = self.run.time(self.step);
         let mut moment = Moment::new(self.step, time, self.system);
@@ -231,7 +220,6 @@ impl<'a, 'o> Execution<'a, 'o> {
         }
     }
 
-    /// Whether the stop rule is met.
     fn is_at_rest(&mut self) -> bool {
         let mut moment = Moment::new(self.step, self.run.time(self.step), self.system);
         self.run
@@ -240,7 +228,6 @@ impl<'a, 'o> Execution<'a, 'o> {
             .is_some_and(|rule| rule.is_met(moment.residual(), moment.kinetic_energy()))
     }
 
-    /// Lets every observer change the state; returns whether one of them wants the run to go on.
     fn intervene(&mut self, time: f64, at_rest: bool) -> bool {
         let mut goes_on = false;
         for observer in self.observers.iter_mut() {
@@ -252,7 +239,6 @@ impl<'a, 'o> Execution<'a, 'o> {
         goes_on
     }
 
-    /// Lets everyone keep what is needed to go on from here, or leave.
     fn pause(&mut self) -> ControlFlow<()> {
         let mut flow = ControlFlow::Continue(());
         self.show_pause(|observer, pause| {
@@ -263,7 +249,6 @@ impl<'a, 'o> Execution<'a, 'o> {
         flow
     }
 
-    /// Shows where the run stands to everyone.
     fn show_pause(&mut self, mut show: impl FnMut(&mut dyn Observer, &Pause<'_>)) {
         let pause = Pause {
             step: self.step,
@@ -293,14 +278,12 @@ impl<'a, 'o> Execution<'a, 'o> {
         }
     }
 
-    /// Puts the last good state back after a step that failed, and says what acts where it did.
     fn fail_step(&mut self, failure: StepFailure) -> RunFailure {
         self.step += 1;
         let term = strongest_term(self.system.interactions(), &self.sound.1, failure.body);
         self.put_back(failure.problem, failure.body, term)
     }
 
-    /// Finds the step, the body and the term to blame, and puts the last good state back.
     fn fail(&mut self, problem: FailureKind) -> RunFailure {
         let problem = match problem {
             FailureKind::TooMuchEnergy(_) => self.retrace(problem),
@@ -311,7 +294,6 @@ impl<'a, 'o> Execution<'a, 'o> {
         self.put_back(problem, body, term)
     }
 
-    /// Puts the last good state back, and tells observers.
     fn put_back(&mut self, problem: FailureKind, body: Body, term: &'static str) -> RunFailure {
         self.last_good.restore(self.system);
         let last_good = Checkpoint {
@@ -333,7 +315,6 @@ impl<'a, 'o> Execution<'a, 'o> {
         }
     }
 
-    /// The body and the term to blame for the present state, one step after `before`.
     fn culprit(&mut self, problem: FailureKind, before: &State) -> (Body, &'static str) {
         if problem == FailureKind::PassesThrough
             && let Some(passed) = self.passed()
@@ -351,15 +332,15 @@ impl<'a, 'o> Execution<'a, 'o> {
             .unwrap_or_else(|| blame(self.system.interactions(), &broken, before))
     }
 
-    /// Repeats the way from the last observation, up to the first check with too much energy, which
-    /// only observations look for. Returns what is wrong there; `sound` is the check before.
+    /// Repeats the run from the last observation to the first check with too much energy. Returns
+    /// the kind of the failure; `sound` is the check before.
     fn retrace(&mut self, found: FailureKind) -> FailureKind {
         let found_step = self.step;
         self.last_good.restore(self.system);
         self.step = self.last_good.step;
         self.mark_sound();
         while self.step < found_step {
-            // It has come this way before, so no step fails.
+            // These steps succeeded before.
             let _ = self.advance_to(self.next_check(found_step));
             if let Err(problem) = self.inspect_energy() {
                 return problem;
@@ -369,9 +350,8 @@ impl<'a, 'o> Execution<'a, 'o> {
         found
     }
 
-    /// Repeats the way from the last check step by step, up to the first unsound state, so that
-    /// the report names the step at which it broke. Returns what is wrong and the state one
-    /// step before; leaves the system and `self.step` at the break.
+    /// Repeats the run from the last check step by step to the first unsound state. Returns the
+    /// kind of the failure and the state one step before.
     fn replay(&mut self, found: FailureKind) -> (FailureKind, State) {
         let (found_step, broken) = (self.step, self.system.state().clone());
         let whole = matches!(found, FailureKind::TooMuchEnergy(_));
@@ -389,12 +369,11 @@ impl<'a, 'o> Execution<'a, 'o> {
                 return (problem, before);
             }
         }
-        // Steps made one by one differ by round-off, which may have hidden the break.
+        // Single steps differ by rounding errors, which can hide the failure.
         self.system.state_mut().clone_from(&broken);
         (found, before)
     }
 
-    /// Makes one step from `before`, looking for the first load that is not finite.
     fn probe(&mut self, before: &State) -> Option<(Body, &'static str)> {
         self.system.state_mut().clone_from(before);
         let mut probe = Probe {
@@ -404,7 +383,6 @@ impl<'a, 'o> Execution<'a, 'o> {
         if self.stepper.is_some() {
             return None;
         }
-        // A start that is unsound has no step before it.
         let step = self.step.saturating_sub(1);
         self.run.advance(&mut probe, step, 1);
         probe.culprit

@@ -1,14 +1,12 @@
-//! What a run says when it breaks.
-
 use std::fmt;
 use thiserror::Error;
 
-/// A body, by its kind and its index among those of its kind.
+/// Body, identified by its kind and index.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Body {
-    /// A point.
+    /// Point.
     Point(usize),
-    /// A frame.
+    /// Frame.
     Frame(usize),
 }
 
@@ -21,44 +19,41 @@ impl fmt::Display for Body {
     }
 }
 
-/// What is wrong with a state.
+/// Kind of a failure.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum FailureKind {
     /// A position, velocity, orientation or angular momentum is not a finite number.
     #[error("the state is no longer finite")]
     NotFinite,
-    /// A frame turns by more than half a turn in one step, so that its motion has no meaning.
+    /// A frame rotates by more than half a turn in one step.
     #[error("a frame turns by {0:.3e} rad in one step")]
     TurnsTooFar(f64),
-    /// The kinetic energy (pN nm) has grown too far since the last check, or above its limit.
+    /// The kinetic energy (pN nm) has grown too much since the last check, or exceeds its limit.
     #[error("the kinetic energy has reached {0:.3e} pN nm")]
     TooFast(f64),
-    /// There is more energy (pN nm), kinetic and of the loads, than there can be, or none that is a
-    /// finite number.
+    /// The total energy (pN nm) exceeds its limit or is not finite.
     #[error("{}", too_much(*.0))]
     TooMuchEnergy(f64),
-    /// A body has passed through another that an interaction keeps apart.
-    #[error("bodies that are to stay apart pass through each other")]
+    /// A body has passed through another despite their repulsion.
+    #[error("bodies pass through each other despite their repulsion")]
     PassesThrough,
-    /// The equations of an implicit step were not solved: by how much (nm) its last iteration still
-    /// moved a body.
+    /// An implicit step has not converged: displacement (nm) of the last iteration.
     #[error("a step has not converged: its last iteration moved a body by {0:.3e} nm")]
     NotConverged(f64),
 }
 
 fn too_much(energy: f64) -> String {
     if energy.is_finite() {
-        format!("the energy has reached {energy:.3e} pN nm, more than there can be")
+        format!("the energy has reached {energy:.3e} pN nm, above its limit,")
     } else {
         format!("the energy is no longer finite ({energy} pN nm)")
     }
 }
 
-/// What is said of the body and the term, before and behind the name of the term, and what may help.
 fn words(problem: FailureKind) -> [&'static str; 3] {
     match problem {
-        FailureKind::PassesThrough => ["against ", "", "a greater stiffness of it may help"],
+        FailureKind::PassesThrough => ["against ", "", "a larger stiffness of that term may help"],
         _ => [
             "on which ",
             " acts most strongly",
@@ -67,9 +62,9 @@ fn words(problem: FailureKind) -> [&'static str; 3] {
     }
 }
 
-/// A run that broke: where, when, and which term of the model is to be suspected.
+/// Failure of a run, with its time, body and term.
 ///
-/// The system has been put back to the last observed state that was good.
+/// The system has been restored to the last observed sound state.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[error(
     "{problem} at step {step} ({time} ns): {body}, {}{term:?}{}; the last \
@@ -77,21 +72,21 @@ fn words(problem: FailureKind) -> [&'static str; 3] {
      words(*problem)[0], words(*problem)[1], words(*problem)[2]
 )]
 pub struct RunFailure {
-    /// What went wrong.
+    /// Kind of the failure.
     pub problem: FailureKind,
-    /// The step after which it was found.
+    /// Step of the failure.
     pub step: u64,
-    /// The time of that step (ns).
+    /// Time of the failure (ns).
     pub time: f64,
-    /// The body where it went wrong: the first with a number that is not finite, or else the
-    /// fastest (largest kinetic energy). Where only the energy is not finite, that on which the term
-    /// of that energy acts most strongly.
+    /// Failing body: the first with a number that is not finite, else the one with the largest
+    /// kinetic energy. If only the energy of a term is not finite, the body with the largest load
+    /// of that term.
     pub body: Body,
-    /// Name of the term with a load on that body that is not finite, or an energy, or else the
-    /// largest load; "none" if no term acts on it.
+    /// Term with a load or energy that is not finite, or else with the largest load on the body.
+    /// `none` if no term acts on it.
     pub term: &'static str,
-    /// Step of the state that the system was put back to.
+    /// Step of the restored state.
     pub last_good_step: u64,
-    /// Time of that state (ns).
+    /// Time of the restored state (ns).
     pub last_good_time: f64,
 }

@@ -1,35 +1,28 @@
-//! The largest eigenvalue of an operator that is known only by what it does to vectors.
-
 use nalgebra::DMatrix;
 use std::collections::VecDeque;
 
-/// Below this share of the operator's size, a remainder is the noise of differenced loads.
+/// Relative size of a remainder that is due to rounding errors of differenced loads.
 const NOISE: f64 = 1e-6;
 
-/// Which operator it is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Operator {
-    /// Its own transpose: each new vector is made orthogonal to the two before it, which in exact
-    /// arithmetic makes it orthogonal to all (Lanczos). Three vectors are kept, whatever their number.
-    ///
-    /// Rounding makes copies of eigenvalues that were found already, and moves none of them (Paige).
+    /// Symmetric operator (Lanczos): each new vector is orthogonalised against the last two.
+    /// Rounding creates copies of converged eigenvalues, without changing them.
     Symmetric,
-    /// Any: each new vector is made orthogonal to all earlier ones (Arnoldi), which are kept.
     Any,
 }
 
-/// Largest eigenvalue of the symmetric part of an operator on `n` coordinates, within the space
-/// spanned by `b, A b, ... A^(vectors-1) b` from a random but fixed `b`.
+/// Largest eigenvalue of the symmetric part of an operator on `n` coordinates, within the Krylov
+/// space of dimension `vectors` of a fixed pseudorandom vector.
 ///
-/// `apply` writes `A v` into its second argument. Returns 0 for `n = 0`, and not a number for an
-/// operator that overflows.
+/// `apply` writes `A v` to its second argument. Returns 0 for `n = 0` and NaN if the operator
+/// overflows.
 ///
 /// # Errors
-/// Those of `apply`.
+/// If `apply` fails.
 ///
 /// # Source
-/// C. C. Paige, J. Inst. Maths Applics 18 (1976) 341, for the error of the method without
-/// orthogonalisation.
+/// C. C. Paige, J. Inst. Maths Applics 18 (1976) 341, for the error without orthogonalisation.
 pub(crate) fn largest_eigenvalue<E>(
     n: usize,
     vectors: usize,
@@ -51,7 +44,7 @@ pub(crate) fn largest_eigenvalue<E>(
         let mut next = vec![0.0; n];
         apply(&basis[basis.len() - 1], &mut next)?;
         if !norm(&next).is_finite() {
-            // Neither has what the operator is made of any eigenvalues.
+            // The symmetric part has no eigenvalues either.
             return Ok(f64::NAN);
         }
         scale = scale.max(norm(&next));
@@ -61,7 +54,7 @@ pub(crate) fn largest_eigenvalue<E>(
         });
         let remainder = norm(&next);
         if j + 1 == size || remainder <= NOISE * scale {
-            // The space closes here: it holds every eigenvector that the start has a share of.
+            // The space is invariant.
             projected = projected.resize(j + 1, j + 1, 0.0);
             break;
         }
@@ -76,8 +69,7 @@ pub(crate) fn largest_eigenvalue<E>(
     Ok(symmetric.symmetric_eigenvalues().max())
 }
 
-/// Takes the shares of all vectors of `basis` out of `v`, twice, because once loses digits where
-/// the remainder is small; reports each share by its index.
+/// Orthogonalises `v` against `basis`, twice to reduce rounding errors, and reports the overlaps.
 fn orthogonalise(basis: &VecDeque<Vec<f64>>, v: &mut [f64], mut report: impl FnMut(usize, f64)) {
     for _ in 0..2 {
         for (k, b) in basis.iter().enumerate() {
@@ -88,22 +80,20 @@ fn orthogonalise(basis: &VecDeque<Vec<f64>>, v: &mut [f64], mut report: impl FnM
     }
 }
 
-/// Euclidean length.
 fn norm(v: &[f64]) -> f64 {
     v.iter().map(|c| c * c).sum::<f64>().sqrt()
 }
 
-/// Divides every component.
 fn divide(v: &mut [f64], divisor: f64) {
     for c in v {
         *c /= divisor;
     }
 }
 
-/// A unit vector in a direction that is random, nearly uniform, and always the same.
+/// Fixed pseudorandom unit vector, nearly uniform on the sphere.
 ///
-/// The components are sums of four uniform numbers, close enough to normal ones for the direction
-/// to favour no axis. The numbers come from the splitmix64 sequence (Steele, Lea and Flood 2014).
+/// Components are sums of four uniform numbers of the splitmix64 sequence (Steele, Lea and Flood
+/// 2014).
 fn start_vector(n: usize) -> Vec<f64> {
     let mut state = 0_u64;
     let mut uniform = || {
@@ -142,7 +132,6 @@ mod tests {
         .unwrap_or_else(|never| match never {})
     }
 
-    /// As many vectors as coordinates leave nothing to estimate: eigenvalues 1, 2, ... 12.
     #[test]
     fn full_space_is_exact() {
         let diagonal = |i, j| if i == j { (i + 1) as f64 } else { 0.0 };
@@ -151,8 +140,6 @@ mod tests {
         }
     }
 
-    /// Twelve coordinates but two eigenvalues: the space closes after two vectors. Going on would
-    /// divide by a remainder that is pure round-off.
     #[test]
     fn repeated_eigenvalues_close_the_space() {
         let diagonal = |i, j| match (i == j, i < 6) {
@@ -165,11 +152,10 @@ mod tests {
         }
     }
 
-    /// Three vectors find what all find, also long after the largest eigenvalue, here far above the
-    /// others, has been found and rounding has brought it back into the later vectors. Where it is not
-    /// found, the end of a crowd, both miss it by the same.
+    /// Lanczos and Arnoldi agree, also long after an isolated eigenvalue has converged. For a dense
+    /// spectrum both have the same error.
     #[test]
-    fn three_vectors_find_what_all_find() {
+    fn lanczos_and_arnoldi_agree() {
         let spread = |top: f64| {
             move |i: usize, j: usize| match (i == j, i) {
                 (false, _) => 0.0,
@@ -180,23 +166,22 @@ mod tests {
         let both = |top: f64| BOTH.map(|operator| largest(400, 60, operator, spread(top)));
         for top in [1.1, 30.0] {
             let [few, all] = both(top);
-            // Rounding of sums of 400 terms, relative to the largest.
+            // Rounding errors of sums of 400 terms.
             assert!((few / all - 1.0).abs() < 1e-12, "{top}: {few} and {all}");
         }
         let ([few, all], end) = (both(0.0), (399.0_f64 / 400.0).sqrt());
-        // The smallest eigenvalues, which stand apart, are found: what rounding does to the vectors
-        // behind that is no error of rounding any more, but small beside what is missed.
+        // The smallest eigenvalues converge. The subsequent loss of orthogonality is small compared
+        // with the truncation error.
         assert!((few - all).abs() < 1e-3 * (end - all), "{few} and {all}");
     }
 
-    /// [[3, 4], [0, 3]] has the symmetric part [[3, 2], [2, 3]], eigenvalues 1 and 5.
+    /// [[3, 4], [0, 3]] has the symmetric part [[3, 2], [2, 3]] with eigenvalues 1 and 5.
     #[test]
-    fn of_an_unsymmetric_operator_the_symmetric_part_counts() {
+    fn unsymmetric_operators_use_the_symmetric_part() {
         let a = [[3.0, 4.0], [0.0, 3.0]];
         assert!((largest(2, 60, Operator::Any, |i, j| a[i][j]) - 5.0).abs() < 1e-12);
     }
 
-    /// What overflows has no largest eigenvalue: neither 0 nor an endless search for it.
     #[test]
     fn an_operator_that_overflows_has_none() {
         for operator in BOTH {

@@ -1,17 +1,15 @@
 //! Splitting integrators, drag, thermal noise, and a run loop.
 //!
-//! A method is a [`Composition`]: a cited table of coefficients of alternating drifts and kicks.
-//! One loop, [`advance`], serves all of them, and sees of a system only what
-//! [`Split`] shows: drift, kick and damp; in a [`Bath`], [`advance_in`] also
-//! agitates. [`largest_frequency`] and
-//! [`stable_step`] give the time step. A [`Run`] advances a [`System`], shows
-//! synchronised states to [`Observer`]s, and ends by a [`StopRule`], at its last step, when an
-//! observer asks for it, or with a [`RunFailure`] that names what broke. At a [`Pause`] it can be left
-//! with a [`Checkpoint`], from which [`Run::resume`] goes on to the same bits. A system of one's own that is a
-//! [`Split`] runs with [`Run::execute_split`]; what makes the steps of a [`System`] in a way of its own is a
-//! [`Stepper`], with the same observers, checkpoints and rules.
+//! A method is a [`Composition`]: a table of coefficients of alternating drifts and kicks, with its
+//! source. [`advance`] applies all methods to any [`Split`] system, and [`advance_in`] to systems
+//! in a [`Bath`]. [`largest_frequency`] and [`stable_step`] determine the time step.
 //!
-//! This crate knows nothing of what the bodies stand for, and never solves for an equilibrium.
+//! A [`Run`] advances a [`System`] and calls [`Observer`]s with synchronised states. It ends at its
+//! last step, by a [`StopRule`], by an observer, or with a [`RunFailure`]. A run can be interrupted
+//! at a [`Pause`] and resumed from a [`Checkpoint`] with bitwise equal results.
+//! [`Run::execute_split`] runs custom [`Split`] systems, and [`Run::execute_steps`] custom
+//! [`Stepper`]s.
+//!
 //! Times are in ns, lengths in nm, forces in pN, rates in 1/ns.
 
 #[cfg(doctest)]
@@ -61,7 +59,7 @@ pub use step::{SAFETY, StepError, stable_step};
 pub use stepper::{advance, advance_in};
 pub use stop::{StopRule, StopRuleError};
 
-/// The crate of points, frames, loads and interactions that are set in motion.
+/// Re-export of the crate of points, frames, loads and interactions.
 pub use actin_mechanics as mechanics;
 pub use actin_mechanics::{
     Frame, Inertia, Interaction, LoadError, Loads, Point, PointLoad, Residual, Split, Spring,

@@ -1,28 +1,22 @@
-//! Normal deviates that are a function of seed, step, half and body.
-
 use actin_mechanics::{Vector3, Vectors};
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use std::f64::consts::TAU;
 
-/// Parts the key of this noise from other uses of the same seed.
+/// Separates this noise from other uses of the same seed.
 const PURPOSE: [u8; 8] = *b"thermal\0";
 
-/// One of the two halves of a step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Half {
-    /// Before the conservative step.
     Before,
-    /// After it.
     After,
 }
 
-/// Deviates of one step or half step, one vector for every point and one for every frame.
+/// Normal deviates of a step or half step, one vector per point and per frame.
 ///
-/// Each has a stream of `ChaCha8` of its own. In a heat bath its number is twice the number of the step,
-/// plus one for the second half. The `i`-th point and the `i`-th frame, held ones included,
-/// take the `i`-th six 64-bit words of it: a fixed share, so that the words of one body do not
-/// depend on the values of another's.
+/// Each step has a separate `ChaCha8` stream. In a heat bath the number of the stream is twice that
+/// of the step, plus one for the second half. Point `i` and frame `i`, held ones included, use the
+/// `i`-th six 64-bit words. The deviates of a body thus do not depend on other bodies.
 ///
 /// ```
 /// use actin_integrate::Noise;
@@ -36,20 +30,19 @@ pub(crate) enum Half {
 #[derive(Clone, Debug)]
 pub struct Noise {
     generator: ChaCha8Rng,
-    /// For points: normal with mean zero and the standard deviation asked for.
+    /// Deviates of points, with mean zero.
     pub points: Vectors,
-    /// For frames.
+    /// Deviates of frames, with mean zero.
     pub frames: Vectors,
 }
 
 impl Noise {
-    /// The noise of a heat bath for so many points and frames.
     pub(crate) fn new(seed: u64, bodies: (usize, usize)) -> Self {
         Self::of_purpose(PURPOSE, seed, bodies)
     }
 
-    /// The noise of `seed` for so many points and frames, or whatever has a vector in their place. Other
-    /// purposes have other noise.
+    /// Creates the noise of a `seed` for given numbers of points and frames. Other purposes have
+    /// independent noise.
     pub fn of_purpose(purpose: [u8; 8], seed: u64, (points, frames): (usize, usize)) -> Self {
         let mut key = [0; 32];
         key[..8].copy_from_slice(&seed.to_le_bytes());
@@ -61,14 +54,11 @@ impl Noise {
         }
     }
 
-    /// Draws all deviates of a half step, with the standard deviations `spreads` of points and of
-    /// frames.
     pub(crate) fn draw(&mut self, step: u64, half: Half, spreads: (f64, f64)) {
         self.draw_stream(2 * step + u64::from(half == Half::After), spreads);
     }
 
-    /// Draws all deviates of the stream with this number, with the standard deviations `spreads` of
-    /// points and of frames.
+    /// Draws the deviates of a stream, with standard deviations `spreads` of points and frames.
     pub fn draw_stream(&mut self, stream: u64, spreads: (f64, f64)) {
         self.generator.set_stream(stream);
         self.generator.set_word_pos(0);
@@ -83,10 +73,9 @@ impl Noise {
         }
     }
 
-    /// Two independent standard normal deviates from two 64-bit words.
-    ///
-    /// `sqrt(-2 ln u) (cos, sin)(2 pi w)` with `u` uniform in (0, 1] and `w` in [0, 1), both
-    /// multiples of 2^-53: no deviate is beyond 8.6.
+    /// Two independent standard normal deviates from two 64-bit words:
+    /// `sqrt(-2 ln u) (cos, sin)(2 pi w)`, with `u` in (0, 1] and `w` in [0, 1). Their magnitude is
+    /// at most 8.6.
     ///
     /// # Source
     /// Box and Muller, Ann. Math. Stat. 29 (1958) 610.
@@ -96,7 +85,7 @@ impl Noise {
         (radius * cos, radius * sin)
     }
 
-    /// The next number, uniform in [0, 1): the upper 53 bits of a 64-bit word.
+    /// Uniform number in [0, 1) from the upper 53 bits of a 64-bit word.
     fn uniform(&mut self) -> f64 {
         const SPACING: f64 = 1.0 / (1u64 << 53) as f64;
         (self.generator.next_u64() >> 11) as f64 * SPACING
@@ -113,8 +102,6 @@ mod tests {
         noise
     }
 
-    /// What a body meets does not depend on how many others there are, nor on what was drawn
-    /// before: a stream that runs on would fail both, and with them every resumed run.
     #[test]
     fn deviates_belong_to_step_half_and_body() {
         let few = drawn(3, (2, 1), 7, Half::After);
@@ -125,7 +112,6 @@ mod tests {
         assert_eq!(few.frames.get(0), many.frames.get(0));
     }
 
-    /// Seed, step, half, body and kind all matter, in their highest bits too.
     #[test]
     fn deviates_differ() {
         let first = |seed, step, half| {
@@ -149,11 +135,8 @@ mod tests {
         assert_eq!((all.len(), count), (40, 40));
     }
 
-    /// Moments up to the fourth, and no correlation between components, halves, steps or
-    /// neighbours.
-    ///
-    /// The bounds are 4.5 standard errors; a Box-Muller pair of which one word is used twice
-    /// would be correlated, uniform deviates would have a fourth moment of 1.8.
+    /// Moments up to the fourth, and correlations between components, halves, steps and neighbours,
+    /// within 4.5 standard errors.
     #[test]
     fn deviates_are_independent_and_normal() {
         let bodies = 20_000;
@@ -190,8 +173,8 @@ mod tests {
         }
     }
 
-    /// The numbers are fixed for good: a change of generator, key or conversion would change every
-    /// run that was ever seeded. The last digit of a logarithm may differ between machines.
+    /// Any change of generator, key or conversion would change all seeded runs. Logarithms can
+    /// differ in the last digit between machines.
     #[test]
     fn numbers_are_those_of_the_first_release() {
         let noise = drawn(7, (1, 1), 5, Half::After);

@@ -1,12 +1,10 @@
-//! Observers: what they are shown and when.
-
 use crate::{Checkpoint, Pause};
 use actin_mechanics::{Interaction, Residual, State, System};
 use std::ops::ControlFlow;
 
-/// A synchronised state of a run: positions and momenta belong to the same time.
+/// Synchronised state of a run, with positions and momenta at the same time.
 ///
-/// Energies and loads are evaluated when asked for, and only then.
+/// Energies and loads are evaluated on demand.
 #[derive(Debug)]
 pub struct Moment<'a> {
     /// Steps since step 0.
@@ -17,17 +15,17 @@ pub struct Moment<'a> {
 }
 
 impl<'a> Moment<'a> {
-    /// The present state of `system` as a moment of a run.
+    /// Creates a moment from the present state of `system`.
     pub fn new(step: u64, time: f64, system: &'a mut System) -> Self {
         Self { step, time, system }
     }
 
-    /// The state.
+    /// State of the system.
     pub fn state(&self) -> &State {
         self.system.state()
     }
 
-    /// The interactions, in the order of [`energies`](Self::energies).
+    /// Interactions, in the order of [`energies`](Self::energies).
     pub fn interactions(&self) -> &[Box<dyn Interaction>] {
         self.system.interactions()
     }
@@ -37,7 +35,7 @@ impl<'a> Moment<'a> {
         self.system.energies()
     }
 
-    /// Energy of all interactions (pN nm).
+    /// Total energy of the interactions (pN nm).
     pub fn potential_energy(&self) -> f64 {
         self.system.potential_energy()
     }
@@ -47,39 +45,37 @@ impl<'a> Moment<'a> {
         self.system.state().kinetic_energy()
     }
 
-    /// Largest loads on free bodies; evaluates the loads if they are not current.
+    /// Largest loads on free bodies. Evaluates the loads if they are not current.
     pub fn residual(&mut self) -> Residual {
         self.system.residual()
     }
 }
 
-/// Observes a run, and may end it.
+/// Observer of a run.
 ///
-/// Implemented by every closure of the shape of [`observe`](Self::observe).
+/// Implemented for closures with the signature of [`observe`](Self::observe).
 pub trait Observer {
-    /// Looks at a moment; [`ControlFlow::Break`] ends the run there.
+    /// Observes a moment; [`ControlFlow::Break`] ends the run.
     fn observe(&mut self, moment: &mut Moment<'_>) -> ControlFlow<()>;
 
-    /// May change the state after an observation, the last one excepted: push it off a saddle, for
-    /// instance. `at_rest` says whether the stop rule is met. Returns whether the run goes on even so.
-    ///
-    /// A change is part of what a checkpoint keeps.
+    /// Can change the state after an observation, except the last one. `at_rest` is `true` if the
+    /// stop rule is met. Returns `true` to continue the run nevertheless. Checkpoints include the
+    /// changes.
     fn intervene(&mut self, _time: f64, _at_rest: bool, _system: &mut System) -> bool {
         false
     }
 
-    /// Is there at every check of the state, after the observation if there is one at that step:
-    /// the places at which a run can be left and taken up again. [`ControlFlow::Break`] ends the
-    /// run there.
+    /// Called at every check of the state, after the observation of that step. Runs can be
+    /// interrupted and resumed here; [`ControlFlow::Break`] ends the run.
     fn pause(&mut self, _pause: &Pause<'_>) -> ControlFlow<()> {
         ControlFlow::Continue(())
     }
 
-    /// Is told that the run has come to its end, by its last step or its stop rule, and where: a run
-    /// that is resumed from there ends there again, with the same outcome.
+    /// Called at the end of a run by its last step or stop rule. A run resumed from there ends with
+    /// the same outcome.
     fn finish(&mut self, _end: &Pause<'_>) {}
 
-    /// Is told that the run has failed, and where the last good state was.
+    /// Called with the last sound state after a failure.
     fn fail(&mut self, _last_good: &Checkpoint) {}
 }
 

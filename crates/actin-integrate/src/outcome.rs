@@ -1,29 +1,26 @@
-//! How a run ended.
-
 use actin_mechanics::Residual;
 
-/// Why a run ended.
+/// Reason why a run ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Reason {
     /// The stop rule was met.
     Converged,
     /// All steps were made.
     Completed,
-    /// An observer asked for the end.
+    /// An observer ended the run.
     Interrupted,
 }
 
-/// How a run ended, and what it took.
+/// Outcome of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RunOutcome {
-    /// Why the run ended.
+    /// Reason why the run ended.
     pub reason: Reason,
-    /// Steps made by this run.
+    /// Number of steps of this run.
     pub steps: u64,
     /// Time of the final state (ns), counted from step 0.
     pub time: f64,
-    /// Evaluations of the loads during this run, those for observers, stop rule and the residual
-    /// below included.
+    /// Evaluations of the loads during this run, including those of observers and stop rule.
     pub force_evaluations: u64,
     /// Residual of the final state.
     pub residual: Residual,

@@ -1,26 +1,24 @@
-//! Runs of systems of one's own, of which nothing is known but drift, kick and damp.
-
 use crate::{Reason, Run, RunSettingError, advance};
 use actin_mechanics::Split;
 use std::ops::ControlFlow;
 
-/// A system of one's own at a moment of a run, positions and momenta at the same time.
+/// Custom system at a step, with positions and momenta at the same time.
 #[derive(Debug)]
 pub struct SplitMoment<'a, S: ?Sized> {
     /// Steps since step 0.
     pub step: u64,
     /// Time since step 0 (ns).
     pub time: f64,
-    /// The system.
+    /// System.
     pub system: &'a mut S,
 }
 
-/// How a run of a system of one's own ended.
+/// Outcome of the run of a custom system.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SplitOutcome {
     /// [`Reason::Completed`] or [`Reason::Interrupted`].
     pub reason: Reason,
-    /// Steps made by this run.
+    /// Number of steps of this run.
     pub steps: u64,
     /// Time of the final state (ns), counted from step 0.
     pub time: f64,
@@ -29,11 +27,8 @@ pub struct SplitOutcome {
 }
 
 impl Run {
-    /// Advances a system of one's own as [`execute`](Self::execute) advances a `System`, by its
-    /// method, step and drag, and shows it to `observe` at the same steps;
-    /// [`ControlFlow::Break`] ends the run.
-    ///
-    /// Nothing checks the state, which only its owner knows.
+    /// Advances a custom system like [`execute`](Self::execute), and calls `observe` at the same
+    /// steps. [`ControlFlow::Break`] ends the run. The state is not checked.
     ///
     /// ```
     /// use actin_integrate::{IntegrationError, PEFRL, Run, Split};
@@ -58,7 +53,8 @@ impl Run {
     /// ```
     ///
     /// # Errors
-    /// A heat bath, a stop rule or a limit of energy: these need the state of a `System`.
+    /// If the run has a heat bath, a stop rule or an energy limit, which need the state of a
+    /// `System`.
     pub fn execute_split<S: Split + ?Sized>(
         &self,
         system: &mut S,
@@ -68,7 +64,7 @@ impl Run {
         let before = system.force_evaluations();
         let end = self.first_step + self.steps;
         let mut step = self.first_step;
-        // As in `execute`, the start of a continuation is not shown again.
+        // The start of a continuation is not observed again.
         let mut is_shown = step == 0 || self.steps == 0;
         let reason = loop {
             let time = self.time(step);
@@ -117,7 +113,6 @@ mod tests {
     use super::*;
     use crate::{Drag, POSITION_VERLET, StopRule};
 
-    /// A mass that is free but for drag.
     #[derive(Clone, Debug, PartialEq)]
     struct Ball {
         x: f64,
@@ -146,10 +141,10 @@ mod tests {
         run.observing_every(4).unwrap()
     }
 
-    /// Shown at the start, at multiples of the interval and at the end; broken off at one of them
-    /// and continued, it ends with the same bits.
+    /// Observations at the start, at multiples of the interval and at the end. A continued run
+    /// agrees bitwise.
     #[test]
-    fn a_run_shows_what_was_asked_for_and_can_be_continued() {
+    fn a_run_is_observed_and_can_be_continued() {
         let drag = Drag::new(0.5, 0.5).unwrap();
         let mut shown = Vec::new();
         let mut whole = ball();
@@ -182,7 +177,7 @@ mod tests {
     }
 
     #[test]
-    fn what_needs_a_state_is_refused() {
+    fn settings_that_need_a_system_are_refused() {
         let refused = |run: Run| {
             let result = run.execute_split(&mut ball(), |_| ControlFlow::Continue(()));
             matches!(result, Err(RunSettingError::NeedsSystem(_)))

@@ -1,5 +1,3 @@
-//! Steps that are made in a way of their own, with the run loop of all others.
-
 use crate::execution::Execution;
 use crate::{Body, Checkpoint, FailureKind, Observer, Run, RunFailure, RunOutcome};
 use actin_mechanics::System;
@@ -7,33 +5,33 @@ use thiserror::Error;
 
 /// Makes the steps of a run.
 ///
-/// It carries nothing from one step to the next that is not in the system: a step depends on the state,
-/// its number and its length alone, or a run that is resumed would give other bits.
+/// A step must depend only on the state of the system, its number and its length. Resumed runs
+/// otherwise differ.
 pub trait Stepper {
-    /// Makes one step of length `h` (ns), the `step`-th from 0, and lets happen what does at its end.
+    /// Makes the `step`-th step, counted from 0, of length `h` (ns), including the actions at its
+    /// end.
     ///
     /// # Errors
-    /// A step that fails; the state is then of no use.
+    /// If the step fails. The state is then invalid.
     fn step(&mut self, system: &mut System, step: u64, h: f64) -> Result<(), StepFailure>;
 }
 
-/// A step that failed.
+/// Failure of a step.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[error("{problem}, at {body}")]
 pub struct StepFailure {
-    /// What went wrong.
+    /// Kind of the failure.
     pub problem: FailureKind,
-    /// The body where it went wrong.
+    /// Body at which the step failed.
     pub body: Body,
 }
 
 impl Run {
-    /// Advances `system` with the steps of `stepper`, as [`execute`](Self::execute) does with those of the
-    /// method. Of this run its step, its intervals and its rules count, not its drag or its bath; the method does not
-    /// either.
+    /// Advances `system` with the steps of `stepper`, like [`execute`](Self::execute). The method,
+    /// drag and heat bath of the run are ignored.
     ///
     /// # Errors
-    /// As [`execute`](Self::execute), and a step that fails.
+    /// See [`execute`](Self::execute). Also if a step fails.
     pub fn execute_steps(
         &self,
         stepper: &mut dyn Stepper,
@@ -43,13 +41,13 @@ impl Run {
         Execution::new(self, Some(stepper), system, observers).run()
     }
 
-    /// Goes on from `checkpoint` with the steps of `stepper`, as [`resume`](Self::resume) does.
+    /// Continues from `checkpoint` with the steps of `stepper`, like [`resume`](Self::resume).
     ///
     /// # Errors
-    /// As [`execute_steps`](Self::execute_steps).
+    /// See [`execute_steps`](Self::execute_steps).
     ///
     /// # Panics
-    /// As [`resume`](Self::resume).
+    /// See [`resume`](Self::resume).
     pub fn resume_steps(
         &self,
         checkpoint: &Checkpoint,

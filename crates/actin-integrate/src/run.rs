@@ -1,5 +1,3 @@
-//! A run: which method, which step, how long. Carrying it out is in `execution`.
-
 use crate::execution::Execution;
 use crate::{
     Bath, Checkpoint, Composition, Drag, Observer, RunFailure, RunOutcome, StopRule, advance,
@@ -8,24 +6,21 @@ use crate::{
 use actin_mechanics::{System, Thermostat};
 use thiserror::Error;
 
-/// Steps between two moments shown to observers, unless the caller says otherwise.
+/// Default number of steps between observations.
 pub const DEFAULT_OBSERVE_EVERY: u64 = 1000;
 
-/// Steps between two checks of the state: often enough to catch an explosion early, seldom
-/// enough to cost less than a hundredth of the run.
+/// Default number of steps between checks of the state, which cost less than 1 % of the run.
 pub const DEFAULT_CHECK_EVERY: u64 = 100;
 
-/// How a system is to be advanced. The system and the observers come with
-/// [`execute`](Self::execute).
+/// Settings of a run. [`execute`](Self::execute) takes the system and the observers.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Run {
     pub(crate) scheme: &'static Composition,
     pub(crate) h: f64,
     pub(crate) steps: u64,
     pub(crate) first_step: u64,
-    /// Time of step number 0 (ns).
+    /// Time of step 0 (ns).
     pub(crate) time_offset: f64,
-    /// Whether stages at the ends of steps are merged.
     pub(crate) merges_steps: bool,
     pub(crate) drag: Drag,
     pub(crate) bath: Option<Bath>,
@@ -37,7 +32,7 @@ pub struct Run {
     pub(crate) stop_from: f64,
 }
 
-/// A setting of a run that was refused.
+/// Invalid setting of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum RunSettingError {
@@ -47,25 +42,25 @@ pub enum RunSettingError {
     /// The duration is not positive and finite, or takes more than 2^53 steps.
     #[error("the duration must be positive and at most 2^53 steps, got {0} ns")]
     Duration(f64),
-    /// An interval of zero steps.
+    /// The interval is zero.
     #[error("observations and checks must be at least one step apart, got 0")]
     Interval,
     /// The limit of the kinetic energy is not positive.
     #[error("the limit of the kinetic energy must be positive, got {0} pN nm")]
     KineticLimit(f64),
-    /// The limit of the energy is no number.
+    /// The limit of the energy is not a number.
     #[error("the limit of the energy must be a number, got {0} pN nm")]
     EnergyLimit(f64),
-    /// A system of one's own, of which no state is known, is to be run with what looks at one.
-    #[error("{0} needs the state of a System: it does not work with any other Split")]
+    /// The setting needs a `System`.
+    #[error("{0} requires a `System`; other `Split` systems do not support it")]
     NeedsSystem(&'static str),
 }
 
 impl Run {
-    /// A run of `steps` steps of `h` (ns), without drag and without a stop rule.
+    /// Creates a run of `steps` steps of `h` (ns), without drag and stop rule.
     ///
     /// # Errors
-    /// A step that is not positive and finite.
+    /// If the step is not positive and finite.
     pub fn new(scheme: &'static Composition, h: f64, steps: u64) -> Result<Self, RunSettingError> {
         if !(h.is_finite() && h > 0.0) {
             return Err(RunSettingError::Step(h));
@@ -88,18 +83,18 @@ impl Run {
         })
     }
 
-    /// A run over `duration` (ns), in the least number of equal steps that are no longer than
-    /// `largest_step` (ns).
+    /// Creates a run over `duration` (ns), with the fewest equal steps of at most `largest_step`
+    /// (ns).
     ///
     /// # Errors
-    /// A step or a duration that is not positive and finite, or more than 2^53 steps.
+    /// If a step or duration is not positive and finite, or more than 2^53 steps are needed.
     pub fn over(
         scheme: &'static Composition,
         largest_step: f64,
         duration: f64,
     ) -> Result<Self, RunSettingError> {
         Self::new(scheme, largest_step, 0)?;
-        // A quotient that is whole up to round-off shall not cost a step more.
+        // Tolerance for rounding errors of integer quotients.
         let steps = (duration / largest_step * (1.0 - 1e-12)).ceil();
         if !(duration > 0.0 && steps <= 9_007_199_254_740_992.0) {
             return Err(RunSettingError::Duration(duration));
@@ -112,7 +107,7 @@ impl Run {
         Self::new(scheme, duration / steps, steps as u64)
     }
 
-    /// The same with drag, and without noise.
+    /// Sets drag without noise.
     #[must_use]
     pub fn with_drag(self, drag: Drag) -> Self {
         Self {
@@ -122,10 +117,10 @@ impl Run {
         }
     }
 
-    /// The same in a heat bath, with its drag.
+    /// Sets a heat bath with its drag.
     ///
-    /// The noise goes by the number of the step, so that a run
-    /// [continued](Self::continuing_from) meets what it would have met.
+    /// The noise depends on step numbers, so that [continued](Self::continuing_from) runs have the
+    /// same noise.
     #[must_use]
     pub fn with_bath(self, bath: Bath) -> Self {
         Self {
@@ -135,7 +130,7 @@ impl Run {
         }
     }
 
-    /// The same, ending early when `rule` is met at an observation.
+    /// Sets a rule that ends the run at an observation.
     #[must_use]
     pub fn with_stop_rule(self, rule: StopRule) -> Self {
         Self {
@@ -144,8 +139,7 @@ impl Run {
         }
     }
 
-    /// The same, with the stop rule inactive before `time` (ns): while something is still being driven,
-    /// a system at rest has not arrived.
+    /// Disables the stop rule before `time` (ns), for instance while bodies are driven.
     #[must_use]
     pub fn stopping_from(self, time: f64) -> Self {
         Self {
@@ -154,11 +148,10 @@ impl Run {
         }
     }
 
-    /// The same, shown to observers whenever the step number is a multiple of `steps`, and at
-    /// the end.
+    /// Sets the number of steps between observations. The end is always observed.
     ///
     /// # Errors
-    /// Zero steps.
+    /// If `steps` is zero.
     pub fn observing_every(self, steps: u64) -> Result<Self, RunSettingError> {
         let observe_every = at_least_one(steps)?;
         Ok(Self {
@@ -167,11 +160,11 @@ impl Run {
         })
     }
 
-    /// The same, with the state checked whenever the step number is a multiple of `steps`, at
-    /// powers of two, and at every observation.
+    /// Sets the number of steps between checks of the state. Powers of two and observations are
+    /// always checked.
     ///
     /// # Errors
-    /// Zero steps.
+    /// If `steps` is zero.
     pub fn checking_every(self, steps: u64) -> Result<Self, RunSettingError> {
         let check_every = at_least_one(steps)?;
         Ok(Self {
@@ -180,13 +173,13 @@ impl Run {
         })
     }
 
-    /// The same, failing when the kinetic energy exceeds `limit` (pN nm).
+    /// Sets an upper limit of the kinetic energy (pN nm).
     ///
-    /// Without a limit, a run whose energy grows slowly fails only when a frame turns by more
-    /// than half a turn in one step, or when numbers overflow.
+    /// Without a limit, slow growth is detected only when a frame rotates by more than half a turn
+    /// per step, or when numbers overflow.
     ///
     /// # Errors
-    /// A limit that is not positive.
+    /// If the limit is not positive.
     pub fn with_kinetic_limit(self, limit: f64) -> Result<Self, RunSettingError> {
         if limit.is_nan() || limit <= 0.0 {
             return Err(RunSettingError::KineticLimit(limit));
@@ -197,17 +190,15 @@ impl Run {
         })
     }
 
-    /// The same, failing when the energy, kinetic and of all interactions, is above `limit` (pN nm), or
-    /// not a finite number, at the start or an observation.
+    /// Sets an upper limit of the total energy (pN nm), which is checked at the start and at
+    /// observations.
     ///
-    /// The failure names the first step after the last observation at which it is: steps are made
-    /// again from there, with a look at the energy at each check. An infinite limit is none.
-    ///
-    /// Above the stability limit a mode may grow until its frequency has changed, and then stay as it
-    /// is for any number of steps: its kinetic energy need not be large.
+    /// A failure reports the first check after the last observation with too much energy, found by
+    /// repeating the steps. Above the stability limit a mode can grow until its frequency has
+    /// changed and then remain bounded with a small kinetic energy.
     ///
     /// # Errors
-    /// A limit that is no number.
+    /// If the limit is not a number.
     pub fn with_energy_limit(self, limit: f64) -> Result<Self, RunSettingError> {
         if limit.is_nan() {
             return Err(RunSettingError::EnergyLimit(limit));
@@ -218,17 +209,17 @@ impl Run {
         })
     }
 
-    /// The same as the continuation of an earlier run that ended at step `first_step`.
+    /// Continues an earlier run that ended at step `first_step`.
     ///
-    /// Step numbers and times count on from there. Observations and checks stay at the same step
-    /// numbers, so that a run broken off at an observation and continued gives the same bits as
-    /// one that was not; the starting state is not shown again.
+    /// Step numbers, times, observations and checks are continued, so that a run interrupted at an
+    /// observation agrees bitwise with an uninterrupted one. The initial state is not observed
+    /// again.
     #[must_use]
     pub fn continuing_from(self, first_step: u64) -> Self {
         Self { first_step, ..self }
     }
 
-    /// The same with the time (ns) of step number 0, for continuations with another step length.
+    /// Sets the time (ns) of step 0, for continuations with another time step.
     #[must_use]
     pub fn with_time_offset(self, time_offset: f64) -> Self {
         Self {
@@ -237,10 +228,10 @@ impl Run {
         }
     }
 
-    /// The same without merging the last stage of a step with the first of the next.
+    /// Disables the merging of stages between steps.
     ///
-    /// Every step then ends in the same bits, however a run is divided by
-    /// [`continuing_from`](Self::continuing_from); it costs one more stage a step.
+    /// The states after each step are then independent of the division by
+    /// [`continuing_from`](Self::continuing_from). This costs one more stage per step.
     #[must_use]
     pub fn without_merged_steps(self) -> Self {
         Self {
@@ -249,27 +240,27 @@ impl Run {
         }
     }
 
-    /// The method.
+    /// Integration method.
     pub fn scheme(&self) -> &'static Composition {
         self.scheme
     }
 
-    /// The time step (ns).
+    /// Time step (ns).
     pub fn step(&self) -> f64 {
         self.h
     }
 
-    /// The number of steps.
+    /// Number of steps.
     pub fn steps(&self) -> u64 {
         self.steps
     }
 
-    /// Advances `system` and shows it to `observers` in their order: at step 0, at every multiple
-    /// of the observation interval, and at the end.
+    /// Advances `system` and calls `observers` in order: at step 0, at every multiple of the
+    /// observation interval, and at the end.
     ///
     /// # Errors
-    /// A state that is not finite or that explodes. `system` is then put back to the last state
-    /// that was observed (or to the start).
+    /// If a state is not finite or diverges. `system` is then restored to the last observed state,
+    /// or to the start.
     pub fn execute(
         &self,
         system: &mut System,
@@ -278,16 +269,16 @@ impl Run {
         Execution::new(self, None, system, observers).run()
     }
 
-    /// Goes on from `checkpoint`, which a [`Pause`](crate::Pause) of the same run of an equal system
-    /// has given, whatever state `system` is in: what follows is the same to the bit as in the run
-    /// that was left, work counts included. The state of the checkpoint is not shown again; if the run
-    /// had ended there, it ends there again.
+    /// Continues a run from a `checkpoint` of a [`Pause`](crate::Pause) of the same run and an
+    /// equal system. The present state of `system` is ignored. Results and counters agree bitwise
+    /// with the uninterrupted run. The state of the checkpoint is not observed again. A checkpoint
+    /// of the end gives the same outcome.
     ///
     /// # Errors
-    /// As [`execute`](Self::execute).
+    /// See [`execute`](Self::execute).
     ///
     /// # Panics
-    /// If the checkpoint has other numbers of bodies or controls than `system`.
+    /// If the numbers of bodies or controls differ from those of `system`.
     pub fn resume(
         &self,
         checkpoint: &Checkpoint,
@@ -297,7 +288,6 @@ impl Run {
         Execution::resume(self, checkpoint, None, system, observers).run_on()
     }
 
-    /// Advances `system` by `steps` steps, the first of which has the number `first_step`.
     pub(crate) fn advance(&self, system: &mut impl Thermostat, first_step: u64, steps: u64) {
         if self.merges_steps && !system.has_step_end() {
             self.advance_at_once(system, first_step, steps);
@@ -317,7 +307,6 @@ impl Run {
         }
     }
 
-    /// Time of a step number (ns).
     pub(crate) fn time(&self, step: u64) -> f64 {
         self.time_offset + step as f64 * self.h
     }

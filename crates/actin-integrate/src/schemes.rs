@@ -1,7 +1,6 @@
-//! The tables of the composition methods, each with its citation.
+//! Tables of the composition methods with their sources.
 //!
-//! Stability limits are those of the harmonic oscillator, found from the 2x2 matrix of one step;
-//! the tests compute them again.
+//! Stability limits are those of the harmonic oscillator; the tests recompute them.
 
 use crate::composition::{Composition, Stage};
 use thiserror::Error;
@@ -54,7 +53,7 @@ pub const VEFRL: Composition = Composition {
     source: "Omelyan, Mryglod and Folk, Comput. Phys. Commun. 146 (2002) 188, VEFRL",
 };
 
-/// Forest and Ruth's method, beginning with a drift.
+/// Method of Forest and Ruth, beginning with a drift.
 pub const FOREST_RUTH: Composition = Composition {
     name: "forest-ruth",
     order: 4,
@@ -64,7 +63,7 @@ pub const FOREST_RUTH: Composition = Composition {
     source: "Forest and Ruth, Physica D 43 (1990) 105",
 };
 
-/// Suzuki's fivefold composition of position Verlet.
+/// Fivefold composition of position Verlet by Suzuki.
 pub const SUZUKI: Composition = Composition {
     name: "suzuki",
     order: 4,
@@ -74,7 +73,7 @@ pub const SUZUKI: Composition = Composition {
     source: "Suzuki, Phys. Lett. A 146 (1990) 319",
 };
 
-/// All methods, in the order in which they are listed to users.
+/// All methods, in the order of listings.
 const ALL: &[Composition] = &[
     POSITION_VERLET,
     VELOCITY_VERLET,
@@ -87,24 +86,24 @@ const ALL: &[Composition] = &[
 /// Duration of the outer steps of Forest and Ruth, 1 / (2 - 2^(1/3)).
 const FOREST_RUTH_WEIGHT: f64 = 1.351_207_191_959_657_6;
 
-/// Duration of Suzuki's four outer steps, 1 / (4 - 4^(1/3)); the middle one lasts one minus four
-/// times that.
+/// Duration of the four outer steps of Suzuki, 1 / (4 - 4^(1/3)); the middle one lasts one minus
+/// four times that.
 pub const SUZUKI_WEIGHT: f64 = 0.414_490_771_794_375_74;
 
-/// The palindrome of the extended methods from their three parameters.
+/// Symmetric table of the extended methods.
 const fn extended_forest_ruth(xi: f64, lambda: f64, chi: f64) -> [f64; 9] {
     let side = 0.5 - lambda;
     let middle = 1.0 - 2.0 * (chi + xi);
     [xi, side, chi, lambda, middle, lambda, chi, side, xi]
 }
 
-/// Three second-order steps of durations `t`, `1 - 2 t`, `t`, neighbours merged.
+/// Three second-order steps of durations `t`, `1 - 2 t`, `t`, merged.
 const fn forest_ruth(t: f64) -> [f64; 7] {
     let joint = 0.5 - 0.5 * t;
     [0.5 * t, t, joint, 1.0 - 2.0 * t, joint, t, 0.5 * t]
 }
 
-/// Five second-order steps of durations `p`, `p`, `1 - 4 p`, `p`, `p`, neighbours merged.
+/// Five second-order steps of durations `p`, `p`, `1 - 4 p`, `p`, `p`, merged.
 const fn suzuki(p: f64) -> [f64; 11] {
     let middle = 1.0 - 4.0 * p;
     let joint = 0.5 * (p + middle);
@@ -117,10 +116,10 @@ impl Composition {
         ALL
     }
 
-    /// The method of that name.
+    /// Method with the given name.
     ///
     /// # Errors
-    /// A name that no method has.
+    /// If no method has this name.
     pub fn by_name(name: &str) -> Result<&'static Self, UnknownScheme> {
         Self::all()
             .iter()
@@ -129,12 +128,11 @@ impl Composition {
     }
 }
 
-/// A name that no method has.
+/// Unknown name of a method.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
-#[error("no integration method is called {0:?}; known are {known}", known = known_names())]
+#[error("unknown integration method {0:?}; the methods are {known}", known = known_names())]
 pub struct UnknownScheme(pub String);
 
-/// The names of all methods, for messages.
 fn known_names() -> String {
     let names: Vec<_> = Composition::all().iter().map(|s| s.name).collect();
     names.join(", ")

@@ -1,33 +1,27 @@
-//! The time step that a method may take at a given largest frequency.
-
 use crate::Composition;
 use thiserror::Error;
 
-/// The share of the stability limit that is used unless the caller says otherwise.
+/// Default fraction of the stability limit.
 ///
-/// The limit is that of the linearised system at one state. Frequencies rise as the system
-/// deforms away from it, the estimate may be short by a percent, and a nonlinear system has
-/// resonances between its fast modes and the step, below the limit: those of Verlet at 0.87
-/// (third order) and 0.71 (fourth order) of it do harm.
+/// The limit applies to the linearised system. Frequencies rise with deformation, and the estimate
+/// may be low by 1 %. Verlet has harmful resonances between fast modes and the step at 0.87 (third
+/// order) and 0.71 (fourth order) of the limit.
 ///
-/// Measured over 1e5 steps of three bonded tops, by the rms strain of their bonds. At 2.6 %, from
-/// eight random starts each: at half the limit the energy has no trend beyond a tenth of its
-/// fluctuation, except with VEFRL, where it diffuses by up to 0.3 %; at 0.4 of the limit VEFRL has
-/// none either. Larger motion needs smaller steps (one start each): at 6 % PEFRL and VEFRL wander
-/// at half the limit, at 15 % VEFRL loses the energy altogether, at 31 % every method does. At a
-/// quarter of the limit that last state still changes its energy by 1 % (Forest and Ruth) to 70 %
-/// (PEFRL). So half the limit is no promise for long undamped runs in violent motion.
+/// Measured for three bonded tops over 1e5 steps at half the limit: at an rms bond strain of 2.6 %
+/// the energy does not drift, except with VEFRL (0.3 %; no drift at 0.4 of the limit). At 6 % PEFRL
+/// and VEFRL drift, at 15 % VEFRL fails, and at 31 % all methods fail. At a quarter of the limit
+/// and 31 % the energy changes by 1 % (Forest-Ruth) to 70 % (PEFRL).
 ///
 /// # Source
 /// Schlick, Mandziuk, Skeel and Srinivas, J. Comput. Phys. 140 (1998) 1, for the resonances.
 pub const SAFETY: f64 = 0.5;
 
-/// The step (ns) `safety * limit / frequency`, with the limit of `scheme` and the largest
-/// frequency of the system in rad/ns.
+/// Time step (ns) `safety * limit / frequency` for the stability limit of `scheme` and the largest
+/// frequency of the system (rad/ns).
 ///
 /// # Errors
-/// A frequency that is not positive and finite (a system without stiffness has no largest step),
-/// a safety factor outside (0, 1], or two numbers whose step overflows or underflows.
+/// If the frequency is not positive and finite, the safety factor is outside (0, 1], or the step
+/// overflows or underflows.
 ///
 /// ```
 /// use actin_integrate::{POSITION_VERLET, stable_step};
@@ -47,7 +41,7 @@ pub fn stable_step(scheme: &Composition, frequency: f64, safety: f64) -> Result<
     Ok(step)
 }
 
-/// Why no step could be given.
+/// Error of the time step.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum StepError {

@@ -1,30 +1,24 @@
-//! The one loop that all methods share.
-
 use crate::surroundings::{Dragging, Heating, Nothing, Surroundings};
 use crate::{Bath, Composition, Drag, Stage};
 use actin_mechanics::{Split, Thermostat};
 
-/// Advances a system by `steps` steps of `h` (ns), and leaves it with positions and momenta at
-/// the same time.
+/// Advances a system by `steps` steps of `h` (ns). Positions and momenta are synchronised at the
+/// end.
 ///
-/// Each step is: drag over `h/2`, the stages of `scheme` over a time `b h`, drag over `h/2`, with
-/// `b` of [`Drag::time_rescaling`]. Between steps the two halves of the drag are one; without drag
-/// `b` is 1, and the last stage of a step and the first of the next are one too. Splitting a run
-/// into two calls therefore changes it by round-off only. What is held or driven moves over `h`.
+/// A step consists of drag over `h/2`, the stages of `scheme` over `b h`, and drag over `h/2`, with
+/// `b` of [`Drag::time_rescaling`]. Neighbouring halves of the drag are merged; without drag,
+/// neighbouring outer stages are merged. Dividing a run into two calls therefore changes it by
+/// rounding only. Held and driven bodies move over `h`.
 ///
-/// Without drag the error is of the order of `scheme`. With drag the following are exact at any
-/// step: the decay of free motion, the displacement of a body under a constant force once its
-/// velocity is terminal, and equilibria. The alternation of drag with the conservative step is of
-/// second order in what remains: with drag, an oscillation is followed to order 2 by every scheme,
-/// and the rate `r` at which a mode relaxes is off by at most `r h/2`, relative.
+/// Without drag the error has the order of `scheme`. With drag, free decay, terminal displacement
+/// under a constant force, and equilibria are exact for any step. Damped oscillations have order 2,
+/// and the relaxation rate `r` of a mode has a relative error of at most `r h/2`. Velocities at the
+/// ends of steps are smaller than displacement per time by [`Drag::recorded_drift`].
 ///
-/// A terminal velocity shows in the displacement. The velocity at the end of a step stands behind
-/// half a step of drag and is smaller, by [`Drag::recorded_drift`].
+/// A negative `h` integrates backwards in time; drag then accelerates the system.
 ///
-/// A negative `h` goes back in time; drag then speeds the system up.
-///
-/// Evaluates the loads `steps * scheme.force_evaluations_per_step()` times, and once more if the
-/// scheme begins with a kick and the loads were not current.
+/// The loads are evaluated `steps * scheme.force_evaluations_per_step()` times, and once more if
+/// the scheme begins with a kick and the loads are not current.
 pub fn advance<S: Split + ?Sized>(
     system: &mut S,
     scheme: &Composition,
@@ -39,16 +33,15 @@ pub fn advance<S: Split + ?Sized>(
     }
 }
 
-/// [`advance`] in a heat bath, from the step with the number `first_step` on.
+/// Advances a system in a heat bath, see [`advance`]. The first step has the number `first_step`.
 ///
-/// Each step is: the Ornstein-Uhlenbeck process of `bath` over `h/2`, the stages of `scheme` over
-/// `b h` as in [`advance`], the process over `h/2`. Nothing is merged between steps: splitting a run into two calls, the second
-/// with the number of the step that it begins with, changes no bit.
+/// A step consists of the Ornstein-Uhlenbeck process of `bath` over `h/2`, the stages of `scheme`
+/// over `b h`, and the process over `h/2`. Nothing is merged, so that dividing a run into calls
+/// with consecutive step numbers does not change any bit.
 ///
-/// Where there are no loads, momenta have their exact law at every step, and a body diffuses with
-/// `kT/(m gamma)`. Where there are, the stationary law of positions differs from Boltzmann's by the
-/// error of `scheme` in the energy that it conserves: of order 2 in `b h` for the Verlet methods, of
-/// order 4 for the others.
+/// Without loads, the momenta have their exact distribution and the diffusion coefficient is
+/// `kT/(m gamma)`. With loads, the error of the position distribution is of order 2 in `b h` for
+/// the Verlet methods and of order 4 for the others.
 pub fn advance_in<S: Thermostat + ?Sized>(
     system: &mut S,
     scheme: &Composition,
@@ -61,7 +54,6 @@ pub fn advance_in<S: Thermostat + ?Sized>(
     integrate(system, scheme, h, steps, &mut heating);
 }
 
-/// The loop: steps of `scheme`, with what happens around them.
 fn integrate<S: Split + ?Sized>(
     system: &mut S,
     scheme: &Composition,
@@ -76,7 +68,7 @@ fn integrate<S: Split + ?Sized>(
         return;
     }
     let (first, second) = (scheme.first, scheme.first.other());
-    // The table being a palindrome, its last coefficient is its first.
+    // The table is symmetric, so the last coefficient equals the first.
     let outer = outer * h;
     surroundings.before(system);
     surroundings.apply(first, system, outer);
@@ -89,7 +81,6 @@ fn integrate<S: Split + ?Sized>(
     surroundings.after(system);
 }
 
-/// Everything between the first and the last stage of a step.
 #[inline]
 fn apply_inner<S: Split + ?Sized>(
     system: &mut S,

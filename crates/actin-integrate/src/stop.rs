@@ -1,12 +1,10 @@
-//! When a damped run counts as having come to rest.
-
 use actin_mechanics::Residual;
 use thiserror::Error;
 
-/// Ends a run when loads and motion are both small.
+/// Convergence criterion of a run: small loads and a small kinetic energy.
 ///
-/// Small loads alone would stop a system that swings through its equilibrium; little motion alone
-/// would stop it where it turns back.
+/// Loads alone are small when a system passes its equilibrium, and the kinetic energy alone is
+/// small at turning points.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StopRule {
     force: f64,
@@ -15,11 +13,11 @@ pub struct StopRule {
 }
 
 impl StopRule {
-    /// The rule with the tolerances `force` (pN) and `torque` (pN nm) on the largest load on a
-    /// free body, and `kinetic` (pN nm) on the kinetic energy of all. A tolerance may be infinite.
+    /// Creates a rule with tolerances `force` (pN) and `torque` (pN nm) of the largest load on a
+    /// free body, and `kinetic` (pN nm) of the total kinetic energy. Tolerances may be infinite.
     ///
     /// # Errors
-    /// A tolerance that is not positive.
+    /// If a tolerance is not positive.
     pub fn new(force: f64, torque: f64, kinetic: f64) -> Result<Self, StopRuleError> {
         for (kind, tolerance) in [("force", force), ("torque", torque), ("kinetic", kinetic)] {
             if tolerance.is_nan() || tolerance <= 0.0 {
@@ -33,19 +31,19 @@ impl StopRule {
         })
     }
 
-    /// Whether a state with these loads and this kinetic energy is at rest.
+    /// Returns `true` if loads and kinetic energy are within the tolerances.
     pub fn is_met(&self, residual: Residual, kinetic: f64) -> bool {
         residual.force <= self.force && residual.torque <= self.torque && kinetic <= self.kinetic
     }
 }
 
-/// A tolerance that was refused.
+/// Invalid tolerance.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[error("the {kind} tolerance must be positive, got {tolerance}")]
 pub struct StopRuleError {
-    /// Which tolerance.
+    /// `force`, `torque` or `kinetic`.
     pub kind: &'static str,
-    /// Its value.
+    /// Value of the tolerance.
     pub tolerance: f64,
 }
 
@@ -53,7 +51,6 @@ pub struct StopRuleError {
 mod tests {
     use super::*;
 
-    /// Each of the three conditions can hold the run back on its own.
     #[test]
     fn all_three_tolerances_must_hold() {
         let rule = StopRule::new(1.0, 2.0, 3.0).unwrap();

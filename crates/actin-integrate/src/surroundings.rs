@@ -1,24 +1,16 @@
-//! What acts on a system between conservative steps: nothing, drag, or a heat bath.
-
 use crate::noise::{Half, Noise};
 use crate::{Bath, Drag, Stage};
 use actin_mechanics::{Split, Thermostat};
 
-/// What happens before and after each conservative step.
 pub(crate) trait Surroundings<S: Split + ?Sized> {
-    /// Acts for half a step, before one.
     fn before(&mut self, system: &mut S);
 
-    /// Acts for half a step, after one.
     fn after(&mut self, system: &mut S);
 
-    /// How long loads act within a conservative step, relative to its stages: on points and on
-    /// frames.
     fn kicks(&self) -> (f64, f64) {
         (1.0, 1.0)
     }
 
-    /// Applies `stage` for a time `t` within a conservative step.
     #[inline]
     fn apply(&self, stage: Stage, system: &mut S, t: f64) {
         match stage {
@@ -31,7 +23,7 @@ pub(crate) trait Surroundings<S: Split + ?Sized> {
         }
     }
 
-    /// What lies between the inner stages of two steps: `stage` for a time `t`, the halves, and
+    /// Actions between the inner stages of two steps: `stage` for a time `t`, both halves, and
     /// `stage` again.
     fn between(&mut self, system: &mut S, stage: Stage, t: f64) {
         self.apply(stage, system, t);
@@ -41,7 +33,6 @@ pub(crate) trait Surroundings<S: Split + ?Sized> {
     }
 }
 
-/// Nothing: the stages on either side become one.
 pub(crate) struct Nothing;
 
 impl<S: Split + ?Sized> Surroundings<S> for Nothing {
@@ -54,33 +45,28 @@ impl<S: Split + ?Sized> Surroundings<S> for Nothing {
     }
 }
 
-/// Factors on the motion of points and of frames.
 type Factors = (f64, f64);
 
-/// One factor times another, for points and for frames.
 fn times(a: Factors, b: Factors) -> Factors {
     (a.0 * b.0, a.1 * b.1)
 }
 
-/// The two halves of drag about a conservative step that is rescaled in time.
+/// Halves of the drag around a conservative step that is rescaled in time.
 ///
-/// Such a step lasts `b h`, with `b` of [`Drag::time_rescaling`]. It is made as a step of `h` with
-/// `b` times the velocities, in which loads act for `b^2` of each stage: what is held or driven
-/// then moves in its own time.
+/// The step lasts `b h` with `b` of [`Drag::time_rescaling`]. It is made as a step of `h` with
+/// velocities times `b` and kicks times `b^2`, so that held and driven bodies keep their time.
 #[derive(Clone, Copy, Debug)]
 struct Halves {
-    /// Decay and the change to rescaled velocities.
+    /// Decay and rescaling of velocities.
     before: Factors,
-    /// The change back, and decay.
+    /// Inverse rescaling and decay.
     after: Factors,
-    /// `b`.
     rescaling: Factors,
-    /// `b^2`.
     kicks: Factors,
 }
 
 impl Halves {
-    /// Those of `drag` in steps of `h` (ns).
+    /// Halves of `drag` in steps of `h` (ns).
     fn of(drag: &Drag, h: f64) -> Self {
         let decay = drag.factors(0.5 * h);
         let b = drag.time_rescaling(h);
@@ -93,14 +79,12 @@ impl Halves {
     }
 }
 
-/// Drag: the halves on either side become one.
 pub(crate) struct Dragging {
     halves: Halves,
     whole: Factors,
 }
 
 impl Dragging {
-    /// Drag in steps of `h` (ns).
     pub(crate) fn over(drag: &Drag, h: f64) -> Self {
         Self {
             halves: Halves::of(drag, h),
@@ -109,8 +93,8 @@ impl Dragging {
     }
 }
 
-/// Multiplies velocities by `factors` and books what that takes. Before and after it they are those of the motion times
-/// `scales`.
+/// Multiplies velocities by `factors` and adds the heat to the energy balance. The velocities are
+/// those of the motion times `scales`, before and after.
 fn damp<S: Split + ?Sized>(system: &mut S, factors: Factors, scales: [Factors; 2]) {
     if let Some(before) = system.kinetic_energies() {
         let after = (before.0 * factors.0.powi(2), before.1 * factors.1.powi(2));
@@ -119,7 +103,6 @@ fn damp<S: Split + ?Sized>(system: &mut S, factors: Factors, scales: [Factors; 2
     system.damp(factors.0, factors.1);
 }
 
-/// Kinetic energy of points and frames whose velocities are those of the motion times `scale`.
 fn energy(kinetic: (f64, f64), scale: Factors) -> f64 {
     kinetic.0 / (scale.0 * scale.0) + kinetic.1 / (scale.1 * scale.1)
 }
@@ -150,8 +133,7 @@ impl<S: Split + ?Sized> Surroundings<S> for Dragging {
     }
 }
 
-/// A heat bath: the halves stay apart, so that no bit depends on where steps were counted in one
-/// call and where in two.
+/// Heat bath. Halves are not merged, so that results do not depend on the division into calls.
 pub(crate) struct Heating {
     halves: Halves,
     spreads: Factors,
@@ -160,8 +142,7 @@ pub(crate) struct Heating {
 }
 
 impl Heating {
-    /// The bath in steps of `h` (ns), the first of which has the number `step`, around so many
-    /// points and frames.
+    /// Creates a bath in steps of `h` (ns) from the step with the number `step`.
     pub(crate) fn over(bath: &Bath, h: f64, step: u64, bodies: (usize, usize)) -> Self {
         Self {
             halves: Halves::of(bath.drag(), h),
@@ -171,7 +152,7 @@ impl Heating {
         }
     }
 
-    /// The exact step of the Ornstein-Uhlenbeck process over half a step: decay by `factors`, and
+    /// Makes an exact Ornstein-Uhlenbeck step over half a step, with decay by `factors` and
     /// impulses of the standard deviations `spreads`.
     fn act<S: Thermostat + ?Sized>(
         &mut self,

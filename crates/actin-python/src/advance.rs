@@ -1,4 +1,4 @@
-//! How a `System` goes on: by steps in time, or to an equilibrium.
+//! Time steps and equilibria of a `System`.
 
 use crate::errors;
 use crate::system::{Clock, System};
@@ -16,20 +16,20 @@ use pyo3::types::PyDict;
 use std::ops::ControlFlow;
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// Ends steps when Python wants them to, or when a function of Python has raised something.
-struct Looker {
+/// Ends the steps after a signal or an exception of a Python callback.
+struct InterruptObserver {
     watch: Watch,
     raised: Arc<Mutex<Option<PyErr>>>,
 }
 
-impl Looker {
+impl InterruptObserver {
     fn has_raised(&self) -> bool {
         let raised = self.raised.lock();
         raised.unwrap_or_else(PoisonError::into_inner).is_some()
     }
 }
 
-impl Observer for Looker {
+impl Observer for InterruptObserver {
     fn observe(&mut self, _moment: &mut Moment<'_>) -> ControlFlow<()> {
         ControlFlow::Continue(())
     }
@@ -44,13 +44,18 @@ impl Observer for Looker {
 
 #[pymethods]
 impl System {
-    /// Makes steps in time of length `h`, by default half the longest stable one.
+    /// Makes time steps of length `h`, by default half the longest stable time step.
     ///
-    /// `drag` are the rates at which velocities and angular momenta decay, `thermal_energy` (k T) makes noise to go
-    /// with them, with a `seed` of 1 by default. What is set stays for later steps. The default length is estimated
-    /// again when bodies, terms or clamps have been added and when `scheme` changes. `step(a)` and `step(b)` together
-    /// equal `step(a + b)` to the bit. Raises `RunFailed` where numbers explode; the system then is where it last
-    /// was sound, which `steps` and `time` tell. Ctrl-C ends the steps.
+    /// - `scheme`: splitting method.
+    /// - `drag`: damping rates of velocities and of angular momenta.
+    /// - `thermal_energy`: k T of the noise that balances the drag; `seed` is 1 by default.
+    ///
+    /// Settings are kept for later calls. The default `h` is estimated again after bodies, terms or clamps have
+    /// been added and after `scheme` has changed. `step(a)` and `step(b)` together equal `step(a + b)` bitwise.
+    /// Ctrl-C ends the steps.
+    ///
+    /// Raises `RunFailed` if the motion diverges. The system then is in the last valid state, at `steps` and
+    /// `time`.
     #[pyo3(signature = (number = 1, *, h = None, scheme = None, drag = None, thermal_energy = None, seed = None))]
     #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
     fn step(
@@ -78,7 +83,7 @@ impl System {
         };
         let run = self.plan(h, number)?;
         let watch = Watch::new(None);
-        let mut looker = Looker {
+        let mut looker = InterruptObserver {
             watch,
             raised: Arc::clone(&self.error),
         };
@@ -98,7 +103,7 @@ impl System {
         }
     }
 
-    /// The longest stable time step of a method at the present stiffness, times `safety`.
+    /// Returns the longest stable time step of a method at the current stiffness, times `safety`.
     #[pyo3(signature = (scheme = None, safety = actin_integrate::SAFETY))]
     fn stable_step(&self, scheme: Option<&str>, safety: f64) -> PyResult<f64> {
         let scheme = self.scheme(scheme)?;
@@ -108,10 +113,12 @@ impl System {
         stable_step(scheme, frequency, safety).map_err(errors::value)
     }
 
-    /// Moves the system to a stable equilibrium near it, at rest, by Newton's method.
+    /// Moves the system to a nearby stable equilibrium by Newton's method, and sets velocities to zero.
     ///
-    /// `force` and `torque` are the largest loads left on free bodies; a turn of 1 rad counts as a displacement by
-    /// `turn_length`. A scene that asks for an equilibrium has its own settings. Raises `RunFailed`.
+    /// - `force`, `torque`: tolerances of the residual on free bodies.
+    /// - `turn_length`: displacement that counts as much as a rotation of 1 rad.
+    ///
+    /// A scene with the task `Equilibrium` uses its own settings. Raises `RunFailed`.
     #[pyo3(signature = (*, force = 1e-8, torque = 1e-8, iterations = 2000, turn_length = 1.0))]
     fn equilibrium(
         &mut self,
@@ -154,7 +161,7 @@ impl System {
 }
 
 impl System {
-    /// The run of so many steps from here on.
+    /// Plans `number` steps of length `h`.
     fn plan(&mut self, h: f64, number: u64) -> PyResult<Run> {
         let [translational, rotational] = self.settings.drag;
         let drag = Drag::new(translational, rotational).map_err(errors::value)?;
@@ -171,7 +178,7 @@ impl System {
         }
     }
 
-    /// The default time step, estimated where that of the scheme is not known.
+    /// Returns the default time step, estimated if necessary.
     fn default_step(&mut self) -> PyResult<f64> {
         let scheme = self.settings.scheme;
         let known = self.settings.estimated.filter(|(of, _)| *of == scheme);
@@ -183,7 +190,7 @@ impl System {
         Ok(step)
     }
 
-    /// The settings of the scene, if it asks for an equilibrium.
+    /// Returns the settings of the scene, if its task is an equilibrium.
     fn settings_of_equilibrium(&self) -> Option<&actin_sim::Equilibrium> {
         match &self.assembly.as_ref()?.scene.task {
             Task::Equilibrium(settings) => Some(settings),
@@ -191,7 +198,7 @@ impl System {
         }
     }
 
-    /// The solver of what may move here.
+    /// Creates the solver for the free bodies.
     fn newton(&self, options: NewtonOptions) -> PyResult<Newton> {
         if let (Some(assembly), Some(settings)) = (&self.assembly, self.settings_of_equilibrium())
             && self.state().points.len() == assembly.points.len()
@@ -201,7 +208,7 @@ impl System {
         Newton::new(Layout::free(self.state()), options).map_err(errors::value)
     }
 
-    /// The exception of steps that went wrong.
+    /// Returns the exception for a failed step.
     fn failed(&self, py: Python<'_>, failure: &RunFailure) -> PyErr {
         let body = match &self.assembly {
             Some(assembly) => assembly.describe(failure.body),
@@ -215,10 +222,10 @@ impl System {
     }
 }
 
-/// What is known of an equilibrium.
+/// Converts the certificate of an equilibrium.
 fn certificate(py: Python<'_>, found: &Equilibrium) -> PyResult<Py<PyAny>> {
     let Some(counts) = found.certificate else {
-        return Err(PyValueError::new_err("the stiffness was not looked at"));
+        return Err(PyValueError::new_err("the equilibrium has no certificate"));
     };
     let arguments = PyDict::new(py);
     arguments.set_item("negative_eigenvalues", counts.negative)?;
@@ -231,7 +238,7 @@ fn certificate(py: Python<'_>, found: &Equilibrium) -> PyResult<Py<PyAny>> {
     Ok(class.call((), Some(&arguments))?.unbind())
 }
 
-/// The exception of a solve that failed or was interrupted.
+/// Returns the exception for a failed or interrupted solve.
 fn unsolved(py: Python<'_>, failure: &NewtonFailure, interrupted: Option<PyErr>) -> PyErr {
     match (&failure.cause, interrupted) {
         (SolveError::Interrupted, Some(error)) => error,

@@ -1,4 +1,4 @@
-//! Arrays of numpy: buffers that Rust has filled are handed over as they are, and arrays that Python passes are read.
+//! Conversion between numpy arrays and Rust buffers.
 
 use numpy::{
     PyArray1, PyArrayDyn, PyArrayMethods, PyReadonlyArrayDyn, PyUntypedArrayMethods, ToPyArray,
@@ -6,12 +6,12 @@ use numpy::{
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
-/// Numbers in the order of C, on their way to Python.
+/// Numbers in C order with a shape.
 #[derive(Debug)]
 pub(crate) struct Block {
     pub(crate) values: Vec<f64>,
     pub(crate) shape: Vec<usize>,
-    /// The order in which Python sees the axes; none as they are.
+    /// Permutation of the axes in Python, if any.
     pub(crate) axes: Option<Vec<usize>>,
 }
 
@@ -24,7 +24,7 @@ impl Block {
         }
     }
 
-    /// Hands the numbers over, not to be written to. Nothing is copied.
+    /// Converts to a read-only array without copying.
     pub(crate) fn into_python(self, py: Python<'_>) -> PyResult<Py<PyAny>> {
         let array = PyArray1::from_vec(py, self.values).reshape(self.shape)?;
         let seen = match self.axes {
@@ -36,20 +36,20 @@ impl Block {
     }
 }
 
-/// One number for each body and record, as an array that is not to be written to.
+/// Converts to a read-only, one-dimensional array.
 pub(crate) fn column(py: Python<'_>, values: Vec<f64>) -> PyResult<Py<PyAny>> {
     let length = values.len();
     Block::new(values, &[length]).into_python(py)
 }
 
-/// Whole numbers.
+/// Converts to a read-only array of integers.
 pub(crate) fn indices(py: Python<'_>, values: &[i64]) -> PyResult<Py<PyAny>> {
     let array = values.to_pyarray(py).into_any();
     array.getattr("flags")?.setattr("writeable", false)?;
     Ok(array.unbind())
 }
 
-/// Numbers from Python, in the order of C, whatever they come as: an array of any kind, or lists.
+/// Reads numbers in C order from any array or nested lists.
 pub(crate) fn read(
     object: &Bound<'_, PyAny>,
     name: &str,
@@ -85,13 +85,13 @@ pub(crate) fn read(
     Ok((values, given))
 }
 
-/// Three numbers.
+/// Reads three numbers.
 pub(crate) fn vector(object: &Bound<'_, PyAny>, name: &str) -> PyResult<[f64; 3]> {
     let (values, _) = read(object, name, &[Some(3)])?;
     Ok([values[0], values[1], values[2]])
 }
 
-/// Rows of three numbers.
+/// Reads rows of three numbers.
 pub(crate) fn vectors(object: &Bound<'_, PyAny>, name: &str) -> PyResult<Vec<[f64; 3]>> {
     let (values, _) = read(object, name, &[None, Some(3)])?;
     Ok(values.chunks_exact(3).map(|v| [v[0], v[1], v[2]]).collect())

@@ -1,34 +1,34 @@
-//! Held bodies that are moved as Python prescribes: straight from one place and turn to the next.
+//! Motion of fixed bodies prescribed from Python, piecewise linear in time.
 
 use actin_mechanics::{Drive, Matrix3, State, UnitQuaternion, Vector3, rotation};
 use actin_sim::Assembly;
 use std::sync::Arc;
 
-/// Bodies that move as one.
+/// Prescribed motion of a rigid group of bodies.
 #[derive(Clone, Debug)]
 pub(crate) struct Motion {
-    /// When it begins.
+    /// Start time.
     pub(crate) begin: f64,
-    /// Held points, and where they began.
+    /// Points and their positions at the start.
     pub(crate) points: Vec<(usize, Vector3)>,
-    /// Held frames, and how they began.
+    /// Frames and their orientations at the start.
     pub(crate) frames: Vec<(usize, UnitQuaternion)>,
-    /// What they turn about, as it began.
+    /// Centre of rotation at the start.
     pub(crate) about: Vector3,
-    /// Times since its beginning, ascending from 0.
+    /// Times since the start, ascending from 0.
     pub(crate) times: Vec<f64>,
     /// Displacements at these times.
     pub(crate) displacements: Vec<Vector3>,
-    /// Rotation vectors at these times (rad, lab axes).
+    /// Rotation vectors at these times (rad, lab frame).
     pub(crate) rotations: Vec<Vector3>,
-    /// Unit vectors along which the points are not moved but slide.
+    /// Unit vectors of free sliding.
     pub(crate) free: Vec<Vector3>,
 }
 
-/// Prescribed motion of held bodies and controls.
+/// Prescribed motion of bodies and controls.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Motions {
-    /// Factors in time and the path of a scene.
+    /// Load factors over time and path of a scene.
     pub(crate) of_scene: Option<Arc<dyn Drive>>,
     pub(crate) own: Vec<Motion>,
 }
@@ -38,7 +38,7 @@ impl Motions {
         self.of_scene.is_none() && self.own.is_empty()
     }
 
-    /// Ends the motion of points and frames.
+    /// Ends the prescribed motion of points and frames.
     pub(crate) fn take(&mut self, points: &[usize], frames: &[usize]) {
         for motion in &mut self.own {
             motion.points.retain(|(i, _)| !points.contains(i));
@@ -47,15 +47,15 @@ impl Motions {
     }
 }
 
-/// A matrix that crosses a vector with another.
+/// Returns the cross product matrix of a vector.
 fn cross(v: Vector3) -> Matrix3 {
     Matrix3::new(0.0, -v.z, v.y, v.z, 0.0, -v.x, -v.y, v.x, 0.0)
 }
 
-/// Angular velocity (lab axes) of what turns by a rotation vector that changes at a rate.
+/// Returns the angular velocity (lab frame) of a rotation vector that changes at a rate.
 fn angular_velocity(rotation: Vector3, rate: Vector3) -> Vector3 {
     let (angle, k) = (rotation.norm(), cross(rotation));
-    // Below this the next term of the series is lost in rounding.
+    // For smaller angles, the next term of the series is below round-off.
     if angle < 1e-5 {
         return rate + k * rate * 0.5;
     }
@@ -65,7 +65,8 @@ fn angular_velocity(rotation: Vector3, rate: Vector3) -> Vector3 {
 }
 
 impl Motion {
-    /// The interval of a time, how far in it, and how long it is; none behind the last.
+    /// Returns the index of the time interval, the position in it (0 to 1), and its length; `None` after the last
+    /// time.
     fn interval(&self, time: f64) -> (usize, f64, Option<f64>) {
         let last = self.times.len() - 1;
         if time >= self.times[last] {
@@ -76,7 +77,7 @@ impl Motion {
         (i, (time - self.times[i]) / length, Some(length))
     }
 
-    /// The part of a vector that is prescribed, and of the other what is free.
+    /// Combines the prescribed components with the free components of the actual vector.
     fn held(&self, prescribed: Vector3, actual: Vector3) -> Vector3 {
         let free: Vector3 = self
             .free
@@ -122,7 +123,7 @@ impl Drive for Motions {
     }
 }
 
-/// Where the path of a scene puts what it moves, at a place on it.
+/// Sets clamps and loads to position `u` on the path of a scene.
 pub(crate) fn along_path(assembly: &Arc<Assembly>, state: &mut State, u: f64) {
     assembly.drive.place(state, u);
 }

@@ -1,4 +1,4 @@
-//! Rust's errors as the exceptions of `actin/errors.py`, with the attributes that say what they are about.
+//! Conversion of Rust errors to the exceptions of `actin/errors.py`.
 
 use actin_integrate::RunFailure;
 use actin_sim::{RunDirectoryError, SceneError, SceneProblem, SceneText};
@@ -6,7 +6,7 @@ use pyo3::exceptions::{PyOSError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 
-/// An exception of the module of errors, with attributes.
+/// Creates an exception of `actin.errors` with attributes.
 pub(crate) fn raise(
     py: Python<'_>,
     class: &str,
@@ -26,7 +26,7 @@ pub(crate) fn raise(
     made.map_or_else(|error| error, PyErr::from_value)
 }
 
-/// When and where a run went wrong, as attributes of its exception.
+/// Sets step, time, body and term of a failure as attributes.
 pub(crate) fn locate(
     attributes: &Bound<'_, PyDict>,
     failure: &RunFailure,
@@ -38,7 +38,7 @@ pub(crate) fn locate(
     attributes.set_item("term", failure.term)
 }
 
-/// A mistake of a scene that is no text.
+/// Converts a problem of a scene without text.
 pub(crate) fn problem(py: Python<'_>, problem: &SceneProblem) -> PyErr {
     let attributes = PyDict::new(py);
     let set = attributes
@@ -51,7 +51,7 @@ pub(crate) fn problem(py: Python<'_>, problem: &SceneProblem) -> PyErr {
     }
 }
 
-/// A mistake of a scene, placed in its text if it has one.
+/// Converts a problem of a scene, with its position in the text if there is one.
 pub(crate) fn placed(py: Python<'_>, text: Option<&SceneText>, found: &SceneProblem) -> PyErr {
     let Some(text) = text else {
         return problem(py, found);
@@ -70,7 +70,7 @@ pub(crate) fn placed(py: Python<'_>, text: Option<&SceneText>, found: &SceneProb
     }
 }
 
-/// Every mistake of a text, of which one is known: an exception about the first, which lists all.
+/// Converts all mistakes of a text to an exception about the first.
 pub(crate) fn mistakes(py: Python<'_>, text: &SceneText, first: SceneError) -> PyErr {
     let mut all = text.mistakes();
     if all.is_empty() {
@@ -89,7 +89,7 @@ pub(crate) fn mistakes(py: Python<'_>, text: &SceneText, first: SceneError) -> P
     }
 }
 
-/// Bytes that are no text.
+/// Converts an error of bytes that are not text.
 pub(crate) fn unread(py: Python<'_>, mistake: &SceneError) -> PyErr {
     of_text(py, &SceneText::new(""), mistake, &mistake.to_string())
 }
@@ -108,12 +108,11 @@ fn of_text(py: Python<'_>, text: &SceneText, mistake: &SceneError, message: &str
     }
 }
 
-/// A directory that is refused, or a file that cannot be read or written.
+/// Converts an error of a run directory.
 pub(crate) fn directory(error: &RunDirectoryError) -> PyErr {
     PyOSError::new_err(error.to_string())
 }
 
-/// An argument that makes no sense.
 pub(crate) fn value(error: impl std::fmt::Display) -> PyErr {
     PyValueError::new_err(error.to_string())
 }

@@ -1,4 +1,4 @@
-//! Least squares, of functions of Python and of columns.
+//! Least-squares fits of Python functions and of linear models.
 
 use crate::arrays::{Block, column, read};
 use crate::errors;
@@ -12,7 +12,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use std::cell::RefCell;
 
-/// A function of Python of all points at once. The one variable that a point has here is its number.
+/// A Python function evaluated at all points at once. The variable of a point is its index.
 struct Function<'py> {
     of: Bound<'py, PyAny>,
     jacobian: Option<Bound<'py, PyAny>>,
@@ -21,18 +21,18 @@ struct Function<'py> {
     parameters: usize,
     /// Parameters and values of the last call.
     values: RefCell<(Vec<f64>, Vec<f64>)>,
-    /// Parameters and derivatives of the last call, point by point.
+    /// Parameters and derivatives of the last call, in the order of points.
     derivatives: RefCell<(Vec<f64>, Vec<f64>)>,
     error: RefCell<Option<PyErr>>,
 }
 
-/// Step of a difference over the size of a parameter: the third root of rounding, best for central differences.
+/// Relative step of central differences: the cube root of the machine epsilon.
 const STEP: f64 = 6e-6;
 
-/// Starts that are drawn where none is given.
+/// Number of random starts without a given start.
 const DRAWN: usize = 8;
 
-/// Chi squared within this part of the best counts as the same minimum.
+/// Relative difference in chi squared within which two minima are considered equal.
 const SAME: f64 = 1e-6;
 
 impl<'py> Function<'py> {
@@ -82,7 +82,7 @@ impl<'py> Function<'py> {
         Ok(all)
     }
 
-    /// The last result for these parameters, or a new one; nothing where Python raised something.
+    /// Returns the cached or new result; `None` after a Python exception.
     fn cached(
         &self,
         p: &[f64],
@@ -105,7 +105,7 @@ impl<'py> Function<'py> {
     }
 }
 
-/// Numbers of an array of a shape; they need not be finite.
+/// Reads an array of a shape; the numbers need not be finite.
 fn raw(object: &Bound<'_, PyAny>, name: &str, shape: &[usize]) -> PyResult<Vec<f64>> {
     let numpy = object.py().import("numpy")?;
     let made = numpy.call_method1("ascontiguousarray", (object, "float64"))?;
@@ -123,11 +123,11 @@ fn raw(object: &Bound<'_, PyAny>, name: &str, shape: &[usize]) -> PyResult<Vec<f
         .to_vec())
 }
 
-/// The number of a point from its variable.
+/// Converts a variable to the index of its point.
 #[expect(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,
-    reason = "numbers of points are whole"
+    reason = "indices of points are whole numbers"
 )]
 fn number(x: &[f64]) -> usize {
     x[0] as usize
@@ -182,11 +182,15 @@ fn refused(error: &FitError) -> PyErr {
     }
 }
 
-/// Fits `function(x, p)`, an array like `y`, by Levenberg and Marquardt's method within `bounds`.
+/// Fits `function(x, p)`, an array with the shape of `y`, by the Levenberg-Marquardt method.
 ///
-/// The search begins at `start`, and at `drawn` more points between the bounds (8 where there is no start).
-/// `jacobian(x, p)` is `[points, parameters]`; differences by default. `deviations` are standard deviations of `y`,
-/// one or one each. Raises `ValueError` for data that make no sense, `ArithmeticError` where no search converges.
+/// - `start`: initial parameters.
+/// - `bounds`: lower and upper bounds of each parameter.
+/// - `drawn`: number of random starts between the bounds in addition to `start` (8 without `start`).
+/// - `jacobian`: `jacobian(x, p)`, `[points, parameters]`; by default finite differences.
+/// - `deviations`: standard deviations of `y`, one or one each.
+///
+/// Raises `ValueError` for invalid data, `ArithmeticError` if no search converges.
 #[pyfunction]
 #[pyo3(signature = (function, x, y, start = None, *, bounds = None, deviations = None, jacobian = None, drawn = 0,
     seed = 1))]
@@ -209,7 +213,7 @@ pub(crate) fn fit(
     let start = start.map(|(start, _)| start);
     let given = start.as_ref().map(Vec::len);
     let given = given.or(bounds.as_ref().map(Vec::len));
-    let none = || errors::value("a fit needs a start, or bounds to draw one");
+    let none = || errors::value("provide a start, or bounds from which to draw starts");
     let parameters = given.ok_or_else(none)?;
     let bounds = match bounds {
         Some(bounds) => Bounds::new(&bounds).map_err(|error| refused(&error))?,
@@ -228,7 +232,6 @@ pub(crate) fn fit(
     report(py, &found.parameters, quality, (statuses, agreeing))
 }
 
-/// What is known of a parameter, as Python has it.
 fn word(status: Status) -> &'static str {
     match status {
         Status::Determined => "Determined",
@@ -240,7 +243,7 @@ fn word(status: Status) -> &'static str {
     }
 }
 
-/// Fits a function to what was observed; an error that it has raised goes before any other.
+/// Fits a function; an exception that it has raised takes precedence.
 fn search(
     model: Function<'_>,
     observed: Observations,
@@ -256,7 +259,7 @@ fn search(
     }
 }
 
-/// Fits a sum of the columns of `design`, `[points, parameters]`, by QR.
+/// Fits a linear combination of the columns of `design`, `[points, parameters]`, by QR decomposition.
 #[pyfunction]
 #[pyo3(signature = (design, y, *, deviations = None))]
 pub(crate) fn fit_linear(

@@ -1,7 +1,6 @@
-//! The native half of the Python package `actin`: scenes, runs, sweeps, trades, systems by hand, fits.
+//! Native module of the Python package `actin`.
 //!
-//! What Python calls is in the modules below, one for each thing; exceptions, results and pictures are Python, in
-//! `python/actin`. Models and files are the business of the crates that this one joins.
+//! Exceptions, results and plots are Python modules in `python/actin`.
 
 mod advance;
 mod arrays;
@@ -20,10 +19,10 @@ mod trade;
 mod value;
 mod watch;
 
-/// The native half of the package `actin`.
+/// Native module of the package `actin`.
 #[pyo3::pymodule]
 mod _actin {
-    /// Refuses an invalid instruction set in the environment.
+    /// Rejects an invalid instruction set in the environment.
     #[pymodule_init]
     fn init(_module: &Bound<'_, PyModule>) -> PyResult<()> {
         let arch = actin_mechanics::wide::chosen_arch();
@@ -51,6 +50,6 @@ mod _actin {
     use crate::watch::Progress;
 
     #[pymodule_export]
-    #[allow(non_upper_case_globals, reason = "the name that Python knows")]
+    #[allow(non_upper_case_globals, reason = "name in Python")]
     const __version__: &str = env!("CARGO_PKG_VERSION");
 }

@@ -1,4 +1,4 @@
-//! What a `System` is looked at with: places, motion, loads, energies and strains, as arrays.
+//! State, loads, energies and strains of a `System`, as arrays.
 
 use crate::arrays::{Block, column, read, vectors};
 use crate::rod::Rod;
@@ -12,7 +12,7 @@ use pyo3::types::PyDict;
 
 #[pymethods]
 impl System {
-    /// Places of points, `[n, 3]`.
+    /// Positions of points, `[n, 3]`, which can be set.
     #[getter]
     fn position<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         rows(py, &self.state().points.position)
@@ -23,7 +23,7 @@ impl System {
         self.set_vectors(position, "position", |state| &mut state.points.position)
     }
 
-    /// Velocities of points, `[n, 3]`.
+    /// Velocities of points, `[n, 3]`, which can be set.
     #[getter]
     fn velocity<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         rows(py, &self.state().points.velocity)
@@ -34,7 +34,7 @@ impl System {
         self.set_vectors(velocity, "velocity", |state| &mut state.points.velocity)
     }
 
-    /// Orientations of frames, body to lab, `[m, 4]` in order w, x, y, z.
+    /// Orientations of frames, body to lab, `[m, 4]` in the order w, x, y, z. Can be set to unit quaternions.
     #[getter]
     fn quaternion(&self, py: Python<'_>) -> PyResult<Py<PyAny>> {
         let all = self.state().frames.orientation.iter();
@@ -50,7 +50,7 @@ impl System {
         let mut all = Vec::new();
         for (i, q) in values.chunks_exact(4).enumerate() {
             let q = nalgebra_quaternion(q);
-            // Far from unit length it is no orientation but a mistake.
+            // A different length indicates a mistake in the data.
             if (q.norm() - 1.0).abs() > 1e-6 {
                 let rule = format!("row {i} of quaternion must have length 1, not {}", q.norm());
                 return Err(PyValueError::new_err(rule));
@@ -64,7 +64,7 @@ impl System {
         Ok(())
     }
 
-    /// Angular momenta of frames, body axes, `[m, 3]`.
+    /// Angular momenta of frames, body frame, `[m, 3]`, which can be set.
     #[getter]
     fn angular_momentum<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         rows(py, &self.state().frames.angular_momentum)
@@ -85,21 +85,21 @@ impl System {
         column(py, (0..points.len()).map(|i| points.mass(i)).collect())
     }
 
-    /// Whether each point is free.
+    /// True for each free point.
     #[getter]
     fn free_points(&self) -> Vec<bool> {
         let points = &self.state().points;
         (0..points.len()).map(|i| points.is_free(i)).collect()
     }
 
-    /// Whether each frame is free.
+    /// True for each free frame.
     #[getter]
     fn free_frames(&self) -> Vec<bool> {
         let frames = &self.state().frames;
         (0..frames.len()).map(|i| frames.is_free(i)).collect()
     }
 
-    /// Forces on points (lab axes) and torques on frames (body axes) of all terms.
+    /// Returns the total forces on points (lab frame) and torques on frames (body frame).
     fn loads<'py>(&mut self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyAny>)> {
         let loads = self.mechanics.loads();
         let found = (rows(py, &loads.force)?, rows(py, &loads.torque)?);
@@ -107,7 +107,7 @@ impl System {
         Ok(found)
     }
 
-    /// Potential energies by term.
+    /// Returns the potential energy of each term.
     fn energies<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let all = PyDict::new(py);
         for (term, energy) in self.terms.iter().zip(self.mechanics.energies()) {
@@ -133,19 +133,19 @@ impl System {
         self.mechanics.potential_energy()
     }
 
-    /// Time that steps have taken.
+    /// Simulated time.
     #[getter]
     fn time(&self) -> f64 {
         self.clock.time()
     }
 
-    /// Steps made.
+    /// Number of time steps made.
     #[getter]
     fn steps(&self) -> u64 {
         self.clock.steps
     }
 
-    /// Curvature of a rod at its joints, body axes, `[joints, 3]`: two of bending, one of twist.
+    /// Returns the curvature of a rod at its joints, body frame, `[joints, 3]`: two of bending, one of twist.
     fn curvature(&self, py: Python<'_>, rod: &Bound<'_, Rod>) -> PyResult<Py<PyAny>> {
         let layout = &rod.get().layout;
         self.frame(layout.bending_chain().end - 1)?;
@@ -160,7 +160,7 @@ impl System {
         Block::new(values, &shape).into_python(py)
     }
 
-    /// Shear and stretch of a rod's segments, body axes, `[segments, 3]`: two of shear, one of stretch.
+    /// Returns the strain of a rod's segments, body frame, `[segments, 3]`: two of shear, one of stretch.
     fn strain(&self, py: Python<'_>, rod: &Bound<'_, Rod>) -> PyResult<Py<PyAny>> {
         let layout = &rod.get().layout;
         self.point(layout.points().end - 1)?;
@@ -221,7 +221,7 @@ impl System {
     }
 }
 
-/// A quaternion from its four numbers, scalar first.
+/// Creates a quaternion from (w, x, y, z).
 fn nalgebra_quaternion(q: &[f64]) -> nalgebra::Quaternion<f64> {
     nalgebra::Quaternion::new(q[0], q[1], q[2], q[3])
 }

@@ -1,4 +1,4 @@
-//! The records of a run as arrays: gathered once, component by component, and handed over to numpy.
+//! Records of a run as arrays, collected in one pass.
 
 use crate::arrays::{Block, column, indices};
 use actin_mechanics::State;
@@ -9,7 +9,7 @@ use std::io;
 
 type Component = fn(&State) -> &[f64];
 
-/// A quantity of points or frames: its name, whether it is one of points, and its components.
+/// A quantity of points or frames: its name, true for points, and its components.
 type Field = (&'static str, bool, &'static [Component]);
 
 const FIELDS: [Field; 4] = [
@@ -52,10 +52,10 @@ const FIELDS: [Field; 4] = [
     ),
 ];
 
-/// All numbers of the records of a run.
+/// Numbers of all records of a run.
 #[derive(Debug)]
 pub(crate) struct Gathered {
-    /// Time (ns), or place on the path.
+    /// Time (ns) or path parameter.
     at: Vec<f64>,
     fields: [Vec<f64>; 4],
     centre_line: Vec<f64>,
@@ -64,15 +64,15 @@ pub(crate) struct Gathered {
     residual_force: Vec<f64>,
     residual_torque: Vec<f64>,
     observed: Vec<f64>,
-    /// How many records have their states.
+    /// Number of records with states.
     states: usize,
 }
 
 impl Gathered {
-    /// Goes through records once.
+    /// Collects all records.
     ///
     /// # Errors
-    /// A record that cannot be read.
+    /// If a record cannot be read.
     pub(crate) fn of(assembly: &Assembly, records: &dyn Records) -> io::Result<Self> {
         let mut all = Self {
             at: Vec::new(),
@@ -116,7 +116,7 @@ impl Gathered {
         self.states += 1;
     }
 
-    /// Puts all arrays into a dictionary.
+    /// Converts to a dictionary of arrays.
     pub(crate) fn into_python(self, py: Python<'_>, assembly: &Assembly) -> PyResult<Py<PyDict>> {
         let all = PyDict::new(py);
         let (records, states) = (self.at.len(), self.states);
@@ -149,7 +149,7 @@ impl Gathered {
     }
 }
 
-/// What is known of the bodies of an assembly, whatever moves.
+/// Returns the constant properties of the bodies.
 pub(crate) fn bodies(py: Python<'_>, assembly: &Assembly) -> PyResult<Py<PyDict>> {
     let all = PyDict::new(py);
     let (points, frames) = (&assembly.points, &assembly.frames);
@@ -186,7 +186,6 @@ pub(crate) fn bodies(py: Python<'_>, assembly: &Assembly) -> PyResult<Py<PyDict>
     Ok(all.unbind())
 }
 
-/// An index as numpy has it.
 fn whole(index: usize) -> i64 {
     i64::try_from(index).expect("memory holds fewer bodies")
 }

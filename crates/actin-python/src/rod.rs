@@ -1,4 +1,4 @@
-//! A rod of a `System`: how it is put there, and where it is.
+//! Rods of a `System`.
 
 use crate::errors;
 use crate::terms::Term;
@@ -12,7 +12,7 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use std::sync::Arc;
 
-/// Where a rod is among the bodies of a `System`.
+/// Indices of a rod's bodies in a `System`.
 #[pyclass(module = "actin", frozen)]
 #[derive(Debug)]
 pub(crate) struct Rod {
@@ -21,27 +21,27 @@ pub(crate) struct Rod {
 
 #[pymethods]
 impl Rod {
-    /// First point and the one behind the last.
+    /// First point, and one past the last.
     #[getter]
     fn points(&self) -> (usize, usize) {
         let points = self.layout.points();
         (points.start, points.end)
     }
 
-    /// First frame of a segment and the one behind the last; walls are not among them.
+    /// First frame of a segment, and one past the last; frames of walls are not included.
     #[getter]
     fn frames(&self) -> (usize, usize) {
         let frames = self.layout.frames();
         (frames.start, frames.end)
     }
 
-    /// The held frame before the first segment, if there is one.
+    /// Fixed frame before the first segment, if there is a wall.
     #[getter]
     fn start_wall(&self) -> Option<usize> {
         self.layout.wall(RodEnd::Start)
     }
 
-    /// The held frame behind the last segment, if there is one.
+    /// Fixed frame after the last segment, if there is a wall.
     #[getter]
     fn end_wall(&self) -> Option<usize> {
         self.layout.wall(RodEnd::End)
@@ -62,13 +62,13 @@ impl Rod {
     }
 }
 
-/// What a rod is made from.
+/// Arguments of a new rod.
 #[derive(Debug)]
 pub(crate) struct RodArguments<'a> {
     pub(crate) nodes: Vec<[f64; 3]>,
     pub(crate) shear: [f64; 3],
     pub(crate) bend: [f64; 3],
-    /// Mass per length and area.
+    /// Mass per length, and area.
     pub(crate) section: [f64; 2],
     pub(crate) lengths: Option<Vec<f64>>,
     pub(crate) normal: Option<[f64; 3]>,
@@ -89,11 +89,11 @@ fn clamp(name: &str) -> PyResult<RodClamp> {
     }
 }
 
-/// The orientation whose third axis is along `tangent` and whose first is as near to `normal` as that allows.
+/// Returns the frame with third axis `tangent` and first axis as close to `normal` as possible.
 fn orientation(tangent: Vector3, normal: Option<[f64; 3]>) -> PyResult<UnitQuaternion> {
     let d3 = tangent.try_normalize(0.0);
-    let d3 = d3.ok_or_else(|| PyValueError::new_err("the first two nodes are at one place"))?;
-    // Of all directions across, one that no rod is parallel to.
+    let d3 = d3.ok_or_else(|| PyValueError::new_err("the first two nodes coincide"))?;
+    // Without a normal, a coordinate axis that is not parallel to the rod.
     let least = if d3.x.abs() < 0.9 {
         Vector3::x()
     } else {
@@ -110,11 +110,11 @@ fn orientation(tangent: Vector3, normal: Option<[f64; 3]>) -> PyResult<UnitQuate
 }
 
 impl RodArguments<'_> {
-    /// Puts the rod on a state: its interaction, and where it is.
+    /// Adds the rod to a state; returns its interaction and its indices.
     pub(crate) fn put(self, state: &mut State) -> PyResult<(Option<Term>, Rod)> {
         let nodes: Vec<Vector3> = self.nodes.iter().map(|&place| place.into()).collect();
         if nodes.len() < 2 {
-            return Err(PyValueError::new_err("a rod has two nodes at least"));
+            return Err(PyValueError::new_err("a rod needs at least two nodes"));
         }
         let [start, end] = self.clamps.map(|name| name.map(clamp).transpose());
         let clamps = [(RodEnd::Start, start?), (RodEnd::End, end?)];

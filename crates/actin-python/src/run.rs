@@ -1,4 +1,4 @@
-//! Runs of scenes, in memory or into a run directory.
+//! Runs of scenes in memory or in a run directory.
 
 use crate::errors;
 use crate::records::{Gathered, bodies};
@@ -18,7 +18,7 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 use std::time::Duration;
 
-/// Where records go, and what looks on.
+/// A sink that also reports progress and checks for signals.
 struct Observed<'a, S> {
     inner: &'a mut S,
     watch: Watch,
@@ -47,7 +47,7 @@ impl<S: Sink> Sink for Observed<'_, S> {
     }
 }
 
-/// A scene on its way through a run.
+/// A scene to run.
 struct Job<'a> {
     scene: &'a Scene,
     assembly: &'a Assembly,
@@ -55,7 +55,7 @@ struct Job<'a> {
     progress: Option<Py<PyAny>>,
 }
 
-/// How a run ended: its outcome, why it failed if it did, and what interrupted it.
+/// End of a run: outcome, failure if any, and the exception that interrupted it.
 struct Ended {
     outcome: Outcome,
     failure: Option<Failure>,
@@ -63,7 +63,7 @@ struct Ended {
 }
 
 impl Job<'_> {
-    /// Runs it into a sink, without Python.
+    /// Runs the scene without holding the interpreter lock.
     fn advance<S: Sink + Send>(
         &self,
         py: Python<'_>,
@@ -101,7 +101,7 @@ impl Job<'_> {
         }
     }
 
-    /// What Python gets: the run, or an exception that has it.
+    /// Returns the run, or raises an exception that contains it.
     fn conclude(
         &self,
         py: Python<'_>,
@@ -133,7 +133,7 @@ impl Job<'_> {
         }
     }
 
-    /// The run as Python has it.
+    /// Converts the run to a Python object.
     fn run(
         &self,
         py: Python<'_>,
@@ -161,7 +161,7 @@ impl Job<'_> {
     }
 }
 
-/// The exception of an interrupted run or trade, with its result so far as the attribute `name`.
+/// Returns the exception of an interrupted run or trade, with its partial result as the attribute `name`.
 pub(crate) fn interrupted(
     py: Python<'_>,
     error: Option<PyErr>,
@@ -180,7 +180,7 @@ pub(crate) fn interrupted(
     }
 }
 
-/// The exception of a run that failed: where, when, and what was recorded before.
+/// Returns the exception of a failed run, with its records.
 fn failed(py: Python<'_>, failure: &Failure, run: Option<Py<PyAny>>) -> PyErr {
     let attributes = PyDict::new(py);
     let mut set = attributes.set_item("run", run);
@@ -193,7 +193,7 @@ fn failed(py: Python<'_>, failure: &Failure, run: Option<Py<PyAny>>) -> PyErr {
     }
 }
 
-/// Where a run is written to, and how.
+/// Output directory and its options.
 #[derive(Debug)]
 struct Target {
     path: PathBuf,
@@ -202,14 +202,15 @@ struct Target {
     every: Duration,
 }
 
-/// Runs a scene: in memory, or into the run directory `out`.
+/// Runs a scene in memory, or in the run directory `out`.
 ///
-/// `overwrite` replaces an earlier run there, `resume` continues one that was interrupted, to the same bits.
-/// `progress` shows a bar (`True`, and by default on a terminal), nothing (`False`), or calls a function with a
-/// `Progress`.
+/// - `overwrite`: replaces an earlier run.
+/// - `resume`: continues an interrupted run, with bitwise identical results.
+/// - `progress`: `True` shows a bar (the default on a terminal), `False` shows nothing; a function is called
+///   with a `Progress`.
 ///
-/// Raises `SceneError`; `RunFailed`, and on Ctrl-C `Interrupted`, with what was recorded; `OSError` for the
-/// directory.
+/// Raises `SceneError`; `OSError` for the directory; `RunFailed`, and on Ctrl-C `Interrupted`, with the results
+/// so far.
 #[pyfunction]
 #[pyo3(signature = (scene, out = None, *, overwrite = false, resume = false, checkpoint_every_s = 60.0, progress = None))]
 pub(crate) fn run(
@@ -225,7 +226,7 @@ pub(crate) fn run(
     let every = Duration::try_from_secs_f64(checkpoint_every_s).map_err(errors::value)?;
     if overwrite && resume {
         return Err(PyValueError::new_err(
-            "a run is resumed or overwritten, not both",
+            "resume and overwrite exclude each other",
         ));
     }
     let assembly = scene.build(py)?;
@@ -287,7 +288,7 @@ fn into_directory(py: Python<'_>, job: &Job<'_>, target: &Target) -> PyResult<Py
     concluded
 }
 
-/// Opens the directory of a run: what it goes on from, and what keeps others out.
+/// Opens the directory of a run and returns its saved state and its lock.
 fn begin(
     directory: &RunDirectory,
     job: &Job<'_>,
@@ -307,12 +308,12 @@ fn begin(
     Ok((None, lock))
 }
 
-/// Tells of a checkpoint that could not be written, as a warning of Python.
+/// Issues a Python warning for a checkpoint that could not be written.
 fn warn(error: &CheckpointError) {
     let message = CString::new(format!("no checkpoint: {error}; the run continues"));
     Python::attach(|py| {
         let warning = py.get_type::<PyRuntimeWarning>();
-        // Where warnings are errors, this one still does not end the run.
+        // The run continues even if warnings are errors.
         if let Ok(message) = message {
             let _ = PyErr::warn(py, &warning, &message, 2);
         }

@@ -1,4 +1,4 @@
-//! `Scene`: read from RON, dictionaries or keywords, changed, checked.
+//! `Scene`: conversion from and to RON and dictionaries, changes and checks.
 
 use crate::errors;
 use crate::value::{from_python, to_python};
@@ -9,16 +9,16 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// Filaments, what holds, loads and links them, and what is computed.
+/// Model and task: filaments, clamps, loads, linkers, and the computation.
 ///
-/// Keys and rules are those of scene files. In dictionaries a choice with keys is a dictionary of one (`{"Rod":
-/// {"from_nm": 0.0, "to_nm": 40.0}}`), one without is a string (`"Start"`). Scenes do not change: `set` and
-/// `reseed` return others. Everything that reads one raises `SceneError`.
+/// Keys and rules are those of scene files. In dictionaries, a choice with keys is a dictionary with one entry
+/// (`{"Rod": {"from_nm": 0.0, "to_nm": 40.0}}`), and a choice without keys is a string (`"Start"`). Scenes are
+/// immutable: `set` and `reseed` return new scenes. Invalid scenes raise `SceneError`.
 #[pyclass(module = "actin", frozen, eq)]
 #[derive(Debug)]
 pub(crate) struct Scene {
     pub(crate) inner: Inner,
-    /// The text that it was read from, to place later problems in.
+    /// Text that the scene was read from, which locates problems.
     pub(crate) text: Option<SceneText>,
 }
 
@@ -46,12 +46,12 @@ impl Scene {
         Ok(Self { inner, text })
     }
 
-    /// A problem that showed when the scene was built or run.
+    /// Reports a problem that was found when the scene was built or run.
     pub(crate) fn refuse(&self, py: Python<'_>, problem: &SceneProblem) -> PyErr {
         errors::placed(py, self.text.as_ref(), problem)
     }
 
-    /// Bodies and interactions.
+    /// Builds bodies and interactions.
     pub(crate) fn build(&self, py: Python<'_>) -> PyResult<Arc<Assembly>> {
         let built = py.detach(|| Assembly::build(&self.inner));
         built.map(Arc::new).map_err(|p| self.refuse(py, &p))
@@ -70,24 +70,24 @@ impl Scene {
         Self::of_value(py, &value, Some(Path::new("")))
     }
 
-    /// A scene from a dictionary; `folder` is where its files of points are.
+    /// Creates a scene from a dictionary. Paths of point files are relative to `folder`.
     #[staticmethod]
     #[pyo3(signature = (keys, folder = PathBuf::new()))]
     fn from_dict(py: Python<'_>, keys: &Bound<'_, PyMapping>, folder: PathBuf) -> PyResult<Self> {
         Self::of_value(py, &from_python(keys.as_any())?, Some(&folder))
     }
 
-    /// A scene from its text, as files have it.
+    /// Creates a scene from the text of a scene file.
     #[staticmethod]
     #[pyo3(signature = (text, folder = PathBuf::new()))]
     fn from_ron(py: Python<'_>, text: &str, folder: PathBuf) -> PyResult<Self> {
         Self::of_text(py, text, Some(&folder))
     }
 
-    /// A scene from its file.
+    /// Reads a scene file.
     #[staticmethod]
     fn from_file(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
-        // With its kind, by which Python has a class for it.
+        // The kind of the error selects the Python exception.
         let named =
             |error: io::Error| io::Error::new(error.kind(), format!("{}: {error}", path.display()));
         let bytes = std::fs::read(&path).map_err(named)?;
@@ -95,17 +95,17 @@ impl Scene {
         Self::of_text(py, &text, path.parent())
     }
 
-    /// Its text, with every default.
+    /// Returns the text of the scene, with all defaults.
     fn to_ron(&self) -> String {
         self.inner.to_ron()
     }
 
-    /// Its keys, with every default that is not left out.
+    /// Returns the keys of the scene, with defaults except omitted ones.
     fn to_dict<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         to_python(py, &self.inner.to_value())
     }
 
-    /// The scene with a value at the path of a key: `scene.set("loads[0].force_pn[0]", -1.0)`.
+    /// Returns the scene with another value of a key: `scene.set("loads[0].force_pn[0]", -1.0)`.
     fn set(&self, py: Python<'_>, key: &str, value: &Bound<'_, PyAny>) -> PyResult<Self> {
         let mut all = self.inner.to_value();
         let set = all.set(key, from_python(value)?);
@@ -113,7 +113,7 @@ impl Scene {
         Self::of_value(py, &all, Some(Path::new("")))
     }
 
-    /// The scene with another seed of everything that it draws.
+    /// Returns the scene with all its seeds set.
     fn reseed(&self, py: Python<'_>, seed: u64) -> PyResult<Self> {
         let mut inner = self.inner.clone();
         let drawn: usize = Drawn::ALL
@@ -121,16 +121,18 @@ impl Scene {
             .map(|&what| inner.reseed(what, seed))
             .sum();
         if drawn == 0 {
-            let rule = "the scene draws nothing: no bonds, thermal noise, imperfections or events of linkers";
+            let rule = "the scene has nothing random (sampled bonds, thermal noise, imperfections, linker events)";
             let problem = SceneProblem::new("seed", seed, rule);
             return Err(errors::problem(py, &problem));
         }
         Ok(Self { inner, text: None })
     }
 
-    /// What the scene resolves to and costs: `scene` (with time step), `counts`, `time_step_ns` and `steps` of a
-    /// motion, `cost`, `notes`, and the time on one core as measured on the first 0.2 s: `seconds_per_step` and
-    /// `seconds` of the whole run, `None` for an equilibrium that takes longer. Nothing is written.
+    /// Resolves the scene and estimates its cost. Writes nothing.
+    ///
+    /// Keys: `scene` (with time step), `counts`, `time_step_ns` and `steps` of a motion, `cost`, `notes`, and run
+    /// times on one core, measured for up to 0.2 s: `seconds_per_step` and `seconds` of the whole run, which are
+    /// `None` for an equilibrium that takes longer.
     fn check<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let assembly = self.build(py)?;
         let plan = py.detach(|| Plan::new(&assembly));
@@ -172,13 +174,13 @@ impl Scene {
         Ok(found)
     }
 
-    /// What the scene shows, in words.
+    /// Title of the scene.
     #[getter]
     fn title(&self) -> &str {
         &self.inner.title
     }
 
-    /// What is computed.
+    /// Kind of computation.
     #[getter]
     pub(crate) fn task(&self) -> &'static str {
         match self.inner.task {

@@ -1,9 +1,11 @@
-//! Sweeps: all runs of a design on all cores, into a directory.
+//! Sweeps in a directory.
 
 use crate::errors;
 use crate::scene::Scene;
 use crate::watch::{Watch, callback, finish};
-use actin_sweep::{Axis, Ended, Opened, Ron, Samples, Settings, Sweep, SweepDirectory, SweepError};
+use actin_sweep::{
+    Axis, Ron, Samples, Settings, Sweep, SweepDirectory, SweepError, SweepOutcome, ValidatedSweep,
+};
 use pyo3::exceptions::{PyOSError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -13,7 +15,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::time::Duration;
 
-/// Time between two looks at how far the runs are.
+/// Interval of progress updates.
 const LOOK: Duration = Duration::from_millis(50);
 
 fn refused(py: Python<'_>, error: &SweepError) -> PyErr {
@@ -27,7 +29,7 @@ fn refused(py: Python<'_>, error: &SweepError) -> PyErr {
     }
 }
 
-/// Makes the runs of a sweep in a directory; returns how many there are and how many failed.
+/// Makes the runs of a sweep in a directory. Returns the numbers of runs and of failed runs.
 #[pyfunction]
 #[pyo3(signature = (scene, out, vary, results, samples, first_seed, jobs, resume, progress))]
 #[expect(clippy::too_many_arguments, reason = "called by the package alone")]
@@ -63,7 +65,7 @@ pub(crate) fn carry_out(
             of: actin_sim::Drawn::ALL.to_vec(),
         }),
     };
-    let opened = py.detach(|| Opened::new(sweep, scene.inner.to_ron()));
+    let opened = py.detach(|| ValidatedSweep::new(sweep, scene.inner.to_ron()));
     let opened = opened.map_err(|problem| errors::problem(py, &problem))?;
     let directory = SweepDirectory::create(&out, &opened, resume);
     let directory = directory.map_err(|error| refused(py, &error))?;
@@ -84,13 +86,13 @@ pub(crate) fn carry_out(
     }
 }
 
-/// Makes the runs on threads of their own, while this one looks on: signals come to it alone.
+/// Makes the runs on worker threads. Signals are handled by the main thread.
 fn make(
     directory: &SweepDirectory,
-    opened: &Opened,
+    opened: &ValidatedSweep,
     settings: &Settings,
     mut watch: Watch,
-) -> (Result<Ended, SweepError>, Option<PyErr>) {
+) -> (Result<SweepOutcome, SweepError>, Option<PyErr>) {
     let (done, of) = (AtomicUsize::new(0), AtomicUsize::new(0));
     let note = |progress: actin_sweep::Progress| {
         of.store(progress.of, Ordering::Relaxed);

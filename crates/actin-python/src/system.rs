@@ -1,5 +1,5 @@
-//! `System`: points, frames and interactions that are put together, moved and looked at by hand, with a scene or
-//! without. How it is advanced and solved is in `advance.rs`.
+//! `System`: bodies and interactions assembled by hand or from a scene. `advance.rs` contains time steps and
+//! equilibria.
 
 use crate::arrays::{read, vector, vectors};
 use crate::driven::{Motion, Motions, along_path};
@@ -17,7 +17,7 @@ use pyo3::exceptions::{PyIndexError, PyValueError};
 use pyo3::prelude::*;
 use std::sync::{Arc, Mutex};
 
-/// How a system is advanced unless its caller says otherwise.
+/// Default settings of time steps.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Settings {
     pub(crate) scheme: &'static Composition,
@@ -25,11 +25,10 @@ pub(crate) struct Settings {
     pub(crate) step: Option<f64>,
     /// Default time step with its scheme; `None` until it is needed, and after bodies, terms or clamps have changed.
     pub(crate) estimated: Option<(&'static Composition, f64)>,
-    /// Rates of drag, translational and rotational.
+    /// Damping rates, translational and rotational.
     pub(crate) drag: [f64; 2],
-    /// Thermal energy; none without noise.
+    /// Thermal energy; `None` without noise.
     pub(crate) thermal_energy: Option<f64>,
-    /// Seed of the noise.
     pub(crate) seed: u64,
 }
 
@@ -46,15 +45,15 @@ impl Default for Settings {
     }
 }
 
-/// Number of steps made and their time.
+/// Number of steps and time.
 ///
-/// The time is a product, so that it does not depend on how many calls the steps were made in.
+/// The time is a product instead of a sum, so that it does not depend on the number of calls.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Clock {
     pub(crate) steps: u64,
-    /// Length of the present steps.
+    /// Length of the current steps.
     h: f64,
-    /// Time of step number 0 if all steps had this length; 0 if they have.
+    /// Time of step 0 extrapolated with the current step length.
     pub(crate) offset: f64,
 }
 
@@ -63,9 +62,9 @@ impl Clock {
         self.offset + self.steps as f64 * self.h
     }
 
-    /// Goes on in steps of length `h`.
+    /// Changes the step length.
     pub(crate) fn set_step(&mut self, h: f64) {
-        // Before the first step there is no time to keep.
+        // Before the first step, the time is 0.
         if self.steps > 0 && h.to_bits() != self.h.to_bits() {
             self.offset = self.time() - self.steps as f64 * h;
         }
@@ -73,12 +72,11 @@ impl Clock {
     }
 }
 
-/// Points, frames and interactions that are put together, moved and looked at by hand.
+/// Points, frames and interactions that are assembled and advanced step by step.
 ///
-/// Points have places `[n, 3]` and velocities, frames have orientations `[m, 4]` (w, x, y, z; body to lab) and
-/// angular momenta (body axes). Units are any that fit together; those of a scene are nm, pN and ns. Arrays are
-/// snapshots: those that are got do not change with the system and are not to be written to; set a whole array to
-/// change it.
+/// Points have positions `[n, 3]` and velocities; frames have orientations `[m, 4]` (w, x, y, z; body to lab)
+/// and angular momenta (body frame). Any consistent units can be used; scenes use nm, pN and ns. Arrays are
+/// read-only copies: assign a whole array to change the state.
 #[pyclass(module = "actin")]
 #[derive(Debug)]
 pub(crate) struct System {
@@ -87,12 +85,12 @@ pub(crate) struct System {
     pub(crate) applied: Arc<Applied>,
     pub(crate) motions: Motions,
     pub(crate) settings: Settings,
-    /// The scene that it is made of.
+    /// Scene that the system was created from.
     pub(crate) assembly: Option<Arc<Assembly>>,
-    /// Controls of the loads that were added here, or of those of the scene.
+    /// Controls of the loads added here or of the loads of the scene.
     factors: Vec<ControlId>,
     pub(crate) clock: Clock,
-    /// What a function of Python has raised within a step.
+    /// Exception of a Python callback during a step.
     pub(crate) error: Arc<Mutex<Option<PyErr>>>,
 }
 
@@ -114,7 +112,7 @@ impl System {
         system
     }
 
-    /// Goes on in another state, which may have more bodies, under the terms as they are now.
+    /// Replaces the state, which can have more bodies, and keeps the terms.
     pub(crate) fn renew(&mut self, state: State) {
         let terms = self.terms.iter().cloned();
         let terms = terms.map(|term| -> Box<dyn Interaction> { Box::new(term) });
@@ -129,7 +127,7 @@ impl System {
         }
     }
 
-    /// Adds a term that `make` puts on the state.
+    /// Adds a term that `make` creates for the state.
     fn add<T>(
         &mut self,
         make: impl FnOnce(&mut State) -> PyResult<(Option<Term>, T)>,
@@ -175,23 +173,22 @@ fn settings_of(assembly: &Assembly, plan: &Plan<'_>) -> PyResult<Settings> {
             })
         }
         Task::Brownian(_) | Task::Dynamics(_) => Err(PyValueError::new_err(
-            "motion in a fluid is made by actin.run: the drag of a System is numerical damping",
+            "a System has numerical damping only, not the drag of a fluid: use actin.run",
         )),
     }
 }
 
-/// Times of a motion.
 fn read_times(times: &Bound<'_, PyAny>) -> PyResult<Vec<f64>> {
     let (times, _) = read(times, "times", &[None])?;
     let ascend = times.windows(2).all(|pair| pair[0] < pair[1]);
     if times.len() < 2 || times[0] != 0.0 || !ascend {
-        let rule = "times must ascend from 0 and be two at least";
+        let rule = "times must ascend from 0, and at least two are required";
         return Err(PyValueError::new_err(rule));
     }
     Ok(times)
 }
 
-/// A vector for each time, zero where none is given.
+/// Reads a vector for each time, by default zero.
 fn read_along(
     object: Option<&Bound<'_, PyAny>>,
     name: &str,
@@ -216,10 +213,10 @@ impl System {
         Self::of(State::default(), Vec::new())
     }
 
-    /// The bodies and interactions of a scene as built, with the method, time step, drag and heat of its task.
+    /// Creates the system of a scene in its initial state, with the method, time step, drag and noise of its task.
     ///
-    /// In a motion, steps follow the factors of loads in time and the path of the scene. The path of equilibria is
-    /// followed by `set_path`.
+    /// In a motion, steps follow load factors over time and the path of the scene. For equilibria, `set_path` moves
+    /// along the path.
     #[staticmethod]
     fn from_scene(py: Python<'_>, scene: &Bound<'_, Scene>) -> PyResult<Self> {
         let scene = scene.get();
@@ -231,12 +228,12 @@ impl System {
             ))
         };
         if assembly.scene.filament.sections.following().is_some() {
-            let rule = "sections that follow a motion do so in `actin run` alone";
+            let rule = "time-dependent sections are supported by `actin run` only";
             return refused("filament.sections", rule);
         }
         let mut linkers = scene.inner.linkers.iter();
         if linkers.any(|linker| linker.kinetics.is_some()) {
-            return refused("linkers", "they break, form or step in actin.run alone");
+            return refused("linkers", "kinetics are supported by actin.run only");
         }
         let plan = py.detach(|| Plan::new(&assembly));
         let plan = plan.map_err(|problem| scene.refuse(py, &problem))?;
@@ -254,7 +251,7 @@ impl System {
         Ok(system)
     }
 
-    /// Adds points at rest, `[k, 3]`, with a mass for all or for each; returns the index of the first.
+    /// Adds points `[k, 3]` at rest, with one mass for all or one each. Returns the index of the first.
     fn add_points(
         &mut self,
         position: &Bound<'_, PyAny>,
@@ -280,13 +277,15 @@ impl System {
         })
     }
 
-    /// Adds a Cosserat rod along nodes `[k + 1, 3]`: k segments, each with a frame.
+    /// Adds a Cosserat rod along nodes `[k + 1, 3]`, with k segments and a frame on each.
     ///
-    /// `shear` are the rigidities S1, S2 (shear) and S3 (stretch), forces; `bend` B1, B2 (bending) and B3 (twist),
-    /// forces times areas. Segments have rest `lengths`, those between the nodes by default. The first axis of each
-    /// frame begins near `normal` and is carried along the nodes without twist. With `rest_shape="placed"` the rod
-    /// is at rest as it is placed. `rigid_segments` adds the inertia of segments that turn as rigid pieces, which
-    /// allows longer steps.
+    /// - `shear`: rigidities S1, S2 (shear) and S3 (stretch), in units of force.
+    /// - `bend`: rigidities B1, B2 (bending) and B3 (twist), in units of force times area.
+    /// - `lengths`: rest lengths of segments; by default the distances between nodes.
+    /// - `normal`: approximate direction of the first axis of the first frame, which is transported along the nodes
+    ///   without twist.
+    /// - `rest_shape`: `"placed"` makes the given shape stress-free.
+    /// - `rigid_segments`: adds the rotational inertia of rigid segments, which allows longer time steps.
     #[pyo3(signature = (
         nodes, *, shear, bend, mass_per_length, area, lengths = None, normal = None, start = None, end = None,
         rest_shape = "straight", rigid_segments = false,
@@ -341,7 +340,7 @@ impl System {
         })
     }
 
-    /// Adds the weight of all points; returns the index of its factor.
+    /// Adds the weight of all points. Returns the index of its factor.
     fn add_weight(&mut self, acceleration: &Bound<'_, PyAny>) -> PyResult<usize> {
         let acceleration = vector(acceleration, "acceleration")?;
         let control = self.add(|state| {
@@ -353,7 +352,7 @@ impl System {
         Ok(self.factors.len() - 1)
     }
 
-    /// Adds a force that points share and that keeps its direction; returns the index of its factor.
+    /// Adds a force of constant direction, divided equally among points. Returns the index of its factor.
     fn add_force(&mut self, points: Vec<usize>, force: &Bound<'_, PyAny>) -> PyResult<usize> {
         let force = vector(force, "force")?;
         if points.is_empty() {
@@ -369,14 +368,14 @@ impl System {
         Ok(self.factors.len() - 1)
     }
 
-    /// Adds forces on points that a function of all places gives, `[n, 3]` to `[n, 3]`, and their energy.
+    /// Adds forces on points as a function of all positions, `[n, 3]` to `[n, 3]`, and optionally their energy.
     #[pyo3(signature = (force, energy = None))]
     fn add_field(&mut self, force: Py<PyAny>, energy: Option<Py<PyAny>>) -> PyResult<()> {
         let field = Field::new(force, energy, Arc::clone(&self.error));
         self.add(|_| Ok((Some(Term::Own(Arc::new(field))), ())))
     }
 
-    /// Forces on points, `[n, 3]`, beside all others until they are set again.
+    /// Sets additional forces on points, `[n, 3]`, replacing those of earlier calls.
     fn apply_force(&mut self, force: &Bound<'_, PyAny>) -> PyResult<()> {
         let count = self.state().points.len();
         let (values, _) = read(force, "force", &[Some(count), Some(3)])?;
@@ -386,7 +385,7 @@ impl System {
         Ok(())
     }
 
-    /// Torques on frames in lab axes, `[m, 3]`, beside all others until they are set again.
+    /// Sets additional torques on frames, lab frame, `[m, 3]`, replacing those of earlier calls.
     fn apply_torque(&mut self, torque: &Bound<'_, PyAny>) -> PyResult<()> {
         let count = self.state().frames.len();
         let (values, _) = read(torque, "torque", &[Some(count), Some(3)])?;
@@ -396,7 +395,7 @@ impl System {
         Ok(())
     }
 
-    /// Holds points and frames where they are; those that are driven stop.
+    /// Fixes points and frames at their current positions and orientations, and ends their prescribed motion.
     #[pyo3(signature = (points = Vec::new(), frames = Vec::new()))]
     fn hold(&mut self, points: Vec<usize>, frames: Vec<usize>) -> PyResult<()> {
         self.take_from_drives(&points, &frames)?;
@@ -410,7 +409,7 @@ impl System {
         Ok(())
     }
 
-    /// Lets held points and frames go, from rest.
+    /// Releases fixed points and frames, at rest.
     #[pyo3(signature = (points = Vec::new(), frames = Vec::new()))]
     fn release(&mut self, points: Vec<usize>, frames: Vec<usize>) -> PyResult<()> {
         self.take_from_drives(&points, &frames)?;
@@ -424,11 +423,14 @@ impl System {
         Ok(())
     }
 
-    /// Holds bodies and moves them as one: at each of `times`, which count from now and ascend from 0, they have a
-    /// `displacement` `[t, 3]` and are turned by a `rotation` vector `[t, 3]` (rad, lab axes) from where they are
-    /// now, about a place that moves along (that of the first point by default). Between times both change at
-    /// constant rates; behind the last all stands still. Along `slides` the points are not moved but slide freely
-    /// as one body.
+    /// Prescribes a rigid motion of points and frames.
+    ///
+    /// - `times`: times since now, ascending from 0. Between them, displacement and rotation vector are
+    ///   interpolated linearly; after the last, the bodies are fixed.
+    /// - `displacement`: `[t, 3]`, relative to the current positions.
+    /// - `rotation`: rotation vectors `[t, 3]` (rad, lab frame), relative to the current orientations.
+    /// - `about`: centre of rotation, which moves with the displacement; by default the first point.
+    /// - `slides`: direction along which the points slide freely as one body.
     #[pyo3(signature = (times, *, points = Vec::new(), frames = Vec::new(), displacement = None, rotation = None,
         about = None, slides = None))]
     #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
@@ -476,17 +478,17 @@ impl System {
         Ok(())
     }
 
-    /// Puts loads and held ends of a scene of equilibria where its path has them after `u` stages.
+    /// Sets loads and clamps to their values after `u` stages of the path, for a scene of equilibria.
     fn set_path(&mut self, u: f64) -> PyResult<()> {
         let assembly = self.assembly.clone();
         let Some(assembly) = assembly.filter(|assembly| !assembly.drive.is_still()) else {
             return Err(PyValueError::new_err(
-                "only a System of a scene with a path has one",
+                "set_path requires a System of a scene with a path",
             ));
         };
         if self.motions.of_scene.is_some() {
             return Err(PyValueError::new_err(
-                "the path of a motion follows the time of its steps: step there, or make a scene of an Equilibrium",
+                "the path of a motion follows the time of its steps: use step, or a scene with the task Equilibrium",
             ));
         }
         let stages = assembly.drive.stages() as f64;
@@ -499,7 +501,7 @@ impl System {
         Ok(())
     }
 
-    /// Sets the factor of a load: by its index in the scene, or as it was returned.
+    /// Sets the factor of a load, by its index in the scene or as returned when it was added.
     fn set_factor(&mut self, load: usize, factor: f64) -> PyResult<()> {
         let count = self.factors.len();
         let control = self.factors.get(load).copied();
@@ -510,7 +512,7 @@ impl System {
         })?;
         if self.is_driven(control) {
             return Err(PyValueError::new_err(format!(
-                "the factor of load {load} follows the time of the steps, by its factor in the scene or by the path: \
+                "the factor of load {load} follows the time of the steps, from the scene: \
                  change it there"
             )));
         }
@@ -520,7 +522,7 @@ impl System {
 }
 
 impl System {
-    /// Whether the scene sets a control anew at every step.
+    /// Returns whether the scene sets a control at every step.
     fn is_driven(&self, control: ControlId) -> bool {
         self.motions.of_scene.as_ref().is_some_and(|drive| {
             let mut state = self.state().clone();
@@ -530,7 +532,7 @@ impl System {
         })
     }
 
-    /// Ends the prescribed motion of points and frames, and refuses those that the scene moves.
+    /// Ends the prescribed motion of points and frames. Returns an error for bodies in clamps of the scene.
     fn take_from_drives(&mut self, points: &[usize], frames: &[usize]) -> PyResult<()> {
         points.iter().try_for_each(|&i| self.point(i).map(drop))?;
         frames.iter().try_for_each(|&i| self.frame(i).map(drop))?;
@@ -541,7 +543,7 @@ impl System {
                 let body = point.map(|i| ("point", i)).or(frame.map(|i| ("frame", i)));
                 if let Some((kind, i)) = body {
                     return Err(PyValueError::new_err(format!(
-                        "{kind} {i} belongs to a clamp of the scene, which steps place: change the clamp in the scene"
+                        "{kind} {i} belongs to a clamp of the scene: change the clamp in the scene"
                     )));
                 }
             }
@@ -554,12 +556,12 @@ impl System {
         Ok(())
     }
 
-    /// Lets points, which are held, slide along a direction as one body; returns the unit vector.
+    /// Lets fixed points slide along a direction as one body; returns the unit vector.
     fn slide(&mut self, points: &[usize], direction: Vector3) -> PyResult<Vec<Vector3>> {
         let unit = direction.try_normalize(0.0);
         let unit = unit.ok_or_else(|| PyValueError::new_err("slides must have a direction"))?;
         if points.is_empty() {
-            return Err(PyValueError::new_err("slides takes points: there are none"));
+            return Err(PyValueError::new_err("slides requires at least one point"));
         }
         let mut state = self.mechanics.state().clone();
         state.sliders.push(Slider {
@@ -571,7 +573,7 @@ impl System {
         Ok(vec![unit])
     }
 
-    /// What a function of Python has raised since the last look.
+    /// Raises the exception of a Python callback, if any.
     pub(crate) fn raise(&self) -> PyResult<()> {
         let mut error = self
             .error
@@ -580,7 +582,7 @@ impl System {
         error.take().map_or(Ok(()), Err)
     }
 
-    /// The method of a name, or the one that is set.
+    /// Returns the method with a name, or the current one.
     pub(crate) fn scheme(&self, name: Option<&str>) -> PyResult<&'static Composition> {
         name.map_or(Ok(self.settings.scheme), read_scheme)
     }

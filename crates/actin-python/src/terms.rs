@@ -1,4 +1,4 @@
-//! Interactions that Python adds to a system: terms that are shared, loads that are set, forces of a function.
+//! Interactions of a `System`.
 
 use crate::arrays::Block;
 use actin_mechanics::{Interaction, Loads, SecondOrder, State, Stiffness, Vector3, Vectors};
@@ -6,12 +6,11 @@ use actin_sim::Assembly;
 use pyo3::prelude::*;
 use std::sync::{Arc, Mutex, PoisonError, RwLock, RwLockReadGuard, RwLockWriteGuard};
 
-/// A term that several systems share: its interaction stays where it is.
+/// An interaction shared by several systems.
 #[derive(Clone, Debug)]
 pub(crate) enum Term {
-    /// One of its own.
     Own(Arc<dyn Interaction>),
-    /// One of a scene, by its index.
+    /// An interaction of a scene, by index.
     OfScene(Arc<Assembly>, usize),
 }
 
@@ -58,14 +57,14 @@ impl Interaction for Term {
     }
 }
 
-/// Forces and torques as they are set; none on bodies beyond their ends.
+/// Forces and torques on the first bodies; zero for others.
 #[derive(Debug, Default)]
 struct Set {
     force: Vec<[f64; 3]>,
     torque: Vec<[f64; 3]>,
 }
 
-/// Forces on points and torques on frames, both in lab axes, as they are set: terms `applied`.
+/// User-defined forces on points and torques on frames (lab frame), with the term name `applied`.
 #[derive(Debug, Default)]
 pub(crate) struct Applied {
     loads: RwLock<Set>,
@@ -80,12 +79,12 @@ impl Applied {
         self.loads.write().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Sets the force on each point; none on those that are not listed.
+    /// Sets the forces on the first points; forces on other points are zero.
     pub(crate) fn set_force(&self, force: Vec<[f64; 3]>) {
         self.write().force = force;
     }
 
-    /// Sets the torque on each frame.
+    /// Sets the torques on the first frames.
     pub(crate) fn set_torque(&self, torque: Vec<[f64; 3]>) {
         self.write().torque = torque;
     }
@@ -120,7 +119,7 @@ impl Interaction for Applied {
         energies[0] = -work.sum::<f64>();
     }
 
-    /// Dead forces have a potential, torques of constant direction have none.
+    /// Constant forces have a potential; torques of constant direction have none.
     fn is_conservative(&self) -> bool {
         let Set { torque, .. } = &*self.read();
         torque.iter().flatten().all(|t| *t == 0.0)
@@ -132,11 +131,11 @@ impl Interaction for Applied {
 }
 
 impl SecondOrder for Applied {
-    /// Dead forces have no stiffness.
+    /// Constant forces have no stiffness.
     fn add_stiffness(&self, _state: &State, _stiffness: &mut Stiffness) {}
 }
 
-/// Forces on points that a Python function gives: term `field`.
+/// Forces on points from a Python function, with the term name `field`.
 #[derive(Debug)]
 pub(crate) struct Field {
     force: Py<PyAny>,
@@ -145,7 +144,8 @@ pub(crate) struct Field {
 }
 
 impl Field {
-    /// `force(position) -> force`, both `[n, 3]`, and `energy(position) -> float`. What they raise goes to `error`.
+    /// Creates the term from `force(position) -> force`, both `[n, 3]`, and `energy(position) -> float`. Exceptions
+    /// are stored in `error`.
     pub(crate) fn new(
         force: Py<PyAny>,
         energy: Option<Py<PyAny>>,
@@ -164,7 +164,7 @@ impl Field {
     }
 }
 
-/// Vectors as an array of a row each, a snapshot that is not to be written to: what is written there would be lost.
+/// Converts vectors to a read-only array with one row each.
 pub(crate) fn rows<'py>(py: Python<'py>, vectors: &Vectors) -> PyResult<Bound<'py, PyAny>> {
     let values: Vec<f64> = vectors.iter().flat_map(|v| [v.x, v.y, v.z]).collect();
     let rows = Block::new(values, &[vectors.len(), 3]).into_python(py)?;

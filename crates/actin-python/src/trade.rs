@@ -1,4 +1,4 @@
-//! Trades: a scene with every monomer and in cheaper ways, each run and timed.
+//! Trades: error and run time of models of a scene.
 
 use crate::errors;
 use crate::run::interrupted;
@@ -12,18 +12,22 @@ use std::cell::RefCell;
 use std::convert::Infallible;
 use std::time::Duration;
 
-/// Keys of problems with arguments, which have no place in the text of a scene.
+/// Names of arguments, whose problems have no position in the text of the scene.
 const ARGUMENTS: [&str; 3] = ["quantity", "error", "loads"];
 
-/// Runs a scene with every monomer and in cheaper ways: errors and times of each, and the cheapest scene within an error.
+/// Compares the error and run time of cheaper models of a scene with the all-monomer model.
 ///
-/// `quantities` are `tip`, `height`, `end-force`, `end-couple`, `energy`, `curvature`, `linker-force`, or beginnings of
-/// names of observables; by default the observables of the scene and its tips. `error` is the largest relative error
-/// that is accepted. Candidates within it also run at the shares `loads` of the loads. No run takes longer than
-/// `budget_s`. `all` adds finer meshes and other laws. `progress` prints the name of each run (`True`, and by default
-/// on a terminal), nothing (`False`), or calls a function with the name.
+/// - `quantities`: `tip`, `height`, `end-force`, `end-couple`, `energy`, `curvature`, `linker-force`, or
+///   prefixes of observables; by default the observables of the scene and its tips.
+/// - `error`: largest accepted relative error.
+/// - `loads`: load fractions at which candidates within the error are run again.
+/// - `budget_s`: longest time of one run (s).
+/// - `all`: adds finer meshes and other laws.
+/// - `progress`: `True` prints the name of each run (the default on a terminal), `False` prints nothing; a
+///   function is called with the name.
 ///
-/// Raises `SceneError`, `RunFailed` if the reference has no result, and on Ctrl-C `Interrupted` with the `trade` so far.
+/// Raises `SceneError`; `RunFailed` if the reference has no result; on Ctrl-C `Interrupted` with the `trade` so
+/// far.
 #[pyfunction]
 #[pyo3(signature = (scene, *, quantities = Vec::new(), error = 0.02, loads = vec![0.5], budget_s = 60.0, all = false, progress = None))]
 #[expect(clippy::too_many_arguments, reason = "keywords of Python")]
@@ -74,7 +78,7 @@ fn measure(name: &str) -> Measure {
     parsed.unwrap_or_else(|never| match never {})
 }
 
-/// Runs the trade without Python, except for signals and the callback; returns their exception, too.
+/// Runs the trade without the interpreter lock; returns the exception of signals and the callback, if any.
 fn watched(
     scene: &Inner,
     options: &Options,
@@ -89,7 +93,7 @@ fn watched(
     (found, watch.into_inner().into_error())
 }
 
-/// The trade as an object of the class in `_trade.py`.
+/// Converts the trade to an object of the class in `_trade.py`.
 fn to_python(py: Python<'_>, trade: &Trade) -> PyResult<Py<PyAny>> {
     let python_scene = |inner: &Inner| Scene {
         inner: inner.clone(),
@@ -118,7 +122,7 @@ fn to_python(py: Python<'_>, trade: &Trade) -> PyResult<Py<PyAny>> {
     Ok(class.call((), Some(&arguments))?.unbind())
 }
 
-/// The reference without its scene.
+/// Converts the reference, without its scene.
 fn reference<'py>(
     py: Python<'py>,
     items: &[Item],
@@ -136,7 +140,7 @@ fn reference<'py>(
     Ok(keys)
 }
 
-/// Errors by the names of items.
+/// Converts errors to a dictionary by item names.
 fn by_item<'py>(
     py: Python<'py>,
     items: &[Item],

@@ -1,12 +1,11 @@
-//! Values of scenes from Python, and back.
+//! Conversion of scene values from and to Python.
 
 use actin_sim::SceneValue;
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyDict, PyFloat, PyInt, PyList, PyMapping, PyString};
 
-/// What a Python object says in a scene: dictionaries, lists and other sequences, arrays of numpy, numbers, strings,
-/// paths, `None`.
+/// Converts dictionaries, sequences, numpy arrays, numbers, strings, paths and `None`.
 pub(crate) fn from_python(object: &Bound<'_, PyAny>) -> PyResult<SceneValue> {
     if object.is_none() {
         return Ok(SceneValue::None);
@@ -30,7 +29,9 @@ pub(crate) fn from_python(object: &Bound<'_, PyAny>) -> PyResult<SceneValue> {
         if object.hasattr(name)? {
             let inner = object.call_method0(name)?;
             if inner.is(object) {
-                return Err(PyTypeError::new_err(format!("{of} that is its own value")));
+                return Err(PyTypeError::new_err(format!(
+                    "{of} that converts to itself"
+                )));
             }
             return from_python(&inner);
         }
@@ -61,7 +62,7 @@ fn keys(mapping: &Bound<'_, PyMapping>) -> PyResult<SceneValue> {
     Ok(SceneValue::Keys(all))
 }
 
-/// A value of a scene as dictionaries, lists, numbers and strings.
+/// Converts to dictionaries, lists, numbers and strings.
 pub(crate) fn to_python<'py>(py: Python<'py>, value: &SceneValue) -> PyResult<Bound<'py, PyAny>> {
     Ok(match value {
         SceneValue::None => py.None().into_bound(py),

@@ -1,39 +1,37 @@
-//! What looks on while something runs: Ctrl-C, and who is told of the progress.
-//!
-//! A run goes on without Python; a look at its signals every twentieth of a second costs nothing.
+//! Signals and progress callbacks of a computation, polled while the interpreter lock is released.
 
 use actin_sim::{At, Progress as Inner};
 use pyo3::prelude::*;
 use std::time::{Duration, Instant};
 
-/// Time between two looks at signals.
+/// Interval of checks for signals.
 const SIGNALS: Duration = Duration::from_millis(50);
-/// Time between two calls of what is told of the progress.
+/// Interval of progress callbacks.
 const SHOWN: Duration = Duration::from_millis(100);
 
-/// How far a run is.
+/// Progress of a run.
 #[pyclass(module = "actin", frozen)]
 #[derive(Debug)]
 pub(crate) struct Progress {
-    /// Share of the run that is done, from 0 to 1.
+    /// Completed fraction of the run, from 0 to 1.
     #[pyo3(get)]
     share: f64,
     /// Time (ns), stages of a path, or runs of a sweep.
     #[pyo3(get)]
     at: f64,
-    /// What `at` will be at the end.
+    /// Final value of `at`.
     #[pyo3(get)]
     end: f64,
-    /// What `at` counts: `ns`, `stages` or `runs`.
+    /// Unit of `at`: `ns`, `stages` or `runs`.
     #[pyo3(get)]
     unit: &'static str,
-    /// Steps made.
+    /// Number of time steps made.
     #[pyo3(get)]
     steps: u64,
     /// Largest force on a free point (pN).
     #[pyo3(get)]
     residual_force_pn: f64,
-    /// Time since the run began (s).
+    /// Time since the start of the run (s).
     #[pyo3(get)]
     seconds: f64,
 }
@@ -46,19 +44,18 @@ impl Progress {
     }
 }
 
-/// Looks on.
+/// Signal checks and progress callback.
 #[derive(Debug)]
 pub(crate) struct Watch {
     started: Instant,
     signals: Instant,
     shown: Option<Instant>,
     progress: Option<Py<PyAny>>,
-    /// What ends the run: `KeyboardInterrupt`, or what the callback has raised.
+    /// Exception that ended the computation: `KeyboardInterrupt` or an exception of the callback.
     error: Option<PyErr>,
 }
 
 impl Watch {
-    /// Calls `progress` with how far the run has come.
     pub(crate) fn new(progress: Option<Py<PyAny>>) -> Self {
         let now = Instant::now();
         Self {
@@ -70,7 +67,7 @@ impl Watch {
         }
     }
 
-    /// Whether the run is to end.
+    /// Checks for signals and returns whether the computation should end.
     pub(crate) fn is_interrupted(&mut self) -> bool {
         if self.error.is_none() && self.signals.elapsed() >= SIGNALS {
             self.error = signals().err();
@@ -79,7 +76,7 @@ impl Watch {
         self.error.is_some()
     }
 
-    /// Tells how far a run has come.
+    /// Reports the progress of a run.
     pub(crate) fn progress(&mut self, at: &Inner) {
         let unit = match at.at {
             At::Time(_) => "ns",
@@ -89,12 +86,12 @@ impl Watch {
         self.tell((place, at.end, unit), at.steps, at.residual_force_pn);
     }
 
-    /// Tells how many of several runs are done.
+    /// Reports the number of finished runs.
     pub(crate) fn runs(&mut self, ended: usize, of: usize) {
         self.tell((ended as f64, of as f64, "runs"), ended as u64, 0.0);
     }
 
-    /// Calls the callback with the name of the next run, unless an exception has ended the runs.
+    /// Calls the callback with the name of the next run, unless an exception has ended the computation.
     pub(crate) fn begins(&mut self, name: &str) {
         if let (Some(callback), None) = (&self.progress, &self.error) {
             let called = Python::attach(|py| callback.call1(py, (name,)).map(drop));
@@ -124,13 +121,13 @@ impl Watch {
         }
     }
 
-    /// What has ended the run, if something has.
+    /// Returns the exception that ended the computation, if any.
     pub(crate) fn into_error(self) -> Option<PyErr> {
         self.error
     }
 }
 
-/// What Python's handlers of signals say.
+/// Runs the Python signal handlers.
 fn signals() -> PyResult<()> {
     Python::attach(|py| {
         py.check_signals()?;
@@ -138,7 +135,7 @@ fn signals() -> PyResult<()> {
     })
 }
 
-/// What is called with the progress of a run: the bar of a terminal for `None`, nothing for `False`.
+/// Returns the progress callback: a terminal bar for `None`, no callback for `False`.
 pub(crate) fn callback(py: Python<'_>, progress: Option<Py<PyAny>>) -> PyResult<Option<Py<PyAny>>> {
     let chosen = py
         .import("actin._progress")?
@@ -146,7 +143,7 @@ pub(crate) fn callback(py: Python<'_>, progress: Option<Py<PyAny>>) -> PyResult<
     Ok((!chosen.is_none()).then(|| chosen.unbind()))
 }
 
-/// Lets the bar of a terminal go.
+/// Removes the terminal bar.
 pub(crate) fn finish(py: Python<'_>, progress: Option<&Py<PyAny>>) -> PyResult<()> {
     match progress {
         Some(progress) => py

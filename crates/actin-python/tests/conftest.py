@@ -1,4 +1,4 @@
-"""Scenes that several tests share."""
+"""Shared scenes."""
 
 from __future__ import annotations
 
@@ -64,5 +64,5 @@ def motion(scene: actin.Scene) -> actin.Scene:
 
 @pytest.fixture
 def long_motion(scene: actin.Scene) -> actin.Scene:
-    """One that takes minutes."""
+    """A motion that takes minutes."""
     return scene.set("task", {"Dynamics": {"duration_ns": 1e5, "record_every_ns": 1.0}})

@@ -1,4 +1,4 @@
-"""The adapter for cosseratbench: its four cases without contact, against its own references."""
+"""The cosseratbench adapter: four scenarios without contact, compared with references of the benchmark."""
 
 import numpy as np
 import pytest
@@ -15,7 +15,7 @@ def result(name, **options):
     return run(experiment, solver, values={}, options={}, **options)
 
 
-# Wrong units, ends, inertia or damping are off by far more than a hundredth.
+# Wrong units, boundary conditions, inertia or damping cause much larger errors.
 @pytest.mark.parametrize(
     ("name", "metric", "bound"),
     [("cantilever", "tip_deflection_error", 0.01), ("catenary", "shape_error", 0.01), ("pendulum", "period_error", 0.01)],

@@ -1,4 +1,4 @@
-"""What the documents show is run: the notebook, and the Python blocks of the pages about this package."""
+"""Runs the notebook and the Python blocks of pages about this package."""
 
 import re
 import subprocess
@@ -31,6 +31,6 @@ def test_the_notebook_runs(root, tmp_path):
     outputs = [output for cell in notebook.cells for output in cell.get("outputs", [])]
     figures = [output for output in outputs if "image/png" in output.get("data", {})]
     assert len(figures) == 4
-    # What is kept in the repository has no outputs, so that it is what was run here.
+    # The stored notebook has no outputs that could be outdated.
     kept = nbformat.read(root / "docs/python.ipynb", as_version=4)
     assert not any(cell.get("outputs") for cell in kept.cells)

@@ -1,4 +1,4 @@
-"""Least squares of functions and columns."""
+"""Least-squares fits of functions and linear models."""
 
 import actin
 import numpy as np
@@ -21,7 +21,7 @@ def test_a_decay_is_found_with_its_errors():
     assert "p[1]" in found._repr_html_()
 
 
-def test_derivatives_of_ones_own_give_the_same():
+def test_a_given_jacobian_agrees_with_differences():
     def jacobian(x, p):
         return np.stack([np.exp(-p[1] * x), -x * decay(x, p)], axis=1)
 
@@ -37,7 +37,7 @@ def test_bounds_hold_and_starts_are_drawn():
     assert found.parameters[0] == 1.0 and found.statuses[0] == "AtUpperBound" and found.starts == 8
 
 
-def test_what_a_function_raises_comes_through():
+def test_exceptions_of_a_function_are_raised():
     with pytest.raises(ZeroDivisionError):
         actin.fit(lambda x, p: 1 / 0, X, X, [1.0])
     with pytest.raises(ValueError, match="must return shape"):

@@ -19,7 +19,8 @@ def test_equilibrium_with_certificate(scene):
     assert found.position_nm.shape == (25, 3) and found.quaternion.shape == (26, 4)
     assert np.allclose(found.tip_nm, found.position_nm[-1])
     assert np.linalg.norm(found.quaternion, axis=1) == pytest.approx(1.0)
-    # Work of a dead load is twice the elastic energy of a linear beam, less of one that stiffens.
+    # The work of a constant force is twice the elastic energy of a linear beam, and less than that of a stiffening
+    # beam.
     assert 0.0 < found.elastic_pn_nm < -found.energy_pn_nm
 
 
@@ -28,12 +29,12 @@ def test_a_motion_is_solved_for_its_equilibrium(scene, motion):
     assert np.array_equal(direct.position_nm, instead.position_nm)
 
 
-def test_arrays_are_handed_over_once_and_not_to_be_written_to(motion):
+def test_arrays_are_read_only_and_not_copied(motion):
     run = actin.run(motion)
     assert run.position_nm is run.position_nm
     with pytest.raises(ValueError, match="read-only"):
         run.position_nm[0, 0, 0] = 1.0
-    # The buffer that was filled, seen through a change of axes: numpy owns it and has copied nothing.
+    # A view of the Rust buffer with permuted axes.
     assert run.position_nm.base is not None and not run.position_nm.flags.owndata
     assert run.position_nm.strides == (25 * 3 * 8, 8, 25 * 8)
     assert run.position_nm.shape == run.velocity_nm_per_ns.shape == run.centre_line_nm.shape == (11, 25, 3)
@@ -52,7 +53,7 @@ def test_energy_of_a_motion_is_kept(motion):
         run.path
 
 
-def test_what_is_observed_has_a_column(motion):
+def test_observables_have_columns(motion):
     run = actin.run(motion.set("observe", [{"Tip": {}}]))
     assert list(run.observables) == ["tip[0]_x_nm", "tip[0]_y_nm", "tip[0]_z_nm"]
     last = [column[-1] for column in run.observables.values()]
@@ -79,7 +80,7 @@ def test_a_directory_is_written_and_read_back(motion, tmp_path):
         actin.load(tmp_path / "none")
 
 
-def test_a_run_that_breaks_says_where(motion):
+def test_a_failed_run_reports_its_location(motion):
     wild = motion.set("task.time_step_ns", 1.0).set("task.allow_unstable_step", True)
     with pytest.raises(actin.RunFailed) as caught:
         actin.run(wild)
@@ -127,8 +128,8 @@ def test_an_interrupted_run_is_resumed_to_the_same_bits(scene, tmp_path):
     assert np.array_equal(resumed.position_nm, whole.position_nm)
 
 
-def test_other_threads_go_on_during_a_run(scene):
-    """The lock of the interpreter is free while Rust computes."""
+def test_other_threads_run_during_a_run(scene):
+    """The interpreter lock is released."""
     ticks = []
     ended = threading.Event()
 
@@ -147,7 +148,7 @@ def test_other_threads_go_on_during_a_run(scene):
     assert len(ticks) > 10 * seconds
 
 
-def test_progress_is_told_and_may_end_a_run(scene, long_motion):
+def test_progress_is_reported_and_can_end_a_run(scene, long_motion):
     seen = []
     actin.run(scene.set("task", {"Dynamics": {"duration_ns": 5.0, "record_every_ns": 0.01}}), progress=seen.append)
     assert seen[-1].share == 1.0 and seen[-1].unit == "ns" and seen[-1].end == 5.0
@@ -187,7 +188,7 @@ def test_sweep(scene, tmp_path):
     actin.sweep(scene, together, ["tip_displacement_nm[1]"], out=tmp_path / "sweep", resume=True)
 
 
-def test_sweeps_name_what_is_wrong(scene):
+def test_sweeps_report_mistakes(scene):
     with pytest.raises(actin.SceneError) as caught:
         actin.sweep(scene, {"loads[0].forse_pn": [(0.0, 0.0, 1.0)]}, ["tip_nm[0]"])
     assert caught.value.key == "vary[0].rows[0][0]" and "force_pn" in caught.value.rule
@@ -219,7 +220,7 @@ def test_ctrl_c_ends_a_sweep_that_can_be_resumed(scene, tmp_path):
     assert np.array_equal(resumed["tip_nm[0]"], whole["tip_nm[0]"])
 
 
-def test_what_is_shown(scene, motion):
+def test_representations(scene, motion):
     found = actin.equilibrium(scene)
     assert repr(found).startswith("Equilibrium(stable, energy -")
     assert "certificate" in found._repr_html_() and "stable" in found._repr_html_()
@@ -234,12 +235,12 @@ def test_pyvista_gets_lines_and_ellipsoids(scene):
     monomers = blocks["monomers"]
     axes = scene.to_dict()["filament"]["monomers"]["semi_axes_nm"]
     each = monomers.volume / 16
-    # A faceted ellipsoid has a little less volume than a smooth one.
+    # The facets have slightly less volume than the ellipsoid.
     assert 0.93 < each / (4 / 3 * np.pi * np.prod(axes)) < 1.0
 
 
-def test_warnings_are_on_every_surface(tmp_path):
-    """A rod turned by 0.0698 rad/nm, where the data of its law reach 0.0472; half of that is silent."""
+def test_warnings_are_reported_everywhere(tmp_path):
+    """A twist of 0.0698 rad/nm exceeds the range of the rod law, 0.0472; half of it does not."""
 
     def turned(angle):
         return actin.Scene(
@@ -249,7 +250,7 @@ def test_warnings_are_on_every_surface(tmp_path):
             task={"Equilibrium": {}},
         )
 
-    message = "beyond the data of its law: twist 0.0698 rad/nm"
+    message = "twist 0.0698 rad/nm"
     with pytest.warns(actin.RunWarning, match=rf"{message}.*\[law-range\]") as caught:
         run = actin.run(turned(300.0), tmp_path / "run")
     assert caught[0].filename == __file__

@@ -1,4 +1,4 @@
-"""Scenes: three ways to write one, errors that name their keys."""
+"""Scenes: construction, and errors that name their keys."""
 
 import pickle
 
@@ -52,7 +52,7 @@ def test_mistakes_of_a_text_name_key_line_and_column(text, old, new, key, meant)
     with pytest.raises(actin.SceneError) as caught:
         actin.Scene.from_ron(spoilt)
     error = caught.value
-    # What has no key is in the bracket of the key.
+    # A value without a key is reported at its parent.
     assert error.key.startswith(key)
     assert (error.line, error.meant) == (line, meant)
     assert error.column and spoilt.splitlines()[line - 1][: error.column - 1].count("(") <= 3
@@ -68,7 +68,7 @@ def test_files_that_cannot_be_read(tmp_path):
     assert (caught.value.line, caught.value.column) == (2, 13)
 
 
-def test_every_mistake_of_a_text_is_told(text):
+def test_all_mistakes_of_a_text_are_reported(text):
     with pytest.raises(actin.SceneError) as caught:
         actin.Scene.from_ron(text.replace("segments", "segmens").replace("end: Start", "end: Begin"))
     assert [mistake.line for mistake in caught.value.mistakes] == [5, 9]
@@ -115,11 +115,11 @@ def test_seeds(scene):
     independent = scene.set("filament.monomers.anchors", "Independent")
     assert independent.reseed(7).to_dict()["filament"]["monomers"]["seed"] == 7
     rod = {"sections": [{"Rod": {"from_nm": 0.0, "to_nm": 40.0}}]}
-    with pytest.raises(actin.SceneError, match="draws nothing"):
+    with pytest.raises(actin.SceneError, match="nothing random"):
         actin.Scene(filament=rod, clamps=[{"end": "Start"}], task={"Equilibrium": {}}).reseed(7)
 
 
-def test_check_says_what_it_resolves_to(scene, motion):
+def test_check_resolves_the_scene(scene, motion):
     assert scene.check()["counts"] == {"monomers": 16, "bonds": 348, "segments": 8, "junctions": 1, "dofs": 141}
     found = motion.check()
     assert found["scene"].to_dict()["task"]["Dynamics"]["time_step_ns"] == found["time_step_ns"]
@@ -127,7 +127,7 @@ def test_check_says_what_it_resolves_to(scene, motion):
     assert found["seconds"] > 0.0 and "evaluations" in found["cost"]
 
 
-def test_what_is_shown(scene):
+def test_representations(scene):
     assert repr(scene) == "Scene(1 filament, Equilibrium)"
     assert repr(scene.set("title", "<b>")) == 'Scene("<b>", 1 filament, Equilibrium)'
     html = scene.set("title", "<b>")._repr_html_()

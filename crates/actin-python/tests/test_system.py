@@ -1,4 +1,4 @@
-"""Systems by hand: rods, points, fields, drives, steps and equilibria without scenes; scenes by hand."""
+"""`System`: rods, points, fields, prescribed motion, steps and equilibria, with and without scenes."""
 
 import actin
 import numpy as np
@@ -16,15 +16,15 @@ def rod(system, segments=32, length=160.0, **keys):
     )
 
 
-def test_a_cantilever_bends_as_theory_says():
-    """Euler and Bernoulli: F L^3 / 3 B; Timoshenko adds F L / S."""
+def test_a_cantilever_agrees_with_beam_theory():
+    """Euler-Bernoulli: F L^3 / (3 B); Timoshenko adds F L / S."""
     system = actin.System()
     beam = rod(system)
     system.add_force([beam.points[1] - 1], (0.0, 0.0, -0.001))
     found = system.equilibrium()
     assert found.stable and found.residual_force < 1e-8
     theory = 0.001 * 160.0**3 / (3 * BEND) + 0.001 * 160.0 / SHEAR
-    # The mesh's error is of order (h/L)^2.
+    # The discretisation error is of order (h/L)^2.
     assert -system.position[-1, 2] == pytest.approx(theory, rel=1e-3)
     curvature = system.curvature(beam)
     assert np.linalg.norm(curvature[0]) == pytest.approx(0.001 * 160.0 / BEND, rel=0.03)
@@ -33,7 +33,7 @@ def test_a_cantilever_bends_as_theory_says():
 
 
 def test_twist_of_a_driven_end_reaches_the_other():
-    """A rod clamped at both ends, one of which turns: twist is shared by all joints."""
+    """In a rod between two clamps, one of which is rotated, the twist is uniform."""
     system = actin.System()
     beam = rod(system, segments=8, length=80.0, end="Wall")
     behind = beam.points[1] - 1
@@ -54,7 +54,7 @@ def test_a_rod_that_is_placed_at_rest_stays():
     straight.add_rod(arc, **keys)
     placed.add_rod(arc, rest_shape="placed", **keys)
     length = np.linalg.norm(np.diff(arc, axis=0), axis=1).sum()
-    # 15 of 16 segments lie between joints.
+    # The elastic energy is stored in joints, which represent 15 of 16 segment lengths.
     assert straight.energies()["rod"] == pytest.approx(BEND * length * 15 / 16 / (2 * 100.0**2), rel=2e-2)
     assert placed.energies()["rod"] < 1e-20
 
@@ -118,7 +118,7 @@ def test_an_end_slides_under_its_load():
 
 
 def test_a_scene_by_hand_moves_as_its_run_does(motion):
-    """Same scheme, step and forces: the same places to rounding."""
+    """The same scheme, step and forces give the same positions up to round-off."""
     run = actin.run(motion)
     system = actin.System.from_scene(motion)
     assert np.array_equal(system.position, run.position_nm[0])
@@ -138,7 +138,7 @@ def test_a_scene_by_hand_finds_its_equilibrium(scene):
     assert np.abs(system.position - half.position_nm).max() < 1e-6
 
 
-def test_steps_that_explode_say_where(motion):
+def test_diverging_steps_report_their_location(motion):
     system = actin.System.from_scene(motion)
     before = system.position
     with pytest.raises(actin.RunFailed) as caught:
@@ -166,7 +166,7 @@ def test_steps_that_explode_say_where(motion):
         (lambda s: rod(s, normal=(1, 0, 0)), ValueError, "normal"),
     ],
 )
-def test_arguments_that_make_no_sense_are_refused(call, error, match):
+def test_invalid_arguments_are_refused(call, error, match):
     system = actin.System()
     system.add_points([(0.0, 0.0, 0.0)], 1.0)
     with pytest.raises(error, match=match):
@@ -174,7 +174,7 @@ def test_arguments_that_make_no_sense_are_refused(call, error, match):
 
 
 def test_writing_into_a_snapshot_is_refused():
-    """It would be lost without a word."""
+    """A write would have no effect."""
     system = actin.System()
     system.add_points(np.zeros((2, 3)), 1.0)
     for name in ("position", "velocity", "quaternion", "angular_momentum"):
@@ -193,7 +193,7 @@ def test_quaternions_have_unit_length():
         system.quaternion = 2.0 * system.quaternion
 
 
-def test_heat_has_its_temperature():
+def test_noise_has_its_temperature():
     """Equipartition: 3 k T / 2 for each point, within four standard errors of 500 points."""
     system = actin.System()
     system.add_points(np.zeros((500, 3)), 1.0)
@@ -203,14 +203,14 @@ def test_heat_has_its_temperature():
 
 
 def gas(seed=3, **keys):
-    """Free points in heat."""
+    """Free points in a heat bath."""
     system = actin.System()
     system.add_points(np.zeros((500, 3)), 1.0)
     return system, dict(h=0.1, drag=(0.5, 0.5), thermal_energy=4.1, seed=seed) | keys
 
 
 def thread(**keys):
-    """A rod that swings without heat."""
+    """A vibrating rod without a heat bath."""
     system = actin.System()
     beam = rod(system, segments=8, length=80.0)
     system.add_force([beam.points[1] - 1], (0.0, 0.0, -2.0))
@@ -218,7 +218,7 @@ def thread(**keys):
 
 
 def driven(**keys):
-    """A rod whose end is moved as time goes."""
+    """A rod with a moving end."""
     system, keys = thread(**keys)
     system.drive([0.0, 1.0], points=[0], displacement=[(0, 0, 0), (0.0, 3.0, 0.0)])
     return system, keys
@@ -226,7 +226,7 @@ def driven(**keys):
 
 @pytest.mark.parametrize("make", [gas, thread, driven, lambda: thread(scheme="vefrl", drag=(0.1, 0.1))])
 def test_steps_in_parts_are_the_same_steps(make):
-    """To the bit: places, motion, time and count, whatever the parts."""
+    """State, time and number of steps are bitwise independent of the division into calls."""
     whole, keys = make()
     whole.step(137, **keys)
     for parts in ([137], [100, 37], [1] * 137, [64, 0, 3, 70]):
@@ -251,11 +251,11 @@ def test_points_in_parts_of_steps_diffuse():
     assert abs(squares.mean() - theory) < 5 * theory * np.sqrt(2 / 3 / 500)
 
 
-def test_time_goes_on_where_the_step_changes():
+def test_time_continues_when_the_step_changes():
     system, _ = thread()
     for number, h in ((10, 1e-3), (5, 2e-3), (7, 2e-3), (1, 1e-3)):
         system.step(number, h=h)
-    # A few roundings of a sum.
+    # Rounding of a few additions.
     assert system.time == pytest.approx(0.035, rel=1e-14) and system.steps == 23
     with pytest.raises(actin.RunFailed) as caught:
         system.step(1000, h=10.0)
@@ -270,7 +270,7 @@ def test_a_drive_begins_when_it_is_called():
     assert np.array_equal(system.position[0], (0, 0, 0))
     system.step(100, h=0.005)
     assert system.position[0, 1] == pytest.approx(1.5, rel=1e-12)
-    # A term that is added does not move it, and one that is held stays.
+    # The point is not moved by a new term, and remains in place when fixed.
     system.add_weight((0, 0, -1.0))
     assert system.position[0, 1] == pytest.approx(1.5, rel=1e-12)
     system.hold([0])
@@ -279,7 +279,7 @@ def test_a_drive_begins_when_it_is_called():
 
 
 def test_the_default_step_follows_the_stiffness():
-    """Two points on a spring have the frequency sqrt(2 k / m)."""
+    """The frequency of two points with a spring is sqrt(2 k / m)."""
     system = actin.System()
     system.add_points([(0, 0, 0), (1.0, 0, 0)], 1.0)
     system.add_springs([(0, 1)], stiffness=10.0, rest_length=1.0)
@@ -287,7 +287,7 @@ def test_the_default_step_follows_the_stiffness():
     first = system.time
     system.add_springs([(0, 1)], stiffness=990.0, rest_length=1.0)
     system.step(1)
-    # The estimate of the frequency is good to a percent.
+    # The estimated frequency is accurate to a percent.
     assert system.time - first == pytest.approx(first / 10, rel=0.03)
     second = system.time
     system.step(1, scheme="position-verlet")

@@ -73,7 +73,7 @@ def test_the_plot_labels_every_candidate(trade):
     assert trade.plot(ax) is ax
 
 
-def test_the_plot_without_matplotlib_says_so(trade, monkeypatch):
+def test_the_plot_requires_matplotlib(trade, monkeypatch):
     real = builtins.__import__
 
     def without(name, *rest):

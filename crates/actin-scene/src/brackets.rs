@@ -11,7 +11,8 @@ use super::tree::SceneValue;
 /// The mistake in the brackets of a text, if there is one.
 pub(super) fn mistake(text: &str, file: &str, parsed: &Parsed) -> Option<SceneError> {
     let brackets = parsed.brackets;
-    let error = |at: usize, message: &str| Some(SceneError::new(line_and_column(text, at), message));
+    let error =
+        |at: usize, message: &str| Some(SceneError::new(line_and_column(text, at), message));
     if let Some(at) = brackets.too_deep {
         let message = format!("brackets are nested more than {MOST_DEPTH} deep here");
         return error(at, &message);
@@ -65,7 +66,11 @@ impl Signs<'_> {
             is_of_another || self.is_outdented(child.place.start, open, true)
         };
         let strange = node.children().iter().find(is_strange);
-        let close = || node.place.close.filter(|close| self.is_outdented(*close, open, false));
+        let close = || {
+            node.place
+                .close
+                .filter(|close| self.is_outdented(*close, open, false))
+        };
         strange.map(|child| child.place.start).or_else(close)
     }
 

@@ -4,8 +4,8 @@ use super::meant::{meant, unknown_choice, unknown_key};
 use super::tree::{Kind, SceneValue, Source};
 use serde::de::value::{StrDeserializer, StringDeserializer};
 use serde::de::{
-    self, DeserializeOwned, DeserializeSeed, Deserializer, EnumAccess, IntoDeserializer, MapAccess, SeqAccess,
-    VariantAccess, Visitor,
+    self, DeserializeOwned, DeserializeSeed, Deserializer, EnumAccess, IntoDeserializer, MapAccess,
+    SeqAccess, VariantAccess, Visitor,
 };
 use std::borrow::Cow;
 use std::fmt;
@@ -155,7 +155,10 @@ impl de::Error for Refusal {
 }
 
 /// Reads a type from a value of a text.
-pub(super) fn deserialize<T: DeserializeOwned>(node: &SceneValue, text: &str) -> Result<T, Refusal> {
+pub(super) fn deserialize<T: DeserializeOwned>(
+    node: &SceneValue,
+    text: &str,
+) -> Result<T, Refusal> {
     T::deserialize(Value::new(node, text))
 }
 
@@ -307,7 +310,10 @@ impl<'de> Deserializer<'de> for Value<'de> {
             Kind::Number(value) => visitor.visit_f64(*value),
             Kind::Text(text) | Kind::Name(text) => visitor.visit_borrowed_str(text),
             Kind::List(_) => self.list(visitor),
-            Kind::Group(..) => visitor.visit_enum(Choice { value: self, default: "" }),
+            Kind::Group(..) => visitor.visit_enum(Choice {
+                value: self,
+                default: "",
+            }),
         }
     }
 
@@ -476,7 +482,8 @@ impl<'de> SeqAccess<'de> for &mut Children<'de> {
         };
         let index = self.next - 1;
         let read = seed.deserialize(value);
-        read.map(Some).map_err(|refusal| refusal.under(index, value.node))
+        read.map(Some)
+            .map_err(|refusal| refusal.under(index, value.node))
     }
 }
 

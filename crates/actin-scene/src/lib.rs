@@ -8,6 +8,7 @@
 #[doc = include_str!("../README.md")]
 struct Readme;
 
+mod arrangement;
 mod brackets;
 mod brownian;
 mod curve;
@@ -21,6 +22,7 @@ mod imperfection;
 mod kinetics;
 mod law;
 mod linker;
+mod linkers_between;
 mod load;
 mod load_rules;
 mod magnitude;
@@ -55,6 +57,7 @@ mod types;
 mod validate;
 mod written;
 
+pub use arrangement::{Arrangement, Orientation};
 pub use brownian::{Brownian, Fluid, Interfaces, Water};
 pub use curve::{Curve, swept};
 pub use drag::{DragModel, DragRates};
@@ -69,6 +72,7 @@ pub use law::{
     BendLaw, RodLaw, RodLaws, ShearLaw, StretchLaw, TwistLaw, TwistRise, TwistStretchLaw,
 };
 pub use linker::{Linker, LinkerSite};
+pub use linkers_between::LinkersBetween;
 pub use load::Resultant;
 pub use load::{Acceleration, Couple, CouplePerLength, Force, ForcePerLength, Load};
 pub use model::{

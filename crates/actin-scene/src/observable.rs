@@ -103,6 +103,15 @@ pub enum Observable {
     /// Energies of all: `energy_potential_pn_nm`, `energy_kinetic_pn_nm`; and of each section and junction:
     /// `energy_section_0_pn_nm`.
     Energies,
+    /// Properties of all filaments together, with edges of centre lines weighted by length:
+    /// `network_order_parameter` (largest eigenvalue of `(3 <t t^T> - 1) / 2` with tangents `t`; 1 for parallel and
+    /// antiparallel filaments), `network_polarity` (length of the mean tangent), `network_gyration_radius_nm`; of
+    /// bound linkers: `network_bound_linkers`, `network_clusters` (sets of joined filaments),
+    /// `network_largest_cluster` (number of its filaments), `network_linker_tension_mean_pn`, `_rms_pn`, `_smallest_pn`,
+    /// `_largest_pn`; `network_virial_xx_pn_nm` and `_yy`, `_zz`, `_xy`, `_xz`, `_yz`: `-sum r f^T` over points with the forces
+    /// of filaments, linkers between sites and contacts. The virial divided by the volume is the stress without the
+    /// thermal part, positive in tension.
+    Network,
     /// Square of the displacement of a point since the first record,
     /// `squared_displacement[0]_tip_nm2`; with `lag_ns` over that time,
     /// `squared_displacement[0]_tip_over_5ns_nm2`, whose mean over a run is the mean squared displacement.
@@ -189,7 +198,7 @@ impl Observable {
             | Self::Buckling { filament, .. }
             | Self::SquaredDisplacement { filament, .. }
             | Self::TangentCorrelation { filament, .. } => Some(filament),
-            Self::Linker { .. } | Self::Energies => None,
+            Self::Linker { .. } | Self::Energies | Self::Network => None,
         }
     }
 

@@ -52,6 +52,18 @@ impl Filament {
         tilt * UnitQuaternion::from_axis_angle(&Vector3::z_axis(), roll)
     }
 
+    /// Returns the place of the axis as built (lab frame, nm) at an arc length (nm).
+    pub fn place_at(&self, s_nm: f64) -> Vector3 {
+        self.places_at(&[s_nm])[0]
+    }
+
+    /// Returns the places of the axis as built (lab frame, nm) at arc lengths (nm).
+    pub fn places_at(&self, s_nm: &[f64]) -> Vec<Vector3> {
+        let (at, turn) = (Vector3::from(self.at_nm), self.rotation());
+        let curve = Curve::of(self, &self.boundaries());
+        s_nm.iter().map(|s| at + turn * curve.at(*s).0).collect()
+    }
+
     /// The rods of its sections, but for factors and what they are like at rest.
     pub fn rod_models(&self) -> impl Iterator<Item = RodModel> {
         let rods = self.sections.iter().filter(|section| section.is_rod());

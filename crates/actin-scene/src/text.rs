@@ -283,7 +283,11 @@ impl SceneText {
         let error = self.error(refusal.at.unwrap_or_default(), &path, &refusal.to_string());
         let meant = refusal.meant.clone();
         let set = self.blamed(tree, &indices);
-        SceneError { set, meant, ..error }
+        SceneError {
+            set,
+            meant,
+            ..error
+        }
     }
 
     /// The override that a value comes from.
@@ -361,7 +365,10 @@ fn last_override(node: &SceneValue) -> Option<usize> {
         Source::Override(set) => Some(set),
         _ => None,
     };
-    node.children().iter().map(last_override).fold(own, Option::max)
+    node.children()
+        .iter()
+        .map(last_override)
+        .fold(own, Option::max)
 }
 
 /// Whether a key is missing since its value was refused.

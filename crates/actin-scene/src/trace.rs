@@ -48,7 +48,8 @@ fn of_filament(filament: &mut SceneValue, key: &str, folder: &Path) -> Result<()
             SceneValue::from(Kind::Group(None, numbers.into()))
         };
         let place = value.place.clone();
-        *value = SceneValue::from(Kind::List(points.into_iter().map(point).collect())).with_key("nm");
+        *value =
+            SceneValue::from(Kind::List(points.into_iter().map(point).collect())).with_key("nm");
         value.move_to(&place);
     }
     Ok(())

@@ -335,7 +335,9 @@ impl Kind {
         match self {
             Self::Group(None, mut only)
                 if only.len() == 1
-                    && only[0].key().is_some_and(|key| key.starts_with(char::is_uppercase))
+                    && only[0]
+                        .key()
+                        .is_some_and(|key| key.starts_with(char::is_uppercase))
                     && matches!(only[0].kind, Self::Group(None, _)) =>
             {
                 let SceneValue { key, kind, .. } = only.remove(0);

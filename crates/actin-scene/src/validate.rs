@@ -74,12 +74,30 @@ pub(super) fn problems(scene: &Scene, most: usize) -> Vec<SceneProblem> {
 /// Checks each filament by itself.
 fn filaments(scene: &Scene, note: &mut impl FnMut(Result<(), SceneProblem>)) {
     for (i, one) in scene.filaments().enumerate() {
-        let named = |problem: SceneProblem| problem.with_filament(&scene.filament_key(i));
-        section_rules::check(one, &mut |checked| note(checked.map_err(named)));
-        for check in [check_model, check_place, imperfection::check, shape::check] {
-            note(check(one).map_err(named));
-        }
+        filament(one, &scene.filament_key(i), note);
     }
+}
+
+fn filament(one: &Filament, key: &str, note: &mut impl FnMut(Result<(), SceneProblem>)) {
+    let named = |problem: SceneProblem| problem.with_filament(key);
+    section_rules::check(one, &mut |checked| note(checked.map_err(named)));
+    for check in [check_model, check_place, imperfection::check, shape::check] {
+        note(check(one).map_err(named));
+    }
+}
+
+/// Checks a filament whose keys begin with `key`.
+///
+/// # Errors
+/// The first rule that is broken.
+pub(super) fn check_filament(one: &Filament, key: &str) -> Result<(), SceneProblem> {
+    let mut first = Ok(());
+    filament(one, key, &mut |checked| {
+        if first.is_ok() {
+            first = checked;
+        }
+    });
+    first
 }
 
 /// The rules between parts of a scene that are sound each.

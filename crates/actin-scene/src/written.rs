@@ -1,7 +1,9 @@
 //! A scene as its text has it: one `filament` or a list of `filaments`.
 
+use super::validate::check_filament;
 use super::{
-    Clamp, Filament, Linker, Load, Observable, Output, Repulsion, Scene, SceneProblem, Stage, Task,
+    Arrangement, Clamp, Filament, Linker, LinkersBetween, Load, Observable, Output, Repulsion,
+    Scene, SceneProblem, Stage, Task,
 };
 use serde::{Deserialize, Serialize};
 
@@ -20,6 +22,9 @@ pub(super) struct Written {
     /// pass through each other.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     filaments: Option<Vec<Filament>>,
+    /// Rules that place many filaments: copies, random networks, bundles.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    arrangements: Vec<Arrangement>,
     /// Clamped ends. All others are free.
     #[serde(default)]
     clamps: Vec<Clamp>,
@@ -29,6 +34,9 @@ pub(super) struct Written {
     /// Springs from sites on filaments to points in space or to other sites.
     #[serde(default)]
     linkers: Vec<Linker>,
+    /// Random linkers between neighbouring filaments.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    linker_sets: Vec<LinkersBetween>,
     /// What keeps filaments out of each other and out of walls; without it nothing does.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     repulsion: Option<Repulsion>,
@@ -58,31 +66,35 @@ fn is_default<T: Default + PartialEq>(value: &T) -> bool {
 impl TryFrom<Written> for Scene {
     type Error = SceneProblem;
 
-    /// Takes the filaments from the one key or the other.
+    /// Collects the filaments of all keys, then the linkers.
     fn try_from(written: Written) -> Result<Self, SceneProblem> {
-        let (filament, further) = match (written.filament, written.filaments) {
-            (Some(filament), None) => (filament, Vec::new()),
-            (None, Some(filaments)) => first_and_others(filaments)?,
-            (None, None) => {
-                let rule = "is missing: a scene has a filament, or several as filaments";
-                return Err(SceneProblem::new("filament", "", rule));
-            }
-            (Some(_), Some(_)) => {
-                let rule = "the scene has filament already: write one of the two";
-                return Err(SceneProblem::new("filaments", "", rule));
-            }
-        };
-        let resolved = |mut filament: Filament| {
+        let mut filaments = listed(
+            written.filament,
+            written.filaments,
+            !written.arrangements.is_empty(),
+        )?;
+        for (k, arrangement) in written.arrangements.iter().enumerate() {
+            let mut one = arrangement.filament().clone();
+            one.monomers.resolve();
+            check_filament(&one, &format!("arrangements[{k}].filament"))?;
+            filaments.extend(arrangement.filaments(k)?);
+        }
+        let mut linkers = written.linkers;
+        for (k, set) in written.linker_sets.iter().enumerate() {
+            linkers.extend(set.linkers(k, &filaments)?);
+        }
+        let mut resolved = filaments.into_iter().map(|mut filament| {
             filament.monomers.resolve();
             filament
-        };
+        });
+        let none = || SceneProblem::new("filaments", "[]", "a scene has at least one filament");
         Ok(Self {
             title: written.title,
-            filament: resolved(filament),
-            further: further.into_iter().map(resolved).collect(),
+            filament: resolved.next().ok_or_else(none)?,
+            further: resolved.collect(),
             clamps: written.clamps,
             loads: written.loads,
-            linkers: written.linkers,
+            linkers,
             repulsion: written.repulsion,
             path: written.path,
             observe: written.observe,
@@ -93,11 +105,25 @@ impl TryFrom<Written> for Scene {
     }
 }
 
-fn first_and_others(filaments: Vec<Filament>) -> Result<(Filament, Vec<Filament>), SceneProblem> {
-    let mut filaments = filaments.into_iter();
-    let none = || SceneProblem::new("filaments", "[]", "a scene has at least one filament");
-    let first = filaments.next().ok_or_else(none)?;
-    Ok((first, filaments.collect()))
+/// Returns the filaments of the keys `filament` or `filaments`; both may be absent in a scene with arrangements.
+fn listed(
+    alone: Option<Filament>,
+    several: Option<Vec<Filament>>,
+    is_arranged: bool,
+) -> Result<Vec<Filament>, SceneProblem> {
+    match (alone, several) {
+        (Some(filament), None) => Ok(vec![filament]),
+        (None, Some(filaments)) => Ok(filaments),
+        (None, None) if is_arranged => Ok(Vec::new()),
+        (None, None) => {
+            let rule = "is missing: a scene has a filament, or several as filaments";
+            Err(SceneProblem::new("filament", "", rule))
+        }
+        (Some(_), Some(_)) => {
+            let rule = "the scene has filament already: write one of the two";
+            Err(SceneProblem::new("filaments", "", rule))
+        }
+    }
 }
 
 impl From<Scene> for Written {
@@ -112,9 +138,11 @@ impl From<Scene> for Written {
             title: scene.title,
             filament,
             filaments,
+            arrangements: Vec::new(),
             clamps: scene.clamps,
             loads: scene.loads,
             linkers: scene.linkers,
+            linker_sets: Vec::new(),
             repulsion: scene.repulsion,
             path: scene.path,
             observe: scene.observe,

@@ -50,7 +50,7 @@ pub use actin_scene::{
     Plane, Point, Quantity, Repulsion, RodLaw, RodLaws, RodModel, RotaryInertia, Scene, SceneError,
     SceneProblem, SceneText, SceneValue, Section, Sections, Setting, Shape, ShearLaw, Slides,
     Sphere, SphereSide, Stage, Stepping, StopTolerances, StretchLaw, Task, Thermal, TwistLaw,
-    TwistRise, TwistStretchLaw, Want, Where,
+    TwistRise, TwistStretchLaw, Want, Water, Where,
 };
 pub use actin_scene::{Readings, read_all, read_ron};
 pub use assembly::{

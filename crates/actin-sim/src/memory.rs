@@ -1,5 +1,4 @@
-//! How much memory a scene takes, estimated from its numbers before any of it is allocated, and how
-//! much the machine has. Nothing but a refusal follows from the latter.
+//! Estimate of the memory of a scene before allocation, and the memory of the machine.
 
 use crate::Assembly;
 use crate::scene::{ForceLaw, RodLaw, RodModel, SceneProblem, Task};
@@ -7,41 +6,43 @@ use actin_mechanics::State;
 use std::fs;
 use std::sync::OnceLock;
 
-/// Memory that is assumed where the system does not say how much there is (bytes).
+/// Memory of the machine if the system does not report it (bytes).
 const ASSUMED: f64 = 8e9;
 
-/// What one of a kind takes (bytes) while it moves and while an equilibrium is sought: the most that
-/// `actin run` had, over the number of its bodies, for 1e4 to 1e5 segments, 5000 to 20,000 filaments and
-/// 3000 to 6000 monomers; rounded up.
+/// Bytes per body or element during a motion and during an equilibrium.
+///
+/// Values are rounded up from the peak memory of `actin run` over the number of bodies, for 1e4 to
+/// 1e5 segments, 5000 to 20,000 filaments and 3000 to 6000 monomers.
 #[derive(Clone, Copy, Debug)]
 struct Each {
     motion: f64,
     statics: f64,
 }
 
-/// A filament of its own: its text, its parameters and what it is reported as.
+/// Text, parameters and reports of a filament.
 const FILAMENT: Each = Each {
     motion: 1.2e4,
     statics: 1.2e4,
 };
-/// A segment of constant rigidities with its node: state, loads, trial motions; pattern and factor.
+/// Segment of constant rigidities with its node: state, loads, trial motions, matrix pattern and
+/// factor.
 const SEGMENT: Each = Each {
     motion: 1.5e3,
     statics: 6.6e3,
 };
-/// The same where a law follows curvature, twist or shear.
+/// Segment under a law that depends on curvature, twist or shear.
 const LAW_SEGMENT: Each = Each {
     motion: 2.2e3,
     statics: 1.2e4,
 };
-/// What trial motions of loads without an energy add: all of them are kept.
+/// Additional trial motions of nonconservative loads, all of which are kept.
 const TRIAL_VECTORS: f64 = (6 * 8 * actin_integrate::KRYLOV_VECTORS) as f64;
-/// A monomer without its bonds.
+/// Monomer without bonds.
 const MONOMER: Each = Each {
     motion: 1.8e3,
     statics: 1.9e4,
 };
-/// A bond: two ends and a rest length, as they are stored.
+/// Bond: two ends and a rest length.
 const BOND: f64 = 56.0;
 
 impl Each {
@@ -53,12 +54,12 @@ impl Each {
     }
 }
 
-/// Bytes of a filament beside its bodies.
+/// Bytes of a filament without its bodies.
 pub(crate) fn of_filament(task: &Task) -> f64 {
     FILAMENT.of(task)
 }
 
-/// Bytes of so many segments.
+/// Bytes of `count` segments.
 pub(crate) fn of_segments(count: f64, rod: &RodModel, task: &Task) -> f64 {
     let each = match rod.law {
         RodLaw::Constant => SEGMENT,
@@ -71,22 +72,23 @@ pub(crate) fn of_segments(count: f64, rod: &RodModel, task: &Task) -> f64 {
     count * (each.of(task) + trials)
 }
 
-/// Bytes of so many monomers with so many bonds each.
+/// Bytes of `count` monomers with `bonds` bonds each.
 pub(crate) fn of_monomers(count: f64, bonds: usize, task: &Task) -> f64 {
     count * (MONOMER.of(task) + BOND * bonds as f64)
 }
 
-/// Numbers of a record besides its state, its energies and what is observed: time, kinetic energy, residuals, work, heat, events.
+/// Numbers of a record in addition to state, energies and observed quantities: time, kinetic
+/// energy, residuals, work, heat, events.
 const NUMBERS_OF_ROW: usize = 7;
 
-/// Bytes of a recorded state with the energies of so many terms.
+/// Bytes of a recorded state with the energies of `terms` terms.
 fn of_record(state: &State, terms: usize) -> f64 {
-    // Of a point 6 numbers move, of a frame 7.
+    // Points have 6 numbers, frames 7.
     let numbers = 6 * state.points.len() + 7 * state.frames.len() + state.controls.len();
     8.0 * (numbers + terms) as f64
 }
 
-/// Bytes that an assembly's run keeps of each record: the state only where a file needs it.
+/// Bytes that the run of an assembly keeps per record; the state counts only if a file needs it.
 pub(crate) fn of_kept_record(assembly: &Assembly) -> f64 {
     let (terms, columns) = (assembly.terms.len(), assembly.observers.columns().len());
     let observed = 8.0 * columns as f64;
@@ -97,11 +99,11 @@ pub(crate) fn of_kept_record(assembly: &Assembly) -> f64 {
     }
 }
 
-/// Refuses what takes more bytes than the machine has; `what` says what that is, in words that the
-/// estimate follows.
+/// Refuses `bytes` beyond the memory of the machine. `what` returns the start of the message,
+/// before the estimate.
 ///
 /// # Errors
-/// More than there is, with the value of `key` to blame.
+/// Names `key` and its value.
 pub(crate) fn check(
     bytes: f64,
     (key, value): (&str, String),
@@ -112,7 +114,7 @@ pub(crate) fn check(
         return Ok(());
     }
     let there_is = machine.map_or_else(
-        || format!("the {} that are assumed", in_words(ASSUMED)),
+        || format!("the assumed {}", in_words(ASSUMED)),
         |bytes| format!("the {} of this machine", in_words(bytes)),
     );
     let (what, need) = (what(), in_words(bytes));
@@ -120,7 +122,7 @@ pub(crate) fn check(
     Err(SceneProblem::new(key, value, rule))
 }
 
-/// An amount of memory in words.
+/// Formats an amount of memory.
 pub(crate) fn in_words(bytes: f64) -> String {
     match bytes {
         b if b < 1e9 => format!("{:.0} MB", (b / 1e6).max(1.0)),
@@ -130,8 +132,8 @@ pub(crate) fn in_words(bytes: f64) -> String {
     }
 }
 
-/// Memory of the machine, or what a control group leaves of it (bytes); `None` where the system does
-/// not say.
+/// Memory of the machine or limit of its control group (bytes); `None` if the system does not
+/// report it.
 fn machine() -> Option<f64> {
     static BYTES: OnceLock<Option<f64>> = OnceLock::new();
     *BYTES.get_or_init(|| {
@@ -148,7 +150,7 @@ fn machine() -> Option<f64> {
     })
 }
 
-/// The total of `/proc/meminfo` (bytes).
+/// Total of `/proc/meminfo` (bytes).
 fn total(meminfo: &str) -> Option<f64> {
     let line = meminfo.lines().find_map(|l| l.strip_prefix("MemTotal:"))?;
     let kibibytes: f64 = line.trim().strip_suffix(" kB")?.parse().ok()?;
@@ -174,7 +176,6 @@ mod tests {
         assert_eq!(words, ["1 MB", "145 MB", "2.4 GB", "24 GB", "1.5e6 GB"]);
     }
 
-    /// What no machine has is refused with its estimate, what every machine has is not.
     #[test]
     fn a_refusal_tells_the_estimate() {
         let asked = |bytes| check(bytes, ("a.key", "7".into()), || "these need".into());
@@ -184,7 +185,7 @@ mod tests {
         assert!(message.starts_with(expected), "{message}");
     }
 
-    /// A record is what moves: 3 + 3 numbers of a point, 4 + 3 of a frame, and an energy of each term.
+    /// A record has 3 + 3 numbers per point, 4 + 3 per frame, and one energy per term.
     #[test]
     fn a_record_is_counted_as_it_is_stored() {
         let text = "Scene(

@@ -1,50 +1,47 @@
-//! `cargo xtask reproduce-figures`: artefacts of the paper, computed and compared.
+//! `cargo xtask reproduce-figures`: figures and tables of the paper, recomputed and compared.
 
 use actin_paper::committed;
 use actin_paper::figures;
 use anyhow::{Error, Result};
 use std::path::PathBuf;
 
-/// What is computed, and how.
 #[expect(clippy::struct_excessive_bools, reason = "flags of a command line")]
 #[derive(clap::Args, Clone, Debug)]
 pub(crate) struct Options {
-    /// Which: fig1 to fig10, table1 to table5, law. All by default.
+    /// Artefacts: fig1 to fig10, table1 to table5, law. All by default.
     ids: Vec<String>,
-    /// Where to write pictures, tables and reports.
+    /// Output folder of figures, tables and reports.
     #[arg(long, default_value = "target/figures")]
     out: PathBuf,
-    /// Fewer resolutions and samplings, and equilibria only.
+    /// Uses fewer resolutions and samples, and equilibria only.
     #[arg(long)]
     quick: bool,
-    /// Takes the numbers of a quick run over into docs/report-quick.json.
+    /// Writes the numbers of a quick run to docs/report-quick.json.
     #[arg(long, requires = "quick")]
     write: bool,
-    /// Number of threads; one for each core by default. The results do not depend on it.
+    /// Number of threads; by default the number of cores. Results are independent of it.
     #[arg(long, value_name = "N")]
     threads: Option<usize>,
-    /// Computes again also what an earlier run has finished.
+    /// Recomputes artefacts that an earlier run has finished.
     #[arg(long)]
     fresh: bool,
-    /// Writes every picture as PDF and PNG, too; needs a Chromium, in CHROME or on the path.
+    /// Also writes every figure as PDF and PNG; requires Chromium, in CHROME or on the path.
     #[arg(long)]
     print: bool,
-    /// Colours of pictures and viewer.
+    /// Colours of figures and of the viewer.
     #[arg(long, value_enum, default_value_t)]
     palette: Palette,
 }
 
-/// A set of colours.
 #[derive(Clone, Copy, Debug, Default, clap::ValueEnum)]
 enum Palette {
-    /// From red through yellow to blue with the share of rod, as in the paper.
+    /// Red (monomers) through yellow to blue (rod), as in the paper.
     #[default]
     Paper,
-    /// From light green to dark purple; told apart without red and green, and in grey.
+    /// Light green (monomers) to dark purple (rod), distinguishable with colour blindness and in greyscale.
     ColourBlind,
 }
 
-/// Computes the artefacts, reports, and tells how they differ from the committed ones.
 pub(crate) fn run(options: Options) -> Result<()> {
     let (quick, write) = (options.quick, options.write);
     let options = figures::Options {

@@ -1,32 +1,29 @@
-//! `cargo xtask fit-parameters`: a rod's laws from tables or from filaments of monomers.
+//! `cargo xtask fit-parameters`: rod laws from tables or from monomer filaments.
 
 use actin_paper::fit;
 use anyhow::{Error, Result};
 use std::path::PathBuf;
 
-/// What is fitted, and where the result goes.
 #[derive(clap::Args, Debug)]
 pub(crate) struct Options {
-    /// Fits your table, with its columns of twist, length, bending or stretch
-    /// (docs/how-to/fit-a-rod-law.md).
+    /// Fits a table with columns of twist, length, bending or stretch (docs/how-to/fit-a-rod-law.md).
     #[arg(long, value_name = "FILE.csv", conflicts_with_all = ["measure", "all_rows"])]
     data: Option<PathBuf>,
-    /// Measures filaments of monomers first and fits what they show, bending and shear included.
+    /// Measures monomer filaments and fits all rigidities, including bending and shear.
     #[arg(long, conflicts_with = "all_rows")]
     measure: bool,
-    /// Takes also the rows of the paper's tables above 200 degrees, which it calls unreliable.
+    /// Includes rows above 200 degrees, which the paper calls unreliable.
     #[arg(long)]
     all_rows: bool,
-    /// Accepts these parameters, such as `b3.rest,bend.rise`, at a bound of their search; any other
-    /// one there is a failure, and nothing is written.
+    /// Accepts these parameters, such as `b3.rest,bend.rise`, at a bound of the search. Other parameters at a bound
+    /// are an error, and nothing is written.
     #[arg(long, value_name = "NAMES", value_delimiter = ',')]
     allow_bounds: Vec<String>,
-    /// Where to write laws, curves and pictures.
+    /// Output folder of laws, curves and figures.
     #[arg(long, default_value = "target/fit")]
     out: PathBuf,
 }
 
-/// Fits, prints and writes.
 pub(crate) fn run(options: Options) -> Result<()> {
     let options = fit::Options {
         data: options.data,

@@ -1,38 +1,36 @@
-//! `cargo xtask load-cases`: how far rods under a law are from filaments of monomers.
+//! `cargo xtask load-cases`: differences between rods with a law and monomer filaments.
 
 use actin_paper::load_cases::{self, Subject};
 use anyhow::{Error, Result};
 use std::path::PathBuf;
 
-/// What is measured, and where it goes.
 #[derive(clap::Args, Clone, Debug)]
 #[allow(clippy::struct_excessive_bools, reason = "flags of a command line")]
 pub(crate) struct Options {
-    /// Laws by the names that scenes use.
+    /// Names of laws, as in scenes.
     #[arg(
         long,
         value_delimiter = ',',
         default_value = "Constant,Fitted,Homogenised"
     )]
     laws: Vec<String>,
-    /// Where to write tables and pictures; equilibria of monomers that are there are kept.
+    /// Output folder of tables and figures; existing equilibria of monomers are reused.
     #[arg(long, default_value = "target/load-cases")]
     out: PathBuf,
-    /// Fewer cases, azimuths and samplings.
+    /// Uses fewer cases, azimuths and samples.
     #[arg(long)]
     quick: bool,
-    /// Also into the committed file: `docs/tables/load-cases.md` or, with `--beyond`, the table of the program.
+    /// Also writes the committed file: `docs/tables/load-cases.md` or, with `--beyond`, the table of the program.
     #[arg(long, conflicts_with = "quick")]
     write: bool,
-    /// Instead, how much length is missing at the ends of short spans.
+    /// Measures the length correction at the ends of short spans instead.
     #[arg(long, conflicts_with = "write")]
     ends: bool,
-    /// Instead, errors of cantilevers that leave the data of `Homogenised`, which its warning gives.
+    /// Measures errors of cantilevers beyond the range of the law `Homogenised` instead, for its warning.
     #[arg(long, conflicts_with = "ends")]
     beyond: bool,
 }
 
-/// Measures, writes, draws and prints.
 pub(crate) fn run(options: Options) -> Result<()> {
     let subject = match (options.ends, options.beyond) {
         (true, _) => Subject::Ends,

@@ -1,5 +1,5 @@
-//! Studies behind the documents: `cargo xtask <study>` runs this program in the release profile. A closed pipe on
-//! standard output does not end it.
+//! Studies of the book: `cargo xtask <study>` runs this program in the release profile. A closed pipe on standard
+//! output does not end it.
 
 #[macro_use]
 #[path = "../../actin-cli/src/streams.rs"]
@@ -18,7 +18,7 @@ mod tradeoff;
 use clap::{Parser, Subcommand};
 use std::process::ExitCode;
 
-/// Studies behind the documents.
+/// Studies of the book.
 #[derive(Debug, Parser)]
 #[command(name = "cargo xtask")]
 struct Arguments {
@@ -28,21 +28,21 @@ struct Arguments {
 
 #[derive(Debug, Subcommand)]
 enum Task {
-    /// Measures rates of fixed cases beside their targets.
+    /// Measures rates of fixed cases and compares them with targets.
     Bench(bench::Options),
-    /// Takes every number of a scene to its limits and lists the outcomes.
+    /// Tests every number of a scene at its limits and tabulates the outcomes.
     Extremes(extremes::Options),
-    /// Fits a rod's laws to tables or to filaments of monomers.
+    /// Fits rod laws to tables or to monomer filaments.
     FitParameters(fit::Options),
-    /// Measures the energy per length of monomers under all strains, on a grid, and fits laws of rods to it.
+    /// Measures the energy per length of monomer filaments on a grid of strains, and fits rod laws to it.
     Homogenise(homogenise::Options),
-    /// Measures how far rods under a law are from filaments of monomers, load case by load case.
+    /// Measures differences between rods with a law and monomer filaments for a list of load cases.
     LoadCases(load_cases::Options),
-    /// Computes figures and tables of the paper and compares them with it.
+    /// Recomputes figures and tables of the paper and compares them with the published values.
     ReproduceFigures(figures::Options),
-    /// Compares every monomer with cheaper candidates in the scenes of `scenarios/trade`.
+    /// Compares all-monomer models with cheaper ones in the scenes of `scenarios/trade`.
     Tradeoff(tradeoff::Options),
-    /// Checks or writes the generated pages of the book: keys of scenes, tables of results.
+    /// Checks or writes generated pages of the book: keys of scenes, tables of results.
     Docs(docs::Options),
 }
 

@@ -1,4 +1,4 @@
-//! `cargo xtask tradeoff`: errors and times of `actin trade` on the scenes of `scenarios/trade`.
+//! `cargo xtask tradeoff`: errors and run times of `actin trade` for the scenes of `scenarios/trade`.
 
 use actin_sim::trade::{Candidate, Measure, Options as TradeOptions, Trade, Watch, trade};
 use actin_sim::{Assembly, Scene};
@@ -7,28 +7,24 @@ use std::fmt::Write as _;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// Folder of the scenes.
 const SCENES: &str = "scenarios/trade";
-/// Page of the book and folder of its pictures.
+/// Page of the book, and folder of its figures.
 const PAGE: &str = "docs/measured/trade.md";
 const PICTURES: &str = "docs/measured/trade";
-/// Wanted errors in descending order.
 const WANTED: [f64; 3] = [0.05, 0.02, 0.01];
 
-/// Options of the study.
 #[derive(clap::Args, Debug)]
 pub(crate) struct Options {
     /// Names of scenes in `scenarios/trade`; all by default.
     names: Vec<String>,
-    /// Output folder of tables and pictures.
+    /// Output folder of tables and figures.
     #[arg(long, default_value = "target/tradeoff")]
     out: PathBuf,
-    /// Writes `docs/measured/trade.md` and its pictures, too.
+    /// Also writes `docs/measured/trade.md` and its figures.
     #[arg(long)]
     write: bool,
 }
 
-/// Runs the trade of each scene twice, prints the tables and writes the page.
 pub(crate) fn run(options: &Options) -> Result<()> {
     fs::create_dir_all(&options.out)?;
     let mut summary = String::new();
@@ -74,7 +70,6 @@ trade; the largest ratio counts. \"Runs\" is the time of the reference and all c
 |---|---|---|---|---|---|---|---|---|---|
 ";
 
-/// Returns names and files of the selected scenes, in order.
 fn scenes(names: &[String]) -> Result<Vec<(String, PathBuf)>> {
     let mut found = Vec::new();
     for entry in fs::read_dir(SCENES).context(SCENES)? {
@@ -112,7 +107,6 @@ fn traded(scene: &Scene) -> Result<Trade> {
     Ok(trade(scene, &options, &Watch::NOBODY)?)
 }
 
-/// Returns the fastest candidate within an error, if it is faster than the reference.
 fn best(trade: &Trade, error: f64) -> Option<(usize, &Candidate)> {
     let all = trade.candidates.iter().enumerate();
     let good = all.filter(|(_, c)| c.failure.is_none() && c.worst_error() <= error);
@@ -120,7 +114,6 @@ fn best(trade: &Trade, error: f64) -> Option<(usize, &Candidate)> {
     least.filter(|(_, candidate)| candidate.wall_s < trade.reference.wall_s)
 }
 
-/// Returns the row of the summary for one scene.
 fn row(name: &str, first: &Trade, second: &Trade) -> String {
     let mut again: f64 = 1.0;
     let cells = WANTED.map(|wanted| match best(first, wanted) {
@@ -142,7 +135,6 @@ fn row(name: &str, first: &Trade, second: &Trade) -> String {
     )
 }
 
-/// Returns the leading comment of a scene.
 fn comment(text: &str) -> String {
     let lines = text.lines().map_while(|line| line.strip_prefix("//"));
     lines.map(str::trim).collect::<Vec<_>>().join(" ")

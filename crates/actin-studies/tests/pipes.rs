@@ -1,10 +1,9 @@
-//! Tasks whose reader leaves before the first line: no panic, the same exit code and the same files.
+//! Tasks with a closed pipe on standard output: no panic, the same exit code and files.
 #![cfg(unix)]
 
 use std::path::Path;
 use std::process::{Command, Output, Stdio};
 
-/// Runs a task; its reader has gone before it starts, or takes all.
 fn task(arguments: &[&str], out: Option<&Path>, has_reader: bool) -> Output {
     let mut command = Command::new(env!("CARGO_BIN_EXE_actin-studies"));
     command.args(arguments).args(out.map(Path::as_os_str));
@@ -22,7 +21,6 @@ fn task(arguments: &[&str], out: Option<&Path>, has_reader: bool) -> Output {
         .unwrap()
 }
 
-/// A task that only prints, one that writes files, and one that fails.
 #[test]
 fn a_closed_pipe_ends_no_task() {
     let folder = tempfile::tempdir().unwrap();

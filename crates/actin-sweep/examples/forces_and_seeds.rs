@@ -1,9 +1,9 @@
-//! Five filaments at each of two forces, on all cores, into one table.
+//! Five bond samples at each of two forces, tabulated.
 
 use actin_sweep::sim::SimError;
-use actin_sweep::{Opened, Settings, Sweep, SweepDirectory};
+use actin_sweep::{Settings, Sweep, SweepDirectory, ValidatedSweep};
 
-/// A filament of monomers, whose bonds are drawn, under a force across its tip.
+/// A monomer filament with sampled bonds and a transverse tip force.
 const SCENE: &str = "Scene(
     filament: Filament(
         sections: [Ellipsoids(from_nm: 0.0, to_nm: 40.0)],
@@ -24,7 +24,7 @@ const SWEEP: &str = "Sweep(
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let sweep = Sweep::from_ron(SWEEP).map_err(SimError::from)?;
-    let opened = Opened::new(sweep, SCENE.into())?;
+    let opened = ValidatedSweep::new(sweep, SCENE.into())?;
     let folder = std::env::temp_dir().join(format!("actin-sweep-{}", std::process::id()));
     let directory = SweepDirectory::create(&folder, &opened, false)?;
     let ended = directory.carry_out(&opened, &Settings::default(), &|_| ())?;
@@ -36,7 +36,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         let cell = line.split(',').nth(4).expect("the mean");
         cell.parse().expect("a number")
     };
-    // Filaments stiffen: twice the force moves the tip less than twice as far.
+    // The filament stiffens: twice the force gives less than twice the displacement.
     assert!(tip(2) > tip(1) && tip(2) < 2.0 * tip(1));
     std::fs::remove_dir_all(folder)?;
     Ok(())

@@ -1,9 +1,8 @@
-//! Results by name: numbers of a `summary.json`.
+//! Results of a `summary.json`, selected by name.
 
 use serde_json::{Map, Value};
 
-/// What a name such as `filaments[1].tip_nm[0]` or `observables.tip[0]_x_nm.mean` stands for; none where the
-/// summary has nothing there.
+/// Returns the value with a name such as `filaments[1].tip_nm[0]` or `observables.tip[0]_x_nm.mean`.
 pub(crate) fn find<'a>(summary: &'a Value, name: &str) -> Option<&'a Value> {
     let (mut here, mut rest) = (summary, name);
     while !rest.is_empty() {
@@ -22,7 +21,7 @@ pub(crate) fn find<'a>(summary: &'a Value, name: &str) -> Option<&'a Value> {
     Some(here)
 }
 
-/// The first step of a path, without brackets, and what is behind it.
+/// Splits a path after its first step, which is returned without brackets.
 fn step(path: &str) -> (&str, &str) {
     let path = path.strip_prefix('.').unwrap_or(path);
     match path
@@ -34,8 +33,8 @@ fn step(path: &str) -> (&str, &str) {
     }
 }
 
-/// The first step of a path through an object, and what is behind it. Keys may hold dots and brackets, as those of
-/// observables do: the longest that the path begins with is meant.
+/// Splits a path after its first key. Keys of observables contain dots and brackets, so the longest matching key is
+/// used.
 fn key<'a>(path: &'a str, fields: &Map<String, Value>) -> (&'a str, &'a str) {
     let inside = path.strip_prefix('.').unwrap_or(path);
     let is_meant = |key: &&String| {
@@ -46,13 +45,13 @@ fn key<'a>(path: &'a str, fields: &Map<String, Value>) -> (&'a str, &'a str) {
     known.map_or_else(|| step(path), |key| inside.split_at(key.len()))
 }
 
-/// The number, or the truth, of a result; none of anything else.
 pub(crate) fn number(value: &Value) -> Option<f64> {
     value.as_bool().map(f64::from).or_else(|| value.as_f64())
 }
 
-/// Why a summary like this one cannot have a result of this name; none if it can. Lists may grow, and what is
-/// null may become something.
+/// Returns the reason why summaries with the structure of `like` have no result of this name.
+///
+/// Lists may be longer in other summaries, and null values may be numbers.
 pub(crate) fn refusal(like: &Value, name: &str) -> Option<String> {
     let (mut here, mut rest) = (like, name);
     while !rest.is_empty() {
@@ -76,7 +75,7 @@ pub(crate) fn refusal(like: &Value, name: &str) -> Option<String> {
                     None => return Some(unknown(key, fields.keys())),
                 }
             }
-            _ => return Some("is a number itself".into()),
+            _ => return Some("is a number".into()),
         };
     }
     match here {
@@ -87,7 +86,6 @@ pub(crate) fn refusal(like: &Value, name: &str) -> Option<String> {
     }
 }
 
-/// Whether a list is a vector.
 fn is_fixed(items: &[Value]) -> bool {
     items.len() == 3 && items.iter().all(Value::is_number)
 }
@@ -96,7 +94,7 @@ fn unknown<'a>(step: &str, known: impl Iterator<Item = &'a String>) -> String {
     let known: Vec<&str> = known.map(String::as_str).collect();
     let known = known.join(", ");
     if step.is_empty() {
-        format!("holds several numbers: {known}")
+        format!("contains several numbers: {known}")
     } else {
         format!("summary.json has no {step} there: known are {known}")
     }
@@ -159,12 +157,12 @@ mod tests {
             ("tip_nm", "is a list: write tip_nm[0]"),
             ("tip_nm[3]", "has 3 numbers"),
             ("energy.sum", "no sum there: known are total"),
-            ("energy", "holds several numbers: total"),
+            ("energy", "contains several numbers: total"),
             ("status", "is not a number"),
             ("tip_nm.x", "x is not an index"),
             (
                 "observables.twist[0]_at_12.5nm_rad_per_nm",
-                "holds several numbers: last, mean",
+                "contains several numbers: last, mean",
             ),
             (
                 "observables.tip[0]_x_nm.last",

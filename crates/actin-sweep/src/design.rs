@@ -1,4 +1,4 @@
-//! The design of a sweep: all its runs, in order.
+//! Design of a sweep: its points and runs.
 
 use crate::random::{self, between};
 use crate::sweep::{Axis, Samples, Sweep};
@@ -6,30 +6,29 @@ use actin_sim::Override;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
-/// All points of a sweep, and the seeds with which each is run.
+/// Points and seeds of a sweep.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Design {
-    /// Keys that are varied, in order.
+    /// Varied keys.
     pub keys: Vec<String>,
-    /// Their values, point by point, as a scene writes them.
+    /// Values of the keys at each point, in RON.
     pub points: Vec<Vec<String>>,
-    /// Seeds of the runs of a point; one run with those of the scene if there is none.
+    /// Seeds of the runs of each point; empty for one run with the seeds of the scene.
     pub seeds: Vec<u64>,
 }
 
-/// One run of a sweep.
+/// A run of a sweep.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Run {
-    /// Its number, from 0.
+    /// Index of the run, from 0.
     pub index: usize,
-    /// Its point, from 0.
+    /// Index of the point, from 0.
     pub point: usize,
-    /// What seeds are set to; none where the scene's own are kept.
+    /// Seed of the run; `None` for the seeds of the scene.
     pub seed: Option<u64>,
 }
 
 impl Design {
-    /// That of a sweep whose rules hold.
     pub(crate) fn new(sweep: &Sweep) -> Self {
         let mut points = vec![Vec::new()];
         for axis in &sweep.vary {
@@ -52,22 +51,22 @@ impl Design {
         }
     }
 
-    /// Number of runs of each point.
+    /// Returns the number of runs of each point.
     pub fn runs_of_point(&self) -> usize {
         self.seeds.len().max(1)
     }
 
-    /// Number of all runs.
+    /// Returns the number of runs.
     pub fn len(&self) -> usize {
         self.points.len() * self.runs_of_point()
     }
 
-    /// Whether there is no run, which cannot be.
+    /// Returns whether there are no runs. A valid sweep has at least one.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
 
-    /// A run by its number.
+    /// Returns a run by its index.
     pub fn run(&self, index: usize) -> Run {
         let of_point = self.runs_of_point();
         Run {
@@ -77,8 +76,8 @@ impl Design {
         }
     }
 
-    /// At most `most` points, in order: all, or one drawn from each of `most` equal parts, the first and the last
-    /// point among them. The same design gives the same points.
+    /// Selects at most `most` points, in order. The points are divided into `most` equal parts and one of each is
+    /// drawn; the first and the last point are included. The selection is deterministic.
     pub(crate) fn drawn(&self, most: usize) -> Vec<usize> {
         let count = self.points.len();
         if count <= most {
@@ -94,7 +93,7 @@ impl Design {
         drawn
     }
 
-    /// What a point sets.
+    /// Returns the overrides of a point.
     pub fn overrides(&self, point: usize) -> impl Iterator<Item = Override> {
         let pairs = self.keys.iter().zip(&self.points[point]);
         pairs.map(|(key, value)| Override {
@@ -113,7 +112,6 @@ impl Samples {
 }
 
 impl Axis {
-    /// The keys that it varies.
     pub(crate) fn keys(&self) -> Vec<&str> {
         match self {
             Self::List { key, .. } | Self::Grid { key, .. } => vec![key],
@@ -122,7 +120,6 @@ impl Axis {
         }
     }
 
-    /// How many values it has for each of them.
     pub(crate) fn len(&self) -> usize {
         match self {
             Self::List { values, .. } => values.len(),
@@ -131,7 +128,6 @@ impl Axis {
         }
     }
 
-    /// Values of its keys, point by point.
     pub(crate) fn rows(&self) -> Vec<Vec<String>> {
         match self {
             Self::List { values, .. } => values.iter().map(|v| vec![v.0.clone()]).collect(),
@@ -165,9 +161,8 @@ impl Axis {
 mod tests {
     use super::*;
 
-    /// A million points cost as many builds as a thousand: the first, the last, one of each part.
     #[test]
-    fn of_many_points_few_are_drawn() {
+    fn few_of_many_points_are_drawn() {
         let design = |count: usize| Design {
             keys: Vec::new(),
             points: vec![Vec::new(); count],
@@ -177,7 +172,7 @@ mod tests {
         let drawn = design(1_000_000).drawn(1000);
         assert_eq!((drawn.len(), drawn[0], drawn[999]), (1000, 0, 999_999));
         assert!((0..1000).all(|k| drawn[k] / 1000 == k));
-        // Not every thousandth: a grid whose last axis has a thousand values shows more than one of them.
+        // Not every thousandth point, which would have the same value on the last axis of a grid.
         let last: std::collections::BTreeSet<_> = drawn.iter().map(|k| k % 1000).collect();
         assert!(last.len() > 500, "{}", last.len());
     }

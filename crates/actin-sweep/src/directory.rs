@@ -1,32 +1,36 @@
-//! The directory of a sweep: whose it is, and where its runs are.
+//! Directory of a sweep.
 //!
-//! `sweep.ron` and `scene.ron` can be run again from there; `parameters.csv` lists all runs; `runs/17` is the
-//! directory of run 17; `runs.csv` and `table.csv` are the results.
+//! | file | contents |
+//! |---|---|
+//! | `sweep.ron`, `scene.ron` | the sweep and its scene, which can be run again |
+//! | `parameters.csv` | all runs with their values and seeds |
+//! | `runs/17` | directory of run 17 |
+//! | `runs.csv`, `table.csv` | results |
 
 use crate::files::{self, MANIFEST, PARAMETERS, SCENE, SWEEP};
-use crate::{Opened, SweepError};
+use crate::{SweepError, ValidatedSweep};
 use actin_sim::{Difference, RunLock, first_difference};
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// A directory that holds the runs of one sweep.
+/// Directory of the runs of one sweep.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SweepDirectory {
     path: PathBuf,
 }
 
 impl SweepDirectory {
-    /// Makes the directory of a sweep, or continues that of the same one.
+    /// Creates the directory of a sweep, or opens it to continue the same sweep.
     ///
-    /// The same sweep has the same scene and the same runs, by the same version of the program; its results may
-    /// be others, for which no run is made again.
+    /// Two sweeps are the same if scene, runs and program version are equal. Their `results` may differ, which
+    /// requires no new runs.
     ///
     /// # Errors
-    /// A directory that holds another sweep or something else, the same sweep unless `resume`, or a refusal of
-    /// the file system.
+    /// If the directory contains another sweep or other files, contains the same sweep and `resume` is false, or a
+    /// file system operation fails.
     pub fn create(
         path: impl AsRef<Path>,
-        opened: &Opened,
+        opened: &ValidatedSweep,
         resume: bool,
     ) -> Result<Self, SweepError> {
         let path = path.as_ref();
@@ -54,39 +58,37 @@ impl SweepDirectory {
         Ok(directory)
     }
 
-    /// Where the directory is.
+    /// Returns the path of the directory.
     pub fn path(&self) -> &Path {
         &self.path
     }
 
-    /// The directory of a run.
+    /// Returns the directory of a run.
     pub fn run(&self, run: usize) -> PathBuf {
         self.path.join("runs").join(run.to_string())
     }
 
-    /// Keeps other sweeps out of the directory until it is dropped.
+    /// Locks the directory until the result is dropped.
     ///
     /// # Errors
-    /// If another process makes the runs of this sweep, or the file system refuses.
+    /// If another process holds the lock, or a file system operation fails.
     pub fn lock(&self) -> Result<RunLock, SweepError> {
         Ok(RunLock::take(&self.path)?)
     }
 
-    /// Whether nothing is there but hidden files.
     fn is_empty(&self) -> Result<bool, SweepError> {
         let entries = fs::read_dir(&self.path).map_err(SweepError::io(&self.path))?;
         let mut names = entries.filter_map(|entry| Some(entry.ok()?.file_name()));
         Ok(names.all(|name| name.to_string_lossy().starts_with('.')))
     }
 
-    /// Refuses a directory whose scene, runs or program are others.
-    fn ensure_same(&self, opened: &Opened) -> Result<(), SweepError> {
+    fn ensure_same(&self, opened: &ValidatedSweep) -> Result<(), SweepError> {
         for (name, given) in identity(opened) {
             if name == SWEEP {
                 continue;
             }
             let path = self.path.join(name);
-            // One that is missing was killed before it was written.
+            // A missing file was not yet written when the process was killed.
             let kept = fs::read(&path).unwrap_or_else(|_| given.clone());
             let [kept, given] = [&kept, &given].map(|bytes| String::from_utf8_lossy(bytes));
             if let Some(Difference { line, kept, given }) = first_difference(&kept, &given) {
@@ -103,8 +105,8 @@ impl SweepDirectory {
     }
 }
 
-/// What says whose directory it is, by name; the manifest, which says that it is one of a sweep, comes first.
-fn identity(opened: &Opened) -> [(&'static str, Vec<u8>); 4] {
+/// Returns the files that identify the sweep. The manifest, which marks the directory as a sweep, is the first.
+fn identity(opened: &ValidatedSweep) -> [(&'static str, Vec<u8>); 4] {
     let mut sweep = opened.sweep.clone();
     SCENE.clone_into(&mut sweep.scene);
     let manifest = serde_json::json!({
@@ -122,8 +124,8 @@ fn identity(opened: &Opened) -> [(&'static str, Vec<u8>); 4] {
     ]
 }
 
-/// All runs: number, point, values of the keys that are varied and of those that are set, seed.
-fn parameters(opened: &Opened) -> Vec<u8> {
+/// Returns the table of all runs: index, point, varied values, set values, seed.
+fn parameters(opened: &ValidatedSweep) -> Vec<u8> {
     let design = &opened.design;
     let set = &opened.sweep.set;
     let head = ["run", "point"].map(str::to_owned).into_iter();

@@ -1,24 +1,24 @@
-//! All runs of a sweep, on any number of threads.
+//! Parallel execution of the runs of a sweep.
 
 use crate::run::{State, make, summary};
 use crate::table::{Row, Table};
-use crate::{Opened, SweepDirectory, SweepError};
+use crate::{SweepDirectory, SweepError, ValidatedSweep};
 use actin_sim::{CheckpointError, RunDirectory};
 use std::num::NonZeroUsize;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
-/// How the runs of a sweep are made.
+/// Settings of the execution.
 #[derive(Clone, Debug)]
 pub struct Settings {
-    /// Runs that are made at the same time, each on one thread; as many as there are cores by default.
+    /// Number of simultaneous runs, each on one thread; by default the number of cores.
     pub jobs: Option<NonZeroUsize>,
-    /// Time between checkpoints of a run.
+    /// Wall-clock time between checkpoints of a run.
     pub checkpoint_every: Duration,
-    /// Set, it ends all runs as soon as they can, with checkpoints.
+    /// Interrupts all runs with checkpoints when set.
     pub interrupted: Arc<AtomicBool>,
-    /// Told of checkpoints that could not be written or read; the runs go on.
+    /// Called for checkpoints that cannot be written or read; the runs continue.
     pub warn: fn(&CheckpointError),
 }
 
@@ -33,51 +33,50 @@ impl Default for Settings {
     }
 }
 
-/// How far a sweep has come.
+/// Progress of a sweep.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Progress {
-    /// Runs that have ended, those of before included.
+    /// Number of runs that have ended, including earlier executions.
     pub ended: usize,
-    /// Runs that had ended before.
+    /// Number of runs that ended in earlier executions.
     pub before: usize,
-    /// Runs that are to be made.
+    /// Number of requested runs.
     pub of: usize,
 }
 
-/// How a sweep ended.
+/// Outcome of an execution.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Ended {
-    /// Runs that have ended.
+pub struct SweepOutcome {
+    /// Number of runs that have ended.
     pub ended: usize,
-    /// Runs among them that failed or lack a result.
+    /// Number of runs that failed or lack a result.
     pub failed: usize,
-    /// Runs that were to be made.
+    /// Number of requested runs.
     pub of: usize,
 }
 
-impl Ended {
-    /// Whether runs are left.
+impl SweepOutcome {
+    /// Returns whether some runs have not ended.
     pub fn is_interrupted(&self) -> bool {
         self.ended < self.of
     }
 }
 
 impl SweepDirectory {
-    /// Makes all runs that have not ended, and writes `runs.csv` and `table.csv`. If it is interrupted, runs that have
-    /// not ended are `unfinished` there.
+    /// Makes all runs that have not ended, and writes `runs.csv` and `table.csv`.
     ///
-    /// The tables of all runs are the same, to the byte, on any number of threads, and however often the sweep was
-    /// interrupted or killed on the way.
+    /// After an interruption, the tables list the remaining runs as `unfinished`. The final tables are bitwise
+    /// independent of the number of threads and of interruptions.
     ///
     /// # Errors
-    /// Another process that makes the runs of this directory, results that cannot be written; runs that have
-    /// ended stay. A run that fails is no error.
+    /// If another process makes the runs of this directory, or results cannot be written. Failed runs are rows of the
+    /// tables, not errors.
     pub fn carry_out(
         &self,
-        opened: &Opened,
+        opened: &ValidatedSweep,
         settings: &Settings,
         progress: &(dyn Fn(Progress) + Sync),
-    ) -> Result<Ended, SweepError> {
+    ) -> Result<SweepOutcome, SweepError> {
         let _lock = self.lock()?;
         let all: Vec<usize> = (0..opened.design.len()).collect();
         let ended = self.make_runs(opened, &all, settings, progress)?;
@@ -85,18 +84,18 @@ impl SweepDirectory {
         Ok(ended)
     }
 
-    /// Makes the runs of these numbers that have not ended, and no table. Several processes may do so at the same
-    /// time, each for others.
+    /// Makes the given runs that have not ended, without tables. Several processes can make different runs
+    /// concurrently.
     ///
     /// # Errors
-    /// As [`carry_out`](Self::carry_out), or a run that is not there.
+    /// Errors of [`carry_out`](Self::carry_out), or an invalid index.
     pub fn make_runs(
         &self,
-        opened: &Opened,
+        opened: &ValidatedSweep,
         runs: &[usize],
         settings: &Settings,
         progress: &(dyn Fn(Progress) + Sync),
-    ) -> Result<Ended, SweepError> {
+    ) -> Result<SweepOutcome, SweepError> {
         let count = opened.design.len();
         let mut runs = runs.to_vec();
         runs.sort_unstable();
@@ -127,14 +126,13 @@ impl SweepDirectory {
             summary.is_some_and(|summary| !Row::of(&summary, results).failure.is_empty())
         };
         let failed = runs.iter().filter(has_failed).count();
-        Ok(Ended { ended, failed, of })
+        Ok(SweepOutcome { ended, failed, of })
     }
 }
 
 impl SweepDirectory {
-    /// Removes what is left of checkpoints of runs that were killed when their results were on the disk.
     fn remove_checkpoints(&self, runs: &[usize], left: &[usize]) -> Result<(), SweepError> {
-        // Both in the same order.
+        // `left` is a subsequence of `runs`.
         let mut left = left.iter().peekable();
         for run in runs {
             if left.next_if_eq(&run).is_some() {
@@ -154,9 +152,8 @@ fn threads(settings: &Settings) -> usize {
     settings.jobs.map_or_else(cores, NonZeroUsize::get)
 }
 
-/// What the threads of a sweep share.
 struct Crew<'a> {
-    opened: &'a Opened,
+    opened: &'a ValidatedSweep,
     directory: &'a SweepDirectory,
     left: &'a [usize],
     settings: &'a Settings,
@@ -166,7 +163,6 @@ struct Crew<'a> {
 }
 
 impl Crew<'_> {
-    /// Makes all runs that are left; returns how many have ended.
     fn make_all(self, report: &(impl Fn(usize) + Sync)) -> Result<usize, SweepError> {
         std::thread::scope(|scope| {
             for _ in 0..threads(self.settings).min(self.left.len()) {
@@ -180,7 +176,6 @@ impl Crew<'_> {
         }
     }
 
-    /// Makes one run after the other until none is left, or all are to end.
     fn work(&self, report: &(impl Fn(usize) + Sync)) {
         let interrupted = &self.settings.interrupted;
         while !interrupted.load(Ordering::Relaxed) {
@@ -189,12 +184,12 @@ impl Crew<'_> {
             };
             let run = self.opened.design.run(index);
             match make(self.opened, self.directory, run, self.settings) {
-                Ok(State::Ended) => report(self.ended.fetch_add(1, Ordering::Relaxed) + 1),
+                Ok(State::Finished) => report(self.ended.fetch_add(1, Ordering::Relaxed) + 1),
                 Ok(State::Interrupted) => {}
                 Err(error) => {
                     let mut first = self.error.lock().unwrap_or_else(PoisonError::into_inner);
                     first.get_or_insert(error);
-                    // The others keep what they have.
+                    // Other runs stop with checkpoints.
                     interrupted.store(true, Ordering::Relaxed);
                 }
             }

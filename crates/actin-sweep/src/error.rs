@@ -1,40 +1,40 @@
-//! Why a sweep cannot go on. A run that fails is no error: it is a row of the table.
+//! Errors of sweeps. A failed run is a row of the table, not an error.
 
 use actin_sim::{CheckpointError, RunDirectoryError, SceneError};
 use std::io;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
 
-/// Why a sweep was refused, or ended before all runs were made.
+/// Error of a sweep.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum SweepError {
-    /// The sweep or its scene was refused, with every mistake, a line each.
+    /// Mistakes in the sweep or its scene.
     #[error("{}", lines(.file, .mistakes))]
     Refused {
         /// The file.
         file: PathBuf,
-        /// What it holds; empty where that is no text.
+        /// Contents of the file; empty if it is not text.
         text: String,
-        /// What is wrong, where, in the order of the text; at least one mistake.
+        /// All mistakes, at least one, in the order of the text.
         mistakes: Vec<SceneError>,
     },
-    /// The directory holds something else.
+    /// The directory is not empty and is not the directory of a sweep.
     #[error(
-        "{} is not empty and holds no sweep: name another directory, or remove this one if it is to go",
+        "{} is not empty and holds no sweep: name another directory, or remove this one",
         .path.display()
     )]
     NotASweep {
         /// The directory.
         path: PathBuf,
     },
-    /// The directory holds a sweep.
+    /// The directory contains this sweep, and `resume` is false.
     #[error("{} holds a sweep already: --resume continues it; otherwise name another directory", .path.display())]
     NotEmpty {
         /// The directory.
         path: PathBuf,
     },
-    /// The directory holds another sweep, or that of another version of the program.
+    /// The directory contains another sweep, or a sweep of another program version.
     #[error(
         "{} holds another sweep: line {line} of {file} is {kept:?} there and {given:?} now; name another \
          directory", .path.display()
@@ -44,33 +44,33 @@ pub enum SweepError {
         path: PathBuf,
         /// The file that differs.
         file: &'static str,
-        /// The first line that does, from 1.
+        /// First differing line, from 1.
         line: usize,
-        /// That line as it was.
+        /// That line in the directory.
         kept: String,
-        /// The same now.
+        /// That line of the given sweep.
         given: String,
     },
-    /// A run that does not exist.
+    /// A run index is out of range.
     #[error("there is no run {run}: the sweep has {runs}, counted from 0")]
     NoRun {
-        /// Its number.
+        /// Index of the run.
         run: usize,
-        /// How many there are.
+        /// Number of runs.
         runs: usize,
     },
-    /// The file system refused.
+    /// A file system operation failed.
     #[error("{}: {source}", .path.display())]
     Io {
         /// The file or directory.
         path: PathBuf,
-        /// What the file system says.
+        /// Error of the file system.
         source: io::Error,
     },
-    /// The directory of a run was refused, or its results could not be written.
+    /// The directory of a run is not usable, or its results could not be written.
     #[error(transparent)]
     Run(#[from] RunDirectoryError),
-    /// What is kept of a run belongs to another scene.
+    /// A checkpoint belongs to another scene.
     #[error(transparent)]
     Checkpoint(#[from] CheckpointError),
 }
@@ -82,7 +82,6 @@ fn lines(file: &Path, mistakes: &[SceneError]) -> String {
 }
 
 impl SweepError {
-    /// A file with mistakes, in any order.
     pub(crate) fn refused(file: &Path, text: &str, mut mistakes: Vec<SceneError>) -> Self {
         mistakes.sort_by_key(|mistake| (mistake.line, mistake.column));
         mistakes.dedup();
@@ -93,7 +92,6 @@ impl SweepError {
         }
     }
 
-    /// The error of an operation on `path`.
     pub(crate) fn io(path: &Path) -> impl FnOnce(io::Error) -> Self {
         move |source| Self::Io {
             path: path.to_owned(),

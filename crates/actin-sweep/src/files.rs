@@ -1,4 +1,4 @@
-//! Names of the files of a sweep directory, and how they are written: whole or not at all.
+//! File names of a sweep directory, and atomic writing.
 
 use crate::SweepError;
 use actin_sim::replace_file;
@@ -15,8 +15,7 @@ pub(crate) const TABLE: &str = "table.csv";
 pub(crate) const SNAKEFILE: &str = "Snakefile";
 pub(crate) const PROFILE: &str = "profiles/default/config.yaml";
 
-/// Puts a whole file on the disk in the place of another, or leaves what was there. Several processes may write
-/// the same one.
+/// Replaces a file atomically. Several processes may write the same file.
 pub(crate) fn replace(folder: &Path, name: &str, contents: &[u8]) -> Result<(), SweepError> {
     let path = folder.join(name);
     let part = format!(".{}.{}.part", name.replace('/', "-"), std::process::id());
@@ -26,7 +25,6 @@ pub(crate) fn replace(folder: &Path, name: &str, contents: &[u8]) -> Result<(), 
     written.map_err(SweepError::io(&path))
 }
 
-/// Rows of texts as CSV.
 pub(crate) fn csv<R, C>(rows: R) -> Vec<u8>
 where
     R: IntoIterator<Item = C>,
@@ -37,7 +35,7 @@ where
         let row: Vec<String> = row.into_iter().collect();
         writer
             .write_record(&row)
-            .expect("memory takes rows of one length");
+            .expect("all rows have the same length");
     }
-    writer.into_inner().expect("memory takes every row")
+    writer.into_inner().expect("writing to memory cannot fail")
 }

@@ -1,12 +1,12 @@
-//! Sweeps: one scene, keys that are varied, seeds that are sampled, and one table of results.
+//! Sweeps: runs of one scene for many values of its keys and many seeds, and a table of results.
 //!
-//! A [`Sweep`] is read from RON; [`Opened`] checks it with its scene and knows its [`Design`], all runs in
-//! order; a [`SweepDirectory`] holds a run directory for each, and its [`carry_out`](SweepDirectory::carry_out)
-//! makes the runs that are missing on any number of threads and writes the table. What a run does is the
-//! business of `actin-sim`; no physics is here.
+//! - [`Sweep`] is read from RON.
+//! - [`ValidatedSweep`] is a sweep validated with its scene; its [`Design`] lists all runs.
+//! - [`SweepDirectory`] contains a run directory for each run.
+//! - [`SweepDirectory::carry_out`] makes the missing runs in parallel and writes the table.
 //!
-//! Nothing depends on the number of threads or on interruptions: each run has one thread, and the table is made
-//! from the summaries of all runs in order.
+//! Each run has one thread, and the table is computed from the summaries of all runs in order. Results are therefore
+//! independent of the number of threads and of interruptions.
 
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
@@ -29,12 +29,12 @@ mod table;
 pub use actin_sim as sim;
 pub use design::{Design, Run};
 pub use directory::SweepDirectory;
-pub use engine::{Ended, Progress, Settings};
+pub use engine::{Progress, Settings, SweepOutcome};
 pub use error::SweepError;
-pub use open::{Opened, Priced};
+pub use open::{SweepCost, ValidatedSweep};
 pub use sweep::{Axis, Plan, Ron, Samples, Scale, Span, Sweep, Value};
 
-/// The keys of sweep files as a JSON schema.
+/// Returns the JSON schema of sweep files.
 #[cfg(feature = "schema")]
 pub fn schema() -> serde_json::Value {
     schemars::schema_for!(Sweep).to_value()

@@ -1,4 +1,4 @@
-//! A sweep with its scene: read, checked together, and its cost.
+//! Validation of a sweep with its scene, and its cost.
 
 use crate::design::Run;
 use crate::sweep::Axis;
@@ -10,46 +10,46 @@ use actin_sim::{
 use std::collections::BTreeSet;
 use std::path::Path;
 
-/// A sweep whose rules hold, with the text of its scene and all its runs.
+/// A valid sweep with its scene.
 #[derive(Clone, Debug)]
-pub struct Opened {
-    /// The sweep.
+pub struct ValidatedSweep {
+    /// Sweep.
     pub sweep: Sweep,
-    /// Its runs.
+    /// Points and runs.
     pub design: Design,
-    /// The text of the scene as its file has it.
+    /// Text of the scene file.
     pub(crate) scene: String,
-    /// The same with what all runs set.
+    /// Text of the scene with the values that all runs set.
     base: SceneText,
 }
 
-/// Cost of a sweep.
+/// Estimated cost of a sweep.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Priced {
-    /// The point whose first run was timed: the one with the most evaluations of bonds and elements.
+pub struct SweepCost {
+    /// Index of the timed point, the one with the most evaluations of bonds and elements.
     pub timed: Option<usize>,
-    /// Time of that run on one core of this machine, measured on its first steps; `None` if it is not known.
+    /// Measured time of its first run on one core of this machine; `None` if not measured.
     pub timing: Option<Timing>,
-    /// Most memory of one run (bytes).
+    /// Largest memory of a run (bytes).
     pub bytes: f64,
-    /// Points that the rules of a scene refuse, and why.
+    /// Points with invalid scenes, and the reasons.
     pub refused: Vec<(usize, String)>,
     /// Number of points that were built.
     pub points: usize,
 }
 
-impl Priced {
-    /// Time of the timed run (s), where it is known.
+impl SweepCost {
+    /// Returns the estimated time of the timed run (s).
     pub fn run_s(&self) -> Option<f64> {
         self.timing?.total_s
     }
 }
 
-impl Opened {
-    /// Reads a sweep and its scene from their files.
+impl ValidatedSweep {
+    /// Reads a sweep and its scene from files.
     ///
     /// # Errors
-    /// A file that cannot be read, or every mistake of the sweep, or of its scene.
+    /// If a file cannot be read, or contains mistakes.
     pub fn open(path: impl AsRef<Path>) -> Result<Self, SweepError> {
         let path = path.as_ref();
         let text = read(path)?;
@@ -69,7 +69,7 @@ impl Opened {
         };
         let scene_path = path.parent().unwrap_or(Path::new("")).join(&sweep.scene);
         let mut scene = SceneText::new(&read(&scene_path)?);
-        // First the scene alone: what is wrong with it is not the fault of the sweep.
+        // Mistakes of the scene itself are reported with its own file.
         let folder = scene_path.parent().unwrap_or(Path::new(""));
         let points = scene.read_points(folder);
         let in_scene = |mistakes| SweepError::refused(&scene_path, scene.written(), mistakes);
@@ -85,17 +85,16 @@ impl Opened {
         opened.map_err(|problems| refused(problems.iter().map(at).collect()))
     }
 
-    /// Checks a sweep with the text of its scene.
+    /// Validates a sweep with the text of its scene.
     ///
     /// # Errors
-    /// A rule that is broken: by the sweep's own numbers, a key or value that the scene does not take, a
-    /// result that runs do not have, samples of what the scene does not draw. Values that only the rules of a
-    /// scene refuse are no error: their runs fail.
+    /// The first violated rule: an invalid number of the sweep, a key or value that the scene does not accept, an
+    /// unknown result, or samples of a scene without random parts. Points with scenes that violate other rules fail
+    /// when run.
     pub fn new(sweep: Sweep, scene: String) -> Result<Self, SceneProblem> {
         Self::with(sweep, scene).map_err(|problems| problems[0].clone())
     }
 
-    /// The same with every rule that is broken, at least one: those of the sweep's own numbers first.
     fn with(sweep: Sweep, scene: String) -> Result<Self, Vec<SceneProblem>> {
         let all = |problems: Vec<SceneProblem>| {
             if problems.is_empty() {
@@ -125,7 +124,6 @@ impl Opened {
         all(problems).map(|()| opened)
     }
 
-    /// The text of the scene of a point.
     fn text(&self, point: usize) -> Result<SceneText, SceneError> {
         let mut text = self.base.clone();
         for one in self.design.overrides(point) {
@@ -134,10 +132,10 @@ impl Opened {
         Ok(text)
     }
 
-    /// The scene of a run, and its text to place what is wrong with it.
+    /// Returns the scene of a run and its text, which locates problems.
     ///
     /// # Errors
-    /// Why the rules of scenes refuse it.
+    /// If the scene is invalid.
     pub fn scene_of(&self, run: Run) -> Result<(Scene, SceneText), SceneError> {
         let text = self.text(run.point)?;
         let mut scene = text.scene()?;
@@ -149,7 +147,6 @@ impl Opened {
         Ok((scene, text))
     }
 
-    /// Values of axes that their keys may not have, for one point after another; the first of each axis.
     fn problems_of_values(&self) -> Vec<SceneProblem> {
         let mut first = 0;
         let axes = self.sweep.vary.iter().enumerate();
@@ -161,7 +158,7 @@ impl Opened {
         .collect()
     }
 
-    /// Checks the values of an axis, before whose keys there are `first` of others.
+    /// Checks the values of an axis; `first` is the number of keys of the axes before it.
     fn check_axis(&self, (i, axis): (usize, &Axis), first: usize) -> Result<(), SceneProblem> {
         let keys = axis.keys();
         let mut text = self.base.clone();
@@ -180,7 +177,6 @@ impl Opened {
         Ok(())
     }
 
-    /// The scene of the first point that the rules accept.
     fn example(&self) -> Option<Scene> {
         let points = 0..self.design.points.len();
         points
@@ -196,19 +192,19 @@ impl Opened {
         if drawn > 0 || samples.number == 1 {
             return Ok(());
         }
-        let rule = "the scene draws nothing that takes a seed (bonds with anchors: Independent, thermal noise, \
-                    imperfections): all samples would be the same";
+        let rule = "the scene has nothing random (sampled bonds, thermal noise, imperfections, linker events), so that all \
+                    samples would be identical: remove samples";
         Err(SceneProblem::new("samples", "", rule))
     }
 
-    /// Results that are not in the summary of the first point that can be built.
+    /// Returns results that do not occur in the summary of the first valid point.
     fn problems_of_results(&self) -> Vec<SceneProblem> {
         let assembly = self.example().map(|scene| Assembly::build(&scene));
         let Some(Ok(assembly)) = assembly else {
             return Vec::new();
         };
         let summary = serde_json::to_value(Summary::as_built(&assembly));
-        let summary = summary.expect("a summary is JSON");
+        let summary = summary.expect("a summary can be converted to JSON");
         let names = self.sweep.results.iter().enumerate();
         names
             .filter_map(|(i, name)| {
@@ -218,10 +214,12 @@ impl Opened {
             .collect()
     }
 
-    /// Cost of the sweep: the first run of at most `most` points is built, and one of them is timed. Of more points
-    /// one is drawn from each of `most` equal parts of the design, the first and the last point among them.
-    pub fn price(&self, most: usize) -> Priced {
-        let mut all = Priced::default();
+    /// Estimates the cost: builds the first run of at most `most` points, and times the largest of them.
+    ///
+    /// A larger design is sampled, with one point from each of `most` equal parts, including the first and the last
+    /// point.
+    pub fn price(&self, most: usize) -> SweepCost {
+        let mut all = SweepCost::default();
         let points = self.design.drawn(most);
         all.points = points.len();
         let mut most_work = 0.0;
@@ -247,7 +245,7 @@ impl Opened {
         all
     }
 
-    /// A property of the plan of the first run of a point.
+    /// Evaluates a function of the plan of the first run of a point.
     fn with_plan<T>(&self, point: usize, of: impl Fn(&Plan<'_>) -> T) -> Result<T, String> {
         let run = self.design.run(point * self.design.runs_of_point());
         let (scene, text) = self.scene_of(run).map_err(|error| error.to_string())?;
@@ -257,8 +255,8 @@ impl Opened {
     }
 }
 
-/// Values of one kind fit the same keys: all decimal numbers are of one kind, and so are all whole numbers that are
-/// not negative. Any other value is a kind of its own.
+/// Returns a representative of equivalent values: decimal numbers, and non-negative whole numbers. Any other value
+/// represents itself.
 fn kind(value: &str) -> &str {
     match (value.parse::<u64>(), value.parse::<f64>()) {
         (Ok(_), _) => "1",
@@ -267,7 +265,6 @@ fn kind(value: &str) -> &str {
     }
 }
 
-/// Where a value of an axis is written.
 fn place(i: usize, axis: &Axis, row: usize, column: usize) -> String {
     match axis {
         Axis::List { .. } => format!("vary[{i}].values[{row}]"),
@@ -277,7 +274,7 @@ fn place(i: usize, axis: &Axis, row: usize, column: usize) -> String {
     }
 }
 
-/// Sets a key that the sweep writes at `place`; the value must be one that the key may have.
+/// Sets a key to a value written at `place`, and checks that the key accepts the value.
 fn set(text: &mut SceneText, key: &str, value: &str, place: &str) -> Result<(), SceneProblem> {
     let one = Override {
         key: key.to_owned(),

@@ -1,10 +1,9 @@
-//! Random designs: points that are the same for the same seed.
+//! Random designs, reproducible from their seed.
 
 use crate::sweep::{Plan, Scale, Span};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
-/// Values of all spans, point by point, as a scene writes them.
 pub(crate) fn points(number: usize, seed: u64, plan: Plan, over: &[Span]) -> Vec<Vec<String>> {
     let mut random = ChaCha8Rng::seed_from_u64(seed);
     let columns: Vec<Vec<String>> = over
@@ -22,10 +21,10 @@ pub(crate) fn points(number: usize, seed: u64, plan: Plan, over: &[Span]) -> Vec
         .collect()
 }
 
-/// A number in each of `number` equal parts of the unit interval, in random order.
+/// Draws one number in each of `number` equal parts of the unit interval, in random order.
 fn stratified(number: usize, random: &mut ChaCha8Rng) -> Vec<f64> {
     let mut parts: Vec<usize> = (0..number).collect();
-    // Fisher and Yates.
+    // Fisher-Yates shuffle.
     for last in (1..number).rev() {
         parts.swap(last, random.random_range(0..=last));
     }
@@ -36,7 +35,6 @@ fn stratified(number: usize, random: &mut ChaCha8Rng) -> Vec<f64> {
 }
 
 impl Span {
-    /// The number at a share of the span, as a scene writes it.
     fn at(&self, share: f64) -> String {
         let number = between((self.from, self.to), self.scale, share);
         if self.whole {
@@ -47,7 +45,6 @@ impl Span {
     }
 }
 
-/// The number at a share of the way between two numbers; exactly these at 0 and 1.
 pub(crate) fn between((from, to): (f64, f64), scale: Scale, share: f64) -> f64 {
     if share <= 0.0 {
         return from;
@@ -84,7 +81,6 @@ mod tests {
             .collect()
     }
 
-    /// One point in each tenth of each span, in a different order of each; the same seed, the same points.
     #[test]
     fn a_latin_hypercube_has_one_point_in_each_part() {
         let over = [span(Scale::Linear, false), span(Scale::Logarithmic, false)];
@@ -105,7 +101,6 @@ mod tests {
         assert_ne!(points, drawn(10, 8, Plan::LatinHypercube, &over));
     }
 
-    /// Independent points fill the span; whole numbers are whole.
     #[test]
     fn independent_points_lie_in_the_span() {
         let points = drawn(500, 1, Plan::Independent, &[span(Scale::Linear, true)]);
@@ -116,7 +111,7 @@ mod tests {
                 .all(|n| (1.0..=100.0).contains(n) && n.fract() == 0.0)
         );
         let mean = numbers.iter().sum::<f64>() / 500.0;
-        // Five standard errors of a uniform distribution.
+        // Five standard errors of the mean of a uniform distribution.
         assert!(
             (mean - 50.5).abs() < 5.0 * 99.0 / 12.0_f64.sqrt() / 500.0_f64.sqrt(),
             "{mean}"

@@ -1,21 +1,19 @@
-//! The rules of a sweep's own numbers and names.
+//! Rules of a sweep that do not involve its scene.
 
 use crate::sweep::{Axis, Ron, Scale, Span, Sweep};
 use actin_sim::{Override, SceneProblem};
 use std::collections::BTreeSet;
 
-/// Most runs of a sweep: each has a directory.
+/// Largest number of runs, each of which has a directory.
 const MOST_RUNS: f64 = 1e6;
 
-/// Most keys that a sweep sets and varies: each is compared with the others.
+/// Largest number of set and varied keys, which are compared pairwise.
 const MOST_KEYS: usize = 1000;
 
-/// Most broken rules that are listed.
 const MOST_PROBLEMS: usize = 20;
 
 type Checked = Result<(), SceneProblem>;
 
-/// Every broken rule that does not need the scene, one for each key.
 pub(crate) fn problems(sweep: &Sweep) -> Vec<SceneProblem> {
     let mut found: Vec<SceneProblem> = Vec::new();
     let mut note = |checked: Checked| {
@@ -48,7 +46,7 @@ fn check_samples(sweep: &Sweep) -> Checked {
         return Err(SceneProblem::new("samples.number", 0, "must be at least 1"));
     }
     if samples.of.is_empty() {
-        let rule = "must name something that is drawn: Bonds, Noise or Imperfections";
+        let rule = "must name at least one of Bonds, Noise, Imperfections, Linkers";
         return Err(SceneProblem::new("samples.of", "[]", rule));
     }
     Ok(())
@@ -81,7 +79,7 @@ fn check_axis(key: &str, axis: &Axis) -> Checked {
         } => {
             check_path(&at("key"), key)?;
             check_ends(&at(""), (*from, *to), *scale)?;
-            let rule = "a grid has at least its two ends";
+            let rule = "a grid must have at least two points";
             let few = || SceneProblem::new(at("number"), number, rule);
             (*number >= 2).then_some(()).ok_or_else(few)
         }
@@ -105,7 +103,10 @@ fn check_rows(key: &str, keys: &[String], rows: &[Vec<Ron>]) -> Checked {
     some(&format!("{key}.rows"), rows.len(), "row")?;
     let wrong = rows.iter().position(|row| row.len() != keys.len());
     let Some(i) = wrong else { return Ok(()) };
-    let rule = format!("a row has a value for each of the {} keys", keys.len());
+    let rule = format!(
+        "a row must have a value for each of the {} keys",
+        keys.len()
+    );
     let count = format!("{} values", rows[i].len());
     Err(SceneProblem::new(format!("{key}.rows[{i}]"), count, rule))
 }
@@ -134,7 +135,6 @@ fn check_ends(prefix: &str, (from, to): (f64, f64), scale: Scale) -> Checked {
     Ok(())
 }
 
-/// At least one of something.
 fn some(key: &str, count: usize, what: &str) -> Checked {
     let rule = || format!("must have at least one {what}");
     let none = || SceneProblem::new(key, count, rule());
@@ -150,7 +150,7 @@ fn check_path(at: &str, key: &str) -> Checked {
     }
 }
 
-/// A key is varied once, and nothing above or below it; no value replaces one that is set before.
+/// Checks that no key is varied twice, directly or through a parent key, or replaces a set value.
 fn check_twice(sweep: &Sweep) -> Checked {
     let set = sweep.set.iter().enumerate();
     let set = set.map(|(i, value)| (format!("set[{i}]"), value.key.as_str(), false));
@@ -182,7 +182,7 @@ fn check_twice(sweep: &Sweep) -> Checked {
     Ok(())
 }
 
-/// Whether a key is `above` or lies below it. Filament 0 may stand alone or in a list.
+/// Returns whether a key equals `above` or lies below it; `filament` equals `filaments[0]`.
 fn is_within(key: &str, above: &str) -> bool {
     let own = |key: &str| match key.strip_prefix("filaments[0]") {
         Some(rest) => format!("filament{rest}"),
@@ -195,7 +195,7 @@ fn is_within(key: &str, above: &str) -> bool {
 
 fn check_result(i: usize, name: &str, is_new: bool) -> Checked {
     let rule = if name == "wall_s" {
-        "differs from run to run: the table holds what does not"
+        "is a run time, which is not reproducible: remove it"
     } else if !is_new {
         "is in the list already"
     } else {

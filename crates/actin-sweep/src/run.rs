@@ -1,7 +1,7 @@
-//! One run of a sweep in its directory: begun, resumed or left alone, and never twice.
+//! Execution of one run of a sweep.
 
 use crate::design::Run;
-use crate::{Opened, Settings, SweepDirectory, SweepError};
+use crate::{Settings, SweepDirectory, SweepError, ValidatedSweep};
 use actin_sim::{
     Assembly, CheckpointError, Checkpoints, Outcome, Plan, RunDirectory, RunDirectoryError,
     RunError, RunLock, Saved, SceneText, Status,
@@ -10,36 +10,33 @@ use serde_json::Value;
 use std::path::Path;
 use std::sync::Arc;
 
-/// How a run of a sweep stands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum State {
-    /// Its summary is there, of a run that has ended in some way.
-    Ended,
-    /// It was interrupted, with a checkpoint if it had begun.
+    /// Finished, successfully or not, with a summary.
+    Finished,
+    /// Interrupted, with a checkpoint if it had started.
     Interrupted,
 }
 
-/// The summary of a run that has ended; none of any other.
 pub(crate) fn summary(directory: &Path) -> Option<Value> {
     let text = std::fs::read_to_string(directory.join("summary.json")).ok()?;
     let summary: Value = serde_json::from_str(&text).ok()?;
     (summary["status"] != "interrupted").then_some(summary)
 }
 
-/// Makes a run, unless it has ended already.
+/// Makes a run, unless it has ended.
 ///
 /// # Errors
-/// Results that cannot be written, and files in its directory that no run has written. All that is wrong with
-/// the run itself is in its summary.
+/// If results cannot be written, or the directory contains foreign files. Failures of the run are in its summary.
 pub(crate) fn make(
-    opened: &Opened,
+    opened: &ValidatedSweep,
     directory: &SweepDirectory,
     run: Run,
     settings: &Settings,
 ) -> Result<State, SweepError> {
     let path = directory.run(run.index);
     if summary(&path).is_some() {
-        return Ok(State::Ended);
+        return Ok(State::Finished);
     }
     let title = &opened.sweep.title;
     let (scene, text) = match opened.scene_of(run) {
@@ -57,7 +54,6 @@ pub(crate) fn make(
     }
 }
 
-/// Makes a run of which all is known before.
 fn make_planned(
     path: &Path,
     plan: &Plan<'_>,
@@ -84,13 +80,13 @@ fn make_planned(
             let why = text.locate(&problem).to_string();
             kept.write_failure(&plan.scene().title, &why)?;
             kept.remove_checkpoint()?;
-            Ok(State::Ended)
+            Ok(State::Finished)
         }
         Err(RunError::Failed(failed)) => write(&kept, plan, &checkpoints, &failed.outcome),
     }
 }
 
-/// Opens the directory of a run: what it goes on from, and what keeps others out.
+/// Opens the directory of a run and returns its saved state and its lock.
 fn begin(
     kept: &RunDirectory,
     plan: &Plan<'_>,
@@ -112,7 +108,7 @@ fn begin(
     Ok((None, lock))
 }
 
-/// Writes what a run gave; a number that cannot be written is a failure of the run.
+/// Writes the results of a run. A non-finite result is a failure of the run.
 fn write(
     kept: &RunDirectory,
     plan: &Plan<'_>,
@@ -130,12 +126,11 @@ fn write(
         Err(error) => return Err(error.into()),
     }
     kept.remove_checkpoint()?;
-    Ok(State::Ended)
+    Ok(State::Finished)
 }
 
-/// Notes why there is no run.
 fn fail(path: &Path, title: &str, why: &str) -> Result<State, SweepError> {
     let (directory, _lock) = RunDirectory::create_locked(path, true)?;
     directory.write_failure(title, why)?;
-    Ok(State::Ended)
+    Ok(State::Finished)
 }

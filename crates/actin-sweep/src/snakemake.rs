@@ -1,17 +1,16 @@
-//! A sweep as a workflow for Snakemake, and so for the clusters that it knows.
+//! Export of a sweep as a Snakemake workflow.
 
 use crate::files::{self, PROFILE, SNAKEFILE};
-use crate::{Opened, Priced, SweepDirectory, SweepError};
+use crate::{SweepCost, SweepDirectory, SweepError, ValidatedSweep};
 
-/// What the workflow says, but for its numbers.
 const WORKFLOW: &str = r#"# A sweep of actin scenes for Snakemake 9, written by `actin sweep --emit snakemake`.
 #
-#   snakemake --cores all                    here
-#   snakemake --executor slurm --jobs 100    on a cluster, with the plugin for it
+#   snakemake --cores all                    on this machine
+#   snakemake --executor slurm --jobs 100    on a cluster, with the corresponding plugin
 #
-# Each run has a row in parameters.csv and a directory in runs/. Only its summary.json is an output:
-# Snakemake deletes outputs before it runs a job again, and the checkpoint has to stay. A run that fails
-# in its numbers is a row of the table, not a failed job.
+# Each run has a row in parameters.csv and a directory in runs/. Only its summary.json is declared as an
+# output, since Snakemake deletes outputs before it repeats a job, and checkpoints must be kept. A numerical
+# failure is a row of the table, not a failed job.
 import csv
 
 
@@ -52,34 +51,38 @@ rule table:
         "actin sweep sweep.ron --out . --resume"
 "#;
 
-/// Settings that Snakemake takes from the folder of a workflow.
-const SETTINGS: &str = "# Settings for Snakemake, which finds this file beside the Snakefile.
+/// Template of the Snakemake profile.
+const SETTINGS: &str = "# Settings of the workflow, read by Snakemake.
 rerun-incomplete: true
-# Every run locks its own directory, also where Snakemake was killed and left its lock.
+# Each run locks its own directory. A killed Snakemake leaves its lock, which would block the next start.
 nolock: true
 rerun-triggers: mtime
 keep-going: true
-# Runs that a cluster gets as one job, by their estimated time.
+# Number of runs in one cluster job, from their estimated time.
 group-components:
   - runs=@GROUP@
 ";
 
-/// Time that a job on a cluster should take at least (s): runs are grouped up to it.
+/// Minimum time of a cluster job (s); short runs are grouped.
 const JOB_S: f64 = 600.0;
 
-/// Memory of the program itself (MB).
+/// Memory of the program without the run (MB).
 const PROGRAM_MB: f64 = 100.0;
 
 impl SweepDirectory {
-    /// Writes `Snakefile` and its settings into the directory, which Snakemake then runs; nothing is run.
+    /// Writes the `Snakefile` and its profile into the directory.
     ///
     /// # Errors
-    /// A refusal of the file system.
-    pub fn write_snakemake(&self, opened: &Opened, priced: &Priced) -> Result<(), SweepError> {
+    /// If a file system operation fails.
+    pub fn write_snakemake(
+        &self,
+        opened: &ValidatedSweep,
+        priced: &SweepCost,
+    ) -> Result<(), SweepError> {
         let runs = opened.design.len() as f64;
-        // A run of unknown duration gets a separate job.
+        // A run of unknown duration is a separate job.
         let run_s = priced.run_s().unwrap_or(JOB_S).max(1e-3);
-        // Of a machine a third as fast, and a minute for what else there is.
+        // Allows for a machine three times slower, plus one minute.
         let group = (JOB_S / run_s).clamp(1.0, runs).ceil();
         let minutes = (3.0 * run_s / 60.0 + 1.0).ceil();
         let memory = (2.0 * priced.bytes / 1e6 + PROGRAM_MB).ceil();

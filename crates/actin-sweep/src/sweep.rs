@@ -1,32 +1,33 @@
-//! What a sweep says. What its numbers may be is in `rules.rs`.
+//! Input data of a sweep. `rules.rs` validates them.
 
 use actin_sim::{Drawn, SceneError, read_ron};
 use ron::value::RawValue;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-/// A sweep: a scene, what is varied in it, how often each point is sampled, and which results are kept.
+/// A sweep: a scene, its varied keys, the number of samples, and the tabulated results.
 ///
-/// Points are all combinations of what the axes vary, the last of which changes fastest. Each point is run once,
+/// The points are all combinations of the values of all axes; the last axis changes fastest. Each point is run once,
 /// or once for each sample.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Sweep {
-    /// What the sweep shows, in words.
+    /// Title of the sweep.
     #[serde(default)]
     pub title: String,
-    /// File of the scene, seen from the folder of the sweep.
+    /// File of the scene, relative to the folder of the sweep.
     pub scene: String,
-    /// Numbers of `summary.json` that the table holds, as paths: `tip_displacement_nm[0]`; at least one. Not
-    /// `wall_s`, which differs from run to run.
+    /// Tabulated numbers of `summary.json`, as paths such as `tip_displacement_nm[0]`; at least one. `wall_s` is not
+    /// allowed, since run times are not reproducible.
     pub results: Vec<String>,
-    /// Values that keys of the scene have in all runs.
+    /// Values of keys in all runs.
     #[serde(default)]
     pub set: Vec<Value>,
-    /// What is varied.
+    /// Varied keys.
     #[serde(default)]
     pub vary: Vec<Axis>,
-    /// How often each point is run with other seeds; once as the scene stands by default.
+    /// Repeated runs of each point with different seeds. By default each point is run once, with the seeds of the
+    /// scene.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub samples: Option<Samples>,
 }
@@ -38,11 +39,11 @@ pub struct Sweep {
 pub struct Value {
     /// Path of the key, with indices of lists and vectors in brackets: `loads[0].force_pn[2]`.
     pub key: String,
-    /// Its value, as a scene writes it.
+    /// Value in RON, as in a scene.
     pub value: Ron,
 }
 
-/// Something that is varied.
+/// Varied keys and their values.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
@@ -51,10 +52,10 @@ pub enum Axis {
     List {
         /// Path of the key.
         key: String,
-        /// Its values, as a scene writes them; at least one.
+        /// Values in RON, as in a scene; at least one.
         values: Vec<Ron>,
     },
-    /// Numbers at equal distances or, with `scale: Logarithmic`, equal ratios.
+    /// Numbers at equal differences or, with `scale: Logarithmic`, equal ratios.
     Grid {
         /// Path of the key.
         key: String,
@@ -62,34 +63,34 @@ pub enum Axis {
         from: f64,
         /// Last number; finite.
         to: f64,
-        /// How many numbers; at least 2.
+        /// Number of values; at least 2.
         number: usize,
-        /// Whether differences or ratios are equal.
+        /// Spacing of the values.
         #[serde(default)]
         scale: Scale,
     },
-    /// Several keys that change together.
+    /// Several keys that are varied together.
     Rows {
         /// Paths of the keys; at least one.
         keys: Vec<String>,
-        /// Values of all keys, row by row; at least one row.
+        /// Values of all keys in each row; at least one row.
         rows: Vec<Vec<Ron>>,
     },
-    /// Points drawn at random, the same for the same seed.
+    /// Random points, reproducible from the seed.
     Random {
-        /// How many points; at least 1.
+        /// Number of points; at least 1.
         number: usize,
-        /// Seed of the draw.
+        /// Seed of the random points.
         seed: u64,
-        /// How they are drawn.
+        /// Distribution of the points.
         #[serde(default)]
         plan: Plan,
-        /// Keys and the numbers between which they are drawn; at least one.
+        /// Keys and their ranges; at least one.
         over: Vec<Span>,
     },
 }
 
-/// Numbers between which a key is drawn.
+/// Range of a random key.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
@@ -100,47 +101,48 @@ pub struct Span {
     pub from: f64,
     /// Largest number; finite, greater than `from`.
     pub to: f64,
-    /// Whether the number or its logarithm is uniform.
+    /// Scale on which the number is uniformly distributed.
     #[serde(default)]
     pub scale: Scale,
-    /// Whether the key takes whole numbers: those drawn are rounded.
+    /// Rounds the values to whole numbers, for keys that require them.
     #[serde(default)]
     pub whole: bool,
 }
 
-/// How numbers are spaced.
+/// Spacing of numbers.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub enum Scale {
-    /// By differences.
+    /// Equal differences.
     #[default]
     Linear,
-    /// By ratios; both ends must be positive.
+    /// Equal ratios; both ends must be positive.
     Logarithmic,
 }
 
-/// How random points are drawn.
+/// Distribution of random points.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub enum Plan {
-    /// Latin hypercube: each key has one point in each of as many equal parts of its span as there are points.
+    /// Latin hypercube: each span is divided into as many equal parts as there are points, with one point in each
+    /// part.
     #[default]
     LatinHypercube,
-    /// Every point on its own.
+    /// Independent, uniform points.
     Independent,
 }
 
-/// Runs of one point that differ in their seeds alone.
+/// Repeated runs of each point with different seeds.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Samples {
-    /// How many runs of each point; at least 1.
+    /// Number of runs of each point; at least 1.
     pub number: usize,
-    /// Seed of the first; each other has the next.
+    /// Seed of the first run; it increases by 1 with each run.
     #[serde(default = "one")]
     pub first_seed: u64,
-    /// What takes the seed, where the scene draws it: all of it by default.
+    /// Seeds of the scene that are set; all by default.
     #[serde(default = "all")]
     pub of: Vec<Drawn>,
 }
@@ -153,7 +155,7 @@ fn all() -> Vec<Drawn> {
     Drawn::ALL.to_vec()
 }
 
-/// A value as a scene writes it: a number, a name, a list, a structure.
+/// A value in RON: a number, a name, a list, a structure.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Ron(pub String);
 
@@ -187,18 +189,18 @@ impl schemars::JsonSchema for Ron {
 }
 
 impl Sweep {
-    /// Reads a sweep. Its rules are checked when it is [opened](crate::Opened::new) with its scene.
+    /// Reads a sweep from RON. [`ValidatedSweep::new`](crate::ValidatedSweep::new) validates it.
     ///
     /// # Errors
-    /// Text that is no RON, an unknown or missing key, each with line and column.
+    /// If the text is not RON, or has unknown or missing keys. The error has line and column.
     pub fn from_ron(text: &str) -> Result<Self, SceneError> {
         read_ron(text, "Sweep")
     }
 
-    /// The sweep as RON with every default written out.
+    /// Returns the sweep as RON, with all defaults.
     ///
     /// # Panics
-    /// Never: sweeps hold only what RON can write.
+    /// Never: all fields can be written as RON.
     pub fn to_ron(&self) -> String {
         let config = ron::ser::PrettyConfig::new()
             .struct_names(true)
@@ -208,6 +210,6 @@ impl Sweep {
             .with_default_extension(ron::extensions::Extensions::IMPLICIT_SOME)
             .with_default_extension(ron::extensions::Extensions::UNWRAP_VARIANT_NEWTYPES);
         let text = options.to_string_pretty(self, config);
-        text.expect("sweeps hold numbers, texts and lists only, which RON can write") + "\n"
+        text.expect("all fields can be written as RON") + "\n"
     }
 }

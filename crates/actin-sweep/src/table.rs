@@ -1,34 +1,30 @@
-//! The tables of a sweep: a row for each run, and a row for each point with means and errors.
+//! Tables of a sweep: all runs, and all points with means and standard errors.
 
 use crate::files::{self, RUNS, TABLE};
 use crate::run::summary;
-use crate::{Opened, SweepDirectory, SweepError, chosen};
+use crate::{SweepDirectory, SweepError, ValidatedSweep, chosen};
 use serde_json::Value;
 
 /// Status of a run that has not ended.
 const UNFINISHED: &str = "unfinished";
 
-/// The rows of all runs, in order.
 #[derive(Debug)]
 pub(crate) struct Table<'a> {
-    opened: &'a Opened,
+    opened: &'a ValidatedSweep,
     rows: Vec<Row>,
 }
 
-/// A run, as the tables have it.
 #[derive(Debug)]
 pub(crate) struct Row {
     status: String,
-    /// Why it failed, or which results it lacks; empty if all is well.
+    /// Reason of the failure, or missing results; empty for a successful run.
     pub(crate) failure: String,
-    /// Codes of its warnings.
     warnings: String,
-    /// Results as the summary has them; none of a run that failed, nor where there is no value.
+    /// Values of the results; `None` if missing.
     results: Vec<Option<Value>>,
 }
 
 impl Row {
-    /// The row of a run that has not ended.
     fn unfinished(results: usize) -> Self {
         Self {
             status: UNFINISHED.to_owned(),
@@ -38,7 +34,6 @@ impl Row {
         }
     }
 
-    /// The results of these names in a summary.
     pub(crate) fn of(summary: &Value, names: &[String]) -> Self {
         let text = |key: &str| summary[key].as_str().unwrap_or_default().to_owned();
         let status = text("status");
@@ -69,8 +64,7 @@ impl Row {
 }
 
 impl<'a> Table<'a> {
-    /// Reads the summaries of all runs that have ended.
-    pub(crate) fn new(opened: &'a Opened, directory: &SweepDirectory) -> Self {
+    pub(crate) fn new(opened: &'a ValidatedSweep, directory: &SweepDirectory) -> Self {
         let results = &opened.sweep.results;
         let row = |run| match summary(&directory.run(run)) {
             Some(summary) => Row::of(&summary, results),
@@ -85,7 +79,6 @@ impl<'a> Table<'a> {
         files::replace(directory.path(), TABLE, &self.points())
     }
 
-    /// Run by run.
     fn runs(&self) -> Vec<u8> {
         let (design, sweep) = (&self.opened.design, &self.opened.sweep);
         let head = words(&["run", "point"])
@@ -109,8 +102,8 @@ impl<'a> Table<'a> {
         files::csv(std::iter::once(head.collect()).chain(rows))
     }
 
-    /// Point by point: means over the runs that have a result, and their standard errors. Runs that lack
-    /// one count as failed.
+    /// Returns the table of points: means over the runs with a result, and standard errors. Other runs count as
+    /// failed.
     fn points(&self) -> Vec<u8> {
         let (design, sweep) = (&self.opened.design, &self.opened.sweep);
         let both = |name: &String| [name.clone(), format!("{name} error")];
@@ -150,7 +143,7 @@ fn words(names: &[&str]) -> impl Iterator<Item = String> {
         .into_iter()
 }
 
-/// Mean of numbers and its standard error; nothing where there are too few.
+/// Returns mean and standard error; empty if there are too few numbers.
 fn mean_and_error(numbers: &[f64]) -> [String; 2] {
     let count = numbers.len() as f64;
     let mean = numbers.iter().sum::<f64>() / count;

@@ -1,11 +1,11 @@
-//! Films of a run: one PNG picture after the other, without a graphics card.
+//! Films of a run: numbered PNG pictures, rendered in software.
 //!
-//! Pictures have the place, scale and colours of the page's first view; the camera stands still, or goes around
-//! once it is told to. Every picture has its time and a scale bar.
+//! The view and colours of the first picture agree with the page. The camera is fixed or rotates about the vertical
+//! axis. Each picture shows the time and a scale bar.
 
 use crate::pose::{PLATE_NM, bodies};
 use crate::{Attitude, Palette, Run, Things};
-use actin_draw::raster::{Camera, Canvas, Look, Picture};
+use actin_draw::raster::{Camera, Canvas, Picture, TubeStyle};
 use actin_draw::scene3d::Matrix3;
 use actin_sim::Assembly;
 use actin_sim::mechanics::{State, Vector3};
@@ -16,31 +16,29 @@ use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread;
 
-/// What is seen through bodies counts so much nearer (nm).
+/// Depth offset of parts that are visible through bodies (nm).
 const THROUGH_NM: f64 = 8.0;
-/// Below so many pixels per nm, monomers are drawn with a line through them.
+/// Scale below which monomers are connected by a line (pixels per nm).
 const FAR: f64 = 0.8;
-/// Room around all bodies (nm).
 const MARGIN_NM: f64 = 7.0;
-/// Height of the strip of scale bar and clock (pixels).
+/// Height of the strip with scale bar and clock (pixels).
 const FOOT: f64 = 44.0;
-/// Height of letters (pixels).
 const LETTERS: f64 = 15.0;
-/// Length of arrows of forces (pixels).
+/// Length of force arrows (pixels).
 const ARROW: f64 = 56.0;
 const PAPER: [u8; 3] = [255; 3];
 const INK: [u8; 3] = [20; 3];
 
-/// How a film is made.
+/// Settings of a film.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Film {
     /// Width and height of pictures (pixels).
     pub size: [usize; 2],
-    /// Number of pictures; that of the records shown if it is not given.
+    /// Number of pictures; by default the number of loaded records.
     pub pictures: Option<usize>,
-    /// By how much the camera goes around the vertical axis of the picture (rad).
+    /// Total rotation of the camera about the vertical axis of the picture (rad).
     pub turn: f64,
-    /// From where it looks at first.
+    /// Initial view direction.
     pub attitude: Attitude,
     /// Colours.
     pub palette: Palette,
@@ -59,15 +57,16 @@ impl Default for Film {
 }
 
 impl Film {
-    /// How many pictures there are of a run.
+    /// Returns the number of pictures for a run.
     pub fn count(&self, run: &Run) -> usize {
         self.pictures.unwrap_or(run.states.len())
     }
 
-    /// Writes the pictures `00001.png`, `00002.png`, ... into a folder; `told` hears how many are ready.
+    /// Writes the pictures `00001.png`, `00002.png`, ... to a folder. Calls `told` with the number of finished
+    /// pictures.
     ///
     /// # Errors
-    /// A refusal of the file system.
+    /// If a file cannot be written.
     pub fn write(&self, run: &Run, folder: &Path, told: &(dyn Fn(usize) + Sync)) -> io::Result<()> {
         fs::create_dir_all(folder)?;
         let (count, next, ready) = (self.count(run), AtomicUsize::new(0), AtomicUsize::new(0));
@@ -93,7 +92,6 @@ impl Film {
         })
     }
 
-    /// The camera that sees all records.
     fn camera(&self, run: &Run) -> Camera {
         let [width, height] = self.size.map(|n| n as f64);
         let places: Vec<Vector3> = run
@@ -110,7 +108,6 @@ impl Film {
         )
     }
 
-    /// Picture `k` of `count`.
     fn picture(&self, run: &Run, (k, count): (usize, usize), camera: Camera) -> Picture {
         let share = |most: usize| {
             if count < 2 {
@@ -135,7 +132,6 @@ impl Film {
         picture
     }
 
-    /// Scale bar and clock.
     fn write_clock(&self, run: &Run, record: usize, camera: Camera, picture: &mut Picture) {
         let [width, height] = self.size.map(|n| n as f64);
         let foot = height - 16.0;
@@ -166,8 +162,8 @@ impl Film {
 }
 
 impl Run {
-    /// Time or path of a record that is shown, with as many decimals as all need; nothing where there is but
-    /// one.
+    /// Formats the time or path parameter of a record, with equal decimals for all records. `None` for a single
+    /// record.
     fn clock(&self, record: usize) -> Option<String> {
         let (first, last): (f64, f64) = (self.at.first()?.value(), self.at.last()?.value());
         let span = last - first;
@@ -189,7 +185,6 @@ impl Run {
     }
 }
 
-/// A state, being painted.
 struct Scene<'a> {
     canvas: Canvas,
     assembly: &'a Assembly,
@@ -260,7 +255,7 @@ impl Scene<'_> {
             .map(|i| self.state.points.position.get(i));
         let frames = span.frames.clone().map(|i| self.axes(i));
         let (nodes, frames): (Vec<_>, Vec<_>) = (nodes.collect(), frames.collect());
-        let look = Look {
+        let look = TubeStyle {
             colour: self.palette.ramp().at(1.0).lighter(0.12).0,
             stripe: 0.7,
             seam: 0.55,
@@ -275,7 +270,6 @@ impl Scene<'_> {
         turn.to_rotation_matrix().into_inner()
     }
 
-    /// An arrow where a force acts; all are of one length.
     fn arrow(&mut self, at: Vector3, force: Vector3) {
         let per_nm = self.canvas.per_nm();
         let along = force.normalize();
@@ -292,7 +286,7 @@ impl Scene<'_> {
     }
 }
 
-/// The largest of 1, 2, 5, 10, ... that is not longer.
+/// Returns the largest of 1, 2, 5, 10, ... up to `most`.
 fn nice_length(most: f64) -> f64 {
     let power = 10_f64.powf(most.log10().floor());
     let digit = [5.0, 2.0, 1.0]

@@ -1,10 +1,10 @@
-//! Looking at runs: a page that plays through the records of a run directory, films of it, and views of
-//! states for report pages.
+//! Visualisation of runs: interactive pages of a run directory, films, and views of states for reports.
 //!
-//! - [`Run::open`] finds what there is in a run directory, finished, interrupted or damaged; [`Run::page`]
-//!   makes one HTML file of it that needs nothing else, [`Film`] pictures one after the other.
-//! - [`Pose`] is what is seen of a state; [`states`] are poses to be compared in a report.
-//! - [`Palette`] has the colours of all of them.
+//! - [`Run::open`] reads a run directory, which may be incomplete. [`Run::page`] makes a self-contained HTML page,
+//!   and
+//!   [`Film`] writes pictures.
+//! - [`Pose`] contains the visible bodies of a state; [`states`] writes several for comparison in a report.
+//! - [`Palette`] contains the colours.
 
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
@@ -26,7 +26,7 @@ pub use run::{Limits, Run, ViewError, is_page};
 pub use states::{Attitude, Shown};
 pub use trade::draw_trade;
 
-/// The script that makes solids of bodies; it needs those of [`space`](actin_draw::space).
+/// Script that converts a pose to solids; it requires the scripts of [`space`](actin_draw::space).
 pub const BODIES: &str = include_str!("js/bodies.js");
-/// The script of views of states; it needs [`BODIES`].
+/// Script of views of states; it requires [`BODIES`].
 pub const STATES: &str = include_str!("js/states.js");

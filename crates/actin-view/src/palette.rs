@@ -1,4 +1,4 @@
-//! Colours of views and pictures: what stands for a resolution, and what for a thing.
+//! Colours of views and pictures.
 
 use actin_draw::page::on_dark;
 use actin_draw::{Ramp, lines};
@@ -7,36 +7,36 @@ use serde::Serialize;
 /// A set of colours.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Palette {
-    /// From red through yellow to blue with the share of rod, as in the paper.
+    /// Red (monomers) through yellow to blue (rod), as in the paper.
     #[default]
     Paper,
-    /// From light green to dark purple; told apart without red and green, and in grey.
+    /// Light green (monomers) to dark purple (rod); distinguishable with colour blindness and in greyscale.
     ColourBlind,
 }
 
-/// What colours of things stand for.
+/// Colours of parts.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct Things {
     /// Lateral and longitudinal bonds.
     pub bonds: [[u8; 3]; 2],
-    /// First, second and third axis of a frame.
+    /// Axes d1, d2, d3 of a frame.
     pub axes: [[u8; 3]; 3],
     /// Bonds of junctions.
     pub junction: [u8; 3],
     /// Nodes of rods.
     pub node: [u8; 3],
-    /// Held ends.
+    /// Clamped ends.
     pub clamp: [u8; 3],
     /// Linkers.
     pub linker: [u8; 3],
-    /// What linkers end on outside of filaments.
+    /// Fixed or moving ends of linkers outside filaments.
     pub anchor: [u8; 3],
-    /// Forces, and what held ends are made to do.
+    /// Forces, and prescribed motion of clamps.
     pub force: [u8; 3],
 }
 
 impl Things {
-    /// Every colour changed in the same way.
+    /// Applies a function to every colour.
     #[must_use]
     pub fn map(&self, shade: fn([u8; 3]) -> [u8; 3]) -> Self {
         Self {
@@ -52,7 +52,7 @@ impl Things {
     }
 }
 
-/// Colours of things beside red monomers and blue rods.
+/// Colours that are distinguishable from red monomers and blue rods.
 const BESIDE_RED_AND_BLUE: Things = Things {
     bonds: [[120, 40, 150], [0, 150, 140]],
     axes: [[213, 94, 0], [60, 140, 40], [0, 70, 160]],
@@ -63,11 +63,10 @@ const BESIDE_RED_AND_BLUE: Things = Things {
     anchor: [0, 140, 70],
     force: [20, 20, 20],
 };
-/// Colours of things that keep their differences for all kinds of sight.
+/// Colours for colour-blind readers.
 ///
 /// # Source
-/// M. Okabe and K. Ito, Color Universal Design (2008): vermilion, reddish purple, sky blue, blue,
-/// orange, yellow.
+/// M. Okabe and K. Ito, Color Universal Design (2008): vermilion, reddish purple, sky blue, blue, orange, yellow.
 const OKABE_ITO: Things = Things {
     bonds: [[204, 121, 167], [0, 114, 178]],
     axes: [[213, 94, 0], [86, 180, 233], [0, 0, 0]],
@@ -80,7 +79,7 @@ const OKABE_ITO: Things = Things {
 };
 
 impl Palette {
-    /// Colours of the share of rod, from 0 to 1.
+    /// Returns the colour ramp of the fraction of rod, from 0 to 1.
     pub fn ramp(self) -> Ramp {
         match self {
             Self::Paper => Ramp::RED_YELLOW_BLUE,
@@ -88,7 +87,7 @@ impl Palette {
         }
     }
 
-    /// What the ends of the range of resolutions look like, as a sentence.
+    /// Returns a sentence that explains both ends of the ramp.
     pub fn ends(self) -> &'static str {
         match self {
             Self::Paper => "Red is all monomers, blue all rod.",
@@ -96,7 +95,7 @@ impl Palette {
         }
     }
 
-    /// Names of the colours of the first and of the last stop.
+    /// Returns the names of the first and last colour of the ramp.
     pub fn end_names(self) -> [&'static str; 2] {
         match self {
             Self::Paper => ["red", "blue"],
@@ -104,7 +103,7 @@ impl Palette {
         }
     }
 
-    /// Colours of things.
+    /// Returns the colours of parts.
     pub fn things(self) -> &'static Things {
         match self {
             Self::Paper => &BESIDE_RED_AND_BLUE,
@@ -112,7 +111,7 @@ impl Palette {
         }
     }
 
-    /// Colours of lines that have no order.
+    /// Returns the colours of unordered lines.
     pub fn lines(self) -> &'static [[u8; 3]; 5] {
         match self {
             Self::Paper => &lines::HUES,
@@ -120,7 +119,7 @@ impl Palette {
         }
     }
 
-    /// The colours of views on a light and on a dark page, as the JSON of the element `palette`.
+    /// Returns the colours for light and dark pages as JSON, for the HTML element `palette`.
     pub fn json(self) -> String {
         let colours = |shade: fn([u8; 3]) -> [u8; 3]| {
             let stops = |ramp: Ramp| ramp.stops().iter().copied().map(shade).collect::<Vec<_>>();
@@ -140,8 +139,6 @@ mod tests {
     use actin_draw::Colour;
     use actin_draw::page::DARK_CARD;
 
-    /// Things are seen on the dark page, in pictures and in views; those that stand back on white paper,
-    /// or are white, as much as there. Symptom of the plausible bug: a black axis is lifted to a dark grey.
     #[test]
     fn every_thing_is_seen_on_the_dark_card() {
         let contrast = |one, other| Colour(one).contrast(Colour(other));

@@ -1,38 +1,37 @@
-//! States to be compared in a view of a page: which there are, and their file.
+//! Files of states for comparison in a report, displayed by `js/states.js`.
 //!
-//! The view itself is `js/states.js`. Colours are not stored: the page has those of its
-//! palette.
+//! Colours are not stored; the page applies its palette.
 
 use crate::pose::{Bonds, Pose};
 use actin_draw::report::{View, save};
 use serde::Serialize;
 use std::path::Path;
 
-/// A state to be looked at.
+/// A state of a file.
 #[derive(Clone, Debug, Serialize)]
 pub struct Shown {
-    /// States of one group are compared with one another.
+    /// Group of states that are compared with each other.
     pub group: String,
     /// Name within the group.
     pub name: String,
-    /// Share of rod, for the colour among the group.
+    /// Fraction of rod, which determines the colour.
     pub share: f64,
     #[serde(flatten)]
-    /// Its bodies.
+    /// Visible bodies.
     pub pose: Pose,
 }
 
-/// From where a filament is seen first: towards the viewer, and what points upwards.
+/// View direction.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Attitude {
-    /// Towards the viewer.
+    /// Direction towards the viewer (lab frame).
     pub towards: [f64; 3],
-    /// What points upwards.
+    /// Upward direction (lab frame).
     pub up: [f64; 3],
 }
 
 impl Attitude {
-    /// Lab z to the right, lab x upwards, a little from above.
+    /// Lab z to the right, lab x upwards, seen slightly from above.
     pub const LYING: Self = Self {
         towards: [0.35, 1.0, 0.15],
         up: [1.0, 0.0, 0.0],
@@ -47,15 +46,15 @@ impl Attitude {
 #[derive(Serialize)]
 struct File {
     attitude: Attitude,
-    /// Bonds between monomers, which states refer to by number.
+    /// Sets of bonds, to which states refer by index.
     bonds: Vec<Bonds>,
     states: Vec<Shown>,
 }
 
-/// Writes the states of artefact `id` into the output folder.
+/// Writes the states of artefact `id` to the output folder.
 ///
 /// # Errors
-/// No states, NaN or infinity, a file that cannot be written.
+/// If there are no states, a number is not finite, or the file cannot be written.
 pub fn write(
     id: &str,
     attitude: Attitude,
@@ -122,9 +121,6 @@ mod tests {
         strands.flat_map(|s| s.monomers.clone()).collect()
     }
 
-    /// Every body is there once, where it is, of one filament and of three that are linked. Symptoms
-    /// of the plausible bugs: a rod one node short, monomers in the order of something else, a
-    /// quaternion with its scalar last, nothing but the first filament.
     #[test]
     fn a_pose_holds_the_bodies_of_the_assembly() {
         for assembly in [mixed(), built("crosslinked.ron")] {
@@ -147,12 +143,12 @@ mod tests {
             let places = (0..assembly.points.len()).filter(is_monomer);
             for (i, [x, y, z, w, ..]) in places.zip(&monomers) {
                 let place = Vector3::new(*x, *y, *z);
-                // Half a step of rounding in each of three components.
+                // Rounding of three components by half a step.
                 assert!((place - state.points.position.get(i)).norm() < 0.9e-2);
                 let frame = assembly.points[i].frame.unwrap();
                 assert!((state.frames.orientation.get(frame).w - w).abs() < 1e-4);
             }
-            // What is built straight lies on its axis, each filament on its own.
+            // An initially straight filament lies on its own axis.
             for (line, filament) in pose.lines.iter().zip(&assembly.filaments) {
                 let off_axis = |p: &[f64; 3]| {
                     let place = filament.seen_along_z(Vector3::from(*p));
@@ -163,14 +159,12 @@ mod tests {
         }
     }
 
-    /// Linkers between filaments have no anchors; all filaments have the same weighted bonds, and each
-    /// drawn ones of its own.
     #[test]
     fn linked_filaments_keep_their_sites_and_bonds_apart() {
         let assembly = built("crosslinked.ron");
         let mut pose = shown(&assembly).pose;
         assert!(pose.anchors.is_empty() && pose.linkers.len() == 4);
-        // The gaps of 8.4 nm between sites on neighbouring filaments.
+        // Sites on neighbouring filaments are 8.4 nm apart.
         for [ax, ay, az, bx, by, bz] in &pose.linkers {
             let gap = Vector3::new(bx - ax, by - ay, bz - az).norm();
             assert!((gap - 8.4).abs() < 0.02, "{gap}");
@@ -187,10 +181,9 @@ mod tests {
         assert_eq!(anchored.anchors.len(), anchored.linkers.len());
     }
 
-    /// A bond that is drawn is one that acts: from its end on the lower monomer to that on the upper,
-    /// as the viewer puts them into space, it is as long as the model says it is at rest.
+    /// The displayed bonds are bonds of the model: in the initial state their lengths are the rest lengths.
     #[test]
-    fn bonds_of_the_viewer_are_those_that_act() {
+    fn displayed_bonds_are_bonds_of_the_model() {
         let assembly = mixed();
         let mut pose = shown(&assembly).pose;
         let mut sets = Vec::new();
@@ -225,7 +218,6 @@ mod tests {
         assert_eq!(seen, 8 * model.pairs().len());
     }
 
-    /// The file reads back as JSON without a null, which is what a number that is none becomes.
     #[test]
     fn a_file_of_states_is_finite_and_small() {
         let folder = tempfile::tempdir().unwrap();
@@ -238,13 +230,13 @@ mod tests {
         let monomers = strand["monomers"].as_array().unwrap();
         assert_eq!(monomers.len(), shown.pose.strands[0].monomers.len());
         assert!(!text.contains("null"));
-        // A body takes 7 numbers, and 3 for its centre line, of at most 8 characters each; a monomer
-        // 16 bonds of 6 numbers of at most 5 characters, and as many names of its place.
+        // A body takes 7 numbers and 3 for its centre line, of at most 8 characters. A monomer takes 16 bonds of 6
+        // numbers of at most 5 characters, and their keys.
         let bodies = shown.pose.lines[0].len();
         let all = value["states"][0]["strands"].as_array().unwrap().iter();
         let all: usize = all.map(|s| s["monomers"].as_array().unwrap().len()).sum();
         assert!(text.len() < 100 * bodies + 500 * all + 1000);
-        // A second state of the same monomers does not bring their bonds again.
+        // A second state with the same monomers adds no bonds.
         let states = [shown.clone(), shown.clone()];
         let view = write("b", Attitude::LYING, &states, "c".into(), folder.path()).unwrap();
         let twice = std::fs::read_to_string(folder.path().join(&view.file)).unwrap();

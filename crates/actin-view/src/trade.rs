@@ -1,16 +1,16 @@
-//! Picture of a trade: error against time.
+//! Figure of a trade: error versus run time.
 
 use crate::draw::{Colour, Scatter, ScatterPoint, lines::OKABE_ITO};
 use actin_sim::trade::{Candidate, Trade};
 use std::path::Path;
 
-/// Draws error against time into an SVG file, with logarithmic axes.
+/// Plots error versus run time to an SVG file, with logarithmic axes.
 ///
-/// Each point is the largest error of a candidate. One line connects the Pareto front, another marks the wanted error. A
-/// candidate with zero or unknown error has no point.
+/// Each point is the largest error of a candidate. One line connects the Pareto front, another marks the target
+/// error. Candidates with zero or unknown error have no point.
 ///
 /// # Errors
-/// Failure to write the file.
+/// If the file cannot be written.
 pub fn draw_trade(trade: &Trade, path: &Path) -> Result<(), String> {
     let has_result = |candidate: &&Candidate| {
         candidate.failure.is_none()

@@ -1,16 +1,14 @@
-//! Rods in long steps beside the worm-like chain: their own chain of segments exactly, and the continuous one.
-
 use crate::common;
 use actin_brownian::mechanics::{PointLoad, UnitQuaternion, Vector3, Xorshift, rotation};
 use common::{advance, free_rod, rigidities, tip};
 
 const KT: f64 = 4.11;
 const BLOCKS: u64 = 20;
-/// Legendre polynomials, and places of the quadrature.
+/// Numbers of Legendre polynomials and of quadrature points.
 const DEGREES: usize = 120;
 const PLACES: usize = 200;
 
-/// A chain of segments of a length (nm) pulled apart at its ends by a force (pN).
+/// Chain of segments of a length (nm) under an end force (pN).
 #[derive(Clone, Copy)]
 struct Chain {
     segments: usize,
@@ -23,7 +21,7 @@ impl Chain {
         self.length * self.segments as f64
     }
 
-    /// Values of the distance of the ends and of its part along the force, in `BLOCKS` blocks of steps of `h` (ns).
+    /// Distances of the ends and extensions along the force, in blocks of steps of `h` (ns).
     fn run(&self, h: f64, steps: u64) -> [Vec<Vec<f64>>; 2] {
         let (mut system, mut stepper, rod) =
             free_rod(self.segments, self.contour(), (KT, 1), |state, rod| {
@@ -58,7 +56,6 @@ impl Chain {
         found
     }
 
-    /// Turns of a joint: normal, accepted with the density of Haar's measure.
     fn joint(&self, random: &mut Xorshift) -> UnitQuaternion {
         let spread = (rigidities().bend / (KT * self.length)).map(|a| a.recip().sqrt());
         loop {
@@ -70,7 +67,6 @@ impl Chain {
         }
     }
 
-    /// A distance of the ends of the chain without force, drawn from its exact distribution.
     fn drawn(&self, random: &mut Xorshift) -> f64 {
         let spread = (rigidities().shear * (self.length / KT)).map(|a| a.recip().sqrt());
         let (mut q, mut ends) = (UnitQuaternion::identity(), Vector3::zeros());
@@ -82,7 +78,6 @@ impl Chain {
         ends.norm()
     }
 
-    /// The mean extension along the force: the derivative of the free energy, by the transfer matrix over directions of segments.
     fn extension(&self) -> f64 {
         let joints = self.joint_moments();
         let df = 1e-3 * self.force;
@@ -90,7 +85,6 @@ impl Chain {
         KT * (logs[1] - logs[0]) / (2.0 * df)
     }
 
-    /// Means of the Legendre polynomials of the cosine of a joint's bend.
     fn joint_moments(&self) -> Vec<f64> {
         const N: i32 = 30;
         let bend = rigidities().bend / (self.length * KT);
@@ -99,7 +93,7 @@ impl Chain {
         let width = 6.0 / f64::from(N);
         let at = |k: i32| (f64::from(k) + 0.5) * width;
         for (i, j) in (0..N).flat_map(|i| (-N..N).map(move |j| (i, j))) {
-            // Of the two bends the distance counts.
+            // Polar coordinates of the two bends.
             let unit = Vector3::new(at(i), 0.0, at(j));
             let theta = unit.component_div(&Vector3::new(bend.x, bend.y, bend.z).map(f64::sqrt));
             let half = 0.5 * theta.norm();
@@ -113,7 +107,6 @@ impl Chain {
         sums.iter().map(|sum| sum / weight).collect()
     }
 
-    /// The logarithm of the partition function under a force, up to a constant.
     fn log_partition(&self, force: f64, joints: &[f64]) -> f64 {
         let places = gauss_legendre();
         let shear = rigidities().shear;
@@ -150,14 +143,12 @@ impl Chain {
     }
 }
 
-/// Standard normal, from two numbers.
 fn normal(random: &mut Xorshift) -> f64 {
     let u = 0.5 * (random.sample() + 1.0);
     let phase = std::f64::consts::PI * random.sample();
     (-2.0 * (1.0 - u).ln()).sqrt() * phase.cos()
 }
 
-/// Legendre polynomials of `c`.
 fn legendre(c: f64) -> Vec<f64> {
     let mut p = vec![1.0, c];
     for n in 1..DEGREES - 1 {
@@ -167,7 +158,6 @@ fn legendre(c: f64) -> Vec<f64> {
     p
 }
 
-/// Places and weights of Gauss and Legendre's quadrature, by Newton's method.
 fn gauss_legendre() -> Vec<(f64, f64)> {
     let n = PLACES as f64;
     let root = |k: usize| {
@@ -187,7 +177,6 @@ fn gauss_legendre() -> Vec<(f64, f64)> {
     (0..PLACES).map(root).collect()
 }
 
-/// The mean of the means of blocks, and its standard error.
 fn mean_and_error(blocks: &[Vec<f64>], of: impl Fn(f64) -> f64) -> (f64, f64) {
     let means: Vec<f64> = blocks
         .iter()
@@ -199,9 +188,9 @@ fn mean_and_error(blocks: &[Vec<f64>], of: impl Fn(f64) -> f64) -> (f64, f64) {
     (mean, (squares / (n - 1.0) / n).sqrt())
 }
 
-/// The extension under a force of 2 pN, to three standard errors, which are to be below 0.1 %.
+/// The extension at 2 pN agrees within three standard errors.
 #[test]
-fn chains_extend_as_they_should_in_long_steps() {
+fn extension_is_exact_in_long_steps() {
     let chain = Chain {
         segments: 8,
         length: 40.0,
@@ -217,7 +206,8 @@ fn chains_extend_as_they_should_in_long_steps() {
     );
 }
 
-/// Steps miss less than a thousandth of 1 um, also long ones under tension; printed beside the continuous chain of Odijk.
+/// The error of the extension of 1 um is below a thousandth. The result of Odijk for a continuous
+/// chain is printed.
 #[test]
 #[ignore = "takes minutes"]
 fn force_and_extension() {
@@ -249,9 +239,9 @@ fn force_and_extension() {
     }
 }
 
-/// The distance of the ends of a free rod of 1 um is distributed as in draws of the exact chain: its mean square, to four standard
-/// errors (printed beside that of the continuous chain, Kratky and Porod), and the share in each of ten parts of equal weight, to a
-/// tenth.
+/// Distribution of the end distance of a free rod of 1 um, compared with samples of the exact
+/// chain: mean square within four standard errors, and deciles within a tenth. The result of Kratky
+/// and Porod is printed.
 #[test]
 #[ignore = "takes minutes"]
 fn distances_of_the_ends() {
@@ -291,7 +281,7 @@ fn distances_of_the_ends() {
     println!("chi^2 {chi:.1} of ten parts");
 }
 
-/// Under 10 pN steps of several lengths miss less than a thousandth of the length.
+/// At 10 pN the error of the extension is below a thousandth for all steps.
 #[test]
 #[ignore = "takes minutes"]
 fn tension_and_step() {

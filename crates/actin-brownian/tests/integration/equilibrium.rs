@@ -1,15 +1,13 @@
-//! Equilibrium distributions.
-
 use crate::common;
 use actin_brownian::{Brownian, Relaxation, StepLimits};
 use actin_cosserat::{EnergyGradient, Rigidities, RodMaterial, StraightRod};
 use actin_mechanics::{PointLoad, State, System, Vector3};
 use common::{FRICTION, advance, free_rod, friction_of, layout_of, rigidities, tip};
 
-/// Mean energies of the shear and of the bending elements of a free rod over `kT`, per component of
-/// strain, in steps of `ratio` times the fastest relaxation.
+/// Mean energies of shear and bending elements of a free rod over `kT`, per component of strain, in
+/// steps of `ratio` times the fastest relaxation.
 fn energies_per_strain(kt: f64, ratio: f64, steps: u64) -> [f64; 2] {
-    // Short, so that bending too forgets within tens of steps.
+    // Bending of a short rod relaxes within tens of steps.
     const SEGMENTS: usize = 4;
     let (mut system, mut stepper, rod) = free_rod(SEGMENTS, 40.0, (kt, 5), |_, _| Vec::new());
     let layout = layout_of(system.state(), &rod);
@@ -38,12 +36,10 @@ fn energies_per_strain(kt: f64, ratio: f64, steps: u64) -> [f64; 2] {
     sums.map(|sum| sum / (kt * steps as f64))
 }
 
-/// Every component of strain of a free rod is a coordinate of its own, with the energy kT/2, at steps that
-/// exceed the fastest relaxation a hundred times, and three thousand times. Friction or noise that is wrong for one kind of motion,
-/// stress that does not turn with its element, or stretch that turns would show; the implicit Euler rule without stress leaves
-/// 2 % of the stiffest strain in the first case, midpoint steps do not come to an end in the second.
+/// Each strain component of a free rod has the energy kT/2, at steps of a hundred and of three
+/// thousand times the fastest relaxation.
 #[test]
-fn strains_have_their_share_of_energy_at_long_steps() {
+fn strains_have_the_equipartition_energy_at_long_steps() {
     for (kt, ratio, steps) in [
         (0.0411, 100.0, 100_000),
         (4.11, 100.0, 100_000),
@@ -57,8 +53,8 @@ fn strains_have_their_share_of_energy_at_long_steps() {
     }
 }
 
-/// A rod spins by 2 rad (root mean square) in a step, every tenth time by more than half a turn: strains keep their energy, and the
-/// spin its diffusion, `<cos> = exp(-kT h/(zeta L))`.
+/// A rod spins by 2 rad (root mean square) in a step, in a tenth of the steps by more than half a
+/// turn. The mean cosine of the spin is `exp(-kT h/(zeta L))`.
 #[test]
 fn rods_spin_by_more_than_half_a_turn_in_a_step() {
     const SEGMENTS: usize = 8;
@@ -80,15 +76,14 @@ fn rods_spin_by_more_than_half_a_turn_in_a_step() {
     let cosine = cosine / steps as f64;
     let iterations = stepper.iterations();
     println!("{share}, cosine {cosine}, {expected} expected, {iterations} iterations");
-    // Standard errors 0.4 % and 0.01; twist within the rod adds 0.003 to the exponent.
+    // Standard errors are 0.4 % and 0.01; twist within the rod adds 0.003 to the exponent.
     assert!((share - 1.0).abs() < 0.02, "{share}");
     assert!((cosine - expected).abs() < 0.05, "{cosine}");
 }
 
-/// Steps that Newton's method does not solve in a few iterations are halved, again and again: here nearly all are, and no
-/// energy is far from 1.5 kT for each element.
+/// Nearly all steps are halved, and the energy stays near 1.5 kT per element.
 #[test]
-fn steps_that_are_not_solved_are_halved() {
+fn steps_that_do_not_converge_are_halved() {
     let kt = 4.11;
     let (mut system, stepper, _) = free_rod(8, 160.0, (kt, 5), |_, _| Vec::new());
     let most = 3;
@@ -104,17 +99,16 @@ fn steps_that_are_not_solved_are_halved() {
     });
     assert!(
         stepper.iterations() > 2 * most as u64 * steps,
-        "none was halved"
+        "no step was halved"
     );
     let share = energy / (steps as f64 * 1.5 * kt * 15.0);
     println!("{} iterations, {share}", stepper.iterations());
     assert!((0.8..1.2).contains(&share), "{share}");
 }
 
-/// A rod pulled apart at its ends by forces `F` turns into them: the mean cosine of its frame is
-/// `coth a - 1/a`, `a = F L/kT`, whatever its stiffness, if it is as stiff across as along. Friction is ten times as large
-/// across as along and turns with the rod: friction of the start of a step, which is the noise in the sense of Ito, would
-/// drift.
+/// The mean cosine of a rod in a field is the Langevin function `coth a - 1/a` with `a = F L/kT`.
+/// The friction is anisotropic and rotates with the rod: friction of the start of a step (Ito
+/// noise) would cause a drift.
 #[test]
 fn a_rod_in_a_field_has_the_distribution_of_langevin() {
     let (length, kt, a) = (20.0, 4.11, 1.5);
@@ -135,7 +129,7 @@ fn a_rod_in_a_field_has_the_distribution_of_langevin() {
     let layout = layout_of(&state, &rod);
     let mut system = System::new(state, vec![Box::new(law), Box::new(load)]);
     let mut stepper = Brownian::new(&system, layout, friction, (kt, 9)).unwrap();
-    // Turning takes about zeta L^3/(24 kT) = 230 ns.
+    // The rotational relaxation time is about zeta L^3/(24 kT) = 230 ns.
     let (h, steps) = (2.0, 2_000_000);
     let (mut sum, mut square) = (0.0, 0.0);
     advance(&mut system, &mut stepper, (0, steps), h, |system| {
@@ -148,7 +142,7 @@ fn a_rod_in_a_field_has_the_distribution_of_langevin() {
     let langevin = 1.0 / f64::tanh(a) - 1.0 / a;
     let of_square = 1.0 - 2.0 * langevin / a;
     println!("{mean} against {langevin}, squares {square} against {of_square}");
-    // 4e6 ns are some 8e3 independent samples: standard errors of 0.006 and 0.003.
+    // 4e6 ns give about 8e3 independent samples, with standard errors of 0.006 and 0.003.
     assert!((mean - langevin).abs() < 0.018);
     assert!((square - of_square).abs() < 0.010);
 }

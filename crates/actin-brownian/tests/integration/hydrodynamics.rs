@@ -1,5 +1,5 @@
-//! What leaving out hydrodynamic interaction costs: modes of a straight chain of beads that feel the flow of one
-//! another, beside modes with the local friction of a cylinder.
+//! Effect of hydrodynamic interaction: bending modes of a chain of interacting beads, compared with
+//! the local friction of a cylinder.
 
 use actin_brownian::Cylinder;
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
@@ -10,7 +10,7 @@ const RADIUS: f64 = 3.5;
 /// Bending rigidity (pN nm^2).
 const BEND: f64 = 3.9e4;
 
-/// Touching beads of radius `b` along `length`: their mobility across the chain (nm/(pN ns)).
+/// Transverse mobility of touching beads of radius `b` along `length` (nm/(pN ns)).
 ///
 /// Rotne and Prager, J. Chem. Phys. 50 (1969) 4831; Yamakawa, J. Chem. Phys. 53 (1970) 436.
 fn across_of_beads(number: usize, length: f64) -> DMatrix<f64> {
@@ -25,7 +25,6 @@ fn across_of_beads(number: usize, length: f64) -> DMatrix<f64> {
     })
 }
 
-/// The local friction of the beads as `Brownian` has it.
 fn local(cylinder: &Cylinder, number: usize) -> DVector<f64> {
     let each = cylinder.between_ends() * cylinder.length() / number as f64;
     let mut friction = DVector::from_element(number, each);
@@ -34,16 +33,17 @@ fn local(cylinder: &Cylinder, number: usize) -> DVector<f64> {
     friction
 }
 
-/// Friction of the whole, moving across and turning end over end.
 fn of_whole(mobility: &DMatrix<f64>, length: f64) -> [f64; 2] {
     let n = mobility.nrows();
     let places = DVector::from_fn(n, |i, _| length * ((i as f64 + 0.5) / n as f64 - 0.5));
-    let solved = mobility.clone().cholesky().expect("it is positive");
+    let solved = mobility
+        .clone()
+        .cholesky()
+        .expect("the mobility is positive definite");
     let moved = solved.solve(&DVector::from_element(n, 1.0));
     [moved.sum(), solved.solve(&places).dot(&places)]
 }
 
-/// So many beads that they move across as the cylinder does.
 fn number_of_beads(cylinder: &Cylinder) -> usize {
     let whole = cylinder.across() * cylinder.length();
     let usual = (1..2000)
@@ -58,10 +58,9 @@ fn number_of_beads(cylinder: &Cylinder) -> usize {
     let numbers = (0..13).map(|k| fewest + k * step);
     numbers
         .min_by(|a, b| miss(a).total_cmp(&miss(b)))
-        .expect("there are some")
+        .expect("the list of numbers is not empty")
 }
 
-/// Stiffness of a free chain of so many beads against bending.
 fn stiffness(number: usize, length: f64) -> DMatrix<f64> {
     let l = length / number as f64;
     let mut k = DMatrix::zeros(number, number);
@@ -75,9 +74,13 @@ fn stiffness(number: usize, length: f64) -> DMatrix<f64> {
     k
 }
 
-/// The lowest fifteen rates of bending with a mobility: eigenvalues of `M K`, less the two that are zero.
+/// Lowest fifteen nonzero bending rates: eigenvalues of `M K` with the mobility `M`.
 fn rates(mobility: &DMatrix<f64>, stiffness: &DMatrix<f64>) -> Vec<f64> {
-    let root = mobility.clone().cholesky().expect("it is positive").l();
+    let root = mobility
+        .clone()
+        .cholesky()
+        .expect("the mobility is positive definite")
+        .l();
     let both = root.transpose() * stiffness * &root;
     let mut rates: Vec<f64> = SymmetricEigen::new(both)
         .eigenvalues
@@ -88,14 +91,13 @@ fn rates(mobility: &DMatrix<f64>, stiffness: &DMatrix<f64>) -> Vec<f64> {
     rates[2..17].to_vec()
 }
 
-/// Friction per length of a wave `cos(q s)` across an endless cylinder, by forces spread around it:
-/// `4 pi eta / (K_0(q a) + q a K_1(q a)/2)`, for slender waves `4 pi eta / (ln(2/(q a)) - 0.5772 + 1/2)`.
+/// Friction per length of a transverse wave `cos(q s)` of an infinite cylinder:
+/// `4 pi eta / (K_0(q a) + q a K_1(q a)/2)`, for slender waves
+/// `4 pi eta / (ln(2/(q a)) - 0.5772 + 1/2)`.
 fn of_wave(q: f64) -> f64 {
     4.0 * PI * VISCOSITY / ((2.0 / (q * RADIUS)).ln() - 0.577_216 + 0.5)
 }
 
-/// Ratios of local friction to that of interacting beads: of the whole across and end over end, and of fifteen modes; and to that of
-/// waves of the modes' lengths.
 fn compared(length: f64) -> ([f64; 2], Vec<f64>, Vec<f64>) {
     let cylinder = Cylinder::new(VISCOSITY, length, RADIUS).unwrap();
     let number = number_of_beads(&cylinder);
@@ -124,8 +126,8 @@ fn compared(length: f64) -> ([f64; 2], Vec<f64>, Vec<f64>) {
     )
 }
 
-/// Local friction is that of the whole, within 2 %. Bending relaxes too fast with it: beads that interact are slower, the more the
-/// shorter the wave, until it is short beside the length and they have the friction of waves on an endless cylinder, to 10 %.
+/// The total friction agrees within 2 %. Interacting beads relax more slowly, the more the shorter
+/// the wave. Short waves have the friction of an infinite cylinder within 10 %.
 #[test]
 fn local_friction_is_that_of_the_whole_and_too_small_for_waves() {
     let (whole, modes, waves) = compared(1000.0);
@@ -141,7 +143,7 @@ fn local_friction_is_that_of_the_whole_and_too_small_for_waves() {
     );
 }
 
-/// Short and long ones have it to 5 %, and the same order of modes.
+/// Short and long chains, within 5 %.
 #[test]
 #[ignore = "takes a minute"]
 fn interaction() {

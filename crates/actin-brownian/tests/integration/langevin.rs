@@ -1,5 +1,3 @@
-//! Motion with inertia in a fluid: drift, diffusion and energy at friction however strong.
-
 use crate::common;
 use actin_brownian::Langevin;
 use actin_cosserat::StraightRod;
@@ -7,12 +5,12 @@ use actin_integrate::{POSITION_VERLET, Stepper, largest_frequency, stable_step};
 use actin_mechanics::{PointLoad, State, System, Vector3};
 use common::{FRICTION, free_rod, friction_of, law, layout_of, tip};
 
-/// A rod of `segments` of 10 nm under forces of 1 pN at its nodes along `direction`, in friction `factor` times that of the tests.
+/// A rod of segments of 10 nm under a force of 1 pN per segment, with `factor` times the friction.
 fn pulled(segments: usize, direction: Vector3, factor: f64) -> (System, Langevin) {
     let mut state = State::default();
     let rod = StraightRod::uniform(segments, 10.0);
     let rod = rod.push(&mut state).unwrap();
-    // Half at the ends, as friction has it.
+    // Half forces at the ends, like the friction.
     let shares = rod.points().map(|i| {
         let is_end = i == rod.points().start || i == tip(&rod);
         (i, if is_end { 0.5 } else { 1.0 })
@@ -29,14 +27,12 @@ fn pulled(segments: usize, direction: Vector3, factor: f64) -> (System, Langevin
     (system, steps)
 }
 
-/// The step of `share` of the limit of stability.
 fn step_of(system: &System, share: f64) -> f64 {
     stable_step(&POSITION_VERLET, largest_frequency(system).unwrap(), share).unwrap()
 }
 
-/// The terminal velocity is that of force and friction, and is the velocity at the ends of steps, from a tenth of the friction of
-/// water to a thousand times it. Half steps of exponential drag around a step would move it by `x coth x`, `x` half the decay in a
-/// step: by 1 % at `x = 0.17`, by 50 here.
+/// The terminal velocity is force over friction. Splitting with half steps of exponential drag
+/// changes it by `x coth x`, with half the decay per step `x`.
 #[test]
 fn terminal_velocity_is_exact_at_any_friction() {
     for (axis, friction) in [(Vector3::x(), FRICTION[1]), (Vector3::z(), FRICTION[0])] {
@@ -60,7 +56,7 @@ fn terminal_velocity_is_exact_at_any_friction() {
     }
 }
 
-/// A rod diffuses with `kT/Z`, at the friction of water and at a thousand times that. Standard errors are 1 %.
+/// Diffusion is `kT/Z`. Standard errors are 1 %.
 #[test]
 fn diffusion_is_exact_at_any_friction() {
     const SAMPLES: u64 = 10_000;
@@ -98,12 +94,12 @@ fn diffusion_is_exact_at_any_friction() {
             across * FRICTION[1] / expected,
         ];
         println!("{factor}: {ratios:?}");
-        // In water velocities last 1/60 and 1/110 ns of a lag of 1 ns.
+        // In water velocities decay in 1/60 and 1/110 ns, and the lag is 1 ns.
         assert!(ratios.iter().all(|ratio| (ratio - 1.0).abs() < 0.04));
     }
 }
 
-/// Each strain has `kT/2`, at 0.9 of the largest stable step: other steps leave the stiffest too cold by a fifth at 0.9.
+/// Each strain component has `kT/2` at 0.9 of the largest stable step.
 #[test]
 fn strains_have_their_energy_at_any_stable_step() {
     const SEGMENTS: usize = 4;
@@ -128,13 +124,13 @@ fn strains_have_their_energy_at_any_stable_step() {
         }
         let shares = sums.map(|sum| sum / (kt * (number / 4) as f64));
         println!("{share}: {shares:?}");
-        // Bending relaxes in some thousand steps: standard errors of 1 %.
+        // Bending relaxes in about a thousand steps; the standard error is 1 %.
         assert!((shares[0] / 0.5 - 1.0).abs() < 0.01, "{shares:?}");
         assert!((shares[1] / 0.5 - 1.0).abs() < 0.03, "{shares:?}");
     }
 }
 
-/// A bent rod relaxes with inertia as it does without, to 1 % of the bend: inertia is gone within 0.01 ns of 300.
+/// The relaxation of a bent rod with and without inertia agrees within 1 %.
 #[test]
 fn inertia_hardly_shows_in_water() {
     let force = |state: &mut State, rod: &actin_cosserat::RodLayout| {
@@ -154,7 +150,7 @@ fn inertia_hardly_shows_in_water() {
     let (mut system, _, _) = free_rod(6, 60.0, (0.0, 0), force);
     let layout = layout_of(system.state(), &rod);
     let mut with = Langevin::new(&system, layout, friction_of(&rod), (0.0, 0)).unwrap();
-    // The slowest bend relaxes in 2 ns.
+    // The slowest bending mode relaxes in 2 ns.
     let (number, coarse) = (2000_u32, 100_u32);
     let h = 1.0 / f64::from(number);
     assert!(h < step_of(&system, 1.0));

@@ -1,5 +1,5 @@
-//! How warm bending is in long steps: the mean of `1 - cos` of the angle between segments of a free rod, over its
-//! exact value.
+//! Bending energy in long steps: mean of `1 - cos` of the angle between segments of a free rod,
+//! over its exact value.
 
 use crate::common;
 use actin_brownian::mechanics::{Vector3, rotation};
@@ -8,8 +8,8 @@ use common::{advance, free_rod, rigidities};
 const KT: f64 = 4.11;
 const BLOCKS: u64 = 20;
 
-/// Means of `1 - cos` over spans of so many segments, over their exact values, and the standard errors; the rod has `segments` of
-/// a length (nm) and makes steps of `h`.
+/// Means of `1 - cos` over spans of segments and their standard errors, relative to the exact
+/// values. The rod has `segments` of a length (nm).
 fn warmth((segments, segment): (usize, f64), h: f64, steps: u64, spans: &[u16]) -> Vec<(f64, f64)> {
     let length = segment * segments as f64;
     let (mut system, mut stepper, rod) = free_rod(segments, length, (KT, 1), |_, _| Vec::new());
@@ -48,16 +48,15 @@ fn warmth((segments, segment): (usize, f64), h: f64, steps: u64, spans: &[u16]) 
         .collect()
 }
 
-/// The joint of two segments relaxes ten times within a step. Stress that turned the segments about themselves, until they bend as they
-/// are bent already, would leave it 12 % too warm.
+/// The joint relaxes ten times within a step. Torques of the stress about the frame axes would add
+/// 12 % to its energy.
 #[test]
-fn a_joint_is_as_warm_as_it_should_be() {
+fn bending_energy_of_a_joint_is_exact() {
     let found = warmth((2, 100.0), 4000.0, 20_000, &[1]);
     println!("{found:?}");
     assert!((found[0].0 - 1.0).abs() < 0.03, "{found:?}");
 }
 
-/// Joints are as warm as they should be to 3 %, and long waves to 3 % and three standard errors.
 #[test]
 #[ignore = "takes minutes"]
 fn long_waves() {
@@ -77,7 +76,6 @@ fn long_waves() {
     }
 }
 
-/// The mean of independent values and its standard error.
 fn mean_and_error(values: &[f64]) -> (f64, f64) {
     let n = values.len() as f64;
     let mean = values.iter().sum::<f64>() / n;
@@ -85,7 +83,8 @@ fn mean_and_error(values: &[f64]) -> (f64, f64) {
     (mean, (squares / (n - 1.0) / n).sqrt())
 }
 
-/// The mean cosine of a joint's bend, turns `theta` of the weight `exp(-(a (x^2 + y^2) + b z^2) / 2)`, by the midpoint rule.
+/// Mean cosine of the bend angle of a joint for rotations with the weight
+/// `exp(-(a (x^2 + y^2) + b z^2) / 2)`.
 fn mean_cosine(a: f64, b: f64) -> f64 {
     const N: i32 = 40;
     let (mut sum, mut weight) = (0.0, 0.0);

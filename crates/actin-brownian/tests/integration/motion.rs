@@ -1,12 +1,9 @@
-//! Diffusion, relaxation, and the order of the step.
-
 use crate::common;
 use actin_brownian::{Flow, Relaxation};
 use actin_cosserat::{RodClamp, RodEnd, RodLayout, StraightRod};
 use actin_mechanics::{State, System, UnitQuaternion, Vector3, rotation};
 use common::{FRICTION, advance, free_rod, friction_of, law, layout_of, rigidities, tip};
 
-/// Middle, direction and mean frame of a short rod.
 fn pose(system: &System, rod: &RodLayout) -> (Vector3, Vector3, UnitQuaternion) {
     let x = &system.state().points.position;
     let (start, end) = (x.get(0), x.get(tip(rod)));
@@ -15,8 +12,8 @@ fn pose(system: &System, rod: &RodLayout) -> (Vector3, Vector3, UnitQuaternion) 
     (middle, (end - start).normalize(), frame)
 }
 
-/// Mean squares, over a lag of 5 ns, of what a free rod of 60 nm does along, across (per axis), about its axis and
-/// end over end (per axis).
+/// Mean squares of the motion of a free rod over a lag of 5 ns: along, across (per axis), about its
+/// axis, and end over end (per axis).
 fn mean_squares(segments: usize, thermal_energy: f64) -> [f64; 4] {
     let noise = (thermal_energy, 3);
     let (mut system, mut stepper, rod) = free_rod(segments, LENGTH, noise, |_, _| Vec::new());
@@ -37,13 +34,13 @@ fn mean_squares(segments: usize, thermal_energy: f64) -> [f64; 4] {
     sums.map(|sum| sum / SAMPLES as f64)
 }
 
-/// Length of the rod (nm), steps of 1 ns over which it is watched, and how often.
+/// Length of the rod (nm), lag (ns) and number of samples.
 const LENGTH: f64 = 60.0;
 const LAG: u64 = 5;
 const SAMPLES: u64 = 20_000;
 
-/// They are `2 kT t / Z` with the friction of the whole: `zeta L`, and `zeta L^3/12` with that of tilt end over end,
-/// exact for any number of segments. Standard errors are 1 % and, of two axes together, 0.7 %.
+/// The mean squares are `2 kT t / Z` with the total friction `Z`. Standard errors are 1 %, and 0.7
+/// % for means of two axes.
 #[test]
 fn a_rod_diffuses_with_its_friction() {
     let kt = 4.11;
@@ -60,7 +57,7 @@ fn a_rod_diffuses_with_its_friction() {
             .map(|(square, z)| square / (2.0 * kt * LAG as f64 / z))
             .collect();
         println!("{segments}: {ratios:?}");
-        // Six segments bend and twist, which adds to the turns of one of them.
+        // Bending and twist of six segments add to the rotations.
         let compared = if segments == 1 { 4 } else { 2 };
         for ratio in &ratios[..compared] {
             assert!((ratio - 1.0).abs() < 0.03, "{ratios:?}");
@@ -68,7 +65,6 @@ fn a_rod_diffuses_with_its_friction() {
     }
 }
 
-/// How a rod is held.
 #[derive(Clone, Copy, Debug)]
 enum Hold {
     Free,
@@ -77,8 +73,6 @@ enum Hold {
 }
 
 impl Hold {
-    /// Wave numbers of the first modes times the length: of rods that are free or pinned at both ends, or clamped
-    /// at one.
     fn roots(self) -> [f64; 5] {
         match self {
             Self::Free => [4.730_041, 7.853_205, 10.995_608, 14.137_165, 17.278_760],
@@ -88,8 +82,8 @@ impl Hold {
     }
 }
 
-/// The first five relaxation rates of bending are `B (x_n/L)^4 / zeta_across`, each twice, for the two directions.
-/// Segments of a hundredth of the length, shear and the turning of cross-sections take 0.6 % of the fifth.
+/// The first five bending rates are `B (x_n/L)^4 / zeta_across` in both directions. Discretisation,
+/// shear and tilt change the fifth by 0.6 %.
 #[test]
 fn bending_relaxes_as_that_of_slender_rods() {
     let length = 3000.0;
@@ -119,7 +113,7 @@ fn bending_relaxes_as_that_of_slender_rods() {
     }
 }
 
-/// Tip of a rod that begins bent and twisted, least at its ends, after 200 ns of relaxing in so many steps.
+/// Tip after 200 ns of relaxation from a bent and twisted state.
 fn relaxed(steps: u64) -> Vector3 {
     let (mut system, mut stepper, rod) = free_rod(16, 160.0, (0.0, 0), |_, _| Vec::new());
     let bent = |s: f64| {
@@ -132,8 +126,8 @@ fn relaxed(steps: u64) -> Vector3 {
     x.get(tip(&rod)) - x.get(0)
 }
 
-/// Large bending and twist, relaxing: of second order in steps of hundreds of the fastest relaxation times. The state at
-/// the start has few short waves, which relax within the first steps and are not resolved.
+/// Steps are hundreds of times the fastest relaxation. The initial state has few short waves, which
+/// steps do not resolve.
 #[test]
 fn relaxation_is_of_second_order() {
     let reference = relaxed(3200);
@@ -145,8 +139,8 @@ fn relaxation_is_of_second_order() {
     assert!(orders.iter().all(|order| (1.8..2.3).contains(order)));
 }
 
-/// In a stream a free rod goes along with it, whichever way it lies. In a shear flow its middle does, and it turns as a line
-/// of the fluid, `cot phi = cot phi_0 + rate t`, with noise that is too small to see or none.
+/// A free rod moves with a uniform stream. In shear flow it rotates as a line of the fluid,
+/// `cot phi = cot phi_0 + rate t`, without noise and with negligible noise.
 #[test]
 fn rods_follow_a_flow() {
     const STEPS: u64 = 200;
@@ -156,7 +150,7 @@ fn rods_follow_a_flow() {
     for (flow, noise) in [(Flow::stream(stream), 0.0), (shear, 0.0), (shear, 1e-12)] {
         let (mut system, stepper, rod) = free_rod(4, LENGTH, (noise, 1), |_, _| Vec::new());
         let mut stepper = stepper.in_flow(flow);
-        // From nearly across the flow, in its plane.
+        // Initially nearly across the flow, in its plane.
         let tilt = rotation::exp(Vector3::y() * 1.4);
         let state = system.state_mut();
         for i in 0..state.points.len() {

@@ -1,16 +1,16 @@
-//! The code blocks of the README and of the book, run in order as a reader would, each page in an empty
-//! folder of its own with the built program on the path.
+//! Runs the code blocks of the README and of the book in order. Each page runs in its own empty folder, with the
+//! built program on the path.
 //!
-//! | block | what is done |
+//! | block | action |
 //! |---|---|
 //! | `sh` | run with `sh -e`; exit code 0 |
 //! | `python` | run with a Python that has numpy; exit code 0 |
 //! | `ron` | `actin check` accepts it |
-//! | `rust` | nothing here: a crate has its page among its documentation tests |
-//! | `text` behind one of these | its lines are in the output, in order; `...` stands for anything |
+//! | `rust` | not run here: a crate includes the page in its documentation tests |
+//! | `text` after one of these | its lines occur in the output, in order; `...` matches anything |
 //!
-//! A comment in the line above a block changes this: `<!-- file: NAME -->` writes the block to a file and
-//! runs nothing, `<!-- exit: 2 -->` expects another exit code, `<!-- not run: REASON -->` leaves it out.
+//! A comment in the line above a block changes this. `<!-- file: NAME -->` writes the block to a file, and
+//! `<!-- exit: 2 -->` expects another exit code. `<!-- not run: REASON -->` skips the block.
 #![cfg(unix)]
 
 use crate::common::{python, with_actin};
@@ -19,10 +19,9 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 use tempfile::TempDir;
 
-/// A fenced block of a page.
 #[derive(Debug, PartialEq)]
 struct Block {
-    /// Line of its opening, from 1.
+    /// Line number of the opening fence, from 1.
     line: usize,
     language: String,
     /// The comment in the line above.
@@ -30,7 +29,6 @@ struct Block {
     code: String,
 }
 
-/// All blocks of a page, in order.
 fn blocks(text: &str) -> Vec<Block> {
     let mut all = Vec::new();
     let mut lines = (1..).zip(text.lines());
@@ -53,7 +51,6 @@ fn blocks(text: &str) -> Vec<Block> {
     all
 }
 
-/// Whether a line is what a pattern says, in which `...` stands for anything.
 fn matches(pattern: &str, line: &str) -> bool {
     let mut parts = pattern.trim_end().split("...");
     let Some(mut rest) = line.trim_end().strip_prefix(parts.next().unwrap_or("")) else {
@@ -70,7 +67,6 @@ fn matches(pattern: &str, line: &str) -> bool {
     rest.is_empty() || last == Some("") || last.is_some_and(|last| rest.ends_with(last))
 }
 
-/// The first line of `expected` that is not in the output, in order.
 fn missing<'a>(expected: &'a str, output: &str) -> Option<&'a str> {
     let mut lines = output.lines();
     expected
@@ -78,13 +74,11 @@ fn missing<'a>(expected: &'a str, output: &str) -> Option<&'a str> {
         .find(|pattern| !lines.any(|line| matches(pattern, line)))
 }
 
-/// A page on its way: its folder, and what its last block printed.
 struct Page {
     name: String,
     folder: TempDir,
-    /// Output of the last block that ran; `None` behind one that was skipped.
+    /// Output of the last block that ran; `None` after a skipped block.
     output: Option<String>,
-    /// Blocks that have run.
     run: usize,
 }
 
@@ -117,7 +111,10 @@ impl Page {
             return;
         }
         if block.language == "rust" {
-            assert!(is_doc_test(&self.name), "{place}: no crate tests this page");
+            assert!(
+                is_doc_test(&self.name),
+                "{place}: no crate includes this page in its doc tests"
+            );
             self.output = None;
             return;
         }
@@ -134,7 +131,6 @@ impl Page {
         self.run += 1;
     }
 
-    /// What runs a block; `None` if Python is missing.
     fn command(&self, block: &Block, place: &str) -> Option<Command> {
         let (program, arguments) = match block.language.as_str() {
             "sh" => ("sh".to_owned(), vec!["-e", "-c", &block.code]),
@@ -146,7 +142,7 @@ impl Page {
                 fs::write(self.folder.path().join("block.ron"), &block.code).unwrap();
                 ("actin".to_owned(), vec!["check", "block.ron"])
             }
-            other => panic!("{place}: a block of {other:?} that nothing runs"),
+            other => panic!("{place}: unknown language {other:?}"),
         };
         let mut command = with_actin(&program, self.folder.path());
         command.args(arguments).stdin(Stdio::null());
@@ -154,7 +150,6 @@ impl Page {
     }
 }
 
-/// Both streams, standard output first.
 fn both(output: &Output) -> String {
     let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
     text(&output.stdout) + &text(&output.stderr)
@@ -164,7 +159,6 @@ fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
 }
 
-/// Whether a crate includes a page in its documentation tests.
 fn is_doc_test(page: &str) -> bool {
     let include = format!("#[doc = include_str!(\"../../../{page}\")]");
     let crates = fs::read_dir(root().join("crates")).unwrap();
@@ -172,7 +166,6 @@ fn is_doc_test(page: &str) -> bool {
     sources.any(|lib| fs::read_to_string(lib).is_ok_and(|text| text.contains(&include)))
 }
 
-/// Runs a page; the number of blocks that have run.
 fn run(name: &str) -> usize {
     let text = fs::read_to_string(root().join(name)).unwrap();
     let mut page = Page::new(name);
@@ -182,7 +175,6 @@ fn run(name: &str) -> usize {
     page.run
 }
 
-/// Runs all pages of a folder.
 fn run_folder(name: &str) -> usize {
     let entries = fs::read_dir(root().join(name)).unwrap();
     let files = entries.map(|entry| entry.unwrap().file_name().into_string().unwrap());
@@ -190,7 +182,6 @@ fn run_folder(name: &str) -> usize {
     pages.map(|file| run(&format!("{name}/{file}"))).sum()
 }
 
-/// From an empty folder to a figure, to the letter.
 #[test]
 fn the_tutorial() {
     let ran = run("docs/tutorial.md");
@@ -214,7 +205,6 @@ fn reference_pages() {
     assert!(ran >= 2, "only {ran} blocks have run");
 }
 
-/// Blocks are found with their languages and directives.
 #[test]
 fn blocks_are_read_with_their_directives() {
     let text = "a\n<!-- exit: 2 -->\n```sh\nfalse\n```\n\n```python\nx = 1\n\ny = 2\n```\n";
@@ -226,7 +216,6 @@ fn blocks_are_read_with_their_directives() {
     assert_eq!(found[1].code, "x = 1\n\ny = 2\n");
 }
 
-/// Dots stand for anything; other text must be there, whole and in order.
 #[test]
 fn output_that_differs_is_found() {
     assert!(matches("after ... steps, ... s", "after 12 steps, 0.1 s"));
@@ -237,7 +226,6 @@ fn output_that_differs_is_found() {
     assert_eq!(missing("c\na\n", "a\nb\nc\n"), Some("a"));
 }
 
-/// A block that fails, or prints something else than its page says, fails the test.
 #[test]
 #[should_panic(expected = "not in the output")]
 fn a_page_with_stale_output_fails() {

@@ -1,9 +1,7 @@
-//! How runs end: results beyond use, saddles, twist that is lost, residuals at the floor of rounding.
+//! Ends of runs: model limits, saddles, lost twist, residuals at round-off.
 
 use crate::common::{Workplace, assert_has};
 
-/// Monomers that are pushed through their own wall: exit code 3, what is beyond use and where, and all of
-/// it on disk with the status of a failure.
 #[test]
 fn a_result_outside_the_model_is_a_failure() {
     let place = Workplace::with(
@@ -32,8 +30,6 @@ fn a_result_outside_the_model_is_a_failure() {
     assert_eq!(again, message);
 }
 
-/// A column beyond its critical load leaves the straight state, from which it could have gone the other
-/// way; under less there is nothing to report.
 #[test]
 fn saddles_that_were_left_are_reported() {
     for (force, saddles) in [(2.0, 0), (8.0, 1)] {
@@ -53,7 +49,6 @@ fn saddles_that_were_left_are_reported() {
     }
 }
 
-/// A rod between two walls that is pushed together along its axis within 2 ns.
 fn straight(filament: &str, task: &str) -> Workplace {
     Workplace::with(&format!(
         "Scene(
@@ -79,8 +74,6 @@ fn summary(place: &Workplace) -> serde_json::Value {
     serde_json::from_str(&text).unwrap()
 }
 
-/// A run that ends on a saddle, in time or by statics, is no success: exit code 3, with all results and
-/// a summary that says so. The same when it is resumed.
 #[test]
 fn an_end_on_a_saddle_is_a_failure() {
     for task in [damped(""), "Equilibrium(leave_saddles: 0)".into()] {
@@ -102,10 +95,8 @@ fn an_end_on_a_saddle_is_a_failure() {
     }
 }
 
-/// A motion that comes to rest says in what, in its last line and in the summary; how it was pushed off a
-/// saddle stands there, too.
 #[test]
-fn a_motion_at_rest_says_in_what() {
+fn a_motion_at_rest_reports_its_stability() {
     let imperfection = "imperfection: (amplitude_nm: 0.01, seed: 1),";
     for (filament, keys, pushes) in [(imperfection, "", 0), ("", "leave_saddles: 3,", 1)] {
         let place = straight(filament, &damped(keys));
@@ -128,9 +119,8 @@ fn a_motion_at_rest_says_in_what() {
     }
 }
 
-/// Without an energy no certificate tells a saddle from a minimum, and the run says so.
 #[test]
-fn rest_that_is_not_certified_is_told() {
+fn uncertified_rest_is_warned_about() {
     let stop = "stop: (force_pn: 1e-3, torque_pn_nm: 1e-3, kinetic_pn_nm: 1e-6),";
     let place = straight(
         "rod: RodModel(law: Constant, force_law: PaperBalance),",
@@ -141,10 +131,8 @@ fn rest_that_is_not_certified_is_told() {
     assert!(output.contains(told), "{output}");
 }
 
-/// A tolerance that no sum of such forces can meet: the equilibrium ends at the floor of rounding, which
-/// is told; one that can be met is met without a word.
 #[test]
-fn a_residual_at_the_floor_of_rounding_is_told() {
+fn a_residual_at_round_off_is_warned_about() {
     for (tolerance, told) in [("1e-7", false), ("1e-16", true)] {
         let place = Workplace::with(&format!(
             "Scene(

@@ -1,8 +1,8 @@
-//! Runs as files of other programs, each opened by the reader of the program that it is for.
+//! Exported files, opened with packages of the target programs.
 //!
-//! The readers are packages of Python: gsd, `MDAnalysis`, ovito and simulariumio, in the interpreter that
-//! `ACTIN_READERS` names, or python3. Where one is missing its test says so and skips, unless
-//! `ACTIN_REQUIRE_READERS` lists it.
+//! The readers are the Python packages gsd, `MDAnalysis`, ovito and simulariumio, in the interpreter `ACTIN_READERS`
+//! or python3. Tests of missing packages are skipped with a message, unless `ACTIN_REQUIRE_READERS` lists the
+//! package.
 
 use crate::common::{Workplace, assert_has, stderr, stdout};
 use std::env;
@@ -10,7 +10,7 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
-/// Two filaments with monomers of two shapes, a rod, a junction, a linker between them and one to a place.
+/// Two filaments with monomers of two shapes, a rod, a junction, a linker between them and one to a fixed point.
 const SCENE: &str = "Scene(
     title: \"two <filaments>\",
     filaments: [
@@ -31,14 +31,12 @@ const SCENE: &str = "Scene(
     task: Dynamics(duration_ns: 0.4, record_every_ns: 0.1),
 )";
 
-/// A folder with the run of the scene in `run`.
 fn ran(scene: &str) -> Workplace {
     let place = Workplace::with(scene);
     place.succeed(&["run", "scene.ron", "--out", "run"]);
     place
 }
 
-/// Runs a script of `tests/readers` in the folder, with a Python that has the packages.
 fn read(place: &Workplace, script: &str, packages: &[&str]) {
     let python = env::var("ACTIN_READERS").unwrap_or_else(|_| "python3".to_owned());
     for package in packages {
@@ -87,7 +85,7 @@ fn simularium_is_read_by_its_own_package() {
 }
 
 #[test]
-fn mistakes_are_told() {
+fn mistakes_are_reported() {
     let place = ran(&SCENE.replace("vtk: false", "vtk: false, states: false"));
     let refused = |arguments: &[&str], message: &str| {
         let output = place.fail(2, arguments);
@@ -105,14 +103,13 @@ fn mistakes_are_told() {
     );
 }
 
-/// Nothing is replaced unless that is asked for, and nothing is left of what failed.
 #[test]
-fn files_stay() {
+fn existing_files_are_kept() {
     let place = ran(SCENE);
     export(&place, &["--to", "gsd"]);
     let before = fs::read(place.path("run.gsd")).unwrap();
     let again = place.fail(2, &["export", "run/", "--to", "gsd"]);
-    assert_has(&again, &["run.gsd exists: files are never overwritten"]);
+    assert_has(&again, &["run.gsd exists: name another file"]);
     export(&place, &["--to", "gsd", "--overwrite"]);
     assert_eq!(
         fs::read(place.path("run.gsd")).unwrap(),
@@ -121,7 +118,7 @@ fn files_stay() {
     );
     place.fail(2, &["export", "run", "--to", "gsd", "--out", "run"]);
     place.fail(74, &["export", "run", "--to", "gsd", "--out", "none/a.gsd"]);
-    // A damaged array, found half way.
+    // A truncated array, found during the export.
     let bytes = fs::read(place.path("run/states.npz")).unwrap();
     place.write("run/states.npz", &bytes[..bytes.len() - 1]);
     let damaged = place.fail(2, &["export", "run", "--to", "gsd", "--out", "b.gsd"]);

@@ -1,5 +1,4 @@
-//! Pipes that close, directories that are overwritten and disks that are full: nothing that was
-//! computed is lost, and nothing goes that a run has not written.
+//! Closed pipes, overwritten directories and full disks: no results are lost, and only files of runs are removed.
 #![cfg(unix)]
 
 use crate::common::{
@@ -11,7 +10,6 @@ use std::os::unix::fs::symlink;
 use std::path::Path;
 use std::process::Command;
 
-/// An equilibrium of a short filament.
 const EQUILIBRIUM: &str = "Scene(
     filament: Filament(
         sections: [Ellipsoids(from_nm: 0.0, to_nm: 30.0), Rod(from_nm: 30.0, to_nm: 60.0)],
@@ -21,7 +19,6 @@ const EQUILIBRIUM: &str = "Scene(
     task: Equilibrium(lowest_eigenvalue: true),
 )";
 
-/// A few equilibria along a path.
 const SHORT_PATH: &str = "Scene(
     filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 60.0)]),
     clamps: [Clamp(end: Start)],
@@ -30,13 +27,11 @@ const SHORT_PATH: &str = "Scene(
     task: Equilibrium(largest_step: 0.5),
 )";
 
-/// A reader that leaves before the first line, or after it: no panic, nothing on standard error, exit code
-/// 0, and of a run every file.
 #[test]
 fn a_closed_pipe_ends_nothing() {
     let place = Workplace::with(&short_motion());
     place.run("whole");
-    // The program does not write before the reader has gone.
+    // The program starts writing after the reader has closed the pipe.
     let closed = "| { exec <&-; echo gone > gone; }";
     let after = "until test -e gone; do sleep 0.01; done;";
     for (reader, wait) in [(closed, after), ("| head -n 1", "")] {
@@ -60,7 +55,6 @@ fn a_closed_pipe_ends_nothing() {
     }
 }
 
-/// With standard error closed as well an error keeps its exit code, and a run its results.
 #[test]
 fn closed_standard_error_changes_no_exit_code() {
     let place = Workplace::with(&short_motion());
@@ -81,10 +75,9 @@ fn closed_standard_error_changes_no_exit_code() {
     assert_same_files(&place.path("whole"), &place.path("a"));
 }
 
-/// A device that is full is no reader that has had enough: what was printed is lost, which is said.
 #[cfg(target_os = "linux")]
 #[test]
-fn output_that_is_lost_is_told() {
+fn lost_output_is_an_error() {
     let place = Workplace::with(&short_motion());
     for command in ["check scene.ron", "run scene.ron --out a"] {
         let output = place.shell(&format!("actin {command} > /dev/full"));
@@ -94,7 +87,6 @@ fn output_that_is_lost_is_told() {
     assert!(place.path("a/summary.json").exists());
 }
 
-/// Refuses `actin run` with these arguments, changing nothing in `folders`; returns the message.
 fn refusal(place: &Workplace, arguments: &str, folders: &[&str]) -> String {
     let all = || -> Vec<_> {
         let folders = folders.iter().map(|folder| place.path(folder));
@@ -108,7 +100,6 @@ fn refusal(place: &Workplace, arguments: &str, folders: &[&str]) -> String {
     stderr(&output).to_owned()
 }
 
-/// Without `--overwrite` a run is left alone; with it, it is replaced by another as if it had been the first; notes beside it stay.
 #[test]
 fn an_earlier_run_is_replaced() {
     let place = Workplace::with(&short_motion());
@@ -124,8 +115,6 @@ fn an_earlier_run_is_replaced() {
     assert_same_files(&place.path("b"), &place.path("a"));
 }
 
-/// The scene that is to run lies in the directory that is to be overwritten, or a link leads to it: it
-/// would be gone.
 #[test]
 fn a_scene_is_not_overwritten() {
     let place = Workplace::with(EQUILIBRIUM);
@@ -137,16 +126,15 @@ fn a_scene_is_not_overwritten() {
             &format!("{scene} --out a --overwrite"),
             &["a", "a/vtk"],
         );
-        assert_has(&message, &["lies in a, which is to be overwritten"]);
+        assert_has(&message, &["lies in a, which --overwrite would replace"]);
     }
-    // A folder that holds nothing but a scene of one's own.
+    // A folder that contains nothing but a scene of the user.
     fs::create_dir(place.path("b")).unwrap();
     place.write("b/scene.ron", EQUILIBRIUM);
     let message = refusal(&place, "scene.ron --out b --overwrite", &["b"]);
     assert_has(&message, &["b is not empty and has no actin-run.json"]);
 }
 
-/// Where nothing may be written nothing is removed. (An administrator may always write.)
 #[test]
 fn a_read_only_directory_stays() {
     let place = Workplace::with(EQUILIBRIUM);
@@ -162,8 +150,8 @@ fn a_read_only_directory_stays() {
     chmod("755");
 }
 
-/// What a run that met a limit has left, which `resume` then goes on with where there is more room: the
-/// same files as without a limit, if there was a checkpoint. Returns the exit code and whether there was.
+/// Resumes a run that met a limit, without the limit, and asserts the files of an undisturbed run. Returns the exit
+/// code and whether there was a checkpoint.
 fn assert_nothing_is_lost(
     place: &Workplace,
     limited: &str,
@@ -198,7 +186,6 @@ fn assert_nothing_is_lost(
     (code(&output), kept)
 }
 
-/// Names of all files of a run directory and its pictures, as far as there are any.
 fn names(folder: &Path) -> Vec<String> {
     let folders = [folder.to_owned(), folder.join("vtk")];
     let there = folders.iter().filter(|folder| folder.exists());
@@ -206,9 +193,8 @@ fn names(folder: &Path) -> Vec<String> {
     paths.map(|path| path.display().to_string()).collect()
 }
 
-/// Every limit on the size of files, in steps of half a kilobyte, for an equilibrium, a path and a motion:
-/// the program is never killed by SIGXFSZ, leaves nothing half, and what it has computed is there once
-/// the limit is gone.
+/// Runs under every file size limit, in steps of 512 bytes: the program is never killed by SIGXFSZ, leaves no partial
+/// files, and its results are available once the limit is removed.
 #[test]
 fn a_limit_on_the_size_of_files_loses_nothing() {
     let mut kept = [0, 0];
@@ -230,8 +216,6 @@ fn a_limit_on_the_size_of_files_loses_nothing() {
     assert!(kept[1] > 0, "no checkpoint was left by a limit");
 }
 
-/// A disk of a few pages that fills up, and is made larger then. Mounting one needs rights that few have:
-/// elsewhere the limit on the size of files stands for it.
 #[cfg(target_os = "linux")]
 #[test]
 fn a_full_disk_loses_nothing() {
@@ -257,7 +241,6 @@ fn a_full_disk_loses_nothing() {
     assert!(codes.contains(&(74, true)) && codes.contains(&(0, false)));
 }
 
-/// A disk in `out` that goes at the end of the test.
 struct Mounted<'a>(&'a Workplace);
 
 impl Drop for Mounted<'_> {
@@ -267,8 +250,6 @@ impl Drop for Mounted<'_> {
     }
 }
 
-/// Killed while results are being written: what is there is complete or has another name, and the run
-/// goes on to the bytes of one that was not killed.
 #[test]
 fn a_run_killed_while_it_writes_results_loses_nothing() {
     let place = Workplace::with(&MOTION.replace("duration_ns: 150.0", "duration_ns: 60.0"));

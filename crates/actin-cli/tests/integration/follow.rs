@@ -1,11 +1,11 @@
-//! Runs of sections that follow a motion: their directories, interrupted, killed, resumed and replaced.
+//! Runs with time-dependent resolution: directories, interruption, kills, resuming and replacement.
 #![cfg(unix)]
 
 use crate::common::{Workplace, assert_has, assert_same_files, signal, stdout};
 use std::fs;
 use std::path::Path;
 
-/// A cantilever let go, whose cells are switched some twenty times in half a second.
+/// A released cantilever with some twenty switches in half a second.
 const SWINGING: &str = "Scene(
     filament: Filament(
         sections: Following(
@@ -20,7 +20,6 @@ const SWINGING: &str = "Scene(
     task: Dynamics(duration_ns: 300.0, record_every_ns: 0.1),
 )";
 
-/// A filament in water, whose cells are switched by what heat bends.
 const OVERDAMPED: &str = "Scene(
     filament: Filament(
         sections: Following(
@@ -35,7 +34,6 @@ const OVERDAMPED: &str = "Scene(
         interfaces: QuasiHarmonic(sampled_ns: 10.0)),
 )";
 
-/// Every file of the directory and of all stretches.
 fn assert_same(one: &Path, other: &Path) {
     assert_same_files(one, other);
     let stretches = |folder: &Path| fs::read_dir(folder.join("stretches")).unwrap().count();
@@ -47,9 +45,8 @@ fn assert_same(one: &Path, other: &Path) {
     }
 }
 
-/// Interrupted, killed, both in one stretch or another: resumed it gives every byte of a run that was not.
 #[test]
-fn a_motion_that_is_followed_goes_on_to_the_same_bytes() {
+fn a_motion_of_changing_resolution_resumes_to_the_same_bytes() {
     let place = Workplace::with(SWINGING);
     let whole = place.run("whole");
     assert_has(&whole, &["switch(es) added"]);
@@ -69,9 +66,8 @@ fn a_motion_that_is_followed_goes_on_to_the_same_bytes() {
     }
 }
 
-/// The same without inertia, killed twice.
 #[test]
-fn overdamped_motion_that_is_followed_goes_on_to_the_same_bytes() {
+fn overdamped_motion_of_changing_resolution_resumes_to_the_same_bytes() {
     let place = Workplace::with(OVERDAMPED);
     place.run("whole");
     for stretch in ["0004", "0020"] {
@@ -80,14 +76,12 @@ fn overdamped_motion_that_is_followed_goes_on_to_the_same_bytes() {
         signal(&child, "-KILL");
         child.wait().unwrap();
     }
-    // As of one that was killed between its results and the removal of its checkpoint.
+    // As left by a process killed between writing its results and removing its checkpoint.
     place.write("parts/stretches/0000/checkpoint.bin", "left");
     place.resume("parts");
     assert_same(&place.path("whole"), &place.path("parts"));
 }
 
-/// A finished run is not resumed, not overwritten without being told to, and replaced where that is wanted, its stretches
-/// included; files of others stay.
 #[test]
 fn stretches_are_replaced_with_the_run() {
     let place = Workplace::with(SWINGING);

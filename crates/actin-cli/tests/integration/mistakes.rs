@@ -1,10 +1,9 @@
-//! What deliberate mistakes print, line by line: `scenarios/bad/printed.txt`.
+//! Messages of deliberate mistakes, compared with `scenarios/bad/printed.txt`.
 
 use crate::common::{Workplace, code, stderr, stdout};
 use std::fs;
 use std::path::Path;
 
-/// Scenes of `scenarios/bad`, with a mistake of each kind.
 const MISTAKES: [&str; 45] = [
     "several-mistakes",
     "several-broken-rules",
@@ -53,10 +52,8 @@ const MISTAKES: [&str; 45] = [
     "time-step-above-stability-limit",
 ];
 
-/// Exit code 2, nothing on standard output, and every mistake with its line, by `check` as by `run`, which
-/// writes nothing.
 #[test]
-fn mistakes_print_what_they_should() {
+fn mistakes_print_the_expected_messages() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenarios/bad");
     let place = Workplace::with("");
     let mut printed = String::new();
@@ -74,6 +71,6 @@ fn mistakes_print_what_they_should() {
     let expected = fs::read_to_string(folder.join("printed.txt")).unwrap_or_default();
     assert!(
         printed == expected,
-        "scenarios/bad/printed.txt is to hold:\n{printed}"
+        "scenarios/bad/printed.txt should contain:\n{printed}"
     );
 }

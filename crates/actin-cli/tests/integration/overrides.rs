@@ -1,4 +1,4 @@
-//! Scenes from standard input, and keys that arguments set.
+//! Scenes from standard input, and overrides of keys.
 
 use crate::common::{Workplace, assert_has, code, stderr};
 
@@ -12,10 +12,8 @@ const SCENE: &str = "Scene(
     task: Equilibrium(),
 )";
 
-/// What was set is in the scene that is kept with the results, which gives the same results again and
-/// resumes; the text that says the same gives them too.
 #[test]
-fn what_is_set_is_run_and_kept() {
+fn overrides_are_run_and_stored() {
     let place = Workplace::with(SCENE);
     let set = [
         "--set",
@@ -46,9 +44,8 @@ fn what_is_set_is_run_and_kept() {
     assert!(check.starts_with(&place.read("a/scene.ron")), "{check}");
 }
 
-/// Exit code 2, nothing written, and a message that begins with the override, where it is one.
 #[test]
-fn what_cannot_be_set_is_refused_by_name() {
+fn invalid_overrides_are_refused_by_name() {
     let place = Workplace::with(SCENE);
     for (arguments, message) in [
         (
@@ -73,12 +70,11 @@ fn what_cannot_be_set_is_refused_by_name() {
     }
     let drawn = ["--set", "filament.monomers.anchors=Cubature", "--seed", "3"];
     let found = place.fail(2, &[&["run", "scene.ron"][..], &drawn].concat());
-    let message = "error: --seed 3: scene.ron draws nothing: no bonds, thermal noise, imperfections or events of linkers\n";
+    let message = "error: --seed 3: scene.ron has nothing random (sampled bonds, thermal noise, imperfections, linker events): remove --seed\n";
     assert_eq!(found, message);
     assert!(!place.path("runs").exists());
 }
 
-/// A scene from standard input has a directory by default; its errors have lines and columns.
 #[test]
 fn a_scene_may_come_from_standard_input() {
     let place = Workplace::with("");

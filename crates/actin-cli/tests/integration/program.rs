@@ -1,10 +1,10 @@
-//! The built program, from its arguments to its exit code, its two streams and its files.
+//! The built program: arguments, exit codes, output streams and files.
 
 use crate::common::{Workplace, assert_has, code, stderr, stdout};
 use actin_sim::Scene;
 use std::fs;
 
-/// A short rod, monomers and a junction under a force; a thousand steps or so.
+/// A short rod, monomers and a junction under a force, for about a thousand steps.
 const TINY: &str = "Scene(
     title: \"tiny\",
     filament: Filament(
@@ -19,8 +19,6 @@ const TINY: &str = "Scene(
     task: Dynamics(duration_ns: 1.0, record_every_ns: 0.25),
 )";
 
-/// Exit code 0, a record for each time, a report on standard output, and no progress bar where there is no
-/// terminal.
 #[test]
 fn a_scene_runs_into_its_directory() {
     let place = Workplace::with(TINY);
@@ -29,7 +27,7 @@ fn a_scene_runs_into_its_directory() {
     assert_eq!(stderr(&output), "");
     assert!(stdout(&output).contains("written to results/a"));
     let energies = place.read("results/a/energies.csv");
-    // A header and the records at 0, 0.25, 0.5, 0.75 and 1 ns.
+    // A header and five records, at 0 to 1 ns in steps of 0.25 ns.
     assert_eq!(energies.lines().count(), 6, "{energies}");
     assert_has(
         &place.read("results/a/summary.json"),
@@ -37,7 +35,6 @@ fn a_scene_runs_into_its_directory() {
     );
 }
 
-/// Without `--out` results go to `runs/` and the name of the scene.
 #[test]
 fn results_have_a_place_by_default() {
     let place = Workplace::with(TINY);
@@ -46,7 +43,7 @@ fn results_have_a_place_by_default() {
 }
 
 #[test]
-fn what_is_no_scene_or_no_argument_is_bad_input() {
+fn invalid_scenes_and_arguments_are_bad_input() {
     let place = Workplace::with(TINY);
     let missing = place.fail(2, &["run", "absent.ron"]);
     assert!(missing.starts_with("error: absent.ron: "));
@@ -57,10 +54,8 @@ fn what_is_no_scene_or_no_argument_is_bad_input() {
     place.fail(2, &["walk", "scene.ron"]);
 }
 
-/// Thrice the stability limit: exit code 3, the step, the body in words and the term, and the
-/// records up to the last good state on disk, all of them finite. Resumed, the run fails again in the same words.
 #[test]
-fn an_explosion_is_reported_and_what_was_good_is_kept() {
+fn an_explosion_is_reported_and_valid_records_are_kept() {
     let unstable = "duration_ns: 100.0, time_step_ns: 0.0105, allow_unstable_step: true";
     let place = Workplace::with(&TINY.replace("duration_ns: 1.0", unstable));
     let message = place.fail(3, &["run", "scene.ron", "--out", "a"]);
@@ -92,8 +87,8 @@ fn an_explosion_is_reported_and_what_was_good_is_kept() {
     assert_eq!(again, message);
 }
 
-/// Two percent above the limit the energy grows slowly: caught when the motion has more of it than
-/// the load can have given, 2 pN over 60 nm, twice, and 1, and not when numbers overflow.
+/// Two percent above the stability limit, the energy grows slowly. The run fails when the energy exceeds what the
+/// load can have supplied, long before overflow.
 #[test]
 fn a_slow_explosion_is_caught() {
     let unstable = "duration_ns: 1000.0, time_step_ns: 0.00602, allow_unstable_step: true";
@@ -109,10 +104,8 @@ fn a_slow_explosion_is_caught() {
     }
 }
 
-/// What `check` prints is a scene with every default written out; it means the same, and checking
-/// it again prints the same.
 #[test]
-fn what_check_prints_is_the_scene() {
+fn check_prints_the_scene() {
     let place = Workplace::with(TINY);
     let printed = place.succeed(&["check", "scene.ron"]);
     println!("{printed}");
@@ -141,7 +134,7 @@ fn what_check_prints_is_the_scene() {
             "thermal: None,",
             "stop: None,"
         ],
-        "no imperfection, no spring at an end, no heat, no rule to stop; all else is resolved"
+        "the optional keys imperfection, spring, thermal and stop are absent; all others are resolved"
     );
     place.write("resolved.ron", &printed);
     let again = place.succeed(&["check", "resolved.ron"]);
@@ -150,9 +143,8 @@ fn what_check_prints_is_the_scene() {
     assert_eq!(files, 2, "checking writes nothing");
 }
 
-/// A rod turned through 300 degrees over 75 nm, 0.0698 rad/nm, is beyond the 0.0472 of its law's data
-/// in twist: said once per rod and quantity, on the terminal and in the summary. Turned through 180 it
-/// is not.
+/// A twist of 0.0698 rad/nm exceeds the range of the rod law, 0.0472 rad/nm, and is reported once per rod and
+/// quantity. Half of it is not reported.
 #[test]
 fn a_rod_beyond_the_data_of_its_law_is_reported() {
     let scene = |turn: &str| {
@@ -172,7 +164,7 @@ fn a_rod_beyond_the_data_of_its_law_is_reported() {
         let place = Workplace::with(&scene(turn));
         let output = place.run("a");
         let sign = if turn.starts_with('-') { "-" } else { "" };
-        let line = format!("beyond the data of its law: twist {sign}0.0698 rad/nm at s = ");
+        let line = format!("twist {sign}0.0698 rad/nm at s = ");
         println!("{turn}: {output}");
         assert_eq!(output.matches(&line).count(), usize::from(beyond));
         let summary = place.read("a/summary.json");
@@ -184,8 +176,8 @@ fn a_rod_beyond_the_data_of_its_law_is_reported() {
     }
 }
 
-/// A rod of 100 nm whose natural length at rest is 0.0507 nm less, pushed together by 0.09 nm, bears
-/// 13.4 pN (S3 = 3.4e4 pN) and is stable; by 0.1 nm it bears 16.8 pN, and the bound is 13.8 pN.
+/// A rod of 100 nm whose natural length is 0.0507 nm shorter (S3 = 3.4e4 pN). Compressed by 0.09 nm it carries
+/// 13.4 pN and is stable. Compressed by 0.1 nm it carries 16.8 pN, above the bound of 13.8 pN.
 #[test]
 fn a_rod_pushed_beyond_the_bound_of_its_twist_is_reported() {
     for (shift, unstable) in [("0.09", false), ("0.1", true)] {
@@ -202,7 +194,7 @@ fn a_rod_pushed_beyond_the_bound_of_its_twist_is_reported() {
         ));
         let output = place.actin(&["run", "scene.ron", "--out", "a"]);
         println!("{shift}: {}", stdout(&output));
-        let line = " nm, where the bound is 13.80 pN (twist 0.0000 rad/nm)";
+        let line = " nm exceeds the critical value 13.80 pN (twist 0.0000 rad/nm)";
         assert_eq!(stdout(&output).contains(line), unstable);
         let said = "the records: compression 16.77 pN";
         assert_eq!(stdout(&output).contains(said), unstable);
@@ -216,8 +208,7 @@ fn a_rod_pushed_beyond_the_bound_of_its_twist_is_reported() {
     }
 }
 
-/// In a bath `check` and `run` say that the law is no free energy, and fluctuations beyond its data
-/// take one line for each quantity.
+/// In a heat bath, a law without free energy is noted, and strains outside its range are summarised per quantity.
 #[test]
 fn a_law_in_a_bath_is_noted_and_its_fluctuations_are_summed_up() {
     let place = Workplace::with(
@@ -241,7 +232,7 @@ fn a_law_in_a_bath_is_noted_and_its_fluctuations_are_summed_up() {
     println!("{printed}");
     assert_eq!(printed.matches(note).count(), 1);
     for quantity in ["twist", "curvature"] {
-        let line = format!("fluctuations beyond the data of a law: {quantity} in ");
+        let line = format!("{quantity} fluctuates beyond the data of the rod law in ");
         assert_eq!(printed.matches(&line).count(), 1);
     }
     let summary = place.read("a/summary.json");
@@ -249,7 +240,6 @@ fn a_law_in_a_bath_is_noted_and_its_fluctuations_are_summed_up() {
     assert_has(&summary, &["\"unstable_twist\": []"]);
 }
 
-/// `check` prints the cost of an equilibrium with its measured time.
 #[test]
 fn check_prints_the_cost() {
     let place = Workplace::with(
@@ -270,7 +260,6 @@ fn check_prints_the_cost() {
     );
 }
 
-/// Completions and manual pages know every command that the help shows.
 #[test]
 fn completions_and_manual_pages_name_every_command() {
     let place = Workplace::with("");
@@ -292,7 +281,6 @@ fn completions_and_manual_pages_name_every_command() {
     }
 }
 
-/// What `check` prints but for what it timed.
 fn untimed(printed: &str) -> Vec<&str> {
     let lines = printed.lines();
     lines

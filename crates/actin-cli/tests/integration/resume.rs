@@ -1,5 +1,4 @@
-//! Runs that are interrupted, killed or refused by the disk, and resumed: from the arguments to the
-//! exit code and the bytes of the files.
+//! Runs that are interrupted, killed or out of disk space, and resumed.
 #![cfg(unix)]
 
 use crate::common::{
@@ -12,11 +11,8 @@ use std::process::{Child, Command};
 use std::thread::sleep;
 use std::time::Duration;
 
-/// The lock of a run into `a`.
 const LOCK: &str = "a/.actin-run.lock";
 
-/// Stops a program, and waits until it has (or has ended): what the signal finds it doing is done
-/// first.
 fn stop(child: &Child) {
     signal(child, "-STOP");
     let id = child.id().to_string();
@@ -26,11 +22,10 @@ fn stop(child: &Child) {
     }
 }
 
-/// The first signal: 130, a checkpoint, what was recorded, and the command that goes on; which then
-/// gives every byte of a run that was not interrupted. A motion and a path, SIGINT, SIGTERM and SIGHUP,
-/// which may come twice: a terminal that closes sends it, and so does the shell in it.
+/// After the first SIGINT, SIGTERM or SIGHUP: exit code 130, a checkpoint, the records, and the command that
+/// continues to identical bytes. SIGHUP can arrive twice, from the terminal and from its shell.
 #[test]
-fn an_interrupted_run_goes_on_to_the_same_bytes() {
+fn an_interrupted_run_resumes_to_the_same_bytes() {
     let hangup = ["-STOP", "-HUP", "-TERM", "-CONT", "-HUP"];
     let observed = observed();
     for (scene, signals) in [
@@ -55,16 +50,14 @@ fn an_interrupted_run_goes_on_to_the_same_bytes() {
     }
 }
 
-/// A run that was killed and has nothing but a checkpoint can be looked at: its records up to there, the last
-/// where no states are kept, and what was built where nothing can be read.
 #[test]
-fn a_killed_run_can_be_looked_at() {
+fn a_killed_run_can_be_viewed() {
     let observed = observed();
     for (scene, told) in [
         (MOTION, "record(s) up to its last checkpoint, at "),
         (
             &observed,
-            "this is its last record before its last checkpoint",
+            "the page shows the last record before its last checkpoint",
         ),
     ] {
         let place = Workplace::with(scene);
@@ -77,7 +70,7 @@ fn a_killed_run_can_be_looked_at() {
         };
         let before = contents(&place.path("a"));
         assert!(page().contains(told), "{told}");
-        // Nothing that the run goes on from is touched.
+        // The files needed to resume are unchanged.
         fs::remove_file(place.path("a/view.html")).unwrap();
         assert_eq!(before, contents(&place.path("a")));
         fs::remove_file(place.path("a/records.bin")).unwrap();
@@ -85,7 +78,6 @@ fn a_killed_run_can_be_looked_at() {
     }
 }
 
-/// Both signals wait while the program is stopped: when it goes on, the second kills it at once.
 #[test]
 fn a_second_signal_kills() {
     let place = Workplace::with(MOTION);
@@ -94,7 +86,6 @@ fn a_second_signal_kills() {
     assert!(matches!(output.status.signal(), Some(2 | 15)));
 }
 
-/// Under `nohup` SIGHUP is ignored, and stays so: the run gets to its end.
 #[test]
 fn a_hangup_that_was_ignored_before_is_ignored() {
     let place = Workplace::with(MOTION);
@@ -108,9 +99,6 @@ fn a_hangup_that_was_ignored_before_is_ignored() {
     assert!(place.path("a/summary.json").exists());
 }
 
-/// A limit on the size of files is a disk that is full for some: records do not fit any more. The
-/// run goes on with a warning, the results cannot be written either, and the last checkpoint that
-/// fitted is there when there is room again.
 #[test]
 fn a_full_disk_loses_no_checkpoint() {
     let place = Workplace::with(MOTION);
@@ -125,14 +113,13 @@ fn a_full_disk_loses_no_checkpoint() {
     assert_same_files(&place.path("whole"), &place.path("a"));
 }
 
-/// Where there is nothing to go on from, a run begins.
 #[test]
-fn what_has_not_begun_begins() {
+fn resume_without_a_checkpoint_starts_the_run() {
     let place = Workplace::with(&short_motion());
     place.resume("a");
     place.run("b");
     assert_same_files(&place.path("a"), &place.path("b"));
-    // What a run leaves that is killed before it has a checkpoint.
+    // As left by a run killed before its first checkpoint.
     for name in ["summary.json", "states.npz", "run.pvd"] {
         fs::remove_file(place.path("b").join(name)).unwrap();
     }
@@ -140,17 +127,15 @@ fn what_has_not_begun_begins() {
     assert_same_files(&place.path("a"), &place.path("b"));
 }
 
-/// Another scene, a damaged file, arguments without meaning: exit code 2 and the reason. A run that is
-/// finished says so and is left alone.
 #[test]
-fn what_cannot_be_resumed_is_refused() {
+fn invalid_resumes_are_refused() {
     let place = Workplace::with(&short_motion());
     place.run("a");
     assert!(!place.path("a/checkpoint.bin").exists());
     let before = files(&place.path("a"));
     let said = place.resume("a");
     assert!(
-        said.ends_with("a is finished (time is up): nothing to resume\n"),
+        said.ends_with("a is finished (end time reached): nothing to resume\n"),
         "{said}"
     );
     assert!(files(&place.path("a")) == before);
@@ -169,8 +154,6 @@ fn what_cannot_be_resumed_is_refused() {
     }
 }
 
-/// A force that is smaller than the rounding of others: exit code 3, with the place in the scene, and
-/// the equilibrium on the disk; taken up again, the same words and the same files.
 #[test]
 fn an_equilibrium_with_a_load_below_the_residual_is_kept() {
     let place = Workplace::with(
@@ -197,7 +180,7 @@ fn an_equilibrium_with_a_load_below_the_residual_is_kept() {
     );
     let energies = place.read("a/energies.csv");
     assert_eq!(energies.lines().count(), 2, "{energies}");
-    // The checkpoint holds the time that the run has taken.
+    // The checkpoint contains the elapsed time.
     let results = || {
         let mut all = files(&place.path("a"));
         all.retain(|(name, _)| name != "checkpoint.bin");
@@ -209,11 +192,10 @@ fn an_equilibrium_with_a_load_below_the_residual_is_kept() {
     assert!(results() == before);
 }
 
-/// Whatever a second run would do in the directory of one that goes on (here: is stopped half way),
-/// it is refused and touches nothing. When the first has been killed, its lock keeps no other run out, and
-/// afterwards the file of it is empty.
+/// Any second run in the directory of a stopped run is refused and changes nothing. After the first is killed, its
+/// lock does not block other runs and is emptied.
 #[test]
-fn a_directory_in_use_is_left_alone() {
+fn a_directory_in_use_is_unchanged() {
     let place = Workplace::with(&MOTION.replace("duration_ns: 150.0", "duration_ns: 1500.0"));
     let arguments = ["--out", "a", "--checkpoint-every", "0.01"];
     let mut first = place.start(&arguments, "a/checkpoint.bin");
@@ -247,10 +229,8 @@ fn a_directory_in_use_is_left_alone() {
     assert_eq!(fs::read(place.path(LOCK)).unwrap(), b"");
 }
 
-/// Files of others are left alone by whatever is refused, `lock` among them, and a file that no run has
-/// written where the lock belongs is refused itself.
 #[test]
-fn files_of_others_are_left_alone() {
+fn foreign_files_are_unchanged() {
     let place = Workplace::with(&short_motion());
     place.write("notes.txt", "mine");
     place.write("lock", "mine");
@@ -268,8 +248,6 @@ fn files_of_others_are_left_alone() {
     }
 }
 
-/// What needs no writing is said before anything is locked. (A folder in the place of the lock keeps
-/// everybody from it, as a folder without permission to write does, and even an administrator.)
 #[test]
 fn what_writes_nothing_needs_no_lock() {
     let place = Workplace::with(&short_motion());
@@ -278,7 +256,7 @@ fn what_writes_nothing_needs_no_lock() {
     fs::create_dir(place.path(LOCK)).unwrap();
     let said = place.resume("a");
     assert!(
-        said.ends_with("a is finished (time is up): nothing to resume\n"),
+        said.ends_with("a is finished (end time reached): nothing to resume\n"),
         "{said}"
     );
     let refused = place.fail(2, &["run", "scene.ron", "--out", "a"]);

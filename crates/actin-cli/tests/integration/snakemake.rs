@@ -1,4 +1,4 @@
-//! A sweep as a workflow for Snakemake, killed half way and run again.
+//! A sweep as a Snakemake workflow, killed and run again.
 #![cfg(unix)]
 
 use crate::common::{Workplace, pushed, with_actin};
@@ -15,17 +15,14 @@ const SWEEP: &str = "Sweep(
     results: [\"tip_displacement_nm[0]\", \"energy_pn_nm.total\"],
 )";
 
-/// The command of Snakemake, in which `actin` is the program that was built; none where there is none.
+/// Returns the Snakemake command with the built `actin` on its path, if Snakemake is installed.
 fn snakemake(folder: &Path) -> Option<Command> {
     let program = std::env::var("SNAKEMAKE").unwrap_or_else(|_| "snakemake".into());
     let is_there = Command::new(&program).arg("--version").output();
     if !is_there.is_ok_and(|output| output.status.success()) {
         let required = std::env::var_os("ACTIN_REQUIRE_SNAKEMAKE").is_some();
-        assert!(
-            !required,
-            "there is no snakemake (SNAKEMAKE or on the path)"
-        );
-        println!("SKIPPED: there is no snakemake");
+        assert!(!required, "snakemake is missing (SNAKEMAKE or on the path)");
+        println!("SKIPPED: snakemake is missing");
         return None;
     }
     let mut command = with_actin(&program, &folder.join("workflow"));
@@ -36,14 +33,12 @@ fn snakemake(folder: &Path) -> Option<Command> {
     Some(command)
 }
 
-/// Whether the directory of some run holds a file.
 fn has(place: &Workplace, name: &str) -> bool {
     let runs = fs::read_dir(place.path("workflow/runs"));
     let mut runs = runs.into_iter().flatten();
     runs.any(|run| run.unwrap().path().join(name).exists())
 }
 
-/// Kills Snakemake with all its jobs as soon as one has a checkpoint and another has ended.
 fn kill_half_way(place: &Workplace, command: &mut Command) {
     let mut child = command.process_group(0).spawn().unwrap();
     let patience = Instant::now();
@@ -69,8 +64,6 @@ fn kill_half_way(place: &Workplace, command: &mut Command) {
     );
 }
 
-/// Killed half way and run again: the run that was cut off goes on from its checkpoint, and the tables are those of `actin sweep`, to the byte. Runs that fail are
-/// rows.
 #[test]
 fn a_workflow_that_is_killed_ends_with_the_same_table() {
     let place = Workplace::with(&pushed(60.0));
@@ -80,7 +73,7 @@ fn a_workflow_that_is_killed_ends_with_the_same_table() {
     let emit: Vec<&str> = emit.split(' ').collect();
     let output = place.succeed(&emit);
     assert!(output.ends_with("cd workflow && snakemake --cores all\n"));
-    // Checkpoints come so quickly that one is there when it is killed.
+    // A short interval, so that there is a checkpoint when the workflow is killed.
     let workflow = place.read("workflow/Snakefile");
     let quick = workflow.replace("--only", "--checkpoint-every 0.01 --only");
     place.write("workflow/Snakefile", quick);

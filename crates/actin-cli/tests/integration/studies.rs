@@ -1,4 +1,4 @@
-//! The studies of the book: their scenes and sweeps run in short, and their scripts draw what they left.
+//! The studies of the book: shortened scenes and sweeps run, and scripts plot the results.
 
 use crate::common::{Workplace, code, python, stderr, stdout};
 use std::env;
@@ -6,13 +6,10 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// A study: its sweep, and what is put in place of what in copies of sweep and scene, so that it is short.
 struct Study {
     name: &'static str,
     shorter: &'static [(&'static str, &'static str)],
-    /// Rows of its table.
     points: usize,
-    /// What its scene takes by `--set` for a run of its own.
     set: &'static [&'static str],
 }
 
@@ -124,7 +121,6 @@ fn folder() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenarios/studies")
 }
 
-/// A copy of the studies, in which this one is short.
 fn place(study: &Study) -> Workplace {
     let place = Workplace::with("");
     for entry in fs::read_dir(folder()).unwrap() {
@@ -151,7 +147,6 @@ fn place(study: &Study) -> Workplace {
     place
 }
 
-/// Each scene by itself, with a few keys set.
 #[test]
 fn scenes_run() {
     for study in STUDIES {
@@ -166,8 +161,8 @@ fn scenes_run() {
     }
 }
 
-/// Each sweep in short; then its script writes a figure and the table of its page. Where there is no Python
-/// with matplotlib the test says so, or fails if `ACTIN_REQUIRE_MATPLOTLIB` is set, as `.ci/run` does.
+/// Each shortened sweep, whose script writes a figure and the table of its page. Without matplotlib the test is
+/// skipped, or fails if `ACTIN_REQUIRE_MATPLOTLIB` is set, as in `.ci/run`.
 #[test]
 fn sweeps_run_and_scripts_draw_them() {
     let what = "the scripts of the studies are";
@@ -208,7 +203,6 @@ fn sweeps_run_and_scripts_draw_them() {
     }
 }
 
-/// What is written by `make_bundle.py` is what it writes.
 #[test]
 fn the_bundle_is_what_its_script_writes() {
     let place = Workplace::with("");

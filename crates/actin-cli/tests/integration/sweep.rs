@@ -1,11 +1,10 @@
-//! `actin sweep`: from a sweep and a scene to one table, however it is interrupted.
+//! `actin sweep`: tables, interruption, mistakes.
 
 use crate::common::{Workplace, assert_has, code, pushed, signal, stderr};
 use std::fs;
 use std::process::Child;
 use std::time::{Duration, Instant};
 
-/// Two forces, one of which no scene takes with this tolerance, and two lengths; three samples.
 const SWEEP: &str = "Sweep(
     scene: \"scene.ron\",
     set: [Set(key: \"filament.rod.law\", value: Fitted)],
@@ -23,13 +22,12 @@ fn place(sweep: &str) -> Workplace {
     place
 }
 
-/// 18 runs, 6 of which fail as rows. Means and errors are those of the runs.
 #[test]
 fn a_sweep_becomes_a_table() {
     let place = place(SWEEP);
     assert_eq!(
         place.succeed(&["sweep", "sweep.ron", "--out", "a"]),
-        "18 run(s), 6 failed, runs.csv says why; written to a/table.csv\n"
+        "18 run(s), 6 failed (reasons in runs.csv); written to a/table.csv\n"
     );
     let runs: Vec<String> = place
         .read("a/runs.csv")
@@ -64,7 +62,6 @@ fn a_sweep_becomes_a_table() {
     assert_eq!(table[5][3..7], ["3", "3", "", ""].map(str::to_owned));
 }
 
-/// A run of a sweep is the run that `actin run` makes of the same scene.
 #[test]
 fn a_run_of_a_sweep_is_a_run() {
     let place = place(SWEEP);
@@ -75,7 +72,6 @@ fn a_run_of_a_sweep_is_a_run() {
     place.assert_same(["alone", "a/runs/7"], &names);
 }
 
-/// One core and two, in pieces, in any order, resumed and run again from its own directory: the same bytes.
 #[test]
 fn tables_do_not_depend_on_how_they_were_made() {
     let place = place(SWEEP);
@@ -91,7 +87,7 @@ fn tables_do_not_depend_on_how_they_were_made() {
     for out in ["b", "c", "d"] {
         place.assert_same(["sweeps/sweep", out], &names);
     }
-    // Another column needs no run.
+    // Another result column needs no new runs.
     fs::remove_file(place.path("d/runs/4/energies.csv")).unwrap();
     let more = SWEEP.replace("\"energy_pn_nm.total\"", "\"work.steps\"");
     place.write("more.ron", more);
@@ -106,10 +102,10 @@ fn begin(place: &Workplace, out: &str) -> Child {
     place.command(&arguments).spawn().unwrap()
 }
 
-/// Killed every now and then until it is done: the tables of a sweep that was not, to the byte. Patience
-/// grows, so that it ends on any machine.
+/// A sweep that is killed repeatedly has the tables of an undisturbed sweep. The time between kills grows, so that
+/// the test ends on any machine.
 #[test]
-fn a_sweep_that_is_killed_goes_on_to_the_same_tables() {
+fn a_killed_sweep_resumes_to_the_same_tables() {
     let sweep = SWEEP.replace("-1.5, inf", "-1.5");
     let place = place(&sweep);
     let longer = pushed(40.0);
@@ -138,7 +134,6 @@ fn a_sweep_that_is_killed_goes_on_to_the_same_tables() {
     place.assert_same(["parts", "whole"], &["table.csv", "runs.csv"]);
 }
 
-/// What a signal interrupts has exit code 130, and says how to go on.
 #[cfg(unix)]
 #[test]
 fn a_signal_leaves_checkpoints() {
@@ -152,10 +147,10 @@ fn a_signal_leaves_checkpoints() {
     signal(&child, "-INT");
     let output = child.wait_with_output().unwrap();
     assert_eq!(code(&output), 130, "{}", stderr(&output));
-    let message = "interrupted: 0 of 12 runs have ended and are in runs.csv and table.csv, the others that had begun \
+    let message = "interrupted: 0 of 12 runs have ended and are in runs.csv and table.csv; other started runs \
                    have checkpoints; to continue: actin sweep sweep.ron --out a --resume\n";
     assert_eq!(stderr(&output), message);
-    // Both tables stand, with what has not ended.
+    // Both tables exist and list unfinished runs.
     let runs = place.read("a/runs.csv");
     assert_eq!(runs.matches(",unfinished,").count(), 12, "{runs}");
     let table = place.read("a/table.csv");
@@ -167,16 +162,18 @@ fn a_signal_leaves_checkpoints() {
     assert_eq!(counts, ["0"; 4], "{table}");
 }
 
-/// A sweep without any result is a failure, whose table has the reasons.
 #[test]
 fn a_sweep_of_which_every_run_fails_is_a_failure() {
     let place = place(&SWEEP.replace("0.0, -1.5, inf", "inf"));
     let output = place.fail(3, &["sweep", "sweep.ron", "--out", "a"]);
-    assert_eq!(output, "error: all 6 run(s) failed: a/runs.csv says why\n");
+    assert_eq!(
+        output,
+        "error: all 6 run(s) failed: the reasons are in a/runs.csv\n"
+    );
     assert!(place.read("a/runs.csv").contains("must be finite"));
 }
 
-/// What is written in place of what, and what it prints.
+/// Text to replace, its replacement, and the expected message.
 const MISTAKES: &[(&str, &str, &str)] = &[
     (
         "vary:",
@@ -201,7 +198,7 @@ const MISTAKES: &[(&str, &str, &str)] = &[
     (
         "[35.5]",
         "[35.5, 1]",
-        "sweep.ron:6:67: vary[1].rows[1] = 2 values: a row has a value for each of the 1 keys",
+        "sweep.ron:6:67: vary[1].rows[1] = 2 values: a row must have a value for each of the 1 keys",
     ),
     (
         "counts.segments",
@@ -216,7 +213,7 @@ const MISTAKES: &[(&str, &str, &str)] = &[
     (
         "of: [Bonds]",
         "of: [Noise]",
-        "sweep.ron:8:5: samples: the scene draws nothing",
+        "sweep.ron:8:5: samples: the scene has nothing random",
     ),
     (
         "filament.sections[1].to_nm",
@@ -236,7 +233,6 @@ const MISTAKES: &[(&str, &str, &str)] = &[
     ("scene.ron", "absent.ron", "absent.ron: "),
 ];
 
-/// Exit code 2, the file, line and column, the value and the rule; nothing is written.
 #[test]
 fn mistakes_of_a_sweep_have_their_place() {
     for (from, to, message) in MISTAKES {
@@ -249,9 +245,8 @@ fn mistakes_of_a_sweep_have_their_place() {
     }
 }
 
-/// All mistakes of a sweep, each with its line, as those of a scene: what cannot be read, and broken rules.
 #[test]
-fn all_mistakes_of_a_sweep_are_told() {
+fn all_mistakes_of_a_sweep_are_reported() {
     let unread = SWEEP
         .replace("vary:", "varies:")
         .replace("number: 3", "number: 0");
@@ -283,7 +278,6 @@ fn all_mistakes_of_a_sweep_are_told() {
     }
 }
 
-/// A rod in a heat bath that observes.
 const HEATED: &str = "Scene(
         filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 30.0)]),
         clamps: [Clamp(end: Start)],
@@ -296,7 +290,6 @@ const HEATED: &str = "Scene(
         ),
     )";
 
-/// Means of observables are columns, and their errors; names that no run has are refused.
 #[test]
 fn observables_are_results() {
     let place = place("");
@@ -335,9 +328,8 @@ fn observables_are_results() {
     );
 }
 
-/// A run that ends well but lacks a result is told as one that failed: its means are of nothing.
 #[test]
-fn a_result_that_is_lacking_is_told() {
+fn a_missing_result_is_reported() {
     let place = place("");
     place.write(
         "sweep.ron",
@@ -352,9 +344,8 @@ fn a_result_that_is_lacking_is_told() {
     }
 }
 
-/// A directory of another sweep, of the same one without `--resume`, and of somebody: left alone.
 #[test]
-fn other_directories_are_left_alone() {
+fn other_directories_are_unchanged() {
     let place = place(SWEEP);
     let refused = |arguments: &[&str]| {
         let output = place.fail(2, &[&["sweep"], arguments].concat());
@@ -369,7 +360,6 @@ fn other_directories_are_left_alone() {
     assert!(refused(&["sweep.ron", "--out", "a", "--only", "18"]).contains("there is no run 18"));
 }
 
-/// How many runs there are, what they cost, and which points the rules refuse.
 #[test]
 fn a_sweep_can_be_checked() {
     let place = place(SWEEP);

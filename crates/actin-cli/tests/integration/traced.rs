@@ -1,4 +1,4 @@
-//! Filaments along points of a file: beside the scene, in the working directory, and in a sweep.
+//! Filaments along points of a file, found relative to the scene, the working directory, or the sweep.
 
 use crate::common::{Workplace, assert_has, code, stderr, stdout};
 use std::fs;
@@ -15,10 +15,8 @@ const SCENE: &str = "Scene(
 
 const POINTS: &str = "x_nm,y_nm,z_nm\n0,0,0\n0,3,20\n0,10,40\n0,20,60\n";
 
-/// The file is found beside the scene from any folder; the scene of the run directory has the points and gives
-/// the same results without the file.
 #[test]
-fn a_trace_stands_beside_its_scene() {
+fn a_trace_is_found_next_to_its_scene() {
     let place = Workplace::with("");
     fs::create_dir(place.path("scenes")).unwrap();
     place.write("scenes/curved.ron", SCENE);
@@ -33,9 +31,8 @@ fn a_trace_stands_beside_its_scene() {
     place.assert_same(["a", "b"], &["profile.csv"]);
 }
 
-/// A scene from standard input has no folder: the working directory is asked.
 #[test]
-fn standard_input_looks_into_the_working_directory() {
+fn paths_of_standard_input_are_relative_to_the_working_directory() {
     let place = Workplace::with(SCENE);
     place.write("trace.csv", POINTS);
     let output = place.piped(&["check", "-"], SCENE);
@@ -47,7 +44,6 @@ fn standard_input_looks_into_the_working_directory() {
     );
 }
 
-/// A sweep keeps the points in its directory.
 #[test]
 fn a_sweep_keeps_the_points() {
     let place = Workplace::with(SCENE);

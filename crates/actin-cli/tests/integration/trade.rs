@@ -10,7 +10,6 @@ const BENT: &str = "Scene(
     task: Equilibrium(),
 )";
 
-/// The best scene runs. The table and the picture contain every candidate.
 #[test]
 fn a_trade_writes_a_table_a_picture_and_a_scene() {
     let place = Workplace::with(BENT);

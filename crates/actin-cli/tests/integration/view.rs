@@ -1,4 +1,4 @@
-//! `actin view`: its page in a browser, its films, and what it says of directories that are not whole.
+//! `actin view`: its page in a browser, its films, and incomplete run directories.
 
 #[path = "../../../actin-view/tests/chromium/mod.rs"]
 mod chromium;
@@ -9,10 +9,10 @@ use serde_json::{Value, json};
 use std::fs;
 
 const PROBE: &str = include_str!("view_probe.js");
-/// A phone and a laptop (pixels).
+/// Widths of a phone and a laptop (pixels).
 const WIDTHS: [u32; 2] = [390, 1280];
 
-/// Monomers, a junction, a rod and a linker, in motion, observed.
+/// A motion of monomers, a junction, a rod and a linker, with observables.
 const MOTION: &str = "Scene(
     title: \"Seen & <turned>\",
     filament: Filament(sections: [
@@ -29,7 +29,6 @@ const MOTION: &str = "Scene(
     ),
 )";
 
-/// One equilibrium of two filaments.
 const PAIR: &str = "Scene(
     filaments: [
         Filament(sections: [Rod(from_nm: 0.0, to_nm: 60.0)]),
@@ -41,7 +40,6 @@ const PAIR: &str = "Scene(
     task: Equilibrium(),
 )";
 
-/// A path of equilibria.
 const PATH: &str = "Scene(
     filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 100.0, segments: 10)]),
     clamps: [Clamp(end: Start)],
@@ -61,8 +59,7 @@ fn page(place: &Workplace) -> String {
     place.read("a/view.html")
 }
 
-/// Symptoms of the plausible bugs: a shader that does not compile, a blank canvas, a slider that moves nothing, a
-/// cursor that stays, a table that pushes a phone's page aside.
+/// Detects shader errors, a blank canvas, a slider without effect, a fixed cursor, and a table wider than a phone.
 #[test]
 fn pages_work_in_a_browser() {
     let Some(browser) = browser() else {
@@ -85,7 +82,6 @@ fn pages_work_in_a_browser() {
     }
 }
 
-/// Warnings of the run's summary, as the page words them.
 fn warnings(place: &Workplace) -> Vec<String> {
     let summary = fs::read(place.path("a/summary.json")).unwrap();
     let summary: Value = serde_json::from_slice(&summary).unwrap();
@@ -108,7 +104,6 @@ fn assert_works(found: &Value, width: u32) {
         .iter()
         .map(count)
         .product();
-    // A filament with its axes and scale bar.
     let some = pixels / 200..pixels * 9 / 10;
     assert!(some.contains(&count(&found["painted"])), "{width}: {found}");
     for act in ["turned", "along", "zoomed"] {
@@ -125,7 +120,6 @@ fn assert_works(found: &Value, width: u32) {
     }
 }
 
-/// The picture changes, cursors follow, and playing ends at the last record with the picture of before.
 fn assert_plays(found: &Value, records: u64) {
     assert!(count(&found["moved"]) > 1000, "{found}");
     assert_eq!(found["after_play"], 0, "{found}");
@@ -135,11 +129,9 @@ fn assert_plays(found: &Value, records: u64) {
     let [first, last] = cursors;
     let moved = first.iter().zip(&last).filter(|(a, b)| a != b);
     assert!(moved.count() >= 3, "{found}");
-    // Near the left end of the chart.
     assert!(count(&found["picked"]) <= records / 4, "{found}");
 }
 
-/// A page is replaced by a newer one; any other file is left alone.
 #[test]
 fn only_pages_are_replaced() {
     let place = ran(PATH);
@@ -147,12 +139,14 @@ fn only_pages_are_replaced() {
     page(&place);
     place.write("mine.html", "<!doctype html>mine");
     let output = place.fail(2, &["view", "a", "--out", "mine.html"]);
-    assert_has(&output, &["mine.html: exists and is no page of a run"]);
+    assert_has(
+        &output,
+        &["mine.html: exists and was not written by actin view"],
+    );
     assert_eq!(place.read("mine.html"), "<!doctype html>mine");
     place.succeed(&["run", "scene.ron", "--out", "a", "--overwrite"]);
 }
 
-/// What is no run is refused with 2; what is damaged or missing is said, and the rest is shown.
 #[test]
 fn directories_that_are_not_whole() {
     let place = ran(MOTION);
@@ -172,18 +166,17 @@ fn directories_that_are_not_whole() {
     place.write("a/states.npz", &states[..states.len() / 3]);
     told("states.npz is damaged");
     fs::remove_file(place.path("a/states.npz")).unwrap();
-    told("There is no states.npz: filaments are shown as built.");
+    told("There is no states.npz. The initial shape is shown.");
     place.write("a/energies.csv", "time_ns,total_pn_nm\n0.0,what\n");
-    told("energies.csv is damaged: row 1, total_pn_nm: &quot;what&quot; is no number.");
+    told("energies.csv is damaged: row 1, total_pn_nm: &quot;what&quot; is not a number.");
     place.write("a/summary.json", "{}");
     told("summary.json is damaged");
     fs::remove_file(place.path("a/summary.json")).unwrap();
-    told("There is no summary.json that can be read: the run has not ended");
+    told("There is no readable summary.json: the run has not ended");
     place.write("a/scene.ron", "Scene(\n    nothing: 1)");
     refused("a", "scene.ron:2:");
 }
 
-/// Pictures of the size that is asked for, each with bodies on white; nothing goes over another file.
 #[test]
 fn films_are_pictures_in_order() {
     let place = ran(PATH);
@@ -209,7 +202,6 @@ fn films_are_pictures_in_order() {
     assert_has(&output, &["film: is not empty"]);
 }
 
-/// The camera goes around, and what is no size or number is refused.
 #[test]
 fn films_that_turn_and_arguments_that_are_refused() {
     let place = ran(PATH);

@@ -1,5 +1,5 @@
-// Put at the beginning of a copy of a page of a run: listens for everything that goes wrong, plays, turns and
-// colours, and tells the page around it what it found.
+// Inserted at the beginning of a copy of a page of a run. Records errors, operates playback, rotation and colouring, and
+// sends the results to the surrounding page.
 
 (() => {
   'use strict';
@@ -14,7 +14,7 @@
       told(...words);
     };
   }
-  // Frames come by the clock: under virtual time those of the display may not come at all.
+  // Frames are driven by timers, since virtual time may not trigger display frames.
   window.requestAnimationFrame = (draw) => setTimeout(() => draw(performance.now()), 16);
 
   const wait = (ms) => new Promise((done) => setTimeout(done, ms));
@@ -25,7 +25,7 @@
     for (let i = 3; i < all.length; i += 4) if (all[i] > 0) count += 1;
     return count;
   };
-  // A browser that reads a canvas back goes on without the graphics card, which rounds otherwise by one step.
+  // Reading a canvas back disables hardware rendering, which changes rounding by one step.
   const differing = (a, b) => {
     let count = Math.abs(a.length - b.length) / 4;
     for (let i = 0; i < Math.min(a.length, b.length); i += 4) {
@@ -34,7 +34,7 @@
     return count;
   };
 
-  // Does something, waits until the view was drawn anew, and gives its pixels.
+  // Performs an action, waits until the view is redrawn, and returns its pixels.
   async function after(canvas, act) {
     const before = canvas.dataset.drawn;
     act();

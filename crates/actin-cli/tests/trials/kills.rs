@@ -1,4 +1,4 @@
-//! Runs that are killed: in the end the bytes of a whole run.
+//! Runs that are killed repeatedly end with the files of an undisturbed run.
 
 use super::common::files;
 use super::program::{self, Ending};
@@ -8,14 +8,12 @@ use std::fs;
 use std::path::Path;
 use std::time::Duration;
 
-/// Kills of one run that are so many that it will never get to its end.
 const MOST_KILLS: u32 = 200;
 
-/// An undisturbed run; it is interrupted after that time, which is a failure.
 const UNDISTURBED: Duration = Duration::from_mins(5);
 
-/// Kills a run, on one to four threads, at random moments until it is done; its files are those of one that was not
-/// killed.
+/// Kills a run, on one to four threads, at random times until it is done. Its files must equal those of an
+/// undisturbed run.
 pub(super) fn kill(case: &mut Case<'_>) -> Result<Tally, String> {
     let length = whole(case)?;
     let (mut kills, mut survived) = (0, 0);
@@ -28,7 +26,7 @@ pub(super) fn kill(case: &mut Case<'_>) -> Result<Tally, String> {
         };
         let threads = 1 + kills % 4;
         let mut started = program::start(case.folder, &arguments("a", go_on), threads)?;
-        // Later kills come later: on a busy machine a run may not get any further at first.
+        // The time between kills grows, so that a run on a busy machine advances.
         let factor = f64::from(1 + kills / 8);
         let patience = factor * between(&mut case.random, 0.01, 0.5) * length.as_secs_f64();
         if started.wait(Duration::from_secs_f64(patience))? {
@@ -48,7 +46,6 @@ pub(super) fn kill(case: &mut Case<'_>) -> Result<Tally, String> {
     }
 }
 
-/// Runs a scene of its own kind without disturbance into `whole`; how long that takes.
 fn whole(case: &mut Case<'_>) -> Result<Duration, String> {
     let text = scenes::long(&mut case.random);
     fs::write(case.folder.join("scene.ron"), text).map_err(|e| e.to_string())?;
@@ -72,7 +69,6 @@ fn arguments<'a>(out: &'a str, go_on: &'a str) -> [&'a str; 7] {
     ]
 }
 
-/// Refuses an end without success, and files other than those of `whole`.
 fn same(folder: &Path, name: &str, ending: &Ending) -> Result<(), String> {
     if ending.code != Some(0) {
         return Err(format!("{ending:?}"));
@@ -80,7 +76,6 @@ fn same(folder: &Path, name: &str, ending: &Ending) -> Result<(), String> {
     same_files(&folder.join("whole"), &folder.join(name))
 }
 
-/// Refuses two run directories that differ in more than the time they took.
 pub(super) fn same_files(one: &Path, other: &Path) -> Result<(), String> {
     let [one, other] = [one, other].map(|folder| {
         let mut files = files(folder);

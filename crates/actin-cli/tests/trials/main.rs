@@ -1,9 +1,8 @@
-//! The program under random input, kills, and changes of a scene that must not change its answer.
+//! Randomised trials: corrupted scenes, kills, and changes of a scene that must not change its result.
 //!
-//! Every case is a process of `actin` that is judged from outside: by its exit code, its message and
-//! its files. A case depends on its number and the seed only, so one that fails fails again; its
-//! folder is kept. A few cases of each kind are tried with the other tests; `cargo xtask trials` tries
-//! thousands.
+//! Each case runs `actin` as a process and checks its exit code, message and files. A case is reproducible from its
+//! number and the seed; the folder of a failed case is kept. The other tests include a few cases of each kind, and
+//! `cargo xtask trials` runs thousands.
 
 #[path = "../integration/common/mod.rs"]
 mod common;
@@ -22,40 +21,30 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-/// How often each thing happened.
 type Tally = BTreeMap<&'static str, u64>;
 
-/// What became of a case, or why it failed.
 type Outcome = Result<Tally, String>;
 
-/// The tally of one thing that happened once.
 fn once(what: &'static str) -> Tally {
     Tally::from([(what, 1)])
 }
 
-/// What a case is given.
 struct Case<'a> {
-    /// Texts of the scenes of the repository.
     corpus: &'a [String],
-    /// An empty folder of its own.
     folder: &'a Path,
-    /// Its random numbers.
     random: ChaCha8Rng,
 }
 
-/// Scenes of the repository, spoilt in a few places, under `actin check`.
 #[test]
 fn spoilt_scenes_are_checked() {
     try_all("check", (100, 4000), spoilt::check);
 }
 
-/// The same under `actin run`, interrupted when they take long.
 #[test]
 fn spoilt_scenes_are_run() {
     try_all("run", (10, 400), spoilt::run);
 }
 
-/// Runs that are killed at random moments until they are done: the same bytes.
 #[test]
 fn killed_runs_are_resumed() {
     let tally = try_all("kill", (2, 20), kills::kill);
@@ -65,13 +54,11 @@ fn killed_runs_are_resumed() {
     );
 }
 
-/// Scenes changed in ways that must not change the answer.
 #[test]
 fn scenes_changed_without_effect_agree() {
     try_all("metamorphic", (10, 200), metamorphic::compare);
 }
 
-/// A number from the environment.
 fn number(variable: &str) -> Option<u64> {
     let text = std::env::var(variable).ok()?;
     Some(
@@ -80,7 +67,7 @@ fn number(variable: &str) -> Option<u64> {
     )
 }
 
-/// Tries `few` cases of a kind, `many` if `ACTIN_TRIALS` is `all`, or as many as it says.
+/// Runs `few` cases of a kind, `many` if `ACTIN_TRIALS` is `all`, or as many as `ACTIN_TRIALS` specifies.
 fn try_all(kind: &str, (few, many): (u64, u64), attempt: fn(&mut Case<'_>) -> Outcome) -> Tally {
     let cases = match std::env::var("ACTIN_TRIALS") {
         Err(_) => few,
@@ -114,7 +101,6 @@ fn try_all(kind: &str, (few, many): (u64, u64), attempt: fn(&mut Case<'_>) -> Ou
     tally
 }
 
-/// One case in a folder of its own, which goes if all is well.
 fn try_one(
     kind: &str,
     number: u64,

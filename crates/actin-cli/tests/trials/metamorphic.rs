@@ -1,8 +1,7 @@
-//! Scenes changed in ways that must not change the answer: what is right is not known, but that two
-//! runs agree is.
+//! Changes of a scene that must not change its result (metamorphic tests).
 //!
-//! Equilibria are found to 1e-8 pN here, so that places of these short filaments are known to some
-//! 1e-7 nm and energies, whose first variation vanishes, to rounding; [`NEAR`] leaves ten times that.
+//! Equilibria are solved to 1e-8 pN. Positions of these short filaments are then accurate to about 1e-7 nm, and
+//! energies, which are stationary, to round-off. [`NEAR`] is ten times larger.
 
 use super::kills::same_files;
 use super::program;
@@ -15,21 +14,19 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-/// Largest difference of places (nm) and of energies (pN nm) that were found with a tolerance.
+/// Tolerance of positions (nm) and energies (pN nm) of equilibria.
 const NEAR: f64 = 1e-6;
 
-/// Time that a run may take.
 const PATIENCE: Duration = Duration::from_mins(2);
 
-/// What two runs are compared by.
 struct Answer {
     /// Elastic energy of filament 0 (pN nm).
     energy: f64,
-    /// Displacement of its tip (nm), lab frame.
+    /// Displacement of the tip of filament 0 (nm, lab frame).
     tip: Vector3,
 }
 
-/// Draws a relation and a scene, and holds the runs against each other.
+/// Draws a relation and a scene, and compares the runs.
 pub(super) fn compare(case: &mut Case<'_>) -> Result<Tally, String> {
     type Relation = fn(&mut Case<'_>) -> Result<Tally, String>;
     const RELATIONS: [Relation; 8] = [
@@ -45,7 +42,6 @@ pub(super) fn compare(case: &mut Case<'_>) -> Result<Tally, String> {
     RELATIONS[below(&mut case.random, RELATIONS.len())](case)
 }
 
-/// The same filament elsewhere and turned, under forces turned with it.
 fn moved(case: &mut Case<'_>) -> Result<Tally, String> {
     let random = &mut case.random;
     let draft = Draft::random(random);
@@ -61,7 +57,6 @@ fn moved(case: &mut Case<'_>) -> Result<Tally, String> {
     agree(&one, &two, NEAR).map(|()| once("moved"))
 }
 
-/// The same filament beside another that nothing joins it to.
 fn accompanied(case: &mut Case<'_>) -> Result<Tally, String> {
     let draft = Draft::random(&mut case.random);
     let mut friend = Draft::random(&mut case.random);
@@ -78,7 +73,6 @@ fn accompanied(case: &mut Case<'_>) -> Result<Tally, String> {
     agree(&one, &two, NEAR).map(|()| once("accompanied"))
 }
 
-/// Two loads in the other order, and one of nothing.
 fn listed(case: &mut Case<'_>) -> Result<Tally, String> {
     let mut draft = Draft::random(&mut case.random);
     draft.forces.push(force(&mut case.random));
@@ -88,7 +82,6 @@ fn listed(case: &mut Case<'_>) -> Result<Tally, String> {
     both(case, &draft, &other).map(|()| once("listed otherwise"))
 }
 
-/// A load in two halves.
 fn halved(case: &mut Case<'_>) -> Result<Tally, String> {
     let draft = Draft::random(&mut case.random);
     let mut other = draft.clone();
@@ -96,8 +89,8 @@ fn halved(case: &mut Case<'_>) -> Result<Tally, String> {
     both(case, &draft, &other).map(|()| once("halved"))
 }
 
-/// A load at once, and along a path of stages: of a rod, since monomers of weighted bonds have several
-/// stable states a thousandth of their energy apart, and which of them is found depends on the way.
+/// A load applied at once and along a path of stages, on a rod. Monomers with quadrature bonds have several stable
+/// states with energies a thousandth apart, and the path selects one of them.
 fn staged(case: &mut Case<'_>) -> Result<Tally, String> {
     let draft = Draft::rod(&mut case.random);
     let mut other = draft.clone();
@@ -109,7 +102,7 @@ fn staged(case: &mut Case<'_>) -> Result<Tally, String> {
     both(case, &draft, &other).map(|()| once("staged"))
 }
 
-/// A rod held at its other end, seen from there: half a turn about lab x.
+/// A rod clamped at its other end, rotated by 180 degrees about lab x.
 fn turned_round(case: &mut Case<'_>) -> Result<Tally, String> {
     let draft = Draft::rod(&mut case.random);
     let mut other = draft.clone();
@@ -117,13 +110,12 @@ fn turned_round(case: &mut Case<'_>) -> Result<Tally, String> {
     other.ends = ["End", "Start"];
     other.forces = draft.forces.iter().map(round).collect();
     let one = answer(case, "one", &draft.text())?;
-    // The tip is where arc length ends: here the held end.
+    // The tip is the end of arc length, which is clamped here.
     let two = answer(case, "two", &other.text())?;
     near("energy", one.energy, two.energy, NEAR).map(|()| once("turned round"))
 }
 
-/// A motion recorded half as often: drag over a whole step or twice over half of one is the same but
-/// for rounding.
+/// A motion recorded half as often. Drag over a whole step equals drag over two half steps except for round-off.
 fn recorded(case: &mut Case<'_>) -> Result<Tally, String> {
     let draft = Draft::random(&mut case.random);
     let one = answer(case, "one", &draft.clone().moving(0.01).text())?;
@@ -131,7 +123,6 @@ fn recorded(case: &mut Case<'_>) -> Result<Tally, String> {
     agree(&one, &two, 1e-9).map(|()| once("recorded otherwise"))
 }
 
-/// The scene as resolved, which a run writes, run again: the same bytes.
 fn written(case: &mut Case<'_>) -> Result<Tally, String> {
     let draft = Draft::random(&mut case.random);
     let draft = match below(&mut case.random, 2) {
@@ -145,14 +136,12 @@ fn written(case: &mut Case<'_>) -> Result<Tally, String> {
     same_files(&one, &case.folder.join("two/out")).map(|()| once("written and run again"))
 }
 
-/// Runs both and holds them against each other.
 fn both(case: &Case<'_>, one: &Draft, two: &Draft) -> Result<(), String> {
     let one = answer(case, "one", &one.text())?;
     let two = answer(case, "two", &two.text())?;
     agree(&one, &two, NEAR)
 }
 
-/// Runs a scene in a folder of its own and reads its answer.
 fn answer(case: &Case<'_>, name: &str, text: &str) -> Result<Answer, String> {
     let folder: PathBuf = case.folder.join(name);
     fs::create_dir_all(&folder).map_err(|e| e.to_string())?;
@@ -176,7 +165,6 @@ fn read(path: &Path) -> Option<Answer> {
     })
 }
 
-/// Refuses answers that differ by more than `tolerance`, relative to what is above one.
 fn agree(one: &Answer, two: &Answer, tolerance: f64) -> Result<(), String> {
     near("energy", one.energy, two.energy, tolerance)?;
     near(

@@ -1,4 +1,4 @@
-//! The program under trial: how it is started, interrupted, killed, and how it ends.
+//! The `actin` process: start, signals and end.
 
 use std::fs::{self, File};
 use std::os::unix::process::ExitStatusExt;
@@ -7,36 +7,30 @@ use std::process::{Child, Command};
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 
-/// The `actin` program.
 const PATH: &str = env!("CARGO_BIN_EXE_actin");
 
-/// Between two looks at a process.
 const LOOK: Duration = Duration::from_millis(2);
 
-/// Time within which an interrupted program must have ended, on a busy machine.
+/// Time within which an interrupted process must end.
 const GRACE: Duration = Duration::from_mins(1);
 
-/// How a process ended.
 #[derive(Debug)]
 pub(super) struct Ending {
-    /// Exit code; none after a signal.
+    /// Exit code; `None` after a signal.
     pub(super) code: Option<i32>,
-    /// The signal that ended it, if one did.
+    /// Signal that ended the process.
     pub(super) signal: Option<i32>,
-    /// What it wrote to standard error.
     pub(super) stderr: String,
-    /// Whether it was sent an interrupt for taking long.
+    /// True if the process was interrupted after its time limit.
     pub(super) interrupted: bool,
 }
 
-/// A process that was started.
 #[derive(Debug)]
 pub(super) struct Started {
     child: Child,
     stderr: PathBuf,
 }
 
-/// Starts it in `folder` on so many threads; what it says goes to files there.
 pub(super) fn start(folder: &Path, arguments: &[&str], threads: u32) -> Result<Started, String> {
     let stderr = folder.join("stderr.txt");
     let create = |path: &Path| File::create(path).map_err(|e| e.to_string());
@@ -51,16 +45,16 @@ pub(super) fn start(folder: &Path, arguments: &[&str], threads: u32) -> Result<S
     Ok(Started { child, stderr })
 }
 
-/// Starts it and waits for its end; it is interrupted after `patience`.
+/// Starts a process and waits for its end; interrupts it after `patience`.
 ///
 /// # Errors
-/// An end that is none of those that the program documents.
+/// An undocumented end.
 pub(super) fn finish(
     folder: &Path,
     arguments: &[&str],
     patience: Duration,
 ) -> Result<Ending, String> {
-    // Cases run side by side.
+    // Cases run in parallel.
     let mut started = start(folder, arguments, 1)?;
     let interrupted = !started.wait(patience)?;
     if interrupted {
@@ -76,7 +70,6 @@ pub(super) fn finish(
 }
 
 impl Started {
-    /// Whether it has ended within `patience`.
     pub(super) fn wait(&mut self, patience: Duration) -> Result<bool, String> {
         let clock = Instant::now();
         loop {
@@ -90,7 +83,6 @@ impl Started {
         }
     }
 
-    /// Sends it a signal by name.
     pub(super) fn signal(&self, name: &str) -> Result<(), String> {
         let status = Command::new("kill")
             .args(["-s", name, &self.child.id().to_string()])
@@ -98,13 +90,11 @@ impl Started {
         status.map(drop).map_err(|e| format!("kill: {e}"))
     }
 
-    /// Kills it.
     pub(super) fn kill(&mut self) -> Result<(), String> {
         self.child.kill().map_err(|e| e.to_string())?;
         self.child.wait().map(drop).map_err(|e| e.to_string())
     }
 
-    /// How it ended.
     pub(super) fn ending(mut self, interrupted: bool) -> Result<Ending, String> {
         let status = self.child.wait().map_err(|e| e.to_string())?;
         let stderr = fs::read(&self.stderr).map_err(|e| e.to_string())?;
@@ -118,7 +108,6 @@ impl Started {
 }
 
 impl Ending {
-    /// Refuses signals, panics, undocumented exit codes, and failures without a message.
     fn check(&self, arguments: &[&str]) -> Result<(), String> {
         let shown = || {
             let head: String = self.stderr.chars().take(500).collect();
@@ -129,7 +118,7 @@ impl Ending {
         };
         let documented = matches!(self.code, Some(0 | 2 | 3 | 130));
         let silent = self.code.is_some_and(|code| code != 0) && self.stderr.trim().is_empty();
-        // An interrupt that comes before the handler is there ends it at once, and without a word.
+        // An interrupt before the handler is installed ends the process without a message.
         let early = self.interrupted && self.signal == Some(2);
         if (documented || early) && !silent && !self.stderr.contains("panicked") {
             return Ok(());

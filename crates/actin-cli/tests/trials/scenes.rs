@@ -1,4 +1,4 @@
-//! Scenes of trials: those of the repository, and random ones that are sure to be valid.
+//! Scenes of trials: scenes of the repository, and random valid scenes.
 
 use super::spoil::{below, between, one_of};
 use actin_mechanics::{UnitQuaternion, Vector3};
@@ -7,7 +7,6 @@ use std::fmt::Write;
 use std::fs;
 use std::path::Path;
 
-/// Texts of all scenes below a folder, in the order of their paths.
 pub(super) fn repository(folder: &Path) -> Vec<String> {
     let mut paths: Vec<_> = fs::read_dir(folder)
         .unwrap()
@@ -24,27 +23,24 @@ pub(super) fn repository(folder: &Path) -> Vec<String> {
     texts.collect()
 }
 
-/// A scene in parts that can be changed one by one.
 #[derive(Clone, Debug)]
 pub(super) struct Draft {
-    /// Sections and models of the filament, between the brackets of `Filament(...)`.
     pub(super) filament: String,
-    /// Where the filament is, how it is turned, and its roll (nm, deg).
+    /// Position (nm), direction (lab frame) and roll (deg) of the filament.
     pub(super) at: Vector3,
     pub(super) direction: Vector3,
     pub(super) roll: f64,
     /// Forces on its free end (pN, lab frame).
     pub(super) forces: Vec<Vector3>,
-    /// Which end is held, and which is loaded.
+    /// The clamped and the loaded end.
     pub(super) ends: [&'static str; 2],
-    /// What stands behind the loads: path, linkers, further clamps.
     pub(super) rest: String,
     pub(super) task: String,
 }
 
 impl Draft {
-    /// A filament of 20 to 60 nm, held at its start and loaded at its end by a few pN, so that
-    /// there is one equilibrium only.
+    /// Creates a filament of 20 to 60 nm, clamped at its start and loaded at its end by a few pN, which has only one
+    /// equilibrium.
     pub(super) fn random(random: &mut ChaCha8Rng) -> Self {
         let [a, b] = [between(random, 15.0, 35.0), between(random, 15.0, 25.0)];
         let c = a + b;
@@ -74,7 +70,7 @@ impl Draft {
         }
     }
 
-    /// A rod of constant rigidities, which is the same seen from either end.
+    /// Creates a rod of constant rigidities, which is symmetric under reversal.
     pub(super) fn rod(random: &mut ChaCha8Rng) -> Self {
         let length = between(random, 30.0, 90.0);
         Self {
@@ -83,7 +79,6 @@ impl Draft {
         }
     }
 
-    /// A short motion with drag in place of an equilibrium.
     pub(super) fn moving(mut self, record_every_ns: f64) -> Self {
         self.task = format!(
             "Dynamics(duration_ns: 0.4, time_step_ns: 0.001, record_every_ns: {record_every_ns:?},
@@ -92,7 +87,7 @@ impl Draft {
         self
     }
 
-    /// How the filament lies in the lab: what lab axes become in it.
+    /// Returns the rotation from the lab axes to the axes of the filament.
     pub(super) fn turn(&self) -> UnitQuaternion {
         let lean = UnitQuaternion::rotation_between(&Vector3::z(), &self.direction);
         let lean = lean.unwrap_or_else(|| {
@@ -101,7 +96,6 @@ impl Draft {
         lean * UnitQuaternion::from_axis_angle(&Vector3::z_axis(), self.roll.to_radians())
     }
 
-    /// The scene.
     pub(super) fn text(&self) -> String {
         let [held, loaded] = self.ends;
         let mut loads = String::new();
@@ -111,7 +105,7 @@ impl Draft {
                 "EndForce(end: {loaded}, force_pn: {}), ",
                 triple(force)
             )
-            .expect("a text can be written to");
+            .expect("writing to a string cannot fail");
         }
         format!(
             "Scene(
@@ -128,7 +122,6 @@ impl Draft {
         )
     }
 
-    /// The filament alone.
     pub(super) fn filament_text(&self) -> String {
         format!(
             "Filament({}, at_nm: {}, direction: {}, roll_deg: {:?})",
@@ -140,7 +133,6 @@ impl Draft {
     }
 }
 
-/// A force of up to 3 pN in each direction.
 pub(super) fn force(random: &mut ChaCha8Rng) -> Vector3 {
     Vector3::from_fn(|_, _| between(random, -3.0, 3.0))
 }
@@ -149,7 +141,7 @@ fn triple(v: &Vector3) -> String {
     format!("({:?}, {:?}, {:?})", v.x, v.y, v.z)
 }
 
-/// A motion or a path of equilibria that takes a second or so.
+/// Returns a motion or a path of equilibria with a run time of about a second.
 pub(super) fn long(random: &mut ChaCha8Rng) -> String {
     let draft = Draft::random(random);
     let draft = if below(random, 2) == 0 {

@@ -1,9 +1,9 @@
-//! Ways to spoil the text of a scene.
+//! Corruption of the text of a scene.
 
 use rand::Rng;
 use rand_chacha::ChaCha8Rng;
 
-/// Numbers at and beyond the edges of what scenes may hold, and things that are no numbers.
+/// Numbers at and beyond the limits of scenes, and invalid numbers.
 const NUMBERS: [&str; 20] = [
     "NaN",
     "inf",
@@ -27,7 +27,6 @@ const NUMBERS: [&str; 20] = [
     "\"1\"",
 ];
 
-/// Pieces of scenes and of the language, where they may not belong.
 const PIECES: [&str; 22] = [
     "Rod(",
     "Ellipsoids(",
@@ -53,23 +52,19 @@ const PIECES: [&str; 22] = [
     "é",
 ];
 
-/// A whole number below `end`, which is not zero.
 pub(super) fn below(random: &mut ChaCha8Rng, end: usize) -> usize {
     let wide = random.next_u64() % end.max(1) as u64;
     usize::try_from(wide).expect("it is below a usize")
 }
 
-/// One of `all`.
 pub(super) fn one_of<'a, T: ?Sized>(random: &mut ChaCha8Rng, all: &[&'a T]) -> &'a T {
     all[below(random, all.len())]
 }
 
-/// A number from `low` to `high`.
 pub(super) fn between(random: &mut ChaCha8Rng, low: f64, high: f64) -> f64 {
     low + (high - low) * (random.next_u64() >> 11) as f64 / (1u64 << 53) as f64
 }
 
-/// A text with one to four changes, half of them numbers in place of others.
 pub(super) fn spoil(text: &str, corpus: &[String], random: &mut ChaCha8Rng) -> Vec<u8> {
     let mut bytes = text.as_bytes().to_vec();
     for _ in 0..=below(random, 4) {
@@ -82,7 +77,6 @@ pub(super) fn spoil(text: &str, corpus: &[String], random: &mut ChaCha8Rng) -> V
     bytes
 }
 
-/// A text of which numbers only are changed.
 pub(super) fn other_numbers(text: &str, random: &mut ChaCha8Rng) -> Vec<u8> {
     let mut bytes = text.as_bytes().to_vec();
     for _ in 0..=below(random, 3) {
@@ -91,7 +85,7 @@ pub(super) fn other_numbers(text: &str, random: &mut ChaCha8Rng) -> Vec<u8> {
     bytes
 }
 
-/// Puts another number in the place of one: one of the list, or the same times a power of ten.
+/// Replaces a number by one of the list, or multiplies it by a power of ten.
 fn replace_number(bytes: &mut Vec<u8>, random: &mut ChaCha8Rng) {
     let numbers = numbers(bytes);
     if numbers.is_empty() {
@@ -109,7 +103,7 @@ fn replace_number(bytes: &mut Vec<u8>, random: &mut ChaCha8Rng) {
     bytes.splice(start..end, new.into_bytes());
 }
 
-/// Where numbers stand: digits, points, signs and exponents behind a blank or a bracket.
+/// Returns the positions of numbers: digits, points, signs and exponents after a blank or a bracket.
 fn numbers(bytes: &[u8]) -> Vec<(usize, usize)> {
     let is_part = |b: u8| b.is_ascii_digit() || b".+-eE".contains(&b);
     let mut found = Vec::new();
@@ -126,7 +120,7 @@ fn numbers(bytes: &[u8]) -> Vec<(usize, usize)> {
     found
 }
 
-/// Changes bytes: cuts, pieces, stretches of other scenes, brackets again and again, noise.
+/// Changes bytes: deletes text, inserts fragments, parts of other scenes, repeated brackets or noise.
 fn change(bytes: &mut Vec<u8>, corpus: &[String], random: &mut ChaCha8Rng) {
     let at = below(random, bytes.len() + 1);
     let end = (at + below(random, 80)).min(bytes.len());

@@ -1,4 +1,4 @@
-//! Spoilt scenes: read and run, or refused with their place in the text.
+//! Corrupted scenes: accepted and run, or refused with a position in the text.
 
 use super::program::{self, Ending};
 use super::spoil::{below, other_numbers, spoil};
@@ -8,19 +8,15 @@ use std::fs;
 use std::path::Path;
 use std::time::Duration;
 
-/// Time that a check may take on a busy machine; most take a ten-thousandth of it.
 const CHECKING: Duration = Duration::from_mins(1);
 
-/// Time after which a run is interrupted.
 const RUNNING: Duration = Duration::from_secs(2);
 
-/// Most bodies of a scene that is run: enough for all that the repository holds, few enough for memory.
+/// Largest number of bodies of a scene that is run; above every scene of the repository, and below the memory limit.
 const MOST_BODIES: f64 = 2e4;
 
-/// Most bonds of a scene that is run.
 const MOST_BONDS: f64 = 2e6;
 
-/// A spoilt scene under `actin check`.
 pub(super) fn check(case: &mut Case<'_>) -> Result<Tally, String> {
     let text = spoilt(case);
     write(case.folder, &text)?;
@@ -35,7 +31,6 @@ pub(super) fn check(case: &mut Case<'_>) -> Result<Tally, String> {
     }
 }
 
-/// Refuses a scene that reads differently once it is written.
 fn check_written(text: &[u8]) -> Result<(), String> {
     let read = |text: &str| Scene::from_ron(text).map_err(|e| e.to_string());
     let written = read(&String::from_utf8_lossy(text))?.to_ron();
@@ -45,7 +40,6 @@ fn check_written(text: &[u8]) -> Result<(), String> {
     Err(format!("another scene once written: {written}"))
 }
 
-/// A scene with other numbers under `actin run`.
 pub(super) fn run(case: &mut Case<'_>) -> Result<Tally, String> {
     let which = below(&mut case.random, case.corpus.len());
     let text = other_numbers(&case.corpus[which], &mut case.random);
@@ -64,7 +58,6 @@ pub(super) fn run(case: &mut Case<'_>) -> Result<Tally, String> {
     }
 }
 
-/// A scene of the repository, spoilt.
 fn spoilt(case: &mut Case<'_>) -> Vec<u8> {
     let which = below(&mut case.random, case.corpus.len());
     spoil(&case.corpus[which], case.corpus, &mut case.random)
@@ -74,7 +67,7 @@ fn write(folder: &Path, text: &[u8]) -> Result<(), String> {
     fs::write(folder.join("scene.ron"), text).map_err(|e| e.to_string())
 }
 
-/// Whether a text is a scene of more bodies or bonds than are tried here.
+/// Returns whether a scene has too many bodies or bonds to be run here.
 fn is_large(text: &[u8]) -> bool {
     let Ok(scene) = Scene::from_ron(&String::from_utf8_lossy(text)) else {
         return false;
@@ -97,12 +90,11 @@ fn is_large(text: &[u8]) -> bool {
             }
         }
     }
-    // What is not a number or beyond all memory is refused by the program at once.
+    // Invalid counts, and counts beyond all memory, are refused by the program immediately.
     let tried = |count: f64, most: f64| !(count > most && count < 1e15);
     !(tried(bodies, MOST_BODIES) && tried(bonds, MOST_BONDS))
 }
 
-/// Refuses a message without a line and column within the text.
 fn check_place(ending: &Ending, text: &[u8]) -> Result<(), String> {
     let message = &ending.stderr;
     let place = message.split("scene.ron:").nth(1).unwrap_or_default();
@@ -117,13 +109,12 @@ fn check_place(ending: &Ending, text: &[u8]) -> Result<(), String> {
         .map(|line| line.chars().count());
     match width {
         Some(width) if (1..=width + 1).contains(&column) => Ok(()),
-        // Behind the last line.
+        // After the last line.
         None if line == text.lines().count() + 1 && column == 1 => Ok(()),
         _ => Err(format!("no such place: {message}")),
     }
 }
 
-/// Refuses results with a number that is not finite.
 fn check_results(out: &Path) -> Result<(), String> {
     let read = |name: &str| fs::read_to_string(out.join(name)).map_err(|e| format!("{name}: {e}"));
     let summary = read("summary.json")?;

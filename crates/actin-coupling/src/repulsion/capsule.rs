@@ -1,53 +1,50 @@
-//! A stretch of filament with a round cross-section, and how it follows bodies.
-
 use actin_mechanics::{Coordinates, Loads, Matrix3, State, Vector3};
 use thiserror::Error;
 
-/// Distance of neighbouring points of the axis over the radius, at most.
+/// Largest distance of integration points relative to the radius.
 const SPACING: f64 = 1.0 / 3.0;
 
-/// Bodies that the two ends of a capsule's axis follow.
+/// Bodies that define the ends of the axis of a capsule.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Axis {
-    /// Two points, one at each end.
+    /// Points at the two ends.
     Points([usize; 2]),
-    /// A point and a frame: ends at `x + Q b` with two arms `b` (nm, body frame).
+    /// Point and frame: the ends are `x + Q b` with two arms `b` (nm, body frame).
     Body {
-        /// The point.
+        /// Index of the point.
         point: usize,
-        /// The frame.
+        /// Index of the frame.
         frame: usize,
-        /// The arms of the two ends.
+        /// Arms of the two ends (nm, body frame).
         arms: [Vector3; 2],
     },
 }
 
-/// A straight stretch of the axis of a filament.
+/// Straight segment of the axis of a filament.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Capsule {
     axis: Axis,
-    /// Length at rest (nm).
+    /// Rest length (nm).
     length: f64,
-    /// Which filament, and arc length of its middle (nm).
+    /// Index of the filament and arc length of the middle (nm).
     filament: usize,
     middle: f64,
-    /// Contour (nm) within which it does not touch its own filament.
+    /// Smallest contour distance (nm) of interacting parts of the filament.
     reach: f64,
 }
 
-/// A number of a repulsion that was refused.
+/// Invalid parameter of a repulsion.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[error("{key} = {value}: must be {rule}")]
 pub struct RepulsionError {
-    /// Which number.
+    /// Name of the parameter.
     pub key: &'static str,
-    /// What it was.
+    /// Rejected value.
     pub value: f64,
-    /// What it must be.
+    /// Violated rule.
     pub rule: &'static str,
 }
 
-/// Refuses a number that is not positive and finite.
 pub(super) fn positive(key: &'static str, value: f64) -> Result<(), RepulsionError> {
     let rule = "positive and finite";
     if value.is_finite() && value > 0.0 {
@@ -57,10 +54,11 @@ pub(super) fn positive(key: &'static str, value: f64) -> Result<(), RepulsionErr
 }
 
 impl Capsule {
-    /// A capsule of a filament, with its length at rest and the arc length of its middle (nm).
+    /// Creates a capsule with its rest length (nm), the index of the filament and the arc length of
+    /// the middle (nm).
     ///
     /// # Errors
-    /// A length that is not positive and finite.
+    /// If the length is not positive and finite.
     pub fn new(
         axis: Axis,
         length: f64,
@@ -76,33 +74,34 @@ impl Capsule {
         })
     }
 
-    /// The same where bonds or bending couple its filament over a contour (nm): within it the two do not repel.
+    /// Excludes repulsion within a contour distance (nm), over which bonds or bending couple the
+    /// filament.
     #[must_use]
     pub fn with_reach(self, reach: f64) -> Self {
         Self { reach, ..self }
     }
 
-    /// Whether two may touch: of one filament they are as far apart along it as each asks, and `apart` (nm).
+    /// Returns `true` if the contour distance exceeds `apart` (nm) and the limits of both capsules.
     pub(super) fn may_touch(&self, other: &Self, apart: f64) -> bool {
         self.contour_between(other) >= apart.max(self.reach).max(other.reach)
     }
 
-    /// The filament that it belongs to.
+    /// Index of the filament.
     pub fn filament(&self) -> usize {
         self.filament
     }
 
-    /// Arc length of its middle (nm).
+    /// Arc length of the middle (nm).
     pub fn middle(&self) -> f64 {
         self.middle
     }
 
-    /// Length at rest (nm).
+    /// Rest length (nm).
     pub fn length(&self) -> f64 {
         self.length
     }
 
-    /// Length of filament between two capsules of one filament (nm); infinite between filaments.
+    /// Contour distance of two capsules (nm); infinite for different filaments.
     pub(super) fn contour_between(&self, other: &Self) -> f64 {
         if self.filament != other.filament {
             return f64::INFINITY;
@@ -110,7 +109,7 @@ impl Capsule {
         (self.middle - other.middle).abs() - 0.5 * (self.length + other.length)
     }
 
-    /// The ends of its axis (nm, lab frame).
+    /// Ends of the axis (nm, lab frame).
     pub fn ends(&self, state: &State) -> [Vector3; 2] {
         let x = &state.points.position;
         match self.axis {
@@ -122,7 +121,6 @@ impl Capsule {
         }
     }
 
-    /// A body that it follows.
     pub(super) fn body(&self) -> Coordinates {
         match self.axis {
             Axis::Points([first, _]) => Coordinates::Point(first),
@@ -130,7 +128,7 @@ impl Capsule {
         }
     }
 
-    /// Adds what forces at the two ends (pN, lab frame) do to the bodies.
+    /// Adds the loads of forces at the two ends (pN, lab frame).
     pub(super) fn add_forces(&self, forces: [Vector3; 2], state: &State, loads: &mut Loads) {
         match self.axis {
             Axis::Points(points) => {
@@ -149,7 +147,6 @@ impl Capsule {
         }
     }
 
-    /// The two bodies, each with the derivatives of the two ends by its coordinates.
     pub(super) fn slopes(&self, state: &State) -> [(Coordinates, [Matrix3; 2]); 2] {
         let (unit, zero) = (Matrix3::identity(), Matrix3::zeros());
         match self.axis {
@@ -168,8 +165,9 @@ impl Capsule {
         }
     }
 
-    /// The second derivative, by the turn of its frame, of the work `g0 . r0 + g1 . r1` of fixed
-    /// vectors at the ends: `(c b^T + b c^T) / 2 - (c . b) 1` with `c = Q^T g`; none without a frame.
+    /// Second derivative of the work `g0 . r0 + g1 . r1` of constant vectors at the ends with
+    /// respect to the rotation of the frame: `(c b^T + b c^T) / 2 - (c . b) 1` with `c = Q^T g`.
+    /// `None` without a frame.
     pub(super) fn curvature_of_work(
         &self,
         g: [Vector3; 2],
@@ -188,17 +186,16 @@ impl Capsule {
     }
 }
 
-/// Points of a capsule's axis, evenly spaced, each standing for the same length.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Row {
-    /// How many there are.
+    /// Number of points.
     pub(super) count: usize,
-    /// What each stands for (nm).
+    /// Length per point (nm).
     pub(super) weight: f64,
 }
 
 impl Row {
-    /// The points of a capsule of a radius (nm).
+    /// Integration points for a radius (nm).
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,
@@ -212,7 +209,6 @@ impl Row {
         }
     }
 
-    /// Where point `k` is, as a share of the length.
     pub(super) fn share(&self, k: usize) -> f64 {
         (k as f64 + 0.5) / self.count as f64
     }
@@ -222,7 +218,6 @@ impl Row {
 mod tests {
     use super::*;
 
-    /// Parts of a filament touch from its own reach on, whatever other filaments ask for.
     #[test]
     fn each_filament_has_its_own_reach() {
         let capsule = |filament: usize, middle: f64, reach: f64| {

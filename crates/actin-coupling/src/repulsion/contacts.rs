@@ -1,5 +1,3 @@
-//! Capsules that repel each other, as an interaction.
-
 use super::capsule::{Capsule, RepulsionError, Row, positive};
 use super::distance;
 use super::kernel::Kernel;
@@ -9,39 +7,43 @@ use actin_mechanics::{Coordinates, Interaction, Loads, Matrix3, SecondOrder, Sta
 use std::f64::consts::PI;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-/// What is looked beyond contact so that a list of neighbours lasts, in radii.
+/// Skin of the neighbour list, in radii.
 const SKIN: f64 = 1.0;
-/// Distance from contact within which two capsules are in the pattern of the stiffness, in radii.
+/// Distance from contact within which pairs are part of the stiffness, in radii.
 const MARGIN: f64 = 0.25;
-/// Distance of two axes, over the radius, that no step may lead across: half of that at which a crossing
-/// ceases to be pushed back more the nearer it is.
+/// Axis distance over the radius below which a step counts as a crossing: half the distance of the
+/// largest force.
 const IMPASSABLE: f64 = Kernel::YIELD;
-/// Neighbours that press on a filament from all sides: of six in a bundle half of what they resist is
-/// along one direction.
+/// Effective number of neighbours that press on a filament: half of six in a bundle act along one
+/// direction.
 const PRESSING: f64 = 3.0;
 
-/// What contacts are like.
+/// Parameters of contacts.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ContactParameters {
-    /// Radius of every filament (nm): axes repel each other within twice of it.
+    /// Radius of all filaments (nm).
     pub radius: f64,
-    /// Greatest stiffness of two filaments that cross at a right angle (pN/nm).
+    /// Largest stiffness of two perpendicular filaments (pN/nm).
     pub stiffness: f64,
-    /// Length of filament (nm) from which on parts of one repel each other; at least that of the half
-    /// circle of a hairpin whose sides touch, `pi` radii.
+    /// Smallest contour distance (nm) of interacting parts of one filament, at least `pi` radii:
+    /// the half circle of a closed hairpin.
     pub apart: f64,
 }
 
-/// Repulsion between capsules of different filaments, and of parts of one that are apart along it: term
-/// `repulsion`, one element for each capsule, which has half the energy of each of its contacts.
+/// Repulsion between capsules: term `repulsion`, one element per capsule with half the energy of
+/// each of its contacts. Parts of one filament interact beyond a contour distance.
 ///
-/// `E = sum w_a w_b e (1 - r_ab^2/D^2)^4` over points of both axes that are less than `D`, two radii,
-/// apart; each stands for the length `w` (nm). With `k` the `stiffness`, `e = 27 k / (32 pi)`. Two
-/// filaments that cross at a right angle at a distance `d` repel each other with `2 pi e d q^4`,
-/// `q = 1 - d^2/D^2`: with `0.351 k D` at most, at `d = D/3`, behind which they would pass through each
-/// other. Forces act along the lines between points: momentum and angular momentum stay as they are.
+/// ```text
+/// E = sum_ab w_a w_b e (1 - r_ab^2/D^2)^4,   e = 27 k / (32 pi)
+/// ```
 ///
-/// Loads allocate memory only when filaments have moved by a radius since neighbours were last looked for.
+/// The sum runs over pairs of points at distances `r_ab < D`. `D` is two radii (nm), `w` the length
+/// per point (nm) and `k` the `stiffness` (pN/nm). The force of two perpendicular filaments at
+/// distance `d` is `2 pi e d q^4` with `q = 1 - d^2/D^2`. Its maximum `0.351 k D` is at `d = D/3`;
+/// a larger load makes filaments pass through each other. Forces are central and conserve momentum
+/// and angular momentum.
+///
+/// Loads allocate memory only when the neighbour list is updated.
 #[derive(Debug)]
 pub struct Contacts {
     capsules: Vec<Capsule>,
@@ -63,28 +65,28 @@ impl Clone for Contacts {
     }
 }
 
-/// How far two surfaces are apart where they are nearest.
+/// Smallest distance of two surfaces.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Gap {
-    /// Distance of the surfaces (nm); negative where one is in the other.
+    /// Distance of the surfaces (nm); negative for overlap.
     pub gap: f64,
-    /// The capsules, by their indices; of a wall the second is the first again.
+    /// Indices of the capsules, equal for contact with a wall.
     pub capsules: [usize; 2],
-    /// Arc lengths there (nm).
+    /// Arc lengths of the nearest points (nm).
     pub places: [f64; 2],
 }
 
 impl Contacts {
-    /// Contacts between `capsules`.
+    /// Creates the contacts of all capsules.
     ///
     /// # Errors
-    /// A radius, a stiffness or a length that is not positive and finite, or a length below `pi` radii.
+    /// If a radius, stiffness or length is not positive and finite, or `apart` is below `pi` radii.
     ///
     /// ```
     /// use actin_coupling::repulsion::{Axis, Capsule, ContactParameters, Contacts};
     /// use actin_coupling::{Interaction, Loads, Point, State, Vector3};
     /// let mut state = State::default();
-    /// // Two stretches of 20 nm that cross at a right angle, 5 nm apart.
+    /// // Two pieces of 20 nm that cross at a right angle at a distance of 5 nm.
     /// let ends = [(10.0, 0.0, 0.0), (-10.0, 0.0, 0.0), (0.0, 10.0, 5.0), (0.0, -10.0, 5.0)];
     /// let points = ends.map(|(x, y, z)| {
     ///     state.points.push(Point { position: Vector3::new(x, y, z), mass: 1.0 })
@@ -134,28 +136,28 @@ impl Contacts {
         })
     }
 
-    /// The capsules.
+    /// Capsules of all filaments.
     pub fn capsules(&self) -> &[Capsule] {
         &self.capsules
     }
 
-    /// Number of pairs of capsules whose distance is computed in each evaluation of the loads, near `state`.
+    /// Number of pairs in the neighbour list of `state`.
     pub fn pairs(&self, state: &State) -> usize {
         self.neighbours(state).pairs.len()
     }
 
-    /// Depth over the distance of contact, two radii, at which the force of a crossing is greatest.
+    /// Depth over the contact distance, two radii, at the largest force of perpendicular filaments.
     pub fn yield_depth() -> f64 {
         1.0 - Kernel::YIELD
     }
 
-    /// What contacts can stiffen a filament by per length (pN/nm^2), with neighbours pressed against it
-    /// on all sides that move the opposite way.
+    /// Upper bound of the contact stiffness of a filament per length (pN/nm^2), for neighbours on
+    /// all sides that move in the opposite direction.
     pub fn greatest_stiffness(&self) -> f64 {
         2.0 * PRESSING * self.kernel.greatest_parallel()
     }
 
-    /// Where surfaces are nearest; none if none are within a quarter of a radius.
+    /// Smallest gap, or `None` if all gaps exceed a quarter of a radius.
     pub fn closest(&self, state: &State) -> Option<Gap> {
         let mut least: Option<Gap> = None;
         let known = self.neighbours(state);
@@ -180,7 +182,6 @@ impl Contacts {
         least
     }
 
-    /// The neighbours in a state.
     fn neighbours(&self, state: &State) -> MutexGuard<'_, Neighbours> {
         let locked = self.neighbours.lock();
         let mut neighbours = locked.unwrap_or_else(PoisonError::into_inner);
@@ -188,8 +189,6 @@ impl Contacts {
         neighbours
     }
 
-    /// Goes through the pairs of capsules whose axes are nearer than `within`, in the order of their
-    /// indices.
     fn visit(&self, state: &State, within: f64, mut visit: impl FnMut([usize; 2], &Pair)) {
         let known = self.neighbours(state);
         for &[i, j] in &known.pairs {
@@ -235,9 +234,8 @@ impl Interaction for Contacts {
         Some(self)
     }
 
-    /// Axes that come within a third of a radius of each other pass through each other: they are far
-    /// behind where they would have been pushed back. Of two that are nearer already, those do that
-    /// come nearer still.
+    /// Two axes that come within a third of a radius pass through each other. If they are closer
+    /// already, any further approach counts.
     fn passes_through(&self, from: &State, to: &State) -> Option<Coordinates> {
         let later: Vec<_> = self.capsules.iter().map(|c| c.ends(to)).collect();
         let limits = (&self.reach, IMPASSABLE * self.radius);
@@ -248,8 +246,8 @@ impl Interaction for Contacts {
 }
 
 impl SecondOrder for Contacts {
-    /// The pairs are those whose surfaces are within a quarter of a radius of contact in this very state,
-    /// so that they change before their blocks cease to be zero.
+    /// The pattern contains all pairs with gaps below a quarter of a radius, so that it changes
+    /// only where blocks are zero.
     fn add_stiffness(&self, state: &State, stiffness: &mut Stiffness) {
         self.visit(state, self.reach.known, |[i, j], places| {
             let tangents = places.tangents(&self.kernel);
@@ -268,10 +266,10 @@ impl SecondOrder for Contacts {
     }
 }
 
-/// A body, the index of the first of the two ends that follow it, and their derivatives.
+/// Index of the first end, body, and derivatives of the two ends.
 type Follows = (usize, (Coordinates, [Matrix3; 2]));
 
-/// Pushes `J^T K J` for each pair of bodies once.
+/// Adds `J^T K J` for each pair of bodies once.
 fn push_blocks(bodies: &[Follows; 4], tangents: &[[Matrix3; 4]; 4], stiffness: &mut Stiffness) {
     for (k, &(first, (a, slopes_a))) in bodies.iter().enumerate() {
         for &(second, (b, slopes_b)) in &bodies[k..] {

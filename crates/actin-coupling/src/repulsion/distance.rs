@@ -1,15 +1,13 @@
-//! The least distance between two straight stretches.
-
 use actin_mechanics::Vector3;
 
-/// Where two stretches are nearest: the square of the distance, and the places as shares of each.
+/// Squared distance and relative positions of the nearest points.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Nearest {
     pub(super) squared: f64,
     pub(super) shares: [f64; 2],
 }
 
-/// The share of a stretch at which it is nearest to `x`, and the square of the distance there.
+/// Relative position of the point of a line segment nearest to `x`, and the squared distance.
 pub(super) fn to_point([start, end]: [Vector3; 2], x: Vector3) -> (f64, f64) {
     let along = end - start;
     let length2 = along.norm_squared();
@@ -21,10 +19,16 @@ pub(super) fn to_point([start, end]: [Vector3; 2], x: Vector3) -> (f64, f64) {
     (share, (start + along * share - x).norm_squared())
 }
 
-/// Where two stretches are nearest to each other: at an end of one of them, or where a line across both
-/// meets them. With `u`, `v` their vectors and `w` from the start of the second to that of the first, the
-/// latter has the shares `(b e - c d)/(a c - b^2)` and `(a e - b d)/(a c - b^2)`, where `a = u.u`,
-/// `b = u.v`, `c = v.v`, `d = u.w`, `e = v.w`.
+/// Nearest points of two line segments: an end of one of them, or the feet of the common
+/// perpendicular.
+///
+/// ```text
+/// (b e - c d) / (a c - b^2),   (a e - b d) / (a c - b^2)
+/// ```
+///
+/// These are the relative positions of the feet, with `a = u.u`, `b = u.v`, `c = v.v`, `d = u.w`
+/// and `e = v.w` for the direction vectors `u`, `v` and the vector `w` from the second to the first
+/// start.
 pub(super) fn between(first: [Vector3; 2], second: [Vector3; 2]) -> Nearest {
     let mut nearest = Nearest {
         squared: f64::INFINITY,
@@ -52,7 +56,7 @@ pub(super) fn between(first: [Vector3; 2], second: [Vector3; 2]) -> Nearest {
     let (d, e) = (u.dot(&w), v.dot(&w));
     let determinant = a * c - b * b;
     let shares = [(b * e - c * d) / determinant, (a * e - b * d) / determinant];
-    // Of parallel stretches, where these are no numbers, an end of one is as near.
+    // For parallel segments these are not finite, and an end is nearest.
     if shares.iter().all(|share| (0.0..=1.0).contains(share)) {
         let apart = w + u * shares[0] - v * shares[1];
         offer(apart.norm_squared(), shares);
@@ -71,8 +75,8 @@ mod tests {
             .fold(f64::INFINITY, f64::min)
     }
 
-    /// Crossing, parallel, along one line, at an end, a point, and a thousand at random: never more than
-    /// the least of 4e4 distances, and less by no more than their spacing allows.
+    /// Crossing, parallel, collinear, degenerate and random segments against the smallest of 4e4
+    /// distances.
     #[test]
     fn nearest_places_are_the_nearest() {
         let mut noise = actin_mechanics::Xorshift::new(3);

@@ -1,26 +1,29 @@
-//! How energy goes with distance.
-
 use actin_mechanics::{Matrix3, Vector3};
 use std::f64::consts::PI;
 
-/// Energy of two points of axes at a distance `r`, per length of both: `e (1 - r^2/D^2)^4` within the
-/// distance of contact `D`.
+/// Energy of two points at distance `r` within the contact distance `D`, per length of both axes:
 ///
-/// Three derivatives are continuous, so that integrators of order four keep their order and Newton's
-/// tangent has no jumps. Two straight axes that cross at a right angle at a distance `d`, with
-/// `q = 1 - d^2/D^2`, have the energy `pi e D^2 q^5 / 5`, the force `2 pi e d q^4`, greatest at `d = D/3`,
-/// and the stiffness `2 pi e q^3 (9 d^2/D^2 - 1)`, which is greatest at `d = D/sqrt(3)`: `32 pi e / 27`. Two that are
-/// parallel have, per length, the energy `256/315 e D q^4.5`.
+/// ```text
+/// e (1 - r^2/D^2)^4
+/// ```
+///
+/// Three derivatives are continuous, as required by integrators of order four and Newton's method.
+/// For two straight axes at distance `d`, with `q = 1 - d^2/D^2`:
+///
+/// - Crossing at a right angle: energy `pi e D^2 q^5 / 5`, force `2 pi e d q^4` with its maximum at
+///   `d = D/3`, stiffness `2 pi e q^3 (9 d^2/D^2 - 1)` with the maximum `32 pi e / 27` at
+///   `d = D/sqrt(3)`.
+/// - Parallel: energy per length `256/315 e D q^4.5`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Kernel {
-    /// `e` (pN/nm).
+    /// Energy scale `e` (pN/nm).
     strength: f64,
-    /// `D` (nm).
+    /// Contact distance `D` (nm).
     pub(super) reach: f64,
 }
 
 impl Kernel {
-    /// The kernel that makes two axes crossing at a right angle at most as stiff as this (pN/nm).
+    /// Creates a kernel with the given largest stiffness of perpendicular axes (pN/nm).
     pub(super) fn new(stiffness: f64, reach: f64) -> Self {
         Self {
             strength: 27.0 * stiffness / (32.0 * PI),
@@ -28,34 +31,34 @@ impl Kernel {
         }
     }
 
-    /// Share of `D` below which the force of crossing axes falls again.
+    /// Distance over `D` at which the force of perpendicular axes is largest.
     pub(super) const YIELD: f64 = 1.0 / 3.0;
 
-    /// The stiffness per length of two parallel axes where it is greatest, `d^2 = 3/8 D^2`:
-    /// `2304/315 (5/8)^2.5 2 e / D` (pN/nm^2).
+    /// Largest stiffness per length of parallel axes, at `d^2 = 3/8 D^2` (pN/nm^2):
+    /// `2304/315 (5/8)^2.5 2 e / D`.
     pub(super) fn greatest_parallel(&self) -> f64 {
         2304.0 / 315.0 * 0.625_f64.powf(2.5) * 2.0 * self.strength / self.reach
     }
 
-    /// `1 - r^2/D^2`; nothing acts where it is not positive.
+    /// Depth `1 - r^2/D^2`, positive in contact.
     #[inline]
     pub(super) fn depth(&self, d: Vector3) -> f64 {
         1.0 - d.norm_squared() / (self.reach * self.reach)
     }
 
-    /// Energy per squared length (pN/nm) at a depth.
+    /// Energy per squared length (pN/nm).
     #[inline]
     pub(super) fn energy(&self, depth: f64) -> f64 {
         self.strength * (depth * depth) * (depth * depth)
     }
 
-    /// Force per squared length over distance (pN/nm^3) that drives the ends of `d` apart.
+    /// Repulsive force per squared length over distance (pN/nm^3).
     #[inline]
     pub(super) fn force_over_distance(&self, depth: f64) -> f64 {
         8.0 * self.strength / (self.reach * self.reach) * depth * depth * depth
     }
 
-    /// Second derivative by `d`, per squared length (pN/nm^3).
+    /// Second derivative with respect to `d`, per squared length (pN/nm^3).
     #[inline]
     pub(super) fn tangent(&self, depth: f64, d: Vector3) -> Matrix3 {
         let scale = 8.0 * self.strength / (self.reach * self.reach) * depth * depth;
@@ -64,14 +67,15 @@ impl Kernel {
     }
 }
 
-/// Energy of a point of an axis whose surface is pressed into a wall by `p`, per length:
-/// `k p^4 / (24 R^3)`. A stretch as long as it is thick has the stiffness `k` when its axis comes to
-/// lie in the wall's surface. Three derivatives are continuous.
+/// Energy per length of a point of an axis with penetration depth `p`: `k p^4 / (24 R^3)`.
+///
+/// A piece of length `2 R` whose axis is in the surface of the wall has the stiffness `k`. Three
+/// derivatives are continuous.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct WallKernel {
-    /// `k` (pN/nm).
+    /// Stiffness `k` (pN/nm).
     stiffness: f64,
-    /// `R` (nm).
+    /// Radius `R` (nm).
     pub(super) radius: f64,
 }
 

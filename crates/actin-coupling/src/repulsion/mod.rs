@@ -1,17 +1,15 @@
-//! Repulsion of filaments by one another and by walls, without a rule of when they touch.
+//! Repulsion between filaments and with walls, without a contact criterion.
 //!
-//! A filament is a string of [`Capsule`]s along its axis: the segments of a rod, and of each monomer the
-//! stretch of axis that it stands for, so that a surface is the same whatever resolves it. [`Contacts`]
-//! repels capsules from each other, a [`WallContact`] from a plane or a sphere. [`Tethers`] are as stiff as
-//! any contact can be: a time step that is stable with them is stable in contact.
+//! The axis of a filament is divided into [`Capsule`]s: segments of a rod, or the axial part of
+//! each monomer. Both resolutions thus have the same surface. [`Contacts`] repels capsules from
+//! each other, and [`WallContact`] repels capsules from a plane or a sphere. [`Tethers`] has the
+//! largest possible contact stiffness, as a bound for the time step.
 //!
-//! # Why the axis is integrated over
-//! The least distance of two capsules has no second derivative where they are parallel and where the
-//! nearest point comes to an end of one. Both happen all the time in a bundle. Here the energy is a sum
-//! over points of both axes, a third to a half of a radius apart, each standing for its length: it is as
-//! smooth as its kernel, which has three derivatives that are continuous, and it does not depend on how
-//! the axes are divided as long as these points are near each other. Least distances only select what is
-//! summed and say how far surfaces are apart.
+//! # Integration along axes
+//! The smallest distance of two capsules has no second derivative for parallel capsules or nearest
+//! points at an end. The energy is therefore a sum over points of both axes, spaced by a third of a
+//! radius or less. It has the three continuous derivatives of the kernel, and is nearly independent
+//! of the division into capsules.
 
 mod capsule;
 mod contacts;

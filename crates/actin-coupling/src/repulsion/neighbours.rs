@@ -1,5 +1,3 @@
-//! Which capsules are near each other: found with an R*-tree, kept until one of them has moved.
-
 use super::Capsule;
 use super::distance;
 use super::passing::comes_within;
@@ -7,41 +5,40 @@ use actin_mechanics::{State, Vector3};
 use rstar::primitives::{GeomWithData, Rectangle};
 use rstar::{AABB, RTree};
 
-/// Coordinates beyond this (nm) have no neighbours: a motion that has exploded.
+/// Limit of coordinates (nm) for the detection of divergent motions.
 const FARTHEST: f64 = 1e12;
 
-/// How far around contact is looked.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Reach {
-    /// Distance of axes (nm) within which every pair is known at all times.
+    /// Distance of axes (nm) within which the list is complete.
     pub(super) known: f64,
-    /// What is looked beyond it (nm) so that a list lasts.
+    /// Additional distance (nm) that extends the validity of the list.
     pub(super) skin: f64,
-    /// Length of filament (nm) from which on parts of one repel each other.
+    /// Smallest contour distance (nm) of interacting parts of one filament.
     pub(super) apart: f64,
 }
 
-/// Pairs of near capsules, and where all of them are.
+/// Neighbour list and current axes.
 ///
-/// A memory, not a state: it holds at least the pairs within reach, and who reads it selects again by
-/// distance. What is computed with it therefore does not depend on when it was made.
+/// The list contains all pairs within `known`. Users select again by distance, so that results do
+/// not depend on the time of the last update.
 #[derive(Debug, Default)]
 pub(super) struct Neighbours {
-    /// Pairs, the lesser index first, sorted.
+    /// Pairs with ascending indices, sorted.
     pub(super) pairs: Vec<[usize; 2]>,
-    /// Ends of all axes in the present state (nm, lab frame).
+    /// Current ends of all axes (nm, lab frame).
     pub(super) ends: Vec<[Vector3; 2]>,
-    /// The same when the pairs were found.
+    /// Ends of all axes when the list was built.
     found_at: Vec<[Vector3; 2]>,
 }
 
 impl Neighbours {
-    /// Takes over the places of a state, and finds the pairs again if that is needed.
+    /// Updates the axes, and the list if a capsule has moved by more than half the skin.
     pub(super) fn update(&mut self, capsules: &[Capsule], state: &State, reach: &Reach) {
         self.ends.clear();
         let ends = capsules.iter().map(|capsule| capsule.ends(state));
         self.ends.extend(ends);
-        // Two that move towards each other do so by twice as much.
+        // Two capsules can approach each other at twice this distance.
         let limit = 0.5 * reach.skin;
         let is_near = |([a, b], [c, d]): (&[Vector3; 2], &[Vector3; 2])| {
             let limit2 = limit * limit;
@@ -66,8 +63,7 @@ impl Neighbours {
         self.found_at.clone_from(&self.ends);
     }
 
-    /// The first two capsules that come within `least` (nm) of each other, or nearer than they are, on the
-    /// straight way from the present places of all to `later` ones.
+    /// First pair that comes within `least` (nm), or closer than now, on straight paths to `later`.
     pub(super) fn first_passing(
         &self,
         capsules: &[Capsule],
@@ -86,7 +82,7 @@ impl Neighbours {
                 [i, j].map(|k| later[k]),
             )
         };
-        // Whatever can meet in a short step is near already.
+        // All possible pairs of a short step are in the list.
         if 2.0 * farthest + least <= reach.known {
             return self.pairs.iter().copied().find(passes);
         }
@@ -98,7 +94,6 @@ impl Neighbours {
     }
 }
 
-/// A box with edges along the axes.
 #[derive(Clone, Copy, Debug)]
 struct Bounds {
     lower: Vector3,
@@ -106,7 +101,6 @@ struct Bounds {
 }
 
 impl Bounds {
-    /// That about a stretch.
     fn around([a, b]: &[Vector3; 2]) -> Self {
         Self {
             lower: a.inf(b),
@@ -114,7 +108,6 @@ impl Bounds {
         }
     }
 
-    /// That about both.
     fn with(&self, other: &Self) -> Self {
         Self {
             lower: self.lower.inf(&other.lower),
@@ -122,13 +115,11 @@ impl Bounds {
         }
     }
 
-    /// Whether it is where a motion that has not exploded can be.
     fn is_near(&self) -> bool {
         self.lower.amax() < FARTHEST && self.upper.amax() < FARTHEST
     }
 }
 
-/// Pairs of capsules that may touch and whose boxes come within a distance of each other, sorted.
 fn meeting(boxes: &[Bounds], capsules: &[Capsule], apart: f64, within: f64) -> Vec<[usize; 2]> {
     let near = || boxes.iter().enumerate().filter(|(_, b)| b.is_near());
     let leaves = near().map(|(i, b)| {

@@ -1,18 +1,15 @@
-//! Two capsules: the sum over the points of both axes.
-
 use super::capsule::Row;
 use super::kernel::Kernel;
 use actin_mechanics::{Matrix3, Vector3};
 
-/// Two capsules as they stand: ends and points of the axis of each.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Pair {
     pub(super) ends: [[Vector3; 2]; 2],
     pub(super) rows: [Row; 2],
 }
 
-/// Two points in contact: from the first to the second, depth, shares along their capsules, and the
-/// product of the lengths that they stand for.
+/// Two points in contact: vector from first to second, depth, relative positions along the
+/// capsules, and product of their lengths.
 struct Touch {
     d: Vector3,
     depth: f64,
@@ -21,8 +18,7 @@ struct Touch {
 }
 
 impl Pair {
-    /// Goes through all points that are in contact, those of the first in order, with each those of the
-    /// second in order.
+    /// Visits all pairs of points in contact, in order of the first and then of the second index.
     #[inline]
     fn touches(&self, kernel: &Kernel, mut visit: impl FnMut(&Touch)) {
         let [[a0, a1], [b0, b1]] = self.ends;
@@ -34,7 +30,7 @@ impl Pair {
             let share = row.share(k);
             let x = a0 + along_a * share;
             let start = x - b0;
-            // Of the second axis the stretch within reach.
+            // Part of the second axis within the contact distance.
             let middle = start.dot(&along_b) / length2;
             let across = start.norm_squared() - middle * middle * length2;
             let half = ((kernel.reach * kernel.reach - across) / length2).sqrt();
@@ -66,7 +62,7 @@ impl Pair {
         energy
     }
 
-    /// Forces on the two ends of each (pN, lab frame).
+    /// Forces on the two ends of both capsules (pN, lab frame).
     pub(super) fn forces(&self, kernel: &Kernel) -> [[Vector3; 2]; 2] {
         let mut forces = [[Vector3::zeros(); 2]; 2];
         self.touches(kernel, |t| {
@@ -80,7 +76,6 @@ impl Pair {
         forces
     }
 
-    /// Second derivatives by the four ends, those of the first capsule first.
     pub(super) fn tangents(&self, kernel: &Kernel) -> [[Matrix3; 4]; 4] {
         let mut blocks = [[Matrix3::zeros(); 4]; 4];
         self.touches(kernel, |t| {
@@ -97,8 +92,8 @@ impl Pair {
     }
 }
 
-/// Those of `count` points at 0.5, 1.5, 2.5 ... that lie between two places; one more on either side, since
-/// places are rounded. None if the places are no numbers, as where nothing is within reach.
+/// Indices of points at 0.5, 1.5, 2.5 ... between two positions, extended by one on each side for
+/// rounding. Empty if the positions are not numbers.
 #[expect(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,

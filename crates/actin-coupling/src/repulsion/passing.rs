@@ -1,25 +1,21 @@
-//! Whether straight stretches pass through each other on the way from one place to another.
-
 use super::distance;
 use actin_mechanics::Vector3;
 
-/// The two ends of a stretch.
 pub(super) type Ends = [Vector3; 2];
 
-/// Stretches that begin nearer than they may come must stay as far apart as this share of their distance.
+/// Lines that start within the limit must keep this fraction of their distance.
 const STAY: f64 = 0.99;
-/// Share of the distance to be kept within which two count as being there.
+/// Relative tolerance of the limit.
 const CLOSE: f64 = 1e-3;
-/// Most steps in which a way is gone: of stretches that slide along each other, all but touching, it is
-/// not known whether they pass.
+/// Maximum number of steps. Longer searches occur for lines that slide along each other.
 const STEPS: usize = 10_000;
 
-/// Whether two stretches, whose ends move straight and evenly from one place to another, come within
-/// `least` (nm) of each other on the way, or, of two that begin nearer, nearer still. Of two that begin
-/// on each other it is not known who is on which side: they do not.
+/// Returns `true` if two lines with uniformly moving ends come within `least` (nm). For lines that
+/// start within `least`, the limit is `STAY` times the initial distance. Lines that start in
+/// contact return `false`.
 ///
-/// No two points of them come closer in a time than their ends can: the way is gone in steps of which each
-/// leads at most to where they could meet.
+/// The distance of two lines changes at most as fast as their ends approach. Each step advances to
+/// the earliest possible contact.
 pub(super) fn comes_within(least: f64, from: [Ends; 2], to: [Ends; 2]) -> bool {
     let moved = [0, 1].map(|k| [to[k][0] - from[k][0], to[k][1] - from[k][1]]);
     let [a, b] = moved;
@@ -29,7 +25,7 @@ pub(super) fn comes_within(least: f64, from: [Ends; 2], to: [Ends; 2]) -> bool {
     let least = least.min(STAY * start);
     let mut gone = (start - least) / approach;
     for _ in 0..STEPS {
-        // Written so that stretches that do not move, or are no numbers, do not come near.
+        // This form excludes lines at rest and positions that are not numbers.
         let is_on_the_way = gone <= 1.0;
         if !is_on_the_way {
             return false;
@@ -49,8 +45,6 @@ mod tests {
     use super::*;
     use actin_mechanics::Xorshift;
 
-    /// Against the least distance at many moments: what comes nearer than that is found, what stays
-    /// farther by more than the tolerance and the way between two moments is not.
     #[test]
     fn finds_what_sampling_finds() {
         let mut noise = Xorshift::new(8);
@@ -80,15 +74,14 @@ mod tests {
         assert!(found.iter().all(|&n| n > 40), "{found:?}");
     }
 
-    /// Two that pass through each other in one step are as far apart behind it as before.
     #[test]
-    fn finds_what_both_ends_hide() {
+    fn finds_a_crossing_within_one_step() {
         let (x, y, z) = (Vector3::x(), Vector3::y(), Vector3::z());
         let still = [-x, x];
         let above = [z - y, z + y];
         let below = above.map(|end| end - 2.0 * z);
         assert!(comes_within(0.1, [still, above], [still, below]));
-        // Past the end of the other, along it, and not at all.
+        // Past the end, along the line, and at rest.
         let aside = |ends: Ends, by: f64| ends.map(|end| end + by * x);
         assert!(!comes_within(
             0.1,
@@ -101,7 +94,7 @@ mod tests {
             [aside(still, 0.5), above]
         ));
         assert!(!comes_within(0.1, [still, above], [still, above]));
-        // Those that are too near may part but not come nearer.
+        // Lines within the limit may separate.
         let near = above.map(|end| end - 0.95 * z);
         assert!(!comes_within(0.1, [still, near], [still, above]));
         assert!(comes_within(0.1, [still, near], [still, below]));

@@ -1,14 +1,11 @@
-//! What a time step has to bear where filaments may be pressed together.
-
 use super::capsule::{Capsule, Row};
 use actin_mechanics::{Interaction, Loads, State, Vector3};
 
-/// Springs from every point of all axes to where it is in a given state, of a stiffness per length: term
-/// `repulsion`, one element.
+/// Springs from all points of the axes to their positions in a given state: term `repulsion`, one
+/// element.
 ///
-/// With the greatest stiffness that contacts can have, the largest frequency of a system under these
-/// alone bounds what contacts add to the square of any frequency. Masses and arms of all bodies are
-/// accounted for.
+/// With the largest contact stiffness per length, the largest frequency of the tethered system
+/// bounds the contribution of contacts to the square of any frequency.
 #[derive(Clone, Debug)]
 pub struct Tethers {
     capsules: Vec<Capsule>,
@@ -18,7 +15,7 @@ pub struct Tethers {
 }
 
 impl Tethers {
-    /// Tethers of a stiffness per length (pN/nm^2) on capsules of a radius (nm), at rest in `state`.
+    /// Creates tethers with a stiffness per length (pN/nm^2) for capsules of a radius (nm).
     pub fn new(state: &State, capsules: &[Capsule], radius: f64, stiffness: f64) -> Self {
         Self {
             rows: capsules.iter().map(|c| Row::of(c, radius)).collect(),

@@ -1,5 +1,3 @@
-//! Capsules that a plane or a sphere repels, as an interaction.
-
 use super::capsule::{Capsule, RepulsionError, Row, positive};
 use super::contacts::Gap;
 use super::distance;
@@ -9,45 +7,48 @@ use actin_mechanics::{
     Coordinates, Interaction, Loads, Matrix3, SecondOrder, State, Stiffness, Vector3,
 };
 
-/// Distance from contact within which a capsule is in the pattern of the stiffness, in radii.
+/// Distance from contact within which capsules are part of the stiffness, in radii.
 const MARGIN: f64 = 0.25;
 
-/// A surface that filaments stay on one side of.
+/// Surface that confines filaments to one side.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Wall {
-    /// A plane; filaments are where its normal points.
+    /// Plane; filaments are on the side of the normal.
     Plane {
-        /// A point of it (nm, lab frame).
+        /// Point of the plane (nm, lab frame).
         point: Vector3,
-        /// Its normal, of any length but zero.
+        /// Normal of any nonzero length.
         normal: Vector3,
     },
-    /// A sphere.
+    /// Sphere.
     Sphere {
-        /// Its centre (nm, lab frame).
+        /// Centre (nm, lab frame).
         centre: Vector3,
-        /// Its radius (nm).
+        /// Radius (nm).
         radius: f64,
-        /// Where filaments are.
+        /// Side of the filaments.
         side: Side,
     },
 }
 
-/// A side of a sphere.
+/// Side of a sphere.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Side {
-    /// Within it.
+    /// Inside of the sphere.
     Inside,
-    /// Around it.
+    /// Outside of the sphere.
     Outside,
 }
 
-/// Repulsion of capsules from a wall: term `repulsion`, one element for each capsule.
+/// Repulsion of capsules from a wall: term `repulsion`, one element per capsule.
 ///
-/// With `p` (nm) what the surface of the filament is pressed into the wall by at a point of its axis,
-/// `E = sum w k p^4 / (24 R^3)` over points of the axis that each stand for a length `w`; `k` (pN/nm) is
-/// the stiffness, `R` (nm) the radius of filaments. A stretch as long as it is thick, pressed in until its
-/// axis lies in the surface, has the stiffness `k`.
+/// ```text
+/// E = sum w k p^4 / (24 R^3)
+/// ```
+///
+/// The sum runs over the points of the axis with length `w` (nm) and penetration depth `p` (nm).
+/// `k` is the stiffness (pN/nm) and `R` the radius of the filaments (nm). A piece of length `2 R`
+/// whose axis is in the surface of the wall has the stiffness `k`.
 #[derive(Clone, Debug)]
 pub struct WallContact {
     capsules: Vec<Capsule>,
@@ -56,7 +57,7 @@ pub struct WallContact {
     kernel: WallKernel,
 }
 
-/// A point of an axis in contact: depth, gradient of the distance from the wall, and the curvature of that.
+/// Point of an axis in contact: depth, gradient and curvature of the wall distance.
 struct Touch {
     depth: f64,
     away: Vector3,
@@ -66,11 +67,11 @@ struct Touch {
 }
 
 impl WallContact {
-    /// Capsules of a `radius` (nm) at a wall of a `stiffness` (pN/nm).
+    /// Creates the contacts of capsules of a `radius` (nm) with a wall of a `stiffness` (pN/nm).
     ///
     /// # Errors
-    /// A number that is not positive and finite, a normal that has no direction, or a sphere inside of
-    /// which there is no room.
+    /// If a number is not positive and finite, the normal is zero or not finite, or the inside of
+    /// the sphere is too small.
     pub fn new(
         capsules: Vec<Capsule>,
         wall: Wall,
@@ -82,7 +83,7 @@ impl WallContact {
         let refused = |key, value, rule| Err(RepulsionError { key, value, rule });
         let wall = match wall {
             Wall::Plane { point, normal } => {
-                // Scaled first, so that squares neither overflow nor underflow.
+                // Scaling avoids overflow and underflow of the squares.
                 let unit = (normal / normal.amax()).normalize();
                 if !unit.iter().chain(&point).all(|v| v.is_finite()) {
                     return refused("normal", normal.norm(), "finite and not zero");
@@ -99,7 +100,7 @@ impl WallContact {
             } => {
                 positive("radius of a sphere", of_sphere)?;
                 if side == Side::Inside && of_sphere <= radius {
-                    let rule = "greater than that of filaments inside";
+                    let rule = "greater than the radius of filaments inside";
                     return refused("radius of a sphere", of_sphere, rule);
                 }
                 wall
@@ -113,17 +114,17 @@ impl WallContact {
         })
     }
 
-    /// Depth over the radius at which the axis comes to lie in the surface.
+    /// Depth over the radius at which the axis is in the surface.
     pub fn yield_depth() -> f64 {
         1.0
     }
 
-    /// What the wall can stiffen a filament by per length (pN/nm^2) before its axis is in the surface.
+    /// Stiffness per length (pN/nm^2) at which the axis is in the surface.
     pub fn greatest_stiffness(&self) -> f64 {
         self.kernel.tangent(self.kernel.radius)
     }
 
-    /// Where a filament is nearest to the wall; none if all are farther than a quarter of a radius.
+    /// Smallest gap, or `None` if all gaps exceed a quarter of a radius.
     pub fn closest(&self, state: &State) -> Option<Gap> {
         let all = self.capsules.iter().enumerate().map(|(i, capsule)| {
             let (share, distance) = self.nearest(capsule.ends(state));
@@ -138,8 +139,7 @@ impl WallContact {
         (least.gap <= MARGIN * self.kernel.radius).then_some(least)
     }
 
-    /// Where an axis is nearest to the wall, as a share of it, and how far it is (nm); negative behind
-    /// the wall.
+    /// Relative position and distance (nm) of the point of an axis nearest to the wall.
     fn nearest(&self, ends: [Vector3; 2]) -> (f64, f64) {
         let least_of_ends = || {
             let distances = ends.map(|x| self.distance(x).0);
@@ -162,8 +162,8 @@ impl WallContact {
         }
     }
 
-    /// Distance of a point from the wall (nm), its gradient `g`, and `c` in its second derivative
-    /// `c (1 - g g^T)` (1/nm). At the centre of a sphere there is no direction, and no gradient.
+    /// Distance of a point from the wall (nm), its gradient `g`, and the factor `c` of its second
+    /// derivative `c (1 - g g^T)` (1/nm). The gradient is zero at the centre of a sphere.
     fn distance(&self, x: Vector3) -> (f64, Vector3, f64) {
         match self.wall {
             Wall::Plane { point, normal } => ((x - point).dot(&normal), normal, 0.0),
@@ -187,7 +187,6 @@ impl WallContact {
         }
     }
 
-    /// Goes through the points of capsule `i`, whose ends are given, that are in contact.
     fn touches(&self, i: usize, [start, end]: [Vector3; 2], mut visit: impl FnMut(&Touch)) {
         let row = self.rows[i];
         for k in 0..row.count {
@@ -206,14 +205,13 @@ impl WallContact {
         }
     }
 
-    /// The ends of those capsules whose surface comes within `margin` (nm) of the wall, with their indices.
+    /// Indices and ends of the capsules with gaps below `margin` (nm).
     fn near(&self, state: &State, margin: f64) -> impl Iterator<Item = (usize, [Vector3; 2])> {
         let ends = self.capsules.iter().map(|capsule| capsule.ends(state));
         let near = move |ends: [Vector3; 2]| self.nearest(ends).1 < self.kernel.radius + margin;
         ends.enumerate().filter(move |(_, ends)| near(*ends))
     }
 
-    /// Forces on the two ends of capsule `i`.
     fn forces(&self, i: usize, ends: [Vector3; 2]) -> [Vector3; 2] {
         let mut forces = [Vector3::zeros(); 2];
         self.touches(i, ends, |t| {
@@ -224,7 +222,6 @@ impl WallContact {
         forces
     }
 
-    /// Second derivatives by the two ends of capsule `i`.
     fn tangents(&self, i: usize, ends: [Vector3; 2]) -> [[Matrix3; 2]; 2] {
         let mut blocks = [[Matrix3::zeros(); 2]; 2];
         self.touches(i, ends, |t| {
@@ -272,8 +269,8 @@ impl Interaction for WallContact {
         Some(self)
     }
 
-    /// An axis that comes into a sphere that it is to stay out of may come out on the other side. Behind
-    /// other walls there is no way out but back.
+    /// An axis that enters an excluded sphere can leave it on the other side. Other walls cannot be
+    /// crossed unnoticed.
     fn passes_through(&self, from: &State, to: &State) -> Option<Coordinates> {
         let Wall::Sphere {
             centre,

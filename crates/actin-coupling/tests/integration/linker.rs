@@ -1,5 +1,3 @@
-//! Linkers: that their loads are a gradient that balances, on either model and between two sites.
-
 use actin_cosserat::{RodLayout, StraightRod};
 use actin_coupling::{Anchor, Linker, LinkerEnd, LinkerError, LinkerKey, RodPlace, Site};
 use actin_mechanics::testing::{
@@ -12,7 +10,7 @@ use actin_mechanics::{Xorshift, perturb};
 use proptest::prelude::*;
 use std::f64::consts::FRAC_PI_2;
 
-/// A rod of three segments of 10 nm along z and two monomers beside it, all displaced and turned.
+/// Rod of three segments of 10 nm along z with two monomers next to it, all perturbed.
 struct Scene {
     state: State,
     rod: RodLayout,
@@ -65,8 +63,6 @@ fn anchor() -> LinkerEnd {
     LinkerEnd::Anchor(Anchor::fixed(Vector3::new(3.0, -2.0, 17.0)))
 }
 
-/// Linkers from either model to an anchor and to one another; the last two join sites that have
-/// bodies in common.
 fn all(scene: &Scene, rest_length: f64) -> Vec<Linker> {
     let pairs = [
         (scene.on_rod(1, 0.3), anchor()),
@@ -84,30 +80,26 @@ fn all(scene: &Scene, rest_length: f64) -> Vec<Linker> {
     pairs.into_iter().map(linker).collect()
 }
 
-/// Halves of the force with a couple about the middle, as printed, would miss the gradient where
-/// the site is not in the middle of its segment.
 #[test]
 fn loads_are_minus_the_gradient() {
     let mut noise = Xorshift::new(11);
     for rest_length in [0.0, 2.5, 40.0] {
         let scene = scene(&mut noise);
         for linker in all(&scene, rest_length) {
-            // h = 0.01 nm and rad: truncation and round-off of energies up to 3e3 pN nm over
+            // h = 0.01 nm and rad: truncation and rounding errors of energies up to 3e3 pN nm over
             // loads of 30 pN are below 1e-11.
             assert_is_gradient(&linker, &scene.state, 0.01, 1e-9);
         }
     }
 }
 
-/// Without the geometric part the turn of the arm would be missing from the frames' blocks; sites
-/// that share bodies need block and transposed block on the diagonal.
 #[test]
 fn stiffness_is_the_derivative_of_the_loads() {
     let mut noise = Xorshift::new(12);
     for rest_length in [0.0, 2.5, 40.0] {
         let scene = scene(&mut noise);
         for linker in all(&scene, rest_length) {
-            // As above; the derivative of the loads is as smooth.
+            // Tolerance as in the gradient test.
             assert_is_stiffness(&linker, &scene.state, 0.01, 1e-9);
             if linker.extension(&scene.state) > 0.0 {
                 assert_fluctuates(&[&linker], &scene.state, 1e-12);
@@ -116,7 +108,6 @@ fn stiffness_is_the_derivative_of_the_loads() {
     }
 }
 
-/// Both ends on one rigid body: nothing that the body does changes the linker.
 #[test]
 fn a_linker_within_a_rigid_body_does_nothing() {
     let scene = scene(&mut Xorshift::new(13));
@@ -125,25 +116,21 @@ fn a_linker_within_a_rigid_body_does_nothing() {
     let linker = Linker::new(scene.on_monomer(1), other, 7.0, 0.5).unwrap();
     let (force, torque) = resultant(&scene.state, &loads_of(&linker, &scene.state));
     let stiffness = stiffness_matrix(&linker, &scene.state);
-    // Round-off of a force of some 10 pN at some 40 nm, and of a stiffness of 7 pN/nm.
+    // Rounding errors of a force of 10 pN at 40 nm, and of a stiffness of 7 pN/nm.
     assert!(linker.force(&scene.state).norm() > 1.0);
     assert!(force.norm() < 1e-12 && torque.norm() < 1e-12);
     assert!(stiffness.amax() < 1e-12, "{}", stiffness.amax());
 }
 
 proptest! {
-    /// Between two sites nothing is left over; an anchor bears minus the force, along the line
-    /// from the site, so that with its moment nothing is left over either.
     #[test]
     fn forces_and_torques_balance(seed: u64, slack in 0_usize..3) {
         let scene = scene(&mut Xorshift::new(seed));
         for linker in all(&scene, [0.0, 2.5, 40.0][slack]) {
             if let LinkerEnd::Site(_) = linker.end() {
-                // Sums of some ten products with arms that are rounded sums themselves: over 20000
-                // draws some exceed 1e-14 of what is added up.
+                // Sums of about ten products with rounded arms exceed 1e-14 in some of 20000 draws.
                 assert_is_balanced(&linker, &scene.state, 1e-12);
-                // With a rest length near the distance the energy is what a cancellation leaves, and
-                // a share of it no measure of rounding.
+                // Near the rest length cancellation dominates the energy.
                 if slack == 0 {
                     assert_is_invariant(&linker, &scene.state, 1e-12);
                 }
@@ -153,16 +140,15 @@ proptest! {
             let pull = linker.force(&scene.state);
             let moment = linker.end_position(&scene.state).cross(&pull);
             prop_assert!((force - pull).norm() <= 1e-14 * pull.norm());
-            // The site's weights and arm are rounded once more than the anchor's place.
+            // Weights and arm of the site are rounded once more than the position of the anchor.
             prop_assert!((torque - moment).norm() <= 1e-13 * 60.0 * pull.norm());
         }
     }
 }
 
-/// A segment that moves as a rigid body and a monomer with the same frame: the same point has the
-/// same force and the same resultant on either, wherever along the segment it is.
+/// Equal points of a rigid segment and of a monomer with the same frame give equal forces.
 #[test]
-fn rod_and_monomer_feel_the_same_at_the_same_point() {
+fn rod_and_monomer_sites_agree_at_the_same_point() {
     let mut noise = Xorshift::new(14);
     let mut scene = scene(&mut noise);
     let (first, second) = (scene.rod.points().start, scene.rod.points().start + 1);
@@ -181,7 +167,7 @@ fn rod_and_monomer_feel_the_same_at_the_same_point() {
         let [rod, monomer] =
             [on_rod, on_monomer].map(|site| Linker::new(site, anchor(), 7.0, 1.0).unwrap());
         let state = &scene.state;
-        // Round-off of places of 20 nm.
+        // Rounding errors of positions of 20 nm.
         assert!((rod.site().position(state) - monomer.site().position(state)).norm() < 1e-13);
         assert!((rod.energy(state) / monomer.energy(state) - 1.0).abs() < 1e-13);
         let [(force, torque), expected] =
@@ -191,8 +177,7 @@ fn rod_and_monomer_feel_the_same_at_the_same_point() {
     }
 }
 
-/// Energy, force and work by hand: 3 nm along x at 2 pN/nm, 4 nm off the axis along y, so that the
-/// couple is about -z.
+/// Hand calculation: 3 nm along x at 2 pN/nm, 4 nm off the axis along y, with a torque about -z.
 #[test]
 fn a_linker_pulls_by_its_extension() {
     let mut state = State::default();
@@ -211,8 +196,6 @@ fn a_linker_pulls_by_its_extension() {
     assert!(loads.torque.get(0).norm() == 0.0);
 }
 
-/// Shut and slack: without rest length everything is smooth through zero; at its rest length a
-/// linker resists along itself only; shut, it has no force and no stiffness that would hold it.
 #[test]
 fn limits_are_defined() {
     let scene = scene(&mut Xorshift::new(15));
@@ -233,7 +216,7 @@ fn limits_are_defined() {
     assert_eq!(block(&none), nalgebra::Matrix3::identity() * 7.0);
     assert_is_stiffness(&none, &scene.state, 0.01, 1e-9);
 
-    // The anchor's place is rounded to 7e-15 nm.
+    // The position of the anchor is rounded to 7e-15 nm.
     let slack = make(Vector3::x() * 2.0, 2.0);
     assert!(slack.force(&scene.state).norm() < 1e-12);
     let along = nalgebra::Matrix3::from_diagonal(&Vector3::new(7.0, 0.0, 0.0));
@@ -245,7 +228,6 @@ fn limits_are_defined() {
     assert_eq!(block(&shut), nalgebra::Matrix3::identity() * -7.0);
 }
 
-/// Controls move the anchor; a linker that ignores them would not notice.
 #[test]
 fn controls_move_an_anchor() {
     let mut scene = scene(&mut Xorshift::new(16));
@@ -261,12 +243,12 @@ fn controls_move_an_anchor() {
         scene.state.controls[control] = value;
     }
     let expected = Vector3::new(7.0, -14.0, 21.0);
-    // The anchor's place of some 20 nm is rounded.
+    // Rounding of the position of about 20 nm.
     assert!((linker.force(&scene.state) - expected).norm() < 1e-12);
 }
 
 #[test]
-fn linkers_that_make_no_sense_are_refused() {
+fn invalid_linkers_are_refused() {
     let scene = scene(&mut Xorshift::new(17));
     let on_rod = |segment, fraction, radius, azimuth| {
         Site::on_rod(&scene.rod, place(segment, fraction, radius, azimuth)).map(drop)

@@ -1,6 +1,3 @@
-//! Repulsion: that its loads are a gradient that balances, that it is what the closed forms say however axes
-//! are divided, and that no result depends on when neighbours were looked for.
-
 use actin_coupling::repulsion::{
     Axis, Capsule, ContactParameters, Contacts, RepulsionError, Side, Tethers, Wall, WallContact,
 };
@@ -24,7 +21,6 @@ fn parameters() -> ContactParameters {
     }
 }
 
-/// Pushes a straight chain of `count` capsules of a length as nodes of a filament.
 fn chain(
     state: &mut State,
     (filament, from, along): (usize, Vector3, Vector3),
@@ -44,7 +40,7 @@ fn chain(
     nodes.windows(2).enumerate().map(of).collect()
 }
 
-/// Pushes monomers along z, the axis 1.8 nm from their centres.
+/// Adds monomers along z with centres 1.8 nm off the axis.
 fn monomers(state: &mut State, filament: usize, from: Vector3, count: usize) -> Vec<Capsule> {
     let (rise, radius) = (2.7385, 1.8);
     let of = |k: usize| {
@@ -59,7 +55,6 @@ fn monomers(state: &mut State, filament: usize, from: Vector3, count: usize) -> 
     (0..count).map(of).collect()
 }
 
-/// A chain across monomers and a second chain at a slant to both, in contact, all perturbed.
 fn tangle() -> (State, Vec<Capsule>) {
     let mut state = State::default();
     let (z, x) = (Vector3::z(), Vector3::x());
@@ -72,13 +67,12 @@ fn tangle() -> (State, Vec<Capsule>) {
     (state, capsules)
 }
 
-/// Loads, second derivatives, balance and invariance, of monomers and chains alike.
 #[test]
-fn contacts_are_the_gradient_of_an_energy_that_is_seen_from_everywhere_alike() {
+fn contacts_have_a_gradient_and_conserve_momentum() {
     let (state, capsules) = tangle();
     let contacts = Contacts::new(capsules, parameters()).unwrap();
-    assert!(contacts.energy(&state) > 10.0, "no contact is tested");
-    // The kernel has four derivatives only: a step over its edge leaves h^4 of the fifth.
+    assert!(contacts.energy(&state) > 10.0, "no contact");
+    // The kernel is not smooth at its edge, which limits the order of differences.
     assert_is_gradient(&contacts, &state, 1e-3, 1e-8);
     assert_are_second_derivatives(&contacts, &state, 1e-3, 1e-7);
     assert_is_balanced(&contacts, &state, 1e-13);
@@ -103,13 +97,12 @@ fn walls_are_the_gradient_of_their_energy() {
         sphere(23.0, Side::Inside),
     ] {
         let contact = WallContact::new(capsules.clone(), wall, RADIUS, STIFFNESS).unwrap();
-        assert!(contact.energy(&state) > 1.0, "{wall:?} touches nothing");
+        assert!(contact.energy(&state) > 1.0, "{wall:?}: no contact");
         assert_is_gradient(&contact, &state, 1e-3, 1e-8);
         assert_are_second_derivatives(&contact, &state, 1e-3, 1e-7);
     }
 }
 
-/// The force along `across` on the second of two filaments that start as given.
 fn force_between(
     first: (Vector3, Vector3),
     second: (Vector3, Vector3),
@@ -128,11 +121,10 @@ fn force_between(
     on_second.dot(&across)
 }
 
-/// The closed form of a crossing, `2 pi e d q^4`, wherever the axes cross and however they are divided: a
-/// surface has no bumps that a filament could catch on. Deviations are those of sums from integrals, which grow
-/// where the stretch in contact is no longer than a few of its points.
+/// Closed form `2 pi e d q^4` for any position and division. The errors of the sums grow if the
+/// contact contains few points.
 #[test]
-fn a_crossing_has_its_force_wherever_it_is_and_however_axes_are_divided() {
+fn crossing_force_does_not_depend_on_position_or_division() {
     let (x, y, z) = (Vector3::x(), Vector3::y(), Vector3::z());
     for (d, bound) in [(2.333, 1e-4), (4.0, 1e-3), (5.5, 1e-2), (6.3, 5e-2)] {
         let q = 1.0 - d * d / (4.0 * RADIUS * RADIUS);
@@ -149,7 +141,7 @@ fn a_crossing_has_its_force_wherever_it_is_and_however_axes_are_divided() {
     }
 }
 
-/// Per length, the derivative of `256/315 e D q^4.5`.
+/// Derivative of `256/315 e D q^4.5` per length.
 #[test]
 fn parallel_filaments_have_the_force_per_length_of_the_integral() {
     let (y, z) = (Vector3::y(), Vector3::z());
@@ -158,7 +150,7 @@ fn parallel_filaments_have_the_force_per_length_of_the_integral() {
         let (e, q) = (27.0 * STIFFNESS / (32.0 * PI), 1.0 - (d / reach).powi(2));
         256.0 / 315.0 * e * reach * 4.5 * q.powf(3.5) * 2.0 * d / (reach * reach)
     };
-    // The second is all within the first; its force is spread evenly.
+    // The force on the second filament is uniform.
     for (d, bound) in [(3.0, 1e-4), (5.0, 1e-3), (6.3, 3e-2)] {
         for shift in [0.0, 0.7] {
             let second = (y * d + z * (20.0 + shift), z);
@@ -169,10 +161,10 @@ fn parallel_filaments_have_the_force_per_length_of_the_integral() {
     }
 }
 
-/// The greatest stiffness of a crossing is the one asked for, and that of parallel filaments is what tethers
-/// take it for.
+/// The largest stiffness of a crossing equals the parameter. For parallel filaments it equals that
+/// of tethers.
 #[test]
-fn stiffness_is_what_was_asked_for() {
+fn greatest_stiffness_equals_the_parameter() {
     let (x, y, z) = (Vector3::x(), Vector3::y(), Vector3::z());
     let slope = |force: &dyn Fn(f64) -> f64, d: f64| (force(d - 1e-3) - force(d + 1e-3)) / 2e-3;
     let steps = || (20..70).map(|k| f64::from(k) * 0.1);
@@ -195,10 +187,8 @@ fn stiffness_is_what_was_asked_for() {
     );
 }
 
-/// Loads in a state are the same bits whether neighbours were looked for there or far back, also where all
-/// have moved a little less than calls for another look.
 #[test]
-fn loads_do_not_depend_on_when_neighbours_were_looked_for() {
+fn loads_do_not_depend_on_the_age_of_the_neighbour_list() {
     let (mut state, capsules) = tangle();
     let used = Contacts::new(capsules.clone(), parameters()).unwrap();
     let mut noise = Xorshift::new(9);
@@ -221,9 +211,8 @@ fn loads_do_not_depend_on_when_neighbours_were_looked_for() {
     }
 }
 
-/// The sides of a hairpin repel each other; what lies within the bend does not, nor do neighbours.
 #[test]
-fn a_filament_repels_itself_where_it_comes_back() {
+fn distant_parts_of_a_filament_repel_each_other() {
     let mut state = State::default();
     let (y, z) = (Vector3::y(), Vector3::z());
     let there = chain(&mut state, (0, Vector3::zeros(), z), (5, 10.0));
@@ -245,13 +234,12 @@ fn a_filament_repels_itself_where_it_comes_back() {
     let mut energies = vec![0.0; contacts.elements()];
     contacts.write_energies(&state, &mut energies);
     let touched: Vec<bool> = energies.iter().map(|e| *e > 0.0).collect();
-    // The last segment before the bend is 9.4 nm of filament from the first behind it, and 19.4 nm from the next.
+    // The last segment before the bend is 9.4 nm of contour from the first after it, and 19.4 nm
+    // from the next.
     let expected = [true, true, true, true, false, false, true, true, true, true];
     assert_eq!(touched, expected);
 }
 
-/// Far from the distance of contact there is nothing, and what is no number or far beyond all measure ends in no
-/// panic.
 #[test]
 fn exploded_states_end_in_no_panic() {
     let (state, capsules) = tangle();
@@ -264,7 +252,7 @@ fn exploded_states_end_in_no_panic() {
     }
 }
 
-/// `k L |x|^2 / 2`: the ends of 20 nm move by 2 nm, as if each had half the length.
+/// `k L |x|^2 / 2` for a shift of 2 nm.
 #[test]
 fn tethers_hold_all_of_an_axis() {
     let mut state = State::default();
@@ -278,7 +266,7 @@ fn tethers_hold_all_of_an_axis() {
 }
 
 #[test]
-fn numbers_that_make_no_sense_are_refused() {
+fn invalid_numbers_are_refused() {
     let key = |result: Result<(), RepulsionError>| result.unwrap_err().key;
     let contacts = |like| Contacts::new(Vec::new(), like).map(drop);
     for bad in [0.0, -1.0, f64::NAN, f64::INFINITY] {
@@ -316,10 +304,8 @@ fn numbers_that_make_no_sense_are_refused() {
     assert!(wall(sphere(3.0, Side::Outside)).is_ok());
 }
 
-/// What passes through another is told whether the step is short, so that only known neighbours are looked
-/// at, or long; so is what flies through a sphere. What passes beside it is not.
 #[test]
-fn passing_through_is_told() {
+fn crossings_are_detected() {
     let crossing = |height: f64, aside: f64| {
         let mut state = State::default();
         let x = Vector3::x();
@@ -331,7 +317,7 @@ fn passing_through_is_told() {
     let (above, capsules) = crossing(3.0, 0.0);
     let contacts = Contacts::new(capsules.clone(), parameters()).unwrap();
     let told = |from: &State, to: &State| contacts.passes_through(from, to).is_some();
-    // Behind, half way in, and past an end, each from near and from far.
+    // Beyond the filament, within the limit, and past an end, each from near and from far.
     for start in [crossing(3.0, 0.0).0, crossing(50.0, 0.0).0] {
         for (height, aside, passes) in [
             (-3.0, 0.0, true),
@@ -351,7 +337,7 @@ fn passing_through_is_told() {
         side: Side::Outside,
     };
     let wall = WallContact::new(capsules, sphere, RADIUS, STIFFNESS).unwrap();
-    // Across its middle, near its pole (the sphere is 1 nm beside the axis), and past it.
+    // Through the sphere, whose centre is 1 nm off the axis, and past it.
     for (aside, passes) in [(0.0, true), (100.0, false)] {
         let [above, below] = [5.0, -5.0].map(|height| crossing(height, aside).0);
         assert_eq!(wall.passes_through(&above, &below).is_some(), passes);

@@ -1,10 +1,10 @@
-//! Markdown as a section of the page.
+//! Conversion of Markdown to a section of the page.
 
 use maud::html;
 use pulldown_cmark::{CowStr, Event, HeadingLevel, Options, Parser, Tag, TagEnd};
 
-/// Markdown as HTML one level of headings lower; cells of tables name their column, so that a
-/// narrow screen can show a row as a card.
+/// Converts Markdown to HTML with headings one level lower. Table cells contain the name of their column, so that
+/// narrow screens can show rows as cards.
 pub(super) fn rendered(markdown: &str) -> String {
     let mut columns = Columns::default();
     let events = Parser::new_ext(markdown, Options::ENABLE_TABLES);
@@ -16,7 +16,6 @@ pub(super) fn rendered(markdown: &str) -> String {
     text
 }
 
-/// Where in a table the text is.
 #[derive(Default)]
 struct Columns {
     heads: Vec<String>,
@@ -66,7 +65,6 @@ impl Columns {
     }
 }
 
-/// Headings one level lower, all else as it is.
 fn lowered(event: Event<'_>) -> Event<'_> {
     match event {
         Event::Start(Tag::Heading {

@@ -1,10 +1,9 @@
-//! A page of pictures, tables and text as one HTML file without links to anything outside.
+//! Self-contained HTML pages of pictures, tables and text.
 //!
-//! A [`Page`] is filled in order and finished once. It begins with a contact sheet: the first picture of every
-//! artefact, small, leads to its section, where pictures stand side by side with their captions below. Pictures
-//! are SVG files whose colours follow the page, light or dark ([`on_dark`]); states to be turned are JSON files
-//! for a script of the caller's, which draws them with those of [`space`], part of every page. All verdicts are
-//! in one table at the end, what was missed first, under its reason.
+//! A [`Page`] is filled in order and finished once. It begins with a contact sheet of the first picture of every
+//! artefact, which links to its section. SVG pictures follow the light or dark mode of the page ([`on_dark`]). States
+//! are JSON files for a script of the caller, which uses the scripts of [`space`]. A table at the end lists all
+//! verdicts, failed ones first, with their reasons.
 
 mod markdown;
 mod shades;
@@ -23,7 +22,7 @@ use shades::Shades;
 use std::fs;
 use std::path::Path;
 
-/// The style of pages: colours, light and dark, tables, views.
+/// Style sheet of pages.
 pub const STYLE: &str = include_str!("style.css");
 
 /// A page under construction.
@@ -62,7 +61,7 @@ pub struct Page<'a> {
 }
 
 impl<'a> Page<'a> {
-    /// An empty page; `version` says beside every artefact what computed it.
+    /// Creates an empty page; `version` is printed for every artefact.
     pub fn new(title: &'a str, version: &'a str) -> Self {
         let mut page = Self {
             title,
@@ -80,22 +79,21 @@ impl<'a> Page<'a> {
         page
     }
 
-    /// The CSS value of a colour that changes with the page, light or dark.
+    /// Returns the CSS value of a colour that follows light and dark mode.
     pub fn colour(&mut self, colour: [u8; 3]) -> String {
         self.shades.variable(colour)
     }
 
-    /// Adds HTML to the head of the page, above its contents; its title has the id `summary`.
+    /// Adds HTML to the head of the page, before its contents. Its title must have the id `summary`.
     pub fn header(&mut self, html: &Markup) {
         self.header.push_str(&html.0);
     }
 
-    /// Adds a section with states to be turned, pictures, settings and rows that are not judged, whose files are
-    /// in `folder`; what is judged goes into the table of [`verdicts`](Self::verdicts), where `misses` are the
-    /// rows that were missed.
+    /// Adds a section with views, pictures, settings and rows without a verdict, whose files are in `folder`. Rows
+    /// with a verdict are added to the table of [`verdicts`](Self::verdicts); `misses` are the failed ones.
     ///
     /// # Errors
-    /// A file that cannot be read.
+    /// If a file cannot be read.
     pub fn artefact(
         &mut self,
         artefact: &Artefact,
@@ -143,7 +141,7 @@ impl<'a> Page<'a> {
         Ok(())
     }
 
-    /// Adds a section with the verdicts on all artefacts in one table, below `lead`.
+    /// Adds a section with the table of verdicts of all artefacts, after the text `lead`.
     pub fn verdicts(&mut self, lead: &Markup) {
         let line = html! { li { a href="#verdicts" { "Verdicts" } } };
         let section = html! {
@@ -153,7 +151,7 @@ impl<'a> Page<'a> {
         self.main.push_str(&section.0);
     }
 
-    /// Adds a section of text; `title` is its line in the contents and its heading.
+    /// Adds a section of text with a heading `title`, which is also listed in the contents.
     pub fn section(&mut self, id: &str, title: &str, text: &Markup) {
         let line = html! { li { a href={ "#" (id) } { (title) } } };
         let section = html! { section id=(id) { h2 { (title) } (text) } };
@@ -161,7 +159,7 @@ impl<'a> Page<'a> {
         self.main.push_str(&section.0);
     }
 
-    /// Adds a section of Markdown, its headings one level lower; `title` is its line in the contents.
+    /// Adds a section of Markdown, with headings one level lower, and a heading `title`.
     pub fn markdown(&mut self, id: &str, title: &str, markdown: &str) {
         let line = html! { li { a href={ "#" (id) } { (title) } } };
         let section = html! {
@@ -171,7 +169,7 @@ impl<'a> Page<'a> {
         self.main.push_str(&section.0);
     }
 
-    /// Adds JSON that scripts find by its id, ahead of all scripts.
+    /// Adds JSON with an id, before all scripts.
     pub fn data(&mut self, id: &str, json: &str) {
         let data = html! {
             script type="application/json" id=(id) { (in_script(json)) }
@@ -179,13 +177,13 @@ impl<'a> Page<'a> {
         self.scripts.insert_str(0, &data.0);
     }
 
-    /// Adds a script; those of [`space`] stand ahead of it.
+    /// Adds a script after the scripts of [`space`].
     pub fn script(&mut self, text: &str) {
         let script = html! { script { (PreEscaped(text)) } };
         self.scripts.push_str(&script.0);
     }
 
-    /// The whole page.
+    /// Returns the page.
     pub fn finish(self) -> String {
         let style = [STYLE, &self.shades.style()].concat();
         let page = html! {
@@ -213,7 +211,7 @@ impl<'a> Page<'a> {
                         (PreEscaped(self.main))
                     }
                     noscript {
-                        p { "The views that can be turned need JavaScript; all else does not." }
+                        p { "Interactive views require JavaScript." }
                     }
                     (PreEscaped(self.scripts))
                 }
@@ -223,7 +221,7 @@ impl<'a> Page<'a> {
     }
 }
 
-/// `Figure 4` for `fig4`, `Table 1` for `table1`.
+/// Converts `fig4` to `Figure 4`, and `table1` to `Table 1`.
 pub fn name(id: &str) -> String {
     let known = [("fig", "Figure"), ("table", "Table")];
     let known = known
@@ -232,16 +230,15 @@ pub fn name(id: &str) -> String {
     known.unwrap_or_else(|| id.to_owned())
 }
 
-/// Share of its own width that a picture has on a narrow screen once it is touched: letters of 14 pixels are
-/// above 10 then, and its box scrolls. Before, it is seen whole.
+/// Smallest width of an enlarged picture on a narrow screen, relative to its own width, so that letters of 14 pixels
+/// are larger than 10. Its box scrolls.
 const SMALLEST: f64 = 0.74;
 
-/// The name of picture `k` of an artefact on the page.
 fn anchor(id: &str, k: usize) -> String {
     format!("{id}-picture-{k}")
 }
 
-/// The entry of an artefact on the contact sheet: its first picture, drawn again from its place on the page.
+/// Returns the entry of an artefact on the contact sheet, which reuses its first picture.
 fn card(artefact: &Artefact, verdicts: Verdicts, folder: &Path) -> Result<Markup, String> {
     let first = artefact.pictures.first();
     let size = first.map(|one| read(one, folder).map(|svg| size(&svg).unwrap_or([900.0, 560.0])));
@@ -267,7 +264,6 @@ fn read(picture: &Picture, folder: &Path) -> Result<String, String> {
     fs::read_to_string(&path).map_err(|e| format!("{}: {e}", path.display()))
 }
 
-/// Kinds of files in which a picture may lie beside the page.
 const KINDS: [(&str, &str); 3] = [("svg", "SVG"), ("pdf", "PDF"), ("png", "PNG")];
 
 fn picture(
@@ -279,7 +275,7 @@ fn picture(
     let svg = read(picture, folder)?;
     let caption = &picture.caption;
     let tag = html! { svg id=(anchor) role="img" aria-label=(caption) {} };
-    // The tag is given attributes and ends where its own go on.
+    // Inserts attributes into the svg tag.
     let named = tag.0.replacen("></svg>", " ", 1);
     let [width, height] = size(&svg).unwrap_or([900.0, 560.0]);
     let least = SMALLEST * width;
@@ -304,10 +300,10 @@ fn picture(
     })
 }
 
-/// Pictures so much wider than high take the whole width of the page.
+/// Pictures with a larger ratio of width to height have the full width of the page.
 const WIDE: f64 = 2.4;
 
-/// Width and height of an SVG picture in pixels, as it says of itself.
+/// Returns width and height of an SVG picture in pixels, from its attributes.
 pub fn size(svg: &str) -> Option<[f64; 2]> {
     let tag = &svg[svg.find("<svg")?..];
     let tag = &tag[..tag.find('>')?];
@@ -332,15 +328,14 @@ fn viewer(view: &View, folder: &Path) -> Result<Markup, String> {
                 (view.caption) " "
                 em {
                     "Drag to turn, Shift and drag to move, two fingers or + and − to zoom (the wheel \
-                     too, after a click), arrow keys, 0 to reset. Lengths are true across the line of \
-                     sight."
+                     too, after a click), arrow keys, 0 to reset. The projection is orthographic."
                 }
             }
         }
     })
 }
 
-/// JSON that cannot end the element that it stands in.
+/// Escapes JSON so that it cannot end its script element.
 pub fn in_script(json: &str) -> PreEscaped<String> {
     PreEscaped(json.replace('<', "\\u003c"))
 }
@@ -349,7 +344,6 @@ pub fn in_script(json: &str) -> PreEscaped<String> {
 mod tests {
     use super::*;
 
-    /// Symptom of the plausible bug: a name with markup ends the script and the page with it.
     #[test]
     fn json_cannot_end_its_script() {
         let json = serde_json::to_string("</script><b>").unwrap();

@@ -1,34 +1,30 @@
-//! Colours on a dark page, for pictures and views alike. A picture's own file stays as it is, for white
-//! paper; where it stands in the page its colours are variables that follow the page's.
+//! Colours on dark pages. Files of pictures have colours for white paper, which are replaced by CSS variables in the
+//! page.
 
 use std::collections::BTreeMap;
 
-/// The ground of pictures on a dark page, as in `style.css`.
+/// Background of pictures on a dark page, as in `style.css`.
 pub const DARK_CARD: [u8; 3] = [0x1c, 0x20, 0x24];
-/// The ink of a dark page, as in `style.css`.
 const DARK_INK: [u8; 3] = [0xe6, 0xe6, 0xe2];
-/// Colours whose components differ by less are greys.
+/// Largest difference of the components of a grey.
 const GREY: u8 = 12;
-/// Share of the way to white by which other colours are lifted on a dark page.
+/// Fraction of white mixed with other colours on a dark page.
 const LIFT: f64 = 0.3;
-/// Attributes of SVG that hold a colour, up to its digits.
 const ATTRIBUTES: [&str; 3] = [" fill=\"#", " stroke=\"#", " stop-color=\"#"];
-/// Digits of a colour.
 const DIGITS: usize = 6;
 
 type Colour = [u8; 3];
 
-/// The colours of the pictures of a page, each with the number of its variable.
+/// Colours of the pictures of a page, with the numbers of their variables.
 #[derive(Debug, Default)]
 pub(super) struct Shades(BTreeMap<Colour, usize>);
 
 impl Shades {
-    /// A picture whose colours are variables.
     pub(super) fn embed(&mut self, svg: &str) -> String {
         let mut text = String::with_capacity(svg.len());
         let mut rest = svg;
         while let Some((before, colour, after)) = next_colour(rest) {
-            // The digits' sign goes with them.
+            // The sign before the digits is removed.
             text.push_str(&before[..before.len() - 1]);
             text.push_str(&self.variable(colour));
             rest = after;
@@ -37,14 +33,12 @@ impl Shades {
         text
     }
 
-    /// The variable that stands for a colour.
     pub(super) fn variable(&mut self, colour: Colour) -> String {
         let known = self.0.len();
         let number = *self.0.entry(colour).or_insert(known);
         format!("var(--p{number})")
     }
 
-    /// What the variables are on a light page, and on a dark one.
     pub(super) fn style(&self) -> String {
         let rules = |shade: fn(Colour) -> Colour| -> String {
             let rule = |(colour, number): (&Colour, &usize)| {
@@ -61,7 +55,6 @@ impl Shades {
     }
 }
 
-/// The first colour: the text before its digits, the colour, the text after them.
 fn next_colour(svg: &str) -> Option<(&str, Colour, &str)> {
     let mut from = 0;
     loop {
@@ -85,8 +78,8 @@ fn parsed(digits: &str) -> Option<Colour> {
     Some([red, green, blue])
 }
 
-/// A colour as it is on a dark page: greys between its card, for white, and its ink, for black;
-/// others lifted.
+/// Converts a colour for a dark page. Greys are mapped from white and black to the dark background and text colours;
+/// other colours are lightened.
 pub fn on_dark(colour: Colour) -> Colour {
     let (most, least) = colour.iter().fold((0, u8::MAX), |(most, least), &v| {
         (v.max(most), v.min(least))
@@ -115,8 +108,6 @@ mod tests {
         <text fill=\"#000000\">fill=\"red\" #123456</text><path stroke=\"#be1923\" fill=\"#FFFFFF\"/>\
         <stop stop-color=\"#be1923\"/><path stroke=\"#be19231\"/></g></svg>";
 
-    /// Colours become variables, one for each, and nothing else changes: with the light page's values
-    /// put back in, the picture is the file's.
     #[test]
     fn a_light_page_shows_the_file_as_it_is() {
         let mut shades = Shades::default();

@@ -1,38 +1,36 @@
-//! Numbers as tables: what is expected and by whom, ours, difference, verdict. All verdicts are in one table,
-//! part by part; what was missed comes first, under its reason.
+//! Tables of numbers: expected value and its origin, our value, difference, verdict.
 
 use super::Verdicts;
 use crate::report::{Artefact, Row};
 use maud::{Markup, PreEscaped, html};
 
-/// Columns of the table of verdicts.
 const COLUMNS: usize = 9;
 
-/// Missed rows, sorted by the reason that they share.
+/// Failed rows, grouped by reason.
 #[derive(Clone, Debug, Default)]
 pub struct Misses<'a> {
-    /// Those with a reason, in the order in which they are told.
+    /// Rows with a reason, in order.
     pub explained: Vec<Explained<'a>>,
-    /// Those without.
+    /// Rows without a reason.
     pub open: Vec<&'a Row>,
-    /// What is said of those without.
+    /// Text about rows without a reason.
     pub open_note: &'a str,
 }
 
-/// Missed rows of one artefact and the reason that they share.
+/// Failed rows of one artefact with the same reason.
 #[derive(Clone, Debug)]
 pub struct Explained<'a> {
     /// Name of the artefact.
     pub artefact: &'a str,
-    /// What is found, as a heading.
+    /// Heading.
     pub title: &'a str,
     /// The reason.
     pub text: &'a str,
-    /// The rows; without any the reason is not told.
+    /// Rows; without any, the reason is not shown.
     pub rows: Vec<&'a Row>,
 }
 
-/// The rows of an artefact that are not judged, folded away; nothing if there are none.
+/// Returns a collapsed table of rows without a verdict; empty if there are none.
 pub(super) fn measured(rows: &[Row]) -> Markup {
     let groups = [
         (true, "Shown beside another number, not judged"),
@@ -54,8 +52,7 @@ pub(super) fn measured(rows: &[Row]) -> Markup {
     }
 }
 
-/// The judged rows of an artefact as a part of the table of verdicts: those that are missed first, under their
-/// reasons. Nothing if none is judged.
+/// Returns the part of the table of verdicts for an artefact, with failed rows first; empty if there are no verdicts.
 pub(super) fn judged(artefact: &Artefact, misses: &Misses<'_>) -> Markup {
     let verdicts = Verdicts::of(&artefact.rows);
     if verdicts.compared() == 0 {
@@ -85,7 +82,6 @@ pub(super) fn judged(artefact: &Artefact, misses: &Misses<'_>) -> Markup {
     }
 }
 
-/// The table of verdicts, with buttons for what is shown of it.
 pub(super) fn verdicts(parts: &str) -> Markup {
     let choices = [
         ("all", "all"),
@@ -105,7 +101,6 @@ pub(super) fn verdicts(parts: &str) -> Markup {
     }
 }
 
-/// The reason of the rows that follow.
 fn reason(title: &str, text: &str) -> Markup {
     html! {
         tr class="why" { td colspan=(COLUMNS) class="wide" { strong { (title) "." } " " (text) } }
@@ -150,7 +145,7 @@ fn line(row: &Row) -> Markup {
     }
 }
 
-/// A name that may be broken between its parts.
+/// Returns a name that may be broken between its parts.
 ///
 /// ```
 /// let name = actin_draw::page::breakable("b3/over").into_string();
@@ -188,7 +183,7 @@ fn word(verdict: Option<bool>) -> &'static str {
     }
 }
 
-/// Five significant digits, in the shorter of the two notations.
+/// Formats a number with five significant digits, in the shorter of two notations.
 ///
 /// ```
 /// use actin_draw::page::significant;
@@ -233,8 +228,8 @@ mod tests {
         assert_eq!(significant(0.0), "0");
     }
 
-    /// What was missed comes first, under its reason, and every judged row is there once; what is only
-    /// measured is folded away elsewhere.
+    /// Failed rows are first, after their reasons. Every row with a verdict occurs once, and other rows occur in
+    /// another table.
     #[test]
     fn misses_come_first_and_every_row_is_there_once() {
         let row = |i: usize| Row::measured("fig1", format!("q/{i}"), "nm", 1.0, "a < b");

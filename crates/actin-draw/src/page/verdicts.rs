@@ -1,4 +1,4 @@
-//! How many numbers agree, how many do not, and how many have nothing to be compared with.
+//! Counts of verdicts.
 
 use crate::report::Row;
 use maud::{Markup, html};
@@ -8,16 +8,16 @@ use std::ops::Add;
 /// Counts of verdicts.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Verdicts {
-    /// Rows that are met.
+    /// Number of rows that agree.
     pub agree: usize,
-    /// Rows that are not.
+    /// Number of rows that fail.
     pub missed: usize,
-    /// Rows without a verdict.
+    /// Number of rows without a verdict.
     pub measured: usize,
 }
 
 impl Verdicts {
-    /// Of some rows.
+    /// Counts the verdicts of rows.
     pub fn of(rows: &[Row]) -> Self {
         let count = |verdict| rows.iter().filter(|row| row.pass == verdict).count();
         Self {
@@ -27,12 +27,12 @@ impl Verdicts {
         }
     }
 
-    /// Rows with a verdict.
+    /// Returns the number of rows with a verdict.
     pub fn compared(self) -> usize {
         self.agree + self.missed
     }
 
-    /// In a few words, for a list.
+    /// Returns a short description.
     pub fn in_words(self) -> String {
         match (self.agree, self.missed) {
             (0, 0) => format!("{} measured", self.measured),
@@ -43,7 +43,7 @@ impl Verdicts {
 }
 
 impl Verdicts {
-    /// Shares of what agrees and what does not, as a bar; nothing where nothing is compared.
+    /// Returns a bar with the fractions of agreement and failure; empty without verdicts.
     pub(super) fn bar(self) -> Markup {
         if self.compared() == 0 {
             return Markup::default();
@@ -84,7 +84,6 @@ impl Sum for Verdicts {
 mod tests {
     use super::*;
 
-    /// One that agrees, two that do not, one alone; a number without a verdict is not a success.
     #[test]
     fn verdicts_are_counted() {
         let row = |ours| Row::measured("fig1", "q", "nm", ours, "");

@@ -1,22 +1,22 @@
-//! Where the viewer stands, without perspective.
+//! Orthographic camera.
 
 use super::Vector3;
 
-/// A camera far away: lengths across the line of sight are true everywhere.
+/// An orthographic camera.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Camera {
-    /// Right, up and towards the viewer, in the lab frame.
+    /// Right, up, and towards the viewer (lab frame).
     pub(super) rows: [Vector3; 3],
     pub(super) target: Vector3,
-    /// Pixels of the finished picture per nm.
+    /// Pixels per nm in the finished picture.
     pub(super) per_nm: f64,
-    /// Largest distance of anything from the target along the line of sight (nm).
+    /// Largest distance from the target along the line of sight (nm).
     pub(super) reach: f64,
 }
 
 impl Camera {
-    /// Looks at `target`, which stands in the middle of the picture, with so many pixels per nm; nothing is
-    /// farther from it than `reach` (nm). `up` is not along `towards_viewer`.
+    /// Creates a camera with `target` in the middle of the picture, and a scale in pixels per nm. All bodies must be
+    /// within `reach` (nm) of the target, and `up` must not be parallel to `towards_viewer`.
     pub fn new(
         towards_viewer: Vector3,
         up: Vector3,
@@ -34,8 +34,8 @@ impl Camera {
         }
     }
 
-    /// The camera that sees all `places` with `margin` (nm) around them, as large as fits into so many
-    /// pixels, of which `foot` are kept free below.
+    /// Creates a camera in which all `places` with a `margin` (nm) fit into a picture, of which `foot` pixels at the
+    /// bottom remain free.
     pub fn fitted(
         [towards_viewer, up]: [Vector3; 2],
         places: &[Vector3],
@@ -58,7 +58,7 @@ impl Camera {
         camera
     }
 
-    /// The same camera after it went around `axis` of the lab by `angle` (rad), still looking at its target.
+    /// Rotates the camera about an axis (lab frame) through its target by `angle` (rad).
     #[must_use]
     pub fn turned(&self, axis: Vector3, angle: f64) -> Self {
         let turn = nalgebra::Rotation3::new(axis.normalize() * angle);
@@ -68,23 +68,21 @@ impl Camera {
         }
     }
 
-    /// A point as the camera sees it (nm): right, up, towards the viewer.
+    /// Transforms a point to camera coordinates (nm): right, up, towards the viewer.
     pub(super) fn see(&self, point: Vector3) -> Vector3 {
         self.turn(point - self.target)
     }
 
-    /// A direction, likewise.
     pub(super) fn turn(&self, v: Vector3) -> Vector3 {
         Vector3::from(self.rows.map(|row| row.dot(&v)))
     }
 
-    /// A direction as seen, in the lab frame.
     fn lab(&self, seen: Vector3) -> Vector3 {
         let [right, up, towards] = self.rows;
         right * seen.x + up * seen.y + towards * seen.z
     }
 
-    /// Pixels per nm.
+    /// Returns the scale in pixels per nm.
     pub fn per_nm(&self) -> f64 {
         self.per_nm
     }
@@ -94,7 +92,7 @@ impl Camera {
 mod tests {
     use super::*;
 
-    /// Seen from +y with x up, z lies to the right; what is fitted is seen whole and touches two edges.
+    /// Seen from +y with x upwards, z points to the right. A fitted scene touches two edges.
     #[test]
     fn places_are_seen_where_they_must() {
         let [towards, up] = [Vector3::y(), Vector3::x()];

@@ -1,14 +1,13 @@
-//! Solids, pixel by pixel.
+//! Rendering of solids to pixels.
 
 use super::{Camera, Matrix3, Vector3};
 
-/// Pixels of the canvas per pixel of the finished picture, along each side: edges are smooth.
+/// Supersampling factor along each side.
 pub(super) const FINER: usize = 2;
 
-/// Towards the light.
 const LIGHT: [f64; 3] = [-0.45, 0.6, 0.75];
 
-/// One pixel: colour, depth (nm towards the viewer), and whether it is a body that casts shade.
+/// A pixel: colour, depth (nm towards the viewer), and whether it casts shade.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Cell {
     pub(super) colour: [f32; 3],
@@ -38,14 +37,13 @@ pub struct Canvas {
     half: Vector3,
 }
 
-/// The pixels of a box: first and last column and row.
 pub(super) struct Area {
     pub(super) columns: std::ops::Range<usize>,
     pub(super) rows: std::ops::Range<usize>,
 }
 
 impl Canvas {
-    /// An empty picture of so many pixels, wide and high.
+    /// Creates an empty picture with a width and height in pixels.
     pub fn new([width, height]: [usize; 2], camera: Camera) -> Self {
         let size = [FINER * width, FINER * height];
         let light = Vector3::from(LIGHT).normalize();
@@ -58,22 +56,21 @@ impl Canvas {
         }
     }
 
-    /// Pixels of the finished picture per nm.
+    /// Returns pixels of the finished picture per nm.
     pub fn per_nm(&self) -> f64 {
         self.camera.per_nm
     }
 
-    /// Towards the viewer, in the lab frame.
+    /// Returns the direction towards the viewer (lab frame).
     pub fn towards_viewer(&self) -> Vector3 {
         self.camera.rows[2]
     }
 
-    /// Cells per nm.
     pub(super) fn scale(&self) -> f64 {
         FINER as f64 * self.camera.per_nm
     }
 
-    /// The cells of a box about (x, y) of the camera, half so wide and high (nm).
+    /// Returns the cells of a box centred at (x, y) in camera coordinates, with half widths `half` (nm).
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,
@@ -93,7 +90,6 @@ impl Canvas {
         }
     }
 
-    /// The middle of a cell in the camera's coordinates (nm).
     pub(super) fn place(&self, column: usize, row: usize) -> [f64; 2] {
         let [width, height] = self.size;
         let scale = self.scale();
@@ -103,7 +99,7 @@ impl Canvas {
         ]
     }
 
-    /// Colours a cell at depth z with the normal n, if nothing is before it.
+    /// Colours a cell at depth z with normal n, unless it is hidden.
     #[expect(
         clippy::cast_possible_truncation,
         reason = "colours and depths of pictures"
@@ -132,11 +128,11 @@ impl Canvas {
         };
     }
 
-    /// An ellipsoid, its semi-axes the columns of a matrix at right angles to each other (nm, lab frame).
-    /// It counts `nearer` than it is by so much (nm).
+    /// Draws an ellipsoid. The columns of `semi_axes` are its orthogonal semi-axes (nm, lab frame); `nearer` is a
+    /// depth offset (nm).
     pub fn ellipsoid(&mut self, centre: Vector3, semi_axes: Matrix3, colour: [u8; 3], nearer: f64) {
         let axes = [0, 1, 2].map(|k| self.camera.turn(semi_axes.column(k).into()));
-        // The points p with p M p = 1.
+        // The ellipsoid is the set of points p with p^T M p = 1.
         let m: Matrix3 = axes
             .iter()
             .map(|a| a * a.transpose() / a.norm_squared().powi(2))
@@ -162,7 +158,7 @@ impl Canvas {
         }
     }
 
-    /// A ball of radius r (nm).
+    /// Draws a sphere of radius r (nm).
     pub fn ball(&mut self, centre: Vector3, r: f64, colour: [u8; 3], nearer: f64) {
         self.ellipsoid(centre, Matrix3::identity() * r, colour, nearer);
     }

@@ -1,21 +1,19 @@
-//! What is done to a whole picture: shade in hollows, outlines, haze, and fewer, smoother pixels.
+//! Postprocessing of a picture: ambient occlusion, outlines, haze, downsampling.
 
 use super::canvas::{Cell, FINER};
 use super::{Canvas, Picture};
 
-/// How much of the farthest body shows through to the ground.
+/// Fraction of the background visible through the farthest body.
 const HAZE: f32 = 0.45;
-/// Width of what counts as a hollow (nm).
+/// Radius of ambient occlusion (nm).
 const HOLLOW_NM: f64 = 5.0;
-/// Largest width of it (cells).
+/// Its largest value (cells).
 const WIDEST: f64 = 68.0;
-/// Pairs of places that are looked at about a cell.
 const PAIRS: usize = 10;
-/// The colour of outlines, and how dense they are.
 const OUTLINE: ([f32; 3], f32) = ([10.0, 13.0, 18.0], 0.62);
 
 impl Canvas {
-    /// The finished picture on a ground.
+    /// Returns the finished picture on a background colour.
     pub fn finish(&self, ground: [u8; 3]) -> Picture {
         let ground = ground.map(f32::from);
         let [width, height] = self.size.map(|n| n / FINER);
@@ -35,7 +33,6 @@ impl Canvas {
         Picture::new([width, height], pixels)
     }
 
-    /// Where hollows are looked for about a cell, one of each pair.
     #[expect(clippy::cast_possible_truncation, reason = "a few cells")]
     fn offsets(&self) -> [(isize, isize); PAIRS] {
         let wide = (HOLLOW_NM * self.scale()).clamp(3.0, WIDEST);
@@ -46,7 +43,6 @@ impl Canvas {
         })
     }
 
-    /// The cell so many columns and rows away, or the nearest in the picture.
     fn beside(&self, (column, row): (usize, usize), (dx, dy): (isize, isize)) -> &Cell {
         let [width, height] = self.size;
         let column = column.saturating_add_signed(dx).min(width - 1);
@@ -98,7 +94,7 @@ impl Canvas {
         mixed(colour, OUTLINE.0, edge * clear(nearest))
     }
 
-    /// How deep in a hollow a cell is, from 0 to 0.75.
+    /// Returns the occlusion of a cell, from 0 to 0.75.
     #[expect(clippy::cast_possible_truncation, reason = "lengths of pictures")]
     fn hollow(&self, at: (usize, usize), offsets: &[(isize, isize)]) -> f32 {
         let depth = self.beside(at, (0, 0)).depth;

@@ -1,11 +1,10 @@
-//! Letters as lines: those of numbers, units and clocks.
+//! Stroke font for numbers, units and clocks.
 
-/// Height of a figure.
 pub(super) const HEIGHT: f64 = 6.0;
 
 type Line = &'static [[f64; 2]];
 
-/// Letters with their lines, x to the right and y up from the base line.
+/// Characters with their strokes; x to the right, y upwards from the base line.
 const LETTERS: [(char, &[Line]); 20] = [
     (
         '0',
@@ -217,13 +216,11 @@ const LETTERS: [(char, &[Line]); 20] = [
     ),
 ];
 
-/// The lines of a letter; none of one that is not known.
 pub(super) fn strokes(letter: char) -> &'static [Line] {
     let known = LETTERS.iter().find(|(known, _)| *known == letter);
     known.map_or(&[], |(_, lines)| lines)
 }
 
-/// How far the next letter is.
 pub(super) fn advance(letter: char) -> f64 {
     match letter {
         '.' => 2.2,

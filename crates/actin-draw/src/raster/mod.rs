@@ -1,8 +1,8 @@
-//! Solids into pixels, without a graphics card: ellipsoids, tubes and lines with a depth for every pixel, as
-//! the scripts of [`space`](crate::space) draw them, and PNG files of these pictures.
+//! Software rendering of ellipsoids, tubes and lines to PNG pictures, in the style of the scripts of
+//! [`space`](crate::space).
 //!
-//! A [`Canvas`] is seen by a [`Camera`]; nothing is foreshortened. Solids are painted in any order;
-//! [`Canvas::finish`] adds outlines, shade in hollows and haze.
+//! A [`Canvas`] has an orthographic [`Camera`]. Solids are drawn in any order; [`Canvas::finish`] adds outlines,
+//! ambient occlusion and haze.
 //!
 //! ```
 //! use actin_draw::raster::{Camera, Canvas};
@@ -25,6 +25,6 @@ mod tube;
 pub use camera::Camera;
 pub use canvas::Canvas;
 pub use picture::Picture;
-pub use tube::Look;
+pub use tube::TubeStyle;
 
 use crate::scene3d::{Matrix3, Vector3};

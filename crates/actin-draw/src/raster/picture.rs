@@ -1,9 +1,9 @@
-//! A finished picture: lines and letters over it, and its file.
+//! Finished pictures, with lines and text.
 
 use super::letters;
 use std::io::{self, Write};
 
-/// A picture of so many pixels, red, green and blue.
+/// An RGB picture.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Picture {
     size: [usize; 2],
@@ -15,16 +15,16 @@ impl Picture {
         Self { size, pixels }
     }
 
-    /// The colour of a pixel, counted from the upper left corner.
+    /// Returns the colour of a pixel, counted from the upper left corner.
     ///
     /// # Panics
-    /// Outside of the picture.
+    /// If the pixel is outside the picture.
     pub fn pixel(&self, column: usize, row: usize) -> [u8; 3] {
         let at = 3 * (row * self.size[0] + column);
         [self.pixels[at], self.pixels[at + 1], self.pixels[at + 2]]
     }
 
-    /// Draws a line through points (pixels), so many pixels wide, with round ends.
+    /// Draws a polyline (pixels) with a width in pixels and round ends.
     pub fn stroke(&mut self, points: &[[f64; 2]], width: f64, colour: [u8; 3]) {
         for pair in points.windows(2) {
             self.segment([pair[0], pair[1]], width, colour);
@@ -60,8 +60,8 @@ impl Picture {
         }
     }
 
-    /// Writes text whose base line begins at a place (pixels), with letters so many pixels high; how wide it
-    /// is. Letters that are not known are left out.
+    /// Writes text from the start of its base line (pixels), with a letter height in pixels. Returns the width of the
+    /// text. Unknown characters are skipped.
     pub fn text(&mut self, [x, y]: [f64; 2], height: f64, colour: [u8; 3], text: &str) -> f64 {
         let unit = height / letters::HEIGHT;
         let mut at = x;
@@ -81,7 +81,7 @@ impl Picture {
     /// Writes a PNG file.
     ///
     /// # Errors
-    /// Those of `out`.
+    /// If `out` returns an error.
     pub fn write_png(&self, out: impl Write) -> io::Result<()> {
         let side = |n: usize| u32::try_from(n).map_err(io::Error::other);
         let mut encoder = png::Encoder::new(out, side(self.size[0])?, side(self.size[1])?);

@@ -2,24 +2,24 @@
 
 use super::{Canvas, Matrix3, Vector3};
 
-/// How a tube looks.
+/// Appearance of a tube.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Look {
-    /// Its colour.
+pub struct TubeStyle {
+    /// Colour.
     pub colour: [u8; 3],
-    /// Share of white of the stripe along its first axis, on both sides; none at 0.
+    /// Fraction of white in the stripes along the first axis, on both sides; 0 for no stripe.
     pub stripe: f64,
-    /// Share of light of the seams at its nodes.
+    /// Fraction of white in the seams at nodes.
     pub seam: f64,
 }
 
-/// The cosine from which on the stripe is seen.
+/// Smallest cosine at which the stripe is drawn.
 const STRIPE: f64 = 0.94;
 /// Width of a seam (nm).
 const SEAM_NM: f64 = 0.2;
 
-/// A straight piece: its ends, the normals of the planes that end it, two axes across it, and how these turn
-/// towards the pieces before and behind.
+/// A straight piece of a tube: ends, normals of the end planes, two transverse axes, and their rotations towards
+/// adjacent pieces.
 struct Piece {
     ends: [Vector3; 2],
     cuts: [Vector3; 2],
@@ -28,9 +28,9 @@ struct Piece {
 }
 
 impl Canvas {
-    /// A tube of radius r (nm) through nodes, mitred where pieces meet. `frames` has the axes of each piece as
-    /// columns; between the middles of pieces they turn evenly about the tube.
-    pub fn tube(&mut self, nodes: &[Vector3], frames: &[Matrix3], r: f64, look: Look) {
+    /// Draws a tube of radius r (nm) through nodes, mitred between pieces. The columns of `frames` are the axes of
+    /// each piece, which are interpolated between the middles of pieces.
+    pub fn tube(&mut self, nodes: &[Vector3], frames: &[Matrix3], r: f64, look: TubeStyle) {
         let nodes: Vec<Vector3> = nodes.iter().map(|&p| self.camera.see(p)).collect();
         let axes = |k: usize| [0, 1].map(|c| self.camera.turn(frames[k].column(c).into()));
         let axes: Vec<[Vector3; 2]> = (0..frames.len()).map(axes).collect();
@@ -71,7 +71,7 @@ impl Canvas {
         }
     }
 
-    /// A round line of radius r (nm), of at least so many pixels; it counts `nearer` than it is (nm).
+    /// Draws a round line of radius r (nm) and at least a width in pixels; `nearer` is a depth offset (nm).
     pub fn line(
         &mut self,
         points: &[Vector3],
@@ -80,7 +80,7 @@ impl Canvas {
         nearer: f64,
     ) {
         let r = r.max(0.5 * pixels / self.camera.per_nm);
-        let look = Look {
+        let look = TubeStyle {
             colour,
             stripe: 0.0,
             seam: 1.0,
@@ -103,15 +103,14 @@ impl Canvas {
         }
     }
 
-    /// The mantle of a piece, seen by the camera.
-    fn piece(&mut self, piece: &Piece, r: f64, look: Look, nearer: f64) {
+    fn piece(&mut self, piece: &Piece, r: f64, look: TubeStyle, nearer: f64) {
         let [p, q] = piece.ends;
         let along = q - p;
         let length = along.norm();
         let u = along / length;
         let across = 1.0 - u.z * u.z;
         if across < 1e-9 {
-            return; // seen from its end: nothing of the mantle shows
+            return; // seen end-on: the lateral surface is not visible
         }
         let middle = p + 0.5 * along;
         let half = [0, 1].map(|k| 0.5 * along[k].abs() + 1.4 * r);
@@ -141,7 +140,7 @@ impl Canvas {
         }
     }
 
-    /// A disc about c across the unit vector n, both as seen.
+    /// Draws a disc with centre c and unit normal n, in camera coordinates.
     fn disc(&mut self, c: Vector3, n: Vector3, r: f64, colour: [u8; 3]) {
         let n = if n.z < 0.0 { -n } else { n };
         if n.z < 1e-6 {
@@ -162,8 +161,8 @@ impl Canvas {
 }
 
 impl Piece {
-    /// The colour at a share of the way, so far from the nearer end (nm), where the normal is n.
-    fn colour(&self, (share, edge): (f64, f64), n: Vector3, look: Look) -> [f64; 3] {
+    /// Returns the colour at a fraction of the length, at a distance from the nearer end (nm), with normal n.
+    fn colour(&self, (share, edge): (f64, f64), n: Vector3, look: TubeStyle) -> [f64; 3] {
         let colour = look.colour.map(f64::from);
         if look.stripe == 0.0 {
             return colour;

@@ -1,11 +1,10 @@
-//! Numbers beside what is expected of them: rows with verdicts, artefacts that hold them with their
-//! pictures, and the files that they are kept in.
+//! Numbers compared with reference values, and artefacts that contain them together with pictures.
 //!
 //! ```
 //! use actin_draw::report::Row;
 //! let row = Row::measured("fig1", "height", "nm", 36.7, "mean of 8");
 //! assert_eq!(row.pass, None);
-//! // 36 is printed; two may be off by 1.
+// The reference is 36, with a tolerance of 1.
 //! assert_eq!(row.against(36.0, 1.0).pass, Some(true));
 //! ```
 
@@ -17,8 +16,7 @@ use serde::{Deserialize, Deserializer, Serialize};
 use std::fs;
 use std::path::Path;
 
-/// A text that recipes write as a literal; read from a file it lives as long as the program, which
-/// reads each artefact once.
+/// A string literal. A string that is read from a file is leaked; each artefact is read once.
 pub type Literal = &'static str;
 
 fn literal<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Literal, D::Error> {
@@ -27,28 +25,28 @@ fn literal<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Literal, D::Err
     ))
 }
 
-/// Where the number comes from that another is compared with.
+/// Origin of the reference value.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Origin {
-    /// The paper prints it, and a simulation gives ours.
+    /// Printed in the paper; ours is the result of a simulation.
     Paper,
-    /// The paper prints it, and it follows from other printed numbers: no simulation has a part in it.
+    /// Printed in the paper; ours follows from other printed numbers without a simulation.
     Derived,
-    /// The paper says it in words; the bound that decides is ours.
+    /// Described in the text of the paper; the bound is ours.
     Words,
-    /// The code holds it as the paper gives it: it is shown, and no row is judged by it.
+    /// Parameter copied from the paper; shown without a verdict.
     Parameter,
-    /// A theorem, or a symmetry.
+    /// A theorem or a symmetry.
     Theory,
-    /// An earlier calculation that shares the modelling decisions of this code: a check of the arithmetic.
+    /// An earlier calculation with the same modelling decisions, which checks the arithmetic.
     CrossCheck,
-    /// Asked for here.
+    /// A requirement of this project.
     Bound,
 }
 
 impl Origin {
-    /// In a table of rows.
+    /// Returns the description in tables.
     pub fn name(self) -> &'static str {
         match self {
             Self::Paper => "paper",
@@ -62,10 +60,10 @@ impl Origin {
     }
 }
 
-/// One number of an artefact.
+/// A number of an artefact.
 #[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
 pub struct Row {
-    /// Which figure or table.
+    /// Figure or table.
     #[serde(deserialize_with = "literal")]
     pub artefact: Literal,
     /// Path of the quantity.
@@ -73,26 +71,26 @@ pub struct Row {
     /// Unit; empty for a ratio.
     #[serde(deserialize_with = "literal")]
     pub unit: Literal,
-    /// What the paper, or another origin, gives.
+    /// Reference value, from the paper or another origin.
     pub paper: Option<f64>,
-    /// What this run computed.
+    /// Computed value.
     pub ours: f64,
-    /// Largest difference that passes.
+    /// Largest accepted difference.
     pub tolerance: Option<f64>,
-    /// Verdict; none where nothing is given to compare with.
+    /// Verdict; `None` without a reference value.
     pub pass: Option<bool>,
-    /// How the number came about.
+    /// Description of the computation.
     pub note: String,
-    /// Where `paper`, or the bound that decides, comes from.
+    /// Origin of `paper` or of the bound.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub origin: Option<Origin>,
-    /// Standard error of a fitted parameter, which bounds how well rounding determines it.
+    /// Standard error of a fitted parameter, which limits the effect of round-off on it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub standard_error: Option<f64>,
 }
 
 impl Row {
-    /// A number with nothing to compare it to.
+    /// Creates a row without a reference value.
     pub fn measured(
         artefact: &'static str,
         quantity: impl Into<String>,
@@ -114,7 +112,7 @@ impl Row {
         }
     }
 
-    /// The same number, compared to `paper`, which the paper prints.
+    /// Adds a reference value that is printed in the paper.
     #[must_use]
     pub fn against(self, paper: f64, tolerance: f64) -> Self {
         Self {
@@ -126,7 +124,7 @@ impl Row {
         }
     }
 
-    /// The same, with another origin of what it is compared with.
+    /// Sets the origin of the reference value.
     #[must_use]
     pub fn of(self, origin: Origin) -> Self {
         Self {
@@ -141,29 +139,29 @@ impl Row {
 pub struct Picture {
     /// File name in the output folder.
     pub file: String,
-    /// What is seen.
+    /// Caption.
     pub caption: String,
 }
 
-/// States to be turned in the page's viewer.
+/// States for the interactive viewer.
 #[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
 pub struct View {
-    /// A JSON file in the output folder.
+    /// JSON file in the output folder.
     pub file: String,
-    /// What is seen.
+    /// Caption.
     pub caption: String,
 }
 
-/// A figure or table, computed.
+/// A computed figure or table.
 #[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
 pub struct Artefact {
-    /// Which.
+    /// Identifier, such as `fig4`.
     #[serde(deserialize_with = "literal")]
     pub id: Literal,
-    /// Its title, in our words.
+    /// Title.
     #[serde(deserialize_with = "literal")]
     pub title: Literal,
-    /// How it was made: scenes, stop rule, seeds.
+    /// Settings of the computation: scenes, stop rule, seeds.
     pub settings: String,
     /// Numbers.
     pub rows: Vec<Row>,
@@ -171,15 +169,14 @@ pub struct Artefact {
     pub pictures: Vec<Picture>,
     /// States for the viewer.
     pub views: Vec<View>,
-    /// Time that it took (s).
+    /// Run time (s).
     pub wall_s: f64,
 }
 
-/// Writes `report.json`: all rows, sorted, one a line.
+/// Writes `report.json`, with one sorted row per line.
 ///
 /// # Errors
-/// Those of [`text`], a verdict that does not say who expects its number, and one on a parameter that
-/// was copied, which cannot fail.
+/// Errors of [`text`], a verdict without an origin, or a verdict on a copied parameter, which cannot fail.
 pub fn write(artefacts: &[Artefact], out: &Path) -> Result<(), String> {
     let rows: Vec<Row> = artefacts.iter().flat_map(|a| a.rows.clone()).collect();
     let is_unfounded =
@@ -195,15 +192,15 @@ pub fn write(artefacts: &[Artefact], out: &Path) -> Result<(), String> {
     write_atomically(&out.join("report.json"), &text(rows)?)
 }
 
-/// The text of a report.
+/// Returns the text of a report.
 ///
 /// # Errors
-/// A row whose number is not finite, and two rows of one quantity.
+/// If a number is not finite, or a quantity occurs twice.
 pub fn text(mut rows: Vec<Row>) -> Result<String, String> {
     rows.sort_by(|a, b| (a.artefact, &a.quantity).cmp(&(b.artefact, &b.quantity)));
     if let Some(bad) = rows.iter().find(|row| !row.ours.is_finite()) {
         return Err(format!(
-            "{} {} is {}: nothing non-finite is written",
+            "{} {} is {}: numbers in a report must be finite",
             bad.artefact, bad.quantity, bad.ours
         ));
     }
@@ -224,26 +221,26 @@ pub fn text(mut rows: Vec<Row>) -> Result<String, String> {
 /// Reads a report.
 ///
 /// # Errors
-/// A file that cannot be read or is no report.
+/// If the file cannot be read or is not a report.
 pub fn read(path: &Path) -> Result<Vec<Row>, String> {
     let text = fs::read_to_string(path).map_err(|e| format!("{}: {e}", path.display()))?;
     serde_json::from_str(&text).map_err(|e| format!("{}: {e}", path.display()))
 }
 
-/// Writes a text under another name and renames it, so that the file is whole or not there.
+/// Writes a file under another name and renames it, so that it is never incomplete.
 ///
 /// # Errors
-/// A file that cannot be written.
+/// If the file cannot be written.
 pub fn write_atomically(path: &Path, text: &str) -> Result<(), String> {
     let unfinished = path.with_extension("unfinished");
     fs::write(&unfinished, text).map_err(|e| format!("{}: {e}", unfinished.display()))?;
     fs::rename(&unfinished, path).map_err(|e| format!("{}: {e}", path.display()))
 }
 
-/// Writes a table of numbers under a header, as CSV.
+/// Writes a table with a header as CSV.
 ///
 /// # Errors
-/// A file that cannot be written.
+/// If the file cannot be written.
 pub fn write_csv(
     out: &Path,
     name: &str,
@@ -265,7 +262,7 @@ pub fn write_csv(
 /// Writes a text file.
 ///
 /// # Errors
-/// A file that cannot be written.
+/// If the file cannot be written.
 pub fn save(out: &Path, name: &str, text: &str) -> Result<(), String> {
     let path = out.join(name);
     fs::write(&path, text).map_err(|e| format!("{}: {e}", path.display()))
@@ -275,8 +272,7 @@ pub fn save(out: &Path, name: &str, text: &str) -> Result<(), String> {
 mod tests {
     use super::*;
 
-    /// A row without an origin is read and written as before there were any; a verdict without one is
-    /// not reported.
+    /// Rows without an origin can be read and written, but a verdict without an origin is an error.
     #[test]
     fn verdicts_need_an_origin() {
         let row = Row::measured("fig1", "q", "nm", 1.0, "");

@@ -1,13 +1,13 @@
-//! Numbers as they are printed, and verdicts that follow from their last digit.
+//! Printed numbers, with tolerances from their last digits.
 
 use super::{Origin, Row};
 
-/// Standard deviations within which one sample counts as another.
+/// Number of standard deviations within which two samples agree.
 pub const DEVIATIONS: f64 = 2.0;
 
-/// A number as it is printed, and half a unit of its last digit.
+/// Parses a printed number. Returns its value and half a unit of its last significant digit.
 ///
-/// Zeros that end an integer of three or more digits are none: `700` is known to 50, `75` to 0.5,
+/// Trailing zeros of integers with three or more digits are not significant: `700` is accurate to 50, `75` to 0.5,
 /// `1.6e4` to 500.
 ///
 /// ```
@@ -17,7 +17,7 @@ pub const DEVIATIONS: f64 = 2.0;
 /// ```
 ///
 /// # Panics
-/// A text that is no number.
+/// If the text is not a number.
 pub fn printed(text: &str) -> (f64, f64) {
     let value = text.parse().expect("a number as the paper prints it");
     let (digits, exponent) = text.split_once('e').unwrap_or((text, "0"));
@@ -36,28 +36,26 @@ fn places(count: usize) -> i32 {
 }
 
 impl Row {
-    /// Compared with a number as the paper prints it; `sd` is the standard deviation of a single
-    /// sample, 0 where nothing is drawn.
+    /// Compares with a printed number; `sd` is the standard deviation of a single sample, 0 without sampling.
     ///
     /// # Panics
-    /// A text that is no number.
+    /// If the text is not a number.
     #[must_use]
     pub fn against_printed(self, text: &str, sd: f64) -> Self {
         let (value, half) = printed(text);
         self.against(value, half + DEVIATIONS * sd)
     }
 
-    /// Compared with a printed number that follows from other printed ones: no simulation has a part
-    /// in it.
+    /// Compares with a printed number that follows from other printed numbers without a simulation.
     ///
     /// # Panics
-    /// A text that is no number.
+    /// If the text is not a number.
     #[must_use]
     pub fn derived(self, text: &str) -> Self {
         self.against_printed(text, 0.0).of(Origin::Derived)
     }
 
-    /// Shown beside an expected number, and not judged.
+    /// Adds a reference value without a verdict.
     #[must_use]
     pub fn beside(self, expected: f64, origin: Origin) -> Self {
         Self {
@@ -72,7 +70,6 @@ impl Row {
 mod tests {
     use super::*;
 
-    /// The last digit of every kind of number that the paper prints.
     #[test]
     fn half_a_unit_of_the_last_digit() {
         let cases = [
@@ -94,7 +91,6 @@ mod tests {
         }
     }
 
-    /// A scatter of 100 about 1.6e4: 500 and 200.
     #[test]
     fn scatter_counts_twice() {
         let row = |ours| Row::measured("table4", "q", "pN", ours, "");

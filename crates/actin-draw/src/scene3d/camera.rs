@@ -1,18 +1,17 @@
-//! Where the viewer stands, and how points become places in the picture.
+//! Perspective camera.
 
 use super::Vector3;
 
-/// From where a panel is seen.
+/// View direction of a panel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct View {
-    /// From the middle of the scene towards the viewer; of any length.
+    /// Direction from the middle of the scene to the viewer, of any length.
     pub towards_viewer: Vector3,
-    /// What points upwards in the picture; not along the line of sight.
+    /// Upward direction in the picture; must not be along the line of sight.
     pub up: Vector3,
 }
 
-/// A pinhole camera. Places in the picture are `(right, up) / depth`, so that a length `a` at
-/// depth `d` across the line of sight measures `a / d`.
+/// A pinhole camera. Picture coordinates are `(right, up) / depth`.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Camera {
     eye: Vector3,
@@ -22,7 +21,6 @@ pub(super) struct Camera {
 }
 
 impl Camera {
-    /// Looks at `target` from `distance` away.
     pub(super) fn new(view: &View, target: Vector3, distance: f64) -> Self {
         let forward = -view.towards_viewer.normalize();
         let right = forward.cross(&view.up).normalize();
@@ -34,17 +32,14 @@ impl Camera {
         }
     }
 
-    /// A direction as the camera sees it: right, up, forward.
     pub(super) fn turn(&self, v: Vector3) -> Vector3 {
         Vector3::new(v.dot(&self.right), v.dot(&self.up), v.dot(&self.forward))
     }
 
-    /// A point as the camera sees it: right, up, depth.
     pub(super) fn see(&self, point: Vector3) -> Vector3 {
         self.turn(point - self.eye)
     }
 
-    /// Place of a point in the picture.
     pub(super) fn project(&self, point: Vector3) -> [f64; 2] {
         let seen = self.see(point);
         [seen.x / seen.z, seen.y / seen.z]
@@ -55,7 +50,7 @@ impl Camera {
 mod tests {
     use super::*;
 
-    /// Seen from +x at 10 with z up, +y lies to the right; at depth 5 lengths count double.
+    /// Seen from +x at a distance of 10 with z upwards, +y points to the right. At depth 5 lengths are doubled.
     #[test]
     fn a_known_point_lands_where_it_must() {
         let view = View {

@@ -1,25 +1,23 @@
-//! How the scene of a panel becomes pixels.
+//! Mapping of a scene to the pixels of a panel.
 
 use super::camera::Camera;
 
-/// How a panel's scene becomes pixels.
 #[derive(Debug)]
 pub(super) struct Frame {
     pub camera: Camera,
-    /// Pixels per unit of the picture.
+    /// Pixels per unit of picture coordinates.
     pub scale: f64,
-    /// What of the picture stands at `middle`.
+    /// Picture coordinates at `middle`.
     pub picture: [f64; 2],
-    /// Pixels of the middle of the room for the scene.
+    /// Centre of the area of the scene (pixels).
     pub middle: [f64; 2],
-    /// Left, top, right, bottom of the area for labels.
+    /// Left, top, right and bottom of the area for labels (pixels).
     pub area: [f64; 4],
-    /// Distance from the eye to the middle of the scene (nm).
+    /// Distance from the viewer to the middle of the scene (nm).
     pub distance: f64,
 }
 
 impl Frame {
-    /// Pixels of a place in the picture.
     pub(super) fn pixel(&self, [x, y]: [f64; 2]) -> [f64; 2] {
         [
             self.middle[0] + self.scale * (x - self.picture[0]),

@@ -1,4 +1,4 @@
-//! Texts at points of the scene, placed inside the panel and clear of one another.
+//! Labels at points of the scene, placed inside the panel without overlap.
 
 use super::Vector3;
 use super::frame::Frame;
@@ -8,24 +8,21 @@ use crate::Colour;
 /// A text at a point.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Label {
-    /// What it names (nm, lab frame).
+    /// Labelled point (nm, lab frame).
     pub at: Vector3,
-    /// What is written.
+    /// Text.
     pub text: String,
-    /// Where it stands from there in pixels, right and down; the text goes on in that direction.
+    /// Offset of the text in pixels, right and down; the text is aligned away from the point.
     pub offset: [f64; 2],
 }
 
-/// Size of the letters in pixels.
 pub(super) const LETTERS: f64 = 14.0;
-/// Labels further away than this have a line to what they name (pixels).
+/// Distance in pixels above which a label is connected to its point by a line.
 const LEADER: f64 = 18.0;
 const LEADER_COLOUR: Colour = Colour([120, 120, 120]);
 
-/// Left, top, right, bottom.
 type Area = [f64; 4];
 
-/// Paints all labels of a panel.
 pub(super) fn paint(labels: &[Label], frame: &Frame, canvas: &mut Canvas) {
     let mut taken: Vec<Area> = Vec::new();
     for label in labels {
@@ -49,7 +46,7 @@ pub(super) fn paint(labels: &[Label], frame: &Frame, canvas: &mut Canvas) {
     }
 }
 
-/// Where a label stands: at its offset, moved into the panel, then down past those that are there.
+/// Returns the area of a label: at its offset, moved into the panel, then moved down until free.
 fn free_area(label: &Label, named: [f64; 2], panel: Area, taken: &[Area]) -> Area {
     let (width, height) = (text_width(&label.text, LETTERS), 1.25 * LETTERS);
     let [right, down] = label.offset;
@@ -81,7 +78,6 @@ fn free_area(label: &Label, named: [f64; 2], panel: Area, taken: &[Area]) -> Are
 mod tests {
     use super::*;
 
-    /// Labels of one point end up below one another and inside the panel.
     #[test]
     fn labels_keep_clear_of_edges_and_of_one_another() {
         let label = Label {

@@ -1,8 +1,8 @@
-//! A small renderer: solids in space, seen in perspective, painted back to front into an SVG.
+//! Perspective drawings of solids as SVG.
 //!
-//! A [`Sheet`] holds panels and a legend; a [`Panel`] holds solids and labels and chooses scale
-//! and place so that all of them fit. Outlines are exact projections; what hides what is decided
-//! solid by solid, by the distance of its middle.
+//! A [`Sheet`] contains panels and a legend. A [`Panel`] contains solids and labels, and fits them into its area.
+//! Outlines are exact projections. Solids are drawn in the order of the distances of their centres (painter's
+//! algorithm).
 
 mod camera;
 mod frame;
@@ -20,7 +20,7 @@ pub use sheet::{Key, Sheet};
 pub use solid::{Item, Solid};
 pub use svg::Stroke;
 
-/// A vector of three components.
+/// Vector with three components.
 pub type Vector3 = nalgebra::Vector3<f64>;
-/// A matrix of three rows and three columns.
+/// Matrix with three rows and columns.
 pub type Matrix3 = nalgebra::Matrix3<f64>;

@@ -1,25 +1,28 @@
-//! Outlines of solids in the picture: the ellipse of an ellipsoid, the hull of a cylinder.
+//! Outlines of ellipsoids (ellipses) and cylinders (convex hulls) in the picture.
 
 use super::camera::Camera;
 use super::{Matrix3, Vector3};
 
-/// An ellipse in the plane of the picture.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Ellipse {
-    /// Its middle.
     pub centre: [f64; 2],
-    /// Its semi-axes, the larger first.
+    /// Semi-axes, the larger first.
     pub semi_axes: [f64; 2],
-    /// From the picture's right to the larger axis, counter-clockwise (rad).
+    /// Angle of the larger axis from the horizontal, counter-clockwise (rad).
     pub angle: f64,
 }
 
-/// The outline of the ellipsoid whose semi-axes are the columns of `semi_axes` (lab frame).
+/// Returns the outline of the ellipsoid whose semi-axes are the columns of `semi_axes` (lab frame). It must be in
+/// front of the camera.
 ///
-/// With the centre `c` and `M = A A^T` of the semi-axes `A`, both as the camera sees them, the
-/// planes that touch the ellipsoid are those of the dual quadric `[M - c c^T, -c; -c^T, -1]`, and
-/// the lines that touch its picture those of the dual conic `M - c c^T` (Hartley and Zisserman,
-/// Multiple View Geometry, 2nd ed., section 8.3). The ellipsoid lies in front of the camera.
+/// ```text
+/// [M - c c^T, -c; -c^T, -1]   dual quadric of the ellipsoid (its tangent planes), M = A A^T
+/// M - c c^T                   dual conic of the outline (its tangent lines)
+/// c, A                        centre and semi-axes in camera coordinates
+/// ```
+///
+/// # Source
+/// Hartley and Zisserman, Multiple View Geometry, 2nd ed., section 8.3.
 pub(super) fn ellipsoid(camera: &Camera, centre: Vector3, semi_axes: &Matrix3) -> Ellipse {
     let columns: Vec<Vector3> = semi_axes
         .column_iter()
@@ -41,7 +44,6 @@ pub(super) fn ellipsoid(camera: &Camera, centre: Vector3, semi_axes: &Matrix3) -
 }
 
 impl Ellipse {
-    /// Corners of the upright box around it.
     pub(super) fn bounds(&self) -> [[f64; 2]; 2] {
         let (sin, cos) = self.angle.sin_cos();
         let [a, b] = self.semi_axes;
@@ -51,10 +53,9 @@ impl Ellipse {
     }
 }
 
-/// Points on the rim of a disc.
 const RIM: usize = 72;
 
-/// The rim of the disc about `centre` across `normal` (nm, lab frame).
+/// Returns the rim of a disc (nm, lab frame).
 pub(super) fn rim(centre: Vector3, normal: Vector3, radius: f64) -> Vec<Vector3> {
     let aside = if normal.x.abs() < 0.9 * normal.norm() {
         Vector3::x()
@@ -71,7 +72,7 @@ pub(super) fn rim(centre: Vector3, normal: Vector3, radius: f64) -> Vec<Vector3>
         .collect()
 }
 
-/// The convex hull, counter-clockwise. A cylinder is the hull of its two rims, in the picture too.
+/// Returns the convex hull, counter-clockwise. The outline of a cylinder is the hull of its projected rims.
 pub(super) fn hull(mut points: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
     points.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
     let chain = |points: &mut dyn Iterator<Item = [f64; 2]>| {
@@ -98,9 +99,6 @@ mod tests {
     use crate::scene3d::camera::View;
     use nalgebra::Rotation3;
 
-    /// In every direction of the picture the outline reaches exactly as far as the furthest
-    /// projected point of the surface: an orthographic outline, or a centre that is the image of
-    /// the centre, would miss at this distance of three radii.
     #[test]
     fn the_outline_is_that_of_the_sampled_surface() {
         let view = View {
@@ -129,14 +127,13 @@ mod tests {
             let [a, b] = ellipse.semi_axes;
             let reach = (a * (n_x * cos + n_y * sin)).hypot(b * (n_y * cos - n_x * sin));
             let outline = n_x * ellipse.centre[0] + n_y * ellipse.centre[1] + reach;
-            // Samples 0.005 rad apart fall short by at most the square of half of it.
+            // Samples are 0.005 rad apart, which causes an error of at most the square of half of it.
             assert!((outline - sampled).abs() < 1e-5 && outline >= sampled - 1e-12);
         }
         let image = camera.project(centre);
         assert!((image[0] - ellipse.centre[0]).hypot(image[1] - ellipse.centre[1]) > 1e-3);
     }
 
-    /// Points within and on the edges of a square drop out.
     #[test]
     fn a_hull_keeps_corners_only() {
         let square = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];

@@ -1,4 +1,4 @@
-//! One view of a scene: fits it into a rectangle and paints it back to front.
+//! A view of a scene, fitted into a rectangle and drawn back to front.
 
 use super::Vector3;
 use super::camera::{Camera, View};
@@ -8,38 +8,35 @@ use super::solid::Item;
 use super::svg::{Align, Canvas, Stroke};
 use crate::Colour;
 
-/// One view of a scene.
+/// A view of a scene.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Panel {
-    /// Text above the view.
+    /// Title.
     pub title: String,
     /// Left, top, width and height in pixels.
     pub place: [f64; 4],
-    /// From where it is seen.
+    /// View direction.
     pub view: View,
-    /// What is seen, in any order.
+    /// Solids, in any order.
     pub items: Vec<Item>,
     /// Texts at points of the scene.
     pub labels: Vec<Label>,
     /// Length of the scale bar (nm).
     pub bar_nm: f64,
-    /// Room kept free around the scene for labels, in pixels: left, top, right, bottom.
+    /// Margins for labels in pixels: left, top, right, bottom.
     pub room: [f64; 4],
 }
 
-/// Distance of the eye, in extents of the scene: near enough to see depth, far enough for lengths.
+/// Distance of the viewer relative to the extent of the scene, a compromise between depth and accurate lengths.
 const DISTANCE: f64 = 3.5;
-/// Height of the title's line in pixels.
 const TITLE: f64 = 26.0;
-/// Height of the strip of scale bar and axes in pixels.
 const FOOT: f64 = 46.0;
 const AXIS: f64 = 24.0;
-/// An axis that is seen shorter than this share is left out.
+/// Axes that appear shorter than this fraction are omitted.
 const SHORT: f64 = 0.38;
 const GREY: Colour = Colour([90, 90, 90]);
 
 impl Panel {
-    /// Paints title, scene, labels, scale bar and axes.
     pub(super) fn paint(&self, canvas: &mut Canvas) {
         let frame = self.frame();
         let mut order: Vec<(f64, &Item)> = self
@@ -64,7 +61,6 @@ impl Panel {
         self.paint_axes(&frame, canvas);
     }
 
-    /// Camera and scale by which everything fits.
     fn frame(&self) -> Frame {
         let middles: Vec<Vector3> = self.items.iter().map(|i| i.solid.middle()).collect();
         let target = middles.iter().sum::<Vector3>() / middles.len().max(1) as f64;
@@ -101,7 +97,7 @@ impl Panel {
         }
     }
 
-    /// The scale bar: right for lengths across the line of sight at the middle of the scene.
+    /// Draws the scale bar, which applies to transverse lengths in the middle of the scene.
     fn paint_bar(&self, frame: &Frame, canvas: &mut Canvas) {
         let length = frame.scale * self.bar_nm / frame.distance;
         let [left, top, _, height] = self.place;
@@ -118,7 +114,6 @@ impl Panel {
         );
     }
 
-    /// The lab's axes, small, in the lower right corner.
     fn paint_axes(&self, frame: &Frame, canvas: &mut Canvas) {
         let [left, top, width, height] = self.place;
         let origin = [left + width - 48.0, top + height - 32.0];
@@ -156,7 +151,7 @@ mod tests {
         Item::new(solid, Colour(colour))
     }
 
-    /// Whatever the order of the list, the nearer ball is painted last; and both lie in the panel.
+    /// The nearer sphere is drawn last for any order of the list, and both are inside the panel.
     #[test]
     fn what_is_nearer_is_painted_later() {
         let (near, far) = (ball(5.0, [1, 0, 0]), ball(-5.0, [0, 0, 1]));
@@ -186,7 +181,7 @@ mod tests {
                     .into_iter()
                     .map(|p| frame.pixel(p))
                 {
-                    // Round-off of a fit that touches two edges.
+                    // Round-off of the fit, which touches two edges.
                     assert!((-1e-9..=300.0 + 1e-9).contains(&x) && (-1e-9..=200.0).contains(&y));
                 }
             }

@@ -1,10 +1,10 @@
-//! A whole picture: panels and a legend below them.
+//! A picture with panels and a legend.
 
 use super::panel::Panel;
 use super::svg::{Align, Canvas, Paint, Stroke, text_width};
 use crate::Colour;
 
-/// What stands for an entry in the legend.
+/// Symbol of a legend entry.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Key {
     /// A shaded ellipsoid.
@@ -13,24 +13,24 @@ pub enum Key {
     Dot(Colour),
     /// A line.
     Line(Stroke),
-    /// A line with a head.
+    /// An arrow.
     Arrow(Stroke),
-    /// A filled rectangle of an opacity.
+    /// A filled rectangle with an opacity.
     Area(Colour, f64),
 }
 
-/// A whole picture.
+/// A picture with panels and a legend.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sheet {
-    /// Begins the names within the file; unlike those of other pictures of a page.
+    /// Prefix of identifiers in the file, unique among the pictures of a page.
     pub prefix: &'static str,
     /// Width in pixels.
     pub width: f64,
     /// Height without the legend, in pixels.
     pub height: f64,
-    /// Views, each in its own rectangle.
+    /// Panels, each in its own rectangle.
     pub panels: Vec<Panel>,
-    /// Entries of the legend, side by side below the panels.
+    /// Entries of the legend, below the panels.
     pub legend: Vec<(Key, String)>,
 }
 
@@ -41,7 +41,7 @@ const GAP: f64 = 22.0;
 const MARGIN: f64 = 16.0;
 
 impl Sheet {
-    /// The picture as SVG.
+    /// Returns the picture as SVG.
     pub fn svg(&self) -> String {
         let places = self.legend_places();
         let rows = places.last().map_or(0.0, |[_, y]| y / ROW + 1.0);
@@ -58,7 +58,6 @@ impl Sheet {
         canvas.finish()
     }
 
-    /// Where each entry of the legend begins: side by side, in as many rows as are needed.
     fn legend_places(&self) -> Vec<[f64; 2]> {
         let (mut x, mut y) = (MARGIN, 0.0);
         let entries = self.legend.iter();
@@ -77,7 +76,6 @@ impl Sheet {
 }
 
 impl Key {
-    /// Paints it to the right of a place.
     fn paint(self, [x, y]: [f64; 2], canvas: &mut Canvas) {
         let ends = [[x, y], [x + KEY, y]];
         let middle = [x + 0.5 * KEY, y];

@@ -1,4 +1,4 @@
-//! What is drawn: solids in space, and how each is painted.
+//! Solids in space, and how they are drawn.
 
 use super::camera::Camera;
 use super::frame::Frame;
@@ -10,63 +10,63 @@ use crate::Colour;
 /// A solid (nm, lab frame).
 #[derive(Clone, Debug, PartialEq)]
 pub enum Solid {
-    /// An ellipsoid, its semi-axes the columns of a matrix.
+    /// An ellipsoid.
     Ellipsoid {
-        /// Its middle.
+        /// Centre.
         centre: Vector3,
-        /// Its semi-axes as columns.
+        /// Semi-axes as columns.
         semi_axes: Matrix3,
     },
     /// A cylinder with flat ends.
     Cylinder {
-        /// Middles of its flat ends.
+        /// Centres of its ends.
         ends: [Vector3; 2],
-        /// Its radius.
+        /// Radius.
         radius: f64,
     },
     /// A flat polygon.
     Plate {
-        /// Its corners in order.
+        /// Corners in order.
         corners: Vec<Vector3>,
     },
-    /// A disc of so many pixels about a point.
+    /// A disc with a radius in pixels.
     Dot {
-        /// Its middle.
+        /// Centre.
         at: Vector3,
-        /// Its radius in pixels.
+        /// Radius in pixels.
         pixels: f64,
     },
     /// A line.
     Line {
-        /// From where to where.
+        /// End points.
         ends: [Vector3; 2],
-        /// How it looks.
+        /// Style of the line.
         stroke: Stroke,
     },
-    /// A line with a head at its second end.
+    /// An arrow.
     Arrow {
-        /// From where to where.
+        /// Start and tip.
         ends: [Vector3; 2],
-        /// How it looks.
+        /// Style of the line.
         stroke: Stroke,
     },
 }
 
-/// A solid with its looks and its place in the order of painting.
+/// A solid with its appearance.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Item {
-    /// Its shape and place.
+    /// Shape and position.
     pub solid: Solid,
-    /// Its colour; lines and arrows have that of their stroke.
+    /// Colour; lines and arrows have the colour of their stroke.
     pub colour: Colour,
-    /// From 0, not seen, to 1.
+    /// Opacity from 0 to 1.
     pub opacity: f64,
-    /// How much nearer to the viewer it counts than its middle (nm).
+    /// Depth offset towards the viewer (nm).
     pub nearer_nm: f64,
 }
 
 impl Item {
-    /// An opaque solid that counts where it is.
+    /// Creates an opaque solid without depth offset.
     pub fn new(solid: Solid, colour: Colour) -> Self {
         Self {
             solid,
@@ -76,31 +76,29 @@ impl Item {
         }
     }
 
-    /// A line.
+    /// Creates a line.
     pub fn line(ends: [Vector3; 2], stroke: Stroke) -> Self {
         Self::new(Solid::Line { ends, stroke }, stroke.colour)
     }
 
-    /// The same item with an opacity.
+    /// Sets the opacity.
     #[must_use]
     pub fn with_opacity(self, opacity: f64) -> Self {
         Self { opacity, ..self }
     }
 
-    /// The same item, painted as if it were nearer (nm).
+    /// Sets the depth offset (nm).
     #[must_use]
     pub fn nearer(self, nearer_nm: f64) -> Self {
         Self { nearer_nm, ..self }
     }
 
-    /// Distance by which the order of painting goes.
     pub(super) fn depth(&self, camera: &Camera) -> f64 {
         camera.see(self.solid.middle()).norm() - self.nearer_nm
     }
 }
 
 impl Solid {
-    /// Its middle.
     pub(super) fn middle(&self) -> Vector3 {
         match self {
             Self::Ellipsoid { centre, .. } => *centre,
@@ -112,7 +110,7 @@ impl Solid {
         }
     }
 
-    /// Places in the picture between which it lies.
+    /// Returns points in the picture that enclose the solid.
     pub(super) fn extent(&self, camera: &Camera) -> Vec<[f64; 2]> {
         match self {
             Self::Ellipsoid { centre, semi_axes } => outline::ellipsoid(camera, *centre, semi_axes)
@@ -132,7 +130,6 @@ impl Solid {
         }
     }
 
-    /// Paints it.
     pub(super) fn paint(&self, item: &Item, frame: &Frame, canvas: &mut Canvas) {
         let paint = Paint {
             fill: item.colour,
@@ -143,7 +140,7 @@ impl Solid {
             Self::Ellipsoid { centre, semi_axes } => {
                 let ellipse = outline::ellipsoid(&frame.camera, *centre, semi_axes);
                 let semi_axes = ellipse.semi_axes.map(|a| a * frame.scale);
-                // The picture's y axis points down: counter-clockwise turns are negative.
+                // The y axis of pixels points down, which reverses angles.
                 let angle = -ellipse.angle.to_degrees();
                 canvas.ball(frame.pixel(ellipse.centre), semi_axes, angle, paint);
             }
@@ -160,7 +157,7 @@ impl Solid {
     }
 }
 
-/// The outline of a cylinder, then the end that faces the viewer.
+/// Draws the outline of a cylinder, then the end that faces the viewer.
 fn paint_cylinder(
     ends: [Vector3; 2],
     radius: f64,

@@ -1,22 +1,22 @@
-//! Writes shapes of the plane as SVG. Lengths are pixels, y points down.
+//! SVG output of plane shapes. Lengths are in pixels; y points down.
 
 use crate::Colour;
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
 
-/// How a line looks.
+/// Style of a line.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stroke {
     /// Colour.
     pub colour: Colour,
     /// Width in pixels.
     pub width: f64,
-    /// Whether it has gaps.
+    /// True for a dashed line.
     pub dashed: bool,
 }
 
 impl Stroke {
-    /// A line without gaps.
+    /// Creates a solid line.
     pub fn solid(colour: Colour, width: f64) -> Self {
         Self {
             colour,
@@ -26,36 +26,33 @@ impl Stroke {
     }
 }
 
-/// Fill of a shape.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Paint {
     pub fill: Colour,
     pub opacity: f64,
 }
 
-/// Where a text stands about its place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Align {
     Start,
     Middle,
 }
 
-/// An SVG under construction. Names in it begin with a prefix of its own, so that several can
-/// stand in one page.
+/// An SVG file under construction. Identifiers have a prefix, so that several files can be part of one page.
 #[derive(Debug)]
 pub(super) struct Canvas {
     prefix: String,
     size: [f64; 2],
     body: String,
-    /// Colour and turn (deg) of each shading that is used.
+    /// Colours and angles (deg) of the gradients in use.
     shadings: BTreeSet<(Colour, i16)>,
 }
 
 const BACKGROUND: &str = "#fcfcfa";
 const INK: &str = "#222222";
-/// Shadings are kept for turns so far apart (deg).
+/// Angles of gradients are rounded to multiples of this (deg).
 const SHADING_STEP: f64 = 15.0;
-/// From where the light falls, right and down in the picture, as a share of a ball's radius.
+/// Position of the highlight relative to the radius of a sphere, right and down.
 const LIGHT: [f64; 2] = [-0.35, -0.45];
 
 impl Canvas {
@@ -75,7 +72,6 @@ impl Canvas {
         self.body.push('\n');
     }
 
-    /// A shaded ellipse, turned clockwise by an angle (deg).
     pub(super) fn ball(&mut self, [x, y]: [f64; 2], [a, b]: [f64; 2], angle: f64, paint: Paint) {
         #[expect(
             clippy::cast_possible_truncation,
@@ -102,7 +98,6 @@ impl Canvas {
         )
     }
 
-    /// A disc with an edge.
     pub(super) fn dot(&mut self, [x, y]: [f64; 2], radius: f64, paint: Paint) {
         let (fill, edge) = (paint.fill.hex(), paint.fill.darker(0.4).hex());
         self.push(format_args!(
@@ -112,7 +107,6 @@ impl Canvas {
         ));
     }
 
-    /// A filled polygon with an edge.
     pub(super) fn polygon(&mut self, corners: &[[f64; 2]], paint: Paint) {
         let corners: Vec<String> = corners
             .iter()
@@ -129,7 +123,6 @@ impl Canvas {
         ));
     }
 
-    /// A line.
     pub(super) fn line(&mut self, ends: [[f64; 2]; 2], stroke: Stroke, opacity: f64) {
         let [[x1, y1], [x2, y2]] = ends;
         let dashes = if stroke.dashed {
@@ -145,7 +138,6 @@ impl Canvas {
         ));
     }
 
-    /// A line with a head at its second end; a short one is all head.
     pub(super) fn arrow(&mut self, [from, to]: [[f64; 2]; 2], stroke: Stroke) {
         let along = [to[0] - from[0], to[1] - from[1]];
         let length = along[0].hypot(along[1]).max(1e-9);
@@ -162,7 +154,6 @@ impl Canvas {
         self.polygon(&[side(1.0), to, side(-1.0)], paint);
     }
 
-    /// A text on a halo of the background.
     pub(super) fn text(
         &mut self,
         [x, y]: [f64; 2],
@@ -184,7 +175,6 @@ impl Canvas {
         ));
     }
 
-    /// The whole file.
     pub(super) fn finish(self) -> String {
         let [width, height] = self.size;
         let shadings: String = self
@@ -201,7 +191,7 @@ impl Canvas {
     }
 }
 
-/// Width of a text in pixels, as in a wide sans-serif face.
+/// Estimates the width of a text in pixels for a wide sans-serif font.
 pub(super) fn text_width(text: &str, size: f64) -> f64 {
     let width = |letter: char| match letter {
         'm' | 'w' | 'M' | 'W' | '_' => 0.95,
@@ -211,7 +201,7 @@ pub(super) fn text_width(text: &str, size: f64) -> f64 {
     size * text.chars().map(width).sum::<f64>()
 }
 
-/// A radial shading with the light where it is for all balls, however theirs are turned.
+/// Returns a radial gradient whose highlight is independent of the rotation of the ellipse.
 fn shading(name: &str, colour: Colour, turn: i16) -> String {
     let (sin, cos) = f64::from(turn).to_radians().sin_cos();
     let x = 0.5 + 0.5 * (LIGHT[0] * cos + LIGHT[1] * sin);

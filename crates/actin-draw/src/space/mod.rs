@@ -1,9 +1,9 @@
-//! Scripts for pages that show solids which a reader turns: what they are made of, and the camera.
+//! Scripts of interactive 3D views.
 //!
-//! [`SOLIDS`] draws ellipsoids and tubes with WebGL 2; [`SPACE`], which needs it, is a view with mouse, touch
-//! and keys, scale bar and axes. What is seen comes from scripts of the caller's.
+//! [`SOLIDS`] draws ellipsoids and tubes with WebGL 2. [`SPACE`], which requires it, is a view with camera, input,
+//! scale bar and axes. Scripts of the caller provide the solids.
 
-/// The script that draws solids.
+/// Script that draws solids.
 pub const SOLIDS: &str = include_str!("solids.js");
-/// The script of a view that can be turned.
+/// Script of an interactive view.
 pub const SPACE: &str = include_str!("space.js");

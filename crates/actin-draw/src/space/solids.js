@@ -1,24 +1,23 @@
-// Solids on the graphics card: ellipsoids and tubes, each one rectangle whose pixels meet the true
-// surface, so that outlines are round at every zoom and bodies that reach into one another look as
-// they should. One WebGL 2 context serves all views of a page; each view is copied to a canvas of its own.
+// Solids in WebGL 2: ellipsoids and tubes, each drawn as a rectangle whose fragments are intersected with the exact surface.
+// Outlines are therefore smooth at every zoom, and intersections are exact. One context serves all views of a page; each
+// view is copied to its own canvas.
 //
-// Coordinates are the lab's, in nm, until the shaders turn them: x to the right, y upwards, z towards the
-// viewer. Nothing is foreshortened, so lengths across the line of sight hold everywhere. What is
-// drawn, and when, is decided by the callers: camera and input are in space.js.
+// Coordinates are in the lab frame (nm) and are transformed in the shaders to x (right), y (up), z (towards the viewer).
+// The projection is orthographic. Callers decide what is drawn and when; camera and input are in space.js.
 
 const Solids = (() => {
   'use strict';
 
-  // Words of 4 bytes: centre 3, quaternion 4, semi-axes 3, least radius in pixels, nearer, colour.
+  // Words of 4 bytes: centre 3, quaternion 4, semi-axes 3, smallest radius (pixels), depth offset, colour.
   const BALL = 13;
-  // p 3, q 3, cut at p 3, cut at q 3, quaternion 4, turns 2, radius, least width in pixels, nearer,
-  // colours at p and q, marks (share of white of the stripe, share of light of the seams).
+  // p 3, q 3, cut at p 3, cut at q 3, quaternion 4, rotations 2, radius, smallest width (pixels), depth offset,
+  // colours at p and q, fractions of white in stripe and seams.
   const TUBE = 24;
 
   const CAMERA = `
     uniform mat3 rows; // right, up, towards the viewer
     uniform vec3 target;
-    uniform vec2 size, middle; // of the picture, and where the target is in it (pixels)
+    uniform vec2 size, middle; // size of the picture and position of the target in it (pixels)
     uniform float perNm, reach, ratio; // ratio: pixels of the picture per pixel of the page
     vec3 see(vec3 p) { return (p - target) * rows; }
     vec3 turn(vec4 q, vec3 v) { return v + 2.0 * cross(q.yzw, cross(q.yzw, v) + q.x * v); }
@@ -55,8 +54,8 @@ const Solids = (() => {
       gl_Position = place(c.xy + at);
     }`;
 
-  // What counts as nearer than it is has less alpha, by which the last shader knows it: it casts no shade.
-  // Towards the light from above the viewer's left shoulder; the rest of the light comes from all sides.
+  // A depth offset reduces alpha, by which the last shader excludes the fragment from shading.
+  // Directional light from the upper left in front, plus ambient light.
   const LIGHT = `
     uniform float reach;
     out vec4 pixel;
@@ -86,8 +85,8 @@ const Solids = (() => {
       shade(n, colour, depth.x + z, depth.y);
     }`;
 
-  // The mantle of a cylinder about the line from p to q, between the planes through p and q across the
-  // cuts. Its stripes follow the first axis of its frame, which turns by `turns` towards its neighbours.
+  // Lateral surface of a cylinder with axis p to q, between the cut planes. Its stripes follow the first axis of the frame,
+  // which is rotated by `turns` towards adjacent pieces.
   const TUBE_VERTEX = `#version 300 es
     ${CAMERA}
     layout(location = 0) in vec3 p;
@@ -100,7 +99,7 @@ const Solids = (() => {
     layout(location = 7) in uvec3 paint;
     out vec2 at;
     flat out vec3 along, first, second, cut0, cut1, colour0, colour1;
-    flat out vec4 shape; // radius, z of p, nearer, where the seams are
+    flat out vec4 shape; // radius, z of p, depth offset, positions of seams
     flat out vec4 look;
     void main() {
       vec3 a = see(p), b = see(q);
@@ -134,7 +133,7 @@ const Solids = (() => {
       float r = shape.x, size = length(along);
       vec3 u = along / size;
       float across = 1.0 - u.z * u.z;
-      if (across < 1e-7) discard; // seen from its end: nothing of the mantle shows
+      if (across < 1e-7) discard; // seen end-on: the lateral surface is not visible
       float g = dot(at, u.xy);
       float root = g * g * u.z * u.z - across * (dot(at, at) - g * g - r * r);
       if (root < 0.0) discard;
@@ -154,7 +153,7 @@ const Solids = (() => {
       shade(n, colour, shape.y + z, shape.z);
     }`;
 
-  // Over the finished picture: hollows are darker, nearer bodies have an outline, what is far fades.
+  // Postprocessing: ambient occlusion, outlines, haze.
   const LAST_VERTEX = `#version 300 es
     void main() {
       gl_Position = vec4(vec2(gl_VertexID & 1, gl_VertexID >> 1) * 4.0 - 1.0, 0.0, 1.0);
@@ -169,7 +168,7 @@ const Solids = (() => {
       at = clamp(at, ivec2(0), textureSize(depths, 0) - 1);
       return reach * (1.0 - 2.0 * texelFetch(depths, at, 0).x);
     }
-    // How far what is seen there is above z, at most span either way.
+    // Height of the neighbouring surface above z, clamped to span.
     float above(ivec2 at, float z, float span) {
       at = clamp(at, ivec2(0), textureSize(depths, 0) - 1);
       float alpha = texelFetch(colours, at, 0).a;
@@ -210,7 +209,7 @@ const Solids = (() => {
   const packed = (c) => (Math.min(255, c[0]) & 255) | ((Math.min(255, c[1]) & 255) << 8)
     | ((Math.min(255, c[2]) & 255) << 16);
 
-  // A list of instances of so many words each, that grows.
+  // A growing list of instances with a fixed number of words.
   class List {
     constructor(words) {
       this.words = words;
@@ -226,7 +225,7 @@ const Solids = (() => {
       this.integers = new Uint32Array(bytes);
     }
 
-    // Where the next begins.
+    // Offset of the next instance.
     next() {
       if (this.words * (this.count + 1) > this.floats.length) this.reserve(2 * this.count + 2);
       this.count += 1;
@@ -234,7 +233,7 @@ const Solids = (() => {
     }
   }
 
-  // Solids that are drawn together. They are put in anew when something else is to be seen.
+  // A batch of solids, rebuilt when the contents change.
   class Batch {
     constructor() {
       this.balls = new List(BALL);
@@ -247,7 +246,7 @@ const Solids = (() => {
       this.isNew = true;
     }
 
-    // An ellipsoid: centre at c[i], quaternion (w, x, y, z) at q[j]; `least` is its least radius in pixels.
+    // An ellipsoid with centre c[i] and quaternion (w, x, y, z) q[j]; `least` is its smallest radius in pixels.
     ellipsoid(c, i, q, j, a, colour, nearer = 0, least = 0) {
       const at = this.balls.next(), { floats: f, integers } = this.balls;
       f[at] = c[i]; f[at + 1] = c[i + 1]; f[at + 2] = c[i + 2];
@@ -271,7 +270,7 @@ const Solids = (() => {
       integers[at + 23] = packed([255 * stripe, 255 * seam, 0]);
     }
 
-    // A thin round line through points, with round ends, at least so many pixels wide.
+    // A round polyline with a smallest width in pixels.
     line(points, r, colour, nearer = 0, least = 1.6) {
       points.forEach((p, i) => {
         this.ball(p, r, colour, nearer, least / 2);
@@ -281,15 +280,15 @@ const Solids = (() => {
       });
     }
 
-    // A disc about c across the unit vector n: an ellipsoid as thin as paper.
+    // A disc with centre c and unit normal n, drawn as a flat ellipsoid.
     disc(c, n, r, colour, least = 0) {
       const w = 1 + n[2], q = w > 1e-6 ? [w, -n[1], n[0], 0] : [0, 1, 0, 0], l = Math.hypot(...q);
       this.ellipsoid(c, 0, q.map((v) => v / l), 0, [r, r, 0.02], colour, 0, least);
     }
 
-    // A rod: straight pieces between nodes, mitred where they meet. Nodes are triples, frames quaternions,
-    // one for each piece; between the middles of pieces frames turn evenly about the rod, as its twist
-    // does. `colourAt(node)` is its colour; a stripe runs along the first axis, seams are at nodes.
+    // A rod of straight, mitred pieces between nodes (triples), with one frame (quaternion) each. Between the middles of
+    // pieces, frames are interpolated. `colourAt(node)` returns its colour; a stripe follows the first axis, and seams mark
+    // nodes.
     rod(nodes, frames, r, colourAt, [stripe, seam], least) {
       const count = nodes.length / 3 - 1, at = (i) => nodes.subarray(3 * i, 3 * i + 3);
       const pieces = [], axes = [];
@@ -313,7 +312,7 @@ const Solids = (() => {
 
   const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 
-  // The three axes of a quaternion (w, x, y, z; body to lab).
+  // Returns the axes of a quaternion (w, x, y, z; body to lab).
   function axesOf(q, i) {
     const w = q[i], x = q[i + 1], y = q[i + 2], z = q[i + 3];
     return [
@@ -323,7 +322,7 @@ const Solids = (() => {
     ];
   }
 
-  // ---- the graphics card
+  // ---- WebGL context
 
   const BALL_LAYOUT = [[3, 0], [4, 3], [3, 7], [2, 10], [1, 12, true]];
   const TUBE_LAYOUT = [[3, 0], [3, 3], [3, 6], [3, 9], [4, 12], [2, 16], [3, 18], [3, 21, true]];
@@ -362,7 +361,7 @@ const Solids = (() => {
     gl.disable(gl.BLEND);
   }
 
-  // Whether there is WebGL 2. Told of a context that is back after a loss, views draw again.
+  // Returns whether WebGL 2 is available. Views are redrawn when a lost context is restored.
   function isThere(again) {
     if (!gl) {
       const canvas = document.createElement('canvas');
@@ -376,7 +375,7 @@ const Solids = (() => {
     return true;
   }
 
-  // Room for a picture of this size, colours and depths.
+  // Allocates colour and depth buffers of a size.
   function room(w, h) {
     if (target && target.w >= w && target.h >= h) return;
     const old = target;
@@ -400,7 +399,7 @@ const Solids = (() => {
     [gl.canvas.width, gl.canvas.height] = [w, h];
   }
 
-  // The buffer of a list on the card, with its layout.
+  // Creates the vertex buffer of a list.
   function uploaded(list, layout, isNew) {
     if (list.generation !== generation) {
       list.generation = generation;
@@ -433,8 +432,8 @@ const Solids = (() => {
     }
   }
 
-  // Draws batches into the canvas of `context`. The camera has rows, target, size, middle, near and far in
-  // pixels and nm as the shaders have them.
+  // Draws batches to the canvas of `context`. The camera has the fields rows, target, size, middle, near and far, in pixels
+  // and nm.
   function draw(context, batches, camera) {
     if (!gl || gl.isContextLost()) return;
     const [w, h] = camera.size;

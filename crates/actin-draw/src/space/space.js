@@ -1,34 +1,34 @@
-// A view of solids that can be turned: camera, mouse, touch and keys, scale bar and axes. What it shows is
-// put into its batches by the callers; the pixels are made in solids.js.
+// An interactive view of solids: camera, mouse, touch and keys, scale bar and axes. Callers fill its batches, and solids.js
+// draws them.
 //
-// space.batch      what is always drawn
-// space.fine       what is drawn besides from near
-// space.far        what is drawn besides from far
-// space.frame()    where the camera looks at first
-// space.arrows     arrows above the picture: [x, y, z, fx, fy, fz, text]
-// space.labels     words above the picture: [x, y, z, text]
-// space.draw()     asks for one drawing in the next frame
+// space.batch      always drawn
+// space.fine       drawn when magnified
+// space.far        drawn when small
+// space.frame()    sets the initial camera
+// space.arrows     arrows on top: [x, y, z, fx, fy, fz, text]
+// space.labels     texts on top: [x, y, z, text]
+// space.draw()     requests drawing in the next frame
 
 const Space = (() => {
   'use strict';
 
-  const STEP = Math.PI / 36; // of an arrow key
-  const FINE = 2.5; // small things show from so many pixels per nm
-  const FAR = 0.8; // what is seen from far shows up to so many
-  const HAZE = 0.45; // how much of the farthest body shows through to the page
+  const STEP = Math.PI / 36; // rotation by an arrow key (rad)
+  const FINE = 2.5; // scale above which details are drawn (pixels per nm)
+  const FAR = 0.8; // scale below which the far batch is drawn (pixels per nm)
+  const HAZE = 0.45; // fraction of the background visible through the farthest body
   const DARK = window.matchMedia('(prefers-color-scheme: dark)');
   const { unit, dot } = Solids;
   const cross = (a, b) => [
     a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
 
-  // ---- rotations, as three rows: right, up, towards the viewer, each in the lab frame
+  // ---- rotations, as three rows (lab frame): right, up, towards the viewer
 
   function attitude({ towards, up }) {
     const t = unit(towards), right = unit(cross(up, t));
     return [right, cross(t, right), t];
   }
 
-  // Turned by an angle in the plane of two of its rows, then made orthonormal again.
+  // Rotates in the plane of two rows and orthonormalises.
   function turned(rows, i, j, angle) {
     const [c, s] = [Math.cos(angle), Math.sin(angle)];
     const next = rows.slice();
@@ -39,7 +39,7 @@ const Space = (() => {
   }
 
   class Space {
-    // `ownsWheel`: whether the wheel zooms before the view has been clicked.
+    // `ownsWheel`: true if the wheel zooms without a preceding click.
     constructor(canvas, { ownsWheel = false, foot = 30 } = {}) {
       this.canvas = canvas;
       this.context = canvas.getContext('2d');
@@ -49,7 +49,7 @@ const Space = (() => {
       this.arrows = [];
       this.labels = [];
       this.ownsWheel = ownsWheel;
-      this.foot = foot; // room for the scale bar (pixels)
+      this.foot = foot; // height of the scale bar area (pixels)
       this.ink = () => [20, 20, 20];
       this.drawn = () => {};
       this.pointers = new Map();
@@ -72,7 +72,7 @@ const Space = (() => {
       this.canvas.replaceWith(note);
     }
 
-    // Looks from `home` (towards the viewer, up) so that all places ([x, y, z] each, or flat) are seen.
+    // Sets the camera to the direction `home` (towards the viewer, up) such that all places ([x, y, z] each, or flat) fit.
     frame(home, places, margin = 7) {
       const flat = places instanceof Float32Array ? places : Float32Array.from(places.flat());
       this.home = home;
@@ -98,7 +98,7 @@ const Space = (() => {
       this.draw();
     }
 
-    // Seen along an axis of the lab, its other two to the right and up.
+    // Looks along an axis of the lab, with the other two to the right and up.
     along(towards, up) {
       this.rows = attitude({ towards, up });
       this.draw();
@@ -123,7 +123,7 @@ const Space = (() => {
       this.draw();
     }
 
-    // Pixels per nm at which all is seen.
+    // Returns the scale at which all places fit (pixels per nm).
     fit() {
       const { clientWidth: w, clientHeight: h } = this.canvas;
       return Math.min((0.5 * w) / this.half[0], (0.5 * (h - this.foot - 10)) / this.half[1]);
@@ -150,8 +150,8 @@ const Space = (() => {
       canvas.addEventListener('pointermove', (event) => this.drag(event));
       canvas.addEventListener('dblclick', () => this.reset());
       canvas.addEventListener('keydown', (event) => this.key(event));
-      // Of a view among text the wheel belongs to the page until the view has been clicked; Ctrl, which
-      // pinching on a touchpad reports, always zooms.
+      // In a page of text the wheel scrolls the page until the view has been clicked. Ctrl, which touchpads report when
+      // pinching, always zooms.
       canvas.addEventListener('wheel', (event) => {
         if (!event.ctrlKey && !this.ownsWheel && document.activeElement !== canvas) return;
         event.preventDefault();
@@ -167,7 +167,7 @@ const Space = (() => {
       return [event.clientX - box.left, event.clientY - box.top];
     }
 
-    // One pointer turns, or moves with Shift or the right button; two zoom, move and roll.
+    // One pointer rotates, or moves with Shift or the right button; two pointers zoom, move and roll.
     drag(event) {
       const before = this.pointers.get(event.pointerId);
       if (!before) return;
@@ -214,7 +214,7 @@ const Space = (() => {
       });
     }
 
-    // Whether the small things are large enough to be told apart.
+    // Returns whether details are large enough to be visible.
     get isFine() {
       return this.zoom * this.fit() >= FINE;
     }
@@ -224,7 +224,7 @@ const Space = (() => {
       const [w, h] = [canvas.clientWidth, canvas.clientHeight];
       if (w === 0 || h === 0) return;
       const began = performance.now();
-      // Twice as fine as the page when still, for smooth edges; as fine while a slow one is moved.
+      // Supersampled when still; at normal resolution while a slow view is moved.
       const ratio = this.slow && (this.pointers.size > 0 || this.isMoving) ? 1 : 2;
       if (canvas.width !== w * ratio || canvas.height !== h * ratio) {
         [canvas.width, canvas.height] = [w * ratio, h * ratio];
@@ -247,7 +247,7 @@ const Space = (() => {
       canvas.dataset.drawn = String(Number(canvas.dataset.drawn || 0) + 1);
     }
 
-    // Arrows, scale bar and axes, above the solids.
+    // Draws arrows, scale bar and axes on top of the solids.
     overlay(w, h) {
       const { context } = this, ink = `rgb(${this.ink().map(Math.round).join(',')})`;
       Object.assign(context, {
@@ -274,7 +274,7 @@ const Space = (() => {
       });
     }
 
-    // An arrow from a point, of one length for all, with its text.
+    // Draws an arrow of fixed length with its text.
     arrow([x, y, z, fx, fy, fz, text, colour], w) {
       const { context } = this, size = Math.hypot(fx, fy, fz), at = this.pixel(this.see(x, y, z));
       const seen = this.rows.map((row) => dot(row, [fx, fy, fz]) / size);
@@ -295,7 +295,7 @@ const Space = (() => {
       context.restore();
     }
 
-    // Words beside a point, with the paper's colour around them.
+    // Draws text with a background halo.
     label([x, y, z, text]) {
       const { context } = this, [left, top] = this.pixel(this.see(x, y, z));
       context.save();
@@ -308,7 +308,7 @@ const Space = (() => {
       context.restore();
     }
 
-    // A point of the lab as the camera sees it.
+    // Transforms a point to camera coordinates.
     see(x, y, z) {
       const p = [x - this.target[0], y - this.target[1], z - this.target[2]];
       return this.rows.map((row) => dot(row, p));
@@ -325,7 +325,7 @@ const Space = (() => {
     }
   }
 
-  // The largest of 1, 2, 5, 10, ... that is not longer.
+  // Returns the largest of 1, 2, 5, 10, ... up to a limit.
   function niceLength(most) {
     const power = 10 ** Math.floor(Math.log10(most));
     return power * [5, 2, 1].find((digit) => digit * power <= most);

@@ -1,4 +1,3 @@
-//! The energies of all interfaces: sums over the bonds of a pair, one pair per lane.
 #![allow(
     clippy::inline_always,
     reason = "vector code must be compiled into the function that enables the instructions"
@@ -11,13 +10,10 @@ use crate::table::{BondTable, GROUP, Group};
 use actin_mechanics::State;
 use actin_mechanics::wide::{self, Simd, WithSimd};
 
-/// The loop over bonds, to be compiled for whatever instructions the machine has; returns
-/// `sum (|d| - L)^2` of each pair, times the weights if there are any.
+/// Vectorised sum of `(|d| - L)^2` over the bonds of each pair, weighted.
 #[derive(Debug)]
 struct SumSquares<'a> {
-    /// The pairs.
     relatives: &'a Relatives,
-    /// Their bonds.
     group: Group<'a>,
 }
 
@@ -51,8 +47,7 @@ impl WithSimd for SumSquares<'_> {
 }
 
 impl Bonds {
-    /// Energies of the pairs of one table whose lower bodies begin with `first`: as many as there
-    /// are, at most [`GROUP`].
+    /// Energies of up to [`GROUP`] pairs, starting with lower body `first`.
     fn energies_of_group<'a>(
         &self,
         table: &BondTable,
@@ -79,8 +74,6 @@ impl Bonds {
         &energies[..count]
     }
 
-    /// Writes the energy of each interface: for each lower monomer the lateral one, then the
-    /// longitudinal one.
     pub(super) fn write_pairs(&self, state: &State, energies: &mut [f64]) {
         let mut places = energies.iter_mut();
         for first in (0..self.monomers.count).step_by(GROUP) {

@@ -1,6 +1,4 @@
-//! Second derivatives of the energy of bonds: blocks of pairs from sums over their bonds.
-//!
-//! The loop over bonds is in `sums.rs`.
+//! Second derivatives of the bond energy.
 
 use super::sums::{PairSums, Relatives, SumBonds, Sums};
 use super::{Body, Bonds};
@@ -8,41 +6,44 @@ use crate::table::{BondTable, GROUP, Relative};
 use actin_mechanics::Coordinates::{Frame, Point};
 use actin_mechanics::{Matrix3, SecondOrder, State, Stiffness, Vector3};
 
-/// The second derivatives by place and turn of the lower body alone, and the loads on it, all in
-/// its frame.
+/// Loads on the lower body and second derivatives of the energy with respect to its position and
+/// rotation, in its frame.
 ///
-/// A bond's energy is `k/2 (d^2 - 2 L r + L^2)`, `r = |d|`. With `q` the slope of `r` and `P` the
-/// second derivative of `d^2 / 2`, that of `r` is `(P - q q^T) / r`, and so that of the energy is
-/// `k [(1 - L/r) P + L/r q q^T]`. By place and turn of the lower body, with `a` and `y` the ends,
-/// `q` is minus `(u, a x u)`, `u = d / r`, and `P` has the blocks `1`, `-[a]x` and
-/// `(a . y) 1 - (a y^T + y a^T) / 2`, where the turn has been taken to second order.
+/// The energy of a bond is `k/2 (d^2 - 2 L r + L^2)` with `r = |d|`. With `q` the gradient of `r`
+/// and `P` the second derivative of `d^2 / 2`, the second derivative of the energy is
+///
+/// ```text
+/// k [(1 - L/r) P + (L/r) q q^T],   q = -(u, a x u),   u = d / r
+/// P blocks: 1,  -[a]x,  (a . y) 1 - (a y^T + y a^T) / 2
+/// ```
+///
+/// for the position and rotation of the lower body, with the ends `a` and `y`.
 #[derive(Debug)]
 struct LowerBlocks {
-    /// By place, twice.
+    /// Position, position.
     place: Matrix3,
-    /// By place (rows) and turn (columns).
+    /// Position (rows), rotation (columns).
     mixed: Matrix3,
-    /// By turn, twice.
+    /// Rotation, rotation.
     turn: Matrix3,
     force: Vector3,
     torque: Vector3,
 }
 
-/// The blocks with the upper body's turn, in the lower body's frame, about whose axes that turn
-/// is taken here. The upper body's place enters like the lower one's with the opposite sign.
+/// Blocks that involve the rotation of the upper body, in the frame of the lower body. The position
+/// of the upper body enters with the opposite sign of the position of the lower one.
 ///
-/// A turn of the upper body is one of the pair about the upper centre, less that of the lower
-/// body, which goes with a displacement `X phi` of it, `X = [D]x` and `D` the vector between the
-/// centres. A turn of the pair does no more than turn the loads: in the frame where they began
-/// the slopes change by `[F]x phi` for the place and by `[T]x phi / 2` for the turn, as always in
-/// the chart `Q exp(phi)`. So all follows from the lower body's blocks and loads `F`, `T`.
+/// Rotating the upper body equals rotating the pair about the upper centre minus rotating the lower
+/// body, which also moves it by `X phi`, `X = [D]x`, `D` the vector between the centres. Rotating
+/// the pair only rotates the loads: in the original frame the gradient changes by `[F]x phi` for
+/// the position and by `[T]x phi / 2` for the rotation in the chart `Q exp(phi)`.
 #[derive(Debug)]
 struct UpperBlocks {
-    /// By the lower place and the upper turn.
+    /// Lower position, upper rotation.
     mixed: Matrix3,
-    /// By the lower and the upper turn.
+    /// Lower rotation, upper rotation.
     turns: Matrix3,
-    /// By the upper turn, twice.
+    /// Upper rotation, upper rotation.
     turn: Matrix3,
 }
 
@@ -77,12 +78,10 @@ impl LowerBlocks {
     }
 }
 
-/// Entry of a symmetric matrix of which the upper triangle is there.
 fn symmetric<const N: usize>(upper: &[[f64; N]; N], i: usize, j: usize) -> f64 {
     upper[i.min(j)][i.max(j)]
 }
 
-/// `(M + M^T) / 2`.
 fn symmetric_part(m: &Matrix3) -> Matrix3 {
     0.5 * (m + m.transpose())
 }
@@ -93,7 +92,6 @@ fn axial(m: &Matrix3) -> Vector3 {
 }
 
 impl Bonds {
-    /// Adds the blocks of one pair: upper triangle of its four coordinates, row by row.
     fn push_pair(
         &self,
         [k, l]: [usize; 2],
@@ -121,7 +119,6 @@ impl Bonds {
         stiffness.push(fj, fj, turn);
     }
 
-    /// Adds the blocks of up to [`GROUP`] neighbouring pairs, `first` the first lower monomer.
     fn push_group(
         &self,
         table: &BondTable,
@@ -151,10 +148,10 @@ impl Bonds {
     }
 }
 
-/// Ten blocks of each pair: longitudinal pairs after lateral ones, each by lower monomer.
+/// Ten blocks per pair: lateral pairs first, then longitudinal ones, ordered by lower monomer.
 ///
-/// Near a bond of no length its stiffness across diverges as `-k L / |d|`; at no length only
-/// `k 1` is counted, the part that has no direction.
+/// The transverse stiffness of a bond diverges as `-k L / |d|` near zero length. At zero length
+/// only the isotropic part `k 1` is included.
 impl SecondOrder for Bonds {
     fn add_stiffness(&self, state: &State, stiffness: &mut Stiffness) {
         for table in &self.tables {

@@ -1,6 +1,4 @@
-//! The hot loop of the second derivatives: sums over the bonds of a pair, one pair per lane.
-//!
-//! What blocks they make is in `stiffness.rs`; the loop for the loads is in `kernel.rs`.
+//! Inner loop of the second derivatives.
 #![allow(
     clippy::inline_always,
     reason = "vector code must be compiled into the function that enables the instructions"
@@ -10,51 +8,41 @@ use crate::kernel::{Ends, GUARD, place_of};
 use crate::table::{GROUP, Group, Relative};
 use actin_mechanics::wide::{self, Simd, Wide3, WideMatrix, WithSimd};
 
-/// One number for each pair of a group.
 type Lanes = [f64; GROUP];
 
-/// The upper bodies of a group of pairs as the lower ones see them.
+/// Upper bodies of a group of pairs in the frames of the lower ones.
 #[derive(Debug, Default)]
 pub(crate) struct Relatives {
     rotation: [[Lanes; 3]; 3],
     offset: [Lanes; 3],
 }
 
-/// Sums over the bonds of each pair of a group, in the lower body's frame.
+/// Sums over the bonds of each pair of a group, in the frame of the lower body.
 ///
-/// With `a` and `y` the ends of a bond on the lower and on the upper body, `u` the unit vector
-/// from `a` to `y`, `r` their distance and `L` the rest length; each times its weight if there are
-/// any.
+/// `a` and `y` are the ends on the lower and the upper body, `u` is the unit vector from `a` to
+/// `y`, `r` the distance and `L` the rest length. Each term is multiplied by the weight of the
+/// bond, if any.
 #[derive(Debug, Default)]
 pub(crate) struct Sums {
-    /// `L/r q q^T` with `q = (u, a x u)`, upper triangle: how the length changes with place and
-    /// turn of the lower body.
+    /// `L/r q q^T` with `q = (u, a x u)`, upper triangle.
     lines: [[Lanes; 6]; 6],
     /// `(1 - L/r) (1, a) (1, y)^T`.
     ends: [[Lanes; 4]; 4],
 }
 
-/// The sums of one pair.
 #[derive(Debug)]
 pub(crate) struct PairSums {
-    /// `L/r q q^T`, upper triangle.
     pub(crate) lines: [[f64; 6]; 6],
-    /// `(1 - L/r) (1, a) (1, y)^T`.
     pub(crate) ends: [[f64; 4]; 4],
 }
 
-/// The loop over bonds, to be compiled for whatever instructions the machine has.
 #[derive(Debug)]
 pub(crate) struct SumBonds<'a> {
-    /// The pairs.
     pub(crate) relatives: &'a Relatives,
-    /// Their bonds.
     pub(crate) group: Group<'a>,
-    /// Where the sums go, whatever was there.
     pub(crate) sums: &'a mut Sums,
 }
 
-/// Sums of as many pairs as there are lanes.
 #[derive(Clone, Copy, Debug)]
 struct WideSums<S: Simd> {
     lines: [[S::f64s; 6]; 6],
@@ -62,7 +50,6 @@ struct WideSums<S: Simd> {
 }
 
 impl Relatives {
-    /// Puts one pair into its lane.
     pub(crate) fn set(&mut self, lane: usize, relative: &Relative) {
         for i in 0..3 {
             for j in 0..3 {
@@ -72,7 +59,7 @@ impl Relatives {
         }
     }
 
-    /// The pairs that stand at `place`: rotations and offsets.
+    /// Rotations and offsets of vector `place` of the group.
     #[inline(always)]
     pub(crate) fn read<S: Simd>(&self, simd: S, place: usize) -> (WideMatrix<S>, Wide3<S>) {
         let read = |lanes| wide::read(simd, lanes, place);
@@ -83,7 +70,6 @@ impl Relatives {
 }
 
 impl Sums {
-    /// The sums of the pair in one lane.
     pub(crate) fn of(&self, lane: usize) -> PairSums {
         PairSums {
             lines: self.lines.map(|row| row.map(|lanes| lanes[lane])),
@@ -115,9 +101,7 @@ impl WithSimd for SumBonds<'_> {
     }
 }
 
-/// The sums of the pairs that stand at `place` in their group.
-///
-/// A bond of no length has no direction: only its `k d^2 / 2` counts then, as for the loads.
+/// A bond of zero length contributes `k d^2 / 2` only.
 #[inline(always)]
 fn sum_bonds<S: Simd>(
     simd: S,
@@ -152,7 +136,6 @@ fn sum_bonds<S: Simd>(
     sums
 }
 
-/// Adds `s q q^T` to the upper triangle of `sum`.
 #[inline(always)]
 fn add_outer<S: Simd>(simd: S, sum: &mut [[S::f64s; 6]; 6], s: S::f64s, q: [S::f64s; 6]) {
     for i in 0..6 {
@@ -163,7 +146,6 @@ fn add_outer<S: Simd>(simd: S, sum: &mut [[S::f64s; 6]; 6], s: S::f64s, q: [S::f
     }
 }
 
-/// Adds `s (1, a) (1, y)^T` to `sum`.
 #[inline(always)]
 fn add_ends<S: Simd>(simd: S, sum: &mut [[S::f64s; 4]; 4], s: S::f64s, a: Wide3<S>, y: Wide3<S>) {
     let [ax, ay, az] = wide::scale(simd, a, s);

@@ -1,6 +1,3 @@
-//! Bonds on every kind of processor against their textbook form, and what is left of them at
-//! no length.
-
 use super::*;
 use crate::{Anchors, EllipsoidParameters, Placement};
 use actin_mechanics::testing::{assert_same_with_any_lanes, loads_of};
@@ -8,12 +5,11 @@ use actin_mechanics::testing::{push_frame, push_point};
 use actin_mechanics::{Coordinates, Stiffness, UnitQuaternion};
 use actin_mechanics::{Xorshift, perturb};
 
-/// A run of monomers with other bodies before and after, displaced at random.
+/// Randomly displaced monomers between unrelated bodies.
 fn run(count: usize, bonds: [usize; 2]) -> (State, Bonds) {
     run_of(Anchors::Independent, count, bonds)
 }
 
-/// The same with bonds of any kind.
 fn run_of(anchors: Anchors, count: usize, bonds: [usize; 2]) -> (State, Bonds) {
     let mut parameters = EllipsoidParameters {
         anchors,
@@ -24,25 +20,23 @@ fn run_of(anchors: Anchors, count: usize, bonds: [usize; 2]) -> (State, Bonds) {
     let model = EllipsoidModel::new(parameters).unwrap();
     let mut state = State::default();
     for _ in 0..3 {
-        push_stranger(&mut state);
+        push_unrelated_body(&mut state);
     }
     push_point(&mut state, Vector3::zeros(), 1.0);
     let monomers = model
         .build(&mut state, &Placement::default(), -4, count)
         .unwrap();
-    push_stranger(&mut state);
+    push_unrelated_body(&mut state);
     let bonds = model.bonds(&monomers).unwrap();
     perturb(&mut state, &mut Xorshift::new(8), 0.4, 0.3);
     (state, bonds)
 }
 
-/// A body that has nothing to do with the bonds.
-fn push_stranger(state: &mut State) {
+fn push_unrelated_body(state: &mut State) {
     push_point(state, Vector3::zeros(), 1.0);
     push_frame(state, UnitQuaternion::identity(), [1.0, 1.0, 2.0]);
 }
 
-/// The loads, bond by bond in the lab frame: the textbook form.
 fn reference(bonds: &Bonds, state: &State) -> Loads {
     let mut loads = Loads::zeros(state);
     for pair in bonds.pairs() {
@@ -62,7 +56,6 @@ fn reference(bonds: &Bonds, state: &State) -> Loads {
     loads
 }
 
-/// Largest difference between loads, as a share of the largest load.
 fn difference(a: &Loads, b: &Loads) -> f64 {
     let pairs = |a: &Loads, b: &Loads| {
         let forces = a.force.iter().zip(b.force.iter());
@@ -82,11 +75,9 @@ fn difference(a: &Loads, b: &Loads) -> f64 {
     largest(pairs(a, b)) / largest(pairs(b, &zero))
 }
 
-/// One body's frame per pair and one pair per lane give the textbook loads, on vectors and
-/// on plain numbers alike, for runs that fill the lanes and runs that do not, and whatever
-/// else is in the state. Sums of a hundred terms of size 1 carry round-off of 1e-14.
+/// Sums of a hundred terms have a rounding error of 1e-14.
 #[test]
-fn loads_are_those_of_the_textbook_on_every_kind_of_processor() {
+fn loads_match_the_reference_on_any_processor() {
     for anchors in [Anchors::Independent, Anchors::Identical, Anchors::Cubature] {
         for count in [2, 3, 4, 5, 8, 9, 10, 11, 27] {
             let (state, vector) = run_of(anchors, count, [7, 12]);
@@ -103,7 +94,6 @@ fn loads_are_those_of_the_textbook_on_every_kind_of_processor() {
     }
 }
 
-/// Forces and torques of a body are added in one order: the same bits with four lanes and with eight.
 #[test]
 fn loads_are_the_same_with_any_number_of_lanes() {
     for anchors in [Anchors::Independent, Anchors::Cubature] {
@@ -122,8 +112,6 @@ fn loads_are_the_same_with_any_number_of_lanes() {
     }
 }
 
-/// Bonds that all interfaces share are stored once, and act as if each had its own; energies add up
-/// to that of the bonds one by one, with their weights.
 #[test]
 fn shared_bonds_are_stored_once() {
     for anchors in [Anchors::Identical, Anchors::Cubature] {
@@ -147,9 +135,8 @@ fn shared_bonds_are_stored_once() {
     }
 }
 
-/// The order in which the points of a cubature stand is of no account.
 #[test]
-fn the_order_of_weighted_bonds_does_not_matter() {
+fn loads_do_not_depend_on_the_order_of_quadrature_bonds() {
     let (state, bonds) = run_of(Anchors::Cubature, 11, [12, 12]);
     let mut other = bonds.clone();
     for (table, kind) in other.tables.iter_mut().zip(InterfaceKind::ALL) {
@@ -163,7 +150,6 @@ fn the_order_of_weighted_bonds_does_not_matter() {
     assert!((bonds.energy(&state) / other.energy(&state) - 1.0).abs() < 1e-13);
 }
 
-/// A run without a pair exerts nothing and does not fail.
 #[test]
 fn a_single_monomer_has_no_bonds() {
     let (state, bonds) = run(1, [3, 3]);
@@ -171,11 +157,11 @@ fn a_single_monomer_has_no_bonds() {
     assert_eq!(loads_of(&bonds, &state), Loads::zeros(&state));
 }
 
-/// Two bodies 1 nm apart with one bond of length 1 and stiffness 3 whose anchors coincide exactly.
+/// Two bodies 1 nm apart with one bond of length 1 and stiffness 3 whose anchors coincide.
 fn coincident() -> (State, Bonds) {
     let mut state = State::default();
-    push_stranger(&mut state);
-    push_stranger(&mut state);
+    push_unrelated_body(&mut state);
+    push_unrelated_body(&mut state);
     state.points.position.set(1, Vector3::new(1.0, 0.0, 0.0));
     let (_, mut bonds) = run(2, [1, 1]);
     bonds.monomers.first_point = 0;
@@ -195,15 +181,13 @@ fn coincident_anchors_exert_no_force() {
     let (mut state, bonds) = coincident();
     assert_eq!(loads_of(&bonds, &state), Loads::zeros(&state));
     assert!((bonds.energy(&state) - 1.5).abs() < 1e-15);
-    // The least displacement brings the full force, along it, so nothing is smoothed away.
     let apart = Vector3::new(1.0 + 1e-9, 0.0, 0.0);
     state.points.position.set(1, apart);
     let force = loads_of(&bonds, &state).force.get(1);
     assert!((force - Vector3::new(3.0, 0.0, 0.0)).norm() < 1e-8);
 }
 
-/// Where there is no force there is the isotropic stiffness of a spring without rest length; the
-/// least displacement brings `k` along the bond and `k (1 - L / |d|)` across it.
+/// `k 1` at zero length; nearby `k` along and `k (1 - L / |d|)` across.
 #[test]
 fn coincident_anchors_have_a_finite_stiffness() {
     let (mut state, bonds) = coincident();
@@ -215,7 +199,6 @@ fn coincident_anchors_have_a_finite_stiffness() {
         blocks[0].2
     };
     assert_eq!(place(&state), Matrix3::from_diagonal_element(3.0));
-    // A displacement that is a power of two is exact in all sums.
     let distance = 2.0_f64.powi(-30);
     let apart = Vector3::new(1.0 + distance, 0.0, 0.0);
     state.points.position.set(1, apart);
@@ -224,17 +207,15 @@ fn coincident_anchors_have_a_finite_stiffness() {
     assert!((place(&state) - expected).amax() < 1e-15 * across.abs());
 }
 
-/// The blocks of second derivatives.
 fn stiffness_of(bonds: &Bonds, state: &State) -> Stiffness {
     let mut stiffness = Stiffness::default();
     bonds.add_stiffness(state, &mut stiffness);
     stiffness
 }
 
-/// Plain numbers and vectors give the same blocks, for runs that fill the lanes and runs that do
-/// not. Sums of a dozen terms, and their products with a few rotations, carry round-off of 1e-14.
+/// Sums of a dozen terms and their rotations have a rounding error of 1e-14.
 #[test]
-fn stiffness_is_the_same_on_every_kind_of_processor() {
+fn stiffness_is_the_same_on_any_processor() {
     let counts = [1, 2, 3, 5, 8, 9, 10, 11, 27];
     let kinds = [Anchors::Independent, Anchors::Cubature];
     for (count, anchors) in counts.into_iter().zip(kinds.into_iter().cycle()) {

@@ -1,38 +1,36 @@
-//! Why a cell was refused, or has no response.
-
 use crate::InterfaceError;
 use thiserror::Error;
 
-/// Why a cell was refused, or has no response.
+/// Error of the construction or relaxation of a cell.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum CellError {
-    /// The monomers do not return to the azimuth of the first.
+    /// The number of monomers is not a period of the helix.
     #[error(
         "a cell of {monomers} monomers: must be at least 3 and a period of the helix ({missing} rad \
          are missing)"
     )]
     NoPeriod {
-        /// Monomers of the cell.
+        /// Number of monomers.
         monomers: usize,
-        /// What their turn differs by from whole turns (rad).
+        /// Difference of the total turn from full turns (rad).
         missing: f64,
     },
     /// An interface has no bonds.
     #[error(transparent)]
     Interface(#[from] InterfaceError),
-    /// No minimum was found.
+    /// The minimisation did not converge.
     #[error(
-        "cell under strain {strain:?}: residual {residual} pN after {iterations} Newton steps, \
-         allowed {allowed} pN"
+        "relaxation of a cell under strain {strain:?} did not converge: residual {residual} pN after \
+         {iterations} Newton steps, tolerance {allowed} pN"
     )]
     NoMinimum {
-        /// The strains, as far as they are given.
+        /// Strains of the last iteration.
         strain: [f64; 6],
-        /// Largest residual force (pN) or couple (pN nm) on a monomer.
+        /// Largest residual force (pN) or torque (pN nm) on a monomer.
         residual: f64,
-        /// What is allowed.
+        /// Tolerance of the residual.
         allowed: f64,
-        /// Steps taken.
+        /// Number of iterations.
         iterations: usize,
     },
 }

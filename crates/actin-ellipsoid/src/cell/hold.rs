@@ -1,31 +1,28 @@
-//! What ties the monomers of a cell to its axis.
-
 use super::PER_MONOMER;
 use actin_mechanics::Vector3;
 use nalgebra::DMatrix;
 
-/// Which means are held at zero, so that the axis is where the monomers are.
+/// Means held at zero.
 ///
-/// A displacement of all monomers by the same rigid motion `h` in the frames of their places is
-/// no relaxation: it is the strain of the axis `g h`. Six conditions rule it out. Where they differ, they name
-/// another axis of the same filament.
+/// A common rigid displacement of all monomers relative to their axis is equivalent to a strain of
+/// another axis. Six conditions exclude it; each choice defines a different axis of the same
+/// filament.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Hold {
-    /// Displacement `u` and turn `w`.
+    /// Displacement `u` and rotation `w`.
     #[default]
     Means,
-    /// Displacement of the points of the bodies that stand on the axis in the built filament,
-    /// `u - w x o` to first order, and turn.
+    /// Rotation, and displacement `u - w x o` of the body points that lie on the axis in the built
+    /// filament.
     AxisPoints,
-    /// Displacement, turn across the axis, and about it the turn of the places, `(o x u)_3`.
+    /// Displacement, transverse rotation, and `(o x u)_3` as rotation about the axis.
     Places,
 }
 
 impl Hold {
-    /// All of them.
+    /// All choices.
     pub const ALL: [Self; 3] = [Self::Means, Self::AxisPoints, Self::Places];
 
-    /// The conditions as orthonormal rows, for monomers at these offsets from the axis.
     pub(super) fn rows(self, offsets: &[Vector3]) -> DMatrix<f64> {
         let mut rows = DMatrix::zeros(6, PER_MONOMER * offsets.len());
         for (i, offset) in offsets.iter().enumerate() {
@@ -50,7 +47,7 @@ impl Hold {
     }
 }
 
-/// The rows made orthogonal and of unit length one after another, twice against rounding.
+/// Gram-Schmidt process, repeated once against rounding.
 fn orthonormal(mut rows: DMatrix<f64>) -> DMatrix<f64> {
     for _ in 0..2 {
         for k in 0..rows.nrows() {

@@ -1,16 +1,15 @@
-//! Rotations and translations of the rotation group as functions of a rotation vector, with first
-//! and second derivatives.
+//! Rotation matrix and left Jacobian of SO(3) with first and second derivatives.
 
 use actin_mechanics::{Matrix3, Vector3};
 
-/// Terms of the series of the last two functions: enough for angles up to pi to round-off.
+/// Terms of the series of `c_6` and `c_7`, sufficient for angles up to pi.
 const TERMS: u32 = 16;
 
-/// The Stumpff functions `c_n(p) = sum_k (-p)^k / (2 k + n)!` for `n` from 0 to 7.
+/// Stumpff functions `c_n(p) = sum_k (-p)^k / (2 k + n)!` for `n` from 0 to 7.
 ///
-/// `c_0 = cos(a)`, `c_1 = sin(a)/a`, `c_2 = (1 - cos(a))/a^2`, `c_3 = (a - sin(a))/a^3` at
-/// `p = a^2`. The last two come from their series, the others from `c_n = 1/n! - p c_{n+2}`: relative
-/// error below 1e-13 for `p` up to 10.
+/// At `p = a^2`, `c_0 = cos(a)`, `c_1 = sin(a)/a`, `c_2 = (1 - cos(a))/a^2` and `c_3 = (a -
+/// sin(a))/a^3`. The series gives `c_6` and `c_7`, the recursion `c_n = 1/n! - p c_{n+2}` the
+/// others. The relative error is below 1e-13 for `p` up to 10.
 fn stumpff(p: f64) -> [f64; 8] {
     let series = |n: u32| {
         let mut sum = 0.0;
@@ -31,12 +30,12 @@ fn stumpff(p: f64) -> [f64; 8] {
     c
 }
 
-/// `(n c_{n+2} - c_{n+1}) / 2` for each `n`: the derivatives of Stumpff functions by `p`.
+/// Derivatives of the Stumpff functions with respect to `p`: `(n c_{n+2} - c_{n+1}) / 2`.
 fn slopes<const N: usize, const M: usize>(c: &[f64; N]) -> [f64; M] {
     std::array::from_fn(|n| 0.5 * (n as f64 * c[n + 2] - c[n + 1]))
 }
 
-/// The rotation by `w` and the left Jacobian at `w`, without derivatives.
+/// Rotation by `w` and left Jacobian at `w`, without derivatives.
 pub(super) fn turned(w: Vector3) -> (Matrix3, Matrix3) {
     let c = stumpff(w.norm_squared());
     let (cross, outer) = (w.cross_matrix(), w * w.transpose());
@@ -44,8 +43,8 @@ pub(super) fn turned(w: Vector3) -> (Matrix3, Matrix3) {
     (sum(0), sum(1))
 }
 
-/// `ln((sin(a/2)/(a/2))^2)` at `p = a^2` with its first and second derivatives by `p`: the density of the
-/// uniform measure of rotations by the components of their rotation vectors, of length `a`.
+/// `ln((sin(a/2)/(a/2))^2)` at `p = a^2`, with two derivatives with respect to `p`: logarithm of
+/// the density of the uniform measure on SO(3) in rotation vectors of length `a`.
 pub(super) fn log_density(p: f64) -> [f64; 3] {
     let c = stumpff(p);
     let first: [f64; 6] = slopes(&c);
@@ -54,27 +53,23 @@ pub(super) fn log_density(p: f64) -> [f64; 3] {
     [(2.0 * c[2]).ln(), slope, second[2] / c[2] - slope * slope]
 }
 
-/// A matrix that depends on a rotation vector `w` (rad), with its derivatives.
+/// Matrix function of a rotation vector `w` (rad), with derivatives.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct MatrixJet {
-    /// The matrix.
     pub(super) value: Matrix3,
-    /// Its derivatives by the components of `w`.
+    /// First derivatives with respect to the components of `w`.
     pub(super) first: [Matrix3; 3],
-    /// Its second derivatives, both orders of a mixed one.
+    /// Second derivatives.
     pub(super) second: [[Matrix3; 3]; 3],
 }
 
 impl MatrixJet {
-    /// The rotation by `w`, `exp([w]x)`.
+    /// Rotation `exp([w]x)`.
     pub(super) fn rotation(w: Vector3) -> Self {
         Self::of(w, 0)
     }
 
-    /// The left Jacobian `J_l(w)`: the mean of the rotations by `t w`, `t` from 0 to 1.
-    ///
-    /// A curve whose direction turns evenly, by `w` in all, ends at `J_l(w) v` if it starts along `v`
-    /// and would without turning end there.
+    /// Left Jacobian `J_l(w)`: mean of the rotations by `t w` over `t` in [0, 1].
     pub(super) fn left_jacobian(w: Vector3) -> Self {
         Self::of(w, 1)
     }
@@ -122,7 +117,6 @@ mod tests {
         [1.5, 1.0, -2.0],
     ];
 
-    /// The rotation is that of the quaternion, and the Jacobian the inverse of its inverse.
     #[test]
     fn values_are_those_of_the_rotation_group() {
         for turn in TURNS.map(Vector3::from) {
@@ -134,7 +128,6 @@ mod tests {
         }
     }
 
-    /// Rotation and Jacobian without derivatives are those with; the density is the square of a cardinal sine.
     #[test]
     fn functions_without_jets_are_the_same() {
         for turn in TURNS.map(Vector3::from) {

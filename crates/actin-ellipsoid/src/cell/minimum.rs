@@ -1,46 +1,42 @@
-//! The least energy of a cell under given strains and loads: Newton's method with damping.
+//! Damped Newton method for the energy minimum of a cell.
 
 use super::pairs::Derivatives;
 use super::{Cell, CellError, Displacements, STRAINS, SixVector};
 use nalgebra::linalg::{Cholesky, SymmetricEigen};
 use nalgebra::{DMatrix, DVector, Dyn};
 
-/// Largest residual force (pN) or couple (pN nm) on a monomer: a hundred times what rounding leaves.
+/// Largest residual force (pN) or torque (pN nm) on a monomer: a hundred times the rounding error.
 const ALLOWED: f64 = 1e-9;
-/// Newton steps before the search is given up.
 const MOST_STEPS: usize = 400;
-/// Largest displacement (nm) or turn (rad) of a step.
+/// Largest displacement (nm) or rotation (rad) of a step.
 const LONGEST: f64 = 0.2;
-/// Share of the slope that a step must gain at least.
+/// Sufficient decrease parameter of the line search (Armijo).
 const ARMIJO: f64 = 1e-4;
-/// Share of the energy below which a promised gain is lost in rounding.
+/// Relative energy change below which rounding dominates.
 const ROUNDING: f64 = 1e-12;
-/// Stiffness (pN/nm) of the conditions that hold the cell to its axis: of the size of the others. The
-/// minimum does not depend on it.
+/// Stiffness (pN/nm) of the conditions that hold the cell to its axis. The minimum does not depend
+/// on it.
 const HOLDING: f64 = 1e3;
-/// Stiffness (pN/nm) below which a mode counts as one of no stiffness.
+/// Stiffness (pN/nm) below which a mode counts as zero-stiffness mode.
 const MARGINAL: f64 = 1e-6;
-/// How far (nm, rad) a saddle is left along its most unstable mode.
+/// Displacement (nm, rad) away from a saddle along its most unstable mode.
 const KICK: f64 = 0.02;
 
-/// Where a cell is.
 #[derive(Clone, Debug)]
 pub(super) struct CellState {
     pub(super) coordinates: Displacements,
     pub(super) strain: SixVector,
 }
 
-/// What is minimised: the energy less the work of the given loads on the free strains.
+/// Energy minus the work of the given loads on the free strains.
 #[derive(Debug)]
 pub(super) struct Problem<'a> {
     pub(super) cell: &'a Cell,
-    /// Strains that are free.
     pub(super) free: Vec<usize>,
-    /// Loads: those of the free strains count.
+    /// Loads of the free strains; others are ignored.
     pub(super) loads: SixVector,
 }
 
-/// A minimum, and how it was found.
 #[derive(Debug)]
 pub(super) struct Minimum {
     pub(super) state: CellState,
@@ -49,19 +45,17 @@ pub(super) struct Minimum {
 }
 
 impl Problem<'_> {
-    /// Number of unknowns.
     fn size(&self) -> usize {
         self.cell.coordinates() + self.free.len()
     }
 
-    /// Where the unknown `k` stands among the coordinates and strains.
+    /// Index of unknown `k` among coordinates and strains.
     fn place(&self, k: usize) -> usize {
         let coordinates = self.cell.coordinates();
         k.checked_sub(coordinates)
             .map_or(k, |k| coordinates + self.free[k])
     }
 
-    /// Work of the loads (pN nm).
     fn work(&self, strain: &SixVector) -> f64 {
         let work = |&k: &usize| self.loads[k] * strain[k];
         self.free.iter().map(work).sum::<f64>() * self.cell.length()
@@ -71,8 +65,8 @@ impl Problem<'_> {
         self.cell.energy(&state.coordinates, &state.strain) - self.work(&state.strain)
     }
 
-    /// Gradient and second derivatives by the unknowns, along what is not held; the second
-    /// derivatives across it are those of springs, so that they can be inverted.
+    /// Gradient and Hessian in the admissible directions. Springs in the held directions make the
+    /// Hessian regular.
     fn reduce(&self, all: &Derivatives) -> (DVector<f64>, DMatrix<f64>) {
         let (size, coordinates) = (self.size(), self.cell.coordinates());
         let mut gradient = DVector::from_fn(size, |k, _| all.gradient[self.place(k)]);
@@ -86,7 +80,6 @@ impl Problem<'_> {
         (gradient, self.cell.project(hessian))
     }
 
-    /// The state a step further, `share` of it.
     fn moved(&self, from: &CellState, step: &DVector<f64>, share: f64) -> CellState {
         let coordinates = self.cell.coordinates();
         let mut state = from.clone();
@@ -97,7 +90,6 @@ impl Problem<'_> {
         state
     }
 
-    /// The minimum that is reached from `start`.
     pub(super) fn minimise(&self, start: CellState) -> Result<Minimum, CellError> {
         let mut state = start;
         let mut residual = f64::INFINITY;
@@ -128,7 +120,7 @@ impl Problem<'_> {
         })
     }
 
-    /// The state along a step that gains enough. A promise that is lost in rounding is not checked.
+    /// Backtracking line search. Changes below rounding are accepted.
     fn search(&self, from: &CellState, step: &DVector<f64>, energy: f64, slope: f64) -> CellState {
         let mut share = 1.0;
         loop {
@@ -142,7 +134,7 @@ impl Problem<'_> {
         }
     }
 
-    /// The step along an unstable mode, to the side where the energy is less.
+    /// Step in the direction of lower energy.
     fn kick(&self, state: &CellState, mode: &DVector<f64>) -> DVector<f64> {
         let step = mode * (KICK / mode.amax());
         let side = |sign: f64| self.energy(&self.moved(state, &step, sign));
@@ -150,7 +142,7 @@ impl Problem<'_> {
     }
 }
 
-/// The step to the minimum of the local paraboloid; where that has none, of a steeper one.
+/// Shifts the Hessian if it is not positive definite.
 fn newton_step(gradient: &DVector<f64>, hessian: &DMatrix<f64>) -> DVector<f64> {
     let mut damping = 0.0;
     let factor = loop {
@@ -164,8 +156,7 @@ fn newton_step(gradient: &DVector<f64>, hessian: &DMatrix<f64>) -> DVector<f64> 
     step * (LONGEST / longest).min(1.0)
 }
 
-/// The Cholesky factor with `damping` added to the diagonal, if there is one without pivots that are
-/// lost in rounding.
+/// Cholesky factor of the Hessian plus `damping`; `None` if not positive definite to rounding.
 fn factor(hessian: &DMatrix<f64>, damping: f64) -> Option<Cholesky<f64, Dyn>> {
     let mut damped = hessian.clone();
     for k in 0..damped.nrows() {
@@ -176,7 +167,7 @@ fn factor(hessian: &DMatrix<f64>, damping: f64) -> Option<Cholesky<f64, Dyn>> {
     (least * least > 1e-3 * MARGINAL).then_some(factor)
 }
 
-/// The mode of most negative stiffness, if there is any beyond rounding.
+/// Mode of lowest stiffness, if negative beyond rounding.
 fn unstable_mode(hessian: DMatrix<f64>) -> Option<DVector<f64>> {
     if factor(&hessian, MARGINAL).is_some() {
         return None;
@@ -187,15 +178,14 @@ fn unstable_mode(hessian: DMatrix<f64>) -> Option<DVector<f64>> {
 }
 
 impl Cell {
-    /// Takes from a vector of unknowns, coordinates first, what is held.
+    /// Removes the held directions (coordinates first).
     pub(super) fn project_vector(&self, vector: &mut DVector<f64>) {
         let mut rows = vector.rows_mut(0, self.coordinates());
         let along = &self.held * &rows;
         rows -= self.held.tr_mul(&along);
     }
 
-    /// `P K P + c A^T A`, `A` the rows that are held, `P = 1 - A^T A`, for a symmetric matrix of
-    /// unknowns, coordinates first.
+    /// `P K P + c A^T A` with the held rows `A` and `P = 1 - A^T A` (coordinates first).
     pub(super) fn project(&self, mut matrix: DMatrix<f64>) -> DMatrix<f64> {
         let coordinates = self.coordinates();
         let rows = &self.held * matrix.rows(0, coordinates);
@@ -211,8 +201,7 @@ impl Cell {
         matrix
     }
 
-    /// Derivatives of the displacements by the strains at a minimum, one per column, and the Schur
-    /// complement: second derivatives of the least energy by the strains.
+    /// Schur complement: Hessian of the relaxed energy with respect to the strains.
     pub(super) fn condense(&self, all: &Derivatives) -> DMatrix<f64> {
         let coordinates = self.coordinates();
         let hessian = all

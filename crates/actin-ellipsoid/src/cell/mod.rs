@@ -1,7 +1,4 @@
-//! A periodic cell of monomers under uniform strain: what a filament stores per length.
-//!
-//! [`Cell::relax`] is what to call first. Pairs of monomers are in `pairs.rs`, the search for the
-//! minimum in `minimum.rs`, loads and tangent in `response.rs`, the same at a temperature in `heat/`.
+//! Periodic cell of monomers under uniform strain.
 
 mod error;
 mod heat;
@@ -21,82 +18,86 @@ use actin_mechanics::Vector3;
 use nalgebra::{DMatrix, DVector, Rotation3};
 use std::f64::consts::{PI, TAU};
 
-/// Coordinates of one monomer of a cell: displacement, then turn.
+/// Coordinates per monomer: displacement, then rotation vector.
 const PER_MONOMER: usize = 6;
-/// Strains of a cell: curvature, then shear strain.
 const STRAINS: usize = 6;
 
-/// The six strains of a rod: `kappa_1`, `kappa_2`, `kappa_3` (rad/nm), then `sigma_1`, `sigma_2`,
-/// `sigma_3`; or what is conjugate to them: couple (pN nm), then force (pN), in body axes.
+/// Strains of a rod: `kappa_1`, `kappa_2`, `kappa_3` (rad/nm), `sigma_1`, `sigma_2`, `sigma_3`; or
+/// the conjugate loads: torque (pN nm), then force (pN), in body axes.
 pub type SixVector = nalgebra::Vector6<f64>;
-/// Derivatives of loads by strains.
+/// Derivatives of loads with respect to strains.
 pub type SixMatrix = nalgebra::Matrix6<f64>;
 
-/// Displacements (nm) and turns (rad) of the monomers of a cell from the uniformly strained helix:
-/// for each `u`, then `w`, in the frame of its place on the axis.
+/// Displacements `u` (nm) and rotation vectors `w` (rad) of all monomers relative to the uniformly
+/// strained helix, in the frame of the axis at the monomer.
 pub type Displacements = DVector<f64>;
 
-/// A cell of `P` monomers of an endless filament that is strained uniformly.
+/// Cell of `P` monomers of an infinite, uniformly strained filament.
 ///
-/// With the strains `xi = (kappa, e3 + sigma)` the axis is the curve `g(s) = exp(s xi)` of the group
-/// of rigid motions, place `T(s)` and frame `R(s)`. Monomer `i` stands at
-/// `T(s_i) + R(s_i) (o_i + u_i)` with the orientation `R(s_i) exp([w_i]x) Q_i`, where `o_i` and `Q_i`
-/// are its offset from the axis and its orientation in the built filament and `s_i = i rise`. Monomer
-/// `i + P` is the image of `i` under `exp(P rise xi)`, which takes `g(s_i)` to `g(s_{i + P})`. So a
-/// bond between `i` and `i + n` is in the frame of `s_i` the vector
+/// The axis is the curve `g(s) = exp(s xi)` of rigid motions with the strain `xi = (kappa, e3 +
+/// sigma)`, position `T(s)` and frame `R(s)`:
 ///
-/// `d = R_n (o_j + u_j + exp([w_j]x) b) + T_n - (o_i + u_i + exp([w_i]x) a)`,
-/// `R_n = exp(n rise [kappa]x)`, `T_n = n rise J_l(n rise kappa) (e3 + sigma)`,
+/// ```text
+/// s_i = i rise
+/// monomer i: position T(s_i) + R(s_i) (o_i + u_i), orientation R(s_i) exp([w_i]x) Q_i
+/// monomer i + P: image of monomer i under exp(P rise xi)
+/// d   = R_n (o_j + u_j + exp([w_j]x) b) + T_n - (o_i + u_i + exp([w_i]x) a)
+/// R_n = exp(n rise [kappa]x),   T_n = n rise J_l(n rise kappa) (e3 + sigma)
 ///
-/// `j` the one of the cell that `i + n` is or is an image of, `a` and `b` the ends of the bond turned
-/// by `Q_i` and `Q_j`, `J_l` the left Jacobian: the strain enters through `R_n` and `T_n` alone.
+/// o_i, Q_i   offset from the axis (nm) and orientation in the built filament
+/// d          vector of a bond between i and i + n (nm), in the frame at s_i
+/// j          monomer of the cell with image i + n
+/// a, b       anchors, rotated by Q_i and Q_j (nm)
+/// J_l        left Jacobian of SO(3)
+/// ```
 ///
-/// Means of `u` and `w` are held ([`Hold`]), all else relaxes; the energy per length `W(kappa, sigma)` is
-/// that of the bonds of the cell over `P rise`. Its derivatives are the couple and the force in
-/// body axes.
-///
-/// The cell knows no waves longer than itself, and no ends.
+/// Six conditions hold the mean displacement and rotation ([`Hold`]); all other coordinates relax.
+/// The energy per length `W(kappa, sigma)` is the energy of the bonds of the cell divided by `P
+/// rise`. Its derivatives are the torque and the force in body axes. The cell excludes longer waves
+/// and end effects.
 ///
 /// ```
 /// use actin_ellipsoid::{Cell, EllipsoidModel, EllipsoidParameters, Hold, SixVector};
 /// let model = EllipsoidModel::new(EllipsoidParameters::default()).unwrap();
 /// let cell = Cell::new(&model, 13, Hold::Means).unwrap();
-/// // Stretched by 1e-3 without turning: force over strain is the rigidity S3.
+/// // Stretched by 1e-3 at fixed twist: force over strain is the rigidity S3.
 /// let strain = SixVector::new(0.0, 0.0, 0.0, 0.0, 0.0, 1e-3);
 /// let response = cell.relax(&strain, None).unwrap();
 /// assert!((response.loads[5] / 1e-3 / 3.45e4 - 1.0).abs() < 0.01);
 /// ```
 ///
 /// # Source
-/// The Cauchy-Born rule with relaxation, for helical structures: R. D. James, J. Mech. Phys. Solids
-/// 54 (2006) 2354.
+/// Cauchy-Born rule with relaxation for helical structures: R. D. James, J. Mech. Phys. Solids 54
+/// (2006) 2354.
 #[derive(Clone, Debug)]
 pub struct Cell {
     offsets: Vec<Vector3>,
     pairs: Vec<pairs::CellPair>,
     rise: f64,
-    /// Orthonormal rows: combinations of displacements that are held at zero.
+    /// Orthonormal rows: combinations of displacements held at zero.
     held: DMatrix<f64>,
 }
 
 impl Cell {
-    /// The cell of `monomers` monomers from lattice index 0 on.
+    /// Cell of `monomers` monomers starting with lattice index 0.
     ///
     /// # Errors
-    /// Fewer than three monomers, so many that they do not return to the azimuth of the first (whole
-    /// numbers of 13 do with the default helix), and bonds that cannot be found.
+    /// Fewer than three monomers, a number that is not a period of the helix (multiples of 13 for
+    /// the default helix), or interfaces without bonds.
     pub fn new(model: &EllipsoidModel, monomers: usize, hold: Hold) -> Result<Self, CellError> {
         Self::with_turn(model, monomers, model.parameters().turn, hold)
     }
 
-    /// The same of a filament that has been twisted: each monomer is turned about the axis by `turn` (rad) from the one before,
-    /// its bonds are those of the built filament. Strains are in frames that do not turn with it.
+    /// Cell of a pre-twisted filament: the turn per monomer about the axis is `turn` (rad), the
+    /// bonds are those of the built filament. The frames of the strains do not rotate with the
+    /// pre-twist.
     ///
-    /// With a curvature that is constant in these frames it is bent in a plane. One that is twisted by its strain is bent along
-    /// a helix: its curvature turns with its frames.
+    /// A constant curvature therefore bends a pre-twisted filament in a plane. A filament twisted
+    /// by its strain is bent along a helix, since the direction of the curvature rotates with the
+    /// frames.
     ///
     /// # Errors
-    /// As [`new`](Self::new): the monomers have to return to the azimuth of the first with this turn.
+    /// As [`new`](Self::new), for the period with this turn.
     pub fn with_turn(
         model: &EllipsoidModel,
         monomers: usize,
@@ -148,7 +149,6 @@ impl Cell {
         self.monomers() as f64 * self.rise
     }
 
-    /// Number of coordinates of its monomers.
     fn coordinates(&self) -> usize {
         PER_MONOMER * self.monomers()
     }

@@ -1,63 +1,53 @@
-//! Energies of the pairs of a cell with first and second derivatives by all coordinates and strains.
-
 use super::jets::MatrixJet;
 use super::{Cell, PER_MONOMER, STRAINS, SixVector};
 use crate::Interface;
 use actin_mechanics::{Matrix3, Vector3};
 use nalgebra::{DMatrix, DVector, SMatrix, SVector};
 
-/// Coordinates that the energy of a pair depends on: `u`, `w` of the lower and of the upper monomer,
-/// then the six strains.
+/// Variables of a pair: `u`, `w` of both monomers, then the strains.
 const OF_PAIR: usize = 2 * PER_MONOMER + STRAINS;
 type Row = SVector<f64, OF_PAIR>;
 type Square = SMatrix<f64, OF_PAIR, OF_PAIR>;
-/// What a bond's vector depends on: a displacement of its upper end against the lower, the turns of both monomers, and the
-/// curvature, which is three each. The first is the same for all bonds of a pair.
+/// Variables of a bond, three each: relative displacement of the ends, rotations of both monomers,
+/// curvature.
 const OF_BOND: usize = 12;
-/// How a bond's vector changes with these.
 type Gradients = SMatrix<f64, 3, OF_BOND>;
-/// How these change with the coordinates of the pair.
 type Displaced = SMatrix<f64, OF_BOND, OF_PAIR>;
 
-/// Two neighbours in a cell.
 #[derive(Clone, Debug)]
 pub(super) struct CellPair {
     pub(super) lower: usize,
     pub(super) upper: usize,
-    /// Lattice steps between them.
     pub(super) steps: usize,
     pub(super) bonds: Vec<CellBond>,
 }
 
-/// A bond, its ends relative to the centres and turned as the monomers are in the built filament.
+/// Anchors relative to the centres, in the orientation of the built filament.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct CellBond {
     pub(super) lower: Vector3,
     pub(super) upper: Vector3,
     pub(super) length: f64,
-    /// pN/nm.
+    /// Stiffness (pN/nm).
     pub(super) stiffness: f64,
 }
 
-/// One monomer in the frame of its place.
 struct Body {
     centre: Vector3,
     turn: MatrixJet,
 }
 
-/// The motion along the axis from the lower to the upper monomer, as a function of the strains.
+/// Rigid motion from the lower to the upper monomer as a function of the strains.
 pub(super) struct Motion {
-    /// Steps times rise (nm).
+    /// Arc length (nm).
     pub(super) length: f64,
     pub(super) rotation: MatrixJet,
-    /// The left Jacobian of the same turn.
     pub(super) jacobian: MatrixJet,
     /// `e3 + sigma`.
     direction: Vector3,
 }
 
-/// The energy of a cell (pN nm) and its derivatives by displacements and turns of all monomers, then by
-/// the strains.
+/// Energy (pN nm) and its derivatives with respect to coordinates and strains.
 #[derive(Debug)]
 pub(super) struct Derivatives {
     pub(super) energy: f64,
@@ -65,7 +55,6 @@ pub(super) struct Derivatives {
     pub(super) hessian: DMatrix<f64>,
 }
 
-/// The same of one pair.
 struct OfPair {
     energy: f64,
     gradient: Row,
@@ -73,8 +62,6 @@ struct OfPair {
 }
 
 impl CellPair {
-    /// The pair of the cell's monomers `lower` and `upper`, whose orientations in the built filament are
-    /// `axes`.
     pub(super) fn new(
         [lower, upper]: [usize; 2],
         interface: &Interface,
@@ -95,7 +82,6 @@ impl CellPair {
         }
     }
 
-    /// Energy of the pair alone.
     fn energy(&self, lower: &Body, upper: &Body, motion: &Motion) -> f64 {
         let shift = motion.shift();
         let energy = |bond: &CellBond| {
@@ -108,9 +94,15 @@ impl CellPair {
 
     /// Energy of the pair with its derivatives.
     ///
-    /// With `d` a bond's vector, `r` its length and `G` its derivatives, the energy `k/2 (r - L)^2` has the
-    /// gradient `G^T f`, `f = k (1 - L/r) d`, and the second derivatives
-    /// `k (1 - L/r) G^T G + (k L / r^3) (G^T d) (G^T d)^T + f . d''`. The sums over bonds are taken by what a bond depends on.
+    /// ```text
+    /// E   = k/2 (r - L)^2
+    /// E'  = G^T f,   f = k (1 - L/r) d
+    /// E'' = k (1 - L/r) G^T G + (k L / r^3) (G^T d) (G^T d)^T + f . d''
+    ///
+    /// d, r, G   bond vector (nm), its length, its first derivatives
+    /// ```
+    ///
+    /// Sums over bonds are accumulated in the variables of a bond and then transformed.
     fn derivatives(&self, lower: &Body, upper: &Body, motion: &Motion) -> OfPair {
         let mut gradient = SVector::<f64, OF_BOND>::zeros();
         let mut hessian = SMatrix::<f64, OF_BOND, OF_BOND>::zeros();
@@ -152,7 +144,7 @@ impl CellPair {
 }
 
 impl Body {
-    /// Where a point of the body is that is at `arm` from its centre in the built filament.
+    /// Position of a point at `arm` from the centre in the built filament.
     fn end(&self, arm: Vector3) -> Vector3 {
         self.centre + self.turn.value * arm
     }
@@ -169,19 +161,18 @@ impl Motion {
         }
     }
 
-    /// The translation.
     pub(super) fn shift(&self) -> Vector3 {
         self.jacobian.value * self.direction * self.length
     }
 
-    /// Its derivatives by the curvature, one per column.
+    /// Derivatives of the translation with respect to the curvature, one per column.
     pub(super) fn shift_by_curvature(&self) -> Matrix3 {
         let square = self.length * self.length;
         let column = |a: usize| self.jacobian.first[a] * self.direction * square;
         Matrix3::from_columns(&[0, 1, 2].map(column))
     }
 
-    /// How what a bond depends on changes with the coordinates of its pair.
+    /// Derivatives of the variables of a bond with respect to those of the pair.
     fn displaced(&self) -> Displaced {
         let mut displaced = Displaced::zeros();
         let mut set = |row: usize, column: usize, block: Matrix3| {
@@ -199,12 +190,13 @@ impl Motion {
     }
 }
 
-/// Sums over the bonds of a pair from which all `f . d''` follow.
+/// Sums over the bonds that determine all `f . d''`.
 #[derive(Default)]
 struct Curved {
     /// `f`.
     force: Vector3,
-    /// `f a^T`, `f b^T` and `f y^T`, with the ends `a`, `b` as built and `y` the upper end where it is.
+    /// `f a^T`, `f b^T` and `f y^T` with the anchors `a`, `b` as built and the current upper end
+    /// `y`.
     lower: Matrix3,
     upper: Matrix3,
     end: Matrix3,
@@ -218,7 +210,6 @@ impl Curved {
         self.end += force * end.transpose();
     }
 
-    /// Adds `f . d''`, summed over the bonds.
     fn add_to(&self, hessian: &mut Square, lower: &Body, upper: &Body, motion: &Motion) {
         let length = motion.length;
         let turned = motion.rotation.value.tr_mul(&self.upper);
@@ -231,7 +222,7 @@ impl Curved {
                 add_both(hessian, 12 + a, 6 + b, place[b]);
                 add_both(hessian, 12 + a, 9 + b, upper.turn.first[b].dot(&arms));
                 add_both(hessian, 12 + a, 15 + b, shear[b]);
-                // Both orders of these are met.
+                // The loop includes both orders.
                 hessian[(3 + a, 3 + b)] -= lower.turn.second[a][b].dot(&self.lower);
                 hessian[(9 + a, 9 + b)] += upper.turn.second[a][b].dot(&turned);
                 let bend = motion.rotation.second[a][b].dot(&self.end)
@@ -242,14 +233,13 @@ impl Curved {
     }
 }
 
-/// Adds to an entry and to its mirror image.
 fn add_both(matrix: &mut Square, i: usize, j: usize, value: f64) {
     matrix[(i, j)] += value;
     matrix[(j, i)] += value;
 }
 
 impl Cell {
-    /// The bodies, and the motions of one and of two steps.
+    /// Bodies, and rigid motions of one and of two steps.
     fn geometry(&self, coordinates: &DVector<f64>, strain: &SixVector) -> (Vec<Body>, [Motion; 2]) {
         let body = |(i, offset): (usize, &Vector3)| Body {
             centre: offset + coordinates.fixed_rows::<3>(PER_MONOMER * i),
@@ -259,7 +249,6 @@ impl Cell {
         (self.offsets.iter().enumerate().map(body).collect(), motions)
     }
 
-    /// The energy of the cell (pN nm).
     pub(super) fn energy(&self, coordinates: &DVector<f64>, strain: &SixVector) -> f64 {
         let (bodies, motions) = self.geometry(coordinates, strain);
         let energy = |pair: &CellPair| {
@@ -269,7 +258,6 @@ impl Cell {
         self.pairs.iter().map(energy).sum()
     }
 
-    /// The energy of the cell with its derivatives.
     pub(super) fn derivatives(
         &self,
         coordinates: &DVector<f64>,

@@ -1,48 +1,47 @@
-//! Energy per length, loads and tangent of a relaxed cell.
-
 use super::minimum::{CellState, Minimum, Problem};
 use super::{Cell, CellError, Displacements, STRAINS, SixMatrix, SixVector};
 use nalgebra::DVector;
 
-/// What is given of one of the six strains.
+/// Prescribed value of one of the six strains or of its conjugate load.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Control {
-    /// The strain itself.
+    /// Strain.
     Strain(f64),
-    /// The couple (pN nm) or force (pN) that belongs to it.
+    /// Conjugate torque (pN nm) or force (pN).
     Load(f64),
 }
 
-/// What a cell answers when all that is free in it has relaxed.
+/// Response of a relaxed cell.
 #[derive(Clone, Debug)]
 pub struct CellResponse {
     /// The strains.
     pub strain: SixVector,
     /// Energy per length of the built filament (pN).
     pub energy: f64,
-    /// Couple (pN nm) and force (pN) in body axes: the derivatives of the energy per length.
+    /// Torque (pN nm) and force (pN) in body axes: derivatives of the energy per length.
     pub loads: SixVector,
-    /// Its second derivatives: of couples pN nm^2, of forces pN, mixed pN nm; symmetric.
+    /// Second derivatives of the energy per length: pN nm^2 for torques, pN for forces, pN nm
+    /// mixed.
     pub tangent: SixMatrix,
-    /// Where the monomers are.
+    /// Displacements of the monomers.
     pub displacements: Displacements,
-    /// Newton steps.
+    /// Number of Newton steps.
     pub iterations: usize,
 }
 
 impl Cell {
-    /// The response to the given strains.
+    /// Response to the given strains.
     ///
-    /// The minimum is that which is reached from `start`, by default from the uniformly strained helix. A saddle
-    /// is left along its most unstable mode. Couple and force are accurate to 1e-9 of their scale;
-    /// the tangent follows by the implicit function theorem. Where modes have no stiffness, as at rest, what
-    /// they would add to the tangent is left out.
+    /// The minimum is the one reached from `start`, by default from the uniformly strained helix.
+    /// Saddles are left along their most unstable mode. Relative accuracy of torque and force:
+    /// 1e-9. The tangent follows from the implicit function theorem; zero-stiffness modes, as at
+    /// rest, do not contribute.
     ///
     /// # Errors
-    /// [`CellError::NoMinimum`] if none is found.
+    /// [`CellError::NoMinimum`] if the minimisation does not converge.
     ///
     /// # Panics
-    /// If `start` is of another number of monomers.
+    /// If `start` has a different number of monomers.
     pub fn relax(
         &self,
         strain: &SixVector,
@@ -52,28 +51,28 @@ impl Cell {
         self.find(&controls, SixVector::zeros(), start)
     }
 
-    /// The response where some strains are given and the loads of the others: those relax too.
+    /// Response to given strains or loads. Strains with given loads relax.
     ///
-    /// The search starts from `start`, by default from the built filament.
+    /// The minimum is the one reached from `start`, by default from the built filament.
     ///
     /// ```
     /// use actin_ellipsoid::{Cell, Control::{Load, Strain}, EllipsoidModel, EllipsoidParameters, Hold};
     /// let model = EllipsoidModel::new(EllipsoidParameters::default()).unwrap();
     /// let cell = Cell::new(&model, 13, Hold::Means).unwrap();
-    /// // Over-twist without force shortens the filament, by 0.0053 at 0.0094 rad/nm in the paper's Table 5.
+    /// // Table 5 of the paper: over-twist by 0.0094 rad/nm at zero force shortens the filament by 0.0053.
     /// let free = Load(0.0);
     /// let twisted = [Strain(0.0), Strain(0.0), Strain(0.0094), free, free, free];
     /// let response = cell.relax_under(&twisted, None).unwrap();
-    /// // The mean filament is off by 1.4e-3 (root mean square over the table).
+    /// // The root mean square deviation from the table is 1.4e-3.
     /// let shortening = -response.strain[5];
     /// assert!((shortening - 0.0053).abs() < 2.0 * 1.4e-3, "{shortening}");
     /// ```
     ///
     /// # Errors
-    /// [`CellError::NoMinimum`] if none is found.
+    /// [`CellError::NoMinimum`] if the minimisation does not converge.
     ///
     /// # Panics
-    /// If `start` is of another number of monomers.
+    /// If `start` has a different number of monomers.
     pub fn relax_under(
         &self,
         controls: &[Control; 6],

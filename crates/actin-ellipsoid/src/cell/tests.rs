@@ -1,5 +1,3 @@
-//! The energy of a cell: exact derivatives, against filaments, and what must not matter.
-
 use super::{
     Cell,
     Control::{Load, Strain},
@@ -18,14 +16,11 @@ fn cell(parameters: EllipsoidParameters, monomers: usize, hold: Hold) -> Cell {
     Cell::new(&model, monomers, hold).unwrap()
 }
 
-/// A strain that bends, twists, shears and stretches.
 fn strain() -> SixVector {
     SixVector::new(4e-3, -2e-3, 0.011, 6e-3, 3e-3, -4e-3)
 }
 
-/// The first derivatives of the energy of an unrelaxed cell against eight-point differences along every
-/// coordinate and strain, the second against those of the first. Drawn bonds differ from pair to pair, so that no
-/// symmetry hides a wrong index.
+/// Eight-point differences. Sampled bonds exclude symmetries that could hide a wrong index.
 #[test]
 fn derivatives_of_the_cell_are_exact() {
     let cell = cell(EllipsoidParameters::drawn(7, 3), 13, Hold::Means);
@@ -56,8 +51,7 @@ fn derivatives_of_the_cell_are_exact() {
     }
 }
 
-/// Loads are the derivatives of the relaxed energy, and the tangent is theirs, in all six strains. The bound
-/// is relative to the largest load and entry of the same kind.
+/// Relative to the largest load and entry of the same kind.
 #[test]
 fn loads_and_tangent_are_derivatives_of_the_relaxed_energy() {
     let cell = weighted(13, Hold::Means);
@@ -92,7 +86,6 @@ fn loads_and_tangent_are_derivatives_of_the_relaxed_energy() {
     }
 }
 
-/// Equal bonds relax alike in every period: longer cells store as much per length.
 #[test]
 fn longer_cells_of_equal_bonds_are_the_same() {
     let short = weighted(13, Hold::Means).relax(&strain(), None).unwrap();
@@ -101,9 +94,9 @@ fn longer_cells_of_equal_bonds_are_the_same() {
     assert!((short.loads - long.loads).amax() < 1e-7 * short.loads.amax());
 }
 
-/// The built filament stores nothing. Stretched without turning, bonds along the lines of centres (z, transverse
-/// chord t, length l, rigidity k) resist as `sum k (t^2 x + z^2)^2 / l^2 / rise` if only the radius gives way, by `x`
-/// of itself: 34708 pN at the best `x`. All else that relaxes takes less than 0.1 % more.
+/// Stretched at fixed twist, bonds along the lines of centres (axial distance z, transverse chord
+/// t, length l, rigidity k) resist as `sum k (t^2 x + z^2)^2 / l^2 / rise` if only the radius
+/// relaxes, by the fraction `x`: 34708 pN at the optimum.
 #[test]
 fn the_built_filament_is_at_rest() {
     let cell = weighted(13, Hold::Means);
@@ -116,7 +109,6 @@ fn the_built_filament_is_at_rest() {
     );
 }
 
-/// Strains that are found for given loads have these loads.
 #[test]
 fn given_loads_are_met() {
     let cell = weighted(13, Hold::Means);
@@ -137,7 +129,6 @@ fn given_loads_are_met() {
     assert!((again.loads - found.loads).amax() < 1e-8);
 }
 
-/// A cell that does not close on itself is refused.
 #[test]
 fn cells_are_whole_periods() {
     let model = EllipsoidModel::new(EllipsoidParameters::default()).unwrap();
@@ -148,10 +139,9 @@ fn cells_are_whole_periods() {
     }
 }
 
-/// A straight filament is the same whether its strain twists it or its lattice, which then closes after 17 monomers. Bent in a plane it
-/// is 7 % stiffer than along a helix.
+/// Bending in a plane is 7 % stiffer than along a helix.
 #[test]
-fn a_lattice_may_turn_in_place_of_the_frames() {
+fn pre_twist_is_equivalent_to_twist() {
     let model = EllipsoidModel::new(EllipsoidParameters::default()).unwrap();
     let turn = -std::f64::consts::TAU * 8.0 / 17.0;
     let twist = (turn - model.parameters().turn) / model.parameters().rise;

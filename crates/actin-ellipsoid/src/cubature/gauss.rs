@@ -1,11 +1,9 @@
-//! Gauss-Legendre quadrature.
-
 use std::f64::consts::PI;
 
-/// Nodes in (-1, 1) and weights of the rule of `n` points, exact for polynomials of degree `2n - 1`.
+/// Nodes in (-1, 1) and weights of the `n`-point rule, exact for polynomials of degree `2n - 1`.
 ///
-/// Newton's method on the Legendre polynomial from `cos(pi (k + 3/4) / (n + 1/2))`; good to about
-/// 1e-14.
+/// Newton's method for the roots of the Legendre polynomial, starting from `cos(pi (k + 3/4) / (n +
+/// 1/2))`. Accurate to about 1e-14.
 ///
 /// # Source
 /// Abramowitz and Stegun, Handbook of Mathematical Functions, 25.4.29 and 22.16.6.
@@ -27,7 +25,6 @@ pub(super) fn legendre(n: usize) -> Vec<(f64, f64)> {
         .collect()
 }
 
-/// The Legendre polynomial of degree `n` and its slope.
 fn polynomial(n: usize, x: f64) -> (f64, f64) {
     let (mut before, mut value) = (0.0, 1.0);
     for k in 0..n {
@@ -43,7 +40,7 @@ fn polynomial(n: usize, x: f64) -> (f64, f64) {
 mod tests {
     use super::legendre;
 
-    /// Even powers integrate to `2 / (p + 1)`, odd ones to 0, up to degree `2n - 1`, and not beyond.
+    /// Even powers integrate to `2 / (p + 1)`, odd ones to 0.
     #[test]
     fn the_rule_is_exact_to_its_degree() {
         for n in [1, 2, 5, 24, 48] {

@@ -1,11 +1,14 @@
-//! Which averages over the bonds of an interface its energy depends on.
+//! Moments of the bonds of an interface that determine its energy.
 //!
-//! All bonds of an interface at rest are parallel to the line of centres. With place `rho` across
-//! it and length `L` of a bond, a relative motion of the monomers that slips the ends of the bond
-//! by `s` against each other and parts them by `p`, `s` and `p` linear in `rho` for small turns,
-//! changes its length by `p + s^2 / 2L - p s^2 / 2L^2 - s^4 / 8L^3 + ...`. Half the square of that,
-//! averaged over the bonds, holds `rho^a` up to `|a| = 2`, `rho^a / L` up to 3, and `rho^a / L^2`
-//! and `rho^a / L^3` up to 4.
+//! A relative motion of the monomers shears a bond of length `L` at transverse position `rho` by
+//! `s` and extends it by `p`, both linear in `rho` for small rotations. Its length changes by
+//!
+//! ```text
+//! p + s^2 / 2L - p s^2 / 2L^2 - s^4 / 8L^3 + ...
+//! ```
+//!
+//! Half the square, averaged over the bonds, contains `rho^a` up to `|a| = 2`, `rho^a / L` up to 3,
+//! and `rho^a / L^2` and `rho^a / L^3` up to 4.
 
 use super::patch::Share;
 
@@ -15,36 +18,30 @@ const DEGREES: [usize; 4] = [2, 3, 4, 4];
 /// Number of moments: 6 + 10 + 15 + 15.
 pub(crate) const MOMENTS: usize = 46;
 
-/// Place and inverse length of a bond, in units of their root mean squares.
+/// Position and inverse length of a bond, in units of their root mean squares.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Site {
-    /// Place across the line of centres.
     pub(crate) place: [f64; 2],
-    /// One over the length.
     pub(crate) inverse: f64,
 }
 
-/// What a site contributes to each moment.
 pub(crate) type Features = [f64; MOMENTS];
 
-/// Averages over all bonds, and the units in which they are of order 1.
+/// Averages of the features over all bonds, and their scales.
 #[derive(Clone, Debug)]
 pub(crate) struct Moments {
     /// Root mean square distance from the line of centres (nm).
     pub(crate) distance: f64,
     /// Root mean square of the inverse length (1/nm).
     pub(crate) inverse: f64,
-    /// Averages of the features.
     averages: Features,
     /// Root mean squares of the features.
     sizes: Features,
 }
 
-/// Powers 0 to 4 of a number.
 type Powers = [f64; 5];
 
 impl Site {
-    /// The features `x^i y^j u^k`.
     pub(crate) fn features(&self) -> Features {
         let mut features = [0.0; MOMENTS];
         let ([x, y], u) = (self.place.map(powers), powers(self.inverse));
@@ -54,7 +51,6 @@ impl Site {
         features
     }
 
-    /// Slopes of the features by `x`, `y` and `u`.
     pub(crate) fn slopes(&self) -> [Features; 3] {
         let mut slopes = [[0.0; MOMENTS]; 3];
         let ([x, y], u) = (self.place.map(powers), powers(self.inverse));
@@ -73,12 +69,11 @@ fn powers(x: f64) -> Powers {
     [1.0, x, square, square * x, square * square]
 }
 
-/// Slopes of the powers.
 fn falling([one, x, square, cube, _]: Powers) -> Powers {
     [0.0, one, 2.0 * x, 3.0 * square, 4.0 * cube]
 }
 
-/// Powers of `x`, `y` and `u` of each feature.
+/// Exponents of `x`, `y` and `u` in each feature.
 fn exponents() -> impl Iterator<Item = (usize, usize, usize)> {
     let of_power = |(k, degree): (usize, usize)| {
         (0..=degree).flat_map(move |i| (0..=degree - i).map(move |j| (i, j, k)))
@@ -87,7 +82,6 @@ fn exponents() -> impl Iterator<Item = (usize, usize, usize)> {
 }
 
 impl Moments {
-    /// Of the bonds that stand for all.
     pub(crate) fn of(shares: &[Share]) -> Self {
         let mean = |value: &dyn Fn(&Share) -> f64| -> f64 {
             shares.iter().map(|s| s.weight * value(s)).sum()
@@ -113,7 +107,6 @@ impl Moments {
         moments
     }
 
-    /// A bond in these units.
     pub(crate) fn site(&self, place: [f64; 2], length: f64) -> Site {
         Site {
             place: place.map(|x| x / self.distance),
@@ -121,7 +114,7 @@ impl Moments {
         }
     }
 
-    /// Weighted sums of the features less their averages, over their root mean squares.
+    /// Deviations of the weighted sums, relative to the root mean squares.
     pub(crate) fn residuals(&self, sites: &[(Site, f64)]) -> Features {
         let mut sums = self.averages.map(|average| -average);
         for (site, weight) in sites {
@@ -135,7 +128,6 @@ impl Moments {
         sums
     }
 
-    /// Root mean squares of the features.
     pub(crate) fn sizes(&self) -> &Features {
         &self.sizes
     }
@@ -145,9 +137,8 @@ impl Moments {
 mod tests {
     use super::*;
 
-    /// A slope of the wrong power or in the wrong order would show.
     #[test]
-    fn slopes_are_those_of_the_features() {
+    fn slopes_match_differences_of_the_features() {
         let site = |[x, y, inverse]: [f64; 3]| Site {
             place: [x, y],
             inverse,
@@ -171,7 +162,6 @@ mod tests {
         }
     }
 
-    /// All features are there once.
     #[test]
     fn there_are_46_features() {
         let mut all: Vec<_> = exponents().collect();
@@ -182,7 +172,6 @@ mod tests {
         assert!(all.iter().all(|(i, j, k)| i + j <= DEGREES[*k]));
     }
 
-    /// Bonds meet their own moments, whatever their order.
     #[test]
     fn bonds_meet_their_own_moments() {
         let share = |(weight, x, y, length)| Share {

@@ -1,54 +1,44 @@
-//! The part of an interface where bonds may be, seen along the line of centres, and averages over
-//! the bonds that could be drawn there: by quadrature, without a random number.
+//! Region of possible bonds of an interface, and averages over it.
 
 use super::{gauss, transverse};
 use crate::gap::Gap;
 use actin_mechanics::Vector3;
 use std::f64::consts::TAU;
 
-/// Rays from the middle of the patch: the trapezoidal rule over directions.
 const RAYS: usize = 192;
-/// Gauss points on each ray.
 const POINTS_PER_RAY: usize = 48;
-/// Halvings of an interval on a ray: to the last digit.
+/// Bisections of an interval on a ray: full precision.
 const HALVINGS: usize = 60;
 
-/// The lines along which a bond may bridge a gap.
+/// Set of lines parallel to the line of centres that bridge a gap.
 ///
-/// Dividing by the semi-axes takes the lower monomer to the unit sphere and the line of centres to
-/// a direction `g`; a line is named by where it crosses the plane through the centre across `g`,
-/// a point of the unit disc. The length of the gap along a line, between two convex surfaces, is a
-/// convex function of that point: lines shorter than any length lie within a convex curve, and a
-/// ray from the shortest line meets each length once.
+/// Scaling by the inverse semi-axes maps the lower monomer to the unit sphere and the line of
+/// centres to a direction `g`. A line is identified by its intersection with the plane through the
+/// centre normal to `g`, a point of the unit disc. The gap lies between two convex surfaces, so its
+/// length is a convex function of this point. Lines shorter than a given length form a convex set,
+/// and the length increases along each ray from the shortest line.
 #[derive(Clone, Debug)]
 pub(crate) struct Patch {
     gap: Gap,
-    /// Semi-axes of the lower monomer (nm).
     scale: Vector3,
-    /// Unit vectors after the division: along the lines, and two across.
+    /// Unit vectors after scaling: along the lines, and two transverse ones.
     along: Vector3,
     across: [Vector3; 2],
-    /// Unit vectors across the line of centres (body frame of the lower monomer).
+    /// Body frame of the lower monomer.
     transverse: [Vector3; 2],
-    /// The shortest line.
     middle: [f64; 2],
-    /// Its length (nm).
     shortest: f64,
 }
 
-/// One of the bonds that stand for all: what it counts for, its place and its length.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Share {
-    /// Share of the bonds.
     pub(crate) weight: f64,
-    /// Place across the line of centres, from that line (nm).
+    /// Position across the line of centres (nm).
     pub(crate) place: [f64; 2],
-    /// Length (nm).
     pub(crate) length: f64,
 }
 
 impl Patch {
-    /// The patch of a gap whose two monomers turn by `half_turn` from the lower one to the middle.
     pub(crate) fn new(gap: Gap, half_turn: f64) -> Self {
         let scale = Vector3::from(gap.ellipsoid.semi_axes());
         let direction = gap.direction();
@@ -68,12 +58,12 @@ impl Patch {
         patch
     }
 
-    /// Length of the shortest line (nm), negative where the monomers overlap.
+    /// Length of the shortest line (nm), negative if the monomers overlap.
     pub(crate) fn shortest(&self) -> f64 {
         self.shortest
     }
 
-    /// The point of the lower monomer's surface at which a line leaves it; none beyond the disc.
+    /// Exit point of a line from the lower monomer; `None` outside the disc.
     fn point(&self, [x, y]: [f64; 2]) -> Option<Vector3> {
         let height = 1.0 - (x * x + y * y);
         (height >= 0.0).then(|| {
@@ -82,14 +72,13 @@ impl Patch {
         })
     }
 
-    /// Length of the gap along a line; infinite where there is none.
+    /// Length of the gap along a line; infinite if the line misses.
     fn length(&self, line: [f64; 2]) -> f64 {
         let length = self.point(line).and_then(|p| self.gap.length_from(p));
         length.unwrap_or(f64::INFINITY)
     }
 
-    /// The line of least length: a convex function, so steps along four directions, halved where
-    /// none leads down, end there.
+    /// Shortest line. The length is convex, so a compass search with halved steps converges.
     fn find_shortest(&self) -> ([f64; 2], f64) {
         let (mut best, mut least) = ([0.0; 2], self.length([0.0; 2]));
         let mut step = 0.25;
@@ -108,47 +97,44 @@ impl Patch {
         (best, least)
     }
 
-    /// Place across the line of centres (nm) of a point of the lower monomer.
+    /// Position across the line of centres (nm) of a point of the lower monomer.
     pub(crate) fn place(&self, point: Vector3) -> [f64; 2] {
         self.transverse.map(|axis| axis.dot(&point))
     }
 
-    /// Length of the gap along the line at a place across the line of centres (nm); none where
-    /// there is none.
+    /// Length of the gap at a transverse position (nm); `None` if the line misses.
     pub(crate) fn length_at(&self, place: [f64; 2]) -> Option<f64> {
         let length = self.length(self.line_at(place));
         length.is_finite().then_some(length)
     }
 
-    /// Height of the middle of the gap above the middle of the line of centres (nm), along the line
-    /// at a place across the line of centres (nm); none where there is none.
+    /// Height of the midpoint of the gap above the midpoint of the line of centres (nm), at a
+    /// transverse position (nm); `None` if the line misses.
     pub(crate) fn height_at(&self, place: [f64; 2]) -> Option<f64> {
         let (direction, offset) = (self.gap.direction(), self.gap.neighbour.offset);
         let lower = self.point(self.line_at(place))?;
         Some(lower.dot(&direction) + 0.5 * self.length_at(place)? - 0.5 * offset.norm())
     }
 
-    /// The line at a place across the line of centres (nm).
     fn line_at(&self, place: [f64; 2]) -> [f64; 2] {
-        // Any point of the line will do: its part across the lines names it.
+        // Any point of the line has the same transverse components.
         let point = place[0] * self.transverse[0] + place[1] * self.transverse[1];
         let q = point.component_div(&self.scale);
         [q.dot(&self.across[0]), q.dot(&self.across[1])]
     }
 
-    /// Bonds that stand for all that could be drawn uniformly on the lower monomer's surface:
-    /// their weights add up to 1. None if no bond is long and short enough.
+    /// Quadrature nodes over all bonds, distributed uniformly on the surface of the lower monomer.
+    /// The weights add up to 1. Returns `None` if no bond has an admissible length.
     ///
-    /// Area of the surface over area of the disc is `|q / scale| / sqrt(1 - r^2)` but for a factor,
-    /// `q` the point of the unit sphere and `r` its distance from the disc's middle. Each ray runs
-    /// from the shortest bond that is accepted to the longest or to where lines miss a monomer;
-    /// there the integrand may be like a square root or its inverse, which points that crowd
-    /// towards that end take to a smooth one.
+    /// The ratio of surface to disc area is proportional to `|q / scale| / sqrt(1 - r^2)` with `q`
+    /// on the unit sphere and `r` the distance from the centre of the disc. Each ray extends from
+    /// the minimum bond length to the maximum, or to the last line that meets both monomers. The
+    /// integrand may have a square root singularity at this end, which the substitution of the
+    /// radius removes.
     pub(crate) fn shares(&self) -> Option<Vec<Share>> {
         self.shares_by(RAYS, POINTS_PER_RAY)
     }
 
-    /// The same with so many rays and points on each.
     fn shares_by(&self, rays: usize, points: usize) -> Option<Vec<Share>> {
         let least = self.gap.minimum;
         let nodes = gauss::legendre(points);
@@ -186,8 +172,7 @@ impl Patch {
     }
 }
 
-/// The largest distance, up to the disc's diameter, at which what holds up to some distance holds;
-/// 0 if it never does.
+/// Largest distance up to the diameter of the disc at which a monotone predicate holds, or 0.
 fn last(holds: impl Fn(f64) -> bool) -> f64 {
     let (mut inside, mut outside) = (0.0, 2.0);
     for _ in 0..HALVINGS {
@@ -208,8 +193,6 @@ mod tests {
     use crate::stream::Stream;
     use crate::{EllipsoidParameters, Helix, InterfaceKind};
 
-    /// Default parameters, those with a shortest bond, and a geometry whose longest bonds lie at the
-    /// edge of what lines can reach.
     fn patches() -> Vec<Patch> {
         let standard = EllipsoidParameters::default();
         let (mut floor, mut wide) = (standard.clone(), standard.clone());
@@ -229,7 +212,6 @@ mod tests {
             .collect()
     }
 
-    /// Largest difference of the moments of some bonds from those of others, in units of their size.
     fn difference(of: &Moments, shares: &[Share]) -> f64 {
         let sites: Vec<_> = shares
             .iter()
@@ -240,10 +222,9 @@ mod tests {
             .fold(0.0, |worst, r| r.abs().max(worst))
     }
 
-    /// The moments of 100 000 drawn bonds scatter about those of all by 1/316 of their size; five
-    /// times that for 46 of them. A wrong area element misses by a tenth, a wrong place by more.
+    /// Five standard errors.
     #[test]
-    fn moments_are_those_of_drawn_bonds() {
+    fn moments_agree_with_sampled_bonds() {
         const DRAWS: usize = 100_000;
         for (i, patch) in patches().iter().enumerate() {
             let moments = Moments::of(&patch.shares().unwrap());
@@ -263,8 +244,7 @@ mod tests {
         }
     }
 
-    /// Half the rays and points give the same: to round-off where the outline is smooth, to 1e-6
-    /// where it passes from the longest bond to the edge of a monomer.
+    /// Rounding for smooth outlines, 1e-6 for outlines with corners.
     #[test]
     fn quadrature_has_converged() {
         for (i, patch) in patches().iter().enumerate() {
@@ -276,9 +256,8 @@ mod tests {
         }
     }
 
-    /// A place leads back to the length of the bond there.
     #[test]
-    fn lengths_are_those_of_the_lines() {
+    fn positions_reproduce_lengths() {
         for patch in patches() {
             for share in patch.shares_by(7, 5).unwrap() {
                 let length = patch.length_at(share.place).unwrap();

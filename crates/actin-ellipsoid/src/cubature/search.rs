@@ -1,18 +1,14 @@
-//! Points that meet the moments: nonlinear least squares over places, lengths and weights.
-
 use super::moments::{Features, MOMENTS, Moments, Site};
 use nalgebra::{DMatrix, DVector};
 
-/// Steps of one search.
 const STEPS: usize = 600;
-/// A search has ended once no residual is above this: a hundredth of what is asked for.
+/// Residual at which the search stops, a hundredth of the tolerance.
 const ENDED: f64 = 1e-5;
-/// Damping of the first step, in units of the mean square of the slopes, and its least value.
+/// Initial and minimum damping, relative to the mean square of the Jacobian.
 const DAMPING: (f64, f64) = (1e-2, 1e-13);
-/// Unknowns of a point: two of the place, inverse length, root of the weight beyond the least.
+/// Unknowns per point: position (2), inverse length, square root of the weight above its minimum.
 pub(super) const UNKNOWNS: usize = 4;
 
-/// Inverse lengths between which those of all points are kept, and the least weight.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Bounds {
     pub(super) least: f64,
@@ -21,12 +17,11 @@ pub(super) struct Bounds {
 }
 
 impl Bounds {
-    /// Half its width, which is never quite zero.
     fn half(self) -> f64 {
         0.5 * (self.most - self.least).max(f64::MIN_POSITIVE)
     }
 
-    /// The inverse length of an unknown, `middle + half t / sqrt(1 + t^2)`, and its slope.
+    /// Inverse length `middle + half t / sqrt(1 + t^2)` and its derivative with respect to `t`.
     fn inverse(self, t: f64) -> (f64, f64) {
         let root = (1.0 + t * t).sqrt();
         let middle = 0.5 * (self.least + self.most);
@@ -36,7 +31,7 @@ impl Bounds {
         )
     }
 
-    /// The unknown of an inverse length, which is taken into the bounds.
+    /// Unknown of an inverse length, clamped to the bounds.
     fn unknown(self, inverse: f64) -> f64 {
         let part = (inverse - 0.5 * (self.least + self.most)) / self.half();
         let part = part.clamp(-0.99, 0.99);
@@ -44,7 +39,6 @@ impl Bounds {
     }
 }
 
-/// Unknowns of all points.
 #[derive(Clone, Debug)]
 struct Unknowns(DVector<f64>, Bounds);
 
@@ -61,7 +55,7 @@ impl Unknowns {
         )
     }
 
-    /// The points: weights are the least one and a square.
+    /// A weight is the minimum plus a square.
     fn sites(&self) -> Vec<(Site, f64)> {
         let (points, _) = self.0.as_slice().as_chunks::<UNKNOWNS>();
         points
@@ -74,7 +68,6 @@ impl Unknowns {
             .collect()
     }
 
-    /// Slopes of the residuals.
     fn jacobian(&self, moments: &Moments) -> DMatrix<f64> {
         let mut jacobian = DMatrix::zeros(MOMENTS, self.0.len());
         for (p, (site, weight)) in self.sites().iter().enumerate() {
@@ -93,15 +86,14 @@ impl Unknowns {
     }
 }
 
-/// Sum of squares.
 fn square(residuals: &Features) -> f64 {
     residuals.iter().map(|r| r * r).sum()
 }
 
-/// Moves points until their moments are those of all bonds, or as near as they come.
+/// Minimises the residuals of the moments by the Levenberg method.
 ///
-/// Levenberg's method: the step `d` solves `(J^T J + m 1) d = -J^T r` with the damping `m` divided
-/// by 4 after a step that helped and times 4 otherwise.
+/// The step `d` solves `(J^T J + m 1) d = -J^T r`. The damping `m` is divided by 4 after an
+/// accepted step and multiplied by 4 after a rejected one.
 ///
 /// # Source
 /// Levenberg, Q. Appl. Math. 2 (1944) 164.
@@ -133,10 +125,9 @@ pub(super) fn search(moments: &Moments, start: &[(Site, f64)], bounds: Bounds) -
     x.sites()
 }
 
-/// `(J^T J + m 1)^-1 J^T r`, which is `J^T (J J^T + m 1)^-1 r`: the smaller of the two matrices is
-/// solved with.
+/// Computes `(J^T J + m 1)^-1 J^T r = J^T (J J^T + m 1)^-1 r` with the smaller of the two matrices.
 ///
-/// Products are summed column by column, in the same order on every machine.
+/// Products are accumulated column by column, in the same order on every machine.
 fn step(jacobian: &DMatrix<f64>, residuals: &Features, damping: f64) -> DVector<f64> {
     let r = DVector::from_column_slice(residuals);
     let transposed = jacobian.transpose();
@@ -147,7 +138,7 @@ fn step(jacobian: &DMatrix<f64>, residuals: &Features, damping: f64) -> DVector<
     }
 }
 
-/// Solves `(A A^T + m 1) x = b`; zero where `m` is too small for round-off.
+/// Solves `(A A^T + m 1) x = b`; returns zero if the matrix is numerically indefinite.
 fn solve(a: &DMatrix<f64>, damping: f64, b: &DVector<f64>) -> DVector<f64> {
     let n = a.nrows();
     let mut matrix = DMatrix::from_diagonal_element(n, n, damping);

@@ -1,19 +1,17 @@
-//! The points of the default parameters, as [`Cubature::find`] finds them.
+//! Quadrature points of the default parameters, computed by [`Cubature::find`].
 //!
-//! `cargo run -p actin-ellipsoid --example weighted_bonds` prints this table; a test finds it anew.
+//! `cargo run -p actin-ellipsoid --example weighted_bonds` prints this table.
 
 use super::moments::Site;
 use super::{Cubature, CubaturePoint, MomentCheck, numbers};
 use crate::{EllipsoidParameters, InterfaceKind};
 
-/// Relative difference up to which two numbers of a geometry are the same: angles that went through
-/// degrees and back differ in the last digits.
+/// Relative tolerance: conversion to degrees and back changes the last digits.
 const SAME: f64 = 1e-12;
 
-/// Points of one kind of interface.
 struct Known {
     certificate: MomentCheck,
-    /// Place (nm), height (nm), length (nm), weight.
+    /// Position (nm), height (nm), length (nm), weight.
     points: &'static [[f64; 5]],
 }
 
@@ -25,7 +23,6 @@ impl Known {
         }
     }
 
-    /// The points; weights add up to 1 but for the digits that the table leaves out.
     fn points(&self) -> impl Iterator<Item = CubaturePoint> + '_ {
         let total: f64 = self.points.iter().map(|point| point[4]).sum();
         let points = self.points.iter();
@@ -38,7 +35,7 @@ impl Known {
     }
 }
 
-/// The points of parameters that are the default ones in all that matters.
+/// Built-in quadrature if the parameters agree with the default.
 pub(super) fn built_in(parameters: &EllipsoidParameters, kind: InterfaceKind) -> Option<Cubature> {
     let known = Known::of(kind);
     let standard = EllipsoidParameters::default();
@@ -53,8 +50,7 @@ pub(super) fn built_in(parameters: &EllipsoidParameters, kind: InterfaceKind) ->
     })
 }
 
-/// The points in units of their own geometry, to start searches of another from: root mean squares
-/// are moments, which the points meet.
+/// Points in dimensionless units, as initial guess for other geometries.
 pub(super) fn sites(kind: InterfaceKind) -> Vec<(Site, f64)> {
     let known = Known::of(kind);
     let mean = |square: fn(&CubaturePoint) -> f64| -> f64 {

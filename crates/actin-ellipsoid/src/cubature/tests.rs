@@ -1,10 +1,7 @@
-//! Points that stand for all bonds: found, certified, built in, refused.
-
 use super::*;
 use crate::{Anchors, EllipsoidModel, InterfaceError};
 use InterfaceKind::{Lateral, Longitudinal};
 
-/// The default geometry with so many points and bonds no shorter than this.
 fn parameters(points: usize, shortest: f64) -> EllipsoidParameters {
     let mut parameters = EllipsoidParameters {
         anchors: Anchors::Cubature,
@@ -17,7 +14,6 @@ fn parameters(points: usize, shortest: f64) -> EllipsoidParameters {
     parameters
 }
 
-/// Geometries around the default: all have points with a certificate, and each its own.
 #[test]
 fn twelve_points_meet_the_moments() {
     let change = |set: fn(&mut EllipsoidParameters)| {
@@ -52,10 +48,9 @@ fn twelve_points_meet_the_moments() {
     }
 }
 
-/// The moments of the points are those of bonds that are drawn, a route without the quadrature: within
-/// five standard errors of 2e5 draws, each feature in units of its root mean square.
+/// Five standard errors of 2e5 samples.
 #[test]
-fn the_moments_are_those_of_drawn_bonds() {
+fn moments_agree_with_sampled_bonds() {
     const DRAWS: usize = 200_000;
     for shortest in [0.0, 0.2] {
         for kind in InterfaceKind::ALL {
@@ -86,9 +81,8 @@ fn the_moments_are_those_of_drawn_bonds() {
     }
 }
 
-/// With fewer points than moments need, the nearest; with more, nearer.
 #[test]
-fn more_points_come_nearer() {
+fn more_points_reduce_the_residual() {
     let residual = |points| {
         let found = Cubature::find(&parameters(points, 0.2), Longitudinal).unwrap();
         found.certificate.residual
@@ -100,10 +94,9 @@ fn more_points_come_nearer() {
     );
 }
 
-/// The built-in points are what a search finds: the table cannot outlive a change of the method, of
-/// the moments or of the default parameters. Sums may differ in the last digit between machines.
+/// Sums may differ in the last digit between machines.
 #[test]
-fn the_table_is_found_anew() {
+fn the_table_is_reproduced() {
     for kind in InterfaceKind::ALL {
         let parameters = EllipsoidParameters::default();
         let table = table::built_in(&parameters, kind).expect("it is of the default parameters");
@@ -132,10 +125,8 @@ fn the_table_is_found_anew() {
     }
 }
 
-/// Geometries that differ in the last digits only have the same points, and the same search is not
-/// made twice.
 #[test]
-fn points_are_kept() {
+fn points_are_cached() {
     let standard = parameters(12, 0.2);
     let first = Cubature::of(&standard, Lateral).unwrap();
     assert!(Arc::ptr_eq(
@@ -153,9 +144,7 @@ fn points_are_kept() {
     ));
 }
 
-/// Ends are a bond's length apart, along the line of centres, with the middle where the line through
-/// it crosses the middle of the gap: the ends of drawn bonds lie as far above one surface as below
-/// the other.
+/// The ends of a sampled bond lie on the surfaces; ends of a point are equally far from them.
 #[test]
 fn bonds_lie_along_the_line_of_centres() {
     let model = EllipsoidModel::new(parameters(12, 0.2)).unwrap();
@@ -170,13 +159,12 @@ fn bonds_lie_along_the_line_of_centres() {
             let [lower_surface, upper_surface] = surfaces(&model, kind, bond);
             let above = (bond.lower - lower_surface).dot(&axis);
             let below = (upper_surface - upper).dot(&axis);
-            // The table has twelve decimals.
             assert!((above - below).abs() < 1e-11, "{kind}: {above} {below}");
         }
     }
 }
 
-/// Where the line through a bond leaves the lower monomer and enters the upper one.
+/// Exit from the lower monomer and entry into the upper one along a bond.
 fn surfaces(model: &EllipsoidModel, kind: InterfaceKind, bond: &crate::Bond) -> [Vector3; 2] {
     let Neighbour { rotation, offset } = model.helix().neighbour(kind);
     let axis = offset.normalize();
@@ -188,9 +176,8 @@ fn surfaces(model: &EllipsoidModel, kind: InterfaceKind, bond: &crate::Bond) -> 
     [exit, entry].map(|along| bond.lower + along * axis)
 }
 
-/// Moments over bonds of no length are infinite; a shortest length makes them finite.
 #[test]
-fn monomers_that_overlap_need_a_shortest_bond() {
+fn overlapping_monomers_need_a_minimum_length() {
     let mut overlapping = parameters(12, 0.0);
     overlapping.radius = 1.2;
     let refused = |p: &EllipsoidParameters| {
@@ -207,7 +194,6 @@ fn monomers_that_overlap_need_a_shortest_bond() {
     assert_eq!(refused(&overlapping), None);
 }
 
-/// Bonds of nearly one length: their moments are not met by points of other lengths.
 #[test]
 fn a_range_of_lengths_without_points_is_refused() {
     let mut narrow = parameters(12, 0.2);
@@ -219,7 +205,6 @@ fn a_range_of_lengths_without_points_is_refused() {
     );
 }
 
-/// No bond between the bounds: what a drawn interface would look for in a million points.
 #[test]
 fn an_interface_without_bonds_is_refused() {
     let mut short = parameters(12, 0.0);

@@ -1,15 +1,11 @@
-//! Where bonds may be, how many there are, and which ones a seed gives.
-
 use super::*;
 use crate::{EllipsoidModel, Helix};
 use InterfaceKind::{Lateral, Longitudinal};
 
-/// Default parameters with many bonds, for statistics.
 fn with_bonds(bonds: usize) -> EllipsoidParameters {
     EllipsoidParameters::drawn(bonds, 0)
 }
 
-/// Default parameters as they are without a shortest bond, with drawn bonds.
 fn without_shortest(bonds: usize, seed: u64) -> EllipsoidParameters {
     let mut parameters = EllipsoidParameters::drawn(bonds, seed);
     parameters.lateral.minimum_length = 0.0;
@@ -17,13 +13,10 @@ fn without_shortest(bonds: usize, seed: u64) -> EllipsoidParameters {
     parameters
 }
 
-/// The gap of an interface with the default parameters.
 fn gap(kind: InterfaceKind) -> Gap {
     Gap::new(&without_shortest(1, 0), kind)
 }
 
-/// Bonds run along the line of centres, from surface to surface, and no further than they
-/// may: an exit root, or a line the wrong way, would fail one of these.
 #[test]
 fn bonds_bridge_the_gap_parallel_to_the_line_of_centres() {
     for kind in InterfaceKind::ALL {
@@ -38,7 +31,6 @@ fn bonds_bridge_the_gap_parallel_to_the_line_of_centres() {
             for end in [bond.lower, bond.upper] {
                 assert!((gap.ellipsoid.normal(end).dot(&end) - 1.0).abs() < 1e-13);
             }
-            // It leaves the lower monomer and enters the upper one.
             assert!(gap.ellipsoid.normal(bond.lower).dot(&axis) > 0.0);
             let axis = interface.neighbour.rotation.tr_mul(&axis);
             assert!(gap.ellipsoid.normal(bond.upper).dot(&axis) < 0.0);
@@ -46,8 +38,7 @@ fn bonds_bridge_the_gap_parallel_to_the_line_of_centres() {
     }
 }
 
-/// With the default parameters the published rule (shortest root in absolute value, on
-/// whatever side) accepts exactly the same points.
+/// The published rule takes the shorter root in absolute value.
 #[test]
 fn published_rule_accepts_the_same_points() {
     for kind in InterfaceKind::ALL {
@@ -74,8 +65,7 @@ fn published_rule_accepts_the_same_points() {
     }
 }
 
-/// Radius of the disc that is as large as the interface seen along the line of centres, by
-/// the midpoint rule on a square grid of lines: no random numbers, no sampler.
+/// Radius of a disc with the area of the projected interface. Midpoint rule on a square grid.
 fn radius(gap: &Gap) -> f64 {
     const SPACING: f64 = 0.02;
     let axis = gap.neighbour.offset.normalize();
@@ -91,8 +81,7 @@ fn radius(gap: &Gap) -> f64 {
     (bonds.count() as f64 * SPACING * SPACING / std::f64::consts::PI).sqrt()
 }
 
-/// The maximum lengths are those that give both interfaces a radius of about 1.8 nm. The grid
-/// knows the radii to 0.005 nm; the last digit is checked so that a change does not pass.
+/// The grid error is 0.005 nm.
 #[test]
 fn interfaces_have_a_radius_of_about_1_8_nm() {
     for (kind, expected) in [(Lateral, 1.86), (Longitudinal, 1.76)] {
@@ -101,8 +90,7 @@ fn interfaces_have_a_radius_of_about_1_8_nm() {
     }
 }
 
-/// Sampled bonds fill the interface that the grid sees: seen along the line of centres, the
-/// accepted share of the surface (74.2 nm^2, oblate spheroid) has the same area.
+/// The surface of the oblate spheroid is 74.2 nm^2.
 #[test]
 fn sampled_bonds_fill_the_interface() {
     let (a, c): (f64, f64) = (2.7, 1.9);
@@ -118,14 +106,13 @@ fn sampled_bonds_fill_the_interface() {
         let area = surface * slopes.sum::<f64>() / interface.attempts as f64;
         let radius = radius(&gap(kind));
         let ratio = area / (std::f64::consts::PI * radius * radius);
-        // 20 000 bonds know an area to 0.7 %; five times that, and the grid's 0.5 %.
+        // Five times the statistical error of 0.7 %, plus 0.5 % for the grid.
         assert!((ratio - 1.0).abs() < 0.04, "{kind}: {ratio}");
     }
 }
 
-/// A bond limit below the gap leaves nothing: a typed error, not an endless loop.
 #[test]
-fn a_limit_below_the_gap_is_an_error() {
+fn a_maximum_length_below_the_gap_is_an_error() {
     let mut parameters = without_shortest(64, 0);
     parameters.longitudinal.maximum_length = 0.05;
     let model = EllipsoidModel::new(parameters).unwrap();
@@ -141,13 +128,11 @@ fn a_limit_below_the_gap_is_an_error() {
         }
     );
     let message = error.to_string();
-    assert!(message.starts_with("bond limit that leaves an interface without bonds"));
+    assert!(message.starts_with("no longitudinal bond of 0.0 to 0.05 nm"));
 }
 
-/// A bond limit that leaves two points in ten thousand: an interface of many bonds is given up after
-/// a bounded number of draws, however steadily they succeed.
 #[test]
-fn a_limit_that_leaves_hardly_any_bonds_is_an_error() {
+fn a_limit_with_too_few_bonds_is_an_error() {
     let gap = gap(Lateral);
     let mut stream = Stream::new(4, 0, 0);
     let points = (0..100_000).map(|_| gap.ellipsoid.sample(&mut stream));
@@ -165,13 +150,11 @@ fn a_limit_that_leaves_hardly_any_bonds_is_an_error() {
     else {
         panic!("{error}");
     };
-    // 2e6 draws, of which 2e-4 succeed; five standard deviations of the 20 that say so.
+    // Five standard deviations of the 20 observed.
     assert!((1..1000).contains(&found), "{found}");
     assert!(attempts < 2_000_000 + MAXIMUM_ATTEMPTS);
 }
 
-/// Where the ellipsoids overlap no bond starts inside the neighbour: with the absolute value
-/// of a negative root such bonds would be accepted.
 #[test]
 fn overlapping_monomers_are_bonded_outside_the_overlap() {
     let mut parameters = with_bonds(200);
@@ -189,8 +172,6 @@ fn overlapping_monomers_are_bonded_outside_the_overlap() {
     }
 }
 
-/// Independent interfaces differ from index to index, negative ones included; identical ones
-/// do not, but differ between kinds.
 #[test]
 fn draws_are_keyed_by_kind_and_index() {
     let mut parameters = with_bonds(1);
@@ -216,8 +197,7 @@ fn draws_are_keyed_by_kind_and_index() {
     );
 }
 
-/// The first anchors of seed 7, for good. Sines of the helix may differ in the last digit
-/// between machines, hence the tolerance.
+/// Sines of the helix may differ in the last digit between machines.
 #[test]
 fn anchors_are_those_of_the_first_release() {
     let parameters = without_shortest(64, 7);
@@ -282,8 +262,6 @@ const GOLDEN: [Golden; 3] = [
     ),
 ];
 
-/// Bonds below the shortest are drawn again: those that are left are the ones drawn without it, in the
-/// same order, and a length below all of them changes nothing.
 #[test]
 fn short_bonds_are_drawn_again() {
     let draw = |shortest, bonds| {

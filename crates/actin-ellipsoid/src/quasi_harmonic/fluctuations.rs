@@ -1,44 +1,40 @@
-//! Moments of the places of neighbouring monomers, and the chain that has them.
-
 use super::{Link, Pose, QuasiHarmonic};
 use crate::{Monomers, SixMatrix, SixVector};
 use actin_mechanics::State;
 use thiserror::Error;
 
-/// Means of displacements of links, of their products and of their products with those of the link below, over states of
-/// thermal motion.
+/// Means of displacements of links, of their squares, and of their products with the link below,
+/// over states of thermal motion.
 #[derive(Clone, Debug)]
 pub struct Fluctuations {
     monomers: Monomers,
-    /// The links as built, from which displacements are counted.
     built: Vec<Pose>,
     sums: Vec<Sums>,
     states: u64,
 }
 
-/// Sums of one link.
 #[derive(Clone, Copy, Debug, Default)]
 struct Sums {
     displacement: SixVector,
     product: SixMatrix,
-    /// Own displacement (rows) by that of the link below (columns).
+    /// Displacement (rows) times displacement of the link below (columns).
     with_below: SixMatrix,
 }
 
-/// Why there is no chain of these moments.
+/// Error of a singular covariance.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 #[error(
-    "the displacements of link {link} span fewer than six directions in {states} states, or are not finite: more states or shorter steps are needed"
+    "the displacements of link {link} in {states} states span fewer than six directions or are not finite: use more states or shorter time steps"
 )]
 pub struct FluctuationsError {
-    /// The link, from the start of the run.
+    /// Index of the link in the run.
     pub link: usize,
     /// Number of states.
     pub states: u64,
 }
 
 impl Fluctuations {
-    /// None yet, of a run of monomers which stands in `built` as it is built.
+    /// Empty statistics of a run of monomers, with the built state as reference.
     pub fn about(monomers: &Monomers, built: &State) -> Self {
         let links = 0..monomers.count.saturating_sub(1);
         let built: Vec<Pose> = links.map(|k| Pose::of_link(monomers, k, built)).collect();
@@ -50,7 +46,7 @@ impl Fluctuations {
         }
     }
 
-    /// Counts a state.
+    /// Adds a state.
     pub fn add(&mut self, state: &State) {
         self.states += 1;
         let mut below = SixVector::zeros();
@@ -63,7 +59,7 @@ impl Fluctuations {
         }
     }
 
-    /// Counts the states of other fluctuations of the same run.
+    /// Adds the states of other statistics of the same run.
     pub fn add_all(&mut self, other: &Self) {
         self.states += other.states;
         for (own, other) in self.sums.iter_mut().zip(&other.sums) {
@@ -78,11 +74,11 @@ impl Fluctuations {
         self.states
     }
 
-    /// Root mean square, over all links and the six directions of their strains, of how far (relative) variances of these
-    /// strains are here from those of a chain at `thermal_energy` (pN nm).
+    /// Root mean square relative deviation of the variances of strains from those of a chain at
+    /// `thermal_energy` (pN nm), over all links and six directions.
     ///
     /// # Panics
-    /// If the chain has other monomers.
+    /// If the chain has a different number of monomers.
     pub fn distance_from(&self, chain: &QuasiHarmonic, thermal_energy: f64) -> f64 {
         assert_eq!(chain.links.len(), self.sums.len(), "the same monomers");
         let mut squares = 0.0;
@@ -116,10 +112,10 @@ impl Fluctuations {
         sum / self.states.max(1) as f64
     }
 
-    /// The chain of these moments, `thermal_energy` (pN nm) that of the motion.
+    /// Chain with these moments at `thermal_energy` (pN nm).
     ///
     /// # Errors
-    /// Too few states.
+    /// [`FluctuationsError`] if the number of states is too small.
     pub fn chain(&self, thermal_energy: f64) -> Result<QuasiHarmonic, FluctuationsError> {
         let mut links = Vec::with_capacity(self.sums.len());
         let mut below: Option<(Moments, SixMatrix)> = None;
@@ -149,7 +145,7 @@ impl Fluctuations {
     }
 }
 
-/// The mean of a displacement, and the value about which its moments are taken.
+/// Mean of a displacement, and reference value of its moments.
 struct Moments {
     mean: SixVector,
     about: SixVector,

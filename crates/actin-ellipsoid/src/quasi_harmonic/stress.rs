@@ -1,19 +1,16 @@
-//! The random stress of links: six numbers each, conjugate to the strain.
+//! Random stress of links.
 //!
-//! A link turns its frames about their own axes by as much as at its pose. What beyond that the sum of its own stress and the
-//! random one would turn them by, where they are displaced, is left out. Nothing resists a turn of the whole chain about its axis: in
-//! steps in which bending relaxes it would turn, and with it the bend that the stress of this step asks for, until random forces
-//! bend it further; free filaments of 110 nm were too soft by 2 to 4 % for that, at any such step. The sum is small where the step
-//! ends, so that steps without end stay exact.
+//! The rotation of frames about their own axes by the sum of elastic and random stress is omitted.
+//! A chain has no stiffness against rotation about its axis, so a time step in which bending
+//! relaxes would rotate the bend. Free filaments of 110 nm were 2 to 4 % too soft with it. Long
+//! time steps remain exact, since the sum is small at their end.
 
 use super::QuasiHarmonic;
 use crate::SixVector;
 use actin_mechanics::{Loads, RandomStress, State, Stiffness, correlate};
 
-/// Numbers of a strain.
 const SIX: usize = 6;
 
-/// The stress of each link.
 fn written(stresses: &[f64]) -> impl Iterator<Item = SixVector> {
     let (links, _) = stresses.as_chunks::<SIX>();
     links.iter().map(|s| SixVector::from(*s))

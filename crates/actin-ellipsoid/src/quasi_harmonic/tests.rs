@@ -1,5 +1,3 @@
-//! Chains against their derivatives, and moments against the chain that they were drawn from.
-
 use super::*;
 use crate::{EllipsoidModel, EllipsoidParameters, Placement};
 use actin_mechanics::testing::{
@@ -16,7 +14,7 @@ fn run(count: usize) -> (Monomers, State) {
     (monomers.unwrap(), state)
 }
 
-/// Links that follow each other and have every kind of coupling; thermal displacements of 0.05 nm and 0.02 rad.
+/// Coupled links of every kind; thermal displacements of 0.05 nm and 0.02 rad.
 fn chain(count: usize) -> (QuasiHarmonic, State) {
     let (monomers, state) = run(count);
     let mut noise = Xorshift::new(3);
@@ -38,8 +36,6 @@ fn chain(count: usize) -> (QuasiHarmonic, State) {
     (QuasiHarmonic::new(monomers, links), state)
 }
 
-/// At rest nothing acts; elsewhere loads and blocks are derivatives of the energy, also of a stretch that begins and ends within
-/// the chain.
 #[test]
 fn chains_are_the_gradient_of_their_energy() {
     let (chain, mut state) = chain(6);
@@ -59,9 +55,8 @@ fn chains_are_the_gradient_of_their_energy() {
     }
 }
 
-/// Stretches add up to the chain.
 #[test]
-fn stretches_add_up() {
+fn parts_add_up() {
     let (chain, mut state) = chain(9);
     perturb(&mut state, &mut Xorshift::new(5), 0.1, 0.1);
     let stretches = [0..3, 3..4, 4..20].map(|lowers| chain.of_lowers(lowers));
@@ -70,10 +65,9 @@ fn stretches_add_up() {
     assert!((sum / chain.energy(&state) - 1.0).abs() < 1e-13);
 }
 
-/// Displacements drawn from a chain have its moments: from 40,000 states stiffness comes back to 4.5 standard errors,
-/// `sqrt(2 / 40,000)` of itself, and what follows as well.
+/// 4.5 standard errors of 40 000 states, `sqrt(2 / 40 000)` each.
 #[test]
-fn moments_give_back_the_chain() {
+fn moments_reproduce_the_chain() {
     let (chain, mut state) = chain(5);
     let monomers = *chain.monomers();
     let mut fluctuations = Fluctuations::about(&monomers, &state);
@@ -82,7 +76,7 @@ fn moments_give_back_the_chain() {
     for _ in 0..states {
         let mut below = SixVector::zeros();
         for (k, link) in chain.links().iter().enumerate() {
-            // Twelve uniform numbers make a nearly normal one; variance is all that matters.
+            // The sum of twelve uniform numbers has the correct variance.
             let mut deviates = [(); 6].map(|()| (0..12).map(|_| noise.sample()).sum::<f64>() / 2.0);
             correlate(KT * link.stiffness.try_inverse().unwrap(), &mut deviates);
             let own = link.follows * below + SixVector::from(deviates);
@@ -97,13 +91,12 @@ fn moments_give_back_the_chain() {
         fluctuations.add(&state);
     }
     let found = fluctuations.chain(KT).unwrap();
-    // Of the chain itself by nothing, of that expected by the standard error.
+    // Zero for the chain itself, one standard error for the original chain.
     assert!(fluctuations.distance_from(&found, KT) < 1e-9);
     let distance = fluctuations.distance_from(&chain, KT) / (2.0 / f64::from(states)).sqrt();
     assert!((0.5..2.0).contains(&distance), "{distance}");
     let error = 4.5 * (2.0 / f64::from(states)).sqrt();
     for (link, expected) in found.links().iter().zip(chain.links()) {
-        // In units of the stiffness expected.
         let root = expected.stiffness.cholesky().unwrap().l();
         let inverse = root.try_inverse().unwrap();
         let ratio = inverse * link.stiffness * inverse.transpose();

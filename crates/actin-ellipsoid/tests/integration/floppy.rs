@@ -1,15 +1,14 @@
-//! The stiffness of a free filament at rest: `N + 7` motions meet none.
+//! Zero-stiffness modes of an unconstrained filament at rest.
 //!
-//! Bonds of an interface are parallel, so it resists 3 of 6 relative motions: 3 (2N - 3) in all.
-//! Around each of the N - 2 triangles (i, i+1, i+2) one of these says what the others say: the
-//! relative rotations about the triangle's normal add up to zero. That leaves 5N - 7 of 6N.
+//! The bonds of an interface are parallel, so it resists 3 of 6 relative motions: 3 (2N - 3) in
+//! total. Each of the N - 2 triangles (i, i+1, i+2) makes one of them redundant. This leaves 6N -
+//! (5N - 7) = N + 7 modes.
 
 use crate::common;
 use actin_mechanics::testing::stiffness_matrix;
 use common::{filament, models};
 use nalgebra::DMatrix;
 
-/// Absolute eigenvalues, smallest first.
 fn spectrum_of(stiffness: &DMatrix<f64>) -> Vec<f64> {
     let eigenvalues = stiffness.symmetric_eigenvalues();
     let mut spectrum: Vec<f64> = eigenvalues.iter().map(|e| e.abs()).collect();
@@ -17,12 +16,9 @@ fn spectrum_of(stiffness: &DMatrix<f64>) -> Vec<f64> {
     spectrum
 }
 
-/// Exactly `N + 7` eigenvalues are zero, with a clear gap above: any bond that is not parallel
-/// to its line of centres, or not at its rest length, would close it. The first that is not zero
-/// is 5e-5 of the largest or more, so round-off of the second derivatives, 1e-14 of the largest,
-/// leaves 2e-10 of it.
+/// The smallest non-zero eigenvalue is at least 5e-5 of the largest.
 #[test]
-fn a_free_filament_has_n_plus_7_modes_without_stiffness() {
+fn an_unconstrained_filament_has_n_plus_7_zero_stiffness_modes() {
     for count in [12, 30] {
         for seed in 0..3 {
             for model in models(seed) {

@@ -1,5 +1,3 @@
-//! Loads of bonds: gradient of the energy, balance, invariance, closed forms of one interface.
-
 use crate::common;
 use actin_ellipsoid::EllipsoidModel;
 use actin_mechanics::testing::{
@@ -9,9 +7,8 @@ use actin_mechanics::{Interaction, Vector3, rotation};
 use actin_mechanics::{Xorshift, perturb};
 use common::{filament, model, models, weighted};
 
-/// Far from rest: anchors are displaced by up to a nanometre, as much as bonds are long. The
-/// shortest bonds then measure 0.16 nm, so the eight-point difference with a step of 1e-4 nm has
-/// an error far below 1e-8, and its round-off, about 1e-16 E/h, is 1e-11 of the loads.
+/// The shortest bonds are 0.16 nm long, so the error of eight-point differences with a step of 1e-4
+/// nm is below 1e-8; rounding is 1e-11 of the loads.
 #[test]
 fn loads_are_the_gradient_of_the_energy() {
     for seed in 0..4 {
@@ -23,8 +20,7 @@ fn loads_are_the_gradient_of_the_energy() {
     }
 }
 
-/// No force and no torque on the whole; a torque on the upper monomer without `D x F` would
-/// leave one. Some thousand terms carry round-off of 1e-14. The energy does not change under rigid motion.
+/// Thousands of terms have a rounding error of 1e-14.
 #[test]
 fn loads_have_no_resultant() {
     for seed in 0..10 {
@@ -37,8 +33,7 @@ fn loads_have_no_resultant() {
     }
 }
 
-/// All bonds of an interface are parallel to the line of centres, so pulling along it lengthens
-/// each by the same amount: exactly a spring of the interface's rigidity, whatever the anchors.
+/// Bonds are parallel to the line of centres and extend equally.
 #[test]
 fn an_interface_pulled_along_the_line_of_centres_is_one_spring() {
     let models = [model(3, 64), weighted(12)];
@@ -54,8 +49,7 @@ fn an_interface_pulled_along_the_line_of_centres_is_one_spring() {
     }
 }
 
-/// Across the line of centres nothing resists at first: the energy grows with the fourth power,
-/// `K/8 s^4 <1/L^2>` for small `s`. Rest lengths other than the built ones would show here.
+/// Energy for small `s`: `K/8 s^4 <1/L^2>`.
 #[test]
 fn an_interface_sheared_resists_with_the_cube_only() {
     for model in [model(3, 64), weighted(12)] {
@@ -79,12 +73,11 @@ fn assert_shear_is_cubic(model: &EllipsoidModel) {
         .sum::<f64>();
     let shear: f64 = 1e-3;
     let expected = 0.125 * model.parameters().lateral.rigidity * shear.powi(4) * mean;
-    // The next term is smaller by s^2 / 2 L^2, below 1e-4 with the shortest bonds.
+    // The next term is smaller by s^2 / 2 L^2 < 1e-4.
     assert!((energy(shear) / expected - 1.0).abs() < 1e-4);
 }
 
-/// Turning the upper monomer about the line of centres meets no stiffness at rest; tilting it
-/// meets that of the bonds' second moment about its own axis.
+/// Tilt stiffness is the second moment of the bonds; torsion has zero stiffness.
 #[test]
 fn an_interface_resists_tilt_but_not_torsion() {
     for model in [model(3, 64), weighted(12)] {

@@ -1,4 +1,4 @@
-//! Monomers and their bonds.
+//! Integration tests of the ellipsoid model.
 
 mod common;
 mod cubature;

@@ -1,5 +1,3 @@
-//! The built filament: at rest whatever the seed, the same monomers whatever is built.
-
 use crate::common;
 use actin_ellipsoid::{Anchors, EllipsoidModel, EllipsoidParameters, Placement};
 use actin_mechanics::testing::loads_of;
@@ -13,12 +11,10 @@ proptest! {
         ..ProptestConfig::with_cases(100)
     })]
 
-    /// Rest lengths are the built ones, so no seed, azimuth, run or placement leaves a load.
-    /// Positions and azimuths are known to 1e-14 up to 100 nm from the origin, and the largest
-    /// stiffness of a filament is 3e4 pN/nm: some 3e-10 pN of round-off, and as much again from
-    /// the placement. A rest length that is wrong in the tenth digit would leave more.
+    /// Positions have rounding errors of 1e-14 up to 100 nm from the origin. The largest stiffness
+    /// is 3e4 pN/nm: residuals of 3e-10 pN, and as much from the placement.
     #[test]
-    fn no_seed_leaves_a_load(
+    fn the_built_filament_is_free_of_loads(
         seed: u64,
         anchors in prop::sample::select(vec![
             Anchors::Independent,
@@ -47,13 +43,11 @@ proptest! {
         let actin_mechanics::Residual { force, torque } = loads_of(&bonds, &state).residual(&state);
         prop_assert!(force < 1e-9, "force {force:e}");
         prop_assert!(torque < 1e-9, "torque {torque:e}");
-        // Half of 3e3 pN/nm times the square of 5e-14 nm, for some forty interfaces.
+        // Half of 3e3 pN/nm times (5e-14 nm)^2 for about forty interfaces.
         prop_assert!(bonds.energy(&state) < 1e-21);
     }
 }
 
-/// The anchors of a monomer do not depend on what else is built: a resolution study would
-/// otherwise measure sampling noise.
 #[test]
 fn the_same_monomers_have_the_same_anchors_in_any_run() {
     for anchors in [Anchors::Independent, Anchors::Identical, Anchors::Cubature] {
@@ -85,7 +79,6 @@ fn the_same_monomers_have_the_same_anchors_in_any_run() {
             compared += 1;
         }
         assert_eq!(compared, part.elements());
-        // Bodies of the two runs stand at the same places, too.
         for (k, index) in monomers.indices().enumerate() {
             let position = state.points.position.get(monomers.point(k));
             assert_eq!(position, model.helix().centre(index));
@@ -93,7 +86,6 @@ fn the_same_monomers_have_the_same_anchors_in_any_run() {
     }
 }
 
-/// The placement carries the axis along: the centre line is a straight line through the shift.
 #[test]
 fn placement_moves_the_centre_line() {
     let model = model(0, 1);
@@ -113,8 +105,7 @@ fn placement_moves_the_centre_line() {
     }
 }
 
-/// 42 kDa each, and the moments of a solid ellipsoid: 2.916 m about the radial axis and 2.18 m
-/// about the others.
+/// 42 kDa; moments of a solid ellipsoid: 2.916 m (radial), 2.18 m (others).
 #[test]
 fn monomers_have_mass_and_inertia() {
     let (state, ..) = filament(&model(0, 1), 3);

@@ -1,5 +1,3 @@
-//! Second derivatives of bonds: those of the energy, near rest and far from it.
-
 use crate::common;
 use actin_mechanics::testing::{assert_is_stiffness, loads_of, stiffness_matrix};
 use actin_mechanics::{State, Vector3};
@@ -7,10 +5,8 @@ use actin_mechanics::{Xorshift, perturb};
 use common::{filament, model, models, weighted};
 use nalgebra::DVector;
 
-/// Far from rest, where loads are large: a missing turn of second order, or a torque that belongs
-/// to the other body's frame, would show. The shortest bonds measure 0.16 nm, so the eight-point
-/// difference with a step of 1e-3 nm has an error of (1e-3 / 0.16)^8 times the stiffness, and its
-/// round-off is 1e-14 of the loads by 1e-3: both below 1e-10. At rest there is no load and no geometric part.
+/// The shortest bonds are 0.16 nm long, so the relative error of eight-point differences with a
+/// step of 1e-3 nm is (1e-3 / 0.16)^8; rounding is 1e-14 of the loads over 1e-3.
 #[test]
 fn stiffness_is_the_derivative_of_the_loads() {
     for count in [2, 5, 11] {
@@ -25,7 +21,7 @@ fn stiffness_is_the_derivative_of_the_loads() {
     }
 }
 
-/// The same three numbers for each point, then for each frame.
+/// Points, then frames.
 fn stacked(
     state: &State,
     point: impl Fn(usize) -> Vector3,
@@ -36,12 +32,10 @@ fn stacked(
     DVector::from_vec(both.flat_map(|v| [v.x, v.y, v.z]).collect())
 }
 
-/// A filament moved as a whole has the same loads in its own frame: shifted, the stiffness gives
-/// nothing; turned by `omega`, gradients turn along in the lab, `omega x g` with `g = -f`, and
-/// stay what they are in the bodies, where the chart leaves `tau x Q^T omega / 2`. No differences
-/// are taken, so only round-off is left, up to 1e-14 of the sum of a row's terms.
+/// A rotation `omega` rotates the gradient in the lab frame, `omega x g` with `g = -f`, and leaves
+/// `tau x Q^T omega / 2` in the chart of the frames.
 #[test]
-fn rigid_motion_gives_the_turning_of_the_loads_only() {
+fn rigid_motion_only_rotates_the_loads() {
     let drawn = (0..5).map(|seed| model(seed, 16));
     for (seed, model) in (0..).zip(drawn.chain([weighted(12)])) {
         let (mut state, _, bonds) = filament(&model, 20);

@@ -1,5 +1,3 @@
-//! Steps of single filaments: their length, and the motion of bodies that carry one another along.
-
 use super::open::Components;
 use super::{Chain, Link};
 use crate::layout::{Layout, Node};
@@ -8,27 +6,21 @@ use crate::ties::Ties;
 use actin_mechanics::{Coordinates, State, UnitQuaternion, Vector3, Vectors, rotation};
 use std::collections::BTreeMap;
 
-/// Bodies that hang together by ties.
+/// Component of tied bodies.
 #[derive(Debug, Default)]
 struct Cluster {
-    /// Nodes of the layout.
     nodes: Vec<usize>,
-    /// Free points.
     points: Vec<usize>,
-    /// Free frames.
     frames: Vec<usize>,
-    /// Links along which bodies follow one another; none if the cluster is held at two places.
+    /// Empty if held at two places.
     links: Vec<Link>,
-    /// Number of places at which it is held.
     holds: usize,
 }
 
-/// All clusters of a layout, in the order of their first nodes.
 #[derive(Debug, Default)]
 pub(crate) struct Clusters(Vec<Cluster>);
 
 impl Clusters {
-    /// Returns the clusters of bodies that are tied; each group of bodies is a cluster.
     pub(crate) fn new(layout: &Layout, ties: &Ties, chain: &Chain) -> Self {
         let mut components = Components::of(layout, ties);
         let holds = components.holds();
@@ -64,7 +56,7 @@ impl Clusters {
         let place_of = |components: &mut Components, body| places[&components.root(body)];
         for &link in &chain.0 {
             let cluster = &mut clusters[place_of(&mut components, link.follower())];
-            // A chain with a second held place closes badly.
+            // A chain with a second held place does not close.
             if cluster.holds < 2 {
                 cluster.links.push(link);
             }
@@ -72,7 +64,7 @@ impl Clusters {
         Self(clusters)
     }
 
-    /// Returns the free frames of all clusters with one of these unknowns, which ascend.
+    /// Free frames of clusters with one of the unknowns (ascending).
     pub(crate) fn frames_with(&self, layout: &Layout, unknowns: &[usize]) -> Vec<usize> {
         let has_one = |cluster: &&Cluster| {
             let mut nodes = cluster.nodes.iter();
@@ -90,11 +82,9 @@ impl Clusters {
             .collect()
     }
 
-    /// Moves the bodies of `to`, a copy of `from`, by a step. The step of each cluster is shortened where it turns a body by more
-    /// than `largest_turn` (rad). Bodies keep their places relative to the bodies that they follow, up to the step of the tie between
-    /// them, and free clusters the displacement of their mean. Frames that may spin turn about their third axes after all
-    /// else, by any angle. Returns the extent of the whole step; spins count
-    /// as turns.
+    /// Moves the bodies of `to`, a copy of `from`, and returns the extent of the whole step. The
+    /// step of each cluster is limited to `largest_turn` (rad). Free clusters keep their mean
+    /// displacement. Spins about third axes are applied last.
     pub(crate) fn advance(
         &self,
         layout: &Layout,
@@ -142,7 +132,7 @@ impl Clusters {
 }
 
 impl Layout {
-    /// Returns the free frames that may spin, each with the place of its turn about the third axis among the unknowns.
+    /// Frames that may spin, with the index of their unknown.
     fn spinning(&self, spins: &[bool]) -> Vec<(usize, usize)> {
         let frames = self.nodes().filter_map(|(node, range)| match node {
             Node::Frame(i) => Some((i, range.start + 2)),

@@ -1,16 +1,13 @@
-//! Whether what components together components on one place only, so that bodies can carry one another along freely.
-
 use crate::layout::Layout;
 use crate::ties::Ties;
 use actin_mechanics::Coordinates::{self, Frame, Point};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Sets of bodies that hang together.
+/// Disjoint sets of bodies (union-find).
 #[derive(Default)]
 struct DisjointSets(BTreeMap<Coordinates, Coordinates>);
 
 impl DisjointSets {
-    /// The root of a set; links on the way are halved, so that `n` joins take `n log n` steps.
     fn root(&mut self, mut body: Coordinates) -> Coordinates {
         while let Some(&above) = self.0.get(&body) {
             let Some(&higher) = self.0.get(&above) else {
@@ -30,7 +27,7 @@ impl DisjointSets {
     }
 }
 
-/// Bodies that hang together by ties, and the places at which they are held.
+/// Components of tied bodies with their held places.
 #[derive(Default)]
 pub(super) struct Components {
     all: DisjointSets,
@@ -65,12 +62,11 @@ impl Components {
             .extend([a, b].into_iter().filter(|&body| is_held(body)));
     }
 
-    /// Returns a body that names the set to which a body belongs.
     pub(super) fn root(&mut self, body: Coordinates) -> Coordinates {
         self.all.root(body)
     }
 
-    /// Returns for each set that is held the number of places: held bodies that are tied to each other count once.
+    /// Number of held places per component. Held bodies tied to each other count once.
     pub(super) fn holds(&mut self) -> BTreeMap<Coordinates, usize> {
         let clusters: BTreeSet<_> = self
             .places
@@ -85,8 +81,8 @@ impl Components {
     }
 }
 
-/// Whether no two held bodies that are not tied to each other hold the same bodies, and no bodies are coupled
-/// but no neighbours: a filament held at one end is open, one held at both or linked to another is not.
+/// Returns `true` if each component is held at one place at most and no bodies are coupled without
+/// a tie.
 pub(crate) fn is_open(layout: &Layout, ties: &Ties) -> bool {
     let is_held_once =
         |components: &mut Components| components.holds().values().all(|&places| places == 1);
@@ -97,7 +93,7 @@ pub(crate) fn is_open(layout: &Layout, ties: &Ties) -> bool {
 mod tests {
     use super::*;
 
-    /// A long chain: with links that are not shortened a million lookups of a million links each.
+    /// Quadratic cost without path halving.
     #[test]
     fn long_chains_are_joined_quickly() {
         let mut clusters = DisjointSets::default();

@@ -1,29 +1,28 @@
-//! What the chart of [`Chain::carry`] adds to second derivatives.
+//! Contribution of the chart of [`Chain::carry`] to the second derivatives.
 //!
-//! Blocks of a stiffness hold for bodies that go straight: `x + t v` for points, `Q exp(t phi)` for frames.
-//! Where bodies carry one another along, the second derivative of the energy along a step has another part:
-//! unbalanced loads times the accelerations that this brings about, which grow with the distance over which
-//! a turn is carried. Without it Newton's method expects a long filament to resist bends that cost next to
-//! nothing, or to give way where it does not. It vanishes in an equilibrium.
+//! Stiffness blocks refer to straight motion: `x + t v` for points, `Q exp(t phi)` for frames.
+//! Carried motion adds the unbalanced loads times the accelerations. The term is large for long
+//! filaments far from equilibrium and vanishes in equilibrium.
 //!
-//! A point that is carried by frame `f`, whose turn is `R(t)`, moves as `x_j = x_i + R (d + t s)`, with
-//! `s = v_j - v_i - theta_f x d`. A frame that follows another turns by `R_b = R_a exp(t (theta_b - theta_a))`,
-//! which is `exp(t theta_b + t^2 c_b / 2)` to second order, `c_b = c_a + theta_a x theta_b`. So
+//! A point carried by frame `f` with rotation `R(t)` moves as `x_j = x_i + R (d + t s)` with `s =
+//! v_j - v_i - theta_f x d`. A frame that follows another one rotates by `R_b = R_a exp(t (theta_b
+//! - theta_a)) = exp(t theta_b + t^2 c_b / 2) + O(t^3)`:
 //!
-//! `x_j'' = x_i'' - theta_f x (theta_f x d) + 2 theta_f x (v_j - v_i) + c_f x d`
+//! ```text
+//! c_b   = c_a + theta_a x theta_b
+//! x_j'' = x_i'' - theta_f x (theta_f x d) + 2 theta_f x (v_j - v_i) + c_f x d
+//! ```
 //!
-//! and, with `F_j` the loads of a point and of all that it carries, and `T_b` the torques of a frame and of all
-//! that it carries, each term couples neighbours only.
+//! With the resultant loads of a body and all bodies that it carries, each term couples neighbours
+//! only.
 
 use super::{Chain, Link};
 use actin_mechanics::Coordinates::{Frame, Point};
 use actin_mechanics::{Loads, Matrix3, State, Stiffness, Vectors};
 
 impl Chain {
-    /// Adds minus the loads times the second derivatives of places and turns along
-    /// [`carry`](Self::carry); `loads` are those at `state`.
-    ///
-    /// Pairs come in the same order at every state. Bodies of groups must carry nothing.
+    /// Adds minus `loads` times the second derivatives of positions and rotations. Bodies of groups
+    /// must not carry others.
     pub(crate) fn add_turning(&self, state: &State, loads: &Loads, blocks: &mut Stiffness) {
         let mut force = loads.force.clone();
         let frames = 0..state.frames.len();

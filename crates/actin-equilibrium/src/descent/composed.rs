@@ -1,17 +1,11 @@
-//! Steps in which bodies carry one another along, with the second derivatives that belong to them.
+//! Carried Newton steps with the second derivatives in their chart,
+//! [`Chain::carry`](crate::chain::Chain::carry), for long filaments with zero-stiffness modes.
 //!
-//! A long filament that is floppy at rest is far from its equilibrium: its end moves along an arc, and
-//! thousands of neighbours give way to one side or the other. Steps along straight lines see neither. Here a
-//! step is a Newton step in the chart of [`Chain::carry`](crate::chain::Chain::carry), in which strains are linear
-//! however far the whole moves. Where the stiffness is not positive definite, ties are stiffened by as much as
-//! their own stiffness across is negative, times one factor for all and that as small as it may be: a multiple
-//! of the unit matrix would hold back what moves far, and one stiffness for all ties those that need none.
+//! If the stiffness is indefinite, ties are stiffened in proportion to their own negative
+//! transverse stiffness, with the smallest sufficient factor. A multiple of the unit matrix would
+//! prevent large motion, and equal stiffening would stiffen ties that need none.
 //!
-//! Where ends meet again, as in a filament held at both or linked to another, what is carried along does not
-//! arrive, and straight steps are better.
-//!
-//! Each step lowers the energy. One that does not, however short, is left to the other way, which then has
-//! some steps to itself.
+//! Each step decreases the energy. After a failure, straight steps are used for a while.
 
 use super::{Descent, Taken, taken};
 use crate::chain::is_open;
@@ -20,35 +14,30 @@ use crate::history::Verdict;
 use crate::options::NewtonOptions;
 use actin_mechanics::Interaction;
 
-/// Starts of fewer bodies and groups than this are near enough.
+/// Minimum number of bodies and groups.
 const FEWEST: usize = 400;
-/// Directions without stiffness, as a share of bodies, that make a start floppy.
+/// Directions without stiffness per body above which a start is floppy.
 const FLOPPY: f64 = 1.0 / 16.0;
-/// How often a step may be shortened.
 const ATTEMPTS: usize = 4;
-/// The least factor by which a step is shortened.
 const SHORTEN: f64 = 0.1;
-/// Steps left to the other way after a failure in a row of them; doubled by each.
+/// Straight steps after a failure, doubled after each consecutive failure.
 const REST: usize = 1;
 
-/// Whether bodies carry one another along, and how the last such step went.
 #[derive(Debug)]
 pub(super) struct Composed {
-    /// Whether these steps are taken at all; unknown until the first stiffness is factorised.
+    /// `None` until the first factorisation.
     is_used: Option<bool>,
-    /// Failures in a row.
     failures: u32,
-    /// Steps that are left to the other way.
+    /// Straight steps before the next carried one.
     rest: usize,
-    /// The largest stiffening of a tie in the last such step (pN/nm).
+    /// Largest stiffening in the last step (pN/nm).
     stiffest: f64,
-    /// Whether they are wanted from starts that are not floppy, too.
+    /// Requested also for starts that are not floppy.
     is_wanted: bool,
 }
 
 impl Composed {
     pub(super) fn new(options: &NewtonOptions) -> Self {
-        // Bodies that are carried go as far as they have to.
         let is_free = options.largest_displacement.is_infinite();
         Self {
             is_used: if is_free { None } else { Some(false) },
@@ -59,8 +48,7 @@ impl Composed {
         }
     }
 
-    /// Decides, once, by the stiffness at the start, which has just been factorised; returns whether that has
-    /// just been done in favour.
+    /// Decides at the start; returns `true` if carried steps are chosen.
     pub(super) fn begins(&mut self, solver: &Solver) -> bool {
         if self.is_used.is_some() {
             return false;
@@ -75,7 +63,6 @@ impl Composed {
         is_used
     }
 
-    /// Whether the next step is one of these.
     fn is_due(&mut self) -> bool {
         let is_due = self.rest == 0;
         self.rest = self.rest.saturating_sub(1);
@@ -91,8 +78,7 @@ impl Composed {
 }
 
 impl Descent {
-    /// Takes a step in which bodies carry one another along. `None` if none is due or none lowers the energy;
-    /// the stiffness is then assembled as it was.
+    /// Takes a carried step. `None` if none is due or accepted; the stiffness is then restored.
     pub(super) fn compose(
         &mut self,
         solver: &mut Solver,
@@ -117,7 +103,6 @@ impl Descent {
         found
     }
 
-    /// Goes along a direction, shortened until the energy is lower.
     fn carry_along(
         &mut self,
         solver: &mut Solver,
@@ -141,7 +126,7 @@ impl Descent {
                     self.accept();
                     return Some(taken(direction, fraction, Verdict::Decrease));
                 }
-                // Where the energy says nothing any more, the other way knows when to end.
+                // The straight steps detect convergence below rounding.
                 Some(_) => return None,
                 None => {}
             }

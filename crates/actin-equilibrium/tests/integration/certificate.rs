@@ -1,5 +1,3 @@
-//! Certificates of stiffness that is exactly zero somewhere: what nothing acts on is neutral.
-
 use crate::common;
 use Coordinates::{Frame as F, Point as P};
 use actin_equilibrium::{Layout, Newton, NewtonOptions, Stability};
@@ -46,7 +44,6 @@ impl SecondOrder for Wells {
     }
 }
 
-/// Points at the origin, and frames.
 fn bodies(points: usize, frames: usize) -> State {
     let mut state = State::default();
     for _ in 0..points {
@@ -58,8 +55,7 @@ fn bodies(points: usize, frames: usize) -> State {
     state
 }
 
-/// What a solve says of `state`, in the order of the bodies and in one of the solver's own; they are
-/// to agree.
+/// The result does not depend on the order.
 fn stability(state: &State, terms: &Terms) -> Stability {
     let [given, own] = [true, false].map(|is_given| {
         let order = is_given.then(|| in_order(state));
@@ -79,9 +75,7 @@ fn diagonal(values: [f64; 3]) -> Matrix3 {
     Matrix3::from_diagonal(&Vector3::from(values))
 }
 
-/// Zeros at the end, in the middle, at the beginning and in turned directions: as many modes without
-/// stiffness as there are zeros. A pivot of zero has no sign; taking it for a positive one would
-/// certify a state that the slightest push leaves.
+/// A zero pivot has no sign.
 #[test]
 fn exact_zeros_of_one_point_are_neutral() {
     let turn = |axis: [f64; 3]| UnitQuaternion::from_scaled_axis(Vector3::from(axis));
@@ -106,7 +100,6 @@ fn exact_zeros_of_one_point_are_neutral() {
     assert_eq!(stability(&bodies(1, 0), &stable), Stability::Stable);
 }
 
-/// Beside a negative eigenvalue zeros change nothing: it is a saddle.
 #[test]
 fn a_saddle_with_zeros_is_a_saddle() {
     for values in [[-1.0, 1.0, 0.0], [0.0, 1.0, -1.0], [0.0, -1.0, 0.0]] {
@@ -114,18 +107,15 @@ fn a_saddle_with_zeros_is_a_saddle() {
         let found = stability(&bodies(1, 0), &terms);
         assert_eq!(found, Stability::Saddle { negative: 1 }, "{values:?}");
     }
-    // Eigenvalues 1 and -1 with nothing on the diagonal: pivots without pivoting do not tell them from
-    // zero, but stable it is not.
+    // Eigenvalues 1 and -1 with a zero diagonal require pivoting.
     let mut block = diagonal([0.0, 0.0, 1.0]);
     (block[(0, 1)], block[(1, 0)]) = (1.0, 1.0);
     let terms: Terms = vec![Box::new(Wells(vec![(0, block)]))];
     assert_ne!(stability(&bodies(1, 0), &terms), Stability::Stable);
 }
 
-/// No interaction at all, or none on some bodies: three modes for each that nothing acts on, wherever
-/// it stands among those that something does.
 #[test]
-fn bodies_that_nothing_acts_on_are_neutral() {
+fn bodies_without_interactions_are_neutral() {
     let none: Terms = vec![];
     for (points, frames) in [(1, 0), (0, 1), (3, 2)] {
         let modes = 3 * (points + frames);
@@ -141,8 +131,7 @@ fn bodies_that_nothing_acts_on_are_neutral() {
     }
 }
 
-/// A rod in the middle of bodies that nothing acts on, and a free rod: what is neutral is counted, to
-/// the last mode. A chain of springs at rest has stiffness along itself only.
+/// Springs at rest have longitudinal stiffness only.
 #[test]
 fn neutral_modes_of_rods_and_springs_are_counted() {
     let mut rod = ACTIN.state();
@@ -164,7 +153,7 @@ fn neutral_modes_of_rods_and_springs_are_counted() {
         for i in 0..=segments {
             point(&mut state, Vector3::z() * (10.0 * i as f64));
         }
-        // A frame of no segment at the head of the chain, in place of the wall.
+        // A frame without segment replaces the wall.
         for _ in 0..=segments {
             frame(&mut state, UnitQuaternion::identity());
         }
@@ -174,7 +163,6 @@ fn neutral_modes_of_rods_and_springs_are_counted() {
 
     let (mut state, terms) = chain();
     assert_eq!(stability(&state, &terms), Stability::Neutral { modes: 8 });
-    // Frames beside it that nothing acts on.
     frame(&mut state, UnitQuaternion::identity());
     frame(&mut state, UnitQuaternion::identity());
     state.frames.hold(1);
@@ -182,10 +170,9 @@ fn neutral_modes_of_rods_and_springs_are_counted() {
     assert!(Layout::free(&state).unknowns_of(F(1)).is_none());
 }
 
-/// The lowest eigenvalue that is not neutral: of a chain of four springs (10 pN/nm) with one end held, 8 of whose
-/// modes are neutral, `4 k sin^2(pi / 18)`; none where all are neutral, and a negative one of a saddle.
+/// Four springs (10 pN/nm) with one end held, with 8 neutral modes: `4 k sin^2(pi / 18)`.
 #[test]
-fn neutral_modes_are_left_out_of_the_lowest_eigenvalue() {
+fn the_lowest_eigenvalue_excludes_neutral_modes() {
     let lowest = |state: &State, terms: &Terms| {
         let mut newton = Newton::new(Layout::free(state), NewtonOptions::default()).unwrap();
         let certificate = newton.certify(state, terms).unwrap();
@@ -197,7 +184,7 @@ fn neutral_modes_are_left_out_of_the_lowest_eigenvalue() {
     let exact = 40.0 * (std::f64::consts::PI / 18.0).sin().powi(2);
     let found = lowest(&chain, &terms).unwrap();
     println!("lowest eigenvalue {found} instead of {exact} pN/nm");
-    // The precision of the bisection.
+    // Accuracy of the bisection.
     assert!((found / exact - 1.0).abs() < 2e-9, "{found}");
     assert_eq!(lowest(&bodies(1, 1), &vec![]), None);
     let saddle: Terms = vec![Box::new(Wells(vec![(0, diagonal([0.0, -2.0, 5.0]))]))];

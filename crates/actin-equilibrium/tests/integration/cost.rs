@@ -1,16 +1,12 @@
-//! Cost grows linearly with the number of bodies.
-
 use crate::common;
 use actin_equilibrium::{Layout, Newton, NewtonOptions, Residual};
 use actin_mechanics::{Interaction, PointLoad, State, Vector3};
 use common::{ACTIN, Rod, filament, in_order};
 
-/// Monomers, and the most Newton steps and factorisations that a floppy filament of so many takes: 19 and 58, 17
-/// and 44, 20 and 66, and a third more, since rounding changes them. On straight lines it is 31 and 100 of 234
-/// monomers, 110 and 489 of 585.
+/// Monomers, maximum number of Newton steps and of factorisations. Measured: 19 and 58, 17 and 44,
+/// 20 and 66; straight steps need 31 and 100, 110 and 489 for the longer ones.
 const STEPS: [(usize, u64, u64); 3] = [(61, 25, 77), (234, 23, 59), (585, 27, 88)];
 
-/// How a rod's unknowns are ordered.
 type Order = fn(&Rod, &State) -> Layout;
 
 const GIVEN: Order = Rod::layout;
@@ -29,16 +25,15 @@ fn work(segments: usize, order: Order) -> actin_equilibrium::SolverWork {
     newton.solve(&mut state, &terms).unwrap().work
 }
 
-/// Along the filament the factor has a band: each segment adds the same number of entries.
+/// Each segment adds the same number of entries to a band.
 #[test]
 fn the_factor_grows_linearly() {
     let [a, b, c] = [100, 200, 400].map(|n| work(n, GIVEN).factor_entries);
     assert_eq!(2 * (b - a), c - b, "{a} {b} {c}");
-    // Six unknowns per segment, each coupled with eight others at most.
+    // Six unknowns per segment, each coupled with at most eight others.
     assert!(c <= 400 * 6 * 9);
 }
 
-/// Without a given order, minimum degree does nearly as well on a chain.
 #[test]
 fn minimum_degree_is_linear_too() {
     let given = work(400, GIVEN).factor_entries as f64;
@@ -46,15 +41,14 @@ fn minimum_degree_is_linear_too() {
     assert!(found < 1.5 * given, "{found} against {given}");
 }
 
-/// Of the order given and the one found the cheaper is taken, which on a chain is the one given.
 #[test]
 fn a_chain_keeps_the_order_given() {
     let [given, cheaper] = [GIVEN, CHEAPER].map(|order| work(400, order));
     assert_eq!(cheaper, given);
 }
 
-/// Newton steps, factorisations and the energy of a cantilever of floppy monomers under a force on its tip that
-/// bends it by the same angle at every length.
+/// Newton steps, factorisations and energy of a cantilever of floppy monomers, bent by the same
+/// angle at every length.
 fn floppy(monomers: usize) -> (u64, u64, f64) {
     let (mut state, bonds) = filament(monomers, 10, 5);
     let control = state.add_control(2.0 * (60.0 / monomers as f64).powi(2));
@@ -80,7 +74,6 @@ fn floppy(monomers: usize) -> (u64, u64, f64) {
     )
 }
 
-/// From the straight filament the number of steps hardly grows with length: 160, 640 and 1600 nm.
 #[test]
 fn steps_hardly_grow_with_length() {
     for (monomers, steps, factorizations) in STEPS {

@@ -1,5 +1,3 @@
-//! Bodies that move as one, and what is refused.
-
 use crate::common;
 use actin_equilibrium::{Group, Layout, LayoutError, Newton, NewtonOptions, Pivot, Stability};
 use actin_mechanics::{Coordinates, Interaction, PointLoad, Slider, State, Vector3, rotation};
@@ -7,7 +5,7 @@ use common::{filament, frame, in_order, point, springs};
 
 type Terms = Vec<Box<dyn Interaction>>;
 
-/// Turns the last two monomers of a filament about z and shifts them along z.
+/// Rotates the last two monomers about z and shifts them along z.
 fn move_pair(state: &mut State, n: usize, turn: f64, shift: f64) {
     let turn = rotation::exp(Vector3::z() * turn);
     for i in [n - 2, n - 1] {
@@ -30,8 +28,6 @@ fn twisted(groups: Vec<Group>, shift: f64) -> (State, f64, Newton) {
     (state, equilibrium.energy, newton)
 }
 
-/// A held pair that slides along the axis stops where the energy, as a function of its place, is
-/// least: holding it a little before or behind costs the same, to second order.
 #[test]
 fn a_sliding_pair_finds_the_place_of_least_energy() {
     let bodies = vec![12, 13];
@@ -55,11 +51,10 @@ fn a_sliding_pair_finds_the_place_of_least_energy() {
     let slope = (behind - before) / (2.0 * h);
     let curvature = (behind - 2.0 * there + before) / (h * h);
     assert!(curvature > 0.0);
-    // The least energy is at -slope / curvature from there; third derivatives shift it by h^2.
+    // Third derivatives shift the minimum by h^2.
     assert!((slope / curvature).abs() < 1e-5, "{slope} {curvature}");
 }
 
-/// A sliding body of the state is a group without being named.
 #[test]
 fn sliding_bodies_of_the_state_are_groups() {
     let mut state = State::default();
@@ -84,8 +79,7 @@ fn sliding_bodies_of_the_state_are_groups() {
     }
 }
 
-/// A rigid bar on a spring, pulled from a wrong direction, turns into the force: it needs large
-/// turns about a pivot that moves, and the second order term of the turn.
+/// Large rotations about a moving pivot.
 #[test]
 fn a_rigid_group_turns_into_the_force() {
     let mut state = State::default();
@@ -113,15 +107,13 @@ fn a_rigid_group_turns_into_the_force() {
     assert!(((x2 - x1) / 10.0 - direction).norm() < 1e-8, "{x1} {x2}");
     let stretched = 0.5 + 10.0f64.sqrt() / 20.0;
     assert!((x1 - direction * stretched).norm() < 1e-8, "{x1}");
-    // The frame has moved with the bar.
     let carried = state.frames.orientation.get(0) * relative;
     assert!((carried - (x2 - x1)).norm() < 1e-10);
-    // The spin about the bar is free.
+    // The rotation about the bar is free.
     let stability = equilibrium.certificate.unwrap().stability();
     assert_eq!(stability, Stability::Neutral { modes: 1 });
 }
 
-/// A group that ties both ends of a filament keeps the cost linear: it is eliminated last.
 #[test]
 fn tied_ends_do_not_fill_the_factor() {
     let entries = |n: usize| {
@@ -137,7 +129,6 @@ fn tied_ends_do_not_fill_the_factor() {
     assert!(large < 21 * small / 10, "{small} {large}");
 }
 
-/// Directions are made orthonormal, and may be changed for as many others.
 #[test]
 fn directions_are_made_orthonormal_and_can_be_replaced() {
     let mut state = State::default();
@@ -162,7 +153,6 @@ fn directions_are_made_orthonormal_and_can_be_replaced() {
     assert_eq!(layout.groups()[0].translations[0], Vector3::z());
 }
 
-/// A step and the difference of the states that it connects are inverse to each other.
 #[test]
 fn difference_inverts_apply() {
     let (state, _) = filament(6, 1, 1);
@@ -182,7 +172,6 @@ fn difference_inverts_apply() {
     }
 }
 
-/// Each mistake in a layout is refused with what is wrong.
 #[test]
 fn mistakes_are_refused() {
     let (state, _) = filament(4, 1, 1);
@@ -197,7 +186,7 @@ fn mistakes_are_refused() {
     );
     assert_eq!(
         refused(vec![slide(vec![], vec![3]), slide(vec![], vec![3])]).to_string(),
-        "Frame(3) is tied twice: in group 0 and in group 1"
+        "Frame(3) belongs to group 0 and to group 1: remove it from one of them"
     );
     let flat = Group {
         rotations: vec![Vector3::x(), Vector3::x()],

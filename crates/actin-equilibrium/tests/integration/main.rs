@@ -1,4 +1,4 @@
-//! Equilibria, paths and certificates.
+//! Integration tests of equilibria, paths and certificates.
 
 mod certificate;
 mod common;

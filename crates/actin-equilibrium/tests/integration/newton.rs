@@ -1,5 +1,3 @@
-//! Newton's method: speed near the solution, the right solution, and what it does when it cannot.
-
 use crate::common;
 use actin_equilibrium::{
     Convergence, Iteration, Layout, Newton, NewtonOptions, Residual, SolveError, Stability, Verdict,
@@ -10,15 +8,13 @@ use common::{ACTIN, Rod, chain, filament, in_order, point, springs};
 
 type Terms = Vec<Box<dyn Interaction>>;
 
-/// Newton on the exact second derivative converges quadratically; with one wrong or missing term
-/// the residual would fall by a constant factor per step.
 #[test]
 fn convergence_is_quadratic_near_the_solution() {
     let (mut state, terms) = ACTIN.loaded(Vector3::x() * 2.0, 1.0);
     let mut newton = ACTIN.newton(&state);
     newton.solve(&mut state, &terms).unwrap();
     perturb(&mut state, &mut Xorshift::new(5), 0.0, 3e-3);
-    // Held bodies have been perturbed, too; they stay where they are from here on.
+    // Perturbed held bodies remain at their positions.
     let equilibrium = newton.solve(&mut state, &terms).unwrap();
     let size = |r: &Residual| r.force.max(r.torque);
     let mut residuals: Vec<f64> = equilibrium
@@ -36,15 +32,14 @@ fn convergence_is_quadratic_near_the_solution() {
     println!("residuals {residuals:?}, floor {floor:e}");
     assert!(!pairs.is_empty(), "no step in the quadratic range");
     for (before, after) in pairs {
-        // The constant is the change of stiffness per unit of residual; 1 would do here.
+        // The constant is the change of stiffness per unit of residual, about 1.
         assert!(after <= 10.0 * before * before, "{before:e} to {after:e}");
     }
     assert!(equilibrium.history.len() <= 7, "{residuals:?}");
 }
 
-/// The minimum of a rod under a tip force is unique: whatever the start, the same end.
 #[test]
-fn the_start_does_not_matter() {
+fn the_equilibrium_does_not_depend_on_the_start() {
     let (state, terms) = ACTIN.loaded(Vector3::new(2.0, 0.5, 1.0), 1.0);
     let mut newton = ACTIN.newton(&state);
     let mut straight = state.clone();
@@ -66,13 +61,12 @@ fn the_start_does_not_matter() {
             "a solve never ends above its start"
         );
         let apart = (ACTIN.tip(&start) - ACTIN.tip(&straight)).norm();
-        // Residual over the softest stiffness, 1e-8 pN over 0.03 pN/nm.
+        // Residual over the lowest stiffness, 1e-8 pN over 0.03 pN/nm.
         assert!(apart < 1e-6, "seed {seed}: {apart:e} nm apart");
     }
 }
 
-/// A filament of bonds has no stiffness at rest against most motions; a tip force must find the
-/// stiffness that builds up, and at rest nothing must happen.
+/// Bonded filaments have zero-stiffness modes at rest.
 #[test]
 fn floppy_filaments_are_neutral_at_rest_and_solved_under_load() {
     let n = 31;
@@ -86,7 +80,7 @@ fn floppy_filaments_are_neutral_at_rest_and_solved_under_load() {
     let before = state.clone();
     let rest = newton.solve(&mut state, &terms).unwrap();
     assert_eq!(state, before, "nothing moves without a load");
-    // N + 7 for a free filament; holding two monomers removes 9.
+    // N + 7 modes of an unconstrained filament; holding two monomers removes 9.
     let modes = n - 2;
     let stability = rest.certificate.unwrap().stability();
     assert_eq!(stability, Stability::Neutral { modes });
@@ -101,7 +95,6 @@ fn floppy_filaments_are_neutral_at_rest_and_solved_under_load() {
     }
 }
 
-/// A chain of springs hangs along the force across it: the extreme case of floppiness.
 #[test]
 fn a_chain_hangs_along_the_force() {
     let (mut state, mut terms) = chain();
@@ -110,15 +103,12 @@ fn a_chain_hangs_along_the_force() {
     let mut newton = Newton::new(Layout::free(&state), NewtonOptions::default()).unwrap();
     let equilibrium = newton.minimize(&mut state, &terms, 3).unwrap();
     assert!(!equilibrium.is_saddle());
-    // Each of four springs is 0.5 nm longer than at rest.
+    // Each of the four springs extends by 0.5 nm.
     let end = state.points.position.get(4);
     assert!((end - Vector3::x() * 6.0).norm() < 1e-7, "{end}");
 }
 
-/// A column beyond its Euler load with a crooked start: the stiffness is indefinite there, and
-/// the method must come out at a minimum, bent.
-///
-/// Oracle: with `P / P_cr = (2 K(k) / pi)^2`, `k = sin(alpha / 2)`, the tip angle 60 deg needs
+/// Elastica: `P / P_cr = (2 K(k) / pi)^2` with `k = sin(alpha / 2)`, so the tip angle 60 deg needs
 /// `P = 1.151730 P_cr`.
 #[test]
 fn indefinite_starts_lead_to_the_buckled_column() {
@@ -143,12 +133,11 @@ fn indefinite_starts_lead_to_the_buckled_column() {
     assert_eq!(stability, Stability::Stable);
     let tangent = state.frames.orientation.get(80) * Vector3::z();
     let angle = tangent.z.acos().to_degrees();
-    // Half a segment before the tip, and discretisation: P_cr is off by 1e-4, and the angle goes
-    // with the square root of P - P_cr.
+    // The angle is measured half a segment before the tip and depends on the square root of P -
+    // P_cr, which is accurate to 1e-4 P_cr.
     assert!((angle - 60.0).abs() < 0.3, "tip angle {angle}");
 }
 
-/// Counts of work: a lost quadratic range or a needless refactorisation shows here.
 #[test]
 fn a_cantilever_takes_few_steps_at_every_length() {
     for (segments, length) in [(16, 160.0), (160, 1600.0), (1600, 16000.0f64)] {
@@ -164,12 +153,11 @@ fn a_cantilever_takes_few_steps_at_every_length() {
         assert!(equilibrium.history.len() <= 6);
         assert_eq!(equilibrium.work.symbolic_factorizations, 1);
         let relative = rod.tip(&state).x / length;
-        // Elastica at alpha = 1.3128, with a little shear at 160 nm.
+        // Elastica at alpha = 1.3128, with small shear at 160 nm.
         assert!((relative - 0.3735).abs() < 2e-3, "{relative}");
     }
 }
 
-/// A tolerance below round-off ends at the floor, and says so.
 #[test]
 fn round_off_floor_is_reported() {
     let (mut state, terms) = ACTIN.loaded(Vector3::x() * 2.0, 1.0);
@@ -187,11 +175,10 @@ fn round_off_floor_is_reported() {
     assert!(equilibrium.floor.force < 1e-8);
 }
 
-/// A joint 1e12 nm away, whose loads are known to 2e-5 pN only, is no reason to leave another one
-/// alone: a pendulum on a spring that stands on its head, 0.01 nm off, has a residual of 1e-6 pN
-/// which grows before it falls. It must end hanging, not upside down and called an equilibrium.
+/// Loads of a joint at 1e12 nm have a rounding error of 2e-5 pN. An inverted pendulum, 0.01 nm off,
+/// has a residual of 1e-6 pN.
 #[test]
-fn the_floor_of_one_body_hides_nothing_of_another() {
+fn rounding_of_one_body_does_not_stop_another() {
     let mut state = State::default();
     for z in [0.0, 0.9, 1e12, 1e12 + 1.0] {
         point(&mut state, Vector3::z() * z);
@@ -208,16 +195,15 @@ fn the_floor_of_one_body_hides_nothing_of_another() {
     let found = newton.solve(&mut state, &terms).unwrap();
     assert!(found.floor.force > 1e-5, "{:?}", found.floor);
     assert!(found.residual.force <= 1e-8, "{:?}", found.residual);
-    // The spring is 0.1 pN / (1e-3 pN/nm) / 1000 longer than at rest.
+    // The spring extends by 0.1 pN / (1e-3 pN/nm) / 1000.
     let end = state.points.position.get(1);
     assert!((end - Vector3::z() * -1.1).norm() < 1e-4, "{end}");
 }
 
-/// Too few steps: the error carries history and residual, and the state is the best one, not the
-/// stretched one of an excursion.
+/// Not the stretched state of an excursion.
 #[test]
 fn too_few_steps_keep_the_best_state() {
-    // Both ends are held, so that the straight step stretches whichever way it is taken.
+    // With both ends held, a straight step stretches the filament.
     let mut state = ACTIN.state();
     state.points.hold(ACTIN.segments);
     state.frames.hold(ACTIN.segments);
@@ -247,7 +233,6 @@ fn too_few_steps_keep_the_best_state() {
     assert!(message.contains("2.000e1 pN"), "{message}");
 }
 
-/// A load on something that nothing holds has no equilibrium: an error, not a hang.
 #[test]
 fn a_free_body_under_a_dead_load_fails() {
     let mut state = State::default();
@@ -260,7 +245,6 @@ fn a_free_body_under_a_dead_load_fails() {
     assert_eq!(failure.cause, SolveError::Unbounded, "{failure}");
 }
 
-/// Interactions without a potential or without second derivatives are refused by name.
 #[test]
 fn unsuitable_interactions_are_refused() {
     #[derive(Debug)]
@@ -289,7 +273,6 @@ fn unsuitable_interactions_are_refused() {
     assert_eq!(cause(true), SolveError::NoStiffness("wind"));
 }
 
-/// A start that is not a number is refused and left alone.
 #[test]
 fn a_start_that_is_not_finite_is_refused() {
     let (mut state, terms) = ACTIN.loaded(Vector3::x(), 1.0);
@@ -298,7 +281,6 @@ fn a_start_that_is_not_finite_is_refused() {
     assert_eq!(failure.cause, SolveError::NotFinite);
 }
 
-/// Nothing to move is an equilibrium if it is asked for.
 #[test]
 fn a_state_without_unknowns_is_converged() {
     let mut state = State::default();
@@ -310,7 +292,6 @@ fn a_state_without_unknowns_is_converged() {
     assert_eq!(newton.lowest_mode(&state, &[]).unwrap(), None);
 }
 
-/// Each setting that makes no sense is refused with its value.
 #[test]
 fn options_are_checked() {
     let state = State::default();
@@ -347,10 +328,7 @@ fn options_are_checked() {
     }
 }
 
-/// Stiffness that overflows, and stiffness that is none: no regularisation makes either definite,
-/// which has to be said. A search for one by growing multiples would go on for ever, and so would
-/// one for a fraction of a step that has underflown. Stiffness that is next to none or next to too
-/// much ends after a bounded number of steps, whichever way.
+/// A search for a shift would not end.
 #[test]
 fn stiffness_without_scale_is_refused() {
     for stiffness in [1.5e308, 1e306, 1e200, 1e-200, 1e-307, 1e-320, 0.0] {
@@ -386,8 +364,7 @@ fn stiffness_without_scale_is_refused() {
     }
 }
 
-/// Among thousands of floppy bodies some are always about to give way. Steps that overshoot there, and
-/// take others to come back, would be steps of the whole: hardly any may do so.
+/// Overshooting at a few bodies would cost steps of the whole system.
 #[test]
 fn long_floppy_filaments_hardly_overshoot() {
     let n = 1200;
@@ -411,6 +388,6 @@ fn long_floppy_filaments_hardly_overshoot() {
     let is_outing = |step: &&Iteration| step.verdict != Verdict::Decrease;
     let outings = found.history.iter().filter(is_outing).count();
     println!("{outings} of {} steps overshoot", found.history.len());
-    // 43 and 7; 98 and 39 when all stiffening is dropped. Rounding changes both by some tens of percent.
+    // Measured: 43 and 7; 98 and 39 without stiffening.
     assert!(found.history.len() <= 65 && outings <= 15);
 }

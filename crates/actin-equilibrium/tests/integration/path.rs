@@ -1,5 +1,3 @@
-//! Paths of controls: prescribed turns, buckling, limit points, interruption.
-
 use crate::common;
 use actin_equilibrium::{
     Group, Jumps, Layout, Newton, NewtonOptions, Path, PathEnd, PathError, PathFailure,
@@ -12,11 +10,9 @@ use std::ops::ControlFlow;
 
 type Terms = Vec<Box<dyn Interaction>>;
 
-/// Rise (nm) of an arch.
 const RISE: f64 = 2.0;
 
-/// A shallow arch of two bars, half span 10 nm, its top free to move up and down, with `force` down on it at
-/// control 1.
+/// Two bars with half span 10 nm. The top moves vertically under `force` at control 1.
 fn arch(rise: f64, force: f64) -> (State, Terms, Newton) {
     let mut state = State::default();
     for x in [-10.0, 10.0] {
@@ -34,7 +30,7 @@ fn arch(rise: f64, force: f64) -> (State, Terms, Newton) {
     (state, vec![springs, Box::new(load)], newton)
 }
 
-/// The force on the top at height `y`, and the largest: `L^3 = L0 a^2` there.
+/// The maximum is at `L^3 = L0 a^2`.
 fn arch_force(rise: f64, y: f64) -> f64 {
     let length = (100.0 + y * y).sqrt();
     2.0 * 50.0 * (rise.hypot(10.0) / length - 1.0) * y
@@ -46,7 +42,7 @@ fn arch_limit(rise: f64) -> (f64, f64) {
     (y, arch_force(rise, y))
 }
 
-/// Follows a path; returns how it ends, and what `see` makes of each point.
+/// Follows a path and collects the values of `see`.
 fn followed<T>(
     options: PathOptions,
     (newton, state, terms): (&mut Newton, &mut State, &Terms),
@@ -67,7 +63,6 @@ fn proportional(state: &mut State, parameter: f64) {
     state.controls[control] = parameter;
 }
 
-/// At a limit point the path ends just before it and reports the last equilibrium.
 #[test]
 fn a_limit_point_ends_the_path() {
     let (y, limit) = arch_limit(RISE);
@@ -75,7 +70,7 @@ fn a_limit_point_ends_the_path() {
     let solver = (&mut newton, &mut state, &terms);
     let (end, _) = followed(PathOptions::default(), solver, &mut proportional, |_| ());
     let failure = end.unwrap_err();
-    // The limit is at one half; the last step that fits is within the smallest step of it.
+    // The limit is at one half.
     assert!(
         failure.parameter <= 0.5 && failure.parameter > 0.5 - 2e-4,
         "{failure}"
@@ -94,7 +89,6 @@ fn a_limit_point_ends_the_path() {
     );
 }
 
-/// With jumps accepted the arch snaps through, once, to the branch beyond.
 #[test]
 fn a_jump_may_be_accepted() {
     let (_, limit) = arch_limit(RISE);
@@ -125,7 +119,6 @@ fn compressed() -> (State, Terms) {
     COLUMN.loaded(Vector3::z() * -6.0, 0.0)
 }
 
-/// The Euler load of a clamped-free column is where the straight state turns into a saddle.
 #[test]
 fn the_euler_load_ends_a_path_that_must_be_stable() {
     let (mut state, terms) = compressed();
@@ -140,13 +133,12 @@ fn the_euler_load_ends_a_path_that_must_be_stable() {
     assert_eq!(failure.cause, PathError::Unstable { negative: 1 });
     let euler = PI.powi(2) * 3.0e4 / (4.0 * 160.0 * 160.0);
     let found = 6.0 * failure.parameter;
-    // Segments of 1/32: the discrete load is off by (pi/64)^2 / 12 = 2e-4; steps of 6e-4 pN.
+    // The discrete load deviates by (pi/64)^2 / 12 = 2e-4; steps of 6e-4 pN.
     assert!((found / euler - 1.0).abs() < 6e-4, "{found} not {euler}");
 }
 
-/// The same path, with saddles left, ends buckled; the straight branch kept ends as a saddle.
 #[test]
-fn buckling_is_followed_or_not_as_asked() {
+fn buckling_is_followed_if_requested() {
     for (saddles, buckled) in [(Saddles::Leave(3), true), (Saddles::Keep, false)] {
         let (mut state, terms) = compressed();
         let mut newton = COLUMN.newton(&state);
@@ -165,7 +157,7 @@ fn buckling_is_followed_or_not_as_asked() {
     }
 }
 
-/// A rod turned by 720 deg at its end twists uniformly: the couple is B3 phi / L.
+/// Uniform twist: the torque is B3 phi / L.
 #[test]
 fn a_prescribed_turn_of_720_degrees() {
     let rod = ACTIN;
@@ -194,7 +186,6 @@ fn a_prescribed_turn_of_720_degrees() {
     println!("720 deg: {} points, {:?}", end.points, end.work);
 }
 
-/// The observer ends a path at the equilibrium that it has just seen.
 #[test]
 fn a_path_can_be_interrupted() {
     let (_, limit) = arch_limit(RISE);
@@ -221,7 +212,6 @@ fn a_path_can_be_interrupted() {
     assert_eq!(state, seen[2]);
 }
 
-/// Steps that make no sense are refused.
 #[test]
 fn options_are_checked() {
     let options = PathOptions {
@@ -232,7 +222,7 @@ fn options_are_checked() {
     assert_eq!(Path::new(options).unwrap_err().to_string(), message);
 }
 
-/// A very shallow arch snaps through by less than what counts as a jump by its size: reported all the same.
+/// The motion is too small to be a jump by its size.
 #[test]
 fn a_small_snap_is_reported() {
     let rise = 0.2;
@@ -247,16 +237,15 @@ fn a_small_snap_is_reported() {
     );
     println!("jumps at {jumps:?}, {} steps refused", end.refused);
     assert_eq!(jumps.len(), 1);
-    // Steps are halved eleven times at most, on the way to the limit and at it.
+    // At most eleven halvings, twice.
     assert!(end.refused <= 22, "{}", end.refused);
-    // Within the smallest step of the limit.
     assert!((jumps[0] - 0.5).abs() < 2e-4, "{jumps:?}");
     assert!(state.points.position.get(2).y < -rise);
 }
 
-/// A smooth path whose direction changes at once, when the end of a rod ceases to bend one way and bends another.
+/// The end of a rod abruptly bends in another direction.
 #[test]
-fn a_change_of_direction_is_no_jump() {
+fn a_change_of_direction_is_not_a_jump() {
     let mut state = ACTIN.state();
     state.frames.hold(16);
     let terms = ACTIN.interactions();

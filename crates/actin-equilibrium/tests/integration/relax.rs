@@ -1,6 +1,3 @@
-//! An equilibrium in one call: that of a solver with default options, off saddles, or the reason
-//! why there is none.
-
 use crate::common;
 use actin_equilibrium::{
     Coordinates, EquilibriumError, Interaction, Loads, Matrix3, Newton, NewtonOptions, PointLoad,
@@ -10,7 +7,7 @@ use actin_mechanics::UnitQuaternion;
 use actin_mechanics::testing::Loading;
 use common::{ACTIN, Rod, frame, point};
 
-/// The compressed column is straight: a solver by itself stays there, on a saddle.
+/// Newton's method alone stays on the saddle.
 #[test]
 fn a_column_under_too_much_force_buckles() {
     let mut state = ACTIN.state();
@@ -28,7 +25,7 @@ fn a_column_under_too_much_force_buckles() {
 }
 
 #[test]
-fn what_cannot_be_relaxed_is_named() {
+fn unsuitable_interactions_are_reported() {
     let mut state = ACTIN.state();
     let term = "unknown";
     let add = |_: &State, _: &mut Loads| {};
@@ -41,14 +38,14 @@ fn what_cannot_be_relaxed_is_named() {
     }
 }
 
-/// An unclamped rod of 8 segments of 5 nm.
+/// Unconstrained rod of 8 segments of 5 nm.
 const UNCLAMPED: Rod = Rod {
     segments: 8,
     length: 40.0,
     ..ACTIN
 };
 
-/// What keeps a rod from an equilibrium under a force across its tip (pN).
+/// Transverse tip force (pN).
 fn failure(mut state: State, rod: &Rod, force: f64) -> SolveError {
     let mut terms = rod.interactions();
     let load = PointLoad::at(&mut state, rod.segments, Vector3::x() * force).unwrap();
@@ -59,7 +56,6 @@ fn failure(mut state: State, rod: &Rod, force: f64) -> SolveError {
     }
 }
 
-/// A net force on an unclamped rod, large and small.
 #[test]
 fn a_net_load_on_a_rigid_motion_has_no_equilibrium() {
     for force in [1.0, 1e-3] {
@@ -72,7 +68,7 @@ fn a_net_load_on_a_rigid_motion_has_no_equilibrium() {
     }
 }
 
-/// A clamped filament under a weight, with too few steps: its lowest stiffness is close to rounding, but is not zero.
+/// The lowest stiffness is close to rounding.
 #[test]
 fn a_long_filament_is_not_unbounded() {
     let rod = Rod {
@@ -143,7 +139,7 @@ fn an_energy_without_lower_bound_has_no_equilibrium() {
     }
 }
 
-/// The tip of a clamped rod moved by a force on it across it (nm), the whole turned.
+/// Displacement (nm) of the tip of a rotated rod by a transverse force.
 fn tip_moved(rod: &Rod, turn: UnitQuaternion, force: f64) -> f64 {
     let mut state = rod.state();
     for i in 0..=rod.segments {
@@ -161,7 +157,7 @@ fn tip_moved(rod: &Rod, turn: UnitQuaternion, force: f64) -> f64 {
     (rod.tip(&state) - before).norm()
 }
 
-/// Forces below the tolerance of 1e-8 pN on a rod of 10 um, along an axis and askew: F L^3 / 3 B.
+/// Rod of 10 um: F L^3 / 3 B.
 #[test]
 fn forces_below_the_tolerance_are_solved() {
     let rod = Rod {
@@ -175,14 +171,13 @@ fn forces_below_the_tolerance_are_solved() {
             let theory = force * rod.length.powi(3) / (3.0 * rod.bending.x);
             let moved = tip_moved(&rod, turn, force);
             println!("{force:e} pN: {moved:e} nm, {theory:e} in theory");
-            // The mesh is 1 / (2 n^2) = 5e-5 off; a coordinate of 1e4 nm is known to 1e-12 nm, some 1e-7 of the
-            // smallest deflection.
+            // The discretisation error is 1 / (2 n^2) = 5e-5.
             assert!((moved / theory - 1.0).abs() < 1e-4, "{moved:e}");
         }
     }
 }
 
-/// A rod and its load scaled by the same factor, down to loads far below the tolerance: the same large deflection.
+/// Large deflection.
 #[test]
 fn stiffness_and_loads_scale_together() {
     let tip = |scale: f64| {
@@ -197,7 +192,7 @@ fn stiffness_and_loads_scale_together() {
     for scale in [1e-3, 1e-6, 1e-9, 1e-12] {
         let scaled = tip(scale);
         println!("scale {scale:e}: {scaled:.12} nm instead of {full:.12} nm");
-        // Residuals of 1e-8 of the load on each of 16 nodes, over the stiffness of the tip.
+        // Residuals of 1e-8 of the load at each of 16 nodes.
         assert!((scaled / full - 1.0).abs() < 16e-8, "{scale:e}: {scaled}");
     }
 }

@@ -1,5 +1,3 @@
-//! Certificates, lowest modes, and the way off a saddle.
-
 use crate::common;
 use actin_equilibrium::{Layout, Newton, NewtonOptions, Stability, StepSize};
 use actin_mechanics::{Coordinates, Interaction, PointLoad, State, Vector3};
@@ -13,7 +11,7 @@ fn compressed(force: f64) -> (State, Terms) {
     COLUMN.loaded(Vector3::z() * -force, 1.0)
 }
 
-/// Eigenvalues of the stiffness in the metric of the options, by a dense solver.
+/// In the metric of the options.
 fn dense_spectrum(newton: &mut Newton, state: &State, terms: &Terms) -> Vec<f64> {
     let n = newton.layout().unknowns();
     let mut matrix = DMatrix::zeros(n, n);
@@ -40,8 +38,6 @@ fn dense_spectrum(newton: &mut Newton, state: &State, terms: &Terms) -> Vec<f64>
     values
 }
 
-/// Counts and lowest eigenvalue are those of a dense eigenvalue solver, for states in and out of
-/// equilibrium, definite and not, whatever the turn length.
 #[test]
 fn certificate_and_lowest_mode_agree_with_a_dense_solver() {
     for (force, noise, turn_length) in [(1.0, 0.0, 1.0), (8.0, 0.0, 1.0), (40.0, 0.1, 3.0)] {
@@ -58,17 +54,14 @@ fn certificate_and_lowest_mode_agree_with_a_dense_solver() {
         assert_eq!(certificate.negative, negative, "{force} pN");
         assert_eq!(certificate.unresolved, 0);
         let mode = newton.lowest_mode(&state, &terms).unwrap().unwrap();
-        // A dense solver is accurate to round-off of the largest eigenvalue.
+        // Rounding of the largest eigenvalue.
         let accuracy = mode.error + 1e-15 * spectrum[spectrum.len() - 1] * 100.0;
         let error = (mode.eigenvalue - spectrum[0]).abs();
         assert!(error <= accuracy, "{} not {}", mode.eigenvalue, spectrum[0]);
     }
 }
 
-/// A straight column is an equilibrium at any load. Between its first and second Euler load in
-/// both planes it has two negative eigenvalues, and the solver must say so.
-///
-/// Euler: (2 n - 1)^2 pi^2 B / (4 L^2) = 2.89 pN and 3.76 pN; the next are nine times that.
+/// Euler loads: (2 n - 1)^2 pi^2 B / (4 L^2) = 2.89 pN and 3.76 pN; the next are nine times larger.
 #[test]
 fn a_straight_column_beyond_the_euler_load_is_a_saddle() {
     for (force, negative) in [(2.0, 0), (3.3, 1), (8.0, 2), (28.0, 3)] {
@@ -82,7 +75,6 @@ fn a_straight_column_beyond_the_euler_load_is_a_saddle() {
     }
 }
 
-/// Off the saddle the energy falls, and the end is a minimum bent about the soft axis.
 #[test]
 fn a_saddle_is_left_along_its_lowest_mode() {
     let (mut state, terms) = compressed(8.0);
@@ -104,7 +96,6 @@ fn a_saddle_is_left_along_its_lowest_mode() {
     assert!(tip.x.abs() > 50.0 && tip.y.abs() < 1e-6, "{tip}");
 }
 
-/// A minimum is left alone.
 #[test]
 fn a_minimum_is_not_left() {
     let (mut state, terms) = compressed(1.0);
@@ -115,7 +106,6 @@ fn a_minimum_is_not_left() {
     assert_eq!(state, before);
 }
 
-/// Something that floats has six neutral modes, which are neither stable nor a saddle.
 #[test]
 fn rigid_motions_are_neutral() {
     let mut state = State::default();
@@ -141,7 +131,7 @@ fn rigid_motions_are_neutral() {
     assert_eq!(certificate.stability(), Stability::Neutral { modes: 6 });
 }
 
-/// The free bodies of a column moved at random by up to 1e-3 nm and 1e-4 rad per axis.
+/// Random displacements of up to 1e-3 nm and 1e-4 rad.
 fn disturbed(straight: &State) -> State {
     let mut state = straight.clone();
     perturb(&mut state, &mut Xorshift::new(4), 1e-3, 1e-4);
@@ -154,8 +144,7 @@ fn disturbed(straight: &State) -> State {
     state
 }
 
-/// From next to the straight column plain steps lead back to it, a minimum below the Euler load and a
-/// saddle above; downhill steps leave the saddle.
+/// Minimum below the Euler load, saddle above.
 #[test]
 fn the_nearest_equilibrium_may_be_a_saddle() {
     for (force, negative) in [(2.0, 0), (8.0, 2)] {
@@ -168,7 +157,7 @@ fn the_nearest_equilibrium_may_be_a_saddle() {
         assert_eq!(nearest.certificate.negative, negative, "{force} pN");
         let energy = |state: &State| terms.iter().map(|term| term.energy(state)).sum::<f64>();
         let above = energy(&near) - energy(&nearest.state);
-        // Sums of energies of some 100 pN nm.
+        // Rounding of energies of about 100 pN nm.
         assert!((nearest.energy_above - above).abs() < 1e-11, "{above}");
         let residual = newton.residual(&nearest.state, &terms);
         assert!(residual.force < 1e-7 && residual.torque < 1e-7);
@@ -180,9 +169,9 @@ fn the_nearest_equilibrium_may_be_a_saddle() {
     assert!(!equilibrium.is_saddle(), "{:?}", COLUMN.tip(&state));
 }
 
-/// Two free points on a spring under a force have no equilibrium, and none is found.
+/// Two free points on a spring under a force.
 #[test]
-fn what_drifts_has_no_equilibrium_near_by() {
+fn an_accelerating_body_has_no_nearest_equilibrium() {
     let mut state = State::default();
     point(&mut state, Vector3::zeros());
     point(&mut state, Vector3::x() * 3.0);
@@ -193,10 +182,8 @@ fn what_drifts_has_no_equilibrium_near_by() {
     assert_eq!(newton.nearest(&state, &terms).unwrap(), None);
 }
 
-/// A push moves a body by as much as it may or turns one by as much, and no further, to a lower energy.
-/// Motion stays, and a minimum is not pushed.
 #[test]
-fn a_push_is_as_small_as_it_was_asked_for() {
+fn a_push_has_the_requested_size() {
     let (mut state, terms) = compressed(8.0);
     let mut newton = COLUMN.newton(&state);
     newton.solve(&mut state, &terms).unwrap();

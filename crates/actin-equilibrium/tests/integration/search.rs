@@ -1,5 +1,3 @@
-//! Several stable equilibria: that a search finds those that there are, and no others.
-
 use crate::common;
 use actin_equilibrium::{
     Equilibrium, Found, Iteration, Known, Newton, NewtonOptions, Search, SearchObserver, SolveError,
@@ -8,7 +6,7 @@ use actin_mechanics::{Interaction, State, Vector3};
 use common::COLUMN;
 use std::ops::ControlFlow;
 
-/// A column under a share of the critical load of its softer axis, and a solver.
+/// Fraction of the critical load of the softer axis.
 fn column(share: f64) -> (State, Vec<Box<dyn Interaction>>, Newton) {
     let critical = std::f64::consts::PI.powi(2) * 3.0e4 / (4.0 * COLUMN.length.powi(2));
     let (state, terms) = COLUMN.loaded(Vector3::z() * (-share * critical), 1.0);
@@ -37,8 +35,8 @@ fn searched(share: f64, search: &Search) -> Found {
         .unwrap()
 }
 
-/// Below the critical load of the softer axis there is the straight column alone, between those of both axes
-/// it leans to one side or the other, alike in energy; upright or aside about the other axis it is not stable.
+/// Between the critical loads of both axes the column bends in either direction about the softer
+/// axis.
 #[test]
 fn a_column_leans_to_either_side() {
     let straight = searched(0.9, &SEARCH);
@@ -60,15 +58,13 @@ fn a_column_leans_to_either_side() {
     let [a, b] = [0, 1].map(|i| leaning.states[i].equilibrium.energy);
     assert!((a - b).abs() < 1e-8 * a.abs(), "{a} and {b}");
     assert_eq!(leaning.states.iter().filter(|s| s.is_known).count(), 1);
-    // A start is the same whatever the number of them.
     let fewer = searched(1.2, &Search { starts: 8, seed: 1 });
     let found = |found: &Found| found.states.iter().map(|s| s.found).sum::<usize>();
     assert_eq!((found(&leaning), found(&fewer)), (17, 9));
 }
 
-/// Who watches may end a search, and refuse what it finds.
 #[test]
-fn an_observer_rules() {
+fn observers_interrupt_and_reject() {
     struct Ends(usize);
     impl SearchObserver for Ends {
         fn iterate(&mut self, _: &Iteration) -> ControlFlow<()> {

@@ -1,5 +1,3 @@
-//! The assembled stiffness is the second derivative of the energy in the unknowns.
-
 use crate::common;
 use actin_equilibrium::{Group, Layout, Pivot};
 use actin_mechanics::{Interaction, PointLoad, Vector3};
@@ -17,7 +15,7 @@ fn bent_rod() -> (actin_mechanics::State, Vec<Box<dyn Interaction>>) {
     (state, rod.interactions())
 }
 
-/// A missing geometric part, a transposed block or a wrong sign shows at large strain.
+/// Large strains reveal errors of the geometric stiffness.
 #[test]
 fn stiffness_is_the_derivative_of_the_loads_with_and_without_a_given_order() {
     let (state, interactions) = bent_rod();
@@ -33,8 +31,7 @@ fn stiffness_is_the_derivative_of_the_loads_with_and_without_a_given_order() {
     assert_is_second_derivative(&[Box::new(bonds)], &state, layout, 1e-8);
 }
 
-/// Turning a group moves its points on circles: without the second order term of the turn the
-/// stiffness of a loaded group would be wrong by the moment of the load.
+/// The second order term of a rotation equals the moment of the load.
 #[test]
 fn stiffness_of_groups_includes_the_second_order_of_their_turn() {
     let (mut state, bonds) = filament(6, 4, 2);

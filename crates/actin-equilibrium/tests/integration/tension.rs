@@ -1,18 +1,15 @@
-//! Straight rods under tensions that no rod bears: linear, and where it gives way in shear.
-
 use crate::common;
 use actin_equilibrium::Convergence;
 use actin_mechanics::{Interaction, PointLoad, State, UnitQuaternion, Vector3};
 use common::{ACTIN, Rod};
 
-/// Ten segments of 10 nm.
 const SHORT: Rod = Rod {
     segments: 10,
     length: 100.0,
     ..ACTIN
 };
 
-/// The rod on its wall, pointing along `turn` of z, and a force on its tip along itself.
+/// Clamped rod along the rotated z axis with a longitudinal tip force.
 fn pulled(force: f64, turn: UnitQuaternion) -> (State, Vec<Box<dyn Interaction>>) {
     let mut state = SHORT.state();
     for i in 0..=SHORT.segments {
@@ -28,10 +25,9 @@ fn pulled(force: f64, turn: UnitQuaternion) -> (State, Vec<Box<dyn Interaction>>
     (state, terms)
 }
 
-/// A straight rod under tension is linear, `L F / S3`, at any force. Beyond the tension at which its
-/// frames turn away from the axis (next test) the stiffness has negative eigenvalues, but loads along
-/// the axis do not meet them: a regularisation of these would slow the stretching down a thousandfold.
-/// In other directions rounding has its share of the loads, and leads off the saddle or does not.
+/// `L F / S3` at any tension. Beyond the critical tension of the next test the stiffness has
+/// negative eigenvalues, which loads along the axis do not meet. In other directions rounding may
+/// lead off the saddle.
 #[test]
 fn a_straight_rod_stretches_linearly_at_any_tension() {
     for (force, is_saddle) in [(1e2, false), (3e4, false), (1e5, true), (1e6, true)] {
@@ -48,9 +44,8 @@ fn a_straight_rod_stretches_linearly_at_any_tension() {
             );
             let is_at_floor = found.ending == Convergence::FloorReached;
             assert!(is_at_floor || found.residual.force <= 1e-8, "{force}");
-            // About a state that turns freely about the axis rounding may wander to the last step.
+            // Rounding may delay convergence.
             assert!(steps <= 150 || is_at_floor, "{force}: {steps}");
-            // Round-off of places, and what the tolerance of 1e-8 pN leaves.
             let is_straight = (strain - exact).abs() < 1e-12 * (1.0 + exact);
             assert!(is_straight || !is_exact, "{force}: {strain}");
             assert_eq!(found.is_saddle(), is_saddle && is_straight, "{force}");
@@ -61,10 +56,9 @@ fn a_straight_rod_stretches_linearly_at_any_tension() {
     }
 }
 
-/// A rod that shears more easily than it stretches gives way under tension: beyond
-/// `F* = S1 S3 / (S3 - S1)` (3.0e4 pN) its frames turn to `cos(theta) = F* / F` and the tip moves along
-/// the force by `F / S1` of the length. With `n` the force, `r' = Q (e3 + S^-1 Q^T n)` and
-/// `B theta'' = F sin(theta) (1 - F cos(theta) / F*)`.
+/// Shear instability beyond `F* = S1 S3 / (S3 - S1)` (3.0e4 pN). The frames rotate to `cos(theta) =
+/// F* / F`, and the tip moves along the force by `F / S1` of the length. With the force `n`, `r' =
+/// Q (e3 + S^-1 Q^T n)` and `B theta'' = F sin(theta) (1 - F cos(theta) / F*)`.
 #[test]
 fn a_rod_under_great_tension_turns_its_frames() {
     let [shear, stretch] = [ACTIN.shear.x, ACTIN.shear.z];
@@ -73,7 +67,6 @@ fn a_rod_under_great_tension_turns_its_frames() {
         let (mut state, terms) = pulled(share * critical, UnitQuaternion::identity());
         let found = SHORT.newton(&state).solve(&mut state, &terms).unwrap();
         let certificate = found.certificate.unwrap();
-        // Both planes alike.
         assert_eq!(certificate.negative > 0, negative, "{certificate:?}");
         assert_eq!(certificate.negative % 2, 0, "{certificate:?}");
     }
@@ -92,8 +85,7 @@ fn a_rod_under_great_tension_turns_its_frames() {
         last.norm()
     );
     assert!(found.saddles_left >= 1 && !found.is_saddle());
-    // Far from the wall the frames are parallel: a frame turned against its neighbours decays by a
-    // factor of a thousand from one to the next.
+    // Rotations decay by a factor of a thousand per segment.
     assert!((tangent.z - critical / force).abs() < 1e-3);
     assert!((last.norm() / 10.0 - force / shear).abs() < 1e-3);
 }

@@ -1,7 +1,7 @@
-//! The file layer of GSD, version 2.1: named arrays in frames. It knows no particles.
+//! File layer of GSD, version 2.1: named arrays in frames.
 //!
-//! Behind a header of 256 bytes stand the arrays as they come, then the list of their names, then the index:
-//! for each array its frame, shape, place, name and type, sorted by frame and name. All numbers are
+//! The file consists of a header of 256 bytes, the arrays, the list of names, and the index. An index entry holds
+//! frame, shape, location, name and type of an array. Entries are sorted by frame and name. Numbers are
 //! little-endian.
 //!
 //! # Source
@@ -13,41 +13,31 @@ const MAGIC: u64 = 0x65DF_65DF_65DF_65DF;
 const FILE_VERSION: (u16, u16) = (2, 1);
 const HEADER_BYTES: usize = 256;
 const ENTRY_BYTES: usize = 32;
-/// The list of names takes a multiple of so many bytes.
+/// The size of the list of names is a multiple of this.
 const NAME_BYTES: usize = 64;
 
-/// What the header says of the contents.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Header {
-    /// The program that wrote the file; at most 63 bytes.
+    /// Name of the writing program, at most 63 bytes.
     pub application: &'static str,
-    /// What the names mean; at most 63 bytes.
+    /// Name of the schema, at most 63 bytes.
     pub schema: &'static str,
-    /// Version of that.
+    /// Version of the schema.
     pub schema_version: (u16, u16),
 }
 
-/// Numbers of one array.
 #[derive(Clone, Debug)]
 pub(super) enum Chunk {
-    /// Unsigned bytes.
     U8(Vec<u8>),
-    /// Bytes of texts.
     I8(Vec<u8>),
-    /// Counts and indices.
     U32(Vec<u32>),
-    /// Large counts.
     U64(Vec<u64>),
-    /// Signed numbers.
     I64(Vec<i64>),
-    /// Single precision.
     F32(Vec<f32>),
-    /// Double precision.
     F64(Vec<f64>),
 }
 
 impl Chunk {
-    /// The number of its type in the format.
     fn code(&self) -> u8 {
         match self {
             Self::U8(_) => 1,
@@ -83,7 +73,6 @@ impl Chunk {
     }
 }
 
-/// One array in the index.
 #[derive(Clone, Copy, Debug)]
 struct Entry {
     frame: u64,
@@ -107,11 +96,9 @@ impl Entry {
     }
 }
 
-/// A file that is being written, frame after frame.
 #[derive(Debug)]
 pub(super) struct Writer<W> {
     out: W,
-    /// Where the next array goes.
     location: u64,
     frame: u64,
     names: Vec<String>,
@@ -119,12 +106,12 @@ pub(super) struct Writer<W> {
 }
 
 impl<W: Write + Seek> Writer<W> {
-    /// Begins a file at the start of `out`.
+    /// Writes a preliminary header at the start of `out`.
     ///
     /// # Errors
-    /// Those of `out`.
+    /// If `out` returns an error.
     pub(super) fn new(mut out: W, header: &Header) -> io::Result<Self> {
-        // Its places are not known yet.
+        // The offsets are filled in by `finish`.
         out.write_all(&header_bytes(header, [0; 4]))?;
         Ok(Self {
             out,
@@ -135,17 +122,17 @@ impl<W: Write + Seek> Writer<W> {
         })
     }
 
-    /// Writes an array of rows of so many `columns` into the frame.
+    /// Writes an array with a number of `columns` to the current frame.
     ///
     /// # Errors
-    /// Those of `out`.
+    /// If `out` returns an error.
     ///
     /// # Panics
-    /// If the rows are not whole, or there are 2^16 names or 2^32 columns.
+    /// If the length is no multiple of `columns`, or there are 2^16 names or 2^32 columns.
     pub(super) fn write(&mut self, name: &str, chunk: &Chunk, columns: usize) -> io::Result<()> {
         assert!(
             chunk.len().is_multiple_of(columns),
-            "{name}: rows are whole"
+            "{name}: the length must be a multiple of the number of columns"
         );
         let bytes = chunk.bytes();
         self.out.write_all(&bytes)?;
@@ -162,7 +149,6 @@ impl<W: Write + Seek> Writer<W> {
         Ok(())
     }
 
-    /// The number of a name, which is new or known.
     fn number(&mut self, name: &str) -> u16 {
         let known = self.names.iter().position(|known| known == name);
         let number = known.unwrap_or_else(|| {
@@ -172,29 +158,28 @@ impl<W: Write + Seek> Writer<W> {
         u16::try_from(number).expect("fewer than 2^16 names")
     }
 
-    /// Ends the frame.
     pub(super) fn end_frame(&mut self) {
         self.frame += 1;
     }
 
-    /// Writes names, index and header.
+    /// Writes the list of names, the index and the header.
     ///
     /// # Errors
-    /// Those of `out`.
+    /// If `out` returns an error.
     pub(super) fn finish(mut self, header: &Header) -> io::Result<()> {
         let mut names: Vec<u8> = Vec::new();
         for name in &self.names {
             names.extend(name.as_bytes());
             names.push(0);
         }
-        // An empty name ends the list.
+        // The list ends with an empty name.
         names.resize((names.len() + 1).next_multiple_of(NAME_BYTES), 0);
         self.out.write_all(&names)?;
         self.index.sort_by_key(|entry| (entry.frame, entry.name));
         for entry in &self.index {
             self.out.write_all(&entry.bytes())?;
         }
-        // An empty entry ends the index.
+        // The index ends with an empty entry.
         self.out.write_all(&[0; ENTRY_BYTES])?;
         let places = [
             self.location + names.len() as u64,
@@ -209,8 +194,8 @@ impl<W: Write + Seek> Writer<W> {
     }
 }
 
-/// The header: magic number, place and entries of the index, place and size of the list of names, versions,
-/// program and schema.
+/// Returns the header: magic number, offset and number of index entries, offset and size of the list of names,
+/// versions, program and schema.
 fn header_bytes(header: &Header, places: [u64; 4]) -> [u8; HEADER_BYTES] {
     let version = |(major, minor): (u16, u16)| (u32::from(major) << 16) | u32::from(minor);
     let mut bytes = [0; HEADER_BYTES];
@@ -220,7 +205,7 @@ fn header_bytes(header: &Header, places: [u64; 4]) -> [u8; HEADER_BYTES] {
     }
     bytes[40..44].copy_from_slice(&version(header.schema_version).to_le_bytes());
     bytes[44..48].copy_from_slice(&version(FILE_VERSION).to_le_bytes());
-    // At least one zero ends each text.
+    // Texts are null-terminated.
     for (text, at) in [(header.application, 48), (header.schema, 112)] {
         let length = text.len().min(NAME_BYTES - 1);
         bytes[at..at + length].copy_from_slice(&text.as_bytes()[..length]);
@@ -243,7 +228,6 @@ mod tests {
         u64::from_le_bytes(bytes[at..at + 8].try_into().unwrap())
     }
 
-    /// Two frames, byte by byte as the specification lays them out.
     #[test]
     fn header_names_and_index_are_where_the_specification_has_them() {
         let mut out = Cursor::new(Vec::new());
@@ -252,7 +236,7 @@ mod tests {
             .write("b", &Chunk::F32(vec![1.0, 2.0, 3.0, 4.0]), 2)
             .unwrap();
         writer.end_frame();
-        // Written before a name of lower number.
+        // Written before a name of lower index.
         writer.write("a", &Chunk::U8(vec![7]), 1).unwrap();
         writer.write("b", &Chunk::F32(vec![5.0, 6.0]), 2).unwrap();
         writer.end_frame();
@@ -262,7 +246,7 @@ mod tests {
         assert_eq!(bytes[40..48], [4, 0, 1, 0, 1, 0, 2, 0]);
         assert_eq!(&bytes[48..55], b"test 1\0");
         assert_eq!(&bytes[112..116], b"own\0");
-        // 16, 1 and 8 bytes of arrays.
+        // The arrays have 16, 1 and 8 bytes.
         let (index, names) = (u64_at(&bytes, 8), u64_at(&bytes, 24));
         assert_eq!(names, 256 + 25);
         assert_eq!(&bytes[281..286], b"b\0a\0\0");
@@ -270,7 +254,7 @@ mod tests {
         assert_eq!(u64_at(&bytes, 16), 4);
         let entries: Vec<_> = (0..4).map(|i| &bytes[345 + 32 * i..377 + 32 * i]).collect();
         assert_eq!(bytes.len(), 345 + 4 * 32);
-        // Frame, rows, place; columns, name, type.
+        // Frame, rows, location; columns, name, type.
         let shape = |e: &[u8]| [u64_at(e, 0), u64_at(e, 8), u64_at(e, 16)];
         assert_eq!(shape(entries[0]), [0, 2, 256]);
         assert_eq!(entries[0][24..], [2, 0, 0, 0, 0, 0, 9, 0]);

@@ -1,16 +1,19 @@
-//! GSD with the schema `hoomd`, version 1.4: one frame for each record.
+//! Export to GSD with the schema `hoomd`, version 1.4, one frame for each record.
 //!
-//! Lengths are nm, times ns, masses ag (1e-21 kg) and moments of inertia ag nm^2. Frames hold
-//! `particles/position`, `particles/orientation` (w, x, y, z) and `particles/velocity`; everything that does not
-//! change stands in the first one, from which readers take it for all others. `particles/mass` and
-//! `particles/moment_inertia` are those of the bodies: nodes of rods are points without moments of inertia, and
-//! ends of linkers have no mass either. `configuration/step` is the number of time steps since the start, of
-//! equilibria the number of the record. `log/time_ns` (`log/path` of equilibria) has the times, and
-//! `log/particles/s_nm` and `log/particles/filament` the arc length and filament of each particle, -1 of ends of
-//! linkers.
+//! Units are nm, ns, ag (1e-21 kg) and ag nm^2.
 //!
-//! Runs are not periodic, which the schema cannot say: `configuration/box` is four times as large as the run, so that
-//! no nearest image is another one than the particle itself.
+//! | array | contents |
+//! |---|---|
+//! | `particles/position`, `particles/velocity` | in each frame |
+//! | `particles/orientation` | quaternion (w, x, y, z), in each frame |
+//! | `particles/mass` | masses of monomers and nodes; 0 for ends of linkers |
+//! | `particles/moment_inertia` | principal moments of monomers; 0 for nodes and ends of linkers |
+//! | `configuration/step` | number of time steps; the record number for equilibria |
+//! | `log/time_ns` or `log/path` | time, or path parameter of equilibria |
+//! | `log/particles/s_nm`, `log/particles/filament` | arc length and filament; -1 for ends of linkers |
+//!
+//! Data that do not change are stored in the first frame only, as the schema specifies. The box is four times as
+//! large as the run, so that periodic minimum images do not change distances.
 //!
 //! # Source
 //! GSD documentation, "HOOMD schema" and "Shape visualization" (glotzerlab/gsd).
@@ -32,7 +35,7 @@ const HEADER: Header = Header {
 /// Writes a run as GSD.
 ///
 /// # Errors
-/// States that cannot be read, or `out` refuses.
+/// If the states cannot be read, or `out` returns an error.
 pub fn write_gsd(run: &FinishedRun, out: &mut (impl Write + Seek)) -> Result<(), ExportError> {
     let particles = Particles::new(run.assembly());
     let edges = extent::edges_nm(run, &particles)?;
@@ -55,7 +58,7 @@ pub fn write_gsd(run: &FinishedRun, out: &mut (impl Write + Seek)) -> Result<(),
     Ok(writer.finish(&HEADER)?)
 }
 
-/// Number of time steps before record `i`; its own number in a run without time steps.
+/// Returns the number of time steps before record `i`, or `i` for a run without time steps.
 #[expect(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,
@@ -73,7 +76,6 @@ fn step(run: &FinishedRun, i: usize) -> u64 {
     }
 }
 
-/// What is the same in all frames.
 fn write_fixed(
     writer: &mut Writer<impl Write + Seek>,
     particles: &Particles<'_>,
@@ -100,7 +102,6 @@ fn write_fixed(
     write_bonds(writer, particles)
 }
 
-/// Where along which filament each particle stands.
 fn write_places_along(
     writer: &mut Writer<impl Write + Seek>,
     particles: &Particles<'_>,
@@ -136,7 +137,6 @@ fn write_bonds(
     writer.write("bonds/group", &groups, 2)
 }
 
-/// What each frame has of its own.
 fn write_moving(
     writer: &mut Writer<impl Write + Seek>,
     particles: &Particles<'_>,
@@ -150,7 +150,6 @@ fn write_moving(
     writer.write("particles/velocity", &flat(particles.velocities(state)), 3)
 }
 
-/// Texts of one width, which zeros fill up, at least one behind each.
 fn write_texts(
     writer: &mut Writer<impl Write + Seek>,
     name: &str,
@@ -177,7 +176,6 @@ fn shape(shape: Shape) -> String {
     shape.to_string()
 }
 
-/// Numbers in single precision, as the schema has them.
 #[expect(
     clippy::cast_possible_truncation,
     reason = "the precision of the format"
@@ -186,7 +184,6 @@ fn single(values: impl IntoIterator<Item = f64>) -> Chunk {
     Chunk::F32(values.into_iter().map(|value| value as f32).collect())
 }
 
-/// Counts and indices of particles and bonds, of which memory holds fewer than 2^32.
 fn indices(values: impl IntoIterator<Item = usize>) -> Chunk {
     let narrow = |value| u32::try_from(value).expect("memory holds fewer than 2^32 particles");
     Chunk::U32(values.into_iter().map(narrow).collect())

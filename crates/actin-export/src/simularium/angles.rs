@@ -1,15 +1,20 @@
-//! Rotations as angles about x, y and z.
+//! Conversion of rotations to Euler angles.
 
 use actin_sim::mechanics::UnitQuaternion;
 
-/// Angles (rad) of `R = Rx(a) Ry(b) Rz(c)`, `b` within a right angle.
+/// Returns Euler angles `[a, b, c]` (rad), with `b` in `[-pi/2, pi/2]`.
 ///
-/// The first row of R is `(cos b cos c, -cos b sin c, sin b)`, its last column
-/// `(sin b, -sin a cos b, cos a cos b)`. Where `b` is a right angle only `a +- c` is known: `c` is zero then.
+/// ```text
+/// R = Rx(a) Ry(b) Rz(c)
+/// first row of R    = (cos b cos c, -cos b sin c, sin b)
+/// last column of R  = (sin b, -sin a cos b, cos a cos b)
+/// ```
+///
+/// At `b = +-pi/2` only `a +- c` is determined, and `c` is zero.
 pub(super) fn of(turn: &UnitQuaternion) -> [f64; 3] {
     let r = turn.to_rotation_matrix();
     let b = r[(0, 2)].clamp(-1.0, 1.0).asin();
-    // Below this the cosine of b is round-off.
+    // Smaller values of cos(b) are round-off.
     if r[(0, 0)].hypot(r[(0, 1)]) < 1e-12 {
         return [r[(2, 1)].atan2(r[(1, 1)]), b, 0.0];
     }
@@ -27,7 +32,7 @@ mod tests {
         UnitQuaternion::from_scaled_axis(axis * angle)
     }
 
-    /// The three turns in their order make the rotation again, at b = 90 deg too.
+    /// The angles reproduce the rotation, including b = 90 deg.
     #[test]
     fn three_turns_make_the_rotation_again() {
         let mut noise = Xorshift::new(3);
@@ -37,7 +42,7 @@ mod tests {
         for turn in random.chain(poles) {
             let [a, b, c] = of(&turn);
             let again = about(Vector3::x(), a) * about(Vector3::y(), b) * about(Vector3::z(), c);
-            // An arcsine near its end keeps half of the digits.
+            // The arcsine loses half of the digits near +-1.
             assert!(again.angle_to(&turn) < 1e-7, "{turn:?}");
         }
     }

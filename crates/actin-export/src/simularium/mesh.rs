@@ -1,21 +1,21 @@
-//! Ellipsoids as triangles and quadrangles, in the format Wavefront OBJ.
+//! Surface meshes of ellipsoids in Wavefront OBJ format.
 
 use std::f64::consts::PI;
 use std::fmt::Write;
 
-/// Rings between the poles, and points of each.
+/// Number of rings between the poles, and of points on each ring.
 const RINGS: usize = 15;
 const AROUND: usize = 24;
 
-/// An ellipsoid about the origin with these semi-axes along x, y and z, with its normals.
+/// Returns an ellipsoid centred at the origin, with semi-axes along x, y and z, and its normals.
 pub(super) fn ellipsoid(semi_axes: [f64; 3]) -> String {
     let mut text = String::from("# ellipsoid\n");
     let mut point = |direction: [f64; 3]| {
         let [x, y, z] = [0, 1, 2].map(|k| semi_axes[k] * direction[k]);
-        // The gradient of the quadratic form, which readers scale to length one.
+        // The gradient of the quadratic form; readers normalise it.
         let [u, v, w] = [0, 1, 2].map(|k| direction[k] / semi_axes[k]);
         writeln!(text, "v {x:.6} {y:.6} {z:.6}\nvn {u:.6} {v:.6} {w:.6}")
-            .expect("memory takes text");
+            .expect("writing to a string cannot fail");
     };
     point([0.0, 0.0, 1.0]);
     for ring in 1..=RINGS {
@@ -29,12 +29,12 @@ pub(super) fn ellipsoid(semi_axes: [f64; 3]) -> String {
     point([0.0, 0.0, -1.0]);
     for face in faces() {
         let corners: Vec<String> = face.iter().map(|i| format!("{i}//{i}")).collect();
-        writeln!(text, "f {}", corners.join(" ")).expect("memory takes text");
+        writeln!(text, "f {}", corners.join(" ")).expect("writing to a string cannot fail");
     }
     text
 }
 
-/// Corners of all faces, counted from 1, anticlockwise as seen from outside.
+/// Returns the corners of all faces, counted from 1, anticlockwise as seen from outside.
 fn faces() -> Vec<Vec<usize>> {
     let at = |ring: usize, step: usize| 2 + (ring - 1) * AROUND + step % AROUND;
     let last = 2 + RINGS * AROUND;
@@ -68,8 +68,8 @@ mod tests {
             .collect()
     }
 
-    /// All corners lie on the ellipsoid, and the tetrahedra from its centre to the faces fill 4/3 pi abc less
-    /// what the facets cut off: with a positive sign, so that every face looks outward.
+    /// All corners lie on the ellipsoid. The tetrahedra from the centre to the faces have positive volume, and their
+    /// sum is 4/3 pi abc except for the discretisation error.
     #[test]
     fn faces_close_the_ellipsoid() {
         let axes = [0.7, 1.0, 0.9];
@@ -77,7 +77,7 @@ mod tests {
         let vertices = vertices(&text);
         for v in &vertices {
             let form: f64 = (0..3).map(|k| (v[k] / axes[k]).powi(2)).sum();
-            // Six decimals.
+            // The file has six decimals.
             assert!((form - 1.0).abs() < 1e-5);
         }
         let det = |a: [f64; 3], b: [f64; 3], c: [f64; 3]| {
@@ -95,7 +95,7 @@ mod tests {
             }
         }
         let exact = 4.0 / 3.0 * PI * axes.iter().product::<f64>();
-        // Sixteenths of a half turn and 24ths of a turn cut off about 2 (pi/16)^2 / 6 + (2 pi/24)^2 / 6.
+        // Relative volume error of the facets: about 2 (pi/16)^2 / 6 + (2 pi/24)^2 / 6.
         let cut = 1.0 - volume / exact;
         assert!(cut > 0.0 && cut < 0.03, "{cut}");
     }

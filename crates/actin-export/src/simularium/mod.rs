@@ -1,10 +1,9 @@
-//! The JSON file of the Simularium viewer: trajectory info version 3, spatial data version 1.
+//! Export to JSON of the Simularium viewer: trajectory info version 3, spatial data version 1.
 //!
-//! Each monomer is an agent with a mesh, each rod a fibre through its nodes, each linker a fibre between its
-//! ends. The format has no ellipsoid: [`simularium_meshes`] gives a Wavefront OBJ for each species of monomers,
-//! of largest semi-axis 1, which the radius of its agents scales. The viewer takes it when it is opened
-//! together with the file, and draws spheres of that radius without it. Rotations are angles about x, y and z,
-//! `R = Rx Ry Rz`.
+//! Each monomer is an agent with a mesh. Each rod is a fibre through its nodes, and each linker a fibre between its
+//! ends. Since the format has no ellipsoids, [`simularium_meshes`] returns one Wavefront OBJ mesh for each species of
+//! monomers. Its largest semi-axis is 1, and the viewer scales it by the radius of the agent. If the meshes are not
+//! opened together with the file, the viewer shows spheres. Rotations are Euler angles with `R = Rx Ry Rz`.
 //!
 //! # Source
 //! File format of simulariumio (simularium/simulariumio, `file_format.md`).
@@ -19,11 +18,11 @@ use actin_sim::{At, BodyKind};
 use serde_json::json;
 use std::io::Write;
 
-/// Kinds of agents.
+/// Visualisation types of agents.
 const WITH_GEOMETRY: f32 = 1000.0;
 const FIBRE: f32 = 1001.0;
 
-/// Meshes of the ellipsoids of a run: names of files that begin with `prefix`, and what they hold.
+/// Returns the meshes of the ellipsoids of a run: file names that begin with `prefix`, and contents.
 pub fn simularium_meshes(run: &FinishedRun, prefix: &str) -> Vec<(String, String)> {
     let particles = Particles::new(run.assembly());
     let meshes = particles.species.iter().filter_map(|s| match s.shape {
@@ -41,10 +40,10 @@ fn mesh_name(prefix: &str, species: &str) -> String {
     format!("{prefix}_{species}.obj")
 }
 
-/// Writes a run as Simularium JSON that names meshes by `prefix`, as [`simularium_meshes`] does.
+/// Writes a run as Simularium JSON that refers to the meshes of [`simularium_meshes`] with the same `prefix`.
 ///
 /// # Errors
-/// States that cannot be read, or `out` refuses.
+/// If the states cannot be read, or `out` returns an error.
 pub fn write_simularium(
     run: &FinishedRun,
     prefix: &str,
@@ -52,7 +51,7 @@ pub fn write_simularium(
 ) -> Result<(), ExportError> {
     let agents = Agents::new(run, prefix);
     let edges = extent::edges_nm(run, &agents.particles)?;
-    // No longer than it has to be for a viewer that knows no periods.
+    // The viewer has no periodic images: half of the box is sufficient.
     let info = info(run, &agents, edges.map(|edge| 0.5 * edge));
     write!(out, "{{\"trajectoryInfo\":{info},\"spatialData\":")?;
     let count = run.count();
@@ -70,7 +69,6 @@ pub fn write_simularium(
     Ok(out.flush()?)
 }
 
-/// What the viewer has to know before the first frame.
 fn info(run: &FinishedRun, agents: &Agents<'_>, size: [f64; 3]) -> serde_json::Value {
     let step = match run.at() {
         [first, second, ..] => second.value() - first.value(),
@@ -94,7 +92,7 @@ fn info(run: &FinishedRun, agents: &Agents<'_>, size: [f64; 3]) -> serde_json::V
         "totalSteps": run.count(),
         "spatialUnits": { "magnitude": 1.0, "name": "nm" },
         "size": place(x, y, z),
-        // From the side, the filament as built upright.
+        // Side view, with the undeformed filament upright.
         "cameraDefault": {
             "position": place(0.0, -far, 0.0),
             "lookAtPosition": place(0.0, 0.0, 0.0),
@@ -106,12 +104,11 @@ fn info(run: &FinishedRun, agents: &Agents<'_>, size: [f64; 3]) -> serde_json::V
     })
 }
 
-/// The agents of a run.
 struct Agents<'a> {
     particles: Particles<'a>,
-    /// How each type of agents is named and drawn.
+    /// Name and display data of each agent type.
     kinds: Vec<serde_json::Value>,
-    /// Number of the type of rods, behind those of the species; linkers have the next.
+    /// Index of the agent type of rods, after the species; linkers have the next index.
     rod: usize,
 }
 
@@ -134,7 +131,6 @@ impl<'a> Agents<'a> {
         }
     }
 
-    /// The numbers of all agents in a state.
     fn frame(&self, state: &State) -> Vec<f32> {
         let mut buffer = Buffer::default();
         let assembly = self.particles.assembly();
@@ -165,7 +161,7 @@ impl<'a> Agents<'a> {
     }
 }
 
-/// The numbers of a frame, agent after agent.
+/// Numbers of a frame, agent by agent.
 #[derive(Default)]
 struct Buffer {
     numbers: Vec<f32>,
@@ -173,10 +169,9 @@ struct Buffer {
 }
 
 impl Buffer {
-    /// All numbers of an agent but those of its further points.
     #[expect(
         clippy::cast_possible_truncation,
-        reason = "digits enough for a picture"
+        reason = "single precision is sufficient for display"
     )]
     fn push(
         &mut self,
@@ -192,7 +187,7 @@ impl Buffer {
 
     #[expect(
         clippy::cast_possible_truncation,
-        reason = "digits enough for a picture"
+        reason = "single precision is sufficient for display"
     )]
     fn push_fibre(&mut self, sort: usize, radius: f64, points: impl Iterator<Item = Vector3>) {
         self.push((FIBRE, sort), (Vector3::zeros(), [0.0; 3]), radius);

@@ -1,5 +1,5 @@
-//! Stated uncertainties against what they mean: over repeats with fresh noise, the true value lies
-//! within 1 standard error in 68.3 % and within 1.96 in 95 % of them.
+//! Coverage of standard errors: over repeats with new noise, the true value lies within 1 standard
+//! error in 68.3 % and within 1.96 in 95 % of the fits.
 
 use crate::common;
 use actin_fit::{
@@ -7,17 +7,15 @@ use actin_fit::{
 };
 use common::{Gauss, Sigmoid, places, values};
 
-/// Repeats of each fit.
 const REPEATS: u32 = 200;
 
-/// How often true values lay within 1 and within 1.96 standard errors.
+/// Numbers of true values within 1 and 1.96 standard errors.
 #[derive(Debug, Default)]
 struct Hits {
     one: u32,
     two: u32,
 }
 
-/// Counts hits for each parameter.
 fn count(hits: &mut [Hits], fitted: &[f64], precision: &Precision, truth: &[f64]) {
     for (j, hits) in hits.iter_mut().enumerate() {
         let error = precision
@@ -29,8 +27,8 @@ fn count(hits: &mut [Hits], fitted: &[f64], precision: &Precision, truth: &[f64]
     }
 }
 
-/// Each count within 3.5 of its own standard deviations, sqrt(200 q (1 - q)), 6.6 and 3.1. Errors
-/// that are 30 % too small or too large are found: they hit 101 or 161 of 200 within one.
+/// Requires each count within 3.5 standard deviations sqrt(200 q (1 - q)), 6.6 and 3.1. Standard
+/// errors that are wrong by 30 % give 101 or 161 of 200 within one.
 fn assert_covered(name: &str, hits: &[Hits]) {
     println!("{name}: {hits:?} of {REPEATS}");
     for hits in hits {
@@ -39,7 +37,6 @@ fn assert_covered(name: &str, hits: &[Hits]) {
     }
 }
 
-/// Observations with Gaussian noise of these deviations.
 fn observe(y: &[f64], deviations: &[f64], noise: &mut Gauss) -> Observations {
     let noisy: Vec<f64> = y
         .iter()
@@ -49,7 +46,7 @@ fn observe(y: &[f64], deviations: &[f64], noise: &mut Gauss) -> Observations {
     Observations::new(&noisy).unwrap()
 }
 
-/// A sigmoid with 2 % noise of known size, from drawn starts.
+/// Noise of 2 % and known size, with random starts.
 #[test]
 fn sigmoid_with_known_noise() {
     let truth = [3.0, 11.0, 0.01, 0.03];
@@ -70,11 +67,10 @@ fn sigmoid_with_known_noise() {
         chi_squared += fit.goodness.chi_squared / f64::from(REPEATS);
     }
     assert_covered("sigmoid, known noise", &hits);
-    // Mean of chi squared with 26 degrees of freedom, deviation sqrt(2 * 26 / 200) = 0.5.
+    // Mean of chi squared with 26 degrees of freedom; its deviation is sqrt(2 * 26 / 200) = 0.5.
     assert!((chi_squared - 26.0).abs() < 1.8, "{chi_squared}");
 }
 
-/// The same with noise of one unknown size, told from the residuals.
 #[test]
 fn sigmoid_with_unknown_noise() {
     let truth = [3.0, 11.0, 0.01, 0.03];
@@ -93,7 +89,7 @@ fn sigmoid_with_unknown_noise() {
     assert_covered("sigmoid, unknown noise", &hits);
 }
 
-/// Polynomials of degree 6, with and without constant term, noise unknown or known up to a factor.
+/// Degree 6, with and without constant term, for unknown and relative noise.
 #[test]
 fn polynomials() {
     let x = places(-0.06, 0.06, 40);
@@ -126,9 +122,8 @@ fn polynomials() {
     }
 }
 
-/// The scatter of fitted curves over the repeats is the one that a single fit states.
 #[test]
-fn bands_are_as_wide_as_the_scatter() {
+fn propagated_variance_matches_the_scatter_of_curves() {
     let truth = [3.0, 11.0, 0.01, 0.03];
     let x = places(-0.1, 0.1, 30);
     let y = values(&Sigmoid, &x, &truth);
@@ -148,6 +143,6 @@ fn bands_are_as_wide_as_the_scatter() {
     }
     let ratio = square / stated;
     println!("scatter over stated variance {ratio:.3}");
-    // Variance of 200 repeats is known to 10 %.
+    // The relative standard deviation of a variance from 200 repeats is 10 %.
     assert!((ratio - 1.0).abs() < 0.35, "{ratio}");
 }

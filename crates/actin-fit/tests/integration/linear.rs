@@ -1,5 +1,3 @@
-//! Linear least squares: exact recovery, normal equations, weights, rank and refusals.
-
 use crate::common;
 use actin_fit::{Data, Mat, Observations, Polynomial, fit_linear};
 use common::{Gauss, places, refused};
@@ -10,8 +8,6 @@ fn observations(y: &[f64]) -> Observations {
 }
 
 proptest! {
-    /// Data of a polynomial give back its coefficients, whatever the units of x: an error of
-    /// the scaling is a power of the scale.
     #[test]
     fn polynomials_are_recovered(
         p in prop::collection::vec(-1.0..1.0_f64, 5),
@@ -19,21 +15,19 @@ proptest! {
         constant in any::<bool>(),
     ) {
         let polynomial = if constant { Polynomial::new(4) } else { Polynomial::without_constant(5) };
-        // Each term counts as much at the end of the range, in any unit.
+        // All terms are of equal size at the end of the range.
         let p: Vec<f64> = p.iter().zip(polynomial.powers()).map(|(p, k)| p * size.powi(-k)).collect();
         let x: Vec<f64> = places(-1.0, 1.0, 17).iter().map(|x| x * size).collect();
         let y: Vec<f64> = x.iter().map(|x| polynomial.value(&p, *x)).collect();
         let fit = polynomial.fit(&Data::new(&x, observations(&y)).unwrap()).unwrap();
         for (k, (got, is)) in polynomial.powers().zip(fit.parameters.iter().zip(&p)) {
-            // Condition 50, times rounding of values of order 1.
+            // Condition number 50, times rounding of values of order 1.
             prop_assert!((got - is).abs() * size.powi(k) < 1e-13 * 50.0);
         }
         prop_assert!(fit.goodness.rms < 1e-14 * 5.0);
     }
 }
 
-/// Where the normal equations lose few digits both ways agree: parameters, covariance and chi
-/// squared. A slip in the column scaling, or a transposed triangle, shows here.
 #[test]
 fn qr_agrees_with_normal_equations() {
     let mut noise = Gauss::new(1);
@@ -53,7 +47,7 @@ fn qr_agrees_with_normal_equations() {
             .sum::<f64>()
     });
     for a in 0..n {
-        // N p = A^T W y, and N C = 1, with rounding times a condition below 1e3 in these units.
+        // N p = A^T W y and N C = 1. The condition number is below 1e3 in these units.
         let right: f64 = (0..points).map(|i| design[(i, a)] * weight(i) * y[i]).sum();
         let left: f64 = (0..n).map(|b| normal[(a, b)] * fit.parameters[b]).sum();
         assert!((left - right).abs() < 1e-12 * normal[(a, a)].sqrt() * 10.0);
@@ -71,8 +65,7 @@ fn qr_agrees_with_normal_equations() {
     assert_eq!(fit.goodness.degrees_of_freedom, 27);
 }
 
-/// A point of weight 2 is two points: the same parameters. A weight taken as a deviation, or its
-/// root forgotten, gives others.
+/// A point of weight 2 equals two points.
 #[test]
 fn a_weight_counts_points() {
     let weighted = observations(&[1.0, 5.0, 6.0])
@@ -92,9 +85,8 @@ fn a_weight_counts_points() {
     assert!((a.goodness.chi_squared - b.goodness.chi_squared).abs() < 1e-14);
 }
 
-/// Known deviations fix the errors; relative ones do not: a common factor drops out.
 #[test]
-fn known_deviations_set_the_errors() {
+fn known_deviations_set_the_errors_and_weights_do_not() {
     let x = places(0.0, 1.0, 8);
     let y = [0.1, 0.0, 0.4, 0.2, 0.6, 0.9, 0.7, 1.1];
     let fit = |o: Observations| Polynomial::new(1).fit(&Data::new(&x, o).unwrap()).unwrap();
@@ -102,14 +94,14 @@ fn known_deviations_set_the_errors() {
     let plain = error(observations(&y));
     let relative = error(observations(&y).with_weights(&[9.0; 8]).unwrap());
     assert!((relative / plain - 1.0).abs() < 1e-13);
-    // Slope of n points with deviation s: s / sqrt(sum (x - mean)^2), by hand.
+    // Standard error of the slope for deviation s: s / sqrt(sum (x - mean)^2).
     let spread: f64 = x.iter().map(|x| (x - 0.5) * (x - 0.5)).sum();
     let known = error(observations(&y).with_deviations(&[3.0; 8]).unwrap());
     assert!((known - 3.0 / spread.sqrt()).abs() < 1e-13);
 }
 
-/// Error bands of a straight line are narrowest at the mean of x, s / sqrt(n): variances without
-/// covariances would say more.
+/// The error band of a straight line is narrowest at the mean of x, s / sqrt(n). Variances without
+/// covariances give a wider band.
 #[test]
 fn propagation_uses_covariances() {
     let x = places(2.0, 4.0, 9);
@@ -119,16 +111,14 @@ fn propagation_uses_covariances() {
     let at_mean = fit.precision.propagated(&line.gradient(3.0));
     assert!((at_mean - 0.2).abs() < 1e-13, "{at_mean}");
     let correlation = fit.precision.correlation();
-    // -mean / sqrt(mean of squares), by hand.
+    // Exact value: -mean / sqrt(mean of squares).
     let mean_square = x.iter().map(|x| x * x).sum::<f64>() / 9.0;
     assert!((correlation[(0, 1)] + 3.0 / mean_square.sqrt()).abs() < 1e-13);
     assert!((correlation[(1, 1)] - 1.0).abs() < 1e-15);
 }
 
-/// Columns 0 and 2 are parallel, column 1 is not: rank 2, and only 0 and 2 are named. A column of zeros has no length to
-/// be scaled to. Three places cannot tell a cubic, however often each is measured.
 #[test]
-fn what_the_data_do_not_determine_is_named() {
+fn undetermined_parameters_are_listed() {
     let five = observations(&[1.0, 2.0, 3.0, 5.0, 8.0]);
     let parallel = Mat::from_fn(5, 3, |i, j| match j {
         0 => 0.1 * (i + 1) as f64,
@@ -152,7 +142,6 @@ fn what_the_data_do_not_determine_is_named() {
     );
 }
 
-/// As many points as parameters leave nothing to tell the noise from, unless it is known.
 #[test]
 fn too_few_points_are_refused() {
     let line = Polynomial::new(1);
@@ -169,7 +158,7 @@ fn too_few_points_are_refused() {
 }
 
 #[test]
-fn lists_that_make_no_sense_are_refused() {
+fn invalid_lists_are_refused() {
     let one = || observations(&[1.0]);
     let design = Mat::from_fn(2, 1, |i, _| if i == 1 { f64::NAN } else { 1.0 });
     let rows = |values: &[f64]| Data::from_rows(2, values, observations(&[1.0, 2.0]));

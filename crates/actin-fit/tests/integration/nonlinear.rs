@@ -1,5 +1,3 @@
-//! Levenberg-Marquardt: recovery, bounds, what is not determined, several starts, refusals.
-
 use crate::common;
 use actin_fit::{
     Bounds, ClosureModel, Data, FitError, LevenbergMarquardt, Model, Observations, Options,
@@ -20,39 +18,35 @@ fn noisy(model: &dyn Model, x: &[f64], p: &[f64], deviation: f64, seed: u64) -> 
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(64))]
 
-    /// Data without noise give back the parameters to rounding.
     #[test]
     fn sigmoids_are_recovered(
         low in -5.0..5.0_f64, rise in 1.0..9.0_f64, c in -0.5..0.5_f64, w in 0.3..1.0_f64,
     ) {
         let p = [low, low + rise, c, w];
         let data = clean(&Sigmoid, &places(-3.0, 3.0, 25), &p);
-        // Widths below the distance of places make a stair, which has minima of its own.
+        // Widths below the distance of places give a step function with additional minima.
         let ends = (low - 2.0, low + rise + 2.0);
         let bounds = Bounds::new(&[ends, ends, (-1.0, 1.0), (0.15, 2.0)]).unwrap();
         let fit = LevenbergMarquardt::default()
             .fit(&Sigmoid, &data, &bounds, &Starts::drawn(6, 3))
             .unwrap();
         for (got, is) in fit.parameters.iter().zip(&p) {
-            // Condition below 1e2, rounding of values up to 14 and a search that ends at its floor.
+            // Condition number below 1e2, values up to 14, and a search that ends at rounding.
             prop_assert!((got - is).abs() < 1e-10, "{got} {is} {:?}", fit.starts);
         }
     }
 
-    /// The gradient of the sigmoid is right at random parameters; so the search sees a true one.
     #[test]
     fn gradients_agree_with_differences(
         low in -5.0..5.0_f64, high in -5.0..5.0_f64, c in -0.5..0.5_f64, w in 0.3..1.0_f64,
     ) {
         let data = clean(&Sigmoid, &places(-3.0, 3.0, 25), &[0.0, 1.0, 0.0, 1.0]);
         let check = check_gradient(&Sigmoid, &data, &[low, high, c, w]).unwrap();
-        // h^4 / 30 times fifth derivatives (w^-5 of them at w = 0.3) below 1e-10 with rounding.
+        // h^4 / 30 times fifth derivatives (w^-5 at w = 0.3), below 1e-10 with rounding.
         prop_assert!(check.error < 1e-8, "{check:?}");
     }
 }
 
-/// A linear model gives the linear fit, errors and all, in one or two steps of a lightly damped
-/// search. A factor 2 between gradient and Jacobian would show in the covariance.
 #[test]
 fn a_linear_model_gives_the_linear_fit() {
     let cubic = Polynomial::new(3);
@@ -83,9 +77,8 @@ fn a_linear_model_gives_the_linear_fit() {
     assert!((fit.precision.condition / linear.precision.condition - 1.0).abs() < 1e-9);
 }
 
-/// Units do not matter: with parameters in units that differ by powers of two the search takes
-/// the same steps, to the last bit. A step test with an absolute number, or damping without column
-/// scaling, would take others.
+/// With parameters in units that differ by powers of two the search takes the same steps, to the
+/// last bit.
 #[test]
 fn the_search_does_not_depend_on_units() {
     let (a, b) = (2.0_f64.powi(30), 2.0_f64.powi(-24));
@@ -112,8 +105,6 @@ fn the_search_does_not_depend_on_units() {
     );
 }
 
-/// With a bound below the best rate the rate stops exactly on it, and the other parameter is the
-/// linear fit for that rate: a step that was only cut, not solved again, would leave it short.
 #[test]
 fn a_parameter_stops_at_its_bound() {
     let x = places(0.0, 3.0, 15);
@@ -138,8 +129,6 @@ fn a_parameter_stops_at_its_bound() {
     assert!((error - deviation / square.sqrt()).abs() < 1e-12);
 }
 
-/// On a bound means on it, to the last bit, from wherever the search comes: a parameter a bit beside
-/// it would count as free.
 #[test]
 fn bounds_are_met_to_the_last_bit() {
     let data = noisy(&decay(1.0), &places(0.0, 3.0, 15), &[2.0, 1.3], 0.05, 3);
@@ -157,7 +146,6 @@ fn bounds_are_met_to_the_last_bit() {
     }
 }
 
-/// A bound that the minimum does not touch changes nothing, even for a start on it.
 #[test]
 fn a_bound_is_left_again() {
     let data = noisy(&decay(1.0), &places(0.0, 3.0, 15), &[2.0, 1.3], 0.05, 3);
@@ -168,7 +156,6 @@ fn a_bound_is_left_again() {
     assert!((closed.parameters[1] - open.parameters[1]).abs() < 1e-9);
 }
 
-/// Equal bounds hold a parameter; the fit is then that of the others.
 #[test]
 fn equal_bounds_hold_a_parameter() {
     let data = clean(&decay(1.0), &places(0.0, 3.0, 15), &[2.0, 1.3]);
@@ -181,7 +168,7 @@ fn equal_bounds_hold_a_parameter() {
     assert_eq!((none.starts[0].iterations, none.precision.rank), (1, 0));
 }
 
-/// Of `p0 p1 exp(-p2 x)` the data tell the product and the rate, not the factors.
+/// The data determine the product `p0 p1` and the rate of `p0 p1 exp(-p2 x)`, not the factors.
 #[test]
 fn factors_of_a_product_are_not_determined() {
     let model = ClosureModel::new(
@@ -205,7 +192,7 @@ fn factors_of_a_product_are_not_determined() {
     assert_eq!(fit.precision.rank, 2);
     assert_eq!(fit.goodness.degrees_of_freedom, 13);
     assert_eq!(fit.precision.standard_error(0), None);
-    // The rate and its error are those of the model with one factor.
+    // Rate and error agree with those of the model with one factor.
     let two = common::fit(&decay(1.0), &data, &Bounds::none(2), &[1.0, 1.0]).unwrap();
     assert!((fit.parameters[2] - two.parameters[1]).abs() < 1e-8);
     let errors = (
@@ -215,7 +202,6 @@ fn factors_of_a_product_are_not_determined() {
     assert!((errors.0 / errors.1 - 1.0).abs() < 1e-8, "{errors:?}");
 }
 
-/// A step of no height has no place and no width: what the derivatives by them hold is rounding.
 #[test]
 fn a_step_of_no_height_has_no_place() {
     let x = places(-3.0, 3.0, 25);
@@ -227,7 +213,6 @@ fn a_step_of_no_height_has_no_place() {
     assert_eq!(fit.precision.rank, 2);
 }
 
-/// A step lost in noise: the data determine its place, but less than its bounds do.
 #[test]
 fn a_step_lost_in_noise_is_weak() {
     let data = noisy(
@@ -245,8 +230,7 @@ fn a_step_lost_in_noise_is_weak() {
     assert!(fit.statuses[2..].iter().all(open), "{:?}", fit.statuses);
 }
 
-/// `sin(p x)` has many minima: one start misses the lowest, starts over the range find it, and the
-/// report shows how many did.
+/// `sin(p x)` has many minima. One start misses the lowest minimum.
 #[test]
 fn several_starts_find_the_lowest_minimum() {
     let sine = ClosureModel::new(
@@ -278,7 +262,6 @@ fn several_starts_find_the_lowest_minimum() {
     assert!((several.goodness.chi_squared / least - 1.0).abs() < 1e-9);
 }
 
-/// Rows may hold several variables: a plane over (u, v).
 #[test]
 fn rows_hold_several_variables() {
     let plane = ClosureModel::new(
@@ -295,7 +278,7 @@ fn rows_hold_several_variables() {
     }
 }
 
-/// The work of one search, as a count: 10 of each were measured, so lost efficiency fails here.
+/// Limits for the work of a search; 10 iterations and 10 evaluations were measured.
 #[test]
 fn work_of_a_search() {
     let data = noisy(
@@ -311,7 +294,6 @@ fn work_of_a_search() {
     assert!(search.iterations <= 12 && search.evaluations <= 12);
 }
 
-/// A wrong gradient promises what no step keeps; the search says that it stalled.
 #[test]
 fn a_wrong_gradient_stalls() {
     let wrong = ClosureModel::new(1, |x, p| p[0] * x[0], |x, _, gradient| gradient[0] = -x[0]);
@@ -326,7 +308,6 @@ fn a_wrong_gradient_stalls() {
     assert!((check.error - 2.0).abs() < 1e-9);
 }
 
-/// Searches that are cut short are no fit, and each says how far it came.
 #[test]
 fn searches_that_do_not_end_are_reported() {
     let options = Options {
@@ -342,7 +323,7 @@ fn searches_that_do_not_end_are_reported() {
     let message = error.to_string();
     for part in [
         "none of 2 starts converged; the closest, start ",
-        " used up its iterations (iterations: 3, evaluations: ",
+        " reached the maximum number of iterations (iterations: 3, evaluations: ",
         "by parameter ",
         " and must be at most 1.0e-10; the last step changed a parameter by ",
         ", damping ",
@@ -359,7 +340,6 @@ fn searches_that_do_not_end_are_reported() {
     );
 }
 
-/// A model that is not finite where one search starts spoils that search only.
 #[test]
 fn a_start_where_the_model_is_not_finite_is_reported() {
     let root = ClosureModel::new(
@@ -392,7 +372,7 @@ fn bounds_and_options_out_of_order_are_refused() {
 }
 
 #[test]
-fn what_does_not_fit_together_is_refused() {
+fn mismatched_bounds_and_starts_are_refused() {
     let half = Bounds::new(&[(0.0, 9.0), (0.0, f64::INFINITY)]).unwrap();
     let [one, out, short] = [&[1.0, 1.0][..], &[1.0, -1.0], &[1.0]].map(Starts::at);
     let [some, none] = [3, 0].map(|count| Starts::drawn(count, 1));
@@ -408,7 +388,7 @@ fn what_does_not_fit_together_is_refused() {
             15,
             &half,
             some,
-            "finite bounds, but those of parameter 1 are 0 and inf",
+            "finite bounds, but the bounds of parameter 1 are 0 and inf",
         ),
         (
             15,

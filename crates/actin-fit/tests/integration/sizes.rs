@@ -1,5 +1,3 @@
-//! Data, deviations and places of any size: right to a stated accuracy, or refused by name.
-
 use crate::common;
 use actin_fit::{
     Bounds, ClosureModel, Data, Fit, Mat, Model, Observations, Polynomial, Status, fit_linear,
@@ -18,8 +16,6 @@ fn fitted(unit: f64, observations: Observations) -> Fit {
     fit(&decay(unit), &data, &Bounds::none(2), &[5.0, 0.2]).unwrap()
 }
 
-/// In units from 1e-98 to 1e98 a fit has the same parameters, errors and residuals, with noise that
-/// is unknown, and with deviations that are as small or as large.
 #[test]
 fn the_size_of_the_data_changes_nothing() {
     let plain = fitted(1.0, Observations::new(&noisy(1.0)).unwrap());
@@ -29,7 +25,7 @@ fn the_size_of_the_data_changes_nothing() {
         for (observations, is_known) in [(unknown, false), (known, true)] {
             let scaled = fitted(unit, observations);
             for (a, b) in plain.parameters.iter().zip(&scaled.parameters) {
-                // A search ends at a cosine of 1e-10 times errors of 1 %.
+                // The tolerance of 1e-10 applies to errors of 1 %.
                 assert!((a / b - 1.0).abs() < 1e-11, "{unit:e}: {a} {b}");
             }
             let rms = scaled.goodness.rms / (unit * plain.goodness.rms) - 1.0;
@@ -43,23 +39,23 @@ fn the_size_of_the_data_changes_nothing() {
     }
 }
 
-/// Values and deviations beyond that are refused with name, place, value and rule.
 #[test]
 fn sizes_whose_squares_are_lost_are_refused() {
     let new = |y: &[f64]| Observations::new(y);
     let message = refused(new(&[1.0, 1e300]));
     assert_eq!(
         message,
-        "observation 1 is 1e300: must be from 0e0 to 1e100, or squares are lost; choose another unit"
+        "observation 1 is 1e300: must lie between 0e0 and 1e100, so that squares neither overflow nor underflow; choose another unit"
     );
     let message = refused(new(&[1e-300, -1e-299, 5e-324]));
     assert!(
-        message.starts_with("the largest observation, number 1 is -1e-299: must be from 1e-100")
+        message
+            .starts_with("the largest observation, number 1 is -1e-299: must lie between 1e-100")
     );
     let two = || new(&[1.0, 2.0]).unwrap();
     for bad in [1e300, 1e-300, 5e-324, f64::MAX] {
         let message = refused(two().with_deviations(&[1.0, bad]));
-        assert!(message.starts_with(&format!("deviation 1 is {bad:e}: must be from 1e-100")));
+        assert!(message.starts_with(&format!("deviation 1 is {bad:e}: must lie between 1e-100")));
     }
     for bad in [1e300, 1e-300, 5e-324] {
         let message = refused(two().with_weights(&[bad, 1.0]));
@@ -67,20 +63,19 @@ fn sizes_whose_squares_are_lost_are_refused() {
     }
     let message = refused(new(&[1e60, 0.0]).unwrap().with_deviations(&[1e-60; 2]));
     assert!(
-        message.starts_with("over its deviation observation 0 is "),
+        message.starts_with("ratio of observation to deviation at point 0 is "),
         "{message}"
     );
     let message = refused(new(&[1e-60, 0.0]).unwrap().with_deviations(&[1e60; 2]));
     assert!(
-        message.contains("the largest observation, number 0 is "),
+        message.contains("the largest ratio of observation to deviation, at point 0 is "),
         "{message}"
     );
-    // Zeros are data, and so are small values among large ones.
+    // Zeros are valid, and so are small values next to large ones.
     assert!(new(&[0.0, 0.0]).is_ok() && new(&[1.0, 1e-300, 5e-324, 0.0]).is_ok());
 }
 
-/// Deviations of mixed sizes: a point of 1e-20 decides, one of 1e80 counts for nothing, and both
-/// errors are those of the weighted mean.
+/// The point with a deviation of 1e-20 dominates, and the point with 1e80 has no effect.
 #[test]
 fn deviations_of_mixed_sizes() {
     let deviations = [1e-20, 3e-20, 1.0, 1e80];
@@ -94,7 +89,6 @@ fn deviations_of_mixed_sizes() {
     assert!((error / expected - 1.0).abs() < 1e-12, "{error:e}");
 }
 
-/// Points of 1e70 in deviations of 1e-30 fit to rounding: nothing overflows on the way.
 #[test]
 fn a_mean_of_large_ratios() {
     let observations = Observations::new(&[1e70, 1e70]).unwrap();
@@ -104,17 +98,16 @@ fn a_mean_of_large_ratios() {
     assert!(fit.goodness.chi_squared.is_finite());
 }
 
-/// What cannot be said as a number is refused: coefficients of powers at 1e60, and variances of
-/// parameters whose unit is 1e-170 or 1e170.
+/// Coefficients at places of 1e60, and variances of parameters in units of 1e-170 and 1e170.
 #[test]
-fn variances_that_are_no_numbers_are_refused() {
+fn variances_that_overflow_are_refused() {
     let y = Observations::new(&noisy(1.0)).unwrap();
     for size in [1e-60, 1e60, 1.7e308, 1e-300] {
         let x: Vec<f64> = places(-1.0, 1.0, 15).iter().map(|x| x * size).collect();
         let message = refused(Polynomial::new(6).fit(&Data::new(&x, y.clone()).unwrap()));
         assert!(message.contains(" of parameter "), "{size:e}: {message}");
     }
-    // Subnormal places are three different ones at most.
+    // The places round to three subnormal numbers.
     let x: Vec<f64> = places(-1.0, 1.0, 15).iter().map(|x| x * 5e-324).collect();
     let message = refused(Polynomial::new(6).fit(&Data::new(&x, y.clone()).unwrap()));
     assert!(
@@ -142,7 +135,6 @@ fn variances_that_are_no_numbers_are_refused() {
     assert!(message.starts_with("length of column 0 is "), "{message}");
 }
 
-/// Bounds as far apart as numbers go do not hide what the data determine.
 #[test]
 fn wide_bounds_change_nothing() {
     let y = Observations::new(&noisy(1.0)).unwrap();
@@ -157,8 +149,6 @@ fn wide_bounds_change_nothing() {
     assert_eq!(within(1e3), within(f64::MAX));
 }
 
-/// An exponential that overflows at the start, and one that is too large to be squared, are no fit,
-/// and the message names the point.
 #[test]
 fn a_start_that_overflows_is_named() {
     let data = Data::new(
@@ -184,7 +174,6 @@ fn a_start_that_overflows_is_named() {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(200))]
 
-    /// Values and deviations of any size, subnormal ones included, give numbers or a message.
     #[test]
     fn any_size_gives_numbers_or_a_message(
         y in prop::collection::vec(any::<f64>(), 6),
@@ -193,7 +182,7 @@ proptest! {
         narrow in 1..400_i32,
         is_known in any::<bool>(),
     ) {
-        // Narrow ranges of exponents are accepted more often than refused.
+        // Narrow ranges of exponents are accepted more often.
         let size = |k: &i32| 10.0_f64.powi(k % narrow);
         let y: Vec<f64> = y.iter().zip(&sizes).map(|(y, k)| y.signum() * size(k)).collect();
         let s: Vec<f64> = deviations.iter().map(size).collect();
@@ -224,7 +213,7 @@ proptest! {
             prop_assert!(goodness.chi_squared.is_finite() && goodness.rms.is_finite());
             prop_assert!(fit.precision.correlation()[(0, 1)].abs() <= 1.0 + 1e-9);
             if fit.statuses == [Status::Determined; 2] {
-                // A minimum: no better than the linear fit, and no worse beyond rounding.
+                // At a minimum chi squared equals the value of the linear fit, except for rounding.
                 let Ok(straight) = straight else { return Ok(()) };
                 let scale: f64 = data.observations().values().iter()
                     .zip(data.observations().deviations())

@@ -1,7 +1,6 @@
-//! A heat bath has its exact law at every step, keeps the temperature, and is a function of step
-//! numbers alone.
+//! Heat bath: exact distributions, temperature, and reproducibility.
 //!
-//! Estimates are held to 4.5 standard errors, which one seed in 1.5e5 exceeds; seeds are fixed.
+//! Tolerances are 4.5 standard errors, which one of 1.5e5 seeds exceeds; seeds are fixed.
 
 use crate::common;
 use actin_integrate::{
@@ -14,15 +13,14 @@ use actin_mechanics::{Loads, Slider, State, System, UnitQuaternion, Vector3, Vec
 use common::{chain, distance, springs, three_tops};
 
 const KT: f64 = 4.0;
-/// Standard errors that an estimate may be off by.
+/// Tolerance in standard errors.
 const ERRORS: f64 = 4.5;
 
 fn bath(translational: f64, rotational: f64, kt: f64, seed: u64) -> Bath {
     Bath::new(Drag::new(translational, rotational).unwrap(), kt, seed).unwrap()
 }
 
-/// Free points of mass 0.07 and free tops of moments (0.2, 0.2, 0.1), as many of each, all in the
-/// same motion.
+/// Free points of mass 0.07 and free tops of moments (0.2, 0.2, 0.1) with equal initial motion.
 fn crowd(count: usize) -> System {
     let mut state = State::default();
     for i in 0..count {
@@ -35,7 +33,6 @@ fn crowd(count: usize) -> System {
     System::new(state, Vec::new())
 }
 
-/// Asserts that a mean of `n` terms of variance `variance` is `expected`.
 fn assert_mean(what: &str, mean: f64, expected: f64, variance: f64, n: usize) {
     let error = (variance / n as f64).sqrt();
     assert!(
@@ -44,8 +41,7 @@ fn assert_mean(what: &str, mean: f64, expected: f64, variance: f64, n: usize) {
     );
 }
 
-/// Mean, variance and covariance with `start` of `now`, against what the process has: normal with
-/// `mean`, `variance` and `covariance`.
+/// Checks mean, variance and covariance with `start` of `now`.
 fn assert_law(what: &str, start: &[f64], now: &[f64], [mean, variance, covariance]: [f64; 3]) {
     let n = now.len();
     let average = |f: &dyn Fn(usize) -> f64| (0..n).map(f).sum::<f64>() / n as f64;
@@ -60,9 +56,7 @@ fn assert_law(what: &str, start: &[f64], now: &[f64], [mean, variance, covarianc
     assert_mean(what, product, covariance, of_product, n);
 }
 
-/// Free motion is the Ornstein-Uhlenbeck process at any step: decaying mean, variance kT/m or kT I
-/// that builds up, correlation that decays. Noise of the first order in the step, sqrt(2 g h kT/m),
-/// would be five times too warm at g h = 5.
+/// Decaying mean, growing variance with the limit kT/m or kT I, and decaying correlation.
 #[test]
 fn free_motion_has_its_law_at_any_step() {
     let (gamma_t, gamma_r) = (2.0, 1.0);
@@ -72,7 +66,7 @@ fn free_motion_has_its_law_at_any_step() {
             let mut system = crowd(8000);
             let t = h * steps as f64;
             let mut before = system.state().clone();
-            // From where all move alike, and on from there.
+            // Two legs: from equal motion, and onwards.
             for leg in 1..=2 {
                 advance_in(&mut system, &scheme, h, steps, &bath, (leg - 1) * steps);
                 let now = system.state();
@@ -91,7 +85,7 @@ fn free_motion_has_its_law_at_any_step() {
                     &before.frames.angular_momentum,
                 );
                 assert_law("l_3", &w.z, &v.z, law(gamma_r, 0.8, KT * 0.1));
-                // Across the axis the momentum turns about it, and forgets where it was.
+                // Transverse components precess about the axis.
                 let [mean, variance, _] = law(gamma_r, 0.0, KT * 0.2);
                 let nothing = vec![0.0; v.x.len()];
                 assert_law("l_1", &nothing, &v.x, [mean, variance, 0.0]);
@@ -101,8 +95,8 @@ fn free_motion_has_its_law_at_any_step() {
     }
 }
 
-/// Held and driven bodies take no part; a body that slides has kT/2 along its free direction, with
-/// the mass of the whole. With the mass of one of its points it would be three times as warm.
+/// Held and driven bodies have no noise. A slider has kT/2 in its free direction with its total
+/// mass.
 #[test]
 fn held_bodies_stay_cold_and_sliding_ones_move_as_one() {
     let mut state = State::default();
@@ -122,7 +116,7 @@ fn held_bodies_stay_cold_and_sliding_ones_move_as_one() {
     let samples = 20_000;
     let mut energy = 0.0;
     for step in 0..samples {
-        // Correlations of exp(-2 g h) = 2e-9 between samples: none.
+        // Correlations of samples are exp(-2 g h) = 2e-9.
         advance_in(&mut system, &PEFRL, 10.0, 1, &bath, step);
         let v = &system.state().points.velocity;
         assert_eq!((v.get(0), v.get(2)), (v.get(1), driven));
@@ -133,9 +127,8 @@ fn held_bodies_stay_cold_and_sliding_ones_move_as_one() {
     assert_mean("slider", mean, KT, 2.0 * KT * KT, 20_000);
 }
 
-/// Of a free chain, the momentum of the whole has 3 kT/2 whatever its springs do, since internal
-/// forces cancel and noise of different bodies is independent. Noise that neighbours share would
-/// show here and in no single body.
+/// The total momentum of a free chain has 3 kT/2, since internal forces cancel and the noise of
+/// bodies is independent.
 #[test]
 fn a_free_chain_moves_as_one_body() {
     let mut state = State::default();
@@ -149,7 +142,7 @@ fn a_free_chain_moves_as_one_body() {
     let samples = 10_000;
     let mut sum = 0.0;
     for sample in 0..samples {
-        // Correlations of exp(-2 g t) = 5e-5 between samples: none.
+        // Correlations of samples are exp(-2 g t) = 5e-5.
         advance_in(&mut system, &PEFRL, 0.2, 5, &bath, 5 * sample);
         let points = &system.state().points;
         let mass: f64 = points.inverse_mass().iter().map(|m| 1.0 / m).sum();
@@ -161,11 +154,8 @@ fn a_free_chain_moves_as_one_body() {
     assert_mean("whole", mean, 1.0, 2.0, 30_000);
 }
 
-/// Velocities have exactly kT; positions are too warm or too cold by the error of the scheme.
-///
-/// For the Verlet methods that is in closed form, by 1/(1 - (b omega h)^2/4) where kicks come first
-/// and by 1 - (b omega h)^2/4 where drifts do. A bath inside the steps, or its halves on one side
-/// only, would change both.
+/// Velocities have exactly kT. The temperature of positions has the error of the scheme: 1/(1 - (b
+/// omega h)^2/4) for velocity Verlet and 1 - (b omega h)^2/4 for position Verlet.
 #[test]
 fn oscillator_has_the_temperature_of_its_scheme() {
     for (scheme, theta) in [
@@ -176,7 +166,7 @@ fn oscillator_has_the_temperature_of_its_scheme() {
         (PEFRL, 1.5),
         (PEFRL, 2.5),
     ] {
-        // The drag is the frequency, and rescales the conservative step.
+        // The drag rate equals the frequency and rescales the conservative step.
         let rescaled = theta * Drag::new(1.0, 0.0).unwrap().time_rescaling(theta).0;
         let expected = scheme.configurational_temperature(rescaled);
         let quarter = 0.25 * rescaled * rescaled;
@@ -201,7 +191,6 @@ fn oscillator_has_the_temperature_of_its_scheme() {
 fn oscillator_temperatures(scheme: &Composition, theta: f64) -> [f64; 2] {
     let (mass, stiffness): (f64, f64) = (0.07, 30.0);
     let state = crowd(300).state().clone();
-    // Every point on a spring of its own to the origin.
     let add = move |state: &State, loads: &mut Loads| {
         let places = state.points.position.iter().enumerate();
         places.for_each(|(i, x)| loads.force.add(i, -stiffness * x));
@@ -209,9 +198,9 @@ fn oscillator_temperatures(scheme: &Composition, theta: f64) -> [f64; 2] {
     let term = "traps";
     let mut system = System::new(state, vec![Box::new(Loading { term, add })]);
     let h = theta * (mass / stiffness).sqrt();
-    // Strong damping: positions are forgotten within a few oscillations.
+    // Positions decorrelate within a few oscillations due to strong damping.
     let bath = bath((stiffness / mass).sqrt(), 1.0, KT, 23);
-    // Ten radians at least between samples, which are then independent.
+    // Samples at least ten radians apart are independent.
     let apart = if theta < 1.0 { 20 } else { 7 };
     advance_in(&mut system, scheme, h, 3 * apart, &bath, 0);
     let mut means = [0.0; 2];
@@ -225,11 +214,11 @@ fn oscillator_temperatures(scheme: &Composition, theta: f64) -> [f64; 2] {
     means
 }
 
-/// Under a force points drift with `F/(m g)` and diffuse with `kT/(m g)`, at any step.
+/// Drift `F/(m g)` and diffusion `kT/(m g)` at any step.
 ///
-/// From the start, where all have the same velocity of a temperature: the variance grows as
-/// `2 kT/(m g) (t - c (1 - exp(-g t))/g)`, with `c = g h/sinh(g h)` where time is continuous 1. Steps
-/// that are not rescaled in time are too far in both by `(g h/2) coth(g h/2)`, 1.66 and 15 of the last.
+/// The variance from equal initial velocities is `2 kT/(m g) (t - c (1 - exp(-g t))/g)` with
+/// `c = g h/sinh(g h)`. Without rescaling both are too large by `(g h/2) coth(g h/2)`, 1.66 and 15
+/// for the last two.
 #[test]
 fn points_drift_and_diffuse_as_they_should_at_any_step() {
     let (mass, gamma, steps) = (0.07, 2.0, 60);
@@ -244,7 +233,7 @@ fn points_drift_and_diffuse_as_they_should_at_any_step() {
             let pull = Loading { term: "pull", add };
             let mut system = System::new(state, vec![Box::new(pull)]);
             let bath = bath(gamma, 1.0, KT, 41);
-            // Until velocities have their law.
+            // Equilibration of the velocities.
             let warm = Run::over(&PEFRL, h, 20.0 / gamma).unwrap().steps();
             advance_in(&mut system, &scheme, h, warm, &bath, 0);
             let start = system.state().points.position.clone();
@@ -275,7 +264,6 @@ fn points_drift_and_diffuse_as_they_should_at_any_step() {
     }
 }
 
-/// The share by which positions are too warm or too cold is of the order of the method.
 #[test]
 fn error_of_the_temperature_is_of_the_order_of_the_scheme() {
     for scheme in Composition::all() {
@@ -289,7 +277,6 @@ fn error_of_the_temperature_is_of_the_order_of_the_scheme() {
     }
 }
 
-/// A bath without temperature is drag: the same motion, to the round-off of merging its halves.
 #[test]
 fn at_zero_temperature_a_bath_is_drag() {
     let cold = bath(0.3, 0.2, 0.0, 1);
@@ -299,8 +286,8 @@ fn at_zero_temperature_a_bath_is_drag() {
     assert!(distance(with_drag.state(), in_bath.state()) < 1e-13);
 }
 
-/// The final state of a chain in a bath, looked at every so many steps; broken off at `resume` and
-/// continued, in a system built anew.
+/// Final state of a chain in a bath with observations in intervals, optionally interrupted at
+/// `resume` and continued in a new system.
 fn end_of_run(seed: u64, observe_every: u64, resume: Option<u64>) -> State {
     let run = |steps| {
         Run::new(&PEFRL, 0.05, steps)
@@ -323,9 +310,6 @@ fn end_of_run(seed: u64, observe_every: u64, resume: Option<u64>) -> State {
     system.state().clone()
 }
 
-/// To the last bit: the same seed is the same run, whenever it is looked at and wherever it is
-/// broken off; another seed is another. Noise from a generator that runs on would fail, and so
-/// would halves that are merged between observations.
 #[test]
 fn runs_are_functions_of_the_seed_alone() {
     let reference = end_of_run(1, 1000, None);

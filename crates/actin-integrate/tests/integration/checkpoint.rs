@@ -1,5 +1,3 @@
-//! Leaving a run and taking it up again: every bit and every count as if it had not been left.
-
 use crate::common;
 use actin_integrate::{
     Bath, Checkpoint, Composition, Drag, Moment, Observer, Pause, Run, RunOutcome, StopRule,
@@ -9,10 +7,9 @@ use common::{chain, vibrating_tops};
 use proptest::prelude::*;
 use std::ops::ControlFlow;
 
-/// Thermal energy of runs with noise: velocities of 0.07, as the tops vibrate and the chain moves.
+/// Thermal energy of runs with noise, with velocities of 0.07 like the other motions.
 const KT: f64 = 5e-3;
 
-/// A held end that goes round in a circle.
 #[derive(Debug)]
 struct Circle;
 
@@ -26,7 +23,6 @@ impl Drive for Circle {
     }
 }
 
-/// A system as built, the same every time: bonded tops, a chain, or a chain driven at its end.
 fn build(kind: usize) -> System {
     let mut system = match kind {
         0 => vibrating_tops(3),
@@ -42,22 +38,22 @@ fn build(kind: usize) -> System {
     system
 }
 
-/// Notes what it sees, leaves at the `leave`-th pause, and changes the state after every fifth
-/// observation if it `nudges`.
+/// Records observations, interrupts at pause `leave`, and changes the state after every fifth
+/// observation if `nudges`.
 #[derive(Default)]
 struct Witness {
     seen: Vec<(u64, f64, f64, f64)>,
     pauses: usize,
     leave: Option<usize>,
     kept: Option<Checkpoint>,
-    /// Where the run has ended.
+    /// End of the run.
     ended: Option<Checkpoint>,
     nudges: bool,
 }
 
 impl Observer for Witness {
     fn observe(&mut self, moment: &mut Moment<'_>) -> ControlFlow<()> {
-        // As a recorder does: asking for the residual is what evaluates loads between steps.
+        // The residual evaluates loads between steps.
         let force = moment.residual().force;
         let energy = moment.potential_energy() + moment.kinetic_energy();
         self.seen.push((moment.step, moment.time, energy, force));
@@ -91,7 +87,7 @@ fn execute(run: &Run, system: &mut System, witness: &mut Witness) -> RunOutcome 
     run.execute(system, &mut [witness]).unwrap()
 }
 
-/// A run of `steps` steps with everything that a scene can ask for; the noise by its seed.
+/// Run of `steps` steps with the given settings; `noise` is a seed.
 fn plan(
     (scheme, steps, every): (usize, u64, (u64, u64)),
     drag: f64,
@@ -118,12 +114,8 @@ fn plan(
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(400))]
 
-    /// State, observations, reason, steps and evaluations are those of the run that was not left.
-    /// Forgotten loads would cost a method that begins with a kick an evaluation more; a forgotten
-    /// batch length would merge half steps elsewhere; noise that counts from where a run was taken
-    /// up would meet the first steps again.
     #[test]
-    fn a_run_that_was_left_goes_on_to_the_same_bits(
+    fn a_resumed_run_agrees_bitwise(
         kind in 0_usize..3,
         scheme in 0..Composition::all().len(),
         steps in 1_u64..400,
@@ -144,7 +136,7 @@ proptest! {
         let mut outcome = execute(&run, &mut system, &mut witness);
         for next in leave.iter().skip(1).map(Some).chain([None]) {
             let Some(checkpoint) = witness.kept.take() else { break };
-            // A fresh system, as in another process.
+            // A new system, as in another process.
             system = build(kind);
             witness.leave = next.map(|next| witness.pauses + next);
             outcome = run.resume(&checkpoint, &mut system, &mut [&mut witness]).unwrap();
@@ -154,7 +146,7 @@ proptest! {
         prop_assert_eq!(witness.seen, one.seen);
         prop_assert_eq!(witness.pauses, one.pauses);
 
-        // From its end it goes nowhere: no step more where a stop rule has ended it.
+        // Resuming from the end makes no step.
         let end = one.ended.unwrap();
         prop_assert_eq!(Some(&end), witness.ended.as_ref());
         let (mut system, mut witness) = (build(kind), Witness::default());
@@ -166,7 +158,6 @@ proptest! {
     }
 }
 
-/// Notes the steps of pauses.
 struct Steps(Vec<u64>);
 
 impl Observer for Steps {
@@ -181,7 +172,6 @@ impl Observer for Steps {
     }
 }
 
-/// Pauses cost no evaluation, and there is one at least every hundred steps.
 #[test]
 fn pauses_are_close_and_cost_nothing() {
     for scheme in Composition::all() {

@@ -1,5 +1,3 @@
-//! Drag is exact, and leaves equilibria where they are.
-
 use crate::common;
 use actin_integrate::{
     Composition, Drag, PEFRL, POSITION_VERLET, Reason, Run, StopRule, VEFRL, advance,
@@ -9,7 +7,6 @@ use actin_mechanics::testing::{push_frame, push_point};
 use actin_mechanics::{Loads, Slider, State, System, UnitQuaternion, Vector3, rotation};
 use common::{chain, distance, spinning_tops, springs, three_tops};
 
-/// A free point and a free top in motion, and a driven point.
 fn free_bodies() -> System {
     let mut state = State::default();
     for _ in 0..2 {
@@ -24,8 +21,7 @@ fn free_bodies() -> System {
     System::new(state, Vec::new())
 }
 
-/// v(t) = v(0) exp(-gamma t) at any step, the two rates apart; a driven body keeps its speed.
-/// Drag inside sub-steps, or as a force, would miss by the square of gamma h.
+/// v(t) = v(0) exp(-gamma t) at any step with both rates; a driven body keeps its velocity.
 #[test]
 fn free_motion_decays_exponentially_at_any_step() {
     let drag = Drag::new(2.0, 3.0).unwrap();
@@ -36,14 +32,14 @@ fn free_motion_decays_exponentially_at_any_step() {
             advance(&mut system, scheme, h, steps, &drag);
             let v = system.state().points.velocity.get(0);
             let v_start = start.points.velocity.get(0);
-            // One rounding per step.
+            // One rounding error per step.
             assert!((v / (-2.0f64).exp() - v_start).norm() < 1e-13 * v_start.norm());
-            // The top precesses about its axis: the length decays.
+            // The top precesses about its axis; the magnitude decays.
             let l = system.state().frames.angular_momentum.get(0).norm();
             let l_start = start.frames.angular_momentum.get(0).norm();
             assert!((l / (-3.0f64).exp() / l_start - 1.0).abs() < 1e-12);
             assert_eq!(system.state().points.velocity.get(1), Vector3::y());
-            // What is driven goes on in its own time, whatever drag does to that of free bodies.
+            // The driven body moves in its own time.
             let moved = system.state().points.position.get(1) - Vector3::y();
             assert!(moved.norm() < 1e-12, "{moved:?}");
         }
@@ -53,8 +49,8 @@ fn free_motion_decays_exponentially_at_any_step() {
 const MASS: f64 = 0.07;
 const AXIAL: f64 = 2.0;
 
-/// A free point, a pair of points that slides along z as one body of mass 0.3, and a top, under
-/// loads along z, at their terminal velocities as they are at the end of a step.
+/// A free point, a slider of two points along z with mass 0.3, and a top under loads along z, at
+/// their terminal velocities at the end of a step.
 fn driven_bodies(force: f64, torque: f64, drag: &Drag, h: f64) -> System {
     let mut state = State::default();
     for _ in 0..3 {
@@ -71,7 +67,6 @@ fn driven_bodies(force: f64, torque: f64, drag: &Drag, h: f64) -> System {
     push_frame(&mut state, UnitQuaternion::identity(), [1.0, 1.0, AXIAL]);
     let (translation, rotation) = drag.recorded_drift(h);
     let speed = translation * force / drag.translational();
-    // Both points of the slider are pulled.
     for (i, speed) in [speed / MASS, 2.0 * speed / 0.3, 2.0 * speed / 0.3]
         .into_iter()
         .enumerate()
@@ -91,15 +86,15 @@ fn driven_bodies(force: f64, torque: f64, drag: &Drag, h: f64) -> System {
     System::new(state, vec![Box::new(Loading { term, add })])
 }
 
-/// `F h/(m gamma)` a step from 1e-3 to 1e4 per ns, for points, sliders and tops under rates of their
-/// own. Without the rescaling of time the last would be 15 times too far.
+/// Terminal displacement `F h/(m gamma)` per step for rates from 1e-3 to 1e4 per ns. Without
+/// rescaling the last would be 15 times too large.
 #[test]
 fn terminal_motion_is_exact_at_any_step() {
     let (h, steps) = (0.003, 100);
     for scheme in Composition::all() {
         for (translational, rotational) in [(1e-3, 1e4), (1.0, 1e3), (1e2, 10.0), (1e4, 0.1)] {
             let drag = Drag::new(translational, rotational).unwrap();
-            // A turn of 0.3 rad in all.
+            // The total rotation is 0.3 rad.
             let (force, torque) = (2.0, rotational * AXIAL);
             let mut system = driven_bodies(force, torque, &drag, h);
             let start = system.state().clone();
@@ -119,15 +114,15 @@ fn terminal_motion_is_exact_at_any_step() {
                 (turn / t - 1.0).abs() < 1e-12,
                 "{scheme}, {rotational}: {turn}"
             );
-            // That is a steady state: velocities at the ends of steps are the recorded ones.
+            // The velocities at the ends of steps are stationary.
             let (before, after) = (&start.points.velocity, &state.points.velocity);
             assert!((after.z[0] - before.z[0]).abs() <= 1e-12 * before.z[0]);
         }
     }
 }
 
-/// A point on a spring of frequency `omega` that has relaxed for a while: the rate at which it goes
-/// on (1/ns).
+/// Relaxation rate (1/ns) of a point on a spring of frequency `omega`, after the decay of the fast
+/// mode.
 fn relaxation(scheme: &Composition, gamma: f64, omega: f64, h: f64, rate: f64) -> f64 {
     let mut state = State::default();
     for _ in 0..2 {
@@ -139,7 +134,7 @@ fn relaxation(scheme: &Composition, gamma: f64, omega: f64, h: f64, rate: f64) -
     let spring = springs(&state, omega * omega, 0.0);
     let mut system = System::new(state, vec![Box::new(spring)]);
     let drag = Drag::new(gamma, 0.0).unwrap();
-    // The fast part is then below 1e-13 of the slow one.
+    // The fast mode is then below 1e-13 of the slow one.
     let gap = gamma - 2.0 * rate;
     let steps_of = |time: f64| Run::over(&PEFRL, h, time).unwrap().steps();
     let warm = steps_of(30.0 / gap);
@@ -151,8 +146,8 @@ fn relaxation(scheme: &Composition, gamma: f64, omega: f64, h: f64, rate: f64) -
     (before / after).ln() / (steps as f64 * h)
 }
 
-/// A mode that creeps does so at the rate `r = g/2 - sqrt(g^2/4 - omega^2)`, to `r h/2`, relative, at
-/// any drag: steps need follow the relaxation alone.
+/// Overdamped modes relax at the rate `r = g/2 - sqrt(g^2/4 - omega^2)` with a relative error of
+/// `r h/2`.
 #[test]
 fn modes_relax_at_their_rate_at_any_drag() {
     let h = 1.0;
@@ -170,7 +165,7 @@ fn modes_relax_at_their_rate_at_any_drag() {
                      {:.2} r h",
                     error / rate
                 );
-                // Round-off of differences of logarithms over few digits of decay.
+                // Rounding errors of differences of logarithms over few digits of decay.
                 assert!(
                     error.abs() < 0.5 * rate * h + 1e-8,
                     "{scheme}, {gamma}, {omega}"
@@ -180,7 +175,6 @@ fn modes_relax_at_their_rate_at_any_drag() {
     }
 }
 
-/// Back in time drag speeds up, and the rescaling of time is undone: the way back ends where it began.
 #[test]
 fn steps_with_drag_are_symmetric_in_time() {
     for (translational, rotational) in [(0.3, 40.0), (40.0, 0.3)] {
@@ -192,14 +186,12 @@ fn steps_with_drag_are_symmetric_in_time() {
             assert!(distance(system.state(), &start) > 0.1);
             advance(&mut system, scheme, -0.1, 2, &drag);
             let error = distance(system.state(), &start);
-            // Round-off times exp(8).
+            // Rounding errors times exp(8).
             assert!(error < 1e-10, "{scheme}: {error:e}");
         }
     }
 }
 
-/// Of two runs to rest with a tenfold difference in drag, and of unlike drag on places and turns,
-/// both end in the same state. Drag within the step would shift the equilibrium by gamma h.
 #[test]
 fn equilibrium_does_not_depend_on_the_drag() {
     let rest = |translational, rotational, h| {
@@ -219,13 +211,12 @@ fn equilibrium_does_not_depend_on_the_drag() {
     let reference = rest(0.3, 0.3, 0.2);
     for (translational, rotational, h) in [(3.0, 0.3, 0.2), (0.3, 3.0, 0.1), (1.0, 1.0, 0.5)] {
         let other = rest(translational, rotational, h);
-        // Residual 1e-12 over the smallest stiffness, of the chain's transverse modes (0.03).
+        // Residual of 1e-12 over the smallest stiffness, of transverse modes (0.03).
         assert!(distance(reference.state(), other.state()) < 1e-10);
     }
 }
 
-/// A damped oscillation of rate gamma/2 and shifted frequency is followed to second order: the
-/// alternation of drag and motion costs the fourth, as documented.
+/// A damped oscillation has order 2, due to the alternation of drag and motion.
 #[test]
 fn damped_motion_is_of_second_order() {
     let drag = Drag::new(0.4, 0.7).unwrap();
@@ -248,7 +239,7 @@ fn damped_motion_is_of_second_order() {
     }
 }
 
-/// Two halves differ from the whole by round-off, in exp(-gamma h/2)^2 and in merged drifts.
+/// Calls differ by rounding in exp(-gamma h/2)^2 and in merged drifts.
 #[test]
 fn two_halves_are_one_whole() {
     for drag in [Drag::NONE, Drag::new(0.3, 0.2).unwrap()] {
@@ -263,7 +254,6 @@ fn two_halves_are_one_whole() {
     }
 }
 
-/// With one step per call nothing is merged and nothing differs, to the last bit.
 #[test]
 fn single_steps_are_reproducible_to_the_bit() {
     let run = || {

@@ -1,5 +1,3 @@
-//! More energy than there can be: where it is noticed, and what is named.
-
 use crate::common;
 use actin_integrate::{
     Body, Checkpoint, FailureKind, Moment, Observer, PEFRL, POSITION_VERLET, Pause, Run,
@@ -11,10 +9,9 @@ use std::ops::ControlFlow;
 
 const H: f64 = 0.05;
 
-/// Far above the energy of the chains here (0.04 pN nm), far below that of a [`Source`].
+/// Far above the energy of the chains (0.04 pN nm), far below the energy of a [`Source`].
 const LIMIT: f64 = 1e3;
 
-/// From some time on it has an energy, and a force on one point.
 #[derive(Clone, Copy, Debug)]
 struct Source {
     point: usize,
@@ -46,7 +43,6 @@ impl Interaction for Source {
     }
 }
 
-/// Six points in a row, stretched, with a source that is there from step `step` on.
 fn heated(step: u64, energy: f64) -> System {
     let mut state = chain(6, 4.0, 1.0).state().clone();
     let springs = springs(&state, 4.0, 1.0);
@@ -67,11 +63,10 @@ fn run(observe: u64, check: u64) -> Run {
         .unwrap()
 }
 
-/// Whatever lies between the step at which there is too much and the observation that finds it, that
-/// step is named, with the body and the term of the excess; the state that stays is one that had
-/// none. An energy that is no number is above every limit (`NaN > limit` is false).
+/// Step, body and term of the excess are reported for any intervals, also for energies that are not
+/// numbers.
 #[test]
-fn the_first_step_with_too_much_is_named() {
+fn the_first_step_with_too_much_energy_is_reported() {
     for energy in [1e6, f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
         for (observe, check) in [(1000, 100), (50, 100), (7, 3), (1, 1)] {
             for step in [1, 2, 99, 100, 101, 128, 777, 2100] {
@@ -87,14 +82,13 @@ fn the_first_step_with_too_much_is_named() {
                 };
                 assert!(!(found.is_finite() && found <= LIMIT));
                 assert_eq!(failure.to_string().contains("finite"), !energy.is_finite());
-                // The chain swings about its energy, by far less than the limit.
+                // The energy of the chain is far below the limit.
                 assert!(system.total_energy() < 1.0);
             }
         }
     }
 }
 
-/// Keeps all pauses, and what is given when the run fails.
 #[derive(Default)]
 struct Keeper {
     pauses: Vec<Checkpoint>,
@@ -116,10 +110,8 @@ impl Observer for Keeper {
     }
 }
 
-/// A run that was left between two observations, before or after the step that is to be blamed, fails
-/// in the same words as one that was not, and so does one that goes on from its last good state.
 #[test]
-fn a_resumed_run_fails_in_the_same_words() {
+fn a_resumed_run_fails_with_the_same_message() {
     let run = run(1000, 100);
     let mut keeper = Keeper::default();
     let execute = |keeper| run.execute(&mut heated(1450, 1e6), &mut [keeper]);
@@ -137,8 +129,6 @@ fn a_resumed_run_fails_in_the_same_words() {
     }
 }
 
-/// Energy that is strain counts: a stretched chain at rest has no kinetic energy to be seen by. Where
-/// the start has too much there is no good state before it.
 #[test]
 fn strain_at_the_start_counts() {
     let mut system = chain(10, 4.0, 1.0);

@@ -1,5 +1,3 @@
-//! How soon a broken state is noticed, counted in evaluations of the loads.
-
 use crate::common;
 use actin_integrate::{
     Body, Checkpoint, DEFAULT_CHECK_EVERY, Moment, Observer, POSITION_VERLET, Run, RunFailure,
@@ -13,7 +11,6 @@ use std::ops::ControlFlow;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// A load on one point that is no number from some time on.
 fn poison(point: usize, from: f64, value: f64) -> Box<dyn Interaction> {
     let add = move |state: &State, loads: &mut Loads| {
         if state.time >= from {
@@ -26,7 +23,6 @@ fn poison(point: usize, from: f64, value: f64) -> Box<dyn Interaction> {
     })
 }
 
-/// Six points in a row, stretched, with what poisons one of them.
 fn poisoned(poison: Box<dyn Interaction>) -> System {
     let mut state = chain(6, 4.0, 1.0).state().clone();
     let springs = springs(&state, 4.0, 1.0);
@@ -35,11 +31,8 @@ fn poisoned(poison: Box<dyn Interaction>) -> System {
 }
 
 proptest! {
-    /// Wherever in a run a load ceases to be a number, the step, the body and the term are named,
-    /// after at most the steps between two checks (and as many again to retrace them), however far
-    /// apart observations are.
     #[test]
-    fn what_is_no_number_is_noticed_within_a_check(
+    fn loads_that_are_not_numbers_are_detected_within_a_check(
         step in 1_u64..5000,
         body in 1_usize..5,
         value in prop_oneof![Just(f64::NAN), Just(f64::INFINITY), Just(f64::NEG_INFINITY)],
@@ -59,10 +52,10 @@ proptest! {
     }
 }
 
-/// The bound itself, in evaluations that the caller can count: one per step up to the check that
-/// notices, one per step from the check before, one to find the term.
+/// Evaluations: one per step up to the detecting check, one per step from the check before, one for
+/// the term.
 #[test]
-fn noticing_costs_at_most_two_intervals() {
+fn detection_costs_at_most_two_intervals() {
     struct Work(u64);
     impl Observer for Work {
         fn observe(&mut self, _: &mut Moment<'_>) -> ControlFlow<()> {
@@ -88,10 +81,10 @@ fn noticing_costs_at_most_two_intervals() {
         let mut work = Work(u64::MAX);
         let failure = run.execute(&mut system, &mut [&mut work]).unwrap_err();
         assert_eq!(failure.step, step);
-        // The checkpoint of the last good state is that of the last observation.
+        // The checkpoint of the last sound state is the last observation.
         assert_eq!(work.0, (step - 1) / 1000 * 1000);
         let made = evaluations.load(Ordering::Relaxed);
-        // Two more for what the report asks of the terms, and one for the state put back.
+        // Two more for the report, and one for the restored state.
         let most = step + 2 * DEFAULT_CHECK_EVERY + 4;
         assert!(
             made <= most,
@@ -100,7 +93,6 @@ fn noticing_costs_at_most_two_intervals() {
     }
 }
 
-/// Runs at `excess` above the stability limit until it is noticed.
 fn unstable(system: &mut System, excess: f64) -> RunFailure {
     let limit = 2.0 / largest_frequency(system).unwrap();
     Run::new(&VELOCITY_VERLET, (1.0 + excess) * limit, 10_000_000)
@@ -111,11 +103,10 @@ fn unstable(system: &mut System, excess: f64) -> RunFailure {
         .unwrap_err()
 }
 
-/// Above the limit by `d` the fastest mode grows by `exp(2 sqrt(2 d))` a step: it is noticed after
-/// the steps in which that leads from its first velocity, 0.01 sqrt(2 d) of the fastest, to
-/// overflow, `e^355`, or before, where motion ceases to be linear.
+/// The fastest mode grows by `exp(2 sqrt(2 d))` per step for an excess `d`. It overflows (`e^355`)
+/// from its initial velocity, 0.01 sqrt(2 d), unless the motion becomes nonlinear before.
 #[test]
-fn growth_is_noticed_in_a_bounded_number_of_steps() {
+fn growth_is_detected_in_a_bounded_number_of_steps() {
     for excess in [1e-5, 1e-4, 1e-3, 1e-2, 0.1, 0.5] {
         let state = chain(10, 4.0, 1.0).state().clone();
         let linear = springs(&state, 4.0, 0.0);
@@ -144,7 +135,7 @@ fn growth_is_noticed_in_a_bounded_number_of_steps() {
             "tops  {excess:e}: step {}: {}",
             failure.step, failure.problem
         );
-        assert_eq!(tops.force_evaluations(), before, "put back to the start");
+        assert_eq!(tops.force_evaluations(), before, "restored to the start");
         assert!((failure.step as f64) < bound + DEFAULT_CHECK_EVERY as f64);
     }
 }

@@ -1,5 +1,3 @@
-//! The largest frequency against spectra that are known in closed form.
-
 use crate::common;
 use actin_integrate::{
     Drag, FrequencyError, KRYLOV_VECTORS, POSITION_VERLET, advance, largest_frequency,
@@ -12,19 +10,18 @@ use std::f64::consts::PI;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// `n` free points between walls: `omega = 2 sqrt(k/m) cos(pi / (2 (n + 1)))`.
+/// Exact value for `n` free points between walls: `omega = 2 sqrt(k/m) cos(pi / (2 (n + 1)))`.
 fn chain_frequency(n: usize, stiffness: f64, mass: f64) -> f64 {
     2.0 * (stiffness / mass).sqrt() * (0.5 * PI / (n as f64 + 1.0)).cos()
 }
 
-/// The eigenvalues of a long chain crowd at the upper end, which is the hard case.
 #[test]
 fn chain_of_springs() {
     for n in [1, 2, 10, 200, 3000] {
         let system = chain(n + 2, 2000.0, 0.07);
         let ratio = largest_frequency(&system).unwrap() / chain_frequency(n, 2000.0, 0.07);
         println!("chain of {n}: 1 - {:.2e}", 1.0 - ratio);
-        // Never above but for the error of the difference; below by less than the bound.
+        // High only by the error of the difference; low by less than the bound.
         assert!(ratio < 1.0 + 1e-6, "{n}: {ratio}");
         assert!(ratio > 0.99, "{n}: {ratio}");
         if n <= 20 {
@@ -33,8 +30,8 @@ fn chain_of_springs() {
     }
 }
 
-/// One stiffer spring in a long chain binds a mode of its own above the others, in which a random
-/// start has hardly a share: omega^2 = (k/m)(2 + r + 1/r), r = k / (2 k' - k).
+/// A stiffer spring in a long chain has a localised mode: omega^2 = (k/m)(2 + r + 1/r), r = k / (2
+/// k' - k). The random start has hardly any overlap with it.
 #[test]
 fn local_mode_in_a_long_chain() {
     let (n, k, m) = (3000, 2000.0, 0.07);
@@ -63,8 +60,7 @@ fn fewer_vectors_find_less_and_never_more() {
     }
 }
 
-/// A frame on a torsion spring to a held one: sqrt(k / I) about its slackest axis. Measuring the
-/// motion in radians without the inertia, or counting the held frame, would miss by factors.
+/// A frame on a torsion spring at a held frame: sqrt(k / I) about the axis of the smallest moment.
 #[test]
 fn frame_on_a_torsion_spring() {
     let mut state = State::default();
@@ -83,14 +79,13 @@ fn frame_on_a_torsion_spring() {
     assert!(error.abs() < 1e-8);
 }
 
-/// The estimate is the one that matters: position Verlet holds just below it and not above.
 #[test]
 fn verlet_is_stable_up_to_the_estimate() {
     assert!(stays_bounded(0.99));
     assert!(!stays_bounded(1.01));
 }
 
-/// Whether a vibrating chain keeps its motion over 2000 steps of `share` of the limit.
+/// Returns `true` if a chain keeps its energy over 2000 steps at `share` of the limit.
 fn stays_bounded(share: f64) -> bool {
     let mut system = chain(12, 4.0, 1.0);
     for i in 1..11 {
@@ -103,18 +98,16 @@ fn stays_bounded(share: f64) -> bool {
     system.state().kinetic_energy() < 1e-6
 }
 
-/// Nothing free and nothing stiff are no reason to fail.
 #[test]
-fn nothing_resists() {
+fn frequency_is_zero_without_bodies_or_stiffness() {
     assert!(largest_frequency(&System::new(State::default(), Vec::new())).unwrap() == 0.0);
     assert!(largest_frequency(&chain(2, 4.0, 1.0)).unwrap() == 0.0);
     let (state, none) = (spinning_tops().state().clone(), Vec::new());
     assert!(largest_frequency(&System::new(state, none)).unwrap() == 0.0);
 }
 
-/// Asking changes nothing and always gives the same answer.
 #[test]
-fn asking_is_free_of_effects() {
+fn estimates_are_reproducible_and_do_not_change_the_system() {
     let mut system = spinning_tops();
     system.loads();
     let (state, count) = (system.state().clone(), system.force_evaluations());
@@ -127,7 +120,6 @@ fn asking_is_free_of_effects() {
     assert_eq!(system.force_evaluations(), count);
 }
 
-/// A force on point 0 that is linear in its place, with any matrix; counts its evaluations.
 #[derive(Debug)]
 struct Linear {
     rows: [Vector3; 3],
@@ -161,7 +153,7 @@ impl Interaction for Linear {
     }
 }
 
-/// `n` points of mass 2 under a [`Linear`] force, and the count of its evaluations.
+/// `n` points of mass 2 under a [`Linear`] force, and the counter of its evaluations.
 fn linear(n: usize, rows: [[f64; 3]; 3]) -> (System, Arc<AtomicU64>) {
     let mut state = State::default();
     for _ in 0..n {
@@ -175,14 +167,12 @@ fn linear(n: usize, rows: [[f64; 3]; 3]) -> (System, Arc<AtomicU64>) {
     (System::new(state, vec![Box::new(force)]), evaluations)
 }
 
-/// A force that swirls about the z axis (circulatory, no energy) leaves the symmetric part alone.
 #[test]
 fn loads_without_an_energy_do_not_fail() {
     let (system, _) = linear(1, [[8.0, 5.0, 0.0], [-5.0, 8.0, 0.0], [0.0, 0.0, 2.0]]);
     assert!((largest_frequency(&system).unwrap() - 2.0).abs() < 1e-8);
 }
 
-/// An unstable state has growth, not frequency, in its negative direction.
 #[test]
 fn negative_stiffness_does_not_count() {
     let (system, _) = linear(1, [[-800.0, 0.0, 0.0], [0.0, 8.0, 0.0], [0.0, 0.0, 2.0]]);
@@ -191,7 +181,6 @@ fn negative_stiffness_does_not_count() {
     assert!(largest_frequency(&system).unwrap() == 0.0);
 }
 
-/// Two evaluations per vector, and no more vectors than the spectrum needs.
 #[test]
 fn cost_in_evaluations() {
     let (mut system, evaluations) =
@@ -199,7 +188,7 @@ fn cost_in_evaluations() {
     largest_frequency(&system).unwrap();
     // Three eigenvalues close the space after three vectors.
     assert_eq!(evaluations.load(Ordering::Relaxed), 6);
-    // Unequal masses open it: 300 different eigenvalues.
+    // Unequal masses give 300 different eigenvalues.
     let mut state = State::default();
     for i in 0..100_u32 {
         push_point(&mut state, Vector3::zeros(), 1.0 + f64::from(i));
@@ -222,8 +211,6 @@ fn loads_that_are_not_finite_are_named() {
     );
 }
 
-/// Many terms, of which the last has a load that is no number: each is evaluated a few times until it
-/// is found, not all of them once for each.
 #[test]
 fn a_broken_term_among_many_is_found_in_few_evaluations() {
     let terms: u64 = 1024;
@@ -239,13 +226,12 @@ fn a_broken_term_among_many_is_found_in_few_evaluations() {
     let system = System::new(system.state().clone(), (0..terms).map(term).collect());
     let error = largest_frequency(&system).unwrap_err();
     assert_eq!(error, FrequencyError { term: "linear" });
-    // The trial motion, all again, prefixes by halving (less than all each), and the one found.
+    // Trial motion, repetition of all, prefixes of the bisection, and the term found.
     let most = terms * (3 + u64::from(terms.ilog2()));
     let found = evaluations.load(Ordering::Relaxed);
     assert!(found <= most, "{found} of at most {most}");
 }
 
-/// With sound loads every term is evaluated twice for each trial motion, however many there are.
 #[test]
 fn sound_terms_are_evaluated_twice_for_each_vector() {
     for terms in [1_u64, 50] {

@@ -1,12 +1,9 @@
-//! The tables themselves, and what they do to systems of one degree of freedom.
-
 use actin_integrate::{
     Composition, Drag, FOREST_RUTH, PEFRL, POSITION_VERLET, SUZUKI, SUZUKI_WEIGHT, Stage, VEFRL,
     VELOCITY_VERLET, advance,
 };
 use actin_mechanics::Split;
 
-/// One degree of freedom of unit mass under a force that depends on its place.
 struct OneDegree {
     q: f64,
     p: f64,
@@ -58,7 +55,6 @@ impl Split for OneDegree {
     }
 }
 
-/// Durations of one kind of stage add up to the step; a wrong digit shows here.
 #[test]
 fn stages_of_each_kind_add_up_to_one() {
     for scheme in Composition::all() {
@@ -68,25 +64,23 @@ fn stages_of_each_kind_add_up_to_one() {
                 .filter(|(kind, _)| *kind == stage)
                 .map(|(_, c)| c)
                 .sum();
-            // Up to six summands of size one.
+            // Up to six terms of order one.
             assert!((sum - 1.0).abs() < 1e-15, "{scheme}: {stage:?} sum {sum}");
         }
     }
 }
 
-/// Reversibility needs a table that reads the same backwards; merging needs an odd length.
 #[test]
 fn tables_are_palindromes_of_odd_length() {
     for scheme in Composition::all() {
         let backwards: Vec<f64> = scheme.coefficients().iter().rev().copied().collect();
         assert_eq!(scheme.coefficients().len() % 2, 1, "{scheme}");
-        // The joints of the composed tables are sums, equal to the last bit by construction.
+        // Sums in composed tables are bitwise equal by construction.
         assert_eq!(scheme.coefficients(), backwards, "{scheme}");
     }
 }
 
-/// The weights solve the equations that define them: with `2 t + s = 1`, `2 t^3 + s^3 = 0`, and
-/// with `4 p + s = 1`, `4 p^3 + s^3 = 0`.
+/// The weights solve `2 t + s = 1`, `2 t^3 + s^3 = 0` and `4 p + s = 1`, `4 p^3 + s^3 = 0`.
 #[test]
 fn weights_cancel_the_cubic_error() {
     let cubic = |w: f64, n: f64| n * w.powi(3) + (1.0 - n * w).powi(3);
@@ -106,7 +100,7 @@ fn names_lead_to_tables_and_back() {
     assert!(message.contains("\"verlet\"") && message.contains("position-verlet"));
 }
 
-/// The matrix of one step of the oscillator `q'' = -q`.
+/// Matrix of one step of the oscillator `q'' = -q`.
 fn matrix(scheme: &Composition, omega_h: f64) -> [[f64; 2]; 2] {
     let column = |q, p| {
         let mut oscillator = OneDegree::new(q, p, |q| -q);
@@ -117,8 +111,8 @@ fn matrix(scheme: &Composition, omega_h: f64) -> [[f64; 2]; 2] {
     [[a[0], b[0]], [a[1], b[1]]]
 }
 
-/// A palindrome has equal diagonal elements and determinant 1, so that it is stable just where
-/// the off-diagonal elements differ in sign; the limit is the first zero of either.
+/// A symmetric method has equal diagonal elements and determinant 1. It is stable if the
+/// off-diagonal elements differ in sign; the limit is the first zero of either.
 fn stability_limit(scheme: &Composition) -> f64 {
     let stable = |x: f64| {
         let m = matrix(scheme, x);
@@ -128,7 +122,7 @@ fn stability_limit(scheme: &Composition) -> f64 {
     let first_unstable = (1..steps)
         .map(|k| 5.0 * f64::from(k) / f64::from(steps))
         .find(|x| !stable(*x))
-        .expect("every explicit method has a limit below 5");
+        .expect("explicit methods have a limit below 5");
     let (mut low, mut high) = (first_unstable - 1e-4, first_unstable);
     for _ in 0..40 {
         let middle = 0.5 * (low + high);
@@ -146,7 +140,7 @@ fn stability_limits_are_as_stated() {
     for scheme in Composition::all() {
         let limit = stability_limit(scheme);
         println!("{scheme}: {limit:.8}");
-        // Stated to five decimals.
+        // Limits are given to five decimals.
         assert!(
             (limit - scheme.stability_limit()).abs() < 6e-6,
             "{scheme}: {limit}"
@@ -154,7 +148,6 @@ fn stability_limits_are_as_stated() {
     }
 }
 
-/// The published limits, to the digits given there.
 #[test]
 fn stability_limits_are_the_published_ones() {
     for (scheme, published) in [(POSITION_VERLET, 2.00), (PEFRL, 2.99), (VEFRL, 3.47)] {
@@ -162,7 +155,7 @@ fn stability_limits_are_the_published_ones() {
     }
 }
 
-/// Position and momentum after `t = 10` with step `h`.
+/// Position and momentum at `t = 10`.
 fn pendulum_at_10(scheme: &Composition, steps: u32) -> [f64; 2] {
     let mut pendulum = OneDegree::pendulum();
     let h = 10.0 / f64::from(steps);
@@ -170,14 +163,13 @@ fn pendulum_at_10(scheme: &Composition, steps: u32) -> [f64; 2] {
     [pendulum.q, pendulum.p]
 }
 
-/// Euclidean error in (q, p) against PEFRL with a step of 5e-4, whose own error is below 1e-14.
+/// Error of (q, p) relative to PEFRL with a step of 5e-4, whose error is below 1e-14.
 fn pendulum_error(scheme: &Composition, steps: u32) -> f64 {
     let reference = pendulum_at_10(&PEFRL, 20_000);
     let end = pendulum_at_10(scheme, steps);
     (end[0] - reference[0]).hypot(end[1] - reference[1])
 }
 
-/// Errors of an independent implementation, to their four digits.
 #[test]
 fn pendulum_errors_are_the_known_ones() {
     let known = [
@@ -188,7 +180,7 @@ fn pendulum_errors_are_the_known_ones() {
         for (steps, expected) in [100, 200, 400].into_iter().zip(errors) {
             let error = pendulum_error(&scheme, steps);
             println!("{scheme} {steps}: {error:.4e}");
-            // Half a unit of the fourth digit, and round-off of 400 steps at the smallest error.
+            // Half a unit of the fourth digit, and rounding errors of 400 steps.
             assert!((error - expected).abs() < 1e-3 * expected, "{error:e}");
         }
     }
@@ -204,8 +196,8 @@ fn orders_on_the_pendulum() {
     }
 }
 
-/// Oscillator from (1, 0) with h = 1: position Verlet drifts to 1, kicks to -1, drifts to 1/2;
-/// velocity Verlet kicks to -1/2, drifts to 1/2, kicks to -3/4.
+/// From (1, 0) with h = 1: position Verlet drifts to 1, kicks to -1, drifts to 1/2; velocity Verlet
+/// kicks to -1/2, drifts to 1/2, kicks to -3/4.
 #[test]
 fn one_step_by_hand() {
     for (scheme, expected) in [
@@ -218,8 +210,6 @@ fn one_step_by_hand() {
     }
 }
 
-/// Work per step in a long run. A method that begins with a kick pays once for the first one;
-/// forgetting the reuse would cost VEFRL a fifth evaluation, forgetting to merge a drift per step.
 #[test]
 fn work_per_step() {
     let expected = [
@@ -242,7 +232,6 @@ fn work_per_step() {
         );
         assert_eq!(pendulum.drifts, 1000 * drifts + 1 - kick_first, "{scheme}");
 
-        // Drag costs drifts, never evaluations.
         let mut damped = OneDegree::pendulum();
         let drag = Drag::new(0.1, 0.1).unwrap();
         advance(&mut damped, &scheme, 0.01, 1000, &drag);
@@ -258,8 +247,8 @@ fn no_steps_do_nothing() {
     assert_eq!(pendulum.evaluations, 0);
 }
 
-/// The pendulum split so that the drift (an oscillator solved by position Verlet) is symmetric but
-/// no flow, and the kick holds what is left of the force.
+/// Pendulum with a drift that is symmetric but not a flow (an oscillator solved by position
+/// Verlet).
 struct SymmetricDrift(OneDegree);
 
 impl Split for SymmetricDrift {
@@ -283,10 +272,10 @@ impl Split for SymmetricDrift {
     }
 }
 
-/// Where drift is only symmetric, tables of fourth order fall to second, and so would Suzuki's
-/// merged one; five separate steps of position Verlet with his weights keep the fourth.
+/// Tables of order 4 have order 2 for a symmetric drift. Five separate Verlet steps with the
+/// weights of Suzuki keep order 4.
 #[test]
-fn suzukis_weights_serve_where_drift_is_no_flow() {
+fn suzuki_weights_keep_the_order_for_symmetric_drifts() {
     let reference = pendulum_at_10(&PEFRL, 20_000);
     let order = |step: fn(&mut SymmetricDrift, f64)| {
         let error = |steps: u32| {

@@ -1,5 +1,3 @@
-//! Order, reversal, momenta and energy on free tops that spin about different axes.
-
 use crate::common;
 use actin_integrate::{
     Composition, Drag, FOREST_RUTH, PEFRL, POSITION_VERLET, SUZUKI, VEFRL, VELOCITY_VERLET,
@@ -9,12 +7,11 @@ use actin_mechanics::testing::{assert_is_balanced, assert_is_gradient};
 use actin_mechanics::{State, System};
 use common::{distance, spinning_tops, vibrating_tops};
 
-/// The system of these tests has the properties that they rely on.
 #[test]
 fn test_interactions_are_gradients_and_balanced() {
     let system = spinning_tops();
     for interaction in system.interactions() {
-        // The energies vary over lengths of order 1.
+        // Energies vary over lengths of order 1.
         assert_is_gradient(interaction.as_ref(), system.state(), 1e-2, 1e-9);
         assert_is_balanced(interaction.as_ref(), system.state(), 1e-14);
     }
@@ -27,13 +24,12 @@ fn state_after(scheme: &Composition, time: f64, steps: u32) -> State {
     system.state().clone()
 }
 
-/// With (I omega) x omega in the kick instead of the exact free flow in the drift, the methods of
-/// fourth order would measure 1 to 2 here.
+/// Rotational terms in the kick instead of the drift would reduce the order to 1 or 2.
 #[test]
 fn order_on_a_spinning_state() {
     let time = 2.0;
     let reference = state_after(&SUZUKI, time, 4000);
-    // Steps small enough for the leading error to rule, errors far above the round-off of 1e-14.
+    // Steps in the asymptotic range, with errors far above rounding (1e-14).
     for (scheme, steps) in [
         (POSITION_VERLET, 200),
         (VELOCITY_VERLET, 200),
@@ -56,8 +52,8 @@ fn order_on_a_spinning_state() {
     }
 }
 
-/// Forward and back again: a table that is no palindrome, or a drift that is no flow, would miss
-/// the start by its truncation error (1e-3 at this step), not by round-off.
+/// The truncation error is 1e-3 at this step; asymmetric tables or drifts would not return to the
+/// start.
 #[test]
 fn time_reversal() {
     for scheme in Composition::all() {
@@ -68,12 +64,11 @@ fn time_reversal() {
         advance(&mut system, scheme, -0.05, 200, &Drag::NONE);
         let missed = distance(system.state(), &start);
         println!("{scheme}: missed by {missed:.1e}");
-        // Round-off of 1e-16 in each of 4000 stages, spread by neighbouring paths parting.
+        // Rounding errors of 1e-16 in each of 4000 stages, amplified by diverging trajectories.
         assert!(missed < 1e-11, "{scheme}: {missed:e}");
     }
 }
 
-/// Internal loads at fixed positions and exact free flow change neither momentum, at any step.
 #[test]
 fn momenta_stay_to_round_off() {
     for scheme in Composition::all() {
@@ -83,12 +78,12 @@ fn momenta_stay_to_round_off() {
         let (p_end, l_end) = (system.state().momentum(), system.state().angular_momentum());
         let (dp, dl) = ((p_end - p).norm(), (l_end - l).norm());
         println!("{scheme}: momentum {dp:.1e}, angular momentum {dl:.1e}");
-        // A random walk of 1e5 roundings of 1e-16, growing with the distance travelled.
+        // Random walk of 1e5 rounding errors of 1e-16, growing with the distance travelled.
         assert!(dp < 1e-12 && dl < 1e-10, "{scheme}: {dp:e}, {dl:e}");
     }
 }
 
-/// Energies after every tenth of `steps`, each as mean and largest deviation from the start.
+/// Mean and largest relative deviation of the energy in ten intervals of 1e4 steps.
 fn energy_record(system: &mut System, scheme: &Composition, h: f64) -> Vec<(f64, f64)> {
     let start = system.total_energy();
     (0..10)
@@ -106,8 +101,8 @@ fn energy_record(system: &mut System, scheme: &Composition, h: f64) -> Vec<(f64,
         .collect()
 }
 
-/// Largest deviation in the first and in the last three tenths of 1e5 steps at `share` of the
-/// stability limit, and how far the mean moved from those to these.
+/// Largest deviations in the first and last three intervals at `share` of the stability limit, and
+/// the change of the mean.
 fn energy_trend(scheme: &Composition, share: f64, seed: u64) -> [f64; 3] {
     let mut system = vibrating_tops(seed);
     let frequency = largest_frequency(&system).unwrap();
@@ -121,25 +116,22 @@ fn energy_trend(scheme: &Composition, share: f64, seed: u64) -> [f64; 3] {
     trend
 }
 
-/// At half the stability limit the energy fluctuates, but its mean does not drift. A stage of a table
-/// out of place, or drag by mistake, would show as a trend. VEFRL is held to 0.4 of its limit,
-/// where it has none; see the next test.
+/// The mean energy has no drift at half the stability limit (VEFRL: 0.4, see the next test).
 #[test]
 fn energy_is_bounded_without_a_trend() {
     for scheme in Composition::all() {
         let share = if *scheme == VEFRL { 0.4 } else { 0.5 };
         for seed in 1..=4 {
             let [early, late, drift] = energy_trend(scheme, share, seed);
-            // The error goes with the energy of the fastest modes, which comes and goes: over
-            // eight starts, the ratio reached 1.47 and the drift 0.06 of the fluctuation.
+            // The error depends on the fluctuating energy of the fastest modes. In eight starts the
+            // ratio reached 1.47 and the drift 0.06 of the fluctuation.
             assert!(late < 2.0 * early, "{scheme}: {early:e} became {late:e}");
             assert!(drift.abs() < 0.15 * early, "{scheme}: {drift:e}");
         }
     }
 }
 
-/// A known limitation: at half of its limit (1.7 rad per step of the fastest mode) VEFRL's energy
-/// diffuses, by up to 3e-3 in eight starts. It must not get worse.
+/// Known limitation: at half its limit the energy of VEFRL diffuses, by up to 3e-3 in eight starts.
 #[test]
 fn vefrl_at_half_its_limit_diffuses_slowly() {
     for seed in 1..=4 {

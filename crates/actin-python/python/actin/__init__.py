@@ -1,8 +1,7 @@
 """Actin filaments at two resolutions: rigid ellipsoid monomers and Cosserat rods.
 
-Scenes: `Scene`, `equilibrium`, `run`, `sweep`, `trade`, `load`. By hand, with a scene or without: `System`. Least squares:
-`fit`, `fit_linear`. Lengths are in nm, forces in pN, times in ns; what has no unit in its name takes any that fit
-together.
+Scenes: `Scene`, `equilibrium`, `run`, `sweep`, `trade`, `load`. Step by step: `System`. Least squares: `fit`,
+`fit_linear`. Units of scenes are nm, pN and ns; `System` and fits accept any consistent units.
 """
 
 from actin._actin import Progress, Rod, Scene, System, __version__, fit, fit_linear, run, trade

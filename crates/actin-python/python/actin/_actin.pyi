@@ -1,4 +1,4 @@
-"""The native half of the package: see `actin`."""
+"""Native module of the package `actin`."""
 
 import os
 from collections.abc import Callable, Mapping, Sequence
@@ -21,121 +21,124 @@ _Scheme = Literal["position-verlet", "velocity-verlet", "pefrl", "vefrl", "fores
 
 @final
 class Scene:
-    """Filaments, what holds, loads and links them, and what is computed.
+    """Model and task: filaments, clamps, loads, linkers, and the computation.
 
-    Keys and rules are those of scene files. In dictionaries a choice with keys is a dictionary of one
-    (`{"Rod": {"from_nm": 0.0, "to_nm": 40.0}}`), one without is a string (`"Start"`). Scenes do not change: `set` and
-    `reseed` return others. Everything that reads one raises `SceneError`.
+    Keys and rules are those of scene files. In dictionaries, a choice with keys is a dictionary with one entry
+    (`{"Rod": {"from_nm": 0.0, "to_nm": 40.0}}`), and a choice without keys is a string (`"Start"`). Scenes are
+    immutable: `set` and `reseed` return new scenes. Invalid scenes raise `SceneError`.
     """
 
     def __new__(cls, **keys: Any) -> Scene:
-        """A scene from its keys: `Scene(filament={...}, clamps=[...], task={...})`."""
+        """Creates a scene from its keys: `Scene(filament={...}, clamps=[...], task={...})`."""
     @staticmethod
     def from_dict(keys: Mapping[str, Any], folder: _Path = ...) -> Scene:
-        """A scene from a dictionary; `folder` is where its files of points are."""
+        """Creates a scene from a dictionary. Paths of point files are relative to `folder`."""
     @staticmethod
     def from_ron(text: str, folder: _Path = ...) -> Scene:
-        """A scene from its text, as files have it."""
+        """Creates a scene from the text of a scene file."""
     @staticmethod
     def from_file(path: _Path) -> Scene:
-        """A scene from its file."""
+        """Reads a scene file."""
     def to_ron(self) -> str:
-        """Its text, with every default."""
+        """Returns the text of the scene, with all defaults."""
     def to_dict(self) -> Any:
-        """Its keys, with every default that is not left out."""
+        """Returns the keys of the scene, with defaults except omitted ones."""
     def set(self, key: str, value: Any) -> Scene:
-        """The scene with a value at the path of a key: `scene.set("loads[0].force_pn[0]", -1.0)`."""
+        """Returns the scene with another value of a key: `scene.set("loads[0].force_pn[0]", -1.0)`."""
     def reseed(self, seed: int) -> Scene:
-        """The scene with another seed of everything that it draws."""
+        """Returns the scene with all its seeds set."""
     def check(self) -> dict[str, Any]:
-        """What the scene resolves to and costs: `scene` (with time step), `counts`, `time_step_ns` and `steps` of a
-        motion, `cost`, `notes`, and the time on one core as measured on the first 0.2 s: `seconds_per_step` and
-        `seconds` of the whole run, `None` for an equilibrium that takes longer. Nothing is written."""
+        """Resolves the scene and estimates its cost. Writes nothing.
+
+        Keys: `scene` (with time step), `counts`, `time_step_ns` and `steps` of a motion, `cost`, `notes`, and run
+        times on one core, measured for up to 0.2 s: `seconds_per_step` and `seconds` of the whole run, which are
+        `None` for an equilibrium that takes longer.
+        """
     @property
     def title(self) -> str:
-        """What the scene shows, in words."""
+        """Title of the scene."""
     @property
     def task(self) -> Literal["Equilibrium", "Dynamics", "Brownian"]:
-        """What is computed."""
+        """Kind of computation."""
     def __eq__(self, other: object, /) -> bool: ...
     def __ne__(self, other: object, /) -> bool: ...
     def _repr_html_(self) -> str: ...
 
 @final
 class Progress:
-    """How far a run is."""
+    """Progress of a run."""
 
     @property
     def share(self) -> float:
-        """Share of the run that is done, from 0 to 1."""
+        """Completed fraction of the run, from 0 to 1."""
     @property
     def at(self) -> float:
         """Time (ns), stages of a path, or runs of a sweep."""
     @property
     def end(self) -> float:
-        """What `at` will be at the end."""
+        """Final value of `at`."""
     @property
     def unit(self) -> Literal["ns", "stages", "runs"]:
-        """What `at` counts."""
+        """Unit of `at`: `ns`, `stages` or `runs`."""
     @property
     def steps(self) -> int:
-        """Steps made."""
+        """Number of time steps made."""
     @property
     def residual_force_pn(self) -> float:
-        """Largest force on a free point."""
+        """Largest force on a free point (pN)."""
     @property
     def seconds(self) -> float:
-        """Time since the run began."""
+        """Time since the start of the run (s)."""
 
 @final
 class Rod:
-    """Where a rod is among the bodies of a `System`."""
+    """Indices of a rod's bodies in a `System`."""
 
     @property
     def points(self) -> tuple[int, int]:
-        """First point and the one behind the last."""
+        """First point, and one past the last."""
     @property
     def frames(self) -> tuple[int, int]:
-        """First frame of a segment and the one behind the last; walls are not among them."""
+        """First frame of a segment, and one past the last; frames of walls are not included."""
     @property
     def start_wall(self) -> int | None:
-        """The held frame before the first segment, if there is one."""
+        """Fixed frame before the first segment, if there is a wall."""
     @property
     def end_wall(self) -> int | None:
-        """The held frame behind the last segment, if there is one."""
+        """Fixed frame after the last segment, if there is a wall."""
     @property
     def length(self) -> float:
         """Rest length."""
 
 @final
 class System:
-    """Points, frames and interactions that are put together, moved and looked at by hand.
+    """Points, frames and interactions that are assembled and advanced step by step.
 
-    Points have places `[n, 3]` and velocities, frames have orientations `[m, 4]` (w, x, y, z; body to lab) and angular
-    momenta (body axes). Units are any that fit together; those of a scene are nm, pN and ns. Arrays are snapshots: those
-    that are got do not change with the system and are not to be written to; set a whole array to change it.
+    Points have positions `[n, 3]` and velocities; frames have orientations `[m, 4]` (w, x, y, z; body to lab)
+    and angular momenta (body frame). Any consistent units can be used; scenes use nm, pN and ns. Arrays are
+    read-only copies: assign a whole array to change the state.
     """
 
     position: _Array
-    """Places of points, `[n, 3]`; may be set."""
+    """Positions of points, `[n, 3]`, which can be set."""
     velocity: _Array
-    """Velocities of points, `[n, 3]`; may be set."""
+    """Velocities of points, `[n, 3]`, which can be set."""
     quaternion: _Array
-    """Orientations of frames, `[m, 4]`; may be set to what has unit length."""
+    """Orientations of frames, body to lab, `[m, 4]` in the order w, x, y, z. Can be set to unit quaternions."""
     angular_momentum: _Array
-    """Angular momenta of frames, body axes, `[m, 3]`; may be set."""
+    """Angular momenta of frames, body frame, `[m, 3]`, which can be set."""
 
     def __new__(cls) -> System:
-        """A system without bodies."""
+        """Creates a system without bodies."""
     @staticmethod
     def from_scene(scene: Scene) -> System:
-        """The bodies and interactions of a scene as built, with the method, time step, drag and heat of its task.
+        """Creates the system of a scene in its initial state, with the method, time step, drag and noise of its task.
 
-        In a motion, steps follow the factors of loads in time and the path of the scene. The path of equilibria is followed
-        by `set_path`.
+        In a motion, steps follow load factors over time and the path of the scene. For equilibria, `set_path` moves
+        along the path.
         """
     def add_points(self, position: ArrayLike, mass: ArrayLike) -> int:
-        """Adds points at rest, `[k, 3]`, with a mass for all or for each; returns the index of the first."""
+        """Adds points `[k, 3]` at rest, with one mass for all or one each. Returns the index of the first."""
     def add_rod(
         self,
         nodes: ArrayLike,
@@ -151,33 +154,36 @@ class System:
         rest_shape: Literal["straight", "placed"] = "straight",
         rigid_segments: bool = False,
     ) -> Rod:
-        """Adds a Cosserat rod along nodes `[k + 1, 3]`: k segments, each with a frame.
+        """Adds a Cosserat rod along nodes `[k + 1, 3]`, with k segments and a frame on each.
 
-        `shear` are the rigidities S1, S2 (shear) and S3 (stretch), forces; `bend` B1, B2 (bending) and B3 (twist), forces
-        times areas. Segments have rest `lengths`, those between the nodes by default. The first axis of each frame begins
-        near `normal` and is carried along the nodes without twist. With `rest_shape="placed"` the rod is at rest as it is
-        placed. `rigid_segments` adds the inertia of segments that turn as rigid pieces, which allows longer steps.
+        - `shear`: rigidities S1, S2 (shear) and S3 (stretch), in units of force.
+        - `bend`: rigidities B1, B2 (bending) and B3 (twist), in units of force times area.
+        - `lengths`: rest lengths of segments; by default the distances between nodes.
+        - `normal`: approximate direction of the first axis of the first frame, which is transported along the nodes
+          without twist.
+        - `rest_shape`: `"placed"` makes the given shape stress-free.
+        - `rigid_segments`: adds the rotational inertia of rigid segments, which allows longer time steps.
         """
     def add_springs(self, pairs: Sequence[Sequence[int]], stiffness: float, rest_length: float) -> None:
         """Adds springs between pairs of points."""
     def add_weight(self, acceleration: ArrayLike) -> int:
-        """Adds the weight of all points; returns the index of its factor."""
+        """Adds the weight of all points. Returns the index of its factor."""
     def add_force(self, points: Sequence[int], force: ArrayLike) -> int:
-        """Adds a force that points share and that keeps its direction; returns the index of its factor."""
+        """Adds a force of constant direction, divided equally among points. Returns the index of its factor."""
     def add_field(
         self,
         force: Callable[[_Array], ArrayLike],
         energy: Callable[[_Array], float] | None = None,
     ) -> None:
-        """Adds forces on points that a function of all places gives, `[n, 3]` to `[n, 3]`, and their energy."""
+        """Adds forces on points as a function of all positions, `[n, 3]` to `[n, 3]`, and optionally their energy."""
     def apply_force(self, force: ArrayLike) -> None:
-        """Forces on points, `[n, 3]`, beside all others until they are set again."""
+        """Sets additional forces on points, `[n, 3]`, replacing those of earlier calls."""
     def apply_torque(self, torque: ArrayLike) -> None:
-        """Torques on frames in lab axes, `[m, 3]`, beside all others until they are set again."""
+        """Sets additional torques on frames, lab frame, `[m, 3]`, replacing those of earlier calls."""
     def hold(self, points: Sequence[int] = ..., frames: Sequence[int] = ...) -> None:
-        """Holds points and frames where they are; those that are driven stop."""
+        """Fixes points and frames at their current positions and orientations, and ends their prescribed motion."""
     def release(self, points: Sequence[int] = ..., frames: Sequence[int] = ...) -> None:
-        """Lets held points and frames go, from rest."""
+        """Releases fixed points and frames, at rest."""
     def drive(
         self,
         times: ArrayLike,
@@ -189,14 +195,19 @@ class System:
         about: ArrayLike | None = None,
         slides: ArrayLike | None = None,
     ) -> None:
-        """Holds bodies and moves them as one: at each of `times`, which count from now and ascend from 0, they have a
-        `displacement` `[t, 3]` and are turned by a `rotation` vector `[t, 3]` (rad, lab axes) from where they are now,
-        about a place that moves along (that of the first point by default). Between times both change at constant rates;
-        behind the last all stands still. Along `slides` the points are not moved but slide freely as one body."""
+        """Prescribes a rigid motion of points and frames.
+
+        - `times`: times since now, ascending from 0. Between them, displacement and rotation vector are
+          interpolated linearly; after the last, the bodies are fixed.
+        - `displacement`: `[t, 3]`, relative to the current positions.
+        - `rotation`: rotation vectors `[t, 3]` (rad, lab frame), relative to the current orientations.
+        - `about`: centre of rotation, which moves with the displacement; by default the first point.
+        - `slides`: direction along which the points slide freely as one body.
+        """
     def set_path(self, u: float) -> None:
-        """Puts loads and held ends of a scene of equilibria where its path has them after `u` stages."""
+        """Sets loads and clamps to their values after `u` stages of the path, for a scene of equilibria."""
     def set_factor(self, load: int, factor: float) -> None:
-        """Sets the factor of a load: by its index in the scene, or as it was returned."""
+        """Sets the factor of a load, by its index in the scene or as returned when it was added."""
     def step(
         self,
         number: int = 1,
@@ -207,41 +218,48 @@ class System:
         thermal_energy: float | None = None,
         seed: int | None = None,
     ) -> None:
-        """Makes steps in time of length `h`, by default half the longest stable one.
+        """Makes time steps of length `h`, by default half the longest stable time step.
 
-        `drag` are the rates at which velocities and angular momenta decay, `thermal_energy` (k T) makes noise to go with
-        them, with a `seed` of 1 by default. What is set stays for later steps. The default length is estimated again when
-        bodies, terms or clamps have been added and when `scheme` changes. `step(a)` and `step(b)` together equal
-        `step(a + b)` to the bit. Raises `RunFailed` where numbers explode; the system then is where it last was sound,
-        which `steps` and `time` tell. Ctrl-C ends the steps.
+        - `scheme`: splitting method.
+        - `drag`: damping rates of velocities and of angular momenta.
+        - `thermal_energy`: k T of the noise that balances the drag; `seed` is 1 by default.
+
+        Settings are kept for later calls. The default `h` is estimated again after bodies, terms or clamps have
+        been added and after `scheme` has changed. `step(a)` and `step(b)` together equal `step(a + b)` bitwise.
+        Ctrl-C ends the steps.
+
+        Raises `RunFailed` if the motion diverges. The system then is in the last valid state, at `steps` and
+        `time`.
         """
     def stable_step(self, scheme: _Scheme | None = None, safety: float = ...) -> float:
-        """The longest stable time step of a method at the present stiffness, times `safety`."""
+        """Returns the longest stable time step of a method at the current stiffness, times `safety`."""
     def equilibrium(
         self, *, force: float = 1e-8, torque: float = 1e-8, iterations: int = 2000, turn_length: float = 1.0
     ) -> Certificate:
-        """Moves the system to a stable equilibrium near it, at rest, by Newton's method.
+        """Moves the system to a nearby stable equilibrium by Newton's method, and sets velocities to zero.
 
-        `force` and `torque` are the largest loads left on free bodies; a turn of 1 rad counts as a displacement by
-        `turn_length`. A scene that asks for an equilibrium has its own settings. Raises `RunFailed`.
+        - `force`, `torque`: tolerances of the residual on free bodies.
+        - `turn_length`: displacement that counts as much as a rotation of 1 rad.
+
+        A scene with the task `Equilibrium` uses its own settings. Raises `RunFailed`.
         """
     def loads(self) -> tuple[_Array, _Array]:
-        """Forces on points (lab axes) and torques on frames (body axes) of all terms."""
+        """Returns the total forces on points (lab frame) and torques on frames (body frame)."""
     def energies(self) -> dict[str, float]:
-        """Potential energies by term."""
+        """Returns the potential energy of each term."""
     def curvature(self, rod: Rod) -> _Array:
-        """Curvature of a rod at its joints, body axes, `[joints, 3]`: two of bending, one of twist."""
+        """Returns the curvature of a rod at its joints, body frame, `[joints, 3]`: two of bending, one of twist."""
     def strain(self, rod: Rod) -> _Array:
-        """Shear and stretch of a rod's segments, body axes, `[segments, 3]`: two of shear, one of stretch."""
+        """Returns the strain of a rod's segments, body frame, `[segments, 3]`: two of shear, one of stretch."""
     @property
     def mass(self) -> _Array:
         """Masses of points, `[n]`."""
     @property
     def free_points(self) -> list[bool]:
-        """Whether each point is free."""
+        """True for each free point."""
     @property
     def free_frames(self) -> list[bool]:
-        """Whether each frame is free."""
+        """True for each free frame."""
     @property
     def kinetic_energy(self) -> float:
         """Kinetic energy of the free bodies."""
@@ -250,10 +268,10 @@ class System:
         """Potential energy of all terms."""
     @property
     def time(self) -> float:
-        """Time that steps have taken."""
+        """Simulated time."""
     @property
     def steps(self) -> int:
-        """Steps made."""
+        """Number of time steps made."""
 
 def run(
     scene: Scene,
@@ -264,12 +282,15 @@ def run(
     checkpoint_every_s: float = 60.0,
     progress: Callable[[Progress], object] | bool | None = None,
 ) -> Run:
-    """Runs a scene: in memory, or into the run directory `out`.
+    """Runs a scene in memory, or in the run directory `out`.
 
-    `overwrite` replaces an earlier run there, `resume` continues one that was interrupted, to the same bits. `progress`
-    shows a bar (`True`, and by default on a terminal), nothing (`False`), or calls a function with a `Progress`.
+    - `overwrite`: replaces an earlier run.
+    - `resume`: continues an interrupted run, with bitwise identical results.
+    - `progress`: `True` shows a bar (the default on a terminal), `False` shows nothing; a function is called
+      with a `Progress`.
 
-    Raises `SceneError`; `RunFailed`, and on Ctrl-C `Interrupted`, with what was recorded; `OSError` for the directory.
+    Raises `SceneError`; `OSError` for the directory; `RunFailed`, and on Ctrl-C `Interrupted`, with the results
+    so far.
     """
 
 def trade(
@@ -282,15 +303,19 @@ def trade(
     all: bool = False,
     progress: Callable[[str], object] | bool | None = None,
 ) -> Trade:
-    """Runs a scene with every monomer and in cheaper ways: errors and times of each, and the cheapest scene within an error.
+    """Compares the error and run time of cheaper models of a scene with the all-monomer model.
 
-    `quantities` are `tip`, `height`, `end-force`, `end-couple`, `energy`, `curvature`, `linker-force`, or beginnings of
-    names of observables; by default the observables of the scene and its tips. `error` is the largest relative error
-    that is accepted. Candidates within it also run at the shares `loads` of the loads. No run takes longer than
-    `budget_s`. `all` adds finer meshes and other laws. `progress` prints the name of each run (`True`, and by default
-    on a terminal), nothing (`False`), or calls a function with the name.
+    - `quantities`: `tip`, `height`, `end-force`, `end-couple`, `energy`, `curvature`, `linker-force`, or
+      prefixes of observables; by default the observables of the scene and its tips.
+    - `error`: largest accepted relative error.
+    - `loads`: load fractions at which candidates within the error are run again.
+    - `budget_s`: longest time of one run (s).
+    - `all`: adds finer meshes and other laws.
+    - `progress`: `True` prints the name of each run (the default on a terminal), `False` prints nothing; a
+      function is called with the name.
 
-    Raises `SceneError`, `RunFailed` if the reference has no result, and on Ctrl-C `Interrupted` with the `trade` so far.
+    Raises `SceneError`; `RunFailed` if the reference has no result; on Ctrl-C `Interrupted` with the `trade` so
+    far.
     """
 
 def carry_out(
@@ -304,7 +329,7 @@ def carry_out(
     resume: bool,
     progress: Callable[[Progress], object] | bool | None,
 ) -> tuple[int, int]:
-    """Makes the runs of a sweep in a directory; returns how many there are and how many failed."""
+    """Makes the runs of a sweep in a directory. Returns the numbers of runs and of failed runs."""
 
 def fit(
     function: Callable[[Any, _Array], ArrayLike],
@@ -318,12 +343,16 @@ def fit(
     drawn: int = 0,
     seed: int = 1,
 ) -> Fit:
-    """Fits `function(x, p)`, an array like `y`, by Levenberg and Marquardt's method within `bounds`.
+    """Fits `function(x, p)`, an array with the shape of `y`, by the Levenberg-Marquardt method.
 
-    The search begins at `start`, and at `drawn` more points between the bounds (8 where there is no start). `jacobian(x, p)`
-    is `[points, parameters]`; differences by default. `deviations` are standard deviations of `y`, one or one each.
-    Raises `ValueError` for data that make no sense, `ArithmeticError` where no search converges.
+    - `start`: initial parameters.
+    - `bounds`: lower and upper bounds of each parameter.
+    - `drawn`: number of random starts between the bounds in addition to `start` (8 without `start`).
+    - `jacobian`: `jacobian(x, p)`, `[points, parameters]`; by default finite differences.
+    - `deviations`: standard deviations of `y`, one or one each.
+
+    Raises `ValueError` for invalid data, `ArithmeticError` if no search converges.
     """
 
 def fit_linear(design: ArrayLike, y: ArrayLike, *, deviations: ArrayLike | None = None) -> Fit:
-    """Fits a sum of the columns of `design`, `[points, parameters]`, by QR."""
+    """Fits a linear combination of the columns of `design`, `[points, parameters]`, by QR decomposition."""

@@ -1,4 +1,4 @@
-"""`equilibrium`: a scene to its state at rest."""
+"""Equilibria of scenes."""
 
 from __future__ import annotations
 
@@ -15,12 +15,12 @@ def equilibrium(
     progress: Callable[[Progress], object] | bool | None = None,
     **settings: Any,
 ) -> Equilibrium:
-    """The equilibrium of a scene, along its path if it has one, with what its stiffness says of it.
+    """Finds the equilibrium of a scene, along its path if it has one, and certifies its stability.
 
-    `settings` are keys of the task `Equilibrium` (`force_pn`, `lowest_eigenvalue`, `states`, ...), which replace those
-    of the scene. A scene that asks for a motion is solved for its equilibrium instead.
+    `settings` are keys of the task `Equilibrium` (`force_pn`, `lowest_eigenvalue`, `states`, ...), which override those
+    of the scene. The task of a motion is replaced by an equilibrium.
 
-    Raises `SceneError`, and `RunFailed` where no equilibrium is found or only a saddle.
+    Raises `SceneError`, and `RunFailed` if no stable equilibrium is found.
     """
     if scene.task != "Equilibrium":
         scene = scene.set("task", {"Equilibrium": {}})

@@ -1,4 +1,4 @@
-"""What notebooks show of scenes and runs."""
+"""HTML representations for notebooks."""
 
 from __future__ import annotations
 
@@ -7,11 +7,11 @@ from html import escape
 
 
 def of_scene(title: str, ron: str) -> str:
-    """A scene: what it is, and its text with every default behind a click."""
+    """Title of a scene, and its collapsed text."""
     return f"<details><summary><code>{escape(title)}</code></summary><pre>{escape(ron)}</pre></details>"
 
 
 def table(caption: str, rows: Iterable[tuple[str, str]]) -> str:
-    """Names and values below a caption."""
+    """Table of names and values."""
     cells = (f"<tr><th style='text-align:left'>{escape(name)}</th><td>{escape(value)}</td></tr>" for name, value in rows)
     return f"<table><caption>{escape(caption)}</caption>{''.join(cells)}</table>"

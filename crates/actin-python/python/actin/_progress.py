@@ -1,4 +1,4 @@
-"""What shows how far a run is: a bar on a terminal, nothing elsewhere, or a function of the caller."""
+"""Progress bar on a terminal."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ WIDTH = 32
 
 
 class Bar:
-    """A line on standard error that is written again and again."""
+    """A line on standard error that is rewritten with each update."""
 
     def __init__(self) -> None:
         self.shown = 0
@@ -26,7 +26,7 @@ class Bar:
 
     @staticmethod
     def line(progress: Progress) -> str:
-        """Bar, numbers and remaining time."""
+        """Formats bar, numbers and remaining time."""
         full = int(WIDTH * progress.share)
         left = progress.seconds * (1.0 - progress.share) / progress.share if progress.share > 0.0 else 0.0
         numbers = f"{progress.at:.2f} of {progress.end:.0f} {progress.unit}"
@@ -36,7 +36,7 @@ class Bar:
         return f"{'█' * full}{'░' * (WIDTH - full)} {100.0 * progress.share:3.0f} %  {numbers}  remaining {left:.0f} s"
 
     def finish(self) -> None:
-        """Takes the line away."""
+        """Removes the line."""
         if self.shown:
             sys.stderr.write("\r" + " " * self.shown + "\r")
             sys.stderr.flush()
@@ -44,7 +44,7 @@ class Bar:
 
 
 def callback(progress: Callable[[Any], object] | bool | None) -> Callable[[Any], object] | None:
-    """What is told: the bar for `True`, and for `None` where standard error is a terminal."""
+    """Returns the progress callback: a bar for `True`, and for `None` if standard error is a terminal."""
     if progress is None:
         progress = sys.stderr is not None and sys.stderr.isatty()
     if progress is True:
@@ -57,6 +57,6 @@ def callback(progress: Callable[[Any], object] | bool | None) -> Callable[[Any],
 
 
 def finish(progress: object) -> None:
-    """Takes a bar away; other functions are let alone."""
+    """Removes a bar; ignores other callbacks."""
     if isinstance(progress, Bar):
         progress.finish()

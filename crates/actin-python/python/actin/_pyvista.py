@@ -1,4 +1,4 @@
-"""A record as a picture in space for PyVista."""
+"""Conversion of records to PyVista."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 
 def rotations(quaternion: np.ndarray) -> np.ndarray:
-    """Matrices `[m, 3, 3]`, body to lab, of quaternions `[m, 4]`."""
+    """Converts quaternions `[m, 4]` (w, x, y, z) to rotation matrices `[m, 3, 3]`, body to lab."""
     w, x, y, z = np.moveaxis(quaternion, -1, 0)
     rows = [
         [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
@@ -24,7 +24,7 @@ def rotations(quaternion: np.ndarray) -> np.ndarray:
 
 
 def of_record(run: Run, record: int) -> pyvista.MultiBlock:
-    """Lines through the nodes of rods, and an ellipsoid for each monomer."""
+    """Returns lines through the nodes of rods, and an ellipsoid for each monomer."""
     import pyvista
 
     blocks = pyvista.MultiBlock()
@@ -32,7 +32,7 @@ def of_record(run: Run, record: int) -> pyvista.MultiBlock:
     kinds = np.array(run.kind_names)[run.kind]
     nodes = np.flatnonzero(kinds == "node")
     if len(nodes):
-        # A line ends where the next point is of another filament, or no neighbour.
+        # A line ends before a point of another filament or a point that is not adjacent.
         breaks = (np.diff(nodes) > 1) | (np.diff(run.filament[nodes]) != 0)
         parts = np.split(np.arange(len(nodes)), np.flatnonzero(breaks) + 1)
         rod = pyvista.PolyData(position[nodes], lines=np.concatenate([[len(part), *part] for part in parts]))

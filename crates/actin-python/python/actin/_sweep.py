@@ -1,4 +1,4 @@
-"""`sweep`: a scene for many values of its keys and many seeds, on all cores, into one table."""
+"""Sweeps of scenes over values and seeds."""
 
 from __future__ import annotations
 
@@ -18,12 +18,12 @@ from actin._actin import Progress, Scene, carry_out
 
 
 class Sweep:
-    """The runs of a sweep: columns by their names."""
+    """Results of a sweep, as columns by name."""
 
     columns: dict[str, NDArray[Any]]
-    """One row for each run: what was varied, the seed, the status, the results. NaN where a run failed."""
+    """One row for each run: varied values, seed, status, results. Results of failed runs are NaN."""
     failed: int
-    """Runs that failed; their rows say why."""
+    """Number of failed runs."""
 
     def __init__(self, columns: dict[str, NDArray[Any]], failed: int) -> None:
         self.columns = columns
@@ -45,7 +45,7 @@ class Sweep:
 
 
 def ron(value: object) -> str:
-    """A value as a scene writes it: numbers, truth values, lists `[...]`, tuples `(...)`; a text is RON as it is."""
+    """Converts a value to RON: numbers, Booleans, lists `[...]`, tuples `(...)`; a string is RON text."""
     if isinstance(value, str):
         return value
     if isinstance(value, (bool, np.bool_)):
@@ -59,7 +59,7 @@ def ron(value: object) -> str:
         return "(" + ", ".join(ron(each) for each in value) + ")"
     if isinstance(value, (list, np.ndarray)):
         return "[" + ", ".join(ron(each) for each in value) + "]"
-    raise TypeError(f"a sweep varies numbers, texts, lists and tuples, not {value!r}")
+    raise TypeError(f"a sweep varies numbers, strings, lists and tuples, not {value!r}")
 
 
 def _axis(keys: str | tuple[str, ...], values: Iterable[object]) -> tuple[list[str], list[list[str]]]:
@@ -80,14 +80,16 @@ def sweep(
     resume: bool = False,
     progress: Callable[[Progress], object] | bool | None = None,
 ) -> Sweep:
-    """Runs a scene for all combinations of values, and for several seeds each.
+    """Runs a scene for all combinations of values, with several seeds each, on all cores.
 
-    `vary` gives values for paths of keys (`"loads[0].force_pn[0]": [...]`); a tuple of keys changes them together, with
-    a tuple of values each. `results` are numbers of `summary.json` as paths (`"tip_displacement_nm[0]"`). With `samples`
-    each point is run as often, with seeds from `first_seed` on. Each run has one of `jobs` threads, as many as there are
-    cores by default. Runs stay in the directory `out` if one is named; `resume` continues there.
+    - `vary`: values of keys, such as `{"loads[0].force_pn[0]": [...]}`. A tuple of keys is varied together, with a tuple
+      for each set of values.
+    - `results`: numbers of `summary.json`, as paths such as `"tip_displacement_nm[0]"`.
+    - `samples`: number of runs of each point, with seeds `first_seed`, `first_seed + 1`, ...
+    - `out`: sweep directory, which is kept; `resume` continues an earlier sweep in it.
+    - `jobs`: number of simultaneous runs, each with one thread; by default the number of cores.
 
-    A run that fails is no error: its row says why. Raises `SceneError` for keys, values and results that cannot be.
+    A failed run is a row with the reason, not an error. Raises `SceneError` for invalid keys, values and results.
     """
     axes = [_axis(keys, values) for keys, values in vary.items()]
     if out is None:
@@ -114,7 +116,7 @@ def _make(
 
 
 def _column(values: list[str]) -> NDArray[Any]:
-    """Numbers where all are, or are missing; texts elsewhere."""
+    """Converts a column to numbers if possible; missing values become NaN."""
     try:
         return np.array([float(value) if value else np.nan for value in values])
     except ValueError:

@@ -1,4 +1,4 @@
-"""`Trade`: errors and times of a scene at many resolutions and steps."""
+"""Error and run time of models of a scene."""
 
 from __future__ import annotations
 
@@ -26,34 +26,37 @@ _KINDS: dict[str, Callable[[str], Any]] = {
 
 
 class Trade:
-    """Candidates, each run and timed, and their errors against the reference. `n` candidates.
+    """Models of a scene with their run times and their errors relative to the reference. `n` candidates.
 
     `print(trade)` shows the table of `actin trade`.
     """
 
     table: dict[str, NDArray[Any]]
-    """Columns by their names, `[n]` each, in the order of the runs: `candidate` (name), `monomers`, `segments`, `wall_s`
-    (time, s), `faster` (time of every monomer at the default step over `wall_s`), `NAME error` of each compared item,
-    `error` (the largest), `error_at_all_loads`, `is_best`, `failure` (empty if there is a result). Errors are relative: 0.01
-    is 1 %; NaN if unknown."""
+    """Columns by name, `[n]` each, in the order of the runs.
+
+    - `candidate` (name), `monomers`, `segments`, `wall_s` (run time, s);
+    - `faster`: run time of the all-monomer model with the default step over `wall_s`;
+    - `NAME error` of each compared item, `error` (the largest), `error_at_all_loads`: relative, NaN if unknown;
+    - `is_best`, `failure` (empty if there is a result).
+    """
     units: dict[str, str]
     """Unit of each compared item."""
     scenes: list[Scene]
     """Scene of each candidate, `[n]`."""
     best: Scene
-    """Fastest scene within the wanted error; the scene of the reference if no candidate meets it in less time."""
+    """Fastest scene within the target error; the reference if no faster candidate meets it."""
     best_name: str
     """Name of that candidate, or of the reference."""
     reference: dict[str, Any]
     """`name`, `scene`, `monomers`, `segments`, `wall_s` (s), `own_errors` (relative, of each item; `None` if unknown),
-    `share` (fraction of the records within the budget), `is_settled` (whether `own_errors` are at most a third of
+    `share` (fraction of the records within the budget), `is_settled` (true if `own_errors` are at most a third of
     `wanted_error`)."""
     left_out: list[str]
     """Quantities and parts of the scene that are not compared, with reasons."""
     scatter: dict[str, float | None] | None
-    """Root mean square error of filaments with 64 sampled bonds, of each item; `None` if they did not run."""
+    """Root mean square error of filaments with 64 sampled bonds, of each item; `None` if not computed."""
     wanted_error: float
-    """Largest relative error that is accepted."""
+    """Largest accepted relative error."""
 
     def __init__(
         self,
@@ -95,10 +98,10 @@ class Trade:
         return self._csv
 
     def plot(self, ax: Axes | None = None) -> Axes:
-        """Draws error against time, both logarithmic, with the wanted error as a line; returns the axes.
+        """Plots error versus run time, both logarithmic, with the target error as a line. Returns the axes.
 
-        Errors are those at all loads. Numbers at the points refer to the legend. Candidates with an error of 0 or without
-        a result are left out. Raises `ImportError` without matplotlib.
+        Errors are those at all loads. Points are numbered as in the legend. Candidates with zero error or without a result
+        are not shown. Raises `ImportError` without matplotlib.
         """
         if ax is None:
             try:

@@ -1,7 +1,7 @@
-"""The adapter of this package for cosseratbench, the benchmark of rod solvers: found by it where both are installed.
+"""Solver adapter for cosseratbench, a benchmark of rod solvers, which finds it when both packages are installed.
 
-Rods are those of `System`, in SI units. What is asked for at rest, with ends that do not move, is solved by Newton's
-method: the first frame is the start, all others are the equilibrium. All else is moved by PEFRL.
+Rods are those of `System`, in SI units. Quasi-static scenarios with fixed ends are solved by Newton's method: the first
+frame is the initial state, and all other frames are the equilibrium. Other scenarios are integrated by PEFRL.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from actin import Rod as Placed
 from actin._pyvista import rotations
 
 SHEAR_COEFFICIENT = 27.0 / 28.0
-"""Timoshenko's coefficient of a circular section, as the benchmark's other rods with shear have it."""
+"""Timoshenko's shear coefficient of a circular cross-section, as in other solvers of the benchmark."""
 
 CLAMPS: dict[EndCondition, Literal["Pin", "Wall"] | None] = {
     EndCondition.FREE: None,
@@ -28,7 +28,7 @@ CLAMPS: dict[EndCondition, Literal["Pin", "Wall"] | None] = {
 }
 
 RESIDUAL = 1e-9
-"""Forces left at rest, over all loads; torques over these times the length."""
+"""Tolerance of the residual force relative to the total load; residual torques are multiplied by the length."""
 
 
 class ActinSolver:
@@ -39,11 +39,11 @@ class ActinSolver:
     capabilities = frozenset({Capability.STRETCH, Capability.SHEAR})
 
     def __init__(self, time_step_scale: float = 1.0) -> None:
-        # Half the stability limit, times any scale asked for.
+        # Half the stability limit times the given scale.
         self.safety = 0.5 * time_step_scale
 
     def settings(self, scenario: Scenario, *, n_elements: int, n_frames: int) -> dict[str, object]:
-        """The numerical choices of a run."""
+        """Returns the numerical settings of a run."""
         if _is_static(scenario):
             return {"method": "Newton", "residual": RESIDUAL}
         system, _ = _build(scenario, n_elements)
@@ -51,7 +51,7 @@ class ActinSolver:
         return {"method": "PEFRL (explicit, order 4)", "time_step": step, "damping_rate": _damping(scenario)}
 
     def run(self, scenario: Scenario, *, n_elements: int, n_frames: int) -> Trajectory:
-        """The trajectory of a scenario."""
+        """Returns the trajectory of a scenario."""
         system, rods = _build(scenario, n_elements)
         times = np.linspace(0.0, scenario.duration, n_frames)
         if _is_static(scenario):
@@ -62,7 +62,7 @@ class ActinSolver:
         return Trajectory(times, positions, directors)
 
     def _steps(self, system: System, scenario: Scenario, n_frames: int) -> tuple[float, int]:
-        """The time step, and how many of them make up a frame."""
+        """Returns the time step and the number of steps per frame."""
         interval = scenario.duration / (n_frames - 1)
         steps = math.ceil(interval / system.stable_step("pefrl", self.safety))
         return interval / steps, steps
@@ -94,18 +94,18 @@ _Shape = tuple[np.ndarray, np.ndarray]
 
 
 def _is_static(scenario: Scenario) -> bool:
-    """Whether only the state at rest is asked for. Ends that are moved pass through states which count."""
+    """Returns whether Newton's method applies. Moving ends pass through intermediate states, which are part of the result."""
     is_moved = any(rod.motion(end) is not None for rod in scenario.rods for end in End)
     return scenario.quasi_static and not is_moved
 
 
 def _damping(scenario: Scenario) -> float:
-    """Critical for the slowest mode where dissipation is allowed, as the benchmark's other solvers have it."""
+    """Returns critical damping of the slowest mode for quasi-static scenarios, as in other solvers of the benchmark."""
     return 2.0 * scenario.slowest_frequency() if scenario.quasi_static else 0.0
 
 
 def _loads(scenario: Scenario) -> float:
-    """The size of all loads."""
+    """Returns the sum of the magnitudes of all loads."""
     gravity = float(np.linalg.norm(scenario.gravity))
     weights = (rod.material.density * rod.area * rod.length * gravity for rod in scenario.rods)
     ends = (float(np.linalg.norm(load.force)) for rod in scenario.rods for load in rod.loads)
@@ -126,7 +126,7 @@ def _build(scenario: Scenario, n_elements: int) -> tuple[System, list[Placed]]:
 
 
 def _add(system: System, rod: Rod, n_elements: int) -> Placed:
-    """A rod with its sections' own inertia."""
+    """Adds a rod with the inertia of its cross-sections."""
     material, area, second = rod.material, rod.area, rod.second_moment_of_area
     shear = SHEAR_COEFFICIENT * material.shear_modulus * area
     bend = material.youngs_modulus * second
@@ -149,7 +149,7 @@ def _end_point(placed: Placed, end: End) -> int:
 
 
 def _drive(system: System, rod: Rod, placed: Placed, end: End) -> None:
-    """Moves an end as its motion prescribes."""
+    """Prescribes the motion of an end."""
     motion = rod.motion(end)
     if motion is None:
         return
@@ -166,7 +166,7 @@ def _drive(system: System, rod: Rod, placed: Placed, end: End) -> None:
 
 
 def _shapes(system: System, rods: list[Placed]) -> list[_Shape]:
-    """Nodes and first directors of each rod."""
+    """Returns nodes and first directors of each rod."""
     position, d1 = system.position, rotations(system.quaternion)[:, :, 0]
     return [(position[slice(*rod.points)], d1[slice(*rod.frames)]) for rod in rods]
 

@@ -1,4 +1,4 @@
-"""The exceptions of the package, with attributes that say what they are about."""
+"""Exceptions of the package."""
 
 from __future__ import annotations
 
@@ -10,51 +10,51 @@ if TYPE_CHECKING:
 
 
 class RunWarning(UserWarning):
-    """A warning on the results of a run, with its code at the end: `... [law-range]`."""
+    """A warning about the results of a run; the text ends with its code: `... [law-range]`."""
 
 
 class ActinError(Exception):
-    """Any error of this package that has no closer class in Python."""
+    """Base class of errors of this package."""
 
 
 class SceneError(ActinError, ValueError):
-    """A scene that cannot be read, or whose values break a rule."""
+    """The scene cannot be read, or a value violates a rule."""
 
     key: str = ""
     """Path of the key, as in `filament.sections[1].to_nm`."""
     value: str = ""
-    """The value as read; empty where it is a structure or is missing."""
+    """Value of the key; empty for a structure or a missing value."""
     rule: str = ""
-    """What is wrong, or what the value has to satisfy."""
+    """Violated rule."""
     line: int | None = None
-    """Line in the text of the scene, from 1; none of a scene that was no text."""
+    """Line in the text of the scene, from 1; `None` without text."""
     column: int | None = None
     """Column in characters, from 1."""
     meant: str | None = None
-    """The key or choice that was probably meant."""
+    """Suggested key or choice."""
     mistakes: list[SceneError] = []
-    """Every mistake of a text, this one first; empty of a scene that was no text."""
+    """All mistakes of a text, in order; empty without text."""
 
 
 class RunFailed(ActinError, ArithmeticError):
-    """A run or a solve that broke, or whose result is none. `run` has what was recorded before."""
+    """A run or solve failed."""
 
     run: Run | None = None
-    """All records up to the last good one; none where there are none."""
+    """Records before the failure; `None` without records."""
     step: int | None = None
-    """The step of a motion at which it was found, or the number of Newton's steps."""
+    """Time step at which the failure was found, or number of Newton iterations."""
     time_ns: float | None = None
-    """The time of that step."""
+    """Time of that step."""
     body: str | None = None
-    """The body where it went wrong."""
+    """Body at which the failure occurred."""
     term: str | None = None
-    """The term of the model that acts on it most strongly."""
+    """Force term that acts most strongly on that body."""
 
 
 class Interrupted(KeyboardInterrupt):
-    """Ctrl-C in a run or a trade. `run` has what was recorded; a run directory has a checkpoint."""
+    """Ctrl-C during a run or a trade. A run directory contains a checkpoint."""
 
     run: Run | None = None
-    """All records so far; none where there are none."""
+    """Records so far; `None` without records."""
     trade: Trade | None = None
-    """Candidates of a trade so far; `None` if the reference had not ended."""
+    """Results of a trade so far; `None` before the reference has ended."""

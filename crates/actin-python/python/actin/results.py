@@ -1,6 +1,6 @@
-"""What runs, solves and fits give: numbers and arrays.
+"""Results of runs, equilibria and fits.
 
-Arrays are not to be written to; they are the buffers that were filled, and every access gives the same one.
+Arrays are read-only and are not copied on access.
 """
 
 from __future__ import annotations
@@ -33,29 +33,29 @@ Indices = NDArray[np.int64]
 
 @dataclass(frozen=True)
 class Certificate:
-    """What the eigenvalues of the stiffness say of an equilibrium."""
+    """Stability of an equilibrium, from the eigenvalues of its stiffness matrix."""
 
     negative_eigenvalues: int
-    """More than none is a saddle."""
+    """Number of negative eigenvalues; an equilibrium with any is a saddle."""
     unresolved_eigenvalues: int
-    """Number of neutral modes, which cannot be distinguished from zero: floppy modes and rigid motions."""
+    """Number of neutral modes (zero-stiffness modes and rigid motions), whose eigenvalues are zero within `resolution`."""
     resolution: float
-    """Below this magnitude eigenvalues cannot be told from zero (pN/nm)."""
+    """Smallest magnitude at which an eigenvalue is distinguishable from zero (pN/nm)."""
     residual_force: float
-    """Largest force left on a free point."""
+    """Largest residual force on a free point."""
     residual_torque: float
-    """Largest torque left on a free frame."""
+    """Largest residual torque on a free frame."""
     iterations: int
-    """Newton's steps."""
+    """Number of Newton iterations."""
 
     @property
     def stable(self) -> bool:
-        """Whether all eigenvalues are positive beyond doubt: a minimum of the energy."""
+        """True if all eigenvalues are positive: a minimum of the energy."""
         return self.negative_eigenvalues == 0 and self.unresolved_eigenvalues == 0
 
     @property
     def words(self) -> str:
-        """"stable", "stable up to 1 neutral mode", or how many negative eigenvalues a saddle has."""
+        """Description: stable, stable up to neutral modes, or a saddle."""
         negative, neutral = self.negative_eigenvalues, self.unresolved_eigenvalues
         if negative > 0:
             return f"a saddle with {negative} negative eigenvalue{'s' if negative > 1 else ''}"
@@ -64,22 +64,22 @@ class Certificate:
 
 @dataclass(frozen=True)
 class Fit:
-    """A fit by least squares."""
+    """Result of a least-squares fit."""
 
     parameters: Array
     errors: Array
-    """Standard errors; NaN where the data do not determine a parameter."""
+    """Standard errors; NaN for parameters that are not determined by the data."""
     covariance: Array
     residuals: Array
-    """Observations less model."""
+    """Observations minus model."""
     statuses: list[str]
-    """Of each parameter: `Determined`, `Weak`, `Undetermined`, `AtLowerBound`, `AtUpperBound`, `Held`."""
+    """Status of each parameter: `Determined`, `Weak`, `Undetermined`, `AtLowerBound`, `AtUpperBound`, `Held`."""
     chi_squared: float
     degrees_of_freedom: int
     condition: float
-    """By how much relative errors of data can grow."""
+    """Condition number: largest amplification of relative errors of the data."""
     agreeing_starts: int
-    """Starts that led to the same minimum."""
+    """Number of starts that converged to the same minimum."""
     starts: int
 
     def _repr_html_(self) -> str:
@@ -90,12 +90,12 @@ class Fit:
 
 
 class Run:
-    """A run in numbers: arrays over its records, and its summary. `T` records, `n` points, `m` frames."""
+    """Results of a run: arrays over `T` records, `n` points and `m` frames, and a summary."""
 
     scene: Scene
-    """The scene as it ran, with every default."""
+    """Resolved scene, with all defaults."""
     summary: dict[str, Any]
-    """The keys of `summary.json`."""
+    """Contents of `summary.json`."""
 
     def __init__(
         self, *, scene: Scene, summary: dict[str, Any], arrays: dict[str, Array], bodies: dict[str, Any]
@@ -112,7 +112,7 @@ class Run:
 
     @property
     def certificate(self) -> Certificate | None:
-        """What the stiffness says of the last record; none of one that is no equilibrium."""
+        """Stability of the last record; `None` if it is not an equilibrium."""
         found = self.summary["stability"]
         if found is None:
             return None
@@ -127,36 +127,36 @@ class Run:
 
     @property
     def notes(self) -> list[str]:
-        """Texts of all notes on the scene and the run, warnings included."""
+        """All notes on the scene and the run, including warnings."""
         return self.summary["notes"]
 
     @property
     def warnings(self) -> list[dict[str, str]]:
-        """Warnings on the scene and the run: `code` and `message` of each."""
+        """Warnings about the scene and the run: `code` and `message` of each."""
         return self.summary.get("warnings", [])
 
     @property
     def time_ns(self) -> Array:
-        """Time of each record, `[T]`; only of a motion."""
+        """Time of each record, `[T]`. Not available for equilibria."""
         if self.scene.task == "Equilibrium":
             raise AttributeError("an equilibrium has no time: its records are in path")
         return self._arrays["at"]
 
     @property
     def path(self) -> Array:
-        """Stages of the path that each record has passed, `[T]`; only of equilibria."""
+        """Path parameter of each record in stages, `[T]`. Not available for motions."""
         if self.scene.task != "Equilibrium":
             raise AttributeError("a motion has no path: its records are in time_ns")
         return self._arrays["at"]
 
     @property
     def position_nm(self) -> Array:
-        """Places of points, `[T, n, 3]`, lab frame."""
+        """Positions of points, `[T, n, 3]`, lab frame."""
         return self._arrays["position_nm"]
 
     @property
     def centre_line_nm(self) -> Array:
-        """Points brought to the axis, `[T, n, 3]`: nodes of rods as they are, monomers moved inward."""
+        """Centre line, `[T, n, 3]`: nodes of rods, and centres of monomers moved to the filament axis."""
         return self._arrays["centre_line_nm"]
 
     @property
@@ -166,12 +166,12 @@ class Run:
 
     @property
     def quaternion(self) -> Array:
-        """Orientations of frames, `[T, m, 4]`: w, x, y, z; body to lab."""
+        """Orientations of frames, `[T, m, 4]` (w, x, y, z; body to lab)."""
         return self._arrays["quaternion"]
 
     @property
     def angular_momentum(self) -> Array:
-        """Angular momenta of frames, `[T, m, 3]`, body axes (pN nm ns)."""
+        """Angular momenta of frames, `[T, m, 3]`, body frame (pN nm ns)."""
         return self._arrays["angular_momentum"]
 
     @property
@@ -186,7 +186,7 @@ class Run:
 
     @property
     def kind_names(self) -> list[str]:
-        """What numbers of kinds stand for."""
+        """Names of the kinds of points."""
         return self._bodies["kind_names"]
 
     @property
@@ -226,7 +226,7 @@ class Run:
 
     @cached_property
     def energies_pn_nm(self) -> dict[str, Array]:
-        """Energy of each kind of term over the records, `[T]` each."""
+        """Energy of each term, `[T]` each."""
         all_of: dict[str, Array] = {}
         for k, name in enumerate(self._bodies["terms"]):
             energy = self._arrays["energies"][:, k]
@@ -235,16 +235,16 @@ class Run:
 
     @property
     def observables(self) -> dict[str, Array]:
-        """What the scene observes, `[T]` each; NaN where there is nothing yet."""
+        """Observables of the scene, `[T]` each; NaN before the first value."""
         return {name: self._arrays["observed"][:, k] for k, name in enumerate(self._bodies["columns"])}
 
     @property
     def tip_nm(self) -> Array:
-        """Place of the tip of filament 0 in the last record."""
+        """Position of the tip of filament 0 in the last record."""
         return np.array(self.summary["tip_nm"])
 
     def to_pyvista(self, record: int = -1) -> pyvista.MultiBlock:
-        """A record for PyVista: `rod` (lines through nodes) and `monomers` (ellipsoids), as far as there are any."""
+        """Converts a record to PyVista blocks: `rod` (lines through nodes) and `monomers` (ellipsoids), if present."""
         from actin._pyvista import of_record
 
         return of_record(self, record)
@@ -268,12 +268,12 @@ def _vector(v: list[float]) -> str:
 
 
 def _rows(run: Run) -> list[tuple[str, str]]:
-    """What is shown of a run."""
+    """Rows of the HTML representation."""
     summary, energy = run.summary, run.summary["energy_pn_nm"]
     rows = [
         ("scene", summary["scene"] or "untitled"),
         ("tip displacement", f"{_vector(summary['tip_displacement_nm'])} nm"),
-        ("energy", f"{energy['total']:.6g} pN nm, of it elastic {energy['elastic']:.6g}"),
+        ("energy", f"{energy['total']:.6g} pN nm (elastic {energy['elastic']:.6g})"),
         ("residual", f"{summary['residual']['force_pn']:.1e} pN, {summary['residual']['torque_pn_nm']:.1e} pN nm"),
     ]
     certificate = run.certificate
@@ -288,33 +288,33 @@ def _rows(run: Run) -> list[tuple[str, str]]:
 
 
 class Equilibrium:
-    """A state at rest: the last record of a run of equilibria."""
+    """Equilibrium of a scene: the last record of a run of equilibria."""
 
     run: Run
-    """The whole path."""
+    """Run along the whole path."""
     certificate: Certificate
-    """What the stiffness says of the state."""
+    """Stability of the state."""
 
     def __init__(self, run: Run) -> None:
         certificate = run.certificate
         if certificate is None:
-            raise ValueError("the run has no certificate: it is no equilibrium")
+            raise ValueError("the run has no certificate: its last record is not an equilibrium")
         self.run = run
         self.certificate = certificate
 
     @property
     def position_nm(self) -> Array:
-        """Places of points, `[n, 3]`, lab frame."""
+        """Positions of points, `[n, 3]`, lab frame."""
         return self.run.position_nm[-1]
 
     @property
     def centre_line_nm(self) -> Array:
-        """Points brought to the axis, `[n, 3]`."""
+        """Centre line, `[n, 3]`."""
         return self.run.centre_line_nm[-1]
 
     @property
     def quaternion(self) -> Array:
-        """Orientations of frames, `[m, 4]`: w, x, y, z; body to lab."""
+        """Orientations of frames, `[m, 4]` (w, x, y, z; body to lab)."""
         return self.run.quaternion[-1]
 
     @property
@@ -324,36 +324,36 @@ class Equilibrium:
 
     @property
     def tip_nm(self) -> Array:
-        """Place of the tip of filament 0."""
+        """Position of the tip of filament 0."""
         return self.run.tip_nm
 
     @property
     def tip_displacement_nm(self) -> Array:
-        """Displacement of that tip from the state as built."""
+        """Displacement of that tip from its initial position."""
         return np.array(self.run.summary["tip_displacement_nm"])
 
     @property
     def energy_pn_nm(self) -> float:
-        """Energy of all terms, loads included."""
+        """Potential energy including loads."""
         return self.run.summary["energy_pn_nm"]["potential"]
 
     @property
     def elastic_pn_nm(self) -> float:
-        """Energy of all terms but loads."""
+        """Elastic energy, without loads."""
         return self.run.summary["energy_pn_nm"]["elastic"]
 
     @property
     def lowest_eigenvalue(self) -> float | None:
-        """Lowest eigenvalue of the stiffness that is not neutral (pN/nm), if the task asks for `lowest_eigenvalue`."""
+        """Lowest non-neutral eigenvalue of the stiffness (pN/nm), if requested by `lowest_eigenvalue` of the task."""
         return self.run.summary["lowest_stiffness_eigenvalue"]
 
     @property
     def summary(self) -> dict[str, Any]:
-        """The keys of `summary.json`."""
+        """Contents of `summary.json`."""
         return self.run.summary
 
     def to_pyvista(self) -> pyvista.MultiBlock:
-        """The state for PyVista, as `Run.to_pyvista` gives it."""
+        """Converts the state to PyVista, as in `Run.to_pyvista`."""
         return self.run.to_pyvista()
 
     def __repr__(self) -> str:
@@ -365,7 +365,7 @@ class Equilibrium:
 
 
 def emit_warnings(found: Run | Trade) -> None:
-    """Emits the warnings of a run or a trade at the line outside this package that has asked for it."""
+    """Emits the warnings of a run or a trade, with the location of the caller outside this package."""
     level, frame = 1, sys._getframe()
     while frame.f_back is not None and frame.f_globals.get("__name__", "").partition(".")[0] == "actin":
         level, frame = level + 1, frame.f_back
@@ -374,9 +374,9 @@ def emit_warnings(found: Run | Trade) -> None:
 
 
 def load(path: str | os.PathLike[str]) -> Run:
-    """Reads a run directory that `run` or the program has written.
+    """Reads a run directory.
 
-    Energies are by the columns of `energies.csv`. Raises `OSError` where a file is missing.
+    Energies are named after the columns of `energies.csv`. Raises `OSError` if a file is missing.
     """
     folder = Path(path)
     summary = json.loads((folder / "summary.json").read_text())
@@ -409,7 +409,7 @@ def load(path: str | os.PathLike[str]) -> Run:
 
 
 def _table(path: Path) -> tuple[Array, dict[str, Array]]:
-    """The first column of a CSV file, and the others by their names."""
+    """Reads a CSV file: its first column, and the others by name."""
     with path.open(newline="") as lines:
         names, *rows = csv.reader(lines)
     columns = np.array([[float(x) if x else np.nan for x in row] for row in rows]).reshape(len(rows), len(names))
@@ -417,7 +417,7 @@ def _table(path: Path) -> tuple[Array, dict[str, Array]]:
 
 
 def _monomers(scene: Scene, bodies: dict[str, Any]) -> dict[str, Any]:
-    """The frame of each point, -1 of nodes, and the semi-axes of monomers."""
+    """Returns the frame of each point (-1 for nodes), and the semi-axes of monomers."""
     monomer = bodies["kind_names"].index("monomer")
     frame = np.full(len(bodies["kind"]), -1)
     frame[bodies["kind"] == monomer] = np.flatnonzero(bodies["frame_kind"] == monomer)

@@ -1,5 +1,5 @@
-//! Where a state is outside the model: neighbours have moved against each other by as much as their own
-//! size, for which no model here is made. Where a rod leaves the data of its law is in `range`.
+//! Detection of states outside the validity of the models, in which deformations reach the size of
+//! a body. Extrapolation of rod laws is detected in `range`.
 
 use super::range::curvatures;
 use super::{Assembly, Part, Rod, SectionSpan};
@@ -10,41 +10,41 @@ use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
 use std::fmt;
 
-/// Largest strain of a segment or of a junction's bond: half the distance of its ends at rest.
+/// Limit of the relative strain of a segment or of a junction's bond.
 const STRAIN: f64 = 0.5;
-/// Largest curvature of a rod times its radius; beyond it the inner side is turned inside out.
+/// Limit of curvature times radius. At 1 the inner side of a bent rod folds over.
 const BEND: f64 = 1.0;
-/// Largest change of length of the bonds of an interface, root mean square, over the greatest length
-/// that they may have at rest.
+/// Limit of the root-mean-square change of length of an interface's bonds, over the maximum bond
+/// length at rest.
 const BONDS: f64 = 1.0;
-/// Largest overlap of two bonded monomers, in semi-axes: 0 where spheres would touch, 1 where the
-/// centre of one comes to lie within the other.
+/// Limit of the overlap of two bonded monomers in semi-axes. Spheres in contact have 0; at 1 one
+/// centre lies on the surface of the other monomer.
 const OVERLAP: f64 = 1.0;
 
-/// A part of a filament in a state to which the model does not apply.
+/// Deformation of a filament beyond the validity of the model.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct BeyondUse {
     /// Index of the filament.
     pub filament: usize,
-    /// Index of the section in its filament; of a junction, that of the section before it.
+    /// Index of the section in its filament; for a junction, index of the section before it.
     pub section: usize,
-    /// What goes too far, each without a unit:
+    /// Name of the dimensionless quantity that exceeds its limit:
     ///
-    /// - `strain`: change of the vector from end to end of a segment, seen from its frame, over its
-    ///   length at rest; the same of a junction's bond;
+    /// - `strain`: change of the end-to-end vector of a segment or of a junction's bond, in the
+    ///   body frame, over its rest length;
     /// - `bend`: curvature of a rod times the radius of its cross-section;
-    /// - `bonds`: root mean square of what the bonds between two monomers are longer or shorter than at
-    ///   rest, over `lateral_max_bond_nm` or `longitudinal_max_bond_nm`;
-    /// - `contact`: depth of two surfaces in each other over the distance of their axes in contact;
-    /// - `wall`: depth of a surface in a wall over its radius;
-    /// - `overlap`: 2 less the distance of two bonded monomers' centres in semi-axes, along the line of
-    ///   centres.
+    /// - `bonds`: root-mean-square change of length of the bonds between two monomers, over
+    ///   `lateral_max_bond_nm` or `longitudinal_max_bond_nm`;
+    /// - `contact`: depth of overlap of two surfaces, over the distance of their axes in contact;
+    /// - `wall`: penetration depth into a wall, over the radius;
+    /// - `overlap`: 2 minus the distance of the centres of two bonded monomers in semi-axes, along
+    ///   the line of centres.
     pub quantity: String,
-    /// Where it goes furthest, as arc length at rest (nm).
+    /// Arc length of the largest value (nm, at rest).
     pub s_nm: f64,
-    /// What it reaches there.
+    /// Largest value.
     pub value: f64,
-    /// What it may reach.
+    /// Limit of the quantity.
     pub limit: f64,
 }
 
@@ -75,7 +75,7 @@ impl fmt::Display for BeyondUse {
             )?,
             _ => write!(
                 f,
-                "two monomers at s = {s_nm:.2} nm stand inside each other by {value:.2} semi-axes"
+                "two monomers at s = {s_nm:.2} nm overlap by {value:.2} semi-axes"
             )?,
         }
         if self.filament > 0 {
@@ -85,14 +85,14 @@ impl fmt::Display for BeyondUse {
     }
 }
 
-/// What goes furthest of its kind: where (nm), and how far.
+/// Arc length (nm) and value of a maximum.
 type Furthest = (f64, f64);
 
 impl Assembly {
-    /// Where the model does not apply to `state`: at most once per section and quantity, where it is worst.
+    /// Returns the model limits that `state` exceeds, at most one entry per section and quantity.
     ///
-    /// Only neighbours are looked at, and what repels each other. Without repulsion filaments have no
-    /// volume: that parts of one far apart, or two of them, pass through each other is not seen.
+    /// Only neighbouring bodies and repelling bodies are checked. Without repulsion, distant parts
+    /// of a filament or two filaments pass through each other undetected.
     pub fn beyond_use(&self, state: &State) -> Vec<BeyondUse> {
         let mut found = Vec::new();
         for rod in &self.rods {
@@ -131,7 +131,7 @@ impl Assembly {
         worst(found)
     }
 
-    /// What is pressed into each other or into walls farther than it can be pushed back.
+    /// Appends contacts and walls whose penetration exceeds the range of the repulsion.
     fn push_touching(&self, found: &mut Vec<BeyondUse>, state: &State) {
         let repelled = self.repelled.iter();
         for touching in repelled.flat_map(|repelled| repelled.touching(state)) {
@@ -149,7 +149,7 @@ impl Assembly {
         }
     }
 
-    /// The worst of [`beyond_use`](Self::beyond_use) over some states.
+    /// Merges [`beyond_use`](Self::beyond_use) over several states, keeping the largest values.
     pub fn worst_beyond_use<'a>(
         &self,
         states: impl IntoIterator<Item = &'a State>,
@@ -186,8 +186,7 @@ impl Assembly {
         largest(strains)
     }
 
-    /// By how much the vector between two points, seen from a frame, differs from that at rest, over
-    /// the latter's length.
+    /// Change of the vector between two points in a body frame, over its length at rest.
     fn strain(&self, state: &State, [a, b]: [usize; 2], frame: usize) -> f64 {
         let seen = |state: &State| {
             let between = state.points.position.get(b) - state.points.position.get(a);
@@ -197,8 +196,8 @@ impl Assembly {
         (seen(state) - rest).norm() / rest.norm()
     }
 
-    /// The change of length of the bonds of each interface, from its energy, `S/2` times the mean of
-    /// its square.
+    /// Largest root-mean-square change of bond length, obtained from the energy `S/2 <change^2>` of
+    /// each interface.
     fn largest_change_of_bonds(&self, i: usize, monomers: &Monomers, state: &State) -> Furthest {
         let term = self.terms.iter().position(|t| t.part == Part::Section(i));
         let term = term.expect("every section has a term");
@@ -250,7 +249,7 @@ impl Assembly {
     }
 }
 
-/// Of each section and quantity what goes furthest.
+/// Keeps the largest value of each section and quantity.
 pub(crate) fn worst(found: impl IntoIterator<Item = BeyondUse>) -> Vec<BeyondUse> {
     let mut worst: Vec<BeyondUse> = Vec::new();
     for beyond in found {
@@ -279,7 +278,6 @@ mod tests {
     use crate::Scene;
     use actin_mechanics::{UnitQuaternion, rotation};
 
-    /// Monomers between rods, at a wall.
     fn build() -> Assembly {
         let text = "Scene(
             filament: Filament(sections: [
@@ -298,7 +296,7 @@ mod tests {
         found.map(|b| (b.section, b.quantity)).collect()
     }
 
-    /// Everything beyond some point moved along the axis, which strains one place only.
+    /// Shifts all points from index `from` along the axis.
     fn parted(assembly: &Assembly, from: usize, by: f64) -> State {
         let mut state = assembly.rest.clone();
         for i in from..state.points.len() {
@@ -307,9 +305,8 @@ mod tests {
         state
     }
 
-    /// At rest, and moved and turned as a whole, nothing is beyond use.
     #[test]
-    fn what_is_at_rest_is_of_use_wherever_it_stands() {
+    fn rigid_motions_stay_within_the_limits() {
         let assembly = build();
         let mut state = assembly.rest.clone();
         assert!(assembly.beyond_use(&state).is_empty());
@@ -328,12 +325,10 @@ mod tests {
             &assembly.scene.filament.monomers,
             &state,
         );
-        // Neighbours nearly touch: along the line of centres there is a gap, or some overlap.
+        // At rest, surfaces of neighbours nearly touch.
         assert!(overlap.1.abs() < 0.2, "{overlap:?}");
     }
 
-    /// A segment is strained by its change over its length, in either direction, and the place is that
-    /// of the segment.
     #[test]
     fn a_segment_may_be_strained_by_half() {
         let assembly = build();
@@ -355,7 +350,6 @@ mod tests {
         );
     }
 
-    /// Monomers parted in the middle: only there, and only by more than the greatest bond.
     #[test]
     fn bonds_may_change_by_their_greatest_length() {
         let assembly = build();
@@ -367,15 +361,14 @@ mod tests {
             panic!("{found:?}");
         };
         assert_eq!((bonds.section, bonds.quantity.as_str()), (1, "bonds"));
-        // Lateral bonds are no longer than 1.6 nm at rest, and stand across as much as along.
+        // Lateral bonds are at most 1.6 nm long at rest. They run about as much across as along.
         assert!(bonds.value > 10.0 && bonds.value < 20.0 / 1.6, "{bonds}");
         let s_nm = assembly.points[middle].s_nm;
         assert!((bonds.s_nm - s_nm).abs() < 3.0, "{bonds}");
     }
 
-    /// A monomer that is put where its neighbour is overlaps with it by two semi-axes.
     #[test]
-    fn monomers_may_not_stand_inside_each_other() {
+    fn overlapping_monomers_are_reported() {
         let assembly = build();
         let first = assembly.sections[1].points.start;
         for (share, expected) in [(0.3, false), (0.6, true), (1.0, true)] {
@@ -392,8 +385,8 @@ mod tests {
         }
     }
 
-    /// A joint of segments of some 10 nm turned by 2 rad is bent to 0.2 per nm, 0.7 over its radius of
-    /// 3.5 nm; 3 rad are beyond it. The rest of the filament is carried along.
+    /// With segments of about 10 nm, 2 rad per joint give 0.2 rad/nm, or 0.7 times the inverse
+    /// radius of 3.5 nm.
     #[test]
     fn a_rod_may_be_bent_to_its_own_radius() {
         let assembly = build();
@@ -422,7 +415,6 @@ mod tests {
         }
     }
 
-    /// A junction's bond is strained where monomers and rod part; the worst of some states is kept.
     #[test]
     fn the_worst_of_some_states_is_kept() {
         let assembly = build();

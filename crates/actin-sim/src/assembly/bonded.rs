@@ -1,34 +1,33 @@
-//! Which bodies are bonded, for pictures and measurements: the bonds between monomers and those of a
-//! junction. What the bonds do is in the crates of the models.
+//! Bonds between monomers and bonds of junctions, for pictures and measurements.
 
 use super::{Assembly, BodyKind, Resolution, models};
 use actin_ellipsoid::{Bonds, Monomers};
 use std::ops::Range;
 
-/// One bond of a junction: from an attached monomer's centre to the rod's end.
+/// Bond of a junction, from the centre of an attached monomer to the end of the rod.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct JunctionBond {
-    /// The junction, by the index of the section before it.
+    /// Index of the section before the junction.
     pub junction: usize,
-    /// Point at the monomer's centre.
+    /// Index of the monomer's point.
     pub monomer: usize,
-    /// The monomer's frame.
+    /// Index of the monomer's frame.
     pub monomer_frame: usize,
-    /// Node at the rod's end.
+    /// Index of the node at the rod's end.
     pub node: usize,
-    /// Frame of the bond, `Q_MR` of the paper.
+    /// Index of the bond's frame, `Q_MR` of the paper.
     pub frame: usize,
 }
 
 impl Assembly {
-    /// The bonds between the monomers of a section; none of a rod.
+    /// Returns the bonds between the monomers of a section, or `None` for a rod.
     ///
-    /// They are drawn anew from the scene's parameters: draws are keyed by seed, interface and
-    /// lattice index, so that these are the bonds that act, at the cost of drawing them.
+    /// The bonds are sampled again from the scene's parameters. They equal the acting bonds,
+    /// because samples are keyed by seed, interface and lattice index.
     ///
     /// # Panics
-    /// If the assembly's scene was given other parameters since it was built, which cannot be
-    /// bonded.
+    /// If the parameters of the assembly's scene were changed after the build to values that allow
+    /// no bonds.
     pub fn bonds_of(&self, section: usize) -> Option<Bonds> {
         let span = self.sections.get(section)?;
         let Resolution::Ellipsoids { first_index, .. } = span.resolution else {
@@ -58,20 +57,20 @@ impl Assembly {
         Some(bonds.expect("the assembly was built with these bonds"))
     }
 
-    /// Whether a section of monomers is followed by another in its filament, to which it is bonded.
+    /// Returns `true` if a section of monomers is bonded to a following section of monomers.
     pub(crate) fn goes_on_bonded(&self, section: usize) -> bool {
         let filament = &self.filaments[self.filament_of_section(section)];
         let is_ellipsoids = |i: usize| self.sections[i].is_ellipsoids();
         section + 1 < filament.sections.end && is_ellipsoids(section) && is_ellipsoids(section + 1)
     }
 
-    /// Whether a section and the next of its filament are of different kinds.
+    /// Returns `true` if a section and the next one have different resolutions.
     pub(crate) fn is_junction(&self, section: usize) -> bool {
         let is_ellipsoids = |i: usize| self.sections[i].is_ellipsoids();
         is_ellipsoids(section) != is_ellipsoids(section + 1)
     }
 
-    /// The bonds of all junctions in filament order.
+    /// Returns the bonds of all junctions in filament order.
     pub fn junction_bonds(&self) -> Vec<JunctionBond> {
         let junctions = self.filaments.iter().map(|f| f.sections.clone());
         let junctions = junctions.flat_map(|sections| sections.start..sections.end - 1);
@@ -79,7 +78,6 @@ impl Assembly {
         junctions.flat_map(|i| self.bonds_of_junction(i)).collect()
     }
 
-    /// The bonds of the junction between a section and the next.
     fn bonds_of_junction(&self, junction: usize) -> Vec<JunctionBond> {
         let (before, after) = (&self.sections[junction], &self.sections[junction + 1]);
         let frames = (before.frames.end..after.frames.start)
@@ -131,8 +129,7 @@ mod tests {
         Assembly::build(&Scene::from_ron(text).unwrap()).unwrap()
     }
 
-    /// The energy of the listed bonds is that of the term, in a state where every bond is
-    /// stretched: other anchors, another pairing or another run of monomers would miss it.
+    /// In a state where every bond is stretched, wrong anchors or pairs would change the energy.
     #[test]
     fn the_listed_bonds_are_those_that_act() {
         let mut assembly = build();
@@ -159,7 +156,7 @@ mod tests {
         let term = assembly.terms.iter().position(|t| t.name == bonds_term());
         let expected = energies[term.unwrap()];
         assert_eq!(bonds.number_of_bonds(), assembly.sections[1].bonds());
-        // Round-off of a sum over some thousand bonds.
+        // Round-off of a sum over a few thousand bonds.
         assert!((energy - expected).abs() < 1e-10 * expected);
         assert!(assembly.bonds_of(0).is_none() && assembly.bonds_of(9).is_none());
     }
@@ -168,8 +165,7 @@ mod tests {
         "bonds"
     }
 
-    /// At rest a bond spans the helix's radius and half a rise or one and a half: attaching the
-    /// wrong monomer, or the one at the other end, makes it longer.
+    /// At rest a bond spans the radius of the helix and half a rise or one and a half.
     #[test]
     fn junction_bonds_reach_from_the_nearest_two_monomers() {
         let assembly = build();

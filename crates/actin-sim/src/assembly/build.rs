@@ -1,7 +1,4 @@
-//! Building the bodies and interactions of a scene, filament by filament. Those of one filament
-//! are in `build/strand.rs` and `build/interactions.rs`, what holds ends in `build/holds.rs`, loads in
-//! `build/loads.rs`, what links filaments to their surroundings and to each other in `build/linkers.rs`,
-//! what keeps them apart in `build/repulsion.rs`.
+//! Construction of the bodies and interactions of a scene, filament by filament.
 
 mod bend;
 mod holds;
@@ -32,19 +29,24 @@ use std::time::Instant;
 use strand::{Body, Strand};
 
 impl Assembly {
-    /// Builds the scene: bodies in filament order, interactions, held ends and loads.
+    /// Builds the bodies (in filament order), interactions, held ends and loads of a scene.
     ///
-    /// Filaments with an imperfection begin displaced from their axis by
-    /// `u(s) = A sum_k sin(pi x) sin(k pi x) d_k / k^2`, k from 1 to 4, `x` the arc length over the
-    /// length, `d_k` random directions across the axis, `A` such that the largest displacement is the
-    /// amplitude: the same whatever resolves them, and zero with its slope at both ends.
+    /// Filaments with an imperfection start displaced from their axis. The displacement and its
+    /// slope vanish at both ends and do not depend on the resolution:
     ///
-    /// Sections that are left to the program are [chosen](crate::trade::choose) first; those that follow a motion
-    /// are rods, as before the motion has begun.
+    /// ```text
+    /// u(s) = A sum_{k=1..4} sin(pi x) sin(k pi x) d_k / k^2
+    /// x    = s / L    arc length over the length of the filament
+    /// d_k             random directions across the axis
+    /// A    (nm)       factor such that max |u| is the amplitude
+    /// ```
+    ///
+    /// Automatic sections are [chosen](crate::trade::choose) first. Sections that follow a motion
+    /// start as rods.
     ///
     /// # Errors
-    /// What only shows when a filament is built: a section without room for its bodies, an
-    /// interface that finds no bonds, more bodies than the memory of this machine holds.
+    /// If a section is too short for its bodies, an interface finds no bonds, or the bodies exceed
+    /// the memory of this machine.
     pub fn build(scene: &Scene) -> Result<Self, SceneProblem> {
         let began = Instant::now();
         let mut built = Self::resolve_and_build(scene)?;
@@ -82,7 +84,6 @@ impl Assembly {
     }
 }
 
-/// Bodies and interactions of all filaments, one after another.
 #[derive(Default)]
 struct Stock {
     state: State,
@@ -95,7 +96,6 @@ struct Stock {
 }
 
 impl Stock {
-    /// Displaces filaments that have an imperfection.
     fn displace(&mut self, scene: &Scene, filaments: &[FilamentSpan]) {
         let bodies = (self.points.as_slice(), self.frames.as_slice());
         imperfection::displace(scene, filaments, bodies, &mut self.state);
@@ -110,10 +110,9 @@ impl Stock {
     }
 }
 
-/// A scene under construction.
 struct Builder<'a> {
     scene: &'a Scene,
-    /// Memory that it takes, estimated.
+    /// Estimated memory.
     bytes: f64,
     held: HeldEnds,
     strands: Vec<Strand<'a>>,
@@ -161,8 +160,8 @@ impl<'a> Builder<'a> {
         })
     }
 
-    /// Pushes the bodies of all filaments, straight and unstrained, then their interactions, then bends
-    /// those that have a shape.
+    /// Pushes straight, unstrained bodies of all filaments and their interactions; then bends
+    /// curved filaments.
     fn push_filaments(&mut self) -> Result<(), SceneProblem> {
         let scene = self.scene;
         for (i, strand) in self.strands.iter_mut().enumerate() {
@@ -236,7 +235,7 @@ impl<'a> Builder<'a> {
         assembly
     }
 
-    /// The scene with the number of segments of every rod.
+    /// Returns the scene with explicit segment counts of all rods.
     fn resolved_scene(&self) -> Scene {
         let mut scene = self.scene.clone();
         let sections = scene.filaments_mut().flat_map(|f| f.sections.iter_mut());
@@ -249,7 +248,7 @@ impl<'a> Builder<'a> {
     }
 }
 
-/// Arc lengths (nm) at which couples act on each filament.
+/// Arc lengths (nm) of the couples on each filament.
 fn couples_nm(scene: &Scene) -> BTreeMap<usize, Vec<f64>> {
     let mut all: BTreeMap<usize, Vec<f64>> = BTreeMap::new();
     for load in &scene.loads {

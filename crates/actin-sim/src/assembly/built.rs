@@ -1,18 +1,20 @@
-//! Where a filament that is built along a curve stands.
+//! Reference axis of a curved filament.
 
 use crate::scene::Curve;
 use actin_mechanics::{UnitQuaternion, Vector3};
 
-/// The axis of a filament as built, seen as if it began at the origin along lab +z: the curve of its shape, but
-/// for what rods miss of it, whose segments are straight and as long as at rest. What follows such a rod is
-/// shifted with its end.
+/// Axis of a filament as built, with its start at the origin and its tangent along lab +z.
+///
+/// The axis is the curve of the filament's shape plus a shift: the segments of rods are straight
+/// and have their rest length, so that the end of a rod deviates from the curve. Later sections are
+/// shifted with that end.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Built {
     curve: Curve,
     sections: Vec<Shifted>,
 }
 
-/// A section with its shift from the curve (nm) at start and end.
+/// Arc lengths (nm) of a section and shifts from the curve (nm) at its start and end.
 #[derive(Clone, Debug, PartialEq)]
 struct Shifted {
     span: [f64; 2],
@@ -27,23 +29,21 @@ impl Built {
         }
     }
 
-    /// The curve.
     pub(super) fn curve(&self) -> &Curve {
         &self.curve
     }
 
-    /// Shift of the end of the last section (nm).
     pub(super) fn last_shift(&self) -> Vector3 {
         (self.sections.last()).map_or_else(Vector3::zeros, |section| section.shifts[1])
     }
 
-    /// Appends a section that spans these arc lengths (nm), with the shift of its end.
+    /// Appends a section that spans arc lengths `span` (nm), with the shift of its end.
     pub(super) fn push(&mut self, span: [f64; 2], shift: Vector3) {
         let shifts = [self.last_shift(), shift];
         self.sections.push(Shifted { span, shifts });
     }
 
-    /// Place (nm) and frame of the axis at an arc length.
+    /// Position (nm) and frame of the axis at an arc length.
     pub(crate) fn at(&self, s_nm: f64) -> (Vector3, UnitQuaternion) {
         let (place, frame) = self.curve.at(s_nm);
         let past = self

@@ -1,12 +1,12 @@
-//! Bodies and parts in words, for messages and files.
+//! Names of bodies and parts in messages and files.
 
 use super::{Assembly, BodyKind, FrameInfo, Part, PointInfo};
 use actin_coupling::LinkerEnd;
 use actin_integrate::Body;
 
 impl Assembly {
-    /// What a body is and where it stands at rest, such as `the node at s = 80.79 nm`, and of which
-    /// filament if there are several.
+    /// Describes a body and its arc length at rest, such as `the node at s = 80.79 nm`. The
+    /// filament is named if the scene has several.
     pub fn describe(&self, body: Body) -> String {
         let (kind, s_nm, filament) = match body {
             Body::Point(i) => {
@@ -29,12 +29,12 @@ impl Assembly {
         }
     }
 
-    /// What linker `i` holds on to, such as `the segment at s = 75.00 nm`.
+    /// Describes the body at the first end of linker `i`, such as `the segment at s = 75.00 nm`.
     pub fn linked(&self, i: usize) -> String {
         self.describe(Body::Frame(self.linkers[i].site().frame()))
     }
 
-    /// What linker `i` holds on to at its other end; none if that is an anchor.
+    /// Describes the body at the second end of linker `i`; `None` for an anchor.
     pub fn linked_to(&self, i: usize) -> Option<String> {
         match self.linkers[i].end() {
             LinkerEnd::Anchor(_) => None,
@@ -42,8 +42,8 @@ impl Assembly {
         }
     }
 
-    /// Name of a part in files: sections by their index in the filament, such as `section_0`, and
-    /// `filament_1_section_0` of filaments but the first.
+    /// Returns the name of a part in files: `section_0`, or `filament_1_section_0` for filaments
+    /// after the first.
     pub fn name_of(&self, part: Part) -> String {
         let within = |section: usize| {
             let filament = self.filament_of_section(section);

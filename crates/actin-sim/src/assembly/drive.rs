@@ -1,4 +1,4 @@
-//! What a scene moves from outside: held ends, load factors and anchors, along its path.
+//! Prescribed motion of held ends, load factors and anchors along the path of a scene.
 
 use super::Clamped;
 use crate::scene::path::{self, Values};
@@ -7,21 +7,20 @@ use actin_coupling::Linker;
 use actin_mechanics::{ControlId, State, UnitQuaternion, Vector3, rotation};
 use std::ops::{Add, Mul, Sub};
 
-/// Everything that the path of a scene moves.
+/// Quantities that the path of a scene prescribes.
 ///
-/// The path parameter counts stages: `u = 1.5` is halfway through the second.
+/// The path parameter counts stages: `u = 1.5` is the middle of the second stage.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Drive {
     stages: usize,
-    /// Factors of loads.
     loads: Vec<(ControlId, Values<f64>)>,
-    /// Displacements of anchors, by components.
+    /// Displacements of anchors, by component.
     anchors: Vec<([ControlId; 3], Values<Vector3>)>,
-    /// Those of all clamps, in order.
+    /// Ends of all clamps, in order.
     ends: Vec<HeldEnd>,
 }
 
-/// A clamped end with its bodies as built, and how it is moved.
+/// Clamped end with its bodies as built and its prescribed motion.
 #[derive(Clone, Debug, PartialEq)]
 struct HeldEnd {
     points: Vec<(usize, Vector3)>,
@@ -29,15 +28,15 @@ struct HeldEnd {
     about: Vector3,
     slides: Slides,
     axis: Vector3,
-    /// Shifts (nm).
+    /// Displacements (nm).
     shift: Option<Values<Vector3>>,
-    /// Turns (rad).
+    /// Rotation vectors (rad).
     turn: Option<Values<Vector3>>,
 }
 
 impl Drive {
-    /// The drive of a scene whose clamps, with the ends that they hold, hold these bodies of `rest`; with
-    /// the controls of its loads and of the anchors of its linkers.
+    /// Creates the drive from the bodies of `rest` that the clamps hold, and the controls of loads
+    /// and anchors.
     pub(super) fn new(
         scene: &Scene,
         (held, clamps): (&HeldEnds, &[Clamped]),
@@ -85,44 +84,42 @@ impl Drive {
         }
     }
 
-    /// Number of stages.
+    /// Returns the number of stages.
     pub fn stages(&self) -> usize {
         self.stages
     }
 
-    /// Whether the path moves nothing.
+    /// Returns `true` if the path has no stages.
     pub fn is_still(&self) -> bool {
         self.stages == 0
     }
 
-    /// Whether the path moves an anchor with these controls.
     pub(super) fn moves(&self, anchor: [ControlId; 3]) -> bool {
         self.anchors.iter().any(|(controls, _)| *controls == anchor)
     }
 
-    /// Whether the path sets the factor of a load.
+    /// Returns `true` if the path sets the factor of a load.
     pub(super) fn sets(&self, load: ControlId) -> bool {
         self.loads.iter().any(|(control, _)| *control == load)
     }
 
-    /// Turn of a clamp's end (rad, rotation vector in the lab frame) at path parameter `u`.
+    /// Rotation vector of a clamp's end (rad, lab frame) at path parameter `u`.
     pub(crate) fn turn(&self, clamp: usize, u: f64) -> Vector3 {
         self.motion(self.ends[clamp].turn.as_ref(), (u, 0.0)).0
     }
 
-    /// The ends of stages, counted from 1, at which a clamp's end is turned.
+    /// Stages, counted from 1, at whose ends a clamp's end is turned.
     pub(super) fn turned_after(&self, clamp: usize) -> impl Iterator<Item = usize> + '_ {
         self.ends[clamp].turn.iter().flat_map(Values::ends)
     }
 
-    /// Puts controls and held bodies where they belong at path parameter `u`. Of an end that
-    /// slides, the component along which it slides stays as it is in `state`.
+    /// Sets controls and held bodies to their values at path parameter `u`. A sliding end keeps its
+    /// displacement along the sliding direction from `state`.
     pub fn place(&self, state: &mut State, u: f64) {
         self.place_moving(state, u, 0.0);
     }
 
-    /// The same while the path parameter grows at `rate` (1/ns): held points and frames get the
-    /// velocities that go with it.
+    /// Sets controls, held bodies and their velocities while `u` grows at `rate` (1/ns).
     pub(super) fn place_moving(&self, state: &mut State, u: f64, rate: f64) {
         self.set_controls(state, u);
         for end in &self.ends {
@@ -132,7 +129,7 @@ impl Drive {
         }
     }
 
-    /// Sets controls to what they are at path parameter `u`; held bodies stay.
+    /// Sets the controls to their values at path parameter `u`.
     pub(super) fn set_controls(&self, state: &mut State, u: f64) {
         for (load, factor) in &self.loads {
             state.controls[*load] = self.at(factor, u).0;
@@ -145,8 +142,8 @@ impl Drive {
         }
     }
 
-    /// Value at path parameter `u` and rate of change where that grows at `rate` (1/ns); zero of
-    /// what no stage sets.
+    /// Value at path parameter `u` and its rate of change for a growth of `rate` (1/ns); zero if no
+    /// stage sets it.
     fn motion(
         &self,
         values: Option<&Values<Vector3>>,
@@ -156,7 +153,7 @@ impl Drive {
         (value, slope * rate)
     }
 
-    /// Value at path parameter `u`, linear within a stage, and its slope there.
+    /// Value at path parameter `u` and its slope, linear within a stage.
     fn at<T>(&self, values: &Values<T>, u: f64) -> (T, T)
     where
         T: Copy + Default + Add<Output = T> + Sub<Output = T> + Mul<f64, Output = T>,
@@ -175,7 +172,7 @@ impl Drive {
     }
 }
 
-/// The values of those controls that some stage sets.
+/// Values of the controls that some stage sets.
 fn those_set<C, T>(
     controls: impl Iterator<Item = Option<C>>,
     values: Vec<Option<Values<T>>>,
@@ -185,7 +182,6 @@ fn those_set<C, T>(
         .collect()
 }
 
-/// Shift and turn of an end, where some stage sets them.
 type Moved = (Option<Values<Vector3>>, Option<Values<Vector3>>);
 
 impl HeldEnd {
@@ -203,7 +199,7 @@ impl HeldEnd {
         }
     }
 
-    /// Places the bodies at a shift and a turn, each given with its rate.
+    /// Sets the bodies from a displacement and a rotation vector, each with its rate.
     fn place(
         &self,
         state: &mut State,
@@ -232,13 +228,13 @@ impl HeldEnd {
         }
     }
 
-    /// `prescribed`, but for the components along which the end slides, which are `present`.
+    /// Replaces the sliding components of `prescribed` by those of `present`.
     fn unless_sliding(&self, prescribed: Vector3, present: Vector3) -> Vector3 {
         match self.slides {
             Slides::Nowhere => prescribed,
             Slides::AlongAxis => {
                 let axis = self.axis;
-                // In this order components across an axis of the lab stay as they are to the bit.
+                // This order leaves components across a lab axis exactly unchanged.
                 prescribed - axis * axis.dot(&prescribed) + axis * axis.dot(&present)
             }
             Slides::Freely => present,
@@ -246,12 +242,12 @@ impl HeldEnd {
     }
 }
 
-/// Angular velocity (lab frame) of `exp(theta)` when `theta` changes at `rate`: `J_l(theta) rate`.
+/// Angular velocity (lab frame) of `exp(theta)`: `J_l(theta) rate`.
 fn angular_velocity(theta: Vector3, rate: Vector3) -> Vector3 {
     if rate == Vector3::zeros() {
         return rate;
     }
-    // Beyond a full turn J_l^-1 has poles; J_l itself is written out.
+    // `J_l^-1` has poles beyond a full turn, so `J_l` is evaluated directly.
     swept(theta, rate)
 }
 
@@ -259,8 +255,6 @@ fn angular_velocity(theta: Vector3, rate: Vector3) -> Vector3 {
 mod tests {
     use super::*;
 
-    /// The angular velocity moves the rotation as its definition says, small angles and several
-    /// turns alike.
     #[test]
     fn angular_velocity_is_that_of_the_rotation() {
         let rate = Vector3::new(0.3, -0.2, 0.5);

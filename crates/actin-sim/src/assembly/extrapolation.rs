@@ -1,27 +1,28 @@
-//! Errors that were measured where rods under `Homogenised` leave the data of their law.
+//! Measured errors of rods with the law `Homogenised` outside the data of the law.
 
 use serde::{Deserialize, Serialize};
 
-/// Cantilevers of 62 to 303 nm under 1 to 10 pN across the tip, in five groups for each quantity: the furthest value
-/// of the group, and the largest errors up to there.
+/// Largest errors of cantilevers of 62 to 303 nm under transverse tip forces of 1 to 10 pN, in five
+/// groups per quantity.
 ///
 /// # Source
 /// `cargo xtask load-cases --beyond --write`.
 const MEASURED: &str = include_str!("extrapolation.csv");
 
-/// Largest error of the tip's displacement (relative) of cantilevers that leave the data of their law at most so far.
+/// Largest relative error of the tip displacement over cantilevers that extrapolate their law up to
+/// `up_to`.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct MeasuredError {
-    /// The furthest value among the cantilevers, at least that of the warning (a strain, or rad/nm).
+    /// Largest value of the quantity in the group (strain, or rad/nm).
     pub up_to: f64,
-    /// Against the mean of monomers over azimuths of the lattice.
+    /// Error against the mean of monomers over azimuths of the lattice.
     pub of_mean: f64,
-    /// Against monomers at one azimuth.
+    /// Error against monomers at one azimuth.
     pub of_one_azimuth: f64,
 }
 
 impl MeasuredError {
-    /// The error of the first group that goes as far as `value`; `None` beyond all groups.
+    /// Returns the error of the first group that reaches `value`, or `None` beyond all groups.
     pub(super) fn at(quantity: &str, value: f64) -> Option<Self> {
         let reaches = |up_to: f64| up_to.signum() == value.signum() && up_to.abs() >= value.abs();
         let rows = MEASURED.lines().skip(1).filter_map(|line| {
@@ -44,7 +45,7 @@ impl MeasuredError {
 mod tests {
     use super::*;
 
-    /// Errors grow with what is reached; none is given beyond what was measured, in tension, or of twist.
+    /// No error is available in tension, in twist or beyond the measured range.
     #[test]
     fn errors_are_given_as_far_as_they_were_measured() {
         for (quantity, near, far) in [

@@ -1,27 +1,28 @@
-//! The drag of a fluid on an assembly: that of one cylinder for each filament, shared out to its bodies.
+//! Fluid drag on an assembly: the drag of one cylinder per filament, distributed over its bodies.
 
 use super::{Assembly, BodyKind, SectionSpan};
-use crate::scene::{End, Fluid, SceneProblem};
+use crate::scene::{End, Fluid, SceneProblem, Water};
 use actin_brownian::{Cylinder, Dashpot, Friction, TurnDashpot};
 use actin_cosserat::{RodEnd, RodLayout};
 use actin_mechanics::Vector3;
 
-/// Share of the friction of a segment that the frames of one junction have at most, and that of the
+/// Largest share of a segment's rotational friction for the frames of one junction, and for the
 /// cross-section at its end.
 const OF_SEGMENT: f64 = 0.25;
 
 impl Assembly {
-    /// The drag of `fluid` on all filaments.
+    /// Returns the drag of `fluid` on all filaments.
     ///
-    /// A monomer has that of its share of its section's length, at the axis of the filament; a segment that of its length, spread
-    /// evenly between its nodes. Frames of junctions take the friction of turning of a rise each from the segment beside them, at
-    /// most a quarter of its own together, so that it is as much whatever is resolved. Frames of joints, which no piece of
-    /// cylinder is left for, turn as if they had a rise.
+    /// A monomer carries the drag of its share of the section's length, acting at the axis of the
+    /// filament. A segment's drag is split evenly between its nodes. Each junction frame takes the
+    /// rotational friction of one rise from the nearest segment, in total at most a quarter of that
+    /// segment's friction. The total therefore does not depend on the resolution. Frames of joints
+    /// have no length of cylinder and receive the rotational friction of a rise in addition.
     ///
     /// # Errors
-    /// A filament that is too short for its radius.
+    /// If a filament is too short for its radius.
     pub(crate) fn friction(&self, fluid: &Fluid) -> Result<Friction, SceneProblem> {
-        let Fluid::Water { at_ends, .. } = *fluid;
+        let Fluid::Water(Water { at_ends, .. }) = *fluid;
         let mut friction = Friction::default();
         for filament in 0..self.filaments.len() {
             let drag = FilamentDrag {
@@ -35,20 +36,20 @@ impl Assembly {
         Ok(friction)
     }
 
-    /// The cylinder that a filament is in `fluid`.
+    /// Returns the cylinder that represents a filament in `fluid`.
     ///
     /// # Errors
-    /// A filament that is too short for its radius.
+    /// If a filament is too short for its radius.
     pub(crate) fn cylinder(
         &self,
         fluid: &Fluid,
         filament: usize,
     ) -> Result<Cylinder, SceneProblem> {
-        let Fluid::Water {
+        let Fluid::Water(Water {
             viscosity_mpa_s,
             radius_nm,
             ..
-        } = *fluid;
+        }) = *fluid;
         Cylinder::new(viscosity_mpa_s, self.length_of(filament), radius_nm).map_err(|error| {
             let key = "task.drag.radius_nm";
             SceneProblem::new(key, format!("{radius_nm:?}"), error.to_string())
@@ -56,7 +57,6 @@ impl Assembly {
     }
 }
 
-/// The drag of one filament.
 struct FilamentDrag<'a> {
     assembly: &'a Assembly,
     filament: usize,
@@ -89,7 +89,6 @@ impl FilamentDrag<'_> {
         }
     }
 
-    /// The rod that a section is, if it is one.
     fn rod(&self, section: usize) -> Option<&RodLayout> {
         let mut rods = self.assembly.rods.iter();
         let rod = rods.find(|rod| rod.section == section)?;
@@ -100,12 +99,12 @@ impl FilamentDrag<'_> {
         self.assembly.monomers_of(self.filament).rise_nm
     }
 
-    /// From the centre of a monomer to the axis (nm, body frame).
+    /// Vector from the centre of a monomer to the axis (nm, body frame).
     fn to_axis(&self) -> Vector3 {
         -Vector3::x() * self.assembly.monomers_of(self.filament).radius_nm
     }
 
-    /// Drag of a length of cylinder (pN ns/nm, axes of its frame), that at the ends left out.
+    /// Drag of a length of cylinder (pN ns/nm, body axes) without end effects.
     fn of_length(&self, length: f64) -> Vector3 {
         let across = if self.at_ends {
             self.cylinder.between_ends()
@@ -122,7 +121,7 @@ impl FilamentDrag<'_> {
     }
 
     fn add_monomers(&self, section: &SectionSpan, friction: &mut Friction) {
-        // Nearly a rise: those at both ends of a section stand for less.
+        // Nearly a rise; monomers at the ends of a section have a shorter share.
         let share = (section.to_nm - section.from_nm) / section.points.len() as f64;
         let (of_share, arm) = (self.of_length(share), self.to_axis());
         for (point, frame) in section.points.clone().zip(section.frames.clone()) {
@@ -145,7 +144,7 @@ impl FilamentDrag<'_> {
         }
     }
 
-    /// Whether a wall frame is free, as the cross-section on which a couple acts, and no hinge.
+    /// Returns `true` for a free wall frame that carries an end couple and is no hinge.
     fn is_end_of_rod(&self, frame: usize) -> bool {
         let mut ends = [End::Start, End::End].into_iter();
         self.assembly.rest.frames.is_free(frame)
@@ -155,7 +154,7 @@ impl FilamentDrag<'_> {
             })
     }
 
-    /// Gives a frame of a junction its share of the turns of the nearest segment.
+    /// Transfers rotational friction from the nearest segment to a junction frame.
     fn add_junction(&self, frame: usize, friction: &mut Friction) {
         let filament = self.assembly.scene.filament_at(self.filament);
         let attached = filament.map_or(1, |f| f.junction.attached_monomers) as f64;
@@ -163,8 +162,8 @@ impl FilamentDrag<'_> {
         self.share_turns(frame, share, friction);
     }
 
-    /// Gives a frame the friction of turns of a part of the nearest segment, which lacks it; `share` is the
-    /// length of that part (nm) by the length of the segment.
+    /// Transfers rotational friction from the nearest segment to a frame. `share` returns the
+    /// transferred fraction for a given length of the segment (nm).
     fn share_turns(&self, frame: usize, share: impl Fn(f64) -> f64, friction: &mut Friction) {
         let place = |f: usize| self.assembly.frames[f].s_nm;
         let spans = &self.assembly.filaments[self.filament];
@@ -182,7 +181,7 @@ impl FilamentDrag<'_> {
         friction.turns.push(share);
     }
 
-    /// The drag that acts at an end.
+    /// Additional drag at an end.
     fn of_end(&self, end: End) -> Dashpot {
         let sections = self.assembly.filaments[self.filament].sections.clone();
         let (section, rod_end) = match end {
@@ -219,7 +218,7 @@ mod tests {
         (assembly, friction)
     }
 
-    /// A filament that moves along or across, tilts or turns about its axis has the drag of the cylinder, however it is resolved.
+    /// Translation, tilt and axial rotation have the drag of the cylinder for every resolution.
     #[test]
     fn resolutions_have_the_same_drag() {
         for sections in [
@@ -253,7 +252,6 @@ mod tests {
         }
     }
 
-    /// A cell of a filament drags as much as a rod and as monomers between rods, along and across.
     #[test]
     fn cells_drag_as_much_however_they_are_resolved() {
         let rods = "Rod(from_nm: 0.0, to_nm: 35.6, segments: 1), Rod(from_nm: 35.6, to_nm: 71.2, segments: 1),

@@ -1,18 +1,18 @@
-//! The spring of a hinged end.
+//! Spring of a hinged end.
 
 use super::Assembly;
 use crate::scene::{Clamp, End};
 use actin_cosserat::{Rigidities, RodElements, RodEnd, RodError, RodJoint, RodMaterial};
 use actin_mechanics::{Interaction, Loads, SecondOrder, State, Stiffness, Vector3};
 
-/// A spring against turns between two frames, term `hinge`: one joint of a rod over a length of 1, whose
-/// rigidities are then the stiffnesses of the spring.
+/// Rotational spring between two frames, reported as `hinge`. A rod joint of unit length models it,
+/// so that its rigidities equal the spring's stiffnesses.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Hinge(RodElements);
 
 impl Hinge {
-    /// The hinge of a clamp between its held frame and that of the cross-section; none gives a spring
-    /// without stiffness, which is refused.
+    /// Creates the hinge of a clamp between its held frame and the frame of the cross-section. A
+    /// clamp without a hinge gives zero stiffness, which is refused.
     pub(super) fn new(clamp: &Clamp, frames: [usize; 2]) -> Result<Self, RodError> {
         let hinge = clamp.hinge;
         let bend = hinge.map_or(0.0, |h| h.bend_pn_nm_per_rad);
@@ -55,8 +55,8 @@ impl SecondOrder for Hinge {
 }
 
 impl Assembly {
-    /// The held frame behind the spring of a hinged end, and that of the cross-section before it; none of any
-    /// other end.
+    /// Returns the held frame of a hinged end and the frame of its cross-section; `None` for other
+    /// ends.
     pub(crate) fn hinge_frames(&self, filament: usize, end: End) -> Option<[usize; 2]> {
         let clamp = self.held.turned_at(filament, end)?;
         if self.held.fixed_at(filament, end) == Some(clamp) {

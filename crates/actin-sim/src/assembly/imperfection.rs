@@ -1,11 +1,17 @@
-//! Smooth displacements of filaments from their axis, with which a run begins.
+//! Smooth initial displacements of filaments from their axis.
 //!
-//! Along a filament of length `L` (as its scene writes it), with `x = s/L`,
-//! `u(s) = A sum_k w_k sin(pi x) sin(k pi x) d_k`, where `d_k` are random directions across the axis and
-//! `w_k = 1/k^2`, all scaled so that the largest `|u|` is the amplitude. Displacement and slope vanish at
-//! both ends, so that held and sliding ends stay where they are. A cross-section is displaced by `u` and
-//! turned with the slope, by `axis x du/ds`: neither shear nor, to first order, stretch. All of this is a
-//! function of arc length alone, so that it is the same for monomers, rods and both.
+//! ```text
+//! u(s) = A sum_{k=1..4} w_k sin(pi x) sin(k pi x) d_k
+//! x    = s / L    arc length over the length of the filament
+//! w_k  = 1 / k^2
+//! d_k             random directions across the axis
+//! A    (nm)       factor such that max |u| is the amplitude
+//! ```
+//!
+//! Displacement and slope vanish at both ends, so that held and sliding ends are unchanged. A
+//! cross-section is displaced by `u` and turned by `axis x du/ds`. This gives no shear and, to
+//! first order, no stretch. The field depends on arc length alone and is therefore the same for
+//! every resolution.
 
 use super::{FilamentSpan, FrameInfo, PointInfo};
 use crate::scene::{Imperfection, Scene};
@@ -14,17 +20,16 @@ use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use std::f64::consts::{PI, TAU};
 
-/// Number of modes.
 const MODES: usize = 4;
 
-/// Places at which the largest displacement is looked for, less one: it is missed by less than
-/// `(2 MODES pi / PLACES)^2 / 8`, a thousandth of it.
+/// Sampling intervals for the largest displacement, with a relative error below `(2 MODES pi /
+/// PLACES)^2 / 8`, about 1e-3.
 const PLACES: u32 = 256;
 
-/// Parts the key of these directions from other uses of the same seed.
+/// Separates this random stream from other uses of the seed.
 const PURPOSE: [u8; 8] = *b"imperfec";
 
-/// Displaces the free bodies of all filaments that have an imperfection.
+/// Displaces the free bodies of all filaments with an imperfection.
 pub(super) fn displace(
     scene: &Scene,
     filaments: &[FilamentSpan],
@@ -58,15 +63,13 @@ pub(super) fn displace(
     }
 }
 
-/// The displacement of a filament along lab +z.
+/// Displacement field of a filament along lab +z.
 struct Field {
     length_nm: f64,
-    /// Coefficient (nm) of each mode, across the axis.
     coefficients: [Vector3; MODES],
 }
 
 impl Field {
-    /// That of filament `index`.
     fn new(imperfection: &Imperfection, index: usize, length_nm: f64) -> Self {
         let mut key = [0; 32];
         key[..8].copy_from_slice(&imperfection.seed.to_le_bytes());
@@ -90,13 +93,13 @@ impl Field {
         field
     }
 
-    /// Displacement (nm) at the share `x` of the length.
+    /// Displacement (nm) at the relative arc length `x`.
     fn shift(&self, x: f64) -> Vector3 {
         let of = |(k, c): (f64, &Vector3)| c * ((PI * x).sin() * (k * PI * x).sin());
         numbered(&self.coefficients).map(of).sum()
     }
 
-    /// Its derivative by `x`.
+    /// Derivative of the displacement with respect to `x`.
     fn slope(&self, x: f64) -> Vector3 {
         let of = |(k, c): (f64, &Vector3)| {
             let ((sin, cos), (sin_k, cos_k)) = ((PI * x).sin_cos(), (k * PI * x).sin_cos());
@@ -107,7 +110,7 @@ impl Field {
 
     /// Displacement (nm) and rotation vector of the cross-section at `s_nm`, both in the lab frame.
     fn at(&self, s_nm: f64, span: &FilamentSpan) -> (Vector3, Vector3) {
-        // Held monomers stand outside, and a resolved length is off by up to half a rise.
+        // Held monomers lie outside, and the resolved length deviates by up to half a rise.
         let x = (s_nm / self.length_nm).clamp(0.0, 1.0);
         let turn = Vector3::z().cross(&self.slope(x)) / self.length_nm;
         let rotation = span.frame_at(s_nm);
@@ -115,7 +118,6 @@ impl Field {
     }
 }
 
-/// Modes, counted from one.
 fn numbered(coefficients: &[Vector3; MODES]) -> impl Iterator<Item = (f64, &Vector3)> {
     coefficients
         .iter()
@@ -156,9 +158,7 @@ mod tests {
         Assembly::build(&Scene::from_ron(&text).unwrap()).unwrap()
     }
 
-    /// The axis of every model is where the field says, to what the polyline of monomers misses of its
-    /// curvature and to the second order of the slope; held bodies are where they were; frames turn
-    /// with the axis.
+    /// Tolerances cover the curvature between monomers and the second order of the slope.
     #[test]
     fn the_field_is_that_of_arc_length_in_every_model() {
         let imperfection = "imperfection: (amplitude_nm: 0.02, seed: 7),";
@@ -171,8 +171,8 @@ mod tests {
             let ribbon = Ribbon::new(&assembly, state);
             for (s_nm, point) in ribbon.s_nm.iter().zip(&ribbon.points_nm) {
                 let expected = span.origin_nm + span.axis() * *s_nm + field.at(*s_nm, span).0;
-                // kappa rise^2 / 8 with kappa below 0.02 (4 pi / 90)^2 / nm, and half of slope^2 on
-                // the helix's radius of 2 nm.
+                // kappa rise^2 / 8 with kappa below 0.02 (4 pi / 90)^2 / nm, plus slope^2 / 2 times
+                // the radius of 2 nm.
                 assert!((point - expected).norm() < 1e-4, "{sections} at {s_nm}");
             }
             for (s_nm, q) in ribbon.frame_s_nm.iter().zip(&ribbon.frames) {
@@ -191,10 +191,8 @@ mod tests {
         }
     }
 
-    /// The largest displacement is the amplitude, seeds and filaments differ, and nothing is displaced
-    /// where no imperfection is asked for.
     #[test]
-    fn amplitude_and_seed_mean_what_they_say() {
+    fn amplitude_and_seed_set_the_displacement() {
         let places = |imperfection: &Imperfection, index| {
             let field = Field::new(imperfection, index, 90.0);
             (0..=90)
@@ -216,7 +214,6 @@ mod tests {
         assert_eq!(straight.system.state(), &straight.rest);
     }
 
-    /// The slope is the derivative of the displacement, and both vanish at the ends.
     #[test]
     fn the_slope_belongs_to_the_shift() {
         let imperfection = Imperfection {

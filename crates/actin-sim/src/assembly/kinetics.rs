@@ -1,4 +1,4 @@
-//! Linkers that break, form and step: events at the ends of time steps, and their log.
+//! Linkers that break, form and step. Events occur at the ends of time steps and are logged.
 
 use super::Assembly;
 use crate::scene::{Kinetics as Rates, SceneProblem};
@@ -10,22 +10,23 @@ use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// Parts the key of these events from other uses of the same seed.
+/// Separates this random stream from other uses of the seed.
 const PURPOSE: [u8; 8] = *b"linkers\0";
 
-/// Largest rate times time step: the least is lost of times and of several events in a step.
+/// Largest product of rate and time step. Small products keep errors of event times and missed
+/// events small.
 pub(crate) const COARSEST: f64 = 0.1;
 
-/// What happened to a linker.
+/// Kind of a linker event.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Happening {
-    /// It let go.
+    /// The linker broke.
     Broke,
-    /// It began to hold.
+    /// The linker formed.
     Formed,
-    /// Its site went to the next place.
+    /// The linker's site moved to the next place.
     Stepped,
-    /// It let go at the end of the filament.
+    /// The linker detached at the end of the filament.
     Left,
 }
 
@@ -40,7 +41,7 @@ impl fmt::Display for Happening {
     }
 }
 
-/// Something that happened to a linker at the end of a time step.
+/// Event of a linker at the end of a time step.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct LinkerEvent {
     /// Number of the step.
@@ -49,17 +50,16 @@ pub struct LinkerEvent {
     pub time_ns: f64,
     /// Index of the linker.
     pub linker: usize,
-    /// What happened.
+    /// Kind of the event.
     pub what: Happening,
-    /// Tension of the linker (pN) just before, or just after it formed.
+    /// Tension of the linker (pN) just before the event; for a formed linker, just after it.
     pub force_pn: f64,
-    /// Arc length of the site (nm), of one that stepped where it went.
+    /// Arc length of the site (nm); after a step, arc length of the new place.
     pub at_nm: f64,
-    /// What it added to the energy (pN nm).
+    /// Change of the energy (pN nm).
     pub energy_pn_nm: f64,
 }
 
-/// One linker with its rates.
 #[derive(Clone, Debug)]
 struct Switching {
     index: usize,
@@ -69,20 +69,19 @@ struct Switching {
     places_nm: Vec<f64>,
 }
 
-/// All linkers of a scene to which something happens.
+/// All linkers of a scene that break, form or step.
 #[derive(Clone, Debug)]
 pub(crate) struct Kinetics {
     all: Vec<Switching>,
-    /// What events have added to the energy so far (pN nm).
+    /// Accumulated energy change by events (pN nm).
     booked: ControlId,
-    /// Largest rate times step met so far.
+    /// Largest product of rate and step so far.
     coarsest: ControlId,
 }
 
-/// Events in order.
 pub(crate) type Log = Arc<Mutex<Vec<LinkerEvent>>>;
 
-/// The events of a run, as they happen to its system.
+/// Process that applies the linker events of a run to its system and logs them.
 #[derive(Debug)]
 pub(crate) struct Happenings {
     kinetics: Arc<Kinetics>,
@@ -90,7 +89,7 @@ pub(crate) struct Happenings {
 }
 
 impl Kinetics {
-    /// Those of a state under construction, of which none is known yet.
+    /// Creates an empty set and its controls in a state under construction.
     pub(super) fn new(state: &mut State) -> Self {
         Self {
             all: Vec::new(),
@@ -99,7 +98,7 @@ impl Kinetics {
         }
     }
 
-    /// Adds linker `index`, which may hold at these arc lengths (nm).
+    /// Adds linker `index` with the arc lengths of its places (nm).
     pub(super) fn push(
         &mut self,
         index: usize,
@@ -115,18 +114,18 @@ impl Kinetics {
         });
     }
 
-    /// Linker `index`, if something happens to it, and the arc lengths of its places (nm).
+    /// Returns linker `index` and the arc lengths of its places (nm), if its state can change.
     pub(crate) fn linker(&self, index: usize) -> Option<(&SwitchedLinker, &[f64])> {
         let switching = self.all.iter().find(|s| s.index == index)?;
         Some((&switching.linker, &switching.places_nm))
     }
 
-    /// What events have added to the energy in `state` (pN nm).
+    /// Accumulated energy change by events in `state` (pN nm).
     pub(crate) fn booked(&self, state: &State) -> f64 {
         state.controls[self.booked]
     }
 
-    /// The same state with all linkers holding, which is the stiffest.
+    /// Returns the state with all linkers bound, which is the stiffest.
     pub(crate) fn all_bound(&self, state: &State) -> State {
         let mut bound = state.clone();
         for switching in &self.all {
@@ -136,7 +135,7 @@ impl Kinetics {
         bound
     }
 
-    /// The events of a run of these linkers, which go behind those that have happened.
+    /// Creates the event process of a run. New events are appended to `log`.
     pub(crate) fn happenings(self: &Arc<Self>, log: &Log) -> Happenings {
         Happenings {
             kinetics: Arc::clone(self),
@@ -144,7 +143,7 @@ impl Kinetics {
         }
     }
 
-    /// Lets happen what does at the end of step `step` of a length (ns), and hands on each event.
+    /// Applies the events at the end of a step of length `h` (ns) and passes each one to `note`.
     fn end_step(
         &self,
         state: &mut State,
@@ -188,7 +187,7 @@ impl Kinetics {
 impl StepEnd for Happenings {
     fn end_step(&self, state: &mut State, step: u64, h: f64) -> bool {
         let mut log = self.log.lock().unwrap_or_else(PoisonError::into_inner);
-        // A step that is made again, to find out what broke, is told once.
+        // A repeated step, made to find the cause of a failure, replaces its earlier events.
         while log.last().is_some_and(|last| last.step >= step) {
             log.pop();
         }
@@ -198,8 +197,8 @@ impl StepEnd for Happenings {
 }
 
 impl Switching {
-    /// What happens at the end of a step, if anything does, with the place of the site then; and the rate of all that could
-    /// have happened (1/ns).
+    /// Samples the event at the end of a step. Returns its kind and the place of the site, and the
+    /// sum of all rates (1/ns).
     fn drawn(&self, state: &State, step: u64, h: f64) -> (Option<(Happening, usize)>, f64) {
         let place = self.linker.place(state);
         let happens = |rate: f64, draw: f64| draw < -(-rate * h).exp_m1();
@@ -226,7 +225,7 @@ impl Switching {
         if !happens(rate, draw) {
             return (None, rate);
         }
-        // A tension beyond all numbers breaks it.
+        // An infinite rate always breaks the linker.
         let happening = if breaking.is_infinite() || which * rate < breaking {
             Some((Happening::Broke, place))
         } else if place + 1 < self.places_nm.len() {
@@ -238,7 +237,8 @@ impl Switching {
         (happening, rate)
     }
 
-    /// The place at which it could form and the rate (1/ns), if it is within reach.
+    /// Returns the place at which the linker can form and the rate (1/ns), if a place is within
+    /// reach.
     fn forming(&self, state: &State) -> Option<(usize, f64)> {
         let forms = self.rates.forms?;
         let extensions = self
@@ -251,7 +251,7 @@ impl Switching {
         (extension <= forms.reach_nm).then_some((nearest, forms.rate_per_ns))
     }
 
-    /// Tension at its place (pN), whether it holds or not.
+    /// Tension at its place (pN), whether bound or not.
     fn tension(&self, state: &State) -> f64 {
         let linker = self.linker.linker(state);
         if linker.extension(state) > 0.0 {
@@ -261,7 +261,8 @@ impl Switching {
         }
     }
 
-    /// Force (pN) against a step from `place`, along the line to the next place, or from the one before it at the end.
+    /// Force (pN) against a step from `place` along the line to the next place; at the end, along
+    /// the line from the previous place.
     fn resistance(&self, state: &State, place: usize) -> f64 {
         let places = self.linker.places();
         let (from, to) = if place + 1 < places.len() {
@@ -281,8 +282,8 @@ impl Switching {
         }
     }
 
-    /// Two numbers uniform in [0, 1) of a step: the stream of `ChaCha8` with its number, of which each linker has words of
-    /// its own.
+    /// Returns two uniform numbers in [0, 1) for a step. They come from the `ChaCha8` stream of the
+    /// step, in which each linker has separate words.
     fn uniform(&self, step: u64) -> [f64; 2] {
         const SPACING: f64 = 1.0 / (1u64 << 53) as f64;
         let mut key = [0; 32];
@@ -297,7 +298,7 @@ impl Switching {
 }
 
 impl Assembly {
-    /// Linker `i` where its site is in `state`, and whether it holds.
+    /// Returns linker `i` with its site in `state`, and whether it is bound.
     pub(crate) fn linker_in<'a>(&'a self, i: usize, state: &State) -> (&'a Linker, bool) {
         let switched = self
             .kinetics
@@ -308,13 +309,14 @@ impl Assembly {
         })
     }
 
-    /// Whether linker `i` holds in `state`, and the arc length of its site (nm); none of one that always holds.
+    /// Returns whether linker `i` is bound in `state` and the arc length of its site (nm); `None`
+    /// for permanent linkers.
     pub fn switched(&self, i: usize, state: &State) -> Option<(bool, f64)> {
         let (linker, places) = self.kinetics.as_ref()?.linker(i)?;
         Some((linker.is_bound(state), places[linker.place(state)]))
     }
 
-    /// Refuses rates of linkers that are fast beside a time step (ns).
+    /// Refuses rates of linkers that are too fast for a time step (ns).
     pub(crate) fn check_rates(&self, step_ns: f64) -> Result<(), SceneProblem> {
         for (i, linker) in self.scene.linkers.iter().enumerate() {
             let rates = linker.kinetics.iter().flat_map(Rates::rates);
@@ -333,14 +335,14 @@ impl Assembly {
         Ok(())
     }
 
-    /// The note on rates that forces have made fast beside a time step.
+    /// Warning about rates that became too fast for the time step under force.
     pub(crate) fn note_on_rates(&self, last: &State) -> Option<String> {
         let kinetics = self.kinetics.as_ref()?;
         let coarsest = last.controls[kinetics.coarsest];
         (coarsest > COARSEST).then(|| {
             format!(
-                "under force rates of linkers came to {coarsest:.2} in a time step: events come up to half a step \
-                 late, and there is one at most for each linker in a step; with a shorter time_step_ns they are finer"
+                "linker rates under force reached {coarsest:.2} per time step: events are delayed by up to half a step, \
+                 and each linker has at most one event per step; use a shorter time_step_ns"
             )
         })
     }

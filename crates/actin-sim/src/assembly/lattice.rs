@@ -1,24 +1,23 @@
-//! Where sections end, once monomers stand at lattice places.
+//! Section boundaries on the lattice of monomers.
 //!
-//! Monomer `j` stands at arc length `origin + j rise`. A clamped monomer start holds monomers -1
-//! and 0, and 0 stands at arc length 0; at a free start arc length 0 is midway between monomers 0
-//! and 1. Which of the two holds depends on the clamps alone, not on what is resolved, so that
-//! resolving more does not move a monomer.
+//! Monomer `j` lies at arc length `origin + j rise`. A clamped start made of monomers holds
+//! monomers -1 and 0, and monomer 0 lies at arc length 0. At a free start, arc length 0 is the
+//! middle between monomers 0 and 1. This choice depends on the clamps alone, so that a change of
+//! resolution moves no monomer.
 
 use crate::scene::{End, Filament, HeldEnds, MOST_COUNTED, Scene, SceneProblem, Section};
 
-/// Monomers and places of one section.
+/// Monomers and boundaries of one section.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Resolved {
     /// Arc length of the start (nm).
     pub from_nm: f64,
     /// Arc length of the end (nm).
     pub to_nm: f64,
-    /// Lattice indices of the first and last monomer, held ones included; none for a rod.
+    /// Lattice indices of the first and last monomer, including held monomers; `None` for a rod.
     pub monomers: Option<(i64, i64)>,
 }
 
-/// The lattice of monomers along a filament.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Lattice {
     /// Arc length of monomer 0 (nm).
@@ -28,7 +27,7 @@ pub(super) struct Lattice {
 }
 
 impl Lattice {
-    /// The lattice of a filament whose start and end are held or not.
+    /// Creates the lattice of a filament with held or free start and end.
     pub(super) fn of(filament: &Filament, [start, _]: [bool; 2]) -> Self {
         let rise_nm = filament.monomers.rise_nm;
         let origin_nm = if start { 0.0 } else { -0.5 * rise_nm };
@@ -40,7 +39,7 @@ impl Lattice {
         self.origin_nm + j as f64 * self.rise_nm
     }
 
-    /// The monomer nearest to arc length `s_nm`.
+    /// Index of the monomer nearest to arc length `s_nm`.
     #[expect(
         clippy::cast_possible_truncation,
         reason = "`check_reach` refuses places that i64 could not count"
@@ -49,17 +48,17 @@ impl Lattice {
         ((s_nm - self.origin_nm) / self.rise_nm).round() as i64
     }
 
-    /// The monomer whose place plus half a rise is nearest to `s_nm`.
+    /// Index of the monomer whose upper boundary (place plus half a rise) is nearest to `s_nm`.
     fn last_before(&self, s_nm: f64) -> i64 {
         self.nearest(s_nm - 0.5 * self.rise_nm)
     }
 }
 
-/// Resolves every section of a filament whose start and end are held or not.
+/// Resolves every section of a filament with held or free start and end.
 ///
 /// # Errors
-/// Places beyond those that are counted, a section that is left with fewer than two monomers, or a
-/// rod that is left with no length.
+/// If a boundary exceeds the largest exact lattice index, a section has fewer than two monomers, or
+/// a rod has no length.
 pub(super) fn resolve(
     filament: &Filament,
     is_held: [bool; 2],
@@ -85,7 +84,7 @@ pub(super) fn resolve(
         .collect()
 }
 
-/// The length (nm) nearest to `length_nm` that filament 0 has with every monomer resolved.
+/// Length (nm) of filament 0 made of monomers that is nearest to `length_nm`.
 fn whole_length_nm(scene: &Scene, length_nm: f64) -> Result<f64, SceneProblem> {
     let held = HeldEnds::of(scene);
     let is_held = [End::Start, End::End].map(|end| held.clamp_at(0, end).is_some());
@@ -99,8 +98,10 @@ fn whole_length_nm(scene: &Scene, length_nm: f64) -> Result<f64, SceneProblem> {
     resolve(&filament, is_held).map(|resolved| resolved[0].to_nm)
 }
 
-/// Boundaries (nm) of cells, each of so many whole monomers as make it most nearly `cell_nm` long, of filament 0 with
-/// a length of `length_nm` rounded to whole monomers; the last takes what is left. Between monomers all of them.
+/// Boundaries (nm) of cells of filament 0, whose length `length_nm` is rounded to whole monomers.
+///
+/// Each cell holds the number of whole monomers that brings it nearest to `cell_nm`. The last cell
+/// takes the remainder.
 pub(crate) fn cells_nm(
     scene: &Scene,
     length_nm: f64,
@@ -123,7 +124,7 @@ pub(crate) fn cells_nm(
     Ok(boundaries)
 }
 
-/// Refuses a boundary that more monomers reach than are told apart.
+/// Refuses a boundary beyond the largest exact lattice index.
 fn check_reach(filament: &Filament, lattice: &Lattice, i: usize) -> Result<(), SceneProblem> {
     let sections = &filament.sections;
     let (_, to_nm) = sections[i].span_nm();
@@ -178,7 +179,7 @@ fn monomers(
     }
 }
 
-/// A rod, which `keeps` its ends as written but where they meet monomers.
+/// Rod of a section. `keeps` selects the ends that stay as written; other ends move to monomers.
 fn rod(lattice: &Lattice, keeps: [bool; 2], span: (f64, f64)) -> Resolved {
     let half = 0.5 * lattice.rise_nm;
     let boundary = |s_nm: f64| lattice.s_nm(lattice.last_before(s_nm)) + half;

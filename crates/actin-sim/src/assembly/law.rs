@@ -1,4 +1,4 @@
-//! From a scene's rod law to the interaction of a rod.
+//! Interactions of rods from the rod laws of a scene.
 
 use super::{Ranges, TwistWatch};
 use crate::scene::{
@@ -12,18 +12,17 @@ use actin_cosserat::{
 };
 use actin_mechanics::Interaction;
 
-/// What is around the ends of a rod.
+/// Conditions at the ends of a rod.
 #[derive(Debug)]
 pub(super) struct Around {
-    /// Elements that join its start and its end to monomers.
+    /// Elements that join the start and the end of the rod to monomers.
     pub(super) joined: [Vec<JoinedElement>; 2],
-    /// What start and end of all rods that it is one of let sections beside them do.
+    /// Shear conditions at the start and end of the chain of rods that contains this rod.
     pub(super) ends: [EndShear; 2],
-    /// How far beyond its own these are (nm).
+    /// Distances from the ends of this rod to the ends of the chain (nm).
     pub(super) beyond_nm: [f64; 2],
 }
 
-/// The constitutive law of a rod of a scene.
 pub(super) struct Law {
     balance: ForceLaw,
     pub(super) material: RodMaterial,
@@ -31,7 +30,8 @@ pub(super) struct Law {
 }
 
 impl Law {
-    /// The law of section `i` of a filament, in a heat bath or not.
+    /// Law of section `i` of a filament. `in_bath` selects the law at 298 K where the scene leaves
+    /// the choice open.
     pub(super) fn of_section(
         (i, section): (usize, &Section),
         filament: &Filament,
@@ -53,7 +53,7 @@ impl Law {
         law.altered(altered, &key)
     }
 
-    /// The same with other rigidities, and another shape at rest.
+    /// Applies factors of rigidities and a rest shape.
     fn altered(self, altered: &AlteredRod, key: &str) -> Result<Self, SceneProblem> {
         let softened = self.material.softened(&altered.factors()).map_err(|_| {
             let rule = "has factors of rigidities beside a law that is one potential of all strains: \
@@ -67,7 +67,7 @@ impl Law {
         Ok(Self { material, ..self })
     }
 
-    /// The law that a scene names, of filaments of these monomers, in a heat bath or not.
+    /// Law of a scene for filaments of these monomers.
     fn new(rod: &RodModel, monomers: &Monomers, in_bath: bool) -> Result<Self, SceneProblem> {
         check_beside_law(rod)?;
         let rigidities = rod.material.rigidities();
@@ -92,19 +92,19 @@ impl Law {
         })
     }
 
-    /// The material, and what couples strains of it.
+    /// Returns the material and the law that couples its strains.
     pub(super) fn of_strains(&self) -> (RodMaterial, SegmentLaw) {
         let coupled = SegmentLaw::of(&self.material, self.twist_stretch);
         (self.material, coupled.unwrap_or_default())
     }
 
-    /// How far the data behind the laws reach.
+    /// Returns the ranges of the data of the laws.
     pub(super) fn ranges(&self) -> Ranges {
         Ranges::of(&self.material, self.twist_stretch.as_ref())
     }
 
-    /// What the twist of such a rod is watched with; nothing where no force along it can make it
-    /// unstable, or where its loads have no energy.
+    /// Returns the monitor of twist stability; `None` if no axial force can destabilise the twist,
+    /// or if the loads have no energy.
     pub(super) fn twist_watch(&self, layout: &RodLayout, around: &Around) -> Option<TwistWatch> {
         if self.balance != ForceLaw::EnergyGradient {
             return None;
@@ -120,7 +120,7 @@ impl Law {
         })
     }
 
-    /// The mean curvatures around segments and, of a potential, what the ends do to shear and twist.
+    /// Mean curvatures around segments and, for a potential, the end conditions of shear and twist.
     fn curvature(&self, layout: &RodLayout, around: &Around) -> SegmentCurvature {
         let [start, end] = &around.joined;
         let curvature = SegmentCurvature::new(layout, start, end);
@@ -130,12 +130,12 @@ impl Law {
         curvature.with_ends(layout, around.ends, around.beyond_nm)
     }
 
-    /// Whether strain of the rod knows of its curvature.
+    /// Returns `true` if the strains are coupled to the curvature.
     pub(super) fn is_extended(&self) -> bool {
         SegmentLaw::of(&self.material, self.twist_stretch).is_some()
     }
 
-    /// The interaction of a rod.
+    /// Creates the interaction of a rod.
     pub(super) fn interaction(&self, layout: &RodLayout, around: &Around) -> Box<dyn Interaction> {
         let curvature = || self.curvature(layout, around);
         let (own, material) = (layout.clone(), self.material);
@@ -159,7 +159,7 @@ impl Law {
     }
 }
 
-/// Refuses a balance or a material that the law of a rod leaves no room for.
+/// Refuses a balance or a material that is incompatible with the law of a rod.
 fn check_beside_law(rod: &RodModel) -> Result<(), SceneProblem> {
     let extends = !matches!(rod.law, RodLaw::Constant | RodLaw::PublishedExtension);
     if rod.force_law == ForceLaw::PaperBalance && extends {
@@ -193,8 +193,8 @@ fn refused(part: &'static str) -> impl Fn(RodParameterError) -> SceneProblem {
     }
 }
 
-/// A law's parameter as a scene writes it, with its unit. The rigidities of a material and the numbers of
-/// a cross-section are checked under keys of their own.
+/// Key of a law's parameter in a scene, with its unit. Rigidities and cross-sections have separate
+/// keys.
 fn written(parameter: RodKey) -> &'static str {
     match parameter {
         RodKey::Rest => "rest_pn_nm2",
@@ -230,10 +230,10 @@ fn written(parameter: RodKey) -> &'static str {
     }
 }
 
-/// A material with or without a law of length against twist.
+/// Material with an optional twist-stretch law.
 type Parts = (RodMaterial, Option<TwistStretch>);
 
-/// The law of filaments of these monomers without heat.
+/// Law at zero temperature for filaments of these monomers.
 fn athermal(monomers: &Monomers) -> Parts {
     let law = match monomers.drawn_bonds() {
         Some(bonds) => Homogenised::drawn_filament(bonds),
@@ -242,7 +242,7 @@ fn athermal(monomers: &Monomers) -> Parts {
     (RodMaterial::homogenised(law), None)
 }
 
-/// The law of filaments at 298 K.
+/// Law at 298 K.
 fn heated() -> Parts {
     let law = Homogenised::mean_filament_at_298_k();
     (RodMaterial::homogenised(law), None)
@@ -275,8 +275,8 @@ fn with_laws(mut material: RodMaterial, laws: &RodLaws) -> Result<Parts, ScenePr
     Ok((material, twist_stretch))
 }
 
-/// An infinite curvature, twist or strain is how the material says that there is none; a scene leaves
-/// the key out.
+/// Refuses infinite values, which represent absent effects in the material; a scene omits their
+/// keys instead.
 fn check_written(law: scene::BendLaw) -> Result<(), SceneProblem> {
     let scene::BendLaw::Stiffening {
         twist_per_nm,

@@ -1,35 +1,36 @@
-//! What a motion gains from outside: the columns that close its energy.
+//! Energy exchange of a motion with its surroundings.
 
 use super::{Assembly, Ramp};
 use crate::scene::Task;
 use actin_mechanics::{Ledger, State};
 use serde::{Deserialize, Serialize};
 
-/// Energy (pN nm) that has come from outside up to a record. The energy of a motion less this is constant but for the
-/// error of its time steps.
+/// Energy (pN nm) received from the surroundings up to a record.
 ///
-/// Pushes off saddles are not booked.
+/// The total energy minus this sum is constant up to the time-stepping error. Perturbations that
+/// leave saddles are not included.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Booked {
-    /// By ends, anchors and loads that move or change in time.
+    /// Work of moving ends and anchors and of loads that change in time.
     pub work_pn_nm: f64,
-    /// By drag and, in a bath, noise: negative where drag takes more. Not booked of overdamped motion in a bath.
+    /// Heat from drag and, in a bath, noise; negative if drag dominates. Not computed for
+    /// overdamped motion in a bath.
     pub heat_pn_nm: f64,
-    /// By linkers that broke, formed or stepped.
+    /// Energy change by linkers that broke, formed or stepped.
     pub events_pn_nm: f64,
 }
 
 impl Booked {
-    /// All of it.
+    /// Sum of work, heat and events.
     pub fn sum_pn_nm(&self) -> f64 {
         self.work_pn_nm + self.heat_pn_nm + self.events_pn_nm
     }
 }
 
-/// A column of `energies.csv` and what stands in it.
+/// Name and value of a column of `energies.csv`.
 pub(crate) type Column = (&'static str, fn(&Booked) -> f64);
 
-/// Adds what a motion books in to a state under construction; none of other tasks.
+/// Adds the energy balance of a motion to a state under construction; `None` for other tasks.
 pub(super) fn of_motion(task: &Task, state: &mut State) -> Option<Ledger> {
     (!matches!(task, Task::Equilibrium(_))).then(|| Ledger {
         work: state.add_control(0.0),
@@ -38,8 +39,9 @@ pub(super) fn of_motion(task: &Task, state: &mut State) -> Option<Ledger> {
 }
 
 impl Assembly {
-    /// What has come from outside up to `state`, a state of a run in progress. Those read back from files have none of it: it
-    /// stands in `energies.csv`.
+    /// Returns the energy received up to `state`, a state of a run in progress.
+    ///
+    /// States read from files do not contain it; read `energies.csv` instead.
     pub fn booked(&self, state: &State) -> Booked {
         let [work_pn_nm, heat_pn_nm] = self.ledger.map_or([0.0; 2], |ledger| {
             [ledger.work, ledger.heat].map(|control| state.controls[control])
@@ -52,11 +54,11 @@ impl Assembly {
         }
     }
 
-    /// The columns of what may come from outside in this scene, and what of it stands in each.
+    /// Returns the columns of the exchanges that occur in this scene.
     pub(crate) fn booked_columns(&self) -> Vec<Column> {
         let (is_driven, has_drag) = match &self.scene.task {
             Task::Dynamics(dynamics) => (Ramp::of(self).is_some(), dynamics.has_drag()),
-            // What noise brings is not booked.
+            // Heat from noise is not recorded.
             Task::Brownian(task) => (Ramp::of(self).is_some(), task.thermal().is_none()),
             Task::Equilibrium(_) => (false, false),
         };

@@ -1,8 +1,8 @@
-//! From a scene to bodies and interactions.
+//! Construction of bodies and interactions from a scene.
 //!
-//! [`Assembly::build`] is the one place that decides by kind of model; everything after it sees
-//! points, frames and terms. Bodies stand filament by filament and in filament order: monomers,
-//! junction frames, rod nodes and segments follow one another as they do along the filament.
+//! [`Assembly::build`] is the only place that distinguishes kinds of models; all later code handles
+//! points, frames and terms. Bodies are stored filament by filament, in order along the filament:
+//! monomers, junction frames, rod nodes and segments.
 
 mod beyond_use;
 mod bonded;
@@ -60,69 +60,65 @@ use nalgebra::Unit;
 use std::ops::Range;
 use std::sync::Arc;
 
-/// A scene, ready to run.
+/// Bodies, interactions and prescribed motion of a scene.
 #[derive(Debug)]
 pub struct Assembly {
-    /// The scene that was built, every default filled in.
+    /// The scene with all defaults filled in.
     pub scene: Scene,
     /// Bodies and interactions.
     pub system: System,
-    /// What each interaction of the system is, in the same order.
+    /// Description of each interaction of the system, in the same order.
     pub terms: Vec<Term>,
-    /// What each point is.
+    /// Description of each point.
     pub points: Vec<PointInfo>,
-    /// What each frame is.
+    /// Description of each frame.
     pub frames: Vec<FrameInfo>,
-    /// Sections as resolved, in order, those of one filament after those of another.
+    /// Resolved sections, filament by filament.
     pub sections: Vec<SectionSpan>,
-    /// The filaments, in the order of the scene.
+    /// Filaments in the order of the scene.
     pub filaments: Vec<FilamentSpan>,
-    /// The rods among the sections.
     pub(crate) rods: Vec<Rod>,
-    /// The ends that are held.
+    /// Clamped ends.
     pub clamps: Vec<Clamped>,
-    /// Which of them holds which end.
     pub(crate) held: HeldEnds,
-    /// The controls of the factors of its loads, in the order of the scene.
+    /// Controls of the load factors, in the order of the scene.
     pub(crate) loads: Vec<ControlId>,
-    /// The linkers, in the order of the scene; those that step at their first place.
+    /// Linkers in the order of the scene; stepping linkers at their first place.
     pub linkers: Vec<Linker>,
-    /// Those of them to which something happens in time, if there are some.
+    /// Linkers whose state changes in time, if any.
     pub(crate) kinetics: Option<Arc<Kinetics>>,
-    /// Where a motion books what comes from outside; none of other tasks.
+    /// Energy balance of a motion; `None` for other tasks.
     pub(crate) ledger: Option<Ledger>,
-    /// What repels them, if anything does.
+    /// Repelling bodies, if any.
     pub(crate) repelled: Option<Repelled>,
-    /// For each term the arc lengths (nm) between which each of its elements lies; empty for loads
-    /// and linkers, which are no part of a filament.
+    /// Arc length interval (nm) of each element of each term; empty for loads and linkers.
     pub(crate) spans: Vec<Vec<[f64; 2]>>,
-    /// What is observed of every record.
     pub(crate) observers: Observers,
-    /// What the path of the scene moves.
+    /// Prescribed motion along the path of the scene.
     pub drive: Drive,
-    /// The state as built, unloaded and at rest, without imperfections.
+    /// State as built: unloaded, at rest and without imperfections.
     pub rest: State,
-    /// The runs of monomers whose interfaces are quasi-harmonic.
+    /// Runs of monomers with quasi-harmonic interfaces.
     pub(crate) sampled: Vec<Sampled>,
-    /// How its sections were chosen, if the program chose them.
+    /// Choice of automatic sections, if the scene has any.
     pub chosen: Option<Chosen>,
-    /// Time that it took to build (s).
+    /// Duration of the build (s).
     pub(crate) build_s: f64,
-    /// Memory that the task takes but for its records, estimated (bytes).
+    /// Estimated memory of the task without its records (bytes).
     pub(crate) bytes: f64,
 }
 
 impl Assembly {
-    /// Number of bodies and elements of each kind, in all filaments.
+    /// Returns the number of bodies and elements of each kind in all filaments.
     pub fn counts(&self) -> Counts {
         let (points, frames) = (0..self.points.len(), 0..self.frames.len());
         self.counts_in(0..self.filaments.len(), points, frames)
     }
 
-    /// The same of one filament.
+    /// Returns the number of bodies and elements of each kind in one filament.
     ///
     /// # Panics
-    /// If there is no such filament.
+    /// If the index is out of range.
     pub fn counts_of(&self, filament: usize) -> Counts {
         let span = &self.filaments[filament];
         let (points, frames) = (span.points.clone(), span.frames.clone());
@@ -167,33 +163,32 @@ impl Assembly {
         }
     }
 
-    /// Resolved length of filament 0 (nm), from arc length 0 to the tip or the inner held monomer
-    /// at its end.
+    /// Resolved length of filament 0 (nm), from arc length 0 to the tip or the inner held monomer.
     pub fn length_nm(&self) -> f64 {
         self.length_of(0)
     }
 
-    /// The same of any filament.
+    /// Resolved length of a filament (nm); see [`length_nm`](Self::length_nm).
     ///
     /// # Panics
-    /// If there is no such filament.
+    /// If the index is out of range.
     pub fn length_of(&self, filament: usize) -> f64 {
         let sections = self.sections_of(filament);
         sections.last().map_or(0.0, |section| section.to_nm)
     }
 
-    /// The sections of one filament.
+    /// Returns the sections of one filament.
     ///
     /// # Panics
-    /// If there is no such filament.
+    /// If the index is out of range.
     pub fn sections_of(&self, filament: usize) -> &[SectionSpan] {
         &self.sections[self.filaments[filament].sections.clone()]
     }
 
-    /// The filament that a section belongs to.
+    /// Returns the filament of a section.
     ///
     /// # Panics
-    /// If there is no such section.
+    /// If the index is out of range.
     pub fn filament_of_section(&self, section: usize) -> usize {
         let is_past = |f: &FilamentSpan| f.sections.end <= section;
         let filament = self.filaments.partition_point(is_past);
@@ -201,16 +196,17 @@ impl Assembly {
         filament
     }
 
-    /// The filament that a point belongs to; points of one filament stand together.
+    /// Returns the filament of a point.
     pub fn filament_of_point(&self, point: usize) -> usize {
         self.filaments.partition_point(|f| f.points.end <= point)
     }
 
-    /// The frame to be drawn at a point: a monomer's own, of a node that of the segment which begins there, at
-    /// the end of a rod of the last; none of a node without a segment.
+    /// Returns the frame shown at a point: a monomer's frame, or the frame of the segment that
+    /// begins at a node. The last node has the frame of the last segment. `None` for a node without
+    /// a segment.
     ///
     /// # Panics
-    /// If there is no such point.
+    /// If the index is out of range.
     pub fn frame_of_point(&self, point: usize) -> Option<usize> {
         self.points[point].frame.or_else(|| {
             let behind = |s: &SectionSpan| s.points.end <= point;
@@ -221,27 +217,28 @@ impl Assembly {
         })
     }
 
-    /// The filament that a frame belongs to.
+    /// Returns the filament of a frame.
     pub fn filament_of_frame(&self, frame: usize) -> usize {
         self.filaments.partition_point(|f| f.frames.end <= frame)
     }
 
-    /// The clamp at one end of a filament; none if it is free.
+    /// Returns the clamp at one end of a filament; `None` if the end is free.
     pub fn clamp_at(&self, filament: usize, end: End) -> Option<&Clamped> {
         let clamp = self.held.clamp_at(filament, end)?;
         Some(&self.clamps[clamp])
     }
 
-    /// Points whose mean is the tip of filament 0 at `end`: the last node of a rod, or the last two
-    /// monomers (of a held monomer end: the inner one).
+    /// Returns the points whose mean is the tip of filament 0 at `end`: the last node of a rod, or
+    /// the last two monomers. At a held end of monomers it is the inner held monomer.
     pub fn tip_points(&self, end: End) -> &[usize] {
         self.tip_points_of(0, end)
     }
 
-    /// The same of any filament.
+    /// Returns the points whose mean is the tip of a filament; see
+    /// [`tip_points`](Self::tip_points).
     ///
     /// # Panics
-    /// If there is no such filament.
+    /// If the index is out of range.
     pub fn tip_points_of(&self, filament: usize, end: End) -> &[usize] {
         let sections = self.sections_of(filament);
         let section = match end {
@@ -256,21 +253,21 @@ impl Assembly {
         self.tip_of(0, state, end)
     }
 
-    /// The same of any filament.
+    /// Position of the tip of a filament at `end` in `state` (nm, lab frame).
     ///
     /// # Panics
-    /// If there is no such filament.
+    /// If the index is out of range.
     pub fn tip_of(&self, filament: usize, state: &State, end: End) -> Vector3 {
         let points = self.tip_points_of(filament, end);
         let sum: Vector3 = points.iter().map(|&i| state.points.position.get(i)).sum();
         sum / points.len() as f64
     }
 
-    /// Point `i` brought to the centre line: a node as it is, a monomer's centre moved inward
-    /// along its radial axis by the radius of the helix (nm, lab frame).
+    /// Point `i` projected to the centre line (nm, lab frame). Nodes are unchanged; a monomer's
+    /// centre moves inward along its radial axis by the radius of the helix.
     ///
     /// # Panics
-    /// If there is no such point.
+    /// If the index is out of range.
     pub fn centre_line_nm(&self, state: &State, i: usize) -> Vector3 {
         let position = state.points.position.get(i);
         match self.points[i].frame {
@@ -285,24 +282,24 @@ impl Assembly {
     /// Parameters of the monomers of one filament.
     ///
     /// # Panics
-    /// If there is no such filament.
+    /// If the index is out of range.
     pub fn monomers_of(&self, filament: usize) -> &Monomers {
         let filament = self.scene.filament_at(filament);
         &filament.expect("the scene has this filament").monomers
     }
 
-    /// The controls of the factors of its loads, in the order of the scene.
+    /// Controls of the load factors, in the order of the scene.
     pub fn load_controls(&self) -> &[ControlId] {
         &self.loads
     }
 
-    /// Names of what the scene observes, in the order of the numbers of a record.
+    /// Names of the observed quantities, in the order of their values in a record.
     pub fn observed(&self) -> &[String] {
         self.observers.columns()
     }
 
-    /// Turns every filament as it stands about the axis along which it is built, by `angle` (rad):
-    /// another start for the same equilibria. Anchors and loads stay.
+    /// Rotates every filament about its initial axis by `angle` (rad), as a different initial guess
+    /// for the same equilibria. Anchors and loads are unchanged.
     ///
     /// # Panics
     /// If an end is clamped.

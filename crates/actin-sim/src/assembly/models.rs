@@ -1,4 +1,4 @@
-//! From the parameters of a scene to the models of the crates below.
+//! Conversion of scene parameters to the models of the lower crates.
 
 use crate::scene::{self, End, Hold, Monomers, SceneProblem};
 use actin_cosserat::{RodClamp, RodEnd, RotaryInertia};
@@ -29,7 +29,7 @@ pub(crate) fn ellipsoids(
     })
 }
 
-/// The scene's key for a parameter of the monomers.
+/// Key of a monomer parameter in a scene.
 fn scene_key(parameter: EllipsoidKey) -> String {
     let key = match parameter {
         EllipsoidKey::Radius => "radius_nm",
@@ -54,7 +54,7 @@ fn scene_key(parameter: EllipsoidKey) -> String {
     format!("filament.monomers.{key}")
 }
 
-/// The problem behind an interface that could not be bonded.
+/// Error of a scene for an interface without bonds.
 pub(super) fn unbonded(error: &InterfaceError, monomers: &Monomers) -> SceneProblem {
     let kind = match error {
         InterfaceError::NoBonds { kind, .. } | InterfaceError::FewBonds { kind, .. } => kind,
@@ -85,7 +85,6 @@ pub(super) fn junction_weight(weight: scene::JunctionWeight) -> actin_coupling::
     }
 }
 
-/// What a scene's clamp holds at a rod's end.
 pub(super) fn rod_clamp(hold: Hold) -> RodClamp {
     match hold {
         Hold::Wall => RodClamp::Wall,
@@ -95,7 +94,6 @@ pub(super) fn rod_clamp(hold: Hold) -> RodClamp {
     }
 }
 
-/// The transverse inertia of segments that a scene asks for.
 pub(super) fn rotary_inertia(of_scene: scene::RotaryInertia) -> RotaryInertia {
     match of_scene {
         scene::RotaryInertia::CrossSection => RotaryInertia::CrossSection,
@@ -103,7 +101,6 @@ pub(super) fn rotary_inertia(of_scene: scene::RotaryInertia) -> RotaryInertia {
     }
 }
 
-/// The rod's end that lies at an end of the filament.
 pub(super) fn rod_end(end: End) -> RodEnd {
     match end {
         End::Start => RodEnd::Start,

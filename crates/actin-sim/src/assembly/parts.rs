@@ -1,4 +1,4 @@
-//! What bodies, sections and terms are, for writers and pictures.
+//! Descriptions of bodies, sections and terms, for output and pictures.
 
 use super::built::Built;
 use super::{Ranges, TwistWatch};
@@ -7,23 +7,23 @@ use actin_cosserat::{JoinedElement, RodLayout, RodMaterial, SegmentLaw};
 use actin_mechanics::{UnitQuaternion, Vector3};
 use std::ops::Range;
 
-/// How many segments or rises a bond or segment reaches at most, with room.
+/// Reach of a bond or segment in rises or segments, with a margin.
 const REACH: f64 = 3.0;
 
-/// What a point or a frame stands for. The numbers are those written to files.
+/// Kind of a point or frame. The numbers are those in files.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum BodyKind {
-    /// A monomer's centre, and its principal frame (radial, tangential, axial).
+    /// Centre of a monomer, and its principal frame (radial, tangential, axial).
     Monomer = 0,
-    /// A node of a rod.
+    /// Node of a rod.
     Node = 1,
-    /// The frame of a rod's segment.
+    /// Frame of a rod's segment.
     Segment = 2,
-    /// The frame of a junction's bond.
+    /// Frame of a junction's bond.
     Junction = 3,
-    /// The cross-section at the end of a rod: held by a wall, or free where a couple acts on it.
+    /// Cross-section at the end of a rod: held by a wall, or free with an end couple.
     Wall = 4,
-    /// The cross-section between two rods.
+    /// Cross-section between two rods.
     Joint = 5,
 }
 
@@ -38,7 +38,7 @@ impl BodyKind {
         Self::Joint,
     ];
 
-    /// The name that files give it.
+    /// Name in files.
     pub fn name(self) -> &'static str {
         match self {
             Self::Monomer => "monomer",
@@ -51,18 +51,18 @@ impl BodyKind {
     }
 }
 
-/// What a point is.
+/// Description of a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PointInfo {
     /// Monomer or node.
     pub kind: BodyKind,
     /// Arc length at rest (nm).
     pub s_nm: f64,
-    /// The frame of the same body; nodes have none.
+    /// Frame of the same body; `None` for nodes.
     pub frame: Option<usize>,
 }
 
-/// What a frame is.
+/// Description of a frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FrameInfo {
     /// Monomer, segment, junction or wall.
@@ -71,48 +71,48 @@ pub struct FrameInfo {
     pub s_nm: f64,
 }
 
-/// What a term belongs to. Sections are counted through all filaments.
+/// Part of the scene to which a term belongs. Section indices run through all filaments.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Part {
-    /// A section, by its index.
+    /// Section by index.
     Section(usize),
-    /// The junction between this section and the next.
+    /// Junction between the section with this index and the next.
     Junction(usize),
-    /// A load, by its index in the scene.
+    /// Load by index in the scene.
     Load(usize),
-    /// A linker, by its index in the scene.
+    /// Linker by index in the scene.
     Linker(usize),
-    /// The spring of a clamp, by the clamp's index in the scene.
+    /// Spring of a clamp, by index of the clamp in the scene.
     Clamp(usize),
-    /// The repulsion of filaments by each other.
+    /// Repulsion between filaments.
     Contacts,
-    /// A plane that repels, by its index in the scene.
+    /// Repelling plane, by index in the scene.
     Plane(usize),
-    /// A sphere that repels, by its index in the scene.
+    /// Repelling sphere, by index in the scene.
     Sphere(usize),
 }
 
-/// Where the parts of a filament stand among those of all, and where it was built.
+/// Index ranges of a filament's parts and its position as built.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FilamentSpan {
-    /// Its sections.
+    /// Range of sections.
     pub sections: Range<usize>,
-    /// Its points, contiguous.
+    /// Range of points.
     pub points: Range<usize>,
-    /// Its frames, contiguous; those of junctions and walls included.
+    /// Range of frames, including junctions and walls.
     pub frames: Range<usize>,
-    /// Terms of its sections and junctions, contiguous.
+    /// Range of terms of its sections and junctions.
     pub terms: Range<usize>,
-    /// Where arc length begins (nm, lab frame).
+    /// Position of arc length 0 (nm, lab frame).
     pub origin_nm: Vector3,
-    /// The turn from a filament along lab +z, or of its shape.
+    /// Rotation from lab +z to the filament or to its curve.
     pub rotation: UnitQuaternion,
-    /// Where its axis is, if it is not built straight; seen along lab +z.
+    /// Axis of a curved filament, along lab +z.
     pub(crate) shape: Option<Built>,
 }
 
 impl FilamentSpan {
-    /// Place of its axis as built at an arc length (nm, lab frame).
+    /// Position of the axis as built at an arc length (nm, lab frame).
     pub fn axis_place(&self, s_nm: f64) -> Vector3 {
         match &self.shape {
             None => self.origin_nm + self.axis() * s_nm,
@@ -120,81 +120,81 @@ impl FilamentSpan {
         }
     }
 
-    /// The turn from a filament along lab +z at an arc length (nm) as built.
+    /// Rotation from lab +z to the axis as built at an arc length (nm).
     pub fn frame_at(&self, s_nm: f64) -> UnitQuaternion {
         let built = self.shape.as_ref();
         built.map_or(self.rotation, |built| self.rotation * built.at(s_nm).1)
     }
 
-    /// Unit vector along the filament as built (lab frame); of one with a shape that along which its shape is
-    /// placed.
+    /// Unit vector along the filament as built (lab frame); for a curved filament, the direction of
+    /// its placement.
     pub fn axis(&self) -> Vector3 {
         self.rotation * Vector3::z()
     }
 
-    /// A place (nm, lab frame) as seen if the filament had been built along lab +z from the origin.
+    /// Transforms a position (nm, lab frame) to the frame in which the filament starts at the
+    /// origin along +z.
     pub fn seen_along_z(&self, place: Vector3) -> Vector3 {
         let relative = place - self.origin_nm;
         self.rotation.inverse_transform_vector(&relative)
     }
 }
 
-/// A rod, and how far the data behind its laws reach.
+/// Rod with its laws and their ranges.
 #[derive(Debug)]
 pub(crate) struct Rod {
     /// Index of its section.
     pub section: usize,
-    /// Its nodes and segments.
     pub layout: RodLayout,
-    /// What it is made of, and what couples its strains.
+    /// Material and coupling of its strains.
     pub law: (RodMaterial, SegmentLaw),
-    /// How far these data reach.
+    /// Ranges of the data of the laws.
     pub ranges: Ranges,
-    /// The elements that join its start and its end to the frames of junctions.
+    /// Elements that join the start and the end to the frames of junctions.
     pub joined: [Vec<JoinedElement>; 2],
-    /// What its twist is watched with, where the force along it can make it unstable.
+    /// Monitor of twist stability, where an axial force can destabilise the twist.
     pub twist_watch: Option<TwistWatch>,
 }
 
-/// One interaction of the assembled system.
+/// Description of an interaction of the system.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Term {
-    /// Kind of interaction, as the interaction itself names it.
+    /// Name of the interaction.
     pub name: &'static str,
-    /// Where it acts.
+    /// Part to which it belongs.
     pub part: Part,
 }
 
-/// A section as resolved.
+/// Resolved section.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SectionSpan {
-    /// Whether it resolves monomers or is a rod.
+    /// Resolution as monomers or as a rod.
     pub resolution: Resolution,
-    /// Arc length of its start (nm).
+    /// Arc length of the start (nm).
     pub from_nm: f64,
-    /// Arc length of its end (nm).
+    /// Arc length of the end (nm).
     pub to_nm: f64,
-    /// Its points.
+    /// Range of points.
     pub points: Range<usize>,
-    /// Its own frames: of monomers or of segments.
+    /// Range of the frames of its monomers or segments.
     pub frames: Range<usize>,
-    /// Points whose mean is the section's first tip.
+    /// Points whose mean is the first tip.
     pub(super) first_tip: Vec<usize>,
-    /// Points whose mean is the section's last tip.
+    /// Points whose mean is the last tip.
     pub(super) last_tip: Vec<usize>,
 }
 
-/// How a section is resolved.
+/// Resolution of a section.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Resolution {
-    /// Monomer by monomer.
+    /// Monomers.
     Ellipsoids {
         /// Lattice index of the first monomer.
         first_index: i64,
         /// Number of bonds.
         bonds: usize,
     },
-    /// As a rod.
+    /// Rod.
     Rod {
         /// Rest length of a segment (nm).
         segment_nm: f64,
@@ -202,7 +202,7 @@ pub enum Resolution {
 }
 
 impl SectionSpan {
-    /// Number of bonds; a rod has none.
+    /// Number of bonds; 0 for a rod.
     pub fn bonds(&self) -> usize {
         match self.resolution {
             Resolution::Ellipsoids { bonds, .. } => bonds,
@@ -210,8 +210,7 @@ impl SectionSpan {
         }
     }
 
-    /// How far its bonds or segments couple at most (nm of arc length), with room, where monomers stand a
-    /// rise apart: monomers reach the next but one, bending elements from middle to middle.
+    /// Upper bound of the coupling distance of bonds or segments (nm of arc length), with a margin.
     pub(crate) fn reach_nm(&self, rise_nm: f64) -> f64 {
         REACH
             * match self.resolution {
@@ -220,12 +219,11 @@ impl SectionSpan {
             }
     }
 
-    /// Whether the section resolves monomers.
+    /// Returns `true` for a section of monomers.
     pub fn is_ellipsoids(&self) -> bool {
         matches!(self.resolution, Resolution::Ellipsoids { .. })
     }
 
-    /// Points whose mean is the tip at `end`.
     pub(super) fn tip_points(&self, end: End) -> &[usize] {
         match end {
             End::Start => &self.first_tip,
@@ -237,7 +235,7 @@ impl SectionSpan {
 /// Number of bodies and elements of each kind.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize)]
 pub struct Counts {
-    /// Monomers, held ones included.
+    /// Monomers, including held monomers.
     pub monomers: usize,
     /// Bonds between monomers.
     pub bonds: usize,

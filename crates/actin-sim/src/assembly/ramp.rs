@@ -1,30 +1,30 @@
-//! The path of a scene in time, smooth ramps from stage to stage, and the factors of its loads.
+//! Path of a scene in time, with smooth ramps, and time-dependent load factors.
 
 use super::{Assembly, Drive, Part};
 use crate::At;
 use crate::scene::{Factor, Pace, smooth};
 use actin_mechanics::{ControlId, Interaction, State, Vector3};
 
-/// A [`Drive`] whose stages take their durations one after the other; behind the last, controls
-/// stay where they are.
+/// A [`Drive`] in time: stages follow one another with their durations. Controls are constant after
+/// the last stage.
 ///
-/// Within a smooth stage the path parameter grows by `r(x) = x^3 (10 - 15 x + 6 x^2)`, x the share of its
-/// time: velocity and acceleration of what is driven are zero at both ends.
+/// In a smooth stage the path parameter grows by `r(x) = x^3 (10 - 15 x + 6 x^2)`, `x` the elapsed
+/// share of its duration. Velocity and acceleration vanish at both ends.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Ramp {
     drive: Drive,
     times: StageTimes,
-    /// Loads that change in time, and whether the path sets their factor too.
+    /// Time-dependent load factors, and whether the path also sets each factor.
     factors: Vec<(ControlId, Factor, bool)>,
-    /// Interactions whose controls it may move.
+    /// Indices of the interactions with time-dependent controls.
     controlled: Vec<usize>,
 }
 
-/// Share of the time for which work is booked between the two controls whose difference gives their rate.
+/// Distance of the two controls whose difference gives their rate, over the time step of the work.
 const RATE_OVER: f64 = 1e-3;
 
 impl Ramp {
-    /// What moves in an assembly as time goes; none where nothing does.
+    /// Creates the ramp of an assembly; `None` if nothing moves.
     pub(crate) fn of(assembly: &Assembly) -> Option<Self> {
         let drive = assembly.drive.clone();
         let loads = assembly.scene.loads.iter().zip(&assembly.loads);
@@ -41,7 +41,7 @@ impl Ramp {
         })
     }
 
-    /// From when on everything stays where it is (ns).
+    /// Time (ns) after which all controls are constant.
     pub(crate) fn duration(&self) -> f64 {
         let settled = self
             .factors
@@ -51,7 +51,7 @@ impl Ramp {
     }
 }
 
-/// Terms of the loads and linkers whose controls the path or time changes.
+/// Terms of the loads and linkers whose controls change.
 fn controlled(assembly: &Assembly) -> Vec<usize> {
     let changes = |part: Part| match part {
         Part::Load(i) => {
@@ -70,12 +70,12 @@ fn controlled(assembly: &Assembly) -> Vec<usize> {
         .collect()
 }
 
-/// When the stages of a path begin, and how long they take.
+/// Start times and durations of the stages of a path.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct StageTimes {
-    /// Begin and duration of each stage (ns), and how controls move in it.
+    /// Start and duration of each stage (ns), and its pace.
     stages: Vec<(f64, f64, Pace)>,
-    /// When the last one ends (ns).
+    /// End of the last stage (ns).
     end: f64,
 }
 
@@ -91,7 +91,6 @@ impl StageTimes {
         Self { stages, end }
     }
 
-    /// Those of an assembly's path.
     pub(crate) fn of(assembly: &Assembly) -> Self {
         let stages = assembly.scene.path.iter();
         Self::new(stages.filter_map(|stage| Some((stage.duration_ns?, stage.pace))))
@@ -144,7 +143,7 @@ impl actin_mechanics::Drive for Ramp {
 }
 
 impl Ramp {
-    /// Factors of loads that change in time, on top of what the path has set.
+    /// Applies time-dependent factors to the loads, multiplied by the factors of the path.
     fn set_factors(&self, state: &mut State, time: f64) {
         for (control, factor, is_set) in &self.factors {
             let of_path = if *is_set {
@@ -158,13 +157,13 @@ impl Ramp {
 }
 
 impl Assembly {
-    /// Motion in time of what the scene moves: factors of loads, anchors and held ends; `None` where all of it stays.
+    /// Returns the prescribed motion in time of loads, anchors and held ends; `None` if nothing
+    /// moves.
     pub fn drive_in_time(&self) -> Option<Box<dyn actin_mechanics::Drive>> {
         Ramp::of(self).map(|ramp| Box::new(ramp) as Box<dyn actin_mechanics::Drive>)
     }
 
-    /// Puts factors of loads, anchors and held bodies where the scene has them at that time or place of its
-    /// path.
+    /// Sets load factors, anchors and held bodies to their values at a time or place of the path.
     pub fn place_controls(&self, state: &mut State, at: At) {
         match at {
             At::Path(parameter) => self.drive.place(state, parameter),
@@ -176,21 +175,20 @@ impl Assembly {
         }
     }
 
-    /// Where linker `i` begins and ends in `state` (nm, lab frame), and whether it holds.
+    /// End positions of linker `i` in `state` (nm, lab frame), and whether it is bound.
     ///
     /// # Panics
-    /// If there is no such linker.
+    /// If the index is out of range.
     pub fn linker_ends(&self, i: usize, state: &State) -> ([Vector3; 2], bool) {
         let (linker, holds) = self.linker_in(i, state);
         let ends = [linker.site().position(state), linker.end_position(state)];
         (ends, holds)
     }
 
-    /// The force with which linker `i` pulls its ends together in `state` (pN): negative where it pushes, zero where
-    /// it does not hold.
+    /// Tension of linker `i` in `state` (pN): negative in compression, zero if unbound.
     ///
     /// # Panics
-    /// If there is no such linker.
+    /// If the index is out of range.
     pub fn linker_pull_pn(&self, i: usize, state: &State) -> f64 {
         let (linker, holds) = self.linker_in(i, state);
         let span = linker.end_position(state) - linker.site().position(state);
@@ -205,7 +203,6 @@ impl Assembly {
 mod tests {
     use super::*;
 
-    /// The rate is the derivative of the parameter, and nothing jumps between stages.
     #[test]
     fn ramps_are_smooth() {
         let ramp = StageTimes::new([2.0, 0.5].map(|duration| (duration, Pace::Smooth)));

@@ -1,4 +1,4 @@
-//! Where a state leaves the data behind a rod's fitted laws.
+//! Detection of states outside the data of fitted rod laws.
 
 use super::extrapolation::MeasuredError;
 use super::{Assembly, Rod};
@@ -9,9 +9,9 @@ use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::fmt;
 
-/// A rod goes further than the data that one of its laws was fitted to.
+/// Deformation of a rod beyond the data of a fitted law.
 ///
-/// Written, `value` and `range` of twist and of curvature are `value_per_nm` and `range_per_nm`.
+/// In files, `value` and `range` of twist and curvature are `value_per_nm` and `range_per_nm`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(into = "Written", from = "Written")]
 pub struct BeyondRange {
@@ -21,15 +21,15 @@ pub struct BeyondRange {
     pub section: usize,
     /// `twist`, `curvature`, `shear`, or `stretch` beyond the natural length.
     pub quantity: String,
-    /// Where it goes furthest, as arc length at rest (nm).
+    /// Arc length of the largest value (nm, at rest).
     pub s_nm: f64,
-    /// What it reaches there (rad/nm, or a strain).
+    /// Largest value (rad/nm, or a strain).
     pub value: f64,
-    /// How far the data reach (the same); in compression the bound of that.
+    /// Limit of the data (rad/nm, or a strain); in compression the lower bound.
     pub range: f64,
-    /// How often, where the state fluctuates; none without a heat bath.
+    /// Frequency of the excess in a heat bath; `None` without a bath.
     pub fluctuations: Option<Fluctuations>,
-    /// The error that was measured there; none where none was.
+    /// Measured error for this value, if available.
     pub measured_error: Option<MeasuredError>,
 }
 
@@ -46,12 +46,13 @@ impl fmt::Display for BeyondRange {
         match self.fluctuations {
             None => write!(
                 f,
-                "beyond the data of its law: {quantity} {value:.4}{unit} at {place}, data reach {range:.4}; {error}"
+                "{quantity} {value:.4}{unit} at {place} exceeds the data of the rod law ({range:.4}): results there are \
+                 extrapolated; {error}"
             ),
             Some(often) => write!(
                 f,
-                "fluctuations beyond the data of a law: {quantity} in {} of the records and {} of all {elements}, at most \
-                 {value:.4}{unit} at {place}, data reach {range:.4}; {error}",
+                "{quantity} fluctuates beyond the data of the rod law in {} of the records and {} of all {elements}: at most \
+                 {value:.4}{unit} at {place}, where the data end at {range:.4}; {error}",
                 percent(often.share_of_records),
                 percent(often.share_of_elements)
             ),
@@ -59,7 +60,7 @@ impl fmt::Display for BeyondRange {
     }
 }
 
-/// Filament of a place, unless it is the first.
+/// Suffix that names a filament other than the first.
 pub(super) fn of_filament(filament: usize) -> String {
     match filament {
         0 => String::new(),
@@ -67,7 +68,7 @@ pub(super) fn of_filament(filament: usize) -> String {
     }
 }
 
-/// A share in per cent, to two digits.
+/// Formats a share in per cent with two digits.
 pub(super) fn percent(share: f64) -> String {
     match 100.0 * share {
         percent if percent >= 10.0 => format!("{percent:.0} %"),
@@ -76,7 +77,7 @@ pub(super) fn percent(share: f64) -> String {
     }
 }
 
-/// The same as it is written.
+/// Serialised form of [`BeyondRange`].
 #[derive(Clone, Serialize, Deserialize)]
 struct Written {
     #[serde(default)]
@@ -134,17 +135,17 @@ impl From<Written> for BeyondRange {
     }
 }
 
-/// How often thermal fluctuations pass a bound.
+/// Frequency with which thermal fluctuations exceed a bound.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Fluctuations {
-    /// Share of the records in which they do anywhere.
+    /// Share of the records with any excess.
     pub share_of_records: f64,
-    /// Share of all bending elements (of shear and stretch: of all segments) of all records in which they
-    /// do. It does not grow with the length of a filament or the duration of a run.
+    /// Share of all bending elements (for shear and stretch: segments) in all records. It is
+    /// independent of the length of the filament and of the duration of the run.
     pub share_of_elements: f64,
 }
 
-/// How far the data behind a rod's laws reach; none where nothing bounds them.
+/// Ranges of the data of a rod's laws; `None` where unbounded.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Ranges {
     /// Curvature at rest, from which deformations are counted.
@@ -152,12 +153,12 @@ pub(crate) struct Ranges {
     twist: Option<f64>,
     curvature: Option<f64>,
     shear: Option<f64>,
-    /// In compression and in tension.
+    /// Lower (compression) and upper (tension) bound.
     stretch: Option<[f64; 2]>,
 }
 
 impl Ranges {
-    /// Those of a material, and of the law of its natural length.
+    /// Ranges of a material and of a twist-stretch law.
     pub(super) fn of(material: &RodMaterial, length: Option<&TwistStretch>) -> Self {
         if let Some(law) = material.potential() {
             return Self {
@@ -188,14 +189,14 @@ impl Ranges {
     }
 }
 
-/// Values of a quantity with their arc lengths from the rod's start (nm).
+/// Values of a quantity and their arc lengths from the rod's start (nm).
 type Values<'a> = Box<dyn Iterator<Item = (f64, f64)> + 'a>;
 
-/// What a law's data bound.
+/// Quantity that the data of a law bound.
 #[derive(Clone, Copy)]
 struct Quantity {
     name: &'static str,
-    /// The lowest and the highest value.
+    /// Lower and upper bound.
     range: fn(&Ranges) -> Option<[f64; 2]>,
     of: for<'a> fn(&'a Rod, &'a State) -> Values<'a>,
 }
@@ -224,11 +225,11 @@ const QUANTITIES: [Quantity; 4] = [
 ];
 
 impl Assembly {
-    /// Where the rods leave the data of their laws in `state`: at most once per section and
-    /// quantity, where it is worst. Beyond their data laws of twist and of length go on with the
-    /// slope that they have there, bending and potentials by their formulas.
+    /// Returns the deformations of rods in `state` beyond the data of their laws, at most one entry
+    /// per section and quantity.
     ///
-    /// The bending elements that join a rod to the frames of its junctions count as its own, at
+    /// Beyond their data, laws of twist and length are continued linearly; bending laws and
+    /// potentials by their formulas. Bending elements that join a rod to junction frames belong to
     /// the end of the rod.
     pub fn beyond_range(&self, state: &State) -> Vec<BeyondRange> {
         let mut found = Vec::new();
@@ -241,7 +242,6 @@ impl Assembly {
         found
     }
 
-    /// What goes beyond its range, in words and with its filament.
     fn told(&self, excess: Excess, fluctuations: Option<Fluctuations>) -> BeyondRange {
         let filament = self.filament_of_section(excess.section);
         let section = excess.section - self.filaments[filament].sections.start;
@@ -266,8 +266,9 @@ impl Assembly {
         }
     }
 
-    /// The same over the records of a run: the worst for each section and quantity or, in a heat
-    /// bath, the worst for each quantity, with how often it occurs.
+    /// Merges [`beyond_range`](Self::beyond_range) over the records of a run. The result holds the
+    /// largest value of each section and quantity. In a heat bath it holds the largest value of
+    /// each quantity, with its frequency.
     pub fn beyond_range_over<'a>(
         &self,
         states: impl IntoIterator<Item = &'a State>,
@@ -277,7 +278,7 @@ impl Assembly {
         watch.end(self)
     }
 
-    /// How a quantity stands in a rod; nothing is counted where it has no range.
+    /// Counts the excesses of a quantity in a rod; empty if the quantity is unbounded.
     fn tally(&self, rod: &Rod, quantity: usize, state: &State) -> Tally {
         let Quantity { range, of, .. } = QUANTITIES[quantity];
         let Some([lowest, highest]) = range(&rod.ranges) else {
@@ -317,14 +318,14 @@ impl Assembly {
 }
 
 impl BeyondRange {
-    /// The error that was measured there, in words.
+    /// Describes the measured error.
     pub fn error_text(&self) -> String {
         let Some(error) = &self.measured_error else {
-            return "the error there was not measured".to_owned();
+            return "the error was not measured there".to_owned();
         };
         format!(
-            "cantilevers with {} up to {:.4} have tips within {:.1} % of monomers' mean over azimuths, within {:.1} % \
-             of those at one azimuth",
+            "in cantilevers with {} up to {:.4} the tip displacement is within {:.1} % of the mean of monomers over \
+             azimuths, and within {:.1} % of monomers at one azimuth",
             self.quantity,
             error.up_to,
             100.0 * error.of_mean,
@@ -332,16 +333,16 @@ impl BeyondRange {
         )
     }
 
-    /// Whether it is of a strain: a number without a unit.
+    /// Returns `true` if the quantity is a dimensionless strain.
     pub fn is_strain(&self) -> bool {
         matches!(self.quantity.as_str(), "shear" | "stretch")
     }
 }
 
-/// Where a quantity goes furthest beyond its range; units are those of [`BeyondRange`].
+/// Largest excess of a quantity, in the units of [`BeyondRange`].
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 struct Excess {
-    /// Index of the section among those of all filaments.
+    /// Index of the section among all filaments.
     section: usize,
     /// Index in [`QUANTITIES`].
     quantity: usize,
@@ -351,14 +352,13 @@ struct Excess {
 }
 
 impl Excess {
-    /// The value over the range.
     fn ratio(&self) -> f64 {
         self.value.abs() / self.range
     }
 }
 
-/// Curvature of every bending element of a rod, walls and junctions included (of these what they lack at rest
-/// is added), with its arc length from the rod's start (nm).
+/// Curvature of every bending element of a rod with its arc length from the rod's start (nm).
+/// Elements of walls and junctions are included, with their curvature deficit at rest added.
 pub(super) fn curvatures<'a>(
     rod: &'a Rod,
     state: &'a State,
@@ -382,7 +382,7 @@ pub(super) fn curvatures<'a>(
     })
 }
 
-/// What these are beyond the curvature at rest.
+/// Curvatures relative to the curvature at rest.
 pub(super) fn bends<'a>(
     rod: &'a Rod,
     state: &'a State,
@@ -391,8 +391,8 @@ pub(super) fn bends<'a>(
     curvatures(rod, state).map(move |(s, kappa)| (s, kappa - rest))
 }
 
-/// Strain of every segment of a rod under a potential, its third component beyond the natural length, with
-/// the arc length of its middle from the rod's start (nm).
+/// Strain of every segment of a rod under a potential, with the arc length of its middle (nm). The
+/// third component is relative to the natural length.
 fn strains<'a>(rod: &'a Rod, state: &'a State) -> impl Iterator<Item = (f64, Vector3)> + 'a {
     let potential = rod.twist_watch.as_ref();
     let potential = potential.and_then(|watch| Some((watch, watch.material.potential()?)));
@@ -406,30 +406,29 @@ fn strains<'a>(rod: &'a Rod, state: &'a State) -> impl Iterator<Item = (f64, Vec
     })
 }
 
-/// Looks at one state after another for where rods leave the data of their laws.
+/// Monitor of excesses over a sequence of states.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub(crate) struct RangeWatch(Found);
 
-/// What was found so far.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 enum Found {
     Worst(Worst),
     InBath(Box<InBath>),
 }
 
-/// The worst for each section and quantity.
+/// Largest excess of each section and quantity.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 struct Worst {
     list: Vec<Excess>,
-    /// Where each stands in the list: section among those of all filaments, and quantity.
+    /// Index in `list` by section (among all filaments) and quantity.
     places: BTreeMap<(usize, usize), usize>,
 }
 
-/// What was counted of each quantity in a heat bath, and in how many states it went beyond its range.
+/// Counts for each quantity in a heat bath.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 struct InBath {
     states: u32,
-    /// In the order of [`QUANTITIES`].
+    /// Counts of elements and of states with an excess, in the order of [`QUANTITIES`].
     tallies: [(Tally, u32); QUANTITIES.len()],
 }
 
@@ -451,7 +450,7 @@ impl RangeWatch {
         }
     }
 
-    /// What was found in all states.
+    /// Returns the excesses over all states.
     pub(crate) fn end(self, assembly: &Assembly) -> Vec<BeyondRange> {
         match self.0 {
             Found::Worst(worst) => {
@@ -496,7 +495,7 @@ impl InBath {
         }
     }
 
-    /// One entry for each quantity that went beyond its range in any state.
+    /// Returns one entry for each quantity that exceeded its range in any state.
     fn end(self, assembly: &Assembly) -> Vec<BeyondRange> {
         let found = self.tallies.into_iter().filter_map(|(all, states_beyond)| {
             let fluctuations = Some(Fluctuations {
@@ -509,7 +508,7 @@ impl InBath {
     }
 }
 
-/// How often and how far a quantity goes beyond its range.
+/// Number and largest value of the excesses of a quantity.
 #[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
 struct Tally {
     elements: usize,
@@ -534,8 +533,8 @@ mod tests {
     use crate::{BodyKind, FrameInfo, Scene};
     use actin_mechanics::UnitQuaternion;
 
-    /// A junction's frame that is turned by 0.4 rad twists the element between it and the rod's end
-    /// by 0.4 over 5.7 nm; the rod itself is straight.
+    /// A rotation of a junction frame by 0.4 rad twists its 5.7 nm element; the rod itself is
+    /// straight.
     #[test]
     fn elements_of_junctions_count() {
         let text = "Scene(

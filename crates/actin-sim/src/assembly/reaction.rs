@@ -1,32 +1,32 @@
-//! What a clamp has to bear.
+//! Reaction force and torque at a clamp.
 
 use crate::scene::{End, Slides};
 use actin_mechanics::{Loads, State, UnitQuaternion, Vector3};
 
-/// A held end: which bodies are held, and the point about which torques are taken.
+/// Clamped end, its held bodies and the reference point of its torque.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Clamped {
     /// Index of the filament.
     pub filament: usize,
-    /// Which end.
+    /// End of the filament.
     pub end: End,
     /// Held points.
     pub points: Vec<usize>,
-    /// Held frames; none of a pinned end without a hinge.
+    /// Held frames; empty for a pinned end without a hinge.
     pub frames: Vec<usize>,
-    /// The clamped point on the axis as built (nm, lab frame).
+    /// Clamped point on the axis as built (nm, lab frame).
     pub about_nm: Vector3,
-    /// Along which directions the end slides.
+    /// Sliding directions of the end.
     pub slides: Slides,
     /// Unit vector along the filament as built (lab frame).
     pub(super) axis: Vector3,
     /// Position of the first held point minus the clamped point, as built (nm, lab frame).
     pub(super) arm_nm: Vector3,
-    /// Orientation of the first held frame as built, of the filament where none is held.
+    /// Orientation as built of the first held frame, or of the filament if no frame is held.
     pub(super) rest: UnitQuaternion,
 }
 
-/// Force and torque that hold an end where it is.
+/// Force and torque of a clamp on its filament.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Reaction {
     /// Force on the filament (pN, lab frame).
@@ -36,7 +36,7 @@ pub struct Reaction {
 }
 
 impl Clamped {
-    /// Where the clamped point is in `state` (nm, lab frame): it moves with the held bodies.
+    /// Position of the clamped point in `state` (nm, lab frame). It moves with the held bodies.
     pub fn point_nm(&self, state: &State) -> Vector3 {
         let place = state.points.position.get(self.points[0]);
         match self.frames.first() {
@@ -44,14 +44,14 @@ impl Clamped {
                 let turn = state.frames.orientation.get(*frame) * self.rest.inverse();
                 place - turn * self.arm_nm
             }
-            // What is pinned stands on the axis.
+            // A pinned point lies on the axis.
             None => place - self.arm_nm,
         }
     }
 
-    /// The reaction in `state` under `loads`: minus what the held bodies feel. Along directions in which the end
-    /// slides the clamp bears nothing: there the loads are what moves the end, shared alike by its points, which
-    /// are of one mass.
+    /// Reaction in `state` under `loads`: minus the loads on the held bodies. Components along
+    /// sliding directions are zero, because the loads there accelerate the end. The held points
+    /// share that acceleration equally, having equal masses.
     pub fn reaction(&self, state: &State, loads: &Loads) -> Reaction {
         let about = self.point_nm(state);
         let felt: Vector3 = self.points.iter().map(|&i| loads.force.get(i)).sum();

@@ -1,4 +1,4 @@
-//! Filaments that repel each other and walls: how near surfaces are, and how stiff contact can be.
+//! Repulsion of filaments and walls: gaps between surfaces, and contact stiffness.
 
 use super::{Assembly, Part};
 use crate::scene::SceneProblem;
@@ -6,39 +6,38 @@ use actin_coupling::repulsion::{Capsule, Contacts, Gap, Tethers, WallContact};
 use actin_integrate::FrequencyError;
 use actin_mechanics::{Interaction, State, System};
 
-/// What the repulsion of a scene has become.
+/// Repelling bodies and interactions of a scene.
 #[derive(Clone, Debug)]
 pub(crate) struct Repelled {
-    /// All filaments.
+    /// Capsules of all filaments.
     pub(super) capsules: Vec<Capsule>,
     pub(super) contacts: Option<Contacts>,
     pub(super) walls: Vec<(Part, WallContact)>,
     pub(crate) radius_nm: f64,
 }
 
-/// Where two surfaces are near each other.
+/// Pair of surfaces near each other.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Touching {
-    /// What repels: contacts, a plane or a sphere.
+    /// Kind of the contact: filaments, plane or sphere.
     pub(crate) part: Part,
-    /// How far they are apart.
     pub(crate) gap: Gap,
-    /// Their filaments; of a wall twice the same.
+    /// Indices of both filaments; equal for a wall.
     pub(crate) filaments: [usize; 2],
-    /// Depth over the distance of contact, or over the radius in a wall.
+    /// Penetration depth over the contact distance; for a wall, over the radius.
     pub(crate) depth: f64,
-    /// What that may be.
+    /// Limit of the depth.
     pub(crate) limit: f64,
 }
 
 impl Repelled {
-    /// Number of pairs of capsules that are near each other.
+    /// Number of pairs of capsules near each other.
     pub(crate) fn pairs(&self, state: &State) -> usize {
         let contacts = self.contacts.as_ref();
         contacts.map_or(0, |contacts| contacts.pairs(state))
     }
 
-    /// Where surfaces are nearest to each other, and to each wall, as far as they are near.
+    /// Nearest pair of filament surfaces, and nearest surface to each wall, if within range.
     pub(crate) fn touching(&self, state: &State) -> Vec<Touching> {
         let between = self.contacts.iter().filter_map(|contacts| {
             let gap = contacts.closest(state)?;
@@ -64,7 +63,7 @@ impl Repelled {
         }
     }
 
-    /// The largest frequency (rad/ns) that filaments would have under the stiffest contact alone.
+    /// Largest frequency (rad/ns) of the filaments under the stiffest contact alone.
     fn largest_frequency(&self, state: &State) -> Result<f64, FrequencyError> {
         let between = self.contacts.iter().map(Contacts::greatest_stiffness);
         let walls = self.walls.iter().map(|(_, wall)| wall.greatest_stiffness());
@@ -76,12 +75,12 @@ impl Repelled {
 }
 
 impl Touching {
-    /// Whether filaments are farther in each other or in a wall than they can be pushed back.
+    /// Returns `true` if the penetration exceeds the range of the repulsion.
     pub(crate) fn is_beyond(&self) -> bool {
         self.depth > self.limit
     }
 
-    /// Where and how far, in a scene of so many filaments.
+    /// Describes the penetration in a scene with this number of filaments.
     pub(crate) fn in_words(&self, filaments: usize) -> String {
         let [a, b] = self.filaments;
         let [s, t] = self.gap.places;
@@ -111,16 +110,18 @@ impl Touching {
 }
 
 impl Assembly {
-    /// Distance of the two surfaces that are nearest to each other in `state` (nm), of filaments, parts of
-    /// one, or walls; negative where one is in the other. None if none are within a quarter of a radius, or
-    /// if nothing repels.
+    /// Smallest gap between surfaces of filaments, of parts of one filament, and of walls in
+    /// `state` (nm).
+    ///
+    /// A negative gap is a penetration. `None` if no gap is below a quarter of a radius, or without
+    /// repulsion.
     pub fn smallest_gap_nm(&self, state: &State) -> Option<f64> {
         let touching = self.repelled.as_ref()?.touching(state);
         touching.iter().map(|t| t.gap.gap).min_by(f64::total_cmp)
     }
 
-    /// A largest frequency (rad/ns) with what contact can add to it: no eigenvalue of a sum of two
-    /// stiffnesses is above the sum of their largest.
+    /// Upper bound of the largest frequency (rad/ns) including contact. The largest eigenvalue of a
+    /// sum of stiffnesses is at most the sum of the largest eigenvalues.
     pub(crate) fn with_contact(&self, frequency: f64) -> Result<f64, SceneProblem> {
         let Some(repelled) = &self.repelled else {
             return Ok(frequency);
@@ -131,7 +132,7 @@ impl Assembly {
         Ok(frequency.hypot(of_contact))
     }
 
-    /// Notes on filaments that are pressed into each other or into walls as built.
+    /// Warnings about filaments that penetrate each other or walls as built.
     pub(crate) fn notes_on_repulsion(&self) -> Vec<String> {
         let Some(repelled) = &self.repelled else {
             return Vec::new();

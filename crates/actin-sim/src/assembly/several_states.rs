@@ -1,26 +1,32 @@
-//! Where rods are twisted and bent so that the monomers that they stand for have several states.
+//! Detection of rods under twist and bending at which monomers have several states.
 //!
-//! Under-twisted monomers snap when they are bent: at one curvature and twist there are states of other energies, which bear other
-//! couples about the axis. Which they are in depends on how they came there; a rod has one.
+//! Under-twisted monomers snap under bending. At one curvature and twist they have states of
+//! different energies and torques about the axis, selected by the loading history. A rod has a
+//! single state.
 
 use super::range::bends;
 use super::{Assembly, Rod};
 use actin_mechanics::{State, Vector3};
 
-/// Twists between which there are several (rad/nm). Left out are over-twisted monomers, which have them from 0.025 on with couples
-/// that differ by less than a tenth, and those under-twisted by more, which have them from smaller curvatures on where they bend in
-/// a plane.
+/// Twists with several states (rad/nm).
+///
+/// Over-twisted monomers are omitted: they have several states from 0.025 rad/nm on, with torques
+/// that differ by less than a tenth. Stronger under-twist is omitted too: its states appear at
+/// smaller curvatures in planar bending.
 ///
 /// # Source
-/// `cargo xtask homogenise states`, as the next.
+/// `cargo xtask homogenise states`, also for [`CURVATURES`].
 const TWISTS: [f64; 2] = [-0.028, -0.004];
-/// Curvatures between which there are several, over the size of the twist. Cells have them from 0.5 to 0.6 on; filaments that snap bend
-/// more here and less there, so that they do from less on: the couple of 300 nm that buckle under -300 deg (0.50 in a rod) is 12 %
-/// off, under -330 deg (0.46) 5 %, under -360 deg (0.42) less than 1 %.
+/// Curvatures with several states, over the magnitude of the twist.
+///
+/// Cells have several states from 0.5 to 0.6 on. The lower bound is smaller because snapping
+/// filaments bend nonuniformly. The end torque of filaments of 300 nm that buckle under -300 deg
+/// (0.50 in a rod) is 12 % off, under -330 deg (0.46) 5 %, and under -360 deg (0.42) less than 1 %.
 const CURVATURES: [f64; 2] = [0.45, 2.0];
 
 impl Assembly {
-    /// Stretches of these rods at which monomers have several states, each with its filament (arc lengths at rest, nm).
+    /// Returns filament and arc length interval (nm, at rest) of each stretch of these rods with
+    /// several states.
     pub(crate) fn several_states(
         &self,
         state: &State,
@@ -40,16 +46,17 @@ impl Assembly {
     }
 }
 
-/// Whether monomers have several states at this curvature and twist (rad/nm, beyond those at rest).
+/// Returns `true` if monomers have several states at this curvature and twist (rad/nm, relative to
+/// rest).
 fn has_several(bend: Vector3) -> bool {
     let within = |[low, high]: [f64; 2], value: f64| low <= value && value <= high;
     within(TWISTS, bend.z) && within(CURVATURES, bend.xy().norm() / bend.z.abs())
 }
 
-/// What lies about the marked ones of places on a rod of some length (nm), as far as halfway to the next other place.
+/// Intervals (nm) around marked places of a rod, extended halfway to the nearest unmarked place.
 fn stretches(mut places: Vec<(f64, bool)>, length: f64) -> Vec<[f64; 2]> {
     places.sort_by(|a, b| a.0.total_cmp(&b.0));
-    // Of those at one place, where junctions have several elements, one is enough.
+    // Junctions have several elements at one place; keep one.
     places.dedup_by(|next, kept| {
         let is_same = next.0 <= kept.0;
         kept.1 |= is_same && next.1;
@@ -73,7 +80,6 @@ fn stretches(mut places: Vec<(f64, bool)>, length: f64) -> Vec<[f64; 2]> {
 mod tests {
     use super::*;
 
-    /// Neighbours are one stretch, ends reach to those of the rod, and two elements at one place are one.
     #[test]
     fn stretches_lie_about_what_is_marked() {
         let at = |s: f64, is_marked: bool| (s, is_marked);

@@ -1,4 +1,4 @@
-//! Turns that segments cannot follow: past half a turn, two neighbours forget which way they came.
+//! Refusal of twists that segments cannot represent.
 
 use super::Assembly;
 use crate::At;
@@ -8,12 +8,11 @@ use std::collections::BTreeSet;
 use std::f64::consts::{PI, TAU};
 
 impl Assembly {
-    /// Refuses a path that twists a rod held at both ends by half a turn or more in each joint of
-    /// two segments.
+    /// Refuses a path that twists a rod held at both ends by half a turn or more per joint.
     ///
-    /// The curvature of a joint is the logarithm of its rotation, which knows angles up to pi
-    /// alone: past it a driven joint slips back by a whole turn, and its couple changes sign.
-    /// Looked at is uniform twist at the end of each stage; shocks may slip before.
+    /// The curvature of a joint is the logarithm of its rotation, with angles up to pi. Beyond pi a
+    /// driven joint slips by a whole turn and its torque changes sign. The check assumes uniform
+    /// twist at the end of each stage; shocks can slip earlier.
     pub(crate) fn check_slip(&self) -> Result<(), SceneProblem> {
         (0..self.filaments.len()).try_for_each(|filament| self.check_slip_of(filament))
     }
@@ -54,8 +53,8 @@ impl Assembly {
         Ok(())
     }
 
-    /// Turn (rad) of the end against the start at a path parameter; where it is not known, the difference of their
-    /// turns about the filament at either.
+    /// Rotation (rad) of the end relative to the start at a path parameter. If unknown, it is
+    /// estimated from the prescribed turns of both ends about the filament.
     fn turned_against(&self, filament: usize, clamps: [usize; 2], parameter: f64) -> f64 {
         if let Some(turns) = turn_of_ends(self, filament, At::Path(parameter)) {
             return TAU * turns.abs();
@@ -67,7 +66,7 @@ impl Assembly {
         (turns[1] - turns[0]).abs()
     }
 
-    /// The key of the last turn of a filament in a stage; of the stage if there is none.
+    /// Key of the last turn of a filament in a stage, or of the stage.
     fn key_of_turn(&self, filament: usize, stage: usize) -> String {
         let settings = &self.scene.path[stage].set;
         let is_turn = |setting: &Setting| matches!(setting, Setting::Turn { filament: f, .. } if *f == filament);

@@ -1,4 +1,4 @@
-//! Where the force along a rod makes its twist unstable.
+//! Detection of twist instability under axial force.
 
 use super::range::{of_filament, percent};
 use super::{Assembly, Rod};
@@ -7,26 +7,26 @@ use actin_mechanics::{State, Vector3};
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
-/// A segment bears a force along it under which its twist is unstable.
+/// Segment whose twist is unstable under its axial force.
 ///
-/// The instability is local: how many modes of the twist grow, and how finely a rod divides into
-/// parts of different twist, depends on its segments.
+/// The instability is local: the number of unstable modes and of domains of different twist depends
+/// on the segments.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct UnstableTwist {
     /// Index of the filament.
     pub filament: usize,
     /// Index of the section in its filament.
     pub section: usize,
-    /// Middle of the segment whose tangent of twist is lowest, as arc length at rest (nm).
+    /// Arc length at rest (nm) of the middle of the segment with the lowest tangent of twist.
     pub s_nm: f64,
-    /// Mean twist around it (rad/nm).
+    /// Mean twist around the segment (rad/nm).
     pub twist_per_nm: f64,
-    /// Compression that it bears (pN); negative in tension.
+    /// Compression of the segment (pN); negative in tension.
     pub compression_pn: f64,
-    /// Compression at which its twist becomes unstable (pN): positive where every larger
-    /// compression is unstable, negative where every larger tension is.
+    /// Critical compression of the twist (pN). If positive, larger compression is unstable; if
+    /// negative, larger tension is.
     pub bound_pn: f64,
-    /// Share of the records of the run in which the section has such a segment.
+    /// Share of the records in which the section has an unstable segment.
     pub share_of_records: f64,
 }
 
@@ -41,12 +41,12 @@ impl fmt::Display for UnstableTwist {
         } else {
             ("compression", 1.0)
         };
-        // To the digits shown, without the sign of a zero.
+        // Avoids the sign of a zero.
         let twist = (1e4 * self.twist_per_nm).round() / 1e4 + 0.0;
         write!(
             f,
-            "twist is UNSTABLE{often}: {what} {:.2} pN at s = {:.1} nm{}, where the bound is {:.2} pN (twist {twist:.4} \
-             rad/nm); a local instability: what follows depends on the number of segments",
+            "twist is UNSTABLE{often}: {what} {:.2} pN at s = {:.1} nm{} exceeds the critical value {:.2} pN (twist \
+             {twist:.4} rad/nm); the instability is local: results depend on the number of segments",
             sign * self.compression_pn,
             self.s_nm,
             of_filament(self.filament),
@@ -55,7 +55,7 @@ impl fmt::Display for UnstableTwist {
     }
 }
 
-/// What the twist of a rod's segments is watched with.
+/// Law of a monitored rod and its end conditions.
 #[derive(Debug)]
 pub(crate) struct TwistWatch {
     pub(crate) law: SegmentLaw,
@@ -63,7 +63,7 @@ pub(crate) struct TwistWatch {
     pub(crate) curvature: SegmentCurvature,
 }
 
-/// The segment of a rod whose twist is least stable.
+/// Segment of a rod with the least stable twist.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 struct Weakest {
     tangent: f64,
@@ -71,8 +71,8 @@ struct Weakest {
 }
 
 impl Assembly {
-    /// Where twist is unstable in `state` under the forces along the rods: at most once per
-    /// section, where its tangent is lowest.
+    /// Returns the segments in `state` with unstable twist under the axial forces, at most one per
+    /// section with the lowest tangent.
     ///
     /// # Source
     /// `docs/statics.md`, "Extended rods in compression".
@@ -82,9 +82,11 @@ impl Assembly {
         all.map(|weakest| weakest.found).collect()
     }
 
-    /// The same over the records of a run: the worst for each section, with the share of the
-    /// records that have it. Nothing in a heat bath, where the force along a segment fluctuates by
-    /// `sqrt(kT S3 / h)`, more than any bound, and says nothing about the mean.
+    /// Merges [`unstable_twist`](Self::unstable_twist) over the records of a run, with the share of
+    /// affected records.
+    ///
+    /// Empty in a heat bath: there the axial force of a segment fluctuates by `sqrt(kT S3 / h)`,
+    /// which exceeds any bound and does not represent the mean.
     pub fn unstable_twist_over<'a>(
         &self,
         states: impl IntoIterator<Item = &'a State>,
@@ -94,13 +96,13 @@ impl Assembly {
         all.end()
     }
 
-    /// The segment of a rod whose tangent of twist is lowest, if it is unstable there.
+    /// Segment of a rod with the lowest tangent of twist, if it is unstable.
     fn weakest_of(&self, rod: &Rod, state: &State) -> Option<Weakest> {
         let watch = rod.twist_watch.as_ref()?;
         let segments = 0..rod.layout.segments();
         let all = segments.map(|k| (k, watch.tangent(rod, k, state)));
         let (k, tangent) = all.min_by(|a, b| a.1.total_cmp(&b.1))?;
-        // A potential's critical force is searched for, which takes as long as hundreds of tangents.
+        // The critical force of a potential costs as much as hundreds of tangents.
         if tangent > 0.0 {
             return None;
         }
@@ -123,11 +125,11 @@ impl Assembly {
     }
 }
 
-/// Looks at one state after another for where twist is unstable.
+/// Monitor of twist stability over a sequence of states.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub(crate) struct TwistRecords {
     states: u32,
-    /// For each rod in how many states its twist is unstable, and where most; nothing in a heat bath.
+    /// Number of unstable states of each rod and the least stable segment; empty in a heat bath.
     worst: Vec<(u32, Option<Weakest>)>,
 }
 
@@ -143,7 +145,7 @@ impl TwistRecords {
         }
     }
 
-    /// Whether it looks at as many rods as `other`.
+    /// Returns `true` if both monitors have the same number of rods.
     pub(crate) fn fits(&self, other: &Self) -> bool {
         self.worst.len() == other.worst.len()
     }
@@ -161,7 +163,7 @@ impl TwistRecords {
         }
     }
 
-    /// What was found in all states.
+    /// Returns the instabilities over all states.
     pub(crate) fn end(self) -> Vec<UnstableTwist> {
         let states = f64::from(self.states);
         let found = self.worst.into_iter().filter_map(|(count, weakest)| {
@@ -175,7 +177,7 @@ impl TwistRecords {
 }
 
 impl TwistWatch {
-    /// Strain of segment `k` as its law sees it, and mean curvature around it (rad/nm).
+    /// Strain of segment `k` in its law, and mean curvature around it (rad/nm).
     pub(super) fn strains(&self, rod: &Rod, k: usize, state: &State) -> (Vector3, Vector3) {
         let layout = &rod.layout;
         let (i, frame) = (layout.points().start + k, layout.frames().start + k);

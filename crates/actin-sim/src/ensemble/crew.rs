@@ -1,4 +1,4 @@
-//! Threads that make one replica after the other until none is left.
+//! Worker threads that run replicas.
 
 use super::sink::Stop;
 use super::{Ensemble, EnsembleError, EnsembleProgress};
@@ -7,25 +7,26 @@ use std::num::NonZeroUsize;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-/// What the threads share.
+/// State shared by the threads.
 pub(super) struct Crew<'a, F, T> {
     ensemble: &'a Ensemble<'a>,
-    /// Makes the replica of this number, unless it is cut short.
+    /// Runs a replica, unless interrupted.
     make: &'a F,
-    /// The replica to be made next.
+    /// Next replica.
     next: AtomicUsize,
-    /// The first replica with an error: those behind it are of no use any more, those before it may have one too.
+    /// First replica with an error. Later replicas are no longer needed; earlier ones may still
+    /// fail.
     first_failed: AtomicUsize,
     made: Mutex<Made<T>>,
 }
 
-/// What there is so far.
+/// Results so far.
 struct Made<T> {
-    /// What was observed of each replica.
+    /// Observations of each replica.
     observed: Vec<Option<T>>,
-    /// How many of them have ended.
+    /// Number of completed replicas.
     ended: usize,
-    /// The first error in the order of the replicas.
+    /// First error in the order of the replicas.
     error: Option<(usize, RunError)>,
 }
 
@@ -48,7 +49,7 @@ where
         }
     }
 
-    /// Makes all replicas.
+    /// Runs all replicas.
     pub(super) fn work_all(self) -> Result<Vec<T>, EnsembleError> {
         let of = self.ensemble.seeds.len();
         std::thread::scope(|scope| {
@@ -68,14 +69,15 @@ where
         all.ok_or(EnsembleError::Interrupted { ended, of })
     }
 
-    /// As many as there are cores, or as are wanted, but no more than replicas.
+    /// Number of threads: the requested number or the number of cores, at most the number of
+    /// replicas.
     fn threads(&self) -> usize {
         let cores = || std::thread::available_parallelism().map_or(1, NonZeroUsize::get);
         let wanted = self.ensemble.threads.map_or_else(cores, NonZeroUsize::get);
         wanted.min(self.ensemble.seeds.len())
     }
 
-    /// Makes one replica after the other.
+    /// Runs replicas until none remain.
     fn work(&self) {
         loop {
             let index = self.next.fetch_add(1, Ordering::Relaxed);
@@ -99,7 +101,7 @@ where
         let mut made = self.made();
         made.observed[index] = Some(observed);
         made.ended += 1;
-        // Under the lock, so that the numbers are told in order.
+        // Called under the lock, so that the numbers are reported in order.
         (self.ensemble.progress)(EnsembleProgress {
             ended: made.ended,
             of: self.ensemble.seeds.len(),

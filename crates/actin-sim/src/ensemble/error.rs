@@ -1,34 +1,34 @@
-//! Why an ensemble was refused or has no result.
+//! Errors of ensembles.
 
 use crate::RunError;
 use thiserror::Error;
 
-/// Why an ensemble was refused, or ended before all its replicas had.
+/// Error of an ensemble.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum EnsembleError {
-    /// All replicas would be the same.
+    /// All replicas would be identical.
     #[error(
-        "the scene draws nothing that takes a seed (bonds with anchors: Independent, thermal noise, \
-         imperfections): all replicas would be the same"
+        "the scene has nothing that depends on a seed (bonds with anchors: Independent, thermal noise, \
+         imperfections): all replicas would be identical"
     )]
     NothingDrawn,
     /// A replica could not be built, or failed.
     #[error("replica {index} (seed {seed}): {error}")]
     Replica {
-        /// Its number, from 0.
+        /// Index of the replica.
         index: usize,
-        /// What the seeds of its scene were set to.
+        /// Seed of the replica.
         seed: u64,
-        /// What went wrong.
+        /// Cause of the failure.
         error: RunError,
     },
-    /// It was interrupted.
+    /// The ensemble was interrupted.
     #[error("interrupted when {ended} of {of} replicas had ended")]
     Interrupted {
-        /// Replicas that had ended, and were observed.
+        /// Number of completed replicas.
         ended: usize,
-        /// Replicas that there are.
+        /// Number of all replicas.
         of: usize,
     },
 }

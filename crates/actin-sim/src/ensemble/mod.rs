@@ -1,7 +1,6 @@
-//! Replicas of one scene, which differ in their seeds, on all cores: begin with [`Ensemble`].
+//! Replicas of one scene with different seeds, run in parallel; see [`Ensemble`].
 //!
-//! The threads are in `crew.rs`. Runs that are written to directories, and keys that vary, are the business of
-//! `actin-sweep`.
+//! Sweeps over keys and output to directories are in `actin-sweep`.
 
 mod crew;
 mod error;
@@ -18,10 +17,11 @@ use std::fmt;
 use std::num::NonZeroUsize;
 use std::sync::atomic::AtomicBool;
 
-/// Replicas of a scene: the same filaments under the same loads with other seeds.
+/// Replicas of a scene with different seeds.
 ///
-/// Each replica runs on one thread, as many at the same time as there are threads; memory holds the records of
-/// these alone, which is not checked beyond what one replica needs: fewer threads take less. Results stand in the order of the replicas and are the same, to the bit, on any number of threads.
+/// Each replica runs on one thread. Memory holds the records of the running replicas; only the
+/// memory of a single replica is checked, and fewer threads need less. Results are in the order of
+/// the replicas and bitwise independent of the number of threads.
 ///
 /// ```
 /// use actin_sim::{End, Ensemble, Scene};
@@ -56,44 +56,46 @@ pub struct Ensemble<'a> {
     progress: &'a (dyn Fn(EnsembleProgress) + Sync),
 }
 
-/// A replica that has run to its end.
+/// Replica at the end of its run.
 #[derive(Debug)]
 pub struct Replica<'a, S = Trajectory> {
-    /// Its number, from 0.
+    /// Index of the replica.
     pub index: usize,
-    /// What the seeds of its scene are set to.
+    /// Seed of its scene.
     pub seed: u64,
-    /// What has run.
+    /// Plan of the run.
     pub plan: &'a Plan<'a>,
-    /// What has taken its records.
+    /// Sink with the records.
     pub sink: S,
-    /// How it ended and what it cost.
+    /// Outcome of the run.
     pub outcome: Outcome,
 }
 
-/// How far an ensemble has come.
+/// Progress of an ensemble.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct EnsembleProgress {
-    /// Replicas that have ended.
+    /// Number of completed replicas.
     pub ended: usize,
-    /// Replicas that there are.
+    /// Number of all replicas.
     pub of: usize,
 }
 
 impl<'a> Ensemble<'a> {
-    /// So many replicas; everything that the scene draws takes the seeds 1, 2 and so on, as the samples of a sweep do.
+    /// Creates `replicas` replicas. All random parts of the scene use the seeds 1, 2, ..., as
+    /// samples of a sweep do.
     ///
     /// # Errors
-    /// Several replicas of a scene that draws nothing: all would be the same.
+    /// If several replicas would be identical, because the scene has no random part.
     pub fn new(scene: &'a Scene, replicas: usize) -> Result<Self, EnsembleError> {
         let seeds = (1..).take(replicas).collect();
         Self::of_seeds(scene, seeds, &Drawn::ALL)
     }
 
-    /// Replicas of these seeds, which go to what is `drawn`; the scene keeps its other seeds.
+    /// Creates replicas with these seeds for the random parts in `drawn`; other seeds of the scene
+    /// are kept.
     ///
     /// # Errors
-    /// Several replicas of a scene that draws none of these.
+    /// If several replicas would be identical, because the scene has none of these random parts.
     ///
     /// ```
     /// use actin_sim::{Drawn, Ensemble, Scene};
@@ -127,7 +129,7 @@ impl<'a> Ensemble<'a> {
         Ok(ensemble)
     }
 
-    /// Runs on so many threads; by default there is one for each core.
+    /// Sets the number of threads; the default is the number of cores.
     #[must_use]
     pub fn on_threads(self, threads: NonZeroUsize) -> Self {
         Self {
@@ -136,7 +138,7 @@ impl<'a> Ensemble<'a> {
         }
     }
 
-    /// Ends all replicas as soon as they can once this is set.
+    /// Sets a flag that interrupts all replicas.
     #[must_use]
     pub fn interrupted_by(self, flag: &'a AtomicBool) -> Self {
         Self {
@@ -145,18 +147,18 @@ impl<'a> Ensemble<'a> {
         }
     }
 
-    /// Tells how many replicas have ended whenever one more has.
+    /// Sets a callback that receives the number of completed replicas after each one.
     #[must_use]
     pub fn with_progress(self, progress: &'a (dyn Fn(EnsembleProgress) + Sync)) -> Self {
         Self { progress, ..self }
     }
 
-    /// Runs all replicas into memory and observes each when it has ended, on its thread; what is observed, in the
-    /// order of the replicas.
+    /// Runs all replicas with records in memory. Calls `observe` at the end of each replica, on its
+    /// thread, and returns the results in the order of the replicas.
     ///
     /// # Errors
-    /// The first replica, in this order, that cannot be built or fails, whatever the number of threads; those behind
-    /// it are not run to their ends. An ensemble that is interrupted.
+    /// The first failed replica in this order, for any number of threads; later replicas are
+    /// stopped. An interrupted ensemble.
     pub fn run<T: Send>(
         &self,
         observe: impl Fn(Replica<'_>) -> T + Sync,
@@ -164,11 +166,12 @@ impl<'a> Ensemble<'a> {
         self.run_into(|_| Trajectory::default(), observe)
     }
 
-    /// The same with records in sinks of one's own, one for each plan: to keep a few numbers of each record rather
-    /// than its state.
+    /// Runs all replicas with records in user-defined sinks, for example to reduce each record to a
+    /// few numbers.
     ///
     /// # Errors
-    /// As [`run`](Self::run). A sink that interrupts its run leaves a replica whose outcome says so.
+    /// As [`run`](Self::run). If a sink interrupts its run, the outcome of the replica has status
+    /// `Interrupted`.
     pub fn run_into<S: Sink, T: Send>(
         &self,
         sink: impl Fn(&Plan<'_>) -> S + Sync,
@@ -194,7 +197,7 @@ impl<'a> Ensemble<'a> {
         Crew::new(self, &make).work_all()
     }
 
-    /// The scene with a seed, and how much of it draws from that.
+    /// Returns the scene with a seed, and the number of its random parts with that seed.
     fn reseeded(&self, seed: u64) -> (Scene, usize) {
         let mut scene = self.scene.clone();
         let drawn = self.drawn.iter();

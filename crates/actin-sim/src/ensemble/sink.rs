@@ -1,26 +1,26 @@
-//! A sink that also ends its run when its ensemble does.
+//! Sink that stops the run of a replica together with its ensemble.
 
 use crate::{Progress, Record, Recorded, RunPosition, Sink};
 use actin_mechanics::State;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
-/// What ends a replica before its time.
+/// Conditions that stop a replica.
 pub(super) struct Stop<'a> {
-    /// Its number.
+    /// Index of the replica.
     pub(super) index: usize,
-    /// The first replica with an error.
+    /// First replica with an error.
     pub(super) first_failed: &'a AtomicUsize,
     pub(super) interrupted: Option<&'a AtomicBool>,
 }
 
 impl Stop<'_> {
-    /// Whether the replica is to end: the ensemble is interrupted, or one before it has failed.
+    /// Returns `true` if the ensemble is interrupted or an earlier replica has failed.
     pub(super) fn is_set(&self) -> bool {
         let is_interrupted = self.interrupted.is_some_and(|i| i.load(Ordering::Relaxed));
         is_interrupted || self.first_failed.load(Ordering::Relaxed) < self.index
     }
 
-    /// A sink that passes everything on, and ends the run as well.
+    /// Wraps a sink with this stop condition.
     pub(super) fn over<'s>(&'s self, sink: &'s mut dyn Sink) -> impl Sink + 's {
         Stopped { stop: self, sink }
     }

@@ -1,4 +1,4 @@
-//! Ensembles against runs one by one, on one thread and on several.
+//! Comparison of ensembles with single runs.
 
 use super::*;
 use crate::scene::SceneProblem;
@@ -6,7 +6,7 @@ use crate::{Record, SimError};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// A short rod in a heat bath, with so many steps of this length (ns).
+/// Short rod in a heat bath.
 fn heated(duration_ns: f64, more: &str) -> Scene {
     let text = format!(
         "Scene(
@@ -23,7 +23,7 @@ fn heated(duration_ns: f64, more: &str) -> Scene {
     Scene::from_ron(&text).unwrap()
 }
 
-/// Monomers of drawn bonds under a force.
+/// Monomers with sampled bonds under a force.
 const DRAWN: &str = "Scene(
     filament: Filament(
         sections: [Ellipsoids(from_nm: 0.0, to_nm: 20.0)],
@@ -38,7 +38,6 @@ fn threads(number: usize) -> NonZeroUsize {
     NonZeroUsize::new(number).unwrap()
 }
 
-/// All records, with their states.
 fn records(scene: &Scene, number: usize) -> Vec<(usize, u64, Vec<Record>)> {
     let ensemble = Ensemble::new(scene, 5).unwrap();
     let ensemble = ensemble.on_threads(threads(number));
@@ -46,8 +45,6 @@ fn records(scene: &Scene, number: usize) -> Vec<(usize, u64, Vec<Record>)> {
     all.unwrap()
 }
 
-/// A replica that saw its neighbours, or whose place depended on who was first, would differ; and a
-/// replica is the run of its scene alone.
 #[test]
 fn results_are_those_of_single_runs_on_any_number_of_threads() {
     for mut scene in [heated(0.3, ""), Scene::from_ron(DRAWN).unwrap()] {
@@ -79,8 +76,7 @@ fn replicas_that_would_be_the_same_are_refused() {
     assert!(none.is_empty());
 }
 
-/// Of several replicas that fail, the first is named, even if it is the last to fail: those before the others
-/// are not told to stop.
+/// The first replica fails last; replicas before a failed one are not stopped.
 #[test]
 fn the_first_replica_that_fails_is_named() {
     let scene = heated(0.1, "");
@@ -113,7 +109,6 @@ fn the_first_replica_that_fails_is_named() {
     assert_eq!(error, "replica 1 (seed 2): task: fails");
 }
 
-/// A motion that explodes is the error of its replica, on any number of threads.
 #[test]
 fn a_replica_that_explodes_is_named() {
     let scene = heated(2.0, "time_step_ns: 0.02, allow_unstable_step: true,");
@@ -125,7 +120,6 @@ fn a_replica_that_explodes_is_named() {
     }
 }
 
-/// A scene that cannot be planned is the error of its replica, too.
 #[test]
 fn a_replica_that_is_refused_is_named() {
     let scene = heated(2.0, "time_step_ns: 0.02,");
@@ -137,7 +131,7 @@ fn a_replica_that_is_refused_is_named() {
     assert!(matches!(error, crate::RunError::Refused(_)), "{error}");
 }
 
-/// The flag ends runs on the way, not only those to come: they would take hours.
+/// The flag must interrupt running replicas, which would take hours.
 #[test]
 fn an_ensemble_is_interrupted() {
     struct Flagged<'a>(&'a AtomicBool);

@@ -1,17 +1,17 @@
-//! The cells of a filament, and its scene where some of them are monomers.
+//! Cells of a filament, and the scene with some of them as monomers.
 
 use crate::assembly::cells_nm;
 use crate::scene::{Following, Scene, SceneProblem, Section};
 
-/// Cells are equally long if they are to this length (nm).
+/// Tolerance (nm) for equal lengths of cells.
 const SAME_LENGTH_NM: f64 = 1e-6;
 
 /// Cells of a filament in order, each a rod or monomers.
 #[derive(Clone, Debug)]
 pub(crate) struct Cells {
-    /// Where they begin and end (nm): one more than there are cells.
+    /// Boundaries (nm), one more than cells.
     boundaries_nm: Vec<f64>,
-    /// Segments of each that is a rod.
+    /// Number of segments of a rod cell.
     segments: usize,
 }
 
@@ -27,18 +27,19 @@ impl Cells {
         self.boundaries_nm.len() - 1
     }
 
-    /// Ends of the cells (nm), in order.
+    /// Boundaries of the cells (nm) in order.
     pub(super) fn boundaries_nm(&self) -> &[f64] {
         &self.boundaries_nm
     }
 
-    /// Where each begins and ends (nm).
+    /// Arc length interval of each cell (nm).
     pub(super) fn spans_nm(&self) -> impl Iterator<Item = [f64; 2]> + '_ {
         self.boundaries_nm.windows(2).map(|ends| [ends[0], ends[1]])
     }
 
-    /// The scene where these cells are monomers, its sections written: neighbouring cells of monomers are one section,
-    /// and so are neighbouring rods whose segments are equally long. So segments are the same whatever is beside them.
+    /// Returns the scene with explicit sections. Neighbouring cells of monomers form one section,
+    /// as do neighbouring rods with segments of equal length. Segments therefore do not depend on
+    /// the neighbours.
     pub(crate) fn scene(&self, scene: &Scene, is_monomers: &[bool]) -> Scene {
         let mut sections: Vec<(Section, f64)> = Vec::new();
         for ([from, to], &resolved) in self.spans_nm().zip(is_monomers) {

@@ -1,4 +1,4 @@
-//! A motion as a chain of stretches, each with the resolution that its beginning asked for.
+//! Motion as a chain of stretches with constant resolution.
 
 use super::cells::Cells;
 use super::criterion::{Criterion, FilamentState, Wish, wish_of};
@@ -37,89 +37,89 @@ use serde::{Deserialize, Serialize};
 /// ```
 #[derive(Debug)]
 pub struct Follower {
-    /// Its time step and interval of records written out.
+    /// Scene with its time step and interval of records.
     scene: Scene,
     least_ns: f64,
     cells: Cells,
     criteria: Vec<Box<dyn Criterion>>,
 }
 
-/// A part of a motion in which no cell is switched.
+/// Part of a motion between two switches of cells.
 #[derive(Debug)]
 pub struct Stretch {
-    /// The filament as it is resolved; its scene has its sections written.
+    /// The filament in its resolution, with explicit sections in its scene.
     pub assembly: Assembly,
-    /// How it begins.
+    /// Start of the stretch.
     pub beginning: Beginning,
 }
 
-/// How a stretch begins: with its scene all that a [`Follower`] needs to make it again.
+/// Start of a stretch. Together with the scene it allows a [`Follower`] to recreate the stretch.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Beginning {
-    /// Its place in the chain, from 0.
+    /// Index in the chain.
     pub index: usize,
-    /// Which cells are monomers.
+    /// `true` for each cell of monomers.
     pub is_monomers: Vec<bool>,
-    /// From which step on each may be switched.
+    /// First step at which each cell may be switched.
     pub free_from: Vec<u64>,
-    /// The switch with which it begins; none of the first.
+    /// Switch at the start; `None` for the first stretch.
     pub switch: Option<Switch>,
-    /// What all switches so far have added to the energy (pN nm).
+    /// Energy change by all switches so far (pN nm).
     pub switches_pn_nm: f64,
 }
 
-/// A stretch with what it gave.
+/// Stretch with its results.
 #[derive(Debug)]
 pub struct Ran {
     /// The stretch.
     pub stretch: Stretch,
-    /// Its records; the first of a stretch behind a switch is at the same time as the switch.
+    /// Records; after a switch, the first one is at the time of the switch.
     pub trajectory: Trajectory,
-    /// How it ended.
+    /// Outcome of the stretch.
     pub outcome: Outcome,
 }
 
-/// All stretches of a motion, in order.
+/// All stretches of a motion in order.
 #[derive(Debug)]
 pub struct Followed {
-    /// The stretches.
+    /// Stretches in order.
     pub stretches: Vec<Ran>,
 }
 
 impl Followed {
-    /// The switches between them, in order.
+    /// Iterates over the switches between stretches in order.
     pub fn switches(&self) -> impl Iterator<Item = &Switch> {
         let stretches = self.stretches.iter();
         stretches.filter_map(|ran| ran.stretch.beginning.switch.as_ref())
     }
 }
 
-/// How a stretch was left.
+/// End of a stretch.
 #[derive(Debug)]
 pub enum Left {
-    /// The motion has ended with it, or was interrupted.
+    /// The motion ended or was interrupted.
     Over(Outcome),
-    /// Cells are switched: the stretch that follows, and where it begins.
+    /// Cells are switched; with the next stretch and its start.
     Switched(Outcome, Box<Next>),
 }
 
-/// The stretch behind a switch.
+/// Stretch after a switch.
 #[derive(Debug)]
 pub struct Next {
     /// The stretch.
     pub stretch: Stretch,
-    /// Where it begins; its first record is the last that was taken.
+    /// Its initial state; its first record is the last one taken.
     pub saved: Saved,
 }
 
 impl Follower {
-    /// What runs a scene with sections `Following(..)`.
+    /// Creates a follower of a scene with sections `Following(..)`.
     ///
     /// # Errors
-    /// Other sections, and what [`Assembly::build`] and [`Plan::new`] refuse.
+    /// If the scene has other sections, or as [`Assembly::build`] and [`Plan::new`].
     pub fn new(scene: &Scene) -> Result<Self, SceneProblem> {
         let Some(following) = scene.filament.sections.following() else {
-            let rule = "sections are Following(..) where they follow a motion";
+            let rule = "must be Following(..)";
             return Err(SceneProblem::new("filament.sections", "", rule));
         };
         let cells = Cells::of(scene, following)?;
@@ -134,24 +134,24 @@ impl Follower {
         })
     }
 
-    /// The same with a further criterion.
+    /// Adds a criterion.
     #[must_use]
     pub fn with_criterion(mut self, criterion: Box<dyn Criterion>) -> Self {
         self.criteria.push(criterion);
         self
     }
 
-    /// The scene, its time step and interval of records written out.
+    /// Returns the scene with its time step and interval of records.
     pub fn scene(&self) -> &Scene {
         &self.scene
     }
 
-    /// Where cells begin and end (nm of arc length).
+    /// Returns the arc length interval of each cell (nm).
     pub fn cells_nm(&self) -> Vec<[f64; 2]> {
         self.cells.spans_nm().collect()
     }
 
-    /// The first stretch, resolved as its state at the beginning asks for.
+    /// Returns the first stretch, resolved by the criteria in the initial state.
     ///
     /// # Errors
     /// As [`Assembly::build`].
@@ -165,7 +165,7 @@ impl Follower {
         Ok(first)
     }
 
-    /// A stretch that begins as built.
+    /// Stretch that starts in the state as built.
     fn stretch(&self, is_monomers: Vec<bool>) -> Result<Stretch, SceneProblem> {
         self.again(Beginning {
             index: 0,
@@ -176,16 +176,16 @@ impl Follower {
         })
     }
 
-    /// The stretch of this scene that begins so.
+    /// Recreates the stretch with this start.
     ///
     /// # Errors
-    /// Another number of cells, and what [`Assembly::build`] refuses.
+    /// If the number of cells differs, or as [`Assembly::build`].
     pub fn again(&self, beginning: Beginning) -> Result<Stretch, SceneProblem> {
         let cells = self.cells.count();
         let known = [beginning.is_monomers.len(), beginning.free_from.len()];
         if known != [cells; 2] {
             let rule = format!(
-                "has {cells} cells, a stretch of it {} and {}",
+                "has {cells} cells, but the stretch has {} and {}",
                 known[0], known[1]
             );
             return Err(SceneProblem::new("filament.sections", "", rule));
@@ -197,7 +197,8 @@ impl Follower {
         })
     }
 
-    /// Which cells are to be monomers, if others than now.
+    /// Returns the resolution of the cells wanted by the criteria, if it differs from the present
+    /// one.
     fn wanted(&self, stretch: &Stretch, state: &State, step: u64) -> Option<Vec<bool>> {
         let filament = FilamentState::new((&stretch.assembly, state), self.cells.boundaries_nm());
         let cells = filament.cells(&stretch.beginning.is_monomers);
@@ -214,11 +215,14 @@ impl Follower {
         (wanted != stretch.beginning.is_monomers).then_some(wanted)
     }
 
-    /// Runs a stretch, from where it was saved if it was, until the motion ends, is interrupted, or cells are switched.
-    /// The sink has the records of the stretch; that of the next gets its first record and a checkpoint here.
+    /// Runs a stretch, new or from a saved position, until the motion ends, is interrupted, or
+    /// cells are switched.
+    ///
+    /// `sink` has the records of the stretch. The sink of the next stretch receives its first
+    /// record and a checkpoint.
     ///
     /// # Errors
-    /// As [`Plan::run_into`], and new bodies that do not settle.
+    /// As [`Plan::run_into`], or if new bodies do not settle.
     pub fn advance(
         &self,
         (stretch, plan): (&Stretch, &Plan<'_>),
@@ -248,7 +252,7 @@ impl Follower {
         Ok(Left::Switched(outcome, Box::new(next)))
     }
 
-    /// The stretch behind a switch to `is_monomers`, where another was left.
+    /// Stretch after a switch to `is_monomers`.
     fn next(
         &self,
         left: &Stretch,
@@ -287,7 +291,7 @@ impl Follower {
         Ok(Next { stretch, saved })
     }
 
-    /// From which step on each cell may be switched behind a switch at `step`.
+    /// First step at which each cell may be switched again after a switch at `step`.
     fn free_from(&self, left: &Stretch, is_monomers: &[bool], step: u64) -> Vec<u64> {
         let motion = self.scene.task.motion();
         let length_ns = motion.and_then(|motion| motion.time_step_ns);
@@ -307,7 +311,7 @@ impl Follower {
             .collect()
     }
 
-    /// Cells (nm) that become monomers, or a rod; neighbours as one.
+    /// Intervals (nm) of cells that become monomers, or a rod; neighbouring cells are merged.
     fn switched(&self, [before, now]: [&Vec<bool>; 2], resolved: bool) -> Vec<[f64; 2]> {
         let mut spans: Vec<[f64; 2]> = Vec::new();
         let kinds = before.iter().zip(now);
@@ -323,7 +327,7 @@ impl Follower {
         spans
     }
 
-    /// Runs the whole motion into memory.
+    /// Runs the whole motion with records in memory.
     ///
     /// # Errors
     /// As [`advance`](Self::advance).
@@ -354,17 +358,18 @@ impl Follower {
     }
 }
 
-/// The record with which a stretch behind a switch begins.
+/// First record of a stretch after a switch.
 fn first_record(saved: Option<&Saved>) -> Option<Record> {
     saved.and_then(|saved| saved.recorded.last.clone())
 }
 
-/// The scene with the time step that suits rods and monomers, and the interval of records.
+/// Returns the scene with an interval of records and a time step for both rods and monomers.
 fn resolved(scene: &Scene, cells: &Cells) -> Result<Scene, SceneProblem> {
     let mut finest: Option<(f64, Scene)> = None;
     let all_rod = vec![false; cells.count()];
     let mut mixed = all_rod.clone();
-    // Ends, the middle, and where something pulls: other cells differ from these in the bonds that are drawn.
+    // Ends, the middle, and cells with linkers; other cells differ only in their sampled
+    // bonds.
     for cell in [0, cells.count() / 2, cells.count() - 1] {
         mixed[cell] = true;
     }
@@ -394,7 +399,7 @@ fn whole_steps(steps: f64) -> u64 {
     steps.ceil() as u64
 }
 
-/// Where a stretch begins that goes on from `state`.
+/// Start of a stretch that continues from `state`.
 fn begun(assembly: &Assembly, state: State, (saved, position): (&Saved, &MotionPosition)) -> Saved {
     let before = &position.checkpoint;
     let mut system = assembly.system.in_state(state);
@@ -427,7 +432,7 @@ fn begun(assembly: &Assembly, state: State, (saved, position): (&Saved, &MotionP
     }
 }
 
-/// A sink that looks at the cells of a motion and leaves it where they are to be switched.
+/// Sink that leaves a motion when cells should be switched.
 struct Watching<'a> {
     sink: &'a mut dyn Sink,
     follower: &'a Follower,
@@ -458,7 +463,7 @@ impl Sink for Watching<'_> {
         self.sink.is_checkpoint_due()
     }
 
-    /// Where it is left there is no checkpoint: resumed from there, it would not be left.
+    /// Skips the checkpoint at a switch, from which a resumed run would not switch.
     fn checkpoint(&mut self, position: &RunPosition, recorded: &Recorded, wall_s: f64) {
         if self.wanted.is_none() {
             self.sink.checkpoint(position, recorded, wall_s);

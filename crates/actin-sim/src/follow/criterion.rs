@@ -1,4 +1,4 @@
-//! Where monomers are needed: what a cell does, and criteria that answer to it.
+//! Criteria for the resolution of cells.
 
 use crate::Assembly;
 use crate::scene::Where;
@@ -8,19 +8,20 @@ use actin_mechanics::{State, rotation};
 use std::cell::OnceCell;
 use std::fmt::Debug;
 
-/// Largest energy of a cell (pN nm) below which no cell has the largest energy: rounding of an unstrained filament.
+/// Smallest largest energy of a cell (pN nm); below, energies are round-off of an unstrained
+/// filament.
 const NO_ENERGY: f64 = 1e-6;
 
-/// Cross-sections of a cell at which its internal loads are averaged.
+/// Number of cross-sections of a cell over which its internal loads are averaged.
 const CROSS_SECTIONS: u32 = 8;
 
-/// Filament at one moment of a motion, with the quantities that its cells share; loads and energies are computed if a
-/// criterion reads them.
+/// Filament at one moment of a motion, with quantities that its cells share. Loads and energies are
+/// computed on demand.
 #[derive(Debug)]
 pub struct FilamentState<'a> {
-    /// The filament at its present resolution.
+    /// Filament in its present resolution.
     pub assembly: &'a Assembly,
-    /// Its state.
+    /// State of the filament.
     pub state: &'a State,
     boundaries_nm: &'a [f64],
     loads: OnceCell<SectionLoads>,
@@ -28,7 +29,7 @@ pub struct FilamentState<'a> {
 }
 
 impl<'a> FilamentState<'a> {
-    /// Returns filament 0 of an assembly in a state; cells begin and end at `boundaries_nm`.
+    /// Creates the state of filament 0 with these boundaries of cells.
     pub fn new((assembly, state): (&'a Assembly, &'a State), boundaries_nm: &'a [f64]) -> Self {
         Self {
             assembly,
@@ -86,18 +87,20 @@ pub struct Cell<'a> {
     pub index: usize,
     /// Arc lengths of its ends at rest (nm).
     pub span_nm: [f64; 2],
-    /// Whether it is resolved into monomers.
+    /// `true` if resolved into monomers.
     pub is_monomers: bool,
     /// Angle between the tangents at its ends over its length (1/nm).
     pub curvature_per_nm: f64,
-    /// Turn of its ends about the tangent against each other over its length, beyond that at rest (rad/nm).
+    /// Relative rotation of its ends about the tangent over its length, beyond the rotation at rest
+    /// (rad/nm).
     pub twist_per_nm: f64,
-    /// Distance of its ends over that of an arc of its length and curvature, less 1.
+    /// Distance of its ends over the chord of an arc with its length and curvature, minus 1.
     pub extension: f64,
 }
 
 impl Cell<'_> {
-    /// Returns the internal force (pN) and couple (pN nm) in the axes of the cross-sections, averaged over the cell.
+    /// Returns the internal force (pN) and moment (pN nm) in the axes of the cross-sections,
+    /// averaged over the cell.
     pub fn mean_load(&self) -> SectionLoad {
         let [from_nm, to_nm] = self.span_nm;
         let count = f64::from(CROSS_SECTIONS);
@@ -132,21 +135,23 @@ impl Cell<'_> {
     }
 }
 
-/// What a criterion wants a cell to be.
+/// Resolution that a criterion requests for a cell.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Wish {
     /// Monomers.
     Monomers,
-    /// A rod, where no other criterion wants monomers and none wants it to stay.
+    /// Rod, unless another criterion requests monomers or the present resolution.
     Rod,
-    /// What it is.
+    /// Present resolution.
     Stay,
 }
 
-/// Says where monomers are needed. It is asked at step numbers that do not depend on how often a run was interrupted,
-/// and has no memory: answers to the same state are the same.
+/// Criterion for the resolution of cells.
+///
+/// It is evaluated at steps that do not depend on interruptions. It must be a pure function of the
+/// state.
 pub trait Criterion: Debug + Send + Sync {
-    /// What a cell is to be.
+    /// Returns the requested resolution of a cell.
     fn wish(&self, cell: &Cell<'_>) -> Wish;
 }
 
@@ -180,7 +185,7 @@ fn value(criterion: &Where, cell: &Cell<'_>) -> f64 {
     }
 }
 
-/// How far the site of a linker is from a cell (nm of arc length); infinite where it does not hold.
+/// Distance from the site of a linker to a cell (nm of arc length); infinite for an unbound linker.
 fn distance_nm(cell: &Cell<'_>, linker: usize) -> f64 {
     let FilamentState {
         assembly, state, ..
@@ -194,7 +199,7 @@ fn distance_nm(cell: &Cell<'_>, linker: usize) -> f64 {
     (from - s_nm).max(s_nm - to).max(0.0)
 }
 
-/// What several criteria want of a cell: monomers if one does, a rod if all do.
+/// Combines several criteria: monomers if any requests them, a rod if all request it.
 pub(super) fn wish_of(criteria: &[Box<dyn Criterion>], cell: &Cell<'_>) -> Wish {
     let wishes = criteria.iter().map(|criterion| criterion.wish(cell));
     wishes.fold(Wish::Rod, |so_far, wish| match (so_far, wish) {

@@ -1,4 +1,4 @@
-//! The cross-sections of a filament in one state: their places, axes and motion, whatever resolves them.
+//! Positions, axes and velocities of the cross-sections of a filament, for every resolution.
 
 use crate::shape::axis::Axis;
 use crate::shape::from_rest;
@@ -6,37 +6,38 @@ use crate::{Assembly, BodyKind};
 use actin_mechanics::{State, UnitQuaternion, Vector3, rotation};
 use nalgebra::{DMatrix, DVector};
 
-/// Monomers on either side of a place whose mean tells the cross-section there: the two strands alternate.
+/// Number of monomers on either side that determine a cross-section. The average removes the
+/// alternation of strands.
 const MONOMERS_BESIDE: usize = 4;
 
-/// A cross-section and how it moves.
+/// Cross-section and its motion.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct CrossSection {
-    /// Its place (nm).
+    /// Position (nm).
     pub(super) place: Vector3,
-    /// Its axes (body to lab).
+    /// Axes (body to lab).
     pub(super) axes: UnitQuaternion,
-    /// Velocity of its place (nm/ns).
+    /// Velocity of its centre (nm/ns).
     pub(super) velocity: Vector3,
-    /// Its angular velocity (rad/ns, lab frame).
+    /// Angular velocity (rad/ns, lab frame).
     pub(super) angular_velocity: Vector3,
 }
 
-/// What is known at one arc length (nm).
+/// Arc length (nm) and value of a sample.
 type Known = (f64, Vector3);
 
-/// All that the bodies of a filament tell of its cross-sections.
+/// Cross-sections of a filament interpolated from its bodies.
 #[derive(Debug)]
 pub(super) struct Field {
     axis: Axis,
-    /// Velocities of nodes and of monomers' places on the axis, by arc length.
+    /// Velocities of nodes and of the axis at monomers, by arc length.
     velocities: Vec<Known>,
     /// Angular velocities of segments and monomers, by arc length.
     angular_velocities: Vec<Known>,
     monomers: Vec<Monomer>,
 }
 
-/// A monomer brought to the axis.
+/// Monomer projected to the axis.
 #[derive(Clone, Copy, Debug)]
 struct Monomer {
     s_nm: f64,
@@ -47,7 +48,7 @@ struct Monomer {
 }
 
 impl Field {
-    /// That of filament 0.
+    /// Creates the field of filament 0.
     pub(super) fn of(assembly: &Assembly, state: &State) -> Self {
         let monomers = monomers(assembly, state);
         let nodes = (0..assembly.points.len())
@@ -67,7 +68,7 @@ impl Field {
         }
     }
 
-    /// The cross-section at an arc length (nm) of a rod: through its nodes and along its segments.
+    /// Cross-section of a rod at an arc length (nm), interpolated between nodes and segments.
     pub(super) fn of_rod(&self, s_nm: f64) -> CrossSection {
         let (place, axes) = self.axis.at(s_nm);
         CrossSection {
@@ -78,8 +79,8 @@ impl Field {
         }
     }
 
-    /// The cross-section at an arc length (nm) of monomers: the parabola through the nearest of them, brought to the
-    /// axis, and their mean turn.
+    /// Cross-section of monomers at an arc length (nm): a quadratic fit to the positions of the
+    /// nearest monomers on the axis, and linear fits to their rotations and velocities.
     ///
     /// # Panics
     /// If there are no monomers.
@@ -135,7 +136,7 @@ fn in_order(mut known: Vec<Known>) -> Vec<Known> {
     known
 }
 
-/// The value at an arc length: on straight lines between those that are known, constant beyond.
+/// Linear interpolation at an arc length, constant beyond the samples.
 fn between(known: &[Known], s_nm: f64) -> Vector3 {
     let after = known.partition_point(|k| k.0 < s_nm);
     if after == 0 || after == known.len() {
@@ -145,17 +146,17 @@ fn between(known: &[Known], s_nm: f64) -> Vector3 {
     a.lerp(&b, (s_nm - s_a) / (s_b - s_a))
 }
 
-/// The value at zero of the polynomial that is nearest to what is known.
+/// Value at zero of the least-squares polynomial.
 fn at_zero(known: &[Known], degree: usize) -> Vector3 {
     let degree = degree.min(known.len() - 1);
     let scale = known.iter().fold(0.0, |most: f64, k| most.max(k.0.abs()));
     let powers = DMatrix::from_fn(known.len(), degree + 1, |row, power| {
         (0..power).fold(1.0, |product, _| product * known[row].0 / scale)
     });
-    // The row of weights that gives the constant: equal for all three components.
+    // Weights of the constant coefficient, equal for all three components.
     let normal = (powers.transpose() * &powers)
         .cholesky()
-        .expect("places of monomers differ");
+        .expect("monomers have distinct arc lengths");
     let mut constant = DVector::zeros(degree + 1);
     constant[0] = 1.0;
     let weights = powers * normal.solve(&constant);

@@ -1,18 +1,23 @@
-//! Resolution that follows a motion: cells of a filament become monomers while a run goes on, and a rod again.
+//! Resolution that follows a motion: cells of a filament switch between rod and monomers during a
+//! run.
 //!
-//! [`Follower`] is what to call first: it runs a scene whose `sections` are `Following(..)`. Such a run is a chain of
-//! [`Stretch`]es, each an ordinary scene with sections of its own that begins where the one before was left.
-//! [`Criterion`] says where monomers are needed (`criterion.rs`; its own is a type of the user's). At a switch
-//! ([`Switch`]) bodies that stay keep every bit of their motion, and those that come are made from the
-//! cross-sections of those that go (`field.rs`), settle by themselves (`settling.rs`), and get the momenta of those that go
-//! (`transfer.rs`, `momentum.rs`). What the switch does to the energy is booked. Motion without inertia has no momenta.
+//! [`Follower`] runs a scene whose `sections` are `Following(..)`. The run is a chain of
+//! [`Stretch`]es. Each stretch is an ordinary scene with explicit sections that starts at the end
+//! of the previous stretch. A [`Criterion`] selects the cells that need monomers; users can
+//! implement it.
 //!
-//! Which monomers there can be, and how they are bonded, does not depend on when they are resolved. Quasi-harmonic interfaces are
-//! those of the run of monomers in which they stand, as in any scene: of two cells side by side they are sampled as one.
+//! At a [`Switch`], bodies outside the switched cells keep their motion bitwise. New bodies are
+//! placed on the cross-sections of the old ones (`field.rs`), settle (`settling.rs`), and receive
+//! the momenta of the old ones (`transfer.rs`, `momentum.rs`). The energy change of the switch is
+//! recorded. Overdamped motion has no momenta.
 //!
-//! All stretches have one time step, which suits the finer of rod and monomers. Whether overdamped steps of it are by midpoints or with
-//! random stress is settled for each stretch by what relaxes fastest in it, as for any scene: both leave strains their
-//! energy to 1 % where they are taken.
+//! Positions and bonds of monomers do not depend on the time of the switch. Quasi-harmonic
+//! interfaces are sampled for the whole run of monomers, as in any scene: two neighbouring cells
+//! are sampled together.
+//!
+//! All stretches share one time step, suitable for both rods and monomers. Overdamped steps use
+//! midpoints or random stress depending on the fastest relaxation of each stretch; both give
+//! strains their thermal energy to 1 % where they apply.
 
 mod cells;
 mod chain;

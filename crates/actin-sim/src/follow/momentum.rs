@@ -1,4 +1,4 @@
-//! Momentum of a motion, and the rigid motion that gives some of its bodies what they lack.
+//! Momentum of a motion, and rigid motions that restore it.
 
 use actin_mechanics::{Matrix3, State, Vector3};
 
@@ -18,7 +18,7 @@ impl Momentum {
     }
 }
 
-/// Some of the bodies of a state, all of them free.
+/// Subset of the free bodies of a state.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Bodies {
     pub(super) points: Vec<usize>,
@@ -50,12 +50,12 @@ impl Bodies {
         orbital.chain(spin).sum()
     }
 
-    /// Adds the rigid motion to these bodies with which the whole state has the momentum `wanted`.
+    /// Adds a rigid motion to these bodies, so that the whole state has the momentum `wanted`.
     ///
     /// # Panics
-    /// If they have no moment of inertia, that is if there are none.
+    /// If the moment of inertia is singular, for example without bodies.
     pub(super) fn give(&self, state: &mut State, wanted: Momentum) {
-        // Round-off of the first time is what the second corrects.
+        // The second pass corrects the round-off of the first.
         for _ in 0..2 {
             let now = Momentum::of(state);
             let (mass, centre) = self.centre(state);

@@ -1,7 +1,9 @@
-//! How new bodies settle among the others, which are held: their own motion for a short time, in a drag or in a heat bath.
+//! Relaxation of new bodies for a short time, with all other bodies held, under drag or in a heat
+//! bath.
 //!
-//! What settles is what the cross-sections on which they were put do not tell: bonds, shear, waves shorter than the segments of a
-//! rod. In a bath it has the temperature of the bath from then on; what is longer stays as it was.
+//! It relaxes modes that the cross-sections do not determine: bonds, shear, and waves shorter than
+//! a rod's segments. In a bath these modes reach the bath temperature. Longer waves are nearly
+//! unchanged.
 
 use super::momentum::Bodies;
 use super::transfer::Transfer;
@@ -13,34 +15,39 @@ use actin_integrate::{Bath, Drag, POSITION_VERLET, Run};
 use actin_mechanics::{Shared, State, System, Vector3};
 use std::error::Error;
 
-/// Rate (1/ns) of the drag in which new bodies with inertia settle: bonds (some 100 to 470 rad/ns) settle in it, a bend over
-/// 36 nm (33 rad/ns) by half, what is longer hardly moves. Rates of 30 and 120 leave jumps of energy as large.
+/// Drag rate (1/ns) for bodies with inertia.
+///
+/// Bonds (100 to 470 rad/ns) relax under it, a bend over 36 nm (33 rad/ns) by half, and longer
+/// waves hardly at all. Rates of 30 and 120 give energy jumps of similar size.
 const RATE_PER_NS: f64 = 60.0;
 
-/// Time (ns) for which they settle, at least. Without inertia a bend over 36 nm relaxes in 0.25 ns in water.
+/// Shortest relaxation time (ns). Without inertia a bend over 36 nm relaxes in 0.25 ns in water.
 const TIME_NS: f64 = 0.15;
 
-/// Steps without heat: what is stiff is at rest after each.
+/// Number of steps without heat; stiff modes are at rest after each.
 const STEPS_WITHOUT_HEAT: f64 = 4.0;
 
-/// Fewest steps with random stress: what relaxes in a step has 1 - 2^-8 of its thermal energy behind them.
+/// Smallest number of steps with random stress. A mode that relaxes in one step then has 1 - 2^-8
+/// of its thermal energy.
 const STRESSED_STEPS: f64 = 4.0;
 
-/// Fewest midpoint steps in a bath. The first are implicit, and leave what is fast too cold; what relaxes in a fiftieth of a step,
-/// the fastest there is by default, forgets 15 % of that in each of the others.
+/// Smallest number of midpoint steps in a bath.
+///
+/// The first steps are implicit and leave fast modes too cold. The fastest mode by default relaxes
+/// in a fiftieth of a step and loses 15 % of that error in each further step.
 const MIDPOINT_STEPS: f64 = 60.0;
 
-/// Mixed with the step into the seed of a bath, so that what settles meets another noise than the motion does.
+/// Mixed with the step into the seed of the bath, for noise independent of the motion.
 const OTHER_NOISE: u64 = 0x5e77_1e5e;
 
-/// An odd number, the golden ratio of 2^64.
+/// Odd number near 2^64 over the golden ratio.
 const SPREAD: u64 = 0x9e37_79b9_7f4a_7c15;
 
 impl Transfer<'_> {
-    /// The state after new bodies have settled as they move in `task`.
+    /// Relaxes new bodies by the motion of `task` and returns the state.
     ///
     /// # Errors
-    /// New bodies that do not settle.
+    /// If the new bodies do not settle.
     pub(super) fn settled(
         &self,
         state: &State,
@@ -57,7 +64,7 @@ impl Transfer<'_> {
         let settled = match task {
             Task::Dynamics(dynamics) => self.settle(&mut system, dynamics),
             Task::Brownian(brownian) => self.relax(&mut system, brownian),
-            Task::Equilibrium(_) => unreachable!("an equilibrium is no motion"),
+            Task::Equilibrium(_) => unreachable!("following requires a motion"),
         };
         settled.map_err(|error| {
             let rule = format!(
@@ -70,7 +77,7 @@ impl Transfer<'_> {
         Ok(System::state(&system).clone())
     }
 
-    /// Lets what is free settle with inertia: in a drag, or in the bath of the motion under that drag.
+    /// Relaxes free bodies with inertia: under drag, or in the bath of the motion with that drag.
     fn settle(&self, system: &mut System, dynamics: &Dynamics) -> Result<(), Box<dyn Error>> {
         let step = dynamics.time_step_ns.unwrap_or(TIME_NS);
         let run = Run::over(crate::run::composition_of(dynamics), step, TIME_NS)?;
@@ -86,7 +93,8 @@ impl Transfer<'_> {
         Ok(())
     }
 
-    /// Lets what is free settle without inertia, by the steps of the motion, without heat by shorter ones.
+    /// Relaxes free bodies without inertia, by steps of the motion or, without heat, by shorter
+    /// ones.
     fn relax(&self, system: &mut System, task: &Brownian) -> Result<(), Box<dyn Error>> {
         let own = Brownian {
             seed: self.other_seed(task.seed),
@@ -107,7 +115,7 @@ impl Transfer<'_> {
         Ok(())
     }
 
-    /// A seed for what settles at this step: far apart for neighbouring steps, so that no two runs settle with one noise.
+    /// Seed of the relaxation at this step. Seeds of neighbouring steps are far apart.
     fn other_seed(&self, seed: u64) -> u64 {
         seed ^ OTHER_NOISE.wrapping_add(self.step).wrapping_mul(SPREAD)
     }

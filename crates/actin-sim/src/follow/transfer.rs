@@ -1,4 +1,4 @@
-//! From a state of a filament to one of the same filament in which some cells are resolved otherwise.
+//! Transfer of a state to another resolution of the same filament.
 
 use super::field::{CrossSection, Field};
 use super::momentum::{Bodies, Momentum};
@@ -8,43 +8,44 @@ use actin_mechanics::{State, UnitQuaternion, Vector3};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
-/// Bodies at the same arc length to this (nm) are at the same place of the filament.
+/// Tolerance (nm) for equal arc lengths of bodies.
 const SAME_PLACE_NM: f64 = 1e-6;
 
-/// A switch of cells, and what it did.
+/// Switch of cells and its effect on energy and momentum.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Switch {
-    /// Steps since the motion began.
+    /// Steps since the start of the motion.
     pub step: u64,
-    /// Time since then (ns).
+    /// Time since the start (ns).
     pub time_ns: f64,
-    /// Cells that became monomers: from and to which arc length (nm).
+    /// Arc length intervals (nm) that became monomers.
     pub to_monomers: Vec<[f64; 2]>,
-    /// Cells that became a rod.
+    /// Arc length intervals (nm) that became a rod.
     pub to_rod: Vec<[f64; 2]>,
-    /// Energy, kinetic and of all interactions, after less before (pN nm).
+    /// Change of the kinetic and potential energy (pN nm).
     pub energy_pn_nm: f64,
-    /// Momentum after less before (ag nm/ns): round-off.
+    /// Change of the momentum (ag nm/ns), round-off only.
     pub momentum_change: f64,
-    /// Angular momentum about the origin after less before (ag nm^2/ns): round-off.
+    /// Change of the angular momentum about the origin (ag nm^2/ns), round-off only.
     pub angular_momentum_change: f64,
 }
 
-/// A change of resolution at one moment.
+/// Change of resolution at one moment.
 pub(super) struct Transfer<'a> {
     pub(super) from: &'a Assembly,
     pub(super) to: &'a Assembly,
-    /// Cells that are switched, from and to (nm).
+    /// Arc length intervals of the switched cells (nm).
     pub(super) spans_nm: &'a [[f64; 2]],
     pub(super) step: u64,
     pub(super) time_ns: f64,
 }
 
 impl Transfer<'_> {
-    /// The state of the new bodies that goes on where `old` is, and the switch, its cells not yet named.
+    /// Returns the state of the new bodies that continues `old`, and the switch with empty lists of
+    /// cells.
     ///
     /// # Errors
-    /// New bodies that do not settle.
+    /// If the new bodies do not settle.
     pub(super) fn state(&self, old: &State, task: &Task) -> Result<(State, Switch), SceneProblem> {
         let mut state = self.to.rest.clone();
         state.controls.clone_from(&old.controls);
@@ -56,7 +57,7 @@ impl Transfer<'_> {
         let settled = self.settled(&state, &bodies, task)?;
         let wanted = Momentum::of(old);
         take_places(&settled, &mut state, &bodies);
-        // Without inertia there is no motion to go on.
+        // Overdamped motion has no momenta to transfer.
         if let Task::Dynamics(dynamics) = task {
             if dynamics.thermal.is_some() {
                 take_motion(&settled, &mut state, &bodies);
@@ -85,15 +86,15 @@ impl Transfer<'_> {
         }
     }
 
-    /// Whether a body at an arc length (nm) belongs to a cell that is switched; monomers stand out at the ends of the
-    /// filament.
+    /// Returns `true` if a body at an arc length (nm) belongs to a switched cell. Monomers can lie
+    /// beyond the ends of the filament.
     pub(super) fn is_switched(&self, s_nm: f64) -> bool {
         let inside = s_nm.clamp(0.0, self.to.length_nm());
         let mut spans = self.spans_nm.iter();
         spans.any(|[from, to]| *from - SAME_PLACE_NM <= inside && inside <= *to + SAME_PLACE_NM)
     }
 
-    /// Free bodies of the new filament at these arc lengths.
+    /// Free bodies of the new filament at the selected arc lengths.
     pub(super) fn bodies(&self, state: &State, is_wanted: impl Fn(f64) -> bool) -> Bodies {
         let (points, frames) = (self.to.points.iter(), self.to.frames.iter());
         let points = points.enumerate().filter(|(_, p)| is_wanted(p.s_nm));
@@ -108,8 +109,8 @@ impl Transfer<'_> {
         }
     }
 
-    /// Puts every body where it was, or on the cross-section that stands for it; new bodies that are held stay where they
-    /// were built. Returns the cross-sections of all other new bodies.
+    /// Copies the state of existing bodies and places new bodies on their cross-sections. New held
+    /// bodies stay as built. Returns the new free bodies with their cross-sections.
     fn place(&self, old: &State, state: &mut State) -> Made {
         let field = Field::of(self.from, old);
         let (known, keys) = (Places::of(self.from), Places::of(self.to));
@@ -142,20 +143,20 @@ impl Transfer<'_> {
         made
     }
 
-    /// Where a point of the new filament was built, from the cross-section at its arc length (nm, its axes).
+    /// Vector from the cross-section to a point as built (nm, axes of the cross-section).
     fn arm(&self, i: usize) -> Vector3 {
         let s_nm = self.to.points[i].s_nm;
         let rest = self.to.rest.points.position.get(i) - self.span().axis_place(s_nm);
         self.span().frame_at(s_nm).inverse() * rest
     }
 
-    /// How a frame was built, in the axes of the cross-section at its arc length.
+    /// Orientation of a frame as built, in the axes of its cross-section.
     fn own_axes(&self, i: usize) -> UnitQuaternion {
         let rest = self.to.rest.frames.orientation.get(i);
         self.span().frame_at(self.to.frames[i].s_nm).inverse() * rest
     }
 
-    /// Brings what slides as far from where it was built as it was, with its velocity.
+    /// Copies displacement and velocity of sliding ends.
     fn slide(&self, old: &State, state: &mut State) {
         let sliders = state.sliders.clone();
         for (before, slider) in old.sliders.iter().zip(sliders.iter()) {
@@ -172,7 +173,7 @@ impl Transfer<'_> {
         }
     }
 
-    /// Whether a frame is that of a junction at a cell that is switched: it may join the other sides.
+    /// Returns `true` for a junction frame at a switched cell, which may join different sides.
     fn is_new_junction(&self, i: usize) -> bool {
         let frame = &self.to.frames[i];
         frame.kind == BodyKind::Junction && self.is_switched(frame.s_nm)
@@ -182,7 +183,7 @@ impl Transfer<'_> {
         &self.to.filaments[0]
     }
 
-    /// The cross-section of the old filament at an arc length (nm).
+    /// Cross-section of the old filament at an arc length (nm).
     fn cross_section(&self, field: &Field, s_nm: f64) -> CrossSection {
         let sections = self.from.sections_of(0);
         let behind = sections.partition_point(|section| section.to_nm < s_nm);
@@ -194,7 +195,7 @@ impl Transfer<'_> {
     }
 }
 
-/// New bodies with the cross-sections on which they stand.
+/// New bodies with their cross-sections.
 #[derive(Default)]
 struct Made {
     points: Vec<(usize, CrossSection)>,
@@ -202,7 +203,7 @@ struct Made {
 }
 
 impl Made {
-    /// Gives new bodies the motion of their cross-sections.
+    /// Sets velocities of new bodies to the motion of their cross-sections.
     fn move_along(&self, state: &mut State) {
         for (i, section) in &self.points {
             let arm = state.points.position.get(*i) - section.place;
@@ -218,10 +219,11 @@ impl Made {
     }
 }
 
-/// A kind of body, its arc length in units of [`SAME_PLACE_NM`], and how many of its kind come before it there.
+/// Kind of body, arc length in units of [`SAME_PLACE_NM`], and number of earlier bodies of that
+/// kind there.
 type Key = (u8, i64, usize);
 
-/// Where the bodies of filament 0 stand.
+/// Bodies of filament 0 by place.
 struct Places {
     points: BTreeMap<Key, usize>,
     frames: BTreeMap<Key, usize>,

@@ -1,10 +1,10 @@
-//! Codes of warnings. Other programs read them: a code keeps its meaning.
+//! Stable codes of warnings, for use by other programs.
 
 /// Rods left the data behind their law; their results there are extrapolated.
 pub const LAW_RANGE: &str = "law-range";
 /// Force along a rod makes its twist unstable.
 pub const UNSTABLE_TWIST: &str = "unstable-twist";
-/// Parts of the filament deform beyond the use of the model.
+/// Deformations exceed the validity of the model.
 pub const MODEL_LIMIT: &str = "model-limit";
 /// The equilibrium is a saddle.
 pub const SADDLE: &str = "saddle";
@@ -20,7 +20,7 @@ pub const SHORT_ROD: &str = "short-rod";
 pub const LONG_SEGMENTS: &str = "long-segments";
 /// Loads act in full along a path that does not set them.
 pub const PATH_LOADS: &str = "path-loads";
-/// The law of a rod is not made for this scene, or meets few measured numbers.
+/// The law of a rod is unsuitable for this scene or agrees with few measured numbers.
 pub const ROD_LAW: &str = "rod-law";
 /// Filaments overlap with each other or with walls as built.
 pub const OVERLAP: &str = "overlap";
@@ -28,17 +28,17 @@ pub const OVERLAP: &str = "overlap";
 pub const PERSISTENCE_LENGTH: &str = "no-persistence-length";
 /// Sampled interfaces have a large error.
 pub const SAMPLED_INTERFACES: &str = "sampled-interfaces";
-/// Chosen sections do not meet the error that was asked for.
+/// Chosen sections do not meet the requested error.
 pub const RESOLUTION: &str = "resolution-not-met";
 /// Monomers in place of a rod would have several states.
 pub const MONOMER_STATES: &str = "monomer-states";
-/// Lost twist can be neither shown nor ruled out.
+/// A loss of twist can be neither detected nor excluded.
 pub const UNKNOWN_TWIST: &str = "unknown-twist";
-/// The error of the resolution, or the scatter of drawn bonds, is unknown.
+/// The error of the resolution, or the scatter of sampled bonds, is unknown.
 pub const UNKNOWN_ERROR: &str = "unknown-error";
 /// The stability of the state at rest is unknown.
 pub const UNKNOWN_STABILITY: &str = "unknown-stability";
-/// Time steps change the energy.
+/// The energy balance has a large time-stepping error.
 pub const ENERGY_BALANCE: &str = "energy-balance";
 /// Rates of linkers are fast compared with the time step.
 pub const LINKER_RATES: &str = "linker-rates";
@@ -46,10 +46,10 @@ pub const LINKER_RATES: &str = "linker-rates";
 pub const LONG_STEPS: &str = "long-steps";
 /// Drag is strong within a time step.
 pub const STRONG_DRAG: &str = "strong-drag";
-/// Means are over fewer than two records.
+/// Means cover fewer than two records.
 pub const FEW_RECORDS: &str = "few-records";
 
-/// All of them.
+/// All codes.
 pub const ALL: [&str; 24] = [
     LAW_RANGE,
     UNSTABLE_TWIST,

@@ -1,11 +1,11 @@
-//! Notes on the laws of rods: where they were not measured, and what they are worth.
+//! Warnings on the validity and accuracy of rod laws.
 
 use crate::scene::{Filament, Material, Monomers, RodLaw, RodModel};
 use actin_cosserat::Homogenised;
 
-/// Persistence length (um) and twisting rigidity (pN nm^2) of free filaments of 110 nm at 298 K, from
-/// turns of cross-sections 22 to 66 nm apart; standard errors are 0.1 um and 0.5e2 pN nm^2 (monomers,
-/// with the default bonds: 0.06 um and 0.3e2 pN nm^2).
+/// Persistence length (um) and twisting rigidity (pN nm^2) of free filaments of 110 nm at 298 K,
+/// from rotations between cross-sections 22 to 66 nm apart. Standard errors are 0.1 um and 50 pN
+/// nm^2; for monomers with default bonds 0.06 um and 30 pN nm^2.
 ///
 /// # Source
 /// `docs/measured/heat.md`, "Persistence length".
@@ -13,8 +13,8 @@ type InBath = (f64, f64);
 
 const MONOMERS: InBath = (11.5, 7.6e3);
 
-/// The same of rods under a law whose parameters come from equilibria of monomers at zero
-/// temperature, with the law's name.
+/// Returns the name of a law fitted to equilibria at zero temperature, with the values of its rods
+/// in the bath.
 fn fitted_without_heat(law: &RodLaw) -> Option<(&'static str, InBath)> {
     match law {
         RodLaw::Constant => Some(("Constant", (9.5, 1.30e4))),
@@ -25,10 +25,11 @@ fn fitted_without_heat(law: &RodLaw) -> Option<(&'static str, InBath)> {
     }
 }
 
-/// The command that measures these.
+/// Command that measures these values.
 const COMMAND: &str = "cargo run --release -p actin-paper --example persistence_length";
 
-/// The notes on the laws of a filament's rods, in a heat bath of a temperature (K) or in none.
+/// Warnings on the laws of a filament's rods, in a heat bath of temperature `bath_k` (K) or without
+/// a bath.
 pub(super) fn notes(filament: &Filament, bath_k: Option<f64>) -> Vec<String> {
     let of_rod = |rod: RodModel| {
         let law = match bath_k {
@@ -42,21 +43,21 @@ pub(super) fn notes(filament: &Filament, bath_k: Option<f64>) -> Vec<String> {
     filament.rod_models().flat_map(of_rod).collect()
 }
 
-/// How far (K) from that of the free energy the temperature of a bath may be.
+/// Largest difference (K) between the temperatures of the free energy and of the bath.
 const NEAR_K: f64 = 10.0;
 
-/// The note on the free energy at another temperature than the bath's.
+/// Warning on a free energy at another temperature than the bath.
 fn far_from(temperature_k: f64) -> Option<String> {
     let own = Homogenised::HEATED_K;
     ((temperature_k - own).abs() > NEAR_K).then(|| {
         format!(
-            "rods under the law Homogenised in a heat bath of {temperature_k} K: their free energy is that of \
-             {own} K (cargo xtask homogenise heat --temperature {temperature_k} measures another)"
+            "rods under the law Homogenised in a heat bath of {temperature_k} K: their free energy was measured at \
+             {own} K (measure another one with cargo xtask homogenise heat --temperature {temperature_k})"
         )
     })
 }
 
-/// The note on a rod's law without a heat bath. None for constant rigidities that are not the published ones.
+/// Warning on a rod's law without a heat bath; `None` for user-defined constant rigidities.
 fn law_at_rest(rod: &RodModel) -> Option<String> {
     let note = match rod.law {
         RodLaw::HomogenisedAt298K => HEATED,
@@ -66,7 +67,7 @@ fn law_at_rest(rod: &RodModel) -> Option<String> {
     Some(note.to_owned())
 }
 
-/// Whether a rod under one potential stands for monomers that are not those of the potential.
+/// Returns `true` if the potential of a rod was derived from other monomers.
 fn is_of_others(rod: &RodModel, monomers: &Monomers) -> bool {
     let same = Monomers {
         seed: monomers.seed,
@@ -80,11 +81,11 @@ fn is_of_others(rod: &RodModel, monomers: &Monomers) -> bool {
     rod.law.is_homogenised() && *monomers != same
 }
 
-/// The note on rods of other monomers.
-const OF_OTHERS: &str = "rods under the law Homogenised stand for monomers of the default shape, lattice and bonds, which those \
-    of this scene are not: resolve them, or write law: Constant with rigidities of your own";
+/// Warning on rods for other monomers.
+const OF_OTHERS: &str = "rods under the law Homogenised: the law was derived from monomers of the default shape, lattice and bonds, but \
+    the monomers of this scene differ; resolve them, or write law: Constant with suitable rigidities";
 
-/// The note on rods under one potential that stand for monomers of other bonds than their filament's.
+/// Warning on rods under a potential in filaments with sampled bonds.
 fn drawn_bonds(rod: &RodModel, monomers: &Monomers, in_bath: bool) -> Option<String> {
     let bonds = monomers
         .drawn_bonds()
@@ -99,34 +100,35 @@ fn drawn_bonds(rod: &RodModel, monomers: &Monomers, in_bath: bool) -> Option<Str
     } else {
         (bonds < fewest).then(|| {
             format!(
-                "rods under the law Homogenised beside monomers with {bonds} drawn bonds an interface: they are as stiff as \
-                 filaments with {fewest}, the fewest that the law tells apart"
+                "rods under the law Homogenised with {bonds} sampled bonds per interface: their stiffness is that of \
+                 filaments with {fewest} bonds, the smallest number in the law"
             )
         })
     }
 }
 
-/// The note on the free energy beside drawn bonds.
-const DRAWN_IN_BATH: &str = "rods under the law Homogenised at 298 K stand for the mean filament, also where monomers draw \
-    their bonds: with 64 an interface these have a persistence length of 11.2 um, the mean filament 11.5 um \
+/// Warning on the free energy with sampled bonds.
+const DRAWN_IN_BATH: &str = "rods under the law Homogenised at 298 K: they represent the mean filament, although this scene has sampled \
+    bonds. The persistence length is 11.2 um with 64 sampled bonds per interface, and 11.5 um for the mean filament \
     (docs/measured/heat.md)";
 
-/// The note on the published rigidities, by the number of bounds met (`docs/tables/load-cases.md`).
-const CONSTANT: &str = "rods under the law Constant, the published rigidities: of 92 numbers of filaments of monomers under \
-    other loads it meets 11 within what is asked of a law, Homogenised 82 (cargo xtask load-cases)";
+/// Warning on the published rigidities, with the numbers of bounds met
+/// (`docs/tables/load-cases.md`).
+const CONSTANT: &str = "rods under the law Constant, the published rigidities: compared with 92 numbers of filaments of monomers under \
+    various loads, this law meets 11 within the required tolerance, Homogenised 82 (cargo xtask load-cases)";
 
-/// The note on the free energy without a heat bath.
-const HEATED: &str = "rods under the law HomogenisedAt298K without a heat bath: their free energy at 298 K is least where they \
-    are 0.46 % shorter than built, so that a rod held at both ends is under tension; without heat Homogenised is the \
-    energy of monomers at rest";
+/// Warning on the free energy without a heat bath.
+const HEATED: &str = "rods under the law HomogenisedAt298K without a heat bath: their free energy at 298 K is minimal at a \
+    length 0.46 % below the length as built, so that a rod held at both ends is under tension; Homogenised without heat \
+    is the energy of monomers at zero temperature";
 
-/// The note on the energy without heat in a heat bath.
-const ATHERMAL: &str = "rods under the law HomogenisedAthermal in a heat bath: its energy is one at zero \
+/// Warning on the energy at zero temperature in a heat bath.
+const ATHERMAL: &str = "rods under the law HomogenisedAthermal in a heat bath: it is the energy at zero \
     temperature, not a free energy. At 298 K free rods of 110 nm in segments of 10 nm have a persistence length of \
     11.0 um and a twisting rigidity of 7.8e3 pN nm^2, monomers 11.5 um and 7.6e3 pN nm^2 (cargo xtask load-cases)";
 
-/// The note on a rod's law in a heat bath. None for constant rigidities that are not the published
-/// ones: they may be those at a temperature.
+/// Warning on a rod's law in a heat bath; `None` for user-defined constant rigidities, which can
+/// include thermal effects.
 fn law_in_bath(rod: &RodModel, temperature_k: f64) -> Option<String> {
     if rod.law == RodLaw::Constant && rod.material != Material::Table4 {
         return None;
@@ -138,16 +140,16 @@ fn law_in_bath(rod: &RodModel, temperature_k: f64) -> Option<String> {
     }
     let Some((name, (persistence, twist))) = fitted_without_heat(&rod.law) else {
         let note = "rods under Laws in a heat bath: laws fitted to equilibria at zero temperature are not \
-                    free energies, so rods under them fluctuate differently from the filaments that \
-                    they were fitted to";
+                    free energies, so the fluctuations of rods differ from those of the fitted \
+                    filaments";
         return Some(note.to_owned());
     };
     let (of_monomers, twist_of_monomers) = MONOMERS;
     Some(format!(
         "rods under the law {name} in a heat bath: its parameters come from equilibria of monomers \
-         at zero temperature, so it is not a free energy. At 298 K free filaments of 110 nm have, as \
-         such rods, a persistence length of {persistence:.1} um and a twisting rigidity of \
-         {twist:.1e} pN nm^2, as monomers {of_monomers:.1} um and {twist_of_monomers:.1e} pN nm^2 \
+         at zero temperature, so it is not a free energy. At 298 K free filaments of 110 nm have, with \
+         these rods, a persistence length of {persistence:.1} um and a twisting rigidity of \
+         {twist:.1e} pN nm^2, with monomers {of_monomers:.1} um and {twist_of_monomers:.1e} pN nm^2 \
          ({COMMAND})"
     ))
 }
@@ -166,7 +168,6 @@ mod tests {
         )
     }
 
-    /// A section's own law is what is noted; without heat the free energy is.
     #[test]
     fn laws_of_sections_are_noted() {
         let filament = "Filament(sections: [
@@ -180,8 +181,7 @@ mod tests {
         assert!(heated[0].starts_with("rods under the law Fitted in a heat bath"));
     }
 
-    /// Each law once, however many filaments have it; none without heat, and none of filaments
-    /// without rods.
+    /// Each law gives one warning, for any number of filaments.
     #[test]
     fn laws_are_noted_where_heat_meets_them() {
         let filaments = [
@@ -222,7 +222,6 @@ mod tests {
         assert_eq!(at_rest[1], CONSTANT);
     }
 
-    /// The note on the published rigidities says what the table says.
     #[test]
     fn bounds_that_are_met_are_those_of_the_table() {
         let table = include_str!("../../../../docs/tables/load-cases.md");
@@ -242,11 +241,10 @@ mod tests {
         let said = format!("of {all} numbers");
         assert!(CONSTANT.contains(&said), "{said}");
         let said =
-            format!("meets {constant} within what is asked of a law, Homogenised {homogenised} (");
+            format!("meets {constant} within the required tolerance, Homogenised {homogenised} (");
         assert!(CONSTANT.contains(&said), "{said}");
     }
 
-    /// The potential is that of the default monomers.
     #[test]
     fn other_monomers_are_noted() {
         let notes = |monomers: &str, law: &str| {
@@ -261,7 +259,6 @@ mod tests {
         assert_eq!(notes("turn_deg: -160.0", "law: Constant"), [CONSTANT]);
     }
 
-    /// Rods beside drawn bonds that their law does not know are noted.
     #[test]
     fn bonds_that_the_law_does_not_know_are_noted() {
         let notes = |monomers: &str, task: &str| {
@@ -274,7 +271,7 @@ mod tests {
         assert_eq!(notes("anchors: Independent", ""), [""; 0]);
         let few = "anchors: Independent, lateral_bonds: 10, longitudinal_bonds: 10";
         let found = notes(few, "");
-        let said = "with 10 drawn bonds an interface: they are as stiff as filaments with 64";
+        let said = "with 10 sampled bonds per interface: their stiffness is that of filaments with 64 bonds";
         assert!(found[0].contains(said), "{found:?}");
         assert_eq!(notes("anchors: Independent", BATH), [DRAWN_IN_BATH]);
         assert_eq!(notes("", BATH), [""; 0]);

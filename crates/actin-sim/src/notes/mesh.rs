@@ -1,16 +1,16 @@
-//! Notes on rods whose segments are long for bending.
+//! Warnings on segments that are too long for bending.
 
 use crate::Assembly;
 use crate::scene::Hold;
 
-/// Bound of the error of displacements (relative) beyond which segments are long.
+/// Largest relative error of displacements without a warning.
 const LONG: f64 = 0.1;
 
-/// The same that finer segments are proposed for.
+/// Relative error of displacements for the proposed segments.
 const FINE: f64 = 0.01;
 
 impl Assembly {
-    /// Notes on filaments held by walls whose segments are long for their length.
+    /// Warnings on clamped filaments with long segments.
     pub(super) fn long_segments(&self) -> Vec<String> {
         let filaments = 0..self.filaments.len();
         let notes = filaments.filter_map(|filament| {
@@ -18,22 +18,32 @@ impl Assembly {
             let finer = (bound / FINE).sqrt().ceil();
             let longest = self.segments_of(filament).fold(0.0, f64::max);
             Some(format!(
-                "filament {filament}: segments of {longest:.1} nm are long for bending: displacements under a force across \
-                 its end are off by up to {:.0} %. Segments {finer:.0} times shorter make it 1 %",
+                "filament {filament}: segments of {longest:.1} nm are too long for bending: displacements under a transverse end \
+                 force have errors of up to {:.0} %. Use segments {finer:.0} times shorter for errors of 1 %",
                 100.0 * bound
             ))
         });
         notes.collect()
     }
 
-    /// Bound of the relative error of the displacement of a filament's end under a force across it; `None` without a wall.
-    /// Curvature is taken at the ends of segments, the trapezoidal rule: segments `h` of a filament of length `L` miss
-    /// `sum h^3 / (2 L^3)` of a cantilever's displacement, and four times as much between two walls. Shear has no
-    /// such error.
+    /// Upper bound of the relative error of the end displacement under a transverse force; `None`
+    /// without a wall.
     ///
-    /// Measured under `Homogenised` and `Fitted`, 0.1 and 1 pN, 100 to 200 nm, bound in brackets: 1 segment -23 to +42 %
-    /// (50), 2 -3 to +10 (12.5), 4 +0.9 to +2.7 (3.1); between walls 1 segment 66 to 165 (200), 4 4 to 9 (12.5); a segment of
-    /// 100 nm before 60 nm of monomers 9 to 10 (12.2).
+    /// Curvature is sampled at the ends of segments, which is the trapezoidal rule. For segments
+    /// `h` of a filament of length `L` the bound is
+    ///
+    /// ```text
+    /// sum h^3 / (2 L^3)    one wall (cantilever)
+    /// 2 sum h^3 / L^3      two walls
+    /// ```
+    ///
+    /// Shear has no such error. Measured errors in per cent under `Homogenised` and `Fitted`, at
+    /// 0.1 and 1 pN and 100 to 200 nm, with the bound in brackets:
+    ///
+    /// - cantilevers: 1 segment -23 to +42 (50), 2 segments -3 to +10 (12.5), 4 segments +0.9 to
+    ///   +2.7 (3.1);
+    /// - between two walls: 1 segment 66 to 165 (200), 4 segments 4 to 9 (12.5);
+    /// - a segment of 100 nm before 60 nm of monomers: 9 to 10 (12.2).
     fn bending_error(&self, filament: usize) -> Option<f64> {
         let clamps = self.scene.clamps.iter();
         let walls = clamps.filter(|c| c.filament == filament && c.hold == Hold::Wall);
@@ -72,18 +82,17 @@ mod tests {
         scene(&rod, "Clamp(end: Start)")
     }
 
-    /// Long segments are noted with their bound, those of free and pinned filaments and short ones are not.
     #[test]
     fn long_segments_at_walls_are_noted() {
         let one = "Rod(from_nm: 0.0, to_nm: 100.0, segments: 1)";
         let found = scene(one, "Clamp(end: Start)").long_segments();
         assert!(
-            found[0].contains("off by up to 50 %. Segments 8 times shorter"),
+            found[0].contains("errors of up to 50 %. Use segments 8 times shorter"),
             "{found:?}"
         );
         let mixed = format!("{one}, Ellipsoids(from_nm: 100.0, to_nm: 160.0)");
         let found = scene(&mixed, "Clamp(end: Start)").long_segments();
-        assert!(found[0].contains("off by up to 12 %"), "{found:?}");
+        assert!(found[0].contains("errors of up to 12 %"), "{found:?}");
         let both = "Clamp(end: Start), Clamp(end: End, slides: Freely)";
         assert!(scene(one, both).long_segments()[0].contains("200 %"));
         let pinned = "Clamp(end: Start, hold: Pin), Clamp(end: End, hold: Pin, slides: AlongAxis)";
@@ -91,7 +100,8 @@ mod tests {
         assert_eq!(cantilever(3).long_segments(), [""; 0]);
     }
 
-    /// Cantilevers of constant rigidity are off by the bound, less what shear takes of the displacement: 3 B/(S L^2), 4.6 %.
+    /// The error of cantilevers of constant rigidity is the bound, less the relative shear
+    /// displacement 3 B/(S L^2), 4.6 %.
     #[test]
     fn the_bound_is_the_error_of_bending() {
         let tip = |segments: usize| {

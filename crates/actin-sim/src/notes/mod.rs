@@ -1,8 +1,8 @@
-//! Notes and warnings on how far the results of a scene can be trusted.
+//! Notes and warnings on the validity and accuracy of results.
 //!
-//! `actin check` and `actin run` print them. `summary.json` has the texts of all under `notes` and the warnings with
-//! their codes under `warnings`. Notes known before a run are in [`Assembly::notes`] and
-//! [`Plan::notes`](crate::Plan::notes); the summary adds those of the run.
+//! `actin check` and `actin run` print them. In `summary.json`, `notes` has the texts of all and
+//! `warnings` the warnings with their codes. Notes known before a run are in [`Assembly::notes`]
+//! and [`Plan::notes`](crate::Plan::notes); the summary adds those of the run.
 
 pub mod codes;
 mod laws;
@@ -24,7 +24,7 @@ pub struct Note {
     /// Code of a warning, one of [`codes`].
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub code: Option<Cow<'static, str>>,
-    /// Text of a sentence or two.
+    /// One or two sentences.
     pub message: String,
 }
 
@@ -55,7 +55,7 @@ impl fmt::Display for Note {
     }
 }
 
-/// Warnings of one code.
+/// Creates warnings of one code.
 fn warnings(
     code: &'static str,
     messages: impl IntoIterator<Item = String>,
@@ -64,23 +64,24 @@ fn warnings(
     messages.map(move |message| Note::warning(code, message))
 }
 
-/// Length (nm) of a rod under `Homogenised` below which the direction of a load across it matters.
+/// Length (nm) below which the direction of a transverse load on a rod under `Homogenised` matters.
 ///
 /// # Source
-/// `cargo xtask load-cases --ends`: monomers 60 nm long are within 11 % of their mean over azimuths.
+/// `cargo xtask load-cases --ends`: monomers 60 nm long are within 11 % of their mean over
+/// azimuths.
 const SHORTEST_NM: f64 = 60.0;
 
-/// Largest error (relative) of the stiffness of one interface that is called known; of a filament it is smaller by
-/// the root of their number.
+/// Largest relative error of the stiffness of one interface without a warning. For a filament the
+/// error is divided by the root of the number of interfaces.
 const UNSURE: f64 = 0.1;
 
-/// Largest error of the energy that is not told, over what a motion exchanged.
+/// Largest energy error without a warning, over the energy exchanged by a motion.
 const LEDGER_OPEN: f64 = 0.01;
-/// The same at all (pN nm).
+/// Largest energy error without a warning (pN nm).
 const LEDGER_LEAST: f64 = 1e-3;
 
 impl Assembly {
-    /// Where cells that follow a motion have shorter segments than its time step needs.
+    /// Note on rod cells with more segments than necessary, which limit the time step.
     fn note_on_short_segments(&self, following: &Following) -> Option<String> {
         let segments = following.segments;
         let Task::Brownian(motion) = &self.scene.task else {
@@ -96,12 +97,11 @@ impl Assembly {
         })
     }
 
-    /// Notes on this scene before it runs.
+    /// Returns the notes on this scene before its run.
     pub fn notes(&self) -> Vec<Note> {
         let mut notes: Vec<Note> = self.chosen.iter().map(Chosen::note).collect();
         if let Some(following) = self.scene.filament.sections.following() {
-            let note = "sections follow the motion: numbers of bodies, time step and cost are those of a rod, with which it \
-                        begins";
+            let note = "sections follow the motion: numbers of bodies, time step and cost apply to the rods at its start";
             notes.push(note.to_owned().into());
             notes.extend(self.note_on_short_segments(following).map(Note::from));
         }
@@ -134,7 +134,7 @@ impl Assembly {
         unique
     }
 
-    /// Tangent correlations in a heat bath from which no persistence length follows.
+    /// Warnings on tangent correlations from which no persistence length can be computed.
     fn untold_lengths(&self) -> Vec<String> {
         let observed =
             (self.scene.observe.iter().enumerate()).filter(|_| self.scene.thermal().is_some());
@@ -144,14 +144,14 @@ impl Assembly {
             };
             let reason = self.scene.bends_besides_heat(filament)?;
             Some(format!(
-                "observe[{i}]: no persistence length of filament {filament} is given: {reason}, so that its \
-                 tangents show more than heat"
+                "observe[{i}]: no persistence length of filament {filament} is computed: {reason}, so that its \
+                 bending is not due to heat alone"
             ))
         });
         untold.collect()
     }
 
-    /// The note on the shortest rod under a law of which it is known how short its rods may be.
+    /// Warning on the shortest rod under a homogenised law.
     fn short_rods(&self) -> Option<String> {
         let under_law = |rod: &&Rod| {
             let filament = self.filament_of_section(rod.section);
@@ -165,9 +165,9 @@ impl Assembly {
             .min_by(f64::total_cmp)?;
         (shortest < SHORTEST_NM).then(|| {
             format!(
-                "a rod of {shortest:.1} nm under the law Homogenised: it is as stiff across in all directions, but \
-                 monomers between walls 60, 41, 30, 25 nm apart give way by up to 10, 25, 50, 55 % more or less than \
-                 on average. That average a rod has within 3 % from 41 nm on, 4 % at 30 nm, 7 % at 25 nm \
+                "a rod of {shortest:.1} nm under the law Homogenised: its bending is isotropic, but the compliance of \
+                 monomers between walls 60, 41, 30, 25 nm apart depends on the direction by up to 10, 25, 50, 55 % of the \
+                 mean. A rod meets the mean to 3 % for 41 nm and more, 4 % at 30 nm, 7 % at 25 nm \
                  (cargo xtask load-cases --ends)"
             )
         })
@@ -175,7 +175,7 @@ impl Assembly {
 }
 
 impl Sampled {
-    /// What is known of the interfaces of a run of monomers.
+    /// Note on the accuracy of a run of quasi-harmonic monomers.
     fn note(&self) -> Note {
         let Self { monomers, error } = self;
         let is_unsure = *error > UNSURE;
@@ -185,8 +185,8 @@ impl Sampled {
             ""
         };
         let message = format!(
-            "{monomers} monomers with quasi-harmonic interfaces: the stiffness of each is known to {:.1} %{more}. It was sampled \
-             without loads: shear does not stiffen under tension",
+            "{monomers} monomers with quasi-harmonic interfaces: the stiffness of each interface has an error of {:.1} %{more}. \
+             It was sampled without loads: shear does not stiffen under tension",
             100.0 * error
         );
         if is_unsure {
@@ -198,14 +198,14 @@ impl Sampled {
 }
 
 impl Outcome {
-    /// Notes on what this run could not determine; `last` is its last record.
+    /// Returns notes on unknown errors and states of this run; `last` is its last record.
     pub(crate) fn notes(&self, assembly: &Assembly, last: &Record) -> Vec<Note> {
         let twist = unknown_twist(assembly, last);
         let mut notes: Vec<Note> = warnings(codes::UNKNOWN_TWIST, twist).collect();
         let error = self.equilibrium.as_ref().and_then(|e| e.error.as_ref());
         match error {
             Some(Err(problem)) => {
-                let message = format!("its error is not known: {problem}");
+                let message = format!("the model error is unknown: {problem}");
                 notes.push(Note::warning(codes::UNKNOWN_ERROR, message));
             }
             Some(Ok((error, scatter))) => notes.push(error.note(scatter).into()),
@@ -222,14 +222,13 @@ impl Outcome {
             notes.push(Note::warning(
                 codes::UNKNOWN_STABILITY,
                 "the stop rule was met, but it is not known whether the state at rest is stable: no \
-                 equilibrium was found next to it (force_law: PaperBalance and loads that follow have no energy)",
+                 equilibrium was found near it (force_law: PaperBalance and following loads have no energy)",
             ));
         }
         notes
     }
 
-    /// The note on an athermal motion whose energy changed by more than came from outside. Of loads without an energy nothing
-    /// is known.
+    /// Warning on the energy balance of an athermal motion with conservative loads.
     fn note_on_ledger(&self, assembly: &Assembly, last: &Record) -> Option<String> {
         let begun = self.begun_with_pn_nm?;
         let mut terms = assembly.system.interactions().iter();
@@ -248,14 +247,14 @@ impl Outcome {
         let is_open = open.abs() > LEDGER_LEAST.max(LEDGER_OPEN * size);
         (is_known && is_open).then(|| {
             format!(
-                "the energy at the end is {open:+.3} pN nm from what work and drag account for, where {size:.3} were \
-                 exchanged: the error of the time steps; a shorter time_step_ns makes it less"
+                "the final energy differs by {open:+.3} pN nm from the balance of work and drag, at an exchange of {size:.3} \
+                 pN nm: this is the error of the time steps; use a shorter time_step_ns"
             )
         })
     }
 }
 
-/// Filaments of which it is not known whether they have lost twist.
+/// Warnings on filaments for which a loss of twist is undecided.
 fn unknown_twist(assembly: &Assembly, last: &Record) -> Vec<String> {
     let filaments = 0..assembly.filaments.len();
     let here = (&last.state, last.at);
@@ -263,16 +262,16 @@ fn unknown_twist(assembly: &Assembly, last: &Record) -> Vec<String> {
     unknown
         .map(|filament| {
             format!(
-                "filament {filament}: whether it has lost twist is not known. Twist plus writhe does not \
-                 decide where one end has passed the other, where the straight lines beyond the ends cross, or \
-                 where the ends are tilted and the filament turns back"
+                "filament {filament}: whether it has lost twist is not known. Twist plus writhe is not \
+                 conclusive if one end has passed the other, if the straight extensions of the ends cross, or \
+                 if the ends are tilted and the filament turns back"
             )
         })
         .collect()
 }
 
-/// The note on rods under a potential whose monomers would have several states. Not in a heat bath, which takes monomers
-/// from one to another.
+/// Warning on rods under a potential where monomers would have several states. In a heat bath
+/// monomers change between the states, and there is no warning.
 fn several_states(assembly: &Assembly, state: &State) -> Option<String> {
     let is_asked = |rod: &Rod| rod.law.0.potential().is_some();
     let found = assembly.several_states(state, is_asked);
@@ -285,14 +284,14 @@ fn several_states(assembly: &Assembly, state: &State) -> Option<String> {
     };
     let places: Vec<String> = found.iter().map(place).collect();
     Some(format!(
-        "the rod {} is under-twisted and bent so that monomers would have several states, whose couples about the axis differ by 5 to \
-         110 pN nm. A rod has one of them. Resolve monomers there to tell them \
-         apart (cargo xtask homogenise states)",
+        "the rod {} has an under-twist and bending at which monomers would have several states, with axial torques that differ by \
+         5 to 110 pN nm. A rod has one state. Resolve monomers there to distinguish \
+         them (cargo xtask homogenise states)",
         places.join(", ")
     ))
 }
 
-/// The note on loads that act in full along a path that sets none of them.
+/// Warning on loads that act in full along a path that sets none of them.
 fn loads_along_path(scene: &Scene) -> Option<String> {
     let unset = unset_loads(scene);
     let first = unset.first()?;
@@ -307,7 +306,7 @@ fn loads_along_path(scene: &Scene) -> Option<String> {
     ))
 }
 
-/// The note on weighted bonds that are too few to represent all.
+/// Warning on quadrature bonds that are too few to meet all moments.
 fn few_bonds(monomers: &Monomers, kind: InterfaceKind) -> Option<String> {
     if monomers.anchors != Anchors::Cubature {
         return None;
@@ -317,9 +316,9 @@ fn few_bonds(monomers: &Monomers, kind: InterfaceKind) -> Option<String> {
     let MomentCheck { residual, .. } = found.certificate;
     (!found.certificate.meets_moments()).then(|| {
         format!(
-            "{} weighted bonds for a {kind} interface are too few to represent all: a moment is off by \
-             {:.0} % of its root mean square. Eight make twist a quarter too soft, four many times \
-             (docs/bonds.md); 12 meet all moments, and anchors: Independent draws as many bonds as asked",
+            "{} quadrature bonds for a {kind} interface are too few: a moment has an error of \
+             {:.0} % of its root mean square. Eight bonds make twist a quarter too soft, four much softer \
+             (docs/bonds.md). Use 12, which meet all moments, or anchors: Independent for sampled bonds",
             found.points.len(),
             100.0 * residual
         )
@@ -331,7 +330,6 @@ mod tests {
     use super::*;
     use crate::Scene;
 
-    /// The page on run directories explains every code, and no code stands for two warnings.
     #[test]
     fn codes_are_documented() {
         let page = include_str!("../../../../docs/reference/run-directory.md");
@@ -349,7 +347,6 @@ mod tests {
         notes.into_iter().map(|note| note.message).collect()
     }
 
-    /// Too few weighted bonds are noted for each kind of interface, once; drawn ones may be few.
     #[test]
     fn few_weighted_bonds_are_noted() {
         let monomers = |model: &str| {
@@ -362,13 +359,12 @@ mod tests {
         };
         let found = notes(&monomers("lateral_bonds: 8, longitudinal_bonds: 8"), "");
         assert_eq!(found.len(), 2, "{found:?}");
-        assert!(found[0].starts_with("8 weighted bonds for a lateral interface"));
+        assert!(found[0].starts_with("8 quadrature bonds for a lateral interface"));
         assert_eq!(notes(&monomers(""), ""), [""; 0]);
         let drawn = "anchors: Independent, lateral_bonds: 8, longitudinal_bonds: 8";
         assert_eq!(notes(&monomers(drawn), ""), [""; 0]);
     }
 
-    /// Sections with too few bonds of their own are noted as filaments are.
     #[test]
     fn few_weighted_bonds_of_a_section_are_noted() {
         let filament = "Filament(sections: [
@@ -377,10 +373,9 @@ mod tests {
         ])";
         let found = notes(filament, "");
         assert_eq!(found.len(), 1, "{found:?}");
-        assert!(found[0].starts_with("8 weighted bonds for a lateral interface"));
+        assert!(found[0].starts_with("8 quadrature bonds for a lateral interface"));
     }
 
-    /// Of rods under the law the shortest is noted, and none that are long or under another.
     #[test]
     fn short_rods_are_noted() {
         let rods = |law: &str, lengths: [f64; 2]| {

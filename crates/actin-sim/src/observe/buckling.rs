@@ -1,9 +1,9 @@
-//! How far, how evenly and how flat a filament has buckled.
+//! Size, asymmetry and planarity of a buckled filament.
 
 use super::{Observe, Past, View};
 use crate::shape::{Buckle, equally_spaced};
 
-/// Numbers of a centre line of so many points at equal lengths along it.
+/// Buckling measures of a centre line resampled at equally spaced points.
 #[derive(Debug)]
 pub(super) struct Buckling {
     pub(super) filament: usize,

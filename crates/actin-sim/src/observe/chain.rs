@@ -1,10 +1,11 @@
-//! The centre line as a whole: its length, size and twist.
+//! Length, size and twist of the centre line.
 
 use super::{Observe, Past, View};
 use crate::shape::Ribbon;
 use actin_mechanics::Vector3;
 
-/// Length, radius of gyration, largest distance from the axis as built, and twist of the centre line.
+/// Length, radius of gyration, largest distance from the axis as built, and twist of the centre
+/// line.
 #[derive(Debug)]
 pub(super) struct Contour {
     pub(super) filament: usize,
@@ -34,7 +35,7 @@ impl Observe for Contour {
     }
 }
 
-/// Edges: length at rest (nm) and both ends (nm).
+/// Rest length (nm) and both ends (nm) of each edge.
 fn edges(ribbon: &Ribbon) -> impl Iterator<Item = (f64, Vector3, Vector3)> + '_ {
     let lengths = ribbon.s_nm.windows(2).map(|s| s[1] - s[0]);
     let ends = ribbon.points_nm.windows(2).map(|p| (p[0], p[1]));
@@ -45,14 +46,14 @@ fn length_at_rest(ribbon: &Ribbon) -> f64 {
     ribbon.s_nm[ribbon.s_nm.len() - 1] - ribbon.s_nm[0]
 }
 
-/// Centre of the centre line, edges weighted by their lengths at rest (nm).
+/// Centre of the centre line, weighted by rest length (nm).
 pub(super) fn centre(ribbon: &Ribbon) -> Vector3 {
     let sum: Vector3 = edges(ribbon).map(|(l, a, b)| (a + b) * (0.5 * l)).sum();
     sum / length_at_rest(ribbon)
 }
 
-/// Root mean square distance of the centre line from its centre (nm), exact for straight edges:
-/// `L / sqrt(12)` of a straight filament.
+/// Root-mean-square distance of the centre line from its centre (nm), exact for straight edges: `L
+/// / sqrt(12)` for a straight filament.
 fn gyration_radius(ribbon: &Ribbon) -> f64 {
     let centre = centre(ribbon);
     let squares = edges(ribbon).map(|(length, a, b)| {

@@ -1,14 +1,14 @@
-//! How far a point has gone.
+//! Squared displacement of a point.
 
 use super::{Checked, Observe, Past, View, chain};
 use crate::scene::Point;
 use crate::{Assembly, End, Estimate};
 use actin_mechanics::Vector3;
 
-/// Times closer than this share of a lag are the same.
+/// Relative tolerance for equal times.
 const SAME: f64 = 1e-6;
 
-/// Square of the displacement of a point, since the first record or over a time.
+/// Squared displacement of a point since the first record or over a lag.
 #[derive(Debug)]
 pub(super) struct SquaredDisplacement {
     pub(super) filament: usize,
@@ -17,7 +17,7 @@ pub(super) struct SquaredDisplacement {
 }
 
 impl SquaredDisplacement {
-    /// Where the point is (nm).
+    /// Position of the point (nm).
     fn place(&self, view: &View<'_>) -> Vector3 {
         match self.of {
             Point::Tip => view.assembly.tip_of(self.filament, view.state, End::End),
@@ -58,7 +58,7 @@ impl Observe for SquaredDisplacement {
         past.recent.push_back((now, here.into()));
     }
 
-    /// A lag falls on records only.
+    /// A lag must be a multiple of the record interval.
     fn check(&self, _assembly: &Assembly, estimate: Option<&Estimate>) -> Checked {
         let (Some(lag), Some(estimate)) = (self.lag_ns, estimate) else {
             return Ok(());

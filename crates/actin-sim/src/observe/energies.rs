@@ -1,9 +1,9 @@
-//! Energies of all, and of each section and junction.
+//! Energies in total and of each section and junction.
 
 use super::{Observe, Past, View};
 use crate::{Assembly, Part};
 
-/// Names of sections and junctions, and for each term the place of its name, if it belongs to one.
+/// Names of sections and junctions, and for each term the index of its name, if any.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Names {
     names: Vec<String>,
@@ -11,7 +11,7 @@ pub(crate) struct Names {
 }
 
 impl Names {
-    /// Those of an assembly.
+    /// Names of the terms of an assembly.
     pub(crate) fn of(assembly: &Assembly) -> Self {
         let mut parts: Vec<Part> = Vec::new();
         let mut place = |part: Part| match part {
@@ -21,7 +21,7 @@ impl Names {
             | Part::Contacts
             | Part::Plane(_)
             | Part::Sphere(_) => None,
-            // Terms of one part stand together.
+            // Terms of one part are contiguous.
             Part::Section(_) | Part::Junction(_) => {
                 let known = parts.iter().rposition(|known| *known == part);
                 Some(known.unwrap_or_else(|| {

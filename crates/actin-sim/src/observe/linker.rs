@@ -1,9 +1,9 @@
-//! What linkers do.
+//! Forces and lengths of linkers.
 
 use super::{Observe, Past, View, vector};
 
-/// The force of a linker on the filament at its site, its tension and its length: from its site to its other
-/// end. One that does not hold has no force.
+/// Force of a linker on the filament at its site, tension, and distance of its ends. The force is
+/// zero if unbound.
 #[derive(Debug)]
 pub(super) struct Linker {
     pub(super) linker: usize,

@@ -4,21 +4,21 @@ use super::{Observe, Past, View, vector};
 use crate::shape::Ribbon;
 use actin_mechanics::Vector3;
 
-/// Curvature about the axes of the cross-section, and its size.
+/// Curvature about the axes of the cross-section, and its magnitude.
 #[derive(Debug)]
 pub(super) struct Curvature {
     pub(super) filament: usize,
     pub(super) at_nm: f64,
 }
 
-/// Twist beyond that of the helix.
+/// Twist beyond the twist of the helix.
 #[derive(Debug)]
 pub(super) struct Twist {
     pub(super) filament: usize,
     pub(super) at_nm: f64,
 }
 
-/// Shear and stretch of the centre line, along the axes of the cross-section.
+/// Shear and stretch of the centre line along the axes of the cross-section.
 #[derive(Debug)]
 pub(super) struct Strain {
     pub(super) filament: usize,
@@ -64,12 +64,11 @@ impl Observe for Strain {
     }
 }
 
-/// `curvature[0]_at_80nm`.
 fn name(what: &str, filament: usize, at_nm: f64) -> String {
     format!("{what}[{filament}]_at_{at_nm}nm")
 }
 
-/// Strain of each edge in its frame: the edge over its length at rest, less the axis.
+/// Strain of each edge in its frame: edge vector over rest length, minus the axis.
 fn strains(ribbon: &Ribbon) -> Vec<Vector3> {
     let edges = ribbon.points_nm.windows(2).zip(ribbon.s_nm.windows(2));
     let framed = edges.zip(&ribbon.frames);
@@ -81,7 +80,7 @@ fn strains(ribbon: &Ribbon) -> Vec<Vector3> {
         .collect()
 }
 
-/// Values at ascending places, by straight lines between them and constant beyond.
+/// Linear interpolation at ascending places, constant beyond.
 fn between(places: &[f64], values: &[Vector3], at: f64) -> Vector3 {
     let last = places.len() - 1;
     let above = places.partition_point(|&place| place < at);

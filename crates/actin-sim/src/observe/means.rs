@@ -1,4 +1,4 @@
-//! Means of what is observed over a run in a heat bath, for `summary.json`.
+//! Means of observed quantities over a run in a heat bath, for `summary.json`.
 
 use super::Observers;
 use crate::statistics::{BlockAverages, Estimate};
@@ -6,47 +6,48 @@ use crate::{Assembly, Record};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
-/// What is known of one column of `observables.csv`.
+/// Summary of one column of `observables.csv`.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ObservableSummary {
-    /// Its value at the last record; none where it has none yet.
+    /// Value at the last record; `None` if not defined.
     pub last: Option<f64>,
-    /// Its mean over the records behind the burn-in; none without thermal noise.
+    /// Mean over the records after the burn-in; `None` without thermal noise.
     #[serde(flatten, default, skip_serializing_if = "Option::is_none")]
     pub mean: Option<MeanSummary>,
 }
 
-/// A mean over records behind the burn-in.
+/// Mean over the records after the burn-in.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct MeanSummary {
-    /// The mean; none where there is no such record.
+    /// Mean; `None` without records.
     pub mean: Option<f64>,
-    /// Its standard error, from averages over blocks; a lower bound where it has not levelled off.
+    /// Standard error from block averages; a lower bound if the plateau is not reached.
     pub error: Option<f64>,
-    /// Whether the error levels off as blocks become longer.
+    /// `true` if the error reaches a plateau with growing block length.
     pub levelled_off: bool,
-    /// Records of a block at which it does; none where it does not.
+    /// Records per block at the plateau; `None` if it is not reached.
     pub block_records: Option<u64>,
-    /// Independent samples that would give this error; an upper bound where it has not levelled off.
+    /// Number of independent samples with the same error; an upper bound if the plateau is not
+    /// reached.
     pub independent_samples: Option<f64>,
-    /// Records behind the burn-in that have a value.
+    /// Number of records with a value after the burn-in.
     pub records: u64,
-    /// A length that follows from the mean; only of tangent correlations.
+    /// Length derived from the mean of a tangent correlation.
     #[serde(flatten, default, skip_serializing_if = "Option::is_none")]
     pub derived: Option<DerivedLength>,
 }
 
-/// A persistence length with its standard error.
+/// Persistence length with its standard error.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct DerivedLength {
-    /// Persistence length (nm); none unless the mean correlation is between 0 and 1.
+    /// Persistence length (nm); `None` unless the mean correlation is between 0 and 1.
     pub persistence_length_nm: Option<f64>,
-    /// Its standard error (nm), from that of the correlation.
+    /// Standard error (nm), from the standard error of the correlation.
     pub persistence_length_error_nm: Option<f64>,
 }
 
 impl ObservableSummary {
-    /// Its numbers under their keys.
+    /// Numbers with their keys.
     pub(crate) fn scalars(&self, name: &str) -> Vec<(String, f64)> {
         let mean = self.mean.unwrap_or_default();
         let derived = mean.derived.unwrap_or_default();
@@ -67,10 +68,10 @@ impl ObservableSummary {
     }
 }
 
-/// Averages of all columns, as records are looked at one by one.
+/// Running averages of all columns.
 pub(crate) struct Averages<'a> {
     observers: &'a Observers,
-    /// When they begin (ns); never without thermal noise.
+    /// Start of the averages (ns); `None` without thermal noise.
     from_ns: Option<f64>,
     columns: Vec<BlockAverages>,
     last: Vec<f64>,
@@ -87,7 +88,7 @@ impl<'a> Averages<'a> {
         }
     }
 
-    /// All columns of a record that is looked at alone.
+    /// Summary of all columns from a single record.
     pub(crate) fn of_one(
         assembly: &'a Assembly,
         record: &Record,
@@ -97,7 +98,7 @@ impl<'a> Averages<'a> {
         all.end()
     }
 
-    /// Adds the row of the next record, at a time (ns).
+    /// Adds the row of the next record at a time (ns).
     pub(crate) fn add(&mut self, time_ns: f64, row: &[f64]) {
         if self.from_ns.is_some_and(|from| time_ns >= from) {
             let known = self.columns.iter_mut().zip(row);
@@ -108,7 +109,7 @@ impl<'a> Averages<'a> {
         self.last = row.to_vec();
     }
 
-    /// All columns by their names.
+    /// Summaries of all columns by name.
     pub(crate) fn end(self) -> BTreeMap<String, ObservableSummary> {
         let names = self.observers.columns().iter().enumerate();
         let one = |(i, name): (usize, &String)| {

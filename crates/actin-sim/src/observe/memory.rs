@@ -1,23 +1,23 @@
-//! What observers carry from record to record; a checkpoint holds it.
+//! State of observers between records, stored in checkpoints.
 
 use serde::{Deserialize, Serialize};
 use std::collections::VecDeque;
 
-/// What all observers of a scene remember.
+/// State of all observers of a scene.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Memory(Vec<Past>);
 
-/// Places that one observer remembers; most remember none.
+/// Positions stored by one observer; empty for most.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(super) struct Past {
-    /// Where it was at the first record (nm).
+    /// Position at the first record (nm).
     pub(super) first: Option<[f64; 3]>,
-    /// When (ns) and where (nm) it was at some records since, in order.
+    /// Times (ns) and positions (nm) at later records, in order.
     pub(super) recent: VecDeque<(f64, [f64; 3])>,
 }
 
 impl Memory {
-    /// That of so many observers that have seen nothing.
+    /// Initial state of this number of observers.
     pub(super) fn of(observers: usize) -> Self {
         Self(vec![Past::default(); observers])
     }
@@ -26,7 +26,7 @@ impl Memory {
         self.0.iter_mut()
     }
 
-    /// Whether it is one of as many observers as `other` is.
+    /// Returns `true` if both have the same number of observers.
     pub(crate) fn fits(&self, other: &Self) -> bool {
         self.0.len() == other.0.len()
     }

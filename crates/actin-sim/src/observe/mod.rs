@@ -1,12 +1,11 @@
-//! What scenes observe: numbers that are computed of each record as it is taken.
+//! Observed quantities of scenes, computed for each record.
 //!
-//! [`Observers`] are those of a scene, one behind the other; each is a small type of its own behind the trait
-//! [`Observe`], in the file of what it is about. A [`View`] is what they see, a [`Memory`] what they carry from
-//! record to record. Which numbers a scene may ask for is in `scene/observable.rs`; files are the business of
-//! `results`.
+//! [`Observers`] holds the observers of a scene; each implements the trait [`Observe`]. A [`View`]
+//! is their input, and [`Memory`] their state between records. The options of a scene are in
+//! `scene/observable.rs`; files are written by `results`.
 //!
-//! To add one: a variant of [`Observable`] with its rules; a type here that names its columns and computes them;
-//! a line in `build`.
+//! A new quantity needs a variant of [`Observable`] with its rules, an observer with its columns,
+//! and a line in `build`.
 
 mod buckling;
 mod chain;
@@ -16,6 +15,7 @@ mod linker;
 mod local;
 mod means;
 mod memory;
+mod network;
 mod reaction;
 mod tangents;
 mod tip;
@@ -31,30 +31,30 @@ use crate::{Assembly, Estimate};
 use memory::Past;
 use std::fmt::Debug;
 
-/// Something that is observed.
+/// Observer of some columns.
 trait Observe: Debug + Send + Sync {
-    /// Names of its columns, each with its unit.
+    /// Names of the columns with units.
     fn columns(&self) -> Vec<String>;
 
-    /// Appends the values of its columns, NaN where there is none yet. `past` is what it has stored before.
+    /// Appends the values of the columns, NaN if not yet defined. `past` is the observer's state.
     fn observe(&self, view: &View<'_>, past: &mut Past, row: &mut Vec<f64>);
 
-    /// A length that follows from the mean of its one column and the standard error of that; a mean that is
-    /// not known is NaN.
+    /// Length derived from the mean of a single column and its standard error. An unknown mean is
+    /// NaN.
     fn derived(&self, _mean: f64, _error: Option<f64>) -> Option<DerivedLength> {
         None
     }
 
-    /// Refuses what shows only when the filament is built and the time step is known.
+    /// Refuses options that conflict with the built filament or the time step.
     fn check(&self, _assembly: &Assembly, _estimate: Option<&Estimate>) -> Checked {
         Ok(())
     }
 }
 
-/// A key below that of an observable, its value and the rule that it breaks.
+/// Key below the observable, its value and the violated rule.
 type Checked = Result<(), (&'static str, f64, String)>;
 
-/// All that a scene observes.
+/// All observers of a scene.
 #[derive(Debug, Default)]
 pub(crate) struct Observers {
     list: Vec<Box<dyn Observe>>,
@@ -62,7 +62,7 @@ pub(crate) struct Observers {
 }
 
 impl Observers {
-    /// Those of a scene whose terms are named `energies`.
+    /// Creates the observers of a scene with terms named by `energies`.
     pub(crate) fn new(scene: &Scene, energies: &energies::Names) -> Self {
         let list: Vec<_> = scene
             .observe
@@ -78,12 +78,12 @@ impl Observers {
         &self.columns
     }
 
-    /// What is remembered where nothing was observed.
+    /// Initial state of the observers.
     pub(crate) fn memory(&self) -> Memory {
         Memory::of(self.list.len())
     }
 
-    /// The values of all columns, NaN where there is none yet.
+    /// Values of all columns, NaN if not yet defined.
     pub(crate) fn row(&self, view: &View<'_>, memory: &mut Memory) -> Vec<f64> {
         let mut row = Vec::with_capacity(self.columns.len());
         for (one, past) in self.list.iter().zip(memory.pasts()) {
@@ -92,7 +92,7 @@ impl Observers {
         row
     }
 
-    /// What follows from the mean of a column and its standard error.
+    /// Length derived from the mean of a column and its standard error.
     pub(crate) fn derived(
         &self,
         column: &str,
@@ -104,10 +104,10 @@ impl Observers {
         of?.derived(mean, error)
     }
 
-    /// Refuses what an assembly or its time step does not have.
+    /// Checks the observers against an assembly and its time step.
     ///
     /// # Errors
-    /// A distance beyond the filament, a time between two records.
+    /// If a distance exceeds the filament, or a lag is no multiple of the record interval.
     pub(crate) fn check(
         &self,
         assembly: &Assembly,
@@ -139,6 +139,7 @@ fn build(one: Observable, scene: &Scene, energies: &EnergyNames) -> Box<dyn Obse
             Box::new(buckling::Buckling { filament, points })
         }
         Observable::Energies => Box::new(energies::Energies::new(energies.clone())),
+        Observable::Network => Box::new(network::Network),
         Observable::SquaredDisplacement {
             filament,
             of,
@@ -158,14 +159,14 @@ fn build(one: Observable, scene: &Scene, energies: &EnergyNames) -> Box<dyn Obse
     }
 }
 
-/// Columns of a vector in the lab frame: `tip[0]_x_nm` and so on, of `tip[0]` and `_nm`.
+/// Columns of a vector in the lab frame, such as `tip[0]_x_nm`.
 fn vector(name: &str, unit: &str) -> Vec<String> {
     ["x", "y", "z"]
         .map(|axis| format!("{name}_{axis}{unit}"))
         .into()
 }
 
-/// How an end is named: the last is the tip.
+/// Name of an end in columns; the end of the filament is the tip.
 fn end_name(end: crate::End) -> &'static str {
     match end {
         crate::End::Start => "start",
@@ -174,7 +175,7 @@ fn end_name(end: crate::End) -> &'static str {
 }
 
 impl Assembly {
-    /// Names of what the scene observes, the columns of `observables.csv`.
+    /// Returns the names of the observed quantities, the columns of `observables.csv`.
     pub fn observed_columns(&self) -> &[String] {
         self.observers.columns()
     }

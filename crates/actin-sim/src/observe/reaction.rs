@@ -1,9 +1,9 @@
-//! What clamps bear.
+//! Reactions of clamps.
 
 use super::{Observe, Past, View, end_name, vector};
 use crate::End;
 
-/// Force and torque of a clamp on the filament, the torque about the clamped point.
+/// Force and torque of a clamp on the filament, with the torque about the clamped point.
 #[derive(Debug)]
 pub(super) struct Reaction {
     pub(super) filament: usize,

@@ -1,25 +1,26 @@
-//! How the direction of a filament is lost along it.
+//! Tangent correlation and persistence length.
 
 use super::{Checked, DerivedLength, Observe, Past, View};
 use crate::shape::Ribbon;
 use crate::{Assembly, Estimate};
 use actin_mechanics::Vector3;
 
-/// Room for the round-off of sums of lengths (nm).
+/// Tolerance (nm) above the round-off of sums of lengths.
 const SAME_PLACE_NM: f64 = 1e-9;
 
-/// Mean cosine of the angle between cross-sections a distance apart.
+/// Mean cosine of the angle between cross-sections at a distance.
 ///
-/// The normal of a cross-section is the third axis of its frame, which shear does not turn. At a distance between
-/// two frames the cosine lies on the straight line between theirs. Pairs are weighted alike.
+/// The normal of a cross-section is the third axis of its frame, which shear does not rotate.
+/// Cosines are interpolated linearly between frames. All pairs have equal weight. In a heat bath, a
+/// filament in space with persistence length `p` has the mean `exp(-distance / p)`.
 ///
-/// Of a filament with the persistence length `p`, the mean over a heat bath is `exp(-distance / p)` in space
-/// (Doi and Edwards, The Theory of Polymer Dynamics (1986), section 8.8).
+/// # Source
+/// Doi and Edwards, The Theory of Polymer Dynamics (1986), section 8.8.
 #[derive(Debug)]
 pub(super) struct TangentCorrelation {
     pub(super) filament: usize,
     pub(super) over_nm: f64,
-    /// Whether heat alone bends the filament, so that a persistence length follows.
+    /// `true` if only heat bends the filament, so that a persistence length is defined.
     pub(super) tells_length: bool,
 }
 
@@ -59,7 +60,7 @@ impl Observe for TangentCorrelation {
     }
 }
 
-/// The mean over all frames that have another at this distance (nm) behind them.
+/// Mean over all frames with another frame at this distance (nm).
 fn correlation(ribbon: &Ribbon, over_nm: f64) -> f64 {
     let s_nm = &ribbon.frame_s_nm;
     let normals: Vec<Vector3> = ribbon.frames.iter().map(|q| q * Vector3::z()).collect();

@@ -1,14 +1,14 @@
-//! What is observed, against theory and against what summaries and profiles say of the same state.
+//! Observed quantities against theory, summaries and profiles of the same state.
 
 use super::View;
 use crate::{Assembly, At, Booked, End, Plan, Record, Scene, Summary};
 use actin_mechanics::{State, Vector3, Xorshift, perturb, rotation};
 
-fn build(text: &str) -> Assembly {
+pub(super) fn build(text: &str) -> Assembly {
     Assembly::build(&Scene::from_ron(text).unwrap()).unwrap()
 }
 
-fn observe(assembly: &Assembly, state: &State) -> Vec<f64> {
+pub(super) fn observe(assembly: &Assembly, state: &State) -> Vec<f64> {
     let energies: Vec<f64> = assembly
         .system
         .interactions()
@@ -21,13 +21,13 @@ fn observe(assembly: &Assembly, state: &State) -> Vec<f64> {
 }
 
 /// The value of a column.
-fn of(assembly: &Assembly, row: &[f64], column: &str) -> f64 {
+pub(super) fn value(assembly: &Assembly, row: &[f64], column: &str) -> f64 {
     let columns = assembly.observers.columns();
     let place = columns.iter().position(|name| name == column);
-    row[place.unwrap_or_else(|| panic!("{column} is none of {columns:?}"))]
+    row[place.unwrap_or_else(|| panic!("{column} is not in {columns:?}"))]
 }
 
-/// Everything at once, of a mixed filament with a linker.
+/// All observables of a mixed filament with a linker.
 const ALL: &str = "Scene(
     filament: Filament(sections: [
         Ellipsoids(from_nm: 0.0, to_nm: 30.0), Rod(from_nm: 30.0, to_nm: 80.0),
@@ -48,7 +48,7 @@ const ALL: &str = "Scene(
     task: Dynamics(duration_ns: 1.0, record_every_ns: 0.25),
 )";
 
-/// A record of the mixed filament in a random state near rest, and its summary.
+/// Record of the mixed filament in a random state near rest, and its summary.
 fn recorded(assembly: &Assembly) -> (Record, Summary) {
     let mut state = assembly.rest.clone();
     perturb(&mut state, &mut Xorshift::new(5), 0.05, 0.02);
@@ -68,7 +68,6 @@ fn recorded(assembly: &Assembly) -> (Record, Summary) {
     (record, summary)
 }
 
-/// The same numbers as in the summary of the same state.
 #[test]
 fn observables_agree_with_the_summary() {
     let assembly = build(ALL);
@@ -88,14 +87,13 @@ fn observables_agree_with_the_summary() {
         ("energy_kinetic_pn_nm", 0.25),
         ("squared_displacement[0]_tip_nm2", 0.0),
     ] {
-        let found = of(&assembly, &record.observed, column);
+        let found = value(&assembly, &record.observed, column);
         assert_eq!(found.to_bits(), expected.to_bits(), "{column}");
         let told = summary.observables[column];
         assert_eq!((told.last, told.mean), (Some(expected), None), "{column}");
     }
 }
 
-/// Every column has a name of its own and a value; energies of parts add up, vectors have their lengths.
 #[test]
 fn columns_belong_together() {
     let assembly = build(ALL);
@@ -106,12 +104,12 @@ fn columns_belong_together() {
     names.sort();
     names.dedup();
     assert_eq!(names.len(), columns.len());
-    let of = |column: &str| of(&assembly, &record.observed, column);
+    let of = |column: &str| value(&assembly, &record.observed, column);
     assert!(of("squared_displacement[0]_centre_over_0.5ns_nm2").is_nan());
     let parts = ["section_0", "junction_0_1", "section_1"];
     let parts = parts.map(|part| of(&format!("energy_{part}_pn_nm")));
     let elastic = summary.energy_pn_nm.elastic - summary.energy_pn_nm.terms["linker"];
-    // A few additions in another order.
+    // Round-off of a different order of summation.
     assert!((parts.iter().sum::<f64>() / elastic - 1.0).abs() < 1e-12);
     let reach = ["x", "y", "z"].map(|axis| of(&format!("end_to_end[0]_{axis}_nm")));
     let length = of("end_to_end[0]_nm");
@@ -120,8 +118,7 @@ fn columns_belong_together() {
     assert!((bend[0].hypot(bend[1]) - bend[2]).abs() < 1e-15 && bend[2] > 1e-4);
 }
 
-/// A rod bent and twisted evenly and stretched: each local field is what it was given, whatever resolves it, and
-/// tangents a distance `d` apart enclose the angle `kappa d`.
+/// In uniform bending, twist and stretch, tangents at a distance `d` enclose the angle `kappa d`.
 #[test]
 fn an_even_curve_has_its_curvature_twist_and_correlation() {
     for sections in [
@@ -141,16 +138,16 @@ fn an_even_curve_has_its_curvature_twist_and_correlation() {
             state.frames.orientation.set(i, q);
         }
         let row = observe(&assembly, &state);
-        let of = |column: &str| of(&assembly, &row, column);
+        let of = |column: &str| value(&assembly, &row, column);
         assert!((of("curvature[0]_at_33.3nm_rad_per_nm") - 0.005).abs() < 1e-12);
         assert!(of("twist[0]_at_33.3nm_rad_per_nm").abs() < 1e-12);
-        // The straight line between two frames misses `kappa^2 h^2 / 8` of the cosine, 3e-4 at 10 nm.
+        // Linear interpolation between two frames misses `kappa^2 h^2 / 8` of the cosine, 3e-4 at
+        // 10 nm.
         let cosine = of("tangent_correlation[0]_over_25nm");
         assert!((cosine - 0.125_f64.cos()).abs() < 4e-4, "{cosine}");
     }
 }
 
-/// A straight filament, stretched by a tenth and sheared: strain, contour and gyration radius are exact.
 #[test]
 fn a_straight_filament_has_its_length() {
     let assembly = build(
@@ -173,13 +170,13 @@ fn a_straight_filament_has_its_length() {
         ("contour[0]_gyration_radius_nm", length / 12.0_f64.sqrt()),
         ("end_to_end[0]_nm", length),
     ] {
-        let found = of(&assembly, &row, column);
+        let found = value(&assembly, &row, column);
         assert!((found - expected).abs() < 1e-12, "{column}: {found}");
     }
 }
 
-/// Over a lag, a point that moves evenly goes the same way at every record once there are enough; since the
-/// first record, ever further. A record off the beat of the others has none at that lag.
+/// A point in uniform motion has a constant displacement over a lag. A record off the regular times
+/// has none.
 #[test]
 fn displacements_are_over_their_lag() {
     let assembly = build(
@@ -202,18 +199,17 @@ fn displacements_are_over_their_lag() {
     for k in 2..8 {
         let time = 0.25 * f64::from(k);
         let row = at(time);
-        // Round-off of places of 90 nm.
+        // Round-off of positions of 90 nm.
         assert!((row[0] - 1.0).abs() < 1e-12, "{row:?}");
         assert!((row[1] - (2.0 * time).powi(2)).abs() < 1e-10, "{row:?}");
     }
     assert!(at(1.9)[0].is_nan());
-    // No more is remembered than the lag needs.
+    // Memory is limited to the lag.
     assert!(memory.pasts().next().unwrap().recent.len() <= 4);
 }
 
-/// Distances beyond the outermost cross-sections and times between records are refused when the plan is made.
 #[test]
-fn what_the_filament_does_not_have_is_refused() {
+fn invalid_distances_and_lags_are_refused() {
     let refusal = |observe: &str, task: &str| {
         let assembly = build(&format!(
             "Scene(filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 60.0)]),
@@ -240,7 +236,6 @@ fn what_the_filament_does_not_have_is_refused() {
     );
 }
 
-/// However short the distance is, the mean is over pairs; a single cross-section has none.
 #[test]
 fn tangents_correlate_over_any_distance() {
     for over in ["1e-60", "1e-10", "1e-9", "1e-3"] {
@@ -259,14 +254,13 @@ fn tangents_correlate_over_any_distance() {
     }
 }
 
-/// A column for each end; the start of a filament that is clamped there stays.
 #[test]
 fn ends_are_told_apart() {
     let assembly = build(ALL);
     let row = observe(&assembly, &assembly.rest);
     let start = assembly.tip_nm(&assembly.rest, End::Start);
     assert_eq!(
-        of(&assembly, &row, "start[0]_z_nm").to_bits(),
+        value(&assembly, &row, "start[0]_z_nm").to_bits(),
         start.z.to_bits()
     );
 }

@@ -1,9 +1,9 @@
-//! Ends of filaments: where they are, and the vector between them.
+//! Ends of filaments and the vector between them.
 
 use super::{Observe, Past, View, vector};
 use crate::End;
 
-/// The place of an end.
+/// Position of an end.
 #[derive(Debug)]
 pub(super) struct Tip {
     pub(super) filament: usize,
@@ -25,7 +25,7 @@ impl Observe for Tip {
     }
 }
 
-/// The vector from the start to the end, and its length.
+/// Vector from the start to the end, and its length.
 #[derive(Debug)]
 pub(super) struct EndToEnd {
     pub(super) filament: usize,

@@ -1,11 +1,11 @@
-//! A record as observers see it: what several of them need is computed once.
+//! Record as input of observers, with shared lazy values.
 
 use crate::shape::Ribbon;
 use crate::{Assembly, At};
 use actin_mechanics::{Loads, State};
 use std::cell::OnceCell;
 
-/// A record that is being taken.
+/// Record under evaluation.
 pub(crate) struct View<'a> {
     pub(crate) assembly: &'a Assembly,
     pub(crate) at: At,
@@ -19,7 +19,7 @@ pub(crate) struct View<'a> {
 }
 
 impl<'a> View<'a> {
-    /// That of a state of `assembly` with its energies.
+    /// Creates the view of a state of `assembly` with its energies.
     pub(crate) fn new(
         assembly: &'a Assembly,
         (at, state): (At, &'a State),
@@ -36,13 +36,13 @@ impl<'a> View<'a> {
         }
     }
 
-    /// The centre line of a filament.
+    /// Centre line of a filament.
     pub(crate) fn ribbon(&self, filament: usize) -> &Ribbon {
         let of = || Ribbon::of(self.assembly, filament, self.state);
         self.ribbons[filament].get_or_init(of)
     }
 
-    /// All loads: one evaluation more than the run itself takes.
+    /// All loads, at the cost of one additional evaluation.
     pub(crate) fn loads(&self) -> &Loads {
         self.loads.get_or_init(|| {
             let mut loads = Loads::zeros(self.state);

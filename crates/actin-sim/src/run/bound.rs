@@ -1,25 +1,25 @@
-//! The kinetic energy beyond which a motion is not one: more than its loads can have given it.
+//! Upper bound of the kinetic energy of a motion, for the detection of divergence.
 
 use crate::Assembly;
 use crate::scene::{Load, Resultant, Slides, Task};
 
-/// By how much the limit exceeds the bound: room for errors of the integrator near its stability
-/// limit and for loads that are not the gradient of an energy.
+/// Safety factor for integrator errors near the stability limit and for nonconservative loads.
 const ROOM: f64 = 2.0;
 
-/// Added to the limit (pN nm), so that round-off in a filament without loads, 1e-20, is no motion.
+/// Absolute margin (pN nm) above round-off in filaments without loads, about 1e-20.
 const LEAST: f64 = 1.0;
 
-/// How many times the thermal energy a whole filament may have beyond the mean of its kinetic energy:
-/// more than ever comes up, since its probability falls by a factor e with each.
+/// Margin above the mean thermal kinetic energy of a filament, in units of kT. The probability
+/// falls by a factor e per unit.
 const THERMAL_EXCESS: f64 = 50.0;
 
-/// Limit of the kinetic energy (pN nm) of a motion that begins with an energy (pN nm); infinite where no bound is known.
+/// Upper bound of the kinetic energy (pN nm) of a motion with initial energy `begun_with` (pN nm);
+/// infinite if unknown.
 ///
-/// Filaments whose controls stay have at most the energy that they begin with and the work of their
-/// loads. A filament that is held fast lets each load do `|F| 2 L` at most: nothing on it is ever
-/// further from where it was than twice its length. In a heat bath there is thermal energy besides,
-/// half of `kT` for each degree of freedom and `THERMAL_EXCESS` of them in all.
+/// With constant controls, the energy is at most the initial energy plus the work of the loads. On
+/// a clamped filament each load does at most the work `2 L |F|`, because no point moves by more
+/// than twice the length. A heat bath adds `kT / 2` per degree of freedom and `THERMAL_EXCESS` kT
+/// in total.
 pub(super) fn kinetic_limit(assembly: &Assembly, begun_with: f64) -> f64 {
     let scene = &assembly.scene;
     let is_fast = |filament: usize| {
@@ -33,7 +33,7 @@ pub(super) fn kinetic_limit(assembly: &Assembly, begun_with: f64) -> f64 {
         _ => f64::INFINITY,
     };
     let work: f64 = scene.loads.iter().map(work_of).sum();
-    // What binds in a stretched state brings energy with it.
+    // Linkers that form in a stretched state add energy.
     if !scene.path.is_empty() || work.is_infinite() || assembly.kinetics.is_some() {
         return f64::INFINITY;
     }
@@ -42,12 +42,12 @@ pub(super) fn kinetic_limit(assembly: &Assembly, begun_with: f64) -> f64 {
     if limit.is_nan() { f64::INFINITY } else { limit }
 }
 
-/// Whether a load is the same at all times and places, and its resultant what it was in the scene.
+/// Returns `true` if a load is constant in time and space and keeps its resultant.
 fn stays(load: &Load) -> bool {
     !load.follows() && load.factor().is_constant() && !matches!(load, Load::Acceleration(_))
 }
 
-/// The thermal energy `kT` (pN nm); none without a bath.
+/// Thermal energy `kT` (pN nm); 0 without a bath.
 fn thermal_energy(assembly: &Assembly) -> f64 {
     match &assembly.scene.task {
         Task::Dynamics(dynamics) => dynamics.thermal.map_or(0.0, |t| t.energy_pn_nm()),
@@ -80,7 +80,7 @@ mod tests {
         kinetic_limit(&assembly, assembly.system.total_energy())
     }
 
-    /// 5 pN over 60 nm, twice, and 1. What is free goes ever faster under a load, but not without.
+    /// Twice 60 nm times 5 pN, plus 1. Without a clamp the work is unbounded.
     #[test]
     fn the_work_of_the_loads_is_bounded_where_an_end_is_fast() {
         assert!((limit_of("Clamp(end: Start)", FORCE) - 601.0).abs() < 1e-9);
@@ -88,8 +88,7 @@ mod tests {
         assert!((limit_of("", "") - 1.0).abs() < 1e-9);
     }
 
-    /// 18 degrees of freedom (three nodes, three frames) at 300 K: 2 (9 + 50) kT more. Without them
-    /// a thermal filament under no load, whose bound is 1 pN nm, would fail at once.
+    /// 18 degrees of freedom (three nodes, three frames) at 300 K add 2 (9 + 50) kT.
     #[test]
     fn heat_counts() {
         let task = "duration_ns: 1.0, thermal: (temperature_k: 300.0, seed: 1), \

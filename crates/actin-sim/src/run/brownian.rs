@@ -1,4 +1,4 @@
-//! Overdamped motion: the friction of an assembly, its time step, and the run.
+//! Overdamped motion: friction, time step and run.
 
 use super::dynamics::{check_records, conclude};
 use super::recorder::Recorder;
@@ -13,36 +13,39 @@ use actin_coupling::LinkerEnd;
 use actin_integrate::{POSITION_VERLET, Run, Split};
 use actin_mechanics::{System, Vector3};
 
-/// Iterations of a step, about, by midpoints and with random stress.
+/// Approximate iterations of a step with midpoints and with random stress.
 const ITERATIONS: [u64; 2] = [4, 6];
 
-/// The same without noise, of its three parts together.
+/// Approximate iterations of a step without noise, over its three stages.
 const ITERATIONS_WITHOUT_NOISE: u64 = 8;
 
-/// Midpoint steps over the fastest relaxation, beyond which strains are too warm.
+/// Largest midpoint step over the fastest relaxation time. Longer steps overheat the strains.
 const OF_FASTEST: f64 = 50.0;
 
-/// Longest step of bonds with noise in units of the default step. Of eight runs of 60 nm over 20 ns (four clamped, four
-/// free) no run diverges at 1.4 times the default step, one at 1.7, four at 2.0 and all at 2.6.
+/// Largest step of bonds with noise over the default step.
+///
+/// Of eight runs of 60 nm over 20 ns (four clamped, four free), none diverges at 1.4 times the
+/// default step, one at 1.7, four at 2.0 and all at 2.6.
 const OF_BONDS: f64 = 1.5;
 
-/// Slowest motions that are looked for; up to six of each free filament meet no resistance.
+/// Number of slow modes computed. Each free filament has up to six zero-stiffness modes.
 const SLOWEST: usize = 24;
 
-/// Most degrees of freedom for which relaxation times are computed, in some tenths of a second.
+/// Largest number of degrees of freedom for relaxation times, at a cost of a few tenths of a
+/// second.
 const MOST_DOFS: usize = 5000;
 
-/// A rate below this share of the highest is zero to round-off.
+/// Relative rate below which a mode has zero stiffness.
 const UNRESISTED: f64 = 1e-12;
 
-/// How small displacements relax from the state as built.
+/// Relaxation times of small displacements from the state as built.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RelaxationTimes {
-    /// The shortest time (ns).
+    /// Shortest time (ns).
     pub fastest_ns: f64,
-    /// The longest times (ns) in descending order, times of equal size named once.
+    /// Longest times (ns) in descending order; degenerate times are listed once.
     pub slowest_ns: Vec<f64>,
-    /// Motions among the slowest that nothing resists, or that are unstable.
+    /// Number of slow modes with zero or negative stiffness.
     pub unresisted: usize,
 }
 
@@ -54,7 +57,7 @@ impl RelaxationTimes {
             .iter()
             .partition(|rate| **rate <= UNRESISTED * highest);
         let mut slowest_ns: Vec<f64> = resisted.iter().map(|rate| 1.0 / rate).collect();
-        // Of bending in two directions one is named.
+        // Bending modes come in pairs.
         slowest_ns.dedup_by(|next, kept| *next > 0.99 * *kept);
         Self {
             fastest_ns: 1.0 / highest,
@@ -65,11 +68,12 @@ impl RelaxationTimes {
 }
 
 impl Plan<'_> {
-    /// Relaxation of filaments in the fluid of the task, computed in the time of some hundred steps. `None` for tasks
-    /// without a fluid.
+    /// Returns the relaxation times in the fluid of the task, or `None` for tasks without a fluid.
+    /// The cost is comparable to some hundred steps.
     ///
     /// # Errors
-    /// More than 5000 degrees of freedom, or drag or couplings for which relaxation times are not defined.
+    /// If there are more than 5000 degrees of freedom, or drag or couplings without defined
+    /// relaxation times.
     pub fn relaxation_times(&self) -> Option<Result<RelaxationTimes, SceneProblem>> {
         let fluid = match &self.scene().task {
             AnyTask::Brownian(task) => &task.drag,
@@ -79,7 +83,7 @@ impl Plan<'_> {
         let dofs = self.assembly().counts().dofs;
         if dofs > MOST_DOFS {
             let rule = format!(
-                "relaxation times are computed of at most {MOST_DOFS} degrees of freedom, not {dofs}"
+                "relaxation times are limited to {MOST_DOFS} degrees of freedom; this scene has {dofs}"
             );
             return Some(Err(SceneProblem::new("filament", "", rule)));
         }
@@ -88,7 +92,7 @@ impl Plan<'_> {
     }
 }
 
-/// How fast small displacements of an assembly relax in the fluid of its task.
+/// Relaxation problem of an assembly in the fluid of its task.
 fn relaxation(assembly: &Assembly, fluid: &Fluid) -> Result<Relaxation, SceneProblem> {
     let friction = assembly.friction(fluid)?;
     let layout = layout(assembly)?;
@@ -96,14 +100,14 @@ fn relaxation(assembly: &Assembly, fluid: &Fluid) -> Result<Relaxation, ScenePro
         .map_err(|error| SceneProblem::new("task", "", error.to_string()))
 }
 
-/// The time step of overdamped motion and the number of steps.
+/// Time step and number of steps of overdamped motion.
 pub(super) fn estimate(assembly: &Assembly, task: &Task) -> Result<Estimate, SceneProblem> {
     assembly.check_slip()?;
     let motion = task.as_motion();
     let of_midpoints = OF_FASTEST / relaxation(assembly, &task.drag)?.highest_rate();
     let is_stiff = of_midpoints.is_finite() && of_midpoints > 0.0;
     if !is_stiff && task.time_step_ns.is_none() {
-        let rule = "has no stiffness by which a time step could be set: write time_step_ns";
+        let rule = "has no stiffness that could set a time step: write time_step_ns";
         return Err(SceneProblem::new("filament", "", rule));
     }
     let default = match long_steps::longest(assembly, task)? {
@@ -140,7 +144,7 @@ pub(super) fn estimate(assembly: &Assembly, task: &Task) -> Result<Estimate, Sce
     Ok(estimate)
 }
 
-/// Refuses time steps (ns) of bonds with noise that diverge.
+/// Refuses time steps (ns) at which bonds with noise diverge.
 fn check_length(wanted: f64, longest: Option<&LongestStep>) -> Result<(), SceneProblem> {
     match longest {
         Some(longest) if longest.has_bonds && wanted > OF_BONDS * longest.ns => {
@@ -157,10 +161,10 @@ fn check_length(wanted: f64, longest: Option<&LongestStep>) -> Result<(), SceneP
 }
 
 impl Estimate {
-    /// The steps of overdamped motion of what `layout` lets move in `system`, in a fluid at rest.
+    /// Creates the stepper of overdamped motion for the free bodies of `layout` in a fluid at rest.
     ///
     /// # Errors
-    /// Interactions without second derivatives.
+    /// If an interaction has no second derivatives.
     pub(crate) fn stepper(
         &self,
         (assembly, task): (&Assembly, &Task),
@@ -181,8 +185,8 @@ impl Estimate {
     }
 }
 
-/// Returns for each filament whether anything but one rod resists turns of its frames about the axis: other sections, hinged
-/// walls, or linkers off the axis.
+/// Returns for each filament whether other elements than one rod resist axial rotation of its
+/// frames: other sections, hinged walls, or linkers off the axis.
 fn held_off_axis(assembly: &Assembly) -> Vec<bool> {
     let sections = (0..assembly.filaments.len()).map(|filament| assembly.sections_of(filament));
     let mut held: Vec<bool> = sections
@@ -241,13 +245,13 @@ pub(super) fn run(
     let motion = task.as_motion();
     let mut system = assembly.system.in_state(assembly.system.state().clone());
     let mut recorder = Recorder::new(assembly, &motion, saved, clock, sink);
-    // The order of unknowns is that of the state as built, wherever a run is resumed.
+    // The order of unknowns follows the state as built, also for a resumed run.
     let mut stepper = estimate.stepper((assembly, task), &system, layout(assembly)?)?;
     stepper = stepper.in_flow(physical_flow(&task.flow));
     // The method is not looked at: the stepper makes the steps.
     let run = Run::new(&POSITION_VERLET, estimate.time_step_ns, estimate.steps)
         .and_then(|run| run.observing_every(estimate.steps_between_records))
-        // Steps are so long that filaments could pass through each other in a few.
+        // Long steps could let filaments pass through each other within a few steps.
         .and_then(|run| run.checking_every(1))
         .map_err(|error| refused(&error))?
         .stopping_from(recorder.drive(&mut system));

@@ -1,4 +1,4 @@
-//! Motion in time: the time step, the run loop and the records.
+//! Motion in time: time step, run and end of the run.
 
 use super::bound::kinetic_limit;
 use super::points::check_points;
@@ -16,25 +16,27 @@ use actin_brownian::Langevin;
 use actin_integrate::{Bath, Composition, Drag, Reason, Run};
 use actin_mechanics::{Split, System};
 
-/// Time step and counts of a motion, known before it runs.
+/// Time step and counts of a motion before the run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Estimate {
-    /// Largest frequency of the built filament (rad/ns); where shear stiffens its rods, at least
-    /// that with constant rigidities. Zero of overdamped motion, which does not oscillate.
+    /// Largest frequency of the filament as built (rad/ns); zero for overdamped motion.
+    ///
+    /// For rods that stiffen under shear it is at least the frequency with constant rigidities.
     pub largest_frequency_rad_per_ns: f64,
-    /// Largest stable time step of the chosen integrator (ns); infinite of overdamped motion.
+    /// Largest stable time step of the integrator (ns); infinite for overdamped motion.
     pub stability_limit_ns: f64,
-    /// Time step that will be taken (ns).
+    /// Time step (ns).
     pub time_step_ns: f64,
-    /// Steps, if the stop rule does not end the run before.
+    /// Number of steps, unless the stop rule ends the run earlier.
     pub steps: u64,
     /// Steps between two records.
     pub steps_between_records: u64,
     /// Time between two records (ns).
     pub record_every_ns: f64,
-    /// Load evaluations in these steps; of overdamped motion the usual iterations of each step.
+    /// Load evaluations in these steps; for overdamped motion an estimate from the usual number of
+    /// iterations.
     pub force_evaluations: u64,
-    /// Up to which step overdamped thermal motion shows what it should; none of other motion.
+    /// Longest accurate step of overdamped motion; `None` for other motion.
     pub longest_sound_step: Option<LongestStep>,
 }
 
@@ -57,10 +59,10 @@ pub(crate) fn composition_of(dynamics: &Dynamics) -> &'static Composition {
     }
 }
 
-/// The time step of an assembly's motion and the number of steps; `None` of an equilibrium.
+/// Time step and number of steps of an assembly's motion; `None` for an equilibrium.
 ///
 /// # Errors
-/// What [`Plan::new`](super::Plan::new) refuses.
+/// As [`Plan::new`](super::Plan::new).
 pub(super) fn estimate(assembly: &Assembly) -> Result<Option<Estimate>, SceneProblem> {
     match &assembly.scene.task {
         Task::Dynamics(dynamics) => estimate_of(assembly, dynamics).map(Some),
@@ -81,7 +83,7 @@ fn estimate_of(assembly: &Assembly, dynamics: &Dynamics) -> Result<Estimate, Sce
     estimate_at(assembly, dynamics, assembly.with_contact(frequency)?)
 }
 
-/// The largest frequency of an assembly as it stands (rad/ns).
+/// Largest frequency of an assembly in its present state (rad/ns).
 fn frequency_of(assembly: &Assembly) -> Result<f64, SceneProblem> {
     let system = &assembly.system;
     let found = match &assembly.kinetics {
@@ -94,13 +96,11 @@ fn frequency_of(assembly: &Assembly) -> Result<f64, SceneProblem> {
     found.map_err(|error| no_step(&error))
 }
 
-/// What leaves a filament without a time step.
 fn no_step(error: &dyn std::error::Error) -> SceneProblem {
     SceneProblem::new("filament", error, "has no stable time step")
 }
 
-/// The same at a largest frequency (rad/ns) that is known: it is that of the filaments, whatever is
-/// asked of them.
+/// Estimate at a known largest frequency (rad/ns) of the filaments.
 fn estimate_at(
     assembly: &Assembly,
     dynamics: &Dynamics,
@@ -129,26 +129,26 @@ fn estimate_at(
     })
 }
 
-/// Rates of drag (1/ns) from which on it takes energy faster than steps across compression bring it.
+/// Drag rate (1/ns) above which drag dissipates the energy that steps across compression generate.
 const DRAGGED: f64 = 0.1;
 
-/// Viscosity (mPa s) whose drag across a filament is about one per ns, at the density of monomers.
+/// Viscosity (mPa s) with a transverse drag rate of about 1/ns at the density of monomers.
 const THICK: f64 = 0.01;
 
-/// What is left of the default step under the laws of the rods: `Homogenised` without heat gives way to compression at
-/// once, and an undamped motion across that gains energy at half the limit of the others (all of it in 200 ns), while
-/// at a quarter a rod of 160 nm gains 0.4 % in 600 ns. The law at 298 K keeps the whole step, and so does drag of
-/// `DRAGGED`: rods and mixed filaments that are pushed together then gain less than 1e-5 of the work at nine tenths of the
-/// limit.
+/// Reduction of the default step by the laws of the rods.
+///
+/// `Homogenised` at zero temperature softens abruptly in compression. An undamped motion across
+/// this kink gains energy at half the limit of other laws (all of it in 200 ns). At a quarter of
+/// the limit, a rod of 160 nm gains 0.4 % in 600 ns. The law at 298 K needs no reduction. With drag
+/// of at least `DRAGGED`, compressed rods and mixed filaments gain less than 1e-5 of the work at
+/// nine tenths of the limit.
 fn share_of_laws(assembly: &Assembly, dynamics: &Dynamics) -> f64 {
     let rates = dynamics.drag.rates();
     let slowest = rates.translational_per_ns.min(rates.rotational_per_ns);
     let is_heated = assembly.scene.thermal().is_some();
     let is_thick = |fluid: &Fluid| {
-        let Fluid::Water {
-            viscosity_mpa_s, ..
-        } = fluid;
-        *viscosity_mpa_s >= THICK
+        let Fluid::Water(water) = fluid;
+        water.viscosity_mpa_s >= THICK
     };
     let is_dragged = slowest >= DRAGGED || dynamics.drag.fluid().is_some_and(is_thick);
     if !is_heated && is_dragged {
@@ -166,7 +166,7 @@ fn share_of_laws(assembly: &Assembly, dynamics: &Dynamics) -> f64 {
     }
 }
 
-/// A time step (ns) above the limit (ns) at a frequency (rad/ns).
+/// Error for a time step (ns) above the limit (ns) at a frequency (rad/ns).
 fn unstable(scheme: &Composition, wanted: f64, limit: f64, frequency: f64) -> SceneProblem {
     SceneProblem::new(
         "task.time_step_ns",
@@ -179,7 +179,7 @@ fn unstable(scheme: &Composition, wanted: f64, limit: f64, frequency: f64) -> Sc
     )
 }
 
-/// Refuses records that would not fit into memory.
+/// Refuses records that exceed the memory.
 pub(super) fn check_records(
     assembly: &Assembly,
     dynamics: &Dynamics,
@@ -197,13 +197,13 @@ pub(super) fn check_records(
     })
 }
 
-/// Records of a motion of so many steps, the first and the last included.
+/// Number of records of a motion, including the first and the last.
 fn number_of_records(steps: u64, between_records: u64) -> f64 {
     (steps / between_records + 1) as f64
 }
 
-/// The same filaments with rods of constant rigidities, where rods resist shear only once they
-/// are sheared: what they show at rest is not what a motion meets.
+/// Returns the same filaments with rods of constant rigidities, if rods resist shear only after
+/// finite shear. Their frequency at rest is not representative of the motion.
 fn with_constant_rods(assembly: &Assembly) -> Result<Option<Assembly>, SceneProblem> {
     let mut scene = assembly.scene.clone();
     let mut changes = false;
@@ -223,7 +223,6 @@ fn with_constant_rods(assembly: &Assembly) -> Result<Option<Assembly>, SceneProb
     Assembly::build(&scene).map(Some)
 }
 
-/// Runs the motion.
 pub(super) fn run(
     assembly: &Assembly,
     dynamics: &Dynamics,
@@ -235,7 +234,7 @@ pub(super) fn run(
     let mut system = assembly.system.in_state(assembly.system.state().clone());
     let mut recorder = Recorder::new(assembly, dynamics, saved, clock, sink);
     let run = prepare((assembly, dynamics), &recorder, &mut system, estimate)?;
-    // Loads have the factors with which the motion begins.
+    // Loads have their initial factors.
     let begun = recorder.is_whole().then(|| system.total_energy());
     recorder.let_happen(&mut system);
     if let Some(ledger) = assembly.ledger {
@@ -265,7 +264,7 @@ pub(super) fn run(
     Ok(conclude(assembly, dynamics, ending, outcome))
 }
 
-/// How a motion ended, added to what is known of it.
+/// Completes the outcome of a motion with the end of its run.
 pub(super) fn conclude(
     assembly: &Assembly,
     dynamics: &Dynamics,
@@ -273,7 +272,7 @@ pub(super) fn conclude(
     outcome: Outcome,
 ) -> (Outcome, Option<Failure>) {
     let (mut outcome, failure) = ended(assembly, dynamics, ending, outcome);
-    // Where it failed, what happened later belongs to no record.
+    // Later events belong to no record.
     let steps = outcome.steps;
     outcome.events.retain(|event| event.step <= steps);
     (outcome, failure)
@@ -318,7 +317,7 @@ fn ended(
     (outcome, failure)
 }
 
-/// What leads a motion off a saddle, or would have.
+/// Remedy for a motion that ends on a saddle.
 fn way_off(dynamics: &Dynamics) -> &'static str {
     match dynamics.leave_saddles {
         0 => {
@@ -329,7 +328,7 @@ fn way_off(dynamics: &Dynamics) -> &'static str {
     }
 }
 
-/// The run that the scene asks for; its path is set going, with what looks on.
+/// Creates the run of the scene with its drive and observers.
 fn prepare(
     (assembly, dynamics): (&Assembly, &Dynamics),
     recorder: &Recorder<'_>,
@@ -341,14 +340,14 @@ fn prepare(
         .stopping_from(recorder.drive(system))
         .with_kinetic_limit(limit)
         .expect("the limit is positive");
-    // The bound is that of all energy. In a bath it is not: strain has heat of its own.
+    // The bound limits the total energy. In a bath strain has additional thermal energy.
     Ok(match dynamics.thermal {
         Some(_) => run,
         None => run.with_energy_limit(limit).expect("the limit is a number"),
     })
 }
 
-/// The run that the scene asks for. Its numbers were validated with the scene.
+/// Creates the run of the scene, whose numbers are validated.
 fn plan(dynamics: &Dynamics, estimate: &Estimate) -> Result<Run, SceneProblem> {
     let refused = |key: &str, error: &dyn std::error::Error| {
         SceneProblem::new(format!("task.{key}"), "", error.to_string())
@@ -361,7 +360,7 @@ fn plan(dynamics: &Dynamics, estimate: &Estimate) -> Result<Run, SceneProblem> {
     let run = Run::new(scheme, step, estimate.steps)
         .and_then(|run| run.observing_every(estimate.steps_between_records))
         .map_err(|error| refused("time_step_ns", &error))?;
-    // The steps in a fluid have their own noise.
+    // Steps in a fluid include their own noise.
     let bath = (dynamics.thermal.as_ref()).filter(|_| dynamics.drag.fluid().is_none());
     let run = match bath {
         None => run.with_drag(drag),
@@ -382,7 +381,7 @@ fn plan(dynamics: &Dynamics, estimate: &Estimate) -> Result<Run, SceneProblem> {
         .map_err(|error| refused("stop", &error))
 }
 
-/// The steps of motion with inertia in a fluid.
+/// Stepper of inertial motion in a fluid.
 fn langevin(
     assembly: &Assembly,
     dynamics: &Dynamics,
@@ -396,7 +395,7 @@ fn langevin(
 }
 
 impl Estimate {
-    /// Writes the time step and the interval of records that a motion will have into its scene.
+    /// Writes the time step and the interval of records of a motion into its scene.
     pub(super) fn resolve(&self, scene: &mut Scene) {
         let (step, every) = match &mut scene.task {
             Task::Dynamics(task) => {

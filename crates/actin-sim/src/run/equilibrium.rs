@@ -1,4 +1,4 @@
-//! Equilibria: Newton from the built state, or along the path of the scene.
+//! Equilibria by Newton's method, from the state as built or along the path of the scene.
 
 use super::lost_load::lost_load;
 use super::rest::{is_saddle, saddle};
@@ -18,30 +18,29 @@ use actin_equilibrium::{
 use actin_mechanics::{Loads, Residual, State, System};
 use std::ops::ControlFlow;
 
-/// What is known of an equilibrium.
+/// Certificate, cost and accuracy of an equilibrium.
 #[derive(Clone, Debug, PartialEq)]
 pub struct EquilibriumReport {
-    /// Counts of negative and unresolved eigenvalues of the stiffness.
+    /// Numbers of negative and unresolved eigenvalues of the stiffness.
     pub certificate: Certificate,
-    /// Lowest eigenvalue of the stiffness that is not neutral (pN/nm; turns count as displacements over
-    /// 1 nm), if the scene asks for it.
+    /// Lowest nonzero eigenvalue of the stiffness (pN/nm; rotations count as displacements at 1
+    /// nm), if requested.
     pub lowest_eigenvalue: Option<f64>,
-    /// Newton steps of the whole path.
+    /// Newton steps on the whole path.
     pub newton_iterations: u64,
-    /// Equilibria on the path.
+    /// Number of equilibria on the path.
     pub points: usize,
-    /// Force (pN) and torque (pN nm) that rounding leaves, if the last equilibrium ended there and not
-    /// within its tolerance.
+    /// Residual force (pN) and torque (pN nm) at round-off, if the last equilibrium did not reach
+    /// its tolerance.
     pub floor: Option<Residual>,
     /// Residual force (pN) and torque (pN nm) before each Newton step of the last equilibrium.
     pub history: Vec<Residual>,
-    /// Stable states about it, if the scene asks for them.
+    /// Stable states near the equilibrium, if requested.
     pub states: Option<StableStates>,
     /// Model error and scatter of the requested quantity, or the reason for their absence.
     pub error: Option<ModelErrorResult>,
 }
 
-/// Solves for the equilibrium, or follows the path.
 pub(super) fn run(
     assembly: &Assembly,
     settings: &Settings,
@@ -58,7 +57,7 @@ pub(super) fn run(
         None => follower.look_around(&mut newton, &state)?,
         Some(_) => None,
     };
-    // What was interrupted at its very end is done.
+    // An interruption after the last equilibrium has no effect.
     let is_interrupted = follower.is_interrupted && failure.is_none();
     let Follower {
         position,
@@ -92,7 +91,7 @@ pub(super) fn run(
     Ok((outcome, failure))
 }
 
-/// Where a path stands after `points` equilibria, in words; nothing where there is no path.
+/// Names the stage after `stages_done` stages; empty without a path.
 fn place(assembly: &Assembly, stages_done: usize) -> String {
     match assembly.drive.stages() {
         0 => String::new(),
@@ -100,7 +99,7 @@ fn place(assembly: &Assembly, stages_done: usize) -> String {
     }
 }
 
-/// What the loads of a scene have to do with the loss of stability that ends its path.
+/// Returns a hint if the loads of a scene explain the loss of stability.
 fn hint(assembly: &Assembly, cause: &PathError) -> &'static str {
     let is_on_free_end = |load: &Load| match load {
         Load::Couple(couple) => couple.end.is_some_and(|end| {
@@ -137,15 +136,15 @@ fn path(settings: &Settings) -> Result<Path, SceneProblem> {
     Path::new(options).map_err(|error| SceneProblem::new("task", "", error.to_string()))
 }
 
-/// One run while it is under way.
+/// State of a run along the path.
 struct Follower<'a> {
     assembly: &'a Assembly,
     settings: &'a Settings,
     taken: Taken<'a>,
     clock: Clock,
-    /// Where the run could be resumed.
+    /// Position for resuming the run.
     position: PathPosition,
-    /// Whether the sink wants the run to stop; not where that came behind its end.
+    /// The sink interrupted the run before its end.
     is_interrupted: bool,
 }
 
@@ -174,7 +173,7 @@ impl<'a> Follower<'a> {
                 recorded,
                 ..
             }) => (*position, Some(recorded)),
-            Some(_) => panic!("a motion in time is no path of equilibria"),
+            Some(_) => panic!("the checkpoint of a motion cannot resume a path of equilibria"),
         };
         Self {
             assembly,
@@ -186,8 +185,8 @@ impl<'a> Follower<'a> {
         }
     }
 
-    /// Follows all that is left, and says what is wrong with where it ended. However it did, a checkpoint
-    /// is kept.
+    /// Follows the remaining path, checks the last equilibrium and keeps a checkpoint in every
+    /// case.
     fn follow_to_the_end(
         &mut self,
         newton: &mut Newton,
@@ -223,7 +222,7 @@ impl<'a> Follower<'a> {
         Ok(failure)
     }
 
-    /// Looks for other stable states, if the scene asks for them.
+    /// Searches for other stable states, if requested.
     fn look_around(
         &mut self,
         newton: &mut Newton,
@@ -241,8 +240,8 @@ impl<'a> Follower<'a> {
         Ok(states)
     }
 
-    /// Certifies the last equilibrium again if it seems to be a saddle, with the residual as small as it
-    /// gets: what the tolerance leaves of it may pass for the sign of a neutral mode.
+    /// Repeats the certificate of an apparent saddle at the smallest residual, because a residual
+    /// within the tolerance can change the sign of a neutral mode.
     fn look_closer(&mut self, newton: &mut Newton, state: &State) {
         let certificate = self
             .position
@@ -260,7 +259,7 @@ impl<'a> Follower<'a> {
         }
     }
 
-    /// What is wrong with the last equilibrium.
+    /// Returns the failure of the last equilibrium, if any.
     fn flaw(&self) -> Option<Failure> {
         let last = self.taken.last();
         let lost = last.and_then(|last| lost_load(self.assembly, last));
@@ -268,15 +267,15 @@ impl<'a> Follower<'a> {
             let certificate = self.position.last.as_ref()?.certificate?;
             let attempts = self.settings.leave_saddles;
             let way = match attempts {
-                0 => "with 0 saddles are kept; with 1 or more they are left along the lowest mode",
+                0 => "leave_saddles: 0 keeps saddles; 1 or more leaves them along the lowest mode",
                 _ => "more attempts may lead off it",
             };
             is_saddle(&certificate).then(|| Failure::Saddle(saddle(&certificate, attempts, way)))
         })
     }
 
-    /// Follows all stages that are left, or solves once where there is none. Returns why it ended
-    /// early.
+    /// Follows all remaining stages, or solves once without a path. Returns the failure that ends
+    /// it early.
     fn follow(
         &mut self,
         newton: &mut Newton,
@@ -299,7 +298,8 @@ impl<'a> Follower<'a> {
         Ok(result.err())
     }
 
-    /// From a state near the equilibrium where one is known; where there is none, or no way from it, from the state as built.
+    /// Solves from a state near the equilibrium, if known. Otherwise, or on failure, solves from
+    /// the state as built.
     fn minimize(
         &mut self,
         newton: &mut Newton,
@@ -334,7 +334,7 @@ impl<'a> Follower<'a> {
             }
             Err(failure) => {
                 if !self.is_interrupted {
-                    // The best state that was reached is worth keeping.
+                    // Keep the best state.
                     let best = record(&self.assembly.system, 0.0, state);
                     self.taken.take_unchecked(best);
                 }
@@ -372,7 +372,7 @@ impl<'a> Follower<'a> {
         .map(drop)
     }
 
-    /// Records an equilibrium, unless twist was lost since the one before: then the path ends there.
+    /// Records an equilibrium. Ends the path if twist was lost since the previous one.
     fn record(&mut self, u: f64, state: &State, equilibrium: &Equilibrium) -> ControlFlow<()> {
         if !self.taken.take(record(&self.assembly.system, u, state)) {
             return ControlFlow::Break(());
@@ -391,7 +391,7 @@ impl<'a> Follower<'a> {
         ControlFlow::Continue(())
     }
 
-    /// Notes where the path can be resumed: at `point`, or at the beginning of the next stage.
+    /// Saves the position for resuming: at `point`, or at the start of the next stage.
     fn note(&mut self, point: &PathPoint<'_>) {
         let is_end = point.parameter >= 1.0;
         let position = &mut self.position;
@@ -407,7 +407,7 @@ impl<'a> Follower<'a> {
         if self.position.points > 0 {
             self.taken.checkpoint(&position, wall_s);
         } else {
-            // The best state of an attempt that failed: the next attempt begins without it.
+            // Best state of a failed attempt; the next attempt starts without it.
             let none = Recorded::new(self.assembly);
             self.taken.checkpoint_behind(&position, &none, wall_s);
         }
@@ -426,7 +426,7 @@ impl PathObserver for Follower<'_> {
     fn arrive(&mut self, point: &PathPoint<'_>) -> ControlFlow<()> {
         let stage = self.position.stage;
         let u = stage as f64 + point.parameter;
-        // The start of a later stage is the end of the one before.
+        // The start of a later stage equals the end of the previous one.
         if stage == 0 || point.parameter > 0.0 {
             self.record(u, point.state, point.equilibrium)?;
         }

@@ -1,7 +1,8 @@
-//! Whether the spring of a hinged end was turned past half a turn. Its angle is known up to there: past it, the
-//! spring is turned by as much the other way round, so that a whole turn is lost and its couple changes sign.
+//! Detection of hinges turned past half a turn.
 //!
-//! A motion is looked at after every drift, a path of equilibria at every equilibrium.
+//! The angle of a hinge's spring is known up to half a turn. Beyond that angle the spring loses a
+//! whole turn and its torque changes sign. Hinges are checked after every drift of a motion and at
+//! every equilibrium of a path.
 
 use super::At;
 use crate::assembly::Ramp;
@@ -11,19 +12,19 @@ use std::f64::consts::FRAC_PI_4;
 use std::fmt;
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// Between equilibria a hinge that turns by more than twice this angle (rad) may have jumped, through any angle.
+/// Half of the angle (rad) above which a hinge may have jumped between equilibria.
 const LARGEST_HALF_ANGLE: f64 = FRAC_PI_4;
 
-/// A hinge that was turned past half a turn.
+/// Hinge that was turned past half a turn.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HingeSlip {
-    /// The filament.
+    /// Index of the filament.
     pub filament: usize,
-    /// Its hinged end.
+    /// Hinged end.
     pub end: End,
-    /// When, or where on the path.
+    /// Time or path parameter.
     pub at: At,
-    /// How far (deg) its spring was turned just before, and how far of that about the filament.
+    /// Angle of the spring just before (deg), and its part about the filament (deg).
     pub turned_deg: [f64; 2],
 }
 
@@ -36,15 +37,15 @@ impl fmt::Display for HingeSlip {
         let [angle, twist] = self.turned_deg;
         write!(
             f,
-            "the hinge at the {end} of filament {} was turned past half a turn, {angle:.0} deg just before, {twist:.0} \
-             deg of it about the filament: there its spring loses a whole turn and pulls the other way; a stiffer \
-             hinge, a smaller turn or a smaller load stays below",
+            "the hinge at the {end} of filament {} was turned past half a turn ({angle:.0} deg just before, {twist:.0} \
+             deg of it about the filament), where its spring loses a whole turn; use a stiffer hinge, a smaller \
+             turn or a smaller load",
             self.filament
         )
     }
 }
 
-/// A hinged end and the two frames that its spring joins.
+/// Hinged end and the two frames of its spring.
 #[derive(Clone, Copy, Debug)]
 struct Hinge {
     filament: usize,
@@ -67,7 +68,7 @@ impl Hinge {
         hinged.collect()
     }
 
-    /// The rotation of its spring.
+    /// Rotation of the spring.
     fn rotation(&self, state: &State) -> UnitQuaternion {
         let [from, to] = self.frames.map(|i| state.frames.orientation.get(i));
         from.inverse() * to
@@ -84,7 +85,7 @@ impl Hinge {
     }
 }
 
-/// The hinges of a motion, looked at wherever its bodies have moved.
+/// Monitor of the hinges of a motion.
 #[derive(Clone, Debug)]
 pub(super) struct HingeWatch {
     hinges: Vec<Hinge>,
@@ -94,12 +95,12 @@ pub(super) struct HingeWatch {
 #[derive(Debug, Default)]
 struct Seen {
     last: Vec<UnitQuaternion>,
-    /// The first slip.
+    /// First slip.
     slip: Option<HingeSlip>,
 }
 
 impl HingeWatch {
-    /// Of an assembly in the state in which it was built.
+    /// Creates a monitor of an assembly in its state as built.
     pub(super) fn new(assembly: &Assembly) -> Self {
         let watch = Self {
             hinges: Hinge::all(assembly),
@@ -109,13 +110,14 @@ impl HingeWatch {
         watch
     }
 
-    /// Looks from `state` on.
+    /// Starts the monitor at `state`.
     pub(super) fn begin(&self, state: &State) {
         let mut seen = self.seen.lock().unwrap_or_else(PoisonError::into_inner);
         seen.last = self.hinges.iter().map(|h| h.rotation(state)).collect();
     }
 
-    /// What is to be called after every drift, besides what a ramp moves: the ramp alone where nothing is hinged.
+    /// Combines the monitor with a ramp into one drive. Returns the ramp alone if the assembly has
+    /// no hinges.
     pub(super) fn beside(&self, ramp: Option<Ramp>) -> Option<Box<dyn Drive>> {
         if self.hinges.is_empty() {
             return ramp.map(|ramp| Box::new(ramp) as Box<dyn Drive>);
@@ -124,7 +126,7 @@ impl HingeWatch {
         Some(Box::new(Watched { ramp, watch }))
     }
 
-    /// The first hinge that was turned too far, if one was.
+    /// Returns the first slip, if any.
     pub(super) fn slip(&self) -> Option<HingeSlip> {
         let seen = self.seen.lock().unwrap_or_else(PoisonError::into_inner);
         seen.slip
@@ -142,7 +144,7 @@ impl HingeWatch {
     }
 }
 
-/// A ramp, and the hinges that are looked at behind it.
+/// Ramp followed by a check of the hinges.
 #[derive(Debug)]
 struct Watched {
     ramp: Option<Ramp>,
@@ -168,8 +170,8 @@ impl Drive for Watched {
     }
 }
 
-/// The first hinge that was turned past half a turn between one equilibrium and the next. One that turned by more
-/// than a right angle has jumped: nothing is concluded.
+/// Returns the first hinge turned past half a turn between two equilibria. Rotations by more than a
+/// right angle may be jumps and are ignored.
 pub(super) fn slip_between(
     assembly: &Assembly,
     before: &State,
@@ -182,8 +184,8 @@ pub(super) fn slip_between(
     })
 }
 
-/// Whether the shortest way from one rotation to another leads through half a turn: there, of the two unit
-/// quaternions of a rotation, the one with the positive real part changes sign.
+/// Returns `true` if the shortest path between two rotations passes half a turn. There the unit
+/// quaternion with positive real part changes sign.
 fn has_passed(before: UnitQuaternion, now: UnitQuaternion) -> bool {
     before.coords.dot(&now.coords) * before.w * now.w < 0.0
 }
@@ -193,8 +195,6 @@ mod tests {
     use super::*;
     use actin_mechanics::Vector3;
 
-    /// About one axis, and about another on the way; nothing is passed where the angle shrinks or changes sign at
-    /// zero.
     #[test]
     fn half_a_turn_is_passed_once() {
         let turn = |x: f64, z: f64| rotation::exp(Vector3::new(x, 0.0, z).map(f64::to_radians));

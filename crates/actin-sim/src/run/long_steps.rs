@@ -1,32 +1,34 @@
-//! How long steps of rods and quasi-harmonic monomers in thermal overdamped motion may be: what sets them is what is
-//! looked at and what changes, not how fast stretch and shear relax.
+//! Default steps of thermal overdamped motion of rods and quasi-harmonic monomers. Records and
+//! changes in time limit the step, not the relaxation of stretch and shear.
 
 use crate::Assembly;
 use crate::assembly::COARSEST;
 use crate::scene::{Brownian as Task, Filament, Resultant, SceneProblem, Setting};
 
-/// Steps in the time that a stage, a ramp, a period or an interval of a table takes: what follows half a step late is late by
-/// half a hundredth of it.
+/// Steps per stage, ramp, period or table interval. Driven motion is delayed by half a step, 0.5 %
+/// of that time.
 const PER_CHANGE: f64 = 100.0;
 
-/// By how much (relative) loads may leave too little slack.
+/// Largest relative error of slack under loads.
 const TOO_COLD: f64 = 0.01;
 
-/// Lengths of filament whose bending is followed where monomers are finer, in one filament.
+/// Number of wavelengths per filament whose bending is resolved, for monomers.
 const FOLLOWED: f64 = 5.0;
 
-/// The longest of them (nm).
+/// Longest resolved wavelength (nm).
 const LONGEST_FOLLOWED_NM: f64 = 40.0;
 
-/// Steps between two records of a motion without heat. The first record has the largest error, 5.4e-5 of the displacement
-/// with a hundred records and below 1e-3 with ten (`docs/measured/motion.md`).
+/// Steps between two records of a motion without heat. The first record has the largest error:
+/// 5.4e-5 of the displacement with a hundred records and below 1e-3 with ten
+/// (`docs/measured/motion.md`).
 const PER_RECORD: f64 = 20.0;
 
-/// Records of a motion whose scene does not say how many.
+/// Default number of records.
 const RECORDS: f64 = 100.0;
 
-/// The longest step (ns) of rods and monomers at a temperature that shows bending to 1 % (`actin_brownian::Brownian`) and
-/// whatever changes, or without heat that shows displacements to 0.1 %; none of contact, or of bonds in heat.
+/// Default step (ns). At finite temperature it resolves bending to 1 % (`actin_brownian::Brownian`)
+/// and all prescribed changes; without heat it resolves displacements to 0.1 %. `None` with
+/// contact, or for bonds with heat.
 pub(super) fn longest(assembly: &Assembly, task: &Task) -> Result<Option<f64>, SceneProblem> {
     let is_athermal = task.temperature_k == 0.0;
     let has_bonds = assembly.counts().bonds > 0;
@@ -64,9 +66,16 @@ pub(super) fn longest(assembly: &Assembly, task: &Task) -> Result<Option<f64>, S
     Ok(Some(longest))
 }
 
-/// `zeta l^4/B`, the time in which friction `zeta` of a `length` `l` of a section bends it. A tension `F` has no random
-/// stress: in steps of `h` waves are too cold under it, and slack is too small by `h F^(3/2)/(zeta l B^(1/2))`, or less where that
-/// is more than a tenth (measured beside the exact chain in `actin-brownian`, `tests/chain.rs`).
+/// Relaxation time of bending over a length, limited by the tension.
+///
+/// ```text
+/// h <= zeta l^4 / B                        zeta (pN ns/nm^2) transverse friction per length, l (nm), B (pN nm^2)
+/// relative error of slack = h F^(3/2) / (zeta l B^(1/2)),   F (pN) tension
+/// ```
+///
+/// Tension has no random stress, so that steps leave waves under tension too cold. The error was
+/// measured against the exact chain in `actin-brownian`, `tests/chain.rs`. It is smaller than the
+/// formula above a tenth.
 fn of_length(
     assembly: &Assembly,
     task: &Task,
@@ -86,7 +95,7 @@ fn of_length(
     Ok(of_loads.min(across * length.powi(4) / bend))
 }
 
-/// At most what loads pull a filament with (pN); couples pull segments of `length` aside.
+/// Upper bound of the tension of a filament (pN). Couples act through a lever arm of `length`.
 fn tension(assembly: &Assembly, filament: usize, length: f64) -> f64 {
     let scene = &assembly.scene;
     let loads = scene.loads.iter().enumerate();
@@ -119,7 +128,7 @@ fn of_changes(assembly: &Assembly) -> Vec<f64> {
     stages.chain(loads).collect()
 }
 
-/// What rates allow (ns).
+/// Largest steps that rates allow (ns).
 fn of_rates(assembly: &Assembly) -> Vec<f64> {
     let linkers = assembly.scene.linkers.iter();
     let rates = linkers.filter_map(|linker| Some(linker.kinetics.as_ref()?.rates()));

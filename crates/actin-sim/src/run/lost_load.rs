@@ -1,14 +1,13 @@
-//! Loads that the residual forces of an equilibrium hide.
+//! Detection of loads below the residual of an equilibrium.
 
 use super::Record;
 use crate::Assembly;
 use crate::scene::{Resultant, SceneProblem};
 
-/// Residual forces that are a larger share of a load hide it.
+/// Largest resolved ratio of residual to load.
 const RESOLVED: f64 = 0.01;
 
-/// The first load that is hidden in an equilibrium: residual forces, of rounding of places or of a loose
-/// tolerance, are no longer small beside it.
+/// Returns an error for the first load that is not large compared with the residual.
 pub(super) fn lost_load(assembly: &Assembly, last: &Record) -> Option<SceneProblem> {
     let loads = assembly.scene.loads.iter().enumerate();
     loads.into_iter().find_map(|(i, load)| {
@@ -22,7 +21,7 @@ pub(super) fn lost_load(assembly: &Assembly, last: &Record) -> Option<SceneProbl
         is_lost.then(|| {
             let rule = format!(
                 "is below 100 times the residual of {residual:.1e} {unit}, so the equilibrium does not \
-                 show what it does; use a larger load"
+                 resolve its effect; use a larger load"
             );
             load.problem(i, rule)
         })

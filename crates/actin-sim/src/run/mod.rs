@@ -1,4 +1,4 @@
-//! Running a scene: an equilibrium or a motion in time, with records on the way.
+//! Runs of scenes: equilibria and motions in time, with their records.
 
 mod bound;
 mod brownian;
@@ -48,37 +48,36 @@ use crate::scene::{SceneProblem, Task};
 use sink::Clock;
 
 impl Plan<'_> {
-    /// Runs it into memory.
+    /// Runs the plan and returns its records in memory.
     ///
     /// # Errors
-    /// What went wrong, with what the run cost; its records up to there are lost:
-    /// [`run_into`](Self::run_into) keeps them.
+    /// As [`run_into`](Self::run_into). The records of a failed run are lost.
     pub fn run(&self) -> Result<(Trajectory, Outcome), RunError> {
         let mut trajectory = Trajectory::default();
         let outcome = self.run_into(&mut trajectory)?;
         Ok((trajectory, outcome))
     }
 
-    /// Runs it into a sink.
+    /// Runs the plan and passes records to `sink`.
     ///
     /// # Errors
-    /// A state that explodes, a path that ends early, twist that is lost, an end on a saddle or in an
-    /// equilibrium in which a load is lost, states far outside the range of the model. The sink has all records up
-    /// to the last good one.
+    /// If the state diverges, a path ends early, twist is lost, the run ends on a saddle or with a
+    /// load below the residual, or states exceed the validity of the model. The sink has all
+    /// records up to the last good one.
     pub fn run_into(&self, sink: &mut dyn Sink) -> Result<Outcome, RunError> {
         self.execute(None, sink)
     }
 
-    /// Runs what is left of a run that was interrupted, whose records `sink` has.
+    /// Resumes an interrupted run, whose records `sink` has.
     ///
-    /// A run that was interrupted and resumed, any number of times, gives the records and the outcome of
-    /// one that was not, to the bit, but for the time that it took.
+    /// Interrupted and resumed runs give bitwise the same records and outcome as uninterrupted
+    /// runs, except for the run time.
     ///
     /// # Errors
     /// As [`run_into`](Self::run_into).
     ///
     /// # Panics
-    /// If what was saved belongs to another task or other numbers of bodies.
+    /// If `saved` belongs to another task or to other numbers of bodies.
     pub fn resume_into(&self, saved: Saved, sink: &mut dyn Sink) -> Result<Outcome, RunError> {
         self.execute(Some(saved), sink)
     }
@@ -86,7 +85,7 @@ impl Plan<'_> {
     fn execute(&self, saved: Option<Saved>, sink: &mut dyn Sink) -> Result<Outcome, RunError> {
         let assembly = self.assembly();
         if assembly.scene.filament.sections.following().is_some() {
-            let rule = "sections that follow a motion are run by `actin run` alone, and by follow::Follower in Rust";
+            let rule = "sections that follow a motion can only be run by `actin run`, or by `follow::Follower` in Rust";
             return Err(SceneProblem::new("filament.sections", "Following(..)", rule).into());
         }
         let clock = Clock::new(saved.as_ref(), self.set_up_s());

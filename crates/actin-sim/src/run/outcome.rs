@@ -1,4 +1,4 @@
-//! How a run ended, what it cost, and what went wrong.
+//! Outcome of a run: status, cost, warnings and failures.
 
 use super::taken::Remarks;
 use super::{EquilibriumReport, HingeSlip, SaddlePush, Slip};
@@ -12,67 +12,67 @@ use serde::{Deserialize, Serialize};
 use std::fmt;
 use thiserror::Error;
 
-/// How a run ended.
+/// Status at the end of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Status {
-    /// The equilibrium was reached, or the stop rule was met.
+    /// The equilibrium or the stop rule was reached.
     Converged,
-    /// The time that was asked for has passed.
+    /// The full duration has passed.
     Completed,
-    /// The run broke off, and the record is the last good one; or what it reached is no result:
-    /// see [`Failure`].
+    /// The run stopped at an error, with the last good record, or its result is invalid; see
+    /// [`Failure`].
     Failed,
-    /// The run was interrupted and can be resumed; the record is the last one made.
+    /// The run was interrupted and can be resumed from its last record.
     Interrupted,
 }
 
-/// How a run ended and what it cost.
+/// Status and cost of a run.
 #[derive(Clone, Debug)]
 pub struct Outcome {
-    /// How it ended.
+    /// Status at the end.
     pub status: Status,
-    /// Steps taken.
+    /// Number of steps.
     pub steps: u64,
-    /// Load evaluations.
+    /// Number of load evaluations.
     pub force_evaluations: u64,
-    /// Time step (ns); none of an equilibrium.
+    /// Time step (ns); `None` for an equilibrium.
     pub time_step_ns: Option<f64>,
-    /// Largest frequency found at the start (rad/ns); none of an equilibrium.
+    /// Largest frequency at the start (rad/ns); `None` for an equilibrium.
     pub largest_frequency_rad_per_ns: Option<f64>,
-    /// What is known of the equilibrium; none of a motion in time.
+    /// Report of the equilibrium; `None` for a motion in time.
     pub equilibrium: Option<EquilibriumReport>,
-    /// Counts of eigenvalues at the equilibrium in which a motion has come to rest; none of one that
-    /// still moves, that is in a heat bath, or whose loads have no potential.
+    /// Eigenvalue counts at the equilibrium in which a motion came to rest. `None` if it still
+    /// moves, in a heat bath, or for loads without a potential.
     pub at_rest: Option<Certificate>,
-    /// Energy with which a motion began (pN nm); not of one whose cells are switched.
+    /// Initial energy of a motion (pN nm); `None` if cells are switched.
     pub begun_with_pn_nm: Option<f64>,
-    /// The largest kinetic energy that a motion came to at a check (pN nm).
+    /// Largest kinetic energy at a check of a motion (pN nm).
     pub largest_kinetic_pn_nm: f64,
-    /// How many saddles were left, on the whole path or in the whole motion.
+    /// Number of saddles left by the path or the motion.
     pub saddles_left: usize,
-    /// How a motion was pushed off saddles.
+    /// Perturbations of a motion at saddles.
     pub pushes: Vec<SaddlePush>,
-    /// What happened to linkers, in order.
+    /// Linker events in order.
     pub events: Vec<LinkerEvent>,
-    /// How often the path went on from where a sudden jump led.
+    /// Number of sudden jumps after which the path continued.
     pub jumps: usize,
-    /// Where the model does not apply to its states, the worst of all records; a run with any has failed.
+    /// Exceeded model limits, largest over all records; if nonempty, the run has failed.
     pub beyond_use: Vec<BeyondUse>,
-    /// Where rods leave the data behind their laws, the worst of all records; in a heat bath with how often.
+    /// Extrapolations of rod laws, largest over all records; in a heat bath with their frequency.
     pub beyond_range: Vec<BeyondRange>,
-    /// Where the force along a rod makes its twist unstable, the worst of all records; never in a heat bath.
+    /// Segments with unstable twist, worst over all records; empty in a heat bath.
     pub unstable_twist: Vec<UnstableTwist>,
-    /// Notes of its plan.
+    /// Warnings of its plan.
     pub plan_notes: Vec<Note>,
-    /// Why it failed, in words; empty unless it did.
+    /// Message of the failure, or empty.
     pub failure: String,
-    /// Time that the run took, with building and planning (s).
+    /// Run time including build and plan (s).
     pub wall_s: f64,
 }
 
 impl Outcome {
-    /// One of which nothing is known but how it ended and the time that it took (s).
+    /// Creates an outcome with a status and a run time (s).
     pub(crate) fn new(status: Status, wall_s: f64) -> Self {
         Self {
             status,
@@ -97,7 +97,7 @@ impl Outcome {
         }
     }
 
-    /// The same with what is wrong with the states of its records.
+    /// Adds the warnings about the states of the records.
     pub(super) fn with(self, remarks: Remarks) -> Self {
         let Remarks {
             beyond_use,
@@ -112,98 +112,96 @@ impl Outcome {
         }
     }
 
-    /// Whether the equilibrium was reached, or the stop rule of a motion was met.
+    /// Returns `true` if the equilibrium or the stop rule of a motion was reached.
     pub fn has_converged(&self) -> bool {
         self.status == Status::Converged
     }
 
-    /// Force and torque that rounding leaves of an equilibrium, where it ended there.
+    /// Residual at round-off of an equilibrium that did not reach its tolerance.
     pub fn residual_floor(&self) -> Option<Residual> {
         self.equilibrium.as_ref()?.floor
     }
 
-    /// The lowest eigenvalue of the stiffness at an equilibrium that is not neutral, where the scene asks for it.
+    /// Lowest nonzero eigenvalue of the stiffness at an equilibrium, if requested.
     pub fn lowest_eigenvalue(&self) -> Option<f64> {
         self.equilibrium.as_ref()?.lowest_eigenvalue
     }
 
-    /// The error of the number that the scene asked for it, where it is known.
+    /// Model error of the requested quantity, if known.
     pub fn model_error(&self) -> Option<ModelError> {
         Some(self.equilibrium.as_ref()?.error.as_ref()?.as_ref().ok()?.0)
     }
 
-    /// How filaments with drawn bonds scatter in that number, where it is known.
+    /// Scatter of filaments with sampled bonds in the requested quantity, if known.
     pub fn scatter(&self) -> Option<Scatter> {
         Some(self.equilibrium.as_ref()?.error.as_ref()?.as_ref().ok()?.1)
     }
 
-    /// What the stiffness says of the state in which the run ended, if that is an equilibrium.
+    /// Certificate of the equilibrium in which the run ended, if any.
     pub fn certificate(&self) -> Option<&Certificate> {
         let of_equilibrium = self.equilibrium.as_ref().map(|e| &e.certificate);
         of_equilibrium.or(self.at_rest.as_ref())
     }
 }
 
-/// Why a plan did not run to an end that is a result.
+/// Error of a run without a valid result.
 #[derive(Debug, Error)]
 pub enum RunError {
-    /// The scene asks for something that shows as wrong only now.
+    /// The scene is invalid in a way that shows only at the run.
     #[error(transparent)]
     Refused(#[from] SceneProblem),
-    /// The run began and failed.
+    /// The run started and failed.
     #[error("{}", .0.failure)]
     Failed(Box<FailedRun>),
 }
 
-/// A run that failed, of which the sink has all records up to the last good one.
+/// Failed run. The sink has all records up to the last good one.
 #[derive(Debug)]
 pub struct FailedRun {
-    /// What went wrong.
+    /// Cause of the failure.
     pub failure: Failure,
-    /// What is known up to there, and its cost.
+    /// Outcome and cost up to the failure.
     pub outcome: Outcome,
 }
 
-/// What went wrong in a run.
+/// Failure of a run.
 #[derive(Debug)]
 #[non_exhaustive]
 pub enum Failure {
-    /// The path of equilibria ended before its end.
+    /// The path of equilibria ended early.
     PathEnded {
-        /// The stage that broke, in words; empty where there is no path.
+        /// Failed stage; empty without a path.
         place: String,
-        /// Where and why.
+        /// Place and cause.
         failure: Box<PathFailure>,
-        /// What the loads of the scene have to do with it; empty where nothing is known.
+        /// Hint from the loads of the scene, or empty.
         hint: &'static str,
     },
-    /// Equilibria were reached, but the last does not tell what a load does: which, and in what it is
-    /// lost.
+    /// A load of the last equilibrium is below its residual.
     LoadLost(SceneProblem),
-    /// The run reached its end, but through or in states to which the model does not apply: what goes too far, at
-    /// least one.
+    /// States exceed the validity of the model; at least one entry.
     BeyondUse(Vec<BeyondUse>),
-    /// The run ended, but on a saddle: how many negative eigenvalues there are, and what leads off it.
+    /// The run ended on a saddle.
     Saddle(SceneProblem),
     /// A filament lost twist.
     TwistLost {
-        /// When, or in which stage, in words.
+        /// Time or stage.
         place: String,
-        /// Which filament and how much.
+        /// Filament and lost turns.
         slip: Slip,
     },
     /// The spring of a hinged end was turned past half a turn.
     HingeSlipped {
-        /// When, or in which stage, in words.
+        /// Time or stage.
         place: String,
-        /// Which end.
+        /// Hinged end and angle.
         slip: HingeSlip,
     },
-    /// The state exploded.
+    /// The state diverged.
     Diverged {
-        /// Where and when.
+        /// Place and time.
         failure: RunFailure,
-        /// The body where it went wrong, in words.
+        /// Description of the body.
         body: String,
     },
 }

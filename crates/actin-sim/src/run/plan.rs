@@ -1,4 +1,4 @@
-//! What a run will do, known before it starts.
+//! Plan of a run.
 
 use super::dynamics::{Estimate, estimate};
 use crate::Assembly;
@@ -6,8 +6,8 @@ use crate::notes::Note;
 use crate::scene::{Scene, SceneProblem};
 use std::time::Instant;
 
-/// An assembly with everything that is decided before it runs: the time step, the number of steps and
-/// records, and the scene with all of these written out.
+/// Assembly with everything decided before its run: time step, numbers of steps and records, and
+/// the complete scene.
 ///
 /// ```
 /// use actin_sim::{Assembly, Plan, Scene};
@@ -32,12 +32,12 @@ pub struct Plan<'a> {
 }
 
 impl<'a> Plan<'a> {
-    /// The plan of an assembly.
+    /// Plans the run of an assembly.
     ///
     /// # Errors
-    /// A time step above the stability limit that the scene does not explicitly allow, a turn that its
-    /// segments cannot follow, more steps than can be counted, and more records, of either task, than
-    /// memory holds.
+    /// If the time step exceeds the stability limit without permission of the scene, a turn exceeds
+    /// the range of the segments, the number of steps exceeds 2^53, or the records exceed the
+    /// memory.
     pub fn new(assembly: &'a Assembly) -> Result<Self, SceneProblem> {
         let began = Instant::now();
         let estimate = estimate(assembly)?;
@@ -57,29 +57,28 @@ impl<'a> Plan<'a> {
         })
     }
 
-    /// What is to run.
+    /// Returns the assembly.
     pub fn assembly(&self) -> &'a Assembly {
         self.assembly
     }
 
-    /// The scene with every default, the time step and the interval of records written out.
+    /// Returns the scene with all defaults, the time step and the interval of records.
     pub fn scene(&self) -> &Scene {
         &self.scene
     }
 
-    /// Time step and numbers of steps; none of an equilibrium.
+    /// Returns the time step and the numbers of steps; `None` for an equilibrium.
     pub fn estimate(&self) -> Option<&Estimate> {
         self.estimate.as_ref()
     }
 
-    /// Time that it took to build the assembly and to plan its run (s).
+    /// Duration of build and plan (s).
     pub(crate) fn set_up_s(&self) -> f64 {
         self.set_up_s
     }
 
-    /// What there is to know of its time step and its records, where that is not what the scene asks for or does more
-    /// than it shows; a sentence or two each. What there is to know of the scene is in
-    /// [`Assembly::notes`].
+    /// Returns warnings about the time step and the records that differ from the request or have
+    /// side effects. Warnings about the scene are in [`Assembly::notes`].
     pub fn notes(&self) -> Vec<Note> {
         let scene = &self.assembly.scene;
         let estimate = self.estimate.iter();

@@ -1,10 +1,10 @@
-//! How many equilibria a path may have.
+//! Upper bound of the number of equilibria on a path.
 
 use crate::scene::{Equilibrium as Settings, SceneProblem};
 use crate::{Assembly, memory};
 
-/// Refuses a path with more equilibria than memory holds: each stage has at least as many as steps of
-/// the largest length fill it.
+/// Refuses a path with more equilibria than fit in memory, counted with steps of the largest
+/// length.
 pub(super) fn check_points(assembly: &Assembly, settings: &Settings) -> Result<(), SceneProblem> {
     let least = assembly.drive.stages() as f64 / settings.largest_step;
     let record = memory::of_kept_record(assembly);

@@ -1,4 +1,4 @@
-//! Watching a motion: records, checkpoints, turns that are lost, and pushes off saddles.
+//! Observer of a motion: records, checkpoints, lost turns, and perturbation at saddles.
 
 use super::hinge::HingeWatch;
 use super::rest::{RestJudge, SaddlePush, is_saddle};
@@ -18,53 +18,53 @@ use actin_mechanics::System;
 use std::ops::ControlFlow;
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// Passes on what is observed, and pushes the motion off saddles.
+/// Observer that records a motion and perturbs it at saddles.
 pub(super) struct Recorder<'a> {
     pub(super) taken: Taken<'a>,
     pub(super) pushes: Vec<SaddlePush>,
     end_ns: f64,
-    /// When the path is over (ns): before that nothing is at rest.
+    /// End of the path (ns); the motion is not checked for rest before.
     rest_from_ns: f64,
     most_pushes: usize,
     clock: Clock,
     judge: Option<RestJudge<'a>>,
-    /// Where an interrupted run goes on.
+    /// Position at which an interrupted run continues.
     position: Option<Checkpoint>,
-    /// Where the run stood at the last record from which it went on, and what it remembered then; that is not
-    /// known where it was resumed since.
+    /// Checkpoint at the last record after which the motion continued, with the records up to then.
+    /// Those are unknown if the run was resumed since.
     last_good: Option<(Checkpoint, Option<Recorded>)>,
-    /// Whether there has been a record since.
+    /// A record was made since `last_good`.
     is_behind: bool,
     is_interrupted: bool,
     assembly: &'a Assembly,
-    /// What happened to linkers.
+    /// Log of linker events.
     log: Log,
     hinges: HingeWatch,
-    /// The largest kinetic energy at a check (pN nm), known at the end.
+    /// Largest kinetic energy at a check (pN nm), set at the end.
     pub(super) largest_kinetic_pn_nm: f64,
-    /// Where it began, if behind a switch of cells.
+    /// Start after a switch of cells.
     pub(super) behind_switch: Option<BehindSwitch>,
-    /// Steps between looks at whether the motion is to be left.
+    /// Steps between queries whether to leave the motion.
     look_every: u64,
 }
 
-/// How a motion ended.
+/// End of a motion.
 pub(super) enum Ending {
-    /// Interrupted, to be resumed.
+    /// Interrupted; can be resumed.
     Interrupted(RunOutcome),
-    /// At its end, with what the stiffness says if it is at rest.
+    /// Completed, with the certificate of a state at rest.
     Ended(RunOutcome, Option<Certificate>),
-    /// Turns were lost; the step of the last good state.
+    /// Turns were lost; with the step of the last good state.
     Slipped(Lost, u64),
-    /// The state became unsound.
+    /// The state diverged.
     Failed(RunFailure),
 }
 
 impl<'a> Recorder<'a> {
-    /// A recorder of the motion of `assembly`, from where it was interrupted if it was.
+    /// Creates the recorder of the motion of `assembly`, new or resumed.
     ///
     /// # Panics
-    /// If what was saved is a path of equilibria.
+    /// If `saved` is a path of equilibria.
     pub(super) fn new(
         assembly: &'a Assembly,
         dynamics: &Dynamics,
@@ -76,7 +76,9 @@ impl<'a> Recorder<'a> {
         let motion = match position {
             None => None,
             Some(RunPosition::Motion(motion)) => Some(*motion),
-            Some(RunPosition::Path(_)) => panic!("a path of equilibria is no motion in time"),
+            Some(RunPosition::Path(_)) => {
+                panic!("the checkpoint of a path of equilibria cannot resume a motion")
+            }
         };
         let behind_switch = motion.as_ref().and_then(|m| m.behind_switch);
         let (position, pushes, events) = match motion {
@@ -106,7 +108,7 @@ impl<'a> Recorder<'a> {
             hinges: HingeWatch::new(assembly),
             behind_switch,
             look_every: match assembly.scene.task {
-                // Steps are so long that much happens in each.
+                // Overdamped steps are long.
                 Task::Brownian(_) => 1,
                 _ => DEFAULT_CHECK_EVERY,
             },
@@ -114,7 +116,7 @@ impl<'a> Recorder<'a> {
         }
     }
 
-    /// Sets the path of the scene going in `system`, if there is one, and returns the time that it takes (ns).
+    /// Installs the path of the scene as the drive of `system` and returns its duration (ns).
     pub(super) fn drive(&self, system: &mut System) -> f64 {
         if let Some(drive) = self.hinges.beside(Ramp::of(self.assembly)) {
             system.set_drive(drive);
@@ -122,27 +124,27 @@ impl<'a> Recorder<'a> {
         self.rest_from_ns
     }
 
-    /// Lets happen to the linkers of `system` what does, from where the run stands.
+    /// Installs the linker events in `system`, from the present step on.
     pub(super) fn let_happen(&self, system: &mut System) {
         if let Some(kinetics) = &self.assembly.kinetics {
             system.set_step_end(Box::new(kinetics.happenings(&self.log)));
         }
     }
 
-    /// What happened to linkers.
+    /// Linker events so far.
     pub(super) fn events(&self) -> Vec<LinkerEvent> {
         let log = self.log.lock().unwrap_or_else(PoisonError::into_inner);
         log.clone()
     }
 
-    /// The same up to a step.
+    /// Linker events up to a step.
     fn events_until(&self, step: u64) -> Vec<LinkerEvent> {
         let mut events = self.events();
         events.retain(|event| event.step <= step);
         events
     }
 
-    /// Executes the run, or what is left of it, with the steps of `stepper`.
+    /// Executes the remaining run with the steps of `stepper`.
     pub(super) fn execute_steps(
         &mut self,
         run: &Run,
@@ -158,7 +160,7 @@ impl<'a> Recorder<'a> {
         }
     }
 
-    /// Executes the run, or what is left of it.
+    /// Executes the remaining run.
     pub(super) fn execute(
         &mut self,
         run: &Run,
@@ -173,31 +175,31 @@ impl<'a> Recorder<'a> {
         }
     }
 
-    /// Lets hinges go on from where a run stood.
+    /// Restarts the monitor of hinges at a checkpoint.
     fn begin_hinges(&mut self, checkpoint: &Checkpoint, system: &System) {
         let mut state = system.state().clone();
         state.set_motion(&checkpoint.here.motion);
         self.hinges.begin(&state);
     }
 
-    /// Energy with which the motion began (pN nm).
+    /// Initial energy of the motion (pN nm).
     pub(super) fn begun_with_pn_nm(&self) -> f64 {
         let built = || self.assembly.system.total_energy();
         self.behind_switch.map_or_else(built, |s| s.energy_pn_nm)
     }
 
-    /// Whether the motion began with the scene, not behind a switch of cells.
+    /// Returns `true` if the motion started with the scene and not after a switch of cells.
     pub(super) fn is_whole(&self) -> bool {
         self.behind_switch.is_none()
     }
 
-    /// Time that the run has taken (s).
+    /// Run time (s).
     pub(super) fn wall_s(&self) -> f64 {
         self.clock.wall_s()
     }
 
-    /// What became of the motion. Where it lost turns, `system` is put back to the last good state.
-    /// Where it lost turns or ended on a saddle, that state is kept.
+    /// Determines the end of the motion. After lost turns `system` returns to the last good state.
+    /// A checkpoint is kept after lost turns and at a saddle.
     pub(super) fn end(
         &mut self,
         outcome: Result<RunOutcome, RunFailure>,
@@ -211,7 +213,7 @@ impl<'a> Recorder<'a> {
             let step = self.last_good.as_ref().map_or(0, |good| good.0.here.step);
             if let Some((good, _)) = self.last_good.take() {
                 system.state_mut().set_motion(&good.here.motion);
-                // What slipped was not taken.
+                // The slipped state was not recorded.
                 self.keep(good);
             }
             return Ending::Slipped(lost, step);
@@ -221,8 +223,8 @@ impl<'a> Recorder<'a> {
         }
         let certificate = self.certificate(outcome.reason, system);
         if certificate.as_ref().is_some_and(is_saddle) {
-            // The last record ended the run: it belongs to what comes after the last good state. Where nothing
-            // came before it since the run was resumed, what was kept then stays.
+            // The last record ended the run and belongs after the last good state. Without an
+            // earlier record since the run was resumed, the existing checkpoint stays.
             if let Some((good, Some(recorded))) = self.last_good.take() {
                 let position = self.position_at(good);
                 let wall_s = self.wall_s();
@@ -232,7 +234,7 @@ impl<'a> Recorder<'a> {
         Ending::Ended(outcome, certificate)
     }
 
-    /// What the stiffness says of the state in which the motion has come to rest, if it has.
+    /// Certificate of the state in which the motion came to rest, if it has.
     fn certificate(&mut self, reason: Reason, system: &System) -> Option<Certificate> {
         let record = self.taken.last()?;
         let judge = self
@@ -243,7 +245,7 @@ impl<'a> Recorder<'a> {
         Some(nearest.certificate)
     }
 
-    /// Ends the run if a hinge was turned too far.
+    /// Ends the run if a hinge slipped.
     fn look_at_hinges(&mut self) -> ControlFlow<()> {
         let Some(slip) = self.hinges.slip() else {
             return ControlFlow::Continue(());
@@ -252,7 +254,7 @@ impl<'a> Recorder<'a> {
         ControlFlow::Break(())
     }
 
-    /// Keeps a checkpoint behind all records.
+    /// Keeps a checkpoint after all records.
     fn keep(&mut self, checkpoint: Checkpoint) {
         let position = self.position_at(checkpoint);
         self.taken.checkpoint(&position, self.clock.wall_s());
@@ -290,7 +292,7 @@ impl Observer for Recorder<'_> {
         let Some(nearest) = nearest.filter(|n| is_saddle(&n.certificate)) else {
             return false;
         };
-        // On its way down from where the last push led it off, it needs no other.
+        // The motion is still leaving the saddle of the last perturbation.
         let last = self.pushes.last();
         if last.is_some_and(|push| push.led_off(record, &nearest)) {
             return true;
@@ -306,7 +308,7 @@ impl Observer for Recorder<'_> {
     fn pause(&mut self, pause: &Pause<'_>) -> ControlFlow<()> {
         self.look_at_hinges()?;
         if self.is_behind {
-            // A saddle alone is left without its record, and none is looked for in a heat bath.
+            // Only saddles are left without their record; a heat bath has none.
             let recorded = self.judge.as_ref().map(|_| self.taken.recorded().clone());
             self.last_good = Some((pause.checkpoint(), recorded));
             self.is_behind = false;
@@ -343,7 +345,7 @@ fn progress(moment: &mut Moment<'_>, end_ns: f64) -> Progress {
     }
 }
 
-/// A moment as it is recorded.
+/// Creates the record of a moment.
 pub(crate) fn record(moment: &mut Moment<'_>) -> Record {
     let residual = moment.residual();
     Record {

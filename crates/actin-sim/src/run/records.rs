@@ -1,4 +1,4 @@
-//! Records and where they are: in memory, or read back one by one from wherever a sink has put them.
+//! Records in memory or read one by one from files.
 
 use crate::Booked;
 use actin_mechanics::State;
@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 use std::io;
 
-/// When a motion, or where a path of equilibria, was recorded.
+/// Time or path parameter of a record.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum At {
     /// Time (ns).
@@ -16,14 +16,14 @@ pub enum At {
 }
 
 impl At {
-    /// The number, of either kind.
+    /// Value of either kind.
     pub fn value(self) -> f64 {
         match self {
             Self::Time(value) | Self::Path(value) => value,
         }
     }
 
-    /// Time (ns); none of an equilibrium.
+    /// Time (ns); `None` for an equilibrium.
     pub fn time_ns(self) -> Option<f64> {
         match self {
             Self::Time(time_ns) => Some(time_ns),
@@ -31,7 +31,7 @@ impl At {
         }
     }
 
-    /// Path parameter; none of a motion in time.
+    /// Path parameter; `None` for a motion in time.
     pub fn path(self) -> Option<f64> {
         match self {
             Self::Time(_) => None,
@@ -40,14 +40,14 @@ impl At {
     }
 }
 
-/// One recorded moment.
+/// Recorded state with energies, residuals and observed quantities.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Record {
-    /// When, or where on the path.
+    /// Time or path parameter.
     pub at: At,
-    /// Everything that moves.
+    /// State of all bodies.
     pub state: State,
-    /// Energy of each term of the assembly, in order (pN nm).
+    /// Energy of each term of the assembly in order (pN nm).
     pub energies_pn_nm: Vec<f64>,
     /// Kinetic energy of the free bodies (pN nm).
     pub kinetic_pn_nm: f64,
@@ -55,20 +55,20 @@ pub struct Record {
     pub residual_force_pn: f64,
     /// Largest torque on a free frame (pN nm).
     pub residual_torque_pn_nm: f64,
-    /// What has come from outside up to here.
+    /// Energy received from the surroundings so far.
     pub booked: Booked,
-    /// What the scene observes, in the order of the columns of `observables.csv`; NaN where there is nothing
-    /// yet.
+    /// Observed quantities in the order of the columns of `observables.csv`; NaN if not yet
+    /// defined.
     pub observed: Vec<f64>,
 }
 
 impl Record {
-    /// Energy of all terms (pN nm).
+    /// Sum of the energies of all terms (pN nm).
     pub fn potential_pn_nm(&self) -> f64 {
         self.energies_pn_nm.iter().sum()
     }
 
-    /// The record without its state.
+    /// Returns the record without its state.
     pub fn row(&self) -> Row {
         Row {
             at: self.at,
@@ -82,12 +82,12 @@ impl Record {
     }
 }
 
-/// A recorded moment without its state; fields are those of [`Record`].
+/// Record without its state; see [`Record`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct Row {
-    /// When, or where on the path.
+    /// Time or path parameter.
     pub at: At,
-    /// Energy of each term of the assembly, in order (pN nm).
+    /// Energy of each term of the assembly in order (pN nm).
     pub energies_pn_nm: Vec<f64>,
     /// Kinetic energy of the free bodies (pN nm).
     pub kinetic_pn_nm: f64,
@@ -95,40 +95,40 @@ pub struct Row {
     pub residual_force_pn: f64,
     /// Largest torque on a free frame (pN nm).
     pub residual_torque_pn_nm: f64,
-    /// What has come from outside up to here.
+    /// Energy received from the surroundings so far.
     pub booked: Booked,
-    /// What the scene observes.
+    /// Observed quantities.
     pub observed: Vec<f64>,
 }
 
-/// The records of a run, which can be gone through in order any number of times.
+/// Records of a run, which can be iterated repeatedly.
 ///
-/// Those of a [`Trajectory`] are in memory; those of a run directory
-/// ([`Checkpoints`](crate::Checkpoints)) are read from its log, one at a time.
+/// A [`Trajectory`] holds them in memory; [`Checkpoints`](crate::Checkpoints) read them one by one
+/// from a run directory.
 pub trait Records {
-    /// How many there are.
+    /// Number of records.
     fn count(&self) -> usize;
 
-    /// The records in order, as far as they are kept with their states: all, or the last alone where a scene's
-    /// `output` needs no states. What cannot be read is an error, and the end.
+    /// Iterates over records with states: all, or only the last if the scene's `output` needs no
+    /// states. A read error ends the iteration.
     fn iter(&self) -> RecordIter<'_>;
 
-    /// All records in order, without their states.
+    /// Iterates over all records without their states.
     fn rows(&self) -> RowIter<'_> {
         Box::new(self.iter().map(|record| record.map(|record| record.row())))
     }
 }
 
-/// Goes through records.
+/// Iterator over records.
 pub type RecordIter<'a> = Box<dyn Iterator<Item = io::Result<Cow<'a, Record>>> + 'a>;
 
-/// Goes through records without their states.
+/// Iterator over records without their states.
 pub type RowIter<'a> = Box<dyn Iterator<Item = io::Result<Row>> + 'a>;
 
 /// Records in memory.
 #[derive(Clone, Debug, Default)]
 pub struct Trajectory {
-    /// Records in time; the last is where the run ended.
+    /// Records in order; the last one is the end of the run.
     pub records: Vec<Record>,
 }
 
@@ -136,7 +136,7 @@ impl Trajectory {
     /// Reads all of `records` into memory.
     ///
     /// # Errors
-    /// A record that cannot be read.
+    /// If a record cannot be read.
     pub fn read(records: &dyn Records) -> io::Result<Self> {
         let all = records.iter().map(|record| record.map(Cow::into_owned));
         let records = all.collect::<io::Result<_>>()?;

@@ -1,6 +1,4 @@
-//! What a run tells as it goes on, and to whom: records, progress and checkpoints.
-//!
-//! What goes through a sink is values; files are the business of `results`.
+//! Output of a run: records, progress and checkpoints. Files are written by `results`.
 
 use super::{At, Record, Recorded, SaddlePush, Trajectory};
 use crate::LinkerEvent;
@@ -10,39 +8,40 @@ use actin_mechanics::{Motion, Residual, State};
 use serde::{Deserialize, Serialize};
 use std::time::Instant;
 
-/// Takes what a run gives: memory ([`Trajectory`]), a run directory ([`Checkpoints`](crate::Checkpoints)),
-/// or anything else.
+/// Receiver of the output of a run: memory ([`Trajectory`]), a run directory
+/// ([`Checkpoints`](crate::Checkpoints)), or a user type.
 ///
-/// The questions are asked at every check of a motion (at least every hundred steps), at every Newton
-/// step and at every equilibrium of a path, so their answers are to be cheap.
+/// Queries are made at every check of a motion (at least every hundred steps), at every Newton step
+/// and at every equilibrium of a path. They should be cheap.
 pub trait Sink {
-    /// Takes a record; they come in order.
+    /// Receives the next record.
     fn record(&mut self, record: &Record);
 
-    /// Takes note of how far the run has come, after each record.
+    /// Receives the progress of the run after each record.
     fn progress(&mut self, _progress: &Progress) {}
 
-    /// Whether the run is to stop as soon as it can, to be resumed.
+    /// Returns `true` to stop the run as soon as possible, for a later resume.
     fn is_interrupted(&mut self) -> bool {
         false
     }
 
-    /// Whether the motion is to be left in this state, after so many steps: asked at every hundredth step, at each of overdamped
-    /// motion, at step numbers that do not depend on interruptions. It is then as if interrupted.
+    /// Returns `true` to leave the motion in this state, as if interrupted. Queried every hundred
+    /// steps, and at every step of overdamped motion, at step numbers that do not depend on
+    /// interruptions.
     fn is_left(&mut self, _step: u64, _state: &State) -> bool {
         false
     }
 
-    /// Whether a checkpoint is due.
+    /// Returns `true` if a checkpoint is due.
     fn is_checkpoint_due(&mut self) -> bool {
         false
     }
 
-    /// Keeps a checkpoint: where the run stands, what it remembers of the records before that, of which the
-    /// sink may have more, and the time it has taken (s). Called when one is due, when the run is interrupted, when it fails and when it
-    /// has ended, before results are written.
+    /// Keeps a checkpoint: position of the run, summary of the records before it, and run time (s).
+    /// The sink may already have later records.
     ///
-    /// A sink that cannot keep it has to say so itself: the run goes on all the same.
+    /// Called when a checkpoint is due, and when the run is interrupted, fails or ends. Errors must
+    /// be reported by the sink; the run continues.
     fn checkpoint(&mut self, _position: &RunPosition, _recorded: &Recorded, _wall_s: f64) {}
 }
 
@@ -52,30 +51,30 @@ impl Sink for Trajectory {
     }
 }
 
-/// How far a run has come.
+/// Progress of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Progress {
-    /// When, or where on the path.
+    /// Time or path parameter.
     pub at: At,
-    /// Time at which it ends (ns), or the number of stages.
+    /// Final time (ns), or number of stages.
     pub end: f64,
-    /// Steps taken.
+    /// Number of steps.
     pub steps: u64,
     /// Largest force on a free point (pN).
     pub residual_force_pn: f64,
 }
 
-/// Where a run stands: all that its rest depends on besides its scene and its records.
+/// Position of a run: everything the remaining run depends on besides its scene and records.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum RunPosition {
-    /// A motion in time, at a check of its state.
+    /// Motion in time, at a check of its state.
     Motion(Box<MotionPosition>),
-    /// A path of equilibria, at one of them.
+    /// Path of equilibria, at an equilibrium.
     Path(Box<PathPosition>),
 }
 
 impl RunPosition {
-    /// Whether it is one of a run with as many bodies and controls as `state` has.
+    /// Returns `true` if the numbers of bodies and controls match `state`.
     pub(crate) fn fits(&self, state: &State) -> bool {
         match self {
             Self::Motion(position) => {
@@ -93,72 +92,72 @@ impl RunPosition {
     }
 }
 
-/// Where a motion in time stands.
+/// Position of a motion in time.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct MotionPosition {
-    /// What the integrator carries.
+    /// State of the integrator.
     pub checkpoint: Checkpoint,
-    /// How it was pushed off saddles so far.
+    /// Perturbations at saddles so far.
     pub pushes: Vec<SaddlePush>,
-    /// What happened to linkers so far.
+    /// Linker events so far.
     pub events: Vec<LinkerEvent>,
-    /// Where it began, where it goes on behind a switch of cells.
+    /// Start of the motion, if it continues after a switch of cells.
     pub behind_switch: Option<BehindSwitch>,
 }
 
-/// Where a motion began that goes on behind a switch of cells.
+/// Start of a motion that continues after a switch of cells.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct BehindSwitch {
-    /// Steps up to there.
+    /// Steps before the switch.
     pub step: u64,
-    /// Its energy there (pN nm).
+    /// Energy after the switch (pN nm).
     pub energy_pn_nm: f64,
 }
 
-/// Where a path of equilibria stands.
+/// Position on a path of equilibria.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct PathPosition {
-    /// The stage, from 0.
+    /// Index of the stage.
     pub stage: usize,
-    /// Where the path stands in that stage; `None` before its first equilibrium.
+    /// Position in the stage; `None` before its first equilibrium.
     pub waypoint: Option<PathCheckpoint>,
-    /// What moves, as it is there.
+    /// Bodies and controls at this position.
     pub motion: Motion,
     /// Equilibria so far.
     pub points: usize,
     /// Saddles left so far.
     pub saddles_left: usize,
-    /// Sudden jumps so far, from where they led the path went on.
+    /// Sudden jumps so far after which the path continued.
     pub jumps: usize,
-    /// What is known of the last of them.
+    /// Report of the last equilibrium.
     pub last: Option<Arrival>,
-    /// What the solver has done so far.
+    /// Work of the solver so far.
     pub work: SolverWork,
 }
 
-/// What a report says of an equilibrium.
+/// Solver results of an equilibrium.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Arrival {
-    /// Counts of eigenvalues.
+    /// Eigenvalue counts.
     pub certificate: Option<Certificate>,
-    /// Force (pN) and torque (pN nm) that rounding leaves, if it ended there and not within its tolerance.
+    /// Residual force (pN) and torque (pN nm) at round-off, if the tolerance was not reached.
     pub floor: Option<Residual>,
     /// Residual force (pN) and torque (pN nm) before each Newton step.
     pub history: Vec<Residual>,
 }
 
-/// An interrupted run.
+/// Saved state of an interrupted run.
 #[derive(Clone, Debug)]
 pub struct Saved {
-    /// Where it stands.
+    /// Position of the run.
     pub position: RunPosition,
-    /// What it remembers of the records up to there.
+    /// Summary of the records up to the position.
     pub recorded: Recorded,
-    /// Time that it had taken (s).
+    /// Run time so far (s).
     pub wall_s: f64,
 }
 
-/// Time that a run has taken in all its parts, with building and planning of each.
+/// Run time over all parts of a run, including build and plan of each.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Clock {
     started: Instant,
@@ -166,7 +165,7 @@ pub(super) struct Clock {
 }
 
 impl Clock {
-    /// A clock of a run that took `set_up_s` (s) to build and plan.
+    /// Starts the clock of a run with `set_up_s` (s) of build and plan.
     pub(super) fn new(saved: Option<&Saved>, set_up_s: f64) -> Self {
         Self {
             started: Instant::now(),

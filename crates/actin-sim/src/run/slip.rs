@@ -1,10 +1,9 @@
-//! Whether a filament whose ends are held has lost twist on its way: through a joint that was turned
-//! past half a turn, or by passing through itself.
+//! Detection of lost twist in filaments with held ends, through a joint turned past half a turn or
+//! self-passage.
 //!
-//! Twist plus writhe is compared with the turn of the ends at every record. It is off by whole turns or
-//! not at all, so that half a turn is the threshold. Where it is off by anything else (an end has passed
-//! the other, so that the straight lines beyond them overlap) the sum says nothing, and nothing is
-//! concluded.
+//! Twist plus writhe is compared with the prescribed turn of the ends at every record. The
+//! difference is a whole number of turns, so the threshold is half a turn. Other differences occur
+//! when the straight extensions of the ends overlap; these are ignored.
 
 use super::{At, Failure, HingeSlip, Record};
 use crate::scene::Slides;
@@ -14,25 +13,25 @@ use actin_mechanics::State;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
-/// Turns of a filament that its twist and writhe no longer show.
+/// Turns of a filament missing in its twist and writhe.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Slip {
-    /// The filament.
+    /// Index of the filament.
     pub filament: usize,
-    /// When it was found, or where on the path.
+    /// Time or path parameter of the detection.
     pub at: At,
-    /// Turn of the end against the start (turns).
+    /// Turn of the end relative to the start (turns).
     pub link_turns: f64,
     /// Twist plus writhe (turns).
     pub found_turns: f64,
-    /// Arc length (nm) of the joint that is twisted most, in that state or the last good one.
+    /// Arc length (nm) of the most twisted joint, in this state or the last good one.
     pub joint_s_nm: f64,
     /// Angle of that joint (deg).
     pub joint_deg: f64,
 }
 
 impl Slip {
-    /// How many turns are lost.
+    /// Number of lost turns.
     pub fn lost_turns(&self) -> f64 {
         (self.link_turns - self.found_turns).round()
     }
@@ -42,10 +41,10 @@ impl fmt::Display for Slip {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let lost = self.lost_turns().abs();
         let how = if is_even(lost) {
-            "it has passed through itself or through the straight line beyond an end, or a joint was \
-             turned past half a turn on the way"
+            "it passed through itself or through the straight extension of an end, or a joint was \
+             turned past half a turn"
         } else {
-            "a joint was turned past half a turn on the way"
+            "a joint was turned past half a turn"
         };
         write!(
             f,
@@ -57,12 +56,12 @@ impl fmt::Display for Slip {
     }
 }
 
-/// How a filament lost turns.
+/// Kind of loss of turns.
 #[derive(Clone, Debug)]
 pub(super) enum Lost {
-    /// Through itself or a joint between ends that are held.
+    /// Through self-passage or a joint.
     Twist(Slip),
-    /// Through the spring of an end.
+    /// Through the spring of a hinged end.
     Hinge(HingeSlip),
 }
 
@@ -74,7 +73,7 @@ impl Lost {
         }
     }
 
-    /// As the failure of a run; `place` says when, or in which stage.
+    /// Converts to a failure of a run at `place`, a time or a stage.
     pub(super) fn failure(self, place: String) -> Failure {
         match self {
             Self::Twist(slip) => Failure::TwistLost { place, slip },
@@ -83,27 +82,27 @@ impl Lost {
     }
 }
 
-/// Watches the filaments of a run whose ends are held, or hinged: then the spring counts as a joint.
+/// Monitor of filaments with held or hinged ends; a hinge counts as a joint.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub(super) struct LinkWatch {
     held: Vec<Held>,
 }
 
-/// A filament with both ends held.
+/// Filament with both ends held.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 struct Held {
     filament: usize,
-    /// Twist plus writhe (turns) less the turn of the ends, where the run begins or since an end went
-    /// round the filament.
+    /// Twist plus writhe minus the turn of the ends (turns), at the start or since an end last
+    /// passed around the filament.
     offset_turns: f64,
-    /// Whether an end may go round the filament, which changes the sum by two turns.
+    /// An end can pass around the filament, which changes the sum by two turns.
     is_loose: bool,
-    /// Whether the filament pointed forward everywhere at the last record: then no end was going round.
+    /// All tangents pointed forward at the last record.
     was_forward: bool,
 }
 
 impl LinkWatch {
-    /// A watch of a run that begins in `start`, its path at the beginning.
+    /// Creates the monitor of a run that starts in `start` at the beginning of its path.
     pub(super) fn new(assembly: &Assembly, start: &State) -> Self {
         let held = (0..assembly.filaments.len()).filter_map(|filament| {
             let ends = [End::Start, End::End].map(|end| {
@@ -127,19 +126,20 @@ impl LinkWatch {
         }
     }
 
-    /// Whether it watches as many filaments as `other`.
+    /// Returns `true` if both monitors have the same number of filaments.
     pub(super) fn fits(&self, other: &Self) -> bool {
         self.held.len() == other.held.len()
     }
 
-    /// Follows a record that was found good when it was made.
+    /// Updates the monitor with a record that was already accepted.
     pub(super) fn follow(&mut self, assembly: &Assembly, record: &Record) {
         for held in &mut self.held {
             held.compare(assembly, &record.state, record.at);
         }
     }
 
-    /// The first filament that has lost a turn in `state`; `before` is the last good state. To be asked at every record, in order.
+    /// Returns the first filament that lost a turn in `state`; `before` is the last good state.
+    /// Call it for every record in order.
     pub(super) fn slip(
         &mut self,
         assembly: &Assembly,
@@ -165,7 +165,7 @@ impl LinkWatch {
 }
 
 impl Held {
-    /// The turn of the ends and the sum of twist and writhe (turns), if they tell of a slip.
+    /// Turn of the ends and sum of twist and writhe (turns), if they indicate a slip.
     fn compare(&mut self, assembly: &Assembly, state: &State, at: At) -> Option<(f64, f64)> {
         let link_turns = turn_of_ends(assembly, self.filament, at)?;
         let ribbon = Ribbon::of(assembly, self.filament, state);
@@ -186,7 +186,6 @@ impl Held {
     }
 }
 
-/// Whether a whole number is even.
 fn is_even(turns: f64) -> bool {
     turns % 2.0 == 0.0
 }

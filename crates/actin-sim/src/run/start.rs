@@ -1,15 +1,15 @@
-//! Where the search for the equilibrium of a long filament of monomers begins: bent and twisted as it will be.
+//! Initial guess for the equilibrium of long cantilevers of monomers.
 //!
-//! Monomers at rest do not resist twist at first, to either side. Under a couple across it a filament twists by about
-//! the root of the couple, to one side or the other, and the energies of the sides differ by less than one in a
-//! hundred. From the straight filament Newton's method lets rounding decide the side at each place. Where two sides
-//! meet there is a border, which it moves by a few monomers a step. So the side is decided here, once: that of a
-//! period of monomers (`endless.rs`) with the lower potential. Monomers are placed along the filament as in
-//! periods that are twisted to this side, under the couple and force of their cross-section.
+//! Monomers at rest have no twist stiffness. Under a transverse torque a filament twists in either
+//! sense, by about the square root of the torque, with energies that differ by less than 1 %. From
+//! the straight filament, rounding selects the sense at each place, and Newton's method moves the
+//! boundary between domains by a few monomers per step. The initial guess therefore twists the
+//! whole filament in the sense of lower potential energy of a periodic cell (`endless.rs`).
+//! Monomers are placed as in cells under the local force and torque.
 //!
-//! Couples and forces are those on the straight filament. Where these would bend it far only a part of them counts,
-//! since they are others once it is bent. Where the sides are not clearly in the same order under all couples
-//! (above some 20 pN nm it is the other that has the lower potential), nothing is placed.
+//! Local loads are those of the straight filament. If they would bend it far, only a part of them
+//! is applied. If the sense of lower energy differs between loads (it reverses above about 20 pN
+//! nm), no initial guess is made.
 
 use super::endless::{EndlessFilament, PERIOD};
 use crate::assembly::Part;
@@ -19,42 +19,42 @@ use crate::{Assembly, FilamentSpan};
 use actin_ellipsoid::{CellResponse, Displacements, SixVector};
 use actin_mechanics::{Loads, State, UnitQuaternion, Vector3, rotation};
 
-/// Shorter filaments are near enough to their equilibrium when they are straight.
+/// Smallest number of monomers. Shorter filaments converge quickly from the straight state.
 const FEWEST_MONOMERS: usize = 1000;
-/// Bends (rad) from the held to the free end under the loads on the straight filament: below this it is as good as
-/// straight.
+/// Smallest bend (rad) from the held to the free end under the loads of the straight filament.
 const SMALLEST_BEND: f64 = 0.01;
-/// Above this a part of the loads counts.
+/// Largest bend (rad) at which the loads are applied in full.
 const FULL_BEND: f64 = 1.0;
-/// From this on these loads say little of those on the bent filament.
+/// Largest bend (rad) with an initial guess. Beyond, loads of the straight filament are not
+/// representative.
 const LARGEST_BEND: f64 = 5.0;
-/// Force along the filament times its squared length over its rigidity, above which couples in the bent filament
-/// are others than in the straight one: it buckles at 2.5, and under tension bends at its ends only.
+/// Largest axial force times squared length over rigidity. The filament buckles at 2.5, and under
+/// tension it bends only near its ends.
 const LARGEST_ALONG: f64 = 2.0;
-/// Twist (rad/nm) at which either side is looked at first.
+/// Initial twist (rad/nm) of either sense.
 const TWIST: f64 = 2e-3;
-/// Places at which couples are compared.
+/// Number of sampled places.
 const PLACES: u32 = 64;
-/// Share of the couple and of the moments of forces below which a couple across the filament is rounding.
+/// Relative transverse torque below which it is round-off.
 const ROUNDING: f64 = 1e-6;
-/// Between two cells a filament turns by this at most (rad).
+/// Largest rotation of the filament between two cells (rad).
 const TURN: f64 = 0.2;
-/// Between two cells the couple changes by this share at most.
+/// Largest relative change of the torque between two cells.
 const CHANGE: f64 = 0.5;
-/// But cells are no closer than this many rises: their own length.
+/// Smallest distance of cells in rises: the length of a cell.
 const CLOSEST: f64 = PERIOD as f64;
-/// Share of the potential by which one side must be the lower one.
+/// Smallest relative difference of the potential energies of the two senses.
 const LEAST_GAIN: f64 = 1e-3;
-/// Most rises in one step along the curve between cells.
+/// Largest integration step along the curve in rises.
 const STEP: f64 = 1.0;
 
-/// The state from which the equilibrium of a scene is found in fewer steps than from the one as built; none where
-/// nothing is known to be better.
+/// Returns an initial guess for the equilibrium of a scene that needs fewer steps than the state as
+/// built; `None` if no better guess is known.
 ///
-/// That is so of scenes without path, linkers and repulsion, whose filaments are straight as built, monomers with
-/// weighted bonds all along, 1000 and more of them, held at their start, and bent by loads. It takes some tens of
-/// milliseconds. Newton's method should carry bodies along from there
-/// ([`Newton::carry_along`](actin_equilibrium::Newton::carry_along)).
+/// It exists for scenes without path, linkers and repulsion, with straight filaments of at least
+/// 1000 monomers with quadrature bonds, held at their start and bent by loads. The cost is a few
+/// tens of milliseconds. Use it with
+/// [`Newton::carry_along`](actin_equilibrium::Newton::carry_along).
 pub fn near_equilibrium(assembly: &Assembly) -> Option<State> {
     let is_still = assembly.drive.is_still() && matches!(assembly.scene.task, Task::Equilibrium(_));
     let loads_only = |part| matches!(part, Part::Section(_) | Part::Load(_));
@@ -72,18 +72,19 @@ pub fn near_equilibrium(assembly: &Assembly) -> Option<State> {
     Some(state)
 }
 
-/// A straight filament of monomers that is held at its start.
+/// Straight filament of monomers held at its start.
 struct Cantilever<'a> {
     assembly: &'a Assembly,
     span: &'a FilamentSpan,
     monomers: EndlessFilament,
     rise_nm: f64,
     length_nm: f64,
-    /// From the free end on: arc length, and sums of forces and moments about the lab origin up to there.
+    /// Arc length and sums of forces and moments about the lab origin, accumulated from the free
+    /// end.
     sums: Vec<(f64, Vector3, Vector3)>,
 }
 
-/// A period of monomers at an arc length (nm): strain and displacements.
+/// Cell of monomers at an arc length (nm): strain and displacements.
 struct Place {
     at: f64,
     strain: SixVector,
@@ -100,11 +101,11 @@ impl Place {
     }
 }
 
-/// Periods in the order of arc length.
+/// Cells in the order of arc length.
 type Curve = Vec<Place>;
 
 impl<'a> Cantilever<'a> {
-    /// Filament `index`, if it is one.
+    /// Returns filament `index`, if it is such a cantilever.
     fn of(assembly: &'a Assembly, index: usize, written: &Filament) -> Option<Self> {
         let span = &assembly.filaments[index];
         let [section] = assembly.sections_of(index) else {
@@ -131,7 +132,7 @@ impl<'a> Cantilever<'a> {
         })
     }
 
-    /// The monomer of a period that a point is.
+    /// Index of a point's monomer within its cell.
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_possible_wrap,
@@ -142,8 +143,8 @@ impl<'a> Cantilever<'a> {
         (rises.round() as i64).rem_euclid(PERIOD as i64) as usize
     }
 
-    /// Couple and force at an arc length (nm) of the straight filament, in `axes`: what is behind the cross-section
-    /// exerts on what is before it.
+    /// Torque and force at an arc length (nm) of the straight filament in `axes`, exerted by the
+    /// part beyond on the part before.
     fn load(&self, at: f64, axes: UnitQuaternion) -> SixVector {
         let beyond = self.sums.partition_point(|sum| sum.0 > at);
         let (_, force, moment) = match beyond {
@@ -156,8 +157,8 @@ impl<'a> Cantilever<'a> {
         SixVector::new(couple.x, couple.y, couple.z, force.x, force.y, force.z)
     }
 
-    /// The strains along the curve; none where the straight filament says too little of it, or a period finds no
-    /// equilibrium.
+    /// Strains along the curve; `None` if the straight filament is not representative or a cell has
+    /// no equilibrium.
     fn curve(&self) -> Option<Curve> {
         let places = (0..PLACES).map(|k| self.length_nm * (f64::from(k) + 0.5) / f64::from(PLACES));
         let loads: Vec<_> = places.map(|at| self.load(at, self.span.rotation)).collect();
@@ -168,7 +169,7 @@ impl<'a> Cantilever<'a> {
         if across(largest) <= ROUNDING * lever {
             return None;
         }
-        // Under a couple of 1 pN nm a filament bends by its softness.
+        // Under a torque of 1 pN nm the curvature equals the compliance.
         let unit = largest / across(largest);
         let sides = [-TWIST, TWIST].map(|twist| self.monomers.under_from_twist(&unit, twist, None));
         let [Some(left), Some(right)] = sides else {
@@ -190,7 +191,7 @@ impl<'a> Cantilever<'a> {
         self.follow(&sides[lower], (FULL_BEND / bend).min(1.0))
     }
 
-    /// Which of two sides has the lower potential under a load, by enough to be the side of all monomers.
+    /// Sense with the lower potential energy under a load, if the difference is large enough.
     fn lower(&self, sides: &[CellResponse; 2], load: &SixVector) -> Option<usize> {
         let potential = |side: &CellResponse| {
             let side = self.on_side(load, side)?;
@@ -202,7 +203,8 @@ impl<'a> Cantilever<'a> {
         is_clear.then_some(usize::from(b < a))
     }
 
-    /// Goes along the filament from the held end under a part of the loads; periods are twisted to the side of one.
+    /// Integrates along the filament from the held end under a part of the loads, with cells
+    /// twisted in the sense of `side`.
     fn follow(&self, side: &CellResponse, part: f64) -> Option<Curve> {
         let mut section = (Vector3::zeros(), self.span.rotation);
         let load = |at: f64, axes| self.load(at, axes) * part;
@@ -221,8 +223,8 @@ impl<'a> Cantilever<'a> {
         Some(curve)
     }
 
-    /// A period that is twisted to the same side as one under another load: by the root of the couple, as all but
-    /// the curvature.
+    /// Cell under another load with the twist sense of `near`. All strains except the curvature
+    /// scale with the root of the torque.
     fn on_side(&self, load: &SixVector, near: &CellResponse) -> Option<CellResponse> {
         let ratio = across(load) / across(&near.loads);
         let root = if ratio.is_finite() { ratio.sqrt() } else { 1.0 };
@@ -235,7 +237,7 @@ impl<'a> Cantilever<'a> {
         self.monomers.under_from_twist(load, twist, Some(&start))
     }
 
-    /// How far it is from a cell to the next (nm).
+    /// Distance to the next cell (nm).
     fn step(&self, at: f64, strain: &SixVector) -> f64 {
         let left = self.length_nm - at;
         let couple = |at| self.load(at, self.span.rotation).fixed_rows::<3>(0).norm();
@@ -246,7 +248,7 @@ impl<'a> Cantilever<'a> {
             step *= 0.7;
         }
         let step = step.max(closest);
-        // No short rest.
+        // Avoids a short last step.
         if left < step + 0.5 * closest {
             left
         } else {
@@ -254,7 +256,7 @@ impl<'a> Cantilever<'a> {
         }
     }
 
-    /// The cross-section at one arc length from that at another before it.
+    /// Integrates the cross-section from one arc length to another.
     fn carry(&self, from: CrossSection, [at, to]: [f64; 2], curve: &[Place]) -> CrossSection {
         let (mut place, mut axes) = from;
         let mut at = at;
@@ -271,7 +273,8 @@ impl<'a> Cantilever<'a> {
         (place, axes)
     }
 
-    /// Places the free monomers on their cross-sections, as they stand there in the straight filament.
+    /// Places the free monomers on their cross-sections, at their positions in the straight
+    /// filament.
     fn lay_along(&self, curve: &Curve, state: &mut State) {
         let back = self.span.rotation.inverse();
         let mut section = (self.span.axis_place(0.0), self.span.rotation);
@@ -298,12 +301,12 @@ impl<'a> Cantilever<'a> {
     }
 }
 
-/// The size of a couple or curvature across the filament.
+/// Magnitude of the transverse components.
 fn across(six: &SixVector) -> f64 {
     six[0].hypot(six[1])
 }
 
-/// The places about an arc length, and the share of the second.
+/// Cells around an arc length, and the weight of the second.
 fn about(curve: &[Place], at: f64) -> (&Place, &Place, f64) {
     let after = curve.partition_point(|place| place.at < at);
     let after = after.clamp(1, curve.len() - 1);
@@ -316,7 +319,7 @@ fn strain_at(curve: &[Place], at: f64) -> SixVector {
     a.strain * (1.0 - t) + b.strain * t
 }
 
-/// Displacement and turn of the monomer of a period (axes of its cross-section).
+/// Displacement and rotation of a monomer of a cell (axes of its cross-section).
 fn motion_at(curve: &[Place], at: f64, monomer: usize) -> (Vector3, Vector3) {
     let (a, b, t) = about(curve, at);
     let [a, b] = [a, b].map(|place| place.displacements.fixed_rows::<6>(6 * monomer));
@@ -327,8 +330,8 @@ fn motion_at(curve: &[Place], at: f64, monomer: usize) -> (Vector3, Vector3) {
     )
 }
 
-/// From the free end on, for each body: arc length, and what loads exert up to there, force and moment about the lab
-/// origin.
+/// Arc length and summed force and moment of the loads about the lab origin for each body, from the
+/// free end.
 fn sums_from_free_end(assembly: &Assembly, span: &FilamentSpan) -> Vec<(f64, Vector3, Vector3)> {
     let state = assembly.system.state();
     let mut loads = Loads::zeros(state);
@@ -360,7 +363,7 @@ mod tests {
     use super::*;
     use crate::{Plan, Scene};
 
-    /// A cantilever of monomers under a force on its tip, with other text for parts of its scene.
+    /// Cantilever of monomers under a tip force, with replacements in its scene.
     fn build(length_nm: f64, changes: &[(&str, &str)]) -> Assembly {
         let force = 2.0 * (160.0 / length_nm).powi(2);
         let mut text = format!(
@@ -377,7 +380,6 @@ mod tests {
         Assembly::build(&Scene::from_ron(&text).unwrap()).unwrap()
     }
 
-    /// Starts that a scene gives stay as they are, and so do those of which nothing better is known.
     #[test]
     fn other_starts_stay() {
         let end = "clamps: [Clamp(end: Start)";
@@ -406,8 +408,8 @@ mod tests {
         assert!(near_equilibrium(&build(2000.0, &[])).is_none());
     }
 
-    /// The start is near: from it Newton's method takes 12 steps, 22 from the straight filament, and ends no higher.
-    /// Held monomers stay.
+    /// Newton's method takes 12 steps, compared with 22 from the straight filament, and reaches no
+    /// higher energy.
     #[test]
     fn few_steps_are_left() {
         let assembly = build(8000.0, &[]);

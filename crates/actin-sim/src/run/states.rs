@@ -1,4 +1,4 @@
-//! Other stable states of a scene, looked for about the equilibrium in which its path ends.
+//! Search for other stable states near the equilibrium at the end of a path.
 
 use super::taken::Taken;
 use super::{At, Record};
@@ -7,32 +7,34 @@ use actin_equilibrium::{Found, Iteration, Known, Newton, Search, SearchObserver,
 use actin_mechanics::State;
 use std::ops::ControlFlow;
 
-/// Seed of the starts.
+/// Seed of the initial guesses.
 const SEED: u64 = 1;
 
-/// The stable states that a search has found.
+/// Stable states found by a search.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StableStates {
-    /// The states, that of least energy first; the result of the run is one of them.
+    /// States in ascending order of energy, including the result of the run.
     pub states: Vec<StableState>,
-    /// Starts that led to no stable state, or to one that lost a turn or left the model's use on the way.
+    /// Number of initial guesses that led to no stable state, or to a state with a lost turn or
+    /// outside the validity of the model.
     pub lost: usize,
 }
 
-/// One of several stable states.
+/// Stable state found by a search.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StableState {
-    /// The state, as a record whose place is that of the result.
+    /// State as a record at the place of the result.
     pub record: Record,
-    /// Potential energy less that of the result (pN nm).
+    /// Potential energy relative to the result (pN nm).
     pub above_result_pn_nm: f64,
-    /// How many starts led to it.
+    /// Number of initial guesses that led to it.
     pub starts: usize,
-    /// Whether it is the result of the run.
+    /// `true` for the result of the run.
     pub is_result: bool,
 }
 
-/// Looks for other stable states than `state`, an equilibrium at `at`; none if the sink interrupts it.
+/// Searches for stable states other than `state`, an equilibrium at `at`; `None` if the sink
+/// interrupts the search.
 ///
 /// # Errors
 /// If the equilibrium cannot be solved again.
@@ -48,7 +50,7 @@ pub(super) fn search(
     let equilibrium = result.map_err(|failure| failure.cause)?;
     let energy = equilibrium.energy;
     let search = Search { starts, seed: SEED };
-    // As built, with the ends where the path has led them.
+    // State as built, with the ends at the end of the path.
     let mut reference = assembly.rest.clone();
     reference.controls.clone_from(&known.controls);
     if !assembly.drive.is_still() {
@@ -72,7 +74,7 @@ pub(super) fn search(
     let states = states.into_iter().map(|one| StableState {
         record: super::equilibrium::record(&assembly.system, at.value(), &one.state),
         above_result_pn_nm: one.equilibrium.energy - energy,
-        // The result itself was not started for.
+        // The result has no initial guess.
         starts: one.found - usize::from(one.is_known),
         is_result: one.is_known,
     });
@@ -82,7 +84,7 @@ pub(super) fn search(
     }))
 }
 
-/// Ends a search when the sink says so, and counts what is a result of the scene.
+/// Observer that interrupts the search for the sink and filters valid results.
 struct Watch<'a, 't> {
     assembly: &'a Assembly,
     taken: &'a mut Taken<'t>,

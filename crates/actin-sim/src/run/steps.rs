@@ -1,51 +1,49 @@
-//! How many time steps a motion takes and how many lie between its records.
+//! Number of time steps of a motion and between its records.
 
 use super::{Estimate, composition};
 use crate::notes::{Note, codes};
 use crate::scene::{Dynamics, Scene, SceneProblem, Task};
 use actin_integrate::Drag;
 
-/// Records of a run, unless the scene says otherwise.
+/// Default number of records.
 const DEFAULT_RECORDS: f64 = 100.0;
 
-/// Most steps that are counted: whole numbers beyond it are no longer exact.
+/// Largest exact number of steps, 2^53.
 const MOST_STEPS: f64 = 9_007_199_254_740_992.0;
 
-/// By how much more than the fewest steps there may be between records, so that whole steps make up
-/// both their interval and the duration.
+/// Largest ratio of steps between records to the fewest possible, for which both interval and
+/// duration are whole numbers of steps.
 const MOST_EXTRA: f64 = 1.2;
 
-/// Most records after which a record and the end of the run may meet again.
+/// Largest number of records after which a record and the end of the run coincide.
 const MOST_PERIOD: u64 = 1000;
 
-/// To what a quotient counts as whole, relative.
+/// Relative tolerance for a whole quotient.
 const WHOLE: f64 = 1e-9;
 
-/// Round-off of a quotient that is whole, which shall not cost a step.
+/// Relative round-off of a whole quotient.
 const ROUND_OFF: f64 = 1e-12;
 
-/// A drift that is recorded more than this share too small is worth a note.
+/// Relative error of the recorded drift velocity that gives a warning.
 const RECORDED_DRIFT: f64 = 0.01;
 
-/// The steps of a motion.
+/// Steps of a motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Steps {
-    /// Their length (ns), the duration over their number.
+    /// Length (ns): the duration over the number of steps.
     pub(super) length_ns: f64,
-    /// Their number.
     pub(super) count: u64,
-    /// How many lie between two records.
     pub(super) between_records: u64,
-    /// Time between two records (ns): as asked for, where whole steps make it up.
+    /// Time between two records (ns), as requested where whole steps allow it.
     pub(super) record_every_ns: f64,
 }
 
 impl Steps {
-    /// Steps of at most `largest_ns` that make up the duration of `dynamics` and, where that takes
-    /// few more of them, the interval of its records.
+    /// Steps of at most `largest_ns` that divide the duration of `dynamics` and, where this takes
+    /// few additional steps, the interval of its records.
     ///
     /// # Errors
-    /// More steps than can be counted.
+    /// If the number of steps exceeds 2^53.
     pub(super) fn of(dynamics: &Dynamics, largest_ns: f64) -> Result<Self, SceneProblem> {
         let duration = dynamics.duration_ns;
         let (count, between, record_every_ns) = match dynamics.record_every_ns {
@@ -71,7 +69,7 @@ impl Steps {
     }
 }
 
-/// More steps than can be counted, because they are so short or because records are so close.
+/// Error for too many steps, due to short steps or close records.
 fn uncountable(dynamics: &Dynamics, largest_ns: f64) -> SceneProblem {
     match dynamics.record_every_ns {
         Some(every) if every < largest_ns => SceneProblem::new(
@@ -96,13 +94,13 @@ fn whole(number: f64) -> u64 {
     number as u64
 }
 
-/// The least number of steps of at most `largest` in `time`.
+/// Smallest number of steps of at most `largest` in `time`.
 fn at_least(time: f64, largest: f64) -> f64 {
     (time / largest * (1.0 - ROUND_OFF)).ceil().max(1.0)
 }
 
-/// Steps of at most `largest` in a run of `duration`, steps between records, and their interval, which
-/// is `every`, or shorter by less than a step's share of it where no step makes up both times.
+/// Returns the number of steps, the steps between records, and their interval. The interval is
+/// `every`, or shorter by less than a step's share if no step divides both times.
 fn recorded_every(duration: f64, every: f64, largest: f64) -> (f64, f64, f64) {
     let fewest = at_least(every, largest);
     if let Some(between) = between_records(duration, every, fewest) {
@@ -112,8 +110,8 @@ fn recorded_every(duration: f64, every: f64, largest: f64) -> (f64, f64, f64) {
     (count, fewest, duration / count * fewest)
 }
 
-/// Steps between records, `fewest` or a little more, so that the run is a whole number of them as well;
-/// `None` where that takes many more.
+/// Steps between records, `fewest` or slightly more, that also divide the run; `None` if that takes
+/// many more.
 fn between_records(duration: f64, every: f64, fewest: f64) -> Option<f64> {
     let intervals = duration / every;
     // The duration is a whole number of steps if their number is a multiple of such a period.
@@ -126,21 +124,20 @@ fn between_records(duration: f64, every: f64, fewest: f64) -> Option<f64> {
     (period <= 1.0 || between <= MOST_EXTRA * fewest).then_some(between)
 }
 
-/// Up to which step overdamped thermal motion shows what it should.
+/// Longest accurate steps of overdamped thermal motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LongestStep {
-    /// The default step (ns), in which slow motion is right.
+    /// Default step (ns), accurate for slow modes.
     pub ns: f64,
-    /// The longest step by midpoints (ns), in which fast motion is right too; longer ones of rods have random stress.
+    /// Longest midpoint step (ns), accurate for all modes; longer steps of rods use random stress.
     pub of_midpoints_ns: f64,
-    /// Whether there are bonds of monomers, which take no longer steps.
+    /// `true` if monomers have bonds, which allow no longer steps.
     pub has_bonds: bool,
 }
 
 impl Estimate {
-    /// What a user should know of the time step and the records of a `task` as it was written: where
-    /// they are not those that were asked for, and what strong drag does to what is recorded. One
-    /// sentence each.
+    /// Returns warnings about a time step and records that differ from the request in `task`, and
+    /// about effects of strong drag on records.
     pub fn notes(&self, task: &Task) -> Vec<Note> {
         let Some(motion) = task.motion() else {
             return Vec::new();
@@ -155,24 +152,24 @@ impl Estimate {
         notes.into_iter().flatten().collect()
     }
 
-    /// Temperature of the positions of the fastest mode in a heat bath, relative to that of the bath, as
-    /// the integrator leaves it.
+    /// Ratio of the configurational temperature of the fastest mode to the bath temperature, due to
+    /// the integrator.
     pub fn warmth_of_the_fastest_mode(&self, dynamics: &Dynamics) -> f64 {
         if dynamics.drag.fluid().is_some() {
-            // Steps in a fluid leave no linear mode too cold.
+            // Steps in a fluid are exact for linear modes.
             return 1.0;
         }
         let (rates, step) = (dynamics.drag.rates(), self.time_step_ns);
         let drag = Drag::new(rates.translational_per_ns, rates.rotational_per_ns);
         let (translation, rotation) = drag.unwrap_or(Drag::NONE).time_rescaling(step);
-        // Of points and frames: the mode is either's, and nearer to the truth where drag is stronger.
+        // The mode belongs to points or frames; stronger drag brings it closer to 1.
         let theta = translation.max(rotation) * self.largest_frequency_rad_per_ns * step;
         let scheme = composition(dynamics.integrator);
         scheme.configurational_temperature(theta)
     }
 
-    /// Whether steps of overdamped motion are so long that what is faster is drawn anew in each: in a heat bath without bonds.
-    /// Bonds of monomers, shorter than their slip, have no stiffness that random stress could go by.
+    /// Returns `true` if overdamped steps use random stress: in a heat bath without bonds of
+    /// monomers. Bonds shorter than their slip have no suitable stiffness.
     pub(crate) fn has_random_stress(&self) -> bool {
         let longest = self.longest_sound_step.as_ref();
         longest.is_some_and(|l| !l.has_bonds && self.exceeds(l.of_midpoints_ns))
@@ -182,14 +179,14 @@ impl Estimate {
         self.time_step_ns > ns * (1.0 + WHOLE)
     }
 
-    /// Overdamped steps that are so long that some motion is too warm.
+    /// Warning about overdamped steps that give inaccurate fast modes.
     fn note_on_long_steps(&self) -> Option<String> {
         let longest = self.longest_sound_step.as_ref()?;
         let what = if longest.has_bonds {
-            "stretch and shear then hold more than their thermal energy"
+            "stretch and shear then exceed their thermal energy"
         } else {
-            "what bends within a step is drawn anew in it, without memory, and what is driven follows late; under \
-             loads short waves are too cold"
+            "bending modes that relax within a step are sampled anew in each step, driven motion is delayed, and \
+             short waves under load have too little thermal energy"
         };
         self.exceeds(longest.ns).then(|| {
             let (step, longest) = (self.time_step_ns, longest.ns);
@@ -236,7 +233,7 @@ impl Estimate {
         })
     }
 
-    /// The note on means of what a scene observes in a heat bath, where they are of one record or none.
+    /// Warning about means in a heat bath that cover at most one record.
     pub(super) fn note_on_means(&self, scene: &Scene) -> Option<Note> {
         let from = scene.burn_in().filter(|_| !scene.observe.is_empty())?;
         let interval = self.steps_between_records as f64 * self.time_step_ns;
@@ -247,15 +244,15 @@ impl Estimate {
         let records = (last - first + 1.0).max(0.0) + f64::from(u8::from(is_beyond));
         (records < 2.0).then(|| {
             let message = format!(
-                "observe: means are of {records} record(s), those from burn_in_ns = {from:?} on, and have no \
-                 error: a longer duration_ns or a shorter record_every_ns gives more"
+                "observe: means average {records} record(s) after burn_in_ns = {from:?} and have no error \
+                 estimate: use a longer duration_ns or a shorter record_every_ns"
             );
             Note::warning(codes::FEW_RECORDS, message)
         })
     }
 
     fn note_on_drag(&self, dynamics: &Dynamics) -> Option<String> {
-        // In a bath velocities have their temperature at any drag.
+        // In a bath velocities have the correct temperature for any drag.
         if dynamics.thermal.is_some() {
             return None;
         }
@@ -267,9 +264,9 @@ impl Estimate {
         (recorded < 1.0 - RECORDED_DRIFT).then(|| {
             format!(
                 "drag: within a step velocities decay by exp(-{:.2}) and angular velocities by \
-                 exp(-{:.2}); displacements, diffusion and states at rest are right, what relaxes in \
-                 a time T does so to within {:.1e} ns / T, but velocities and kinetic energies are \
-                 recorded just after drag: {translation:.3} and {rotation:.3} of a steady drift show",
+                 exp(-{:.2}); displacements, diffusion and states at rest are correct, relaxation over a \
+                 time T has a relative error of {:.1e} ns / T, but velocities and kinetic energies are \
+                 recorded just after drag and show {translation:.3} and {rotation:.3} of a steady drift",
                 drag.translational() * step,
                 drag.rotational() * step,
                 0.5 * step
@@ -301,7 +298,7 @@ mod tests {
         (steps.count, steps.between_records, steps.record_every_ns)
     }
 
-    /// 17.9 steps of 0.0028 ns in 0.05 ns become 18; rounding alone made records every 0.0504 ns.
+    /// 17.9 steps of 0.0028 ns in 0.05 ns become 18.
     #[test]
     fn steps_make_up_the_interval_of_records() {
         let task = "duration_ns: 1.0, record_every_ns: 0.05";
@@ -309,17 +306,16 @@ mod tests {
         // 33 1/3 intervals: the steps between records are a multiple of three.
         let task = "duration_ns: 1.0, record_every_ns: 0.03";
         assert_eq!(steps(task, 0.0017), (600, 18, 0.03));
-        // A record at every step, however short.
+        // A record at every step.
         let task = "duration_ns: 1.0, record_every_ns: 0.001";
         assert_eq!(steps(task, 0.0028), (1000, 1, 0.001));
-        // Step and interval that are whole up to round-off cost no step more.
+        // Round-off does not add a step.
         let task = "duration_ns: 0.3, record_every_ns: 0.1";
         assert_eq!(steps(task, 0.1), (3, 1, 0.1));
     }
 
-    /// Where the interval and the duration have no step in common, the duration is met.
     #[test]
-    fn intervals_that_do_not_fit_are_rounded_and_told() {
+    fn incommensurate_intervals_are_rounded_with_a_warning() {
         let task = dynamics("duration_ns: 0.777, record_every_ns: 0.1, time_step_ns: 0.003");
         let steps = Steps::of(&task, 0.003).unwrap();
         assert_eq!((steps.count, steps.between_records), (265, 34));
@@ -359,9 +355,8 @@ mod tests {
         notes.into_iter().map(|note| note.message).collect()
     }
 
-    /// A step that was written is the longest there is; a shorter one is told, and so is strong drag.
     #[test]
-    fn what_was_not_asked_for_is_told() {
+    fn deviations_from_the_request_give_warnings() {
         let told = notes("duration_ns: 1.0, record_every_ns: 0.05, time_step_ns: 0.003");
         assert_eq!(
             told,
@@ -386,7 +381,6 @@ mod tests {
         );
     }
 
-    /// What a run writes into its scene gives the same steps again, to the bit.
     #[test]
     fn resolved_steps_stay_as_they_are() {
         for (duration, every) in [

@@ -1,4 +1,4 @@
-//! The records of a run as they are taken: what is known of them without keeping them.
+//! Record stream of a run with running diagnostics, without storing the records.
 
 use super::hinge::slip_between;
 use super::slip::{LinkWatch, Lost};
@@ -9,17 +9,17 @@ use crate::{Assembly, BeyondRange, BeyondUse, UnstableTwist};
 use actin_mechanics::State;
 use serde::{Deserialize, Serialize};
 
-/// What a run remembers of the records that it has taken. It holds one of them, the last.
+/// Summary of the records of a run, including the last record.
 #[derive(Clone, Debug)]
 pub struct Recorded {
     pub(crate) carried: Carried,
     pub(crate) last: Option<Record>,
 }
 
-/// What a run carries from record to record, besides the last of them. A checkpoint holds it.
+/// Running statistics of the records, stored in checkpoints.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub(crate) struct Carried {
-    /// How many records there are.
+    /// Number of records.
     pub(crate) count: usize,
     links: LinkWatch,
     beyond_use: Vec<BeyondUse>,
@@ -28,7 +28,7 @@ pub(crate) struct Carried {
     observed: Memory,
 }
 
-/// What is wrong with the states of a run, the worst of all records.
+/// Warnings about the states of a run, worst over all records.
 #[derive(Debug)]
 pub(super) struct Remarks {
     pub(super) beyond_use: Vec<BeyondUse>,
@@ -37,10 +37,10 @@ pub(super) struct Remarks {
 }
 
 impl Recorded {
-    /// That of a run of `assembly` that has taken none.
+    /// Creates the summary of a run of `assembly` without records.
     pub(crate) fn new(assembly: &Assembly) -> Self {
         let mut start = assembly.system.state().clone();
-        // Without a path, held ends are where the caller has put them.
+        // Without a path, the caller sets held ends.
         if !assembly.drive.is_still() {
             assembly.drive.place(&mut start, 0.0);
         }
@@ -57,8 +57,8 @@ impl Recorded {
         }
     }
 
-    /// That of a run that has taken `records`, in order: what a sink of one's own needs to
-    /// [resume](crate::Plan::resume_into).
+    /// Creates the summary of a run with these `records`, in order, for a user-defined sink that
+    /// [resumes](crate::Plan::resume_into) it.
     pub fn of(plan: &Plan<'_>, records: impl IntoIterator<Item = Record>) -> Self {
         let assembly = plan.assembly();
         let mut recorded = Self::new(assembly);
@@ -69,8 +69,8 @@ impl Recorded {
         recorded
     }
 
-    /// That of a run of `assembly` which goes on behind a switch of cells with a first record: of the records before
-    /// it keeps what does not depend on the resolution.
+    /// Creates the summary of a run that continues after a switch of cells with a first record.
+    /// Statistics that do not depend on the resolution are kept.
     pub(crate) fn behind_switch(&self, assembly: &Assembly, first: Record) -> Self {
         let mut recorded = Self::new(assembly);
         recorded.carried.links = self.carried.links.clone();
@@ -80,17 +80,17 @@ impl Recorded {
         recorded
     }
 
-    /// The last record.
+    /// Returns the last record.
     pub fn last(&self) -> Option<&Record> {
         self.last.as_ref()
     }
 
-    /// How many records there are.
+    /// Returns the number of records.
     pub fn count(&self) -> usize {
         self.carried.count
     }
 
-    /// Adds a record, with what the scene observes of it.
+    /// Adds a record together with its observed quantities.
     fn push(&mut self, assembly: &Assembly, mut record: Record) -> &Record {
         let all = &mut self.carried;
         let energies = (record.energies_pn_nm.as_slice(), record.kinetic_pn_nm);
@@ -107,7 +107,7 @@ impl Recorded {
 }
 
 impl Carried {
-    /// Whether it is of a run of the same scene as `other`, which has taken no records.
+    /// Returns `true` if both summaries belong to runs of the same scene; `other` is empty.
     pub(crate) fn fits(&self, other: &Self) -> bool {
         self.observed.fits(&other.observed)
             && self.links.fits(&other.links)
@@ -115,7 +115,7 @@ impl Carried {
     }
 }
 
-/// Passes records on to a sink, unless twist was lost on the way to them.
+/// Passes records to a sink while checking for lost twist.
 pub(super) struct Taken<'a> {
     pub(super) sink: &'a mut dyn Sink,
     assembly: &'a Assembly,
@@ -124,7 +124,7 @@ pub(super) struct Taken<'a> {
 }
 
 impl<'a> Taken<'a> {
-    /// Records of a run, of which the sink has those that are `recorded`.
+    /// Creates a stream that continues after the records in `recorded`.
     pub(super) fn new(
         assembly: &'a Assembly,
         recorded: Option<Recorded>,
@@ -138,14 +138,15 @@ impl<'a> Taken<'a> {
         }
     }
 
-    /// Takes a record and returns true, unless turns were lost since the one before.
+    /// Accepts a record and returns `true`, unless turns were lost since the previous record.
     pub(super) fn take(&mut self, record: Record) -> bool {
         let Recorded { carried, last } = &mut self.recorded;
         let good = carried.links.clone();
         let before = last.as_ref().map(|record| &record.state);
         let here = (&record.state, record.at);
         let twist = carried.links.slip(self.assembly, here, before);
-        // In time, hinges are looked at more often. A turn that a hinge has lost the filament lacks, too.
+        // In a motion, hinges are checked more often. A turn lost by a hinge is also missing in the
+        // filament.
         let path = before.filter(|_| matches!(record.at, At::Path(_)));
         let hinge = path.and_then(|path| slip_between(self.assembly, path, here));
         self.lost = hinge.map(Lost::Hinge).or(twist.map(Lost::Twist));
@@ -157,45 +158,40 @@ impl<'a> Taken<'a> {
         true
     }
 
-    /// Takes a record whose twist is not looked at: that of an attempt which failed.
+    /// Accepts the record of a failed attempt without a check of its twist.
     pub(super) fn take_unchecked(&mut self, record: Record) {
         let record = self.recorded.push(self.assembly, record);
         self.sink.record(record);
     }
 
-    /// Whether a state that is not recorded has all turns of the last record.
+    /// Returns `true` if an unrecorded state has all turns of the last record.
     pub(super) fn has_all_turns(&self, here: (&State, At)) -> bool {
         let mut links = self.recorded.carried.links.clone();
         let before = self.last().map(|record| &record.state);
         links.slip(self.assembly, here, before).is_none()
     }
 
-    /// The last record.
     pub(super) fn last(&self) -> Option<&Record> {
         self.recorded.last.as_ref()
     }
 
-    /// What is remembered of all records.
     pub(super) fn recorded(&self) -> &Recorded {
         &self.recorded
     }
 
-    /// Takes note of turns that were lost between records.
+    /// Stores turns lost between records.
     pub(super) fn lose(&mut self, lost: Lost) {
         self.lost = Some(lost);
     }
 
-    /// Whether turns were lost.
     pub(super) fn has_lost(&self) -> bool {
         self.lost.is_some()
     }
 
-    /// How turns were lost, if they were.
     pub(super) fn lost(&mut self) -> Option<Lost> {
         self.lost.take()
     }
 
-    /// What is wrong with the states of all records.
     pub(super) fn into_remarks(self) -> Remarks {
         let carried = self.recorded.carried;
         Remarks {
@@ -205,12 +201,12 @@ impl<'a> Taken<'a> {
         }
     }
 
-    /// Passes a checkpoint on that comes behind all records.
+    /// Passes on a checkpoint after all records.
     pub(super) fn checkpoint(&mut self, position: &RunPosition, wall_s: f64) {
         self.sink.checkpoint(position, &self.recorded, wall_s);
     }
 
-    /// Passes a checkpoint on that comes behind those that are `recorded`.
+    /// Passes on a checkpoint after the records in `recorded`.
     pub(super) fn checkpoint_behind(
         &mut self,
         position: &RunPosition,
@@ -220,7 +216,7 @@ impl<'a> Taken<'a> {
         self.sink.checkpoint(position, recorded, wall_s);
     }
 
-    /// Passes on how far the run has come.
+    /// Passes on the progress of the run.
     pub(super) fn progress(&mut self, progress: &Progress) {
         self.sink.progress(progress);
     }

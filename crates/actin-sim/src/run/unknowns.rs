@@ -1,4 +1,4 @@
-//! What may move in statics, in which order its unknowns stand, and how far it is solved.
+//! Unknowns of an equilibrium, their order, and the tolerances.
 
 use crate::Assembly;
 use crate::scene::{Equilibrium as Settings, SceneProblem};
@@ -6,23 +6,22 @@ use actin_coupling::{LinkerEnd, Site};
 use actin_equilibrium::{BodyOrder, Layout, Newton, NewtonOptions, Residual};
 use actin_mechanics::Coordinates;
 
-/// What is added to arc lengths from one filament to the next (nm), more than any rise or segment
-/// reaches beyond an end, so that filaments do not interleave.
+/// Offset between the arc lengths of successive filaments (nm), larger than any rise or segment
+/// beyond an end.
 const BETWEEN_FILAMENTS_NM: f64 = 1e3;
 
-/// Largest displacement in a step over the radius of filaments that repel: two of them come half a radius of
-/// each closer, so that none is stepped across.
+/// Largest displacement per step over the radius of repelling filaments. Two filaments then
+/// approach by at most one radius and cannot pass through each other.
 const DISPLACEMENT: f64 = 0.5;
 
-/// The solver of an assembly: what may move, filament by filament in the order of arc length, and how far
-/// it is to be solved.
+/// Creates the Newton solver of an assembly, with unknowns ordered by filament and arc length.
 ///
-/// Where linkers join sites, unknowns are eliminated in an order that fills less if there is one, and
-/// joined bodies swing about each other as they will. So do bodies in contact; the order is then settled in
-/// the state as built, whatever touches later, and steps are shorter than filaments are thick.
+/// With linkers, unknowns are eliminated in an order with less fill-in if one exists, and joined
+/// bodies may rotate freely about each other. The same holds for repelling bodies. Their order is
+/// determined in the state as built, and steps are limited by the thickness of the filaments.
 ///
 /// # Errors
-/// Tolerances or bodies that the solver refuses.
+/// If the solver refuses tolerances or bodies.
 pub fn newton(assembly: &Assembly, settings: &Settings) -> Result<Newton, SceneProblem> {
     let refused =
         |key: &str, error: &dyn std::error::Error| SceneProblem::new(key, "", error.to_string());
@@ -52,7 +51,7 @@ pub fn newton(assembly: &Assembly, settings: &Settings) -> Result<Newton, SceneP
     }
 }
 
-/// What may move, and in which order.
+/// Free unknowns in their order.
 pub(crate) fn layout(assembly: &Assembly) -> Result<Layout, SceneProblem> {
     let layout = Layout::new(&assembly.rest, Some(&order(assembly)), Vec::new())
         .map_err(|error| SceneProblem::new("filament", "", error.to_string()))?;
@@ -63,7 +62,7 @@ pub(crate) fn layout(assembly: &Assembly) -> Result<Layout, SceneProblem> {
     Ok(layout.with_least_fill().with_loose(loose))
 }
 
-/// Bodies that linkers join and nothing else does: those of different filaments, or far apart in one.
+/// Pairs of bodies that only linkers join: in different filaments, or far apart in one filament.
 fn loose_pairs(assembly: &Assembly) -> Vec<[Coordinates; 2]> {
     let reaches: Vec<f64> = (0..assembly.filaments.len())
         .map(|filament| reach(assembly, filament))
@@ -84,13 +83,13 @@ fn loose_pairs(assembly: &Assembly) -> Vec<[Coordinates; 2]> {
         .collect()
 }
 
-/// The bodies that a site follows.
+/// Bodies of a site.
 fn bodies_of(site: &Site) -> Vec<Coordinates> {
     let points = site.shares().iter().map(|&(i, _)| Coordinates::Point(i));
     points.chain([Coordinates::Frame(site.frame())]).collect()
 }
 
-/// How far bonds and segments of a filament couple at most (nm, arc length).
+/// Upper bound of the coupling distance of bonds and segments of a filament (nm of arc length).
 fn reach(assembly: &Assembly, filament: usize) -> f64 {
     let rise_nm = assembly.monomers_of(filament).rise_nm;
     let sections = assembly.sections_of(filament).iter();
@@ -98,7 +97,8 @@ fn reach(assembly: &Assembly, filament: usize) -> f64 {
     reaches.fold(0.0, f64::max)
 }
 
-/// Whether no bond or segment couples two bodies; `reaches` are those of the filaments.
+/// Returns `true` if no bond or segment couples two bodies; `reaches` are the coupling distances of
+/// the filaments.
 fn are_apart(assembly: &Assembly, reaches: &[f64], (a, b): (Coordinates, Coordinates)) -> bool {
     let place = |body| match body {
         Coordinates::Point(i) => (assembly.filament_of_point(i), assembly.points[i].s_nm),
@@ -108,7 +108,7 @@ fn are_apart(assembly: &Assembly, reaches: &[f64], (a, b): (Coordinates, Coordin
     f != g || (s_a - s_b).abs() > reaches[f]
 }
 
-/// Each filament's arc lengths behind those of the one before.
+/// Order of all bodies by filament and arc length.
 pub(crate) fn order(assembly: &Assembly) -> BodyOrder {
     let mut order = BodyOrder::default();
     let mut behind = 0.0;
@@ -119,7 +119,7 @@ pub(crate) fn order(assembly: &Assembly) -> BodyOrder {
         order.points.extend(points.map(|p| behind + p.s_nm));
         order.frames.extend(frames.map(|f| behind + f.s_nm));
         let furthest = order.points[first..].iter().copied().fold(behind, f64::max);
-        // Held monomers of the next stand a rise before its arc length 0.
+        // Held monomers of the next filament lie one rise before its arc length 0.
         behind = furthest + BETWEEN_FILAMENTS_NM;
     }
     order

@@ -1,22 +1,23 @@
-//! Cross-sections of a filament in one state, whatever resolves it.
+//! Cross-sections of a filament in one state, for every resolution.
 
 use super::Ribbon;
 use crate::Assembly;
 use actin_mechanics::{State, UnitQuaternion, Vector3};
 
-/// Frames closer than this along the filament (nm) are one and the same.
+/// Tolerance (nm) for equal arc lengths of frames.
 const SAME_PLACE_NM: f64 = 1e-6;
 
-/// A cross-section: its place (nm) and its axes (body to lab).
+/// Position (nm) and axes (body to lab) of a cross-section.
 pub(crate) type CrossSection = (Vector3, UnitQuaternion);
 
-/// Place and axes of every cross-section of filament 0.
+/// Position and axes of every cross-section of a filament.
 ///
-/// Places lie on the cubic curve through the vertices of the [`Ribbon`] along its frames; axes turn evenly from
-/// one frame to the next. Beyond the outermost the filament goes on straight.
+/// Positions follow the cubic Hermite curve through the vertices of the [`Ribbon`] along its
+/// frames. Axes are interpolated uniformly between frames. Beyond the outermost vertex the filament
+/// continues straight.
 #[derive(Debug)]
 pub(crate) struct Axis {
-    /// Arc length, place and derivative by arc length of each vertex.
+    /// Arc length, position and derivative by arc length of each vertex.
     vertices: Vec<(f64, Vector3, Vector3)>,
     /// Arc lengths and axes of frames.
     frames: Vec<(f64, UnitQuaternion)>,
@@ -27,7 +28,7 @@ impl Axis {
         Self::along(&Ribbon::new(assembly, state))
     }
 
-    /// Returns the cross-sections of the filament of a ribbon.
+    /// Creates the axis of the filament of a ribbon.
     pub(crate) fn along(ribbon: &Ribbon) -> Self {
         let frames = ribbon.frames.iter().copied();
         let inside = ribbon.frame_s_nm.iter().copied().zip(frames);
@@ -61,7 +62,7 @@ impl Axis {
         a.slerp(&b, ((s_nm - s_a) / (s_b - s_a)).clamp(0.0, 1.0))
     }
 
-    /// The cross-section at an arc length (nm).
+    /// Cross-section at an arc length (nm).
     pub(crate) fn at(&self, s_nm: f64) -> CrossSection {
         let (first, last) = (self.vertices[0], self.vertices[self.vertices.len() - 1]);
         let place = if s_nm <= first.0 {
@@ -76,7 +77,7 @@ impl Axis {
     }
 }
 
-/// The cubic through two vertices along their derivatives.
+/// Cubic Hermite interpolation between two vertices.
 fn cubic(a: (f64, Vector3, Vector3), b: (f64, Vector3, Vector3), s_nm: f64) -> Vector3 {
     let length = b.0 - a.0;
     let t = (s_nm - a.0) / length;

@@ -1,49 +1,52 @@
-//! How far, how evenly and how flat a filament has buckled: numbers of a centre line that simulators are
-//! compared by.
+//! Size, asymmetry and planarity of buckled centre lines, for comparison of simulators.
 //!
 //! # Source
-//! Definitions of simularium/subcell-pipeline (Allen Institute for Cell Science, 2024), written anew.
+//! Definitions of simularium/subcell-pipeline (Allen Institute for Cell Science, 2024),
+//! reimplemented.
 
 use actin_mechanics::Vector3;
 use nalgebra::Matrix3;
 
-/// Vectors shorter than this (nm) have no direction.
+/// Length (nm) below which a vector has no direction.
 const LEAST_NM: f64 = 1e-6;
 
-/// Numbers of a centre line that has buckled between its ends.
+/// Measures of a centre line that has buckled between its ends.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Buckle {
     /// Length of the polyline (nm).
     pub contour_nm: f64,
     /// Mean distance of its points from the line through its ends (nm).
     pub mean_distance_nm: f64,
-    /// Where the point farthest from that line stands along it, as a share of the distance of the ends, less a
-    /// half; in size.
+    /// Distance of the farthest point from the middle along that line, over the distance of the
+    /// ends.
     pub peak_asymmetry: f64,
-    /// Share of the variance of the points along the direction in which they vary least: 0 in a plane, at most
-    /// 1/3.
+    /// Share of the variance of the points along the direction of least variance: 0 in a plane, at
+    /// most 1/3.
     pub non_coplanarity: f64,
     /// Mean of `1 - cos` of the angle between successive edges.
     pub bend: f64,
-    /// Sum of the angles between successive normals (cross products of successive edges), in size, by length
-    /// (rad/nm).
+    /// Sum of the absolute angles between successive normals (cross products of successive edges),
+    /// over the length (rad/nm).
     pub normals_rad_per_nm: f64,
-    /// Supertwist (deg): the angle between the first edge and the last one reversed, both seen along the axis,
-    /// with the sign of most turns from edge to edge; positive for right-handed coils.
+    /// Supertwist (deg): angle about the axis between the first edge and the reversed last edge,
+    /// with the sign of most rotations from edge to edge. Positive for right-handed coils.
     ///
-    /// Where ends are clamped these two edges run along the axis but for what is left of the helix of monomers
-    /// and of the spacing of points. The angle is then theirs, and no measure of the shape
-    /// (`docs/studies/subcell.md`).
+    /// Between clamped ends these two edges are nearly parallel to the axis. Their residual angle
+    /// comes from the helix of monomers and the spacing of points, and the supertwist does not
+    /// measure the shape (`docs/studies/subcell.md`).
     pub supertwist_deg: f64,
 }
 
 impl Buckle {
-    /// Those of a polyline along the unit vector `axis`.
+    /// Computes the measures of a polyline along the unit vector `axis`.
     ///
     /// # Panics
     /// If there are fewer than three points.
     pub fn of(points: &[Vector3], axis: Vector3) -> Self {
-        assert!(points.len() > 2, "a curve that bends has three points");
+        assert!(
+            points.len() > 2,
+            "a buckled curve needs at least three points"
+        );
         let edges: Vec<Vector3> = points.windows(2).map(|pair| pair[1] - pair[0]).collect();
         let contour_nm = edges.iter().map(Vector3::norm).sum();
         let (mean_distance_nm, peak_asymmetry) = distances(points);
@@ -59,12 +62,15 @@ impl Buckle {
     }
 }
 
-/// Points of a polyline at equal lengths along it, both ends among them.
+/// Returns `count` points of a polyline at equal distances along it, including both ends.
 ///
 /// # Panics
-/// If there are fewer than two points, of either.
+/// If `points` or `count` has fewer than two points.
 pub fn equally_spaced(points: &[Vector3], count: usize) -> Vec<Vector3> {
-    assert!(points.len() > 1 && count > 1, "a polyline has two ends");
+    assert!(
+        points.len() > 1 && count > 1,
+        "a polyline needs at least two points"
+    );
     let edge = |i: usize| (points[i + 1] - points[i]).norm();
     let total: f64 = (0..points.len() - 1).map(edge).sum();
     let (mut i, mut before) = (0, 0.0);
@@ -86,7 +92,7 @@ pub fn equally_spaced(points: &[Vector3], count: usize) -> Vec<Vector3> {
     spaced
 }
 
-/// Mean distance from the line through the ends, and how far off its middle the farthest point is.
+/// Mean distance from the line through the ends, and offset of the farthest point from the middle.
 fn distances(points: &[Vector3]) -> (f64, f64) {
     let first = points[0];
     let line = points[points.len() - 1] - first;
@@ -114,7 +120,7 @@ fn non_coplanarity(points: &[Vector3]) -> f64 {
     let spread = |m: Matrix3<f64>, p: &Vector3| m + (p - centre) * (p - centre).transpose();
     let covariance = points.iter().fold(Matrix3::zeros(), spread);
     let variances = covariance.symmetric_eigenvalues();
-    // Round-off of a plane curve may be negative.
+    // Round-off of a plane curve can be negative.
     variances.min().max(0.0) / variances.sum()
 }
 
@@ -133,7 +139,7 @@ fn turn_of_normals(edges: &[Vector3]) -> f64 {
     normals.windows(2).map(|pair| pair[0].angle(&pair[1])).sum()
 }
 
-/// The supertwist (rad).
+/// Supertwist (rad).
 fn supertwist(edges: &[Vector3], axis: Vector3) -> f64 {
     let across = |edge: &Vector3| {
         let seen = edge - axis * edge.dot(&axis);
@@ -172,8 +178,8 @@ mod tests {
         (0..count).map(|i| at(share(i)).into()).collect()
     }
 
-    /// An arc of radius R and half angle a: length 2 R a, mean distance from its chord R (sin a / a - cos a),
-    /// the top in the middle. It lies in a plane: ends that mirror each other make no supertwist.
+    /// An arc of radius R and half angle a has length 2 R a and mean distance R (sin a / a - cos a)
+    /// from its chord.
     #[test]
     fn an_arc_is_flat_and_even() {
         let (radius, a, n) = (100.0, 1.2_f64, 1201);
@@ -189,7 +195,7 @@ mod tests {
         // Chords are shorter than arcs by (2 a / n)^2 / 24.
         assert!((buckle.contour_nm - 2.0 * radius * a).abs() < 1e-4);
         let distance = radius * (a.sin() / a - a.cos());
-        // Ends count half in the integral.
+        // Ends have half weight in the integral.
         assert!((buckle.mean_distance_nm - distance).abs() < 2.0 * distance / n as f64);
         assert!(buckle.peak_asymmetry < 1e-12 && buckle.non_coplanarity < 1e-14);
         assert!(buckle.supertwist_deg.abs() < 1e-6 && buckle.normals_rad_per_nm < 1e-6);
@@ -197,8 +203,8 @@ mod tests {
         assert!((buckle.bend - (1.0 - between.cos())).abs() < 1e-12);
     }
 
-    /// A helix that turns by less than half a turn: its ends make 180 deg less that, positive for the right
-    /// hand along the axis, and the other way round where the axis points against it.
+    /// A helix of less than half a turn has a supertwist of 180 deg minus the turn, positive if
+    /// right-handed along the axis.
     #[test]
     fn supertwist_has_the_sign_of_the_hand() {
         for (turn, hand) in [(1.9, 1.0), (1.9, -1.0), (0.3, 1.0)] {
@@ -216,8 +222,8 @@ mod tests {
         }
     }
 
-    /// A helix of whole turns about a long axis: half of the variance across it lies in each of two directions,
-    /// `R^2 / 2` against `H^2 / 12` along it. Its normals turn by `2 pi` times the sine of its pitch per turn.
+    /// For a helix of whole turns the transverse variances are `R^2 / 2`, compared with `H^2 / 12`
+    /// along the axis. Its normals turn by `2 pi` times the sine of its pitch angle per turn.
     #[test]
     fn a_coil_is_not_flat() {
         let (radius, height, turns, n) = (5.0, 200.0, 8.0, 8001);
@@ -227,7 +233,7 @@ mod tests {
         });
         let buckle = Buckle::of(&coil, Vector3::z());
         let (across, along) = (radius * radius / 2.0, height * height / 12.0);
-        // The sine that goes on along the axis correlates with it: 6 / (2 pi turns)^2 of the smaller variance.
+        // Correlation of the sine with the axis: 6 / (2 pi turns)^2 of the smaller variance.
         let exact = across / (2.0 * across + along);
         assert!((buckle.non_coplanarity / exact - 1.0).abs() < 0.01);
         let pitch = height / turns;
@@ -237,7 +243,6 @@ mod tests {
         assert!((buckle.normals_rad_per_nm / torsion - 1.0).abs() < 1e-3);
     }
 
-    /// The peak of a triangle is where it is; points at equal lengths keep its length.
     #[test]
     fn points_are_spaced_by_length() {
         let corners = [

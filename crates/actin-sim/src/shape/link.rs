@@ -1,4 +1,4 @@
-//! The link of a filament whose ends are held: what twist and writhe have to add up to.
+//! Link of a filament with held ends: the sum of twist and writhe.
 
 use super::Ribbon;
 use super::ribbon::built_frame;
@@ -8,13 +8,12 @@ use crate::{Assembly, At, End};
 use actin_mechanics::{State, UnitQuaternion, Vector3, rotation};
 use std::f64::consts::PI;
 
-/// Link of filament 0 in turns: how far the end has been turned about the axis of the filament as
-/// built against the start, as the path of the scene prescribes at that time or place.
+/// Link of filament 0 (turns): rotation of the end relative to the start about the axis as built,
+/// prescribed by the path of the scene at a time or place.
 ///
-/// `twist + writhe = link`, with both ends going on straight along that axis to be closed at
-/// infinity, as long as the filament has not passed through itself or one of these straight lines
-/// on its way, which changes the sum by two. None where an end is free, or tilted by the path: then
-/// the ends are not parallel and the link is not defined.
+/// With both ends extended straight along that axis to infinity, `twist + writhe = link`. The sum
+/// changes by two turns if the filament passes through itself or one of the extensions. `None` if
+/// an end is free or tilted by the path, because the link is then not defined.
 ///
 /// # Source
 /// J. H. White, Am. J. Math. 91 (1969) 693; F. B. Fuller, PNAS 75 (1978) 3557.
@@ -22,15 +21,15 @@ pub fn link(assembly: &Assembly, at: At) -> Option<f64> {
     link_of(assembly, 0, at)
 }
 
-/// The same of any filament.
+/// Link of a filament; see [`link`].
 ///
 /// # Panics
-/// If there is no such filament.
+/// If the index is out of range.
 pub fn link_of(assembly: &Assembly, filament: usize, at: At) -> Option<f64> {
     link_at(assembly, filament, path_parameter(assembly, at))
 }
 
-/// The same at a path parameter.
+/// Link at a path parameter.
 pub(crate) fn link_at(assembly: &Assembly, filament: usize, parameter: f64) -> Option<f64> {
     let axis = axis_of_ends(assembly, filament)?;
     let turn = |end| {
@@ -41,17 +40,18 @@ pub(crate) fn link_at(assembly: &Assembly, filament: usize, parameter: f64) -> O
     Some((turn(End::End)? - turn(End::Start)?) / (2.0 * PI))
 }
 
-/// The axis along which a filament is built; none of one with a shape, whose ends have axes of their own.
+/// Axis along which a filament is built; `None` for a curved filament, whose ends have different
+/// axes.
 fn axis_of_ends(assembly: &Assembly, filament: usize) -> Option<Vector3> {
     let span = &assembly.filaments[filament];
     span.shape.is_none().then(|| span.axis())
 }
 
-/// A held end, of which the path turns the outermost frame; of a hinged end that behind its spring.
+/// Held end whose outermost frame the path turns; for a hinged end, the held frame of the spring.
 struct TurnedEnd {
-    /// The frame as built, third axis along the filament (lab frame).
+    /// Frame as built, third axis along the filament (lab frame).
     built: UnitQuaternion,
-    /// How the path turns it (rad, rotation vector in the lab frame).
+    /// Prescribed rotation vector (rad, lab frame).
     turn: Vector3,
 }
 
@@ -64,12 +64,12 @@ impl TurnedEnd {
         })
     }
 
-    /// The filament's direction there as built.
+    /// Direction of the filament at this end as built.
     fn axis(&self) -> Vector3 {
         self.built * Vector3::z()
     }
 
-    /// Whether it points elsewhere than as built, or did so on the way.
+    /// Returns `true` if the prescribed rotation tilts the axis.
     fn is_tilted(&self) -> bool {
         is_across(self.turn, self.axis())
     }
@@ -79,18 +79,18 @@ impl TurnedEnd {
     }
 }
 
-/// How far the end of a filament has been turned against its start since it was built (turns), as the path
-/// prescribes. Where both ends point as built, it is the difference of their turns about their own axes.
-/// Elsewhere it is the angle that is left when the end's axis is carried back to that of the start by the
-/// smallest rotation, less that as built, counted on from zero.
+/// Prescribed rotation (turns) of the end of a filament relative to its start.
 ///
-/// Of a hinged end the held frame behind its spring counts. None where an end is free, or where an end was
-/// tilted and they point at right angles or further from each other, now or as built.
+/// If both ends keep their directions, it is the difference of their rotations about their axes.
+/// Otherwise it is the angle that remains after the smallest rotation from the end's axis to the
+/// start's axis, minus this angle as built, continued from zero. For a hinged end the held frame of
+/// the spring counts. `None` if an end is free, or if an end was tilted and the ends enclose a
+/// right or larger angle, now or as built.
 pub(crate) fn turn_of_ends(assembly: &Assembly, filament: usize, at: At) -> Option<f64> {
     let parameter = path_parameter(assembly, at);
     let held = |end| TurnedEnd::of(assembly, filament, end, parameter);
     let (start, end) = (held(End::Start)?, held(End::End)?);
-    // Carried on from turn to turn, of each end by itself; together to a whole number of turns.
+    // Continued over whole turns for each end separately.
     let about = angle_about(end.turn, end.axis()) - angle_about(start.turn, start.axis());
     if !start.is_tilted() && !end.is_tilted() {
         return Some(about / (2.0 * PI));
@@ -101,19 +101,19 @@ pub(crate) fn turn_of_ends(assembly: &Assembly, filament: usize, at: At) -> Opti
     Some(whole + change / (2.0 * PI))
 }
 
-/// Angle (rad, within a turn) of `end` against `start` about their third axes, the one carried to the other by
-/// the smallest rotation; none where they are at a right angle or further apart.
+/// Angle (rad, within a turn) of `end` relative to `start` about their third axes after the
+/// smallest rotation between these; `None` at right or larger angles.
 fn angle_between(start: UnitQuaternion, end: UnitQuaternion) -> Option<f64> {
     let between = start.inverse() * end;
     let is_ahead = (between * Vector3::z()).z > 0.0;
     is_ahead.then(|| 2.0 * between.k.atan2(between.w))
 }
 
-/// Twist plus writhe may differ from a whole number of turns by this (turns) and still tell it.
+/// Tolerance (turns) within which twist plus writhe is a whole number.
 pub(crate) const WHOLE: f64 = 0.05;
 
-/// Whether both ends of a filament are held, but twist plus writhe in `state` tells nothing
-/// about turns that are lost.
+/// Returns `true` if both ends of a filament are held, but twist plus writhe in `state` cannot
+/// reveal lost turns.
 pub(crate) fn link_is_unknown(
     assembly: &Assembly,
     filament: usize,
@@ -134,18 +134,18 @@ pub(crate) fn link_is_unknown(
     (off - off.round()).abs() > WHOLE
 }
 
-/// The angle (rad) about `axis` of the rotation by the vector `turn`, less the smallest rotation that
-/// tilts the axis as it does, counted on as the vector grows from zero.
+/// Angle (rad) about `axis` of the rotation vector `turn`, without the smallest rotation that tilts
+/// the axis equally. It is continuous as the vector grows from zero.
 fn angle_about(turn: Vector3, axis: Vector3) -> f64 {
     let half = 0.5 * turn.norm();
     let along = turn.try_normalize(0.0).map_or(0.0, |unit| unit.dot(&axis));
     let (sin, cos) = half.sin_cos();
-    // Both angles lie in the same quadrant: their difference is small.
+    // Both angles lie in the same quadrant, so their difference is small.
     let (there, here) = ((along.abs() * sin).atan2(cos), sin.atan2(cos));
     2.0 * (half + there - here) * along.signum()
 }
 
-/// Where on the path of the scene a record stands.
+/// Path parameter of a record.
 pub(crate) fn path_parameter(assembly: &Assembly, at: At) -> f64 {
     match at {
         At::Path(parameter) => parameter,

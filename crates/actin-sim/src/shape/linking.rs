@@ -1,8 +1,9 @@
-//! Twist plus writhe of a filament whose ends are held, and the joint where it is twisted most.
+//! Twist plus writhe of a filament with held ends, and its most twisted joint.
 //!
-//! As a filament moves between held ends their sum stays as it is. It changes by a whole turn where a
-//! joint is turned past half a turn, since the twist of a joint is known within half a turn only, and by
-//! two where the filament passes through itself or through the straight line beyond an end.
+//! The sum is constant while the filament moves between held ends. It changes by a whole turn where
+//! a joint passes half a turn, because the twist of a joint is known within half a turn only. It
+//! changes by two where the filament passes through itself or through the straight extension of an
+//! end.
 
 use super::Ribbon;
 use super::twist::angles;
@@ -10,24 +11,29 @@ use super::writhe::triangle;
 use actin_mechanics::Vector3;
 use std::f64::consts::PI;
 
-/// Unit vectors count as parallel if the cosine of their angle differs from one by less than this: the
-/// writhe between such ends belongs to a closed curve, to 1e-4 of a turn.
+/// Unit vectors are parallel if 1 minus their cosine is below this. The writhe then belongs to a
+/// closed curve to 1e-4 of a turn.
 const PARALLEL: f64 = 1e-8;
-/// Parallel lines this close (nm) count as one: far above round-off of places, far below any
-/// displacement that a scene asks for.
+/// Distance (nm) below which parallel lines coincide: far above round-off, far below displacements
+/// of scenes.
 const ONE_LINE_NM: f64 = 1e-6;
 
 impl Ribbon {
-    /// Twist plus writhe (turns): the link up to a number that depends on the way here and on how the
-    /// filament was built.
+    /// Twist plus writhe (turns): the link up to a number that depends on the history and on the
+    /// filament as built.
     ///
-    /// Where the ends are not parallel, the area between the tangents is closed by the shortest arc from
-    /// the last to the first, and the link is the turn of the end carried back along that arc.
+    /// If the ends are not parallel, the area between the tangents is closed by the shortest arc
+    /// from the last to the first. The link is then the rotation of the end carried back along that
+    /// arc.
     ///
-    /// Costs one pass where every edge points forward along the start; elsewhere the double sum of the
-    /// writhe. None where an end is free, where the ends are neither parallel nor as built and an edge points
-    /// backward, where the straight lines beyond the ends overlap, since one end has passed the other, or cross,
-    /// and where the writhe is not computed.
+    /// The cost is one pass if every edge points forward along the start, and the double sum of the
+    /// writhe otherwise. `None` in these cases:
+    ///
+    /// - an end is free;
+    /// - the ends are neither parallel nor as built, and an edge points backward;
+    /// - the straight extensions of the ends overlap or cross, because one end has passed the
+    ///   other;
+    /// - the writhe is not computed.
     pub(crate) fn linking(&self) -> Option<f64> {
         let (frames, tangents) = self.held_edges()?;
         let twist = angles(&frames, &tangents).iter().sum::<f64>() / (2.0 * PI);
@@ -41,29 +47,30 @@ impl Ribbon {
         Some(twist + writhe)
     }
 
-    /// Whether every edge points to the side of the first, the straight one beyond the start: then the
-    /// filament goes round neither end.
+    /// Returns `true` if every edge points forward along the first, the extension of the start. The
+    /// filament then passes around neither end.
     pub(crate) fn is_forward(&self) -> bool {
         let (_, tangents) = self.edges();
         tangents.iter().all(|t| t.dot(&tangents[0]) > 0.0)
     }
 
-    /// Whether the straight lines beyond both ends, along these unit vectors, overlap or cross.
+    /// Returns `true` if the straight extensions of both ends, along these unit vectors, overlap or
+    /// cross.
     fn extensions_meet(&self, [first, last]: [Vector3; 2]) -> bool {
         let points = &self.points_nm;
         let whole = points[points.len() - 1] - points[0];
         if is_parallel(first, last) {
             let along = whole.dot(&first);
-            // Ends that touch too: of a circle round-off would decide.
+            // Touching ends count too, for example of a circle, where round-off would decide.
             return along <= ONE_LINE_NM && (whole - along * first).norm() <= ONE_LINE_NM;
         }
         let normal = first.cross(&last);
         let square = normal.norm_squared();
-        // Ends that point opposite ways go off side by side.
+        // Ends in opposite directions extend side by side.
         if square <= PARALLEL {
             return false;
         }
-        // Where the lines are nearest, back along the one and on along the other.
+        // Closest points of the lines: backward along the first, forward along the second.
         let back = -whole.cross(&last).dot(&normal) / square;
         let on = whole.cross(&first).dot(&normal) / square;
         let apart = whole.dot(&normal).abs() / square.sqrt();
@@ -79,17 +86,17 @@ impl Ribbon {
     }
 }
 
-/// Whether two unit vectors point the same way.
+/// Returns `true` if two unit vectors point in the same direction.
 pub(super) fn is_parallel(one: Vector3, other: Vector3) -> bool {
     1.0 - one.dot(&other) <= PARALLEL
 }
 
-/// Writhe of a curve with these unit vectors, where all point to the side of the first; None elsewhere.
-/// The area is closed by the shortest arc from the last to the first.
+/// Writhe of a curve with these unit tangents if all point forward along the first; `None`
+/// otherwise. The area is closed by the shortest arc from the last to the first.
 ///
-/// Such a curve can be flattened onto a straight line without passing through itself, so that its
-/// writhe is the area that its tangents enclose on the sphere, over `2 pi`: a sum of triangles with the
-/// first tangent as common corner.
+/// Such a curve can be deformed to a straight line without self-passage. Its writhe is therefore
+/// the area that its tangents enclose on the sphere, over `2 pi`, computed as a sum of triangles
+/// with the first tangent as common corner.
 ///
 /// # Source
 /// F. B. Fuller, PNAS 75 (1978) 3557, second theorem.
@@ -127,7 +134,7 @@ mod tests {
         Assembly::build(&Scene::from_ron(&text).unwrap()).unwrap()
     }
 
-    /// Free bodies displaced at random, held ones as they are.
+    /// Displaces free bodies at random.
     fn shaken(assembly: &Assembly, noise: &mut Xorshift, size: f64) -> State {
         let mut state = assembly.rest.clone();
         perturb(&mut state, noise, size, 0.2 * size);
@@ -144,14 +151,13 @@ mod tests {
         state
     }
 
-    /// In every model, by the one pass and by the double sum, the sum is that of the ends: zero where
-    /// nothing slips, a whole number in any case.
+    /// Both methods agree, and the sum is a whole number, or zero without a slip.
     #[test]
     fn twist_and_writhe_add_up_to_a_whole_number() {
         let mut noise = Xorshift::new(11);
         for sections in SECTIONS {
             let assembly = build(sections);
-            // Small enough for all edges to point forward, and too large.
+            // With all edges forward, and with some backward.
             for (size, points_forward) in [(0.3, true), (30.0, false)] {
                 let state = shaken(&assembly, &mut noise, size);
                 let ribbon = Ribbon::new(&assembly, &state);
@@ -170,8 +176,7 @@ mod tests {
         }
     }
 
-    /// A helix has all its edges forward and a writhe of its own sign; the one pass gives that of the
-    /// double sum.
+    /// A helix with forward edges has a writhe of its handedness.
     #[test]
     fn the_area_of_the_tangents_has_the_right_sign() {
         let tangent = |k: i32| {
@@ -191,8 +196,7 @@ mod tests {
         assert!((forward_writhe(&all).unwrap() - whole).abs() < 1e-12);
     }
 
-    /// Where the ends are not parallel, the area closed by the shortest arc between them and the double sum over the
-    /// filament and the lines beyond it agree, so that either may follow the other.
+    /// Both methods agree also for ends that are not parallel.
     #[test]
     fn both_ways_agree_between_ends_that_are_not_parallel() {
         let mut noise = Xorshift::new(23);
@@ -216,14 +220,12 @@ mod tests {
         }
     }
 
-    /// A segment turned against its neighbours by 170 deg and then by 190 deg loses a turn, and that
-    /// joint is the one that is found.
     #[test]
     fn a_joint_past_half_a_turn_loses_one() {
         let assembly = build(SECTIONS[0]);
         let turned = |degrees: f64| {
             let mut state = assembly.rest.clone();
-            // Every free segment from 25 nm on, up to the held wall.
+            // Every free segment from 25 nm up to the held wall.
             for (i, info) in assembly.frames.iter().enumerate() {
                 if info.s_nm > 30.0 {
                     let q = rotation::exp(Vector3::z() * degrees.to_radians());
@@ -240,8 +242,8 @@ mod tests {
         assert_eq!(link(&assembly, At::Path(0.0)), Some(0.0));
     }
 
-    /// Ends that are turned and tilted against each other by anything below a right angle: the sum of
-    /// twist and writhe is the turn of the ends, carried on from zero, for a filament that follows.
+    /// For tilts below a right angle, twist plus writhe equals the rotation of the ends, continued
+    /// from zero.
     #[test]
     fn twist_and_writhe_follow_tilted_ends() {
         for (turn, segments) in [
@@ -261,7 +263,7 @@ mod tests {
                 turn[0], turn[1], turn[2]
             );
             let assembly = Assembly::build(&Scene::from_ron(&text).unwrap()).unwrap();
-            // As if bending and twisting were spread evenly: each frame has its share of the turn.
+            // Uniform bending and twist: each frame has its share of the rotation.
             for share in [0.3, 1.0] {
                 let mut state = assembly.rest.clone();
                 let whole = Vector3::from(turn).map(f64::to_radians) * share;

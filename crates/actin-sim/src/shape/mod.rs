@@ -1,7 +1,7 @@
-//! The shape of a filament: twist, writhe, link, distance from the axis, and local fields.
+//! Shape of a filament: twist, writhe, link, distance from the axis, and local fields.
 //!
-//! Everything is a function of a [`Ribbon`]: the centre line as a polyline with a frame on each of
-//! its edges, the same for monomers, rods and both. Nothing here knows files.
+//! All are functions of a [`Ribbon`]: the centre line as a polyline with a frame on each edge, for
+//! every resolution.
 
 pub(crate) mod axis;
 mod buckle;

@@ -1,47 +1,46 @@
-//! Local fields along a filament: place, curvature, twist and energy per length.
+//! Local fields along a filament: position, curvature, twist and energy per length.
 
 use super::Ribbon;
 use crate::Assembly;
 use actin_mechanics::{State, UnitQuaternion, Vector3, rotation};
 
-/// Frames closer than this along the filament (nm) are one and the same.
+/// Tolerance (nm) for equal arc lengths of frames.
 const SAME_PLACE_NM: f64 = 1e-9;
 
-/// What a filament does at one place.
+/// Local fields at one arc length.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ProfilePoint {
     /// Arc length at rest (nm).
     pub s_nm: f64,
-    /// Place of the centre line (nm, lab frame).
+    /// Position of the centre line (nm, lab frame).
     pub position_nm: Vector3,
-    /// Curvature: rate at which the frames turn about axes across the filament (rad/nm).
+    /// Curvature: transverse rotation rate of the frames (rad/nm).
     pub curvature_rad_per_nm: f64,
-    /// Rate at which they turn about the filament beyond the helix's own (rad/nm); positive for
-    /// over-twist.
+    /// Axial rotation rate of the frames relative to the helix (rad/nm); positive for over-twist.
     pub twist_rad_per_nm: f64,
     /// Elastic energy per length (pN).
     pub energy_per_length_pn: f64,
-    /// Whether monomers are resolved here.
+    /// `true` for monomers.
     pub is_ellipsoids: bool,
 }
 
-/// The fields at each vertex of the [`Ribbon`] of filament 0 in `state`.
+/// Returns the fields at each vertex of the [`Ribbon`] of filament 0 in `state`.
 ///
-/// Of a rod, curvature and twist are those of its bending elements. Of monomers they come from the
-/// rotation of one monomer against the next, the helix's own taken out, with weights 1/4, 1/2, 1/4
-/// over neighbouring pairs, so that what alternates between the strands drops out. Where nothing
-/// bends at an end, the value beside it is repeated.
+/// For rods, curvature and twist are those of the bending elements. For monomers they come from the
+/// rotation between neighbouring monomers without the rotation of the helix, averaged over
+/// neighbouring pairs with weights 1/4, 1/2, 1/4 to remove the alternation of the strands. An end
+/// without bending repeats the adjacent value.
 ///
-/// Energies are those of the elements of sections and junctions, each spread evenly over what it
-/// spans of the filament, so that their sum is kept; loads and linkers are left out.
+/// Energies of sections and junctions are spread evenly over the arc length of each element, which
+/// conserves their sum. Loads and linkers are not included.
 pub fn profile(assembly: &Assembly, state: &State) -> Vec<ProfilePoint> {
     profile_of(assembly, 0, state)
 }
 
-/// The same of any filament.
+/// Returns the fields of a filament; see [`profile`].
 ///
 /// # Panics
-/// If there is no such filament.
+/// If the index is out of range.
 pub fn profile_of(assembly: &Assembly, filament: usize, state: &State) -> Vec<ProfilePoint> {
     let ribbon = Ribbon::of(assembly, filament, state);
     let curvatures = ribbon.curvatures();
@@ -59,7 +58,7 @@ pub fn profile_of(assembly: &Assembly, filament: usize, state: &State) -> Vec<Pr
 }
 
 impl Ribbon {
-    /// Curvature vector at each vertex (rad/nm, axes of the frames): see [`profile`].
+    /// Curvature vector at each vertex (rad/nm, axes of the frames); see [`profile`].
     pub fn curvatures(&self) -> Vec<Vector3> {
         let n = self.frames.len();
         let frame = |i: usize| (self.frame_s_nm[i], self.frames[i]);
@@ -77,8 +76,8 @@ impl Ribbon {
             .collect()
     }
 
-    /// Where the stretch that belongs to each vertex begins and ends (nm): `n + 2` places for
-    /// `n + 1` vertices, from the first vertex over all frames to the last vertex.
+    /// Boundaries (nm) of the interval of each vertex: `n + 2` places for `n + 1` vertices, from
+    /// the first vertex over all frames to the last vertex.
     fn cells(&self) -> Vec<f64> {
         let ends = [self.s_nm[0], self.s_nm[self.s_nm.len() - 1]];
         let frames = self.frame_s_nm.iter().copied();
@@ -89,12 +88,13 @@ impl Ribbon {
     }
 }
 
-/// Curvature between two frames, each with its arc length.
+/// Curvature between two frames with their arc lengths.
 fn bend((s_a, a): (f64, UnitQuaternion), (s_b, b): (f64, UnitQuaternion)) -> Vector3 {
     rotation::log(a.inverse() * b) / (s_b - s_a)
 }
 
-/// Values between monomers, averaged with their neighbours of the same kind; others as they are.
+/// Averages values between monomers with their neighbours of the same kind; other values are
+/// unchanged.
 fn smoothed(values: &[Vector3], between_monomers: &[bool]) -> Vec<Vector3> {
     let of_kind = |i: &usize| *i < values.len() && between_monomers[*i];
     let neighbour = |i: Option<usize>| i.filter(of_kind).map(|i| values[i]);
@@ -113,8 +113,7 @@ fn smoothed(values: &[Vector3], between_monomers: &[bool]) -> Vec<Vector3> {
     (0..values.len()).map(one).collect()
 }
 
-/// Energy per length (pN) of each cell of a filament between two of the ascending places `cells`
-/// (nm).
+/// Energy per length (pN) of each cell of a filament with the ascending boundaries `cells` (nm).
 pub(crate) fn energy_per_length(
     assembly: &Assembly,
     filament: usize,
@@ -135,8 +134,8 @@ pub(crate) fn energy_per_length(
     energies.iter().zip(lengths).map(|(e, l)| e / l).collect()
 }
 
-/// Spreads an energy evenly over that part of `span` that the cells cover; over the nearest cell if
-/// they cover none of it.
+/// Spreads an energy evenly over the part of `span` within the cells, or over the nearest cell if
+/// there is none.
 fn spread(energy: f64, [from, to]: [f64; 2], cells: &[f64], energies: &mut [f64]) {
     let (first, last) = (cells[0], cells[cells.len() - 1]);
     let (from, to) = (from.clamp(first, last), to.clamp(first, last));
@@ -182,8 +181,7 @@ mod tests {
         Assembly::build(&Scene::from_ron(&text).unwrap()).unwrap()
     }
 
-    /// Every element has a span, and no energy is lost or counted twice; the linker's is not the
-    /// filament's.
+    /// The energy of the linker is not included.
     #[test]
     fn the_energy_of_the_filament_is_kept() {
         let mut noise = Xorshift::new(6);
@@ -214,13 +212,12 @@ mod tests {
                 .filter(|i| i.term() != "linker")
                 .map(|i| i.energy(&state))
                 .sum();
-            // Some hundred additions in another order.
+            // Round-off of some hundred additions.
             assert!((sum / expected - 1.0).abs() < 1e-12, "{sum} {expected}");
         }
     }
 
-    /// Bent and twisted evenly, every place of every model shows the same curvature and twist; a
-    /// monomer's own azimuth or a wrong distance at a junction or wall would stand out.
+    /// Uniform bending and twist is uniform in every model, including junctions and walls.
     #[test]
     fn an_even_curve_is_even_in_every_model() {
         let rate = Vector3::new(0.003, -0.004, 0.02);
@@ -239,7 +236,6 @@ mod tests {
         }
     }
 
-    /// A rod twisted in one place has its energy there: in the stretch between two middles.
     #[test]
     fn energy_stands_where_it_is() {
         let assembly = build(SECTIONS[0], "");
@@ -262,9 +258,8 @@ mod tests {
         }
     }
 
-    /// A turn back and forth from strand to strand is not twist of the filament.
     #[test]
-    fn what_alternates_drops_out() {
+    fn alternating_rotations_give_no_twist() {
         let assembly = build(SECTIONS[1], "");
         let mut state = assembly.rest.clone();
         for i in 0..assembly.frames.len() {

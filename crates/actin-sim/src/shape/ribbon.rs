@@ -1,19 +1,19 @@
-//! The centre line of a filament with a frame on each edge, whatever resolves it.
+//! Centre line of a filament with a frame on each edge, for every resolution.
 
 use super::linking::is_parallel;
 use super::{extended_writhe, twist};
 use crate::{Assembly, End, FilamentSpan};
 use actin_mechanics::{State, UnitQuaternion, Vector3};
 
-/// More vertices than this are not asked for their writhe, which costs their number squared: 5e7
-/// solid angles take some seconds.
+/// Largest number of vertices for the writhe, whose cost is quadratic: 5e7 solid angles take a few
+/// seconds.
 const MOST_FOR_WRITHE: usize = 10_000;
 
-/// Most points of a filament times those of all filaments for which a summary holds its writhe: all
-/// writhes of a scene together then take no more than that of one filament may.
+/// Largest product of the points of a filament and of all filaments for the writhe in a summary.
+/// All writhes of a scene then cost at most as much as the largest single one.
 const MOST_FOR_SUMMARY: usize = MOST_FOR_WRITHE * MOST_FOR_WRITHE;
 
-/// The writhe of a filament for a summary of all filaments; none if it would take too long.
+/// Writhe of a filament for a summary of all filaments; `None` if too expensive.
 pub(crate) fn writhe_of(assembly: &Assembly, filament: usize, ribbon: &Ribbon) -> Option<f64> {
     let own = assembly.filaments[filament].points.len();
     let is_summarised = own * assembly.points.len() <= MOST_FOR_SUMMARY;
@@ -22,49 +22,46 @@ pub(crate) fn writhe_of(assembly: &Assembly, filament: usize, ribbon: &Ribbon) -
 
 const ENDS: [End; 2] = [End::Start, End::End];
 
-/// A filament as a polyline of `n + 1` vertices and `n` edges, each edge with a frame.
+/// Filament as a polyline of `n + 1` vertices and `n` edges, each edge with a frame.
 ///
-/// Of a rod the vertices are its nodes and the edges its segments. Of monomers the vertices lie
-/// midway between neighbours on their smoothed centre line, `(c_k + c_{k+1}) / 2` with `c` the
-/// centre moved inward by the helix's radius: what alternates between the two strands drops out,
-/// and what is smooth is kept to `kappa rise^2 / 8`, 0.01 nm at 0.01 rad/nm. The edges are then
-/// those about each monomer, with its frame turned by its own place on the helix; at a junction the
-/// last of them ends in the rod's node, so that one polyline runs through the whole filament.
+/// For rods, vertices are nodes and edges are segments. For monomers, vertices are the midpoints
+/// `(c_k + c_{k+1}) / 2` of their smoothed centre line, with `c` the centre moved inward by the
+/// radius of the helix. This removes the alternation of the strands and keeps smooth shapes to
+/// `kappa rise^2 / 8`, 0.01 nm at 0.01 rad/nm. Each edge has the frame of its monomer without the
+/// azimuth of the helix. At a junction the last edge of the monomers ends at the rod's node.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Ribbon {
     /// Arc length of each vertex at rest (nm).
     pub s_nm: Vec<f64>,
     /// Vertices (nm, lab frame).
     pub points_nm: Vec<Vector3>,
-    /// Whether each vertex lies between monomers; if not, it is a rod's node.
+    /// `true` for vertices between monomers, `false` for nodes of a rod.
     pub between_monomers: Vec<bool>,
     /// Arc length of each frame at rest (nm).
     pub frame_s_nm: Vec<f64>,
-    /// Frame of each edge: the axes in which it was built, third along the filament, as they now
-    /// lie (body to lab).
+    /// Frame of each edge (body to lab): at rest the axes as built, third along the filament.
     pub frames: Vec<UnitQuaternion>,
-    /// The outermost held frames at start and end, in the same axes, each with its arc length at
-    /// rest (nm); none at a free end.
+    /// Outermost held frames at start and end in the same axes, with their arc lengths at rest
+    /// (nm); `None` at a free end.
     pub ends: [Option<(f64, UnitQuaternion)>; 2],
-    /// Of each hinged end the held frame behind the spring and the cross-section before it, in the same
-    /// axes.
+    /// Held frame and cross-section of each hinged end, in the same axes.
     hinges: [Option<[UnitQuaternion; 2]>; 2],
-    /// Unit vectors along the filament at the outermost held frames as built; none at an end that turns.
+    /// Unit tangents at the outermost held frames as built; `None` at an end that rotates freely.
     built: [Option<Vector3>; 2],
-    /// Distance of each vertex from the axis of the filament as built (nm).
+    /// Distance of each vertex from the axis as built (nm).
     distance_nm: Vec<f64>,
 }
 
 impl Ribbon {
-    /// The ribbon of an assembly's filament 0 in `state`.
+    /// Creates the ribbon of filament 0 in `state`.
     pub fn new(assembly: &Assembly, state: &State) -> Self {
         Self::of(assembly, 0, state)
     }
 
-    /// The same of any filament.
+    /// Creates the ribbon of a filament.
     ///
     /// # Panics
-    /// If there is no such filament.
+    /// If the index is out of range.
     pub fn of(assembly: &Assembly, filament: usize, state: &State) -> Self {
         let mut ribbon = Self {
             s_nm: Vec::new(),
@@ -89,7 +86,7 @@ impl Ribbon {
                     let (one, other) = (centre(k), centre(k + 1));
                     ribbon.push_vertex(0.5 * (one.0 + other.0), 0.5 * (one.1 + other.1), true);
                 }
-                // The outermost monomer at an end of the filament has no edge about it.
+                // The outermost monomer of the filament has no edge.
                 frames.start += usize::from(i == 0);
                 frames.end -= usize::from(i == last);
             } else {
@@ -115,7 +112,7 @@ impl Ribbon {
         self.between_monomers.push(between_monomers);
     }
 
-    /// Unit vectors along the edges; an edge without length lies along its frame.
+    /// Unit vectors along the edges; an edge without length has the direction of its frame.
     pub fn tangents(&self) -> Vec<Vector3> {
         let edges = self.points_nm.windows(2).zip(&self.frames);
         edges
@@ -126,8 +123,8 @@ impl Ribbon {
             .collect()
     }
 
-    /// The frame and the unit vector by which the filament goes on straight beyond either end:
-    /// those of a held frame, or of the last edge where the end is free.
+    /// Frame and unit vector of the straight extension of either end: of the held frame, or of the
+    /// last edge at a free end.
     fn extensions(&self, tangents: &[Vector3]) -> [(UnitQuaternion, Vector3); 2] {
         let free = [0, self.frames.len() - 1];
         [0, 1].map(|k| match self.ends[k] {
@@ -136,14 +133,14 @@ impl Ribbon {
         })
     }
 
-    /// Twist in turns from end to end, ends included: see [`twist`].
+    /// Twist in turns between the extensions; see [`twist`].
     pub fn twist(&self) -> f64 {
         let (frames, tangents) = self.edges();
         twist(&frames, &tangents)
     }
 
-    /// Frames and unit vectors of all edges, the straight ones beyond both ends included: at vertex `i`
-    /// edge `i` meets edge `i + 1`.
+    /// Frames and unit vectors of all edges including both extensions. Vertex `i` joins edges `i`
+    /// and `i + 1`.
     pub(super) fn edges(&self) -> (Vec<UnitQuaternion>, Vec<Vector3>) {
         let tangents = self.tangents();
         let [first, last] = self.extensions(&tangents);
@@ -151,8 +148,8 @@ impl Ribbon {
         std::iter::once(first).chain(inside).chain([last]).unzip()
     }
 
-    /// The same, with the joints of hinges: beyond a hinged end its cross-section, about the last edge, and
-    /// the held frame behind the spring. None where an end is free.
+    /// Frames and unit vectors including the joints of hinges: the cross-section along the last
+    /// edge, then the held frame of the spring. `None` if an end is free.
     pub(super) fn held_edges(&self) -> Option<(Vec<UnitQuaternion>, Vec<Vector3>)> {
         let (mut frames, mut tangents) = self.edges();
         for k in [0, 1] {
@@ -160,7 +157,7 @@ impl Ribbon {
                 continue;
             }
             let [held, cross_section] = self.hinges[k]?;
-            // In the place of the straight edge of a free end, and beyond it.
+            // Replaces the extension of a free end, and extends beyond it.
             let at = k * (frames.len() - 1);
             frames[at] = cross_section;
             frames.insert(k * frames.len(), held);
@@ -169,7 +166,7 @@ impl Ribbon {
         Some((frames, tangents))
     }
 
-    /// Whether the filament goes on beyond its ends, along these unit vectors, as it was built.
+    /// Returns `true` if the extensions along these unit vectors have the directions as built.
     pub(super) fn points_as_built(&self, beyond: [Vector3; 2]) -> bool {
         let mut ends = beyond.iter().zip(&self.built);
         let is_same = |(now, built): (&Vector3, &Option<Vector3>)| {
@@ -178,24 +175,24 @@ impl Ribbon {
         ends.all(is_same)
     }
 
-    /// Writhe of the filament, which goes on straight beyond both ends: see [`extended_writhe`].
-    /// None of more than ten thousand vertices.
+    /// Writhe of the filament with straight extensions; see [`extended_writhe`]. `None` for more
+    /// than ten thousand vertices.
     pub fn writhe(&self) -> Option<f64> {
         let [(_, first), (_, last)] = self.extensions(&self.tangents());
         self.writhe_between([first, last])
     }
 
-    /// The same, going on along these unit vectors.
+    /// Writhe with extensions along these unit vectors.
     pub(super) fn writhe_between(&self, beyond: [Vector3; 2]) -> Option<f64> {
         let few = self.points_nm.len() <= MOST_FOR_WRITHE;
         few.then(|| extended_writhe(&self.points_nm, beyond))
     }
 
-    /// Largest distance of the centre line from the axis of the filament as built (nm); of a filament with a
-    /// shape from the straight line from its start along its direction.
+    /// Largest distance of the centre line from the axis as built (nm). For a curved filament, the
+    /// axis is the straight line from its start along its direction.
     ///
-    /// Taken as the top of the parabola through the vertex that is furthest and its neighbours: of
-    /// a rod of segments `h` the vertices alone may miss `kappa h^2 / 8`, 0.25 nm at 0.02 rad/nm.
+    /// It is the maximum of the parabola through the farthest vertex and its neighbours. For
+    /// segments `h` the vertices alone can miss `kappa h^2 / 8`, 0.25 nm at 0.02 rad/nm.
     pub fn largest_distance_nm(&self) -> f64 {
         let distance = &self.distance_nm;
         let furthest = (0..distance.len()).max_by(|&i, &j| distance[i].total_cmp(&distance[j]));
@@ -207,13 +204,13 @@ impl Ribbon {
     }
 }
 
-/// Distance of each point (nm, lab frame) from the straight line along which a filament is built.
+/// Distance of each point (nm, lab frame) from the straight axis as built.
 fn distances(span: &FilamentSpan, points_nm: &[Vector3]) -> Vec<f64> {
     let seen = points_nm.iter().map(|&p| span.seen_along_z(p));
     seen.map(|p| p.x.hypot(p.y)).collect()
 }
 
-/// Largest value of the parabola through three points whose middle one is the highest.
+/// Maximum of the parabola through three points with the highest in the middle.
 fn top_of_parabola(x: [f64; 3], y: [f64; 3]) -> f64 {
     let (before, after) = (x[1] - x[0], x[2] - x[1]);
     let (rise, fall) = ((y[1] - y[0]) / before, (y[2] - y[1]) / after);
@@ -225,7 +222,7 @@ fn top_of_parabola(x: [f64; 3], y: [f64; 3]) -> f64 {
     y[1] - 0.5 * slope * slope / curvature
 }
 
-/// The axes in which the filament of frame `i` was built there, turned as the frame since then.
+/// Axes of the filament at frame `i` as built, rotated with the frame.
 pub(crate) fn from_rest(assembly: &Assembly, state: &State, i: usize) -> UnitQuaternion {
     let turned =
         state.frames.orientation.get(i) * assembly.rest.frames.orientation.get(i).inverse();
@@ -233,7 +230,7 @@ pub(crate) fn from_rest(assembly: &Assembly, state: &State, i: usize) -> UnitQua
     turned * span.frame_at(assembly.frames[i].s_nm)
 }
 
-/// The held frame behind the spring of a hinged end, and the cross-section before it.
+/// Held frame of a hinged end, and its cross-section.
 fn hinge_frames(
     assembly: &Assembly,
     filament: usize,
@@ -244,7 +241,7 @@ fn hinge_frames(
     Some(frames.map(|frame| from_rest(assembly, state, frame)))
 }
 
-/// The outermost frame that a clamp holds.
+/// Outermost frame that a clamp holds.
 fn held_frame(
     assembly: &Assembly,
     filament: usize,
@@ -257,8 +254,8 @@ fn held_frame(
     Some((s_nm, from_rest(assembly, state, frame)))
 }
 
-/// The axes in which the filament was built at the outermost held frame of an end, behind its spring if it is
-/// hinged; none where it is free or turns by itself.
+/// Axes as built of the outermost held frame of an end, or of the held frame of its hinge; `None`
+/// if the end rotates freely.
 pub(super) fn built_frame(
     assembly: &Assembly,
     filament: usize,
@@ -270,12 +267,12 @@ pub(super) fn built_frame(
     Some(span.frame_at(assembly.frames[frame].s_nm))
 }
 
-/// The filament's direction (lab frame) there.
+/// Direction of the filament there (lab frame).
 fn built_axis(assembly: &Assembly, filament: usize, end: End) -> Option<Vector3> {
     built_frame(assembly, filament, end).map(|frame| frame * Vector3::z())
 }
 
-/// The outermost of the frames that a clamp of an end holds.
+/// Outermost frame among those that the clamp of an end holds.
 fn outermost(assembly: &Assembly, clamp: usize, end: End) -> Option<usize> {
     let frames = &assembly.clamps[clamp].frames;
     match end {
@@ -304,8 +301,6 @@ mod tests {
         Assembly::build(&Scene::from_ron(&text).unwrap()).unwrap()
     }
 
-    /// At rest the ribbon is the axis, its frames are the lab's, and each lies in the middle of its
-    /// edge: a monomer too many or too few, or its own azimuth, would show.
     #[test]
     fn the_ribbon_of_a_filament_at_rest_is_straight() {
         for (sections, clamps) in SECTIONS.iter().flat_map(|s| CLAMPS.map(|c| (s, c))) {
@@ -313,7 +308,7 @@ mod tests {
             let ribbon = Ribbon::new(&assembly, &assembly.rest);
             assert_eq!(ribbon.points_nm.len(), ribbon.frames.len() + 1);
             for (s_nm, point) in ribbon.s_nm.iter().zip(&ribbon.points_nm) {
-                // Round-off of places of 60 nm.
+                // Round-off of positions of 60 nm.
                 assert!((point - Vector3::z() * *s_nm).norm() < 1e-13);
             }
             for (i, q) in ribbon.frames.iter().enumerate() {
@@ -326,7 +321,6 @@ mod tests {
         }
     }
 
-    /// Bodies turned in proportion to their arc length: twist, and no writhe.
     #[test]
     fn a_turned_filament_twists_by_its_turn() {
         for sections in SECTIONS {
@@ -350,7 +344,6 @@ mod tests {
         }
     }
 
-    /// Twist and writhe belong to the shape, not to where it lies.
     #[test]
     fn a_rigid_motion_changes_neither() {
         let assembly = build(SECTIONS[2], CLAMPS[1]);
@@ -365,7 +358,6 @@ mod tests {
         assert!((before.twist() - after.twist()).abs() < 1e-12);
     }
 
-    /// Two strands displaced to opposite sides leave the centre line where it was.
     #[test]
     fn the_zigzag_of_two_strands_drops_out() {
         let assembly = build(SECTIONS[1], "");
@@ -378,7 +370,6 @@ mod tests {
         assert!(ribbon.largest_distance_nm() < 1e-13);
     }
 
-    /// A parabola's top is found between its points; the highest of three on a line is one of them.
     #[test]
     fn the_top_lies_between_vertices() {
         let at = |x: f64| 5.0 - 0.1 * (x - 0.4).powi(2);

@@ -1,17 +1,17 @@
-//! Internal forces and couples of a filament.
+//! Internal forces and moments of a filament.
 
 use super::Ribbon;
 use super::axis::Axis;
 use crate::Assembly;
 use actin_mechanics::{Loads, State, Vector3};
 
-/// Force and couple that the part of a filament after a cross-section exerts on the part before it, in the axes of the
-/// cross-section (z along the filament towards its end).
+/// Force and moment that the part of a filament after a cross-section exerts on the part before it,
+/// in the axes of the cross-section (z along the filament towards its end).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct SectionLoad {
     /// Force (pN): shear forces across and tension along the filament; compression is negative.
     pub force_pn: Vector3,
-    /// Couple about the centre of the cross-section (pN nm): bending moments and torque.
+    /// Moment about the centre of the cross-section (pN nm): bending moments and torque.
     pub couple_pn_nm: Vector3,
 }
 
@@ -36,10 +36,10 @@ pub struct SectionLoads {
 }
 
 impl SectionLoads {
-    /// Returns the internal loads of the filament with index `filament`.
+    /// Computes the internal loads of a filament.
     ///
     /// # Panics
-    /// If there is no such filament.
+    /// If the index is out of range.
     pub fn of(assembly: &Assembly, filament: usize, state: &State) -> Self {
         let placed = &assembly.filaments[filament];
         let mut loads = Loads::zeros(state);
@@ -98,7 +98,7 @@ mod tests {
         "Ellipsoids(from_nm: 0.0, to_nm: 50.0), Rod(from_nm: 50.0, to_nm: 100.0)",
     ];
 
-    /// Internal loads of a cantilever in equilibrium and the place of its tip.
+    /// Internal loads and tip position of a cantilever in equilibrium.
     fn solved(sections: &str, load: &str) -> (SectionLoads, Vector3) {
         let text = format!(
             "Scene(
@@ -115,7 +115,6 @@ mod tests {
         (SectionLoads::of(&assembly, 0, state), tip)
     }
 
-    /// By balance, the force of the tip is transmitted everywhere, and the couple is its moment about the cross-section.
     #[test]
     fn internal_loads_balance_a_force_at_the_tip() {
         let force = Vector3::new(0.5, -0.2, 1.0);
@@ -136,7 +135,6 @@ mod tests {
         }
     }
 
-    /// A couple about the axis is transmitted as torque to the wall.
     #[test]
     fn internal_loads_balance_a_couple_at_the_tip() {
         for sections in SECTIONS {

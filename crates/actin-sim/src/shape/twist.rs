@@ -1,15 +1,15 @@
-//! The twist of a frame along a polyline.
+//! Twist of frames along a polyline.
 
 use actin_mechanics::{UnitQuaternion, Vector3};
 use std::f64::consts::PI;
 
-/// Twist (turns) of frames along directions: how often their first axis turns about the curve.
+/// Twist (turns) of frames about the tangents of a polyline.
 ///
-/// `frames[i]` belongs to the edge along the unit vector `tangents[i]`. Its first axis, brought
-/// across the tangent by the shortest turn of its third axis to it, is compared with its neighbour's
-/// after the shortest turn of the one tangent to the other; the angles about the tangent, each
-/// within half a turn, add up. So shear does not count as twist, and with the writhe of the same
-/// polyline `twist + writhe = link` holds exactly, not only in the limit of short edges.
+/// `frames[i]` belongs to the edge with the unit tangent `tangents[i]`. The smallest rotation of
+/// the third axis to the tangent makes the first axis transverse. Transverse axes of neighbours are
+/// compared after parallel transport between their tangents, and the angles, each within half a
+/// turn, are summed. Shear therefore does not count as twist, and `twist + writhe = link` holds
+/// exactly for the polyline.
 ///
 /// ```
 /// use actin_mechanics::{Vector3, rotation};
@@ -22,8 +22,8 @@ pub fn twist(frames: &[UnitQuaternion], tangents: &[Vector3]) -> f64 {
     angles(frames, tangents).iter().sum::<f64>() / (2.0 * PI)
 }
 
-/// The angle (rad, within half a turn) by which each frame is turned about the curve against the one
-/// before: `n` frames have `n - 1` angles.
+/// Rotation angle (rad, within half a turn) of each frame about the curve relative to the previous
+/// one: `n` frames have `n - 1` angles.
 pub(super) fn angles(frames: &[UnitQuaternion], tangents: &[Vector3]) -> Vec<f64> {
     let across: Vec<Vector3> = frames
         .iter()
@@ -38,8 +38,8 @@ pub(super) fn angles(frames: &[UnitQuaternion], tangents: &[Vector3]) -> Vec<f64
     angles.collect()
 }
 
-/// `v` after the shortest turn that brings the unit vector `from` to the unit vector `to`; as it
-/// is where they are opposite, since no turn is the shortest then.
+/// Parallel transport of `v` by the smallest rotation from `from` to `to`; `v` itself for opposite
+/// directions.
 fn transport(from: Vector3, to: Vector3, v: Vector3) -> Vector3 {
     let axis = from.cross(&to);
     let denominator = 1.0 + from.dot(&to);
@@ -57,7 +57,7 @@ mod tests {
     use actin_mechanics::Xorshift;
     use actin_mechanics::rotation;
 
-    /// Half a turn about z, then bent over by one about y, neither of which is twist of the other.
+    /// Half a turn about z and a bend by 1 rad about y do not mix.
     #[test]
     fn bending_is_no_twist() {
         let frames: Vec<UnitQuaternion> = (0..40)
@@ -67,26 +67,26 @@ mod tests {
         assert!(twist(&frames, &tangents).abs() < 1e-14);
     }
 
-    /// Several turns count as such; a frame that is sheared against its edge twists no less.
+    /// Several turns, with frames sheared against their edges.
     #[test]
     fn shear_is_no_twist() {
         let mut noise = Xorshift::new(2);
         let turn = |k: i32| rotation::exp(Vector3::z() * (0.9 * f64::from(k)));
         let sheared: Vec<UnitQuaternion> = (0..60)
             .map(|k| {
-                // A tilt of the frame about an axis across its own.
+                // A tilt of the frame about a transverse axis.
                 let tilt = Vector3::new(noise.sample(), noise.sample(), 0.0) * 0.05;
                 let ends = k == 0 || k == 59;
                 turn(k) * rotation::exp(if ends { Vector3::zeros() } else { tilt })
             })
             .collect();
         let turns = twist(&sheared, &vec![Vector3::z(); 60]);
-        // The tilts leave no trace: each frame is brought back by the shortest turn.
+        // The smallest rotation removes each tilt exactly.
         assert!((turns - 59.0 * 0.9 / (2.0 * PI)).abs() < 1e-13, "{turns}");
     }
 
-    /// White's theorem: around a closed polygon twist and writhe add up to a whole number, the same
-    /// for every framing up to whole numbers.
+    /// White's theorem: around a closed polygon twist and writhe add up to a whole number, up to
+    /// the choice of framing.
     #[test]
     fn twist_and_writhe_of_a_closed_ribbon_are_a_whole_number() {
         let mut noise = Xorshift::new(4);
@@ -103,7 +103,7 @@ mod tests {
                 .collect();
             frames[9] = frames[0];
             let link = twist(&frames, &tangents) + closed_writhe(&points);
-            // Solid angles of ten dozen pairs, each to round-off.
+            // Round-off of about 120 solid angles.
             assert!((link - link.round()).abs() < 1e-12, "{link}");
         }
     }

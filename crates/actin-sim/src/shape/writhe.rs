@@ -1,23 +1,27 @@
-//! The writhe of polygons and of polylines that go on straight at both ends.
+//! Writhe of polygons and of polylines with straight extensions.
 //!
-//! Each pair of edges contributes the solid angle of the directions from the one to the other, the
-//! exact double integral of Gauss over the two: there is no error but round-off.
+//! Each pair of edges contributes the solid angle of the directions between them, the exact Gauss
+//! integral over both edges. The only error is round-off.
 //!
 //! # Source
-//! K. Klenin and J. Langowski, Biopolymers 54 (2000) 307, method 1a; the solid angles here are sums
-//! of triangles after A. van Oosterom and J. Strackee, IEEE Trans. Biomed. Eng. 30 (1983) 125,
-//! which keep their digits where the arcsines of the paper lose half of them.
+//! K. Klenin and J. Langowski, Biopolymers 54 (2000) 307, method 1a. Solid angles are sums of
+//! triangles after A. van Oosterom and J. Strackee, IEEE Trans. Biomed. Eng. 30 (1983) 125, which
+//! are accurate where the arcsines of the paper lose half of their digits.
 
 use actin_mechanics::Vector3;
 use std::f64::consts::PI;
 
-/// Angle (rad) below which rays go off the same way: that of a scene's six digits.
+/// Angle (rad) below which rays are parallel: the accuracy of a scene's six digits.
 const SAME_WAY: f64 = 1e-5;
 
 /// Writhe of the closed polygon through `points`; the last edge leads back to the first point.
 ///
-/// `Wr = 1/(4 pi) oint oint (dr1 x dr2) . (r1 - r2) / |r1 - r2|^3`: right-handed crossings are
-/// positive, a planar polygon has none. Costs `n^2 / 2` solid angles.
+/// ```text
+/// Wr = 1/(4 pi) oint oint (dr1 x dr2) . (r1 - r2) / |r1 - r2|^3
+/// ```
+///
+/// Right-handed crossings are positive; a planar polygon has zero writhe. The cost is `n^2 / 2`
+/// solid angles.
 ///
 /// ```
 /// use actin_mechanics::Vector3;
@@ -30,7 +34,7 @@ pub fn closed_writhe(points: &[Vector3]) -> f64 {
     let edge = |i: usize| [points[i], points[(i + 1) % n]];
     let mut sum = 0.0;
     for i in 0..n {
-        // Neighbours lie in a plane: nothing.
+        // Adjacent edges are coplanar and contribute zero.
         for j in i + 2..n {
             if (j + 1) % n != i {
                 sum += edge_and_edge(edge(i), edge(j));
@@ -40,13 +44,13 @@ pub fn closed_writhe(points: &[Vector3]) -> f64 {
     sum / (2.0 * PI)
 }
 
-/// Writhe of the polyline through `points` that comes from infinity along the unit vector
-/// `tangents[0]` and goes there along `tangents[1]`.
+/// Writhe of the polyline through `points` with extensions from infinity along the unit vector
+/// `tangents[0]` and to infinity along `tangents[1]`.
 ///
-/// Where both tangents are the same, this is the limit of closed curves that return in a plane
-/// arc far away, so that `twist + writhe = link` holds with the turn of one straight end against
-/// the other as link (Fuller and White). Elsewhere it is a number that changes smoothly with the
-/// curve, but the link is not defined.
+/// For equal tangents it is the limit of closed curves that return in a distant plane arc. Then
+/// `twist + writhe = link` holds, with the link given by the relative rotation of the extensions
+/// (Fuller and White). For other tangents it is a smooth function of the curve, but the link is not
+/// defined.
 pub fn extended_writhe(points: &[Vector3], tangents: [Vector3; 2]) -> f64 {
     let edges: Vec<[Vector3; 2]> = points.windows(2).map(|pair| [pair[0], pair[1]]).collect();
     let (first, last) = (points[0], points[points.len() - 1]);
@@ -56,7 +60,7 @@ pub fn extended_writhe(points: &[Vector3], tangents: [Vector3; 2]) -> f64 {
             sum += edge_and_edge(edge, other);
         }
         if i > 0 {
-            // Seen from the edge, the ray lies between where it comes from and where it ends.
+            // The ray is traversed towards its end point.
             sum += edge_and_ray(edge, first, -tangents[0], -1.0);
         }
         if i + 1 < edges.len() {
@@ -66,20 +70,20 @@ pub fn extended_writhe(points: &[Vector3], tangents: [Vector3; 2]) -> f64 {
     sum / (2.0 * PI)
 }
 
-/// Signed solid angle of the directions from the points of edge `ab` to those of edge `cd`.
+/// Signed solid angle of the directions from the points of edge `ab` to the points of edge `cd`.
 fn edge_and_edge([a, b]: [Vector3; 2], [c, d]: [Vector3; 2]) -> f64 {
     let [ac, ad, bd, bc] = [c - a, d - a, d - b, c - b];
     triangle(ac, ad, bd) + triangle(ac, bd, bc)
 }
 
-/// The same for the ray from `c` along `u`: its far end lies in the direction `u` from everywhere.
-/// A ray that is run through towards `c` counts with `sense = -1`.
+/// Signed solid angle for the ray from `c` along `u`, whose far end lies in the direction `u` from
+/// everywhere. A ray traversed towards `c` has `sense = -1`.
 fn edge_and_ray([a, b]: [Vector3; 2], c: Vector3, u: Vector3, sense: f64) -> f64 {
     sense * triangle(c - a, u, c - b)
 }
 
-/// The same from a ray that ends along `t` to one that begins `d` further and goes along `u`. Rays that go off
-/// the same way, to round-off, lie in a plane.
+/// Signed solid angle from a ray that ends along `t` to a ray along `u` that begins `d` further.
+/// Parallel rays are coplanar up to round-off.
 fn ray_and_ray(t: Vector3, d: Vector3, u: Vector3) -> f64 {
     if (t + u).norm() < SAME_WAY {
         return 0.0;
@@ -87,9 +91,8 @@ fn ray_and_ray(t: Vector3, d: Vector3, u: Vector3) -> f64 {
     triangle(t, u, d)
 }
 
-/// Signed solid angle of the triangle of three directions of any length, within `(-2 pi, 2 pi]`;
-/// positive where they are clockwise as seen from the origin, which is the sense of a right-handed
-/// crossing.
+/// Signed solid angle of the triangle of three directions of any length, within `(-2 pi, 2 pi]`. It
+/// is positive if they are clockwise seen from the origin, the sense of a right-handed crossing.
 pub(super) fn triangle(a: Vector3, b: Vector3, c: Vector3) -> f64 {
     let (p, q, r) = (a.norm(), b.norm(), c.norm());
     let volume = a.dot(&b.cross(&c));
@@ -114,7 +117,7 @@ mod tests {
         (0..n).map(|_| noise.vector()).collect()
     }
 
-    /// Gauss's integral over two edges by the midpoint rule on 200 x 200 pieces.
+    /// Gauss integral over two edges by the midpoint rule on 200 x 200 pieces.
     fn by_quadrature([a, b]: [Vector3; 2], [c, d]: [Vector3; 2]) -> f64 {
         let m = 200;
         let at = |from: Vector3, to: Vector3, k: i32| {
@@ -130,7 +133,6 @@ mod tests {
         sum / f64::from(m * m)
     }
 
-    /// The integral itself, sign included, on edges a distance apart.
     #[test]
     fn solid_angles_are_gauss_integrals() {
         let mut noise = Xorshift::new(1);
@@ -140,13 +142,12 @@ mod tests {
             };
             let (one, other) = (edge(0.0, &mut noise), edge(2.5, &mut noise));
             let expected = by_quadrature(one, other);
-            // The midpoint rule's error, (1/200)^2 / 24 of the second derivatives.
+            // Error of the midpoint rule, (1/200)^2 / 24 of the second derivatives.
             assert!((edge_and_edge(one, other) - expected).abs() < 1e-5);
             assert!((edge_and_edge(other, one) - expected).abs() < 1e-5);
         }
     }
 
-    /// Planar polygons, and polygons whose two halves are each other's mirror image.
     #[test]
     fn curves_without_handedness_do_not_writhe() {
         let tilt = rotation::exp(Vector3::new(0.3, -0.8, 0.5));
@@ -161,13 +162,13 @@ mod tests {
         assert!(extended_writhe(&arch, [z, z]).abs() < 1e-14);
     }
 
-    /// Flat projections count crossings: one for a lifted figure of eight, three for a trefoil; the
-    /// right-handed ones are positive. What is left is of the order of the height.
+    /// Nearly flat curves have one unit of writhe per crossing: one for a figure of eight, three
+    /// for a trefoil. The error is of the order of the height.
     #[test]
     fn flat_curves_writhe_by_their_crossings() {
         let height = 1e-3;
         let eight = |h: f64| {
-            // Crosses itself at t = pi/2, on the way down, and at 3 pi/2, on the way up.
+            // Self-crossing at t = pi/2, descending, and at 3 pi/2, ascending.
             curve(400, |t| {
                 Vector3::new(t.cos(), (2.0 * t).sin(), -h * t.sin())
             })
@@ -187,13 +188,13 @@ mod tests {
             let (one, three) = (closed_writhe(&eight(h)), closed_writhe(&trefoil(h)));
             assert!((one - h.signum() * sign).abs() < 0.01, "{one}");
             assert!((three.abs() - 3.0).abs() < 0.01, "{three}");
-            // Going on along y at x = 3 it turns from x to z: left-handed about its core.
+            // At x = 3 the curve moves along y and turns from x to z: left-handed about its core.
             assert!(three * h < 0.0, "{three}");
         }
     }
 
-    /// A right-handed helix of `n` turns gains `1 - sin(alpha)` with each, `tan(alpha)` its pitch
-    /// over its circumference. The left-handed one loses it.
+    /// Each turn of a right-handed helix adds `1 - sin(alpha)`, with `tan(alpha)` its pitch over
+    /// its circumference.
     #[test]
     fn each_turn_of_a_helix_adds_its_own() {
         let (radius, pitch) = (1.0, 2.0);
@@ -211,14 +212,12 @@ mod tests {
         let per_turn = 1.0 - pitch / (2.0 * PI * radius).hypot(pitch);
         for sense in [1.0, -1.0] {
             let gain = (helix(24, sense) - helix(12, sense)) / 12.0;
-            // Ends a distance d apart see each other as 1/d^2; polygons of 120 edges a turn miss
-            // (2 pi / 120)^2 of it.
+            // Interaction of the ends at a distance d is 1/d^2; the error of polygons of 120 edges
+            // per turn is (2 pi / 120)^2.
             assert!((gain - sense * per_turn).abs() < 2e-3, "{gain} {per_turn}");
         }
     }
 
-    /// What is straight may be cut anywhere; size, place and sense do not matter; the mirror image
-    /// writhes the other way.
     #[test]
     fn the_writhe_is_that_of_the_curve() {
         let mut noise = Xorshift::new(3);
@@ -238,7 +237,7 @@ mod tests {
         let moved: Vec<Vector3> = points.iter().map(|p| turn * p * 7.0 + shift).collect();
         let back: Vec<Vector3> = points.iter().rev().copied().collect();
         for same in [cut, moved, back] {
-            // Round-off of places of 30 over edges of 1.
+            // Round-off of positions of 30 over edges of 1.
             assert!((closed_writhe(&same) - writhe).abs() < 1e-12);
         }
         let mirror: Vec<Vector3> = points
@@ -248,8 +247,7 @@ mod tests {
         assert!((closed_writhe(&mirror) + writhe).abs() < 1e-13);
     }
 
-    /// The extended writhe is the limit of the closed one: what differs falls with the distance of
-    /// the closing.
+    /// The difference from closed curves vanishes with the distance of the closing arc.
     #[test]
     fn the_closing_far_away_adds_nothing() {
         let mut noise = Xorshift::new(5);

@@ -1,23 +1,29 @@
-//! The mean of a correlated series and its standard error, from averages over ever longer blocks.
+//! Mean and standard error of a correlated series by block averages.
 
-/// Fewest blocks from which an error is taken: that of the error is then a quarter of it.
+/// Smallest number of blocks for an error, whose relative error is then about a quarter.
 const FEWEST: u64 = 8;
 
-/// Averages over blocks of 1, 2, 4, 8 and so on values of a series, as values come.
+/// Averages over blocks of 1, 2, 4, 8, ... values of a series, updated with each value.
 ///
-/// Of `n` blocks of one length with averages `a_i`, the mean has the standard error
-/// `e = sqrt(sum (a_i - mean)^2 / (n (n - 1)))` if they are independent of each other, which they are once they
-/// are long: `e` grows with the length of the blocks until it levels off. It does at the first length `B` with
+/// For `n` independent blocks of one length with averages `a_i`, the standard error of the mean is
 ///
-/// `B^3 > 2 N (e_B / e_1)^4`
+/// ```text
+/// e = sqrt(sum (a_i - mean)^2 / (n (n - 1)))
+/// ```
 ///
-/// of `N` values, where what is left of the correlation weighs as much as the scatter of `e` itself, which is
-/// `e / sqrt(2 (n - 1))`. With fewer than eight blocks it has not: `e` is a lower bound then.
+/// It grows with the block length until blocks are independent. The plateau is the first length `B`
+/// with
 ///
-/// Takes memory for the logarithm of the number of values.
+/// ```text
+/// B^3 > 2 N (e_B / e_1)^4        N values
+/// ```
+///
+/// There the remaining correlation equals the statistical error of `e`, which is `e / sqrt(2 (n -
+/// 1))`. With fewer than eight blocks the plateau is not reached, and `e` is a lower bound. Memory
+/// grows with the logarithm of the number of values.
 ///
 /// # Source
-/// Blocks: Flyvbjerg and Petersen, J. Chem. Phys. 91, 461 (1989), equations 27 to 28. Where they level off: Lee,
+/// Blocks: Flyvbjerg and Petersen, J. Chem. Phys. 91, 461 (1989), equations 27 to 28. Plateau: Lee,
 /// Conduit, Nemec, Lopez Rios and Drummond, Phys. Rev. E 83, 066706 (2011), section II.
 ///
 /// ```
@@ -41,22 +47,24 @@ struct Level {
     mean: f64,
     /// Sum of squared deviations from the mean.
     squares: f64,
-    /// The first half of the next block of twice the length.
+    /// First half of the next block of twice the length.
     half: Option<f64>,
 }
 
-/// What is known of a mean.
+/// Mean of a series with its standard error.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Estimate {
     /// Mean of all values.
     pub mean: f64,
-    /// How many values there are.
+    /// Number of values.
     pub values: u64,
-    /// Standard error of the mean; a lower bound where it has not levelled off. None of a single value.
+    /// Standard error of the mean; a lower bound if the plateau is not reached. `None` for a single
+    /// value.
     pub error: Option<f64>,
-    /// Values of a block at which the error levels off; none where it does not.
+    /// Block length at the plateau; `None` if it is not reached.
     pub block: Option<u64>,
-    /// How many independent values would give this error; an upper bound where it has not levelled off.
+    /// Number of independent values with the same error; an upper bound if the plateau is not
+    /// reached.
     pub independent: f64,
 }
 
@@ -80,7 +88,7 @@ impl BlockAverages {
         self.levels.push(level);
     }
 
-    /// The mean and what is known of it; none without a value.
+    /// Returns the mean and its error, or `None` without values.
     pub fn estimate(&self) -> Option<Estimate> {
         let first = self.levels.first()?;
         let single = first.error();
@@ -124,7 +132,7 @@ impl Level {
         self.squares += before * (average - self.mean);
     }
 
-    /// Standard error of the mean if blocks are independent; none of a single one.
+    /// Standard error of the mean for independent blocks; `None` for a single block.
     fn error(&self) -> Option<f64> {
         let count = self.count as f64;
         (self.count > 1).then(|| (self.squares / (count * (count - 1.0))).sqrt())
@@ -137,8 +145,8 @@ mod tests {
     use rand::{Rng, SeedableRng};
     use rand_chacha::ChaCha8Rng;
 
-    /// An autoregressive series of order one, `x_i = phi x_(i-1) + noise` with uniform noise of variance 1/12, from
-    /// its stationary distribution (after a thousand values).
+    /// Autoregressive series of order one, `x_i = phi x_(i-1) + noise` with uniform noise of
+    /// variance 1/12, after a thousand values of burn-in.
     fn series(phi: f64, count: usize, seed: u64) -> Vec<f64> {
         let mut random = ChaCha8Rng::seed_from_u64(seed);
         let mut x = 0.0;
@@ -151,8 +159,8 @@ mod tests {
         (0..count).map(|_| next()).collect()
     }
 
-    /// Standard error of the mean of `count` values of such a series: with the variance `v` of a value,
-    /// `v / N ((1 + phi)/(1 - phi) - 2 phi (1 - phi^N) / (N (1 - phi)^2))`.
+    /// Standard error of the mean of `count` values: with the variance `v` of a value, `v / N ((1 +
+    /// phi)/(1 - phi) - 2 phi (1 - phi^N) / (N (1 - phi)^2))`.
     fn exact_error(phi: f64, count: usize) -> f64 {
         let n = count as f64;
         let variance = 1.0 / 12.0 / (1.0 - phi * phi);
@@ -170,9 +178,9 @@ mod tests {
 
     const SERIES: u64 = 32;
 
-    /// The error is the exact one on average, and means scatter by it. Blocks of `B` miss the share
-    /// `2 phi / (B (1 - phi^2))` of the squared error, below 4 % at these lengths; over 32 series the mean of the
-    /// error then scatters by 1 %, and that of the squared deviation in errors by a quarter (four of these).
+    /// Blocks of `B` miss the share `2 phi / (B (1 - phi^2))` of the squared error, below 4 % here.
+    /// Over 32 series the mean error scatters by 1 %, and the squared deviation in errors by a
+    /// quarter (tolerance: four of these).
     #[test]
     fn errors_are_those_of_theory() {
         for phi in [0.0, 0.5, 0.9] {
@@ -197,7 +205,6 @@ mod tests {
         }
     }
 
-    /// Blocks are longer where values depend on each other for longer.
     #[test]
     fn blocks_outlast_the_correlation() {
         let block = |phi| estimate(&series(phi, 1 << 16, 1)).block.unwrap();
@@ -205,7 +212,6 @@ mod tests {
         assert_eq!([0.0, 0.5, 0.9].map(block), [64, 128, 512]);
     }
 
-    /// A series that is short against its correlation says that its error is a lower bound, and it is.
     #[test]
     fn a_short_series_has_not_levelled_off() {
         for seed in 0..8 {
@@ -215,7 +221,6 @@ mod tests {
         }
     }
 
-    /// One value has no error, a constant series an error of 0; nothing has no mean.
     #[test]
     fn small_series() {
         assert_eq!(BlockAverages::default().estimate(), None);

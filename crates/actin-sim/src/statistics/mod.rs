@@ -1,5 +1,4 @@
-//! Means of series whose values depend on each other, with their errors. [`BlockAverages`] takes values one by
-//! one; what they are is not known here.
+//! Means of correlated series with standard errors.
 
 mod blocks;
 

@@ -4,6 +4,7 @@
 //! its default step. The candidates of `ladder.rs` follow. `measure.rs` defines the compared quantities. Errors are
 //! measured, not estimated, and hold for this scene only.
 
+mod branches;
 mod chosen;
 mod ladder;
 mod measure;
@@ -15,6 +16,7 @@ mod sample;
 mod study;
 mod table;
 
+pub use branches::OtherState;
 pub use chosen::{Chosen, choose};
 pub use measure::{Item, Measure};
 pub(crate) use model_error::model_error;
@@ -156,6 +158,8 @@ pub struct Candidate {
     pub standard_errors: Vec<f64>,
     /// Pairs of load fraction and largest error at these loads.
     pub at_loads: Vec<(f64, f64)>,
+    /// Stable state of the reference on whose branch the candidate lies, if it is not the reference itself.
+    pub other_state: Option<OtherState>,
     /// Reason for a missing result.
     pub failure: Option<String>,
 }

@@ -1,7 +1,7 @@
 //! One run of a candidate: its records and its time, including the assembly.
 
 use crate::scene::{Scene, SceneProblem, Task};
-use crate::{Assembly, Counts, Plan, Record, RunError, Sink};
+use crate::{Assembly, Counts, Plan, Record, RunError, Sink, StableStates};
 use std::time::{Duration, Instant};
 
 /// Time (s) below which runs are repeated; the shortest time counts.
@@ -31,6 +31,8 @@ pub(super) struct RunResult {
     pub wall_s: f64,
     /// Number of force evaluations.
     pub evaluations: u64,
+    /// Stable states of an equilibrium, if the scene asks for them.
+    pub states: Option<StableStates>,
     /// True if the time limit ended the run.
     pub is_cut: bool,
 }
@@ -85,6 +87,7 @@ pub(super) fn run_once(scene: &Scene, limits: Limits<'_>) -> Result<RunResult, T
         counts,
         wall_s,
         evaluations: outcome.force_evaluations,
+        states: outcome.equilibrium.and_then(|report| report.states),
         is_cut,
     })
 }

@@ -1,5 +1,6 @@
 //! Runs of a trade: reference, candidates, other loads, sampled bonds.
 
+use super::branches::{self, Branch, OtherState};
 use super::ladder::{self, Proposal};
 use super::measure::{Measurer, Values};
 use super::reference::Setup;
@@ -9,7 +10,7 @@ use super::{Candidate, Options, Reference, Trade, TradeError, Watch, worst};
 use crate::Counts;
 use crate::scene::{Anchors, Scene, SceneProblem, Setting, Task};
 use crate::shape::Ribbon;
-use std::cell::Cell;
+use std::cell::{Cell, OnceCell};
 
 /// Prefix of the name of the candidate with every monomer at the default step.
 pub(super) const USUAL: &str = "every monomer, default step";
@@ -104,6 +105,8 @@ struct Study<'a> {
     is_interrupted: bool,
     /// Time of all runs (s).
     spent_s: Cell<f64>,
+    /// Other stable states of the reference, once searched.
+    branches: OnceCell<Vec<Branch>>,
 }
 
 impl<'a> Study<'a> {
@@ -128,6 +131,7 @@ impl<'a> Study<'a> {
             ladder_s: found.spent_s,
             is_interrupted: false,
             spent_s: Cell::new(found.spent_s),
+            branches: OnceCell::new(),
             setup,
         };
         study.note_what_is_left_out();
@@ -235,6 +239,7 @@ impl<'a> Study<'a> {
             errors: Vec::new(),
             standard_errors: Vec::new(),
             at_loads: Vec::new(),
+            other_state: None,
             failure: None,
         };
         match self.run(&candidate.name, &candidate.scene) {
@@ -245,11 +250,28 @@ impl<'a> Study<'a> {
                 } else {
                     candidate.errors = self.errors(&sample.values);
                     candidate.standard_errors = self.relative(&sample.standard_errors);
+                    candidate.other_state = self.other_state(&sample.values, candidate.error());
                 }
             }
             Err(failure) => candidate.failure = Some(failure.to_string()),
         }
         candidate
+    }
+
+    /// Returns the other stable state of the reference that is much closer to `values` than the reference, which differs by
+    /// `error`.
+    fn other_state(&self, values: &Values, error: f64) -> Option<OtherState> {
+        if error <= branches::SUSPICIOUS * self.setup.options.error {
+            return None;
+        }
+        let branches = self.branches.get_or_init(|| {
+            let scene = &self.setup.full.scene;
+            let (found, wall_s) =
+                branches::other_states(scene, &self.setup.measurer, self.limits());
+            self.spent_s.set(self.spent_s.get() + wall_s);
+            found
+        });
+        branches::closest(&self.setup.measurer, branches, values, error)
     }
 
     /// Returns relative standard errors of the differences from the reference.
@@ -389,7 +411,21 @@ impl<'a> Study<'a> {
         });
     }
 
+    /// Reports a stable state of lower energy than the reference.
+    fn note_lower_state(&mut self) {
+        let branches = self.branches.get().into_iter().flatten();
+        let energies = branches.map(|branch| branch.above_reference_pn_nm);
+        let lowest = energies.fold(0.0, f64::min);
+        if lowest < 0.0 {
+            self.left_out.push(format!(
+                "states of lower energy: a stable state lies {:.3} pN nm below the reference",
+                -lowest
+            ));
+        }
+    }
+
     fn end(mut self) -> Trade {
+        self.note_lower_state();
         if self.is_interrupted {
             let note = "candidates after the interruption";
             self.left_out.push(note.to_owned());

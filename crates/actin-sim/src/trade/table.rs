@@ -23,7 +23,14 @@ impl Trade {
             .map(str::to_owned)
             .into();
         header.extend(self.items.iter().map(|item| format!("{} error", item.name)));
-        header.extend(["error", "error_at_all_loads", "is_best", "failure"].map(str::to_owned));
+        let last = [
+            "error",
+            "error_at_all_loads",
+            "is_best",
+            "failure",
+            "other_state_error",
+        ];
+        header.extend(last.map(str::to_owned));
         let rows = (0..self.candidates.len()).map(|i| self.row(i));
         for row in std::iter::once(header).chain(rows) {
             table.write_record(row).expect("memory takes it");
@@ -42,6 +49,7 @@ impl Trade {
             number(candidate.wall_s),
             number(self.usual_s() / candidate.wall_s),
         ];
+        let other_state = candidate.other_state;
         let errors = (0..self.items.len()).map(|k| candidate.errors.get(k).copied().flatten());
         row.extend(errors.map(|error| error.map_or_else(String::new, number)));
         row.extend([
@@ -49,6 +57,7 @@ impl Trade {
             number(candidate.worst_error()),
             (self.best == Some(i)).to_string(),
             candidate.failure.clone().unwrap_or_default(),
+            other_state.map_or_else(String::new, |state| number(state.error)),
         ]);
         row
     }
@@ -152,6 +161,14 @@ impl Trade {
         write!(f, "   {:.2}", 100.0 * one.error())?;
         for (share, error) in &one.at_loads {
             write!(f, ", {:.2} at {share} of the loads", 100.0 * error)?;
+        }
+        if let Some(state) = one.other_state {
+            write!(
+                f,
+                ", another stable state ({:.2} % from the one {:+.3} pN nm above the reference)",
+                100.0 * state.error,
+                state.above_reference_pn_nm
+            )?;
         }
         writeln!(f, "{}", if is_best { "  <- cheapest" } else { "" })
     }

@@ -1,61 +1,51 @@
-//! The cases: what runs, and how fast it should be on one core at 3 GHz, or on two against one.
+//! Benchmark cases, with target rates on one core at 3 GHz or target speed-ups of two threads.
 
-/// One case.
 pub(super) struct Case {
-    /// Its name.
     pub(super) name: &'static str,
     pub(super) work: Work,
-    /// The rate that was aimed at (elements per second, or times one thread), where one was set.
+    /// Target rate (elements per second, or speed-up over one thread), if set.
     pub(super) target: Option<f64>,
 }
 
-/// Work of a case.
 #[derive(Clone, Copy)]
 pub(super) enum Work {
-    /// Whole time steps.
     Motion(Motion),
-    /// From the straight state, every monomer resolved, to the equilibrium under a tip force.
+    /// Equilibrium of an all-monomer filament under a tip force, from the straight state.
     Equilibrium {
         /// Length of the filament (nm).
         length_nm: f64,
     },
-    /// Replicas of a scene on two threads, against one.
     Ensemble(Replicated),
 }
 
-/// Replicated scene: a filament of 160 nm on a wall.
 #[derive(Clone, Copy)]
 pub(super) enum Replicated {
     /// A rod of 64 segments in a heat bath.
     Rod,
-    /// Monomers in a heat bath.
     Monomers,
     /// 40 nm of monomers at the wall and 12 segments of rod, in a heat bath.
     Mixed,
-    /// Equilibria of monomers with drawn bonds under a tip force.
+    /// Equilibria of monomers with sampled bonds under a tip force.
     Equilibria,
 }
 
-/// Undamped motion of clamped filaments, straight at first, under a force across the tip.
+/// Undamped motion of clamped, initially straight filaments under a transverse tip force.
 #[derive(Clone, Copy)]
 pub(super) struct Motion {
     pub(super) filament: Filament,
-    /// Number of filaments. Independent filaments are scenes of their own: one after the other
-    /// makes the steps of a batch.
+    /// Number of filaments. Each is a separate scene, and the batches of steps alternate between scenes.
     pub(super) copies: usize,
-    /// The scene's integrator.
     pub(super) integrator: &'static str,
 }
 
-/// Composition of a filament.
 #[derive(Clone, Copy)]
 pub(super) enum Filament {
-    /// A rod of 160 nm under a law; an element is a segment.
+    /// A rod of 160 nm. Segments are counted as elements.
     Rod { segments: usize, law: &'static str },
-    /// Monomers with 10 bonds per interface; an element is a bond.
+    /// Monomers with 10 bonds per interface. Bonds are counted as elements.
     Monomers { count: usize },
-    /// 1600 nm, of which 40 at the wall are monomers and the rest is a rod of segments of 20 nm under
-    /// the law `Fitted`; segments and bonds are elements.
+    /// 40 nm of monomers at the clamp and 1560 nm of rod with segments of 20 nm and the law `Fitted`. Segments and
+    /// bonds are counted as elements.
     Mixed,
 }
 
@@ -98,7 +88,7 @@ const fn case(name: &'static str, work: Work, target: Option<f64>) -> Case {
     Case { name, work, target }
 }
 
-/// 0.95 of as many cores as there are threads.
+/// Targets 95 % parallel efficiency on two threads.
 const fn ensemble(name: &'static str, of: Replicated) -> Case {
     case(name, Work::Ensemble(of), Some(1.9))
 }
@@ -107,7 +97,6 @@ const fn equilibrium(name: &'static str, length_nm: f64) -> Case {
     case(name, Work::Equilibrium { length_nm }, None)
 }
 
-/// All cases.
 pub(super) const CASES: [Case; 22] = [
     case("rod-pv-16", rod(16, 1, VERLET), None),
     case("rod-pv-64", rod(64, 1, VERLET), Some(50e6)),
@@ -142,7 +131,6 @@ pub(super) const CASES: [Case; 22] = [
 ];
 
 impl Case {
-    /// Unit of what is measured.
     pub(super) fn unit(&self) -> &'static str {
         match self.work {
             Work::Motion(Motion {

@@ -1,4 +1,4 @@
-//! Speed of replicas on two threads over one.
+//! Speed-up of replicas on two threads over one.
 
 use super::cases::Replicated;
 use super::{Measured, median};
@@ -6,16 +6,15 @@ use actin_sim::{Ensemble, Scene, SimError};
 use std::num::NonZeroUsize;
 use std::time::Instant;
 
-/// Replicas, so many that threads end at the same time within a few per cent.
+/// Number of replicas, sufficient to balance the threads within a few per cent.
 const REPLICAS: usize = 48;
-/// Threads that are compared with one.
 const THREADS: NonZeroUsize = NonZeroUsize::new(2).unwrap();
-/// Time that a case takes (s), and the fewest pairs of runs.
+/// Time of a case (s), and smallest number of pairs of runs.
 const SECONDS: f64 = 12.0;
 const PAIRS: usize = 5;
 
-/// Times of one thread over those of two. Runs alternate, so that both meet what else the machine does; the best
-/// is that of the shortest times, the median that of pairs.
+/// Measures the ratio of run times on one and on two threads. Runs alternate, so that other load on the machine
+/// affects both. The best value is the ratio of the shortest times, the median is taken over pairs.
 pub(super) fn measure(of: Replicated) -> Result<Measured, String> {
     let load = load();
     let (mut least, mut ratios) = ([f64::INFINITY; 2], Vec::new());
@@ -37,7 +36,7 @@ pub(super) fn measure(of: Replicated) -> Result<Measured, String> {
     })
 }
 
-/// Time (s) of so many replicas, from the scene to the last of them.
+/// Returns the run time (s) of a number of replicas, including assembly.
 pub(super) fn seconds(
     of: Replicated,
     replicas: usize,
@@ -50,7 +49,7 @@ pub(super) fn seconds(
     Ok(started.elapsed().as_secs_f64())
 }
 
-/// Processes that ran or waited for a core in the last minute, on average; unknown where the system does not say.
+/// Returns the load average of the last minute, or "unknown".
 fn load() -> String {
     let text = std::fs::read_to_string("/proc/loadavg").unwrap_or_default();
     text.split(' ').next().unwrap_or("unknown").to_owned()

@@ -1,21 +1,19 @@
-//! Times of equilibria, every monomer resolved.
+//! Run times of equilibria of all-monomer filaments.
 
 use super::{Measured, median};
 use actin_sim::{Assembly, End, Plan, RunError, Scene, Task};
 use std::time::Instant;
 
-/// Residual that is asked for (pN, and pN nm).
+/// Tolerance of the residual (pN, and pN nm).
 const RESIDUAL: f64 = 1e-7;
-/// Largest residual that counts as the floor of rounding; beyond it a case has failed.
+/// Largest residual that is accepted as round-off.
 const HIGHEST_FLOOR: f64 = 1e-5;
-/// Largest relative change of the tip's displacement under a tighter solve.
+/// Largest accepted relative change of the tip displacement in a tighter solve.
 const TIP_ERROR: f64 = 1e-3;
-/// Time that the repeats of a case may take (s); there is one at least.
+/// Time for repeats of a case (s); at least one solve is made.
 const BUDGET_S: f64 = 2.0;
-/// Most repeats.
 const REPEATS: usize = 50;
 
-/// Result of one solve.
 struct Solved {
     assembly: Assembly,
     seconds: f64,
@@ -23,7 +21,6 @@ struct Solved {
     iterations: u64,
 }
 
-/// Time from the straight state to the equilibrium.
 pub(super) fn measure(length_nm: f64) -> Result<Measured, String> {
     let mut tolerance = RESIDUAL;
     let first = loop {
@@ -58,7 +55,6 @@ fn solve(length_nm: f64, tolerance: f64) -> Result<Solved, String> {
     solve_on(assembly).map_err(|error| error.to_string())
 }
 
-/// Solves from the state of the assembly, which is then in its equilibrium.
 fn solve_on(mut assembly: Assembly) -> Result<Solved, RunError> {
     let started = Instant::now();
     let (trajectory, report) = Plan::new(&assembly)?.run()?;
@@ -75,8 +71,7 @@ fn solve_on(mut assembly: Assembly) -> Result<Solved, RunError> {
     })
 }
 
-/// Solves on to a tenth of the tolerance, and says by how much the tip moved, as a share of its
-/// displacement.
+/// Continues the solve to a tenth of the tolerance. Returns a text with the relative change of the tip displacement.
 fn tighter(solved: Solved, tolerance: f64) -> Result<String, String> {
     let before = displacement(&solved.assembly);
     let mut assembly = solved.assembly;
@@ -97,13 +92,13 @@ fn tighter(solved: Solved, tolerance: f64) -> Result<String, String> {
     ))
 }
 
-/// Distance of the tip from where it was built (nm).
+/// Returns the displacement of the tip (nm).
 fn displacement(assembly: &Assembly) -> f64 {
     let now = assembly.tip_nm(assembly.system.state(), End::End);
     (now - assembly.tip_nm(&assembly.rest, End::End)).norm()
 }
 
-/// A cantilever of monomers whose tip force bends it by the same angle at every length.
+/// Returns a cantilever of monomers with a tip force that gives the same tip angle for every length.
 fn scene(length_nm: f64, tolerance: f64) -> String {
     let force = -2.0 * (160.0 / length_nm).powi(2);
     format!(

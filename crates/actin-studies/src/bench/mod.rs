@@ -1,8 +1,7 @@
-//! `cargo xtask bench`: rates of fixed cases in a release build, with their targets, and of other programs.
+//! `cargo xtask bench`: rates of fixed cases in a release build, with targets and rates of other programs.
 //!
-//! Every case goes the way of a user: a scene is assembled, and its system is stepped or solved.
-//! All but ensembles run on one thread, without linkers, drag or observers. The cases are in `cases.rs`,
-//! times of motions in `motion.rs`, of equilibria in `equilibrium.rs`, and of ensembles in `ensemble.rs`.
+//! Cases use the public interface: a scene is assembled, and its system is stepped or solved. All but ensembles run
+//! on one thread, without linkers, drag or observers.
 
 mod cases;
 mod ensemble;
@@ -13,42 +12,36 @@ mod peers;
 use anyhow::{Error, Result};
 use cases::{CASES, Case, Work};
 
-/// Which cases, and how they are printed.
 #[derive(clap::Args, Debug)]
 pub(crate) struct Options {
-    /// Which; all by default.
+    /// Names of cases; all by default.
     #[arg(value_name = "CASE")]
     cases: Vec<String>,
-    /// Prints an array of `case`, `rate`, `unit` instead of a table.
+    /// Prints a JSON array of `case`, `rate`, `unit` instead of a table.
     #[arg(long)]
     json: bool,
-    /// Runs the same cases in other programs where these are installed, and prints ratios.
+    /// Runs the same cases in other installed programs, and prints ratios.
     #[arg(long, conflicts_with = "json")]
     peers: bool,
 }
 
-/// Measurement of a case.
 struct Measured {
-    /// Best of the repeats: other work on the machine only ever slows one down.
+    /// Best of the repeats, least affected by other load on the machine.
     best: f64,
     /// Median of the repeats.
     median: f64,
-    /// Remarks.
     note: String,
 }
 
-/// One entry of the machine-readable output.
 #[derive(Clone, Copy, Debug)]
 struct Entry {
-    /// Name of the case.
     case: &'static str,
     /// Best of the repeats, in `unit`.
     rate: f64,
-    /// Elements per second, seconds, or times one thread.
+    /// Elements per second, seconds, or speed-up over one thread.
     unit: &'static str,
 }
 
-/// Measures and prints. Rates are those of the profile in which this crate was compiled.
 pub(crate) fn run(options: &Options) -> Result<()> {
     let entries = measure(options).map_err(Error::msg)?;
     if options.json {
@@ -66,7 +59,6 @@ pub(crate) fn run(options: &Options) -> Result<()> {
     Ok(())
 }
 
-/// Measures; prints a table unless JSON is requested.
 fn measure(options: &Options) -> Result<Vec<Entry>, String> {
     if !options.json {
         println!(
@@ -94,7 +86,6 @@ fn measure(options: &Options) -> Result<Vec<Entry>, String> {
     Ok(entries)
 }
 
-/// One case. Rates are in millions.
 fn print_row(case: &Case, measured: &Measured) {
     let ratio = case
         .target
@@ -119,7 +110,6 @@ fn print_row(case: &Case, measured: &Measured) {
     );
 }
 
-/// The cases of these names, in the order of the list.
 fn chosen(names: &[String]) -> Result<Vec<&'static Case>, String> {
     for name in names {
         if !CASES.iter().any(|case| case.name == name) {
@@ -134,10 +124,10 @@ fn chosen(names: &[String]) -> Result<Vec<&'static Case>, String> {
     Ok(CASES.iter().filter(wanted).collect())
 }
 
-/// Median of some numbers.
+/// Returns the median.
 ///
 /// # Panics
-/// If there are none.
+/// If there are no values.
 fn median(mut values: Vec<f64>) -> f64 {
     values.sort_by(f64::total_cmp);
     values[values.len() / 2]
@@ -156,7 +146,6 @@ mod tests {
         assert!(chosen(&["rod-pv-17".to_owned()]).is_err());
     }
 
-    /// Every ensemble has replicas that differ and run.
     #[test]
     fn ensembles_run() {
         for case in &CASES {
@@ -167,9 +156,8 @@ mod tests {
         }
     }
 
-    /// What the names promise is what is built: elements of a step, and bonds.
     #[test]
-    fn scenes_hold_what_their_names_say() {
+    fn scenes_match_their_names() {
         for (name, elements) in [
             ("rod-pv-16", 16),
             ("rod-pv-64x64", 4096),

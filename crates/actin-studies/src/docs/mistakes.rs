@@ -1,5 +1,4 @@
-//! Mistakes that people make in scenes, and what they print: `docs/reference/mistakes.md`, from
-//! `scenarios/bad/printed.txt`, which a test of the program compares with what it prints.
+//! `docs/reference/mistakes.md`: common mistakes in scenes and their messages, from `scenarios/bad/printed.txt`.
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -9,11 +8,10 @@ use std::path::Path;
 const PAGE: &str = "docs/reference/mistakes.md";
 const PRINTED: &str = "scenarios/bad/printed.txt";
 
-/// Scenes of `scenarios/bad`, with the mistake in words.
 const MISTAKES: [(&str, &str); 20] = [
     ("missing-unit", "A key without its unit"),
     ("unknown-unit-suffix", "A key in another unit"),
-    ("unit-behind-a-number", "A unit behind the number"),
+    ("unit-behind-a-number", "A unit after the number"),
     ("decimal-comma", "A comma in a number"),
     ("wrong-type", "A number in quotation marks"),
     (
@@ -36,16 +34,16 @@ const MISTAKES: [(&str, &str); 20] = [
     ("force-on-a-clamped-end", "A force on the clamped end"),
     (
         "equilibrium-of-a-free-filament",
-        "A filament that nothing holds",
+        "An unconstrained filament",
     ),
     ("thermal-without-drag", "Thermal noise without drag"),
     ("time-step-above-stability-limit", "Too long a time step"),
 ];
 
-/// The page by its path.
+/// Returns the page with its path.
 ///
 /// # Errors
-/// What is printed cannot be read, or lacks a mistake.
+/// If the messages cannot be read, or a mistake is missing.
 pub(super) fn file(root: &Path) -> Result<BTreeMap<String, String>, String> {
     let path = root.join(PRINTED);
     let printed =

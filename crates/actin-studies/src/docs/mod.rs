@@ -1,5 +1,5 @@
-//! `cargo xtask docs`: the pages of the book that are generated (keys of scenes from the types that read
-//! them, tables from the report of a full run, mistakes and what they print), and the length of what is written by hand.
+//! `cargo xtask docs`: generated pages of the book (keys of scenes, tables of results, mistakes), and a limit on the
+//! length of other pages.
 
 mod mistakes;
 mod scenes;
@@ -13,24 +13,22 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// Most words of text by hand.
+/// Largest number of words of pages that are not generated.
 const MOST_WORDS: usize = 15_000;
 
-/// Which report, and what is done about differences.
 #[derive(clap::Args, Debug)]
 pub(crate) struct Options {
-    /// A report of `reproduce-figures`, whose artefacts take the place of those in `docs/report.json`.
+    /// Report of `reproduce-figures` whose artefacts replace those in `docs/report.json`.
     #[arg(requires = "write")]
     report: Option<PathBuf>,
     /// Writes the generated pages.
     #[arg(long)]
     write: bool,
-    /// Prints the words of every page that is written by hand.
+    /// Prints the number of words of every page that is not generated.
     #[arg(long)]
     words: bool,
 }
 
-/// Checks the generated pages, or writes them.
 pub(crate) fn run(options: &Options) -> Result<(), String> {
     let root = workspace_root();
     if let Some(path) = &options.report {
@@ -56,10 +54,10 @@ pub(crate) fn run(options: &Options) -> Result<(), String> {
     Err(findings.join("\n  "))
 }
 
-/// Generated pages that are stale, and too many words by hand.
+/// Returns outdated generated pages, and an excess of words.
 ///
 /// # Errors
-/// A file that cannot be read.
+/// If a file cannot be read.
 pub(crate) fn findings(root: &Path) -> Result<Vec<String>, String> {
     let mut all = Vec::new();
     for (page, text) in generated(root)? {
@@ -77,7 +75,6 @@ pub(crate) fn findings(root: &Path) -> Result<Vec<String>, String> {
     Ok(all)
 }
 
-/// The generated files by their paths, with what they should hold.
 fn generated(root: &Path) -> Result<BTreeMap<String, String>, String> {
     let mut files = scenes::files();
     files.extend(mistakes::file(root)?);
@@ -85,7 +82,6 @@ fn generated(root: &Path) -> Result<BTreeMap<String, String>, String> {
     Ok(files)
 }
 
-/// Takes the artefacts of a report over into the committed one.
 fn take_over(root: &Path, report: &Path) -> Result<(), String> {
     let mut rows = by_name(report::read(&root.join(REFERENCE))?);
     let others = by_name(report::read(report)?);

@@ -1,14 +1,13 @@
-//! Words of the documentation that are written by hand: those outside code, tables, comments and generated
-//! pages, in the book, the README and the READMEs of the crates. The changelog is left out.
+//! Word counts of the book and the READMEs, without code, tables, comments and generated pages.
 
 use super::{generated, tables};
 use crate::tidy;
 use std::path::Path;
 
-/// Pages with their numbers of words, longest first.
+/// Returns pages with their numbers of words, longest first.
 ///
 /// # Errors
-/// A file that cannot be read.
+/// If a file cannot be read.
 pub(super) fn by_hand(root: &Path) -> Result<Vec<(String, usize)>, String> {
     let generated = generated(root)?;
     let is_by_hand =
@@ -25,7 +24,7 @@ pub(super) fn by_hand(root: &Path) -> Result<Vec<(String, usize)>, String> {
     Ok(counts)
 }
 
-/// Words outside fenced code, tables and comments; marks of lists and headings are none.
+/// Counts words outside fenced code, tables and comments, without list and heading markers.
 fn count(text: &str) -> usize {
     let (mut words, mut in_code, mut in_comment) = (0, false, false);
     for line in text.lines().map(str::trim) {

@@ -1,5 +1,4 @@
-//! Run directories in which there is something that no run has written, and results that the disk
-//! refuses: a message, and every file as it was.
+//! Run directories with foreign files, and results that cannot be written: a message, and all files unchanged.
 
 use super::row::{Expected, Outcome, Row};
 use super::scenes::{Ran, run};
@@ -13,11 +12,10 @@ const SCENE: &str = "Scene(
     filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 30.0)], rod: RodModel(law: Constant)), clamps: [Clamp(end: Start)],
     loads: [EndForce(end: End, force_pn: (-2.0, 0.0, 0.0))], task: Equilibrium())";
 
-/// Changes a finished run directory, `run`, or what lies beside it.
+/// Changes the finished run directory `run` or its surroundings.
 type Spoil = fn(&Path) -> io::Result<()>;
 
-/// Obstacles to `--overwrite`.
-const IN_THE_WAY: [(&str, Spoil); 7] = [
+const OVERWRITE_OBSTACLES: [(&str, Spoil); 7] = [
     ("no manifest: a folder of somebody else", |folder| {
         fs::remove_file(folder.join("run/actin-run.json"))
     }),
@@ -45,13 +43,12 @@ const IN_THE_WAY: [(&str, Spoil); 7] = [
     }),
 ];
 
-/// Obstacles to results, in the place of their unfinished names: as a disk that is full, each
-/// lets no file be made there.
+/// Obstacles to writing results: directories with the names of unfinished files.
 const OBSTACLES: [&str; 3] = ["scene.ron.part", "states.npz.part", "summary.json.part"];
 
-/// Nothing goes that a run has not written, and results are written together or not at all.
+/// Only files of a run are removed, and results are written completely or not at all.
 pub(super) fn rows() -> Vec<Row> {
-    let overwritten = IN_THE_WAY.map(|(case, spoil)| {
+    let overwritten = OVERWRITE_OBSTACLES.map(|(case, spoil)| {
         let tried = overwritten(spoil).map_err(|e| not_tried(&e));
         Row::new("overwrite", case, tried).expecting(Expected::Refused)
     });
@@ -63,12 +60,11 @@ pub(super) fn rows() -> Vec<Row> {
     overwritten.into_iter().chain(refused).collect()
 }
 
-/// A trial that could not be made, which proves nothing.
 fn not_tried(error: &str) -> Outcome {
     Outcome::Wrong(format!("not tried: {error}"))
 }
 
-/// A short run that has been made, in the folder `run` of a new one.
+/// A finished short run in the subfolder `run` of a temporary folder.
 struct Made {
     folder: tempfile::TempDir,
     ran: Ran,
@@ -91,14 +87,13 @@ impl Made {
     }
 
     fn write(&self, directory: &RunDirectory) -> Result<(), RunDirectoryError> {
-        let plan = Plan::new(&self.ran.assembly).expect("it has run");
+        let plan = Plan::new(&self.ran.assembly).expect("the scene has run");
         let Ran {
             trajectory, report, ..
         } = &self.ran;
         directory.write(&plan, trajectory, report).map(drop)
     }
 
-    /// A message without the name of the folder, which is another one every time.
     fn message(&self, error: &RunDirectoryError) -> String {
         let folder = format!("{}/", self.folder.path().display());
         error.to_string().replace(&folder, "")
@@ -133,8 +128,7 @@ fn refused_by_the_disk(name: &str) -> Result<Outcome, String> {
     })
 }
 
-/// Everything below a folder: files with their bytes, links with what they point to. The lock, which
-/// every run may make, is left out.
+/// Returns all files in a folder with their contents, and links with their targets, without the lock.
 fn contents(folder: &Path) -> Result<BTreeMap<PathBuf, Vec<u8>>, String> {
     let mut all = BTreeMap::new();
     let mut folders = vec![folder.to_owned()];

@@ -1,25 +1,21 @@
-//! Numbers that no scene should hold, in every field of one: NaN, infinities, overflow, denormals,
-//! zero and -1.
+//! Invalid and extreme numbers in every field of a scene: NaN, infinities, overflow, subnormal numbers, zero and -1.
 
 use super::row::{Expected, Outcome, Row};
 use actin_sim::{Assembly, Plan, RunError, Scene, SceneError, SceneProblem, Trajectory};
 use std::ops::Range;
 
-/// Replacements of each number of a scene.
 const VALUES: [&str; 12] = [
     "NaN", "inf", "-inf", "1e400", "1e308", "-1e308", "1e-310", "1e59", "-1e59", "1e-59", "0", "-1",
 ];
 
-/// Monomers on a rod, driven and linked, in time.
 const MOTION: &str = include_str!("motion.ron");
 
-/// Rods under laws with numbers of all kinds, twisted.
 const LAWS: [&str; 2] = [
     include_str!("laws-tanh.ron"),
     include_str!("laws-sided.ron"),
 ];
 
-/// Scenes in which every key with a number is written, defaults included: the motion, the same in statics, and the laws.
+/// Returns scenes with all numeric keys, including defaults: the motion, its equilibrium, and the laws.
 fn scenes() -> Vec<String> {
     let (scene, _) = MOTION.split_once("task:").expect("the scene has a task");
     let scene = scene.replace("duration_ns: 0.02,", "");
@@ -32,14 +28,12 @@ fn scenes() -> Vec<String> {
     all.map(written).to_vec()
 }
 
-/// One replacement and its verdict.
 struct Trial {
     number: Number,
     value: &'static str,
     verdict: Verdict,
 }
 
-/// Every number of `text` replaced by `value`.
 fn trials(text: &str, value: &'static str) -> Vec<Trial> {
     let trial = |number: Number| Trial {
         verdict: verdict(&with_number(text, &number, value)),
@@ -49,7 +43,7 @@ fn trials(text: &str, value: &'static str) -> Vec<Trial> {
     numbers(text).into_iter().map(trial).collect()
 }
 
-/// A row for each value, over all scenes, if there is time.
+/// Returns a row for each value over all scenes; only if `is_wanted`, since this takes long.
 pub(super) fn rows(is_wanted: bool) -> Vec<Row> {
     let values = if is_wanted { &VALUES[..] } else { &[] };
     let scenes = scenes();
@@ -61,7 +55,6 @@ pub(super) fn rows(is_wanted: bool) -> Vec<Row> {
     values.iter().map(row).collect()
 }
 
-/// Numbers of trials by their ends.
 fn counted(trials: &[Trial]) -> Outcome {
     let count = |is: fn(&Verdict) -> bool| trials.iter().filter(|t| is(&t.verdict)).count();
     let not_finite = |trial: &&Trial| matches!(trial.verdict, Verdict::NotFinite(_));
@@ -80,25 +73,22 @@ fn counted(trials: &[Trial]) -> Outcome {
     ))
 }
 
-/// Most steps of a motion that is run; a longer one is looked at by its estimate alone.
 const MOST_STEPS: u64 = 2_000;
 
-/// Stage that a scene reached.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Verdict {
-    /// Refused when read, built or estimated, with its place in the text.
+    /// Refused when read, built or estimated, with a position in the text.
     Refused(SceneError),
-    /// Run, but not to its end, and said why.
+    /// Ended early with a message.
     Broke(String),
-    /// Run to its end, with finite results.
+    /// Completed with finite results.
     Ran,
-    /// Accepted; it would take longer than is waited for.
+    /// Valid, but too long to be run here.
     Accepted,
-    /// Results with a number that is not finite: never right.
+    /// Completed with a non-finite number, which is a defect.
     NotFinite(String),
 }
 
-/// Takes a scene through the whole library, as the program does.
 pub(super) fn verdict(text: &str) -> Verdict {
     let scene = match Scene::from_ron(text) {
         Ok(scene) => scene,
@@ -134,15 +124,13 @@ fn finite(trajectory: &Trajectory) -> Verdict {
     Verdict::Ran
 }
 
-/// Place of a number in a text, and the key before it.
 #[derive(Clone, Debug, PartialEq)]
 struct Number {
     place: Range<usize>,
-    /// The last key written before it.
+    /// Last key before the number.
     key: String,
 }
 
-/// Every number of a text in order. Comments, strings and names that hold digits are left out.
 fn numbers(text: &str) -> Vec<Number> {
     let bytes = text.as_bytes();
     let (mut found, mut key, mut i) = (Vec::new(), String::new(), 0);
@@ -173,12 +161,10 @@ fn numbers(text: &str) -> Vec<Number> {
     found
 }
 
-/// Length of the token that a text begins with.
 fn token(text: &str, belongs: impl Fn(char) -> bool) -> usize {
     text.find(|c| !belongs(c)).unwrap_or(text.len())
 }
 
-/// The text with one number replaced.
 fn with_number(text: &str, number: &Number, value: &str) -> String {
     let Range { start, end } = number.place;
     format!("{}{value}{}", &text[..start], &text[end..])
@@ -188,11 +174,10 @@ fn with_number(text: &str, number: &Number, value: &str) -> String {
 mod tests {
     use super::*;
 
-    /// What is not finite, overflows or is denormal is refused wherever it stands, with its key and the
-    /// line and column of that key; 0, -1 and large and small numbers are refused or run to finite
-    /// results. Data without bound are data: their range may be infinite.
+    /// Non-finite, overflowing and subnormal numbers are refused with their key, line and column. Other numbers are
+    /// refused or give finite results. Unbounded ranges of laws may be infinite.
     #[test]
-    fn no_field_takes_what_is_no_number() {
+    fn invalid_numbers_are_refused_in_every_field() {
         let refused_anywhere = ["NaN", "inf", "-inf", "1e400", "1e308", "-1e308", "1e-310"];
         for text in scenes() {
             for value in VALUES {
@@ -214,7 +199,7 @@ mod tests {
                     let line = text.lines().nth(error.line - 1).unwrap();
                     assert!(error.column <= line.chars().count() + 1, "{error}");
                     if refused_anywhere.contains(&value) {
-                        // Of a whole number RON says what it expected, at the number itself.
+                        // For whole numbers, the RON parser reports the expected type at the number.
                         let says = error.message.contains(key.as_str()) || line.contains(value);
                         assert!(says, "{key} = {value}: {error}");
                     }

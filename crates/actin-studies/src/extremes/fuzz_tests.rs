@@ -1,5 +1,4 @@
-//! Random scenes and random texts: a scene that is built, or an error. `crates/actin-cli/tests/trials` spoils the scenes of
-//! the repository.
+//! Random scenes and texts, which must be built or refused. `crates/actin-cli/tests/trials` corrupts existing scenes.
 
 use super::sizes::loads;
 use actin_mechanics::{Xorshift, perturb};
@@ -8,25 +7,22 @@ use proptest::prelude::*;
 use proptest::test_runner::{Config, RngSeed, TestRunner};
 use std::time::Instant;
 
-/// Cases of each property where the environment does not say.
 const CASES: u32 = 300;
 
-/// Number of cases of a property: `ACTIN_FUZZ_CASES`, or a few seconds' worth.
 fn config() -> Config {
     let wanted = std::env::var("ACTIN_FUZZ_CASES").ok();
     let cases = wanted.map_or(CASES, |text| {
         text.parse()
-            .unwrap_or_else(|_| panic!("ACTIN_FUZZ_CASES={text} is no number"))
+            .unwrap_or_else(|_| panic!("ACTIN_FUZZ_CASES={text} is not a number"))
     });
     Config {
         cases,
-        // Inputs that broke something are kept as tests of their own.
+        // Failing inputs are added as separate tests.
         failure_persistence: None,
         ..Config::default()
     }
 }
 
-/// Two runs try the same input: `.cargo/config.toml` gives a seed, unless the environment does.
 #[test]
 fn random_input_can_be_drawn_again() {
     let seed = config().rng_seed;
@@ -37,7 +33,7 @@ fn random_input_can_be_drawn_again() {
     );
 }
 
-/// A factor from 1e-6 to 1e6, as often small as large, or none.
+/// Draws a factor from 1e-6 to 1e6, uniform in its logarithm, or 1.
 fn factor() -> impl Strategy<Value = f64> {
     prop_oneof![
         3 => Just(1.0),
@@ -47,7 +43,7 @@ fn factor() -> impl Strategy<Value = f64> {
     ]
 }
 
-/// Sections in turn of either kind, up to four, with lengths from a hundredth of a nm to 40 nm.
+/// Draws up to four alternating sections with lengths from 0.01 nm to 40 nm.
 fn sections() -> impl Strategy<Value = String> {
     let length = prop_oneof![4 => 3.0..40.0f64, 1 => 0.01..3.0f64];
     let rod = prop::option::of(1usize..6);
@@ -88,7 +84,7 @@ fn monomers() -> impl Strategy<Value = String> {
                 2.7385 * f[3].clamp(0.05, 1e300),
                 0.0697 * f[4],
                 2258.0 * f[5],
-                // Below the gap each interface draws a million points in vain.
+                // For shorter lengths, sampling each interface fails after a million attempts.
                 1.6 * f[6].max(0.5),
                 2.2 * f[7].max(0.5),
             )
@@ -129,7 +125,6 @@ fn linkers() -> impl Strategy<Value = String> {
     prop::collection::vec(one, 0..3).prop_map(|all| all.concat())
 }
 
-/// A scene of which every number obeys the rule of its own key.
 fn scene() -> impl Strategy<Value = String> {
     let clamps = prop::sample::select(vec![
         "",
@@ -153,7 +148,7 @@ fn scene() -> impl Strategy<Value = String> {
     )
 }
 
-/// Builds the scene, estimates its step and evaluates its loads as built and shaken.
+/// Builds the scene, estimates its time step and evaluates loads in the initial and in a perturbed state.
 fn evaluate(text: &str) -> Result<(), SceneProblem> {
     let Ok(scene) = Scene::from_ron(text) else {
         return Ok(());
@@ -178,7 +173,6 @@ fn evaluate(text: &str) -> Result<(), SceneProblem> {
     Ok(())
 }
 
-/// A filament with finite loads and a stable step, or a problem that names its key.
 #[test]
 fn random_scenes_are_built_or_refused() {
     let outcome = TestRunner::new(config()).run(&scene(), |text| {
@@ -190,10 +184,9 @@ fn random_scenes_are_built_or_refused() {
     outcome.unwrap_or_else(|error| panic!("{error}"));
 }
 
-/// Seconds that no input may take, on a busy machine: most take a ten-thousandth of that.
+/// Time limit (s), 1e4 times longer than usual, for busy machines.
 const PATIENCE_S: f64 = 60.0;
 
-/// A text that is read, or refused with a place within it.
 fn check(text: &str) {
     let clock = Instant::now();
     if let Err(error) = Scene::from_ron(text) {
@@ -209,7 +202,6 @@ fn check(text: &str) {
     assert!(clock.elapsed().as_secs_f64() < PATIENCE_S, "too slow");
 }
 
-/// Texts that are no scenes at all.
 #[test]
 fn noise_is_refused() {
     let noise = prop_oneof!["\\PC{0,200}", "[(){}\\[\\]:,\"/*a-z0-9 \\n.#-]{0,300}"];
@@ -221,8 +213,7 @@ fn noise_is_refused() {
     outcome.unwrap_or_else(|error| panic!("{error}"));
 }
 
-/// A hundred thousand brackets, open or closed, in a thread with a small stack: depth is limited,
-/// not followed until the stack ends.
+/// 100 000 brackets in a thread with a small stack are refused by the limit on nesting.
 #[test]
 fn deep_nesting_is_refused_without_a_deep_stack() {
     let deep = 100_000;

@@ -1,26 +1,24 @@
-//! Forces on the tip from 1e-12 to 1e6 pN, segments from 0.1 nm to 1 um, bonds that shrink towards no length, and stiffness
-//! of monomers and rod apart by up to 1e6.
+//! Tip forces from 1e-12 to 1e6 pN, segments from 0.1 nm to 1 µm, very short bonds, and ratios of rigidity between
+//! monomers and rod up to 1e6.
 
-use super::row::{Expected, Row, Tried, correct};
+use super::row::{CaseResult, Expected, Row, correct};
 use super::scenes::{self, Parts};
 use super::steps::limit;
 use actin_sim::Integrator;
 
-/// Bending, shearing and stretching rigidity (pN nm^2, pN).
+/// Rigidities of bending (pN nm^2), shear and stretch (pN).
 const BEND: f64 = 3.9e4;
 const SHEAR: f64 = 1.6e4;
 const STRETCH: f64 = 3.4e4;
 
-/// 100 nm in 10 segments, and monomers over 30 nm.
 const ROD: &str = "Rod(from_nm: 0.0, to_nm: 100.0, segments: 10)";
 const MONOMERS: &str = "Ellipsoids(from_nm: 0.0, to_nm: 30.0)";
 
-/// The forces (pN), from below what rounding hides to beyond any use.
+/// Forces (pN), from below round-off to far outside the model.
 const FORCES: [f64; 11] = [
     1e-12, 1e-10, 1e-8, 1e-6, 1e-4, 1e-2, 1.0, 1e2, 1e4, 1e5, 1e6,
 ];
 
-/// Cases by name, sections and direction of the force.
 const DIRECTIONS: [(&str, &str, [f64; 3]); 6] = [
     ("across the rod", ROD, [1.0, 0.0, 0.0]),
     ("along the rod", ROD, [0.0, 0.0, 1.0]),
@@ -30,8 +28,9 @@ const DIRECTIONS: [(&str, &str, [f64; 3]); 6] = [
     ("against monomers", MONOMERS, [0.0, 0.0, -1.0]),
 ];
 
-/// All forces on both models. From 1e-8 to 1e2 pN all is right, and across the rod from 1e-12 pN on; below, a message
-/// names what rounding hides. From 1e4 pN on, wrong results are outside the model or saddles.
+/// All forces on both models. Results are correct from 1e-8 to 1e2 pN, and from 1e-12 pN for transverse forces on the
+/// rod. Smaller forces are refused because of round-off. From 1e4 pN, incorrect results are outside the model or
+/// saddles.
 pub(super) fn forces() -> Vec<Row> {
     let row = |force: f64, (case, sections, direction): (&str, &str, [f64; 3])| {
         let tried = match case {
@@ -59,9 +58,12 @@ pub(super) fn forces() -> Vec<Row> {
     rows.collect()
 }
 
-/// Deflection over force (nm/pN) of a chain of `n` segments of `l` nm on a wall, small: frame k
-/// turns from the one before by the couple `F (n - k) l` over the rigidity of what joins them,
-/// half a segment long at the wall; `n l / S` is the shear.
+/// Returns the compliance (nm/pN) of a cantilever of `n` segments of length `l` (nm) for small deflections.
+///
+/// ```text
+/// kappa_k = F (n - k) l / B     rotation between frames k - 1 and k over l, or l/2 at the clamp
+/// n l / S                       shear compliance
+/// ```
 fn chain_compliance(n: u32, l: f64) -> f64 {
     let (mut angle, mut deflection) = (0.0, 0.0);
     for k in 0..n {
@@ -72,47 +74,46 @@ fn chain_compliance(n: u32, l: f64) -> f64 {
     deflection + f64::from(n) * l / SHEAR
 }
 
-/// The deflection of a rod in segments of `l` nm against that of the linear chain.
-fn deflection(sections: &str, segments: u32, l: f64, force: f64) -> Tried {
+/// Compares the deflection of a rod with segments of `l` nm with the linear chain.
+fn deflection(sections: &str, segments: u32, l: f64, force: f64) -> CaseResult {
     let ran = Parts::pulled(sections, [force, 0.0, 0.0]).run()?;
     let exact = force * chain_compliance(segments, l);
     let error = (ran.tip_displacement().x / exact - 1.0).abs();
     correct("deflection of the linear chain", error, 1e-5)
 }
 
-/// Up to 1e-4 pN, deflections of 1e-7 of the length, the deflection is that of small motion to
-/// the square of the angle, 1e-10; above, the reaction of the wall is compared.
-fn across(force: f64) -> Tried {
+/// Transverse force on the rod. Up to 1e-4 pN the deflection is compared with linear theory, whose relative error is
+/// the square of the angle, 1e-10. For larger forces the reaction of the clamp is compared.
+fn across(force: f64) -> CaseResult {
     if force > 1e-4 {
         return balanced(ROD, [force, 0.0, 0.0], 1e-5);
     }
     deflection(ROD, 10, 10.0, force)
 }
 
-/// The law is linear: `L F / S3` at any tension.
-fn along(force: f64) -> Tried {
+/// Axial force on the rod, compared with the extension `L F / S3`.
+fn along(force: f64) -> CaseResult {
     let ran = Parts::pulled(ROD, [0.0, 0.0, force]).run()?;
     let exact = 100.0 * force / STRETCH;
     let error = ran.tip_displacement().z / exact - 1.0;
-    // Places of 100 nm are known to 1e-14 nm, which is the whole extension at 1e-11 pN.
+    // Positions of 100 nm have round-off of 1e-14 nm, which is the whole extension at 1e-11 pN.
     let rounding = 1e-13 / exact;
     let what = "extension F L / S3, beside round-off of places";
     correct(what, (error.abs() - rounding).max(0.0), 1e-5)
 }
 
-/// The bound is the tolerance, 1e-6 of the force at each of some dozen bodies and a few nm of arm, with 1e-10 pN of
-/// rounding of places.
-fn balanced(sections: &str, force: [f64; 3], bound: f64) -> Tried {
+/// Compares the reaction of the clamp with the load. The bound contains the tolerance, 1e-6 of the force, for about a
+/// dozen bodies with lever arms of a few nm, and 1e-10 pN of round-off.
+fn balanced(sections: &str, force: [f64; 3], bound: f64) -> CaseResult {
     let mut ran = Parts::pulled(sections, force).run()?;
     correct("reaction of the wall", ran.imbalance(), bound)
 }
 
-/// Lengths of segments (nm).
 const LENGTHS: [f64; 5] = [0.1, 1.0, 10.0, 100.0, 1000.0];
 const SEGMENTS: u32 = 20;
 
-/// Segments in statics, under a force that turns the tip by 1e-4 rad (the linear chain leaves out 1e-8 of it), and in the
-/// estimate of the time step. The spectrum of a chain is densest at its upper end: its estimate may be 2e-4 low.
+/// Deflection and stable time step for each length of segments. The tip angle of 1e-4 rad causes a relative error of
+/// 1e-8 of linear theory. The spectrum of a chain is densest at its upper end, so its estimate may be 2e-4 too low.
 pub(super) fn segments() -> Vec<Row> {
     let rows = LENGTHS.into_iter().flat_map(|l| {
         let length = f64::from(SEGMENTS) * l;
@@ -128,8 +129,7 @@ pub(super) fn segments() -> Vec<Row> {
     rows.collect()
 }
 
-/// Largest length of lateral and longitudinal bonds (nm), from the default down: the gap between surfaces allows the
-/// first two.
+/// Largest lengths of lateral and longitudinal bonds (nm). The gap between surfaces allows the first two pairs only.
 const BONDS: [([f64; 2], Expected); 5] = [
     ([1.6, 2.2], Expected::Correct),
     ([0.5, 1.0], Expected::Correct),
@@ -167,10 +167,8 @@ pub(super) fn bonds() -> Vec<Row> {
     BONDS.map(row).to_vec()
 }
 
-/// Rigidities of the rod over those of actin.
 const FACTORS: [f64; 7] = [1e-6, 1e-4, 1e-2, 1.0, 1e2, 1e4, 1e6];
 
-/// Statics and the stable step of a mixed filament.
 pub(super) fn contrast() -> Vec<Row> {
     let rows = FACTORS.into_iter().flat_map(|factor| {
         let case = |what: &str| format!("rod {factor:.0e} times as stiff, {what}");
@@ -200,8 +198,9 @@ fn stiff(factor: f64, force: f64, task: impl Into<String>) -> Parts {
     }
 }
 
-/// A force that bends the softer part by some degrees; the tolerance, added up over two dozen bodies and their arms.
-fn contrast_balance(factor: f64) -> Tried {
+/// Compares the reaction under a force that bends the softer part by a few degrees. The bound is the tolerance summed
+/// over two dozen bodies with their lever arms.
+fn contrast_balance(factor: f64) -> CaseResult {
     let tolerance = 1e-7 * factor.min(1.0);
     let torque = 10.0 * tolerance;
     let task = format!("Equilibrium(force_pn: {tolerance:?}, torque_pn_nm: {torque:?})");
@@ -209,7 +208,7 @@ fn contrast_balance(factor: f64) -> Tried {
     correct("reaction of the wall", ran.imbalance(), 1e-4)
 }
 
-fn contrast_limit(factor: f64) -> Tried {
+fn contrast_limit(factor: f64) -> CaseResult {
     let mut assembly = stiff(factor, 0.0, "Dynamics(duration_ns: 1e-6)").build()?;
     limit(&mut assembly.system, Integrator::Pefrl, 2e-3)
 }

@@ -1,7 +1,7 @@
-//! Drag from none to 1e6 per ns (momentum, terminal velocity, creep, rest, diffusion and temperature), and long undamped
+//! Drag up to 1e6 per ns (momentum, terminal velocity, creep, rest, diffusion, temperature), and long undamped
 //! motion.
 
-use super::row::{Outcome, Row, Tried, correct, larger};
+use super::row::{CaseResult, Outcome, Row, correct, larger};
 use super::scenes::{Parts, Ran, free};
 use super::steps::MODELS;
 use actin_integrate::{
@@ -9,11 +9,11 @@ use actin_integrate::{
 };
 use actin_mechanics::{State, System, Vector3, Xorshift, randomise_velocities};
 
-/// Rates of free flights, and of everything else (1/ns); water has some 1e2 across a filament and 1e3 about it.
+/// Damping rates of free flights and of other cases (1/ns). In water they are about 1e2 across a filament and 1e3
+/// about it.
 const RATES: [f64; 7] = [0.0, 1e-3, 1.0, 1e2, 1e4, 1e5, 1e6];
 const LOADED: [f64; 6] = [0.0, 1.0, 10.0, 1e2, 1e3, 1e4];
 
-/// 100 nm of each kind.
 const LONG: [(&str, &str); 3] = [
     ("rod", "Rod(from_nm: 0.0, to_nm: 100.0)"),
     ("monomers", "Ellipsoids(from_nm: 0.0, to_nm: 100.0)"),
@@ -26,7 +26,6 @@ const LONG: [(&str, &str); 3] = [
 /// Thermal energy at 298 K (pN nm).
 const KT: f64 = 4.114;
 
-/// All rates.
 pub(super) fn drag() -> Vec<Row> {
     let mut rows = Vec::new();
     let mut push = |case: String, tried| rows.push(Row::new("drag", case, tried));
@@ -66,13 +65,11 @@ pub(super) fn drag() -> Vec<Row> {
     rows
 }
 
-/// A share of the stability limit of PEFRL (ns).
 fn step(system: &System, share: f64) -> f64 {
     let frequency = largest_frequency(system).expect("loads at rest are finite");
     stable_step(&PEFRL, frequency, share).expect("it is positive")
 }
 
-/// Steps of `h` in a time (ns).
 fn steps(h: f64, time: f64) -> u64 {
     let run = Run::over(&PEFRL, h, time).expect("steps and times are positive");
     run.steps()
@@ -82,8 +79,8 @@ fn uniform(rate: f64) -> Drag {
     Drag::new(rate, rate).expect("rates are positive")
 }
 
-/// Momentum decays as `exp(-gamma t)` whatever the filament does, at any step.
-fn flight(mut system: System, rate: f64) -> Tried {
+/// The momentum decays as `exp(-gamma t)`, independently of the step and of internal forces.
+fn flight(mut system: System, rate: f64) -> CaseResult {
     let (h, steps) = (step(&system, 0.5), 100);
     let points = &mut system.state_mut().points;
     for i in 0..points.len() {
@@ -95,12 +92,11 @@ fn flight(mut system: System, rate: f64) -> Tried {
     if !system.state().is_finite() {
         return Err(Outcome::Wrong("the state is not finite".into()));
     }
-    // Round-off of a hundred exponentials, and of the forces at rest.
+    // Round-off of a hundred exponentials and of forces at rest.
     let error = (system.state().momentum() - expected).norm() / start.norm();
     correct("momentum exp(-gamma t), of what it was", error, 1e-13)
 }
 
-/// Mass of all points, and their centre.
 fn centre(state: &State) -> (f64, Vector3) {
     let masses = || state.points.inverse_mass().iter().map(|m| 1.0 / m);
     let mass = masses().sum::<f64>();
@@ -108,7 +104,6 @@ fn centre(state: &State) -> (f64, Vector3) {
     (mass, places.map(|(x, m)| x * m).sum::<Vector3>() / mass)
 }
 
-/// A damped motion; `keys` are further ones of the task.
 fn damped(
     sections: &str,
     rest: &str,
@@ -123,10 +118,15 @@ fn damped(
     Parts::new(sections, rest, task).run()
 }
 
-/// The way of a free filament along a force on its end, over the second nanosecond, against
-/// `F/(M g) (t - (1 - exp(-g t))/g)`. In a bath, by how much it is ahead of the same filament
-/// without the force under the same noise: internal forces do not move the centre.
-fn pulled(sections: &str, rate: f64, kelvin: Option<u32>) -> Tried {
+/// Compares the displacement of a free filament under an axial end force in the second nanosecond with theory.
+///
+/// ```text
+/// x(t) = F/(M g) (t - (1 - exp(-g t))/g)
+/// ```
+///
+/// In a heat bath, the displacement is relative to the same filament without the force and with the same noise, since
+/// internal forces do not move the centre of mass.
+fn pulled(sections: &str, rate: f64, kelvin: Option<u32>) -> CaseResult {
     let thermal = kelvin.map(|t| format!("thermal: (temperature_k: {t}.0, seed: 3),"));
     let keys = format!("record_every_ns: 1.0, {}", thermal.unwrap_or_default());
     let way = |force: f64| {
@@ -150,34 +150,32 @@ fn pulled(sections: &str, rate: f64, kelvin: Option<u32>) -> Tried {
         _ => (t + (-rate * t).exp_m1() / rate) / (mass * rate),
     };
     let expected = gone(2.0) - gone(1.0);
-    // The start of the motion, of which the second nanosecond keeps exp(-g): (g h)^2/24 of it at 10
-    // per ns and below; in a bath, round-off of what noise moves.
+    // The discretisation error is (g h)^2/24 of the initial transient, which decays as exp(-g), for up to 10 per ns.
+    // In a heat bath, the bound is round-off of the noise.
     let bound = if kelvin.is_some() { 1e-4 } else { 1e-6 };
     let error = (way / expected - 1.0).abs();
     correct("way of the centre of mass", error, bound)
 }
 
-/// Sections and loads of a short cantilever, whose slowest mode has 11 rad/ns.
+/// Sections and loads of a short cantilever, whose lowest frequency is 11 rad/ns.
 const CANTILEVER: (&str, &str) = (
     "Rod(from_nm: 0.0, to_nm: 20.0, segments: 2)",
     "clamps: [Clamp(end: Start)], loads: [EndForce(end: End, force_pn: (2.0, 0.0, 0.0))],",
 );
 
-/// A cantilever that has come to rest under drag is where statics puts it.
-fn at_rest(rate: f64) -> Tried {
+fn at_rest(rate: f64) -> CaseResult {
     let (sections, rest) = CANTILEVER;
-    // 30 times what the slowest mode takes: 2/g below 22 per ns, g/120 ns^2 above.
+    // 30 relaxation times of the slowest mode: 2/g for g < 22 per ns, g/120 ns^2 otherwise.
     let duration = 60.0 / rate + 0.25 * rate;
     let moved = damped(sections, rest, duration, rate, "record_every_ns: 1e9")?;
     let statics = Parts::new(sections, rest, "Equilibrium()").run()?;
     let [moved, expected] = [moved, statics].map(|ran| ran.tip_displacement());
-    // Residuals of 1e-7 pN of 2 in statics.
+    // Residual of 1e-7 pN for a load of 2 pN.
     let error = (moved - expected).norm() / expected.norm();
     correct("tip against statics", error, 1e-7)
 }
 
-/// When two thirds of the way to rest are done, against steps of an eighth.
-fn creeping(rate: f64) -> Tried {
+fn creeping(rate: f64) -> CaseResult {
     let (sections, rest) = CANTILEVER;
     let time = if rate > 22.0 { rate / 120.0 } else { 0.15 };
     let tip = |share: f64| {
@@ -186,25 +184,28 @@ fn creeping(rate: f64) -> Tried {
     };
     let (coarse, fine) = (tip(0.5)?, tip(0.5 / 8.0)?);
     let error = (coarse - fine).norm() / fine.norm();
-    // h/2T, with steps of at most 0.003 ns.
+    // h/(2T) with steps of at most 0.003 ns.
     correct("tip against an eighth of the step", error, 0.0015 / time)
 }
 
-/// The mean square of the way of a filament's centre over some steps, against
-/// `2 kT/(M g) (t - c (1 - exp(-g t))/g)` along each axis, with `c = g h/sinh(g h)` where time is
-/// continuous 1: diffusion with `kT/(M g)`.
-fn diffusion(mut system: System, rate: f64) -> Tried {
+/// Compares the mean square displacement of the centre of mass with theory (diffusion coefficient `kT/(M g)`).
+///
+/// ```text
+/// <x^2> = 2 kT/(M g) (t - c (1 - exp(-g t))/g)     along each axis
+/// c     = g h / sinh(g h)                          1 in continuous time
+/// ```
+fn diffusion(mut system: System, rate: f64) -> CaseResult {
     let (h, samples) = (step(&system, 0.5), 2000);
     let bath = Bath::new(uniform(rate), KT, 29).expect("it is positive");
     let g_h = rate * h;
-    // Ways are then independent to a few percent.
+    // Successive displacements are then independent within a few per cent.
     let each = steps(h, 10.0 / rate);
     let mut place = centre(system.state()).1;
     let mut square = 0.0;
     for sample in 0..=samples {
         advance_in(&mut system, &PEFRL, h, each, &bath, sample * each);
         let next = centre(system.state()).1;
-        // The first is on the way from rest.
+        // The first displacement includes the transient from rest.
         if sample > 0 {
             square += (next - place).norm_squared() / (3 * samples) as f64;
         }
@@ -222,13 +223,13 @@ fn diffusion(mut system: System, rate: f64) -> Tried {
     )
 }
 
-/// Mean energies of a free rod at kT/100, kinetic and of strain, against their shares: `kT/2` for each
-/// of 21 coordinates, of which six are rigid motions without strain.
-fn temperature(mut system: System, rate: f64) -> Tried {
+/// Compares mean kinetic and strain energies of a free rod at kT/100 with equipartition: `kT/2` for each of 21
+/// coordinates. Six are rigid motions without strain energy.
+fn temperature(mut system: System, rate: f64) -> CaseResult {
     let (h, kt) = (step(&system, 0.5), 0.01 * KT);
     let bath = Bath::new(uniform(rate), kt, 31).expect("it is positive");
     let coordinates = 3.0 * (system.state().points.len() + system.state().frames.len()) as f64;
-    // The slowest mode, of 30 rad/ns, relaxes in g/900 ns^2 or in 2/g.
+    // Relaxation time of the slowest mode, 30 rad/ns.
     let memory = (rate / 900.0).max(2.0 / rate);
     let (each, samples) = (steps(h, 0.5 * memory), 1000);
     let mut now = 20 * each;
@@ -245,11 +246,11 @@ fn temperature(mut system: System, rate: f64) -> Tried {
         error(kinetic, coordinates),
         error(strain, coordinates - 6.0),
     );
-    // 4.5 standard errors of 15 modes in 300 samples that are independent.
+    // 4.5 standard errors of 15 modes in 300 independent samples.
     correct("kinetic energy and strain at kT/100", largest, 0.1)
 }
 
-/// Small filaments, flying or with their centres at rest.
+/// Small filaments with random velocities, or with the centre of mass at rest.
 const UNDAMPED: [(&str, &str, bool); 4] = [
     ("rod of 3 segments", MODELS[0].1, true),
     ("rod of 3 segments, centre at rest", MODELS[0].1, false),
@@ -258,7 +259,7 @@ const UNDAMPED: [(&str, &str, bool); 4] = [
 ];
 const FOUR: &str = "Ellipsoids(from_nm: 0.0, to_nm: 11.0)";
 
-/// Filaments for `count` undamped steps: energy without a trend, momenta to round-off.
+/// Undamped motion over `count` steps: no trend of the energy, and momenta conserved up to round-off.
 pub(super) fn undamped(count: u64) -> Vec<Row> {
     let rows = UNDAMPED
         .into_iter()
@@ -275,10 +276,10 @@ pub(super) fn undamped(count: u64) -> Vec<Row> {
     rows.collect()
 }
 
-/// A run at a quarter of the limit, its energy taken 1000 times: the trend of the energy, and the changes of momentum and of
-/// angular momentum (about the origin, and about the centre of mass), relative to the start. Momentum of a centre at
-/// rest has no yardstick.
-fn drift(mut system: System, count: u64, is_flying: bool) -> Vec<(&'static str, Tried)> {
+/// Runs at a quarter of the stability limit with 1000 samples. Returns the trend of the energy and the relative
+/// changes of momentum and angular momentum (about the origin and the centre of mass). With the centre at rest, the
+/// momentum has no scale.
+fn drift(mut system: System, count: u64, is_flying: bool) -> Vec<(&'static str, CaseResult)> {
     set_moving(system.state_mut(), is_flying);
     let h = step(&system, 0.25);
     let start = system.total_energy();
@@ -295,20 +296,19 @@ fn drift(mut system: System, count: u64, is_flying: bool) -> Vec<(&'static str, 
     let after = all_momenta(system.state());
     let mean = |part: &[f64]| part.iter().sum::<f64>() / part.len() as f64;
     let trend = (mean(&means[7..]) - mean(&means[..3])).abs();
-    // The energy fluctuation is the yardstick of its trend.
+    // The trend is compared with the fluctuation of the energy.
     let what = "means of the last and first three tenths";
     let mut all = vec![("trend of the energy", correct(what, trend, 0.1 * largest))];
     let first = if is_flying { 0 } else { 2 };
     for (i, what) in MOMENTA.into_iter().enumerate().skip(first) {
         let change = (after[i] - before[i]).norm() / before[i].norm();
-        // Round-off adds up as a walk, and as a drift where it has a sign.
+        // Round-off accumulates as a random walk, or linearly if biased.
         let tried = correct("relative change", change, 1e-16 * count as f64);
         all.push((what, tried));
     }
     all
 }
 
-/// Random velocities; about a centre at rest unless the filament flies.
 fn set_moving(state: &mut State, is_flying: bool) {
     randomise_velocities(state, &mut Xorshift::new(11), 2.0, 0.5);
     if is_flying {
@@ -326,7 +326,6 @@ const MOMENTA: [&str; 3] = [
     "angular momentum about the centre of mass",
 ];
 
-/// Momentum; angular momentum about the origin; the same about the centre of mass.
 fn all_momenta(state: &State) -> [Vector3; 3] {
     let (linear, angular) = (state.momentum(), state.angular_momentum());
     [linear, angular, angular - centre(state).1.cross(&linear)]

@@ -1,25 +1,27 @@
-//! Rows of the table: a case, its outcome, and the kind of outcome that is expected.
+//! Rows of the table: a case, its outcome, and the expected kind of outcome.
 
-/// Outcome of an extreme.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Outcome {
-    /// The largest relative error against a known result, or an absolute one where `what` names a unit.
-    Correct { what: &'static str, error: f64 },
-    /// A quantity over its bound.
-    Bounded { what: &'static str, share: f64 },
-    /// The scene was refused with this message before it ran.
+    /// Largest error against a known result: relative, or absolute if `what` names a unit.
+    Correct {
+        what: &'static str,
+        error: f64,
+    },
+    Bounded {
+        what: &'static str,
+        share: f64,
+    },
+    /// The scene was refused before it ran.
     Refused(String),
-    /// The run ended early with this message.
     Fails(String),
-    /// Neither right nor refused: a defect.
     Wrong(String),
 }
 
-/// An outcome, whichever way a trial ended.
-pub(super) type Tried = Result<Outcome, Outcome>;
+/// An outcome, also as an error for use with `?`.
+pub(super) type CaseResult = Result<Outcome, Outcome>;
 
-/// A result with the error that was found; an error beyond its bound, or one that is not a number, is a defect.
-pub(super) fn correct(what: &'static str, error: f64, bound: f64) -> Tried {
+/// Returns `Correct`, or a defect if the error exceeds its bound or is not a number.
+pub(super) fn correct(what: &'static str, error: f64, bound: f64) -> CaseResult {
     if error <= bound {
         return Ok(Outcome::Correct { what, error });
     }
@@ -28,8 +30,8 @@ pub(super) fn correct(what: &'static str, error: f64, bound: f64) -> Tried {
     )))
 }
 
-/// A quantity over its bound.
-pub(super) fn bounded(what: &'static str, share: f64) -> Tried {
+/// Returns `Bounded`, or a defect if the ratio exceeds 1.
+pub(super) fn bounded(what: &'static str, share: f64) -> CaseResult {
     if share <= 1.0 {
         return Ok(Outcome::Bounded { what, share });
     }
@@ -39,7 +41,6 @@ pub(super) fn bounded(what: &'static str, share: f64) -> Tried {
 }
 
 impl Outcome {
-    /// The outcome in words.
     pub(super) fn words(&self) -> String {
         match self {
             Self::Correct { what, error } => format!("correct to {error:.0e}: {what}"),
@@ -51,19 +52,15 @@ impl Outcome {
     }
 }
 
-/// Kinds of sound outcomes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Expected {
-    /// Right, or within its bound.
     Correct,
     Refused,
-    /// Ended early with one of these words, if there are any.
+    /// Ended early with a message that contains one of these texts, if there are any.
     Fails(&'static [&'static str]),
-    /// Refused or ended early.
     Stops,
-    /// Right, or ended early with one of these words.
+    /// Correct, or ended early with one of these texts.
     CorrectOrFails(&'static [&'static str]),
-    /// Any sound outcome.
     Sound,
 }
 
@@ -86,20 +83,16 @@ impl Expected {
     }
 }
 
-/// A row of the table.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Row {
-    /// Number that was taken to the extreme.
     pub(super) varied: &'static str,
-    /// The model, and the value.
     pub(super) case: String,
     pub(super) outcome: Outcome,
     expected: Expected,
 }
 
 impl Row {
-    /// A row that should be correct.
-    pub(super) fn new(varied: &'static str, case: impl Into<String>, tried: Tried) -> Self {
+    pub(super) fn new(varied: &'static str, case: impl Into<String>, tried: CaseResult) -> Self {
         Self {
             varied,
             case: case.into(),
@@ -112,18 +105,16 @@ impl Row {
         Self { expected, ..self }
     }
 
-    /// Whether the outcome is sound and of the expected kind.
     pub(super) fn is_sound(&self) -> bool {
         self.expected.is_met(&self.outcome)
     }
 
-    /// The row in words.
     pub(super) fn words(&self) -> String {
         format!("{}, {}: {}", self.varied, self.case, self.outcome.words())
     }
 }
 
-/// The larger of two; what is not a number stays, which `f64::max` would drop.
+/// Returns the larger number, or NaN if one is NaN, unlike `f64::max`.
 pub(super) fn larger(a: f64, b: f64) -> f64 {
     if a.is_nan() || a > b { a } else { b }
 }

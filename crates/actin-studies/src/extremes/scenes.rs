@@ -1,4 +1,4 @@
-//! Scenes as text, their runs, and the balance of the equilibria that they reach.
+//! Scenes as text, their runs, and the balance of their equilibria.
 
 use super::row::Outcome;
 use actin_mechanics::{System, Vector3};
@@ -7,18 +7,15 @@ use actin_sim::{
     Trajectory,
 };
 
-/// Parts of a scene; what is empty is left out.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Parts {
     pub(super) sections: String,
-    /// Keys of the filament after its sections and its monomers.
+    /// Keys of the filament after its sections and monomers.
     pub(super) models: String,
-    /// Clamps, loads and so on.
     pub(super) rest: String,
     pub(super) task: String,
 }
 
-/// Bonds per interface: enough for a filament that holds together.
 const BONDS: usize = 16;
 
 impl Parts {
@@ -35,12 +32,11 @@ impl Parts {
         }
     }
 
-    /// A free filament in motion.
     pub(super) fn free(sections: &str) -> Self {
         Self::new(sections, "", "Dynamics(duration_ns: 1.0)")
     }
 
-    /// A filament on a wall under a force on its tip (pN), in equilibrium to a share of 1e-6 of it.
+    /// Creates a clamped filament with a tip force (pN), solved to a relative tolerance of 1e-6.
     pub(super) fn pulled(sections: &str, [x, y, z]: [f64; 3]) -> Self {
         let force = Vector3::new(x, y, z).norm();
         let (tolerance, torque) = (1e-6 * force, 1e-5 * force);
@@ -52,7 +48,6 @@ impl Parts {
         Self::new(sections, rest, task)
     }
 
-    /// The text of the scene.
     pub(super) fn text(&self) -> String {
         let Self {
             sections,
@@ -60,7 +55,7 @@ impl Parts {
             rest,
             task,
         } = self;
-        // Rods of constant rigidities, of which theory is exact.
+        // Rods of constant rigidities, for comparison with theory.
         let rod = if models.contains("rod:") {
             ""
         } else {
@@ -88,12 +83,10 @@ impl Parts {
     }
 }
 
-/// The bodies of a free filament.
 pub(super) fn free(sections: &str) -> Result<System, Outcome> {
     Ok(Parts::free(sections).build()?.system)
 }
 
-/// A scene that ran to its end; the assembly is in its last state.
 #[derive(Debug)]
 pub(super) struct Ran {
     pub(super) assembly: Assembly,
@@ -101,13 +94,11 @@ pub(super) struct Ran {
     pub(super) trajectory: Trajectory,
 }
 
-/// The assembly of a scene.
 pub(super) fn build(text: &str) -> Result<Assembly, Outcome> {
     let scene = Scene::from_ron(text).map_err(|error| Outcome::Refused(error.to_string()))?;
     Assembly::build(&scene).map_err(|problem| refused(&problem, text))
 }
 
-/// A scene, run to its end.
 pub(super) fn run(text: &str) -> Result<Ran, Outcome> {
     let ran = run_to_saddle(text)?;
     if ran.report.status == Status::Failed {
@@ -116,7 +107,6 @@ pub(super) fn run(text: &str) -> Result<Ran, Outcome> {
     Ok(ran)
 }
 
-/// The same, where it may end on a saddle.
 pub(super) fn run_to_saddle(text: &str) -> Result<Ran, Outcome> {
     let mut assembly = build(text)?;
     let mut trajectory = Trajectory::default();
@@ -143,7 +133,7 @@ fn refused(problem: &SceneProblem, text: &str) -> Outcome {
 }
 
 impl Ran {
-    /// Reaction of a clamp: force (pN), torque (pN nm).
+    /// Returns the reaction force (pN) and torque (pN nm) of a clamp.
     pub(super) fn reaction(&mut self, clamp: usize) -> (Vector3, Vector3) {
         let loads = self.assembly.system.loads().clone();
         let state = self.assembly.system.state();
@@ -151,8 +141,7 @@ impl Ran {
         (reaction.force_pn, reaction.torque_pn_nm)
     }
 
-    /// Difference of the wall's reaction from the forces on the tip and their moment, relative to them: neither a state
-    /// that is no equilibrium of these loads nor one without a load has a small one.
+    /// Returns the sum of the clamp's reaction and the tip force, and of their moments, relative to the load.
     pub(super) fn imbalance(&mut self) -> f64 {
         let (force_pn, torque_pn_nm) = self.reaction(0);
         let state = self.assembly.system.state();
@@ -164,12 +153,11 @@ impl Ran {
         let applied: Vector3 = loads.sum();
         let moment = arm.cross(&applied);
         let force = (force_pn + applied).norm() / applied.norm();
-        // Of a force along the filament the moment is zero, and its lever the measure.
+        // Relative to the lever arm, since the moment of an axial force is zero.
         let whole = arm.norm() * applied.norm();
         force.max((torque_pn_nm + moment).norm() / whole)
     }
 
-    /// Displacement of the tip from where it was built (nm).
     pub(super) fn tip_displacement(&self) -> Vector3 {
         let (assembly, state) = (&self.assembly, self.assembly.system.state());
         assembly.tip_nm(state, End::End) - assembly.tip_nm(&assembly.rest, End::End)

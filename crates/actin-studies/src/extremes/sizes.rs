@@ -1,7 +1,7 @@
-//! Filaments of the fewest and of very many bodies, scenes beyond any machine, and a filament far from the origin.
+//! Filaments with very few and very many bodies, scenes that exceed the memory, and a filament far from the origin.
 
 use super::fields::{Verdict, verdict};
-use super::row::{Expected, Outcome, Row, Tried, correct, larger};
+use super::row::{CaseResult, Expected, Outcome, Row, correct, larger};
 use super::scenes::{Parts, build};
 use actin_integrate::{Drag, PEFRL, advance};
 use actin_mechanics::{
@@ -11,7 +11,6 @@ use actin_sim::Plan;
 use actin_sim::coupling::Linker;
 use std::time::Instant;
 
-/// The smallest that can be built, and smaller ones.
 const SMALLEST: [(&str, &str); 3] = [
     ("1 segment", "Rod(from_nm: 0.0, to_nm: 10.0, segments: 1)"),
     ("3 monomers", "Ellipsoids(from_nm: 0.0, to_nm: 2.7)"),
@@ -26,7 +25,7 @@ const TOO_SMALL: [(&str, &str); 2] = [
     ("2 monomers", "Ellipsoids(from_nm: 0.0, to_nm: 1.3)"),
 ];
 
-/// Numbers of bodies and of stages: a thousand, or 1e6 and 1e5, which a small machine may refuse.
+/// Large numbers of bodies and stages: a thousand, or 1e6 and 1e5, for which the memory may be insufficient.
 pub(super) fn sizes(is_long: bool) -> Vec<Row> {
     let small = |(name, sections): (&str, &str)| {
         let tried = moved(&Parts::free(sections).text(), 1000);
@@ -53,8 +52,8 @@ pub(super) fn sizes(is_long: bool) -> Vec<Row> {
     smallest.chain(refused).chain(large).collect()
 }
 
-/// Very many bodies, in one filament and in a hundredth as many: 20 steps, seconds and memory in the
-/// name.
+/// Very many bodies, in one filament and in a hundredth as many filaments. The case contains run time and memory of
+/// 20 steps.
 fn largest(count: u32) -> Vec<Row> {
     let (filaments, length) = (count / 100, f64::from(count));
     let (rod_nm, monomers_nm) = (10.0 * length, 71.2 / 26.0 * length);
@@ -89,8 +88,8 @@ fn largest(count: u32) -> Vec<Row> {
     texts.map(row).to_vec()
 }
 
-/// A rod with as many loads as stages, each set in a stage of its own: their factors at the end.
-fn driven(count: u32) -> Tried {
+/// A rod with `count` loads and stages, each of which sets the factor of one load; compares the final factors.
+fn driven(count: u32) -> CaseResult {
     let load = "EndForce(end: End, force_pn: (0.001, 0.0, 0.0)), ".repeat(count as usize);
     let stage = |i: u32| format!("Stage(set: [LoadFactor(load: {i}, factor: {}.0)]), ", i + 1);
     let stages: String = (0..count).map(stage).collect();
@@ -108,7 +107,6 @@ fn driven(count: u32) -> Tried {
     correct("factors", error.fold(0.0, f64::max), 0.0)
 }
 
-/// As many free filaments of these sections, 20 nm from each other.
 fn side_by_side(count: u32, sections: &str) -> String {
     let filament = |i: u32| {
         let at = 20 * i;
@@ -120,7 +118,6 @@ fn side_by_side(count: u32, sections: &str) -> String {
     format!("Scene(filaments: [{filaments}], task: Dynamics(duration_ns: 1.0))")
 }
 
-/// The most memory that this process has had (MB); not a number where the system does not say.
 fn peak_memory_mb() -> f64 {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
     let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"));
@@ -128,8 +125,7 @@ fn peak_memory_mb() -> f64 {
     kilobytes.map_or(f64::NAN, |kb| kb / 1024.0)
 }
 
-/// Some steps of shaken filaments: their momentum is that of the start.
-fn moved(text: &str, steps: u64) -> Tried {
+fn moved(text: &str, steps: u64) -> CaseResult {
     let mut assembly = build(text)?;
     let plan = Plan::new(&assembly).map_err(|problem| Outcome::Refused(problem.to_string()))?;
     let step = plan.estimate().expect("a motion").time_step_ns;
@@ -139,19 +135,15 @@ fn moved(text: &str, steps: u64) -> Tried {
     advance(system, &PEFRL, step, steps, &Drag::NONE);
     let points = system.state().points.len() as f64;
     let error = (system.state().momentum() - before).norm() / before.norm();
-    // Sums of as many terms as there are points, each with round-off, relative to a sum of
-    // random directions that is as much smaller than its terms together.
+    // Round-off of a sum over all points, relative to the magnitude of the sum of random vectors.
     correct("momentum", error, 1e-13 * points.sqrt().max(10.0))
 }
 
-/// Scenes that need more than any machine has.
 const BEYOND: &str = include_str!("guards.csv");
 
-/// Seconds that no refusal may take, on a busy machine: it takes a thousandth of one, and the scenes
-/// would take hours or more than there is memory.
+/// Time limit of a refusal (s), a thousand times longer than usual. Running the scenes would take hours.
 const PATIENCE_S: f64 = 30.0;
 
-/// Refused before anything is allocated.
 pub(super) fn guards() -> Vec<Row> {
     let row = |line: Result<[String; 3], csv::Error>| {
         let [case, sections, task] = line.expect("three columns");
@@ -172,23 +164,20 @@ pub(super) fn guards() -> Vec<Row> {
     table.deserialize().map(row).collect()
 }
 
-/// Distances by which everything is moved (nm).
+/// Distances of the filament from the origin (nm).
 const SHIFTS: [f64; 4] = [1e2, 1e4, 1e5, 1e6];
 
-/// Largest rigidities of what is shifted (pN over nm): stretch of a segment of 5 nm.
+/// Largest stiffness (pN/nm): stretch of a segment of 5 nm.
 const STIFFNESS: f64 = 3.4e4 / 5.0;
 
-/// A linked filament of both models.
 const LINKED: &str = include_str!("linked.ron");
 
-/// Loads of the shifted filament against the loads at the origin: they depend on differences of places alone.
 pub(super) fn origin() -> Vec<Row> {
     let row = |by| Row::new("origin", format!("moved by {by:.0e} nm"), shifted(by));
     SHIFTS.map(row).to_vec()
 }
 
-/// The largest change of a force or torque of the shaken filament, over what rounding of shifted places does to a spring.
-fn shifted(shift: f64) -> Tried {
+fn shifted(shift: f64) -> CaseResult {
     let mut assembly = build(LINKED)?;
     let shaken = assembly.system.state_mut();
     perturb(shaken, &mut Xorshift::new(7), 0.05, 0.02);
@@ -208,13 +197,12 @@ fn shifted(shift: f64) -> Tried {
     let forces = a.force.iter().zip(b.force.iter());
     let both = forces.chain(a.torque.iter().zip(b.torque.iter()));
     let largest = both.map(|(a, b)| (a - b).norm()).fold(0.0, larger);
-    // Each place is rounded to half a unit in the last place, an end of up to 128 bonds.
+    // Each position is rounded to half a unit in the last place; up to 128 bonds attach to a body.
     let rounding = shift * f64::EPSILON * STIFFNESS;
     let what = "loads (pN, pN nm), round-off of places times stiffness";
     correct(what, largest, 10.0 * rounding)
 }
 
-/// Loads of all interactions.
 pub(super) fn loads(interactions: &[Box<dyn Interaction>], state: &State) -> Loads {
     let mut loads = Loads::zeros(state);
     for interaction in interactions {

@@ -1,23 +1,24 @@
-//! Equilibria without stiffness, past the bound of twist, past buckling, and past half a turn of a joint.
+//! Equilibria with zero-stiffness modes, beyond the twist instability, beyond buckling, and beyond half a turn of a
+//! joint.
 
-use super::row::{Expected, Outcome, Row, Tried, correct};
+use super::row::{CaseResult, Expected, Outcome, Row, correct};
 use super::scenes::{Parts, Ran, run, run_to_saddle};
 use actin_sim::Setting;
 use actin_sim::rod_constants::{TABLE_4_SHEAR, XI_COEFFICIENTS};
 use actin_sim::shape::Ribbon;
 use std::f64::consts::PI;
 
-/// Number of neutral modes: rigid motions of free filaments and floppy modes of monomers at rest.
+/// Number of neutral modes: rigid motions of free filaments and zero-stiffness modes of monomers at rest.
 #[derive(Clone, Copy)]
 enum Modes {
     None,
-    /// Six for each rod, and pairs that bend so softly that their eigenvalues are below the resolution.
+    /// Six for each rod, and pairs of bending modes with eigenvalues below the resolution.
     FreeRods,
-    /// This many more than there are monomers.
+    /// The number of monomers plus this.
     Monomers(i64),
 }
 
-/// Filaments at rest: the case, how many, the model, its length (nm), clamps, and the neutral modes.
+/// Filaments at rest: case, number, model, length (nm), clamps, neutral modes.
 const AT_REST: [(&str, i64, &str, f64, &str, Modes); 7] = [
     ("a free segment", 1, "Rod", 10.0, "", Modes::FreeRods),
     ("a free rod of 100 nm", 1, "Rod", 100.0, "", Modes::FreeRods),
@@ -43,14 +44,14 @@ const AT_REST: [(&str, i64, &str, f64, &str, Modes); 7] = [
 ];
 const WALL: &str = "clamps: [Clamp(end: Start)],";
 
-/// Roots of `cos x cosh x = 1`, the wave numbers of a free beam over its length.
+/// Roots of `cos x cosh x = 1`: wave numbers times length of a free beam.
 const WAVES: [f64; 4] = [4.730_041, 7.853_205, 10.995_608, 14.137_165];
-/// Bending and twisting rigidity of the rod (pN nm^2), and length of its segments (nm).
+/// Rigidities of bending and twist (pN nm^2), and length of segments (nm).
 const BEND: f64 = 3.9e4;
 const TWIST: f64 = 1.3e4;
 const SEGMENT: f64 = 10.0;
 
-/// Modes without stiffness, each counted: a zero that passed for a positive eigenvalue would certify what floats as stable.
+/// The number of neutral modes is correct; otherwise a floating filament would be certified as stable.
 pub(super) fn neutral_modes() -> Vec<Row> {
     let row = |(case, count, model, length, clamps, modes): (&str, i64, &str, f64, &str, Modes)| {
         let tried = neutral(count, (model, length), clamps, modes);
@@ -59,7 +60,7 @@ pub(super) fn neutral_modes() -> Vec<Row> {
     AT_REST.map(row).to_vec()
 }
 
-fn neutral(count: i64, (model, length): (&str, f64), clamps: &str, modes: Modes) -> Tried {
+fn neutral(count: i64, (model, length): (&str, f64), clamps: &str, modes: Modes) -> CaseResult {
     let filament = |i: i64| {
         format!(
             "Filament(
@@ -92,9 +93,9 @@ fn neutral(count: i64, (model, length): (&str, f64), clamps: &str, modes: Modes)
     correct(what, error, 0.0)
 }
 
-/// Laws whose natural length follows the twist: name, bound of the compression of the untwisted rod (pN), natural length
-/// over the built one less 1, stretching rigidity (pN), and compressions as shares of the bound. `Fitted` does not
-/// resist small shear: its rods do not stay straight further on.
+/// Laws with a natural length that depends on twist: name, bound of the compression of the untwisted rod (pN),
+/// relative change of the natural length, stretching rigidity (pN), and compressions relative to the bound. Rods with
+/// the law `Fitted` have no stiffness for small shear and do not stay straight at larger compressions.
 const LAWS: [(&str, f64, f64, f64, &[f64]); 2] = [
     (
         "PublishedExtension",
@@ -107,11 +108,11 @@ const LAWS: [(&str, f64, f64, f64, &[f64]); 2] = [
     // 235.488 / (0.463366 / 6.02136e-3)
     ("Fitted", 3.060, 0.0, 3.354_4e4, &[0.1, 0.99, 1.02]),
 ];
-/// 40 nm, so that Euler's load between walls, 960 pN, is far.
+/// Length (nm), so short that the Euler load between clamps, 960 pN, is far above.
 const PUSHED: f64 = 40.0;
 const SEGMENTS: usize = 20;
 
-/// Rods pushed together up to and far past the bound of their twist: stable below, as unstable as the mesh allows above.
+/// Compressed rods are stable below the bound, and have the expected number of unstable modes of the mesh above it.
 pub(super) fn compression() -> Vec<Row> {
     let rows = LAWS
         .iter()
@@ -125,15 +126,15 @@ pub(super) fn compression() -> Vec<Row> {
     rows.collect()
 }
 
-/// Modes of the twist that are unstable at a share of the bound: `docs/statics.md`.
+/// Returns the number of unstable twist modes at a fraction of the bound, as derived in `docs/statics.md`.
 fn unstable_modes(share: f64) -> usize {
     let softens = |m: usize| (m as f64 * PI / (2 * SEGMENTS) as f64).cos().powi(2);
     (1..SEGMENTS).filter(|&m| softens(m) * share > 1.0).count()
 }
 
-/// The straight equilibrium: whether its run says that twist is unstable, from which bound on, and whether its certificate
-/// counts the unstable modes. Under `Fitted` shear gives way as well, so that there the certificate counts more.
-fn compressed(law: &str, shift: f64, bound: f64, share: f64) -> Tried {
+/// Checks the warning about the twist instability, its bound, and the number of unstable modes in the certificate.
+/// The law `Fitted` also has unstable shear modes.
+fn compressed(law: &str, shift: f64, bound: f64, share: f64) -> CaseResult {
     let parts = Parts {
         models: format!("rod: RodModel(law: {law}),"),
         ..Parts::new(
@@ -161,8 +162,8 @@ fn compressed(law: &str, shift: f64, bound: f64, share: f64) -> Tried {
     correct(what, error, 0.0)
 }
 
-/// Ways of a motion that pushes a straight rod together, as keys of the filament and of the task. By symmetry the rod stays
-/// straight; the others lead to the buckled state.
+/// Motions that compress a straight rod, as keys of the filament and of the task. Without a perturbation the rod
+/// stays straight by symmetry; the others lead to the buckled state.
 const WAYS: [(&str, &str, &str); 3] = [
     ("as it is", "", ""),
     (
@@ -172,11 +173,11 @@ const WAYS: [(&str, &str, &str); 3] = [
     ),
     ("leave_saddles: 3", "", "leave_saddles: 3,"),
 ];
-/// Shares of the length from below the critical one of 0.11 % to a third.
+/// Compressions relative to the length; the critical one is 0.11 %.
 const PUSHES: [f64; 4] = [1e-3, 3e-3, 0.03, 0.3];
 
-/// Energies at the end of damped motions against statics; the residual of the stop rule counts in second order. A motion
-/// that stays straight beyond the critical load fails and names the saddle.
+/// Compares the final energy of damped motions with the equilibrium; the residual of the stop rule contributes in
+/// second order. A motion that stays straight above the critical load fails on a saddle.
 pub(super) fn straight() -> Vec<Row> {
     let pushed = |share: f64, imperfection: &str, task: String| {
         Parts {
@@ -228,8 +229,6 @@ const BOTH: &str =
     "Rod(from_nm: 0.0, to_nm: 40.0, segments: 4), Ellipsoids(from_nm: 40.0, to_nm: 60.0)";
 const JUMPS: &str = "Equilibrium(accept_jumps: true)";
 
-/// A filament whose far end is turned by `degrees` about the axis, along which it slides; within `ns` and damped, or
-/// in statics.
 fn turned(sections: &str, degrees: f64, statics: &str, ns: Option<f64>) -> Parts {
     let duration = ns.map_or(String::new(), |ns| format!("duration_ns: {ns:?}"));
     let rest = format!(
@@ -248,7 +247,7 @@ fn turned(sections: &str, degrees: f64, statics: &str, ns: Option<f64>) -> Parts
     Parts::new(sections, rest, task)
 }
 
-/// Twist of 75 nm: two turns are 90 deg in a joint of the rod.
+/// Twist over 75 nm; two turns are 90 deg per joint of the rod.
 pub(super) fn twist(has_monomers: bool) -> Vec<Row> {
     let mut rows = Vec::new();
     for degrees in [180.0, -180.0, 360.0, -360.0, 720.0, -720.0] {
@@ -268,8 +267,7 @@ pub(super) fn twist(has_monomers: bool) -> Vec<Row> {
     rows
 }
 
-/// Turns of one segment between two walls, each of whose halves turns by half of it: right up to half a turn of a half,
-/// an error past it.
+/// Twist of one segment between two clamps, half of it at each. Correct up to 180 deg at each clamp, an error above.
 pub(super) fn one_segment() -> Vec<Row> {
     let rows = [90.0, 350.0, 359.9, 360.1, 400.0, 720.0]
         .into_iter()
@@ -290,8 +288,7 @@ pub(super) fn one_segment() -> Vec<Row> {
 }
 
 const LOST: Expected = Expected::Fails(&["lost"]);
-/// Filaments that a turn (deg) twists up to and beyond what their joints can follow, in statics across jumps or within
-/// this time (ns).
+/// Filaments twisted up to and beyond the limit of their joints, in statics with jumps or within a time (ns).
 const SLIPPING: [(&str, &str, f64, Option<f64>, Expected); 7] = [
     (SIX, SIX_SEGMENTS, 1070.0, None, Expected::Correct),
     (SIX, SIX_SEGMENTS, 5000.0, None, Expected::Refused),
@@ -309,7 +306,8 @@ const SLIPPING: [(&str, &str, f64, Option<f64>, Expected); 7] = [
 ];
 const SIX: &str = "six segments of rod";
 
-/// Refused, or an error as soon as twist is lost: none may end with twist and writhe that miss the turn of its ends.
+/// Excessive twist is refused or reported as lost: twist plus writhe never differ from the rotation of the ends
+/// without a message.
 pub(super) fn slipping() -> Vec<Row> {
     let row =
         |(model, sections, degrees, ns, expected): (&str, &str, f64, Option<f64>, Expected)| {
@@ -321,8 +319,7 @@ pub(super) fn slipping() -> Vec<Row> {
     SLIPPING.map(row).to_vec()
 }
 
-/// Twist plus writhe is the turn of the ends.
-fn linked(parts: &Parts) -> Tried {
+fn linked(parts: &Parts) -> CaseResult {
     let ran = parts.run()?;
     let ribbon = Ribbon::new(&ran.assembly, ran.assembly.system.state());
     let link = ran.assembly.scene.path.iter().flat_map(|stage| &stage.set);
@@ -335,21 +332,18 @@ fn linked(parts: &Parts) -> Tried {
     correct("twist and writhe (turns)", error, 1e-9)
 }
 
-/// Twist is uniform, its couple `B3` times that.
-fn uniform(sections: &str, length: f64, degrees: f64, ns: Option<f64>) -> Tried {
+fn uniform(sections: &str, length: f64, degrees: f64, ns: Option<f64>) -> CaseResult {
     let mut ran = turned(sections, degrees, "Equilibrium()", ns).run()?;
     let exact = TWIST * degrees.to_radians() / length;
     let error = (couple(&mut ran, 1) / exact - 1.0).abs();
     correct("couple B3 phi / L", error, 1e-8)
 }
 
-/// Couple about the axis at a clamp (pN nm).
 fn couple(ran: &mut Ran, clamp: usize) -> f64 {
     ran.reaction(clamp).1.z
 }
 
-/// Every equilibrium of monomers comes with its certificate, the couples of both ends in balance.
-fn certified(degrees: f64, task: &str) -> Tried {
+fn certified(degrees: f64, task: &str) -> CaseResult {
     let mut ran = turned(LONG_MONOMERS, degrees, task, None).run()?;
     let found = ran.report.equilibrium.as_ref();
     let negative = found.map(|e| e.certificate.negative);
@@ -358,7 +352,7 @@ fn certified(degrees: f64, task: &str) -> Tried {
         return Err(Outcome::Wrong(message));
     }
     let (near, far) = (couple(&mut ran, 0), couple(&mut ran, 1));
-    // The far end takes the moment of what its bodies cannot slide along: zero about the axis.
+    // The sliding end has no torque about the axis other than its reaction.
     let error = (near + far).abs() / far.abs();
     correct("couples of both ends, stable", error, 1e-4)
 }

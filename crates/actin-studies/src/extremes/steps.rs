@@ -1,6 +1,6 @@
-//! Time steps around the stability limit: where motion begins to grow, and the energy below; with pictures.
+//! Time steps near the stability limit: onset of growth, and energy fluctuation below it, with figures.
 
-use super::row::{Expected, Outcome, Row, Tried, bounded, correct, larger};
+use super::row::{CaseResult, Expected, Outcome, Row, bounded, correct, larger};
 use super::scenes::{Parts, free};
 use actin_draw::{Chart, Colour, Series};
 use actin_integrate::{Composition, Drag, advance, largest_frequency, stable_step};
@@ -16,7 +16,6 @@ const INTEGRATORS: [Integrator; 5] = [
     Integrator::Suzuki,
 ];
 
-/// A filament of each kind.
 pub(super) const MODELS: [(&str, &str); 3] = [
     ("rod", "Rod(from_nm: 0.0, to_nm: 30.0, segments: 3)"),
     ("monomers", "Ellipsoids(from_nm: 0.0, to_nm: 14.0)"),
@@ -26,20 +25,18 @@ pub(super) const MODELS: [(&str, &str); 3] = [
     ),
 ];
 
-/// Steps after which motion that grows at all, a 1e-4th above the limit, has grown by far more
-/// than [`GROWN`]: there a mode grows by about `sqrt(2e-4)` in each.
+/// Number of steps after which motion at 1e-4 above the limit exceeds [`GROWN`]: a mode grows by about `sqrt(2e-4)`
+/// per step.
 const STEPS: u64 = 2_000;
-/// Growth of the kinetic energy that no bounded motion shows. Below the limit, a mode's energy is
-/// up to the inverse of the distance to it, relative, times what it began with.
+/// Growth of the kinetic energy that indicates instability. Below the limit, the energy of a mode grows at most by
+/// the inverse relative distance to the limit.
 const GROWN: f64 = 1e6;
-/// Shares of the limit at which the energy is looked at.
 const SHARES: [f64; 10] = [1e-3, 3e-3, 1e-2, 3e-2, 0.1, 0.25, 0.5, 0.75, 0.9, 0.99];
-/// Rounding of the energy in `energy_error`: places of 30 nm are known to 4e-15 nm, motion
-/// of 1e-3 nm/ns at 500 rad/ns reaches 2e-6 nm, and its energy is known to twice the quotient, 4e-9.
-/// Five times that, for many bodies.
+/// Round-off of the energy in `energy_error`. Positions of 30 nm have round-off of 4e-15 nm. Motion of 1e-3 nm/ns at
+/// 500 rad/ns has an amplitude of 2e-6 nm, so that its relative energy error is 4e-9. The bound is five times larger,
+/// for many bodies.
 const ENERGY_ROUNDING: f64 = 2e-8;
 
-/// Rows of all methods on all filaments.
 fn each(rows: impl Fn(&str, &str, Integrator) -> Vec<Row>) -> Vec<Row> {
     let all = MODELS
         .into_iter()
@@ -48,21 +45,19 @@ fn each(rows: impl Fn(&str, &str, Integrator) -> Vec<Row>) -> Vec<Row> {
         .collect()
 }
 
-/// The step at a share of the limit (ns).
 fn step_at(system: &System, scheme: &Composition, share: f64) -> f64 {
     let frequency = largest_frequency(system).expect("loads at rest are finite");
     stable_step(scheme, frequency, share).expect("it is positive")
 }
 
-/// Step at which small motion about the present state begins to grow, over the limit that the largest frequency predicts. A wrong
-/// mass, a frequency that misses the stiffest term or a table with a wrong limit would each change it.
+/// Returns the ratio of the step at which small motion begins to grow to the predicted limit.
 fn measured_limit(system: &mut System, integrator: Integrator) -> f64 {
     let predicted = step_at(system, actin_sim::composition(integrator), 1.0);
     let (mut low, mut high) = (0.5, 2.0);
     if grows(system, integrator, low * predicted) {
         (low, high) = (0.0, low);
     }
-    // To 1e-4 of the limit.
+    // Accuracy of 1e-4.
     for _ in 0..14 {
         let middle = 0.5 * (low + high);
         if grows(system, integrator, middle * predicted) {
@@ -74,13 +69,12 @@ fn measured_limit(system: &mut System, integrator: Integrator) -> f64 {
     0.5 * (low + high)
 }
 
-/// The measured limit against the predicted one.
-pub(super) fn limit(system: &mut System, integrator: Integrator, bound: f64) -> Tried {
+pub(super) fn limit(system: &mut System, integrator: Integrator, bound: f64) -> CaseResult {
     let error = (measured_limit(system, integrator) - 1.0).abs();
     correct("measured limit against predicted", error, bound)
 }
 
-/// Whether motion of 1e-8 nm/ns and rad/ns grows at step `h` (ns). Leaves the state as it was.
+/// Returns whether motion of 1e-8 nm/ns and rad/ns grows at step `h` (ns). The state is restored.
 fn grows(system: &mut System, integrator: Integrator, h: f64) -> bool {
     let rest = system.state().clone();
     randomise_velocities(system.state_mut(), &mut Xorshift::new(3), 1e-8, 1e-8);
@@ -100,7 +94,6 @@ fn grows(system: &mut System, integrator: Integrator, h: f64) -> bool {
     is_grown
 }
 
-/// Measured against predicted limits: bisection to 1e-4, frequencies to 1e-4.
 pub(super) fn limits() -> Vec<Row> {
     each(|model, sections, integrator| {
         let tried = free(sections).and_then(|mut system| limit(&mut system, integrator, 5e-4));
@@ -109,8 +102,7 @@ pub(super) fn limits() -> Vec<Row> {
     })
 }
 
-/// Largest deviation of the energy over 1000 steps of small motion at a share of the limit,
-/// relative to what it begins with.
+/// Returns the largest relative deviation of the energy over 1000 steps of small motion at a fraction of the limit.
 fn energy_error(system: &mut System, integrator: Integrator, share: f64) -> f64 {
     let scheme = actin_sim::composition(integrator);
     let h = step_at(system, scheme, share);
@@ -126,15 +118,19 @@ fn energy_error(system: &mut System, integrator: Integrator, share: f64) -> f64 
     largest / start
 }
 
-/// Twice the share of its energy by which a mode at the share `s` of its limit fluctuates: `s^2/(1 - s^2)`
-/// with Verlet's method, exactly, and less than `s^4/(1 - s^2)` in order four.
+/// Returns twice the relative energy fluctuation of a mode at the fraction `s` of its limit.
+///
+/// ```text
+/// s^2/(1 - s^2)                 velocity Verlet, exact
+/// less than s^4/(1 - s^2)       order four
+/// ```
 fn fluctuation(scheme: &Composition, share: f64) -> f64 {
     let order = scheme.order().cast_signed();
     2.0 * share.powi(order) / (1.0 - share * share)
 }
 
-/// Fluctuation of the energy from a thousandth of the limit to just below it: a wrong coefficient costs an order, which
-/// shows at small steps.
+/// Energy fluctuation from 0.001 to 0.99 of the limit. A wrong coefficient reduces the order, which is visible at
+/// small steps.
 pub(super) fn energies() -> Vec<Row> {
     each(|model, sections, integrator| {
         let tried = free(sections).and_then(|mut system| {
@@ -150,8 +146,7 @@ pub(super) fn energies() -> Vec<Row> {
     })
 }
 
-/// Steps that a scene asks for, as a multiple of the limit: above it a step is refused, and breaks with a report if it is
-/// allowed.
+/// Steps of a scene as multiples of the limit. Larger steps are refused or, if allowed, fail.
 const ASKED: [(f64, bool, Expected); 4] = [
     (1e-3, false, Expected::Correct),
     (1.01, false, Expected::Refused),
@@ -171,8 +166,7 @@ pub(super) fn asked() -> Vec<Row> {
     })
 }
 
-/// A cantilever under a force, moving for 4000 steps at a share of the limit.
-fn at_share(sections: &str, integrator: Integrator, share: f64, allowed: bool) -> Tried {
+fn at_share(sections: &str, integrator: Integrator, share: f64, allowed: bool) -> CaseResult {
     let pulled = Parts::pulled(sections, [0.1, 0.0, 0.0]);
     let task = |step: f64| Parts {
         task: format!(
@@ -186,13 +180,12 @@ fn at_share(sections: &str, integrator: Integrator, share: f64, allowed: bool) -
     let plan = Plan::new(&assembly).map_err(|e| Outcome::Wrong(e.to_string()))?;
     let limit = plan.estimate().expect("a motion").stability_limit_ns;
     let system = task(share * limit).run()?.assembly.system;
-    // From rest without strain: the energy stays zero, the force's own included.
+    // The motion starts from rest without strain, so that the total energy is zero.
     let error = system.total_energy().abs() / system.state().kinetic_energy();
     let bound = fluctuation(actin_sim::composition(integrator), share).max(1e-8);
     correct("energy against that of the motion", error, bound)
 }
 
-/// A colour for each integrator or model.
 const COLOURS: [[u8; 3]; 5] = [
     [30, 70, 180],
     [190, 25, 35],
@@ -210,8 +203,6 @@ fn series(label: &str, colour: [u8; 3], points: Vec<(f64, f64)>, dots: bool) -> 
     }
 }
 
-/// Draws `extremes-limits.svg`, measured limits of `omega h` against those of the methods, and `extremes-energy.svg`,
-/// the fluctuation of the energy against the step.
 pub(super) fn draw(out: &Path) -> Result<(), String> {
     let diagonal = vec![(1.4, 1.4), (3.6, 3.6)];
     let mut limits = vec![series("equal", [160; 3], diagonal, false)];
@@ -259,8 +250,6 @@ pub(super) fn draw(out: &Path) -> Result<(), String> {
 mod tests {
     use super::*;
 
-    /// Below the limit the energy fluctuates, less the shorter the step: 81 times less at a third of it,
-    /// for a method of order four.
     #[test]
     fn energy_fluctuates_with_the_order_of_the_method() {
         for (model, sections) in MODELS {
@@ -272,7 +261,7 @@ mod tests {
                 println!("{model}: {a:e} and {b:e}");
                 (a / b).log(3.0)
             });
-            // The next order takes part, and the largest of 100 samples scatters.
+            // The next order contributes, and the largest of 100 samples scatters.
             assert!(
                 pefrl > 3.0 && vefrl > 3.0,
                 "{model}: orders {pefrl} and {vefrl}"

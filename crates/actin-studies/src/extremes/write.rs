@@ -1,4 +1,4 @@
-//! The table of extremes as CSV and as Markdown.
+//! Output of the table as CSV and Markdown.
 
 use super::row::Row;
 use actin_draw::report::{save, write_csv};
@@ -6,7 +6,6 @@ use std::fmt::Write as _;
 use std::fs;
 use std::path::Path;
 
-/// Writes `extremes.csv`, and `extremes.md` with a table for each number that was varied.
 pub(super) fn table(rows: &[Row], out: &Path) -> Result<(), String> {
     let header = ["varied", "case", "is_sound", "outcome"];
     let cells = rows.iter().map(|row| {
@@ -22,7 +21,6 @@ pub(super) fn table(rows: &[Row], out: &Path) -> Result<(), String> {
     save(out, "extremes.md", &tables(rows))
 }
 
-/// Writes the page and the pictures of the documents, these from `out`.
 pub(super) fn document(rows: &[Row], out: &Path, docs: &Path) -> Result<(), String> {
     save(
         docs,
@@ -36,14 +34,12 @@ pub(super) fn document(rows: &[Row], out: &Path, docs: &Path) -> Result<(), Stri
     Ok(())
 }
 
-/// Head of the page.
 const HEAD: &str = "# Extremes, case by case
 
 Computed by `cargo xtask extremes --long --write`; the short rows are tests (`cargo test -p actin-studies
 extremes`). [Extremes](../extremes.md) says what they show.
 ";
 
-/// A table for each number that was varied.
 fn tables(rows: &[Row]) -> String {
     let mut text = String::new();
     for group in rows.chunk_by(|a, b| a.varied == b.varied) {

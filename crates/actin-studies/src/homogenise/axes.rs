@@ -1,23 +1,21 @@
-//! The strains of the grid.
+//! Strains of the grid.
 
-/// Values of each strain. A slice of the grid has one twist and one extension.
+/// Grid values of each strain. A slice has one twist and one extension.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Axes {
-    /// `kappa_3` (rad/nm).
+    /// Twist `kappa_3` (rad/nm).
     pub(super) twist: Vec<f64>,
-    /// `sigma_3` beyond that of the free filament of the same twist, less its [shortening](actin_paper::cells::shortening).
+    /// Stretch `sigma_3` relative to the free filament of the same twist with its
+    /// [shortening](actin_paper::cells::shortening).
     pub(super) extension: Vec<f64>,
-    /// Angle between the vectors of curvature and of shear (deg). The filament turned end for end is
-    /// the same, so that the opposite angle is no other.
+    /// Angle between curvature and shear (deg). Opposite angles are equivalent by end-for-end symmetry.
     pub(super) angle_deg: Vec<f64>,
     /// Curvature of bending (rad/nm).
     pub(super) curvature: Vec<f64>,
-    /// Shear strain.
     pub(super) shear: Vec<f64>,
 }
 
 impl Axes {
-    /// Those of the study, or fewer.
     pub(super) fn new(quick: bool) -> Self {
         if quick {
             return Self {
@@ -41,7 +39,6 @@ impl Axes {
         }
     }
 
-    /// Points of a slice.
     pub(super) fn points(&self) -> usize {
         let bent = self.curvature.iter().filter(|&&k| k > 0.0).count();
         let sheared = self.shear.iter().filter(|&&g| g > 0.0).count();

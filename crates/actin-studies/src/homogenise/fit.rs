@@ -1,5 +1,5 @@
-//! Coefficients of a law from cells: least squares on energy, loads, tangent and strain under given loads, with a
-//! penalty where the law's own tangent is not positive.
+//! Least-squares fit of the coefficients of a law to energies, loads, tangents and strains of cells, with a penalty
+//! on directions in which the tangent of the law is not positive.
 
 use super::rows::Row;
 use actin_cosserat::{Homogenised, HomogenisedForm, PotentialJet, Term};
@@ -7,52 +7,46 @@ use actin_sim::ellipsoid::{SixMatrix, SixVector};
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
-/// Rows that make up an equation of weight 1 against the conditions.
+/// Number of rows whose total weight equals that of a unit condition.
 const ROWS: f64 = 1000.0;
-/// Added to the scaled matrix: powers of a bounded variable are nearly dependent.
+/// Regularisation of the scaled matrix, since powers of a bounded variable are nearly dependent.
 const RIDGE: f64 = 1e-9;
-/// Eigenvalues of the law's tangent are penalised below this (pN, in the units of [`Positivity`]).
+/// Eigenvalues of the tangent below this are penalised (pN, in the units of [`Positivity`]).
 const LEAST: f64 = 3.0;
-/// Least coefficients (pN, pN nm^2) of the terms that are not bounded.
+/// Smallest coefficients (pN, pN nm^2) of the unbounded terms.
 const UNBOUNDED: [(Term, f64); 3] = [
     (Term::AnyStretch, 5e3),
     (Term::AnyBend, 5e3),
     (Term::AnyShear, 500.0),
 ];
-/// Rounds in which new directions without stiffness are looked for, and steps to meet those that are known.
+/// Largest number of searches for soft directions, and of Newton steps in each.
 const ROUNDS: usize = 20;
 const NEWTON_STEPS: usize = 30;
-/// A step is halved so often until it leads down.
 const HALVINGS: i32 = 12;
 
-/// The coefficients of some terms, one after the other.
 fn columns(terms: &[Term]) -> Vec<(Term, usize)> {
     let powers = |&term: &Term| (0..=term.degree()).map(move |power| (term, power));
     terms.iter().flat_map(powers).collect()
 }
 
-/// Energy, couple and force in one list.
 fn numbers(jet: &PotentialJet) -> [f64; 7] {
     let [a, b, c, d, e, f] = jet.loads.into();
     [jet.energy, a, b, c, d, e, f]
 }
 
-/// An entry of the tangent.
 type Place = (usize, usize);
 
-/// A cell with what its numbers weigh.
 pub(super) struct Weighted<'a> {
     pub(super) row: &'a Row,
-    /// Of energy, couple and force; of weight 0 are those that are not known.
+    /// Weights of energy, torque and force; 0 for unknown values.
     pub(super) numbers: [f64; 7],
-    /// Of entries of the upper triangle of the tangent.
+    /// Weights of entries in the upper triangle of the tangent.
     pub(super) tangent: Vec<(Place, f64)>,
-    /// Sums of couple and force that count as well, with what each of these adds.
+    /// Weighted linear combinations of torque and force that are fitted in addition.
     pub(super) sums: Vec<SixVector>,
 }
 
 impl Weighted<'_> {
-    /// The weighted numbers of the cell, or of a unit of a law at its strain.
     fn of(&self, jet: &PotentialJet) -> Vec<f64> {
         let known = numbers(jet).into_iter().zip(self.numbers);
         let known = known.filter(|(_, weight)| *weight > 0.0);
@@ -65,7 +59,6 @@ impl Weighted<'_> {
             .collect()
     }
 
-    /// The coefficients' equations: their matrix and right side.
     fn equations(&self, form: &HomogenisedForm, terms: &[Term]) -> (DMatrix<f64>, DVector<f64>) {
         let right = self.of(&self.row.jet());
         let units = units(form, terms, &self.row.six());
@@ -77,7 +70,6 @@ impl Weighted<'_> {
     }
 }
 
-/// Normal equations of the coefficients of some terms.
 pub(super) struct Normal<'a> {
     form: &'a HomogenisedForm,
     terms: Vec<Term>,
@@ -89,7 +81,7 @@ impl<'a> Normal<'a> {
     pub(super) fn new(form: &'a HomogenisedForm, terms: &[Term], rows: &[Weighted<'_>]) -> Self {
         let n = columns(terms).len();
         let zero = || (DMatrix::zeros(n, n), DVector::zeros(n));
-        // Chunks are added in their order, so that the result does not depend on the number of cores.
+        // Chunks are added in order, so that the result is independent of the number of cores.
         let chunk = |rows: &[Weighted<'_>]| {
             let (mut matrix, mut right) = zero();
             for row in rows {
@@ -111,12 +103,11 @@ impl<'a> Normal<'a> {
         }
     }
 
-    /// The law that fits best, whatever its tangent.
     pub(super) fn best(&self) -> Result<Homogenised, String> {
         self.law(&Conditions::default().solve(self, None)?)
     }
 
-    /// The law of all terms that fits best, with a penalty where its tangent is not positive at these strains.
+    /// Returns the best fit, with a penalty if the tangent is not positive at the strains `places`.
     pub(super) fn positive(
         &self,
         places: &[SixVector],
@@ -142,7 +133,6 @@ impl<'a> Normal<'a> {
         self.law(&found)
     }
 
-    /// The law with these coefficients.
     fn law(&self, found: &DVector<f64>) -> Result<Homogenised, String> {
         let columns = columns(&self.terms);
         let of_term = |term| {
@@ -153,7 +143,7 @@ impl<'a> Normal<'a> {
         Homogenised::new(self.form.clone(), of_term).map_err(|e| e.to_string())
     }
 
-    /// Conditions that the terms which are not bounded stay positive at any strain: under compression both that are.
+    /// Returns the conditions that unbounded terms are positive at any strain; under compression, both of them.
     fn unbounded(&self) -> impl Iterator<Item = DVector<f64>> {
         let columns = columns(&self.terms);
         let compressed = |t: f64| {
@@ -176,8 +166,8 @@ impl<'a> Normal<'a> {
         })
     }
 
-    /// The two softest directions at a strain, if they are too soft: what each coefficient brings there, over the
-    /// least stiffness that there should be.
+    /// Returns the two softest directions at a strain, if too soft: the contribution of each coefficient, divided by
+    /// the smallest allowed stiffness.
     fn soft_directions(
         &self,
         law: &Homogenised,
@@ -203,50 +193,47 @@ impl<'a> Normal<'a> {
     }
 }
 
-/// How a tangent is held positive.
+/// Positivity condition of the tangent.
 pub(super) struct Positivity {
-    /// Units of the strains (nm, 1): in them all directions are to be as stiff as [`LEAST`].
+    /// Units of the strains (nm, 1), in which the stiffness in all directions should be at least [`LEAST`].
     pub(super) units: [f64; 6],
-    /// Weight of a direction without stiffness, where an equation of the fit has 1.
+    /// Weight of a zero-stiffness direction, relative to an equation of the fit.
     pub(super) strength: f64,
 }
 
 impl Positivity {
-    /// The least eigenvalue (pN) of the tangent of a cell in these units.
+    /// Returns the smallest eigenvalue (pN) of the tangent of a cell in these units.
     pub(super) fn least(&self, row: &Row) -> f64 {
         let unit = SixMatrix::from_diagonal(&self.units.map(f64::recip).into());
         (unit * row.tangent * unit).symmetric_eigenvalues().min()
     }
 }
 
-/// Units of all coefficients of some terms.
 fn units(form: &HomogenisedForm, terms: &[Term], strain: &SixVector) -> Vec<PotentialJet> {
     let units = |&term: &Term| form.units(term, strain);
     terms.iter().flat_map(units).collect()
 }
 
-/// Stiffness in some directions that should be at least a margin above 1.
+/// Conditions that the stiffness in some directions is at least 1 plus a margin.
 #[derive(Default)]
 struct Conditions {
     rows: Vec<DVector<f64>>,
-    /// How many of them, from the first, are to hold whatever that costs.
+    /// Number of leading conditions with the large weight [`HARD`].
     hard: usize,
-    /// Weight of the others.
+    /// Weight of the other conditions.
     strength: f64,
 }
 
-/// What is aimed at in a direction that was too soft.
+/// Target stiffness of soft directions.
 const MARGIN: f64 = 1.3;
-/// Weight of what is to hold in any case.
+/// Weight of conditions that must hold.
 const HARD: f64 = 1e5;
 
 impl Conditions {
-    /// What the square of a lack weighs.
     fn strength(&self, k: usize) -> f64 {
         if k < self.hard { HARD } else { self.strength }
     }
 
-    /// Least squares, with the squares of what lacks in each direction added.
     fn solve(
         &self,
         normal: &Normal<'_>,
@@ -289,7 +276,6 @@ impl Conditions {
         Ok(found)
     }
 
-    /// What is made least, but for a constant.
     fn objective(&self, normal: &Normal<'_>, found: &DVector<f64>) -> f64 {
         let fit = found.dot(&(0.5 * (&normal.matrix * found) - &normal.right));
         let lack = |(k, row): (usize, &DVector<f64>)| {
@@ -300,7 +286,8 @@ impl Conditions {
     }
 }
 
-/// The law as a table: a line for the stretch at rest, one for the natural length and one for each term, coefficients from the constant up.
+/// Formats the law as a table: stretch at rest, natural length, and one line of coefficients in ascending order for
+/// each term.
 pub(super) fn coefficients(law: &Homogenised) -> String {
     let line = |name: String, numbers: &[f64]| {
         let numbers: Vec<String> = numbers.iter().map(|x| format!("{x:.10e}")).collect();

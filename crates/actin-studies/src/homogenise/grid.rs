@@ -1,7 +1,6 @@
-//! Energy, loads and tangent of the mean filament over all strains, slice by slice.
+//! Energy, loads and tangent of the mean filament on a grid of strains.
 //!
-//! A slice is the file of one twist and one extension. One that is there, computed with the same
-//! parameters and axes, is not computed again.
+//! Each slice, with one twist and one extension, is a file. A file with the same parameters and axes is reused.
 
 use super::axes::Axes;
 use super::rows::{self, Row};
@@ -10,13 +9,12 @@ use actin_sim::ellipsoid::{Cell, CellResponse, Control, EllipsoidParameters};
 use rayon::prelude::*;
 use std::path::Path;
 
-/// Raised when results of the same parameters change.
+/// Changed when results for the same parameters change.
 const VERSION: u32 = 3;
 
-/// Relative difference of the energy from which two minima of the same strains count as different.
+/// Relative difference of the energies of two distinct minima at the same strains.
 const SAME: f64 = 1e-7;
 
-/// Computes what is missing; returns all rows.
 pub(super) fn compute(out: &Path, axes: &Axes) -> Result<Vec<Row>, String> {
     let folder = out.join("grid");
     std::fs::create_dir_all(&folder).map_err(|e| format!("{}: {e}", folder.display()))?;
@@ -44,7 +42,7 @@ pub(super) fn compute(out: &Path, axes: &Axes) -> Result<Vec<Row>, String> {
     Ok(all)
 }
 
-/// All points of one twist and one extension, and at how many starts from two neighbours led to different minima.
+/// Returns the points of a slice, and the number of points at which two starts led to different minima.
 fn slice(
     cell: &Cell,
     axes: &Axes,
@@ -82,7 +80,7 @@ fn slice(
     Ok((rows, branches))
 }
 
-/// The lower one of the minima that are reached from the starts, and whether they differ.
+/// Returns the lowest minimum reached from the starts, and whether the minima differ.
 fn least(
     cell: &Cell,
     [curvature, twist, shear, stretch, angle]: [f64; 5],

@@ -1,7 +1,7 @@
-//! Energy per length of periodic cells of monomers under uniform strain, on a grid of strains, and the laws of rods fitted
-//! to it: the provenance of `Homogenised`, at rest, with drawn bonds and at 298 K.
+//! Energy per length of periodic cells of monomers on a grid of uniform strains, and rod laws fitted to it. Origin of
+//! the laws `Homogenised`, athermal, with sampled bonds, and at 298 K.
 //!
-//! The cell is in `actin-ellipsoid`. Load cases enter no fit.
+//! `actin-ellipsoid` contains the cell. Load cases are not used in the fits.
 
 mod axes;
 mod fit;
@@ -18,16 +18,15 @@ use std::fs;
 use std::path::PathBuf;
 use std::time::Instant;
 
-/// Parts and output of the study.
 #[derive(clap::Args, Debug)]
 pub(crate) struct Options {
-    /// Parts to compute, all if none is named.
+    /// Parts to compute; all by default.
     #[arg(value_enum)]
     parts: Vec<Part>,
-    /// Folder of tables; slices of the grid that are there are kept.
+    /// Output folder of tables; existing slices of the grid are reused.
     #[arg(long, default_value = "target/homogenise")]
     out: PathBuf,
-    /// A coarser grid and fewer samples.
+    /// Uses a coarser grid and fewer samples.
     #[arg(long)]
     quick: bool,
     /// Temperature of the part `heat` (K).
@@ -35,25 +34,24 @@ pub(crate) struct Options {
     temperature: f64,
 }
 
-/// A part of the study.
 #[derive(clap::ValueEnum, Clone, Copy, Debug, PartialEq, Eq)]
 enum Part {
-    /// Several states of twisted and bent cells, and their bending in a plane.
+    /// Multiple states of twisted and bent cells, and their bending in a plane.
     States,
-    /// Energy, loads and tangent over all strains.
+    /// Energy, loads and tangent on a grid of strains.
     Grid,
-    /// A law of rods fitted to the grid, which is computed if it is not there.
+    /// Law fitted to the grid, which is computed if missing.
     Law,
-    /// The same law fitted to cells of drawn bonds.
+    /// Law fitted to cells with sampled bonds.
     Drawn,
-    /// Mean loads of the filament at a temperature, and the law fitted to them.
+    /// Mean loads at a temperature, and the law fitted to them.
     Heat,
 }
 
-/// Computes the parts, prints their tables and writes them.
+/// Computes the parts, and prints and writes their tables.
 ///
 /// # Errors
-/// A file that cannot be written, and a cell without an equilibrium.
+/// If a file cannot be written, or a cell has no equilibrium.
 pub(crate) fn run(options: &Options) -> Result<()> {
     compute(options).map_err(Error::msg)
 }

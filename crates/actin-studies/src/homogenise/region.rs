@@ -1,14 +1,14 @@
-//! Strains all over a region.
+//! Strains that fill a region.
 
 use actin_cosserat::HomogenisedForm;
 use actin_paper::cells::{shortening, strain};
 use actin_sim::ellipsoid::SixVector;
 
-/// The `k`-th of a sequence of points that fill the unit cube evenly.
+/// Returns point `k` of a low-discrepancy sequence in the unit cube.
 ///
 /// # Source
-/// M. Roberts, The unreasonable effectiveness of quasirandom sequences (2018): an additive recurrence with the
-/// powers of the root of `x^(N+1) = x + 1`.
+/// M. Roberts, The unreasonable effectiveness of quasirandom sequences (2018): additive recurrence with powers of the
+/// root of `x^(N+1) = x + 1`.
 pub(super) fn evenly<const N: usize>(k: u64) -> [f64; N] {
     let mut root: f64 = 1.5;
     for _ in 0..60 {
@@ -21,20 +21,19 @@ pub(super) fn evenly<const N: usize>(k: u64) -> [f64; N] {
     })
 }
 
-/// Strains up to these sizes, denser at small ones.
+/// A region of strains, with a higher density at small strains.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Region {
     pub(super) curvature: f64,
     pub(super) twist: f64,
     pub(super) shear: f64,
-    /// Beyond the natural length of the twist, or of that and the bending and shear.
+    /// Extension relative to the natural length at the twist, or at the twist, bending and shear.
     pub(super) extension: [f64; 2],
-    /// Whether bending and shear [shorten](shortening) what the extension is measured from.
+    /// True if the natural length includes [shortening](shortening) by bending and shear.
     is_shortened: bool,
 }
 
 impl Region {
-    /// Up to this curvature, twist and shear, between two extensions.
     pub(super) const fn new([curvature, twist, shear]: [f64; 3], extension: [f64; 2]) -> Self {
         Self {
             curvature,
@@ -52,7 +51,6 @@ impl Region {
         }
     }
 
-    /// The first `count` of an even sequence, after the `skip` first.
     pub(super) fn strains(self, form: &HomogenisedForm, skip: u64, count: u64) -> Vec<SixVector> {
         let draw = |k| {
             let [a, b, c, d, e] = evenly(k);
@@ -74,7 +72,6 @@ impl Region {
     }
 }
 
-/// So many strains of each region.
 pub(super) fn strains(form: &HomogenisedForm, regions: &[(Region, u64)]) -> Vec<SixVector> {
     let of = |(region, count): &(Region, u64)| region.strains(form, 0, *count);
     regions.iter().flat_map(of).collect()

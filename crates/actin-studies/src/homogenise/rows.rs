@@ -1,4 +1,4 @@
-//! Cells at given strains as rows of a table.
+//! Responses of cells as rows of a table.
 
 use actin_cosserat::PotentialJet;
 use actin_draw::report::write_atomically;
@@ -6,24 +6,22 @@ use actin_paper::cells::strain;
 use actin_sim::ellipsoid::{CellResponse, SixMatrix, SixVector};
 use std::path::Path;
 
-/// A cell: its strains, what it stores and what it bears.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Row {
     /// Curvature (rad/nm), twist (rad/nm), shear, stretch, angle between curvature and shear (deg).
     pub(super) strain: [f64; 5],
-    /// Stretch beyond that of the free filament of the same twist, less its [shortening](actin_paper::cells::shortening).
+    /// Stretch relative to the free filament of the same twist with its [shortening](actin_paper::cells::shortening).
     pub(super) extension: f64,
     /// Energy per length (pN).
     pub(super) energy: f64,
-    /// Couple (pN nm) and force (pN); shear is along the first axis.
+    /// Torque (pN nm) and force (pN); the shear is along the first axis.
     pub(super) loads: SixVector,
-    /// Their derivatives by the strains.
+    /// Derivatives of the loads with respect to the strains.
     pub(super) tangent: SixMatrix,
-    /// Standard errors of the loads: zero at rest.
+    /// Standard errors of the loads; zero without thermal motion.
     pub(super) errors: SixVector,
 }
 
-/// Names of the columns.
 fn header() -> Vec<String> {
     let mut names: Vec<String> = [
         "kappa_perp_per_nm",
@@ -48,13 +46,11 @@ fn header() -> Vec<String> {
     names
 }
 
-/// Entries of the upper triangle, row by row.
 pub(super) fn upper() -> impl Iterator<Item = (usize, usize)> {
     (0..6).flat_map(|i| (i..6).map(move |j| (i, j)))
 }
 
 impl Row {
-    /// The point of these strains.
     pub(super) fn new(strain: [f64; 5], extension: f64, response: &CellResponse) -> Self {
         Self {
             strain,
@@ -66,7 +62,6 @@ impl Row {
         }
     }
 
-    /// Energy, loads and tangent.
     pub(super) fn jet(&self) -> PotentialJet {
         PotentialJet {
             energy: self.energy,
@@ -75,14 +70,13 @@ impl Row {
         }
     }
 
-    /// The six strains.
     pub(super) fn six(&self) -> SixVector {
         let [curvature, twist, shear, stretch, angle] = self.strain;
         strain([curvature, twist, shear, stretch, angle.to_radians()])
     }
 
-    /// The least eigenvalue of the tangent with couples in pN and curvatures without unit: both are
-    /// taken times or by the radius of gyration of the section, 1 nm.
+    /// Returns the smallest eigenvalue of the tangent (pN). Curvatures are scaled by the radius of gyration of the
+    /// cross-section, 1 nm.
     pub(super) fn least_stiffness(&self) -> f64 {
         self.tangent.symmetric_eigenvalues().min()
     }
@@ -112,8 +106,7 @@ impl Row {
     }
 }
 
-/// The rows of a file that was written with the same key and as many rows, if `count` is given; else they are computed and
-/// written.
+/// Reads the rows of a file with the same key and, if given, `count` rows. Otherwise computes and writes them.
 pub(super) fn kept(
     path: &Path,
     key: &str,
@@ -129,7 +122,6 @@ pub(super) fn kept(
     Ok(rows)
 }
 
-/// Writes rows below a line with the key. The file gets its name when it is complete.
 pub(super) fn write(path: &Path, key: &str, rows: &[Row]) -> Result<(), String> {
     let mut text = format!("# {key}\n{}\n", header().join(","));
     for row in rows {
@@ -140,7 +132,6 @@ pub(super) fn write(path: &Path, key: &str, rows: &[Row]) -> Result<(), String> 
     write_atomically(path, &text)
 }
 
-/// The rows of a file that was written with the same key.
 fn read(path: &Path, key: &str) -> Option<Vec<Row>> {
     let text = std::fs::read_to_string(path).ok()?;
     let (first, table) = text.split_once('\n')?;
@@ -158,7 +149,6 @@ fn read(path: &Path, key: &str) -> Option<Vec<Row>> {
 mod tests {
     use super::*;
 
-    /// Rows come back to the last bit; with another key there are none.
     #[test]
     fn rows_come_back() {
         let folder = tempfile::tempdir().unwrap();

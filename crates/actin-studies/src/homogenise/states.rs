@@ -1,7 +1,8 @@
-//! Strains at which a twisted and bent cell has several states, bent along a helix or in a plane, and its stiffness in both.
+//! Strains at which twisted and bent cells have several states, for bending along a helix or in a plane, and their
+//! bending stiffness.
 //!
-//! A cell under uniform strains is bent along a helix where it is twisted. In a plane it is one whose lattice turns by another angle
-//! and closes after another number of monomers.
+//! A twisted cell under uniform strain bends along a helix. A cell that bends in a plane has another angle between
+//! monomers and another number of monomers in a period.
 
 use actin_draw::report::save;
 use actin_paper::cells::{self, FREE, NONE, PERIOD, relax};
@@ -13,23 +14,23 @@ use std::f64::consts::TAU;
 use std::fmt::Write as _;
 use std::path::Path;
 
-/// Turns and monomers after which the lattice closes, by the twist.
+/// Numbers of turns and monomers in a period, for each twist.
 const TURNS: [u8; 14] = [10, 9, 17, 8, 15, 7, 20, 13, 19, 11, 5, 9, 13, 4];
 const MONOMERS: [u8; 14] = [21, 19, 36, 17, 32, 15, 43, 28, 41, 24, 11, 20, 29, 9];
 /// Tensions (pN).
 const TENSIONS: [f64; 4] = [-20.0, 0.0, 10.0, 40.0];
-/// Steps of curvature (rad/nm), how many are looked at, and how many more it is bent before it goes back.
+/// Increment of curvature (rad/nm), number of increments, and number of further increments before bending is
+/// reversed.
 const STEP: f64 = 1e-3;
 const STEPS: u32 = 30;
 const MORE: u32 = 6;
-/// Steps in which the cell is twisted before.
+/// Number of increments of the initial twist.
 const TWISTED: u32 = 10;
-/// Curvature at which bending is compared, in steps.
+/// Number of increments at which bending torques are compared.
 const BENT: usize = 2;
-/// States whose couples about the axis differ by less are one (pN nm).
+/// Largest difference of torques about the axis in equal states (pN nm).
 const SAME: f64 = 0.5;
 
-/// Prints and writes the table.
 pub(super) fn run(out: &Path) -> Result<(), String> {
     let helix = cells::mean()?;
     let model = EllipsoidModel::new(EllipsoidParameters::default()).map_err(|e| e.to_string())?;
@@ -70,11 +71,11 @@ pub(super) fn run(out: &Path) -> Result<(), String> {
     save(out, "states.md", &table)
 }
 
-/// A cell that is bent step by step, and back.
 struct Bent {
-    /// Couple that it takes at the step [`BENT`] (pN nm).
+    /// Bending torque after [`BENT`] increments (pN nm).
     couple: f64,
-    /// By how much the couples about the axis differ between both ways (pN nm), where they lead to two states; by step.
+    /// Difference of the torques about the axis between both directions (pN nm) at each increment, `None` for equal
+    /// states.
     apart: Vec<Option<f64>>,
 }
 
@@ -112,7 +113,6 @@ impl Bent {
         })
     }
 
-    /// From which curvature to which it has several states.
     fn several(&self) -> String {
         let steps = 0..self.apart.len();
         let mut inside = steps.filter(|&step| self.apart[step].is_some());

@@ -1,4 +1,4 @@
-//! What mdBook does not check: the summary lists every page, and every link leads to a file and a heading.
+//! Checks of the book beyond mdBook: the summary lists every page, and links lead to existing files and headings.
 
 use super::files;
 use pulldown_cmark::{Event, Parser, Tag, TagEnd};
@@ -7,14 +7,12 @@ use std::path::{Component, Path, PathBuf};
 
 const SUMMARY: &str = "docs/SUMMARY.md";
 
-/// A page: its links with their lines, and the names of its headings.
 #[derive(Debug, Default)]
 struct Page {
     links: Vec<(usize, String)>,
     headings: Vec<String>,
 }
 
-/// Pages that the summary leaves out, and links that lead to nothing.
 pub(super) fn findings(root: &Path) -> Result<Vec<String>, String> {
     let found = files(root, "md")?.into_iter();
     let inside = |path: PathBuf| path.strip_prefix(root).map(Path::to_path_buf).ok();
@@ -37,7 +35,6 @@ pub(super) fn findings(root: &Path) -> Result<Vec<String>, String> {
     Ok(left_out.chain(broken).collect())
 }
 
-/// What is wrong with a link, if anything.
 fn broken(
     root: &Path,
     pages: &BTreeMap<PathBuf, Page>,
@@ -55,7 +52,6 @@ fn broken(
         .then(|| format!("{place}: {to}: there is no such heading"))
 }
 
-/// Links to files, pictures included, and headings of a page.
 fn read(text: &str) -> Page {
     let mut page = Page::default();
     let mut heading: Option<String> = None;
@@ -84,7 +80,6 @@ fn read(text: &str) -> Page {
     page
 }
 
-/// The name by which a heading is linked to.
 fn name(heading: &str) -> String {
     let kept = heading.trim().to_lowercase();
     let kept = kept
@@ -93,7 +88,6 @@ fn name(heading: &str) -> String {
     kept.collect::<String>().replace(' ', "-")
 }
 
-/// The file of a link, from the root, and the heading in it.
 fn target<'a>(page: &Path, link: &'a str) -> (PathBuf, &'a str) {
     let (file, heading) = link.split_once('#').unwrap_or((link, ""));
     if file.is_empty() {

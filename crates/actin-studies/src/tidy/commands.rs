@@ -1,20 +1,18 @@
-//! Commands that the documentation names: tasks, test programs and examples that exist.
+//! Commands in the documentation: their tasks, test programs and examples exist.
 
 use super::files;
 use clap::CommandFactory;
 use std::path::Path;
 
-/// Commands of `xtask` itself.
 const TASKS: [&str; 2] = ["check", "trials"];
 
-/// Where test programs lie: `tests/NAME/main.rs` or `tests/NAME.rs`, from the root and in each crate.
+/// Options and folders of programs: `tests/NAME/main.rs` or `tests/NAME.rs`, in the root and in each crate.
 const KINDS: [(&str, &str); 3] = [
     ("--test", "tests"),
     ("--example", "examples"),
     ("--bench", "benches"),
 ];
 
-/// Commands with a task, a test program or an example that does not exist.
 pub(super) fn findings(root: &Path) -> Result<Vec<String>, String> {
     let arguments = crate::Arguments::command();
     let studies = arguments.get_subcommands().map(clap::Command::get_name);
@@ -35,7 +33,7 @@ pub(super) fn findings(root: &Path) -> Result<Vec<String>, String> {
     Ok(all)
 }
 
-/// What is behind `cargo xtask`, `--test`, `--example` and `--bench`; capitals stand for any name.
+/// Returns the words after `cargo xtask`, `--test`, `--example` and `--bench`, except placeholders in capitals.
 fn commands(text: &str) -> Vec<(&str, &str)> {
     let is_kind = |word: &str| word == "xtask" || KINDS.iter().any(|(flag, _)| *flag == word);
     let words: Vec<&str> = text.split_whitespace().collect();
@@ -50,7 +48,6 @@ fn commands(text: &str) -> Vec<(&str, &str)> {
         .collect()
 }
 
-/// Whether a program of that name lies in the folder of the root or of a crate.
 fn is_program(root: &Path, folder: &str, name: &str) -> Result<bool, String> {
     let lies_in = |parent: &Path| {
         let place = parent.join(folder);

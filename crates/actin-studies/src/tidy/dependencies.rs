@@ -3,7 +3,7 @@
 use cargo_metadata::{DependencyKind, MetadataCommand};
 use std::path::Path;
 
-/// Each crate and the crates of ours that it may depend on.
+/// Each crate with the crates of the workspace that it may depend on.
 const ALLOWED: [(&str, &[&str]); 19] = [
     ("actin-mechanics", &[]),
     ("actin-ellipsoid", &["actin-mechanics"]),
@@ -11,7 +11,7 @@ const ALLOWED: [(&str, &[&str]); 19] = [
     ("actin-coupling", &["actin-mechanics", "actin-cosserat"]),
     ("actin-integrate", &["actin-mechanics"]),
     ("actin-equilibrium", &["actin-mechanics"]),
-    // Steps in time, with the run loop of all others and the stiffness of statics.
+    // Time steps use the run loop of other integrators and the stiffness of statics.
     (
         "actin-brownian",
         &["actin-mechanics", "actin-integrate", "actin-equilibrium"],
@@ -68,7 +68,7 @@ const ALLOWED: [(&str, &[&str]); 19] = [
         ],
     ),
     ("xtask", &[]),
-    // Laws and their fits for the provenance of committed numbers, scenes for the reference of their keys.
+    // Laws and their fits for the origin of committed numbers, scenes for the reference of their keys.
     (
         "actin-studies",
         &[
@@ -85,7 +85,6 @@ const ALLOWED: [(&str, &[&str]); 19] = [
     ),
 ];
 
-/// Dependencies that point the wrong way, and crates that no rule speaks of.
 pub(super) fn findings(root: &Path) -> Result<Vec<String>, String> {
     let manifest = root.join("Cargo.toml");
     let metadata = MetadataCommand::new()
@@ -97,7 +96,9 @@ pub(super) fn findings(root: &Path) -> Result<Vec<String>, String> {
     for package in &metadata.packages {
         let name = package.name.as_str();
         let Some((_, allowed)) = ALLOWED.iter().find(|(known, _)| *known == name) else {
-            all.push(format!("{name}: say in tidy what it may depend on"));
+            all.push(format!(
+                "{name}: list its allowed dependencies in tidy/dependencies.rs"
+            ));
             continue;
         };
         let normal = package.dependencies.iter();

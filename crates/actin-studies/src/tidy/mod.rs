@@ -1,4 +1,4 @@
-//! What neither compiler nor lints check: the invariants of `docs/architecture.md`.
+//! Invariants of `docs/architecture.md` that neither the compiler nor lints check.
 
 #[cfg(test)]
 mod book;
@@ -9,6 +9,8 @@ mod dependencies;
 #[cfg(test)]
 mod paths;
 #[cfg(test)]
+mod prose;
+#[cfg(test)]
 mod sizes;
 #[cfg(test)]
 mod words;
@@ -16,7 +18,6 @@ mod words;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// All files below `root` with this extension and their texts, build output left out.
 pub(crate) fn files(root: &Path, extension: &str) -> Result<Vec<(PathBuf, String)>, String> {
     let mut found = Vec::new();
     let mut folders = vec![root.to_path_buf()];
@@ -46,10 +47,10 @@ fn read(path: &Path) -> Result<String, String> {
 mod tests {
     use super::*;
 
-    /// Everything that is not tidy, one line each.
+    /// Returns all violations, one line each.
     ///
     /// # Errors
-    /// A file that cannot be read.
+    /// If a file cannot be read.
     fn findings(root: &Path) -> Result<Vec<String>, String> {
         let sources = files(root, "rs")?;
         let mut all = dependencies::findings(root)?;
@@ -57,6 +58,18 @@ mod tests {
         all.extend(book::findings(root)?);
         all.extend(commands::findings(root)?);
         all.extend(crate::docs::findings(root)?);
+        let mut texts = sources.clone();
+        let is_written = |path: &Path| {
+            let mut parts = path.iter();
+            !parts.any(|part| part == "tables" || part == "measured")
+                && !path.ends_with("CHANGELOG.md")
+        };
+        texts.extend(
+            files(root, "md")?
+                .into_iter()
+                .filter(|(path, _)| is_written(path)),
+        );
+        all.extend(prose::findings(root, &texts));
         for (path, text) in &sources {
             let name = path
                 .strip_prefix(root)
@@ -69,7 +82,6 @@ mod tests {
         Ok(all)
     }
 
-    /// The workspace keeps its own rules.
     #[test]
     fn the_workspace_is_tidy() {
         let root = actin_paper::workspace_root();

@@ -1,12 +1,10 @@
-//! Paths that the documentation names.
+//! Paths in the documentation exist.
 
 use super::files;
 use std::path::Path;
 
-/// Beginnings by which a word in backticks is taken for a path of this workspace.
 const FOLDERS: [&str; 5] = ["crates/", "docs/", "scenarios/", "xtask/", "tests/"];
 
-/// Paths in backticks that do not exist.
 pub(super) fn findings(root: &Path) -> Result<Vec<String>, String> {
     let mut all = Vec::new();
     for (file, text) in files(root, "md")? {

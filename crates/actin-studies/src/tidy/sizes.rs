@@ -1,10 +1,8 @@
-//! Sizes of files, and the header that each opens with. Sizes of functions are a lint's business
-//! (`clippy.toml`).
+//! Sizes of files, and their headers. A lint limits the sizes of functions (`clippy.toml`).
 
-/// Most lines of a file.
+/// Largest number of lines of a file.
 const MOST_LINES: usize = 600;
 
-/// Files that are too long, and files that do not say what lives in them.
 pub(super) fn findings(name: &str, text: &str) -> Vec<String> {
     let mut all = Vec::new();
     let lines = text.lines().count();

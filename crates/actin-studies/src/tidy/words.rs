@@ -1,6 +1,5 @@
-//! Words that a crate must not know.
+//! Words that are forbidden in a crate.
 
-/// Crates, and words that none of their lines may hold.
 const FORBIDDEN: [(&str, &[&str]); 6] = [
     (
         "crates/actin-mechanics/src",
@@ -32,7 +31,6 @@ const FORBIDDEN: [(&str, &[&str]); 6] = [
     ),
 ];
 
-/// Lines with a word that their crate must not know.
 pub(super) fn findings(name: &str, text: &str) -> Vec<String> {
     let forbidden: Vec<&str> = FORBIDDEN
         .iter()
@@ -43,7 +41,10 @@ pub(super) fn findings(name: &str, text: &str) -> Vec<String> {
     for (i, line) in text.lines().enumerate() {
         let line = line.to_lowercase();
         for word in forbidden.iter().filter(|word| line.contains(**word)) {
-            all.push(format!("{name}:{}: must not know of a {word}", i + 1));
+            all.push(format!(
+                "{name}:{}: the word {word} is forbidden in this crate",
+                i + 1
+            ));
         }
     }
     all

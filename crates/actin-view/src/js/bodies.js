@@ -1,41 +1,40 @@
-// Bodies of a pose as solids: monomers, rods with their frames, junctions, linkers, held ends, forces.
+// Converts a pose to solids: monomers, rods with frames, junctions, linkers, clamps and forces.
 //
-// A pose holds flat arrays in nm, in the lab frame:
+// A pose contains flat arrays (nm, lab frame):
 //   strands   { lengths, places 3n, turns 4n, tint n or null, filament, first, per_interface, bonds }
 //   rods      { radius, nodes 3(n + 1), frames 4n, tint n + 1 or null, filament }
-//   junctions [6 numbers], linkers [6, or 7 with their pull in pN], anchors [3], clamps [12], forces [6]
-// Colours are those of the element #palette, light or dark with the page.
+//   junctions [6 numbers], linkers [6, or 7 with the tension in pN], anchors [3], clamps [12], forces [6]
+// Colours are read from the element #palette and follow the light or dark mode of the page.
 
 const Bodies = (() => {
   'use strict';
 
   const PALETTE = JSON.parse(document.getElementById('palette').textContent);
-  const THROUGH = 8; // what is seen through bodies counts so much nearer (nm)
-  const ON_SURFACE = 1.2; // what lies between bodies counts so much nearer (nm)
+  const THROUGH = 8; // depth offset of parts visible through bodies (nm)
+  const ON_SURFACE = 1.2; // depth offset of parts between bodies (nm)
   const AXIS = 5; // length of the axes of segments (nm)
-  const LABELLED = 30; // so many linkers have their pulls beside them
+  const LABELLED = 30; // largest number of linkers with labels
   const DARK = window.matchMedia('(prefers-color-scheme: dark)');
   const { axesOf } = Solids;
 
   // ---- colours
 
-  // Colours of the page as it is now: the element holds those of both, so that a view and a picture
-  // show one thing in one colour.
+  // Colours for the current mode of the page.
   const shades = () => (DARK.matches ? PALETTE.dark : PALETTE.light);
   const lighter = (rgb, share) => rgb.map((v) => v + share * (255 - v));
   const css = (rgb) => `rgb(${rgb.map(Math.round).join(',')})`;
 
-  // The colour at a share of the way along stops.
+  // Interpolates between colour stops.
   function along(stops, share) {
     const place = Math.min(1, Math.max(0, share)) * (stops.length - 1);
     const i = Math.min(Math.floor(place), stops.length - 2), t = place - i;
     return stops[i].map((v, k) => v + t * (stops[i + 1][k] - v));
   }
 
-  // The colour of a share of rod.
+  // Colour of a fraction of rod.
   const resolution = (share) => along(shades().stops, share);
 
-  // What stands for what; evaluated at every drawing, since the page may change to dark.
+  // Colours of parts. Evaluated at each drawing, since the mode of the page can change.
   function colours() {
     const { things } = shades(), rod = resolution(1), monomer = resolution(0);
     return {
@@ -48,7 +47,7 @@ const Bodies = (() => {
 
   const flat = (rows, from, to) => Float32Array.from(rows.flatMap((row) => row.slice(from, to)));
 
-  // A state of a file as a pose.
+  // Converts a state of a file to a pose.
   function pose(state) {
     return {
       ...state,
@@ -63,8 +62,8 @@ const Bodies = (() => {
 
   const at = (places, i) => places.subarray(3 * i, 3 * i + 3);
 
-  // Puts a pose into a view. `tintOf(part, i)` is the colour of monomer or node i of a strand or rod, where
-  // colours stand for something; `bonds` are those of the file, `has` what else is to be seen.
+  // Adds a pose to a view. `tintOf(part, i)` returns the colour of monomer or node i of a strand or rod; `bonds` are the
+  // bonds of the file; `has` selects the visible parts.
   function put(space, from, { bonds = [], tintOf = null, has = () => true } = {}) {
     const palette = colours(), { batch, fine, far } = space;
     for (const one of [batch, fine, far]) one.clear();
@@ -92,15 +91,14 @@ const Bodies = (() => {
     space.draw();
   }
 
-  // The pull of each linker, at its middle.
+  // Tension of each linker, at its middle.
   function pulls(linkers) {
     if (linkers.length > LABELLED) return [];
     const middle = (ends) => [0, 1, 2].map((k) => (ends[k] + ends[k + 3]) / 2);
     return linkers.filter((ends) => ends.length > 6).map((ends) => [...middle(ends), `${force(ends[6])} pN`]);
   }
 
-  // Monomers; from near, the bonds from each to the next and to the one after, which are kept in 0.01 nm in
-  // the frames of both; from far, a line.
+  // Monomers. When magnified, their bonds, stored in 0.01 nm in the body frames; when small, a connecting line.
   function putStrand({ batch, fine, far }, strand, { palette, bonds, tintOf, has }) {
     const { places, turns, lengths, first } = strand, count = places.length / 3, line = [];
     const colourOf = (i) => (tintOf ? tintOf(strand, i) : i % 2 ? palette.other : palette.monomer);
@@ -128,7 +126,7 @@ const Bodies = (() => {
     }
   }
 
-  // A rod with its stripe; through it its centre line and its nodes; from near, the axes of its segments.
+  // A rod with a stripe, its centre line and nodes; when magnified, the axes of its segments.
   function putRod({ batch, fine }, rod, { palette, tintOf, has }) {
     const { nodes, frames, radius } = rod, count = nodes.length / 3;
     const colourAt = (i) => (tintOf ? tintOf(rod, i) : palette.rod);
@@ -144,7 +142,7 @@ const Bodies = (() => {
     }
   }
 
-  // All places that a pose takes, to look at them.
+  // All positions of a pose, for the camera.
   function places(from) {
     const ends = [...from.linkers, ...from.junctions].flatMap((l) => [l.slice(0, 3), l.slice(3, 6)]);
     const clamps = from.clamps.flatMap((c) => [0, 3, 6, 9].map((i) => [...c.slice(i, i + 3)]));
@@ -159,7 +157,7 @@ const Bodies = (() => {
     return all;
   }
 
-  // What there is in a pose, by name and colour; `sample` says how many bonds are drawn.
+  // Legend entries of a pose; `sample` is the number of displayed bonds.
   function legend(from, { isFine, sample = '', isTinted = false, filaments = null }) {
     const palette = colours(), near = Number(isFine), hasBonds = near * Number(sample !== '');
     const kinds = isTinted ? [] : [
@@ -183,7 +181,7 @@ const Bodies = (() => {
     ].filter(([count]) => count > 0).map(([, ...entry]) => entry);
   }
 
-  // Puts a legend into a list, if it is another than before.
+  // Updates a legend if it has changed.
   function explain(list, entries) {
     const text = JSON.stringify(entries);
     if (text === list.dataset.text) return;
@@ -199,7 +197,7 @@ const Bodies = (() => {
     }));
   }
 
-  // How many bonds of an interface are drawn.
+  // Text for the number of displayed bonds of an interface.
   function sample({ strands }, bonds) {
     if (strands.length === 0) return '';
     const [{ bonds: set, first, per_interface: all }] = strands;
@@ -208,9 +206,9 @@ const Bodies = (() => {
     return count < all ? `${count} of ${all} an interface` : 'all';
   }
 
-  // A force (pN), as far as it is not round-off.
+  // Formats a force (pN), zero up to round-off.
   const force = (pn) => (Math.abs(pn) < 1e-4 ? '0' : short(pn));
-  // Three digits.
+  // Formats a number with three digits.
   const short = (x) => String(Number(x.toPrecision(3)));
 
   return { pose, put, places, legend, explain, sample, resolution, along, colours, shades, css, lighter, short, DARK };

@@ -1,15 +1,15 @@
-// Curves beside a view: one line chart with a cursor, as SVG whose colours are the page's.
+// Line chart with a cursor, as SVG in the colours of the page.
 
 const Curves = (() => {
   'use strict';
 
   const SVG = 'http://www.w3.org/2000/svg';
   const [LEFT, RIGHT, TOP, BOTTOM] = [52, 14, 8, 22];
-  // Ends of names of columns, and the units that they stand for.
+  // Suffixes of column names, and their units.
   const UNITS = [['_pn_nm', 'pN nm'], ['_rad_per_nm', 'rad/nm'], ['_nm_per_ns', 'nm/ns'], ['_pn', 'pN'],
     ['_nm2', 'nm²'], ['_nm', 'nm'], ['_rad', 'rad'], ['_deg', '°'], ['_turns', 'turns'], ['_k', 'K']];
 
-  // `tip[0]_x_nm` as name and unit.
+  // Splits `tip[0]_x_nm` into name and unit.
   function named(column) {
     const [end, unit] = UNITS.find(([suffix]) => column.endsWith(suffix)) || ['', ''];
     return { name: column.slice(0, column.length - end.length).replaceAll('_', ' '), unit };
@@ -22,14 +22,14 @@ const Curves = (() => {
     return element;
   }
 
-  // A number with as many digits as differences of `span` need.
+  // Formats a number with the digits needed to resolve `span`.
   function digits(x, span) {
     if (x === 0) return '0';
     if (Math.abs(x) >= 1e5 || Math.abs(x) < 1e-3) return x.toExponential(1).replace('e', '·10^').replace('^+', '^');
     return String(Number(x.toFixed(Math.max(0, Math.min(6, 2 - Math.floor(Math.log10(span || 1)))))));
   }
 
-  // Even places between two ends: steps of 1, 2 or 5 times a power of ten.
+  // Tick positions between two ends, in steps of 1, 2 or 5 times a power of ten.
   function ticks(low, high, most) {
     const raw = (high - low) / most || 1, power = 10 ** Math.floor(Math.log10(raw));
     const step = power * [1, 2, 5, 10].find((digit) => digit * power >= raw);
@@ -38,7 +38,7 @@ const Curves = (() => {
     return all;
   }
 
-  // One chart in `box`. Lines are { x, y, colour } with arrays of numbers, NaN where there is none.
+  // A chart in `box`. Lines are { x, y, colour } with arrays of numbers; NaN marks missing values.
   class Chart {
     constructor(box, { label, height = 132, choose = null }) {
       this.svg = make('svg', { class: 'chart', role: 'img', 'aria-label': label, height });
@@ -60,13 +60,13 @@ const Curves = (() => {
       for (const end of ['pointerup', 'pointercancel']) this.svg.addEventListener(end, () => { this.isHeld = false; });
     }
 
-    // Shows lines; `range` is that of y if it is not to follow from them, `across` the text below.
+    // Shows lines; `range` fixes the y axis, `across` is the label of the x axis.
     show(lines, { isLog = false, range = null, across = '' } = {}) {
       Object.assign(this, { lines, isLog, range, across });
       this.draw();
     }
 
-    // Puts the cursor at x.
+    // Moves the cursor to x.
     point(at) {
       this.at = at;
       if (!this.cursor || !this.x) return;
@@ -80,7 +80,7 @@ const Curves = (() => {
       if (isThere) this.dot.setAttribute('cy', this.y(value).toFixed(1));
     }
 
-    // The value of the first line at x, between its points in a straight line.
+    // Interpolates the first line linearly at x.
     valueAt(at) {
       const [{ x, y }] = this.lines;
       let after = x.findIndex((v) => v >= at);

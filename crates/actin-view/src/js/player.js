@@ -1,6 +1,6 @@
-// The page of a run: its records in three dimensions, played by a slider, with curves in step.
+// Page of a run: a 3D view of its records, a slider, and synchronised curves.
 //
-// The data are those of crates/actin-view/src/run/data.rs, in the element #run.
+// The element #run contains the data; crates/actin-view/src/run/data.rs describes the format.
 
 (() => {
   'use strict';
@@ -25,7 +25,7 @@
   const columns = run.curves.map((one) => (
     { ...Curves.named(one.name), at: floats(one.at), values: floats(one.values) }));
 
-  // Record t as a pose.
+  // Returns record t as a pose.
   function poseOf(t) {
     const at = (from, to) => places.subarray(3 * (run.points * t + from), 3 * (run.points * t + to));
     const turned = ({ start, end }) => Float32Array.from(
@@ -45,18 +45,18 @@
     };
   }
 
-  // ---- what is seen
+  // ---- colours and visible parts
 
   const space = new Space(query('#space'), { ownsWheel: true });
   const slider = query('#slider'), playing = query('#play'), paint = query('#paint'), clock = query('#clock');
   let record = -1, pose = null, place = 0;
 
-  // Colours of a field, from its lowest to its highest value.
+  // Colour scale of a field.
   const SIGNED = [[59, 76, 192], [141, 176, 254], [221, 221, 221], [244, 154, 123], [180, 4, 38]];
   const RISING = [[68, 57, 131], [49, 104, 142], [33, 145, 140], [83, 197, 105], [253, 231, 37]];
   const stops = (field) => (field.signed ? SIGNED : RISING);
 
-  // How bodies are coloured, as chosen.
+  // Selected colouring.
   function tint() {
     const choice = paint.value;
     if (choice === 'kind') return null;
@@ -92,7 +92,7 @@
     legend();
   }
 
-  // Shows a record, and puts slider, clock and cursors to it.
+  // Shows a record and updates slider, clock and cursors.
   function show(t) {
     const next = Math.min(last, Math.max(0, t));
     if (next === record) return;
@@ -110,12 +110,12 @@
     document.body.dataset.record = String(record);
   }
 
-  // ---- playing
+  // ---- playback
 
   const SECONDS = Math.min(12, Math.max(2.5, 0.12 * (last + 1)));
   let began = null, speed = 1;
 
-  // The share of the way at which a record stands, and back: by time where there is time.
+  // Converts between records and slider positions, which are proportional to time if available.
   const [first, end] = [run.at[0], run.at[last]];
   const isTimed = run.unit === 'ns' && end > first;
   const shareOf = (t) => (isTimed ? (run.at[t] - first) / (end - first) : t / Math.max(1, last));
@@ -160,7 +160,7 @@
 
   // ---- curves
 
-  // A chart with a menu of what it shows.
+  // A chart with a menu of quantities.
   class Panel {
     constructor(box, choices, chosen, { label, choose }) {
       const head = document.createElement('div'), menu = document.createElement('select');
@@ -182,7 +182,7 @@
     }
   }
 
-  // Of a number in time.
+  // Curve of a number over time.
   class InTime extends Panel {
     change() {
       const { at, values, name } = this.choice, positive = values.filter((v) => v > 0);
@@ -203,7 +203,7 @@
     }
   }
 
-  // Of a field along the filaments, in the record that is shown.
+  // Curve of a field along the filaments, in the current record.
   class AlongFilaments extends Panel {
     change() {
       this.follow();
@@ -221,7 +221,7 @@
     }
   }
 
-  // What is shown at first: what the scene observes, the energy, the residual.
+  // Initial quantities: observables, energy, residual.
   function preferred() {
     const find = (test) => columns.findIndex(({ name }) => test(name));
     const wanted = [find((n) => n.includes('[')), find((n) => n === 'elastic'), find((n) => n === 'total'),
@@ -240,7 +240,7 @@
     };
     preferred().forEach((i) => charts.push(new InTime(panel(), columns, i, { label: 'Curve in time', choose })));
   }
-  // One in step with the curves; all of a run with nothing to play.
+  // One chart along the filament next to curves over time; all fields for a single record.
   fields.slice(0, last > 0 ? 1 : 4).forEach((_, i) => charts.push(
     new AlongFilaments(panel(), fields, i, { label: 'Along the filament' })));
   query('#curves').hidden = charts.length === 0;
@@ -274,7 +274,7 @@
   });
   for (const element of document.querySelectorAll('.transport')) element.hidden = last === 0;
 
-  // ---- begin with the end, which is the result; the camera sees all records
+  // ---- start at the last record, with all records in view
 
   if (space.isThere) {
     space.drawn = legend;

@@ -1,8 +1,8 @@
-// Every <figure class="viewer"> of the page becomes a view of states that can be turned.
+// Converts every <figure class="viewer"> of the page to an interactive view of states.
 //
-// A figure holds a <script type="application/json"> with `attitude` (towards the viewer, up),
-// `bonds` between monomers, and `states`: bodies as plain numbers in nm, in the lab frame (see
-// crates/actin-view/src/states.rs). Camera and input are in space.js, bodies in bodies.js.
+// A figure contains a <script type="application/json"> with `attitude` (view direction and up direction),
+// `bonds` between monomers, and `states` with bodies as plain numbers (nm, lab frame), described in
+// crates/actin-view/src/states.rs. space.js handles camera and input, bodies.js the bodies.
 
 (() => {
   'use strict';
@@ -21,7 +21,7 @@
       Bodies.DARK.addEventListener('change', () => this.put());
     }
 
-    // Menus and buttons; a menu with nothing to choose is left out.
+    // Menus and buttons; menus with a single entry are omitted.
     controls(figure) {
       const bar = figure.querySelector('.controls');
       const add = (name, text, act) => {
@@ -52,7 +52,7 @@
       add('button', 'Reset', () => this.space.reset());
     }
 
-    // Shows a group, and of its states the one of the name shown before, or the middle one.
+    // Shows a group and selects the state with the previous name, or the middle one.
     choose(group) {
       const before = this.state && this.state.name;
       this.members = this.data.states.filter((s) => s.group === group);
@@ -63,7 +63,7 @@
       this.stateMenu.selectedIndex = index;
       this.stateMenu.hidden = this.members.length < 2;
       this.compare.hidden = this.members.length < 2;
-      // All states of the group as first seen, so that they are compared at one scale.
+      // The camera includes all states of the group, so that they have the same scale.
       this.space.frame(this.data.attitude, this.members.flatMap((s) => [
         ...s.lines.flat(), ...s.linkers.flatMap((l) => [l.slice(0, 3), l.slice(3)])]));
       this.put();
@@ -73,7 +73,7 @@
       return this.compare.getAttribute('aria-pressed') === 'true';
     }
 
-    // Puts what is chosen into the view: a state, or the centre lines of the whole group.
+    // Shows the selected state, or the centre lines of the whole group.
     put() {
       this.pose = Bodies.pose(this.state);
       Bodies.put(this.space, this.pose, { bonds: this.data.bonds });
@@ -85,7 +85,7 @@
       }
     }
 
-    // The legend: what there is in the chosen state, or the states that are compared.
+    // Legend of the selected state or of the compared states.
     explain() {
       const entries = this.isCompared
         ? this.members.map((s) => [s.name, Bodies.resolution(s.share)])

@@ -1,19 +1,19 @@
-//! Where things stand that are seen and are no bodies of their own: plates at held ends, anchors, forces.
+//! Positions of clamp plates, anchors and forces.
 
 use actin_sim::mechanics::{Loads, State, UnitQuaternion, Vector3};
 use actin_sim::{Assembly, JunctionBond, Part, rod_constants};
 
-/// Radius of the circle that has the area of the rod's cross-section (nm).
+/// Returns the radius of a circular rod cross-section of the default area (nm).
 pub fn rod_radius_nm() -> f64 {
     (rod_constants::CROSS_SECTION_AREA / std::f64::consts::PI).sqrt()
 }
 
-/// Both ends of a bond of a junction: the monomer's centre, the rod's end (nm, lab frame).
+/// Returns the ends of a junction bond: monomer centre and rod end (nm, lab frame).
 pub fn ends_of(bond: &JunctionBond, state: &State) -> [Vector3; 2] {
     [bond.monomer, bond.node].map(|i| state.points.position.get(i))
 }
 
-/// Corners of a plate at each clamped end, across the filament's axis there (nm, lab frame).
+/// Returns the corners of a plate at each clamp, perpendicular to the filament (nm, lab frame).
 pub fn plates(assembly: &Assembly, state: &State, half_nm: f64) -> Vec<[Vector3; 4]> {
     let clamps = assembly.clamps.iter();
     clamps
@@ -29,13 +29,12 @@ pub fn plates(assembly: &Assembly, state: &State, half_nm: f64) -> Vec<[Vector3;
         .collect()
 }
 
-/// How a frame has turned since it was built.
 fn turn_from_rest(assembly: &Assembly, state: &State, frame: usize) -> UnitQuaternion {
     let rest = assembly.rest.frames.orientation.get(frame);
     state.frames.orientation.get(frame) * rest.inverse()
 }
 
-/// Fixed or moved points that linkers pull towards (nm, lab frame).
+/// Returns the fixed or moving points that linkers pull towards (nm, lab frame).
 pub fn anchors(assembly: &Assembly, state: &State) -> Vec<Vector3> {
     let linkers = assembly.linkers.iter().enumerate();
     let anchored = linkers.filter(|(i, _)| assembly.linked_to(*i).is_none());
@@ -44,8 +43,9 @@ pub fn anchors(assembly: &Assembly, state: &State) -> Vec<Vector3> {
         .collect()
 }
 
-/// Where each load acts with its factor in `state`, and its resultant force (nm, pN, lab frame): of one that
-/// is spread, at the mean of its places. Couples have none and are left out.
+/// Returns the position and resultant force of each load in `state` (nm, pN, lab frame).
+///
+/// A distributed load is placed at the mean of its points, weighted by force. Couples are not included.
 pub fn forces(assembly: &Assembly, state: &State) -> Vec<(Vector3, Vector3)> {
     let interactions = assembly.system.interactions().iter();
     let loads = assembly.terms.iter().zip(interactions);
@@ -60,7 +60,7 @@ pub fn forces(assembly: &Assembly, state: &State) -> Vec<(Vector3, Vector3)> {
         .collect()
 }
 
-/// The sum of forces and the mean of their places; none where nothing is left of them.
+/// Returns the mean position and the sum of forces; `None` if the forces cancel.
 fn resultant(state: &State, loads: &Loads) -> Option<(Vector3, Vector3)> {
     let (mut at, mut sum, mut weight) = (Vector3::zeros(), Vector3::zeros(), 0.0);
     for (place, force) in state.points.position.iter().zip(loads.force.iter()) {
@@ -68,6 +68,6 @@ fn resultant(state: &State, loads: &Loads) -> Option<(Vector3, Vector3)> {
         weight += force.norm();
         sum += force;
     }
-    // What cancels, as the forces of a couple on two points, is a sum of round-off.
+    // The sum of forces that cancel, as in a couple on two points, is round-off.
     (sum.norm() > 1e-9 * weight).then(|| (at / weight, sum))
 }

@@ -1,32 +1,29 @@
-//! Bonds between monomers as the viewer draws them: a few of each interface, kept once for all the
-//! states of a file.
+//! Bonds between monomers for display, stored once for all states of a file.
 //!
-//! Where a bond holds on to a monomer is known in the monomer's own frame and does not depend on the
-//! state, and draws are keyed by the place along the lattice. So states that resolve the same monomers
-//! share their bonds.
+//! The anchors of a bond are constant in the body frames of the monomers. They are sampled by lattice index, so that
+//! states with the same monomers have the same bonds.
 
 use actin_sim::{Assembly, Resolution};
 use serde::Serialize;
 use std::collections::BTreeMap;
 
-/// Most bonds of an interface that are drawn. Draws are independent, so that the first are a fair
-/// sample; 64 thin lines between two monomers would hide them and one another.
+/// Largest number of displayed bonds of an interface. Samples are independent, so that the first bonds are
+/// representative.
 const MOST_DRAWN: usize = 8;
-/// Anchors are kept as multiples of 0.01 nm.
+/// Anchors are stored in units of 0.01 nm.
 const PER_NM: f64 = 1e2;
 
-/// Bonds of one interface: ends on the lower and on the upper monomer, three components each in the
-/// monomer's own frame (0.01 nm), one bond after the other.
+/// Bonds of one interface: anchors on the lower and on the upper monomer, three components each (0.01 nm, body
+/// frames).
 type Interface = Vec<i16>;
 
-/// Bonds from each monomer, by its lattice index: to the next (lateral), and to the one after
-/// (longitudinal).
+/// Bonds from each monomer, by lattice index, to the next (lateral) and to the second next (longitudinal).
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Bonds(BTreeMap<i64, [Interface; 2]>);
 
 impl Bonds {
-    /// Lattice index of the first monomer of a section, the number of bonds of an interface, and
-    /// those that are drawn; none of a rod.
+    /// Returns the lattice index of the first monomer of a section, the number of bonds of an interface, and the
+    /// displayed bonds; `None` for a rod.
     pub(crate) fn of(assembly: &Assembly, section: usize) -> Option<(i64, usize, Self)> {
         let Resolution::Ellipsoids { first_index, .. } = assembly.sections[section].resolution
         else {
@@ -46,8 +43,8 @@ impl Bonds {
         Some((first_index, most.unwrap_or(0), all))
     }
 
-    /// Whether no interface that both know differs. One at the end of a section is known to have no
-    /// bonds there, which others may have.
+    /// Returns whether all interfaces in both are equal. Monomers at the end of a section have no bonds beyond it,
+    /// which is compatible with any bonds.
     fn agrees(&self, other: &Self) -> bool {
         other.0.iter().all(|(index, theirs)| {
             self.0.get(index).is_none_or(|ours| {
@@ -74,7 +71,7 @@ impl Bonds {
     }
 }
 
-/// Puts bonds with the first that they agree with; the number of these.
+/// Merges bonds into the first compatible set, or adds a set. Returns the index of the set.
 pub(crate) fn keep(all: &mut Vec<Bonds>, bonds: Bonds) -> usize {
     if let Some(place) = all.iter().position(|known| known.agrees(&bonds)) {
         all[place].merge(bonds);
@@ -86,7 +83,7 @@ pub(crate) fn keep(all: &mut Vec<Bonds>, bonds: Bonds) -> usize {
 
 #[expect(
     clippy::cast_possible_truncation,
-    reason = "anchors lie on monomers, a few nm from their centres; a cast beyond 327 nm saturates"
+    reason = "anchors are a few nm from the centres; the cast saturates beyond 327 nm"
 )]
 fn rounded(x_nm: f64) -> i16 {
     (x_nm * PER_NM).round() as i16
@@ -105,7 +102,6 @@ mod tests {
         )
     }
 
-    /// Sections of one filament share what they have in common; another filament's bonds stay apart.
     #[test]
     fn bonds_that_agree_are_kept_once() {
         let mut all = Vec::new();

@@ -1,5 +1,4 @@
-//! A state of an assembly as views draw it: plain numbers, taken from the state alone. All
-//! filaments are in it.
+//! Visible bodies of a state of all filaments, as plain numbers.
 
 pub mod bodies;
 mod bonds;
@@ -11,65 +10,65 @@ use actin_sim::Assembly;
 use actin_sim::mechanics::{State, Vector3};
 use serde::Serialize;
 
-/// Places are kept to 0.01 nm, a hundredth of the least that is seen at full zoom.
+/// Positions are rounded to 0.01 nm.
 const PER_NM: f64 = 1e2;
-/// Components of quaternions are kept to 1e-4, a turn of 0.01 deg.
+/// Components of quaternions are rounded to 1e-4, a rotation of about 0.01 deg.
 const PER_UNIT: f64 = 1e4;
 
-/// Bodies and what holds and pulls them (nm, pN, lab frame).
+/// Visible bodies, clamps, linkers and forces (nm, pN, lab frame).
 #[derive(Clone, Debug, Default, Serialize)]
 pub struct Pose {
     /// Sections of monomers.
     pub strands: Vec<Strand>,
     /// Radius of the cross-section of rods.
     pub rod_radius: f64,
-    /// Sections that are rods.
+    /// Rod sections.
     pub rods: Vec<Rod>,
-    /// Monomer's centre and rod's end of each bond of a junction.
+    /// Monomer centre and rod end of each junction bond.
     pub junctions: Vec<[f64; 6]>,
-    /// Site of each linker, and its anchor or other site.
+    /// Ends of each linker: its site, and its anchor or second site.
     pub linkers: Vec<[f64; 6]>,
-    /// Points outside of filaments that linkers pull towards.
+    /// Anchors of linkers outside filaments.
     pub anchors: Vec<[f64; 3]>,
-    /// Corners of a plate at each held end.
+    /// Corners of a plate at each clamp.
     pub clamps: Vec<[f64; 12]>,
-    /// Where each force acts, and the force (pN).
+    /// Position and force (pN) of each load.
     pub forces: Vec<[f64; 6]>,
     /// Centre line of each filament.
     pub lines: Vec<Vec<[f64; 3]>>,
 }
 
-/// Monomers that follow one another.
+/// Consecutive monomers.
 #[derive(Clone, Debug, Serialize)]
 pub struct Strand {
-    /// Semi-axes of every monomer along its own frame.
+    /// Semi-axes of every monomer in its body frame.
     pub semi_axes: [f64; 3],
-    /// Centre, then quaternion (w, x, y, z; body to lab) of each monomer.
+    /// Centre and quaternion (w, x, y, z; body to lab) of each monomer.
     pub monomers: Vec<[f64; 7]>,
-    /// Lattice index of the first, by which its bonds are found.
+    /// Lattice index of the first monomer, which identifies its bonds.
     pub first: i64,
-    /// Bonds of an interface, those that are not drawn included.
+    /// Number of bonds of an interface, including those not displayed.
     pub per_interface: usize,
-    /// Which of the bonds of the file are theirs; set when the file is written.
+    /// Index of the set of bonds in the file; set when the file is written.
     pub bonds: usize,
     #[serde(skip)]
     pub(crate) own_bonds: Bonds,
 }
 
-/// A section of n segments: n + 1 nodes, n frames.
+/// A rod of n segments, with n + 1 nodes and n frames.
 #[derive(Clone, Debug, Serialize)]
 pub struct Rod {
-    /// Places of its nodes.
+    /// Positions of nodes.
     pub nodes: Vec<[f64; 3]>,
     /// Quaternion (w, x, y, z; body to lab) of each segment.
     pub frames: Vec<[f64; 4]>,
 }
 
-/// Half the width of the plate at a held end (nm).
+/// Half the width of a clamp plate (nm).
 pub(crate) const PLATE_NM: f64 = 6.0;
 
 impl Pose {
-    /// What is seen of `state`.
+    /// Creates the pose of `state`.
     pub fn of(assembly: &Assembly, state: &State) -> Self {
         let junctions = assembly.junction_bonds();
         let linkers = assembly.linkers.iter();
@@ -109,7 +108,7 @@ impl Pose {
         }
     }
 
-    /// The same without linkers.
+    /// Removes linkers.
     #[must_use]
     pub fn without_linkers(self) -> Self {
         Self {
@@ -119,14 +118,13 @@ impl Pose {
         }
     }
 
-    /// Puts the bonds between monomers among those of a file, which all of its states share.
+    /// Moves the bonds to the sets shared by all states of a file.
     pub(crate) fn share_bonds(&mut self, all: &mut Vec<Bonds>) {
         for strand in &mut self.strands {
             strand.bonds = bonds::keep(all, std::mem::take(&mut strand.own_bonds));
         }
     }
 
-    /// Whether every number is one.
     pub(crate) fn is_finite(&self) -> bool {
         let (rods, strands) = (self.rods.iter(), self.strands.iter());
         let bodies = strands.clone().flat_map(|s| s.monomers.iter().flatten());
@@ -183,7 +181,7 @@ fn rods(assembly: &Assembly, state: &State) -> Vec<Rod> {
     sections.map(rod).collect()
 }
 
-/// To the nearest of so many steps per unit; zero without a sign.
+/// Rounds to multiples of `1 / per_unit`; -0 becomes 0.
 fn rounded(x: f64, per_unit: f64) -> f64 {
     (x * per_unit).round() / per_unit + 0.0
 }

@@ -1,23 +1,22 @@
-//! Numbers of a run against its time or path: the columns of `energies.csv` and `observables.csv`.
+//! Columns of `energies.csv` and `observables.csv` as curves over time or path parameter.
 
 use super::thin;
 use std::path::Path;
 
-/// A column of a table.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Curve {
-    /// As the file has it.
+    /// Name in the file.
     pub name: String,
-    /// Of the rows: time (ns) or path.
+    /// Time (ns) or path parameter of each row.
     pub at: Vec<f64>,
-    /// NaN where a cell is empty.
+    /// NaN for an empty cell.
     pub values: Vec<f64>,
 }
 
-/// The columns of a CSV file whose first column is time or path.
+/// Reads a CSV file whose first column is the time or path parameter.
 ///
 /// # Errors
-/// A file that cannot be read, and what is no number, with row and column.
+/// If the file cannot be read, or a cell is not a number.
 pub(super) fn read(path: &Path) -> Result<Vec<Curve>, String> {
     let mut reader = csv::Reader::from_path(path).map_err(|error| error.to_string())?;
     let names = reader.headers().map_err(|error| error.to_string())?;
@@ -29,7 +28,7 @@ pub(super) fn read(path: &Path) -> Result<Vec<Curve>, String> {
             let value = if cell.is_empty() {
                 f64::NAN
             } else {
-                let no_number = |_| format!("row {}, {name}: {cell:?} is no number", row + 1);
+                let no_number = |_| format!("row {}, {name}: {cell:?} is not a number", row + 1);
                 cell.parse().map_err(no_number)?
             };
             column.push(value);
@@ -38,7 +37,7 @@ pub(super) fn read(path: &Path) -> Result<Vec<Curve>, String> {
     Ok(of_columns(names, columns))
 }
 
-/// Curves of columns, the first of which is time or path.
+/// Converts columns; the first is the time or path parameter.
 pub(super) fn of_columns(names: Vec<String>, columns: Vec<Vec<f64>>) -> Vec<Curve> {
     let mut columns = columns.into_iter();
     let at = columns.next().unwrap_or_default();
@@ -52,7 +51,7 @@ pub(super) fn of_columns(names: Vec<String>, columns: Vec<Vec<f64>>) -> Vec<Curv
         .collect()
 }
 
-/// The same with at most so many rows, evenly chosen, and without what is zero throughout.
+/// Selects at most `rows` evenly spaced rows, and removes curves that are zero.
 pub(super) fn thinned(curves: Vec<Curve>, rows: usize) -> Vec<Curve> {
     let says = |curve: &Curve| curve.values.iter().any(|v| !v.is_nan() && *v != 0.0);
     let thin = |curve: Curve| {
@@ -86,6 +85,6 @@ mod tests {
             (1, [0.0, 2.0].as_slice())
         );
         std::fs::write(&path, "time_ns,a\n0.0,x\n").unwrap();
-        assert_eq!(read(&path).unwrap_err(), "row 1, a: \"x\" is no number");
+        assert_eq!(read(&path).unwrap_err(), "row 1, a: \"x\" is not a number");
     }
 }

@@ -1,8 +1,13 @@
-//! What the page's script reads: states as arrays in base64, little-endian, and what they stand for.
+//! Data for the script of the page.
 //!
-//! Of each record shown: places of all points (f32, nm), orientations of all frames (i16, 1/32767; w, x, y,
-//! z), what moves besides (f32), and fields on all points (u16, from the lowest to the
-//! highest of all records).
+//! Arrays are little-endian, in base64. Each record contains:
+//!
+//! | data | type |
+//! |---|---|
+//! | positions of all points (nm) | f32 |
+//! | orientations of all frames (w, x, y, z), in units of 1/32767 | i16 |
+//! | linkers, clamps and forces | f32 |
+//! | fields at all points, scaled to their range over all records | u16 |
 
 use super::{Curve, Run};
 use crate::pose::{Bonds, PLATE_NM, bodies, share};
@@ -12,12 +17,10 @@ use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use serde_json::{Value, json};
 
-/// Fields on the points.
 const FIELDS: usize = 4;
-/// Most monomers whose bonds are put on a page: they take 500 bytes each.
+/// Largest number of monomers with bonds on the page; each takes 500 bytes.
 const MOST_WITH_BONDS: usize = 1000;
 
-/// Bytes of states that a record takes.
 pub(super) fn bytes_per_record(assembly: &Assembly) -> usize {
     let besides =
         8 * assembly.linkers.len() + 12 * assembly.clamps.len() + 6 * assembly.scene.loads.len();
@@ -25,7 +28,6 @@ pub(super) fn bytes_per_record(assembly: &Assembly) -> usize {
 }
 
 impl Run {
-    /// The data of the page.
     pub(super) fn data(&self) -> Value {
         let Self {
             assembly, states, ..
@@ -64,7 +66,6 @@ impl Run {
     }
 }
 
-/// Sections of monomers, rods, and the bonds between monomers.
 fn sections(assembly: &Assembly) -> (Vec<Value>, Vec<Value>, Vec<Bonds>) {
     let (mut strands, mut rods, mut bonds) = (Vec::new(), Vec::new(), Vec::new());
     let with_bonds = assembly.counts().monomers <= MOST_WITH_BONDS;
@@ -92,7 +93,7 @@ fn flat(vectors: impl Iterator<Item = Vector3>) -> impl Iterator<Item = f64> {
 
 #[expect(
     clippy::cast_possible_truncation,
-    reason = "pictures need no more than 24 bits"
+    reason = "single precision is sufficient for display"
 )]
 fn floats(values: impl Iterator<Item = f64>) -> String {
     let bytes: Vec<u8> = values.flat_map(|x| (x as f32).to_le_bytes()).collect();
@@ -110,7 +111,7 @@ fn turns(states: &[State]) -> String {
     STANDARD.encode(bytes.collect::<Vec<u8>>())
 }
 
-/// Both ends of each linker, whether it holds, and its pull (pN).
+/// Returns both ends, the state and the tension (pN) of each linker.
 fn linkers(assembly: &Assembly, state: &State) -> Vec<f64> {
     let all = 0..assembly.linkers.len();
     all.flat_map(|i| {
@@ -122,23 +123,20 @@ fn linkers(assembly: &Assembly, state: &State) -> Vec<f64> {
     .collect()
 }
 
-/// Place and force of each load, rounded as far as a picture shows it.
 fn forces(assembly: &Assembly, state: &State) -> Vec<[f64; 6]> {
     let all = bodies::forces(assembly, state).into_iter();
     all.map(|(p, f)| [p.x, p.y, p.z, f.x, f.y, f.z].map(|x| (x * 1e4).round() / 1e4))
         .collect()
 }
 
-/// A quantity on all points of all records.
 struct Field {
     name: &'static str,
     unit: &'static str,
-    /// Whether zero is the middle of its colours.
+    /// True for a colour scale centred at zero.
     is_signed: bool,
     values: Vec<f64>,
 }
 
-/// What the filament does at its points, for colours.
 fn fields(run: &Run) -> Vec<Value> {
     let field = |name, unit, is_signed| Field {
         name,
@@ -148,9 +146,9 @@ fn fields(run: &Run) -> Vec<Value> {
     };
     let mut all = [
         field("curvature", "rad/µm", false),
-        field("twist beyond the helix", "rad/µm", true),
+        field("excess twist", "rad/µm", true),
         field("elastic energy per length", "pN", false),
-        field("moved since the first record", "nm", false),
+        field("displacement from the first record", "nm", false),
     ];
     for state in &run.states {
         let moved = moved(&run.assembly, &run.states[0], state);
@@ -163,7 +161,7 @@ fn fields(run: &Run) -> Vec<Value> {
     all.into_iter().filter_map(Field::encoded).collect()
 }
 
-/// Curvature and twist (rad/µm) and energy per length (pN) at each point, from the profile of its filament.
+/// Returns curvature and excess twist (rad/µm) and energy per length (pN) at each point.
 fn local(assembly: &Assembly, state: &State) -> Vec<[f64; 3]> {
     let mut all = Vec::with_capacity(assembly.points.len());
     for (i, span) in assembly.filaments.iter().enumerate() {
@@ -184,7 +182,6 @@ fn local(assembly: &Assembly, state: &State) -> Vec<[f64; 3]> {
     all
 }
 
-/// How far each point is from where it was (nm).
 fn moved<'a>(
     assembly: &'a Assembly,
     first: &'a State,
@@ -195,7 +192,7 @@ fn moved<'a>(
 }
 
 impl Field {
-    /// As JSON; nothing if it is zero everywhere, to round-off of a nanometre's last digits.
+    /// Returns the field as JSON; `None` if it is zero up to round-off.
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,

@@ -1,8 +1,7 @@
-//! A run directory to be looked at: what there is in it, and the page that shows it.
+//! Run directories and their pages.
 //!
-//! A directory needs a `scene.ron` that can be built. What else is missing, damaged or not there yet is said
-//! on the page, which shows the rest: the records of a run that goes on or was interrupted come from its
-//! checkpoint, and where there are no states at all the filaments are shown as built.
+//! A directory must contain a valid `scene.ron`. Other missing or damaged files are reported on the page. Records of
+//! a running or interrupted run are read from its checkpoint. Without any states, the page shows the initial shape.
 
 mod curves;
 mod data;
@@ -19,43 +18,42 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
 
-/// Why a run cannot be looked at.
+/// Error of opening a run directory.
 #[derive(Debug, Error)]
 pub enum ViewError {
-    /// Not a directory.
+    /// The path is not a run directory.
     #[error("{}: {reason}", .path.display())]
     NotARun {
         /// The path.
         path: PathBuf,
-        /// What is wrong with it.
+        /// Reason.
         reason: String,
     },
-    /// The scene of the run cannot be read or built.
+    /// The scene cannot be read or built.
     #[error("{}:{reason}", .path.display())]
     Scene {
         /// `scene.ron`.
         path: PathBuf,
-        /// Line, column and what is wrong there.
+        /// Line, column and problem.
         reason: String,
     },
 }
 
-/// The folder of the stretches of a motion which sections follow.
+/// Folder of the stretches of a run with time-dependent resolution.
 const STRETCHES: &str = "stretches";
-/// Stretches that are looked for.
 const MOST_STRETCHES: usize = 1_000_000;
 
-/// How much of a run a page holds.
+/// Limits on the size of a page.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Limits {
-    /// Bytes of states: records are left out evenly above it.
+    /// Largest size of all states in bytes. Records are thinned evenly to fit.
     pub bytes: usize,
-    /// Rows of curves, likewise.
+    /// Largest number of rows of curves, which are thinned likewise.
     pub rows: usize,
 }
 
 impl Default for Limits {
-    /// 12 MB of states, which are 16 MB on the page, and 4000 rows.
+    /// 12 MB of states (16 MB on the page) and 4000 rows.
     fn default() -> Self {
         Self {
             bytes: 12_000_000,
@@ -64,21 +62,19 @@ impl Default for Limits {
     }
 }
 
-/// What a run directory holds, as far as it is shown.
+/// Contents of a run directory.
 #[derive(Debug)]
 pub struct Run {
     path: PathBuf,
     pub(crate) assembly: Assembly,
-    /// Of a motion which sections follow, the assemblies of all stretches but the first.
+    /// Assemblies of all stretches but the first, for time-dependent resolution.
     later: Vec<Assembly>,
-    /// To which of them the records behind those of the first stretch belong, in order.
+    /// Indices into `later` for the records after the first stretch.
     of_later: Vec<usize>,
     summary: Option<Summary>,
-    /// What is missing, damaged or left out, a sentence or two each.
+    /// Missing, damaged or omitted data, as sentences.
     remarks: Vec<String>,
-    /// How many records the run has.
     records: usize,
-    /// Those that are shown.
     which: Vec<usize>,
     pub(crate) at: Vec<At>,
     pub(crate) states: Vec<State>,
@@ -86,10 +82,10 @@ pub struct Run {
 }
 
 impl Run {
-    /// Reads what there is in a run directory.
+    /// Reads a run directory.
     ///
     /// # Errors
-    /// A path that is no directory, and a directory without a scene that can be built.
+    /// If the path is not a directory, or contains no valid scene.
     pub fn open(path: &Path, limits: Limits) -> Result<Self, ViewError> {
         if FollowedDirectory::is_at(path) {
             return Self::open_stretches(path, limits);
@@ -107,7 +103,7 @@ impl Run {
         if which.len() < records {
             let shown = which.len();
             source.remarks.push(format!(
-                "Of {records} records {shown} are shown, evenly chosen, with the first and the last: all would \
+                "{shown} of {records} records are shown, evenly spaced, including the first and the last: all would \
                  make a page of {:.0} MB.",
                 1.4e-6 * (each * records) as f64
             ));
@@ -129,7 +125,6 @@ impl Run {
         })
     }
 
-    /// Reads a motion which sections follow: its stretches one after the other.
     fn open_stretches(path: &Path, limits: Limits) -> Result<Self, ViewError> {
         let folder = |index: usize| path.join(STRETCHES).join(format!("{index:04}"));
         let folders: Vec<PathBuf> = (0..MOST_STRETCHES)
@@ -157,13 +152,11 @@ impl Run {
         Ok(all)
     }
 
-    /// Whether sections follow the motion: its records are of filaments that are resolved differently, which a film shows
-    /// and a page does not.
-    pub fn is_followed(&self) -> bool {
+    /// Returns whether the resolution changes with time. Such a run can be shown by a film, but not by a page.
+    pub fn has_changing_resolution(&self) -> bool {
         !self.later.is_empty()
     }
 
-    /// The filament as it is resolved in a record that is shown.
     pub(crate) fn assembly_of(&self, shown: usize) -> &Assembly {
         let first = self.states.len() - self.of_later.len();
         match shown.checked_sub(first) {
@@ -172,18 +165,18 @@ impl Run {
         }
     }
 
-    /// What is missing, damaged or left out, a sentence or two each.
+    /// Returns sentences on missing, damaged or omitted data.
     pub fn remarks(&self) -> &[String] {
         &self.remarks
     }
 
-    /// How many records are shown, and how many there are.
+    /// Returns the number of loaded records and of all records.
     pub fn shown(&self) -> (usize, usize) {
         (self.at.len(), self.records)
     }
 }
 
-/// Whether a file is a page that [`Run::page`] made.
+/// Returns whether a file was made by [`Run::page`].
 pub fn is_page(bytes: &[u8]) -> bool {
     let head = String::from_utf8_lossy(&bytes[..bytes.len().min(512)]);
     head.contains(&format!(
@@ -192,7 +185,6 @@ pub fn is_page(bytes: &[u8]) -> bool {
     ))
 }
 
-/// The scene of a run, built.
 fn assembly(path: &Path) -> Result<Assembly, ViewError> {
     let not_a_run = |reason: String| ViewError::NotARun {
         path: path.to_owned(),
@@ -201,13 +193,13 @@ fn assembly(path: &Path) -> Result<Assembly, ViewError> {
     match fs::metadata(path) {
         Err(error) => return Err(not_a_run(error.to_string())),
         Ok(data) if !data.is_dir() => {
-            return Err(not_a_run("not a directory: name that of a run".into()));
+            return Err(not_a_run("not a directory: name a run directory".into()));
         }
         Ok(_) => {}
     }
     let file = path.join("scene.ron");
     if !file.exists() {
-        let reason = "no scene.ron in it: not the directory of a run";
+        let reason = "no scene.ron in it: not a run directory";
         return Err(not_a_run(reason.into()));
     }
     let refused = |reason: String| ViewError::Scene {

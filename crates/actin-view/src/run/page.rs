@@ -1,5 +1,4 @@
-//! The page of a run as HTML. Its parts are `js/player.js` and `js/curves.js`; colours and small things are
-//! those of report pages.
+//! HTML page of a run, with the scripts `js/player.js` and `js/curves.js`.
 
 use super::Run;
 use crate::{Attitude, BODIES, Palette};
@@ -11,17 +10,17 @@ use maud::{DOCTYPE, Markup, PreEscaped, html};
 const CURVES: &str = include_str!("../js/curves.js");
 const PLAYER: &str = include_str!("../js/player.js");
 const OWN_STYLE: &str = include_str!("page.css");
-/// What a page of this program says of itself, by which it is known again.
+/// Content of the meta tag that identifies pages of this program.
 pub(super) const GENERATOR: &str = "actin view";
 
-/// Paths of the signs on buttons, in a square of 16.
+/// SVG paths of the button icons, in a square of 16.
 const PLAY: &str = "M3 1l11 7-11 7z";
 const PAUSE: &str = "M3 1h4v14H3zM9 1h4v14H9z";
 const BACK: &str = "M12 2v12L5 8zM3 2h2v12H3z";
 const FORTH: &str = "M4 2v12l7-6zM11 2h2v12h-2z";
 
 impl Run {
-    /// The page: one HTML file that needs nothing else.
+    /// Returns a self-contained HTML page.
     pub fn page(&self, palette: Palette) -> String {
         let mut data = self.data();
         data["attitude"] = serde_json::json!(Attitude::LYING);
@@ -64,7 +63,6 @@ impl Run {
         folder.to_string_lossy().into_owned()
     }
 
-    /// How the run ended and what it is made of, in a few words each.
     fn chips(&self) -> Markup {
         let counts = self.assembly.counts();
         let many = |count: usize, what: &str| match count {
@@ -88,7 +86,6 @@ impl Run {
         }
     }
 
-    /// Warnings of the run, and remarks on files that could not be read.
     fn warnings(&self) -> Markup {
         let of_run = self.summary.iter().flat_map(|summary| &summary.warnings);
         let of_run = of_run.map(ToString::to_string);
@@ -100,7 +97,6 @@ impl Run {
         }
     }
 
-    /// The end state in numbers, and how it was made.
     fn facts(&self) -> Markup {
         let Some(summary) = &self.summary else {
             return Markup::default();
@@ -108,7 +104,7 @@ impl Run {
         html! {
             div class="facts" {
                 section { h2 { "End state" } (list(&results(summary))) }
-                section { h2 { "How it was made" } (list(&made(summary))) }
+                section { h2 { "Computation" } (list(&made(summary))) }
                 (notes(summary))
             }
         }
@@ -119,17 +115,16 @@ impl Run {
             p class="keys" {
                 "Drag to turn, " kbd { "Shift" } " and drag to move, wheel or two fingers to zoom, arrow keys, "
                 kbd { "0" } " to reset, " kbd { "x" } " " kbd { "y" } " " kbd { "z" } " to look along an axis, "
-                kbd { "Space" } " to play, " kbd { "," } " and " kbd { "." } " for single records. Lengths are true \
-                 across the line of sight; arrows of forces are all of one length; linkers have their pull beside them, negative where they push."
+                kbd { "Space" } " to play, " kbd { "," } " and " kbd { "." } " for single records. The projection is \
+                 orthographic. All force arrows have the same length. Linkers are labelled with their tension, negative in compression."
             }
             p {
-                "Made by " code { "actin view " (self.path.display()) } ", version " (env!("CARGO_PKG_VERSION")) "."
+                "Created by " code { "actin view " (self.path.display()) } ", version " (env!("CARGO_PKG_VERSION")) "."
             }
         }
     }
 }
 
-/// Names and values.
 type Facts = Vec<(&'static str, String)>;
 
 fn results(summary: &Summary) -> Facts {
@@ -151,15 +146,15 @@ fn results(summary: &Summary) -> Facts {
         ("Residual", format!("{force:.1e} pN, {torque:.1e} pN nm")),
     ];
     let reactions = [
-        ("Force that holds the start", summary.end_reactions.start),
-        ("Force that holds the end", summary.end_reactions.end),
+        ("Reaction force at the start", summary.end_reactions.start),
+        ("Reaction force at the end", summary.end_reactions.end),
     ];
     let held = reactions
         .into_iter()
         .filter_map(|(name, r)| Some((name, r?)));
     all.extend(held.map(|(name, r)| (name, format!("{} pN", vector(r.force_pn)))));
     let farthest = number(summary.shape.largest_distance_nm);
-    all.push(("Farthest from the axis", format!("{farthest} nm")));
+    all.push(("Largest distance from the axis", format!("{farthest} nm")));
     all
 }
 
@@ -169,7 +164,7 @@ fn made(summary: &Summary) -> Facts {
         ("Time steps", work.steps.to_string()),
         ("Newton iterations", work.newton_iterations.to_string()),
         ("Evaluations of loads", work.force_evaluations.to_string()),
-        ("Computed in", format!("{:.2} s", summary.wall_s)),
+        ("Run time", format!("{:.2} s", summary.wall_s)),
         ("Version", summary.version.clone()),
         ("Seed", summary.seed.to_string()),
     ];
@@ -177,12 +172,10 @@ fn made(summary: &Summary) -> Facts {
     all
 }
 
-/// A sign on a button.
 fn sign(path: &str, class: &str) -> Markup {
     html! { svg class=(class) viewBox="0 0 16 16" aria-hidden="true" { path d=(path) {} } }
 }
 
-/// The view with its buttons, slider and legend.
 fn stage() -> Markup {
     html! {
         section class="stage" {
@@ -213,7 +206,6 @@ fn stage() -> Markup {
     }
 }
 
-/// The buttons that play, and the slider.
 fn transport() -> Markup {
     html! {
         div class="transport" {
@@ -231,7 +223,6 @@ fn transport() -> Markup {
     }
 }
 
-/// How a run ended.
 fn ending(summary: Option<&Summary>) -> Markup {
     let Some(summary) = summary else {
         return html! { li class="bad" { "not ended" } };
@@ -256,10 +247,9 @@ fn list(entries: &[(&str, String)]) -> Markup {
     html! { dl { @for (name, value) in entries { dt { (name) } dd { (value) } } } }
 }
 
-/// Notes of the run that are no warnings, and states that are not on the page.
 fn notes(summary: &Summary) -> Markup {
     let others = summary.states.iter().map(|states| {
-        format!("{states}. The others are in other_states.npz; this page shows the result.")
+        format!("{states}. Other states are in other_states.npz; this page shows the result.")
     });
     let notes = summary.coded_notes().into_iter();
     let notes = notes
@@ -273,7 +263,6 @@ fn notes(summary: &Summary) -> Markup {
     }
 }
 
-/// Five digits.
 fn number(x: f64) -> String {
     actin_draw::page::significant(x)
 }

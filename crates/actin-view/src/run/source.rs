@@ -1,4 +1,4 @@
-//! Where the records of a run come from: its results, its checkpoint, or nowhere.
+//! Records of a run, from its results or its checkpoint.
 
 use super::curves::{self, Curve};
 use actin_sim::mechanics::State;
@@ -11,12 +11,11 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 use std::time::Duration;
 
-/// What was found in a run directory.
 pub(super) struct Source {
     pub summary: Option<Summary>,
     pub remarks: Vec<String>,
     pub curves: Vec<Curve>,
-    /// When, or where on the path, each record was taken.
+    /// Time or path parameter of each record.
     pub at: Vec<At>,
     states: States,
 }
@@ -28,7 +27,6 @@ enum States {
 }
 
 impl Source {
-    /// Looks into a directory; what is missing or damaged becomes a remark.
     pub(super) fn of(path: &Path, assembly: &Assembly) -> Self {
         let mut source = Self {
             summary: None,
@@ -58,7 +56,7 @@ impl Source {
             Ok(summary) => {
                 if summary.status == Status::Interrupted {
                     self.remark(
-                        "The run was interrupted: what follows is what it had got to.".into(),
+                        "The run was interrupted: the page shows the records up to then.".into(),
                     );
                 }
                 if !summary.failure.is_empty() {
@@ -70,11 +68,10 @@ impl Source {
         }
     }
 
-    /// The results of a run that has ended.
     fn read_results(&mut self, path: &Path, directory: &RunDirectory, assembly: &Assembly) {
         if self.summary.is_none() {
             self.remark(
-                "There is no summary.json that can be read: the run has not ended, or was stopped before its \
+                "There is no readable summary.json: the run has not ended, or was stopped before its \
                  first checkpoint."
                     .into(),
             );
@@ -95,16 +92,15 @@ impl Source {
                 self.states = States::Stored(stored);
             }
             Ok(None) if !assembly.scene.output.states => self.remark(
-                "The scene has output: (states: false), so that no states were kept: filaments are shown as \
-                 built."
+                "The scene has output: (states: false), so that there are no states. The initial shape is \
+                 shown."
                     .into(),
             ),
-            Ok(None) => self.remark("There is no states.npz: filaments are shown as built.".into()),
-            Err(error) => self.remark(format!("{error}. Filaments are shown as built.")),
+            Ok(None) => self.remark("There is no states.npz. The initial shape is shown.".into()),
+            Err(error) => self.remark(format!("{error}. The initial shape is shown.")),
         }
     }
 
-    /// The records of a run that has not ended, from its checkpoint.
     fn read_checkpoint(&mut self, directory: &RunDirectory, assembly: &Assembly) {
         match checkpointed(directory, assembly) {
             Ok((at, states, curves)) => {
@@ -113,12 +109,12 @@ impl Source {
                 self.states = States::Checkpoint(states);
             }
             Err(reason) => self.remark(format!(
-                "The run has not ended, and its checkpoint cannot be read: {reason}. Filaments are shown as built."
+                "The run has not ended, and its checkpoint cannot be read: {reason}. The initial shape is shown."
             )),
         }
     }
 
-    /// The states of records `which`; none, with a remark, where they cannot be read.
+    /// Returns the states of records `which`; `None`, with a remark, if they cannot be read.
     pub(super) fn states(&mut self, assembly: &Assembly, which: &[usize]) -> Option<Vec<State>> {
         match std::mem::replace(&mut self.states, States::None) {
             States::Stored(stored) => match stored
@@ -127,7 +123,7 @@ impl Source {
             {
                 Ok(states) => Some(states),
                 Err(error) => {
-                    self.remark(format!("{error}. Filaments are shown as built."));
+                    self.remark(format!("{error}. The initial shape is shown."));
                     self.at.clear();
                     None
                 }
@@ -147,11 +143,9 @@ impl Source {
     }
 }
 
-/// What there is of a run that has not ended, by the records of its checkpoint.
 fn begun(at: &[At], has_states: bool) -> String {
     let Some(last) = at.last() else {
-        return "The run has not ended, and has no record yet. Filaments are shown as built."
-            .into();
+        return "The run has not ended, and has no record yet. The initial shape is shown.".into();
     };
     let place = match last {
         At::Time(time) => format!("{time:.6} ns"),
@@ -164,14 +158,13 @@ fn begun(at: &[At], has_states: bool) -> String {
         );
     }
     format!(
-        "The run has not ended: this is its last record before its last checkpoint, at {place}. The scene has \
-         output: (states: false), so that no others are kept."
+        "The run has not ended: the page shows the last record before its last checkpoint, at {place}. The scene has \
+         output: (states: false), so that other records have no states."
     )
 }
 
 type Checkpointed = (Vec<At>, Vec<State>, Vec<Curve>);
 
-/// Times, states and curves of the records of a checkpoint; nothing is written.
 fn checkpointed(directory: &RunDirectory, assembly: &Assembly) -> Result<Checkpointed, String> {
     let plan = Plan::new(assembly).map_err(|problem| problem.to_string())?;
     let never = Arc::new(AtomicBool::new(false));
@@ -188,7 +181,6 @@ fn checkpointed(directory: &RunDirectory, assembly: &Assembly) -> Result<Checkpo
     Ok((at, states, curves_of(assembly, &rows)))
 }
 
-/// The curves of rows: sums of energies, residuals, what is observed.
 fn curves_of(assembly: &Assembly, rows: &[Row]) -> Vec<Curve> {
     let potential = |row: &Row| row.energies_pn_nm.iter().sum::<f64>();
     let mut names: Vec<String> = [

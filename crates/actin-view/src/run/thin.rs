@@ -1,6 +1,7 @@
-//! Which of many are kept.
+//! Thinning of records.
 
-/// The indices of at most `most` (but at least two) of `count`, evenly chosen, with the first and the last.
+/// Returns evenly spaced indices below `count`, including the first and the last. Their number is at most `most`, but
+/// at least two.
 pub(super) fn evenly(count: usize, most: usize) -> Vec<usize> {
     let kept = most.max(2).min(count);
     if kept == count {

@@ -1,8 +1,8 @@
-//! Pages in headless Chromium, for the tests of several crates: what a probe, put into a copy of a page, finds
-//! at each width, light and dark.
+//! Tests of pages in headless Chromium, for several crates. A script in a copy of a page returns its findings for
+//! each width, in light and dark mode.
 //!
-//! Needs a browser: `CHROME`, or a Chromium on the path. Without one the tests say loudly that
-//! they were skipped; where `ACTIN_REQUIRE_BROWSER` is set, as `.ci/run` does, they fail.
+//! The browser is `CHROME` or a Chromium on the path. Without one, tests are skipped with a message, or fail if
+//! `ACTIN_REQUIRE_BROWSER` is set, as in `.ci/run`.
 #![allow(dead_code, reason = "each test binary uses some of it")]
 
 use serde_json::Value;
@@ -11,10 +11,9 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
-/// Far longer than a browser takes on a busy machine.
 const LIMIT: Duration = Duration::from_mins(8);
 
-/// The browser; nothing, told loudly, if there is none and none is required.
+/// Returns the browser. If there is none, prints a message, or fails if one is required.
 pub(crate) fn browser() -> Option<PathBuf> {
     let found = actin_view::draw::browser();
     if found.is_none() {
@@ -27,14 +26,13 @@ pub(crate) fn browser() -> Option<PathBuf> {
     found
 }
 
-/// What a reader has asked the system for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Mode {
     Light,
     Dark,
 }
 
-/// What the script `probe` tells of `page` at each width (pixels).
+/// Returns the result of the script `probe` on `page` for each width (pixels).
 pub(crate) fn probed(
     browser: &Path,
     (page, probe): (&str, &str),
@@ -56,8 +54,8 @@ pub(crate) fn probed(
     found.collect()
 }
 
-/// A page that shows the copy in a frame of each width and keeps what the probes tell it. A window
-/// itself cannot be as narrow as a phone.
+/// Returns a page that shows the copy in frames of each width and collects the results of the scripts. A window
+/// cannot be as narrow as a phone.
 fn around(widths: &[u32]) -> String {
     let mut left = 0;
     let frames = widths.iter().map(|width| {
@@ -78,11 +76,10 @@ fn around(widths: &[u32]) -> String {
     )
 }
 
-/// The page around, as it stands when all that it waits for has happened. What a graphics card draws elsewhere
-/// is drawn in software.
+/// Returns the surrounding page after all results have arrived. WebGL is rendered in software.
 fn dumped(browser: &Path, mode: Mode, folder: &Path) -> String {
     let dump = folder.join("dump.html");
-    // Blink counts: 0 is dark, 1 light.
+    // Blink encodes dark as 0 and light as 1.
     let scheme = u8::from(mode == Mode::Light);
     let mut child = Command::new(browser)
         .args(["--headless", "--no-sandbox", "--dump-dom"])
@@ -112,7 +109,6 @@ fn dumped(browser: &Path, mode: Mode, folder: &Path) -> String {
     fs::read_to_string(dump).unwrap()
 }
 
-/// A number that counts.
 pub(crate) fn count(value: &Value) -> u64 {
     value
         .as_u64()

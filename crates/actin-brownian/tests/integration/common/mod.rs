@@ -1,4 +1,3 @@
-//! Rods in a fluid, for all tests.
 #![allow(dead_code, reason = "each test uses some of it")]
 
 use actin_brownian::{Brownian, Dashpot, Friction, TurnDashpot};
@@ -7,15 +6,13 @@ use actin_equilibrium::{BodyOrder, Layout};
 use actin_integrate::Stepper;
 use actin_mechanics::{Interaction, State, System, Vector3};
 
-/// Friction per length of the tests (pN ns/nm^2, pN ns): along, across, about the axis, of tilt.
+/// Friction per length (pN ns/nm^2, pN ns): along, across, about the axis, tilt.
 pub(crate) const FRICTION: [f64; 4] = [1.5, 2.8, 150.0, 40.0];
 
-/// Rigidities of actin (pN, pN nm^2).
 pub(crate) fn rigidities() -> Rigidities {
     Rigidities::table4()
 }
 
-/// The friction of a rod, evenly along it.
 pub(crate) fn friction_of(rod: &RodLayout) -> Friction {
     let [along, across, about, tilt] = FRICTION;
     let mut friction = Friction::default();
@@ -34,7 +31,6 @@ pub(crate) fn friction_of(rod: &RodLayout) -> Friction {
     friction
 }
 
-/// Places along a rod, for a banded matrix.
 pub(crate) fn layout_of(state: &State, rod: &RodLayout) -> Layout {
     let point = |i: usize| i as f64 - rod.points().start as f64;
     let frame = |i: usize| i as f64 - rod.frames().start as f64 + 0.5;
@@ -45,13 +41,11 @@ pub(crate) fn layout_of(state: &State, rod: &RodLayout) -> Layout {
     Layout::new(state, Some(&order), Vec::new()).unwrap()
 }
 
-/// The law of a rod.
 pub(crate) fn law(rod: &RodLayout) -> Box<dyn Interaction> {
     let material = RodMaterial::new(rigidities()).unwrap();
     Box::new(EnergyGradient::new(rod.clone(), material))
 }
 
-/// A free rod with further interactions, and its steps at the thermal energy `kT`.
 pub(crate) fn free_rod(
     segments: usize,
     length: f64,
@@ -71,7 +65,7 @@ pub(crate) fn free_rod(
     (system, steps, rod)
 }
 
-/// Makes steps of `h` up to the number `end`, and looks at each.
+/// Makes the steps `first` to `end` of time `h` and calls `look` after each.
 pub(crate) fn advance(
     system: &mut System,
     steps: &mut Brownian,
@@ -80,12 +74,11 @@ pub(crate) fn advance(
     mut look: impl FnMut(&System),
 ) {
     for step in first..end {
-        steps.step(system, step, h).expect("it converges");
+        steps.step(system, step, h).expect("the step converges");
         look(system);
     }
 }
 
-/// The point at the end of a rod.
 pub(crate) fn tip(rod: &RodLayout) -> usize {
     rod.end_point(RodEnd::End)
 }

@@ -1,4 +1,4 @@
-//! A folder with a scene, the program in it, and the files that a run leaves.
+//! A folder with a scene, in which the program runs.
 #![allow(dead_code, reason = "each test binary uses some of it")]
 
 use std::collections::BTreeMap;
@@ -11,7 +11,7 @@ use std::thread::sleep;
 use std::time::{Duration, Instant};
 use tempfile::TempDir;
 
-/// A second or so of monomers, a junction and a rod under a load that is ramped up.
+/// A motion of about a second: monomers, a junction and a rod under a ramped load.
 pub(crate) const MOTION: &str = "Scene(
     title: \"kept\",
     filament: Filament(
@@ -31,8 +31,7 @@ pub(crate) const MOTION: &str = "Scene(
     ),
 )";
 
-/// A short rod, monomers and a junction under a force: a record each ns for so many ns (a hundredth of a second in 2 ns
-/// or so).
+/// A short rod, monomers and a junction under a force, with one record per ns. A duration of 2 ns takes about 0.01 s.
 pub(crate) fn pushed(duration_ns: f64) -> String {
     format!(
         "Scene(
@@ -47,13 +46,12 @@ pub(crate) fn pushed(duration_ns: f64) -> String {
     )
 }
 
-/// The motion, shortened to a few records.
 pub(crate) fn short_motion() -> String {
     let short = MOTION.replace("150.0", "1.0").replace("50.0", "0.5");
     short.replace("1.5", "0.25")
 }
 
-/// The same in a heat bath, observed, with no states kept.
+/// `MOTION` in a heat bath, with observables and without states.
 pub(crate) fn observed() -> String {
     let observe = "observe: [Tip(), EndReaction(end: Start), Energies, SquaredDisplacement(of: Tip, lag_ns: 3.0)],
         output: (vtk: false, states: false),
@@ -62,7 +60,6 @@ pub(crate) fn observed() -> String {
     MOTION.replace("path:", observe).replace("drag:", heat)
 }
 
-/// A hundred equilibria.
 pub(crate) const PATH: &str = "Scene(
     filament: Filament(
         sections: [Ellipsoids(from_nm: 0.0, to_nm: 90.0), Rod(from_nm: 90.0, to_nm: 150.0)],
@@ -75,10 +72,8 @@ pub(crate) const PATH: &str = "Scene(
     task: Equilibrium(largest_step: 0.02, lowest_eigenvalue: true),
 )";
 
-/// How often a run is begun that is to be interrupted.
 pub(crate) const ATTEMPTS: usize = 5;
 
-/// A folder with one scene.
 pub(crate) struct Workplace {
     pub(crate) folder: TempDir,
 }
@@ -102,7 +97,6 @@ impl Workplace {
         fs::write(self.path(name), text).unwrap();
     }
 
-    /// The program in the folder; none of its streams is a terminal.
     pub(crate) fn command(&self, arguments: &[&str]) -> Command {
         let mut command = Command::new(env!("CARGO_BIN_EXE_actin"));
         command.args(arguments).current_dir(self.folder.path());
@@ -114,7 +108,6 @@ impl Workplace {
         self.command(arguments).output().unwrap()
     }
 
-    /// Runs the program to exit code 0; returns its standard output.
     pub(crate) fn succeed(&self, arguments: &[&str]) -> String {
         let output = self.actin(arguments);
         let told = || format!("{arguments:?}: {}{}", stdout(&output), stderr(&output));
@@ -122,7 +115,6 @@ impl Workplace {
         stdout(&output).to_owned()
     }
 
-    /// Runs the program to another exit code; returns its standard error.
     pub(crate) fn fail(&self, expected: i32, arguments: &[&str]) -> String {
         let output = self.actin(arguments);
         let told = || format!("{arguments:?}: {}{}", stdout(&output), stderr(&output));
@@ -130,7 +122,6 @@ impl Workplace {
         stderr(&output).to_owned()
     }
 
-    /// Runs the program with a text on its standard input.
     pub(crate) fn piped(&self, arguments: &[&str], input: &str) -> Output {
         let mut command = self.command(arguments);
         let mut child = command.stdin(Stdio::piped()).spawn().unwrap();
@@ -140,31 +131,26 @@ impl Workplace {
         child.wait_with_output().unwrap()
     }
 
-    /// Asserts that two folders have the same files of these names.
     pub(crate) fn assert_same(&self, [one, other]: [&str; 2], names: &[&str]) {
         for name in names {
             let [a, b] = [one, other].map(|folder| fs::read(self.path(folder).join(name)).unwrap());
-            assert!(a == b, "{name} of {one} is not that of {other}");
+            assert!(a == b, "{name} of {one} differs from {other}");
         }
     }
 
-    /// Runs `scene.ron` into a directory, which must go well; returns standard output.
     pub(crate) fn run(&self, out: &str) -> String {
         self.succeed(&["run", "scene.ron", "--out", out])
     }
 
-    /// Goes on with the run in a directory, which must go well; returns standard output.
     pub(crate) fn resume(&self, out: &str) -> String {
         self.succeed(&["run", "scene.ron", "--out", out, "--resume"])
     }
 
-    /// What a shell makes of a command, in which `actin` is the program.
     pub(crate) fn shell(&self, command: &str) -> Output {
         let mut shell = with_actin("sh", self.folder.path());
         shell.args(["-c", command]).output().unwrap()
     }
 
-    /// Starts a run and waits until its directory holds `name`, or it has ended.
     pub(crate) fn start(&self, arguments: &[&str], name: &str) -> Child {
         let run = [&["run", "scene.ron"], arguments].concat();
         let mut child = self.command(&run).spawn().unwrap();
@@ -179,8 +165,8 @@ impl Workplace {
         child
     }
 
-    /// Starts a run into `out`, sends it `signals` as soon as that holds `name`, and waits for its
-    /// end. On a machine so busy that the run is done before, it is tried again.
+    /// Starts a run into `out`, sends `signals` as soon as `out` contains `name`, and waits for its end. Repeats if
+    /// the run ends earlier.
     pub(crate) fn interrupted(&self, out: &str, name: &str, signals: &[&str]) -> Output {
         for _ in 0..ATTEMPTS {
             let arguments = ["--out", out, "--checkpoint-every", "0.01"];
@@ -199,7 +185,6 @@ impl Workplace {
     }
 }
 
-/// A program in a folder, for which `actin` is on the path.
 pub(crate) fn with_actin(program: &str, folder: &Path) -> Command {
     let own = Path::new(env!("CARGO_BIN_EXE_actin")).parent().unwrap();
     let path = env::var_os("PATH").unwrap_or_default();
@@ -210,8 +195,8 @@ pub(crate) fn with_actin(program: &str, folder: &Path) -> Command {
     command
 }
 
-/// A Python that can import some packages. Where there is none the test of `what` says so, or fails if the
-/// environment variable `required` is set, as in `.ci/run`.
+/// Returns a Python that can import `packages`. If there is none, prints that the test of `what` is skipped, or fails
+/// if the environment variable `required` is set, as in `.ci/run`.
 pub(crate) fn python(packages: &str, required: &str, what: &str) -> Option<String> {
     let named = env::var("PYTHON").ok();
     let usual = ["python3", "/usr/bin/python3"].map(str::to_owned);
@@ -229,7 +214,6 @@ pub(crate) fn python(packages: &str, required: &str, what: &str) -> Option<Strin
     found
 }
 
-/// The exit code; -1 of a program that a signal has ended.
 pub(crate) fn code(output: &Output) -> i32 {
     output.status.code().unwrap_or(-1)
 }
@@ -248,14 +232,12 @@ pub(crate) fn signal(child: &Child, name: &str) {
     assert!(sent.success());
 }
 
-/// Asserts that a text has each part.
 pub(crate) fn assert_has(text: &str, parts: &[&str]) {
     for part in parts {
         assert!(text.contains(part), "{part:?} is not in {text}");
     }
 }
 
-/// The files of a folder itself.
 pub(crate) fn contents(folder: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
     let entries = fs::read_dir(folder).unwrap();
     let paths = entries.map(|entry| entry.unwrap().path());
@@ -265,7 +247,6 @@ pub(crate) fn contents(folder: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
         .collect()
 }
 
-/// Every file of a run directory; of the summary all lines but the time it took.
 pub(crate) fn files(folder: &Path) -> Vec<(String, Vec<u8>)> {
     let mut files = Vec::new();
     let folders = [folder.to_owned(), folder.join("vtk")];

@@ -8,7 +8,7 @@ import numpy as np
 
 states = np.load("run/states.npz")
 points = states["s_nm"].size
-# The scene as resolved names its time step.
+# The resolved scene contains the time step.
 time_step_ns = float(re.search("time_step_ns: ([0-9.e-]+)", open("run/scene.ron").read()).group(1))
 with gsd.hoomd.open("run.gsd") as trajectory:
     assert len(trajectory) == states["time_ns"].size > 2
@@ -17,19 +17,19 @@ with gsd.hoomd.open("run.gsd") as trajectory:
         particles = frame.particles
         assert abs(frame.configuration.step * time_step_ns - states["time_ns"][i]) < 1e-9
         assert frame.log["time_ns"][0] == states["time_ns"][i]
-        # Single precision of the same numbers.
+        # Stored in single precision.
         assert (particles.position[:points] == states["position_nm"][i].astype(np.float32)).all()
         velocity = states["velocity_nm_per_ns"][i].astype(np.float32)
         assert (particles.velocity[:points] == velocity).all()
         monomers = states["kind"] == 0
         turned = states["quaternion"][i][states["frame_kind"] == 0].astype(np.float32)
         assert (particles.orientation[:points][monomers] == turned).all()
-        # Inside of the box, and no two particles farther apart than half of it.
+        # All particles are inside the box, less than half its size apart.
         box = frame.configuration.box[:3]
         assert (abs(particles.position) < box / 2).all()
         assert (np.ptp(particles.position, axis=0) < box / 2).all()
 
-    # Two linkers: four ends behind the points.
+    # Two linkers: four end particles after the points.
     assert particles.N == points + 4
     names = np.array(particles.types)[particles.typeid]
     assert particles.types == ["monomer", "node", "monomer_1", "linker"]
@@ -40,12 +40,12 @@ with gsd.hoomd.open("run.gsd") as trajectory:
     shapes = dict(zip(particles.types, particles.type_shapes))
     assert shapes["monomer"] == {"type": "Ellipsoid", "a": 1.9, "b": 2.7, "c": 2.7}
     assert shapes["monomer_1"] == {"type": "Ellipsoid", "a": 2.0, "b": 2.5, "c": 2.5}
-    # A circle of 38.5 nm^2.
+    # Cross-section of 38.5 nm^2.
     assert abs(np.pi * shapes["node"]["diameter"] ** 2 / 4 - 38.5) < 1e-9
     assert (frame.log["particles/s_nm"][:points] == states["s_nm"]).all()
     assert (frame.log["particles/filament"][:points] == states["filament"]).all()
 
-    # A monomer's mass and those of nodes, in proportion to length; a solid ellipsoid's moments of inertia.
+    # Masses of monomers and nodes per length, and moments of inertia of a solid ellipsoid.
     mass, moments = particles.mass, particles.moment_inertia
     monomer = 0.0697
     assert np.allclose(mass[:points][monomers], monomer, rtol=1e-6)
@@ -66,7 +66,7 @@ with gsd.hoomd.open("run.gsd") as trajectory:
     assert count == {
         "lateral": n[0] + n[1] - 2, "longitudinal": n[0] + n[1] - 4, "segment": nodes - 1, "junction": 2, "linker": 2,
     }, count
-    # At rest, as the helix has them: rise 71.2 / 26 nm, turn 12 / 26, radius 1.8 nm; single precision.
+    # Helix at rest: rise 71.2 / 26 nm, 12 / 26 turn per monomer, radius 1.8 nm; single precision.
     rest = trajectory[0].particles.position
     far = {name: np.linalg.norm(np.diff(rest[pairs], axis=1), axis=2).ravel() for name, pairs in bonds.items()}
     rise, turn = 71.2 / 26, 2 * np.pi * 12 / 26
@@ -74,10 +74,10 @@ with gsd.hoomd.open("run.gsd") as trajectory:
     assert abs(far["lateral"] - helix(1)).max() < 1e-5
     assert abs(far["longitudinal"] - helix(2)).max() < 1e-5
     assert np.ptp(far["segment"]) < 1e-5 and abs(far["segment"].sum() - 30.0) < 1.0
-    # 12 nm between the axes of the filaments, and an anchor 0.5 nm away.
+    # The filament axes are 12 nm apart, and the fixed point is at 0.5 nm.
     assert abs(far["linker"] - [12.0, 0.5]).max() < 1e-5, far["linker"]
 
-# The reader that is written in Python alone.
+# The pure Python reader.
 with open("run.gsd", "rb") as file:
     plain = gsd.pygsd.GSDFile(file)
     assert plain.schema == "hoomd" and plain.application.startswith("actin ")

@@ -22,7 +22,7 @@ for i in range(len(agents.times)):
     w, x, y, z = states["quaternion"][i][states["frame_kind"] == 0].T
     turned = Rotation.from_quat(np.stack([x, y, z, w], axis=1))
     drawn = Rotation.from_euler("XYZ", agents.rotations[i][: n + 3][balls])
-    # Single precision.
+    # Stored in single precision.
     assert (turned.inv() * drawn).magnitude().max() < 1e-5
     rod = list(names).index("rod")
     nodes = agents.subpoints[i][rod][: int(agents.n_subpoints[i][rod])].reshape(-1, 3)
@@ -34,8 +34,8 @@ for name, largest, smallest in [("monomer", 2.7, 1.9), ("monomer_1", 2.5, 2.0)]:
     assert abs(agents.radii[0][: n + 3][names == name] - largest).max() < 1e-6
     corners = [line.split()[1:] for line in open(shown.url) if line.startswith("v ")]
     span = abs(np.array(corners, float)).max(axis=0)
-    # Semi-axes in units of the largest: x is the thin one, to 24 steps around.
+    # Semi-axes relative to the largest; x is the thin axis. Accuracy of 24 facets.
     assert abs(span[0] * largest - smallest).max() < 0.03 and abs(span[2] - 1.0) < 1e-6, span
-# What it was read into is written again.
+# The data can be written again.
 assert JsonWriter.format_trajectory_data(data)["trajectoryInfo"]["totalSteps"] == len(agents.times)
 print(f"read {len(agents.times)} frames of {n + 3} agents")

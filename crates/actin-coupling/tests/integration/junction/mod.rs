@@ -1,5 +1,3 @@
-//! The junction: that its loads are a gradient that balances, what it resists and how strongly.
-
 mod stress;
 
 use actin_cosserat::{
@@ -23,7 +21,6 @@ const RISE: f64 = 71.2 / 26.0;
 const SIDES: [JunctionSide; 2] = [JunctionSide::MonomersFirst, JunctionSide::RodFirst];
 const WEIGHTS: [JunctionWeight; 2] = [JunctionWeight::Shared, JunctionWeight::Full];
 
-/// Rigidities that all differ, so that no mix-up of axes goes unseen.
 fn material() -> RodMaterial {
     RodMaterial::new(Rigidities {
         shear: Vector3::new(1.6e4, 2.1e4, 3.4e4),
@@ -32,8 +29,8 @@ fn material() -> RodMaterial {
     .unwrap()
 }
 
-/// A filament at rest along z: one or two monomers on a helix and a rod of two segments of 10 nm
-/// with its end at the origin.
+/// Filament at rest along z: one or two monomers on a helix and a rod of two segments of 10 nm with
+/// its end at the origin.
 struct Filament {
     state: State,
     monomers: Vec<AttachedMonomer>,
@@ -41,7 +38,7 @@ struct Filament {
     rod: RodLayout,
 }
 
-/// Pushes monomers at the given axial coordinates (nm), on a helix of radius 1.8 nm.
+/// Adds monomers at the given axial coordinates (nm) on a helix of radius 1.8 nm.
 fn push_monomers(state: &mut State, heights: &[f64]) -> Vec<AttachedMonomer> {
     let monomer = |(k, &height): (usize, &f64)| {
         let turn = rotation::exp(Vector3::z() * (0.4 - 2.9 * k as f64));
@@ -104,13 +101,11 @@ impl Filament {
         }
     }
 
-    /// The filament turned and shifted as a whole.
     fn moved(mut self, noise: &mut Xorshift) -> Self {
         move_rigidly(&mut self.state, noise.vector(), noise.vector() * 10.0);
         self
     }
 
-    /// Turns and shifts every body but the rod's about the filament's axis at rest.
     fn move_monomers(&mut self, turn: f64, shift: f64) {
         let turn = rotation::exp(Vector3::z() * turn);
         for monomer in &self.monomers {
@@ -121,7 +116,6 @@ impl Filament {
         }
     }
 
-    /// Turns every junction frame about the axis.
     fn turn_junction(&mut self, turn: f64) {
         for frame in self.frames.clone() {
             let q = rotation::exp(Vector3::z() * turn);
@@ -130,7 +124,6 @@ impl Filament {
     }
 }
 
-/// Every kind of junction.
 fn all() -> impl Iterator<Item = (JunctionSide, JunctionWeight, usize)> {
     SIDES.into_iter().flat_map(|side| {
         WEIGHTS
@@ -139,7 +132,6 @@ fn all() -> impl Iterator<Item = (JunctionSide, JunctionWeight, usize)> {
     })
 }
 
-/// Signs as printed, or a couple left in axes of the wrong frame, would be off by all of a load.
 #[test]
 fn loads_are_minus_the_gradient_far_from_rest() {
     let mut noise = Xorshift::new(1);
@@ -147,12 +139,11 @@ fn loads_are_minus_the_gradient_far_from_rest() {
         let mut filament = filament(side, attached).moved(&mut noise);
         let junction = filament.junction(side, weight);
         perturb(&mut filament.state, &mut noise, 0.7, 0.5);
-        // h = 0.01 nm and rad: truncation and round-off are measured below 1e-12; 1e-10 is safe.
+        // h = 0.01 nm and rad: truncation and rounding errors are below 1e-12.
         assert_is_gradient(&junction, &filament.state, 0.01, 1e-10);
     }
 }
 
-/// The monomer's blocks in axes of the junction instead of its own would be off by all of a block.
 #[test]
 fn stiffness_is_the_derivative_of_the_loads_far_from_rest() {
     let mut noise = Xorshift::new(9);
@@ -160,13 +151,11 @@ fn stiffness_is_the_derivative_of_the_loads_far_from_rest() {
         let mut filament = filament(side, attached).moved(&mut noise);
         let junction = filament.junction(side, weight);
         perturb(&mut filament.state, &mut noise, 0.7, 0.5);
-        // h = 0.01 nm and rad: truncation and round-off are measured below 1e-12; 1e-10 is safe.
+        // h = 0.01 nm and rad: truncation and rounding errors are below 1e-12.
         assert_is_stiffness(&junction, &filament.state, 0.01, 1e-10);
     }
 }
 
-/// What a rod is told of a junction is the bending element on its own side, the `side`th frame of
-/// which is its own.
 fn assert_joined(junction: &Junction, state: &State, side: usize, rod: usize) {
     let joined = junction.joined_elements();
     assert_eq!(joined.len(), 2);
@@ -178,9 +167,8 @@ fn assert_joined(junction: &Junction, state: &State, side: usize, rod: usize) {
     }
 }
 
-/// Twist that grows along the filament is positive in every element, on either side of the rod,
-/// and over `D_E` beside the monomer. Constant rigidities do not see the order of the frames: the
-/// energy is even in the curvature.
+/// Right-handed twist is positive in all elements of both kinds of junctions. The energy is even in
+/// the curvature and cannot show this.
 #[test]
 fn curvatures_follow_the_filament() {
     for side in SIDES {
@@ -193,7 +181,8 @@ fn curvatures_follow_the_filament() {
             let q = &mut filament.state.frames.orientation;
             q.set(frame, rotation::exp(Vector3::z() * angle) * q.get(frame));
         };
-        // By bond: the first frame stays, the junction frame turns by 0.01, the last by 0.03.
+        // In each bond the first frame is fixed, the junction frame rotates by 0.01 and the last
+        // frame by 0.03.
         let monomers_first = side == JunctionSide::MonomersFirst;
         for &(monomer, frame) in &bonds {
             turn(frame, 0.01);
@@ -222,7 +211,6 @@ fn curvatures_follow_the_filament() {
 }
 
 proptest! {
-    /// The printed forces leave a resultant; these must not, or a free filament accelerates.
     #[test]
     fn linear_and_angular_momentum_balance(seed: u64, kind in 0_usize..8) {
         let (side, weight, attached) = all().nth(kind).unwrap();
@@ -230,14 +218,13 @@ proptest! {
         let mut filament = filament(side, attached).moved(&mut noise);
         let junction = filament.junction(side, weight);
         perturb(&mut filament.state, &mut noise, 0.7, 0.5);
-        // Sums of a dozen products: some units in the last place.
+        // Sums of a dozen products are accurate to a few units of rounding.
         assert_is_balanced(&junction, &filament.state, 1e-14);
         assert_is_invariant(&junction, &filament.state, 1e-13);
     }
 }
 
-/// Made at rest, it is at rest, however the filament lies. What is left is round-off of
-/// positions (1e-14 nm) times rigidity over length.
+/// Rounding errors of positions (1e-14 nm) times rigidity over length remain.
 #[test]
 fn the_built_filament_is_at_rest() {
     let mut noise = Xorshift::new(2);
@@ -252,10 +239,8 @@ fn the_built_filament_is_at_rest() {
     }
 }
 
-/// Monomers that turn about the axis as one body, and their junction frames with them: nothing
-/// shears and nothing twists between those two, so all twist is over `D_C`.
 #[test]
-fn turning_the_monomers_twists_the_rods_half_segment() {
+fn rotation_of_monomers_and_junction_frames_twists_the_rod_element() {
     let turn = 0.02;
     for (side, weight, attached) in all() {
         let mut filament = filament(side, attached);
@@ -270,7 +255,7 @@ fn turning_the_monomers_twists_the_rods_half_segment() {
             let expected = weight.of(attached) * 0.5 * 1.3e4 * turn * turn / distance;
             assert!((energy / expected - 1.0).abs() < 1e-12);
         }
-        // The couple on the rod is towards the monomers' turn, and the monomers feel none.
+        // The torque on the rod acts towards the rotation of the monomers.
         let loads = loads_of(&junction, &filament.state);
         let rod = filament.rod.end_frame(side.rod_end());
         assert!(loads.torque.get(rod).z > 0.0);
@@ -281,7 +266,6 @@ fn turning_the_monomers_twists_the_rods_half_segment() {
     }
 }
 
-/// Frames that stay while the monomers turn: twist over `D_E`, in axes of each monomer.
 #[test]
 fn monomers_twist_against_their_junction_frames() {
     for side in SIDES {
@@ -296,15 +280,14 @@ fn monomers_twist_against_their_junction_frames() {
         for (monomer, frame) in filament.monomers.iter().zip(filament.frames.clone()) {
             let height = filament.state.points.position.get(monomer.point).z.abs();
             let couple = 1.3e4 * 0.01 / (0.5 * height);
-            // The monomers' body axis z is the filament's at rest.
+            // Body axis z of the monomers is the axis of the filament at rest.
             assert!((loads.torque.get(monomer.frame).z + couple).abs() < 1e-9);
             assert!((loads.torque.get(frame).z - couple).abs() < 1e-9);
         }
     }
 }
 
-/// Pulled off the rod's end along the axis, each bond pulls back along the axis with S3 times
-/// the shift over its own length, and on the rod's end towards the monomers.
+/// The axial force of each bond is S3 times the shift over its length.
 #[test]
 fn a_stretched_junction_pulls_together() {
     let shift = 1e-3;
@@ -334,14 +317,11 @@ fn a_stretched_junction_pulls_together() {
     }
 }
 
-/// Frames of the first bond, from the monomer to the rod.
 fn bond_frames(f: &Filament, side: JunctionSide) -> [usize; 3] {
     let rod = f.rod.end_frame(side.rod_end());
     [f.monomers[0].frame, f.frames.start, rod]
 }
 
-/// A filament and its mirror image (rod first) store the same energy in mirrored states: the
-/// half turn about a perpendicular axis that exchanges the ends.
 #[test]
 fn both_sides_are_mirror_images() {
     let half_turn = rotation::exp(Vector3::x() * std::f64::consts::PI);
@@ -349,7 +329,7 @@ fn both_sides_are_mirror_images() {
     let mut noise = Xorshift::new(5);
     let mut before = filament(JunctionSide::MonomersFirst, 1);
     let mut after = filament(JunctionSide::RodFirst, 1);
-    // The monomer that the half turn makes of the first one.
+    // Image of the monomer.
     let (from, to) = (before.monomers[0], after.monomers[0]);
     let x = half_turn * before.state.points.position.get(from.point);
     after.state.points.position.set(to.point, x);
@@ -364,7 +344,7 @@ fn both_sides_are_mirror_images() {
         make(&before, JunctionSide::MonomersFirst),
         make(&after, JunctionSide::RodFirst),
     ];
-    // Turn monomer, junction frame and rod, and shift the monomer; then the same, mirrored.
+    // Equal perturbations of both filaments.
     let pairs = bond_frames(&before, JunctionSide::MonomersFirst)
         .into_iter()
         .zip(bond_frames(&after, JunctionSide::RodFirst));
@@ -382,14 +362,13 @@ fn both_sides_are_mirror_images() {
         junctions[0].energy(&before.state),
         junctions[1].energy(&after.state),
     ];
-    // Transverse rigidities are equal, so the half turn is a symmetry of the material.
+    // Equal transverse rigidities make the rotation a symmetry of the material.
     assert!(
         (energies[0] / energies[1] - 1.0).abs() < 1e-12,
         "{energies:?}"
     );
 }
 
-/// Shared halves what full gives, element by element; one monomer alone bears everything.
 #[test]
 fn weights_scale_the_whole_junction() {
     let mut noise = Xorshift::new(6);
@@ -403,9 +382,8 @@ fn weights_scale_the_whole_junction() {
     }
 }
 
-/// Only the end of the rod, the attached monomers and the junction frames are touched.
 #[test]
-fn the_rest_of_the_rod_feels_nothing() {
+fn distant_nodes_have_no_loads() {
     let mut noise = Xorshift::new(7);
     for side in SIDES {
         let mut filament = filament(side, 2);
@@ -428,7 +406,6 @@ fn the_rest_of_the_rod_feels_nothing() {
     }
 }
 
-/// The rod's own terms know nothing of the junction: both together still balance.
 #[test]
 fn rod_and_junction_balance_together() {
     let mut noise = Xorshift::new(8);
@@ -443,7 +420,7 @@ fn rod_and_junction_balance_together() {
 }
 
 #[test]
-fn junctions_that_make_no_sense_are_refused() {
+fn invalid_junctions_are_refused() {
     let side = JunctionSide::MonomersFirst;
     let made = |f: &Filament, frames: Range<usize>| {
         let parts = JunctionParts {

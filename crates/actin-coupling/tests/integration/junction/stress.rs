@@ -1,12 +1,10 @@
-//! The random stress of junctions.
-
 use super::{JunctionParts, all, filament};
 use actin_cosserat::{EnergyGradient, Homogenised, RodMaterial, SegmentCurvature, SegmentLaw};
 use actin_coupling::{Junction, JunctionSide};
 use actin_mechanics::testing::assert_fluctuates;
 use actin_mechanics::{State, Vector3};
 
-/// Stretches all by a thousandth along the axis.
+/// Stretches the filament by 0.1 % along the axis.
 fn stretch(state: &mut State) {
     for i in 0..state.points.len() {
         let x = state.points.position.get(i);
@@ -15,8 +13,6 @@ fn stretch(state: &mut State) {
     }
 }
 
-/// A mix-up of the two couples, of weights or of axes would be off by all of an entry. Stretched along the axis, so that nothing of
-/// what turns frames about themselves is left out.
 #[test]
 fn stress_has_the_covariance_of_the_stiffness() {
     for (side, weight, attached) in all() {
@@ -27,8 +23,8 @@ fn stress_has_the_covariance_of_the_stiffness() {
     }
 }
 
-/// Beside a rod whose strain knows of its curvature both together have it: half of the end segment counts once. Stretched, so
-/// that shear of the law is stiff.
+/// The stress of rod and junction together; half of the end segment counts once. The stretch gives
+/// shear a geometric stiffness.
 #[test]
 fn stress_beside_an_extended_rod_has_the_covariance_of_the_stiffness() {
     let material = RodMaterial::homogenised(Homogenised::mean_filament_at_298_k());

@@ -1,36 +1,33 @@
-//! A Markov chain of states of a cell: hybrid Monte Carlo in coordinates in which it is nearly isotropic.
+//! Hybrid Monte Carlo sampling of the states of a cell.
 
 use super::normal::Normal;
 use super::potential::Potential;
 use nalgebra::{DMatrix, DVector};
 use std::f64::consts::FRAC_PI_2;
 
-/// Displacement (nm) or turn (rad) to which a mode without stiffness is taken to move.
+/// Assumed amplitude (nm or rad) of zero-stiffness modes.
 const WIDEST: f64 = 0.2;
-/// Trajectories of each round before the first sample; after each the metric is that of its mean Hessian.
+/// Trajectories of the warm-up phases. The metric is updated from the mean Hessian after each.
 const ROUNDS: [usize; 4] = [50, 100, 250, 200];
-/// Trajectories from one Hessian of the warm-up to the next.
+/// Trajectories between two evaluations of the Hessian during warm-up.
 const APART: usize = 3;
-/// Longest step; the period of the modes is 2 pi.
+/// Maximum time step; the period of the modes is 2 pi.
 const LONGEST: f64 = 1.0;
 
-/// A chain, where it is, and how it moves.
 pub(super) struct Chain<'a> {
     potential: &'a Potential<'a>,
     normal: Normal,
     /// Coordinates, then strains.
     pub(super) place: DVector<f64>,
-    /// Derivatives of the potential.
     pub(super) gradient: DVector<f64>,
     energy: f64,
-    /// From coordinates in which the mean Hessian over kT is 1 to all.
+    /// Transformation from coordinates in which the mean Hessian over kT is the identity.
     map: DMatrix<f64>,
-    /// Time step, in units in which the frequency of every mode would be 1.
+    /// Time step, in units in which every mode has frequency 1.
     pub(super) step: f64,
 }
 
 impl<'a> Chain<'a> {
-    /// The chain at `place`.
     pub(super) fn new(potential: &'a Potential<'a>, place: DVector<f64>, normal: Normal) -> Self {
         let mut gradient = DVector::zeros(potential.size());
         let energy = potential.slopes(&place, &mut gradient);
@@ -45,8 +42,8 @@ impl<'a> Chain<'a> {
         }
     }
 
-    /// Moves to typical states and finds metric and step for this share of accepted trajectories; returns the mean
-    /// Hessian that the metric is from.
+    /// Adapts metric and time step to the given acceptance rate. Returns the mean Hessian of the
+    /// metric.
     pub(super) fn warm_up(&mut self, acceptance: f64) -> DMatrix<f64> {
         let directions = self.potential.directions();
         let mut mean = self.potential.derivatives(&self.place).hessian;
@@ -68,16 +65,16 @@ impl<'a> Chain<'a> {
         mean
     }
 
-    /// How all moves when all that is free follows a force, times kT: the inverse of the mean Hessian.
+    /// Inverse of the mean Hessian times `force`.
     pub(super) fn mobility(&self, force: &DMatrix<f64>) -> DMatrix<f64> {
         &self.map * self.map.tr_mul(force) / self.potential.kt
     }
 
-    /// One trajectory; returns the probability with which it was accepted.
+    /// Performs one trajectory and returns its acceptance probability.
     ///
-    /// Momenta are drawn afresh, the number of leapfrog steps and their length without regard to the state. So the
-    /// trajectory back is as likely, and the test of Metropolis makes the Boltzmann distribution stationary
-    /// whatever the step.
+    /// Momenta, number of leapfrog steps and time step are drawn independently of the state. The
+    /// reverse trajectory is therefore equally likely, and the Metropolis test makes the Boltzmann
+    /// distribution stationary for any time step.
     pub(super) fn advance(&mut self) -> f64 {
         let kt = self.potential.kt;
         let mut momentum = DVector::from_fn(self.map.ncols(), |_, _| self.normal.next());
@@ -96,7 +93,7 @@ impl<'a> Chain<'a> {
         }
         let after = energy / kt + 0.5 * momentum.norm_squared();
         let gain = before - after;
-        // A trajectory that went to infinity has no number, and is refused.
+        // Diverging trajectories are rejected.
         let accepted = if gain.is_nan() {
             0.0
         } else {
@@ -109,7 +106,6 @@ impl<'a> Chain<'a> {
     }
 }
 
-/// The next integer.
 #[expect(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,
@@ -119,7 +115,7 @@ fn count(number: f64) -> usize {
     number.ceil() as usize
 }
 
-/// Directions scaled such that the Hessian along them is kT times 1, where it is stiff enough.
+/// Directions along which the Hessian is kT times the identity, with a minimum stiffness.
 fn metric(directions: &DMatrix<f64>, hessian: &DMatrix<f64>, kt: f64) -> DMatrix<f64> {
     let reduced = directions.tr_mul(&(hessian * directions));
     let eigen = reduced.symmetric_eigen();

@@ -1,20 +1,16 @@
-//! Means over a chain, with errors from the scatter of its blocks.
-
 use super::super::pairs::Derivatives;
 use super::super::{STRAINS, SixMatrix, SixVector};
 use super::potential::Potential;
 use nalgebra::{DMatrix, DVector};
 
-/// Directions along which derivatives by the strains are taken, one per column: those that change the strain
-/// itself and nothing that is held besides all give the same means.
+/// Directions of the derivatives with respect to the strains, one per column.
 #[derive(Debug)]
 pub(super) struct Moves {
     pub(super) along: DMatrix<f64>,
-    /// A state of the chain, from which places are counted.
+    /// Reference state.
     pub(super) origin: DVector<f64>,
 }
 
-/// Sums over samples.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Sums {
     count: f64,
@@ -30,24 +26,22 @@ pub(super) struct Sums {
     energy: f64,
 }
 
-/// What follows from sums.
 #[derive(Clone, Debug)]
 pub(super) struct Means {
-    /// Of the strains, from the origin.
+    /// Relative to the origin.
     pub(super) strain: SixVector,
     pub(super) covariance: SixMatrix,
-    /// Derivatives of the free energy by the strains, with and without control variates.
+    /// Derivatives of the free energy, with and without control variates.
     pub(super) slope: SixVector,
     pub(super) plain: SixVector,
     pub(super) curvature: SixMatrix,
-    /// Energy of the cell, `x . dE/dx`, mean square of the turns.
+    /// Energy of the cell, `x . dE/dx`, mean square rotation.
     pub(super) energy: f64,
     pub(super) virial: f64,
     pub(super) turn: f64,
 }
 
 impl Sums {
-    /// Adds a state with the derivatives of its potential.
     pub(super) fn add(
         &mut self,
         place: &DVector<f64>,
@@ -72,7 +66,6 @@ impl Sums {
         self.turn += turns / potential.cell.monomers() as f64;
     }
 
-    /// Adds energy and second derivatives at a state.
     pub(super) fn add_derivatives(&mut self, of: &Derivatives, moves: &Moves) {
         let along = moves.along.tr_mul(&(&of.hessian * &moves.along));
         self.hessian += along.fixed_view::<STRAINS, STRAINS>(0, 0);
@@ -80,7 +73,6 @@ impl Sums {
         self.hessians += 1.0;
     }
 
-    /// Adds `share` of other sums.
     fn add_sums(&mut self, other: &Self, share: f64) {
         self.count += share * other.count;
         self.slope += other.slope * share;
@@ -114,7 +106,6 @@ impl Sums {
     }
 }
 
-/// Means over all blocks, and their standard errors by the jackknife over blocks.
 pub(super) fn with_errors(blocks: &[Sums], kt: f64) -> (Means, Means) {
     let mut all = Sums::default();
     for block in blocks {

@@ -1,7 +1,6 @@
-//! The free energy of a cell at a temperature: mean loads, tangent and strains from its thermal motion.
+//! Free energy of a cell: mean loads, tangent and strains from its thermal motion.
 //!
-//! [`Cell::sample`] is what to call. The chain of states is in `chain.rs`, what it samples in `potential.rs`, means
-//! and their errors in `means.rs`.
+//! [`Cell::sample`] is the entry point.
 
 mod chain;
 mod means;
@@ -16,87 +15,93 @@ use nalgebra::{DMatrix, DVector};
 use normal::Normal;
 use potential::Potential;
 
-/// Blocks of samples from whose scatter errors are taken.
+/// Number of blocks for the standard errors.
 const BLOCKS: usize = 40;
-/// Samples from one Hessian to the next.
+/// Samples between two evaluations of the Hessian.
 const APART: usize = 6;
 
-/// How the motion of a cell is sampled.
+/// Options of the sampling of a cell.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Heat {
     /// Thermal energy (pN nm).
     pub kt: f64,
-    /// Trajectories, about one independent state each; rounded up to a multiple of 40, 240 at least.
+    /// Number of trajectories, about one independent state each. Rounded up to a multiple of 40, at
+    /// least 240.
     pub samples: usize,
-    /// Share of trajectories that are accepted: the more, the shorter the steps. No mean depends on it.
+    /// Target acceptance rate; higher rates give shorter time steps. Means do not depend on it.
     pub acceptance: f64,
-    /// Seed of the motion.
+    /// Seed of the random numbers.
     pub seed: u64,
-    /// Stream of the seed: streams are independent.
+    /// Stream of the seed; streams are independent.
     pub stream: u64,
 }
 
-/// What a cell answers at a temperature; errors are standard errors from the scatter of 40 blocks.
+/// Mean response of a cell at finite temperature. Errors are standard errors from 40 blocks.
 #[derive(Clone, Debug)]
 pub struct HeatResponse {
-    /// Strains, means of those that are free.
+    /// Given strains, and means of the free strains.
     pub strain: SixVector,
-    /// Errors of the means.
+    /// Standard errors of the strains.
     pub strain_error: SixVector,
     /// Covariances of the free strains.
     pub covariance: SixMatrix,
-    /// Their errors.
+    /// Standard errors of the covariances.
     pub covariance_error: SixMatrix,
-    /// Mean couple (pN nm) and force (pN) in body axes: derivatives of the free energy per length. Those of free
-    /// strains are the given ones.
+    /// Mean torque (pN nm) and force (pN) in body axes: derivatives of the free energy per length.
+    /// Loads of free strains are the given ones.
     pub loads: SixVector,
-    /// Their errors.
+    /// Standard errors of the loads.
     pub loads_error: SixVector,
-    /// The same means without control variates, with larger errors.
+    /// Mean loads without control variates, with larger errors.
     pub plain: SixVector,
-    /// Errors of the plain means.
+    /// Standard errors of the plain loads.
     pub plain_error: SixVector,
-    /// Second derivatives of the free energy per length by the strains that are held, units as in
-    /// [`CellResponse`](super::CellResponse).
+    /// Second derivatives of the free energy per length with respect to the given strains, in the
+    /// units of [`CellResponse`](super::CellResponse).
     pub tangent: SixMatrix,
-    /// Their errors.
+    /// Standard errors of the tangent.
     pub tangent_error: SixMatrix,
-    /// Mean energy per length of the built filament (pN), no free energy.
+    /// Mean energy per length of the built filament (pN). This is not the free energy.
     pub energy: f64,
-    /// `<x . dE/dx>` over kT and the number of coordinates, 1 for any potential, with its error.
+    /// `<x . dE/dx>` divided by kT and the number of coordinates, with its error. The exact value
+    /// is 1.
     pub equipartition: [f64; 2],
-    /// Mean square of the turns `w` (rad^2).
+    /// Mean square of the rotation vectors `w` (rad^2).
     pub mean_square_turn: f64,
-    /// Share of trajectories that were accepted.
+    /// Acceptance rate.
     pub acceptance: f64,
-    /// Step, in units in which the frequency of every mode would be 1.
+    /// Time step, in units in which every mode has frequency 1.
     pub step: f64,
-    /// The last state.
+    /// Last state.
     pub displacements: Displacements,
 }
 
 impl Cell {
-    /// The response at a temperature where some strains are held and the loads of the others given.
+    /// Mean response at finite temperature to given strains or loads.
     ///
-    /// Means of `u` and `w` are held as for [`Cell::relax`]; all else moves: the density of the displacements
-    /// and turns is that of Boltzmann times the uniform measure of rotations, exactly, whatever the step. The factor
-    /// `det <J_l^-1(w)>` that the held mean turn adds to it is left out: it is that of a potential of 2/13 of
-    /// the measure's, `kT |w|^2/12` per monomer.
+    /// The means of `u` and `w` are held as for [`Cell::relax`]. All other coordinates follow the
+    /// Boltzmann distribution with the uniform measure of rotations, exactly for any time step. The
+    /// factor `det <J_l^-1(w)>` of the constraint on the mean rotation is omitted; it corresponds
+    /// to a potential of 2/13 of that of the measure, `kT |w|^2/12` per monomer.
     ///
-    /// Loads are means of `D E = dE/dxi + A^T dE/dx`, where `A` is any shift of the free coordinates with the strain:
-    /// the second term is zero on average, and takes away most of the scatter where `A` is that
-    /// of the harmonic cell. The tangent is `<D^2 E> - cov(D E)/kT`, per length.
+    /// ```text
+    /// loads   <D E>,   D E = dE/dxi + A^T dE/dx
+    /// tangent (<D^2 E> - cov(D E) / kT) / length
     ///
-    /// The chain starts from `start`, by default from the built filament, relaxed.
+    /// A   displacement of the free coordinates with the strain
+    /// ```
+    ///
+    /// The second term of `D E` has zero mean. With `A` of the harmonic cell it removes most of the
+    /// variance. The chain starts from `start`, by default from the relaxed built filament.
     ///
     /// # Errors
-    /// [`CellError::NoMinimum`] if there is no state to start from.
+    /// [`CellError::NoMinimum`] if the relaxation of the initial state does not converge.
     ///
     /// # Panics
-    /// If `start` is of another number of monomers.
+    /// If `start` has a different number of monomers.
     ///
     /// # Source
-    /// S. Duane et al., Phys. Lett. B 195 (1987) 216; the vanishing means: R. Assaraf and M. Caffarel,
+    /// S. Duane et al., Phys. Lett. B 195 (1987) 216. Control variates: R. Assaraf and M. Caffarel,
     /// Phys. Rev. Lett. 83 (1999) 4682.
     pub fn sample(
         &self,
@@ -163,7 +168,6 @@ impl Cell {
         }
     }
 
-    /// Means and errors; the rest as if nothing had moved from `origin`.
     fn respond_to(
         &self,
         potential: &Potential<'_>,
@@ -199,7 +203,7 @@ impl Cell {
         }
     }
 
-    /// How coordinates follow the strains, as in the harmonic cell of the mean Hessian.
+    /// Displacements with the strains in the harmonic cell with the mean Hessian.
     fn moves(&self, potential: &Potential<'_>, chain: &Chain<'_>, hessian: &DMatrix<f64>) -> Moves {
         let mixed = hessian.columns(self.coordinates(), STRAINS).into_owned();
         let mut along = -chain.mobility(&mixed);

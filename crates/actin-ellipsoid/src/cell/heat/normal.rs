@@ -1,11 +1,9 @@
-//! Normal random numbers of a keyed stream.
-
 use crate::stream::Stream;
 
-/// Keeps the streams of motion apart from those of bonds.
+/// Separates these streams from the streams of bonds.
 const MOTION: u64 = u64::MAX;
 
-/// Independent numbers of mean 0 and variance 1.
+/// Independent standard normal numbers.
 #[derive(Clone, Debug)]
 pub(super) struct Normal {
     stream: Stream,
@@ -13,7 +11,6 @@ pub(super) struct Normal {
 }
 
 impl Normal {
-    /// Those of stream `number` of a seed.
     pub(super) fn new(seed: u64, number: u64) -> Self {
         Self {
             stream: Stream::new(seed, MOTION, number),
@@ -21,10 +18,10 @@ impl Normal {
         }
     }
 
-    /// The next one.
+    /// Next number.
     ///
     /// # Source
-    /// The polar method of Marsaglia and Bray, SIAM Review 6 (1964) 260.
+    /// Polar method of Marsaglia and Bray, SIAM Review 6 (1964) 260.
     pub(super) fn next(&mut self) -> f64 {
         if let Some(spare) = self.spare.take() {
             return spare;
@@ -41,7 +38,6 @@ impl Normal {
         }
     }
 
-    /// A number uniform in [0, 1).
     pub(super) fn uniform(&mut self) -> f64 {
         self.stream.uniform()
     }

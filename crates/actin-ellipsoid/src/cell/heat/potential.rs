@@ -1,30 +1,25 @@
-//! What is sampled: energy of the cell, work of the given loads, measure of rotations.
-
 use super::super::jets::log_density;
 use super::super::pairs::Derivatives;
 use super::super::{Cell, STRAINS, SixVector};
 use actin_mechanics::Matrix3;
 use nalgebra::{DMatrix, DVector};
 
-/// The potential whose Boltzmann factor is the density of displacements and turns in their components.
+/// Energy minus work of the given loads, plus the measure of rotations.
 #[derive(Debug)]
 pub(super) struct Potential<'a> {
     pub(super) cell: &'a Cell,
-    /// Thermal energy (pN nm).
     pub(super) kt: f64,
-    /// Strains that are free.
     pub(super) free: Vec<usize>,
-    /// Loads: those of the free strains count.
+    /// Loads of the free strains; others are ignored.
     pub(super) loads: SixVector,
 }
 
 impl Potential<'_> {
-    /// Number of coordinates and strains.
     pub(super) fn size(&self) -> usize {
         self.cell.coordinates() + STRAINS
     }
 
-    /// Its value (pN nm) at `place`, coordinates then strains; its derivatives go to `gradient`.
+    /// Value (pN nm) at `place` (coordinates, then strains). Writes the derivatives to `gradient`.
     pub(super) fn slopes(&self, place: &DVector<f64>, gradient: &mut DVector<f64>) -> f64 {
         let mut energy = self.cell.slopes(place, gradient);
         for (row, turn) in self.cell.turns(place) {
@@ -41,7 +36,6 @@ impl Potential<'_> {
         energy
     }
 
-    /// The energy of the cell, with the second derivatives of the potential.
     pub(super) fn derivatives(&self, place: &DVector<f64>) -> Derivatives {
         let coordinates = self.cell.coordinates();
         let strain: SixVector = place.fixed_rows::<STRAINS>(coordinates).into();
@@ -57,13 +51,12 @@ impl Potential<'_> {
         all
     }
 
-    /// Orthonormal directions of all that moves, one per column.
+    /// Orthonormal basis of unconstrained motion.
     pub(super) fn directions(&self) -> DMatrix<f64> {
         let (coordinates, held) = (self.cell.coordinates(), &self.cell.held);
         let moving = coordinates - held.nrows();
         let mut basis = DMatrix::zeros(self.size(), moving + self.free.len());
         let projector = DMatrix::identity(coordinates, coordinates) - held.tr_mul(held);
-        // Eigenvalues are 0 and 1; those of 1 come where they come.
         let eigen = projector.symmetric_eigen();
         let columns = (0..coordinates).filter(|&k| eigen.eigenvalues[k] > 0.5);
         for (column, k) in columns.enumerate() {
@@ -76,7 +69,6 @@ impl Potential<'_> {
         basis
     }
 
-    /// Work of the load of strain `k` per strain (pN nm).
     fn work_per_strain(&self, k: usize) -> f64 {
         self.cell.length() * self.loads[k]
     }

@@ -1,4 +1,4 @@
-//! The energy of a cell with its gradient alone, for trajectories, and the measure of turns.
+//! Energy and gradient of a cell, for trajectories.
 
 use super::super::jets::turned;
 use super::super::pairs::{CellPair, Motion};
@@ -6,23 +6,21 @@ use super::super::{Cell, PER_MONOMER, SixVector};
 use actin_mechanics::{Matrix3, Vector3};
 use nalgebra::DVector;
 
-/// A monomer in the frame of its place.
 struct Placed {
     centre: Vector3,
     turn: Matrix3,
-    /// The left Jacobian of the turn: a change of `w` by `dw` turns by `J dw`.
+    /// Left Jacobian: a change `dw` of the rotation vector rotates by `J dw`.
     jacobian: Matrix3,
 }
 
 impl Placed {
-    /// The derivative by the turn's components of an energy whose couple this is.
+    /// Derivative with respect to the rotation vector.
     fn couple(&self, couple: Vector3) -> Vector3 {
         self.jacobian.tr_mul(&couple)
     }
 }
 
-/// What a pair adds to the gradient: force on the lower centre, couples on the lower and on the upper monomer, all
-/// in the frame of the lower one.
+/// Force on the lower centre and torques, in the lower frame.
 struct PairLoads {
     energy: f64,
     force: Vector3,
@@ -31,8 +29,7 @@ struct PairLoads {
 }
 
 impl CellPair {
-    /// With the upper monomer turned by `turn` and moved by `shift` relative to the lower one, in whose
-    /// frame all is.
+    /// Loads for a relative pose in the lower frame.
     fn loads(&self, turn: &Matrix3, shift: &Vector3) -> PairLoads {
         let mut sum = PairLoads {
             energy: 0.0,
@@ -57,7 +54,7 @@ impl CellPair {
 }
 
 impl Cell {
-    /// The energy (pN nm) at `place`, coordinates then strains; its derivatives go to `gradient`.
+    /// Energy (pN nm) at `place` (coordinates, then strains). Writes the derivatives to `gradient`.
     pub(super) fn slopes(&self, place: &DVector<f64>, gradient: &mut DVector<f64>) -> f64 {
         let coordinates = self.coordinates();
         let strain: SixVector = place.fixed_rows::<6>(coordinates).into();
@@ -107,7 +104,7 @@ impl Cell {
         })
     }
 
-    /// Turns of all monomers, with the places of their first components.
+    /// Rotation vectors with the indices of their first components.
     pub(super) fn turns(&self, place: &DVector<f64>) -> impl Iterator<Item = (usize, Vector3)> {
         let rows = (0..self.monomers()).map(|i| PER_MONOMER * i + 3);
         rows.map(|row| (row, place.fixed_rows::<3>(row).into()))

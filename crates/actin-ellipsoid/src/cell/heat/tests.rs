@@ -1,11 +1,8 @@
-//! Gradient of the potential, and the sampler where the answer is known.
-
 use super::*;
 use crate::cell::Control::{Load, Strain};
 use crate::{EllipsoidModel, EllipsoidParameters, Hold};
 use actin_mechanics::testing::derivative;
 
-/// kT at 298 K.
 const ROOM: f64 = 4.114;
 
 fn cell() -> Cell {
@@ -17,10 +14,9 @@ fn held(strain: [f64; 6]) -> [Control; 6] {
     strain.map(Strain)
 }
 
-/// A strain that bends, twists, shears and stretches.
 const STRAINED: [f64; 6] = [4e-3, -2e-3, 0.011, 6e-3, 3e-3, -4e-3];
 
-/// Standard errors by which means may differ: one of 100 numbers does so by chance in 1500 runs.
+/// Tolerance in standard errors: 100 numbers exceed it by chance once in 1500 runs.
 const APART: f64 = 4.5;
 
 fn heat(kt: f64, samples: usize) -> Heat {
@@ -33,10 +29,9 @@ fn heat(kt: f64, samples: usize) -> Heat {
     }
 }
 
-/// The derivatives of the potential, of loads and of the measure of turns included, against those of the minimiser and
-/// eight-point differences.
+/// Eight-point differences.
 #[test]
-fn the_gradient_is_that_of_the_potential() {
+fn the_gradient_matches_differences_of_the_potential() {
     let cell = cell();
     let potential = Potential {
         cell: &cell,
@@ -69,10 +64,9 @@ fn the_gradient_is_that_of_the_potential() {
     }
 }
 
-/// Near zero temperature loads and tangent are those of the relaxed cell. What the temperature adds is of order kT:
-/// at 1e-7 pN nm, 2e-8 of what it adds at 298 K, which is not above the loads themselves.
+/// Thermal contributions are of order kT: 2e-8 of those at 298 K.
 #[test]
-fn a_cold_cell_answers_as_the_relaxed_one() {
+fn a_cold_cell_agrees_with_the_relaxed_one() {
     let cell = cell();
     let relaxed = cell.relax(&STRAINED.into(), None).unwrap();
     let cold = cell
@@ -94,8 +88,6 @@ fn a_cold_cell_answers_as_the_relaxed_one() {
     }
 }
 
-/// Long steps and short ones, with and without control variates, have the same means, and coordinates share the energy
-/// evenly. A wrong test of acceptance, or none, shows in the first; an asymmetric leapfrog in all.
 #[test]
 fn means_do_not_depend_on_the_step() {
     let cell = cell();
@@ -130,9 +122,9 @@ fn means_do_not_depend_on_the_step() {
     }
 }
 
-/// The tangent from fluctuations is that of the mean loads: differences over 2e-3 of stretch, from independent motion.
+/// Differences over a stretch of 2e-3 from independent chains.
 #[test]
-fn the_tangent_is_that_of_the_loads() {
+fn the_tangent_matches_differences_of_the_loads() {
     let cell = cell();
     let at = |stretch: f64, stream: u64| {
         let heat = Heat {
@@ -153,8 +145,7 @@ fn the_tangent_is_that_of_the_loads() {
     }
 }
 
-/// Given loads are loads of the cell at the mean strains, which fluctuate by the inverse of the tangent: strains
-/// of one cell vary so much that this holds within 10 % only.
+/// Fluctuations of the strains of one cell limit the agreement to 10 %.
 #[test]
 fn free_strains_fluctuate_by_their_compliance() {
     let cell = cell();
@@ -178,9 +169,8 @@ fn free_strains_fluctuate_by_their_compliance() {
     assert!(share < 0.1, "{covariance} {compliance}");
 }
 
-/// Motion is a function of the seed and its stream.
 #[test]
-fn motion_comes_back() {
+fn sampling_is_reproducible() {
     let cell = cell();
     let with = |stream: u64| {
         let heat = Heat {
@@ -193,7 +183,6 @@ fn motion_comes_back() {
     assert_ne!(with(3), with(4));
 }
 
-/// Mean 0, variance 1 and fourth moment 3, within five standard errors of 1e5 numbers.
 #[test]
 fn normal_numbers_are_normal() {
     let mut normal = Normal::new(1, 2);

@@ -1,14 +1,10 @@
-//! Filaments for the tests of this crate.
-
 use actin_ellipsoid::{Anchors, Bonds, EllipsoidModel, EllipsoidParameters, Monomers, Placement};
 use actin_mechanics::State;
 
-/// The default model with another seed and number of bonds per interface.
 pub(crate) fn model(seed: u64, bonds: usize) -> EllipsoidModel {
     model_with(Anchors::Independent, seed, bonds)
 }
 
-/// The same with a choice of anchors.
 pub(crate) fn model_with(anchors: Anchors, seed: u64, bonds: usize) -> EllipsoidModel {
     let mut parameters = EllipsoidParameters {
         anchors,
@@ -20,19 +16,18 @@ pub(crate) fn model_with(anchors: Anchors, seed: u64, bonds: usize) -> Ellipsoid
     EllipsoidModel::new(parameters).expect("the defaults are valid")
 }
 
-/// The default model with so many weighted bonds per interface.
+/// Quadrature bonds.
 #[allow(dead_code, reason = "not every test asks for weighted bonds")]
 pub(crate) fn weighted(points: usize) -> EllipsoidModel {
     model_with(Anchors::Cubature, 0, points)
 }
 
-/// Drawn and weighted bonds: few, many, and the built-in ones.
 #[allow(dead_code, reason = "not every test asks for all models")]
 pub(crate) fn models(seed: u64) -> [EllipsoidModel; 3] {
     [model(seed, 8), model(seed, 64), weighted(12)]
 }
 
-/// A filament of `count` monomers at rest, from lattice index 0 on.
+/// `count` monomers at rest, starting with lattice index 0.
 pub(crate) fn filament(model: &EllipsoidModel, count: usize) -> (State, Monomers, Bonds) {
     let mut state = State::default();
     let monomers = model

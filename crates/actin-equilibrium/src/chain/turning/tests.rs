@@ -1,5 +1,3 @@
-//! The stiffness in the chart of the chain is the second derivative of the energy along carried steps.
-
 use crate::assemble::Assembly;
 use crate::evaluation::Evaluation;
 use crate::{BodyOrder, Layout};
@@ -10,7 +8,7 @@ use actin_mechanics::{
     Vector3, Xorshift, rotation,
 };
 
-/// Springs without rest length between a place on each body and one on the next but `step - 1`.
+/// Springs of zero rest length between bodies `i` and `i + step`.
 #[derive(Debug)]
 struct Joints {
     bodies: usize,
@@ -23,7 +21,7 @@ impl Joints {
         (0..self.bodies - self.step).map(|i| [i, i + self.step])
     }
 
-    /// The lab arms, and the vector between the ends.
+    /// Arms and vector between the anchors (lab frame).
     fn geometry(&self, state: &State, [i, j]: [usize; 2]) -> ([Vector3; 2], Vector3) {
         let q = &state.frames.orientation;
         let arms = [q.get(i) * self.ends[0], q.get(j) * self.ends[1]];
@@ -69,7 +67,6 @@ impl SecondOrder for Joints {
         for [i, j] in self.pairs() {
             let (_, d) = self.geometry(state, [i, j]);
             let axes = |k| super::matrix(state, k);
-            // How the vector between the ends changes with the turns.
             let by_turn = [
                 axes(i) * self.ends[0].cross_matrix(),
                 axes(j) * self.ends[1].cross_matrix() * -1.0,
@@ -93,7 +90,7 @@ impl SecondOrder for Joints {
     }
 }
 
-/// A crooked chain of bodies, each tied to the next two, the first held if `held`, with a force on the last.
+/// Irregular chain, each body tied to the next two, with a force on the last one.
 fn chain(held: bool) -> (State, Vec<Box<dyn Interaction>>, Layout) {
     let bodies = 7;
     let (mut state, mut noise) = (State::default(), Xorshift::new(11));
@@ -129,10 +126,8 @@ fn chain(held: bool) -> (State, Vec<Box<dyn Interaction>>, Layout) {
     (state, terms, layout)
 }
 
-/// Far from equilibrium, where loads turn and are carried, along steps in which every body moves and turns:
-/// the stiffness alone is that along straight steps, and with the turning that along carried ones.
 #[test]
-fn the_stiffness_is_the_second_derivative_along_carried_steps() {
+fn stiffness_is_the_second_derivative_along_carried_steps() {
     for held in [true, false] {
         let (state, terms, mut layout) = chain(held);
         let here = Evaluation::new(&terms, &state);
@@ -159,7 +154,7 @@ fn the_stiffness_is_the_second_derivative_along_carried_steps() {
                 assembly.multiply(&step, &mut product);
                 crate::direction::dot(&product, &step)
             };
-            // Differences of the energy, of size 100, over 1e-2 twice: 1e-10; h^8 is far below.
+            // Rounding of energies of size 100, over 1e-2 twice: 1e-10.
             let is_close = |a: f64, b: f64| (a - b).abs() < 1e-7 * b.abs().max(1.0);
             let (straight, carried) = (along(&plain), along(&turned));
             assert!(is_close(straight, second(false)), "{straight}");
@@ -169,7 +164,6 @@ fn the_stiffness_is_the_second_derivative_along_carried_steps() {
     }
 }
 
-/// Held at one end or nowhere it is open; at both ends, or with bodies that are coupled across, it is not.
 #[test]
 fn a_chain_held_at_one_end_is_open() {
     let seen = |layout: &mut Layout, state: &State, terms: &[Box<dyn Interaction>]| {

@@ -1,4 +1,4 @@
-//! Rods, filaments and springs, shared by the tests.
+//! Rods, filaments and springs for tests.
 #![allow(dead_code, unused_imports, reason = "the example uses some of them")]
 
 mod rod;
@@ -10,8 +10,7 @@ use actin_equilibrium::{BodyOrder, Layout, Newton, NewtonOptions};
 use actin_mechanics::testing::{push_frame, push_point};
 use actin_mechanics::{Interaction, Point, Spring, Springs, State, UnitQuaternion, Vector3};
 
-/// `n` monomers along z, the first two held, `bonds` per interface with draws of their own: floppy at rest, stiff once
-/// deformed.
+/// `n` monomers along z, the first two held, with `bonds` sampled bonds per interface.
 pub(crate) fn filament(n: usize, bonds: usize, seed: u64) -> (State, Bonds) {
     let model = EllipsoidModel::new(EllipsoidParameters::drawn(bonds, seed)).unwrap();
     let mut state = State::default();
@@ -25,7 +24,7 @@ pub(crate) fn filament(n: usize, bonds: usize, seed: u64) -> (State, Bonds) {
     (state, model.bonds(&monomers).unwrap())
 }
 
-/// Springs: two points, stiffness and rest length of each.
+/// Two points, stiffness and rest length each.
 pub(crate) fn springs(state: &State, all: Vec<(usize, usize, f64, f64)>) -> Box<dyn Interaction> {
     let spring = |(a, b, stiffness, rest_length)| Spring {
         points: [a, b],
@@ -35,7 +34,7 @@ pub(crate) fn springs(state: &State, all: Vec<(usize, usize, f64, f64)>) -> Box<
     Box::new(Springs::new(state, all.into_iter().map(spring).collect()).unwrap())
 }
 
-/// Five points along z with springs of 10 pN/nm at rest between them; the first is held.
+/// Five points along z with springs of 10 pN/nm at rest; the first is held.
 pub(crate) fn chain() -> (State, Vec<Box<dyn Interaction>>) {
     let mut state = State::default();
     for z in 0..5 {
@@ -55,7 +54,6 @@ pub(crate) fn frame(state: &mut State, orientation: UnitQuaternion) -> usize {
     push_frame(state, orientation, [1.0, 1.0, 2.0])
 }
 
-/// Order along a filament whose bodies stand in order.
 pub(crate) fn in_order(state: &State) -> BodyOrder {
     BodyOrder {
         points: (0..state.points.len()).map(|i| i as f64).collect(),
@@ -63,10 +61,9 @@ pub(crate) fn in_order(state: &State) -> BodyOrder {
     }
 }
 
-/// Asserts that the stiffness is the derivative of the loads, in all directions of a layout.
+/// Asserts that the stiffness is the derivative of the loads.
 ///
-/// Along the path `apply(step, t)` the work of the loads has the derivative `-step . K step`
-/// everywhere, since each body moves along a geodesic.
+/// Along `apply(step, t)` the work of the loads has the derivative `-step . K step`.
 pub(crate) fn assert_is_second_derivative(
     interactions: &[Box<dyn Interaction>],
     state: &State,

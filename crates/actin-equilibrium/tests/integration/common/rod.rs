@@ -1,12 +1,10 @@
-//! A clamped rod.
-
 use actin_cosserat::{
     EnergyGradient, Rigidities, RodClamp, RodEnd, RodLayout, RodMaterial, StraightRod,
 };
 use actin_equilibrium::{BodyOrder, Layout, Newton, NewtonOptions};
 use actin_mechanics::{Interaction, PointLoad, State, Vector3};
 
-/// A rod along z from the origin, clamped by a held wall frame (frame 0) and point 0.
+/// Rod along z from the origin, clamped by a held wall frame (frame 0) and point 0.
 #[derive(Debug)]
 pub(crate) struct Rod {
     pub(crate) segments: usize,
@@ -23,7 +21,7 @@ pub(crate) const ACTIN: Rod = Rod {
     bending: Vector3::new(3.9e4, 3.9e4, 1.3e4),
 };
 
-/// A column, softest about its y axis.
+/// Column, softest about its y axis.
 pub(crate) const COLUMN: Rod = Rod {
     segments: 16,
     bending: Vector3::new(3.9e4, 3.0e4, 1.3e4),
@@ -31,7 +29,6 @@ pub(crate) const COLUMN: Rod = Rod {
 };
 
 impl Rod {
-    /// The rod at rest.
     fn built(&self) -> (State, RodLayout) {
         let mut state = State::default();
         let rod = StraightRod::uniform(self.segments, self.length / self.segments as f64);
@@ -52,7 +49,7 @@ impl Rod {
         vec![Box::new(EnergyGradient::new(self.built().1, material))]
     }
 
-    /// The rod under a force on its tip (pN) times a control.
+    /// Rod under a tip force (pN) times a control.
     pub(crate) fn loaded(
         &self,
         force: Vector3,

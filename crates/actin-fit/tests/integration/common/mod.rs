@@ -1,4 +1,3 @@
-//! Noise, sigmoids and statistics shared by the tests.
 #![allow(dead_code, reason = "each test file uses its part of this")]
 
 use actin_fit::{
@@ -30,7 +29,6 @@ impl Model for Sigmoid {
     }
 }
 
-/// Normal numbers of mean 0 and deviation 1.
 pub(crate) struct Gauss(ChaCha8Rng);
 
 impl Gauss {
@@ -49,19 +47,16 @@ impl Gauss {
     }
 }
 
-/// `count` places from `from` to `to`.
 pub(crate) fn places(from: f64, to: f64, count: usize) -> Vec<f64> {
     (0..count)
         .map(|i| from + (to - from) * i as f64 / (count - 1) as f64)
         .collect()
 }
 
-/// Values of a model without noise.
 pub(crate) fn values(model: &dyn Model, x: &[f64], p: &[f64]) -> Vec<f64> {
     x.iter().map(|x| model.value(&[*x], p)).collect()
 }
 
-/// Data of a model without noise, which is unknown to a fit.
 pub(crate) fn clean(model: &dyn Model, x: &[f64], p: &[f64]) -> Data {
     let observations = Observations::new(&values(model, x, p)).unwrap();
     Data::new(x, observations).unwrap()
@@ -79,7 +74,6 @@ pub(crate) fn decay(unit: f64) -> impl Model {
     )
 }
 
-/// The fit from one start.
 pub(crate) fn fit(
     model: &dyn Model,
     data: &Data,
@@ -89,17 +83,14 @@ pub(crate) fn fit(
     LevenbergMarquardt::default().fit(model, data, bounds, &Starts::at(start))
 }
 
-/// The message of what is refused.
 pub(crate) fn refused<T>(result: Result<T, FitError>) -> String {
     result.err().expect("this must be refused").to_string()
 }
 
-/// Decimal digits in which two numbers agree.
 pub(crate) fn digits(a: f64, b: f64) -> f64 {
     -((a - b).abs() / b.abs()).max(1e-16).log10()
 }
 
-/// Fewest digits in which lists agree.
 pub(crate) fn least_digits(a: &[f64], b: &[f64]) -> f64 {
     assert_eq!(a.len(), b.len());
     a.iter()
@@ -108,7 +99,6 @@ pub(crate) fn least_digits(a: &[f64], b: &[f64]) -> f64 {
         .fold(16.0, f64::min)
 }
 
-/// Standard errors of parameters that all have one.
 pub(crate) fn errors(fit: &Fit) -> Vec<f64> {
     (0..fit.parameters.len())
         .map(|j| fit.precision.standard_error(j).unwrap())

@@ -1,18 +1,14 @@
-//! Numbers that carry their derivatives by the parameters, so that no gradient is written by hand.
-
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-/// Most parameters of a problem.
+/// Maximum number of parameters.
 const MOST: usize = 9;
 
-/// A value and its derivatives.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Dual {
     pub(crate) value: f64,
     pub(crate) slopes: [f64; MOST],
 }
 
-/// The parameters, each with a derivative of 1 by itself.
 pub(crate) fn variables(p: &[f64]) -> Vec<Dual> {
     let variable = |(j, &value): (usize, &f64)| {
         let mut slopes = [0.0; MOST];
@@ -23,7 +19,6 @@ pub(crate) fn variables(p: &[f64]) -> Vec<Dual> {
 }
 
 impl Dual {
-    /// A function of this value with derivative `slope`.
     fn chain(self, value: f64, slope: f64) -> Self {
         Self {
             value,
@@ -56,7 +51,6 @@ impl Dual {
         self * self
     }
 
-    /// This value, which is positive, to a power.
     pub(crate) fn power(self, exponent: Self) -> Self {
         let power = self.value.powf(exponent.value);
         (self.ln() * exponent).chain(power, power)
@@ -78,7 +72,7 @@ impl Neg for Dual {
     }
 }
 
-/// The four operations, with numbers on either side.
+/// Arithmetic between dual numbers and `f64`.
 macro_rules! operation {
     ($trait:ident, $name:ident, |$a:ident, $b:ident| $value:expr, |$s:ident, $t:ident| $slope:expr) => {
         impl $trait for Dual {

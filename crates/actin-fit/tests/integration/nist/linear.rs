@@ -1,5 +1,3 @@
-//! Linear problems.
-
 #![allow(
     clippy::unreadable_literal,
     clippy::inconsistent_digit_grouping,
@@ -35,8 +33,8 @@ const LONGLEY: [[f64; 7]; 16] = [
     [70551.0, 116.9, 554894.0, 4007.0, 2827.0, 130081.0, 1962.0],
 ];
 
-/// Six regressors that grow together: normal equations of the raw columns (condition 5e9) lose
-/// nearly all digits of the constant.
+/// Six collinear regressors: normal equations of the raw columns (condition number 5e9) lose nearly
+/// all digits of the constant.
 #[test]
 fn longley() {
     let y: Vec<f64> = LONGLEY.iter().map(|row| row[0]).collect();
@@ -94,8 +92,8 @@ const WAMPLER_5: [f64; 21] = [
     10958421.0,
 ];
 
-/// A polynomial of degree 5 under noise of a thousand times its size: coefficients are 1, with
-/// errors to 2e7.
+/// Polynomial of degree 5 with noise of a thousand times its size. All coefficients are 1, with
+/// standard errors up to 2e7.
 #[test]
 fn wampler_5() {
     let x = common::places(0.0, 20.0, 21);
@@ -143,8 +141,8 @@ const FILIP: [[f64; 2]; 82] = [
     [-3.66174277, 0.9119], [-3.2644011, 0.9228],
 ];
 
-/// A polynomial of degree 10 on [-8.8, -3.1]: the hardest of the linear problems. Many programs
-/// find it of deficient rank.
+/// Polynomial of degree 10 on [-8.8, -3.1], the hardest of the linear problems. Many programs
+/// report a deficient rank.
 #[test]
 fn filip() {
     let x: Vec<f64> = FILIP.iter().map(|row| row[0]).collect();

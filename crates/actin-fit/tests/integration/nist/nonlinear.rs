@@ -1,10 +1,8 @@
-//! All nonlinear problems, each from the far and from the near start that NIST gives.
-
 use super::problems::{Problem, all};
 use crate::common::{digits, errors, least_digits};
 use actin_fit::{Bounds, Fit, LevenbergMarquardt, Starts};
 
-/// Linearisations and evaluations from the far and from the near start, as measured.
+/// Measured linearisations and evaluations from the far and the near start.
 #[rustfmt::skip]
 const WORK: [(&str, [[usize; 2]; 2]); 27] = [
     ("Bennett5", [[39, 95], [21, 50]]),
@@ -43,7 +41,6 @@ fn fit(problem: &Problem, start: &[f64]) -> Fit {
         .unwrap_or_else(|e| panic!("{} from {start:?}: {e}", problem.name))
 }
 
-/// Digits of parameters, errors and sum of squares.
 fn agreement(problem: &Problem, fit: &Fit) -> [f64; 3] {
     [
         least_digits(&fit.parameters, &problem.parameters),
@@ -52,20 +49,20 @@ fn agreement(problem: &Problem, fit: &Fit) -> [f64; 3] {
     ]
 }
 
-/// Least digits of a problem. A cosine of 1e-10 leaves parameters as many digits, less those of the
-/// condition; sums of squares have twice as many.
+/// Required digits. A cosine of 1e-10 gives the parameters 10 digits minus those lost to the
+/// condition number. Sums of squares have twice as many.
 fn least(problem: &str) -> [f64; 3] {
     match problem {
-        // Exact to the 14 digits of its data: errors and sum are those of their rounding.
+        // The fit is exact to the 14 digits of the data, so errors and sum are due to their
+        // rounding.
         "Lanczos1" => [9.0, 2.0, 2.0],
-        // Residuals of 1e-4 on conditions of 1e4; data read as logarithms.
+        // Residuals of 1e-4 with condition numbers of 1e4, or logarithmic data.
         "Lanczos3" | "Nelson" | "Hahn1" => [7.0, 7.0, 9.5],
         _ => [8.0, 7.0, 9.5],
     }
 }
 
-/// A search that loses its way, or takes more work than it did, fails here. MGH10 from its far
-/// start leads through a valley that is bent and a thousand times as long as wide.
+/// Checks the accuracy and the work of each search. MGH10 has a curved valley from its far start.
 #[test]
 fn certified_values_from_both_starts() {
     for (problem, (name, work)) in all().iter().zip(WORK) {
@@ -81,7 +78,7 @@ fn certified_values_from_both_starts() {
             );
             let met = got.iter().zip(least(name)).all(|(got, least)| *got > least);
             assert!(met, "{name} from {start:?}");
-            // Rounding may add a step or two, or a fifth of a long way.
+            // Rounding can add a few steps, or a fifth of a long search.
             let most = |measured: usize| measured + 2 + measured / 5;
             assert!(
                 search.iterations <= most(iterations) && search.evaluations <= most(evaluations),
@@ -93,7 +90,6 @@ fn certified_values_from_both_starts() {
     }
 }
 
-/// Starts drawn within wide bounds, not all of which lead to the minimum.
 #[test]
 fn box_bod_from_drawn_starts() {
     let problems = all();
@@ -114,14 +110,13 @@ fn box_bod_from_drawn_starts() {
     );
 }
 
-/// The derivatives of the functions are those of their values.
 #[test]
 fn gradients_of_the_problems() {
     for problem in all() {
         let check =
             actin_fit::check_gradient(&problem, &problem.data(), &problem.parameters).unwrap();
-        // Differences step by h = 7e-4 of each parameter, 8 % of the width w of Eckerle4's peak, and
-        // leave out (h/w)^4 = 4e-5.
+        // The step h = 7e-4 of each parameter is 8 % of the width w of Eckerle4's peak. The
+        // truncation error is (h/w)^4 = 4e-5.
         assert!(check.error < 1e-4, "{}: {check:?}", problem.name);
     }
 }

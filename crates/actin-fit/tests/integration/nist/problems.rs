@@ -1,10 +1,7 @@
-//! The nonlinear problems: their functions, and their data as NIST gives them.
-
 use super::dual::{Dual, variables};
 use actin_fit::{Data, Model, Observations};
 use std::f64::consts::PI;
 
-/// A problem with its certified values.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Problem {
     pub(crate) name: String,
@@ -15,7 +12,6 @@ pub(crate) struct Problem {
     rows: Vec<Vec<f64>>,
 }
 
-/// All problems of the file, in its order.
 pub(crate) fn all() -> Vec<Problem> {
     let mut problems: Vec<Problem> = Vec::new();
     for line in include_str!("problems.txt").lines() {
@@ -42,7 +38,7 @@ pub(crate) fn all() -> Vec<Problem> {
 
 impl Problem {
     pub(crate) fn data(&self) -> Data {
-        // The response of Nelson's problem is the logarithm of what was measured.
+        // The response is the logarithm of the first column.
         let response = |row: &Vec<f64>| match self.name.as_str() {
             "Nelson" => row[0].ln(),
             _ => row[0],
@@ -106,7 +102,6 @@ fn function(name: &str, row: &[f64], b: &[Dual]) -> Dual {
     }
 }
 
-/// A year and two cycles of free length.
 fn oscillations(x: f64, b: &[Dual]) -> Dual {
     let wave = |period: Dual, a: Dual, c: Dual| {
         let angle = 2.0 * PI * x / period;

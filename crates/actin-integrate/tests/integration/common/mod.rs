@@ -1,4 +1,3 @@
-//! Small systems that the tests of this crate share.
 #![allow(dead_code, reason = "each test file uses its own part")]
 
 use actin_integrate::{Drag, POSITION_VERLET, advance};
@@ -8,7 +7,6 @@ use actin_mechanics::{
 };
 use actin_mechanics::{Xorshift, perturb, randomise_velocities};
 
-/// Springs between neighbours in the order of the points.
 pub(crate) fn springs(state: &State, stiffness: f64, rest_length: f64) -> Springs {
     let spring = |i| Spring {
         points: [i - 1, i],
@@ -18,7 +16,7 @@ pub(crate) fn springs(state: &State, stiffness: f64, rest_length: f64) -> Spring
     Springs::new(state, (1..state.points.len()).map(spring).collect()).unwrap()
 }
 
-/// Bonds between anchors fixed in frames: body `i` is point `i` with frame `i`.
+/// Bonds between anchors fixed in frames. Body `i` consists of point `i` and frame `i`.
 #[derive(Clone, Debug)]
 pub(crate) struct Bonds {
     /// First body and anchor, second body and anchor (body axes).
@@ -69,7 +67,6 @@ impl Interaction for Bonds {
     }
 }
 
-/// Torsion springs between frames, energy `k/2 |log(Qi^T Qj)|^2`.
 #[derive(Clone, Debug)]
 pub(crate) struct Torsion {
     pub(crate) pairs: Vec<(usize, usize)>,
@@ -91,7 +88,8 @@ impl Interaction for Torsion {
 
     fn add_loads(&self, state: &State, loads: &mut Loads) {
         for (pair, &(i, j)) in self.pairs.iter().enumerate() {
-            // The gradient is parallel to the angle, on which the inverse Jacobians do nothing.
+            // The gradient is parallel to the angle, so that the inverse Jacobians are the
+            // identity.
             let couple = self.stiffness * self.angle(state, pair);
             loads.torque.add(i, couple);
             loads.torque.add(j, -couple);
@@ -109,14 +107,13 @@ impl Interaction for Torsion {
     }
 }
 
-/// Bodies and places on them that bonds join.
+/// Bonded bodies with anchors.
 const BOND_ENDS: [(usize, [f64; 3], usize, [f64; 3]); 3] = [
     (0, [0.5, 0.3, -0.2], 1, [-0.4, 0.2, 0.3]),
     (1, [0.5, -0.3, 0.2], 2, [-0.5, 0.1, -0.3]),
     (0, [0.1, -0.6, 0.4], 2, [-0.2, -0.5, 0.1]),
 ];
 
-/// Three free tops with different axes of symmetry, bonded off their centres, coupled in torsion.
 pub(crate) fn three_tops() -> System {
     let mut state = State::default();
     for (i, moments) in [[2.0, 1.0, 1.0], [0.8, 1.5, 0.8], [1.0, 1.0, 1.7]]
@@ -144,7 +141,6 @@ pub(crate) fn three_tops() -> System {
     System::new(state, vec![Box::new(bonds), Box::new(torsion)])
 }
 
-/// [`three_tops`] turned, displaced, moving and spinning.
 pub(crate) fn spinning_tops() -> System {
     let mut system = three_tops();
     let mut noise = Xorshift::new(7);
@@ -153,8 +149,7 @@ pub(crate) fn spinning_tops() -> System {
     system
 }
 
-/// [`three_tops`] at rest in equilibrium, then set in small random vibrations: the bonds have an
-/// rms strain of 2.6 % (measured with seed 7).
+/// [`three_tops`] in equilibrium with small random vibrations: rms bond strain of 2.6 % for seed 7.
 pub(crate) fn vibrating_tops(seed: u64) -> System {
     let mut system = three_tops();
     let drag = Drag::new(0.5, 0.5).unwrap();
@@ -166,7 +161,6 @@ pub(crate) fn vibrating_tops(seed: u64) -> System {
     system
 }
 
-/// `n` points in a row along x, one apart, with springs between neighbours; the ends are held.
 pub(crate) fn chain(n: usize, stiffness: f64, mass: f64) -> System {
     let mut state = State::default();
     for i in 0..n {
@@ -178,7 +172,6 @@ pub(crate) fn chain(n: usize, stiffness: f64, mass: f64) -> System {
     System::new(state, vec![Box::new(springs)])
 }
 
-/// All coordinates and motions in one row.
 pub(crate) fn flatten(state: &State) -> Vec<f64> {
     let q = &state.frames.orientation;
     let vectors = [
@@ -195,7 +188,6 @@ pub(crate) fn flatten(state: &State) -> Vec<f64> {
         .collect()
 }
 
-/// Euclidean distance of two states in all coordinates and motions.
 pub(crate) fn distance(a: &State, b: &State) -> f64 {
     let squares = flatten(a)
         .into_iter()

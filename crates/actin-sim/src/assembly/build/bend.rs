@@ -1,4 +1,4 @@
-//! Bending a filament along the curve of its shape, once all of it stands straight and unstrained.
+//! Bending of a straight, unstrained filament to the curve of its shape.
 
 use super::Stock;
 use super::strand::{Body, Strand};
@@ -9,14 +9,14 @@ use actin_mechanics::{Vector3, rotation};
 use std::f64::consts::FRAC_PI_2;
 use std::ops::Range;
 
-/// Largest angle (rad) of neighbouring segments against each other, of filaments as built and at rest.
+/// Upper bound of the angle (rad) between neighbouring segments of filaments as built and at rest.
 pub(super) const LARGEST_ANGLE: f64 = FRAC_PI_2;
 
 impl Strand<'_> {
-    /// Moves the bodies of the filament, whose frames these are, along its curve. Segments keep their lengths.
+    /// Moves the bodies of the filament to its curve. Segments keep their lengths.
     ///
     /// # Errors
-    /// Neighbouring segments that would stand at right angles or further.
+    /// If neighbouring segments would form a right or larger angle.
     pub(super) fn bend(
         &mut self,
         frames: Range<usize>,
@@ -69,7 +69,7 @@ impl Strand<'_> {
         stock.state.points.position.set(point, lab);
     }
 
-    /// Lays the nodes of a rod one after another along its segments; returns the place of the last.
+    /// Places the nodes of a rod along its segments and returns the position of the last node.
     fn lay(&self, layout: &RodLayout, start: Vector3, stock: &mut Stock) -> Vector3 {
         let (rotation, translation) = (self.placement.rotation, self.placement.translation);
         let mut place = start;
@@ -92,7 +92,7 @@ impl Strand<'_> {
     }
 }
 
-/// Refuses segments of section `i` as they stand now.
+/// Refuses too large angles between the segments of section `i` in their present positions.
 fn check_angles(i: usize, layout: &RodLayout, stock: &Stock) -> Result<(), SceneProblem> {
     let q = &stock.state.frames.orientation;
     let chain = layout.bending_chain();
@@ -102,7 +102,7 @@ fn check_angles(i: usize, layout: &RodLayout, stock: &Stock) -> Result<(), Scene
     check_angle(i, layout.segments(), largest)
 }
 
-/// Refuses segments of a section that stand against their neighbours at an angle (rad).
+/// Refuses an angle (rad) between neighbouring segments of a section of at least the bound.
 pub(super) fn check_angle(i: usize, segments: usize, angle: f64) -> Result<(), SceneProblem> {
     if angle < LARGEST_ANGLE {
         return Ok(());

@@ -1,4 +1,4 @@
-//! Holding the ends of filaments, once all bodies stand.
+//! Clamps and hinges at the ends of filaments.
 
 use super::{Body, Builder};
 use crate::assembly::hinge::Hinge;
@@ -8,12 +8,11 @@ use actin_mechanics::Slider;
 use std::ops::Range;
 
 impl Builder<'_> {
-    /// Holds the bodies of every clamp.
     pub(super) fn hold_ends(&mut self) -> Result<(), SceneProblem> {
         let masses: Vec<f64> = self.stock.state.points.inverse_mass().to_vec();
         for (i, clamp) in self.scene.clamps.iter().enumerate() {
             let (points, frames) = self.hold(i, clamp)?;
-            // Bodies belong to one filament: only its other clamp can hold them as well.
+            // Only the other clamp of the same filament can hold the same bodies.
             let others = [End::Start, End::End].map(|end| self.held.clamp_at(clamp.filament, end));
             let others = others.into_iter().flatten().filter(|other| *other < i);
             let held_before = others.map(|other| &self.clamps[other]).any(|other| {
@@ -43,7 +42,6 @@ impl Builder<'_> {
         Ok(())
     }
 
-    /// The end that a clamp holds with these bodies.
     fn clamped(&self, clamp: &Clamp, points: Range<usize>, frames: Range<usize>) -> Clamped {
         let strand = &self.strands[clamp.filament];
         let s_nm = strand.end_nm(clamp.end);
@@ -66,7 +64,7 @@ impl Builder<'_> {
         }
     }
 
-    /// Holds the bodies of clamp `i`; returns points and frames.
+    /// Holds the bodies of clamp `i`; returns their points and frames.
     fn hold(
         &mut self,
         i: usize,
@@ -95,7 +93,8 @@ impl Builder<'_> {
                 let Some(anchor) = strand.hinge_frames[clamp.end as usize] else {
                     return Ok((held.points, held.frames));
                 };
-                // The wall frame is the cross-section at the node, which the spring joins to the held frame.
+                // The wall frame becomes the free cross-section, which the spring joins to the held
+                // frame.
                 if let Some(wall) = layout.wall(models::rod_end(clamp.end)) {
                     state.frames.release(wall);
                     let hinge = Hinge::new(clamp, [anchor, wall]).map_err(|error| {

@@ -1,4 +1,4 @@
-//! What acts within one filament: sections and the junctions between them.
+//! Interactions within one filament: sections and the junctions between them.
 
 use super::Stock;
 use super::strand::{Body, Strand, junction_problem};
@@ -11,8 +11,8 @@ use actin_ellipsoid::{Monomers, QuasiHarmonic};
 use actin_mechanics::Interaction;
 
 impl Strand<'_> {
-    /// Pushes the interactions of all sections and junctions, in filament order; `chains` are those of sections whose interfaces
-    /// are no bonds.
+    /// Pushes the interactions of all sections and junctions in filament order. `chains` are the
+    /// quasi-harmonic sections.
     pub(super) fn push_interactions(
         &self,
         chains: &[Option<QuasiHarmonic>],
@@ -49,7 +49,6 @@ impl Strand<'_> {
         Ok(())
     }
 
-    /// The interaction of section `i`.
     fn interaction_of(
         &self,
         i: usize,
@@ -76,7 +75,7 @@ impl Strand<'_> {
         })
     }
 
-    /// The rod of section `i`, with how far the data behind its law reach.
+    /// The rod of section `i` with the ranges of the data of its laws.
     fn rod(&self, i: usize, layout: &RodLayout, around: &Around) -> Rod {
         Rod {
             section: self.first_section + i,
@@ -88,7 +87,6 @@ impl Strand<'_> {
         }
     }
 
-    /// The junction between section `i` and the next.
     fn junction(&self, i: usize, stock: &Stock) -> Result<Junction, SceneProblem> {
         let n = self.attached();
         let attach = |monomers: &Monomers, from: usize| -> Vec<AttachedMonomer> {

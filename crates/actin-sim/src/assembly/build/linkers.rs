@@ -1,4 +1,4 @@
-//! From a scene's linkers to sites on what resolves them.
+//! Sites of linkers on monomers and rods.
 
 use super::{Body, Builder, Strand};
 use crate::assembly::lattice::Resolved;
@@ -10,14 +10,14 @@ use actin_ellipsoid::Monomers;
 use actin_mechanics::{ControlId, Vector3};
 use std::collections::HashMap;
 
-/// A site this close to a node (nm) is at it: room for the round-off of sums of lengths.
+/// Distance (nm) below which a site lies at a node, above the round-off of sums of lengths.
 const NODE_TOLERANCE_NM: f64 = 1e-9;
 
-/// A shorter linker (nm) has no direction: its site stands at places rounded to 1e-14 nm.
+/// Length (nm) below which a linker has no direction. Positions are rounded to about 1e-14 nm.
 const SHUT_NM: f64 = 1e-9;
 
 impl Builder<'_> {
-    /// Pushes the linkers, with three controls of each that has an anchor.
+    /// Pushes the linkers, each anchored linker with three controls.
     pub(super) fn push_linkers(&mut self) -> Result<(), SceneProblem> {
         let mut nodes = Nodes::default();
         for (i, linker) in self.scene.linkers.iter().enumerate() {
@@ -36,7 +36,7 @@ impl Builder<'_> {
         Ok(())
     }
 
-    /// Pushes linker `i`, to which something happens in time: at each of its places it is as `built`.
+    /// Pushes linker `i`, whose state changes in time, with one copy of `built` per place.
     fn push_switched(
         &mut self,
         (i, linker): (usize, &scene::Linker),
@@ -74,10 +74,10 @@ impl Builder<'_> {
         Ok(())
     }
 
-    /// Linker `i` of a scene, whose anchor is moved by `controls`.
+    /// Linker `i` of a scene. `controls` move its anchor.
     ///
     /// # Errors
-    /// A linker that would have a direction but has none, both ends standing at one place.
+    /// If a linker with a rest length has coincident ends.
     fn linker(
         &self,
         (i, linker): (usize, &scene::Linker),
@@ -108,19 +108,19 @@ impl Builder<'_> {
         Ok(built)
     }
 
-    /// Where the anchor of a linker from `site` stands (nm, lab frame).
+    /// Position of the anchor of a linker from `site` (nm, lab frame).
     fn anchor(&self, linker: &scene::Linker, site: &Site) -> Vector3 {
         let displaced = |d: [f64; 3]| site.position(&self.stock.state) + Vector3::from(d);
         let place = linker.anchor_nm.map(Vector3::from);
         place.unwrap_or_else(|| displaced(linker.displaced_nm.unwrap_or_default()))
     }
 
-    /// The site at an arc length, radius and azimuth of a filament.
+    /// Site at an arc length, radius and azimuth of a filament.
     pub(super) fn site(&self, at: &LinkerSite, nodes: &mut Nodes) -> Result<Site, LinkerError> {
         let strand = &self.strands[at.filament];
         let s_nm = at.at_nm;
-        // A boundary belongs to the section before it; the rest behind the last monomer, to
-        // the last section.
+        // A boundary belongs to the section before it; places beyond the last monomer belong to the
+        // last section.
         let is_past = |r: &Resolved| r.to_nm < s_nm;
         let last = strand.resolved.len() - 1;
         let section = strand.resolved.partition_point(is_past).min(last);
@@ -146,8 +146,8 @@ impl Builder<'_> {
         }
     }
 
-    /// The site at a place of a filament, seen as if it were along lab +z from the origin (nm),
-    /// fixed in the nearest monomer.
+    /// Site fixed in the nearest monomer, at a position (nm) relative to the straight filament
+    /// along +z from the origin.
     fn on_monomer(
         &self,
         strand: &Strand<'_>,
@@ -156,10 +156,10 @@ impl Builder<'_> {
     ) -> Result<Site, LinkerError> {
         let distance = |k: &usize| (strand.lattice.s_nm(monomers.index(*k)) - place.z).abs();
         let last = monomers.count - 1;
-        // The first monomer that is not below the place, or the one before it.
+        // The first monomer not below the place, and the one before it.
         let above = partition_point(last, |k| strand.lattice.s_nm(monomers.index(k)) < place.z);
         let below = above.saturating_sub(1);
-        // Of two equally near the lower one.
+        // A tie selects the lower monomer.
         let nearest = if distance(&below) <= distance(&above) {
             below
         } else {
@@ -173,12 +173,12 @@ impl Builder<'_> {
     }
 }
 
-/// Arc lengths of the nodes of those rods that linkers hold on to, found once for each rod.
+/// Arc lengths of the nodes of rods with linkers, computed once per rod.
 #[derive(Default)]
 pub(super) struct Nodes(HashMap<usize, Vec<f64>>);
 
 impl Nodes {
-    /// Those of the rod of a section (nm from the rod's start).
+    /// Nodes of the rod of a section (nm from the rod's start).
     pub(super) fn of(&mut self, section: usize, layout: &RodLayout) -> &[f64] {
         self.0
             .entry(section)
@@ -186,8 +186,8 @@ impl Nodes {
     }
 }
 
-/// Segment of a rod of these nodes and lengths, and share of its length, at `s_nm` from the rod's
-/// start (nm); a node belongs to the segment before it.
+/// Segment and share of its length at `s_nm` from the rod's start (nm). A node belongs to the
+/// segment before it.
 fn on_segment(nodes: &[f64], lengths: &[f64], s_nm: f64) -> (usize, f64) {
     let is_past = |end: &f64| end + NODE_TOLERANCE_NM < s_nm;
     let segment = nodes[1..].partition_point(is_past).min(lengths.len() - 1);
@@ -195,7 +195,7 @@ fn on_segment(nodes: &[f64], lengths: &[f64], s_nm: f64) -> (usize, f64) {
     (segment, share.clamp(0.0, 1.0))
 }
 
-/// The first of `0..count` for which `is_before` does not hold, or `count`.
+/// First index in `0..count` for which `is_before` is false, or `count`.
 fn partition_point(count: usize, is_before: impl Fn(usize) -> bool) -> usize {
     let (mut from, mut to) = (0, count);
     while from < to {
@@ -214,7 +214,6 @@ mod tests {
     use super::*;
     use crate::{Assembly, Scene};
 
-    /// Linkers of a filament of 60 nm that is resolved as `sections` say.
     fn sites(sections: &str, linkers: &str) -> (Assembly, Vec<Vector3>) {
         let text = format!(
             "Scene(
@@ -234,9 +233,8 @@ mod tests {
     const MONOMERS: &str = "Ellipsoids(from_nm: 0.0, to_nm: 60.0)";
     const MIXED: &str = "Ellipsoids(from_nm: 0.0, to_nm: 30.0), Rod(from_nm: 30.0, to_nm: 60.0)";
 
-    /// The same places in space, whatever resolves them; the anchor is displaced from there.
     #[test]
-    fn a_site_is_the_same_place_in_every_model() {
+    fn sites_have_the_same_position_in_every_model() {
         for sections in [ROD, MONOMERS, MIXED] {
             for s_nm in [0.0, 12.3, 25.0, 30.0, 31.0, 60.0] {
                 let linker = format!(
@@ -245,7 +243,7 @@ mod tests {
                 );
                 let (assembly, places) = sites(sections, &linker);
                 let expected = Vector3::new(0.0, 1.8, s_nm);
-                // Round-off of places of 60 nm.
+                // Round-off of positions of 60 nm.
                 assert!((places[0] - expected).norm() < 1e-13, "{}", places[0]);
                 let force = assembly.linkers[0].force(&assembly.rest);
                 assert!((force - Vector3::new(5.0, 10.0, 15.0)).norm() < 1e-11);
@@ -253,7 +251,6 @@ mod tests {
         }
     }
 
-    /// Nodes belong to the segment before them; monomer 9 is the nearest to 25 nm.
     #[test]
     fn sites_are_on_the_nearest_body() {
         let linker = |s_nm: f64| {
@@ -274,7 +271,6 @@ mod tests {
         assert_eq!(rod.linkers[1].end_position(&rod.rest), Vector3::x() * 9.0);
     }
 
-    /// Each anchor has three controls of its own.
     #[test]
     fn controls_move_the_anchors() {
         let text = "Scene(

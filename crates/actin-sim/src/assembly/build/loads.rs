@@ -1,4 +1,4 @@
-//! From a scene's loads to what they act on.
+//! Bodies on which the loads of a scene act.
 
 use super::linkers::Nodes;
 use super::{Body, Builder, Strand};
@@ -12,11 +12,11 @@ use actin_mechanics::{
 };
 use std::error::Error;
 
-/// Frames, each with its share of a couple.
+/// Frames with their shares of a couple.
 type Shares = Vec<(usize, f64)>;
 
 impl Builder<'_> {
-    /// Pushes the loads, each with the control of its factor.
+    /// Pushes the loads with the controls of their factors.
     pub(super) fn push_loads(&mut self) -> Result<(), SceneProblem> {
         let mut nodes = Nodes::default();
         for (i, load) in self.scene.loads.iter().enumerate() {
@@ -36,7 +36,7 @@ impl Builder<'_> {
         Ok(())
     }
 
-    /// Whether a load acts on bodies that may move.
+    /// Returns `true` if a load acts on a free body.
     fn moves(&self, load: &dyn Interaction, control: ControlId) -> bool {
         let mut state = self.stock.state.clone();
         state.controls[control] = 1.0;
@@ -46,7 +46,7 @@ impl Builder<'_> {
         force.max(torque) > 0.0
     }
 
-    /// The interaction that a load is; `control` is its factor.
+    /// Creates the interaction of a load with the factor `control`.
     fn load(
         &mut self,
         load: &Load,
@@ -90,21 +90,20 @@ impl Builder<'_> {
         })
     }
 
-    /// The points that end a filament.
     fn tip(&self, filament: usize, end: End) -> &[usize] {
         let strand = &self.strands[filament];
         let section = strand.first_section + strand.filament.end_index(end);
         self.stock.sections[section].tip_points(end)
     }
 
-    /// The points of a filament, each with its mass.
+    /// Points of a filament with their masses.
     fn masses(&self, filament: usize) -> Vec<(usize, f64)> {
         let points = &self.stock.state.points;
         let all = self.filaments[filament].points.clone();
         all.map(|i| (i, points.mass(i))).collect()
     }
 
-    /// Where a force acts, each site with its share, or with the length that it stands for.
+    /// Sites of a force with their shares, or with the lengths that they represent.
     fn sites(&self, load: &Load, nodes: &mut Nodes) -> Result<Vec<(Site, f64)>, LinkerError> {
         let filament = load.filament();
         let strand = &self.strands[filament];
@@ -138,8 +137,8 @@ impl Builder<'_> {
         Ok(rescaled(sites, interval))
     }
 
-    /// Those monomers of a section that an interval reaches, held on the axis, with the lengths that they
-    /// stand for.
+    /// Monomers of a section within an interval, held on the axis, with the lengths that they
+    /// represent.
     fn monomer_sites(
         &self,
         strand: &Strand<'_>,
@@ -158,7 +157,7 @@ impl Builder<'_> {
             .collect()
     }
 
-    /// The end of a rod, or half of each of the last two monomers.
+    /// The end of a rod, or the last two monomers with a share of one half each.
     fn end_sites(&self, strand: &Strand<'_>, end: End) -> Result<Vec<(Site, f64)>, LinkerError> {
         match &strand.bodies[strand.filament.end_index(end)] {
             Body::Rod(layout) => {
@@ -184,7 +183,7 @@ impl Builder<'_> {
         }
     }
 
-    /// The point of the axis beside a monomer, fixed in it.
+    /// Site on the axis next to a monomer, fixed in the monomer.
     fn on_axis(
         &self,
         strand: &Strand<'_>,
@@ -197,7 +196,7 @@ impl Builder<'_> {
         Site::on_monomer(point, frame, q.inverse_transform_vector(&arm))
     }
 
-    /// The frames that a couple acts on, each with its share, or with the length that it stands for.
+    /// Frames of a couple with their shares, or with the lengths that they represent.
     fn couple_shares(&self, load: &Load) -> Shares {
         let filament = load.filament();
         let strand = &self.strands[filament];
@@ -217,13 +216,13 @@ impl Builder<'_> {
         }
     }
 
-    /// The cross-section at the end of a rod, or half of each of the last two monomers.
+    /// Cross-section at the end of a rod, or the last two monomers with a share of one half each.
     fn end_frames(&self, strand: &Strand<'_>, end: End) -> Shares {
         let state = &self.stock.state;
         match &strand.bodies[strand.filament.end_index(end)] {
             Body::Rod(layout) => {
                 let end = models::rod_end(end);
-                // A wall frame that is free is the cross-section at the end.
+                // A free wall frame is the cross-section at the end.
                 let wall = layout.wall(end).filter(|wall| state.frames.is_free(*wall));
                 vec![(wall.unwrap_or_else(|| layout.end_frame(end)), 1.0)]
             }
@@ -237,7 +236,8 @@ impl Builder<'_> {
         }
     }
 
-    /// The frames along which turns are counted: all from the start, or from the end if only that is held.
+    /// Frames along which turns accumulate: from the start, or from the end if only the end is
+    /// held.
     fn chain(&self, filament: usize) -> Vec<usize> {
         let mut chain: Vec<usize> = self.frames_between_ends(filament).collect();
         let is_held = |end| self.held.fixed_at(filament, end).is_some();
@@ -247,7 +247,7 @@ impl Builder<'_> {
         chain
     }
 
-    /// The frames of a filament without those of junctions and behind hinges, by arc length.
+    /// Frames of a filament by arc length, without junction frames and the held frames of hinges.
     fn frames_between_ends(&self, filament: usize) -> impl Iterator<Item = usize> {
         let behind_hinges = self.strands[filament].hinge_frames;
         let frames = self.filaments[filament].frames.clone();
@@ -257,8 +257,8 @@ impl Builder<'_> {
         })
     }
 
-    /// The two frames whose middles are next to an arc length, by how near they are: between them the
-    /// couple inside the filament changes by as much as acts before that place.
+    /// The two frames next to an arc length, weighted by proximity. The internal couple then jumps
+    /// by the applied share at each.
     fn frames_about(&self, filament: usize, s_nm: f64) -> Shares {
         let frames = self.frames_between_ends(filament);
         let all: Vec<(usize, f64)> = frames.map(|f| (f, self.stock.frames[f].s_nm)).collect();
@@ -271,7 +271,7 @@ impl Builder<'_> {
         vec![(before, 1.0 - share), (behind, share)]
     }
 
-    /// The stretch of filament (nm) that each segment or monomer stands for.
+    /// Arc length interval (nm) of each segment or monomer.
     fn cells(&self, filament: usize) -> impl Iterator<Item = (usize, [f64; 2])> {
         let strand = &self.strands[filament];
         let bodies = strand.bodies.iter().zip(&strand.resolved);
@@ -295,9 +295,9 @@ impl Builder<'_> {
     }
 }
 
-/// The middles of those parts of segments that an interval reaches, with the lengths of these parts; of
-/// a rod of these nodes (nm) from `from_nm` on. What is uniform acts as at its middle, since shares of
-/// nodes are linear.
+/// Middles and lengths of the parts of segments within an interval, for a rod with these nodes (nm)
+/// from `from_nm`. A uniform load is equivalent to its resultant at the middle, because shape
+/// functions of nodes are linear.
 fn rod_sites(
     layout: &RodLayout,
     nodes: &[f64],
@@ -323,14 +323,14 @@ fn rod_sites(
 }
 
 impl Strand<'_> {
-    /// The stretch of filament (nm) that the monomer at an arc length stands for.
+    /// Arc length interval (nm) that the monomer at an arc length represents.
     pub(super) fn cell(&self, s_nm: f64) -> [f64; 2] {
         let half = 0.5 * self.lattice.rise_nm;
         [s_nm - half, s_nm + half]
     }
 }
 
-/// Lengths that add up to that of the interval, whose ends may lie beyond the last monomers.
+/// Rescales lengths to the length of the interval, whose ends can lie beyond the last monomers.
 fn rescaled<T>(mut parts: Vec<(T, f64)>, [from, to]: [f64; 2]) -> Vec<(T, f64)> {
     let whole: f64 = parts.iter().map(|(_, length)| length).sum();
     let scale = (to - from) / whole;
@@ -340,7 +340,7 @@ fn rescaled<T>(mut parts: Vec<(T, f64)>, [from, to]: [f64; 2]) -> Vec<(T, f64)> 
     parts
 }
 
-/// What two intervals have in common; none if that has no length.
+/// Intersection of two intervals; `None` if it has no length.
 fn overlap(a: [f64; 2], b: [f64; 2]) -> Option<[f64; 2]> {
     let common = [a[0].max(b[0]), a[1].min(b[1])];
     (common[1] > common[0]).then_some(common)

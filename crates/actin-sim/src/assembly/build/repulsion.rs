@@ -1,4 +1,4 @@
-//! From a scene's repulsion to what repels which stretches of filament.
+//! Repulsion between parts of filaments and walls.
 
 use super::{Body, Builder, Strand};
 use crate::assembly::Part;
@@ -13,10 +13,10 @@ use actin_mechanics::Vector3;
 use std::f64::consts::PI;
 
 impl Builder<'_> {
-    /// Pushes what the scene says of repulsion.
+    /// Pushes the repulsion of a scene.
     ///
     /// # Errors
-    /// Filaments that are built so far into each other or into a wall that they would be driven through.
+    /// If filaments as built penetrate each other or a wall beyond the range of the repulsion.
     pub(super) fn push_repulsion(&mut self) -> Result<(), SceneProblem> {
         let Some(repulsion) = &self.scene.repulsion else {
             return Ok(());
@@ -59,7 +59,7 @@ impl Builder<'_> {
         Ok(())
     }
 
-    /// That filaments stand in each other or in a wall as built.
+    /// Error for filaments that penetrate each other or a wall as built.
     fn built_into(&self, touching: &Touching, radius: f64) -> SceneProblem {
         let key = match touching.part {
             Part::Plane(i) => format!("repulsion.planes[{i}]"),
@@ -77,7 +77,7 @@ impl Builder<'_> {
         SceneProblem::new(key, value, rule)
     }
 
-    /// All filaments, as stretches of axis in the order of arc length.
+    /// Capsules of all filaments in the order of arc length.
     fn capsules(&self) -> Result<Vec<Capsule>, RepulsionError> {
         let mut capsules = Vec::new();
         for (filament, strand) in self.strands.iter().enumerate() {
@@ -95,7 +95,7 @@ impl Builder<'_> {
         Ok(capsules)
     }
 
-    /// The stretches of axis of monomers, a rise each.
+    /// Capsules of monomers, each one rise long.
     fn monomers(
         &self,
         strand: &Strand<'_>,
@@ -118,7 +118,7 @@ impl Builder<'_> {
     }
 }
 
-/// The segments of a rod that begins at this arc length (nm) of a filament.
+/// Capsules of the segments of a rod that begins at this arc length (nm).
 fn segments(
     layout: &RodLayout,
     (filament, from_nm): (usize, f64),
@@ -137,7 +137,7 @@ fn segments(
     lengths.map(capsule).collect()
 }
 
-/// The walls of a scene, planes first.
+/// Walls of a scene, planes first.
 fn walls_of(repulsion: &Repulsion) -> Vec<(Part, Wall)> {
     let planes = repulsion.planes.iter().enumerate().map(|(i, plane)| {
         let wall = Wall::Plane {

@@ -1,9 +1,11 @@
-//! Monomers whose interfaces are quasi-harmonic: thermal motion of their bonds, and the chain that has its moments.
+//! Quasi-harmonic interfaces: moments of the thermal motion of bonds, and the chain with the same
+//! moments.
 //!
-//! A run of monomers, which may be several sections, moves freely in a heat bath of its own: what else acts on
-//! it in the scene adds its energy to that of the chain. So what is found depends on the run alone, and is found once in a
-//! process: sections that follow a motion meet the same runs again and again. Where bonds depend on the geometry alone each monomer
-//! is as any other: runs of one length are one, and a long one repeats the middle of a shorter one.
+//! A run of monomers, possibly of several sections, is sampled without external loads in a separate
+//! heat bath. In the scene, the energy of other interactions adds to that of the chain. Moments
+//! therefore depend on the run alone and are cached per process, since sections that follow a
+//! motion need the same runs again. For quadrature bonds all monomers are equivalent: runs of one
+//! length share their moments, and a long run repeats the middle of a shorter one.
 
 use super::strand::{Body, Strand};
 use crate::assembly::models;
@@ -15,47 +17,49 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 use std::sync::{Mutex, PoisonError};
 
-/// Parts of the motion, each with noise of its own, as many at the same time as there are cores.
+/// Independent parts of the sampled motion, which run in parallel.
 const PARTS: u64 = 4;
-/// Rate of the bath (1/ns), at which neighbours forget their places in some tenths of a nanosecond.
+/// Rate of the bath (1/ns). Positions of neighbours decorrelate within a few tenths of a
+/// nanosecond.
 const DRAG: f64 = 5.0;
-/// Motion before the first state that counts (ns), in each part.
+/// Equilibration time of each part (ns).
 const WARM_UP_NS: f64 = 5.0;
-/// Time between states that count (ns).
+/// Time between samples (ns).
 const APART_NS: f64 = 0.05;
-/// Step as a share of the largest stable one, at which the potential energy is right to a thousandth.
+/// Time step over the largest stable step, for a relative error of the potential energy of 1e-3.
 const SHARE: f64 = 0.5;
 
-/// Most monomers of a section with weighted bonds that are sampled: four periods.
+/// Largest number of monomers sampled with quadrature bonds: four periods.
 const LONGEST: usize = 52;
 
-/// Links at either end of them that are not repeated in a longer one: a period. Bonds reach to the next but one.
+/// Links at either end that are not repeated in longer runs: one period. Bonds reach the second
+/// neighbour.
 const BESIDE_ENDS: usize = 13;
 
-/// Links that are kept of runs that have been sampled: 30 MB.
+/// Largest number of cached links: 30 MB.
 const MOST_KEPT: usize = 50_000;
 
-/// Runs that have been sampled, by all that they depend on. Sampling repeats to the bit, so that nothing depends on what is kept.
+/// Cache of sampled runs by all their parameters. Sampling is bitwise reproducible, so that results
+/// do not depend on the cache.
 static KEPT: Mutex<BTreeMap<String, (Vec<Link>, Sampled)>> = Mutex::new(BTreeMap::new());
 
-/// How interfaces are sampled.
+/// Parameters of the sampling.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Sampling {
     thermal_energy: f64,
     duration_ns: f64,
 }
 
-/// How well the stiffness of a run of monomers is known.
+/// Accuracy of the stiffness of a run of monomers.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Sampled {
-    /// Number of monomers.
     pub(crate) monomers: usize,
-    /// Standard error of the stiffness of one interface, relative; mean over all.
+    /// Relative standard error of the stiffness of one interface, averaged over all interfaces.
     pub(crate) error: f64,
 }
 
 impl Sampling {
-    /// That of a task; none of those whose interfaces are bonds.
+    /// Sampling of a task; `None` for tasks with bonds at interfaces.
     pub(super) fn of(task: &Task) -> Option<Self> {
         let Task::Brownian(task) = task else {
             return None;
@@ -70,16 +74,16 @@ impl Sampling {
     }
 }
 
-/// Monomers of a section that are sampled.
+/// Sampled monomers of a section.
 #[derive(Clone, Copy, Debug)]
 struct Piece {
     section: usize,
-    /// Lattice index of the first.
+    /// Lattice index of the first monomer.
     first: i64,
     count: usize,
 }
 
-/// So many links from fewer, the middle of which is repeated.
+/// Extends `links` to `count` links by repeating the middle.
 fn prolonged(links: &[Link], count: usize) -> Vec<Link> {
     let behind = links.len().saturating_sub(BESIDE_ENDS);
     let middle = links[..behind].iter().skip(BESIDE_ENDS).cycle();
@@ -88,7 +92,7 @@ fn prolonged(links: &[Link], count: usize) -> Vec<Link> {
     all.copied().collect()
 }
 
-/// The bonds of a run on their own.
+/// Bonds of an isolated run.
 struct Alone {
     monomers: Monomers,
     system: System,
@@ -96,7 +100,7 @@ struct Alone {
 }
 
 impl Strand<'_> {
-    /// The runs of sections of monomers that are bonded to each other.
+    /// Runs of bonded sections of monomers.
     fn bonded_sections(&self) -> Vec<Range<usize>> {
         let mut runs: Vec<Range<usize>> = Vec::new();
         for (i, body) in self.bodies.iter().enumerate() {
@@ -109,7 +113,7 @@ impl Strand<'_> {
         runs
     }
 
-    /// The chain of each section of monomers, and how well each run is known.
+    /// Chain of each section of monomers, and the accuracy of each run.
     pub(super) fn sample(
         &self,
         sampling: Sampling,
@@ -137,7 +141,7 @@ impl Strand<'_> {
         Ok((chains, known))
     }
 
-    /// The links of a run, sampled unless they are kept.
+    /// Links of a run, sampled or from the cache.
     fn sample_run(
         &self,
         sections: Range<usize>,
@@ -146,7 +150,7 @@ impl Strand<'_> {
         let monomers = sections.clone().map(|i| self.monomers_of(i)).sum();
         let pieces = self.pieces(sections);
         let key = self.key(&pieces, sampling);
-        // Held meanwhile: who else needs this run waits for it.
+        // The lock is kept during sampling, so that other threads wait for this run.
         let mut kept = KEPT.lock().unwrap_or_else(PoisonError::into_inner);
         if !kept.contains_key(&key) {
             let (chain, sampled) = self.alone(&pieces)?.sample(sampling)?;
@@ -165,7 +169,7 @@ impl Strand<'_> {
         Ok((prolonged(links, monomers - 1), sampled))
     }
 
-    /// What is sampled for a run.
+    /// Pieces of a run that are sampled.
     fn pieces(&self, sections: Range<usize>) -> Vec<Piece> {
         let mut models = self.models[sections.clone()].iter();
         let is_weighted = models.all(|m| m.parameters().anchors == Anchors::Cubature);
@@ -191,7 +195,7 @@ impl Strand<'_> {
         sections.map(piece).collect()
     }
 
-    /// All that the links of a run depend on.
+    /// Cache key with all parameters of the links of a run.
     fn key(&self, pieces: &[Piece], sampling: Sampling) -> String {
         let of_piece = |piece: &Piece| {
             let parameters = self.models[piece.section].parameters();
@@ -208,7 +212,7 @@ impl Strand<'_> {
         }
     }
 
-    /// The bonds of the monomers of these pieces, which are one run.
+    /// Bonds of one run of monomers.
     fn alone(&self, pieces: &[Piece]) -> Result<Alone, SceneProblem> {
         let refused = |error: &dyn std::error::Error| {
             SceneProblem::new("filament.sections", "", error.to_string())
@@ -245,7 +249,7 @@ impl Strand<'_> {
 }
 
 impl Alone {
-    /// The chain of the moments of its thermal motion.
+    /// Chain with the moments of the thermal motion.
     fn sample(&self, sampling: Sampling) -> Result<(QuasiHarmonic, Sampled), SceneProblem> {
         let parts = self.parts(sampling)?;
         let mut all = Fluctuations::about(&self.monomers, self.system.state());
@@ -266,7 +270,7 @@ impl Alone {
         Ok((chain, sampled))
     }
 
-    /// The moments of each part, whichever thread has found them.
+    /// Moments of each part, in order.
     fn parts(&self, sampling: Sampling) -> Result<Vec<Fluctuations>, SceneProblem> {
         let cores = std::thread::available_parallelism().map_or(1, usize::from);
         let numbers: Vec<u64> = (0..PARTS).collect();
@@ -313,7 +317,7 @@ impl Alone {
     }
 }
 
-/// How often a time fits into another one, rounded up.
+/// Quotient of two times, rounded up.
 #[allow(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,
@@ -334,7 +338,6 @@ mod tests {
         duration_ns: 2.0,
     };
 
-    /// What is asked of the monomers of a scene with these sections.
     fn of<T>(sections: &str, anchors: &str, ask: impl Fn(&Strand<'_>) -> T) -> T {
         let text = format!(
             "Scene(
@@ -358,7 +361,6 @@ mod tests {
     const BEHIND: &str = "Rod(from_nm: 0.0, to_nm: 71.2), Ellipsoids(from_nm: 71.2, to_nm: 106.8),
         Rod(from_nm: 106.8, to_nm: 142.4)";
 
-    /// What is kept is what would be found again: to the bit, whichever thread is first.
     #[test]
     fn sampling_repeats_to_the_bit() {
         let found = [(); 2].map(|()| {
@@ -375,7 +377,7 @@ mod tests {
         assert!(kept == found[0]);
     }
 
-    /// A run is any other of its length where bonds are weighted, and its own where they are drawn.
+    /// Quadrature bonds depend on the length of a run, sampled bonds also on its place.
     #[test]
     fn runs_are_known_by_what_bonds_depend_on() {
         let key = |sections: &str, anchors: &str| {
@@ -395,7 +397,6 @@ mod tests {
         });
         assert_ne!(other, key(BEFORE, "Cubature"));
     }
-    /// A long run has the ends of a shorter one and repeats its middle, where each link follows one like that which it followed there.
     #[test]
     fn long_runs_repeat_the_middle_of_shorter_ones() {
         let long = "Ellipsoids(from_nm: 0.0, to_nm: 300.0)";

@@ -1,14 +1,13 @@
-//! How much memory all filaments of a scene take: estimated before any of it is allocated.
+//! Memory of all filaments of a scene, estimated before allocation.
 
 use super::strand::Strand;
 use crate::memory;
 use crate::scene::{Scene, SceneProblem, Section};
 
-/// Refuses a scene whose sections together take more than memory holds, each of them alone being
-/// small enough; returns the estimate (bytes).
+/// Refuses a scene that exceeds the memory of the machine; returns the estimate (bytes).
 ///
 /// # Errors
-/// The section with which it becomes too much.
+/// Names the section at which the sum exceeds the memory.
 pub(super) fn check(scene: &Scene, strands: &[Strand<'_>]) -> Result<f64, SceneProblem> {
     let mut bytes = 0.0;
     for (index, strand) in strands.iter().enumerate() {

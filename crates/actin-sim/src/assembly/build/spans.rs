@@ -1,4 +1,4 @@
-//! Which stretch of the filament each element of an interaction spans.
+//! Arc length intervals of the elements of interactions.
 
 use super::sampled::Sampling;
 use super::{Body, Builder, Strand};
@@ -7,8 +7,7 @@ use actin_cosserat::{RodEnd, RodLayout};
 use actin_ellipsoid::{InterfaceKind, Monomers};
 
 impl Builder<'_> {
-    /// Arc lengths (nm) from where to where each element of each term reaches, in their order;
-    /// empty for what is no part of a filament.
+    /// Arc length interval (nm) of each element of each term; empty for parts outside filaments.
     pub(super) fn spans(&self) -> Vec<Vec<[f64; 2]>> {
         let strand_of = |section: usize| {
             let past = self.strands.partition_point(|s| s.first_section <= section);
@@ -47,8 +46,9 @@ impl Strand<'_> {
         self.interfaces(monomers, &reached, if has_bonds { &bonds } else { &[1] })
     }
 
-    /// From monomer to monomer: for each lower one those that are so many `steps` above it, of bonds the lateral, then the
-    /// longitudinal interface. Bonds reach the monomers of the run `reached`, which begins with `monomers`.
+    /// Intervals of interfaces from each lower monomer to the monomer `steps` above it. For bonds,
+    /// lateral and longitudinal interfaces alternate. Upper monomers belong to the run `reached`,
+    /// which begins with `monomers`.
     fn interfaces(
         &self,
         monomers: &Monomers,
@@ -64,7 +64,7 @@ impl Strand<'_> {
         (0..monomers.count).flat_map(of).collect()
     }
 
-    /// From each attached monomer to the middle of the rod's end segment.
+    /// Intervals from each attached monomer to the middle of the rod's end segment.
     fn junction_bonds(&self, i: usize) -> Vec<[f64; 2]> {
         let n = self.attached();
         let s_nm = |m: &Monomers, k: usize| self.lattice.s_nm(m.index(k));
@@ -85,8 +85,8 @@ impl Strand<'_> {
     }
 }
 
-/// Segments, then from middle to middle about the nodes that bend; a wall bends the outer half of
-/// its segment.
+/// Intervals of segments, followed by the intervals of bending elements between middles. A wall
+/// bends the outer half of its segment.
 fn rod(layout: &RodLayout, from_nm: f64) -> Vec<[f64; 2]> {
     let mut nodes = vec![from_nm];
     for length in layout.segment_lengths() {

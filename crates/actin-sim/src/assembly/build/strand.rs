@@ -1,4 +1,4 @@
-//! One filament under construction: its bodies and interactions, section by section.
+//! Filament under construction: bodies and interactions, section by section.
 
 use super::Stock;
 use super::bend::check_angle;
@@ -13,39 +13,38 @@ use actin_ellipsoid::{EllipsoidModel, Monomers, Placement};
 use actin_mechanics::{Frame, UnitQuaternion, Vector3};
 use std::ops::Range;
 
-/// Length of a rod's segments where the scene does not say how many there are (nm).
+/// Default length of a rod's segments (nm).
 const DEFAULT_SEGMENT_NM: f64 = 10.0;
 
-/// What a section has become.
+/// Bodies of a section.
 pub(super) enum Body {
     Monomers(Monomers),
     Rod(RodLayout),
 }
 
-/// A filament under construction. Problems name its keys as those of `filament`.
+/// Filament under construction. Errors name its keys as keys of `filament`.
 pub(super) struct Strand<'a> {
-    /// Its index in the scene.
     pub(super) index: usize,
     pub(super) filament: &'a Filament,
-    /// What is held at start and end; nothing at a free one.
+    /// Holds of start and end; `None` for a free end.
     holds: [Option<Hold>; 2],
-    /// The springs of those ends that are hinged.
+    /// Springs of hinged ends.
     pub(super) hinges: [Option<Hinge>; 2],
-    /// The held frames behind these springs.
+    /// Held frames of hinged ends.
     pub(super) hinge_frames: [Option<usize>; 2],
-    /// Arc lengths at which couples act (nm).
+    /// Arc lengths of couples (nm).
     couples_nm: Vec<f64>,
-    /// Index of its first section among those of all filaments.
+    /// Index of its first section among all filaments.
     pub(super) first_section: usize,
-    /// Where arc length begins, and the turn from a filament along lab +z.
+    /// Position of arc length 0 and rotation from lab +z.
     pub(super) placement: Placement,
-    /// Where its axis is once it is bent along its shape.
+    /// Axis of a curved filament.
     pub(super) built: Option<Built>,
     pub(super) resolved: Vec<Resolved>,
     pub(super) lattice: Lattice,
-    /// The monomers of each section; of a rod those that it stands for.
+    /// Monomer model of each section; for a rod, the model of the monomers that it represents.
     pub(super) models: Vec<EllipsoidModel>,
-    /// The law of each section; of monomers that of the rod which they stand for.
+    /// Law of each section; for monomers, the law of the rod that represents them.
     pub(super) laws: Vec<law::Law>,
     cross_section: CrossSection,
     pub(super) bodies: Vec<Body>,
@@ -54,8 +53,8 @@ pub(super) struct Strand<'a> {
 }
 
 impl<'a> Strand<'a> {
-    /// Filament `index` of a scene, with what is held at its ends and where couples act (nm), whose sections
-    /// stand behind `first_section` others, in a heat bath or not.
+    /// Creates filament `index` of a scene with the holds of its ends and the arc lengths of
+    /// couples (nm). `first_section` is the number of sections of earlier filaments.
     pub(super) fn new(
         (index, filament): (usize, &'a Filament),
         (clamps, couples_nm): ([Option<&Clamp>; 2], Vec<f64>),
@@ -97,12 +96,12 @@ impl<'a> Strand<'a> {
         })
     }
 
-    /// Place of the point of the axis at arc length `s_nm` as built (nm, lab frame).
+    /// Position of the axis at arc length `s_nm` as built (nm, lab frame).
     pub(super) fn axis_at(&self, s_nm: f64) -> Vector3 {
         self.place(Vector3::z() * s_nm)
     }
 
-    /// Where a place of a filament along lab +z from the origin is in this one (nm, lab frame).
+    /// Maps a position relative to the straight filament along +z to this filament (nm, lab frame).
     pub(super) fn place(&self, of_straight: Vector3) -> Vector3 {
         let own = self.built.as_ref().map_or(of_straight, |built| {
             let (place, frame) = built.at(of_straight.z);
@@ -120,14 +119,14 @@ impl<'a> Strand<'a> {
         }
     }
 
-    /// The turn from a filament along lab +z at an arc length (nm).
+    /// Rotation from lab +z at an arc length (nm).
     pub(super) fn frame_at(&self, s_nm: f64) -> UnitQuaternion {
         let rotation = self.placement.rotation;
         let built = self.built.as_ref();
         built.map_or(rotation, |built| rotation * built.at(s_nm).1)
     }
 
-    /// Unit vector along the filament at an arc length (nm, lab frame).
+    /// Unit tangent at an arc length (nm, lab frame).
     pub(super) fn tangent_at(&self, s_nm: f64) -> Vector3 {
         match self.built {
             None => self.filament.axis(),
@@ -135,7 +134,7 @@ impl<'a> Strand<'a> {
         }
     }
 
-    /// Pushes the bodies of all sections and of the junctions between them.
+    /// Pushes the bodies of all sections and junctions.
     pub(super) fn push_bodies(&mut self, stock: &mut Stock) -> Result<FilamentSpan, SceneProblem> {
         let first = (stock.points.len(), stock.frames.len());
         while self.bodies.len() < self.filament.sections.len() {
@@ -152,8 +151,8 @@ impl<'a> Strand<'a> {
         })
     }
 
-    /// Pushes the junction to the section before, then the bodies of section `i`, and those of all rods that
-    /// follow it if it is one.
+    /// Pushes the junction to the section before and the bodies of section `i`. A rod includes all
+    /// rods that follow it.
     fn push_section(&mut self, i: usize, stock: &mut Stock) -> Result<(), SceneProblem> {
         if i > 0 && self.is_junction(i - 1) {
             self.push_junction_frames(i - 1, stock)?;
@@ -208,7 +207,7 @@ impl<'a> Strand<'a> {
         Ok(())
     }
 
-    /// Pushes section `first` and all rods that follow it, which share nodes and cross-sections with it.
+    /// Pushes section `first` and all rods that follow it, which share nodes and cross-sections.
     fn push_rods(&mut self, first: usize, stock: &mut Stock) -> Result<(), SceneProblem> {
         let rods = self.resolved[first..].iter();
         let past = first + rods.take_while(|r| r.monomers.is_none()).count();
@@ -243,7 +242,7 @@ impl<'a> Strand<'a> {
         Ok(())
     }
 
-    /// Sections `first` to before `past`, of so many segments of these lengths (nm), as one straight rod.
+    /// Straight rod for sections `first..past` with these segment counts and lengths (nm).
     fn straight_rod(
         &self,
         [first, past]: [usize; 2],
@@ -257,7 +256,7 @@ impl<'a> Strand<'a> {
             let hold = self.holds[end as usize];
             is_at(i, end) && (hold == Some(Hold::Wall) || self.hinges[end as usize].is_some())
         };
-        // Without a frame at the end, half a segment would not feel a couple that acts there.
+        // A couple at the end acts through the half segment of this frame.
         let free_wall = |i, end, length: f64| {
             let turns = matches!(self.holds[end as usize], None | Some(Hold::Pin));
             let outer = |s_nm: &f64| (s_nm - self.end_nm(end)).abs() < 0.5 * length;
@@ -280,14 +279,14 @@ impl<'a> Strand<'a> {
         }
     }
 
-    /// The first and the last of the rods that section `i` is one of; itself, if it is no rod.
+    /// First and last section of the run of rods that contains section `i`; `[i, i]` for monomers.
     pub(super) fn run_of(&self, i: usize) -> [usize; 2] {
         let before = (0..i).rev().take_while(|&k| self.is_joint(k)).count();
         let behind = (i..self.resolved.len()).take_while(|&k| self.is_joint(k));
         [i - before, i + behind.count()]
     }
 
-    /// How far the ends of rods `first` to `last` are beyond those of section `i`, one of them (nm).
+    /// Distances from the ends of rod `i` to the ends of rods `first` to `last` (nm).
     pub(super) fn beyond_nm(&self, i: usize, [first, last]: [usize; 2]) -> [f64; 2] {
         let all = &self.resolved;
         [
@@ -296,12 +295,12 @@ impl<'a> Strand<'a> {
         ]
     }
 
-    /// What the ends of rods `first` to `last` let them do. A junction holds its monomers beside each other as a wall
-    /// does, so that they lack shear, which the rod makes good.
+    /// End conditions of shear for rods `first` to `last`. A junction prevents shear like a wall;
+    /// the rod compensates for this.
     pub(super) fn end_shear(&self, run: [usize; 2]) -> [EndShear; 2] {
         [End::Start, End::End].map(|end| {
             let i = run[end as usize];
-            // A pin lets the end turn, as a free one does.
+            // A pinned end rotates freely.
             let is_held = self.holds[end as usize].is_some_and(|hold| hold != Hold::Pin);
             if i == self.filament.end_index(end) {
                 if is_held {
@@ -317,8 +316,8 @@ impl<'a> Strand<'a> {
         })
     }
 
-    /// Pushes the held frame behind the spring of a hinge, if section `i` has one at an end, at arc length
-    /// `s_nm` beside segments of a length (nm).
+    /// Pushes the held frame of a hinge if section `i` has one at an end, at arc length `s_nm`.
+    /// `length` of the adjacent segment sets its size.
     fn push_hinge_frame(
         &mut self,
         i: usize,
@@ -339,7 +338,7 @@ impl<'a> Strand<'a> {
         self.hinge_frames[end as usize] = Some(frame);
     }
 
-    /// Number of segments of rod section `i`: as written, or as near to the default length as fits.
+    /// Number of segments of rod section `i`: as written, or nearest to the default length.
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,
@@ -370,7 +369,7 @@ impl<'a> Strand<'a> {
     fn describe_rod(&self, i: usize, layout: &RodLayout, length: f64, stock: &mut Stock) {
         let Resolved { from_nm, to_nm, .. } = self.resolved[i];
         let node = |k: usize| from_nm + k as f64 * length;
-        // The node that it shares with a rod before it is known, and so is the cross-section there.
+        // The node and cross-section shared with a preceding rod already exist.
         let goes_on = [i.checked_sub(1), Some(i)].map(|k| k.is_some_and(|k| self.is_joint(k)));
         for k in usize::from(goes_on[0])..layout.points().len() {
             stock.points.push(PointInfo {
@@ -420,41 +419,41 @@ impl<'a> Strand<'a> {
         });
     }
 
-    /// Whether section `i` and the next are of different kinds; neighbouring monomers are bonded.
+    /// Returns `true` if section `i` and the next have different resolutions. Neighbouring monomers
+    /// are bonded.
     pub(super) fn is_junction(&self, i: usize) -> bool {
         let sections = self.resolved.get(i).zip(self.resolved.get(i + 1));
         sections.is_some_and(|(a, b)| a.monomers.is_some() != b.monomers.is_some())
     }
 
-    /// Whether section `i` and the next are both rods.
+    /// Returns `true` if section `i` and the next are both rods.
     fn is_joint(&self, i: usize) -> bool {
         let is_rod = |r: &Resolved| r.monomers.is_none();
         let rods = self.resolved[i..].iter().take(2).filter(|r| is_rod(r));
         rods.count() == 2
     }
 
-    /// The monomers from which section `i` is bonded upwards, and those of the next section to which the
-    /// last of them are bonded, if it has some.
+    /// Monomers of section `i` and the monomers of the next section to which they are bonded.
     pub(super) fn bonded_run(&self, i: usize, own: &Monomers) -> Monomers {
         let goes_on = i + 1 < self.resolved.len() && !self.is_junction(i);
         Monomers {
-            // As far as the longest interface reaches.
+            // Range of the longitudinal interface.
             count: own.count + if goes_on { 2 } else { 0 },
             ..*own
         }
     }
 
-    /// Number of monomers of section `i` that a junction attaches to.
+    /// Number of monomers of section `i` attached to a junction.
     pub(super) fn attached(&self) -> usize {
         self.filament.junction.attached_monomers
     }
 
-    /// Pushes the frames of the junction between section `i` and the next, in filament order.
+    /// Pushes the frames of the junction between section `i` and the next in filament order.
     fn push_junction_frames(&mut self, i: usize, stock: &mut Stock) -> Result<(), SceneProblem> {
         let rise = self.lattice.rise_nm;
         let boundary = self.resolved[i].to_nm;
         let monomers_first = self.resolved[i].monomers.is_some();
-        // The monomers stand half a rise from the boundary, then each a rise further.
+        // Monomers lie half a rise from the boundary and then one rise apart.
         let mut distances: Vec<f64> = (0..self.attached())
             .map(|k| (k as f64 + 0.5) * rise)
             .collect();

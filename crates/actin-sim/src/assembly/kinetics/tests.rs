@@ -1,15 +1,15 @@
-//! Events of linkers in a state that stays as it is: rates, places and energies against closed forms. Bounds are 4.5
-//! standard errors of what is drawn, seeds fixed.
+//! Linker events in a constant state: rates, places and energies against closed forms. Tolerances
+//! are 4.5 standard errors at fixed seeds.
 
 use super::Happening::{self, Formed, Left, Stepped};
 use super::LinkerEvent;
 use crate::{Assembly, Scene};
 use actin_mechanics::State;
 
-/// Length of a time step (ns), long beside what a motion would take: nothing moves.
+/// Time step (ns), far beyond a stable step of a motion; the bodies are fixed here.
 const STEP_NS: f64 = 1.0;
 
-/// So many equal linkers on a rod of 80 nm along z.
+/// Equal linkers on a rod of 80 nm along z.
 fn linkers(count: usize, linker: &str, kinetics: &str) -> Assembly {
     let one = format!("Linker({linker}, kinetics: Kinetics(seed: 5, {kinetics})),");
     let text = format!(
@@ -23,7 +23,6 @@ fn linkers(count: usize, linker: &str, kinetics: &str) -> Assembly {
     Assembly::build(&Scene::from_ron(&text).unwrap_or_else(|e| panic!("{e}"))).unwrap()
 }
 
-/// What happens in the given steps.
 fn events(assembly: &Assembly, state: &mut State, steps: std::ops::Range<u64>) -> Vec<LinkerEvent> {
     let kinetics = assembly.kinetics.as_ref().unwrap();
     let mut all = Vec::new();
@@ -33,18 +32,18 @@ fn events(assembly: &Assembly, state: &mut State, steps: std::ops::Range<u64>) -
     all
 }
 
-/// Probability of an event of a rate (1/ns) in a step.
 fn probability(rate: f64) -> f64 {
     1.0 - (-rate * STEP_NS).exp()
 }
 
-/// Mean and standard error of the times at which linkers under 5 pN break, and of what the geometric law has.
+/// Mean and standard error of the lifetimes of linkers under 5 pN, and the expectation of the
+/// geometric distribution.
 fn lifetime(kinetics: &str, rate: f64) -> (f64, f64, f64) {
     let linker = "at_nm: 40.0, displaced_nm: (10.0, 0.0, 0.0), stiffness_pn_per_nm: 0.5";
     let count = 2000;
     let assembly = linkers(count, linker, kinetics);
     let broken = events(&assembly, &mut assembly.rest.clone(), 1..2000);
-    assert_eq!(broken.len(), count, "all break, once each");
+    assert_eq!(broken.len(), count, "each linker must break exactly once");
     for event in &broken {
         assert_eq!(event.what, Happening::Broke);
         assert!((event.force_pn - 5.0).abs() < 1e-9 && (event.energy_pn_nm + 25.0).abs() < 1e-9);
@@ -55,7 +54,7 @@ fn lifetime(kinetics: &str, rate: f64) -> (f64, f64, f64) {
     (mean, STEP_NS / p, error)
 }
 
-/// Bell's rate, one that force does not change, and a catch bond beside it.
+/// Bell's rate, a constant rate and a catch bond.
 #[test]
 fn lifetimes_under_force_are_those_of_the_rates() {
     let e = std::f64::consts::E;
@@ -76,9 +75,9 @@ fn lifetimes_under_force_are_those_of_the_rates() {
     }
 }
 
-/// Shares of linkers that hold: `k_on / (k_on + k_off)`, of probabilities where steps are long.
+/// The bound fraction is `k_on / (k_on + k_off)`, in terms of probabilities for long steps.
 #[test]
-fn as_many_linkers_hold_as_balance_has_it() {
+fn bound_fraction_follows_detailed_balance() {
     let linker = "at_nm: 40.0, displaced_nm: (3.0, 0.0, 0.0), stiffness_pn_per_nm: 0.5";
     let kinetics = "bound: false, breaks: Breaking(rate_per_ns: 0.02),
         forms: Forming(rate_per_ns: 0.05, reach_nm: 3.5)";
@@ -97,7 +96,7 @@ fn as_many_linkers_hold_as_balance_has_it() {
     }
     let (on, off) = (probability(0.05), probability(0.02));
     let (share, expected) = (held as f64 / (count as f64 * steps as f64), on / (on + off));
-    // Each linker is seen anew after some (1 + c)/(1 - c) steps, c = 1 - on - off what is left of what it was.
+    // The states of a linker decorrelate within (1 + c)/(1 - c) steps, c = 1 - on - off.
     let c = 1.0 - on - off;
     let seen = count as f64 * steps as f64 * (1.0 - c) / (1.0 + c);
     let error = (expected * (1.0 - expected) / seen).sqrt();
@@ -109,7 +108,7 @@ fn as_many_linkers_hold_as_balance_has_it() {
 }
 
 #[test]
-fn what_is_out_of_reach_does_not_form() {
+fn linkers_out_of_reach_do_not_form() {
     let linker =
         "at_nm: 40.0, displaced_nm: (3.0, 0.0, 0.0), stiffness_pn_per_nm: 0.5, rest_length_nm: 1.0";
     let kinetics =
@@ -123,9 +122,8 @@ fn what_is_out_of_reach_does_not_form() {
     }
 }
 
-/// Mean number of steps in 300 time steps against a force along the filament.
 fn stepped(step_nm: f64, from_nm: f64, force: f64) -> f64 {
-    // So far away that steps do not change the force.
+    // Far enough that steps do not change the force.
     let (far, direction) = (2e5, -step_nm.signum());
     let linker = format!(
         "at_nm: {from_nm:?}, displaced_nm: (0.0, 0.0, {:?}), stiffness_pn_per_nm: {:?}",
@@ -145,8 +143,8 @@ fn stepped(step_nm: f64, from_nm: f64, force: f64) -> f64 {
     happened.len() as f64 / 400.0
 }
 
-/// Velocity over step: the rate without force, half of it at half the stall force, none at stall; a force that helps does
-/// not speed it up.
+/// Stepping rate: full without force, half at half the stall force, zero at stall, and not
+/// increased by assisting force.
 #[test]
 fn sites_step_at_the_rate_and_stall() {
     for (step_nm, from_nm) in [(2.0, 0.0), (-2.0, 80.0)] {
@@ -163,7 +161,6 @@ fn sites_step_at_the_rate_and_stall() {
     }
 }
 
-/// At the last place a site stays, or lets go, and forms again at the nearest place.
 #[test]
 fn the_end_of_the_filament_ends_the_steps() {
     let linker = "at_nm: 75.0, displaced_nm: (0.0, 0.0, 0.0), stiffness_pn_per_nm: 0.01";
@@ -192,7 +189,6 @@ fn the_end_of_the_filament_ends_the_steps() {
     assert_eq!(of(true)[..5], cycle);
 }
 
-/// What happens in a step depends on seed, step and linker, not on what was drawn before.
 #[test]
 fn events_belong_to_seed_step_and_linker() {
     let linker = "at_nm: 40.0, displaced_nm: (3.0, 0.0, 0.0), stiffness_pn_per_nm: 0.5";
@@ -209,8 +205,6 @@ fn events_belong_to_seed_step_and_linker() {
     assert_ne!(late, events(&other, &mut other.rest.clone(), 500..700));
 }
 
-/// A tension beside which the force of the rate is nothing breaks a linker at once, and no number overflows into
-/// none of the events.
 #[test]
 fn great_tension_breaks() {
     let linker = "at_nm: 40.0, displaced_nm: (20.0, 0.0, 0.0), stiffness_pn_per_nm: 100.0";
@@ -221,7 +215,6 @@ fn great_tension_breaks() {
     assert_eq!(broken[0].what, Happening::Broke);
 }
 
-/// A linker with a rest length forms where it is as long as that, not where its ends are nearest.
 #[test]
 fn forming_takes_the_place_of_least_strain() {
     let linker =
@@ -239,9 +232,8 @@ fn forming_takes_the_place_of_least_strain() {
     assert!((at_nm - 50.0).abs() > 9.0, "{at_nm}");
 }
 
-/// What is observed of a linker that does not hold has no force.
 #[test]
-fn linkers_that_do_not_hold_pull_nothing() {
+fn unbound_linkers_have_no_tension() {
     let text = "Scene(
         filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 80.0)]),
         linkers: [Linker(at_nm: 40.0, displaced_nm: (5.0, 0.0, 0.0), stiffness_pn_per_nm: 2.0,

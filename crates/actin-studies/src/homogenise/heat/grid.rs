@@ -1,7 +1,6 @@
-//! Mean loads and tangent on a grid of strains, slice by slice, with standard errors.
+//! Thermal mean loads and tangents on a grid of strains, with standard errors.
 //!
-//! A slice is the file of one twist. One that is there, computed with the same parameters, temperature and axes, is
-//! not computed again.
+//! Each slice, with one twist, is a file. A file with the same parameters, temperature and axes is reused.
 
 use super::super::rows::{self, Row};
 use super::heat;
@@ -11,13 +10,13 @@ use actin_sim::ellipsoid::{Cell, Control, Displacements, EllipsoidParameters, He
 use rayon::prelude::*;
 use std::path::{Path, PathBuf};
 
-/// Raised when results of the same parameters change.
+/// Changed when results for the same parameters change.
 const VERSION: u32 = 2;
-/// Streams of a slice, and slices of a set of axes at most.
+/// Number of random streams of a slice, and largest number of slices of a set of axes.
 const STREAMS: u64 = 1 << 20;
 const SLICES: u64 = 1 << 10;
 
-/// Curvature (rad/nm), shear, and angle between them (deg), point by point, of strains that are bent and sheared.
+/// Curvature (rad/nm), shear, and angle between them (deg) of each point with bending and shear.
 type Bent<const N: usize> = [[f64; N]; 3];
 
 const BENT: Bent<12> = [
@@ -31,7 +30,7 @@ const BENT: Bent<12> = [
         0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 90.0, 180.0, 45.0, 135.0, 0.0, 180.0,
     ],
 ];
-/// Strains that short segments of a rod reach by their thermal motion: shear varies by 0.02 in 10 nm, stretch by 5e-3.
+/// Strains due to thermal motion of short rod segments: in 10 nm, shear varies by 0.02 and stretch by 5e-3.
 const WIDE: Bent<8> = [
     [0.0, 0.01, 0.0, 0.0, 0.0, 0.01, 0.01, 0.01],
     [0.0, 0.0, 0.015, 0.03, 0.05, 0.03, 0.03, 0.03],
@@ -39,19 +38,18 @@ const WIDE: Bent<8> = [
 ];
 const QUICK: Bent<4> = [[0.0, 0.01, 0.0, 5e-3], [0.0, 0.0, 0.015, 7.5e-3], [0.0; 4]];
 
-/// Strains, and how many samples each has.
 #[derive(Clone, Debug, PartialEq)]
 struct HeatAxes {
-    /// `kappa_3` (rad/nm).
+    /// Twist `kappa_3` (rad/nm).
     twist: Vec<f64>,
-    /// `sigma_3` beyond that of the free filament of the same twist at the temperature.
+    /// Stretch `sigma_3` relative to the free filament of the same twist and temperature.
     extension: Vec<f64>,
     bent: Vec<[f64; 3]>,
     samples: usize,
 }
 
 impl HeatAxes {
-    /// These twists in both directions and none, extensions, and bent strains.
+    /// Creates axes from positive twists, to which opposite twists and zero are added.
     fn new<const N: usize>(half: &[f64], extension: &[f64], bent: &Bent<N>, quick: bool) -> Self {
         let both = half.iter().flat_map(|x| [*x, -x]);
         Self {
@@ -62,7 +60,6 @@ impl HeatAxes {
         }
     }
 
-    /// The two sets of the study, or fewer strains.
     fn sets(quick: bool) -> [(&'static str, Self); 2] {
         let wide = [-8e-3, 5e-4, 8e-3];
         if quick {
@@ -83,7 +80,6 @@ impl HeatAxes {
     }
 }
 
-/// Computes what is missing, and writes and returns all rows.
 pub(super) fn compute(out: &Path, kt: f64, quick: bool) -> Result<Vec<Row>, String> {
     let folder = out.join("heat");
     std::fs::create_dir_all(&folder).map_err(|e| format!("{}: {e}", folder.display()))?;
@@ -105,7 +101,6 @@ pub(super) fn compute(out: &Path, kt: f64, quick: bool) -> Result<Vec<Row>, Stri
     Ok(all)
 }
 
-/// All points of a set of axes.
 fn slices(
     cell: &Cell,
     kt: f64,
@@ -115,7 +110,7 @@ fn slices(
 ) -> Result<Vec<Row>, String> {
     let parameters = EllipsoidParameters::default();
     let mut all = Vec::new();
-    // One after another: the points of each are computed side by side.
+    // Slices are sequential, since the points of each are computed in parallel.
     for (i, twist) in axes.twist.iter().enumerate() {
         let key = format!("version {VERSION}, {parameters:?}, kT {kt}, {axes:?}, {twist}");
         let first = STREAMS * (SLICES * set + i as u64 + 1);
@@ -127,7 +122,6 @@ fn slices(
     Ok(all)
 }
 
-/// All points of one twist; streams from `first` on are theirs.
 fn slice(
     cell: &Cell,
     kt: f64,
@@ -158,7 +152,6 @@ fn slice(
     Ok(rows)
 }
 
-/// The response at a point.
 fn sample(
     cell: &Cell,
     point: [f64; 5],
@@ -167,7 +160,7 @@ fn sample(
 ) -> Result<HeatResponse, String> {
     let [curvature, twist, shear, stretch, angle] = point;
     let strain = strain([curvature, twist, shear, stretch, angle.to_radians()]);
-    // A relaxed state is nearer to the typical ones than that of the straight filament.
+    // A relaxed state is closer to typical states than the straight state.
     let relaxed = cell.relax(&strain, Some(straight));
     let start = relaxed.as_ref().map_or(straight, |r| &r.displacements);
     let controls = std::array::from_fn(|k| Control::Strain(strain[k]));
@@ -179,7 +172,7 @@ fn row(strain: [f64; 5], extension: f64, response: &HeatResponse) -> Row {
     Row {
         strain,
         extension,
-        // Free energies need a path; loads say as much.
+        // A free energy would require a path; the loads contain the same information.
         energy: f64::NAN,
         loads: response.loads,
         tangent: response.tangent,
@@ -190,7 +183,6 @@ fn row(strain: [f64; 5], extension: f64, response: &HeatResponse) -> Row {
 #[cfg(test)]
 mod tests {
     use super::*;
-    /// A slice is the same on one thread and on many, from the first or alone: its motion is keyed by its points.
     #[test]
     fn slices_do_not_depend_on_threads() {
         let cell = cells::mean().unwrap();

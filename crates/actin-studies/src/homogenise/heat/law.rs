@@ -1,4 +1,4 @@
-//! The law `Homogenised` of rods at a temperature, fitted to the mean loads and tangents of heated cells.
+//! Fit of the law `Homogenised` at a temperature to mean loads and tangents.
 
 use super::super::fit::{Normal, Positivity, Weighted, coefficients};
 use super::super::region::{Region, strains};
@@ -10,20 +10,19 @@ use actin_sim::ellipsoid::SixVector;
 use std::fmt::Write as _;
 use std::path::Path;
 
-/// What counts as a difference of 1, beside the standard error: a share of the value, and bending couple, twisting
-/// couple (pN nm), shear force and tension (pN).
+/// Unit residual, in addition to the standard error: a fraction of the value, and bending torque, twisting torque (pN
+/// nm), shear force and tension (pN).
 const SHARE: f64 = 0.03;
 const FLOORS: [f64; 4] = [1.0, 0.5, 0.3, 1.0];
-/// Of the tangent, which scatters more: a share of the roots of diagonal entries.
+/// Unit residual of the tangent: a fraction of the square roots of diagonal entries.
 const TANGENT: f64 = 0.33;
 
-/// Strains (curvature, twist, shear, extension) that thermal motion of long filaments stays within, and what these
-/// samples weigh: the rigidities at rest are theirs.
+/// Strains (curvature, twist, shear, extension) of long filaments in thermal motion, and the weight of samples with
+/// smaller strains, which determine the rigidities at rest.
 const REST: [f64; 4] = [5e-3, 0.013, 7.5e-3, 3e-3];
 const AT_REST: f64 = 3.0;
 
-/// Terms that are left out: heat smooths the filament at rest and where compression sets in, so that low powers of the
-/// twist suffice.
+/// Terms that are omitted, since thermal motion smooths the response at rest and the onset of compression.
 const LEFT_OUT: [Term; 6] = [
     Term::Compression,
     Term::BendRoot,
@@ -33,7 +32,7 @@ const LEFT_OUT: [Term; 6] = [
     Term::StretchTwiceRoot,
 ];
 
-/// Where the tangent is held positive, at how many strains: in the range of the samples, and to twice that.
+/// Regions in which the tangent must be positive, with numbers of strains: the range of the samples, and twice that.
 const POSITIVE: [(Region, u64); 2] = [
     (
         Region::new([0.01, 0.048, 0.05], [-8e-3, 8e-3]).without_shortening(),
@@ -45,16 +44,14 @@ const POSITIVE: [(Region, u64); 2] = [
     ),
 ];
 
-/// How it is held positive.
 const POSITIVITY: Positivity = Positivity {
     units: [20.0, 20.0, 0.5, 1.0, 1.0, 1.0],
     strength: 10.0,
 };
 
-/// Strains at which the tangent is looked at that were not used to hold it positive.
+/// Number of independent strains at which the tangent is checked.
 const LOOKS: u64 = 20_000;
 
-/// Fits, prints and writes.
 pub(super) fn run(out: &Path, temperature_k: f64, rows: &[Row]) -> Result<(), String> {
     let form = form(rows)?;
     let weighted: Vec<Weighted<'_>> = rows.iter().map(weighted).collect();
@@ -79,7 +76,6 @@ pub(super) fn run(out: &Path, temperature_k: f64, rows: &[Row]) -> Result<(), St
     save(out, &file, &coefficients(&law))
 }
 
-/// What counts as a difference of 1 in couple and force.
 fn deviations(row: &Row) -> [f64; 6] {
     let loads = &row.loads;
     let [couple, twisting, force, tension] = FLOORS;
@@ -107,7 +103,7 @@ fn weighted(row: &Row) -> Weighted<'_> {
     let size = |(i, j): (usize, usize)| (diagonal[i] * diagonal[j]).abs().sqrt();
     Weighted {
         row,
-        // The free energy itself is not known.
+        // The free energy is unknown.
         numbers: [0.0, a, b, c, d, e, f],
         tangent: upper()
             .map(|at| (at, weight / (TANGENT * size(at))))
@@ -116,7 +112,6 @@ fn weighted(row: &Row) -> Weighted<'_> {
     }
 }
 
-/// The form with the natural lengths at the temperature: that of no twist, and beyond it those of the others.
 fn form(rows: &[Row]) -> Result<HomogenisedForm, String> {
     let mut lengths: Vec<(f64, f64)> = Vec::new();
     for row in rows {
@@ -145,10 +140,9 @@ fn form(rows: &[Row]) -> Result<HomogenisedForm, String> {
         .map_err(|e| e.to_string())
 }
 
-/// Coefficients of the natural length.
+/// Number of coefficients of the natural length.
 const NATURAL: usize = 5;
 
-/// Root mean squares and largest of the differences from the samples, by curvature and shear.
 fn residuals(law: &Homogenised, rows: &[Row]) -> String {
     let mut table = String::from(
         "| curvature (rad/nm) | shear | points | couple | twisting couple | shear force | tension | tangent |\n",
@@ -169,7 +163,6 @@ fn residuals(law: &Homogenised, rows: &[Row]) -> String {
     table
 }
 
-/// Of some rows.
 fn printed(law: &Homogenised, rows: &[&Row]) -> String {
     let (mut sums, mut tangents) = ([0.0; 6], 0.0);
     for row in rows {

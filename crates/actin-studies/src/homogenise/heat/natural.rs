@@ -1,23 +1,22 @@
-//! The straight filament at a temperature that is free to change its length, and its twist unless that is given.
+//! The straight filament at a temperature with free length, and free or prescribed twist.
 
 use super::heat;
 use actin_paper::cells::twisted;
 use actin_sim::ellipsoid::{Cell, Control, Displacements, HeatResponse, SixVector};
 
-/// Samples of each of Newton's steps: the last leaves 5e-5 of stretch.
+/// Number of samples of each Newton step. The last step leaves an error of 5e-5 in stretch.
 const SAMPLES: [usize; 3] = [200, 400, 1600];
-/// Largest step of twist (rad/nm) and stretch.
+/// Largest Newton step of twist (rad/nm) and stretch.
 const LONGEST: f64 = 5e-3;
 
-/// Twist and stretch, and a state to start from.
 pub(super) struct Natural {
     pub(super) twist: f64,
     pub(super) stretch: f64,
     pub(super) displacements: Displacements,
 }
 
-/// Where the tension, and without a given twist the couple, vanishes: Newton's method with the sampled tangent, from
-/// the relaxed cell. Streams from `stream` on are used.
+/// Finds the strain at which the tension and, without a given twist, the twisting torque vanish. Uses Newton's method
+/// with the sampled tangent, starting from the relaxed cell; `stream` is the first random stream.
 pub(super) fn natural(
     cell: &Cell,
     kt: f64,
@@ -48,7 +47,6 @@ pub(super) fn natural(
     Ok(natural)
 }
 
-/// The straight filament at this twist and stretch.
 pub(super) fn straight(
     cell: &Cell,
     kt: f64,

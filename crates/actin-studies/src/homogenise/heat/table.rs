@@ -1,4 +1,4 @@
-//! Rigidities and lengths of the free filament at a temperature, from cells of two sizes.
+//! Rigidities and natural lengths of the free filament at a temperature, from cells of two sizes.
 
 use super::heat;
 use super::natural::{Natural, natural, straight};
@@ -9,13 +9,11 @@ use rayon::prelude::*;
 use std::fmt::Write as _;
 use std::path::Path;
 
-/// Streams of the runs of this table, one block for each cell.
+/// Number of random streams of each cell.
 const STREAMS: u64 = 1000;
 
-/// A number with its standard error.
 type Number = (f64, f64);
 
-/// Names of the rows.
 const NAMES: [&str; 15] = [
     "natural twist (rad/nm)",
     "natural stretch",
@@ -34,7 +32,6 @@ const NAMES: [&str; 15] = [
     "kT/(L var sigma_3) (pN)",
 ];
 
-/// Prints and writes the table.
 pub(super) fn run(out: &Path, kt: f64, quick: bool) -> Result<(), String> {
     let sizes = if quick { vec![1] } else { vec![1, 2] };
     let samples = if quick { 4000 } else { 16_000 };
@@ -52,7 +49,6 @@ pub(super) fn run(out: &Path, kt: f64, quick: bool) -> Result<(), String> {
     save(out, "heat-table.md", &table)
 }
 
-/// The table as Markdown.
 fn printed(sizes: &[usize], relaxed: &[Option<f64>], cells: &[Vec<Number>]) -> String {
     let mut table = String::from("| quantity | relaxed |");
     for periods in sizes {
@@ -70,7 +66,6 @@ fn printed(sizes: &[usize], relaxed: &[Option<f64>], cells: &[Vec<Number>]) -> S
     table
 }
 
-/// All numbers of one cell.
 fn numbers(cell: &Cell, kt: f64, samples: usize, stream: u64) -> Result<Vec<Number>, String> {
     let free = natural(cell, kt, None, stream)?;
     let held = || straight(cell, kt, &free, samples, stream + 100);
@@ -80,7 +75,7 @@ fn numbers(cell: &Cell, kt: f64, samples: usize, stream: u64) -> Result<Vec<Numb
     let mut all = of_tangent(&free, &held);
     let per_length = kt / cell.length();
     for k in [0, 2, 5] {
-        // Curvature has two components that are alike.
+        // The two components of curvature are equivalent.
         let variance = if k == 0 {
             0.5 * (moving.covariance[(0, 0)] + moving.covariance[(1, 1)])
         } else {
@@ -98,8 +93,8 @@ fn numbers(cell: &Cell, kt: f64, samples: usize, stream: u64) -> Result<Vec<Numb
     Ok(all)
 }
 
-/// Natural state and rigidities about it. Errors of what follows from the tangent are those of its entries, carried
-/// on to first order as if they were independent.
+/// Returns the natural state and its rigidities. Errors are propagated to first order from independent errors of the
+/// entries of the tangent.
 fn of_tangent(free: &Natural, held: &HeatResponse) -> Vec<Number> {
     let (tangent, errors) = (&held.tangent, &held.tangent_error);
     let inverse = |t: &SixMatrix| {
@@ -123,7 +118,7 @@ fn of_tangent(free: &Natural, held: &HeatResponse) -> Vec<Number> {
         let value = 1.0 / mean(&compliance, k, k);
         // d(1/c_kk) = (c_k t' c_k)/c_kk^2
         let column = compliance.column(k);
-        // Entries on both sides of the diagonal are the same.
+        // The matrix is symmetric.
         let squares = SixMatrix::from_fn(|i, j| (column[i] * column[j] * errors[(i, j)]).powi(2));
         let square = 2.0 * squares.sum() - squares.diagonal().sum();
         (value, value * value * square.sqrt() * share(k))
@@ -141,8 +136,8 @@ fn of_tangent(free: &Natural, held: &HeatResponse) -> Vec<Number> {
     all
 }
 
-/// What is known of the relaxed cell: secants of bending by 1e-3 per nm and twist by 3e-3 rad/nm, shear at rest and
-/// stretch by 1e-3.
+/// Returns values of the relaxed cell: secants for bending of 1e-3 per nm and twist of 3e-3 rad/nm, shear at rest,
+/// and stretch of 1e-3.
 fn relaxed() -> Result<[Option<f64>; NAMES.len()], String> {
     let cell = cells::mean()?;
     let load = |k: usize, value: f64, others: Control| -> Result<f64, String> {

@@ -1,8 +1,7 @@
-//! The law of filaments of drawn bonds: the same terms, weights and places, at cells that all have bonds of their own.
+//! The law of filaments with sampled bonds, fitted to cells with different bonds.
 //!
-//! A filament bends under a couple as its sections do one after the other: least squares over the strains of many
-//! cells under one load find the mean. Bonds that are drawn differ, and the filament of all their means resists more than
-//! they do together.
+//! Under a given load, the mean strain of a filament is the mean over its sections. The fit therefore uses the mean
+//! strain of several cells under the same load. Averaging stiffnesses instead would overestimate the rigidity.
 
 use super::super::axes::Axes;
 use super::super::fit::coefficients;
@@ -18,17 +17,16 @@ use actin_sim::ellipsoid::Cell;
 use rayon::prelude::*;
 use std::path::Path;
 
-/// Cells, and the first of the seeds of those that are fitted and of those that are not: no load case has these bonds.
+/// Number of cells, and first seeds of fitted and of validation cells, which differ from those of load cases.
 const CELLS: u64 = 32;
 const FITTED: u64 = 10_001;
 const OTHERS: u64 = 20_001;
-/// Cells under each load. With one, loads that hardly bend it would bend it as its own bonds have it, and the law would be as
-/// much too stiff as the square of what that scatters by.
+/// Number of cells under each load. With a single cell, its own bonds would bias the stiffness under small loads by
+/// the squared scatter.
 const EACH: usize = 4;
-/// What rows on disk were computed with; to be changed with the places.
+/// Version of stored rows; changed with the loads.
 const VERSION: u32 = 1;
 
-/// Fits, prints and writes.
 pub(super) fn run(out: &Path, axes: &Axes, pure: &[&Row]) -> Result<(), String> {
     let cells = cells(FITTED)?;
     let form = form(&cells, axes)?;
@@ -66,13 +64,11 @@ pub(super) fn run(out: &Path, axes: &Axes, pure: &[&Row]) -> Result<(), String> 
     save(out, "drawn_filament.csv", &coefficients(&law))
 }
 
-/// Cells of bonds of their own, from a seed on.
 fn cells(first: u64) -> Result<Vec<Cell>, String> {
     let seeds = (first..first + CELLS).into_par_iter();
     seeds.map(|seed| cells::drawn(seed, 2 * PERIOD)).collect()
 }
 
-/// The form with the mean natural lengths of the cells.
 fn form(cells: &[Cell], axes: &Axes) -> Result<HomogenisedForm, String> {
     let natural = |&twist: &f64| {
         let all = cells

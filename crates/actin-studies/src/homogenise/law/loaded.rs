@@ -1,5 +1,5 @@
-//! Cells under loads, as sections of rods are: a bending couple, a shear force at any angle to it, a tension, and a
-//! twist or a twisting couple. Each load is none, or of any order of magnitude.
+//! Cells under random loads: bending torque, shear force at any angle, tension, and twist or twisting torque. Each is
+//! zero or random on a logarithmic scale.
 
 use super::super::region::evenly;
 use super::super::rows::Row;
@@ -9,23 +9,22 @@ use actin_sim::ellipsoid::{Cell, CellResponse, Control, SixMatrix, SixVector};
 use rayon::prelude::*;
 use std::f64::consts::TAU;
 
-/// Least and largest bending couple (pN nm), shear force, tension and compression (pN), twist (rad/nm), twisting couple
-/// (pN nm), with the share of the cells that have none.
+/// Ranges of bending torque (pN nm), shear force, tension, compression (pN), twist (rad/nm) and twisting torque (pN
+/// nm), with the fraction of cells without this load.
 const COUPLE: ([f64; 2], f64) = ([0.1, 800.0], 0.15);
 const SHEAR: ([f64; 2], f64) = ([0.02, 20.0], 0.2);
 const TENSION: ([f64; 2], f64) = ([0.3, 40.0], 0.55);
 const COMPRESSION: ([f64; 2], f64) = ([0.3, 20.0], 0.75);
 const TWIST: ([f64; 2], f64) = ([3e-4, 0.045], 0.1);
 const TWISTING: ([f64; 2], f64) = ([0.1, 400.0], 0.33);
-/// Cells beyond these strains are left out: curvature (rad/nm), twist (rad/nm), shear.
+/// Cells with larger strains are excluded: curvature (rad/nm), twist (rad/nm), shear.
 const LARGEST: [f64; 3] = [0.022, 0.05, 0.04];
-/// First share of the loads. The next grow by half, and halve where no equilibrium is found or the twist changes by
-/// more than `JUMP` (rad/nm); below the least the cell is given up.
+/// Initial fraction of the loads. Increments grow by half, and are halved if no equilibrium is found or the twist
+/// changes by more than `JUMP` (rad/nm). A cell is excluded if the increment falls below `SMALLEST`.
 const SHARE: f64 = 0.25;
 const SMALLEST: f64 = 0.01;
 const JUMP: f64 = 0.02;
 
-/// A number between the limits on a scale of magnitudes, or none.
 fn magnitude(([least, most], none): ([f64; 2], f64), x: f64) -> f64 {
     if x < none {
         return 0.0;
@@ -33,8 +32,8 @@ fn magnitude(([least, most], none): ([f64; 2], f64), x: f64) -> f64 {
     least * (most / least).powf((x - none) / (1.0 - none))
 }
 
-/// `count` loads after the `skip` first, as rows: the means of `each` of the cells under one load, the next of them under the
-/// next. Loads without an equilibrium are left out.
+/// Returns rows for `count` loads after the first `skip`. Each is the mean of `each` cells, which are used in turn.
+/// Loads without an equilibrium are excluded.
 pub(super) fn rows(
     (cells, each): (&[Cell], usize),
     form: &HomogenisedForm,
@@ -51,7 +50,6 @@ pub(super) fn rows(
     places.into_par_iter().filter_map(row).collect()
 }
 
-/// The controls of cell `k` at a share of its loads.
 fn controls(k: u64) -> impl Fn(f64) -> [Control; 6] {
     let [a, b, c, d, e, f, g, h] = evenly::<8>(k);
     let azimuth = TAU * h;
@@ -76,7 +74,6 @@ fn controls(k: u64) -> impl Fn(f64) -> [Control; 6] {
     }
 }
 
-/// The cell under its loads, which are raised from none.
 fn loaded(cell: &Cell, k: u64) -> Option<CellResponse> {
     let controls = controls(k);
     let mut reached: Option<CellResponse> = None;
@@ -100,7 +97,6 @@ fn loaded(cell: &Cell, k: u64) -> Option<CellResponse> {
     reached
 }
 
-/// What cells in a row do under one load, by the length of one.
 fn mean(all: &[CellResponse]) -> CellResponse {
     let share = (all.len() as f64).recip();
     CellResponse {
@@ -112,7 +108,6 @@ fn mean(all: &[CellResponse]) -> CellResponse {
     }
 }
 
-/// The state seen from axes of which the first is along the shear.
 fn row(response: &CellResponse, form: &HomogenisedForm) -> Option<Row> {
     let s = response.strain;
     let turn = about_axis(s[4].atan2(s[3]));
@@ -130,7 +125,6 @@ fn row(response: &CellResponse, form: &HomogenisedForm) -> Option<Row> {
     })
 }
 
-/// Strains and loads in axes that are turned by `angle` (rad) about the filament.
 fn about_axis(angle: f64) -> SixMatrix {
     let (sin, cos) = angle.sin_cos();
     let mut turn = SixMatrix::from_diagonal(&SixVector::new(cos, cos, 1.0, cos, cos, 1.0));

@@ -1,5 +1,5 @@
-//! The law `Homogenised` of rods, fitted to cells at random strains, to cells under random loads, and to the grid's
-//! straight, only bent and only sheared ones; with its errors, also under loads that entered no fit.
+//! Fit of the law `Homogenised` to cells at random strains, cells under random loads, and grid points with at most
+//! one of bending and shear. Errors include validation under loads that are not fitted.
 
 mod drawn;
 mod loaded;
@@ -20,30 +20,28 @@ use std::path::Path;
 use tables::{stability, under_loads};
 use weights::weighted;
 
-/// The range of the law: cells are strained a little beyond it.
+/// Range of the law. The strains of fitted cells extend slightly beyond it.
 const RANGE: Region = Region::new([0.01, 0.048, 0.015], [-2e-3, 6e-3]);
-/// Loaded cells that are fitted, and that are not.
 const LOADED: u64 = 8000;
 const OTHER_LOADED: u64 = 2500;
 
-/// Regions of randomly strained cells, and numbers of cells: a little beyond the range, and under compression.
+/// Regions and numbers of strained cells: slightly beyond the range, and under compression.
 const STRAINED: [(Region, u64); 2] = [
     (Region::new([0.0125, 0.055, 0.018], [-2.2e-3, 7e-3]), 6000),
     (Region::new([0.011, 0.015, 0.016], [-2.2e-3, 0.0]), 6000),
 ];
 
-/// The same for strong bending, at which the tangent is not held positive.
+/// The same for strong bending, without the positivity condition.
 const BENT: (Region, u64) = (Region::new([0.022, 0.05, 0.016], [-2.2e-3, 5e-3]), 3000);
 
-/// How the tangent is held positive where cells have a least eigenvalue above [`FIRM`] (pN) in these units: closer
-/// to where they lose their stiffness themselves, that would cost accuracy elsewhere.
+/// Positivity condition, applied where the smallest eigenvalue of the cell exceeds [`FIRM`] (pN) in these units.
+/// Closer to instability of the cell, it would reduce the accuracy elsewhere.
 const POSITIVITY: Positivity = Positivity {
     units: [20.0, 20.0, 5.0, 1.0, 1.0, 20.0],
     strength: 0.2,
 };
 const FIRM: f64 = 30.0;
 
-/// Fits, prints and writes.
 pub(super) fn run(out: &Path, axes: &Axes, grid: &[Row]) -> Result<(), String> {
     let cell = [mean()?];
     let form = form(axes, grid)?;
@@ -65,25 +63,24 @@ pub(super) fn run(out: &Path, axes: &Axes, grid: &[Row]) -> Result<(), String> {
     save(out, "mean_filament.csv", &coefficients(&law))
 }
 
-/// The same for filaments of drawn bonds.
 pub(super) fn run_drawn(out: &Path, axes: &Axes, grid: &[Row]) -> Result<(), String> {
     let within: Vec<&Row> = grid.iter().filter(|row| is_in_range(row)).collect();
     drawn::run(out, axes, &pure(&within).collect::<Vec<_>>())
 }
 
-/// Of the grid what no random strain meets: straight cells, only bent and only sheared ones.
+/// Selects grid points with at most one of bending and shear, which random strains do not contain.
 fn pure<'a>(within: &[&'a Row]) -> impl Iterator<Item = &'a Row> {
     let is_pure = |row: &&Row| row.strain[0] == 0.0 || row.strain[2] == 0.0;
     within.iter().copied().filter(is_pure)
 }
 
-/// The equations of all terms; loaded cells count as far as a first fit follows them.
+/// Returns the equations of all terms. Loaded cells are weighted by their agreement with a first fit.
 fn normal<'a>(
     form: &'a HomogenisedForm,
     strained: &[&Row],
     loaded: &[Row],
 ) -> Result<Normal<'a>, String> {
-    // The one term of the law with heat alone.
+    // Only the law at a temperature has this term.
     let terms = Term::ALL.into_iter().filter(|term| *term != Term::Turn);
     let terms: Vec<Term> = terms.collect();
     let first = Normal::new(form, &terms, &weighted(strained, loaded, None)).best()?;
@@ -91,13 +88,11 @@ fn normal<'a>(
     Ok(Normal::new(form, &terms, &weighted))
 }
 
-/// Strains at which the tangent is held positive.
 fn firm(strained: &[Row]) -> Vec<SixVector> {
     let firm = strained.iter().filter(|row| POSITIVITY.least(row) > FIRM);
     firm.map(Row::six).collect()
 }
 
-/// Whether a point of the grid is within the range.
 fn is_in_range(row: &Row) -> bool {
     let close = 1.0 + 1e-9;
     let [least, _] = RANGE.extension;
@@ -106,7 +101,6 @@ fn is_in_range(row: &Row) -> bool {
         && row.extension >= close * least
 }
 
-/// The form with the natural lengths of the grid.
 fn form(axes: &Axes, grid: &[Row]) -> Result<HomogenisedForm, String> {
     let natural = |twist: &f64| {
         let found = grid
@@ -119,9 +113,8 @@ fn form(axes: &Axes, grid: &[Row]) -> Result<HomogenisedForm, String> {
     fitted_form(axes, &lengths)
 }
 
-/// The form whose natural lengths are nearest to these, one for each twist.
 fn fitted_form(axes: &Axes, lengths: &[f64]) -> Result<HomogenisedForm, String> {
-    // Relative differences count, but for 1e-5.
+    // Relative errors, with a floor of 1e-5.
     let sizes: Vec<f64> = lengths.iter().map(|n| 1e-5 + 0.01 * n.abs()).collect();
     let units: Vec<_> = axes
         .twist

@@ -1,4 +1,4 @@
-//! Cells at strains all over a region.
+//! Cells at strains that fill a region.
 
 use super::super::region::{self, Region};
 use super::super::rows::Row;
@@ -7,7 +7,6 @@ use actin_paper::cells::{shortening, strain, twisted};
 use actin_sim::ellipsoid::{Cell, SixVector};
 use rayon::prelude::*;
 
-/// Cells at `count` strains of each region, but for those without an equilibrium.
 pub(super) fn strained(
     cells: &[Cell],
     form: &HomogenisedForm,
@@ -29,7 +28,6 @@ pub(super) fn strained(
     of_all(strains.par_iter().enumerate().map(row))
 }
 
-/// The strains and extensions of some rows, each on the next of some cells, but for those without an equilibrium.
 pub(super) fn again(cells: &[Cell], rows: &[&Row]) -> Result<Vec<Row>, String> {
     let row = |(k, row): (usize, &&Row)| {
         let [curvature, twist, shear, _, angle] = row.strain;
@@ -44,7 +42,6 @@ pub(super) fn again(cells: &[Cell], rows: &[&Row]) -> Result<Vec<Row>, String> {
     of_all(rows.par_iter().enumerate().map(row))
 }
 
-/// Those that there are.
 fn of_all(
     rows: impl ParallelIterator<Item = Result<Option<Row>, String>>,
 ) -> Result<Vec<Row>, String> {

@@ -1,4 +1,4 @@
-//! Tables of how far a law follows cells.
+//! Tables of the errors of a law.
 
 use super::super::region::Region;
 use super::super::rows::Row;
@@ -8,13 +8,11 @@ use actin_cosserat::Homogenised;
 use actin_sim::ellipsoid::SixVector;
 use std::fmt::Write as _;
 
-/// Strains at which the tangent is looked at that were not used to hold it positive.
+/// Number of independent strains at which the tangent is checked.
 const LOOKS: u64 = 20_000;
 
-/// Cells bent beyond the range.
 const STRONGLY_BENT: &str = "strongly bent";
 
-/// The kind of a loaded cell.
 fn kind(row: &Row) -> &'static str {
     match row.loads[5] {
         _ if row.strain[0] > RANGE.curvature => STRONGLY_BENT,
@@ -24,8 +22,8 @@ fn kind(row: &Row) -> &'static str {
     }
 }
 
-/// By how much the law strains more under given loads than cells that were not fitted: medians, so that differences between
-/// drawn bonds cancel.
+/// Returns the relative excess of strains of the law under given loads, for validation cells. Medians cancel
+/// differences between sampled bonds.
 pub(super) fn under_loads(law: &Homogenised, rows: &[Row]) -> String {
     let mut table = String::from("\n| cells | number | bending | twist | shear | stretch |\n");
     let _ = writeln!(table, "| --- |{}", " ---: |".repeat(5));
@@ -46,8 +44,6 @@ pub(super) fn under_loads(law: &Homogenised, rows: &[Row]) -> String {
     table
 }
 
-/// By how much more a law bends, twists, shears and stretches under the loads of a cell, in the direction of its strain, as
-/// shares.
 fn more(law: &Homogenised, row: &Row) -> [f64; 4] {
     let off = row.loads - law.loads(&row.six());
     let sums = strain_sums(row);
@@ -62,8 +58,8 @@ fn more(law: &Homogenised, row: &Row) -> [f64; 4] {
     ]
 }
 
-/// At how many strains, which were not used to hold it positive, the tangent is positive: within the range, and up
-/// to twice the range; and at how many strained cells the tangents of cell and law are.
+/// Returns the number of independent strains with a positive tangent, within the range and within twice the range,
+/// and the number of strained cells for which the tangents of cell and law are positive.
 pub(super) fn stability(law: &Homogenised, cells: &[Row]) -> String {
     let mut text = String::new();
     let twice = |x: f64| 2.0 * x;

@@ -1,57 +1,57 @@
-//! What energies, loads and tangents of relaxed cells weigh in the fit of the law without heat.
+//! Weights of energies, loads and tangents of relaxed cells in the fit of the athermal law.
 
 use super::super::fit::Weighted;
 use super::super::rows::{Row, upper};
 use actin_cosserat::Homogenised;
 use actin_sim::ellipsoid::{SixMatrix, SixVector};
 
-/// What counts as a difference of 1: a share of the value, and energy (pN), bending couple, twisting couple
-/// (pN nm), shear force and tension (pN).
+/// Unit residual: a fraction of the value, and energy (pN), bending torque, twisting torque (pN nm), shear force,
+/// tension (pN).
 const SHARE: f64 = 0.05;
 const FLOORS: [f64; 5] = [0.01, 0.5, 0.5, 0.1, 1.0];
-/// Floor of the twisting couple (pN nm) of the straight filament, which twists easily at rest.
+/// Smallest unit residual of the twisting torque (pN nm) of the straight filament, whose twist is soft at rest.
 const STRAIGHT: f64 = 0.03;
-/// Of the tangent: a share of the roots of diagonal entries, and these at least (pN nm^2, pN). Entries beside the
-/// diagonal count more.
+/// Unit residual of the tangent: a fraction of the square roots of diagonal entries, and lower bounds of these (pN
+/// nm^2, pN). Off-diagonal entries have a larger weight.
 const TANGENT: f64 = 0.33;
 const BESIDE: f64 = 1.4;
 const SOFTEST: [f64; 6] = [5e3, 5e3, 300.0, 12.0, 12.0, 5e3];
-/// Cells with a diagonal entry below this, or an eigenvalue below that, are about to change their branch: their
-/// tangent says nothing of the others.
+/// Cells with a smaller diagonal entry or eigenvalue are close to a change of branch. Their tangents are not
+/// representative.
 const STIFF: [f64; 6] = [1e3, 1e3, -1.0, -1.0, -1.0, 1e3];
 const BRANCH: f64 = -50.0;
-/// Weights of a cell's numbers and of its tangent under given strains: straight, only bent or only sheared, and both; of
-/// pushed cells, which change their branch, the last.
+/// Weights of data and tangent under given strains: straight, with bending or shear, and with both. Compressed cells
+/// have the last weights, since they change their branch.
 const STRAIGHT_CELL: (f64, f64) = (36.0, 150.0);
 const BENT_OR_SHEARED: (f64, f64) = (0.9, 1.4);
 const BOTH: (f64, f64) = (0.6, 0.6);
-/// How much more the tangent counts where the filament is at rest: the stiffness that users know. At other small strains,
-/// of which loaded cells say the same, it counts less.
+/// Factors of the weight of the tangent at rest and at other small strains, for which loaded cells contain the
+/// information.
 const AT_REST: f64 = 6.0;
 const SMALL: f64 = 0.1;
-/// Extension below which a cell counts as pushed, and up to which as at rest; twist (rad/nm) of the same.
+/// Extensions below which a cell is compressed and up to which it is at rest; twist (rad/nm) up to which it is at
+/// rest.
 const REST_EXTENSION: [f64; 2] = [-1e-4, 1e-3];
 const REST_TWIST: f64 = 4e-3;
-/// Difference of a strain under given loads that counts as 1, as a share of the strain.
+/// Unit residual of a strain under given loads, relative to the strain.
 const STRAIN: f64 = 0.01;
-/// The share from which on differences count less than their square: next to a change of branch strains follow loads in no
-/// smooth way.
+/// Relative residual above which the loss grows less than quadratically, since strains close to a change of branch
+/// are not smooth functions of loads.
 const ROBUST: f64 = 0.1;
-/// Least sizes of curvature, twist (rad/nm), shear and stretch; and how much of its size bending lends to twist and
-/// to shear (nm), and shear to bending (1/nm).
+/// Smallest scales of curvature, twist (rad/nm), shear and stretch; contributions of bending to the scales of twist
+/// and shear (nm), and of shear to the scale of bending (1/nm).
 const LEAST: [f64; 4] = [2e-5, 5e-4, 1e-4, 5e-4];
 const BY_BENDING: [f64; 2] = [0.1, 15.0];
 const BY_SHEAR: f64 = 1.0 / 60.0;
-/// Least twisting couple (pN nm), and how much a bending couple adds to it.
+/// Smallest scale of the twisting torque (pN nm), and contribution of the bending torque.
 const TWISTING: [f64; 2] = [0.3, 0.1];
-/// Units of the strains, and the least stiffness (pN) that is counted in them: 800 pN nm^2 of bending, 0.5 of twist,
-/// 2 pN of shear and stretch.
+/// Units of strains, and smallest stiffness (pN) in these units: 800 pN nm^2 for bending, 0.5 for twist, 2 pN for
+/// shear and stretch.
 const UNITS: [f64; 6] = [0.05, 0.05, 2.0, 1.0, 1.0, 1.0];
 const SOFT: f64 = 2.0;
-/// The stiffness of a twist that is held (pN).
+/// Stiffness of a prescribed twist (pN).
 const HELD: f64 = 1e9;
 
-/// What counts as a difference of 1 in each of the numbers of a row.
 fn deviations(row: &Row) -> [f64; 7] {
     let [energy, couple, twisting, force, tension] = FLOORS;
     let is_straight = row.strain[0] == 0.0 && row.strain[2] == 0.0 && row.extension >= 0.0;
@@ -63,7 +63,6 @@ fn deviations(row: &Row) -> [f64; 7] {
     [energy + SHARE * row.energy, m, m, m3, n, n, n3]
 }
 
-/// Weight of a row and of its tangent.
 fn weights(row: &Row) -> (f64, f64) {
     let [curvature, twist, shear, ..] = row.strain;
     let [pushed, rest] = REST_EXTENSION;
@@ -84,7 +83,7 @@ fn weights(row: &Row) -> (f64, f64) {
     (weight, factor * of_tangent)
 }
 
-/// Cells with their weights: under given strains, and loaded ones as far as `law` follows these.
+/// Returns weighted cells: those under given strains, and loaded ones weighted by their agreement with `law`.
 pub(super) fn weighted<'a>(
     strained: &[&'a Row],
     loaded: &'a [Row],
@@ -112,14 +111,13 @@ pub(super) fn weighted<'a>(
     strained.chain(loaded.iter().map(of_loaded)).collect()
 }
 
-/// A sum with less weight where the law is far off.
 fn robust(row: &Row, sum: SixVector, law: Option<&Homogenised>) -> SixVector {
     let off = law.map_or(0.0, |law| sum.dot(&(law.loads(&row.six()) - row.loads)));
     sum / (off / ROBUST).hypot(1.0)
 }
 
-/// Sums of differences of couple and force that are differences of strain under given loads, as shares: of the six strains
-/// where all are free, then of those where the twist is held, with the twisting couple in its place.
+/// Returns linear combinations of torque and force that equal relative strain differences under given loads: for the
+/// six strains if all are free, and with a prescribed twist, where the twisting torque replaces the twist.
 pub(super) fn strain_sums(row: &Row) -> [SixVector; 12] {
     let [curvature, twist, shear, stretch, _] = row.strain;
     let [least_bend, least_twist, least_shear, least_stretch] = LEAST;
@@ -141,7 +139,8 @@ pub(super) fn strain_sums(row: &Row) -> [SixVector; 12] {
     })
 }
 
-/// The inverse of a tangent, soft directions as stiff as [`SOFT`]; where the twist is held, of the other strains.
+/// Returns the inverse of the tangent, with a stiffness of at least [`SOFT`] in all directions. With a prescribed
+/// twist, the inverse is that for the other strains.
 fn compliance(tangent: &SixMatrix, is_held: bool) -> SixMatrix {
     let unit = SixMatrix::from_diagonal(&UNITS.into());
     let mut scaled = unit * tangent * unit;
@@ -156,7 +155,6 @@ fn compliance(tangent: &SixMatrix, is_held: bool) -> SixMatrix {
     vectors * SixMatrix::from_diagonal(&inverse) * vectors.transpose()
 }
 
-/// Entries of the tangent that count, with their weights.
 fn entries(row: &Row) -> Vec<((usize, usize), f64)> {
     let diagonal = row.tangent.diagonal();
     let is_firm = (0..6).all(|k| diagonal[k] > STIFF[k]) && row.least_stiffness() > BRANCH;

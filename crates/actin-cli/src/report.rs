@@ -1,9 +1,12 @@
-//! What is printed of a run that has ended.
+//! Printed report of a finished run.
 
 use actin_sim::{Note, StabilitySummary, Status, Summary};
 use std::path::Path;
 
-/// Prints a run that has ended, without the notes that are `known` from before it.
+/// Largest number of further filaments with a printed tip displacement.
+const MOST_TIPS: usize = 8;
+
+/// Prints the report of a run, without the notes in `known`, which were printed before it.
 pub(crate) fn print(summary: &Summary, known: &[Note], out: &Path) {
     let work = &summary.work;
     let stability = summary.stability.as_ref().map(stability_in_words);
@@ -24,7 +27,7 @@ pub(crate) fn print(summary: &Summary, known: &[Note], out: &Path) {
     }
     print_tips(summary);
     println!(
-        "energy {:.6} pN nm, of it elastic {:.6}; residual {:.1e} pN, {:.1e} pN nm",
+        "energy {:.6} pN nm (elastic {:.6}); residual {:.1e} pN, {:.1e} pN nm",
         summary.energy_pn_nm.total,
         summary.energy_pn_nm.elastic,
         summary.residual.force_pn,
@@ -39,7 +42,6 @@ pub(crate) fn print(summary: &Summary, known: &[Note], out: &Path) {
     println!("{ending}written to {}", out.display());
 }
 
-/// Prints notes, warnings and other states of a run, also of one that has failed.
 pub(crate) fn print_remarks(summary: &Summary, known: &[Note]) {
     if let Some(states) = &summary.states {
         println!("{states}");
@@ -66,20 +68,26 @@ fn print_pushes(summary: &Summary) {
     }
 }
 
+/// Prints the tip displacements of the first filaments.
 fn print_tips(summary: &Summary) {
     let [x, y, z] = summary.tip_displacement_nm;
     println!("tip displacement ({x:.4}, {y:.4}, {z:.4}) nm");
-    for (i, filament) in summary.filaments.iter().enumerate().skip(1) {
+    let others = summary.filaments.iter().enumerate().skip(1);
+    for (i, filament) in others.take(MOST_TIPS) {
         let [x, y, z] = filament.tip_displacement_nm;
         println!("  of filament {i} ({x:.4}, {y:.4}, {z:.4}) nm");
+    }
+    let rest = summary.filaments.len().saturating_sub(1 + MOST_TIPS);
+    if rest > 0 {
+        println!("  and of {rest} more filaments in summary.json");
     }
 }
 
 pub(crate) fn in_words(status: Status) -> &'static str {
     match status {
         Status::Converged => "stop rule met",
-        Status::Completed => "time is up",
-        Status::Failed => "broken off",
+        Status::Completed => "end time reached",
+        Status::Failed => "failed",
         Status::Interrupted => "interrupted",
     }
 }

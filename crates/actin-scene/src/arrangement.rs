@@ -1,0 +1,303 @@
+//! Arrangements of many filaments: copies, random networks and bundles.
+
+use super::rules::{all_finite, direction, non_negative, positive, show};
+use super::{Filament, SceneProblem, Section};
+use actin_mechanics::Vector3;
+use rand::{Rng, RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use serde::{Deserialize, Serialize};
+use std::f64::consts::TAU;
+
+/// Largest number of filaments of one arrangement.
+const MOST_FILAMENTS: usize = 100_000;
+
+/// A rule that places many filaments. The arranged filaments follow the listed filaments in the order of the arrangements.
+///
+/// The resolved scene lists each filament.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub enum Arrangement {
+    /// Copies of a filament, each displaced from its predecessor.
+    Copies {
+        /// The first copy.
+        filament: Filament,
+        /// Number of copies; from 1 to 100,000.
+        count: usize,
+        /// Displacement from one copy to the next (lab frame); finite, not zero.
+        shift_nm: [f64; 3],
+    },
+    /// Filaments with uniformly distributed midpoints in a box, rotated about their axes by random angles.
+    Random {
+        /// Filament to place. Its `at_nm` is ignored; its `direction` counts for parallel orientations.
+        filament: Filament,
+        /// Number of filaments; from 1 to 100,000.
+        count: usize,
+        /// Edges of the box along x, y and z; at least 0. Ends of filaments may lie outside of the box.
+        box_nm: [f64; 3],
+        /// Centre of the box (lab frame); finite.
+        #[serde(default)]
+        centre_nm: [f64; 3],
+        /// Distribution of directions.
+        #[serde(default)]
+        orientation: Orientation,
+        /// Bounds of uniformly distributed lengths; positive, in ascending order. Requires a filament of one section. By
+        /// default all filaments are as long as `filament`.
+        #[serde(default)]
+        lengths_nm: Option<[f64; 2]>,
+        /// Seed of places, directions and lengths.
+        seed: u64,
+    },
+    /// Parallel filaments on a hexagonal lattice, filled from its centre outwards.
+    Bundle {
+        /// The central filament.
+        filament: Filament,
+        /// Number of filaments; from 1 to 100,000. 7, 19 and 37 are complete hexagons.
+        count: usize,
+        /// Distance between neighbouring axes; positive.
+        spacing_nm: f64,
+        /// Largest displacement along the axis, uniformly distributed from 0; at least 0.
+        #[serde(default)]
+        stagger_nm: f64,
+        /// True if the direction of each filament is reversed with probability one half.
+        #[serde(default)]
+        mixed_polarity: bool,
+        /// Seed of displacements and polarities.
+        #[serde(default)]
+        seed: u64,
+    },
+}
+
+/// Distribution of the directions of filaments.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub enum Orientation {
+    /// Uniform on the sphere.
+    #[default]
+    Isotropic,
+    /// Uniform in the plane of x and y.
+    Planar,
+    /// The `direction` of the filament.
+    Parallel,
+    /// The `direction` of the filament or its opposite, with equal probability.
+    Antiparallel,
+}
+
+impl Arrangement {
+    /// Returns the placed filament of the rule.
+    pub fn filament(&self) -> &Filament {
+        match self {
+            Self::Copies { filament, .. }
+            | Self::Random { filament, .. }
+            | Self::Bundle { filament, .. } => filament,
+        }
+    }
+
+    fn count(&self) -> usize {
+        match self {
+            Self::Copies { count, .. }
+            | Self::Random { count, .. }
+            | Self::Bundle { count, .. } => *count,
+        }
+    }
+
+    /// Returns the filaments of arrangement `k` of a scene.
+    ///
+    /// # Errors
+    /// A number against its rule, with its key.
+    pub(super) fn filaments(&self, k: usize) -> Result<Vec<Filament>, SceneProblem> {
+        self.check(k)?;
+        Ok(match self {
+            Self::Copies {
+                filament,
+                count,
+                shift_nm,
+            } => copies(filament, *count, Vector3::from(*shift_nm)),
+            Self::Random {
+                filament,
+                count,
+                seed,
+                ..
+            } => {
+                let mut random = ChaCha8Rng::seed_from_u64(*seed);
+                (0..*count)
+                    .map(|_| self.random(filament.clone(), &mut random))
+                    .collect()
+            }
+            Self::Bundle { filament, seed, .. } => {
+                self.bundle(filament, ChaCha8Rng::seed_from_u64(*seed))
+            }
+        })
+    }
+
+    fn check(&self, k: usize) -> Result<(), SceneProblem> {
+        let key = |name: &str| format!("arrangements[{k}].{name}");
+        let count = self.count();
+        if !(1..=MOST_FILAMENTS).contains(&count) {
+            let rule = format!("must be from 1 to {MOST_FILAMENTS}");
+            return Err(SceneProblem::new(key("count"), count, rule));
+        }
+        let filament = self.filament();
+        all_finite(&key("filament.at_nm"), filament.at_nm)?;
+        direction(&key("filament.direction"), filament.direction)?;
+        match self {
+            Self::Copies { shift_nm, .. } => direction(&key("shift_nm"), *shift_nm),
+            Self::Random {
+                box_nm,
+                centre_nm,
+                lengths_nm,
+                ..
+            } => {
+                box_nm
+                    .iter()
+                    .try_for_each(|edge| non_negative(&key("box_nm"), *edge))?;
+                all_finite(&key("centre_nm"), *centre_nm)?;
+                lengths_nm.map_or(Ok(()), |lengths| {
+                    check_lengths(&key("lengths_nm"), lengths, filament)
+                })
+            }
+            Self::Bundle {
+                spacing_nm,
+                stagger_nm,
+                ..
+            } => {
+                positive(&key("spacing_nm"), *spacing_nm)?;
+                non_negative(&key("stagger_nm"), *stagger_nm)
+            }
+        }
+    }
+
+    fn random(&self, mut filament: Filament, random: &mut ChaCha8Rng) -> Filament {
+        let Self::Random {
+            box_nm,
+            centre_nm,
+            orientation,
+            lengths_nm,
+            ..
+        } = self
+        else {
+            return filament;
+        };
+        if let (Some([low, high]), Some(last)) = (lengths_nm, filament.sections.last_mut()) {
+            last.end_at(low + (high - low) * unit(random));
+        }
+        filament.direction = orientation.draw(&filament, random).into();
+        filament.roll_deg = 360.0 * unit(random);
+        filament.at_nm = [0.0; 3];
+        let midpoint = filament.place_at(0.5 * filament.length_nm());
+        let place = Vector3::from_fn(|i, _| centre_nm[i] + box_nm[i] * (unit(random) - 0.5));
+        filament.at_nm = (place - midpoint).into();
+        filament
+    }
+
+    fn bundle(&self, filament: &Filament, mut random: ChaCha8Rng) -> Vec<Filament> {
+        let Self::Bundle {
+            count,
+            spacing_nm,
+            stagger_nm,
+            mixed_polarity,
+            ..
+        } = self
+        else {
+            return Vec::new();
+        };
+        let (axis, turn) = (filament.axis(), filament.rotation());
+        let length = filament.length_nm();
+        let place = |lattice: [f64; 2]| {
+            let mut one = filament.clone();
+            let across = turn * Vector3::new(lattice[0], lattice[1], 0.0) * *spacing_nm;
+            let along = axis * (*stagger_nm * unit(&mut random));
+            let mut at = Vector3::from(filament.at_nm) + across + along;
+            if *mixed_polarity && unit(&mut random) < 0.5 {
+                one.direction = one.direction.map(|x| -x);
+                at += axis * length;
+            }
+            one.at_nm = at.into();
+            one
+        };
+        hexagonal(*count).into_iter().map(place).collect()
+    }
+}
+
+fn copies(filament: &Filament, count: usize, shift: Vector3) -> Vec<Filament> {
+    let copy = |i: usize| {
+        let at = Vector3::from(filament.at_nm) + shift * i as f64;
+        Filament {
+            at_nm: at.into(),
+            ..filament.clone()
+        }
+    };
+    (0..count).map(copy).collect()
+}
+
+fn check_lengths(key: &str, lengths: [f64; 2], filament: &Filament) -> Result<(), SceneProblem> {
+    lengths
+        .iter()
+        .try_for_each(|length| positive(key, *length))?;
+    if lengths[0] > lengths[1] {
+        let rule = "must be in ascending order";
+        return Err(SceneProblem::new(key, show(lengths), rule));
+    }
+    if filament.sections.len() != 1 {
+        let rule = "requires a filament of one section";
+        return Err(SceneProblem::new(key, show(lengths), rule));
+    }
+    Ok(())
+}
+
+impl Orientation {
+    /// Draws a unit vector.
+    fn draw(self, filament: &Filament, random: &mut ChaCha8Rng) -> Vector3 {
+        match self {
+            Self::Isotropic => {
+                let (z, azimuth) = (2.0 * unit(random) - 1.0, TAU * unit(random));
+                let across = (1.0 - z * z).sqrt();
+                Vector3::new(across * azimuth.cos(), across * azimuth.sin(), z)
+            }
+            Self::Planar => {
+                let azimuth = TAU * unit(random);
+                Vector3::new(azimuth.cos(), azimuth.sin(), 0.0)
+            }
+            Self::Parallel => filament.axis(),
+            Self::Antiparallel => filament.axis() * if unit(random) < 0.5 { -1.0 } else { 1.0 },
+        }
+    }
+}
+
+/// Returns a uniformly distributed number from 0 to 1.
+fn unit(random: &mut impl Rng) -> f64 {
+    random.random()
+}
+
+/// Returns the `count` places of a hexagonal lattice with spacing 1 that are closest to the origin, by distance and azimuth.
+fn hexagonal(count: usize) -> Vec<[f64; 2]> {
+    let holds = |rings: i32| 1 + 3 * i64::from(rings) * i64::from(rings + 1);
+    let mut rings = 0;
+    while usize::try_from(holds(rings)).is_ok_and(|held| held < count) {
+        rings += 1;
+    }
+    let rows = -rings..=rings;
+    let places = rows.flat_map(|i| (-rings..=rings).map(move |j| (i, j)));
+    let places = places.filter(|(i, j)| (i + j).abs() <= rings);
+    let mut places: Vec<(i32, f64, [f64; 2])> = places
+        .map(|(i, j)| {
+            let place = [
+                f64::from(i) + 0.5 * f64::from(j),
+                0.75_f64.sqrt() * f64::from(j),
+            ];
+            let azimuth = place[1].atan2(place[0]).rem_euclid(TAU);
+            (i * i + i * j + j * j, azimuth, place)
+        })
+        .collect();
+    places.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
+    places.truncate(count);
+    places.into_iter().map(|(.., place)| place).collect()
+}
+
+impl Section {
+    /// Moves the end of the section to an arc length (nm).
+    fn end_at(&mut self, s_nm: f64) {
+        let (Self::Ellipsoids { to_nm, .. } | Self::Rod { to_nm, .. }) = self;
+        *to_nm = s_nm;
+    }
+}

@@ -1,0 +1,369 @@
+//! Random linkers between neighbouring filaments.
+
+use super::rules::{non_negative, positive};
+use super::{Filament, Kinetics, Linker, LinkerSite, SceneProblem};
+use actin_mechanics::Vector3;
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use serde::{Deserialize, Serialize};
+use std::collections::HashMap;
+
+/// Default distance between sites (nm): half the pitch of the long-pitch helix.
+const SITE_SPACING_NM: f64 = 36.0;
+
+/// Largest number of sites of all filaments.
+const MOST_SITES: f64 = 1e7;
+
+/// Linkers between random pairs of sites of different filaments. Sites lie on the axes at equal distances; each site has one
+/// linker at most. The linkers follow the listed linkers.
+///
+/// The resolved scene lists each linker.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct LinkersBetween {
+    /// Number of linkers divided by the number of filaments; positive.
+    pub per_filament: f64,
+    /// Largest distance between two linked sites as built; positive.
+    pub reach_nm: f64,
+    /// Smallest distance between two linked sites as built; at least 0.
+    #[serde(default)]
+    pub least_reach_nm: f64,
+    /// Distance between neighbouring sites of a filament; positive. The first site is half of it from the start.
+    #[serde(default = "site_spacing")]
+    pub site_spacing_nm: f64,
+    /// Stiffness; positive.
+    pub stiffness_pn_per_nm: f64,
+    /// Rest length; at least 0. By default the distance of the two sites as built, so that linkers begin without force.
+    #[serde(default)]
+    pub rest_length_nm: Option<f64>,
+    /// Rates at which they break, form and step; by default they hold throughout.
+    #[serde(default)]
+    pub kinetics: Option<Kinetics>,
+    /// Seed of the choice of pairs.
+    pub seed: u64,
+}
+
+fn site_spacing() -> f64 {
+    SITE_SPACING_NM
+}
+
+/// Site of a filament with its place as built (nm).
+struct Site {
+    filament: usize,
+    at_nm: f64,
+    place: Vector3,
+}
+
+/// Pair of sites with their distance (nm).
+type Pair = (usize, usize, f64);
+
+impl LinkersBetween {
+    /// Returns the linkers of set `k` of a scene with these filaments.
+    ///
+    /// # Errors
+    /// A number against its rule; fewer pairs of sites within reach than linkers.
+    pub(super) fn linkers(
+        &self,
+        k: usize,
+        filaments: &[Filament],
+    ) -> Result<Vec<Linker>, SceneProblem> {
+        self.check(k, filaments)?;
+        let sites = self.sites(filaments);
+        let mut pairs = self.pairs(&sites);
+        let reachable = pairs.len();
+        let chosen = self.choose(&mut pairs, (sites.len(), filaments.len()));
+        chosen.map_err(|(found, wanted)| {
+            let rule = format!(
+                "{wanted} linkers are wanted, but only {found} pairs of unoccupied sites were found among {reachable} \
+                 pairs of sites within reach: increase reach_nm or reduce site_spacing_nm"
+            );
+            SceneProblem::new(
+                format!("linker_sets[{k}].per_filament"),
+                self.per_filament,
+                rule,
+            )
+        })?;
+        Ok(pairs
+            .iter()
+            .map(|pair| self.linker(&sites, *pair))
+            .collect())
+    }
+
+    fn check(&self, k: usize, filaments: &[Filament]) -> Result<(), SceneProblem> {
+        let key = |name: &str| format!("linker_sets[{k}].{name}");
+        positive(&key("per_filament"), self.per_filament)?;
+        positive(&key("reach_nm"), self.reach_nm)?;
+        non_negative(&key("least_reach_nm"), self.least_reach_nm)?;
+        positive(&key("site_spacing_nm"), self.site_spacing_nm)?;
+        positive(&key("stiffness_pn_per_nm"), self.stiffness_pn_per_nm)?;
+        if let Some(length) = self.rest_length_nm {
+            non_negative(&key("rest_length_nm"), length)?;
+        }
+        let length: f64 = filaments.iter().map(Filament::length_nm).sum();
+        let sites = length / self.site_spacing_nm;
+        if sites.is_finite() && sites <= MOST_SITES {
+            return Ok(());
+        }
+        let rule = format!("makes {sites:.0} sites, more than {MOST_SITES:.0}");
+        Err(SceneProblem::new(
+            key("site_spacing_nm"),
+            self.site_spacing_nm,
+            rule,
+        ))
+    }
+
+    fn sites(&self, filaments: &[Filament]) -> Vec<Site> {
+        let of_filament = |(filament, one): (usize, &Filament)| {
+            let length = one.length_nm();
+            let places = (0..).map(|i| (f64::from(i) + 0.5) * self.site_spacing_nm);
+            let places: Vec<f64> = places.take_while(|s| *s <= length).collect();
+            let site = |(at_nm, place)| Site {
+                filament,
+                at_nm,
+                place,
+            };
+            let built = one.places_at(&places);
+            places.into_iter().zip(built).map(site).collect::<Vec<_>>()
+        };
+        filaments.iter().enumerate().flat_map(of_filament).collect()
+    }
+
+    /// Returns the pairs of sites of different filaments within reach, from a search in cubes with the reach as edge.
+    fn pairs(&self, sites: &[Site]) -> Vec<Pair> {
+        #[expect(
+            clippy::cast_possible_truncation,
+            reason = "saturates far outside of any filament"
+        )]
+        let cell = |place: &Vector3| place.map(|x| (x / self.reach_nm).floor() as i64);
+        let mut cells: HashMap<[i64; 3], Vec<usize>> = HashMap::new();
+        let mut pairs = Vec::new();
+        for (i, site) in sites.iter().enumerate() {
+            let centre = cell(&site.place);
+            for step in 0..27 {
+                let neighbour = [step % 3, step / 3 % 3, step / 9];
+                let neighbour = std::array::from_fn(|k| centre[k] + neighbour[k] - 1);
+                for &j in cells.get(&neighbour).into_iter().flatten() {
+                    let distance = (site.place - sites[j].place).norm();
+                    let is_near = distance <= self.reach_nm && distance >= self.least_reach_nm;
+                    if is_near && sites[j].filament != site.filament {
+                        pairs.push((j, i, distance));
+                    }
+                }
+            }
+            cells.entry(centre.into()).or_default().push(i);
+        }
+        pairs
+    }
+
+    /// Reduces `pairs` to a random choice without a common site, in the order of sites; returns the number found and the
+    /// number wanted if there are too few.
+    fn choose(
+        &self,
+        pairs: &mut Vec<Pair>,
+        (sites, filaments): (usize, usize),
+    ) -> Result<(), (usize, usize)> {
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "a positive number; more than the number of pairs is refused"
+        )]
+        let wanted = (self.per_filament * filaments as f64).round().max(1.0) as usize;
+        let mut random = ChaCha8Rng::seed_from_u64(self.seed);
+        let mut is_free = vec![true; sites];
+        let mut chosen = 0;
+        let mut next = 0;
+        while chosen < wanted && next < pairs.len() {
+            let drawn = random.random_range(next..pairs.len());
+            pairs.swap(next, drawn);
+            let (i, j, _) = pairs[next];
+            if is_free[i] && is_free[j] {
+                (is_free[i], is_free[j]) = (false, false);
+                pairs.swap(chosen, next);
+                chosen += 1;
+            }
+            next += 1;
+        }
+        pairs.truncate(chosen);
+        pairs.sort_by_key(|(i, j, _)| (*i, *j));
+        if chosen < wanted {
+            return Err((chosen, wanted));
+        }
+        Ok(())
+    }
+
+    fn linker(&self, sites: &[Site], (i, j, distance): Pair) -> Linker {
+        Linker {
+            filament: sites[i].filament,
+            at_nm: sites[i].at_nm,
+            radius_nm: 0.0,
+            azimuth_deg: 0.0,
+            to: Some(LinkerSite {
+                filament: sites[j].filament,
+                at_nm: sites[j].at_nm,
+                radius_nm: 0.0,
+                azimuth_deg: 0.0,
+            }),
+            anchor_nm: None,
+            displaced_nm: None,
+            stiffness_pn_per_nm: self.stiffness_pn_per_nm,
+            rest_length_nm: self.rest_length_nm.unwrap_or(distance),
+            kinetics: self.kinetics,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Scene;
+    use std::collections::HashSet;
+
+    const NETWORK: &str = "Scene(
+        arrangements: [Random(
+            filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 1000.0)]),
+            count: 40, box_nm: (1500.0, 1500.0, 1500.0), seed: 3,
+        )],
+        linker_sets: [LinkersBetween(
+            per_filament: 2.5, reach_nm: 100.0, least_reach_nm: 5.0, stiffness_pn_per_nm: 0.2, seed: 4,
+        )],
+        task: Brownian(duration_ms: 0.001, temperature_k: 298.0, seed: 1),
+    )";
+
+    fn site_of(scene: &Scene, site: LinkerSite) -> Vector3 {
+        let filament = scene.filament_at(site.filament).expect("it exists");
+        filament.place_at(site.at_nm)
+    }
+
+    /// Linkers join different filaments within reach, without force, each site once, and the resolved text describes the
+    /// same scene.
+    #[test]
+    fn linkers_of_a_random_network_are_within_reach() {
+        let scene = Scene::from_ron(NETWORK).expect("the scene is valid");
+        assert_eq!(
+            (scene.number_of_filaments(), scene.linkers.len()),
+            (40, 100)
+        );
+        let mut sites = HashSet::new();
+        for linker in &scene.linkers {
+            let to = linker.to.expect("it joins two sites");
+            assert_ne!(linker.filament, to.filament);
+            let distance = (site_of(&scene, linker.site()) - site_of(&scene, to)).norm();
+            assert!((5.0..=100.0).contains(&distance));
+            // Places are of the size of 1000 nm.
+            assert!((distance - linker.rest_length_nm).abs() < 1e-9);
+            for site in [linker.site(), to] {
+                assert!(sites.insert((site.filament, site.at_nm.to_bits())));
+            }
+        }
+        let again = Scene::from_ron(&scene.to_ron()).expect("the resolved scene is valid");
+        assert_eq!(again, scene);
+    }
+
+    /// The search in cubes finds the pairs of a direct search.
+    #[test]
+    fn pairs_are_those_of_a_direct_search() {
+        let scene = Scene::from_ron(NETWORK).expect("the scene is valid");
+        let filaments: Vec<Filament> = scene.filaments().cloned().collect();
+        let set = LinkersBetween {
+            per_filament: 1.0,
+            reach_nm: 80.0,
+            least_reach_nm: 10.0,
+            site_spacing_nm: 50.0,
+            stiffness_pn_per_nm: 1.0,
+            rest_length_nm: None,
+            kinetics: None,
+            seed: 1,
+        };
+        let sites = set.sites(&filaments);
+        assert_eq!(sites.len(), 40 * 20);
+        let found: HashSet<(usize, usize)> =
+            set.pairs(&sites).iter().map(|(i, j, _)| (*i, *j)).collect();
+        let all = (0..sites.len()).flat_map(|j| (0..j).map(move |i| (i, j)));
+        let direct: HashSet<(usize, usize)> = all
+            .filter(|(i, j)| {
+                let distance = (sites[*i].place - sites[*j].place).norm();
+                (10.0..=80.0).contains(&distance) && sites[*i].filament != sites[*j].filament
+            })
+            .collect();
+        assert!(direct.len() > 100);
+        assert_eq!(found, direct);
+    }
+
+    /// A set with more linkers than pairs within reach is refused with its key.
+    #[test]
+    fn too_many_linkers_are_refused() {
+        let text = NETWORK.replace("reach_nm: 100.0, least_reach_nm: 5.0", "reach_nm: 1.0");
+        let refused = Scene::from_ron(&text)
+            .expect_err("too few pairs")
+            .to_string();
+        assert!(refused.contains("linker_sets[0].per_filament") && refused.contains("100 linkers"));
+    }
+
+    /// Each mistake of an arrangement is refused with its key.
+    #[test]
+    fn mistakes_of_arrangements_are_refused() {
+        for (right, wrong, key) in [
+            ("count: 40", "count: 0", "arrangements[0].count"),
+            (
+                "1500.0, 1500.0, 1500.0",
+                "1500.0, -1.0, 1500.0",
+                "arrangements[0].box_nm",
+            ),
+            (
+                "to_nm: 1000.0",
+                "to_nm: -1.0",
+                "arrangements[0].filament.sections[0]",
+            ),
+            (
+                "seed: 3",
+                "seed: 3, lengths_nm: (2.0, 1.0)",
+                "arrangements[0].lengths_nm",
+            ),
+        ] {
+            let text = NETWORK.replace(right, wrong);
+            let refused = Scene::from_ron(&text).expect_err(wrong).to_string();
+            assert!(refused.contains(key), "{refused}");
+        }
+    }
+
+    /// The filaments of a bundle are neighbours on a hexagonal lattice, also along a tilted axis.
+    #[test]
+    fn bundles_are_hexagonal() {
+        let scene = Scene::from_ron(
+            "Scene(
+                arrangements: [
+                    Bundle(
+                        filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 300.0)], direction: (1.0, 2.0, 2.0)),
+                        count: 7, spacing_nm: 12.0, stagger_nm: 30.0, mixed_polarity: true, seed: 2,
+                    ),
+                    Copies(
+                        filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 300.0)], at_nm: (500.0, 0.0, 0.0)),
+                        count: 3, shift_nm: (0.0, 20.0, 0.0),
+                    ),
+                ],
+                task: Brownian(duration_ms: 0.001, temperature_k: 298.0, seed: 1),
+            )",
+        );
+        let scene = scene.expect("the scene is valid");
+        let filaments: Vec<&Filament> = scene.filaments().collect();
+        let axis = Vector3::new(1.0, 2.0, 2.0) / 3.0;
+        let across = |i: usize, j: usize| {
+            let shift = filaments[i].place_at(150.0) - filaments[j].place_at(150.0);
+            let along = shift.dot(&axis);
+            assert!(along.abs() <= 30.0);
+            (shift - axis * along).norm()
+        };
+        for i in 1..7 {
+            assert!((across(0, i) - 12.0).abs() < 1e-9);
+            let neighbours = (1..7).filter(|j| *j != i && (across(i, *j) - 12.0).abs() < 1e-9);
+            assert_eq!(neighbours.count(), 2);
+        }
+        let reversed = filaments[..7]
+            .iter()
+            .filter(|one| one.axis().dot(&axis) < 0.0);
+        assert!((1..7).contains(&reversed.count()));
+        let third = Vector3::from(filaments[9].at_nm);
+        assert!((third - Vector3::new(500.0, 40.0, 0.0)).norm() < 1e-12);
+    }
+}
