@@ -65,7 +65,7 @@ impl Scene {
     fn new(py: Python<'_>, keys: Option<&Bound<'_, PyDict>>) -> PyResult<Self> {
         let value = match keys {
             Some(keys) => from_python(keys.as_any())?,
-            None => SceneValue::Keys(Vec::new()),
+            None => SceneValue::keys(Vec::new()),
         };
         Self::of_value(py, &value, Some(Path::new("")))
     }

@@ -93,7 +93,7 @@ pub use stage::unset_loads;
 pub use support::is_across;
 pub use text::{Override, SceneText};
 pub use thermal::{BOLTZMANN_PN_NM_PER_K, Thermal};
-pub use tree::{Kind, SceneValue};
+pub use tree::{Kind as SceneKind, SceneValue};
 pub use types::{
     Clamp, Dynamics, End, Equilibrium, Filament, Hinge, Hold, Integrator, Pace, Scene, Setting,
     Slides, Stage, StopTolerances, Task,

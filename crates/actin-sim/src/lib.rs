@@ -48,9 +48,9 @@ pub use actin_scene::{
     Forming, Hinge, Hold, Imperfection, Integrator, Interfaces, JunctionModel, JunctionWeight,
     Kinetics, Linker, LinkerSite, Load, Material, Monomers, Observable, Output, Override, Pace,
     Plane, Point, Quantity, Repulsion, RodLaw, RodLaws, RodModel, RotaryInertia, Scene, SceneError,
-    SceneProblem, SceneText, SceneValue, Section, Sections, Setting, Shape, ShearLaw, Slides,
-    Sphere, SphereSide, Stage, Stepping, StopTolerances, StretchLaw, Task, Thermal, TwistLaw,
-    TwistRise, TwistStretchLaw, Want, Water, Where,
+    SceneKind, SceneProblem, SceneText, SceneValue, Section, Sections, Setting, Shape, ShearLaw,
+    Slides, Sphere, SphereSide, Stage, Stepping, StopTolerances, StretchLaw, Task, Thermal,
+    TwistLaw, TwistRise, TwistStretchLaw, Want, Water, Where,
 };
 pub use actin_scene::{Readings, read_all, read_ron};
 pub use assembly::{
