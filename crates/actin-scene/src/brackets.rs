@@ -17,8 +17,8 @@ pub(super) fn mistake(text: &str, file: &str, parsed: &Parsed) -> Option<SceneEr
         let message = format!("brackets are nested more than {MOST_DEPTH} deep here");
         return error(at, &message);
     }
-    if let Some((at, None)) = brackets.misfit {
-        return error(at, &format!("this {} closes nothing", &text[at..=at]));
+    if let Some(at) = brackets.unclosed_text {
+        return error(at, "a text begins here and does not end: a quotation mark is missing");
     }
     let is_broken = brackets.misfit.is_some() || brackets.is_unclosed;
     if !is_broken && !brackets.has_listed_key {
@@ -29,11 +29,11 @@ pub(super) fn mistake(text: &str, file: &str, parsed: &Parsed) -> Option<SceneEr
         root: &parsed.root,
         is_broken,
     };
-    let misfit = brackets.misfit.and_then(|(at, open)| Some((open?, at)));
+    let misfit = brackets.misfit.map(|(at, open)| (open, at));
     match signs.suspect(&parsed.root).or(misfit) {
         Some((open, at)) => Some(signs.describe(open, at)),
         None => error(
-            text.len(),
+            text.trim_end().len(),
             &format!("the text ends before the {file} does: a bracket is not closed"),
         ),
     }
@@ -198,7 +198,7 @@ mod tests {
         assert_eq!(found(SCENE), None);
         let unclosed = found(SCENE.trim_end().trim_end_matches(')')).unwrap();
         assert!(unclosed.message.contains("ends before"), "{unclosed}");
-        let extra = found(&format!("{SCENE})")).unwrap();
+        let extra = crate::Scene::from_ron(&format!("{SCENE})")).unwrap_err();
         assert_eq!(extra.to_string(), "12:1: this ) closes nothing");
     }
 }

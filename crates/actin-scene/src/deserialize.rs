@@ -4,14 +4,17 @@ use super::meant::{meant, unknown_choice, unknown_key};
 use super::tree::{Kind, SceneValue, Source};
 use serde::de::value::{StrDeserializer, StringDeserializer};
 use serde::de::{
-    self, DeserializeOwned, DeserializeSeed, Deserializer, EnumAccess, IntoDeserializer, MapAccess,
-    SeqAccess, VariantAccess, Visitor,
+    self, DeserializeOwned, DeserializeSeed, Deserializer, EnumAccess, Expected, IntoDeserializer,
+    MapAccess, SeqAccess, Unexpected, VariantAccess, Visitor,
 };
 use std::borrow::Cow;
 use std::fmt;
 
 /// Name of a newtype of a text that holds a value as it is written.
 pub(super) const AS_WRITTEN: &str = "$written";
+
+/// The choice whose keys may stand without its name.
+const UNNAMED: &str = "Drag";
 
 /// A value that is refused.
 #[derive(Debug)]
@@ -137,6 +140,10 @@ impl de::Error for Refusal {
         Reason::Message(message.to_string()).into()
     }
 
+    fn invalid_type(_: Unexpected<'_>, expected: &dyn Expected) -> Self {
+        Self::custom(format!("is {expected}"))
+    }
+
     fn unknown_field(found: &str, known: &'static [&'static str]) -> Self {
         Reason::UnknownKey(found.to_owned(), known).into()
     }
@@ -213,11 +220,8 @@ impl<'de> Value<'de> {
     fn whole<T: TryFrom<i128>>(&self) -> Result<T, Refusal> {
         let what = "a whole number";
         match self.node.kind {
-            Kind::Whole(value) => T::try_from(value).map_err(|_| {
-                let refusal = self.expected(what, ", not negative and not beyond 2^64");
-                let at = Some(self.node.place.value.end);
-                Refusal { at, ..refusal }
-            }),
+            Kind::Whole(value) => T::try_from(value)
+                .map_err(|_| self.expected(what, ", not negative and not beyond 2^64")),
             Kind::Number(_) => {
                 let refusal = self.expected(what, "");
                 let fraction = match self.node.place.source {
@@ -280,7 +284,6 @@ impl<'de> Value<'de> {
     /// What stands in the place of a key.
     fn unkeyed(&self) -> Refusal {
         let place = &self.node.place;
-        let at = place.value.start;
         match &self.node.kind {
             Kind::Name(name) if name.starts_with(|c: char| c.is_lowercase() || c == '_') => {
                 Refusal::new(place.value.end, "a colon is expected between key and value")
@@ -290,9 +293,6 @@ impl<'de> Value<'de> {
                 self.written()
             )),
             Kind::Text(_) => self.expected("a name", ""),
-            Kind::Unread if self.text[at..].starts_with('#') => {
-                self.refused("a key is expected; comments begin with //")
-            }
             _ => self.expected("a name", ""),
         }
     }
@@ -427,12 +427,16 @@ impl<'de> Deserializer<'de> for Value<'de> {
         match &node.kind {
             Kind::Name(_) | Kind::Group(Some(_), _) => {}
             Kind::Text(_) if node.is_dictionary() => {}
-            Kind::Group(None, _) if choices.contains(&kind) => {}
+            Kind::Group(None, _) if kind == UNNAMED => {}
             _ if node.is_dictionary() => {
                 let (first, known) = (choices.first().unwrap_or(&""), choices.join(", "));
                 return Err(self.refused(format!(
                     "{kind} is a name, or a name with its keys as in {{\"{first}\": {{}}}}: known are {known}"
                 )));
+            }
+            _ if kind == UNNAMED => {
+                let known = choices.join("(..) or ");
+                return Err(self.expected(&format!("{known}(..)"), ""));
             }
             _ => return Err(self.expected("a name", "")),
         }

@@ -147,7 +147,7 @@ mod tests {
     #[test]
     fn mistakes_are_told() {
         for (drag, told) in [
-            ("Oil(viscosity_mpa_s: 1.0)", "unknown Fluid Oil"),
+            ("Oil(viscosity_mpa_s: 1.0)", "unknown Drag Oil"),
             ("Water(viscosity: 1.0)", "write viscosity_mpa_s"),
             ("Water(viscosity_mpa_s: -1.0)", "task.drag.viscosity_mpa_s"),
             ("Water(radius_nm: 20.0)", "task.drag.radius_nm"),
@@ -162,10 +162,10 @@ mod tests {
             ),
             (
                 "(translational_per_ns: 1.0, translational_per_ns: 1.0, rotational_per_ns: 1.0)",
-                "duplicate",
+                "is written twice",
             ),
             ("()", "missing key translational_per_ns"),
-            ("5.0", "Water(viscosity_mpa_s: ..)"),
+            ("5.0", "Drag(..) or Water(..) is expected"),
         ] {
             let error = read(drag).unwrap_err();
             println!("{drag}: {error}");

@@ -20,21 +20,25 @@ pub(super) struct Parsed {
 /// Mistakes in brackets.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Brackets {
-    /// The first closing bracket that closes nothing, or another bracket than the last that is open; with the place of that.
-    pub(super) misfit: Option<(usize, Option<usize>)>,
+    /// The first closing bracket that does not close the last open one, with the place of that.
+    pub(super) misfit: Option<(usize, usize)>,
     /// The first bracket beyond [`MOST_DEPTH`], where reading stopped.
     pub(super) too_deep: Option<usize>,
     /// Whether a bracket is not closed.
     pub(super) is_unclosed: bool,
     /// Whether a list has a key.
     pub(super) has_listed_key: bool,
+    /// Whether there is text after the first value.
+    pub(super) has_text_after: bool,
+    /// The first text without its closing quotation mark.
+    pub(super) unclosed_text: Option<usize>,
 }
 
 impl Brackets {
     /// Whether a bracket is missing, or seems to be.
     pub(super) fn are_mistaken(self) -> bool {
         let is_odd = self.is_unclosed || self.has_listed_key;
-        is_odd || self.misfit.is_some() || self.too_deep.is_some()
+        is_odd || self.misfit.is_some() || self.too_deep.is_some() || self.unclosed_text.is_some()
     }
 }
 
@@ -49,23 +53,20 @@ pub(super) fn parse(text: &str, file: &str) -> Parsed {
         mistakes: Vec::new(),
         brackets: Brackets::default(),
     };
-    parser.skip_attributes();
+    parser.skip_blank();
     if parser.rest().starts_with('{') {
         parser.source = Source::Json;
     }
     let root = parser.element();
     parser.skip_blank();
-    if !parser.rest().is_empty() {
-        let message = format!("unexpected text after the {file}");
+    let rest = parser.rest();
+    parser.brackets.has_text_after = !rest.is_empty();
+    if let Some(first) = rest.chars().next().filter(|_| parser.mistakes.is_empty()) {
+        let message = match first {
+            ')' | ']' | '}' => format!("this {first} closes nothing"),
+            _ => format!("unexpected text after the {file}"),
+        };
         parser.mistakes.push((parser.at, message));
-        while let Some(c) = parser.rest().chars().next() {
-            let before = parser.at;
-            parser.element();
-            if parser.at == before {
-                parser.at += c.len_utf8();
-            }
-            parser.skip_blank();
-        }
     }
     Parsed {
         root,
@@ -108,10 +109,19 @@ impl<'a> Parser<'a> {
     fn skip_blank(&mut self) {
         loop {
             let rest = self.rest();
+            if rest.starts_with("#![") {
+                // An attribute of RON.
+                self.skip_to("]");
+                continue;
+            }
             let blank = rest.len() - rest.trim_start().len();
             if blank > 0 {
                 self.at += blank;
             } else if rest.starts_with("//") {
+                self.skip_to("\n");
+            } else if rest.starts_with('#') {
+                let message = "comments begin with //, not with #".to_owned();
+                self.mistakes.push((self.at, message));
                 self.skip_to("\n");
             } else if rest.starts_with("/*") {
                 self.skip_block_comment();
@@ -143,14 +153,6 @@ impl<'a> Parser<'a> {
         }
     }
 
-    fn skip_attributes(&mut self) {
-        self.skip_blank();
-        while self.rest().starts_with("#![") {
-            self.skip_to("]");
-            self.skip_blank();
-        }
-    }
-
     /// Reads a value with its key, to the comma or bracket that ends it.
     fn element(&mut self) -> SceneValue {
         self.skip_blank();
@@ -161,23 +163,62 @@ impl<'a> Parser<'a> {
         (value.key, value.place.start) = (key, start);
         let end = self.at;
         self.skip_blank();
-        let mut is_mistaken = self.opens.is_empty();
-        while !self.rest().is_empty() && !self.rest().starts_with([',', ')', ']', '}']) {
-            if !is_mistaken {
-                is_mistaken = true;
-                let mistake = self.unseparated(&value, end);
+        while !self.opens.is_empty() && !self.is_at_end() {
+            let key = self.key_without_colon(&value);
+            if !value.place.is_mistaken && value.kind != Kind::Unread {
+                let mistake = self.unseparated(&value, key.is_some(), end);
                 self.mistakes.push(mistake);
-            } else if self.opens.is_empty() {
+            }
+            value.place.is_mistaken = true;
+            if begins_with_key(self.rest()) || self.begins_next(&value, key.is_some()) {
                 break;
             }
-            if begins_with_key(self.rest()) {
-                break;
+            if self.rest().starts_with('=') {
+                self.at += 1;
+                self.skip_blank();
             }
-            self.value();
+            let inner = self.value();
+            if key.is_some() {
+                value = SceneValue { key, ..inner };
+            } else if value.place.open.is_none() && inner.place.open.is_some() {
+                value.kind = inner.kind;
+                (value.place.open, value.place.close) = (inner.place.open, inner.place.close);
+            }
+            (value.place.start, value.place.is_mistaken) = (start, true);
             self.skip_blank();
         }
         value.place.until = self.at;
         value
+    }
+
+    /// Whether a comma or closing bracket comes next, or the end of the text.
+    fn is_at_end(&self) -> bool {
+        self.rest().is_empty() || self.rest().starts_with([',', ')', ']', '}'])
+    }
+
+    /// Whether the next element of a list or vector follows a value without a comma.
+    fn begins_next(&self, value: &SceneValue, is_key: bool) -> bool {
+        let begins = |c: char| c.is_ascii_digit() || c.is_uppercase() || "+-.\"".contains(c);
+        let is_element = value.key.is_none() && !is_key && value.kind != Kind::Unread;
+        is_element && self.rest().starts_with(begins)
+    }
+
+    /// The mistake where a value, or a word in the place of a key, ends at `end` and something else than a comma or bracket
+    /// comes.
+    fn unseparated(&self, value: &SceneValue, is_key: bool, end: usize) -> (usize, String) {
+        let rest = self.rest();
+        if is_key {
+            let remedy = match rest.starts_with('=') {
+                true => "in place of =",
+                false => "between key and value",
+            };
+            return (end, format!("a colon is expected {remedy}"));
+        }
+        let is_named = matches!(value.kind, Kind::Name(_) | Kind::Group(..) | Kind::List(_));
+        if rest.starts_with('(') && value.key.is_none() && !is_named {
+            return (value.place.value.start, "a name is expected".to_owned());
+        }
+        (self.at, before_comma(rest))
     }
 
     /// A word that a colon follows; in JSON a text.
@@ -209,23 +250,19 @@ impl<'a> Parser<'a> {
         }
     }
 
-    /// What is wrong where a value ends at `end` and something else than a comma or bracket comes.
-    fn unseparated(&self, value: &SceneValue, end: usize) -> (usize, String) {
-        let rest = self.rest();
-        let is_key = value.key.is_none() && self.opens.last().is_some_and(|open| open.0 != '[');
-        let name = match &value.kind {
-            Kind::Name(name) if name.starts_with(|c: char| c.is_lowercase() || c == '_') => {
-                Some(name)
+    /// The word that stands in the place of a key, if a value does not stand there.
+    fn key_without_colon(&self, value: &SceneValue) -> Option<String> {
+        let has_keys = self.opens.last().is_some_and(|open| open.0 != '[');
+        match &value.kind {
+            Kind::Name(name)
+                if has_keys
+                    && value.key.is_none()
+                    && name.starts_with(|c: char| c.is_lowercase() || c == '_') =>
+            {
+                Some(name.clone())
             }
             _ => None,
-        };
-        if let (true, Some(_)) = (is_key, name) {
-            return match rest.strip_prefix('=') {
-                Some(_) => (self.at, "a colon is expected in place of =".to_owned()),
-                None => (end, "a colon is expected between key and value".to_owned()),
-            };
         }
-        (self.at, before_comma(rest))
     }
 
     fn value(&mut self) -> SceneValue {
@@ -242,10 +279,6 @@ impl<'a> Parser<'a> {
             Some('"') => self.string(),
             Some('r') if rest[1..].trim_start_matches('#').starts_with('"') => self.raw_string(),
             Some('(' | '[' | '{') => self.group(None, &mut place),
-            Some('#') => {
-                self.skip_to("\n");
-                Kind::Unread
-            }
             Some(_) if number > 0 => {
                 let text = rest[..number].to_owned();
                 self.at += number;
@@ -354,11 +387,9 @@ impl<'a> Parser<'a> {
             _ => '{',
         };
         let meant = self.opens.iter().rposition(|open| open.0 == opening);
-        let last = self.opens.pop();
-        let is_last = meant == Some(self.opens.len());
-        if !is_last {
-            let misfit = (self.at, last.map(|open| open.1));
-            self.brackets.misfit.get_or_insert(misfit);
+        let is_last = meant.is_some_and(|meant| meant + 1 == self.opens.len());
+        if let (Some((_, open)), false) = (self.opens.pop(), is_last) {
+            self.brackets.misfit.get_or_insert((self.at, open));
         }
         let is_closed = is_last || meant.is_none();
         if is_closed {
@@ -387,6 +418,9 @@ impl<'a> Parser<'a> {
                 }
                 c => text.push(c),
             }
+        }
+        if end.is_none() {
+            self.brackets.unclosed_text.get_or_insert(self.at);
         }
         self.at += end.unwrap_or(self.rest().len());
         if is_text && end.is_some() {

@@ -2,8 +2,8 @@
 
 use super::rules::{positive, show};
 use super::{Following, SceneProblem, Section};
-use serde::de::value::{EnumAccessDeserializer, MapAccessDeserializer, SeqAccessDeserializer};
-use serde::de::{EnumAccess, MapAccess, SeqAccess, Visitor};
+use serde::de::value::SeqAccessDeserializer;
+use serde::de::{EnumAccess, Error as _, SeqAccess, Unexpected, VariantAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::fmt;
 use std::ops::{Deref, DerefMut};
@@ -30,7 +30,7 @@ impl PartialEq for Sections {
 }
 
 /// Sections that the program chooses.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(rename = "Sections")]
 enum Left {
     Adaptive(Adaptive),
@@ -325,19 +325,11 @@ impl<'de> Visitor<'de> for ListOrLeft {
     }
 
     fn visit_enum<A: EnumAccess<'de>>(self, left: A) -> Result<Sections, A::Error> {
-        Left::deserialize(EnumAccessDeserializer::new(left)).map(Sections::from)
-    }
-
-    fn visit_map<A: MapAccess<'de>>(self, left: A) -> Result<Sections, A::Error> {
-        Left::deserialize(MapAccessDeserializer::new(left)).map(Sections::from)
-    }
-}
-
-impl From<Left> for Sections {
-    fn from(left: Left) -> Self {
-        match left {
-            Left::Adaptive(adaptive) => adaptive.into(),
-            Left::Following(following) => following.into(),
+        let (name, keys): (String, _) = left.variant()?;
+        match name.as_str() {
+            "Adaptive" => keys.newtype_variant::<Adaptive>().map(Sections::from),
+            "Following" => keys.newtype_variant::<Following>().map(Sections::from),
+            _ => Err(A::Error::invalid_type(Unexpected::Enum, &self)),
         }
     }
 }

@@ -1,7 +1,7 @@
 //! The text of a scene, and values that keys of it are given from outside.
 
 use super::deserialize::{Refusal, deserialize};
-use super::parse::{Parsed, parse};
+use super::parse::{Parsed, parse, word};
 use super::position::{line_and_column, place, without_mark};
 use super::tree::{Kind, SceneValue, Source};
 use super::{Readings, Scene, SceneError, SceneProblem, brackets, trace, validate};
@@ -227,12 +227,19 @@ impl SceneText {
         }
         let mut tree = Cow::Borrowed(&self.parsed.root);
         let syntax = self.parsed.mistakes.iter();
-        let mut mistakes: Vec<SceneError> = syntax
-            .map(|(at, message)| self.error(*at, &tree.path(&tree.indices_at(*at)), message))
+        let mut mistakes: Vec<(usize, SceneError)> = syntax
+            .map(|(at, message)| {
+                let path = tree.path(&tree.indices_at(*at));
+                (*at, self.error(*at, &path, message))
+            })
             .collect();
         let mut is_whole = mistakes.is_empty();
         let mut value = None;
-        for _ in 0..self.most() {
+        let most = match self.parsed.brackets.has_text_after {
+            true => 0,
+            false => self.most(),
+        };
+        for _ in 0..most {
             let refusal = match deserialize(&tree, &self.written) {
                 Ok(read) => {
                     value = Some(read).filter(|_| is_whole);
@@ -241,18 +248,26 @@ impl SceneText {
                 Err(refusal) => refusal,
             };
             is_whole &= refusal.is_needless;
-            if !is_consequence(&tree, &refusal) {
-                mistakes.push(self.refused(&tree, &refusal));
-            }
             let indices = tree.without_components(refusal.indices());
+            let place = &tree.at(&refusal.indices()).place;
+            if place.is_mistaken {
+                // The text after the value is part of the same mistake.
+                mistakes.retain(|(at, _)| !(place.start..place.until).contains(at));
+            }
+            if !is_consequence(&tree, &refusal) {
+                mistakes.push((refusal.at.unwrap_or_default(), self.refused(&tree, &refusal)));
+            }
             if indices.is_empty() {
                 break;
             }
             let node = tree.to_mut().at_mut(&indices);
             node.kind = Kind::Refused;
-            node.key = refusal.meant.or(node.key.take());
+            if refusal.is_needless {
+                node.key = refusal.meant.or(node.key.take());
+            }
         }
-        mistakes.sort_by_key(|error| (error.line, error.column));
+        mistakes.sort_by_key(|(at, _)| *at);
+        let mistakes = mistakes.into_iter().map(|(_, mistake)| mistake).collect();
         Readings { value, mistakes }
     }
 
@@ -304,11 +319,12 @@ impl SceneText {
         let text = &self.written;
         let at = place(text, (error.line, error.column));
         let root = &self.parsed.root;
-        let value = &root.at(&root.indices_at(at)).place.value;
-        let end = if at < value.end {
-            value.end
-        } else {
-            at + text[at..].chars().next().map_or(0, char::len_utf8)
+        let indices = root.indices_at(at);
+        let value = &root.at(&indices).place.value;
+        let first = text[at..].chars().next().map_or(0, char::len_utf8);
+        let end = match indices.is_empty() || at >= value.end {
+            true => at + word(&text[at..]).len().max(first),
+            false => value.end,
         };
         let line_end = text[at..].find('\n').map_or(text.len(), |line| at + line);
         at..end.min(line_end)

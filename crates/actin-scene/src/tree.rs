@@ -66,6 +66,8 @@ pub(crate) struct Place {
     pub(crate) value: Range<usize>,
     /// The comma or bracket that ends it, or the end of the text.
     pub(crate) until: usize,
+    /// Whether something that is no part of the value stands after it.
+    pub(crate) is_mistaken: bool,
     /// Its opening and closing brackets.
     pub(crate) open: Option<usize>,
     pub(crate) close: Option<usize>,
@@ -137,6 +139,12 @@ impl SceneValue {
         match &mut self.kind {
             Kind::List(values) | Kind::Group(_, values) => values,
             _ => &mut [],
+        }
+    }
+
+    fn push(&mut self, value: Self) {
+        if let Kind::List(values) | Kind::Group(_, values) = &mut self.kind {
+            values.push(value);
         }
     }
 
@@ -277,31 +285,27 @@ impl SceneValue {
             *host = Self { key, ..value };
             return Ok(());
         };
-        let value = nested(inner, value).map_err(refused)?;
         if let (Kind::None, Step::Key(_)) = (&host.kind, first) {
             host.kind = Kind::Group(None, Vec::new());
         }
-        let shown = host.to_string();
-        match (&mut host.kind, first) {
-            (Kind::Group(_, values), Step::Key(key)) => values.push(value.with_key(key)),
-            (Kind::List(values), Step::Index(index)) if *index == values.len() => {
-                values.push(value);
+        let count = host.children().len();
+        let rule = match (&host.kind, first) {
+            (Kind::List(_), Step::Index(index)) if *index > count => {
+                format!("{name} has {count} elements, counted from 0")
             }
-            (Kind::List(values), Step::Index(_)) => {
-                let count = values.len();
-                return Err(refused(format!(
-                    "{name} has {count} elements, counted from 0"
-                )));
+            (Kind::List(_), Step::Key(_)) => format!("{name} is a list: write {name}[0]"),
+            (Kind::Group(..), Step::Index(_)) => format!("{name} is not a list"),
+            (Kind::List(_) | Kind::Group(..), _) => {
+                let value = nested(inner, value).map_err(refused)?;
+                host.push(match first {
+                    Step::Key(key) => value.with_key(key),
+                    Step::Index(_) => value,
+                });
+                return Ok(());
             }
-            (Kind::List(_), Step::Key(_)) => {
-                return Err(refused(format!("{name} is a list: write {name}[0]")));
-            }
-            (Kind::Group(..), Step::Index(_)) => {
-                return Err(refused(format!("{name} is not a list")));
-            }
-            _ => return Err(refused(format!("{name} is {shown}, which has no keys"))),
-        }
-        Ok(())
+            _ => format!("{name} is {host}, which has no keys"),
+        };
+        Err(refused(rule))
     }
 
     /// Places a value and all in it where another one is written.
