@@ -54,10 +54,10 @@ pub(crate) const BEND: f64 = 3.9e4;
 /// Its rigidity against shear and stretch (pN).
 pub(crate) const SHEAR: f64 = 1e5;
 
-/// Relative precision of critical loads: far below the least error of a mesh, 1e-5.
+/// Shear and stretch rigidity of [`cantilever`] (pN).
 pub(crate) const PRECISION: f64 = 1e-9;
 
-/// Solver for the free bodies of an assembly, in the order of arc length.
+/// Relative precision of critical loads: far below the smallest mesh error, 1e-5.
 pub(crate) fn newton(assembly: &Assembly, tolerance: f64) -> Newton {
     let order = BodyOrder {
         points: assembly.points.iter().map(|p| p.s_nm).collect(),

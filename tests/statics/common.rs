@@ -1,10 +1,10 @@
-//! Scenes as text, and their way to rest.
+//! Scenes as text, relaxed to rest.
 
 use crate::common::ran;
 use actin_mechanics::{State, Vector3};
 use actin_sim::{Assembly, End, Outcome, Record, Trajectory};
 
-/// A cantilever of one rod: damped dynamics to rest.
+/// Cantilever of one rod, relaxed by damped dynamics.
 #[derive(Clone, Debug)]
 pub(crate) struct Rod {
     pub(crate) length_nm: f64,
@@ -13,16 +13,16 @@ pub(crate) struct Rod {
     pub(crate) bend_pn_nm2: [f64; 3],
     pub(crate) hold: &'static str,
     pub(crate) force_law: &'static str,
-    /// Force across the tip, along x (pN).
+    /// Transverse tip force along x (pN).
     pub(crate) force_pn: f64,
     /// Both drag rates (1/ns).
     pub(crate) drag_per_ns: f64,
-    /// Tolerance of the residual, in pN and in pN nm.
+    /// Tolerance of the residual (pN, pN nm).
     pub(crate) tolerance: f64,
 }
 
 impl Rod {
-    /// 160 nm of actin under no force, drag twice the first flexural frequency.
+    /// Unloaded actin of 160 nm with a drag of twice the first flexural frequency.
     pub(crate) fn actin(segments: usize) -> Self {
         Self {
             length_nm: 160.0,
@@ -81,7 +81,6 @@ impl Rod {
     }
 }
 
-/// An assembly at rest under its loads.
 pub(crate) struct Settled {
     pub(crate) assembly: Assembly,
     pub(crate) trajectory: Trajectory,
@@ -89,12 +88,11 @@ pub(crate) struct Settled {
 }
 
 impl Settled {
-    /// The state at rest.
     pub(crate) fn last(&self) -> &Record {
         self.trajectory.records.last().unwrap()
     }
 
-    /// Displacement of a tip from where it was built (nm).
+    /// Displacement of a tip from its position as built (nm).
     pub(crate) fn tip_displacement_nm(&self, end: End) -> Vector3 {
         let assembly = &self.assembly;
         assembly.tip_nm(&self.last().state, end) - assembly.tip_nm(&assembly.rest, end)
@@ -112,7 +110,7 @@ pub(crate) fn settle(text: &str) -> Settled {
     let last = settled.last();
     assert!(
         settled.report.has_converged(),
-        "still {} pN and {} pN nm from rest at {} ns",
+        "residual of {} pN and {} pN nm at {} ns",
         last.residual_force_pn,
         last.residual_torque_pn_nm,
         last.at.value()
@@ -127,7 +125,7 @@ pub(crate) fn free_bodies(state: &State) -> (usize, usize) {
     (points.count(), frames.count())
 }
 
-/// Slopes of `ln |error|` against `ln h` between successive meshes, each twice as fine.
+/// Slopes of `ln |error|` against `ln h` between successively halved meshes.
 pub(crate) fn orders<const N: usize>(errors: [f64; N]) -> Vec<f64> {
     errors
         .windows(2)
