@@ -29,7 +29,6 @@ const PLACES: u32 = 256;
 /// Separates this random stream from other uses of the seed.
 const PURPOSE: [u8; 8] = *b"imperfec";
 
-/// Displaces the free bodies of all filaments with an imperfection.
 pub(super) fn displace(
     scene: &Scene,
     filaments: &[FilamentSpan],
@@ -63,7 +62,6 @@ pub(super) fn displace(
     }
 }
 
-/// Displacement field of a filament along lab +z.
 struct Field {
     length_nm: f64,
     coefficients: [Vector3; MODES],
@@ -93,13 +91,11 @@ impl Field {
         field
     }
 
-    /// Displacement (nm) at the relative arc length `x`.
     fn shift(&self, x: f64) -> Vector3 {
         let of = |(k, c): (f64, &Vector3)| c * ((PI * x).sin() * (k * PI * x).sin());
         numbered(&self.coefficients).map(of).sum()
     }
 
-    /// Derivative of the displacement with respect to `x`.
     fn slope(&self, x: f64) -> Vector3 {
         let of = |(k, c): (f64, &Vector3)| {
             let ((sin, cos), (sin_k, cos_k)) = ((PI * x).sin_cos(), (k * PI * x).sin_cos());

@@ -69,7 +69,6 @@ struct Switching {
     places_nm: Vec<f64>,
 }
 
-/// All linkers of a scene that break, form or step.
 #[derive(Clone, Debug)]
 pub(crate) struct Kinetics {
     all: Vec<Switching>,
@@ -89,7 +88,6 @@ pub(crate) struct Happenings {
 }
 
 impl Kinetics {
-    /// Creates an empty set and its controls in a state under construction.
     pub(super) fn new(state: &mut State) -> Self {
         Self {
             all: Vec::new(),
@@ -98,7 +96,6 @@ impl Kinetics {
         }
     }
 
-    /// Adds linker `index` with the arc lengths of its places (nm).
     pub(super) fn push(
         &mut self,
         index: usize,
@@ -120,7 +117,6 @@ impl Kinetics {
         Some((&switching.linker, &switching.places_nm))
     }
 
-    /// Accumulated energy change by events in `state` (pN nm).
     pub(crate) fn booked(&self, state: &State) -> f64 {
         state.controls[self.booked]
     }
@@ -298,7 +294,6 @@ impl Switching {
 }
 
 impl Breaking {
-    /// Rate (1/ns) at a tension (pN).
     fn rate(&self, tension: f64) -> f64 {
         let growth = self.force_pn.map_or(0.0, |force| tension / force);
         let catch = self.catch.map_or(0.0, |catch| {
@@ -309,7 +304,6 @@ impl Breaking {
 }
 
 impl Stepping {
-    /// Rate (1/ns) against a resisting force (pN).
     fn rate(&self, resistance: f64) -> f64 {
         self.rate_per_ns * (1.0 - resistance / self.stall_pn).clamp(0.0, 1.0)
     }

@@ -6,7 +6,6 @@ use crate::{Record, SimError};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// Short rod in a heat bath.
 fn heated(duration_ns: f64, more: &str) -> Scene {
     let text = format!(
         "Scene(
@@ -23,7 +22,6 @@ fn heated(duration_ns: f64, more: &str) -> Scene {
     Scene::from_ron(&text).unwrap()
 }
 
-/// Monomers with sampled bonds under a force.
 const DRAWN: &str = "Scene(
     filament: Filament(
         sections: [Ellipsoids(from_nm: 0.0, to_nm: 20.0)],

@@ -165,7 +165,6 @@ impl Follower {
         Ok(first)
     }
 
-    /// Stretch that starts in the state as built.
     fn stretch(&self, is_monomers: Vec<bool>) -> Result<Stretch, SceneProblem> {
         self.again(Beginning {
             index: 0,
@@ -252,7 +251,6 @@ impl Follower {
         Ok(Left::Switched(outcome, Box::new(next)))
     }
 
-    /// Stretch after a switch to `is_monomers`.
     fn next(
         &self,
         left: &Stretch,
@@ -358,7 +356,6 @@ impl Follower {
     }
 }
 
-/// First record of a stretch after a switch.
 fn first_record(saved: Option<&Saved>) -> Option<Record> {
     saved.and_then(|saved| saved.recorded.last.clone())
 }
@@ -399,7 +396,6 @@ fn whole_steps(steps: f64) -> u64 {
     steps.ceil() as u64
 }
 
-/// Start of a stretch that continues from `state`.
 fn begun(assembly: &Assembly, state: State, (saved, position): (&Saved, &MotionPosition)) -> Saved {
     let before = &position.checkpoint;
     let mut system = assembly.system.in_state(state);

@@ -172,7 +172,6 @@ impl Criterion for Where {
 }
 
 impl Where {
-    /// Returns the quantity that the thresholds apply to.
     fn value(&self, cell: &Cell<'_>) -> f64 {
         match *self {
             Self::Curvature { .. } => cell.curvature_per_nm,

@@ -88,7 +88,6 @@ impl Ribbon {
     }
 }
 
-/// Curvature between two frames with their arc lengths.
 fn bend((s_a, a): (f64, UnitQuaternion), (s_b, b): (f64, UnitQuaternion)) -> Vector3 {
     rotation::log(a.inverse() * b) / (s_b - s_a)
 }
@@ -181,7 +180,6 @@ mod tests {
         Assembly::build(&Scene::from_ron(&text).unwrap()).unwrap()
     }
 
-    /// The energy of the linker is not included.
     #[test]
     fn the_energy_of_the_filament_is_kept() {
         let mut noise = Xorshift::new(6);

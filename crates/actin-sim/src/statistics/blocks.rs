@@ -40,7 +40,6 @@ pub struct BlockAverages {
     levels: Vec<Level>,
 }
 
-/// Blocks of one length.
 #[derive(Clone, Debug, Default, PartialEq)]
 struct Level {
     count: u64,

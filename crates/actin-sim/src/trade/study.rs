@@ -87,7 +87,6 @@ fn check(scene: &Scene, options: &Options) -> Result<(), SceneProblem> {
     Ok(())
 }
 
-/// State of a trade between its runs.
 struct Study<'a> {
     setup: Setup<'a>,
     reference: Reference,
@@ -191,7 +190,6 @@ impl<'a> Study<'a> {
         errors(&self.setup.measurer, &self.values, values)
     }
 
-    /// Returns coarser resolutions and the scene as written.
     fn resolutions(&self, written: &Scene) -> Vec<Proposal> {
         let mut proposals = ladder::resolutions(
             &self.setup.full,
@@ -252,7 +250,6 @@ impl<'a> Study<'a> {
         candidate
     }
 
-    /// Returns relative standard errors of the differences from the reference.
     fn relative(&self, standard_errors: &[f64]) -> Vec<f64> {
         let items = self.setup.measurer.items.iter().zip(&self.values);
         let both = standard_errors.iter().zip(&self.standard_errors);
@@ -416,7 +413,6 @@ impl<'a> Study<'a> {
     }
 }
 
-/// Returns the scene with sampled bonds in each interface.
 pub(super) fn drawn(scene: &Scene, seed: u64) -> Scene {
     let mut drawn = scene.clone();
     for filament in drawn.filaments_mut() {
@@ -470,7 +466,6 @@ fn bends_most(result: &RunResult) -> Vec<Option<f64>> {
     (0..result.assembly.filaments.len()).map(of).collect()
 }
 
-/// Returns the scene with scaled loads, shifts and turns; `None` for an unloaded scene.
 fn at_load(scene: &Scene, share: f64) -> Option<Scene> {
     let mut scene = scene.clone();
     let mut is_loaded = !scene.loads.is_empty();

@@ -9,7 +9,6 @@ use actin_mechanics::State;
 /// Time step (ns), far beyond a stable step of a motion; the bodies are fixed here.
 const STEP_NS: f64 = 1.0;
 
-/// Equal linkers on a rod of 80 nm along z.
 fn linkers(count: usize, linker: &str, kinetics: &str) -> Assembly {
     let one = format!("Linker({linker}, kinetics: Kinetics(seed: 5, {kinetics})),");
     let text = format!(
