@@ -19,7 +19,6 @@ pub(crate) fn run_anyway(assembly: &mut Assembly) -> (Trajectory, Result<Outcome
     (trajectory, outcome)
 }
 
-/// Runs an assembly that must reach its end.
 pub(crate) fn run(assembly: &mut Assembly) -> Result<(Trajectory, Outcome), RunError> {
     let (trajectory, outcome) = run_anyway(assembly);
     outcome.map(|outcome| (trajectory, outcome))
@@ -37,7 +36,6 @@ pub(crate) fn failure(outcome: Result<Outcome, RunError>) -> (Failure, Outcome) 
     }
 }
 
-/// Runs a scene that must reach its end; the assembly is then in the last state.
 pub(crate) fn ran(text: &str) -> (Assembly, Trajectory, Outcome) {
     let mut assembly = build(text);
     let (trajectory, outcome) = run(&mut assembly).unwrap_or_else(|e| panic!("{e}\n{text}"));
@@ -55,7 +53,6 @@ pub(crate) fn refusal(text: &str) -> String {
     planned.map_or_else(|problem| problem.to_string(), |()| String::new())
 }
 
-/// Largest distance between the points of two states (nm).
 pub(crate) fn apart(a: &State, b: &State) -> f64 {
     let pairs = a.points.position.iter().zip(b.points.position.iter());
     pairs.map(|(a, b)| (a - b).norm()).fold(0.0, f64::max)

@@ -11,7 +11,6 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 use std::time::Duration;
 
-/// Selection of a scene by indices.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Choice {
     pub(crate) filament: usize,
@@ -43,7 +42,6 @@ const FILAMENTS: [&str; 5] = [
          rod: RodModel(law: Homogenised))",
 ];
 
-/// Index of the pair of filaments.
 const PAIR: usize = 3;
 
 /// Clamp of the second filament, and its linker to the first.
@@ -117,7 +115,6 @@ impl Choice {
         Scene::from_ron(&text).unwrap()
     }
 
-    /// Scene with a motion in time.
     pub(crate) fn motion(&self) -> Scene {
         // A sine load prevents rest.
         let stop = if self.stops && self.held != IN_TIME {
@@ -139,7 +136,6 @@ impl Choice {
         ))
     }
 
-    /// Scene with an overdamped motion of 0.3 ns in 30 steps.
     pub(crate) fn brownian(&self) -> Scene {
         let (temperature, seed) = self.noise.map_or((0.0, 0), |seed| (298.0, seed));
         self.scene(&format!(
@@ -148,7 +144,6 @@ impl Choice {
         ))
     }
 
-    /// Scene with inertial motion in water.
     pub(crate) fn in_water(&self) -> Scene {
         let thermal = self.noise.map_or(String::new(), |seed| {
             format!(", thermal: (temperature_k: 298.0, seed: {seed})")
@@ -158,7 +153,6 @@ impl Choice {
         ))
     }
 
-    /// Scene with equilibria along its path, or a single one.
     pub(crate) fn statics(&self) -> Scene {
         self.scene("Equilibrium(largest_step: 0.1, lowest_eigenvalue: true)")
     }
@@ -168,7 +162,6 @@ pub(crate) fn build(scene: &Scene) -> Assembly {
     Assembly::build(scene).unwrap()
 }
 
-/// Checkpoint files of a plan in `directory`.
 pub(crate) fn checkpoints(directory: &RunDirectory, plan: &Plan<'_>) -> Checkpoints {
     let never = Arc::new(AtomicBool::new(false));
     let hour = Duration::from_hours(1);
@@ -205,7 +198,6 @@ impl Sink for Leaving<'_> {
     }
 }
 
-/// Runs a scene from its checkpoint to the next interruption.
 pub(crate) fn advance(
     scene: &Scene,
     directory: &RunDirectory,

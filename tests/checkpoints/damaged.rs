@@ -16,7 +16,6 @@ const CHOICE: Choice = Choice {
     duration_ns: 0.4,
 };
 
-/// Interrupted run in its directory.
 struct Left {
     _folder: TempDir,
     directory: RunDirectory,
@@ -44,7 +43,6 @@ impl Left {
         fs::write(self.directory.path().join(name), bytes).unwrap();
     }
 
-    /// Reads the checkpoint as another process would.
     fn resume(&self, scene: &Scene) -> Result<(), CheckpointError> {
         let assembly = build(scene);
         let plan = Plan::new(&assembly).unwrap();

@@ -6,7 +6,6 @@ use actin_sim::{Plan, Records, RunDirectory, Scene, Status};
 use std::fs;
 use std::path::Path;
 
-/// In a heat bath, with lags to earlier records.
 const HEATED: &str = "Scene(
     filament: Filament(sections: [Ellipsoids(from_nm: 0.0, to_nm: 12.0), Rod(from_nm: 12.0, to_nm: 42.0)],
         rod: RodModel(law: Fitted)),
@@ -25,7 +24,6 @@ const HEATED: &str = "Scene(
     ),
 )";
 
-/// Turned ends with the check of twist, in time.
 const TURNED: &str = "Scene(
     filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 40.0)]),
     clamps: [Clamp(end: Start), Clamp(end: End, slides: AlongAxis)],
@@ -35,7 +33,6 @@ const TURNED: &str = "Scene(
     task: Dynamics(duration_ns: 0.3, record_every_ns: 0.02),
 )";
 
-/// Path of equilibria.
 const PATH: &str = "Scene(
     filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 40.0)], rod: RodModel(law: Fitted)),
     clamps: [Clamp(end: Start), Clamp(end: End, slides: AlongAxis)],

@@ -4,7 +4,6 @@ use super::common::{Choice, IN_TIME, advance, files};
 use actin_sim::{Outcome, Plan, Record, RunDirectory, Scene, Status, Trajectory};
 use proptest::prelude::*;
 
-/// Report without its run time.
 fn timeless(report: &Outcome) -> String {
     let report = Outcome {
         wall_s: 0.0,
@@ -13,7 +12,6 @@ fn timeless(report: &Outcome) -> String {
     format!("{report:?}")
 }
 
-/// Bits of all numbers of a record.
 fn bits(record: &Record) -> Vec<u64> {
     let numbers = [
         record.at.value(),
@@ -37,7 +35,6 @@ fn assert_same(one: &Trajectory, other: &Trajectory) {
     }
 }
 
-/// Compares a scene run in one piece and in pieces.
 fn compare(scene: &Scene, leave: &[u64]) {
     let folder = tempfile::tempdir().unwrap();
     let whole = RunDirectory::create(folder.path().join("whole"), false).unwrap();

@@ -91,7 +91,6 @@ fn free_filaments_follow_a_flow() {
     }
 }
 
-/// Default step of a rod of six segments of 20 nm.
 fn default_step(rest: &str, task: &str) -> f64 {
     let text = format!(
         "Scene(

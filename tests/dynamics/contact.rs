@@ -31,7 +31,6 @@ fn colliding() -> System {
     system
 }
 
-/// Duration of the collision (ns).
 const TIME: f64 = 0.08;
 
 fn after(scheme: &actin_integrate::Composition, steps: u32) -> System {
@@ -75,7 +74,6 @@ fn methods_keep_their_order_through_a_hit() {
     }
 }
 
-/// The energy error has the order of the method.
 #[test]
 fn a_hit_conserves_energy_and_momenta() {
     let start = colliding();
@@ -95,7 +93,6 @@ fn a_hit_conserves_energy_and_momenta() {
     assert!(errors[1] < 1e-6, "{errors:?}");
 }
 
-/// The default time step accounts for contact before it occurs.
 #[test]
 fn the_time_step_knows_contact_before_it_happens() {
     for section in [
@@ -150,7 +147,6 @@ pub(crate) fn pushed_across(stiffness: &str, task: &str) -> String {
     )
 }
 
-/// The failure is detected although no record shows contact.
 #[test]
 fn passing_through_between_records_fails() {
     let run = |stiffness: &str| {

@@ -5,7 +5,6 @@ use crate::common::ran;
 use actin_mechanics::{State, Vector3, rotation};
 use actin_sim::End;
 
-/// Drag rates (1/ns); the default step of a rod is 0.003 ns.
 const RATES: [f64; 6] = [0.0, 1.0, 10.0, 100.0, 1e3, 1e4];
 
 fn drag(translational: f64, rotational: f64) -> String {
@@ -73,7 +72,6 @@ fn a_cantilever_creeps_as_its_modes_do() {
     }
 }
 
-/// 30 nm of free filament of each kind.
 const FREE: [(&str, &str); 3] = [
     ("rod", "Rod(from_nm: 0.0, to_nm: 30.0, segments: 3)"),
     ("monomers", "Ellipsoids(from_nm: 0.0, to_nm: 30.0)"),

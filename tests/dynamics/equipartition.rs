@@ -16,10 +16,8 @@ use actin_sim::{Assembly, Scene};
 
 /// Time between samples (ns): a period of the slowest modes of this short filament.
 const APART_NS: f64 = 0.05;
-/// Tolerance in standard errors.
 const ERRORS: f64 = 4.5;
 
-/// 35.6 nm of free monomers.
 fn monomers(bonds: usize) -> System {
     let text = format!(
         "Scene(
@@ -48,7 +46,6 @@ impl Sums {
     }
 }
 
-/// Sums of both fields by block.
 type Blocks = [Vec<Sums>; 2];
 
 struct Thermometer {
@@ -65,7 +62,6 @@ impl Thermometer {
         }
     }
 
-    /// Adds a state to the sums of both fields.
     fn read(&mut self, system: &mut System, sums: &mut [Sums; 2]) {
         let loads = system.loads().clone();
         let state = system.state();
@@ -123,7 +119,6 @@ fn steps(h: f64, time: f64) -> u64 {
     Run::over(&PEFRL, h, time).unwrap().steps()
 }
 
-/// Bonds per interface, share of the stability limit of PEFRL, drag (1/ns).
 #[derive(Clone, Copy, Debug)]
 struct Case {
     bonds: usize,

@@ -7,22 +7,17 @@ use actin_sim::{Assembly, ForceLaw, Scene};
 /// kBT at 298 K (pN nm).
 pub(crate) const KBT: f64 = 4.114;
 
-/// Name and sections of a filament.
 pub(crate) type Filament = (&'static str, &'static str);
 
-/// 15 monomers.
 pub(crate) const ELLIPSOIDS: Filament = ("ellipsoids", "Ellipsoids(from_nm: 0.0, to_nm: 35.6)");
 
-/// 8 segments of 10 nm.
 pub(crate) const ROD: Filament = ("rod", "Rod(from_nm: 0.0, to_nm: 80.0, segments: 8)");
 
-/// 9 monomers, then 4 segments of about 10 nm.
 pub(crate) const MIXED: Filament = (
     "monomers + rod",
     "Ellipsoids(from_nm: 0.0, to_nm: 22.0), Rod(from_nm: 22.0, to_nm: 62.0, segments: 4)",
 );
 
-/// 3 segments, 8 monomers, 3 segments.
 pub(crate) const ROD_AT_BOTH_ENDS: Filament = (
     "rod + monomers + rod",
     "Rod(from_nm: 0.0, to_nm: 30.0, segments: 3), Ellipsoids(from_nm: 30.0, to_nm: 52.0), \
@@ -31,12 +26,10 @@ pub(crate) const ROD_AT_BOTH_ENDS: Filament = (
 
 pub(crate) const FILAMENTS: [Filament; 4] = [ELLIPSOIDS, ROD, MIXED, ROD_AT_BOTH_ENDS];
 
-/// Free filament as built, with 16 bonds per interface.
 pub(crate) fn assemble(filament: Filament, law: ForceLaw) -> Assembly {
     assemble_of(filament, &format!("law: Constant, force_law: {law:?}"))
 }
 
-/// Free filament with the given rod model.
 pub(crate) fn assemble_of((_, sections): Filament, rod: &str) -> Assembly {
     let text = format!(
         "Scene(

@@ -6,7 +6,6 @@ use actin_integrate::{Composition, Drag, PEFRL, advance, largest_frequency, stab
 
 use actin_mechanics::{State, System};
 
-/// Step at `share` of the stability limit.
 pub(crate) fn step(system: &System, scheme: &Composition, share: f64) -> f64 {
     stable_step(scheme, largest_frequency(system).unwrap(), share).unwrap()
 }

@@ -3,7 +3,6 @@
 use crate::common::ran;
 use actin_sim::{Assembly, Happening};
 
-/// Runs a free undamped rod with kinetic linkers; returns its energies and events.
 fn moved(linkers: &str, task: &str) -> (Assembly, Vec<f64>, Vec<f64>, Vec<actin_sim::LinkerEvent>) {
     let text = format!(
         "Scene(

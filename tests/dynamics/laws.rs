@@ -7,7 +7,6 @@ use actin_integrate::{Drag, PEFRL, advance, largest_frequency, stable_step};
 
 use actin_mechanics::{State, System};
 
-/// Conservative nonconstant laws.
 const LAWS: [&str; 4] = [
     "PublishedExtension",
     "CouplingEnergy",
@@ -15,7 +14,6 @@ const LAWS: [&str; 4] = [
     "Homogenised",
 ];
 
-/// Filament with a law and an initial deformation.
 #[derive(Clone, Copy, Debug)]
 struct Case {
     filament: Filament,
@@ -53,7 +51,6 @@ impl Case {
         all
     }
 
-    /// Flight at 37 nm/ns and rotation at 6 rad/ns.
     fn in_flight(self) -> System {
         let assembly = assemble_of(self.filament, &format!("law: {}", self.law));
         fly_off(assembly, self.kappa.into(), self.extension, 0.1)

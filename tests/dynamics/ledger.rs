@@ -60,7 +60,6 @@ fn overdamped(body: &str, task: &str) -> String {
 const HELD: &str = "clamps: [Clamp(end: Start), Clamp(end: End)],";
 const DRAG: &str = "drag: (translational_per_ns: 3.0, rotational_per_ns: 20.0)";
 
-/// Names and keys of moving ends and loads.
 const DRIVEN: [(&str, &str); 5] = [
     (
         "an end that moves and turns",

@@ -7,7 +7,6 @@ use nalgebra::{DMatrix, DVector};
 
 /// Frequencies (rad/ns) and mass-weighted shapes of vibrations about a state at rest.
 pub(crate) struct Modes {
-    /// In ascending order.
     pub(crate) frequencies: Vec<f64>,
     /// Columns in the order of the frequencies.
     shapes: DMatrix<f64>,
@@ -18,7 +17,6 @@ pub(crate) struct Modes {
 }
 
 impl Modes {
-    /// Modes of `system` in its present state, at rest without loads.
     pub(crate) fn of(system: &System) -> Self {
         let weights = weights(system.state());
         let n = weights.len();

@@ -61,7 +61,6 @@ fn energies_are_those_of_equipartition() {
 /// Persistence length and length of a free rod (nm).
 const LENGTH: f64 = 100.0;
 
-/// Free rod in a heat bath with a persistence length equal to its length.
 fn free_rod() -> String {
     let rigidity = BOLTZMANN_PN_NM_PER_K * 298.0 * LENGTH;
     format!(

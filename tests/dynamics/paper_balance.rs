@@ -9,7 +9,6 @@ use actin_mechanics::State;
 use actin_sim::{Assembly, ForceLaw, Resolution, SectionSpan};
 use std::ops::Range;
 
-/// Initial condition of a run.
 #[derive(Clone, Copy, Debug)]
 enum Start {
     /// All degrees of freedom heated to a level (kBT per degree of freedom).
@@ -18,7 +17,6 @@ enum Start {
     Slow(f64),
 }
 
-/// Largest relative extension of the segments of these rods.
 fn largest_extension(rods: &[(Range<usize>, f64)], state: &State) -> f64 {
     let extension = |i: usize, rest: f64| {
         let l = state.points.position.get(i + 1) - state.points.position.get(i);
@@ -32,7 +30,6 @@ fn largest_extension(rods: &[(Range<usize>, f64)], state: &State) -> f64 {
         .fold(0.0, f64::max)
 }
 
-/// Points and segment length of every rod.
 fn rods(assembly: &Assembly) -> Vec<(Range<usize>, f64)> {
     let rod = |section: &SectionSpan| match section.resolution {
         Resolution::Rod { segment_nm } => Some((section.points.clone(), segment_nm)),

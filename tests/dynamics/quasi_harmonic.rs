@@ -102,7 +102,6 @@ fn stretched(sections: &str) -> f64 {
     interactions.iter().map(|i| i.energy(&state)).sum()
 }
 
-/// Neighbouring sections of nearly equal parameters agree with a single section.
 #[test]
 fn neighbouring_sections_are_one_chain() {
     let one = stretched("Ellipsoids(from_nm: 0.0, to_nm: 41.0)");

@@ -53,7 +53,6 @@ fn fluctuations_beyond_the_data_are_summed_up() {
     assert!(unstable.count() > records.len() / 2);
 }
 
-/// Share of records and of elements beyond the range, and the largest value.
 fn counted<'a>(
     assembly: &Assembly,
     states: impl Iterator<Item = &'a actin_mechanics::State>,

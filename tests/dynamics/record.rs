@@ -50,12 +50,10 @@ impl EnergyRecord {
         self.largest.iter().copied().fold(0.0, f64::max)
     }
 
-    /// Root mean square of the deviation.
     pub(crate) fn rms(&self) -> f64 {
         (self.squares / 2000.0).sqrt()
     }
 
-    /// Largest deviation over the first three tenths.
     pub(crate) fn early(&self) -> f64 {
         self.largest[..3].iter().copied().fold(0.0, f64::max)
     }

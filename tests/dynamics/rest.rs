@@ -17,7 +17,6 @@ fn pushed(filament: &str, task: &str) -> String {
     )
 }
 
-/// Damped motion of up to 400 ns with additional keys.
 fn damped(keys: &str) -> String {
     format!(
         "Dynamics(
@@ -41,7 +40,6 @@ fn energy(trajectory: &Trajectory) -> f64 {
     trajectory.records.last().unwrap().potential_pn_nm()
 }
 
-/// Energy of the buckled rod from statics.
 fn buckled() -> f64 {
     let (trajectory, report) = moved(&pushed("", "Equilibrium()")).unwrap();
     assert_eq!(report.certificate().unwrap().negative, 0);
@@ -129,7 +127,6 @@ fn certificates_belong_to_motions_at_rest() {
     assert_eq!(bent(printed, &format!("60.0, {drag}")), None);
 }
 
-/// A free filament at rest has six neutral modes; a drifting one is not at rest.
 #[test]
 fn a_free_filament_is_neutral() {
     let text = "Scene(
@@ -193,7 +190,6 @@ fn twist_that_slips_is_an_error() {
     }
 }
 
-/// Rod with a hinge at its start.
 fn hinged(load: &str, path: &str, end: &str) -> String {
     format!(
         "Scene(

@@ -22,7 +22,6 @@ fn bonds_of(assembly: &Assembly) -> Bonds {
     model.bonds(&monomers).unwrap()
 }
 
-/// Length of the shortest bond (nm).
 fn shortest(bonds: &Bonds, state: &State) -> f64 {
     let pairs = bonds.pairs().iter();
     let lengths = pairs.flat_map(|pair| bonds.ends_of(pair, state).map(|[a, b]| (b - a).norm()));

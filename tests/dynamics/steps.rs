@@ -5,7 +5,6 @@ use crate::common::build;
 use actin_integrate::PEFRL;
 use actin_sim::Plan;
 
-/// Stability limit (ns) of a filament on a wall.
 fn limit(sections: &str, rotary_inertia: &str) -> f64 {
     let text = format!(
         "Scene(

@@ -21,7 +21,6 @@ fn step(system: &System) -> f64 {
     stable_step(&PEFRL, largest_frequency(system).unwrap(), 0.25).unwrap()
 }
 
-/// Mean of `blocks` and its standard error.
 fn estimate(blocks: &[f64]) -> (f64, f64) {
     let n = blocks.len() as f64;
     let mean = blocks.iter().sum::<f64>() / n;

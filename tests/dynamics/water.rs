@@ -114,7 +114,6 @@ fn tips_fluctuate_alike_with_inertia_and_without() {
     }
 }
 
-/// The default step depends on the stiffness alone.
 #[test]
 fn steps_in_water_are_those_of_the_stiffness() {
     let planned = |rest: &str| {

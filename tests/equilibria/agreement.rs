@@ -2,7 +2,6 @@
 
 use super::common::{MIXED, apart, build, run, solved};
 
-/// Short mixed filament, bent obliquely.
 fn scene(task: &str) -> String {
     format!(
         "Scene(

@@ -38,7 +38,6 @@ fn clamped(displaced: [Vector3; 2], shifts: Option<[Vector3; 2]>, task: &str) ->
 const TIGHT: &str = "Equilibrium(force_pn: 1e-9, torque_pn_nm: 1e-9)";
 const SHIFTS: [[f64; 3]; 2] = [[2.0, 0.5, 1.0], [-3.0, 0.0, 2.0]];
 
-/// The end of a path is the equilibrium for the final anchors.
 #[test]
 fn a_path_of_anchors_ends_where_they_stand() {
     let shifts = SHIFTS.map(Vector3::from);
@@ -55,7 +54,6 @@ fn a_path_of_anchors_ends_where_they_stand() {
     }
 }
 
-/// In time, anchors follow the smooth ramp, and the motion ends in the equilibrium of the path.
 #[test]
 fn anchors_move_smoothly_in_time() {
     let shifts = SHIFTS.map(Vector3::from);
@@ -127,7 +125,6 @@ fn planar(rod: f64) -> Assembly {
     assembly
 }
 
-/// Energy (pN nm) and tension of the outer linkers (pN) in equilibrium.
 fn numbers(assembly: &Assembly) -> [f64; 3] {
     let state = assembly.system.state();
     let pull = |k: usize| assembly.linkers[k].force(state).norm();

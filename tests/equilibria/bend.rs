@@ -9,7 +9,6 @@ use actin_mechanics::{Interaction, Matrix3, PointLoad, State, UnitQuaternion, Ve
 use actin_sim::{At, End};
 use std::f64::consts::FRAC_PI_4;
 
-/// Radius of the arc.
 const RADIUS: f64 = 100.0;
 /// Stretch and shear rigidity: Young's modulus 1e7 on a unit square, Poisson's ratio 0, shear
 /// factor 5/6.
@@ -17,7 +16,6 @@ const STRETCH: f64 = 1e7;
 const SHEAR: f64 = STRETCH * 5.0 / 12.0;
 /// Bending and twisting rigidity: 1e7 times the second moment 1/12 of the square.
 const BEND: f64 = 1e7 / 12.0;
-/// Tip forces out of the plane.
 const FORCES: [f64; 3] = [300.0, 450.0, 600.0];
 /// Tip under the last force: along the tangent at the clamp, towards the centre, out of the plane.
 /// Source: Bathe and Bolourchi, Int. J. Numer. Meth. Eng. 14 (1979) 961, converged on fine meshes.
@@ -173,7 +171,6 @@ const PUBLISHED: [[f64; 3]; 3] = [
     [47.23, 15.79, 53.37],
 ];
 
-/// Tips of the scene of the repository on `n` segments, after each stage of its path.
 fn tips_of_scene(n: usize) -> Vec<[f64; 3]> {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenarios/bend-45.ron");
     let text = std::fs::read_to_string(path).unwrap();

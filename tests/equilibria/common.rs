@@ -9,7 +9,6 @@ use actin_sim::{Assembly, Outcome};
 
 pub(crate) use crate::common::{apart, build, failure, ran, run, run_anyway};
 
-/// Runs a scene that must reach its end; the assembly is then in the last state.
 pub(crate) fn solved(text: &str) -> (Assembly, Outcome) {
     let (assembly, _, outcome) = ran(text);
     (assembly, outcome)
@@ -51,13 +50,13 @@ pub(crate) fn cantilever(segments: usize, force: [f64; 3], task: &str) -> String
 pub(crate) const LENGTH: f64 = 160.0;
 /// Bending rigidity of [`cantilever`] (pN nm^2).
 pub(crate) const BEND: f64 = 3.9e4;
-/// Its rigidity against shear and stretch (pN).
+/// Shear and stretch rigidity of [`cantilever`] (pN).
 pub(crate) const SHEAR: f64 = 1e5;
 
-/// Shear and stretch rigidity of [`cantilever`] (pN).
+/// Relative precision of critical loads: far below the smallest mesh error, 1e-5.
 pub(crate) const PRECISION: f64 = 1e-9;
 
-/// Relative precision of critical loads: far below the smallest mesh error, 1e-5.
+/// Solver for the free bodies of an assembly, in the order of arc length.
 pub(crate) fn newton(assembly: &Assembly, tolerance: f64) -> Newton {
     let order = BodyOrder {
         points: assembly.points.iter().map(|p| p.s_nm).collect(),
@@ -67,7 +66,6 @@ pub(crate) fn newton(assembly: &Assembly, tolerance: f64) -> Newton {
     Newton::new(layout, to(tolerance)).unwrap()
 }
 
-/// Options with this residual for forces and torques.
 pub(crate) fn to(tolerance: f64) -> NewtonOptions {
     NewtonOptions {
         tolerance: Residual {
@@ -95,18 +93,15 @@ pub(crate) fn critical(
     bisect(is_unstable, bounds, PRECISION)
 }
 
-/// Material of these rigidities (pN, pN nm^2).
 pub(crate) fn material(shear: [f64; 3], bend: [f64; 3]) -> RodMaterial {
     let (shear, bend) = (shear.into(), bend.into());
     RodMaterial::new(Rigidities { shear, bend }).unwrap()
 }
 
-/// Point of unit mass.
 pub(crate) fn point(state: &mut State, position: Vector3) -> usize {
     push_point(state, position, 1.0)
 }
 
-/// Frame of moments 1, 1, 2.
 pub(crate) fn frame(state: &mut State, orientation: UnitQuaternion) -> usize {
     push_frame(state, orientation, [1.0, 1.0, 2.0])
 }

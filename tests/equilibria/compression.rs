@@ -183,7 +183,6 @@ fn a_motion_reports_its_share_of_unstable_records() {
     }
 }
 
-/// Twist of each bending element (rad/nm).
 fn twists(assembly: &Assembly) -> Vec<f64> {
     let q = &assembly.system.state().frames.orientation;
     let frames = 1..assembly.frames.len();

@@ -100,7 +100,6 @@ fn a_filament_lies_on_a_plane_at_the_depth_of_its_weight() {
     }
 }
 
-/// Two crossing filaments clamped at both ends; the second is moved against the first.
 fn crossing(first: &str, shift_nm: f64) -> String {
     format!(
         "Scene(

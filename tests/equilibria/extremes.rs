@@ -27,7 +27,6 @@ const BOTH_WALLS: &str = "Clamp(end: Start), Clamp(end: End)";
 const SLIDING: &str = "Clamp(end: Start), Clamp(end: End, slides: AlongAxis)";
 
 impl Extreme {
-    /// Cantilever under a tip force (pN).
     fn pulled(name: &str, sections: &'static str, [x, y, z]: [f64; 3]) -> Self {
         Self {
             name: name.to_owned(),
@@ -39,7 +38,6 @@ impl Extreme {
         }
     }
 
-    /// Filament with a moved far end.
     fn driven(name: &str, sections: &'static str, clamps: &'static str, set: &str) -> Self {
         Self {
             name: name.to_owned(),
@@ -51,7 +49,6 @@ impl Extreme {
         }
     }
 
-    /// Follows the path across sudden jumps.
     fn across_jumps(self) -> Self {
         Self {
             task: "accept_jumps: true",
@@ -133,7 +130,6 @@ impl Extreme {
         (trajectory, failed.outcome, failure)
     }
 
-    /// Checks the residual of the last state and the balance of loads and reactions.
     fn check_balance(&self, assembly: &mut Assembly, last: &Record) {
         let residual = last.residual_force_pn.max(last.residual_torque_pn_nm);
         assert!(residual <= RESIDUAL, "{}: {residual:e}", self.name);
@@ -153,7 +149,6 @@ impl Extreme {
         assert!(sum.norm() <= bound, "{}: {sum}", self.name);
     }
 
-    /// Checks that a path that ended early reports its place and keeps its records.
     fn check_report(&self, failure: &PathFailure) {
         let name = &self.name;
         assert!(
@@ -178,7 +173,6 @@ const ONE_SEGMENT: &str = "Rod(from_nm: 0.0, to_nm: 10.0, segments: 1)";
 const TWO_MONOMERS: &str = "Rod(from_nm: 0.0, to_nm: 40.0),
     Ellipsoids(from_nm: 40.0, to_nm: 45.5), Rod(from_nm: 45.5, to_nm: 85.5)";
 
-/// Tip forces.
 const PULLED: [(&str, &str, [f64; 3]); 11] = [
     ("1 pN across 16 um of rod", ROD_16000, [1.0, 0.0, 0.0]),
     ("1 pN against 16 um of rod", ROD_16000, [0.0, 0.0, -1.0]),
@@ -280,7 +274,6 @@ fn extremes_of_shift_are_certified_or_reported() {
     }
 }
 
-/// 5844 monomers.
 #[test]
 fn extremes_of_length() {
     let sections = "Ellipsoids(from_nm: 0.0, to_nm: 16000.0)";
@@ -292,7 +285,6 @@ fn extremes_of_length() {
     assert!(extreme.check());
 }
 
-/// Two turns give a uniform twist of two turns with the couple `B3` times it, and not zero.
 #[test]
 fn full_turns_of_twist_are_kept() {
     let mut assembly = turned("two turns", ROD_75, 720.0).assembly();

@@ -36,7 +36,6 @@ const MOMENT: f64 = 98.541_496_17;
 const TENSION: f64 = 2_900.993_205_79;
 const TILT_DEG: f64 = 47.651_5;
 
-/// Solution of the infinite rod with its middle at `s = 0`.
 struct Coil {
     mu: f64,
     moment: f64,
@@ -99,7 +98,6 @@ fn lay(coil: &Coil, n: usize) -> (Vec<Vector3>, Vec<UnitQuaternion>) {
     (nodes, frames)
 }
 
-/// Rod between turned and moved walls, placed on the solution of the infinite rod.
 fn coiled(n: usize) -> (State, RodLayout, Vec<Box<dyn Interaction>>) {
     let mut state = State::default();
     let rod = StraightRod {

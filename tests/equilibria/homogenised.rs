@@ -22,7 +22,6 @@ fn rod(length: f64, segments: usize) -> String {
     format!("Rod(from_nm: 0.0, to_nm: {length:?}, segments: {segments})")
 }
 
-/// End displacement (nm) of an equilibrium that is certified stable.
 fn moved((assembly, outcome): &(Assembly, Outcome)) -> [f64; 3] {
     let certificate = &outcome.equilibrium.as_ref().unwrap().certificate;
     assert_eq!(certificate.negative, 0);
@@ -108,7 +107,6 @@ fn short_beams_under_tension() {
     }
 }
 
-/// The boundary layer of shear, 5.5 nm, need not be resolved by segments of 10 nm.
 #[test]
 fn short_beams_do_not_depend_on_segments() {
     for tension in [0.0, 10.0] {
@@ -146,7 +144,6 @@ fn junctions_do_not_stiffen_beams() {
 const MIXED: &str = "Rod(from_nm: 0.0, to_nm: 40.0), Ellipsoids(from_nm: 40.0, to_nm: 75.0),
     Rod(from_nm: 75.0, to_nm: 115.0)";
 
-/// Monomers between two rods, bent, pulled and held.
 #[test]
 fn mixed_filaments_have_a_certificate() {
     let tip = moved(&solved(&scene(MIXED, "", [0.3, 0.0, 5.0])));

@@ -38,7 +38,6 @@ fn link(i: usize, s_nm: f64, stiffness: f64) -> String {
     )
 }
 
-/// Displacement of the tip of a filament (nm).
 fn moved(assembly: &Assembly, filament: usize) -> Vector3 {
     let tip = |state| assembly.tip_of(filament, state, End::End);
     tip(assembly.system.state()) - tip(&assembly.rest)
@@ -186,7 +185,6 @@ fn a_string_between_its_ends_bends_a_rod_to_an_elastica() {
     assert!(((4.0 * errors[0] - errors[1]) / 3.0).abs() < 1e-5);
 }
 
-/// Arc lengths with the filaments one after another.
 fn one_by_one(assembly: &Assembly) -> BodyOrder {
     let mut order = BodyOrder::default();
     for (i, span) in assembly.filaments.iter().enumerate() {
@@ -238,7 +236,6 @@ fn the_order_of_elimination_changes_the_fill_only() {
     }
 }
 
-/// Four rods cross-linked every 40 nm under an oblique load.
 fn bundle() -> Assembly {
     let places = [40.0, 80.0, 120.0, 160.0];
     let linkers: String = (0..3)

@@ -19,7 +19,6 @@ const PULLED_ROUND: &str = "Scene(
     task: Equilibrium(),
 )";
 
-/// Energy of the terms of one name (pN nm).
 fn energy(assembly: &Assembly, name: &str) -> f64 {
     let terms = assembly.terms.iter().zip(assembly.system.energies());
     terms.filter(|(t, _)| t.name == name).map(|(_, e)| e).sum()
@@ -64,7 +63,6 @@ fn the_halves_of_the_clamped_rod_are_mirror_images() {
     assert!(worst < 1e-8);
 }
 
-/// Mixed filament with a linker on each section, one of them with a rest length.
 fn mixed(task: &str) -> String {
     format!(
         "Scene(
@@ -86,7 +84,6 @@ fn mixed(task: &str) -> String {
     )
 }
 
-/// Forces and moments of clamp and linkers balance.
 #[test]
 fn clamp_and_linkers_balance() {
     let (mut assembly, _) = solved(&mixed("Equilibrium(force_pn: 1e-9, torque_pn_nm: 1e-9)"));

@@ -7,7 +7,6 @@ use actin_sim::{Failure, Summary};
 const MIXED: &str =
     "Rod(from_nm: 0.0, to_nm: 40.0, segments: 3), Ellipsoids(from_nm: 40.0, to_nm: 80.0)";
 
-/// Filament clamped at both ends, with its end moved along a path.
 fn driven(filament: &str, end: &str, setting: &str) -> String {
     format!(
         "Scene(
@@ -83,7 +82,6 @@ fn ends_that_pass_each_other_lose_nothing() {
     }
 }
 
-/// Number of warnings of a run that lost twist is not known.
 fn unknown(text: &str) -> usize {
     let (assembly, trajectory, report) = ran(text);
     let last = trajectory.records.last().unwrap();

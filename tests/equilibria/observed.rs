@@ -8,7 +8,6 @@ use std::collections::BTreeMap;
 const B: f64 = 3.0e4;
 const L: f64 = 160.0;
 
-/// Last observed values of a rod clamped at its start under a load.
 fn observed(load: &str, observe: &str) -> BTreeMap<String, f64> {
     let text = format!(
         "Scene(

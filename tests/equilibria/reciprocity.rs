@@ -26,7 +26,6 @@ fn scene(sections: &str, law: &str, turn_deg: f64, shift_nm: f64) -> String {
 }
 
 impl Held {
-    /// Equilibrium at `turn_deg` and `shift_nm`, along the path from rest.
     fn at(sections: &str, law: &str, turn_deg: f64, shift_nm: f64) -> Self {
         let (assembly, report) = solved(&scene(sections, law, turn_deg, shift_nm));
         let certificate = report.equilibrium.unwrap().certificate;

@@ -7,7 +7,6 @@ use actin_equilibrium::{Layout, Newton};
 use actin_mechanics::{Interaction, State, UnitQuaternion, Vector3, rotation};
 use std::f64::consts::TAU;
 
-/// Bending rigidity over twisting rigidity.
 const RATIO: f64 = 1.5;
 
 /// Straight rod of length 2 pi and unit bending rigidity, bent to a ring of `n` segments and closed

@@ -25,7 +25,6 @@ fn a_column_that_is_kept_straight_is_a_saddle() {
     assert!(report.saddles_left > 0 && report.certificate().unwrap().negative == 0);
 }
 
-/// With an imperfection the column buckles without a saddle, to the side given by the seed.
 #[test]
 fn an_imperfection_chooses_the_side() {
     let tip = |seed: u64| {
@@ -77,7 +76,6 @@ fn lost_twist_of_mixed_filaments_is_an_error() {
     assert_eq!(report.equilibrium.unwrap().points, trajectory.records.len());
 }
 
-/// The state set by the caller counts as the start, since the path is empty.
 #[test]
 fn a_start_that_is_twisted_has_lost_nothing() {
     let text = turned("Rod(from_nm: 0.0, to_nm: 75.0, segments: 8)", 700.0, "");

@@ -7,12 +7,10 @@ use actin_sim::{Assembly, End, Filament, Load, Scene, Setting, Slides, Stage};
 
 const TIGHT: &str = "Equilibrium(force_pn: 1e-9, torque_pn_nm: 1e-9)";
 
-/// Clamped mixed filament with a tip force.
 const MIXED: &str = "sections: [
     Ellipsoids(from_nm: 0.0, to_nm: 20.0), Rod(from_nm: 20.0, to_nm: 40.0, segments: 2),
 ], monomers: Monomers(anchors: Independent, lateral_bonds: 16, longitudinal_bonds: 16)";
 
-/// Second rod, displaced and tilted.
 const ASKEW: &str =
     "rod: RodModel(law: Constant), sections: [Rod(from_nm: 0.0, to_nm: 50.0, segments: 5)],
     at_nm: (5.0, -20.0, 3.0), direction: (1.0, -0.4, 0.7), roll_deg: 25.0";
@@ -106,7 +104,6 @@ fn filaments_alike_are_sampled_independently() {
     assert!((bonds(&pair, 2) - bonds(&alone, 0)).abs() > 1e-6);
 }
 
-/// Linked pair with a sliding end, a load and an anchor.
 fn linked() -> Scene {
     let text = scene(
         &format!("filaments: [({MIXED}), ({ASKEW})]"),
@@ -126,7 +123,6 @@ fn linked() -> Scene {
     Scene::from_ron(&text).unwrap()
 }
 
-/// Rotates a filament about the origin and shifts it.
 fn move_filament(filament: &mut Filament, turn: UnitQuaternion, shift: Vector3) {
     let wanted = turn * filament.rotation();
     filament.at_nm = (turn * Vector3::from(filament.at_nm) + shift).into();
@@ -183,7 +179,6 @@ fn equilibria_are_invariant_under_rigid_motion() {
     }
 }
 
-/// Settings that turn and shift the start of filament 1 and shift the anchor of linker 1.
 fn moving(turn: Vector3, shift: Vector3, anchor: Vector3) -> Vec<Setting> {
     let (filament, end) = (1, End::Start);
     vec![
@@ -204,8 +199,6 @@ fn moving(turn: Vector3, shift: Vector3, anchor: Vector3) -> Vec<Setting> {
     ]
 }
 
-/// A path of the clamp of filament 1 and of its anchor ends in the equilibrium of the scene built
-/// there.
 #[test]
 fn a_path_moves_the_end_of_the_filament_that_it_names() {
     let mut scene = linked();

@@ -71,7 +71,6 @@ fn twist_and_writhe_of_a_buckled_rod_make_its_link() {
     }
 }
 
-/// With monomers, twist comes from their frames and writhe from the smoothed centre line.
 #[test]
 fn twist_and_writhe_of_monomers_make_their_link() {
     let mixed = "Rod(from_nm: 0.0, to_nm: 70.0), Ellipsoids(from_nm: 70.0, to_nm: 230.0),

@@ -3,7 +3,6 @@
 use super::common::{build, solved};
 use actin_sim::{Assembly, Equilibrium, Outcome, RunDirectory, StableStates, Trajectory};
 
-/// 80 nm of monomers between clamped ends, compressed by a tenth.
 fn buckled(states: usize) -> String {
     format!(
         "Scene(

@@ -57,7 +57,6 @@ fn an_unheld_rod_turns_along_its_forces() {
     }
 }
 
-/// The remaining couple is within the tolerance.
 #[test]
 fn other_filaments_end_without_a_couple() {
     let monomers = "Ellipsoids(from_nm: 0.0, to_nm: 60.0)";

@@ -25,7 +25,6 @@ fn thermal(duration_ms: f64) -> Scene {
     scene
 }
 
-/// The same filament as monomers, without switches.
 fn of_monomers(scene: &Scene) -> Assembly {
     let length = Assembly::build(scene).unwrap().length_nm();
     let mut scene = scene.clone();
@@ -40,7 +39,6 @@ fn of_monomers(scene: &Scene) -> Assembly {
 
 type Seen<'a> = (&'a Assembly, &'a Record);
 
-/// All records of a run after the warm-up.
 fn warm(run: &Followed) -> impl Iterator<Item = Seen<'_>> {
     let all = run.stretches.iter().flat_map(|ran| {
         let assembly = &ran.stretch.assembly;
@@ -50,7 +48,6 @@ fn warm(run: &Followed) -> impl Iterator<Item = Seen<'_>> {
     all.skip(20)
 }
 
-/// Records after and before switches.
 fn about_switches(run: &Followed) -> [impl Iterator<Item = Seen<'_>>; 2] {
     [true, false].map(|is_first| {
         let stretches = run.stretches.iter().skip(20);
@@ -144,7 +141,6 @@ fn bonds_have_their_temperature_behind_switches() {
     assert!((first / last - 1.0).abs() < 0.1);
 }
 
-/// Cantilever that relaxes without noise, with switches.
 fn falling() -> (Scene, Followed) {
     let rest = "clamps: [Clamp(end: Start)],
         loads: [EndForce(end: End, force_pn: (-5.0, 0.0, 0.0))],
@@ -155,7 +151,6 @@ fn falling() -> (Scene, Followed) {
     (scene, run)
 }
 
-/// Energies of all records minus the energy changes by switches.
 fn less_switches(run: &Followed) -> impl Iterator<Item = (f64, &Record)> {
     run.stretches.iter().flat_map(|ran| {
         let switches = ran.stretch.beginning.switches_pn_nm;

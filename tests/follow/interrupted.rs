@@ -28,7 +28,6 @@ fn overdamped() -> Scene {
     scene(108.0, 1.0, rest)
 }
 
-/// Sink that interrupts every given number of queries.
 struct Stops {
     records: Vec<Record>,
     asked: u32,
@@ -55,7 +54,6 @@ impl Sink for Stops {
     }
 }
 
-/// All records with the index of their stretch, and the number of interruptions.
 fn run(scene: &Scene, every_ns: f64, every: u32) -> (Vec<(usize, Record)>, u32) {
     let follower = Follower::new(scene).unwrap();
     let follower = follower.with_criterion(Box::new(ToAndFro { every_ns }));

@@ -4,7 +4,6 @@ use super::{energy, scene, to_and_fro};
 use actin_sim::follow::{Followed, Ran};
 use actin_sim::{BodyKind, End, Scene};
 
-/// Undamped cantilever with a record at every check.
 fn swinging() -> Scene {
     let rest = "clamps: [Clamp(end: Start)],
         loads: [EndForce(end: End, force_pn: (-5.0, 0.0, 0.0))],
@@ -36,7 +35,6 @@ fn momentum_is_kept_to_round_off() {
     }
 }
 
-/// Bodies outside the switched cells are bitwise unchanged.
 #[test]
 fn bodies_outside_switched_cells_are_unchanged() {
     let run = to_and_fro(&swinging(), 0.75);
@@ -133,7 +131,6 @@ fn bonds_do_not_depend_on_when_monomers_are_resolved() {
     assert!(seen.len() > 60);
 }
 
-/// The tip oscillates as the tip of a filament of monomers.
 #[test]
 fn the_motion_is_that_of_monomers() {
     let followed = to_and_fro(&swinging(), 0.75);

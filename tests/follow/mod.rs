@@ -29,7 +29,6 @@ impl Criterion for ToAndFro {
     }
 }
 
-/// Scene of a filament of `length_nm` with following sections.
 fn scene(length_nm: f64, least_ns: f64, rest: &str) -> Scene {
     let text = format!(
         "Scene(
@@ -53,7 +52,6 @@ fn to_and_fro(scene: &Scene, every_ns: f64) -> Followed {
     follower.run().unwrap_or_else(|error| panic!("{error}"))
 }
 
-/// Kinetic and potential energy of a record (pN nm).
 fn energy(record: &Record) -> f64 {
     record.potential_pn_nm() + record.kinetic_pn_nm
 }

@@ -3,7 +3,6 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// Crates for separate use.
 const LIBRARIES: [&str; 11] = [
     "actin-mechanics",
     "actin-ellipsoid",
@@ -18,7 +17,6 @@ const LIBRARIES: [&str; 11] = [
     "actin-export",
 ];
 
-/// Examples that produce measurements for the documents.
 const MEASUREMENTS: [&str; 8] = [
     "bond_rate",
     "elimination_order",
@@ -57,7 +55,6 @@ fn examples(name: &str) -> Vec<(String, String)> {
         .collect()
 }
 
-/// The README contains the program verbatim and its command.
 #[test]
 fn every_example_is_short_and_shown() {
     for name in LIBRARIES {

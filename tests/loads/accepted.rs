@@ -2,7 +2,6 @@
 
 use crate::common::refusal;
 
-/// Asserts that a rod of 100 nm with these clamps, loads and task is not refused.
 fn assert_is_accepted(clamps: &str, loads: &str, task: &str) {
     let text = format!(
         "Scene(

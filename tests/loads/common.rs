@@ -15,12 +15,10 @@ pub(crate) const SHEAR: f64 = 1e6;
 /// Mass per length (ag/nm) of the default monomers.
 pub(crate) const DENSITY: f64 = 0.0697 / (71.2 / 26.0);
 
-/// Scene of a rod on a wall with loads and further keys.
 pub(crate) fn cantilever(segments: usize, shear: f64, loads: &str, rest: &str) -> String {
     twisting(segments, (shear, TWIST), loads, rest)
 }
 
-/// Cantilever with another twisting rigidity (pN nm^2).
 pub(crate) fn twisting(
     segments: usize,
     (shear, twist): (f64, f64),
@@ -43,7 +41,6 @@ pub(crate) fn twisting(
     )
 }
 
-/// Runs a scene to its end; the assembly is then in its last state.
 pub(crate) fn run(text: &str) -> (Assembly, Trajectory) {
     let (assembly, trajectory, _) = ran(text);
     (assembly, trajectory)

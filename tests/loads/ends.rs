@@ -7,7 +7,6 @@ use actin_mechanics::{Loads, State, Vector3, rotation};
 use actin_sim::{Assembly, End, Failure, Plan, RunError};
 use std::f64::consts::PI;
 
-/// Rod between the given ends under axial compression (pN).
 fn column(segments: usize, start: &str, force: f64) -> String {
     let task = "task: Equilibrium(leave_saddles: 0),";
     let load = format!("EndForce(end: End, force_pn: (0.0, 0.0, {:?}))", -force);
@@ -17,7 +16,6 @@ fn column(segments: usize, start: &str, force: f64) -> String {
     )
 }
 
-/// Critical force of a straight column by bisection.
 fn critical(segments: usize, start: &str, bounds: [f64; 2]) -> f64 {
     let is_unstable = |force: f64| match run_anyway(&mut build(&column(segments, start, force))).1 {
         Ok(_) => false,
@@ -257,7 +255,6 @@ fn sliding(sections: &str, slides: &str) -> (Assembly, State, Loads) {
     (assembly, state, loads)
 }
 
-/// The reaction vanishes along sliding directions, also in motion.
 #[test]
 fn reactions_vanish_along_sliding_directions() {
     for slides in ["Freely", "AlongAxis"] {

@@ -5,7 +5,6 @@ use actin_sim::{Assembly, End, Trajectory};
 use nalgebra::Complex;
 use std::f64::consts::TAU;
 
-/// Transverse tip positions (nm) with their times (ns).
 fn tips(assembly: &Assembly, trajectory: &Trajectory) -> Vec<(f64, f64)> {
     let records = trajectory.records.iter();
     records
@@ -118,7 +117,6 @@ fn a_sine_keeps_the_order_of_the_method() {
     );
 }
 
-/// The stop rule applies after the end of a table and a ramp.
 #[test]
 fn the_stop_rule_waits_for_what_still_changes() {
     let load = "Force(end: End, force_pn: (0.01, 0.0, 0.0),

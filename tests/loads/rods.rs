@@ -74,7 +74,6 @@ fn a_cut_keeps_the_time_step() {
     assert!((0.999..1.16).contains(&ratio), "{ratio}");
 }
 
-/// Scene of the repository with segments shorter by `refined`.
 fn cofilin(refined: usize) -> Assembly {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenarios/cofilin.ron");
     let mut text = std::fs::read_to_string(path).unwrap();
@@ -111,7 +110,6 @@ fn a_softened_stretch_is_a_stepped_beam() {
     assert!(limit.abs() < 1e-4, "{limit:e}");
 }
 
-/// Rods of several laws, curved at rest, next to each other and to monomers.
 const MANY: &str = "
     Rod(from_nm: 0.0, to_nm: 30.0, altered: (law: Constant, rest_curvature_per_nm: (0.01, -0.02))),
     Rod(from_nm: 30.0, to_nm: 60.0, altered: (bend_rigidity_factor: 0.2, twist_rigidity_factor: 0.1,

@@ -26,12 +26,10 @@ fn altered(lateral: f64, longitudinal: f64) -> String {
     )
 }
 
-/// Uniform specimen, altered or not.
 fn whole(change: &str) -> String {
     format!("Ellipsoids(from_nm: 0.0, to_nm: {SPECIMEN:?}, {change})")
 }
 
-/// Altered stretch from 60 to 150 nm.
 fn middle(change: &str) -> String {
     format!(
         "Ellipsoids(from_nm: 0.0, to_nm: 60.0), Ellipsoids(from_nm: 60.0, to_nm: 150.0, {change}),

@@ -5,7 +5,6 @@ use actin_mechanics::{UnitQuaternion, Vector3, rotation};
 use actin_sim::{Assembly, End};
 use std::f64::consts::FRAC_PI_2;
 
-/// A quarter of a circle of 60 nm.
 const RADIUS: f64 = 60.0;
 const LENGTH: f64 = RADIUS * FRAC_PI_2;
 const ROD: &str = "Rod(from_nm: 0.0, to_nm: L, segments: 20)";
@@ -30,7 +29,6 @@ fn text(sections: &str, shape: &str, rest: &str) -> String {
 
 const ARC: &str = "Arc(radius_nm: 60.0, azimuth_deg: 90.0)";
 
-/// Position and frame of the arc at `s` in the lab.
 fn on_arc(assembly: &Assembly, s: f64) -> (Vector3, UnitQuaternion) {
     let span = &assembly.filaments[0];
     let (sin, cos) = (s / RADIUS).sin_cos();
@@ -42,7 +40,6 @@ fn on_arc(assembly: &Assembly, s: f64) -> (Vector3, UnitQuaternion) {
     )
 }
 
-/// Bodies, clamps and sites lie on the arc, up to the straight segments of a rod.
 #[test]
 fn every_model_follows_the_arc() {
     let rest = "clamps: [Clamp(end: Start), Clamp(end: End)],
@@ -89,7 +86,6 @@ fn every_model_follows_the_arc() {
     }
 }
 
-/// A rod bent between walls has bending energy without stretch or shear.
 #[test]
 fn bent_filaments_start_under_stress() {
     let rest = "clamps: [Clamp(end: Start), Clamp(end: End)], task: Equilibrium(),";

@@ -34,7 +34,6 @@ fn turn_at(assembly: &Assembly, s_nm: f64) -> UnitQuaternion {
     assembly.system.state().frames.orientation.get(frame)
 }
 
-/// Torque on the wall's cross-section (pN nm, lab frame).
 fn wall_torque(assembly: &mut Assembly) -> Vector3 {
     let loads = assembly.system.loads().clone();
     assembly.clamps[0]
@@ -282,7 +281,6 @@ fn walls_bear_every_load_in_every_model() {
     }
 }
 
-/// The work of an end couple accumulates over two and a half turns of the wall.
 #[test]
 fn turns_of_a_driven_wall_are_counted() {
     let load = "Couple(end: End, couple_pn_nm: (0.0, 0.0, 1.0))";
@@ -294,7 +292,6 @@ fn turns_of_a_driven_wall_are_counted() {
     assert!(error.abs() < 1e-9, "{error:e}");
 }
 
-/// Rod clamped at one end with a couple at the other.
 fn coupled(end: End, (sections, law): (&str, &str), couple: [f64; 3]) -> Assembly {
     let [x, y, z] = couple;
     let held = match end {

@@ -6,7 +6,6 @@ use actin_sim::{End, RunDirectory};
 use std::collections::BTreeMap;
 
 const FORCE: [f64; 3] = [3.0, -1.0, 4.0];
-/// Tolerance of the residual (pN, pN nm).
 const TOLERANCE: f64 = 1e-5;
 
 fn settled(sections: &str, clamped: &str, loaded: &str) -> Settled {
@@ -72,7 +71,6 @@ fn the_reaction_balances_the_load() {
     }
 }
 
-/// Rows of `energies.csv` by column names.
 fn rows(text: &str) -> Vec<BTreeMap<String, f64>> {
     let mut lines = text.lines();
     let names: Vec<&str> = lines.next().unwrap().split(',').collect();

@@ -7,7 +7,6 @@ use actin_sim::{Assembly, End, Part, Resolution};
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-/// Rise per monomer (nm).
 const RISE: f64 = 71.2 / 26.0;
 
 fn filament(ends: &[f64], monomers_first: bool, clamps: &str) -> Assembly {
@@ -40,7 +39,6 @@ const CLAMPS: [&str; 4] = [
     "Clamp(end: Start), Clamp(end: End)",
 ];
 
-/// Increasing ends of sections, each 15 to 45 nm long.
 fn ends(noise: &mut Xorshift, count: usize) -> Vec<f64> {
     (0..count)
         .scan(0.0, |s, _| {
@@ -119,7 +117,6 @@ fn check_bodies(assembly: &Assembly, i: usize, what: &str) {
     );
 }
 
-/// Distance of the outermost point of section `i` beyond its end (nm).
 fn overhang(assembly: &Assembly, i: usize, end: End) -> f64 {
     let outermost = match end {
         End::Start => 0,
@@ -150,7 +147,6 @@ fn lattice(assembly: &Assembly, i: usize) -> Option<Range<i64>> {
     }
 }
 
-/// Position and orientation of every monomer by lattice index.
 fn monomers(assembly: &Assembly) -> BTreeMap<i64, [f64; 7]> {
     let rest = &assembly.rest;
     let mut all = BTreeMap::new();

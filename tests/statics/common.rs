@@ -4,7 +4,6 @@ use crate::common::ran;
 use actin_mechanics::{State, Vector3};
 use actin_sim::{Assembly, End, Outcome, Record, Trajectory};
 
-/// Cantilever of one rod, relaxed by damped dynamics.
 #[derive(Clone, Debug)]
 pub(crate) struct Rod {
     pub(crate) length_nm: f64,
@@ -13,11 +12,8 @@ pub(crate) struct Rod {
     pub(crate) bend_pn_nm2: [f64; 3],
     pub(crate) hold: &'static str,
     pub(crate) force_law: &'static str,
-    /// Transverse tip force along x (pN).
     pub(crate) force_pn: f64,
-    /// Both drag rates (1/ns).
     pub(crate) drag_per_ns: f64,
-    /// Tolerance of the residual (pN, pN nm).
     pub(crate) tolerance: f64,
 }
 
@@ -74,7 +70,6 @@ impl Rod {
         )
     }
 
-    /// Displacement of the tip along x at rest (nm).
     pub(crate) fn deflection_nm(&self) -> f64 {
         let settled = settle(&self.scene());
         settled.tip_displacement_nm(End::End).x
@@ -92,14 +87,12 @@ impl Settled {
         self.trajectory.records.last().unwrap()
     }
 
-    /// Displacement of a tip from its position as built (nm).
     pub(crate) fn tip_displacement_nm(&self, end: End) -> Vector3 {
         let assembly = &self.assembly;
         assembly.tip_nm(&self.last().state, end) - assembly.tip_nm(&assembly.rest, end)
     }
 }
 
-/// Runs a scene until its stop rule is met.
 pub(crate) fn settle(text: &str) -> Settled {
     let (assembly, trajectory, report) = ran(text);
     let settled = Settled {
@@ -118,7 +111,6 @@ pub(crate) fn settle(text: &str) -> Settled {
     settled
 }
 
-/// Number of free points and free frames.
 pub(crate) fn free_bodies(state: &State) -> (usize, usize) {
     let points = (0..state.points.len()).filter(|&i| state.points.is_free(i));
     let frames = (0..state.frames.len()).filter(|&i| state.frames.is_free(i));

@@ -3,10 +3,8 @@
 use super::common::{Settled, settle};
 use actin_sim::End;
 
-/// Tolerance of the residual (pN, pN nm).
 const TOLERANCE: f64 = 1e-7;
 
-/// Numerical parameters of the relaxation.
 #[derive(Clone, Copy, Debug)]
 struct Way {
     integrator: &'static str,
@@ -15,7 +13,6 @@ struct Way {
     rotational_per_ns: f64,
 }
 
-/// Reference parameters.
 const USUAL: Way = Way {
     integrator: "Pefrl",
     step_safety: 0.5,
@@ -23,7 +20,6 @@ const USUAL: Way = Way {
     rotational_per_ns: 1.0,
 };
 
-/// 30 nm of monomers with few bonds and 30 nm of rod under a transverse tip force.
 fn settled(way: Way) -> Settled {
     let Way {
         integrator,

@@ -8,7 +8,6 @@ fn scenarios() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenarios")
 }
 
-/// All scenes below `folder`, except folders `bad` and sweeps.
 fn scenes(folder: &Path) -> Vec<PathBuf> {
     let entries = fs::read_dir(folder)
         .unwrap()
@@ -26,7 +25,6 @@ fn scenes(folder: &Path) -> Vec<PathBuf> {
     all
 }
 
-/// Reads, builds and estimates, as `actin check` does.
 fn check(text: &str) -> Result<(Assembly, Option<Estimate>), SceneError> {
     let scene = Scene::from_ron(text)?;
     let build = || -> Result<_, SceneProblem> {

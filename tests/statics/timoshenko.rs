@@ -5,12 +5,10 @@ use super::common::{Rod, orders};
 /// Tip deflection under a force of 15 (length 3, radius 0.25, E = 1e6, G = 1e4, shear factor 4/3).
 /// Source: Gazzola et al., R. Soc. Open Sci. 5 (2018) 171628, Section 4.
 const TIP: f64 = 0.061_191_892_5;
-/// The force of [`TIP`].
 const FORCE: f64 = 15.0;
 /// Share of bending in [`TIP`], F L^3 / 3B; the rest is shear, F L / S.
 const BENDING_SHARE: f64 = 0.719_100;
 
-/// Gazzola's cantilever.
 fn cantilever(segments: usize) -> Rod {
     let (young, shear, radius) = (1e6, 1e4, 0.25_f64);
     let area = std::f64::consts::PI * radius * radius;

@@ -6,7 +6,6 @@ use actin_mechanics::Vector3;
 use actin_sim::{Assembly, Trajectory};
 use std::f64::consts::PI;
 
-/// Length of the rod (nm).
 const LENGTH: f64 = 160.0;
 /// Bending rigidity (pN nm^2) and mass per length (pN ns^2/nm^2).
 const BEND: f64 = 3.9e4;
@@ -77,7 +76,6 @@ impl Mode {
         self.frequency(&assembly, &trajectory)
     }
 
-    /// Frequency from the zeros of the amplitude.
     fn frequency(&self, assembly: &Assembly, trajectory: &Trajectory) -> f64 {
         let amplitude = |state: &actin_mechanics::State| -> f64 {
             let points = assembly.points.iter().zip(state.points.position.iter());

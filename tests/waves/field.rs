@@ -44,7 +44,6 @@ pub(crate) fn set(assembly: &mut Assembly, motion: &dyn Fn(f64) -> Motion) {
     }
 }
 
-/// Sets the angular velocity (rad/ns, lab frame) of frame `i`.
 pub(crate) fn set_spin(state: &mut State, i: usize, spin: Vector3) {
     let body = state.frames.orientation.get(i).inverse() * spin;
     let momentum = body.component_div(&state.frames.inverse_moments(i));

@@ -9,11 +9,9 @@ use actin_mechanics::Vector3;
 use actin_sim::Assembly;
 use std::f64::consts::PI;
 
-/// Length of the rod (nm).
 const LENGTH: f64 = 160.0;
 /// Mass per length (pN ns^2/nm^2): a monomer's mass over the rise.
 const DENSITY: f64 = 0.0697 / (71.2 / 26.0);
-/// Area of the cross-section (nm^2).
 const AREA: f64 = 38.5;
 /// Stretching rigidity (pN) and twisting rigidity (pN nm^2).
 const STRETCH: f64 = 3.4e4;
@@ -52,7 +50,6 @@ impl Wave {
         }
     }
 
-    /// Field of the wave at body `i`, and its arc length.
     fn fields(self, assembly: &Assembly, state: &actin_mechanics::State) -> Vec<(f64, f64)> {
         match self {
             Self::Stretch => {

@@ -21,7 +21,6 @@ const TWIST: f64 = 1.3e4;
 /// Distance, in widths of the pulse, beyond which it is negligible.
 const REACH: f64 = 7.0;
 
-/// Kind of a pulse.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Kind {
     /// Stretch with this largest strain.
@@ -44,7 +43,6 @@ impl Pulse {
         TAU / (1.5 * self.width)
     }
 
-    /// Group velocity (nm/ns).
     fn speed(self) -> f64 {
         match self.kind {
             Kind::Axial(_) => (STRETCH / DENSITY).sqrt(),
@@ -115,7 +113,6 @@ impl Pulse {
     }
 }
 
-/// Second half of the filament, after a rod.
 #[derive(Clone, Copy, Debug)]
 enum Beyond {
     Monomers { weight: &'static str, seed: u64 },
@@ -196,7 +193,6 @@ fn turning(state: &State, i: usize) -> f64 {
     0.5 * l.component_mul(&state.frames.inverse_moments(i)).dot(&l)
 }
 
-/// Mean and standard deviation over samplings of bonds.
 fn over_samplings(pulse: Pulse, segment: f64, weight: &'static str) -> (f64, f64) {
     const SEEDS: u64 = 4;
     let shares: Vec<f64> = (0..SEEDS)
@@ -207,7 +203,6 @@ fn over_samplings(pulse: Pulse, segment: f64, weight: &'static str) -> (f64, f64
     (mean, variance.sqrt())
 }
 
-/// Pulse on a mesh, and its reflected shares (mean and standard deviation).
 struct Shares {
     rod: f64,
     shared: (f64, f64),

@@ -10,7 +10,6 @@ const SEGMENTS: usize = 16;
 /// Initial spin of the rod about its axis and across it (rad/ns).
 const SPIN: [f64; 2] = [1e-2, 2e-3];
 
-/// Free, straight rod in rotation.
 fn tumbling(turns: f64) -> Assembly {
     let duration = turns * std::f64::consts::TAU / SPIN[1];
     let mut assembly = build(&format!(
