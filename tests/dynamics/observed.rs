@@ -29,7 +29,7 @@ fn mean(summary: &Summary, column: &str) -> MeanSummary {
 /// Kinetic and elastic energy are `kT/2` per degree of freedom. The burn-in is excluded because the
 /// rod starts at rest.
 #[test]
-fn energies_are_those_of_equipartition() {
+fn energies_satisfy_equipartition() {
     let (assembly, records, summary) = run("Scene(
         filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 40.0, segments: 4)], rod: RodModel(law: Constant)),
         clamps: [Clamp(end: Start)],

@@ -42,7 +42,7 @@ fn fluctuations(scene: &Scene) -> Fluctuations {
 /// Overdamped steps of 20 ns and inertial motion with bonds give the same strains. The variances
 /// have errors of 2.2 % (4000 independent states) and 1.7 % (400 ns with bonds).
 #[test]
-fn strains_are_those_of_bonds() {
+fn strains_agree_with_bonds() {
     let section = "Ellipsoids(from_nm: 0.0, to_nm: 32.9)";
     let bonds =
         "Dynamics(duration_ns: 400.0, drag: (translational_per_ns: 5.0, rotational_per_ns: 5.0),
@@ -82,7 +82,7 @@ fn warmth(attached: usize) -> [f64; 2] {
 /// 8 % too cold in these steps of 100 ns. Two monomers attached to one rod form a loop with
 /// dependent strains.
 #[test]
-fn energy_is_that_of_the_temperature() {
+fn energy_agrees_with_the_temperature() {
     let (open, loops) = (warmth(1), warmth(2));
     println!("{open:?}, with loops {loops:?}");
     for warmth in [open[0], open[1], loops[1]] {

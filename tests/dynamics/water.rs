@@ -115,7 +115,7 @@ fn tips_fluctuate_alike_with_inertia_and_without() {
 }
 
 #[test]
-fn steps_in_water_are_those_of_the_stiffness() {
+fn steps_in_water_depend_on_the_stiffness() {
     let planned = |rest: &str| {
         let assembly = build(&format!(
             "Scene(

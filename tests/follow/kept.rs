@@ -132,7 +132,7 @@ fn bonds_do_not_depend_on_when_monomers_are_resolved() {
 }
 
 #[test]
-fn the_motion_is_that_of_monomers() {
+fn the_motion_agrees_with_monomers() {
     let followed = to_and_fro(&swinging(), 0.75);
     let mut scene = swinging();
     let length = followed.stretches[0].stretch.assembly.length_nm();

@@ -24,7 +24,7 @@ fn receptance(omega: f64, drag: f64) -> Complex<f64> {
 
 /// The static receptance is `L^3 / 3B`.
 #[test]
-fn the_receptance_is_that_of_statics() {
+fn the_receptance_agrees_with_statics() {
     let slow = receptance(1e-3, 0.0);
     assert!(
         (slow.re / (LENGTH.powi(3) / (3.0 * BEND)) - 1.0).abs() < 1e-4,
@@ -118,7 +118,7 @@ fn a_sine_keeps_the_order_of_the_method() {
 }
 
 #[test]
-fn the_stop_rule_waits_for_what_still_changes() {
+fn the_stop_rule_waits_for_changing_loads() {
     let load = "Force(end: End, force_pn: (0.01, 0.0, 0.0),
         factor: Table(time_ns: [20.0, 30.0, 40.0], factor: [0.0, 2.0, 1.0]))";
     let task = "task: Dynamics(duration_ns: 600.0, record_every_ns: 5.0,

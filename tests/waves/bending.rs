@@ -97,7 +97,7 @@ const SHEAR: f64 = 1.6e4;
 /// the mean squared slope over the mean squared displacement. A wrong tip mass would change it by a
 /// tenth, a wrong inertia by a percent.
 #[test]
-fn the_first_flexural_frequency_is_that_of_the_beam() {
+fn the_first_flexural_frequency_agrees_with_the_beam() {
     let mode = &MODES[0];
     let slender = mode.slender();
     assert!((slender - 0.170).abs() < 5e-4, "{slender}");

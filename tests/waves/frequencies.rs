@@ -97,7 +97,7 @@ fn measured(wave: Wave, segments: usize, m: usize) -> f64 {
 /// A wrong mass or polar moment would change the frequency by tens of percent, a wall at a whole
 /// segment's distance by percents.
 #[test]
-fn stretching_and_twisting_frequencies_are_those_of_the_lattice() {
+fn stretching_and_twisting_frequencies_agree_with_the_lattice() {
     println!("wave, segments, mode: rad/ns, of the lattice, of the continuous rod");
     for wave in [Wave::Stretch, Wave::Twist] {
         for (segments, m) in [(16, 1), (16, 4), (32, 1), (32, 4)] {

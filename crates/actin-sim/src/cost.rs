@@ -175,7 +175,7 @@ mod tests {
 
     /// 4000 evaluations: 1000 steps of 0.001 ns with four evaluations each. 8 elements: 6 segments and 2 bonds of a junction.
     #[test]
-    fn counts_are_those_of_the_scene() {
+    fn counts_agree_with_the_scene() {
         let motion = "task: Dynamics(duration_ns: 1.0, time_step_ns: 0.001),";
         let (rod, _) = measured(ROD, motion);
         assert_eq!((rod.bonds, rod.elements), (0, 6));

@@ -249,7 +249,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn angular_velocity_is_that_of_the_rotation() {
+    fn angular_velocity_agrees_with_the_rotation() {
         let rate = Vector3::new(0.3, -0.2, 0.5);
         let axis = Vector3::new(1.0, 2.0, -0.5).normalize();
         for angle in [0.0, 1e-6, 0.7, 3.0, 12.0] {

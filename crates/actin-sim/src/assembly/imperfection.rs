@@ -156,7 +156,7 @@ mod tests {
 
     /// Tolerances cover the curvature between monomers and the second order of the slope.
     #[test]
-    fn the_field_is_that_of_arc_length_in_every_model() {
+    fn the_field_depends_on_arc_length_in_every_model() {
         let imperfection = "imperfection: (amplitude_nm: 0.02, seed: 7),";
         for (sections, clamps) in SECTIONS.iter().flat_map(|s| CLAMPS.map(|c| (s, c))) {
             let assembly = build(sections, clamps, imperfection);

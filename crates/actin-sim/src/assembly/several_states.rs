@@ -79,7 +79,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn stretches_lie_about_what_is_marked() {
+    fn stretches_surround_marked_places() {
         let at = |s: f64, is_marked: bool| (s, is_marked);
         let places = vec![
             at(40.0, true),

@@ -44,7 +44,7 @@ fn records(scene: &Scene, number: usize) -> Vec<(usize, u64, Vec<Record>)> {
 }
 
 #[test]
-fn results_are_those_of_single_runs_on_any_number_of_threads() {
+fn results_equal_single_runs_on_any_number_of_threads() {
     for mut scene in [heated(0.3, ""), Scene::from_ron(DRAWN).unwrap()] {
         let one = records(&scene, 1);
         assert_eq!(one, records(&scene, 2));

@@ -29,8 +29,8 @@ use serde::{Deserialize, Serialize};
 ///     task: Dynamics(duration_ns: 3.0, record_every_ns: 0.5),
 /// )";
 /// let run = Follower::new(&Scene::from_ron(text)?)?.run()?;
-/// // It bends, and monomers come.
-/// let switch = run.switches().next().expect("it bends");
+/// // The filament bends, and cells become monomers.
+/// let switch = run.switches().next().expect("the filament bends");
 /// assert!(!switch.to_monomers.is_empty());
 /// assert!(run.stretches[0].stretch.assembly.counts().monomers == 0);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -258,7 +258,7 @@ impl Follower {
         saved: &Saved,
     ) -> Result<Next, SceneProblem> {
         let RunPosition::Motion(position) = &saved.position else {
-            unreachable!("a motion is left where it stands in time");
+            unreachable!("a motion stops at a position in time");
         };
         let here = &position.checkpoint.here;
         let kinds = [&left.beginning.is_monomers, &is_monomers];

@@ -216,7 +216,7 @@ mod tests {
     }
 
     #[test]
-    fn bounds_that_are_met_are_those_of_the_table() {
+    fn numbers_of_met_bounds_agree_with_the_table() {
         let table = include_str!("../../../../docs/tables/load-cases.md");
         let met = |law: &str| -> [u32; 2] {
             let rows = table.lines().map(|line| line.split('|').map(str::trim));

@@ -252,7 +252,7 @@ fn tangents_correlate_over_any_distance() {
 }
 
 #[test]
-fn ends_are_told_apart() {
+fn ends_are_distinguished() {
     let assembly = build(ALL);
     let row = observe(&assembly, &assembly.rest);
     let start = assembly.tip_nm(&assembly.rest, End::Start);

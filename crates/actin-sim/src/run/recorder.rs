@@ -31,7 +31,7 @@ pub(super) struct Recorder<'a> {
     /// Position at which an interrupted run continues.
     position: Option<Checkpoint>,
     /// Checkpoint at the last record after which the motion continued, with the records up to then.
-    /// Those are unknown if the run was resumed since.
+    /// They are unknown if the run was resumed since.
     last_good: Option<(Checkpoint, Option<Recorded>)>,
     /// A record was made since `last_good`.
     is_behind: bool,

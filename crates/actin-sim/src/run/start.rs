@@ -7,7 +7,7 @@
 //! whole filament in the sense of lower potential energy of a periodic cell (`endless.rs`).
 //! Monomers are placed as in cells under the local force and torque.
 //!
-//! Local loads are those of the straight filament. If they would bend it far, only a part of them
+//! Local loads are computed on the straight filament. If they would bend it far, only a part of them
 //! is applied. If the sense of lower energy differs between loads (it reverses above about 20 pN
 //! nm), no initial guess is made.
 

@@ -26,7 +26,7 @@ pub struct ProfilePoint {
 
 /// Returns the fields at each vertex of the [`Ribbon`] of filament 0 in `state`.
 ///
-/// For rods, curvature and twist are those of the bending elements. For monomers they come from the
+/// For rods, curvature and twist come from the bending elements. For monomers they come from the
 /// rotation between neighbouring monomers without the rotation of the helix, averaged over
 /// neighbouring pairs with weights 1/4, 1/2, 1/4 to remove the alternation of the strands. An end
 /// without bending repeats the adjacent value.

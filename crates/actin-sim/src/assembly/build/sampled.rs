@@ -365,7 +365,7 @@ mod tests {
 
     /// Quadrature bonds depend on the length of a run, sampled bonds also on its place.
     #[test]
-    fn runs_are_known_by_what_bonds_depend_on() {
+    fn runs_are_keyed_by_the_parameters_of_bonds() {
         let key = |sections: &str, anchors: &str| {
             of(sections, anchors, |strand| {
                 assert_eq!(strand.monomers_of(1), 13);

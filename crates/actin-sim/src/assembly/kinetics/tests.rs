@@ -55,7 +55,7 @@ fn lifetime(kinetics: &str, rate: f64) -> (f64, f64, f64) {
 
 /// Bell's rate, a constant rate and a catch bond.
 #[test]
-fn lifetimes_under_force_are_those_of_the_rates() {
+fn lifetimes_under_force_agree_with_the_rates() {
     let e = std::f64::consts::E;
     for (kinetics, rate) in [
         ("breaks: Breaking(rate_per_ns: 0.02)", 0.02),
