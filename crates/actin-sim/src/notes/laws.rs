@@ -109,7 +109,7 @@ const DRAWN_IN_BATH: &str = "rods under the law Homogenised at 298 K: they repre
 
 /// Warning on the published rigidities, with the numbers of bounds met
 /// (`docs/tables/load-cases.md`).
-const CONSTANT: &str = "rods under the law Constant, the published rigidities: compared with 92 numbers of filaments of monomers under \
+const CONSTANT: &str = "rods under the law Constant, the published rigidities: of 92 numbers of filaments of monomers under \
     various loads, this law meets 11 within the required tolerance, Homogenised 82 (cargo xtask load-cases)";
 
 const HEATED: &str = "rods under the law HomogenisedAt298K without a heat bath: their free energy at 298 K is minimal at a \
