@@ -1,4 +1,4 @@
-//! A motion that is interrupted and resumed, between switches and about them.
+//! Interruptions of a following motion between and at switches.
 
 use super::{ToAndFro, scene};
 use actin_sim::follow::{Follower, Left, Stretch};
@@ -15,7 +15,7 @@ fn thermal() -> Scene {
     scene(108.0, 0.25, rest)
 }
 
-/// The same without inertia: three steps between switches and looks at each.
+/// Overdamped motion with three steps between switches and a check at each.
 fn overdamped() -> Scene {
     let rest = "task: Brownian(
             duration_ms: 1.6e-3,
@@ -28,7 +28,6 @@ fn overdamped() -> Scene {
     scene(108.0, 1.0, rest)
 }
 
-/// Takes records, and interrupts whenever it has been asked so many times.
 struct Stops {
     records: Vec<Record>,
     asked: u32,
@@ -55,7 +54,6 @@ impl Sink for Stops {
     }
 }
 
-/// All records of the motion, the stretch of each, and how often it was interrupted.
 fn run(scene: &Scene, every_ns: f64, every: u32) -> (Vec<(usize, Record)>, u32) {
     let follower = Follower::new(scene).unwrap();
     let follower = follower.with_criterion(Box::new(ToAndFro { every_ns }));
@@ -87,8 +85,7 @@ fn run(scene: &Scene, every_ns: f64, every: u32) -> (Vec<(usize, Record)>, u32) 
     }
 }
 
-/// Records, of whatever stretch, are the same to the bit however often a run was interrupted: at every check, the one
-/// at which cells are switched included, and where checks and switches fall differently.
+/// Interruptions at every check, including checks at switches and between them.
 #[test]
 fn an_interrupted_motion_is_the_same_to_the_bit() {
     for (scene, every_ns) in [(thermal(), 0.5), (overdamped(), 120.0)] {

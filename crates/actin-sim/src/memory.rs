@@ -19,7 +19,6 @@ struct Each {
     statics: f64,
 }
 
-/// Text, parameters and reports of a filament.
 const FILAMENT: Each = Each {
     motion: 1.2e4,
     statics: 1.2e4,
@@ -30,14 +29,12 @@ const SEGMENT: Each = Each {
     motion: 1.5e3,
     statics: 6.6e3,
 };
-/// Segment under a law that depends on curvature, twist or shear.
 const LAW_SEGMENT: Each = Each {
     motion: 2.2e3,
     statics: 1.2e4,
 };
 /// Additional trial motions of nonconservative loads, all of which are kept.
 const TRIAL_VECTORS: f64 = (6 * 8 * actin_integrate::KRYLOV_VECTORS) as f64;
-/// Monomer without bonds.
 const MONOMER: Each = Each {
     motion: 1.8e3,
     statics: 1.9e4,
@@ -54,12 +51,10 @@ impl Each {
     }
 }
 
-/// Bytes of a filament without its bodies.
 pub(crate) fn of_filament(task: &Task) -> f64 {
     FILAMENT.of(task)
 }
 
-/// Bytes of `count` segments.
 pub(crate) fn of_segments(count: f64, rod: &RodModel, task: &Task) -> f64 {
     let each = match rod.law {
         RodLaw::Constant => SEGMENT,
@@ -72,7 +67,6 @@ pub(crate) fn of_segments(count: f64, rod: &RodModel, task: &Task) -> f64 {
     count * (each.of(task) + trials)
 }
 
-/// Bytes of `count` monomers with `bonds` bonds each.
 pub(crate) fn of_monomers(count: f64, bonds: usize, task: &Task) -> f64 {
     count * (MONOMER.of(task) + BOND * bonds as f64)
 }
@@ -81,7 +75,6 @@ pub(crate) fn of_monomers(count: f64, bonds: usize, task: &Task) -> f64 {
 /// energy, residuals, work, heat, events.
 const NUMBERS_OF_ROW: usize = 7;
 
-/// Bytes of a recorded state with the energies of `terms` terms.
 fn of_record(state: &State, terms: usize) -> f64 {
     // Points have 6 numbers, frames 7.
     let numbers = 6 * state.points.len() + 7 * state.frames.len() + state.controls.len();
@@ -122,7 +115,6 @@ pub(crate) fn check(
     Err(SceneProblem::new(key, value, rule))
 }
 
-/// Formats an amount of memory.
 pub(crate) fn in_words(bytes: f64) -> String {
     match bytes {
         b if b < 1e9 => format!("{:.0} MB", (b / 1e6).max(1.0)),

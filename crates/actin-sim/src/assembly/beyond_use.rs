@@ -85,7 +85,6 @@ impl fmt::Display for BeyondUse {
     }
 }
 
-/// Arc length (nm) and value of a maximum.
 type Furthest = (f64, f64);
 
 impl Assembly {
@@ -131,7 +130,6 @@ impl Assembly {
         worst(found)
     }
 
-    /// Appends contacts and walls whose penetration exceeds the range of the repulsion.
     fn push_touching(&self, found: &mut Vec<BeyondUse>, state: &State) {
         let repelled = self.repelled.iter();
         for touching in repelled.flat_map(|repelled| repelled.touching(state)) {
@@ -249,7 +247,6 @@ impl Assembly {
     }
 }
 
-/// Keeps the largest value of each section and quantity.
 pub(crate) fn worst(found: impl IntoIterator<Item = BeyondUse>) -> Vec<BeyondUse> {
     let mut worst: Vec<BeyondUse> = Vec::new();
     for beyond in found {
@@ -296,7 +293,6 @@ mod tests {
         found.map(|b| (b.section, b.quantity)).collect()
     }
 
-    /// Shifts all points from index `from` along the axis.
     fn parted(assembly: &Assembly, from: usize, by: f64) -> State {
         let mut state = assembly.rest.clone();
         for i in from..state.points.len() {

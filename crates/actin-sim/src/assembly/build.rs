@@ -235,7 +235,6 @@ impl<'a> Builder<'a> {
         assembly
     }
 
-    /// Returns the scene with explicit segment counts of all rods.
     fn resolved_scene(&self) -> Scene {
         let mut scene = self.scene.clone();
         let sections = scene.filaments_mut().flat_map(|f| f.sections.iter_mut());
@@ -248,7 +247,6 @@ impl<'a> Builder<'a> {
     }
 }
 
-/// Arc lengths (nm) of the couples on each filament.
 fn couples_nm(scene: &Scene) -> BTreeMap<usize, Vec<f64>> {
     let mut all: BTreeMap<usize, Vec<f64>> = BTreeMap::new();
     for load in &scene.loads {

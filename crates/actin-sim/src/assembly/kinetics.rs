@@ -69,7 +69,6 @@ struct Switching {
     places_nm: Vec<f64>,
 }
 
-/// All linkers of a scene that break, form or step.
 #[derive(Clone, Debug)]
 pub(crate) struct Kinetics {
     all: Vec<Switching>,
@@ -89,7 +88,6 @@ pub(crate) struct Happenings {
 }
 
 impl Kinetics {
-    /// Creates an empty set and its controls in a state under construction.
     pub(super) fn new(state: &mut State) -> Self {
         Self {
             all: Vec::new(),
@@ -98,7 +96,6 @@ impl Kinetics {
         }
     }
 
-    /// Adds linker `index` with the arc lengths of its places (nm).
     pub(super) fn push(
         &mut self,
         index: usize,
@@ -120,7 +117,6 @@ impl Kinetics {
         Some((&switching.linker, &switching.places_nm))
     }
 
-    /// Accumulated energy change by events in `state` (pN nm).
     pub(crate) fn booked(&self, state: &State) -> f64 {
         state.controls[self.booked]
     }

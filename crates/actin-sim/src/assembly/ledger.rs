@@ -27,7 +27,6 @@ impl Booked {
     }
 }
 
-/// Name and value of a column of `energies.csv`.
 pub(crate) type Column = (&'static str, fn(&Booked) -> f64);
 
 /// Adds the energy balance of a motion to a state under construction; `None` for other tasks.

@@ -81,15 +81,11 @@ pub struct Assembly {
     /// Clamped ends.
     pub clamps: Vec<Clamped>,
     pub(crate) held: HeldEnds,
-    /// Controls of the load factors, in the order of the scene.
     pub(crate) loads: Vec<ControlId>,
     /// Linkers in the order of the scene; stepping linkers at their first place.
     pub linkers: Vec<Linker>,
-    /// Linkers whose state changes in time, if any.
     pub(crate) kinetics: Option<Arc<Kinetics>>,
-    /// Energy balance of a motion; `None` for other tasks.
     pub(crate) ledger: Option<Ledger>,
-    /// Repelling bodies, if any.
     pub(crate) repelled: Option<Repelled>,
     /// Arc length interval (nm) of each element of each term; empty for loads and linkers.
     pub(crate) spans: Vec<Vec<[f64; 2]>>,
@@ -98,11 +94,9 @@ pub struct Assembly {
     pub drive: Drive,
     /// State as built: unloaded, at rest and without imperfections.
     pub rest: State,
-    /// Runs of monomers with quasi-harmonic interfaces.
     pub(crate) sampled: Vec<Sampled>,
     /// Choice of automatic sections, if the scene has any.
     pub chosen: Option<Chosen>,
-    /// Duration of the build (s).
     pub(crate) build_s: f64,
     /// Estimated memory of the task without its records (bytes).
     pub(crate) bytes: f64,

@@ -60,7 +60,6 @@ impl fmt::Display for BeyondRange {
     }
 }
 
-/// Suffix that names a filament other than the first.
 pub(super) fn of_filament(filament: usize) -> String {
     match filament {
         0 => String::new(),
@@ -68,7 +67,6 @@ pub(super) fn of_filament(filament: usize) -> String {
     }
 }
 
-/// Formats a share in per cent with two digits.
 pub(super) fn percent(share: f64) -> String {
     match 100.0 * share {
         percent if percent >= 10.0 => format!("{percent:.0} %"),
@@ -77,7 +75,6 @@ pub(super) fn percent(share: f64) -> String {
     }
 }
 
-/// Serialised form of [`BeyondRange`].
 #[derive(Clone, Serialize, Deserialize)]
 struct Written {
     #[serde(default)]
@@ -145,7 +142,6 @@ pub struct Fluctuations {
     pub share_of_elements: f64,
 }
 
-/// Ranges of the data of a rod's laws; `None` where unbounded.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Ranges {
     /// Curvature at rest, from which deformations are counted.
@@ -158,7 +154,6 @@ pub(crate) struct Ranges {
 }
 
 impl Ranges {
-    /// Ranges of a material and of a twist-stretch law.
     pub(super) fn of(material: &RodMaterial, length: Option<&TwistStretch>) -> Self {
         if let Some(law) = material.potential() {
             return Self {
@@ -192,7 +187,6 @@ impl Ranges {
 /// Values of a quantity and their arc lengths from the rod's start (nm).
 type Values<'a> = Box<dyn Iterator<Item = (f64, f64)> + 'a>;
 
-/// Quantity that the data of a law bound.
 #[derive(Clone, Copy)]
 struct Quantity {
     name: &'static str,
@@ -339,7 +333,6 @@ impl BeyondRange {
     }
 }
 
-/// Largest excess of a quantity, in the units of [`BeyondRange`].
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 struct Excess {
     /// Index of the section among all filaments.
@@ -406,7 +399,6 @@ fn strains<'a>(rod: &'a Rod, state: &'a State) -> impl Iterator<Item = (f64, Vec
     })
 }
 
-/// Monitor of excesses over a sequence of states.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub(crate) struct RangeWatch(Found);
 
@@ -416,7 +408,6 @@ enum Found {
     InBath(Box<InBath>),
 }
 
-/// Largest excess of each section and quantity.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 struct Worst {
     list: Vec<Excess>,
@@ -424,7 +415,6 @@ struct Worst {
     places: BTreeMap<(usize, usize), usize>,
 }
 
-/// Counts for each quantity in a heat bath.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 struct InBath {
     states: u32,
@@ -450,7 +440,6 @@ impl RangeWatch {
         }
     }
 
-    /// Returns the excesses over all states.
     pub(crate) fn end(self, assembly: &Assembly) -> Vec<BeyondRange> {
         match self.0 {
             Found::Worst(worst) => {
@@ -495,7 +484,6 @@ impl InBath {
         }
     }
 
-    /// Returns one entry for each quantity that exceeded its range in any state.
     fn end(self, assembly: &Assembly) -> Vec<BeyondRange> {
         let found = self.tallies.into_iter().filter_map(|(all, states_beyond)| {
             let fluctuations = Some(Fluctuations {
@@ -508,7 +496,6 @@ impl InBath {
     }
 }
 
-/// Number and largest value of the excesses of a quantity.
 #[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
 struct Tally {
     elements: usize,

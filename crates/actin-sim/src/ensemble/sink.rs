@@ -4,11 +4,8 @@ use crate::{Progress, Record, Recorded, RunPosition, Sink};
 use actin_mechanics::State;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
-/// Conditions that stop a replica.
 pub(super) struct Stop<'a> {
-    /// Index of the replica.
     pub(super) index: usize,
-    /// First replica with an error.
     pub(super) first_failed: &'a AtomicUsize,
     pub(super) interrupted: Option<&'a AtomicBool>,
 }
@@ -20,7 +17,6 @@ impl Stop<'_> {
         is_interrupted || self.first_failed.load(Ordering::Relaxed) < self.index
     }
 
-    /// Wraps a sink with this stop condition.
     pub(super) fn over<'s>(&'s self, sink: &'s mut dyn Sink) -> impl Sink + 's {
         Stopped { stop: self, sink }
     }

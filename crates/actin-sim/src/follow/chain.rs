@@ -29,8 +29,8 @@ use serde::{Deserialize, Serialize};
 ///     task: Dynamics(duration_ns: 3.0, record_every_ns: 0.5),
 /// )";
 /// let run = Follower::new(&Scene::from_ron(text)?)?.run()?;
-/// // It bends, and monomers come.
-/// let switch = run.switches().next().expect("it bends");
+/// // The filament bends, and cells become monomers.
+/// let switch = run.switches().next().expect("the filament bends");
 /// assert!(!switch.to_monomers.is_empty());
 /// assert!(run.stretches[0].stretch.assembly.counts().monomers == 0);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -165,7 +165,6 @@ impl Follower {
         Ok(first)
     }
 
-    /// Stretch that starts in the state as built.
     fn stretch(&self, is_monomers: Vec<bool>) -> Result<Stretch, SceneProblem> {
         self.again(Beginning {
             index: 0,
@@ -252,7 +251,6 @@ impl Follower {
         Ok(Left::Switched(outcome, Box::new(next)))
     }
 
-    /// Stretch after a switch to `is_monomers`.
     fn next(
         &self,
         left: &Stretch,
@@ -260,7 +258,7 @@ impl Follower {
         saved: &Saved,
     ) -> Result<Next, SceneProblem> {
         let RunPosition::Motion(position) = &saved.position else {
-            unreachable!("a motion is left where it stands in time");
+            unreachable!("a motion stops at a position in time");
         };
         let here = &position.checkpoint.here;
         let kinds = [&left.beginning.is_monomers, &is_monomers];
@@ -358,7 +356,6 @@ impl Follower {
     }
 }
 
-/// First record of a stretch after a switch.
 fn first_record(saved: Option<&Saved>) -> Option<Record> {
     saved.and_then(|saved| saved.recorded.last.clone())
 }
@@ -399,7 +396,6 @@ fn whole_steps(steps: f64) -> u64 {
     steps.ceil() as u64
 }
 
-/// Start of a stretch that continues from `state`.
 fn begun(assembly: &Assembly, state: State, (saved, position): (&Saved, &MotionPosition)) -> Saved {
     let before = &position.checkpoint;
     let mut system = assembly.system.in_state(state);

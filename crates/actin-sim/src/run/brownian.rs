@@ -92,7 +92,6 @@ impl Plan<'_> {
     }
 }
 
-/// Relaxation problem of an assembly in the fluid of its task.
 fn relaxation(assembly: &Assembly, fluid: &Fluid) -> Result<Relaxation, SceneProblem> {
     let friction = assembly.friction(fluid)?;
     let layout = layout(assembly)?;
@@ -100,7 +99,6 @@ fn relaxation(assembly: &Assembly, fluid: &Fluid) -> Result<Relaxation, ScenePro
         .map_err(|error| SceneProblem::new("task", "", error.to_string()))
 }
 
-/// Time step and number of steps of overdamped motion.
 pub(super) fn estimate(assembly: &Assembly, task: &Task) -> Result<Estimate, SceneProblem> {
     assembly.check_slip()?;
     let motion = task.as_motion();

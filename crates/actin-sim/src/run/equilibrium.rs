@@ -91,7 +91,6 @@ pub(super) fn run(
     Ok((outcome, failure))
 }
 
-/// Names the stage after `stages_done` stages; empty without a path.
 fn place(assembly: &Assembly, stages_done: usize) -> String {
     match assembly.drive.stages() {
         0 => String::new(),
@@ -136,7 +135,6 @@ fn path(settings: &Settings) -> Result<Path, SceneProblem> {
     Path::new(options).map_err(|error| SceneProblem::new("task", "", error.to_string()))
 }
 
-/// State of a run along the path.
 struct Follower<'a> {
     assembly: &'a Assembly,
     settings: &'a Settings,
@@ -222,7 +220,6 @@ impl<'a> Follower<'a> {
         Ok(failure)
     }
 
-    /// Searches for other stable states, if requested.
     fn look_around(
         &mut self,
         newton: &mut Newton,
@@ -259,7 +256,6 @@ impl<'a> Follower<'a> {
         }
     }
 
-    /// Returns the failure of the last equilibrium, if any.
     fn flaw(&self) -> Option<Failure> {
         let last = self.taken.last();
         let lost = last.and_then(|last| lost_load(self.assembly, last));
@@ -372,7 +368,6 @@ impl<'a> Follower<'a> {
         .map(drop)
     }
 
-    /// Records an equilibrium. Ends the path if twist was lost since the previous one.
     fn record(&mut self, u: f64, state: &State, equilibrium: &Equilibrium) -> ControlFlow<()> {
         if !self.taken.take(record(&self.assembly.system, u, state)) {
             return ControlFlow::Break(());

@@ -72,7 +72,6 @@ pub struct Outcome {
 }
 
 impl Outcome {
-    /// Creates an outcome with a status and a run time (s).
     pub(crate) fn new(status: Status, wall_s: f64) -> Self {
         Self {
             status,
@@ -97,7 +96,6 @@ impl Outcome {
         }
     }
 
-    /// Adds the warnings about the states of the records.
     pub(super) fn with(self, remarks: Remarks) -> Self {
         let Remarks {
             beyond_use,

@@ -31,7 +31,7 @@ pub(super) struct Recorder<'a> {
     /// Position at which an interrupted run continues.
     position: Option<Checkpoint>,
     /// Checkpoint at the last record after which the motion continued, with the records up to then.
-    /// Those are unknown if the run was resumed since.
+    /// They are unknown if the run was resumed since.
     last_good: Option<(Checkpoint, Option<Recorded>)>,
     /// A record was made since `last_good`.
     is_behind: bool,
@@ -42,13 +42,11 @@ pub(super) struct Recorder<'a> {
     hinges: HingeWatch,
     /// Largest kinetic energy at a check (pN nm), set at the end.
     pub(super) largest_kinetic_pn_nm: f64,
-    /// Start after a switch of cells.
     pub(super) behind_switch: Option<BehindSwitch>,
     /// Steps between queries whether to leave the motion.
     look_every: u64,
 }
 
-/// End of a motion.
 pub(super) enum Ending {
     /// Interrupted; can be resumed.
     Interrupted(RunOutcome),
@@ -124,27 +122,23 @@ impl<'a> Recorder<'a> {
         self.rest_from_ns
     }
 
-    /// Installs the linker events in `system`, from the present step on.
     pub(super) fn let_happen(&self, system: &mut System) {
         if let Some(kinetics) = &self.assembly.kinetics {
             system.set_step_end(Box::new(kinetics.happenings(&self.log)));
         }
     }
 
-    /// Linker events so far.
     pub(super) fn events(&self) -> Vec<LinkerEvent> {
         let log = self.log.lock().unwrap_or_else(PoisonError::into_inner);
         log.clone()
     }
 
-    /// Linker events up to a step.
     fn events_until(&self, step: u64) -> Vec<LinkerEvent> {
         let mut events = self.events();
         events.retain(|event| event.step <= step);
         events
     }
 
-    /// Executes the remaining run with the steps of `stepper`.
     pub(super) fn execute_steps(
         &mut self,
         run: &Run,
@@ -160,7 +154,6 @@ impl<'a> Recorder<'a> {
         }
     }
 
-    /// Executes the remaining run.
     pub(super) fn execute(
         &mut self,
         run: &Run,
@@ -175,14 +168,12 @@ impl<'a> Recorder<'a> {
         }
     }
 
-    /// Restarts the monitor of hinges at a checkpoint.
     fn begin_hinges(&mut self, checkpoint: &Checkpoint, system: &System) {
         let mut state = system.state().clone();
         state.set_motion(&checkpoint.here.motion);
         self.hinges.begin(&state);
     }
 
-    /// Initial energy of the motion (pN nm).
     pub(super) fn begun_with_pn_nm(&self) -> f64 {
         let built = || self.assembly.system.total_energy();
         self.behind_switch.map_or_else(built, |s| s.energy_pn_nm)
@@ -193,7 +184,6 @@ impl<'a> Recorder<'a> {
         self.behind_switch.is_none()
     }
 
-    /// Run time (s).
     pub(super) fn wall_s(&self) -> f64 {
         self.clock.wall_s()
     }
@@ -234,7 +224,6 @@ impl<'a> Recorder<'a> {
         Ending::Ended(outcome, certificate)
     }
 
-    /// Certificate of the state in which the motion came to rest, if it has.
     fn certificate(&mut self, reason: Reason, system: &System) -> Option<Certificate> {
         let record = self.taken.last()?;
         let judge = self
@@ -245,7 +234,6 @@ impl<'a> Recorder<'a> {
         Some(nearest.certificate)
     }
 
-    /// Ends the run if a hinge slipped.
     fn look_at_hinges(&mut self) -> ControlFlow<()> {
         let Some(slip) = self.hinges.slip() else {
             return ControlFlow::Continue(());
@@ -254,7 +242,6 @@ impl<'a> Recorder<'a> {
         ControlFlow::Break(())
     }
 
-    /// Keeps a checkpoint after all records.
     fn keep(&mut self, checkpoint: Checkpoint) {
         let position = self.position_at(checkpoint);
         self.taken.checkpoint(&position, self.clock.wall_s());
@@ -345,7 +332,6 @@ fn progress(moment: &mut Moment<'_>, end_ns: f64) -> Progress {
     }
 }
 
-/// Creates the record of a moment.
 pub(crate) fn record(moment: &mut Moment<'_>) -> Record {
     let residual = moment.residual();
     Record {

@@ -74,7 +74,6 @@ pub enum RunPosition {
 }
 
 impl RunPosition {
-    /// Returns `true` if the numbers of bodies and controls match `state`.
     pub(crate) fn fits(&self, state: &State) -> bool {
         match self {
             Self::Motion(position) => {
@@ -165,7 +164,6 @@ pub(super) struct Clock {
 }
 
 impl Clock {
-    /// Starts the clock of a run with `set_up_s` (s) of build and plan.
     pub(super) fn new(saved: Option<&Saved>, set_up_s: f64) -> Self {
         Self {
             started: Instant::now(),

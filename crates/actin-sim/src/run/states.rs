@@ -7,7 +7,6 @@ use actin_equilibrium::{Found, Iteration, Known, Newton, Search, SearchObserver,
 use actin_mechanics::State;
 use std::ops::ControlFlow;
 
-/// Seed of the initial guesses.
 const SEED: u64 = 1;
 
 /// Stable states found by a search.

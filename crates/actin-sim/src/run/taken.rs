@@ -19,7 +19,6 @@ pub struct Recorded {
 /// Running statistics of the records, stored in checkpoints.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub(crate) struct Carried {
-    /// Number of records.
     pub(crate) count: usize,
     links: LinkWatch,
     beyond_use: Vec<BeyondUse>,
@@ -28,7 +27,6 @@ pub(crate) struct Carried {
     observed: Memory,
 }
 
-/// Warnings about the states of a run, worst over all records.
 #[derive(Debug)]
 pub(super) struct Remarks {
     pub(super) beyond_use: Vec<BeyondUse>,
@@ -90,7 +88,6 @@ impl Recorded {
         self.carried.count
     }
 
-    /// Adds a record together with its observed quantities.
     fn push(&mut self, assembly: &Assembly, mut record: Record) -> &Record {
         let all = &mut self.carried;
         let energies = (record.energies_pn_nm.as_slice(), record.kinetic_pn_nm);
@@ -107,7 +104,6 @@ impl Recorded {
 }
 
 impl Carried {
-    /// Returns `true` if both summaries belong to runs of the same scene; `other` is empty.
     pub(crate) fn fits(&self, other: &Self) -> bool {
         self.observed.fits(&other.observed)
             && self.links.fits(&other.links)
@@ -124,7 +120,6 @@ pub(super) struct Taken<'a> {
 }
 
 impl<'a> Taken<'a> {
-    /// Creates a stream that continues after the records in `recorded`.
     pub(super) fn new(
         assembly: &'a Assembly,
         recorded: Option<Recorded>,
@@ -179,7 +174,6 @@ impl<'a> Taken<'a> {
         &self.recorded
     }
 
-    /// Stores turns lost between records.
     pub(super) fn lose(&mut self, lost: Lost) {
         self.lost = Some(lost);
     }
@@ -201,12 +195,10 @@ impl<'a> Taken<'a> {
         }
     }
 
-    /// Passes on a checkpoint after all records.
     pub(super) fn checkpoint(&mut self, position: &RunPosition, wall_s: f64) {
         self.sink.checkpoint(position, &self.recorded, wall_s);
     }
 
-    /// Passes on a checkpoint after the records in `recorded`.
     pub(super) fn checkpoint_behind(
         &mut self,
         position: &RunPosition,
@@ -216,7 +208,6 @@ impl<'a> Taken<'a> {
         self.sink.checkpoint(position, recorded, wall_s);
     }
 
-    /// Passes on the progress of the run.
     pub(super) fn progress(&mut self, progress: &Progress) {
         self.sink.progress(progress);
     }

@@ -69,7 +69,6 @@ impl Strand<'_> {
         stock.state.points.position.set(point, lab);
     }
 
-    /// Places the nodes of a rod along its segments and returns the position of the last node.
     fn lay(&self, layout: &RodLayout, start: Vector3, stock: &mut Stock) -> Vector3 {
         let (rotation, translation) = (self.placement.rotation, self.placement.translation);
         let mut place = start;
@@ -92,7 +91,6 @@ impl Strand<'_> {
     }
 }
 
-/// Refuses too large angles between the segments of section `i` in their present positions.
 fn check_angles(i: usize, layout: &RodLayout, stock: &Stock) -> Result<(), SceneProblem> {
     let q = &stock.state.frames.orientation;
     let chain = layout.bending_chain();
@@ -102,7 +100,6 @@ fn check_angles(i: usize, layout: &RodLayout, stock: &Stock) -> Result<(), Scene
     check_angle(i, layout.segments(), largest)
 }
 
-/// Refuses an angle (rad) between neighbouring segments of a section of at least the bound.
 pub(super) fn check_angle(i: usize, segments: usize, angle: f64) -> Result<(), SceneProblem> {
     if angle < LARGEST_ANGLE {
         return Ok(());

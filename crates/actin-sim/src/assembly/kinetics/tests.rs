@@ -9,7 +9,6 @@ use actin_mechanics::State;
 /// Time step (ns), far beyond a stable step of a motion; the bodies are fixed here.
 const STEP_NS: f64 = 1.0;
 
-/// Equal linkers on a rod of 80 nm along z.
 fn linkers(count: usize, linker: &str, kinetics: &str) -> Assembly {
     let one = format!("Linker({linker}, kinetics: Kinetics(seed: 5, {kinetics})),");
     let text = format!(
@@ -56,7 +55,7 @@ fn lifetime(kinetics: &str, rate: f64) -> (f64, f64, f64) {
 
 /// Bell's rate, a constant rate and a catch bond.
 #[test]
-fn lifetimes_under_force_are_those_of_the_rates() {
+fn lifetimes_under_force_agree_with_the_rates() {
     let e = std::f64::consts::E;
     for (kinetics, rate) in [
         ("breaks: Breaking(rate_per_ns: 0.02)", 0.02),
