@@ -1,3 +1,5 @@
+//! Ellipsoid geometry and inertia.
+
 use crate::EllipsoidParameterError;
 use crate::stream::Stream;
 use actin_mechanics::{Inertia, Vector3};

@@ -1,3 +1,5 @@
+//! Gap between two neighbours.
+
 use crate::{Bond, Ellipsoid, EllipsoidParameters, Helix, InterfaceKind, Neighbour};
 use actin_mechanics::Vector3;
 

@@ -1,3 +1,5 @@
+//! Helix of monomers.
+
 use crate::{EllipsoidParameters, InterfaceKind};
 use actin_mechanics::{Matrix3, UnitQuaternion, Vector3};
 

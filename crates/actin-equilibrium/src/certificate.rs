@@ -1,3 +1,5 @@
+//! Stability of equilibria.
+
 /// Counts of the eigenvalues of the stiffness, without regularisation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]

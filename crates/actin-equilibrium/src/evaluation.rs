@@ -1,3 +1,5 @@
+//! Energy and loads of a state.
+
 use actin_mechanics::{Interaction, Loads, State};
 
 #[derive(Clone, Debug, Default)]

@@ -1,3 +1,5 @@
+//! Map from unknowns to bodies.
+
 use crate::group::{Group, orthonormal};
 use actin_mechanics::{Coordinates, State, Vector3};
 use std::collections::BTreeSet;

@@ -1,3 +1,5 @@
+//! Nearest equilibrium, minimum or saddle.
+
 use crate::certificate::Certificate;
 use crate::direction::Solver;
 use crate::evaluation::Evaluation;

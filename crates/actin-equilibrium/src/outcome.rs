@@ -1,3 +1,5 @@
+//! Result of a solve.
+
 use crate::certificate::{Certificate, Stability};
 use crate::history::{Iteration, SolverWork};
 use actin_mechanics::Residual;

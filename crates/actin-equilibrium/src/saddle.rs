@@ -1,3 +1,5 @@
+//! Motion off saddles.
+
 use crate::evaluation::Evaluation;
 use crate::history::Iteration;
 use crate::mode::{self, Mode};

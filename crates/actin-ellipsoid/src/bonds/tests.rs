@@ -1,3 +1,5 @@
+//! Bond loads and stiffness.
+
 use super::*;
 use crate::{Anchors, EllipsoidParameters, Placement};
 use actin_mechanics::testing::{assert_same_with_any_lanes, loads_of};

@@ -1,3 +1,5 @@
+//! Constraints of a cell.
+
 use super::PER_MONOMER;
 use actin_mechanics::Vector3;
 use nalgebra::DMatrix;

@@ -1,3 +1,5 @@
+//! Energy of the pairs of a cell.
+
 use super::jets::MatrixJet;
 use super::{Cell, PER_MONOMER, STRAINS, SixVector};
 use crate::Interface;

@@ -1,3 +1,5 @@
+//! Response of a relaxed cell.
+
 use super::minimum::{CellState, Minimum, Problem};
 use super::{Cell, CellError, Displacements, STRAINS, SixMatrix, SixVector};
 use nalgebra::DVector;

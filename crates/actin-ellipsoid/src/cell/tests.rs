@@ -1,3 +1,5 @@
+//! Energy of a cell.
+
 use super::{
     Cell,
     Control::{Load, Strain},

@@ -1,3 +1,5 @@
+//! Cache of quadratures.
+
 use super::{Cubature, CubatureError, numbers, table};
 use crate::{EllipsoidParameters, InterfaceKind};
 use std::collections::HashMap;

@@ -1,3 +1,5 @@
+//! Gauss-Legendre quadrature.
+
 use std::f64::consts::PI;
 
 /// Nodes in (-1, 1) and weights of the `n`-point rule, exact for polynomials of degree `2n - 1`.

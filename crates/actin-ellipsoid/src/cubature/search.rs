@@ -1,3 +1,5 @@
+//! Nonlinear least squares for the quadrature points.
+
 use super::moments::{Features, MOMENTS, Moments, Site};
 use nalgebra::{DMatrix, DVector};
 

@@ -1,3 +1,5 @@
+//! Quadrature bonds.
+
 use super::*;
 use crate::{Anchors, EllipsoidModel, InterfaceError};
 use InterfaceKind::{Lateral, Longitudinal};

@@ -1,3 +1,5 @@
+//! Choice of bonds.
+
 use super::*;
 use crate::{EllipsoidModel, Helix};
 use InterfaceKind::{Lateral, Longitudinal};

@@ -1,3 +1,5 @@
+//! Moments of relative poses.
+
 use super::{Link, Pose, QuasiHarmonic};
 use crate::{Monomers, SixMatrix, SixVector};
 use actin_mechanics::State;

@@ -1,3 +1,5 @@
+//! Derivatives and moments of chains.
+
 use super::*;
 use crate::{EllipsoidModel, EllipsoidParameters, Placement};
 use actin_mechanics::testing::{

@@ -1,3 +1,5 @@
+//! Energy of quadrature bonds.
+
 use actin_ellipsoid::{
     Anchors, Bond, EllipsoidModel, EllipsoidParameters, Interface, InterfaceKind, Neighbour,
 };

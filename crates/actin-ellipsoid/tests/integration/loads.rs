@@ -1,3 +1,5 @@
+//! Loads of bonds.
+
 use crate::common;
 use actin_ellipsoid::EllipsoidModel;
 use actin_mechanics::testing::{

@@ -1,3 +1,5 @@
+//! Stiffness of bonds.
+
 use crate::common;
 use actin_mechanics::testing::{assert_is_stiffness, loads_of, stiffness_matrix};
 use actin_mechanics::{State, Vector3};

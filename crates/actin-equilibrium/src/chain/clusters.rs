@@ -1,3 +1,5 @@
+//! Carried steps of single filaments.
+
 use super::open::Components;
 use super::{Chain, Link};
 use crate::layout::{Layout, Node};

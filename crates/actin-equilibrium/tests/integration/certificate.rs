@@ -1,3 +1,5 @@
+//! Certificates of singular matrices.
+
 use crate::common;
 use Coordinates::{Frame as F, Point as P};
 use actin_equilibrium::{Layout, Newton, NewtonOptions, Stability};

@@ -1,3 +1,5 @@
+//! Groups and layouts.
+
 use crate::common;
 use actin_equilibrium::{Group, Layout, LayoutError, Newton, NewtonOptions, Pivot, Stability};
 use actin_mechanics::{Coordinates, Interaction, PointLoad, Slider, State, Vector3, rotation};

@@ -1,3 +1,5 @@
+//! Newton's method.
+
 use crate::common;
 use actin_equilibrium::{
     Convergence, Iteration, Layout, Newton, NewtonOptions, Residual, SolveError, Stability, Verdict,

@@ -1,3 +1,5 @@
+//! Paths of controls.
+
 use crate::common;
 use actin_equilibrium::{
     Group, Jumps, Layout, Newton, NewtonOptions, Path, PathEnd, PathError, PathFailure,

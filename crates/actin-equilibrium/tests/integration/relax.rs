@@ -1,3 +1,5 @@
+//! Equilibrium in one call.
+
 use crate::common;
 use actin_equilibrium::{
     Coordinates, EquilibriumError, Interaction, Loads, Matrix3, Newton, NewtonOptions, PointLoad,

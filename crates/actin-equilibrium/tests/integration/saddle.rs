@@ -1,3 +1,5 @@
+//! Saddles and lowest modes.
+
 use crate::common;
 use actin_equilibrium::{Layout, Newton, NewtonOptions, Stability, StepSize};
 use actin_mechanics::{Coordinates, Interaction, PointLoad, State, Vector3};

@@ -1,3 +1,5 @@
+//! Rods under extreme tension.
+
 use crate::common;
 use actin_equilibrium::Convergence;
 use actin_mechanics::{Interaction, PointLoad, State, UnitQuaternion, Vector3};

@@ -1,3 +1,5 @@
+//! Means over a chain.
+
 use super::super::pairs::Derivatives;
 use super::super::{STRAINS, SixMatrix, SixVector};
 use super::potential::Potential;

@@ -1,3 +1,5 @@
+//! Normal random numbers.
+
 use crate::stream::Stream;
 
 /// Separates these streams from the streams of bonds.

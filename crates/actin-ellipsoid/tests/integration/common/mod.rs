@@ -1,3 +1,5 @@
+//! Filaments for integration tests.
+
 use actin_ellipsoid::{Anchors, Bonds, EllipsoidModel, EllipsoidParameters, Monomers, Placement};
 use actin_mechanics::State;
 

@@ -1,3 +1,5 @@
+//! Second derivative along carried steps.
+
 use crate::assemble::Assembly;
 use crate::evaluation::Evaluation;
 use crate::{BodyOrder, Layout};
