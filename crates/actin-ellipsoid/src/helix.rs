@@ -129,7 +129,6 @@ mod tests {
         })
     }
 
-    /// 26 monomers make 12 left-handed turns.
     #[test]
     fn one_period_returns_to_the_same_azimuth() {
         let shift = helix().centre(26) - helix().centre(0);

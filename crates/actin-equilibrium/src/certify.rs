@@ -85,7 +85,6 @@ fn count(solver: &mut Solver, uncertainty: f64) -> Certificate {
     let negative_pivots = solver.factorize(0.0).negative;
     let rounding = ROUNDINGS * f64::EPSILON;
     let largest = solver.assembly.largest_entry();
-    // Includes eigenvalues of exactly zero.
     let least = uncertainty.max(rounding * largest).max(f64::MIN_POSITIVE);
     let mut resolution = least / lightest;
     let mut attempt = 1;
@@ -210,7 +209,6 @@ fn largest_row_sum(solver: &mut Solver, mut matrix: Vec<f64>) -> f64 {
 
 /// Bracketing factor.
 const FASTER: f64 = 16.0;
-/// Relative accuracy of an eigenvalue.
 const PRECISION: f64 = 1e-9;
 /// Rounding error in units of the largest entry.
 const ROUNDINGS: f64 = 8.0;
@@ -219,5 +217,4 @@ const GROWTH_ALLOWED: f64 = 16.0;
 const ATTEMPTS: u32 = 4;
 /// Repetitions; a zero eigenvalue passes all with a probability below 1 %.
 const REALIZATIONS: usize = 8;
-/// Amplitude in roundings.
 const AMPLITUDE: f64 = 4.0;

@@ -98,7 +98,6 @@ impl Link {
         }
     }
 
-    /// Moves the following body relative to its predecessor.
     fn carry(
         self,
         from: &State,

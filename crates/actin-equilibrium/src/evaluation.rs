@@ -39,7 +39,6 @@ impl Evaluation {
         self.magnitude = self.energies.iter().map(|e| e.abs()).sum();
     }
 
-    /// Evaluates a state reached by a straight motion.
     pub(crate) fn follow(
         &mut self,
         interactions: &[Box<dyn Interaction>],

@@ -175,8 +175,8 @@ impl Layout {
     }
 
     /// Allows minimum degree elimination if its factor costs less than that of the given order, for
-    /// bodies that are not coupled along the order only. The choice is made at the first solve and
-    /// depends on the couplings only. Bodies follow one another in the given order in either case.
+    /// bodies that are not coupled along the order only. The choice depends on the couplings at the
+    /// first solve. Bodies follow one another in the given order in either case.
     #[must_use]
     pub fn with_least_fill(mut self) -> Self {
         if self.order == Order::Settled {
@@ -223,12 +223,10 @@ impl Layout {
         self.allows_gradients && self.order == Order::Compared && self.has_loose()
     }
 
-    /// Some couplings may be loose.
     pub(crate) fn has_loose(&self) -> bool {
         self.loose_beyond.is_some() || !self.loose.is_empty()
     }
 
-    /// The bodies are not neighbours.
     pub(crate) fn is_loose(&self, a: Coordinates, b: Coordinates) -> bool {
         let are_apart = self.loose_beyond.as_ref().is_some_and(|(order, reach)| {
             let place = |body| match body {

@@ -223,7 +223,6 @@ struct Run<'a> {
     history: Vec<Iteration>,
     residual: Residual,
     floor: Residual,
-    /// Previous residual relative to the tolerance.
     previous: f64,
 }
 
@@ -340,7 +339,6 @@ impl Run<'_> {
         (!is_rounding || is_loaded(self.interactions, &descent.state)) && self.solver.is_stable()
     }
 
-    /// Rejects loads along motions without stiffness.
     fn accept(
         &mut self,
         scale: &LoadScale,

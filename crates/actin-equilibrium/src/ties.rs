@@ -135,7 +135,6 @@ impl Ties {
         }
     }
 
-    /// Magnitudes (nm) in a step.
     pub(crate) fn motions(&self, layout: &Layout, state: &State, step: &[f64]) -> Vec<f64> {
         let (moved, turned) = layout.velocities(state, step);
         let of = |tie: &Tie| match *tie {

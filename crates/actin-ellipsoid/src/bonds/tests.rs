@@ -7,7 +7,6 @@ use actin_mechanics::testing::{push_frame, push_point};
 use actin_mechanics::{Coordinates, Stiffness, UnitQuaternion};
 use actin_mechanics::{Xorshift, perturb};
 
-/// Randomly displaced monomers between unrelated bodies.
 fn run(count: usize, bonds: [usize; 2]) -> (State, Bonds) {
     run_of(Anchors::Independent, count, bonds)
 }

@@ -84,7 +84,6 @@ impl MatrixJet {
         let unit = |a| Vector3::ith(a, 1.0);
         let turned = |a: usize| unit(a).cross_matrix();
         let along = |a: usize| unit(a) * w.transpose() + w * unit(a).transpose();
-        // Derivatives of the last two terms at fixed coefficients.
         let partial = |k: &[f64], a: usize| turned(a) * k[n + 1] + along(a) * k[n + 2];
         let [by_p, by_p_twice] = [sum(&first), sum(&second)];
         let mixed = |a: usize, b: usize| {

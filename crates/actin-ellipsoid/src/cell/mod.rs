@@ -74,7 +74,6 @@ pub struct Cell {
     offsets: Vec<Vector3>,
     pairs: Vec<pairs::CellPair>,
     rise: f64,
-    /// Orthonormal rows: combinations of displacements held at zero.
     held: DMatrix<f64>,
 }
 
@@ -89,12 +88,9 @@ impl Cell {
     }
 
     /// Cell of a pre-twisted filament: the turn per monomer about the axis is `turn` (rad), the
-    /// bonds are those of the built filament. The frames of the strains do not rotate with the
-    /// pre-twist.
-    ///
-    /// A constant curvature therefore bends a pre-twisted filament in a plane. A filament twisted
-    /// by its strain is bent along a helix, since the direction of the curvature rotates with the
-    /// frames.
+    /// bonds are unchanged. The frames of the strains do not rotate with the pre-twist, so a
+    /// constant curvature bends the filament in a plane. A filament twisted by its strain is bent
+    /// along a helix.
     ///
     /// # Errors
     /// As [`new`](Self::new), for the period with this turn.

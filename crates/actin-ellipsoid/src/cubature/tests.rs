@@ -50,7 +50,6 @@ fn twelve_points_meet_the_moments() {
     }
 }
 
-/// Five standard errors of 2e5 samples.
 #[test]
 fn moments_agree_with_sampled_bonds() {
     const DRAWS: usize = 200_000;

@@ -152,7 +152,6 @@ fn a_limit_with_too_few_bonds_is_an_error() {
     else {
         panic!("{error}");
     };
-    // Five standard deviations of the 20 observed.
     assert!((1..1000).contains(&found), "{found}");
     assert!(attempts < 2_000_000 + MAXIMUM_ATTEMPTS);
 }

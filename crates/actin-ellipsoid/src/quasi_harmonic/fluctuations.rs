@@ -147,7 +147,6 @@ impl Fluctuations {
     }
 }
 
-/// Mean of a displacement, and reference value of its moments.
 struct Moments {
     mean: SixVector,
     about: SixVector,

@@ -23,7 +23,6 @@ fn stiffness_is_the_derivative_of_the_loads() {
     }
 }
 
-/// Points, then frames.
 fn stacked(
     state: &State,
     point: impl Fn(usize) -> Vector3,

@@ -14,7 +14,6 @@ use crate::history::Verdict;
 use crate::options::NewtonOptions;
 use actin_mechanics::Interaction;
 
-/// Minimum number of bodies and groups.
 const FEWEST: usize = 400;
 /// Directions without stiffness per body above which a start is floppy.
 const FLOPPY: f64 = 1.0 / 16.0;
@@ -25,7 +24,6 @@ const REST: usize = 1;
 
 #[derive(Debug)]
 pub(super) struct Composed {
-    /// `None` until the first factorisation.
     is_used: Option<bool>,
     failures: u32,
     /// Straight steps before the next carried one.
@@ -126,7 +124,6 @@ impl Descent {
                     self.accept();
                     return Some(taken(direction, fraction, Verdict::Decrease));
                 }
-                // The straight steps detect convergence below rounding.
                 Some(_) => return None,
                 None => {}
             }

@@ -81,7 +81,6 @@ fn sliding_bodies_of_the_state_are_groups() {
     }
 }
 
-/// Large rotations about a moving pivot.
 #[test]
 fn a_rigid_group_turns_into_the_force() {
     let mut state = State::default();

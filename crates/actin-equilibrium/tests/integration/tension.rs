@@ -46,7 +46,6 @@ fn a_straight_rod_stretches_linearly_at_any_tension() {
             );
             let is_at_floor = found.ending == Convergence::FloorReached;
             assert!(is_at_floor || found.residual.force <= 1e-8, "{force}");
-            // Rounding may delay convergence.
             assert!(steps <= 150 || is_at_floor, "{force}: {steps}");
             let is_straight = (strain - exact).abs() < 1e-12 * (1.0 + exact);
             assert!(is_straight || !is_exact, "{force}: {strain}");

@@ -29,7 +29,6 @@ pub(crate) fn models(seed: u64) -> [EllipsoidModel; 3] {
     [model(seed, 8), model(seed, 64), weighted(12)]
 }
 
-/// `count` monomers at rest, starting with lattice index 0.
 pub(crate) fn filament(model: &EllipsoidModel, count: usize) -> (State, Monomers, Bonds) {
     let mut state = State::default();
     let monomers = model
