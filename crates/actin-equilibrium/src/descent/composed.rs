@@ -2,10 +2,8 @@
 //! [`Chain::carry`](crate::chain::Chain::carry), for long filaments with zero-stiffness modes.
 //!
 //! If the stiffness is indefinite, ties are stiffened in proportion to their own negative
-//! transverse stiffness, with the smallest sufficient factor. A multiple of the unit matrix would
-//! prevent large motion, and equal stiffening would stiffen ties that need none.
-//!
-//! Each step decreases the energy. After a failure, straight steps are used for a while.
+//! transverse stiffness. A multiple of the unit matrix would prevent large motion. After a step
+//! without decrease of the energy, straight steps are used for a while.
 
 use super::{Descent, Taken, taken};
 use crate::chain::is_open;
