@@ -74,7 +74,10 @@ impl Assembly {
             self.turning_places.clear();
         }
         self.tie_lengths = self.ties.lengths(state);
-        let pattern = self.pattern.as_ref().expect("it has just been made");
+        let pattern = self
+            .pattern
+            .as_ref()
+            .expect("the pattern was created above");
         let mut target = Target::new(&mut self.values, pattern, layout);
         target.add_all(state, &self.blocks, &pattern.places);
         target.add_turning_of_groups(state, loads);

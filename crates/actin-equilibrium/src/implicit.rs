@@ -258,7 +258,7 @@ impl ImplicitSolver {
 impl Linear {
     fn solve(&mut self, assembly: &Assembly, b: &mut [f64]) -> bool {
         match self {
-            Self::Unknown => panic!("a matrix is factorised before"),
+            Self::Unknown => panic!("no matrix has been factorised"),
             Self::Gradients(gradients) => gradients.solve(assembly, b, TOLERANCE),
             Self::Direct(factor) => {
                 factor.solve(b);

@@ -23,7 +23,7 @@ pub struct BodyOrder {
 #[non_exhaustive]
 pub enum LayoutError {
     /// A group contains a body that the state does not have.
-    #[error("group {group} has {body:?}, which the state does not have")]
+    #[error("group {group} contains {body:?}, which the state does not have")]
     UnknownBody {
         /// Index of the group.
         group: usize,
@@ -53,7 +53,7 @@ pub enum LayoutError {
         directions: Vec<Vector3>,
     },
     /// New directions of a group would change the number of unknowns.
-    #[error("group {group} has {present} unknowns and cannot be given {given}")]
+    #[error("the new directions of group {group} give {given} unknowns instead of {present}")]
     Count {
         /// Index of the group.
         group: usize,
@@ -73,7 +73,7 @@ pub enum LayoutError {
         bodies: usize,
     },
     /// The order contains a non-finite number.
-    #[error("the place of {body:?} along the filament must be finite, but is {value}")]
+    #[error("the position of {body:?} in the order must be finite, but is {value}")]
     OrderValue {
         /// The body.
         body: Coordinates,

@@ -245,7 +245,7 @@ impl Run<'_> {
                 Ok(Some(ending)) => break Ok((ending, descent.here.energy)),
                 Err(cause) => break Err(cause),
             }
-            let last = self.history.last().expect("a step has just been made");
+            let last = self.history.last().expect("a step was recorded");
             if observe(last).is_break() {
                 break Err(SolveError::Interrupted);
             }

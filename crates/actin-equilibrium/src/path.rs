@@ -163,7 +163,7 @@ impl Path {
                 points,
                 work,
             })),
-            (Ok(()), None) => unreachable!("a path that was followed has an equilibrium"),
+            (Ok(()), None) => unreachable!("a complete path has an equilibrium"),
         }
     }
 }

@@ -74,7 +74,9 @@ impl Pattern {
             let rows = &whole.row_idx()[whole.col_ptr()[column]..whole.col_ptr()[column + 1]];
             let own = &chains.row_idx()[chains.col_ptr()[column]..chains.col_ptr()[column + 1]];
             let found = own.iter().map(|row| {
-                let at = rows.binary_search(row).expect("rows of the whole");
+                let at = rows
+                    .binary_search(row)
+                    .expect("the full pattern contains the row");
                 whole.col_ptr()[column] + at
             });
             places.extend(found);
@@ -180,7 +182,7 @@ fn minimum_degree(neighbours: &[Vec<usize>]) -> Vec<usize> {
         amd::Control::default(),
         MemStack::new(&mut memory),
     )
-    .expect("indices of nodes are far below the largest index");
+    .expect("node indices do not overflow");
     forward
 }
 

@@ -100,7 +100,8 @@ fn more_points_reduce_the_residual() {
 fn the_table_is_reproduced() {
     for kind in InterfaceKind::ALL {
         let parameters = EllipsoidParameters::default();
-        let table = table::built_in(&parameters, kind).expect("it is of the default parameters");
+        let table = table::built_in(&parameters, kind)
+            .expect("the default parameters have built-in points");
         let finder = Finder::new(&parameters, kind).unwrap();
         let certificate = finder.certificate(&table.points);
         assert!(certificate.is_within_bounds() && certificate.residual <= MET);

@@ -264,7 +264,7 @@ const GOLDEN: [Golden; 3] = [
 ];
 
 #[test]
-fn short_bonds_are_drawn_again() {
+fn rejected_bonds_are_sampled_again() {
     let draw = |shortest, bonds| {
         let mut parameters = without_shortest(bonds, 5);
         parameters.longitudinal.minimum_length = shortest;

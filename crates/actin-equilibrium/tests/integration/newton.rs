@@ -128,7 +128,10 @@ fn indefinite_starts_lead_to_the_buckled_column() {
     }
     let equilibrium = newton.minimize(&mut state, &terms, 3).unwrap();
     println!("{:?}", equilibrium.work);
-    assert!(equilibrium.history[0].negative_pivots > 0, "an easy start");
+    assert!(
+        equilibrium.history[0].negative_pivots > 0,
+        "the initial stiffness is indefinite"
+    );
     let stability = equilibrium.certificate.unwrap().stability();
     assert_eq!(stability, Stability::Stable);
     let tangent = state.frames.orientation.get(80) * Vector3::z();

@@ -105,7 +105,7 @@ impl<'a> Chain<'a> {
 #[expect(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,
-    reason = "a positive number of a few, or the conversion saturates"
+    reason = "the number is positive and small, or the conversion saturates"
 )]
 fn count(number: f64) -> usize {
     number.ceil() as usize

@@ -19,12 +19,12 @@ pub(crate) fn model_with(anchors: Anchors, seed: u64, bonds: usize) -> Ellipsoid
 }
 
 /// Quadrature bonds.
-#[allow(dead_code, reason = "not every test asks for weighted bonds")]
+#[allow(dead_code, reason = "not used by every test")]
 pub(crate) fn weighted(points: usize) -> EllipsoidModel {
     model_with(Anchors::Cubature, 0, points)
 }
 
-#[allow(dead_code, reason = "not every test asks for all models")]
+#[allow(dead_code, reason = "not used by every test")]
 pub(crate) fn models(seed: u64) -> [EllipsoidModel; 3] {
     [model(seed, 8), model(seed, 64), weighted(12)]
 }
@@ -36,6 +36,6 @@ pub(crate) fn filament(model: &EllipsoidModel, count: usize) -> (State, Monomers
         .unwrap();
     let bonds = model
         .bonds(&monomers)
-        .expect("the defaults leave room for bonds");
+        .expect("the default interfaces have bonds");
     (state, monomers, bonds)
 }
