@@ -83,8 +83,8 @@ impl Ellipsoid {
     /// Random point, uniform on the surface.
     ///
     /// A direction `q`, uniform on the sphere, is scaled to `(a q_x, b q_y, c q_z)`, which
-    /// stretches the area by `a b c |q / (a, b, c)|`, and accepted with probability `min(a, b, c)
-    /// |q / (a, b, c)| <= 1`.
+    /// stretches the area by `a b c |q / (a, b, c)|`, and accepted with probability
+    /// `min(a, b, c) |q / (a, b, c)| <= 1`.
     ///
     /// # Source
     /// arXiv 2203.01284, Appendix A, whose `c` is the smallest semi-axis.

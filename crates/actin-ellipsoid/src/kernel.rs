@@ -239,8 +239,8 @@ impl Pairs<'_> {
 
 /// Sums of `g d` and of `a x g d` over the bonds of each pair in the frame of the lower body.
 ///
-/// `d = R b + D - a` is the vector of a bond, `R` and `D` the pose of the upper body, and `g = 1 -
-/// L / |d|`, multiplied by the weight if `WEIGHTED`.
+/// `d = R b + D - a` is the vector of a bond, `R` and `D` the pose of the upper body, and
+/// `g = 1 - L / |d|`, multiplied by the weight if `WEIGHTED`.
 #[inline(always)]
 fn sum_bonds<S: Simd, const WEIGHTED: bool>(
     simd: S,

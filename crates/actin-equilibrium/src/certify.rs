@@ -1,9 +1,9 @@
 //! Number of negative eigenvalues of the stiffness at an equilibrium.
 //!
 //! Eigenvalues refer to `K v = lambda M v` with the metric `M`: 1 for displacements (nm) and `l^2`
-//! for rotations (rad), `l` the turn length. Their signs follow from the pivots of `K + s M` and `K
-//! - s M` by Sylvester's law of inertia, where the resolution `s` bounds the error of factorisation
-//! and coordinates.
+//! for rotations (rad), `l` the turn length. Their signs follow from the pivots of `K + s M` and
+//! `K - s M` by Sylvester's law of inertia, where the resolution `s` bounds the error of
+//! factorisation and coordinates.
 //!
 //! This bound is pessimistic for long filaments. Eigenvalues within `[-s, s]` are therefore counted
 //! repeatedly with coordinates and matrix changed randomly by a few roundings. The count is

@@ -1,7 +1,7 @@
 //! Factorisation `K + shift M = L D L^T` without pivoting, and its inertia.
 //!
-//! The computed factors are exact for a matrix that differs from `K` by about `eps (|L| |D|
-//! |L^T|)_ij`, at most `eps` times the largest [`growth`](Factor::growth).
+//! The computed factors are exact for a matrix that differs from `K` by about
+//! `eps (|L| |D| |L^T|)_ij`, at most `eps` times the largest [`growth`](Factor::growth).
 //!
 //! # Source
 //! N. J. Higham, Accuracy and Stability of Numerical Algorithms, 2nd ed. (2002), theorems 10.3 and

@@ -34,8 +34,8 @@ pub type Displacements = DVector<f64>;
 
 /// Cell of `P` monomers of an infinite, uniformly strained filament.
 ///
-/// The axis is the curve `g(s) = exp(s xi)` of rigid motions with the strain `xi = (kappa, e3 +
-/// sigma)`, position `T(s)` and frame `R(s)`:
+/// The axis is the curve `g(s) = exp(s xi)` of rigid motions with the strain
+/// `xi = (kappa, e3 + sigma)`, position `T(s)` and frame `R(s)`:
 ///
 /// ```text
 /// s_i = i rise
@@ -52,9 +52,9 @@ pub type Displacements = DVector<f64>;
 /// ```
 ///
 /// Six conditions hold the mean displacement and rotation ([`Hold`]); all other coordinates relax.
-/// The energy per length `W(kappa, sigma)` is the energy of the bonds of the cell divided by `P
-/// rise`. Its derivatives are the torque and the force in body axes. The cell excludes longer waves
-/// and end effects.
+/// The energy per length `W(kappa, sigma)` is the energy of the bonds of the cell divided by
+/// `P rise`. Its derivatives are the torque and the force in body axes. The cell excludes longer
+/// waves and end effects.
 ///
 /// ```
 /// use actin_ellipsoid::{Cell, EllipsoidModel, EllipsoidParameters, Hold, SixVector};

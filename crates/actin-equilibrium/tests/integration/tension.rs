@@ -57,9 +57,9 @@ fn a_straight_rod_stretches_linearly_at_any_tension() {
     }
 }
 
-/// Shear instability beyond `F* = S1 S3 / (S3 - S1)` (3.0e4 pN). The frames rotate to `cos(theta) =
-/// F* / F`, and the tip moves along the force by `F / S1` of the length. With the force `n`, `r' =
-/// Q (e3 + S^-1 Q^T n)` and `B theta'' = F sin(theta) (1 - F cos(theta) / F*)`.
+/// Shear instability beyond `F* = S1 S3 / (S3 - S1)` (3.0e4 pN). The frames rotate to
+/// `cos(theta) = F* / F`, and the tip moves along the force by `F / S1` of the length. With the
+/// force `n`, `r' = Q (e3 + S^-1 Q^T n)` and `B theta'' = F sin(theta) (1 - F cos(theta) / F*)`.
 #[test]
 fn a_rod_under_great_tension_turns_its_frames() {
     let [shear, stretch] = [ACTIN.shear.x, ACTIN.shear.z];
