@@ -81,8 +81,8 @@ const FREE: [(&str, &str); 3] = [
     ),
 ];
 
-/// Torque of drag about the centre of mass between two states at times `t` apart: `sum g_t m r x v
-/// + sum g_r I w`.
+/// Torque of drag about the centre of mass between two states at times `t` apart:
+/// `sum g_t m r x v + sum g_r I w`.
 fn torque_of_drag(before: &State, after: &State, t: f64, rates: (f64, f64)) -> Vector3 {
     let masses: Vec<f64> = before
         .points

@@ -47,8 +47,8 @@ pub(crate) fn run(text: &str) -> (Assembly, Trajectory) {
 }
 
 /// Deflection over length of an inextensible cantilever under a dead force `w` per length across
-/// it, `alpha = w L^3 / B`, by shooting with the classical Runge-Kutta method: `theta'' = -alpha (1
-/// - s) cos(theta)`.
+/// it, `alpha = w L^3 / B`, by shooting with the classical Runge-Kutta method:
+/// `theta'' = -alpha (1 - s) cos(theta)`.
 pub(crate) fn deflection_under_uniform_force(alpha: f64, steps: usize) -> f64 {
     let shot = |curvature: f64| {
         let derivative = |s: f64, [theta, kappa, _]: [f64; 3]| {

@@ -71,13 +71,10 @@ impl<'a> Recorder<'a> {
         sink: &'a mut dyn Sink,
     ) -> Self {
         let (position, recorded) = saved.map(|s| (s.position, s.recorded)).unzip();
-        let motion = match position {
-            None => None,
-            Some(RunPosition::Motion(motion)) => Some(*motion),
-            Some(RunPosition::Path(_)) => {
-                panic!("the checkpoint of a path of equilibria cannot resume a motion")
-            }
-        };
+        let motion = position.map(|position| match position {
+            RunPosition::Motion(motion) => *motion,
+            RunPosition::Path(_) => panic!("the checkpoint belongs to a path of equilibria"),
+        });
         let behind_switch = motion.as_ref().and_then(|m| m.behind_switch);
         let (position, pushes, events) = match motion {
             None => (None, Vec::new(), Vec::new()),
