@@ -1,39 +1,39 @@
-//! Held bodies that slide together along some directions, as one rigid body.
+//! Held points that slide together as one rigid body.
 
 use crate::inertia::is_inertia;
 use crate::{State, Vector3, Vectors};
 
-/// Points that keep their places relative to each other and move together along `directions`.
+/// Points with constant relative positions that move together along `directions`.
 ///
-/// The points themselves are held; what is free is their common displacement along each
-/// direction. Frames that belong to the body do not turn, so they need no mention.
+/// The points are held. The common displacement along each direction is a degree of freedom. Frames
+/// that belong to the body do not rotate and are not listed.
 ///
-/// A [`System`](crate::System) panics if it has a slider without points, of points that do not exist,
-/// whose directions are not orthonormal or whose mass is not positive and finite.
+/// [`System`](crate::System) panics if a slider has no points or missing points, if the directions
+/// are not orthonormal, or if the mass is not positive and finite.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Slider {
-    /// The points.
+    /// Indices of the points.
     pub points: Vec<usize>,
-    /// Orthonormal directions, lab frame, at most three.
+    /// Orthonormal directions (lab frame), at most three.
     pub directions: Vec<Vector3>,
     /// Mass of the whole body.
     pub mass: f64,
 }
 
 impl Slider {
-    /// Asserts what a slider among `count` points must have: points that exist, orthonormal
-    /// directions, a positive mass.
+    /// Asserts that the points exist among `count` points, the directions are orthonormal and the
+    /// mass is positive.
     pub(crate) fn assert_sound(&self, count: usize) {
         let Self {
             points,
             directions,
             mass,
         } = self;
-        assert!(!points.is_empty(), "a slider has at least one point");
+        assert!(!points.is_empty(), "a slider must have at least one point");
         for &i in points {
             assert!(
                 i < count,
-                "there are {count} points, a slider has point {i}"
+                "a slider contains point {i}, but there are only {count} points"
             );
         }
         assert!(
@@ -85,8 +85,9 @@ impl Slider {
         }
     }
 
-    /// Adds to the velocity along the `k`-th direction component `k` of the first point's
-    /// `deviates` over the root of the whole mass.
+    /// Adds `deviates / sqrt(mass)` to the velocity along each direction.
+    ///
+    /// Component `k` of the deviates of the first point is used for the `k`-th direction.
     pub(crate) fn add_thermal_impulses(&self, velocity: &mut Vectors, deviates: &Vectors) {
         let deviate = deviates.get(self.points[0]);
         let along = self.directions.iter().zip(deviate.iter());
@@ -109,8 +110,8 @@ mod tests {
     use crate::testing::push_point;
     use crate::{PointLoad, Split, System};
 
-    /// Two held points under a force on one of them slide along z as one body of twice the mass,
-    /// exactly as a free point of that mass; across z nothing moves.
+    /// Two held points slide along z like one free point of the total mass, and do not move along x
+    /// and y.
     #[test]
     fn a_pair_slides_as_one_body() {
         let mut state = State::default();
