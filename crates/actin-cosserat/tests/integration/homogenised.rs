@@ -1,4 +1,4 @@
-//! Rods under one potential for all strains: uniform states, and what is refused.
+//! Rods with a potential in uniform states, and unsupported combinations.
 
 use crate::common;
 use actin_cosserat::{
@@ -13,7 +13,7 @@ fn material() -> RodMaterial {
     RodMaterial::homogenised(Homogenised::mean_filament())
 }
 
-/// A rod of ten segments of 8 nm with the same six strains everywhere.
+/// Rod of ten segments of 8 nm with uniform strains.
 fn uniform(walls: Walls, kappa: Vector3, sigma: Vector3) -> (State, EnergyGradient) {
     let mut state = State::default();
     let rod = StraightRod {
@@ -46,8 +46,6 @@ const UNIFORM: [[f64; 6]; 4] = [
     [-2e-3, 1e-3, -0.013, -0.003, 0.006, 3e-3],
 ];
 
-/// The energy is that of the potential over the whole length, free ends and walls alike, and the work of a uniform
-/// change of strain is done against its loads.
 #[test]
 fn uniform_rods_have_the_energy_and_loads_of_the_potential() {
     let law = Homogenised::mean_filament();
@@ -81,8 +79,7 @@ fn uniform_rods_have_the_energy_and_loads_of_the_potential() {
     }
 }
 
-/// A straight rod under twist and tension: every inner body is balanced, and walls and end nodes have the couple and
-/// the tension of the potential. Half a mean missing beside a wall would leave torques there.
+/// Interior bodies are in equilibrium; ends carry the torque and the tension of the potential.
 #[test]
 fn twisted_and_pulled_rods_are_balanced_inside() {
     let law = Homogenised::mean_filament();
@@ -110,7 +107,6 @@ fn twisted_and_pulled_rods_are_balanced_inside() {
     }
 }
 
-/// Where nothing knows the curvature around a segment, and where a law would be replaced.
 #[test]
 fn potentials_are_refused_where_they_cannot_be() {
     let mut state = State::default();
