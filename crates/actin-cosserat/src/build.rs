@@ -240,7 +240,6 @@ impl StraightRod {
         (is_held || is_free).then_some(is_held)
     }
 
-    /// Appends the wall frame at an end, next to a segment of the given length.
     fn push_wall(&self, (end, length): (RodEnd, f64), state: &mut State) {
         let Some(is_held) = self.wall(end) else {
             return;
@@ -252,7 +251,6 @@ impl StraightRod {
         }
     }
 
-    /// Frame with the inertia of a piece of a segment (lengths in nm).
     fn frame(&self, piece: f64, segment: f64) -> Frame {
         let section = self.cross_section.segment_inertia(piece);
         let about_middle = match self.rotary_inertia {

@@ -101,7 +101,6 @@ mod tests {
     use super::*;
     use crate::{StraightRod, Walls};
 
-    /// Held points and frames of a rod of three segments, clamped at one end.
     fn held(clamp: RodClamp, end: RodEnd) -> (Vec<usize>, Vec<usize>) {
         let rod = StraightRod {
             walls: Walls {

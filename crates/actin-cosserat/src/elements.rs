@@ -188,7 +188,6 @@ impl RodSegment {
         ShearElement::segment(self.rest_length)
     }
 
-    /// Orientation of the frame, and vector between the points.
     fn placed(&self, state: &State) -> (UnitQuaternion, Vector3) {
         let x = &state.points.position;
         let l = x.get(self.points[1]) - x.get(self.points[0]);
@@ -348,7 +347,6 @@ mod tests {
     };
     use actin_mechanics::{Xorshift, perturb};
 
-    /// Clamped rod with bent and twisted rest shape.
     fn curved() -> (State, RodElements) {
         let mut state = State::default();
         let rod = StraightRod::uniform(4, 2.0);

@@ -23,7 +23,6 @@ pub struct EnergyGradient {
     layout: RodLayout,
     material: RodMaterial,
     extended: Option<ExtendedSegments>,
-    /// Vector kernel, if the laws have one.
     fast: Option<FastRod>,
 }
 
@@ -94,7 +93,6 @@ pub(crate) fn write_shear_energies(
     }
 }
 
-/// Energies of the bending elements, for both force laws.
 pub(crate) fn write_bending_energies(
     layout: &RodLayout,
     material: &RodMaterial,

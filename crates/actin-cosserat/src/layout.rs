@@ -167,7 +167,6 @@ impl RodLayout {
     }
 }
 
-/// Checks that there are segments, each with a positive length.
 pub(crate) fn check_lengths(lengths: &[f64]) -> Result<(), RodError> {
     if lengths.is_empty() {
         return Err(RodError::NoSegments);
@@ -181,12 +180,10 @@ pub(crate) fn check_lengths(lengths: &[f64]) -> Result<(), RodError> {
     }
 }
 
-/// Returns `true` if a rest length and its inverse are positive and finite.
 pub(crate) fn is_length(value: f64) -> bool {
     value.is_finite() && value > 0.0 && value.recip().is_finite()
 }
 
-/// Rest distances of the bending elements.
 fn voronoi(lengths: &[f64], walls: Walls) -> Vec<f64> {
     let half = |length: &f64| 0.5 * length;
     let first = lengths.first().filter(|_| walls.start).map(half);
@@ -205,8 +202,6 @@ pub(crate) const BOTH: Walls = Walls {
 mod tests {
     use super::*;
 
-    /// With two walls, bending elements cover the whole rod; without walls, half a segment is
-    /// missing at each end.
     #[test]
     fn voronoi_lengths_cover_the_rod() {
         let lengths = vec![1.0, 2.0, 4.0];

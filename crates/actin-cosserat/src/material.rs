@@ -14,12 +14,9 @@ pub struct RodMaterial {
     rest_curvature: Vector3,
 }
 
-/// Kind of material.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Kind {
-    /// One law per strain.
     Laws(StrainLaws),
-    /// Potential of all strains.
     Potential(&'static Homogenised),
 }
 
@@ -152,7 +149,6 @@ impl RodMaterial {
         }
     }
 
-    /// Returns the laws, or an error for a potential.
     fn replaceable(self, key: RodKey) -> Result<StrainLaws, RodParameterError> {
         match self.kind {
             Kind::Laws(laws) => Ok(laws),
@@ -177,7 +173,6 @@ impl RodMaterial {
         }
     }
 
-    /// Returns `true` if the material has laws that are isotropic about the axis.
     pub(crate) fn is_axisymmetric(&self) -> bool {
         let rest = self.rest_curvature;
         let is_straight = rest.x == 0.0 && rest.y == 0.0;

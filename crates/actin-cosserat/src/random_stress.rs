@@ -58,14 +58,12 @@ fn vector(values: &[f64]) -> Vector3 {
     Vector3::new(values[0], values[1], values[2])
 }
 
-/// Internal forces and torques of the stresses of a rod.
 struct Parts<'a> {
     rod: &'a EnergyGradient,
     stresses: &'a [f64],
 }
 
 impl Parts<'_> {
-    /// Stresses of segments and of bending elements.
     fn split(&self) -> (&[f64], &[f64]) {
         self.stresses
             .split_at(stride(self.rod) * self.rod.layout().segments())
@@ -123,7 +121,6 @@ fn stride(rod: &EnergyGradient) -> usize {
     }
 }
 
-/// Strain and length of each segment.
 fn strains<'a>(
     layout: &'a RodLayout,
     state: &'a State,
@@ -137,7 +134,6 @@ fn strains<'a>(
     })
 }
 
-/// Curvature and rest distance of each bending element.
 fn curvatures<'a>(
     layout: &'a RodLayout,
     state: &'a State,
@@ -172,7 +168,6 @@ fn write_separate(
     }
 }
 
-/// Writes stresses with extension.
 fn write_extended(
     (extended, rod): (&ExtendedSegments, &EnergyGradient),
     state: &State,

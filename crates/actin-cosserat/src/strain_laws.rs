@@ -13,14 +13,12 @@ pub struct StrainLaws {
 }
 
 impl StrainLaws {
-    /// Returns `true` if shear and bending are isotropic about the axis.
     pub(crate) fn are_axisymmetric(&self) -> bool {
         let are_equal = |[x, y]: [f64; 2]| (x - y).abs() <= f64::EPSILON * x;
         let has_one_bend = matches!(self.bend, BendLaw::Constant(bend) if are_equal(bend));
         are_equal(self.shear.linear) && has_one_bend
     }
 
-    /// Constant rigidities, already validated.
     pub(crate) fn constant(Rigidities { shear, bend }: Rigidities) -> Self {
         Self {
             shear: CubicShear {
@@ -33,7 +31,6 @@ impl StrainLaws {
         }
     }
 
-    /// Multiplies the rigidities by `factors`.
     pub(crate) fn times(self, factors: &RigidityFactors) -> Self {
         Self {
             shear: self.shear.times(factors.shear),

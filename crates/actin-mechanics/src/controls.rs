@@ -15,7 +15,6 @@ pub struct Controls {
 }
 
 impl Controls {
-    /// Adds a control.
     pub(crate) fn add(&mut self, value: f64) -> ControlId {
         self.values.push(value);
         ControlId(self.values.len() - 1)

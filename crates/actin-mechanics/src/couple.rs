@@ -43,7 +43,6 @@ pub struct Couple {
     /// Frames along which turns are counted: index, orientation at `psi = 0`, and element if the
     /// couple acts on the frame.
     chain: Vec<(usize, UnitQuaternion, Option<usize>)>,
-    /// Couple at control value 1 (lab frame).
     moment: Vector3,
     kind: CoupleKind,
     control: ControlId,
@@ -147,7 +146,6 @@ impl Couple {
         self.control
     }
 
-    /// Magnitude and axis at control value 1, or `None` for a zero couple.
     fn axis(&self) -> Option<(f64, Vector3)> {
         let size = self.moment.norm();
         (size > 0.0).then(|| (size, self.moment / size))
@@ -281,8 +279,6 @@ mod tests {
         }
     }
 
-    /// The axial component of the torque is constant, and the work of a turn about the axis is
-    /// proportional to the angle.
     #[test]
     fn axial_couples_keep_their_component() {
         let axis = Vector3::new(1.2, -3.0, 1.8).normalize();
@@ -298,8 +294,6 @@ mod tests {
         assert!((couple.energy(&state) + 6.2 * size).abs() < 1e-12 * size);
     }
 
-    /// Turns are counted beyond two along a chain that starts at a fixed frame, in the presence of
-    /// swings.
     #[test]
     fn turns_are_counted_along_a_chain() {
         let mut state = State::default();
@@ -324,14 +318,12 @@ mod tests {
                 let q = rotation::exp(Vector3::z() * angle) * swing;
                 state.frames.orientation.set(i, q);
             }
-            // Swings about axes perpendicular to z do not change the twist about z.
             let work = 3.0 * TAU * turns;
             let energy = couple.energy(&state);
             assert!((energy + work).abs() < 1e-12, "{turns}: {energy}");
         }
     }
 
-    /// The work equals the couple times the angle over several turns in both directions.
     #[test]
     fn turns_of_a_free_frame_are_counted_in_motion() {
         let (start, couple) = turned(CoupleKind::Axial, Vector3::zeros());
@@ -352,7 +344,6 @@ mod tests {
                 state.frames.orientation.set(i, q);
             }
             if step == -40 {
-                // Starting from zero, the first angle needs less than one turn per step.
                 state.controls[couple.turned] = angle;
             }
             couple.count_turns(&mut state);
@@ -368,7 +359,6 @@ mod tests {
     fn what_follows_does_work_on_a_closed_path() {
         let work = |kind| {
             let (mut state, couple) = turned(kind, Vector3::zeros());
-            // Work of a small rotation (rad, body frame), by the midpoint rule.
             let turn = |state: &mut State, step: Vector3| {
                 let q = state.frames.orientation.get(0);
                 let middle = q * rotation::exp(step * 0.5);

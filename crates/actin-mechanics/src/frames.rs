@@ -37,7 +37,6 @@ pub struct Frames {
     inertias: Shared<Inertias>,
 }
 
-/// Properties that are constant in time.
 #[derive(Clone, Debug, Default, PartialEq)]
 struct Inertias {
     /// 1 / transverse moment.
@@ -61,7 +60,6 @@ impl Frames {
         self.inertias.mobility.is_empty()
     }
 
-    /// Copy with inertias only, without orientations and angular momenta.
     pub(crate) fn bodies(&self) -> Self {
         Self {
             inertias: self.inertias.clone(),
@@ -69,7 +67,6 @@ impl Frames {
         }
     }
 
-    /// Returns `true` if `other` shares the storage of inertias and holds.
     pub(crate) fn shares_bodies_with(&self, other: &Self) -> bool {
         self.inertias.is_same(&other.inertias)
     }
@@ -152,7 +149,6 @@ impl Frames {
         ]
     }
 
-    /// Asserts that each frame has an orientation and an angular momentum.
     pub(crate) fn assert_shape(&self) {
         let count = self.len();
         self.orientation.assert_len("orientations", count);
@@ -195,7 +191,6 @@ impl Frames {
         }
     }
 
-    /// Multiplies the angular momenta of free frames by `factor`.
     pub(crate) fn damp(&mut self, factor: f64) {
         damp_where(&mut self.angular_momentum, &self.inertias.mobility, factor);
     }
@@ -219,8 +214,6 @@ mod tests {
     use crate::rotation;
     use crate::testing::architectures;
 
-    /// The vector kernel agrees with the scalar flow for each axis, number of lanes and step
-    /// length.
     #[test]
     fn drift_is_the_free_flow_of_each_top() {
         let tops = [[2.0, 1.0, 1.0], [1.0, 2.0, 1.0], [1.0, 1.0, 2.0], [1.5; 3]]
@@ -249,7 +242,6 @@ mod tests {
         }
     }
 
-    /// Groups with both small and large angles are included.
     #[test]
     fn drift_is_the_same_with_any_number_of_lanes() {
         let tops = [[1.0, 1.0, 2.0], [2.0, 1.0, 1.0]]
@@ -267,7 +259,6 @@ mod tests {
         }
     }
 
-    /// Random orientations and angular momenta of `count` frames, and the frames themselves.
     fn spinning(tops: &[Inertia], count: usize) -> (Vec<(UnitQuaternion, Vector3)>, Frames) {
         let mut noise = Xorshift::new(5);
         let mut frames = Frames::default();

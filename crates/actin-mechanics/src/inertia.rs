@@ -40,7 +40,6 @@ pub enum InertiaError {
     Asymmetric([f64; 3]),
 }
 
-/// Returns `true` if a mass, a moment or its inverse is positive and finite.
 pub(crate) fn is_inertia(value: f64) -> bool {
     value.is_finite() && value > 0.0
 }
@@ -144,7 +143,6 @@ mod tests {
         }
     }
 
-    /// Numerical integration of Euler's equations gives the same motion.
     #[test]
     fn free_flow_solves_eulers_equations() {
         for moments in [[2.92, 2.18, 2.18], [1.0, 1.0, 2.0], [0.7, 3.0, 0.7]] {

@@ -163,7 +163,6 @@ impl InternalCouple {
     }
 }
 
-/// Sets the row and the column of the third axis to zero.
 fn without_spin(mut block: Matrix3) -> Matrix3 {
     block.set_row(2, &Vector3::zeros().transpose());
     block.set_column(2, &Vector3::zeros());
@@ -182,7 +181,6 @@ mod tests {
     use crate::testing::{push_frame, push_point};
     use crate::{Interaction, SecondOrder, Xorshift, perturb};
 
-    /// Interaction that consists of a force and a torque between two bodies.
     #[derive(Debug)]
     struct Both(InternalForce, InternalCouple);
 
@@ -214,7 +212,6 @@ mod tests {
         }
     }
 
-    /// Loads and stiffness blocks are derivatives of the energy at large relative rotations.
     #[test]
     fn internal_loads_are_the_gradient_of_their_energy() {
         let mut state = State::default();

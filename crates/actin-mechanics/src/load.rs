@@ -47,13 +47,11 @@ impl LoadError {
 /// A force of constant direction, distributed over points and scaled by a control.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PointLoad {
-    /// Points and their shares of the force.
     shares: Vec<(usize, f64)>,
     /// Reference position of each point, at zero potential (lab frame).
     origin: Vec<Vector3>,
     /// Force at control value 1 (lab frame).
     force: Vector3,
-    /// Load factor.
     control: ControlId,
 }
 
@@ -113,7 +111,6 @@ impl PointLoad {
     }
 }
 
-/// Returns an error for forces and shares that are not finite, and for missing points.
 fn check(state: &State, shares: &[(usize, f64)], force: Vector3) -> Result<(), LoadError> {
     LoadError::unless_finite("force", force)?;
     let count = state.points.len();
@@ -167,7 +164,6 @@ mod tests {
 
     use crate::testing::push_point;
 
-    /// The new control has the value 1 and does not interfere with other controls.
     #[test]
     fn a_shared_load_brings_its_control() {
         let mut state = State::default();

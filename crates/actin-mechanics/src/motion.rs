@@ -116,7 +116,6 @@ mod tests {
     use crate::testing::{push_frame, push_point};
     use crate::{State, UnitQuaternion, Vector3, Xorshift, perturb, randomise_velocities};
 
-    /// Two states of the same bodies with different motion.
     fn states() -> [State; 2] {
         let mut state = State::default();
         for _ in 0..3 {
@@ -144,7 +143,6 @@ mod tests {
         assert_eq!(state.in_motion(moved.motion()), moved);
     }
 
-    /// Copies share masses until one of them holds a body.
     #[test]
     fn copies_share_what_does_not_move() {
         let [state, mut moved] = states();

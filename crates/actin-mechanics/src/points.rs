@@ -33,7 +33,6 @@ pub struct Points {
     masses: Shared<Masses>,
 }
 
-/// Properties that are constant in time.
 #[derive(Clone, Debug, Default, PartialEq)]
 struct Masses {
     /// Inverse masses, zero for held points.
@@ -53,7 +52,6 @@ impl Points {
         self.masses.inverse.is_empty()
     }
 
-    /// Copy with masses only, without positions and velocities.
     pub(crate) fn bodies(&self) -> Self {
         Self {
             masses: self.masses.clone(),
@@ -61,7 +59,6 @@ impl Points {
         }
     }
 
-    /// Returns `true` if `other` shares the storage of masses and holds.
     pub(crate) fn shares_bodies_with(&self, other: &Self) -> bool {
         self.masses.is_same(&other.masses)
     }
@@ -143,7 +140,6 @@ impl Points {
         &self.masses.inverse
     }
 
-    /// Asserts that each point has a position and a velocity.
     pub(crate) fn assert_shape(&self) {
         let count = self.len();
         for (what, vectors) in [
@@ -178,7 +174,6 @@ impl Points {
         }
     }
 
-    /// Multiplies the velocities of free points by `factor`.
     pub(crate) fn damp(&mut self, factor: f64) {
         damp_where(&mut self.velocity, &self.masses.inverse, factor);
     }

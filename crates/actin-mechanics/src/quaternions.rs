@@ -51,12 +51,10 @@ impl Quaternions {
         self.z.push(q.k);
     }
 
-    /// Asserts that there are `count` quaternions; `what` names them in the message.
     pub(crate) fn assert_len(&self, what: &str, count: usize) {
         vectors::assert_lengths(what, &[&self.w, &self.x, &self.y, &self.z], count);
     }
 
-    /// Copies the quaternions of `other`, which must have equal length.
     pub(crate) fn copy_from(&mut self, other: &Self) {
         self.w.copy_from_slice(&other.w);
         self.x.copy_from_slice(&other.x);

@@ -204,7 +204,6 @@ mod tests {
     use crate::testing::derivative;
     use std::f64::consts::PI;
 
-    /// Angles (rad) and values of the slope.
     const SLOPES: [(f64, f64); 14] = [
         (0.001, 0.001_388_888_955_026_457_5),
         (0.1, 0.001_389_550_512_649_671),
@@ -231,7 +230,6 @@ mod tests {
         ]
     }
 
-    /// Angles with documented accuracy.
     fn angle_grid() -> Vec<f64> {
         let mut angles: Vec<f64> = (-120..=0)
             .map(|k| 10f64.powf(f64::from(k) / 10.0))
@@ -275,7 +273,6 @@ mod tests {
         assert!(difference.abs() < 1e-13);
     }
 
-    /// Comparison with central differences of `m . log(R exp(delta))` and `m . log(exp(delta) R)`.
     #[test]
     fn inverse_jacobians_are_derivatives_of_the_logarithm() {
         let m = Vector3::new(0.3, -1.1, 0.7);

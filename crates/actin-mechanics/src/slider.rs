@@ -21,8 +21,6 @@ pub struct Slider {
 }
 
 impl Slider {
-    /// Asserts that the points exist among `count` points, the directions are orthonormal and the
-    /// mass is positive.
     pub(crate) fn assert_sound(&self, count: usize) {
         let Self {
             points,
@@ -58,7 +56,6 @@ impl Slider {
             .map(|d| self.points.iter().map(|&i| force.get(i).dot(d)).sum())
     }
 
-    /// Applies the forces `force` for a time `h`.
     pub(crate) fn kick(&self, velocity: &mut Vectors, force: &Vectors, h: f64) {
         let gain: Vector3 = self
             .directions
@@ -77,7 +74,6 @@ impl Slider {
         self.directions.iter().map(|d| d * d.dot(&v)).sum()
     }
 
-    /// Multiplies the velocity along the free directions by `factor`.
     pub(crate) fn damp(&self, velocity: &mut Vectors, factor: f64) {
         let loss = self.sliding_velocity(velocity) * (factor - 1.0);
         for &i in &self.points {
@@ -97,7 +93,6 @@ impl Slider {
         }
     }
 
-    /// Kinetic energy of the sliding motion.
     pub(crate) fn kinetic_energy(&self, state: &State) -> f64 {
         let v = self.sliding_velocity(&state.points.velocity);
         0.5 * self.mass * v.norm_squared()
@@ -110,8 +105,6 @@ mod tests {
     use crate::testing::push_point;
     use crate::{PointLoad, Split, System};
 
-    /// Two held points slide along z like one free point of the total mass, and do not move along x
-    /// and y.
     #[test]
     fn a_pair_slides_as_one_body() {
         let mut state = State::default();

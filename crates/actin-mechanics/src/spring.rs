@@ -158,7 +158,6 @@ impl Springs {
         &self.0
     }
 
-    /// Points, law and connecting vector of each spring.
     fn stretched<'a>(
         &'a self,
         state: &'a State,
@@ -241,7 +240,6 @@ mod tests {
         }
     }
 
-    /// Springs in tension, in compression and without rest length.
     #[test]
     fn springs_are_the_gradient_of_their_energy() {
         let mut state = triangle();

@@ -80,10 +80,6 @@ impl State {
             .all(|c| c.is_finite())
     }
 
-    /// Asserts that the arrays have consistent lengths and that sliders are valid.
-    ///
-    /// # Panics
-    /// If not; the message names the array.
     pub(crate) fn assert_shape(&self) {
         self.points.assert_shape();
         self.frames.assert_shape();

@@ -116,7 +116,6 @@ mod tests {
     use crate::{Slider, UnitQuaternion, Vector3};
     use crate::{Xorshift, perturb, randomise_velocities};
 
-    /// Moving points and frames. The second of each is held, and the third point slides along z.
     fn moving(bodies: usize) -> State {
         let mut state = State::default();
         let tops = [[2.0, 1.0, 1.0], [1.0, 2.0, 1.0], [1.0, 1.0, 2.0]];
@@ -156,7 +155,6 @@ mod tests {
         omega.norm_squared()
     }
 
-    /// Agreement with the scalar functions for each number of bodies and lanes.
     #[test]
     fn a_survey_finds_what_is_found_body_by_body() {
         for bodies in [0, 1, 2, 3, 4, 7, 8, 13, 64] {
@@ -188,7 +186,6 @@ mod tests {
         }
     }
 
-    /// All time-dependent columns.
     fn columns(state: &mut State) -> [&mut Vec<f64>; 13] {
         let (x, v) = (&mut state.points.position, &mut state.points.velocity);
         let (q, l) = (
@@ -201,7 +198,6 @@ mod tests {
         ]
     }
 
-    /// Each column, lane and short group is checked, for free and held bodies.
     #[test]
     fn no_number_that_is_none_is_overlooked() {
         for bodies in [1, 3, 4, 11] {
@@ -218,7 +214,6 @@ mod tests {
         }
     }
 
-    /// Only the overflow of a square or a sum is an error.
     #[test]
     fn large_places_are_sound() {
         let mut state = moving(5);

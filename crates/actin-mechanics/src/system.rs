@@ -241,7 +241,6 @@ impl System {
         &self.loads
     }
 
-    /// Asserts that the numbers of bodies have not changed.
     fn assert_same_bodies(&self) {
         self.state.assert_shape();
         let made_with = (self.loads.force.len(), self.loads.torque.len());
@@ -392,8 +391,6 @@ mod tests {
         System::new(state, Vec::new())
     }
 
-    /// Without this check, additional bodies would have no loads and missing velocities would be
-    /// ignored.
     #[test]
     fn states_that_lose_their_shape_are_refused() {
         let is_refused = |change: fn(&mut State)| {

@@ -68,12 +68,10 @@ impl Vectors {
         self.z.push(v.z);
     }
 
-    /// Asserts that there are `count` vectors; `what` names them in the message.
     pub(crate) fn assert_len(&self, what: &str, count: usize) {
         assert_lengths(what, &[&self.x, &self.y, &self.z], count);
     }
 
-    /// Returns `true` if there are `count` vectors.
     pub(crate) fn has_len(&self, count: usize) -> bool {
         [&self.x, &self.y, &self.z].iter().all(|c| c.len() == count)
     }
@@ -85,7 +83,6 @@ impl Vectors {
         self.z.fill(0.0);
     }
 
-    /// Copies the vectors of `other`, which must have equal length.
     pub(crate) fn copy_from(&mut self, other: &Self) {
         self.x.copy_from_slice(&other.x);
         self.y.copy_from_slice(&other.y);
@@ -115,7 +112,6 @@ impl FromIterator<Vector3> for Vectors {
     }
 }
 
-/// Asserts that each component has `count` entries.
 pub(crate) fn assert_lengths(what: &str, components: &[&Vec<f64>], count: usize) {
     for component in components {
         let length = component.len();
@@ -162,7 +158,6 @@ impl WithSimd for AddProduct<'_> {
     }
 }
 
-/// Kernel of [`add_scaled`].
 struct AddScaled<'a> {
     sum: &'a mut Vectors,
     terms: &'a Vectors,
@@ -184,7 +179,6 @@ impl WithSimd for AddScaled<'_> {
     }
 }
 
-/// Multiplies the vectors of positive mobility by `factor`.
 pub(crate) fn damp_where(vectors: &mut Vectors, mobility: &[f64], factor: f64) {
     for column in [&mut vectors.x, &mut vectors.y, &mut vectors.z] {
         for (c, mobility) in column.iter_mut().zip(mobility) {

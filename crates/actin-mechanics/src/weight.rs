@@ -112,8 +112,6 @@ mod tests {
         assert_eq!(state, State::default());
     }
 
-    /// All points have equal acceleration. A held point keeps its weight and is accelerated after
-    /// its release.
     #[test]
     fn stones_fall_alike_and_held_ones_keep_their_weight() {
         let (mut state, weight) = stones();

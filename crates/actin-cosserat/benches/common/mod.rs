@@ -27,7 +27,6 @@ pub(crate) fn rod(segments: usize, angle: f64) -> (State, RodLayout) {
 /// Name, material, and law of twist and stretch.
 type Law = (&'static str, RodMaterial, Option<TwistStretch>);
 
-/// Constant rigidities, published extension, laws fitted to monomers, and potential.
 pub(crate) fn laws() -> [Law; 4] {
     let constant = RodMaterial::new(Rigidities::table4()).expect("the table is valid");
     let twist = TwistLaw::Tanh(TanhTwist::published());

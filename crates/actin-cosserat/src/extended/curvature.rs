@@ -29,13 +29,10 @@ pub struct SegmentCurvature {
     around: Vec<Around>,
     /// Share of each segment's length covered by elements: one half per side.
     covered: Vec<f64>,
-    /// Factor of each segment's shear strain.
     shear: Vec<f64>,
-    /// Bending elements near blocked ends.
     end_twists: Vec<EndTwist>,
 }
 
-/// Element around a segment.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Around {
     pub(crate) frames: [usize; 2],
@@ -63,7 +60,6 @@ impl SegmentCurvature {
     pub fn new(layout: &RodLayout, start: &[JoinedElement], end: &[JoinedElement]) -> Self {
         let segments = layout.segments();
         let first = layout.bending_chain().start;
-        // Element of the rod between `frame` and the next frame.
         let own = |frame: usize| {
             let k = frame.checked_sub(first)?;
             let &rest_distance = layout.voronoi_lengths().get(k)?;
@@ -106,7 +102,6 @@ impl SegmentCurvature {
         &self.end_twists
     }
 
-    /// End twist of the element between these frames.
     pub(crate) fn end_twist(&self, frames: [usize; 2]) -> Option<&EndTwist> {
         self.end_twists.iter().find(|end| end.joins(frames))
     }
@@ -117,7 +112,6 @@ impl SegmentCurvature {
         self.shear[segment]
     }
 
-    /// Appends a segment with the elements on its two sides: one of the rod, and joined ones.
     fn push_segment(&mut self, sides: [(Option<JoinedElement>, &[JoinedElement]); 2]) {
         let count = |(own, joined): &(Option<_>, &[_])| usize::from(own.is_some()) + joined.len();
         let present = sides.iter().filter(|side| count(side) > 0).count();
@@ -136,7 +130,6 @@ impl SegmentCurvature {
         self.covered.push(0.5 * present as f64);
     }
 
-    /// Share of the length of `segment` covered by the elements around it.
     #[inline]
     pub(crate) fn covered(&self, segment: usize) -> f64 {
         self.covered[segment]

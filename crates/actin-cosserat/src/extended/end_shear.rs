@@ -48,7 +48,6 @@ impl EndShear {
 /// are -1 at blocked, 0 at even and 1 at loose ends. The factor is `1 / sqrt(c)` with the mean of
 /// `c` over the segment, so small shear does not depend on the mesh. `beyond` (nm) are the
 /// distances to the ends of the whole rod.
-/// it is continued by.
 pub(super) fn factors(lengths: &[f64], ends: [EndShear; 2], beyond: [f64; 2]) -> Vec<f64> {
     let [a, b] = ends.map(EndShear::sign);
     let l = END_SHEAR_NM;
@@ -70,8 +69,6 @@ pub(super) fn factors(lengths: &[f64], ends: [EndShear; 2], beyond: [f64; 2]) ->
 mod tests {
     use super::*;
 
-    /// Two blocked ends remove twice the length for any mesh, and a loose end compensates a blocked
-    /// one.
     #[test]
     fn lengths_are_missing_and_added() {
         use EndShear::{Blocked, Even, Loose};

@@ -40,7 +40,6 @@ const REACH_NM: f64 = 2.0 * END_SHEAR_NM;
 /// [`FIRM`], `c` is [`FIRM_TWIST`]. The mean curvature of adjacent segments includes all of `k`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct EndTwist {
-    /// Index among the rod's bending elements.
     pub(crate) element: usize,
     frames: [usize; 2],
     /// Rest distance (nm).
@@ -89,7 +88,6 @@ fn added(from: f64, to: f64) -> f64 {
 }
 
 impl EndTwist {
-    /// Factor of the twist.
     pub(crate) fn factor(&self) -> f64 {
         self.rest_distance / (self.rest_distance + self.added)
     }
@@ -144,7 +142,6 @@ impl EndTwist {
             + firm / self.rest_distance
     }
 
-    /// Adds the correction to the loads of a regular element.
     pub(crate) fn add_loads(&self, material: &RodMaterial, state: &State, loads: &mut Loads) {
         let turn = self.turn(state);
         let couple = self.couple(material, self.beyond(material, turn));
@@ -154,7 +151,6 @@ impl EndTwist {
         loads.torque.add(b, bending.second);
     }
 
-    /// Adds the correction to the stiffness of a regular element.
     pub(crate) fn add_stiffness(
         &self,
         material: &RodMaterial,

@@ -24,7 +24,6 @@ pub struct SegmentLaw {
 
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct MeanCurvature {
-    /// Mean curvature (rad/nm).
     pub(crate) kappa: Vector3,
     /// Share of the segment's length covered by bending elements.
     pub(crate) covered: f64,
@@ -39,7 +38,6 @@ impl MeanCurvature {
         }
     }
 
-    /// Curvature relative to rest.
     #[inline]
     fn beyond_rest_of(self, material: &RodMaterial) -> Self {
         Self {
@@ -49,7 +47,6 @@ impl MeanCurvature {
     }
 }
 
-/// Derivatives of the energy per length.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct SegmentJet {
     /// Derivative with respect to strain (pN).
@@ -100,7 +97,6 @@ impl SegmentLaw {
         self.twist_stretch.as_ref()
     }
 
-    /// Law of bending, if shear stiffens it.
     pub(crate) fn stiffening(&self) -> Option<&Stiffening> {
         self.stiffening.as_ref()
     }
@@ -170,7 +166,6 @@ impl SegmentLaw {
         of_segments + material.bending_energy_density(kappa)
     }
 
-    /// Energy per length (pN).
     pub(crate) fn energy(
         &self,
         material: &RodMaterial,

@@ -17,7 +17,6 @@ pub(crate) struct ExtendedSegments {
     pub(crate) curvature: SegmentCurvature,
 }
 
-/// Present state of a segment.
 struct Segment<'a> {
     element: ShearElement,
     points: [usize; 2],
@@ -26,12 +25,10 @@ struct Segment<'a> {
     l: Vector3,
     curvature: MeanCurvature,
     around: &'a [Around],
-    /// Factors of the strains.
     factors: Vector3,
 }
 
 impl Segment<'_> {
-    /// Strain as the argument of the law.
     fn strain(&self) -> Vector3 {
         let strain = self.element.strain(self.q, self.l);
         strain.component_mul(&self.factors)
@@ -43,7 +40,6 @@ impl Segment<'_> {
     }
 }
 
-/// Surroundings of a segment.
 pub(crate) struct SegmentAround {
     /// Rest length (nm).
     pub(crate) length: f64,
@@ -51,7 +47,6 @@ pub(crate) struct SegmentAround {
     pub(crate) curvature: Vector3,
     /// Share of the length covered by bending elements.
     pub(crate) covered: f64,
-    /// `true` if there are elements on both sides.
     pub(crate) has_two_sides: bool,
     /// Elements near blocked ends with their weights in the mean.
     ends: Vec<(EndTwist, f64)>,
@@ -71,7 +66,6 @@ impl SegmentAround {
     }
 }
 
-/// Bending element next to a segment.
 pub(crate) struct Beside {
     /// 0 before the segment, 1 after it.
     pub(crate) side: usize,
@@ -82,7 +76,6 @@ pub(crate) struct Beside {
 }
 
 impl ExtendedSegments {
-    /// Factors of the strains of segment `k`.
     pub(crate) fn factors(&self, k: usize) -> Vector3 {
         let across = self.curvature.shear_factor(k);
         Vector3::new(across, across, 1.0)
@@ -99,7 +92,6 @@ impl ExtendedSegments {
         })
     }
 
-    /// Derivatives of the energy of segment `k`, and its surroundings.
     pub(crate) fn jet(
         &self,
         (layout, material): (&RodLayout, &RodMaterial),
@@ -230,7 +222,6 @@ fn curvature_slopes(around: &Around, state: &State) -> [Slope; 2] {
     })
 }
 
-/// Adds all blocks that involve the curvature.
 fn push_curvature(segment: &Segment, jet: &SegmentJet, state: &State, stiffness: &mut Stiffness) {
     let length = segment.element.rest_length;
     let q = &state.frames.orientation;

@@ -204,7 +204,6 @@ mod tests {
         range: 0.0472,
     };
 
-    /// Strain with the given shear under the force `tension` (pN).
     fn strain_under(
         (material, law): &(RodMaterial, SegmentLaw),
         [shear_1, shear_2, tension]: [f64; 3],
@@ -225,7 +224,6 @@ mod tests {
         at(low)
     }
 
-    /// Comparison with differences at constant force, in bent, sheared and twisted states.
     #[test]
     fn tangent_is_the_slope_of_the_couple_at_constant_force() {
         let mut noise = Xorshift::new(21);

@@ -17,7 +17,6 @@ use actin_mechanics::{State, rotation};
 use std::ops::Range;
 
 impl<L: Law> AddLoads<'_, L> {
-    /// Adds the loads of segments and of the preceding bending elements.
     #[inline(always)]
     pub(super) fn add_coupled<S: Simd>(&mut self, simd: S) {
         let (rod, layout, state) = (self.rod, self.layout, self.state);
@@ -35,7 +34,6 @@ impl<L: Law> AddLoads<'_, L> {
             torques = now.torque;
         }
         if chain.groups < force.groups() {
-            // The last node is alone in its group.
             let zero = [simd.splat_f64s(0.0); 3];
             let on_second = chain.reactions.next(simd, zero);
             force.add(simd, chain.groups, wide::sub(simd, zero, on_second));
@@ -60,10 +58,8 @@ struct Group<S: Simd> {
     before: Wide3<S>,
 }
 
-/// Input of the loop, and numbers carried between groups.
 struct Chain<'a, S: Simd, L> {
     law: L,
-    /// Number of groups with a segment or an element.
     groups: usize,
     nodes: [Columns<'a, S, 3>; 2],
     frames: [Columns<'a, S, 4>; 2],
@@ -156,7 +152,6 @@ impl<'a, S: Simd, L: Law> Chain<'a, S, L> {
         }
     }
 
-    /// Segments of a group, given length, inverse length and shear factor.
     #[inline(always)]
     fn segments(&self, simd: S, group: usize, numbers: [S::f64s; 3]) -> Segments<S> {
         let [length, inverse_length, shear] = numbers;
@@ -180,7 +175,6 @@ impl<'a, S: Simd, L: Law> Chain<'a, S, L> {
         }
     }
 
-    /// Torques of the elements before a group's frames.
     #[inline(always)]
     fn own(&self, simd: S, covers: S::f64s, (angle, inverse): (Wide3<S>, S::f64s)) -> Wide3<S> {
         let own = self.law.bending(simd, wide::scale(simd, angle, inverse));
@@ -208,14 +202,12 @@ impl<'a, S: Simd, L: Law> Chain<'a, S, L> {
         [x, y, z, coefficient]
     }
 
-    /// Torques of the elements after the frames of the last group.
     #[inline(always)]
     fn last(&mut self, simd: S) -> Wide3<S> {
         self.torques.next(simd, [simd.splat_f64s(0.0); 3])
     }
 }
 
-/// Frames of the segments and of a wall at the end.
 fn frames_and_end(layout: &RodLayout) -> Range<usize> {
     layout.frames().start..layout.bending_chain().end
 }

@@ -11,7 +11,6 @@ use std::ops::Range;
 
 #[derive(Clone, Copy)]
 pub(super) struct Segments<S: Simd> {
-    /// Orientations.
     q: WideQuaternion<S>,
     /// Vector from node to node (nm, body axes).
     body: Wide3<S>,
@@ -43,7 +42,6 @@ impl<S: Simd> Segments<S> {
         }
     }
 
-    /// Multiplies the shear strains by `factor`.
     #[inline(always)]
     pub(super) fn count_shear(&mut self, simd: S, factor: S::f64s) {
         let [x, y, z] = self.sigma;

@@ -12,10 +12,8 @@ use crate::bending::BendingLoads;
 use actin_mechanics::wide::{self, Simd, Wide3};
 use actin_mechanics::{Loads, State, Vector3, rotation};
 
-/// Maximum number of joined elements.
 pub(super) const MOST_JOINED: usize = 8;
 
-/// Element joined to an end segment.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Joined {
     pub(super) frames: [usize; 2],
@@ -30,7 +28,6 @@ impl Joined {
     }
 }
 
-/// Both ends of a rod during an evaluation.
 #[derive(Debug)]
 pub(super) struct Ends<'a> {
     joined: &'a [Joined],
@@ -62,7 +59,6 @@ impl<'a> Ends<'a> {
         ends
     }
 
-    /// Returns `true` if an element is joined to a segment of the group.
     #[inline(always)]
     pub(super) fn are_in(&self, group: usize) -> bool {
         let [[first, _], [last, _]] = self.places;
@@ -80,7 +76,6 @@ impl<'a> Ends<'a> {
         kappa
     }
 
-    /// Stores the torques of a group's end segments.
     #[inline(always)]
     pub(super) fn keep<S: Simd>(&mut self, simd: S, group: usize, couples: Wide3<S>) {
         for ([at, lane], kept) in self.places.into_iter().zip(&mut self.couples) {

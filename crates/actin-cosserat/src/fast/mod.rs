@@ -74,13 +74,11 @@ type Published = Laws<LinearShear, ConstantBend, Tanh, Polynomial>;
 type Fitted = Laws<CubicAcross, WideStiffening, Sided, Rooted>;
 type FittedLinearShear = Laws<LinearShear, WideStiffening, Sided, Rooted>;
 
-/// Rod with the kernel of its laws.
 #[derive(Clone, Debug)]
 pub(crate) struct FastRod(Kind);
 
 #[derive(Clone, Debug)]
 enum Kind {
-    /// Constant rigidities.
     Constant(Rod<Constant>),
     /// Published or constant twist, with or without published natural length.
     Published(Rod<Published>),
@@ -88,9 +86,7 @@ enum Kind {
     Fitted(Rod<Fitted>),
     /// Fitted laws with constant shear.
     FittedLinearShear(Rod<FittedLinearShear>),
-    /// Constant rigidities with a rest curvature.
     Bent(Rod<Bent<Constant>>),
-    /// Potential of all strains.
     Potential(Box<Rod<Potential>>),
 }
 
@@ -116,7 +112,6 @@ impl FastRod {
         kind.map(Self)
     }
 
-    /// Kernel of a rod that is bent at rest.
     fn bent(
         layout: &RodLayout,
         material: &RodMaterial,
@@ -131,7 +126,6 @@ impl FastRod {
         self.add_loads_on(wide::arch(), layout, state, loads);
     }
 
-    /// Adds the loads with the given instruction set.
     fn add_loads_on(&self, arch: Arch, layout: &RodLayout, state: &State, loads: &mut Loads) {
         match &self.0 {
             Kind::Constant(rod) => rod.add_loads(arch, layout, state, loads),
@@ -146,7 +140,6 @@ impl FastRod {
 
 type AsKind<L> = fn(Rod<L>) -> Kind;
 
-/// Rod of one kind, or `None`.
 fn kind<A: Shear, B: Bend, T: Twist, X: Length>(
     (layout, material, extended): (&RodLayout, &RodMaterial, Option<&ExtendedSegments>),
     kind: AsKind<Laws<A, B, T, X>>,

@@ -28,7 +28,6 @@ pub(super) struct Bodies {
     /// Length covered by the element before each segment, divided by its rest distance: 1, or more
     /// next to a free end.
     pub(super) covers: Vec<f64>,
-    /// Factors of the shear of segments.
     pub(super) shear: Vec<f64>,
 }
 
@@ -107,7 +106,6 @@ impl<L: Law> Rod<L> {
         (rod.joined.len() <= MOST_JOINED).then_some(rod)
     }
 
-    /// Adds an element around segment `k`.
     fn add_around(
         &mut self,
         k: usize,
@@ -163,7 +161,6 @@ impl<L: Law> Rod<L> {
     }
 }
 
-/// Arguments of the kernels.
 #[derive(Debug)]
 pub(super) struct AddLoads<'a, L> {
     pub(super) rod: &'a Rod<L>,

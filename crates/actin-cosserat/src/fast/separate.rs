@@ -12,7 +12,6 @@ use super::rod::AddLoads;
 use actin_mechanics::wide::{self, Columns, ColumnsMut, ShiftedUp, Simd};
 
 impl<L: Law> AddLoads<'_, L> {
-    /// Adds the loads of segments.
     #[inline(always)]
     pub(super) fn add_segments<S: Simd>(&mut self, simd: S) {
         let n = self.layout.segments();
@@ -39,7 +38,6 @@ impl<L: Law> AddLoads<'_, L> {
         }
     }
 
-    /// Adds the loads of bending elements, including walls.
     #[inline(always)]
     pub(super) fn add_bending<S: Simd>(&mut self, simd: S) {
         let frame = self.layout.bending_chain().start;
@@ -65,7 +63,6 @@ impl<L: Law> AddLoads<'_, L> {
     }
 }
 
-/// State of the loop over segments.
 struct SegmentLoop<'a, S: Simd, L> {
     first: Columns<'a, S, 3>,
     second: Columns<'a, S, 3>,
@@ -104,7 +101,6 @@ impl<S: Simd, L: Law> SegmentLoop<'_, S, L> {
     }
 }
 
-/// State of the loop over bending elements.
 struct BendingLoop<'a, S: Simd, L> {
     first: Columns<'a, S, 4>,
     second: Columns<'a, S, 4>,

@@ -12,7 +12,6 @@ use actin_mechanics::testing::{architectures, assert_same_with_any_lanes};
 use actin_mechanics::{UnitQuaternion, Vector3, rotation};
 use actin_mechanics::{Xorshift, perturb};
 
-/// Distinct rigidities, so that permuted axes are detected.
 fn material() -> RodMaterial {
     RodMaterial::new(Rigidities {
         shear: Vector3::new(1.6e4, 2.1e4, 3.4e4),
@@ -67,7 +66,6 @@ fn heated() -> RodMaterial {
     RodMaterial::homogenised(Homogenised::mean_filament_at_298_k())
 }
 
-/// Laws with a kernel, named after it.
 fn laws() -> Vec<Named> {
     let constant = material();
     let tanh = (constant.with_twist(TwistLaw::Tanh(TanhTwist::published()))).unwrap();
@@ -115,7 +113,6 @@ fn bent() -> [Named; 2] {
     })
 }
 
-/// Rod of unequal segments between other bodies.
 fn rod(segments: usize, walls: Walls, noise: &mut Xorshift) -> (State, RodLayout) {
     let mut state = State::default();
     let neighbour = StraightRod::uniform(1, 10.0);
@@ -163,7 +160,6 @@ fn extended(layout: &RodLayout, law: &Named, is_joined: bool) -> Option<Extended
     SegmentLaw::of(&law.1, law.2).map(|law| ExtendedSegments { law, curvature })
 }
 
-/// Adds the loads of the scalar path.
 fn add_reference(
     (layout, law): (&RodLayout, &Named),
     extended: Option<&ExtendedSegments>,
@@ -183,7 +179,6 @@ fn fast(layout: &RodLayout, law: &Named, extended: Option<&ExtendedSegments>) ->
     FastRod::new(layout, &law.1, extended).expect("use a law with a kernel")
 }
 
-/// Largest difference of the loads, and largest load.
 fn compare(a: &Loads, b: &Loads) -> (f64, f64) {
     let pairs = (a.force.iter().zip(b.force.iter())).chain(a.torque.iter().zip(b.torque.iter()));
     pairs.fold((0.0, 0.0), |(difference, largest), (a, b)| {
@@ -193,7 +188,6 @@ fn compare(a: &Loads, b: &Loads) -> (f64, f64) {
     })
 }
 
-/// Nonzero initial loads.
 fn noisy_loads(state: &State, noise: &mut Xorshift) -> Loads {
     let mut loads = Loads::zeros(state);
     for i in 0..loads.force.len() {
@@ -230,8 +224,6 @@ fn assert_paths_agree(
     }
 }
 
-/// Rods of all lengths, clamps and joined ends, small and large angles, and quaternions of both
-/// signs.
 #[test]
 fn loads_are_those_of_the_scalar_path() {
     let mut noise = Xorshift::new(1);
@@ -269,7 +261,6 @@ fn loads_are_the_same_with_any_number_of_lanes() {
     }
 }
 
-/// At strains of 1e-3 the terms of the laws are small differences of large numbers.
 #[test]
 fn loads_of_smooth_rods_are_those_of_the_scalar_path() {
     let mut noise = Xorshift::new(5);
@@ -287,7 +278,6 @@ fn loads_of_smooth_rods_are_those_of_the_scalar_path() {
     }
 }
 
-/// Negates every third quaternion, which is the same rotation.
 fn flip_some(state: &mut State) {
     for i in (0..state.frames.len()).step_by(3) {
         let q = state.frames.orientation.get(i);
@@ -296,7 +286,6 @@ fn flip_some(state: &mut State) {
     }
 }
 
-/// Loads of the vector kernel.
 fn fast_loads(state: &State, layout: &RodLayout, law: &Named) -> Loads {
     let extended = extended(layout, law, false);
     let mut loads = Loads::zeros(state);
@@ -345,7 +334,6 @@ fn the_smallest_turns_count() {
     }
 }
 
-/// A NaN position must affect adjacent elements only, so that the failure can be located.
 #[test]
 fn a_broken_node_spoils_its_neighbours_only() {
     for law in &laws() {
@@ -366,7 +354,6 @@ fn a_broken_node_spoils_its_neighbours_only() {
     }
 }
 
-/// Name of the kernel of a law.
 fn kind_of(law: &Named) -> Option<&'static str> {
     let (_, layout) = rod(3, Walls::default(), &mut Xorshift::new(9));
     let extended = extended(&layout, law, true);
@@ -389,7 +376,6 @@ fn every_law_has_its_loop() {
     }
 }
 
-/// Unnamed combinations of laws, and two-sided stretch.
 #[test]
 fn other_laws_keep_the_scalar_path() {
     let constant = material();
@@ -420,7 +406,6 @@ fn other_laws_keep_the_scalar_path() {
     }
 }
 
-/// The kernels have space for eight joined elements.
 #[test]
 fn rods_joined_to_many_others_keep_the_scalar_path() {
     let (_, layout) = rod(3, Walls::default(), &mut Xorshift::new(9));

@@ -25,7 +25,6 @@ impl Homogenised {
         self.joint_jet(kappa).1
     }
 
-    /// Torque and tangent.
     pub(super) fn joint_jet(&self, kappa: Vector3) -> (Vector3, Matrix3) {
         let PotentialJet { loads, tangent, .. } = self.jet(&self.unsheared(kappa));
         let [_, slope, bend] = self.form.natural_jet(kappa.z);
@@ -40,7 +39,6 @@ impl Homogenised {
         (couple, of_curvature)
     }
 
-    /// Strains without shear, at the natural length.
     fn unsheared(&self, kappa: Vector3) -> SixVector {
         let natural = self.form.natural_stretch(kappa.z);
         SixVector::new(kappa.x, kappa.y, kappa.z, 0.0, 0.0, natural)

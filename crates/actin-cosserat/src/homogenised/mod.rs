@@ -87,7 +87,6 @@ pub struct PotentialJet {
     pub tangent: Matrix6<f64>,
 }
 
-/// Coefficients, padded with zeros.
 fn padded(coefficients: &[f64], most: usize) -> Result<Polynomial, RodParameterError> {
     let refused = |value, rule| RodParameterError {
         key: RodKey::Coefficient,
@@ -158,7 +157,6 @@ impl HomogenisedForm {
         self.rest + twist * value_of(&self.natural, t)
     }
 
-    /// Natural stretch with two derivatives.
     fn natural_jet(&self, twist: f64) -> Jet {
         let [p, slope, bend] = polynomial(&self.natural, bounded_twist(twist));
         let value = self.rest + twist * p;
@@ -299,7 +297,6 @@ impl Homogenised {
         self.form.by_strain(strain, &self.sum(strain))
     }
 
-    /// Sum of the terms.
     fn sum(&self, strain: &SixVector) -> InvariantJet {
         let factors = Factors::at(self.form.invariants(strain));
         let t = bounded_twist(strain[2]);

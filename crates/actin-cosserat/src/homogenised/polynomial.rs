@@ -6,7 +6,6 @@ use super::terms::{Jet, bounded, of};
 /// `k_0` (rad/nm).
 pub(crate) const TWIST_SIZE: f64 = 0.02;
 
-/// Maximum degree of a polynomial.
 pub(crate) const DEGREE: usize = 9;
 
 /// Coefficients of `t^0` to `t^9`.
@@ -29,7 +28,6 @@ pub(super) fn polynomial(coefficients: &[f64], t: Jet) -> Jet {
     of([value, slope, bend], t)
 }
 
-/// Polynomial at `t`.
 #[inline]
 pub(super) fn value_of(coefficients: &[f64], t: f64) -> f64 {
     coefficients

@@ -3,7 +3,6 @@
 /// Invariants `e`, `a`, `g`, `c` and `k = kappa_3`.
 pub(super) type Invariants = [f64; 5];
 
-/// Index of the twist.
 pub(super) const BY_TWIST: usize = 4;
 
 /// Saturation of extension, curvature (rad/nm) and shear in bounded terms.
@@ -83,7 +82,6 @@ pub enum Term {
 /// Function of one variable with two derivatives.
 pub(super) type Jet = [f64; 3];
 
-/// Function of the invariants with its derivatives.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct InvariantJet {
     pub(super) value: f64,
@@ -109,7 +107,6 @@ fn times(f: Jet, g: Jet) -> Jet {
     ]
 }
 
-/// Composition of `f` with an inner function.
 pub(super) fn of(f: Jet, inner: Jet) -> Jet {
     [
         f[0],
@@ -158,7 +155,6 @@ fn compression(x: f64) -> Jet {
     ]
 }
 
-/// Factors of the terms.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Factors {
     e: f64,
@@ -196,7 +192,6 @@ impl Factors {
 }
 
 impl Factors {
-    /// Factors of a term with the coupling `C`.
     fn coupled(&self, stretch: Jet, bend: Jet, shear: Jet) -> [Jet; 5] {
         let [of_a, of_g] = self.fading;
         [
@@ -259,7 +254,6 @@ impl Term {
         }
     }
 
-    /// Factors of the term, except for compression.
     #[inline]
     fn factors(self, of: &Factors) -> [Jet; 5] {
         let &Factors { e, a, g, k, .. } = of;
@@ -310,7 +304,6 @@ impl Term {
             .fold(1.0, |value, [factor, ..]| value * factor)
     }
 
-    /// Derivatives without polynomial.
     pub(super) fn jet(self, of: &Factors) -> InvariantJet {
         if self == Self::Compression {
             return compressed(of);
@@ -328,7 +321,6 @@ impl Term {
     }
 }
 
-/// [`Term::Compression`].
 fn compressed(&Factors { e, g, k, root, .. }: &Factors) -> InvariantJet {
     let [of_r, of_g, of_k] = TIGHT;
     let r = root.map(|x| of_r * x);

@@ -20,7 +20,6 @@ fn law() -> Homogenised {
     Homogenised::new(form, coefficients).unwrap()
 }
 
-/// Strains within and outside the range of the mean filament.
 fn strains() -> Vec<SixVector> {
     let size = SixVector::new(0.01, 0.01, 0.07, 0.01, 0.01, 4e-3);
     let strain = |n: i32| SixVector::from_fn(|k, _| (3.7 * f64::from(n) + 2.3 * k as f64).sin());
@@ -141,8 +140,6 @@ fn the_heated_filament_is_that_of_the_cells() {
     }
 }
 
-/// Asserts that the tangent is positive definite within the range, at the given stretches relative
-/// to the natural length.
 fn assert_stable(law: &Homogenised, [shortest, longest]: [f64; 2]) {
     let range = *law.range();
     // Low-discrepancy points: multiples of the roots of 2, 3, 5, 7, 11.

@@ -30,7 +30,6 @@ impl BendLaw {
         }
     }
 
-    /// Multiplies the rigidities by `factor`.
     pub(crate) fn times(self, factor: f64) -> Self {
         match self {
             Self::Constant(rigidities) => Self::Constant(rigidities.map(|b| b * factor)),
@@ -102,7 +101,6 @@ impl Stiffening {
         let (p, s) = self.arguments(kappa);
         let jet = self.jet(p, s);
         let scale = (self.twist * self.twist).recip();
-        // Gradients of p and s.
         let of_p = 2.0 * Vector3::new(kappa.x, kappa.y, 0.0);
         let of_s = 2.0 * Vector3::z() * (kappa.z * scale);
         let mixed = of_p * of_s.transpose();

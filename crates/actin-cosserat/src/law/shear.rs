@@ -3,7 +3,6 @@
 use crate::{RodKey, RodParameterError};
 use nalgebra::{Matrix2, Vector2};
 
-/// Two shear strains or forces.
 type Pair = Vector2<f64>;
 
 /// Shear with a linear and a cubic part, as a function of the shear strains `g`.
@@ -24,7 +23,6 @@ pub struct CubicShear {
 }
 
 impl CubicShear {
-    /// Multiplies the rigidities by `factor`.
     pub(crate) fn times(self, factor: f64) -> Self {
         Self {
             linear: self.linear.map(|s| s * factor),

@@ -101,7 +101,6 @@ impl SidedTwist {
         if k < 0.0 { &self.under } else { &self.over }
     }
 
-    /// Torque of the formula (pN nm).
     #[inline]
     fn inner_couple(&self, k: f64) -> f64 {
         let (side, a) = (self.side(k), k.abs());

@@ -43,7 +43,6 @@ impl StretchLaw {
         }
     }
 
-    /// Multiplies the rigidities by `factor`.
     pub(crate) fn times(self, factor: f64) -> Self {
         match self {
             Self::Constant(s3) => Self::Constant(s3 * factor),

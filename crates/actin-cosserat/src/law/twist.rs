@@ -29,7 +29,6 @@ impl TwistLaw {
         }
     }
 
-    /// Multiplies the rigidities by `factor`.
     pub(crate) fn times(self, factor: f64) -> Self {
         match self {
             Self::Constant(b3) => Self::Constant(b3 * factor),

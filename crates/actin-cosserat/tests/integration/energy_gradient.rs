@@ -48,7 +48,6 @@ fn actin_rod() -> (State, RodLayout) {
     (state, layout)
 }
 
-/// Asserts that the only loads are opposite torques on the first and last frame.
 fn assert_only_end_couples(state: &State, layout: &RodLayout, couple: Vector3) {
     let law = EnergyGradient::new(layout.clone(), table4());
     let loads = loads_of(&law, state);

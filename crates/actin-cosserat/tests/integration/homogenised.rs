@@ -13,7 +13,6 @@ fn material() -> RodMaterial {
     RodMaterial::homogenised(Homogenised::mean_filament())
 }
 
-/// Rod of ten segments of 8 nm with uniform strains.
 fn uniform(walls: Walls, kappa: Vector3, sigma: Vector3) -> (State, EnergyGradient) {
     let mut state = State::default();
     let rod = StraightRod {
@@ -38,7 +37,6 @@ fn uniform(walls: Walls, kappa: Vector3, sigma: Vector3) -> (State, EnergyGradie
     (state, EnergyGradient::new(layout, material()))
 }
 
-/// Twist with tension, and bending with shear, tension and twist.
 const UNIFORM: [[f64; 6]; 4] = [
     [0.0, 0.0, 0.011, 0.0, 0.0, -4e-3],
     [0.0, 0.0, -0.02, 0.0, 0.0, 2e-3],
@@ -79,7 +77,6 @@ fn uniform_rods_have_the_energy_and_loads_of_the_potential() {
     }
 }
 
-/// Interior bodies are in equilibrium; ends carry the torque and the tension of the potential.
 #[test]
 fn twisted_and_pulled_rods_are_balanced_inside() {
     let law = Homogenised::mean_filament();

@@ -25,7 +25,6 @@ const STIFFENING: Stiffening = Stiffening {
     range: 0.2,
 };
 
-/// Published form, stretched to the range of twists in the tests.
 fn wide_twist() -> TanhTwist {
     let mut law = TanhTwist::published();
     for i in [0, 1, 3, 4, 5, 6] {
@@ -42,7 +41,6 @@ fn wide_stretch() -> TwistStretch {
     })
 }
 
-/// Saturating law for the range of twists in the tests.
 const SIDED: SidedTwist = SidedTwist {
     rest: 272.0,
     under: TwistRise {
@@ -198,7 +196,6 @@ const OF_POTENTIALS: Accuracy = Accuracy {
     invariance: 1e-11,
 };
 
-/// All laws, distinct constants and the potential.
 fn all() -> Vec<(Named, Accuracy)> {
     let potential = RodMaterial::homogenised(Homogenised::mean_filament());
     let laws = laws().into_iter().map(|law| (law, OF_LAWS));
@@ -232,7 +229,6 @@ fn rod_of(layout: RodLayout, material: RodMaterial, law: Option<TwistStretch>) -
     }
 }
 
-/// Perturbed rods with free ends, walls and joined ends.
 fn rods(
     (_, material, law): &Named,
     accuracy: &Accuracy,
@@ -313,7 +309,6 @@ fn uniform(k: f64, extension: f64) -> (State, EnergyGradient) {
     (state, rod)
 }
 
-/// A uniformly twisted rod of length xi has no force, and the torque B3(k) k at its ends.
 #[test]
 fn uniform_twist_has_its_length_and_couple() {
     for k in [-0.06, -0.0462, -0.01, 0.002, 0.02, 0.0462, 0.08] {

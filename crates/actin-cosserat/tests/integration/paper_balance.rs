@@ -54,7 +54,6 @@ fn forces_balance_and_shear_keeps_angular_momentum() {
     assert!(torque.norm() < 1e-13 * loads.torque.get(1).norm());
 }
 
-/// Total torque of two unstretched segments, the second rotated by `theta`.
 fn torque_left_over(theta: Vector3) -> Vector3 {
     let mut state = State::default();
     let layout = StraightRod::uniform(2, 10.0).push(&mut state).unwrap();

@@ -8,7 +8,6 @@ use actin_mechanics::{State, Vector3, rotation};
 use common::{ALL_WALLS, material, rod, strained_rod};
 use nalgebra::DVector;
 
-/// Two segments with relative rotation `theta`.
 fn turned_pair(theta: Vector3) -> (State, RodLayout) {
     let mut state = State::default();
     let layout = StraightRod::uniform(2, 10.0).push(&mut state).unwrap();

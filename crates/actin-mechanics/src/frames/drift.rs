@@ -7,11 +7,9 @@
 use super::{Frames, Inertias};
 use crate::wide::{self, Columns, ColumnsMut, Simd, Wide3, WideQuaternion, WithSimd};
 
-/// Free flow of all frames for a time `h`.
 #[derive(Debug)]
 pub(super) struct Drift<'a> {
     pub(super) frames: &'a mut Frames,
-    /// Duration.
     pub(super) h: f64,
 }
 
@@ -29,7 +27,6 @@ impl WithSimd for Drift<'_> {
 }
 
 impl Drift<'_> {
-    /// Free rotation of tops with any symmetry axis.
     #[inline(always)]
     fn turn_about_any<S: Simd>(self, simd: S) {
         let Frames {
@@ -88,13 +85,11 @@ impl Drift<'_> {
     }
 }
 
-/// Tops whose symmetry axis is the third body axis.
 struct TopsAboutZ<'a, S: Simd> {
     q: ColumnsMut<'a, S, 4>,
     l: ColumnsMut<'a, S, 3>,
     /// Inverse transverse moment, and the excess of the inverse axial moment over it.
     inertia: Columns<'a, S, 2>,
-    /// Half the duration.
     half: S::f64s,
 }
 

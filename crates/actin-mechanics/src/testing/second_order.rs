@@ -68,7 +68,6 @@ pub fn stiffness_matrix(interaction: &dyn Interaction, state: &State) -> DMatrix
     dense(&stiffness_of(interaction, state), state)
 }
 
-/// Dense matrix of the blocks.
 pub(super) fn dense(stiffness: &Stiffness, state: &State) -> DMatrix<f64> {
     let first = |c: Coordinates| match c {
         Coordinates::Point(i) => 3 * i,
@@ -87,7 +86,6 @@ pub(super) fn dense(stiffness: &Stiffness, state: &State) -> DMatrix<f64> {
     matrix
 }
 
-/// Blocks of one interaction.
 fn stiffness_of(interaction: &dyn Interaction, state: &State) -> Stiffness {
     let mut stiffness = Stiffness::default();
     interaction
@@ -119,13 +117,11 @@ fn assert_diagonal(interaction: &dyn Interaction, state: &State, relative: f64) 
     }
 }
 
-/// Index pairs of a matrix.
 fn entries(matrix: &DMatrix<f64>) -> impl Iterator<Item = (usize, usize)> + use<> {
     let (rows, columns) = matrix.shape();
     (0..rows).flat_map(move |i| (0..columns).map(move |j| (i, j)))
 }
 
-/// Name of a coordinate in messages.
 fn name(state: &State, row: usize) -> String {
     let (body, axis) = (row / 3, ["x", "y", "z"][row % 3]);
     match body.checked_sub(state.points.len()) {
@@ -134,7 +130,6 @@ fn name(state: &State, row: usize) -> String {
     }
 }
 
-/// Stiffness matrix by differences of the loads.
 fn stiffness_by_differences(interaction: &dyn Interaction, state: &State, h: f64) -> DMatrix<f64> {
     let n = 3 * (state.points.len() + state.frames.len());
     let mut matrix = DMatrix::zeros(n, n);
@@ -156,7 +151,6 @@ fn stiffness_by_differences(interaction: &dyn Interaction, state: &State, h: f64
     matrix
 }
 
-/// Changes one coordinate by `step`.
 fn move_coordinate(state: &mut State, coordinate: usize, step: f64) {
     let mut vector = Vector3::zeros();
     vector[coordinate % 3] = step;
@@ -170,7 +164,6 @@ fn move_coordinate(state: &mut State, coordinate: usize, step: f64) {
     }
 }
 
-/// All loads in the order of the coordinates.
 pub(super) fn all_loads(loads: &Loads) -> DVector<f64> {
     let flat = |v: &Vectors| v.iter().flat_map(|v| [v.x, v.y, v.z]).collect::<Vec<_>>();
     let (forces, torques) = (flat(&loads.force), flat(&loads.torque));

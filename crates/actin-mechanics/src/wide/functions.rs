@@ -184,7 +184,6 @@ fn at_most<S: Simd>(simd: S, x: S::f64s, upper: S::f64s) -> S::f64s {
     simd.select_f64s(simd.greater_than_f64s(x, upper), upper, x)
 }
 
-/// Polynomials for small angles.
 #[inline(always)]
 fn small<S: Simd>(simd: S, u: S::f64s) -> [S::f64s; 2] {
     [polynomial(simd, &COSINE, u), polynomial(simd, &SINC, u)]
@@ -203,7 +202,6 @@ fn any<S: Simd>(simd: S, u: S::f64s, of_small: [S::f64s; 2]) -> [S::f64s; 2] {
     ]
 }
 
-/// Scalar functions, lane by lane.
 #[cold]
 #[inline(never)]
 fn cosine_and_sinc_of_each(squared: [f64; MOST_LANES]) -> [[f64; MOST_LANES]; 2] {

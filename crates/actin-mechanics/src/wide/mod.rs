@@ -55,7 +55,6 @@ pub use vectors::{
     transpose, write,
 };
 
-/// Upper bound of the number of lanes.
 const MOST_LANES: usize = 16;
 
 /// Runs `loop_` with the instruction set of [`arch`].

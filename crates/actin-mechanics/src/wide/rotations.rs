@@ -161,7 +161,6 @@ fn log_by<S: Simd, const N: usize, const M: usize>(
     (scale(simd, [x, y, z], signed), coefficient)
 }
 
-/// First argument where `mask` is set, second argument elsewhere.
 #[inline(always)]
 fn select<S: Simd>(
     simd: S,
@@ -177,7 +176,6 @@ fn select<S: Simd>(
     (chosen, simd.select_f64s(mask, c, d))
 }
 
-/// Rotation vector and coefficient by scalar functions.
 #[inline(always)]
 fn log_of_any<S: Simd>(simd: S, q: WideQuaternion<S>) -> (Wide3<S>, S::f64s) {
     let mut lanes = [[0.0; MOST_LANES]; 4];
@@ -189,7 +187,6 @@ fn log_of_any<S: Simd>(simd: S, q: WideQuaternion<S>) -> (Wide3<S>, S::f64s) {
     (theta, read(simd, &c, 0))
 }
 
-/// Scalar functions, lane by lane.
 #[cold]
 #[inline(never)]
 fn log_of_each(q: &[[f64; MOST_LANES]; 4]) -> [[f64; MOST_LANES]; 4] {

@@ -7,7 +7,6 @@ use crate::{UnitQuaternion, Vector3, rotation};
 use nalgebra::Unit;
 use std::f64::consts::PI;
 
-/// Numbers of bodies with and without a short last group.
 const COUNTS: [usize; 9] = [0, 1, 2, 3, 4, 5, 8, 15, 33];
 
 /// Angles (rad): zero, the smallest numbers, both sides of each switch, nearly pi.
@@ -30,7 +29,6 @@ const ANGLES: [f64; 16] = [
     PI - 1e-6,
 ];
 
-/// Logarithms and coefficients of quaternions.
 struct Logs<'a>(&'a [UnitQuaternion]);
 
 impl WithSimd for Logs<'_> {
@@ -53,7 +51,6 @@ impl WithSimd for Logs<'_> {
     }
 }
 
-/// Cosine and sinc of angles with the given squares.
 struct Turns<'a>(&'a [f64]);
 
 impl WithSimd for Turns<'_> {
@@ -90,7 +87,6 @@ impl WithSimd for Tangents<'_> {
     }
 }
 
-/// Numbers clamped to a symmetric bound.
 struct Clamped<'a>(&'a [f64], f64);
 
 impl WithSimd for Clamped<'_> {
@@ -108,7 +104,6 @@ impl WithSimd for Clamped<'_> {
     }
 }
 
-/// Numbers 1, 2, 3, ... in two columns, shifted down by one body, and the result of the first call.
 struct ShiftDown(usize);
 
 impl WithSimd for ShiftDown {
@@ -140,7 +135,6 @@ impl WithSimd for ShiftDown {
     }
 }
 
-/// A vector in each lane in turn, and the resulting contents of all lanes.
 struct OneLane(Vector3);
 
 impl WithSimd for OneLane {
@@ -157,7 +151,6 @@ impl WithSimd for OneLane {
     }
 }
 
-/// Numbers 1, 2, 3, ... shifted up by one body.
 struct Shift(usize);
 
 impl WithSimd for Shift {
@@ -178,7 +171,6 @@ impl WithSimd for Shift {
     }
 }
 
-/// Both quaternions of rotations about random axes by all angles.
 fn rotations() -> Vec<UnitQuaternion> {
     let mut noise = Xorshift::new(3);
     let mut all = Vec::new();
@@ -204,7 +196,6 @@ fn assert_logs_agree(q: &[UnitQuaternion]) {
     }
 }
 
-/// Groups with small angles only, and groups with one large angle.
 #[test]
 fn logarithms_are_those_of_the_reference() {
     let all = rotations();
@@ -240,7 +231,6 @@ fn cosine_and_sinc_are_those_of_the_standard_library() {
     }
 }
 
-/// A NaN in one lane does not affect the other lanes.
 #[test]
 fn lanes_do_not_leak() {
     let mut q = rotations();
@@ -296,7 +286,6 @@ fn a_vector_stands_in_its_lane_alone() {
     }
 }
 
-/// Arguments on both sides of saturation, and denormal ones.
 #[test]
 fn hyperbolic_tangents_are_those_of_the_standard_library() {
     let mut all: Vec<f64> = (0..=2000).map(|i| 0.0113 * f64::from(i)).collect();

@@ -21,7 +21,6 @@ pub fn load<S: Simd>(simd: S, values: &[f64], range: &Range<usize>) -> S::f64s {
     }
 }
 
-/// Adds to the numbers at `range`, at most one per lane.
 #[inline(always)]
 fn add_to<S: Simd>(simd: S, values: &mut [f64], range: &Range<usize>, terms: S::f64s) {
     let values = &mut values[range.clone()];

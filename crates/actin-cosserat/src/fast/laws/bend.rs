@@ -9,7 +9,6 @@ pub(in crate::fast) trait Bend: Copy + Debug {
     /// `true` if bending is coupled to the strain of segments.
     const COUPLES: bool;
 
-    /// Returns the law if it is of this kind. `in_segments` is the stiffening by shear.
     fn of(bend: &BendLaw, in_segments: Option<&Stiffening>) -> Option<Self>;
 
     /// Torque (pN nm) at curvature `kappa` (rad/nm), plus the torque `twist` about d3. Reference:
@@ -162,7 +161,6 @@ impl WideStiffening {
         }
     }
 
-    /// Constant rigidities.
     fn constant(rest: [f64; 2]) -> Self {
         Self {
             rest,

@@ -4,19 +4,15 @@ use crate::{PolynomialStretch, RootedStretch, TwistStretch};
 use actin_mechanics::wide::{self, Simd};
 use std::fmt::Debug;
 
-/// Natural length of segments.
 pub(in crate::fast) trait Length: Copy + Debug {
-    /// `true` if it depends on twist.
     const COUPLES: bool;
 
-    /// Returns the law if it is of this kind.
     fn of(law: Option<&TwistStretch>) -> Option<Self>;
 
     /// `xi - 1` and its derivative at twist `k` (rad/nm). Reference: [`TwistStretch::jet`].
     fn extension<S: Simd>(&self, simd: S, k: S::f64s) -> [S::f64s; 2];
 }
 
-/// Length independent of twist.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::fast) struct NaturalLength;
 

@@ -42,7 +42,6 @@ pub(crate) trait Law: Copy + Debug {
     fn segment<S: Simd>(&self, simd: S, sigma: Wide3<S>, kappa: Wide3<S>) -> [Wide3<S>; 2];
 }
 
-/// One law per deformation.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Laws<A, B, T, X> {
     shear: A,
@@ -52,7 +51,6 @@ pub(super) struct Laws<A, B, T, X> {
 }
 
 impl<A: Shear, B: Bend, T: Twist, X: Length> Laws<A, B, T, X> {
-    /// Returns the laws of a material and a coupling if they are of these kinds.
     pub(super) fn of(material: &RodMaterial, coupling: Option<&SegmentLaw>) -> Option<Self> {
         let laws = material.laws()?;
         Some(Self {

@@ -130,7 +130,6 @@ struct Roots<S: Simd> {
     s: S::f64s,
 }
 
-/// Functions of the curvature with their derivatives.
 struct Bent<S: Simd> {
     /// Bounded twist `t = k / sqrt(k^2 + k_0^2)` and `k_0^2 / (k^2 + k_0^2)^(3/2)`.
     twist: [S::f64s; 2],
@@ -225,7 +224,6 @@ impl Law for Potential {
     }
 }
 
-/// Functions of a segment's strain and curvature.
 struct Strained<S: Simd> {
     bent: Bent<S>,
     /// Derivative of the natural length with respect to twist.
@@ -297,7 +295,6 @@ fn extended<S: Simd>(simd: S, e: S::f64s, [r, g, k]: [S::f64s; 3]) -> ([S::f64s;
     (stretch, [simd.mul_f64s(y, product), by_x])
 }
 
-/// Derivatives of the energy with respect to the functions in its terms.
 struct Slopes<S: Simd> {
     /// With respect to `E`, `A`, `r`, `G` and `C`.
     by: [S::f64s; 5],

@@ -5,9 +5,7 @@ use actin_mechanics::Vector3;
 use actin_mechanics::wide::{self, Simd, Wide3};
 use std::fmt::Debug;
 
-/// Law of shear and stretch.
 pub(in crate::fast) trait Shear: Copy + Debug {
-    /// Returns the law if it is of this kind.
     fn of(shear: &CubicShear, stretch: &StretchLaw) -> Option<Self>;
 
     /// Force (pN, body axes), and tension due to stretch beyond `natural`. Reference:

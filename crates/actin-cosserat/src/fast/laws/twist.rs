@@ -4,9 +4,7 @@ use crate::{SidedTwist, TanhTwist, TwistLaw, TwistRise};
 use actin_mechanics::wide::{self, Simd};
 use std::fmt::Debug;
 
-/// Law of twist.
 pub(in crate::fast) trait Twist: Copy + Debug {
-    /// Returns the law if it is of this kind.
     fn of(law: &TwistLaw) -> Option<Self>;
 
     /// Torque (pN nm) at twist `k` (rad/nm). Reference: [`TwistLaw::couple`].
@@ -35,12 +33,10 @@ impl Twist for ConstantTwist {
 #[derive(Clone, Copy, Debug)]
 struct Beyond {
     range: f64,
-    /// Slopes at the lower and upper limit.
     slopes: [f64; 2],
 }
 
 impl Beyond {
-    /// Extrapolation of a constant rigidity (pN nm^2), with unlimited range.
     fn nowhere(b3: f64) -> Self {
         Self {
             range: f64::MAX,
@@ -58,7 +54,6 @@ impl Beyond {
     }
 }
 
-/// `under` for negative `k`, otherwise `over`.
 #[inline(always)]
 fn sided<S: Simd>(simd: S, k: S::f64s, under: f64, over: f64) -> S::f64s {
     let negative = simd.less_than_f64s(k, simd.splat_f64s(0.0));
@@ -108,7 +103,6 @@ impl Tanh {
         }
     }
 
-    /// Constant rigidity.
     fn constant(b3: f64) -> Self {
         Self {
             mean: b3,
@@ -164,7 +158,6 @@ impl Sided {
         }
     }
 
-    /// Constant rigidity.
     fn constant(b3: f64) -> Self {
         Self {
             rest: b3,

@@ -8,7 +8,6 @@ use crate::extended::MeanCurvature;
 use crate::fast::laws::Law;
 use actin_mechanics::wide::{Columns, ColumnsMut, Simd, WithSimd};
 
-/// Force and torque of segments at given strains and curvatures.
 struct OfSegments<'a, L>(L, &'a [[Vector3; 2]]);
 
 impl<L: Law> WithSimd for OfSegments<'_, L> {
@@ -33,7 +32,6 @@ impl<L: Law> WithSimd for OfSegments<'_, L> {
     }
 }
 
-/// Force and torque by the kernel of a rod.
 fn of_segments(arch: Arch, rod: &FastRod, states: &[[Vector3; 2]]) -> Vec<[Vector3; 2]> {
     match &rod.0 {
         Kind::Constant(rod) => arch.dispatch(OfSegments(rod.law, states)),
@@ -92,7 +90,6 @@ fn laws_of_collapsed_and_inverted_segments_are_the_scalar_ones() {
     }
 }
 
-/// Scales each segment to the given fraction of its length, in a random direction.
 fn collapse((state, layout): (&mut State, &RodLayout), size: f64, noise: &mut Xorshift) {
     let first = layout.points().start;
     for (k, length) in layout.segment_lengths().iter().enumerate() {

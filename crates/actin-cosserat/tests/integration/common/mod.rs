@@ -24,7 +24,6 @@ pub(crate) const ALL_WALLS: [Walls; 4] = [
     },
 ];
 
-/// Distinct rigidities, so that permuted axes are detected.
 pub(crate) fn material() -> RodMaterial {
     RodMaterial::new(Rigidities {
         shear: Vector3::new(1.6e4, 2.1e4, 3.4e4),
@@ -33,7 +32,6 @@ pub(crate) fn material() -> RodMaterial {
     .unwrap()
 }
 
-/// Rod of unequal segments of 6 to 14 nm between other bodies.
 pub(crate) fn rod(segments: usize, walls: Walls, noise: &mut Xorshift) -> (State, RodLayout) {
     let mut state = State::default();
     let neighbour = StraightRod::uniform(1, 10.0);
@@ -50,7 +48,6 @@ pub(crate) fn rod(segments: usize, walls: Walls, noise: &mut Xorshift) -> (State
     (state, layout)
 }
 
-/// Rod with strains up to about 0.5 and angles up to about 1 rad per axis.
 pub(crate) fn strained_rod(
     segments: usize,
     walls: Walls,
