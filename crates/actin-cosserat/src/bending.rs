@@ -28,8 +28,8 @@ pub struct BendingLoads {
     pub second: Vector3,
 }
 
-/// Second derivatives of the energy (pN nm) with respect to the rotations `Qa exp(phi_a)` and `Qb
-/// exp(phi_b)`.
+/// Second derivatives of the energy (pN nm) with respect to the rotations `Qa exp(phi_a)` and
+/// `Qb exp(phi_b)`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BendingStiffness {
     /// `d^2 E / dphi_a dphi_a`, symmetric.
@@ -121,8 +121,8 @@ impl BendingElement {
         self.rest_distance * material.bending_energy_density(self.curvature(qa, qb))
     }
 
-    /// Torques `J_l(theta)^-T m` on the first and `-J_r(theta)^-T m` on the second frame, with `m =
-    /// dU/dkappa`.
+    /// Torques `J_l(theta)^-T m` on the first and `-J_r(theta)^-T m` on the second frame, with
+    /// `m = dU/dkappa`.
     #[inline]
     pub fn loads(
         &self,

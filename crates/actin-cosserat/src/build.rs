@@ -45,9 +45,8 @@ pub enum RotaryInertia {
     CrossSection,
     /// Adds `mu l^3 / 12`, the inertia of a rigid segment of length `l` and mass per length `mu`.
     ///
-    /// The highest frequency decreases as `1 / l`. The frequency of bending at wave number `k`
-    /// decreases by a relative `(k l)^2 / 24`, of the order of the discretisation error. Equilibria
-    /// and thermal fluctuations do not change.
+    /// The highest frequency decreases as `1 / l`, that of bending at wave number `k` by a relative
+    /// `(k l)^2 / 24`. Equilibria and thermal fluctuations do not change.
     RigidSegment,
 }
 
@@ -103,8 +102,7 @@ impl StraightRod {
     /// segments, wall frame at the end.
     ///
     /// Each node has half the mass of its segments. Held wall frames have the inertia of the
-    /// adjacent segment, for driven clamps. Free wall frames ([`free_walls`](Self::free_walls))
-    /// share it.
+    /// adjacent segment; free wall frames ([`free_walls`](Self::free_walls)) share it.
     ///
     /// # Errors
     /// If there are no segments, if a length or an inertia (or its inverse) is not positive and
@@ -116,9 +114,8 @@ impl StraightRod {
 
     /// Appends a rod in parts, which may have different materials; `parts` are numbers of segments.
     ///
-    /// Neighbouring parts share a node and a free frame, the wall frame of both. Half segments of
-    /// both parts bend in series, each with the law of its part. The frame takes a quarter of the
-    /// inertia of the two adjacent segments.
+    /// Neighbouring parts share a node and a free wall frame, so that half segments of both bend in
+    /// series. The frame takes a quarter of the inertia of both adjacent segments.
     ///
     /// # Errors
     /// If a part has no segments, if the numbers do not add up, or as in [`push`](Self::push). The

@@ -25,8 +25,8 @@ pub struct RodJoint {
     pub frames: [usize; 2],
     /// Rest distance of the frames along the rod (nm).
     pub rest_distance: f64,
-    /// Offsets `oa`, `ob` of the joint's frames in their bodies. The strain is `log((Qa oa)^T Qb
-    /// ob)` divided by the rest distance.
+    /// Offsets `oa`, `ob` of the joint's frames in their bodies. The strain is
+    /// `log((Qa oa)^T Qb ob)` divided by the rest distance.
     pub offsets: [UnitQuaternion; 2],
 }
 
@@ -63,8 +63,7 @@ impl RodJoint {
 /// Segments between points and joints between frames of one material: term `rod`.
 ///
 /// Elements are the segments, then the joints. The energy is that of
-/// [`EnergyGradient`](crate::EnergyGradient), with strains relative to the rest shape. For straight
-/// rods, [`EnergyGradient`](crate::EnergyGradient) is faster.
+/// [`EnergyGradient`](crate::EnergyGradient), which is faster for straight rods.
 ///
 /// ```
 /// use actin_cosserat::{

@@ -11,9 +11,8 @@ use actin_mechanics::{Interaction, Loads, RandomStress, SecondOrder, State, Stif
 /// E = sum_i W(sigma_i) |lhat_i| + sum_j U(kappa_j) Dhat_j
 /// ```
 ///
-/// `W` and `U` are the material's energies per length. Elements are the `n` shear elements
-/// ([`ShearElement`]), then the bending elements along the chain of frames, including walls
-/// ([`BendingElement`]).
+/// `W` and `U` are the material's energies per length. Elements are the `n` [`ShearElement`]s, then
+/// the [`BendingElement`]s along the chain of frames, including walls.
 ///
 /// # Source
 /// Energy: arXiv 2203.01284, Section 2.2, discretised with rest lengths. The loads are its exact
@@ -210,8 +209,6 @@ impl Interaction for EnergyGradient {
 }
 
 impl SecondOrder for EnergyGradient {
-    /// Pushes the blocks of the shear elements, then of the bending elements. Diagonal blocks of a
-    /// body are pushed once per element.
     fn add_stiffness(&self, state: &State, stiffness: &mut Stiffness) {
         match &self.extended {
             None => self.add_shear_stiffness(state, stiffness),

@@ -1,13 +1,9 @@
 //! Discrete Cosserat rods, which stretch, shear, bend and twist.
 //!
 //! A rod of `n` segments consists of `n + 1` points (nodes) and `n` frames (one per segment) of a
-//! [`State`]. [`StraightRod`] builds a rod and returns its [`RodLayout`]. [`RodLayout::bend`] and
-//! [`RodLayout::place`] change its shape.
-//!
-//! [`EnergyGradient`] and [`PaperBalance`] are force laws of rods that are straight at rest.
-//! [`RodElements`] supports any rest shape and topology. [`RodClamp`] lists the clamps.
-//! [`ShearElement`] and [`BendingElement`] are the elements of rods, also for joints to other
-//! models.
+//! [`State`]. [`StraightRod`] builds a rod and returns its [`RodLayout`]. [`EnergyGradient`] and
+//! [`PaperBalance`] are force laws of rods that are straight at rest; [`RodElements`] supports any
+//! rest shape and topology. [`ShearElement`] and [`BendingElement`] are the elements of rods.
 //!
 //! Units are nm, pN, ns and rad; masses are in pN ns^2/nm = 1e-21 kg. Body axis d3 of a segment's
 //! frame points along the rod.

@@ -21,13 +21,12 @@ use actin_mechanics::{Interaction, Loads, State, UnitQuaternion, Vector3};
 ///
 /// Differences from the printed equations: `kappa = log(Qi^T Qj)/Dhat` has the sign of the paper's
 /// continuous curvature, because its discrete curvature would amplify bending. The inertia is
-/// constant, because `I/e` and its rate cannot be split into drift and kick.
+/// constant.
 ///
 /// Forces balance exactly. The residual moment is `(xi - 1) |lhat| t x n` per segment with an
 /// extension, and `theta^3 m / 12` per bending element unless `m` is parallel to the angle `theta`.
-/// The energy is that of [`EnergyGradient`](crate::EnergyGradient), with an extension at the strain
-/// of `l / xi`. It is not conserved: the loads differ from its gradient by a relative amount of the
-/// order of the strain.
+/// The energy is that of [`EnergyGradient`](crate::EnergyGradient) at `l / xi`; the loads differ
+/// from its gradient to first order in the strain.
 ///
 /// # Source
 /// arXiv 2203.01284, Section 2.2, after Gazzola et al. (2018).

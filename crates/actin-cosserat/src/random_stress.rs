@@ -1,7 +1,7 @@
 //! Random stress of rods: forces that shift rest strains, and torques that shift rest curvatures.
 //!
-//! Without extension, a segment has the energy `-L n . sigma` and a bending element `-Dhat m .
-//! kappa`, with three random numbers each, segments first.
+//! Without extension, a segment has the energy `-L n . sigma` and a bending element
+//! `-Dhat m . kappa`, with three random numbers each, segments first.
 //!
 //! With extension, strain and curvature are correlated. Half of the bending energy on each side is
 //! assigned to the segment:
@@ -11,14 +11,11 @@
 //! E = -L (n . sigma + w_1 m_1 . kappa_1 + w_2 m_2 . kappa_2)
 //! ```
 //!
-//! `kappa_1` and `kappa_2` are the mean curvatures of both sides, `kappa` is their mean. `w` is
-//! 1/2, or 1 for a segment with a single side. The covariance has positive blocks of `sigma` and
-//! `kappa`, and of the difference: nine numbers per segment. Near blocked ends both sides use the
-//! mean of their elements.
+//! `kappa_1` and `kappa_2` are the mean curvatures of both sides, `kappa` is their mean, `w` is
+//! 1/2, or 1 for a segment with a single side: nine numbers per segment.
 //!
 //! Axial torques on frames are those of twist alone. Only friction resists axial rotations, so
-//! other torques would rotate frames until the stress increases the existing bending. Laws that are
-//! isotropic about the axis exert no axial torque in bending and shear.
+//! other torques would rotate frames until the stress increases the existing bending.
 
 use crate::extended::{ExtendedSegments, SegmentAround, SegmentJet};
 use crate::{BendingElement, EnergyGradient, RodLayout, RodMaterial, ShearElement};

@@ -68,7 +68,7 @@ impl RodLayout {
     /// Moves the nodes to the given positions (nm, lab frame) and aligns the segments' frames.
     ///
     /// Each frame is the smallest rotation of the preceding one. A wall frame at the start is
-    /// unchanged; a wall frame at the end follows the last segment. Rest lengths are unchanged.
+    /// unchanged; a wall frame at the end follows the last segment.
     ///
     /// # Errors
     /// If there is not one position per node, or if neighbouring positions coincide or are not

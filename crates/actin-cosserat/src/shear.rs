@@ -29,8 +29,8 @@ pub struct ShearLoads {
     pub torque: Vector3,
 }
 
-/// Second derivatives of the energy with respect to the vector `l` (lab frame) and the rotation `Q
-/// exp(phi)` of the frame.
+/// Second derivatives of the energy with respect to the vector `l` (lab frame) and the rotation
+/// `Q exp(phi)` of the frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ShearStiffness {
     /// `d^2 E / dl dl` (pN/nm), symmetric.

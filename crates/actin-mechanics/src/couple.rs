@@ -10,28 +10,25 @@ use crate::{
 /// Dependence of a couple on the rotation of its frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CoupleKind {
-    /// Conservative couple about the axis `e` of the lab frame. Its work is `M` times the twist of
-    /// the frame about `e`.
+    /// Conservative couple about the axis `e` of the lab frame.
     ///
-    /// Let `R` be the rotation of the frame since the couple was created. `R` is split into a twist
-    /// by `psi` about `e` and a swing of `e` to `R e` by the angle `beta`:
+    /// The rotation `R` of the frame since the couple was created is split into a twist by `psi`
+    /// about `e` and a swing of `e` to `R e` by the angle `beta`.
     ///
     /// ```text
     /// E = -M psi                                (pN nm)
     /// torque = M (e + R e) / (1 + e . R e)      (lab frame)
     /// ```
     ///
-    /// The component of the torque along `e` is `M` for every `R`. A swing tilts the torque by
-    /// `beta / 2` and scales its magnitude by `1 / cos(beta / 2)`, which diverges at `beta = pi`.
-    ///
-    /// A couple of constant direction in the lab frame is not conservative: rotations about
+    /// The component of the torque along `e` is always `M`; its magnitude is `M / cos(beta / 2)`. A
+    /// couple of constant direction in the lab frame is not conservative, because rotations about
     /// different axes do not commute.
     Axial,
     /// Couple of constant direction in the frame, without a potential.
     Follower,
 }
 
-/// A couple distributed over frames and scaled by a control, with one element per frame.
+/// A couple distributed over frames and scaled by a control: one element per frame.
 ///
 /// # Source
 /// H. Ziegler, Principles of Structural Stability, 2nd ed. (1977), chapter 5, on conservative
@@ -53,8 +50,8 @@ pub struct Couple {
 impl Couple {
     /// Creates the couple `moment` (lab frame, at control value 1) on frames with the given shares.
     ///
-    /// The present orientations define `psi = 0`. The load factor is `control`. A second control,
-    /// which counts turns, is added to `state`.
+    /// The present orientations define `psi = 0`. The load factor is `control`; a new control
+    /// counts turns.
     ///
     /// ```
     /// use actin_mechanics::{
@@ -115,12 +112,11 @@ impl Couple {
         }
     }
 
-    /// Counts turns from frame to frame of a chain, so that the potential is continuous over full
-    /// turns.
+    /// Counts turns along a chain of frames, so that the potential is continuous over full turns.
     ///
-    /// A single orientation defines `psi` only modulo two turns. The value nearest to `psi` of the
-    /// preceding frame is used. The first frame should be next to a held frame; its turns are
-    /// [counted](Interaction::count_turns) in time. The present orientations define `psi = 0`.
+    /// An orientation defines `psi` modulo two turns; the value nearest to the preceding frame's is
+    /// used. The first frame should be next to a held frame. The present orientations define
+    /// `psi = 0`.
     ///
     /// # Panics
     /// If a frame of the couple is missing in the chain.
@@ -194,9 +190,7 @@ impl Interaction for Couple {
         self.shares.len()
     }
 
-    /// Energy `-M psi`. Turns are counted along the frames of the couple, or along a
-    /// [chain](Self::counted_along), starting from the [count](Interaction::count_turns) of the
-    /// first frame. The energy of a follower couple is zero.
+    /// Energy `-M psi` with counted turns, or zero for a follower couple.
     fn write_energies(&self, state: &State, energies: &mut [f64]) {
         energies.fill(0.0);
         let Some((size, axis)) = self.axis().filter(|_| self.is_conservative()) else {
@@ -226,10 +220,8 @@ impl Interaction for Couple {
 }
 
 impl SecondOrder for Couple {
-    /// Symmetric part of the derivative of the torque `M (a + b) / (1 + a . b)`.
-    ///
-    /// `a` and `b` are the axis in the present and in the initial body frame, with `d a / d phi =
-    /// [a]x`.
+    /// Symmetric part of the derivative of the torque `M (a + b) / (1 + a . b)`, with
+    /// `d a / d phi = [a]x`.
     fn add_stiffness(&self, state: &State, stiffness: &mut Stiffness) {
         let (size, axis) = self.axis().unwrap_or_default();
         let factor = state.controls[self.control] * size;

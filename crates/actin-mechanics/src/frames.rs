@@ -98,8 +98,7 @@ impl Frames {
 
     /// Holds frame `i`: torques do not change its angular momentum, which is set to zero.
     ///
-    /// The inertia is kept, so a driven frame rotates by the same exact flow as a free one.
-    ///
+    /// The inertia is kept for driven frames.
     /// # Panics
     /// If there is no frame `i`.
     pub fn hold(&mut self, i: usize) {
@@ -157,8 +156,7 @@ impl Frames {
 
     /// Rotates every frame freely for a time `h`, by the exact flow of [`Inertia::free_flow`].
     ///
-    /// Quaternions are renormalised to first order, which keeps unit length to round-off over any
-    /// number of steps.
+    /// Quaternions are renormalised to first order, which keeps unit length to round-off.
     pub fn drift(&mut self, h: f64) {
         wide::dispatch(Drift { frames: self, h });
     }

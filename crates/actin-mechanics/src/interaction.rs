@@ -5,9 +5,8 @@ use std::fmt::Debug;
 
 /// A term of the model: elements of one kind, such as springs, joints or loads.
 ///
-/// An interaction holds parameters and index ranges only; all variables are in the state. If
-/// [`is_conservative`](Interaction::is_conservative) is `true`, its loads are minus the gradient of
-/// its energy:
+/// All variables are in the state. If [`is_conservative`](Interaction::is_conservative) is `true`,
+/// loads are minus the gradient of the energy:
 ///
 /// ```text
 /// force  = -dE/dx      (lab frame)
@@ -36,8 +35,8 @@ pub trait Interaction: Debug + Send + Sync {
 
     /// Counts turns of bodies in the controls of `state`, if the energy depends on them.
     ///
-    /// Between two calls a body must rotate by less than one turn. [`System`](crate::System) and
-    /// solvers call this method whenever bodies have moved.
+    /// A body must rotate by less than one turn between two calls, which systems and solvers make
+    /// after each motion.
     fn count_turns(&self, _state: &mut State) {}
 
     /// Second derivatives of the energy, or `None` if not implemented.
@@ -52,8 +51,8 @@ pub trait Interaction: Debug + Send + Sync {
 
     /// Returns a body that passes through another one on the straight path between two states.
     ///
-    /// Interactions that prevent crossings implement this method, because the energies of both
-    /// states do not show a crossing. Solvers reject such steps, and runs stop.
+    /// For interactions that prevent crossings, which energies do not show. Solvers reject such
+    /// steps, and runs stop.
     fn passes_through(&self, _from: &State, _to: &State) -> Option<Coordinates> {
         None
     }

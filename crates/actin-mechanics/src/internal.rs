@@ -2,8 +2,8 @@
 
 use crate::{Coordinates, Loads, Matrix3, State, Stiffness, UnitQuaternion, Vector3, rotation};
 
-/// Force between two points with constant components in the axes of a frame: `E = -n . Q^T (x_b -
-/// x_a)`.
+/// Force between two points with constant components in the axes of a frame:
+/// `E = -n . Q^T (x_b - x_a)`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct InternalForce {
     /// Points `a` and `b`.
@@ -14,8 +14,8 @@ pub struct InternalForce {
     pub force: Vector3,
 }
 
-/// Torque between two frames, constant and conjugate to their relative rotation vector: `E = -m .
-/// log(O^T Qa^T Qb)`.
+/// Torque between two frames, constant and conjugate to their relative rotation vector:
+/// `E = -m . log(O^T Qa^T Qb)`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct InternalCouple {
     /// Frames `a` and `b`.
@@ -33,8 +33,8 @@ impl InternalForce {
         (axes, axes.tr_mul(&(b - a)))
     }
 
-    /// Adds the loads: `-Q n` and `Q n` on the points, `n x y` on the frame, with `y = Q^T (x_b -
-    /// x_a)`.
+    /// Adds the loads: `-Q n` and `Q n` on the points, `n x y` on the frame, with
+    /// `y = Q^T (x_b - x_a)`.
     pub fn add_loads(&self, state: &State, loads: &mut Loads) {
         let (axes, y) = self.seen(state);
         let force = axes * self.force;
@@ -44,10 +44,7 @@ impl InternalForce {
     }
 
     /// Adds the loads with the axial torque of the rest state, so that displacements do not spin
-    /// the frame.
-    ///
-    /// `rest` is the vector `Q^T (x_b - x_a)` at rest (axes of the frame). It replaces the present
-    /// vector in the torque about the third axis.
+    /// the frame. `rest` is `Q^T (x_b - x_a)` at rest (axes of the frame).
     pub fn add_loads_without_spin(&self, rest: Vector3, state: &State, loads: &mut Loads) {
         let before = loads.torque.get(self.frame).z;
         self.add_loads(state, loads);
@@ -64,8 +61,6 @@ impl InternalForce {
 
     /// Adds the derivatives of the loads of
     /// [`add_loads_without_spin`](Self::add_loads_without_spin).
-    ///
-    /// Rotations of the frame about its third axis do not change the force in the lab frame.
     pub fn add_stiffness_without_spin(&self, state: &State, stiffness: &mut Stiffness) {
         let [mut mixed, turn] = self.blocks(state);
         mixed.set_column(2, &Vector3::zeros());
@@ -135,8 +130,6 @@ impl InternalCouple {
 
     /// Adds the derivatives of the loads of
     /// [`add_loads_without_spin`](Self::add_loads_without_spin).
-    ///
-    /// Rotations of the frames about their third axes do not change the torque in the lab frame.
     pub fn add_stiffness_without_spin(&self, state: &State, stiffness: &mut Stiffness) {
         self.push(self.blocks(state).map(without_spin), stiffness);
     }

@@ -16,9 +16,8 @@ pub struct Ledger {
 impl Ledger {
     /// Adds the work of `drive` over a time `t` (ns) at the present positions, where `loads` act.
     ///
-    /// Called with each kick and its duration, the sum has the order of the integrator: in extended
-    /// phase space, where the energy is the momentum conjugate to time, this is the kick of that
-    /// momentum.
+    /// To be called with each kick: the sum then has the order of the integrator, because this is
+    /// the kick of the momentum conjugate to time.
     pub(crate) fn book_work(
         &self,
         state: &mut State,

@@ -1,15 +1,12 @@
 //! Points, frames, loads and rotations: the mechanics shared by all models.
 //!
 //! A **point** has a position, a velocity and an inverse mass. A **frame** has an orientation (body
-//! to lab), a body angular momentum and an inverse inertia; every frame is a symmetric top. A
-//! [`State`] stores both as structures of arrays. Copies of a state share masses, inertias and
-//! holds. A [`Motion`] is the time-dependent part of a state.
+//! to lab), a body angular momentum and the inverse inertia of a symmetric top. A [`State`] stores
+//! both as structures of arrays; a [`Motion`] is its time-dependent part. An [`Interaction`] adds
+//! its [`Loads`]: forces in the lab frame, torques in the body frame. A [`System`] is a state with
+//! its interactions, and implements [`Split`] (drift and kick) for integrators.
 //!
-//! An [`Interaction`] adds its [`Loads`]: forces in the lab frame, torques in the body frame. A
-//! [`System`] is a state with its interactions, and implements [`Split`] (drift and kick) for
-//! integrators. [`Springs`], [`Weight`] and [`PointLoad`] are interactions that need no model.
-//!
-//! Any consistent units may be used. The crates that depend on this one use nm, pN and ns.
+//! Any consistent units may be used; other crates use nm, pN and ns.
 
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]

@@ -2,9 +2,7 @@
 
 use crate::{State, Vector3, rotation};
 
-/// Pseudorandom numbers in [-1, 1), reproducible on every machine.
-///
-/// For perturbed states and tests. Thermal noise has a separate generator.
+/// Pseudorandom numbers in [-1, 1), reproducible on every machine, for perturbed states and tests.
 ///
 /// # Source
 /// xorshift64*: Vigna, ACM Trans. Math. Softw. 42 (2016) 30.

@@ -8,18 +8,14 @@ use std::ops::Range;
 /// Elements with strains `e(x)` under a random stress `s`, which adds the energy `-s . e(x)`.
 ///
 /// Stresses have the covariance `kT C`, where `C` is the matrix of second derivatives of the energy
-/// with respect to strains. Such a stress shifts the rest strain of its element by the thermal
-/// fluctuation.
-///
-/// The stresses of all elements are concatenated in one slice of
-/// [`components`](RandomStress::components) numbers, in the units of the elements.
+/// with respect to strains. They shift rest strains by the thermal fluctuation. The slice of
+/// [`components`](RandomStress::components) numbers contains the stresses of all elements.
 pub trait RandomStress {
     /// Total number of stress components of all elements.
     fn components(&self) -> usize;
 
     /// Transforms independent deviates of mean 0 and variance 1 into stresses with the covariance
-    /// `thermal_energy` times the strain stiffness at `state`. Directions of negative stiffness
-    /// receive zero stress.
+    /// `thermal_energy` times the strain stiffness at `state`. Negative stiffness counts as zero.
     fn draw(&self, state: &State, thermal_energy: f64, stresses: &mut [f64]);
 
     /// Writes the stresses that cancel the elements' own stresses at `state`. The sum exerts no
@@ -28,29 +24,22 @@ pub trait RandomStress {
 
     /// Adds the loads of the stresses, `s . de/dx`.
     ///
-    /// Implementations may omit axial torques on slender bodies where the elements exert none.
-    /// Friction alone resists such a rotation, so the bodies would rotate to align with the stress.
+    /// Axial torques on slender bodies may be omitted where the elements exert none, because only
+    /// friction would resist them.
     fn add_stress_loads(&self, state: &State, stresses: &[f64], loads: &mut Loads);
 
     /// Adds the negative part of the strain stiffness with opposite sign if `is_wanted`, otherwise
-    /// zeros in the same blocks. Compressed springs have negative transverse stiffness. The default
-    /// adds no blocks.
+    /// zeros in the same blocks. The default adds no blocks.
     fn add_convexity(&self, _state: &State, _is_wanted: bool, _stiffness: &mut Stiffness) {}
 
-    /// Frames of slender bodies that are isotropic about their third axes.
-    ///
-    /// Rotations about these axes change neither energies nor, after
-    /// [`turn_back`](Self::turn_back), stresses. Other elements of the system may still resist
-    /// them. The default is an empty range.
+    /// Frames that are isotropic about their third axes: rotations about these axes change neither
+    /// energies nor, after [`turn_back`](Self::turn_back), stresses. The default is an empty range.
     fn axial_frames(&self) -> Range<usize> {
         0..0
     }
 
-    /// Transforms stresses into the axes of frames that have rotated by `spins` about their third
-    /// axes.
-    ///
-    /// `spins` (rad, one per frame) are counted from the draw of the stresses. The directions of
-    /// the stresses in the lab frame do not change. The default copies the stresses.
+    /// Transforms stresses into the axes of frames that have rotated about their third axes by
+    /// `spins` (rad, one per frame) since the draw. The default copies the stresses.
     fn turn_back(&self, _spins: &[f64], drawn: &[f64], turned: &mut [f64]) {
         turned.copy_from_slice(drawn);
     }
@@ -59,10 +48,7 @@ pub trait RandomStress {
     fn add_stress_stiffness(&self, state: &State, stresses: &[f64], stiffness: &mut Stiffness);
 
     /// Adds the derivatives of the loads of stresses after [`turn_back`](Self::turn_back), in the
-    /// same blocks.
-    ///
-    /// Rotations of axial frames about their third axes have no effect. The default adds the second
-    /// derivatives.
+    /// same blocks. The default adds the second derivatives.
     fn add_turned_stiffness(&self, state: &State, stresses: &[f64], stiffness: &mut Stiffness) {
         self.add_stress_stiffness(state, stresses, stiffness);
     }

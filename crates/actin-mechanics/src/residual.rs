@@ -1,9 +1,7 @@
 //! Distance of a state from equilibrium.
 
-/// Largest loads on free bodies.
-///
-/// The norms of the force and of the body torque are used for single bodies. For bodies that slide
-/// together, the resultant force along their directions is used.
+/// Largest norms of the loads on free bodies. For bodies that slide together, the resultant along
+/// their directions is used.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Residual {

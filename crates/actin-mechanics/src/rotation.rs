@@ -39,8 +39,8 @@ pub(crate) fn sinc(a: f64) -> f64 {
 
 /// Rotation vector (rad) of `q`, of length at most pi: the inverse of [`exp`].
 ///
-/// The relative error is below 1e-14 for angles between 1e-12 rad and pi - 1e-6. Closer to pi the
-/// angle remains accurate. At pi, either of the two axes may be returned.
+/// The relative error is below 1e-14 for angles between 1e-12 rad and pi - 1e-6. At pi, either axis
+/// may be returned.
 ///
 /// ```
 /// use actin_mechanics::{Vector3, rotation};
@@ -153,8 +153,8 @@ pub fn right_jacobian_inverse_transpose(theta: Vector3, m: Vector3) -> Vector3 {
 
 /// Inverse right Jacobian `J_r(theta)^-1 = I + [theta]x / 2 + c [theta]x^2`.
 ///
-/// It is the derivative of `log(R exp(delta))` with respect to `delta` at zero, where `theta =
-/// log(R)`. Its transpose is `J_l(theta)^-1`, the derivative of `log(exp(delta) R)`.
+/// It is the derivative of `log(R exp(delta))` with respect to `delta` at zero, where
+/// `theta = log(R)`. Its transpose is `J_l(theta)^-1`, the derivative of `log(exp(delta) R)`.
 #[inline]
 pub fn right_jacobian_inverse(theta: Vector3) -> Matrix3 {
     let p = theta.norm_squared();

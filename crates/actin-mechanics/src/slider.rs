@@ -5,11 +5,9 @@ use crate::{State, Vector3, Vectors};
 
 /// Points with constant relative positions that move together along `directions`.
 ///
-/// The points are held. The common displacement along each direction is a degree of freedom. Frames
-/// that belong to the body do not rotate and are not listed.
-///
-/// [`System`](crate::System) panics if a slider has no points or missing points, if the directions
-/// are not orthonormal, or if the mass is not positive and finite.
+/// The points are held; the common displacement along each direction is a degree of freedom. Frames
+/// of the body do not rotate and are not listed. [`System`](crate::System) panics if a slider is
+/// invalid.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Slider {
     /// Indices of the points.

@@ -8,9 +8,8 @@ const SHUT: f64 = 1e-150;
 
 /// Hooke's law for a vector `d`: `E = k (|d| - L)^2 / 2`.
 ///
-/// For `L = 0` the energy is smooth. For `L > 0` it has a conical maximum at `d = 0`, where no
-/// direction is preferred. The force there is zero, the mean over all directions, and the second
-/// derivative is `-k` in every direction.
+/// For `L > 0` the energy has a conical maximum at `d = 0`. The force there is zero, the mean over
+/// all directions, and the second derivative is `-k` in every direction.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Hooke {
     /// Stiffness `k` (force per length).
@@ -102,8 +101,7 @@ pub enum SpringError {
 
 /// Springs between points: term `springs`, one element per spring.
 ///
-/// Forces follow [`Hooke`] and act along the line between the points, so they conserve momentum and
-/// angular momentum.
+/// Forces follow [`Hooke`] along the line between the points.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Springs(Vec<Spring>);
 

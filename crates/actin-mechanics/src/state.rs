@@ -4,9 +4,7 @@ use crate::{ControlId, Controls, Frames, Points, Shared, Slider, Vector3};
 
 /// Points, frames and controls.
 ///
-/// Points and frames are stored in structural order, each kind in separate arrays. Copies share
-/// masses, inertias, holds and sliders until one of them changes these, so a copy costs only the
-/// time-dependent part.
+/// Copies share masses, inertias, holds and sliders until one of them changes these.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct State {
     /// Positions with masses.

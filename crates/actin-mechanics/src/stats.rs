@@ -12,8 +12,8 @@ use crate::{Frames, Points, State};
 pub struct StateStats {
     /// Kinetic energy of free and sliding bodies.
     ///
-    /// It is not finite if any position, velocity, orientation or angular momentum is not finite,
-    /// also of held bodies, or if a square overflows.
+    /// It is not finite if any number of the state is not finite, also of held bodies, or if a
+    /// square overflows.
     pub kinetic_energy: f64,
     /// Largest squared angular velocity of the free frames, valid if `kinetic_energy` is finite.
     pub largest_spin_squared: f64,
@@ -62,8 +62,7 @@ impl WithSimd for Pass<'_> {
 
 /// Twice the kinetic energy of free points, or NaN if any number of any point is not finite.
 ///
-/// Zero times a number that is not finite is NaN, which propagates through the sum. Positions and
-/// held points therefore need no separate check.
+/// Zero times a number that is not finite is NaN, which propagates through the sum.
 #[inline(always)]
 fn points<S: Simd>(simd: S, points: &Points) -> f64 {
     let (x, v) = (&points.position, &points.velocity);

@@ -13,12 +13,11 @@ pub enum Coordinates {
 
 /// A list of 3x3 blocks of second derivatives.
 ///
-/// For coordinates `u` and `v` of two bodies, the block `(a, b)` is `d^2 E / du_a dv_b` at `u = v =
-/// 0`. Each pair of different bodies is listed once; the transposed block is implied.
+/// For coordinates `u` and `v` of two bodies, the block `(a, b)` is `d^2 E / du_a dv_b` at
+/// `u = v = 0`. Each pair of different bodies is listed once; the transposed block is implied.
 ///
 /// An interaction pushes the same pairs in the same order at every state, so that an assembler can
-/// store the positions of blocks. If pairs change with the state, as for bodies in contact, each
-/// change costs a new analysis. Pairs depend on the state alone.
+/// store the positions of blocks. A change of pairs, as for contacts, costs a new analysis.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Stiffness {
     blocks: Vec<(Coordinates, Coordinates, Matrix3)>,
@@ -44,9 +43,8 @@ impl Stiffness {
 
 /// Second derivatives of the energy of an interaction.
 ///
-/// Orientations are parametrised as `Q exp(phi)`, so that the second derivative at `phi = 0` is
-/// symmetric also for nonzero torque `tau`. With the diagonal block `K`, the derivative of the body
-/// torque with respect to `phi` is `-(K - [tau]x / 2)`.
+/// With the orientation `Q exp(phi)`, the diagonal block `K` at `phi = 0` is symmetric. The
+/// derivative of the body torque `tau` with respect to `phi` is `-(K - [tau]x / 2)`.
 pub trait SecondOrder {
     /// Adds the second derivatives of the energy at `state`, including the geometric stiffness.
     fn add_stiffness(&self, state: &State, stiffness: &mut Stiffness);

@@ -77,14 +77,12 @@ pub trait Thermostat: Split {
 pub trait Drive: std::fmt::Debug + Send + Sync {
     /// Sets the positions and velocities of driven bodies and the controls at `time`.
     ///
-    /// Called after every drift, so that loads are evaluated at exact positions and the order of
-    /// the integrator is preserved. Sliding bodies keep their displacement along their directions.
+    /// Called after every drift, which preserves the order of the integrator. Sliding bodies keep
+    /// their displacement along their directions.
     fn place(&self, state: &mut State, time: f64);
 
     /// Energy that driven controls add to `interactions` over a time `t`, at the positions and the
-    /// time of `state`.
-    ///
-    /// The state is unchanged on return. The default, for drives that move bodies only, is zero.
+    /// time of `state`, which is unchanged on return. The default is zero.
     fn work_of_controls(
         &self,
         _state: &mut State,
@@ -97,8 +95,7 @@ pub trait Drive: std::fmt::Debug + Send + Sync {
 
 /// A state, the interactions that act on it, and their loads.
 ///
-/// Loads are evaluated lazily after a change of the positions. Two kicks without a drift in between
-/// cost one evaluation.
+/// Loads are evaluated lazily after a change of the positions.
 #[derive(Debug)]
 pub struct System {
     state: State,

@@ -124,9 +124,8 @@ impl<F: Fn(&State, &mut Loads) + Send + Sync> Interaction for Loading<F> {
 
 /// Asserts that the loads are minus the gradient of the energy.
 ///
-/// Derivatives are eight-point central differences of step `h`. Their truncation error is of order
-/// `h^8`, and the round-off error is about `1e-16 E / h`. Choose `h` between 1e-3 and 1e-2 of the
-/// length over which the energy varies.
+/// Derivatives are eight-point central differences with a truncation error of order `h^8` and a
+/// round-off error of about `1e-16 E / h`.
 ///
 /// # Panics
 /// If a load differs by more than `relative` times the largest load of its kind.

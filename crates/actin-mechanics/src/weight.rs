@@ -10,8 +10,8 @@ use crate::{ControlId, Interaction, LoadError, Loads, SecondOrder, State, Stiffn
 /// E   = -c sum m_i a . x_i
 /// ```
 ///
-/// `m` are the masses, `a` is the acceleration and `c` the control. Held points have weight too, so
-/// that it contributes to their reactions. Frames have none.
+/// `m` are the masses, `a` is the acceleration and `c` the control. Held points have weight too;
+/// frames have none.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Weight {
     acceleration: Vector3,

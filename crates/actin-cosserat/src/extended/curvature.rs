@@ -19,9 +19,8 @@ pub struct JoinedElement {
 
 /// Quadrature of the mean curvature around each segment of a rod.
 ///
-/// Each side of a segment has a weight of 1/2, divided among the elements there (such as the bonds
-/// of a junction). At a free end the other side has the whole weight; otherwise the end segments of
-/// a uniformly twisted rod would have half its twist.
+/// Each side of a segment has a weight of 1/2, divided among the elements there. At a free end the
+/// other side has the whole weight.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SegmentCurvature {
     /// Index of the first element around each segment, and the total number.

@@ -7,22 +7,19 @@ use actin_mechanics::{Loads, Matrix3, State, Stiffness, Vector3, rotation};
 
 /// Additional length for twist at a blocked end (nm).
 ///
-/// A bond along a strand joins second neighbours and is rotated by both gaps between them. Bonds
-/// that end in the two held monomers of a wall include one bond with a single gap, which resists
-/// less. If strands alone resisted twist, the additional length would be half a rise (1.4 nm).
+/// A bond along a strand joins second neighbours and is rotated by both gaps between them. One bond
+/// at a wall has a single gap and resists less. If strands alone resisted twist, the length would
+/// be half a rise (1.4 nm).
 ///
 /// # Source
-/// Mean filament between walls 25 to 151 nm apart, twisted by 10, 40 and 120 deg per 74 nm in both
-/// directions (`cargo xtask load-cases --ends`). With [`FIRM`], torques agree within 5 % for 41 nm
-/// or more. Without both corrections, torques at 25 nm are 10 % too large at 120 deg and 75 % too
-/// small at 10 deg.
+/// Mean filament between walls 25 to 151 nm apart, twisted by 10 to 120 deg per 74 nm in both
+/// directions (`cargo xtask load-cases --ends`): torques agree within 5 % for 41 nm or more.
 pub const END_TWIST_NM: f64 = 0.9;
 
 /// Additional twist rigidity at a blocked end (pN nm^3), and twist (rad/nm) above which its torque
 /// saturates.
 ///
-/// In the interior, monomers rearrange under small twist, with hardly any stretch of bonds.
-/// Monomers at a wall cannot.
+/// In the interior, monomers rearrange under small twist; monomers at a wall cannot.
 const FIRM: f64 = 22_000.0;
 const FIRM_TWIST: f64 = 1.5e-3;
 

@@ -1,10 +1,9 @@
 //! Rods whose strain energy depends on their curvature.
 //!
-//! Strains belong to segments and curvatures to nodes. The coupling uses the mean curvature of the
-//! bending elements around a segment, including those of walls and junctions (`curvature.rs`).
-//! `end_shear.rs` and `end_twist.rs` correct strains near ends, `law.rs` has the coupled energy,
-//! `segments.rs` its loads and stiffness, and `twist_stability.rs` the stability of twist under
-//! axial force.
+//! The coupling uses the mean curvature of the bending elements around a segment, including walls
+//! and junctions (`curvature.rs`). `end_shear.rs` and `end_twist.rs` correct strains near ends,
+//! `law.rs` has the energy, `segments.rs` loads and stiffness, `twist_stability.rs` the stability
+//! under axial force.
 
 mod curvature;
 mod end_shear;

@@ -33,15 +33,13 @@ impl TwistStability {
 /// length. The Legendre-Hadamard condition of the energy in twist and stretch is equivalent. If it
 /// fails, short-wave perturbations of the twist grow without work at the ends.
 impl SegmentLaw {
-    /// Axial force (pN, negative in compression) at which twist becomes unstable: `d2U/dkappa_3^2 /
-    /// xi''(kappa_3)`.
+    /// Axial force (pN, negative in compression) at which twist becomes unstable:
+    /// `d2U/dkappa_3^2 / xi''(kappa_3)`.
     ///
     /// For `xi'' < 0`, as in the published and fitted laws near rest, twist is unstable in stronger
-    /// compression; for `xi'' > 0`, under larger tension. Returns `None` if `xi'' = 0`, also
-    /// outside the range of the law.
-    ///
-    /// For a potential, this is the smallest force at which the tangent vanishes, searched within a
-    /// stretch of 0.02.
+    /// compression; for `xi'' > 0`, under larger tension. Returns `None` if `xi'' = 0`. For a
+    /// potential, this is the smallest force at which the tangent vanishes within a stretch of
+    /// 0.02.
     ///
     /// ```
     /// use actin_cosserat::{Rigidities, RodMaterial, SegmentLaw, TanhTwist, TwistLaw, TwistStretch};

@@ -1,7 +1,5 @@
-//! Elements that join the ends of a rod to other parts.
-//!
-//! They belong to other interactions. This module adds their curvature to the rod's end segments,
-//! and the conjugate torques to their frames.
+//! Elements of other interactions joined to the ends of a rod: their curvature is added to the end
+//! segments, and the conjugate torques to their frames.
 #![allow(
     clippy::inline_always,
     reason = "vector code must be compiled into the function that enables the instructions"

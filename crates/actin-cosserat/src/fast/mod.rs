@@ -1,22 +1,16 @@
 //! Vectorised loads of rods.
 //!
 //! # Scope
-//! The kernels compute the same loads as the scalar path of
-//! [`EnergyGradient`](crate::EnergyGradient), their reference. The kernel is chosen when the
-//! interaction is built. Kernels exist for constant rigidities (also with rest curvature), for the
-//! published twist and length, for the laws fitted to monomers with cubic or constant shear, and
-//! for the potential.
-//!
-//! The scalar path remains for two-sided stretch, for published laws combined with fitted ones, for
-//! other bent rods, for rods with more than eight joined elements, and for `PaperBalance`. Energies
-//! and second derivatives are always scalar.
+//! The reference is the scalar path of [`EnergyGradient`](crate::EnergyGradient). Kernels exist for
+//! constant rigidities (also with rest curvature), published twist and length, laws fitted to
+//! monomers with cubic or constant shear, and the potential. All other rods, rods with more than
+//! eight joined elements, energies and second derivatives use the scalar path.
 //!
 //! # Data layout
-//! Each lane has one element (see `actin_mechanics::wide`). Bodies are stored in the order of the
-//! rod, so the first and the second bodies of a group of elements are contiguous slices, shifted by
-//! one body. The loops run over bodies. The load on the first body is in the right lane; the load
-//! on the second is shifted up by one lane ([`ShiftedUp`](actin_mechanics::wide::ShiftedUp)). The
-//! last body has no element.
+//! Each lane has one element (see `actin_mechanics::wide`). The first and the second bodies of a
+//! group of elements are contiguous slices, shifted by one body. The load on the first body is in
+//! the right lane; the load on the second is shifted up by one lane
+//! ([`ShiftedUp`](actin_mechanics::wide::ShiftedUp)).
 //!
 //! ```text
 //! segments:  y = Q^T l,  sigma = y / |lhat| - e3,  n = n(sigma, kappa)
@@ -27,24 +21,15 @@
 //! ```
 //!
 //! Without coupling (`separate.rs`), segments and bending elements have separate loops. With
-//! coupling to the mean curvature (`coupled.rs`), one loop computes each angle once. A group of
-//! segments is processed with the elements *before* them. The conjugate torques of the segments are
-//! added to `m`. Torques on first frames are shifted down
-//! ([`ShiftedDown`](actin_mechanics::wide::ShiftedDown)). Angles are computed one group ahead. A
-//! wall at the start is the element before the first group. Elements joined to the ends are
-//! processed one by one (`ends.rs`).
+//! coupling (`coupled.rs`), one loop processes a group of segments with the elements *before* them,
+//! and adds the conjugate torques of the segments to `m`. Torques on first frames are shifted down
+//! ([`ShiftedDown`](actin_mechanics::wide::ShiftedDown)). A wall at the start is the element before
+//! the first group. Elements joined to the ends are processed one by one (`ends.rs`).
 //!
 //! # Laws
-//! `laws/` has vectorised parts of laws (shear and stretch, bending, twist, natural length), tested
-//! against the scalar laws. [`Laws`] combines them, and kernels are compiled for each combination.
-//! Laws have no branches: they are extrapolated linearly outside their range. Forces in lanes
-//! without a body are set to zero, because the published length causes a force at rest.
-//!
-//! # Cost
-//! With constant rigidities a segment takes about 60 operations for shear and 70 for bending,
-//! without square roots and divisions. Throughput is limited by arithmetic, not memory. Fitted and
-//! published laws have twice as many instructions and are limited by latency (`docs/numerics.md`,
-//! Speed).
+//! `laws/` has vectorised parts of laws, tested against the scalar laws. [`Laws`] combines them,
+//! and kernels are compiled for each combination. Laws have no branches. Forces in lanes without a
+//! body are set to zero, because the published length causes a force at rest.
 #![allow(
     clippy::inline_always,
     reason = "vector code must be compiled into the function that enables the instructions"

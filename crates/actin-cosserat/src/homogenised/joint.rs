@@ -1,8 +1,8 @@
 //! Joints of a rod with a potential: `U(kappa)`, the potential without shear, at the natural length
 //! for the twist.
 //!
-//! Joints use each angle between neighbouring segments, segments the mean curvature (`segment.rs`).
-//! `U` at the joints resists rotations of alternating sign, which cancel in the mean.
+//! Joints use each angle between neighbouring segments, so `U` resists rotations of alternating
+//! sign, which cancel in the mean curvature of segments (`segment.rs`).
 
 use super::{Homogenised, PotentialJet, SixVector};
 use crate::fast::Law;

@@ -10,8 +10,8 @@ use std::sync::{LazyLock, Mutex, PoisonError};
 /// Rows: stretch at rest, natural stretch, then each term, lowest order first.
 const COLD: &str = include_str!("mean_filament.csv");
 
-/// Coefficients for [`DRAWN_BONDS`](Homogenised::DRAWN_BONDS) sampled bonds, from `cargo xtask
-/// homogenise drawn`.
+/// Coefficients for [`DRAWN_BONDS`](Homogenised::DRAWN_BONDS) sampled bonds, from
+/// `cargo xtask homogenise drawn`.
 const DRAWN: &str = include_str!("drawn_filament.csv");
 
 /// Coefficients of the mean filament at 298 K, from `cargo xtask homogenise heat`.
@@ -67,8 +67,7 @@ impl Homogenised {
     /// Mean law of filaments with `bonds` sampled bonds per interface.
     ///
     /// They are softer than the mean filament, because compliances in series add up. The difference
-    /// is measured for [`DRAWN_BONDS`](Self::DRAWN_BONDS) and taken as inversely proportional to
-    /// `bonds`. Smaller numbers are replaced by [`DRAWN_BONDS`](Self::DRAWN_BONDS).
+    /// is inversely proportional to `bonds`, which is at least [`DRAWN_BONDS`](Self::DRAWN_BONDS).
     ///
     /// ```
     /// use actin_cosserat::Homogenised;
@@ -112,8 +111,8 @@ impl Homogenised {
     /// Free energy of mean filaments at [`HEATED_K`](Self::HEATED_K), averaged over the thermal
     /// motion of their monomers.
     ///
-    /// Measured in cells of 36 nm. In rods with shorter segments in a heat bath, the motion at
-    /// shorter wavelengths is counted twice.
+    /// Measured in cells of 36 nm. Shorter segments in a heat bath count the motion at shorter
+    /// wavelengths twice.
     pub fn mean_filament_at_298_k() -> &'static Self {
         static LAW: LazyLock<Homogenised> =
             LazyLock::new(|| read(AT_298_K).with_range(RANGE_AT_298_K));

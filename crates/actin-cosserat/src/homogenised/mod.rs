@@ -1,7 +1,7 @@
 //! Potential of all six strains, fitted to periodic cells of monomers.
 //!
-//! `terms.rs` and `polynomial.rs` define its form, `mean_filament.rs` its coefficients. `joint.rs`
-//! and `segment.rs` distribute the energy between the joints and segments of a rod.
+//! Form: `terms.rs` and `polynomial.rs`. Coefficients: `mean_filament.rs`. Elements of rods:
+//! `joint.rs` and `segment.rs`.
 
 mod joint;
 mod mean_filament;
@@ -38,9 +38,8 @@ type SixVector = Vector6<f64>;
 /// c = kappa_1 sigma_1 + kappa_2 sigma_2
 /// ```
 ///
-/// `n` is the stretch of the straight rod without force, `p` a polynomial. The energy depends on
-/// `kappa_3` and these invariants if the rod is isotropic about its axis and symmetric under
-/// reversal of its direction. A mirror image changes the signs of `c` and `kappa_3`.
+/// `n` is the stretch of the straight rod without force, `p` a polynomial. The invariants are
+/// complete for rods that are isotropic about their axis and symmetric under reversal.
 #[derive(Clone, Debug, PartialEq)]
 pub struct HomogenisedForm {
     rest: f64,
@@ -49,9 +48,8 @@ pub struct HomogenisedForm {
 
 /// Potential `W = sum_k P_k(t) f_k(e, a, g, c, kappa_3)` per length (pN).
 ///
-/// `f_k` are the [`Term`]s, `P_k` polynomials in the bounded twist `t`. Gradient and second
-/// derivatives are exact. Outside the range of the data the polynomials tend to constants, and
-/// terms are bounded or quadratic, so the law remains finite but inaccurate.
+/// `f_k` are the [`Term`]s, `P_k` polynomials in the bounded twist `t`. Derivatives are exact.
+/// Outside the range of the data the law remains finite but inaccurate.
 ///
 /// ```
 /// use actin_cosserat::{Homogenised, HomogenisedForm, Term};

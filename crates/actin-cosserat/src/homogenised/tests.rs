@@ -121,8 +121,8 @@ fn the_heated_filament_is_stable() {
     assert_stable(law, law.range().stretch);
 }
 
-/// Twist, stretch, B, C, S1, S3 of free cells of 13 monomers at 298 K (`cargo xtask homogenise
-/// heat`, standard errors 1 %).
+/// Twist, stretch, B, C, S1, S3 of free cells of 13 monomers at 298 K
+/// (`cargo xtask homogenise heat`, standard errors 1 %).
 #[test]
 fn the_heated_filament_is_that_of_the_cells() {
     let law = Homogenised::mean_filament_at_298_k();

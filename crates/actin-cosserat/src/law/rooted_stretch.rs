@@ -11,9 +11,7 @@ use crate::{RodKey, RodParameterError};
 /// `k` is the twist (rad/nm). Extrapolated linearly outside `range`.
 ///
 /// # Source
-/// Form after twisted filaments of monomers (`docs/validation.md`, Figure 9). With constant lengths
-/// of both kinds of interface the slope is that of a helix; which kind yields depends on the sign
-/// of the twist.
+/// Form after twisted filaments of monomers (`docs/validation.md`, Figure 9).
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct RootedStretch {

@@ -8,9 +8,8 @@ use crate::{RodKey, RodParameterError};
 /// B3(k) = rest + rise k^2 / (k^2 + slow |k| + half^2)
 /// ```
 ///
-/// `rise`, `half` and `slow` differ for over-twist (`k > 0`) and under-twist. The torque is `B3(k)
-/// k`, with two continuous derivatives at rest. The energy per length is its integral in closed
-/// form. The torque is extrapolated linearly outside `range`.
+/// `rise`, `half` and `slow` differ for over-twist (`k > 0`) and under-twist. The torque is
+/// `B3(k) k`, extrapolated linearly outside `range`. The energy per length is its integral.
 ///
 /// # Source
 /// Form after twisted filaments of monomers, which hardly resist small twist (`docs/validation.md`,

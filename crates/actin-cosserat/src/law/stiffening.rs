@@ -9,8 +9,7 @@ use crate::{RodKey, RodParameterError};
 /// U = rest k^2/2 + (rise/2) [k^2 - k0^2 ln(1 + k^2 / (k0^2 (1 + s)))]
 /// ```
 ///
-/// `k` is the bending curvature and `U` the energy per length, with `dU/dk = B k`. The derivatives
-/// with respect to twist and shear are the conjugate torque and force.
+/// `k` is the bending curvature and `U` the energy per length, with `dU/dk = B k`.
 ///
 /// # Source
 /// Form after bent filaments of monomers: undeformed interfaces resist only some of their relative

@@ -10,8 +10,8 @@ use crate::{RodKey, RodParameterError, constants};
 /// M = (b_plus + b_minus)/2,  D = (b_plus - b_minus)/2
 /// ```
 ///
-/// `k` is the twist (rad/nm, positive for over-twist). The torque is `B3(k) k`. The energy per
-/// length is its integral in closed form. The torque is extrapolated linearly outside `range`.
+/// `k` is the twist (rad/nm, positive for over-twist). The torque is `B3(k) k`, extrapolated
+/// linearly outside `range`. The energy per length is its integral.
 ///
 /// # Source
 /// arXiv 2203.01284, Section 3.3 and Appendix B. The printed energy, `B3 k^2 / 2`, is inconsistent

@@ -7,9 +7,8 @@ use nalgebra::DMatrix;
 /// Asserts that the random stresses of the interactions have loads of covariance `kT K`, and that
 /// stresses can balance the loads of the elements.
 ///
-/// `K` is the matrix of second derivatives of the energy without the contribution of the elements'
-/// own loads. With the loads `g_k` of unit deviates, the test requires `sum g_k g_k^T = K`. The
-/// elements must have positive stiffness at `state`.
+/// `K` is the stiffness without the contribution of the elements' own loads. With the loads `g_k`
+/// of unit deviates, `sum g_k g_k^T = K` is required.
 ///
 /// # Panics
 /// If an error exceeds `relative` times the largest entry, or if an interaction has no random

@@ -9,14 +9,10 @@ use nalgebra::{DMatrix, DVector};
 
 /// Asserts that the second derivatives of the energy are minus the derivatives of the loads.
 ///
-/// All entries of the matrix are compared: three coordinates per point (lab frame), then three per
-/// frame (body frame). Forces must change by `-K`. Torques must change by `-(K - [tau]x / 2)` with
-/// the rotation of their own frame and by `-K` otherwise. Diagonal blocks must be symmetric, and
-/// pairs must not depend on the state.
-///
-/// `h` is the step of the eight-point central difference (see [`derivative`]). `relative` is the
-/// tolerance relative to the largest entry of the same kind: point-point, point-frame or
-/// frame-frame.
+/// Forces must change by `-K`, torques by `-(K - [tau]x / 2)` with the rotation of their own frame
+/// and by `-K` otherwise. Diagonal blocks must be symmetric, and pairs must not depend on the
+/// state. `h` is the step of [`derivative`], and `relative` is the tolerance relative to the
+/// largest entry of the same kind (point-point, point-frame, frame-frame).
 ///
 /// # Panics
 /// If a condition does not hold, or if the interaction has no second derivatives.

@@ -117,8 +117,8 @@ impl<S: Simd> ColumnsMut<'_, S, 3> {
 /// Shift of successive groups up by one body: lane `i` receives the number of lane `i - 1`, and the
 /// first lane that of the last lane of the preceding group.
 ///
-/// The interaction of a body with the next one is computed in the lane of the first. The shift
-/// moves the reaction to the second body, without a store that overlaps the load of the next group.
+/// This moves the reaction of an interaction between neighbours to the second body, without
+/// overlapping stores and loads.
 #[derive(Clone, Copy, Debug)]
 pub struct ShiftedUp<S: Simd, const N: usize> {
     first_lane: S::m64s,

@@ -1,8 +1,7 @@
 //! Polynomials for even functions of small angles, hyperbolic tangent and bounds.
 //!
-//! Each polynomial is a Chebyshev interpolation of `(f(u) - f(0)) / u` in 40-digit arithmetic, so
-//! the value at zero is exact. The error of each fit is stated. The evaluation error is about half
-//! a unit in the last place of a number near 1.
+//! Each polynomial is a Chebyshev interpolation of `(f(u) - f(0)) / u` in 40-digit arithmetic. The
+//! evaluation error is about half a unit in the last place of a number near 1.
 
 use super::MOST_LANES;
 use super::vectors::{read, write};
@@ -131,9 +130,8 @@ pub(super) fn polynomial<S: Simd, const N: usize>(
 
 /// Cosine and `sin(a)/a` of angles `a` (rad) with squares `u`, for two sets of angles.
 ///
-/// Accurate to round-off at every angle. Angles above 1/8 are computed by the scalar functions of
-/// the standard library, the reference. The result of a lane depends on its angle alone, for any
-/// number of lanes.
+/// Accurate to round-off. Angles above 1/8 are computed by the standard library, the reference. The
+/// result of a lane depends on its angle alone.
 #[inline(always)]
 pub fn cosine_and_sinc<S: Simd>(simd: S, u: [S::f64s; 2]) -> [[S::f64s; 2]; 2] {
     let results = [small(simd, u[0]), small(simd, u[1])];

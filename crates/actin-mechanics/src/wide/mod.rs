@@ -1,35 +1,25 @@
 //! Vector code: one body per lane of a vector register.
 //!
-//! The hot loops (the drift of frames, the loads between neighbours) have the same arithmetic for
-//! every body. States are structures of arrays, so a loop processes as many bodies at a time as the
-//! processor has lanes: eight with AVX-512, four with AVX2, otherwise one. The instruction set is
-//! detected at run time, or set by the environment variable `ACTIN_SIMD` ([`arch`]).
+//! States are structures of arrays, so a loop processes as many bodies at a time as the processor
+//! has lanes: eight with AVX-512, four with AVX2, otherwise one. The instruction set is detected at
+//! run time, or set by the environment variable `ACTIN_SIMD` ([`arch`]).
 //!
 //! # Wide functions
 //! A wide function is generic over `S: Simd` and operates on bodies in the lanes of `S::f64s`. Its
-//! documentation names a scalar function with the same formula, the *reference*, which a test
-//! compares on random states. A loop implements [`WithSimd`] and is passed to [`dispatch`], which
-//! compiles it for each instruction set. All functions that it calls must be inlined, because the
-//! instructions are enabled only there.
+//! documentation names a scalar *reference*, which a test compares on random states. A loop
+//! implements [`WithSimd`] and is passed to [`dispatch`]. All functions that it calls must be
+//! inlined, because the instructions are enabled only there.
 //!
-//! [`Columns`] are the input arrays of a loop, [`ColumnsMut`] its output arrays, in groups of one
-//! body per lane. In a short last group, lanes without a body read zeros and write nothing. The
-//! reference must therefore be defined at zero.
-//!
-//! # Polynomials
-//! `sin`, `cos` and `atan2` are scalar and would dominate the cost of a rod's step. All functions
-//! needed are even in the angle, and the angles are small, between neighbours of a smooth chain and
-//! over one drift. `functions.rs` has polynomials in the squared angle up to a quarter of a radian
-//! and up to about 1 rad. Larger angles are computed by scalar functions, in a branch that is not
-//! taken in regular simulations. The hyperbolic tangent is computed by halving and doubling the
-//! argument.
+//! [`Columns`] are the input arrays of a loop, [`ColumnsMut`] its output arrays. In a short last
+//! group, lanes without a body read zeros and write nothing, so the reference must be defined at
+//! zero.
 //!
 //! # Accuracy
-//! The polynomials are accurate to round-off. Multiplications and additions are fused if the
-//! processor supports it, so results may differ from the scalar reference in the last digits.
-//! Results with four and eight lanes are identical to the bit. Each lane depends only on its body
-//! and its neighbours along the chain, and sums over bodies ([`Sums`], [`ShiftedUp`]) have a fixed
-//! order.
+//! Functions of small angles are polynomials in the squared angle (`functions.rs`), accurate to
+//! round-off; larger angles are computed by scalar functions. Multiplications and additions are
+//! fused if possible, so results may differ from the reference in the last digits. Results with
+//! four and eight lanes are identical to the bit, because sums over bodies ([`Sums`],
+//! [`ShiftedUp`]) have a fixed order.
 #![allow(
     clippy::inline_always,
     reason = "vector code must be compiled into the function that enables the instructions"

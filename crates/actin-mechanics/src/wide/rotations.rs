@@ -120,9 +120,8 @@ pub fn turn_back<S: Simd>(simd: S, [w, x, y, z]: WideQuaternion<S>, v: Wide3<S>)
 
 /// Rotation vectors (rad) of unit quaternions, and the coefficients of their inverse Jacobians.
 ///
-/// Accurate to round-off at every angle. Angles above pi/3 are computed by the references,
-/// [`rotation::log`] and [`rotation::inverse_jacobian_coefficient`]. The result of a lane depends
-/// on its angle alone, for any number of lanes.
+/// Accurate to round-off. Angles above pi/3 are computed by the references, [`rotation::log`] and
+/// [`rotation::inverse_jacobian_coefficient`]. The result of a lane depends on its angle alone.
 #[inline(always)]
 pub fn log_with_coefficient<S: Simd>(simd: S, q: WideQuaternion<S>) -> (Wide3<S>, S::f64s) {
     let v = [q[1], q[2], q[3]];

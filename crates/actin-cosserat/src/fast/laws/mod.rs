@@ -1,7 +1,7 @@
 //! Vectorised laws of a material.
 //!
-//! Kernels need first derivatives only. The scalar laws in `crate::law` and `crate::extended` are
-//! the references. Branches are replaced by selection between both results.
+//! The scalar laws in `crate::law` and `crate::extended` are the references. Branches are replaced
+//! by selection.
 
 mod bend;
 mod bent;

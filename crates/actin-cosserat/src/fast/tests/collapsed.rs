@@ -1,7 +1,4 @@
 //! Segments of nearly zero length, and inverted segments.
-//!
-//! With cubic shear, tension acts along `e3 + sigma`, which is a small difference for such
-//! segments.
 
 use super::*;
 use crate::extended::MeanCurvature;
