@@ -270,7 +270,7 @@ mod tests {
     use crate::RodEnd;
 
     #[test]
-    fn bodies_follow_those_already_there() {
+    fn rods_are_appended_to_existing_bodies() {
         let mut state = State::default();
         StraightRod::uniform(2, 1.0).push(&mut state).unwrap();
         let rod = StraightRod {
@@ -386,7 +386,7 @@ mod tests {
     }
 
     #[test]
-    fn a_refused_rod_leaves_the_state_alone() {
+    fn a_refused_rod_does_not_change_the_state() {
         let mut state = State::default();
         let lengths = [0.0, f64::NAN, f64::MAX, 1e308, 1e-308, 5e-324];
         let rods = lengths.map(|length| StraightRod::uniform(2, length));

@@ -124,7 +124,7 @@ mod tests {
     }
 
     #[test]
-    fn each_clamp_holds_what_its_name_says() {
+    fn each_clamp_holds_its_bodies() {
         use RodClamp::{NodeAndFrame, Pin, TwoNodesAndFrame, Wall};
         assert_eq!(held(Pin, RodEnd::Start), (vec![0], vec![]));
         assert_eq!(held(Pin, RodEnd::End), (vec![3], vec![]));

@@ -83,7 +83,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn sections_that_do_not_exist_are_refused() {
+    fn invalid_sections_are_refused() {
         for bad in [0.0, -1.0, f64::NAN, f64::INFINITY] {
             assert_eq!(
                 CrossSection::new(bad, 1.0).unwrap_err().key,

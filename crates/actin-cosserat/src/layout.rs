@@ -213,7 +213,7 @@ mod tests {
     }
 
     #[test]
-    fn elements_stand_at_middles_and_nodes() {
+    fn elements_are_at_middles_and_nodes() {
         let lengths = vec![1.0, 2.0, 4.0];
         let both = RodLayout::new(0, 1, lengths.clone(), BOTH).unwrap();
         assert_eq!(

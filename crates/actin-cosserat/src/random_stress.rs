@@ -376,7 +376,7 @@ mod tests {
     }
 
     #[test]
-    fn stress_of_bending_turns_no_frame_about_itself() {
+    fn stress_of_bending_has_no_axial_torque() {
         let (mut state, layout) = clamped();
         let law = EnergyGradient::new(layout, RodMaterial::new(Rigidities::table4()).unwrap());
         perturb(&mut state, &mut Xorshift::new(8), 0.05, 0.05);
@@ -395,7 +395,7 @@ mod tests {
     /// Under tension, for positive shear stiffness. Independent draws of curvature and strain would
     /// fluctuate 20 % too much.
     #[test]
-    fn stress_of_strains_that_know_of_curvature_has_the_covariance_of_the_stiffness() {
+    fn stress_of_coupled_strains_has_the_covariance_of_the_stiffness() {
         for law in [
             Homogenised::mean_filament(),
             Homogenised::mean_filament_at_298_k(),

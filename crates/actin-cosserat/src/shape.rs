@@ -111,7 +111,7 @@ mod tests {
     }
 
     #[test]
-    fn a_bent_rod_has_the_curvatures_that_it_was_given() {
+    fn a_bent_rod_has_the_prescribed_curvatures() {
         for end in [RodEnd::Start, RodEnd::End] {
             let mut state = State::default();
             let rod = StraightRod::uniform(5, 2.0);
@@ -133,7 +133,7 @@ mod tests {
     }
 
     #[test]
-    fn a_curvature_that_is_not_finite_leaves_the_state_alone() {
+    fn an_invalid_curvature_does_not_change_the_state() {
         let mut state = State::default();
         let layout = StraightRod::uniform(3, 1.0).push(&mut state).unwrap();
         let before = state.clone();

@@ -348,7 +348,7 @@ mod tests {
     /// Work along a closed path of rotations about two axes: zero for the axial couple, nonzero for
     /// the follower.
     #[test]
-    fn what_follows_does_work_on_a_closed_path() {
+    fn only_follower_couples_do_work_on_a_closed_path() {
         let work = |kind| {
             let (mut state, couple) = turned(kind, Vector3::zeros());
             let turn = |state: &mut State, step: Vector3| {

@@ -286,7 +286,7 @@ mod tests {
     }
 
     #[test]
-    fn moments_without_a_meaning_are_refused() {
+    fn invalid_moments_are_refused() {
         for bad in [0.0, -1.0, f64::NAN, f64::INFINITY, 1e-310] {
             for (axial, transverse) in [(bad, 1.0), (1.0, bad)] {
                 let inertia = Inertia {
@@ -306,7 +306,7 @@ mod tests {
     }
 
     #[test]
-    fn a_held_frame_does_not_answer_torques() {
+    fn torques_do_not_move_held_frames() {
         let mut frames = Frames::default();
         frames.push(Frame {
             orientation: UnitQuaternion::identity(),

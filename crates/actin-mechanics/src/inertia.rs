@@ -130,7 +130,7 @@ mod tests {
     }
 
     #[test]
-    fn moments_that_are_no_top_are_refused() {
+    fn asymmetric_moments_are_refused() {
         assert!(matches!(
             Inertia::from_moments([1.0, 2.0, 3.0]),
             Err(InertiaError::Asymmetric(_))

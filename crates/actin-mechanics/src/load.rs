@@ -165,7 +165,7 @@ mod tests {
     use crate::testing::push_point;
 
     #[test]
-    fn a_shared_load_brings_its_control() {
+    fn a_shared_load_adds_a_control() {
         let mut state = State::default();
         for mass in [1.0, 2.0] {
             let position = Vector3::zeros();
@@ -180,7 +180,7 @@ mod tests {
     }
 
     #[test]
-    fn loads_on_what_is_not_there_are_refused() {
+    fn loads_on_missing_points_and_controls_are_refused() {
         let mut state = State::default();
         let (position, mass) = (Vector3::zeros(), 1.0);
         push_point(&mut state, position, mass);

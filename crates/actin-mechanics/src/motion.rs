@@ -134,7 +134,7 @@ mod tests {
     }
 
     #[test]
-    fn motion_is_copied_whole() {
+    fn motion_is_copied_completely() {
         let [state, moved] = states();
         let mut copies = [state.clone(), state.clone()];
         copies[0].copy_motion_from(&moved);
@@ -144,7 +144,7 @@ mod tests {
     }
 
     #[test]
-    fn copies_share_what_does_not_move() {
+    fn copies_share_masses() {
         let [state, mut moved] = states();
         assert!(state.shares_bodies_with(&moved));
         assert!(state.shares_bodies_with(&state.in_motion(moved.motion())));

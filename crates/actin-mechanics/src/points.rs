@@ -198,7 +198,7 @@ mod tests {
 
     /// A negative or NaN mass would be mistaken for a held point.
     #[test]
-    fn masses_without_a_meaning_are_refused() {
+    fn invalid_masses_are_refused() {
         for mass in [0.0, -1.0, f64::NAN, f64::INFINITY, 1e-310] {
             let position = Vector3::zeros();
             let push = || Points::default().push(Point { position, mass });

@@ -33,7 +33,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_copy_is_changed_by_itself() {
+    fn a_changed_copy_is_no_longer_shared() {
         let one = Shared(Arc::new(vec![1, 2]));
         let mut other = one.clone();
         assert!(one.is_same(&other));

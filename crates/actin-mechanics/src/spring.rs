@@ -254,7 +254,7 @@ mod tests {
     }
 
     #[test]
-    fn a_spring_that_is_shut_has_no_force() {
+    fn a_spring_of_zero_length_has_no_force() {
         let law = Hooke {
             stiffness: 2.0,
             rest_length: 1.0,
@@ -265,7 +265,7 @@ mod tests {
     }
 
     #[test]
-    fn springs_that_make_no_sense_are_refused() {
+    fn invalid_springs_are_refused() {
         let state = triangle();
         let key = |spring| match Springs::new(&state, vec![spring]) {
             Err(SpringError::Parameter { key, .. }) => key,

@@ -155,7 +155,7 @@ mod tests {
     }
 
     #[test]
-    fn a_survey_finds_what_is_found_body_by_body() {
+    fn stats_agree_with_scalar_functions() {
         for bodies in [0, 1, 2, 3, 4, 7, 8, 13, 64] {
             let state = moving(bodies);
             let spins = (0..bodies).map(|i| spin_squared(&state, i));
@@ -175,7 +175,7 @@ mod tests {
     }
 
     #[test]
-    fn a_survey_is_the_same_with_any_number_of_lanes() {
+    fn stats_do_not_depend_on_the_number_of_lanes() {
         for bodies in [1, 4, 13, 64, 101] {
             let state = moving(bodies);
             crate::testing::assert_same_with_any_lanes(|arch| {
@@ -198,7 +198,7 @@ mod tests {
     }
 
     #[test]
-    fn no_number_that_is_none_is_overlooked() {
+    fn every_invalid_number_is_detected() {
         for bodies in [1, 3, 4, 11] {
             for (column, i) in (0..13).flat_map(|c| (0..bodies).map(move |i| (c, i))) {
                 for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
@@ -214,7 +214,7 @@ mod tests {
     }
 
     #[test]
-    fn large_places_are_sound() {
+    fn large_positions_are_valid() {
         let mut state = moving(5);
         state.points.position.set(3, Vector3::repeat(1e300));
         assert!(state.stats().kinetic_energy.is_finite());

@@ -389,7 +389,7 @@ mod tests {
     }
 
     #[test]
-    fn states_that_lose_their_shape_are_refused() {
+    fn states_of_other_shape_are_refused() {
         let is_refused = |change: fn(&mut State)| {
             let run = || {
                 let mut system = bodies();
@@ -419,7 +419,7 @@ mod tests {
 
     /// Unit deviates give each free component an energy of 1/2, and held bodies none.
     #[test]
-    fn impulses_meet_the_free_bodies_by_the_root_of_their_inertia() {
+    fn impulses_scale_with_the_root_of_inertia() {
         let mut system = bodies();
         let ones: Vectors = (0..4).map(|_| Vector3::repeat(1.0)).collect();
         system.add_thermal_impulses(&ones, &ones);

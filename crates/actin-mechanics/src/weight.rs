@@ -113,7 +113,7 @@ mod tests {
     }
 
     #[test]
-    fn stones_fall_alike_and_held_ones_keep_their_weight() {
+    fn points_fall_equally_and_held_ones_keep_their_weight() {
         let (mut state, weight) = stones();
         assert_is_gradient(&weight, &state, 1e-2, 1e-11);
         let before = loads_of(&weight, &state);

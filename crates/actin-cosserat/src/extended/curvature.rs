@@ -201,7 +201,7 @@ mod tests {
     }
 
     #[test]
-    fn free_ends_take_their_only_neighbour_and_a_lone_segment_has_none() {
+    fn free_ends_use_their_only_neighbour() {
         let mut state = State::default();
         let layout = StraightRod::uniform(3, 10.0).push(&mut state).unwrap();
         let curvature = SegmentCurvature::new(&layout, &[], &[]);

@@ -95,7 +95,7 @@ mod tests {
     }
 
     #[test]
-    fn ends_reach_beyond_a_part() {
+    fn ends_affect_adjacent_parts() {
         use EndShear::{Blocked, Loose};
         let lengths = [2.0, 3.0, 4.0, 6.0];
         let whole = factors(&lengths, [Blocked, Loose], [0.0; 2]);

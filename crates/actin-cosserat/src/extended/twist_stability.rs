@@ -286,7 +286,7 @@ mod tests {
     }
 
     #[test]
-    fn tension_can_be_what_softens() {
+    fn tension_can_soften_twist() {
         let (material, law) = sided(true);
         let (rest, kappa) = (Vector3::zeros(), Vector3::z() * 0.04);
         let critical = law.critical_tension(&material, rest, kappa).unwrap();

@@ -316,7 +316,7 @@ fn a_rod_at_rest_has_no_loads() {
 
 /// Torques are proportional to the angle down to the smallest numbers: 3900 pN nm per rad.
 #[test]
-fn the_smallest_turns_count() {
+fn the_smallest_angles_have_torques() {
     for angle in [5e-324, 1e-310, 1e-200, 1e-20] {
         let mut state = State::default();
         let layout = StraightRod::uniform(2, 10.0).push(&mut state).unwrap();
@@ -335,7 +335,7 @@ fn the_smallest_turns_count() {
 }
 
 #[test]
-fn a_broken_node_spoils_its_neighbours_only() {
+fn an_invalid_node_affects_its_neighbours_only() {
     for law in &laws() {
         let (mut state, layout) = rod(14, Walls::default(), &mut Xorshift::new(9));
         let broken = layout.points().start + 6;
@@ -370,7 +370,7 @@ fn kind_of(law: &Named) -> Option<&'static str> {
 
 /// The fastest suitable kernel must be chosen.
 #[test]
-fn every_law_has_its_loop() {
+fn every_law_has_its_kernel() {
     for law in laws().iter().chain(&bent()) {
         assert_eq!(kind_of(law), Some(law.0));
     }

@@ -153,7 +153,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_numbers_stand_under_the_names_of_the_terms() {
+    fn coefficients_are_listed_by_term() {
         for text in [COLD, DRAWN, AT_298_K] {
             let mut names = text.lines().filter_map(|line| line.split_once(','));
             assert_eq!(names.next().unwrap().0, "rest");

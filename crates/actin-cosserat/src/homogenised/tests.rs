@@ -96,7 +96,7 @@ fn units_add_up() {
 }
 
 #[test]
-fn numbers_without_a_meaning_are_refused() {
+fn invalid_coefficients_are_refused() {
     let form = law().form().clone();
     let refused = Homogenised::new(form.clone(), |_| vec![f64::NAN]).unwrap_err();
     assert_eq!(refused.key, RodKey::Coefficient);

@@ -99,7 +99,7 @@ mod tests {
     use actin_mechanics::testing::derivative;
 
     #[test]
-    fn jet_holds_the_derivatives_inside_and_beyond() {
+    fn jet_contains_the_derivatives_inside_and_outside_the_range() {
         let law = PolynomialStretch::published();
         for k in [-0.1, -0.04, -0.01, 0.0, 0.02, 0.045, 0.2] {
             let jet = law.jet(k);

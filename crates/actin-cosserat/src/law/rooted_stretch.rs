@@ -93,7 +93,7 @@ mod tests {
     };
 
     #[test]
-    fn jet_holds_the_derivatives_inside_and_beyond() {
+    fn jet_contains_the_derivatives_inside_and_outside_the_range() {
         for k in [-0.1, -0.04, -0.01, 0.0, 0.02, 0.045, 0.2] {
             let jet = LAW.jet(k);
             for order in [0, 1] {

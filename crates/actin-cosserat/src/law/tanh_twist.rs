@@ -216,7 +216,7 @@ pub(super) mod tests {
     }
 
     #[test]
-    fn tangent_is_the_slope_of_the_couple_and_both_go_on_beyond_the_range() {
+    fn tangent_is_the_slope_of_the_couple_and_both_are_extrapolated() {
         let law = TanhTwist::published();
         for k in [-0.2, -0.05, -0.03, -0.01, 0.0, 0.004, 0.02, 0.045, 0.1] {
             let slope = derivative(1e-4, |h| law.couple(k + h));

@@ -24,7 +24,7 @@ fn a_straight_rod_is_at_rest() {
 }
 
 #[test]
-fn neighbours_feel_nothing() {
+fn other_bodies_have_no_loads() {
     let mut noise = Xorshift::new(3);
     let (state, layout) = strained_rod(3, ALL_WALLS[3], &mut noise);
     let (points, frames) = (layout.points(), layout.bending_chain());
@@ -146,7 +146,7 @@ fn walls_bend_over_half_a_segment() {
 }
 
 #[test]
-fn energies_stand_in_the_order_of_the_elements() {
+fn energies_are_in_the_order_of_the_elements() {
     let (mut state, layout) = actin_rod();
     state.points.position.add(16, Vector3::z() * 0.01);
     let last = layout.end_frame(RodEnd::Start);

@@ -105,7 +105,7 @@ fn twisted_and_pulled_rods_are_balanced_inside() {
 }
 
 #[test]
-fn potentials_are_refused_where_they_cannot_be() {
+fn potentials_are_refused_where_unsupported() {
     let mut state = State::default();
     let layout = StraightRod::uniform(3, 10.0).push(&mut state).unwrap();
     let refused = RodElements::at_rest(&state, &layout, material()).unwrap_err();

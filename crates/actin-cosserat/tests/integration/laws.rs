@@ -275,7 +275,7 @@ fn every_law_has_its_stiffness() {
 }
 
 #[test]
-fn every_law_balances_and_does_not_mind_where_it_is() {
+fn every_law_is_balanced_and_invariant() {
     for (law, accuracy) in all() {
         let mut noise = Xorshift::new(accuracy.seed);
         for segments in 1..9 {

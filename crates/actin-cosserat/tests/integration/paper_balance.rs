@@ -54,7 +54,7 @@ fn forces_balance_and_shear_keeps_angular_momentum() {
     assert!(torque.norm() < 1e-13 * loads.torque.get(1).norm());
 }
 
-fn torque_left_over(theta: Vector3) -> Vector3 {
+fn residual_torque(theta: Vector3) -> Vector3 {
     let mut state = State::default();
     let layout = StraightRod::uniform(2, 10.0).push(&mut state).unwrap();
     let q = rotation::exp(theta);
@@ -72,12 +72,12 @@ fn couples_balance_up_to_the_third_power_of_the_angle() {
     let theta = Vector3::new(0.04, 0.02, 0.05);
     let m = material().bending_couple(theta / 10.0);
     let expected = theta.cross(&theta.cross(&theta.cross(&m))) / 12.0;
-    let torque = torque_left_over(theta);
+    let torque = residual_torque(theta);
     // The next term of the series is smaller by half the angle.
     assert!((torque - expected).norm() < 0.6 * theta.norm() * expected.norm());
     // The residual vanishes for torques parallel to the angle.
     for axis in [Vector3::x(), Vector3::y(), Vector3::z()] {
-        assert!(torque_left_over(axis * 0.5).norm() < 1e-9);
+        assert!(residual_torque(axis * 0.5).norm() < 1e-9);
     }
 }
 
@@ -148,7 +148,7 @@ fn a_closed_loop_of_strains_does_net_work() {
 }
 
 #[test]
-fn it_says_that_it_is_not_conservative_and_gives_the_printed_energy() {
+fn it_is_not_conservative_and_has_the_printed_energy() {
     let mut noise = Xorshift::new(13);
     let (state, layout) = strained_rod(4, ALL_WALLS[3], &mut noise);
     let gradient = EnergyGradient::new(layout.clone(), material());

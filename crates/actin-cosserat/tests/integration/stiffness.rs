@@ -84,7 +84,7 @@ fn shifts_are_free_in_every_state() {
 }
 
 #[test]
-fn blocks_stand_on_the_rods_own_bodies() {
+fn blocks_belong_to_the_rods_bodies() {
     let mut noise = Xorshift::new(15);
     let (state, layout) = rod(3, ALL_WALLS[3], &mut noise);
     let (points, frames) = (layout.points(), layout.bending_chain());

@@ -249,7 +249,7 @@ mod tests {
 
     #[test]
     #[should_panic(expected = "of frame 0")]
-    fn a_missing_geometric_part_is_noticed() {
+    fn a_missing_geometric_part_is_detected() {
         check(0.0);
     }
 }

@@ -252,7 +252,7 @@ fn lanes_do_not_leak() {
 }
 
 #[test]
-fn each_body_receives_what_the_one_before_had() {
+fn numbers_are_shifted_up() {
     for arch in architectures() {
         for count in COUNTS {
             let expected: Vec<f64> = (0..count).map(|i| i as f64).collect();
@@ -262,7 +262,7 @@ fn each_body_receives_what_the_one_before_had() {
 }
 
 #[test]
-fn each_body_receives_what_the_next_has() {
+fn numbers_are_shifted_down() {
     for arch in architectures() {
         for count in COUNTS {
             let expected: Vec<f64> = (2..=count).map(|i| i as f64).chain([0.0]).collect();
@@ -274,7 +274,7 @@ fn each_body_receives_what_the_next_has() {
 }
 
 #[test]
-fn a_vector_stands_in_its_lane_alone() {
+fn a_vector_is_in_one_lane_only() {
     let v = Vector3::new(1.0, -2.0, 3.0);
     for arch in architectures() {
         let held = arch.dispatch(OneLane(v));
@@ -315,7 +315,7 @@ fn hyperbolic_tangents_are_those_of_the_standard_library() {
 
 /// Some minimum instructions return the bound for NaN, which would hide an invalid angle.
 #[test]
-fn tangents_of_what_is_not_a_number_are_none() {
+fn the_tangent_of_nan_is_nan() {
     let x = [0.5, f64::NAN, -f64::NAN, f64::INFINITY, f64::NEG_INFINITY];
     for arch in architectures() {
         let found = arch.dispatch(Tangents(&x));
