@@ -1,7 +1,8 @@
-//! Law of stretch.
+//! Laws of stretch.
 
 use crate::{RodKey, RodParameterError};
 
+/// Law of stretch, as a function of the strain along the rod.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum StretchLaw {
