@@ -186,7 +186,8 @@ impl FollowedDirectory {
             .sort_by(|a, b| b.compression_pn.total_cmp(&a.compression_pn));
         all.unstable_twist.truncate(1);
         if !last.observables.is_empty() || last.thermal.is_some() {
-            let note = "means over records are available per stretch only, in stretches/*/summary.json";
+            let note =
+                "means over records are available per stretch only, in stretches/*/summary.json";
             all.notes.push(note.to_owned());
         }
         Ok(all.with_derived_warnings())
