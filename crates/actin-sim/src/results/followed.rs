@@ -4,7 +4,7 @@
 //! |---|---|
 //! | `scene.ron`, `summary.json` | scene; last record, with switches under `following` |
 //! | `stretches/NNNN/` | run directory of each stretch between two switches, with explicit sections |
-//! | `stretches.json` | initial condition of each stretch |
+//! | `stretches.json` | start of each stretch |
 //! | `switches.csv` | time, position and changes of energy and momentum of each switch |
 //! | `energies.csv`, `observables.csv` | tables of all stretches, concatenated |
 //!
@@ -81,7 +81,7 @@ impl FollowedDirectory {
         self.path.join(FOLDER).join(format!("{index:04}"))
     }
 
-    /// Returns the initial conditions of all stretches; empty without stretches.
+    /// Returns the starts of all stretches; empty without stretches.
     ///
     /// # Errors
     /// The file is unreadable or not a list of stretches.
@@ -94,7 +94,7 @@ impl FollowedDirectory {
         read.map_err(RunDirectoryError::io(&path))
     }
 
-    /// Writes the initial conditions of all stretches.
+    /// Writes the starts of all stretches.
     ///
     /// # Errors
     /// A refusal of the file system.

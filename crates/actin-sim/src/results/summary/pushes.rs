@@ -1,8 +1,8 @@
-//! Pushes off saddles in `summary.json`.
+//! Perturbations at saddles in `summary.json`.
 
 use crate::SaddlePush;
 
-/// Numbers of a push under their keys.
+/// Scalars of a perturbation with their keys.
 pub(super) fn scalars((i, push): (usize, &SaddlePush)) -> [(String, f64); 5] {
     [
         ("time_ns", push.time_ns),
