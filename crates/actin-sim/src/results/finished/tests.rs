@@ -99,7 +99,7 @@ fn damaged_or_unfinished_runs_are_refused() {
     };
     let message = edited("to_nm: 42.0", "to_nm: 62.0");
     assert!(
-        message.contains("s_nm is not that of scene.ron"),
+        message.contains("s_nm does not match scene.ron"),
         "{message}"
     );
     let message = refusal(|folder| {
