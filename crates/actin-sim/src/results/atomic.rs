@@ -11,7 +11,6 @@ pub(super) const UNFINISHED: &str = ".part";
 /// Number of concurrent `fsync` calls. A hundred small files then take as long as ten.
 const SYNCED_AT_ONCE: usize = 8;
 
-/// Temporary name of a file.
 pub(super) fn unfinished(path: &Path) -> PathBuf {
     let mut name = path.as_os_str().to_owned();
     name.push(UNFINISHED);
@@ -104,7 +103,6 @@ fn create(path: &Path) -> io::Result<File> {
     })
 }
 
-/// Waits until a file or directory is on the disk.
 pub(super) fn sync(path: &Path) -> io::Result<()> {
     // Some systems cannot open directories; the rename alone has to suffice there.
     match File::open(path) {
@@ -145,7 +143,6 @@ mod tests {
     use crate::results::fixture::names;
     use std::io::Write;
 
-    /// Both kinds of replacement keep the old file and remove the temporary one.
     #[test]
     fn failed_writing_keeps_the_old_file() {
         type Replace = fn(&Path, fn(&mut BufWriter<File>) -> io::Result<()>) -> io::Result<()>;
@@ -167,7 +164,6 @@ mod tests {
         }
     }
 
-    /// Covers links under the final name and under the temporary name.
     #[cfg(unix)]
     #[test]
     fn links_are_not_followed() {
@@ -184,7 +180,6 @@ mod tests {
         assert_eq!(names(folder.path()), ["mine", "table.csv"]);
     }
 
-    /// Uses more files than threads.
     #[test]
     fn sync_all_names_the_missing_file() {
         let folder = tempfile::tempdir().unwrap();

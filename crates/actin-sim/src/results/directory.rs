@@ -122,7 +122,6 @@ impl RunDirectory {
     }
 }
 
-/// Returns true if a directory contains at most a lock and a manifest.
 fn is_empty(directory: &Path) -> Result<bool, RunDirectoryError> {
     let io = || RunDirectoryError::io(directory);
     let unfinished = format!("{MANIFEST}{UNFINISHED}");
@@ -194,7 +193,6 @@ mod tests {
         assert_eq!(fs::read(&path).unwrap(), b"text");
     }
 
-    /// Creates a run directory with listed, unfinished and unlisted files.
     fn earlier_run(folder: &Path) {
         fs::create_dir(folder.join(PICTURES)).unwrap();
         let mut manifest = Manifest::new();

@@ -13,16 +13,13 @@ use std::io::{self, Write};
 pub(super) struct Totals {
     /// Sum of potential and kinetic energy.
     pub total: f64,
-    /// Energy of all interactions.
     pub potential: f64,
     /// Energy of all interactions except loads.
     pub elastic: f64,
-    /// Kinetic energy of the free bodies.
     pub kinetic: f64,
 }
 
 impl Totals {
-    /// Sums the energies of a record with the given `terms`.
     pub(super) fn new(terms: &[Term], record: &Row) -> Self {
         let potential = sum_where(terms, record, |_| true);
         let elastic = sum_where(terms, record, |term| !matches!(term.part, Part::Load(_)));
@@ -75,7 +72,6 @@ pub(super) struct EnergyTable<'a> {
 }
 
 impl<'a> EnergyTable<'a> {
-    /// Creates the table for records of `assembly`.
     pub(super) fn new(assembly: &'a Assembly) -> Self {
         let terms = &assembly.terms;
         let (names, by_name) = places(terms, |term| term.name);
@@ -94,7 +90,6 @@ impl<'a> EnergyTable<'a> {
         }
     }
 
-    /// Row of a record.
     fn row(&self, record: &Row) -> Vec<f64> {
         // Adding to -0.0 preserves the sign of a term of -0.0.
         let mut sums = vec![-0.0; self.sums];
@@ -109,18 +104,12 @@ impl<'a> EnergyTable<'a> {
     }
 
     /// Refuses values of record `i` that are not finite.
-    ///
-    /// # Errors
-    /// The first such value, with its column and row index.
     pub(super) fn ensure_finite(&self, i: usize, record: &Row) -> Result<(), RunDirectoryError> {
         let mut columns = self.header.iter().zip(self.row(record));
         columns.try_for_each(|(name, value)| ensure_finite_in((ENERGIES, name), i, &[], [value]))
     }
 
     /// Writes the table of `records`. Numbers have enough digits for an exact round trip.
-    ///
-    /// # Errors
-    /// Errors of `out` and of the records.
     pub(super) fn write(&self, records: &dyn Records, out: &mut impl Write) -> io::Result<()> {
         let mut writer = csv::Writer::from_writer(out);
         writer.write_record(&self.header)?;
@@ -150,7 +139,6 @@ fn header(assembly: &Assembly, names: &[&str], parts: &[Part]) -> Vec<String> {
         .collect()
 }
 
-/// Row with the given sums by name and by part.
 fn row(terms: &[Term], record: &Row, sums: Vec<f64>) -> Vec<f64> {
     let totals = Totals::new(terms, record);
     [
@@ -279,7 +267,6 @@ mod tests {
         }
     }
 
-    /// A missing or duplicate term would change one of the sums.
     #[test]
     fn sums_over_names_and_parts_equal_the_potential() {
         let assembly = fixture::clamped_start();

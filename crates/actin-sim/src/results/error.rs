@@ -150,7 +150,6 @@ pub enum RunDirectoryError {
 }
 
 impl RunDirectoryError {
-    /// Converts an I/O error of an operation on `path`.
     pub(super) fn io(path: &Path) -> impl FnOnce(io::Error) -> Self {
         move |source| Self::Io {
             path: path.to_owned(),
@@ -159,12 +158,10 @@ impl RunDirectoryError {
     }
 }
 
-/// Formats the process number in parentheses, if available.
 fn by(process: Option<u32>) -> String {
     process.map_or_else(String::new, |id| format!(" (process {id})"))
 }
 
-/// Formats an index in brackets; empty for a scalar.
 fn place(index: &[usize]) -> String {
     if index.is_empty() {
         String::new()

@@ -15,9 +15,6 @@ const COLUMNS: [&str; 6] = [
 ];
 
 /// Refuses values that are not finite.
-///
-/// # Errors
-/// The first such value, with its column and row index.
 pub(super) fn ensure_all_finite(events: &[LinkerEvent]) -> Result<(), RunDirectoryError> {
     let numbers = |e: &LinkerEvent| [e.time_ns, e.force_pn, e.at_nm, e.energy_pn_nm];
     let names = ["time_ns", "force_pn", "at_nm", "energy_pn_nm"];
@@ -29,9 +26,6 @@ pub(super) fn ensure_all_finite(events: &[LinkerEvent]) -> Result<(), RunDirecto
 }
 
 /// Writes a header and one row per event. Numbers have enough digits for an exact round trip.
-///
-/// # Errors
-/// Errors of `out`.
 pub(super) fn write(events: &[LinkerEvent], out: &mut impl Write) -> io::Result<()> {
     let mut writer = csv::Writer::from_writer(out);
     writer.write_record(COLUMNS)?;

@@ -3,9 +3,6 @@
 use super::RunDirectoryError;
 
 /// Checks `values` of an array of `shape`, with the last index fastest.
-///
-/// # Errors
-/// The first value that is not finite, with its index.
 pub(super) fn ensure_finite(
     file: &str,
     quantity: &str,
@@ -24,9 +21,6 @@ pub(super) fn ensure_finite(
 }
 
 /// Checks the values of record `i` in a `quantity` whose first index is the record.
-///
-/// # Errors
-/// The first value that is not finite, with its index.
 pub(super) fn ensure_finite_in(
     (file, quantity): (&str, &str),
     i: usize,

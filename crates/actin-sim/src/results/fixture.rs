@@ -87,7 +87,6 @@ pub(super) fn clamped_end() -> Assembly {
     build(CLAMPED_END)
 }
 
-/// Sorted names of the entries of a folder.
 pub(super) fn names(folder: &Path) -> Vec<String> {
     let entries = std::fs::read_dir(folder).unwrap();
     let mut names: Vec<_> = entries
@@ -122,7 +121,6 @@ pub(super) fn trajectory(assembly: &Assembly) -> Trajectory {
     }
 }
 
-/// Record of one state.
 pub(super) fn record(assembly: &Assembly, time_ns: f64, state: State) -> Record {
     let residual = loads(assembly, &state).residual(&state);
     let interactions = assembly.system.interactions();
@@ -138,7 +136,6 @@ pub(super) fn record(assembly: &Assembly, time_ns: f64, state: State) -> Record 
     }
 }
 
-/// Loads of an assembly in `state`.
 pub(super) fn loads(assembly: &Assembly, state: &State) -> Loads {
     let mut loads = Loads::zeros(state);
     for interaction in assembly.system.interactions() {
@@ -147,7 +144,6 @@ pub(super) fn loads(assembly: &Assembly, state: &State) -> Loads {
     loads
 }
 
-/// Outcome with distinct numbers.
 pub(super) fn outcome() -> Outcome {
     Outcome {
         steps: 12,

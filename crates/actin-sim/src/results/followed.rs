@@ -24,7 +24,6 @@ use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-/// Folder of the stretches.
 const FOLDER: &str = "stretches";
 
 /// Columns of `energies.csv` that do not depend on the resolution.

@@ -12,19 +12,16 @@ use std::fs::{self, FileType};
 use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
 
-/// Identifier of the format.
 const FORMAT: &str = "actin run directory";
 /// Version of the format; increase it when a key changes.
 const VERSION: u32 = 1;
 
-/// Common beginning of manifests of all versions.
 #[derive(Debug, Deserialize)]
 struct Head {
     format: String,
     version: u32,
 }
 
-/// Files of a run.
 #[derive(Clone, Debug, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Manifest {
@@ -40,7 +37,6 @@ pub(super) struct Manifest {
 }
 
 impl Manifest {
-    /// Creates an empty manifest.
     pub(super) fn new() -> Self {
         Self {
             format: FORMAT.into(),
@@ -52,9 +48,6 @@ impl Manifest {
     }
 
     /// Creates a manifest of all files in `folder` that have names of results.
-    ///
-    /// # Errors
-    /// A refusal of the file system.
     pub(super) fn of_all_in(folder: &Path) -> Result<Self, RunDirectoryError> {
         let mut manifest = Self::new();
         manifest.add(found(folder)?.into_iter().map(|entry| entry.name));
@@ -101,7 +94,6 @@ impl Manifest {
         }
     }
 
-    /// Writes the manifest into `folder`.
     pub(super) fn write(&self, folder: &Path) -> Result<(), RunDirectoryError> {
         let path = folder.join(MANIFEST);
         let written = atomic::replace(&path, |out| {
@@ -111,7 +103,6 @@ impl Manifest {
         written.map_err(RunDirectoryError::io(&path))
     }
 
-    /// Adds names.
     pub(super) fn add<S: Into<String>>(&mut self, names: impl IntoIterator<Item = S>) {
         self.files.extend(names.into_iter().map(Into::into));
     }
@@ -122,9 +113,6 @@ impl Manifest {
     }
 
     /// Stores the checksums of a text and of its unpublished replacement.
-    ///
-    /// # Errors
-    /// A refusal of the file system.
     pub(super) fn note_text(&mut self, folder: &Path, name: &str) -> Result<(), RunDirectoryError> {
         let path = folder.join(name);
         let known = self.crc32.entry(name.to_owned()).or_default();
@@ -134,15 +122,11 @@ impl Manifest {
         Ok(())
     }
 
-    /// Returns the listed names.
     pub(super) fn names(&self) -> impl Iterator<Item = &str> {
         self.files.iter().map(String::as_str)
     }
 
     /// Refuses a folder with unlisted or irregular files under names of results.
-    ///
-    /// # Errors
-    /// The first such file or link.
     pub(super) fn ensure_own(&self, folder: &Path) -> Result<(), RunDirectoryError> {
         let pictures = folder.join(PICTURES);
         match fs::symlink_metadata(&pictures) {
@@ -159,9 +143,6 @@ impl Manifest {
     }
 
     /// Refuses a folder with a text that was changed after the run wrote it.
-    ///
-    /// # Errors
-    /// The changed file, or a refusal of the file system.
     pub(super) fn ensure_unchanged(&self, folder: &Path) -> Result<(), RunDirectoryError> {
         let scene = self.scene_crc32.map(|sum| (SCENE, BTreeSet::from([sum])));
         let others = self.crc32.iter();
@@ -250,12 +231,10 @@ fn found_in(folder: &Path, prefix: &str) -> Result<Vec<Found>, RunDirectoryError
     Ok(all)
 }
 
-/// Returns true if runs write files of this name.
 fn is_of_runs(name: &str) -> bool {
     FILES.contains(&name) || picture_index(name).is_some()
 }
 
-/// Removes a file if it exists.
 pub(super) fn remove_if_there(path: &Path) -> Result<(), RunDirectoryError> {
     match fs::remove_file(path) {
         Err(error) if error.kind() != io::ErrorKind::NotFound => {
@@ -287,7 +266,6 @@ mod tests {
         assert_eq!(read.scene_crc32, written.scene_crc32);
     }
 
-    /// Covers files of other programs, later versions, paths outside the directory and links.
     #[test]
     fn invalid_manifests_are_refused() {
         let head = |rest: &str| format!("{{\"format\":\"{FORMAT}\",\"version\":{rest}");

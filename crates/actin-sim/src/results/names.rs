@@ -14,7 +14,6 @@ pub(super) const CHECKPOINT: &str = "checkpoint.bin";
 pub(super) const RECORDS: &str = "records.bin";
 pub(super) const STRETCHES: &str = "stretches.json";
 pub(super) const SWITCHES: &str = "switches.csv";
-/// Folder of the pictures.
 pub(super) const PICTURES: &str = "vtk";
 
 /// Manifest, a name that user files are unlikely to have.

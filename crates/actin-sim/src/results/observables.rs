@@ -16,7 +16,6 @@ impl<'a> ObservableTable<'a> {
         Self { assembly }
     }
 
-    /// Returns true if the scene has no observables.
     pub(super) fn is_empty(&self) -> bool {
         self.columns().is_empty()
     }
@@ -26,9 +25,6 @@ impl<'a> ObservableTable<'a> {
     }
 
     /// Refuses infinite values of record `i`; NaN means that no value is available yet.
-    ///
-    /// # Errors
-    /// The first such value, with its column and row index.
     pub(super) fn ensure_finite(&self, i: usize, row: &Row) -> Result<(), RunDirectoryError> {
         let mut columns = self.columns().iter().zip(&row.observed);
         columns.try_for_each(|(name, value)| {
@@ -39,9 +35,6 @@ impl<'a> ObservableTable<'a> {
 
     /// Writes the table of `records`. Numbers have enough digits for an exact round trip; cells
     /// without a value are empty.
-    ///
-    /// # Errors
-    /// Errors of `out` and of the records.
     pub(super) fn write(&self, records: &dyn Records, out: &mut impl Write) -> io::Result<()> {
         let mut writer = csv::Writer::from_writer(out);
         let columns = self.columns().iter().map(String::as_str);

@@ -4,7 +4,6 @@ use super::{RunDirectoryError, finite::ensure_finite};
 use crate::shape::ProfilePoint;
 use std::io::{self, Write};
 
-/// Names of the numeric columns.
 const COLUMNS: [&str; 7] = [
     "s_nm",
     "x_nm",
@@ -15,7 +14,6 @@ const COLUMNS: [&str; 7] = [
     "energy_per_length_pn",
 ];
 
-/// Values of one row.
 fn numbers(point: &ProfilePoint) -> [f64; 7] {
     let [x, y, z] = point.position_nm.into();
     [
@@ -30,9 +28,6 @@ fn numbers(point: &ProfilePoint) -> [f64; 7] {
 }
 
 /// Refuses values that are not finite; `points` has one list per filament.
-///
-/// # Errors
-/// The first such value, with its column and row index.
 pub(super) fn ensure_all_finite(
     points: &[Vec<ProfilePoint>],
     file: &str,
@@ -47,9 +42,6 @@ pub(super) fn ensure_all_finite(
 
 /// Writes a header and one row per point; the last two columns are the section kind and the
 /// filament index. Numbers have enough digits for an exact round trip.
-///
-/// # Errors
-/// Errors of `out`.
 pub(super) fn write(points: &[Vec<ProfilePoint>], out: &mut impl Write) -> io::Result<()> {
     let mut writer = csv::Writer::from_writer(out);
     writer.write_record(COLUMNS.into_iter().chain(["section", "filament"]))?;

@@ -10,7 +10,6 @@ use crate::{Assembly, ObservableSummary, Record, Records, Row};
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 
-/// Result of one pass over the records.
 pub(super) struct Review {
     pub(super) kinetic: LateKinetic,
     pub(super) observables: BTreeMap<String, ObservableSummary>,
@@ -19,7 +18,6 @@ pub(super) struct Review {
     pub(super) are_finite: Result<(), RunDirectoryError>,
 }
 
-/// Tables with one entry per record.
 pub(super) struct Tables<'a> {
     pub(super) energies: EnergyTable<'a>,
     pub(super) observables: ObservableTable<'a>,

@@ -15,7 +15,6 @@ pub(super) struct Staged<'a> {
     pub(super) folder: &'a Path,
     pictures: usize,
     files: Vec<PathBuf>,
-    /// Number of files with their final names.
     published: usize,
 }
 
@@ -40,7 +39,6 @@ impl<'a> Staged<'a> {
         Ok(())
     }
 
-    /// Stages the next picture.
     pub(super) fn picture(
         &mut self,
         fill: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>,
@@ -55,7 +53,6 @@ impl<'a> Staged<'a> {
         self.pictures + self.files.len()
     }
 
-    /// Final path of a file.
     fn path(&self, i: usize) -> PathBuf {
         match i.checked_sub(self.pictures) {
             Some(file) => self.files[file].clone(),

@@ -88,7 +88,6 @@ impl<W: Write + Seek> Seek for Silent<W> {
 /// One component of a state vector, for all bodies.
 type Component = fn(&State) -> &[f64];
 
-/// A quantity with values for every record and body.
 struct Field {
     name: &'static str,
     bodies: usize,
@@ -103,13 +102,11 @@ impl Field {
     }
 }
 
-/// Writer of the arrays of a run.
 pub(super) struct States<'a> {
     assembly: &'a Assembly,
 }
 
 impl<'a> States<'a> {
-    /// Creates a writer for records of `assembly`.
     pub(super) fn new(assembly: &'a Assembly) -> Self {
         Self { assembly }
     }
@@ -139,7 +136,6 @@ impl<'a> States<'a> {
             .collect()
     }
 
-    /// Arc lengths of points and frames.
     fn columns(&self) -> [(&'static str, Vec<f64>); 2] {
         let Assembly { points, frames, .. } = self.assembly;
         [
@@ -148,7 +144,6 @@ impl<'a> States<'a> {
         ]
     }
 
-    /// Codes of body kinds.
     fn kinds(&self) -> [(&'static str, Vec<u8>); 2] {
         let Assembly { points, frames, .. } = self.assembly;
         [
@@ -157,7 +152,6 @@ impl<'a> States<'a> {
         ]
     }
 
-    /// Filament indices of points and frames.
     fn filaments(&self) -> [(&'static str, Vec<u64>); 2] {
         let spans = &self.assembly.filaments;
         let indices = |count_of: fn(&FilamentSpan) -> usize| {
@@ -173,9 +167,6 @@ impl<'a> States<'a> {
     }
 
     /// Refuses values of record `i` that are not finite.
-    ///
-    /// # Errors
-    /// The first such value, with its index in the array.
     pub(super) fn ensure_finite(&self, i: usize, record: &Record) -> Result<(), RunDirectoryError> {
         let of = |name| (STATES, name);
         ensure_finite_in(of(clock(self.assembly)), i, &[], [record.at.value()])?;
@@ -187,9 +178,6 @@ impl<'a> States<'a> {
     }
 
     /// Writes the archive, with one pass over `records` for each array.
-    ///
-    /// # Errors
-    /// Errors of `out` and of the records.
     pub(super) fn write(
         &self,
         records: &dyn Records,
@@ -230,7 +218,6 @@ impl<'a> States<'a> {
     }
 }
 
-/// Adds an array of given values.
 fn write_array<W: Write + Seek, T: npyz::AutoSerialize>(
     archive: &mut ZipWriter<W>,
     name: &str,
@@ -332,7 +319,6 @@ mod tests {
     use std::io::{Cursor, Read};
     use zip::ZipArchive;
 
-    /// Vector quantity of a state.
     type Quantity = fn(&State) -> &Vectors;
 
     fn archive(assembly: &Assembly, trajectory: &Trajectory) -> ZipArchive<Cursor<Vec<u8>>> {

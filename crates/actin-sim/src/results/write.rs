@@ -110,7 +110,6 @@ impl RunDirectory {
     }
 }
 
-/// Validated results of a run.
 struct Results<'a> {
     assembly: &'a Assembly,
     records: &'a dyn Records,
@@ -155,7 +154,6 @@ impl Summary {
     }
 }
 
-/// Summary of a run with validated records.
 fn reviewed(assembly: &Assembly, review: &Review, (last, outcome): (&Record, &Outcome)) -> Summary {
     Summary {
         beyond_range: outcome.beyond_range.clone(),
@@ -262,7 +260,6 @@ mod tests {
     use std::path::{Path, PathBuf};
     use tempfile::TempDir;
 
-    /// Makes one component of a state NaN or infinite.
     type Spoil = fn(&mut State);
 
     fn plan(assembly: &Assembly) -> Plan<'_> {
@@ -468,7 +465,6 @@ mod tests {
         }
     }
 
-    /// The error names the file, quantity and index.
     #[test]
     fn values_that_are_not_finite_are_refused_before_writing() {
         let assembly = fixture::clamped_start();
@@ -529,7 +525,6 @@ mod tests {
         assert_eq!(names(folder.path()), [LOCK, MANIFEST]);
     }
 
-    /// Paths and bytes of all files of a run directory.
     fn contents(folder: &Path) -> Vec<(PathBuf, Vec<u8>)> {
         let folders = [folder.to_owned(), folder.join(PICTURES)];
         let entries = folders.iter().flat_map(|f| fs::read_dir(f).unwrap());

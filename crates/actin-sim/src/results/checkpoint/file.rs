@@ -18,15 +18,12 @@ const FORMAT: u32 = 8;
 /// Length of the header: magic, version, length and checksum of the contents, checksum of the
 /// header.
 const HEADER: usize = 8 + 4 + 8 + 4 + 4;
-/// Version of the program.
 const PROGRAM: &str = env!("CARGO_PKG_VERSION");
 
 /// Scene and record layout of a checkpoint.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Identity {
-    /// Resolved scene.
     scene: String,
-    /// Layout of the records.
     pub(super) form: Form,
     /// True for motions in time, false for equilibria.
     is_motion: bool,
@@ -45,13 +42,11 @@ pub(super) struct Contents<'a> {
     pub(super) wall_s: f64,
     pub(super) records: Tally,
     pub(super) position: Cow<'a, RunPosition>,
-    /// Statistics carried from record to record.
     pub(super) carried: Cow<'a, Carried>,
     pub(super) last: Option<Stored<'a>>,
 }
 
 impl Identity {
-    /// Creates the identity of a plan.
     pub(super) fn of(plan: &Plan<'_>) -> Self {
         let assembly = plan.assembly();
         Self {
@@ -66,7 +61,6 @@ impl Identity {
         }
     }
 
-    /// Encodes a checkpoint.
     pub(super) fn encode(&self, contents: &Contents<'_>) -> Vec<u8> {
         let origin = Origin {
             program: PROGRAM,
@@ -76,7 +70,6 @@ impl Identity {
         with_header(file)
     }
 
-    /// Reads the checkpoint at `path`.
     pub(super) fn read(&self, path: &Path) -> Result<Contents<'static>, Damage> {
         let body = read_body(path)?;
         let (origin, rest): (Origin<'_>, _) = decode(&body)?;

@@ -13,7 +13,6 @@ use std::path::{Path, PathBuf};
 const MAGIC: &[u8; 8] = b"ACTINREC";
 /// Bytes before the first record.
 const HEADER: u64 = 8;
-/// Bytes of a checksum.
 const CHECKSUM: usize = 4;
 /// Buffer size (bytes) at which records are written.
 const BUFFER: usize = 1 << 20;
@@ -33,7 +32,6 @@ pub(super) struct Tally {
 pub(super) struct RecordLog {
     path: PathBuf,
     form: Form,
-    /// Last record, if the log has no states.
     last: Option<Record>,
     /// Bytes of a record and its checksum.
     length: usize,
@@ -41,7 +39,6 @@ pub(super) struct RecordLog {
     file: Option<File>,
     /// Records on the disk.
     written: Tally,
-    /// All records.
     taken: Tally,
     /// Encoded records that are not in the file.
     buffer: Vec<u8>,
@@ -117,7 +114,6 @@ impl RecordLog {
         Ok(())
     }
 
-    /// Tally of the first `count` records in the file.
     fn tally_of(&self, count: usize) -> io::Result<Tally> {
         let checksum = match count {
             0 => 0,
@@ -144,7 +140,6 @@ impl RecordLog {
         records.checked_add(HEADER)
     }
 
-    /// Iterates over all records of the log.
     fn stored(&self) -> Box<dyn Iterator<Item = io::Result<Stored<'static>>> + '_> {
         let refused = |damage: Damage| io::Error::other(damage.of(&self.path));
         match self.read() {
@@ -153,7 +148,6 @@ impl RecordLog {
         }
     }
 
-    /// Reads all records.
     pub(super) fn read(&self) -> Result<Reading<'_>, Damage> {
         let file: Box<dyn Read> = match self.written.count {
             0 => Box::new(io::empty()),
@@ -213,9 +207,7 @@ impl Records for RecordLog {
 pub(super) struct Reading<'a> {
     log: &'a RecordLog,
     source: Box<dyn Read + 'a>,
-    /// Records read so far.
     tally: Tally,
-    /// Buffer for one record.
     bytes: Vec<u8>,
     has_ended: bool,
 }
@@ -279,7 +271,6 @@ fn follow(chain: u32, bytes: &[u8]) -> u32 {
     hasher.finalize()
 }
 
-/// Refuses a wrong checksum.
 pub(super) fn compare(part: String, found: u32, expected: u32) -> Result<(), Damage> {
     if found == expected {
         return Ok(());
@@ -291,7 +282,6 @@ pub(super) fn compare(part: String, found: u32, expected: u32) -> Result<(), Dam
     })
 }
 
-/// Opens a file for reading.
 pub(super) fn open(path: &Path) -> Result<File, Damage> {
     File::open(path).map_err(|error| match error.kind() {
         io::ErrorKind::NotFound => Damage::Missing,
@@ -347,7 +337,6 @@ mod tests {
         }
     }
 
-    /// The tally equals that of a log with these records only.
     #[test]
     fn a_checkpoint_may_count_fewer_records() {
         let (_folder, mut log, records) = log();
@@ -369,7 +358,6 @@ mod tests {
         assert_eq!(length, HEADER + 3 * again.length as u64);
     }
 
-    /// Unwritten records stay in the buffer and can be read.
     #[test]
     fn write_errors_lose_no_records() {
         let (_folder, mut log, records) = log();

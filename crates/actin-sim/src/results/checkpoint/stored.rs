@@ -13,11 +13,8 @@ use std::borrow::Cow;
 pub(super) struct Form {
     /// State of the run, for its constant parts.
     pub(super) like: State,
-    /// Number of energies.
     pub(super) terms: usize,
-    /// Number of observables.
     pub(super) columns: usize,
-    /// True if records contain states.
     pub(super) has_states: bool,
 }
 
@@ -38,7 +35,6 @@ pub(super) struct Stored<'a> {
 }
 
 impl<'a> Stored<'a> {
-    /// Converts a record, with or without its state.
     pub(super) fn new(record: &'a Record, has_state: bool) -> Self {
         let Record {
             at,
@@ -62,7 +58,6 @@ impl<'a> Stored<'a> {
         }
     }
 
-    /// Decodes a record of a log.
     pub(super) fn read(bytes: &[u8], form: &Form) -> Result<Stored<'static>, Damage> {
         let stored: Stored<'static> = decode_all(bytes)?;
         if !stored.fits(form) || stored.motion.is_some() != form.has_states {
@@ -78,7 +73,6 @@ impl<'a> Stored<'a> {
             && self.observed.len() == form.columns
     }
 
-    /// Converts to a row, without the state.
     pub(super) fn into_row(self) -> Row {
         Row {
             at: self.at,
@@ -91,7 +85,6 @@ impl<'a> Stored<'a> {
         }
     }
 
-    /// Converts to a record; `None` without a state.
     pub(super) fn into_record(mut self, form: &Form) -> Option<Record> {
         let motion = self.motion.take()?;
         let row = self.into_row();
@@ -107,7 +100,6 @@ impl<'a> Stored<'a> {
         })
     }
 
-    /// Encoded length of a record (bytes).
     pub(super) fn length(form: &Form) -> usize {
         let record = Self {
             at: At::Time(0.0),

@@ -25,7 +25,6 @@ pub(super) fn decode_all<'a, T: Deserialize<'a>>(bytes: &'a [u8]) -> Result<T, D
 mod tests {
     use super::*;
 
-    /// Includes signed zeros and NaN.
     #[test]
     fn numbers_survive_the_round_trip() {
         let numbers = vec![-0.0, f64::NAN, -f64::NAN, 5e-324, 1.0 / 3.0];

@@ -56,7 +56,6 @@ pub enum FinishedRunError {
 }
 
 impl FinishedRunError {
-    /// Converts an I/O error of an operation on `path`.
     pub(super) fn io(path: &Path) -> impl FnOnce(io::Error) -> Self {
         move |source| Self::Io {
             path: path.to_owned(),

@@ -25,7 +25,6 @@ const MOTION: (&str, &str) = (
 );
 const STATICS: (&str, &str) = ("Equilibrium(largest_step: 0.5)", "");
 
-/// Runs a scene in a folder and returns its times and states.
 fn run(folder: &Path, (task, stage): (&str, &str)) -> Vec<(f64, State)> {
     let scene = Scene::from_ron(&scene(task, stage)).unwrap();
     let assembly = Assembly::build(&scene).unwrap();

@@ -7,7 +7,6 @@ use std::io::{BufReader, Read, Seek, SeekFrom, Take};
 use std::path::{Path, PathBuf};
 use zip::{CompressionMethod, ZipArchive};
 
-/// Archive of arrays.
 #[derive(Debug)]
 pub(super) struct Arrays {
     path: PathBuf,
@@ -16,9 +15,6 @@ pub(super) struct Arrays {
 
 impl Arrays {
     /// Opens the archive.
-    ///
-    /// # Errors
-    /// The file is unreadable or not an archive.
     pub(super) fn open(path: PathBuf) -> Result<Self, RunDirectoryError> {
         let file = File::open(&path).map_err(RunDirectoryError::io(&path))?;
         let archive = ZipArchive::new(BufReader::new(file))
@@ -27,7 +23,6 @@ impl Arrays {
         Ok(Self { path, archive })
     }
 
-    /// Path of the archive.
     pub(super) fn path(&self) -> &Path {
         &self.path
     }
@@ -95,7 +90,6 @@ fn damaged(path: &Path, reason: String) -> RunDirectoryError {
     }
 }
 
-/// Array with its reading position.
 pub(super) struct Array {
     path: PathBuf,
     name: String,
@@ -104,9 +98,6 @@ pub(super) struct Array {
 
 impl Array {
     /// Reads the next number.
-    ///
-    /// # Errors
-    /// The array ends, the number is not finite, or the file is unreadable.
     pub(super) fn next(&mut self) -> Result<f64, RunDirectoryError> {
         match self.values.next() {
             Some(Ok(value)) if value.is_finite() => Ok(value),
@@ -117,22 +108,15 @@ impl Array {
     }
 
     /// Skips `count` numbers.
-    ///
-    /// # Errors
-    /// As [`next`](Self::next).
     pub(super) fn skip(&mut self, count: usize) -> Result<(), RunDirectoryError> {
         (0..count).try_for_each(|_| self.next().map(drop))
     }
 
-    /// Error of a damaged array.
     pub(super) fn damaged(&self, reason: &str) -> RunDirectoryError {
         damaged(&self.path, format!("{}: {reason}", self.name))
     }
 
     /// Reads all remaining numbers.
-    ///
-    /// # Errors
-    /// The file is unreadable.
     pub(super) fn read_all(mut self) -> Result<Vec<f64>, RunDirectoryError> {
         (0..self.values.len()).map(|_| self.next()).collect()
     }

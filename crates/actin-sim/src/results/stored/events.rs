@@ -5,7 +5,6 @@ use crate::{Assembly, Happening};
 use actin_mechanics::State;
 use std::path::Path;
 
-/// Linker event.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Event {
     time_ns: f64,
@@ -15,9 +14,6 @@ pub(super) struct Event {
 }
 
 /// Reads the events of a run in order.
-///
-/// # Errors
-/// The file is unreadable or a row is not an event.
 pub(super) fn read(path: &Path) -> Result<Vec<Event>, RunDirectoryError> {
     let refused = |reason: String| RunDirectoryError::Damaged {
         path: path.to_owned(),

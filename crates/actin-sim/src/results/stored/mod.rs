@@ -143,7 +143,6 @@ impl<I> StateIter<'_, I> {
         Ok(state)
     }
 
-    /// Skips `records` records.
     fn skip(&mut self, records: usize) -> Result<(), RunDirectoryError> {
         let (points, frames) = (self.assembly.points.len(), self.assembly.frames.len());
         self.position.skip(3 * points * records)?;

@@ -93,7 +93,6 @@ impl Summary {
     }
 }
 
-/// Kinetic energy of a single record.
 fn kinetic_of(record: &Record) -> LateKinetic {
     let mut kinetic = LateKinetic::of(1);
     kinetic.add(record.kinetic_pn_nm);

@@ -40,7 +40,6 @@ impl EnergySummary {
         }
     }
 
-    /// Scalars with their keys.
     pub(super) fn scalars(&self) -> impl Iterator<Item = (String, f64)> {
         let sums = [
             ("total", self.total),

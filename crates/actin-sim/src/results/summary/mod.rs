@@ -195,7 +195,6 @@ pub struct WorkSummary {
     pub newton_iterations: u64,
 }
 
-/// Keys of [`Counts`] in the file.
 #[derive(Serialize, Deserialize)]
 #[serde(remote = "Counts")]
 struct CountKeys {
@@ -232,9 +231,6 @@ impl AccuracySummary {
 
 impl Summary {
     /// Refuses values that are not finite, which JSON cannot represent.
-    ///
-    /// # Errors
-    /// The first such value, with its key.
     pub(super) fn ensure_finite(&self, file: &str) -> Result<(), RunDirectoryError> {
         for (key, value) in self.scalars() {
             ensure_finite(file, &key, &[], [value])?;
@@ -303,7 +299,6 @@ impl FilamentSummary {
     }
 }
 
-/// Vectors of a filament with their keys.
 fn vectors(
     tip_nm: [f64; 3],
     tip_displacement_nm: [f64; 3],

@@ -2,7 +2,6 @@
 
 use crate::SaddlePush;
 
-/// Scalars of a perturbation with their keys.
 pub(super) fn scalars((i, push): (usize, &SaddlePush)) -> [(String, f64); 5] {
     [
         ("time_ns", push.time_ns),

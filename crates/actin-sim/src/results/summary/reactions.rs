@@ -36,7 +36,6 @@ impl EndReactions {
         }
     }
 
-    /// Vectors with their keys.
     pub(super) fn vectors(&self) -> Vec<(&'static str, [f64; 3])> {
         let mut vectors = Vec::new();
         if let Some(start) = self.start {

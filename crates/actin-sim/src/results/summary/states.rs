@@ -32,7 +32,6 @@ pub struct StateSummary {
 }
 
 impl StatesSummary {
-    /// Creates the summary of a search; `None` without a search.
     pub(super) fn of(assembly: &Assembly, outcome: &Outcome) -> Option<Self> {
         let states = outcome.equilibrium.as_ref()?.states.as_ref()?;
         let one = |state: &StableState| StateSummary {

@@ -70,7 +70,6 @@ const KEYS: &[&str] = &[
     "/jumps",
 ];
 
-/// Includes nested keys.
 #[test]
 fn keys_are_the_fixed_ones() {
     let json = serde_json::to_value(summary()).unwrap();

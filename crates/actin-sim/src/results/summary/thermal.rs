@@ -24,7 +24,6 @@ pub struct ThermalSummary {
 }
 
 impl ThermalSummary {
-    /// Creates the summary; `None` if the scene of `assembly` has no temperature.
     pub(in crate::results) fn new(assembly: &Assembly, late: &LateKinetic) -> Option<Self> {
         let Thermal {
             temperature_k,
@@ -52,7 +51,6 @@ pub(in crate::results) struct LateKinetic {
 }
 
 impl LateKinetic {
-    /// Creates an empty sum for `count` records.
     pub(in crate::results) fn of(count: usize) -> Self {
         Self {
             early: count / 2,
@@ -61,7 +59,6 @@ impl LateKinetic {
         }
     }
 
-    /// Adds the kinetic energy of the next record (pN nm).
     pub(in crate::results) fn add(&mut self, kinetic_pn_nm: f64) {
         match self.early {
             0 => {

@@ -3,7 +3,6 @@
 use super::{Status, Summary};
 use crate::notes::{Note, codes};
 
-/// Codes of these warnings.
 const DERIVED: [&str; 6] = [
     codes::LAW_RANGE,
     codes::UNSTABLE_TWIST,

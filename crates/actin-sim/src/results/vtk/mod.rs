@@ -28,7 +28,6 @@ pub(super) struct Drawing<'a> {
 }
 
 impl<'a> Drawing<'a> {
-    /// Prepares the pictures of a run.
     pub(super) fn new(assembly: &'a Assembly) -> Self {
         let mut section = vec![None; assembly.points.len()];
         for (index, span) in assembly.sections.iter().enumerate() {
@@ -43,7 +42,6 @@ impl<'a> Drawing<'a> {
         }
     }
 
-    /// Creates the picture of a state.
     pub(super) fn picture(&self, time_ns: f64, state: &State) -> Picture {
         let turns: Vec<UnitQuaternion> = self
             .frame
@@ -94,7 +92,6 @@ impl<'a> Drawing<'a> {
         self.section.iter().map(index).collect()
     }
 
-    /// Filament index of each point.
     fn filaments(&self) -> Vec<i64> {
         let spans = self.assembly.filaments.iter().enumerate();
         spans
@@ -129,15 +126,11 @@ impl<'a> Drawing<'a> {
     }
 }
 
-/// Picture of a state.
 #[derive(Debug)]
 pub(super) struct Picture(PolyData);
 
 impl Picture {
     /// Refuses coordinates and data that are not finite.
-    ///
-    /// # Errors
-    /// The first such value, with point and component.
     pub(super) fn ensure_finite(&self, file: &str) -> Result<(), RunDirectoryError> {
         let PolyData {
             time,
@@ -158,9 +151,6 @@ impl Picture {
     }
 
     /// Writes the picture as a `.vtp` file.
-    ///
-    /// # Errors
-    /// Errors of `out`.
     pub(super) fn write(&self, out: &mut impl Write) -> io::Result<()> {
         self.0.write(out)
     }
@@ -191,9 +181,6 @@ fn flat(vectors: impl Iterator<Item = Vector3>) -> Vec<f64> {
 }
 
 /// Writes the collection file from the times (ns) and relative paths of `pictures`.
-///
-/// # Errors
-/// Errors of `out` and of `pictures`.
 pub(super) fn write_collection(
     title: &str,
     pictures: impl Iterator<Item = io::Result<(f64, String)>>,

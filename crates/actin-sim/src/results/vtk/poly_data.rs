@@ -8,14 +8,10 @@ use base64::engine::general_purpose::STANDARD;
 use std::io::{self, Write};
 use std::ops::Range;
 
-/// Values of an array.
 #[derive(Debug)]
 pub(super) enum Values {
-    /// Floating-point numbers.
     Float64(Vec<f64>),
-    /// Signed integers.
     Int64(Vec<i64>),
-    /// Small codes.
     UInt8(Vec<u8>),
 }
 
@@ -46,16 +42,12 @@ pub(super) struct Array {
     pub values: Values,
 }
 
-/// Points with data, vertices and lines.
 #[derive(Debug)]
 pub(super) struct PolyData {
     /// Time in the unit of the caller.
     pub time: f64,
-    /// Named lists of texts.
     pub texts: Vec<(&'static str, Vec<&'static str>)>,
-    /// Coordinates, three per point.
     pub points: Vec<f64>,
-    /// Data of the points.
     pub arrays: Vec<Array>,
     /// Indices of points that are vertices.
     pub vertices: Vec<usize>,
@@ -65,9 +57,6 @@ pub(super) struct PolyData {
 
 impl PolyData {
     /// Writes the file (VTK XML format 1.0).
-    ///
-    /// # Errors
-    /// Errors of `out`.
     pub(super) fn write(&self, out: &mut impl Write) -> io::Result<()> {
         writeln!(out, r#"<?xml version="1.0" encoding="UTF-8"?>"#)?;
         writeln!(
@@ -161,7 +150,6 @@ fn write_array(
     )
 }
 
-/// Encodes length and bytes together.
 fn block(bytes: &[u8]) -> String {
     let mut run = Vec::with_capacity(8 + bytes.len());
     run.extend((bytes.len() as u64).to_le_bytes());
@@ -169,7 +157,6 @@ fn block(bytes: &[u8]) -> String {
     STANDARD.encode(&run)
 }
 
-/// Converts an index to the integer type of VTK.
 pub(super) fn to_i64(index: usize) -> i64 {
     i64::try_from(index).expect("an index into memory is below 2^63")
 }
@@ -275,7 +262,6 @@ mod tests {
         assert_eq!(piece.lines, cells(&[2, 3, 4], &[3]));
     }
 
-    /// Empty arrays are written too.
     #[test]
     fn a_picture_without_lines_is_read() {
         let picture = PolyData {

@@ -31,7 +31,6 @@ fn floats(buffer: &IOBuffer) -> &[f64] {
     values
 }
 
-/// Coordinates are compared bit for bit.
 #[test]
 fn points_are_positions() {
     let (assembly, state, piece) = drawn();
@@ -44,7 +43,6 @@ fn points_are_positions() {
     assert_eq!(floats(data(&piece, "s_nm")), s_nm);
 }
 
-/// The line of the rod contains all its nodes.
 #[test]
 fn monomers_are_vertices_and_rods_are_lines() {
     let (assembly, _, piece) = drawn();
@@ -157,7 +155,6 @@ fn filaments_are_separate() {
     assert_eq!(semi_axes[3 * first..3 * first + 3], expected[1]);
 }
 
-/// The error names quantity, point and component.
 #[test]
 fn a_picture_that_is_not_finite_is_refused() {
     let assembly = fixture::clamped_start();
