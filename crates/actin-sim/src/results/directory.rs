@@ -134,7 +134,6 @@ fn is_empty(directory: &Path) -> Result<bool, RunDirectoryError> {
     Ok(true)
 }
 
-/// Refuses a path that is itself a link.
 fn refuse_link(path: &Path) -> Result<(), RunDirectoryError> {
     // Drops a trailing slash, which would make `read_link` follow the link.
     let path: PathBuf = path.components().collect();
@@ -277,8 +276,6 @@ mod tests {
         assert!(folder.contains("profile.csv was not written"), "{folder}");
     }
 
-    /// Links to a file, to the folder of pictures and to the directory, with and without a trailing
-    /// slash.
     #[cfg(unix)]
     #[test]
     fn links_are_not_followed() {

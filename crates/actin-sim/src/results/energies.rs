@@ -8,7 +8,6 @@ use std::collections::HashMap;
 use std::hash::Hash;
 use std::io::{self, Write};
 
-/// Energies of one record (pN nm).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Totals {
     /// Sum of potential and kinetic energy.
@@ -59,7 +58,6 @@ fn places<T: Eq + Hash + Copy>(terms: &[Term], of: impl Fn(&Term) -> T) -> (Vec<
     (values, places)
 }
 
-/// Table with a header and one row per record.
 #[derive(Debug)]
 pub(super) struct EnergyTable<'a> {
     terms: &'a [Term],
@@ -67,7 +65,6 @@ pub(super) struct EnergyTable<'a> {
     /// Column of the name and of the part of each term; columns of parts follow those of names.
     places: [Vec<usize>; 2],
     sums: usize,
-    /// Columns of external work, heat and linker events.
     booked: Vec<fn(&Booked) -> f64>,
 }
 
@@ -103,7 +100,6 @@ impl<'a> EnergyTable<'a> {
         row
     }
 
-    /// Refuses values of record `i` that are not finite.
     pub(super) fn ensure_finite(&self, i: usize, record: &Row) -> Result<(), RunDirectoryError> {
         let mut columns = self.header.iter().zip(self.row(record));
         columns.try_for_each(|(name, value)| ensure_finite_in((ENERGIES, name), i, &[], [value]))

@@ -14,7 +14,6 @@ const COLUMNS: [&str; 6] = [
     "energy_pn_nm",
 ];
 
-/// Refuses values that are not finite.
 pub(super) fn ensure_all_finite(events: &[LinkerEvent]) -> Result<(), RunDirectoryError> {
     let numbers = |e: &LinkerEvent| [e.time_ns, e.force_pn, e.at_nm, e.energy_pn_nm];
     let names = ["time_ns", "force_pn", "at_nm", "energy_pn_nm"];

@@ -31,12 +31,10 @@ fn build(text: &str) -> Assembly {
     Assembly::build(&scene).unwrap()
 }
 
-/// Builds monomers at a clamped start, followed by a rod with a force at its end.
 pub(super) fn clamped_start() -> Assembly {
     build(CLAMPED_START)
 }
 
-/// Builds [`clamped_start`] with a linker.
 pub(super) fn linked() -> Assembly {
     let mut scene = Scene::from_ron(CLAMPED_START).unwrap();
     scene.linkers.push(Linker {
@@ -82,7 +80,6 @@ pub(super) fn pair() -> Assembly {
     Assembly::build(&scene).unwrap()
 }
 
-/// Builds a rod clamped at its end, with a force at its start.
 pub(super) fn clamped_end() -> Assembly {
     build(CLAMPED_END)
 }

@@ -233,7 +233,6 @@ impl FollowedDirectory {
         Ok(spans)
     }
 
-    /// Replaces a file and adds it to the manifest.
     fn replace(
         &self,
         name: &str,
@@ -265,7 +264,6 @@ fn remove_run(path: &Path) -> Result<(), RunDirectoryError> {
     fs::remove_dir_all(path).map_err(io())
 }
 
-/// Returns true if two notes differ in digits only.
 fn is_alike(one: &str, other: &str) -> bool {
     let words = |note: &str| -> String { note.chars().filter(|c| !c.is_ascii_digit()).collect() };
     words(one) == words(other)

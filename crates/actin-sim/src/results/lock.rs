@@ -8,7 +8,6 @@ use std::path::Path;
 /// Name of the locked file, which user files are unlikely to have.
 pub(super) const LOCK: &str = ".actin-run.lock";
 
-/// Maximum number of digits of a process number.
 const MOST_DIGITS: u64 = 20;
 
 /// `ENOLCK`: error of a network file system without a lock service.
@@ -87,7 +86,6 @@ pub(super) fn refuse_in_use(directory: &Path) -> Result<(), RunDirectoryError> {
     }
 }
 
-/// Returns true if the error means that the file system does not support locks.
 fn has_no_locks(error: &io::Error) -> bool {
     error.kind() == io::ErrorKind::Unsupported
         || NO_LOCKS_AVAILABLE.is_some_and(|code| error.raw_os_error() == Some(code))
@@ -120,7 +118,6 @@ fn in_use(directory: &Path, lock: &Path) -> RunDirectoryError {
 mod tests {
     use super::*;
 
-    /// The error names the process that holds the lock.
     #[test]
     fn a_directory_has_one_run_at_a_time() {
         let folder = tempfile::tempdir().unwrap();

@@ -107,7 +107,6 @@ impl Manifest {
         self.files.extend(names.into_iter().map(Into::into));
     }
 
-    /// Stores the checksum of `scene.ron`.
     pub(super) fn note_scene(&mut self, text: &str) {
         self.scene_crc32 = Some(crc32fast::hash(text.as_bytes()));
     }
@@ -168,7 +167,6 @@ impl Manifest {
     }
 }
 
-/// CRC-32 of a file; `None` if the file does not exist.
 fn checksum(path: &Path) -> Result<Option<u32>, RunDirectoryError> {
     let sum = || {
         let mut file = fs::File::open(path)?;
@@ -192,11 +190,9 @@ struct Found {
     /// Name in a manifest, without the suffix of incomplete files.
     name: String,
     path: PathBuf,
-    /// File type, without following links.
     kind: FileType,
 }
 
-/// Entries of `folder` with names of results, complete or not.
 fn found(folder: &Path) -> Result<Vec<Found>, RunDirectoryError> {
     let mut all = found_in(folder, "")?;
     let pictures = folder.join(PICTURES);

@@ -40,10 +40,8 @@ pub(super) const FILES: [&str; 14] = [
 /// Tables, which users may edit.
 pub(super) const TABLES: [&str; 4] = [ENERGIES, EVENTS, OBSERVABLES, PROFILE];
 
-/// Files that a run writes before its results.
 pub(super) const BEFORE_RESULTS: [&str; 3] = [SCENE, CHECKPOINT, RECORDS];
 
-/// Name of the picture of a record, relative to the directory.
 pub(super) fn picture_name(record: usize) -> String {
     format!("{PICTURES}/{record:04}.vtp")
 }

@@ -6,7 +6,6 @@ use super::{RunDirectoryError, finite::ensure_finite_in};
 use crate::{Assembly, Records, Row};
 use std::io::{self, Write};
 
-/// Table with time or path and the columns of all observables.
 pub(super) struct ObservableTable<'a> {
     assembly: &'a Assembly,
 }

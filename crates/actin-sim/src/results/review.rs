@@ -72,7 +72,6 @@ impl Review {
     }
 }
 
-/// Refuses record `i` if its number of bodies does not match the assembly.
 fn ensure_same_bodies(
     assembly: &Assembly,
     i: usize,
@@ -83,7 +82,6 @@ fn ensure_same_bodies(
     ensure_same(i, ("frames", state.frames.len()), assembly.frames.len())
 }
 
-/// Refuses record `i` if its number of terms or columns does not match the assembly.
 fn ensure_same_numbers(assembly: &Assembly, i: usize, row: &Row) -> Result<(), RunDirectoryError> {
     let energies = ("energies", row.energies_pn_nm.len());
     ensure_same(i, energies, assembly.terms.len())?;

@@ -28,7 +28,6 @@ use zip::{CompressionMethod, DateTime, ZipWriter};
 /// A dropped `ZipWriter` writes its directory and would print a second error to standard error.
 struct Silent<W> {
     out: W,
-    /// Position in the file as seen by the archive.
     place: u64,
     has_failed: bool,
 }
@@ -127,7 +126,6 @@ impl<'a> States<'a> {
         ]
     }
 
-    /// Points on the centre line (nm, lab frame).
     fn centre_line(&self, state: &State) -> Vec<f64> {
         let points = 0..self.assembly.points.len();
         let places = points.map(|i| self.assembly.centre_line_nm(state, i));
@@ -166,7 +164,6 @@ impl<'a> States<'a> {
         ]
     }
 
-    /// Refuses values of record `i` that are not finite.
     pub(super) fn ensure_finite(&self, i: usize, record: &Record) -> Result<(), RunDirectoryError> {
         let of = |name| (STATES, name);
         ensure_finite_in(of(clock(self.assembly)), i, &[], [record.at.value()])?;
@@ -228,7 +225,6 @@ fn write_array<W: Write + Seek, T: npyz::AutoSerialize>(
     writer.finish()
 }
 
-/// Adds an array of strings in numpy's format.
 fn write_texts<W: Write + Seek>(
     archive: &mut ZipWriter<W>,
     name: &str,
@@ -249,7 +245,6 @@ fn write_texts<W: Write + Seek>(
     writer.finish()
 }
 
-/// Adds an array with the values of `of` for each record.
 fn write_records<W: Write + Seek, V: IntoIterator<Item = f64>>(
     archive: &mut ZipWriter<W>,
     name: &str,

@@ -124,7 +124,6 @@ impl Contents<'_> {
     }
 }
 
-/// Writes the header into the space reserved in `file`.
 fn with_header(mut file: Vec<u8>) -> Vec<u8> {
     let (header, body) = file.split_at_mut(HEADER);
     header[..8].copy_from_slice(MAGIC);
@@ -174,7 +173,6 @@ fn read_body(path: &Path) -> Result<Vec<u8>, Damage> {
     Ok(body)
 }
 
-/// Little-endian number at the byte offset `at`.
 fn word(header: &[u8; HEADER], at: usize) -> u32 {
     u32::from_le_bytes(std::array::from_fn(|k| header[at + k]))
 }

@@ -17,7 +17,6 @@ const CHECKSUM: usize = 4;
 /// Buffer size (bytes) at which records are written.
 const BUFFER: usize = 1 << 20;
 
-/// Number of records and their checksum.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub(super) struct Tally {
     pub(super) count: usize,
@@ -35,7 +34,6 @@ pub(super) struct RecordLog {
     last: Option<Record>,
     /// Bytes of a record and its checksum.
     length: usize,
-    /// Opened by the first write.
     file: Option<File>,
     /// Records on the disk.
     written: Tally,
@@ -130,7 +128,6 @@ impl RecordLog {
         Ok(Tally { count, checksum })
     }
 
-    /// End of the records in the file.
     fn end(&self) -> u64 {
         HEADER + self.written.count as u64 * self.length as u64
     }
@@ -162,7 +159,6 @@ impl RecordLog {
         })
     }
 
-    /// Opens the file at the first record.
     fn read_file(&self) -> Result<impl Read + use<>, Damage> {
         let Some(expected) = self.checked_end() else {
             let count = self.written.count;
@@ -203,7 +199,6 @@ impl Records for RecordLog {
     }
 }
 
-/// Iterator over the records of a log.
 pub(super) struct Reading<'a> {
     log: &'a RecordLog,
     source: Box<dyn Read + 'a>,
@@ -296,7 +291,6 @@ mod tests {
     use crate::{Row, Trajectory};
     use std::fs;
 
-    /// Log of a synthetic run, its folder and its records.
     fn log_of(has_states: bool) -> (tempfile::TempDir, RecordLog, Vec<Record>) {
         let assembly = fixture::clamped_start();
         let folder = tempfile::tempdir().unwrap();

@@ -66,7 +66,6 @@ impl<'a> Stored<'a> {
         Ok(stored)
     }
 
-    /// Returns true if the lengths of the lists match the layout.
     pub(super) fn fits(&self, form: &Form) -> bool {
         self.motion.as_ref().is_none_or(|m| m.fits(&form.like))
             && self.energies_pn_nm.len() == form.terms

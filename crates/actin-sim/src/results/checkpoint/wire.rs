@@ -3,7 +3,6 @@
 use super::Damage;
 use serde::{Deserialize, Serialize};
 
-/// Appends an encoded value to `bytes`.
 pub(super) fn encode<T: Serialize>(value: &T, bytes: Vec<u8>) -> Vec<u8> {
     postcard::to_extend(value, bytes).expect("numbers, texts and lists of them can be encoded")
 }

@@ -5,7 +5,6 @@ use crate::Plan;
 use crate::results::names::STATES;
 use actin_mechanics::State;
 
-/// Scene with a bend and an anchor driven by the path.
 fn scene(task: &str, stage: &str) -> String {
     format!(
         "Scene(

@@ -14,7 +14,6 @@ pub(super) struct Arrays {
 }
 
 impl Arrays {
-    /// Opens the archive.
     pub(super) fn open(path: PathBuf) -> Result<Self, RunDirectoryError> {
         let file = File::open(&path).map_err(RunDirectoryError::io(&path))?;
         let archive = ZipArchive::new(BufReader::new(file))
@@ -68,7 +67,6 @@ impl Arrays {
         })
     }
 
-    /// Offset and length of the data of an array (bytes).
     fn place(&self, name: &str) -> Result<(u64, u64), RunDirectoryError> {
         let refused = |reason: String| damaged(&self.path, format!("{name}: {reason}"));
         let mut archive = self.archive.borrow_mut();
@@ -97,7 +95,6 @@ pub(super) struct Array {
 }
 
 impl Array {
-    /// Reads the next number.
     pub(super) fn next(&mut self) -> Result<f64, RunDirectoryError> {
         match self.values.next() {
             Some(Ok(value)) if value.is_finite() => Ok(value),
@@ -107,7 +104,6 @@ impl Array {
         }
     }
 
-    /// Skips `count` numbers.
     pub(super) fn skip(&mut self, count: usize) -> Result<(), RunDirectoryError> {
         (0..count).try_for_each(|_| self.next().map(drop))
     }
@@ -116,7 +112,6 @@ impl Array {
         damaged(&self.path, format!("{}: {reason}", self.name))
     }
 
-    /// Reads all remaining numbers.
     pub(super) fn read_all(mut self) -> Result<Vec<f64>, RunDirectoryError> {
         (0..self.values.len()).map(|_| self.next()).collect()
     }

@@ -13,7 +13,6 @@ pub(super) struct Event {
     at_nm: f64,
 }
 
-/// Reads the events of a run in order.
 pub(super) fn read(path: &Path) -> Result<Vec<Event>, RunDirectoryError> {
     let refused = |reason: String| RunDirectoryError::Damaged {
         path: path.to_owned(),

@@ -115,7 +115,6 @@ pub struct StateIter<'a, I> {
     stored: &'a StoredStates,
     assembly: &'a Assembly,
     which: I,
-    /// Record at the current position of the arrays.
     next: usize,
     position: Array,
     velocity: Array,

@@ -5,7 +5,6 @@ use crate::results::fixture;
 use crate::results::states::States;
 use std::fs::File;
 
-/// Directory with the states of a synthetic run, and its trajectory.
 fn written(assembly: &Assembly) -> (tempfile::TempDir, crate::Trajectory) {
     let folder = tempfile::tempdir().unwrap();
     let trajectory = fixture::trajectory(assembly);

@@ -43,9 +43,7 @@ impl ThermalSummary {
 /// Sum of the kinetic energy over the second half of the records.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::results) struct LateKinetic {
-    /// Remaining records of the first half.
     early: usize,
-    /// Records of the second half so far.
     records: usize,
     sum_pn_nm: f64,
 }

@@ -25,13 +25,11 @@ impl Summary {
         self.notes.iter().map(coded).collect()
     }
 
-    /// Adds a note, also to the warnings if it has a code.
     pub(in crate::results) fn add_note(&mut self, note: Note) {
         self.notes.push(note.message.clone());
         self.warnings.extend(note.code.is_some().then_some(note));
     }
 
-    /// Replaces the warnings that follow from other keys.
     #[must_use]
     pub(in crate::results) fn with_derived_warnings(mut self) -> Self {
         let is_derived = |note: &Note| note.code.as_ref().is_some_and(|c| DERIVED.contains(&&**c));

@@ -17,7 +17,6 @@ use std::io::{self, Write};
 /// Python script that shows a run in `ParaView`.
 pub(super) const MACRO: &str = include_str!("open_in_paraview.py");
 
-/// Common data of all pictures of a run.
 #[derive(Debug)]
 pub(super) struct Drawing<'a> {
     assembly: &'a Assembly,

@@ -5,7 +5,6 @@ use crate::results::fixture;
 use actin_mechanics::Matrix3;
 use vtkio::model::{Attribute, IOBuffer, PolyDataPiece, VertexNumbers};
 
-/// Second record of the mixed filament as a parsed picture.
 fn drawn() -> (Assembly, State, Box<PolyDataPiece>) {
     let assembly = fixture::clamped_start();
     let record = fixture::trajectory(&assembly).records.remove(1);
