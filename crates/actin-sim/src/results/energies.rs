@@ -8,6 +8,7 @@ use std::collections::HashMap;
 use std::hash::Hash;
 use std::io::{self, Write};
 
+/// Energies of one record (pN nm).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Totals {
     /// Sum of potential and kinetic energy.

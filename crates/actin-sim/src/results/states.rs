@@ -126,6 +126,7 @@ impl<'a> States<'a> {
         ]
     }
 
+    /// Points on the centre line (nm, lab frame).
     fn centre_line(&self, state: &State) -> Vec<f64> {
         let points = 0..self.assembly.points.len();
         let places = points.map(|i| self.assembly.centre_line_nm(state, i));
