@@ -18,9 +18,7 @@ pub fn assert_fluctuates(interactions: &[&dyn Interaction], state: &State, relat
     let (mut covariance, mut stiffness) = (DMatrix::zeros(n, n), Stiffness::default());
     let mut balanced = Loads::zeros(state);
     for interaction in interactions {
-        let stress = interaction
-            .random_stress()
-            .expect("use an interaction with random stress");
+        let stress = interaction.random_stress().expect("a random stress");
         let components = stress.components();
         for k in 0..components {
             let mut values = vec![0.0; components];
@@ -35,9 +33,7 @@ pub fn assert_fluctuates(interactions: &[&dyn Interaction], state: &State, relat
         stress.balance(state, &mut values);
         interaction.add_loads(state, &mut balanced);
         stress.add_stress_loads(state, &values, &mut balanced);
-        let second = interaction
-            .second_order()
-            .expect("use an interaction with second derivatives");
+        let second = interaction.second_order().expect("second derivatives");
         second.add_stiffness(state, &mut stiffness);
         stress.add_stress_stiffness(state, &values, &mut stiffness);
     }
