@@ -1,7 +1,7 @@
 //! Small scenes of every kind, and a sink that interrupts a run.
 
 use actin_sim::{
-    Assembly, CheckpointError, Checkpoints, Outcome, Plan, Record, Recorded, RunDirectory,
+    Assembly, CheckpointError, Checkpoints, Outcome, Plan, Record, RecordSummary, RunDirectory,
     RunPosition, Scene, Sink, Trajectory,
 };
 use std::collections::BTreeMap;
@@ -193,7 +193,7 @@ impl Sink for Leaving<'_> {
         self.left.is_multiple_of(2)
     }
 
-    fn checkpoint(&mut self, position: &RunPosition, recorded: &Recorded, wall_s: f64) {
+    fn checkpoint(&mut self, position: &RunPosition, recorded: &RecordSummary, wall_s: f64) {
         self.checkpoints.checkpoint(position, recorded, wall_s);
     }
 }

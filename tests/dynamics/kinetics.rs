@@ -1,7 +1,7 @@
 //! Energy balance and effect of linkers that break, form and step during a motion.
 
 use crate::common::ran;
-use actin_sim::{Assembly, Happening};
+use actin_sim::{Assembly, LinkerEventKind};
 
 fn moved(linkers: &str, task: &str) -> (Assembly, Vec<f64>, Vec<f64>, Vec<actin_sim::LinkerEvent>) {
     let text = format!(
@@ -37,7 +37,12 @@ fn energy_changes_by_events_are_recorded() {
         let task = format!("duration_ns: 0.8, record_every_ns: 0.02, integrator: {integrator}");
         let (_, totals, booked, events) = moved(LINKERS, &task);
         let count = |what| events.iter().filter(|e| e.what == what).count();
-        let counts = [Happening::Broke, Happening::Formed, Happening::Stepped].map(count);
+        let counts = [
+            LinkerEventKind::Broke,
+            LinkerEventKind::Formed,
+            LinkerEventKind::Stepped,
+        ]
+        .map(count);
         let size = booked.iter().fold(0.0, |m: f64, b| m.max(b.abs()));
         let start = totals[0];
         let ledger = totals
@@ -52,7 +57,7 @@ fn energy_changes_by_events_are_recorded() {
         assert!(size > 10.0 && open < 1e-6 * size, "{open}");
         let on_rod = events
             .iter()
-            .any(|e| e.what == Happening::Stepped && e.at_nm > 20.0);
+            .any(|e| e.what == LinkerEventKind::Stepped && e.at_nm > 20.0);
         assert!(on_rod, "the motor stays on monomers");
         let sum: f64 = events.iter().map(|e| e.energy_pn_nm).sum();
         assert!((sum - booked.last().unwrap()).abs() < 1e-9 * size);

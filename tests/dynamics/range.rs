@@ -2,7 +2,7 @@
 
 use crate::common::build;
 use actin_cosserat::BendingElement;
-use actin_sim::{Assembly, BeyondRange};
+use actin_sim::{Assembly, LawExtrapolation};
 
 /// Segment length of the first filament (nm), at which twist fluctuates by 0.02 rad/nm and
 /// curvature by 0.01, with data up to 0.0472 and 0.015.
@@ -105,7 +105,7 @@ fn without_heat_each_section_is_listed() {
     assert!((second.1 - 20.0 * 0.15 / 45.0).abs() < 1e-12);
     let fluctuations: Vec<_> = found
         .iter()
-        .filter_map(|b: &BeyondRange| b.fluctuations)
+        .filter_map(|b: &LawExtrapolation| b.fluctuations)
         .collect();
     assert!(fluctuations.is_empty());
 }

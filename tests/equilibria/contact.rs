@@ -92,7 +92,7 @@ fn a_filament_lies_on_a_plane_at_the_depth_of_its_weight() {
             kinetic_pn_nm: 0.0,
             residual_force_pn: 0.0,
             residual_torque_pn_nm: 0.0,
-            booked: actin_sim::Booked::default(),
+            booked: actin_sim::EnergyExchange::default(),
             observed: Vec::new(),
         };
         let summary = Summary::new(&assembly, &last, &outcome);
@@ -169,7 +169,10 @@ fn passage_through_a_wall_fails() {
         task: Equilibrium(force_pn: 1e-5),
     )";
     let (failure, outcome) = failure(run_anyway(&mut build(text)).1);
-    assert!(matches!(failure, Failure::BeyondUse(_)), "{failure}");
+    assert!(
+        matches!(failure, Failure::ModelLimitExceeded(_)),
+        "{failure}"
+    );
     let beyond = &outcome.beyond_use[0];
     assert_eq!(
         (beyond.quantity.as_str(), beyond.filament, beyond.section),

@@ -121,7 +121,7 @@ impl Extreme {
         };
         let failure = match failed.failure {
             Failure::PathEnded { failure, .. } => Some(failure),
-            Failure::BeyondUse(worst) => {
+            Failure::ModelLimitExceeded(worst) => {
                 println!("{}: outside the model: {}", self.name, worst[0]);
                 None
             }

@@ -1,7 +1,7 @@
 //! Overdamped motion with following resolution: temperature, shape and relaxation.
 
 use super::{scene, to_and_fro};
-use actin_sim::follow::{Followed, Follower, Ran};
+use actin_sim::follow::{CompletedStretch, Followed, Follower};
 use actin_sim::shape::Ribbon;
 use actin_sim::{Assembly, End, Plan, Record, RodLaw, Scene, Section};
 
@@ -221,7 +221,7 @@ fn switches_do_not_disturb_motion_in_a_flow() {
         );
         let run = to_and_fro(&scene(108.0, 1.0, &rest), 100.0);
         assert!(run.stretches.len() > 9);
-        let ends = |ran: &Ran, record: &Record| {
+        let ends = |ran: &CompletedStretch, record: &Record| {
             [End::Start, End::End].map(|end| ran.stretch.assembly.tip_nm(&record.state, end))
         };
         let (first, last) = (&run.stretches[0], &run.stretches[run.stretches.len() - 1]);

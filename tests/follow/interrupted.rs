@@ -1,8 +1,8 @@
 //! Interruptions of a following motion between and at switches.
 
 use super::{ToAndFro, scene};
-use actin_sim::follow::{Follower, Left, Stretch};
-use actin_sim::{Plan, Record, Recorded, RunPosition, Saved, Scene, Sink, Status};
+use actin_sim::follow::{Follower, Stretch, StretchEnd};
+use actin_sim::{Plan, Record, RecordSummary, RunPosition, SavedRun, Scene, Sink, Status};
 
 fn thermal() -> Scene {
     let rest = "task: Dynamics(
@@ -32,7 +32,7 @@ struct Stops {
     records: Vec<Record>,
     asked: u32,
     every: u32,
-    saved: Option<Saved>,
+    saved: Option<SavedRun>,
 }
 
 impl Sink for Stops {
@@ -45,8 +45,8 @@ impl Sink for Stops {
         self.asked.is_multiple_of(self.every)
     }
 
-    fn checkpoint(&mut self, position: &RunPosition, recorded: &Recorded, wall_s: f64) {
-        self.saved = Some(Saved {
+    fn checkpoint(&mut self, position: &RunPosition, recorded: &RecordSummary, wall_s: f64) {
+        self.saved = Some(SavedRun {
             position: position.clone(),
             recorded: recorded.clone(),
             wall_s,
@@ -63,7 +63,7 @@ fn run(scene: &Scene, every_ns: f64, every: u32) -> (Vec<(usize, Record)>, u32) 
         every,
         saved: None,
     };
-    let (mut stretch, mut saved): (Stretch, Option<Saved>) = (follower.begin().unwrap(), None);
+    let (mut stretch, mut saved): (Stretch, Option<SavedRun>) = (follower.begin().unwrap(), None);
     let (mut all, mut interruptions) = (Vec::new(), 0);
     loop {
         let plan = Plan::new(&stretch.assembly).unwrap();
@@ -75,12 +75,12 @@ fn run(scene: &Scene, every_ns: f64, every: u32) -> (Vec<(usize, Record)>, u32) 
                 .map(|record| (stretch.beginning.index, record)),
         );
         match left {
-            Left::Over(outcome) if outcome.status == Status::Interrupted => {
+            StretchEnd::Over(outcome) if outcome.status == Status::Interrupted => {
                 saved = sink.saved.take();
                 interruptions += 1;
             }
-            Left::Over(_) => return (all, interruptions),
-            Left::Switched(_, next) => (stretch, saved) = (next.stretch, Some(next.saved)),
+            StretchEnd::Over(_) => return (all, interruptions),
+            StretchEnd::Switched(_, next) => (stretch, saved) = (next.stretch, Some(next.saved)),
         }
     }
 }

@@ -1,7 +1,7 @@
 //! Quantities conserved by a switch, and its energy change.
 
 use super::{energy, scene, to_and_fro};
-use actin_sim::follow::{Followed, Ran};
+use actin_sim::follow::{CompletedStretch, Followed};
 use actin_sim::{BodyKind, End, Scene};
 
 fn swinging() -> Scene {
@@ -11,7 +11,7 @@ fn swinging() -> Scene {
     scene(144.0, 0.5, rest)
 }
 
-fn pairs(run: &Followed) -> impl Iterator<Item = (&Ran, &Ran)> {
+fn pairs(run: &Followed) -> impl Iterator<Item = (&CompletedStretch, &CompletedStretch)> {
     run.stretches.iter().zip(&run.stretches[1..])
 }
 
@@ -82,7 +82,7 @@ fn the_energy_is_balanced() {
             drag: (translational_per_ns: 0.5, rotational_per_ns: 2.0)),";
     for scene in [swinging(), scene(144.0, 0.5, driven)] {
         let run = to_and_fro(&scene, 0.75);
-        let left = |ran: &Ran| -> Vec<f64> {
+        let left = |ran: &CompletedStretch| -> Vec<f64> {
             let switches = ran.stretch.beginning.switches_pn_nm;
             let records = ran.trajectory.records.iter();
             records

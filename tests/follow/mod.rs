@@ -7,7 +7,7 @@ mod interrupted;
 mod kept;
 mod windows;
 
-use actin_sim::follow::{Cell, Criterion, Followed, Follower, Wish};
+use actin_sim::follow::{Cell, Criterion, Followed, Follower, ResolutionRequest};
 use actin_sim::{Record, Scene};
 
 /// Criterion that alternates cells between rod and monomers at equal time intervals; the first cell
@@ -18,13 +18,13 @@ struct ToAndFro {
 }
 
 impl Criterion for ToAndFro {
-    fn wish(&self, cell: &Cell<'_>) -> Wish {
+    fn wish(&self, cell: &Cell<'_>) -> ResolutionRequest {
         let turn = (cell.filament.state.time / self.every_ns).floor();
         let place = (cell.span_nm[0] / 30.0).round();
         if place > 0.5 && (turn + place).rem_euclid(2.0) < 0.5 {
-            Wish::Monomers
+            ResolutionRequest::Monomers
         } else {
-            Wish::Rod
+            ResolutionRequest::Rod
         }
     }
 }

@@ -1,7 +1,7 @@
 //! Place and duration of the cells of monomers.
 
 use super::scene;
-use actin_sim::follow::{Cell, Criterion, FilamentState, Follower, Wish};
+use actin_sim::follow::{Cell, Criterion, FilamentState, Follower, ResolutionRequest};
 use actin_sim::{Assembly, Plan, Scene, Where};
 
 /// Criterion that requests monomers and a rod alternately at every check.
@@ -9,11 +9,11 @@ use actin_sim::{Assembly, Plan, Scene, Where};
 struct Restless;
 
 impl Criterion for Restless {
-    fn wish(&self, cell: &Cell<'_>) -> Wish {
+    fn wish(&self, cell: &Cell<'_>) -> ResolutionRequest {
         if cell.is_monomers {
-            Wish::Rod
+            ResolutionRequest::Rod
         } else {
-            Wish::Monomers
+            ResolutionRequest::Monomers
         }
     }
 }
@@ -72,8 +72,12 @@ fn criteria_read_loads_and_energies_of_cells() {
 
 /// Criteria with thresholds at bending moments of 20 and 55 pN nm for a bending rigidity `bend` (pN
 /// nm^2), and the requests for four cells with 63, 45, 27 and 9 pN nm under 0.5 pN.
-fn criteria(bend: f64) -> [(Where, [Wish; 4]); 5] {
-    let (monomers, stay, rod) = (Wish::Monomers, Wish::Stay, Wish::Rod);
+fn criteria(bend: f64) -> [(Where, [ResolutionRequest; 4]); 5] {
+    let (monomers, stay, rod) = (
+        ResolutionRequest::Monomers,
+        ResolutionRequest::Stay,
+        ResolutionRequest::Rod,
+    );
     let force = Where::Force {
         above_pn: 0.6,
         below_pn: 0.4,

@@ -17,7 +17,7 @@
 //! Axial torques on frames are those of twist alone. Only friction resists axial rotations, so
 //! other torques would rotate frames until the stress increases the existing bending.
 
-use crate::extended::{ExtendedSegments, SegmentAround, SegmentJet};
+use crate::extended::{ExtendedSegments, SegmentJet, SegmentSurroundings};
 use crate::{BendingElement, EnergyGradient, RodLayout, RodMaterial, ShearElement};
 use actin_mechanics::{
     InternalCouple, InternalForce, Loads, Matrix3, RandomStress, State, Stiffness, UnitQuaternion,
@@ -169,7 +169,7 @@ fn write_extended(
     (extended, rod): (&ExtendedSegments, &EnergyGradient),
     state: &State,
     stresses: &mut [f64],
-    of: impl Fn(&SegmentJet, &RodMaterial, &SegmentAround, &[f64]) -> [Vector3; 3],
+    of: impl Fn(&SegmentJet, &RodMaterial, &SegmentSurroundings, &[f64]) -> [Vector3; 3],
 ) {
     let (layout, material) = (rod.layout(), rod.material());
     for (k, stress) in stresses.chunks_exact_mut(EXTENDED).enumerate() {

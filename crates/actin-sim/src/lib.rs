@@ -54,9 +54,9 @@ pub use actin_scene::{
 };
 pub use actin_scene::{Readings, read_all, read_ron};
 pub use assembly::{
-    Assembly, BeyondRange, BeyondUse, BodyKind, Booked, Clamped, Counts, Drive, FilamentSpan,
-    Fluctuations, FrameInfo, Happening, JunctionBond, LinkerEvent, MeasuredError, Part, PointInfo,
-    Reaction, Resolution, SectionSpan, Term, UnstableTwist,
+    Assembly, BodyKind, Clamped, Counts, Drive, EnergyExchange, FilamentSpan, Fluctuations,
+    FrameInfo, JunctionBond, LawExtrapolation, LinkerEvent, LinkerEventKind, MeasuredError,
+    ModelLimitExceeded, Part, PointInfo, Reaction, Resolution, SectionSpan, Term, UnstableTwist,
 };
 pub use cost::{Cost, Timing};
 pub use ensemble::{Ensemble, EnsembleError, EnsembleProgress, Replica};
@@ -71,9 +71,9 @@ pub use results::{
     ThermalSummary, WorkSummary, first_difference, replace_file,
 };
 pub use run::{
-    Arrival, At, BehindSwitch, EquilibriumReport, Estimate, FailedRun, Failure, HingeSlip,
-    LongestStep, MotionPosition, Outcome, PathPosition, Plan, Progress, Record, RecordIter,
-    Recorded, Records, RelaxationTimes, Row, RowIter, RunError, RunPosition, SaddlePush, Saved,
-    Sink, Slip, StableState, StableStates, Status, Trajectory, composition, near_equilibrium,
-    solver,
+    At, EquilibriumReport, Estimate, FailedRun, Failure, HingeSlip, LongestStep, MotionPosition,
+    Outcome, PathPosition, Plan, Progress, Record, RecordIter, RecordSummary, Records,
+    RelaxationTimes, ResolutionSwitch, Row, RowIter, RunError, RunPosition, SaddlePush, SavedRun,
+    Sink, Slip, SolveReport, StableState, StableStates, Status, Trajectory, composition,
+    near_equilibrium, solver,
 };

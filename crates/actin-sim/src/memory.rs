@@ -14,35 +14,35 @@ const ASSUMED: f64 = 8e9;
 /// Values are rounded up from the peak memory of `actin run` over the number of bodies, for 1e4 to
 /// 1e5 segments, 5000 to 20,000 filaments and 3000 to 6000 monomers.
 #[derive(Clone, Copy, Debug)]
-struct Each {
+struct BytesPerBody {
     motion: f64,
     statics: f64,
 }
 
-const FILAMENT: Each = Each {
+const FILAMENT: BytesPerBody = BytesPerBody {
     motion: 1.2e4,
     statics: 1.2e4,
 };
 /// Segment of constant rigidities with its node: state, loads, trial motions, matrix pattern and
 /// factor.
-const SEGMENT: Each = Each {
+const SEGMENT: BytesPerBody = BytesPerBody {
     motion: 1.5e3,
     statics: 6.6e3,
 };
-const LAW_SEGMENT: Each = Each {
+const LAW_SEGMENT: BytesPerBody = BytesPerBody {
     motion: 2.2e3,
     statics: 1.2e4,
 };
 /// Additional trial motions of nonconservative loads, all of which are kept.
 const TRIAL_VECTORS: f64 = (6 * 8 * actin_integrate::KRYLOV_VECTORS) as f64;
-const MONOMER: Each = Each {
+const MONOMER: BytesPerBody = BytesPerBody {
     motion: 1.8e3,
     statics: 1.9e4,
 };
 /// Bond: two ends and a rest length.
 const BOND: f64 = 56.0;
 
-impl Each {
+impl BytesPerBody {
     fn of(self, task: &Task) -> f64 {
         match task {
             Task::Dynamics(_) => self.motion,

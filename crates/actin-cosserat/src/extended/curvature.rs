@@ -25,7 +25,7 @@ pub struct JoinedElement {
 pub struct SegmentCurvature {
     /// Index of the first element around each segment, and the total number.
     offsets: Vec<usize>,
-    around: Vec<Around>,
+    around: Vec<AdjacentElement>,
     /// Share of each segment's length covered by elements: one half per side.
     covered: Vec<f64>,
     shear: Vec<f64>,
@@ -33,7 +33,7 @@ pub struct SegmentCurvature {
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Around {
+pub(crate) struct AdjacentElement {
     pub(crate) frames: [usize; 2],
     pub(crate) element: BendingElement,
     lacking: Vector3,
@@ -118,7 +118,7 @@ impl SegmentCurvature {
             let share = ((present * count(&side)) as f64).recip();
             let (own, joined) = side;
             let elements = own.into_iter().chain(joined.iter().copied());
-            self.around.extend(elements.map(|joined| Around {
+            self.around.extend(elements.map(|joined| AdjacentElement {
                 frames: joined.frames,
                 element: joined.element,
                 lacking: joined.lacking,
@@ -135,7 +135,7 @@ impl SegmentCurvature {
     }
 
     #[inline]
-    pub(crate) fn around(&self, segment: usize) -> &[Around] {
+    pub(crate) fn around(&self, segment: usize) -> &[AdjacentElement] {
         &self.around[self.offsets[segment]..self.offsets[segment + 1]]
     }
 
@@ -143,7 +143,7 @@ impl SegmentCurvature {
     #[inline]
     pub fn mean(&self, segment: usize, state: &State) -> Vector3 {
         let q = &state.frames.orientation;
-        let curvature = |a: &Around| {
+        let curvature = |a: &AdjacentElement| {
             let [first, second] = a.frames.map(|frame| q.get(frame));
             a.share * (a.element.curvature(first, second) + a.lacking)
         };

@@ -18,5 +18,5 @@ pub use end_twist::END_TWIST_NM;
 pub(crate) use end_twist::EndTwist;
 pub use law::SegmentLaw;
 pub(crate) use law::{MeanCurvature, SegmentJet};
-pub(crate) use segments::{ExtendedSegments, SegmentAround};
+pub(crate) use segments::{ExtendedSegments, SegmentSurroundings};
 pub use twist_stability::TwistStability;

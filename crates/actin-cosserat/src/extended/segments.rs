@@ -1,6 +1,6 @@
 //! Energies, loads and stiffness of segments with coupling to curvature.
 
-use super::curvature::Around;
+use super::curvature::AdjacentElement;
 use super::law::{MeanCurvature, SegmentJet};
 use super::{EndTwist, SegmentCurvature, SegmentLaw};
 use crate::bending::BendingLoads;
@@ -24,7 +24,7 @@ struct Segment<'a> {
     q: UnitQuaternion,
     l: Vector3,
     curvature: MeanCurvature,
-    around: &'a [Around],
+    around: &'a [AdjacentElement],
     factors: Vector3,
 }
 
@@ -35,12 +35,12 @@ impl Segment<'_> {
     }
 
     /// Torque per length of a bending element for the torque `couple` (pN nm) of the mean.
-    fn couple_on(&self, around: &Around, couple: Vector3) -> Vector3 {
+    fn couple_on(&self, around: &AdjacentElement, couple: Vector3) -> Vector3 {
         self.element.rest_length * around.share / around.element.rest_distance * couple
     }
 }
 
-pub(crate) struct SegmentAround {
+pub(crate) struct SegmentSurroundings {
     /// Rest length (nm).
     pub(crate) length: f64,
     /// Mean curvature (rad/nm).
@@ -52,7 +52,7 @@ pub(crate) struct SegmentAround {
     ends: Vec<(EndTwist, f64)>,
 }
 
-impl SegmentAround {
+impl SegmentSurroundings {
     /// Mean bending torque (pN nm) and tangent (pN nm^2) of the surrounding elements.
     pub(crate) fn bending(&self, material: &RodMaterial) -> (Vector3, Matrix3) {
         let beyond = self.curvature.z - material.rest_curvature().z;
@@ -66,7 +66,7 @@ impl SegmentAround {
     }
 }
 
-pub(crate) struct Beside {
+pub(crate) struct SideElement {
     /// 0 before the segment, 1 after it.
     pub(crate) side: usize,
     pub(crate) frames: [usize; 2],
@@ -81,11 +81,11 @@ impl ExtendedSegments {
         Vector3::new(across, across, 1.0)
     }
 
-    pub(crate) fn around(&self, k: usize, layout: &RodLayout) -> impl Iterator<Item = Beside> {
+    pub(crate) fn around(&self, k: usize, layout: &RodLayout) -> impl Iterator<Item = SideElement> {
         let frame = layout.frames().start + k;
         let length = layout.segment_lengths()[k];
         let around = self.curvature.around(k).iter();
-        around.map(move |around| Beside {
+        around.map(move |around| SideElement {
             side: usize::from(around.frames[0] == frame),
             frames: around.frames,
             weight: length * around.share / around.element.rest_distance,
@@ -97,12 +97,12 @@ impl ExtendedSegments {
         (layout, material): (&RodLayout, &RodMaterial),
         k: usize,
         state: &State,
-    ) -> (SegmentJet, SegmentAround) {
+    ) -> (SegmentJet, SegmentSurroundings) {
         let segment = self.segment(k, layout, state);
         let jet = self.law.jet(material, segment.strain(), segment.curvature);
         let mut sides = self.around(k, layout).map(|beside| beside.side);
         let first = sides.next();
-        let around = SegmentAround {
+        let around = SegmentSurroundings {
             length: segment.element.rest_length,
             curvature: segment.curvature.kappa,
             covered: segment.curvature.covered,
@@ -211,7 +211,7 @@ fn strain_slopes(segment: &Segment) -> [Slope; 3] {
 }
 
 /// Derivatives of one element's part of the mean curvature (1/nm).
-fn curvature_slopes(around: &Around, state: &State) -> [Slope; 2] {
+fn curvature_slopes(around: &AdjacentElement, state: &State) -> [Slope; 2] {
     let [a, b] = around
         .frames
         .map(|frame| state.frames.orientation.get(frame));

@@ -13,7 +13,7 @@ use actin_cosserat::{
 use actin_mechanics::Interaction;
 
 #[derive(Debug)]
-pub(super) struct Around {
+pub(super) struct EndConditions {
     /// Elements that join the start and the end of the rod to monomers.
     pub(super) joined: [Vec<JoinedElement>; 2],
     /// Shear conditions at the start and end of the chain of rods that contains this rod.
@@ -101,7 +101,11 @@ impl Law {
 
     /// Returns the monitor of twist stability; `None` if no axial force can destabilise the twist,
     /// or if the loads have no energy.
-    pub(super) fn twist_watch(&self, layout: &RodLayout, around: &Around) -> Option<TwistWatch> {
+    pub(super) fn twist_watch(
+        &self,
+        layout: &RodLayout,
+        around: &EndConditions,
+    ) -> Option<TwistWatch> {
         if self.balance != ForceLaw::EnergyGradient {
             return None;
         }
@@ -117,7 +121,7 @@ impl Law {
     }
 
     /// Mean curvatures around segments and, for a potential, the end conditions of shear and twist.
-    fn curvature(&self, layout: &RodLayout, around: &Around) -> SegmentCurvature {
+    fn curvature(&self, layout: &RodLayout, around: &EndConditions) -> SegmentCurvature {
         let [start, end] = &around.joined;
         let curvature = SegmentCurvature::new(layout, start, end);
         if self.material.potential().is_none() {
@@ -131,7 +135,11 @@ impl Law {
         SegmentLaw::of(&self.material, self.twist_stretch).is_some()
     }
 
-    pub(super) fn interaction(&self, layout: &RodLayout, around: &Around) -> Box<dyn Interaction> {
+    pub(super) fn interaction(
+        &self,
+        layout: &RodLayout,
+        around: &EndConditions,
+    ) -> Box<dyn Interaction> {
         let curvature = || self.curvature(layout, around);
         let (own, material) = (layout.clone(), self.material);
         match self.balance {

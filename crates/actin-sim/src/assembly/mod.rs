@@ -4,7 +4,6 @@
 //! points, frames and terms. Bodies are stored filament by filament, in order along the filament:
 //! monomers, junction frames, rod nodes and segments.
 
-mod beyond_use;
 mod bonded;
 mod build;
 mod built;
@@ -18,6 +17,7 @@ mod kinetics;
 mod lattice;
 mod law;
 mod ledger;
+mod model_limits;
 mod models;
 mod parts;
 mod ramp;
@@ -28,23 +28,23 @@ mod several_states;
 mod slip;
 mod unstable_twist;
 
-pub use beyond_use::BeyondUse;
-pub(crate) use beyond_use::worst as worst_of;
 pub use bonded::JunctionBond;
 pub(crate) use build::Sampled;
 pub use drive::Drive;
 pub use extrapolation::MeasuredError;
 pub(crate) use kinetics::{COARSEST, Kinetics, Log};
-pub use kinetics::{Happening, LinkerEvent};
+pub use kinetics::{LinkerEvent, LinkerEventKind};
 pub(crate) use lattice::cells_nm;
-pub use ledger::Booked;
+pub use ledger::EnergyExchange;
+pub use model_limits::ModelLimitExceeded;
+pub(crate) use model_limits::worst as worst_of;
 pub(crate) use models::ellipsoids;
 pub(crate) use parts::Rod;
 pub use parts::{
     BodyKind, Counts, FilamentSpan, FrameInfo, Part, PointInfo, Resolution, SectionSpan, Term,
 };
 pub(crate) use ramp::{Ramp, StageTimes};
-pub use range::{BeyondRange, Fluctuations};
+pub use range::{Fluctuations, LawExtrapolation};
 pub(crate) use range::{RangeWatch, Ranges};
 pub use reaction::{Clamped, Reaction};
 pub(crate) use repelled::Repelled;

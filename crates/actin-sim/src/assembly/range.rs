@@ -14,7 +14,7 @@ use std::fmt;
 /// In files, `value` and `range` of twist and curvature are `value_per_nm` and `range_per_nm`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(into = "Written", from = "Written")]
-pub struct BeyondRange {
+pub struct LawExtrapolation {
     /// Index of the filament.
     pub filament: usize,
     /// Index of the section in its filament.
@@ -33,7 +33,7 @@ pub struct BeyondRange {
     pub measured_error: Option<MeasuredError>,
 }
 
-impl fmt::Display for BeyondRange {
+impl fmt::Display for LawExtrapolation {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let (quantity, value, range) = (&self.quantity, self.value, self.range);
         let place = format!("s = {:.1} nm{}", self.s_nm, of_filament(self.filament));
@@ -96,8 +96,8 @@ struct Written {
     measured_error: Option<MeasuredError>,
 }
 
-impl From<BeyondRange> for Written {
-    fn from(beyond: BeyondRange) -> Self {
+impl From<LawExtrapolation> for Written {
+    fn from(beyond: LawExtrapolation) -> Self {
         let (value, range) = (Some(beyond.value), Some(beyond.range));
         let is_strain = beyond.is_strain();
         let of_strain = |number: Option<f64>| number.filter(|_| is_strain);
@@ -117,7 +117,7 @@ impl From<BeyondRange> for Written {
     }
 }
 
-impl From<Written> for BeyondRange {
+impl From<Written> for LawExtrapolation {
     fn from(written: Written) -> Self {
         Self {
             filament: written.filament,
@@ -225,7 +225,7 @@ impl Assembly {
     /// Beyond their data, laws of twist and length are continued linearly; bending laws and
     /// potentials by their formulas. Bending elements that join a rod to junction frames belong to
     /// the end of the rod.
-    pub fn beyond_range(&self, state: &State) -> Vec<BeyondRange> {
+    pub fn beyond_range(&self, state: &State) -> Vec<LawExtrapolation> {
         let mut found = Vec::new();
         for rod in &self.rods {
             for quantity in 0..QUANTITIES.len() {
@@ -236,7 +236,7 @@ impl Assembly {
         found
     }
 
-    fn told(&self, excess: Excess, fluctuations: Option<Fluctuations>) -> BeyondRange {
+    fn told(&self, excess: Excess, fluctuations: Option<Fluctuations>) -> LawExtrapolation {
         let filament = self.filament_of_section(excess.section);
         let section = excess.section - self.filaments[filament].sections.start;
         let quantity = QUANTITIES[excess.quantity].name;
@@ -248,7 +248,7 @@ impl Assembly {
             _ => false,
         };
         let measured = is_measured.then(|| MeasuredError::at(quantity, excess.value));
-        BeyondRange {
+        LawExtrapolation {
             filament,
             section,
             quantity: quantity.to_owned(),
@@ -266,7 +266,7 @@ impl Assembly {
     pub fn beyond_range_over<'a>(
         &self,
         states: impl IntoIterator<Item = &'a State>,
-    ) -> Vec<BeyondRange> {
+    ) -> Vec<LawExtrapolation> {
         let mut watch = RangeWatch::new(self);
         states.into_iter().for_each(|state| watch.add(self, state));
         watch.end(self)
@@ -311,7 +311,7 @@ impl Assembly {
     }
 }
 
-impl BeyondRange {
+impl LawExtrapolation {
     /// Describes the measured error.
     pub fn error_text(&self) -> String {
         let Some(error) = &self.measured_error else {
@@ -440,7 +440,7 @@ impl RangeWatch {
         }
     }
 
-    pub(crate) fn end(self, assembly: &Assembly) -> Vec<BeyondRange> {
+    pub(crate) fn end(self, assembly: &Assembly) -> Vec<LawExtrapolation> {
         match self.0 {
             Found::Worst(worst) => {
                 let list = worst.list.into_iter();
@@ -484,7 +484,7 @@ impl InBath {
         }
     }
 
-    fn end(self, assembly: &Assembly) -> Vec<BeyondRange> {
+    fn end(self, assembly: &Assembly) -> Vec<LawExtrapolation> {
         let found = self.tallies.into_iter().filter_map(|(all, states_beyond)| {
             let fluctuations = Some(Fluctuations {
                 share_of_records: f64::from(states_beyond) / f64::from(self.states),

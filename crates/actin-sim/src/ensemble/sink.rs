@@ -1,6 +1,6 @@
 //! Sink that stops the run of a replica together with its ensemble.
 
-use crate::{Progress, Record, Recorded, RunPosition, Sink};
+use crate::{Progress, Record, RecordSummary, RunPosition, Sink};
 use actin_mechanics::State;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
@@ -48,7 +48,7 @@ impl Sink for Stopped<'_> {
         self.sink.is_checkpoint_due()
     }
 
-    fn checkpoint(&mut self, position: &RunPosition, recorded: &Recorded, wall_s: f64) {
+    fn checkpoint(&mut self, position: &RunPosition, recorded: &RecordSummary, wall_s: f64) {
         self.sink.checkpoint(position, recorded, wall_s);
     }
 }

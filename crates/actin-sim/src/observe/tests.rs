@@ -1,7 +1,7 @@
 //! Observed quantities against theory, summaries and profiles of the same state.
 
 use super::View;
-use crate::{Assembly, At, Booked, End, Plan, Record, Scene, Summary};
+use crate::{Assembly, At, End, EnergyExchange, Plan, Record, Scene, Summary};
 use actin_mechanics::{State, Vector3, Xorshift, perturb, rotation};
 
 pub(super) fn build(text: &str) -> Assembly {
@@ -57,7 +57,7 @@ fn recorded(assembly: &Assembly) -> (Record, Summary) {
         kinetic_pn_nm: 0.25,
         residual_force_pn: 0.0,
         residual_torque_pn_nm: 0.0,
-        booked: Booked::default(),
+        booked: EnergyExchange::default(),
         observed: observe(assembly, &state),
         state,
     };

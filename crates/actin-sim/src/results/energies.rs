@@ -3,7 +3,7 @@
 use super::clock;
 use super::names::ENERGIES;
 use super::{RunDirectoryError, finite::ensure_finite_in};
-use crate::{Assembly, Booked, Part, Records, Row, Term};
+use crate::{Assembly, EnergyExchange, Part, Records, Row, Term};
 use std::collections::HashMap;
 use std::hash::Hash;
 use std::io::{self, Write};
@@ -66,7 +66,7 @@ pub(super) struct EnergyTable<'a> {
     /// Column of the name and of the part of each term; columns of parts follow those of names.
     places: [Vec<usize>; 2],
     sums: usize,
-    booked: Vec<fn(&Booked) -> f64>,
+    booked: Vec<fn(&EnergyExchange) -> f64>,
 }
 
 impl<'a> EnergyTable<'a> {

@@ -1,6 +1,8 @@
 //! Small mixed filaments and synthetic runs for the tests of this module.
 
-use crate::{Assembly, At, Booked, Linker, LinkerSite, Outcome, Record, Scene, Status, Trajectory};
+use crate::{
+    Assembly, At, EnergyExchange, Linker, LinkerSite, Outcome, Record, Scene, Status, Trajectory,
+};
 use actin_mechanics::{Loads, State};
 use actin_mechanics::{Xorshift, perturb, randomise_velocities};
 use std::path::Path;
@@ -127,7 +129,7 @@ pub(super) fn record(assembly: &Assembly, time_ns: f64, state: State) -> Record 
         kinetic_pn_nm: state.kinetic_energy(),
         residual_force_pn: residual.force,
         residual_torque_pn_nm: residual.torque,
-        booked: Booked::default(),
+        booked: EnergyExchange::default(),
         observed: Vec::new(),
         state,
     }

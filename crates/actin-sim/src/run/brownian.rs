@@ -2,7 +2,7 @@
 
 use super::dynamics::{check_records, conclude};
 use super::recorder::Recorder;
-use super::sink::{Clock, Saved, Sink};
+use super::sink::{Clock, SavedRun, Sink};
 use super::steps::{LongestStep, Steps};
 use super::unknowns::layout;
 use super::{Estimate, Failure, Outcome, Plan, Status, long_steps};
@@ -235,7 +235,7 @@ pub(super) fn run(
     assembly: &Assembly,
     task: &Task,
     estimate: &Estimate,
-    saved: Option<Saved>,
+    saved: Option<SavedRun>,
     clock: Clock,
     sink: &mut dyn Sink,
 ) -> Result<(Outcome, Option<Failure>), SceneProblem> {

@@ -4,7 +4,7 @@ use super::bound::kinetic_limit;
 use super::points::check_points;
 use super::recorder::{Ending, Recorder};
 use super::rest::{is_saddle, saddle};
-use super::sink::{Clock, Saved, Sink};
+use super::sink::{Clock, SavedRun, Sink};
 use super::steps::{LongestStep, Steps};
 use super::unknowns::layout;
 use super::{Failure, Outcome, Status};
@@ -225,7 +225,7 @@ pub(super) fn run(
     assembly: &Assembly,
     dynamics: &Dynamics,
     estimate: &Estimate,
-    saved: Option<Saved>,
+    saved: Option<SavedRun>,
     clock: Clock,
     sink: &mut dyn Sink,
 ) -> Result<(Outcome, Option<Failure>), SceneProblem> {

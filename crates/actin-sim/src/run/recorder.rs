@@ -1,14 +1,14 @@
 //! Observer of a motion: records, checkpoints, lost turns, and perturbation at saddles.
 
 use super::hinge::HingeWatch;
+use super::record_stream::RecordStream;
 use super::rest::{RestJudge, SaddlePush, is_saddle};
-use super::sink::{BehindSwitch, Clock, MotionPosition, Saved};
-use super::slip::Lost;
-use super::taken::Taken;
-use super::{At, Progress, Record, Recorded, RunPosition, Sink};
+use super::sink::{Clock, MotionPosition, ResolutionSwitch, SavedRun};
+use super::slip::TurnLoss;
+use super::{At, Progress, Record, RecordSummary, RunPosition, Sink};
 use crate::assembly::{Log, Ramp};
 use crate::scene::{Dynamics, Task};
-use crate::{Assembly, Booked, LinkerEvent};
+use crate::{Assembly, EnergyExchange, LinkerEvent};
 use actin_equilibrium::Certificate;
 use actin_integrate::{
     Checkpoint, DEFAULT_CHECK_EVERY, Moment, Observer, Pause, Reason, Run, RunFailure, RunOutcome,
@@ -20,7 +20,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 /// Observer that records a motion and perturbs it at saddles.
 pub(super) struct Recorder<'a> {
-    pub(super) taken: Taken<'a>,
+    pub(super) taken: RecordStream<'a>,
     pub(super) pushes: Vec<SaddlePush>,
     end_ns: f64,
     /// End of the path (ns); the motion is not checked for rest before.
@@ -32,7 +32,7 @@ pub(super) struct Recorder<'a> {
     position: Option<Checkpoint>,
     /// Checkpoint at the last record after which the motion continued, with the records up to then.
     /// They are unknown if the run was resumed since.
-    last_good: Option<(Checkpoint, Option<Recorded>)>,
+    last_good: Option<(Checkpoint, Option<RecordSummary>)>,
     /// A record was made since `last_good`.
     is_behind: bool,
     is_interrupted: bool,
@@ -42,7 +42,7 @@ pub(super) struct Recorder<'a> {
     hinges: HingeWatch,
     /// Largest kinetic energy at a check (pN nm), set at the end.
     pub(super) largest_kinetic_pn_nm: f64,
-    pub(super) behind_switch: Option<BehindSwitch>,
+    pub(super) behind_switch: Option<ResolutionSwitch>,
     /// Steps between queries whether to leave the motion.
     look_every: u64,
 }
@@ -53,7 +53,7 @@ pub(super) enum Ending {
     /// Completed, with the certificate of a state at rest.
     Ended(RunOutcome, Option<Certificate>),
     /// Turns were lost; with the step of the last good state.
-    Slipped(Lost, u64),
+    Slipped(TurnLoss, u64),
     /// The state diverged.
     Failed(RunFailure),
 }
@@ -66,7 +66,7 @@ impl<'a> Recorder<'a> {
     pub(super) fn new(
         assembly: &'a Assembly,
         dynamics: &Dynamics,
-        saved: Option<Saved>,
+        saved: Option<SavedRun>,
         clock: Clock,
         sink: &'a mut dyn Sink,
     ) -> Self {
@@ -81,7 +81,7 @@ impl<'a> Recorder<'a> {
             Some(motion) => (Some(motion.checkpoint), motion.pushes, motion.events),
         };
         Self {
-            taken: Taken::new(assembly, recorded, sink),
+            taken: RecordStream::new(assembly, recorded, sink),
             pushes,
             end_ns: dynamics.duration_ns,
             rest_from_ns: Ramp::of(assembly).map_or(0.0, |ramp| ramp.duration()),
@@ -235,7 +235,7 @@ impl<'a> Recorder<'a> {
         let Some(slip) = self.hinges.slip() else {
             return ControlFlow::Continue(());
         };
-        self.taken.lose(Lost::Hinge(slip));
+        self.taken.lose(TurnLoss::Hinge(slip));
         ControlFlow::Break(())
     }
 
@@ -338,7 +338,7 @@ pub(crate) fn record(moment: &mut Moment<'_>) -> Record {
         kinetic_pn_nm: moment.kinetic_energy(),
         residual_force_pn: residual.force,
         residual_torque_pn_nm: residual.torque,
-        booked: Booked::default(),
+        booked: EnergyExchange::default(),
         observed: Vec::new(),
     }
 }

@@ -57,14 +57,14 @@ impl fmt::Display for Slip {
 }
 
 #[derive(Clone, Debug)]
-pub(super) enum Lost {
+pub(super) enum TurnLoss {
     /// Through self-passage or a joint.
     Twist(Slip),
     /// Through the spring of a hinged end.
     Hinge(HingeSlip),
 }
 
-impl Lost {
+impl TurnLoss {
     pub(super) fn at(&self) -> At {
         match self {
             Self::Twist(slip) => slip.at,

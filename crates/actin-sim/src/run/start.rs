@@ -11,7 +11,7 @@
 //! is applied. If the sense of lower energy differs between loads (it reverses above about 20 pN
 //! nm), no initial guess is made.
 
-use super::endless::{EndlessFilament, PERIOD};
+use super::endless::{PERIOD, PeriodicFilament};
 use crate::assembly::Part;
 use crate::scene::{Anchors, End, Filament, Slides, Task};
 use crate::shape::axis::CrossSection;
@@ -74,7 +74,7 @@ pub fn near_equilibrium(assembly: &Assembly) -> Option<State> {
 struct Cantilever<'a> {
     assembly: &'a Assembly,
     span: &'a FilamentSpan,
-    monomers: EndlessFilament,
+    monomers: PeriodicFilament,
     rise_nm: f64,
     length_nm: f64,
     /// Arc length and sums of forces and moments about the lab origin, accumulated from the free
@@ -121,7 +121,7 @@ impl<'a> Cantilever<'a> {
         Some(Self {
             assembly,
             span,
-            monomers: EndlessFilament::of(&written.monomers).ok()?,
+            monomers: PeriodicFilament::of(&written.monomers).ok()?,
             rise_nm: written.monomers.rise_nm,
             length_nm: section.to_nm,
             sums: sums_from_free_end(assembly, span),

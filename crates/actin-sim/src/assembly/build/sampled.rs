@@ -317,7 +317,7 @@ fn times(whole: f64, part: f64) -> u64 {
 mod tests {
     use super::*;
     use crate::Scene;
-    use crate::assembly::build::Stock;
+    use crate::assembly::build::SceneParts;
 
     const SAMPLING: Sampling = Sampling {
         thermal_energy: 4.11,
@@ -338,7 +338,7 @@ mod tests {
         let scene = Scene::from_ron(&text).unwrap();
         let mut strand =
             Strand::new((0, &scene.filament), ([None; 2], Vec::new()), 0, true).unwrap();
-        strand.push_bodies(&mut Stock::default()).unwrap();
+        strand.push_bodies(&mut SceneParts::default()).unwrap();
         ask(&strand)
     }
 

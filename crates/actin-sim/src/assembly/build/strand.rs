@@ -1,6 +1,6 @@
 //! Filament under construction: bodies and interactions, section by section.
 
-use super::Stock;
+use super::SceneParts;
 use super::bend::check_angle;
 use crate::assembly::built::Built;
 use crate::assembly::lattice::{Lattice, Resolved, resolve};
@@ -124,7 +124,10 @@ impl<'a> Strand<'a> {
         }
     }
 
-    pub(super) fn push_bodies(&mut self, stock: &mut Stock) -> Result<FilamentSpan, SceneProblem> {
+    pub(super) fn push_bodies(
+        &mut self,
+        stock: &mut SceneParts,
+    ) -> Result<FilamentSpan, SceneProblem> {
         let first = (stock.points.len(), stock.frames.len());
         while self.bodies.len() < self.filament.sections.len() {
             self.push_section(self.bodies.len(), stock)?;
@@ -142,7 +145,7 @@ impl<'a> Strand<'a> {
 
     /// Pushes the junction to the section before and the bodies of section `i`. A rod includes all
     /// rods that follow it.
-    fn push_section(&mut self, i: usize, stock: &mut Stock) -> Result<(), SceneProblem> {
+    fn push_section(&mut self, i: usize, stock: &mut SceneParts) -> Result<(), SceneProblem> {
         if i > 0 && self.is_junction(i - 1) {
             self.push_junction_frames(i - 1, stock)?;
         } else if i > 0 {
@@ -158,7 +161,7 @@ impl<'a> Strand<'a> {
         &mut self,
         i: usize,
         (first, last): (i64, i64),
-        stock: &mut Stock,
+        stock: &mut SceneParts,
     ) -> Result<(), SceneProblem> {
         let placement = Placement {
             translation: self.axis_at(self.lattice.origin_nm),
@@ -197,7 +200,7 @@ impl<'a> Strand<'a> {
     }
 
     /// Pushes section `first` and all rods that follow it, which share nodes and cross-sections.
-    fn push_rods(&mut self, first: usize, stock: &mut Stock) -> Result<(), SceneProblem> {
+    fn push_rods(&mut self, first: usize, stock: &mut SceneParts) -> Result<(), SceneProblem> {
         let rods = self.resolved[first..].iter();
         let past = first + rods.take_while(|r| r.monomers.is_none()).count();
         let segments: Vec<usize> = (first..past)
@@ -311,7 +314,7 @@ impl<'a> Strand<'a> {
         i: usize,
         end: End,
         (s_nm, length): (f64, f64),
-        stock: &mut Stock,
+        stock: &mut SceneParts,
     ) {
         if i != self.filament.end_index(end) || self.hinges[end as usize].is_none() {
             return;
@@ -353,7 +356,7 @@ impl<'a> Strand<'a> {
         ))
     }
 
-    fn describe_rod(&self, i: usize, layout: &RodLayout, length: f64, stock: &mut Stock) {
+    fn describe_rod(&self, i: usize, layout: &RodLayout, length: f64, stock: &mut SceneParts) {
         let Resolved { from_nm, to_nm, .. } = self.resolved[i];
         let node = |k: usize| from_nm + k as f64 * length;
         // The node and cross-section shared with a preceding rod already exist.
@@ -393,7 +396,7 @@ impl<'a> Strand<'a> {
         resolution: Resolution,
         (points, frames): (Range<usize>, Range<usize>),
         (first_tip, last_tip): (Vec<usize>, Vec<usize>),
-        stock: &mut Stock,
+        stock: &mut SceneParts,
     ) {
         stock.sections.push(SectionSpan {
             resolution,
@@ -433,7 +436,11 @@ impl<'a> Strand<'a> {
         self.filament.junction.attached_monomers
     }
 
-    fn push_junction_frames(&mut self, i: usize, stock: &mut Stock) -> Result<(), SceneProblem> {
+    fn push_junction_frames(
+        &mut self,
+        i: usize,
+        stock: &mut SceneParts,
+    ) -> Result<(), SceneProblem> {
         let rise = self.lattice.rise_nm;
         let boundary = self.resolved[i].to_nm;
         let monomers_first = self.resolved[i].monomers.is_some();

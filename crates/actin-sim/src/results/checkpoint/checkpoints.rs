@@ -10,7 +10,7 @@ use crate::results::manifest::remove_if_there;
 use crate::results::names::{CHECKPOINT, RECORDS, SCENE, SUMMARY};
 use crate::results::{RunDirectoryError, Summary};
 use crate::run::{
-    Plan, Record, RecordIter, Recorded, Records, RowIter, RunPosition, Saved, Sink, Status,
+    Plan, Record, RecordIter, RecordSummary, Records, RowIter, RunPosition, SavedRun, Sink, Status,
 };
 use std::borrow::Cow;
 use std::fs;
@@ -69,11 +69,11 @@ impl Checkpoints {
     ///
     /// # Errors
     /// The checkpoint or its records are missing or damaged, or belong to another scene or version.
-    pub fn resume(&mut self, plan: &Plan<'_>) -> Result<Saved, CheckpointError> {
+    pub fn resume(&mut self, plan: &Plan<'_>) -> Result<SavedRun, CheckpointError> {
         let damaged = |damage: Damage| damage.of(&self.path);
         let contents = self.identity.read(&self.path).map_err(damaged)?;
         let (records, form) = (contents.records, &self.identity.form);
-        let none = Recorded::new(plan.assembly());
+        let none = RecordSummary::new(plan.assembly());
         let saved = contents.saved(&none, form).map_err(damaged)?;
         let path = self.path.with_file_name(RECORDS);
         self.log = RecordLog::new(path.clone(), records, form, saved.recorded.last.as_ref());
@@ -97,7 +97,7 @@ impl Checkpoints {
     fn write(
         &mut self,
         position: &RunPosition,
-        recorded: &Recorded,
+        recorded: &RecordSummary,
         wall_s: f64,
     ) -> Result<(), CheckpointError> {
         let log = self.path.with_file_name(RECORDS);
@@ -128,7 +128,7 @@ impl Sink for Checkpoints {
         self.last.elapsed() >= self.every
     }
 
-    fn checkpoint(&mut self, position: &RunPosition, recorded: &Recorded, wall_s: f64) {
+    fn checkpoint(&mut self, position: &RunPosition, recorded: &RecordSummary, wall_s: f64) {
         let outcome = self.write(position, recorded, wall_s);
         self.last_failed = outcome.is_err();
         match outcome {

@@ -5,7 +5,7 @@ use super::log::{Tally, compare, open};
 use super::stored::{Form, Stored};
 use super::wire::{decode, decode_all, encode};
 use crate::results::difference::{Difference, first_difference};
-use crate::run::{Carried, Recorded, RunPosition, Saved};
+use crate::run::{RecordSummary, RunPosition, RunStatistics, SavedRun};
 use crate::{Plan, Task};
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
@@ -42,7 +42,7 @@ pub(super) struct Contents<'a> {
     pub(super) wall_s: f64,
     pub(super) records: Tally,
     pub(super) position: Cow<'a, RunPosition>,
-    pub(super) carried: Cow<'a, Carried>,
+    pub(super) carried: Cow<'a, RunStatistics>,
     pub(super) last: Option<Stored<'a>>,
 }
 
@@ -105,7 +105,7 @@ impl Contents<'_> {
     ///
     /// # Errors
     /// The numbers of records, bodies or columns differ from those of the run.
-    pub(super) fn saved(self, none: &Recorded, form: &Form) -> Result<Saved, Damage> {
+    pub(super) fn saved(self, none: &RecordSummary, form: &Form) -> Result<SavedRun, Damage> {
         let carried = self.carried.into_owned();
         let is_sound = carried.count == self.records.count
             && carried.fits(&none.carried)
@@ -116,9 +116,9 @@ impl Contents<'_> {
             return Err(Damage::Contents(what.into()));
         }
         let last = self.last.and_then(|last| last.into_record(form));
-        Ok(Saved {
+        Ok(SavedRun {
             position: self.position.into_owned(),
-            recorded: Recorded { carried, last },
+            recorded: RecordSummary { carried, last },
             wall_s: self.wall_s,
         })
     }

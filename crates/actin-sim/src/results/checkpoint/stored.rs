@@ -2,7 +2,7 @@
 
 use super::Damage;
 use super::wire::{decode_all, encode};
-use crate::Booked;
+use crate::EnergyExchange;
 use crate::run::{At, Record, Row};
 use actin_mechanics::{Motion, State};
 use serde::{Deserialize, Serialize};
@@ -28,7 +28,7 @@ pub(super) struct Stored<'a> {
     kinetic_pn_nm: f64,
     residual_force_pn: f64,
     residual_torque_pn_nm: f64,
-    booked: Booked,
+    booked: EnergyExchange,
     energies_pn_nm: Cow<'a, [f64]>,
     observed: Cow<'a, [f64]>,
     motion: Option<Motion>,
@@ -105,7 +105,7 @@ impl<'a> Stored<'a> {
             kinetic_pn_nm: 0.0,
             residual_force_pn: 0.0,
             residual_torque_pn_nm: 0.0,
-            booked: Booked::default(),
+            booked: EnergyExchange::default(),
             energies_pn_nm: vec![0.0; form.terms].into(),
             observed: vec![0.0; form.columns].into(),
             motion: form.has_states.then(|| form.like.motion()),

@@ -1,7 +1,7 @@
 //! Linker events read from `events.csv`.
 
 use super::super::RunDirectoryError;
-use crate::{Assembly, Happening};
+use crate::{Assembly, LinkerEventKind};
 use actin_mechanics::State;
 use std::path::Path;
 
@@ -9,7 +9,7 @@ use std::path::Path;
 pub(super) struct Event {
     time_ns: f64,
     linker: usize,
-    what: Happening,
+    what: LinkerEventKind,
     at_nm: f64,
 }
 
@@ -31,10 +31,10 @@ pub(super) fn read(path: &Path) -> Result<Vec<Event>, RunDirectoryError> {
 
 fn event(record: &csv::StringRecord) -> Option<Event> {
     let all = [
-        Happening::Broke,
-        Happening::Formed,
-        Happening::Stepped,
-        Happening::Left,
+        LinkerEventKind::Broke,
+        LinkerEventKind::Formed,
+        LinkerEventKind::Stepped,
+        LinkerEventKind::Left,
     ];
     let what = record.get(2)?;
     Some(Event {
@@ -55,8 +55,8 @@ pub(super) fn replay(events: &[Event], assembly: &Assembly, state: &mut State, t
             continue;
         };
         match event.what {
-            Happening::Broke | Happening::Left => linker.release(state),
-            Happening::Formed | Happening::Stepped => {
+            LinkerEventKind::Broke | LinkerEventKind::Left => linker.release(state),
+            LinkerEventKind::Formed | LinkerEventKind::Stepped => {
                 let distance = |place: &usize| (places_nm[*place] - event.at_nm).abs();
                 let nearest =
                     (0..places_nm.len()).min_by(|a, b| distance(a).total_cmp(&distance(b)));

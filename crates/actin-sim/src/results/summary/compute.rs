@@ -6,7 +6,7 @@ use super::{
     WorkSummary,
 };
 use crate::observe::{Averages, View};
-use crate::{Assembly, At, Booked, End, Outcome, Record, Status, Task, shape};
+use crate::{Assembly, At, End, EnergyExchange, Outcome, Record, Status, Task, shape};
 use actin_equilibrium::Certificate;
 use actin_mechanics::{Loads, Residual};
 
@@ -25,7 +25,7 @@ impl Summary {
             kinetic_pn_nm: 0.0,
             residual_force_pn: 0.0,
             residual_torque_pn_nm: 0.0,
-            booked: Booked::default(),
+            booked: EnergyExchange::default(),
             observed: Vec::new(),
         };
         let energies = (record.energies_pn_nm.as_slice(), 0.0);

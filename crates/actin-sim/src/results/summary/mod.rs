@@ -25,8 +25,8 @@ use super::{FollowingSummary, RunDirectoryError, finite::ensure_finite};
 use crate::notes::Note;
 use crate::trade::{Chosen, ModelError, Scatter};
 use crate::{
-    Assembly, BeyondRange, BeyondUse, Counts, ObservableSummary, Outcome, SaddlePush, Status,
-    UnstableTwist,
+    Assembly, Counts, LawExtrapolation, ModelLimitExceeded, ObservableSummary, Outcome, SaddlePush,
+    Status, UnstableTwist,
 };
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -89,10 +89,10 @@ pub struct Summary {
     ///
     /// The worst of all records for a run, otherwise of the last record. In a heat bath, one entry
     /// per quantity with its frequency.
-    pub beyond_range: Vec<BeyondRange>,
+    pub beyond_range: Vec<LawExtrapolation>,
     /// Violations of the limits of the model, the worst of all records; the run has then failed.
     #[serde(default)]
-    pub beyond_use: Vec<BeyondUse>,
+    pub beyond_use: Vec<ModelLimitExceeded>,
     /// Compression at which the twist of a rod becomes unstable; empty in a heat bath.
     ///
     /// The worst of all records for a run, otherwise of the last record.

@@ -1,40 +1,40 @@
 //! Record stream of a run with running diagnostics, without storing the records.
 
 use super::hinge::slip_between;
-use super::slip::{LinkWatch, Lost};
+use super::slip::{LinkWatch, TurnLoss};
 use super::{At, Plan, Progress, Record, RunPosition, Sink};
 use crate::assembly::{RangeWatch, TwistRecords, worst_of};
 use crate::observe::{Memory, View};
-use crate::{Assembly, BeyondRange, BeyondUse, UnstableTwist};
+use crate::{Assembly, LawExtrapolation, ModelLimitExceeded, UnstableTwist};
 use actin_mechanics::State;
 use serde::{Deserialize, Serialize};
 
 /// Summary of the records of a run, including the last record.
 #[derive(Clone, Debug)]
-pub struct Recorded {
-    pub(crate) carried: Carried,
+pub struct RecordSummary {
+    pub(crate) carried: RunStatistics,
     pub(crate) last: Option<Record>,
 }
 
 /// Running statistics of the records, stored in checkpoints.
 #[derive(Clone, Debug, Serialize, Deserialize)]
-pub(crate) struct Carried {
+pub(crate) struct RunStatistics {
     pub(crate) count: usize,
     links: LinkWatch,
-    beyond_use: Vec<BeyondUse>,
+    beyond_use: Vec<ModelLimitExceeded>,
     ranges: RangeWatch,
     twist: TwistRecords,
     observed: Memory,
 }
 
 #[derive(Debug)]
-pub(super) struct Remarks {
-    pub(super) beyond_use: Vec<BeyondUse>,
-    pub(super) beyond_range: Vec<BeyondRange>,
+pub(super) struct StateWarnings {
+    pub(super) beyond_use: Vec<ModelLimitExceeded>,
+    pub(super) beyond_range: Vec<LawExtrapolation>,
     pub(super) unstable_twist: Vec<UnstableTwist>,
 }
 
-impl Recorded {
+impl RecordSummary {
     /// Creates the summary of a run of `assembly` without records.
     pub(crate) fn new(assembly: &Assembly) -> Self {
         let mut start = assembly.system.state().clone();
@@ -43,7 +43,7 @@ impl Recorded {
             assembly.drive.place(&mut start, 0.0);
         }
         Self {
-            carried: Carried {
+            carried: RunStatistics {
                 count: 0,
                 links: LinkWatch::new(assembly, &start),
                 beyond_use: Vec::new(),
@@ -103,7 +103,7 @@ impl Recorded {
     }
 }
 
-impl Carried {
+impl RunStatistics {
     pub(crate) fn fits(&self, other: &Self) -> bool {
         self.observed.fits(&other.observed)
             && self.links.fits(&other.links)
@@ -112,30 +112,30 @@ impl Carried {
 }
 
 /// Passes records to a sink while checking for lost twist.
-pub(super) struct Taken<'a> {
+pub(super) struct RecordStream<'a> {
     pub(super) sink: &'a mut dyn Sink,
     assembly: &'a Assembly,
-    recorded: Recorded,
-    lost: Option<Lost>,
+    recorded: RecordSummary,
+    lost: Option<TurnLoss>,
 }
 
-impl<'a> Taken<'a> {
+impl<'a> RecordStream<'a> {
     pub(super) fn new(
         assembly: &'a Assembly,
-        recorded: Option<Recorded>,
+        recorded: Option<RecordSummary>,
         sink: &'a mut dyn Sink,
     ) -> Self {
         Self {
             sink,
             assembly,
-            recorded: recorded.unwrap_or_else(|| Recorded::new(assembly)),
+            recorded: recorded.unwrap_or_else(|| RecordSummary::new(assembly)),
             lost: None,
         }
     }
 
     /// Accepts a record and returns `true`, unless turns were lost since the previous record.
     pub(super) fn take(&mut self, record: Record) -> bool {
-        let Recorded { carried, last } = &mut self.recorded;
+        let RecordSummary { carried, last } = &mut self.recorded;
         let good = carried.links.clone();
         let before = last.as_ref().map(|record| &record.state);
         let here = (&record.state, record.at);
@@ -144,7 +144,7 @@ impl<'a> Taken<'a> {
         // filament.
         let path = before.filter(|_| matches!(record.at, At::Path(_)));
         let hinge = path.and_then(|path| slip_between(self.assembly, path, here));
-        self.lost = hinge.map(Lost::Hinge).or(twist.map(Lost::Twist));
+        self.lost = hinge.map(TurnLoss::Hinge).or(twist.map(TurnLoss::Twist));
         if self.lost.is_some() {
             carried.links = good;
             return false;
@@ -170,11 +170,11 @@ impl<'a> Taken<'a> {
         self.recorded.last.as_ref()
     }
 
-    pub(super) fn recorded(&self) -> &Recorded {
+    pub(super) fn recorded(&self) -> &RecordSummary {
         &self.recorded
     }
 
-    pub(super) fn lose(&mut self, lost: Lost) {
+    pub(super) fn lose(&mut self, lost: TurnLoss) {
         self.lost = Some(lost);
     }
 
@@ -182,13 +182,13 @@ impl<'a> Taken<'a> {
         self.lost.is_some()
     }
 
-    pub(super) fn lost(&mut self) -> Option<Lost> {
+    pub(super) fn lost(&mut self) -> Option<TurnLoss> {
         self.lost.take()
     }
 
-    pub(super) fn into_remarks(self) -> Remarks {
+    pub(super) fn into_remarks(self) -> StateWarnings {
         let carried = self.recorded.carried;
-        Remarks {
+        StateWarnings {
             beyond_use: carried.beyond_use,
             beyond_range: carried.ranges.end(self.assembly),
             unstable_twist: carried.twist.end(),
@@ -202,7 +202,7 @@ impl<'a> Taken<'a> {
     pub(super) fn checkpoint_behind(
         &mut self,
         position: &RunPosition,
-        recorded: &Recorded,
+        recorded: &RecordSummary,
         wall_s: f64,
     ) {
         self.sink.checkpoint(position, recorded, wall_s);

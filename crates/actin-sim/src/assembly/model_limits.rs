@@ -23,7 +23,7 @@ const OVERLAP: f64 = 1.0;
 
 /// Deformation of a filament beyond the validity of the model.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct BeyondUse {
+pub struct ModelLimitExceeded {
     /// Index of the filament.
     pub filament: usize,
     /// Index of the section in its filament; for a junction, index of the section before it.
@@ -48,7 +48,7 @@ pub struct BeyondUse {
     pub limit: f64,
 }
 
-impl fmt::Display for BeyondUse {
+impl fmt::Display for ModelLimitExceeded {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self {
             s_nm, value, limit, ..
@@ -92,7 +92,7 @@ impl Assembly {
     ///
     /// Only neighbouring bodies and repelling bodies are checked. Without repulsion, distant parts
     /// of a filament or two filaments pass through each other undetected.
-    pub fn beyond_use(&self, state: &State) -> Vec<BeyondUse> {
+    pub fn beyond_use(&self, state: &State) -> Vec<ModelLimitExceeded> {
         let mut found = Vec::new();
         for rod in &self.rods {
             let radius = (CROSS_SECTION_AREA / PI).sqrt();
@@ -130,7 +130,7 @@ impl Assembly {
         worst(found)
     }
 
-    fn push_touching(&self, found: &mut Vec<BeyondUse>, state: &State) {
+    fn push_touching(&self, found: &mut Vec<ModelLimitExceeded>, state: &State) {
         let repelled = self.repelled.iter();
         for touching in repelled.flat_map(|repelled| repelled.touching(state)) {
             let s_nm = touching.gap.places[0];
@@ -151,20 +151,20 @@ impl Assembly {
     pub fn worst_beyond_use<'a>(
         &self,
         states: impl IntoIterator<Item = &'a State>,
-    ) -> Vec<BeyondUse> {
+    ) -> Vec<ModelLimitExceeded> {
         worst(states.into_iter().flat_map(|state| self.beyond_use(state)))
     }
 
     fn push_beyond(
         &self,
-        found: &mut Vec<BeyondUse>,
+        found: &mut Vec<ModelLimitExceeded>,
         section: usize,
         (quantity, limit): (&str, f64),
         (s_nm, value): Furthest,
     ) {
         if value > limit {
             let filament = self.filament_of_section(section);
-            found.push(BeyondUse {
+            found.push(ModelLimitExceeded {
                 filament,
                 section: section - self.filaments[filament].sections.start,
                 quantity: quantity.to_owned(),
@@ -247,10 +247,12 @@ impl Assembly {
     }
 }
 
-pub(crate) fn worst(found: impl IntoIterator<Item = BeyondUse>) -> Vec<BeyondUse> {
-    let mut worst: Vec<BeyondUse> = Vec::new();
+pub(crate) fn worst(
+    found: impl IntoIterator<Item = ModelLimitExceeded>,
+) -> Vec<ModelLimitExceeded> {
+    let mut worst: Vec<ModelLimitExceeded> = Vec::new();
     for beyond in found {
-        let is_same = |b: &&mut BeyondUse| {
+        let is_same = |b: &&mut ModelLimitExceeded| {
             (b.filament, b.section, &b.quantity)
                 == (beyond.filament, beyond.section, &beyond.quantity)
         };
