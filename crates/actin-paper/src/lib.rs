@@ -24,6 +24,7 @@ pub mod measure;
 mod palette;
 mod published;
 mod run;
+mod statistics;
 
 use std::fmt;
 use std::path::{Path, PathBuf};

@@ -2,7 +2,7 @@
 
 use super::case::{Case, Loading, TURNED_NM};
 use super::filament::Made;
-use crate::figures::linked::centre_line::CentreLine;
+use crate::figures::CentreLine;
 use crate::measure::{Evidence, Specimen, far_end_shift, follow, reaction, twist};
 use crate::run::{clamp, free, run_to_end, scenario};
 use actin_mechanics::{State, Vector3};

@@ -1,11 +1,10 @@
 //! Twisted filaments of many bond samplings: what Tables 3 and 5 are made from.
 
-use super::statistics::{Sample, sample};
-use crate::figures::Run;
+use crate::figures::draft::Draft;
 use crate::measure::{Curve, MeasureError, Specimen, Stability, TwistPoint, twist, twist_in_order};
 use crate::published::{Entry, Table, entries};
+use crate::statistics::{Sample, sample};
 use actin_sim::{Anchors, Monomers, ellipsoid_constants as monomer};
-use rayon::prelude::*;
 use std::sync::OnceLock;
 
 /// Rises between the inner held monomers: 30 monomers, two held at each end, 73.94 nm.
@@ -66,11 +65,6 @@ impl Kind {
             Anchors::Cubature => "mean-filament".to_owned(),
             _ => format!("{}-{}{way}", self.anchors_name(), self.bonds),
         }
-    }
-
-    /// `out` or `back`.
-    pub(super) fn way(&self) -> &'static str {
-        if self.returning { "back" } else { "out" }
     }
 
     /// Seeds of its samplings, at most so many: one if nothing is drawn.
@@ -134,22 +128,22 @@ static CORE: OnceLock<Result<Ensemble, String>> = OnceLock::new();
 static ENSEMBLE: OnceLock<Result<Ensemble, String>> = OnceLock::new();
 
 /// Samplings of the default kind, on both ways, and the mean filament; computed once.
-pub(super) fn core(run: Run<'_>) -> Result<&'static Ensemble, String> {
-    CORE.get_or_init(|| Ensemble::run(run, Kind::CORE.into()))
+pub(super) fn core(draft: &Draft<'_>) -> Result<&'static Ensemble, String> {
+    CORE.get_or_init(|| Ensemble::run(draft, Kind::CORE.into()))
         .as_ref()
         .map_err(Clone::clone)
 }
 
-/// The same with all other kinds, unless `quick`: computed once for the tables that share it.
-pub(super) fn ensemble(run: Run<'_>) -> Result<&'static Ensemble, String> {
-    if run.quick {
-        return core(run);
+/// The same with all other kinds, unless `--quick`: computed once for the tables that share it.
+pub(super) fn ensemble(draft: &Draft<'_>) -> Result<&'static Ensemble, String> {
+    if draft.quick {
+        return core(draft);
     }
     ENSEMBLE
         .get_or_init(|| {
-            let mut all = core(run)?.clone();
-            all.samplings
-                .extend(Ensemble::run(run, other_kinds())?.samplings);
+            let mut all = core(draft)?.clone();
+            let others = Ensemble::run(draft, other_kinds())?;
+            all.samplings.extend(others.samplings);
             Ok(all)
         })
         .as_ref()
@@ -157,29 +151,18 @@ pub(super) fn ensemble(run: Run<'_>) -> Result<&'static Ensemble, String> {
 }
 
 impl Ensemble {
-    fn run(
-        Run {
-            quick, progress, ..
-        }: Run<'_>,
-        kinds: Vec<Kind>,
-    ) -> Result<Self, String> {
-        let turns = turns_deg()?;
-        let seeds = if quick { QUICK_SEEDS } else { SEEDS };
-        let cases: Vec<(Kind, u64)> = kinds
-            .into_iter()
-            .flat_map(|kind| kind.seeds(seeds).map(move |seed| (kind, seed)))
-            .collect();
-        progress.expect(cases.len());
-        let samplings = cases
-            .into_par_iter()
-            .map(|(kind, seed)| {
-                let curve = kind
-                    .twist(seed, &turns)
-                    .map_err(|error| format!("{}, seed {seed}: {error}", kind.name()))?;
-                progress.done();
-                Ok(Sampling { kind, seed, curve })
-            })
-            .collect::<Result<_, String>>()?;
+    fn run(draft: &Draft<'_>, kinds: Vec<Kind>) -> Result<Self, String> {
+        let entries = entries(Table::Rigidity)?;
+        let turns: Vec<f64> = entries.iter().map(turn_deg).collect();
+        let seeds = if draft.quick { QUICK_SEEDS } else { SEEDS };
+        let kinds = kinds.into_iter();
+        let cases = kinds.flat_map(|kind| kind.seeds(seeds).map(move |seed| (kind, seed)));
+        let samplings = draft.solve(&cases.collect::<Vec<_>>(), |&(kind, seed)| {
+            let curve = kind.twist(seed, &turns);
+            let curve = curve.map_err(|e| format!("{}, seed {seed}: {e}", kind.name()))?;
+            Ok(Sampling { kind, seed, curve })
+        });
+        let samplings = samplings.into_iter().collect::<Result<_, String>>()?;
         Ok(Self { samplings, seeds })
     }
 
@@ -272,10 +255,6 @@ pub(super) fn value(point: &TwistPoint, table: Table) -> f64 {
 /// The turn of our filament at the curvature of an entry (deg).
 pub(super) fn turn_deg(entry: &Entry) -> f64 {
     (entry.curvature * RISES * Monomers::default().rise_nm).to_degrees()
-}
-
-fn turns_deg() -> Result<Vec<f64>, String> {
-    Ok(entries(Table::Rigidity)?.iter().map(turn_deg).collect())
 }
 
 fn point_at(curve: &Curve<TwistPoint>, entry: &Entry) -> Option<TwistPoint> {
