@@ -16,6 +16,7 @@
 struct Readme;
 
 pub mod cells;
+mod charts;
 pub mod committed;
 pub mod figures;
 pub mod fit;

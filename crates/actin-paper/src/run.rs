@@ -109,25 +109,33 @@ impl Solved {
         energy(&self.assembly, self.last(), is_counted)
     }
 
-    /// The centre line (nm).
-    pub(crate) fn centre_line(&self) -> Vec<[f64; 3]> {
-        let points = 0..self.assembly.points.len();
-        let place = |i| self.assembly.centre_line_nm(self.state(), i).into();
-        points.map(place).collect()
-    }
-
-    /// Centres of monomers (nm).
-    pub(crate) fn monomers(&self) -> Vec<[f64; 3]> {
+    pub(crate) fn shape(&self) -> Shape {
         let points = self.assembly.points.iter().enumerate();
+        let line = points
+            .clone()
+            .map(|(i, _)| self.assembly.centre_line_nm(self.state(), i).into());
         let monomers = points.filter(|(_, info)| info.frame.is_some());
-        monomers
-            .map(|(i, _)| self.state().points.position.get(i).into())
-            .collect()
+        let centres = monomers.map(|(i, _)| self.state().points.position.get(i).into());
+        Shape {
+            line: line.collect(),
+            monomers: centres.collect(),
+            pose: self.pose(),
+        }
     }
 
     pub(crate) fn pose(&self) -> Pose {
         Pose::of(&self.assembly, self.state())
     }
+}
+
+/// A state as it is drawn.
+#[derive(Clone, Debug)]
+pub(crate) struct Shape {
+    /// The centre line (nm).
+    pub line: Vec<[f64; 3]>,
+    /// Centres of monomers (nm).
+    pub monomers: Vec<[f64; 3]>,
+    pub pose: Pose,
 }
 
 /// Potential energy of some parts of a system in a record (pN nm).

@@ -6,18 +6,18 @@
 //! the preceding paper.
 
 use super::charts::{Curve, Filament, Side, against_rod, draw_from};
-use super::draft::{Draft, number};
+use super::draft::{Draft, number, residuals};
 use super::model::{Model, Resolution};
 use super::motion::{RingDown, energy_decays, ring_down};
 use crate::palette;
-use crate::run::{Solved, energy, scenario};
+use crate::run::{Shape, Solved, energy, scenario};
 use crate::statistics::{largest, sample};
-use actin_draw::{Chart, Colour};
+use actin_draw::Colour;
 use actin_sim::{
     Assembly, DragRates, End, Equilibrium, ForceLaw, JunctionWeight, Part, Record, Scene, Section,
     Task,
 };
-use actin_view::{Attitude, Pose, Shown};
+use actin_view::Attitude;
 
 /// Length of the filament (nm).
 const LENGTH_NM: f64 = 160.0;
@@ -122,9 +122,7 @@ struct Outcome {
     /// Evaluations of bonds and segments.
     work: f64,
     ring_down: Option<RingDown>,
-    line: Vec<[f64; 3]>,
-    monomers: Vec<[f64; 3]>,
-    pose: Pose,
+    shape: Shape,
     residual: [f64; 2],
     has_converged: bool,
     time_ns: f64,
@@ -249,9 +247,7 @@ impl Case {
             total: solved.records.iter().map(total).collect(),
             work: solved.report.force_evaluations as f64 * (counts.bonds + counts.segments) as f64,
             ring_down: self.ring_down(is_moved, &scene, drop)?,
-            line: solved.centre_line(),
-            monomers: solved.monomers(),
-            pose: solved.pose(),
+            shape: solved.shape(),
             residual: solved.residual(),
             has_converged: solved.report.has_converged(),
             time_ns: solved.last().at.value(),
@@ -301,7 +297,6 @@ fn internal_energy(assembly: &Assembly, record: &Record) -> f64 {
 }
 
 fn settings(outcomes: &[Outcome]) -> String {
-    let worst = |k: usize| largest(outcomes.iter().map(|o| o.residual[k]));
     let unfinished = outcomes.iter().filter(|o| !o.has_converged).count();
     let how = if outcomes.iter().any(|o| o.is_moved) {
         "damped dynamics, and equilibria by Newton's method for the preceding paper's rigidity"
@@ -309,12 +304,10 @@ fn settings(outcomes: &[Outcome]) -> String {
         "equilibria by Newton's method; the printed balance, which has no potential, is left out"
     };
     format!(
-        "Scenes scenarios/figure-4/*.ron, {} cases, {how}; at the end every force is below {:.1e} pN and \
-         every torque below {:.1e} pN nm; {unfinished} case(s) ended before. Seed 0 unless named; the mean \
-         filament has weighted bonds and no seed.",
+        "Scenes scenarios/figure-4/*.ron, {} cases, {how}; at the end {}; {unfinished} case(s) ended before. Seed 0 \
+         unless named; the mean filament has weighted bonds and no seed.",
         outcomes.len(),
-        worst(0),
-        worst(1),
+        residuals(outcomes.iter().map(|o| o.residual)),
     )
 }
 
@@ -434,8 +427,8 @@ fn tables(draft: &Draft<'_>, outcomes: &[Outcome]) -> Result<(), String> {
             .map(move |o| (vec![o.case.path()], keep(o).clone()))
     };
     let header = ["case", "x_nm", "y_nm", "z_nm"];
-    draft.curves("fig4_centre_lines.csv", &header, places(|o| &o.line))?;
-    draft.curves("fig4_monomers.csv", &header, places(|o| &o.monomers))?;
+    draft.curves("fig4_centre_lines.csv", &header, places(|o| &o.shape.line))?;
+    draft.curves("fig4_monomers.csv", &header, places(|o| &o.shape.monomers))?;
     let energies = outcomes.iter().map(|o| {
         let energy = o.energy.iter().map(|&(t, e)| [t, e]);
         (vec![o.case.path()], energy.collect())
@@ -531,19 +524,17 @@ fn panels(draft: &mut Draft<'_>, outcomes: &[Outcome]) -> Result<(), String> {
         }
         if chosen[0].is_moved {
             let curves = filaments.iter().zip(&chosen);
-            let chart = Chart {
-                title: &format!("Energy, {}", model.words),
-                x_label: "time (ns)",
-                y_label: "elastic and kinetic energy (pN nm)",
-                series: curves
-                    .flat_map(|(f, o)| f.curve(o.energy.clone(), false))
-                    .collect(),
-                equal_axes: false,
-            };
+            let series = curves.flat_map(|(f, o)| f.curve(o.energy.clone(), false));
             let caption = format!(
                 "Elastic and kinetic energy while the damped motion comes to rest.{dashed}"
             );
-            draft.chart(format!("fig4_{name}_energy.svg"), &chart, caption)?;
+            draft.plot(
+                format!("fig4_{name}_energy.svg"),
+                &format!("Energy, {}", model.words),
+                ["time (ns)", "elastic and kinetic energy (pN nm)"],
+                series.collect(),
+                caption,
+            )?;
         }
     }
     Ok(())
@@ -551,23 +542,11 @@ fn panels(draft: &mut Draft<'_>, outcomes: &[Outcome]) -> Result<(), String> {
 
 impl Outcome {
     fn filament(&self, is_mean: bool) -> Filament {
-        let (name, colour) = if is_mean {
-            ("mean filament".into(), palette::DATA)
-        } else {
-            let colour = palette::resolution(self.case.rod_nm() / LENGTH_NM);
-            (self.case.resolution.name(), colour)
-        };
-        Filament {
-            name,
-            colour,
-            is_dashed: is_mean,
-            line: self.line.clone(),
-            monomers: if is_mean {
-                Vec::new()
-            } else {
-                self.monomers.clone()
-            },
+        if is_mean {
+            return Filament::mean("mean filament", &self.shape);
         }
+        let share = self.case.rod_nm() / LENGTH_NM;
+        Filament::new(self.case.resolution.name(), share, &self.shape)
     }
 }
 
@@ -601,34 +580,33 @@ fn against_resolution(draft: &mut Draft<'_>, outcomes: &[Outcome]) -> Result<(),
             curve(AS_PRINTED, palette::line(3), value),
             curve(MEAN, palette::DATA, value),
         ];
-        let chart = Chart {
-            title: "Equilibria under 2 pN against resolution",
-            x_label: "rod at the tip (nm)",
-            y_label,
-            series: against_rod(curves),
-            equal_axes: false,
-        };
         let caption = format!(
             "The {y_label} against the length of rod, monomers alone at 0 and rod alone at 160 nm; drawn bonds \
              of the first sampling, and the mean filament (black)."
         );
-        draft.chart(format!("fig4_{name}.svg"), &chart, caption)?;
+        draft.plot(
+            format!("fig4_{name}.svg"),
+            "Equilibria under 2 pN against resolution",
+            ["rod at the tip (nm)", y_label],
+            against_rod(curves),
+            caption,
+        )?;
     }
     Ok(())
 }
 
 /// The drawn states for the viewer.
 fn view(draft: &mut Draft<'_>, outcomes: &[Outcome]) -> Result<(), String> {
-    let shown: Vec<Shown> = drawn(outcomes, |_| true)
-        .into_iter()
-        .map(|o| Shown {
-            group: o.case.model.words.into(),
-            name: o.case.resolution.name(),
-            share: o.case.rod_nm() / LENGTH_NM,
-            pose: o.pose.clone(),
-        })
-        .collect();
+    let shown = drawn(outcomes, |_| true).into_iter().map(|o| {
+        let share = o.case.rod_nm() / LENGTH_NM;
+        (
+            o.case.model.words.into(),
+            o.case.resolution.name(),
+            share,
+            o.shape.pose.clone(),
+        )
+    });
     let caption = "Where the damped motions came to rest, in space: monomers with their own semi-axes and \
         orientations, the rod with a stripe along its first axis. The force acts at the tip.";
-    draft.view("fig4", Attitude::LYING, &shown, caption)
+    draft.view("fig4", Attitude::LYING, shown, caption)
 }

@@ -1,28 +1,12 @@
 //! Charts that several figures share: centre lines seen from some sides, and curves against the length of
 //! rod.
 
+pub(super) use crate::charts::{dots, line};
+
 use super::draft::Draft;
+use crate::palette;
+use crate::run::Shape;
 use actin_draw::{Chart, Colour, Series};
-
-/// A line with a name in the legend.
-pub(super) fn line(label: impl Into<String>, colour: Colour, points: Vec<(f64, f64)>) -> Series {
-    Series {
-        label: Some(label.into()),
-        colour,
-        points,
-        dots: false,
-    }
-}
-
-/// Dots without a name in the legend.
-pub(super) fn dots(colour: Colour, points: Vec<(f64, f64)>) -> Series {
-    Series {
-        label: None,
-        colour,
-        points,
-        dots: true,
-    }
-}
 
 /// A white dot that makes room for the legend.
 pub(super) fn room(at: (f64, f64)) -> Series {
@@ -42,6 +26,27 @@ pub(super) struct Filament {
 }
 
 impl Filament {
+    /// A filament in the colour of its share of rod.
+    pub(super) fn new(name: String, share: f64, shape: &Shape) -> Self {
+        Self {
+            name,
+            colour: palette::resolution(share),
+            is_dashed: false,
+            line: shape.line.clone(),
+            monomers: shape.monomers.clone(),
+        }
+    }
+
+    /// The mean filament of monomers: its centre line alone, in dashes.
+    pub(super) fn mean(name: &str, shape: &Shape) -> Self {
+        Self {
+            colour: palette::DATA,
+            is_dashed: true,
+            monomers: Vec::new(),
+            ..Self::new(name.into(), 0.0, shape)
+        }
+    }
+
     /// A curve of this filament in its colour.
     pub(super) fn curve(&self, points: Vec<(f64, f64)>, equal_axes: bool) -> Vec<Series> {
         let line = line(self.name.clone(), self.colour, points);

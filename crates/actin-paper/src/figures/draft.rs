@@ -2,10 +2,10 @@
 
 use super::expected::{self, Bound};
 use super::progress::Progress;
-use crate::statistics::Sample;
-use actin_draw::Chart;
+use crate::statistics::{Sample, largest};
 use actin_draw::report::{Artefact, Origin, Picture, Row, View, write_csv};
-use actin_view::{Attitude, Shown, states};
+use actin_draw::{Chart, Series};
+use actin_view::{Attitude, Pose, Shown, states};
 use rayon::prelude::*;
 use std::path::Path;
 
@@ -145,15 +145,41 @@ impl<'a> Draft<'a> {
         Ok(())
     }
 
-    /// Writes states for the viewer of the page.
+    /// Draws series over axes of scales of their own, with the labels of both.
+    pub(super) fn plot(
+        &mut self,
+        file: impl Into<String>,
+        title: &str,
+        [x_label, y_label]: [&str; 2],
+        series: Vec<Series>,
+        caption: impl Into<String>,
+    ) -> Result<(), String> {
+        let chart = Chart {
+            title,
+            x_label,
+            y_label,
+            series,
+            equal_axes: false,
+        };
+        self.chart(file.into(), &chart, caption)
+    }
+
+    /// Writes states for the viewer of the page: group, name, share of rod, bodies.
     pub(super) fn view(
         &mut self,
         id: &str,
         attitude: Attitude,
-        shown: &[Shown],
+        shown: impl IntoIterator<Item = (String, String, f64, Pose)>,
         caption: &str,
     ) -> Result<(), String> {
-        let view = states::write(id, attitude, shown, caption.into(), self.out)?;
+        let shown = shown.into_iter().map(|(group, name, share, pose)| Shown {
+            group,
+            name,
+            share,
+            pose,
+        });
+        let shown: Vec<Shown> = shown.collect();
+        let view = states::write(id, attitude, &shown, caption.into(), self.out)?;
         self.views.push(view);
         Ok(())
     }
@@ -233,4 +259,10 @@ impl Measured {
 /// A number in a table.
 pub(super) fn number(x: f64) -> String {
     format!("{x:.9e}")
+}
+
+/// The largest of some residuals, in words.
+pub(super) fn residuals(all: impl Iterator<Item = [f64; 2]> + Clone) -> String {
+    let [force, torque] = [0, 1].map(|k| largest(all.clone().map(|r| r[k])));
+    format!("every force is below {force:.1e} pN and every torque below {torque:.1e} pN nm")
 }

@@ -3,14 +3,14 @@
 //! filament, and a rod with the energy of the supplement, which couples stretch and twist.
 
 use super::charts::{line, room};
-use super::draft::Draft;
+use super::draft::{Draft, residuals};
 use crate::palette;
 use crate::run::{Solved, scenario};
 use crate::statistics::{largest, sample};
-use actin_draw::{Chart, Colour, Series};
+use actin_draw::{Colour, Series};
 use actin_sim::shape::{Ribbon, profile};
 use actin_sim::{Assembly, Hold, Monomers, Part, RodLaw, Scene, Slides};
-use actin_view::{Attitude, Pose, Shown};
+use actin_view::{Attitude, Pose};
 
 /// Samplings of the bonds, each pulled in both directions, and for `--quick`.
 const SEEDS: u64 = 16;
@@ -105,13 +105,11 @@ pub(super) fn figure7(draft: &mut Draft<'_>) -> Result<(), String> {
         case.solve().map_err(|e| format!("{}: {e}", case.kind))
     });
     let results: Vec<Halves> = results.into_iter().collect::<Result<_, _>>()?;
-    let worst = |k: usize| largest(results.iter().map(|h| h.residual[k]));
     draft.settings = format!(
         "Scenes scenarios/figure-7/*.ron, {} equilibria; seeds of the bonds from 0 (the mean filament has no \
-         seed), each pulled both ways; every force is below {:.1e} pN and every torque below {:.1e} pN nm.",
+         seed), each pulled both ways; {}.",
         results.len(),
-        worst(0),
-        worst(1)
+        residuals(results.iter().map(|h| h.residual))
     );
     rows(draft, &results);
     tables(draft, &results)?;
@@ -347,17 +345,19 @@ fn picture(draft: &mut Draft<'_>, results: &[Halves]) -> Result<(), String> {
     series.push(room((0.0, top)));
     let mean = curve("mean filament", palette::DATA, "mean-filament/ellipsoid");
     series.extend(mean.dashed(false));
-    let chart = Chart {
-        title: "Energy along the filament; the over-twisted half is on the right",
-        x_label: "arc length from the middle (nm)",
-        y_label: "elastic energy per length (pN)",
-        series,
-        equal_axes: false,
-    };
     let caption = "Elastic energy per length; of ellipsoids the mean over all samplings and both directions of the \
         pull. Dashed: weighted bonds, the mean filament. C3 energy: the coupling of stretch and twist of the \
         paper's supplement.";
-    draft.chart("fig7_energy.svg".into(), &chart, caption)
+    draft.plot(
+        "fig7_energy.svg",
+        "Energy along the filament; the over-twisted half is on the right",
+        [
+            "arc length from the middle (nm)",
+            "elastic energy per length (pN)",
+        ],
+        series,
+        caption,
+    )
 }
 
 /// Mean over profiles that are known at the same places, within the mirror image.
@@ -371,18 +371,17 @@ fn mean_profile(halves: &[&Halves]) -> Vec<(f64, f64)> {
 
 /// The pure cases with both ends held, the first sampling, for the viewer.
 fn view(draft: &mut Draft<'_>, results: &[Halves]) -> Result<(), String> {
-    let shown: Vec<Shown> = [("rod", 1.0), ("ellipsoid", 0.0)]
+    let shown = [("rod", 1.0), ("ellipsoid", 0.0)]
         .into_iter()
         .filter_map(|(kind, share)| {
             let first = results.iter().find(|h| h.case.kind == kind)?;
-            Some(Shown {
-                group: "both ends held".into(),
-                name: kind.into(),
+            Some((
+                "both ends held".into(),
+                kind.into(),
                 share,
-                pose: first.pose.clone(),
-            })
-        })
-        .collect();
+                first.pose.clone(),
+            ))
+        });
     let caption = "The equilibria in space, with the linker that turns the middle.";
-    draft.view("fig7", Attitude::LYING, &shown, caption)
+    draft.view("fig7", Attitude::LYING, shown, caption)
 }

@@ -4,7 +4,7 @@ use super::charts::{dots, line};
 use super::draft::Draft;
 use crate::cells::{mean, strain, twisted};
 use actin_cosserat::Homogenised;
-use actin_draw::{Chart, Ramp};
+use actin_draw::Ramp;
 use actin_sim::ellipsoid::{Cell, SixVector};
 use rayon::prelude::*;
 
@@ -77,15 +77,9 @@ impl Cut {
             let points: Result<_, String> = cells.par_iter().map(energy).collect();
             series.push(dots(colour, points?));
         }
-        let chart = Chart {
-            title: self.title,
-            x_label: self.over.1,
-            y_label: "energy per length (pN)",
-            series,
-            equal_axes: false,
-        };
         let caption = format!("{}: the law (lines) and relaxed cells (dots).", self.title);
-        draft.chart(self.file.to_owned(), &chart, caption)
+        let labels = [self.over.1, "energy per length (pN)"];
+        draft.plot(self.file, self.title, labels, series, caption)
     }
 
     /// Places on the line of one value, and where they stand on the axis.

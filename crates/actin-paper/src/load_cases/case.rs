@@ -262,11 +262,6 @@ const THREE: Bound = Bound::Relative(0.03);
 const FIVE: Bound = Bound::Relative(0.05);
 
 impl Group {
-    /// All, in the order of tables.
-    pub(super) fn all() -> [Self; 10] {
-        GROUPS.map(|(group, ..)| group)
-    }
-
     /// Name in tables.
     pub(super) fn name(self) -> &'static str {
         GROUPS[self as usize].1

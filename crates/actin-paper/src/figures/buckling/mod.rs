@@ -40,7 +40,9 @@ struct Figure {
     turns: &'static [i32],
     /// Samplings of the bonds, and for `--quick`.
     seeds: [u64; 2],
-    /// Turns (deg) at which the shown model is solved from many starts, and for `--quick`.
+    /// Starts of the shown model, and for `--quick`; turns (deg) at which it is solved from all of them, and for
+    /// `--quick`.
+    starts: [fn() -> Vec<Start>; 2],
     started: [&'static [i32]; 2],
 }
 
@@ -108,7 +110,8 @@ static FIGURE_8: Figure = Figure {
     models: &[SHOWN_8, MEAN_8, wall(SHOWN_8), FULL],
     turns: &[180, -180],
     seeds: [8, 2],
-    started: [&[180, -180], &[]],
+    starts: [Start::all, Start::orders],
+    started: [&[180, -180], &[180, -180]],
 };
 
 static FIGURE_10: Figure = Figure {
@@ -125,6 +128,7 @@ static FIGURE_10: Figure = Figure {
     ],
     turns: &[180, -180, 270, -270, 360, -360],
     seeds: [4, 1],
+    starts: [Start::all, Start::all],
     started: [&[360, -360], &[360]],
 };
 
@@ -193,7 +197,7 @@ impl Plan {
             models: models.filter(|m| !quick || *m != AS_PRINTED).collect(),
             resolutions: all.chain([Resolution::Ellipsoids]).collect(),
             seeds: figure.seeds[k],
-            starts: Start::all(),
+            starts: (figure.starts[k])(),
             started: figure.started[k],
             quick,
         }

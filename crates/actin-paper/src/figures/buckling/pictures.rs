@@ -10,9 +10,9 @@ use crate::figures::draft::Draft;
 use crate::figures::model::{Model, Resolution};
 use crate::palette;
 use crate::run::scenario;
-use actin_draw::{Chart, Colour};
+use actin_draw::Colour;
 use actin_sim::follow::Follower;
-use actin_view::{Attitude, Pose, Shown};
+use actin_view::{Attitude, Pose};
 
 /// Along the axis, in the plane of buckling and out of it are the coordinates 0, 1 and 2.
 const SIDES: [Side; 3] = [
@@ -158,13 +158,6 @@ fn against_resolution(
             points: means.collect(),
         }
     });
-    let chart = Chart {
-        title: &format!("{what}, {} at each end", in_words(turn)),
-        x_label: "length of rod (nm); 0 is all monomers, 300 all rod",
-        y_label: &format!("{name} ({unit})"),
-        series: against_rod(curves.collect()),
-        equal_axes: false,
-    };
     let file = format!(
         "{}_{}_{name}.svg",
         plan.figure.id,
@@ -176,23 +169,35 @@ fn against_resolution(
          solved for it.",
         plan.figure.rods, plan.seeds,
     );
-    draft.chart(file, &chart, caption)
+    draft.plot(
+        file,
+        &format!("{what}, {} at each end", in_words(turn)),
+        [
+            "length of rod (nm); 0 is all monomers, 300 all rod",
+            &format!("{name} ({unit})"),
+        ],
+        against_rod(curves.collect()),
+        caption,
+    )
 }
 
 /// The drawn states for the viewer.
 fn view(plan: &Plan, draft: &mut Draft<'_>, results: &Results) -> Result<(), String> {
     let mut shown = Vec::new();
     for &turn in plan.figure.turns {
-        shown.extend(drawn(plan, results, turn).into_iter().map(|o| Shown {
-            group: in_words(turn),
-            name: o.case.resolution.name(),
-            share: o.case.rod_nm() / LENGTH_NM,
-            pose: o.pose.clone(),
+        shown.extend(drawn(plan, results, turn).into_iter().map(|o| {
+            let share = o.case.rod_nm() / LENGTH_NM;
+            (
+                in_words(turn),
+                o.case.resolution.name(),
+                share,
+                o.pose.clone(),
+            )
         }));
     }
     let caption = "The equilibria of seed 0 in space, each in the plane in which it buckled; the stripe along rods \
         is their first axis and shows the twist. The weak pull that breaks the symmetry is left out.";
-    draft.view(plan.figure.id, Attitude::LYING, &shown, caption)
+    draft.view(plan.figure.id, Attitude::LYING, shown, caption)
 }
 
 /// Times of the states that are shown of the motion whose resolution follows it (ns): straight, bent, buckled, at
@@ -214,16 +219,16 @@ pub(super) fn followed(draft: &mut Draft<'_>) -> Result<(), String> {
             let record = records.find(|record| (record.at.value() - time_ns).abs() < NEAR_NS)?;
             let cells = &ran.stretch.beginning.is_monomers;
             let monomers = cells.iter().filter(|is_monomers| **is_monomers).count();
-            Some(Shown {
-                group: "Pushed together by a fifth in 300 ns".into(),
-                name: format!("{time_ns} ns"),
-                share: 1.0 - monomers as f64 / cells.len() as f64,
-                pose: Pose::of(&ran.stretch.assembly, &record.state),
-            })
+            Some((
+                "Pushed together by a fifth in 300 ns".into(),
+                format!("{time_ns} ns"),
+                1.0 - monomers as f64 / cells.len() as f64,
+                Pose::of(&ran.stretch.assembly, &record.state),
+            ))
         });
         shown.push(found.ok_or_else(|| fail(&format!("no state at {time_ns} ns")))?);
     }
     let caption = "A motion in time whose resolution follows it (scenarios/following.ron): cells of the rod become \
         monomers where it bends by more than 0.008 per nm, and rod again below 0.005.";
-    draft.view("fig10_following", Attitude::LYING, &shown, caption)
+    draft.view("fig10_following", Attitude::LYING, shown, caption)
 }

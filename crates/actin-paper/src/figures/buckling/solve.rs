@@ -222,7 +222,7 @@ impl Measured {
         let ribbon = Ribbon::new(assembly, state);
         let beyond = assembly.beyond_range(state).into_iter();
         let beyond = beyond.filter(|b| !b.is_strain());
-        let centre_line = solved.centre_line();
+        let centre_line = solved.shape().line;
         let distances = centre_line.iter().map(|[x, y, _]| x.hypot(*y));
         Self {
             height_nm: distances.fold(0.0, f64::max),

@@ -115,8 +115,7 @@ struct Case {
 /// Figure 5: linkers in one plane.
 pub(super) fn figure5(draft: &mut Draft<'_>) -> Result<(), String> {
     let outcomes = solve_all(&FIGURE_5, draft, !draft.quick)?;
-    draw(&FIGURE_5, draft, &outcomes)?;
-    rows::in_plane(draft, &FIGURE_5)
+    draw(&FIGURE_5, draft, &outcomes)
 }
 
 /// Figure 6: linkers all round, compared with those in one plane.

@@ -6,8 +6,8 @@ use crate::figures::charts::{Curve, Filament, Side, against_rod, dots, draw_from
 use crate::figures::draft::Draft;
 use crate::palette;
 use crate::statistics::{largest, sample};
-use actin_draw::{Chart, Colour, Series};
-use actin_view::{Attitude, Shown};
+use actin_draw::{Colour, Series};
+use actin_view::Attitude;
 
 /// Energies are drawn from where they have come down to this multiple of the highest limit.
 const DRAWN_TO: f64 = 2.0;
@@ -81,39 +81,31 @@ pub(super) fn draw(
 
 /// The drawn equilibria for the viewer.
 fn view(figure: &Figure, draft: &mut Draft<'_>, chosen: &[&Outcome]) -> Result<(), String> {
-    let shown = chosen.iter().map(|o| Shown {
-        group: "equilibria".into(),
-        name: o.case.resolution.name(),
-        share: o.case.rod_nm() / figure.length_nm,
-        pose: o.lowest.pose.clone(),
+    let shown = chosen.iter().map(|o| {
+        let share = o.case.rod_nm() / figure.length_nm;
+        (
+            "equilibria".into(),
+            o.case.resolution.name(),
+            share,
+            o.lowest.shape.pose.clone(),
+        )
     });
-    let shown: Vec<Shown> = shown.collect();
     let caption = "The certified equilibria in space, with their linkers and the fixed anchors. The stripe along \
         the rod is its first axis.";
-    draft.view(figure.id, Attitude::LYING, &shown, caption)
+    draft.view(figure.id, Attitude::LYING, shown, caption)
 }
 
 impl Outcome {
     fn filament(&self) -> Filament {
-        let is_mean = self.case.is_drawn_mean();
-        let (name, colour) = if is_mean {
-            (self.case.model.words.into(), palette::DATA)
-        } else {
-            let share = self.case.rod_nm() / self.case.figure.length_nm;
-            (self.case.resolution.name(), palette::resolution(share))
-        };
-        let monomers = &self.lowest.monomers;
-        Filament {
-            name,
-            colour,
-            is_dashed: is_mean,
-            line: self.lowest.centre_line.points().to_vec(),
-            monomers: if is_mean {
-                Vec::new()
-            } else {
-                monomers.clone()
-            },
+        let (case, shape) = (&self.case, &self.lowest.shape);
+        if case.is_drawn_mean() {
+            return Filament::mean(case.model.words, shape);
         }
+        Filament::new(
+            case.resolution.name(),
+            case.rod_nm() / case.figure.length_nm,
+            shape,
+        )
     }
 }
 
@@ -152,22 +144,21 @@ fn energies(figure: &Figure, draft: &mut Draft<'_>, chosen: &[&Outcome]) -> Resu
         series.push(dots(filament.colour, limit.collect()));
         series
     });
-    let chart = Chart {
-        title: &format!(
-            "{}: energy while the damped motion comes to rest",
-            figure.name
-        ),
-        x_label: "time (ns)",
-        y_label: "filament, linkers and kinetic energy (pN nm)",
-        series: series.collect(),
-        equal_axes: false,
-    };
     let caption = format!(
         "Energy of filament and linkers, kinetic energy included, in damped dynamics (drag 0.3 per ns). It \
          begins at {start:.0} pN nm, all of it in the linkers, and is drawn from {top:.0} pN nm on. Dotted: the \
          certified equilibrium that each motion tends to. {IN_BLACK}"
     );
-    draft.chart(format!("{}_energy.svg", figure.id), &chart, caption)
+    draft.plot(
+        format!("{}_energy.svg", figure.id),
+        &format!(
+            "{}: energy while the damped motion comes to rest",
+            figure.name
+        ),
+        ["time (ns)", "filament, linkers and kinetic energy (pN nm)"],
+        series.collect(),
+        caption,
+    )
 }
 
 /// Energy of the equilibrium against the length of rod, for every model.
@@ -193,17 +184,19 @@ fn against_resolution(
     let mut series = against_rod(curves.collect());
     let energies = sample(first().map(|o| o.lowest.energy));
     series.push(room((0.0, energies.low - 0.5 * energies.range())));
-    let chart = Chart {
-        title: &format!(
+    let caption = "Certified equilibria against the length of the rod, pure monomers at 0 and pure rod at the \
+        right end; the first sampling of the bonds, and the mean filament.";
+    draft.plot(
+        format!("{}_resolution.svg", figure.id),
+        &format!(
             "{}: energy of the equilibrium against resolution",
             figure.name
         ),
-        x_label: "rod in the middle of the filament (nm)",
-        y_label: "energy of filament and linkers (pN nm)",
+        [
+            "rod in the middle of the filament (nm)",
+            "energy of filament and linkers (pN nm)",
+        ],
         series,
-        equal_axes: false,
-    };
-    let caption = "Certified equilibria against the length of the rod, pure monomers at 0 and pure rod at the \
-        right end; the first sampling of the bonds, and the mean filament.";
-    draft.chart(format!("{}_resolution.svg", figure.id), &chart, caption)
+        caption,
+    )
 }

@@ -1,10 +1,10 @@
 //! Numbers of Figures 5 and 6 as rows of the report and as tables.
 
-use super::solve::{self, Balance, Motion, Outcome, SAME_PN_NM};
+use super::solve::{Balance, Motion, Outcome, SAME_PN_NM};
 use super::{Case, FULL, Figure, MODELS, STANDARD};
-use crate::figures::draft::{Draft, number};
+use crate::figures::draft::{Draft, number, residuals};
 use crate::figures::expected::Bound;
-use crate::figures::model::{Model, Resolution};
+use crate::figures::model::Model;
 use crate::figures::motion::energy_decays;
 use crate::statistics::{Sample, largest, sample};
 
@@ -252,45 +252,18 @@ pub(super) fn larger_claims(draft: &mut Draft<'_>, figures: [&[Outcome]; 2]) {
     }
 }
 
-/// The pure rod with its sites exactly in the plane of the anchors.
-pub(super) fn in_plane(draft: &mut Draft<'_>, figure: &'static Figure) -> Result<(), String> {
-    let (saddle, iterations) = solve::in_plane(&Case {
-        figure,
-        resolution: Resolution::Rod,
-        model: STANDARD,
-        seed: 0,
-    })?;
-    let note = format!(
-        "energy of the pure rod that keeps its sites on the inner side of the bend: {} (found in {} Newton \
-         iterations). It rolls by half a turn from there",
-        if saddle.is_stable {
-            "stable"
-        } else {
-            "a saddle"
-        },
-        saddle.iterations
-    );
-    draft.row("in_plane/rod", "pN nm", saddle.energy, note);
-    let note = "Newton iterations of the pure rod, sites exactly in the plane: to that saddle and from there to \
-                the equilibrium";
-    draft.row("in_plane/iterations", "", iterations as f64, note);
-    Ok(())
-}
-
 /// How the cases were run, in words.
 pub(super) fn settings(figure: &Figure, outcomes: &[Outcome]) -> String {
-    let worst = |k: usize| largest(outcomes.iter().map(|o| o.lowest.residual[k]));
     format!(
         "Scene scenarios/{}, the rod in the middle resolved as named, {} filaments, {} samplings of the bonds \
          (seeds from 0; 0 unless named; the mean filament has weighted bonds and no seed). Equilibria by \
-         Newton's method from the built filament turned by 0, 90, 180 and 270 deg about its axis, residual \
-         below {:.1e} pN and {:.1e} pN nm; the lowest counts. Motions: anchors away from the sites at once, \
-         drag 0.3 per ns for velocities and for angular momenta.",
+         Newton's method from the built filament turned by 0, 90, 180 and 270 deg about its axis, where {}; the \
+         lowest counts. Motions: anchors away from the sites at once, drag 0.3 per ns for velocities and for \
+         angular momenta.",
         figure.file,
         outcomes.len(),
         seeds(outcomes),
-        worst(0),
-        worst(1),
+        residuals(outcomes.iter().map(|o| o.lowest.residual)),
     )
 }
 

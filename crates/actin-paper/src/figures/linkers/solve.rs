@@ -2,10 +2,9 @@
 
 use super::Case;
 use crate::figures::centre_line::CentreLine;
-use crate::run::Solved;
+use crate::run::{Shape, Solved};
 use actin_mechanics::State;
-use actin_sim::{Assembly, Equilibrium, Failure, Part, Plan, RunError, Scene, Task, Trajectory};
-use actin_view::Pose;
+use actin_sim::{Assembly, Equilibrium, Part, Scene, Task};
 
 /// Turns of the built filament about its axis from which equilibria are sought (deg).
 const STARTS_DEG: [f64; 4] = [0.0, 90.0, 180.0, 270.0];
@@ -26,14 +25,13 @@ pub(super) struct Balance {
     pub iterations: u64,
     pub residual: [f64; 2],
     pub centre_line: CentreLine,
-    /// Monomer centres and anchors (nm).
-    pub monomers: Vec<[f64; 3]>,
+    pub shape: Shape,
+    /// Anchors (nm).
     pub anchors: Vec<[f64; 3]>,
     /// Pull of each linker (pN).
     pub forces: Vec<f64>,
     /// Turn of the body that holds the second linker, from how it was built (deg).
     pub roll: f64,
-    pub pose: Pose,
 }
 
 /// A damped motion that has come to rest.
@@ -66,8 +64,7 @@ impl Outcome {
     pub(super) fn of(case: &Case, moving: bool) -> Result<Self, String> {
         let scene = case.scene()?;
         let starts = STARTS_DEG.iter();
-        let found =
-            starts.map(|turn| balance(&scene, &Start::Turned(*turn), &Equilibrium::default()));
+        let found = starts.map(|turn| balance(&scene, &Start::Turned(*turn)));
         let mut found: Vec<Balance> = found.collect::<Result<_, _>>()?;
         let starts = found.iter().map(|b| b.energy).collect();
         let motion = moving.then(|| motion(&scene)).transpose()?;
@@ -98,35 +95,19 @@ enum Start<'a> {
 }
 
 /// The equilibrium near a start.
-fn balance(scene: &Scene, start: &Start<'_>, settings: &Equilibrium) -> Result<Balance, String> {
+fn balance(scene: &Scene, start: &Start<'_>) -> Result<Balance, String> {
     let mut scene = scene.clone();
     scene.task = Task::Equilibrium(Equilibrium {
         lowest_eigenvalue: true,
-        ..settings.clone()
+        ..Equilibrium::default()
     });
     let mut assembly = Assembly::build(&scene).map_err(|e| e.to_string())?;
     match start {
         Start::Turned(degrees) => assembly.roll(degrees.to_radians()),
         Start::State(state) => *assembly.system.state_mut() = (*state).clone(),
     }
-    let mut trajectory = Trajectory::default();
-    let plan = Plan::new(&assembly).map_err(|e| e.to_string())?;
-    let report = match plan.run_into(&mut trajectory) {
-        Err(RunError::Failed(failed))
-            if settings.leave_saddles == 0 && matches!(failed.failure, Failure::Saddle(_)) =>
-        {
-            failed.outcome
-        }
-        ended => ended.map_err(|error| format!("Newton: {error}"))?,
-    };
-    let records = trajectory.records;
-    let last = records.last().ok_or("no record")?;
-    *assembly.system.state_mut() = last.state.clone();
-    Ok(describe(&Solved {
-        assembly,
-        records,
-        report,
-    }))
+    let solved = Solved::run(assembly).map_err(|error| format!("Newton: {error}"))?;
+    Ok(describe(&solved))
 }
 
 fn describe(solved: &Solved) -> Balance {
@@ -144,18 +125,17 @@ fn describe(solved: &Solved) -> Balance {
         iterations: known.map_or(0, |e| e.newton_iterations),
         residual: solved.residual(),
         centre_line: CentreLine::of(assembly, state),
-        monomers: solved.monomers(),
+        shape: solved.shape(),
         anchors: linkers().map(|l| l.end_position(state).into()).collect(),
         forces: linkers().map(|l| l.force(state).norm()).collect(),
         roll: turned.angle().to_degrees(),
-        pose: solved.pose(),
     }
 }
 
 /// The damped motion of the scene from the built state, and the equilibrium it tends to.
 fn motion(scene: &Scene) -> Result<Motion, String> {
     let moved = Solved::new(scene).map_err(|error| format!("dynamics: {error}"))?;
-    let limit = balance(scene, &Start::State(moved.state()), &Equilibrium::default())?;
+    let limit = balance(scene, &Start::State(moved.state()))?;
     let end = CentreLine::of(&moved.assembly, moved.state());
     let energies = moved.records.iter().map(|record| {
         let potential = record.potential_pn_nm();
@@ -170,21 +150,4 @@ fn motion(scene: &Scene) -> Result<Motion, String> {
         from_limit_nm: end.farthest_from(&limit.centre_line).0,
         limit,
     })
-}
-
-/// The state in which a filament with its sites exactly in the plane of its anchors comes to rest
-/// if no saddle is left, and the steps to the stable one from there.
-pub(super) fn in_plane(case: &Case) -> Result<(Balance, u64), String> {
-    let mut scene = case.scene()?;
-    for linker in &mut scene.linkers {
-        linker.azimuth_deg = linker.azimuth_deg.round();
-    }
-    let keep = Equilibrium {
-        leave_saddles: 0,
-        ..Equilibrium::default()
-    };
-    let start = Start::Turned(0.0);
-    let saddle = balance(&scene, &start, &keep)?;
-    let left = balance(&scene, &start, &Equilibrium::default())?;
-    Ok((saddle, left.iterations))
 }

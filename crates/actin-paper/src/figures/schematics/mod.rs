@@ -4,15 +4,14 @@
 mod filament;
 mod style;
 
-use super::draft::Draft;
+use super::draft::{Draft, residuals};
 use crate::run::{Solved, scenario};
-use crate::statistics::largest;
 use actin_draw::report::{Picture, save};
 use actin_draw::scene3d::{Item, Key, Label, Panel, Sheet, View};
 use actin_mechanics::Vector3;
 use actin_sim::shape::Ribbon;
 use actin_sim::{BodyKind, End, JunctionBond};
-use actin_view::{Attitude, Shown, bodies};
+use actin_view::{Attitude, bodies};
 use filament::Drawn;
 use std::collections::BTreeSet;
 
@@ -456,13 +455,9 @@ fn finish(
             );
         }
         let rods = counts.segments as f64;
-        shown.push(Shown {
-            group: "all".into(),
-            name: name.into(),
-            // Monomers are 2.7 nm apart, segments 10 nm long or less: of what there is more.
-            share: rods / (rods + counts.monomers as f64),
-            pose: solved.pose(),
-        });
+        // Monomers are 2.7 nm apart, segments 10 nm long or less: of what there is more.
+        let share = rods / (rods + counts.monomers as f64);
+        shown.push(("all".to_owned(), name.to_owned(), share, solved.pose()));
     }
     let attitude = match draft.id {
         "fig1" => Attitude::STANDING,
@@ -472,7 +467,7 @@ fn finish(
     draft.view(
         draft.id,
         attitude,
-        &shown,
+        shown,
         "The same equilibria, to be turned.",
     )
 }
@@ -480,7 +475,6 @@ fn finish(
 /// How the states were found.
 fn settings(names: &[&str], solved: &[Solved]) -> String {
     let names: Vec<String> = names.iter().map(|name| format!("{name}.ron")).collect();
-    let worst = |k: usize| largest(solved.iter().map(|s| s.residual()[k]));
     let stable = solved
         .iter()
         .filter(|s| s.doubtful() == Some([0, 0]))
@@ -491,12 +485,11 @@ fn settings(names: &[&str], solved: &[Solved]) -> String {
     let seeds: BTreeSet<u64> = seeds.collect();
     let seeds: Vec<String> = seeds.iter().map(u64::to_string).collect();
     format!(
-        "Scenes scenarios/: {}. Each is drawn in its equilibrium: every force below {:.1e} pN, every torque below \
-         {:.1e} pN nm, {stable} of {} certified stable. Places, orientations, semi-axes and ends of bonds are those \
-         of the state; the scale bar holds at the middle of the scene. Seed of the bonds: {}.",
+        "Scenes scenarios/: {}. Each is drawn in its equilibrium: {}, {stable} of {} certified stable. Places, \
+         orientations, semi-axes and ends of bonds are those of the state; the scale bar holds at the middle of the \
+         scene. Seed of the bonds: {}.",
         names.join(", "),
-        worst(0),
-        worst(1),
+        residuals(solved.iter().map(Solved::residual)),
         solved.len(),
         seeds.join(", "),
     )

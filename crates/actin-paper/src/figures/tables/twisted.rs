@@ -11,7 +11,7 @@ use crate::palette;
 use crate::published::{CURVATURE_ROUNDING, Entry, Table, entries};
 use crate::statistics::{rms, sample};
 use actin_draw::report::{DEVIATIONS, Origin, Row};
-use actin_draw::{Chart, Colour, Series};
+use actin_draw::{Colour, Series};
 use actin_sim::Anchors;
 
 /// Angles (deg) over which the root mean square is taken.
@@ -445,14 +445,8 @@ impl Twisted {
         };
         let points = series.iter_mut().flat_map(|s| &mut s.points);
         points.for_each(|point| point.1 *= factor);
-        let chart = Chart {
-            title,
-            x_label: "curvature phi/L (rad/nm); over-twist is positive",
-            y_label,
-            series,
-            equal_axes: false,
-        };
-        draft.chart(file, &chart, caption)
+        let x_label = "curvature phi/L (rad/nm); over-twist is positive";
+        draft.plot(file, title, [x_label, y_label], series, caption)
     }
 
     fn of_default(&self) -> Vec<Series> {
