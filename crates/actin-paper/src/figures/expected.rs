@@ -5,6 +5,7 @@
 //! expected, not at what comes out.
 
 use super::draft::Measured;
+use crate::published::table;
 use actin_draw::report::{DEVIATIONS, Origin, Row, printed};
 use serde::Deserialize;
 use std::sync::LazyLock;
@@ -83,14 +84,6 @@ static EXPECTED: LazyLock<Vec<Expected>> =
     LazyLock::new(|| table(include_str!("../../data/expected.csv")));
 static CLAIMS: LazyLock<Vec<Claim>> =
     LazyLock::new(|| table(include_str!("../../data/claims.csv")));
-
-fn table<T: for<'de> Deserialize<'de>>(text: &str) -> Vec<T> {
-    let mut reader = csv::ReaderBuilder::new()
-        .comment(Some(b'#'))
-        .from_reader(text.as_bytes());
-    let lines: Result<_, csv::Error> = reader.deserialize().collect();
-    lines.expect("a table of this crate is well formed")
-}
 
 /// The rows of an artefact with their verdicts, and the claims that follow from them. Claims on rows that
 /// a run does not have are left out.

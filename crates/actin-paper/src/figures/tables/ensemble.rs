@@ -152,7 +152,7 @@ pub(super) fn ensemble(draft: &Draft<'_>) -> Result<&'static Ensemble, String> {
 
 impl Ensemble {
     fn run(draft: &Draft<'_>, kinds: Vec<Kind>) -> Result<Self, String> {
-        let entries = entries(Table::Rigidity)?;
+        let entries = entries(Table::Rigidity);
         let turns: Vec<f64> = entries.iter().map(turn_deg).collect();
         let seeds = if draft.quick { QUICK_SEEDS } else { SEEDS };
         let kinds = kinds.into_iter();

@@ -447,7 +447,7 @@ fn scatter(draft: &mut Draft<'_>, of: &str, unit: &'static str, sd: f64) {
 /// The largest twisting rigidities of both directions.
 fn twisting(draft: &mut Draft<'_>, path: &str, kind: Kind) -> Result<(), String> {
     let ensemble = core(draft)?;
-    let entries = entries(Table::Rigidity)?;
+    let entries = entries(Table::Rigidity);
     for (name, direction) in [("b3_min", "under"), ("b3_max", "over")] {
         let own = entries
             .iter()

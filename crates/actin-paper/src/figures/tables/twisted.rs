@@ -56,7 +56,7 @@ pub(in crate::figures) fn monomers(draft: &Draft<'_>) -> Result<[TwistData; 2], 
     let ensemble = core(draft)?;
     let of = |kind, source: String| -> Result<TwistData, String> {
         let column = |table| -> Result<Vec<(f64, f64)>, String> {
-            let all = entries(table)?.into_iter();
+            let all = entries(table).into_iter();
             let reliable = all.filter(Entry::is_reliable);
             let points = reliable.map(|e| (e.curvature, ensemble.sample(kind, &e, table).mean));
             Ok(points.collect())
@@ -92,7 +92,7 @@ impl Twisted {
             column,
             unit,
             ensemble: ensemble(draft)?,
-            entries: entries(table)?,
+            entries: entries(table),
         })
     }
 
