@@ -31,7 +31,7 @@ pub(crate) struct Options {
     /// Also the rows that take minutes: 1e6 bodies, 1e7 steps.
     #[arg(long)]
     long: bool,
-    /// Also into `docs/tables/extremes.md`, with the pictures of `docs/extremes.md`, if all rows are sound.
+    /// Also into `docs/extremes.csv`, with the pictures of `docs/extremes.md`, if all rows are sound.
     #[arg(long, requires = "long")]
     write: bool,
 }
@@ -59,7 +59,7 @@ pub(crate) fn run(options: &Options) -> Result<()> {
     }
     if options.write {
         let docs = workspace_root().join("docs");
-        write::document(&rows, out, &docs).map_err(Error::msg)?;
+        write::document(out, &docs).map_err(Error::msg)?;
     }
     Ok(())
 }
