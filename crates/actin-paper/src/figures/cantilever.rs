@@ -6,7 +6,7 @@
 //! the preceding paper.
 
 use super::charts::{Curve, Filament, Side, against_rod, draw_from};
-use super::draft::{Draft, number, residuals};
+use super::draft::{Column, Draft, number, residuals};
 use super::model::{Model, Resolution};
 use super::motion::{RingDown, energy_decays, ring_down};
 use crate::palette;
@@ -417,7 +417,8 @@ fn checks(draft: &mut Draft<'_>, outcomes: &[Outcome]) {
         draft.row("tip_drop/ellipsoids/sd", "nm", drops.sd, note);
     }
     let moved = outcomes.iter().filter(|o| o.is_moved && o.newton.is_some());
-    energy_decays(draft, moved.map(|o| o.total.clone()).collect());
+    let totals: Vec<Vec<f64>> = moved.map(|o| o.total.clone()).collect();
+    energy_decays(draft, &totals);
 }
 
 fn tables(draft: &Draft<'_>, outcomes: &[Outcome]) -> Result<(), String> {
@@ -438,20 +439,18 @@ fn tables(draft: &Draft<'_>, outcomes: &[Outcome]) -> Result<(), String> {
         &["case", "time_ns", "energy_pn_nm"],
         energies,
     )?;
-    draft.table(
-        "fig4.csv",
-        outcomes,
-        &[
-            ("case", &|o| o.case.path()),
-            ("tip_drop_nm", &|o| number(o.tip_drop_nm)),
-            ("energy_pn_nm", &|o| number(o.elastic_pn_nm)),
-            ("residual_pn", &|o| number(o.residual[0])),
-            ("residual_pn_nm", &|o| number(o.residual[1])),
-            ("time_ns", &|o| number(o.time_ns)),
-            ("force_evaluations", &|o| o.force_evaluations.to_string()),
-        ],
-    )
+    draft.table("fig4.csv", outcomes, &COLUMNS)
 }
+
+const COLUMNS: [Column<Outcome>; 7] = [
+    ("case", |o| o.case.path()),
+    ("tip_drop_nm", |o| number(o.tip_drop_nm)),
+    ("energy_pn_nm", |o| number(o.elastic_pn_nm)),
+    ("residual_pn", |o| number(o.residual[0])),
+    ("residual_pn_nm", |o| number(o.residual[1])),
+    ("time_ns", |o| number(o.time_ns)),
+    ("force_evaluations", |o| o.force_evaluations.to_string()),
+];
 
 const X_LABEL: &str = "x (nm); the force pulls towards -x";
 const SIDES: [Side; 2] = [
@@ -481,7 +480,7 @@ fn drawn(outcomes: &[Outcome], is_chosen: impl Fn(&Case) -> bool) -> Vec<&Outcom
     drawn
 }
 
-/// Side view, end view and energy against time of four models, with the mean filament where there is one.
+/// Pictures of four models, each with the mean filament where there is one.
 fn panels(draft: &mut Draft<'_>, outcomes: &[Outcome]) -> Result<(), String> {
     for (model, mean, name) in [
         (SHARED, Some(MEAN), "2_pN_shared"),
@@ -490,52 +489,53 @@ fn panels(draft: &mut Draft<'_>, outcomes: &[Outcome]) -> Result<(), String> {
         (STIFF, Some(STIFF_MEAN), "preceding_paper"),
     ] {
         let mut chosen = drawn(outcomes, |case| case.model == model);
-        let is_mean =
-            |case: &Case| Some(case.model) == mean && case.resolution == Resolution::Ellipsoids;
-        chosen.extend(drawn(outcomes, is_mean));
-        let filaments: Vec<Filament> = chosen
-            .iter()
-            .map(|o| o.filament(Some(o.case.model) == mean))
-            .collect();
+        chosen.extend(drawn(outcomes, |case| {
+            Some(case.model) == mean && case.resolution == Resolution::Ellipsoids
+        }));
+        let filaments = chosen.iter();
+        let filaments = filaments.map(|o| o.filament(Some(o.case.model) == mean));
+        let filaments: Vec<Filament> = filaments.collect();
         let dashed = mean.map_or(
             "",
             |_| " Dashed: monomers alone with weighted bonds, the mean filament.",
         );
-        let captions = [
-            format!(
-                "Equilibria under {}. Lines: nodes of the rod, and the centre line of the monomers; dots: \
-                 monomer centres. {}{dashed}",
-                model.words,
-                palette::chosen().ends()
-            ),
-            format!("The same states seen along the unloaded filament.{dashed}"),
-        ];
-        for (side, caption) in SIDES.iter().zip(captions) {
-            let title = format!("{}, {}", side.title, model.words);
-            let file = format!("fig4_{name}");
-            draw_from(
-                draft,
-                &file,
-                (side, &title),
-                &filaments,
-                Vec::new(),
-                caption,
-            )?;
-        }
+        let file = format!("fig4_{name}");
+        views(draft, &file, (model.words, dashed), &filaments)?;
         if chosen[0].is_moved {
             let curves = filaments.iter().zip(&chosen);
             let series = curves.flat_map(|(f, o)| f.curve(o.energy.clone(), false));
-            let caption = format!(
-                "Elastic and kinetic energy while the damped motion comes to rest.{dashed}"
-            );
             draft.plot(
-                format!("fig4_{name}_energy.svg"),
+                format!("{file}_energy.svg"),
                 &format!("Energy, {}", model.words),
                 ["time (ns)", "elastic and kinetic energy (pN nm)"],
                 series.collect(),
-                caption,
+                format!(
+                    "Elastic and kinetic energy while the damped motion comes to rest.{dashed}"
+                ),
             )?;
         }
+    }
+    Ok(())
+}
+
+/// Side view and end view of the filaments of one model.
+fn views(
+    draft: &mut Draft<'_>,
+    file: &str,
+    (words, dashed): (&str, &str),
+    filaments: &[Filament],
+) -> Result<(), String> {
+    let captions = [
+        format!(
+            "Equilibria under {words}. Lines: nodes of the rod, and the centre line of the monomers; dots: monomer \
+             centres. {}{dashed}",
+            palette::chosen().ends()
+        ),
+        format!("The same states seen along the unloaded filament.{dashed}"),
+    ];
+    for (side, caption) in SIDES.iter().zip(captions) {
+        let title = format!("{}, {words}", side.title);
+        draw_from(draft, file, (side, &title), filaments, Vec::new(), caption)?;
     }
     Ok(())
 }
@@ -552,7 +552,8 @@ impl Outcome {
 
 /// Tips and elastic energies of equilibria under 2 pN against the length of rod.
 fn against_resolution(draft: &mut Draft<'_>, outcomes: &[Outcome]) -> Result<(), String> {
-    let curve = |model: Model, colour: Colour, value: fn(&Outcome) -> f64| {
+    type Value = fn(&Outcome) -> f64;
+    let curve = |model: Model, colour: Colour, value: Value| {
         let is_computed = outcomes.iter().any(|o| o.case.model == model);
         let own = drawn(outcomes, |case| {
             is_computed && case.model == model.solved_as(&MODELS, case.resolution)
@@ -565,7 +566,7 @@ fn against_resolution(draft: &mut Draft<'_>, outcomes: &[Outcome]) -> Result<(),
             points: own.iter().map(|o| (o.case.rod_nm(), value(o))).collect(),
         }
     };
-    let charts: [(&str, &str, fn(&Outcome) -> f64); 2] = [
+    let charts: [(&str, &str, Value); 2] = [
         ("tips", "distance of the tip along the force (nm)", |o| {
             o.tip_drop_nm
         }),

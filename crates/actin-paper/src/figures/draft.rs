@@ -33,7 +33,7 @@ pub(super) struct Measured {
 }
 
 /// A column of a table of results: its header, and the text of a cell.
-pub(super) type Column<'a, R> = (&'a str, &'a dyn Fn(&R) -> String);
+pub(super) type Column<R> = (&'static str, fn(&R) -> String);
 
 impl<'a> Draft<'a> {
     pub(super) fn new(
@@ -189,7 +189,7 @@ impl<'a> Draft<'a> {
         &self,
         file: &str,
         results: impl IntoIterator<Item = &'r R>,
-        columns: &[Column<'_, R>],
+        columns: &[Column<R>],
     ) -> Result<(), String> {
         let header: Vec<&str> = columns.iter().map(|(name, _)| *name).collect();
         let lines = results.into_iter();
@@ -199,25 +199,8 @@ impl<'a> Draft<'a> {
 
     /// Writes the rows as a table, with what is expected of them.
     pub(super) fn list(&self) -> Result<(), String> {
-        let optional = |x: Option<f64>| x.map_or(String::new(), number);
-        self.table(
-            &format!("{}.csv", self.id),
-            &expected::judged(self.id, self.rows.clone()),
-            &[
-                ("quantity", &|row: &Row| row.quantity.clone()),
-                ("unit", &|row| row.unit.to_owned()),
-                ("paper", &|row| optional(row.paper)),
-                ("ours", &|row| number(row.ours)),
-                ("tolerance", &|row| optional(row.tolerance)),
-                ("pass", &|row| {
-                    row.pass.map_or(String::new(), |pass| pass.to_string())
-                }),
-                ("note", &|row| row.note.clone()),
-                ("origin", &|row| {
-                    row.origin.map_or(String::new(), |o| o.name().to_owned())
-                }),
-            ],
-        )
+        let rows = expected::judged(self.id, self.rows.clone());
+        self.table(&format!("{}.csv", self.id), &rows, &ROWS)
     }
 
     /// Writes a table with a line for each point of some curves, after the names of its curve.
@@ -256,13 +239,31 @@ impl Measured {
     }
 }
 
+const ROWS: [Column<Row>; 8] = [
+    ("quantity", |row| row.quantity.clone()),
+    ("unit", |row| row.unit.to_owned()),
+    ("paper", |row| row.paper.map_or(String::new(), number)),
+    ("ours", |row| number(row.ours)),
+    ("tolerance", |row| {
+        row.tolerance.map_or(String::new(), number)
+    }),
+    ("pass", |row| {
+        row.pass.map_or(String::new(), |pass| pass.to_string())
+    }),
+    ("note", |row| row.note.clone()),
+    ("origin", |row| {
+        row.origin.map_or(String::new(), |o| o.name().to_owned())
+    }),
+];
+
 /// A number in a table.
 pub(super) fn number(x: f64) -> String {
     format!("{x:.9e}")
 }
 
 /// The largest of some residuals, in words.
-pub(super) fn residuals(all: impl Iterator<Item = [f64; 2]> + Clone) -> String {
-    let [force, torque] = [0, 1].map(|k| largest(all.clone().map(|r| r[k])));
+pub(super) fn residuals(all: impl Iterator<Item = [f64; 2]>) -> String {
+    let all: Vec<[f64; 2]> = all.collect();
+    let [force, torque] = [0, 1].map(|k| largest(all.iter().map(|r| r[k])));
     format!("every force is below {force:.1e} pN and every torque below {torque:.1e} pN nm")
 }

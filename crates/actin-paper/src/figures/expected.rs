@@ -19,7 +19,8 @@ struct Expected {
     artefact: String,
     quantity: String,
     /// As it is printed, so that its last digit counts; empty if the line is a note only.
-    expected: String,
+    #[serde(rename = "expected")]
+    number: String,
     /// Largest difference that passes; half a unit of the last digit and twice the standard deviation of a
     /// sample if it is `digits`. Without it the number is shown and judges nothing.
     tolerance: String,
@@ -113,10 +114,10 @@ impl Expected {
             (reason, note) => format!("{reason}; {note}"),
         };
         let row = Row { note, ..row };
-        if self.expected.is_empty() {
+        if self.number.is_empty() {
             return row;
         }
-        let (expected, half) = printed(&self.expected);
+        let (expected, half) = printed(&self.number);
         let row = match self.tolerance.as_str() {
             "" => row.beside(expected, self.origin),
             "digits" => row.against(expected, half + DEVIATIONS * sd),

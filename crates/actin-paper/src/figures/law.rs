@@ -1,12 +1,24 @@
 //! The rod's law against filaments of monomers: what `cargo xtask load-cases` measures, as rows with verdicts.
 
-use super::draft::Draft;
+use super::draft::{Column, Draft, number};
 use super::surface;
 use crate::load_cases;
 use actin_draw::report::{Picture, Row};
 
 /// The law that is judged.
 const LAW: &str = "Homogenised";
+
+const COLUMNS: [Column<(String, String, Row)>; 5] = [
+    ("case", |(case, _, _)| case.clone()),
+    ("quantity", |(_, quantity, _)| quantity.clone()),
+    ("rod", |(_, _, row)| number(row.ours)),
+    ("monomers", |(_, _, row)| {
+        row.paper.map_or(String::new(), number)
+    }),
+    ("largest_difference", |(_, _, row)| {
+        row.tolerance.map_or(String::new(), number)
+    }),
+];
 
 /// All load cases under the law.
 pub(super) fn law(draft: &mut Draft<'_>) -> Result<(), String> {
@@ -15,18 +27,7 @@ pub(super) fn law(draft: &mut Draft<'_>) -> Result<(), String> {
         draft.progress.done();
     };
     let compared = load_cases::compared(LAW, draft.quick, draft.out, &done)?;
-    let number = |value: Option<f64>| value.map_or(String::new(), |v| format!("{v:.6e}"));
-    draft.table(
-        "law.csv",
-        &compared,
-        &[
-            ("case", &|(case, _, _): &(String, String, Row)| case.clone()),
-            ("quantity", &|(_, quantity, _)| quantity.clone()),
-            ("rod", &|(_, _, row)| number(Some(row.ours))),
-            ("monomers", &|(_, _, row)| number(row.paper)),
-            ("largest_difference", &|(_, _, row)| number(row.tolerance)),
-        ],
-    )?;
+    draft.table("law.csv", &compared, &COLUMNS)?;
     draft.settings = format!(
         "law {LAW}, segments of 10 nm, compared with the mean filament and, in notes, filaments of 64 drawn bonds; \
          equilibria at the end of the same path; bounds as in docs/tables/load-cases.md"

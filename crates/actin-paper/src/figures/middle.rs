@@ -3,7 +3,7 @@
 //! filament, and a rod with the energy of the supplement, which couples stretch and twist.
 
 use super::charts::{line, room};
-use super::draft::{Draft, residuals};
+use super::draft::{Column, Draft, number, residuals};
 use crate::palette;
 use crate::run::{Solved, scenario};
 use crate::statistics::{largest, sample};
@@ -283,27 +283,24 @@ fn rows(draft: &mut Draft<'_>, results: &[Halves]) {
     draft.row("not_certified_stable", "", doubtful as f64, note);
 }
 
+const COLUMNS: [Column<Halves>; 12] = [
+    ("kind", |h| h.case.kind.clone()),
+    ("seed", |h| h.case.seed.to_string()),
+    ("reversed", |h| h.case.is_reversed.to_string()),
+    ("over_twisted_half_pn_nm", |h| number(h.over_pn_nm)),
+    ("under_twisted_half_pn_nm", |h| number(h.under_pn_nm)),
+    ("ratio", |h| number(h.ratio())),
+    ("turn_deg", |h| number(h.turn_deg)),
+    ("pull_pn", |h| number(h.pull_pn)),
+    ("tension_pn", |h| number(h.tension_pn)),
+    ("not_positive_eigenvalues", |h| h.doubtful.to_string()),
+    ("residual_pn", |h| number(h.residual[0])),
+    ("residual_pn_nm", |h| number(h.residual[1])),
+];
+
 /// Writes `fig7.csv` and `fig7_profile.csv`.
 fn tables(draft: &Draft<'_>, results: &[Halves]) -> Result<(), String> {
-    let number = |x: f64| format!("{x:.12e}");
-    draft.table(
-        "fig7.csv",
-        results,
-        &[
-            ("kind", &|h| h.case.kind.clone()),
-            ("seed", &|h| h.case.seed.to_string()),
-            ("reversed", &|h| h.case.is_reversed.to_string()),
-            ("over_twisted_half_pn_nm", &|h| number(h.over_pn_nm)),
-            ("under_twisted_half_pn_nm", &|h| number(h.under_pn_nm)),
-            ("ratio", &|h| number(h.ratio())),
-            ("turn_deg", &|h| number(h.turn_deg)),
-            ("pull_pn", &|h| number(h.pull_pn)),
-            ("tension_pn", &|h| number(h.tension_pn)),
-            ("not_positive_eigenvalues", &|h| h.doubtful.to_string()),
-            ("residual_pn", &|h| number(h.residual[0])),
-            ("residual_pn_nm", &|h| number(h.residual[1])),
-        ],
-    )?;
+    draft.table("fig7.csv", results, &COLUMNS)?;
     let profiles = results.iter().map(|h| {
         let case = &h.case;
         let names = [

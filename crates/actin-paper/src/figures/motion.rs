@@ -59,7 +59,7 @@ fn vertex(w: &[(f64, f64)]) -> (f64, f64) {
 /// Shows the claim that energies decay as motions come to rest, from energies in time.
 ///
 /// It is not judged: drag takes energy out at every instant, so that nothing else can come out.
-pub(super) fn energy_decays(draft: &mut Draft<'_>, motions: Vec<Vec<f64>>) {
+pub(super) fn energy_decays(draft: &mut Draft<'_>, motions: &[Vec<f64>]) {
     if motions.is_empty() {
         return;
     }

@@ -75,8 +75,8 @@ fn drawn<'a>(plan: &Plan, results: &'a Results, turn: i32) -> Vec<&'a Outcome> {
     outcomes.collect()
 }
 
-/// The views of the centre lines at one turn.
-fn lines(plan: &Plan, draft: &mut Draft<'_>, results: &Results, turn: i32) -> Result<(), String> {
+/// The filaments that are drawn at a turn, each in its own plane of buckling.
+fn filaments(plan: &Plan, results: &Results, turn: i32) -> Vec<Filament> {
     let filament = |o: &Outcome, name: String, colour| Filament {
         name,
         colour,
@@ -84,17 +84,20 @@ fn lines(plan: &Plan, draft: &mut Draft<'_>, results: &Results, turn: i32) -> Re
         line: in_own_plane(&o.measured.centre_line),
         monomers: Vec::new(),
     };
-    let mut filaments: Vec<Filament> = drawn(plan, results, turn)
-        .into_iter()
-        .map(|o| {
-            let colour = palette::resolution(o.case.rod_nm() / LENGTH_NM);
-            filament(o, o.case.resolution.name(), colour)
-        })
-        .collect();
+    let drawn = drawn(plan, results, turn).into_iter().map(|o| {
+        let colour = palette::resolution(o.case.rod_nm() / LENGTH_NM);
+        filament(o, o.case.resolution.name(), colour)
+    });
     let mean = plan.models.iter().find(|model| model.is_mean);
-    let mean =
-        mean.and_then(|&model| results.of(plan.case(model, Resolution::Ellipsoids, turn, 0)));
-    filaments.extend(mean.map(|o| filament(o, "mean, ellipsoids".into(), palette::DATA)));
+    let mean = mean.map(|&model| plan.case(model, Resolution::Ellipsoids, turn, 0));
+    let mean = mean.and_then(|case| results.of(case));
+    let mean = mean.map(|o| filament(o, "mean, ellipsoids".into(), palette::DATA));
+    drawn.chain(mean).collect()
+}
+
+/// The views of the centre lines at one turn.
+fn lines(plan: &Plan, draft: &mut Draft<'_>, results: &Results, turn: i32) -> Result<(), String> {
+    let filaments = filaments(plan, results, turn);
     let file = format!("{}_{}", plan.figure.id, turn_name(turn).replace('/', "_"));
     let captions = [
         format!(

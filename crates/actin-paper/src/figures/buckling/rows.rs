@@ -4,7 +4,7 @@ use super::case::{Case, turn_name};
 use super::solve::{Motion, Outcome, STOP};
 use super::starts::is_same;
 use super::{CONSTANT, OBSERVABLES, Observable, Plan, Results};
-use crate::figures::draft::{Draft, number};
+use crate::figures::draft::{Column, Draft, number};
 use crate::figures::expected::Bound;
 use crate::figures::model::{Model, Resolution};
 use crate::statistics::{largest, sample};
@@ -95,23 +95,18 @@ fn values(
 
 /// How states were found and what is known of them, in words.
 fn found_by(outcomes: &[&Outcome]) -> String {
-    match outcomes {
-        [
-            Outcome {
-                doubtful: None,
-                time_ns,
-                residual: [force, torque],
-                ..
-            },
-        ] => format!(
-            "damped motion of {time_ns:.0} ns from the equilibrium of the law with an energy, residual \
-             {force:.1e} pN and {torque:.1e} pN nm"
-        ),
-        _ => {
-            let unstable = outcomes.iter().filter(|o| !o.is_stable()).count();
-            format!("{unstable} not certified stable")
-        }
+    if let [only] = outcomes
+        && !only.is_solved()
+    {
+        let [force, torque] = only.residual;
+        return format!(
+            "damped motion of {:.0} ns from the equilibrium of the law with an energy, residual {force:.1e} pN and \
+             {torque:.1e} pN nm",
+            only.time_ns
+        );
     }
+    let unstable = outcomes.iter().filter(|o| !o.is_stable()).count();
+    format!("{unstable} not certified stable")
 }
 
 /// Claims that spreads over resolutions are smaller with the extensions than without.
@@ -215,47 +210,43 @@ pub(super) fn motions(plan: &Plan, draft: &mut Draft<'_>, results: &Results) {
     }
 }
 
+const COLUMNS: [Column<Outcome>; 23] = [
+    ("variant", |o| variant(&o.case)),
+    ("turn_deg", |o| o.case.turn_deg.to_string()),
+    ("case", |o| o.case.resolution.name()),
+    ("rod_nm", |o| number(o.case.rod_nm())),
+    ("seed", |o| o.case.seed.to_string()),
+    ("start", |o| o.case.start.name()),
+    ("height_nm", |o| number(o.measured.height_nm)),
+    ("couple_pn_nm", |o| number(o.measured.couple_pn_nm)),
+    ("force_pn", |o| number(o.measured.force_pn)),
+    ("energy_pn_nm", |o| number(o.measured.energy_pn_nm)),
+    ("link_turns", |o| number(o.measured.link_turns)),
+    ("twist_turns", |o| number(o.measured.twist_turns)),
+    ("writhe", |o| number(o.measured.writhe)),
+    ("beyond_data_per_nm", |o| {
+        o.measured.beyond_per_nm.map_or(String::new(), number)
+    }),
+    ("stable", |o| o.is_stable().to_string()),
+    ("negative_eigenvalues", |o| text(o.doubtful.map(|n| n[0]))),
+    ("unresolved_eigenvalues", |o| text(o.doubtful.map(|n| n[1]))),
+    ("residual_pn", |o| number(o.residual[0])),
+    ("residual_pn_nm", |o| number(o.residual[1])),
+    ("newton_iterations", |o| text(o.search.map(|s| s.0))),
+    ("equilibria_on_path", |o| text(o.search.map(|s| s.1))),
+    ("time_ns", |o| number(o.time_ns)),
+    ("force_evaluations", |o| o.force_evaluations.to_string()),
+];
+
+/// A count in a table, if there is one.
+fn text(count: Option<impl ToString>) -> String {
+    count.map_or(String::new(), |n| n.to_string())
+}
+
 /// Writes `figN.csv` and `figN_centre_lines.csv`.
 pub(super) fn tables(draft: &Draft<'_>, results: &Results) -> Result<(), String> {
     let id = draft.id;
-    let doubtful = |o: &Outcome, k: usize| o.doubtful.map_or(String::new(), |n| n[k].to_string());
-    let search =
-        |o: &Outcome, text: fn((u64, usize)) -> String| o.search.map_or(String::new(), text);
-    draft.table(
-        &format!("{id}.csv"),
-        &results.outcomes,
-        &[
-            ("variant", &|o| variant(&o.case)),
-            ("turn_deg", &|o| o.case.turn_deg.to_string()),
-            ("case", &|o| o.case.resolution.name()),
-            ("rod_nm", &|o| number(o.case.rod_nm())),
-            ("seed", &|o| o.case.seed.to_string()),
-            ("start", &|o| o.case.start.name()),
-            ("height_nm", &|o| number(o.measured.height_nm)),
-            ("couple_pn_nm", &|o| number(o.measured.couple_pn_nm)),
-            ("force_pn", &|o| number(o.measured.force_pn)),
-            ("energy_pn_nm", &|o| number(o.measured.energy_pn_nm)),
-            ("link_turns", &|o| number(o.measured.link_turns)),
-            ("twist_turns", &|o| number(o.measured.twist_turns)),
-            ("writhe", &|o| number(o.measured.writhe)),
-            ("beyond_data_per_nm", &|o| {
-                o.measured.beyond_per_nm.map_or(String::new(), number)
-            }),
-            ("stable", &|o| o.is_stable().to_string()),
-            ("negative_eigenvalues", &|o| doubtful(o, 0)),
-            ("unresolved_eigenvalues", &|o| doubtful(o, 1)),
-            ("residual_pn", &|o| number(o.residual[0])),
-            ("residual_pn_nm", &|o| number(o.residual[1])),
-            ("newton_iterations", &|o| {
-                search(o, |(steps, _)| steps.to_string())
-            }),
-            ("equilibria_on_path", &|o| {
-                search(o, |(_, points)| points.to_string())
-            }),
-            ("time_ns", &|o| number(o.time_ns)),
-            ("force_evaluations", &|o| o.force_evaluations.to_string()),
-        ],
-    )?;
+    draft.table(&format!("{id}.csv"), &results.outcomes, &COLUMNS)?;
     let drawn = results.outcomes.iter().filter(|o| o.case.seed == 0);
     let lines = drawn.map(|o| {
         let case = &o.case;

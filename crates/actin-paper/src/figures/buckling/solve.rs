@@ -102,7 +102,7 @@ pub(super) fn outcome(case: &Case) -> Result<Outcome, String> {
         ForceLaw::PaperBalance => rest(case),
     };
     found
-        .and_then(|solved| measured(case, solved))
+        .map(|solved| measured(case, solved))
         .map_err(|e| in_words(case, &e))
 }
 
@@ -125,8 +125,8 @@ fn moved(case: &Case) -> Result<Motion, String> {
     let mut assembly = Assembly::build(&scene).map_err(|e| e.to_string())?;
     *assembly.system.state_mut() = moved.state().clone();
     Ok(Motion {
-        nearest: measured(case, Solved::run(assembly)?)?,
-        end: measured(case, moved)?,
+        nearest: measured(case, Solved::run(assembly)?),
+        end: measured(case, moved),
     })
 }
 
@@ -184,9 +184,9 @@ fn damped(duration_ns: f64, [translational_per_ns, rotational_per_ns]: [f64; 2])
     }
 }
 
-fn measured(case: &Case, mut solved: Solved) -> Result<Outcome, String> {
+fn measured(case: &Case, mut solved: Solved) -> Outcome {
     let found = solved.report.equilibrium.as_ref();
-    Ok(Outcome {
+    Outcome {
         case: *case,
         states: found.and_then(|f| f.states.as_ref()).map(Others::of),
         doubtful: solved.doubtful(),
@@ -196,7 +196,7 @@ fn measured(case: &Case, mut solved: Solved) -> Result<Outcome, String> {
         residual: solved.residual(),
         pose: solved.pose().without_linkers(),
         measured: Measured::of(case, &mut solved),
-    })
+    }
 }
 
 impl Others {

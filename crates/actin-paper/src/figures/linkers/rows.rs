@@ -2,7 +2,7 @@
 
 use super::solve::{Balance, Motion, Outcome, SAME_PN_NM};
 use super::{Case, FULL, Figure, MODELS, STANDARD};
-use crate::figures::draft::{Draft, number, residuals};
+use crate::figures::draft::{Column, Draft, number, residuals};
 use crate::figures::expected::Bound;
 use crate::figures::model::Model;
 use crate::figures::motion::energy_decays;
@@ -211,7 +211,7 @@ fn motions(draft: &mut Draft<'_>, outcomes: &[Outcome]) {
         note,
     );
     let energies = moved(outcomes).map(|(_, m)| m.energy.iter().map(|e| e[1]).collect());
-    energy_decays(draft, energies.collect());
+    energy_decays(draft, &energies.collect::<Vec<_>>());
 }
 
 /// Claims of Figure 6: deviations of shape and energy are larger than in Figure 5. Judged are the paper's own
@@ -267,41 +267,42 @@ pub(super) fn settings(figure: &Figure, outcomes: &[Outcome]) -> String {
     )
 }
 
+const COLUMNS: [Column<Outcome>; 13] = [
+    ("case", |o| o.case.resolution.name()),
+    ("variant", |o| variant(&o.case)),
+    ("seed", |o| o.case.seed.to_string()),
+    ("energy_pn_nm", |o| number(o.lowest.energy)),
+    ("linkers_pn_nm", |o| number(o.lowest.linkers)),
+    ("stable", |o| o.lowest.is_stable.to_string()),
+    ("lowest_eigenvalue_pn_per_nm", |o| {
+        o.lowest.lowest.map_or(String::new(), number)
+    }),
+    ("newton_iterations", |o| o.lowest.iterations.to_string()),
+    ("roll_deg", |o| format!("{:.3}", o.lowest.roll)),
+    ("energies_by_start_pn_nm", |o| {
+        let starts: Vec<String> = o.starts.iter().map(|e| format!("{e:.6}")).collect();
+        starts.join(" ")
+    }),
+    ("motion_limit_pn_nm", |o| {
+        of_motion(o, |m| number(m.limit.energy))
+    }),
+    ("motion_time_ns", |o| {
+        of_motion(o, |m| format!("{:.2}", m.time_ns))
+    }),
+    ("motion_force_evaluations", |o| {
+        of_motion(o, |m| m.force_evaluations.to_string())
+    }),
+];
+
+/// A cell of an outcome that was moved; empty otherwise.
+fn of_motion(outcome: &Outcome, cell: fn(&Motion) -> String) -> String {
+    outcome.motion.as_ref().map_or(String::new(), cell)
+}
+
 /// Writes the tables behind rows and pictures.
 pub(super) fn tables(draft: &Draft<'_>, outcomes: &[Outcome]) -> Result<(), String> {
     let file = |name: &str| format!("{}{name}.csv", draft.id);
-    let motion =
-        |o: &Outcome, cell: fn(&Motion) -> String| o.motion.as_ref().map_or(String::new(), cell);
-    draft.table(
-        &file(""),
-        outcomes,
-        &[
-            ("case", &|o| o.case.resolution.name()),
-            ("variant", &|o| variant(&o.case)),
-            ("seed", &|o| o.case.seed.to_string()),
-            ("energy_pn_nm", &|o| number(o.lowest.energy)),
-            ("linkers_pn_nm", &|o| number(o.lowest.linkers)),
-            ("stable", &|o| o.lowest.is_stable.to_string()),
-            ("lowest_eigenvalue_pn_per_nm", &|o| {
-                o.lowest.lowest.map_or(String::new(), number)
-            }),
-            ("newton_iterations", &|o| o.lowest.iterations.to_string()),
-            ("roll_deg", &|o| format!("{:.3}", o.lowest.roll)),
-            ("energies_by_start_pn_nm", &|o| {
-                let starts: Vec<String> = o.starts.iter().map(|e| format!("{e:.6}")).collect();
-                starts.join(" ")
-            }),
-            ("motion_limit_pn_nm", &|o| {
-                motion(o, |m| number(m.limit.energy))
-            }),
-            ("motion_time_ns", &|o| {
-                motion(o, |m| format!("{:.2}", m.time_ns))
-            }),
-            ("motion_force_evaluations", &|o| {
-                motion(o, |m| m.force_evaluations.to_string())
-            }),
-        ],
-    )?;
+    draft.table(&file(""), outcomes, &COLUMNS)?;
     let lines = outcomes.iter().map(|o| {
         let line = &o.lowest.centre_line;
         let points = line.arc_lengths().iter().zip(line.points());

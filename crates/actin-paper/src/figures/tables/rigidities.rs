@@ -3,7 +3,7 @@
 
 use super::ensemble::{Kind, RISES, core};
 use super::thermal;
-use crate::figures::draft::{Draft, number};
+use crate::figures::draft::{Column, Draft, number};
 use crate::measure::{
     Curve, Evidence, MeasureError, Specimen, bend_by_couples, bend_by_tip_force, shear_by_force,
     stretch_by_force, stretch_by_shift,
@@ -150,8 +150,8 @@ pub(in crate::figures) fn table4(draft: &mut Draft<'_>) -> Result<(), String> {
     }
     rigidities(draft, &mean, Kind::MEAN)?;
     draft.list()?;
-    tables(draft, "table4_samplings.csv", &drawn)?;
-    tables(draft, "table4_mean_filament.csv", &mean)
+    draft.table("table4_samplings.csv", &drawn.all, &COLUMNS)?;
+    draft.table("table4_mean_filament.csv", &mean.all, &COLUMNS)
 }
 
 /// Measures filaments of a kind; one filament if nothing is drawn.
@@ -492,26 +492,19 @@ fn derived(draft: &mut Draft<'_>) {
     }
 }
 
-/// Writes every reading.
-fn tables(draft: &Draft<'_>, file: &str, readings: &Readings) -> Result<(), String> {
-    draft.table(
-        file,
-        &readings.all,
-        &[
-            ("protocol", &|r| format!("{:?}", r.protocol)),
-            ("seed", &|r| r.seed.to_string()),
-            ("azimuth_deg", &|r| r.azimuth.to_string()),
-            ("prescribed", &|r| number(r.at)),
-            ("secant", &|r| number(r.secant)),
-            ("residual_pn", &|r| number(r.evidence.residual_force_pn)),
-            ("negative_eigenvalues", &|r| {
-                r.evidence.certificate.negative.to_string()
-            }),
-            ("unresolved_eigenvalues", &|r| {
-                r.evidence.certificate.unresolved.to_string()
-            }),
-            ("saddles_left", &|r| r.evidence.saddles_left.to_string()),
-            ("jumps", &|r| r.evidence.jumps.to_string()),
-        ],
-    )
-}
+const COLUMNS: [Column<Reading>; 10] = [
+    ("protocol", |r| format!("{:?}", r.protocol)),
+    ("seed", |r| r.seed.to_string()),
+    ("azimuth_deg", |r| r.azimuth.to_string()),
+    ("prescribed", |r| number(r.at)),
+    ("secant", |r| number(r.secant)),
+    ("residual_pn", |r| number(r.evidence.residual_force_pn)),
+    ("negative_eigenvalues", |r| {
+        r.evidence.certificate.negative.to_string()
+    }),
+    ("unresolved_eigenvalues", |r| {
+        r.evidence.certificate.unresolved.to_string()
+    }),
+    ("saddles_left", |r| r.evidence.saddles_left.to_string()),
+    ("jumps", |r| r.evidence.jumps.to_string()),
+];

@@ -1,15 +1,15 @@
 //! Tables 3 and 5: the paper's entries and ours, for the default filament and for ensembles.
 
-use super::ensemble::{Ensemble, Kind, core, ensemble, turn_deg, value};
+use super::ensemble::{Doubts, Ensemble, Kind, core, ensemble, turn_deg, value};
 use super::lengths;
 use crate::figures::charts::{dots, line};
-use crate::figures::draft::{Draft, Measured};
+use crate::figures::draft::{Column, Draft, Measured, number};
 use crate::figures::expected::{Bound, DIFFERENCE};
 use crate::fit::TwistData;
 use crate::measure::TwistPoint;
 use crate::palette;
 use crate::published::{CURVATURE_ROUNDING, Entry, Table, entries};
-use crate::statistics::{rms, sample};
+use crate::statistics::{Sample, rms, sample};
 use actin_draw::report::{DEVIATIONS, Origin, Row};
 use actin_draw::{Colour, Series};
 use actin_sim::Anchors;
@@ -102,7 +102,6 @@ impl Twisted {
             self.mean_row(draft, entry);
             self.filament_row(draft, Kind::DEFAULT, "seed-0/", entry);
             self.filament_row(draft, Kind::MEAN, "", entry);
-            self.returning_row(draft, entry);
         }
         self.printed_length(draft);
         for kind in self.ensemble.kinds() {
@@ -202,22 +201,6 @@ impl Twisted {
         draft.rows.push(Measured::beside(row, entry.value));
     }
 
-    /// The mean on the way back from the largest angle: where it differs there are two equilibria.
-    fn returning_row(&self, draft: &mut Draft<'_>, entry: &Entry) {
-        let sample = self.ensemble.sample(Kind::RETURNING, entry, self.table);
-        let doubts = self
-            .ensemble
-            .doubts(Kind::RETURNING, std::slice::from_ref(entry));
-        let note = format!(
-            "the same filaments on the way back from 240 deg, sd {}; {}",
-            short(sample.sd),
-            doubts.describe()
-        );
-        let quantity = self.path("returning/", entry);
-        let row = Row::measured(draft.id, quantity, self.unit, sample.mean, note);
-        draft.rows.push(Measured::beside(row, entry.value));
-    }
-
     /// The length that the printed angles and curvatures belong to.
     fn printed_length(&self, draft: &mut Draft<'_>) {
         let lengths = self.entries.iter();
@@ -302,76 +285,24 @@ impl Twisted {
 
     /// Writes every kind with its scatter, and every filament with its evidence.
     fn listings(&self, draft: &Draft<'_>) -> Result<(), String> {
-        let scientific = |x: f64| format!("{x:.6e}");
-        let kinds = self.ensemble.kinds();
-        let each = kinds
-            .iter()
-            .flat_map(|&kind| self.entries.iter().map(move |e| (kind, *e)));
-        let each: Vec<(Kind, Entry)> = each.collect();
-        let s = |(kind, entry): &(Kind, Entry)| self.ensemble.sample(*kind, entry, self.table);
-        let doubts = |(kind, entry): &(Kind, Entry)| {
-            self.ensemble.doubts(*kind, std::slice::from_ref(entry))
-        };
-        draft.table(
-            &format!("{}.csv", draft.id),
-            &each,
-            &[
-                ("kind", &|(kind, _)| kind.name()),
-                ("direction", &|(_, entry)| entry.direction().to_owned()),
-                ("phi_deg", &|(_, entry)| entry.phi_deg.to_string()),
-                ("kappa3_rad_per_nm", &|(_, entry)| {
-                    entry.curvature.to_string()
-                }),
-                ("paper_calls_it_reliable", &|(_, entry)| {
-                    entry.is_reliable().to_string()
-                }),
-                ("paper", &|(_, entry)| scientific(entry.value)),
-                ("mean", &|each| scientific(s(each).mean)),
-                ("sd", &|each| scientific(s(each).sd)),
-                ("low", &|each| scientific(s(each).low)),
-                ("high", &|each| scientific(s(each).high)),
-                ("samplings", &|each| s(each).count.to_string()),
-                ("saddles", &|each| doubts(each).saddles.to_string()),
-                ("neutral", &|each| doubts(each).neutral.to_string()),
-                ("off_the_branch", &|each| {
-                    doubts(each).off_the_branch.to_string()
-                }),
-            ],
-        )?;
-        let points = each.iter().flat_map(|(kind, entry)| {
-            let points = self.ensemble.points(*kind, entry).into_iter();
-            points.map(move |(seed, point)| (*kind, seed, point))
-        });
-        let points: Vec<(Kind, u64, TwistPoint)> = points.collect();
+        let (mut kinds, mut filaments) = (Vec::new(), Vec::new());
+        for kind in self.ensemble.kinds() {
+            for &entry in &self.entries {
+                kinds.push(OfKind {
+                    kind,
+                    entry,
+                    sample: self.ensemble.sample(kind, &entry, self.table),
+                    doubts: self.ensemble.doubts(kind, &[entry]),
+                });
+                let points = self.ensemble.points(kind, &entry).into_iter();
+                filaments.extend(points.map(|(seed, point)| (kind, seed, point)));
+            }
+        }
+        draft.table(&format!("{}.csv", draft.id), &kinds, &KINDS)?;
         draft.table(
             &format!("{}_samplings.csv", draft.id),
-            &points,
-            &[
-                ("kind", &|(kind, ..)| kind.name()),
-                ("seed", &|(_, seed, _)| seed.to_string()),
-                ("turn_deg", &|(.., p)| format!("{:.6}", p.turn_deg)),
-                ("kappa3_rad_per_nm", &|(.., p)| {
-                    format!("{:.6}", p.curvature_rad_per_nm)
-                }),
-                ("torque_pn_nm", &|(.., p)| scientific(p.torque_pn_nm)),
-                (self.column, &|(.., p)| scientific(value(p, self.table))),
-                ("residual_pn", &|(.., p)| {
-                    scientific(p.evidence.residual_force_pn)
-                }),
-                ("residual_pn_nm", &|(.., p)| {
-                    scientific(p.evidence.residual_torque_pn_nm)
-                }),
-                ("negative_eigenvalues", &|(.., p)| {
-                    p.evidence.certificate.negative.to_string()
-                }),
-                ("unresolved_eigenvalues", &|(.., p)| {
-                    p.evidence.certificate.unresolved.to_string()
-                }),
-                ("saddles_left", &|(.., p)| {
-                    p.evidence.saddles_left.to_string()
-                }),
-                ("jumps", &|(.., p)| p.evidence.jumps.to_string()),
-            ],
+            &filaments,
+            &FILAMENTS,
         )
     }
 
@@ -383,8 +314,8 @@ impl Twisted {
             Table::LengthChange => "dL/L",
         };
         let caption = format!(
-            "{symbol} of 64 independent bonds per interface: mean and 2 sd over {seeds} samplings, the mean on the \
-             way back from the largest angle, and one sampling (seed 0). Mean filament: 12 weighted bonds per \
+            "{symbol} of 64 independent bonds per interface: mean and 2 sd over {seeds} samplings, and one \
+             sampling (seed 0). Mean filament: 12 weighted bonds per \
              interface that stand for all. Dots: the paper; its entries above 200 deg, which it calls unreliable, \
              are grey."
         );
@@ -457,12 +388,6 @@ impl Twisted {
             blue,
             self.curve(Kind::DEFAULT),
         ));
-        let back = self.curve(Kind::RETURNING);
-        series.push(line(
-            "drawn, mean on the way back",
-            palette::resolution(0.75),
-            back,
-        ));
         let first = self.ensemble.of_kind(Kind::DEFAULT).find(|s| s.seed == 0);
         let seed_0 = self
             .entries
@@ -480,7 +405,6 @@ impl Twisted {
         let pattern = Kind {
             anchors: Anchors::Identical,
             bonds: 40,
-            returning: false,
         };
         let mut series = self.bars(pattern, palette::GREY);
         series.push(line(
@@ -489,7 +413,7 @@ impl Twisted {
             self.curve(pattern),
         ));
         let mut independent: Vec<Kind> = self.ensemble.kinds();
-        independent.retain(|kind| kind.anchors == Anchors::Independent && !kind.returning);
+        independent.retain(|kind| kind.anchors == Anchors::Independent);
         independent.sort_by_key(|kind| kind.bonds);
         let last = (independent.len() - 1).max(1) as f64;
         for (i, kind) in independent.into_iter().enumerate() {
@@ -525,6 +449,61 @@ impl Twisted {
         self.entries.iter().map(bar).collect()
     }
 }
+
+/// A kind of filaments at an entry.
+struct OfKind {
+    kind: Kind,
+    entry: Entry,
+    sample: Sample,
+    doubts: Doubts,
+}
+
+const KINDS: [Column<OfKind>; 14] = [
+    ("kind", |k| k.kind.name()),
+    ("direction", |k| k.entry.direction().to_owned()),
+    ("phi_deg", |k| k.entry.phi_deg.to_string()),
+    ("kappa3_rad_per_nm", |k| k.entry.curvature.to_string()),
+    ("paper_calls_it_reliable", |k| {
+        k.entry.is_reliable().to_string()
+    }),
+    ("paper", |k| number(k.entry.value)),
+    ("mean", |k| number(k.sample.mean)),
+    ("sd", |k| number(k.sample.sd)),
+    ("low", |k| number(k.sample.low)),
+    ("high", |k| number(k.sample.high)),
+    ("samplings", |k| k.sample.count.to_string()),
+    ("saddles", |k| k.doubts.saddles.to_string()),
+    ("neutral", |k| k.doubts.neutral.to_string()),
+    ("off_the_branch", |k| k.doubts.off_the_branch.to_string()),
+];
+
+const FILAMENTS: [Column<(Kind, u64, TwistPoint)>; 13] = [
+    ("kind", |(kind, ..)| kind.name()),
+    ("seed", |(_, seed, _)| seed.to_string()),
+    ("turn_deg", |(.., p)| number(p.turn_deg)),
+    ("kappa3_rad_per_nm", |(.., p)| {
+        number(p.curvature_rad_per_nm)
+    }),
+    ("torque_pn_nm", |(.., p)| number(p.torque_pn_nm)),
+    ("b3", |(.., p)| number(p.rigidity_pn_nm2)),
+    ("dl_over_l", |(.., p)| number(p.relative_length_change)),
+    ("residual_pn", |(.., p)| {
+        number(p.evidence.residual_force_pn)
+    }),
+    ("residual_pn_nm", |(.., p)| {
+        number(p.evidence.residual_torque_pn_nm)
+    }),
+    ("negative_eigenvalues", |(.., p)| {
+        p.evidence.certificate.negative.to_string()
+    }),
+    ("unresolved_eigenvalues", |(.., p)| {
+        p.evidence.certificate.unresolved.to_string()
+    }),
+    ("saddles_left", |(.., p)| {
+        p.evidence.saddles_left.to_string()
+    }),
+    ("jumps", |(.., p)| p.evidence.jumps.to_string()),
+];
 
 fn interpolate(points: &[(f64, f64)], x: f64) -> f64 {
     let pair = points.windows(2).find(|w| w[0].0 <= x && x <= w[1].0);
