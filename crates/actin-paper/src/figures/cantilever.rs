@@ -550,22 +550,26 @@ impl Outcome {
     }
 }
 
+/// A number that is drawn against the length of rod.
+type Value = fn(&Outcome) -> f64;
+
+/// A value of a model's filaments against the length of rod; no points if the model was not computed.
+fn curve(outcomes: &[Outcome], model: Model, colour: Colour, value: Value) -> Curve {
+    let is_computed = outcomes.iter().any(|o| o.case.model == model);
+    let own = drawn(outcomes, |case| {
+        is_computed && case.model == model.solved_as(&MODELS, case.resolution)
+    });
+    Curve {
+        name: model.words.into(),
+        colour,
+        // It lies upon the line of the junction as printed alone.
+        is_dashed: model == AS_PRINTED,
+        points: own.iter().map(|o| (o.case.rod_nm(), value(o))).collect(),
+    }
+}
+
 /// Tips and elastic energies of equilibria under 2 pN against the length of rod.
 fn against_resolution(draft: &mut Draft<'_>, outcomes: &[Outcome]) -> Result<(), String> {
-    type Value = fn(&Outcome) -> f64;
-    let curve = |model: Model, colour: Colour, value: Value| {
-        let is_computed = outcomes.iter().any(|o| o.case.model == model);
-        let own = drawn(outcomes, |case| {
-            is_computed && case.model == model.solved_as(&MODELS, case.resolution)
-        });
-        Curve {
-            name: model.words.into(),
-            colour,
-            // It lies upon the line of the junction as printed alone.
-            is_dashed: model == AS_PRINTED,
-            points: own.iter().map(|o| (o.case.rod_nm(), value(o))).collect(),
-        }
-    };
     let charts: [(&str, &str, Value); 2] = [
         ("tips", "distance of the tip along the force (nm)", |o| {
             o.tip_drop_nm
@@ -575,12 +579,13 @@ fn against_resolution(draft: &mut Draft<'_>, outcomes: &[Outcome]) -> Result<(),
         }),
     ];
     for (name, y_label, value) in charts {
-        let curves = vec![
-            curve(SHARED, palette::line(0), value),
-            curve(FULL, palette::line(1), value),
-            curve(AS_PRINTED, palette::line(3), value),
-            curve(MEAN, palette::DATA, value),
+        let curves = [
+            (SHARED, palette::line(0)),
+            (FULL, palette::line(1)),
+            (AS_PRINTED, palette::line(3)),
+            (MEAN, palette::DATA),
         ];
+        let curves = curves.map(|(model, colour)| curve(outcomes, model, colour, value));
         let caption = format!(
             "The {y_label} against the length of rod, monomers alone at 0 and rod alone at 160 nm; drawn bonds \
              of the first sampling, and the mean filament (black)."
@@ -589,7 +594,7 @@ fn against_resolution(draft: &mut Draft<'_>, outcomes: &[Outcome]) -> Result<(),
             format!("fig4_{name}.svg"),
             "Equilibria under 2 pN against resolution",
             ["rod at the tip (nm)", y_label],
-            against_rod(curves),
+            against_rod(curves.into()),
             caption,
         )?;
     }

@@ -81,10 +81,6 @@ impl Rods {
 
 /// What filaments are made of and how they are loaded, whatever their resolution.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[expect(
-    clippy::struct_excessive_bools,
-    reason = "independent changes of a scene"
-)]
 pub(super) struct Model {
     /// In quantities; empty for the model that a figure shows.
     pub name: &'static str,

@@ -11,9 +11,24 @@ use actin_draw::scene3d::{Item, Key, Label, Panel, Sheet, View};
 use actin_mechanics::Vector3;
 use actin_sim::shape::Ribbon;
 use actin_sim::{BodyKind, End, JunctionBond};
-use actin_view::{Attitude, bodies};
+use actin_view::{Attitude, Pose, bodies};
 use filament::Drawn;
 use std::collections::BTreeSet;
+
+const CAPTION_1: &str = "A filament of 52 nm, held below and pulled sideways at its tip by 10 pN: (a) as monomers, (b) as \
+    monomers joined to a rod, (c) as a rod whose cylinders have the cross-section of its mass, 38.5 nm^2. (d) \
+    The middle of (a) from near by. Ellipsoids are drawn with their own semi-axes, translucent; each bond runs \
+    from its anchor on one to that on the other. There are 16 bonds per interface here, and all are drawn; \
+    simulations have 64.";
+const CAPTION_2: &str = "Where 26 nm of monomers, held at the far end, go over into a rod that 10 pN bend: (a) with the \
+    two bonds side by side, (b) along the centre line, from the rod's end, (c) across the plane in which it \
+    bends. Two bonds (yellow) run from the centres of the last two monomers to the rod's end; each has a frame \
+    of its own, drawn at its middle, between the frame of its monomer and that of the rod's first segment. \
+    Ellipsoids are translucent.";
+const CAPTION_3: &str = "Filaments of monomers and rod: (a) 100 nm on a wall, 5 pN down at the tip; (b) 160 nm, both ends \
+    turned by 150 deg in opposite senses, which over-twists, and moved in by 8 nm each, so that it buckles, a \
+    little out of a plane, seen from the side and along its axis; arcs show the turns, straight arrows the \
+    shifts, both to scale; (c) 110 nm held by four linkers to fixed anchors alone.";
 
 /// Figure 1: monomers, monomers joined to a rod, and a rod, of one length under one force; and the
 /// bonds between a few monomers from near by.
@@ -30,41 +45,11 @@ pub(super) fn figure1(draft: &mut Draft<'_>) -> Result<(), String> {
         range_nm: [20.0, 33.0],
         ..monomers
     };
-    let mut items = near.monomers(0.3);
-    items.extend(near.bonds(2.0).items);
-    panels.push(Panel {
-        title: "(d) bonds of (a)".into(),
-        place: [708.0, 6.0, 324.0, 540.0],
-        view: View {
-            towards_viewer: Vector3::new(0.3, -1.0, 0.1),
-            up: Vector3::z(),
-        },
-        items,
-        labels: Vec::new(),
-        bar_nm: 2.0,
-        room: [14.0, 8.0, 14.0, 8.0],
-    });
-    for (drawn, panel) in [(&monomers, "a"), (&near, "d")] {
-        let [lateral, longitudinal] = drawn.bonds(1.0).counts;
-        let note = "lines in the picture, from anchor to anchor";
-        draft.row(
-            format!("lateral_bonds_drawn/{panel}"),
-            "",
-            lateral as f64,
-            note,
-        );
-        draft.row(
-            format!("longitudinal_bonds_drawn/{panel}"),
-            "",
-            longitudinal as f64,
-            note,
-        );
-    }
+    panels.push(bonds_of(&near));
+    bond_counts(draft, [&monomers, &near]);
     let (radius, rise) = radius_and_rise_nm(&solved[0]);
-    let note = "of the helix through the bent filament's centres, from root mean square distances to the next \
-                monomer and the one after; at rest 1.8 and 2.7385";
-    draft.row("radius", "nm", radius, note);
-    draft.row("rise", "nm", rise, note);
+    draft.row("radius", "nm", radius, HELIX);
+    draft.row("rise", "nm", rise, HELIX);
     let junction = [style::junction()];
     let legend = [
         style::bodies(),
@@ -73,17 +58,49 @@ pub(super) fn figure1(draft: &mut Draft<'_>) -> Result<(), String> {
         style::axes(),
         style::holds("force"),
     ];
-    let caption = "A filament of 52 nm, held below and pulled sideways at its tip by 10 pN: (a) as monomers, (b) as \
-        monomers joined to a rod, (c) as a rod whose cylinders have the cross-section of its mass, 38.5 nm^2. (d) \
-        The middle of (a) from near by. Ellipsoids are drawn with their own semi-axes, translucent; each bond runs \
-        from its anchor on one to that on the other. There are 16 bonds per interface here, and all are drawn; \
-        simulations have 64.";
     finish(
         draft,
         (&names, &solved),
         ([1040.0, 550.0], panels, &legend),
-        caption,
+        CAPTION_1,
     )
+}
+
+const HELIX: &str = "of the helix through the bent filament's centres, from root mean square distances to the next \
+    monomer and the one after; at rest 1.8 and 2.7385";
+
+/// The bonds of a few monomers from near by.
+fn bonds_of(drawn: &Drawn<'_>) -> Panel {
+    Panel {
+        title: "(d) bonds of (a)".into(),
+        place: [708.0, 6.0, 324.0, 540.0],
+        view: View {
+            towards_viewer: Vector3::new(0.3, -1.0, 0.1),
+            up: Vector3::z(),
+        },
+        items: [drawn.monomers(0.3), drawn.bonds(2.0).items].concat(),
+        labels: Vec::new(),
+        bar_nm: 2.0,
+        room: [14.0, 8.0, 14.0, 8.0],
+    }
+}
+
+/// Numbers of lines in panels (a) and (d).
+fn bond_counts(draft: &mut Draft<'_>, drawn: [&Drawn<'_>; 2]) {
+    for (drawn, panel) in drawn.into_iter().zip(["a", "d"]) {
+        for (kind, count) in ["lateral", "longitudinal"]
+            .into_iter()
+            .zip(drawn.bonds(1.0).counts)
+        {
+            let note = "lines in the picture, from anchor to anchor";
+            draft.row(
+                format!("{kind}_bonds_drawn/{panel}"),
+                "",
+                count as f64,
+                note,
+            );
+        }
+    }
 }
 
 /// A filament standing upright.
@@ -189,16 +206,11 @@ pub(super) fn figure2(draft: &mut Draft<'_>) -> Result<(), String> {
     panels[0].labels = bond_names(&drawn);
     bond_rows(draft, &drawn);
     let legend = [style::bodies(), vec![style::junction()], style::axes()];
-    let caption = "Where 26 nm of monomers, held at the far end, go over into a rod that 10 pN bend: (a) with the \
-        two bonds side by side, (b) along the centre line, from the rod's end, (c) across the plane in which it \
-        bends. Two bonds (yellow) run from the centres of the last two monomers to the rod's end; each has a frame \
-        of its own, drawn at its middle, between the frame of its monomer and that of the rod's first segment. \
-        Ellipsoids are translucent.";
     finish(
         draft,
         (&names, &solved),
         ([1080.0, 730.0], panels, &legend),
-        caption,
+        CAPTION_2,
     )
 }
 
@@ -299,6 +311,22 @@ pub(super) fn figure3(draft: &mut Draft<'_>) -> Result<(), String> {
         "figure-3/linkers",
     ];
     let solved = solve(draft, &names)?;
+    let panels = example_panels(&solved);
+    example_rows(draft, &solved)?;
+    let legend = [
+        style::bodies(),
+        style::holds("force, shift, turn"),
+        style::linkers(),
+    ];
+    finish(
+        draft,
+        (&names, &solved),
+        ([1080.0, 680.0], panels, &legend),
+        CAPTION_3,
+    )
+}
+
+fn example_panels(solved: &[Solved]) -> Vec<Panel> {
     let (x, y, z) = (Vector3::x(), Vector3::y(), Vector3::z());
     let side = y + 0.3 * x + 0.2 * z;
     let panels = [
@@ -322,24 +350,10 @@ pub(super) fn figure3(draft: &mut Draft<'_>) -> Result<(), String> {
             z + 0.1 * x,
         ),
     ];
+    let panels = panels.into_iter();
     let panels =
         panels.map(|(k, title, place, towards)| example(&solved[k], title, place, towards));
-    example_rows(draft, &solved)?;
-    let legend = [
-        style::bodies(),
-        style::holds("force, shift, turn"),
-        style::linkers(),
-    ];
-    let caption = "Filaments of monomers and rod: (a) 100 nm on a wall, 5 pN down at the tip; (b) 160 nm, both ends \
-        turned by 150 deg in opposite senses, which over-twists, and moved in by 8 nm each, so that it buckles, a \
-        little out of a plane, seen from the side and along its axis; arcs show the turns, straight arrows the \
-        shifts, both to scale; (c) 110 nm held by four linkers to fixed anchors alone.";
-    finish(
-        draft,
-        (&names, &solved),
-        ([1080.0, 680.0], panels.into(), &legend),
-        caption,
-    )
+    panels.collect()
 }
 
 fn example(solved: &Solved, title: &str, place: [f64; 4], towards_viewer: Vector3) -> Panel {
@@ -411,7 +425,7 @@ fn solve(draft: &Draft<'_>, names: &[&str]) -> Result<Vec<Solved>, String> {
 }
 
 /// Last part of a path.
-fn file_name<'a>(name: &'a str) -> &'a str {
+fn file_name(name: &str) -> &str {
     name.rsplit('/').next().unwrap_or(name)
 }
 
@@ -438,27 +452,11 @@ fn finish(
         file,
         caption: caption.into(),
     });
-    let mut shown = Vec::new();
-    for (name, solved) in names.iter().zip(solved) {
-        let (name, counts) = (file_name(name), solved.assembly.counts());
-        for (quantity, number) in [
-            ("monomers", counts.monomers),
-            ("bonds", counts.bonds),
-            ("segments", counts.segments),
-            ("junctions", counts.junctions),
-        ] {
-            draft.row(
-                format!("{name}/{quantity}"),
-                "",
-                number as f64,
-                "in the scene that is drawn",
-            );
-        }
-        let rods = counts.segments as f64;
-        // Monomers are 2.7 nm apart, segments 10 nm long or less: of what there is more.
-        let share = rods / (rods + counts.monomers as f64);
-        shown.push(("all".to_owned(), name.to_owned(), share, solved.pose()));
-    }
+    let shown: Vec<_> = names
+        .iter()
+        .zip(solved)
+        .map(|(name, solved)| counted(draft, file_name(name), solved))
+        .collect();
     let attitude = match draft.id {
         "fig1" => Attitude::STANDING,
         _ => Attitude::LYING,
@@ -470,6 +468,24 @@ fn finish(
         shown,
         "The same equilibria, to be turned.",
     )
+}
+
+/// Numbers of what is drawn as rows, and the state as it is shown in the viewer.
+fn counted(draft: &mut Draft<'_>, name: &str, solved: &Solved) -> (String, String, f64, Pose) {
+    let counts = solved.assembly.counts();
+    for (quantity, number) in [
+        ("monomers", counts.monomers),
+        ("bonds", counts.bonds),
+        ("segments", counts.segments),
+        ("junctions", counts.junctions),
+    ] {
+        let note = "in the scene that is drawn";
+        draft.row(format!("{name}/{quantity}"), "", number as f64, note);
+    }
+    let rods = counts.segments as f64;
+    // Monomers are 2.7 nm apart, segments 10 nm long or less: of what there is more.
+    let share = rods / (rods + counts.monomers as f64);
+    ("all".to_owned(), name.to_owned(), share, solved.pose())
 }
 
 /// How the states were found.

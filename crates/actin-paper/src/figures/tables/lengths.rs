@@ -13,6 +13,15 @@ const CURVATURES: [(f64, f64); 4] = [(1e-4, 0.0), (0.0023, 10.0), (0.0185, 80.0)
 /// Bond samplings of each length.
 const SEEDS: u64 = 8;
 
+const HEADER: [&str; 6] = [
+    "rises",
+    "kappa3_rad_per_nm",
+    "b3_mean",
+    "b3_sd",
+    "dl_over_l_mean",
+    "dl_over_l_sd",
+];
+
 /// Measures every length: rows for the secant rigidity, a table with the change of length too.
 pub(super) fn rows(draft: &mut Draft<'_>) -> Result<(), String> {
     let cases = RISES
@@ -49,15 +58,7 @@ pub(super) fn rows(draft: &mut Draft<'_>) -> Result<(), String> {
             lines.push((vec![rises.to_string()], vec![numbers]));
         }
     }
-    let header = [
-        "rises",
-        "kappa3_rad_per_nm",
-        "b3_mean",
-        "b3_sd",
-        "dl_over_l_mean",
-        "dl_over_l_sd",
-    ];
-    draft.curves("table3_lengths.csv", &header, lines)
+    draft.curves("table3_lengths.csv", &HEADER, lines)
 }
 
 fn length_nm(rises: u32) -> f64 {

@@ -14,7 +14,8 @@ pub(in crate::figures) fn table1(draft: &mut Draft<'_>) -> Result<(), String> {
         "The defaults of a scene's monomers against the published numbers, and what follows from \
         them. Nothing is fitted, nothing is drawn at random."
             .into();
-    list(draft, &monomers(&Monomers::default()))
+    let monomers = Monomers::default();
+    list(draft, &[published(&monomers), derived(&monomers)].concat())
 }
 
 /// Table 2.
@@ -33,15 +34,16 @@ fn list(draft: &mut Draft<'_>, parameters: &[Parameter]) -> Result<(), String> {
     draft.list()
 }
 
-fn monomers(m: &Monomers) -> [Parameter; 20] {
+/// Published numbers as the crates hold them.
+fn published(m: &Monomers) -> Vec<Parameter> {
     let [radial, tangential, axial] = m.semi_axes_nm.map(|semi_axis| 2.0 * semi_axis);
-    let unscaled = |rigidity: f64| rigidity / monomer::RIGIDITY_SCALE / monomer::THERMAL_ENERGY;
-    let square = m.radius_nm.powi(2);
-    let strand_turn = (2.0 * m.turn_deg).rem_euclid(360.0);
-    let fixed = square * strand_turn.to_radians().sin() / (2.0 * m.rise_nm);
-    let free = square * m.turn_deg.to_radians().sin() / m.rise_nm;
-    let strands = 4.0 * m.longitudinal_rigidity_pn_per_nm * m.rise_nm;
-    [
+    let [lateral, longitudinal] = [
+        m.lateral_rigidity_pn_per_nm,
+        m.longitudinal_rigidity_pn_per_nm,
+    ]
+    .map(|rigidity| rigidity / monomer::RIGIDITY_SCALE / monomer::THERMAL_ENERGY);
+    let longest = m.longitudinal_max_bond_nm;
+    vec![
         ("dimension/radial", "nm", radial),
         ("dimension/tangential", "nm", tangential),
         ("dimension/axial", "nm", axial),
@@ -49,22 +51,23 @@ fn monomers(m: &Monomers) -> [Parameter; 20] {
         ("monomers_per_period", "", monomer::PERIOD / m.rise_nm),
         ("rise_per_strand_step", "nm", 2.0 * m.rise_nm),
         ("effective_interaction_radius", "nm", m.radius_nm),
-        (
-            "lateral_rigidity",
-            "kBT/nm^2",
-            unscaled(m.lateral_rigidity_pn_per_nm),
-        ),
-        (
-            "longitudinal_rigidity",
-            "kBT/nm^2",
-            unscaled(m.longitudinal_rigidity_pn_per_nm),
-        ),
+        ("lateral_rigidity", "kBT/nm^2", lateral),
+        ("longitudinal_rigidity", "kBT/nm^2", longitudinal),
         ("lateral_maximum_bond_length", "nm", m.lateral_max_bond_nm),
-        (
-            "longitudinal_maximum_bond_length",
-            "nm",
-            m.longitudinal_max_bond_nm,
-        ),
+        ("longitudinal_maximum_bond_length", "nm", longest),
+    ]
+}
+
+/// Choices, and what follows from the interfaces alone.
+fn derived(m: &Monomers) -> Vec<Parameter> {
+    let strand_turn = (2.0 * m.turn_deg).rem_euclid(360.0);
+    // Change of length with curvature if the distances over so many steps keep theirs.
+    let slope = |steps: f64| {
+        let turn = (steps * m.turn_deg).to_radians();
+        m.radius_nm.powi(2) * turn.sin() / (steps * m.rise_nm)
+    };
+    let strands = 4.0 * m.longitudinal_rigidity_pn_per_nm * m.rise_nm;
+    vec![
         ("rise", "nm", m.rise_nm),
         ("turn", "deg", m.turn_deg),
         ("strand_turn", "deg", strand_turn),
@@ -72,8 +75,8 @@ fn monomers(m: &Monomers) -> [Parameter; 20] {
         ("mass", "ag", m.mass_ag),
         ("stretching_bound", "pN", strands),
         ("stretching_uniform", "pN", uniform_stretching(m)),
-        ("twist_stretch_slope/fixed-radius", "nm", -fixed),
-        ("twist_stretch_slope", "nm", free),
+        ("twist_stretch_slope/fixed-radius", "nm", -slope(2.0)),
+        ("twist_stretch_slope", "nm", slope(1.0)),
     ]
 }
 

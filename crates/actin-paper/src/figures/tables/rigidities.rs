@@ -353,6 +353,45 @@ fn describe(sample: &Sample) -> String {
     )
 }
 
+/// Rigidities that are compared: name, unit, protocol, prescribed value, and what it is.
+const COMPARED: [(&str, &str, Protocol, f64, &str); 5] = [
+    (
+        "s3",
+        "pN",
+        Protocol::StretchByForce,
+        PULL_PN,
+        "secant F L/dL at 100 pN",
+    ),
+    (
+        "b1",
+        "pN nm^2",
+        Protocol::Couples,
+        BENT,
+        "secant M/kappa at 0.01 rad/nm",
+    ),
+    (
+        "b1/cantilever",
+        "pN nm^2",
+        Protocol::CantileverLinear,
+        CANTILEVER_PN,
+        "2 pN at the tip of 160 nm",
+    ),
+    (
+        "b1/cantilever/elastica",
+        "pN nm^2",
+        Protocol::CantileverElastica,
+        CANTILEVER_PN,
+        "2 pN at the tip of 160 nm",
+    ),
+    (
+        "s1",
+        "pN",
+        Protocol::ShearSecant,
+        SHEAR_PN[0],
+        "secant F/gamma at 0.01 pN",
+    ),
+];
+
 /// All that was measured of one kind. The mean filament has rows under a path of its own.
 fn rigidities(draft: &mut Draft<'_>, readings: &Readings, kind: Kind) -> Result<(), String> {
     let path = match kind {
@@ -362,73 +401,36 @@ fn rigidities(draft: &mut Draft<'_>, readings: &Readings, kind: Kind) -> Result<
     for (protocol, quantity, unit, words) in LISTED {
         for at in readings.prescribed(protocol) {
             let s = readings.sample(protocol, at);
-            draft.row(
-                format!("{path}{quantity}/{at}"),
-                unit,
-                s.mean,
-                format!("{words}, {}", describe(&s)),
-            );
+            let note = format!("{words}, {}", describe(&s));
+            draft.row(format!("{path}{quantity}/{at}"), unit, s.mean, note);
         }
     }
-    let [b1, s3] = [
-        (Protocol::Couples, BENT),
-        (Protocol::StretchByForce, PULL_PN),
-    ]
-    .map(|(p, at)| readings.sample(p, at));
-    let (per_um, scale) = (1e-3 / monomer::THERMAL_ENERGY, monomer::RIGIDITY_SCALE);
-    let cantilever = |protocol| readings.sample(protocol, CANTILEVER_PN);
-    let unscaled = (b1.mean * per_um / scale, b1.sd * per_um / scale);
-    let named = [
-        ("s3", "pN", s3, "secant F L/dL at 100 pN"),
-        ("b1", "pN nm^2", b1, "secant M/kappa at 0.01 rad/nm"),
-        (
-            "b1/cantilever",
-            "pN nm^2",
-            cantilever(Protocol::CantileverLinear),
-            "2 pN at the tip of 160 nm",
-        ),
-        (
-            "b1/cantilever/elastica",
-            "pN nm^2",
-            cantilever(Protocol::CantileverElastica),
-            "2 pN at the tip of 160 nm",
-        ),
-        (
-            "s1",
-            "pN",
-            readings.sample(Protocol::ShearSecant, SHEAR_PN[0]),
-            "secant F/gamma at 0.01 pN",
-        ),
-    ];
-    for (name, unit, s, words) in named {
-        draft.mean(
+    for (name, unit, protocol, at, words) in COMPARED {
+        let s = readings.sample(protocol, at);
+        let (name, note) = (
             format!("{path}{name}"),
-            unit,
-            &s,
             format!("{words}, {}", describe(&s)),
         );
+        if ["s3", "b1"].iter().any(|of| name.ends_with(of)) {
+            scatter(draft, &name, unit, s.sd);
+        }
+        draft.mean(name, unit, &s, note);
     }
-    scatter(draft, &format!("{path}s3"), "pN", s3.sd);
-    scatter(draft, &format!("{path}b1"), "pN nm^2", b1.sd);
     let note = "largest difference between two azimuths of one sampling over its mean";
-    draft.row(
-        format!("{path}b1/anisotropy"),
-        "",
-        readings.anisotropy(),
-        note,
-    );
-    let lengths = [
-        ("persistence_length_um", (b1.mean * per_um, b1.sd * per_um)),
-        ("persistence_length_unscaled_um", unscaled),
+    let anisotropy = readings.anisotropy();
+    draft.row(format!("{path}b1/anisotropy"), "", anisotropy, note);
+    let per_um = 1e-3 / monomer::THERMAL_ENERGY;
+    for (name, at, scale) in [
+        ("persistence_length_um", BENT, per_um),
         (
-            "persistence_length_um/at-rest",
-            (
-                readings.sample(Protocol::Couples, AT_REST).mean * per_um,
-                0.0,
-            ),
+            "persistence_length_unscaled_um",
+            BENT,
+            per_um / monomer::RIGIDITY_SCALE,
         ),
-    ];
-    for (name, length) in lengths {
+        ("persistence_length_um/at-rest", AT_REST, per_um),
+    ] {
+        let b1 = readings.sample(Protocol::Couples, at);
+        let length = (b1.mean * scale, b1.sd * scale);
         draft.scattered(format!("{path}{name}"), "um", length, "");
     }
     twisting(draft, path, kind)
