@@ -102,7 +102,7 @@ struct Case {
     segments: Option<u32>,
 }
 
-/// What came out of a case.
+/// Outcome of a case.
 #[derive(Debug)]
 struct Outcome {
     case: Case,
@@ -110,14 +110,13 @@ struct Outcome {
     tip_drop_nm: f64,
     /// Elastic energy at equilibrium (pN nm), Newton's where there is one.
     elastic_pn_nm: f64,
-    /// Difference of the tip from that of Newton's equilibrium (nm), and whether that is certified; `None` for
-    /// loads without a potential.
+    /// Difference from the tip of Newton's equilibrium (nm), and its certificate; `None` for loads without a potential.
     newton: Option<(f64, bool)>,
-    /// Whether it was moved in time.
+    /// Moved in time, not solved by Newton's method alone.
     is_moved: bool,
     /// Time (ns), elastic plus kinetic energy (pN nm).
     energy: Vec<(f64, f64)>,
-    /// The same with the load's potential (pN nm), record by record.
+    /// Energy with the load's potential (pN nm), record by record.
     total: Vec<f64>,
     /// Evaluations of bonds and segments.
     work: f64,
@@ -341,7 +340,7 @@ fn rows(draft: &mut Draft<'_>, outcomes: &[Outcome]) {
 }
 
 impl Outcome {
-    /// How the case came to rest.
+    /// End of the run, for notes.
     fn ending(&self) -> String {
         let end = match (self.is_moved, self.has_converged) {
             (false, _) => "by Newton's method",
