@@ -1,15 +1,14 @@
-//! Scenes as text: how tests build and run them, and what they are refused with.
+//! Helpers that build and run scenes given as text.
 
 use actin_mechanics::State;
 use actin_sim::{Assembly, Failure, Outcome, Plan, RunError, Scene, Trajectory};
 
-/// The assembly of a scene.
 pub(crate) fn build(text: &str) -> Assembly {
     let scene = Scene::from_ron(text).unwrap_or_else(|error| panic!("{error}\n{text}"));
     Assembly::build(&scene).unwrap_or_else(|problem| panic!("{problem}\n{text}"))
 }
 
-/// Runs an assembly as its scene asks, which is then in its last state; with what was recorded whether it fails or not.
+/// Runs an assembly and leaves it in its last state. Returns the records also of a failed run.
 pub(crate) fn run_anyway(assembly: &mut Assembly) -> (Trajectory, Result<Outcome, RunError>) {
     let mut trajectory = Trajectory::default();
     let plan = Plan::new(assembly).map_err(RunError::from);
@@ -20,32 +19,30 @@ pub(crate) fn run_anyway(assembly: &mut Assembly) -> (Trajectory, Result<Outcome
     (trajectory, outcome)
 }
 
-/// The same of a run that gets to its end.
 pub(crate) fn run(assembly: &mut Assembly) -> Result<(Trajectory, Outcome), RunError> {
     let (trajectory, outcome) = run_anyway(assembly);
     outcome.map(|outcome| (trajectory, outcome))
 }
 
-/// What went wrong in a run, with what is known up to there.
+/// Failure and partial outcome of a run.
 ///
 /// # Panics
-/// If it went well, or did not begin.
+/// If the run succeeded or was refused.
 pub(crate) fn failure(outcome: Result<Outcome, RunError>) -> (Failure, Outcome) {
     match outcome {
         Err(RunError::Failed(failed)) => (failed.failure, failed.outcome),
         Err(RunError::Refused(problem)) => panic!("refused: {problem}"),
-        Ok(_) => panic!("nothing went wrong"),
+        Ok(_) => panic!("the run did not fail"),
     }
 }
 
-/// Runs a scene that must reach its end; the assembly is then in the last state.
 pub(crate) fn ran(text: &str) -> (Assembly, Trajectory, Outcome) {
     let mut assembly = build(text);
     let (trajectory, outcome) = run(&mut assembly).unwrap_or_else(|e| panic!("{e}\n{text}"));
     (assembly, trajectory, outcome)
 }
 
-/// The message with which a scene is refused before it runs; empty if it is not.
+/// Message with which a scene is refused before its run; empty if it is accepted.
 pub(crate) fn refusal(text: &str) -> String {
     let scene = match Scene::from_ron(text) {
         Ok(scene) => scene,
@@ -56,7 +53,6 @@ pub(crate) fn refusal(text: &str) -> String {
     planned.map_or_else(|problem| problem.to_string(), |()| String::new())
 }
 
-/// Largest distance of two states' points (nm).
 pub(crate) fn apart(a: &State, b: &State) -> f64 {
     let pairs = a.points.position.iter().zip(b.points.position.iter());
     pairs.map(|(a, b)| (a - b).norm()).fold(0.0, f64::max)

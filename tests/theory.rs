@@ -1,7 +1,7 @@
-//! What tests against theory share: orders of convergence, and roots by bisection.
+//! Orders of convergence, and roots by bisection.
 
-/// Asserts second-order convergence on meshes each twice as fine, within `slack` of the order, and
-/// returns the limit by Richardson's extrapolation, relative to `exact`.
+/// Asserts second-order convergence on successively halved meshes, within `slack` of the order.
+/// Returns the limit by Richardson extrapolation, relative to `exact`.
 pub(crate) fn second_order_limit(what: &str, values: [f64; 3], exact: f64, slack: f64) -> f64 {
     let errors = values.map(|value| value / exact - 1.0);
     let orders = [errors[0] / errors[1], errors[1] / errors[2]].map(|r| r.abs().log2());
@@ -16,11 +16,11 @@ pub(crate) fn second_order_limit(what: &str, values: [f64; 3], exact: f64, slack
     limit
 }
 
-/// Where between two positive bounds something that does not hold at the lower one begins to hold, to a
-/// relative `precision`.
+/// Bisection between two positive bounds for the value at which `holds` becomes true, to a relative
+/// `precision`.
 ///
 /// # Panics
-/// If it holds at the lower bound, or does not at the upper one.
+/// If it is true at the lower bound or false at the upper one.
 pub(crate) fn bisect(
     mut holds: impl FnMut(f64) -> bool,
     [mut low, mut high]: [f64; 2],

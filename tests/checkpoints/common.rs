@@ -1,7 +1,7 @@
-//! Small scenes of every kind, and a sink that interrupts a run at a given moment.
+//! Small scenes of every kind, and a sink that interrupts a run.
 
 use actin_sim::{
-    Assembly, CheckpointError, Checkpoints, Outcome, Plan, Record, Recorded, RunDirectory,
+    Assembly, CheckpointError, Checkpoints, Outcome, Plan, Record, RecordSummary, RunDirectory,
     RunPosition, Scene, Sink, Trajectory,
 };
 use std::collections::BTreeMap;
@@ -11,7 +11,6 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 use std::time::Duration;
 
-/// What a scene is made of, by number.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Choice {
     pub(crate) filament: usize,
@@ -19,7 +18,7 @@ pub(crate) struct Choice {
     pub(crate) integrator: usize,
     pub(crate) drag: f64,
     pub(crate) stops: bool,
-    /// Seed of thermal noise, if there is any: it needs drag and no stop rule.
+    /// Seed of thermal noise, which requires drag and excludes a stop rule.
     pub(crate) noise: Option<u64>,
     pub(crate) record_every_ns: f64,
     pub(crate) duration_ns: f64,
@@ -43,10 +42,9 @@ const FILAMENTS: [&str; 5] = [
          rod: RodModel(law: Homogenised))",
 ];
 
-/// Which of them are two.
 const PAIR: usize = 3;
 
-/// What holds the second filament, and what ties it to the first.
+/// Clamp of the second filament, and its linker to the first.
 const SECOND: [&str; 2] = [
     "Clamp(filament: 1, end: Start)",
     "Linker(at_nm: 30.0, radius_nm: 1.8,
@@ -54,11 +52,11 @@ const SECOND: [&str; 2] = [
             stiffness_pn_per_nm: 50.0, rest_length_nm: 8.4)",
 ];
 
-/// Which of [`HELD`] is for motions alone.
+/// Index in [`HELD`] for motions only.
 pub(crate) const IN_TIME: usize = 4;
 
-/// Clamps, linkers and the rest: a force at once, a force by a ramp, an end that turns and slides,
-/// a linker whose anchor moves, loads that change in time and turn along.
+/// Clamps, linkers and other keys: a sudden force, a ramped force, a turned and sliding end, a
+/// linker with a moving anchor, time-dependent following loads.
 const HELD: [[&str; 3]; 5] = [
     [
         "Clamp(end: Start),",
@@ -117,9 +115,8 @@ impl Choice {
         Scene::from_ron(&text).unwrap()
     }
 
-    /// The scene as a motion in time.
     pub(crate) fn motion(&self) -> Scene {
-        // Under a sine nothing comes to rest.
+        // A sine load prevents rest.
         let stop = if self.stops && self.held != IN_TIME {
             "stop: (force_pn: 5.0, torque_pn_nm: 5.0, kinetic_pn_nm: 1.0),"
         } else {
@@ -139,7 +136,6 @@ impl Choice {
         ))
     }
 
-    /// The scene as overdamped motion of 0.3 ns in 30 steps.
     pub(crate) fn brownian(&self) -> Scene {
         let (temperature, seed) = self.noise.map_or((0.0, 0), |seed| (298.0, seed));
         self.scene(&format!(
@@ -148,7 +144,6 @@ impl Choice {
         ))
     }
 
-    /// The scene as motion with inertia in water.
     pub(crate) fn in_water(&self) -> Scene {
         let thermal = self.noise.map_or(String::new(), |seed| {
             format!(", thermal: (temperature_k: 298.0, seed: {seed})")
@@ -158,7 +153,6 @@ impl Choice {
         ))
     }
 
-    /// The scene as equilibria along its path, or as a single one.
     pub(crate) fn statics(&self) -> Scene {
         self.scene("Equilibrium(largest_step: 0.1, lowest_eigenvalue: true)")
     }
@@ -168,7 +162,6 @@ pub(crate) fn build(scene: &Scene) -> Assembly {
     Assembly::build(scene).unwrap()
 }
 
-/// The files of checkpoints of a plan in `directory`.
 pub(crate) fn checkpoints(directory: &RunDirectory, plan: &Plan<'_>) -> Checkpoints {
     let never = Arc::new(AtomicBool::new(false));
     let hour = Duration::from_hours(1);
@@ -179,7 +172,7 @@ fn report(error: &CheckpointError) {
     println!("{error}");
 }
 
-/// Leaves a run when it has been asked `left` times whether to.
+/// Sink that interrupts a run at the query number `left`.
 pub(crate) struct Leaving<'a> {
     pub(crate) checkpoints: &'a mut Checkpoints,
     pub(crate) left: u64,
@@ -200,12 +193,11 @@ impl Sink for Leaving<'_> {
         self.left.is_multiple_of(2)
     }
 
-    fn checkpoint(&mut self, position: &RunPosition, recorded: &Recorded, wall_s: f64) {
+    fn checkpoint(&mut self, position: &RunPosition, recorded: &RecordSummary, wall_s: f64) {
         self.checkpoints.checkpoint(position, recorded, wall_s);
     }
 }
 
-/// Runs a scene to where it is left, from what was kept.
 pub(crate) fn advance(
     scene: &Scene,
     directory: &RunDirectory,
@@ -229,7 +221,7 @@ pub(crate) fn advance(
     (assembly, trajectory, outcome)
 }
 
-/// Files of a run and of its pictures by name, the summary without the time that the run took.
+/// Files of a run and of its pictures by name; the summary without its run time.
 pub(crate) fn files(run: &Path) -> BTreeMap<String, Vec<u8>> {
     let folders = [run.to_owned(), run.join("vtk")];
     let there = folders.iter().filter(|folder| folder.exists());

@@ -1,5 +1,5 @@
-//! What checks cost in time. Nothing is asserted. The table of checks in
-//! `docs/measured/motion.md` is what `cost_of_checks` prints.
+//! Cost of checks, without assertions. `cost_of_checks` prints the table of checks in
+//! `docs/measured/motion.md`.
 
 use super::common::build;
 use actin_integrate::{DEFAULT_CHECK_EVERY, Run, advance, stable_step};
@@ -7,7 +7,6 @@ use actin_mechanics::System;
 use actin_sim::Scene;
 use std::time::Instant;
 
-/// Filaments by name.
 const FILAMENTS: [(&str, &str); 4] = [
     (
         "rod, 16 segments",
@@ -33,7 +32,7 @@ fn scene(section: &str) -> Scene {
     Scene::from_ron(&text).unwrap()
 }
 
-/// The least time (s) of some repetitions: what other programs do only adds to it.
+/// Shortest time (s) of several repetitions, which excludes other load on the machine.
 fn least(mut work: impl FnMut()) -> f64 {
     let once = |work: &mut dyn FnMut()| {
         let start = Instant::now();
@@ -55,8 +54,8 @@ fn steps_with(system: &mut System, h: f64, steps: u64, every: u64) -> f64 {
     })
 }
 
-/// A step; one where halves of neighbouring steps are not merged, as at a check; one with a check
-/// behind it; the share of what that costs more in a run that checks as often as it does by default.
+/// Times of a step; of a step without merging the halves of neighbouring steps; of a step with a
+/// check; and the relative cost at the default interval of checks.
 #[test]
 #[ignore = "prints times; run by hand with --ignored --nocapture"]
 fn cost_of_checks() {

@@ -1,5 +1,4 @@
-//! Checkpoints with a byte changed, a piece cut off or another owner: refused, in words, and never
-//! with a panic.
+//! Damaged checkpoints are refused with a message and without a panic.
 
 use super::common::{Choice, advance, build, checkpoints};
 use actin_sim::{CheckpointError, Damage, Plan, RunDirectory, Scene, Status};
@@ -17,7 +16,6 @@ const CHOICE: Choice = Choice {
     duration_ns: 0.4,
 };
 
-/// A run that was left, in its directory.
 struct Left {
     _folder: TempDir,
     directory: RunDirectory,
@@ -45,7 +43,6 @@ impl Left {
         fs::write(self.directory.path().join(name), bytes).unwrap();
     }
 
-    /// What is said of the checkpoint; it is read as another process would.
     fn resume(&self, scene: &Scene) -> Result<(), CheckpointError> {
         let assembly = build(scene);
         let plan = Plan::new(&assembly).unwrap();
@@ -57,13 +54,13 @@ impl Left {
     }
 }
 
-/// Places in a file: all of its first bytes, and a thousand spread over the rest.
+/// All of the first bytes of a file, and a thousand spread over the rest.
 fn places(length: usize) -> impl Iterator<Item = usize> {
     let stride = (length / 1000).max(1);
     (0..length.min(64)).chain((64..length).step_by(stride))
 }
 
-/// Both files of a motion and of a path, each place with one bit and with all bits flipped.
+/// Both files of a motion and of a path; one bit or all bits of each byte are flipped.
 #[test]
 fn every_flipped_byte_is_found() {
     let mut flipped = 0;
@@ -91,7 +88,6 @@ fn every_flipped_byte_is_found() {
     println!("{flipped} flipped bytes were found");
 }
 
-/// Every short length of the header, and some hundred of the rest; a byte too many is found, too.
 #[test]
 fn every_truncation_is_found() {
     let left = Left::of(CHOICE.motion());
@@ -114,7 +110,7 @@ fn every_truncation_is_found() {
     assert!(left.refusal().contains("appended"));
 }
 
-/// Records behind those that the checkpoint counts were not yet part of it: they are made again.
+/// The resumed run makes such records again.
 #[test]
 fn records_that_no_checkpoint_counts_are_ignored() {
     let left = Left::of(CHOICE.motion());
@@ -130,7 +126,6 @@ fn records_that_no_checkpoint_counts_are_ignored() {
     }
 }
 
-/// The first line of the resolved scene that differs is shown, old and new.
 #[test]
 fn another_scene_is_refused_with_the_line() {
     let left = Left::of(CHOICE.motion());
@@ -146,7 +141,7 @@ fn another_scene_is_refused_with_the_line() {
         message.contains("0.3,") && message.contains("0.31,"),
         "{message}"
     );
-    // Not even the same bodies.
+    // Different bodies.
     assert!(
         left.resume(
             &Choice {
@@ -160,7 +155,6 @@ fn another_scene_is_refused_with_the_line() {
     assert!(left.resume(&CHOICE.statics()).is_err());
 }
 
-/// A format to come, whose header is whole, is named as such; what is no checkpoint as well.
 #[test]
 fn other_formats_and_files_are_named() {
     let left = Left::of(CHOICE.motion());
@@ -180,7 +174,7 @@ fn other_formats_and_files_are_named() {
     assert!(left.refusal().contains("there is nothing to resume from"));
 }
 
-/// A header that promises 2^63 bytes, checksum and all: refused before anything is allocated.
+/// A header with a valid checksum that declares 2^63 bytes is refused before allocation.
 #[test]
 fn a_huge_length_is_refused() {
     let left = Left::of(CHOICE.motion());
@@ -192,10 +186,10 @@ fn a_huge_length_is_refused() {
     assert!(left.refusal().contains("truncated"));
 }
 
-/// Contents changed at random under right checksums, as no accident does: refused or taken for
-/// another place of the same run, but never a panic, and nothing is allocated for what is not there.
+/// Random contents with valid checksums are refused or accepted as another position, without panic
+/// or large allocation.
 #[test]
-fn forged_contents_do_no_harm() {
+fn forged_contents_cause_no_panic() {
     let mut refused = 0;
     for scene in [CHOICE.motion(), CHOICE.statics()] {
         let left = Left::of(scene);

@@ -1,4 +1,4 @@
-//! A disk that refuses: the last checkpoint stays, the run goes on, and the next attempt succeeds.
+//! Write errors: the last checkpoint stays, the run continues, and the next attempt succeeds.
 
 use super::common::{Choice, advance, build, checkpoints};
 use actin_sim::{Plan, RunDirectory, RunPosition, Sink};
@@ -15,8 +15,8 @@ const CHOICE: Choice = Choice {
     duration_ns: 0.4,
 };
 
-/// What stands where the file is to be written refuses it, as a full disk would: first the
-/// checkpoint, then the records.
+/// A directory in place of the file makes the write fail, first for the checkpoint, then for the
+/// records.
 #[test]
 fn a_failed_checkpoint_leaves_the_last_one() {
     let folder = tempfile::tempdir().unwrap();

@@ -1,4 +1,4 @@
-//! Runs that are left and taken up again through their files, and files that are damaged.
+//! Interrupted and resumed runs, and damaged files.
 
 mod common;
 mod cost;

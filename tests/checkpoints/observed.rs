@@ -1,12 +1,11 @@
-//! Runs that observe and keep no states: interrupted anywhere, they leave the bytes of a run that was not; and
-//! their files are those of a run that keeps states.
+//! Runs that keep no states leave bitwise the same files when interrupted, and the same files as
+//! runs that keep states.
 
 use super::common::{Leaving, build, checkpoints, files};
 use actin_sim::{Plan, Records, RunDirectory, Scene, Status};
 use std::fs;
 use std::path::Path;
 
-/// In a heat bath, with times back to earlier records.
 const HEATED: &str = "Scene(
     filament: Filament(sections: [Ellipsoids(from_nm: 0.0, to_nm: 12.0), Rod(from_nm: 12.0, to_nm: 42.0)],
         rod: RodModel(law: Fitted)),
@@ -25,7 +24,6 @@ const HEATED: &str = "Scene(
     ),
 )";
 
-/// Turned ends, whose twist is watched, in time.
 const TURNED: &str = "Scene(
     filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 40.0)]),
     clamps: [Clamp(end: Start), Clamp(end: End, slides: AlongAxis)],
@@ -35,7 +33,6 @@ const TURNED: &str = "Scene(
     task: Dynamics(duration_ns: 0.3, record_every_ns: 0.02),
 )";
 
-/// A path of equilibria.
 const PATH: &str = "Scene(
     filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 40.0)], rod: RodModel(law: Fitted)),
     clamps: [Clamp(end: Start), Clamp(end: End, slides: AlongAxis)],
@@ -52,8 +49,8 @@ fn scene(text: &str, output: &str) -> Scene {
     Scene::from_ron(&text.replace("OUTPUT", output)).unwrap()
 }
 
-/// Runs a scene in pieces, each left after it was asked so often whether to; what its directory then holds.
-/// Returns the largest size of its records on the disk (bytes), and how many there are.
+/// Runs a scene in pieces, interrupted after the given numbers of queries. Returns the largest size
+/// of its records on the disk (bytes) and their number.
 fn run(scene: &Scene, path: &Path, leave: &[u64]) -> (u64, usize) {
     let directory = RunDirectory::create(path, false).unwrap();
     let (mut resumes, mut pending) = (false, leave.iter().copied());
@@ -72,7 +69,7 @@ fn run(scene: &Scene, path: &Path, leave: &[u64]) -> (u64, usize) {
         };
         let outcome = outcome.unwrap();
         resumes = true;
-        // Interrupted runs write what they have, too.
+        // Interrupted runs write their results too.
         if files.count() > 0 {
             directory.write(&plan, &files, &outcome).unwrap();
         }
@@ -85,7 +82,7 @@ fn run(scene: &Scene, path: &Path, leave: &[u64]) -> (u64, usize) {
 }
 
 #[test]
-fn runs_without_states_go_on_to_the_same_bytes() {
+fn runs_without_states_resume_to_the_same_bytes() {
     for text in SCENES {
         let scene = scene(text, BARE);
         let folder = tempfile::tempdir().unwrap();
@@ -108,8 +105,8 @@ fn runs_without_states_go_on_to_the_same_bytes() {
     }
 }
 
-/// Without states the disk takes a row for each record, and no file of states; all other files are the same, to
-/// the byte, but for what the scene says.
+/// Without states the disk holds one row per record; all other files are bitwise equal, except for
+/// the keys of the scene.
 #[test]
 fn files_do_not_depend_on_whether_states_are_kept() {
     for text in SCENES {

@@ -1,10 +1,9 @@
-//! A run that was left and taken up again gives what a run gives that was not.
+//! Resumed runs give the results of uninterrupted runs.
 
 use super::common::{Choice, IN_TIME, advance, files};
 use actin_sim::{Outcome, Plan, Record, RunDirectory, Scene, Status, Trajectory};
 use proptest::prelude::*;
 
-/// A report without the time that it took, which is the one thing that differs.
 fn timeless(report: &Outcome) -> String {
     let report = Outcome {
         wall_s: 0.0,
@@ -13,7 +12,6 @@ fn timeless(report: &Outcome) -> String {
     format!("{report:?}")
 }
 
-/// The bits of every number of a record.
 fn bits(record: &Record) -> Vec<u64> {
     let numbers = [
         record.at.value(),
@@ -37,7 +35,6 @@ fn assert_same(one: &Trajectory, other: &Trajectory) {
     }
 }
 
-/// Runs a scene in one piece and in pieces, and compares what they leave.
 fn compare(scene: &Scene, leave: &[u64]) {
     let folder = tempfile::tempdir().unwrap();
     let whole = RunDirectory::create(folder.path().join("whole"), false).unwrap();
@@ -58,7 +55,7 @@ fn compare(scene: &Scene, leave: &[u64]) {
     };
     assert_same(&expected, &trajectory);
     assert_eq!(timeless(&report), timeless(&resumed));
-    // The end is kept, too: a program that could not write the results has them again.
+    // The final state is kept, so that a program that failed to write the results can repeat it.
     let (_, again, once_more) = advance(scene, &pieces, true, u64::MAX);
     assert_same(&expected, &again);
     assert_eq!(timeless(&report), timeless(&once_more));
@@ -71,7 +68,7 @@ fn compare(scene: &Scene, leave: &[u64]) {
     );
 }
 
-/// Drag, whether rest ends the run, and the seed of noise: which needs drag and never rests.
+/// Drag, stop rule, and seed of noise, which requires drag and excludes a stop rule.
 fn surroundings() -> impl Strategy<Value = (f64, bool, Option<u64>)> {
     let drag = prop_oneof![Just(0.0), 0.1..5.0];
     prop_oneof![
@@ -87,7 +84,7 @@ fn choice() -> impl Strategy<Value = Choice> {
         0_usize..5,
         surroundings(),
         0.01..0.2,
-        // No shorter than the longest path.
+        // At least as long as the longest path.
         0.26..0.6,
     )
         .prop_map(
@@ -110,10 +107,10 @@ fn choice() -> impl Strategy<Value = Choice> {
 proptest! {
     #![proptest_config(ProptestConfig { cases: 60, failure_persistence: None, ..Default::default() })]
 
-    /// Motions of one filament or two: every integrator, ramp, drag, noise, stop rule and interval
-    /// of records, left up to thrice.
+    /// Motions of one or two filaments with every integrator, ramp, drag, noise, stop rule and
+    /// interval of records, interrupted up to three times.
     #[test]
-    fn motions_go_on_to_the_same_bits(
+    fn motions_resume_to_the_same_bits(
         choice in choice(),
         leave in proptest::collection::vec(1_u64..12, 1..4),
     ) {
@@ -124,18 +121,17 @@ proptest! {
 proptest! {
     #![proptest_config(ProptestConfig { cases: 30, failure_persistence: None, ..Default::default() })]
 
-    /// Equilibria, alone and along paths, left within a solve or between two.
+    /// Equilibria, alone and along paths, interrupted within a solve or between two.
     #[test]
-    fn paths_of_equilibria_go_on_to_the_same_bits(
-        choice in choice().prop_filter("statics knows no time", |choice| choice.held != IN_TIME),
+    fn paths_of_equilibria_resume_to_the_same_bits(
+        choice in choice().prop_filter("statics has no time", |choice| choice.held != IN_TIME),
         leave in proptest::collection::vec(1_u64..60, 1..4),
     ) {
         compare(&choice.statics(), &leave);
     }
 }
 
-/// A straight rod that is pushed off its saddle: the push, how often it was made, and what is left of
-/// the motion survive being left before, at and after it.
+/// Interruptions before, at and after the perturbation at a saddle.
 #[test]
 fn a_motion_is_pushed_off_a_saddle_once_however_often_it_is_left() {
     let text = "Scene(
@@ -154,7 +150,7 @@ fn a_motion_is_pushed_off_a_saddle_once_however_often_it_is_left() {
     let [push] = report.pushes[..] else {
         panic!("{:?}", report.pushes);
     };
-    // As many checks as lie before the push, and around it: at least one with each record.
+    // Checks before and around the perturbation: at least one per record.
     let checks = trajectory
         .records
         .iter()
@@ -165,9 +161,9 @@ fn a_motion_is_pushed_off_a_saddle_once_however_often_it_is_left() {
     compare(&scene, &[3 * before, 2, 1]);
 }
 
-/// A pinned rod that a couple spins through several turns: how many there were is in the checkpoint.
+/// The checkpoint holds the number of turns of a pinned rod under a couple.
 #[test]
-fn turns_of_a_couple_go_on_to_the_same_bits() {
+fn turns_of_a_couple_resume_to_the_same_bits() {
     for task in [
         "Dynamics(duration_ns: 1.6, record_every_ns: 0.1)",
         "Brownian(duration_ms: 1.6e-6, record_every_ns: 0.1, temperature_k: 0.0, time_step_ns: 0.01,
@@ -185,10 +181,9 @@ fn turns_of_a_couple_go_on_to_the_same_bits() {
     }
 }
 
-/// Filaments in contact, in time and along a path: which neighbours are known, and the pattern of the stiffness,
-/// are not in a checkpoint.
+/// The checkpoint holds neither the list of neighbours nor the pattern of the stiffness.
 #[test]
-fn contacts_go_on_to_the_same_bits() {
+fn contacts_resume_to_the_same_bits() {
     let scene = |path: &str, task: &str| {
         let text = format!(
             "Scene(
@@ -216,9 +211,9 @@ fn contacts_go_on_to_the_same_bits() {
     );
 }
 
-/// Linkers that break, form and step: what holds and where is in the checkpoint, and so is the log of events.
+/// The checkpoint holds the states of linkers and the log of events.
 #[test]
-fn linkers_go_on_to_the_same_bits() {
+fn linkers_resume_to_the_same_bits() {
     let scene = |task: &str| {
         let text = format!(
             "Scene(
@@ -250,9 +245,8 @@ fn linkers_go_on_to_the_same_bits() {
     }
 }
 
-/// Overdamped motion of rods, mixed and joined filaments, thermal and not, along paths.
 #[test]
-fn overdamped_motions_go_on_to_the_same_bits() {
+fn overdamped_motions_resume_to_the_same_bits() {
     for (filament, held, noise) in [
         (0, 0, Some(3)),
         (1, 1, None),

@@ -1,11 +1,10 @@
-//! Overdamped motion of scenes: where it comes to rest, how fast, and its noise.
+//! Overdamped motion: equilibria, relaxation, time steps and noise.
 
 use super::contact::pushed_across;
 use crate::common::{build, ran, run_anyway};
 use actin_sim::mechanics::Vector3;
 use actin_sim::{Assembly, End, Plan, Record};
 
-/// The records of a scene.
 fn run(text: &str) -> (Assembly, Vec<Record>) {
     let (assembly, trajectory, _) = ran(text);
     (assembly, trajectory.records)
@@ -28,9 +27,8 @@ fn cantilever(sections: &str, task: &str) -> String {
     )
 }
 
-/// A loaded cantilever of 60 nm relaxes to what Newton's method finds, whatever resolves it. It does so in
-/// `z L^3/(12.4 B/4)`, 143 ns, with `z = zeta L/4 + e` of the drag 2.2 pN ns/nm^2 along it and 47 pN ns/nm at its tip; after one
-/// such time it is about two thirds of the way, and after 40 nothing is left.
+/// A cantilever of 60 nm relaxes to its equilibrium with the time constant `z L^3/(12.4 B/4)`, 143
+/// ns. Here `z = zeta L/4 + e`, with drag 2.2 pN ns/nm^2 along it and 47 pN ns/nm at its tip.
 #[test]
 fn a_cantilever_relaxes_to_its_equilibrium() {
     for sections in SECTIONS {
@@ -47,9 +45,8 @@ fn a_cantilever_relaxes_to_its_equilibrium() {
     }
 }
 
-/// What relaxes and fluctuates depends on the seed alone, and on nothing at zero temperature.
 #[test]
-fn noise_is_that_of_the_seed() {
+fn noise_depends_on_the_seed() {
     let tip = |temperature: f64, seed: u64| {
         let task = format!(
             "Brownian(duration_ms: 1e-5, temperature_k: {temperature:?}, seed: {seed},
@@ -63,8 +60,8 @@ fn noise_is_that_of_the_seed() {
     assert_eq!(tip(0.0, 1), tip(0.0, 2));
 }
 
-/// A free filament goes with a stream, and turns in a shear flow as a line of the fluid does, whatever resolves it: from across the
-/// flow by the angle whose tangent is rate times time.
+/// A free filament moves with a stream. In a shear flow it rotates by the angle whose tangent is
+/// rate times time.
 #[test]
 fn free_filaments_follow_a_flow() {
     for sections in SECTIONS {
@@ -94,7 +91,6 @@ fn free_filaments_follow_a_flow() {
     }
 }
 
-/// The default step of a rod of six segments of 20 nm.
 fn default_step(rest: &str, task: &str) -> f64 {
     let text = format!(
         "Scene(
@@ -108,10 +104,10 @@ fn default_step(rest: &str, task: &str) -> f64 {
     plan.estimate().unwrap().time_step_ns
 }
 
-/// The default step of rods is that in which drag bends a segment, `3.0 x 20^4 / 4e4` = 12 ns, unless something changes faster or
-/// pulls hard; then it is shorter, down to 50 times the fastest relaxation.
+/// The default step is the bending time of a segment, `3.0 x 20^4 / 4e4` = 12 ns, and shorter under
+/// fast changes or strong loads, down to 50 times the fastest relaxation.
 #[test]
-fn default_steps_resolve_what_happens() {
+fn default_steps_resolve_changes() {
     let usual = default_step("", "");
     assert!((9.0..14.0).contains(&usual), "{usual}");
     let pulled =
@@ -148,9 +144,8 @@ fn athermal_tips(scene: &str, duration_ns: f64, step: &str) -> (f64, Vec<Vector3
     (plan.estimate().unwrap().time_step_ns, tips.collect())
 }
 
-/// Without heat the default step shows the tip to 0.1 % of how far it has gone in each record, under a load at once, or of its
-/// largest displacement, where a load or a held end swings. Steps a quarter as long are compared: of second order, they have
-/// a sixteenth of the error.
+/// Without heat the default step resolves the tip to 0.1 % of its displacement. The reference has a
+/// quarter of the step, hence a sixteenth of the error.
 #[test]
 fn default_steps_without_heat_resolve_the_tip() {
     let rod = |nm: f64, law: &str| {
@@ -168,7 +163,7 @@ fn default_steps_without_heat_resolve_the_tip() {
     for (filament, rest, duration_ns, of_largest) in [
         (rod(160.0, "Constant"), at_once, 2e3, false),
         (rod(160.0, "Homogenised"), at_once, 2e3, false),
-        // Ten records, long against the relaxation: steps of 500 ns.
+        // Ten records over many relaxation times: steps of 500 ns.
         (rod(160.0, "Homogenised"), at_once, 1e5, false),
         (rod(100.0, "Homogenised"), swings, 2e3, true),
         (rod(100.0, "Constant"), shaken, 2e3, true),
@@ -190,9 +185,8 @@ fn default_steps_without_heat_resolve_the_tip() {
     }
 }
 
-/// Steps at which some motion is too warm are told; the default ones, and any without heat, are not.
 #[test]
-fn long_steps_are_told() {
+fn long_steps_give_warnings() {
     let notes = |sections: &str, temperature: f64, step: &str| {
         let task = format!("Brownian(duration_ms: 1e-5, temperature_k: {temperature:?}{step})");
         let assembly = build(&cantilever(sections, &task));
@@ -202,7 +196,7 @@ fn long_steps_are_told() {
     let told = |notes: &[String]| {
         notes
             .iter()
-            .any(|note| note.contains("drawn anew") || note.contains("more than their thermal"))
+            .any(|note| note.contains("sampled anew") || note.contains("exceed their thermal"))
     };
     for (sections, long) in SECTIONS.iter().zip([50.0, 0.022, 0.015]) {
         let long = format!(", time_step_ns: {long:?}");
@@ -234,10 +228,9 @@ fn mean_energy(law: &str, step_ns: f64, steps: u32) -> f64 {
     settled.iter().map(energy).sum::<f64>() / (settled.len() as f64 * 1.380_649e-2 * 298.0)
 }
 
-/// A free rod whose strains are 33 coordinates of their own has an energy of 16.5 kT in steps of up to 10,000 times the
-/// fastest relaxation, while stretch and shear relax in 0.01 ns and the slowest bending in 30 ns. Strains that are coupled or
-/// not linear, as of a potential, do not depend on the step either. Standard errors of 4000 states that remember some ten
-/// steps are 1 %; midpoint steps of 1 ns are 9 % too warm, and of 10 ns unsolved.
+/// A free rod with 33 strain coordinates has an energy of 16.5 kT, in steps up to 10,000 times the
+/// fastest relaxation. The standard error of 4000 states with a correlation of about ten steps is 1
+/// %. Midpoint steps of 1 ns are 9 % too warm.
 #[test]
 fn rods_have_their_energy_in_long_steps() {
     for step in [5.0, 50.0] {
@@ -250,18 +243,17 @@ fn rods_have_their_energy_in_long_steps() {
     assert!((long / short - 1.0).abs() < 0.04);
 }
 
-/// Nothing passes through a filament, whatever steps and records are.
 #[test]
-fn what_passes_through_a_filament_fails() {
+fn passage_through_a_filament_fails() {
     let task = "Brownian(duration_ms: 1e-5, temperature_k: 0.0, time_step_ns: 0.2)";
     let (_, outcome) = run_anyway(&mut build(&pushed_across("1.0", task)));
     let failure = outcome.unwrap_err().to_string();
     assert!(failure.contains("pass through each other"), "{failure}");
 }
 
-/// Twelve rods of five segments with thirty linkers of no length in steps of 2 us, in which filaments spin by more than a radian
-/// and stretch has relaxed a thousand times. Each rod has 33 coordinates; one spin of each rod and six rigid motions of the
-/// whole meet no resistance. Each of the other coordinates has half of the thermal energy.
+/// Twelve rods with thirty linkers of zero length, in steps of 2 us. Each rod has 33 coordinates.
+/// The spin of each rod and six rigid motions of the network have zero stiffness; each other
+/// coordinate has kT/2.
 #[test]
 fn linked_rods_have_their_energy_in_long_steps() {
     const RODS: usize = 12;
@@ -301,6 +293,6 @@ fn linked_rods_have_their_energy_in_long_steps() {
     let expected = 0.5 * kt * (32 * RODS - 6) as f64;
     let share = sum / records.len() as f64 / expected;
     println!("{share} of the thermal energy");
-    // Standard error of 900 records about 0.4 %.
+    // The standard error of 900 records is about 0.4 %.
     assert!((share - 1.0).abs() < 0.015, "{share}");
 }

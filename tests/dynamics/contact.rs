@@ -1,4 +1,4 @@
-//! Filaments that fly into each other and into walls: order, energy, momenta, time step.
+//! Collisions of filaments: order, energy, momenta, time step.
 
 use super::record::scientific;
 use crate::common::{apart, build, ran, run_anyway};
@@ -8,7 +8,7 @@ use actin_sim::Plan;
 
 const TASK: &str = "task: Dynamics(duration_ns: 1.0)";
 
-/// A short rod that flies across another, both free, and hits it off its middle within 0.1 ns.
+/// A free short rod that hits another free rod off its middle within 0.1 ns.
 fn colliding() -> System {
     let text = format!(
         "Scene(
@@ -31,7 +31,6 @@ fn colliding() -> System {
     system
 }
 
-/// Duration: the hit and the way apart (ns).
 const TIME: f64 = 0.08;
 
 fn after(scheme: &actin_integrate::Composition, steps: u32) -> System {
@@ -41,8 +40,8 @@ fn after(scheme: &actin_integrate::Composition, steps: u32) -> System {
     system
 }
 
-/// Methods keep their order through a hit: a kernel with a jump in its third derivative, or a list of neighbours that
-/// comes late, would cost one or all. That they touch half way is asserted. Below 1e-11 nm round-off shows.
+/// A kernel with a discontinuous third derivative or a late list of neighbours would reduce the
+/// order. Below 1e-11 nm round-off dominates.
 #[test]
 fn methods_keep_their_order_through_a_hit() {
     let reference = after(&PEFRL, 6400);
@@ -75,8 +74,6 @@ fn methods_keep_their_order_through_a_hit() {
     }
 }
 
-/// Energy before and after a hit differs by the error of the method, which falls with its order; momenta stay to
-/// round-off.
 #[test]
 fn a_hit_conserves_energy_and_momenta() {
     let start = colliding();
@@ -96,8 +93,6 @@ fn a_hit_conserves_energy_and_momenta() {
     assert!(errors[1] < 1e-6, "{errors:?}");
 }
 
-/// The default time step knows how stiff contact can be, which it cannot see in filaments that are apart: the
-/// frequency in contact, pressed as deep as repulsion bears, is below the one that the step was made for.
 #[test]
 fn the_time_step_knows_contact_before_it_happens() {
     for section in [
@@ -126,8 +121,7 @@ fn the_time_step_knows_contact_before_it_happens() {
             println!(
                 "{section}, {stiffness}: {alone:.0} apart, {met:.0} pressed, {known:.0} taken"
             );
-            // What is taken is a bound. Contact must matter for that to say anything: from 1e4 pN/nm on it is the
-            // fastest, by more than a half.
+            // The limit is an upper bound. From 1e4 pN/nm contact dominates by more than a half.
             assert!(
                 met <= known && (stiffness < 1e4 || met > 1.5 * alone),
                 "{met}, {known}"
@@ -136,7 +130,7 @@ fn the_time_step_knows_contact_before_it_happens() {
     }
 }
 
-/// A free rod that is pushed across another, which is clamped, with this stiffness (pN/nm) of their repulsion.
+/// Free rod pushed across a clamped one with this stiffness (pN/nm) of the repulsion.
 pub(crate) fn pushed_across(stiffness: &str, task: &str) -> String {
     format!(
         "Scene(
@@ -153,8 +147,6 @@ pub(crate) fn pushed_across(stiffness: &str, task: &str) -> String {
     )
 }
 
-/// What passes through another filament between two records ends the run, with the step, the body and the
-/// term, though at no record anything touches.
 #[test]
 fn passing_through_between_records_fails() {
     let run = |stiffness: &str| {
@@ -177,7 +169,6 @@ fn passing_through_between_records_fails() {
     result.unwrap();
 }
 
-/// A load that begins late sets what rests in motion between two checks: no explosion, however seldom records are made.
 #[test]
 fn a_motion_that_begins_late_goes_on() {
     let text = "Scene(

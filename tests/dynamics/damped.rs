@@ -1,20 +1,18 @@
-//! Filaments under drag from none to far beyond what a step resolves: they drift, turn, creep and
-//! rest as theory says.
+//! Damped motion of filaments from zero drag to drag far beyond the resolution of a step.
 
 use super::modes::Modes;
 use crate::common::ran;
 use actin_mechanics::{State, Vector3, rotation};
 use actin_sim::End;
 
-/// Drag rates (1/ns); the default step of a rod is 0.003 ns.
 const RATES: [f64; 6] = [0.0, 1.0, 10.0, 100.0, 1e3, 1e4];
 
 fn drag(translational: f64, rotational: f64) -> String {
     format!("drag: (translational_per_ns: {translational:?}, rotational_per_ns: {rotational:?}),")
 }
 
-/// How far an oscillator of frequency `omega` has gone at time `t` under a load of one that began at
-/// time 0: `(1 - s(t))/omega^2`, with `s` the free motion from 1 at rest.
+/// Displacement of an oscillator of frequency `omega` at time `t` under a unit load from time 0:
+/// `(1 - s(t))/omega^2`, with `s` the free motion from 1 at rest.
 fn displaced(gamma: f64, omega: f64, t: f64) -> f64 {
     let half = 0.5 * gamma;
     let gap = half * half - omega * omega;
@@ -29,9 +27,8 @@ fn displaced(gamma: f64, omega: f64, t: f64) -> f64 {
     (1.0 - free) / (omega * omega)
 }
 
-/// A cantilever that is let go under a small force moves as the sum of its modes does, at any drag, for
-/// as long as is looked. Without the rescaling of time it is half as far again at 1000 per ns: not
-/// because its equilibrium is another, but because it goes there 1.66 times as fast.
+/// A cantilever under a small force follows the sum of its modes at any drag. Without the rescaling
+/// of time its relaxation would be 1.66 times too fast at 1000 per ns.
 #[test]
 fn a_cantilever_creeps_as_its_modes_do() {
     let (segments, force) = (4, 1e-3);
@@ -68,14 +65,13 @@ fn a_cantilever_creeps_as_its_modes_do() {
                 "{integrator}, {rate} per ns: {at_end:.4} of the way after 5 ns, largest error \
                  {largest:.1e}"
             );
-            // Of what creeps: h/2T with T = 0.5 ns and h up to 0.003 ns. Of what swings without drag:
-            // phases of the fastest modes, which hardly move the tip.
+            // Relaxing modes: h/2T with T = 0.5 ns and h up to 0.003 ns. Oscillating modes: phases
+            // of the fastest modes, which hardly move the tip.
             assert!(largest < 3e-3, "{integrator}, {rate}: {largest:e}");
         }
     }
 }
 
-/// 30 nm of free filament of each kind.
 const FREE: [(&str, &str); 3] = [
     ("rod", "Rod(from_nm: 0.0, to_nm: 30.0, segments: 3)"),
     ("monomers", "Ellipsoids(from_nm: 0.0, to_nm: 30.0)"),
@@ -85,8 +81,8 @@ const FREE: [(&str, &str); 3] = [
     ),
 ];
 
-/// Torque about the centre of mass that drag exerts while a filament goes from one state to another
-/// in a time `t`, its velocities being the displacements over `t`: `sum g_t m r x v + sum g_r I w`.
+/// Torque of drag about the centre of mass between two states at times `t` apart:
+/// `sum g_t m r x v + sum g_r I w`.
 fn torque_of_drag(before: &State, after: &State, t: f64, rates: (f64, f64)) -> Vector3 {
     let masses: Vec<f64> = before
         .points
@@ -108,14 +104,13 @@ fn torque_of_drag(before: &State, after: &State, t: f64, rates: (f64, f64)) -> V
     of_points.sum::<Vector3>() * rates.0 + of_frames.sum::<Vector3>() * rates.1
 }
 
-/// A free filament of many bodies under a couple of forces on its ends turns so fast that drag balances
-/// the couple, `sum g_t m r x v + sum g_r I w = T`: each body goes at its own rate, bonds share the
-/// torque, and where they are stiff, it turns as one rigid body.
+/// A free filament under a couple rotates so that drag balances it: `sum g_t m r x v + sum g_r I w
+/// = T`.
 #[test]
 fn a_free_filament_turns_as_the_couple_says() {
     for (model, sections) in FREE {
         for (translational, rotational) in [(100.0, 100.0), (1e3, 1e3), (1e4, 1e4), (1e3, 1e4)] {
-            // Until the slowest bending, of some 30 rad/ns, has relaxed; turns stay small.
+            // Until the slowest bending, of about 30 rad/ns, has relaxed; rotations stay small.
             let duration = (0.04f64 * translational).max(4.0);
             let force = 1e-6 * translational / duration;
             let (assembly, trajectory, _) = ran(&format!(
@@ -152,7 +147,7 @@ fn a_free_filament_turns_as_the_couple_says() {
     }
 }
 
-/// Places of the tip every half nanosecond, half monomers, half rod, released under 2 pN.
+/// Tip positions every half nanosecond of a half-monomer, half-rod filament released under 2 pN.
 fn let_go(integrator: &str, share: f64, rate: f64) -> Vec<Vector3> {
     let (assembly, trajectory, _) = ran(&format!(
         "Scene(
@@ -174,8 +169,7 @@ fn let_go(integrator: &str, share: f64, rate: f64) -> Vec<Vector3> {
     trajectory.records.iter().map(tip).collect()
 }
 
-/// The tip under position Verlet at its default step is where short steps put it, rms over 20 ns, to the share that
-/// was found without drag.
+/// Position Verlet at its default step is compared with short steps, rms over 20 ns.
 #[test]
 #[ignore = "takes minutes; run by hand with --ignored --nocapture"]
 fn position_verlet_follows_slow_motion_under_drag() {

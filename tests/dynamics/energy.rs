@@ -1,7 +1,6 @@
 //! Energy over 1e5 steps of PEFRL, energy-gradient law.
 //!
-//! A level is an energy in kBT: per degree of freedom where all of them are heated, per slow mode
-//! where only slow modes move.
+//! A level is an energy in kBT: per degree of freedom if all are heated, or per slow mode.
 
 use super::filaments::{
     ELLIPSOIDS, FILAMENTS, Filament, MIXED, ROD, ROD_AT_BOTH_ENDS, assemble, heat,
@@ -18,7 +17,7 @@ fn at_rest(filament: Filament) -> System {
     assemble(filament, ForceLaw::EnergyGradient).system
 }
 
-/// All degrees of freedom heated to `level`, with the step at `share` of the stability limit.
+/// Heats all degrees of freedom to `level`, with the step at `share` of the stability limit.
 fn heated(filament: Filament, level: f64, share: f64) -> EnergyRecord {
     let mut system = at_rest(filament);
     let frequency = largest_frequency(&system).unwrap();
@@ -33,17 +32,17 @@ fn heated(filament: Filament, level: f64, share: f64) -> EnergyRecord {
     record
 }
 
-/// The energy fluctuates with that of the fastest modes, but its mean does not drift, at half the
-/// stability limit: the rod at room temperature, filaments with monomers at a hundredth of it
-/// (a tenth of the amplitude). Loads that are not the gradient of the energy pump it: the printed
-/// balance, at the same start, moves the mean of the mixed filament by twice the fluctuation.
+/// At half the stability limit the energy fluctuates without drift: the rod at room temperature,
+/// filaments with monomers at a hundredth of it. Nonconservative loads would shift the mean; the
+/// printed balance does by twice the fluctuation.
 ///
-/// Nor does it go anywhere nearer to the limit, while amplitudes are small enough for the limit to
-/// mean what it says: that of the rod hardly depends on its strains, that of monomers does. At a
-/// hundredth of room temperature and 0.9 of the limit they gain energy or explode, as is printed.
+/// Closer to the limit, the rod has no drift either, because its limit hardly depends on its
+/// strains. Monomers gain energy or diverge at a hundredth of room temperature and 0.9 of the
+/// limit.
 #[test]
 fn energy_is_bounded_without_a_trend_up_to_the_limit() {
-    // (omega h)^4 of the fastest modes, as far as they take part: measured 3e-4 to 6e-3 at half the limit.
+    // (omega h)^4 of the fastest modes, weighted by their participation: measured 3e-4 to 6e-3 at
+    // half the limit.
     for (filament, level, share, most) in [
         (ROD, 1.0, 0.5, 1e-2),
         (ELLIPSOIDS, 0.01, 0.5, 1e-2),
@@ -55,7 +54,7 @@ fn energy_is_bounded_without_a_trend_up_to_the_limit() {
     ] {
         let record = heated(filament, level, share);
         let (early, wander, trend) = (record.early(), record.wander(), record.trend());
-        // The energy of the fastest modes comes and goes.
+        // The energy of the fastest modes fluctuates.
         assert!(
             wander < 1.5 * early && wander < most,
             "{}: {early:e} became {wander:e}",
@@ -67,16 +66,15 @@ fn energy_is_bounded_without_a_trend_up_to_the_limit() {
     heated(MIXED, 0.01, 0.9);
 }
 
-/// A known limitation, which must not get worse: at room temperature the shortest bonds come close
-/// to zero length (see `short_bonds.rs`). The energy then takes small jumps at any step, and at
-/// half the limit grows by some percent. Junctions raise the largest frequency, so mixed filaments
-/// take smaller steps.
+/// Known limitation: at room temperature the shortest bonds approach zero length
+/// (`short_bonds.rs`). The energy then jumps at any step, and grows by some percent at half the
+/// limit. Junctions raise the largest frequency, so mixed filaments have smaller steps.
 #[test]
 fn room_temperature_costs_monomers_some_energy() {
     for (filament, at_half, at_quarter) in [
         // Measured over three starts: 2e-2 to 8e-2, 2e-4 to 1.4e-3.
         (ELLIPSOIDS, 0.25, 5e-3),
-        // Over two: 7e-4 to 3e-3, 3e-5 to 5e-5.
+        // Over two starts: 7e-4 to 3e-3, 3e-5 to 5e-5.
         (MIXED, 1e-2, 5e-4),
     ] {
         heated(filament, 0.1, 0.5);
@@ -87,7 +85,7 @@ fn room_temperature_costs_monomers_some_energy() {
     }
 }
 
-/// Only slow modes in motion, at `level`, with the step at `share` of the stability limit.
+/// Excites only slow modes to `level`, with the step at `share` of the stability limit.
 fn slow(filament: Filament, level: f64, share: f64, steps: u64) -> EnergyRecord {
     let mut system = at_rest(filament);
     let modes = Modes::of(&system);
@@ -112,14 +110,12 @@ fn slow(filament: Filament, level: f64, share: f64, steps: u64) -> EnergyRecord 
     record
 }
 
-/// A start that excites only modes below a hundredth of the largest frequency keeps its energy to
-/// 1e-8, relative to the energy of the motion, at half the stability limit and over 1e5 steps.
+/// A start that excites only modes below a hundredth of the largest frequency conserves its energy
+/// to 1e-8 over 1e5 steps at half the stability limit.
 ///
-/// For the rod this holds at 30 kBT a mode (7 nm of deflection in 80 nm). A filament with monomers
-/// has, apart from one to three, slow modes without any stiffness; they stop at fourth powers of
-/// their amplitude, through which they heat the fast modes, and from then on the start is not what
-/// counts. So there it holds for motions of a few hundredths of a nm only. What ten times the
-/// level gives is printed beside it.
+/// This holds for the rod at 30 kBT per mode (7 nm of deflection in 80 nm). Monomers have slow
+/// modes with zero stiffness and a quartic potential, through which they heat the fast modes. There
+/// it holds only for motions of a few hundredths of a nm.
 #[test]
 fn slow_motion_keeps_its_energy() {
     for (filament, level) in [
@@ -134,26 +130,25 @@ fn slow_motion_keeps_its_energy() {
     }
 }
 
-/// At more than that, what is left of slow starts is the integrator's error in the fast modes that
-/// they have heated: the same duration in twice the steps has a sixteenth of it. Loads that are no
-/// gradient would leave an error that does not depend on the step.
+/// At ten times that level the loss is the integrator error of the heated fast modes: half the step
+/// leaves a sixteenth.
 #[test]
-fn what_slow_monomers_lose_is_the_error_of_the_step() {
+fn energy_loss_of_slow_monomers_is_the_step_error() {
     for filament in [ELLIPSOIDS, MIXED] {
         let coarse = slow(filament, 0.1, 0.5, STEPS);
         let fine = slow(filament, 0.1, 0.25, 2 * STEPS);
         let ratio = coarse.rms() / fine.rms();
         println!("  ratio of the rms {ratio:.1}");
-        // The two runs soon go ways of their own, and scatter.
+        // The two runs soon diverge chaotically.
         assert!(ratio > 8.0 && ratio < 40.0, "{}: {ratio}", filament.0);
         // Over two starts: 6e-5 to 1.3e-3.
         assert!(coarse.wander() < 3e-3, "{}: {}", filament.0, coarse.line());
     }
 }
 
-/// The slow modes are those the tests above say: six rigid motions, and N + 1 floppy ones where
-/// all is monomers; a rod has its two lowest flexural modes. A free beam of 80 nm has its first
-/// one at 22.37 / L^2 sqrt(B / mu) = 4.3 rad/ns; shear takes 7 % of it.
+/// Slow modes are six rigid motions and N + 1 floppy modes for monomers; a rod has its two lowest
+/// flexural modes. A free beam of 80 nm has the first one at 22.37 / L^2 sqrt(B / mu) = 4.3 rad/ns,
+/// reduced by 7 % by shear.
 #[test]
 fn slow_modes_are_the_floppy_and_the_flexural_ones() {
     for filament in FILAMENTS {
@@ -167,7 +162,7 @@ fn slow_modes_are_the_floppy_and_the_flexural_ones() {
             &modes.frequencies[zero..slow]
         );
         let estimate = largest_frequency(&system).unwrap();
-        // The estimate is never high, and low by far less than a percent on small systems.
+        // The estimate is a lower bound, close on small systems.
         assert!(
             (estimate / modes.largest() - 1.0).abs() < 1e-4,
             "{estimate}"

@@ -1,13 +1,11 @@
-//! Whether monomers in a heat bath have its temperature in their positions at the default step, half the
-//! stability limit, or need a shorter one.
+//! Configurational temperature of monomers in a heat bath at the default step.
 //!
-//! Velocities have the temperature at any step. Positions are asked by two identities that hold for
-//! every potential, `<B . grad U> = kT <div B>`, with two fields `B`:
+//! Velocities have the bath temperature at any step. Configurations are tested by the identity `<B
+//! . grad U> = kT <div B>`, valid for every potential, with two fields `B`:
 //!
-//! - the displacement and the turn of each monomer against the one before, from how they stand at
-//!   rest, which weigh all motions alike;
-//! - `M^-1 grad U`, which weighs each mode by the square of its frequency: the fastest modes, which a
-//!   step that is too long makes too warm.
+//! - the displacement and rotation of each monomer relative to the previous one, from rest, which
+//!   weigh all modes alike;
+//! - `M^-1 grad U`, which weighs modes by squared frequency and reveals overheated fast modes.
 
 use super::filaments::KBT;
 use actin_integrate::{
@@ -16,12 +14,10 @@ use actin_integrate::{
 use actin_mechanics::{Coordinates, State, Stiffness, System, UnitQuaternion, Vector3};
 use actin_sim::{Assembly, Scene};
 
-/// Time between samples (ns): the slowest motions of so short a filament turn in it.
+/// Time between samples (ns): a period of the slowest modes of this short filament.
 const APART_NS: f64 = 0.05;
-/// Standard errors that an estimate may be off by.
 const ERRORS: f64 = 4.5;
 
-/// 35.6 nm of free monomers with so many bonds per interface.
 fn monomers(bonds: usize) -> System {
     let text = format!(
         "Scene(
@@ -50,12 +46,10 @@ impl Sums {
     }
 }
 
-/// The two temperatures of positions, by blocks: sums of each.
 type Blocks = [Vec<Sums>; 2];
 
-/// What asks a state for its temperature.
 struct Thermometer {
-    /// Place and orientation of each monomer against the one before, at rest.
+    /// Position and orientation of each monomer relative to the previous one, at rest.
     relative: Vec<(Vector3, UnitQuaternion)>,
     stiffness: Stiffness,
 }
@@ -68,7 +62,6 @@ impl Thermometer {
         }
     }
 
-    /// Adds a state to the sums of both fields.
     fn read(&mut self, system: &mut System, sums: &mut [Sums; 2]) {
         let loads = system.loads().clone();
         let state = system.state();
@@ -77,7 +70,7 @@ impl Thermometer {
             let (moved, turned) = relative(state, k + 1);
             let displacement = state.frames.orientation.get(k) * (moved - place);
             work -= displacement.dot(&loads.force.get(k + 1));
-            // The axial vector of the matrix has the trace as its divergence under turns of the body.
+            // The divergence of the axial vector under rotations is the trace.
             let turn = orientation.inverse() * turned;
             let trace = turn.to_rotation_matrix().matrix().trace();
             work -= (turn.imag() * (2.0 * turn.w)).dot(&loads.torque.get(k + 1));
@@ -88,7 +81,7 @@ impl Thermometer {
         sums[1].add(work, divergence);
     }
 
-    /// Squares of the loads over the inertia, and the trace of stiffness over inertia.
+    /// Squared loads over inertia, and trace of stiffness over inertia.
     fn weighted(&mut self, system: &System, loads: &actin_mechanics::Loads) -> (f64, f64) {
         let state = system.state();
         let inverse = |body: Coordinates| match body {
@@ -115,19 +108,17 @@ impl Thermometer {
     }
 }
 
-/// Place and orientation of monomer `i` in the axes of the one before.
+/// Position and orientation of monomer `i` in the axes of the previous one.
 fn relative(state: &State, i: usize) -> (Vector3, UnitQuaternion) {
     let (x, q) = (&state.points.position, &state.frames.orientation);
     let back = q.get(i - 1).inverse();
     (back * (x.get(i) - x.get(i - 1)), back * q.get(i))
 }
 
-/// Steps of `h` in a time (ns).
 fn steps(h: f64, time: f64) -> u64 {
     Run::over(&PEFRL, h, time).unwrap().steps()
 }
 
-/// What is run: bonds per interface, share of the stability limit of PEFRL, drag (1/ns).
 #[derive(Clone, Copy, Debug)]
 struct Case {
     bonds: usize,
@@ -135,7 +126,7 @@ struct Case {
     rate: f64,
 }
 
-/// Both temperatures of positions, in so many blocks of so many samples.
+/// Sums of both fields in `blocks` blocks of `samples` samples.
 fn sample(case: Case, blocks: usize, samples: usize, seed: u64) -> Blocks {
     let mut system = monomers(case.bonds);
     let frequency = largest_frequency(&system).unwrap();
@@ -144,7 +135,7 @@ fn sample(case: Case, blocks: usize, samples: usize, seed: u64) -> Blocks {
     let bath = Bath::new(drag, KBT, seed).unwrap();
     let mut thermometer = Thermometer::new(system.state());
     let apart = steps(h, APART_NS);
-    // Until the energy at the start, which is none, is forgotten to exp(-10).
+    // Until the initial state is forgotten to exp(-10).
     let mut now = steps(h, 10.0 / case.rate);
     advance_in(&mut system, &PEFRL, h, now, &bath, 0);
     let mut all: Blocks = Default::default();
@@ -162,7 +153,7 @@ fn sample(case: Case, blocks: usize, samples: usize, seed: u64) -> Blocks {
     all
 }
 
-/// The ratio of all sums, and its standard error from the scatter of the blocks about it.
+/// Ratio of the sums and its standard error from the scatter of the blocks.
 fn ratio(blocks: &[Sums]) -> (f64, f64) {
     let n = blocks.len() as f64;
     let divergence: f64 = blocks.iter().map(|b| b.divergence).sum();
@@ -174,8 +165,8 @@ fn ratio(blocks: &[Sums]) -> (f64, f64) {
 
 const FIELDS: [&str; 2] = ["all motions alike", "weighted by frequency squared"];
 
-/// At the default step of a scene positions of monomers have the temperature of their bath within 1 %,
-/// which is asked for before anything is measured.
+/// At the default step of a scene the configurational temperature of monomers is within 1 % of the
+/// bath.
 #[test]
 fn monomers_have_the_temperature_at_their_default_step() {
     let case = Case {
@@ -192,7 +183,7 @@ fn monomers_have_the_temperature_at_their_default_step() {
     }
 }
 
-/// The table of temperatures in `docs/measured/heat.md`.
+/// Prints the table of temperatures in `docs/measured/heat.md`.
 #[test]
 #[ignore = "takes half an hour; run by hand with --ignored --nocapture"]
 fn temperatures_of_positions_at_shares_of_the_limit() {
@@ -212,9 +203,8 @@ fn temperatures_of_positions_at_shares_of_the_limit() {
     }
 }
 
-/// By how much the energy of monomers at 298 K grows without drag, per ns and relative to `kT` for each
-/// degree of freedom: what the step adds, which a bath of drag `g` takes away at an excess of
-/// temperature of this over `g`.
+/// Growth of the energy of monomers at 298 K without drag, per ns and relative to `kT` per degree
+/// of freedom. Under a drag `g` the excess temperature is this over `g`.
 #[test]
 #[ignore = "takes minutes; run by hand with --ignored --nocapture"]
 fn energy_that_the_step_adds_at_room_temperature() {

@@ -1,4 +1,4 @@
-//! The free filaments of these tests, and how they are set in motion.
+//! Free filaments of these tests and their initial motion.
 
 use actin_mechanics::{State, System, Vector3, rotation};
 use actin_mechanics::{Xorshift, perturb, randomise_velocities};
@@ -7,37 +7,29 @@ use actin_sim::{Assembly, ForceLaw, Scene};
 /// kBT at 298 K (pN nm).
 pub(crate) const KBT: f64 = 4.114;
 
-/// Name of a filament, and its sections as a scene writes them.
 pub(crate) type Filament = (&'static str, &'static str);
 
-/// 15 monomers.
 pub(crate) const ELLIPSOIDS: Filament = ("ellipsoids", "Ellipsoids(from_nm: 0.0, to_nm: 35.6)");
 
-/// 8 segments of 10 nm.
 pub(crate) const ROD: Filament = ("rod", "Rod(from_nm: 0.0, to_nm: 80.0, segments: 8)");
 
-/// 9 monomers, then 4 segments of about 10 nm.
 pub(crate) const MIXED: Filament = (
     "monomers + rod",
     "Ellipsoids(from_nm: 0.0, to_nm: 22.0), Rod(from_nm: 22.0, to_nm: 62.0, segments: 4)",
 );
 
-/// 3 segments, 8 monomers, 3 segments.
 pub(crate) const ROD_AT_BOTH_ENDS: Filament = (
     "rod + monomers + rod",
     "Rod(from_nm: 0.0, to_nm: 30.0, segments: 3), Ellipsoids(from_nm: 30.0, to_nm: 52.0), \
      Rod(from_nm: 52.0, to_nm: 82.0, segments: 3)",
 );
 
-/// All of them.
 pub(crate) const FILAMENTS: [Filament; 4] = [ELLIPSOIDS, ROD, MIXED, ROD_AT_BOTH_ENDS];
 
-/// The filament as built, free, with 16 bonds per interface.
 pub(crate) fn assemble(filament: Filament, law: ForceLaw) -> Assembly {
     assemble_of(filament, &format!("law: Constant, force_law: {law:?}"))
 }
 
-/// The same with its rods as a scene writes them.
 pub(crate) fn assemble_of((_, sections): Filament, rod: &str) -> Assembly {
     let text = format!(
         "Scene(
@@ -53,16 +45,15 @@ pub(crate) fn assemble_of((_, sections): Filament, rod: &str) -> Assembly {
     Assembly::build(&scene).expect("the filaments above can be built")
 }
 
-/// The filament flying at 37 nm/ns and turning at 6 rad/ns, bent to 7e-3 and twisted to 1e-2
-/// rad/nm (as much as in the scenes), and shaken: every kind of strain is at work, with a third to
-/// a half of kBT of strain energy for each degree of freedom (the test of the order prints it).
+/// Filament in flight at 37 nm/ns, rotating at 6 rad/ns, bent to 7e-3 and twisted to 1e-2 rad/nm,
+/// and perturbed. The strain energy is a third to a half of kBT per degree of freedom.
 pub(crate) fn in_flight(filament: Filament) -> System {
     let assembly = assemble(filament, ForceLaw::EnergyGradient);
     fly_off(assembly, Vector3::new(6e-3, -3e-3, 1e-2), 0.0, 1.0)
 }
 
-/// An assembly as built, bent and twisted to `kappa` (rad/nm), then all of it stretched by
-/// `extension`, flying and turning as in [`in_flight`] and shaken `shake` times as much.
+/// Bends and twists an assembly to `kappa` (rad/nm), stretches it by `extension`, sets it in flight
+/// as in [`in_flight`], and perturbs it by `shake` times as much.
 pub(crate) fn fly_off(
     mut assembly: Assembly,
     kappa: Vector3,
@@ -86,10 +77,8 @@ pub(crate) fn fly_off(
     assembly.system
 }
 
-/// Bends and twists the filament as built to the uniform curvature `kappa` (rad/nm).
-///
-/// Cross-sections move rigidly: the one at arc length s goes to `s J_l(kappa s) e3` and turns by
-/// `exp(kappa s)`.
+/// Bends and twists the filament as built to the uniform curvature `kappa` (rad/nm). The
+/// cross-section at arc length s moves to `s J_l(kappa s) e3` and rotates by `exp(kappa s)`.
 fn bend(assembly: &mut Assembly, kappa: Vector3) {
     let (points, frames) = (&assembly.points, &assembly.frames);
     let state = assembly.system.state_mut();
@@ -106,8 +95,8 @@ fn bend(assembly: &mut Assembly, kappa: Vector3) {
     }
 }
 
-/// `J_l(theta) v`, the mean of `exp(t theta) v` over t from 0 to 1, by Simpson's rule in 64 parts:
-/// to 1e-12 at angles of 1.
+/// `J_l(theta) v`, the mean of `exp(t theta) v` over t from 0 to 1, by Simpson's rule with 64
+/// intervals: 1e-12 at angles of 1.
 fn mean_of_turned(theta: Vector3, v: Vector3) -> Vector3 {
     const PARTS: u32 = 64;
     let sum: Vector3 = (0..=PARTS)
@@ -123,8 +112,8 @@ fn mean_of_turned(theta: Vector3, v: Vector3) -> Vector3 {
     sum / (3.0 * f64::from(PARTS))
 }
 
-/// Adds rigid motion: flight with `velocity` (nm/ns) and a turn about the origin with `omega`
-/// (rad/ns), both in the lab frame.
+/// Adds a velocity (nm/ns) and an angular velocity (rad/ns) about the origin, both in the lab
+/// frame.
 pub(crate) fn fly(state: &mut State, velocity: Vector3, omega: Vector3) {
     for i in 0..state.points.len() {
         let v = velocity + omega.cross(&state.points.position.get(i));
@@ -137,13 +126,12 @@ pub(crate) fn fly(state: &mut State, velocity: Vector3, omega: Vector3) {
     }
 }
 
-/// Number of degrees of freedom of a free filament.
 pub(crate) fn degrees_of_freedom(state: &State) -> usize {
     3 * (state.points.len() + state.frames.len())
 }
 
-/// Gives a filament at rest random velocities worth `level` kBT of kinetic energy per degree of
-/// freedom on average: half of it turns into potential energy, so 1 is the temperature of a room.
+/// Gives a filament at rest random velocities with a mean kinetic energy of `level` kBT per degree
+/// of freedom. Half of it becomes potential energy, so that 1 is room temperature.
 pub(crate) fn heat(state: &mut State, level: f64, seed: u64) {
     let mut noise = Xorshift::new(seed);
     let mut momentum = |mass: f64| (2.0 * level * KBT * mass).sqrt() * normal(&mut noise);
@@ -158,13 +146,13 @@ pub(crate) fn heat(state: &mut State, level: f64, seed: u64) {
     }
 }
 
-/// A nearly normal number of variance 1: the sum of 12 even ones between -1/2 and 1/2.
+/// Approximately normal number of variance 1: the sum of 12 uniform numbers between -1/2 and 1/2.
 pub(crate) fn normal(noise: &mut Xorshift) -> f64 {
     (0..12).map(|_| 0.5 * noise.sample()).sum()
 }
 
-/// Largest distances of two states: places (nm), velocities (nm/ns), turns (rad), angular momenta
-/// (pN nm ns).
+/// Largest differences of two states: positions (nm), velocities (nm/ns), rotations (rad), angular
+/// momenta (pN nm ns).
 pub(crate) fn distances(a: &State, b: &State) -> [f64; 4] {
     let largest = |differences: &mut dyn Iterator<Item = f64>| differences.fold(0.0, f64::max);
     let of = |a: &actin_mechanics::Vectors, b: &actin_mechanics::Vectors| {

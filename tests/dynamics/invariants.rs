@@ -1,4 +1,4 @@
-//! What every step keeps to round-off: the way back, momentum and angular momentum.
+//! Time reversal and conservation of momenta to round-off.
 
 use super::filaments::{FILAMENTS, distances, in_flight};
 use super::record::scientific;
@@ -6,14 +6,12 @@ use actin_integrate::{Composition, Drag, PEFRL, advance, largest_frequency, stab
 
 use actin_mechanics::{State, System};
 
-/// The step at `share` of the stability limit.
 pub(crate) fn step(system: &System, scheme: &Composition, share: f64) -> f64 {
     stable_step(scheme, largest_frequency(system).unwrap(), share).unwrap()
 }
 
-/// Forward and back again leads to the start. A drift that is not undone by its negative, a table
-/// that is no palindrome, or loads that depend on the velocities would miss it by the error of
-/// the step, which at a quarter of the limit is above 1e-6 nm.
+/// A drift without inverse, an asymmetric table or velocity-dependent loads would miss the start by
+/// the step error, above 1e-6 nm at a quarter of the limit.
 #[test]
 fn time_reversal() {
     for filament in FILAMENTS {
@@ -31,9 +29,9 @@ fn time_reversal() {
                 scientific(&missed)
             );
             assert!(gone[0] > 1.0 && gone[2] > 0.3, "{gone:?}");
-            // Places of 30 nm carry 4e-15 of round-off, which up to 6600 stages and neighbouring
-            // paths that part multiply, by less than a hundred as measured. Velocities are as much
-            // more sensitive as the fastest mode is fast.
+            // Positions of 30 nm have 4e-15 of round-off. Up to 6600 stages and chaotic divergence
+            // multiply it, by less than a hundred as measured. Velocities are more sensitive by the
+            // largest frequency.
             let allowed = [1e-11, 1e-8, 1e-11, 1e-9];
             for (missed, allowed) in missed.iter().zip(allowed) {
                 assert!(*missed < allowed, "{}, {scheme}: {missed:e}", filament.0);
@@ -42,7 +40,7 @@ fn time_reversal() {
     }
 }
 
-/// Sums of the norms of momenta and of their moments: what round-off is relative to.
+/// Sums of the norms of momenta and of their moments, as scales of round-off.
 pub(crate) fn scales(state: &State) -> (f64, f64) {
     let momentum = |i: usize| state.points.velocity.get(i).norm() / state.points.inverse_mass()[i];
     let points = 0..state.points.len();
@@ -54,9 +52,7 @@ pub(crate) fn scales(state: &State) -> (f64, f64) {
     )
 }
 
-/// Neither changes at half the limit, however coarse the step is for accuracy. A junction whose
-/// forces do not cancel, or whose torque is taken about the wrong point, would show at once: as
-/// much as the strains' share of the motion, 1e-3 and more.
+/// A junction with unbalanced forces or torques would change the momenta by 1e-3 and more.
 #[test]
 fn momentum_and_angular_momentum_stay() {
     for filament in FILAMENTS {

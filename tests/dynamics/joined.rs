@@ -1,4 +1,4 @@
-//! Two free filaments that linkers join, tumbling: what stays to round-off.
+//! Conservation laws of two free filaments joined by linkers.
 
 use super::filaments::fly;
 use super::invariants::{scales, step};
@@ -8,8 +8,8 @@ use actin_mechanics::{System, Vector3};
 use actin_mechanics::{Xorshift, perturb, randomise_velocities};
 use actin_sim::{Assembly, Scene};
 
-/// Monomers beside a rod that lies across them, held together by two stretched linkers, one with a
-/// rest length, and a third between two sites of the rod.
+/// Monomers and a crossing rod, joined by two stretched linkers, one with a rest length, and a
+/// third between two sites of the rod.
 fn tumbling() -> System {
     let scene = Scene::from_ron(
         "Scene(
@@ -52,8 +52,6 @@ fn tumbling() -> System {
     system
 }
 
-/// A force that was not equal and opposite, or that pulled at another place than where its couple
-/// is taken, would change momenta at once.
 #[test]
 fn linkers_between_filaments_keep_momentum_and_angular_momentum() {
     let mut system = tumbling();
@@ -74,6 +72,6 @@ fn linkers_between_filaments_keep_momentum_and_angular_momentum() {
     assert!(gone > 10.0);
     // A random walk of 4e4 kicks of relative round-off 1e-16: 2e-14.
     assert!(changes.iter().all(|c| *c < 1e-13), "{changes:?}");
-    // Order 4 at 0.15 of the limit; a force without its potential would do work of order one.
+    // Order 4 at 0.15 of the limit; a nonconservative force would do work of order one.
     assert!(drift.abs() < 1e-3);
 }

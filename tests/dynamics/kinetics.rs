@@ -1,9 +1,8 @@
-//! Linkers that break, form and step while filaments move: the ledger of energies, and what they do to a filament.
+//! Energy balance and effect of linkers that break, form and step during a motion.
 
 use crate::common::ran;
-use actin_sim::{Assembly, Happening};
+use actin_sim::{Assembly, LinkerEventKind};
 
-/// A rod, free and without drag, under linkers with rates; and what happened to these.
 fn moved(linkers: &str, task: &str) -> (Assembly, Vec<f64>, Vec<f64>, Vec<actin_sim::LinkerEvent>) {
     let text = format!(
         "Scene(
@@ -30,15 +29,20 @@ const LINKERS: &str = "
     Linker(at_nm: 6.0, radius_nm: 1.8, displaced_nm: (0.0, 0.0, 0.0), stiffness_pn_per_nm: 1.0,
         kinetics: Kinetics(seed: 2, steps: Stepping(step_nm: 5.5, rate_per_ns: 20.0, stall_pn: 30.0))),";
 
-/// Without drag the total changes by what events have added, and by nothing else: 1e-7 of it is the integrator's. A motor
-/// goes from monomers onto the rod, whose linkers come and go.
+/// Without drag the energy changes only by events, to 1e-7. A motor steps from monomers onto the
+/// rod, whose linkers break and form.
 #[test]
-fn what_events_add_to_the_energy_is_booked() {
+fn energy_changes_by_events_are_recorded() {
     for integrator in ["Pefrl", "Vefrl"] {
         let task = format!("duration_ns: 0.8, record_every_ns: 0.02, integrator: {integrator}");
         let (_, totals, booked, events) = moved(LINKERS, &task);
         let count = |what| events.iter().filter(|e| e.what == what).count();
-        let counts = [Happening::Broke, Happening::Formed, Happening::Stepped].map(count);
+        let counts = [
+            LinkerEventKind::Broke,
+            LinkerEventKind::Formed,
+            LinkerEventKind::Stepped,
+        ]
+        .map(count);
         let size = booked.iter().fold(0.0, |m: f64, b| m.max(b.abs()));
         let start = totals[0];
         let ledger = totals
@@ -53,15 +57,14 @@ fn what_events_add_to_the_energy_is_booked() {
         assert!(size > 10.0 && open < 1e-6 * size, "{open}");
         let on_rod = events
             .iter()
-            .any(|e| e.what == Happening::Stepped && e.at_nm > 20.0);
+            .any(|e| e.what == LinkerEventKind::Stepped && e.at_nm > 20.0);
         assert!(on_rod, "the motor stays on monomers");
         let sum: f64 = events.iter().map(|e| e.energy_pn_nm).sum();
         assert!((sum - booked.last().unwrap()).abs() < 1e-9 * size);
     }
 }
 
-/// A motor with a stiff anchor drags a filament the other way until it stalls: the force along the filament then is near the
-/// stall force, never more than a step's worth beyond it.
+/// The force along the filament approaches the stall force, within one step.
 #[test]
 fn a_motor_pulls_until_it_stalls() {
     let text = "Scene(
@@ -77,6 +80,6 @@ fn a_motor_pulls_until_it_stalls() {
     let (bound, at_nm) = assembly.switched(0, last).unwrap();
     let force = 0.5 * (at_nm - 30.0);
     println!("{} steps, {force} pN at {at_nm} nm", outcome.events.len());
-    // 6 pN are 12 nm, at which the rate is zero.
+    // 6 pN are 12 nm, where the rate is zero.
     assert!(bound && (at_nm - 42.0).abs() < 2.1, "{at_nm}");
 }

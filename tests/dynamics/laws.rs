@@ -1,6 +1,5 @@
-//! Motion of rods whose laws are more than constants: order, momenta, energy.
-//!
-//! Every state here is twisted and stretched, so that what couples the two is at work.
+//! Motion of rods under nonconstant laws: order, momenta, energy. Every state is twisted and
+//! stretched.
 
 use super::filaments::{Filament, MIXED, ROD, ROD_AT_BOTH_ENDS, assemble_of, distances, fly_off};
 use super::record::{EnergyRecord, scientific};
@@ -8,7 +7,6 @@ use actin_integrate::{Drag, PEFRL, advance, largest_frequency, stable_step};
 
 use actin_mechanics::{State, System};
 
-/// The laws with an energy that are not constant, as a scene writes them.
 const LAWS: [&str; 4] = [
     "PublishedExtension",
     "CouplingEnergy",
@@ -16,7 +14,6 @@ const LAWS: [&str; 4] = [
     "Homogenised",
 ];
 
-/// A filament under a law, and how it is deformed all along at the start.
 #[derive(Clone, Copy, Debug)]
 struct Case {
     filament: Filament,
@@ -30,10 +27,10 @@ impl Case {
     /// Every law on every filament with a rod, over- and under-twisted. Rods are stretched as by
     /// 100 pN.
     ///
-    /// Mixed filaments move less. Their junctions have bending elements of 0.7 nm, in which a turn
-    /// of 0.03 rad leaves the range of a published law, where its tangent has a kink, and one of
-    /// 0.002 rad makes half of the rise of `Fitted`'s bending: swings across these are smooth only to
-    /// far smaller steps than 1/4 rad. Bent to 7e-3 rad/nm, `Fitted` measures orders of 4 to 9 there.
+    /// Mixed filaments are deformed less. Their junctions have bending elements of 0.7 nm, where a
+    /// rotation of 0.03 rad exceeds the range of a published law and 0.002 rad is half of the rise
+    /// of `Fitted`'s bending. Larger motions are smooth only for far smaller steps: at 7e-3 rad/nm
+    /// `Fitted` measures orders of 4 to 9.
     fn all() -> Vec<Self> {
         let filaments = [
             (ROD, [6e-3, -3e-3, 1.5e-2], 3e-3),
@@ -54,15 +51,14 @@ impl Case {
         all
     }
 
-    /// In flight at 37 nm/ns and turning at 6 rad/ns.
     fn in_flight(self) -> System {
         let assembly = assemble_of(self.filament, &format!("law: {}", self.law));
         fly_off(assembly, self.kappa.into(), self.extension, 0.1)
     }
 
-    /// The largest frequency (rad/ns), not below that of a rod that shears as Table 4 says:
-    /// `Fitted` does not resist shear at rest, and its frequency there, 228 rad/ns, is that of
-    /// stretch. At half the limit that follows from it, the rod's motion here ends in an explosion.
+    /// Largest frequency (rad/ns), at least the frequency of a rod with the shear rigidity of Table
+    /// 4. `Fitted` has no shear stiffness at rest; at half the limit of its frequency there, 228
+    /// rad/ns, the motion diverges.
     fn frequency(self) -> f64 {
         largest_frequency(&self.in_flight()).unwrap().max(490.0)
     }
@@ -97,11 +93,11 @@ fn steps_of_one_radian(case: Case) -> u32 {
     (case.frequency() * TIME).ceil() as u32
 }
 
-/// Fourth order in places, velocities, turns and angular momenta alike. A load that jumps, or one
-/// that is taken at curvatures of another moment than its strain, would measure 1 to 2.
+/// A discontinuous load, or a load at curvatures of another time than its strain, would measure 1
+/// to 2.
 ///
-/// Not under `Homogenised`: it gives way to compression within a stretch of 7e-5, which these swings cross, and
-/// measures orders of 2 to 3.2 at these steps.
+/// `Homogenised` is excluded: it softens in compression within a strain of 7e-5, which these
+/// motions cross, and measures orders of 2 to 3.2 at these steps.
 #[test]
 fn every_law_moves_with_order_four() {
     let is_smooth = |case: &Case| case.law != "Homogenised";
@@ -123,7 +119,6 @@ fn every_law_moves_with_order_four() {
     }
 }
 
-/// What the couple of twist and stretch does to the bodies around a segment adds up to nothing.
 #[test]
 fn every_law_keeps_momenta() {
     for case in Case::all() {
@@ -133,15 +128,14 @@ fn every_law_keeps_momenta() {
         let (p_end, l_end) = (system.state().momentum(), system.state().angular_momentum());
         let changes = [(p_end - p).norm() / p.norm(), (l_end - l).norm() / l.norm()];
         println!("{}: relative changes {}", case.name(), scientific(&changes));
-        // 4e4 kicks of round-off 1e-16, and arms that grow to 1e3 nm in flight: 10 times as long as
-        // the filaments, whose own spin is what the moment is compared to.
+        // 4e4 kicks of round-off 1e-16, with lever arms that grow to 1e3 nm, 10 times the length of
+        // the filaments.
         assert!(changes[0] < 1e-13 && changes[1] < 1e-12, "{changes:?}");
     }
 }
 
-/// The energy goes nowhere: of rods that resist shear its mean stays where it was, and everywhere
-/// its fluctuation is the error of the step, of which half the step leaves a sixteenth. Without
-/// the couple that belongs to xi it would waver as much at any step.
+/// Half the step leaves a sixteenth of the fluctuation. Without the conjugate torque of xi the
+/// energy would fluctuate at any step.
 #[test]
 fn every_law_keeps_its_energy() {
     for case in Case::all() {
@@ -150,13 +144,12 @@ fn every_law_keeps_its_energy() {
         });
         let (name, ratio) = (case.name(), coarse.early() / fine.early());
         println!("{name}: {}, ratio {ratio:.0}", coarse.line());
-        // Over the first three tenths, since chaotic motions (of monomers, and of shear without
-        // stiffness) part later: measured 6 and more. A wrong gradient gives 1.
-        // Where compression sets in (`Homogenised`) half the step leaves more: its gradient is compared
-        // with differences elsewhere.
+        // Over the first three tenths, before chaotic motions diverge: measured 6 and more. A wrong
+        // gradient gives 1. For `Homogenised`, half the step leaves more at the onset of
+        // compression; its gradient is tested by differences elsewhere.
         assert!(ratio > 3.0 || case.law == "Homogenised", "{name}: {ratio}");
-        // (omega h)^4 of the fastest modes as far as they take part: measured up to 2.5e-6. Later, motions that part
-        // differ by tens of 1e-6 from one order of sums to another.
+        // (omega h)^4 of the fastest modes by participation: measured up to 2.5e-6. Chaotic motions
+        // later differ by tens of 1e-6 between orders of summation.
         assert!(coarse.early() < 2e-5, "{name}");
         let resists_shear = !["Fitted", "Homogenised"].contains(&case.law);
         if case.filament == ROD && resists_shear {

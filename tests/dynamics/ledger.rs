@@ -1,9 +1,10 @@
-//! The energy of a motion less what has come from outside: ends and loads that move, drag and heat.
+//! Energy balance of motions with moving ends and loads, drag and heat.
 
 use actin_sim::{Assembly, Plan, Record, Scene, Summary, Task};
 use std::f64::consts::TAU;
 
-/// What the ledger leaves open at its worst, and the most that was booked (pN nm), at a share of the default step.
+/// Largest error of the energy balance and largest exchanged energy (pN nm), at a share of the
+/// default step.
 fn open(scene: &str, share: f64) -> (f64, f64) {
     let mut scene = Scene::from_ron(scene).unwrap_or_else(|e| panic!("{e}"));
     match &mut scene.task {
@@ -46,7 +47,7 @@ fn of_sections(sections: &str, body: &str, task: &str) -> String {
     )
 }
 
-/// A rod without inertia in thin water. Monomers would be pushed through each other by what moves as fast.
+/// Overdamped rod in water of low viscosity. Monomers would be pushed through each other.
 fn overdamped(body: &str, task: &str) -> String {
     let water = "drag: Water(viscosity_mpa_s: 0.001)";
     of_sections(
@@ -59,7 +60,6 @@ fn overdamped(body: &str, task: &str) -> String {
 const HELD: &str = "clamps: [Clamp(end: Start), Clamp(end: End)],";
 const DRAG: &str = "drag: (translational_per_ns: 3.0, rotational_per_ns: 20.0)";
 
-/// What works on a filament, and how.
 const DRIVEN: [(&str, &str); 5] = [
     (
         "an end that moves and turns",
@@ -93,16 +93,16 @@ const DRIVEN: [(&str, &str); 5] = [
     ),
 ];
 
-/// Bound, set before: a thousandth of what is booked at the default step.
+/// The tolerance is a thousandth of the exchanged energy at the default step.
 #[test]
-fn work_and_drag_are_booked() {
+fn work_and_drag_are_recorded() {
     for (name, body) in DRIVEN {
         for (integrator, order) in [("PositionVerlet", 2), ("Pefrl", 4)] {
             let text = scene(body, &format!("{DRAG}, integrator: {integrator}"));
             let [(at_default, size), (at_half, _)] = [1.0, 0.5].map(|share| open(&text, share));
             println!("{name}, {integrator}: {at_default:.1e}, {at_half:.1e} of {size:.2} pN nm");
             assert!(size > 1.0 && at_default < 1e-3 * size, "{name}");
-            // Of the method's order, or nearly: half an order is left to the records.
+            // The order of the method, less half an order for the records.
             assert!(
                 at_default > at_half * 2.0_f64.powf(f64::from(order) - 0.5),
                 "{name}"
@@ -111,10 +111,10 @@ fn work_and_drag_are_booked() {
     }
 }
 
-/// Noise brings as much as drag takes; both are in one column. At 298 K the energy error of Verlet's steps in water is
-/// 3 % of what is booked at the default step, so both are judged at a quarter.
+/// Heat from noise and drag is one column. At 298 K the energy error of Verlet steps in water is 3
+/// % at the default step, so both are tested at a quarter.
 #[test]
-fn heat_is_booked() {
+fn heat_is_recorded() {
     let bath = format!("{DRAG}, thermal: Thermal(temperature_k: 298.0, seed: 3)");
     let water =
         "drag: Water(viscosity_mpa_s: 0.01), thermal: Thermal(temperature_k: 298.0, seed: 3)";
@@ -127,10 +127,10 @@ fn heat_is_booked() {
     }
 }
 
-/// Without inertia or noise the same is booked, to a hundredth in steps of 0.004 ns and to the second order of the steps.
-/// Bounds set before.
+/// Overdamped motion: the tolerance is a hundredth in steps of 0.004 ns, with second order in the
+/// step.
 #[test]
-fn overdamped_motion_books_work_and_drag() {
+fn overdamped_motion_records_work_and_drag() {
     for (name, body) in DRIVEN {
         let text = overdamped(body, "temperature_k: 0.0, time_step_ns: 0.004");
         let [(left, size), (at_half, _)] = [1.0, 0.5].map(|share| open(&text, share));
@@ -140,9 +140,9 @@ fn overdamped_motion_books_work_and_drag() {
     }
 }
 
-/// Noise changes the work on a filament that is nearly linear from run to run, not in the mean; heat is not booked with it.
+/// In a nearly linear filament noise changes the work of single runs, but not its mean.
 #[test]
-fn overdamped_motion_in_a_bath_books_work() {
+fn overdamped_motion_in_a_bath_records_work() {
     let of = |temperature: f64, seed: u64| {
         let task = format!("temperature_k: {temperature:?}, seed: {seed}, time_step_ns: 0.004");
         let scene = Scene::from_ron(&overdamped(DRIVEN[4].1, &task)).unwrap();
@@ -160,9 +160,8 @@ fn overdamped_motion_in_a_bath_books_work() {
     assert!(of(298.0, 0).heat_pn_nm == 0.0 && of(0.0, 0).heat_pn_nm < -0.01 * cold);
 }
 
-/// Nothing is booked where nothing comes from outside.
 #[test]
-fn what_is_held_books_nothing() {
+fn isolated_motions_exchange_no_energy() {
     let free = scene(
         HELD,
         "drag: (translational_per_ns: 0.0, rotational_per_ns: 0.0)",
@@ -171,10 +170,11 @@ fn what_is_held_books_nothing() {
     assert!(left < 1e-12 && size == 0.0, "{left} {size}");
 }
 
-/// Energy from nowhere is told if it is a hundredth of what was exchanged; the error of the default step is not, nor heat,
-/// nor the round-off of what hardly moves, nor what a load that is not there yet would do to an imperfection.
+/// The warning appears above a hundredth of the exchanged energy. The error of the default step,
+/// heat and round-off give none, nor does a load that starts later on a filament with an
+/// imperfection.
 #[test]
-fn energy_from_nowhere_is_told() {
+fn energy_errors_give_a_warning() {
     let told_of = |text: &str, share: f64| {
         let scene = Scene::from_ron(text).unwrap();
         let assembly = Assembly::build(&scene).unwrap();
@@ -182,7 +182,7 @@ fn energy_from_nowhere_is_told() {
         let mut last = trajectory.records.last().unwrap().clone();
         last.kinetic_pn_nm += share * last.booked.work_pn_nm;
         let mut notes = Summary::new(&assembly, &last, &outcome).notes.into_iter();
-        notes.find(|note| note.starts_with("the energy at the end is"))
+        notes.find(|note| note.starts_with("the final energy differs by"))
     };
     let told = |body: &str, task: &str, share: f64| told_of(&scene(body, task), share);
     let (driven, ramped) = (DRIVEN[0].1, DRIVEN[2].1);
@@ -197,16 +197,12 @@ fn energy_from_nowhere_is_told() {
     assert!(crooked.contains("imperfection"));
     assert_eq!(told_of(&crooked, 0.0), None);
     let note = told(driven, DRAG, 0.02).unwrap();
-    assert!(
-        note.contains("a shorter time_step_ns makes it less"),
-        "{note}"
-    );
+    assert!(note.contains("use a shorter time_step_ns"), "{note}");
 }
 
-/// A pinned end that a couple spins through several turns: its energy is counted beyond the first, with its work and
-/// with drag. Bounds set before: as above.
+/// A pinned end rotates several turns under a couple; the energy accumulates beyond the first turn.
 #[test]
-fn turns_of_a_couple_are_booked() {
+fn work_of_a_couple_over_turns_is_recorded() {
     let body = "clamps: [Clamp(end: Start, hold: Pin)],
          loads: [Couple(end: Start, couple_pn_nm: (0.0, 0.0, 200.0),
              factor: Table(time_ns: [0.0, 0.8, 1.6], factor: [1.0, 2.0, -1.0]))],";
@@ -228,7 +224,7 @@ fn turns_of_a_couple_are_booked() {
         let rod = "Rod(from_nm: 0.0, to_nm: 60.0)";
         let (left, size) = open(&of_sections(rod, body, &task), 1.0);
         println!("{task}: {left:.1e} of {size:.2} pN nm");
-        // More work than the couple does in two turns.
+        // More than the work of two turns.
         assert!(size > 400.0 * 2.0 * TAU && left < bound * size, "{task}");
     }
 }

@@ -1,6 +1,5 @@
-//! Motion of assembled free filaments: order, reversal, momenta, energy.
-//!
-//! The tables of `docs/measured/motion.md` are what these tests print with `--nocapture`.
+//! Motion of assembled filaments. With `--nocapture` these tests print the tables of
+//! `docs/measured/motion.md`.
 
 mod brownian;
 mod contact;

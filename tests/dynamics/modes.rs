@@ -1,15 +1,14 @@
-//! Modes of a filament at rest, and motion in the slow ones only.
+//! Vibration modes of a filament at rest.
 
 use super::filaments::{KBT, degrees_of_freedom, normal};
 use actin_mechanics::Xorshift;
 use actin_mechanics::{Loads, State, System, Vector3, rotation};
 use nalgebra::{DMatrix, DVector};
 
-/// Vibrations about a state at rest: frequencies (rad/ns) and mass-weighted shapes.
+/// Frequencies (rad/ns) and mass-weighted shapes of vibrations about a state at rest.
 pub(crate) struct Modes {
-    /// Frequencies, ascending.
     pub(crate) frequencies: Vec<f64>,
-    /// Shapes in mass-weighted coordinates, in the same order, as columns.
+    /// Columns in the order of the frequencies.
     shapes: DMatrix<f64>,
     /// Inverse square roots of masses and moments, three per body, points first.
     weights: DVector<f64>,
@@ -18,7 +17,6 @@ pub(crate) struct Modes {
 }
 
 impl Modes {
-    /// The modes of `system` at its present state, which is at rest without loads.
     pub(crate) fn of(system: &System) -> Self {
         let weights = weights(system.state());
         let n = weights.len();
@@ -39,8 +37,8 @@ impl Modes {
         }
     }
 
-    /// Twice the potential energy of each mode that moves, ascending in frequency, in a state near
-    /// the one at `rest`: the square of frequency times amplitude.
+    /// Twice the potential energy of each nonrigid mode in a state near `rest`: squared frequency
+    /// times squared amplitude.
     pub(crate) fn energies(&self, rest: &State, state: &State) -> Vec<f64> {
         let (x, q) = (&state.points.position, &state.frames.orientation);
         let moved = (0..x.len()).map(|i| x.get(i) - rest.points.position.get(i));
@@ -59,24 +57,22 @@ impl Modes {
             .collect()
     }
 
-    /// The largest frequency (rad/ns).
     pub(crate) fn largest(&self) -> f64 {
         self.frequencies[self.frequencies.len() - 1]
     }
 
-    /// Number of modes below a hundredth of the largest frequency, rigid motions left out.
+    /// Number of modes below a hundredth of the largest frequency, without rigid motions.
     pub(crate) fn slow(&self) -> usize {
         self.below(0.01 * self.largest()) - 6
     }
 
-    /// Number of modes below a frequency (rad/ns).
     pub(crate) fn below(&self, frequency: f64) -> usize {
         self.frequencies.partition_point(|f| *f < frequency)
     }
 
-    /// The displacement of coordinate `c` under a small constant load on coordinate `by`, if a mode of
-    /// frequency `omega` answers a load of one by `answer(omega)`; coordinates count three for each
-    /// body, points first. What is held does not move.
+    /// Displacement of coordinate `c` under a small constant load on coordinate `by`, where
+    /// `answer(omega)` is the response of a mode to a unit load. Coordinates are three per body,
+    /// points first. Held bodies do not move.
     pub(crate) fn response(&self, c: usize, by: (usize, f64), answer: impl Fn(f64) -> f64) -> f64 {
         let (place, load) = by;
         let load = self.weights[place] * load;
@@ -88,8 +84,8 @@ impl Modes {
         self.weights[c] * load * each.sum::<f64>()
     }
 
-    /// Sets the filament in motion along a random mixture of its slow modes, with `level` kBT for
-    /// each of them on average, and without rigid motion.
+    /// Excites a random combination of slow modes with a mean of `level` kBT each, without rigid
+    /// motion.
     pub(crate) fn set_slow_motion(&self, state: &mut State, level: f64, seed: u64) {
         let mut noise = Xorshift::new(seed);
         let mut motion = DVector::zeros(self.weights.len());
@@ -115,7 +111,7 @@ impl Modes {
     }
 }
 
-/// Inverse square roots of masses and moments; zero of what is held.
+/// Inverse square roots of masses and moments; zero for held bodies.
 fn weights(state: &State) -> DVector<f64> {
     let points = state.points.inverse_mass().iter().flat_map(|m| [*m; 3]);
     let frames = (0..state.frames.len()).flat_map(|i| {
@@ -126,8 +122,8 @@ fn weights(state: &State) -> DVector<f64> {
     DVector::from_vec(points.chain(frames).map(f64::sqrt).collect())
 }
 
-/// The derivative of all loads with respect to coordinate `c`: eight-point differences of 1e-3 nm
-/// or rad, whose error is about 1e-12 of the largest derivative.
+/// Derivative of all loads by coordinate `c`: eight-point differences of 1e-3 nm or rad, with a
+/// relative error of 1e-12.
 fn slope(system: &System, c: usize) -> DVector<f64> {
     const STEP: f64 = 1e-3;
     let weights = [4.0 / 5.0, -1.0 / 5.0, 4.0 / 105.0, -1.0 / 280.0];
@@ -139,7 +135,6 @@ fn slope(system: &System, c: usize) -> DVector<f64> {
     slope
 }
 
-/// All loads with coordinate `c` moved by `step`.
 fn loads_at(system: &System, c: usize, step: f64) -> DVector<f64> {
     let mut state = system.state().clone();
     let mut vector = Vector3::zeros();
@@ -159,7 +154,7 @@ fn loads_at(system: &System, c: usize, step: f64) -> DVector<f64> {
     DVector::from_vec(both.flat_map(|v| [v.x, v.y, v.z]).collect())
 }
 
-/// Translations and turns about the origin, mass-weighted, made orthonormal one after another.
+/// Translations and rotations about the origin, mass-weighted and orthonormalised.
 fn rigid_motions(state: &State, weights: &DVector<f64>) -> Vec<DVector<f64>> {
     let mut all: Vec<DVector<f64>> = Vec::new();
     for k in 0..6 {

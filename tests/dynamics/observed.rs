@@ -1,4 +1,4 @@
-//! What runs in a heat bath observe, against statistical mechanics, within the errors that they tell.
+//! Observed quantities in a heat bath against statistical mechanics, within their standard errors.
 
 use crate::common::build;
 use actin_sim::statistics::BlockAverages;
@@ -6,10 +6,9 @@ use actin_sim::{
     Assembly, BOLTZMANN_PN_NM_PER_K, MeanSummary, Plan, Record, RunDirectory, Summary,
 };
 
-/// Standard errors by which a mean may be off; seeds are fixed.
+/// Tolerance of a mean in standard errors.
 const ERRORS: f64 = 4.5;
 
-/// Runs a scene into a directory.
 fn run(text: &str) -> (Assembly, Vec<Record>, Summary) {
     let folder = tempfile::tempdir().unwrap();
     let directory = RunDirectory::create(folder.path(), false).unwrap();
@@ -27,10 +26,10 @@ fn mean(summary: &Summary, column: &str) -> MeanSummary {
     mean
 }
 
-/// Kinetic and elastic energy of a cold rod are `kT/2` for each of its degrees of freedom. The burn-in is left out:
-/// the rod begins without any energy.
+/// Kinetic and elastic energy are `kT/2` per degree of freedom. The burn-in is excluded because the
+/// rod starts at rest.
 #[test]
-fn energies_are_those_of_equipartition() {
+fn energies_satisfy_equipartition() {
     let (assembly, records, summary) = run("Scene(
         filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 40.0, segments: 4)], rod: RodModel(law: Constant)),
         clamps: [Clamp(end: Start)],
@@ -53,7 +52,7 @@ fn energies_are_those_of_equipartition() {
             (value - expected).abs() < ERRORS * error,
             "{column}: {value} {expected}"
         );
-        // Scatter that hides everything would pass as well.
+        // Excludes a scatter that hides errors.
         assert!(error < 0.05 * expected, "{column}: {error}");
         assert!(found.independent_samples.unwrap() < 2001.0);
     }
@@ -62,7 +61,6 @@ fn energies_are_those_of_equipartition() {
 /// Persistence length and length of a free rod (nm).
 const LENGTH: f64 = 100.0;
 
-/// A rod whose persistence length is its length, free in a heat bath.
 fn free_rod() -> String {
     let rigidity = BOLTZMANN_PN_NM_PER_K * 298.0 * LENGTH;
     format!(
@@ -84,10 +82,9 @@ fn free_rod() -> String {
     )
 }
 
-/// A free rod with the persistence length `p = B / kT` of its own length `L`: tangents lose their direction as
-/// `exp(-s / p)`, and the mean square of the end-to-end distance is
-/// `2 p L (1 - p / L (1 - exp(-L / p)))` (Kratky and Porod 1949). Ten segments of `p / 10` miss less than 0.5 % of
-/// either: the first orders of the angle at a joint nearly cancel.
+/// For a persistence length `p = B / kT` and length `L`, tangents decorrelate as `exp(-s / p)`. The
+/// mean squared end-to-end distance is `2 p L (1 - p / L (1 - exp(-L / p)))` (Kratky and Porod
+/// 1949). Ten segments of `p / 10` miss less than 0.5 % of either.
 #[test]
 fn a_free_rod_is_a_worm_like_chain() {
     let (_, records, summary) = run(&free_rod());
@@ -110,7 +107,7 @@ fn a_free_rod_is_a_worm_like_chain() {
     // 0.5 % of the cosine are 1.7 % of the length.
     assert!((p - LENGTH).abs() < ERRORS * error + 1.7, "{p} {error}");
     let mut squares = BlockAverages::default();
-    // A fifth of the run is left out by default.
+    // The default burn-in is a fifth of the run.
     for record in records.iter().filter(|r| r.at.value() >= 1200.0) {
         squares.push(record.observed[3].powi(2));
     }
@@ -120,7 +117,6 @@ fn a_free_rod_is_a_worm_like_chain() {
     within(square.mean, square.error.unwrap(), expected);
 }
 
-/// A short rod in a heat bath, with what else its filament and its scene have.
 fn heated(filament: &str, scene: &str, task: &str) -> String {
     format!(
         "Scene(
@@ -137,7 +133,7 @@ fn heated(filament: &str, scene: &str, task: &str) -> String {
     )
 }
 
-/// What else than heat bends or straightens a rod: keys of its filament and of its scene, and what a note says.
+/// Keys of filament and scene that bend or straighten a rod, and the reason in the warning.
 const BENDS: [(&str, &str, &str); 6] = [
     (
         ")])",
@@ -167,10 +163,9 @@ const BENDS: [(&str, &str, &str); 6] = [
     ),
 ];
 
-/// Where something else than heat bends or straightens a filament, its tangents do not tell its persistence length: none
-/// is given, and a note says why. A clamp at one end and twist at rest do not.
+/// A clamp at one end and twist at rest do not affect the persistence length.
 #[test]
-fn a_persistence_length_is_that_of_heat_alone() {
+fn persistence_lengths_require_bending_by_heat_alone() {
     let told = |filament: &str, scene: &str| {
         let task = "duration_ns: 0.2, record_every_ns: 0.02";
         let (_, _, summary) = run(&heated(filament, scene, task));
@@ -199,7 +194,6 @@ fn a_persistence_length_is_that_of_heat_alone() {
     }
 }
 
-/// A mean of one record, or of none, is noted before the run; so is an interval of records longer than the motion.
 #[test]
 fn means_of_one_record_are_noted() {
     let notes = |task: &str, scene: &str| {
@@ -211,7 +205,7 @@ fn means_of_one_record_are_noted() {
             .map(|note| note.message)
             .collect::<Vec<_>>()
     };
-    // The burn-in of 0.4 ns leaves the end alone.
+    // The burn-in of 0.4 ns leaves only the last record.
     let told = notes("duration_ns: 2.0, record_every_ns: 2.0", "");
     assert_eq!(told.len(), 1, "{told:?}");
     assert!(

@@ -8,7 +8,7 @@ use actin_integrate::{
 };
 use actin_mechanics::State;
 
-/// Duration of the flight (ns): a turn of more than half a radian, 50 to 90 radians of the
+/// Duration of the flight (ns): a rotation of more than half a radian, 50 to 90 radians of the
 /// fastest mode.
 const TIME: f64 = 0.1;
 
@@ -37,20 +37,17 @@ fn steps_of_one_radian(filament: Filament) -> u32 {
     (omega * TIME).ceil() as u32
 }
 
-/// Every method reaches its order in places, velocities, turns and angular momenta alike.
-///
-/// With `(I omega) x omega` in the kick instead of the exact free rotation in the drift, those of
-/// fourth order would measure 1 on the turns. Loads that are not evaluated anew after a drift, or
-/// taken in the frame of another moment, would measure 1 to 2. A load that is not smooth would
-/// spoil the order of one filament only.
+/// With `(I omega) x omega` in the kick instead of the exact free rotation in the drift,
+/// fourth-order methods would measure 1 in rotations. Loads of another time or frame would measure
+/// 1 to 2.
 #[test]
 fn every_method_has_its_order_on_every_filament() {
     for filament in FILAMENTS {
         let steps = steps_of_one_radian(filament);
-        // PEFRL's error is the smallest: at 1/64 rad per step, 1/4096 of its least below.
+        // PEFRL has the smallest error: at 1/64 rad per step, 1/4096 of the smallest below.
         let reference = state_after(filament, &PEFRL, 64 * steps);
-        // The next term of the error is of relative order (omega h)^2; Verlet, whose phase error
-        // is the largest, is taken at half the step.
+        // The next term of the error is of relative order (omega h)^2. Verlet, with the largest
+        // phase error, runs at half the step.
         for (scheme, fraction) in [
             (POSITION_VERLET, 16),
             (PEFRL, 4),

@@ -1,5 +1,5 @@
-//! The same runs with the balance as the paper prints it, which has no potential: reported beside
-//! those of the gradient law, and held to what is documented.
+//! Energy under the balance printed in the paper, which has no potential, compared with the
+//! gradient law.
 
 use super::filaments::{Filament, MIXED, ROD, ROD_AT_BOTH_ENDS, assemble, heat};
 use super::modes::Modes;
@@ -9,7 +9,6 @@ use actin_mechanics::State;
 use actin_sim::{Assembly, ForceLaw, Resolution, SectionSpan};
 use std::ops::Range;
 
-/// How a run starts.
 #[derive(Clone, Copy, Debug)]
 enum Start {
     /// All degrees of freedom heated to a level (kBT per degree of freedom).
@@ -18,7 +17,6 @@ enum Start {
     Slow(f64),
 }
 
-/// Largest magnitude of the relative extension of the segments of these rods.
 fn largest_extension(rods: &[(Range<usize>, f64)], state: &State) -> f64 {
     let extension = |i: usize, rest: f64| {
         let l = state.points.position.get(i + 1) - state.points.position.get(i);
@@ -32,7 +30,6 @@ fn largest_extension(rods: &[(Range<usize>, f64)], state: &State) -> f64 {
         .fold(0.0, f64::max)
 }
 
-/// Points and segment length of every rod.
 fn rods(assembly: &Assembly) -> Vec<(Range<usize>, f64)> {
     let rod = |section: &SectionSpan| match section.resolution {
         Resolution::Rod { segment_nm } => Some((section.points.clone(), segment_nm)),
@@ -41,7 +38,7 @@ fn rods(assembly: &Assembly) -> Vec<(Range<usize>, f64)> {
     assembly.sections.iter().filter_map(rod).collect()
 }
 
-/// 1e5 steps of PEFRL at half the stability limit: wander of the energy and largest extension.
+/// Energy and largest extension over 1e5 steps of PEFRL at half the stability limit.
 fn run(filament: Filament, law: ForceLaw, start: Start) -> (EnergyRecord, f64) {
     let mut assembly = assemble(filament, law);
     let rods = rods(&assembly);
@@ -60,9 +57,9 @@ fn run(filament: Filament, law: ForceLaw, start: Start) -> (EnergyRecord, f64) {
     (record, extension)
 }
 
-/// The printed law's energy wanders by the order of the strain at every step. Over 1e5 steps it
-/// stays within five times the largest extension, on top of what the gradient law does; a wrong
-/// sign in the printed couples would exceed that within a few steps.
+/// The energy of the printed law varies by the order of the strain at any step. Over 1e5 steps it
+/// stays within five times the largest extension, plus the variation of the gradient law. A wrong
+/// sign would exceed that within a few steps.
 #[test]
 fn paper_balance_wanders_by_the_order_of_the_strain() {
     let strong = [Start::Heated(1.0), Start::Slow(1.0)];

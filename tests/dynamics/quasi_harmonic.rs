@@ -1,4 +1,4 @@
-//! Monomers whose interfaces are quasi-harmonic: against motion with their bonds, and beside rods.
+//! Quasi-harmonic interfaces against bonds, and in mixed filaments.
 
 use super::filaments::KBT;
 use actin_sim::ellipsoid::{Fluctuations, Monomers};
@@ -21,7 +21,7 @@ fn quasi_harmonic(duration_ms: f64, step_ns: f64) -> String {
     )
 }
 
-/// Moments of the neighbours of all monomers of a scene, over its records.
+/// Moments of neighbouring monomers of a scene, over its records.
 fn fluctuations(scene: &Scene) -> Fluctuations {
     let assembly = Assembly::build(scene).unwrap();
     let monomers = Monomers {
@@ -32,18 +32,17 @@ fn fluctuations(scene: &Scene) -> Fluctuations {
     };
     let (trajectory, _) = Plan::new(&assembly).unwrap().run().unwrap();
     let mut found = Fluctuations::about(&monomers, &assembly.rest);
-    // The filament as built is not yet warm.
+    // Excludes the warm-up.
     let warm = trajectory.records.len() / 50;
     let records = trajectory.records.iter().skip(warm);
     records.for_each(|record| found.add(&record.state));
     found
 }
 
-/// Twelve monomers in overdamped steps of 20 ns, in which all of them forget where they were, have the strains of inertial motion
-/// with bonds: their variances differ by the errors of 4000 independent states, 2.2 %, and of 400 ns with bonds, which is 1.7 %
-/// (it is what the scene tells); of interfaces that were right at zero temperature shear would be off by hundreds of times.
+/// Overdamped steps of 20 ns and inertial motion with bonds give the same strains. The variances
+/// have errors of 2.2 % (4000 independent states) and 1.7 % (400 ns with bonds).
 #[test]
-fn strains_are_those_of_bonds() {
+fn strains_agree_with_bonds() {
     let section = "Ellipsoids(from_nm: 0.0, to_nm: 32.9)";
     let bonds =
         "Dynamics(duration_ns: 400.0, drag: (translational_per_ns: 5.0, rotational_per_ns: 5.0),
@@ -55,8 +54,8 @@ fn strains_are_those_of_bonds() {
     assert!(distance < 0.05, "{distance}");
 }
 
-/// Mean energies of bonds, over 3 kT for each interface, and of all, over half of kT for each degree of freedom but the six of a
-/// rigid body: two rods of 80 nm and monomers between them, of which so many are attached to each.
+/// Mean energy of interfaces over 3 kT each, and of all bodies over kT/2 per degree of freedom
+/// without rigid motions: two rods of 80 nm with monomers between them.
 fn warmth(attached: usize) -> [f64; 2] {
     let sections =
         "Rod(from_nm: 0.0, to_nm: 80.0, segments: 2), Ellipsoids(from_nm: 80.0, to_nm: 120.0),
@@ -79,11 +78,11 @@ fn warmth(attached: usize) -> [f64; 2] {
     [sums[0] / per[0], sums[1] / per[1]]
 }
 
-/// Every strain of an open filament has half of kT, whatever resolves it. Steps of 100 ns are ten thousand times what monomers
-/// relax in; junctions without random stress would hold hardly anything, and the whole would be 8 % too cold. Two monomers that
-/// are attached to a rod close a loop, whose strains share what they have.
+/// Every strain of an open filament has kT/2. Junctions without random stress would make the whole
+/// 8 % too cold in these steps of 100 ns. Two monomers attached to one rod form a loop with
+/// dependent strains.
 #[test]
-fn energy_is_that_of_the_temperature() {
+fn energy_agrees_with_the_temperature() {
     let (open, loops) = (warmth(1), warmth(2));
     println!("{open:?}, with loops {loops:?}");
     for warmth in [open[0], open[1], loops[1]] {
@@ -91,7 +90,7 @@ fn energy_is_that_of_the_temperature() {
     }
 }
 
-/// The energy of a scene's filament, stretched by a thousandth.
+/// Energy of a scene's filament stretched by a thousandth.
 fn stretched(sections: &str) -> f64 {
     let assembly = Assembly::build(&scene(sections, &quasi_harmonic(1e-3, 100.0))).unwrap();
     let mut state = assembly.rest.clone();
@@ -103,7 +102,6 @@ fn stretched(sections: &str) -> f64 {
     interactions.iter().map(|i| i.energy(&state)).sum()
 }
 
-/// Sections that differ share one motion: with hardly a difference between them they are one.
 #[test]
 fn neighbouring_sections_are_one_chain() {
     let one = stretched("Ellipsoids(from_nm: 0.0, to_nm: 41.0)");
@@ -111,6 +109,6 @@ fn neighbouring_sections_are_one_chain() {
         "Ellipsoids(from_nm: 0.0, to_nm: 20.0),
          Ellipsoids(from_nm: 20.0, to_nm: 41.0, altered: Altered(mass_factor: 1.000001))",
     );
-    // Thermal motion forgets where it began: stiffness differs by what 400 ns tell of it.
+    // Sampling error of the stiffness over 400 ns.
     assert!((two / one - 1.0).abs() < 0.02, "{one}, {two}");
 }

@@ -1,15 +1,15 @@
-//! Fluctuations in a heat bath that leave the data of the rods' laws: summed up, not listed.
+//! Fluctuations in a heat bath beyond the data of the rod laws.
 
 use crate::common::build;
 use actin_cosserat::BendingElement;
-use actin_sim::{Assembly, BeyondRange};
+use actin_sim::{Assembly, LawExtrapolation};
 
-/// Length of the segments of the first filament (nm). At this length twist fluctuates by 0.02
-/// rad/nm and curvature by 0.01, where the data reach 0.0472 and 0.015.
+/// Segment length of the first filament (nm), at which twist fluctuates by 0.02 rad/nm and
+/// curvature by 0.01, with data up to 0.0472 and 0.015.
 const SEGMENT: f64 = 2.0;
 const RANGES: [(&str, f64); 2] = [("twist", 0.0472), ("curvature", 0.015)];
 
-/// Two rods under the law `Fitted`; the segments of the second are too long to leave the data.
+/// Two rods under the law `Fitted`; the long segments of the second stay within the data.
 const SCENE: &str = "Scene(
     filaments: [
         Filament(sections: [Rod(from_nm: 0.0, to_nm: 40.0, segments: 20)], rod: RodModel(law: Fitted)),
@@ -23,8 +23,6 @@ const SCENE: &str = "Scene(
     ),
 )";
 
-/// Each quantity once, with the share of records and of elements in which it is beyond and its
-/// largest value, all as counted here element by element.
 #[test]
 fn fluctuations_beyond_the_data_are_summed_up() {
     let assembly = build(SCENE);
@@ -49,13 +47,12 @@ fn fluctuations_beyond_the_data_are_summed_up() {
         let [records, elements, _] = expected;
         assert!(elements > 1e-4 && elements < 0.2 && records > elements);
     }
-    // Forces along segments fluctuate by 250 pN, far beyond the bound of 3.2 pN: no news.
+    // Axial forces fluctuate by 250 pN, far beyond the critical 3.2 pN, and are not reported.
     assert_eq!(assembly.unstable_twist_over(states()), []);
     let unstable = states().filter(|state| !assembly.unstable_twist(state).is_empty());
     assert!(unstable.count() > records.len() / 2);
 }
 
-/// Share of records and of elements beyond the range, and the largest value.
 fn counted<'a>(
     assembly: &Assembly,
     states: impl Iterator<Item = &'a actin_mechanics::State>,
@@ -88,7 +85,6 @@ fn counted<'a>(
     [records_beyond / records, beyond / elements, largest]
 }
 
-/// Without a bath every section is told of, as it is where it is worst.
 #[test]
 fn without_heat_each_section_is_listed() {
     let text = SCENE.replace("thermal: (temperature_k: 298.0, seed: 7),", "");
@@ -109,7 +105,7 @@ fn without_heat_each_section_is_listed() {
     assert!((second.1 - 20.0 * 0.15 / 45.0).abs() < 1e-12);
     let fluctuations: Vec<_> = found
         .iter()
-        .filter_map(|b: &BeyondRange| b.fluctuations)
+        .filter_map(|b: &LawExtrapolation| b.fluctuations)
         .collect();
     assert!(fluctuations.is_empty());
 }

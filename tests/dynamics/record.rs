@@ -1,23 +1,20 @@
-//! How the energy of a run fares.
+//! Energy statistics of a run.
 
 use actin_integrate::{Drag, PEFRL, advance};
 use actin_mechanics::{State, System};
 
-/// The relative deviation of the energy from its start, over ten equal parts of a run.
+/// Relative deviation of the energy from its start in ten equal parts of a run.
 #[derive(Clone, Debug)]
 pub(crate) struct EnergyRecord {
-    /// Means.
     means: [f64; 10],
-    /// Largest magnitudes.
     largest: [f64; 10],
-    /// Sum of the squares of all 2000.
+    /// Sum of squares over all 2000 samples.
     squares: f64,
 }
 
 impl EnergyRecord {
-    /// Runs PEFRL for `steps` steps of `h` (ns), with the energy taken 2000 times, at each of
-    /// which `look` sees the state. The energy counts from the filament at rest, so that it is
-    /// all energy of motion and strain.
+    /// Runs PEFRL for `steps` steps of `h` (ns) and samples the energy 2000 times, calling `look`
+    /// for each state. The energy is relative to the filament at rest.
     pub(crate) fn of(
         system: &mut System,
         h: f64,
@@ -34,7 +31,7 @@ impl EnergyRecord {
             for _ in 0..200 {
                 advance(system, &PEFRL, h, steps / 2000, &Drag::NONE);
                 let deviation = system.total_energy() / start - 1.0;
-                // A state that has exploded must not pass as one that is not compared.
+                // A diverged state must not pass as incomparable.
                 let deviation = if deviation.is_nan() {
                     f64::INFINITY
                 } else {
@@ -49,28 +46,24 @@ impl EnergyRecord {
         record
     }
 
-    /// Largest deviation of all.
     pub(crate) fn wander(&self) -> f64 {
         self.largest.iter().copied().fold(0.0, f64::max)
     }
 
-    /// Root mean square of the deviation.
     pub(crate) fn rms(&self) -> f64 {
         (self.squares / 2000.0).sqrt()
     }
 
-    /// Largest deviation over the first three tenths.
     pub(crate) fn early(&self) -> f64 {
         self.largest[..3].iter().copied().fold(0.0, f64::max)
     }
 
-    /// How far the mean moved from the first three tenths to the last three.
+    /// Shift of the mean from the first three tenths to the last three.
     pub(crate) fn trend(&self) -> f64 {
         let mean = |part: &[f64]| part.iter().sum::<f64>() / 3.0;
         mean(&self.means[7..]) - mean(&self.means[..3])
     }
 
-    /// One line for a table.
     pub(crate) fn line(&self) -> String {
         format!(
             "largest {:.1e} (first three tenths {:.1e}), rms {:.1e}, trend of the mean {:+.1e}",
@@ -82,7 +75,6 @@ impl EnergyRecord {
     }
 }
 
-/// Numbers in a row, two digits each.
 pub(crate) fn scientific(numbers: &[f64]) -> String {
     let words: Vec<String> = numbers.iter().map(|n| format!("{n:.1e}")).collect();
     words.join(" ")

@@ -1,9 +1,9 @@
-//! Where motions come to rest: certificates, saddles, and two ways off a saddle.
+//! Certificates of motions at rest, saddles, and ways to leave them.
 
 use crate::common::{build, failure, run, run_anyway};
 use actin_sim::{End, Failure, Outcome, RunError, Status, Trajectory};
 
-/// A rod of 200 nm between two walls, pushed together by 60 nm within 5 ns.
+/// Rod of 200 nm between two walls, compressed by 60 nm within 5 ns.
 fn pushed(filament: &str, task: &str) -> String {
     format!(
         "Scene(
@@ -17,7 +17,6 @@ fn pushed(filament: &str, task: &str) -> String {
     )
 }
 
-/// A damped motion of up to 400 ns; `keys` stand behind its others.
 fn damped(keys: &str) -> String {
     format!(
         "Dynamics(
@@ -33,7 +32,6 @@ fn moved(text: &str) -> Result<(Trajectory, Outcome), RunError> {
     run(&mut build(text))
 }
 
-/// The same, with what was recorded whether it fails or not.
 fn moved_anyway(text: &str) -> (Trajectory, Result<Outcome, RunError>) {
     run_anyway(&mut build(text))
 }
@@ -42,7 +40,6 @@ fn energy(trajectory: &Trajectory) -> f64 {
     trajectory.records.last().unwrap().potential_pn_nm()
 }
 
-/// Energy of the buckled rod, by statics.
 fn buckled() -> f64 {
     let (trajectory, report) = moved(&pushed("", "Equilibrium()")).unwrap();
     assert_eq!(report.certificate().unwrap().negative, 0);
@@ -50,9 +47,8 @@ fn buckled() -> f64 {
     energy(&trajectory)
 }
 
-/// Pushed exactly along its axis, the rod stays straight at `S3 strain^2 L / 2` = 306000 pN nm, where
-/// the buckled one has a thousandth of that. Whether a stop rule or the time ends the motion, it is
-/// said to be a saddle, with all records.
+/// Compressed exactly along its axis, the rod stays straight at `S3 strain^2 L / 2` = 306000 pN nm,
+/// a thousand times the energy of the buckled state.
 #[test]
 fn a_straight_rod_that_stays_straight_is_a_saddle() {
     for keys in ["", STOP] {
@@ -70,9 +66,8 @@ fn a_straight_rod_that_stays_straight_is_a_saddle() {
     }
 }
 
-/// With an imperfection of 0.01 nm the motion ends in the buckled state of statics. The displacement
-/// is one of the start alone, so that nothing of it is left: what differs is the stop rule's residual,
-/// of second order in the energy.
+/// An imperfection of 0.01 nm leads to the buckled state of statics. The difference is second order
+/// in the residual of the stop rule.
 #[test]
 fn an_imperfection_leads_to_the_buckled_state() {
     let imperfection = "imperfection: (amplitude_nm: 0.01, seed: 1),";
@@ -84,10 +79,9 @@ fn an_imperfection_leads_to_the_buckled_state() {
     assert!(report.pushes.is_empty());
 }
 
-/// So does a motion that is pushed off the saddle, with and without a stop rule; the push is said.
 #[test]
 fn a_motion_is_pushed_off_saddles() {
-    // Without a rule that ends it, a motion counts as at rest at 1e-6 of its energy.
+    // Without a stop rule, a motion is at rest at 1e-6 of its energy.
     for (stop, bound) in [(STOP, 1e-8), ("", 1e-6)] {
         let task = damped(&format!("leave_saddles: 3, {stop}"));
         let (trajectory, report) = moved(&pushed("", &task)).unwrap();
@@ -105,7 +99,6 @@ fn a_motion_is_pushed_off_saddles() {
     }
 }
 
-/// A stable end is certified; one that still moves, that is warm or whose law has no energy is not.
 #[test]
 fn certificates_belong_to_motions_at_rest() {
     let bent = |rod: &str, task: &str| {
@@ -134,7 +127,6 @@ fn certificates_belong_to_motions_at_rest() {
     assert_eq!(bent(printed, &format!("60.0, {drag}")), None);
 }
 
-/// A free filament at rest has six neutral modes, and one that drifts is not at rest.
 #[test]
 fn a_free_filament_is_neutral() {
     let text = "Scene(
@@ -157,9 +149,8 @@ fn a_free_filament_is_neutral() {
     assert_eq!(moved(&pulled).unwrap().1.at_rest, None);
 }
 
-/// Twist that slips ends the run, with the last good state: two turns and a half in a few ps, faster than they spread
-/// over the segments. So does that of an arc, whose end is turned about lab z and tilts with that. Slowly enough, the
-/// same turn arrives.
+/// Two and a half turns in a few ps do not spread over the segments and slip. An arc slips too,
+/// with its end turned about lab z and tilted. The same rotation at low speed succeeds.
 #[test]
 fn twist_that_slips_is_an_error() {
     let straight = ("Rod(from_nm: 0.0, to_nm: 60.0, segments: 6)", "");
@@ -187,7 +178,7 @@ fn twist_that_slips_is_an_error() {
         };
         let (trajectory, ended) = turned(fast);
         let (Failure::TwistLost { place, slip }, report) = failure(ended) else {
-            panic!("nothing slipped in {section} {shape}");
+            panic!("no slip in {section} {shape}");
         };
         println!("{place}{slip}");
         assert!((slip.lost_turns().abs() - 1.0).abs() < 1e-12 && slip.joint_deg.abs() > 90.0);
@@ -199,7 +190,6 @@ fn twist_that_slips_is_an_error() {
     }
 }
 
-/// A rod with a hinge at its start.
 fn hinged(load: &str, path: &str, end: &str) -> String {
     format!(
         "Scene(
@@ -217,11 +207,10 @@ fn hinged(load: &str, path: &str, end: &str) -> String {
     )
 }
 
-/// A spring can bear `pi k`, 62.8 pN nm about the rod: a couple of more, and a frame that is turned before the rod
-/// follows, turn it past half a turn. That ends the run, whether the other end is free or pinned, however seldom it is
-/// recorded. Less does not, nor does a turn that the rod follows.
+/// The spring carries at most `pi k`, 62.8 pN nm about the rod. A larger couple, or a frame turned
+/// faster than the rod follows, exceeds half a turn for a free and for a pinned end.
 #[test]
-fn a_hinge_past_half_a_turn_is_an_error_whatever_the_other_end_is() {
+fn a_hinge_past_half_a_turn_is_an_error() {
     let couple = |size: f64| format!("Couple(end: End, couple_pn_nm: (0.0, 0.0, {size:?}))");
     let turn = |degrees: f64, duration: f64| {
         let set = format!("set: [Turn(end: Start, turn_deg: (0.0, 0.0, {degrees:?}))]");
@@ -244,7 +233,7 @@ fn a_hinge_past_half_a_turn_is_an_error_whatever_the_other_end_is() {
             };
             println!("{place}{slip}");
             assert_eq!((slip.filament, slip.end), (0, End::Start));
-            // In a step it turns by a few degrees at the most.
+            // Each step rotates by a few degrees at most.
             let [angle, twist] = slip.turned_deg;
             assert!((170.0..180.0).contains(&angle) && (twist.abs() - angle).abs() < 1e-6);
             assert_eq!(report.status, Status::Failed);

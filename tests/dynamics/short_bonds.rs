@@ -1,4 +1,4 @@
-//! Why monomers at room temperature are hard on an integrator: some bonds are very short.
+//! Very short bonds, which limit the energy conservation of monomers at room temperature.
 
 use super::filaments::{ELLIPSOIDS, assemble, heat};
 use super::record::EnergyRecord;
@@ -7,8 +7,7 @@ use actin_integrate::{PEFRL, largest_frequency, stable_step};
 use actin_mechanics::{Interaction, State, UnitQuaternion, Vector3};
 use actin_sim::{Assembly, ForceLaw};
 
-/// The bonds of the filament of ellipsoids, built a second time, since the assembly's own cannot
-/// be asked for their ends.
+/// Bonds of the filament of ellipsoids, built again to access their ends.
 fn bonds_of(assembly: &Assembly) -> Bonds {
     let parameters = EllipsoidParameters::drawn(16, 1);
     let placement = Placement {
@@ -23,16 +22,15 @@ fn bonds_of(assembly: &Assembly) -> Bonds {
     model.bonds(&monomers).unwrap()
 }
 
-/// Length of the shortest bond (nm).
 fn shortest(bonds: &Bonds, state: &State) -> f64 {
     let pairs = bonds.pairs().iter();
     let lengths = pairs.flat_map(|pair| bonds.ends_of(pair, state).map(|[a, b]| (b - a).norm()));
     lengths.fold(f64::INFINITY, f64::min)
 }
 
-/// At a hundredth of room temperature every bond keeps 0.7 of its length; at room temperature some do not, and a
-/// force of constant magnitude turns about as they pass zero. The shortest length of this chaotic motion depends on
-/// rounding: 0.51 of the length at rest as scalar code, less with fused multiply-add.
+/// At a hundredth of room temperature every bond keeps 0.7 of its length. At room temperature some
+/// bonds pass zero, where a force of constant magnitude reverses. The shortest length depends on
+/// rounding: 0.51 of the rest length in scalar code, less with fused multiply-add.
 #[test]
 fn bonds_lose_their_length_at_room_temperature() {
     for (level, share_left) in [(0.01, 0.7..1.0), (1.0, 0.0..0.7)] {
@@ -40,13 +38,13 @@ fn bonds_lose_their_length_at_room_temperature() {
         let bonds = bonds_of(&assembly);
         let system = &mut assembly.system;
         let at_rest = shortest(&bonds, system.state());
-        // The bonds are those of the assembly: they have no energy where it was built.
+        // The bonds equal those of the assembly: their energy is zero as built.
         assert!(bonds.energy(system.state()) < 1e-20);
         let frequency = largest_frequency(system).unwrap();
         heat(system.state_mut(), level, 1);
         let h = stable_step(&PEFRL, frequency, 0.25).unwrap();
         let mut least = at_rest;
-        // Long enough for a shortest bond that does not depend on round-off.
+        // Long enough for a shortest bond independent of round-off.
         EnergyRecord::of(system, h, 80_000, |state| {
             least = least.min(shortest(&bonds, state));
         });

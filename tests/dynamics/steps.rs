@@ -1,11 +1,10 @@
-//! Time steps: what a junction costs, and how they grow with segments.
+//! Time steps of filaments with junctions and of long segments.
 
 use super::invariants::step;
 use crate::common::build;
 use actin_integrate::PEFRL;
 use actin_sim::Plan;
 
-/// The stability limit (ns) of a filament on a wall.
 fn limit(sections: &str, rotary_inertia: &str) -> f64 {
     let text = format!(
         "Scene(
@@ -29,8 +28,8 @@ fn monomers(to: f64) -> String {
     format!("Ellipsoids(from_nm: 0.0, to_nm: {to:?}),")
 }
 
-/// A junction takes less than a twentieth off the step of the rod or the monomers, whichever is shorter.
-/// Without the inertia that its frames have it would halve it.
+/// A junction reduces the step of the rod or the monomers by less than a twentieth. Without the
+/// inertia of its frames it would halve the step.
 #[test]
 fn a_junction_costs_no_step() {
     let all = limit(&monomers(160.0), "CrossSection");
@@ -49,8 +48,8 @@ fn a_junction_costs_no_step() {
     }
 }
 
-/// With the rotary inertia of rigid segments the step is in proportion to their length from 10 nm on: then the
-/// fastest mode is a stretch from node to node.
+/// With the rotary inertia of rigid segments the step is proportional to their length from 10 nm
+/// on, where the fastest mode is a stretch between nodes.
 #[test]
 fn steps_grow_with_rigid_segments() {
     let limits = [10.0, 20.0, 40.0, 80.0].map(|h| limit(&rod(0.0, h), "RigidSegment"));
@@ -62,8 +61,8 @@ fn steps_grow_with_rigid_segments() {
     assert!(limits[3] > 10.0 * before);
 }
 
-/// The default step is half as long a share of its limit under a law that gives way to compression at once, also
-/// where one section alone is under it.
+/// The default step is a smaller share of its limit if any section has a law that softens in
+/// compression.
 #[test]
 fn the_law_of_a_section_shortens_the_step() {
     let share = |altered: &str| {
@@ -83,6 +82,6 @@ fn the_law_of_a_section_shortens_the_step() {
         estimate.time_step_ns / estimate.stability_limit_ns
     };
     let (alike, altered) = (share(""), share("altered: (law: Homogenised)"));
-    // Steps are rounded to whole ones between records.
+    // Steps are rounded to whole steps between records.
     assert!((altered / alike - 0.5).abs() < 0.01, "{altered} {alike}");
 }

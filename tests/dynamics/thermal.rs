@@ -1,7 +1,4 @@
-//! Filaments in a heat bath: every kind of body and every mode takes its share.
-//!
-//! Estimates are held to 4.5 standard errors, found from the scatter of blocks that are long
-//! against the slowest relaxation that matters; seeds are fixed.
+//! Equipartition of filaments in a heat bath. Tolerances are 4.5 standard errors at fixed seeds.
 
 use super::filaments::{FILAMENTS, KBT, assemble};
 use super::modes::Modes;
@@ -18,13 +15,12 @@ fn bath(rate: f64, kt: f64, seed: u64) -> Bath {
     Bath::new(Drag::new(rate, rate).unwrap(), kt, seed).unwrap()
 }
 
-/// The step at a quarter of the stability limit of PEFRL, where its error in the temperature of
-/// the fastest mode is 3e-4.
+/// A quarter of the stability limit of PEFRL, with an error of 3e-4 in the temperature of the
+/// fastest mode.
 fn step(system: &System) -> f64 {
     stable_step(&PEFRL, largest_frequency(system).unwrap(), 0.25).unwrap()
 }
 
-/// Mean of `blocks` and its standard error.
 fn estimate(blocks: &[f64]) -> (f64, f64) {
     let n = blocks.len() as f64;
     let mean = blocks.iter().sum::<f64>() / n;
@@ -36,12 +32,12 @@ fn assert_is_one(what: &str, blocks: &[f64]) {
     let (mean, error) = estimate(blocks);
     println!("{what}: {mean:.4} +- {error:.4}");
     assert!((mean - 1.0).abs() < ERRORS * error, "{what}");
-    // Scatter that hides everything would pass as well.
+    // Excludes a scatter that hides errors.
     assert!(error < 0.05, "{what}: {error}");
 }
 
-/// Twice the kinetic energy per degree of freedom in units of kT, for points and frames of each
-/// kind, and for the motion of the whole.
+/// Twice the kinetic energy per degree of freedom in kT for each kind of point and frame, and for
+/// the centre of mass.
 fn temperatures(assembly: &Assembly, state: &State) -> BTreeMap<String, f64> {
     let mut sums: BTreeMap<String, (f64, f64)> = BTreeMap::new();
     let mut add = |key: String, energy: f64| {
@@ -65,15 +61,14 @@ fn temperatures(assembly: &Assembly, state: &State) -> BTreeMap<String, f64> {
     sums.into_iter().map(share).collect()
 }
 
-/// Equipartition: `m v^2` and `L_a^2/I_a` have the mean kT for monomers, nodes, segments and the
-/// frames of junctions, which are the lightest; so has `P^2/M` for the whole filament.
-/// Noise scaled with the inertia instead of its root would be off by those factors.
+/// `m v^2` and `L_a^2/I_a` have the mean kT for all kinds of bodies, and `P^2/M` for the whole
+/// filament. Noise scaled with the inertia instead of its root would fail.
 #[test]
 fn every_kind_of_body_has_the_temperature() {
     for (filament, kinds) in FILAMENTS.into_iter().zip([3, 3, 6, 6]) {
         let mut assembly = assemble(filament, ForceLaw::EnergyGradient);
         let h = step(&assembly.system);
-        // Momenta are forgotten in 1/60 ns, some ten steps.
+        // Momenta decorrelate in 1/60 ns, some ten steps.
         let bath = bath(60.0, KBT, 3);
         let mut now = 0;
         let mut advance = |assembly: &mut Assembly, steps| {
@@ -94,7 +89,7 @@ fn every_kind_of_body_has_the_temperature() {
                 blocks.entry(key).or_default().push(value);
             }
         }
-        // Points and frames of monomers, nodes, segments and frames of junctions, and the whole.
+        // Points and frames of monomers, nodes, segments and junction frames, and the whole.
         assert_eq!(blocks.len(), kinds, "{:?}", blocks.keys());
         for (what, blocks) in blocks {
             assert_is_one(&format!("{}, {what}", filament.0), &blocks);
@@ -102,8 +97,8 @@ fn every_kind_of_body_has_the_temperature() {
     }
 }
 
-/// A rod on a wall, 10 nm a segment, in a bath so cold (kT/100) that its energy is that of its modes; when it is sampled
-/// (steps): after so many, and so many apart.
+/// Rod on a wall with segments of 10 nm in a bath of kT/100, where modes are linear. Samples start
+/// after `warm` steps and are `apart` steps apart.
 struct Sampled {
     segments: usize,
     h_over_step: f64,
@@ -114,8 +109,8 @@ struct Sampled {
 }
 
 impl Sampled {
-    /// Potential energies of the slow, middle and fast thirds of the modes and of all, over what they should be: means
-    /// of 50 samples, 40 of each.
+    /// Potential energies of the slow, middle and fast thirds of the modes and of all, over their
+    /// expectation: means of 50 samples, in 40 blocks.
     fn shares(&self) -> [Vec<f64>; 4] {
         let kt = 0.01 * KBT;
         let mut system = build(&format!(
@@ -157,10 +152,9 @@ impl Sampled {
     }
 }
 
-/// Every mode of a rod on a wall has kT/2 of potential energy, slow bending and fast shear alike. A bath inside the
-/// stages, or halves on one side only, would cool the fast modes. So they have where drag is far stronger than a step
-/// resolves, unlike on places and turns, and rescales the conservative step of points and of frames by times of their
-/// own: `g h` of 3 and 1 there.
+/// Every mode has kT/2 of potential energy. A bath inside the stages, or on one side only, would
+/// cool the fast modes. The second case has drag far beyond the resolution of a step, different for
+/// points and frames: `g h` of 3 and 1.
 #[test]
 fn every_mode_of_a_clamped_rod_has_its_share() {
     for (what, sampled) in [
@@ -198,7 +192,6 @@ fn every_mode_of_a_clamped_rod_has_its_share() {
     }
 }
 
-/// The state at the end of a scene's run, recorded every so many ns, which are whole steps.
 fn end_of_scene(seed: u64, record_every_ns: f64) -> State {
     let text = format!(
         "Scene(
@@ -224,7 +217,6 @@ fn end_of_scene(seed: u64, record_every_ns: f64) -> State {
     trajectory.records.pop().unwrap().state
 }
 
-/// From the scene to the last bit: when records are taken changes nothing, another seed does.
 #[test]
 fn a_scene_with_a_seed_is_one_run() {
     let reference = end_of_scene(1, 0.2);

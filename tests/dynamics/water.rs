@@ -1,4 +1,4 @@
-//! Inertial motion in water beside overdamped motion: the same drag, the same noise, the same time scales.
+//! Inertial motion in water compared with overdamped motion.
 
 use crate::common::{build, ran};
 use actin_sim::mechanics::Vector3;
@@ -20,7 +20,7 @@ fn tips(sections: &str, force_pn: f64, task: &str) -> (Vec<Vector3>, u64) {
     (tips, report.force_evaluations)
 }
 
-/// Largest difference of the deflections with inertia and without, over the last of them.
+/// Largest difference of the deflections with and without inertia, over the last deflection.
 fn largest_difference(sections: &str, duration_ns: f64, step_ns: f64) -> f64 {
     let every = duration_ns / 10.0;
     let water = "drag: Water(viscosity_mpa_s: 1.0)";
@@ -40,8 +40,8 @@ fn largest_difference(sections: &str, duration_ns: f64, step_ns: f64) -> f64 {
     largest
 }
 
-/// A cantilever under a force relaxes with inertia as it does without, whatever resolves it, to 1 % of its deflection. Time here is
-/// 150 ns; velocities last 0.01 ns. Drag per mass, lumped at nodes, or that of another length would show.
+/// Relaxation with and without inertia agrees to 1 % of the deflection, over 150 ns; velocities
+/// decay in 0.01 ns.
 #[test]
 fn cantilevers_relax_alike_with_inertia_and_without() {
     for sections in [
@@ -53,7 +53,7 @@ fn cantilevers_relax_alike_with_inertia_and_without() {
     }
 }
 
-/// The same of 160 nm, for which inertia takes a million steps.
+/// For 160 nm inertia takes a million steps.
 #[test]
 #[ignore = "takes minutes"]
 fn long_cantilevers_relax_alike_with_inertia_and_without() {
@@ -65,7 +65,8 @@ fn long_cantilevers_relax_alike_with_inertia_and_without() {
     }
 }
 
-/// Mean square deflection of the tip across (nm^2), its standard error from 20 blocks, and the evaluations.
+/// Mean squared transverse deflection of the tip (nm^2), its standard error from 20 blocks, and the
+/// evaluations.
 fn variance(task: &str) -> (f64, f64, u64) {
     let (tips, evaluations) = tips("Rod(from_nm: 0.0, to_nm: 60.0, segments: 3)", 0.0, task);
     let start = tips[0];
@@ -83,8 +84,8 @@ fn variance(task: &str) -> (f64, f64, u64) {
     (mean, (spread / (n - 1.0) / n).sqrt(), evaluations)
 }
 
-/// The tip of a cantilever of 60 nm in water at 298 K has the same variance with inertia and without, and that of theory:
-/// `kT (L^3/3B + L/S)`, with what three segments add to it. Of 300 us some 2000 values are independent: 3 %.
+/// In water at 298 K the tip of a cantilever of 60 nm has the variance `kT (L^3/3B + L/S)`, plus
+/// the correction of three segments. 300 us have about 2000 independent values: 3 %.
 #[test]
 #[ignore = "takes minutes"]
 fn tips_fluctuate_alike_with_inertia_and_without() {
@@ -97,7 +98,7 @@ fn tips_fluctuate_alike_with_inertia_and_without() {
             "Brownian(duration_ms: 0.3, temperature_k: 298.0, seed: 2, time_step_ns: {step:?}, {rest})"
         )
     };
-    // Compliance under a force, from statics.
+    // Compliance under a force from statics.
     let rod = "Rod(from_nm: 0.0, to_nm: 60.0, segments: 3)";
     let [bent, straight] = [0.1, 0.0].map(|force| tips(rod, force, "Equilibrium()").0);
     let theory = 1.380_649e-2 * 298.0 * (bent[0].x - straight[0].x) / 0.1;
@@ -113,9 +114,8 @@ fn tips_fluctuate_alike_with_inertia_and_without() {
     }
 }
 
-/// No drag is too strong for a step: the default one is that of the stiffness, and `check` has relaxation times.
 #[test]
-fn steps_in_water_are_those_of_the_stiffness() {
+fn steps_in_water_depend_on_the_stiffness() {
     let planned = |rest: &str| {
         let assembly = build(&format!(
             "Scene(

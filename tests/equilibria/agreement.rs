@@ -2,7 +2,6 @@
 
 use super::common::{MIXED, apart, build, run, solved};
 
-/// A short filament of both kinds, bent askew.
 fn scene(task: &str) -> String {
     format!(
         "Scene(
@@ -14,11 +13,9 @@ fn scene(task: &str) -> String {
     )
 }
 
-/// Asserts that damped dynamics comes to rest where Newton's method ends, for the scene that
-/// `scene` makes of a task.
-///
-/// Two methods that share the loads and nothing else. The dynamics stops at a residual that
-/// displaces the softest mode by less than is asked for.
+/// Asserts that damped dynamics comes to rest at the equilibrium of Newton's method, for the scene
+/// that `scene` makes of a task. The stop rule displaces the softest mode by less than the
+/// tolerance.
 pub(crate) fn assert_dynamics_ends_with_newton(scene: impl Fn(&str) -> String) {
     let (newton, _) = solved(&scene("Equilibrium(force_pn: 1e-9, torque_pn_nm: 1e-9)"));
     let mut moving = build(&scene(
@@ -34,7 +31,7 @@ pub(crate) fn assert_dynamics_ends_with_newton(scene: impl Fn(&str) -> String) {
     let (_, report) = run(&mut moving).unwrap();
     assert!(
         report.has_converged(),
-        "{} steps were not enough",
+        "not converged after {} steps",
         report.steps
     );
     let apart = apart(newton.system.state(), moving.system.state());

@@ -1,11 +1,11 @@
-//! Anchors that a path moves, and linkers whose sites change their model.
+//! Anchors moved along a path, and linkers whose sites change between monomers and rod.
 
 use super::common::{MIXED, apart, build, run, solved};
 use actin_mechanics::Vector3;
 use actin_sim::Assembly;
 
-/// Monomers and rod, clamped, with a linker on each; the anchors stand at `displaced` and go on by
-/// `shifts` along a path in one stage of 40 ns.
+/// Clamped mixed filament with a linker on each section. Anchors are displaced by `displaced` and
+/// moved by `shifts` along a path of one stage of 40 ns.
 fn clamped(displaced: [Vector3; 2], shifts: Option<[Vector3; 2]>, task: &str) -> String {
     let show = |v: Vector3| format!("({:?}, {:?}, {:?})", v.x, v.y, v.z);
     let set = |i: usize, shift| format!("Anchor(linker: {i}, shift_nm: {})", show(shift));
@@ -38,8 +38,6 @@ fn clamped(displaced: [Vector3; 2], shifts: Option<[Vector3; 2]>, task: &str) ->
 const TIGHT: &str = "Equilibrium(force_pn: 1e-9, torque_pn_nm: 1e-9)";
 const SHIFTS: [[f64; 3]; 2] = [[2.0, 0.5, 1.0], [-3.0, 0.0, 2.0]];
 
-/// The end of a path is the equilibrium for anchors that stand where it leads. A track that moved
-/// the wrong linker, or the load whose control stands before those of anchors, would end elsewhere.
 #[test]
 fn a_path_of_anchors_ends_where_they_stand() {
     let shifts = SHIFTS.map(Vector3::from);
@@ -47,17 +45,15 @@ fn a_path_of_anchors_ends_where_they_stand() {
     let (moved, _) = solved(&clamped([Vector3::zeros(); 2], Some(shifts), TIGHT));
     let distance = apart(at_once.system.state(), moved.system.state());
     println!("path of anchors: {distance:.1e} nm");
-    // Residuals of 1e-9 pN on floppy modes that the load has stiffened to some pN/nm.
+    // Residuals of 1e-9 pN on floppy modes stiffened by the load to some pN/nm.
     assert!(distance < 1e-6, "{distance:e} nm apart");
     for k in 0..2 {
         let place = |a: &Assembly| a.linkers[k].end_position(a.system.state());
-        // Sums of the same places and displacements.
+        // Sums of the same displacements.
         assert!((place(&at_once) - place(&moved)).norm() < 1e-12);
     }
 }
 
-/// In time anchors follow the smooth ramp: half of the way in half of the time, and the motion ends
-/// in the equilibrium of the path.
 #[test]
 fn anchors_move_smoothly_in_time() {
     let shifts = SHIFTS.map(Vector3::from);
@@ -74,7 +70,7 @@ fn anchors_move_smoothly_in_time() {
     let (trajectory, report) = run(&mut moving).unwrap();
     assert!(
         report.has_converged(),
-        "{} steps were not enough",
+        "not converged after {} steps",
         report.steps
     );
     let linker = &moving.linkers[1];
@@ -96,12 +92,12 @@ fn anchors_move_smoothly_in_time() {
     let (still, _) = solved(&clamped([Vector3::zeros(); 2], Some(shifts), TIGHT));
     let distance = apart(still.system.state(), moving.system.state());
     println!("ramp of anchors: {distance:.1e} nm from statics");
-    // The stop rule's 1e-8 pN on modes of some 0.1 pN/nm.
+    // Residual of 1e-8 pN on modes of about 0.1 pN/nm.
     assert!(distance < 1e-6, "{distance:e} nm apart");
 }
 
-/// The filament of Figure 5 with its sites on the outer side of the bend, `rod` nm of it a rod of
-/// fine segments, whose mesh does not count beside the model.
+/// Filament of Figure 5 with sites on the outer side of the bend and `rod` nm of finely segmented
+/// rod.
 fn planar(rod: f64) -> Assembly {
     let (from, to) = (80.0 - 0.5 * rod, 80.0 + 0.5 * rod);
     let segments = (rod / 2.5).round();
@@ -129,17 +125,15 @@ fn planar(rod: f64) -> Assembly {
     assembly
 }
 
-/// Energy (pN nm) and pull of the outer linkers (pN) of an equilibrium.
 fn numbers(assembly: &Assembly) -> [f64; 3] {
     let state = assembly.system.state();
     let pull = |k: usize| assembly.linkers[k].force(state).norm();
     [assembly.system.energies().iter().sum(), pull(0), pull(2)]
 }
 
-/// As junctions move outward across the outer sites, which pass from monomers to rod, energy and
-/// pulls change by no more from one resolution to the next than they differ over all resolutions
-/// whose sites do not change their model. A site that was elsewhere on the other model, or turned
-/// with a monomer's own azimuth, would show as a jump of hundreds of pN nm.
+/// As junctions pass the outer sites, energy and tension change per step by less than their spread
+/// over resolutions that keep the sites. A wrong site on either model would jump by hundreds of pN
+/// nm.
 #[test]
 fn the_equilibrium_is_continuous_where_a_junction_crosses_a_site() {
     let crossing: Vec<Assembly> = [95.0, 98.0, 101.0, 104.0, 108.0, 112.0, 116.0]

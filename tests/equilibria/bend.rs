@@ -1,4 +1,4 @@
-//! The 45-degree bend of Bathe and Bolourchi: a curved cantilever pulled out of its plane.
+//! 45-degree bend of Bathe and Bolourchi: a curved cantilever under a force out of its plane.
 
 use super::common::{frame, material, point, to};
 use crate::common::ran;
@@ -9,22 +9,20 @@ use actin_mechanics::{Interaction, Matrix3, PointLoad, State, UnitQuaternion, Ve
 use actin_sim::{At, End};
 use std::f64::consts::FRAC_PI_4;
 
-/// Radius of the arc.
 const RADIUS: f64 = 100.0;
-/// Rigidity against stretch, and against shear: Young's modulus 1e7 over a unit square, without
-/// Poisson's effect, times 5/6 in shear.
+/// Stretch and shear rigidity: Young's modulus 1e7 on a unit square, Poisson's ratio 0, shear
+/// factor 5/6.
 const STRETCH: f64 = 1e7;
 const SHEAR: f64 = STRETCH * 5.0 / 12.0;
-/// Rigidity against bending and twist: 1e7 times the second moment 1/12 of the square.
+/// Bending and twisting rigidity: 1e7 times the second moment 1/12 of the square.
 const BEND: f64 = 1e7 / 12.0;
-/// Forces on the tip, out of the plane.
 const FORCES: [f64; 3] = [300.0, 450.0, 600.0];
-/// Tip under the last of them: along the tangent at the clamp, towards the centre, out of the plane.
+/// Tip under the last force: along the tangent at the clamp, towards the centre, out of the plane.
 /// Source: Bathe and Bolourchi, Int. J. Numer. Meth. Eng. 14 (1979) 961, converged on fine meshes.
 const TIP: [f64; 3] = [47.150_096, 15.684_689, 53.475_478];
 
-/// The tip of the bend on `n` segments whose nodes lie on the arc: the chords are straight, and
-/// neighbours are turned against each other at rest.
+/// Tip of the bend on `n` segments with nodes on the arc. Neighbouring chords enclose an angle at
+/// rest.
 fn tip(force: f64, n: usize) -> [f64; 3] {
     let step = FRAC_PI_4 / n as f64;
     let arc = RADIUS * step;
@@ -59,14 +57,13 @@ fn tip(force: f64, n: usize) -> [f64; 3] {
     let terms: Vec<Box<dyn Interaction>> = vec![Box::new(rod), Box::new(load)];
     let mut newton = Newton::new(Layout::free(&state), to(1e-6)).unwrap();
     let found = newton.solve(&mut state, &terms).unwrap();
-    // From straight, under the whole load, the search wanders before it converges: 22 to 51 steps,
-    // which round-off decides.
+    // From straight, under the full load, convergence takes 22 to 51 steps, depending on round-off.
     assert!(found.history.len() < 100, "{:?}", found.work);
     let tip = state.points.position.get(n);
     [tip.z, tip.x, tip.y]
 }
 
-/// The rod as an initial value problem: centre line, frame and couple (lab) along the arc.
+/// Rod as an initial value problem: centre line, frame and moment (lab) along the arc.
 #[derive(Clone, Copy)]
 struct Section {
     place: Vector3,
@@ -96,7 +93,7 @@ impl Section {
         }
     }
 
-    /// Along the whole arc in `steps` of the classical method of Runge and Kutta, of fourth order.
+    /// Integrates along the arc in `steps` of the classical fourth-order Runge-Kutta method.
     fn at_tip(couple: Vector3, force: Vector3, steps: usize) -> Self {
         let mut at = Self {
             place: Vector3::zeros(),
@@ -116,11 +113,10 @@ impl Section {
     }
 }
 
-/// The tip by shooting: the couple at the clamp for which there is none at the tip. It has neither
-/// segments nor an energy in common with the rod of segments.
+/// Tip by shooting for the moment at the clamp that vanishes at the tip.
 fn shot(force: f64, steps: usize) -> [f64; 3] {
     let mut couple = Vector3::zeros();
-    // In parts of the load, from each to the next by Newton's method with differences.
+    // In increments of the load, each by Newton's method with differences.
     for part in 1..=8 {
         let load = Vector3::y() * (force * f64::from(part) / 8.0);
         let miss = |couple| Section::at_tip(couple, load, steps).couple;
@@ -132,29 +128,28 @@ fn shot(force: f64, steps: usize) -> [f64; 3] {
             };
             let axes = [Vector3::x(), Vector3::y(), Vector3::z()];
             let slope = Matrix3::from_columns(&axes.map(column));
-            let step = slope.try_inverse().expect("no bifurcation on the way") * miss(couple);
+            let step = slope.try_inverse().expect("the path has no bifurcation") * miss(couple);
             couple -= step;
         }
-        // Of couples of 600 times 70.
+        // Relative to moments of 600 times 70.
         assert!(miss(couple).norm() < 1e-8, "{}", miss(couple));
     }
     let tip = Section::at_tip(couple, Vector3::y() * force, steps).place;
     [tip.z, tip.x, tip.y]
 }
 
-/// Curvature at rest, bending in both planes and twist act together; an order of rotations that
-/// is wrong anywhere moves the tip by units. The oracle of 600 confirms the shooting that is the oracle
-/// of the other loads.
+/// Curvature at rest, bending in both planes and twist act together. The published tip for 600
+/// verifies the shooting, which is the reference for other loads.
 #[test]
 fn the_bend_converges_to_its_tip_with_order_two() {
     for force in FORCES {
         let [coarse, exact] = [200, 400].map(|steps| shot(force, steps));
         println!("{force}: {exact:?}");
         for k in 0..3 {
-            // Of fourth order: the difference is 15 times the error that is left.
+            // Fourth order: the difference is 15 times the remaining error.
             assert!((coarse[k] - exact[k]).abs() < 1e-8, "{coarse:?}, {exact:?}");
             if force == FORCES[2] {
-                // The oracle has six decimals.
+                // The published tip has six decimals.
                 assert!((exact[k] - TIP[k]).abs() < 1e-6, "{exact:?}");
             }
         }
@@ -168,15 +163,14 @@ fn the_bend_converges_to_its_tip_with_order_two() {
     }
 }
 
-/// Tips that others found under these forces on eight elements: along the tangent, towards the centre, out of the
-/// plane. Source: Simo and Vu-Quoc, Comput. Methods Appl. Mech. Eng. 58 (1986) 79, Table 6.
+/// Published tips under these forces on eight elements: along the tangent, towards the centre, out
+/// of the plane. Source: Simo and Vu-Quoc, Comput. Methods Appl. Mech. Eng. 58 (1986) 79, Table 6.
 const PUBLISHED: [[f64; 3]; 3] = [
     [58.84, 22.33, 40.08],
     [52.32, 18.62, 48.39],
     [47.23, 15.79, 53.37],
 ];
 
-/// The tips of the scene of the repository on `n` segments, after each stage of its path.
 fn tips_of_scene(n: usize) -> Vec<[f64; 3]> {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenarios/bend-45.ron");
     let text = std::fs::read_to_string(path).unwrap();
@@ -194,7 +188,6 @@ fn tips_of_scene(n: usize) -> Vec<[f64; 3]> {
     ends.to_vec()
 }
 
-/// The same from a scene: built at rest along its arc, and led through the three loads.
 #[test]
 fn the_bend_of_a_scene_converges_to_the_same_tip() {
     let meshes = [32, 64, 128].map(tips_of_scene);
@@ -205,7 +198,7 @@ fn the_bend_of_a_scene_converges_to_the_same_tip() {
             let what = format!("scene, {force}, {axis}");
             let limit = second_order_limit(&what, values, exact[k], 0.02);
             assert!(limit.abs() < 1e-5, "{what}: {limit:e}");
-            // Eight elements of theirs are off by up to half a per cent of the radius.
+            // Their eight elements have errors up to half a per cent of the radius.
             let off = (exact[k] - PUBLISHED[i][k]).abs();
             assert!(off < 0.5, "{what}: {} {}", exact[k], PUBLISHED[i][k]);
         }

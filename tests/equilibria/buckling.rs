@@ -1,4 +1,4 @@
-//! Columns: critical loads from the stiffness turning singular, and what comes after.
+//! Critical loads of columns from singular stiffness, and post-buckling.
 
 use super::common::{
     BEND, LENGTH, SHEAR, build, cantilever, critical, frame, material, newton, point, solved, to,
@@ -10,7 +10,6 @@ use actin_mechanics::{Interaction, PointLoad, State, UnitQuaternion, Vector3};
 use actin_sim::End;
 use std::f64::consts::PI;
 
-/// Meshes, each twice as fine.
 const MESHES: [usize; 3] = [16, 32, 64];
 
 /// `B / L^2` of [`cantilever`].
@@ -39,7 +38,6 @@ fn clamped_free_column() {
     assert!(limit.abs() < 1e-5, "{limit:e}");
 }
 
-/// The parts of a rod.
 #[derive(Default)]
 struct Parts {
     segments: Vec<RodSegment>,
@@ -52,8 +50,8 @@ impl Parts {
     }
 }
 
-/// A straight column of unit length and bending rigidity on `n` segments along z. Without a wall
-/// its first frame is free.
+/// Straight column of unit length and bending rigidity on `n` segments along z. Without a wall its
+/// first frame is free.
 fn column(n: usize, wall: bool) -> (State, Parts, BodyOrder) {
     let h = 1.0 / n as f64;
     let mut state = State::default();
@@ -86,8 +84,8 @@ fn column(n: usize, wall: bool) -> (State, Parts, BodyOrder) {
     (state, parts, order)
 }
 
-/// Both ends pinned: the far node slides along the axis, no frame is held. The turn about the axis
-/// stays free, a neutral mode that must not be counted.
+/// Both ends pinned: the far node slides along the axis, no frame is held. The axial rotation is a
+/// neutral mode that must not be counted.
 #[test]
 fn pinned_column() {
     let values = MESHES.map(|n| {
@@ -104,7 +102,7 @@ fn pinned_column() {
     assert!(limit.abs() < 1e-5, "{limit:e}");
 }
 
-/// Both ends clamped, the far one slides along the axis as one body with its frame.
+/// Both ends clamped; the far one slides along the axis as one body with its frame.
 #[test]
 fn clamped_column() {
     let values = MESHES.map(|n| {
@@ -127,8 +125,8 @@ fn clamped_column() {
     assert!(limit.abs() < 1e-5, "{limit:e}");
 }
 
-/// A column that bends under its own weight: `q L^3 / B = 7.8373474389`, the smallest zero of a
-/// Bessel function of order -1/3. Source: Greenhill (1881).
+/// Column under its own weight: `q L^3 / B = 7.8373474389`, from the smallest zero of a Bessel
+/// function of order -1/3. Source: Greenhill (1881).
 #[test]
 fn greenhills_column() {
     let values = MESHES.map(|n| {
@@ -159,9 +157,9 @@ fn elliptic(k: f64) -> (f64, f64) {
     (first, first * (1.0 - sum))
 }
 
-/// Beyond its critical load the straight column is a saddle; off it, and on, the solver finds the
-/// elastica whose tip is turned by `a`: with `k = sin(a/2)` the load is `K^2 B/L^2`, the tip at
-/// `2 k L / K` beside and `(2 E / K - 1) L` above the clamp.
+/// Beyond its critical load the straight column is a saddle. The solver finds the elastica with tip
+/// angle `a`: with `k = sin(a/2)` the load is `K^2 B/L^2`, and the tip lies at `2 k L / K` aside
+/// and `(2 E / K - 1) L` above the clamp.
 #[test]
 fn post_buckling_of_the_clamped_free_column() {
     for degrees in [30.0_f64, 60.0, 120.0] {
@@ -187,8 +185,9 @@ fn post_buckling_of_the_clamped_free_column() {
     }
 }
 
-/// A rod between walls, with 0.005 pN across its middle, is pushed together far beyond its critical load, at 1.6e-4 of
-/// 1.25 nm: the path ends on the connected branch, on the side of the force, of less energy than the other.
+/// A rod between walls with a small transverse force is compressed to 1.25 nm, far beyond its
+/// critical 1.6e-4. The path ends on the connected branch on the side of the force, which has the
+/// lower energy.
 #[test]
 fn a_pushed_rod_stays_on_the_side_of_its_force() {
     for force in [0.005_f64, -0.005] {
@@ -208,7 +207,7 @@ fn a_pushed_rod_stays_on_the_side_of_its_force() {
         ));
         let middle = assembly.system.state().points.position.get(25);
         println!("{force} pN: middle at {middle:?}, {} jumps", report.jumps);
-        // Shape of the first mode of a thin rod: 2 sqrt(1000 * 1.25) / pi.
+        // First mode of a thin rod: 2 sqrt(1000 * 1.25) / pi.
         let theory = 22.51 * force.signum();
         assert!((middle.x - theory).abs() < 0.05, "{middle}");
         assert_eq!(report.jumps, 0);

@@ -1,4 +1,4 @@
-//! A rod rolled up by turning its end, which moves freely: couples only, so uniform curvature.
+//! A rod rolled up by turning its free end: pure bending with uniform curvature.
 
 use super::common::{BEND, LENGTH, PRECISION, build, failure, run, run_anyway};
 use crate::theory::{bisect, second_order_limit};
@@ -6,8 +6,7 @@ use actin_mechanics::Vector3;
 use actin_sim::{Assembly, End, Failure, Outcome, RunError};
 use std::f64::consts::PI;
 
-/// The rod with its end turned about y by `turn` (deg), saddle or not; `twist` is its twisting
-/// rigidity.
+/// Rod with its end turned about y by `turn` (deg) and twisting rigidity `twist`; stable or not.
 fn rolled(segments: usize, twist: f64, turn: f64) -> (Assembly, Outcome) {
     let mut assembly = build(&format!(
         "Scene(
@@ -38,8 +37,8 @@ fn end_couple(assembly: &mut Assembly) -> Vector3 {
     clamp.reaction(assembly.system.state(), &loads).torque_pn_nm
 }
 
-/// Every bending element has the same angle, so that the couple `2 pi B / L` is exact on any
-/// mesh, and so is the closure of the polygon.
+/// All bending elements have the same angle, so that the couple `2 pi B / L` and the closure are
+/// exact on any mesh.
 #[test]
 fn a_full_turn_closes_a_circle() {
     let (mut assembly, report) = rolled(20, 2.0 * BEND, 360.0);
@@ -52,13 +51,13 @@ fn a_full_turn_closes_a_circle() {
         couple.y,
         tip.norm()
     );
-    // The residual of 1e-7 pN nm, and what it moves.
+    // Residual of 1e-7 pN nm and its displacement.
     assert!((couple - Vector3::y() * exact).norm() < 1e-6, "{couple}");
     assert!(tip.norm() < 1e-6, "{tip}");
     assert_eq!(certificate.negative, 0);
 }
 
-/// Half a circle has the diameter `2 L / pi`; the polygon's is off by the square of its angle.
+/// Half a circle has the diameter `2 L / pi`; the polygon's error is quadratic in its angle.
 #[test]
 fn half_a_turn_has_the_right_diameter() {
     let values = [10, 20, 40].map(|segments| {
@@ -71,9 +70,9 @@ fn half_a_turn_has_the_right_diameter() {
     assert!(limit.abs() < 1e-6, "{limit:e}");
 }
 
-/// A rod that twists easily leaves the plane before it is a circle: with `c = B3 / B`, at the
-/// turn `2 x` where `tan x = -x (1 - c)/c`, the first conjugate point of the force-free rod, which
-/// moves like a symmetric top. For `c = 1/3`, actin's, that is 210.46 deg.
+/// A rod with small twisting rigidity leaves the plane before it closes. With `c = B3 / B` this
+/// occurs at the turn `2 x` with `tan x = -x (1 - c)/c`, the first conjugate point of the
+/// force-free rod (a symmetric top). For `c = 1/3` it is 210.46 deg.
 #[test]
 fn a_rod_that_twists_easily_leaves_the_plane() {
     let c: f64 = 1.0 / 3.0;
@@ -94,8 +93,8 @@ fn a_rod_that_twists_easily_leaves_the_plane() {
     assert!(limit.abs() < 1e-5, "{limit:e}");
 }
 
-/// A couple about a fixed axis on the free end of a rod that twists no easier than it bends rolls it up as far as
-/// half a turn, where it loses its stability: the path ends there and the message gives the reason.
+/// A couple about a fixed axis rolls up a free end to half a turn, where it loses stability. The
+/// message gives the reason.
 #[test]
 fn a_couple_on_a_free_end_rolls_up_half_a_turn() {
     let couple = 2.0 * PI * BEND / LENGTH;

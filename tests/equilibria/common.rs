@@ -9,13 +9,11 @@ use actin_sim::{Assembly, Outcome};
 
 pub(crate) use crate::common::{apart, build, failure, ran, run, run_anyway};
 
-/// Runs a scene that must reach its end; the assembly is then in the last state.
 pub(crate) fn solved(text: &str) -> (Assembly, Outcome) {
     let (assembly, _, outcome) = ran(text);
     (assembly, outcome)
 }
 
-/// A short filament of both kinds.
 pub(crate) const MIXED: &str = "Filament(
     sections: [
         Ellipsoids(from_nm: 0.0, to_nm: 20.0),
@@ -25,11 +23,11 @@ pub(crate) const MIXED: &str = "Filament(
     rod: RodModel(law: Constant),
 )";
 
-/// A cantilever of a rod as a scene: 160 nm, `B = 3.9e4` pN nm^2, under a force on its tip (pN).
+/// Scene of a cantilever rod: 160 nm, `B = 3.9e4` pN nm^2, under a tip force (pN).
 ///
-/// Its shear and stretch are equally stiff (`S`, pN), so that the couple of the force on a
-/// strained segment, `n x r'` with `r' = d3 + n/S`, is that on an unstrained one: the frames are
-/// exactly those of an inextensible rod, whatever `S`.
+/// Shear and stretch have the same rigidity `S` (pN), so that the moment `n x r'` with `r' = d3 +
+/// n/S` equals that of an unstrained segment. The frames are exactly those of an inextensible rod,
+/// for any `S`.
 pub(crate) fn cantilever(segments: usize, force: [f64; 3], task: &str) -> String {
     let [x, y, z] = force;
     format!(
@@ -50,15 +48,15 @@ pub(crate) fn cantilever(segments: usize, force: [f64; 3], task: &str) -> String
 
 /// Length of [`cantilever`] (nm).
 pub(crate) const LENGTH: f64 = 160.0;
-/// Its bending rigidity (pN nm^2).
+/// Bending rigidity of [`cantilever`] (pN nm^2).
 pub(crate) const BEND: f64 = 3.9e4;
-/// Its rigidity against shear and stretch (pN).
+/// Shear and stretch rigidity of [`cantilever`] (pN).
 pub(crate) const SHEAR: f64 = 1e5;
 
-/// Relative precision of critical loads: far below the least error of a mesh, 1e-5.
+/// Relative precision of critical loads: far below the smallest mesh error, 1e-5.
 pub(crate) const PRECISION: f64 = 1e-9;
 
-/// A solver for the free bodies of an assembly, in the order of arc length.
+/// Solver for the free bodies of an assembly, in the order of arc length.
 pub(crate) fn newton(assembly: &Assembly, tolerance: f64) -> Newton {
     let order = BodyOrder {
         points: assembly.points.iter().map(|p| p.s_nm).collect(),
@@ -68,7 +66,6 @@ pub(crate) fn newton(assembly: &Assembly, tolerance: f64) -> Newton {
     Newton::new(layout, to(tolerance)).unwrap()
 }
 
-/// Options with this residual for forces and torques.
 pub(crate) fn to(tolerance: f64) -> NewtonOptions {
     NewtonOptions {
         tolerance: Residual {
@@ -79,8 +76,8 @@ pub(crate) fn to(tolerance: f64) -> NewtonOptions {
     }
 }
 
-/// The first control at which the stiffness of the equilibrium near `straight` turns indefinite, by
-/// bisection; each equilibrium is solved for from `straight` itself.
+/// First control at which the stiffness of the equilibrium near `straight` becomes indefinite, by
+/// bisection. Each equilibrium is solved from `straight`.
 pub(crate) fn critical(
     newton: &mut Newton,
     straight: &State,
@@ -96,18 +93,15 @@ pub(crate) fn critical(
     bisect(is_unstable, bounds, PRECISION)
 }
 
-/// A material of these rigidities (pN, pN nm^2).
 pub(crate) fn material(shear: [f64; 3], bend: [f64; 3]) -> RodMaterial {
     let (shear, bend) = (shear.into(), bend.into());
     RodMaterial::new(Rigidities { shear, bend }).unwrap()
 }
 
-/// A point of unit mass.
 pub(crate) fn point(state: &mut State, position: Vector3) -> usize {
     push_point(state, position, 1.0)
 }
 
-/// A frame of moments 1, 1, 2.
 pub(crate) fn frame(state: &mut State, orientation: UnitQuaternion) -> usize {
     push_frame(state, orientation, [1.0, 1.0, 2.0])
 }

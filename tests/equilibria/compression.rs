@@ -1,5 +1,5 @@
-//! Rods whose natural length follows their twist, in compression: beyond a bound their twist is
-//! unstable wherever the mesh resolves it (`docs/statics.md`, "Extended rods in compression").
+//! Rods with twist-stretch coupling in compression: beyond a bound their twist is unstable
+//! (`docs/statics.md`, "Extended rods in compression").
 
 use super::common::{build, run, run_anyway};
 use actin_cosserat::{Rigidities, TwistStretch};
@@ -8,8 +8,8 @@ use actin_mechanics::{UnitQuaternion, Vector3};
 use actin_sim::{Assembly, Failure, RunError, UnstableTwist};
 use std::f64::consts::PI;
 
-/// Laws, and the compression (pN) at which the untwisted rod becomes unstable: `B3(0)` over
-/// `|xi''(0)|`, here from the printed parameters by hand.
+/// Laws and the critical compression (pN) of the untwisted rod, `B3(0) / |xi''(0)|`, from the
+/// printed parameters by hand.
 const LAWS: [(&str, f64); 2] = [
     // 566.01 / (2 x 20.508)
     ("PublishedExtension", 13.80),
@@ -17,7 +17,7 @@ const LAWS: [(&str, f64); 2] = [
     ("Fitted", 3.060),
 ];
 
-/// 100 nm between two walls, far from Euler's load, 154 pN.
+/// 100 nm between two walls, far below Euler's load, 154 pN.
 fn rod(law: &str, segments: usize, rest: &str) -> String {
     format!(
         "Scene(
@@ -31,7 +31,6 @@ fn rod(law: &str, segments: usize, rest: &str) -> String {
     )
 }
 
-/// Twists and stretches the rod uniformly along its axis.
 fn set_uniform(assembly: &mut Assembly, twist: f64, strain: f64) {
     let (points, frames) = (assembly.points.clone(), assembly.frames.clone());
     let state = assembly.system.state_mut();
@@ -45,7 +44,7 @@ fn set_uniform(assembly: &mut Assembly, twist: f64, strain: f64) {
     }
 }
 
-/// The uniform state of this twist under a compression (pN), by bisection of its strain.
+/// Sets the uniform state of this twist under a compression (pN), by bisection of its strain.
 fn push(assembly: &mut Assembly, twist: f64, compression: f64) {
     let (mut low, mut high) = (-0.1, 0.1);
     for _ in 0..100 {
@@ -61,8 +60,8 @@ fn push(assembly: &mut Assembly, twist: f64, compression: f64) {
     }
 }
 
-/// Negative eigenvalues of the stiffness against shifts along the axis and turns about it, which
-/// in a straight rod do not couple to other motions.
+/// Number of negative eigenvalues of the stiffness for axial shifts and rotations, which decouple
+/// in a straight rod.
 fn negative_modes(assembly: &Assembly) -> usize {
     let state = assembly.system.state();
     let points = (0..state.points.len()).filter(|&i| state.points.is_free(i));
@@ -80,21 +79,20 @@ fn negative_modes(assembly: &Assembly) -> usize {
     eigenvalues.iter().filter(|e| **e < 0.0).count()
 }
 
-/// Modes `cos(m pi s / L)` of the twist of `n` segments that are unstable at `share` times the
-/// bound: a segment feels the mean of its two nodes, `cos(m pi / 2n)` of their amplitude.
+/// Number of unstable modes `cos(m pi s / L)` of the twist of `n` segments at `share` times the
+/// bound. A segment has the mean of its two nodes, `cos(m pi / 2n)` of their amplitude.
 fn expected_modes(n: usize, share: f64) -> usize {
     let softens = |m: usize| (m as f64 * PI / (2 * n) as f64).cos().powi(2);
     (1..n).filter(|&m| softens(m) * share > 1.0).count()
 }
 
 fn only(found: &[UnstableTwist]) -> UnstableTwist {
-    assert_eq!(found.len(), 1, "once per rod: {found:?}");
+    assert_eq!(found.len(), 1, "one entry per rod: {found:?}");
     found[0]
 }
 
-/// No mode is unstable below the bound, and as many above it as the mesh has that feel it. A bound
-/// at constant length, or one with the secant of a twisted rod for its tangent, is off by up to a
-/// factor of ten; a mean over one node would make `n - 1` modes unstable at once.
+/// A bound at constant length, or with the secant of a twisted rod, is wrong by up to a factor of
+/// ten. A mean over one node would make `n - 1` modes unstable at once.
 #[test]
 fn modes_turn_unstable_at_the_bound() {
     for (law, at_rest) in LAWS {
@@ -127,11 +125,10 @@ fn modes_turn_unstable_at_the_bound() {
     }
 }
 
-/// The same by the certificate of an equilibrium, bending and shear included, with the counts that
-/// the published law is known for: 0 at 13 pN, 2 at 14.5, 12 at 40. Its natural length at rest is
-/// not the built one.
+/// The certificate of an equilibrium, including bending and shear, gives the known counts of the
+/// published law: 0 at 13 pN, 2 at 14.5, 12 at 40.
 #[test]
-fn a_certificate_counts_them_and_the_run_says_so() {
+fn certificates_count_unstable_modes() {
     for (compression, negative) in [(13.0, 0), (14.5, 2), (40.0, 12)] {
         let natural = TwistStretch::published().extension(0.0);
         let shift = 100.0 * (natural - compression / Rigidities::table4().shear.z);
@@ -158,15 +155,14 @@ fn a_certificate_counts_them_and_the_run_says_so() {
         let said = only(&said);
         println!("{compression} pN: {said:?}");
         assert!((said.compression_pn / compression - 1.0).abs() < 1e-6);
-        // The path begins without compression, and ends beyond the bound.
+        // The path starts without compression and ends beyond the bound.
         assert!(said.share_of_records > 0.0 && said.share_of_records < 1.0);
     }
 }
 
-/// A motion is looked at in every record. The pulse of a shift within 0.2 ns passes the bound on
-/// its way, and is gone once the end is back.
+/// The pulse of a shift within 0.2 ns exceeds the bound temporarily.
 #[test]
-fn a_motion_says_so_of_the_moments_at_which_it_is() {
+fn a_motion_reports_its_share_of_unstable_records() {
     for (law, _) in LAWS {
         let rest = "path: [
                 Stage(set: [Shift(end: End, shift_nm: (0.0, 0.0, -0.2))], duration_ns: 0.2),
@@ -187,7 +183,6 @@ fn a_motion_says_so_of_the_moments_at_which_it_is() {
     }
 }
 
-/// Twist of each bending element (rad/nm).
 fn twists(assembly: &Assembly) -> Vec<f64> {
     let q = &assembly.system.state().frames.orientation;
     let frames = 1..assembly.frames.len();
@@ -199,10 +194,10 @@ fn twists(assembly: &Assembly) -> Vec<f64> {
     frames.map(twist).collect()
 }
 
-/// Off the saddle the rod divides into parts of over- and under-twist, each in a stable range. From one
-/// to the next is one element, or two, however fine the mesh: nothing in the law gives it a width.
+/// The unstable rod divides into domains of over- and under-twist in stable ranges, separated by
+/// one or two elements on any mesh: the law has no length scale.
 #[test]
-fn what_follows_is_as_fine_as_the_mesh() {
+fn domain_walls_are_as_fine_as_the_mesh() {
     for segments in [10, 20, 40, 80] {
         let rest = "path: [Stage(set: [Shift(end: End, shift_nm: (0.0, 0.0, -0.168315))])],
              task: Equilibrium(leave_saddles: 30),";
@@ -222,12 +217,11 @@ fn what_follows_is_as_fine_as_the_mesh() {
         );
         assert!(changes > 0 && between <= 2 * changes, "{twists:.4?}");
         assert!(low < -0.004 && high > 0.003);
-        // The straight untwisted rod, of 40 pN, is 25 to 35 % above.
+        // The straight untwisted rod, at 40 pN, is 25 to 35 % above.
         assert!(force > 29.0 && force < 32.0);
     }
 }
 
-/// Laws without a bound say nothing, however much they are pushed together.
 #[test]
 fn other_laws_have_no_bound() {
     for law in ["Constant", "CouplingEnergy"] {

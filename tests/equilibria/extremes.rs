@@ -1,8 +1,8 @@
-//! What no sensible scene asks for: each ends in a certified equilibrium or in a report that says
-//! why not, in a bounded number of steps; never in a wrong answer.
+//! Extreme loads: each scene ends in a certified equilibrium or in a failure report, in a bounded
+//! number of steps.
 //!
-//! `cargo test -p actin-sim --test integration equilibria::extremes -- --nocapture` prints
-//! the table of `docs/measured/statics.md`.
+//! `cargo test -p actin-sim --test integration equilibria::extremes -- --nocapture` prints the
+//! table of `docs/measured/statics.md`.
 
 use super::common::{build, run, run_anyway};
 use actin_equilibrium::{PathFailure, Stability};
@@ -13,7 +13,6 @@ use std::time::Instant;
 /// Largest force and torque on a free body at an equilibrium (pN, pN nm).
 const RESIDUAL: f64 = 1e-6;
 
-/// A scene in parts.
 struct Extreme {
     name: String,
     sections: &'static str,
@@ -28,7 +27,6 @@ const BOTH_WALLS: &str = "Clamp(end: Start), Clamp(end: End)";
 const SLIDING: &str = "Clamp(end: Start), Clamp(end: End, slides: AlongAxis)";
 
 impl Extreme {
-    /// A cantilever under a force (pN) on its tip.
     fn pulled(name: &str, sections: &'static str, [x, y, z]: [f64; 3]) -> Self {
         Self {
             name: name.to_owned(),
@@ -40,7 +38,6 @@ impl Extreme {
         }
     }
 
-    /// A filament whose far end is moved.
     fn driven(name: &str, sections: &'static str, clamps: &'static str, set: &str) -> Self {
         Self {
             name: name.to_owned(),
@@ -52,7 +49,6 @@ impl Extreme {
         }
     }
 
-    /// The same, but followed across sudden jumps.
     fn across_jumps(self) -> Self {
         Self {
             task: "accept_jumps: true",
@@ -77,8 +73,7 @@ impl Extreme {
         ))
     }
 
-    /// Runs the scene, prints its row, and checks whatever it says. Returns whether it reached
-    /// its end.
+    /// Runs the scene, prints its row, and checks its result. Returns `true` if it reached its end.
     fn check(&self) -> bool {
         let mut assembly = self.assembly();
         let clock = Instant::now();
@@ -89,7 +84,7 @@ impl Extreme {
             (Some(failure), _) => failure.to_string(),
             (None, found) => format!("{:?}", found.as_ref().unwrap().certificate.stability()),
         };
-        // A path that ended at a large jump goes across it, and counts it. Other paths are smooth.
+        // A path that ended at a large jump continues and counts it. Other paths are smooth.
         let crosses = self.task.contains("accept_jumps");
         let jumps = crosses || SNAPS.contains(&self.name.as_str());
         assert_eq!(report.jumps > 0, jumps, "{}", self.name);
@@ -97,7 +92,7 @@ impl Extreme {
         let found = report.equilibrium.as_ref();
         let steps = steps.max(found.map(|f| f.newton_iterations)).unwrap();
         println!("| {} | {ended} | {steps} | {seconds:.2} s |", self.name);
-        // At most a thousand equilibria on the way, ten iterations each.
+        // At most a thousand equilibria with ten iterations each.
         assert!(steps < 10_000, "{}: {steps} iterations", self.name);
         let Some(found) = found else {
             let failure = failure.unwrap();
@@ -113,7 +108,7 @@ impl Extreme {
         failure.is_none()
     }
 
-    /// The results, and why there are no more. What is beyond any use is an equilibrium all the same.
+    /// Returns the results and the failure, if any. An equilibrium beyond the model limits is kept.
     fn take(
         &self,
         result: (Trajectory, Result<Outcome, RunError>),
@@ -126,7 +121,7 @@ impl Extreme {
         };
         let failure = match failed.failure {
             Failure::PathEnded { failure, .. } => Some(failure),
-            Failure::BeyondUse(worst) => {
+            Failure::ModelLimitExceeded(worst) => {
                 println!("{}: outside the model: {}", self.name, worst[0]);
                 None
             }
@@ -135,7 +130,6 @@ impl Extreme {
         (trajectory, failed.outcome, failure)
     }
 
-    /// The last state is an equilibrium: small residual, and walls that bear the loads.
     fn check_balance(&self, assembly: &mut Assembly, last: &Record) {
         let residual = last.residual_force_pn.max(last.residual_torque_pn_nm);
         assert!(residual <= RESIDUAL, "{}: {residual:e}", self.name);
@@ -155,7 +149,6 @@ impl Extreme {
         assert!(sum.norm() <= bound, "{}: {sum}", self.name);
     }
 
-    /// A path that ends early says where, and keeps what it has.
     fn check_report(&self, failure: &PathFailure) {
         let name = &self.name;
         assert!(
@@ -170,7 +163,6 @@ impl Extreme {
     }
 }
 
-/// Sections of the scenes.
 const MONOMERS_20: &str = "Ellipsoids(from_nm: 0.0, to_nm: 20.0)";
 const MONOMERS_75: &str = "Ellipsoids(from_nm: 0.0, to_nm: 75.0)";
 const MONOMERS_1600: &str = "Ellipsoids(from_nm: 0.0, to_nm: 1600.0)";
@@ -181,7 +173,6 @@ const ONE_SEGMENT: &str = "Rod(from_nm: 0.0, to_nm: 10.0, segments: 1)";
 const TWO_MONOMERS: &str = "Rod(from_nm: 0.0, to_nm: 40.0),
     Ellipsoids(from_nm: 40.0, to_nm: 45.5), Rod(from_nm: 45.5, to_nm: 85.5)";
 
-/// Forces on the tip.
 const PULLED: [(&str, &str, [f64; 3]); 11] = [
     ("1 pN across 16 um of rod", ROD_16000, [1.0, 0.0, 0.0]),
     ("1 pN against 16 um of rod", ROD_16000, [0.0, 0.0, -1.0]),
@@ -224,7 +215,7 @@ const PULLED: [(&str, &str, [f64; 3]); 11] = [
     ),
 ];
 
-/// Turns of the far end about the axis (deg), along which it slides.
+/// Turns of the far end about the axis (deg), which slides along it.
 const TURNED: [(&str, &str, f64); 6] = [
     ("75 nm of monomers by +720 deg", MONOMERS_75, 720.0),
     ("75 nm of monomers by -720 deg", MONOMERS_75, -720.0),
@@ -234,7 +225,7 @@ const TURNED: [(&str, &str, f64); 6] = [
     ("two monomers between rods by 360 deg", TWO_MONOMERS, 360.0),
 ];
 
-/// Paths with a snap too small to end them.
+/// Paths with a small snap that does not end them.
 const SNAPS: [&str; 1] = ["75 nm of monomers by +720 deg"];
 
 /// Shifts of the far end along the axis (nm).
@@ -245,13 +236,11 @@ const SHIFTED: [(&str, &str, f64); 4] = [
     ("75 nm of rod pushed to 20 %", ROD_75, -60.0),
 ];
 
-/// A filament whose end is turned by `degrees` about the axis, along which it slides.
 fn turned(name: &str, sections: &'static str, degrees: f64) -> Extreme {
     let set = format!("Turn(end: End, turn_deg: (0.0, 0.0, {degrees:?}))");
     Extreme::driven(name, sections, SLIDING, &set)
 }
 
-/// A filament whose end is shifted by `shift` (nm) along the axis.
 fn shifted(name: &str, sections: &'static str, shift: f64) -> Extreme {
     let set = format!("Shift(end: End, shift_nm: (0.0, 0.0, {shift:?}))");
     Extreme::driven(name, sections, BOTH_WALLS, &set)
@@ -264,8 +253,7 @@ fn extremes_of_force_are_certified() {
     }
 }
 
-/// Monomers snap from one state to another on the way to 720 deg: the path ends before that, or
-/// goes on from where the snap leads if it is told to.
+/// Monomers snap before 720 deg: the path ends there, or continues with `accept_jumps`.
 #[test]
 fn extremes_of_turn_are_certified_or_reported() {
     for (name, sections, degrees) in TURNED {
@@ -286,7 +274,6 @@ fn extremes_of_shift_are_certified_or_reported() {
     }
 }
 
-/// 5844 monomers.
 #[test]
 fn extremes_of_length() {
     let sections = "Ellipsoids(from_nm: 0.0, to_nm: 16000.0)";
@@ -298,16 +285,14 @@ fn extremes_of_length() {
     assert!(extreme.check());
 }
 
-/// Two turns of the end are two turns of the rod, not none: its twist is uniform, and its
-/// couple `B3` times that.
 #[test]
-fn extremes_of_twist_are_not_taken_for_nothing() {
+fn full_turns_of_twist_are_kept() {
     let mut assembly = turned("two turns", ROD_75, 720.0).assembly();
     run(&mut assembly).unwrap();
     let loads = assembly.system.loads().clone();
     let clamp = assembly.clamps.iter().find(|c| c.end == End::End).unwrap();
     let couple = clamp.reaction(assembly.system.state(), &loads).torque_pn_nm;
     let exact = 1.3e4 * 4.0 * std::f64::consts::PI / 75.0;
-    // The residual, in each of eight frames.
+    // The residual in each of eight frames.
     assert!((couple.z - exact).abs() < 1e-5, "{couple} against {exact}");
 }

@@ -1,12 +1,17 @@
-//! Localised helical buckling: a long rod whose ends are turned and brought together coils up in
-//! its middle only.
+//! Localised helical buckling: a long rod whose ends are turned and brought together coils in its
+//! middle.
 //!
-//! In what follows lengths are in nm, `B` is the bending and `C` the twisting rigidity, `T` the
-//! tension and `M` the moment along the axis. An endless rod's tilt against the axis obeys
-//! `1 - cos theta = (1 - cos theta_0) sech^2(mu s)`, `mu^2 = T/B - M^2/4B^2`,
-//! `cos theta_0 = M^2/2TB - 1`, and its tangent goes round the axis at `M / B (1 + cos theta)`.
-//! Source: van der Heijden and Thompson, Nonlinear Dynamics 21 (2000) 71; the case is that of
-//! Gazzola et al., R. Soc. Open Sci. 5 (2018) 171628, Section 4.
+//! Lengths are in nm, `B` is the bending and `C` the twisting rigidity, `T` the tension and `M` the
+//! moment along the axis. The tilt of an infinite rod against the axis obeys
+//!
+//! ```text
+//! 1 - cos theta = (1 - cos theta_0) sech^2(mu s)
+//! mu^2 = T/B - M^2/4B^2,  cos theta_0 = M^2/2TB - 1
+//! ```
+//!
+//! and its tangent rotates about the axis at `M / B (1 + cos theta)`. Source: van der Heijden and
+//! Thompson, Nonlinear Dynamics 21 (2000) 71; the case of Gazzola et al., R. Soc. Open Sci. 5
+//! (2018) 171628, Section 4.
 
 use super::common::to;
 use crate::theory::second_order_limit;
@@ -16,22 +21,21 @@ use actin_cosserat::{
 use actin_equilibrium::{Layout, Newton};
 use actin_mechanics::{Interaction, Loads, State, UnitQuaternion, Vector3, rotation};
 
-/// Length (nm), slack (nm) and turns of the ends against each other.
+/// Length (nm), slack (nm) and turns between the ends.
 const LENGTH: f64 = 100.0;
 const SLACK: f64 = 3.0;
 const TURNS: f64 = 27.0;
 /// Bending and twisting rigidity (pN nm^2).
 const BEND: f64 = 1.345;
 const TWIST: f64 = 0.789;
-/// Shear and stretch (pN): the tension, 0.39 pN, strains by 4e-8.
+/// Shear and stretch rigidity (pN): the tension, 0.39 pN, strains by 4e-8.
 const SHEAR: f64 = 1e7;
-/// `M L / B`, `T L^2 / B` and the largest tilt (deg) that slack and turns give. Source: Gazzola et
-/// al. (2018); the tilt follows from the other two.
+/// `M L / B`, `T L^2 / B` and the largest tilt (deg) for this slack and these turns. Source:
+/// Gazzola et al. (2018); the tilt follows from the other two.
 const MOMENT: f64 = 98.541_496_17;
 const TENSION: f64 = 2_900.993_205_79;
 const TILT_DEG: f64 = 47.651_5;
 
-/// The endless rod's solution, its middle at `s = 0`.
 struct Coil {
     mu: f64,
     moment: f64,
@@ -52,7 +56,7 @@ impl Coil {
         1.0 - (1.0 - self.least_cosine) / (self.mu * s).cosh().powi(2)
     }
 
-    /// Rates at which the tangent goes round the axis and the section turns about the tangent.
+    /// Rotation rates of the tangent about the axis and of the section about the tangent.
     fn rates(&self, s: f64) -> (f64, f64) {
         let cosine = self.cosine(s);
         let round = self.moment / (1.0 + cosine);
@@ -66,7 +70,7 @@ impl Coil {
     }
 }
 
-/// Places and orientations of the solution at the nodes and in the middles of `n` segments.
+/// Positions and orientations of the solution at the nodes and in the middles of `n` segments.
 fn lay(coil: &Coil, n: usize) -> (Vec<Vector3>, Vec<UnitQuaternion>) {
     const PARTS: usize = 200;
     let h = LENGTH / (n * PARTS * 2) as f64;
@@ -94,7 +98,6 @@ fn lay(coil: &Coil, n: usize) -> (Vec<Vector3>, Vec<UnitQuaternion>) {
     (nodes, frames)
 }
 
-/// A rod between walls that are turned and moved as the case asks, laid as the endless rod.
 fn coiled(n: usize) -> (State, RodLayout, Vec<Box<dyn Interaction>>) {
     let mut state = State::default();
     let rod = StraightRod {
@@ -106,7 +109,7 @@ fn coiled(n: usize) -> (State, RodLayout, Vec<Box<dyn Interaction>>) {
     };
     let layout = rod.push(&mut state).unwrap();
     let (nodes, frames) = lay(&Coil::exact(), n);
-    // Its middle onto the axis between the walls, and its turns as far apart as theirs.
+    // Middle on the axis between the walls, rotations as far apart as theirs.
     let wall = |turns: f64| rotation::exp(Vector3::z() * (turns * std::f64::consts::PI));
     let shift = Vector3::z() * (LENGTH - SLACK) - nodes[n];
     for (k, node) in nodes.iter().enumerate() {
@@ -134,7 +137,6 @@ fn coiled(n: usize) -> (State, RodLayout, Vec<Box<dyn Interaction>>) {
     (state, layout, vec![Box::new(law)])
 }
 
-/// What an equilibrium shows.
 struct Coiled {
     /// Largest tilt (deg).
     tilt: f64,
@@ -142,8 +144,7 @@ struct Coiled {
     moment: f64,
     /// `T L^2 / B`.
     tension: f64,
-    /// Largest distance of `cos theta` from the endless rod's, its middle where the tilt is
-    /// largest.
+    /// Largest difference of `cos theta` from the infinite rod, aligned at the largest tilt.
     envelope: f64,
 }
 
@@ -151,7 +152,7 @@ fn solved(n: usize) -> Coiled {
     let (mut state, layout, terms) = coiled(n);
     let mut newton = Newton::new(Layout::free(&state), to(1e-9)).unwrap();
     let found = newton.solve(&mut state, &terms).unwrap();
-    // The coil slides along the rod and turns about it at next to no cost.
+    // The coil slides along the rod and rotates about it at almost zero cost.
     let certificate = found.certificate.unwrap();
     assert_eq!((certificate.negative, certificate.unresolved), (0, 2));
     let h = LENGTH / n as f64;
@@ -175,8 +176,8 @@ fn solved(n: usize) -> Coiled {
     }
 }
 
-/// Place, in numbers of frames, and value of the minimum: of the parabola through the least and
-/// its neighbours.
+/// Position, in numbers of frames, and value of the minimum of the parabola through the least value
+/// and its neighbours.
 fn lowest(values: &[f64]) -> (f64, f64) {
     let (k, _) = values
         .iter()
@@ -188,15 +189,15 @@ fn lowest(values: &[f64]) -> (f64, f64) {
     (k as f64 - slope / bend, at - 0.5 * slope * slope / bend)
 }
 
-/// A twist that is lost at a wall, or a bending energy that depends on which of two principal axes
-/// bends (the section turns some forty times within the coil), shifts moment and tilt by percents.
+/// Twist lost at a wall, or bending that depends on the principal axis (the section rotates forty
+/// times within the coil), would shift moment and tilt by percents.
 #[test]
 fn a_twisted_rod_coils_up_in_its_middle() {
     let meshes = [300, 600, 1200].map(solved);
     let limit = |what: &str, value: fn(&Coiled) -> f64, exact: f64| {
         let values = [0, 1, 2].map(|k| value(&meshes[k]));
         let limit = second_order_limit(what, values, exact, 0.1);
-        // Fourth-order terms, and for the tilt what the source rounds.
+        // Fourth-order terms, and for the tilt the rounding of the source.
         assert!(limit.abs() < 2e-5, "{what}: {limit:e}");
     };
     limit("coil, largest tilt", |m| m.tilt, TILT_DEG);

@@ -1,11 +1,12 @@
-//! Rods under the potential of the mean filament: convergence, what the filament's monomers do, certificates.
+//! Rods under the potential of the mean filament: convergence, agreement with monomers,
+//! certificates.
 
 use super::common::{build, solved};
 use actin_mechanics::testing::assert_is_balanced;
 use actin_mechanics::{Xorshift, perturb};
 use actin_sim::{Assembly, Outcome, Part};
 
-/// A filament of `length` nm from a wall, its end held by `end`, under a force on it (pN).
+/// Filament of `length` nm on a wall with a clamp `end`, under an end force (pN).
 fn scene(sections: &str, end: &str, [x, y, z]: [f64; 3]) -> String {
     format!(
         "Scene(
@@ -21,7 +22,6 @@ fn rod(length: f64, segments: usize) -> String {
     format!("Rod(from_nm: 0.0, to_nm: {length:?}, segments: {segments})")
 }
 
-/// Displacement of the end (nm) of an equilibrium that is certified to be stable.
 fn moved((assembly, outcome): &(Assembly, Outcome)) -> [f64; 3] {
     let certificate = &outcome.equilibrium.as_ref().unwrap().certificate;
     assert_eq!(certificate.negative, 0);
@@ -30,8 +30,8 @@ fn moved((assembly, outcome): &(Assembly, Outcome)) -> [f64; 3] {
     (place(assembly.system.state()) - place(&assembly.rest)).into()
 }
 
-/// Bent, pulled and sheared at once, and twisted by the pull. Without the half segment's energy at the free end the
-/// twist there would be off at any length of segments, and the order 1. Segments are shorter than what a wall changes.
+/// Bending, tension and shear, with twist from tension. Without the half segment at the free end
+/// the order would be 1. Segments are shorter than the boundary layer of a wall.
 #[test]
 fn combined_loads_converge_with_order_two() {
     let force = [0.5, 0.2, 10.0];
@@ -40,13 +40,14 @@ fn combined_loads_converge_with_order_two() {
         let [a, b, c, d] = tips.map(|tip| tip[k]);
         let orders = [(a - b) / (b - c), (b - c) / (c - d)].map(|ratio| ratio.abs().log2());
         println!("component {k}: {d:.6} nm, orders {orders:.3?}");
-        // The last is the small difference of stretch and shortening, and nearer than its order.
+        // The last is the small difference of stretch and shortening, with a cancelling error.
         let most = if k == 2 { 3.0 } else { 2.1 };
         assert!(orders.iter().all(|order| (1.9..most).contains(order)));
     }
 }
 
-/// Tips of 160 nm pulled across by 0.1 pN and along, within 5 % of monomers (the mean filament).
+/// Tips of 160 nm under a transverse force of 0.1 pN and tension, within 5 % of monomers (the mean
+/// filament).
 #[test]
 fn tips_under_tension() {
     for (along, monomers_pm) in [(1.0, 3650.0), (5.0, 1723.0), (10.0, 1054.0), (40.0, 328.0)] {
@@ -60,8 +61,9 @@ fn tips_under_tension() {
     }
 }
 
-/// A beam whose ends do not turn is far softer than a rod of constant shear, and stiffens under tension: monomers
-/// move 3.41 and 2.24 nm per pN. Straight rods that may turn give way five times as much in compression.
+/// A guided beam is far softer than a rod of constant shear and stiffens under tension: monomers
+/// move 3.41 and 2.24 nm per pN. Straight rods that rotate freely are five times as compliant in
+/// compression.
 #[test]
 fn beams_and_straight_rods() {
     let freely = "Clamp(end: End, slides: Freely)";
@@ -81,14 +83,14 @@ fn beams_and_straight_rods() {
     }
 }
 
-/// Displacement over force (nm/pN) of a beam whose ends do not turn, under tension (pN) and 0.1 pN across.
+/// Displacement over force (nm/pN) of a guided beam under tension (pN) and 0.1 pN across.
 fn guided(sections: &str, tension: f64) -> f64 {
     let freely = "Clamp(end: End, slides: Freely)";
     moved(&solved(&scene(sections, freely, [0.1, 0.0, tension])))[0] / 0.1
 }
 
-/// Beams as short as a few segments of a strand, against monomers (the mean filament, over eight azimuths): without
-/// what walls do to shear rods are 22 to 77 % too soft.
+/// Short beams against monomers (the mean filament over eight azimuths). Without the boundary
+/// correction of shear rods are 22 to 77 % too soft.
 #[test]
 fn short_beams_under_tension() {
     let monomers = [
@@ -105,7 +107,6 @@ fn short_beams_under_tension() {
     }
 }
 
-/// The layer in which walls block shear, 5.5 nm, is not resolved by segments of 10 nm, and need not be.
 #[test]
 fn short_beams_do_not_depend_on_segments() {
     for tension in [0.0, 10.0] {
@@ -119,8 +120,8 @@ fn short_beams_do_not_depend_on_segments() {
     }
 }
 
-/// A junction holds two monomers beside each other, which lack the shear that the rod's end has more: without that
-/// the beam is 15 % stiffer than half a rod and half monomers; 6 % are left.
+/// A junction prevents shear of its two monomers, which the rod's end compensates. Without this the
+/// beam is 15 % too stiff; 6 % remain.
 #[test]
 fn junctions_do_not_stiffen_beams() {
     let half = |azimuth: f64, segments: usize| {
@@ -143,7 +144,6 @@ fn junctions_do_not_stiffen_beams() {
 const MIXED: &str = "Rod(from_nm: 0.0, to_nm: 40.0), Ellipsoids(from_nm: 40.0, to_nm: 75.0),
     Rod(from_nm: 75.0, to_nm: 115.0)";
 
-/// Monomers between two rods, bent, pulled and held.
 #[test]
 fn mixed_filaments_have_a_certificate() {
     let tip = moved(&solved(&scene(MIXED, "", [0.3, 0.0, 5.0])));
@@ -152,7 +152,6 @@ fn mixed_filaments_have_a_certificate() {
     assert!((tip[0] / whole[0] - 1.0).abs() < 0.1);
 }
 
-/// Loads of rods, junctions and monomers have no resultant, so that motion keeps both momenta.
 #[test]
 fn mixed_filaments_are_balanced() {
     let assembly = build(&scene(MIXED, "", [0.3, 0.0, 5.0]));

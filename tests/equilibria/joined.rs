@@ -38,15 +38,14 @@ fn link(i: usize, s_nm: f64, stiffness: f64) -> String {
     )
 }
 
-/// Displacement of the tip of a filament (nm).
 fn moved(assembly: &Assembly, filament: usize) -> Vector3 {
     let tip = |state| assembly.tip_of(filament, state, End::End);
     tip(assembly.system.state()) - tip(&assembly.rest)
 }
 
-/// Two rods joined at their tips by a spring of stiffness `k` share a pull on one of them away from
-/// the other: that one bears `F - f`, the other `f = F / (2 + 1 / (k c))`, each as it would alone,
-/// `c` its compliance.
+/// Two rods joined at their tips by a spring of stiffness `k`, pulled apart by a force on one of
+/// them. It carries `F - f` and the other `f = F / (2 + 1 / (k c))`, with `c` the compliance of a
+/// single rod.
 #[test]
 fn two_rods_joined_at_their_tips_bear_half_each() {
     let (force, k) = (0.4, 100.0);
@@ -64,7 +63,8 @@ fn two_rods_joined_at_their_tips_bear_half_each() {
     let borne = pair.linkers[0].force(state);
     let tips = [0, 1].map(|filament| moved(&pair, filament));
     println!("linker: {borne:?} pN; tips {:?} nm", tips.map(|t| t.x));
-    // The ends stay level to 1e-4 of their distance, so that the spring pulls along x but for that.
+    // The ends stay level to 1e-4 of their distance, so that the spring pulls along x to this
+    // accuracy.
     for (tip, bears) in tips.iter().zip([force - borne.x, borne.x]) {
         assert!((tip - alone(bears)).norm() < 1e-3);
     }
@@ -81,9 +81,8 @@ fn two_rods_joined_at_their_tips_bear_half_each() {
     assert!((other - borne).norm() < 1e-8 && (one + other + whole).norm() < 1e-8);
 }
 
-/// Pushed towards the other, the loaded rod swings the spring round instead, since filaments pass
-/// through each other: to a minimum that lies below the balance in line, which is a saddle. Where
-/// such swings were limited like strains between neighbours, 5000 steps were not enough.
+/// Pushed towards the other, the loaded rod rotates the spring to a minimum below the balance in
+/// line, which is a saddle. With a limit on such rotations 5000 steps did not suffice.
 #[test]
 fn a_spring_that_is_pushed_together_swings_round() {
     let load = "EndForce(end: End, force_pn: (0.4, 0.0, 0.0))";
@@ -96,14 +95,14 @@ fn a_spring_that_is_pushed_together_swings_round() {
         report.newton_iterations, tips
     );
     assert_eq!(report.certificate.negative, 0);
-    // In line each bears half, and the load sinks by the compliance: -F^2 c / 4, c = 35 nm/pN.
+    // In line each carries half, with the energy -F^2 c / 4, c = 35 nm/pN.
     let in_line = -0.25 * 0.16 * (LENGTH.powi(3) / (3.0 * BEND) + LENGTH / SHEAR);
     assert!(energy < in_line, "{energy} above {in_line}");
     // The tips, 10 nm apart as built, have changed sides.
     assert!(tips[0].x - tips[1].x > 19.0);
 }
 
-/// Monomers and rods, tied by two linkers one of which has a rest length, pulled askew.
+/// Monomers and rods joined by two linkers, one with a rest length, under an oblique load.
 fn tied(task: &str) -> String {
     format!(
         "Scene(
@@ -138,9 +137,9 @@ fn dynamics_of_a_tied_pair_comes_to_rest_where_newton_ends() {
     assert_dynamics_ends_with_newton(tied);
 }
 
-/// The bow: a free rod whose ends a string joins is the elastica under a thrust along the string.
-/// With `p` the sine of half the angle at the ends, thrust and chord are `P = 4 K^2 B / L^2` and
-/// `d = L (2 E / K - 1) - P L / S`; a spring without rest length of stiffness `P / d` holds it.
+/// A free rod with a string between its ends is the elastica under a thrust along the string. With
+/// `p` the sine of half the angle at the ends, thrust and chord are `P = 4 K^2 B / L^2` and `d = L
+/// (2 E / K - 1) - P L / S`. The string is a spring without rest length of stiffness `P / d`.
 #[test]
 fn a_string_between_its_ends_bends_a_rod_to_an_elastica() {
     // K and E at the angle of 60 deg at the ends, p^2 = 0.25 (Abramowitz and Stegun, table 17.1).
@@ -165,8 +164,7 @@ fn a_string_between_its_ends_bends_a_rod_to_an_elastica() {
         ));
         let certificate = report.equilibrium.unwrap().certificate;
         println!("bow of {segments}: {certificate:?}");
-        // What floats has six motions without stiffness, and a round rod turns about its bent
-        // centre line as well.
+        // Six rigid motions, and the rotation of a round rod about its bent centre line.
         assert_eq!(
             (certificate.negative, certificate.unresolved <= 7),
             (0, true)
@@ -187,7 +185,6 @@ fn a_string_between_its_ends_bends_a_rod_to_an_elastica() {
     assert!(((4.0 * errors[0] - errors[1]) / 3.0).abs() < 1e-5);
 }
 
-/// Each filament's arc lengths behind those of the one before.
 fn one_by_one(assembly: &Assembly) -> BodyOrder {
     let mut order = BodyOrder::default();
     for (i, span) in assembly.filaments.iter().enumerate() {
@@ -200,8 +197,7 @@ fn one_by_one(assembly: &Assembly) -> BodyOrder {
     order
 }
 
-/// The order of elimination changes the work and nothing else: four rods cross-linked every 40 nm,
-/// eliminated one by one, all along at once, and in the order that fills least.
+/// The order of elimination changes only the work: four rods cross-linked every 40 nm.
 #[test]
 fn the_order_of_elimination_changes_the_fill_only() {
     let assembly = bundle();
@@ -240,7 +236,6 @@ fn the_order_of_elimination_changes_the_fill_only() {
     }
 }
 
-/// Four rods cross-linked every 40 nm, and pulled askew.
 fn bundle() -> Assembly {
     let places = [40.0, 80.0, 120.0, 160.0];
     let linkers: String = (0..3)

@@ -1,11 +1,11 @@
-//! Filaments held by linkers: a value from outside, balance, and dynamics beside statics.
+//! Filaments held by linkers: an independent value, balance, and dynamics against statics.
 
 use super::agreement::assert_dynamics_ends_with_newton;
 use super::common::{MIXED, solved};
 use actin_mechanics::{Vector3, rotation};
 use actin_sim::{Assembly, BodyKind};
 
-/// A rod of 19 segments of 9.5 nm, both ends clamped, pulled round its axis in the middle.
+/// Rod of 19 segments of 9.5 nm, clamped at both ends, with an off-axis linker in the middle.
 const PULLED_ROUND: &str = "Scene(
     filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 180.5, segments: 19)], rod: RodModel(law: Constant)),
     clamps: [
@@ -19,14 +19,13 @@ const PULLED_ROUND: &str = "Scene(
     task: Equilibrium(),
 )";
 
-/// Energy of the terms of one name (pN nm).
 fn energy(assembly: &Assembly, name: &str) -> f64 {
     let terms = assembly.terms.iter().zip(assembly.system.energies());
     terms.filter(|(t, _)| t.name == name).map(|(_, e)| e).sum()
 }
 
-/// The rod of Figure 7 in an independent prototype: 27.96 pN nm in the rod, 5.285 degrees, 15.65 pN
-/// in the linker. Without its couple the linker would not turn the rod at all.
+/// Rod of Figure 7 in an independent prototype: 27.96 pN nm in the rod, 5.285 degrees, 15.65 pN in
+/// the linker.
 #[test]
 fn a_linker_turns_the_middle_of_a_clamped_rod() {
     let (assembly, _) = solved(PULLED_ROUND);
@@ -38,14 +37,14 @@ fn a_linker_turns_the_middle_of_a_clamped_rod() {
         .to_degrees();
     let force = assembly.linkers[0].force(state).norm();
     println!("pulled round: {elastic:.4} pN nm, {turn:.4} deg, {force:.4} pN");
-    // All digits that the prototype gave.
+    // All digits of the prototype.
     assert!((elastic - 27.96).abs() < 0.005);
     assert!((turn - 5.285).abs() < 0.0005);
     assert!((force - 15.65).abs() < 0.005);
 }
 
-/// The mirror at the middle plane exchanges the halves and keeps the linker; it reverses the twist,
-/// in which the constant rigidities are even.
+/// Reflection at the middle plane exchanges the halves and reverses the twist, in which the
+/// constant rigidities are even.
 #[test]
 fn the_halves_of_the_clamped_rod_are_mirror_images() {
     let (assembly, _) = solved(PULLED_ROUND);
@@ -64,7 +63,6 @@ fn the_halves_of_the_clamped_rod_are_mirror_images() {
     assert!(worst < 1e-8);
 }
 
-/// Sections of both kinds, a linker on each, one of them with a rest length.
 fn mixed(task: &str) -> String {
     format!(
         "Scene(
@@ -86,8 +84,6 @@ fn mixed(task: &str) -> String {
     )
 }
 
-/// What clamp and linkers do to the filament adds up to nothing, moments included: a couple that
-/// is missing at a site would be left over.
 #[test]
 fn clamp_and_linkers_balance() {
     let (mut assembly, _) = solved(&mixed("Equilibrium(force_pn: 1e-9, torque_pn_nm: 1e-9)"));
@@ -115,8 +111,7 @@ fn dynamics_comes_to_rest_where_newton_ends() {
     assert_dynamics_ends_with_newton(mixed);
 }
 
-/// A filament that nothing but a linker holds hangs on it: the site comes to lie on the line from
-/// the anchor along the force, which it bears in full.
+/// The site of a filament held by a linker only lies on the line from the anchor along the force.
 #[test]
 fn a_filament_hangs_on_its_linker() {
     let (assembly, _) = solved(
@@ -134,7 +129,7 @@ fn a_filament_hangs_on_its_linker() {
     let linker = &assembly.linkers[0];
     assert!((linker.force(state) + Vector3::x() * 3.0).norm() < 1e-6);
     let expected = Vector3::new(2.5, 0.0, 3.0);
-    // The line turns by the residual of 1e-7 pN over 3 pN.
+    // The line rotates by the residual of 1e-7 pN over 3 pN.
     assert!((linker.site().position(state) - expected).norm() < 1e-6);
     let tip = assembly
         .points

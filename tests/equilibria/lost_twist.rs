@@ -1,5 +1,4 @@
-//! Twist that is lost between held ends is said wherever twist plus writhe can tell it, and nothing is
-//! said to be lost that is not.
+//! Lost twist between held ends is reported, without false reports.
 
 use super::common::{build, failure, ran, run_anyway};
 use crate::common::refusal;
@@ -8,7 +7,6 @@ use actin_sim::{Failure, Summary};
 const MIXED: &str =
     "Rod(from_nm: 0.0, to_nm: 40.0, segments: 3), Ellipsoids(from_nm: 40.0, to_nm: 80.0)";
 
-/// Held at both ends, its end moved along a path.
 fn driven(filament: &str, end: &str, setting: &str) -> String {
     format!(
         "Scene(
@@ -31,10 +29,10 @@ fn lost_turns(text: &str) -> f64 {
     }
 }
 
-/// An end that may go round the filament may take two turns off it, but not while the filament points
-/// forward all the way.
+/// An end can pass around the filament and remove two turns, but not while the filament points
+/// forward everywhere.
 #[test]
-fn a_free_end_that_stays_ahead_loses_nothing_unseen() {
+fn a_free_end_that_stays_ahead_loses_no_turn_unreported() {
     let sections = format!("sections: [{MIXED}]");
     for slides in ["AlongAxis", "Freely"] {
         let end = format!(", slides: {slides}");
@@ -45,7 +43,6 @@ fn a_free_end_that_stays_ahead_loses_nothing_unseen() {
     }
 }
 
-/// Ends that are tilted against each other have a turn as well.
 #[test]
 fn tilted_ends_lose_nothing_unseen() {
     let sections = format!("sections: [{MIXED}]");
@@ -66,8 +63,8 @@ fn tilted_ends_lose_nothing_unseen() {
     }
 }
 
-/// An end that is pushed past the other has lost nothing; with the straight lines beyond both on one
-/// line the sum tells nothing, and the summary says so. Beside each other they tell it again.
+/// An end pushed past the other has lost no turn. With overlapping extensions the sum is
+/// inconclusive and the summary gives a warning.
 #[test]
 fn ends_that_pass_each_other_lose_nothing() {
     for (segments, aside, is_known) in [(20, 0.0, false), (40, 0.0, false), (20, 5.0, true)] {
@@ -85,7 +82,6 @@ fn ends_that_pass_each_other_lose_nothing() {
     }
 }
 
-/// The notes of a run that say that lost twist is not known.
 fn unknown(text: &str) -> usize {
     let (assembly, trajectory, report) = ran(text);
     let last = trajectory.records.last().unwrap();
@@ -101,8 +97,8 @@ const HELIX: &str = "Helix(radius_nm: 5.0, pitch_nm: 60.0)";
 const CURVE: &str = "Points(
     nm: [(0.0, 0.0, 0.0), (20.0, 10.0, 30.0), (10.0, 30.0, 70.0), (0.0, 0.0, 120.0)])";
 
-/// Of filaments that are built bent the turn of the ends counts from there. Those that stay have lost nothing, and no
-/// note doubts it, unless the straight lines beyond their ends cross.
+/// For bent filaments the rotation of the ends is relative to the filament as built. Unmoved ends
+/// give no warning, unless their extensions cross.
 #[test]
 fn bent_filaments_that_stay_lose_nothing() {
     let still = "Turn(end: End, turn_deg: (0.0, 0.0, 0.0))";
@@ -112,15 +108,16 @@ fn bent_filaments_that_stay_lose_nothing() {
         for sections in [ROD, MIXED] {
             let filament = format!("sections: [{sections}], shape: {shape}");
             let doubts = unknown(&driven(&filament, "", still));
-            // The outermost monomer stands beyond its clamped point: there the half circle points inward.
+            // The outermost monomer lies beyond its clamped point, where the half circle points
+            // inward.
             let crosses = shape == crossing || (shape, sections) == (HALF, MIXED);
             assert_eq!(doubts, usize::from(crosses), "{shape} {sections}");
         }
     }
 }
 
-/// A turn of such ends that segments follow is no loss, and one that slips through three segments is told. An arc of 80
-/// degrees is turned about the tangent of its end and about that of its start.
+/// A rotation that segments follow is no loss; a slip through three segments is reported. An arc of
+/// 80 degrees is turned about the tangents of its end and its start.
 #[test]
 fn bent_filaments_lose_nothing_unseen() {
     let arc = "Arc(radius_nm: 57.29577951308232)";
@@ -144,7 +141,7 @@ fn bent_filaments_lose_nothing_unseen() {
         let slipped = lost_turns(&text(MIXED)).abs();
         println!("{shape} {turn}: {slipped}");
         if shape == QUARTER {
-            // A right angle and more with the outermost monomer, which tilts.
+            // The outermost monomer tilts beyond a right angle.
             assert_eq!((slipped, unknown(&text(MIXED))), (0.0, 1));
         } else {
             assert!(slipped >= 1.0, "{shape} {turn}");
@@ -152,8 +149,8 @@ fn bent_filaments_lose_nothing_unseen() {
     }
 }
 
-/// A quarter of a circle is turned about the tangent of its end, across its direction: too far for ten segments is
-/// refused, as of a straight filament.
+/// A quarter of a circle is turned about the tangent of its end. Too large a turn for ten segments
+/// is refused, as for a straight filament.
 #[test]
 fn turns_count_about_the_tangent() {
     let turned = |degrees: f64| {

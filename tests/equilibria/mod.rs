@@ -1,7 +1,6 @@
-//! Equilibria by Newton's method against what owes nothing to it: differences of the loads, damped
-//! dynamics, closed solutions of rods, and extremes that must end in a certificate or a report.
-//!
-//! `docs/measured/statics.md` quotes the numbers that these tests print (`-- --nocapture`).
+//! Equilibria by Newton's method against differences of the loads, damped dynamics, closed
+//! solutions of rods, and extreme loads. `docs/measured/statics.md` quotes the numbers that these
+//! tests print (`-- --nocapture`).
 
 mod agreement;
 mod anchors;

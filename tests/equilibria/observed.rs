@@ -1,4 +1,4 @@
-//! What equilibria observe, against beam theory.
+//! Observed quantities of equilibria against beam theory.
 
 use crate::common::ran;
 use actin_sim::Summary;
@@ -8,7 +8,6 @@ use std::collections::BTreeMap;
 const B: f64 = 3.0e4;
 const L: f64 = 160.0;
 
-/// The last values of what a rod clamped at its start observes under a load.
 fn observed(load: &str, observe: &str) -> BTreeMap<String, f64> {
     let text = format!(
         "Scene(
@@ -26,7 +25,7 @@ fn observed(load: &str, observe: &str) -> BTreeMap<String, f64> {
         )"
     );
     let (assembly, trajectory, outcome) = ran(&text);
-    // A column for each record of the path, computed as it was taken.
+    // One row per record of the path.
     let columns = trajectory.records[0].observed.len();
     assert!(trajectory.records.len() > 2 && columns > 0);
     let lengths = trajectory.records.iter().map(|r| r.observed.len());
@@ -37,7 +36,7 @@ fn observed(load: &str, observe: &str) -> BTreeMap<String, f64> {
     all.map(|(name, one)| (name, one.last.unwrap())).collect()
 }
 
-/// A couple bends a cantilever into an arc of curvature `M/B`, the tip included; the clamp bears the opposite.
+/// A couple bends a cantilever into an arc of curvature `M/B` up to the tip.
 #[test]
 fn a_couple_bends_into_an_arc() {
     let found = observed(
@@ -60,7 +59,7 @@ fn a_couple_bends_into_an_arc() {
     assert!((found["end_to_end[0]_nm"] / chord - 1.0).abs() < 2e-5);
 }
 
-/// A small force on the tip: moment `F (L - s)`, and reactions that balance the force.
+/// Small tip force: moment `F (L - s)`, and reactions that balance the force.
 #[test]
 fn a_force_bends_in_proportion_to_its_arm() {
     let force = 0.01;

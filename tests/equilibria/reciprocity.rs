@@ -1,11 +1,11 @@
-//! Maxwell and Betti: the couple at a held end changes with its shift as the force changes with its
-//! turn, in differences of equilibria that are solved one by one.
+//! Maxwell-Betti reciprocity of couple and force at a held end, by differences of separately solved
+//! equilibria.
 
 use super::common::{newton, solved};
 use actin_mechanics::{Loads, State, Vector3, rotation};
 use actin_sim::Assembly;
 
-/// A filament held at both ends, its far end at a turn (deg) and a shift along the axis (nm).
+/// Filament clamped at both ends, with its far end at a turn (deg) and an axial shift (nm).
 struct Held {
     assembly: Assembly,
     state: State,
@@ -26,7 +26,6 @@ fn scene(sections: &str, law: &str, turn_deg: f64, shift_nm: f64) -> String {
 }
 
 impl Held {
-    /// The equilibrium at `turn_deg` and `shift_nm`, along the path from rest.
     fn at(sections: &str, law: &str, turn_deg: f64, shift_nm: f64) -> Self {
         let (assembly, report) = solved(&scene(sections, law, turn_deg, shift_nm));
         let certificate = report.equilibrium.unwrap().certificate;
@@ -35,8 +34,8 @@ impl Held {
         Self { assembly, state }
     }
 
-    /// Force (pN) and couple (pN nm) along the axis on the far end, which is moved on by a turn
-    /// (rad) and a shift (nm) and solved for anew, from the equilibrium itself.
+    /// Axial force (pN) and couple (pN nm) on the far end after a further turn (rad) and shift
+    /// (nm).
     fn beside(&self, turn: f64, shift: f64) -> (f64, f64) {
         let mut state = self.state.clone();
         let end = &self.assembly.clamps[1];
@@ -62,7 +61,7 @@ impl Held {
         (reaction.force_pn.z, reaction.torque_pn_nm.z)
     }
 
-    /// `d couple / d shift` and `d force / d turn` (pN), by central differences of fourth order with
+    /// `d couple / d shift` and `d force / d turn` (pN), by fourth-order central differences with
     /// steps of 2e-3 nm and 2e-3 rad.
     fn cross_derivatives(&self) -> (f64, f64) {
         let h = 2e-3;
@@ -81,9 +80,8 @@ const MIXED: &str = "Rod(from_nm: 0.0, to_nm: 20.0), Ellipsoids(from_nm: 20.0, t
     Rod(from_nm: 55.0, to_nm: 75.0)";
 const MONOMERS: &str = "Ellipsoids(from_nm: 0.0, to_nm: 75.0)";
 
-/// A load without an energy behind it would show as two derivatives that differ: the printed
-/// extension has one of them zero. So would a couple that a clamp or a junction takes without
-/// giving it on.
+/// A nonconservative load would give different derivatives; with the printed extension one of them
+/// is zero.
 #[test]
 fn couple_against_shift_is_force_against_turn() {
     for (sections, law) in [
@@ -104,16 +102,15 @@ fn couple_against_shift_is_force_against_turn() {
                 "{sections}, {law}, {turn_deg} deg: {force:.2} pN, {couple:.2} pN nm, \
                  {of_shift:.6} and {of_turn:.6} pN, relative difference {difference:.1e}"
             );
-            assert!(of_turn.abs() > 10.0, "nothing couples: {of_turn}");
-            // Residuals of 1e-9 over steps of 2e-3 leave 1e-6 pN of 50; truncation is less.
+            assert!(of_turn.abs() > 10.0, "no coupling: {of_turn}");
+            // Residuals of 1e-9 over steps of 2e-3 give 1e-6 pN of 50; truncation is less.
             assert!(difference.abs() < 1e-7, "{difference:e}");
         }
     }
 }
 
-/// A pulled rod is straight and stable under every law, and is pulled as its law of stretch says. With
-/// the tension along d3 instead of the segment, a rod whose shear is cubic had two negative
-/// eigenvalues at each inner node under the smallest tension, and gave way to a zigzag.
+/// A pulled rod is straight and stable under every law. With the tension along d3 instead of the
+/// segment, a rod with cubic shear would buckle to a zigzag under the smallest tension.
 #[test]
 fn tension_holds_a_rod_straight() {
     for (law, pull) in [("CouplingEnergy", 3.4e4), ("Fitted", 3.3544e4)] {
@@ -126,7 +123,7 @@ fn tension_holds_a_rod_straight() {
             assert!((force - expected).abs() < 1e-8, "{law}");
             let positions = held.state.points.position.iter();
             let farthest = positions.map(|x| x.xy().norm()).fold(0.0, f64::max);
-            // 1e-9 pN over the softest spring across, the tension over a segment: 0.07 pN/nm.
+            // 1e-9 pN over the softest transverse spring, the tension over a segment: 0.07 pN/nm.
             assert!(farthest < 1e-7, "{law}: {farthest:e} nm off the axis");
         }
     }

@@ -1,4 +1,4 @@
-//! Michell's ring: a closed rod that is twisted snaps out of its plane.
+//! Michell's ring: a closed twisted rod buckles out of its plane.
 
 use super::common::{PRECISION, frame, material, point, to};
 use crate::theory::{bisect, second_order_limit};
@@ -7,11 +7,10 @@ use actin_equilibrium::{Layout, Newton};
 use actin_mechanics::{Interaction, State, UnitQuaternion, Vector3, rotation};
 use std::f64::consts::TAU;
 
-/// Bending rigidity over twisting rigidity.
 const RATIO: f64 = 1.5;
 
-/// A straight rod of length 2 pi and unit bending rigidity, bent to a ring on `n` segments and
-/// closed with its ends turned against each other by `twist` (rad).
+/// Straight rod of length 2 pi and unit bending rigidity, bent to a ring of `n` segments and closed
+/// with a twist of `twist` (rad).
 fn ring(n: usize, twist: f64) -> (State, Vec<Box<dyn Interaction>>) {
     let h = TAU / n as f64;
     let radius = 0.5 * h / (0.5 * h).sin();
@@ -35,7 +34,7 @@ fn ring(n: usize, twist: f64) -> (State, Vec<Box<dyn Interaction>>) {
             frame: k,
             rest_length: h,
         });
-        // Where the ring is closed, the first frame is seen turned by the twist.
+        // At the closure the first frame appears rotated by the twist.
         let closing = rotation::exp(Vector3::z() * twist);
         let seen = if k + 1 == n { closing } else { none };
         joints.push(RodJoint {
@@ -44,7 +43,7 @@ fn ring(n: usize, twist: f64) -> (State, Vec<Box<dyn Interaction>>) {
             offsets: [none, seen],
         });
     }
-    // Without this the ring floats. It still rolls about its own centre line.
+    // Removes the rigid motions except the rotation about the centre line.
     state.points.hold(0);
     state.frames.hold(0);
     let material = material([1e6; 3], [1.0, 1.0, 1.0 / RATIO]);
@@ -62,8 +61,8 @@ fn a_twisted_ring_leaves_its_plane() {
             let mut newton = Newton::new(Layout::free(&state), to(1e-9)).unwrap();
             let flat: f64 = terms.iter().map(|term| term.energy(&state)).sum();
             let found = newton.solve(&mut state, &terms).unwrap();
-            // Round-off alone leads a step out of the plane where that lowers the energy; what
-            // it ends in, an eight, has a third of the energy.
+            // Round-off leads out of the plane where that lowers the energy, to a figure of eight
+            // with a third of the energy.
             found.is_saddle() || found.energy < 0.8 * flat
         };
         bisect(is_unstable, [0.9 * exact, 1.1 * exact], PRECISION)

@@ -1,10 +1,10 @@
-//! Paths that end on a saddle, and twist that slips on the way: neither is a result.
+//! Paths that end on a saddle or lose twist fail.
 
 use super::common::{build, cantilever, failure, run, run_anyway};
 use actin_sim::{Failure, Scene, Status};
 
-/// The straight column beyond its critical load of 3.76 pN is kept by `leave_saddles: 0` and reported
-/// as what it is, with its certificate; left, it buckles.
+/// Beyond its critical load of 3.76 pN, `leave_saddles: 0` keeps the straight column and reports
+/// the saddle.
 #[test]
 fn a_column_that_is_kept_straight_is_a_saddle() {
     let column = |task: &str| run_anyway(&mut build(&cantilever(8, [0.0, 0.0, -6.0], task)));
@@ -25,8 +25,6 @@ fn a_column_that_is_kept_straight_is_a_saddle() {
     assert!(report.saddles_left > 0 && report.certificate().unwrap().negative == 0);
 }
 
-/// An imperfection is a displacement of the start: the load that acts at once then buckles the column
-/// without a saddle on the way, towards the side that the seed chooses.
 #[test]
 fn an_imperfection_chooses_the_side() {
     let tip = |seed: u64| {
@@ -55,9 +53,8 @@ fn turned(sections: &str, degrees: f64, task: &str) -> String {
     )
 }
 
-/// A turn that a mixed filament, whose twist is not uniform, loses ends its path, and never with a result.
 #[test]
-fn twist_is_not_lost_without_a_word() {
+fn lost_twist_of_mixed_filaments_is_an_error() {
     let mixed =
         "Rod(from_nm: 0.0, to_nm: 40.0, segments: 4), Ellipsoids(from_nm: 40.0, to_nm: 60.0)";
     let mut assembly = build(&turned(mixed, 1500.0, "accept_jumps: true"));
@@ -79,7 +76,6 @@ fn twist_is_not_lost_without_a_word() {
     assert_eq!(report.equilibrium.unwrap().points, trajectory.records.len());
 }
 
-/// What a caller has turned by hand counts as the start, not as lost: the path of this scene is empty.
 #[test]
 fn a_start_that_is_twisted_has_lost_nothing() {
     let text = turned("Rod(from_nm: 0.0, to_nm: 75.0, segments: 8)", 700.0, "");

@@ -1,8 +1,7 @@
 //! The stiffness of whole assemblies is the derivative of their loads.
 //!
-//! Invariant: with unknowns `u`, `K v = -d f(u + t v)/dt`, and for a frame plus half the cross
-//! product of its torque with its turn, since `f` is read in axes that turn along. A block that
-//! is missing, doubled or put in the wrong place shows as an error of order one.
+//! With unknowns `u`, `K v = -d f(u + t v)/dt`, and for a frame plus half the cross product of its
+//! torque with its rotation, since `f` is expressed in rotating axes.
 
 use super::common::{build, newton};
 use actin_mechanics::testing::derivative;
@@ -11,10 +10,10 @@ use actin_mechanics::{Xorshift, perturb};
 use actin_sim::Assembly;
 use nalgebra::DVector;
 
-/// Laws of the rods, and how far they are strained: 1 is 5 % to either side, far beyond the data of a potential.
+/// Laws of the rods and scale of their strains; 1 is +-5 %, far beyond the data of a potential.
 const LAWS: [(&str, f64); 2] = [("Constant", 1.0), ("Homogenised", 0.05)];
 
-/// Largest differences, relative to the largest entry of the same kind: force and torque.
+/// Largest differences relative to the largest entry of the same kind: force and torque.
 fn errors(assembly: &Assembly, seed: u64, strained: f64) -> (f64, f64) {
     let mut noise = Xorshift::new(seed);
     let mut state = assembly.system.state().clone();
@@ -25,8 +24,8 @@ fn errors(assembly: &Assembly, seed: u64, strained: f64) -> (f64, f64) {
     let v: Vec<f64> = (0..newton.layout().unknowns())
         .map(|_| noise.sample())
         .collect();
-    // Bonds are as short as 0.1 nm and move by 4 h in the outermost of eight points. Where a rod is hardly strained its
-    // potential changes within as little.
+    // Bonds are as short as 0.1 nm and move by 4 h in the outermost of eight points. The potential
+    // of weakly strained rods varies on a smaller scale.
     let slope = derivative(2e-4 * strained.powi(2), |t| {
         let mut moved = state.clone();
         newton.layout().apply(&mut moved, &v, t);

@@ -1,5 +1,4 @@
-//! Several filaments: independent where nothing joins them, the same wherever they lie, and moved
-//! along a path each by itself.
+//! Several filaments: independence, invariance under rigid motion, and separate paths.
 
 use super::common::{build, run, solved};
 use actin_mechanics::Xorshift;
@@ -8,12 +7,10 @@ use actin_sim::{Assembly, End, Filament, Load, Scene, Setting, Slides, Stage};
 
 const TIGHT: &str = "Equilibrium(force_pn: 1e-9, torque_pn_nm: 1e-9)";
 
-/// Monomers and rod, clamped, a force on the tip.
 const MIXED: &str = "sections: [
     Ellipsoids(from_nm: 0.0, to_nm: 20.0), Rod(from_nm: 20.0, to_nm: 40.0, segments: 2),
 ], monomers: Monomers(anchors: Independent, lateral_bonds: 16, longitudinal_bonds: 16)";
 
-/// A rod elsewhere, askew.
 const ASKEW: &str =
     "rod: RodModel(law: Constant), sections: [Rod(from_nm: 0.0, to_nm: 50.0, segments: 5)],
     at_nm: (5.0, -20.0, 3.0), direction: (1.0, -0.4, 0.7), roll_deg: 25.0";
@@ -31,8 +28,8 @@ fn energy(assembly: &Assembly) -> f64 {
     assembly.system.energies().iter().sum()
 }
 
-/// The largest distance (nm) of the points of two assemblies from place `a` and `b` on, the second
-/// brought to the first by `to`.
+/// Largest distance (nm) of the points of two assemblies from indices `a` and `b`, after the rigid
+/// motion `to`.
 fn apart(
     (one, a): (&Assembly, usize),
     (other, b): (&Assembly, usize),
@@ -44,8 +41,7 @@ fn apart(
     (0..count).map(distance).fold(0.0, f64::max)
 }
 
-/// Filaments that nothing joins end where each would end alone, and their energies add up. A block
-/// that reached from one to the other, or a place counted from the wrong origin, would show.
+/// Unlinked filaments reach their separate equilibria, and their energies add up.
 #[test]
 fn unlinked_filaments_are_each_alone() {
     let task = format!("task: {TIGHT}");
@@ -76,7 +72,7 @@ fn unlinked_filaments_are_each_alone() {
     let shown = distances.map(|d| format!("{d:.1e}")).join(" ");
     println!("unlinked: {shown} nm, {excess:.1e} pN nm");
     assert!(report.equilibrium.unwrap().certificate.negative == 0);
-    // Round-off of Newton's last step, 1e-12 as measured; energies are of second order in it.
+    // Round-off of Newton's last step, 1e-12 as measured; energies are second order in it.
     assert!(distances.iter().all(|d| *d < 1e-10));
     assert!(excess.abs() < 1e-10);
     let tips = [0, 1].map(|f| both.tip_of(f, both.system.state(), End::End));
@@ -87,8 +83,8 @@ fn unlinked_filaments_are_each_alone() {
     }
 }
 
-/// Filaments of the same seed have bonds of their own: the second of two alike differs from the
-/// first, which has those that it would have alone.
+/// The second of two equal filaments has different bonds; the first has the bonds of a single
+/// filament.
 #[test]
 fn filaments_alike_are_sampled_independently() {
     let bonds = |assembly: &Assembly, section| {
@@ -108,7 +104,6 @@ fn filaments_alike_are_sampled_independently() {
     assert!((bonds(&pair, 2) - bonds(&alone, 0)).abs() > 1e-6);
 }
 
-/// A linked pair of which everything can be moved: an end that slides, a load, an anchor.
 fn linked() -> Scene {
     let text = scene(
         &format!("filaments: [({MIXED}), ({ASKEW})]"),
@@ -128,13 +123,12 @@ fn linked() -> Scene {
     Scene::from_ron(&text).unwrap()
 }
 
-/// Turns a filament about the origin and shifts it.
 fn move_filament(filament: &mut Filament, turn: UnitQuaternion, shift: Vector3) {
     let wanted = turn * filament.rotation();
     filament.at_nm = (turn * Vector3::from(filament.at_nm) + shift).into();
     filament.direction = (turn * filament.axis()).into();
     filament.roll_deg = 0.0;
-    // What is left is a turn about the axis as it was before tilting.
+    // The remaining rotation is about the axis before tilting.
     let roll = rotation::log(filament.rotation().inverse() * wanted);
     assert!(roll.xy().norm() < 1e-12);
     filament.roll_deg = roll.z.to_degrees();
@@ -146,10 +140,10 @@ fn solve(scene: &Scene) -> Assembly {
     assembly
 }
 
-/// Moved as a whole, everything ends moved as a whole: places, energies, and what holds the ends.
-/// Any site, clamp, slide or azimuth that was left in axes of the lab would show.
+/// A rigid motion of the scene moves the equilibrium. Sites, clamps, slides or azimuths in lab axes
+/// would show.
 #[test]
-fn where_a_scene_lies_does_not_matter() {
+fn equilibria_are_invariant_under_rigid_motion() {
     let mut noise = Xorshift::new(4);
     let scene = linked();
     let here = solve(&scene);
@@ -177,7 +171,7 @@ fn where_a_scene_lies_does_not_matter() {
         let distance = apart((&here, 0), (&there, 0), here.points.len(), back);
         let excess = energy(&there) - energy(&here);
         println!("moved: {distance:.1e} nm, {excess:.1e} pN nm");
-        // Round-off of places of 50 nm, 4e-14 as measured, and what Newton's last step leaves.
+        // Round-off of positions of 50 nm, 4e-14 as measured, and Newton's last step.
         assert!(distance < 1e-9 && excess.abs() < 1e-9);
         let tips = [0, 1].map(|f| here.tip_of(f, &here.rest, End::End));
         let ends = [0, 1].map(|f| here.tip_of(f, here.system.state(), End::End));
@@ -185,7 +179,6 @@ fn where_a_scene_lies_does_not_matter() {
     }
 }
 
-/// Settings that turn and shift the start of filament 1 and shift the anchor of linker 1.
 fn moving(turn: Vector3, shift: Vector3, anchor: Vector3) -> Vec<Setting> {
     let (filament, end) = (1, End::Start);
     vec![
@@ -206,9 +199,6 @@ fn moving(turn: Vector3, shift: Vector3, anchor: Vector3) -> Vec<Setting> {
     ]
 }
 
-/// A path that turns and shifts the clamp of filament 1 ends in the equilibrium of the scene in
-/// which that filament is built there; so does one that moves the anchor that it hangs on. A
-/// setting that found the clamp of filament 0 would turn that one.
 #[test]
 fn a_path_moves_the_end_of_the_filament_that_it_names() {
     let mut scene = linked();
@@ -218,7 +208,7 @@ fn a_path_moves_the_end_of_the_filament_that_it_names() {
 
     let mut built = scene.clone();
     let rotated = rotation::exp(turn);
-    // The clamped point, where arc length begins, is shifted only.
+    // The clamped point, at arc length 0, is only shifted.
     move_filament(
         &mut built.further[0],
         rotated,

@@ -4,8 +4,8 @@ use super::common::{build, ran};
 use actin_sim::At;
 use actin_sim::shape::{Ribbon, link};
 
-/// Sections of 300 nm, ends turned against each other by twice `turn` (deg) and moved in by 7.5 nm
-/// each. Straight, it is a saddle, which the solver leaves along its softest mode.
+/// 300 nm with ends turned against each other by twice `turn` (deg) and moved in by 7.5 nm each.
+/// The straight state is a saddle.
 fn buckled(sections: &str, turn: f64) -> String {
     format!(
         "Scene(
@@ -31,8 +31,8 @@ fn buckled(sections: &str, turn: f64) -> String {
     )
 }
 
-/// Twist, writhe and largest distance at the end; the sum of the first two is held against the
-/// link at every equilibrium of the path.
+/// Twist, writhe and largest distance at the end. Their sum is compared with the link at every
+/// equilibrium.
 fn measured(what: &str, text: &str) -> [f64; 3] {
     let (assembly, trajectory, _) = ran(text);
     let mut worst: f64 = 0.0;
@@ -47,7 +47,7 @@ fn measured(what: &str, text: &str) -> [f64; 3] {
     println!(
         "{what}: twist {twist:.5}, writhe {writhe:.5}, height {height:.3} nm, off {worst:.1e}"
     );
-    // White's formula is exact for polygons; round-off of some thousand solid angles is left.
+    // White's formula is exact for polygons, to the round-off of some thousand solid angles.
     assert!(worst < 1e-9, "{what}: {worst:e}");
     [twist, writhe, height]
 }
@@ -56,8 +56,7 @@ fn rod(segments: usize) -> String {
     format!("Rod(from_nm: 0.0, to_nm: 300.0, segments: {segments})")
 }
 
-/// The formula on buckled rods of both senses, and what twist and writhe each converge to: by the
-/// square of the segment, as the rod itself does.
+/// Twist and writhe each converge with second order.
 #[test]
 fn twist_and_writhe_of_a_buckled_rod_make_its_link() {
     for turn in [270.0, -270.0] {
@@ -72,8 +71,6 @@ fn twist_and_writhe_of_a_buckled_rod_make_its_link() {
     }
 }
 
-/// The same where monomers are resolved: twist is counted from their frames, writhe from the
-/// smoothed centre line, and one ribbon runs through the junctions.
 #[test]
 fn twist_and_writhe_of_monomers_make_their_link() {
     let mixed = "Rod(from_nm: 0.0, to_nm: 70.0), Ellipsoids(from_nm: 70.0, to_nm: 230.0),
@@ -84,7 +81,6 @@ fn twist_and_writhe_of_monomers_make_their_link() {
     assert!(writhe < -0.01);
 }
 
-/// A ring from a motion in time: the link follows the ramp.
 #[test]
 fn the_link_follows_the_path_in_time() {
     let (assembly, trajectory, _) = ran(
@@ -109,7 +105,6 @@ fn the_link_follows_the_path_in_time() {
     assert!((link(&assembly, At::Time(1.0)).unwrap() - 0.125).abs() < 1e-15);
 }
 
-/// Where an end is free, or tilted, nothing says what twist and writhe would add up to.
 #[test]
 fn a_free_or_tilted_end_has_no_link() {
     let scene = |clamps: &str, turn: &str| {

@@ -1,9 +1,8 @@
-//! Other stable states of a scene: that they are what they are said to be, and the same every time.
+//! Search for other stable states: correctness and reproducibility.
 
 use super::common::{build, solved};
 use actin_sim::{Assembly, Equilibrium, Outcome, RunDirectory, StableStates, Trajectory};
 
-/// 80 nm of monomers pressed together by a tenth, between clamped ends.
 fn buckled(states: usize) -> String {
     format!(
         "Scene(
@@ -26,8 +25,8 @@ fn found(outcome: &Outcome) -> &StableStates {
         .unwrap()
 }
 
-/// All are minima with the energies that they are said to have, within the tolerance, sorted, and one of them is the result,
-/// which is the same with a search and without.
+/// All states are minima within the tolerance, sorted by energy; the result is one of them and
+/// independent of the search.
 #[test]
 fn stable_states_are_stable() {
     let (assembly, outcome) = solved(&buckled(12));
@@ -41,10 +40,7 @@ fn stable_states_are_stable() {
     println!("{above:.3?}");
     let starts: usize = all.states.iter().map(|s| s.starts).sum();
     assert_eq!(starts + all.lost, 12);
-    assert!(
-        all.states.len() > 1,
-        "bonds that let go and close again have several states"
-    );
+    assert!(all.states.len() > 1, "monomers must have several states");
     assert!(
         all.states
             .is_sorted_by(|a, b| a.above_result_pn_nm <= b.above_result_pn_nm)
@@ -66,7 +62,6 @@ fn stable_states_are_stable() {
     assert_eq!(found(&solved(&buckled(12)).1), all);
 }
 
-/// The directory of a run lists them, and holds them as arrays.
 #[test]
 fn a_run_directory_holds_other_states() {
     let assembly: Assembly = build(&buckled(3));
@@ -85,10 +80,10 @@ fn a_run_directory_holds_other_states() {
     std::fs::remove_dir_all(&folder).unwrap();
 }
 
-/// A rod that is softer one way leans to either side, alike in energy; where no direction is softer, and where nothing
-/// holds a rod, all that can be reached without effort is one state.
+/// A rod with unequal bending rigidities buckles to either side at equal energy. States connected
+/// by zero-stiffness modes count as one.
 #[test]
-fn states_that_cost_nothing_to_reach_are_one() {
+fn states_along_neutral_modes_count_once() {
     let count = |ends: &str, law: &str| {
         let text = format!(
             "Scene(

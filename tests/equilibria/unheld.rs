@@ -1,5 +1,5 @@
-//! Filaments that nothing holds, under forces that balance: they turn until the couple of the forces
-//! vanishes, and the certificate counts the rigid motions that are left.
+//! Unconstrained filaments under balanced forces: they rotate until the couple vanishes, and the
+//! certificate counts the remaining rigid motions.
 
 use super::common::solved;
 use actin_equilibrium::Stability;
@@ -8,7 +8,7 @@ use actin_sim::{Assembly, End};
 
 const TIGHT: &str = "task: Equilibrium(force_pn: 1e-9, torque_pn_nm: 1e-8)";
 
-/// A free filament with `force` (pN) on its end and the opposite on its start.
+/// Free filament with `force` (pN) on its end and the opposite on its start.
 fn pulled_apart(sections: &str, [x, y, z]: [f64; 3]) -> (Assembly, Vector3, Stability) {
     let text = format!(
         "Scene(
@@ -28,8 +28,8 @@ fn pulled_apart(sections: &str, [x, y, z]: [f64; 3]) -> (Assembly, Vector3, Stab
     (assembly, span, stability)
 }
 
-/// However the forces point at first, against the rod included: it ends along them, as long as a rod
-/// on a wall under the same force, free to move as a whole (3) and about itself (1).
+/// The rod ends along the forces, with the length of a clamped rod. Translations (3) and its axial
+/// rotation (1) are neutral.
 #[test]
 fn an_unheld_rod_turns_along_its_forces() {
     let rod = "Rod(from_nm: 0.0, to_nm: 60.0)";
@@ -51,14 +51,12 @@ fn an_unheld_rod_turns_along_its_forces() {
     ] {
         let (_, span, stability) = pulled_apart(rod, force);
         println!("{force:?}: {span:?}, {stability:?}");
-        // A force of 1e-9 pN that is left turns a rod under 5 pN by 1e-9 rad or less for each body.
+        // A residual of 1e-9 pN rotates a rod under 5 pN by at most 1e-9 rad per body.
         assert!((span - Vector3::from(force) / 5.0 * length).norm() < 1e-6);
         assert_eq!(stability, Stability::Neutral { modes: 4 });
     }
 }
 
-/// Monomers, and monomers on a rod, end along the forces too: what is left of their couple is what
-/// the tolerance leaves.
 #[test]
 fn other_filaments_end_without_a_couple() {
     let monomers = "Ellipsoids(from_nm: 0.0, to_nm: 60.0)";

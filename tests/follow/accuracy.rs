@@ -3,7 +3,6 @@
 use actin_sim::follow::Follower;
 use actin_sim::{Assembly, End, Plan, Record, Scene};
 
-/// Lower threshold of curvature as a fraction of the upper.
 const LOWER: f64 = 0.6;
 
 /// Largest error with each upper threshold of curvature (1/nm). Undamped waves of the tip are late where rods bend, so the
@@ -22,7 +21,6 @@ fn scene(sections: &str) -> Scene {
     Scene::from_ron(&text).unwrap()
 }
 
-/// Times (ns) and displacements (nm) of the tip.
 fn tips<'a>(runs: impl Iterator<Item = (&'a Assembly, &'a [Record])>) -> Vec<(f64, [f64; 3])> {
     let all = runs.flat_map(|(assembly, records)| {
         let rest = assembly.tip_nm(&assembly.rest, End::End);

@@ -1,13 +1,13 @@
-//! Overdamped motion whose resolution follows: its temperature, its shape, and the way to rest.
+//! Overdamped motion with following resolution: temperature, shape and relaxation.
 
 use super::{scene, to_and_fro};
-use actin_sim::follow::{Followed, Follower, Ran};
+use actin_sim::follow::{CompletedStretch, Followed, Follower};
 use actin_sim::shape::Ribbon;
 use actin_sim::{Assembly, End, Plan, Record, RodLaw, Scene, Section};
 
 const KT: f64 = 0.013_806_49 * 298.0;
 
-/// A free filament of three cells at a temperature, in steps that resolve no bending.
+/// Free filament of three cells at a temperature, in steps that do not resolve bending.
 fn thermal(duration_ms: f64) -> Scene {
     let rest = format!(
         "task: Brownian(
@@ -20,12 +20,11 @@ fn thermal(duration_ms: f64) -> Scene {
         ),"
     );
     let mut scene = scene(108.0, 1.0, &rest);
-    // Its strains are coordinates of their own: half of kT for each.
+    // Independent strain coordinates with kT/2 each.
     scene.filament.rod.law = RodLaw::Constant;
     scene
 }
 
-/// The same filament of monomers alone, never switched.
 fn of_monomers(scene: &Scene) -> Assembly {
     let length = Assembly::build(scene).unwrap().length_nm();
     let mut scene = scene.clone();
@@ -40,7 +39,6 @@ fn of_monomers(scene: &Scene) -> Assembly {
 
 type Seen<'a> = (&'a Assembly, &'a Record);
 
-/// All records of a run but the first few, which are not yet warm.
 fn warm(run: &Followed) -> impl Iterator<Item = Seen<'_>> {
     let all = run.stretches.iter().flat_map(|ran| {
         let assembly = &ran.stretch.assembly;
@@ -50,7 +48,6 @@ fn warm(run: &Followed) -> impl Iterator<Item = Seen<'_>> {
     all.skip(20)
 }
 
-/// The records with which stretches begin behind a switch, and those with which they end.
 fn about_switches(run: &Followed) -> [impl Iterator<Item = Seen<'_>>; 2] {
     [true, false].map(|is_first| {
         let stretches = run.stretches.iter().skip(20);
@@ -66,7 +63,7 @@ fn about_switches(run: &Followed) -> [impl Iterator<Item = Seen<'_>>; 2] {
     })
 }
 
-/// Mean energy over half of kT for each degree of freedom but the six of a rigid body.
+/// Mean energy over kT/2 per degree of freedom, without rigid motions.
 fn warmth<'a>(records: impl Iterator<Item = Seen<'a>>) -> f64 {
     let (mut found, mut expected) = (0.0, 0.0);
     for (assembly, record) in records {
@@ -76,7 +73,7 @@ fn warmth<'a>(records: impl Iterator<Item = Seen<'a>>) -> f64 {
     found / expected
 }
 
-/// Mean square of the angle between the tangents at the ends (rad^2).
+/// Mean squared angle between the tangents at the ends (rad^2).
 fn mean_square_angle<'a>(records: impl Iterator<Item = Seen<'a>>) -> f64 {
     let (mut sum, mut count) = (0.0, 0.0);
     for (assembly, record) in records {
@@ -87,8 +84,8 @@ fn mean_square_angle<'a>(records: impl Iterator<Item = Seen<'a>>) -> f64 {
     sum / count
 }
 
-/// Strains and shape of a filament of which a third is monomers, now here, now there, are those of filaments that are never
-/// switched. New bodies that did not settle would be 11 % too warm behind switches, and half of what is booked one gain.
+/// A filament with switching cells has the strains and shape of filaments without switches. New
+/// bodies that do not settle would be 11 % too warm, with half of the energy changes positive.
 #[test]
 fn a_thousand_switches_leave_temperature_and_shape() {
     let scene = thermal(0.1001);
@@ -112,23 +109,24 @@ fn a_thousand_switches_leave_temperature_and_shape() {
          pN nm; angle {angle:.5} rad^2, expected {expected:.5} of rods {of_rods:.5} and monomers {of_monomers:.5}",
         switches.len()
     );
-    // 160 strains in 2000 records, 1000 at switches: 0.3 and 0.4 %; loops at junctions and steps without end may take 1 %.
+    // 160 strains in 2000 records, 1000 at switches: 0.3 and 0.4 %; loops at junctions and long
+    // steps may add 1 %.
     assert!((all - 1.0).abs() < 0.02, "{all}");
     assert!((first - 1.0).abs() < 0.02, "{first}");
     assert!((last - 1.0).abs() < 0.02, "{last}");
-    // Jumps are those of strains that are drawn anew, of either sign: 3 % of their sizes.
+    // Resampled strains give energy changes of either sign: 3 % of their sizes.
     assert!(booked.abs() < 0.1 * sizes);
-    // 2000 shapes, of which each remembers little of the one before: 2.2 %, and 2 % of the two others. Tangents of
-    // monomers also jitter at the ends (inferred from their persistence length of 11.7 um: a fifth), which thirds do not share out.
+    // 2000 nearly independent shapes: 2.2 %, and 2 % of the two others. Tangents of monomers also
+    // fluctuate at the ends, by a fifth from their persistence length of 11.7 um.
     assert!((angle / expected - 1.0).abs() < 0.1);
-    // Nothing has inertia.
+    // Overdamped motion has no momentum.
     let momenta = switches.iter().map(|s| s.momentum_change);
     assert!(momenta.fold(0.0, f64::max) < 1e-300);
     let velocities = warm(&run).flat_map(|(_, record)| record.state.points.velocity.iter());
     assert!(velocities.fold(0.0, |most: f64, v| most.max(v.norm())) < 1e-300);
 }
 
-/// Bonds are far from linear: what they hold behind a switch is compared with what they hold before the next.
+/// Energies of the nonlinear bonds after a switch and before the next.
 #[test]
 fn bonds_have_their_temperature_behind_switches() {
     let rest = "task: Brownian(duration_ms: 1.6e-5, temperature_k: 298.0, seed: 5, record_every_ns: 0.02),";
@@ -143,7 +141,6 @@ fn bonds_have_their_temperature_behind_switches() {
     assert!((first / last - 1.0).abs() < 0.1);
 }
 
-/// A cantilever that falls without noise, switched to and fro.
 fn falling() -> (Scene, Followed) {
     let rest = "clamps: [Clamp(end: Start)],
         loads: [EndForce(end: End, force_pn: (-5.0, 0.0, 0.0))],
@@ -154,7 +151,6 @@ fn falling() -> (Scene, Followed) {
     (scene, run)
 }
 
-/// Energies of all records less what switches have booked.
 fn less_switches(run: &Followed) -> impl Iterator<Item = (f64, &Record)> {
     run.stretches.iter().flat_map(|ran| {
         let switches = ran.stretch.beginning.switches_pn_nm;
@@ -163,9 +159,10 @@ fn less_switches(run: &Followed) -> impl Iterator<Item = (f64, &Record)> {
     })
 }
 
-/// The energy less what switches and drag have booked is that of the start, to a thousandth of the fall: bound set before.
+/// The energy minus changes by switches and drag is constant, to a thousandth of the released
+/// energy.
 #[test]
-fn without_noise_the_ledger_closes() {
+fn without_noise_the_energy_is_balanced() {
     let (_, run) = falling();
     let energies = less_switches(&run);
     let energies: Vec<_> = energies
@@ -181,10 +178,10 @@ fn without_noise_the_ledger_closes() {
     assert!(fall > 10.0 && open < 1e-3 * fall, "{open}");
 }
 
-/// Without noise a cantilever goes down in energy but for what switches add, and is between the rod and the monomers, which at zero
-/// temperature give way more slowly.
+/// Without noise the energy decreases between switches. The tip lies between the rod and the
+/// monomers, which relax more slowly at zero temperature.
 #[test]
-fn without_noise_energy_falls_but_for_what_is_booked() {
+fn without_noise_energy_decreases_between_switches() {
     let (scene, run) = falling();
     let energies: Vec<f64> = less_switches(&run).map(|(energy, _)| energy).collect();
     let sizes: f64 = run.switches().map(|s| s.energy_pn_nm.abs()).sum();
@@ -203,28 +200,28 @@ fn without_noise_energy_falls_but_for_what_is_booked() {
     let monomers = of_monomers(&scene);
     let (trajectory, _) = Plan::new(&monomers).unwrap().run().unwrap();
     let (found, monomers) = (of_last(&run), tip(&monomers, &trajectory.records));
-    // New bodies that did not settle would bring more than the cantilever loses.
+    // New bodies that did not settle would add more than the cantilever releases.
     assert!(sizes < 0.2 * fall, "{sizes} of {fall}");
     println!(
         "rise {worst:.2e} of {fall:.1} pN nm; tip {found:.3} nm, rod {rod:.3}, monomers {monomers:.3}"
     );
-    // Round-off of the booked sum.
+    // Round-off of the recorded sum.
     assert!(worst < 1e-9 * fall, "{worst}");
     let margin = 0.02 * rod.abs();
     assert!(found > rod - margin && found < monomers + margin);
 }
 
-/// A free filament goes with a stream and turns in a shear flow as a line of the fluid does, from across the flow by the angle whose
-/// tangent is rate times time, through switches: of cells whose friction changed, ends would lag.
+/// A free filament moves with a stream. In a shear flow it rotates by the angle whose tangent is
+/// rate times time, also through switches. Changed friction of cells would delay the ends.
 #[test]
-fn a_flow_carries_what_is_switched() {
+fn switches_do_not_disturb_motion_in_a_flow() {
     let moved = |flow: &str| {
         let rest = format!(
             "task: Brownian(duration_ms: 1e-3, temperature_k: 0.0, time_step_ns: 1.0, flow: {flow})"
         );
         let run = to_and_fro(&scene(108.0, 1.0, &rest), 100.0);
         assert!(run.stretches.len() > 9);
-        let ends = |ran: &Ran, record: &Record| {
+        let ends = |ran: &CompletedStretch, record: &Record| {
             [End::Start, End::End].map(|end| ran.stretch.assembly.tip_nm(&record.state, end))
         };
         let (first, last) = (&run.stretches[0], &run.stretches[run.stretches.len() - 1]);
@@ -244,9 +241,9 @@ fn a_flow_carries_what_is_switched() {
     assert!((tangent / 0.5 - 1.0).abs() < 0.01, "{tangent}");
 }
 
-/// Cells of six short segments take steps that are a thousandth of those of one.
+/// Cells of six short segments need steps a thousand times shorter.
 #[test]
-fn short_segments_of_cells_are_noted() {
+fn short_segments_of_cells_give_a_note() {
     let note = |segments: usize, step: &str| {
         let text = format!(
             "Scene(

@@ -1,4 +1,4 @@
-//! A thousand switches to and fro in a heat bath.
+//! A thousand switches in a heat bath.
 
 use super::{scene, to_and_fro};
 use actin_sim::Scene;
@@ -20,8 +20,7 @@ fn thermal(duration_ns: f64) -> Scene {
     scene(108.0, 0.25, &rest)
 }
 
-/// Mean over stretches of a kind of cells of the temperature over that of the bath, by degrees of freedom; the first
-/// `from_ns` are left out.
+/// Mean temperature over the bath temperature, weighted by degrees of freedom, after `from_ns`.
 fn temperature(run: &Followed, from_ns: f64) -> f64 {
     let (mut found, mut expected) = (0.0, 0.0);
     for ran in &run.stretches {
@@ -36,7 +35,7 @@ fn temperature(run: &Followed, from_ns: f64) -> f64 {
     found / expected
 }
 
-/// Mean square of the angle between the tangents at the ends (rad^2) after `from_ns`.
+/// Mean squared angle between the tangents at the ends (rad^2) after `from_ns`.
 fn mean_square_angle(run: &Followed, from_ns: f64) -> f64 {
     let (mut sum, mut count) = (0.0, 0.0);
     for ran in &run.stretches {
@@ -51,8 +50,8 @@ fn mean_square_angle(run: &Followed, from_ns: f64) -> f64 {
     sum / count
 }
 
-/// A switch that left new bodies colder than the bath (steps of another integrator than that of the motion do, by 17 pN nm)
-/// would book a loss each time; one that drew velocities anew without their momenta would heat.
+/// New bodies colder than the bath would lose energy at each switch (17 pN nm with another
+/// integrator); new velocities without the momenta would heat.
 #[test]
 fn a_thousand_switches_neither_heat_nor_cool() {
     let run = to_and_fro(&thermal(501.0), 0.5);
@@ -72,10 +71,10 @@ fn a_thousand_switches_neither_heat_nor_cool() {
          angle {angle:.4} of {expected:.4} rad^2",
         switches.len()
     );
-    // 2000 records of 165 degrees of freedom that forget each other in 0.1 ns: 0.25 % twice over.
+    // 2000 records of 165 degrees of freedom with a correlation of 0.1 ns: 0.25 % twice over.
     assert!((temperature - 1.0).abs() < 0.01);
     assert!(booked.abs() < 0.1 * sizes);
     assert!(momentum < 1e-12);
-    // Some 400 independent shapes: 5 %, and 5 % of ends.
+    // Some 400 independent shapes: 5 %, and 5 % from the ends.
     assert!((angle / expected - 1.0).abs() < 0.2);
 }

@@ -1,8 +1,8 @@
-//! A motion that is interrupted and resumed, between switches and about them.
+//! Interruptions of a following motion between and at switches.
 
 use super::{ToAndFro, scene};
-use actin_sim::follow::{Follower, Left, Stretch};
-use actin_sim::{Plan, Record, Recorded, RunPosition, Saved, Scene, Sink, Status};
+use actin_sim::follow::{Follower, Stretch, StretchEnd};
+use actin_sim::{Plan, Record, RecordSummary, RunPosition, SavedRun, Scene, Sink, Status};
 
 fn thermal() -> Scene {
     let rest = "task: Dynamics(
@@ -15,7 +15,7 @@ fn thermal() -> Scene {
     scene(108.0, 0.25, rest)
 }
 
-/// The same without inertia: three steps between switches and looks at each.
+/// Overdamped motion with three steps between switches and a check at each.
 fn overdamped() -> Scene {
     let rest = "task: Brownian(
             duration_ms: 1.6e-3,
@@ -28,12 +28,11 @@ fn overdamped() -> Scene {
     scene(108.0, 1.0, rest)
 }
 
-/// Takes records, and interrupts whenever it has been asked so many times.
 struct Stops {
     records: Vec<Record>,
     asked: u32,
     every: u32,
-    saved: Option<Saved>,
+    saved: Option<SavedRun>,
 }
 
 impl Sink for Stops {
@@ -46,8 +45,8 @@ impl Sink for Stops {
         self.asked.is_multiple_of(self.every)
     }
 
-    fn checkpoint(&mut self, position: &RunPosition, recorded: &Recorded, wall_s: f64) {
-        self.saved = Some(Saved {
+    fn checkpoint(&mut self, position: &RunPosition, recorded: &RecordSummary, wall_s: f64) {
+        self.saved = Some(SavedRun {
             position: position.clone(),
             recorded: recorded.clone(),
             wall_s,
@@ -55,7 +54,6 @@ impl Sink for Stops {
     }
 }
 
-/// All records of the motion, the stretch of each, and how often it was interrupted.
 fn run(scene: &Scene, every_ns: f64, every: u32) -> (Vec<(usize, Record)>, u32) {
     let follower = Follower::new(scene).unwrap();
     let follower = follower.with_criterion(Box::new(ToAndFro { every_ns }));
@@ -65,7 +63,7 @@ fn run(scene: &Scene, every_ns: f64, every: u32) -> (Vec<(usize, Record)>, u32) 
         every,
         saved: None,
     };
-    let (mut stretch, mut saved): (Stretch, Option<Saved>) = (follower.begin().unwrap(), None);
+    let (mut stretch, mut saved): (Stretch, Option<SavedRun>) = (follower.begin().unwrap(), None);
     let (mut all, mut interruptions) = (Vec::new(), 0);
     loop {
         let plan = Plan::new(&stretch.assembly).unwrap();
@@ -77,18 +75,17 @@ fn run(scene: &Scene, every_ns: f64, every: u32) -> (Vec<(usize, Record)>, u32) 
                 .map(|record| (stretch.beginning.index, record)),
         );
         match left {
-            Left::Over(outcome) if outcome.status == Status::Interrupted => {
+            StretchEnd::Over(outcome) if outcome.status == Status::Interrupted => {
                 saved = sink.saved.take();
                 interruptions += 1;
             }
-            Left::Over(_) => return (all, interruptions),
-            Left::Switched(_, next) => (stretch, saved) = (next.stretch, Some(next.saved)),
+            StretchEnd::Over(_) => return (all, interruptions),
+            StretchEnd::Switched(_, next) => (stretch, saved) = (next.stretch, Some(next.saved)),
         }
     }
 }
 
-/// Records, of whatever stretch, are the same to the bit however often a run was interrupted: at every check, the one
-/// at which cells are switched included, and where checks and switches fall differently.
+/// Interruptions at every check, including checks at switches and between them.
 #[test]
 fn an_interrupted_motion_is_the_same_to_the_bit() {
     for (scene, every_ns) in [(thermal(), 0.5), (overdamped(), 120.0)] {

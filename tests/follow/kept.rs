@@ -1,10 +1,9 @@
-//! What a switch keeps to the bit or to round-off, and the energy that it books.
+//! Quantities conserved by a switch, and its energy change.
 
 use super::{energy, scene, to_and_fro};
-use actin_sim::follow::{Followed, Ran};
+use actin_sim::follow::{CompletedStretch, Followed};
 use actin_sim::{BodyKind, End, Scene};
 
-/// A cantilever that swings freely; a record at every look.
 fn swinging() -> Scene {
     let rest = "clamps: [Clamp(end: Start)],
         loads: [EndForce(end: End, force_pn: (-5.0, 0.0, 0.0))],
@@ -12,12 +11,11 @@ fn swinging() -> Scene {
     scene(144.0, 0.5, rest)
 }
 
-fn pairs(run: &Followed) -> impl Iterator<Item = (&Ran, &Ran)> {
+fn pairs(run: &Followed) -> impl Iterator<Item = (&CompletedStretch, &CompletedStretch)> {
     run.stretches.iter().zip(&run.stretches[1..])
 }
 
-/// Momentum and angular momentum of all free bodies, junction frames included, are those of before: a body that was
-/// forgotten, or a velocity at the wrong place, would show in the first digits.
+/// Momentum and angular momentum of all free bodies, including junction frames.
 #[test]
 fn momentum_is_kept_to_round_off() {
     let run = to_and_fro(&swinging(), 0.75);
@@ -27,7 +25,7 @@ fn momentum_is_kept_to_round_off() {
         let new = &after.trajectory.records[0].state;
         assert!((old.time - new.time).abs() < 1e-12);
         let switch = after.stretch.beginning.switch.as_ref().unwrap();
-        // Some 10 bodies of 0.2 ag and 10 nm/ns, 100 nm from the origin.
+        // About 10 bodies of 0.2 ag and 10 nm/ns, 100 nm from the origin.
         let scale = old.momentum().norm().max(1.0);
         assert!((new.momentum() - old.momentum()).norm() < 1e-13 * scale);
         let arm = 150.0 * scale;
@@ -37,9 +35,8 @@ fn momentum_is_kept_to_round_off() {
     }
 }
 
-/// Bodies in cells that stay, a node or monomer at a time, have the same bits on both sides of a switch.
 #[test]
-fn what_stays_keeps_every_bit() {
+fn bodies_outside_switched_cells_are_unchanged() {
     let run = to_and_fro(&swinging(), 0.75);
     let mut kept = 0;
     for (before, after) in pairs(&run) {
@@ -71,22 +68,21 @@ fn what_stays_keeps_every_bit() {
             kept += 1;
         }
     }
-    // Six nodes of the first cell at each switch, the one at its end excepted.
+    // Six nodes of the first cell at each switch, without the node at its end.
     assert_eq!(kept, 6 * (run.stretches.len() - 1));
 }
 
-/// Energy less what has come from outside and what switches have booked is that of the start, but for the error of the
-/// integrator: free of drag, and with drag while the end is moved. The records of either side of a switch share what is
-/// booked.
+/// The energy minus work, heat and changes by switches is constant up to the integrator error,
+/// without drag, and with drag and a moving end.
 #[test]
-fn the_ledger_closes() {
+fn the_energy_is_balanced() {
     let driven = "clamps: [Clamp(end: Start), Clamp(end: End)],
         path: [Stage(set: [Shift(end: End, shift_nm: (12.0, 0.0, -9.0))], duration_ns: 5.0)],
         task: Dynamics(duration_ns: 6.0, time_step_ns: 0.00125, record_every_ns: 0.125,
             drag: (translational_per_ns: 0.5, rotational_per_ns: 2.0)),";
     for scene in [swinging(), scene(144.0, 0.5, driven)] {
         let run = to_and_fro(&scene, 0.75);
-        let left = |ran: &Ran| -> Vec<f64> {
+        let left = |ran: &CompletedStretch| -> Vec<f64> {
             let switches = ran.stretch.beginning.switches_pn_nm;
             let records = ran.trajectory.records.iter();
             records
@@ -110,7 +106,7 @@ fn the_ledger_closes() {
     }
 }
 
-/// A monomer has the same bonds whenever it is resolved: those of the filament with every monomer.
+/// A monomer has the bonds of the filament with every monomer, at any switch.
 #[test]
 fn bonds_do_not_depend_on_when_monomers_are_resolved() {
     let run = to_and_fro(&swinging(), 0.75);
@@ -135,9 +131,8 @@ fn bonds_do_not_depend_on_when_monomers_are_resolved() {
     assert!(seen.len() > 60);
 }
 
-/// The tip of a filament whose cells change all the time swings as that of one which is all monomers.
 #[test]
-fn the_motion_is_that_of_monomers() {
+fn the_motion_agrees_with_monomers() {
     let followed = to_and_fro(&swinging(), 0.75);
     let mut scene = swinging();
     let length = followed.stretches[0].stretch.assembly.length_nm();

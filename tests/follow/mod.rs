@@ -1,4 +1,4 @@
-//! Resolution that follows a motion: what a switch keeps, what it books, and what does not depend on it.
+//! Resolution that follows a motion.
 
 mod accuracy;
 mod brownian;
@@ -7,28 +7,28 @@ mod interrupted;
 mod kept;
 mod windows;
 
-use actin_sim::follow::{Cell, Criterion, Followed, Follower, Wish};
+use actin_sim::follow::{Cell, Criterion, Followed, Follower, ResolutionRequest};
 use actin_sim::{Record, Scene};
 
-/// The first cell is a rod; of the others every other is monomers, and which changes at equal intervals of time.
+/// Criterion that alternates cells between rod and monomers at equal time intervals; the first cell
+/// stays a rod.
 #[derive(Debug)]
 struct ToAndFro {
     every_ns: f64,
 }
 
 impl Criterion for ToAndFro {
-    fn wish(&self, cell: &Cell<'_>) -> Wish {
+    fn wish(&self, cell: &Cell<'_>) -> ResolutionRequest {
         let turn = (cell.filament.state.time / self.every_ns).floor();
         let place = (cell.span_nm[0] / 30.0).round();
         if place > 0.5 && (turn + place).rem_euclid(2.0) < 0.5 {
-            Wish::Monomers
+            ResolutionRequest::Monomers
         } else {
-            Wish::Rod
+            ResolutionRequest::Rod
         }
     }
 }
 
-/// A scene of so many nm with sections that change by what is added to it.
 fn scene(length_nm: f64, least_ns: f64, rest: &str) -> Scene {
     let text = format!(
         "Scene(
@@ -52,7 +52,6 @@ fn to_and_fro(scene: &Scene, every_ns: f64) -> Followed {
     follower.run().unwrap_or_else(|error| panic!("{error}"))
 }
 
-/// Energy of a record, kinetic and of all interactions (pN nm).
 fn energy(record: &Record) -> f64 {
     record.potential_pn_nm() + record.kinetic_pn_nm
 }

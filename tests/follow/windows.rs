@@ -1,24 +1,23 @@
-//! Where and how long cells are monomers.
+//! Place and duration of the cells of monomers.
 
 use super::scene;
-use actin_sim::follow::{Cell, Criterion, FilamentState, Follower, Wish};
+use actin_sim::follow::{Cell, Criterion, FilamentState, Follower, ResolutionRequest};
 use actin_sim::{Assembly, Plan, Scene, Where};
 
-/// Wants monomers and a rod in turn, at every look.
+/// Criterion that requests monomers and a rod alternately at every check.
 #[derive(Debug)]
 struct Restless;
 
 impl Criterion for Restless {
-    fn wish(&self, cell: &Cell<'_>) -> Wish {
+    fn wish(&self, cell: &Cell<'_>) -> ResolutionRequest {
         if cell.is_monomers {
-            Wish::Rod
+            ResolutionRequest::Rod
         } else {
-            Wish::Monomers
+            ResolutionRequest::Monomers
         }
     }
 }
 
-/// A cell stays as it is for the least time, whatever criteria want.
 #[test]
 fn cells_stay_for_the_least_time() {
     let scene = scene(
@@ -29,14 +28,14 @@ fn cells_stay_for_the_least_time() {
     let follower = Follower::new(&scene).unwrap();
     let run = follower.with_criterion(Box::new(Restless)).run().unwrap();
     let times: Vec<f64> = run.switches().map(|s| s.time_ns).collect();
-    // Looks are 0.25 ns apart: 0.6 ns are over at the third.
+    // Checks are 0.25 ns apart: 0.6 ns have passed at the third.
     let gaps: Vec<f64> = times.windows(2).map(|t| t[1] - t[0]).collect();
     assert!(gaps.len() >= 2, "{times:?}");
     assert!(gaps.iter().all(|gap| (gap - 0.75).abs() < 1e-9), "{gaps:?}");
 }
 
-/// Loads and energies of the four cells of a cantilever agree with a slender rod, and criteria compare them with their
-/// thresholds. Between two thresholds a cell does not change.
+/// Loads and energies of the four cells of a cantilever agree with a slender rod. Between two
+/// thresholds a cell does not change.
 #[test]
 fn criteria_read_loads_and_energies_of_cells() {
     let text = "Scene(
@@ -55,7 +54,8 @@ fn criteria_read_loads_and_energies_of_cells() {
     for cell in &cells {
         let [from, to] = cell.span_nm.map(|s_nm| 0.5 * (144.0 - s_nm));
         let load = cell.mean_load();
-        // Cross-sections turn by up to 0.06 within a cell, and deflections shorten the arms by less than 1 %.
+        // Cross-sections rotate by up to 0.06 within a cell, and deflections shorten the arms by
+        // less than 1 %.
         assert!((load.force_pn.norm() - 0.5).abs() < 1e-3, "{load:?}");
         let couple = load.couple_pn_nm.norm() / (0.5 * (from + to));
         assert!((couple - 1.0).abs() < 0.01, "{couple}");
@@ -70,10 +70,14 @@ fn criteria_read_loads_and_energies_of_cells() {
     }
 }
 
-/// Criteria with thresholds between bending moments of 20 and 55 pN nm at a bending rigidity `bend` (pN nm^2), and the wishes
-/// for four cells with 63, 45, 27 and 9 pN nm under 0.5 pN.
-fn criteria(bend: f64) -> [(Where, [Wish; 4]); 5] {
-    let (monomers, stay, rod) = (Wish::Monomers, Wish::Stay, Wish::Rod);
+/// Criteria with thresholds at bending moments of 20 and 55 pN nm for a bending rigidity `bend` (pN
+/// nm^2), and the requests for four cells with 63, 45, 27 and 9 pN nm under 0.5 pN.
+fn criteria(bend: f64) -> [(Where, [ResolutionRequest; 4]); 5] {
+    let (monomers, stay, rod) = (
+        ResolutionRequest::Monomers,
+        ResolutionRequest::Stay,
+        ResolutionRequest::Rod,
+    );
     let force = Where::Force {
         above_pn: 0.6,
         below_pn: 0.4,
@@ -103,7 +107,6 @@ fn criteria(bend: f64) -> [(Where, [Wish; 4]); 5] {
     ]
 }
 
-/// A motion that never asks for monomers has none.
 #[test]
 fn without_a_wish_there_are_no_monomers() {
     let scene = scene(
@@ -119,7 +122,6 @@ fn without_a_wish_there_are_no_monomers() {
     assert_eq!((counts.monomers, counts.bonds, counts.junctions), (0, 0, 0));
 }
 
-/// Monomers are about the site of a linker, and go with it as it steps, with inertia and without.
 #[test]
 fn a_window_follows_a_linker_that_steps() {
     check_window(
@@ -157,7 +159,7 @@ fn check_window(task: &str) {
     assert!(run.stretches.len() >= 3);
     for ran in &run.stretches {
         let assembly = &ran.stretch.assembly;
-        // At its own look and those since then it may have gone one step on.
+        // Up to one further step since the check of the switch.
         let record = &ran.trajectory.records[0];
         let (_, s_nm) = assembly.switched(0, &record.state).unwrap();
         let mut sections = assembly.sections.iter().filter(|s| s.is_ellipsoids());
@@ -171,7 +173,7 @@ fn check_window(task: &str) {
     assert!(first < 6.0);
 }
 
-/// A wall stays where it was built, through cells at it that come and go on a filament that is bent: to the bit.
+/// The wall is bitwise unchanged by switches of the adjacent cells of a bent filament.
 #[test]
 fn held_ends_stay_where_they_were_built() {
     let scene = scene(

@@ -1,6 +1,4 @@
-//! What a user of a library crate meets first: examples that can be copied, shown in the READMEs.
-//!
-//! READMEs are compiled and run as documentation tests of their crates.
+//! Examples of the library crates, as shown in their READMEs. READMEs run as documentation tests.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -21,7 +19,6 @@ const LIBRARIES: [&str; 12] = [
     "actin-export",
 ];
 
-/// Programs among the examples that measure something for the documents.
 const MEASUREMENTS: [&str; 8] = [
     "bond_rate",
     "elimination_order",
@@ -33,17 +30,17 @@ const MEASUREMENTS: [&str; 8] = [
     "weighted_bonds",
 ];
 
-/// Most lines of an example: an interaction of one's own takes 40 before it is used.
+/// Largest number of lines of an example; a user-defined interaction takes 40.
 const MOST_LINES: usize = 60;
 
 fn folder(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(name)
 }
 
-/// Names and programs of the examples of a crate that a user would copy, without their headers.
+/// Names and sources, without headers, of the examples of a crate that a user would copy.
 fn examples(name: &str) -> Vec<(String, String)> {
     let files = fs::read_dir(folder(name).join("examples")).expect("every library has examples");
-    // One in a folder is a measurement, too long to copy.
+    // An example in a folder is a measurement.
     let paths = files.map(|file| file.expect("it can be read").path());
     let paths = paths.filter(|path| path.is_file());
     let named = paths.map(|path| {
@@ -60,7 +57,6 @@ fn examples(name: &str) -> Vec<(String, String)> {
         .collect()
 }
 
-/// The README has the program that is built, word for word, and says how to run it.
 #[test]
 fn every_example_is_short_and_shown() {
     for name in LIBRARIES {
@@ -76,7 +72,6 @@ fn every_example_is_short_and_shown() {
     }
 }
 
-/// A crate whose types cannot be named without another crate would have no such example.
 #[test]
 fn every_library_can_be_used_alone() {
     for name in LIBRARIES {
@@ -95,7 +90,6 @@ fn every_library_can_be_used_alone() {
     }
 }
 
-/// Parameters and laws go through a file and come back to the last digit.
 #[test]
 fn parameters_and_laws_are_written_and_read_with_the_feature_serde() {
     use actin_cosserat::{Rigidities, Stiffening, TanhTwist, TwistLaw};

@@ -2,7 +2,6 @@
 
 use crate::common::refusal;
 
-/// Asserts that a rod of 100 nm with these clamps, loads and task is not refused.
 fn assert_is_accepted(clamps: &str, loads: &str, task: &str) {
     let text = format!(
         "Scene(
@@ -16,7 +15,7 @@ fn assert_is_accepted(clamps: &str, loads: &str, task: &str) {
 }
 
 #[test]
-fn what_makes_sense_is_accepted() {
+fn valid_loads_are_accepted() {
     let wall = "Clamp(end: Start)";
     let (statics, motion) = ("Equilibrium()", "Dynamics(duration_ns: 1.0)");
     let follower = "Force(end: End, force_pn: (0.0, 0.0, -1.0), follows: true)";

@@ -1,26 +1,24 @@
-//! A cantilever as a scene, and beam theory by integration along the arc.
+//! Cantilever scenes, and beam theory by integration along the arc.
 
 pub(crate) use crate::common::build;
 use crate::common::ran;
 use crate::theory::bisect;
 use actin_sim::{Assembly, Trajectory};
 
-/// Length (nm), rigidities against bending and twist (pN nm^2).
+/// Length (nm), bending and twisting rigidity (pN nm^2).
 pub(crate) const LENGTH: f64 = 160.0;
 pub(crate) const BEND: f64 = 3.9e4;
 pub(crate) const TWIST: f64 = 1.3e4;
-/// Rigidity against shear and stretch (pN): equally stiff, so that frames are those of a rod that does
-/// neither (see `tests/equilibria/common.rs`).
+/// Equal shear and stretch rigidity (pN), for which frames are those of an inextensible,
+/// unshearable rod (see `tests/equilibria/common.rs`).
 pub(crate) const SHEAR: f64 = 1e6;
-/// Mass per length (ag/nm): of the default monomers.
+/// Mass per length (ag/nm) of the default monomers.
 pub(crate) const DENSITY: f64 = 0.0697 / (71.2 / 26.0);
 
-/// A rod on a wall as a scene, with its loads and what else it has.
 pub(crate) fn cantilever(segments: usize, shear: f64, loads: &str, rest: &str) -> String {
     twisting(segments, (shear, TWIST), loads, rest)
 }
 
-/// The same with another rigidity against twist (pN nm^2).
 pub(crate) fn twisting(
     segments: usize,
     (shear, twist): (f64, f64),
@@ -43,15 +41,14 @@ pub(crate) fn twisting(
     )
 }
 
-/// Runs a scene to its end; the assembly is then in its last state.
 pub(crate) fn run(text: &str) -> (Assembly, Trajectory) {
     let (assembly, trajectory, _) = ran(text);
     (assembly, trajectory)
 }
 
-/// Deflection over length of an inextensible cantilever under a force `w` per length across it as built,
-/// that keeps its direction; `alpha = w L^3 / B`. By shooting with the classical method of Runge and
-/// Kutta: `theta'' = -alpha (1 - s) cos(theta)`.
+/// Deflection over length of an inextensible cantilever under a dead force `w` per length across
+/// it, `alpha = w L^3 / B`, by shooting with the classical Runge-Kutta method:
+/// `theta'' = -alpha (1 - s) cos(theta)`.
 pub(crate) fn deflection_under_uniform_force(alpha: f64, steps: usize) -> f64 {
     let shot = |curvature: f64| {
         let derivative = |s: f64, [theta, kappa, _]: [f64; 3]| {
@@ -70,7 +67,7 @@ pub(crate) fn deflection_under_uniform_force(alpha: f64, steps: usize) -> f64 {
         }
         y
     };
-    // The curvature at the tip grows with that at the wall, which is alpha/2 at most.
+    // The curvature at the tip grows with the curvature at the wall, at most alpha/2.
     let curvature = bisect(
         |curvature| shot(curvature)[1] > 0.0,
         [0.0, 0.5 * alpha],

@@ -7,7 +7,6 @@ use actin_mechanics::{Loads, State, Vector3, rotation};
 use actin_sim::{Assembly, End, Failure, Plan, RunError};
 use std::f64::consts::PI;
 
-/// A rod between ends as written, pressed together by a force on its end (pN).
 fn column(segments: usize, start: &str, force: f64) -> String {
     let task = "task: Equilibrium(leave_saddles: 0),";
     let load = format!("EndForce(end: End, force_pn: (0.0, 0.0, {:?}))", -force);
@@ -17,14 +16,13 @@ fn column(segments: usize, start: &str, force: f64) -> String {
     )
 }
 
-/// The force at which a straight column loses its stability, by bisection.
 fn critical(segments: usize, start: &str, bounds: [f64; 2]) -> f64 {
     let is_unstable = |force: f64| match run_anyway(&mut build(&column(segments, start, force))).1 {
         Ok(_) => false,
         Err(RunError::Failed(failed)) if matches!(failed.failure, Failure::Saddle(_)) => true,
         Err(error) => panic!("{force}: {error}"),
     };
-    // Far below the least error of a mesh, 1e-4.
+    // Far below the smallest mesh error, 1e-4.
     bisect(is_unstable, bounds, 1e-7)
 }
 
@@ -44,8 +42,8 @@ fn a_pinned_column_buckles() {
     assert!(limit.abs() < 1e-4, "{limit:e}");
 }
 
-/// Hinged at one end by `k = 2 B / L`, pinned at the other: `x / tan(x) = 1 + x^2 B / k L`, between pinned
-/// and clamped; `x^2 B / L^2` is the force.
+/// Hinged at one end with `k = 2 B / L` and pinned at the other: `x / tan(x) = 1 + x^2 B / k L`,
+/// where `x^2 B / L^2` is the critical force.
 #[test]
 fn a_hinged_column_buckles() {
     let share = 2.0;
@@ -61,10 +59,10 @@ fn a_hinged_column_buckles() {
     assert!(limit.abs() < 1e-4, "{limit:e}");
 }
 
-/// A cantilever on a hinge: what the spring gives way adds to what the rod does, bent and twisted; the
-/// reaction is what the spring bears.
+/// On a hinge, the compliance of the spring adds to the compliance of the rod; the reaction is the
+/// spring's torque.
 #[test]
-fn a_hinge_gives_way() {
+fn compliances_of_hinge_and_rod_add() {
     let (force, couple, bend, twist) = (1e-3, 30.0, 400.0, 120.0);
     let hinge = format!(
         "clamps: [Clamp(end: Start, hold: Pin,
@@ -106,8 +104,8 @@ fn a_hinge_gives_way() {
     assert!((reaction.torque_pn_nm + Vector3::z() * couple).norm() < 1e-6);
 }
 
-/// A chain: pinned at both ends, 0.75 of its length apart, almost without resistance to bending, it hangs
-/// as a catenary: `D / 2a` times `L / D` is `sinh(D / 2a)`, the sag `a (cosh(D / 2a) - 1)`.
+/// A chain with small bending rigidity, pinned at a span `D` of 0.75 of its length `L`, is a catenary.
+/// With `x = D / 2a` from `sinh(x) = x L / D`, the sag is `a (cosh(x) - 1)`.
 #[test]
 fn a_pinned_chain_hangs_as_a_catenary() {
     let (length, span, weight) = (400.0_f64, 300.0_f64, 0.1);
@@ -144,7 +142,6 @@ fn a_pinned_chain_hangs_as_a_catenary() {
     assert!(errors[2].abs() < errors[0].abs(), "{errors:?}");
 }
 
-/// A steady stage moves an end at constant velocity from its first moment to its last.
 #[test]
 fn a_steady_stage_moves_at_constant_velocity() {
     let text = "Scene(
@@ -161,7 +158,7 @@ fn a_steady_stage_moves_at_constant_velocity() {
         let share = (t / 4.0).min(1.0);
         let place = Vector3::new(0.4 * share, 0.0, 100.0 - 2.0 * share);
         let off = (record.state.points.position.get(end) - place).norm();
-        // Time adds up from some hundred steps.
+        // Time is a sum of some hundred steps.
         assert!(off < 1e-11, "{t}: {off:e}");
         let velocity = Vector3::new(0.1, 0.0, -0.5);
         let expected = if t < 3.9 { velocity } else { Vector3::zeros() };
@@ -170,8 +167,8 @@ fn a_steady_stage_moves_at_constant_velocity() {
     }
 }
 
-/// A hinge knows its angle up to half a turn: a path that turns it further loses a turn, which is said. The
-/// rod takes `k / (k + C / L)` of the turn, here 0.596, and the hinge the rest: 180 deg at 446 deg.
+/// A path that turns a hinge past half a turn loses a turn. The rod takes `k / (k + C / L)` of the
+/// turn, here 0.596, and the hinge the rest: 180 deg at 446 deg.
 #[test]
 fn a_hinge_past_half_a_turn_is_a_lost_turn() {
     let lost = |turn: f64| {
@@ -210,10 +207,10 @@ fn a_hinge_past_half_a_turn_is_a_lost_turn() {
     }
 }
 
-/// The same of a filament whose tip a linker holds where it is while its start is turned over: statics find it from one
-/// equilibrium to the next.
+/// A linker holds the tip while the start is turned over; statics detects the slip between
+/// equilibria.
 #[test]
-fn a_hinge_that_is_bent_past_half_a_turn_is_told() {
+fn a_hinge_bent_past_half_a_turn_is_reported() {
     let turned = |degrees: f64| {
         let assembly = build(&format!(
             "Scene(
@@ -229,18 +226,18 @@ fn a_hinge_that_is_bent_past_half_a_turn_is_told() {
     };
     assert!(turned(150.0).is_ok());
     let Err(RunError::Failed(failed)) = turned(360.0) else {
-        panic!("the hinge slips without a word");
+        panic!("the slip of the hinge was not detected");
     };
     let Failure::HingeSlipped { place, slip } = failed.failure else {
         panic!("{}", failed.failure);
     };
     println!("{place}{slip}");
-    // Bent, not twisted; equilibria on the way are a few degrees apart.
+    // Bent, not twisted; equilibria are a few degrees apart.
     let [angle, twist] = slip.turned_deg;
     assert!(angle > 150.0 && angle < 180.0 && twist.abs() < 1.0);
 }
 
-/// The loads in the middle of a motion of an arc under a force, whose end slides.
+/// Loads in the middle of a motion of an arc under a force, with a sliding end.
 fn sliding(sections: &str, slides: &str) -> (Assembly, State, Loads) {
     let (assembly, trajectory) = run(&format!(
         "Scene(
@@ -258,9 +255,8 @@ fn sliding(sections: &str, slides: &str) -> (Assembly, State, Loads) {
     (assembly, state, loads)
 }
 
-/// Along directions in which an end slides its clamp bears nothing, in motion either.
 #[test]
-fn what_slides_bears_nothing_along() {
+fn reactions_vanish_along_sliding_directions() {
     for slides in ["Freely", "AlongAxis"] {
         let (assembly, state, loads) = sliding("Rod(from_nm: 0.0, to_nm: 100.0)", slides);
         let clamp = assembly.clamp_at(0, End::End).unwrap();
@@ -270,16 +266,17 @@ fn what_slides_bears_nothing_along() {
             "Freely" => felt,
             _ => tangent * tangent.dot(&felt),
         };
-        // It moves: the loads along are not zero. (An arc alone would stay: it bears couples only.)
+        // The axial loads are nonzero, because the end moves.
         assert!(free.norm() > 1e-3, "{slides}: {}", free.norm());
         let left = clamp.reaction(&state, &loads).force_pn + felt - free;
         assert!(left.norm() < 1e-12 * felt.norm(), "{slides}");
     }
 }
 
-/// The torque on two monomers that slide freely is that about their centre, about which what moves them has no moment.
+/// The torque of two freely sliding monomers is about their centre, where the accelerating loads
+/// have no moment.
 #[test]
-fn what_slides_has_no_moment() {
+fn freely_sliding_ends_have_no_moment_of_acceleration() {
     let (assembly, state, loads) = sliding("Ellipsoids(from_nm: 0.0, to_nm: 60.0)", "Freely");
     let clamp = assembly.clamp_at(0, End::End).unwrap();
     let place = |i: usize| state.points.position.get(i);

@@ -1,7 +1,5 @@
-//! Loads, ends and sections of scenes against theory: where loads act, how they change in time, which of them
-//! have an energy.
-//!
-//! Bounds were set before results were seen; orders and limits are printed with `--nocapture`.
+//! Loads, ends and sections of scenes against theory. Tolerances were set before the results;
+//! orders and limits are printed with `--nocapture`.
 
 mod accepted;
 mod common;

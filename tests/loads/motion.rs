@@ -1,11 +1,10 @@
-//! Motion under loads that change in time, and under those that turn along.
+//! Motion under time-dependent loads and following loads.
 
 use super::common::{BEND, DENSITY, LENGTH, SHEAR, cantilever, run};
 use actin_sim::{Assembly, End, Trajectory};
 use nalgebra::Complex;
 use std::f64::consts::TAU;
 
-/// Places of the tip across the filament (nm) with their times (ns).
 fn tips(assembly: &Assembly, trajectory: &Trajectory) -> Vec<(f64, f64)> {
     let records = trajectory.records.iter();
     records
@@ -13,9 +12,9 @@ fn tips(assembly: &Assembly, trajectory: &Trajectory) -> Vec<(f64, f64)> {
         .collect()
 }
 
-/// Tip displacement of a cantilever over a harmonic force on the tip (nm/pN), Euler's beam with a drag
-/// rate (1/ns): with `beta^4 = m (Omega^2 - i gamma Omega) L^4 / B`,
-/// `L^3/B (cos b sinh b - sin b cosh b) / (b^3 (1 + cos b cosh b))`, up to its sign.
+/// Tip receptance of a cantilever (nm/pN): Euler-Bernoulli beam with a drag rate (1/ns). With
+/// `beta^4 = m (Omega^2 - i gamma Omega) L^4 / B` it is `L^3/B (cos b sinh b - sin b cosh b) / (b^3
+/// (1 + cos b cosh b))`, up to its sign.
 fn receptance(omega: f64, drag: f64) -> Complex<f64> {
     let fourth = Complex::new(omega * omega, -drag * omega) * (DENSITY * LENGTH.powi(4) / BEND);
     let b = fourth.powf(0.25);
@@ -23,9 +22,9 @@ fn receptance(omega: f64, drag: f64) -> Complex<f64> {
     (s * ch - c * sh) / (b.powu(3) * (c * ch + 1.0)) * (LENGTH.powi(3) / BEND)
 }
 
-/// At rest the receptance is `L^3 / 3B`.
+/// The static receptance is `L^3 / 3B`.
 #[test]
-fn the_receptance_is_that_of_statics() {
+fn the_receptance_agrees_with_statics() {
     let slow = receptance(1e-3, 0.0);
     assert!(
         (slow.re / (LENGTH.powi(3) / (3.0 * BEND)) - 1.0).abs() < 1e-4,
@@ -33,11 +32,11 @@ fn the_receptance_is_that_of_statics() {
     );
 }
 
-/// Amplitude and phase of a sine of a known frequency in the last `periods` of a motion.
+/// Complex amplitude at a known frequency over the last `periods` of a motion.
 fn harmonic(tips: &[(f64, f64)], omega: f64, periods: f64) -> Complex<f64> {
     let end = tips[tips.len() - 1].0;
     let from = end - periods * TAU / omega;
-    // Records are 40 to a period: the sum over whole periods is exact for a sine.
+    // With 40 records per period the sum over whole periods is exact for a sine.
     let last = tips.iter().filter(|(t, _)| *t > from + 1e-9);
     let (mut sum, mut count) = (Complex::new(0.0, 0.0), 0.0);
     for (t, x) in last {
@@ -48,15 +47,15 @@ fn harmonic(tips: &[(f64, f64)], omega: f64, periods: f64) -> Complex<f64> {
     sum * Complex::new(0.0, 2.0) / count
 }
 
-/// The steady answer of a cantilever to a sine on its tip: amplitude and phase below, at and above the
-/// first resonance (0.170 rad/ns), against beam theory with the same drag.
+/// Amplitude and phase below, at and above the first resonance (0.170 rad/ns) against beam theory
+/// with the same drag.
 #[test]
 fn a_sine_drives_a_cantilever_as_beam_theory_says() {
     let (first, drag, force) = (0.17_f64, 0.15, 1e-3);
     for share in [0.5, 1.0, 1.8] {
         let omega = share * first;
         let period = TAU / omega;
-        // Transients fall by exp(-drag t / 2): to 1e-6 in 185 ns.
+        // Transients decay by exp(-drag t / 2): to 1e-6 in 185 ns.
         let periods = (190.0 / period).ceil() + 2.0;
         let exact = receptance(omega, drag) * force;
         let answers = [8, 16, 32].map(|segments| {
@@ -74,8 +73,8 @@ fn a_sine_drives_a_cantilever_as_beam_theory_says() {
             harmonic(&tips(&assembly, &trajectory), omega, 2.0)
         });
         let what = format!("sine at {share} of the resonance");
-        // Shear and rotary inertia, which beam theory leaves out, would hide the order of the finest mesh.
-        // Differences of meshes do not contain them.
+        // Shear and rotary inertia, absent from beam theory, would hide the order of the finest
+        // mesh. Differences of meshes exclude them.
         let order = ((answers[0] - answers[1]).norm() / (answers[1] - answers[2]).norm()).log2();
         let limit = (answers[2] * 4.0 - answers[1]) / 3.0 / exact - 1.0;
         println!("{what}: order {order:.3}, extrapolated {limit:.1e}");
@@ -87,8 +86,7 @@ fn a_sine_drives_a_cantilever_as_beam_theory_says() {
     }
 }
 
-/// The order of a method is not lost to a force that changes within its steps; one that was taken at the
-/// beginning of each step would leave order one.
+/// A force constant over each step would reduce the order to one.
 #[test]
 fn a_sine_keeps_the_order_of_the_method() {
     let state = |steps: u32| {
@@ -119,10 +117,8 @@ fn a_sine_keeps_the_order_of_the_method() {
     );
 }
 
-/// A table and a ramp end where they say, and the motion comes to rest under what is then left: the
-/// stop rule waits for it.
 #[test]
-fn the_stop_rule_waits_for_what_still_changes() {
+fn the_stop_rule_waits_for_changing_loads() {
     let load = "Force(end: End, force_pn: (0.01, 0.0, 0.0),
         factor: Table(time_ns: [20.0, 30.0, 40.0], factor: [0.0, 2.0, 1.0]))";
     let task = "task: Dynamics(duration_ns: 600.0, record_every_ns: 5.0,
@@ -137,7 +133,7 @@ fn the_stop_rule_waits_for_what_still_changes() {
         tip / exact - 1.0
     );
     assert!(end > 40.0 && end < 600.0, "{end}");
-    // Before the table begins nothing moves.
+    // The filament rests before the table begins.
     assert!(
         all.iter()
             .filter(|(t, _)| *t <= 20.0)
@@ -147,8 +143,8 @@ fn the_stop_rule_waits_for_what_still_changes() {
     assert!((tip / exact - 1.0).abs() < 5e-3, "{tip}");
 }
 
-/// Undamped motion in space under dead forces, couples about fixed axes and weight conserves their energy
-/// with that of the rod.
+/// Undamped motion in space conserves the energy of rod, dead forces, couples about fixed axes and
+/// weight.
 #[test]
 fn loads_with_a_potential_conserve_energy() {
     let loads = "Force(at_nm: 90.0, force_pn: (2.0, 0.0, 0.0)),
@@ -174,12 +170,12 @@ fn loads_with_a_potential_conserve_energy() {
         .fold(0.0, f64::max);
     println!("energy: {worst:.1e} off, {kinetic:.0} pN nm at most in motion");
     assert!(kinetic > 50.0, "{kinetic}");
-    // PEFRL at a quarter of its limit: far below a thousandth of what is exchanged.
+    // PEFRL at a quarter of its limit: far below a thousandth of the exchanged energy.
     assert!(worst < 1e-4 * kinetic, "{worst} of {kinetic}");
 }
 
-/// Growth of the deflection of a cantilever pushed along its own end, between the first and the last
-/// third of the motion.
+/// Growth of the deflection of a cantilever under a following axial force, from the first to the
+/// last third of the motion.
 fn growth(load: f64) -> f64 {
     let force = -load * BEND / LENGTH.powi(2);
     let loads = format!(
@@ -195,9 +191,8 @@ fn growth(load: f64) -> f64 {
     largest(&all[2 * third..]) / largest(&all[..third])
 }
 
-/// Beck's column: pushed by a force that turns with its end, a cantilever flutters from
-/// `P = 20.05 B / L^2` on. A dead force of `pi^2/4` would have bent it aside. Sixteen segments are off by
-/// about a percent.
+/// Beck's column: a cantilever under a following tip force flutters from `P = 20.05 B / L^2`. A
+/// dead force would buckle it at `pi^2/4`. Sixteen segments have an error of about a percent.
 ///
 /// # Source
 /// M. Beck, Z. angew. Math. Phys. 3 (1952) 225.

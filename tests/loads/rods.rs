@@ -1,4 +1,4 @@
-//! Rods next to rods: what they share, and what each has of its own.
+//! Neighbouring rods with different laws, rigidities and rest shapes.
 
 use super::common::{build, run};
 use crate::theory::second_order_limit;
@@ -10,7 +10,7 @@ use actin_sim::{Assembly, BodyKind, End, Plan};
 const BEND: f64 = 3.9e4;
 const TWIST: f64 = 1.3e4;
 const SHEAR: f64 = 1.6e4;
-/// What cofilin leaves of bending and twist, and where (nm).
+/// Factors of bending and twist under cofilin, and the stretch (nm).
 const SOFTER: [f64; 2] = [0.2, 0.1];
 const STRETCH: [f64; 2] = [50.0, 110.0];
 const LENGTH: f64 = 160.0;
@@ -30,10 +30,8 @@ const ONE: &str = "Rod(from_nm: 0.0, to_nm: 160.0, segments: 16)";
 const TWO: &str = "Rod(from_nm: 0.0, to_nm: 70.0, segments: 7),
     Rod(from_nm: 70.0, to_nm: 160.0, segments: 9, altered: ())";
 
-/// A rod cut into sections that do not differ bends in its plane as one: half a segment and half a segment in
-/// series are the element between them. Where the strain of a segment is coupled to the curvature around it, each
-/// half sees the segment on its own side alone, as on a finer mesh: that moves the tip by far less than finer
-/// segments do.
+/// A rod cut into equal sections bends as one. With curvature-dependent strains each half segment
+/// uses the curvature on its side, which changes the tip far less than finer segments do.
 #[test]
 fn cuts_change_nothing() {
     for law in ["Constant", "PublishedExtension", "Fitted", "Homogenised"] {
@@ -60,8 +58,8 @@ fn cuts_change_nothing() {
     }
 }
 
-/// The cross-section between two rods takes its inertia from its neighbours, so that the largest frequency
-/// rises by the root of 4/3 at most.
+/// The cross-section between two rods takes its inertia from its neighbours, so that the largest
+/// frequency rises by at most the root of 4/3.
 #[test]
 fn a_cut_keeps_the_time_step() {
     let frequency = |sections: &str| {
@@ -76,7 +74,6 @@ fn a_cut_keeps_the_time_step() {
     assert!((0.999..1.16).contains(&ratio), "{ratio}");
 }
 
-/// The scene of the repository, on segments `refined` times as short.
 fn cofilin(refined: usize) -> Assembly {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenarios/cofilin.ron");
     let mut text = std::fs::read_to_string(path).unwrap();
@@ -87,9 +84,8 @@ fn cofilin(refined: usize) -> Assembly {
     run(&text).0
 }
 
-/// Deflection and twist of a stepped beam: `F (int (L - s)^2/B ds + L/S)` with order two, and `M int ds/C`
-/// exactly. A joint that bends as one of its neighbours alone is off by half the step in compliance over half a
-/// segment: of first order.
+/// Stepped beam: deflection `F (int (L - s)^2/B ds + L/S)` with order two, twist `M int ds/C`
+/// exactly. A joint with the rigidity of one neighbour would have order one.
 #[test]
 fn a_softened_stretch_is_a_stepped_beam() {
     let [from, to] = STRETCH;
@@ -103,7 +99,7 @@ fn a_softened_stretch_is_a_stepped_beam() {
         *tip = assembly.tip_nm(state, End::End).x;
         let last = assembly.sections[2].frames.end - 1;
         let turn = rotation::log(state.frames.orientation.get(last)).z;
-        // The last segment's frame stands at its middle.
+        // The last segment's frame lies at its middle.
         let s = assembly.frames[last].s_nm;
         let twisted = 0.5 * (s - (to - from) + (to - from) / SOFTER[1]) / TWIST;
         println!("{} segments: twist {:.1e}", 16 << k, turn / twisted - 1.0);
@@ -114,7 +110,6 @@ fn a_softened_stretch_is_a_stepped_beam() {
     assert!(limit.abs() < 1e-4, "{limit:e}");
 }
 
-/// Rods of several laws, bent at rest, beside each other and monomers.
 const MANY: &str = "
     Rod(from_nm: 0.0, to_nm: 30.0, altered: (law: Constant, rest_curvature_per_nm: (0.01, -0.02))),
     Rod(from_nm: 30.0, to_nm: 60.0, altered: (bend_rigidity_factor: 0.2, twist_rigidity_factor: 0.1,
@@ -125,7 +120,6 @@ const MANY: &str = "
     Rod(from_nm: 105.0, to_nm: 135.0, altered: (law: PublishedExtension, rest_twist_per_nm: -0.02)),
     Rod(from_nm: 135.0, to_nm: 165.0, altered: (rest_curvature_per_nm: (0.0, 0.01), rest_twist_per_nm: 0.02))";
 
-/// Loads, those of the vector path among them, and second derivatives are those of the energy.
 #[test]
 fn every_section_is_the_gradient_of_its_energy() {
     let assembly = build(&text(MANY, "Fitted", ""));
@@ -140,27 +134,26 @@ fn every_section_is_the_gradient_of_its_energy() {
     }
 }
 
-/// What is built as it is at rest is not loaded, whatever its laws, and beyond no range.
 #[test]
-fn the_shape_at_rest_bears_nothing() {
-    // Without the published length, which pulls a filament at rest.
+fn the_shape_at_rest_is_unloaded() {
+    // Without the published length, which strains a filament at rest.
     let sections = MANY.replace("law: PublishedExtension, ", "");
     let text = text(&sections, "Fitted", "").replace("rod:", "shape: AtRest, rod:");
     let mut assembly = build(&text);
     let loads = assembly.system.loads().clone();
     let residual = loads.residual(&assembly.rest);
-    // Round-off of strains of 1e-15 against rigidities of 1e4 and couples over 10 nm.
+    // Round-off of strains of 1e-15 at rigidities of 1e4 and couples over 10 nm.
     assert!(
         residual.force < 1e-8 && residual.torque < 1e-7,
         "{residual:?}"
     );
     assert_eq!(assembly.beyond_range(&assembly.rest), []);
-    // It is bent nevertheless.
+    // The rest shape is curved.
     let tip = assembly.tip_nm(&assembly.rest, End::End);
     assert!(tip.xy().norm() > 10.0, "{tip}");
 }
 
-/// Ranges are those of a section's own law, counted from its shape at rest.
+/// Ranges belong to the section's law and are relative to its rest shape.
 #[test]
 fn sections_leave_the_data_of_their_own_laws() {
     let sections = "Rod(from_nm: 0.0, to_nm: 40.0),
@@ -175,7 +168,7 @@ fn sections_leave_the_data_of_their_own_laws() {
         let found = assembly.beyond_range(&state).into_iter();
         found.map(|b| (b.section, b.quantity)).collect::<Vec<_>>()
     };
-    // The data reach 0.047 rad/nm.
+    // The data end at 0.047 rad/nm.
     assert_eq!(twisted(0.06), []);
     assert_eq!(twisted(0.0), []);
     assert_eq!(twisted(-0.03), [(1, "twist".to_owned())]);

@@ -1,11 +1,11 @@
-//! Stretches of monomers that differ from the rest of their filament.
+//! Sections of monomers with altered parameters.
 
 use super::common::{build, run};
 use crate::common::refusal;
 use actin_mechanics::{Vector3, Xorshift, perturb, rotation};
 use actin_sim::{Assembly, End};
 
-/// Length of filaments with a middle, and of those that are the same all along (nm).
+/// Length of filaments with an altered middle, and of uniform specimens (nm).
 const LENGTH: f64 = 210.0;
 const SPECIMEN: f64 = 120.0;
 
@@ -26,12 +26,10 @@ fn altered(lateral: f64, longitudinal: f64) -> String {
     )
 }
 
-/// All of a specimen, with or without a change.
 fn whole(change: &str) -> String {
     format!("Ellipsoids(from_nm: 0.0, to_nm: {SPECIMEN:?}, {change})")
 }
 
-/// A changed stretch from 60 to 150 nm.
 fn middle(change: &str) -> String {
     format!(
         "Ellipsoids(from_nm: 0.0, to_nm: 60.0), Ellipsoids(from_nm: 60.0, to_nm: 150.0, {change}),
@@ -39,9 +37,8 @@ fn middle(change: &str) -> String {
     )
 }
 
-/// How far the monomers about one arc length are turned against those about another, over their distance
-/// (rad/nm, lab frame). Monomers wobble by as much as the filament bends in a few of them: taken are means
-/// over half a turn of the helix to either side.
+/// Rotation between the monomers at two arc lengths over their distance (rad/nm, lab frame).
+/// Averages over half a turn of the helix on either side remove the alternation of monomers.
 fn turn_between(assembly: &Assembly, places: [f64; 2]) -> Vector3 {
     let [from, to] = places.map(|s_nm| {
         let frames = assembly.frames.iter().enumerate();
@@ -58,7 +55,6 @@ fn turn_between(assembly: &Assembly, places: [f64; 2]) -> Vector3 {
     (to.0 - from.0) / (to.1 - from.1)
 }
 
-/// Bonds are the same wherever a filament is cut into sections that do not differ.
 #[test]
 fn cuts_change_nothing() {
     let one = build(&text(
@@ -85,7 +81,7 @@ fn cuts_change_nothing() {
     assert_eq!(elements, one.system.interactions()[0].elements());
 }
 
-/// All rigidities and the load changed by one factor: the same shape, by whichever way a scene says so.
+/// One factor for all rigidities and the load leaves the shape unchanged.
 #[test]
 fn one_factor_is_one_of_every_rigidity() {
     let tip = |sections: &str, force: f64| {
@@ -95,12 +91,12 @@ fn one_factor_is_one_of_every_rigidity() {
     };
     let (full, soft) = (tip(&whole(""), 1.0), tip(&whole(&altered(0.2, 0.2)), 0.2));
     println!("one factor: {:.1e} nm", (full - soft).norm());
-    // Residuals of 1e-7 pN on what 1 pN moves by some 10 nm.
+    // Residuals of 1e-7 pN for about 10 nm per pN.
     assert!((full - soft).norm() < 1e-4, "{full} {soft}");
 }
 
-/// A filament between a wall and an end that is turned by an angle (deg), aside (axis 1) where it moves freely,
-/// or about its own axis (2) along which it slides; with the couple that takes (pN nm).
+/// Filament between a wall and an end turned by an angle (deg), transversely (axis 1) and moving
+/// freely, or about its axis (2) and sliding along it; with the required couple (pN nm).
 fn turned(sections: &str, axis: usize, angle: f64) -> (Assembly, f64) {
     let mut turn = [0.0; 3];
     turn[axis] = angle;
@@ -120,16 +116,16 @@ fn turned(sections: &str, axis: usize, angle: f64) -> (Assembly, f64) {
     (assembly, couple)
 }
 
-/// How much softer a specimen is, by secant rigidities, if its end is turned by an angle (deg) about an axis.
+/// Ratio of the secant rigidities of a specimen without and with the change, for an end turned by
+/// an angle (deg).
 fn softer(change: &str, axis: usize, angle: f64) -> f64 {
     let couple = |change: &str| turned(&whole(change), axis, angle).1;
     couple("") / couple(change)
 }
 
-/// What factors of rigidity can do for a stretch decorated by cofilin, where bending is 5 times and twist 10
-/// times softer: one factor divides both by the same. Softer lateral bonds take more from twist than from
-/// bending, the more the larger the twist is, and more from under-twist: at 0.01 rad/nm the mean of both
-/// senses is 10 at 5.
+/// Rigidity factors for a stretch decorated by cofilin, where bending is 5 and twist 10 times
+/// softer. One factor changes both equally. Softer lateral bonds reduce twist more than bending,
+/// especially large twist and under-twist: at 0.01 rad/nm the mean of both senses is 10 at 5.
 #[test]
 fn bending_and_twist_soften_differently() {
     for (axis, angle) in [(1, 20.0), (2, 40.0)] {
@@ -151,10 +147,10 @@ fn bending_and_twist_soften_differently() {
     assert!((0.5 * (over + under) - 10.0).abs() < 1.0, "{over} {under}");
 }
 
-/// A filament whose middle is softer bends and twists there as one that is soft all along does under the same
-/// couple, and elsewhere as one that is not: neighbours see each other over a few monomers only.
+/// The soft middle deforms as a uniformly soft filament under the same couple, and the rest as an
+/// unaltered one. The boundary layer is a few monomers long.
 #[test]
-fn a_softened_middle_bends_and_twists_by_itself() {
+fn a_softened_middle_deforms_as_a_uniform_filament() {
     let soft = altered(0.2, 0.2);
     for (axis, angle, name) in [(1, 30.0, "bent"), (2, 60.0, "twisted")] {
         let (both, couple) = turned(&middle(&soft), axis, angle);
@@ -163,8 +159,8 @@ fn a_softened_middle_bends_and_twists_by_itself() {
             (soft.as_str(), [80.0, 130.0], [35.0, 85.0]),
         ] {
             let here = turn_between(&both, place)[axis];
-            // The clamps of a short filament hinder twist: its end is turned until it is bent or twisted
-            // as much within.
+            // Clamps restrain the twist of a short filament, so its end is turned until the inner
+            // deformation is equal.
             let mut angle = (here * SPECIMEN).to_degrees();
             let mut alone = 0.0;
             for _ in 0..4 {
@@ -183,7 +179,6 @@ fn a_softened_middle_bends_and_twists_by_itself() {
     }
 }
 
-/// Mass factors of a scene change the masses of their section only.
 #[test]
 fn masses_are_multiplied() {
     let assembly = build(&text(&middle("altered: (mass_factor: 1.5)"), ""));
@@ -192,8 +187,8 @@ fn masses_are_multiplied() {
     assert!((ratio - 1.5).abs() < 1e-14, "{ratio}");
 }
 
-/// Heavier monomers weigh more: what balances their weight has an equilibrium, what balances that of the others
-/// has not.
+/// A load that balances the weight of altered monomers has an equilibrium; one that ignores their
+/// mass has not.
 #[test]
 fn weight_counts_the_mass_of_sections() {
     let density = 0.0697 / (71.2 / 26.0);

@@ -1,11 +1,10 @@
-//! Filaments that are built bent: where their bodies, ends and sites are, and what they bear.
+//! Filaments built along a curve: bodies, ends, sites and loads.
 
 use super::common::{build, run};
 use actin_mechanics::{UnitQuaternion, Vector3, rotation};
 use actin_sim::{Assembly, End};
 use std::f64::consts::FRAC_PI_2;
 
-/// A quarter of a circle of 60 nm, resolved as the sections say, anywhere.
 const RADIUS: f64 = 60.0;
 const LENGTH: f64 = RADIUS * FRAC_PI_2;
 const ROD: &str = "Rod(from_nm: 0.0, to_nm: L, segments: 20)";
@@ -30,7 +29,6 @@ fn text(sections: &str, shape: &str, rest: &str) -> String {
 
 const ARC: &str = "Arc(radius_nm: 60.0, azimuth_deg: 90.0)";
 
-/// Place and frame of the arc at `s`, in the lab.
 fn on_arc(assembly: &Assembly, s: f64) -> (Vector3, UnitQuaternion) {
     let span = &assembly.filaments[0];
     let (sin, cos) = (s / RADIUS).sin_cos();
@@ -42,7 +40,6 @@ fn on_arc(assembly: &Assembly, s: f64) -> (Vector3, UnitQuaternion) {
     )
 }
 
-/// Bodies, clamps and sites of every model stand on the arc; a rod is off by what its straight segments miss.
 #[test]
 fn every_model_follows_the_arc() {
     let rest = "clamps: [Clamp(end: Start), Clamp(end: End)],
@@ -56,7 +53,7 @@ fn every_model_follows_the_arc() {
         for (i, point) in assembly.points.iter().enumerate() {
             let (place, _) = on_arc(&assembly, point.s_nm);
             let found = assembly.centre_line_nm(&assembly.rest, i);
-            // Of a monomer the frame is that at its arc length: its centre comes back to the axis.
+            // The frame of a monomer is at its arc length: its centre projects to the axis.
             assert!(
                 (found - place).norm() < miss,
                 "{sections} {point:?}: {found} {place}"
@@ -89,9 +86,8 @@ fn every_model_follows_the_arc() {
     }
 }
 
-/// A rod bent between walls has the energy of its curvature, and neither stretch nor shear.
 #[test]
-fn what_is_bent_begins_under_stress() {
+fn bent_filaments_start_under_stress() {
     let rest = "clamps: [Clamp(end: Start), Clamp(end: End)], task: Equilibrium(),";
     let assembly = build(&text(ROD, ARC, rest));
     let energy: f64 = assembly
@@ -110,24 +106,22 @@ fn what_is_bent_begins_under_stress() {
         .map(|term| term.energy(&monomers.rest))
         .sum();
     println!("bent by 1/60 nm: rods {energy:.1}, monomers {bent:.1} pN nm");
-    // Monomers that may not relax are stiffer than rods, which are measured on those that did.
+    // Monomers in uniform bending are stiffer than rods, whose rigidity includes relaxation.
     assert!(bent > energy, "{bent}");
 }
 
-/// Let go at its end, a filament that is straight at rest becomes straight, along the wall's tangent.
 #[test]
-fn what_is_let_go_gets_straight() {
+fn released_filaments_become_straight() {
     let rest = "clamps: [Clamp(end: Start)],
         loads: [EndForce(end: End, force_pn: (0.0, 0.0, 0.0))], task: Equilibrium(),";
     let (assembly, _) = run(&text(ROD, ARC, rest));
     let span = &assembly.filaments[0];
     let tip = assembly.tip_nm(assembly.system.state(), End::End);
     let straight = span.origin_nm + span.axis() * LENGTH;
-    // Residuals of 1e-7 pN on a cantilever that 1 pN moves by 6 nm.
+    // Residuals of 1e-7 pN on a cantilever with 6 nm per pN.
     assert!((tip - straight).norm() < 1e-5, "{tip} {straight}");
 }
 
-/// An end that slides does so along its own tangent.
 #[test]
 fn ends_slide_along_their_tangents() {
     let rest =
@@ -138,9 +132,8 @@ fn ends_slide_along_their_tangents() {
     assert!((slider.directions[0] - frame * Vector3::z()).norm() < 1e-12);
 }
 
-/// An imperfection is added to the shape: as large as asked for, and none at the ends.
 #[test]
-fn imperfections_come_on_top() {
+fn imperfections_add_to_the_shape() {
     let shape = format!("{ARC}, imperfection: (amplitude_nm: 0.2, seed: 3)");
     let rest = "clamps: [Clamp(end: Start), Clamp(end: End)], task: Equilibrium(),";
     for sections in [ROD, MONOMERS] {

@@ -14,7 +14,7 @@ fn solved(segments: usize, loads: &str) -> Assembly {
     run(&cantilever(segments, SHEAR, loads, TASK)).0
 }
 
-/// A rod that resists twist twice as much as bending, to which a couple is led along a path.
+/// Rod with a twisting rigidity twice its bending rigidity, under a couple applied along a path.
 fn stiff_in_twist(segments: usize, loads: &str) -> Assembly {
     let rest = "path: [Stage(set: [LoadFactor(load: 0, factor: 1.0)])], task: Equilibrium(),";
     run(&twisting(segments, (SHEAR, 2.0 * BEND), loads, rest)).0
@@ -24,7 +24,7 @@ fn tip(assembly: &Assembly) -> Vector3 {
     assembly.tip_nm(assembly.system.state(), End::End)
 }
 
-/// The turn of the segment whose middle, or of the end that, is at an arc length (nm).
+/// Rotation of the segment with its middle, or of the end, at an arc length (nm).
 fn turn_at(assembly: &Assembly, s_nm: f64) -> UnitQuaternion {
     let found = assembly
         .frames
@@ -34,7 +34,6 @@ fn turn_at(assembly: &Assembly, s_nm: f64) -> UnitQuaternion {
     assembly.system.state().frames.orientation.get(frame)
 }
 
-/// Torque on the wall's cross-section (pN nm, lab frame).
 fn wall_torque(assembly: &mut Assembly) -> Vector3 {
     let loads = assembly.system.loads().clone();
     assembly.clamps[0]
@@ -42,7 +41,7 @@ fn wall_torque(assembly: &mut Assembly) -> Vector3 {
         .torque_pn_nm
 }
 
-/// A couple that turns its end by two turns and a half is found, with its work counted to the last of them.
+/// The work of a couple accumulates over two and a half turns of its end.
 #[test]
 fn a_couple_turns_an_end_more_than_once() {
     let (size, twist) = (300.0, 3e3);
@@ -54,16 +53,16 @@ fn a_couple_turns_an_end_more_than_once() {
         .filter(|(term, _)| term.name == "load")
         .map(|(_, e)| e)
         .sum();
-    // The end turns by 16 rad.
+    // The end rotates by 16 rad.
     let expected = -size * size * LENGTH / twist;
     assert!((work / expected - 1.0).abs() < 1e-9, "{work} {expected}");
 }
 
-/// A couple about the axis twists uniformly: `M s / C` at `s`, exactly on any mesh, by a turn and a half
-/// in all; beyond where it acts nothing is twisted.
+/// An axial couple gives the twist `M s / C` at `s`, exactly on any mesh, up to one and a half
+/// turns. Beyond its place the rod is untwisted.
 #[test]
 fn a_couple_twists() {
-    // About 3 rad of 160 nm.
+    // About 3 rad over 160 nm.
     let size = 250.0;
     let mut assembly = solved(
         16,
@@ -72,12 +71,12 @@ fn a_couple_twists() {
     for s_nm in [5.0, 75.0, 155.0] {
         let expected = rotation::exp(Vector3::z() * (size * s_nm / TWIST));
         let off = rotation::log(turn_at(&assembly, s_nm) * expected.inverse()).norm();
-        // The residual of 1e-7 pN nm over C/L, 81 pN nm/rad.
+        // Residual of 1e-7 pN nm over C/L, 81 pN nm/rad.
         assert!(off < 1e-8, "{s_nm}: {off:e}");
     }
     let torque = wall_torque(&mut assembly);
     assert!((torque + Vector3::z() * size).norm() < 1e-6, "{torque}");
-    // At 63.7 nm, between two middles: the twist stops there.
+    // At 63.7 nm, between two middles.
     let at = 63.7;
     let assembly = solved(
         16,
@@ -89,8 +88,8 @@ fn a_couple_twists() {
     }
 }
 
-/// A couple per length `t` twists the tip by `t L^2 / 2C`; on part of the length, from `a` to `b`, by
-/// `t (b^2 - a^2) / 2C`.
+/// A couple per length `t` rotates the tip by `t L^2 / 2C`; on an interval from `a` to `b`, by `t
+/// (b^2 - a^2) / 2C`.
 #[test]
 fn a_couple_per_length_twists() {
     let size = 1.5;
@@ -99,7 +98,7 @@ fn a_couple_per_length_twists() {
             "CouplePerLength(from_nm: {from:?}, to_nm: {to:?}, couple_pn_nm_per_nm: (0.0, 0.0, {size:?}))"
         );
         let assembly = solved(16, &load);
-        // The last segment stands at its middle: the half beyond it twists by t h^2 / 8C.
+        // The last frame lies at its middle; the half segment beyond adds t h^2 / 8C.
         let beyond = if to < LENGTH {
             0.0
         } else {
@@ -115,9 +114,9 @@ fn a_couple_per_length_twists() {
     }
 }
 
-/// A couple across the axis bends into an arc: here up to 0.9 of half a circle. Beyond
-/// half a circle it leaves the plane, turns its axis into that of the couple and is twisted instead, even if it
-/// resists twist twice as much as bending. The arc's chord converges with order two, and its angle is exact on any mesh.
+/// A transverse couple bends the rod into an arc, here up to 0.9 of half a circle. Beyond half a
+/// circle the rod leaves the plane. The chord converges with order two, and the angle is exact on
+/// any mesh.
 #[test]
 fn a_couple_bends_into_an_arc() {
     for angle in [0.5 * PI, 0.9 * PI] {
@@ -138,9 +137,9 @@ fn a_couple_bends_into_an_arc() {
     }
 }
 
-/// A couple about any other axis bends into a helix about the couple `m` that the rod bears, which is the
-/// same everywhere: the tangent turns about `m` at `|m|/B` per length. What is borne is the load's own
-/// torque, `M (e + Re) / (1 + e . Re)`.
+/// A couple about any other axis bends the rod into a helix about the internal moment `m`, which is
+/// uniform: the tangent rotates about `m` at `|m|/B` per length. The moment is the load's torque `M
+/// (e + Re) / (1 + e . Re)`.
 #[test]
 fn a_couple_bends_into_a_helix() {
     let couple = Vector3::new(300.0, 0.0, 260.0);
@@ -159,7 +158,7 @@ fn a_couple_bends_into_a_helix() {
             "{borne} {expected}"
         );
         assert!((borne.dot(&axis) - couple.norm()).abs() < 1e-6 * couple.norm());
-        // It is no longer about the axis as built: the helix is not one of a couple fixed in the lab.
+        // The moment deviates from the couple fixed in the lab.
         assert!(borne.cross(&axis).norm() > 0.1 * couple.norm(), "{borne}");
         // Integral of exp(m s / B) e3.
         let (rate, about) = (borne.norm() / BEND, borne.normalize());
@@ -180,8 +179,7 @@ fn a_couple_bends_into_a_helix() {
     assert!(tips[2] < 0.02, "{tips:?}");
 }
 
-/// A force between two nodes, a third or two thirds of a segment from the one before, in the limit of small
-/// deflections: `F a^2 (3 L - a) / 6 B` at the tip.
+/// Force between two nodes, at small deflection: `F a^2 (3 L - a) / 6 B` at the tip.
 #[test]
 fn a_force_at_any_arc_length_bends() {
     let (force, at) = (1e-3, 190.0 / 3.0);
@@ -194,13 +192,13 @@ fn a_force_at_any_arc_length_bends() {
     assert!(limit.abs() < 1e-5, "{limit:e}");
 }
 
-/// A uniform force, small and large, against beam theory: `w L^4 / 8 B` where it is small. Weight of the
-/// same size does the same to round-off.
+/// Uniform force against beam theory, `w L^4 / 8 B` if small. Weight gives the same result to
+/// round-off.
 #[test]
 fn a_uniform_force_bends() {
     for (alpha, slack, bound) in [(1e-3, 0.05, 1e-5), (4.0, 0.05, 1e-5), (20.0, 0.3, 1e-4)] {
         let [coarse, exact] = [1000, 2000].map(|n| deflection_under_uniform_force(alpha, n));
-        // Of fourth order, far below the bounds.
+        // Fourth order, far below the tolerances.
         assert!((coarse / exact - 1.0).abs() < 1e-9);
         if alpha < 0.01 {
             assert!((exact / (alpha / 8.0) - 1.0).abs() < 1e-6, "{exact}");
@@ -223,7 +221,7 @@ fn a_uniform_force_bends() {
     }
 }
 
-/// On part of the length, not from node to node: `w (3 L^4 - 4 a^3 L + a^4) / 24 B` from `a` to the tip.
+/// On an interval between nodes: `w (3 L^4 - 4 a^3 L + a^4) / 24 B` from `a` to the tip.
 #[test]
 fn a_force_per_length_acts_on_its_interval() {
     let (w, a) = (1e-5, 59.0);
@@ -237,7 +235,7 @@ fn a_force_per_length_acts_on_its_interval() {
     }
 }
 
-/// Whatever resolves the filament, the wall bears what acts on it: force, and torque about the wall.
+/// The reaction of the wall balances force and torque of every load, for every resolution.
 #[test]
 fn walls_bear_every_load_in_every_model() {
     let loads = "Force(end: End, force_pn: (0.5, 0.0, 0.3)),
@@ -271,7 +269,7 @@ fn walls_bear_every_load_in_every_model() {
         let off = (reaction.force_pn + expected).norm();
         // Some thirty bodies of 1e-7 pN each.
         assert!(off < 1e-5, "{sections}: {}", reaction.force_pn);
-        // The energy of the loads is the work that they do: it falls.
+        // The energy of the loads decreases by their work.
         let energies = assembly.system.energies();
         let terms = assembly.terms.iter().zip(&energies);
         let of_loads: Vec<f64> = terms
@@ -283,8 +281,6 @@ fn walls_bear_every_load_in_every_model() {
     }
 }
 
-/// A wall that is turned by two turns and a half takes a rod along: the work of a couple at the rod's end is counted
-/// from where it was built.
 #[test]
 fn turns_of_a_driven_wall_are_counted() {
     let load = "Couple(end: End, couple_pn_nm: (0.0, 0.0, 1.0))";
@@ -296,7 +292,6 @@ fn turns_of_a_driven_wall_are_counted() {
     assert!(error.abs() < 1e-9, "{error:e}");
 }
 
-/// A rod under a couple at one end, clamped at the other.
 fn coupled(end: End, (sections, law): (&str, &str), couple: [f64; 3]) -> Assembly {
     let [x, y, z] = couple;
     let held = match end {
@@ -318,8 +313,8 @@ fn energy(assembly: &Assembly) -> f64 {
     assembly.system.potential_energy()
 }
 
-/// A couple `M` at an end turns it by `M L / B` and stores `M^2 L / 2 B`, on any mesh, at either end, about the axis
-/// and across it. Relative bound: residuals of 1e-10 of couples of 5 pN nm, and rounding.
+/// A couple `M` rotates its end by `M L / B` and stores `M^2 L / 2 B`, on any mesh, at either end.
+/// The tolerance covers residuals of 1e-10 for couples of 5 pN nm, and rounding.
 #[test]
 fn a_couple_acts_at_the_end_of_a_rod() {
     for end in [End::Start, End::End] {
@@ -339,11 +334,11 @@ fn a_couple_acts_at_the_end_of_a_rod() {
     }
 }
 
-/// Under every law the work of a couple at an end is the same on any mesh, to the solution's error; but for the laws
-/// `Homogenised`, whose corrections at the wall depend on the mesh. With half a segment missing it would change by a
-/// share `1 / 4n` from `n` to `2n` segments: there by a tenth of that at most.
+/// The work of an end couple is independent of the mesh, except for the wall corrections of
+/// `Homogenised`. A missing half segment would change it by `1 / 4n` from `n` to `2n` segments; the
+/// tolerance there is a tenth of that.
 #[test]
-fn the_work_of_a_couple_at_an_end_depends_on_no_mesh() {
+fn the_work_of_an_end_couple_is_independent_of_the_mesh() {
     for (law, bound) in [
         ("Homogenised", 0.025),
         ("HomogenisedAt298K", 0.025),
@@ -366,9 +361,9 @@ fn the_work_of_a_couple_at_an_end_depends_on_no_mesh() {
     }
 }
 
-/// Behind monomers, too, half a segment lies between the last segment and the end: there it twists by `M h / 2 C`.
+/// After monomers, the half segment at the end also twists by `M h / 2 C`.
 #[test]
-fn a_couple_at_the_end_of_a_rod_behind_monomers_twists_half_a_segment() {
+fn an_end_couple_after_monomers_twists_half_a_segment() {
     let size = 20.0;
     let sections =
         "Ellipsoids(from_nm: 0.0, to_nm: 40.0), Rod(from_nm: 40.0, to_nm: 160.0, segments: 4)";
@@ -377,12 +372,12 @@ fn a_couple_at_the_end_of_a_rod_behind_monomers_twists_half_a_segment() {
     let last = turn_at(&assembly, LENGTH - half);
     let turn = rotation::log(last.inverse() * turn_at(&assembly, LENGTH)).z;
     let expected = size * half / TWIST;
-    // The residual of 1e-10 pN nm, and rounding.
+    // Residual of 1e-10 pN nm, and rounding.
     assert!((turn / expected - 1.0).abs() < 1e-9, "{turn} {expected}");
 }
 
-/// Under a force and a couple at its end together the energy of a rod converges with order two; without the half
-/// segment it would with order one. Bound set before: a tenth of an order on 8 to 32 segments.
+/// Without the half segment at the end the order would be one. The tolerance is a tenth of an order
+/// on 8 to 32 segments.
 #[test]
 fn a_force_and_a_couple_at_an_end_converge_with_order_two() {
     let loads = "EndForce(end: End, force_pn: (0.1, 0.0, 0.0)),

@@ -1,4 +1,4 @@
-//! What the clamp bears, and how the energies of an equilibrium add up.
+//! Reactions of clamps, and sums of the energies of an equilibrium.
 
 use super::common::{Settled, free_bodies, settle};
 use actin_mechanics::{Loads, Vector3};
@@ -6,7 +6,6 @@ use actin_sim::{End, RunDirectory};
 use std::collections::BTreeMap;
 
 const FORCE: [f64; 3] = [3.0, -1.0, 4.0];
-/// Tolerance of the residual, in pN and in pN nm.
 const TOLERANCE: f64 = 1e-5;
 
 fn settled(sections: &str, clamped: &str, loaded: &str) -> Settled {
@@ -37,10 +36,8 @@ const MONOMERS_THEN_ROD: &str =
 const ROD_THEN_MONOMERS: &str =
     "Rod(from_nm: 0.0, to_nm: 30.0), Ellipsoids(from_nm: 30.0, to_nm: 60.0)";
 
-/// Whichever model is clamped and whichever end is loaded, the reaction and the load cancel, in
-/// force and in torque about the clamped point, to what the residual of each free body leaves
-/// open. A wall frame or an outer held monomer left out of the sum, a body torque not turned to the
-/// lab, or a load not shared between the last two monomers shows here.
+/// Force and torque about the clamped point balance up to the residuals of the free bodies, for
+/// both models and ends.
 #[test]
 fn the_reaction_balances_the_load() {
     for (sections, clamped, loaded) in [
@@ -67,11 +64,13 @@ fn the_reaction_balances_the_load() {
         println!("{clamped} {loaded:?}: {force_left:e} pN, {torque_left:e} pN nm left");
         assert!(force_left < open_force, "{force_left} pN");
         assert!(torque_left < open_torque, "{torque_left} pN nm");
-        assert!(reaction.torque_pn_nm.norm() > 10.0, "the torque is no zero");
+        assert!(
+            reaction.torque_pn_nm.norm() > 10.0,
+            "the torque must not vanish"
+        );
     }
 }
 
-/// The rows of `energies.csv`, each by the names of its columns.
 fn rows(text: &str) -> Vec<BTreeMap<String, f64>> {
     let mut lines = text.lines();
     let names: Vec<&str> = lines.next().unwrap().split(',').collect();
@@ -83,8 +82,8 @@ fn rows(text: &str) -> Vec<BTreeMap<String, f64>> {
         .collect()
 }
 
-/// Terms and parts are two ways to cut one energy, in every row of the file that a run leaves;
-/// at rest the work of the load, linear in the displacement, is the force times it.
+/// Terms and parts have the same sum in every row. At rest the energy of a dead load is minus the
+/// force times the displacement.
 #[test]
 fn the_columns_of_the_energies_add_up() {
     let settled = settled(MONOMERS_THEN_ROD, "Start", "End");

@@ -1,5 +1,4 @@
-//! Where sections end, and that monomers stand where they stand whatever else is resolved:
-//! `docs/conventions.md`, as properties of random filaments.
+//! Section boundaries and positions of monomers for random filaments (`docs/conventions.md`).
 
 use crate::common::build;
 use actin_mechanics::Xorshift;
@@ -8,10 +7,8 @@ use actin_sim::{Assembly, End, Part, Resolution};
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-/// Rise per monomer (nm).
 const RISE: f64 = 71.2 / 26.0;
 
-/// A filament whose sections end at `ends`, with or without clamps.
 fn filament(ends: &[f64], monomers_first: bool, clamps: &str) -> Assembly {
     let mut from = 0.0;
     let mut section = |(i, &to): (usize, &f64)| {
@@ -42,7 +39,6 @@ const CLAMPS: [&str; 4] = [
     "Clamp(end: Start), Clamp(end: End)",
 ];
 
-/// Increasing ends of sections, each 15 to 45 nm long.
 fn ends(noise: &mut Xorshift, count: usize) -> Vec<f64> {
     (0..count)
         .scan(0.0, |s, _| {
@@ -52,9 +48,8 @@ fn ends(noise: &mut Xorshift, count: usize) -> Vec<f64> {
         .collect()
 }
 
-/// Sections meet half a rise beyond a monomer, and nearest to where the scene asks; ends of rods
-/// are exact. A boundary that was rounded twice, once for either neighbour, leaves a gap; the
-/// wrong side of a clamp moves everything by half a rise.
+/// Boundaries lie half a rise beyond a monomer, nearest to the requested place; ends of rods are
+/// exact.
 #[test]
 fn sections_meet_half_a_rise_beyond_a_monomer() {
     let mut noise = Xorshift::new(11);
@@ -87,8 +82,8 @@ fn sections_meet_half_a_rise_beyond_a_monomer() {
     }
 }
 
-/// Bodies of section `i` lie where the section says: nodes from end to end in equal steps,
-/// monomers from half a rise inside to half a rise inside, or on a clamped end.
+/// Checks that nodes are equally spaced between the ends, and that monomers lie half a rise inside,
+/// or on a clamped end.
 fn check_bodies(assembly: &Assembly, i: usize, what: &str) {
     let section = &assembly.sections[i];
     let s: Vec<f64> = assembly.points[section.points.clone()]
@@ -104,7 +99,7 @@ fn check_bodies(assembly: &Assembly, i: usize, what: &str) {
             .z
     };
     for (k, s) in s.iter().enumerate() {
-        // Round-off of a place of up to 180 nm.
+        // Round-off of a position of up to 180 nm.
         assert!((z(k) - s).abs() < 1e-12, "{what}: {} at {s}", z(k));
     }
     let step = match section.resolution {
@@ -122,7 +117,6 @@ fn check_bodies(assembly: &Assembly, i: usize, what: &str) {
     );
 }
 
-/// How far the outermost point of section `i` lies beyond its end (nm).
 fn overhang(assembly: &Assembly, i: usize, end: End) -> f64 {
     let outermost = match end {
         End::Start => 0,
@@ -142,7 +136,6 @@ fn overhang(assembly: &Assembly, i: usize, end: End) -> f64 {
     }
 }
 
-/// Lattice indices of the monomers of section `i`.
 fn lattice(assembly: &Assembly, i: usize) -> Option<Range<i64>> {
     let section = &assembly.sections[i];
     match section.resolution {
@@ -154,7 +147,6 @@ fn lattice(assembly: &Assembly, i: usize) -> Option<Range<i64>> {
     }
 }
 
-/// Every monomer's position and orientation by lattice index.
 fn monomers(assembly: &Assembly) -> BTreeMap<i64, [f64; 7]> {
     let rest = &assembly.rest;
     let mut all = BTreeMap::new();
@@ -173,8 +165,8 @@ fn monomers(assembly: &Assembly) -> BTreeMap<i64, [f64; 7]> {
     all
 }
 
-/// Energy of the bonds of section `i` when the monomers `moved` leave their places, each by a
-/// displacement and a turn that belong to its lattice index.
+/// Energy of the bonds of section `i` after displacing the monomers `moved`, each by a motion keyed
+/// by its lattice index.
 fn bond_energy(assembly: &Assembly, i: usize, moved: &Range<i64>) -> f64 {
     let mut state: State = assembly.rest.clone();
     let section = &assembly.sections[i];
@@ -196,10 +188,8 @@ fn bond_energy(assembly: &Assembly, i: usize, moved: &Range<i64>) -> f64 {
         .sum()
 }
 
-/// A section of monomers grown at its end, grown at its start, and followed by another: those
-/// that were there before stand where they stood, bit for bit, with the same bonds. Draws that
-/// were keyed by the place in a section, or a helix that begins its azimuth there, would make a
-/// resolution study a study of random numbers.
+/// Growing a section at either end or adding another leaves existing monomers bitwise in place,
+/// with the same bonds.
 #[test]
 fn resolving_more_does_not_move_a_monomer() {
     let mut noise = Xorshift::new(23);
@@ -225,13 +215,12 @@ fn resolving_more_does_not_move_a_monomer() {
                 );
             }
             let same = bond_energy(&other, section, &inner);
-            // The same bonds, summed in the same order but for zeros.
+            // The same bonds, summed in the same order apart from zeros.
             assert!((same / energy - 1.0).abs() < 1e-12, "{same} for {energy}");
         }
     }
 }
 
-/// A clamped start holds monomers -1 and 0, and arc length begins at the inner one.
 #[test]
 fn arc_length_begins_at_the_inner_held_monomer() {
     let assembly = filament(&[40.0, 80.0], true, "Clamp(end: Start)");

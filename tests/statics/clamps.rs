@@ -1,8 +1,8 @@
-//! Effect of clamps and force laws on a rod under a force across its tip.
+//! Effect of clamps and force laws on a rod under a transverse tip force.
 
 use super::common::Rod;
 
-/// Deflection under a small force across the tip of actin's rod, relative to a beam with shear.
+/// Deflection of actin's rod under a small transverse tip force, relative to a beam with shear.
 fn small_deflection(hold: &'static str, segments: usize) -> f64 {
     let rod = Rod {
         hold,
@@ -15,9 +15,9 @@ fn small_deflection(hold: &'static str, segments: usize) -> f64 {
     rod.deflection_nm() / beam
 }
 
-/// The sums that replace the integrals of the beam give `1 + 1/2n^2` with the wall and
-/// `1 - 3/2n + 1/2n^2` with the first frame held: 0.20 % and 0.05 % against 9.2 % and 4.6 % at 10
-/// and 5 nm. Holding the second node as well leaves the first segment no shear.
+/// The discrete sums give `1 + 1/2n^2` with the wall and `1 - 3/2n + 1/2n^2` with the first frame
+/// held: errors of 0.20 % and 0.05 %, compared with 9.2 % and 4.6 %, at 10 and 5 nm. Holding the
+/// second node as well blocks shear of the first segment.
 #[test]
 fn a_held_frame_costs_nine_percent_where_a_wall_costs_a_fifth_of_one() {
     for segments in [16, 32] {
@@ -25,8 +25,8 @@ fn a_held_frame_costs_nine_percent_where_a_wall_costs_a_fifth_of_one() {
         let wall = small_deflection("Wall", segments);
         let frame = small_deflection("NodeAndFrame", segments);
         let second = 0.5 / (n * n);
-        // Nonlinearity is about the square of the slope, 2e-5; the shear's share of the
-        // deflection, 3e-4, has no mesh error, which is up to 9e-2 of the rest: 3e-5.
+        // Nonlinearity is about the squared slope, 2e-5. Shear, 3e-4 of the deflection, has no mesh
+        // error: 9e-2 of it is 3e-5.
         assert!((wall - (1.0 + second)).abs() < 5e-5, "{wall}");
         assert!((frame - (1.0 - 1.5 / n + second)).abs() < 8e-5, "{frame}");
         let nodes = small_deflection("TwoNodesAndFrame", segments);
@@ -34,7 +34,7 @@ fn a_held_frame_costs_nine_percent_where_a_wall_costs_a_fifth_of_one() {
     }
 }
 
-/// The printed balance differs from the gradient of the energy by the strain, here 1e-4 to 1e-3.
+/// The printed balance differs from the energy gradient by the strain, 1e-4 to 1e-3.
 #[test]
 fn both_force_laws_bend_alike() {
     let rod = Rod::actin(16);

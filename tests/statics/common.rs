@@ -1,10 +1,9 @@
-//! Scenes as text, and their way to rest.
+//! Scenes as text, relaxed to rest.
 
 use crate::common::ran;
 use actin_mechanics::{State, Vector3};
 use actin_sim::{Assembly, End, Outcome, Record, Trajectory};
 
-/// A cantilever of one rod: damped dynamics to rest.
 #[derive(Clone, Debug)]
 pub(crate) struct Rod {
     pub(crate) length_nm: f64,
@@ -13,16 +12,13 @@ pub(crate) struct Rod {
     pub(crate) bend_pn_nm2: [f64; 3],
     pub(crate) hold: &'static str,
     pub(crate) force_law: &'static str,
-    /// Force across the tip, along x (pN).
     pub(crate) force_pn: f64,
-    /// Both drag rates (1/ns).
     pub(crate) drag_per_ns: f64,
-    /// Tolerance of the residual, in pN and in pN nm.
     pub(crate) tolerance: f64,
 }
 
 impl Rod {
-    /// 160 nm of actin under no force, drag twice the first flexural frequency.
+    /// Unloaded actin of 160 nm with a drag of twice the first flexural frequency.
     pub(crate) fn actin(segments: usize) -> Self {
         Self {
             length_nm: 160.0,
@@ -74,14 +70,12 @@ impl Rod {
         )
     }
 
-    /// Displacement of the tip along x at rest (nm).
     pub(crate) fn deflection_nm(&self) -> f64 {
         let settled = settle(&self.scene());
         settled.tip_displacement_nm(End::End).x
     }
 }
 
-/// An assembly at rest under its loads.
 pub(crate) struct Settled {
     pub(crate) assembly: Assembly,
     pub(crate) trajectory: Trajectory,
@@ -89,19 +83,16 @@ pub(crate) struct Settled {
 }
 
 impl Settled {
-    /// The state at rest.
     pub(crate) fn last(&self) -> &Record {
         self.trajectory.records.last().unwrap()
     }
 
-    /// Displacement of a tip from where it was built (nm).
     pub(crate) fn tip_displacement_nm(&self, end: End) -> Vector3 {
         let assembly = &self.assembly;
         assembly.tip_nm(&self.last().state, end) - assembly.tip_nm(&assembly.rest, end)
     }
 }
 
-/// Runs a scene until its stop rule is met.
 pub(crate) fn settle(text: &str) -> Settled {
     let (assembly, trajectory, report) = ran(text);
     let settled = Settled {
@@ -112,7 +103,7 @@ pub(crate) fn settle(text: &str) -> Settled {
     let last = settled.last();
     assert!(
         settled.report.has_converged(),
-        "still {} pN and {} pN nm from rest at {} ns",
+        "residual of {} pN and {} pN nm at {} ns",
         last.residual_force_pn,
         last.residual_torque_pn_nm,
         last.at.value()
@@ -120,14 +111,13 @@ pub(crate) fn settle(text: &str) -> Settled {
     settled
 }
 
-/// Number of free points and free frames.
 pub(crate) fn free_bodies(state: &State) -> (usize, usize) {
     let points = (0..state.points.len()).filter(|&i| state.points.is_free(i));
     let frames = (0..state.frames.len()).filter(|&i| state.frames.is_free(i));
     (points.count(), frames.count())
 }
 
-/// Slopes of `ln |error|` against `ln h` between successive meshes, each twice as fine.
+/// Slopes of `ln |error|` against `ln h` between successively halved meshes.
 pub(crate) fn orders<const N: usize>(errors: [f64; N]) -> Vec<f64> {
     errors
         .windows(2)

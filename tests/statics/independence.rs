@@ -1,12 +1,10 @@
-//! An equilibrium belongs to the energy: drag, time step and integrator only lead there.
+//! Independence of an equilibrium from drag, time step and integrator.
 
 use super::common::{Settled, settle};
 use actin_sim::End;
 
-/// Tolerance of the residual, in pN and in pN nm.
 const TOLERANCE: f64 = 1e-7;
 
-/// How a filament is led to its rest.
 #[derive(Clone, Copy, Debug)]
 struct Way {
     integrator: &'static str,
@@ -15,7 +13,6 @@ struct Way {
     rotational_per_ns: f64,
 }
 
-/// The way that the others are held against.
 const USUAL: Way = Way {
     integrator: "Pefrl",
     step_safety: 0.5,
@@ -23,7 +20,6 @@ const USUAL: Way = Way {
     rotational_per_ns: 1.0,
 };
 
-/// 30 nm of monomers with few bonds and 30 nm of rod under a force across the tip.
 fn settled(way: Way) -> Settled {
     let Way {
         integrator,
@@ -31,7 +27,7 @@ fn settled(way: Way) -> Settled {
         translational_per_ns,
         rotational_per_ns,
     } = way;
-    // Motion that the residual could bring back: a force of TOLERANCE over a stiffness of 1 pN/nm.
+    // Motion that the residual could reverse: a force of TOLERANCE over a stiffness of 1 pN/nm.
     let kinetic = TOLERANCE * TOLERANCE;
     settle(&format!(
         "Scene(
@@ -60,8 +56,7 @@ fn settled(way: Way) -> Settled {
     ))
 }
 
-/// Every way ends in the same place. Drag inside the sub-steps of a method with negative
-/// coefficients, or a kick that is not the loads' own, would move it.
+/// Drag inside sub-steps with negative coefficients, or a wrong kick, would move the equilibrium.
 #[test]
 fn every_way_leads_to_the_same_equilibrium() {
     let usual = settled(USUAL);
@@ -87,10 +82,10 @@ fn every_way_leads_to_the_same_equilibrium() {
         let apart = (settled.tip_displacement_nm(End::End) - place).norm();
         let energies_apart = (settled.last().potential_pn_nm() - energy).abs();
         println!("{way:?}: {apart:.1e} nm, {energies_apart:.1e} pN nm");
-        // Not more than the residual over the softest stiffness against the tip, 0.1 pN/nm,
-        // where the floppy motions of the monomers have stiffened under the load.
+        // Residual over the smallest tip stiffness, 0.1 pN/nm, where floppy modes are stiffened by
+        // the load.
         assert!(apart < 10.0 * TOLERANCE, "{way:?}: {apart:e} nm");
-        // Second order in the distance from the equilibrium: only round-off of terms that cancel.
+        // Second order in the distance from the equilibrium: only round-off of cancelling terms.
         assert!(energies_apart < 1e-11, "{way:?}: {energies_apart:e} pN nm");
     }
 }

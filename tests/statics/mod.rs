@@ -1,7 +1,4 @@
-//! Statics of assembled filaments, from a scene to an equilibrium: what crosses crates.
-//!
-//! Each file makes one argument. `common` holds scenes and their relaxation, and no assertion
-//! but that the equilibrium was reached.
+//! Statics of assembled filaments, from a scene to an equilibrium.
 
 mod balance;
 mod boundaries;

@@ -1,9 +1,9 @@
-//! The filament as built is at rest: nothing pulls or turns any of its bodies.
+//! Zero loads in filaments as built.
 
 use crate::common::build;
 use actin_mechanics::Loads;
 
-/// Largest force (pN) and torque (pN nm) on any body of the built scene, held ones included.
+/// Largest force (pN) and torque (pN nm) on any body of the scene as built, including held ones.
 fn loads_at_rest(sections: &str, seed: u64, junction: &str, clamps: &str) -> (f64, f64) {
     let assembly = build(&format!(
         "Scene(
@@ -34,12 +34,11 @@ const ROD_IN_THE_MIDDLE: &str = "Ellipsoids(from_nm: 0.0, to_nm: 30.0), \
 const MONOMERS_IN_THE_MIDDLE: &str = "Rod(from_nm: 0.0, to_nm: 30.0, segments: 7), \
      Ellipsoids(from_nm: 30.0, to_nm: 60.0), Rod(from_nm: 60.0, to_nm: 90.0)";
 
-/// Rest lengths and rest frames are those that were built. A rest length that is computed anew
-/// (rise over segments instead of the stretched segment, say), or a junction frame that stands on
-/// the wrong side of its monomer, would pull at once.
+/// Rest lengths and rest frames equal the built ones. A recomputed rest length, or a junction frame
+/// on the wrong side, would give loads.
 #[test]
-fn nothing_pulls_on_a_filament_as_built() {
-    // Round-off: 64 bonds of 50 pN/nm, or a segment of 3.4e4 pN, times 1e-16 of places of 90 nm,
+fn filaments_as_built_are_unloaded() {
+    // Round-off: 64 bonds of 50 pN/nm, or a segment of 3.4e4 pN, times 1e-16 of positions of 90 nm,
     // a few times over; torques with an arm of 10 nm.
     let (force_limit, torque_limit) = (5e-10, 5e-9);
     let orders = [

@@ -1,4 +1,4 @@
-//! Every scene of the repository: good ones build, bad ones say what is wrong, where.
+//! All scenes of the repository: good ones build, bad ones give their error messages.
 
 use actin_sim::{Assembly, Estimate, Scene, SceneError, SceneProblem};
 use std::fs;
@@ -8,7 +8,6 @@ fn scenarios() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenarios")
 }
 
-/// All scenes below `folder`, those in a folder `bad` left out, and sweeps.
 fn scenes(folder: &Path) -> Vec<PathBuf> {
     let entries = fs::read_dir(folder)
         .unwrap()
@@ -26,7 +25,6 @@ fn scenes(folder: &Path) -> Vec<PathBuf> {
     all
 }
 
-/// Reads, builds and estimates, as `actin check` does.
 fn check(text: &str) -> Result<(Assembly, Option<Estimate>), SceneError> {
     let scene = Scene::from_ron(text)?;
     let build = || -> Result<_, SceneProblem> {
@@ -48,17 +46,16 @@ fn good_scenes_read_build_and_have_a_stable_step() {
         if let Some(estimate) = estimate {
             assert!(estimate.time_step_ns <= estimate.stability_limit_ns);
         }
-        // The resolved scene, every default written out, is a scene that means the same.
+        // The resolved scene, with all defaults, is an equivalent scene.
         let again = Scene::from_ron(&assembly.scene.to_ron()).unwrap();
         assert_eq!(again, assembly.scene, "{}", path.display());
     }
 }
 
-/// Each bad scene begins with a line that holds its message: place, key, value and rule. The
-/// place is that of the culprit; the comment line counts. What follows dots differs from machine to
-/// machine.
+/// Each bad scene starts with its message: position, key, value and rule. Positions count the
+/// comment line. Text after dots depends on the machine.
 #[test]
-fn bad_scenes_say_what_is_wrong_and_where() {
+fn bad_scenes_give_their_messages() {
     let folder = scenarios().join("bad");
     let all = scenes(&folder);
     assert!(all.len() >= 200, "{}", all.len());

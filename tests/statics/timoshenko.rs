@@ -1,16 +1,14 @@
-//! A thick, soft-sheared cantilever against Timoshenko's beam.
+//! Thick cantilever with small shear rigidity against Timoshenko's beam.
 
 use super::common::{Rod, orders};
 
-/// Deflection of the tip under a force of 15 (length 3, radius 0.25, E = 1e6, G = 1e4, shear
-/// factor 4/3). Source: Gazzola et al., R. Soc. Open Sci. 5 (2018) 171628, Section 4.
+/// Tip deflection under a force of 15 (length 3, radius 0.25, E = 1e6, G = 1e4, shear factor 4/3).
+/// Source: Gazzola et al., R. Soc. Open Sci. 5 (2018) 171628, Section 4.
 const TIP: f64 = 0.061_191_892_5;
-/// The force of [`TIP`].
 const FORCE: f64 = 15.0;
-/// Share of [`TIP`] that is bending, F L^3 / 3B; the rest is shear, F L / S.
+/// Share of bending in [`TIP`], F L^3 / 3B; the rest is shear, F L / S.
 const BENDING_SHARE: f64 = 0.719_100;
 
-/// Gazzola's cantilever.
 fn cantilever(segments: usize) -> Rod {
     let (young, shear, radius) = (1e6, 1e4, 0.25_f64);
     let area = std::f64::consts::PI * radius * radius;
@@ -28,9 +26,8 @@ fn cantilever(segments: usize) -> Rod {
     }
 }
 
-/// Under a thousandth of the force, where the beam is linear: bending converges with order two
-/// and shear, one element per segment, has no mesh error at all. A shear factor that is missing
-/// shows as 9 %, a shear that is not joined to the bending as 28 %.
+/// A thousandth of the force, where the beam is linear. Bending converges with order two, and shear
+/// has no mesh error. A missing shear factor would give 9 %, uncoupled shear 28 %.
 #[test]
 fn a_small_load_gives_timoshenkos_deflection() {
     let meshes = [5, 10, 20];
@@ -49,12 +46,12 @@ fn a_small_load_gives_timoshenkos_deflection() {
         assert!((error - expected).abs() < 5e-6, "{n}: {error}");
     }
     for order in orders(errors) {
-        // An error of 1e-6 in the least of 9e-4.
+        // An error of 1e-6 in the smallest of 9e-4.
         assert!((order - 2.0).abs() < 5e-3, "{errors:?}");
     }
 }
 
-/// Under the full force the slope is 0.03, so that the linear beam is off by about its square.
+/// Under the full force the slope is 0.03; the nonlinearity is about its square.
 #[test]
 fn the_printed_load_is_small_to_three_digits() {
     let [coarse, fine] = [10, 20].map(|n| cantilever(n).deflection_nm() / TIP);

@@ -35,7 +35,6 @@ fn traded(text: &str, change: impl FnOnce(&mut Options)) -> Trade {
     trade(&Scene::from_ron(text).unwrap(), &options, &Watch::NOBODY).unwrap()
 }
 
-/// Displacement of the tip (nm) at the end of an independent run.
 fn tip(scene: &Scene) -> [f64; 3] {
     let assembly = Assembly::build(scene).unwrap();
     let (trajectory, _) = Plan::new(&assembly).unwrap().run().unwrap();
@@ -157,7 +156,6 @@ fn undetermined_directions_are_left_out() {
     assert!(fine.error() < 0.15, "{:?}", fine.errors);
 }
 
-/// Assembles a scene with other sections, such as `Adaptive`.
 fn chosen(sections: &str, scene: &str) -> Assembly {
     let written = "sections: [Rod(from_nm: 0.0, to_nm: 108.0)]";
     let scene = scene.replace(written, &format!("sections: {sections}"));

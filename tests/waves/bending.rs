@@ -1,4 +1,4 @@
-//! Slow bending of a clamped rod: what a rigid segment's rotary inertia costs it, and the mesh.
+//! Frequencies of slow bending of a clamped rod: rotary inertia of rigid segments, and mesh.
 
 use super::field::{Motion, build, frequency_of, set};
 use crate::theory::second_order_limit;
@@ -6,13 +6,12 @@ use actin_mechanics::Vector3;
 use actin_sim::{Assembly, Trajectory};
 use std::f64::consts::PI;
 
-/// Length of the rod (nm).
 const LENGTH: f64 = 160.0;
 /// Bending rigidity (pN nm^2) and mass per length (pN ns^2/nm^2).
 const BEND: f64 = 3.9e4;
 const DENSITY: f64 = 0.0697 / (71.2 / 26.0);
 
-/// A mode of a slender cantilever: `beta L`, and the mean of `(L f')^2` over that of `f^2`.
+/// Mode of a slender cantilever: `beta L`, and the mean of `(L f')^2` over the mean of `f^2`.
 struct Mode {
     beta_l: f64,
     slopes: f64,
@@ -40,13 +39,13 @@ impl Mode {
         [shape, slope]
     }
 
-    /// Its frequency (rad/ns) in a slender rod.
+    /// Frequency (rad/ns) in a slender rod.
     fn slender(&self) -> f64 {
         (self.beta_l / LENGTH).powi(2) * (BEND / DENSITY).sqrt()
     }
 
-    /// Its frequency (rad/ns) on a mesh, with a rigidity against shear (pN), from the zeros of its amplitude over
-    /// ten periods.
+    /// Frequency (rad/ns) on a mesh with a shear rigidity (pN), from the zeros of its amplitude
+    /// over ten periods.
     fn measured(&self, segments: usize, inertia: &str, shear: f64) -> f64 {
         let period = 2.0 * PI / self.slender();
         let mut assembly = build(&format!(
@@ -77,7 +76,6 @@ impl Mode {
         self.frequency(&assembly, &trajectory)
     }
 
-    /// From the zeros of its amplitude.
     fn frequency(&self, assembly: &Assembly, trajectory: &Trajectory) -> f64 {
         let amplitude = |state: &actin_mechanics::State| -> f64 {
             let points = assembly.points.iter().zip(state.points.position.iter());
@@ -91,15 +89,15 @@ impl Mode {
     }
 }
 
-/// Area of the cross-section (nm^2), and rigidity against shear (pN).
+/// Area of the cross-section (nm^2), and shear rigidity (pN).
 const AREA: f64 = 38.5;
 const SHEAR: f64 = 1.6e4;
 
-/// Masses, moments of inertia and rigidities together: a mass that is counted twice at the tip, or the inertia of a
-/// solid segment in place of its cross-section, moves the frequency by a tenth or by a percent. To first order, rotary inertia
-/// and shear reduce it by `(A / 4 pi + B / S) / 2` times the mean square slope over the mean square displacement.
+/// To first order, rotary inertia and shear reduce the frequency by `(A / 4 pi + B / S) / 2` times
+/// the mean squared slope over the mean squared displacement. A wrong tip mass would change it by a
+/// tenth, a wrong inertia by a percent.
 #[test]
-fn the_first_flexural_frequency_is_that_of_the_beam() {
+fn the_first_flexural_frequency_agrees_with_the_beam() {
     let mode = &MODES[0];
     let slender = mode.slender();
     assert!((slender - 0.170).abs() < 5e-4, "{slender}");
@@ -109,12 +107,12 @@ fn the_first_flexural_frequency_is_that_of_the_beam() {
     // Against the slender beam, on segments of 10 nm.
     assert!((values[1] / slender - 1.0).abs() < 0.01, "{values:?}");
     let limit = second_order_limit("first flexural frequency", values, theory, 0.05);
-    // Second-order terms of the thickness and fourth-order ones of the mesh, each about 1e-6.
+    // Second-order terms of the thickness and fourth-order terms of the mesh, each about 1e-6.
     assert!(limit.abs() < 1e-5, "{limit:e}");
 }
 
-/// By Rayleigh's quotient segments of length `h` that turn as rigid pieces slow a mode by a relative
-/// `h^2/24` times the mean square of its slope over that of its displacement, to higher powers of that.
+/// By Rayleigh's quotient, rigid segments of length `h` lower a frequency by a relative `h^2/24`
+/// times the mean squared slope over the mean squared displacement.
 #[test]
 fn rigid_segments_slow_bending_as_rayleigh_says() {
     println!(
@@ -131,7 +129,7 @@ fn rigid_segments_slow_bending_as_rayleigh_says() {
                 m + 1,
                 section / mode.slender() - 1.0
             );
-            // Higher powers of the shift, and the mesh of the mode itself.
+            // Higher powers of the shift, and the mesh of the mode.
             assert!(
                 (slower / expected - 1.0).abs() < 0.1 + 2.0 * expected,
                 "{slower} {expected}"

@@ -1,16 +1,16 @@
-//! Small motions of a straight filament, given along its arc length.
+//! Small motions of a straight filament as functions of arc length.
 
 pub(crate) use crate::common::build;
 use actin_mechanics::{State, Vector3, rotation};
 use actin_sim::Assembly;
 use std::f64::consts::PI;
 
-/// How the cross-section at one arc length is moved, whatever resolves it there.
+/// Motion of the cross-section at one arc length.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Motion {
     /// Displacement of the axis (nm).
     pub(crate) shift: Vector3,
-    /// Rotation vector about the axis's own point (rad).
+    /// Rotation vector about the axis point (rad).
     pub(crate) turn: Vector3,
     /// Velocity of the axis (nm/ns).
     pub(crate) velocity: Vector3,
@@ -18,7 +18,7 @@ pub(crate) struct Motion {
     pub(crate) spin: Vector3,
 }
 
-/// Moves every free body of a straight filament as the cross-section at its arc length.
+/// Moves every free body of a straight filament with the cross-section at its arc length.
 pub(crate) fn set(assembly: &mut Assembly, motion: &dyn Fn(f64) -> Motion) {
     let (points, frames) = (assembly.points.clone(), assembly.frames.clone());
     let state = assembly.system.state_mut();
@@ -44,14 +44,13 @@ pub(crate) fn set(assembly: &mut Assembly, motion: &dyn Fn(f64) -> Motion) {
     }
 }
 
-/// Gives frame `i` an angular velocity (rad/ns, lab frame).
 pub(crate) fn set_spin(state: &mut State, i: usize, spin: Vector3) {
     let body = state.frames.orientation.get(i).inverse() * spin;
     let momentum = body.component_div(&state.frames.inverse_moments(i));
     state.frames.angular_momentum.set(i, momentum);
 }
 
-/// The frequency (rad/ns) of an oscillation, times (ns) and amplitudes, from its zeros by interpolation.
+/// Frequency (rad/ns) of times (ns) and amplitudes, from interpolated zeros.
 pub(crate) fn frequency_of(series: &[(f64, f64)]) -> f64 {
     let zeros: Vec<f64> = series
         .windows(2)

@@ -1,26 +1,22 @@
-//! Stretching and twisting vibrations of a clamped rod.
+//! Longitudinal and torsional vibrations of a clamped rod.
 //!
-//! Both are waves on a lattice of spacing `h`, whose modes are exactly those of the continuous rod
-//! at the nodes (stretch) and at the middles of the segments (twist: the wall is half a segment
-//! away). So the frequencies are `2 c/h sin(k h/2)` with `k = (2m - 1) pi / 2L`, without an error
-//! of the mesh beyond that formula.
+//! Both are waves on a lattice of spacing `h`. Their modes equal those of the continuous rod at the
+//! nodes (stretch) and at the middles of the segments (twist). The frequencies are exactly `2 c/h
+//! sin(k h/2)` with `k = (2m - 1) pi / 2L`.
 
 use super::field::{Motion, build, frequency_of, set};
 use actin_mechanics::Vector3;
 use actin_sim::Assembly;
 use std::f64::consts::PI;
 
-/// Length of the rod (nm).
 const LENGTH: f64 = 160.0;
 /// Mass per length (pN ns^2/nm^2): a monomer's mass over the rise.
 const DENSITY: f64 = 0.0697 / (71.2 / 26.0);
-/// Area of the cross-section (nm^2).
 const AREA: f64 = 38.5;
 /// Stretching rigidity (pN) and twisting rigidity (pN nm^2).
 const STRETCH: f64 = 3.4e4;
 const TWIST: f64 = 1.3e4;
-/// Amplitude of the motion, as strain and as rad/nm: so small that the square of its relative
-/// effect on a frequency is far below the tolerance.
+/// Amplitude of strain and twist (rad/nm), small enough for linear frequencies.
 const AMPLITUDE: f64 = 1e-7;
 
 #[derive(Clone, Copy, Debug)]
@@ -30,7 +26,7 @@ enum Wave {
 }
 
 impl Wave {
-    /// Speed of a long wave (nm/ns): the root of rigidity over inertia per length.
+    /// Speed of long waves (nm/ns): root of rigidity over inertia per length.
     fn speed(self) -> f64 {
         match self {
             Self::Stretch => (STRETCH / DENSITY).sqrt(),
@@ -54,7 +50,6 @@ impl Wave {
         }
     }
 
-    /// The wave's field at body `i` of `assembly`, and the arc length there.
     fn fields(self, assembly: &Assembly, state: &actin_mechanics::State) -> Vec<(f64, f64)> {
         match self {
             Self::Stretch => {
@@ -72,7 +67,7 @@ impl Wave {
     }
 }
 
-/// The frequency of mode `m` (rad/ns), from the zeros of its amplitude over some twenty periods.
+/// Frequency of mode `m` (rad/ns), from the zeros of its amplitude over about twenty periods.
 fn measured(wave: Wave, segments: usize, m: usize) -> f64 {
     let k = (m as f64 - 0.5) * PI / LENGTH;
     let period = 2.0 * PI / (k * wave.speed());
@@ -99,11 +94,10 @@ fn measured(wave: Wave, segments: usize, m: usize) -> f64 {
     frequency_of(&amplitudes)
 }
 
-/// A stretching that carries half of the mass, or a twisting with the moment of a solid segment
-/// instead of its section's, is off by tens of percent; a wall that is a whole segment away by
-/// percents.
+/// A wrong mass or polar moment would change the frequency by tens of percent, a wall at a whole
+/// segment's distance by percents.
 #[test]
-fn stretching_and_twisting_frequencies_are_those_of_the_lattice() {
+fn stretching_and_twisting_frequencies_agree_with_the_lattice() {
     println!("wave, segments, mode: rad/ns, of the lattice, of the continuous rod");
     for wave in [Wave::Stretch, Wave::Twist] {
         for (segments, m) in [(16, 1), (16, 4), (32, 1), (32, 4)] {
@@ -116,7 +110,7 @@ fn stretching_and_twisting_frequencies_are_those_of_the_lattice() {
                 found / lattice - 1.0,
                 found / (k * wave.speed()) - 1.0
             );
-            // Zeros by interpolation in 1/200 of a period are good to 1e-6 of twenty periods.
+            // Zeros interpolated in 1/200 of a period are accurate to 1e-6 of twenty periods.
             assert!((found / lattice - 1.0).abs() < 2e-6, "{found} {lattice}");
         }
     }

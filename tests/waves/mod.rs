@@ -1,7 +1,5 @@
-//! Waves on assembled filaments: frequencies and speeds against theory, a tumbling rod, and
-//! pulses that meet a junction.
-//!
-//! The tables of `docs/measured/waves.md` are what these tests print with `--nocapture`.
+//! Waves on assembled filaments: frequencies and speeds, a tumbling rod, and pulses at a junction.
+//! With `--nocapture` these tests print the tables of `docs/measured/waves.md`.
 
 mod bending;
 mod field;

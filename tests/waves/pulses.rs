@@ -1,10 +1,9 @@
-//! Pulses that run along a rod and meet monomers: how much of their energy comes back.
+//! Reflection of pulses at a junction between rod and monomers.
 //!
-//! What is measured is the energy of the rod once the reflected pulse is on its way back and the
-//! rest is among the monomers, as a share of all energy. Monomers are no rod: twisted or bent a
-//! little they are softer than the rod that stands for them, so that part of what comes back is
-//! not the junction's doing: an axial pulse twists them too, and there they hardly resist. Where the filament is a rod throughout, the same share is what the
-//! mesh and the making of the pulse leave behind.
+//! Measured is the share of the energy in the rod after the reflection. Weakly twisted or bent
+//! monomers are softer than the rod that represents them, so part of the reflection is not due to
+//! the junction. An axial pulse also twists them. A rod throughout gives the share due to the mesh
+//! and the initial pulse.
 
 use super::field::{Motion, build, set};
 use crate::common::run;
@@ -19,21 +18,20 @@ const POLAR: f64 = DENSITY * 38.5 / TAU;
 const STRETCH: f64 = 3.4e4;
 const BEND: f64 = 3.9e4;
 const TWIST: f64 = 1.3e4;
-/// Distance, in widths of the pulse, at which it is as good as over.
+/// Distance, in widths of the pulse, beyond which it is negligible.
 const REACH: f64 = 7.0;
 
-/// A pulse: what travels.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Kind {
-    /// Stretch, of this largest strain.
+    /// Stretch with this largest strain.
     Axial(f64),
-    /// Twist, of this largest rate (rad/nm).
+    /// Twist with this largest rate (rad/nm).
     Torsional(f64),
-    /// A bending wave of this largest curvature (rad/nm), one wave within 1.5 widths.
+    /// Bending wave with this largest curvature (rad/nm), one wave within 1.5 widths.
     Flexural(f64),
 }
 
-/// A pulse of a width (the standard deviation of its Gaussian, nm).
+/// Pulse with a width (standard deviation of its Gaussian, nm).
 #[derive(Clone, Copy, Debug)]
 struct Pulse {
     kind: Kind,
@@ -45,7 +43,6 @@ impl Pulse {
         TAU / (1.5 * self.width)
     }
 
-    /// Speed of its energy (nm/ns).
     fn speed(self) -> f64 {
         match self.kind {
             Kind::Axial(_) => (STRETCH / DENSITY).sqrt(),
@@ -54,7 +51,7 @@ impl Pulse {
         }
     }
 
-    /// Its fields at a distance `x` (nm) from its middle, running towards larger `x`.
+    /// Fields at a distance `x` (nm) from its middle, travelling towards larger `x`.
     fn motion(self, x: f64) -> Motion {
         let none = Vector3::zeros();
         let mut motion = Motion {
@@ -92,7 +89,7 @@ impl Pulse {
         (-0.5 * (x / self.width).powi(2)).exp()
     }
 
-    /// Minus the integral of the bell from `x` to infinity: ahead of the pulse all is at rest.
+    /// Minus the integral of the bell from `x` to infinity.
     fn step(self, x: f64) -> f64 {
         const PARTS: usize = 400;
         let end = (REACH + 3.0) * self.width;
@@ -104,8 +101,8 @@ impl Pulse {
         -h * (0.5 * (self.bell(x) + self.bell(end)) + inner)
     }
 
-    /// Deflection and velocity of a bending wave in a Gaussian envelope, `y = Re z`,
-    /// `z = bell exp(i k x)`, which obeys `dz/dt = i sqrt(B/mu) z''` where it runs one way.
+    /// Deflection and velocity of a bending wave in a Gaussian envelope, `y = Re z`, `z = bell
+    /// exp(i k x)`, with `dz/dt = i sqrt(B/mu) z''` for one direction of travel.
     fn packet(self, x: f64) -> (f64, f64) {
         let (k, w2) = (self.wave_number(), self.width * self.width);
         let (sin, cos) = (k * x).sin_cos();
@@ -116,14 +113,13 @@ impl Pulse {
     }
 }
 
-/// What comes after the first section, a rod.
 #[derive(Clone, Copy, Debug)]
 enum Beyond {
     Monomers { weight: &'static str, seed: u64 },
     Rod,
 }
 
-/// The filament: a rod as long as the pulse needs, and as much beyond it.
+/// Filament with a rod long enough for the pulse, and an equal length beyond.
 fn filament(pulse: Pulse, segment: f64, beyond: Beyond) -> (Assembly, f64) {
     let enough = 2.0 * REACH * pulse.width;
     let count = (1_usize..1000)
@@ -155,7 +151,7 @@ fn filament(pulse: Pulse, segment: f64, beyond: Beyond) -> (Assembly, f64) {
     (build(&scene), half)
 }
 
-/// The share of the energy on the first half of the filament at the end.
+/// Share of the energy in the first half of the filament at the end.
 fn reflected(pulse: Pulse, segment: f64, beyond: Beyond) -> f64 {
     let (mut assembly, half) = filament(pulse, segment, beyond);
     let middle = half - REACH * pulse.width;
@@ -165,10 +161,10 @@ fn reflected(pulse: Pulse, segment: f64, beyond: Beyond) -> f64 {
     first / all
 }
 
-/// Energy of the rod before arc length `half`, and of everything (pN nm).
+/// Energy of the rod before arc length `half`, and total energy (pN nm).
 fn energies(assembly: &Assembly, half: f64, segment: f64) -> (f64, f64) {
     let state = assembly.system.state();
-    // Half a segment less: what belongs to the end that is joined counts as beyond.
+    // Parts of the joined end count as beyond.
     let is_before = |s: f64| s < half - 0.6 * segment;
     let points = assembly.points.iter().enumerate();
     let moving = points.filter(|(_, p)| is_before(p.s_nm)).map(|(i, _)| {
@@ -197,7 +193,6 @@ fn turning(state: &State, i: usize) -> f64 {
     0.5 * l.component_mul(&state.frames.inverse_moments(i)).dot(&l)
 }
 
-/// Mean and standard deviation over samplings of bonds.
 fn over_samplings(pulse: Pulse, segment: f64, weight: &'static str) -> (f64, f64) {
     const SEEDS: u64 = 4;
     let shares: Vec<f64> = (0..SEEDS)
@@ -208,7 +203,6 @@ fn over_samplings(pulse: Pulse, segment: f64, weight: &'static str) -> (f64, f64
     (mean, variance.sqrt())
 }
 
-/// A pulse on a mesh, and the shares that come back (mean and standard deviation).
 struct Shares {
     rod: f64,
     shared: (f64, f64),
@@ -230,12 +224,12 @@ fn shares(kind: Kind, width: f64, segment: f64) -> Shares {
     shares
 }
 
-/// The rod alone returns next to nothing of what is made to run one way; of bending waves some
-/// percent, since theirs is made for a rod that neither shears nor has rotary inertia.
+/// A rod throughout reflects almost nothing; bending waves some percent, since the initial wave
+/// ignores shear and rotary inertia.
 ///
-/// A stretch passes monomers but for some percent. A twist of 1e-5 rad/nm meets monomers that
-/// hardly resist (their secant twisting rigidity rises from next to nothing to the rod's within
-/// 0.03 rad/nm), and most of it comes back; the more it twists the more of it passes.
+/// Axial pulses pass monomers with some percent reflected. A twist of 1e-5 rad/nm is mostly
+/// reflected, because monomers have almost no secant twisting rigidity there. It reaches the rod's
+/// within 0.03 rad/nm, and stronger twist passes better.
 #[test]
 fn pulses_pass_the_junction_as_monomers_resist_them() {
     println!("pulse, width nm, segment nm: share reflected by rod, shared, full");
@@ -259,9 +253,8 @@ fn pulses_pass_the_junction_as_monomers_resist_them() {
     assert!(bends[1].shared.0 < bends[0].shared.0);
 }
 
-/// Why a stretch does not pass entirely: monomers that are kept from turning resist it as the rod
-/// does, but stretched monomers turn, and where they may, small forces find them twenty times as
-/// soft.
+/// Monomers with blocked rotation have the rod's stretching rigidity. With free rotation they are
+/// twenty times softer at small forces, which explains the reflection of axial pulses.
 #[test]
 fn monomers_that_cannot_turn_resist_stretching_as_the_rod() {
     let resistance = |force: f64, end_clamp: &str| {
@@ -283,7 +276,7 @@ fn monomers_that_cannot_turn_resist_stretching_as_the_rod() {
         let kept = resistance(force, ", Clamp(end: End, slides: AlongAxis)");
         let free = resistance(force, "");
         println!("{force} pN: {kept:.3e} pN kept from turning, {free:.3e} pN free to turn");
-        // Two per cent below the rod's: the bonds of one sampling.
+        // Two per cent below the rod's: bonds of one sampling.
         assert!((kept / STRETCH - 1.0).abs() < 0.05, "{kept}");
         assert!(free < 0.7 * kept, "{free}");
     }

@@ -1,4 +1,4 @@
-//! A free rod that tumbles, against the free symmetric top.
+//! A tumbling free rod against the free symmetric top.
 
 use super::field::{build, set_spin};
 use actin_mechanics::{State, Vector3, rotation};
@@ -7,10 +7,9 @@ use actin_sim::Assembly;
 /// Length (nm), number of segments.
 const LENGTH: f64 = 160.0;
 const SEGMENTS: usize = 16;
-/// Spin of the rod about its axis and across it at first (rad/ns).
+/// Initial spin of the rod about its axis and across it (rad/ns).
 const SPIN: [f64; 2] = [1e-2, 2e-3];
 
-/// A free, straight rod that turns as a whole.
 fn tumbling(turns: f64) -> Assembly {
     let duration = turns * std::f64::consts::TAU / SPIN[1];
     let mut assembly = build(&format!(
@@ -48,7 +47,7 @@ fn moments(state: &State) -> (f64, f64) {
     (along, across)
 }
 
-/// Angular momentum about the centre of mass, which rests at the middle (pN ns nm, lab frame).
+/// Angular momentum about the resting centre of mass (pN ns nm, lab frame).
 fn angular_momentum(state: &State) -> Vector3 {
     let middle = Vector3::z() * (0.5 * LENGTH);
     let points = (0..state.points.len()).map(|i| {
@@ -60,11 +59,11 @@ fn angular_momentum(state: &State) -> Vector3 {
     points.chain(frames).sum()
 }
 
-/// A free symmetric top's axis goes round the angular momentum at the rate `|L| / I_across`, at a
-/// fixed angle. The rod is a top but for what the centrifugal force strains it: the square of the
-/// tumbling over its first bending frequency, (2e-3 / 1.1)^2 = 3e-6.
+/// The axis of a free symmetric top precesses about the angular momentum at the rate `|L| /
+/// I_across` at a fixed angle. Centrifugal strain is the square of the tumbling rate over the first
+/// bending frequency, (2e-3 / 1.1)^2 = 3e-6.
 #[test]
-fn a_slowly_tumbling_rod_is_a_symmetric_top() {
+fn a_slowly_tumbling_rod_moves_as_a_symmetric_top() {
     let assembly = tumbling(3.0);
     let (along, across) = moments(assembly.system.state());
     let momentum = angular_momentum(assembly.system.state());

@@ -4,9 +4,9 @@ use crate::RunArguments;
 use crate::failure::{BuiltScene, Failure};
 use crate::report::print;
 use crate::run::{RunSink, by_default, checkpoints, refuse_own_scene};
-use actin_sim::follow::{Beginning, Follower, Left, Stretch};
+use actin_sim::follow::{Beginning, Follower, Stretch, StretchEnd};
 use actin_sim::{
-    Checkpoints, FollowedDirectory, Outcome, Plan, RunDirectory, RunError, RunLock, Saved, Sink,
+    Checkpoints, FollowedDirectory, Outcome, Plan, RunDirectory, RunError, RunLock, SavedRun, Sink,
     Status, Summary,
 };
 use std::path::Path;
@@ -108,8 +108,8 @@ impl Chain<'_> {
             };
             let left = self.left(&stretch, &plan, saved, &mut kept)?;
             let (outcome, next) = match left {
-                Left::Over(outcome) => (outcome, None),
-                Left::Switched(outcome, next) => {
+                StretchEnd::Over(outcome) => (outcome, None),
+                StretchEnd::Switched(outcome, next) => {
                     self.begin(&next.stretch, &next.saved)?;
                     (outcome, Some(next.stretch))
                 }
@@ -184,7 +184,7 @@ impl Chain<'_> {
     }
 
     /// Creates the directory of the stretch after a switch, with its first record and a checkpoint.
-    fn begin(&mut self, stretch: &Stretch, saved: &Saved) -> Result<(), Failure> {
+    fn begin(&mut self, stretch: &Stretch, saved: &SavedRun) -> Result<(), Failure> {
         self.beginnings.push(stretch.beginning.clone());
         let plan = self.planned(stretch)?;
         self.create(stretch, &plan)?;
@@ -208,9 +208,9 @@ impl Chain<'_> {
         &self,
         stretch: &Stretch,
         plan: &Plan<'_>,
-        saved: Option<Saved>,
+        saved: Option<SavedRun>,
         kept: &mut Checkpoints,
-    ) -> Result<Left, Failure> {
+    ) -> Result<StretchEnd, Failure> {
         let mut sink = RunSink::new(kept);
         let left = self.follower.advance((stretch, plan), saved, &mut sink);
         sink.finish();

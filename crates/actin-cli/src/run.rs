@@ -7,8 +7,9 @@ use crate::report::{in_words, print, print_remarks};
 use crate::signals;
 use crate::{RunArguments, SceneArguments};
 use actin_sim::{
-    Checkpoints, FailedRun, Failure as Broken, FollowedDirectory, Outcome, Plan, Record, Recorded,
-    Records, RunDirectory, RunDirectoryError, RunError, RunLock, RunPosition, Saved, Sink, Status,
+    Checkpoints, FailedRun, Failure as Broken, FollowedDirectory, Outcome, Plan, Record,
+    RecordSummary, Records, RunDirectory, RunDirectoryError, RunError, RunLock, RunPosition,
+    SavedRun, Sink, Status,
 };
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -45,7 +46,7 @@ fn run_plan(arguments: &RunArguments, opened: &BuiltScene, plan: &Plan<'_>) -> R
     let _lock = claim(arguments, &out)?;
     let saved = match begin(arguments, plan, &directory, &mut checkpoints)? {
         Beginning::New => None,
-        Beginning::Saved(saved) => Some(*saved),
+        Beginning::SavedRun(saved) => Some(*saved),
         Beginning::Finished => return Ok(()),
     };
     let task = Task {
@@ -105,7 +106,7 @@ fn claim(arguments: &RunArguments, out: &Path) -> Result<Option<RunLock>, Failur
 
 enum Beginning {
     New,
-    Saved(Box<Saved>),
+    SavedRun(Box<SavedRun>),
     /// The run is finished; a message has been printed.
     Finished,
 }
@@ -130,7 +131,7 @@ fn begin(
     }
     let saved = checkpoints.resume(plan)?;
     directory.reopen()?;
-    Ok(Beginning::Saved(Box::new(saved)))
+    Ok(Beginning::SavedRun(Box::new(saved)))
 }
 
 pub(crate) fn checkpoints(
@@ -259,7 +260,7 @@ impl Sink for RunSink<'_> {
         self.checkpoints.is_checkpoint_due()
     }
 
-    fn checkpoint(&mut self, position: &RunPosition, recorded: &Recorded, wall_s: f64) {
+    fn checkpoint(&mut self, position: &RunPosition, recorded: &RecordSummary, wall_s: f64) {
         self.checkpoints.checkpoint(position, recorded, wall_s);
     }
 }
@@ -274,7 +275,7 @@ struct Task<'a> {
 impl Task<'_> {
     fn advance(
         &self,
-        saved: Option<Saved>,
+        saved: Option<SavedRun>,
         checkpoints: &mut Checkpoints,
     ) -> Result<Outcome, Failure> {
         let mut sink = RunSink::new(checkpoints);
@@ -314,9 +315,11 @@ impl Task<'_> {
 
     fn broken(&self, checkpoints: &Checkpoints, failed: &FailedRun) -> Failure {
         let (why, kept) = match &failed.failure {
-            Broken::LoadLost(problem) => (self.opened.locate(problem), "the equilibria are"),
+            Broken::LoadBelowResidual(problem) => {
+                (self.opened.locate(problem), "the equilibria are")
+            }
             Broken::Saddle(problem) => (self.opened.locate(problem), "all results are"),
-            failure @ Broken::BeyondUse(_) => (failure.to_string(), "all results are"),
+            failure @ Broken::ModelLimitExceeded(_) => (failure.to_string(), "all results are"),
             failure => (failure.to_string(), GOOD),
         };
         if checkpoints.count() == 0 {

@@ -1,4 +1,4 @@
-//! Loads of a rod under each law that has a loop of its own.
+//! Loads of a rod under each law with a vector kernel.
 //!
 //! `cargo bench -p actin-cosserat --bench rod_loads`
 
@@ -8,7 +8,7 @@ use actin_mechanics::{Interaction, Loads};
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use std::hint::black_box;
 
-/// Angles between neighbours (rad) of a rod that is well bent.
+/// Angle between neighbours (rad).
 const ANGLE: f64 = 0.02;
 
 fn rod_loads(criterion: &mut Criterion) {

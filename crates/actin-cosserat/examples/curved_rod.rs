@@ -1,4 +1,4 @@
-//! A rod that is an arc of a circle at rest is put straight, then relaxes to its rest shape.
+//! A rod with a circular rest shape is straightened, then relaxes to its rest shape.
 
 use actin_cosserat::{
     Interaction, Rigidities, RodClamp, RodElements, RodEnd, RodMaterial, State, StraightRod,
@@ -12,12 +12,13 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let rod = straight.push_clamped(RodClamp::Wall, RodEnd::Start, &mut state)?;
     let rigidities = Rigidities::table4();
 
-    // At rest: curved about body axis d2 with a radius of 100 nm; a third component would twist it.
+    // Rest shape: curved about body axis d2 with a radius of 100 nm. A third component would be a
+    // twist.
     let radius = 100.0;
     rod.bend(&mut state, |_s| Vector3::y() / radius)?;
     let law = RodElements::at_rest(&state, &rod, RodMaterial::new(rigidities)?)?;
 
-    // At the start: straight.
+    // Initial shape: straight.
     rod.bend(&mut state, |_s| Vector3::zeros())?;
     let energy = law.energy(&state);
     let theory = rigidities.bend.y * rod.length() / (2.0 * radius * radius);

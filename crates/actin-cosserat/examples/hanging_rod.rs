@@ -1,4 +1,4 @@
-//! A filament, clamped at one end, bends under its own weight: the tip against beam theory.
+//! A clamped filament bends under its own weight: tip deflection compared with beam theory.
 
 use actin_cosserat::{
     EnergyGradient, Rigidities, RodClamp, RodEnd, RodMaterial, State, StraightRod, Vector3, Weight,
@@ -6,7 +6,7 @@ use actin_cosserat::{
 use actin_equilibrium::relax;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
-    // 160 nm of actin along x in 32 segments; its start is held by a wall.
+    // 160 nm of actin along x in 32 segments, clamped at the start.
     let filament = StraightRod::uniform(32, 5.0).along(Vector3::x())?;
     let mut state = State::default();
     let rod = filament.push_clamped(RodClamp::Wall, RodEnd::Start, &mut state)?;

@@ -1,9 +1,9 @@
-//! Rate at which the rod's loads are evaluated: elements (segments) per second, one thread; and
-//! the time in which its second derivatives are.
+//! Evaluation rate of a rod's loads (segments per second, one thread) and time per evaluation of
+//! its second derivatives.
 //!
-//! `cargo run --release -p actin-cosserat --example load_rate [SEGMENTS [LAW [EVALUATIONS]]]`: for all
-//! laws and the printed balance, or for one (`constant`, `published`, `fitted`, `printed`). With
-//! EVALUATIONS nothing is timed: so many are made, for a profiler to count.
+//! `cargo run --release -p actin-cosserat --example load_rate [SEGMENTS [LAW [EVALUATIONS]]]` for
+//! all laws, or for one of `constant`, `published`, `fitted`, `homogenised`, `printed`. With
+//! EVALUATIONS the loads are evaluated that many times without timing, for a profiler.
 
 #[path = "../benches/common/mod.rs"]
 mod common;
@@ -13,7 +13,6 @@ use actin_mechanics::{Interaction, Loads, State, Stiffness};
 use std::hint::black_box;
 use std::time::Instant;
 
-/// Evaluates the loads.
 fn evaluate(law: &dyn Interaction, state: &State, evaluations: usize) {
     let mut loads = Loads::zeros(state);
     for _ in 0..evaluations {
@@ -23,8 +22,8 @@ fn evaluate(law: &dyn Interaction, state: &State, evaluations: usize) {
     }
 }
 
-/// Segments per second of repeated evaluations; the best of many short series, some of which
-/// nothing else on the machine interrupts.
+/// Segments per second: maximum over short series, some of which are not interrupted by other
+/// processes.
 fn rate(law: &dyn Interaction, state: &State, segments: usize) -> f64 {
     let evaluations = (30_000 / segments).max(10);
     let once = || {
@@ -35,7 +34,7 @@ fn rate(law: &dyn Interaction, state: &State, segments: usize) -> f64 {
     (0..200).map(|_| once()).fold(0.0, f64::max)
 }
 
-/// Microseconds for all blocks of second derivatives, where the law has them; the best of five.
+/// Time for all blocks of second derivatives (us): minimum of five series.
 fn stiffness_time(law: &dyn Interaction, state: &State, segments: usize) -> Option<f64> {
     let law = law.second_order()?;
     let mut stiffness = Stiffness::default();

@@ -1,4 +1,4 @@
-//! The last segment of a rod is stretched: its force and its energy, against Hooke's law.
+//! The last segment of a rod is stretched: force and energy compared with Hooke's law.
 
 use actin_cosserat::{
     EnergyGradient, Interaction, Loads, Rigidities, RodError, RodMaterial, State, StraightRod,
@@ -11,7 +11,7 @@ fn main() -> Result<(), RodError> {
     let tip = rod.points().end - 1;
     let law = EnergyGradient::new(rod, RodMaterial::new(Rigidities::table4())?);
 
-    // By 0.01 of its 10 nm, a strain of 0.001 against S3 = 3.4e4 pN.
+    // 0.01 nm of 10 nm: a strain of 0.001, with S3 = 3.4e4 pN.
     state.points.position.add(tip, Vector3::z() * 0.01);
     let mut loads = Loads::zeros(&state);
     law.add_loads(&state, &mut loads);

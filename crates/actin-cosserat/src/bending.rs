@@ -1,15 +1,18 @@
-//! One bending element: what resists a turn between two neighbouring frames.
-//!
-//! The rod and whatever is joined to it use the same element.
+//! Bending element between two frames, used by rods and by the joints to other parts.
 
 use crate::RodMaterial;
 use actin_mechanics::{Coordinates, Matrix3, Stiffness, UnitQuaternion, Vector3, rotation};
 use std::ops::Mul;
 
-/// Two frames a distance apart along a rod, parallel at rest.
+/// Two frames at a distance along a rod, parallel at rest.
 ///
-/// With `theta = log(Qa^T Qb)`, the curvature is `kappa = theta / Dhat` and the energy
-/// `E = Dhat U(kappa)`, with `U` the material's energy per length.
+/// ```text
+/// theta = log(Qa^T Qb)
+/// kappa = theta / Dhat        (rad/nm)
+/// E     = Dhat U(kappa)       (pN nm)
+/// ```
+///
+/// `U` is the material's energy per length.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BendingElement {
     /// Rest distance `Dhat` of the two frames along the rod (nm).
@@ -25,20 +28,20 @@ pub struct BendingLoads {
     pub second: Vector3,
 }
 
-/// Second derivatives of a bending element's energy (pN nm) with respect to turns of its frames,
-/// `Qa exp(phi_a)` and `Qb exp(phi_b)`, at zero.
+/// Second derivatives of the energy (pN nm) with respect to the rotations `Qa exp(phi_a)` and
+/// `Qb exp(phi_b)`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BendingStiffness {
     /// `d^2 E / dphi_a dphi_a`, symmetric.
     pub first: Matrix3,
-    /// `d^2 E / dphi_a dphi_b`: rows belong to the first frame.
+    /// `d^2 E / dphi_a dphi_b`, with rows for the first frame.
     pub mixed: Matrix3,
     /// `d^2 E / dphi_b dphi_b`, symmetric.
     pub second: Matrix3,
 }
 
 impl BendingStiffness {
-    /// Adds the blocks of an element that joins the two frames in this order.
+    /// Adds the blocks of an element between two frames.
     pub fn push(&self, frames: [usize; 2], stiffness: &mut Stiffness) {
         let [first, second] = frames.map(Coordinates::Frame);
         stiffness.push(first, first, self.first);
@@ -46,8 +49,8 @@ impl BendingStiffness {
         stiffness.push(second, second, self.second);
     }
 
-    /// The blocks with respect to turns of `Qa oa^T` and `Qb ob^T`, the frames of bodies in which
-    /// the element's frames stand turned by `oa` and `ob`.
+    /// Transforms the blocks to rotations of the bodies `Qa oa^T` and `Qb ob^T`, given the offsets
+    /// of the frames.
     #[must_use]
     pub fn in_bodies(&self, [oa, ob]: [UnitQuaternion; 2]) -> Self {
         let [oa, ob] = [oa, ob].map(|o| o.to_rotation_matrix().into_inner());
@@ -60,10 +63,10 @@ impl BendingStiffness {
 }
 
 impl BendingLoads {
-    /// The loads at couple `m = dU/dkappa` and angle `theta` (body axes).
+    /// Loads for the torque `m = dU/dkappa` and the rotation vector `theta` (body axes).
     #[inline]
     pub(crate) fn of_couple(m: Vector3, theta: Vector3) -> Self {
-        // J_l^-T m and J_r^-T m share all but a sign; see actin_mechanics::rotation.
+        // J_l^-T m and J_r^-T m differ in the sign of one term; see `actin_mechanics::rotation`.
         let cross = theta.cross(&m);
         let c = rotation::inverse_jacobian_coefficient(theta.norm_squared());
         let even = m + c * theta.cross(&cross);
@@ -87,8 +90,8 @@ impl Mul<f64> for BendingStiffness {
 }
 
 impl BendingElement {
-    /// Curvature (rad/nm) from frame `qa` to frame `qb`, the same in axes of either:
-    /// `log(Qa^T Qb) / Dhat`. Its third component is positive for right-handed twist.
+    /// Curvature `log(Qa^T Qb) / Dhat` (rad/nm), equal in the axes of both frames. Positive
+    /// `kappa_3` is right-handed twist.
     ///
     /// ```
     /// use actin_cosserat::BendingElement;
@@ -103,8 +106,8 @@ impl BendingElement {
         rotation::log(qa.inverse() * qb) / self.rest_distance
     }
 
-    /// Derivatives of the curvature with respect to turns of the first and of the second frame
-    /// (1/nm): `-J_l(theta)^-1 / Dhat` and `J_r(theta)^-1 / Dhat`.
+    /// Derivatives `-J_l(theta)^-1 / Dhat` and `J_r(theta)^-1 / Dhat` of the curvature with respect
+    /// to rotations of the two frames (1/nm).
     pub(crate) fn curvature_slopes(self, qa: UnitQuaternion, qb: UnitQuaternion) -> [Matrix3; 2] {
         let theta = rotation::log(qa.inverse() * qb);
         let right = rotation::right_jacobian_inverse(theta) / self.rest_distance;
@@ -118,8 +121,8 @@ impl BendingElement {
         self.rest_distance * material.bending_energy_density(self.curvature(qa, qb))
     }
 
-    /// Loads, minus the gradient of the energy: with `m = dU/dkappa`, `J_l(theta)^-T m` on the
-    /// first frame and `-J_r(theta)^-T m` on the second.
+    /// Torques `J_l(theta)^-T m` on the first and `-J_r(theta)^-T m` on the second frame, with
+    /// `m = dU/dkappa`.
     #[inline]
     pub fn loads(
         &self,
@@ -134,15 +137,15 @@ impl BendingElement {
         )
     }
 
-    /// Second derivatives of the energy, geometric part included.
+    /// Second derivatives of the energy, including the geometric stiffness.
     ///
-    /// With `m = dU/dkappa`, `C = d^2 U/dkappa^2`, `J = J_r(theta)^-1` and `D` the derivative of
-    /// `J_r(theta)^-T m` with respect to `theta` at fixed `m`, the block of the second frame is
-    /// `K = J^T (C / Dhat) J + sym(D J)`. The energy depends only on `R = Qa^T Qb`, and a turn
-    /// `phi_a` changes it as `-R^T phi_a` of the second frame does, so the other blocks are
-    /// `R K R^T` and `R ([J^T m]x / 2 - K)`.
+    /// ```text
+    /// m = dU/dkappa,  C = d^2 U/dkappa^2,  J = J_r(theta)^-1,  D = d(J_r(theta)^-T m) / d theta
+    /// K_bb = K = J^T (C / Dhat) J + sym(D J)
+    /// K_aa = R K R^T,  K_ab = R ([J^T m]x / 2 - K),  R = Qa^T Qb
+    /// ```
     ///
-    /// Like the loads it is discontinuous at an angle of pi.
+    /// Discontinuous at an angle of pi, like the loads.
     ///
     /// ```
     /// use actin_cosserat::{BendingElement, Rigidities, RodMaterial};
@@ -170,7 +173,7 @@ impl BendingElement {
         )
     }
 
-    /// The same for given couple `m = dU/dkappa` (pN nm) and tangent `d^2 U/dkappa^2` (pN nm^2).
+    /// Stiffness for the torque `m = dU/dkappa` (pN nm) and the tangent `d^2 U/dkappa^2` (pN nm^2).
     pub(crate) fn stiffness_of(
         self,
         m: Vector3,
@@ -183,7 +186,7 @@ impl BendingElement {
         let tangent = tangent / self.rest_distance;
         let geometric = rotation::right_jacobian_inverse_transpose_slope(theta, m) * jacobian;
         let k = jacobian.tr_mul(&(tangent * jacobian)) + geometric;
-        // The transpose is averaged in also to make the material part symmetric to the last bit.
+        // The mean with the transpose also makes the material part symmetric to the last bit.
         let second = 0.5 * (k + k.transpose());
         let r = relative.to_rotation_matrix().into_inner();
         let first = r * second * r.transpose();
@@ -201,10 +204,11 @@ mod tests {
     use super::*;
     use crate::Rigidities;
 
-    /// Angle (rad) about (1, 2, -2)/3, and there the second derivatives `u A u`, `u M v`, `v B v`
-    /// of the first, mixed and second block (pN nm) for `u` = (1/2, -1/4, 1), `v` = (-3/4, 1, 1/2)
-    /// and rigidities (3.9e4, 2.7e4, 1.3e4) over 10 nm: differences of the energy in 60-digit
-    /// arithmetic.
+    /// Angle (rad) about (1, 2, -2)/3 and `u A u`, `u M v`, `v B v` of the first, mixed and second
+    /// block (pN nm).
+    ///
+    /// `u` = (1/2, -1/4, 1), `v` = (-3/4, 1, 1/2), rigidities (3.9e4, 2.7e4, 1.3e4) over 10 nm.
+    /// Differences of the energy in 60-digit arithmetic.
     const REFERENCE: [(f64, [f64; 3]); 12] = [
         (0.0, [2_443.75, 1_487.5, 5_218.75]),
         (
@@ -302,8 +306,6 @@ mod tests {
         RodMaterial::new(Rigidities { bend, ..rigidities }).unwrap()
     }
 
-    /// A coefficient that cancels at small angles, or an angle that loses digits near pi, is
-    /// within the differences of the loads but not within this.
     #[test]
     fn stiffness_is_accurate_to_round_off_at_every_angle() {
         let material = material(Vector3::new(3.9e4, 2.7e4, 1.3e4));
@@ -326,16 +328,15 @@ mod tests {
                 v.dot(&(second * v)),
             ];
             for (actual, expected) in actual.iter().zip(expected) {
-                // Of the largest entry, 3.9e3.
+                // Relative to the largest entry, 3.9e3.
                 let error = (actual - expected).abs() / 3.9e3;
                 assert!(error < 1e-14, "angle {angle}: {error:e}");
             }
         }
     }
 
-    /// Equal rigidities: half the squared angle, whose second derivative is 1 along the axis and
-    /// (t/2) cot(t/2) across it, at every angle t. Without the geometric part it would be
-    /// (t/2)^2 / sin^2(t/2) across.
+    /// The energy is half the squared angle, with second derivatives 1 along the axis and (t/2)
+    /// cot(t/2) across.
     #[test]
     fn equal_rigidities_have_the_stiffness_of_the_squared_angle() {
         let material = material(Vector3::from_element(10.0));

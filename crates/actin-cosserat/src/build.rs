@@ -1,11 +1,11 @@
-//! Puts a straight rod on a state.
+//! Construction of straight rods in a state.
 
 use crate::layout::check_lengths;
 use crate::shape::from_z;
 use crate::{CrossSection, RodClamp, RodEnd, RodError, RodLayout};
 use actin_mechanics::{Frame, Inertia, Point, State, UnitQuaternion, Vector3};
 
-/// At which ends a rod has a held wall frame.
+/// Ends of a rod with a held wall frame.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Walls {
     /// Before the first segment.
@@ -19,39 +19,40 @@ pub struct Walls {
 pub struct StraightRod {
     /// Position of node 0 (nm, lab frame).
     pub start: Vector3,
-    /// Orientation of every frame, body to lab: the rod lies along d3.
+    /// Orientation of every frame, body to lab. The rod lies along d3.
     pub orientation: UnitQuaternion,
     /// Rest lengths of the segments (nm).
     pub segment_lengths: Vec<f64>,
-    /// What its masses and moments of inertia follow from.
+    /// Cross-section, which determines masses and moments of inertia.
     pub cross_section: CrossSection,
-    /// Transverse inertia of its segments.
+    /// Transverse inertia of the segments.
     pub rotary_inertia: RotaryInertia,
-    /// Where it has wall frames.
+    /// Ends with a held wall frame.
     pub walls: Walls,
-    /// At which other ends it has a free frame, the cross-section at the last node, for couples that act
-    /// there: half a segment of bending joins it to the frame of the last segment, as at a wall. It has a
-    /// quarter of the inertia of that segment, which lacks it.
+    /// Ends with a free wall frame: the cross-section at the last node, on which end torques act.
+    ///
+    /// Half a segment of bending joins it to the last segment. It takes a quarter of that segment's
+    /// inertia.
     pub free_walls: Walls,
 }
 
-/// What the transverse inertia of a segment holds.
+/// Transverse inertia of a segment.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum RotaryInertia {
-    /// The moments of the cross-section, as in the rod equations. The fastest mode, a segment that turns
-    /// against shear, is then as fast however long the segment is.
+    /// Moments of the cross-section, as in the rod equations. The highest frequency, of rotation
+    /// against shear, does not depend on the segment length.
     #[default]
     CrossSection,
-    /// In addition `mu l^3 / 12`, `mu` the mass per length and `l` the segment's length: the segment turns as a
-    /// rigid piece of rod. Its frequency falls as `1 / l`, and that of slow bending by a relative `(k l)^2 / 24`
-    /// at a wave number `k`, an error of the order of the mesh's. At rest nothing changes, nor do
-    /// fluctuations in a heat bath.
+    /// Adds `mu l^3 / 12`, the inertia of a rigid segment of length `l` and mass per length `mu`.
+    ///
+    /// The highest frequency decreases as `1 / l`, that of bending at wave number `k` by a relative
+    /// `(k l)^2 / 24`. Equilibria and thermal fluctuations do not change.
     RigidSegment,
 }
 
 impl StraightRod {
-    /// A rod of equal segments from the origin along lab +z, of actin's cross-section, without
-    /// walls. Change what should differ.
+    /// Rod of equal segments from the origin along lab +z, with actin's cross-section and without
+    /// walls.
     pub fn uniform(segments: usize, segment_length: f64) -> Self {
         Self {
             start: Vector3::zeros(),
@@ -64,11 +65,10 @@ impl StraightRod {
         }
     }
 
-    /// The same rod along another direction (lab frame): every frame is lab's, turned by the least
-    /// rotation of +z into that direction.
+    /// Rotates the rod to another direction (lab frame), by the smallest rotation of +z.
     ///
     /// # Errors
-    /// A vector without a direction.
+    /// If `direction` is zero or not finite.
     pub fn along(self, direction: Vector3) -> Result<Self, RodError> {
         let orientation = from_z(direction).ok_or(RodError::NoAxis)?;
         Ok(Self {
@@ -77,11 +77,11 @@ impl StraightRod {
         })
     }
 
-    /// Appends the rod to a state as [`push`](Self::push) does, with one end clamped; a wall frame
-    /// that the clamp needs is added.
+    /// Appends the rod to a state with one end clamped, and adds the wall frame if the clamp needs
+    /// one.
     ///
     /// # Errors
-    /// As [`push`](Self::push).
+    /// See [`push`](Self::push).
     pub fn push_clamped(
         &self,
         clamp: RodClamp,
@@ -98,32 +98,28 @@ impl StraightRod {
         Ok(layout)
     }
 
-    /// Appends the rod's points and frames to a state: first the wall frame at the start, then
-    /// the segments' frames, then the wall frame at the end, as far as there are walls.
+    /// Appends the rod's points and frames to a state: wall frame at the start, frames of the
+    /// segments, wall frame at the end.
     ///
-    /// A node has half the mass of each segment that it joins. Wall frames are held; they have
-    /// the inertia of the segment beside them, in case they are driven. Free ones, at
-    /// [`free_walls`](Self::free_walls), share it.
+    /// Each node has half the mass of its segments. Held wall frames have the inertia of the
+    /// adjacent segment; free wall frames ([`free_walls`](Self::free_walls)) share it.
     ///
     /// # Errors
-    /// No segment, one whose length or inertia (or the inverse of either) is not positive and finite, a node or
-    /// an orientation that is not finite; the state is then unchanged.
+    /// If there are no segments, if a length or an inertia (or its inverse) is not positive and
+    /// finite, or if a position or the orientation is not finite. The state is unchanged on error.
     pub fn push(&self, state: &mut State) -> Result<RodLayout, RodError> {
         let layouts = self.push_in_parts(&[self.segment_lengths.len()], state)?;
         layouts.into_iter().next().ok_or(RodError::NoSegments)
     }
 
-    /// Appends a rod whose parts, of so many segments each, may have different materials; each is a rod of
-    /// its own to whatever acts on it.
+    /// Appends a rod in parts, which may have different materials; `parts` are numbers of segments.
     ///
-    /// Neighbouring parts share a node and a free frame, the cross-section there, which stands as the wall
-    /// frame of both: half a segment of one and half a segment of the other bend in series, each by
-    /// the law of its own part. The frame has a quarter of the inertia of the segment on either side, which
-    /// lacks it.
+    /// Neighbouring parts share a node and a free wall frame, so that half segments of both bend in
+    /// series. The frame takes a quarter of the inertia of both adjacent segments.
     ///
     /// # Errors
-    /// A part without segments, numbers that do not add up to all segments, and as [`push`](Self::push); the
-    /// state is then unchanged.
+    /// If a part has no segments, if the numbers do not add up, or as in [`push`](Self::push). The
+    /// state is unchanged on error.
     pub fn push_in_parts(
         &self,
         parts: &[usize],
@@ -170,8 +166,8 @@ impl StraightRod {
         Ok(layouts)
     }
 
-    /// Pushes the frames of a part's segments; a segment beside a free frame, between parts or at an end, lacks a
-    /// quarter of its inertia for each.
+    /// Appends the frames of a part. A segment loses a quarter of its inertia to each adjacent free
+    /// wall frame.
     fn push_segments(&self, lengths: &[f64], is_joined: [bool; 2], state: &mut State) {
         let is_free = |end| self.wall(end) == Some(false);
         let shares_inertia = [
@@ -190,7 +186,6 @@ impl StraightRod {
         }
     }
 
-    /// The nodes, each valid.
     fn nodes(&self) -> Result<Vec<Point>, RodError> {
         let lengths = &self.segment_lengths;
         let axis = self.orientation * Vector3::z();
@@ -213,8 +208,7 @@ impl StraightRod {
         (0..=lengths.len()).map(node).collect()
     }
 
-    /// Refuses segments whose frames are not valid: the smallest piece that has a frame of its own is a
-    /// quarter of a segment, at a free wall.
+    /// Checks the frames of whole segments and of quarter segments, at free walls.
     fn check_frames(&self) -> Result<(), RodError> {
         let is_refused = |&length: &f64| {
             let pieces = [0.25 * length, length];
@@ -234,7 +228,7 @@ impl StraightRod {
         RodError::SegmentInertia { segment, value }
     }
 
-    /// Whether the wall frame at an end is held, if there is one.
+    /// Returns whether the wall frame at an end is held, or `None` without a wall frame.
     fn wall(&self, end: RodEnd) -> Option<bool> {
         let (is_held, is_free) = match end {
             RodEnd::Start => (self.walls.start, self.free_walls.start),
@@ -243,7 +237,6 @@ impl StraightRod {
         (is_held || is_free).then_some(is_held)
     }
 
-    /// Pushes the wall frame at an end, if there is one, beside a segment of a length.
     fn push_wall(&self, (end, length): (RodEnd, f64), state: &mut State) {
         let Some(is_held) = self.wall(end) else {
             return;
@@ -255,7 +248,6 @@ impl StraightRod {
         }
     }
 
-    /// A frame with the inertia of a piece, so long, of a segment.
     fn frame(&self, piece: f64, segment: f64) -> Frame {
         let section = self.cross_section.segment_inertia(piece);
         let about_middle = match self.rotary_inertia {
@@ -277,9 +269,8 @@ mod tests {
     use super::*;
     use crate::RodEnd;
 
-    /// Other bodies stand before and after; the rod's own stand as its layout says.
     #[test]
-    fn bodies_follow_those_already_there() {
+    fn rods_are_appended_to_existing_bodies() {
         let mut state = State::default();
         StraightRod::uniform(2, 1.0).push(&mut state).unwrap();
         let rod = StraightRod {
@@ -303,7 +294,6 @@ mod tests {
         assert_eq!(tip, Vector3::new(1.0, 2.0, 7.0));
     }
 
-    /// Parts share a node and a frame; no mass and no inertia is lost or won.
     #[test]
     fn parts_share_a_node_and_a_cross_section() {
         let rod = StraightRod {
@@ -330,14 +320,13 @@ mod tests {
         let (a, b) = (inertia(&whole), inertia(&divided));
         assert!((a / b - 1.0).abs() < 1e-14, "{a} {b}");
         let lengths: f64 = parts.iter().flat_map(RodLayout::voronoi_lengths).sum();
-        // But for the free end, all of the rod bends.
+        // The outer half segment at the free end does not bend.
         assert!((lengths - 8.5).abs() < 1e-14);
         for wrong in [&[4, 0][..], &[1, 2], &[]] {
             assert!(rod.push_in_parts(wrong, &mut State::default()).is_err());
         }
     }
 
-    /// A free wall frame takes its inertia from the segment beside it, and half a segment bends there.
     #[test]
     fn free_walls_share_the_inertia_of_their_segments() {
         let inertia = |free_walls| {
@@ -361,7 +350,6 @@ mod tests {
         assert_eq!((inner, all), (4.0, 6.0));
     }
 
-    /// All mass is there, half a segment's at either end.
     #[test]
     fn masses_add_up() {
         let rod = StraightRod {
@@ -377,12 +365,11 @@ mod tests {
             .map(|inverse| 1.0 / inverse);
         for (mass, length) in masses.zip([0.5, 1.5, 3.0, 2.0]) {
             let expected = rod.cross_section.linear_density() * length;
-            // Two reciprocals' round-off.
+            // Rounding of two reciprocals.
             assert!((mass - expected).abs() < 1e-14 * expected);
         }
     }
 
-    /// Along any direction, the opposite of lab z included, and none where there is none.
     #[test]
     fn a_rod_lies_along_its_direction() {
         for direction in [Vector3::x(), -Vector3::z(), Vector3::new(1.0, 2.0, -2.0)] {
@@ -398,10 +385,8 @@ mod tests {
         }
     }
 
-    /// Lengths from the smallest to the largest double, a start and an orientation that are not finite: errors,
-    /// never a panic or a body that cannot move.
     #[test]
-    fn a_refused_rod_leaves_the_state_alone() {
+    fn a_refused_rod_does_not_change_the_state() {
         let mut state = State::default();
         let lengths = [0.0, f64::NAN, f64::MAX, 1e308, 1e-308, 5e-324];
         let rods = lengths.map(|length| StraightRod::uniform(2, length));

@@ -1,39 +1,37 @@
-//! Ways to hold an end of a rod.
+//! Clamps of rod ends.
 
 use crate::{RodEnd, RodError, RodLayout};
 use actin_mechanics::State;
 use std::ops::Range;
 
-/// What of a rod is held at a clamped end.
+/// Bodies held at a clamped end.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum RodClamp {
-    /// The last node, and a wall frame that the last segment's frame is joined to by half a
-    /// segment of bending.
+    /// Last node and a wall frame, which half a segment of bending joins to the last segment.
     ///
-    /// The clamped cross-section lies at the node, so this converges with the square of the
-    /// segment length; holding the segment's frame delays the curvature by half a segment.
+    /// The error is of second order in the segment length, because the clamped cross-section is at
+    /// the node.
     #[default]
     Wall,
-    /// The last node and the last segment's frame.
+    /// Last node and frame of the last segment. This delays the curvature by half a segment.
     NodeAndFrame,
-    /// The last two nodes and the last segment's frame: the segment cannot even stretch.
+    /// Last two nodes and frame of the last segment, which cannot stretch.
     TwoNodesAndFrame,
-    /// The last node alone: the end turns about it.
+    /// Last node only; the end can rotate.
     Pin,
 }
 
-/// The bodies that a clamp holds.
+/// Bodies held by a clamp.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Held {
-    /// Points.
+    /// Indices of the points.
     pub points: Range<usize>,
-    /// Frames.
+    /// Indices of the frames.
     pub frames: Range<usize>,
 }
 
 impl Held {
-    /// Releases what is held: loads move it again, from rest. A wall frame then follows the segment
-    /// beside it.
+    /// Frees the bodies, at rest.
     ///
     /// ```
     /// use actin_cosserat::{RodClamp, RodEnd, State, StraightRod};
@@ -52,15 +50,15 @@ impl Held {
 }
 
 impl RodClamp {
-    /// Whether the rod has to be built with a wall frame at the clamped end.
+    /// Returns `true` if the rod needs a wall frame at the clamped end.
     pub fn needs_wall(self) -> bool {
         self == Self::Wall
     }
 
-    /// The bodies that are held at an end.
+    /// Bodies held at an end of a rod.
     ///
     /// # Errors
-    /// [`Wall`](Self::Wall) at an end without a wall frame.
+    /// If the clamp is [`Wall`](Self::Wall) and the end has no wall frame.
     pub fn held(self, layout: &RodLayout, end: RodEnd) -> Result<Held, RodError> {
         let frame = match self {
             Self::Wall => layout.wall(end).ok_or(RodError::NoWall(end))?,
@@ -81,10 +79,10 @@ impl RodClamp {
         })
     }
 
-    /// Holds an end, and says what is held there.
+    /// Holds an end and returns the held bodies.
     ///
     /// # Errors
-    /// [`Wall`](Self::Wall) at an end without a wall frame.
+    /// If the clamp is [`Wall`](Self::Wall) and the end has no wall frame.
     pub fn hold(
         self,
         layout: &RodLayout,
@@ -103,7 +101,6 @@ mod tests {
     use super::*;
     use crate::{StraightRod, Walls};
 
-    /// Points and frames that are held on a rod of three segments, clamped at one end.
     fn held(clamp: RodClamp, end: RodEnd) -> (Vec<usize>, Vec<usize>) {
         let rod = StraightRod {
             walls: Walls {
@@ -127,7 +124,7 @@ mod tests {
     }
 
     #[test]
-    fn each_clamp_holds_what_its_name_says() {
+    fn each_clamp_holds_its_bodies() {
         use RodClamp::{NodeAndFrame, Pin, TwoNodesAndFrame, Wall};
         assert_eq!(held(Pin, RodEnd::Start), (vec![0], vec![]));
         assert_eq!(held(Pin, RodEnd::End), (vec![3], vec![]));

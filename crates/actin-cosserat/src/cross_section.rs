@@ -1,10 +1,10 @@
-//! What a rod's inertia follows from.
+//! Cross-section of a rod and inertia of its segments.
 
 use crate::{RodKey, RodParameterError, constants};
 use actin_mechanics::{Axis, Inertia};
 use std::f64::consts::PI;
 
-/// A circular cross-section with its mass per length, validated.
+/// Validated circular cross-section with a mass per length.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CrossSection {
     linear_density: f64,
@@ -12,10 +12,10 @@ pub struct CrossSection {
 }
 
 impl CrossSection {
-    /// A section with the given mass per length (pN ns^2/nm^2) and area (nm^2).
+    /// Creates a section with the given mass per length (pN ns^2/nm^2) and area (nm^2).
     ///
     /// # Errors
-    /// A number that is not positive and finite.
+    /// If a number is not positive and finite.
     pub fn new(linear_density: f64, area: f64) -> Result<Self, RodParameterError> {
         RodParameterError::unless_positive(RodKey::LinearDensity, linear_density)?;
         RodParameterError::unless_positive(RodKey::Area, area)?;
@@ -25,8 +25,7 @@ impl CrossSection {
         })
     }
 
-    /// The section of an actin filament: [`constants::LINEAR_DENSITY`] and
-    /// [`constants::CROSS_SECTION_AREA`].
+    /// Cross-section of actin: [`constants::LINEAR_DENSITY`] and [`constants::CROSS_SECTION_AREA`].
     pub fn actin() -> Self {
         Self {
             linear_density: constants::LINEAR_DENSITY,
@@ -44,17 +43,20 @@ impl CrossSection {
         self.area
     }
 
-    /// Mass of a piece of the given length (nm).
+    /// Mass of a rod of the given length (nm).
     pub fn mass(&self, length: f64) -> f64 {
         self.linear_density * length
     }
 
-    /// Inertia of a segment (pN nm ns^2) about its body axes, axis z along the rod:
-    /// `mu l A / (4 pi) diag(1, 1, 2)`.
+    /// Inertia of a segment of rest length `length` (nm) about its body axes (pN nm ns^2), axis z
+    /// along the rod.
     ///
-    /// `mu` is the mass per length, `l` the rest length (nm, positive), `A` the area. These are
-    /// the moments of the cross-section, as in the rod equations; those of a solid cylinder would
-    /// have `mu l^3 / 12` on top of the transverse ones.
+    /// ```text
+    /// J = mu l A / (4 pi) diag(1, 1, 2)
+    /// ```
+    ///
+    /// `mu` is the mass per length and `A` the area. A solid cylinder has an additional transverse
+    /// `mu l^3 / 12`.
     ///
     /// # Source
     /// Gazzola et al., R. Soc. Open Sci. 5 (2018) 171628, Section 2.
@@ -81,7 +83,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn sections_that_do_not_exist_are_refused() {
+    fn invalid_sections_are_refused() {
         for bad in [0.0, -1.0, f64::NAN, f64::INFINITY] {
             assert_eq!(
                 CrossSection::new(bad, 1.0).unwrap_err().key,

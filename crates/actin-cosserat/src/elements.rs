@@ -1,8 +1,4 @@
-//! Rods in any topology, straight or curved at rest, as one interaction.
-//!
-//! A rod that is straight at rest and runs from end to end is an [`EnergyGradient`], which is faster.
-//!
-//! [`EnergyGradient`]: crate::EnergyGradient
+//! Rods of any topology and rest shape, as one interaction.
 
 use crate::layout::is_length;
 use crate::{BendingElement, RodError, RodLayout, RodMaterial, ShearElement};
@@ -11,39 +7,39 @@ use actin_mechanics::{
     UnitQuaternion, Vector3, correlate, rotation,
 };
 
-/// What resists stretch and shear between two points, in axes of a frame.
+/// Stretch and shear between two points, in the axes of a frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RodSegment {
-    /// The two points.
+    /// Indices of the points.
     pub points: [usize; 2],
-    /// The frame; at rest its d3 leads from the first point to the second.
+    /// Index of the frame. At rest its d3 points from the first to the second point.
     pub frame: usize,
     /// Rest length (nm).
     pub rest_length: f64,
 }
 
-/// What resists bending and twist between two frames.
+/// Bending and twist between two frames.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RodJoint {
-    /// The two frames, in the order of the rod.
+    /// Indices of the frames, in the order of the rod.
     pub frames: [usize; 2],
     /// Rest distance of the frames along the rod (nm).
     pub rest_distance: f64,
-    /// Where each frame of the joint stands in its body: the joint is at rest where
-    /// `Qa oa = Qb ob`. Its strain is `log((Qa oa)^T Qb ob)` over the rest distance.
+    /// Offsets `oa`, `ob` of the joint's frames in their bodies. The strain is
+    /// `log((Qa oa)^T Qb ob)` divided by the rest distance.
     pub offsets: [UnitQuaternion; 2],
 }
 
 impl RodJoint {
-    /// A joint whose frames are parallel at rest.
+    /// Joint with parallel frames at rest.
     pub fn straight(frames: [usize; 2], rest_distance: f64) -> Self {
         Self::curved(frames, rest_distance, Vector3::zeros())
     }
 
-    /// A joint that at rest has a curvature (rad/nm, the same in axes of either frame): its first
-    /// two components bend, the third twists.
+    /// Joint with a rest curvature (rad/nm, equal in the axes of both frames). The third component
+    /// is a twist.
     ///
-    /// Its own frames lie half way between those of the bodies.
+    /// The joint's frames are halfway between the frames of the bodies.
     pub fn curved(frames: [usize; 2], rest_distance: f64, curvature: Vector3) -> Self {
         let half = rotation::exp(curvature * (0.5 * rest_distance));
         Self {
@@ -64,17 +60,16 @@ impl RodJoint {
     }
 }
 
-/// Segments between points and joints between frames of one material, in any topology: term `rod`;
-/// elements are the segments, then the joints.
+/// Segments between points and joints between frames of one material: term `rod`.
 ///
-/// Its energy is that of [`EnergyGradient`](crate::EnergyGradient), with strains measured from the
-/// rest shape. Where every joint is straight and they follow one another it is the same.
+/// Elements are the segments, then the joints. The energy is that of
+/// [`EnergyGradient`](crate::EnergyGradient), which is faster for straight rods.
 ///
 /// ```
 /// use actin_cosserat::{
 ///     Interaction, Rigidities, RodElements, RodMaterial, State, StraightRod, Vector3,
 /// };
-/// // Curved at rest to a radius of 100 nm over 50 nm, then held straight: B L / 2 R^2.
+/// // Rest radius of 100 nm over 50 nm, held straight: B L / 2 R^2.
 /// let mut state = State::default();
 /// let rod = StraightRod::uniform(50, 1.0).push(&mut state)?;
 /// let material = RodMaterial::new(Rigidities::table4())?;
@@ -87,7 +82,7 @@ impl RodJoint {
 /// # Ok::<(), actin_cosserat::RodError>(())
 /// ```
 ///
-/// A segment here does not know the curvature around it, so that a potential is refused.
+/// Potentials are not supported, because segments have no access to the curvature around them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RodElements {
     material: RodMaterial,
@@ -96,11 +91,11 @@ pub struct RodElements {
 }
 
 impl RodElements {
-    /// The rod that these segments and joints make up.
+    /// Creates a rod of segments and joints.
     ///
     /// # Errors
-    /// A rest length or distance that is not positive and finite, or whose inverse is not; a rest shape
-    /// that is not finite; a potential.
+    /// If a rest length or distance, or its inverse, is not positive and finite; if an offset is
+    /// not finite; if the material is a potential.
     pub fn new(
         material: RodMaterial,
         segments: Vec<RodSegment>,
@@ -130,11 +125,11 @@ impl RodElements {
         })
     }
 
-    /// The rod `layout` with the bends and twists of `state` as its rest shape, whatever it is
-    /// curved like; rest lengths are those of the layout.
+    /// Creates the rod `layout` with the curvature of `state` as its rest shape and the rest
+    /// lengths of the layout.
     ///
     /// # Errors
-    /// A potential, or orientations that are not finite.
+    /// If the material is a potential, or if orientations are not finite.
     ///
     /// # Panics
     /// If `state` does not have the rod's bodies.
@@ -160,17 +155,17 @@ impl RodElements {
         Self::new(material, segments.collect(), joints.collect())
     }
 
-    /// The segments.
+    /// Segments of the rod.
     pub fn segments(&self) -> &[RodSegment] {
         &self.segments
     }
 
-    /// The joints.
+    /// Joints of the rod.
     pub fn joints(&self) -> &[RodJoint] {
         &self.joints
     }
 
-    /// Curvature of each joint beyond that at rest (rad/nm, axes of the joint's own frames).
+    /// Curvature of each joint relative to the rest shape (rad/nm, axes of the joint's frames).
     pub fn curvatures<'a>(
         &'a self,
         state: &'a State,
@@ -192,7 +187,6 @@ impl RodSegment {
         ShearElement::segment(self.rest_length)
     }
 
-    /// Its frame, and the vector between its points.
     fn placed(&self, state: &State) -> (UnitQuaternion, Vector3) {
         let x = &state.points.position;
         let l = x.get(self.points[1]) - x.get(self.points[0]);
@@ -250,7 +244,7 @@ impl Interaction for RodElements {
 }
 
 impl RodElements {
-    /// What the stresses act on: the force of each segment, then the couple of each joint.
+    /// Force of each segment and torque of each joint under random stress.
     fn internal(&self, stresses: &[f64]) -> (Vec<InternalForce>, Vec<InternalCouple>) {
         let (vectors, _) = stresses.as_chunks::<3>();
         let (forces, couples) = vectors.split_at(self.segments.len());
@@ -264,7 +258,7 @@ impl RodElements {
             let [a, b] = joint.offsets;
             InternalCouple {
                 frames: joint.frames,
-                // The strain log((Qa oa)^T Qb ob) in other axes: log(ob oa^T Qa^T Qb) = ob log(...).
+                // log(ob oa^T Qa^T Qb) = ob log((Qa oa)^T Qb ob).
                 rest: a * b.inverse(),
                 couple: b * Vector3::from(*couple),
             }
@@ -352,7 +346,6 @@ mod tests {
     };
     use actin_mechanics::{Xorshift, perturb};
 
-    /// A clamped rod with a rest shape that bends and twists, in another shape.
     fn curved() -> (State, RodElements) {
         let mut state = State::default();
         let rod = StraightRod::uniform(4, 2.0);
@@ -366,13 +359,11 @@ mod tests {
         (state, law)
     }
 
-    /// No load at rest; elsewhere loads and blocks are the derivatives of the energy, which an
-    /// offset on the wrong side, or of the wrong sign, would spoil.
     #[test]
     fn curved_rods_are_the_gradient_of_their_energy() {
         let (mut state, law) = curved();
         let residual = loads_of(&law, &state).residual(&state);
-        // Round-off of strains of 1e-15 against rigidities of 1e4.
+        // Strain errors of 1e-15 times rigidities of 1e4.
         assert!(
             residual.force < 1e-9 && residual.torque < 1e-9,
             "{residual:?}"
@@ -384,7 +375,6 @@ mod tests {
         assert_fluctuates(&[&law], &state, 1e-12);
     }
 
-    /// A rod that is straight at rest is that of the energy gradient.
     #[test]
     fn straight_elements_are_a_straight_rod() {
         let mut state = State::default();

@@ -1,4 +1,4 @@
-//! The force law that is the gradient of an energy.
+//! Force law that is the gradient of an energy.
 
 use crate::extended::{EndTwist, ExtendedSegments};
 use crate::fast::FastRod;
@@ -7,25 +7,27 @@ use actin_mechanics::{Interaction, Loads, RandomStress, SecondOrder, State, Stif
 
 /// A rod whose loads are minus the gradient of its energy: term `rod`.
 ///
-/// `E = sum W(sigma_i) |lhat_i| + sum U(kappa_j) Dhat_j` with the material's energies per length;
-/// elements are the `n` shear elements, then the bending elements along the chain of frames,
-/// walls included. Loads are those of [`ShearElement`] and [`BendingElement`].
+/// ```text
+/// E = sum_i W(sigma_i) |lhat_i| + sum_j U(kappa_j) Dhat_j
+/// ```
+///
+/// `W` and `U` are the material's energies per length. Elements are the `n` [`ShearElement`]s, then
+/// the [`BendingElement`]s along the chain of frames, including walls.
 ///
 /// # Source
-/// The energy is that of arXiv 2203.01284, Section 2.2, discretised with rest lengths; the loads
-/// are its exact gradient, which the printed balance is not.
+/// Energy: arXiv 2203.01284, Section 2.2, discretised with rest lengths. The loads are its exact
+/// gradient, unlike the printed balance.
 #[derive(Clone, Debug)]
 pub struct EnergyGradient {
     layout: RodLayout,
     material: RodMaterial,
     extended: Option<ExtendedSegments>,
-    /// The loop of its laws, where there is one.
     fast: Option<FastRod>,
 }
 
 impl EnergyGradient {
-    /// The law on a rod. A potential couples its segments to the curvature around them;
-    /// [`with_extension`](Self::with_extension) says what else is around its ends.
+    /// Creates a rod with free ends. For a potential, [`with_extension`](Self::with_extension) sets
+    /// what is joined to the ends.
     pub fn new(layout: RodLayout, material: RodMaterial) -> Self {
         let extended = material.potential().map(|_| ExtendedSegments {
             law: SegmentLaw::default(),
@@ -39,10 +41,10 @@ impl EnergyGradient {
         }
     }
 
-    /// The same with segments whose energy depends on the mean curvature around them.
+    /// Makes the segment energy depend on the mean curvature around the segment.
     ///
-    /// The couple that belongs to this acts on the frames of the bending elements around, so that
-    /// pulling turns a rod as turning pulls it.
+    /// The conjugate torque acts on the frames of the surrounding bending elements, so that tension
+    /// twists the rod and twist pulls it.
     #[must_use]
     pub fn with_extension(self, law: SegmentLaw, curvature: SegmentCurvature) -> Self {
         let extended = ExtendedSegments { law, curvature };
@@ -53,31 +55,28 @@ impl EnergyGradient {
         }
     }
 
-    /// The rod.
+    /// Layout of the rod.
     pub fn layout(&self) -> &RodLayout {
         &self.layout
     }
 
-    /// Its material.
+    /// Material of the rod.
     pub fn material(&self) -> &RodMaterial {
         &self.material
     }
 }
 
 impl EnergyGradient {
-    /// Bending elements that twist more.
     fn end_twists(&self) -> &[EndTwist] {
         let extended = self.extended.as_ref();
         extended.map_or(&[], |segments| segments.curvature.end_twists())
     }
 
-    /// The segments that curvature reaches.
     pub(crate) fn extended(&self) -> Option<&ExtendedSegments> {
         self.extended.as_ref()
     }
 }
 
-/// Energies of the shear elements.
 pub(crate) fn write_shear_energies(
     layout: &RodLayout,
     material: &RodMaterial,
@@ -93,7 +92,6 @@ pub(crate) fn write_shear_energies(
     }
 }
 
-/// Energies of the bending elements, the same for both force laws.
 pub(crate) fn write_bending_energies(
     layout: &RodLayout,
     material: &RodMaterial,
@@ -109,8 +107,7 @@ pub(crate) fn write_bending_energies(
 }
 
 impl EnergyGradient {
-    /// The loads of any law, one element after the other, but for what is more near ends; the reference of the
-    /// fast path.
+    /// Scalar loads without end twists: the reference of the vector kernel.
     pub(crate) fn add_scalar_loads(&self, state: &State, loads: &mut Loads) {
         match &self.extended {
             None => self.add_shear_loads(state, loads),
@@ -164,7 +161,6 @@ impl EnergyGradient {
         }
     }
 
-    /// What extended segments need of the rod.
     fn rod(&self) -> (&RodLayout, &RodMaterial) {
         (&self.layout, &self.material)
     }
@@ -213,8 +209,6 @@ impl Interaction for EnergyGradient {
 }
 
 impl SecondOrder for EnergyGradient {
-    /// Pushes those of [`ShearElement::stiffness`], then those of [`BendingElement::stiffness`]:
-    /// a body's diagonal block once per element that it belongs to.
     fn add_stiffness(&self, state: &State, stiffness: &mut Stiffness) {
         match &self.extended {
             None => self.add_shear_stiffness(state, stiffness),

@@ -1,109 +1,109 @@
-//! Why parameters or a rod were refused.
+//! Errors of parameters and rods.
 
 use crate::{RodEnd, RodKey};
 use thiserror::Error;
 
-/// A number that breaks the rule of its key.
+/// A parameter out of range.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[error("{key} = {value}: must be {rule}")]
 pub struct RodParameterError {
-    /// Which parameter.
+    /// Parameter.
     pub key: RodKey,
-    /// What it was.
+    /// Rejected value.
     pub value: f64,
-    /// What it must be.
+    /// Rule that the value violates.
     pub rule: &'static str,
 }
 
-/// Why a rod was refused.
+/// Invalid rod.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum RodError {
     /// A parameter is out of range.
     #[error(transparent)]
     Parameter(#[from] RodParameterError),
-    /// A rod without segments.
+    /// The rod has no segments.
     #[error("segments = 0: a rod has at least one")]
     NoSegments,
-    /// A segment without a length that can be computed with.
+    /// A rest length or its inverse is not positive and finite.
     #[error(
         "rest length of segment {segment} = {value} nm: must be positive and finite, and so must its inverse"
     )]
     SegmentLength {
-        /// Which segment, counted from 0.
+        /// Index of the segment.
         segment: usize,
-        /// Its rest length (nm).
+        /// Rest length (nm).
         value: f64,
     },
-    /// A segment whose inertia overflows or underflows.
+    /// The inertia of a segment overflows or underflows.
     #[error(
         "rest length of segment {segment} = {value} nm: its mass and moments of inertia, and their inverses, \
          must be positive and finite"
     )]
     SegmentInertia {
-        /// Which segment, counted from 0.
+        /// Index of the segment.
         segment: usize,
-        /// Its rest length (nm).
+        /// Rest length (nm).
         value: f64,
     },
-    /// A rod whose start, orientation or nodes are not finite.
-    #[error("the place of node {node} of a rod and its orientation must be finite")]
+    /// A position or the orientation is not finite.
+    #[error("the position of node {node} and the orientation of a rod must be finite")]
     Place {
-        /// Which node, counted from 0.
+        /// Index of the node.
         node: usize,
     },
-    /// A rest shape that is not finite.
+    /// A rest shape is not finite.
     #[error("the rest shape of joint {joint} must be finite")]
     RestShape {
-        /// Which joint, counted from 0.
+        /// Index of the joint.
         joint: usize,
     },
-    /// A curvature that is not finite.
+    /// A curvature is not finite.
     #[error("the curvature at s = {s} nm must be finite")]
     Curvature {
         /// Rest arc length from node 0 (nm).
         s: f64,
     },
-    /// A joint without a distance between its frames that can be computed with.
+    /// A rest distance or its inverse is not positive and finite.
     #[error(
         "rest distance of joint {joint} = {value} nm: must be positive and finite, and so must its inverse"
     )]
     JointDistance {
-        /// Which joint, counted from 0.
+        /// Index of the joint.
         joint: usize,
-        /// Its rest distance (nm).
+        /// Rest distance (nm).
         value: f64,
     },
-    /// A rod along a vector that is zero or not finite.
+    /// The direction is zero or not finite.
     #[error("the direction of a rod must be finite and not zero")]
     NoAxis,
-    /// Not one place for each node.
-    #[error("{given} places for a rod of {needed} nodes: must be as many")]
+    /// The number of positions differs from the number of nodes.
+    #[error("{given} positions for a rod of {needed} nodes: give one position per node")]
     Nodes {
-        /// Number of places.
+        /// Number of positions.
         given: usize,
         /// Number of nodes.
         needed: usize,
     },
-    /// Two neighbouring nodes at the same place, or one at a place that is not finite.
-    #[error("the nodes of segment {segment} must be at two different finite places")]
+    /// Two neighbouring nodes coincide, or a position is not finite.
+    #[error("the nodes of segment {segment} must have two different finite positions")]
     NoDirection {
-        /// Which segment, counted from 0.
+        /// Index of the segment.
         segment: usize,
     },
-    /// A potential where nothing knows the curvature around a segment.
-    #[error("{0} takes a law for each strain only: EnergyGradient takes a potential")]
+    /// The interaction does not support a potential.
+    #[error("{0} does not support a potential: use EnergyGradient")]
     Potential(&'static str),
-    /// A wall clamp at an end that was built without a wall frame.
+    /// The end has no wall frame.
     #[error("the {0} of the rod has no wall frame to be clamped to: build it with one")]
     NoWall(RodEnd),
 }
 
 impl RodParameterError {
-    /// Refuses what is not a positive finite number.
+    /// Returns an error if `value` is not positive and finite.
     ///
     /// # Errors
-    /// Zero, negative numbers, infinities and NaN.
+    /// If `value` is zero, negative, infinite or NaN.
     pub fn unless_positive(key: RodKey, value: f64) -> Result<(), Self> {
         if value.is_finite() && value > 0.0 {
             Ok(())
@@ -113,10 +113,10 @@ impl RodParameterError {
         }
     }
 
-    /// Refuses what is not a finite number.
+    /// Returns an error if `value` is not finite.
     ///
     /// # Errors
-    /// Infinities and NaN.
+    /// If `value` is infinite or NaN.
     pub fn unless_finite(key: RodKey, value: f64) -> Result<(), Self> {
         if value.is_finite() {
             Ok(())

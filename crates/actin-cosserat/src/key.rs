@@ -1,8 +1,8 @@
-//! Names of parameters, for errors.
+//! Names of parameters in errors.
 
 use std::fmt;
 
-/// A parameter of a rod or of its laws.
+/// Parameter of a rod or of its laws.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RodKey {
     /// `S1` (pN).
@@ -21,19 +21,19 @@ pub enum RodKey {
     Rest,
     /// Rise of a rigidity.
     Rise,
-    /// Curvature of half the rise.
+    /// Curvature at half the rise.
     Curvature,
-    /// Twist that softens bending.
+    /// Twist scale of bending.
     Twist,
-    /// Shear that softens bending.
+    /// Shear scale of bending.
     Shear,
-    /// End of the range.
+    /// Limit of the range.
     Range,
-    /// `b_plus` of the published law.
+    /// `b_plus` of [`TanhTwist`](crate::TanhTwist).
     BPlus,
-    /// `b_minus` of the published law.
+    /// `b_minus` of [`TanhTwist`](crate::TanhTwist).
     BMinus,
-    /// A `lambda` of the published law.
+    /// A `lambda` of [`TanhTwist`](crate::TanhTwist).
     Lambda,
     /// Width `lambda 2`.
     Lambda2,
@@ -41,31 +41,31 @@ pub enum RodKey {
     Lambda5,
     /// Width `lambda 7`.
     Lambda7,
-    /// Slope of the couple at the end of the range.
+    /// Slope of the torque at the limit of the range.
     EndSlope,
-    /// Twist of half the rise.
+    /// Twist at half the rise.
     Half,
-    /// Twist of the slow rise.
+    /// Twist scale of the slow rise.
     Slow,
-    /// Rigidity under tension.
+    /// Rigidity in tension.
     Tension,
-    /// Rigidity under compression.
+    /// Rigidity in compression.
     Compression,
-    /// Width of the change between both.
+    /// Width of the transition.
     Width,
-    /// Linear coefficient of length against twist.
+    /// Linear coefficient of [`RootedStretch`](crate::RootedStretch).
     Slope,
-    /// Size of its root.
+    /// Coefficient of the root of [`RootedStretch`](crate::RootedStretch).
     Bend,
     /// Cubic coefficient.
     Cubic,
-    /// A coefficient of a polynomial.
+    /// Coefficient of a polynomial.
     Coefficient,
     /// Cubic shear rigidity.
     CubicShear,
-    /// A factor of rigidities.
+    /// Factor of rigidities.
     Factor,
-    /// Curvature at rest.
+    /// Rest curvature.
     RestCurvature,
     /// Mass per length.
     LinearDensity,

@@ -1,4 +1,4 @@
-//! Which bodies of a state make up a rod, and its rest lengths. Building it is in `build.rs`.
+//! Bodies and rest lengths of a rod in a state.
 
 use crate::{RodError, Walls};
 use std::fmt;
@@ -7,9 +7,9 @@ use std::ops::Range;
 /// An end of a rod.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RodEnd {
-    /// The end with node 0.
+    /// End with node 0.
     Start,
-    /// The end with the last node.
+    /// End with the last node.
     End,
 }
 
@@ -22,11 +22,11 @@ impl fmt::Display for RodEnd {
     }
 }
 
-/// Where the bodies of a rod stand in a state, and its rest lengths.
+/// Bodies and rest lengths of a rod in a state.
 ///
-/// `n` segments join `n + 1` consecutive points and have `n` consecutive frames. A wall frame
-/// stands directly before the first or after the last of these, so that all frames of the
-/// rod's bending elements, the walls included, are consecutive.
+/// A rod has `n` segments, `n + 1` consecutive points and `n` consecutive frames. Wall frames are
+/// directly before the first and after the last frame, so the frames of all bending elements are
+/// consecutive.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RodLayout {
     first_point: usize,
@@ -37,14 +37,14 @@ pub struct RodLayout {
 }
 
 impl RodLayout {
-    /// A rod whose node 0 is `first_point` and whose first segment has the frame `first_frame`,
-    /// with the given rest lengths (nm).
+    /// Creates the layout of a rod from the index of its first point, the index of its first
+    /// segment's frame, and rest lengths (nm).
     ///
     /// # Errors
-    /// No segment, or one whose length or whose inverse is not positive and finite.
+    /// If there are no segments, or if a length or its inverse is not positive and finite.
     ///
     /// # Panics
-    /// If there is a wall at the start but no frame before `first_frame` that could be it.
+    /// If there is a wall at the start and `first_frame` is 0.
     pub fn new(
         first_point: usize,
         first_frame: usize,
@@ -54,7 +54,7 @@ impl RodLayout {
         check_lengths(&segment_lengths)?;
         assert!(
             first_frame > 0 || !walls.start,
-            "the wall frame stands before the first segment's frame"
+            "a wall at the start needs a frame before the first segment's frame"
         );
         let voronoi_lengths = voronoi(&segment_lengths, walls);
         let refused = (0..).zip(&voronoi_lengths).find(|(_, l)| !is_length(**l));
@@ -75,23 +75,23 @@ impl RodLayout {
         self.segment_lengths.len()
     }
 
-    /// The rod's points, in order.
+    /// Points of the rod.
     pub fn points(&self) -> Range<usize> {
         self.first_point..self.first_point + self.segments() + 1
     }
 
-    /// The segments' frames, in order, without walls.
+    /// Frames of the segments, without walls.
     pub fn frames(&self) -> Range<usize> {
         self.first_frame..self.first_frame + self.segments()
     }
 
-    /// All frames that bending elements join, in order: the segments' and those of the walls.
+    /// Frames of the bending elements: segments and walls.
     pub fn bending_chain(&self) -> Range<usize> {
         let Range { start, end } = self.frames();
         start - usize::from(self.walls.start)..end + usize::from(self.walls.end)
     }
 
-    /// The point at an end.
+    /// Point at an end.
     pub fn end_point(&self, end: RodEnd) -> usize {
         match end {
             RodEnd::Start => self.first_point,
@@ -99,7 +99,7 @@ impl RodLayout {
         }
     }
 
-    /// The frame of the segment at an end.
+    /// Frame of the segment at an end.
     pub fn end_frame(&self, end: RodEnd) -> usize {
         match end {
             RodEnd::Start => self.first_frame,
@@ -115,7 +115,7 @@ impl RodLayout {
         }
     }
 
-    /// The wall frame at an end, if there is one.
+    /// Wall frame at an end, or `None`.
     pub fn wall(&self, end: RodEnd) -> Option<usize> {
         let frames = self.frames();
         match end {
@@ -129,8 +129,8 @@ impl RodLayout {
         &self.segment_lengths
     }
 
-    /// Rest distances `Dhat` of the frames that each bending element joins (nm): the mean of the
-    /// two segments' lengths, and half a segment's length at a wall.
+    /// Rest distances `Dhat` of the bending elements (nm): mean length of the two segments, or half
+    /// a segment at a wall.
     pub fn voronoi_lengths(&self) -> &[f64] {
         &self.voronoi_lengths
     }
@@ -140,13 +140,13 @@ impl RodLayout {
         self.segment_lengths.iter().sum()
     }
 
-    /// Number of elements of a rod interaction: a shear element per segment, then the bending
-    /// elements (`n - 1`, and one per wall).
+    /// Number of elements: one shear element per segment, `n - 1` bending elements, and one more
+    /// per wall.
     pub fn elements(&self) -> usize {
         self.segment_lengths.len() + self.voronoi_lengths.len()
     }
 
-    /// Rest arc length of each node from node 0 on (nm): one more than there are segments.
+    /// Rest arc lengths of the nodes, starting at 0 (nm).
     pub fn node_positions(&self) -> Vec<f64> {
         let mut place = 0.0;
         let behind = self.segment_lengths.iter().map(|length| {
@@ -156,9 +156,8 @@ impl RodLayout {
         std::iter::once(0.0).chain(behind).collect()
     }
 
-    /// Rest arc length of each element from node 0 on (nm), in the order of the elements: the
-    /// middle of its segment for a shear element, the node between its frames for a bending
-    /// element.
+    /// Rest arc lengths of the elements (nm): middles of segments for shear elements, nodes for
+    /// bending elements.
     pub fn element_positions(&self) -> Vec<f64> {
         let nodes = self.node_positions();
         let middles = nodes.windows(2).map(|pair| 0.5 * (pair[0] + pair[1]));
@@ -168,7 +167,6 @@ impl RodLayout {
     }
 }
 
-/// Refuses a rod of no segments and segments of no length.
 pub(crate) fn check_lengths(lengths: &[f64]) -> Result<(), RodError> {
     if lengths.is_empty() {
         return Err(RodError::NoSegments);
@@ -182,12 +180,10 @@ pub(crate) fn check_lengths(lengths: &[f64]) -> Result<(), RodError> {
     }
 }
 
-/// Whether a rest length and its inverse, which strains are multiplied with, are positive and finite.
 pub(crate) fn is_length(value: f64) -> bool {
     value.is_finite() && value > 0.0 && value.recip().is_finite()
 }
 
-/// Rest distances of the frames that bending elements join.
 fn voronoi(lengths: &[f64], walls: Walls) -> Vec<f64> {
     let half = |length: &f64| 0.5 * length;
     let first = lengths.first().filter(|_| walls.start).map(half);
@@ -196,7 +192,6 @@ fn voronoi(lengths: &[f64], walls: Walls) -> Vec<f64> {
     first.into_iter().chain(inside).chain(last).collect()
 }
 
-/// Walls at both ends.
 #[cfg(test)]
 pub(crate) const BOTH: Walls = Walls {
     start: true,
@@ -207,8 +202,6 @@ pub(crate) const BOTH: Walls = Walls {
 mod tests {
     use super::*;
 
-    /// Bending elements cover the rod exactly where both ends have walls; without walls the two
-    /// outer half segments do not bend.
     #[test]
     fn voronoi_lengths_cover_the_rod() {
         let lengths = vec![1.0, 2.0, 4.0];
@@ -220,7 +213,7 @@ mod tests {
     }
 
     #[test]
-    fn elements_stand_at_middles_and_nodes() {
+    fn elements_are_at_middles_and_nodes() {
         let lengths = vec![1.0, 2.0, 4.0];
         let both = RodLayout::new(0, 1, lengths.clone(), BOTH).unwrap();
         assert_eq!(
@@ -232,7 +225,6 @@ mod tests {
         assert_eq!(free.elements(), 5);
     }
 
-    /// One segment: no interior bending, but a wall on either side still bends against it.
     #[test]
     fn one_segment_is_a_rod() {
         let free = RodLayout::new(3, 7, vec![2.0], Walls::default()).unwrap();

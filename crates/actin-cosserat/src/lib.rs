@@ -1,14 +1,12 @@
-//! Discrete Cosserat rods: they stretch, shear, bend and twist.
+//! Discrete Cosserat rods, which stretch, shear, bend and twist.
 //!
-//! A rod of `n` segments is `n + 1` points (its nodes) and `n` frames (one per segment) of a
-//! [`State`]. [`StraightRod`] builds one and returns its [`RodLayout`], which can be given another
-//! shape ([`RodLayout::bend`], [`RodLayout::place`]). [`EnergyGradient`] and [`PaperBalance`] are the
-//! two force laws of rods that are straight at rest; [`RodElements`] is that of rods with any rest
-//! shape and in any topology. [`RodClamp`] names the ways to hold an end. [`ShearElement`] and
-//! [`BendingElement`] are what a rod consists of, for models that join something else to it.
+//! A rod of `n` segments consists of `n + 1` points (nodes) and `n` frames (one per segment) of a
+//! [`State`]. [`StraightRod`] builds a rod and returns its [`RodLayout`]. [`EnergyGradient`] and
+//! [`PaperBalance`] are force laws of rods that are straight at rest; [`RodElements`] supports any
+//! rest shape and topology. [`ShearElement`] and [`BendingElement`] are the elements of rods.
 //!
-//! Units are nm, pN, ns and rad; masses are pN ns^2/nm = 1e-21 kg. Body axis d3 of a segment's
-//! frame lies along the rod. Nothing here knows of monomers, junctions or scenes.
+//! Units are nm, pN, ns and rad; masses are in pN ns^2/nm = 1e-21 kg. Body axis d3 of a segment's
+//! frame points along the rod.
 //!
 //! # Source
 //! Gunaratne, Floyd, Ni, Papoian and Erban, arXiv 2203.01284, Section 2.2; Gazzola et al.,
@@ -64,7 +62,7 @@ pub use rigidities::{Rigidities, RigidityFactors};
 pub use shear::{ShearElement, ShearLoads, ShearStiffness};
 pub use strain_laws::StrainLaws;
 
-/// The crate of points, frames, loads and interactions that rods are made of.
+/// Crate of points, frames, loads and interactions.
 pub use actin_mechanics as mechanics;
 pub use actin_mechanics::{
     Interaction, LoadError, Loads, PointLoad, SecondOrder, Springs, State, System, UnitQuaternion,

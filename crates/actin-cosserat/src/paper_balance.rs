@@ -1,4 +1,4 @@
-//! The force law as the paper prints it. It has no potential.
+//! Force law as printed in the paper.
 
 use crate::energy_gradient::write_bending_energies;
 use crate::{
@@ -7,24 +7,26 @@ use crate::{
 };
 use actin_mechanics::{Interaction, Loads, State, UnitQuaternion, Vector3};
 
-/// A rod with the balance equations as printed: term `rod`, not conservative.
+/// Rod with the balance equations as printed: term `rod`, not conservative.
 ///
-/// With `e = |l|/|lhat|`, `t = l/|l|`, `n = S sigma` and `m = B kappa`, a segment exerts
-/// `Q n / e` on its first node, minus that on its second, and the torque `|lhat| Q^T t x n` on
-/// its frame; a bending element exerts `(m + Dhat kappa x m / 2) / E^3` on its first frame and
-/// `(-m + Dhat kappa x m / 2) / E^3` on its second, where `E = D/Dhat` and `D` is the mean of the
-/// present lengths of the two segments, or half a segment's at a wall.
+/// ```text
+/// segment:  force Q n / e on the first node, -Q n / e on the second
+///           torque |lhat| Q^T t x n on the frame
+/// bending:  torques (m + Dhat kappa x m / 2) / E^3 on the first frame
+///           and (-m + Dhat kappa x m / 2) / E^3 on the second
+/// e = |l|/|lhat|,  t = l/|l|,  n = S sigma,  m = B kappa,  E = D/Dhat
+/// ```
 ///
-/// Differences from the print: `kappa = log(Qi^T Qj)/Dhat`, the sign of the paper's continuous
-/// curvature (with the sign of its discrete one the printed couples would drive a bend further);
-/// constant inertia, since `I/e` and its rate cannot be split into drift and kick.
+/// `D` is the mean of the present lengths of the two segments, or half a length at a wall.
 ///
-/// Forces balance exactly and, without an extension, so do the moments of the shear elements; with
-/// one, which scales the force by `xi` and the torque not, `(xi - 1) |lhat| t x n` is left. The
-/// couples of a bending element leave `theta^3 m / 12` where `m` is not parallel to the angle
-/// `theta`. The energy written is that of [`EnergyGradient`](crate::EnergyGradient), with an
-/// extension at the strain of `l / xi`; this law does not keep it: loads differ from its gradient
-/// by the order of the strain.
+/// Differences from the printed equations: `kappa = log(Qi^T Qj)/Dhat` has the sign of the paper's
+/// continuous curvature, because its discrete curvature would amplify bending. The inertia is
+/// constant.
+///
+/// Forces balance exactly. The residual moment is `(xi - 1) |lhat| t x n` per segment with an
+/// extension, and `theta^3 m / 12` per bending element unless `m` is parallel to the angle `theta`.
+/// The energy is that of [`EnergyGradient`](crate::EnergyGradient) at `l / xi`; the loads differ
+/// from its gradient to first order in the strain.
 ///
 /// # Source
 /// arXiv 2203.01284, Section 2.2, after Gazzola et al. (2018).
@@ -36,10 +38,10 @@ pub struct PaperBalance {
 }
 
 impl PaperBalance {
-    /// The law on a rod.
+    /// Creates the rod.
     ///
     /// # Errors
-    /// A potential: the print has a law for each strain.
+    /// If the material is a potential.
     pub fn new(layout: RodLayout, material: RodMaterial) -> Result<Self, RodError> {
         if material.potential().is_some() {
             return Err(RodError::Potential("PaperBalance"));
@@ -51,7 +53,7 @@ impl PaperBalance {
         })
     }
 
-    /// The same with `e` and `E` scaled by `1/xi` as printed. No couple answers to that.
+    /// Scales `e` and `E` by `1/xi` as printed, without a conjugate torque.
     #[must_use]
     pub fn with_extension(self, law: TwistStretch, curvature: SegmentCurvature) -> Self {
         Self {
@@ -60,7 +62,7 @@ impl PaperBalance {
         }
     }
 
-    /// Vector of segment `k` (nm, lab frame), over its `xi`.
+    /// Vector of segment `k` (nm, lab frame) divided by its `xi`.
     #[inline]
     fn scaled_vector(&self, k: usize, state: &State) -> Vector3 {
         let i = self.layout.points().start + k;
@@ -74,17 +76,16 @@ impl PaperBalance {
         }
     }
 
-    /// The rod.
+    /// Layout of the rod.
     pub fn layout(&self) -> &RodLayout {
         &self.layout
     }
 
-    /// Its material.
+    /// Material of the rod.
     pub fn material(&self) -> &RodMaterial {
         &self.material
     }
 
-    /// Adds the loads of segment `k`.
     #[inline]
     fn add_segment(&self, k: usize, state: &State, loads: &mut Loads) {
         let (i, frame) = (
@@ -102,12 +103,12 @@ impl PaperBalance {
         loads.torque.add(frame, shear.torque * inverse_extension);
     }
 
-    /// Present over rest length of the part of the rod that bending element `j` stands for.
+    /// Extension `E` of bending element `j`.
     #[inline]
     fn voronoi_extension(&self, j: usize, state: &State) -> f64 {
         let walls = usize::from(self.layout.wall(RodEnd::Start).is_some());
         let half_length = |segment| 0.5 * self.scaled_vector(segment, state).norm();
-        // Element j joins these segments' frames; at a wall one of the two is missing.
+        // Element j joins the frames of these segments; at a wall one of them is missing.
         let before = j.checked_sub(walls);
         let after = Some(j + 1 - walls).filter(|&segment| segment < self.layout.segments());
         let present = before.map_or(0.0, half_length) + after.map_or(0.0, half_length);
@@ -115,7 +116,7 @@ impl PaperBalance {
     }
 }
 
-/// The printed couples of a bending element on its two frames, at `E = 1`.
+/// Printed torques of a bending element at `E = 1`.
 #[inline]
 fn printed_couples(
     element: BendingElement,

@@ -1,25 +1,23 @@
-//! Random stress of rods: forces that shift strains at rest, and couples that shift curvatures.
+//! Random stress of rods: forces that shift rest strains, and torques that shift rest curvatures.
 //!
-//! Without extension a segment has the energy `-L n . sigma`, three numbers `n`, and a bending element `-Dhat m . kappa`,
-//! three numbers `m`; they stand segments first.
+//! Without extension, a segment has the energy `-L n . sigma` and a bending element
+//! `-Dhat m . kappa`, with three random numbers each, segments first.
 //!
-//! Where the curvature around a segment reaches its energy, the two cannot be drawn apart. There the bending
-//! energies on both sides of a segment count with it, by half of its length each: with the mean curvature
-//! `kappa_1`, `kappa_2` of either side, `kappa` their mean and `U''` the tangent of bending,
+//! With extension, strain and curvature are correlated. Half of the bending energy on each side is
+//! assigned to the segment:
 //!
-//! `L/2 (U(kappa_1) + U(kappa_2)) = L U(kappa) + L/2 U''((kappa_2 - kappa_1)/2) + ...`,
+//! ```text
+//! L/2 (U(kappa_1) + U(kappa_2)) = L U(kappa) + L/2 U''((kappa_2 - kappa_1)/2) + ...
+//! E = -L (n . sigma + w_1 m_1 . kappa_1 + w_2 m_2 . kappa_2)
+//! ```
 //!
-//! so that all blocks are those of positive energies: one of `sigma` and `kappa` together, one of the difference. The energy of
-//! the stress is `-L (n . sigma + w_1 m_1 . kappa_1 + w_2 m_2 . kappa_2)`, `w` 1/2 or, for a segment with one side, 1.
-//! Nine numbers a segment, none for bending elements.
+//! `kappa_1` and `kappa_2` are the mean curvatures of both sides, `kappa` is their mean, `w` is
+//! 1/2, or 1 for a segment with a single side: nine numbers per segment.
 //!
-//! Near blocked ends, where elements twist otherwise, both sides count with the mean of what these do.
-//!
-//! Loads are those of these energies but for the torques about the third axes of frames, which are those of twist alone. Hardly
-//! anything resists a turn about the axis: with these torques, frames would turn until the stress bends them further in the
-//! direction in which they are bent already. In laws that are isotropic about the axis, bending and shear exert none.
+//! Axial torques on frames are those of twist alone. Only friction resists axial rotations, so
+//! other torques would rotate frames until the stress increases the existing bending.
 
-use crate::extended::{ExtendedSegments, SegmentAround, SegmentJet};
+use crate::extended::{ExtendedSegments, SegmentJet, SegmentSurroundings};
 use crate::{BendingElement, EnergyGradient, RodLayout, RodMaterial, ShearElement};
 use actin_mechanics::{
     InternalCouple, InternalForce, Loads, Matrix3, RandomStress, State, Stiffness, UnitQuaternion,
@@ -28,19 +26,19 @@ use actin_mechanics::{
 use nalgebra::SMatrix;
 use std::ops::Range;
 
-/// Numbers of a vector.
 const VECTOR: usize = 3;
-/// Numbers of a segment that curvature reaches: `n`, `m_1`, `m_2`.
+/// Stress components of a segment with extension: `n`, `m_1`, `m_2`.
 const EXTENDED: usize = 9;
 
-/// Deviates, made such of covariance `c`.
+/// Transforms deviates to covariance `c`.
 fn drawn(c: Matrix3, deviates: &[f64]) -> Vector3 {
     let mut values = [deviates[0], deviates[1], deviates[2]];
     correlate(c, &mut values);
     values.into()
 }
 
-/// Six deviates, made such of the covariance `scale` times the second derivatives by strain and curvature.
+/// Transforms six deviates to `scale` times the second derivatives with respect to strain and
+/// curvature.
 fn drawn_together(jet: &SegmentJet, scale: f64, deviates: &[f64]) -> [Vector3; 2] {
     let mut c = SMatrix::<f64, 6, 6>::zeros();
     c.fixed_view_mut::<3, 3>(0, 0).copy_from(&jet.by_strain);
@@ -57,14 +55,12 @@ fn vector(values: &[f64]) -> Vector3 {
     Vector3::new(values[0], values[1], values[2])
 }
 
-/// What the stresses of a rod act on.
 struct Parts<'a> {
     rod: &'a EnergyGradient,
     stresses: &'a [f64],
 }
 
 impl Parts<'_> {
-    /// Of segments, and of bending elements.
     fn split(&self) -> (&[f64], &[f64]) {
         self.stresses
             .split_at(stride(self.rod) * self.rod.layout().segments())
@@ -113,7 +109,7 @@ impl Parts<'_> {
     }
 }
 
-/// Numbers of each segment.
+/// Number of stress components per segment.
 fn stride(rod: &EnergyGradient) -> usize {
     if rod.extended().is_some() {
         EXTENDED
@@ -122,7 +118,6 @@ fn stride(rod: &EnergyGradient) -> usize {
     }
 }
 
-/// The strain of each segment.
 fn strains<'a>(
     layout: &'a RodLayout,
     state: &'a State,
@@ -136,7 +131,6 @@ fn strains<'a>(
     })
 }
 
-/// The curvature of each bending element.
 fn curvatures<'a>(
     layout: &'a RodLayout,
     state: &'a State,
@@ -149,8 +143,8 @@ fn curvatures<'a>(
     })
 }
 
-/// Writes what `force` and `couple` make of each strain, each curvature, the length of either, and what stands in
-/// their places.
+/// Writes stresses without extension. `force` and `couple` have the arguments material, strain or
+/// curvature, length, and previous values.
 fn write_separate(
     rod: &EnergyGradient,
     state: &State,
@@ -171,12 +165,11 @@ fn write_separate(
     }
 }
 
-/// The same for segments that curvature reaches.
 fn write_extended(
     (extended, rod): (&ExtendedSegments, &EnergyGradient),
     state: &State,
     stresses: &mut [f64],
-    of: impl Fn(&SegmentJet, &RodMaterial, &SegmentAround, &[f64]) -> [Vector3; 3],
+    of: impl Fn(&SegmentJet, &RodMaterial, &SegmentSurroundings, &[f64]) -> [Vector3; 3],
 ) {
     let (layout, material) = (rod.layout(), rod.material());
     for (k, stress) in stresses.chunks_exact_mut(EXTENDED).enumerate() {
@@ -333,7 +326,6 @@ mod tests {
         (state, layout.unwrap())
     }
 
-    /// Stresses that are turned back exert the same forces after a spin of all frames, and no torque about the axes.
     #[test]
     fn turned_stresses_exert_the_same_forces_after_a_spin() {
         let mut state = State::default();
@@ -368,7 +360,7 @@ mod tests {
         }
     }
 
-    /// Stretched and twisted, as bending and shear are without their torques about the axis.
+    /// Twist and stretch only, for which the omitted axial torques vanish.
     #[test]
     fn stress_of_separate_strains_has_the_covariance_of_the_stiffness() {
         let (mut state, layout) = clamped();
@@ -383,9 +375,8 @@ mod tests {
         assert_fluctuates(&[&law], &state, 1e-12);
     }
 
-    /// Whatever it bends and shears, about the axes of frames stress is that of twist.
     #[test]
-    fn stress_of_bending_turns_no_frame_about_itself() {
+    fn stress_of_bending_has_no_axial_torque() {
         let (mut state, layout) = clamped();
         let law = EnergyGradient::new(layout, RodMaterial::new(Rigidities::table4()).unwrap());
         perturb(&mut state, &mut Xorshift::new(8), 0.05, 0.05);
@@ -401,10 +392,10 @@ mod tests {
         }
     }
 
-    /// Under tension, so that shear is stiff; a wall on one side, a free end on the other. Curvature that is drawn apart from
-    /// strain would lack the blocks between them, and fluctuate a fifth too much.
+    /// Under tension, for positive shear stiffness. Independent draws of curvature and strain would
+    /// fluctuate 20 % too much.
     #[test]
-    fn stress_of_strains_that_know_of_curvature_has_the_covariance_of_the_stiffness() {
+    fn stress_of_coupled_strains_has_the_covariance_of_the_stiffness() {
         for law in [
             Homogenised::mean_filament(),
             Homogenised::mean_filament_at_298_k(),

@@ -1,21 +1,21 @@
-//! Rigidities of a rod: what resists its strains. What follows from them is in `material.rs`.
+//! Rigidities of a rod.
 
 use crate::{RodKey, RodParameterError, constants};
 use actin_mechanics::Vector3;
 use std::f64::consts::PI;
 
-/// Rigidities against shear strains and curvatures, in body axes.
+/// Rigidities of shear strains and curvatures (body axes).
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Rigidities {
-    /// Shearing, shearing, stretching: S1, S2, S3 (pN).
+    /// S1, S2 (shear), S3 (stretch) (pN).
     pub shear: Vector3,
-    /// Bending, bending, twisting: B1, B2, B3 (pN nm^2).
+    /// B1, B2 (bending), B3 (twist) (pN nm^2).
     pub bend: Vector3,
 }
 
 impl Rigidities {
-    /// The rigidities of the multi-resolution model.
+    /// Rigidities of the multi-resolution model.
     ///
     /// # Source
     /// arXiv 2203.01284, Table 4.
@@ -31,7 +31,7 @@ impl Rigidities {
         }
     }
 
-    /// The rigidities of the preceding paper, for a section of 38.5 nm^2.
+    /// Rigidities of the preceding paper, for a cross-section of 38.5 nm^2.
     ///
     /// # Source
     /// arXiv 2203.01284, Table 2, and Appendix B for the area.
@@ -48,11 +48,14 @@ impl Rigidities {
         )
     }
 
-    /// Rigidities of a cylinder of an isotropic material.
+    /// Rigidities of a cylinder of isotropic material.
     ///
-    /// `S1 = S2 = 4 G A / 3`, `S3 = E A`, `B1 = B2 = E A^2 / 4 pi`, `B3 = G A^2 / 2 pi` with
-    /// `G = E / (2 (1 + nu))`; `E` Young's modulus (pN/nm^2), `nu` Poisson's ratio, `A` the area
-    /// of the cross-section (nm^2).
+    /// ```text
+    /// S1 = S2 = 4 G A / 3,  S3 = E A,  B1 = B2 = E A^2 / 4 pi,  B3 = G A^2 / 2 pi
+    /// G = E / (2 (1 + nu))
+    /// ```
+    ///
+    /// `E` is Young's modulus (pN/nm^2), `nu` Poisson's ratio and `A` the area (nm^2).
     ///
     /// # Source
     /// arXiv 2203.01284, Table 2.
@@ -66,10 +69,10 @@ impl Rigidities {
         }
     }
 
-    /// Checks every number; [`RodMaterial::new`](crate::RodMaterial::new) does so.
+    /// Checks all rigidities.
     ///
     /// # Errors
-    /// The first rigidity that is not positive and finite.
+    /// If a rigidity is not positive and finite.
     pub fn validate(&self) -> Result<(), RodParameterError> {
         for (key, value) in [RodKey::S1, RodKey::S2, RodKey::S3]
             .into_iter()
@@ -87,17 +90,17 @@ impl Rigidities {
     }
 }
 
-/// By what the rigidities of a rod are multiplied, as where another protein decorates it.
+/// Factors of the rigidities of a rod, as for decoration by another protein.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct RigidityFactors {
-    /// Of shear.
+    /// Factor of the shear rigidities.
     pub shear: f64,
-    /// Of stretch.
+    /// Factor of the stretch rigidity.
     pub stretch: f64,
-    /// Of bending.
+    /// Factor of the bending rigidities.
     pub bend: f64,
-    /// Of twist.
+    /// Factor of the twist rigidity.
     pub twist: f64,
 }
 
@@ -113,10 +116,10 @@ impl Default for RigidityFactors {
 }
 
 impl RigidityFactors {
-    /// Checks every factor.
+    /// Checks all factors.
     ///
     /// # Errors
-    /// The first that is not positive and finite.
+    /// If a factor is not positive and finite.
     pub fn validate(&self) -> Result<(), RodParameterError> {
         let all = [self.shear, self.stretch, self.bend, self.twist];
         all.into_iter()
@@ -128,7 +131,7 @@ impl RigidityFactors {
 mod tests {
     use super::*;
 
-    /// Worked out by hand: G = 2000/2.8 = 714.29, A^2 = 1482.25.
+    /// G = 2000/2.8 = 714.29, A^2 = 1482.25.
     #[test]
     fn preceding_paper_by_hand() {
         let r = Rigidities::preceding_paper();
@@ -140,7 +143,7 @@ mod tests {
             (r.bend.y, 235_907.0),
             (r.bend.z, 168_505.0),
         ] {
-            // The expected numbers are rounded to six digits.
+            // Expected numbers have six digits.
             assert!((value - expected).abs() < 1e-5 * expected, "{value}");
         }
     }

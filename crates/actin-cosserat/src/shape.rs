@@ -1,33 +1,33 @@
-//! Puts a rod that stands on a state into another shape.
+//! Changes of the shape of a rod in a state.
 
 use crate::{RodEnd, RodError, RodLayout};
 use actin_mechanics::{State, UnitQuaternion, Vector3, rotation};
 
-/// The least rotation of lab z into a direction; `None` where it has none.
+/// Smallest rotation of lab z to a direction, or `None` if the direction is zero or not finite.
 pub(crate) fn from_z(direction: Vector3) -> Option<UnitQuaternion> {
     let length = direction.norm();
     if !(length.is_finite() && length > 0.0) {
         return None;
     }
     let unit = direction / length;
-    // Of all half turns that lead to -z this one is as good as any.
+    // All half turns to -z are equally small.
     let half_turn = || rotation::exp(Vector3::x() * std::f64::consts::PI);
     Some(UnitQuaternion::rotation_between(&Vector3::z(), &unit).unwrap_or_else(half_turn))
 }
 
 impl RodLayout {
-    /// Bends and twists the rod to the given curvatures (rad/nm, body axes) without stretch or
-    /// shear, from its first node and its first frame on, which stay: that of the wall if there is
-    /// one at the start.
+    /// Bends and twists the rod to the given curvatures (rad/nm, body axes) without stretch and
+    /// shear.
     ///
-    /// `curvature` is asked at the rest arc length of each bending element (nm from node 0).
+    /// The first node and the first frame (the start wall, if any) keep their positions.
+    /// `curvature` is evaluated at the rest arc length of each bending element (nm).
     ///
     /// ```
     /// use actin_cosserat::{State, StraightRod, Vector3};
     /// use std::f64::consts::PI;
     /// let mut state = State::default();
     /// let rod = StraightRod::uniform(100, 1.0).push(&mut state)?;
-    /// // A full circle about d2: of 100 segments the last ends where the first begins.
+    /// // A full circle about d2: the end of the last segment meets the first node.
     /// rod.bend(&mut state, |_| Vector3::y() * (2.0 * PI / 100.0))?;
     /// let x = &state.points.position;
     /// assert!((x.get(100) - x.get(0)).norm() < 1e-12);
@@ -35,7 +35,7 @@ impl RodLayout {
     /// ```
     ///
     /// # Errors
-    /// A curvature that is not finite; the state is then unchanged.
+    /// If a curvature is not finite. The state is unchanged on error.
     ///
     /// # Panics
     /// If `state` does not have the rod's bodies.
@@ -65,15 +65,14 @@ impl RodLayout {
         Ok(())
     }
 
-    /// Puts the nodes to the given places (nm, lab frame), and the segments' frames along the
-    /// lines between them, each turned from the one before by the least rotation; a wall frame at
-    /// the start stays, one at the end follows the last segment.
+    /// Moves the nodes to the given positions (nm, lab frame) and aligns the segments' frames.
     ///
-    /// Rest lengths stay as they are: where the places are further apart, the rod is stretched.
+    /// Each frame is the smallest rotation of the preceding one. A wall frame at the start is
+    /// unchanged; a wall frame at the end follows the last segment.
     ///
     /// # Errors
-    /// Not one place per node, or places of neighbours that have no direction between them; the
-    /// state is then unchanged.
+    /// If there is not one position per node, or if neighbouring positions coincide or are not
+    /// finite. The state is unchanged on error.
     ///
     /// # Panics
     /// If `state` does not have the rod's bodies.
@@ -111,10 +110,8 @@ mod tests {
         Vector3::new(0.01, 0.002 * s, -0.03)
     }
 
-    /// What is asked for is there: the curvature of each element, and no strain of any segment;
-    /// an element that is off by one, or a wall that is left out, would show.
     #[test]
-    fn a_bent_rod_has_the_curvatures_that_it_was_given() {
+    fn a_bent_rod_has_the_prescribed_curvatures() {
         for end in [RodEnd::Start, RodEnd::End] {
             let mut state = State::default();
             let rod = StraightRod::uniform(5, 2.0);
@@ -136,7 +133,7 @@ mod tests {
     }
 
     #[test]
-    fn a_curvature_that_is_not_finite_leaves_the_state_alone() {
+    fn an_invalid_curvature_does_not_change_the_state() {
         let mut state = State::default();
         let layout = StraightRod::uniform(3, 1.0).push(&mut state).unwrap();
         let before = state.clone();
@@ -146,7 +143,6 @@ mod tests {
         assert_eq!(state, before);
     }
 
-    /// Nodes are where they were put, segments lie along them, and nothing twists on the way.
     #[test]
     fn a_rod_is_placed_along_its_nodes() {
         let mut state = State::default();

@@ -1,46 +1,48 @@
-//! One shear element: what resists a vector that leaves its rest place in a frame.
-//!
-//! The rod and whatever is joined to it use the same element.
+//! Shear element between two points and a frame, used by rods and by the joints to other parts.
 
 use crate::RodMaterial;
 use actin_mechanics::{Coordinates, Matrix3, Stiffness, UnitQuaternion, Vector3};
 use std::ops::Mul;
 
-/// A vector `l` between two points that has a rest length and a rest direction in a frame.
+/// Vector `l` between two points with a rest length and a rest direction in a frame.
 ///
-/// Its strain is `sigma = Q^T l / |lhat| - d`, in axes of the frame `Q`; its energy
-/// `E = |lhat| W(sigma)`, with `W` the material's energy per length.
+/// ```text
+/// sigma = Q^T l / |lhat| - d      (axes of the frame)
+/// E     = |lhat| W(sigma)         (pN nm)
+/// ```
+///
+/// `W` is the material's energy per length.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ShearElement {
     /// Rest length `|lhat|` (nm).
     pub rest_length: f64,
-    /// Unit vector `d` along which `l` lies at rest, in axes of the frame.
+    /// Unit vector `d` of the rest direction (axes of the frame).
     pub rest_direction: Vector3,
 }
 
 /// Loads of a shear element.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ShearLoads {
-    /// Force on the first point (pN, lab frame); the second has minus this.
+    /// Force on the first point (pN, lab frame), opposite to that on the second.
     pub force: Vector3,
     /// Torque on the frame (pN nm, body frame).
     pub torque: Vector3,
 }
 
-/// Second derivatives of a shear element's energy with respect to its vector `l` (lab frame) and
-/// to a turn `Q exp(phi)` of its frame, at `phi = 0`.
+/// Second derivatives of the energy with respect to the vector `l` (lab frame) and the rotation
+/// `Q exp(phi)` of the frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ShearStiffness {
     /// `d^2 E / dl dl` (pN/nm), symmetric.
     pub vector: Matrix3,
-    /// `d^2 E / dl dphi` (pN): rows belong to `l`.
+    /// `d^2 E / dl dphi` (pN), with rows for `l`.
     pub mixed: Matrix3,
     /// `d^2 E / dphi dphi` (pN nm), symmetric.
     pub frame: Matrix3,
 }
 
 impl ShearStiffness {
-    /// Adds the blocks of an element whose vector leads from the first point to the second.
+    /// Adds the blocks of an element between two points.
     pub fn push(&self, points: [usize; 2], frame: usize, stiffness: &mut Stiffness) {
         let [first, second] = points.map(Coordinates::Point);
         let frame = Coordinates::Frame(frame);
@@ -54,7 +56,7 @@ impl ShearStiffness {
 }
 
 impl ShearLoads {
-    /// The loads at force `n` in the axes of a frame (columns), where the vector is `body`.
+    /// Loads for the force `n` (axes of the frame) and the vector `body` (axes of the frame).
     #[inline]
     pub(crate) fn of_force(n: Vector3, axes: Matrix3, body: Vector3) -> Self {
         Self {
@@ -77,7 +79,7 @@ impl Mul<f64> for ShearStiffness {
 }
 
 impl ShearElement {
-    /// A segment of a rod: at rest along body axis d3.
+    /// Segment of a rod, with rest direction d3.
     #[inline]
     pub fn segment(rest_length: f64) -> Self {
         Self {
@@ -86,9 +88,8 @@ impl ShearElement {
         }
     }
 
-    /// Shear strain of the lab vector `l` in the frame `q`: `Q^T l / |lhat| - d`.
-    ///
-    /// For a segment the third component is the extension.
+    /// Strain `Q^T l / |lhat| - d` of the lab vector `l` in the frame `q`. The third component is
+    /// the stretch of a segment.
     ///
     /// ```
     /// use actin_cosserat::ShearElement;
@@ -108,8 +109,7 @@ impl ShearElement {
         self.rest_length * material.shear_energy_density(self.strain(q, l))
     }
 
-    /// Loads, minus the gradient of the energy: with `n = dW/dsigma`, the force on the first
-    /// point is `Q n` and the torque on the frame `Q^T l x n`.
+    /// Force `Q n` on the first point and torque `Q^T l x n` on the frame, with `n = dW/dsigma`.
     #[inline]
     pub fn loads(&self, material: &RodMaterial, q: UnitQuaternion, l: Vector3) -> ShearLoads {
         let axes = q.to_rotation_matrix().into_inner();
@@ -118,10 +118,14 @@ impl ShearElement {
         ShearLoads::of_force(material.shear_force(sigma), axes, body)
     }
 
-    /// Second derivatives of the energy, geometric part included.
+    /// Second derivatives of the energy, including the geometric stiffness.
     ///
-    /// With `y = Q^T l`, `n = dW/dsigma` and `A = (d^2 W/dsigma^2) / |lhat|` they are `Q A Q^T`,
-    /// `Q (A [y]x - [n]x)` and `-[y]x A [y]x + (n y^T + y n^T) / 2 - (n . y) I`.
+    /// ```text
+    /// y = Q^T l,  n = dW/dsigma,  A = (d^2 W/dsigma^2) / |lhat|
+    /// K_ll     = Q A Q^T
+    /// K_lphi   = Q (A [y]x - [n]x)
+    /// K_phiphi = -[y]x A [y]x + (n y^T + y n^T) / 2 - (n . y) I
+    /// ```
     ///
     /// ```
     /// use actin_cosserat::{Rigidities, RodMaterial, ShearElement};
@@ -129,7 +133,7 @@ impl ShearElement {
     /// let material = RodMaterial::new(Rigidities::table4())?;
     /// let along_z = (UnitQuaternion::identity(), Vector3::z() * 10.0);
     /// let stiffness = ShearElement::segment(10.0).stiffness(&material, along_z.0, along_z.1);
-    /// // At rest: S3 / 10 nm against stretch, S1 times 10 nm against turning the frame alone.
+    /// // At rest: S3 / 10 nm for stretch, S1 times 10 nm for rotation of the frame.
     /// assert!((stiffness.vector[(2, 2)] - 3.4e3).abs() < 1e-9);
     /// assert!((stiffness.frame[(0, 0)] - 1.6e5).abs() < 1e-9);
     /// # Ok::<(), actin_cosserat::RodParameterError>(())
@@ -148,7 +152,7 @@ impl ShearElement {
         )
     }
 
-    /// The same for given force `n` (pN) and tangent (pN), both in body axes.
+    /// Stiffness for the force `n` (pN) and the tangent (pN), both in body axes.
     pub(crate) fn stiffness_of(
         &self,
         n: Vector3,

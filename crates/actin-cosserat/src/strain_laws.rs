@@ -1,9 +1,9 @@
-//! A law for each strain: those of shear, stretch, bending and twist side by side.
+//! Laws of shear, stretch, bending and twist.
 
 use crate::{BendLaw, CubicShear, Rigidities, RigidityFactors, StretchLaw, TwistLaw};
 use actin_mechanics::{Matrix3, Vector3};
 
-/// A law for each strain of a rod.
+/// One law per strain of a rod.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StrainLaws {
     pub(crate) shear: CubicShear,
@@ -13,14 +13,12 @@ pub struct StrainLaws {
 }
 
 impl StrainLaws {
-    /// Whether shear and bending are isotropic about the axis.
     pub(crate) fn are_axisymmetric(&self) -> bool {
         let are_equal = |[x, y]: [f64; 2]| (x - y).abs() <= f64::EPSILON * x;
         let has_one_bend = matches!(self.bend, BendLaw::Constant(bend) if are_equal(bend));
         are_equal(self.shear.linear) && has_one_bend
     }
 
-    /// Constant rigidities, which were validated.
     pub(crate) fn constant(Rigidities { shear, bend }: Rigidities) -> Self {
         Self {
             shear: CubicShear {
@@ -33,7 +31,6 @@ impl StrainLaws {
         }
     }
 
-    /// The same laws with their rigidities multiplied.
     pub(crate) fn times(self, factors: &RigidityFactors) -> Self {
         Self {
             shear: self.shear.times(factors.shear),
@@ -43,28 +40,27 @@ impl StrainLaws {
         }
     }
 
-    /// The law of bending.
+    /// Law of bending.
     pub fn bend(&self) -> &BendLaw {
         &self.bend
     }
 
-    /// The law of twist.
+    /// Law of twist.
     pub fn twist(&self) -> &TwistLaw {
         &self.twist
     }
 
-    /// The law of stretch.
+    /// Law of stretch.
     pub fn stretch(&self) -> &StretchLaw {
         &self.stretch
     }
 
-    /// The law of shear.
+    /// Law of shear.
     pub fn shear(&self) -> &CubicShear {
         &self.shear
     }
 
-    /// The force (pN, body axes) at shear strain `sigma` where a strain of `natural` in length costs
-    /// nothing.
+    /// Force (pN, body axes) at shear strain `sigma` with the natural extension `natural`.
     #[inline]
     pub(crate) fn shear_force_beyond(&self, sigma: Vector3, natural: f64) -> Vector3 {
         let across = self.shear.force(sigma.xy());
@@ -72,14 +68,14 @@ impl StrainLaws {
         Vector3::new(across.x, across.y, 0.0) + along * self.stretch.force(strain - natural)
     }
 
-    /// Its energy per length (pN).
+    /// Energy per length (pN).
     #[inline]
     pub(crate) fn shear_energy_beyond(&self, sigma: Vector3, natural: f64) -> f64 {
         let (strain, ..) = self.length_strain(sigma);
         self.shear.energy_density(sigma.xy()) + self.stretch.energy_density(strain - natural)
     }
 
-    /// Its derivative (pN), symmetric.
+    /// Derivative of the force (pN), symmetric.
     #[inline]
     pub(crate) fn shear_tangent_beyond(&self, sigma: Vector3, natural: f64) -> Matrix3 {
         let (strain, along, bend) = self.length_strain(sigma);
@@ -92,14 +88,12 @@ impl StrainLaws {
         tangent
     }
 
-    /// The strain of length, its gradient by `sigma`, and the factor of its second derivative,
-    /// which is across the gradient.
+    /// Strain of length, its gradient, and the factor of its second derivative, transverse to the
+    /// gradient.
     ///
-    /// Where shear is linear it is the component along d3. Where shear is cubic it is the change
-    /// of the segment's length, `|e3 + sigma| - 1`: tension along d3 pulls a segment across as
-    /// soon as it shears, more than a shearing rigidity below the tension holds it back, so that a
-    /// rod that does not resist small shear would give way under any tension. Tension along the
-    /// segment holds it straight, as a string.
+    /// With linear shear it is the component along d3. With cubic shear it is the change of length,
+    /// `|e3 + sigma| - 1`: tension along d3 would make a rod without linear shear rigidity
+    /// unstable, whereas tension along the segment stabilises it like a string.
     #[inline]
     pub(crate) fn length_strain(&self, sigma: Vector3) -> (f64, Vector3, f64) {
         if self.shear.cubic == 0.0 {
@@ -107,12 +101,12 @@ impl StrainLaws {
         }
         let segment = Vector3::z() + sigma;
         let length = segment.norm();
-        // |segment| - 1, without its cancellation at small strain.
+        // |segment| - 1, without cancellation.
         let strain = (2.0 * sigma.z + sigma.norm_squared()) / (length + 1.0);
         (strain, segment / length, length.recip())
     }
 
-    /// Couple in body axes (pN nm) at curvature `kappa` (rad/nm).
+    /// Torque (pN nm, body axes) at curvature `kappa` (rad/nm).
     #[inline]
     pub(crate) fn bending_couple(&self, kappa: Vector3) -> Vector3 {
         let mut couple = self.bend.couple(kappa);
@@ -120,7 +114,7 @@ impl StrainLaws {
         couple
     }
 
-    /// Its derivative (pN nm^2), symmetric.
+    /// Derivative of the torque (pN nm^2), symmetric.
     #[inline]
     pub(crate) fn bending_tangent(&self, kappa: Vector3) -> Matrix3 {
         let mut tangent = self.bend.tangent(kappa);

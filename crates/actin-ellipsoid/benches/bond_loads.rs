@@ -17,7 +17,7 @@ fn bond_loads(criterion: &mut Criterion) {
         let run = model
             .build(&mut state, &Placement::default(), 0, monomers)
             .unwrap();
-        let bonds = model.bonds(&run).expect("interfaces find their bonds");
+        let bonds = model.bonds(&run).expect("the interfaces have bonds");
         perturb(&mut state, &mut Xorshift::new(1), 0.05, 0.05);
         let mut loads = Loads::zeros(&state);
         group.throughput(Throughput::Elements(bonds.number_of_bonds() as u64));

@@ -12,8 +12,6 @@ use actin_mechanics::{Interaction, Loads, Matrix3, SecondOrder, State, Vector3};
 
 /// Harmonic bonds of a run of consecutive monomers: term `bonds`, one element per interface.
 ///
-/// Energy of a bond, loads on the lower and on the upper monomer:
-///
 /// ```text
 /// E   = k/2 (|d| - L)^2
 /// f   = k (1 - L/|d|) d             force of one bond on the lower monomer
@@ -27,16 +25,13 @@ use actin_mechanics::{Interaction, Loads, Matrix3, SecondOrder, State, Vector3};
 /// k      rigidity of the interface times the weight of the bond (pN/nm)
 /// ```
 ///
-/// Vectors without a stated frame are in the body frame of the lower monomer.
+/// Other vectors are in the body frame of the lower monomer.
 ///
-/// The built filament is free of loads up to rounding: with the default parameters, forces of about
-/// 1e-10 pN remain 100 nm from the origin and grow in proportion to the distance. The number of
-/// vector lanes and the use of fused products depend on the processor, and so do the last digits of
-/// loads.
+/// Rounding leaves forces of about 1e-10 pN in the built filament 100 nm from the origin, in
+/// proportion to the distance. The last digits of loads depend on the processor.
 ///
-/// A bond of zero length exerts no force, because its direction is undefined. Its second
-/// derivatives are then those of `k d^2 / 2`. Near zero length the transverse stiffness diverges as
-/// `-k L / |d|`.
+/// A bond of zero length exerts no force. Its second derivatives are then those of `k d^2 / 2`.
+/// Near zero length the transverse stiffness diverges as `-k L / |d|`.
 ///
 /// # Source
 /// arXiv 2203.01284, Section 2.1.

@@ -71,17 +71,13 @@ pub struct MomentCheck {
 /// rho^a,  |a| <= 2;    rho^a / L,  |a| <= 3;    rho^a / L^2  and  rho^a / L^3,  |a| <= 4
 /// ```
 ///
-/// The moments of bonds uniformly distributed on the surface of the lower monomer are computed by
-/// numerical quadrature. Position, length and weight of the points follow from nonlinear least
-/// squares. Twelve points (48 unknowns) match all moments; fewer points minimise the deviation.
-///
-/// The gap between the monomers is tilted and curved. Points therefore have the midpoint height of
-/// a sampled bond at the same position.
+/// Position, length and weight of the points fit the moments of bonds uniformly distributed on the
+/// surface of the lower monomer. Twelve points (48 unknowns) match all moments; fewer points
+/// minimise the deviation. The gap is tilted and curved, so points have the midpoint height of a
+/// sampled bond at the same position.
 ///
 /// The result is independent of any seed and identical for all interfaces of a kind. It is computed
-/// once per geometry and process; the points of the default parameters are built in. The two-fold
-/// axis of an interface is not a symmetry of the moments, because bonds are distributed uniformly
-/// on the lower monomer only.
+/// once per geometry and process; the points of the default parameters are built in.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Cubature {
     /// Points of the quadrature.
@@ -158,8 +154,7 @@ impl Cubature {
         Self::find_from(&finder, starts, count)
     }
 
-    /// Best result over the initial guesses, or the first sufficiently accurate one. With fewer
-    /// unknowns than moments the best result is accepted.
+    /// Best result over the initial guesses, or the first sufficiently accurate one.
     fn find_from(
         finder: &Finder,
         starts: impl Iterator<Item = Vec<(Site, f64)>>,
@@ -203,7 +198,6 @@ impl MomentCheck {
 }
 
 impl CubaturePoint {
-    /// Ends of the bond in the body frames of the lower and the upper monomer.
     pub(crate) fn ends(&self, neighbour: &Neighbour, half_turn: f64) -> [Vector3; 2] {
         let direction = neighbour.offset.normalize();
         let [outwards, sideways] = transverse(direction, half_turn);
@@ -220,7 +214,6 @@ impl MomentCheck {
     /// bonds.
     pub fn is_within_bounds(&self) -> bool {
         let [least, most] = self.drawn_lengths;
-        // Rounding of the length parametrisation.
         let roundoff = 1e-12 * most;
         self.weights[0] > 0.0
             && self.lengths[0] >= least - roundoff
@@ -242,7 +235,6 @@ struct Finder {
     gap: Gap,
     patch: Patch,
     moments: Moments,
-    /// Minimum and maximum length of the possible bonds (nm).
     drawn: [f64; 2],
 }
 
@@ -298,7 +290,6 @@ impl Finder {
             weight: LEAST_WEIGHT / start.len() as f64,
         };
         let sites = search(&self.moments, start, bounds);
-        // Normalised, so that the zeroth moment is exact.
         let total: f64 = sites.iter().map(|(_, weight)| weight).sum();
         let points: Vec<CubaturePoint> = sites
             .iter()

@@ -1,3 +1,5 @@
+//! Ellipsoid geometry and inertia.
+
 use crate::EllipsoidParameterError;
 use crate::stream::Stream;
 use actin_mechanics::{Inertia, Vector3};
@@ -80,9 +82,9 @@ impl Ellipsoid {
 
     /// Random point, uniform on the surface.
     ///
-    /// Rejection method: a direction `q`, uniform on the sphere, is scaled to `(a q_x, b q_y, c
-    /// q_z)`. This stretches the area by `a b c |q / (a, b, c)|`. The point is accepted with
-    /// probability `min(a, b, c) |q / (a, b, c)| <= 1`.
+    /// A direction `q`, uniform on the sphere, is scaled to `(a q_x, b q_y, c q_z)`, which
+    /// stretches the area by `a b c |q / (a, b, c)|`, and accepted with probability
+    /// `min(a, b, c) |q / (a, b, c)| <= 1`.
     ///
     /// # Source
     /// arXiv 2203.01284, Appendix A, whose `c` is the smallest semi-axis.
@@ -132,7 +134,6 @@ mod tests {
         areas.iter().map(|a| a / total).collect()
     }
 
-    /// Statistic of sampled points against the uniform distribution.
     fn chi_square(ellipsoid: &Ellipsoid, draw: impl Fn(&mut Stream) -> Vector3) -> f64 {
         const POINTS: usize = 100_000;
         let mut stream = Stream::new(11, 0, 0);

@@ -1,12 +1,12 @@
+//! Gap between two neighbours.
+
 use crate::{Bond, Ellipsoid, EllipsoidParameters, Helix, InterfaceKind, Neighbour};
 use actin_mechanics::Vector3;
 
-/// Gap between two neighbours, with the range of bond lengths.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Gap {
     pub(crate) ellipsoid: Ellipsoid,
     pub(crate) neighbour: Neighbour,
-    /// Range of bond lengths (nm).
     pub(crate) minimum: f64,
     pub(crate) maximum: f64,
 }
@@ -27,15 +27,14 @@ impl Gap {
         self.neighbour.offset.normalize()
     }
 
-    /// Bond that starts at `point` of the lower surface and is parallel to the line of centres,
-    /// with weight
-    /// 1. Returns `None` if the line misses or the length is not admissible.
+    /// Bond with weight 1 that starts at `point` of the lower surface and is parallel to the line
+    /// of centres. Returns `None` if the line misses or the length is not admissible.
     ///
     /// The bond leaves the lower monomer (the outward normal faces the upper one) and ends at its
-    /// entry into the upper monomer, the smaller root. No bond therefore lies inside a monomer. In
-    /// addition to the published rule, this excludes points on the far side, points inside the
-    /// upper monomer if monomers overlap, and bonds below the minimum length. The default
-    /// parameters have no points of the first two kinds within the maximum length.
+    /// entry into the upper monomer, the smaller root. In addition to the published rule, this
+    /// excludes points on the far side, points inside the upper monomer, and bonds below the
+    /// minimum length. The default parameters have no points of the first two kinds within the
+    /// maximum length.
     pub(crate) fn bond_from(&self, point: Vector3) -> Option<Bond> {
         let Neighbour { rotation, offset } = self.neighbour;
         let direction = self.direction();

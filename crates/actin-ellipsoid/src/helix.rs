@@ -1,3 +1,5 @@
+//! Helix of monomers.
+
 use crate::{EllipsoidParameters, InterfaceKind};
 use actin_mechanics::{Matrix3, UnitQuaternion, Vector3};
 
@@ -127,7 +129,6 @@ mod tests {
         })
     }
 
-    /// 26 monomers make 12 left-handed turns.
     #[test]
     fn one_period_returns_to_the_same_azimuth() {
         let shift = helix().centre(26) - helix().centre(0);

@@ -146,10 +146,7 @@ pub struct Interface {
 }
 
 impl Interface {
-    /// Interface of the given kind above the given lattice index.
-    ///
-    /// Sampled bonds depend only on seed, sampling, kind and index; identical and quadrature bonds
-    /// do not depend on the index.
+    /// Interface above the given lattice index. Only independent anchors depend on the index.
     ///
     /// # Errors
     /// [`InterfaceError`] if too few samples give a bond or the quadrature fails.
@@ -164,7 +161,6 @@ impl Interface {
         }
     }
 
-    /// Interface with quadrature bonds.
     fn weighted(
         parameters: &EllipsoidParameters,
         kind: InterfaceKind,
@@ -190,8 +186,6 @@ impl Interface {
         })
     }
 
-    /// Interface with sampled bonds.
-    ///
     /// # Source
     /// arXiv 2203.01284, Appendix A.
     fn draw(

@@ -16,7 +16,6 @@ pub(crate) const GUARD: f64 = f64::MIN_POSITIVE;
 #[derive(Debug)]
 pub(crate) struct AddLoads<'a> {
     pub(crate) monomers: Monomers,
-    /// Bonds of each monomer with the next one and with the second next one.
     pub(crate) tables: &'a [BondTable; 2],
     pub(crate) state: &'a State,
     pub(crate) loads: &'a mut Loads,
@@ -171,10 +170,9 @@ impl Pairs<'_> {
         Lower { orientation, axes }
     }
 
-    /// Loads on the lower and upper bodies of neighbouring pairs, in the lanes of the lower bodies.
-    ///
-    /// In the frame of the lower body, `F = sum k g d` and `T = sum a x k g d` act on the lower
-    /// body and `-F` and `-(T - D x F)` on the upper one, `D` the vector between the centres.
+    /// Loads on the lower and upper bodies of neighbouring pairs, in the lanes of the lower bodies:
+    /// `F = sum k g d`, `T = sum a x k g d`, and `-F`, `-(T - D x F)`, in the frame of the lower
+    /// body.
     #[inline(always)]
     fn actions<S: Simd>(
         &self,
@@ -239,11 +237,10 @@ impl Pairs<'_> {
     }
 }
 
-/// Sums of `g d` and of `a x g d` over the bonds of each pair in the frame of the lower body,
-/// multiplied by the weights if `WEIGHTED`.
+/// Sums of `g d` and of `a x g d` over the bonds of each pair in the frame of the lower body.
 ///
-/// `d = R b + D - a` is the vector of a bond, `R` and `D` the rotation and offset of the upper
-/// body, and `g = 1 - L / |d|`.
+/// `d = R b + D - a` is the vector of a bond, `R` and `D` the pose of the upper body, and
+/// `g = 1 - L / |d|`, multiplied by the weight if `WEIGHTED`.
 #[inline(always)]
 fn sum_bonds<S: Simd, const WEIGHTED: bool>(
     simd: S,
@@ -272,7 +269,6 @@ fn sum_bonds<S: Simd, const WEIGHTED: bool>(
     (force, torque)
 }
 
-/// Index of the vector that holds a pair within its group.
 #[inline(always)]
 pub(crate) fn place_of<S: Simd>(pair: usize) -> usize {
     pair % GROUP / S::F64_LANES
@@ -281,16 +277,13 @@ pub(crate) fn place_of<S: Simd>(pair: usize) -> usize {
 /// One bond of each pair, one pair per lane.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Ends<S: Simd> {
-    /// Anchor on the lower body, in its frame.
     pub(crate) a: Wide3<S>,
-    /// Anchor on the upper body, in its frame.
     pub(crate) b: Wide3<S>,
     /// Rest length.
     pub(crate) length: S::f64s,
 }
 
 impl<S: Simd> Ends<S> {
-    /// Ends of the pairs in vector `place`.
     #[inline(always)]
     pub(crate) fn read(simd: S, record: &Record, place: usize) -> Self {
         let [ax, ay, az, bx, by, bz, length] = record.each_ref();

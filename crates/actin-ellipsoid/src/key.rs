@@ -1,3 +1,5 @@
+//! Parameter names in errors.
+
 use crate::InterfaceKind;
 use std::fmt;
 

@@ -1,9 +1,8 @@
 //! Actin filaments resolved into monomers: rigid ellipsoids on a helix, joined by harmonic bonds.
 //!
-//! [`EllipsoidModel`] validates [`EllipsoidParameters`] and constructs the [`Helix`], the
-//! [`Monomers`] of a range of lattice indices, the [`Interface`] between two neighbours, and the
-//! [`Bonds`] that act on a state. Bonds are sampled at random or placed by quadrature
-//! ([`Cubature`]).
+//! [`EllipsoidModel`] constructs the [`Helix`], the [`Monomers`] of a range of lattice indices, the
+//! [`Interface`] between two neighbours, and the [`Bonds`] that act on a state. Bonds are sampled
+//! at random or placed by quadrature ([`Cubature`]).
 //!
 //! Units are nm, pN, ns and rad; masses are pN ns^2/nm = 1e-21 kg. The body frame of a monomer is
 //! its principal frame: x radial, y tangential, z axial.

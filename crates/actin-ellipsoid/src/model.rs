@@ -1,3 +1,5 @@
+//! Ellipsoid model.
+
 use crate::{
     Bonds, Ellipsoid, EllipsoidParameterError, EllipsoidParameters, Helix, Interface,
     InterfaceError, InterfaceKind, LatticeError, Monomers, Placement,

@@ -1,3 +1,5 @@
+//! Runs of monomers.
+
 use crate::Helix;
 use actin_mechanics::{Frame, Inertia, Point, State, UnitQuaternion, Vector3};
 use thiserror::Error;

@@ -1,3 +1,5 @@
+//! Parameters of the ellipsoid model.
+
 use crate::{EllipsoidKey, InterfaceKey, InterfaceKind, constants};
 use actin_mechanics::InertiaError;
 use thiserror::Error;

@@ -104,7 +104,6 @@ fn parts(v: &SixVector) -> [Vector3; 2] {
 }
 
 impl Pose {
-    /// Pose of monomer `k + 1` of a run in the frame of monomer `k`.
     fn of_link(monomers: &Monomers, k: usize, state: &State) -> Self {
         let [lower, upper] = [k, k + 1].map(|k| state.frames.orientation.get(monomers.frame(k)));
         let [from, to] = [k, k + 1].map(|k| state.points.position.get(monomers.point(k)));
@@ -242,7 +241,6 @@ impl QuasiHarmonic {
             m
         };
         Slopes {
-            // J_l(theta) = J_r(theta)^T.
             lower: of(-axes, pose.place.cross_matrix(), -inverse.tr_mul(&to_rest)),
             upper: of(axes, Matrix3::zeros(), inverse),
         }

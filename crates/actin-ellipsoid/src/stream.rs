@@ -26,11 +26,8 @@ impl Stream {
         (self.0.next_u64() >> 11) as f64 * SPACING
     }
 
-    /// Random unit vector, uniform on the sphere.
-    ///
-    /// With `(u, v)` uniform in the unit disc and `s = u^2 + v^2`, the vector is `(2 u sqrt(1 - s),
-    /// 2 v sqrt(1 - s), 1 - 2 s)`. This needs no logarithm, whose last digit depends on the
-    /// machine.
+    /// Random unit vector, uniform on the sphere. Unlike normal numbers, it needs no logarithm,
+    /// whose last digit depends on the machine.
     ///
     /// # Source
     /// Marsaglia, Ann. Math. Stat. 43 (1972) 645.

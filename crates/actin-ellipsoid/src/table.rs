@@ -19,7 +19,6 @@ pub(crate) struct BondTable {
     pub(crate) pairs: usize,
     /// One record per bond for each group of pairs, or for a single group if bonds are shared.
     records: Vec<Record>,
-    /// All pairs share the same bonds.
     shared: bool,
     /// Weights of the bonds of a pair; empty for equal weights.
     weights: Vec<f64>,
@@ -28,7 +27,6 @@ pub(crate) struct BondTable {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Group<'a> {
     pub(crate) records: &'a [Record],
-    /// Empty for equal weights.
     pub(crate) weights: &'a [f64],
 }
 
@@ -36,7 +34,6 @@ pub(crate) struct Group<'a> {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Relative {
     pub(crate) rotation: Matrix3,
-    /// In the frame of the lower body.
     pub(crate) offset: Vector3,
 }
 
@@ -54,7 +51,6 @@ impl BondTable {
         }
     }
 
-    /// Table of `pairs` pairs with shared bonds.
     pub(crate) fn shared(step: usize, pairs: usize, rigidity: f64, bonds: &[Bond]) -> Self {
         let mut table = Self::new(step, bonds.len(), rigidity / bonds.len() as f64);
         for _ in 0..GROUP {

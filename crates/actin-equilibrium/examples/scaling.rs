@@ -56,7 +56,8 @@ fn filament(monomers: usize) {
     let load = PointLoad::new(&state, shares, Vector3::x(), control).unwrap();
     let terms: Vec<Box<dyn Interaction>> = vec![Box::new(bonds), Box::new(load)];
     let layout = Layout::new(&state, Some(&in_order(&state)), vec![]).expect("it fits");
-    let mut newton = Newton::new(layout, NewtonOptions::default()).expect("they are the defaults");
+    let mut newton =
+        Newton::new(layout, NewtonOptions::default()).expect("the default options are valid");
     report(2 * monomers, &mut newton, &mut state, &terms);
 }
 

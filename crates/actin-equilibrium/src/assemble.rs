@@ -18,12 +18,10 @@ pub(crate) struct Assembly {
     pattern: Option<Pattern>,
     pub(crate) values: Vec<f64>,
     ties: Ties,
-    /// Motion (nm) of each tie equivalent to unit strain, at the last assembled state.
     tie_lengths: Vec<f64>,
     chain: Chain,
     tie_blocks: Stiffness,
     tie_places: Vec<Place>,
-    /// Last assembled matrix of ties.
     pub(crate) tie_values: Vec<f64>,
     turning_blocks: Stiffness,
     turning_places: Vec<Place>,
@@ -76,14 +74,16 @@ impl Assembly {
             self.turning_places.clear();
         }
         self.tie_lengths = self.ties.lengths(state);
-        let pattern = self.pattern.as_ref().expect("it has just been made");
+        let pattern = self
+            .pattern
+            .as_ref()
+            .expect("the pattern was created above");
         let mut target = Target::new(&mut self.values, pattern, layout);
         target.add_all(state, &self.blocks, &pattern.places);
         target.add_turning_of_groups(state, loads);
         is_new
     }
 
-    /// Adds the contribution of the chart of the chain.
     pub(crate) fn add_turning(&mut self, state: &State, loads: &Loads, layout: &Layout) {
         let pattern = self.pattern.as_ref().expect("the stiffness is assembled");
         self.turning_blocks.clear();
@@ -119,7 +119,6 @@ impl Assembly {
         self.ties.spread(|i, j| of(i, j).unwrap_or(0.0))
     }
 
-    /// Assembles the matrix of ties at the last assembled state.
     pub(crate) fn assemble_ties(&mut self, state: &State, layout: &Layout, weights: &[f64]) {
         let pattern = self.pattern.as_ref().expect("the stiffness is assembled");
         self.tie_blocks.clear();
@@ -377,7 +376,6 @@ fn turning(group: &Group, state: &State, loads: &Loads) -> Matrix3 {
         .sum()
 }
 
-/// Velocity of a body per unknown.
 fn columns_of<'a>(
     group: &'a Group,
     state: &'a State,

@@ -10,7 +10,6 @@ use faer::sparse::SymbolicSparseColMatRef;
 use faer::sparse::linalg::cholesky::simplicial::SymbolicSimplicialCholesky;
 use std::ops::Range;
 
-/// Maximum number of columns of a panel.
 const WIDEST: usize = 6;
 
 #[derive(Debug)]
@@ -40,7 +39,6 @@ impl Band {
         Some(Self { starts, panels })
     }
 
-    /// Copies the upper triangle of a matrix to the storage of its factor.
     pub(crate) fn place(
         &self,
         upper: SymbolicSparseColMatRef<'_, usize>,
@@ -62,7 +60,6 @@ impl Band {
 
 pub(crate) struct Eliminate<'a> {
     pub(crate) band: &'a Band,
-    /// Lower triangle, overwritten by its factor.
     pub(crate) values: &'a mut [f64],
     pub(crate) least: f64,
 }
@@ -148,7 +145,6 @@ fn subtract_panel(
     }
 }
 
-/// `target -= sum_k factors_k sources_k`.
 #[inline(always)]
 fn subtract<const N: usize>(target: &mut [f64], sources: [&[f64]; N], factors: [f64; N]) {
     let n = target.len();
@@ -183,7 +179,6 @@ mod tests {
     use actin_mechanics::{Coordinates, Matrix3, Stiffness};
     use actin_mechanics::{State, UnitQuaternion, Vector3};
 
-    /// Chain of `n` bodies, each coupled with the next two; one frame is held.
     fn chain(n: usize) -> (Pattern, Layout) {
         let mut state = State::default();
         for _ in 0..n {

@@ -1,3 +1,5 @@
+//! Stability of equilibria.
+
 /// Counts of the eigenvalues of the stiffness, without regularisation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -6,10 +8,9 @@ pub struct Certificate {
     pub negative: usize,
     /// Number of eigenvalues indistinguishable from zero: neutral modes.
     pub unresolved: usize,
-    /// Resolution (pN/nm): bound of the error of the eigenvalues. It is the maximum of 8 unit
-    /// roundings times the largest diagonal entry of `|L| |D| |L^T|` and of the change of the
-    /// stiffness by rounding of the coordinates, divided by the smallest weight of the metric. For
-    /// zero stiffness it is the smallest normal number.
+    /// Bound of the error of the eigenvalues (pN/nm): `max(8 eps g, c) / m`, with the largest
+    /// diagonal entry `g` of `|L| |D| |L^T|`, the change `c` of the stiffness by rounding of the
+    /// coordinates and the smallest weight `m` of the metric.
     pub resolution: f64,
     /// Number of negative pivots of the stiffness.
     pub negative_pivots: usize,

@@ -1,9 +1,9 @@
 //! Number of negative eigenvalues of the stiffness at an equilibrium.
 //!
 //! Eigenvalues refer to `K v = lambda M v` with the metric `M`: 1 for displacements (nm) and `l^2`
-//! for rotations (rad), `l` the turn length. Their signs follow from the pivots of `K + s M` and `K
-//! - s M` by Sylvester's law of inertia, where the resolution `s` bounds the error of factorisation
-//! and coordinates.
+//! for rotations (rad), `l` the turn length. Their signs follow from the pivots of `K + s M` and
+//! `K - s M` by Sylvester's law of inertia, where the resolution `s` bounds the error of
+//! factorisation and coordinates.
 //!
 //! This bound is pessimistic for long filaments. Eigenvalues within `[-s, s]` are therefore counted
 //! repeatedly with coordinates and matrix changed randomly by a few roundings. The count is
@@ -85,7 +85,6 @@ fn count(solver: &mut Solver, uncertainty: f64) -> Certificate {
     let negative_pivots = solver.factorize(0.0).negative;
     let rounding = ROUNDINGS * f64::EPSILON;
     let largest = solver.assembly.largest_entry();
-    // Includes eigenvalues of exactly zero.
     let least = uncertainty.max(rounding * largest).max(f64::MIN_POSITIVE);
     let mut resolution = least / lightest;
     let mut attempt = 1;
@@ -210,7 +209,6 @@ fn largest_row_sum(solver: &mut Solver, mut matrix: Vec<f64>) -> f64 {
 
 /// Bracketing factor.
 const FASTER: f64 = 16.0;
-/// Relative accuracy of an eigenvalue.
 const PRECISION: f64 = 1e-9;
 /// Rounding error in units of the largest entry.
 const ROUNDINGS: f64 = 8.0;
@@ -219,5 +217,4 @@ const GROWTH_ALLOWED: f64 = 16.0;
 const ATTEMPTS: u32 = 4;
 /// Repetitions; a zero eigenvalue passes all with a probability below 1 %.
 const REALIZATIONS: usize = 8;
-/// Amplitude in roundings.
 const AMPLITUDE: f64 = 4.0;

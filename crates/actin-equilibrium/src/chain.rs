@@ -1,12 +1,9 @@
 //! Carried steps: to first order equal to moving every body independently.
 //!
-//! A filament that bends far moves its end along an arc. Straight motion of each body stretches
-//! ties by the square of the rotation, which costs much more energy than bending. In a carried step
-//! each body keeps its pose relative to its predecessor, up to the step of the tie between them, so
-//! strains are linear in the step.
-//!
-//! Carried steps follow a tree of ties. If a filament is held at a second place, the step does not
-//! close.
+//! Straight motion of the bodies of a bending filament stretches ties by the square of the
+//! rotation. In a carried step each body keeps its pose relative to its predecessor, up to the step
+//! of the tie between them, so strains are linear in the step. If a filament is held at a second
+//! place, the step does not close.
 //!
 //! # Source
 //! Cause of slow convergence with linear extrapolation of displacements: D. Magisano, L. Leonetti
@@ -98,7 +95,6 @@ impl Link {
         }
     }
 
-    /// Moves the following body relative to its predecessor.
     fn carry(
         self,
         from: &State,

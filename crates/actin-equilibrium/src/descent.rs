@@ -18,7 +18,6 @@ const ENOUGH: f64 = 1e-4;
 const ROUND_OFF: f64 = 1e-8;
 /// Bounds of the factor that shortens a rejected step.
 const SHORTEN: [f64; 2] = [0.05, 0.5];
-/// Minimum fraction of a step.
 const SHORTEST: f64 = 1e-12;
 /// Fraction of the predicted decrease of a good step.
 const GOOD: f64 = 0.5;
@@ -37,7 +36,6 @@ const MANY: usize = 2000;
 const STIFFER: f64 = 4.0;
 /// Excess of blocked steps at which a solve ends.
 const BLOCKED: usize = 20;
-/// Growth of the reach after an immediately accepted step.
 const REACH_GROWTH: f64 = 2.0;
 
 pub(crate) struct Taken {
@@ -61,11 +59,9 @@ pub(crate) struct Descent {
     pub(crate) here: Evaluation,
     trial: State,
     there: Evaluation,
-    /// Carried trial state.
     carried: State,
     beyond: Evaluation,
     anchor: Option<Anchor>,
-    /// Size of the initial state (nm).
     pub(crate) size: f64,
     start: Vectors,
     farthest: f64,
@@ -75,7 +71,6 @@ pub(crate) struct Descent {
     rest: usize,
     /// Stiffening per motion (pN/nm^2).
     cubic: f64,
-    /// Shortened by contact.
     is_cut: bool,
     /// Twice the blocked steps minus the others.
     blocked: usize,
@@ -216,7 +211,6 @@ impl Descent {
         Ok(taken.map(|taken| (direction, taken)))
     }
 
-    /// Full step within the limits, if acceptable.
     fn attempt(
         &mut self,
         solver: &mut Solver,
@@ -254,7 +248,6 @@ impl Descent {
         taken(direction, self.fraction(&direction.extent), verdict)
     }
 
-    /// Evaluates the straight and the carried step; keeps the lower one.
     fn try_step(
         &mut self,
         solver: &mut Solver,
@@ -299,7 +292,6 @@ impl Descent {
             .then_some(Verdict::RoundOff)
     }
 
-    /// Reference state and the decrease predicted there.
     fn reference(&self, direction: &Direction, fraction: f64) -> (&Evaluation, f64) {
         match &self.anchor {
             Some(anchor) => (
@@ -356,7 +348,6 @@ impl Descent {
         self.accept();
     }
 
-    /// Reverts the excursion and takes a shorter step.
     fn go_back(
         &mut self,
         solver: &mut Solver,
@@ -412,7 +403,6 @@ impl Descent {
     }
 }
 
-/// Returns `true` for NaN.
 fn is_lower(a: &Evaluation, b: &Evaluation) -> bool {
     let difference = a.energy_above(b);
     difference.is_nan() || difference < 0.0

@@ -48,7 +48,6 @@ pub(crate) struct Solver {
     pub(crate) metric: Vec<f64>,
     turn_length: f64,
     pub(crate) reduced: Vec<f64>,
-    /// Rounding errors of `reduced`.
     rounding: Vec<f64>,
     pub(crate) work: SolverWork,
 }
@@ -64,7 +63,6 @@ pub(crate) struct Direction {
     pub(crate) negative_pivots: usize,
     pub(crate) regularization: f64,
     motions: Vec<f64>,
-    /// Stiffening of ties per motion (pN/nm^2).
     pub(crate) cubic: f64,
 }
 
@@ -150,7 +148,6 @@ impl Solver {
         self.layout.are_within(&self.reduced, tolerance, rounding)
     }
 
-    /// Factorises the last assembled stiffness plus `shift` times the metric.
     pub(crate) fn factorize(&mut self, shift: f64) -> Inertia {
         let factor = self.factor.as_mut().expect("the stiffness is assembled");
         self.work.factorizations += 1;
@@ -281,7 +278,6 @@ impl Solver {
         self.metric.iter().copied().fold(f64::INFINITY, f64::min)
     }
 
-    /// Number of directions with almost no stiffness.
     pub(crate) fn floppy(&self) -> usize {
         let factor = self.factor.as_ref().expect("the stiffness is assembled");
         factor.floppy()
@@ -340,7 +336,6 @@ impl Solver {
         self.stiffened_direction(state, plain, cubic, (motions, shift / GUESS))
     }
 
-    /// Direction with ties stiffened by `cubic` times their motions.
     fn stiffened_direction(
         &mut self,
         state: &State,
@@ -397,7 +392,6 @@ impl Solver {
                 });
             }
             *stiffest *= STIFFEST_GROWTH;
-            // Also rejects NaN.
             let is_worth_trying = *stiffest <= limit;
             if !is_worth_trying {
                 return None;
@@ -412,7 +406,6 @@ impl Solver {
         STIFFNESS_CHANGE * self.largest_diagonal() / mean
     }
 
-    /// The current factorisation includes `shift` and `weights`.
     fn solve_direction(
         &mut self,
         state: &State,
@@ -447,7 +440,6 @@ impl Solver {
         }
     }
 
-    /// Work per unit of `step`.
     pub(crate) fn work_along(&self, state: &State, loads: &Loads, step: &[f64]) -> f64 {
         let mut reduced = vec![0.0; step.len()];
         self.layout.reduce(state, loads, &mut reduced);

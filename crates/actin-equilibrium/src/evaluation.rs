@@ -1,3 +1,5 @@
+//! Energy and loads of a state.
+
 use actin_mechanics::{Interaction, Loads, State};
 
 #[derive(Clone, Debug, Default)]
@@ -37,7 +39,6 @@ impl Evaluation {
         self.magnitude = self.energies.iter().map(|e| e.abs()).sum();
     }
 
-    /// Evaluates a state reached by a straight motion.
     pub(crate) fn follow(
         &mut self,
         interactions: &[Box<dyn Interaction>],

@@ -1,8 +1,7 @@
 //! Factorisation `K + shift M = L D L^T` without pivoting, and its inertia.
 //!
-//! Elimination follows the order of unknowns, which preserves the band of a chain. The computed
-//! factors are exact for a matrix that differs from `K` by about `eps (|L| |D| |L^T|)_ij`, at most
-//! `eps` times the largest [`growth`](Factor::growth).
+//! The computed factors are exact for a matrix that differs from `K` by about
+//! `eps (|L| |D| |L^T|)_ij`, at most `eps` times the largest [`growth`](Factor::growth).
 //!
 //! # Source
 //! N. J. Higham, Accuracy and Stability of Numerical Algorithms, 2nd ed. (2002), theorems 10.3 and
@@ -36,7 +35,6 @@ pub(crate) struct Inertia {
 }
 
 impl Inertia {
-    /// Positive definite beyond rounding.
     pub(crate) fn is_positive(&self) -> bool {
         self.negative == 0 && self.doubtful == 0
     }
@@ -115,7 +113,6 @@ impl Factor {
         self.factorize_shifted(upper, metric, shift)
     }
 
-    /// Factorises `K + T + shift M`.
     pub(crate) fn factorize_sum(
         &mut self,
         upper: SymbolicSparseColMatRef<'_, usize>,
@@ -138,7 +135,6 @@ impl Factor {
         shift: f64,
     ) -> Inertia {
         for (&end, weight) in upper.col_ptr()[1..].iter().zip(metric) {
-            // The diagonal entry is the last of its column.
             self.shifted[end - 1] += shift * weight;
         }
         self.diagonal.clear();
@@ -194,7 +190,6 @@ impl Factor {
         inertia
     }
 
-    /// Number of directions without stiffness.
     pub(crate) fn floppy(&self) -> usize {
         let diagonal = self.diagonal.iter().enumerate();
         let is_floppy = |&(column, own): &(usize, &f64)| self.pivot(column).abs() <= FLOPPY * own;
@@ -232,12 +227,11 @@ impl Factor {
         }
     }
 
-    /// Returns `true` if the loads `f` meet positive pivots only, for instance because symmetry
-    /// decouples them from directions of negative curvature. No pivot may be doubtful.
+    /// Returns `true` if the loads `f` meet positive pivots only, for instance by symmetry. No
+    /// pivot may be doubtful.
     ///
-    /// With `L y = f` the step `p` of `L D L^T p = f` has the energy `f . p = sum y_k^2 / d_k`. The
-    /// contributions of negative pivots are compared with `sum f_k^2 / |K_kk|`. If they are
-    /// negligible, the step leads to the minimum over all directions coupled to the loads.
+    /// With `L y = f` the step `p` of `L D L^T p = f` has the energy `f . p = sum y_k^2 / d_k`.
+    /// Negligible contributions of negative pivots relative to `sum f_k^2 / |K_kk|` are accepted.
     pub(crate) fn is_positive_for(&self, f: &[f64]) -> bool {
         let energy = |f: f64, k: f64| if f == 0.0 { 0.0 } else { f * f / k.abs() };
         let energies = f.iter().zip(&self.diagonal).map(|(&f, &k)| energy(f, k));
@@ -245,7 +239,6 @@ impl Factor {
         let mut y = f.to_vec();
         for column in 0..y.len() {
             let (pivot, own) = (self.pivot(column), y[column]);
-            // Also rejects NaN.
             if !(pivot > 0.0 || energy(own, pivot) <= limit && limit.is_finite()) {
                 return false;
             }

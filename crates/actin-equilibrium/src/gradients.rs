@@ -17,7 +17,6 @@ const MOST_ITERATIONS: usize = 500;
 #[derive(Debug)]
 pub(crate) struct Gradients {
     chains: SymbolicSparseColMat<usize>,
-    /// Index in the full matrix.
     places: Vec<usize>,
     values: Vec<f64>,
     factor: Factor,

@@ -1,3 +1,5 @@
+//! Groups of bodies.
+
 use actin_mechanics::{Slider, State, Vector3};
 
 /// Centre of rotation of a group.

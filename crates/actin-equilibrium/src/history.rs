@@ -1,3 +1,5 @@
+//! History and cost of a solve.
+
 use crate::motion::StepSize;
 use actin_mechanics::Residual;
 

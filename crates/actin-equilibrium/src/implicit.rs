@@ -217,9 +217,9 @@ impl ImplicitSolver {
     }
 
     /// Moves the bodies of `state` by the last step found and returns its extent. Bodies of
-    /// filaments that are free or held at one place carry one another along, so strains change
-    /// linearly for any rotation of the carried bodies. The step of each filament that rotates a
-    /// body by more than `largest_turn` (rad) is shortened.
+    /// filaments that are free or held at one place carry one another along, so strains are linear
+    /// in the step. The step of a filament that rotates a body by more than `largest_turn` (rad) is
+    /// shortened.
     pub fn advance_along(&mut self, state: &mut State, largest_turn: f64) -> StepSize {
         let mut from = self.from.take().unwrap_or_else(|| state.clone());
         from.copy_motion_from(state);
@@ -258,7 +258,7 @@ impl ImplicitSolver {
 impl Linear {
     fn solve(&mut self, assembly: &Assembly, b: &mut [f64]) -> bool {
         match self {
-            Self::Unknown => panic!("a matrix is factorised before"),
+            Self::Unknown => panic!("no matrix has been factorised"),
             Self::Gradients(gradients) => gradients.solve(assembly, b, TOLERANCE),
             Self::Direct(factor) => {
                 factor.solve(b);
@@ -279,7 +279,6 @@ mod tests {
     use actin_mechanics::testing::push_point;
     use actin_mechanics::{Coordinates, Matrix3, Stiffness, Vector3};
 
-    /// Adds 4 to the diagonal of each point.
     struct Four;
 
     impl SecondOrder for Four {

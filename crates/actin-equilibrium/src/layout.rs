@@ -1,3 +1,5 @@
+//! Map from unknowns to bodies.
+
 use crate::group::{Group, orthonormal};
 use actin_mechanics::{Coordinates, State, Vector3};
 use std::collections::BTreeSet;
@@ -21,7 +23,7 @@ pub struct BodyOrder {
 #[non_exhaustive]
 pub enum LayoutError {
     /// A group contains a body that the state does not have.
-    #[error("group {group} has {body:?}, which the state does not have")]
+    #[error("group {group} contains {body:?}, which the state does not have")]
     UnknownBody {
         /// Index of the group.
         group: usize,
@@ -51,7 +53,7 @@ pub enum LayoutError {
         directions: Vec<Vector3>,
     },
     /// New directions of a group would change the number of unknowns.
-    #[error("group {group} has {present} unknowns and cannot be given {given}")]
+    #[error("the new directions of group {group} give {given} unknowns instead of {present}")]
     Count {
         /// Index of the group.
         group: usize,
@@ -71,7 +73,7 @@ pub enum LayoutError {
         bodies: usize,
     },
     /// The order contains a non-finite number.
-    #[error("the place of {body:?} along the filament must be finite, but is {value}")]
+    #[error("the position of {body:?} in the order must be finite, but is {value}")]
     OrderValue {
         /// The body.
         body: Coordinates,
@@ -173,8 +175,8 @@ impl Layout {
     }
 
     /// Allows minimum degree elimination if its factor costs less than that of the given order, for
-    /// bodies that are not coupled along the order only. The choice is made at the first solve and
-    /// depends on the couplings only. Bodies follow one another in the given order in either case.
+    /// bodies that are not coupled along the order only. The choice depends on the couplings at the
+    /// first solve. Bodies follow one another in the given order in either case.
     #[must_use]
     pub fn with_least_fill(mut self) -> Self {
         if self.order == Order::Settled {
@@ -221,12 +223,10 @@ impl Layout {
         self.allows_gradients && self.order == Order::Compared && self.has_loose()
     }
 
-    /// Some couplings may be loose.
     pub(crate) fn has_loose(&self) -> bool {
         self.loose_beyond.is_some() || !self.loose.is_empty()
     }
 
-    /// The bodies are not neighbours.
     pub(crate) fn is_loose(&self, a: Coordinates, b: Coordinates) -> bool {
         let are_apart = self.loose_beyond.as_ref().is_some_and(|(order, reach)| {
             let place = |body| match body {

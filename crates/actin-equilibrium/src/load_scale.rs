@@ -1,3 +1,5 @@
+//! Magnitude of loads.
+
 use actin_mechanics::{Interaction, Loads, Residual, State, Stiffness, Vectors};
 
 /// Relative residual below which further steps are useless.

@@ -11,7 +11,6 @@ use nalgebra::{DMatrix, SymmetricEigen};
 
 /// Relative residual of the eigenvalue.
 const ACCURACY: f64 = 1e-9;
-/// Maximum number of Lanczos vectors.
 const VECTORS: usize = 80;
 /// New vectors between solutions of the small problem.
 const PERIOD: usize = 5;
@@ -65,7 +64,6 @@ pub(crate) fn lowest(solver: &mut Solver) -> Result<Option<Mode>, SolveError> {
     }))
 }
 
-/// Orthonormal basis and tridiagonal matrix of the operator.
 struct Lanczos {
     basis: Vec<Vec<f64>>,
     alpha: Vec<f64>,

@@ -74,7 +74,6 @@ impl Layout {
         }
     }
 
-    /// Largest norms over nodes.
     pub(crate) fn largest(&self, reduced: &[f64]) -> Residual {
         self.nodes()
             .map(|(node, range)| self.norms(node, &reduced[range]))
@@ -83,7 +82,6 @@ impl Layout {
             })
     }
 
-    /// Norms over all nodes.
     pub(crate) fn total(&self, reduced: &[f64]) -> Residual {
         let norms = self
             .nodes()

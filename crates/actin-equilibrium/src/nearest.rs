@@ -1,3 +1,5 @@
+//! Nearest equilibrium, minimum or saddle.
+
 use crate::certificate::Certificate;
 use crate::direction::Solver;
 use crate::evaluation::Evaluation;
@@ -37,12 +39,10 @@ pub struct Nearest {
 }
 
 impl Newton {
-    /// Nearest equilibrium of `state` by at most eight undamped Newton steps; `None` if they do not
-    /// converge.
+    /// Nearest equilibrium of `state`, minimum or saddle, by at most eight undamped Newton steps;
+    /// `None` if they do not converge.
     ///
-    /// Unlike [`solve`](Newton::solve), which decreases the energy, undamped steps converge to the
-    /// nearest stationary point, minimum or saddle. They continue until the residual no longer
-    /// decreases.
+    /// Steps continue until the residual no longer decreases.
     ///
     /// # Errors
     /// If an interaction has no potential or no second derivatives.

@@ -223,7 +223,6 @@ struct Run<'a> {
     history: Vec<Iteration>,
     residual: Residual,
     floor: Residual,
-    /// Previous residual relative to the tolerance.
     previous: f64,
 }
 
@@ -246,7 +245,7 @@ impl Run<'_> {
                 Ok(Some(ending)) => break Ok((ending, descent.here.energy)),
                 Err(cause) => break Err(cause),
             }
-            let last = self.history.last().expect("a step has just been made");
+            let last = self.history.last().expect("a step was recorded");
             if observe(last).is_break() {
                 break Err(SolveError::Interrupted);
             }
@@ -340,7 +339,6 @@ impl Run<'_> {
         (!is_rounding || is_loaded(self.interactions, &descent.state)) && self.solver.is_stable()
     }
 
-    /// Rejects loads along motions without stiffness.
     fn accept(
         &mut self,
         scale: &LoadScale,

@@ -1,3 +1,5 @@
+//! Options of Newton's method.
+
 use actin_mechanics::Residual;
 use thiserror::Error;
 

@@ -1,3 +1,5 @@
+//! Result of a solve.
+
 use crate::certificate::{Certificate, Stability};
 use crate::history::{Iteration, SolverWork};
 use actin_mechanics::Residual;
@@ -7,9 +9,8 @@ use thiserror::Error;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Convergence {
     /// The residual is within the tolerance and either below 1e-8 of the largest load or not
-    /// reducible. It is not reducible if the last step did not halve it, if the state is a saddle,
-    /// or if it is within 8 times the rounding error and no interaction without stiffness exerts a
-    /// load.
+    /// reducible: the last step did not halve it, or the state is a saddle. It is also not reducible
+    /// within 8 times the rounding error without loads of interactions without stiffness.
     Converged,
     /// The residual exceeds the tolerance and does not decrease, but the loads of each body are
     /// within the tolerance or 8 times their rounding error. The factor is 100 if no step reduces
@@ -54,7 +55,9 @@ pub enum SolveError {
     #[error("the interaction {0:?} has no potential, so there is no energy to minimise")]
     NotConservative(&'static str),
     /// An interaction does not provide second derivatives.
-    #[error("the interaction {0:?} has no second derivatives")]
+    #[error(
+        "the interaction {0:?} has no second derivatives: implement `Interaction::second_order`"
+    )]
     NoStiffness(&'static str),
     /// Energy or loads of the initial state are not finite.
     #[error("energy or loads at the start are not finite")]

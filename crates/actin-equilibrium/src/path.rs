@@ -103,9 +103,8 @@ impl Path {
     /// Follows the equilibria of `state` from parameter 0 to 1.
     ///
     /// `set` sets controls and held bodies for a parameter. It receives a state near the last
-    /// equilibrium and must not move free bodies. For a sliding group it sets the prescribed
-    /// components and keeps the free ones. `observe` receives every equilibrium and may interrupt
-    /// the path.
+    /// equilibrium and must not move free bodies or free components of groups. `observe` receives
+    /// every equilibrium and may interrupt the path.
     ///
     /// # Errors
     /// If the path is incomplete; `state` is then the last equilibrium.
@@ -121,11 +120,11 @@ impl Path {
     }
 
     /// As [`follow`](Self::follow), with an observer that may also interrupt a solve. With a
-    /// `waypoint`, the path continues from the equilibrium `state`, which is not reported again.
-    /// The continuation is bitwise identical to an uninterrupted path.
+    /// `waypoint`, the path continues from the equilibrium `state`, bitwise identical to an
+    /// uninterrupted path.
     ///
-    /// Cost and number of points continue from the waypoint; the counters of `newton` must be set
-    /// with [`Newton::count_on`].
+    /// Cost and number of points continue from the waypoint; set the counters of `newton` with
+    /// [`Newton::count_on`].
     ///
     /// # Errors
     /// If the path is incomplete; `state` is then the last equilibrium.
@@ -164,7 +163,7 @@ impl Path {
                 points,
                 work,
             })),
-            (Ok(()), None) => unreachable!("a path that was followed has an equilibrium"),
+            (Ok(()), None) => unreachable!("a complete path has an equilibrium"),
         }
     }
 }
@@ -177,11 +176,9 @@ struct Walk<'a> {
     interactions: &'a [Box<dyn Interaction>],
     at: PathCheckpoint,
     last: Option<Equilibrium>,
-    /// Cached.
     response: Option<Vec<f64>>,
 }
 
-/// Candidate for the next point of a path.
 struct Trial {
     parameter: f64,
     state: State,
@@ -316,14 +313,12 @@ impl<'a> Walk<'a> {
         }
     }
 
-    /// Classifies an equilibrium.
     fn continuation(&self, trial: &Trial, deviation: f64) -> Continuation {
         let is_smallest = self.at.step <= self.options.smallest_step;
         let far = trial.moved.rotation > self.options.largest_turn
             || trial.moved.strain > self.options.largest_strain
             || self.is_sudden(trial);
         let unexplained = deviation > UNEXPLAINED;
-        // Iterations from a saddle may lead far away, whatever the step.
         let keeps_saddles = self.options.saddles == Saddles::Keep;
         let accepts_jumps = is_smallest && self.options.jumps == Jumps::Accept;
         if accepts_jumps || !far && (!unexplained || is_smallest || keeps_saddles) {
@@ -540,11 +535,8 @@ impl<'a> Walk<'a> {
 }
 
 enum Continuation {
-    /// Next point of the path.
     Accepted { jumped: bool },
-    /// Nearby, but not in the direction of the path.
     OffCourse,
-    /// Too far away.
     Far,
 }
 

@@ -1,3 +1,5 @@
+//! Observers and checkpoints of paths.
+
 use crate::history::{Iteration, SolverWork};
 use crate::motion::StepSize;
 use crate::outcome::Equilibrium;

@@ -1,3 +1,5 @@
+//! Options of paths.
+
 use crate::options::{OptionsError, positive, rule};
 
 /// Treatment of saddles on the path.

@@ -32,7 +32,6 @@ pub(crate) enum Place {
 #[derive(Debug)]
 pub(crate) struct Pattern {
     pub(crate) symbolic: SymbolicSparseColMat<usize>,
-    /// In the order of the blocks.
     pub(crate) places: Vec<Place>,
     /// First diagonal row within the columns of each node.
     pub(crate) diagonal: Vec<usize>,
@@ -63,7 +62,6 @@ impl Pattern {
         }
     }
 
-    /// Positions of blocks within the pattern.
     pub(crate) fn places_of(&self, stiffness: &Stiffness, layout: &Layout) -> Vec<Place> {
         places(stiffness.blocks(), layout, &self.neighbours, &self.starts)
     }
@@ -76,7 +74,9 @@ impl Pattern {
             let rows = &whole.row_idx()[whole.col_ptr()[column]..whole.col_ptr()[column + 1]];
             let own = &chains.row_idx()[chains.col_ptr()[column]..chains.col_ptr()[column + 1]];
             let found = own.iter().map(|row| {
-                let at = rows.binary_search(row).expect("rows of the whole");
+                let at = rows
+                    .binary_search(row)
+                    .expect("the full pattern contains the row");
                 whole.col_ptr()[column] + at
             });
             places.extend(found);
@@ -117,7 +117,6 @@ fn neighbours(blocks: &[Block], layout: &Layout) -> Vec<Vec<usize>> {
 /// Typical number of iterations of conjugate gradients.
 const ITERATIONS: usize = 20;
 
-/// Couplings without loose ones.
 fn without_loose(neighbours: &[Vec<usize>], layout: &Layout) -> Vec<Vec<usize>> {
     let body = |node| match layout.node(node) {
         Node::Point(i) => Some(Coordinates::Point(i)),
@@ -137,7 +136,6 @@ fn without_loose(neighbours: &[Vec<usize>], layout: &Layout) -> Vec<Vec<usize>> 
         .collect()
 }
 
-/// Compares with a factorisation with `direct` multiplications.
 fn prefers_gradients(neighbours: &[Vec<usize>], layout: &Layout, direct: usize) -> bool {
     let whole = upper_triangle(neighbours, layout);
     let chains = upper_triangle(&without_loose(neighbours, layout), layout);
@@ -184,7 +182,7 @@ fn minimum_degree(neighbours: &[Vec<usize>]) -> Vec<usize> {
         amd::Control::default(),
         MemStack::new(&mut memory),
     )
-    .expect("indices of nodes are far below the largest index");
+    .expect("node indices do not overflow");
     forward
 }
 

@@ -1,3 +1,5 @@
+//! Equilibrium in one call.
+
 use crate::{
     Equilibrium, Layout, LayoutError, Newton, NewtonFailure, NewtonOptions, OptionsError,
     PathFailure, SolveError,

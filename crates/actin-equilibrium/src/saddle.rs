@@ -1,3 +1,5 @@
+//! Motion off saddles.
+
 use crate::evaluation::Evaluation;
 use crate::history::Iteration;
 use crate::mode::{self, Mode};
@@ -39,8 +41,8 @@ impl Newton {
     /// amplitude is doubled while the energy decreases, up to rotations of 0.2 rad.
     ///
     /// Returns the mode, or `None` without moving if the lowest eigenvalue is not negative beyond
-    /// its error. If both directions have equal energy, the sign of the mode decides; the result is
-    /// reproducible. Displace the state before solving to select a branch.
+    /// its error. If both directions have equal energy, the sign of the mode decides reproducibly;
+    /// displace the state to select a branch.
     ///
     /// # Errors
     /// If an interaction has no potential or no second derivatives.
@@ -197,7 +199,6 @@ impl<'a> Ridge<'a> {
     }
 }
 
-/// Largest rotation, or displacement over the turn length.
 fn largest(extent: &StepSize, turn_length: f64) -> f64 {
     extent.rotation.max(extent.displacement / turn_length)
 }

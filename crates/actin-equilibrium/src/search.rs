@@ -1,8 +1,8 @@
 //! Random search for further stable equilibria of the same bodies.
 //!
-//! Initial guesses are sampled like thermal fluctuations about a known equilibrium with constant
-//! stiffness, scaled to a largest rotation, and minimised. One third of them is sampled about a
-//! reference state instead, such as a straight filament. The search may miss equilibria.
+//! Initial guesses are sampled like thermal fluctuations about known equilibria with constant
+//! stiffness, or about a reference state (one third), scaled to a largest rotation, and minimised.
+//! The search may miss equilibria.
 
 use crate::direction::Solver;
 use crate::evaluation::{Evaluation, passes_through};

@@ -1,9 +1,8 @@
 //! Ties: relative motions of coupled bodies, and the stiffness that regularises them.
 //!
-//! The regularisation adds a stiffness proportional to its relative motion to each tie, which
-//! bounds an energy with bounded third derivatives from above. A multiple of the unit matrix would
-//! suppress the soft modes of a long filament, in which bodies move far and neighbours hardly move
-//! relative to each other.
+//! The added stiffness is proportional to the relative motion of the tie, which bounds an energy
+//! with bounded third derivatives from above. A multiple of the unit matrix would suppress the soft
+//! modes of a long filament.
 //!
 //! # Source
 //! Y. Nesterov and B. T. Polyak, Math. Program. 108 (2006) 177, applied to each tie.
@@ -135,7 +134,6 @@ impl Ties {
         }
     }
 
-    /// Magnitudes (nm) in a step.
     pub(crate) fn motions(&self, layout: &Layout, state: &State, step: &[f64]) -> Vec<f64> {
         let (moved, turned) = layout.velocities(state, step);
         let of = |tie: &Tie| match *tie {

@@ -1,4 +1,4 @@
-//! A free symmetric top: its axis goes round the angular momentum at the rate of Euler's theory.
+//! Precession of a free symmetric top about its angular momentum, compared with Euler's theory.
 
 use actin_mechanics::{Frame, Inertia, InertiaError, State, UnitQuaternion, Vector3};
 
@@ -17,7 +17,7 @@ fn main() -> Result<(), InertiaError> {
     state.frames.drift(time);
     let axis = state.frames.orientation.get(top) * Vector3::z();
 
-    // Turned by L t / I about the angular momentum, which keeps its place in the lab.
+    // Rotation by L t / I about the angular momentum, which is constant in the lab frame.
     let precession = UnitQuaternion::from_scaled_axis(momentum * (time / transverse));
     let theory = precession * Vector3::z();
     println!("axis: {:.12} {:.12} {:.12}", axis.x, axis.y, axis.z);

@@ -1,4 +1,4 @@
-//! A body on a spring under gravity, stepped by hand: its period and its rest place against theory.
+//! A body on a spring under gravity, stepped by hand: period and amplitude compared with theory.
 
 use actin_mechanics::{Point, Split, Spring, Springs, State, System, Vector3, Weight};
 use std::f64::consts::TAU;
@@ -20,7 +20,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let weight = Weight::new(&mut state, Vector3::z() * -gravity)?;
     let mut system = System::new(state, vec![Box::new(springs), Box::new(weight)]);
 
-    // Position Verlet over one period, in 1000 steps; the body starts where the spring is at rest.
+    // Position Verlet over one period, in 1000 steps. The spring starts at its rest length.
     let h = TAU * (mass / stiffness).sqrt() / 1000.0;
     let (mut lowest, mut place) = (0.0_f64, 0.0);
     for _ in 0..1000 {

@@ -1,13 +1,13 @@
-//! Controls: numbers that are set from outside.
+//! Controls: values that are set from outside, such as load factors.
 
 use std::ops::{Index, IndexMut};
 
-/// A control of a state, as [`State::add_control`](crate::State::add_control) gave it: of that state and
-/// its copies.
+/// Identifier of a control, returned by [`State::add_control`](crate::State::add_control). It is
+/// valid for that state and its copies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct ControlId(usize);
 
-/// What is set from outside: factors of loads, displacements of anchors.
+/// Values set from outside: load factors and displacements of anchors.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Controls {
@@ -15,7 +15,6 @@ pub struct Controls {
 }
 
 impl Controls {
-    /// Adds a control.
     pub(crate) fn add(&mut self, value: f64) -> ControlId {
         self.values.push(value);
         ControlId(self.values.len() - 1)
@@ -26,12 +25,12 @@ impl Controls {
         self.values.len()
     }
 
-    /// Whether there is none.
+    /// Returns `true` if there are no controls.
     pub fn is_empty(&self) -> bool {
         self.values.is_empty()
     }
 
-    /// Whether a control is one of these.
+    /// Returns `true` if `control` exists.
     pub fn has(&self, control: ControlId) -> bool {
         control.0 < self.len()
     }
@@ -41,12 +40,12 @@ impl Controls {
         (0..self.len()).map(ControlId)
     }
 
-    /// Their values, in the order in which they were added.
+    /// Values of all controls, in the order in which they were added.
     pub fn values(&self) -> &[f64] {
         &self.values
     }
 
-    /// Takes over the values of `other`, which has as many.
+    /// Copies the values of `other`, which must have equal length.
     pub fn copy_from(&mut self, other: &Self) {
         self.values.copy_from_slice(&other.values);
     }

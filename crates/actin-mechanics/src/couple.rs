@@ -1,5 +1,4 @@
-//! Couples on frames: about an axis of the lab, with a potential, or fixed in the frames, without one.
-//! Forces on points are in `load.rs`.
+//! Couples on frames: axial couples, which have a potential, and follower couples, which have none.
 
 use std::f64::consts::TAU;
 
@@ -8,49 +7,51 @@ use crate::{
     UnitQuaternion, Vector3,
 };
 
-/// How a couple goes with the turn of what it acts on.
+/// Dependence of a couple on the rotation of its frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CoupleKind {
-    /// Its work is its size times the twist of the frame about its axis `e` in the lab: it has a
-    /// potential.
+    /// Conservative couple about the axis `e` of the lab frame.
     ///
-    /// With `R` the turn of the frame from where it was when the couple was made, split into a twist
-    /// about `e` and a swing of `e` to `Re`, the potential is `-M psi`, `psi` the angle of the twist,
-    /// and the torque is `M (e + Re) / (1 + e . Re)`. Its component along `e` is `M` whatever the turn.
-    /// Turned about `e` alone, the frame feels `M e`; swung by `beta`, it feels a torque tilted half
-    /// as far, longer by `1 / cos(beta/2)`. At a swing of half a turn there is no torque: it is not
-    /// finite.
+    /// The rotation `R` of the frame since the couple was created is split into a twist by `psi`
+    /// about `e` and a swing of `e` to `R e` by the angle `beta`.
     ///
-    /// A couple that kept its direction in the lab exactly would have no potential: turns about
-    /// different axes do not commute, and a closed path of turns would do work.
+    /// ```text
+    /// E = -M psi                                (pN nm)
+    /// torque = M (e + R e) / (1 + e . R e)      (lab frame)
+    /// ```
+    ///
+    /// The component of the torque along `e` is always `M`; its magnitude is `M / cos(beta / 2)`. A
+    /// couple of constant direction in the lab frame is not conservative, because rotations about
+    /// different axes do not commute.
     Axial,
-    /// It turns with the frame, and has no potential.
+    /// Couple of constant direction in the frame, without a potential.
     Follower,
 }
 
-/// A couple shared among frames and scaled by a control: one element for each frame.
+/// A couple distributed over frames and scaled by a control: one element per frame.
 ///
 /// # Source
-/// H. Ziegler, Principles of Structural Stability, 2nd ed. (1977), chapter 5, for which couples have a
-/// potential; the angle `psi` is the sum of the first and third Euler angle about `e`.
+/// H. Ziegler, Principles of Structural Stability, 2nd ed. (1977), chapter 5, on conservative
+/// couples. The angle `psi` is the sum of the first and third Euler angle about `e`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Couple {
-    /// Each frame with its share and its orientation where `psi` is zero.
+    /// Index, share and orientation at `psi = 0` of each frame.
     shares: Vec<(usize, f64, UnitQuaternion)>,
-    /// Frames along which turns are counted, each with its orientation where `psi` is zero and the element
-    /// that acts on it.
+    /// Frames along which turns are counted: index, orientation at `psi = 0`, and element if the
+    /// couple acts on the frame.
     chain: Vec<(usize, UnitQuaternion, Option<usize>)>,
-    /// Couple at control value 1 (lab frame).
     moment: Vector3,
     kind: CoupleKind,
     control: ControlId,
-    /// Control that holds `psi` of the first frame of the chain (rad).
+    /// Control that stores `psi` of the first frame of the chain (rad).
     turned: ControlId,
 }
 
 impl Couple {
-    /// The couple `moment` (lab frame, at control value 1) on frames in the orientations that they have
-    /// now, each with its share; `control` is its factor. Adds a control in which turns are counted.
+    /// Creates the couple `moment` (lab frame, at control value 1) on frames with the given shares.
+    ///
+    /// The present orientations define `psi = 0`. The load factor is `control`; a new control
+    /// counts turns.
     ///
     /// ```
     /// use actin_mechanics::{
@@ -62,14 +63,14 @@ impl Couple {
     /// let i = state.frames.push(frame);
     /// let factor = state.add_control(1.0);
     /// let couple = Couple::new(&mut state, &[(i, 1.0)], Vector3::z() * 3.0, CoupleKind::Axial, factor);
-    /// // A turn of half a radian about the axis: the work is 3 times 0.5.
+    /// // Half a radian about the axis: the work is 3 times 0.5.
     /// state.frames.orientation.set(i, UnitQuaternion::new(Vector3::z() * 0.5));
     /// assert!((couple.energy(&state) + 1.5).abs() < 1e-15);
     /// # Ok::<(), actin_mechanics::InertiaError>(())
     /// ```
     ///
     /// # Panics
-    /// If `state` has no such frame or control, or if the couple or a share is not finite.
+    /// If `state` lacks a frame or the control, or if the couple or a share is not finite.
     pub fn new(
         state: &mut State,
         shares: &[(usize, f64)],
@@ -89,7 +90,7 @@ impl Couple {
         let with_rest = |&(i, share): &(usize, f64)| {
             assert!(
                 i < frames,
-                "there are {frames} frames, a couple acts on frame {i}"
+                "a couple acts on frame {i}, but there are only {frames} frames"
             );
             assert!(
                 share.is_finite(),
@@ -111,15 +112,14 @@ impl Couple {
         }
     }
 
-    /// Counts turns from frame to frame of a chain, so that the potential has no jump where a frame passes
-    /// a full turn: `psi`, known up to two turns, is taken nearest to the `psi` of the frame before. The
-    /// first frame should be next to one that is held; its turns are
-    /// [counted](Interaction::count_turns) as it moves.
+    /// Counts turns along a chain of frames, so that the potential is continuous over full turns.
     ///
-    /// The frames are in the orientations in which `psi` is zero.
+    /// An orientation defines `psi` modulo two turns; the value nearest to the preceding frame's is
+    /// used. The first frame should be next to a held frame. The present orientations define
+    /// `psi = 0`.
     ///
     /// # Panics
-    /// If a frame that the couple acts on is not on the chain.
+    /// If a frame of the couple is missing in the chain.
     #[must_use]
     pub fn counted_along(mut self, state: &State, chain: &[usize]) -> Self {
         let element = |i: usize| self.shares.iter().position(|share| share.0 == i);
@@ -137,26 +137,26 @@ impl Couple {
         self
     }
 
-    /// Its factor.
+    /// Control that is the load factor.
     pub fn control(&self) -> ControlId {
         self.control
     }
 
-    /// Size at control value 1 and axis; none of a couple of zero.
     fn axis(&self) -> Option<(f64, Vector3)> {
         let size = self.moment.norm();
         (size > 0.0).then(|| (size, self.moment / size))
     }
 }
 
-/// `psi` about `axis` of a frame in orientation `now`, known up to two turns: the value nearest to `near`.
+/// Twist `psi` of a frame about `axis`. Among the values modulo two turns, the one nearest to
+/// `near`.
 fn twist(axis: Vector3, [now, rest]: [UnitQuaternion; 2], near: f64) -> f64 {
     let turn = now * rest.inverse();
     let known = 2.0 * turn.imag().dot(&axis).atan2(turn.w);
     known + 2.0 * TAU * ((near - known) / (2.0 * TAU)).round()
 }
 
-/// An axis of the lab as the body sees it now, and as it saw it at the beginning.
+/// Components of a lab axis in the present and in the initial body frame.
 fn seen(axis: Vector3, now: UnitQuaternion, rest: UnitQuaternion) -> (Vector3, Vector3) {
     let seen = |q: UnitQuaternion| q.inverse_transform_vector(&axis);
     (seen(now), seen(rest))
@@ -190,9 +190,7 @@ impl Interaction for Couple {
         self.shares.len()
     }
 
-    /// `-M psi`. Turns are counted along the frames that the couple acts on, or along a
-    /// [chain](Self::counted_along), from the last [count](Interaction::count_turns) of the first frame.
-    /// A follower has no potential: zero.
+    /// Energy `-M psi` with counted turns, or zero for a follower couple.
     fn write_energies(&self, state: &State, energies: &mut [f64]) {
         energies.fill(0.0);
         let Some((size, axis)) = self.axis().filter(|_| self.is_conservative()) else {
@@ -222,8 +220,8 @@ impl Interaction for Couple {
 }
 
 impl SecondOrder for Couple {
-    /// With `a` and `b` the axis as the frame sees it now and saw it at the beginning,
-    /// `d a / d phi = [a]x` in the torque `M (a + b) / (1 + a . b)`; the symmetric part of it.
+    /// Symmetric part of the derivative of the torque `M (a + b) / (1 + a . b)`, with
+    /// `d a / d phi = [a]x`.
     fn add_stiffness(&self, state: &State, stiffness: &mut Stiffness) {
         let (size, axis) = self.axis().unwrap_or_default();
         let factor = state.controls[self.control] * size;
@@ -245,8 +243,8 @@ mod tests {
     use crate::testing::{assert_is_gradient, assert_is_stiffness, loads_of};
     use crate::{Frame, Inertia, Xorshift, rotation};
 
-    /// Two frames in any orientation, under a couple of 3.7 of which the first takes a quarter; turned
-    /// from there.
+    /// Two frames under a couple of 3.7, with shares of 1/4 and 3/4, rotated by `turn` after its
+    /// creation.
     fn turned(kind: CoupleKind, turn: Vector3) -> (State, Couple) {
         let mut state = State::default();
         let control = state.add_control(0.8);
@@ -263,7 +261,6 @@ mod tests {
         (state, couple)
     }
 
-    /// Torque and stiffness are the derivatives of `-M psi`, at small and large swings.
     #[test]
     fn axial_couples_have_a_potential() {
         for turn in [[0.01, -0.02, 0.03], [0.3, -0.2, 0.9], [-1.4, 0.8, 1.5]] {
@@ -274,8 +271,6 @@ mod tests {
         }
     }
 
-    /// Along the axis the torque is the couple, to any swing; a turn about the axis changes nothing and
-    /// does work in proportion, up to a full turn.
     #[test]
     fn axial_couples_keep_their_component() {
         let axis = Vector3::new(1.2, -3.0, 1.8).normalize();
@@ -291,8 +286,6 @@ mod tests {
         assert!((couple.energy(&state) + 6.2 * size).abs() < 1e-12 * size);
     }
 
-    /// Along a chain from a frame that does not turn, turns are counted beyond two, whatever the swings: the
-    /// work is the couple times the angle.
     #[test]
     fn turns_are_counted_along_a_chain() {
         let mut state = State::default();
@@ -317,15 +310,12 @@ mod tests {
                 let q = rotation::exp(Vector3::z() * angle) * swing;
                 state.frames.orientation.set(i, q);
             }
-            // The swing about axes across z adds no twist about it.
             let work = 3.0 * TAU * turns;
             let energy = couple.energy(&state);
             assert!((energy + work).abs() < 1e-12, "{turns}: {energy}");
         }
     }
 
-    /// A frame that turns freely through several turns, forward and back: the work is the couple times the
-    /// angle if turns are counted on the way.
     #[test]
     fn turns_of_a_free_frame_are_counted_in_motion() {
         let (start, couple) = turned(CoupleKind::Axial, Vector3::zeros());
@@ -336,7 +326,7 @@ mod tests {
             for i in 0..2 {
                 let turn = rotation::exp(axis.normalize() * angle);
                 let q = turn * start.frames.orientation.get(i);
-                // The quaternion that is continuous in the angle.
+                // Continuous in the angle.
                 let sign = if (0.5 * angle).cos() * (turn.w) < 0.0 {
                     -1.0
                 } else {
@@ -346,7 +336,6 @@ mod tests {
                 state.frames.orientation.set(i, q);
             }
             if step == -40 {
-                // The first angle is reached from zero by less than a turn each time.
                 state.controls[couple.turned] = angle;
             }
             couple.count_turns(&mut state);
@@ -356,13 +345,12 @@ mod tests {
         }
     }
 
-    /// A closed path of turns about two axes, against which a couple that kept its direction in the lab
-    /// would do work: the axial one does none, the follower does.
+    /// Work along a closed path of rotations about two axes: zero for the axial couple, nonzero for
+    /// the follower.
     #[test]
-    fn what_follows_does_work_on_a_closed_path() {
+    fn only_follower_couples_do_work_on_a_closed_path() {
         let work = |kind| {
             let (mut state, couple) = turned(kind, Vector3::zeros());
-            // Work of a small turn (rad, body frame), by the midpoint rule.
             let turn = |state: &mut State, step: Vector3| {
                 let q = state.frames.orientation.get(0);
                 let middle = q * rotation::exp(step * 0.5);
@@ -378,14 +366,14 @@ mod tests {
                     work += turn(&mut state, axis / f64::from(n));
                 }
             }
-            // Turns about body axes do not close by themselves: the last one does.
+            // The last rotation closes the path.
             let back = rotation::log(state.frames.orientation.get(0).inverse() * first);
             for _ in 0..n {
                 work += turn(&mut state, back / f64::from(n));
             }
             work
         };
-        // The midpoint rule over steps of 5e-4 rad, of a couple of 0.75.
+        // Midpoint rule with steps of 5e-4 rad, for a couple of 0.75.
         assert!(work(CoupleKind::Axial).abs() < 1e-6);
         assert!(work(CoupleKind::Follower).abs() > 0.05);
         assert!(

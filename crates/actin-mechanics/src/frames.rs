@@ -1,4 +1,4 @@
-//! Frames: orientations with an inertia. The loop of their free rotation is in `frames/drift.rs`.
+//! Frames: orientations with an inertia. The kernel of free rotation is in `frames/drift.rs`.
 
 mod drift;
 
@@ -7,7 +7,7 @@ use crate::vectors::{self, damp_where, sum_in_lanes};
 use crate::{Inertia, Quaternions, Shared, UnitQuaternion, Vector3, Vectors, wide};
 use drift::Drift;
 
-/// One frame, as it enters a [`Frames`].
+/// Input of [`Frames::push`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Frame {
     /// Orientation, body to lab.
@@ -17,8 +17,8 @@ pub struct Frame {
 }
 
 impl Frame {
-    /// Whether the orientation is finite, and the moments of inertia and their inverses are positive and
-    /// finite.
+    /// Returns `true` if the orientation is finite, and all moments of inertia and their inverses
+    /// are positive and finite.
     pub fn is_valid(&self) -> bool {
         let is_oriented = self.orientation.coords.iter().all(|q| q.is_finite());
         let moments = [self.inertia.axial, self.inertia.transverse];
@@ -37,16 +37,15 @@ pub struct Frames {
     inertias: Shared<Inertias>,
 }
 
-/// What does not move.
 #[derive(Clone, Debug, Default, PartialEq)]
 struct Inertias {
     /// 1 / transverse moment.
     inverse_transverse: Vec<f64>,
-    /// (1 / axial - 1 / transverse) times the unit vector of the axis of symmetry.
+    /// `(1 / axial - 1 / transverse)` times the unit vector of the symmetry axis.
     excess: Vectors,
-    /// Whether the axis of symmetry of some frame is not the third body axis.
+    /// `true` if the symmetry axis of any frame is not the third body axis.
     off_z: bool,
-    /// 1 where torques turn the frame, 0 where it is held.
+    /// 1 for free frames, 0 for held frames.
     mobility: Vec<f64>,
 }
 
@@ -56,12 +55,11 @@ impl Frames {
         self.inertias.mobility.len()
     }
 
-    /// Whether there is no frame at all.
+    /// Returns `true` if there are no frames.
     pub fn is_empty(&self) -> bool {
         self.inertias.mobility.is_empty()
     }
 
-    /// The same bodies without orientations and motion.
     pub(crate) fn bodies(&self) -> Self {
         Self {
             inertias: self.inertias.clone(),
@@ -69,7 +67,6 @@ impl Frames {
         }
     }
 
-    /// Whether `other` shares the inertias and what is held.
     pub(crate) fn shares_bodies_with(&self, other: &Self) -> bool {
         self.inertias.is_same(&other.inertias)
     }
@@ -99,11 +96,9 @@ impl Frames {
         self.len() - 1
     }
 
-    /// Takes frame `i` out of the reach of torques; it keeps whatever angular momentum it is
-    /// given from outside (zero unless driven).
+    /// Holds frame `i`: torques do not change its angular momentum, which is set to zero.
     ///
-    /// Its inertia is kept, so that a driven frame turns by the same exact flow as a free one.
-    ///
+    /// The inertia is kept for driven frames.
     /// # Panics
     /// If there is no frame `i`.
     pub fn hold(&mut self, i: usize) {
@@ -111,8 +106,7 @@ impl Frames {
         self.angular_momentum.set(i, Vector3::zeros());
     }
 
-    /// Undoes [`hold`](Self::hold): torques turn frame `i` again, from rest. One that is free stays
-    /// as it is.
+    /// Frees frame `i` again, at rest. Does nothing if it is already free.
     ///
     /// # Panics
     /// If there is no frame `i`.
@@ -123,17 +117,17 @@ impl Frames {
         }
     }
 
-    /// Whether torques turn frame `i`.
+    /// Returns `true` if frame `i` is free.
     pub fn is_free(&self, i: usize) -> bool {
         self.inertias.mobility[i] > 0.0
     }
 
-    /// Body angular velocity for body angular momentum `l` of frame `i`.
+    /// Angular velocity of frame `i` for the angular momentum `l` (both in the body frame).
     pub fn angular_velocity(&self, i: usize, l: Vector3) -> Vector3 {
         l * self.inertias.inverse_transverse[i] + l.component_mul(&self.inertias.excess.get(i))
     }
 
-    /// Inverse principal moments of frame `i` as if it were free.
+    /// Inverse principal moments of frame `i`, also if it is held.
     pub fn inverse_moments(&self, i: usize) -> Vector3 {
         self.inertias
             .excess
@@ -141,8 +135,8 @@ impl Frames {
             .add_scalar(self.inertias.inverse_transverse[i])
     }
 
-    /// 1 / transverse moment, the excess of the inverse moment about each body axis over it, and 1
-    /// for free frames, 0 for held ones.
+    /// Columns `1 / transverse`, excess of the inverse moments about the three body axes, and
+    /// mobility (1 for free frames, 0 for held frames).
     pub(crate) fn inertia_columns(&self) -> [&[f64]; 5] {
         let excess = &self.inertias.excess;
         [
@@ -154,17 +148,15 @@ impl Frames {
         ]
     }
 
-    /// Asserts that there are as many orientations and angular momenta as frames.
     pub(crate) fn assert_shape(&self) {
         let count = self.len();
         self.orientation.assert_len("orientations", count);
         self.angular_momentum.assert_len("angular momenta", count);
     }
 
-    /// Turns every frame freely for a time `h`: the exact flow of [`Inertia::free_flow`].
+    /// Rotates every frame freely for a time `h`, by the exact flow of [`Inertia::free_flow`].
     ///
-    /// The quaternions are brought back to unit length to first order, which keeps them there to
-    /// round-off over any number of steps.
+    /// Quaternions are renormalised to first order, which keeps unit length to round-off.
     pub fn drift(&mut self, h: f64) {
         wide::dispatch(Drift { frames: self, h });
     }
@@ -179,8 +171,8 @@ impl Frames {
         );
     }
 
-    /// Adds to each component of each body angular momentum `deviates` times the root of the
-    /// moment about that axis; nothing to those of held frames.
+    /// Adds `deviates` times the square root of the moment to each component of the body angular
+    /// momentum of each free frame.
     pub(crate) fn add_thermal_impulses(&mut self, deviates: &Vectors) {
         let (l, excess) = (&mut self.angular_momentum, &self.inertias.excess);
         for (l, excess, d) in [
@@ -197,12 +189,11 @@ impl Frames {
         }
     }
 
-    /// Multiplies the angular momenta of the free frames.
     pub(crate) fn damp(&mut self, factor: f64) {
         damp_where(&mut self.angular_momentum, &self.inertias.mobility, factor);
     }
 
-    /// Kinetic energy of the free frames.
+    /// Kinetic energy of free frames.
     pub fn kinetic_energy(&self) -> f64 {
         let l = &self.angular_momentum;
         let [transverse, x, y, z, mobility] = self.inertia_columns();
@@ -221,14 +212,11 @@ mod tests {
     use crate::rotation;
     use crate::testing::architectures;
 
-    /// The flow over all frames is the reference flow of each, whichever axis it has, for numbers
-    /// of frames that fill the lanes and that do not, with one lane and with as many as there are,
-    /// for short times and for many turns.
     #[test]
     fn drift_is_the_free_flow_of_each_top() {
         let tops = [[2.0, 1.0, 1.0], [1.0, 2.0, 1.0], [1.0, 1.0, 2.0], [1.5; 3]]
             .map(|moments| Inertia::from_moments(moments).unwrap());
-        // All of them, and those whose axis is the third, which have a loop of their own.
+        // All tops, then tops with symmetry axis z, which have a separate kernel.
         for (tops, count) in [&tops[..], &tops[2..]]
             .into_iter()
             .flat_map(|tops| [1, 2, 4, 7, 13].map(|count| (tops, count)))
@@ -241,7 +229,7 @@ mod tests {
                     for (i, (q, l)) in before.into_iter().enumerate() {
                         let (q, l) = tops[i % tops.len()].free_flow(q, l, h);
                         let turned = frames.orientation.get(i).coords - q.coords;
-                        // Rounding of the angle itself, for the longest time.
+                        // Rounding of the angle for the longest time.
                         let tolerance = 1e-15 * (1.0 + h.abs());
                         assert!(turned.norm() < tolerance, "{count} frames, h = {h}");
                         let momentum = frames.angular_momentum.get(i) - l;
@@ -252,7 +240,6 @@ mod tests {
         }
     }
 
-    /// Also of groups in which one frame turns far and the others do not.
     #[test]
     fn drift_is_the_same_with_any_number_of_lanes() {
         let tops = [[1.0, 1.0, 2.0], [2.0, 1.0, 1.0]]
@@ -270,7 +257,6 @@ mod tests {
         }
     }
 
-    /// Frames of all the tops in turn, at random; also their orientations and momenta.
     fn spinning(tops: &[Inertia], count: usize) -> (Vec<(UnitQuaternion, Vector3)>, Frames) {
         let mut noise = Xorshift::new(5);
         let mut frames = Frames::default();
@@ -287,7 +273,6 @@ mod tests {
         (motion.collect(), frames)
     }
 
-    /// Without the correction the length would wander as the square root of the step count.
     #[test]
     fn quaternions_keep_unit_length() {
         let mut frames = Frames::default();
@@ -300,9 +285,8 @@ mod tests {
         assert!((frames.orientation.get(0).norm() - 1.0).abs() < 4e-16);
     }
 
-    /// Without an axial moment a frame would spin infinitely fast under any torque.
     #[test]
-    fn moments_without_a_meaning_are_refused() {
+    fn invalid_moments_are_refused() {
         for bad in [0.0, -1.0, f64::NAN, f64::INFINITY, 1e-310] {
             for (axial, transverse) in [(bad, 1.0), (1.0, bad)] {
                 let inertia = Inertia {
@@ -322,7 +306,7 @@ mod tests {
     }
 
     #[test]
-    fn a_held_frame_does_not_answer_torques() {
+    fn torques_do_not_move_held_frames() {
         let mut frames = Frames::default();
         frames.push(Frame {
             orientation: UnitQuaternion::identity(),

@@ -1,4 +1,4 @@
-//! Inertia of a frame, and the exact free rotation of a symmetric top.
+//! Inertia of frames, and the exact free rotation of a symmetric top.
 
 use crate::{UnitQuaternion, Vector3, rotation};
 use thiserror::Error;
@@ -15,7 +15,7 @@ pub enum Axis {
 }
 
 impl Axis {
-    /// The unit vector along the axis.
+    /// Unit vector along the axis.
     pub fn unit(self) -> Vector3 {
         match self {
             Self::X => Vector3::x(),
@@ -25,7 +25,7 @@ impl Axis {
     }
 }
 
-/// Why moments of inertia were refused.
+/// Invalid moments of inertia.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum InertiaError {
@@ -34,13 +34,12 @@ pub enum InertiaError {
     NotPositive([f64; 3]),
     /// The three moments all differ.
     #[error(
-        "moments of inertia {0:?} all differ: only symmetric tops are integrated, because their \
-         free rotation has a closed form, without which the integrators lose their order"
+        "moments of inertia {0:?} all differ: two must be equal, because only the free rotation of a \
+         symmetric top has a closed form"
     )]
     Asymmetric([f64; 3]),
 }
 
-/// Whether a mass, a moment or the inverse of one is what a body can have: positive and finite.
 pub(crate) fn is_inertia(value: f64) -> bool {
     value.is_finite() && value > 0.0
 }
@@ -52,15 +51,15 @@ pub struct Inertia {
     pub axis: Axis,
     /// Moment about the axis of symmetry.
     pub axial: f64,
-    /// Moment about any axis perpendicular to it.
+    /// Moment about any axis perpendicular to the axis of symmetry.
     pub transverse: f64,
 }
 
 impl Inertia {
-    /// The top with the given principal moments about body axes x, y, z.
+    /// Creates the top with the given principal moments about the body axes x, y, z.
     ///
     /// # Errors
-    /// Moments that are not positive and finite, or three different ones.
+    /// If a moment is not positive and finite, or if all three moments differ.
     ///
     /// ```
     /// use actin_mechanics::{Axis, Inertia};
@@ -90,17 +89,21 @@ impl Inertia {
         })
     }
 
-    /// Principal moments about body axes x, y, z.
+    /// Principal moments about the body axes x, y, z.
     pub fn moments(&self) -> Vector3 {
         self.axis.unit() * (self.axial - self.transverse) + Vector3::from_element(self.transverse)
     }
 
     /// Torque-free motion over time `t` from orientation `q` and body angular momentum `l`.
     ///
-    /// With `e` the axis of symmetry, `Q(t) = Q exp(t l / I_t) exp(t e w)` and
-    /// `l(t) = exp(-t e w) l`, where `w = (l . e)(1/I_a - 1/I_t)`: exact at every `t`.
+    /// ```text
+    /// Q(t) = Q exp(t l / I_t) exp(t e w)
+    /// l(t) = exp(-t e w) l
+    /// w    = (l . e) (1/I_a - 1/I_t)
+    /// ```
     ///
-    /// This is the reference for [`crate::Frames::drift`], which does the same for all frames.
+    /// `e` is the axis of symmetry, `I_a` and `I_t` are the axial and transverse moments. The flow
+    /// is exact for every `t`. It is the scalar reference for [`crate::Frames::drift`].
     pub fn free_flow(&self, q: UnitQuaternion, l: Vector3, t: f64) -> (UnitQuaternion, Vector3) {
         let e = self.axis.unit();
         let spin = rotation::exp(e * (t * l.dot(&e) * (1.0 / self.axial - 1.0 / self.transverse)));
@@ -127,7 +130,7 @@ mod tests {
     }
 
     #[test]
-    fn moments_that_are_no_top_are_refused() {
+    fn asymmetric_moments_are_refused() {
         assert!(matches!(
             Inertia::from_moments([1.0, 2.0, 3.0]),
             Err(InertiaError::Asymmetric(_))
@@ -140,8 +143,6 @@ mod tests {
         }
     }
 
-    /// Euler's equations, integrated with many small steps, give the same motion; the lab
-    /// angular momentum stays where it was.
     #[test]
     fn free_flow_solves_eulers_equations() {
         for moments in [[2.92, 2.18, 2.18], [1.0, 1.0, 2.0], [0.7, 3.0, 0.7]] {

@@ -1,27 +1,28 @@
-//! Constant internal forces and couples: they follow the frames that they are seen from.
+//! Internal forces and torques of constant components in the axes of their frames.
 
 use crate::{Coordinates, Loads, Matrix3, State, Stiffness, UnitQuaternion, Vector3, rotation};
 
-/// A force between two points that is constant in the axes of a frame: the energy `-n . Q^T (x_b - x_a)`.
+/// Force between two points with constant components in the axes of a frame:
+/// `E = -n . Q^T (x_b - x_a)`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct InternalForce {
-    /// The points `a` and `b`.
+    /// Points `a` and `b`.
     pub points: [usize; 2],
-    /// The frame `Q`.
+    /// Index of the frame `Q`.
     pub frame: usize,
-    /// The force on `b` (its axes).
+    /// Force `n` on `b` (axes of the frame).
     pub force: Vector3,
 }
 
-/// A couple between two frames that is constant as seen from their difference: the energy
-/// `-m . log(O^T Qa^T Qb)`.
+/// Torque between two frames, constant and conjugate to their relative rotation vector:
+/// `E = -m . log(O^T Qa^T Qb)`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct InternalCouple {
-    /// The frames `a` and `b`.
+    /// Frames `a` and `b`.
     pub frames: [usize; 2],
-    /// `O`: where `b` stands in `a` at rest.
+    /// Relative orientation `O` of `b` in `a` at rest.
     pub rest: UnitQuaternion,
-    /// The couple, conjugate to the logarithm.
+    /// Torque `m`, conjugate to the rotation vector.
     pub couple: Vector3,
 }
 
@@ -32,7 +33,8 @@ impl InternalForce {
         (axes, axes.tr_mul(&(b - a)))
     }
 
-    /// Adds its loads: `-Q n` and `Q n` on the points, `n x y` on the frame, with `y = Q^T (x_b - x_a)`.
+    /// Adds the loads: `-Q n` and `Q n` on the points, `n x y` on the frame, with
+    /// `y = Q^T (x_b - x_a)`.
     pub fn add_loads(&self, state: &State, loads: &mut Loads) {
         let (axes, y) = self.seen(state);
         let force = axes * self.force;
@@ -41,8 +43,8 @@ impl InternalForce {
         loads.torque.add(self.frame, self.force.cross(&y));
     }
 
-    /// Adds its loads but for the torque about the third axis of the frame, which is that of a vector `Q^T (x_b - x_a)` as at
-    /// `rest` (axes of the frame): what is displaced does not turn the frame about itself.
+    /// Adds the loads with the axial torque of the rest state, so that displacements do not spin
+    /// the frame. `rest` is `Q^T (x_b - x_a)` at rest (axes of the frame).
     pub fn add_loads_without_spin(&self, rest: Vector3, state: &State, loads: &mut Loads) {
         let before = loads.torque.get(self.frame).z;
         self.add_loads(state, loads);
@@ -51,21 +53,21 @@ impl InternalForce {
         loads.torque.set(self.frame, torque);
     }
 
-    /// Adds the second derivatives of its energy.
+    /// Adds the second derivatives of the energy.
     pub fn add_stiffness(&self, state: &State, stiffness: &mut Stiffness) {
         let [mixed, turn] = self.blocks(state);
         self.push(mixed, turn, stiffness);
     }
 
-    /// Adds the derivatives of loads without spin, where turns of the frame about its third axis do not change the force seen
-    /// from outside.
+    /// Adds the derivatives of the loads of
+    /// [`add_loads_without_spin`](Self::add_loads_without_spin).
     pub fn add_stiffness_without_spin(&self, state: &State, stiffness: &mut Stiffness) {
         let [mut mixed, turn] = self.blocks(state);
         mixed.set_column(2, &Vector3::zeros());
         self.push(mixed, without_spin(turn), stiffness);
     }
 
-    /// Blocks of the second point and the frame, and of the frame.
+    /// Block of the second point and the frame, and block of the frame.
     fn blocks(&self, state: &State) -> [Matrix3; 2] {
         let (axes, y) = self.seen(state);
         let n = self.force;
@@ -84,13 +86,14 @@ impl InternalForce {
 }
 
 impl InternalCouple {
-    /// `log(O^T Qa^T Qb)`.
+    /// Relative rotation vector `log(O^T Qa^T Qb)` (rad).
     pub fn strain(&self, state: &State) -> Vector3 {
         let [a, b] = self.frames.map(|i| state.frames.orientation.get(i));
         rotation::log((a * self.rest).inverse() * b)
     }
 
-    /// Adds its loads: `J_r(theta)^-T m` on `b`, and the opposite in the axes of `a` on `a`.
+    /// Adds the loads: `J_r(theta)^-T m` on `b`, and the opposite torque on `a`, each in its body
+    /// axes.
     pub fn add_loads(&self, state: &State, loads: &mut Loads) {
         let theta = self.strain(state);
         let inverse = rotation::right_jacobian_inverse(theta);
@@ -100,8 +103,8 @@ impl InternalCouple {
         loads.torque.add(a, -(self.rest * (inverse * self.couple)));
     }
 
-    /// Adds its loads with torques about the third axes of the frames that are those at rest: what is bent does not turn
-    /// frames about themselves.
+    /// Adds the loads with the axial torques of the rest state, so that bending does not spin the
+    /// frames.
     pub fn add_loads_without_spin(&self, state: &State, loads: &mut Loads) {
         let before = self.frames.map(|i| loads.torque.get(i).z);
         self.add_loads(state, loads);
@@ -114,20 +117,24 @@ impl InternalCouple {
         }
     }
 
-    /// Adds the second derivatives of its energy: with `D` the derivative of `J_r(theta)^-T m` by `theta`, the block of `b` is
-    /// `K = -sym(D J_r^-1)`, and as the energy depends on `R = O^T Qa^T Qb` alone, the others are
-    /// `R K R^T` and `R (-[J_r^-T m]x / 2 - K)`, turned into the axes of `a`.
+    /// Adds the second derivatives of the energy, which depends on `R = O^T Qa^T Qb` alone.
+    ///
+    /// ```text
+    /// K_bb = K = -sym(D J_r^-1),  D = d(J_r(theta)^-T m) / d theta
+    /// K_aa = R K R^T              (axes of a)
+    /// K_ab = R (-[J_r^-T m]x / 2 - K)
+    /// ```
     pub fn add_stiffness(&self, state: &State, stiffness: &mut Stiffness) {
         self.push(self.blocks(state), stiffness);
     }
 
-    /// Adds the derivatives of loads without spin, where turns of the frames about their third axes do not change the couple
-    /// seen from outside.
+    /// Adds the derivatives of the loads of
+    /// [`add_loads_without_spin`](Self::add_loads_without_spin).
     pub fn add_stiffness_without_spin(&self, state: &State, stiffness: &mut Stiffness) {
         self.push(self.blocks(state).map(without_spin), stiffness);
     }
 
-    /// Blocks of the first frame, of both, and of the second.
+    /// Blocks `aa`, `ab` and `bb`.
     fn blocks(&self, state: &State) -> [Matrix3; 3] {
         let theta = self.strain(state);
         let inverse = rotation::right_jacobian_inverse(theta);
@@ -149,7 +156,6 @@ impl InternalCouple {
     }
 }
 
-/// Returns a block of frames without the row and the column of the third axis.
 fn without_spin(mut block: Matrix3) -> Matrix3 {
     block.set_row(2, &Vector3::zeros().transpose());
     block.set_column(2, &Vector3::zeros());
@@ -168,7 +174,6 @@ mod tests {
     use crate::testing::{push_frame, push_point};
     use crate::{Interaction, SecondOrder, Xorshift, perturb};
 
-    /// Both between two bodies, as an interaction.
     #[derive(Debug)]
     struct Both(InternalForce, InternalCouple);
 
@@ -200,8 +205,6 @@ mod tests {
         }
     }
 
-    /// Loads and blocks are derivatives of the energy, for frames that stand at any angle; a wrong side of the
-    /// frame at rest or a wrong sign of what is geometric would show.
     #[test]
     fn internal_loads_are_the_gradient_of_their_energy() {
         let mut state = State::default();

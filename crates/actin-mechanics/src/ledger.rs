@@ -1,22 +1,23 @@
-//! Energy that comes from outside: the work of what is driven, and heat.
+//! Energy balance: work of driven bodies and controls, and heat.
 
 use crate::{ControlId, Drive, Interaction, Loads, State, Vectors, rotation};
 
-/// The controls of a state in which a [`System`](crate::System) books what comes from outside: without it, the
-/// energy of a motion is constant but for the error of the integrator.
+/// Controls that store the energy balance of a [`System`](crate::System).
+///
+/// The energy of a trajectory minus work and heat is constant to the error of the integrator.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ledger {
-    /// What driven bodies and controls have added (pN nm).
+    /// Work done by driven bodies and controls (pN nm).
     pub work: ControlId,
-    /// What drag and noise have added (pN nm): negative where drag takes more than noise gives.
+    /// Heat added by noise minus heat removed by drag (pN nm).
     pub heat: ControlId,
 }
 
 impl Ledger {
-    /// Books the work of `drive` over a time `t` (ns) at the present places, where `loads` act.
+    /// Adds the work of `drive` over a time `t` (ns) at the present positions, where `loads` act.
     ///
-    /// To be called with each kick, for its time. That makes the sum as exact as the method: where time is one more
-    /// coordinate, its momentum is minus the energy, and this is its kick.
+    /// To be called with each kick: the sum then has the order of the integrator, because this is
+    /// the kick of the momentum conjugate to time.
     pub(crate) fn book_work(
         &self,
         state: &mut State,
@@ -30,8 +31,8 @@ impl Ledger {
     }
 }
 
-/// Sum of the works (pN nm) of two loads on free bodies that go from one state to another. Turns are those in body axes, which both
-/// states share.
+/// Work (pN nm) of the sum of two loads on free bodies between two states. Torques are in body
+/// axes, which both states share.
 pub(crate) fn work_on_free([a, b]: [&Loads; 2], [from, to]: [&State; 2]) -> f64 {
     let force = |i: usize| a.force.get(i) + b.force.get(i);
     let (places, frames) = (&from.points.position, &from.frames.orientation);
@@ -57,13 +58,13 @@ pub(crate) fn work_on_free([a, b]: [&Loads; 2], [from, to]: [&State; 2]) -> f64 
     work
 }
 
-/// Rate at which held bodies work against the loads on them (pN nm per ns).
+/// Power that held bodies supply against the loads on them (pN nm/ns).
 fn power_of_held(state: &State, loads: &Loads) -> f64 {
     let mut gained = 0.0;
     for i in (0..state.points.len()).filter(|&i| !state.points.is_free(i)) {
         gained += loads.force.get(i).dot(&state.points.velocity.get(i));
     }
-    // What slides is free along its directions.
+    // Sliding bodies are free along their directions.
     for slider in state.sliders.iter() {
         let sliding = slider.sliding_velocity(&state.points.velocity);
         for &i in &slider.points {

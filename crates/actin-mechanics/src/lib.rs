@@ -1,17 +1,12 @@
-//! Points, frames, loads and rotations: the mechanics that all models share.
+//! Points, frames, loads and rotations: the mechanics shared by all models.
 //!
-//! Two kinds of degree of freedom cover everything that moves. A **point** has a position, a
-//! velocity and an inverse mass. A **frame** has an orientation (body to lab), a body angular
-//! momentum and an inverse inertia; every frame is a symmetric top. A [`State`] holds both as
-//! structures of arrays; its copies share masses, inertias and what is held. A [`Motion`] is what time
-//! changes of it. An [`Interaction`] adds its [`Loads`]: forces in the lab frame, torques
-//! in the body frame. A [`System`] is a state with its interactions, and offers itself to
-//! integrators as a [`Split`] into drift and kick. [`Springs`], [`Weight`] and [`PointLoad`] are the
-//! interactions that need no model.
+//! A **point** has a position, a velocity and an inverse mass. A **frame** has an orientation (body
+//! to lab), a body angular momentum and the inverse inertia of a symmetric top. A [`State`] stores
+//! both as structures of arrays; a [`Motion`] is its time-dependent part. An [`Interaction`] adds
+//! its [`Loads`]: forces in the lab frame, torques in the body frame. A [`System`] is a state with
+//! its interactions, and implements [`Split`] (drift and kick) for integrators.
 //!
-//! This crate knows nothing of what the points and frames stand for.
-//!
-//! Units are whatever the caller keeps consistent; the crates above use nm, pN and ns.
+//! Any consistent units may be used; other crates use nm, pN and ns.
 
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
@@ -71,9 +66,9 @@ pub use system::{Drive, Split, StepEnd, System, Thermostat};
 pub use vectors::Vectors;
 pub use weight::Weight;
 
-/// A vector of three components.
+/// Vector with three components.
 pub type Vector3 = nalgebra::Vector3<f64>;
-/// A matrix of three rows and columns.
+/// 3x3 matrix.
 pub type Matrix3 = nalgebra::Matrix3<f64>;
-/// A rotation, body to lab, as a unit quaternion.
+/// Rotation, body to lab, as a unit quaternion.
 pub type UnitQuaternion = nalgebra::UnitQuaternion<f64>;

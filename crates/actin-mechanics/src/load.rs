@@ -1,13 +1,13 @@
-//! A dead load: a constant force on some points.
+//! Dead load: a constant force on points.
 
 use crate::{ControlId, Interaction, Loads, SecondOrder, State, Stiffness, Vector3};
 use thiserror::Error;
 
-/// Reason for which a load or a weight was refused.
+/// Invalid load or weight.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum LoadError {
-    /// A force or an acceleration with a component that is not finite.
+    /// A component of a force or an acceleration is not finite.
     #[error("{key} = ({}, {}, {}): all components must be finite", .value.x, .value.y, .value.z)]
     NotFinite {
         /// `force` or `acceleration`.
@@ -15,10 +15,10 @@ pub enum LoadError {
         /// The vector.
         value: Vector3,
     },
-    /// A share of the load that is not finite.
+    /// A share of the load is not finite.
     #[error("share = {0}: shares of a load must be finite")]
     Share(f64),
-    /// A point that the state does not have.
+    /// The state does not have this point.
     #[error("a load acts on point {point}: the state has {count} points")]
     Point {
         /// Index of the point.
@@ -26,16 +26,16 @@ pub enum LoadError {
         /// Number of points of the state.
         count: usize,
     },
-    /// A control that the state does not have.
+    /// The state does not have this control.
     #[error("a load has {0:?}, which the state does not have")]
     Control(ControlId),
 }
 
 impl LoadError {
-    /// Refuses a vector that is not finite; `key` is its name.
+    /// Returns an error if a component of `value` is not finite; `key` is its name in the message.
     ///
     /// # Errors
-    /// A component that is infinite or NaN.
+    /// If a component is infinite or NaN.
     pub fn unless_finite(key: &'static str, value: Vector3) -> Result<(), Self> {
         let is_finite = value.iter().all(|component| component.is_finite());
         is_finite
@@ -44,33 +44,31 @@ impl LoadError {
     }
 }
 
-/// A force that keeps its direction, shared among points and scaled by a control.
+/// A force of constant direction, distributed over points and scaled by a control.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PointLoad {
-    /// Points and the share of the force that each takes.
     shares: Vec<(usize, f64)>,
-    /// Where each of these points has zero potential, lab frame.
+    /// Reference position of each point, at zero potential (lab frame).
     origin: Vec<Vector3>,
-    /// Force at control value 1, lab frame.
+    /// Force at control value 1 (lab frame).
     force: Vector3,
-    /// The load factor.
     control: ControlId,
 }
 
 impl PointLoad {
-    /// The load of `force` (lab frame) on one point, with a control of its own that begins at 1.
+    /// Creates the load `force` (lab frame) on one point, with a new control of value 1.
     ///
     /// # Errors
-    /// As [`new`](Self::new); the state is then unchanged.
+    /// See [`new`](Self::new). The state is unchanged on error.
     pub fn at(state: &mut State, point: usize, force: Vector3) -> Result<Self, LoadError> {
         Self::shared(state, &[point], force)
     }
 
-    /// The load of `force` (lab frame) shared equally among points, with a control of its own that
-    /// begins at 1.
+    /// Creates the load `force` (lab frame), shared equally among points, with a new control of
+    /// value 1.
     ///
     /// # Errors
-    /// As [`new`](Self::new); the state is then unchanged.
+    /// See [`new`](Self::new). The state is unchanged on error.
     pub fn shared(state: &mut State, points: &[usize], force: Vector3) -> Result<Self, LoadError> {
         let share = 1.0 / points.len() as f64;
         let shares: Vec<_> = points.iter().map(|&point| (point, share)).collect();
@@ -79,11 +77,12 @@ impl PointLoad {
         Self::new(state, shares, force, control)
     }
 
-    /// The load of `force` (lab frame, at control value 1) shared among points, with its zero of
-    /// potential at the present positions; `control` is its factor.
+    /// Creates the load `force` (lab frame, at control value 1) on points with the given shares.
+    ///
+    /// The present positions have zero potential. The load factor is `control`.
     ///
     /// # Errors
-    /// A point or a control that `state` does not have, a force or a share that is not finite.
+    /// If `state` lacks a point or the control, or if the force or a share is not finite.
     pub fn new(
         state: &State,
         shares: Vec<(usize, f64)>,
@@ -106,13 +105,12 @@ impl PointLoad {
         })
     }
 
-    /// Its factor.
+    /// Control that is the load factor.
     pub fn control(&self) -> ControlId {
         self.control
     }
 }
 
-/// Refuses forces and shares that are not finite, and points that the state does not have.
 fn check(state: &State, shares: &[(usize, f64)], force: Vector3) -> Result<(), LoadError> {
     LoadError::unless_finite("force", force)?;
     let count = state.points.len();
@@ -157,7 +155,6 @@ impl Interaction for PointLoad {
 }
 
 impl SecondOrder for PointLoad {
-    /// A dead load has no stiffness.
     fn add_stiffness(&self, _state: &State, _stiffness: &mut Stiffness) {}
 }
 
@@ -167,9 +164,8 @@ mod tests {
 
     use crate::testing::push_point;
 
-    /// A load of its own control pulls at once, with all of its force, and beside other controls.
     #[test]
-    fn a_shared_load_brings_its_control() {
+    fn a_shared_load_adds_a_control() {
         let mut state = State::default();
         for mass in [1.0, 2.0] {
             let position = Vector3::zeros();
@@ -184,7 +180,7 @@ mod tests {
     }
 
     #[test]
-    fn loads_on_what_is_not_there_are_refused() {
+    fn loads_on_missing_points_and_controls_are_refused() {
         let mut state = State::default();
         let (position, mass) = (Vector3::zeros(), 1.0);
         push_point(&mut state, position, mass);

@@ -3,17 +3,17 @@
 use crate::vectors::add_product;
 use crate::{Residual, State, Vectors};
 
-/// The loads on a [`State`].
+/// Loads on a [`State`].
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Loads {
-    /// Force on each point, lab frame.
+    /// Force on each point (lab frame).
     pub force: Vectors,
-    /// Torque on each frame, body frame.
+    /// Torque on each frame (body frame).
     pub torque: Vectors,
 }
 
 impl Loads {
-    /// Zero loads for every body of `state`.
+    /// Zero loads for all bodies of `state`.
     pub fn zeros(state: &State) -> Self {
         Self {
             force: Vectors::zeros(state.points.len()),
@@ -27,14 +27,14 @@ impl Loads {
         self.torque.clear_to_zero();
     }
 
-    /// Adds `other`, which has as many.
+    /// Adds `other`, which must have equal length.
     pub fn add(&mut self, other: &Self) {
         add_product(&mut self.force, &other.force, 1.0);
         add_product(&mut self.torque, &other.torque, 1.0);
     }
 
-    /// Largest norm of a force on a free point and of a torque on a free frame; of sliding bodies
-    /// the force along which they slide counts.
+    /// Largest norm of the forces on free points and of the torques on free frames. For sliding
+    /// bodies, the total force along their directions is used.
     pub fn residual(&self, state: &State) -> Residual {
         let force = (0..self.force.len())
             .filter(|&i| state.points.is_free(i))
@@ -48,7 +48,7 @@ impl Loads {
         Residual { force, torque }
     }
 
-    /// Magnitude of the total force on each sliding body along which it slides.
+    /// Magnitude of the total force on each sliding body along its directions.
     fn sliding_forces<'a>(&'a self, state: &'a State) -> impl Iterator<Item = f64> + 'a {
         state.sliders.iter().map(|slider| {
             let squares = slider.forces(&self.force).map(|f| f * f);

@@ -1,28 +1,28 @@
-//! What time changes of a state.
+//! Time-dependent part of a state.
 
 use crate::{Controls, Quaternions, State, Vectors};
 
-/// Places and motion of all bodies, controls and time: what a checkpoint keeps of a [`State`]. Masses,
-/// inertias and what is held are not part of it.
+/// Positions, velocities, controls and time: the part of a [`State`] that checkpoints store.
+/// Masses, inertias and holds are not included.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Motion {
-    /// Positions of the points in the lab frame.
+    /// Positions of the points (lab frame).
     pub position: Vectors,
-    /// Their velocities in the lab frame.
+    /// Velocities of the points (lab frame).
     pub velocity: Vectors,
     /// Orientations of the frames, body to lab.
     pub orientation: Quaternions,
-    /// Their angular momenta in body axes.
+    /// Angular momenta of the frames (body frame).
     pub angular_momentum: Vectors,
-    /// What is set from outside.
+    /// Values that are set from outside.
     pub controls: Controls,
-    /// Time, by which a drive places what it moves.
+    /// Time, which determines the positions of driven bodies.
     pub time: f64,
 }
 
 impl Motion {
-    /// Whether it is one of bodies and controls in the numbers of `state`.
+    /// Returns `true` if the numbers of bodies and controls equal those of `state`.
     pub fn fits(&self, state: &State) -> bool {
         let (points, frames) = (state.points.len(), state.frames.len());
         let vectors = [
@@ -39,14 +39,14 @@ impl Motion {
 }
 
 impl State {
-    /// A copy of everything that time changes.
+    /// Returns a copy of the time-dependent part.
     pub fn motion(&self) -> Motion {
         self.clone().into_motion()
     }
 
-    /// Everything that time changes.
+    /// Returns the time-dependent part.
     pub fn into_motion(self) -> Motion {
-        // Named one by one, so that a new field of the state is decided on here.
+        // Exhaustive, so that a new field of the state causes a compiler error here.
         let Self {
             points,
             frames,
@@ -64,7 +64,7 @@ impl State {
         }
     }
 
-    /// Takes over a motion of the same bodies. Allocates nothing.
+    /// Replaces the time-dependent part, without allocation.
     ///
     /// # Panics
     /// If `motion` has other numbers of bodies or controls.
@@ -85,13 +85,17 @@ impl State {
         self.time = *time;
     }
 
-    /// A state of the same bodies in a motion of them, with masses, inertias and what is held shared.
+    /// Returns a state with the given motion that shares masses, inertias, holds and sliders with
+    /// `self`.
     ///
     /// # Panics
-    /// If `motion` is not one of as many bodies and controls.
+    /// If `motion` has other numbers of bodies or controls.
     #[must_use]
     pub fn in_motion(&self, motion: Motion) -> Self {
-        assert!(motion.fits(self), "a motion of other bodies");
+        assert!(
+            motion.fits(self),
+            "a motion must have as many bodies and controls as the state"
+        );
         let (mut points, mut frames) = (self.points.bodies(), self.frames.bodies());
         points.position = motion.position;
         points.velocity = motion.velocity;
@@ -112,7 +116,6 @@ mod tests {
     use crate::testing::{push_frame, push_point};
     use crate::{State, UnitQuaternion, Vector3, Xorshift, perturb, randomise_velocities};
 
-    /// Two states of the same bodies, one of which moves in every way.
     fn states() -> [State; 2] {
         let mut state = State::default();
         for _ in 0..3 {
@@ -130,9 +133,8 @@ mod tests {
         [state, moved]
     }
 
-    /// Whatever of a state moves is copied; a part that is left out would differ.
     #[test]
-    fn motion_is_copied_whole() {
+    fn motion_is_copied_completely() {
         let [state, moved] = states();
         let mut copies = [state.clone(), state.clone()];
         copies[0].copy_motion_from(&moved);
@@ -141,9 +143,8 @@ mod tests {
         assert_eq!(state.in_motion(moved.motion()), moved);
     }
 
-    /// Copies share what does not move; one that holds a body has masses of its own.
     #[test]
-    fn copies_share_what_does_not_move() {
+    fn copies_share_masses() {
         let [state, mut moved] = states();
         assert!(state.shares_bodies_with(&moved));
         assert!(state.shares_bodies_with(&state.in_motion(moved.motion())));

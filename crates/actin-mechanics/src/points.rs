@@ -5,7 +5,7 @@ use crate::vectors::{self, damp_where, sum_in_lanes};
 use crate::{Shared, Vector3, Vectors};
 use std::collections::BTreeMap;
 
-/// One point, as it enters a [`Points`].
+/// Input of [`Points::push`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Point {
     /// Position in the lab frame.
@@ -15,7 +15,8 @@ pub struct Point {
 }
 
 impl Point {
-    /// Whether the position is finite, and the mass and its inverse are positive and finite.
+    /// Returns `true` if the position is finite, and the mass and its inverse are positive and
+    /// finite.
     pub fn is_valid(&self) -> bool {
         let is_placed = self.position.iter().all(|x| x.is_finite());
         is_placed && is_inertia(self.mass) && is_inertia(1.0 / self.mass)
@@ -32,12 +33,11 @@ pub struct Points {
     masses: Shared<Masses>,
 }
 
-/// What does not move.
 #[derive(Clone, Debug, Default, PartialEq)]
 struct Masses {
-    /// Inverse masses; zero for held points.
+    /// Inverse masses, zero for held points.
     inverse: Vec<f64>,
-    /// What the inverse mass of each held point is when it is free.
+    /// Inverse masses of held points for their release.
     held: BTreeMap<usize, f64>,
 }
 
@@ -47,12 +47,11 @@ impl Points {
         self.masses.inverse.len()
     }
 
-    /// Whether there is no point at all.
+    /// Returns `true` if there are no points.
     pub fn is_empty(&self) -> bool {
         self.masses.inverse.is_empty()
     }
 
-    /// The same bodies without places and motion.
     pub(crate) fn bodies(&self) -> Self {
         Self {
             masses: self.masses.clone(),
@@ -60,7 +59,6 @@ impl Points {
         }
     }
 
-    /// Whether `other` shares the masses and what is held.
     pub(crate) fn shares_bodies_with(&self, other: &Self) -> bool {
         self.masses.is_same(&other.masses)
     }
@@ -80,8 +78,8 @@ impl Points {
         self.len() - 1
     }
 
-    /// Takes point `i` out of the reach of forces: its inverse mass becomes zero, and it keeps
-    /// whatever velocity it is given from outside (zero unless driven). Its mass is remembered.
+    /// Holds point `i`: its inverse mass becomes zero, and forces do not change its velocity, which
+    /// is set to zero. The mass is stored for [`release`](Self::release).
     ///
     /// # Panics
     /// If there is no point `i`.
@@ -94,8 +92,7 @@ impl Points {
         self.velocity.set(i, Vector3::zeros());
     }
 
-    /// Undoes [`hold`](Self::hold): forces move point `i` again, from rest. One that is free stays
-    /// as it is.
+    /// Frees point `i` again, at rest. Does nothing if it is already free.
     ///
     /// ```
     /// use actin_mechanics::{Point, State, Vector3};
@@ -114,7 +111,7 @@ impl Points {
         }
     }
 
-    /// Mass of point `i`, to rounding; that of a held point is what it has when it is free.
+    /// Mass of point `i`, also if it is held (exact to rounding).
     ///
     /// # Panics
     /// If there is no point `i`.
@@ -128,22 +125,21 @@ impl Points {
         1.0 / inverse
     }
 
-    /// Whether forces move point `i`.
+    /// Returns `true` if point `i` is free.
     pub fn is_free(&self, i: usize) -> bool {
         self.masses.inverse[i] > 0.0
     }
 
-    /// Momentum of free point `i`.
+    /// Momentum of the free point `i`.
     pub fn momentum(&self, i: usize) -> Vector3 {
         self.velocity.get(i) / self.masses.inverse[i]
     }
 
-    /// Inverse masses; zero for held points.
+    /// Inverse masses, zero for held points.
     pub fn inverse_mass(&self) -> &[f64] {
         &self.masses.inverse
     }
 
-    /// Asserts that there are as many positions and velocities as points.
     pub(crate) fn assert_shape(&self) {
         let count = self.len();
         for (what, vectors) in [
@@ -164,7 +160,7 @@ impl Points {
         vectors::add_scaled(&mut self.velocity, force, &self.masses.inverse, h);
     }
 
-    /// Adds to each velocity `deviates / sqrt(mass)`; nothing to those of held points.
+    /// Adds `deviates / sqrt(mass)` to the velocity of each free point.
     pub(crate) fn add_thermal_impulses(&mut self, deviates: &Vectors) {
         let v = &mut self.velocity;
         for (v, d) in [
@@ -178,12 +174,11 @@ impl Points {
         }
     }
 
-    /// Multiplies the velocities of the free points.
     pub(crate) fn damp(&mut self, factor: f64) {
         damp_where(&mut self.velocity, &self.masses.inverse, factor);
     }
 
-    /// Kinetic energy of the free points.
+    /// Kinetic energy of free points.
     pub fn kinetic_energy(&self) -> f64 {
         let (v, inverse) = (&self.velocity, &self.masses.inverse);
         0.5 * sum_in_lanes([inverse, &v.x, &v.y, &v.z], |[inverse, x, y, z]| {
@@ -201,9 +196,9 @@ impl Points {
 mod tests {
     use super::*;
 
-    /// A negative mass would count as held, and one that is no number as anything.
+    /// A negative or NaN mass would be mistaken for a held point.
     #[test]
-    fn masses_without_a_meaning_are_refused() {
+    fn invalid_masses_are_refused() {
         for mass in [0.0, -1.0, f64::NAN, f64::INFINITY, 1e-310] {
             let position = Vector3::zeros();
             let push = || Points::default().push(Point { position, mass });

@@ -1,9 +1,9 @@
-//! Many unit quaternions, stored component by component.
+//! Arrays of unit quaternions, stored by component.
 
 use crate::{UnitQuaternion, vectors};
 use nalgebra::{Quaternion, Unit};
 
-/// `n` unit quaternions (body to lab) as four arrays, scalar part first.
+/// Array of unit quaternions (body to lab), stored as four arrays, scalar part first.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Quaternions {
@@ -23,12 +23,12 @@ impl Quaternions {
         self.w.len()
     }
 
-    /// Whether there is no quaternion at all.
+    /// Returns `true` if there are no quaternions.
     pub fn is_empty(&self) -> bool {
         self.w.is_empty()
     }
 
-    /// Quaternion `i`, taken as it is stored (unit length to round-off).
+    /// Quaternion `i`, not renormalised (unit length to round-off).
     #[inline]
     pub fn get(&self, i: usize) -> UnitQuaternion {
         Unit::new_unchecked(Quaternion::new(self.w[i], self.x[i], self.y[i], self.z[i]))
@@ -51,12 +51,10 @@ impl Quaternions {
         self.z.push(q.k);
     }
 
-    /// Asserts that there are `count` of these quaternions, which are `what`.
     pub(crate) fn assert_len(&self, what: &str, count: usize) {
         vectors::assert_lengths(what, &[&self.w, &self.x, &self.y, &self.z], count);
     }
 
-    /// Takes over the quaternions of `other`, which has as many.
     pub(crate) fn copy_from(&mut self, other: &Self) {
         self.w.copy_from_slice(&other.w);
         self.x.copy_from_slice(&other.x);
@@ -64,7 +62,7 @@ impl Quaternions {
         self.z.copy_from_slice(&other.z);
     }
 
-    /// The quaternions in order.
+    /// Iterates over the quaternions.
     pub fn iter(&self) -> impl ExactSizeIterator<Item = UnitQuaternion> + '_ {
         (0..self.len()).map(|i| self.get(i))
     }

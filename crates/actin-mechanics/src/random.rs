@@ -1,10 +1,8 @@
-//! States that are perturbed or set in motion at random.
+//! Random perturbations of positions and velocities.
 
 use crate::{State, Vector3, rotation};
 
-/// Cheap pseudorandom numbers in [-1, 1), the same on every machine.
-///
-/// For states to try things on; thermal noise has a generator of its own.
+/// Pseudorandom numbers in [-1, 1), reproducible on every machine, for perturbed states and tests.
 ///
 /// # Source
 /// xorshift64*: Vigna, ACM Trans. Math. Softw. 42 (2016) 30.
@@ -12,12 +10,12 @@ use crate::{State, Vector3, rotation};
 pub struct Xorshift(u64);
 
 impl Xorshift {
-    /// A source that always gives the same numbers for the same seed.
+    /// Creates a generator from a seed.
     pub fn new(seed: u64) -> Self {
         Self(seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) ^ 0xD1B5_4A32_D192_ED03)
     }
 
-    /// The next number (xorshift64*).
+    /// Next number.
     pub fn sample(&mut self) -> f64 {
         self.0 ^= self.0 >> 12;
         self.0 ^= self.0 << 25;
@@ -26,13 +24,13 @@ impl Xorshift {
         bits as f64 / (1u64 << 52) as f64 - 1.0
     }
 
-    /// A vector of three such numbers.
+    /// Vector of three numbers.
     pub fn vector(&mut self) -> Vector3 {
         Vector3::new(self.sample(), self.sample(), self.sample())
     }
 }
 
-/// Displaces every point by up to `length` and turns every frame by up to `angle` per axis.
+/// Displaces each point by up to `length` and rotates each frame by up to `angle` (rad) per axis.
 pub fn perturb(state: &mut State, random: &mut Xorshift, length: f64, angle: f64) {
     for i in 0..state.points.len() {
         state.points.position.add(i, random.vector() * length);
@@ -43,7 +41,8 @@ pub fn perturb(state: &mut State, random: &mut Xorshift, length: f64, angle: f64
     }
 }
 
-/// Gives every free body a random motion of up to `velocity` and `angular_velocity` per axis.
+/// Gives each free body a random velocity of up to `velocity` or `angular_velocity` (rad per time)
+/// per axis.
 pub fn randomise_velocities(
     state: &mut State,
     random: &mut Xorshift,

@@ -1,8 +1,7 @@
-//! How far a state is from equilibrium.
+//! Distance of a state from equilibrium.
 
-/// The largest loads on what is free to move: over free bodies the norm of the force and of the body
-/// torque, over bodies that move together the norm of their resultant along the directions in which they
-/// move.
+/// Largest norms of the loads on free bodies. For bodies that slide together, the resultant along
+/// their directions is used.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Residual {
@@ -13,18 +12,18 @@ pub struct Residual {
 }
 
 impl Residual {
-    /// Whether both parts are at most those of `limit`; never if one is NaN.
+    /// Returns `true` if both parts are at most those of `limit`, and `false` if one is NaN.
     pub fn is_within(&self, limit: &Self) -> bool {
         self.force <= limit.force && self.torque <= limit.torque
     }
 
-    /// The larger of both parts relative to those of `unit`; a part of zero counts as zero.
+    /// Larger of the two parts divided by those of `unit`. A zero part counts as zero.
     pub fn relative_to(&self, unit: &Self) -> f64 {
         let part = |value: f64, unit: f64| if value == 0.0 { 0.0 } else { value / unit };
         part(self.force, unit.force).max(part(self.torque, unit.torque))
     }
 
-    /// Both parts multiplied by `factor`.
+    /// Returns both parts multiplied by `factor`.
     #[must_use]
     pub fn scaled(&self, factor: f64) -> Self {
         Self {
@@ -33,7 +32,7 @@ impl Residual {
         }
     }
 
-    /// The larger of each part.
+    /// Returns the componentwise maximum.
     #[must_use]
     pub fn max(&self, other: &Self) -> Self {
         Self {

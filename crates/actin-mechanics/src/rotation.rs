@@ -1,18 +1,16 @@
-//! The rotation group: exponential, logarithm and the inverse Jacobians.
+//! Exponential, logarithm and inverse Jacobians of the rotation group.
 //!
-//! A rotation vector `theta` is axis times angle (rad). The logarithm goes through the
-//! quaternion and `atan2`, which is accurate at every angle; the matrix logarithm through `acos`
-//! loses half of the digits near the identity and all of them below 1e-8 rad.
+//! A rotation vector `theta` is axis times angle (rad). The logarithm uses the quaternion and
+//! `atan2`, which is accurate at every angle. The logarithm of a matrix by `acos` loses half of the
+//! digits near the identity and all digits below 1e-8 rad.
 
 use crate::{Matrix3, UnitQuaternion, Vector3};
 use nalgebra::{Quaternion, Unit};
 
-/// Half angles below this use series; the first neglected term is then below round-off.
+/// Series are used for smaller half angles. The first neglected term is below round-off.
 const SMALL_ANGLE: f64 = 1e-2;
 
-/// The rotation by the rotation vector `theta` (rad): `exp([theta]x)` as a unit quaternion.
-///
-/// Accurate to round-off at every angle.
+/// Unit quaternion `exp([theta]x)` of the rotation vector `theta` (rad), accurate to round-off.
 ///
 /// ```
 /// use actin_mechanics::{Vector3, rotation};
@@ -39,11 +37,10 @@ pub(crate) fn sinc(a: f64) -> f64 {
     }
 }
 
-/// The rotation vector (rad) of `q`, of length at most pi: the inverse of [`exp`].
+/// Rotation vector (rad) of `q`, of length at most pi: the inverse of [`exp`].
 ///
-/// Relative error below 1e-14 for angles from 1e-12 rad to pi - 1e-6 (tested on that grid).
-/// Closer to pi the angle stays accurate; at pi itself the axis is one of two and either may be
-/// returned.
+/// The relative error is below 1e-14 for angles between 1e-12 rad and pi - 1e-6. At pi, either axis
+/// may be returned.
 ///
 /// ```
 /// use actin_mechanics::{Vector3, rotation};
@@ -60,7 +57,7 @@ pub fn log(q: UnitQuaternion) -> Vector3 {
     };
     let s2 = v.norm_squared();
     let angle_over_sine = if s2 < SMALL_ANGLE * SMALL_ANGLE {
-        // asin(s)/s: the quaternion has unit length, so s is the sine of half the angle.
+        // asin(s)/s, where s is the sine of half the angle.
         1.0 + s2 * (1.0 / 6.0 + s2 * (3.0 / 40.0 + s2 * (15.0 / 336.0)))
     } else {
         let s = s2.sqrt();
@@ -69,10 +66,10 @@ pub fn log(q: UnitQuaternion) -> Vector3 {
     2.0 * angle_over_sine * v
 }
 
-/// The coefficient `c` of the inverse Jacobians, `(1 - (phi/2) cot(phi/2)) / phi^2`, from
+/// Coefficient `c = (1 - (phi/2) cot(phi/2)) / phi^2` of the inverse Jacobians, as a function of
 /// `phi^2`.
 ///
-/// Accurate to 1e-14 relative up to 2 pi - 1e-3, where it diverges.
+/// The relative error is below 1e-14 up to 2 pi - 1e-3. The function diverges at 2 pi.
 #[inline]
 pub fn inverse_jacobian_coefficient(phi_squared: f64) -> f64 {
     if phi_squared < 0.04 {
@@ -86,8 +83,8 @@ pub fn inverse_jacobian_coefficient(phi_squared: f64) -> f64 {
     }
 }
 
-/// `k |B_{2k+2}| / (2k+2)!` from `k = 1` on, `B` the Bernoulli numbers: the Taylor coefficients of
-/// [`inverse_jacobian_coefficient_slope`].
+/// Taylor coefficients `k |B_{2k+2}| / (2k+2)!`, `k >= 1`, of
+/// [`inverse_jacobian_coefficient_slope`], where `B` are the Bernoulli numbers.
 const SLOPE_SERIES: [f64; 14] = [
     0.001_388_888_888_888_889,
     6.613_756_613_756_614e-5,
@@ -105,14 +102,17 @@ const SLOPE_SERIES: [f64; 14] = [
     3.175_133_433_272_756e-23,
 ];
 
-/// The derivative of [`inverse_jacobian_coefficient`] with respect to `phi^2`:
-/// `((phi/2)^2 / (2 sin^2(phi/2)) + (phi/4) cot(phi/2) - 1) / phi^4`, 1/720 at zero.
+/// Derivative of [`inverse_jacobian_coefficient`] with respect to `phi^2`.
 ///
-/// Relative error below 1e-13 up to 2 pi - 0.1; it diverges at 2 pi.
+/// ```text
+/// c' = ((phi/2)^2 / (2 sin^2(phi/2)) + (phi/4) cot(phi/2) - 1) / phi^4,  c'(0) = 1/720
+/// ```
+///
+/// The relative error is below 1e-13 up to 2 pi - 0.1. The function diverges at 2 pi.
 #[inline]
 pub fn inverse_jacobian_coefficient_slope(phi_squared: f64) -> f64 {
-    // Beyond this the closed form loses less than three digits, below it the series needs no
-    // further term.
+    // The closed form loses less than three digits above this limit. The series is converged below
+    // it.
     if phi_squared < 2.25 {
         let horner = |sum: f64, coefficient: &f64| sum * phi_squared + coefficient;
         SLOPE_SERIES.iter().rev().fold(0.0, horner)
@@ -124,13 +124,17 @@ pub fn inverse_jacobian_coefficient_slope(phi_squared: f64) -> f64 {
     }
 }
 
-/// `J_l(theta)^-T m`, the couple in axes of the first frame that is conjugate to a turn of it.
+/// Torque `J_l(theta)^-T m` in the axes of the first frame.
 ///
-/// With `theta = log(Q_a^T Q_b)` and `m` the gradient of an energy with respect to `theta`, the
-/// body torque on frame `a` is `J_l^-T m` and that on frame `b` is `-J_r^-T m`
-/// (see [`right_jacobian_inverse_transpose`]).
+/// For an energy with gradient `m` with respect to `theta = log(Q_a^T Q_b)`, the body torque on
+/// frame `a` is `J_l^-T m`. The body torque on frame `b` is `-J_r^-T m` (see
+/// [`right_jacobian_inverse_transpose`]).
 ///
-/// `J_l^-T = I + [theta]x / 2 + c [theta]x^2`, `c` from [`inverse_jacobian_coefficient`].
+/// ```text
+/// J_l^-T = I + [theta]x / 2 + c [theta]x^2
+/// ```
+///
+/// The coefficient `c` is [`inverse_jacobian_coefficient`].
 #[inline]
 pub fn left_jacobian_inverse_transpose(theta: Vector3, m: Vector3) -> Vector3 {
     let cross = theta.cross(&m);
@@ -138,7 +142,7 @@ pub fn left_jacobian_inverse_transpose(theta: Vector3, m: Vector3) -> Vector3 {
     m + 0.5 * cross + c * theta.cross(&cross)
 }
 
-/// `J_r(theta)^-T m = (I - [theta]x / 2 + c [theta]x^2) m`; see
+/// Torque `J_r(theta)^-T m = (I - [theta]x / 2 + c [theta]x^2) m`; see
 /// [`left_jacobian_inverse_transpose`].
 #[inline]
 pub fn right_jacobian_inverse_transpose(theta: Vector3, m: Vector3) -> Vector3 {
@@ -147,10 +151,10 @@ pub fn right_jacobian_inverse_transpose(theta: Vector3, m: Vector3) -> Vector3 {
     m - 0.5 * cross + c * theta.cross(&cross)
 }
 
-/// `J_r(theta)^-1 = I + [theta]x / 2 + c [theta]x^2`: the derivative of `log(R exp(delta))` with
-/// respect to `delta` at zero, where `theta = log(R)`.
+/// Inverse right Jacobian `J_r(theta)^-1 = I + [theta]x / 2 + c [theta]x^2`.
 ///
-/// Its transpose is `J_l(theta)^-1`, with `d log(exp(delta) R) = J_l^-1 d delta`.
+/// It is the derivative of `log(R exp(delta))` with respect to `delta` at zero, where
+/// `theta = log(R)`. Its transpose is `J_l(theta)^-1`, the derivative of `log(exp(delta) R)`.
 #[inline]
 pub fn right_jacobian_inverse(theta: Vector3) -> Matrix3 {
     let p = theta.norm_squared();
@@ -162,14 +166,18 @@ pub fn right_jacobian_inverse(theta: Vector3) -> Matrix3 {
     jacobian
 }
 
-/// The derivative of [`right_jacobian_inverse_transpose`] with respect to `theta`, at fixed `m`:
-/// `[m]x / 2 + c (theta m^T + (theta . m) I - 2 m theta^T) + 2 c' (theta x (theta x m)) theta^T`,
-/// with `c` and `c'` from [`inverse_jacobian_coefficient`] and
-/// [`inverse_jacobian_coefficient_slope`]. Row `i` belongs to component `i` of the couple.
+/// Derivative of [`right_jacobian_inverse_transpose`] with respect to `theta` at constant `m`.
+///
+/// ```text
+/// [m]x / 2 + c (theta m^T + (theta . m) I - 2 m theta^T) + 2 c' (theta x (theta x m)) theta^T
+/// ```
+///
+/// The coefficients are `c` ([`inverse_jacobian_coefficient`]) and `c'`
+/// ([`inverse_jacobian_coefficient_slope`]). Row `i` belongs to component `i` of the torque.
 ///
 /// ```
 /// use actin_mechanics::{Vector3, rotation};
-/// // At zero only the half cross product is left: rows (0, -3, 2), (3, 0, -1), (-2, 1, 0) / 2.
+/// // At zero only the half cross product remains: rows (0, -3, 2), (3, 0, -1), (-2, 1, 0) / 2.
 /// let m = Vector3::new(1.0, 2.0, 3.0);
 /// let slope = rotation::right_jacobian_inverse_transpose_slope(Vector3::zeros(), m);
 /// assert_eq!((slope[(0, 1)], slope[(1, 0)], slope[(2, 1)]), (-1.5, 1.5, 0.5));
@@ -196,7 +204,6 @@ mod tests {
     use crate::testing::derivative;
     use std::f64::consts::PI;
 
-    /// Angles (rad) and slopes there.
     const SLOPES: [(f64, f64); 14] = [
         (0.001, 0.001_388_888_955_026_457_5),
         (0.1, 0.001_389_550_512_649_671),
@@ -223,7 +230,6 @@ mod tests {
         ]
     }
 
-    /// The angles for which the documentation promises accuracy.
     fn angle_grid() -> Vec<f64> {
         let mut angles: Vec<f64> = (-120..=0)
             .map(|k| 10f64.powf(f64::from(k) / 10.0))
@@ -232,7 +238,7 @@ mod tests {
         angles
     }
 
-    /// log inverts exp: an acos-based logarithm would fail below 1e-7 rad.
+    /// A logarithm by `acos` fails below 1e-7 rad.
     #[test]
     fn logarithm_inverts_exponential_from_1e_12_to_nearly_pi() {
         for axis in axes() {
@@ -251,7 +257,6 @@ mod tests {
         }
     }
 
-    /// Both quaternions of one rotation have the same logarithm.
     #[test]
     fn sign_of_the_quaternion_does_not_matter() {
         for angle in angle_grid() {
@@ -261,7 +266,6 @@ mod tests {
         }
     }
 
-    /// The coefficient is smooth across the switch from the series to the closed form.
     #[test]
     fn coefficient_agrees_on_both_sides_of_the_switch() {
         let (below, above) = (0.04 - 1e-12, 0.04 + 1e-12);
@@ -269,8 +273,6 @@ mod tests {
         assert!(difference.abs() < 1e-13);
     }
 
-    /// d log(R exp(delta)) = J_r^-1 delta and d log(exp(delta) R) = J_l^-1 delta: the transposed
-    /// operators, contracted with m, are compared to central differences of m . log.
     #[test]
     fn inverse_jacobians_are_derivatives_of_the_logarithm() {
         let m = Vector3::new(0.3, -1.1, 0.7);
@@ -292,8 +294,7 @@ mod tests {
             }
         }
     }
-    /// Reference values to 16 digits (the defining formula in 50-digit arithmetic): the
-    /// closed form alone would have no digit left at 1e-3.
+    /// Reference values to 16 digits, from the defining formula in 50-digit arithmetic.
     #[test]
     fn slope_of_the_coefficient_is_accurate_from_zero_to_nearly_2_pi() {
         for (phi, expected) in SLOPES {
@@ -302,7 +303,7 @@ mod tests {
         }
     }
 
-    /// Both matrices against eight-point differences, whose error is about 1e-12 here.
+    /// Comparison with eight-point differences, whose error is about 1e-12.
     #[test]
     fn matrices_are_derivatives_of_their_vectors() {
         let m = Vector3::new(0.3, -1.1, 0.7);

@@ -1,9 +1,9 @@
-//! What the copies of a state share.
+//! Copy-on-write storage.
 
 use std::ops::{Deref, DerefMut};
 use std::sync::Arc;
 
-/// A value that copies share until one of them changes it, which then has its own.
+/// Copy-on-write value: copies share it until one of them changes it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Shared<T>(Arc<T>);
 
@@ -22,7 +22,7 @@ impl<T: Clone> DerefMut for Shared<T> {
 }
 
 impl<T> Shared<T> {
-    /// Whether two share one value.
+    /// Returns `true` if `self` and `other` share one value.
     pub fn is_same(&self, other: &Self) -> bool {
         Arc::ptr_eq(&self.0, &other.0)
     }
@@ -33,7 +33,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_copy_is_changed_by_itself() {
+    fn a_changed_copy_is_no_longer_shared() {
         let one = Shared(Arc::new(vec![1, 2]));
         let mut other = one.clone();
         assert!(one.is_same(&other));

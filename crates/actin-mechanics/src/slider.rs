@@ -1,39 +1,35 @@
-//! Held bodies that slide together along some directions, as one rigid body.
+//! Held points that slide together as one rigid body.
 
 use crate::inertia::is_inertia;
 use crate::{State, Vector3, Vectors};
 
-/// Points that keep their places relative to each other and move together along `directions`.
+/// Points with constant relative positions that move together along `directions`.
 ///
-/// The points themselves are held; what is free is their common displacement along each
-/// direction. Frames that belong to the body do not turn, so they need no mention.
-///
-/// A [`System`](crate::System) panics if it has a slider without points, of points that do not exist,
-/// whose directions are not orthonormal or whose mass is not positive and finite.
+/// The points are held; the common displacement along each direction is a degree of freedom. Frames
+/// of the body do not rotate and are not listed. [`System`](crate::System) panics if a slider is
+/// invalid.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Slider {
-    /// The points.
+    /// Indices of the points.
     pub points: Vec<usize>,
-    /// Orthonormal directions, lab frame, at most three.
+    /// Orthonormal directions (lab frame), at most three.
     pub directions: Vec<Vector3>,
     /// Mass of the whole body.
     pub mass: f64,
 }
 
 impl Slider {
-    /// Asserts what a slider among `count` points must have: points that exist, orthonormal
-    /// directions, a positive mass.
     pub(crate) fn assert_sound(&self, count: usize) {
         let Self {
             points,
             directions,
             mass,
         } = self;
-        assert!(!points.is_empty(), "a slider has at least one point");
+        assert!(!points.is_empty(), "a slider must have at least one point");
         for &i in points {
             assert!(
                 i < count,
-                "there are {count} points, a slider has point {i}"
+                "a slider contains point {i}, but there are only {count} points"
             );
         }
         assert!(
@@ -58,7 +54,6 @@ impl Slider {
             .map(|d| self.points.iter().map(|&i| force.get(i).dot(d)).sum())
     }
 
-    /// Applies the forces `force` for a time `h`.
     pub(crate) fn kick(&self, velocity: &mut Vectors, force: &Vectors, h: f64) {
         let gain: Vector3 = self
             .directions
@@ -77,7 +72,6 @@ impl Slider {
         self.directions.iter().map(|d| d * d.dot(&v)).sum()
     }
 
-    /// Multiplies the velocity along the free directions by `factor`.
     pub(crate) fn damp(&self, velocity: &mut Vectors, factor: f64) {
         let loss = self.sliding_velocity(velocity) * (factor - 1.0);
         for &i in &self.points {
@@ -85,8 +79,9 @@ impl Slider {
         }
     }
 
-    /// Adds to the velocity along the `k`-th direction component `k` of the first point's
-    /// `deviates` over the root of the whole mass.
+    /// Adds `deviates / sqrt(mass)` to the velocity along each direction.
+    ///
+    /// Component `k` of the deviates of the first point is used for the `k`-th direction.
     pub(crate) fn add_thermal_impulses(&self, velocity: &mut Vectors, deviates: &Vectors) {
         let deviate = deviates.get(self.points[0]);
         let along = self.directions.iter().zip(deviate.iter());
@@ -96,7 +91,6 @@ impl Slider {
         }
     }
 
-    /// Kinetic energy of the sliding motion.
     pub(crate) fn kinetic_energy(&self, state: &State) -> f64 {
         let v = self.sliding_velocity(&state.points.velocity);
         0.5 * self.mass * v.norm_squared()
@@ -109,8 +103,6 @@ mod tests {
     use crate::testing::push_point;
     use crate::{PointLoad, Split, System};
 
-    /// Two held points under a force on one of them slide along z as one body of twice the mass,
-    /// exactly as a free point of that mass; across z nothing moves.
     #[test]
     fn a_pair_slides_as_one_body() {
         let mut state = State::default();

@@ -1,16 +1,15 @@
-//! Hookean springs: the law of one, and the springs between points as an interaction.
+//! Hooke's law, and springs between points.
 
 use crate::{Coordinates, Interaction, Loads, Matrix3, SecondOrder, State, Stiffness, Vector3};
 use thiserror::Error;
 
-/// Length below which a spring has no direction: squares of such components underflow.
+/// Length below which a spring has no direction, because the squares of the components underflow.
 const SHUT: f64 = 1e-150;
 
-/// Hooke's law of a vector `d`: `E = k (|d| - L)^2 / 2`.
+/// Hooke's law for a vector `d`: `E = k (|d| - L)^2 / 2`.
 ///
-/// With `L = 0` the energy is smooth everywhere. With `L > 0` it has the tip of a cone at `d = 0`,
-/// where no direction is preferred: the force there is zero, its mean over all directions, and the
-/// second derivative is `-k` in every direction, since the energy falls whichever way the ends part.
+/// For `L > 0` the energy has a conical maximum at `d = 0`. The force there is zero, the mean over
+/// all directions, and the second derivative is `-k` in every direction.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Hooke {
     /// Stiffness `k` (force per length).
@@ -20,13 +19,13 @@ pub struct Hooke {
 }
 
 impl Hooke {
-    /// Energy at `d`.
+    /// Energy for the vector `d`.
     #[inline]
     pub fn energy(&self, d: Vector3) -> f64 {
         0.5 * self.stiffness * (d.norm() - self.rest_length).powi(2)
     }
 
-    /// Force on the end from which `d` points to the other: `dE/dd = k (|d| - L) d / |d|`.
+    /// Force `dE/dd = k (|d| - L) d / |d|` on the end at the origin of `d`.
     ///
     /// ```
     /// use actin_mechanics::{Hooke, Vector3};
@@ -35,7 +34,6 @@ impl Hooke {
     /// ```
     #[inline]
     pub fn force(&self, d: Vector3) -> Vector3 {
-        // Without a rest length there is no need to divide.
         if self.rest_length == 0.0 {
             return d * self.stiffness;
         }
@@ -45,7 +43,8 @@ impl Hooke {
         }
     }
 
-    /// `d^2 E / dd^2 = k [ n n^T + (1 - L / |d|) (1 - n n^T) ]`, `n = d / |d|`.
+    /// Second derivative `d^2 E / dd^2 = k [ n n^T + (1 - L / |d|) (1 - n n^T) ]`, with `n = d /
+    /// |d|`.
     pub fn tangent(&self, d: Vector3) -> Matrix3 {
         let whole = Matrix3::from_diagonal_element(self.stiffness);
         if self.rest_length == 0.0 {
@@ -61,10 +60,10 @@ impl Hooke {
     }
 }
 
-/// A spring between two points; a point of the lab is one that is [held](crate::Points::hold).
+/// A spring between two points. For a fixed anchor, use a [held](crate::Points::hold) point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Spring {
-    /// The points that it joins.
+    /// Indices of the two points.
     pub points: [usize; 2],
     /// Stiffness (force per length).
     pub stiffness: f64,
@@ -72,43 +71,42 @@ pub struct Spring {
     pub rest_length: f64,
 }
 
-/// Why a spring was refused.
+/// Invalid spring.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum SpringError {
-    /// A number out of range.
+    /// A parameter is out of range.
     #[error("spring {spring}: {key} = {value}: must be {rule}")]
     Parameter {
-        /// Which spring, counted from 0.
+        /// Index of the spring.
         spring: usize,
         /// `stiffness` or `rest_length`.
         key: &'static str,
-        /// What it was.
+        /// Rejected value.
         value: f64,
-        /// What it must be.
+        /// Rule that the value violates.
         rule: &'static str,
     },
-    /// A point that does not exist, or the same one twice.
+    /// A point does not exist, or both points are equal.
     #[error("spring {spring} joins points {points:?}: must be two different ones of {count}")]
     Points {
-        /// Which spring, counted from 0.
+        /// Index of the spring.
         spring: usize,
-        /// The points.
+        /// Indices of the points.
         points: [usize; 2],
         /// Number of points of the state.
         count: usize,
     },
 }
 
-/// Springs between points: term `springs`, one element each.
+/// Springs between points: term `springs`, one element per spring.
 ///
-/// Their forces are those of [`Hooke`]; they act along the line between the points, so that
-/// momentum and angular momentum stay as they are.
+/// Forces follow [`Hooke`] along the line between the points.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Springs(Vec<Spring>);
 
 impl Springs {
-    /// Springs between points of `state`.
+    /// Creates springs between points of `state`.
     ///
     /// ```
     /// use actin_mechanics::{Interaction, Point, Spring, Springs, State, Vector3};
@@ -123,8 +121,8 @@ impl Springs {
     /// ```
     ///
     /// # Errors
-    /// A stiffness that is not positive and finite, a rest length that is negative or not finite, a
-    /// point that `state` does not have, or a spring from a point to itself.
+    /// If a stiffness is not positive and finite, if a rest length is negative or not finite, if a
+    /// point does not exist, or if a spring joins a point to itself.
     pub fn new(state: &State, springs: Vec<Spring>) -> Result<Self, SpringError> {
         let count = state.points.len();
         for (spring, each) in springs.iter().enumerate() {
@@ -158,7 +156,6 @@ impl Springs {
         &self.0
     }
 
-    /// Each spring's points, law and vector from the first point to the second.
     fn stretched<'a>(
         &'a self,
         state: &'a State,
@@ -241,8 +238,6 @@ mod tests {
         }
     }
 
-    /// Stretched, shortened and without a rest length; a sign that is wrong in the force or in a
-    /// block across the spring shows.
     #[test]
     fn springs_are_the_gradient_of_their_energy() {
         let mut state = triangle();
@@ -258,9 +253,8 @@ mod tests {
         assert_is_balanced(&springs, &state, 1e-14);
     }
 
-    /// A spring that is shut has no direction, and no force that is not finite.
     #[test]
-    fn a_spring_that_is_shut_has_no_force() {
+    fn a_spring_of_zero_length_has_no_force() {
         let law = Hooke {
             stiffness: 2.0,
             rest_length: 1.0,
@@ -271,7 +265,7 @@ mod tests {
     }
 
     #[test]
-    fn springs_that_make_no_sense_are_refused() {
+    fn invalid_springs_are_refused() {
         let state = triangle();
         let key = |spring| match Springs::new(&state, vec![spring]) {
             Err(SpringError::Parameter { key, .. }) => key,

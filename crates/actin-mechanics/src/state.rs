@@ -1,28 +1,26 @@
-//! The state of everything that moves.
+//! State of all bodies.
 
 use crate::{ControlId, Controls, Frames, Points, Shared, Slider, Vector3};
 
 /// Points, frames and controls.
 ///
-/// Points and frames stand in the order of the structure, each kind in arrays of its own. Copies of a state
-/// share masses, inertias, what is held and sliders until one of them changes these: a copy costs what
-/// moves.
+/// Copies share masses, inertias, holds and sliders until one of them changes these.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct State {
     /// Positions with masses.
     pub points: Points,
     /// Orientations with inertias.
     pub frames: Frames,
-    /// What is set from outside: load factors, displacements of anchors.
+    /// Values set from outside: load factors and displacements of anchors.
     pub controls: Controls,
-    /// Held bodies that slide together.
+    /// Held points that slide together.
     pub sliders: Shared<Vec<Slider>>,
-    /// Time, by which a drive places what it moves.
+    /// Time, which determines the positions of driven bodies.
     pub time: f64,
 }
 
 impl State {
-    /// Adds a control, what is set from outside, and says which it is.
+    /// Adds a control with the given value and returns its identifier.
     ///
     /// ```
     /// use actin_mechanics::State;
@@ -35,26 +33,26 @@ impl State {
         self.controls.add(value)
     }
 
-    /// Kinetic energy of the free bodies, sliding ones included.
+    /// Kinetic energy of free and sliding bodies.
     pub fn kinetic_energy(&self) -> f64 {
         let (points, frames) = self.kinetic_energies();
         points + frames
     }
 
-    /// Kinetic energies of the free points, sliding ones included, and of the free frames.
+    /// Kinetic energies of free and sliding points, and of free frames.
     pub fn kinetic_energies(&self) -> (f64, f64) {
         let sliding: f64 = self.sliders.iter().map(|s| s.kinetic_energy(self)).sum();
         let points = self.points.kinetic_energy() + sliding;
         (points, self.frames.kinetic_energy())
     }
 
-    /// Total momentum of the free points.
+    /// Total momentum of free points.
     pub fn momentum(&self) -> Vector3 {
         let free = (0..self.points.len()).filter(|&i| self.points.is_free(i));
         free.map(|i| self.points.momentum(i)).sum()
     }
 
-    /// Total angular momentum of the free bodies about the origin, lab frame.
+    /// Total angular momentum of free bodies about the origin (lab frame).
     pub fn angular_momentum(&self) -> Vector3 {
         let points = (0..self.points.len()).filter(|&i| self.points.is_free(i));
         let orbital = points.map(|i| self.points.position.get(i).cross(&self.points.momentum(i)));
@@ -64,7 +62,7 @@ impl State {
         orbital.chain(spin).sum()
     }
 
-    /// Whether every position, velocity, orientation and angular momentum is finite.
+    /// Returns `true` if all positions, velocities, orientations and angular momenta are finite.
     pub fn is_finite(&self) -> bool {
         let q = &self.frames.orientation;
         let vectors = [
@@ -80,10 +78,6 @@ impl State {
             .all(|c| c.is_finite())
     }
 
-    /// Asserts that every body has a place and a motion, and that sliders are of bodies that exist.
-    ///
-    /// # Panics
-    /// If not, with what is missing.
     pub(crate) fn assert_shape(&self) {
         self.points.assert_shape();
         self.frames.assert_shape();
@@ -92,20 +86,19 @@ impl State {
         }
     }
 
-    /// Whether `other` shares masses, inertias, what is held and sliders.
+    /// Returns `true` if `other` shares the storage of masses, inertias, holds and sliders.
     pub fn shares_bodies_with(&self, other: &Self) -> bool {
         self.points.shares_bodies_with(&other.points)
             && self.frames.shares_bodies_with(&other.frames)
             && self.sliders.is_same(&other.sliders)
     }
 
-    /// Takes over everything that time changes from `other`, a state of the same bodies: places,
-    /// motion, controls and time. Allocates nothing.
+    /// Copies the time-dependent part of `other`, a state of the same bodies, without allocation.
     ///
     /// # Panics
     /// If `other` has other numbers of bodies or controls.
     pub fn copy_motion_from(&mut self, other: &Self) {
-        // Named one by one, so that a new field of the state is decided on here.
+        // Exhaustive, so that a new field of the state causes a compiler error here.
         let Self {
             points,
             frames,
@@ -122,7 +115,7 @@ impl State {
         *time = other.time;
     }
 
-    /// Stops every free body; held bodies keep their prescribed motion.
+    /// Sets the velocities of free bodies to zero. Held bodies keep their prescribed velocities.
     pub fn stop(&mut self) {
         for i in 0..self.points.len() {
             if self.points.is_free(i) {

@@ -1,5 +1,4 @@
-//! What one straight pass over a state shows of its soundness. What is then wrong with it, and
-//! where, the caller looks up body by body.
+//! Fast check of a state for divergence, in one vectorised pass.
 #![allow(
     clippy::inline_always,
     reason = "vector code must be compiled into the function that enables the instructions"
@@ -8,24 +7,22 @@
 use crate::wide::{self, Columns, Simd, Sums, WithSimd};
 use crate::{Frames, Points, State};
 
-/// What [`State::stats`] finds.
+/// Result of [`State::stats`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StateStats {
-    /// Kinetic energy of the free bodies, sliding ones included.
+    /// Kinetic energy of free and sliding bodies.
     ///
-    /// Not finite if any position, velocity, orientation or angular momentum of the state, held
-    /// bodies included, is not finite; nor if an energy or a square overflows.
+    /// It is not finite if any number of the state is not finite, also of held bodies, or if a
+    /// square overflows.
     pub kinetic_energy: f64,
-    /// Largest squared angular velocity of a free frame, where `kinetic_energy` is finite.
+    /// Largest squared angular velocity of the free frames, valid if `kinetic_energy` is finite.
     pub largest_spin_squared: f64,
 }
 
 impl State {
-    /// Looks at every number of the state once, without branches, as many bodies at a time as the
-    /// processor has lanes.
+    /// Computes the kinetic energy and checks all numbers of the state, in one vectorised pass.
     ///
-    /// The energy is that of [`kinetic_energy`](Self::kinetic_energy), summed in another order.
-    /// Most states are sound, and this is what it costs to know it:
+    /// The energy equals [`kinetic_energy`](Self::kinetic_energy) up to the order of summation.
     ///
     /// ```
     /// use actin_mechanics::{Point, State, Vector3};
@@ -47,7 +44,6 @@ impl State {
     }
 }
 
-/// The pass over points and frames.
 struct Pass<'a>(&'a State);
 
 impl WithSimd for Pass<'_> {
@@ -64,10 +60,9 @@ impl WithSimd for Pass<'_> {
     }
 }
 
-/// Twice the kinetic energy of free points; no number where a number of any point is none.
+/// Twice the kinetic energy of free points, or NaN if any number of any point is not finite.
 ///
-/// Zero times what is not finite is NaN, which no sum loses; so neither places nor held bodies
-/// need a look of their own.
+/// Zero times a number that is not finite is NaN, which propagates through the sum.
 #[inline(always)]
 fn points<S: Simd>(simd: S, points: &Points) -> f64 {
     let (x, v) = (&points.position, &points.velocity);
@@ -88,8 +83,8 @@ fn points<S: Simd>(simd: S, points: &Points) -> f64 {
     sums[0].total(simd) + sums[1].total(simd)
 }
 
-/// Twice the kinetic energy of free frames, no number where a number of any frame is none, and the
-/// largest squared angular velocity.
+/// Twice the kinetic energy of free frames, or NaN if any number of any frame is not finite, and
+/// the largest squared angular velocity.
 #[inline(always)]
 fn frames<S: Simd>(simd: S, frames: &Frames) -> (f64, S::f64s) {
     let (q, l) = (&frames.orientation, &frames.angular_momentum);
@@ -120,7 +115,6 @@ mod tests {
     use crate::{Slider, UnitQuaternion, Vector3};
     use crate::{Xorshift, perturb, randomise_velocities};
 
-    /// Points and frames in motion, the second of each held, and the third point sliding along z.
     fn moving(bodies: usize) -> State {
         let mut state = State::default();
         let tops = [[2.0, 1.0, 1.0], [1.0, 2.0, 1.0], [1.0, 1.0, 2.0]];
@@ -134,7 +128,7 @@ mod tests {
         if bodies > 1 {
             state.points.hold(1);
             state.frames.hold(1);
-            // As if driven: what is held moves, and counts for nothing.
+            // Velocities of driven bodies must not contribute.
             state.points.velocity.set(1, Vector3::x() * 50.0);
             state.frames.angular_momentum.set(1, Vector3::x() * 50.0);
         }
@@ -160,10 +154,8 @@ mod tests {
         omega.norm_squared()
     }
 
-    /// Energy and spin are those of the scalar functions, for numbers of bodies that fill the lanes
-    /// and that do not, with one lane and with as many as there are. What is held must not count.
     #[test]
-    fn a_survey_finds_what_is_found_body_by_body() {
+    fn stats_agree_with_scalar_functions() {
         for bodies in [0, 1, 2, 3, 4, 7, 8, 13, 64] {
             let state = moving(bodies);
             let spins = (0..bodies).map(|i| spin_squared(&state, i));
@@ -182,9 +174,8 @@ mod tests {
         }
     }
 
-    /// Sums over bodies have one order.
     #[test]
-    fn a_survey_is_the_same_with_any_number_of_lanes() {
+    fn stats_do_not_depend_on_the_number_of_lanes() {
         for bodies in [1, 4, 13, 64, 101] {
             let state = moving(bodies);
             crate::testing::assert_same_with_any_lanes(|arch| {
@@ -194,7 +185,6 @@ mod tests {
         }
     }
 
-    /// All columns that time changes.
     fn columns(state: &mut State) -> [&mut Vec<f64>; 13] {
         let (x, v) = (&mut state.points.position, &mut state.points.velocity);
         let (q, l) = (
@@ -207,10 +197,8 @@ mod tests {
         ]
     }
 
-    /// One number that is none is seen in whichever column, lane or short group it stands, of free
-    /// bodies and of held ones.
     #[test]
-    fn no_number_that_is_none_is_overlooked() {
+    fn every_invalid_number_is_detected() {
         for bodies in [1, 3, 4, 11] {
             for (column, i) in (0..13).flat_map(|c| (0..bodies).map(move |i| (c, i))) {
                 for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
@@ -225,9 +213,8 @@ mod tests {
         }
     }
 
-    /// Finite numbers pass, however large, unless a square or a sum overflows.
     #[test]
-    fn large_places_are_sound() {
+    fn large_positions_are_valid() {
         let mut state = moving(5);
         state.points.position.set(3, Vector3::repeat(1e300));
         assert!(state.stats().kinetic_energy.is_finite());

@@ -4,75 +4,85 @@ use crate::ledger::work_on_free;
 use crate::{Interaction, Ledger, Loads, Motion, Residual, State, Vectors};
 use std::sync::Arc;
 
-/// What an integrator may do to a system: nothing else is visible to it. One that wraps another and is to keep its
-/// [`Ledger`] passes on the three methods of that too.
+/// Interface between integrators and systems.
+///
+/// A wrapper that supports a [`Ledger`] must also forward `book_work`, `kinetic_energies` and
+/// `book_heat`.
 pub trait Split {
-    /// Moves everything freely for a time `h` (which may be negative).
+    /// Moves all bodies freely for a time `h`, which may be negative.
     fn drift(&mut self, h: f64);
 
-    /// Applies the loads at the present positions: forces for a time `translation`, torques for a
-    /// time `rotation` (which may be negative).
+    /// Applies the forces for a time `translation` and the torques for a time `rotation`, at the
+    /// present positions. Both times may be negative.
     fn kick(&mut self, translation: f64, rotation: f64);
 
     /// Multiplies velocities by `translational` and angular momenta by `rotational`.
     fn damp(&mut self, translational: f64, rotational: f64);
 
-    /// How often the loads have been evaluated so far.
+    /// Number of evaluations of the loads.
     fn force_evaluations(&self) -> u64;
 
-    /// Books the work of what is driven, at the present positions, for a time `t`; nothing where no
-    /// [`Ledger`] is kept.
+    /// Adds the work of the drive over a time `t` at the present positions to the [`Ledger`], if
+    /// there is one.
     fn book_work(&mut self, _t: f64) {}
 
-    /// Kinetic energies of the free points and of the free frames, where heat is booked.
+    /// Kinetic energies of free points and of free frames, or `None` without a [`Ledger`].
     fn kinetic_energies(&self) -> Option<(f64, f64)> {
         None
     }
 
-    /// Books energy that drag or noise has added.
+    /// Adds energy from drag or noise to the [`Ledger`].
     fn book_heat(&mut self, _energy: f64) {}
 }
 
-/// What happens to a system between one time step and the next, such as a spring that breaks.
+/// Event between time steps, such as the rupture of a spring.
 pub trait StepEnd: std::fmt::Debug + Send + Sync {
-    /// Lets happen what does at the end of the step with the number `step`, counted from 1, of a length
-    /// `h`. Returns whether loads may have changed. What it does depends on its arguments alone: steps may be made
-    /// again.
+    /// Applies the events at the end of time step `step` (counted from 1) of length `h`, and
+    /// returns `true` if loads may have changed.
+    ///
+    /// The result must depend on the arguments alone, because steps may be repeated.
     fn end_step(&self, state: &mut State, step: u64, h: f64) -> bool;
 }
 
-/// What a heat bath may do to a system besides damping it, and what happens between steps.
+/// Interface between thermostats and systems, and events between steps.
 pub trait Thermostat: Split {
-    /// Number of points and of frames, held ones included.
+    /// Numbers of points and of frames, including held ones.
     fn bodies(&self) -> (usize, usize);
 
-    /// Adds thermal impulses, scaled to the inertia of what they meet.
+    /// Adds thermal impulses, scaled to the inertia of each body.
     ///
-    /// With deviates `d` in the root of an energy, one vector per point and one per frame, each
-    /// velocity gains `d / sqrt(m)` (lab frame) and each angular momentum `d_a sqrt(I_a)` about its
-    /// body axis `a`. Held bodies gain nothing; a body that slides gains, along its `k`-th
-    /// direction, component `k` of its first point's `d` over the root of its whole mass.
+    /// The deviates `d`, in units of the square root of an energy, are one vector per point and one
+    /// per frame.
+    ///
+    /// ```text
+    /// points:   velocity         += d / sqrt(m)         (lab frame)
+    /// frames:   angular momentum += d_a sqrt(I_a)       (body axis a)
+    /// sliders:  velocity along direction k += d_k / sqrt(M)
+    /// ```
+    ///
+    /// For a slider, `d` belongs to its first point, and `M` is its mass. Held bodies receive no
+    /// impulse.
     fn add_thermal_impulses(&mut self, points: &Vectors, frames: &Vectors);
 
-    /// Whether something happens at the end of each step, so that steps are to be made one by one.
+    /// Returns `true` if there are events between steps, so that steps must be taken one by one.
     fn has_step_end(&self) -> bool {
         false
     }
 
-    /// Lets that happen, at the end of the step with the number `step`, counted from 1, of a length `h`.
+    /// Applies the events at the end of time step `step` (counted from 1) of length `h`.
     fn end_step(&mut self, _step: u64, _h: f64) {}
 }
 
-/// What moves held bodies and controls as time goes.
+/// Prescribed motion of held bodies and controls.
 pub trait Drive: std::fmt::Debug + Send + Sync {
-    /// Puts them where they belong at `time` and gives held bodies their velocities.
+    /// Sets the positions and velocities of driven bodies and the controls at `time`.
     ///
-    /// Called after every drift, so that loads are evaluated at the exact places: the order of a
-    /// method is not lost to the drive. What slides keeps its place along which it slides.
+    /// Called after every drift, which preserves the order of the integrator. Sliding bodies keep
+    /// their displacement along their directions.
     fn place(&self, state: &mut State, time: f64);
 
-    /// Energy that the controls which it moves add to `interactions` over a time `t`, at the places and the time of
-    /// `state`; it leaves the state as it was. Zero where it moves held bodies alone.
+    /// Energy that driven controls add to `interactions` over a time `t`, at the positions and the
+    /// time of `state`, which is unchanged on return. The default is zero.
     fn work_of_controls(
         &self,
         _state: &mut State,
@@ -85,15 +95,14 @@ pub trait Drive: std::fmt::Debug + Send + Sync {
 
 /// A state, the interactions that act on it, and their loads.
 ///
-/// Loads are evaluated when first needed after the positions have changed, so that two kicks
-/// with no drift between them cost one evaluation.
+/// Loads are evaluated lazily after a change of the positions.
 #[derive(Debug)]
 pub struct System {
     state: State,
     interactions: Arc<[Box<dyn Interaction>]>,
     loads: Loads,
     loads_are_current: bool,
-    /// Whether the state may have been changed from outside since it was last looked at.
+    /// `true` if the state may have been changed by the caller since the last check.
     changed_outside: bool,
     force_evaluations: u64,
     drive: Option<Box<dyn Drive>>,
@@ -102,21 +111,21 @@ pub struct System {
 }
 
 impl System {
-    /// A system; nothing is evaluated yet.
+    /// Creates a system without evaluating the loads.
     ///
     /// # Panics
-    /// If not every body has a place and a motion, or if a [`Slider`](crate::Slider) is not sound.
-    /// An interaction panics if it acts on a body or a control that is not there, when loads or
-    /// energies are first evaluated.
+    /// If the arrays of the state have inconsistent lengths, or if a [`Slider`](crate::Slider) is
+    /// invalid. An interaction that acts on a missing body or control panics at the first
+    /// evaluation of loads or energies.
     pub fn new(state: State, interactions: Vec<Box<dyn Interaction>>) -> Self {
         Self::with_shared(state, interactions.into())
     }
 
-    /// Another system under the same interactions, which both share, in a state of the same bodies; it
-    /// has no drive and no ledger, and nothing happens between its steps.
+    /// Creates a system that shares the interactions of `self`, in another state of the same
+    /// bodies. It has no drive, no ledger and no events between steps.
     ///
     /// # Panics
-    /// As [`new`](Self::new).
+    /// See [`new`](Self::new).
     #[must_use]
     pub fn in_state(&self, state: State) -> Self {
         Self::with_shared(state, Arc::clone(&self.interactions))
@@ -138,7 +147,7 @@ impl System {
         }
     }
 
-    /// Lets `drive` move held bodies and controls from now on, its time beginning at zero.
+    /// Sets the prescribed motion of held bodies and controls, and resets the time to zero.
     pub fn set_drive(&mut self, drive: Box<dyn Drive>) {
         drive.place(&mut self.state, 0.0);
         self.loads_are_current = false;
@@ -146,49 +155,51 @@ impl System {
         self.drive = Some(drive);
     }
 
-    /// Lets something happen between steps from now on.
+    /// Sets the events between steps.
     pub fn set_step_end(&mut self, step_end: Box<dyn StepEnd>) {
         self.step_end = Some(step_end);
     }
 
-    /// Books from now on what comes from outside.
+    /// Starts the energy balance in the controls of `ledger`.
     pub fn keep_ledger(&mut self, ledger: Ledger) {
         self.ledger = Some(ledger);
     }
 
-    /// Whether what comes from outside is booked.
+    /// Returns `true` if the system has an energy balance.
     pub fn keeps_ledger(&self) -> bool {
         self.ledger.is_some()
     }
 
-    /// Books as heat what a step without inertia from `start`, where the loads were `before`, has taken from the
-    /// energy by moving free bodies: by the mean of the loads of its start and end. Evaluates the loads if they are not current.
+    /// Adds the heat of an overdamped step from `start`, where the loads were `before`.
+    ///
+    /// The heat is minus the work on free bodies of the mean of the loads at the start and the end.
+    /// Loads are evaluated if they are not current.
     pub fn book_overdamped_heat(&mut self, (start, before): (&State, &Loads)) {
         self.loads();
         let both = work_on_free([before, &self.loads], [start, &self.state]);
         self.book_heat(-0.5 * both);
     }
 
-    /// The present state.
+    /// Present state.
     pub fn state(&self) -> &State {
         &self.state
     }
 
-    /// The present state, to be changed from outside: places, motion, controls, inertia and what is
-    /// held, but not the numbers of bodies, for which the system was made.
+    /// Mutable access to the present state: positions, velocities, controls, inertia and holds. The
+    /// numbers of bodies must not change.
     pub fn state_mut(&mut self) -> &mut State {
         self.loads_are_current = false;
         self.changed_outside = true;
         &mut self.state
     }
 
-    /// Whether the loads belong to the present positions, so that they need not be evaluated again.
+    /// Returns `true` if the loads belong to the present positions.
     pub fn loads_are_current(&self) -> bool {
         self.loads_are_current
     }
 
-    /// Puts the system where another one of the same bodies and terms stood, as far as time has
-    /// changed it, work counts included: what follows is the same to the bit.
+    /// Restores the motion and the number of force evaluations of a system with the same bodies and
+    /// interactions. The continuation is identical to the bit.
     ///
     /// # Panics
     /// If `motion` has other numbers of bodies or controls.
@@ -205,11 +216,11 @@ impl System {
         &self.interactions
     }
 
-    /// The loads at the present positions.
+    /// Loads at the present positions.
     ///
     /// # Panics
-    /// If the state has other numbers of bodies than the system was made with, or is no longer one
-    /// that [`new`](Self::new) takes.
+    /// If the numbers of bodies have changed since construction, or if the state violates the
+    /// conditions of [`new`](Self::new).
     pub fn loads(&mut self) -> &Loads {
         if !self.loads_are_current {
             if self.changed_outside {
@@ -227,14 +238,13 @@ impl System {
         &self.loads
     }
 
-    /// Asserts that the state still has the bodies that the loads are for.
     fn assert_same_bodies(&self) {
         self.state.assert_shape();
         let made_with = (self.loads.force.len(), self.loads.torque.len());
         let now = (self.state.points.len(), self.state.frames.len());
         assert!(
             now == made_with,
-            "the system was made with {} points and {} frames, its state now has {} and {}",
+            "the system was built with {} points and {} frames, but its state now has {} and {}",
             made_with.0,
             made_with.1,
             now.0,
@@ -242,13 +252,13 @@ impl System {
         );
     }
 
-    /// Largest loads on free bodies; evaluates the loads if they are not current.
+    /// Largest loads on free bodies. Evaluates the loads if they are not current.
     pub fn residual(&mut self) -> Residual {
         self.loads();
         self.loads.residual(&self.state)
     }
 
-    /// Energy of each interaction, in order.
+    /// Energy of each interaction.
     pub fn energies(&self) -> Vec<f64> {
         self.interactions
             .iter()
@@ -261,7 +271,7 @@ impl System {
         self.energies().iter().sum()
     }
 
-    /// Potential and kinetic energy.
+    /// Sum of potential and kinetic energy.
     pub fn total_energy(&self) -> f64 {
         self.potential_energy() + self.state.kinetic_energy()
     }
@@ -290,7 +300,7 @@ impl Split for System {
     }
 
     fn damp(&mut self, translational: f64, rotational: f64) {
-        // Prescribed motion of held bodies is not damped: it is zero or driven.
+        // The prescribed motion of held bodies is not damped.
         let state = &mut self.state;
         state.points.damp(translational);
         for slider in state.sliders.iter() {
@@ -358,8 +368,8 @@ mod tests {
     use crate::testing::{push_frame, push_point};
     use crate::{Slider, UnitQuaternion, Vector3};
 
-    /// Two points of mass 4, the second held; a pair of held points that slides along z as one
-    /// body of mass 16; two tops of moments (1, 1, 9), the second held.
+    /// Two points of mass 4, the second held. A held pair that slides along z with mass 16. Two
+    /// tops of moments (1, 1, 9), the second held.
     fn bodies() -> System {
         let mut state = State::default();
         for mass in [4.0, 4.0, 2.0, 2.0] {
@@ -378,10 +388,8 @@ mod tests {
         System::new(state, Vec::new())
     }
 
-    /// Bodies that are added later would have no loads, and those that lose their velocity would not
-    /// be moved: both silently without this check.
     #[test]
-    fn states_that_lose_their_shape_are_refused() {
+    fn states_of_other_shape_are_refused() {
         let is_refused = |change: fn(&mut State)| {
             let run = || {
                 let mut system = bodies();
@@ -409,10 +417,9 @@ mod tests {
             .push(Vector3::z())));
     }
 
-    /// Impulses go as the root of the inertia, so that energies do not: each component that
-    /// is free has 1/2. Held bodies that answered would carry heat through the wall.
+    /// Unit deviates give each free component an energy of 1/2, and held bodies none.
     #[test]
-    fn impulses_meet_the_free_bodies_by_the_root_of_their_inertia() {
+    fn impulses_scale_with_the_root_of_inertia() {
         let mut system = bodies();
         let ones: Vectors = (0..4).map(|_| Vector3::repeat(1.0)).collect();
         system.add_thermal_impulses(&ones, &ones);

@@ -1,6 +1,5 @@
-//! Arguments that every interaction's tests use: gradient, stiffness, balance, invariance.
-//!
-//! With the feature `testing`, for tests of interactions of one's own.
+//! Assertions for tests of interactions: gradient, stiffness, balance, invariance (feature
+//! `testing`).
 
 mod random_stress;
 mod second_order;
@@ -13,7 +12,8 @@ use crate::{Frame, Inertia, Interaction, Loads, Point, State, UnitQuaternion, Ve
 use std::fmt::{self, Debug, Formatter};
 use std::ops::{Add, Mul, Sub};
 
-/// The kinds of processors that this one can be, from one lane to as many as it has: vector code is tested on each.
+/// Processor architectures supported by this machine, starting with the scalar one, for tests of
+/// vector code.
 pub fn architectures() -> Vec<Arch> {
     let mut all = vec![Arch::Scalar];
     #[cfg(target_arch = "x86_64")]
@@ -22,11 +22,11 @@ pub fn architectures() -> Vec<Arch> {
     all
 }
 
-/// Asserts that what `run` returns is the same to the bit on every kind of processor of more than one
-/// lane that this one can be.
+/// Asserts that `run` returns identical bits on each supported architecture with more than one
+/// lane.
 ///
 /// # Panics
-/// If it is not.
+/// If the results differ.
 pub fn assert_same_with_any_lanes(run: impl Fn(Arch) -> Vec<f64>) {
     let bits = |arch| run(arch).into_iter().map(f64::to_bits).collect::<Vec<_>>();
     let all = architectures();
@@ -40,24 +40,25 @@ pub fn assert_same_with_any_lanes(run: impl Fn(Arch) -> Vec<f64>) {
     }
 }
 
-/// Adds a point to a state; returns its number.
+/// Adds a point to a state and returns its index.
 pub fn push_point(state: &mut State, position: Vector3, mass: f64) -> usize {
     state.points.push(Point { position, mass })
 }
 
-/// Adds a frame with these moments of inertia to a state; returns its number.
+/// Adds a frame with the given moments of inertia to a state and returns its index.
 ///
 /// # Panics
-/// If no top has these moments.
+/// If the moments are not those of a symmetric top.
 pub fn push_frame(state: &mut State, orientation: UnitQuaternion, moments: [f64; 3]) -> usize {
-    let inertia = Inertia::from_moments(moments).expect("moments of a top");
+    let inertia = Inertia::from_moments(moments).expect("use the moments of a symmetric top");
     state.frames.push(Frame {
         orientation,
         inertia,
     })
 }
 
-/// Moves the whole state rigidly: first turned about the origin by `turn`, then shifted.
+/// Moves the whole state rigidly: rotation about the origin by `turn` (rad), then translation by
+/// `shift`.
 pub fn move_rigidly(state: &mut State, turn: Vector3, shift: Vector3) {
     let turn = rotation::exp(turn);
     for i in 0..state.points.len() {
@@ -84,18 +85,18 @@ pub fn resultant(state: &State, loads: &Loads) -> (Vector3, Vector3) {
     (force, moments + couples)
 }
 
-/// Loads of one interaction alone.
+/// Loads of one interaction.
 pub fn loads_of(interaction: &dyn Interaction, state: &State) -> Loads {
     let mut loads = Loads::zeros(state);
     interaction.add_loads(state, &mut loads);
     loads
 }
 
-/// An interaction without energy and without elements, whose loads a closure adds.
+/// Interaction without energy and elements, whose loads are added by a closure.
 pub struct Loading<F> {
     /// Name of the term.
     pub term: &'static str,
-    /// Adds the loads.
+    /// Function that adds the loads.
     pub add: F,
 }
 
@@ -123,10 +124,8 @@ impl<F: Fn(&State, &mut Loads) + Send + Sync> Interaction for Loading<F> {
 
 /// Asserts that the loads are minus the gradient of the energy.
 ///
-/// The derivative along each coordinate is taken with the eight-point central difference of step
-/// `h`; its error of order `h^8` and the round-off of the energy, about `1e-16 E / h`, are both
-/// far below `relative` times the largest load for a well chosen `h` (1e-2 to 1e-3 of the length
-/// over which the energy varies).
+/// Derivatives are eight-point central differences with a truncation error of order `h^8` and a
+/// round-off error of about `1e-16 E / h`.
 ///
 /// # Panics
 /// If a load differs by more than `relative` times the largest load of its kind.
@@ -169,13 +168,14 @@ fn assert_close(what: &str, i: usize, load: Vector3, from_energy: Vector3, toler
     let error = (load - from_energy).amax();
     assert!(
         error <= tolerance,
-        "{what} {i}: {load} against {from_energy} from the energy"
+        "{what} {i}: load {load} differs from {from_energy}, the gradient of the energy"
     );
 }
 
-/// Eight-point central difference of `f` at zero (Fornberg 1988, table 1), error of order `h^8`.
+/// Eight-point central difference of `f` at zero (Fornberg 1988, table 1), with an error of order
+/// `h^8`.
 ///
-/// `f` may be a number, a vector or a matrix.
+/// `f` may return a number, a vector or a matrix.
 pub fn derivative<T>(h: f64, f: impl Fn(f64) -> T) -> T
 where
     T: Add<Output = T> + Sub<Output = T> + Mul<f64, Output = T>,
@@ -184,11 +184,10 @@ where
     term(1.0, 4.0 / 5.0) + term(2.0, -1.0 / 5.0) + term(3.0, 4.0 / 105.0) + term(4.0, -1.0 / 280.0)
 }
 
-/// Asserts that internal loads have no resultant force or torque, to `relative` times the sum of
-/// the norms of what is added up.
+/// Asserts that internal loads have no resultant force or torque.
 ///
 /// # Panics
-/// If they have one.
+/// If a resultant exceeds `relative` times the sum of the norms of its terms.
 pub fn assert_is_balanced(interaction: &dyn Interaction, state: &State, relative: f64) {
     let loads = loads_of(interaction, state);
     let (force, torque) = resultant(state, &loads);
@@ -204,7 +203,7 @@ pub fn assert_is_balanced(interaction: &dyn Interaction, state: &State, relative
     );
 }
 
-/// Asserts that the energy does not change when the whole state is moved rigidly.
+/// Asserts that the energy is invariant under a rigid motion of the state.
 ///
 /// # Panics
 /// If it changes by more than `relative`.
@@ -218,6 +217,6 @@ pub fn assert_is_invariant(interaction: &dyn Interaction, state: &State, relativ
     let (before, after) = (interaction.energy(state), interaction.energy(&moved));
     assert!(
         (after - before).abs() <= relative * before.abs(),
-        "energy {before} became {after}"
+        "energy {before} changed to {after} in a rigid motion"
     );
 }

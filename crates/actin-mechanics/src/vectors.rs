@@ -1,4 +1,4 @@
-//! Many three-vectors, stored component by component.
+//! Arrays of vectors, stored by component.
 #![allow(
     clippy::inline_always,
     reason = "vector code must be compiled into the function that enables the instructions"
@@ -7,7 +7,7 @@
 use crate::Vector3;
 use crate::wide::{self, Simd, WithSimd};
 
-/// `n` three-vectors as three arrays of `n` components, so that loops over them vectorise.
+/// Array of vectors, stored as three arrays of components for vectorised loops.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Vectors {
@@ -20,7 +20,7 @@ pub struct Vectors {
 }
 
 impl Vectors {
-    /// `n` zero vectors.
+    /// Creates `n` zero vectors.
     pub fn zeros(n: usize) -> Self {
         Self {
             x: vec![0.0; n],
@@ -34,7 +34,7 @@ impl Vectors {
         self.x.len()
     }
 
-    /// Whether there is no vector at all.
+    /// Returns `true` if there are no vectors.
     pub fn is_empty(&self) -> bool {
         self.x.is_empty()
     }
@@ -68,12 +68,10 @@ impl Vectors {
         self.z.push(v.z);
     }
 
-    /// Asserts that there are `count` of these vectors, which are `what`.
     pub(crate) fn assert_len(&self, what: &str, count: usize) {
         assert_lengths(what, &[&self.x, &self.y, &self.z], count);
     }
 
-    /// Whether there are `count` of these vectors.
     pub(crate) fn has_len(&self, count: usize) -> bool {
         [&self.x, &self.y, &self.z].iter().all(|c| c.len() == count)
     }
@@ -85,7 +83,6 @@ impl Vectors {
         self.z.fill(0.0);
     }
 
-    /// Takes over the vectors of `other`, which has as many.
     pub(crate) fn copy_from(&mut self, other: &Self) {
         self.x.copy_from_slice(&other.x);
         self.y.copy_from_slice(&other.y);
@@ -101,7 +98,7 @@ impl Vectors {
         }
     }
 
-    /// The vectors in order.
+    /// Iterates over the vectors.
     pub fn iter(&self) -> impl ExactSizeIterator<Item = Vector3> + '_ {
         (0..self.len()).map(|i| self.get(i))
     }
@@ -115,7 +112,6 @@ impl FromIterator<Vector3> for Vectors {
     }
 }
 
-/// Asserts that each of `components` has `count` entries.
 pub(crate) fn assert_lengths(what: &str, components: &[&Vec<f64>], count: usize) {
     for component in components {
         let length = component.len();
@@ -141,8 +137,7 @@ pub(crate) fn add_scaled(sum: &mut Vectors, terms: &Vectors, factors: &[f64], h:
     });
 }
 
-/// The loop of [`add_product`]; nothing in it but plain arithmetic, which the compiler spreads over
-/// the lanes by itself.
+/// Kernel of [`add_product`], vectorised by the compiler.
 struct AddProduct<'a> {
     sum: &'a mut Vectors,
     terms: &'a Vectors,
@@ -163,7 +158,6 @@ impl WithSimd for AddProduct<'_> {
     }
 }
 
-/// The loop of [`add_scaled`].
 struct AddScaled<'a> {
     sum: &'a mut Vectors,
     terms: &'a Vectors,
@@ -185,7 +179,6 @@ impl WithSimd for AddScaled<'_> {
     }
 }
 
-/// Multiplies by `factor` those vectors whose mobility is not zero.
 pub(crate) fn damp_where(vectors: &mut Vectors, mobility: &[f64], factor: f64) {
     for column in [&mut vectors.x, &mut vectors.y, &mut vectors.z] {
         for (c, mobility) in column.iter_mut().zip(mobility) {
@@ -194,7 +187,7 @@ pub(crate) fn damp_where(vectors: &mut Vectors, mobility: &[f64], factor: f64) {
     }
 }
 
-/// The sum of `f` over the rows of `columns`, in four sums that need not wait for each other.
+/// Sum of `f` over the rows of `columns`, in four independent partial sums.
 ///
 /// # Panics
 /// If a column is shorter than the first.

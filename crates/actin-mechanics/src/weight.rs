@@ -1,13 +1,17 @@
-//! Weight: a force per mass that is the same everywhere.
+//! Weight: a uniform acceleration of all points.
 
 use crate::{ControlId, Interaction, LoadError, Loads, SecondOrder, State, Stiffness, Vector3};
 
-/// The weight of all points under a uniform acceleration, scaled by a control: term `weight`, one
+/// Weight of all points under a uniform acceleration, scaled by a control: term `weight`, one
 /// element.
 ///
-/// With `m` the masses, `a` the acceleration and `c` the control, each point meets the force
-/// `c m a`, and `E = -c sum m a . x`, which is zero where all points lie at the lab origin. Points
-/// that are held have their weight too, so that it shows in what holds them; frames have none.
+/// ```text
+/// F_i = c m_i a              (lab frame)
+/// E   = -c sum m_i a . x_i
+/// ```
+///
+/// `m` are the masses, `a` is the acceleration and `c` the control. Held points have weight too;
+/// frames have none.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Weight {
     acceleration: Vector3,
@@ -15,8 +19,10 @@ pub struct Weight {
 }
 
 impl Weight {
-    /// The weight of all points of `state`, those included that are still to come, under an
-    /// acceleration (lab frame), with a control of its own that begins at 1.
+    /// Creates the weight of all points of `state`, including points added later, with a new
+    /// control of value 1.
+    ///
+    /// `acceleration` is in the lab frame.
     ///
     /// ```
     /// use actin_mechanics::{Interaction, Loads, Point, State, Vector3, Weight};
@@ -32,7 +38,7 @@ impl Weight {
     /// ```
     ///
     /// # Errors
-    /// An acceleration that is not finite; the state is then unchanged.
+    /// If the acceleration is not finite. The state is unchanged on error.
     pub fn new(state: &mut State, acceleration: Vector3) -> Result<Self, LoadError> {
         LoadError::unless_finite("acceleration", acceleration)?;
         Ok(Self {
@@ -41,7 +47,7 @@ impl Weight {
         })
     }
 
-    /// Its factor.
+    /// Control that is the load factor.
     pub fn control(&self) -> ControlId {
         self.control
     }
@@ -78,7 +84,6 @@ impl Interaction for Weight {
 }
 
 impl SecondOrder for Weight {
-    /// A uniform force has no stiffness.
     fn add_stiffness(&self, _state: &State, _stiffness: &mut Stiffness) {}
 }
 
@@ -107,10 +112,8 @@ mod tests {
         assert_eq!(state, State::default());
     }
 
-    /// All stones fall alike; one that is held keeps its weight, and falls like the others as soon
-    /// as it is released.
     #[test]
-    fn stones_fall_alike_and_held_ones_keep_their_weight() {
+    fn points_fall_equally_and_held_ones_keep_their_weight() {
         let (mut state, weight) = stones();
         assert_is_gradient(&weight, &state, 1e-2, 1e-11);
         let before = loads_of(&weight, &state);

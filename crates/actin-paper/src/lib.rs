@@ -16,6 +16,7 @@
 struct Readme;
 
 pub mod cells;
+mod charts;
 pub mod committed;
 pub mod figures;
 pub mod fit;
@@ -24,6 +25,7 @@ pub mod measure;
 mod palette;
 mod published;
 mod run;
+mod statistics;
 
 use std::fmt;
 use std::path::{Path, PathBuf};

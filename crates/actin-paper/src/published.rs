@@ -1,5 +1,7 @@
 //! Tables 3 and 5 as the paper prints them.
 
+use serde::de::DeserializeOwned;
+
 /// Table 3, with its source in a comment.
 const TABLE_3: &str = include_str!("../data/table3_twisting_rigidity.csv");
 /// Table 5, with its source in a comment.
@@ -49,18 +51,23 @@ impl Entry {
     }
 }
 
+/// The lines of a table of this crate without comments, which begin with `#`.
+pub(crate) fn table<T: DeserializeOwned>(text: &str) -> Vec<T> {
+    let mut reader = csv::ReaderBuilder::new()
+        .comment(Some(b'#'))
+        .from_reader(text.as_bytes());
+    let lines: Result<_, csv::Error> = reader.deserialize().collect();
+    lines.expect("a table of this crate is well formed")
+}
+
 /// All entries, under-twist first, in ascending order of curvature.
-pub(crate) fn entries(table: Table) -> Result<Vec<Entry>, String> {
+pub(crate) fn entries(table: Table) -> Vec<Entry> {
     let text = match table {
         Table::Rigidity => TABLE_3,
         Table::LengthChange => TABLE_5,
     };
-    let mut reader = csv::ReaderBuilder::new()
-        .comment(Some(b'#'))
-        .from_reader(text.as_bytes());
     let mut all = Vec::new();
-    for row in reader.deserialize::<[f64; 4]>() {
-        let [phi_deg, curvature, under, over] = row.map_err(|e| format!("{table:?}: {e}"))?;
+    for [phi_deg, curvature, under, over] in self::table::<[f64; 4]>(text) {
         let entry = |curvature, value: f64| Entry {
             phi_deg,
             curvature,
@@ -71,7 +78,7 @@ pub(crate) fn entries(table: Table) -> Result<Vec<Entry>, String> {
         all.push(entry(curvature, over));
     }
     all.sort_by(|a, b| a.curvature.total_cmp(&b.curvature));
-    Ok(all)
+    all
 }
 
 /// Half a unit of the last digit: rigidities have two digits, changes of length four decimals.
@@ -90,10 +97,10 @@ mod tests {
     #[test]
     fn tables_are_read_with_their_signs_and_rounding() {
         for table in [Table::Rigidity, Table::LengthChange] {
-            assert_eq!(entries(table).unwrap().len(), 26);
+            assert_eq!(entries(table).len(), 26);
         }
         let find = |table, phi: f64, direction| {
-            let all = entries(table).unwrap().into_iter();
+            let all = entries(table).into_iter();
             all.filter(|e| e.phi_deg.total_cmp(&phi).is_eq())
                 .find(|e| e.direction() == direction)
                 .unwrap()

@@ -1,10 +1,12 @@
 //! Scenes of the repository, and runs into memory.
 
 use crate::workspace_root;
+use actin_mechanics::State;
 use actin_sim::{
-    Assembly, Clamp, End, Equilibrium, Filament, Hold, Outcome, Output, Plan, RunError, Scene,
-    Slides, Task, Trajectory,
+    Assembly, Clamp, End, Equilibrium, Filament, Hold, Outcome, Output, Part, Plan, Record,
+    RunError, Scene, Slides, Task, Trajectory,
 };
+use actin_view::Pose;
 
 /// The scene in a file of the folder `scenarios`.
 pub(crate) fn scenario(file: &str) -> Result<Scene, String> {
@@ -50,4 +52,96 @@ pub(crate) fn clamp(end: End, slides: Slides) -> Clamp {
         hinge: None,
         slides,
     }
+}
+
+/// A scene after its run; the system is in the last state.
+#[derive(Debug)]
+pub(crate) struct Solved {
+    pub assembly: Assembly,
+    /// At least one.
+    pub records: Vec<Record>,
+    pub report: Outcome,
+}
+
+impl Solved {
+    /// Builds and runs a scene.
+    pub(crate) fn new(scene: &Scene) -> Result<Self, String> {
+        Self::run(Assembly::build(scene).map_err(|e| e.to_string())?)
+    }
+
+    /// Runs an assembly from the state that it is in.
+    pub(crate) fn run(mut assembly: Assembly) -> Result<Self, String> {
+        let (trajectory, report) = run_to_end(&mut assembly).map_err(|e| e.to_string())?;
+        if trajectory.records.is_empty() {
+            return Err("no record".into());
+        }
+        Ok(Self {
+            assembly,
+            records: trajectory.records,
+            report,
+        })
+    }
+
+    /// The last record.
+    pub(crate) fn last(&self) -> &Record {
+        &self.records[self.records.len() - 1]
+    }
+
+    pub(crate) fn state(&self) -> &State {
+        self.assembly.system.state()
+    }
+
+    /// Residual force (pN) and torque (pN nm).
+    pub(crate) fn residual(&self) -> [f64; 2] {
+        let last = self.last();
+        [last.residual_force_pn, last.residual_torque_pn_nm]
+    }
+
+    /// Numbers of negative and of unresolved eigenvalues of the stiffness; `None` for a motion.
+    pub(crate) fn doubtful(&self) -> Option<[usize; 2]> {
+        let certificate = &self.report.equilibrium.as_ref()?.certificate;
+        Some([certificate.negative, certificate.unresolved])
+    }
+
+    /// Potential energy of some parts of the system (pN nm).
+    pub(crate) fn energy(&self, is_counted: fn(&Part) -> bool) -> f64 {
+        energy(&self.assembly, self.last(), is_counted)
+    }
+
+    pub(crate) fn shape(&self) -> Shape {
+        let points = self.assembly.points.iter().enumerate();
+        let line = points
+            .clone()
+            .map(|(i, _)| self.assembly.centre_line_nm(self.state(), i).into());
+        let monomers = points.filter(|(_, info)| info.frame.is_some());
+        let centres = monomers.map(|(i, _)| self.state().points.position.get(i).into());
+        Shape {
+            line: line.collect(),
+            monomers: centres.collect(),
+            pose: self.pose(),
+        }
+    }
+
+    pub(crate) fn pose(&self) -> Pose {
+        Pose::of(&self.assembly, self.state())
+    }
+}
+
+/// Centre line and bodies of a state, for pictures.
+#[derive(Clone, Debug)]
+pub(crate) struct Shape {
+    /// The centre line (nm).
+    pub line: Vec<[f64; 3]>,
+    /// Centres of monomers (nm).
+    pub monomers: Vec<[f64; 3]>,
+    pub pose: Pose,
+}
+
+/// Potential energy of some parts of a system in a record (pN nm).
+pub(crate) fn energy(assembly: &Assembly, record: &Record, is_counted: fn(&Part) -> bool) -> f64 {
+    let terms = assembly.terms.iter().zip(&record.energies_pn_nm);
+    terms
+        .filter(|(term, _)| is_counted(&term.part))
+        .map(|(_, energy)| energy)
+        .sum()
 }

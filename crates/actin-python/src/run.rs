@@ -6,8 +6,8 @@ use crate::scene::Scene;
 use crate::watch::{Watch, callback, finish};
 use actin_sim::{
     Assembly, CheckpointError, Checkpoints, FailedRun, Failure, Outcome, Plan, Progress, Record,
-    Recorded, Records, RunDirectory, RunError, RunLock, RunPosition, Saved, Sink, Status, Summary,
-    Trajectory,
+    RecordSummary, Records, RunDirectory, RunError, RunLock, RunPosition, SavedRun, Sink, Status,
+    Summary, Trajectory,
 };
 use pyo3::exceptions::{PyRuntimeWarning, PyValueError};
 use pyo3::prelude::*;
@@ -42,7 +42,7 @@ impl<S: Sink> Sink for Observed<'_, S> {
         self.inner.is_checkpoint_due()
     }
 
-    fn checkpoint(&mut self, position: &RunPosition, recorded: &Recorded, wall_s: f64) {
+    fn checkpoint(&mut self, position: &RunPosition, recorded: &RecordSummary, wall_s: f64) {
         self.inner.checkpoint(position, recorded, wall_s);
     }
 }
@@ -67,7 +67,7 @@ impl Job<'_> {
     fn advance<S: Sink + Send>(
         &self,
         py: Python<'_>,
-        saved: Option<Saved>,
+        saved: Option<SavedRun>,
         sink: &mut S,
     ) -> PyResult<Ended> {
         let progress = self
@@ -294,7 +294,7 @@ fn begin(
     job: &Job<'_>,
     checkpoints: &mut Checkpoints,
     target: &Target,
-) -> PyResult<(Option<Saved>, RunLock)> {
+) -> PyResult<(Option<SavedRun>, RunLock)> {
     let refused = |error| errors::directory(&error);
     if target.resume && directory.has_checkpoint() {
         let lock = RunLock::take(&target.path).map_err(refused)?;

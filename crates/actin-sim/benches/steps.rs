@@ -1,4 +1,4 @@
-//! One time step of whole filaments; assembly and factorisation of one Newton iteration.
+//! Time step of whole filaments; assembly and factorisation of one Newton iteration.
 //!
 //! `cargo bench -p actin-sim --bench steps`
 
@@ -12,12 +12,11 @@ use std::hint::black_box;
 /// Clamped filaments of 160 nm: a rod of 64 segments, and 60 monomers.
 const ROD: &str = "Rod(from_nm: 0.0, to_nm: 160.0, segments: 64)";
 const MONOMERS: &str = "Ellipsoids(from_nm: 0.0, to_nm: 160.0)";
-/// Ten times as long.
 const LONG: &str = "Ellipsoids(from_nm: 0.0, to_nm: 1600.0)";
 
-/// A time step (ns) that is stable for all of them.
+/// Time step (ns) that is stable for all filaments.
 const STEP_NS: f64 = 1e-4;
-/// Steps that are timed together, so that the joined half drifts count as in a run.
+/// Steps per measurement, so that half drifts merge as in a run.
 const STEPS: u64 = 100;
 
 fn assembly(section: &str) -> Assembly {
@@ -73,7 +72,7 @@ fn newton_iteration(criterion: &mut Criterion) {
         group.bench_function(BenchmarkId::new("assembly", name), |bencher| {
             bencher.iter(|| black_box(newton.stiffness_times(state, terms, &ones).is_ok()));
         });
-        // A certificate factorises twice, with a shift to either side.
+        // A certificate factorises twice, with positive and negative shift.
         group.bench_function(
             BenchmarkId::new("assembly_and_two_factors", name),
             |bencher| {

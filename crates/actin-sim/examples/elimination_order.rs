@@ -1,26 +1,24 @@
-//! What the order of elimination costs: filaments of 160 nm side by side, neighbours cross-linked
-//! every 40 nm, eliminated one by one, all along at once, and in the order that fills least.
+//! Cost of orders of elimination: parallel filaments of 160 nm, cross-linked every 40 nm,
+//! eliminated one after another, by arc length, and with least fill-in.
 //!
 //! `cargo run --release -p actin-sim --example elimination_order`
 //!
-//! For each bundle the unknowns, and for each order the entries of the factor and the time of one
-//! assembly with factorisation, count of negative pivots and growth (`Newton::certify`), which
-//! factorises a fixed number of times: the least of several repetitions.
+//! Prints the number of unknowns of each bundle. For each order it prints the entries of the factor
+//! and the shortest time of a certificate (`Newton::certify`), which assembles and factorises a
+//! fixed number of times.
 
 use actin_equilibrium::{BodyOrder, Layout, Newton, NewtonOptions};
 use actin_sim::{Assembly, Scene};
 use std::time::Instant;
 
-/// Sections by name.
 const MODELS: [(&str, &str); 2] = [
     ("monomers", "Ellipsoids(from_nm: 0.0, to_nm: 160.0)"),
     ("rods", "Rod(from_nm: 0.0, to_nm: 160.0, segments: 16)"),
 ];
-/// Numbers of filaments.
 const COUNTS: [usize; 4] = [1, 2, 4, 8];
 /// Arc lengths of the cross-linkers (nm).
 const PLACES: [f64; 4] = [40.0, 80.0, 120.0, 160.0];
-/// Repetitions of which the least time counts.
+/// Repetitions; the shortest time counts.
 const REPEATS: usize = 5;
 
 fn main() {
@@ -67,7 +65,7 @@ fn bundle(count: usize, sections: &str) -> Assembly {
     Assembly::build(&scene).expect("the scene above can be built")
 }
 
-/// Arc lengths, those of each filament `apart` (nm) from those of the one before.
+/// Arc lengths, with an offset `apart` (nm) between successive filaments.
 fn order(assembly: &Assembly, apart: f64) -> BodyOrder {
     let place = |filament: usize, s_nm: f64| apart * filament as f64 + s_nm;
     let points = assembly.points.iter().enumerate();
@@ -92,7 +90,7 @@ fn cost(assembly: &Assembly, layout: &Layout) -> (u64, f64) {
         certificate.expect("every interaction has second derivatives");
         started.elapsed().as_secs_f64() * 1e3
     };
-    // The first finds the pattern.
+    // The first call computes the pattern.
     certify();
     let least = (0..REPEATS)
         .map(|_| certify())

@@ -1,10 +1,10 @@
-//! Newton's method against length: cantilevers of monomers whose tip force bends them by the same angle,
-//! solved from where a run begins, by the bonds that interfaces have.
+//! Cost of Newton's method against length: cantilevers of monomers bent by the same angle, solved
+//! from the initial guess of a run, for several kinds of bonds.
 //!
 //! `cargo run --release -p actin-sim --example newton_against_length [longest (nm) [bonds]]`
 //!
-//! Each line: steps, how many of them overshot, factorisations, evaluations, energy as certified, time.
-//! Building the filament does not count.
+//! Each line has steps, excursions, factorisations, evaluations, energy, certificate and time
+//! without the build.
 
 use actin_equilibrium::{Equilibrium as Found, Verdict};
 use actin_sim::{Assembly, Equilibrium, Scene, Task, near_equilibrium, solver};
@@ -14,7 +14,6 @@ use std::time::Instant;
 const RESIDUAL: f64 = 1e-6;
 /// Lengths (nm).
 const LENGTHS: [f64; 7] = [160.0, 320.0, 640.0, 1600.0, 4000.0, 8000.0, 16_000.0];
-/// Bonds by name.
 const BONDS: [(&str, &str); 4] = [
     ("weighted", "anchors: Cubature"),
     (
@@ -49,7 +48,7 @@ fn main() {
     }
 }
 
-/// A cantilever of monomers whose tip force bends it by the same angle at every length.
+/// Cantilever of monomers with a tip force that bends it by the same angle at every length.
 fn cantilever(length: f64, bonds: &str) -> Scene {
     let force = -2.0 * (160.0 / length).powi(2);
     let text = format!(
@@ -66,7 +65,7 @@ fn cantilever(length: f64, bonds: &str) -> Scene {
     Scene::from_ron(&text).expect("the scene is well formed")
 }
 
-/// The equilibrium and the time it took (s).
+/// Equilibrium and its time (s).
 fn solve(length: f64, bonds: &str) -> (Found, f64) {
     let scene = cantilever(length, bonds);
     let assembly = Assembly::build(&scene).expect("the scene can be built");
@@ -84,7 +83,6 @@ fn solve(length: f64, bonds: &str) -> (Found, f64) {
     (found.expect("the cantilever has an equilibrium"), seconds)
 }
 
-/// What a solve took and where it ended.
 fn line(found: &Found) -> String {
     let is_outing = |verdict| matches!(verdict, Verdict::Excursion | Verdict::Return);
     let outings = found.history.iter().filter(|step| is_outing(step.verdict));
@@ -100,7 +98,7 @@ fn line(found: &Found) -> String {
     )
 }
 
-/// Slope of the line of least squares.
+/// Slope of the least-squares line.
 fn slope(points: &[(f64, f64)]) -> f64 {
     let n = points.len() as f64;
     let mean = |of: fn(&(f64, f64)) -> f64| points.iter().map(of).sum::<f64>() / n;

@@ -1,9 +1,9 @@
-//! A scene is run from Rust and written to a directory; its summary is read back.
+//! Runs a scene, writes it to a directory and reads its summary.
 
 use actin_sim::{Assembly, Plan, RunDirectory, Scene, SimError};
 
 fn main() -> Result<(), SimError> {
-    // 40 nm of monomers on a wall, 120 nm of rod behind them, and 0.1 pN across the tip.
+    // 40 nm of monomers on a wall, then 120 nm of rod, under a transverse tip force of 0.1 pN.
     let scene = Scene::from_ron(
         "Scene(
             filament: Filament(sections: [
@@ -24,7 +24,7 @@ fn main() -> Result<(), SimError> {
     directory.write(&plan, &trajectory, &outcome)?;
     let summary = directory.summary()?;
 
-    // A beam of the published B1 = 3.9e4 pN nm^2; filaments that are bent this little are softer.
+    // Beam with the published B1 = 3.9e4 pN nm^2. Filaments are softer at small curvature.
     let rod = 0.1 * 160.0_f64.powi(3) / (3.0 * 3.9e4);
     let [moved, ..] = summary.tip_displacement_nm;
     println!(
@@ -36,6 +36,6 @@ fn main() -> Result<(), SimError> {
         summary.counts.monomers, summary.counts.segments
     );
     assert!(moved > 1.2 * rod && moved < 1.5 * rod);
-    std::fs::remove_dir_all(folder).expect("the run has written it");
+    std::fs::remove_dir_all(folder).expect("the folder exists");
     Ok(())
 }

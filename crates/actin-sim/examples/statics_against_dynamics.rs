@@ -1,11 +1,11 @@
-//! Newton's method against damped dynamics on the cantilever of Figure 4, every monomer resolved,
-//! and Newton's time against length.
+//! Newton's method against damped dynamics on the cantilever of Figure 4 as monomers, and Newton's
+//! time against length.
 //!
 //! `cargo run --release -p actin-sim --example statics_against_dynamics`
 //!
 //! Both start from the straight filament and end at a residual of 1e-6 pN and 1e-6 pN nm. The
-//! dynamics takes the cheapest integrator per unit of time, position Verlet, at 0.95 of its
-//! stability limit, and each of five drag rates. Building the filament counts for neither.
+//! dynamics uses position Verlet, the cheapest integrator per unit of time, at 0.95 of its
+//! stability limit and five drag rates. Times exclude the build.
 
 use actin_mechanics::{State, Vector3};
 use actin_sim::{Assembly, Plan, Scene, Task};
@@ -13,13 +13,13 @@ use std::time::Instant;
 
 /// Residual at which both stop (pN, pN nm).
 const RESIDUAL: f64 = 1e-6;
-/// Residual at which their equilibria are compared.
+/// Residual at which the equilibria are compared.
 const TIGHT: f64 = 1e-8;
-/// Share of the stability limit that the dynamics takes.
+/// Time step of the dynamics over the stability limit.
 const SAFETY: f64 = 0.95;
 /// Drag rates (1/ns); the first flexural mode has 0.17 rad/ns.
 const DRAGS: [f64; 5] = [0.05, 0.1, 0.2, 0.4, 0.8];
-/// Time after which a motion is given up (ns).
+/// Longest motion (ns).
 const LONGEST_NS: f64 = 20_000.0;
 /// Lengths of the second table (nm).
 const LENGTHS: [f64; 7] = [160.0, 320.0, 640.0, 1600.0, 4000.0, 8000.0, 16_000.0];
@@ -57,12 +57,11 @@ fn main() {
     println!("time ~ length^{:.3} (least squares)", slope(&points));
 }
 
-/// How often the time of a length is taken.
+/// Number of repetitions.
 fn repeats(length: f64) -> usize {
     if length < 2000.0 { 5 } else { 2 }
 }
 
-/// What a run took.
 struct Run {
     name: String,
     seconds: f64,
@@ -95,17 +94,17 @@ impl std::fmt::Display for Run {
     }
 }
 
-/// The scene of Figure 4 with every monomer resolved.
+/// Scene of Figure 4 as monomers.
 fn figure_4() -> Scene {
     let path = concat!(
         env!("CARGO_MANIFEST_DIR"),
         "/../../scenarios/figure-4/ellipsoids.ron"
     );
     let text = std::fs::read_to_string(path).expect("the scene is part of the workspace");
-    Scene::from_ron(&text).expect("the scene is tested")
+    Scene::from_ron(&text).expect("the scene is valid")
 }
 
-/// A cantilever of monomers whose tip force bends it by the same angle at every length.
+/// Cantilever of monomers with a tip force that bends it by the same angle at every length.
 fn cantilever(length: f64) -> Scene {
     let force = -2.0 * (160.0 / length).powi(2);
     let text = format!(
@@ -119,7 +118,7 @@ fn cantilever(length: f64) -> Scene {
     Scene::from_ron(&text).expect("the scene is well formed")
 }
 
-/// The fastest of several Newton solves, each from a newly built filament.
+/// Fastest of several Newton solves, each of a new assembly.
 fn best_newton(scene: &Scene, repeats: usize, residual: f64) -> Run {
     let mut scene = scene.clone();
     scene.task = Task::Equilibrium(actin_sim::Equilibrium {
@@ -194,14 +193,14 @@ fn motion(scene: &Scene, drag: f64, residual: f64) -> Run {
     }
 }
 
-/// The largest distance between the same points of two states (nm).
+/// Largest distance between corresponding points (nm).
 fn furthest(a: &State, b: &State) -> f64 {
     let distance = |(x, y): (Vector3, Vector3)| (x - y).norm();
     let pairs = a.points.position.iter().zip(b.points.position.iter());
     pairs.map(distance).fold(0.0, f64::max)
 }
 
-/// Slope of the line of least squares.
+/// Slope of the least-squares line.
 fn slope(points: &[(f64, f64)]) -> f64 {
     let n = points.len() as f64;
     let mean = |of: fn(&(f64, f64)) -> f64| points.iter().map(of).sum::<f64>() / n;

@@ -81,7 +81,6 @@ impl Plan<'_> {
     }
 }
 
-/// Returns the number of segments and bonds of junctions of a filament.
 fn elements(assembly: &Assembly, filament: usize) -> usize {
     let counts = assembly.counts_of(filament);
     let scene = assembly.scene.filament_at(filament);
@@ -89,7 +88,6 @@ fn elements(assembly: &Assembly, filament: usize) -> usize {
     counts.segments + counts.junctions * attached
 }
 
-/// Sink that interrupts a run after [`MEASURED_S`].
 #[derive(Default)]
 struct Stopwatch {
     /// Times of the first and the last check.
@@ -177,7 +175,7 @@ mod tests {
 
     /// 4000 evaluations: 1000 steps of 0.001 ns with four evaluations each. 8 elements: 6 segments and 2 bonds of a junction.
     #[test]
-    fn counts_are_those_of_the_scene() {
+    fn counts_agree_with_the_scene() {
         let motion = "task: Dynamics(duration_ns: 1.0, time_step_ns: 0.001),";
         let (rod, _) = measured(ROD, motion);
         assert_eq!((rod.bonds, rod.elements), (0, 6));
@@ -192,7 +190,6 @@ mod tests {
         assert!(words.contains("contacts of the repulsion"), "{words}");
     }
 
-    /// A long motion is interrupted and extrapolated; a short equilibrium converges within the measurement.
     #[test]
     fn times_are_measured_and_extrapolated() {
         let motion = "task: Dynamics(duration_ns: 1e4, time_step_ns: 0.001),";

@@ -1,14 +1,14 @@
-//! Scenes of actin filaments at two resolutions: read, assembled, run and written.
+//! Assembly and simulation of scenes of actin filaments at two resolutions.
 //!
-//! A [`Scene`] says what filaments are made of, what holds, loads and links them, and what is asked.
-//! [`Assembly::build`] turns it into bodies and interactions; a [`Plan`] decides the time step and runs
-//! it into a [`Sink`], memory or a [`RunDirectory`]; the [`Outcome`] says how it ended. An [`Ensemble`] runs
-//! replicas of a scene on all cores. This is the only crate that knows all the models; the models do not know each
-//! other.
+//! A [`Scene`] describes filaments, clamps, loads, linkers and the task. [`Assembly::build`]
+//! creates its bodies and interactions. A [`Plan`] selects the time step and runs it into a
+//! [`Sink`]: memory or a [`RunDirectory`]. The [`Outcome`] holds the status and cost. An
+//! [`Ensemble`] runs replicas of a scene in parallel. This is the only crate that depends on all
+//! models; the models do not depend on each other.
 //!
-//! A filament starts at the lab origin and runs along +z when it is built, azimuth 0 at +x, unless
-//! its scene places it elsewhere.
-//! Units: nm, pN, ns, rad (degrees where a key says so); mass in ag = 1e-21 kg = pN ns^2/nm.
+//! Unless its scene places it elsewhere, a filament starts at the lab origin and runs along +z,
+//! with azimuth 0 at +x. Units: nm, pN, ns, rad (degrees in keys with `deg`); mass in ag = 1e-21 kg
+//! = pN ns^2/nm.
 
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
@@ -28,7 +28,7 @@ pub mod shape;
 pub mod statistics;
 pub mod trade;
 
-// The crates whose types are in the API of this one.
+// Crates whose types are in the API of this one.
 pub use actin_cosserat as cosserat;
 pub use actin_cosserat::constants as rod_constants;
 pub use actin_coupling as coupling;
@@ -54,9 +54,9 @@ pub use actin_scene::{
 };
 pub use actin_scene::{Readings, read_all, read_ron};
 pub use assembly::{
-    Assembly, BeyondRange, BeyondUse, BodyKind, Booked, Clamped, Counts, Drive, FilamentSpan,
-    Fluctuations, FrameInfo, Happening, JunctionBond, LinkerEvent, MeasuredError, Part, PointInfo,
-    Reaction, Resolution, SectionSpan, Term, UnstableTwist,
+    Assembly, BodyKind, Clamped, Counts, Drive, EnergyExchange, FilamentSpan, Fluctuations,
+    FrameInfo, JunctionBond, LawExtrapolation, LinkerEvent, LinkerEventKind, MeasuredError,
+    ModelLimitExceeded, Part, PointInfo, Reaction, Resolution, SectionSpan, Term, UnstableTwist,
 };
 pub use cost::{Cost, Timing};
 pub use ensemble::{Ensemble, EnsembleError, EnsembleProgress, Replica};
@@ -71,9 +71,9 @@ pub use results::{
     ThermalSummary, WorkSummary, first_difference, replace_file,
 };
 pub use run::{
-    Arrival, At, BehindSwitch, EquilibriumReport, Estimate, FailedRun, Failure, HingeSlip,
-    LongestStep, MotionPosition, Outcome, PathPosition, Plan, Progress, Record, RecordIter,
-    Recorded, Records, RelaxationTimes, Row, RowIter, RunError, RunPosition, SaddlePush, Saved,
-    Sink, Slip, StableState, StableStates, Status, Trajectory, composition, near_equilibrium,
-    solver,
+    At, EquilibriumReport, Estimate, FailedRun, Failure, HingeSlip, LongestStep, MotionPosition,
+    Outcome, PathPosition, Plan, Progress, Record, RecordIter, RecordSummary, Records,
+    RelaxationTimes, ResolutionSwitch, Row, RowIter, RunError, RunPosition, SaddlePush, SavedRun,
+    Sink, Slip, SolveReport, StableState, StableStates, Status, Trajectory, composition,
+    near_equilibrium, solver,
 };

@@ -14,38 +14,35 @@ const ASSUMED: f64 = 8e9;
 /// Values are rounded up from the peak memory of `actin run` over the number of bodies, for 1e4 to
 /// 1e5 segments, 5000 to 20,000 filaments and 3000 to 6000 monomers.
 #[derive(Clone, Copy, Debug)]
-struct Each {
+struct BytesPerBody {
     motion: f64,
     statics: f64,
 }
 
-/// Text, parameters and reports of a filament.
-const FILAMENT: Each = Each {
+const FILAMENT: BytesPerBody = BytesPerBody {
     motion: 1.2e4,
     statics: 1.2e4,
 };
 /// Segment of constant rigidities with its node: state, loads, trial motions, matrix pattern and
 /// factor.
-const SEGMENT: Each = Each {
+const SEGMENT: BytesPerBody = BytesPerBody {
     motion: 1.5e3,
     statics: 6.6e3,
 };
-/// Segment under a law that depends on curvature, twist or shear.
-const LAW_SEGMENT: Each = Each {
+const LAW_SEGMENT: BytesPerBody = BytesPerBody {
     motion: 2.2e3,
     statics: 1.2e4,
 };
 /// Additional trial motions of nonconservative loads, all of which are kept.
 const TRIAL_VECTORS: f64 = (6 * 8 * actin_integrate::KRYLOV_VECTORS) as f64;
-/// Monomer without bonds.
-const MONOMER: Each = Each {
+const MONOMER: BytesPerBody = BytesPerBody {
     motion: 1.8e3,
     statics: 1.9e4,
 };
 /// Bond: two ends and a rest length.
 const BOND: f64 = 56.0;
 
-impl Each {
+impl BytesPerBody {
     fn of(self, task: &Task) -> f64 {
         match task {
             Task::Dynamics(_) => self.motion,
@@ -54,12 +51,10 @@ impl Each {
     }
 }
 
-/// Bytes of a filament without its bodies.
 pub(crate) fn of_filament(task: &Task) -> f64 {
     FILAMENT.of(task)
 }
 
-/// Bytes of `count` segments.
 pub(crate) fn of_segments(count: f64, rod: &RodModel, task: &Task) -> f64 {
     let each = match rod.law {
         RodLaw::Constant => SEGMENT,
@@ -72,7 +67,6 @@ pub(crate) fn of_segments(count: f64, rod: &RodModel, task: &Task) -> f64 {
     count * (each.of(task) + trials)
 }
 
-/// Bytes of `count` monomers with `bonds` bonds each.
 pub(crate) fn of_monomers(count: f64, bonds: usize, task: &Task) -> f64 {
     count * (MONOMER.of(task) + BOND * bonds as f64)
 }
@@ -81,7 +75,6 @@ pub(crate) fn of_monomers(count: f64, bonds: usize, task: &Task) -> f64 {
 /// energy, residuals, work, heat, events.
 const NUMBERS_OF_ROW: usize = 7;
 
-/// Bytes of a recorded state with the energies of `terms` terms.
 fn of_record(state: &State, terms: usize) -> f64 {
     // Points have 6 numbers, frames 7.
     let numbers = 6 * state.points.len() + 7 * state.frames.len() + state.controls.len();
@@ -122,7 +115,6 @@ pub(crate) fn check(
     Err(SceneProblem::new(key, value, rule))
 }
 
-/// Formats an amount of memory.
 pub(crate) fn in_words(bytes: f64) -> String {
     match bytes {
         b if b < 1e9 => format!("{:.0} MB", (b / 1e6).max(1.0)),

@@ -58,10 +58,10 @@ pub(crate) fn run(options: Options) -> Result<()> {
     };
     let tell = &|line: std::fmt::Arguments<'_>| println!("{line}");
     let rows = figures::reproduce(&options, tell).map_err(Error::msg)?;
-    let compared = match (quick, write) {
-        (_, true) => committed::write_quick(&rows, tell),
-        (true, false) => committed::compare_quick(&rows, tell),
-        (false, false) => committed::compare_full(&rows, tell),
+    let compared = if write {
+        committed::write_quick(&rows, tell)
+    } else {
+        committed::compare(&rows, quick, tell)
     };
     compared.map_err(Error::msg)
 }

@@ -4,7 +4,7 @@ use crate::design::Run;
 use crate::{Settings, SweepDirectory, SweepError, ValidatedSweep};
 use actin_sim::{
     Assembly, CheckpointError, Checkpoints, Outcome, Plan, RunDirectory, RunDirectoryError,
-    RunError, RunLock, Saved, SceneText, Status,
+    RunError, RunLock, SavedRun, SceneText, Status,
 };
 use serde_json::Value;
 use std::path::Path;
@@ -92,7 +92,7 @@ fn begin(
     plan: &Plan<'_>,
     checkpoints: &mut Checkpoints,
     warn: fn(&CheckpointError),
-) -> Result<(Option<Saved>, RunLock), SweepError> {
+) -> Result<(Option<SavedRun>, RunLock), SweepError> {
     if kept.has_checkpoint() {
         let lock = RunLock::take(kept.path())?;
         match checkpoints.resume(plan) {

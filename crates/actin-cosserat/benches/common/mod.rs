@@ -1,4 +1,4 @@
-//! Rods to measure: 160 nm from a wall, well bent, under each law that has a loop of its own.
+//! Rods for benchmarks: 160 nm from a wall, bent, under each law with a vector kernel.
 
 use actin_cosserat::{
     BendLaw, CubicShear, EnergyGradient, Homogenised, Rigidities, RodLayout, RodMaterial,
@@ -8,7 +8,7 @@ use actin_cosserat::{
 use actin_mechanics::State;
 use actin_mechanics::{Xorshift, perturb};
 
-/// A rod whose neighbouring frames differ by up to `angle` (rad) about every axis.
+/// Rod whose neighbouring frames differ by up to `angle` (rad) about each axis.
 pub(crate) fn rod(segments: usize, angle: f64) -> (State, RodLayout) {
     let walls = Walls {
         start: true,
@@ -19,15 +19,14 @@ pub(crate) fn rod(segments: usize, angle: f64) -> (State, RodLayout) {
         ..StraightRod::uniform(segments, 160.0 / segments as f64)
     };
     let mut state = State::default();
-    let layout = rod.push(&mut state).expect("the rod has segments");
+    let layout = rod.push(&mut state).expect("use at least one segment");
     perturb(&mut state, &mut Xorshift::new(1), 1e-3, angle);
     (state, layout)
 }
 
-/// A law by its name, its material, and how its length depends on the twist.
+/// Name, material, and law of twist and stretch.
 type Law = (&'static str, RodMaterial, Option<TwistStretch>);
 
-/// Constant rigidities, those of the published extension, those fitted to monomers, and the potential.
 pub(crate) fn laws() -> [Law; 4] {
     let constant = RodMaterial::new(Rigidities::table4()).expect("the table is valid");
     let twist = TwistLaw::Tanh(TanhTwist::published());
@@ -45,7 +44,6 @@ pub(crate) fn laws() -> [Law; 4] {
     ]
 }
 
-/// The force law on a rod.
 pub(crate) fn interaction(layout: &RodLayout, (_, material, xi): Law) -> EnergyGradient {
     let rod = EnergyGradient::new(layout.clone(), material);
     let curvature = SegmentCurvature::new(layout, &[], &[]);
@@ -55,7 +53,7 @@ pub(crate) fn interaction(layout: &RodLayout, (_, material, xi): Law) -> EnergyG
     }
 }
 
-/// The scenes' law `Fitted`: its numbers are those of `crates/actin-sim/src/scene/fitted.rs`.
+/// Law `Fitted` of scenes, with the numbers of `crates/actin-sim/src/scene/fitted.rs`.
 fn fitted(constant: RodMaterial) -> (RodMaterial, TwistStretch) {
     let material = constant
         .with_bend(BendLaw::Stiffening(BEND))

@@ -1,54 +1,48 @@
-//! The mean curvature around each segment.
+//! Mean curvature around each segment.
 
 use super::end_shear::{EndShear, factors};
 use super::end_twist::{EndTwist, end_twists};
 use crate::{BendingElement, RodLayout};
 use actin_mechanics::{State, Vector3};
 
-/// A bending element that joins the end of a rod to something else, in the rod's direction.
+/// Bending element between the end of a rod and another part, in the direction of the rod.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct JoinedElement {
-    /// The frames that it joins: at the rod's start the second, at its end the first is that of
-    /// the rod's end segment.
+    /// Frames of the element. The rod's end segment has the second frame at the start, the first at
+    /// the end.
     pub frames: [usize; 2],
-    /// The element.
+    /// Bending element.
     pub element: BendingElement,
-    /// Curvature at rest (rad/nm) that it lacks of the rod's: zero of what is bent at rest as the rod is.
+    /// Rest curvature of the rod minus that of the element (rad/nm).
     pub lacking: Vector3,
 }
 
-/// Which bending elements stand around each segment of a rod, and with what shares its curvature
-/// is their mean.
+/// Quadrature of the mean curvature around each segment of a rod.
 ///
-/// Each side of a segment has half; a side on which several elements stand (the bonds of a
-/// junction) shares its half among them. Where one side has none (a free end), the other has all:
-/// a quadrature that counts the missing side as straight would halve the twist of a uniformly
-/// twisted rod at its ends.
+/// Each side of a segment has a weight of 1/2, divided among the elements there. At a free end the
+/// other side has the whole weight.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SegmentCurvature {
-    /// Where the elements around each segment begin, and where those of the last one end.
+    /// Index of the first element around each segment, and the total number.
     offsets: Vec<usize>,
-    around: Vec<Around>,
-    /// Share of each segment's length that elements stand for: half for each side that has any.
+    around: Vec<AdjacentElement>,
+    /// Share of each segment's length covered by elements: one half per side.
     covered: Vec<f64>,
-    /// Factor of each segment's shear.
     shear: Vec<f64>,
-    /// Bending elements near blocked ends.
     end_twists: Vec<EndTwist>,
 }
 
-/// One of the elements around a segment.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Around {
+pub(crate) struct AdjacentElement {
     pub(crate) frames: [usize; 2],
     pub(crate) element: BendingElement,
     lacking: Vector3,
-    /// Its part of the mean; those around a segment sum to 1.
+    /// Weight in the mean; the weights of a segment sum to 1.
     pub(crate) share: f64,
 }
 
 impl SegmentCurvature {
-    /// The means of a rod that the elements `start` and `end` join to its surroundings.
+    /// Creates the means of a rod with the elements `start` and `end` joined to its ends.
     ///
     /// ```
     /// use actin_cosserat::{SegmentCurvature, StraightRod};
@@ -57,7 +51,7 @@ impl SegmentCurvature {
     /// let layout = StraightRod::uniform(2, 10.0).push(&mut state)?;
     /// state.frames.orientation.set(1, rotation::exp(Vector3::z() * 0.2));
     /// let curvature = SegmentCurvature::new(&layout, &[], &[]);
-    /// // Both segments of a free pair have the twist of the one element between them.
+    /// // Both segments of a free pair have the twist of the element between them.
     /// assert!((curvature.mean(0, &state).z - 0.02).abs() < 1e-15);
     /// assert!((curvature.mean(1, &state).z - 0.02).abs() < 1e-15);
     /// # Ok::<(), actin_cosserat::RodError>(())
@@ -65,7 +59,6 @@ impl SegmentCurvature {
     pub fn new(layout: &RodLayout, start: &[JoinedElement], end: &[JoinedElement]) -> Self {
         let segments = layout.segments();
         let first = layout.bending_chain().start;
-        // The rod's own element that joins `frame` to the next.
         let own = |frame: usize| {
             let k = frame.checked_sub(first)?;
             let &rest_distance = layout.voronoi_lengths().get(k)?;
@@ -92,8 +85,9 @@ impl SegmentCurvature {
         curvature
     }
 
-    /// The same where the start and the end of the rod `layout` change the shear and the twist beside them. The ends are
-    /// those of the rod or, `beyond_nm` its own, of rods that continue it. Meant for a potential.
+    /// Sets the effect of both ends on shear and twist near them, for potentials.
+    ///
+    /// `beyond_nm` are the distances from the ends of `layout` to the ends of the whole rod.
     #[must_use]
     pub fn with_ends(self, layout: &RodLayout, ends: [EndShear; 2], beyond_nm: [f64; 2]) -> Self {
         Self {
@@ -103,23 +97,20 @@ impl SegmentCurvature {
         }
     }
 
-    /// Bending elements near blocked ends.
     pub(crate) fn end_twists(&self) -> &[EndTwist] {
         &self.end_twists
     }
 
-    /// What the element between these frames has of that.
     pub(crate) fn end_twist(&self, frames: [usize; 2]) -> Option<&EndTwist> {
         self.end_twists.iter().find(|end| end.joins(frames))
     }
 
-    /// Factor by which `segment` counts its strains across: 1 but near ends.
+    /// Factor of the shear strain of `segment`: 1 except near ends.
     #[inline]
     pub fn shear_factor(&self, segment: usize) -> f64 {
         self.shear[segment]
     }
 
-    /// Appends a segment with what stands on its two sides: an element of the rod, and others.
     fn push_segment(&mut self, sides: [(Option<JoinedElement>, &[JoinedElement]); 2]) {
         let count = |(own, joined): &(Option<_>, &[_])| usize::from(own.is_some()) + joined.len();
         let present = sides.iter().filter(|side| count(side) > 0).count();
@@ -127,7 +118,7 @@ impl SegmentCurvature {
             let share = ((present * count(&side)) as f64).recip();
             let (own, joined) = side;
             let elements = own.into_iter().chain(joined.iter().copied());
-            self.around.extend(elements.map(|joined| Around {
+            self.around.extend(elements.map(|joined| AdjacentElement {
                 frames: joined.frames,
                 element: joined.element,
                 lacking: joined.lacking,
@@ -138,23 +129,21 @@ impl SegmentCurvature {
         self.covered.push(0.5 * present as f64);
     }
 
-    /// Share of the length of `segment` that the elements around it stand for.
     #[inline]
     pub(crate) fn covered(&self, segment: usize) -> f64 {
         self.covered[segment]
     }
 
-    /// The elements around `segment`.
     #[inline]
-    pub(crate) fn around(&self, segment: usize) -> &[Around] {
+    pub(crate) fn around(&self, segment: usize) -> &[AdjacentElement] {
         &self.around[self.offsets[segment]..self.offsets[segment + 1]]
     }
 
-    /// Mean curvature around `segment` (rad/nm, body axes); zero where nothing bends.
+    /// Mean curvature around `segment` (rad/nm, body axes), or zero without elements.
     #[inline]
     pub fn mean(&self, segment: usize, state: &State) -> Vector3 {
         let q = &state.frames.orientation;
-        let curvature = |a: &Around| {
+        let curvature = |a: &AdjacentElement| {
             let [first, second] = a.frames.map(|frame| q.get(frame));
             a.share * (a.element.curvature(first, second) + a.lacking)
         };
@@ -197,8 +186,7 @@ mod tests {
         assert_eq!(shares(&curvature, 2), last);
     }
 
-    /// Each segment looks at its neighbours alone: a look at all elements for each of a million
-    /// segments would take hours.
+    /// Linear cost: a search over all elements for each segment would take hours.
     #[test]
     fn a_million_segments_have_two_neighbours_each() {
         let n = 1_000_000;
@@ -213,7 +201,7 @@ mod tests {
     }
 
     #[test]
-    fn free_ends_take_their_only_neighbour_and_a_lone_segment_has_none() {
+    fn free_ends_use_their_only_neighbour() {
         let mut state = State::default();
         let layout = StraightRod::uniform(3, 10.0).push(&mut state).unwrap();
         let curvature = SegmentCurvature::new(&layout, &[], &[]);

@@ -1,31 +1,33 @@
-//! How much less, or more, segments shear near the ends of a rod.
+//! Change of shear near the ends of a rod.
 
-/// What an end of a rod lets its sections do.
+/// Effect of an end of a rod on shear and twist.
 ///
-/// A filament shears as its strands slide along each other, which neighbouring sections share. Sections that
-/// cannot slide hold back those beside them, and sections that miss neighbours give way: over
-/// [`END_SHEAR_NM`], under the tension and the shear that were measured.
+/// A filament shears by sliding of its strands, which neighbouring sections share over
+/// [`END_SHEAR_NM`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum EndShear {
-    /// A section that is held: [`END_SHEAR_NM`] of shear are missing, and [`END_TWIST_NM`](super::END_TWIST_NM) of twist
-    /// added.
+    /// Held section: removes [`END_SHEAR_NM`] of shear and adds
+    /// [`END_TWIST_NM`](super::END_TWIST_NM) of twist.
     Blocked,
-    /// Nothing changes.
+    /// No effect.
     #[default]
     Even,
-    /// A free or pinned end, or a neighbour that blocks shear on its own side: as much is added.
+    /// Free or pinned end, or a neighbour that blocks shear on its side: adds [`END_SHEAR_NM`] of
+    /// shear.
     Loose,
 }
 
-/// Length over which an end changes shear (nm): two rises of actin, the length of a bond along a strand.
+/// Length over which an end changes shear (nm): two rises of actin, the length of a bond along a
+/// strand.
 ///
 /// # Source
-/// Guided beams of 19 to 192 nm of the mean filament, over azimuths, under 0.01 pN across: 5.5, 5.6, 5.5, 5.4, 5.1,
-/// 4.6 nm under 1, 2, 5, 10, 20, 40 pN of tension (`docs/homogenisation.md`).
+/// Guided beams of the mean filament of 19 to 192 nm under a transverse force of 0.01 pN, averaged
+/// over azimuths: 5.5, 5.6, 5.5, 5.4, 5.1, 4.6 nm for tensions of 1, 2, 5, 10, 20, 40 pN
+/// (`docs/homogenisation.md`).
 pub const END_SHEAR_NM: f64 = 5.477;
 
 impl EndShear {
-    /// The part of the compliance of shear that is added right at the end.
+    /// Relative change of the shear compliance at the end.
     fn sign(self) -> f64 {
         match self {
             Self::Blocked => -1.0,
@@ -35,13 +37,16 @@ impl EndShear {
     }
 }
 
-/// By which factors segments count their shear.
+/// Factors of the shear strain of segments.
 ///
-/// The compliance of shear is `c(s) = (1 + a exp(-s/l)) (1 + b exp(-(L - s)/l))` times that far from ends, with `a` and
-/// `b` -1 at blocked ends, 0 at even and 1 at loose ones, `l` [`END_SHEAR_NM`] and `L` the rod's length: `l` are missing, or
-/// added, at each end. A segment takes the mean of `c` over its length, so that small shear does not depend on how a rod is
-/// divided, and has the energy at `gamma / sqrt(c)`. The ends are those of the rod or, `beyond` (nm) its own, of rods that
-/// it is continued by.
+/// ```text
+/// c(s) = (1 + a exp(-s/l)) (1 + b exp(-(L - s)/l))
+/// ```
+///
+/// `c` is the relative shear compliance, `l` is [`END_SHEAR_NM`] and `L` the length. `a` and `b`
+/// are -1 at blocked, 0 at even and 1 at loose ends. The factor is `1 / sqrt(c)` with the mean of
+/// `c` over the segment, so small shear does not depend on the mesh. `beyond` (nm) are the
+/// distances to the ends of the whole rod.
 pub(super) fn factors(lengths: &[f64], ends: [EndShear; 2], beyond: [f64; 2]) -> Vec<f64> {
     let [a, b] = ends.map(EndShear::sign);
     let l = END_SHEAR_NM;
@@ -63,8 +68,6 @@ pub(super) fn factors(lengths: &[f64], ends: [EndShear; 2], beyond: [f64; 2]) ->
 mod tests {
     use super::*;
 
-    /// Compliances in series: between blocked ends twice the length is missing, whatever the segments, beside a loose end
-    /// as much is added as is missing at the other; the rest is 1 to the corrections of a finite length.
     #[test]
     fn lengths_are_missing_and_added() {
         use EndShear::{Blocked, Even, Loose};
@@ -91,9 +94,8 @@ mod tests {
         assert!(short > 0.0);
     }
 
-    /// A rod in parts is one rod: what an end does goes on in the next part.
     #[test]
-    fn ends_reach_beyond_a_part() {
+    fn ends_affect_adjacent_parts() {
         use EndShear::{Blocked, Loose};
         let lengths = [2.0, 3.0, 4.0, 6.0];
         let whole = factors(&lengths, [Blocked, Loose], [0.0; 2]);

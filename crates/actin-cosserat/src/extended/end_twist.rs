@@ -1,52 +1,52 @@
-//! How much more a rod twists near a wall.
+//! Change of twist near a blocked end.
 
 use super::end_shear::{END_SHEAR_NM, EndShear};
 use crate::bending::BendingLoads;
 use crate::{BendingElement, RodEnd, RodLayout, RodMaterial};
 use actin_mechanics::{Loads, Matrix3, State, Stiffness, Vector3, rotation};
 
-/// Length of filament by which twist is more beside a blocked end (nm).
+/// Additional length for twist at a blocked end (nm).
 ///
-/// A bond along a strand joins a monomer to the second next, and is turned by the twist of both gaps between them. Of those
-/// that end in the two monomers that a wall holds one is turned by a single gap, and resists less. Were strands all
-/// that resists twist, half a rise (1.4 nm) would be added.
+/// A bond along a strand joins second neighbours and is rotated by both gaps between them. One bond
+/// at a wall has a single gap and resists less. If strands alone resisted twist, the length would
+/// be half a rise (1.4 nm).
 ///
 /// # Source
-/// With what is firm there, the mean filament between walls 25 to 151 nm apart, turned by 10, 40 and 120 deg per 74 nm to either side
-/// (`cargo xtask load-cases --ends`): couples are met within 5 % from 41 nm on, without either they are 10 % too large at
-/// 120 deg and 75 % too small at 10 deg, where 25 nm apart.
+/// Mean filament between walls 25 to 151 nm apart, twisted by 10 to 120 deg per 74 nm in both
+/// directions (`cargo xtask load-cases --ends`): torques agree within 5 % for 41 nm or more.
 pub const END_TWIST_NM: f64 = 0.9;
 
-/// What resists twist beside a blocked end however little it is (pN nm^3), and from which twist on (rad/nm) its couple
-/// hardly grows.
+/// Additional twist rigidity at a blocked end (pN nm^3), and twist (rad/nm) above which its torque
+/// saturates.
 ///
-/// Far from ends a filament twists at rest with hardly any stretch of its bonds, as its monomers rearrange. Those at a wall
-/// cannot.
+/// In the interior, monomers rearrange under small twist; monomers at a wall cannot.
 const FIRM: f64 = 22_000.0;
 const FIRM_TWIST: f64 = 1.5e-3;
 
-/// Where both fade out, as a line does: two bonds along a strand from the end (nm).
+/// Distance over which both corrections decay linearly: two bonds along a strand (nm).
 const REACH_NM: f64 = 2.0 * END_SHEAR_NM;
 
-/// A bending element near a blocked end, whose twist is that of more length than its bending.
+/// Bending element near a blocked end, with additional length for twist.
 ///
-/// With `U` the energy of twist alone, `k` its twist beyond that at rest, `l` its rest distance and `a` the length added, it
-/// stores `(l + a) U(k l / (l + a))` in place of `l U(k)`. The mean curvature around its segments takes all of `k`: the added
-/// length shortens as it twists, as the rest does. With `f` its share of [`FIRM`] and `c` for [`FIRM_TWIST`] it stores
-/// `f c^2 (sqrt(1 + (k / c)^2) - 1)` beside that.
+/// ```text
+/// E = (l + a) U(k l / (l + a)) + f c^2 (sqrt(1 + (k / c)^2) - 1)
+/// ```
+///
+/// The first term replaces `l U(k)`. `U` is the twist energy per length, `k` the twist relative to
+/// rest, `l` the rest distance and `a` the additional length. `f` is the element's share of
+/// [`FIRM`], `c` is [`FIRM_TWIST`]. The mean curvature of adjacent segments includes all of `k`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct EndTwist {
-    /// Its number among the rod's bending elements.
     pub(crate) element: usize,
-    /// The frames that it joins.
     frames: [usize; 2],
-    /// Its rest distance (nm).
+    /// Rest distance (nm).
     rest_distance: f64,
-    /// The length added (nm).
+    /// Additional length (nm).
     added: f64,
 }
 
-/// The bending elements of a rod near its blocked ends; these are its own or, `beyond` (nm), of rods that continue it.
+/// Bending elements near blocked ends. `beyond` (nm) are the distances to the ends of the whole
+/// rod.
 pub(super) fn end_twists(
     layout: &RodLayout,
     ends: [EndShear; 2],
@@ -54,7 +54,7 @@ pub(super) fn end_twists(
 ) -> Vec<EndTwist> {
     let [at_start, at_end] = ends.map(|end| f64::from(u8::from(end == EndShear::Blocked)));
     let length = layout.length();
-    // The first element stands for all from a wall, or from the middle of the first segment.
+    // The first element starts at the wall, or at the middle of the first segment.
     let mut from = match layout.wall(RodEnd::Start) {
         Some(_) => 0.0,
         None => 0.5 * layout.end_length(RodEnd::Start),
@@ -75,7 +75,7 @@ pub(super) fn end_twists(
     all.filter(|one| one.added > 0.0).collect()
 }
 
-/// Length added between these distances from a blocked end (nm).
+/// Additional length between two distances from a blocked end (nm).
 fn added(from: f64, to: f64) -> f64 {
     let within = |s: f64| {
         let u = (s / REACH_NM).min(1.0);
@@ -85,12 +85,12 @@ fn added(from: f64, to: f64) -> f64 {
 }
 
 impl EndTwist {
-    /// The part of the twist `theta_3 / l` that it has.
     pub(crate) fn factor(&self) -> f64 {
         self.rest_distance / (self.rest_distance + self.added)
     }
 
-    /// What resists a twist (rad/nm) beyond that at rest however little it is: energy (pN nm) with two derivatives.
+    /// Energy (pN nm) of the second term with two derivatives, at a twist (rad/nm) relative to
+    /// rest.
     fn firm(&self, beyond: f64) -> [f64; 3] {
         let share = FIRM * self.added / END_TWIST_NM;
         let root = (beyond / FIRM_TWIST).hypot(1.0);
@@ -101,7 +101,6 @@ impl EndTwist {
         ]
     }
 
-    /// Whether it joins these frames.
     pub(crate) fn joins(&self, frames: [usize; 2]) -> bool {
         self.frames == frames
     }
@@ -111,12 +110,12 @@ impl EndTwist {
         rotation::log(a.inverse() * b)
     }
 
-    /// Its twist beyond that at rest (rad/nm).
+    /// Twist relative to rest (rad/nm).
     fn beyond(&self, material: &RodMaterial, turn: Vector3) -> f64 {
         turn.z / self.rest_distance - material.rest_curvature().z
     }
 
-    /// By how much more energy it has than as an element like others (pN nm).
+    /// Correction to the energy of a regular element (pN nm).
     pub(crate) fn energy(&self, material: &RodMaterial, state: &State) -> f64 {
         let beyond = self.beyond(material, self.turn(state));
         let energy = |twist| material.twist_energy_density(twist);
@@ -125,14 +124,14 @@ impl EndTwist {
         length * energy(beyond * self.factor()) - self.rest_distance * energy(beyond) + firm
     }
 
-    /// By how much more its couple is (pN nm) at a twist (rad/nm) beyond that at rest.
+    /// Correction to the torque of a regular element (pN nm).
     pub(crate) fn couple(&self, material: &RodMaterial, beyond: f64) -> f64 {
         let couple = |twist| material.twist_couple(twist);
         let [_, firm, _] = self.firm(beyond);
         couple(beyond * self.factor()) - couple(beyond) + firm / self.rest_distance
     }
 
-    /// The derivative of that (pN nm^2).
+    /// Derivative of the torque correction (pN nm^2).
     pub(crate) fn tangent(&self, material: &RodMaterial, beyond: f64) -> f64 {
         let tangent = |twist| material.twist_tangent(twist);
         let [.., firm] = self.firm(beyond);
@@ -140,7 +139,6 @@ impl EndTwist {
             + firm / self.rest_distance
     }
 
-    /// Adds by how much its loads are more than those of an element like others.
     pub(crate) fn add_loads(&self, material: &RodMaterial, state: &State, loads: &mut Loads) {
         let turn = self.turn(state);
         let couple = self.couple(material, self.beyond(material, turn));
@@ -150,7 +148,6 @@ impl EndTwist {
         loads.torque.add(b, bending.second);
     }
 
-    /// Pushes by how much its stiffness is more than that of an element like others.
     pub(crate) fn add_stiffness(
         &self,
         material: &RodMaterial,
@@ -178,7 +175,6 @@ mod tests {
     use actin_mechanics::Interaction;
     use actin_mechanics::testing::loads_of;
 
-    /// However a rod is divided, and where it is continued, a blocked end adds its length.
     #[test]
     fn blocked_ends_add_their_length() {
         let total = |lengths: &[f64], ends| -> f64 {
@@ -207,7 +203,8 @@ mod tests {
         assert!((behind[0].added - whole[5].added).abs() < 1e-15);
     }
 
-    /// A rod of 80 nm between walls, twisted evenly, the added lengths too, and free of force along.
+    /// Rod of 80 nm between walls with uniform twist, including the additional lengths, and zero
+    /// tension.
     fn twisted_between_walls(segments: usize, twist: f64) -> (State, EnergyGradient) {
         let mut state = State::default();
         let rod = StraightRod {
@@ -238,7 +235,6 @@ mod tests {
         (state, rod)
     }
 
-    /// The couple of twist alone is that of the law.
     #[test]
     fn couples_of_twist_alone_are_those_of_the_law() {
         for law in [
@@ -257,8 +253,6 @@ mod tests {
         }
     }
 
-    /// Between walls a rod twists as one that is longer by their added lengths, however it is divided, but for what is firm
-    /// there: its energy and couple are those.
     #[test]
     fn walls_add_length_that_twists() {
         let law = Homogenised::mean_filament();

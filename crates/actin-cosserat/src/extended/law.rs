@@ -1,35 +1,36 @@
-//! What couples the strain of a segment to the curvature around it.
+//! Coupling of a segment's strain to the curvature around it.
 
 use crate::law::Jet;
 use crate::material::Kind;
 use crate::{BendLaw, RodMaterial, Stiffening, StrainLaws, TwistStretch};
 use actin_mechanics::{Matrix3, Vector3};
 
-/// A segment's energy per rest length as a function of its strain and the mean curvature around
+/// Energy per rest length of a segment as a function of its strain and the mean curvature around
 /// it.
 ///
-/// `W(sigma, xi(kappa_3) - 1) + U(kappa, gamma) - U(kappa, 0)`, with `W` the material's energy of
-/// shear and of stretch beyond the natural extension `xi - 1`, `xi` the law of twist and stretch,
-/// and `U` that of bending where shear stiffens it. The nodes' own energy, without shear, stays
-/// with them. Of a potential it is `W(sigma, kappa) - U(kappa)`, `U` being
-/// [`Homogenised::joint_energy`](crate::Homogenised::joint_energy).
+/// ```text
+/// W(sigma, xi(kappa_3) - 1) + U(kappa, gamma) - U(kappa, 0)      (laws)
+/// W(sigma, kappa) - U(kappa)                                     (potential)
+/// ```
+///
+/// `W` is the energy of shear and of stretch beyond the natural extension `xi - 1`. `U` is the
+/// bending energy with stiffening by shear `gamma`; `U(kappa, 0)` belongs to the nodes. For a
+/// potential, `U` is [`Homogenised::joint_energy`](crate::Homogenised::joint_energy).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct SegmentLaw {
     twist_stretch: Option<TwistStretch>,
     stiffening: Option<Stiffening>,
 }
 
-/// The mean curvature around a segment.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct MeanCurvature {
-    /// The mean (rad/nm).
     pub(crate) kappa: Vector3,
-    /// Share of the segment's length that bending elements stand for, which have the energy of bending there.
+    /// Share of the segment's length covered by bending elements.
     pub(crate) covered: f64,
 }
 
 impl MeanCurvature {
-    /// Of a segment that has neighbours on both sides.
+    /// Mean for a segment with neighbours on both sides.
     pub(crate) const fn inside(kappa: Vector3) -> Self {
         Self {
             kappa,
@@ -37,7 +38,6 @@ impl MeanCurvature {
         }
     }
 
-    /// The curvature that the laws of a material see.
     #[inline]
     fn beyond_rest_of(self, material: &RodMaterial) -> Self {
         Self {
@@ -47,12 +47,11 @@ impl MeanCurvature {
     }
 }
 
-/// First and second derivatives of the energy per length.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct SegmentJet {
-    /// By the strain: force (pN).
+    /// Derivative with respect to strain (pN).
     pub(crate) force: Vector3,
-    /// By the mean curvature: couple (pN nm).
+    /// Derivative with respect to curvature (pN nm).
     pub(crate) couple: Vector3,
     pub(crate) by_strain: Matrix3,
     /// Rows belong to the strain.
@@ -61,7 +60,7 @@ pub(crate) struct SegmentJet {
 }
 
 impl SegmentJet {
-    /// By the strain whose components times `factors` are those of the law.
+    /// Transforms to a strain whose components times `factors` are the argument of the law.
     pub(super) fn of_scaled(self, factors: Vector3) -> Self {
         Self {
             force: self.force.component_mul(&factors),
@@ -77,8 +76,8 @@ impl SegmentJet {
 }
 
 impl SegmentLaw {
-    /// What a material and a law of twist and stretch need; `None` where nothing couples. A potential
-    /// has its own length, and no use for `twist_stretch`.
+    /// Returns the coupling of a material with a law of twist and stretch, or `None` without
+    /// coupling. A potential ignores `twist_stretch`.
     pub fn of(material: &RodMaterial, twist_stretch: Option<TwistStretch>) -> Option<Self> {
         let Some(laws) = material.laws() else {
             return Some(Self::default());
@@ -93,17 +92,16 @@ impl SegmentLaw {
         })
     }
 
-    /// The law of twist and stretch.
+    /// Law of twist and stretch.
     pub fn twist_stretch(&self) -> Option<&TwistStretch> {
         self.twist_stretch.as_ref()
     }
 
-    /// Where shear stiffens bending, the law of that.
     pub(crate) fn stiffening(&self) -> Option<&Stiffening> {
         self.stiffening.as_ref()
     }
 
-    /// Second derivatives by the curvature of what shear adds to the energy of bending (pN nm^2).
+    /// Second derivatives with respect to curvature of the energy of stiffening by shear (pN nm^2).
     pub(super) fn shear_by_curvature(&self, sigma: Vector3, kappa: Vector3) -> Matrix3 {
         let added = (self.stiffening.as_ref()).map(|law| Stiffened::new(law, sigma, kappa));
         added.map_or_else(Matrix3::zeros, |stiffened| stiffened.by_curvature())
@@ -115,7 +113,7 @@ impl SegmentLaw {
         self.twist_stretch.map_or([0.0; 3], |law| law.jet(k3))
     }
 
-    /// Force (pN) and couple (pN nm) at strain `sigma` and mean curvature `kappa`.
+    /// Force (pN) and torque (pN nm) at strain `sigma` and mean curvature.
     #[inline]
     pub(crate) fn loads(
         &self,
@@ -150,8 +148,8 @@ impl SegmentLaw {
         (force, couple)
     }
 
-    /// Energy per rest length (pN) of a rod that is strained by `sigma` and curved by `kappa` (rad/nm) throughout, body
-    /// axes: that of segments and of nodes.
+    /// Energy per rest length (pN) of a rod with uniform strain `sigma` and curvature `kappa`
+    /// (rad/nm, body axes).
     ///
     /// ```
     /// use actin_cosserat::{Rigidities, RodMaterial, SegmentLaw};
@@ -168,7 +166,6 @@ impl SegmentLaw {
         of_segments + material.bending_energy_density(kappa)
     }
 
-    /// Energy per length (pN).
     pub(crate) fn energy(
         &self,
         material: &RodMaterial,
@@ -187,7 +184,6 @@ impl SegmentLaw {
         own + added.map_or(0.0, |stiffened| stiffened.added.value)
     }
 
-    /// First and second derivatives.
     pub(crate) fn jet(
         &self,
         material: &RodMaterial,
@@ -226,14 +222,15 @@ impl SegmentLaw {
     }
 }
 
-/// What shear adds to the energy of bending, as a function of `p = k1^2 + k2^2`,
-/// `t = k3^2/twist^2` and `g = gamma^2/shear^2`: `f(p, t + g) - f(p, t)`.
+/// Energy of stiffening by shear: `f(p, t + g) - f(p, t)`.
+///
+/// `p = k1^2 + k2^2`, `t = k3^2/twist^2` and `g = gamma^2/shear^2`.
 struct Stiffened {
-    /// At `t + g`.
+    /// Derivatives at `t + g`.
     with: Jet,
-    /// With shear less without.
+    /// Derivatives at `t + g` minus those at `t`.
     added: Jet,
-    /// Gradients of `p`, of `t` (by the curvature) and of `g` (by the strain).
+    /// Gradients of `p` and `t` with respect to curvature, and of `g` with respect to strain.
     of_p: Vector3,
     of_t: Vector3,
     of_g: Vector3,

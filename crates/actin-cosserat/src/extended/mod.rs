@@ -1,10 +1,9 @@
-//! Rods whose strain knows of their curvature.
+//! Rods whose strain energy depends on their curvature.
 //!
-//! The strain of a segment is its own, the curvature belongs to the nodes: what couples the two
-//! takes the mean curvature of the bending elements around a segment, those of walls and
-//! junctions included. `curvature.rs` finds these, `end_shear.rs` and `end_twist.rs` say how much of a
-//! strain counts near ends, `law.rs` what couples, `segments.rs` makes loads and stiffness of it, and
-//! `twist_stability.rs` says under which forces twist is stable.
+//! The coupling uses the mean curvature of the bending elements around a segment, including walls
+//! and junctions (`curvature.rs`). `end_shear.rs` and `end_twist.rs` correct strains near ends,
+//! `law.rs` has the energy, `segments.rs` loads and stiffness, `twist_stability.rs` the stability
+//! under axial force.
 
 mod curvature;
 mod end_shear;
@@ -19,5 +18,5 @@ pub use end_twist::END_TWIST_NM;
 pub(crate) use end_twist::EndTwist;
 pub use law::SegmentLaw;
 pub(crate) use law::{MeanCurvature, SegmentJet};
-pub(crate) use segments::{ExtendedSegments, SegmentAround};
+pub(crate) use segments::{ExtendedSegments, SegmentSurroundings};
 pub use twist_stability::TwistStability;

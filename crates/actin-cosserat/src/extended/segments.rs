@@ -1,6 +1,6 @@
-//! Energies, loads and stiffness of segments that the curvature around them reaches.
+//! Energies, loads and stiffness of segments with coupling to curvature.
 
-use super::curvature::Around;
+use super::curvature::AdjacentElement;
 use super::law::{MeanCurvature, SegmentJet};
 use super::{EndTwist, SegmentCurvature, SegmentLaw};
 use crate::bending::BendingLoads;
@@ -10,14 +10,13 @@ use actin_mechanics::{
     Coordinates, Loads, Matrix3, State, Stiffness, UnitQuaternion, Vector3, rotation,
 };
 
-/// The segments of an extended rod; they stand in for its shear elements.
+/// Segments of an extended rod, in place of its shear elements.
 #[derive(Clone, Debug)]
 pub(crate) struct ExtendedSegments {
     pub(crate) law: SegmentLaw,
     pub(crate) curvature: SegmentCurvature,
 }
 
-/// A segment as it is: its element, bodies and what they say.
 struct Segment<'a> {
     element: ShearElement,
     points: [usize; 2],
@@ -25,40 +24,36 @@ struct Segment<'a> {
     q: UnitQuaternion,
     l: Vector3,
     curvature: MeanCurvature,
-    around: &'a [Around],
-    /// Factors of the strains.
+    around: &'a [AdjacentElement],
     factors: Vector3,
 }
 
 impl Segment<'_> {
-    /// The strain that the law sees.
     fn strain(&self) -> Vector3 {
         let strain = self.element.strain(self.q, self.l);
         strain.component_mul(&self.factors)
     }
 
-    /// Couple per length of a bending element that stands for the `couple` (pN nm) of the mean.
-    fn couple_on(&self, around: &Around, couple: Vector3) -> Vector3 {
+    /// Torque per length of a bending element for the torque `couple` (pN nm) of the mean.
+    fn couple_on(&self, around: &AdjacentElement, couple: Vector3) -> Vector3 {
         self.element.rest_length * around.share / around.element.rest_distance * couple
     }
 }
 
-/// What is around a segment.
-pub(crate) struct SegmentAround {
-    /// Its rest length (nm).
+pub(crate) struct SegmentSurroundings {
+    /// Rest length (nm).
     pub(crate) length: f64,
-    /// The mean curvature (rad/nm).
+    /// Mean curvature (rad/nm).
     pub(crate) curvature: Vector3,
-    /// Share of its length that bending elements stand for.
+    /// Share of the length covered by bending elements.
     pub(crate) covered: f64,
-    /// Whether there are elements on both sides.
     pub(crate) has_two_sides: bool,
-    /// Near blocked ends, the elements there with their shares in the mean.
+    /// Elements near blocked ends with their weights in the mean.
     ends: Vec<(EndTwist, f64)>,
 }
 
-impl SegmentAround {
-    /// Couple (pN nm) and tangent (pN nm^2) of bending at the mean curvature, as the elements around have them on average.
+impl SegmentSurroundings {
+    /// Mean bending torque (pN nm) and tangent (pN nm^2) of the surrounding elements.
     pub(crate) fn bending(&self, material: &RodMaterial) -> (Vector3, Matrix3) {
         let beyond = self.curvature.z - material.rest_curvature().z;
         let mut couple = material.bending_couple(self.curvature);
@@ -71,46 +66,43 @@ impl SegmentAround {
     }
 }
 
-/// A bending element beside a segment.
-pub(crate) struct Beside {
-    /// 0 before the segment, 1 behind it.
+pub(crate) struct SideElement {
+    /// 0 before the segment, 1 after it.
     pub(crate) side: usize,
     pub(crate) frames: [usize; 2],
-    /// What a couple of the mean curvature, per length of the segment, is on the element's frames (nm/nm).
+    /// Weight of the torque of the mean curvature on the element's frames, per length of the
+    /// segment.
     pub(crate) weight: f64,
 }
 
 impl ExtendedSegments {
-    /// Factors of the strains of segment `k`.
     pub(crate) fn factors(&self, k: usize) -> Vector3 {
         let across = self.curvature.shear_factor(k);
         Vector3::new(across, across, 1.0)
     }
 
-    /// The bending elements around segment `k`.
-    pub(crate) fn around(&self, k: usize, layout: &RodLayout) -> impl Iterator<Item = Beside> {
+    pub(crate) fn around(&self, k: usize, layout: &RodLayout) -> impl Iterator<Item = SideElement> {
         let frame = layout.frames().start + k;
         let length = layout.segment_lengths()[k];
         let around = self.curvature.around(k).iter();
-        around.map(move |around| Beside {
+        around.map(move |around| SideElement {
             side: usize::from(around.frames[0] == frame),
             frames: around.frames,
             weight: length * around.share / around.element.rest_distance,
         })
     }
 
-    /// The derivatives of the energy of segment `k`, and where they were taken.
     pub(crate) fn jet(
         &self,
         (layout, material): (&RodLayout, &RodMaterial),
         k: usize,
         state: &State,
-    ) -> (SegmentJet, SegmentAround) {
+    ) -> (SegmentJet, SegmentSurroundings) {
         let segment = self.segment(k, layout, state);
         let jet = self.law.jet(material, segment.strain(), segment.curvature);
         let mut sides = self.around(k, layout).map(|beside| beside.side);
         let first = sides.next();
-        let around = SegmentAround {
+        let around = SegmentSurroundings {
             length: segment.element.rest_length,
             curvature: segment.curvature.kappa,
             covered: segment.curvature.covered,
@@ -202,7 +194,7 @@ impl ExtendedSegments {
     }
 }
 
-/// A body's coordinates with the derivative of some three numbers with respect to them.
+/// Coordinates of a body, and a derivative with respect to them.
 type Slope = (Coordinates, Matrix3);
 
 /// Derivatives of the strain (1/nm and 1).
@@ -219,7 +211,7 @@ fn strain_slopes(segment: &Segment) -> [Slope; 3] {
 }
 
 /// Derivatives of one element's part of the mean curvature (1/nm).
-fn curvature_slopes(around: &Around, state: &State) -> [Slope; 2] {
+fn curvature_slopes(around: &AdjacentElement, state: &State) -> [Slope; 2] {
     let [a, b] = around
         .frames
         .map(|frame| state.frames.orientation.get(frame));
@@ -230,8 +222,6 @@ fn curvature_slopes(around: &Around, state: &State) -> [Slope; 2] {
     })
 }
 
-/// Pushes all that involves the curvature: its own second derivatives at the couple of the mean,
-/// and the products of first derivatives.
 fn push_curvature(segment: &Segment, jet: &SegmentJet, state: &State, stiffness: &mut Stiffness) {
     let length = segment.element.rest_length;
     let q = &state.frames.orientation;
@@ -253,7 +243,7 @@ fn push_curvature(segment: &Segment, jet: &SegmentJet, state: &State, stiffness:
     }
 }
 
-/// Pushes `a^T M b` for every body of either, and its transpose where both are the same body.
+/// Adds `a^T M b` for all pairs of bodies, and its transpose on the diagonal.
 fn push_product(a: &[Slope], m: Matrix3, b: &[Slope], stiffness: &mut Stiffness) {
     for (first, left) in a {
         for (second, right) in b {

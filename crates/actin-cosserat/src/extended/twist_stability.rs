@@ -1,47 +1,45 @@
-//! Under which forces along a rod its twist is stable.
+//! Stability of twist under axial force.
 
 use super::SegmentLaw;
 use crate::material::Kind;
 use crate::{RodMaterial, StrainLaws};
 use actin_mechanics::Vector3;
 
-/// How stable the twist of a segment is under the force along it.
+/// Stability of a segment's twist under axial force.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TwistStability {
-    /// Force `N` along the segment (pN), negative in compression.
+    /// Axial force `N` (pN), negative in compression.
     pub tension: f64,
-    /// Derivative of the couple about d3 by the twist at constant `N`, bending and shear (pN nm^2).
-    /// Twist is unstable where it is not positive.
+    /// Derivative of the torque about d3 with respect to twist at constant `N`, bending and shear
+    /// (pN nm^2). Twist is unstable if it is not positive.
     pub tangent: f64,
 }
 
 impl TwistStability {
-    /// Whether twist is stable: its tangent is positive.
+    /// Returns `true` if the tangent is positive.
     pub fn is_stable(&self) -> bool {
         self.tangent > 0.0
     }
 }
 
-/// Under a force `N` along the rod the couple about d3 is `M = dU/dkappa_3 - N xi'(kappa_3)`, with
-/// `U` the energy of bending and twist per length and `xi` the law of natural length against
-/// twist. Twist is stable where `M` rises with it at constant `N`:
+/// Stability of twist under an axial force `N`.
 ///
-/// `d2U/dkappa_3^2 - N xi''(kappa_3) > 0`.
+/// ```text
+/// M = dU/dkappa_3 - N xi'(kappa_3)
+/// stable:  d2U/dkappa_3^2 - N xi''(kappa_3) > 0
+/// ```
 ///
-/// Length follows the twist at no cost while `N` is constant, so a change of twist that is zero on
-/// average needs no work of the ends: where the condition fails, twist grows at once in as many
-/// places as the mesh resolves. It is the Legendre-Hadamard condition of the energy per length in
-/// twist and stretch.
+/// `M` is the torque about d3, `U` the energy of bending and twist per length, and `xi` the natural
+/// length. The Legendre-Hadamard condition of the energy in twist and stretch is equivalent. If it
+/// fails, short-wave perturbations of the twist grow without work at the ends.
 impl SegmentLaw {
-    /// Force (pN, negative in compression) at which twist becomes unstable at strain `sigma` and
-    /// mean curvature `kappa`: `d2U/dkappa_3^2 / xi''(kappa_3)`.
+    /// Axial force (pN, negative in compression) at which twist becomes unstable:
+    /// `d2U/dkappa_3^2 / xi''(kappa_3)`.
     ///
-    /// Where `xi'' < 0`, as in the published and the fitted law near rest, twist is unstable in
-    /// every stronger compression; where `xi'' > 0`, under every larger tension. `None` where
-    /// `xi''` is zero: no force changes the tangent of twist (beyond the law's range, too).
-    ///
-    /// Of a potential it is the force nearest to none at which the tangent vanishes, if there is one at a
-    /// stretch of up to 0.02 from the natural length.
+    /// For `xi'' < 0`, as in the published and fitted laws near rest, twist is unstable in stronger
+    /// compression; for `xi'' > 0`, under larger tension. Returns `None` if `xi'' = 0`. For a
+    /// potential, this is the smallest force at which the tangent vanishes within a stretch of
+    /// 0.02.
     ///
     /// ```
     /// use actin_cosserat::{Rigidities, RodMaterial, SegmentLaw, TanhTwist, TwistLaw, TwistStretch};
@@ -70,9 +68,10 @@ impl SegmentLaw {
         (second != 0.0).then(|| self.free_tangent(laws, sigma, kappa) / second)
     }
 
-    /// Compression (pN) beyond which twist is unstable at strain `sigma` and mean curvature
-    /// `kappa`: [`critical_tension`](Self::critical_tension) where that is a compression, zero
-    /// where twist is unstable without any force; `None` where compression does not soften twist.
+    /// Compression (pN) above which twist is unstable at strain `sigma` and mean curvature `kappa`.
+    ///
+    /// Returns zero if twist is unstable without force, and `None` if compression does not soften
+    /// twist.
     pub fn critical_compression(
         &self,
         material: &RodMaterial,
@@ -88,9 +87,10 @@ impl SegmentLaw {
         (second < 0.0).then(|| (-tension).max(0.0))
     }
 
-    /// The force along a segment at strain `sigma` and mean curvature `kappa`, and what it does to
-    /// the stability of twist. Of the force at which that is lost [`critical_tension`](Self::critical_tension)
-    /// knows, which takes as long as hundreds of these under a potential.
+    /// Axial force and tangent of twist at strain `sigma` and mean curvature `kappa`.
+    ///
+    /// For a potential, [`critical_tension`](Self::critical_tension) costs several hundred times
+    /// more.
     pub fn twist_stability(
         &self,
         material: &RodMaterial,
@@ -126,7 +126,7 @@ impl SegmentLaw {
         ]
     }
 
-    /// Tangent of twist without a force along the rod (pN nm^2).
+    /// Tangent of twist without axial force (pN nm^2).
     fn free_tangent(&self, material: &StrainLaws, sigma: Vector3, kappa: Vector3) -> f64 {
         let tangent = material.bending_tangent(kappa) + self.shear_by_curvature(sigma, kappa);
         tangent[(2, 2)]
@@ -144,7 +144,6 @@ mod tests {
     use actin_mechanics::Xorshift;
     use actin_mechanics::testing::derivative;
 
-    /// The published laws of twist and length.
     fn published() -> (RodMaterial, SegmentLaw) {
         let material = RodMaterial::new(Rigidities::table4())
             .and_then(|m| m.with_twist(TwistLaw::Tanh(TanhTwist::published())))
@@ -153,8 +152,7 @@ mod tests {
         (material, law.unwrap())
     }
 
-    /// A law of every kind that a rod can have at once, with shear and twist in its bending; where
-    /// `cubic`, it resists small shear by its tension alone.
+    /// All nonlinear laws at once. With `cubic`, the linear shear rigidity is zero.
     fn sided(cubic: bool) -> (RodMaterial, SegmentLaw) {
         let bend = Stiffening {
             rest: 3.2e4,
@@ -204,14 +202,13 @@ mod tests {
         range: 0.0472,
     };
 
-    /// The strain with this shear under the force `tension` (pN).
     fn strain_under(
         (material, law): &(RodMaterial, SegmentLaw),
         [shear_1, shear_2, tension]: [f64; 3],
         kappa: Vector3,
     ) -> Vector3 {
         let at = |sigma_3: f64| Vector3::new(shear_1, shear_2, sigma_3);
-        // The force rises with the strain: bisection to round-off.
+        // Bisection to round-off; the force is monotonic in the strain.
         let (mut low, mut high) = (-0.5, 0.5);
         for _ in 0..100 {
             let middle = 0.5 * (low + high);
@@ -225,9 +222,6 @@ mod tests {
         at(low)
     }
 
-    /// The tangent at any force, bent, sheared and twisted, and the force at which it vanishes. A
-    /// tangent at constant length would be 1e3 to 1e4 times as large; one without what shear and
-    /// bending add is off by up to half.
     #[test]
     fn tangent_is_the_slope_of_the_couple_at_constant_force() {
         let mut noise = Xorshift::new(21);
@@ -247,7 +241,7 @@ mod tests {
                 let critical = law.critical_tension(material, Vector3::new(g1, g2, 0.0), kappa);
                 let [.., second] = law.extension(twist);
                 let free = critical.unwrap() * second;
-                // Round-off of a couple of some 100 pN nm over steps of 1e-5 rad/nm.
+                // Round-off of a torque of about 100 pN nm over steps of 1e-5 rad/nm.
                 let slope = derivative(1e-5, |h| couple(tension, h));
                 let bound = 1e-6 * 1e4;
                 assert!((free - tension * second - slope).abs() < bound, "{kappa}");
@@ -259,7 +253,6 @@ mod tests {
         }
     }
 
-    /// What the present state says agrees with the bound, on both sides of it.
     #[test]
     fn a_state_is_unstable_beyond_its_bound() {
         for parts in [published(), sided(true)] {
@@ -279,8 +272,6 @@ mod tests {
         }
     }
 
-    /// Length that is linear in the twist, as that of the coupling energy and any beyond its
-    /// range, leaves twist as stable as it is.
     #[test]
     fn a_linear_law_of_length_has_no_bound() {
         let (material, law) = published();
@@ -294,9 +285,8 @@ mod tests {
         assert!(pressed.is_stable() && pressed.tension < -300.0);
     }
 
-    /// Where the natural length grows faster than the twist, tension is what softens twist.
     #[test]
-    fn tension_can_be_what_softens() {
+    fn tension_can_soften_twist() {
         let (material, law) = sided(true);
         let (rest, kappa) = (Vector3::zeros(), Vector3::z() * 0.04);
         let critical = law.critical_tension(&material, rest, kappa).unwrap();

@@ -1,4 +1,4 @@
-//! The loop of a law in which the curvature around a segment has to do with its strain.
+//! Vector kernel for laws that couple the strain of segments to curvature.
 #![allow(
     clippy::inline_always,
     reason = "vector code must be compiled into the function that enables the instructions"
@@ -17,7 +17,6 @@ use actin_mechanics::{State, rotation};
 use std::ops::Range;
 
 impl<L: Law> AddLoads<'_, L> {
-    /// Segments and the bending elements before them.
     #[inline(always)]
     pub(super) fn add_coupled<S: Simd>(&mut self, simd: S) {
         let (rod, layout, state) = (self.rod, self.layout, self.state);
@@ -35,7 +34,6 @@ impl<L: Law> AddLoads<'_, L> {
             torques = now.torque;
         }
         if chain.groups < force.groups() {
-            // The last node is alone in its group, without an element.
             let zero = [simd.splat_f64s(0.0); 3];
             let on_second = chain.reactions.next(simd, zero);
             force.add(simd, chain.groups, wide::sub(simd, zero, on_second));
@@ -50,34 +48,32 @@ impl<L: Law> AddLoads<'_, L> {
     }
 }
 
-/// What a group of bodies feels.
+/// Loads on a group of bodies.
 struct Group<S: Simd> {
-    /// Forces on its nodes (pN).
+    /// Forces on nodes (pN).
     force: Wide3<S>,
-    /// Torques on its frames (pN nm), but for those of the element after each.
+    /// Torques on frames (pN nm), without those of the following elements.
     torque: Wide3<S>,
-    /// Torques of the elements after the frames of the group before.
+    /// Torques of the elements after the frames of the preceding group.
     before: Wide3<S>,
 }
 
-/// What the loop reads, and what one group leaves to the next.
 struct Chain<'a, S: Simd, L> {
     law: L,
-    /// Groups with a segment or an element.
     groups: usize,
     nodes: [Columns<'a, S, 3>; 2],
     frames: [Columns<'a, S, 4>; 2],
     bodies: Columns<'a, S, 5>,
-    /// What elements before stand for, over their rest distance; factors of the shear of segments.
+    /// Coverage of preceding elements divided by rest distance, and shear factors of segments.
     of_ends: Columns<'a, S, 2>,
-    /// Angles from the next group's frames to those after, and their coefficients: they are found a
-    /// group ahead, because all else in a group waits for them.
+    /// Angles from the next group's frames to the following ones, with Jacobian coefficients. They
+    /// are computed one group ahead to hide their latency.
     ahead: [S::f64s; 4],
-    /// The same from the frames before.
+    /// Angles and coefficients from the preceding frames.
     angles: ShiftedUp<S, 4>,
     /// Forces on first nodes.
     reactions: ShiftedUp<S, 3>,
-    /// Couples on the elements after segments.
+    /// Torques on the elements after segments.
     couples: ShiftedUp<S, 3>,
     /// Torques on first frames.
     torques: ShiftedDown<S, 3>,
@@ -114,7 +110,6 @@ impl<'a, S: Simd, L: Law> Chain<'a, S, L> {
         chain
     }
 
-    /// The next group.
     #[inline(always)]
     fn next(&mut self, simd: S, group: usize, ends: &mut Ends) -> Group<S> {
         let ahead = self.angles_after(simd, group + 1);
@@ -128,7 +123,7 @@ impl<'a, S: Simd, L: Law> Chain<'a, S, L> {
             share_before,
             share_after,
         ] = self.bodies.get(simd, group);
-        // Of the elements before: nothing of the segments is in it, so that it need not wait for them.
+        // Computed first, because it does not depend on the segments.
         let [covers, shear] = self.of_ends(simd, group);
         let own = self.own(simd, covers, (before, inverse_distance));
         let segments = self.segments(simd, group, [length, inverse_length, shear]);
@@ -157,7 +152,6 @@ impl<'a, S: Simd, L: Law> Chain<'a, S, L> {
         }
     }
 
-    /// The segments of a group, with their lengths, their inverse and the factors of their shear.
     #[inline(always)]
     fn segments(&self, simd: S, group: usize, numbers: [S::f64s; 3]) -> Segments<S> {
         let [length, inverse_length, shear] = numbers;
@@ -171,7 +165,7 @@ impl<'a, S: Simd, L: Law> Chain<'a, S, L> {
         segments
     }
 
-    /// Numbers that are 1 but near ends; not read where the law has no use for them.
+    /// Coverage and shear factors, or 1 if the law does not use them.
     #[inline(always)]
     fn of_ends(&self, simd: S, group: usize) -> [S::f64s; 2] {
         if L::COVERS {
@@ -181,7 +175,6 @@ impl<'a, S: Simd, L: Law> Chain<'a, S, L> {
         }
     }
 
-    /// Couples of the elements before a group's frames at these angles over their distances.
     #[inline(always)]
     fn own(&self, simd: S, covers: S::f64s, (angle, inverse): (Wide3<S>, S::f64s)) -> Wide3<S> {
         let own = self.law.bending(simd, wide::scale(simd, angle, inverse));
@@ -196,7 +189,8 @@ impl<'a, S: Simd, L: Law> Chain<'a, S, L> {
         wide::scale(simd, own, covers)
     }
 
-    /// Angles of the elements after a group's frames, and their coefficients; zeros behind the last group.
+    /// Angles of the elements after a group's frames with coefficients, or zeros after the last
+    /// group.
     #[inline(always)]
     fn angles_after(&self, simd: S, group: usize) -> [S::f64s; 4] {
         if group >= self.groups {
@@ -208,19 +202,17 @@ impl<'a, S: Simd, L: Law> Chain<'a, S, L> {
         [x, y, z, coefficient]
     }
 
-    /// Torques of the elements after the frames of the last group.
     #[inline(always)]
     fn last(&mut self, simd: S) -> Wide3<S> {
         self.torques.next(simd, [simd.splat_f64s(0.0); 3])
     }
 }
 
-/// Frames of the segments and of a wall at the end.
 fn frames_and_end(layout: &RodLayout) -> Range<usize> {
     layout.frames().start..layout.bending_chain().end
 }
 
-/// Angle from a wall at the start to the first segment (rad) with its coefficient.
+/// Angle between a wall at the start and the first segment (rad), with its coefficient.
 fn angle_at_wall(layout: &RodLayout, state: &State) -> [f64; 4] {
     let Some(wall) = layout.wall(RodEnd::Start) else {
         return [0.0; 4];

@@ -1,4 +1,4 @@
-//! What both loops are made of: a segment, a bending element, and the arrays that they stand in.
+//! Segments and bending elements of both kernels.
 #![allow(
     clippy::inline_always,
     reason = "vector code must be compiled into the function that enables the instructions"
@@ -9,24 +9,20 @@ use actin_mechanics::wide::{self, Columns, ColumnsMut, Simd, Wide3, WideQuaterni
 use actin_mechanics::{Quaternions, Vectors};
 use std::ops::Range;
 
-/// Segments as they are.
 #[derive(Clone, Copy)]
 pub(super) struct Segments<S: Simd> {
-    /// Their frames.
     q: WideQuaternion<S>,
-    /// From node to node (nm, body axes).
+    /// Vector from node to node (nm, body axes).
     body: Wide3<S>,
-    /// Strain.
     sigma: Wide3<S>,
-    /// Inverse of their rest lengths (1/nm).
+    /// Inverse rest length (1/nm).
     inverse: S::f64s,
-    /// Factor of their strains across, where the law has one.
+    /// Factor of the shear strains.
     across: S::f64s,
 }
 
 impl<S: Simd> Segments<S> {
-    /// From their frames, from vectors from node to node and from rest lengths and their inverse, which
-    /// are both zero where there is no segment.
+    /// `length` and `inverse` are zero in lanes without a segment.
     #[inline(always)]
     pub(super) fn new(
         simd: S,
@@ -46,7 +42,6 @@ impl<S: Simd> Segments<S> {
         }
     }
 
-    /// Multiplies strains across.
     #[inline(always)]
     pub(super) fn count_shear(&mut self, simd: S, factor: S::f64s) {
         let [x, y, z] = self.sigma;
@@ -54,7 +49,8 @@ impl<S: Simd> Segments<S> {
         self.across = factor;
     }
 
-    /// Forces on first nodes (pN), torques (pN nm), and couples (pN nm) at mean curvature `kappa`.
+    /// Forces on first nodes (pN), torques (pN nm), and conjugates of the mean curvature `kappa`
+    /// (pN nm).
     #[inline(always)]
     pub(super) fn loads<L: Law>(&self, simd: S, law: &L, kappa: Wide3<S>) -> [Wide3<S>; 3] {
         let [n, couple] = law.segment(simd, self.sigma, kappa);
@@ -72,7 +68,7 @@ impl<S: Simd> Segments<S> {
         [force, wide::cross(simd, self.body, n), couple]
     }
 
-    /// Forces across, by the strains without their factor.
+    /// Transverse forces conjugate to the strains without factor.
     #[inline(always)]
     fn answering(&self, simd: S, [x, y, z]: Wide3<S>) -> Wide3<S> {
         [
@@ -82,14 +78,14 @@ impl<S: Simd> Segments<S> {
         ]
     }
 
-    /// Zero where there is no segment: a natural length that is not the rest length pulls at no strain.
+    /// Zero in lanes without a segment, where a natural extension would cause a force.
     #[inline(always)]
     fn existing(&self, simd: S, n: Wide3<S>) -> Wide3<S> {
         where_there_is(simd, self.inverse, n)
     }
 }
 
-/// Zero where there is no element, whose inverse length is zero.
+/// Zero in lanes without an element, whose inverse length is zero.
 #[inline(always)]
 pub(super) fn where_there_is<S: Simd>(simd: S, inverse: S::f64s, v: Wide3<S>) -> Wide3<S> {
     let zero = simd.splat_f64s(0.0);
@@ -97,8 +93,8 @@ pub(super) fn where_there_is<S: Simd>(simd: S, inverse: S::f64s, v: Wide3<S>) ->
     v.map(|component| simd.select_f64s(exists, component, zero))
 }
 
-/// Torques on the first frames of bending elements and against the second ones, at couple `m` (pN nm), from
-/// their angles (rad) and the coefficients of these: `even + odd` and `even - odd`.
+/// Torques on the first frames of bending elements and against the second ones, at the torque `m`
+/// (pN nm).
 #[inline(always)]
 pub(super) fn bending_torques<S: Simd>(
     simd: S,

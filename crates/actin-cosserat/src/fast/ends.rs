@@ -1,7 +1,5 @@
-//! The elements that join a rod's ends to its surroundings, one after the other.
-//!
-//! They are not the rod's own: they resist bending elsewhere. Here they bring their curvature to the rod's
-//! end segments and take the couples that answer to it.
+//! Elements of other interactions joined to the ends of a rod: their curvature is added to the end
+//! segments, and the conjugate torques to their frames.
 #![allow(
     clippy::inline_always,
     reason = "vector code must be compiled into the function that enables the instructions"
@@ -12,16 +10,13 @@ use crate::bending::BendingLoads;
 use actin_mechanics::wide::{self, Simd, Wide3};
 use actin_mechanics::{Loads, State, Vector3, rotation};
 
-/// Most elements that may join a rod to its surroundings.
 pub(super) const MOST_JOINED: usize = 8;
 
-/// An element that bends with an end segment.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Joined {
     pub(super) frames: [usize; 2],
-    /// The end that it is at.
     pub(super) end: RodEnd,
-    /// Share in the mean curvature over rest distance (1/nm).
+    /// Weight in the mean curvature divided by rest distance (1/nm).
     pub(super) share: f64,
 }
 
@@ -31,16 +26,15 @@ impl Joined {
     }
 }
 
-/// The two ends of a rod while its loads are evaluated.
 #[derive(Debug)]
 pub(super) struct Ends<'a> {
     joined: &'a [Joined],
     angles: [Vector3; MOST_JOINED],
     /// Group and lane of the first and of the last segment.
     places: [[usize; 2]; 2],
-    /// What the elements contribute to the mean curvatures there (rad/nm).
+    /// Contributions to the mean curvatures of the end segments (rad/nm).
     means: [Vector3; 2],
-    /// Couples there, over the segments' lengths (pN nm^2).
+    /// Torques of the end segments times length (pN nm^2).
     couples: [Vector3; 2],
 }
 
@@ -63,14 +57,12 @@ impl<'a> Ends<'a> {
         ends
     }
 
-    /// Whether anything is joined to a segment of a group.
     #[inline(always)]
     pub(super) fn are_in(&self, group: usize) -> bool {
         let [[first, _], [last, _]] = self.places;
         !self.joined.is_empty() && (group == first || group == last)
     }
 
-    /// Adds the curvatures of joined elements to those of a group.
     #[inline(always)]
     pub(super) fn add_means<S: Simd>(&self, simd: S, group: usize, kappa: Wide3<S>) -> Wide3<S> {
         let mut kappa = kappa;
@@ -82,7 +74,6 @@ impl<'a> Ends<'a> {
         kappa
     }
 
-    /// Keeps the couples of a group's end segments.
     #[inline(always)]
     pub(super) fn keep<S: Simd>(&mut self, simd: S, group: usize, couples: Wide3<S>) {
         for ([at, lane], kept) in self.places.into_iter().zip(&mut self.couples) {
@@ -92,7 +83,6 @@ impl<'a> Ends<'a> {
         }
     }
 
-    /// Adds the loads of the joined elements.
     pub(super) fn add_loads(&self, loads: &mut Loads) {
         for (angle, element) in self.angles.iter().zip(self.joined) {
             let couple = element.share * self.couples[element.number()];

@@ -1,6 +1,4 @@
-//! The loads of a rod as something to be compiled for whatever instructions the machine has.
-//!
-//! The loops are in `separate.rs` and `coupled.rs`.
+//! Dispatch of the vector kernels in `separate.rs` and `coupled.rs`.
 #![allow(
     clippy::inline_always,
     reason = "vector code must be compiled into the function that enables the instructions"

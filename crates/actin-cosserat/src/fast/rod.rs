@@ -1,4 +1,4 @@
-//! What the loop needs of a rod, found when the interaction is built.
+//! Data of a rod for the kernels, computed when the interaction is built.
 
 use super::ends::{Joined, MOST_JOINED};
 use super::laws::Law;
@@ -7,7 +7,6 @@ use crate::{RodEnd, RodLayout, SegmentCurvature};
 use actin_mechanics::wide::Arch;
 use actin_mechanics::{Loads, State};
 
-/// A rod under a law.
 #[derive(Clone, Debug)]
 pub(super) struct Rod<L> {
     pub(super) law: L,
@@ -15,21 +14,20 @@ pub(super) struct Rod<L> {
     pub(super) joined: Vec<Joined>,
 }
 
-/// Numbers of each segment and of the bending element before it, one lane each; there is one lane
-/// more than there are segments. What does not exist is zero.
+/// Properties of each segment and of the preceding bending element. There is one lane more than
+/// segments; missing elements have zeros.
 #[derive(Clone, Debug)]
 pub(super) struct Bodies {
-    /// Rest lengths of segments (nm), and their inverse.
+    /// Rest lengths of segments (nm) and their inverse.
     pub(super) lengths: [Vec<f64>; 2],
-    /// Inverse of the rest distance of the element before each segment (1/nm).
+    /// Inverse rest distance of the element before each segment (1/nm).
     pub(super) inverse_distances: Vec<f64>,
-    /// What angles of the elements before and after a segment contribute to the mean curvature around
-    /// it: shares over rest distances (1/nm).
+    /// Weights of the elements before and after a segment in its mean curvature, divided by rest
+    /// distances (1/nm).
     pub(super) shares: [Vec<f64>; 2],
-    /// What the element before each segment stands for over its rest distance: 1, and beside a free end more
-    /// by the half segment there.
+    /// Length covered by the element before each segment, divided by its rest distance: 1, or more
+    /// next to a free end.
     pub(super) covers: Vec<f64>,
-    /// Factors of the segments' shear.
     pub(super) shear: Vec<f64>,
 }
 
@@ -43,7 +41,7 @@ impl Bodies {
             lengths[1][k] = length.recip();
         }
         let mut inverse_distances = zeros();
-        // Without a wall at the start there is no element before the first segment.
+        // Without a wall at the start, the first segment has no preceding element.
         let first = usize::from(layout.wall(RodEnd::Start).is_none());
         let elements = inverse_distances[first..].iter_mut();
         for (inverse, distance) in elements.zip(layout.voronoi_lengths()) {
@@ -63,7 +61,7 @@ impl Bodies {
 }
 
 impl Bodies {
-    /// Rest lengths of the segments (nm) and their inverse, without the lane beyond.
+    /// Rest lengths of the segments (nm) and their inverse, without the additional lane.
     #[inline]
     pub(super) fn lengths(&self, layout: &RodLayout) -> [&[f64]; 2] {
         let [lengths, inverse] = &self.lengths;
@@ -71,7 +69,7 @@ impl Bodies {
         [&lengths[..segments], &inverse[..segments]]
     }
 
-    /// Inverse rest distances of the bending elements, from the first one on (1/nm).
+    /// Inverse rest distances of the bending elements (1/nm).
     #[inline]
     pub(super) fn inverse_distances(&self, layout: &RodLayout) -> &[f64] {
         let first = usize::from(layout.wall(RodEnd::Start).is_none());
@@ -80,8 +78,8 @@ impl Bodies {
 }
 
 impl<L: Law> Rod<L> {
-    /// A rod whose segments, if they are `extended`, have the mean curvature of elements around
-    /// them; `None` where there are others around than those next to them and those that join its ends.
+    /// Creates the data, or returns `None` if a segment's mean curvature contains elements other
+    /// than its neighbours and those joined to the ends.
     pub(super) fn new(
         layout: &RodLayout,
         law: L,
@@ -108,7 +106,6 @@ impl<L: Law> Rod<L> {
         (rod.joined.len() <= MOST_JOINED).then_some(rod)
     }
 
-    /// Adds an element around segment `k`.
     fn add_around(
         &mut self,
         k: usize,
@@ -134,8 +131,7 @@ impl<L: Law> Rod<L> {
         Some(())
     }
 
-    /// Has the only element around segment `k`, if it is one and the rod's own, stand for the part of the
-    /// segment that has none.
+    /// Extends the only element around segment `k` over the uncovered part of the segment.
     fn cover(&mut self, k: usize, layout: &RodLayout, curvature: &SegmentCurvature) -> Option<()> {
         let bare = (1.0 - curvature.covered(k)) * layout.segment_lengths()[k];
         let lane = match (curvature.around(k), self.bodies.shares[0][k] > 0.0) {
@@ -149,7 +145,6 @@ impl<L: Law> Rod<L> {
         Some(())
     }
 
-    /// Adds the loads of all elements.
     pub(super) fn add_loads(
         &self,
         arch: Arch,
@@ -166,7 +161,6 @@ impl<L: Law> Rod<L> {
     }
 }
 
-/// The loads of a rod, to be added by the loops of `kernel.rs`.
 #[derive(Debug)]
 pub(super) struct AddLoads<'a, L> {
     pub(super) rod: &'a Rod<L>,

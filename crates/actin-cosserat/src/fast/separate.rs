@@ -1,4 +1,4 @@
-//! The two loops of a law that couples nothing: over segments, then over bending elements.
+//! Kernels of laws without coupling: separate loops over segments and bending elements.
 #![allow(
     clippy::inline_always,
     reason = "vector code must be compiled into the function that enables the instructions"
@@ -12,7 +12,6 @@ use super::rod::AddLoads;
 use actin_mechanics::wide::{self, Columns, ColumnsMut, ShiftedUp, Simd};
 
 impl<L: Law> AddLoads<'_, L> {
-    /// Segments: node to node, one frame each.
     #[inline(always)]
     pub(super) fn add_segments<S: Simd>(&mut self, simd: S) {
         let n = self.layout.segments();
@@ -28,7 +27,7 @@ impl<L: Law> AddLoads<'_, L> {
             force: vectors_mut(&mut self.loads.force, node..node + n + 1),
             torque: vectors_mut(&mut self.loads.torque, frame..frame + n),
         };
-        // Full groups in a loop of their own, in which the compiler sees that they are.
+        // Full groups have a separate loop, in which the compiler can prove the bounds.
         for group in 0..n / S::F64_LANES {
             segments.add(simd, group);
         }
@@ -39,7 +38,6 @@ impl<L: Law> AddLoads<'_, L> {
         }
     }
 
-    /// Bending elements: frame to frame, walls included.
     #[inline(always)]
     pub(super) fn add_bending<S: Simd>(&mut self, simd: S) {
         let frame = self.layout.bending_chain().start;
@@ -65,7 +63,6 @@ impl<L: Law> AddLoads<'_, L> {
     }
 }
 
-/// What the loop over segments reads and writes, and what one group leaves to the next.
 struct SegmentLoop<'a, S: Simd, L> {
     first: Columns<'a, S, 3>,
     second: Columns<'a, S, 3>,
@@ -80,7 +77,6 @@ struct SegmentLoop<'a, S: Simd, L> {
 }
 
 impl<S: Simd, L: Law> SegmentLoop<'_, S, L> {
-    /// The next group.
     #[inline(always)]
     fn add(&mut self, simd: S, group: usize) {
         let straight = [simd.splat_f64s(0.0); 3];
@@ -95,7 +91,7 @@ impl<S: Simd, L: Law> SegmentLoop<'_, S, L> {
         self.torque.add(simd, group, on_frame);
     }
 
-    /// The last group, if the last node is alone in it.
+    /// Last group, if it contains only the last node.
     #[inline(always)]
     fn end(&mut self, simd: S, group: usize) {
         let zero = [simd.splat_f64s(0.0); 3];
@@ -105,7 +101,6 @@ impl<S: Simd, L: Law> SegmentLoop<'_, S, L> {
     }
 }
 
-/// The same of the loop over bending elements.
 struct BendingLoop<'a, S: Simd, L> {
     first: Columns<'a, S, 4>,
     second: Columns<'a, S, 4>,
@@ -117,7 +112,6 @@ struct BendingLoop<'a, S: Simd, L> {
 }
 
 impl<S: Simd, L: Law> BendingLoop<'_, S, L> {
-    /// The next group.
     #[inline(always)]
     fn add(&mut self, simd: S, group: usize) {
         let (first, second) = (self.first.get(simd, group), self.second.get(simd, group));
@@ -137,7 +131,7 @@ impl<S: Simd, L: Law> BendingLoop<'_, S, L> {
         self.torque.add(simd, group, torque);
     }
 
-    /// The last group, if the last frame is alone in it.
+    /// Last group, if it contains only the last frame.
     #[inline(always)]
     fn end(&mut self, simd: S, group: usize) {
         let zero = [simd.splat_f64s(0.0); 3];

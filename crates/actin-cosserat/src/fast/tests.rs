@@ -1,4 +1,4 @@
-//! The fast path against the scalar one, with one lane and with as many as there are.
+//! Comparison of the vector kernels with the scalar path for each number of lanes.
 
 mod collapsed;
 
@@ -12,7 +12,6 @@ use actin_mechanics::testing::{architectures, assert_same_with_any_lanes};
 use actin_mechanics::{UnitQuaternion, Vector3, rotation};
 use actin_mechanics::{Xorshift, perturb};
 
-/// Rigidities that all differ, so that no mix-up of axes goes unseen.
 fn material() -> RodMaterial {
     RodMaterial::new(Rigidities {
         shear: Vector3::new(1.6e4, 2.1e4, 3.4e4),
@@ -21,8 +20,7 @@ fn material() -> RodMaterial {
     .unwrap()
 }
 
-/// Scales of the order of the angles and strains of the rods below, so that every term is felt, and
-/// a range that some of their curvatures leave.
+/// Scales of the order of the strains in the tests, and a range that some curvatures exceed.
 const STIFFENING: BendLaw = BendLaw::Stiffening(Stiffening {
     rest: 3e4,
     rise: 1e4,
@@ -57,7 +55,7 @@ const SHEAR: CubicShear = CubicShear {
     cubic: 1e6,
 };
 
-/// A law: its name, a material, and how its length depends on the twist.
+/// Name, material, and law of twist and stretch.
 type Named = (&'static str, RodMaterial, Option<TwistStretch>);
 
 fn potential() -> RodMaterial {
@@ -68,7 +66,6 @@ fn heated() -> RodMaterial {
     RodMaterial::homogenised(Homogenised::mean_filament_at_298_k())
 }
 
-/// Laws with a loop, named after it.
 fn laws() -> Vec<Named> {
     let constant = material();
     let tanh = (constant.with_twist(TwistLaw::Tanh(TanhTwist::published()))).unwrap();
@@ -107,7 +104,7 @@ fn laws() -> Vec<Named> {
     ]
 }
 
-/// Rods that are bent and twisted at rest, so that lanes without an element would have a couple.
+/// Laws with rest curvature, for which missing elements must be masked.
 fn bent() -> [Named; 2] {
     let kappa = Vector3::new(0.02, -0.01, 0.03);
     [kappa, kappa * 30.0].map(|kappa| {
@@ -116,7 +113,6 @@ fn bent() -> [Named; 2] {
     })
 }
 
-/// A rod of unequal segments with other bodies before and after it.
 fn rod(segments: usize, walls: Walls, noise: &mut Xorshift) -> (State, RodLayout) {
     let mut state = State::default();
     let neighbour = StraightRod::uniform(1, 10.0);
@@ -134,14 +130,12 @@ fn rod(segments: usize, walls: Walls, noise: &mut Xorshift) -> (State, RodLayout
     (state, layout)
 }
 
-/// Every combination of walls.
 fn all_walls() -> [Walls; 4] {
     [(false, false), (true, false), (false, true), (true, true)]
         .map(|(start, end)| Walls { start, end })
 }
 
-/// The elements that join a rod to frames of its neighbours: none, or one at the start and two at
-/// the end, walls or not.
+/// Elements joined to neighbouring rods: none, or one at the start and two at the end.
 fn joined(layout: &RodLayout, any: bool) -> [Vec<JoinedElement>; 2] {
     let element = |frames, rest_distance| JoinedElement {
         frames,
@@ -157,7 +151,6 @@ fn joined(layout: &RodLayout, any: bool) -> [Vec<JoinedElement>; 2] {
     if any { [start, end] } else { [vec![], vec![]] }
 }
 
-/// What couples the segments of a rod.
 fn extended(layout: &RodLayout, law: &Named, is_joined: bool) -> Option<ExtendedSegments> {
     let [start, end] = joined(layout, is_joined);
     let mut curvature = SegmentCurvature::new(layout, &start, &end);
@@ -167,7 +160,6 @@ fn extended(layout: &RodLayout, law: &Named, is_joined: bool) -> Option<Extended
     SegmentLaw::of(&law.1, law.2).map(|law| ExtendedSegments { law, curvature })
 }
 
-/// The loads by the scalar path, added to what `loads` already holds.
 fn add_reference(
     (layout, law): (&RodLayout, &Named),
     extended: Option<&ExtendedSegments>,
@@ -183,12 +175,10 @@ fn add_reference(
     }
 }
 
-/// The loop of a law.
 fn fast(layout: &RodLayout, law: &Named, extended: Option<&ExtendedSegments>) -> FastRod {
-    FastRod::new(layout, &law.1, extended).expect("the law has a loop")
+    FastRod::new(layout, &law.1, extended).expect("use a law with a kernel")
 }
 
-/// Largest difference of the loads, and the largest load.
 fn compare(a: &Loads, b: &Loads) -> (f64, f64) {
     let pairs = (a.force.iter().zip(b.force.iter())).chain(a.torque.iter().zip(b.torque.iter()));
     pairs.fold((0.0, 0.0), |(difference, largest), (a, b)| {
@@ -198,7 +188,6 @@ fn compare(a: &Loads, b: &Loads) -> (f64, f64) {
     })
 }
 
-/// Buffers that are not empty.
 fn noisy_loads(state: &State, noise: &mut Xorshift) -> Loads {
     let mut loads = Loads::zeros(state);
     for i in 0..loads.force.len() {
@@ -210,8 +199,7 @@ fn noisy_loads(state: &State, noise: &mut Xorshift) -> Loads {
     loads
 }
 
-/// Asserts that both paths add the same loads: to 1e-13 of the largest, or of `scale` if that is
-/// larger.
+/// Asserts that both paths agree to 1e-13 of the largest load, or of `scale` if larger.
 fn assert_paths_agree(
     (state, layout): (&State, &RodLayout),
     law: &Named,
@@ -236,9 +224,6 @@ fn assert_paths_agree(
     }
 }
 
-/// Rods from one segment up, every clamp, ends that are joined to others, angles between neighbours
-/// from a hundredth to nearly half a turn and twists within and beyond the laws' ranges, both
-/// quaternions of some frames.
 #[test]
 fn loads_are_those_of_the_scalar_path() {
     let mut noise = Xorshift::new(1);
@@ -256,8 +241,6 @@ fn loads_are_those_of_the_scalar_path() {
     }
 }
 
-/// Small and large angles in one group, every law: the loads have the same bits with four lanes and
-/// with eight.
 #[test]
 fn loads_are_the_same_with_any_number_of_lanes() {
     let mut noise = Xorshift::new(11);
@@ -278,8 +261,6 @@ fn loads_are_the_same_with_any_number_of_lanes() {
     }
 }
 
-/// Smooth rods at strains of a thousandth, in which the terms that the laws add are small differences
-/// of large numbers.
 #[test]
 fn loads_of_smooth_rods_are_those_of_the_scalar_path() {
     let mut noise = Xorshift::new(5);
@@ -291,14 +272,12 @@ fn loads_of_smooth_rods_are_those_of_the_scalar_path() {
             };
             let (mut state, layout) = rod(30, walls, &mut noise);
             perturb(&mut state, &mut noise, angle, angle);
-            // Strains are differences of turned vectors over lengths, 1 at rest, and accurate to some
-            // 1e-15: at 3.4e4 pN over 14 nm, 1e-13 of this torque.
+            // Strains are accurate to about 1e-15: at 3.4e4 pN over 14 nm, 1e-13 of this torque.
             assert_paths_agree((&state, &layout), law, true, 1e-2 * 3.4e4 * 14.0);
         }
     }
 }
 
-/// Replaces every third quaternion by its negative, which is the same rotation.
 fn flip_some(state: &mut State) {
     for i in (0..state.frames.len()).step_by(3) {
         let q = state.frames.orientation.get(i);
@@ -307,7 +286,6 @@ fn flip_some(state: &mut State) {
     }
 }
 
-/// Adds the loads of the fast path to none.
 fn fast_loads(state: &State, layout: &RodLayout, law: &Named) -> Loads {
     let extended = extended(layout, law, false);
     let mut loads = Loads::zeros(state);
@@ -315,8 +293,8 @@ fn fast_loads(state: &State, layout: &RodLayout, law: &Named) -> Loads {
     loads
 }
 
-/// A rod along z at rest has no load at all: the lanes beyond its end must not add the force of a
-/// segment of no length. (But for the published offset of its length and the shortening by heat, by which a rod at rest strains.)
+/// Lanes after the end must not add the force of a segment without length. Laws with a stretch at
+/// rest are skipped.
 #[test]
 fn a_rod_at_rest_has_no_loads() {
     let without_offset = |law: &TwistStretch| law.extension(0.0) == 0.0;
@@ -336,9 +314,9 @@ fn a_rod_at_rest_has_no_loads() {
     }
 }
 
-/// Turns down to the smallest numbers give couples in proportion: 3900 pN nm per rad.
+/// Torques are proportional to the angle down to the smallest numbers: 3900 pN nm per rad.
 #[test]
-fn the_smallest_turns_count() {
+fn the_smallest_angles_have_torques() {
     for angle in [5e-324, 1e-310, 1e-200, 1e-20] {
         let mut state = State::default();
         let layout = StraightRod::uniform(2, 10.0).push(&mut state).unwrap();
@@ -347,7 +325,7 @@ fn the_smallest_turns_count() {
         state.frames.orientation.set(1, turned);
         let loads = fast_loads(&state, &layout, &laws()[0]);
         let expected = 3.9e4 * (0.1 * (2.0 * angle));
-        // The smallest number is rounded when it is divided by the length.
+        // The smallest number is rounded in the division by the length.
         let couple = loads.torque.get(0).x;
         assert!(
             (couple - expected).abs() <= 1e-15 * expected + 2e-320,
@@ -356,10 +334,8 @@ fn the_smallest_turns_count() {
     }
 }
 
-/// A node that is not a number spoils its own segments, and the elements around these where something
-/// couples, and no others, so that the failure can be located.
 #[test]
-fn a_broken_node_spoils_its_neighbours_only() {
+fn an_invalid_node_affects_its_neighbours_only() {
     for law in &laws() {
         let (mut state, layout) = rod(14, Walls::default(), &mut Xorshift::new(9));
         let broken = layout.points().start + 6;
@@ -369,7 +345,7 @@ fn a_broken_node_spoils_its_neighbours_only() {
             let near = i.abs_diff(broken) <= 1;
             assert_eq!(force.iter().any(|f| f.is_nan()), near, "node {i}");
         }
-        // Of the segments 5 and 6 on either side of the node.
+        // Frames of the segments 5 and 6 next to the node.
         let first = layout.frames().start + 5;
         for (i, torque) in loads.torque.iter().enumerate() {
             let near = (first - 1..=first + 2).contains(&i);
@@ -378,7 +354,6 @@ fn a_broken_node_spoils_its_neighbours_only() {
     }
 }
 
-/// The loop that a law gets.
 fn kind_of(law: &Named) -> Option<&'static str> {
     let (_, layout) = rod(3, Walls::default(), &mut Xorshift::new(9));
     let extended = extended(&layout, law, true);
@@ -393,15 +368,14 @@ fn kind_of(law: &Named) -> Option<&'static str> {
     })
 }
 
-/// The cheapest loop that can is taken: with another, the law would be right and slow.
+/// The fastest suitable kernel must be chosen.
 #[test]
-fn every_law_has_its_loop() {
+fn every_law_has_its_kernel() {
     for law in laws().iter().chain(&bent()) {
         assert_eq!(kind_of(law), Some(law.0));
     }
 }
 
-/// Mixtures of laws that no scene has by name, and a stretch with two sides.
 #[test]
 fn other_laws_keep_the_scalar_path() {
     let constant = material();
@@ -432,7 +406,6 @@ fn other_laws_keep_the_scalar_path() {
     }
 }
 
-/// The angles of joined elements have eight places.
 #[test]
 fn rods_joined_to_many_others_keep_the_scalar_path() {
     let (_, layout) = rod(3, Walls::default(), &mut Xorshift::new(9));

@@ -1,8 +1,8 @@
-//! What the joints of a rod take of the potential: `U(kappa)`, its value where a rod of this curvature is free
-//! of shear and as long as the straight rod of this twist without force.
+//! Joints of a rod with a potential: `U(kappa)`, the potential without shear, at the natural length
+//! for the twist.
 //!
-//! Joints see each turn between neighbouring segments, segments the mean of those around them
-//! (`segment.rs`). `U` at the joints resists turns that alternate from joint to joint, which no mean sees.
+//! Joints use each angle between neighbouring segments, so `U` resists rotations of alternating
+//! sign, which cancel in the mean curvature of segments (`segment.rs`).
 
 use super::{Homogenised, PotentialJet, SixVector};
 use crate::fast::Law;
@@ -15,21 +15,20 @@ impl Homogenised {
         self.energy_density(&self.unsheared(kappa))
     }
 
-    /// Couple (pN nm), the gradient of [`joint_energy`](Self::joint_energy).
+    /// Torque (pN nm), the gradient of [`joint_energy`](Self::joint_energy).
     pub fn joint_couple(&self, kappa: Vector3) -> Vector3 {
         self.unrolled.bending(Scalar, kappa.into()).into()
     }
 
-    /// Its derivative (pN nm^2), symmetric.
+    /// Derivative of the torque (pN nm^2), symmetric.
     pub fn joint_tangent(&self, kappa: Vector3) -> Matrix3 {
         self.joint_jet(kappa).1
     }
 
-    /// Both at once.
     pub(super) fn joint_jet(&self, kappa: Vector3) -> (Vector3, Matrix3) {
         let PotentialJet { loads, tangent, .. } = self.jet(&self.unsheared(kappa));
         let [_, slope, bend] = self.form.natural_jet(kappa.z);
-        // The length follows the twist.
+        // The length depends on the twist.
         let mut couple: Vector3 = loads.fixed_rows::<3>(0).into();
         couple.z += slope * loads[5];
         let mut of_curvature: Matrix3 = tangent.fixed_view::<3, 3>(0, 0).into();
@@ -40,7 +39,6 @@ impl Homogenised {
         (couple, of_curvature)
     }
 
-    /// No shear, and the natural length of this twist.
     fn unsheared(&self, kappa: Vector3) -> SixVector {
         let natural = self.form.natural_stretch(kappa.z);
         SixVector::new(kappa.x, kappa.y, kappa.z, 0.0, 0.0, natural)

@@ -1,21 +1,23 @@
-//! The laws of the mean filament and of drawn ones: their committed numbers, and how far their data reach.
+//! Coefficients and ranges of the laws of the mean filament and of filaments with sampled bonds.
 
 use super::{Homogenised, HomogenisedForm};
 use crate::Term;
 use std::collections::BTreeMap;
 use std::sync::{LazyLock, Mutex, PoisonError};
 
-/// Coefficients of the mean filament without heat, as `cargo xtask homogenise law` writes them: stretch at rest, those
-/// of the natural stretch, then those of each term, from the constant up.
+/// Coefficients of the mean filament at zero temperature, from `cargo xtask homogenise law`.
+///
+/// Rows: stretch at rest, natural stretch, then each term, lowest order first.
 const COLD: &str = include_str!("mean_filament.csv");
 
-/// The same of filaments of [`DRAWN_BONDS`](Homogenised::DRAWN_BONDS) drawn bonds, of `cargo xtask homogenise drawn`.
+/// Coefficients for [`DRAWN_BONDS`](Homogenised::DRAWN_BONDS) sampled bonds, from
+/// `cargo xtask homogenise drawn`.
 const DRAWN: &str = include_str!("drawn_filament.csv");
 
-/// The same of the mean filament at 298 K, of `cargo xtask homogenise heat`.
+/// Coefficients of the mean filament at 298 K, from `cargo xtask homogenise heat`.
 const AT_298_K: &str = include_str!("mean_filament_298_k.csv");
 
-/// The range of the fit, whose cells reach a little beyond; stretch is counted from that of cells as bent and sheared.
+/// Range of the fit. Stretch is relative to the free stretch of the bent and sheared cell.
 const RANGE: StrainRange = StrainRange {
     twist: 0.048,
     curvature: 0.01,
@@ -23,7 +25,7 @@ const RANGE: StrainRange = StrainRange {
     stretch: [-2e-3, 6e-3],
 };
 
-/// Strains of the samples at 298 K.
+/// Range of the samples at 298 K.
 const RANGE_AT_298_K: StrainRange = StrainRange {
     twist: 0.048,
     curvature: 0.01,
@@ -31,21 +33,21 @@ const RANGE_AT_298_K: StrainRange = StrainRange {
     stretch: [-8e-3, 8e-3],
 };
 
-/// How far the data behind a potential reach.
+/// Range of the data of a potential.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StrainRange {
-    /// Twist to either side (rad/nm).
+    /// Largest magnitude of the twist (rad/nm).
     pub twist: f64,
     /// Curvature (rad/nm).
     pub curvature: f64,
     /// Shear strain.
     pub shear: f64,
-    /// Stretch beyond the natural length, in compression and in tension.
+    /// Stretch relative to the natural length, in compression and in tension.
     pub stretch: [f64; 2],
 }
 
 impl StrainRange {
-    /// No bound.
+    /// Unlimited range.
     pub const UNBOUNDED: Self = Self {
         twist: f64::INFINITY,
         curvature: f64::INFINITY,
@@ -55,18 +57,17 @@ impl StrainRange {
 }
 
 impl Homogenised {
-    /// The law of filaments of the default monomers with weighted bonds, of which
-    /// [`RodMaterial::homogenised`](crate::RodMaterial::homogenised) makes a material.
+    /// Law of filaments of the default monomers with quadrature bonds, for
+    /// [`RodMaterial::homogenised`](crate::RodMaterial::homogenised).
     pub fn mean_filament() -> &'static Self {
         static LAW: LazyLock<Homogenised> = LazyLock::new(|| read(COLD).with_range(RANGE));
         &LAW
     }
 
-    /// The law of filaments whose interfaces have so many bonds each, drawn for each: what they store and bear on average.
-    /// They are softer than the mean filament, as compliances in a row are more than that of the mean stiffness.
+    /// Mean law of filaments with `bonds` sampled bonds per interface.
     ///
-    /// Cells were measured with [`DRAWN_BONDS`](Self::DRAWN_BONDS). What sets these apart from the mean filament is taken in
-    /// inverse proportion to the bonds; with fewer bonds the law is theirs.
+    /// They are softer than the mean filament, because compliances in series add up. The difference
+    /// is inversely proportional to `bonds`, which is at least [`DRAWN_BONDS`](Self::DRAWN_BONDS).
     ///
     /// ```
     /// use actin_cosserat::Homogenised;
@@ -78,7 +79,7 @@ impl Homogenised {
     /// assert_eq!(of(10), of(64));
     /// ```
     pub fn drawn_filament(bonds: usize) -> &'static Self {
-        // Programs have few of them, which materials keep for good.
+        // Leaked on purpose: programs use few laws, and materials refer to them permanently.
         static LAWS: Mutex<BTreeMap<usize, &'static Homogenised>> = Mutex::new(BTreeMap::new());
         static DRAWN_LAW: LazyLock<Homogenised> = LazyLock::new(|| read(DRAWN));
         let bonds = bonds.max(Self::DRAWN_BONDS);
@@ -90,11 +91,11 @@ impl Homogenised {
         })
     }
 
-    /// Bonds of an interface with which cells of drawn bonds were measured: those of the paper.
+    /// Bonds per interface of the measured cells with sampled bonds, as in the paper.
     pub const DRAWN_BONDS: usize = 64;
 
-    /// The law with this share of another one's numbers, up to all, and the rest of its own: beyond that its energy would not
-    /// be bounded as theirs are.
+    /// Interpolates the coefficients between `self` (0) and `other` (1). Extrapolated coefficients
+    /// could have an unbounded energy.
     fn towards(&self, other: &Self, share: f64) -> Self {
         let mixed = |own: &[f64], other: &[f64]| -> Vec<f64> {
             let both = own.iter().zip(other);
@@ -104,14 +105,14 @@ impl Homogenised {
         let form = HomogenisedForm::new(&mixed(form.natural(), others.natural()));
         let numbers = |term: Term| mixed(self.coefficients(term), other.coefficients(term));
         let law = form.and_then(|form| Self::new(form, numbers));
-        law.expect("mixed numbers of two laws make a law")
+        law.expect("interpolated coefficients are finite")
     }
 
-    /// The free energy of mean filaments at [`HEATED_K`](Self::HEATED_K): what they store and bear on average while
-    /// their monomers move.
+    /// Free energy of mean filaments at [`HEATED_K`](Self::HEATED_K), averaged over the thermal
+    /// motion of their monomers.
     ///
-    /// It is measured at cells of 36 nm. Shorter segments of a rod in a heat bath have motion of their own that the cells
-    /// had already.
+    /// Measured in cells of 36 nm. Shorter segments in a heat bath count the motion at shorter
+    /// wavelengths twice.
     pub fn mean_filament_at_298_k() -> &'static Self {
         static LAW: LazyLock<Homogenised> =
             LazyLock::new(|| read(AT_298_K).with_range(RANGE_AT_298_K));
@@ -121,13 +122,13 @@ impl Homogenised {
     /// Temperature (K) of [`mean_filament_at_298_k`](Self::mean_filament_at_298_k).
     pub const HEATED_K: f64 = 298.0;
 
-    /// The same law whose data reach so far.
+    /// Sets the range of the data.
     #[must_use]
     pub fn with_range(self, range: StrainRange) -> Self {
         Self { range, ..self }
     }
 
-    /// How far its data reach; unbounded where nothing is said.
+    /// Range of the data; unlimited by default.
     pub fn range(&self) -> &StrainRange {
         &self.range
     }
@@ -144,16 +145,15 @@ fn read(text: &str) -> Homogenised {
     let form = HomogenisedForm::new(&numbers("natural"))
         .and_then(|form| form.with_rest(numbers("rest").into_iter().sum()));
     form.and_then(|form| Homogenised::new(form, |term| numbers(&format!("{term:?}"))))
-        .expect("the committed numbers make a law: tests read them")
+        .expect("the embedded coefficients are valid")
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    /// A line that is missing, or of a term that does not exist, would make another law.
     #[test]
-    fn the_numbers_stand_under_the_names_of_the_terms() {
+    fn coefficients_are_listed_by_term() {
         for text in [COLD, DRAWN, AT_298_K] {
             let mut names = text.lines().filter_map(|line| line.split_once(','));
             assert_eq!(names.next().unwrap().0, "rest");

@@ -1,8 +1,7 @@
-//! One potential for all six strains, as periodic cells of monomers give it.
+//! Potential of all six strains, fitted to periodic cells of monomers.
 //!
-//! Its form is here (`terms.rs`, `polynomial.rs`); its numbers come from a fit to measured cells
-//! (`mean_filament.rs`). Twist, shear and stretch of one place are one law, and a rod has them at different places:
-//! `joint.rs` and `segment.rs` share the energy among them.
+//! Form: `terms.rs` and `polynomial.rs`. Coefficients: `mean_filament.rs`. Elements of rods:
+//! `joint.rs` and `segment.rs`.
 
 mod joint;
 mod mean_filament;
@@ -26,32 +25,31 @@ pub(crate) use segment::STRAIGHT;
 use segment::joined;
 use terms::{BY_TWIST, Factors, InvariantJet, Invariants, Jet};
 
-/// Strains: `kappa_1`, `kappa_2`, `kappa_3` (rad/nm), `sigma_1`, `sigma_2`, `sigma_3`; or couple (pN nm) and
-/// force (pN) in body axes.
+/// Strains `kappa_1`, `kappa_2`, `kappa_3` (rad/nm), `sigma_1`, `sigma_2`, `sigma_3`, or torques
+/// (pN nm) and forces (pN), body axes.
 type SixVector = Vector6<f64>;
 
-/// The natural length of the straight rod at each twist.
+/// Invariants of the strains, with the natural length of the straight rod.
 ///
-/// The extension that counts is `e = sigma_3 - n(kappa_3)`, with `n` the stretch of the straight rod of this
-/// twist without force: `kappa_3` times a polynomial in `t = kappa_3 / sqrt(kappa_3^2 + 0.02^2)`. A rod that is
-/// isotropic about its axis, and the same when turned end for end, stores what `kappa_3` and the four invariants
+/// ```text
+/// e = sigma_3 - n(kappa_3),  n = rest + kappa_3 p(t),  t = kappa_3 / sqrt(kappa_3^2 + 0.02^2)
+/// a = kappa_1^2 + kappa_2^2
+/// g = sigma_1^2 + sigma_2^2
+/// c = kappa_1 sigma_1 + kappa_2 sigma_2
+/// ```
 ///
-/// `e`, `a = kappa_1^2 + kappa_2^2`, `g = sigma_1^2 + sigma_2^2`, `c = kappa_1 sigma_1 + kappa_2 sigma_2`
-///
-/// say. (`kappa_1 sigma_2 - kappa_2 sigma_1` changes its sign when the rod is turned end for end.) A mirror
-/// changes the signs of `c` and `kappa_3`: where left and right are the same, the coefficient of `c` is odd in the twist.
+/// `n` is the stretch of the straight rod without force, `p` a polynomial. The invariants are
+/// complete for rods that are isotropic about their axis and symmetric under reversal.
 #[derive(Clone, Debug, PartialEq)]
 pub struct HomogenisedForm {
     rest: f64,
     natural: Polynomial,
 }
 
-/// A potential `W = sum_k P_k(t) f_k(e, a, g, c, kappa_3)` per length (pN), `f_k` the [`Term`]s, `P_k` polynomials
-/// in the bounded twist `t`.
+/// Potential `W = sum_k P_k(t) f_k(e, a, g, c, kappa_3)` per length (pN).
 ///
-/// Couple and force are its gradient, the tangent its second derivatives, all exact. Polynomials tend to
-/// constants beyond the twists of the data, and terms are bounded, or squares, beyond the other strains: the
-/// law stays finite there, and is no better than its data.
+/// `f_k` are the [`Term`]s, `P_k` polynomials in the bounded twist `t`. Derivatives are exact.
+/// Outside the range of the data the law remains finite but inaccurate.
 ///
 /// ```
 /// use actin_cosserat::{Homogenised, HomogenisedForm, Term};
@@ -70,25 +68,23 @@ pub struct HomogenisedForm {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Homogenised {
     form: HomogenisedForm,
-    /// One per term.
     coefficients: [Polynomial; Term::ALL.len()],
     range: StrainRange,
-    /// The same, written out for first derivatives.
+    /// Same coefficients, in a form for first derivatives.
     unrolled: Potential,
 }
 
-/// A potential at some strain.
+/// Value and derivatives of a potential.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PotentialJet {
     /// Energy per rest length (pN).
     pub energy: f64,
-    /// Couple (pN nm) and force (pN), its gradient.
+    /// Gradient: torques (pN nm) and forces (pN).
     pub loads: SixVector,
-    /// Its second derivatives, symmetric.
+    /// Second derivatives, symmetric.
     pub tangent: Matrix6<f64>,
 }
 
-/// The coefficients, with zeros above.
 fn padded(coefficients: &[f64], most: usize) -> Result<Polynomial, RodParameterError> {
     let refused = |value, rule| RodParameterError {
         key: RodKey::Coefficient,
@@ -108,19 +104,19 @@ fn padded(coefficients: &[f64], most: usize) -> Result<Polynomial, RodParameterE
 }
 
 impl HomogenisedForm {
-    /// The form with this polynomial for the natural length, from the constant up.
+    /// Creates the form with the coefficients of the natural length, lowest order first.
     ///
     /// # Errors
-    /// More than ten coefficients, or one that is not finite.
+    /// If there are more than ten coefficients, or if one is not finite.
     pub fn new(natural: &[f64]) -> Result<Self, RodParameterError> {
         let natural = padded(natural, DEGREE + 1)?;
         Ok(Self { rest: 0.0, natural })
     }
 
-    /// The form of a filament that is stretched by so much where it has neither twist nor force: heat shortens it.
+    /// Sets the stretch without twist and force, as due to temperature.
     ///
     /// # Errors
-    /// A stretch that is not finite, or not above -1.
+    /// If `rest` is not finite and above -1.
     pub fn with_rest(self, rest: f64) -> Result<Self, RodParameterError> {
         if !(rest.is_finite() && rest > -1.0) {
             return Err(RodParameterError {
@@ -137,7 +133,7 @@ impl HomogenisedForm {
         self.rest
     }
 
-    /// What a unit of each coefficient of the natural length adds to it at this twist (rad/nm).
+    /// Derivatives of the natural length with respect to its coefficients, at a twist (rad/nm).
     pub fn natural_units(twist: f64) -> [f64; DEGREE + 1] {
         let [t, ..] = bounded_twist(twist);
         let mut unit = twist;
@@ -148,26 +144,25 @@ impl HomogenisedForm {
         })
     }
 
-    /// Coefficients of the natural length, from the constant up.
+    /// Coefficients of the natural length, lowest order first.
     pub fn natural(&self) -> &[f64] {
         &self.natural
     }
 
-    /// Stretch of the straight rod of this twist without force.
+    /// Stretch of the straight rod without force at a twist (rad/nm).
     pub fn natural_stretch(&self, twist: f64) -> f64 {
         let [t, ..] = bounded_twist(twist);
         self.rest + twist * value_of(&self.natural, t)
     }
 
-    /// With two derivatives.
     fn natural_jet(&self, twist: f64) -> Jet {
         let [p, slope, bend] = polynomial(&self.natural, bounded_twist(twist));
         let value = self.rest + twist * p;
         [value, p + twist * slope, 2.0 * slope + twist * bend]
     }
 
-    /// What a unit of each coefficient of `term` adds at these strains, from the constant up. The law is linear in
-    /// its coefficients.
+    /// Derivatives of the potential with respect to the coefficients of `term`, lowest order first.
+    /// The potential is linear in its coefficients.
     pub fn units(&self, term: Term, strain: &SixVector) -> Vec<PotentialJet> {
         let [t, slope, bend] = bounded_twist(strain[2]);
         let jet = term.jet(&Factors::at(self.invariants(strain)));
@@ -196,7 +191,7 @@ impl HomogenisedForm {
         ]
     }
 
-    /// A function of the invariants as one of the strains.
+    /// Converts derivatives with respect to invariants to derivatives with respect to strains.
     fn by_strain(&self, s: &SixVector, jet: &InvariantJet) -> PotentialJet {
         let [_, slope, bend] = self.natural_jet(s[2]);
         // Gradients of the invariants.
@@ -232,10 +227,12 @@ impl HomogenisedForm {
 }
 
 impl Homogenised {
-    /// The law with the coefficients of each term, from the constant up; those left out are zero.
+    /// Creates the law from the coefficients of each term, lowest order first; missing ones are
+    /// zero.
     ///
     /// # Errors
-    /// More coefficients than the [degree](Term::degree) of a term has, or one that is not finite.
+    /// If a term has more coefficients than its [degree](Term::degree) allows, or if one is not
+    /// finite.
     pub fn new(
         form: HomogenisedForm,
         coefficients: impl Fn(Term) -> Vec<f64>,
@@ -252,17 +249,17 @@ impl Homogenised {
         })
     }
 
-    /// It written out for loops.
+    /// Form for vector kernels.
     pub(crate) fn unrolled(&self) -> Potential {
         self.unrolled
     }
 
-    /// The form.
+    /// Form of the law.
     pub fn form(&self) -> &HomogenisedForm {
         &self.form
     }
 
-    /// The coefficients of a term, from the constant up.
+    /// Coefficients of a term, lowest order first.
     pub fn coefficients(&self, term: Term) -> &[f64] {
         let mut all = Term::ALL.into_iter().zip(&self.coefficients);
         let found = all.find(|(other, _)| *other == term);
@@ -279,7 +276,7 @@ impl Homogenised {
         })
     }
 
-    /// Couple (pN nm) and force (pN), the gradient of [`energy_density`](Self::energy_density).
+    /// Torques (pN nm) and forces (pN), the gradient of [`energy_density`](Self::energy_density).
     pub fn loads(&self, strain: &SixVector) -> SixVector {
         let [x, y, k, s1, s2, s3] = (*strain).into();
         let [force, couple] = self.unrolled.segment(Scalar, [s1, s2, s3], [x, y, k]);
@@ -288,17 +285,16 @@ impl Homogenised {
         SixVector::from_row_slice([couple, force].as_flattened())
     }
 
-    /// The derivatives of [`loads`](Self::loads), symmetric.
+    /// Derivatives of [`loads`](Self::loads), symmetric.
     pub fn tangent(&self, strain: &SixVector) -> Matrix6<f64> {
         self.jet(strain).tangent
     }
 
-    /// All three at once.
+    /// Energy, loads and tangent.
     pub fn jet(&self, strain: &SixVector) -> PotentialJet {
         self.form.by_strain(strain, &self.sum(strain))
     }
 
-    /// Adds up the terms.
     fn sum(&self, strain: &SixVector) -> InvariantJet {
         let factors = Factors::at(self.form.invariants(strain));
         let t = bounded_twist(strain[2]);

@@ -1,23 +1,22 @@
-//! Polynomials in the bounded twist `t = kappa_3 / sqrt(kappa_3^2 + k_0^2)`: they tend to a constant at large twist,
-//! and see most of it where coefficients change most.
+//! Polynomials in the bounded twist `t = kappa_3 / sqrt(kappa_3^2 + k_0^2)`, which tend to
+//! constants at large twist.
 
 use super::terms::{Jet, bounded, of};
 
 /// `k_0` (rad/nm).
 pub(crate) const TWIST_SIZE: f64 = 0.02;
 
-/// Largest degree of a polynomial.
 pub(crate) const DEGREE: usize = 9;
 
 /// Coefficients of `t^0` to `t^9`.
 pub(crate) type Polynomial = [f64; DEGREE + 1];
 
-/// `t` with its derivatives by the twist (rad/nm).
+/// `t` with its derivatives with respect to twist (rad/nm).
 pub(super) fn bounded_twist(twist: f64) -> Jet {
     bounded(twist, TWIST_SIZE).map(|x| x / TWIST_SIZE)
 }
 
-/// A polynomial with its derivatives by the twist, of which `t` is given.
+/// Polynomial with its derivatives with respect to twist, given `t`.
 #[inline]
 pub(super) fn polynomial(coefficients: &[f64], t: Jet) -> Jet {
     let (mut value, mut slope, mut bend) = (0.0, 0.0, 0.0);
@@ -29,7 +28,6 @@ pub(super) fn polynomial(coefficients: &[f64], t: Jet) -> Jet {
     of([value, slope, bend], t)
 }
 
-/// The polynomial alone at `t`.
 #[inline]
 pub(super) fn value_of(coefficients: &[f64], t: f64) -> f64 {
     coefficients
@@ -42,7 +40,7 @@ pub(super) fn value_of(coefficients: &[f64], t: f64) -> f64 {
 mod tests {
     use super::*;
 
-    /// 1 + 2 t + 3 t^2 by hand at a twist of 0.015: t = 0.6, t' = 25.6, t'' = -1843.2.
+    /// 1 + 2 t + 3 t^2 at a twist of 0.015: t = 0.6, t' = 25.6, t'' = -1843.2.
     #[test]
     fn a_polynomial_by_hand() {
         let t = bounded_twist(0.015);

@@ -1,8 +1,8 @@
-//! What the segments of a rod take of the potential: `W(sigma, kappa) - U(kappa)`, with `kappa` the mean
-//! curvature around a segment and `U` what the joints have (`joint.rs`).
+//! Segments of a rod with a potential: `W(sigma, kappa) - U(kappa)`, with the mean curvature
+//! `kappa` around a segment and the energy `U` of the joints (`joint.rs`).
 //!
-//! Beside a free end half a segment has no joint, and keeps its `U`: there the rod stores what it does elsewhere,
-//! and a rod that bears tension alone is strained alike up to its end.
+//! Half a segment at a free end has no joint and keeps its `U`, so that a rod under tension has
+//! uniform strain.
 
 use super::{Homogenised, PotentialJet, SixVector};
 use crate::extended::{MeanCurvature, SegmentJet};
@@ -10,7 +10,6 @@ use crate::fast::Law;
 use actin_mechanics::wide::Scalar;
 use actin_mechanics::{Matrix3, Vector3};
 
-/// No curvature, in joints either.
 pub(crate) const STRAIGHT: MeanCurvature = MeanCurvature::inside(Vector3::new(0.0, 0.0, 0.0));
 
 impl Homogenised {
@@ -20,7 +19,7 @@ impl Homogenised {
         self.energy_density(&joined(sigma, kappa)) - covered * self.joint_energy(kappa)
     }
 
-    /// Force (pN) and couple (pN nm), its derivatives by the strain and by the curvature.
+    /// Force (pN) and torque (pN nm): derivatives with respect to strain and curvature.
     pub(crate) fn segment_loads(
         &self,
         sigma: Vector3,
@@ -28,12 +27,11 @@ impl Homogenised {
     ) -> (Vector3, Vector3) {
         let MeanCurvature { kappa, covered } = curvature;
         let [force, couple] = self.unrolled.segment(Scalar, sigma.into(), kappa.into());
-        // What joints do not cover.
+        // Part not covered by joints.
         let own = self.joint_couple(kappa) * (1.0 - covered);
         (force.into(), Vector3::from(couple) + own)
     }
 
-    /// First and second derivatives.
     pub(crate) fn segment_jet(&self, sigma: Vector3, curvature: MeanCurvature) -> SegmentJet {
         let MeanCurvature { kappa, covered } = curvature;
         let PotentialJet { loads, tangent, .. } = self.jet(&joined(sigma, kappa));
@@ -50,7 +48,6 @@ impl Homogenised {
     }
 }
 
-/// The six strains.
 pub(super) fn joined(sigma: Vector3, kappa: Vector3) -> SixVector {
     SixVector::new(kappa.x, kappa.y, kappa.z, sigma.x, sigma.y, sigma.z)
 }

@@ -1,83 +1,87 @@
-//! The terms of the law: functions of extension, bending, shear, their coupling and twist.
+//! Terms of the potential.
 
-/// Invariants of the strains: `e`, `a`, `g`, `c` and `k = kappa_3`, in this order.
+/// Invariants `e`, `a`, `g`, `c` and `k = kappa_3`.
 pub(super) type Invariants = [f64; 5];
 
-/// Place of the twist among them.
 pub(super) const BY_TWIST: usize = 4;
 
-/// Sizes beyond which extension, curvature (rad/nm) and shear no longer add to a term.
+/// Saturation of extension, curvature (rad/nm) and shear in bounded terms.
 pub(crate) const EXTENSION: f64 = 0.02;
 pub(crate) const CURVATURE: f64 = 0.02;
 pub(crate) const SHEAR: f64 = 0.1;
-/// Curvature (rad/nm) about which the shift of the neutral axis becomes constant.
+/// Curvature (rad/nm) above which the shift of the neutral axis is constant.
 pub(crate) const BENT: f64 = 2.5e-3;
-/// Extension over which tension gives way to compression.
+/// Width of the transition from tension to compression.
 pub(crate) const SLACK: f64 = 2e-5;
-/// What bending (nm), shear and twist (nm^2) add to the extension at which bonds begin to give way.
+/// Coefficients of bending (nm), shear and twist (nm^2) in the onset of slack.
 pub(crate) const TIGHT: [f64; 3] = [0.5, 5.0, 20.0];
 
-/// One term: a function of the extension `e`, of `a = kappa_1^2 + kappa_2^2`, of `g = sigma_1^2 + sigma_2^2`, of
-/// `c = kappa_1 sigma_1 + kappa_2 sigma_2` and of the twist, times a polynomial of
-/// [`degree`](Self::degree) in `t = kappa_3 / sqrt(kappa_3^2 + 0.02^2)`.
+/// Term of the potential: a function of the invariants times a polynomial of
+/// [`degree`](Self::degree) in the bounded twist.
 ///
-/// Bounded are `E = e / sqrt(1 + (e / 0.02)^2)`, `A = a / (1 + a / 0.02^2)`, `G = g / (1 + g / 0.1^2)`,
-/// `C = c / ((1 + a / 0.02^2) (1 + g / 0.1^2))` and `r = sqrt(A + b^2) - b` with `b = 0.0025` /nm.
+/// ```text
+/// E = e / sqrt(1 + (e / 0.02)^2)
+/// A = a / (1 + a / 0.02^2)
+/// G = g / (1 + g / 0.1^2)
+/// C = c / ((1 + a / 0.02^2) (1 + g / 0.1^2))
+/// r = sqrt(A + b^2) - b,  b = 0.0025 /nm
+/// ```
+///
+/// [`HomogenisedForm`](crate::HomogenisedForm) defines `e`, `a`, `g` and `c`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Term {
-    /// `e^2`: stretch at any size.
+    /// `e^2`: unbounded stretch.
     AnyStretch,
-    /// `a`: bending at any size.
+    /// `a`: unbounded bending.
     AnyBend,
-    /// `g`: shear at any size.
+    /// `g`: unbounded shear.
     AnyShear,
-    /// `kappa_3^2`: what twist alone stores.
+    /// `kappa_3^2`: twist.
     Twist,
-    /// `kappa_3`: a twist of the free filament, which heat gives.
+    /// `kappa_3`: twist of the free filament, due to temperature.
     Turn,
     /// `E^2`: stretch.
     Stretch,
-    /// `E^3`: tension stiffens, compression softens.
+    /// `E^3`: stiffening in tension, softening in compression.
     StretchThrice,
-    /// `y^3 / (y + 2e-5)` of `y = max(-x, 0)`, `x = e + 0.5 r + 5 g + 20 kappa_3^2`: bonds that are pushed together
-    /// give way, unless bending, shear or twist has tightened them.
+    /// `y^3 / (y + 2e-5)`, `y = max(-x, 0)`, `x = e + 0.5 r + 5 g + 20 kappa_3^2`: slack bonds in
+    /// compression, unless bending, shear or twist tightens them.
     Compression,
     /// `A`: bending.
     Bend,
-    /// `r`: bending that tends to a constant couple.
+    /// `r`: bending with a saturating torque.
     BendRoot,
-    /// `E r`: bending shortens at small twist, as the compressed side gives way more.
+    /// `E r`: shortening by bending at small twist.
     StretchRoot,
-    /// `E A`.
+    /// `E A`: coupling of stretch and bending.
     StretchBend,
-    /// `G`: shear, resisted by what twist has tightened.
+    /// `G`: shear, stiffened by twist.
     Shear,
-    /// `E G`: shear shortens, and tension resists it.
+    /// `E G`: shortening by shear, and stiffening of shear by tension.
     StretchShear,
-    /// `C`: bending turns into shear along its axis.
+    /// `C`: coupling of bending and shear about the same axis.
     Coupling,
-    /// `E C`.
+    /// `E C`: dependence of the bending-shear coupling on stretch.
     StretchCoupling,
-    /// `r G`: bending tightens, and with it resists shear.
+    /// `r G`: stiffening of shear by bending.
     RootShear,
-    /// `r C`.
+    /// `r C`: dependence of the bending-shear coupling on bending.
     RootCoupling,
-    /// `G C`.
+    /// `G C`: dependence of the bending-shear coupling on shear.
     ShearCoupling,
-    /// `G^2`.
+    /// `G^2`: fourth-order shear.
     ShearTwice,
-    /// `G^3`.
+    /// `G^3`: sixth-order shear.
     ShearThrice,
-    /// `r^2 G`: strong bending resists shear less, or more, than `r G` says.
+    /// `r^2 G`: correction to `r G` at large bending.
     RootTwiceShear,
-    /// `E^2 r`: bent rods stretch more easily.
+    /// `E^2 r`: softening of stretch by bending.
     StretchTwiceRoot,
 }
 
-/// A function of one variable with its first and second derivative.
+/// Function of one variable with two derivatives.
 pub(super) type Jet = [f64; 3];
 
-/// A function of the invariants with its derivatives.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct InvariantJet {
     pub(super) value: f64,
@@ -103,7 +107,6 @@ fn times(f: Jet, g: Jet) -> Jet {
     ]
 }
 
-/// `f` of the inner function, which was taken at its value.
 pub(super) fn of(f: Jet, inner: Jet) -> Jet {
     [
         f[0],
@@ -118,7 +121,7 @@ pub(super) fn bounded(e: f64, size: f64) -> Jet {
     [e / q, q.powi(-3), -3.0 * e / (size * size) * q.powi(-5)]
 }
 
-/// `x / (1 + x / size^2)`, of a square.
+/// `x / (1 + x / size^2)`.
 fn bounded_square(x: f64, size: f64) -> Jet {
     let q = 1.0 + x / (size * size);
     [x / q, q.powi(-2), -2.0 / (size * size) * q.powi(-3)]
@@ -134,12 +137,12 @@ fn fading(x: f64, size: f64) -> Jet {
 fn root(a: f64) -> Jet {
     let bent = bounded_square(a, CURVATURE);
     let r = (bent[0] + BENT * BENT).sqrt();
-    // Without the cancellation of the difference.
+    // Avoids the cancellation of the difference.
     let outer = [bent[0] / (r + BENT), 0.5 / r, -0.25 / (r * r * r)];
     of(outer, bent)
 }
 
-/// `y^3 / (y + w)` for `y = -x` above zero: close to `x^2` beyond `w`, nothing in tension.
+/// `y^3 / (y + w)` with `y = max(-x, 0)`.
 fn compression(x: f64) -> Jet {
     let y = (-x).max(0.0);
     let q = (y + SLACK).recip();
@@ -152,7 +155,6 @@ fn compression(x: f64) -> Jet {
     ]
 }
 
-/// What terms are made of, at some strain.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Factors {
     e: f64,
@@ -168,7 +170,7 @@ pub(super) struct Factors {
     root: Jet,
     /// `G`.
     shear: Jet,
-    /// What `c` fades with: curvature and shear.
+    /// Decay of `C` with curvature and shear.
     fading: [Jet; 2],
 }
 
@@ -190,7 +192,6 @@ impl Factors {
 }
 
 impl Factors {
-    /// What the coupling is multiplied by, with the coupling.
     fn coupled(&self, stretch: Jet, bend: Jet, shear: Jet) -> [Jet; 5] {
         let [of_a, of_g] = self.fading;
         [
@@ -204,7 +205,7 @@ impl Factors {
 }
 
 impl Term {
-    /// All terms, in the order of the coefficients of a law.
+    /// All terms, in the order of the coefficients.
     pub const ALL: [Self; 23] = [
         Self::AnyStretch,
         Self::AnyBend,
@@ -231,7 +232,7 @@ impl Term {
         Self::StretchTwiceRoot,
     ];
 
-    /// Degree of the polynomial in the twist.
+    /// Degree of the polynomial in the bounded twist.
     pub const fn degree(self) -> usize {
         match self {
             Self::AnyStretch | Self::AnyBend | Self::AnyShear | Self::Turn => 0,
@@ -253,7 +254,6 @@ impl Term {
         }
     }
 
-    /// The functions whose product it is, but for compression.
     #[inline]
     fn factors(self, of: &Factors) -> [Jet; 5] {
         let &Factors { e, a, g, k, .. } = of;
@@ -292,7 +292,7 @@ impl Term {
         }
     }
 
-    /// The term without its polynomial and derivatives: what [`jet`](Self::jet) has as its value, to the last bit.
+    /// Value without polynomial, bit-identical to that of [`jet`](Self::jet).
     #[inline]
     pub(super) fn value(self, of: &Factors) -> f64 {
         if self == Self::Compression {
@@ -304,7 +304,6 @@ impl Term {
             .fold(1.0, |value, [factor, ..]| value * factor)
     }
 
-    /// The term without its polynomial.
     pub(super) fn jet(self, of: &Factors) -> InvariantJet {
         if self == Self::Compression {
             return compressed(of);
@@ -322,7 +321,6 @@ impl Term {
     }
 }
 
-/// [`Term::Compression`].
 fn compressed(&Factors { e, g, k, root, .. }: &Factors) -> InvariantJet {
     let [of_r, of_g, of_k] = TIGHT;
     let r = root.map(|x| of_r * x);
@@ -339,7 +337,7 @@ fn compressed(&Factors { e, g, k, root, .. }: &Factors) -> InvariantJet {
 }
 
 impl InvariantJet {
-    /// Times a function of one of the invariants.
+    /// Product with a function of one invariant.
     pub(super) fn times(mut self, variable: usize, [p, slope, bend]: Jet) -> Self {
         let (value, first, by_it) = (self.value, self.first, self.second[variable]);
         for row in &mut self.second {

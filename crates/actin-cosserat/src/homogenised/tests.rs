@@ -1,11 +1,11 @@
-//! The potential: exact derivatives, its symmetries, its linearity in the coefficients, its numbers.
+//! Derivatives, symmetries, linearity and coefficients of the potential.
 
 use super::terms::Factors;
 use super::{Homogenised, HomogenisedForm, SixVector, Term};
 use crate::RodKey;
 use actin_mechanics::testing::derivative;
 
-/// A polynomial of its own for each term, of the size that brings about 1 pN at the strains below.
+/// Distinct polynomials, scaled to about 1 pN per term at the strains below.
 fn law() -> Homogenised {
     let form = HomogenisedForm::new(&[-0.28, -0.8, 0.3, 0.1]).unwrap();
     let unit = |term: Term| {
@@ -20,15 +20,14 @@ fn law() -> Homogenised {
     Homogenised::new(form, coefficients).unwrap()
 }
 
-/// Strains inside the data of the mean filament and beyond, in tension and compression.
 fn strains() -> Vec<SixVector> {
     let size = SixVector::new(0.01, 0.01, 0.07, 0.01, 0.01, 4e-3);
     let strain = |n: i32| SixVector::from_fn(|k, _| (3.7 * f64::from(n) + 2.3 * k as f64).sin());
     (0..60).map(|n| strain(n).component_mul(&size)).collect()
 }
 
-/// Eight-point differences; compression gives way over 2e-5, hence the small steps. The bounds are
-/// the rounding of energies of 10 pN and loads of 1e4 pN over the steps, tenfold.
+/// Small steps, because compression changes over 2e-5. Bounds are ten times the round-off divided
+/// by the step.
 #[test]
 fn loads_and_tangent_are_exact() {
     let law = law();
@@ -53,8 +52,7 @@ fn loads_and_tangent_are_exact() {
     }
 }
 
-/// Turned about the axis, and turned end for end (`kappa_1` and `sigma_1` change their signs), the rod stores the
-/// same.
+/// Rotation about the axis, and reversal (`kappa_1` and `sigma_1` change sign).
 #[test]
 fn the_law_has_the_symmetries_of_the_filament() {
     let law = law();
@@ -75,7 +73,6 @@ fn the_law_has_the_symmetries_of_the_filament() {
     }
 }
 
-/// The units of all coefficients, times these, add up to the law.
 #[test]
 fn units_add_up() {
     let law = law();
@@ -99,7 +96,7 @@ fn units_add_up() {
 }
 
 #[test]
-fn numbers_without_a_meaning_are_refused() {
+fn invalid_coefficients_are_refused() {
     let form = law().form().clone();
     let refused = Homogenised::new(form.clone(), |_| vec![f64::NAN]).unwrap_err();
     assert_eq!(refused.key, RodKey::Coefficient);
@@ -108,9 +105,8 @@ fn numbers_without_a_meaning_are_refused() {
     assert!(HomogenisedForm::new(&[0.0; 11]).is_err());
 }
 
-/// The mean filament is at rest without load, and stable within the range of its data from a compression of 2e-4 (3 pN)
-/// to an extension of 2.5e-3 (85 pN). (Cells lose their stiffness under more compression. Where more than 100 pN pull at
-/// a strongly bent rod, the law loses it and cells do not.)
+/// Stable from a compression of 2e-4 (3 pN) to an extension of 2.5e-3 (85 pN). Above 100 pN at
+/// strong bending the law is unstable, unlike the cells.
 #[test]
 fn the_mean_filament_is_stable_but_for_compression_and_strong_tension() {
     let law = Homogenised::mean_filament();
@@ -119,15 +115,14 @@ fn the_mean_filament_is_stable_but_for_compression_and_strong_tension() {
     assert_stable(law, [-2e-4, 2.5e-3]);
 }
 
-/// That at 298 K is stable in all of its range.
 #[test]
 fn the_heated_filament_is_stable() {
     let law = Homogenised::mean_filament_at_298_k();
     assert_stable(law, law.range().stretch);
 }
 
-/// Free, it is what cells of 13 monomers are at 298 K (`cargo xtask homogenise heat`, standard errors 1 %): their twist,
-/// stretch, and B, C, S1, S3 with all other loads zero.
+/// Twist, stretch, B, C, S1, S3 of free cells of 13 monomers at 298 K
+/// (`cargo xtask homogenise heat`, standard errors 1 %).
 #[test]
 fn the_heated_filament_is_that_of_the_cells() {
     let law = Homogenised::mean_filament_at_298_k();
@@ -145,10 +140,9 @@ fn the_heated_filament_is_that_of_the_cells() {
     }
 }
 
-/// That the tangent is positive within the range, at these stretches beyond the natural one.
 fn assert_stable(law: &Homogenised, [shortest, longest]: [f64; 2]) {
     let range = *law.range();
-    // Places that fill the ranges evenly: multiples of the roots of 2, 3, 5, 7, 11.
+    // Low-discrepancy points: multiples of the roots of 2, 3, 5, 7, 11.
     for n in 1..4000 {
         let [b, t, g, e, angle] =
             [2.0_f64, 3.0, 5.0, 7.0, 11.0].map(|p| (f64::from(n) * p.sqrt()).fract());

@@ -1,17 +1,17 @@
-//! Under which forces along a rod the potential's twist is stable.
+//! Stability of the potential's twist under axial force.
 
 use super::{Homogenised, joined};
 use actin_mechanics::Vector3;
 
-/// How far from the natural length a critical force is looked for, and in how many steps.
+/// Largest stretch and number of steps in the search for a critical force.
 const REACH: (f64, u32) = (0.02, 200);
 
-/// Halvings of a step: to 1e-13 of a stretch.
+/// Number of bisections: to 1e-13 of stretch.
 const HALVINGS: u32 = 30;
 
 impl Homogenised {
-    /// Force along a segment (pN), and the derivative of the couple about d3 by the twist at that
-    /// force, shear and bending (pN nm^2): negative infinity where stretch is unstable by itself.
+    /// Axial force (pN), and derivative of the torque about d3 with respect to twist at constant
+    /// force, shear and bending (pN nm^2). Negative infinity if stretch is unstable.
     pub(crate) fn tension_and_twist_tangent(&self, sigma: Vector3, kappa: Vector3) -> [f64; 2] {
         let strain = joined(sigma, kappa);
         let tangent = self.tangent(&strain);
@@ -24,7 +24,7 @@ impl Homogenised {
         [self.loads(&strain)[5], at_force]
     }
 
-    /// The stretch without force along the segment, at this shear and bending: a bent rod is shorter.
+    /// Stretch without axial force at given shear and bending.
     fn free_stretch(&self, sigma: Vector3, kappa: Vector3) -> f64 {
         let natural = self.form.natural_stretch(kappa.z);
         let [mut least, mut most] = [natural - REACH.0, natural + REACH.0];
@@ -40,8 +40,7 @@ impl Homogenised {
         0.5 * (least + most)
     }
 
-    /// The force (pN) nearest to none at which that derivative vanishes, if there is one within
-    /// [`REACH`].
+    /// Smallest force (pN) at which the tangent vanishes within [`REACH`], or `None`.
     pub(crate) fn critical_tension(&self, sigma: Vector3, kappa: Vector3) -> Option<f64> {
         let free = self.free_stretch(sigma, kappa);
         let at = |e: f64| {
@@ -66,8 +65,8 @@ impl Homogenised {
         Some(at(inner)[0])
     }
 
-    /// The compression (pN) beyond which twist is unstable: zero where it is without any, none where
-    /// compression does not soften it.
+    /// Compression (pN) above which twist is unstable: zero if unstable without force, `None` if
+    /// compression does not soften twist.
     pub(crate) fn critical_compression(&self, sigma: Vector3, kappa: Vector3) -> Option<f64> {
         let free = Vector3::new(sigma.x, sigma.y, self.free_stretch(sigma, kappa));
         if self.tension_and_twist_tangent(free, kappa)[1] <= 0.0 {

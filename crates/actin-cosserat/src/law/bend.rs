@@ -1,25 +1,25 @@
-//! How a rod resists bending.
+//! Laws of bending.
 
 use super::Stiffening;
 use crate::{RodKey, RodParameterError};
 use actin_mechanics::{Matrix3, Vector3};
 
-/// A law of bending: couples about d1 and d2, and what bending does to the twist.
+/// Law of bending: torques about d1 and d2, and the contribution to twist.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub enum BendLaw {
-    /// Two rigidities, the same at every curvature (pN nm^2).
+    /// Constant rigidities B1, B2 (pN nm^2).
     Constant([f64; 2]),
-    /// One rigidity about both axes that rises with the deformation.
+    /// Isotropic rigidity that rises with deformation.
     Stiffening(Stiffening),
 }
 
 impl BendLaw {
-    /// Checks every number.
+    /// Checks all parameters.
     ///
     /// # Errors
-    /// What the law's own `validate` refuses, or a constant that is not positive.
+    /// If a parameter is out of range.
     pub fn validate(&self) -> Result<(), RodParameterError> {
         match self {
             Self::Constant([b1, b2]) => {
@@ -30,7 +30,6 @@ impl BendLaw {
         }
     }
 
-    /// The law with its rigidities multiplied.
     pub(crate) fn times(self, factor: f64) -> Self {
         match self {
             Self::Constant(rigidities) => Self::Constant(rigidities.map(|b| b * factor)),
@@ -42,7 +41,7 @@ impl BendLaw {
         }
     }
 
-    /// Couple (pN nm) at curvature `kappa` (rad/nm).
+    /// Torque (pN nm) at curvature `kappa` (rad/nm).
     #[inline]
     pub fn couple(&self, kappa: Vector3) -> Vector3 {
         match self {
@@ -51,7 +50,7 @@ impl BendLaw {
         }
     }
 
-    /// Derivative of the couple (pN nm^2), symmetric.
+    /// Derivative of the torque (pN nm^2), symmetric.
     #[inline]
     pub fn tangent(&self, kappa: Vector3) -> Matrix3 {
         match self {
@@ -69,7 +68,7 @@ impl BendLaw {
         }
     }
 
-    /// Largest curvature (rad/nm) that the law's data reach, if it has data.
+    /// Largest curvature (rad/nm) of the data, or `None` without data.
     pub fn range(&self) -> Option<f64> {
         match self {
             Self::Constant(_) => None,
@@ -78,7 +77,7 @@ impl BendLaw {
     }
 }
 
-/// Without shear, a function of the curvature alone: `p = k1^2 + k2^2`, `s = k3^2 / twist^2`.
+/// Stiffening without shear, with `p = k1^2 + k2^2` and `s = k3^2 / twist^2`.
 impl Stiffening {
     #[inline]
     fn arguments(&self, kappa: Vector3) -> (f64, f64) {
@@ -102,7 +101,6 @@ impl Stiffening {
         let (p, s) = self.arguments(kappa);
         let jet = self.jet(p, s);
         let scale = (self.twist * self.twist).recip();
-        // Gradients of p and of s.
         let of_p = 2.0 * Vector3::new(kappa.x, kappa.y, 0.0);
         let of_s = 2.0 * Vector3::z() * (kappa.z * scale);
         let mixed = of_p * of_s.transpose();

@@ -1,9 +1,8 @@
-//! The integral behind the energy of a tanh law.
+//! Integral for the energy of [`TanhTwist`](super::TanhTwist).
 
 use std::f64::consts::PI;
 
-/// Bernoulli numbers over factorials, `B_2k / (2k + 1)!` for k = 1 to 9: the dilogarithm's series
-/// in `ln(1 + z)`. The first neglected term is below 1e-18 for `z <= 1`.
+/// `B_2k / (2k + 1)!` for k = 1 to 9. The first neglected term is below 1e-18 for `z <= 1`.
 const SERIES: [f64; 9] = [
     1.0 / 36.0,
     -1.0 / 3_600.0,
@@ -16,7 +15,7 @@ const SERIES: [f64; 9] = [
     43_867.0 / 9.707_279_012_624_794e19,
 ];
 
-/// `-Li2(-z)` for `z` in [0, 1]: with `u = ln(1 + z)` it is `u + u^2/4 + sum B_2k u^(2k+1)/(2k+1)!`.
+/// `-Li2(-z)` for `z` in [0, 1]: `u + u^2/4 + sum B_2k u^(2k+1)/(2k+1)!` with `u = ln(1 + z)`.
 fn minus_dilogarithm(z: f64) -> f64 {
     let u = z.ln_1p();
     let u2 = u * u;
@@ -24,13 +23,13 @@ fn minus_dilogarithm(z: f64) -> f64 {
     u * (1.0 + 0.25 * u + tail)
 }
 
-/// `ln cosh x`, accurate where `cosh x` overflows.
+/// `ln cosh x`, without overflow.
 fn log_cosh(x: f64) -> f64 {
     let x = x.abs();
     x + (-2.0 * x).exp().ln_1p() - std::f64::consts::LN_2
 }
 
-/// `int_0^x y tanh(y) dy`, odd in `x`; absolute error below 1e-15 (1 + x^2).
+/// `int_0^x y tanh(y) dy`, odd in `x`, with an absolute error below 1e-15 (1 + x^2).
 fn moment_of_tanh(x: f64) -> f64 {
     let a = x.abs();
     let z = (-2.0 * a).exp();
@@ -59,7 +58,6 @@ mod tests {
         assert!((minus_dilogarithm(0.5) - 0.448_414_206_923_646_2).abs() < 1e-15);
     }
 
-    /// Against Gauss-Legendre quadrature of five points on a thousand panels.
     #[test]
     fn closed_form_is_the_integral() {
         for (k, centre, width) in [
@@ -71,7 +69,7 @@ mod tests {
                 s * ((s - centre) / width).tanh()
             });
             let error = tanh_energy(k, centre, width) - integral;
-            // Absolute, of order width (|centre| + width): the antiderivatives' round-off.
+            // Round-off of the antiderivative, of order width (|centre| + width).
             assert!(
                 error.abs() < 2e-15 * width * (1.0f64 + centre.abs() / width),
                 "{error:e}"

@@ -1,7 +1,6 @@
-//! Constitutive laws that are more than a constant, one per file.
+//! Nonlinear constitutive laws: torque or force, tangent and energy per length.
 //!
-//! Each gives a couple or a force, its tangent and its energy per length. How they join to a
-//! material is in `material.rs`; what couples a segment to its neighbours is in `extended/`.
+//! `material.rs` combines them; `extended/` couples segments to curvature.
 
 mod bend;
 mod dilogarithm;

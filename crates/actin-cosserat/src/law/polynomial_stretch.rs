@@ -1,11 +1,14 @@
-//! The published form of a natural length that depends on the twist.
+//! Published natural length as a function of twist.
 
 use crate::{RodKey, RodParameterError, constants};
 
-/// Natural over rest length, a polynomial of the twist `k` (rad/nm): `xi(k) = 1 + sum p_i k^i`.
+/// Ratio of natural to rest length as a polynomial of the twist `k` (rad/nm).
 ///
-/// Beyond `range` it goes on with its value and slope there, since the polynomial soon leaves
-/// every sense (the published one falls with the sixth power).
+/// ```text
+/// xi(k) = 1 + sum p_i k^i
+/// ```
+///
+/// Extrapolated linearly outside `range`, where the polynomial diverges.
 ///
 /// # Source
 /// arXiv 2203.01284, Section 3.3 and Appendix B, where the printed polynomial is that of `xi - 1`.
@@ -14,12 +17,12 @@ use crate::{RodKey, RodParameterError, constants};
 pub struct PolynomialStretch {
     /// `p_0` to `p_6` (nm^i/rad^i).
     pub coefficients: [f64; 7],
-    /// Largest `|k|` (rad/nm) that the data reach.
+    /// Largest `|k|` of the data (rad/nm).
     pub range: f64,
 }
 
 impl PolynomialStretch {
-    /// The published polynomial with its offset `p_0`, by which a rod at rest shrinks by 5e-4.
+    /// Published polynomial, including the offset `p_0` = -5e-4 at zero twist.
     pub fn published() -> Self {
         Self {
             coefficients: constants::XI_COEFFICIENTS,
@@ -27,7 +30,7 @@ impl PolynomialStretch {
         }
     }
 
-    /// The published polynomial without its offset: at rest it is 1.
+    /// Published polynomial without offset: `xi(0) = 1`.
     ///
     /// ```
     /// let xi = actin_cosserat::PolynomialStretch::published_without_offset();
@@ -41,10 +44,10 @@ impl PolynomialStretch {
         law
     }
 
-    /// The law of an energy `c3 sigma_3 kappa_3` per length beside `s3 sigma_3^2 / 2`: minimised
-    /// over the strain at no force it is the slope `-c3 / s3`, at every twist.
+    /// Linear law `xi - 1 = -(c3 / s3) k`, with `c3` in pN nm and `s3` in pN.
     ///
-    /// `c3` in pN nm, `s3` in pN.
+    /// It is equivalent to the energy `s3 sigma_3^2 / 2 + c3 sigma_3 kappa_3` per length, minimised
+    /// at zero force.
     pub fn linear(c3: f64, s3: f64) -> Self {
         let mut coefficients = [0.0; 7];
         coefficients[1] = -c3 / s3;
@@ -54,10 +57,10 @@ impl PolynomialStretch {
         }
     }
 
-    /// Checks every number.
+    /// Checks all parameters.
     ///
     /// # Errors
-    /// A coefficient that is not finite or a range that is not positive.
+    /// If a coefficient is not finite, or if the range is not positive.
     pub fn validate(&self) -> Result<(), RodParameterError> {
         if self.range.is_nan() || self.range <= 0.0 {
             let (key, value, rule) = (RodKey::Range, self.range, "positive");
@@ -67,7 +70,7 @@ impl PolynomialStretch {
         coefficients.try_for_each(|p| RodParameterError::unless_finite(RodKey::Coefficient, *p))
     }
 
-    /// `xi - 1`, its first and its second derivative at `k` (rad/nm).
+    /// `xi - 1` at `k` (rad/nm), with two derivatives.
     #[inline]
     pub fn jet(&self, k: f64) -> [f64; 3] {
         let inside = k.clamp(-self.range, self.range);
@@ -84,7 +87,7 @@ impl PolynomialStretch {
         }
     }
 
-    /// `xi - 1` at twist `k` (rad/nm): the relative change of length that costs no force.
+    /// `xi - 1` at twist `k` (rad/nm).
     pub fn extension(&self, k: f64) -> f64 {
         self.jet(k)[0]
     }
@@ -96,7 +99,7 @@ mod tests {
     use actin_mechanics::testing::derivative;
 
     #[test]
-    fn jet_holds_the_derivatives_inside_and_beyond() {
+    fn jet_contains_the_derivatives_inside_and_outside_the_range() {
         let law = PolynomialStretch::published();
         for k in [-0.1, -0.04, -0.01, 0.0, 0.02, 0.045, 0.2] {
             let jet = law.jet(k);
@@ -108,7 +111,6 @@ mod tests {
         }
     }
 
-    /// Table 5: the largest deviation of the published polynomial is 6e-4.
     #[test]
     fn published_coefficients_follow_table_5() {
         let law = PolynomialStretch::published();

@@ -1,36 +1,37 @@
-//! A natural length that bends from one slope in the twist to another.
+//! Natural length with different slopes in under-twist and over-twist.
 
 use crate::{RodKey, RodParameterError};
 
-/// Natural over rest length with a slope on either side of rest.
+/// Ratio of natural to rest length with different slopes on both sides of rest.
 ///
-/// `xi(k) - 1 = slope k - bend (sqrt(k^2 + half^2) - half) + cubic k^3` with the twist `k`
-/// (rad/nm). At rest it is 1. Beyond `range` it goes on with its value and slope there.
+/// ```text
+/// xi(k) - 1 = slope k - bend (sqrt(k^2 + half^2) - half) + cubic k^3
+/// ```
+///
+/// `k` is the twist (rad/nm). Extrapolated linearly outside `range`.
 ///
 /// # Source
-/// The form follows twisted filaments of monomers (`docs/validation.md`, Figure 9): as long as
-/// both kinds of interface keep their lengths the slope is that of a helix, and which of them gives
-/// way depends on the side.
+/// Form after twisted filaments of monomers (`docs/validation.md`, Figure 9).
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct RootedStretch {
     /// Slope at rest (nm/rad).
     pub slope: f64,
-    /// Half the difference of the slopes far in under-twist and over-twist (nm/rad).
+    /// Half the difference of the limiting slopes (nm/rad).
     pub bend: f64,
-    /// Twist over which one goes over into the other (rad/nm).
+    /// Twist scale of the transition (rad/nm).
     pub half: f64,
-    /// Coefficient of the cube (nm^3/rad^3).
+    /// Cubic coefficient (nm^3/rad^3).
     pub cubic: f64,
-    /// Largest `|k|` (rad/nm) that the data reach.
+    /// Largest `|k|` of the data (rad/nm).
     pub range: f64,
 }
 
 impl RootedStretch {
-    /// Checks every number.
+    /// Checks all parameters.
     ///
     /// # Errors
-    /// A `half` or range that is not positive; any other number that is not finite.
+    /// If `half` or the range is not positive, or if another parameter is not finite.
     pub fn validate(&self) -> Result<(), RodParameterError> {
         RodParameterError::unless_positive(RodKey::Half, self.half)?;
         RodParameterError::unless_positive(RodKey::Range, self.range)?;
@@ -43,7 +44,7 @@ impl RootedStretch {
         .try_for_each(|(key, value)| RodParameterError::unless_finite(key, value))
     }
 
-    /// `xi - 1`, its first and its second derivative at `k` (rad/nm).
+    /// `xi - 1` at `k` (rad/nm), with two derivatives.
     ///
     /// ```
     /// use actin_cosserat::RootedStretch;
@@ -56,7 +57,7 @@ impl RootedStretch {
         let inside = k.clamp(-self.range, self.range);
         let root = inside.hypot(self.half);
         let cube = self.cubic * inside * inside;
-        // sqrt(k^2 + half^2) - half, without its cancellation at small twist.
+        // sqrt(k^2 + half^2) - half, without cancellation.
         let bent = self.bend * inside * inside / (root + self.half);
         let value = self.slope * inside - bent + cube * inside;
         let slope = self.slope - self.bend * inside / root + 3.0 * cube;
@@ -69,7 +70,7 @@ impl RootedStretch {
         }
     }
 
-    /// Derivatives of `xi - 1` with respect to `slope`, `bend`, `half` and `cubic`, inside the
+    /// Derivatives of `xi - 1` with respect to `slope`, `bend`, `half` and `cubic`, within the
     /// range.
     pub fn gradient(&self, k: f64) -> [f64; 4] {
         let root = k.hypot(self.half);
@@ -92,7 +93,7 @@ mod tests {
     };
 
     #[test]
-    fn jet_holds_the_derivatives_inside_and_beyond() {
+    fn jet_contains_the_derivatives_inside_and_outside_the_range() {
         for k in [-0.1, -0.04, -0.01, 0.0, 0.02, 0.045, 0.2] {
             let jet = LAW.jet(k);
             for order in [0, 1] {

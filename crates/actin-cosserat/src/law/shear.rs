@@ -1,27 +1,28 @@
-//! How a rod resists shear.
+//! Law of shear.
 
 use crate::{RodKey, RodParameterError};
 use nalgebra::{Matrix2, Vector2};
 
-/// The two shear strains of a cross-section, or the two forces.
 type Pair = Vector2<f64>;
 
-/// A shear force that has a linear and a cubic part.
+/// Shear with a linear and a cubic part, as a function of the shear strains `g`.
 ///
-/// With `g` the two shear strains of a cross-section, the force is `S g + c |g|^2 g` and the
-/// energy per length `g^T S g / 2 + c |g|^4 / 4`. The linear part may be zero: a filament of
-/// monomers has none at rest.
+/// ```text
+/// force  = S g + c |g|^2 g                   (pN)
+/// energy = g^T S g / 2 + c |g|^4 / 4         (pN, per length)
+/// ```
+///
+/// The linear part may be zero, as for filaments of monomers at rest.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct CubicShear {
-    /// S1 and S2 (pN).
+    /// Linear rigidities S1 and S2 (pN).
     pub linear: [f64; 2],
-    /// `c` (pN).
+    /// Cubic rigidity `c` (pN).
     pub cubic: f64,
 }
 
 impl CubicShear {
-    /// The law with its rigidities multiplied.
     pub(crate) fn times(self, factor: f64) -> Self {
         Self {
             linear: self.linear.map(|s| s * factor),
@@ -29,10 +30,10 @@ impl CubicShear {
         }
     }
 
-    /// Checks every number.
+    /// Checks all parameters.
     ///
     /// # Errors
-    /// Negative or non-finite numbers; no resistance at all.
+    /// If a parameter is negative or not finite, or if linear and cubic part are both zero.
     pub fn validate(&self) -> Result<(), RodParameterError> {
         let [s1, s2] = self.linear;
         for (key, value) in [
@@ -40,7 +41,7 @@ impl CubicShear {
             (RodKey::S2, s2),
             (RodKey::CubicShear, self.cubic),
         ] {
-            // A cubic part makes up for a linear one that is missing.
+            // The linear part may be zero with a cubic part.
             if self.cubic == 0.0 && key != RodKey::CubicShear {
                 RodParameterError::unless_positive(key, value)?;
             }

@@ -1,39 +1,41 @@
-//! A twisting rigidity that rises from its value at rest, differently to either side.
+//! Twist rigidity that rises differently in under-twist and over-twist.
 
 use crate::{RodKey, RodParameterError};
 
-/// A secant twisting rigidity that saturates on either side of rest.
+/// Secant twist rigidity that saturates on both sides of rest.
 ///
-/// `B3(k) = rest + rise k^2 / (k^2 + slow |k| + half^2)` with its own `rise`, `half` and `slow`
-/// for over-twist (`k > 0`) and under-twist. The couple is `B3(k) k` and has two continuous
-/// derivatives at rest; the energy per length is its integral, in closed form. Beyond `range` the
-/// couple goes on with its value and slope there.
+/// ```text
+/// B3(k) = rest + rise k^2 / (k^2 + slow |k| + half^2)
+/// ```
+///
+/// `rise`, `half` and `slow` differ for over-twist (`k > 0`) and under-twist. The torque is
+/// `B3(k) k`, extrapolated linearly outside `range`. The energy per length is its integral.
 ///
 /// # Source
-/// The form follows twisted filaments of monomers: next to nothing resists small twist, and what
-/// does at large twist is reached sooner in under-twist (`docs/validation.md`, Figure 9).
+/// Form after twisted filaments of monomers, which hardly resist small twist (`docs/validation.md`,
+/// Figure 9).
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct SidedTwist {
     /// Rigidity at rest (pN nm^2).
     pub rest: f64,
-    /// What is gained in under-twist.
+    /// Rise in under-twist.
     pub under: TwistRise,
-    /// What is gained in over-twist.
+    /// Rise in over-twist.
     pub over: TwistRise,
-    /// Largest `|k|` (rad/nm) that the data reach.
+    /// Largest `|k|` of the data (rad/nm).
     pub range: f64,
 }
 
-/// One side of a [`SidedTwist`].
+/// Parameters of one side of a [`SidedTwist`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct TwistRise {
-    /// What the rigidity gains far from rest (pN nm^2).
+    /// Increase of the rigidity at large twist (pN nm^2).
     pub rise: f64,
-    /// Twist at which half is gained if `slow` is none (rad/nm).
+    /// Twist at half the rise for `slow = 0` (rad/nm).
     pub half: f64,
-    /// How much the rise is drawn out (rad/nm).
+    /// Twist scale of the slow part of the rise (rad/nm).
     pub slow: f64,
 }
 
@@ -54,7 +56,7 @@ impl TwistRise {
         k * (k + self.slow) + self.half * self.half
     }
 
-    /// `int_0^k s^3 / denominator(s) ds` for `k >= 0`, from partial fractions.
+    /// `int_0^k s^3 / denominator(s) ds` for `k >= 0`, by partial fractions.
     fn moment(&self, k: f64) -> f64 {
         let (slow, half2) = (self.slow, self.half * self.half);
         let excess = slow * slow - half2;
@@ -66,7 +68,7 @@ impl TwistRise {
     }
 }
 
-/// `artanh(sqrt z) / sqrt z`, which is `atan(sqrt -z) / sqrt -z` for negative `z`.
+/// `artanh(sqrt z) / sqrt z`, or `atan(sqrt -z) / sqrt -z` for negative `z`.
 fn artanh_over(z: f64) -> f64 {
     if z.abs() < 1e-3 {
         // The first neglected term, z^6/13, is below round-off.
@@ -79,10 +81,10 @@ fn artanh_over(z: f64) -> f64 {
 }
 
 impl SidedTwist {
-    /// Checks every number.
+    /// Checks all parameters.
     ///
     /// # Errors
-    /// A rise, half or range that is not positive; a negative `rest` or `slow`.
+    /// If a rise, `half` or the range is not positive, or if `rest` or `slow` is negative.
     pub fn validate(&self) -> Result<(), RodParameterError> {
         if !(self.rest >= 0.0 && self.rest.is_finite()) {
             let (key, value, rule) = (RodKey::Rest, self.rest, "finite and not negative");
@@ -98,7 +100,6 @@ impl SidedTwist {
         if k < 0.0 { &self.under } else { &self.over }
     }
 
-    /// Couple by the formula (pN nm).
     #[inline]
     fn inner_couple(&self, k: f64) -> f64 {
         let (side, a) = (self.side(k), k.abs());
@@ -114,7 +115,7 @@ impl SidedTwist {
         self.rest + side.rise * share * (3.0 - a * (2.0 * a + side.slow) * over)
     }
 
-    /// Secant rigidity (pN nm^2): couple over twist.
+    /// Secant rigidity (pN nm^2): torque divided by twist.
     ///
     /// ```
     /// use actin_cosserat::{SidedTwist, TwistRise};
@@ -130,8 +131,8 @@ impl SidedTwist {
         }
     }
 
-    /// Derivatives of the secant with respect to `rest`, then `rise`, `half` and `slow` of
-    /// under-twist, then those of over-twist; inside the range.
+    /// Derivatives of the secant with respect to `rest` and to `rise`, `half`, `slow` of
+    /// under-twist and over-twist, within the range.
     pub fn secant_gradient(&self, k: f64) -> [f64; 7] {
         let (side, a) = (self.side(k), k.abs());
         let over = side.denominator(a).recip();
@@ -146,7 +147,7 @@ impl SidedTwist {
         }
     }
 
-    /// Couple (pN nm) at twist `k` (rad/nm).
+    /// Torque (pN nm) at twist `k` (rad/nm).
     #[inline]
     pub fn couple(&self, k: f64) -> f64 {
         let inside = k.clamp(-self.range, self.range);
@@ -158,13 +159,13 @@ impl SidedTwist {
         }
     }
 
-    /// Derivative of the couple (pN nm^2).
+    /// Derivative of the torque (pN nm^2).
     #[inline]
     pub fn tangent(&self, k: f64) -> f64 {
         self.inner_tangent(k.clamp(-self.range, self.range))
     }
 
-    /// Energy per length (pN): the integral of the couple from 0 to `k`, to round-off.
+    /// Energy per length (pN): integral of the torque, accurate to round-off.
     pub fn energy_density(&self, k: f64) -> f64 {
         let inside = k.clamp(-self.range, self.range);
         let side = self.side(k);
@@ -180,7 +181,7 @@ mod tests {
     use crate::law::tanh_twist::tests::integral;
     use actin_mechanics::testing::derivative;
 
-    /// With a positive, a negative and no discriminant of the denominator.
+    /// Positive, negative and nearly zero discriminant of the denominator.
     fn laws() -> [SidedTwist; 3] {
         [0.0192, 0.005, 0.018].map(|slow| SidedTwist {
             rest: 272.0,
@@ -204,14 +205,14 @@ mod tests {
             for k in [-0.0475, -0.02, -0.003, 0.001, 0.01, 0.04] {
                 let expected = integral(k, |s| law.couple(s));
                 let error = (law.energy_density(k) - expected).abs();
-                // Of terms of order rise slow k that cancel at small twist.
+                // Relative to terms of order rise slow k, which cancel at small twist.
                 assert!(error < 1e-14 * 2e4 * 0.02 * f64::abs(k), "{k}: {error:e}");
             }
         }
     }
 
     #[test]
-    fn tangent_is_the_slope_of_the_couple_and_both_go_on_beyond_the_range() {
+    fn tangent_is_the_slope_of_the_couple_and_both_are_extrapolated() {
         for law in laws() {
             for k in [-0.2, -0.03, -0.01, 0.004, 0.02, 0.045, 0.1] {
                 let slope = derivative(1e-5, |h| law.couple(k + h));

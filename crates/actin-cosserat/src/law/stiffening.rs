@@ -1,39 +1,37 @@
-//! Bending that stiffens: with its own curvature, with twist and with shear.
+//! Bending stiffened by curvature, twist and shear.
 
 use crate::{RodKey, RodParameterError};
 
-/// A secant bending rigidity that rises from `rest` to `rest + rise`.
+/// Secant bending rigidity that rises from `rest` to `rest + rise`.
 ///
-/// `B = rest + rise q/(1 + q)`, `q = k^2/k0^2 + s`, where `k` is the curvature of bending and `s`
-/// collects what else stiffens it: `s = kappa_3^2/twist^2 + gamma^2/shear^2`. The energy per
-/// length behind it is
+/// ```text
+/// B = rest + rise q / (1 + q),  q = k^2/k0^2 + s,  s = kappa_3^2/twist^2 + gamma^2/shear^2
+/// U = rest k^2/2 + (rise/2) [k^2 - k0^2 ln(1 + k^2 / (k0^2 (1 + s)))]
+/// ```
 ///
-/// `U = rest k^2/2 + (rise/2) [k^2 - k0^2 ln(1 + k^2 / (k0^2 (1 + s)))]`,
-///
-/// whose derivative in `k` is `B k`; those in the twist and the shear strain are a couple and a
-/// force that belong to it.
+/// `k` is the bending curvature and `U` the energy per length, with `dU/dk = B k`.
 ///
 /// # Source
-/// The form follows what bent filaments of monomers show: their interfaces resist only some of
-/// their relative motions until they are deformed, by whatever deformation.
+/// Form after bent filaments of monomers: undeformed interfaces resist only some of their relative
+/// motions.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Stiffening {
     /// Rigidity at rest (pN nm^2).
     pub rest: f64,
-    /// What it gains (pN nm^2).
+    /// Increase of the rigidity (pN nm^2).
     pub rise: f64,
-    /// Curvature `k0` at which half is gained (rad/nm).
+    /// Curvature `k0` at half the increase (rad/nm).
     pub curvature: f64,
-    /// Twist that gains half by itself (rad/nm), infinite if twist does not stiffen.
+    /// Twist at half the increase (rad/nm), or infinity without stiffening by twist.
     pub twist: f64,
-    /// Shear strain that gains half by itself, infinite if shear does not stiffen.
+    /// Shear strain at half the increase, or infinity without stiffening by shear.
     pub shear: f64,
-    /// Largest curvature that the data reach (rad/nm).
+    /// Largest curvature of the data (rad/nm).
     pub range: f64,
 }
 
-/// Value and derivatives of a function of `p = k^2` and of `s`.
+/// Function of `p = k^2` and `s` with its derivatives.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Jet {
     pub(crate) value: f64,
@@ -45,10 +43,10 @@ pub(crate) struct Jet {
 }
 
 impl Stiffening {
-    /// Checks every number.
+    /// Checks all parameters.
     ///
     /// # Errors
-    /// A rigidity, scale or range that is not positive; a `rise` that is negative.
+    /// If a rigidity, scale or range is not positive, or if `rise` is negative.
     pub fn validate(&self) -> Result<(), RodParameterError> {
         RodParameterError::unless_positive(RodKey::Rest, self.rest)?;
         RodParameterError::unless_positive(RodKey::Curvature, self.curvature)?;
@@ -84,7 +82,7 @@ impl Stiffening {
         2.0 * self.jet(k * k, stiffening).p
     }
 
-    /// Derivatives of the secant at no twist with respect to `rest`, `rise` and `curvature`.
+    /// Derivatives of the secant at zero twist with respect to `rest`, `rise` and `curvature`.
     pub fn secant_gradient(&self, k: f64) -> [f64; 3] {
         let q = (k / self.curvature).powi(2);
         let share = q / (1.0 + q);
@@ -92,7 +90,7 @@ impl Stiffening {
         [1.0, share, of_scale]
     }
 
-    /// `U` as a function of `p = k^2` and of `s`.
+    /// `U` as a function of `p = k^2` and `s`.
     #[inline]
     pub(crate) fn jet(&self, p: f64, s: f64) -> Jet {
         let k0_squared = self.curvature * self.curvature;
@@ -154,7 +152,7 @@ mod tests {
                 (jet.ss, of_s(|j| j.s)),
             ];
             for (k, (value, slope)) in checks.into_iter().enumerate() {
-                // Differences lose digits against rigidities of 4e4.
+                // Round-off of differences of rigidities of 4e4.
                 assert!(
                     (value - slope).abs() < 1e-7 * 4e4,
                     "{p} {s} {k}: {value} {slope}"
@@ -192,7 +190,6 @@ mod tests {
         }
     }
 
-    /// A rod that is sheared or twisted enough bends with the full rigidity at no curvature.
     #[test]
     fn stiffening_saturates() {
         assert!((LAW.secant(0.0, 0.0) - 3e4).abs() < 1e-9);

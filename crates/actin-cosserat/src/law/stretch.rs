@@ -1,32 +1,32 @@
-//! How a rod resists stretch.
+//! Laws of stretch.
 
 use crate::{RodKey, RodParameterError};
 
-/// A law of stretch.
+/// Law of stretch, as a function of the strain along the rod.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum StretchLaw {
-    /// One rigidity at every strain (pN).
+    /// Constant rigidity (pN).
     Constant(f64),
-    /// One rigidity in tension, another in compression, joined smoothly.
+    /// Different rigidities in tension and compression with a smooth transition.
     ///
-    /// Force `m e + h (sqrt(e^2 + w^2) - w)` at strain `e`, with `m` and `h` half the sum and
-    /// half the difference of the two rigidities.
+    /// The force at strain `e` is `m e + h (sqrt(e^2 + w^2) - w)`, where `m` and `h` are half the
+    /// sum and half the difference of the rigidities.
     Sided {
-        /// Rigidity far in tension (pN).
+        /// Rigidity in tension (pN).
         tension: f64,
-        /// Rigidity far in compression (pN).
+        /// Rigidity in compression (pN).
         compression: f64,
-        /// Strain `w` over which one goes over into the other.
+        /// Strain width `w` of the transition.
         width: f64,
     },
 }
 
 impl StretchLaw {
-    /// Checks every number.
+    /// Checks all parameters.
     ///
     /// # Errors
-    /// A rigidity or a width that is not positive and finite.
+    /// If a parameter is not positive and finite.
     pub fn validate(&self) -> Result<(), RodParameterError> {
         match *self {
             Self::Constant(s3) => RodParameterError::unless_positive(RodKey::S3, s3),
@@ -44,7 +44,6 @@ impl StretchLaw {
         }
     }
 
-    /// The law with its rigidities multiplied.
     pub(crate) fn times(self, factor: f64) -> Self {
         match self {
             Self::Constant(s3) => Self::Constant(s3 * factor),
@@ -71,7 +70,7 @@ impl StretchLaw {
                 width,
             } => {
                 let root = e.hypot(width);
-                // sqrt(e^2 + w^2) - w, without its cancellation at small strain.
+                // sqrt(e^2 + w^2) - w, without cancellation.
                 let bend = e * e / (root + width);
                 0.5 * ((tension + compression) * e + (tension - compression) * bend)
             }
@@ -94,7 +93,7 @@ impl StretchLaw {
         }
     }
 
-    /// Energy per length (pN): the integral of the force from 0.
+    /// Energy per length (pN): integral of the force.
     #[inline]
     pub fn energy_density(&self, e: f64) -> f64 {
         match *self {
@@ -133,8 +132,7 @@ mod tests {
         }
     }
 
-    /// Far on each side the force differs from its own rigidity times strain by the constant
-    /// h w = 8.5 pN.
+    /// At large strain the force differs from rigidity times strain by h w = 8.5 pN.
     #[test]
     fn each_side_has_its_own_rigidity() {
         assert!((SIDED.force(0.1) - (3.4e3 - 8.5)).abs() < 0.1);

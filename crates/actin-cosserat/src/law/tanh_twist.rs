@@ -1,33 +1,36 @@
-//! The published form of a twisting rigidity that depends on the twist.
+//! Published twist rigidity as a function of twist.
 
 use super::dilogarithm::tanh_energy;
 use crate::{RodKey, RodParameterError, constants};
 
-/// A secant twisting rigidity made of three tanh steps.
+/// Secant twist rigidity with three tanh steps.
 ///
-/// `B3(k) = M + D tanh((k + l1)/l2) + l3 M [tanh((k - l4)/l5) - tanh((k + l6)/l7)]` with
-/// `M = (b_plus + b_minus)/2`, `D = (b_plus - b_minus)/2`, `k` the twist (rad/nm, positive for
-/// over-twist). It is a secant: the couple is `B3(k) k`, and the energy per length is the integral
-/// of that, in closed form. Beyond `range` the couple goes on with its value and slope there.
+/// ```text
+/// B3(k) = M + D tanh((k + l1)/l2) + l3 M [tanh((k - l4)/l5) - tanh((k + l6)/l7)]
+/// M = (b_plus + b_minus)/2,  D = (b_plus - b_minus)/2
+/// ```
+///
+/// `k` is the twist (rad/nm, positive for over-twist). The torque is `B3(k) k`, extrapolated
+/// linearly outside `range`. The energy per length is its integral.
 ///
 /// # Source
-/// arXiv 2203.01284, Section 3.3 and Appendix B; the printed energy, `B3 k^2 / 2`, does not belong
-/// to the printed couple.
+/// arXiv 2203.01284, Section 3.3 and Appendix B. The printed energy, `B3 k^2 / 2`, is inconsistent
+/// with the printed torque.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct TanhTwist {
-    /// Limit of far over-twist (pN nm^2).
+    /// Limit at large over-twist (pN nm^2).
     pub b_plus: f64,
-    /// Limit of far under-twist (pN nm^2).
+    /// Limit at large under-twist (pN nm^2).
     pub b_minus: f64,
-    /// `l1` to `l7`; `l3` has no unit, all others are twists (rad/nm).
+    /// `l1` to `l7` (rad/nm; `l3` dimensionless).
     pub lambda: [f64; 7],
-    /// Largest `|k|` (rad/nm) that the data reach.
+    /// Largest `|k|` of the data (rad/nm).
     pub range: f64,
 }
 
 impl TanhTwist {
-    /// The published parameters, fitted to rows of at most 200 degrees over 75.5 nm.
+    /// Published parameters, fitted to rows of at most 200 degrees over 75.5 nm.
     ///
     /// ```
     /// let law = actin_cosserat::TanhTwist::published();
@@ -43,11 +46,11 @@ impl TanhTwist {
         }
     }
 
-    /// Checks every number.
+    /// Checks all parameters.
     ///
     /// # Errors
-    /// A width `l2`, `l5`, `l7` or a range that is not positive, any number that is not finite,
-    /// and a couple that does not grow at the end of the range, where it has to go on.
+    /// If `l2`, `l5`, `l7` or the range is not positive, if a parameter is not finite, or if the
+    /// torque does not increase at a limit of the range.
     pub fn validate(&self) -> Result<(), RodParameterError> {
         let widths = [
             (RodKey::Lambda2, 1),
@@ -70,7 +73,7 @@ impl TanhTwist {
         Ok(())
     }
 
-    /// Height, centre and width of each tanh, and the constant.
+    /// Mean, and height, centre and width of each tanh.
     pub(crate) fn steps(&self) -> (f64, [[f64; 3]; 3]) {
         let [l1, l2, l3, l4, l5, l6, l7] = self.lambda;
         let mean = 0.5 * (self.b_plus + self.b_minus);
@@ -79,7 +82,7 @@ impl TanhTwist {
         (mean, [[half, -l1, l2], [well, l4, l5], [-well, -l6, l7]])
     }
 
-    /// `B3(k)` by the formula (pN nm^2), also beyond the range.
+    /// `B3(k)` of the formula (pN nm^2), also outside the range.
     fn formula(&self, k: f64) -> f64 {
         let (mean, steps) = self.steps();
         let tanh = |[height, centre, width]: [f64; 3]| height * ((k - centre) / width).tanh();
@@ -122,7 +125,7 @@ impl TanhTwist {
         ]
     }
 
-    /// Secant rigidity `B3(k)` (pN nm^2): couple over twist.
+    /// Secant rigidity `B3(k)` (pN nm^2): torque divided by twist.
     pub fn secant(&self, k: f64) -> f64 {
         if k.abs() <= self.range {
             self.formula(k)
@@ -131,7 +134,7 @@ impl TanhTwist {
         }
     }
 
-    /// Couple (pN nm) at twist `k` (rad/nm).
+    /// Torque (pN nm) at twist `k` (rad/nm).
     #[inline]
     pub fn couple(&self, k: f64) -> f64 {
         let inside = k.clamp(-self.range, self.range);
@@ -143,13 +146,13 @@ impl TanhTwist {
         }
     }
 
-    /// Derivative of the couple (pN nm^2).
+    /// Derivative of the torque (pN nm^2).
     #[inline]
     pub fn tangent(&self, k: f64) -> f64 {
         self.inner_tangent(k.clamp(-self.range, self.range))
     }
 
-    /// Energy per length (pN): the integral of the couple from 0 to `k`, to round-off.
+    /// Energy per length (pN): integral of the torque, accurate to round-off.
     pub fn energy_density(&self, k: f64) -> f64 {
         let inside = k.clamp(-self.range, self.range);
         let (mean, steps) = self.steps();
@@ -165,7 +168,7 @@ pub(super) mod tests {
     use super::*;
     use actin_mechanics::testing::derivative;
 
-    /// `int_0^k f` by Gauss-Legendre of five points on a thousand panels.
+    /// `int_0^k f` by five-point Gauss-Legendre quadrature on a thousand panels.
     pub(crate) fn integral(k: f64, f: impl Fn(f64) -> f64) -> f64 {
         let nodes = [
             (0.0, 0.568_888_888_888_888_9),
@@ -184,13 +187,12 @@ pub(super) mod tests {
         (0..1000).map(panel).sum()
     }
 
-    /// The energy `B3 k^2 / 2`, as printed, is off by up to a factor of two.
     #[test]
     fn energy_is_the_integral_of_the_couple() {
         let law = TanhTwist::published();
         for k in [-0.09, -0.0462, -0.02, -0.003, 0.001, 0.01, 0.04, 0.06] {
             let expected = integral(k, |s| law.couple(s));
-            // Of the largest energy, 1.3 pN; beyond the range a panel holds the kink.
+            // Relative to the energy; outside the range a panel contains the kink.
             let error = (law.energy_density(k) - expected).abs() / expected.max(1e-3);
             assert!(
                 error < if k.abs() > law.range { 1e-8 } else { 1e-12 },
@@ -199,7 +201,7 @@ pub(super) mod tests {
         }
     }
 
-    /// Table 3 is met to the published fit's rms, 349 pN nm^2, and not at small twist.
+    /// Rms error of the published fit: 349 pN nm^2.
     #[test]
     fn published_parameters_follow_table_3() {
         let law = TanhTwist::published();
@@ -214,7 +216,7 @@ pub(super) mod tests {
     }
 
     #[test]
-    fn tangent_is_the_slope_of_the_couple_and_both_go_on_beyond_the_range() {
+    fn tangent_is_the_slope_of_the_couple_and_both_are_extrapolated() {
         let law = TanhTwist::published();
         for k in [-0.2, -0.05, -0.03, -0.01, 0.0, 0.004, 0.02, 0.045, 0.1] {
             let slope = derivative(1e-4, |h| law.couple(k + h));

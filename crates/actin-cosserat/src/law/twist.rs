@@ -1,26 +1,26 @@
-//! How a rod resists twist.
+//! Laws of twist.
 
 use super::{SidedTwist, TanhTwist, TwistRise};
 use crate::{RodKey, RodParameterError};
 
-/// A law of twist, each with a secant rigidity `B3(k)`, couple `B3(k) k` and its integral.
+/// Law of twist with secant rigidity `B3(k)`, torque `B3(k) k`, and energy.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub enum TwistLaw {
-    /// One rigidity at every twist (pN nm^2).
+    /// Constant rigidity B3 (pN nm^2).
     Constant(f64),
     /// Three tanh steps, as published.
     Tanh(TanhTwist),
-    /// Saturating to either side.
+    /// Saturation on both sides.
     Sided(SidedTwist),
 }
 
 impl TwistLaw {
-    /// Checks every number.
+    /// Checks all parameters.
     ///
     /// # Errors
-    /// What the law's own `validate` refuses, or a constant that is not positive.
+    /// If a parameter is out of range.
     pub fn validate(&self) -> Result<(), RodParameterError> {
         match self {
             Self::Constant(b3) => RodParameterError::unless_positive(RodKey::B3, *b3),
@@ -29,7 +29,6 @@ impl TwistLaw {
         }
     }
 
-    /// The law with its rigidities multiplied.
     pub(crate) fn times(self, factor: f64) -> Self {
         match self {
             Self::Constant(b3) => Self::Constant(b3 * factor),
@@ -53,7 +52,7 @@ impl TwistLaw {
         }
     }
 
-    /// Couple (pN nm) at twist `k` (rad/nm).
+    /// Torque (pN nm) at twist `k` (rad/nm).
     #[inline]
     pub fn couple(&self, k: f64) -> f64 {
         match self {
@@ -63,7 +62,7 @@ impl TwistLaw {
         }
     }
 
-    /// Derivative of the couple (pN nm^2).
+    /// Derivative of the torque (pN nm^2).
     #[inline]
     pub fn tangent(&self, k: f64) -> f64 {
         match self {
@@ -83,7 +82,7 @@ impl TwistLaw {
         }
     }
 
-    /// Largest twist (rad/nm) that the law's data reach, if it has data.
+    /// Largest twist (rad/nm) of the data, or `None` without data.
     pub fn range(&self) -> Option<f64> {
         match self {
             Self::Constant(_) => None,

@@ -1,35 +1,34 @@
-//! How the natural length of a rod depends on its twist.
+//! Laws of natural length as a function of twist.
 
 use super::{PolynomialStretch, RootedStretch};
 use crate::RodParameterError;
 
-/// A law of natural over rest length, `xi`, against the twist.
+/// Law of the ratio `xi` of natural to rest length as a function of twist.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub enum TwistStretch {
-    /// A polynomial, as published.
+    /// Polynomial, as published.
     Polynomial(PolynomialStretch),
-    /// One slope on either side of rest.
+    /// Different slopes on both sides of rest.
     Rooted(RootedStretch),
 }
 
 impl TwistStretch {
-    /// The published polynomial, its offset included.
+    /// Published polynomial with its offset.
     pub fn published() -> Self {
         Self::Polynomial(PolynomialStretch::published())
     }
 
-    /// The law that an energy `c3 sigma_3 kappa_3` per length stands for:
-    /// [`PolynomialStretch::linear`].
+    /// Linear law; see [`PolynomialStretch::linear`].
     pub fn linear(c3: f64, s3: f64) -> Self {
         Self::Polynomial(PolynomialStretch::linear(c3, s3))
     }
 
-    /// Checks every number.
+    /// Checks all parameters.
     ///
     /// # Errors
-    /// What the law's own `validate` refuses.
+    /// If a parameter is out of range.
     pub fn validate(&self) -> Result<(), RodParameterError> {
         match self {
             Self::Polynomial(law) => law.validate(),
@@ -37,7 +36,7 @@ impl TwistStretch {
         }
     }
 
-    /// `xi - 1`, its first and its second derivative at `k` (rad/nm).
+    /// `xi - 1` at `k` (rad/nm), with two derivatives.
     #[inline]
     pub fn jet(&self, k: f64) -> [f64; 3] {
         match self {
@@ -46,12 +45,12 @@ impl TwistStretch {
         }
     }
 
-    /// `xi - 1` at twist `k` (rad/nm): the relative change of length that costs no force.
+    /// `xi - 1` at twist `k` (rad/nm).
     pub fn extension(&self, k: f64) -> f64 {
         self.jet(k)[0]
     }
 
-    /// Largest twist (rad/nm) that the law's data reach.
+    /// Largest twist (rad/nm) of the data.
     pub fn range(&self) -> f64 {
         match self {
             Self::Polynomial(law) => law.range,

@@ -1,4 +1,4 @@
-//! The gradient law in states known by hand.
+//! Analytic states of the gradient law.
 
 use crate::common;
 use actin_cosserat::{EnergyGradient, Rigidities, RodEnd, RodLayout, RodMaterial, StraightRod};
@@ -8,8 +8,7 @@ use actin_mechanics::{Interaction, State, Vector3, rotation};
 use common::{ALL_WALLS, material, rod, strained_rod};
 use std::f64::consts::TAU;
 
-/// The built rod is the rest state, whichever way it lies. What is left is the round-off of
-/// positions (1e-15 nm) times rigidity over length.
+/// Tolerance: round-off of positions (1e-15 nm) times rigidity divided by length.
 #[test]
 fn a_straight_rod_is_at_rest() {
     let mut noise = Xorshift::new(2);
@@ -24,9 +23,8 @@ fn a_straight_rod_is_at_rest() {
     }
 }
 
-/// Loads go to the rod's own bodies; an index off by one would reach a neighbour's.
 #[test]
-fn neighbours_feel_nothing() {
+fn other_bodies_have_no_loads() {
     let mut noise = Xorshift::new(3);
     let (state, layout) = strained_rod(3, ALL_WALLS[3], &mut noise);
     let (points, frames) = (layout.points(), layout.bending_chain());
@@ -43,14 +41,13 @@ fn table4() -> RodMaterial {
     RodMaterial::new(Rigidities::table4()).unwrap()
 }
 
-/// Sixteen segments of 10 nm along z.
+/// 16 segments of 10 nm along z.
 fn actin_rod() -> (State, RodLayout) {
     let mut state = State::default();
     let layout = StraightRod::uniform(16, 10.0).push(&mut state).unwrap();
     (state, layout)
 }
 
-/// Asserts that nothing acts but a couple on the first frame and its opposite on the last.
 fn assert_only_end_couples(state: &State, layout: &RodLayout, couple: Vector3) {
     let law = EnergyGradient::new(layout.clone(), table4());
     let loads = loads_of(&law, state);
@@ -62,7 +59,7 @@ fn assert_only_end_couples(state: &State, layout: &RodLayout, couple: Vector3) {
         } else {
             Vector3::zeros()
         };
-        // Differences of couples of 1e3 pN nm, and forces of round-off over 10 nm.
+        // Differences of torques of 1e3 pN nm, and forces of round-off over 10 nm.
         assert!((torque - expected).norm() < 1e-9, "frame {i}: {torque}");
     }
     for force in loads.force.iter() {
@@ -70,8 +67,7 @@ fn assert_only_end_couples(state: &State, layout: &RodLayout, couple: Vector3) {
     }
 }
 
-/// The end couple of a uniformly twisted rod is B3 times the twist per length, and right-handed
-/// twist is positive: the first frame is driven to follow.
+/// The end torque is B3 times the twist, with the sign of right-handed twist.
 #[test]
 fn uniform_twist() {
     let (mut state, layout) = actin_rod();
@@ -83,7 +79,7 @@ fn uniform_twist() {
     assert_only_end_couples(&state, &layout, Vector3::z() * (1.3e4 * twist));
 }
 
-/// An end moment 2 pi B / L closes a rod of length L to a circle.
+/// End moment 2 pi B / L.
 #[test]
 fn an_end_moment_closes_a_circle() {
     let (mut state, layout) = actin_rod();
@@ -100,7 +96,6 @@ fn an_end_moment_closes_a_circle() {
     assert_only_end_couples(&state, &layout, Vector3::x() * moment);
 }
 
-/// Stretch by 1 %: tension S3 / 100 at both ends, nothing in between, S3 e^2 / 2 per length.
 #[test]
 fn uniform_stretch() {
     let (mut state, layout) = actin_rod();
@@ -113,14 +108,13 @@ fn uniform_stretch() {
             16 => -340.0,
             _ => 0.0,
         };
-        // Positions of 160 nm are good to 3e-14 nm, times S3 over 10 nm.
+        // Positions of 160 nm are accurate to 3e-14 nm, times S3 over 10 nm.
         assert!((force - Vector3::z() * expected).norm() < 1e-8);
     }
     assert!((law.energy(&state) - 0.5 * 3.4e4 * 1e-4 * 160.0).abs() < 1e-8);
 }
 
-/// Simple shear g: force S1 g, and a torque that turns the frames towards the sheared line:
-/// |l| x S sigma = S1 g |lhat| about +y at first order.
+/// Shear g: force S1 g, torque |l| x S sigma = S1 g |lhat| about +y to first order.
 #[test]
 fn simple_shear() {
     let mut state = State::default();
@@ -132,7 +126,7 @@ fn simple_shear() {
     assert!((loads.torque.get(0) - Vector3::y() * 1600.0).norm() < 1e-9);
 }
 
-/// A half turn at a wall is over half a segment: twice the couple of one between segments.
+/// The torque at a wall is twice the torque between segments for an equal angle.
 #[test]
 fn walls_bend_over_half_a_segment() {
     let mut state = State::default();
@@ -152,7 +146,7 @@ fn walls_bend_over_half_a_segment() {
 }
 
 #[test]
-fn energies_stand_in_the_order_of_the_elements() {
+fn energies_are_in_the_order_of_the_elements() {
     let (mut state, layout) = actin_rod();
     state.points.position.add(16, Vector3::z() * 0.01);
     let last = layout.end_frame(RodEnd::Start);

@@ -1,4 +1,4 @@
-//! Rods under one potential for all strains: uniform states, and what is refused.
+//! Rods with a potential in uniform states, and unsupported combinations.
 
 use crate::common;
 use actin_cosserat::{
@@ -13,7 +13,6 @@ fn material() -> RodMaterial {
     RodMaterial::homogenised(Homogenised::mean_filament())
 }
 
-/// A rod of ten segments of 8 nm with the same six strains everywhere.
 fn uniform(walls: Walls, kappa: Vector3, sigma: Vector3) -> (State, EnergyGradient) {
     let mut state = State::default();
     let rod = StraightRod {
@@ -38,7 +37,6 @@ fn uniform(walls: Walls, kappa: Vector3, sigma: Vector3) -> (State, EnergyGradie
     (state, EnergyGradient::new(layout, material()))
 }
 
-/// Twist with tension, and bending with shear, tension and twist.
 const UNIFORM: [[f64; 6]; 4] = [
     [0.0, 0.0, 0.011, 0.0, 0.0, -4e-3],
     [0.0, 0.0, -0.02, 0.0, 0.0, 2e-3],
@@ -46,8 +44,6 @@ const UNIFORM: [[f64; 6]; 4] = [
     [-2e-3, 1e-3, -0.013, -0.003, 0.006, 3e-3],
 ];
 
-/// The energy is that of the potential over the whole length, free ends and walls alike, and the work of a uniform
-/// change of strain is done against its loads.
 #[test]
 fn uniform_rods_have_the_energy_and_loads_of_the_potential() {
     let law = Homogenised::mean_filament();
@@ -81,8 +77,6 @@ fn uniform_rods_have_the_energy_and_loads_of_the_potential() {
     }
 }
 
-/// A straight rod under twist and tension: every inner body is balanced, and walls and end nodes have the couple and
-/// the tension of the potential. Half a mean missing beside a wall would leave torques there.
 #[test]
 fn twisted_and_pulled_rods_are_balanced_inside() {
     let law = Homogenised::mean_filament();
@@ -110,9 +104,8 @@ fn twisted_and_pulled_rods_are_balanced_inside() {
     }
 }
 
-/// Where nothing knows the curvature around a segment, and where a law would be replaced.
 #[test]
-fn potentials_are_refused_where_they_cannot_be() {
+fn potentials_are_refused_where_unsupported() {
     let mut state = State::default();
     let layout = StraightRod::uniform(3, 10.0).push(&mut state).unwrap();
     let refused = RodElements::at_rest(&state, &layout, material()).unwrap_err();

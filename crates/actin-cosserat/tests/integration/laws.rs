@@ -1,4 +1,4 @@
-//! Rods with laws that are more than constants: they remain gradients, and what follows.
+//! Rods with nonlinear laws.
 
 use crate::common;
 use actin_cosserat::{
@@ -15,7 +15,7 @@ use actin_mechanics::{Interaction, State, Vector3, rotation};
 use actin_mechanics::{Xorshift, perturb};
 use common::{ALL_WALLS, material, rod};
 
-/// Scales of the order of the strained rod's angles and strains, so that every term is felt.
+/// Scales of the order of the strains in the tests.
 const STIFFENING: Stiffening = Stiffening {
     rest: 3e4,
     rise: 1e4,
@@ -25,7 +25,6 @@ const STIFFENING: Stiffening = Stiffening {
     range: 0.2,
 };
 
-/// The published form at twists that a strained rod reaches.
 fn wide_twist() -> TanhTwist {
     let mut law = TanhTwist::published();
     for i in [0, 1, 3, 4, 5, 6] {
@@ -35,7 +34,6 @@ fn wide_twist() -> TanhTwist {
     law
 }
 
-/// Length against twist with every power felt.
 fn wide_stretch() -> TwistStretch {
     TwistStretch::Polynomial(PolynomialStretch {
         coefficients: [-5e-4, -0.3, -5.0, 20.0, 300.0, -1e3, -1e4],
@@ -43,7 +41,6 @@ fn wide_stretch() -> TwistStretch {
     })
 }
 
-/// The saturating laws at such twists.
 const SIDED: SidedTwist = SidedTwist {
     rest: 272.0,
     under: TwistRise {
@@ -94,7 +91,6 @@ fn bent_at_rest(material: RodMaterial) -> RodMaterial {
     material.with_rest_curvature(kappa).unwrap()
 }
 
-/// Rigidities are multiplied, and nothing else: strains, where laws change and shapes at rest stay.
 #[test]
 fn softened_laws_are_multiples() {
     let mut noise = Xorshift::new(31);
@@ -128,7 +124,7 @@ fn softened_laws_are_multiples() {
     assert!(potential.softened(&RigidityFactors::default()).is_ok());
 }
 
-/// A material with what couples its segments.
+/// Name, material, and law of twist and stretch.
 type Named = (&'static str, RodMaterial, Option<TwistStretch>);
 
 fn laws() -> Vec<Named> {
@@ -157,7 +153,7 @@ fn laws() -> Vec<Named> {
     ]
 }
 
-/// How far rods of a law are moved from rest (nm, rad), and how accurately their derivatives are known.
+/// Perturbation (nm, rad), step and tolerances for a law.
 struct Accuracy {
     seed: u64,
     moved: [f64; 2],
@@ -168,7 +164,7 @@ struct Accuracy {
     invariance: f64,
 }
 
-/// At steps of 0.01 nm and rad truncation and round-off are measured below 1e-12.
+/// Truncation and round-off are below 1e-12 for steps of 0.01 nm and rad.
 const OF_CONSTANTS: Accuracy = Accuracy {
     seed: 31,
     moved: [2.5, 0.5],
@@ -179,7 +175,7 @@ const OF_CONSTANTS: Accuracy = Accuracy {
     invariance: 1e-13,
 };
 
-/// Laws bend over twists of 0.03 to 0.07 rad/nm, 0.3 rad an element: truncation lies below 1e-9.
+/// Laws vary over 0.3 rad per element: truncation below 1e-9.
 const OF_LAWS: Accuracy = Accuracy {
     step: 0.003,
     gradient: 1e-9,
@@ -189,8 +185,7 @@ const OF_LAWS: Accuracy = Accuracy {
     ..OF_CONSTANTS
 };
 
-/// Strains to 0.01, turns to 0.2 rad over 6 to 14 nm: all terms are felt. The third derivative jumps where compression
-/// sets in, over steps of 1e-4 here; no state lies within one of there.
+/// Small steps, because the third derivative is discontinuous at the onset of compression.
 const OF_POTENTIALS: Accuracy = Accuracy {
     seed: 42,
     moved: [0.05, 0.1],
@@ -201,7 +196,6 @@ const OF_POTENTIALS: Accuracy = Accuracy {
     invariance: 1e-11,
 };
 
-/// All laws; rigidities that all differ, and the potential of the mean filament.
 fn all() -> Vec<(Named, Accuracy)> {
     let potential = RodMaterial::homogenised(Homogenised::mean_filament());
     let laws = laws().into_iter().map(|law| (law, OF_LAWS));
@@ -212,8 +206,8 @@ fn all() -> Vec<(Named, Accuracy)> {
     laws.chain(others).collect()
 }
 
-/// The rod under a law; where it couples segments, both ends are joined to a frame of the neighbouring rods. Where they tell
-/// shear, the start blocks it and the end is loose.
+/// Rod under a law. With coupling, both ends are joined to neighbouring rods; for potentials the
+/// start blocks shear and the end is loose.
 fn rod_of(layout: RodLayout, material: RodMaterial, law: Option<TwistStretch>) -> EnergyGradient {
     let joined = |frames, rest_distance| JoinedElement {
         frames,
@@ -235,7 +229,6 @@ fn rod_of(layout: RodLayout, material: RodMaterial, law: Option<TwistStretch>) -
     }
 }
 
-/// Rods under a law far from rest: with free ends, walls, and ends joined to others.
 fn rods(
     (_, material, law): &Named,
     accuracy: &Accuracy,
@@ -255,9 +248,6 @@ fn rods(
     each.collect()
 }
 
-/// A wrong Jacobian, or the small-angle truncation, is off by the square of the angle: percents. So are a couple that belongs to xi
-/// and is missing or stands on the wrong frames, a missing shear that belongs to stiffened bending, a share of a mean
-/// left out, and a joint's energy counted twice.
 #[test]
 fn every_law_is_a_gradient_far_from_rest() {
     for (law, accuracy) in all() {
@@ -271,8 +261,6 @@ fn every_law_is_a_gradient_far_from_rest() {
     }
 }
 
-/// A cross block that is missing, transposed or counted once where a body meets itself; a geometric part that is missing
-/// or not made symmetric.
 #[test]
 fn every_law_has_its_stiffness() {
     for (law, accuracy) in all() {
@@ -286,10 +274,8 @@ fn every_law_has_its_stiffness() {
     }
 }
 
-/// Invariance of the energy implies both balances; loads that are checked only one by one may still leave a small
-/// resultant that drives a free rod.
 #[test]
-fn every_law_balances_and_does_not_mind_where_it_is() {
+fn every_law_is_balanced_and_invariant() {
     for (law, accuracy) in all() {
         let mut noise = Xorshift::new(accuracy.seed);
         for segments in 1..9 {
@@ -302,8 +288,8 @@ fn every_law_balances_and_does_not_mind_where_it_is() {
     }
 }
 
-/// A straight free rod of ten segments of 10 nm, twisted by `k` (rad/nm) and stretched to
-/// `extension` times its length, with the published extension.
+/// Straight free rod of ten segments of 10 nm with twist `k` (rad/nm) and uniform extension, under
+/// published laws.
 fn uniform(k: f64, extension: f64) -> (State, EnergyGradient) {
     let mut state = State::default();
     let layout = StraightRod::uniform(10, 10.0).push(&mut state).unwrap();
@@ -323,8 +309,6 @@ fn uniform(k: f64, extension: f64) -> (State, EnergyGradient) {
     (state, rod)
 }
 
-/// A uniformly twisted rod that has shrunk by xi is free of force, ends included, and carries the
-/// couple B3(k) k. With the curvature of end segments halved, their ends would pull.
 #[test]
 fn uniform_twist_has_its_length_and_couple() {
     for k in [-0.06, -0.0462, -0.01, 0.002, 0.02, 0.0462, 0.08] {
@@ -332,7 +316,7 @@ fn uniform_twist_has_its_length_and_couple() {
         let (state, rod) = uniform(k, xi);
         let loads = loads_of(&rod, &state);
         for i in rod.layout().points() {
-            // Of S3 = 3.4e4 pN.
+            // Compared with S3 = 3.4e4 pN.
             assert!(loads.force.get(i).norm() < 1e-9, "{k}, node {i}");
         }
         let couple = TanhTwist::published().secant(k) * k;
@@ -344,13 +328,12 @@ fn uniform_twist_has_its_length_and_couple() {
     }
 }
 
-/// Maxwell and Betti: the couple by which a stretched rod resists twist changes with the stretch
-/// as the force changes with the twist.
+/// Maxwell-Betti reciprocity.
 #[test]
 fn force_and_couple_are_reciprocal() {
     let k = 0.02;
     let couple = |e: f64| {
-        // Of the last frame: what holds the end.
+        // Work of a uniform twist: sum of torque times rotation.
         let (state, rod) = uniform(k, 1.0 + e);
         let end = rod.layout().frames().end - 1;
         let loads = loads_of(&rod, &state);
@@ -364,7 +347,7 @@ fn force_and_couple_are_reciprocal() {
         let end = rod.layout().points().end - 1;
         -loads_of(&rod, &state).force.get(end).z
     };
-    // Work of a uniform twist: sum of torque times turn; of a uniform stretch: force times length.
+    // Work of a uniform stretch: force times length.
     let of_stretch = derivative(1e-4, couple);
     let of_twist = derivative(1e-4, |h| force(k + h)) * 100.0;
     assert!(of_stretch.abs() > 1e4, "nothing couples: {of_stretch}");
@@ -374,7 +357,6 @@ fn force_and_couple_are_reciprocal() {
     );
 }
 
-/// The energy with the product of extension and twist written out, in a uniform state.
 #[test]
 fn coupling_energy_is_the_printed_product() {
     let (c3, s3, b3) = (9.35e3, 3.4e4, 1.3e4);
@@ -386,13 +368,11 @@ fn coupling_energy_is_the_printed_product() {
     let rod = EnergyGradient::new(layout, constant()).with_extension(law, curvature);
     let mut energies = vec![0.0; rod.elements()];
     rod.write_energies(&state, &mut energies);
-    // Per 10 nm of a segment, and of the element at its node.
+    // Segment of 10 nm, and the element at its node.
     let expected = 10.0 * (0.5 * s3 * e * e + c3 * e * k + 0.5 * (b3 + c3 * c3 / s3) * k * k);
     assert!((energies[4] + energies[13] - expected).abs() < 1e-12 * expected);
 }
 
-/// The printed balance with its scaled extensions does work around a closed cycle of twist and
-/// stretch; the gradient does none.
 #[test]
 fn only_the_printed_balance_does_work_around_a_cycle() {
     let around = |gradient: bool| {
@@ -421,8 +401,8 @@ fn only_the_printed_balance_does_work_around_a_cycle() {
     };
     let (gradient, printed) = (around(true), around(false));
     println!("work around the cycle: gradient {gradient:.3e} pN nm, printed {printed:.3e} pN nm");
-    // The midpoint rule is exact to round-off for a smooth cycle; the energy is some 500 pN nm.
+    // The midpoint rule is exact to round-off for a smooth cycle; the energy is about 500 pN nm.
     assert!(gradient.abs() < 1e-9, "{gradient}");
-    // As the errata quote it.
+    // Number quoted in the errata.
     assert!((printed - 421.0).abs() < 1.0, "{printed}");
 }

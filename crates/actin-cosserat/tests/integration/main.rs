@@ -1,4 +1,4 @@
-//! Rods.
+//! Integration tests of rods.
 
 mod common;
 mod energy_gradient;

@@ -1,4 +1,4 @@
-//! The printed law: that it is the gradient law at first order, and what it does not keep.
+//! Printed law: agreement with the gradient law to first order, and violated balances.
 
 use crate::common;
 use actin_cosserat::{EnergyGradient, PaperBalance, Rigidities, RodMaterial, StraightRod};
@@ -7,7 +7,7 @@ use actin_mechanics::{Interaction, Loads, State, Vector3, rotation};
 use actin_mechanics::{Xorshift, perturb};
 use common::{ALL_WALLS, material, rod, strained_rod};
 
-/// Norm of the difference of loads over that of the second ones, forces and torques alike.
+/// Relative norm of the difference of loads: maximum over forces and torques.
 fn relative_difference(a: &Loads, b: &Loads) -> f64 {
     let difference = |a: &actin_mechanics::Vectors, b: &actin_mechanics::Vectors| {
         let squares = a.iter().zip(b.iter()).map(|(a, b)| (a - b).norm_squared());
@@ -17,8 +17,7 @@ fn relative_difference(a: &Loads, b: &Loads) -> f64 {
     difference(&a.force, &b.force).max(difference(&a.torque, &b.torque))
 }
 
-/// Both laws agree at first order, so their relative difference halves with the strain. With the
-/// sign of the paper's discrete curvature it would tend to a constant instead.
+/// The relative difference is proportional to the strain.
 #[test]
 fn the_difference_of_the_laws_is_of_the_order_of_the_strain() {
     for walls in ALL_WALLS {
@@ -33,13 +32,12 @@ fn the_difference_of_the_laws_is_of_the_order_of_the_strain() {
             };
             let (coarse, fine) = (difference(2e-4), difference(1e-4));
             assert!(coarse > 1e-5 && coarse < 2e-3, "{coarse}");
-            // Terms of second order are a thousandth of those of first.
+            // Terms of second order are 1e-3 times those of first order.
             assert!((coarse / fine - 2.0).abs() < 0.02, "{}", coarse / fine);
         }
     }
 }
 
-/// Forces act in pairs and the shear torque balances their moment exactly, also at large strain.
 #[test]
 fn forces_balance_and_shear_keeps_angular_momentum() {
     let mut noise = Xorshift::new(12);
@@ -56,8 +54,7 @@ fn forces_balance_and_shear_keeps_angular_momentum() {
     assert!(torque.norm() < 1e-13 * loads.torque.get(1).norm());
 }
 
-/// Total torque of two unstretched segments, the second turned by `theta` against the first.
-fn torque_left_over(theta: Vector3) -> Vector3 {
+fn residual_torque(theta: Vector3) -> Vector3 {
     let mut state = State::default();
     let layout = StraightRod::uniform(2, 10.0).push(&mut state).unwrap();
     let q = rotation::exp(theta);
@@ -68,23 +65,23 @@ fn torque_left_over(theta: Vector3) -> Vector3 {
     resultant(&state, &loads).1
 }
 
-/// The printed couples are the exact ones cut off after the first power of the angle, which
-/// leaves theta x (theta x (theta x m)) / 12 for each bending element.
+/// The printed torques are truncated after the first power of the angle: residual theta x (theta x
+/// (theta x m)) / 12.
 #[test]
 fn couples_balance_up_to_the_third_power_of_the_angle() {
     let theta = Vector3::new(0.04, 0.02, 0.05);
     let m = material().bending_couple(theta / 10.0);
     let expected = theta.cross(&theta.cross(&theta.cross(&m))) / 12.0;
-    let torque = torque_left_over(theta);
+    let torque = residual_torque(theta);
     // The next term of the series is smaller by half the angle.
     assert!((torque - expected).norm() < 0.6 * theta.norm() * expected.norm());
-    // Where the couple is parallel to the angle, nothing is left over.
+    // The residual vanishes for torques parallel to the angle.
     for axis in [Vector3::x(), Vector3::y(), Vector3::z()] {
-        assert!(torque_left_over(axis * 0.5).norm() < 1e-9);
+        assert!(residual_torque(axis * 0.5).norm() < 1e-9);
     }
 }
 
-/// Two segments along their frames, stretched by `e` and turned against one another by `angle`.
+/// Two segments along their frames, stretched by `e` and bent by `angle`.
 fn bent_and_stretched(e: f64, angle: f64) -> State {
     let mut state = State::default();
     StraightRod::uniform(2, 10.0).push(&mut state).unwrap();
@@ -98,7 +95,7 @@ fn bent_and_stretched(e: f64, angle: f64) -> State {
     state
 }
 
-/// Work that the loads do along the corners of a path, by the midpoint rule.
+/// Work of the loads along a path, by the midpoint rule.
 fn work(law: &dyn Interaction, corners: &[(f64, f64)]) -> f64 {
     const STEPS: u32 = 200;
     let mut work = 0.0;
@@ -127,8 +124,7 @@ fn work(law: &dyn Interaction, corners: &[(f64, f64)]) -> f64 {
     work
 }
 
-/// Stretch, bend, let go of the stretch, let go of the bend: the printed law gives
-/// (1 - 1/e^3) of the bending energy for nothing, 2.94 % of it at 1 % stretch.
+/// Cycle of stretch and bend: the printed law has a net work of (1 - 1/e^3) of the bending energy.
 #[test]
 fn a_closed_loop_of_strains_does_net_work() {
     let (e, angle) = (1.01, 0.1);
@@ -143,7 +139,7 @@ fn a_closed_loop_of_strains_does_net_work() {
         &corners,
     );
     let expected = bending_energy * (1.0 - e.powi(-3));
-    // Chords of 200 steps: second order in the step, 1e-5 relative.
+    // Second order in the step of 1/200: 1e-5 relative.
     assert!((printed / expected - 1.0).abs() < 1e-4, "{printed}");
     assert!((expected / bending_energy - 0.0294).abs() < 1e-4);
 
@@ -152,7 +148,7 @@ fn a_closed_loop_of_strains_does_net_work() {
 }
 
 #[test]
-fn it_says_that_it_is_not_conservative_and_gives_the_printed_energy() {
+fn it_is_not_conservative_and_has_the_printed_energy() {
     let mut noise = Xorshift::new(13);
     let (state, layout) = strained_rod(4, ALL_WALLS[3], &mut noise);
     let gradient = EnergyGradient::new(layout.clone(), material());
@@ -165,8 +161,6 @@ fn it_says_that_it_is_not_conservative_and_gives_the_printed_energy() {
     );
 }
 
-/// E is that of the element's own segments: stretching one segment of four changes the couples
-/// of the elements on its two sides only, the wall's with its own segment alone.
 #[test]
 fn extension_of_a_bending_element_is_that_of_its_own_segments() {
     let walls = ALL_WALLS[3];

@@ -1,4 +1,4 @@
-//! The second derivatives of the gradient law: that they are such, and what follows at rest.
+//! Second derivatives of the gradient law.
 
 use crate::common;
 use actin_cosserat::{EnergyGradient, RodLayout, StraightRod};
@@ -8,7 +8,6 @@ use actin_mechanics::{State, Vector3, rotation};
 use common::{ALL_WALLS, material, rod, strained_rod};
 use nalgebra::DVector;
 
-/// Two segments whose second frame is turned by `theta` from the first.
 fn turned_pair(theta: Vector3) -> (State, RodLayout) {
     let mut state = State::default();
     let layout = StraightRod::uniform(2, 10.0).push(&mut state).unwrap();
@@ -19,8 +18,7 @@ fn turned_pair(theta: Vector3) -> (State, RodLayout) {
     (state, layout)
 }
 
-/// A truncated Jacobian passes at small angles, a cancelling coefficient at large ones; the grid
-/// holds both, and 1.5 rad, where the slope of the coefficient changes its formula.
+/// Small and large angles, and 1.5 rad, where the slope of the coefficient changes its formula.
 #[test]
 fn stiffness_is_right_from_no_angle_to_3_rad() {
     let mut noise = Xorshift::new(12);
@@ -28,13 +26,13 @@ fn stiffness_is_right_from_no_angle_to_3_rad() {
         for _ in 0..5 {
             let (state, layout) = turned_pair(noise.vector().normalize() * angle);
             let rod = EnergyGradient::new(layout, material());
-            // The steps of 0.04 rad do not reach pi, where the loads jump.
+            // Steps of 0.04 rad do not reach the discontinuity at pi.
             assert_is_stiffness(&rod, &state, 0.01, 1e-10);
         }
     }
 }
 
-/// The change of all coordinates by a shift, or by a turn about the origin.
+/// Change of all coordinates by a translation or a rotation about the origin.
 fn rigid_motion(state: &State, shift: Vector3, turn: Vector3) -> DVector<f64> {
     let points = state.points.position.iter().map(|x| shift + turn.cross(&x));
     let frames = &state.frames.orientation;
@@ -43,8 +41,7 @@ fn rigid_motion(state: &State, shift: Vector3, turn: Vector3) -> DVector<f64> {
     DVector::from_vec(rows)
 }
 
-/// At rest a rigid motion meets no resistance, and nothing else does so: six zeros and otherwise
-/// positive eigenvalues. A sign error between blocks breaks one or the other.
+/// Six zero eigenvalues; all others are positive.
 #[test]
 fn only_rigid_motions_are_free_at_rest() {
     let mut noise = Xorshift::new(13);
@@ -73,11 +70,10 @@ fn only_rigid_motions_are_free_at_rest() {
     eigenvalues.sort_unstable_by(f64::total_cmp);
     let (zeros, others) = eigenvalues.split_at(6);
     assert!(zeros.iter().all(|z| z.abs() < 1e-13 * scale), "{zeros:?}");
-    // The softest bending mode of 39 nm is far above round-off.
+    // The softest bending mode is far above round-off.
     assert!(others[0] > 1e-6 * scale, "{}", others[0]);
 }
 
-/// A shifted rod has the same energy at any strain, so that shifts meet no resistance there either.
 #[test]
 fn shifts_are_free_in_every_state() {
     let mut noise = Xorshift::new(14);
@@ -87,9 +83,8 @@ fn shifts_are_free_in_every_state() {
     assert!((&matrix * shift).amax() < 1e-14 * matrix.amax());
 }
 
-/// Held bodies have blocks too (the assembler leaves them out), neighbours have none.
 #[test]
-fn blocks_stand_on_the_rods_own_bodies() {
+fn blocks_belong_to_the_rods_bodies() {
     let mut noise = Xorshift::new(15);
     let (state, layout) = rod(3, ALL_WALLS[3], &mut noise);
     let (points, frames) = (layout.points(), layout.bending_chain());

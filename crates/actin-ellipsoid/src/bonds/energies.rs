@@ -1,3 +1,4 @@
+//! Bond energies.
 #![allow(
     clippy::inline_always,
     reason = "vector code must be compiled into the function that enables the instructions"

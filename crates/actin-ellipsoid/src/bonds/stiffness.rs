@@ -6,18 +6,16 @@ use crate::table::{BondTable, GROUP, Relative};
 use actin_mechanics::Coordinates::{Frame, Point};
 use actin_mechanics::{Matrix3, SecondOrder, State, Stiffness, Vector3};
 
-/// Loads on the lower body and second derivatives of the energy with respect to its position and
-/// rotation, in its frame.
-///
-/// The energy of a bond is `k/2 (d^2 - 2 L r + L^2)` with `r = |d|`. With `q` the gradient of `r`
-/// and `P` the second derivative of `d^2 / 2`, the second derivative of the energy is
+/// Loads on the lower body and second derivatives of the energy, in its frame.
 ///
 /// ```text
-/// k [(1 - L/r) P + (L/r) q q^T],   q = -(u, a x u),   u = d / r
+/// E = k/2 (d^2 - 2 L r + L^2),   E'' = k [(1 - L/r) P + (L/r) q q^T]
+/// q = -(u, a x u),   u = d / r
 /// P blocks: 1,  -[a]x,  (a . y) 1 - (a y^T + y a^T) / 2
-/// ```
 ///
-/// for the position and rotation of the lower body, with the ends `a` and `y`.
+/// a, y, r   anchors (nm), length (nm)
+/// q, P      gradient of r, second derivative of d^2 / 2
+/// ```
 #[derive(Debug)]
 struct LowerBlocks {
     /// Position, position.
@@ -30,8 +28,7 @@ struct LowerBlocks {
     torque: Vector3,
 }
 
-/// Blocks that involve the rotation of the upper body, in the frame of the lower body. The position
-/// of the upper body enters with the opposite sign of the position of the lower one.
+/// Blocks that involve the rotation of the upper body, in the frame of the lower body.
 ///
 /// Rotating the upper body equals rotating the pair about the upper centre minus rotating the lower
 /// body, which also moves it by `X phi`, `X = [D]x`, `D` the vector between the centres. Rotating
@@ -39,11 +36,8 @@ struct LowerBlocks {
 /// the position and by `[T]x phi / 2` for the rotation in the chart `Q exp(phi)`.
 #[derive(Debug)]
 struct UpperBlocks {
-    /// Lower position, upper rotation.
     mixed: Matrix3,
-    /// Lower rotation, upper rotation.
     turns: Matrix3,
-    /// Upper rotation, upper rotation.
     turn: Matrix3,
 }
 
@@ -86,7 +80,6 @@ fn symmetric_part(m: &Matrix3) -> Matrix3 {
     0.5 * (m + m.transpose())
 }
 
-/// `sum a x y` from `sum a y^T`.
 fn axial(m: &Matrix3) -> Vector3 {
     Vector3::new(m.m23 - m.m32, m.m31 - m.m13, m.m12 - m.m21)
 }
@@ -149,9 +142,6 @@ impl Bonds {
 }
 
 /// Ten blocks per pair: lateral pairs first, then longitudinal ones, ordered by lower monomer.
-///
-/// The transverse stiffness of a bond diverges as `-k L / |d|` near zero length. At zero length
-/// only the isotropic part `k 1` is included.
 impl SecondOrder for Bonds {
     fn add_stiffness(&self, state: &State, stiffness: &mut Stiffness) {
         for table in &self.tables {

@@ -19,9 +19,8 @@ pub(crate) struct Relatives {
 
 /// Sums over the bonds of each pair of a group, in the frame of the lower body.
 ///
-/// `a` and `y` are the ends on the lower and the upper body, `u` is the unit vector from `a` to
-/// `y`, `r` the distance and `L` the rest length. Each term is multiplied by the weight of the
-/// bond, if any.
+/// `a` and `y` are the ends, `u` the unit vector from `a` to `y`, `r` the distance and `L` the rest
+/// length. Terms are multiplied by the weights, if any.
 #[derive(Debug, Default)]
 pub(crate) struct Sums {
     /// `L/r q q^T` with `q = (u, a x u)`, upper triangle.
@@ -59,7 +58,6 @@ impl Relatives {
         }
     }
 
-    /// Rotations and offsets of vector `place` of the group.
     #[inline(always)]
     pub(crate) fn read<S: Simd>(&self, simd: S, place: usize) -> (WideMatrix<S>, Wide3<S>) {
         let read = |lanes| wide::read(simd, lanes, place);
@@ -101,7 +99,6 @@ impl WithSimd for SumBonds<'_> {
     }
 }
 
-/// A bond of zero length contributes `k d^2 / 2` only.
 #[inline(always)]
 fn sum_bonds<S: Simd>(
     simd: S,

@@ -1,3 +1,5 @@
+//! Bond loads and stiffness.
+
 use super::*;
 use crate::{Anchors, EllipsoidParameters, Placement};
 use actin_mechanics::testing::{assert_same_with_any_lanes, loads_of};
@@ -5,7 +7,6 @@ use actin_mechanics::testing::{push_frame, push_point};
 use actin_mechanics::{Coordinates, Stiffness, UnitQuaternion};
 use actin_mechanics::{Xorshift, perturb};
 
-/// Randomly displaced monomers between unrelated bodies.
 fn run(count: usize, bonds: [usize; 2]) -> (State, Bonds) {
     run_of(Anchors::Independent, count, bonds)
 }

@@ -1,3 +1,5 @@
+//! Errors of cells.
+
 use crate::InterfaceError;
 use thiserror::Error;
 

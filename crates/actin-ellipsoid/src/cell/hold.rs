@@ -1,12 +1,13 @@
+//! Constraints of a cell.
+
 use super::PER_MONOMER;
 use actin_mechanics::Vector3;
 use nalgebra::DMatrix;
 
 /// Means held at zero.
 ///
-/// A common rigid displacement of all monomers relative to their axis is equivalent to a strain of
-/// another axis. Six conditions exclude it; each choice defines a different axis of the same
-/// filament.
+/// A common rigid displacement of all monomers is equivalent to a strain of another axis. Six
+/// conditions exclude it; each choice defines a different axis.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Hold {
     /// Displacement `u` and rotation `w`.

@@ -7,9 +7,9 @@ const TERMS: u32 = 16;
 
 /// Stumpff functions `c_n(p) = sum_k (-p)^k / (2 k + n)!` for `n` from 0 to 7.
 ///
-/// At `p = a^2`, `c_0 = cos(a)`, `c_1 = sin(a)/a`, `c_2 = (1 - cos(a))/a^2` and `c_3 = (a -
-/// sin(a))/a^3`. The series gives `c_6` and `c_7`, the recursion `c_n = 1/n! - p c_{n+2}` the
-/// others. The relative error is below 1e-13 for `p` up to 10.
+/// At `p = a^2`, `c_0 = cos(a)`, `c_1 = sin(a)/a`, `c_2 = (1 - cos(a))/a^2` and
+/// `c_3 = (a - sin(a))/a^3`. The series gives `c_6` and `c_7`, the recursion
+/// `c_n = 1/n! - p c_{n+2}` the others. The relative error is below 1e-13 for `p` up to 10.
 fn stumpff(p: f64) -> [f64; 8] {
     let series = |n: u32| {
         let mut sum = 0.0;
@@ -84,7 +84,6 @@ impl MatrixJet {
         let unit = |a| Vector3::ith(a, 1.0);
         let turned = |a: usize| unit(a).cross_matrix();
         let along = |a: usize| unit(a) * w.transpose() + w * unit(a).transpose();
-        // Derivatives of the last two terms at fixed coefficients.
         let partial = |k: &[f64], a: usize| turned(a) * k[n + 1] + along(a) * k[n + 2];
         let [by_p, by_p_twice] = [sum(&first), sum(&second)];
         let mixed = |a: usize, b: usize| {

@@ -14,8 +14,7 @@ const LONGEST: f64 = 0.2;
 const ARMIJO: f64 = 1e-4;
 /// Relative energy change below which rounding dominates.
 const ROUNDING: f64 = 1e-12;
-/// Stiffness (pN/nm) of the conditions that hold the cell to its axis. The minimum does not depend
-/// on it.
+/// Stiffness (pN/nm) in the held directions, without effect on the minimum.
 const HOLDING: f64 = 1e3;
 /// Stiffness (pN/nm) below which a mode counts as zero-stiffness mode.
 const MARGINAL: f64 = 1e-6;
@@ -28,12 +27,10 @@ pub(super) struct CellState {
     pub(super) strain: SixVector,
 }
 
-/// Energy minus the work of the given loads on the free strains.
 #[derive(Debug)]
 pub(super) struct Problem<'a> {
     pub(super) cell: &'a Cell,
     pub(super) free: Vec<usize>,
-    /// Loads of the free strains; others are ignored.
     pub(super) loads: SixVector,
 }
 
@@ -49,7 +46,6 @@ impl Problem<'_> {
         self.cell.coordinates() + self.free.len()
     }
 
-    /// Index of unknown `k` among coordinates and strains.
     fn place(&self, k: usize) -> usize {
         let coordinates = self.cell.coordinates();
         k.checked_sub(coordinates)
@@ -134,7 +130,6 @@ impl Problem<'_> {
         }
     }
 
-    /// Step in the direction of lower energy.
     fn kick(&self, state: &CellState, mode: &DVector<f64>) -> DVector<f64> {
         let step = mode * (KICK / mode.amax());
         let side = |sign: f64| self.energy(&self.moved(state, &step, sign));
@@ -167,7 +162,6 @@ fn factor(hessian: &DMatrix<f64>, damping: f64) -> Option<Cholesky<f64, Dyn>> {
     (least * least > 1e-3 * MARGINAL).then_some(factor)
 }
 
-/// Mode of lowest stiffness, if negative beyond rounding.
 fn unstable_mode(hessian: DMatrix<f64>) -> Option<DVector<f64>> {
     if factor(&hessian, MARGINAL).is_some() {
         return None;
@@ -178,7 +172,6 @@ fn unstable_mode(hessian: DMatrix<f64>) -> Option<DVector<f64>> {
 }
 
 impl Cell {
-    /// Removes the held directions (coordinates first).
     pub(super) fn project_vector(&self, vector: &mut DVector<f64>) {
         let mut rows = vector.rows_mut(0, self.coordinates());
         let along = &self.held * &rows;
@@ -190,7 +183,6 @@ impl Cell {
         let coordinates = self.coordinates();
         let rows = &self.held * matrix.rows(0, coordinates);
         let corner = rows.columns(0, coordinates) * self.held.transpose();
-        // K - A^T (A K) - (A K)^T A + A^T (A K A^T + c) A
         let mut held = DMatrix::zeros(self.held.nrows(), matrix.ncols());
         held.columns_mut(0, coordinates).copy_from(&self.held);
         let inner = corner + DMatrix::identity(6, 6) * HOLDING;

@@ -34,8 +34,8 @@ pub type Displacements = DVector<f64>;
 
 /// Cell of `P` monomers of an infinite, uniformly strained filament.
 ///
-/// The axis is the curve `g(s) = exp(s xi)` of rigid motions with the strain `xi = (kappa, e3 +
-/// sigma)`, position `T(s)` and frame `R(s)`:
+/// The axis is the curve `g(s) = exp(s xi)` of rigid motions with the strain
+/// `xi = (kappa, e3 + sigma)`, position `T(s)` and frame `R(s)`:
 ///
 /// ```text
 /// s_i = i rise
@@ -52,9 +52,9 @@ pub type Displacements = DVector<f64>;
 /// ```
 ///
 /// Six conditions hold the mean displacement and rotation ([`Hold`]); all other coordinates relax.
-/// The energy per length `W(kappa, sigma)` is the energy of the bonds of the cell divided by `P
-/// rise`. Its derivatives are the torque and the force in body axes. The cell excludes longer waves
-/// and end effects.
+/// The energy per length `W(kappa, sigma)` is the energy of the bonds of the cell divided by
+/// `P rise`. Its derivatives are the torque and the force in body axes. The cell excludes longer
+/// waves and end effects.
 ///
 /// ```
 /// use actin_ellipsoid::{Cell, EllipsoidModel, EllipsoidParameters, Hold, SixVector};
@@ -74,7 +74,6 @@ pub struct Cell {
     offsets: Vec<Vector3>,
     pairs: Vec<pairs::CellPair>,
     rise: f64,
-    /// Orthonormal rows: combinations of displacements held at zero.
     held: DMatrix<f64>,
 }
 
@@ -89,12 +88,9 @@ impl Cell {
     }
 
     /// Cell of a pre-twisted filament: the turn per monomer about the axis is `turn` (rad), the
-    /// bonds are those of the built filament. The frames of the strains do not rotate with the
-    /// pre-twist.
-    ///
-    /// A constant curvature therefore bends a pre-twisted filament in a plane. A filament twisted
-    /// by its strain is bent along a helix, since the direction of the curvature rotates with the
-    /// frames.
+    /// bonds are unchanged. The frames of the strains do not rotate with the pre-twist, so a
+    /// constant curvature bends the filament in a plane. A filament twisted by its strain is bent
+    /// along a helix.
     ///
     /// # Errors
     /// As [`new`](Self::new), for the period with this turn.

@@ -1,3 +1,5 @@
+//! Energy of the pairs of a cell.
+
 use super::jets::MatrixJet;
 use super::{Cell, PER_MONOMER, STRAINS, SixVector};
 use crate::Interface;
@@ -37,7 +39,6 @@ struct Body {
     turn: MatrixJet,
 }
 
-/// Rigid motion from the lower to the upper monomer as a function of the strains.
 pub(super) struct Motion {
     /// Arc length (nm).
     pub(super) length: f64,
@@ -47,7 +48,6 @@ pub(super) struct Motion {
     direction: Vector3,
 }
 
-/// Energy (pN nm) and its derivatives with respect to coordinates and strains.
 #[derive(Debug)]
 pub(super) struct Derivatives {
     pub(super) energy: f64,
@@ -165,7 +165,6 @@ impl Motion {
         self.jacobian.value * self.direction * self.length
     }
 
-    /// Derivatives of the translation with respect to the curvature, one per column.
     pub(super) fn shift_by_curvature(&self) -> Matrix3 {
         let square = self.length * self.length;
         let column = |a: usize| self.jacobian.first[a] * self.direction * square;
@@ -190,7 +189,6 @@ impl Motion {
     }
 }
 
-/// Sums over the bonds that determine all `f . d''`.
 #[derive(Default)]
 struct Curved {
     /// `f`.
@@ -222,7 +220,6 @@ impl Curved {
                 add_both(hessian, 12 + a, 6 + b, place[b]);
                 add_both(hessian, 12 + a, 9 + b, upper.turn.first[b].dot(&arms));
                 add_both(hessian, 12 + a, 15 + b, shear[b]);
-                // The loop includes both orders.
                 hessian[(3 + a, 3 + b)] -= lower.turn.second[a][b].dot(&self.lower);
                 hessian[(9 + a, 9 + b)] += upper.turn.second[a][b].dot(&turned);
                 let bend = motion.rotation.second[a][b].dot(&self.end)
@@ -239,7 +236,6 @@ fn add_both(matrix: &mut Square, i: usize, j: usize, value: f64) {
 }
 
 impl Cell {
-    /// Bodies, and rigid motions of one and of two steps.
     fn geometry(&self, coordinates: &DVector<f64>, strain: &SixVector) -> (Vec<Body>, [Motion; 2]) {
         let body = |(i, offset): (usize, &Vector3)| Body {
             centre: offset + coordinates.fixed_rows::<3>(PER_MONOMER * i),

@@ -1,3 +1,5 @@
+//! Response of a relaxed cell.
+
 use super::minimum::{CellState, Minimum, Problem};
 use super::{Cell, CellError, Displacements, STRAINS, SixMatrix, SixVector};
 use nalgebra::DVector;
@@ -33,9 +35,8 @@ impl Cell {
     /// Response to the given strains.
     ///
     /// The minimum is the one reached from `start`, by default from the uniformly strained helix.
-    /// Saddles are left along their most unstable mode. Relative accuracy of torque and force:
-    /// 1e-9. The tangent follows from the implicit function theorem; zero-stiffness modes, as at
-    /// rest, do not contribute.
+    /// The relative accuracy of the loads is 1e-9. Zero-stiffness modes, as at rest, do not
+    /// contribute to the tangent.
     ///
     /// # Errors
     /// [`CellError::NoMinimum`] if the minimisation does not converge.

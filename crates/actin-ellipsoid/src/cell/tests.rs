@@ -1,3 +1,5 @@
+//! Energy of a cell.
+
 use super::{
     Cell,
     Control::{Load, Strain},
@@ -95,8 +97,8 @@ fn longer_cells_of_equal_bonds_are_the_same() {
 }
 
 /// Stretched at fixed twist, bonds along the lines of centres (axial distance z, transverse chord
-/// t, length l, rigidity k) resist as `sum k (t^2 x + z^2)^2 / l^2 / rise` if only the radius
-/// relaxes, by the fraction `x`: 34708 pN at the optimum.
+/// t, length l) resist as `sum k (t^2 x + z^2)^2 / l^2 / rise` if only the radius relaxes, by `x`:
+/// 34708 pN.
 #[test]
 fn the_built_filament_is_at_rest() {
     let cell = weighted(13, Hold::Means);

@@ -1,3 +1,5 @@
+//! Cache of quadratures.
+
 use super::{Cubature, CubatureError, numbers, table};
 use crate::{EllipsoidParameters, InterfaceKind};
 use std::collections::HashMap;
@@ -19,7 +21,6 @@ pub(super) fn get(parameters: &EllipsoidParameters, kind: InterfaceKind) -> Foun
         numbers.map(f64::to_bits),
     );
     let place = {
-        // A panic during a computation leaves the map intact.
         let mut found = FOUND.lock().unwrap_or_else(PoisonError::into_inner);
         let places = found.get_or_insert_with(HashMap::new);
         Arc::clone(places.entry(key).or_default())

@@ -1,9 +1,11 @@
+//! Gauss-Legendre quadrature.
+
 use std::f64::consts::PI;
 
 /// Nodes in (-1, 1) and weights of the `n`-point rule, exact for polynomials of degree `2n - 1`.
 ///
-/// Newton's method for the roots of the Legendre polynomial, starting from `cos(pi (k + 3/4) / (n +
-/// 1/2))`. Accurate to about 1e-14.
+/// Newton's method for the roots of the Legendre polynomial, starting from
+/// `cos(pi (k + 3/4) / (n + 1/2))`. Accurate to about 1e-14.
 ///
 /// # Source
 /// Abramowitz and Stegun, Handbook of Mathematical Functions, 25.4.29 and 22.16.6.

@@ -6,9 +6,6 @@
 //! ```text
 //! p + s^2 / 2L - p s^2 / 2L^2 - s^4 / 8L^3 + ...
 //! ```
-//!
-//! Half the square, averaged over the bonds, contains `rho^a` up to `|a| = 2`, `rho^a / L` up to 3,
-//! and `rho^a / L^2` and `rho^a / L^3` up to 4.
 
 use super::patch::Share;
 
@@ -27,7 +24,6 @@ pub(crate) struct Site {
 
 pub(crate) type Features = [f64; MOMENTS];
 
-/// Averages of the features over all bonds, and their scales.
 #[derive(Clone, Debug)]
 pub(crate) struct Moments {
     /// Root mean square distance from the line of centres (nm).
@@ -35,7 +31,6 @@ pub(crate) struct Moments {
     /// Root mean square of the inverse length (1/nm).
     pub(crate) inverse: f64,
     averages: Features,
-    /// Root mean squares of the features.
     sizes: Features,
 }
 
@@ -73,7 +68,6 @@ fn falling([one, x, square, cube, _]: Powers) -> Powers {
     [0.0, one, 2.0 * x, 3.0 * square, 4.0 * cube]
 }
 
-/// Exponents of `x`, `y` and `u` in each feature.
 fn exponents() -> impl Iterator<Item = (usize, usize, usize)> {
     let of_power = |(k, degree): (usize, usize)| {
         (0..=degree).flat_map(move |i| (0..=degree - i).map(move |j| (i, j, k)))

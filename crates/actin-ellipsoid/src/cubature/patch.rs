@@ -13,10 +13,9 @@ const HALVINGS: usize = 60;
 /// Set of lines parallel to the line of centres that bridge a gap.
 ///
 /// Scaling by the inverse semi-axes maps the lower monomer to the unit sphere and the line of
-/// centres to a direction `g`. A line is identified by its intersection with the plane through the
-/// centre normal to `g`, a point of the unit disc. The gap lies between two convex surfaces, so its
-/// length is a convex function of this point. Lines shorter than a given length form a convex set,
-/// and the length increases along each ray from the shortest line.
+/// centres to a direction `g`. A line is identified by its intersection with the central plane
+/// normal to `g`. The length of the gap is a convex function of this point and increases along each
+/// ray from the shortest line.
 #[derive(Clone, Debug)]
 pub(crate) struct Patch {
     gap: Gap,
@@ -33,7 +32,6 @@ pub(crate) struct Patch {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Share {
     pub(crate) weight: f64,
-    /// Position across the line of centres (nm).
     pub(crate) place: [f64; 2],
     pub(crate) length: f64,
 }
@@ -97,7 +95,6 @@ impl Patch {
         (best, least)
     }
 
-    /// Position across the line of centres (nm) of a point of the lower monomer.
     pub(crate) fn place(&self, point: Vector3) -> [f64; 2] {
         self.transverse.map(|axis| axis.dot(&point))
     }
@@ -108,8 +105,8 @@ impl Patch {
         length.is_finite().then_some(length)
     }
 
-    /// Height of the midpoint of the gap above the midpoint of the line of centres (nm), at a
-    /// transverse position (nm); `None` if the line misses.
+    /// Height of the midpoint of the gap above the midpoint of the line of centres (nm); `None` if
+    /// the line misses.
     pub(crate) fn height_at(&self, place: [f64; 2]) -> Option<f64> {
         let (direction, offset) = (self.gap.direction(), self.gap.neighbour.offset);
         let lower = self.point(self.line_at(place))?;
@@ -117,20 +114,17 @@ impl Patch {
     }
 
     fn line_at(&self, place: [f64; 2]) -> [f64; 2] {
-        // Any point of the line has the same transverse components.
         let point = place[0] * self.transverse[0] + place[1] * self.transverse[1];
         let q = point.component_div(&self.scale);
         [q.dot(&self.across[0]), q.dot(&self.across[1])]
     }
 
-    /// Quadrature nodes over all bonds, distributed uniformly on the surface of the lower monomer.
-    /// The weights add up to 1. Returns `None` if no bond has an admissible length.
+    /// Quadrature nodes over all bonds, distributed uniformly on the surface of the lower monomer;
+    /// the weights add up to 1. Returns `None` if no bond has an admissible length.
     ///
     /// The ratio of surface to disc area is proportional to `|q / scale| / sqrt(1 - r^2)` with `q`
-    /// on the unit sphere and `r` the distance from the centre of the disc. Each ray extends from
-    /// the minimum bond length to the maximum, or to the last line that meets both monomers. The
-    /// integrand may have a square root singularity at this end, which the substitution of the
-    /// radius removes.
+    /// on the unit sphere and `r` the distance from the centre of the disc. The substitution of the
+    /// radius removes a square root singularity at the end of the rays.
     pub(crate) fn shares(&self) -> Option<Vec<Share>> {
         self.shares_by(RAYS, POINTS_PER_RAY)
     }
@@ -222,7 +216,6 @@ mod tests {
             .fold(0.0, |worst, r| r.abs().max(worst))
     }
 
-    /// Five standard errors.
     #[test]
     fn moments_agree_with_sampled_bonds() {
         const DRAWS: usize = 100_000;

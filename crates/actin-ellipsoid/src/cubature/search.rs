@@ -1,3 +1,5 @@
+//! Nonlinear least squares for the quadrature points.
+
 use super::moments::{Features, MOMENTS, Moments, Site};
 use nalgebra::{DMatrix, DVector};
 
@@ -31,7 +33,6 @@ impl Bounds {
         )
     }
 
-    /// Unknown of an inverse length, clamped to the bounds.
     fn unknown(self, inverse: f64) -> f64 {
         let part = (inverse - 0.5 * (self.least + self.most)) / self.half();
         let part = part.clamp(-0.99, 0.99);
@@ -90,10 +91,8 @@ fn square(residuals: &Features) -> f64 {
     residuals.iter().map(|r| r * r).sum()
 }
 
-/// Minimises the residuals of the moments by the Levenberg method.
-///
-/// The step `d` solves `(J^T J + m 1) d = -J^T r`. The damping `m` is divided by 4 after an
-/// accepted step and multiplied by 4 after a rejected one.
+/// Minimises the residuals of the moments: the step `d` solves `(J^T J + m 1) d = -J^T r` with
+/// adaptive damping `m`.
 ///
 /// # Source
 /// Levenberg, Q. Appl. Math. 2 (1944) 164.
@@ -125,9 +124,8 @@ pub(super) fn search(moments: &Moments, start: &[(Site, f64)], bounds: Bounds) -
     x.sites()
 }
 
-/// Computes `(J^T J + m 1)^-1 J^T r = J^T (J J^T + m 1)^-1 r` with the smaller of the two matrices.
-///
-/// Products are accumulated column by column, in the same order on every machine.
+/// Computes `(J^T J + m 1)^-1 J^T r = J^T (J J^T + m 1)^-1 r` with the smaller of the two matrices,
+/// in the same order of summation on every machine.
 fn step(jacobian: &DMatrix<f64>, residuals: &Features, damping: f64) -> DVector<f64> {
     let r = DVector::from_column_slice(residuals);
     let transposed = jacobian.transpose();

@@ -1,3 +1,5 @@
+//! Quadrature bonds.
+
 use super::*;
 use crate::{Anchors, EllipsoidModel, InterfaceError};
 use InterfaceKind::{Lateral, Longitudinal};
@@ -48,7 +50,6 @@ fn twelve_points_meet_the_moments() {
     }
 }
 
-/// Five standard errors of 2e5 samples.
 #[test]
 fn moments_agree_with_sampled_bonds() {
     const DRAWS: usize = 200_000;
@@ -99,7 +100,8 @@ fn more_points_reduce_the_residual() {
 fn the_table_is_reproduced() {
     for kind in InterfaceKind::ALL {
         let parameters = EllipsoidParameters::default();
-        let table = table::built_in(&parameters, kind).expect("it is of the default parameters");
+        let table = table::built_in(&parameters, kind)
+            .expect("the default parameters have built-in points");
         let finder = Finder::new(&parameters, kind).unwrap();
         let certificate = finder.certificate(&table.points);
         assert!(certificate.is_within_bounds() && certificate.residual <= MET);

@@ -1,3 +1,5 @@
+//! Choice of bonds.
+
 use super::*;
 use crate::{EllipsoidModel, Helix};
 use InterfaceKind::{Lateral, Longitudinal};
@@ -150,7 +152,6 @@ fn a_limit_with_too_few_bonds_is_an_error() {
     else {
         panic!("{error}");
     };
-    // Five standard deviations of the 20 observed.
     assert!((1..1000).contains(&found), "{found}");
     assert!(attempts < 2_000_000 + MAXIMUM_ATTEMPTS);
 }
@@ -263,7 +264,7 @@ const GOLDEN: [Golden; 3] = [
 ];
 
 #[test]
-fn short_bonds_are_drawn_again() {
+fn rejected_bonds_are_sampled_again() {
     let draw = |shortest, bonds| {
         let mut parameters = without_shortest(bonds, 5);
         parameters.longitudinal.minimum_length = shortest;

@@ -1,3 +1,5 @@
+//! Moments of relative poses.
+
 use super::{Link, Pose, QuasiHarmonic};
 use crate::{Monomers, SixMatrix, SixVector};
 use actin_mechanics::State;
@@ -80,7 +82,11 @@ impl Fluctuations {
     /// # Panics
     /// If the chain has a different number of monomers.
     pub fn distance_from(&self, chain: &QuasiHarmonic, thermal_energy: f64) -> f64 {
-        assert_eq!(chain.links.len(), self.sums.len(), "the same monomers");
+        assert_eq!(
+            chain.links.len(),
+            self.sums.len(),
+            "numbers of monomers must agree"
+        );
         let mut squares = 0.0;
         let mut below: Option<(Moments, SixMatrix)> = None;
         for (k, link) in chain.links.iter().enumerate() {
@@ -145,7 +151,6 @@ impl Fluctuations {
     }
 }
 
-/// Mean of a displacement, and reference value of its moments.
 struct Moments {
     mean: SixVector,
     about: SixVector,

@@ -1,3 +1,5 @@
+//! Derivatives and moments of chains.
+
 use super::*;
 use crate::{EllipsoidModel, EllipsoidParameters, Placement};
 use actin_mechanics::testing::{
@@ -14,7 +16,6 @@ fn run(count: usize) -> (Monomers, State) {
     (monomers.unwrap(), state)
 }
 
-/// Coupled links of every kind; thermal displacements of 0.05 nm and 0.02 rad.
 fn chain(count: usize) -> (QuasiHarmonic, State) {
     let (monomers, state) = run(count);
     let mut noise = Xorshift::new(3);
@@ -76,7 +77,6 @@ fn moments_reproduce_the_chain() {
     for _ in 0..states {
         let mut below = SixVector::zeros();
         for (k, link) in chain.links().iter().enumerate() {
-            // The sum of twelve uniform numbers has the correct variance.
             let mut deviates = [(); 6].map(|()| (0..12).map(|_| noise.sample()).sum::<f64>() / 2.0);
             correlate(KT * link.stiffness.try_inverse().unwrap(), &mut deviates);
             let own = link.follows * below + SixVector::from(deviates);

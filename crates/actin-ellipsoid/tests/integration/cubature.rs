@@ -1,3 +1,5 @@
+//! Energy of quadrature bonds.
+
 use actin_ellipsoid::{
     Anchors, Bond, EllipsoidModel, EllipsoidParameters, Interface, InterfaceKind, Neighbour,
 };
@@ -14,7 +16,7 @@ fn interface(kind: InterfaceKind, anchors: Anchors, bonds: usize) -> Interface {
         interface.minimum_length = 0.2;
     }
     let model = EllipsoidModel::new(parameters).expect("the parameters are valid");
-    model.interface(kind, 0).expect("there is room for bonds")
+    model.interface(kind, 0).expect("the interface has bonds")
 }
 
 /// Energy per rigidity (nm^2), rotated about the middle of the line of centres.
@@ -57,7 +59,9 @@ fn twelve_quadrature_bonds_have_the_energy_of_many_sampled_bonds() {
             }
         }
         let [weighted, drawn] = squares.map(f64::sqrt);
-        println!("{kind}: 12 weighted {weighted:.1e}, 64 drawn {drawn:.1e} (rms of the energy)");
+        println!(
+            "{kind}: 12 quadrature bonds {weighted:.1e}, 64 sampled bonds {drawn:.1e} (rms of the energy)"
+        );
         assert!(weighted < 0.1 * drawn, "{kind}: {weighted} {drawn}");
     }
 }

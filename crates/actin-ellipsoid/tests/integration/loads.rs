@@ -1,3 +1,5 @@
+//! Loads of bonds.
+
 use crate::common;
 use actin_ellipsoid::EllipsoidModel;
 use actin_mechanics::testing::{
@@ -20,7 +22,6 @@ fn loads_are_the_gradient_of_the_energy() {
     }
 }
 
-/// Thousands of terms have a rounding error of 1e-14.
 #[test]
 fn loads_have_no_resultant() {
     for seed in 0..10 {

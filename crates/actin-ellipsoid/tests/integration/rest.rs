@@ -1,3 +1,5 @@
+//! Built filaments.
+
 use crate::common;
 use actin_ellipsoid::{Anchors, EllipsoidModel, EllipsoidParameters, Placement};
 use actin_mechanics::testing::loads_of;

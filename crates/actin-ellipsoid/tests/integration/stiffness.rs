@@ -1,3 +1,5 @@
+//! Stiffness of bonds.
+
 use crate::common;
 use actin_mechanics::testing::{assert_is_stiffness, loads_of, stiffness_matrix};
 use actin_mechanics::{State, Vector3};
@@ -21,7 +23,6 @@ fn stiffness_is_the_derivative_of_the_loads() {
     }
 }
 
-/// Points, then frames.
 fn stacked(
     state: &State,
     point: impl Fn(usize) -> Vector3,

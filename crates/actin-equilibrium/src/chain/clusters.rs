@@ -1,3 +1,5 @@
+//! Carried steps of single filaments.
+
 use super::open::Components;
 use super::{Chain, Link};
 use crate::layout::{Layout, Node};
@@ -56,7 +58,6 @@ impl Clusters {
         let place_of = |components: &mut Components, body| places[&components.root(body)];
         for &link in &chain.0 {
             let cluster = &mut clusters[place_of(&mut components, link.follower())];
-            // A chain with a second held place does not close.
             if cluster.holds < 2 {
                 cluster.links.push(link);
             }

@@ -1,3 +1,5 @@
+//! Components of tied bodies.
+
 use crate::layout::Layout;
 use crate::ties::Ties;
 use actin_mechanics::Coordinates::{self, Frame, Point};

@@ -1,12 +1,10 @@
-//! Contribution of the chart of [`Chain::carry`] to the second derivatives.
+//! Contribution of the chart of [`Chain::carry`] to the second derivatives: unbalanced loads times
+//! the accelerations of carried motion. Stiffness blocks refer to straight motion, `x + t v` and
+//! `Q exp(t phi)`.
 //!
-//! Stiffness blocks refer to straight motion: `x + t v` for points, `Q exp(t phi)` for frames.
-//! Carried motion adds the unbalanced loads times the accelerations. The term is large for long
-//! filaments far from equilibrium and vanishes in equilibrium.
-//!
-//! A point carried by frame `f` with rotation `R(t)` moves as `x_j = x_i + R (d + t s)` with `s =
-//! v_j - v_i - theta_f x d`. A frame that follows another one rotates by `R_b = R_a exp(t (theta_b
-//! - theta_a)) = exp(t theta_b + t^2 c_b / 2) + O(t^3)`:
+//! A point carried by frame `f` with rotation `R(t)` moves as `x_j = x_i + R (d + t s)` with
+//! `s = v_j - v_i - theta_f x d`. A frame that follows another one rotates by
+//! `R_b = R_a exp(t (theta_b - theta_a)) = exp(t theta_b + t^2 c_b / 2) + O(t^3)`:
 //!
 //! ```text
 //! c_b   = c_a + theta_a x theta_b

@@ -2,10 +2,8 @@
 //! [`Chain::carry`](crate::chain::Chain::carry), for long filaments with zero-stiffness modes.
 //!
 //! If the stiffness is indefinite, ties are stiffened in proportion to their own negative
-//! transverse stiffness, with the smallest sufficient factor. A multiple of the unit matrix would
-//! prevent large motion, and equal stiffening would stiffen ties that need none.
-//!
-//! Each step decreases the energy. After a failure, straight steps are used for a while.
+//! transverse stiffness. A multiple of the unit matrix would prevent large motion. After a step
+//! without decrease of the energy, straight steps are used for a while.
 
 use super::{Descent, Taken, taken};
 use crate::chain::is_open;
@@ -14,7 +12,6 @@ use crate::history::Verdict;
 use crate::options::NewtonOptions;
 use actin_mechanics::Interaction;
 
-/// Minimum number of bodies and groups.
 const FEWEST: usize = 400;
 /// Directions without stiffness per body above which a start is floppy.
 const FLOPPY: f64 = 1.0 / 16.0;
@@ -25,7 +22,6 @@ const REST: usize = 1;
 
 #[derive(Debug)]
 pub(super) struct Composed {
-    /// `None` until the first factorisation.
     is_used: Option<bool>,
     failures: u32,
     /// Straight steps before the next carried one.
@@ -126,7 +122,6 @@ impl Descent {
                     self.accept();
                     return Some(taken(direction, fraction, Verdict::Decrease));
                 }
-                // The straight steps detect convergence below rounding.
                 Some(_) => return None,
                 None => {}
             }

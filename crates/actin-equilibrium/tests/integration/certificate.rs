@@ -1,3 +1,5 @@
+//! Certificates of singular matrices.
+
 use crate::common;
 use Coordinates::{Frame as F, Point as P};
 use actin_equilibrium::{Layout, Newton, NewtonOptions, Stability};
@@ -153,7 +155,6 @@ fn neutral_modes_of_rods_and_springs_are_counted() {
         for i in 0..=segments {
             point(&mut state, Vector3::z() * (10.0 * i as f64));
         }
-        // A frame without segment replaces the wall.
         for _ in 0..=segments {
             frame(&mut state, UnitQuaternion::identity());
         }
@@ -184,7 +185,6 @@ fn the_lowest_eigenvalue_excludes_neutral_modes() {
     let exact = 40.0 * (std::f64::consts::PI / 18.0).sin().powi(2);
     let found = lowest(&chain, &terms).unwrap();
     println!("lowest eigenvalue {found} instead of {exact} pN/nm");
-    // Accuracy of the bisection.
     assert!((found / exact - 1.0).abs() < 2e-9, "{found}");
     assert_eq!(lowest(&bodies(1, 1), &vec![]), None);
     let saddle: Terms = vec![Box::new(Wells(vec![(0, diagonal([0.0, -2.0, 5.0]))]))];

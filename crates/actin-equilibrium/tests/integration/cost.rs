@@ -1,3 +1,5 @@
+//! Cost of solves.
+
 use crate::common;
 use actin_equilibrium::{Layout, Newton, NewtonOptions, Residual};
 use actin_mechanics::{Interaction, PointLoad, State, Vector3};

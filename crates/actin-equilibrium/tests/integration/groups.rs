@@ -1,3 +1,5 @@
+//! Groups and layouts.
+
 use crate::common;
 use actin_equilibrium::{Group, Layout, LayoutError, Newton, NewtonOptions, Pivot, Stability};
 use actin_mechanics::{Coordinates, Interaction, PointLoad, Slider, State, Vector3, rotation};
@@ -79,7 +81,6 @@ fn sliding_bodies_of_the_state_are_groups() {
     }
 }
 
-/// Large rotations about a moving pivot.
 #[test]
 fn a_rigid_group_turns_into_the_force() {
     let mut state = State::default();
@@ -145,7 +146,7 @@ fn directions_are_made_orthonormal_and_can_be_replaced() {
     assert!((directions[0] - Vector3::x()).norm() < 1e-15);
     assert!((directions[1] - Vector3::y()).norm() < 1e-15);
     let count = layout.redirect(0, vec![Vector3::z()], vec![]).unwrap_err();
-    let message = "group 0 has 2 unknowns and cannot be given 1";
+    let message = "the new directions of group 0 give 1 unknowns instead of 2";
     assert_eq!(count.to_string(), message);
     layout
         .redirect(0, vec![Vector3::z(), Vector3::y()], vec![])
@@ -197,7 +198,7 @@ fn mistakes_are_refused() {
     let mut order = in_order(&state);
     order.points[2] = f64::NAN;
     let error = Layout::new(&state, Some(&order), vec![]).unwrap_err();
-    let message = "the place of Point(2) along the filament must be finite, but is NaN";
+    let message = "the position of Point(2) in the order must be finite, but is NaN";
     assert_eq!(error.to_string(), message);
     order.points.pop();
     let error = Layout::new(&state, Some(&order), vec![]).unwrap_err();

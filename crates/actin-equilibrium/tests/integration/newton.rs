@@ -1,3 +1,5 @@
+//! Newton's method.
+
 use crate::common;
 use actin_equilibrium::{
     Convergence, Iteration, Layout, Newton, NewtonOptions, Residual, SolveError, Stability, Verdict,
@@ -14,7 +16,6 @@ fn convergence_is_quadratic_near_the_solution() {
     let mut newton = ACTIN.newton(&state);
     newton.solve(&mut state, &terms).unwrap();
     perturb(&mut state, &mut Xorshift::new(5), 0.0, 3e-3);
-    // Perturbed held bodies remain at their positions.
     let equilibrium = newton.solve(&mut state, &terms).unwrap();
     let size = |r: &Residual| r.force.max(r.torque);
     let mut residuals: Vec<f64> = equilibrium
@@ -66,7 +67,6 @@ fn the_equilibrium_does_not_depend_on_the_start() {
     }
 }
 
-/// Bonded filaments have zero-stiffness modes at rest.
 #[test]
 fn floppy_filaments_are_neutral_at_rest_and_solved_under_load() {
     let n = 31;
@@ -128,7 +128,10 @@ fn indefinite_starts_lead_to_the_buckled_column() {
     }
     let equilibrium = newton.minimize(&mut state, &terms, 3).unwrap();
     println!("{:?}", equilibrium.work);
-    assert!(equilibrium.history[0].negative_pivots > 0, "an easy start");
+    assert!(
+        equilibrium.history[0].negative_pivots > 0,
+        "the initial stiffness is indefinite"
+    );
     let stability = equilibrium.certificate.unwrap().stability();
     assert_eq!(stability, Stability::Stable);
     let tangent = state.frames.orientation.get(80) * Vector3::z();
@@ -364,7 +367,6 @@ fn stiffness_without_scale_is_refused() {
     }
 }
 
-/// Overshooting at a few bodies would cost steps of the whole system.
 #[test]
 fn long_floppy_filaments_hardly_overshoot() {
     let n = 1200;

@@ -1,3 +1,5 @@
+//! Paths of controls.
+
 use crate::common;
 use actin_equilibrium::{
     Group, Jumps, Layout, Newton, NewtonOptions, Path, PathEnd, PathError, PathFailure,
@@ -42,7 +44,6 @@ fn arch_limit(rise: f64) -> (f64, f64) {
     (y, arch_force(rise, y))
 }
 
-/// Follows a path and collects the values of `see`.
 fn followed<T>(
     options: PathOptions,
     (newton, state, terms): (&mut Newton, &mut State, &Terms),
@@ -237,7 +238,6 @@ fn a_small_snap_is_reported() {
     );
     println!("jumps at {jumps:?}, {} steps refused", end.refused);
     assert_eq!(jumps.len(), 1);
-    // At most eleven halvings, twice.
     assert!(end.refused <= 22, "{}", end.refused);
     assert!((jumps[0] - 0.5).abs() < 2e-4, "{jumps:?}");
     assert!(state.points.position.get(2).y < -rise);

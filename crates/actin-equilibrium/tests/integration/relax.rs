@@ -1,3 +1,5 @@
+//! Equilibrium in one call.
+
 use crate::common;
 use actin_equilibrium::{
     Coordinates, EquilibriumError, Interaction, Loads, Matrix3, Newton, NewtonOptions, PointLoad,
@@ -45,7 +47,6 @@ const UNCLAMPED: Rod = Rod {
     ..ACTIN
 };
 
-/// Transverse tip force (pN).
 fn failure(mut state: State, rod: &Rod, force: f64) -> SolveError {
     let mut terms = rod.interactions();
     let load = PointLoad::at(&mut state, rod.segments, Vector3::x() * force).unwrap();
@@ -177,7 +178,6 @@ fn forces_below_the_tolerance_are_solved() {
     }
 }
 
-/// Large deflection.
 #[test]
 fn stiffness_and_loads_scale_together() {
     let tip = |scale: f64| {

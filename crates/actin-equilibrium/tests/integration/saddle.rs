@@ -1,3 +1,5 @@
+//! Saddles and lowest modes.
+
 use crate::common;
 use actin_equilibrium::{Layout, Newton, NewtonOptions, Stability, StepSize};
 use actin_mechanics::{Coordinates, Interaction, PointLoad, State, Vector3};
@@ -11,7 +13,6 @@ fn compressed(force: f64) -> (State, Terms) {
     COLUMN.loaded(Vector3::z() * -force, 1.0)
 }
 
-/// In the metric of the options.
 fn dense_spectrum(newton: &mut Newton, state: &State, terms: &Terms) -> Vec<f64> {
     let n = newton.layout().unknowns();
     let mut matrix = DMatrix::zeros(n, n);
@@ -54,7 +55,6 @@ fn certificate_and_lowest_mode_agree_with_a_dense_solver() {
         assert_eq!(certificate.negative, negative, "{force} pN");
         assert_eq!(certificate.unresolved, 0);
         let mode = newton.lowest_mode(&state, &terms).unwrap().unwrap();
-        // Rounding of the largest eigenvalue.
         let accuracy = mode.error + 1e-15 * spectrum[spectrum.len() - 1] * 100.0;
         let error = (mode.eigenvalue - spectrum[0]).abs();
         assert!(error <= accuracy, "{} not {}", mode.eigenvalue, spectrum[0]);
@@ -131,7 +131,6 @@ fn rigid_motions_are_neutral() {
     assert_eq!(certificate.stability(), Stability::Neutral { modes: 6 });
 }
 
-/// Random displacements of up to 1e-3 nm and 1e-4 rad.
 fn disturbed(straight: &State) -> State {
     let mut state = straight.clone();
     perturb(&mut state, &mut Xorshift::new(4), 1e-3, 1e-4);

@@ -1,3 +1,5 @@
+//! Random search.
+
 use crate::common;
 use actin_equilibrium::{
     Equilibrium, Found, Iteration, Known, Newton, NewtonOptions, Search, SearchObserver, SolveError,

@@ -1,3 +1,5 @@
+//! Assembled stiffness.
+
 use crate::common;
 use actin_equilibrium::{Group, Layout, Pivot};
 use actin_mechanics::{Interaction, PointLoad, Vector3};

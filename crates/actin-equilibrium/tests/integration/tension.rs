@@ -1,3 +1,5 @@
+//! Rods under extreme tension.
+
 use crate::common;
 use actin_equilibrium::Convergence;
 use actin_mechanics::{Interaction, PointLoad, State, UnitQuaternion, Vector3};
@@ -44,7 +46,6 @@ fn a_straight_rod_stretches_linearly_at_any_tension() {
             );
             let is_at_floor = found.ending == Convergence::FloorReached;
             assert!(is_at_floor || found.residual.force <= 1e-8, "{force}");
-            // Rounding may delay convergence.
             assert!(steps <= 150 || is_at_floor, "{force}: {steps}");
             let is_straight = (strain - exact).abs() < 1e-12 * (1.0 + exact);
             assert!(is_straight || !is_exact, "{force}: {strain}");
@@ -56,9 +57,9 @@ fn a_straight_rod_stretches_linearly_at_any_tension() {
     }
 }
 
-/// Shear instability beyond `F* = S1 S3 / (S3 - S1)` (3.0e4 pN). The frames rotate to `cos(theta) =
-/// F* / F`, and the tip moves along the force by `F / S1` of the length. With the force `n`, `r' =
-/// Q (e3 + S^-1 Q^T n)` and `B theta'' = F sin(theta) (1 - F cos(theta) / F*)`.
+/// Shear instability beyond `F* = S1 S3 / (S3 - S1)` (3.0e4 pN). The frames rotate to
+/// `cos(theta) = F* / F`, and the tip moves along the force by `F / S1` of the length. With the
+/// force `n`, `r' = Q (e3 + S^-1 Q^T n)` and `B theta'' = F sin(theta) (1 - F cos(theta) / F*)`.
 #[test]
 fn a_rod_under_great_tension_turns_its_frames() {
     let [shear, stretch] = [ACTIN.shear.x, ACTIN.shear.z];

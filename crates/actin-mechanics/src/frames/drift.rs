@@ -1,4 +1,4 @@
-//! The hot loop of free rotation: several tops at a time, one per lane.
+//! Vector kernel of free rotation, with one symmetric top per lane.
 #![allow(
     clippy::inline_always,
     reason = "vector code must be compiled into the function that enables the instructions"
@@ -7,13 +7,9 @@
 use super::{Frames, Inertias};
 use crate::wide::{self, Columns, ColumnsMut, Simd, Wide3, WideQuaternion, WithSimd};
 
-/// The free flow of all frames for a time `h`, to be compiled for whatever instructions the
-/// machine has.
 #[derive(Debug)]
 pub(super) struct Drift<'a> {
-    /// The frames.
     pub(super) frames: &'a mut Frames,
-    /// Duration.
     pub(super) h: f64,
 }
 
@@ -31,7 +27,6 @@ impl WithSimd for Drift<'_> {
 }
 
 impl Drift<'_> {
-    /// Tops of any axes.
     #[inline(always)]
     fn turn_about_any<S: Simd>(self, simd: S) {
         let Frames {
@@ -61,8 +56,8 @@ impl Drift<'_> {
         }
     }
 
-    /// Tops whose axis of symmetry is the third of the body, such as a rod's: the same in fewer
-    /// operations.
+    /// Free rotation of tops whose symmetry axis is the third body axis, such as rod segments, in
+    /// fewer operations.
     #[inline(always)]
     fn turn_about_z<S: Simd>(self, simd: S) {
         let n = self.frames.len();
@@ -80,7 +75,7 @@ impl Drift<'_> {
             inertia: Columns::new([&inverse[..n], &excess[..n]]),
             half: simd.splat_f64s(0.5 * self.h),
         };
-        // Full groups in a loop of their own, in which the compiler sees that they are.
+        // Full groups have a separate loop, in which the compiler can prove the bounds.
         for group in 0..n / S::F64_LANES {
             tops.turn(simd, group);
         }
@@ -90,18 +85,15 @@ impl Drift<'_> {
     }
 }
 
-/// Tops whose axis of symmetry is the third of the body.
 struct TopsAboutZ<'a, S: Simd> {
     q: ColumnsMut<'a, S, 4>,
     l: ColumnsMut<'a, S, 3>,
-    /// Inverse transverse moment, and the excess of the inverse axial one over it.
+    /// Inverse transverse moment, and the excess of the inverse axial moment over it.
     inertia: Columns<'a, S, 2>,
-    /// Half the time.
     half: S::f64s,
 }
 
 impl<S: Simd> TopsAboutZ<'_, S> {
-    /// Turns a group.
     #[inline(always)]
     fn turn(&mut self, simd: S, group: usize) {
         let [transverse, excess] = self.inertia.get(simd, group);
@@ -123,7 +115,7 @@ impl<S: Simd> TopsAboutZ<'_, S> {
     }
 }
 
-/// The turns by twice the vectors `half` (rad).
+/// Quaternions of the rotation vectors `2 half` (rad).
 #[inline(always)]
 fn turns<S: Simd>(simd: S, half: [Wide3<S>; 2]) -> [WideQuaternion<S>; 2] {
     let squared = [
@@ -136,7 +128,7 @@ fn turns<S: Simd>(simd: S, half: [Wide3<S>; 2]) -> [WideQuaternion<S>; 2] {
     [[c0, x0, y0, z0], [c1, x1, y1, z1]]
 }
 
-/// `q` brought back to unit length to first order.
+/// `q` renormalised to first order.
 #[inline(always)]
 fn to_unit_length<S: Simd>(simd: S, q: WideQuaternion<S>) -> WideQuaternion<S> {
     let [w, x, y, z] = q;
@@ -148,7 +140,7 @@ fn to_unit_length<S: Simd>(simd: S, q: WideQuaternion<S>) -> WideQuaternion<S> {
     [simd.mul_f64s(w, correction), x, y, z]
 }
 
-/// `l` as seen from a body that has turned by `(w, 0, 0, z)`.
+/// Components of `l` after a rotation of the body by `(w, 0, 0, z)`.
 #[inline(always)]
 fn turn_back_about_z<S: Simd>(simd: S, [w, z]: [S::f64s; 2], [x, y, along]: Wide3<S>) -> Wide3<S> {
     let twice = simd.add_f64s(z, z);

@@ -1,4 +1,4 @@
-//! The argument for second derivatives: they are the differences of the loads.
+//! Assertion on second derivatives: they agree with differences of the loads.
 
 use super::{derivative, loads_of};
 use crate::{
@@ -7,28 +7,25 @@ use crate::{
 use crate::{Xorshift, perturb};
 use nalgebra::{DMatrix, DVector};
 
-/// Asserts that the second derivatives of the energy are minus the derivative of the loads.
+/// Asserts that the second derivatives of the energy are minus the derivatives of the loads.
 ///
-/// The whole matrix is compared, coordinate by coordinate: three per point (lab frame), then three
-/// per frame (body frame). Forces must change by `-K`, torques by `-(K - [tau]x / 2)` with their
-/// own frame's turn and by `-K` otherwise. Diagonal blocks must be symmetric, and the pairs the
-/// same at another state.
-///
-/// `h` is the step of the eight-point central difference (see [`derivative`]); `relative` is the
-/// tolerance as a share of the largest entry of the same kind: point with point, point with frame,
-/// frame with frame.
+/// Forces must change by `-K`, torques by `-(K - [tau]x / 2)` with the rotation of their own frame
+/// and by `-K` otherwise. Diagonal blocks must be symmetric, and pairs must not depend on the
+/// state. `h` is the step of [`derivative`], and `relative` is the tolerance relative to the
+/// largest entry of the same kind (point-point, point-frame, frame-frame).
 ///
 /// # Panics
-/// If one of these does not hold, or if the interaction offers no second derivatives.
+/// If a condition does not hold, or if the interaction has no second derivatives.
 pub fn assert_is_stiffness(interaction: &dyn Interaction, state: &State, h: f64, relative: f64) {
     assert_same_pairs(interaction, state);
     assert_are_second_derivatives(interaction, state, h, relative);
 }
 
-/// The same of an interaction whose pairs may be others at another state, as those in contact are.
+/// Like [`assert_is_stiffness`], for interactions whose pairs depend on the state, such as
+/// contacts.
 ///
 /// # Panics
-/// As [`assert_is_stiffness`], but for the pairs.
+/// See [`assert_is_stiffness`], except for the condition on pairs.
 pub fn assert_are_second_derivatives(
     interaction: &dyn Interaction,
     state: &State,
@@ -49,7 +46,7 @@ pub fn assert_are_second_derivatives(
         let error = (actual[(i, j)] - expected[(i, j)]).abs();
         assert!(
             error <= relative * scale[kind(i, j)],
-            "row {}, column {}: {} against {} from the loads",
+            "row {}, column {}: {} differs from {}, the derivative of the loads",
             name(state, i),
             name(state, j),
             actual[(i, j)],
@@ -58,16 +55,15 @@ pub fn assert_are_second_derivatives(
     }
 }
 
-/// The whole matrix of second derivatives of one interaction alone: three rows per point (lab
-/// frame), then three per frame (body frame).
+/// Matrix of second derivatives of one interaction: three rows per point (lab frame), then three
+/// per frame (body frame).
 ///
 /// # Panics
-/// If the interaction offers no second derivatives.
+/// If the interaction has no second derivatives.
 pub fn stiffness_matrix(interaction: &dyn Interaction, state: &State) -> DMatrix<f64> {
     dense(&stiffness_of(interaction, state), state)
 }
 
-/// Blocks as a whole matrix.
 pub(super) fn dense(stiffness: &Stiffness, state: &State) -> DMatrix<f64> {
     let first = |c: Coordinates| match c {
         Coordinates::Point(i) => 3 * i,
@@ -86,17 +82,16 @@ pub(super) fn dense(stiffness: &Stiffness, state: &State) -> DMatrix<f64> {
     matrix
 }
 
-/// The blocks of one interaction alone.
 fn stiffness_of(interaction: &dyn Interaction, state: &State) -> Stiffness {
     let mut stiffness = Stiffness::default();
     interaction
         .second_order()
-        .expect("the interaction has second derivatives")
+        .expect("use an interaction with second derivatives")
         .add_stiffness(state, &mut stiffness);
     stiffness
 }
 
-/// An assembler looks up places once.
+/// Asserts that pairs do not depend on the state, because assemblers store the positions of blocks.
 fn assert_same_pairs(interaction: &dyn Interaction, state: &State) {
     let here = stiffness_of(interaction, state);
     let mut moved = state.clone();
@@ -106,25 +101,23 @@ fn assert_same_pairs(interaction: &dyn Interaction, state: &State) {
     assert_eq!(pairs(&here), pairs(&elsewhere), "pairs at another state");
 }
 
-/// An assembler reads one triangle of the diagonal blocks.
+/// Asserts that diagonal blocks are symmetric, because assemblers read one triangle.
 fn assert_diagonal(interaction: &dyn Interaction, state: &State, relative: f64) {
     let here = stiffness_of(interaction, state);
     for (a, _, block) in here.blocks().iter().filter(|(a, b, _)| a == b) {
         let asymmetry = (block - block.transpose()).amax();
         assert!(
             asymmetry <= relative * block.amax(),
-            "{a:?} with itself is not symmetric: {block}"
+            "the diagonal block of {a:?} is not symmetric: {block}"
         );
     }
 }
 
-/// All entries of a matrix.
 fn entries(matrix: &DMatrix<f64>) -> impl Iterator<Item = (usize, usize)> + use<> {
     let (rows, columns) = matrix.shape();
     (0..rows).flat_map(move |i| (0..columns).map(move |j| (i, j)))
 }
 
-/// The coordinate of one row, for messages.
 fn name(state: &State, row: usize) -> String {
     let (body, axis) = (row / 3, ["x", "y", "z"][row % 3]);
     match body.checked_sub(state.points.len()) {
@@ -133,7 +126,6 @@ fn name(state: &State, row: usize) -> String {
     }
 }
 
-/// The second derivatives as differences of the loads.
 fn stiffness_by_differences(interaction: &dyn Interaction, state: &State, h: f64) -> DMatrix<f64> {
     let n = 3 * (state.points.len() + state.frames.len());
     let mut matrix = DMatrix::zeros(n, n);
@@ -155,7 +147,6 @@ fn stiffness_by_differences(interaction: &dyn Interaction, state: &State, h: f64
     matrix
 }
 
-/// Moves one of the coordinates by `step`.
 fn move_coordinate(state: &mut State, coordinate: usize, step: f64) {
     let mut vector = Vector3::zeros();
     vector[coordinate % 3] = step;
@@ -169,7 +160,6 @@ fn move_coordinate(state: &mut State, coordinate: usize, step: f64) {
     }
 }
 
-/// All loads in the order of the coordinates.
 pub(super) fn all_loads(loads: &Loads) -> DVector<f64> {
     let flat = |v: &Vectors| v.iter().flat_map(|v| [v.x, v.y, v.z]).collect::<Vec<_>>();
     let (forces, torques) = (flat(&loads.force), flat(&loads.torque));
@@ -183,11 +173,11 @@ mod tests {
     use crate::testing::{push_frame, push_point};
     use Coordinates::{Frame as F, Point as P};
 
-    /// A spring of stiffness 2 from the origin to a point of a body: energy `(x + Q b)^2`.
+    /// Spring of stiffness 2 between the origin and a point of a body: energy `(x + Q b)^2`.
     #[derive(Debug)]
     struct Spring {
         arm: Vector3,
-        /// Factor of what there should be of the force's part of the frame's block.
+        /// Factor of the geometric part of the frame block; 1 is correct.
         geometric: f64,
     }
 
@@ -247,11 +237,11 @@ mod tests {
             [1.0, 1.0, 2.0],
         );
         let arm = Vector3::new(1.0, 0.5, -0.4);
-        // The energy is smooth on the scale of 1: 0.02^8 and 1e-16 / 0.02 are both below 1e-13.
+        // The length scale is 1: truncation 0.02^8 and round-off 1e-16 / 0.02 are below 1e-13.
         assert_is_stiffness(&Spring { arm, geometric }, &state, 0.02, 1e-12);
     }
 
-    /// The torque of this spring is not zero, so the sign of `[tau]x / 2` is tested, too.
+    /// The torque is not zero, so that the sign of `[tau]x / 2` is tested.
     #[test]
     fn second_derivatives_of_a_spring_are_accepted() {
         check(1.0);
@@ -259,7 +249,7 @@ mod tests {
 
     #[test]
     #[should_panic(expected = "of frame 0")]
-    fn a_missing_geometric_part_is_noticed() {
+    fn a_missing_geometric_part_is_detected() {
         check(0.0);
     }
 }

@@ -1,17 +1,17 @@
-//! Arrays of equal length, read and written in groups of as many numbers as there are lanes.
+//! Arrays of equal length, accessed in groups of one number per lane.
 
 use super::vectors::{Wide3, write};
 use pulp::Simd;
 use std::array::from_fn;
 
-/// `N` arrays to read.
+/// `N` input arrays.
 #[derive(Clone, Copy, Debug)]
 pub struct Columns<'a, S: Simd, const N: usize> {
     full: [&'a [S::f64s]; N],
     rest: [&'a [f64]; N],
 }
 
-/// `N` arrays to read and write.
+/// `N` input and output arrays.
 #[derive(Debug)]
 pub struct ColumnsMut<'a, S: Simd, const N: usize> {
     full: [&'a mut [S::f64s]; N],
@@ -19,12 +19,12 @@ pub struct ColumnsMut<'a, S: Simd, const N: usize> {
 }
 
 impl<'a, S: Simd, const N: usize> Columns<'a, S, N> {
-    /// The arrays, which have equal lengths.
+    /// Creates columns from arrays of equal length.
     #[inline(always)]
     pub fn new(arrays: [&'a [f64]; N]) -> Self {
         let length = arrays[0].len();
         let cut = arrays.map(|array| S::as_simd_f64s(&array[..length]));
-        // Of one length in the eyes of the compiler, so that one comparison does for a group.
+        // Slicing to equal lengths reduces bounds checks to one per group.
         let (full, rest) = (cut[0].0.len(), cut[0].1.len());
         Self {
             full: cut.map(|(all, _)| &all[..full]),
@@ -32,13 +32,13 @@ impl<'a, S: Simd, const N: usize> Columns<'a, S, N> {
         }
     }
 
-    /// Number of groups, a short one included.
+    /// Number of groups, including a short last one.
     #[inline(always)]
     pub fn groups(&self) -> usize {
         self.full[0].len() + usize::from(!self.rest[0].is_empty())
     }
 
-    /// The numbers of a group; zeros beyond the end.
+    /// Numbers of a group, padded with zeros.
     #[inline(always)]
     pub fn get(&self, simd: S, group: usize) -> [S::f64s; N] {
         let mut values = [simd.splat_f64s(0.0); N];
@@ -56,7 +56,7 @@ impl<'a, S: Simd, const N: usize> Columns<'a, S, N> {
 }
 
 impl<'a, S: Simd, const N: usize> ColumnsMut<'a, S, N> {
-    /// The arrays, which have equal lengths.
+    /// Creates columns from arrays of equal length.
     #[inline(always)]
     pub fn new(arrays: [&'a mut [f64]; N]) -> Self {
         let length = arrays[0].len();
@@ -68,13 +68,13 @@ impl<'a, S: Simd, const N: usize> ColumnsMut<'a, S, N> {
         }
     }
 
-    /// Number of groups, a short one included.
+    /// Number of groups, including a short last one.
     #[inline(always)]
     pub fn groups(&self) -> usize {
         self.full[0].len() + usize::from(!self.rest[0].is_empty())
     }
 
-    /// The numbers of a group; zeros beyond the end.
+    /// Numbers of a group, padded with zeros.
     #[inline(always)]
     pub fn get(&self, simd: S, group: usize) -> [S::f64s; N] {
         let mut values = [simd.splat_f64s(0.0); N];
@@ -90,7 +90,7 @@ impl<'a, S: Simd, const N: usize> ColumnsMut<'a, S, N> {
         values
     }
 
-    /// Replaces the numbers of a group; beyond the end nothing.
+    /// Stores the numbers of a group. Padding is ignored.
     #[inline(always)]
     pub fn set(&mut self, simd: S, group: usize, values: [S::f64s; N]) {
         if group < self.full[0].len() {
@@ -106,7 +106,7 @@ impl<'a, S: Simd, const N: usize> ColumnsMut<'a, S, N> {
 }
 
 impl<S: Simd> ColumnsMut<'_, S, 3> {
-    /// Adds to the vectors of a group.
+    /// Adds vectors to a group.
     #[inline(always)]
     pub fn add(&mut self, simd: S, group: usize, terms: Wide3<S>) {
         let now = self.get(simd, group);
@@ -114,11 +114,11 @@ impl<S: Simd> ColumnsMut<'_, S, 3> {
     }
 }
 
-/// Moves the numbers of successive groups one body up: lane `i` receives what lane `i - 1` had,
-/// the first lane what the last lane of the group before had.
+/// Shift of successive groups up by one body: lane `i` receives the number of lane `i - 1`, and the
+/// first lane that of the last lane of the preceding group.
 ///
-/// What acts between a body and the next is computed in the lane of the first; this brings its
-/// reaction to the second without a store that overlaps the next group's load.
+/// This moves the reaction of an interaction between neighbours to the second body, without
+/// overlapping stores and loads.
 #[derive(Clone, Copy, Debug)]
 pub struct ShiftedUp<S: Simd, const N: usize> {
     first_lane: S::m64s,
@@ -126,13 +126,13 @@ pub struct ShiftedUp<S: Simd, const N: usize> {
 }
 
 impl<S: Simd, const N: usize> ShiftedUp<S, N> {
-    /// Nothing but zeros comes before the first group.
+    /// Starts with zeros before the first group.
     #[inline(always)]
     pub fn new(simd: S) -> Self {
         Self::after(simd, [0.0; N])
     }
 
-    /// These numbers come before the first group.
+    /// Starts with the given numbers before the first group.
     #[inline(always)]
     pub fn after(simd: S, before: [f64; N]) -> Self {
         let zero = simd.splat_f64s(0.0);
@@ -146,7 +146,7 @@ impl<S: Simd, const N: usize> ShiftedUp<S, N> {
         }
     }
 
-    /// The next group.
+    /// Shifts the next group.
     #[inline(always)]
     pub fn next(&mut self, simd: S, values: [S::f64s; N]) -> [S::f64s; N] {
         let mut shifted = values;
@@ -159,10 +159,10 @@ impl<S: Simd, const N: usize> ShiftedUp<S, N> {
     }
 }
 
-/// Moves the numbers of successive groups one body down: lane `i` receives what lane `i + 1` has,
-/// the last lane what the first lane of the next group has.
+/// Shift of successive groups down by one body: lane `i` receives the number of lane `i + 1`, and
+/// the last lane that of the first lane of the next group.
 ///
-/// A group is therefore complete only when the next one is known, and comes one call later.
+/// A group is complete when the next one is known, so results are delayed by one call.
 #[derive(Clone, Copy, Debug)]
 pub struct ShiftedDown<S: Simd, const N: usize> {
     last_lane: S::m64s,
@@ -170,7 +170,7 @@ pub struct ShiftedDown<S: Simd, const N: usize> {
 }
 
 impl<S: Simd, const N: usize> ShiftedDown<S, N> {
-    /// Before the first group.
+    /// Starts before the first group.
     #[inline(always)]
     pub fn new(simd: S) -> Self {
         let zero = simd.splat_f64s(0.0);
@@ -181,10 +181,9 @@ impl<S: Simd, const N: usize> ShiftedDown<S, N> {
         }
     }
 
-    /// Takes the next group and returns the one before, moved down.
+    /// Accepts the next group and returns the preceding one, shifted down.
     ///
-    /// Of the first call only the last lane has a meaning: what the first body has, which belongs
-    /// to the body before it.
+    /// In the first call only the last lane is valid: it contains the number of the first body.
     #[inline(always)]
     pub fn next(&mut self, simd: S, values: [S::f64s; N]) -> [S::f64s; N] {
         let mut shifted = values;
@@ -197,15 +196,15 @@ impl<S: Simd, const N: usize> ShiftedDown<S, N> {
     }
 }
 
-/// Bodies whose numbers are added one after the other: of each eight the first, the second, and so on.
+/// Number of partial sums. Body `i` belongs to partial sum `i % PARTS`.
 const PARTS: usize = 8;
 
-/// A sum over bodies in an order that does not depend on the number of lanes, up to eight.
+/// Sum over bodies whose order does not depend on the number of lanes, up to eight lanes.
 #[derive(Clone, Copy, Debug)]
 pub struct Sums<S: Simd>([S::f64s; PARTS]);
 
 impl<S: Simd> Sums<S> {
-    /// Nothing.
+    /// Zero.
     #[inline(always)]
     pub fn new(simd: S) -> Self {
         Self([simd.splat_f64s(0.0); PARTS])
@@ -218,7 +217,7 @@ impl<S: Simd> Sums<S> {
         *part = simd.add_f64s(*part, terms);
     }
 
-    /// The sum.
+    /// Value of the sum.
     #[inline(always)]
     pub fn total(&self, simd: S) -> f64 {
         let mut parts = [0.0; PARTS];

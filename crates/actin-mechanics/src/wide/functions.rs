@@ -1,16 +1,14 @@
-//! Even functions of small angles as polynomials in the angle's square, the hyperbolic tangent, and
-//! bounds.
+//! Polynomials for even functions of small angles, hyperbolic tangent and bounds.
 //!
-//! Each polynomial was fitted by Chebyshev interpolation in 40-digit arithmetic to
-//! `(f(u) - f(0)) / u`, so that its value at zero is exact; the error of the fit is stated with
-//! it, and that of the evaluation is about half a unit in the last place of a number near 1.
+//! Each polynomial is a Chebyshev interpolation of `(f(u) - f(0)) / u` in 40-digit arithmetic. The
+//! evaluation error is about half a unit in the last place of a number near 1.
 
 use super::MOST_LANES;
 use super::vectors::{read, write};
 use pulp::Simd;
 
-/// Largest squared half angle of a turn (rad^2) for which [`cosine_and_sinc`] needs no call: turns of a
-/// drift up to a quarter of a radian.
+/// Upper limit of the squared half angle (rad^2) for the polynomials of [`cosine_and_sinc`]: angles
+/// of a drift up to a quarter of a radian.
 const LARGEST_SQUARED_HALF_ANGLE: f64 = 1.0 / 64.0;
 
 /// `cos(sqrt(u))` for `u` up to 1/64; relative error of the fit 2e-18.
@@ -49,7 +47,7 @@ pub(super) const TWICE_ARCSINE: [f64; 14] = [
     2.0 * 0.028_757_851_367_421_566,
 ];
 
-/// The same for `u` up to 1/64; relative error of the fit 2e-18.
+/// `2 asin(sqrt(u)) / sqrt(u)` for `u` up to 1/64; relative error of the fit 2e-18.
 pub(super) const TWICE_SMALL_ARCSINE: [f64; 7] = [
     2.0,
     0.333_333_333_333_333_15,
@@ -70,7 +68,8 @@ pub(super) const SMALL_JACOBIAN: [f64; 5] = [
     2.094_380_257_639_943e-8,
 ];
 
-/// The same for squared angles up to 1.1; relative error of the fit 3e-17.
+/// [`inverse_jacobian_coefficient`](crate::rotation::inverse_jacobian_coefficient) for squared
+/// angles up to 1.1; relative error of the fit 3e-17.
 pub(super) const JACOBIAN: [f64; 8] = [
     1.0 / 12.0,
     0.001_388_888_888_888_891_1,
@@ -82,7 +81,7 @@ pub(super) const JACOBIAN: [f64; 8] = [
     3.740_768_991_860_479_5e-13,
 ];
 
-/// Largest `2 |x|` of which [`tanh`] is not 1 to round-off, and how often it is halved.
+/// Value of `2 |x|` above which [`tanh`] equals 1 to round-off, and number of halvings.
 const SATURATION: f64 = 40.0;
 const HALVINGS: u32 = 5;
 
@@ -104,8 +103,8 @@ const DECAY: [f64; 13] = [
     9.465_923_857_189_377e-11,
 ];
 
-/// The polynomial with these coefficients, constant first: even and odd powers side by side, which
-/// halves the chain of dependent products.
+/// Polynomial with the given coefficients, constant first. Separate sums of even and odd powers
+/// halve the chain of dependent products.
 #[inline(always)]
 pub(super) fn polynomial<S: Simd, const N: usize>(
     simd: S,
@@ -114,7 +113,6 @@ pub(super) fn polynomial<S: Simd, const N: usize>(
 ) -> S::f64s {
     let squared = simd.mul_f64s(u, u);
     let zero = simd.splat_f64s(0.0);
-    // Sums of even and of odd powers.
     let mut sums = [zero; 2];
     for k in (0..N).rev() {
         let c = simd.splat_f64s(coefficients[k]);
@@ -130,11 +128,10 @@ pub(super) fn polynomial<S: Simd, const N: usize>(
     simd.mul_add_e_f64s(odd, u, even)
 }
 
-/// Cosine and `sin(a)/a` of angles `a` (rad) whose squares are `u`, for two sets of angles.
+/// Cosine and `sin(a)/a` of angles `a` (rad) with squares `u`, for two sets of angles.
 ///
-/// Accurate to round-off at every angle. The reference are the functions of the standard library,
-/// which angles above 1/8 are handed to. What a lane gets depends on its own angle alone, and is the
-/// same with any number of lanes.
+/// Accurate to round-off. Angles above 1/8 are computed by the standard library, the reference. The
+/// result of a lane depends on its angle alone.
 #[inline(always)]
 pub fn cosine_and_sinc<S: Simd>(simd: S, u: [S::f64s; 2]) -> [[S::f64s; 2]; 2] {
     let results = [small(simd, u[0]), small(simd, u[1])];
@@ -146,11 +143,15 @@ pub fn cosine_and_sinc<S: Simd>(simd: S, u: [S::f64s; 2]) -> [[S::f64s; 2]; 2] {
     }
 }
 
-/// Hyperbolic tangents, to 1e-15 relative at every argument; what is not a number stays so. The
-/// reference is [`f64::tanh`].
+/// Hyperbolic tangent, to 1e-15 relative at every argument. NaN is preserved. The reference is
+/// [`f64::tanh`].
 ///
-/// With `g(v) = 1 - exp(-v)`, from a polynomial where `v` is small and `g(2v) = g(v) (2 - g(v))`,
-/// it is `g(2x) / (2 - g(2x))` for positive `x`: nothing cancels.
+/// ```text
+/// tanh(x) = g(2x) / (2 - g(2x)),  g(v) = 1 - exp(-v),  x > 0
+/// ```
+///
+/// `g` is a polynomial for small `v` and is extended by `g(2v) = g(v) (2 - g(v))`, without
+/// cancellation.
 #[inline(always)]
 pub fn tanh<S: Simd>(simd: S, x: S::f64s) -> S::f64s {
     let two = simd.splat_f64s(2.0);
@@ -167,7 +168,7 @@ pub fn tanh<S: Simd>(simd: S, x: S::f64s) -> S::f64s {
     simd.select_f64s(negative, simd.neg_f64s(positive), positive)
 }
 
-/// `x` within `bound` to either side. The reference is [`f64::clamp`]: what is not a number stays so.
+/// `x` clamped to `[-bound, bound]`. NaN is preserved. The reference is [`f64::clamp`].
 #[inline(always)]
 pub fn clamp<S: Simd>(simd: S, x: S::f64s, bound: f64) -> S::f64s {
     let (lower, upper) = (simd.splat_f64s(-bound), simd.splat_f64s(bound));
@@ -175,20 +176,18 @@ pub fn clamp<S: Simd>(simd: S, x: S::f64s, bound: f64) -> S::f64s {
     simd.select_f64s(below, lower, at_most(simd, x, upper))
 }
 
-/// `x`, or `upper` where that is less. By a comparison, which fails where `x` is not a number: the
-/// minimum of some sets of instructions would be the other number there.
+/// Minimum of `x` and `upper`. NaN is preserved, unlike the minimum instruction of some processors.
 #[inline(always)]
 fn at_most<S: Simd>(simd: S, x: S::f64s, upper: S::f64s) -> S::f64s {
     simd.select_f64s(simd.greater_than_f64s(x, upper), upper, x)
 }
 
-/// Of small angles.
 #[inline(always)]
 fn small<S: Simd>(simd: S, u: S::f64s) -> [S::f64s; 2] {
     [polynomial(simd, &COSINE, u), polynomial(simd, &SINC, u)]
 }
 
-/// Of any angles, given what is right for the small ones.
+/// Results for any angles, given the results `of_small` for small ones.
 #[inline(always)]
 fn any<S: Simd>(simd: S, u: S::f64s, of_small: [S::f64s; 2]) -> [S::f64s; 2] {
     let mut lanes = [0.0; MOST_LANES];
@@ -201,7 +200,6 @@ fn any<S: Simd>(simd: S, u: S::f64s, of_small: [S::f64s; 2]) -> [S::f64s; 2] {
     ]
 }
 
-/// The scalar functions, one lane after the other.
 #[cold]
 #[inline(never)]
 fn cosine_and_sinc_of_each(squared: [f64; MOST_LANES]) -> [[f64; MOST_LANES]; 2] {

@@ -6,22 +6,23 @@ use std::sync::OnceLock;
 /// Environment variable that sets the instruction set: `scalar`, `avx2` or `avx512`.
 pub const INSTRUCTIONS: &str = "ACTIN_SIMD";
 
-/// Returns the instruction set that all vector code of this process uses: the best one of the
-/// processor, or the one that the environment variable `ACTIN_SIMD` names. The variable does not
-/// affect other libraries, such as faer.
+/// Instruction set of all vector code in this process: the best one of the processor, or the one
+/// named by the environment variable `ACTIN_SIMD`. Other libraries, such as faer, ignore the
+/// variable.
 ///
 /// # Panics
-/// If `ACTIN_SIMD` is invalid ([`chosen_arch`] returns the reason).
+/// If `ACTIN_SIMD` is invalid; see [`chosen_arch`].
 #[inline]
 pub fn arch() -> Arch {
     static ARCH: OnceLock<Arch> = OnceLock::new();
     *ARCH.get_or_init(|| chosen_arch().unwrap_or_else(|error| panic!("{error}")))
 }
 
-/// Instruction set that `ACTIN_SIMD` names, or the best one of the processor without it.
+/// Instruction set named by `ACTIN_SIMD`, or the best one of the processor if the variable is not
+/// set.
 ///
 /// # Errors
-/// An unknown name, or an instruction set that the processor does not have.
+/// If the name is unknown, or if the processor lacks the instruction set.
 pub fn chosen_arch() -> Result<Arch, String> {
     match std::env::var(INSTRUCTIONS) {
         Err(std::env::VarError::NotPresent) => Ok(Arch::new()),
@@ -30,7 +31,6 @@ pub fn chosen_arch() -> Result<Arch, String> {
     }
 }
 
-/// Instruction set by name.
 fn named(name: &str) -> Result<Arch, String> {
     let arch = match name {
         "scalar" => Some(Arch::Scalar),
@@ -53,7 +53,6 @@ fn named(name: &str) -> Result<Arch, String> {
 mod tests {
     use super::*;
 
-    /// Valid names select their instruction set, and a misspelt one is an error that lists them.
     #[test]
     fn instruction_sets_have_names() {
         assert!(matches!(named("scalar"), Ok(Arch::Scalar)));

@@ -1,38 +1,25 @@
-//! Several bodies at once: one body per lane of a vector register.
+//! Vector code: one body per lane of a vector register.
 //!
-//! The hot loops (the drift of frames, the loads between neighbours) do the same arithmetic for
-//! every body. States are structures of arrays so that a loop can take as many
-//! bodies at a time as the processor has lanes: eight with AVX-512, four with AVX2, one where there is nothing better.
-//! The instruction set is detected when the program starts; no compiler option is needed. The environment
-//! variable `ACTIN_SIMD` sets it ([`arch`]).
+//! States are structures of arrays, so a loop processes as many bodies at a time as the processor
+//! has lanes: eight with AVX-512, four with AVX2, otherwise one. The instruction set is detected at
+//! run time, or set by the environment variable `ACTIN_SIMD` ([`arch`]).
 //!
-//! # How to read a wide function
-//! It is written once, generic over `S: Simd`, for bodies that stand in the lanes of `S::f64s`.
-//! Its formulas are those of a scalar function, the *reference*, which its documentation names
-//! and against which a test holds it on random states. A loop is a value that implements
-//! [`WithSimd`] and is handed to [`dispatch`], which compiles it for each kind of processor and
-//! calls the right one; everything that it calls must be inlined into it, because only there are
-//! the instructions enabled.
+//! # Wide functions
+//! A wide function is generic over `S: Simd` and operates on bodies in the lanes of `S::f64s`. Its
+//! documentation names a scalar *reference*, which a test compares on random states. A loop
+//! implements [`WithSimd`] and is passed to [`dispatch`]. All functions that it calls must be
+//! inlined, because the instructions are enabled only there.
 //!
-//! [`Columns`] are the arrays that a loop reads, [`ColumnsMut`] those that it writes, cut into
-//! groups of as many bodies as there are lanes. The last group may be short: lanes without a body
-//! read zeros and write nothing. The reference of a formula is therefore defined at zero.
-//!
-//! # Functions instead of calls
-//! `sin`, `cos` and `atan2` take one number at a time and would cost more than all other
-//! arithmetic of a rod's step. All that is needed of them is even in the angle, so that it is a
-//! function of the angle's square without root or quotient, and the angles are small: between
-//! neighbours of a smooth chain, and over a drift. `functions.rs` holds polynomials for angles
-//! up to a quarter of a radian and to about 1 rad. A larger angle is handed to the scalar
-//! functions: a branch that is never taken in a sound simulation, and therefore free. The hyperbolic
-//! tangent needs no such branch: it is halved down to small arguments and doubled back.
+//! [`Columns`] are the input arrays of a loop, [`ColumnsMut`] its output arrays. In a short last
+//! group, lanes without a body read zeros and write nothing, so the reference must be defined at
+//! zero.
 //!
 //! # Accuracy
-//! The polynomials are accurate to round-off. Products are fused with sums where the machine can,
-//! so results may differ in the last digits from those of one lane, and do from the reference. They
-//! are the same to the bit with four lanes and with eight: what a lane gets depends on its own body
-//! and on its neighbours along the chain, not on who else is in the group, and sums over bodies
-//! ([`Sums`], [`ShiftedUp`]) have one order.
+//! Functions of small angles are polynomials in the squared angle (`functions.rs`), accurate to
+//! round-off; larger angles are computed by scalar functions. Multiplications and additions are
+//! fused if possible, so results may differ from the reference in the last digits. Results with
+//! four and eight lanes are identical to the bit, because sums over bodies ([`Sums`],
+//! [`ShiftedUp`]) have a fixed order.
 #![allow(
     clippy::inline_always,
     reason = "vector code must be compiled into the function that enables the instructions"
@@ -58,7 +45,6 @@ pub use vectors::{
     transpose, write,
 };
 
-/// More lanes than any processor has.
 const MOST_LANES: usize = 16;
 
 /// Runs `loop_` with the instruction set of [`arch`].

@@ -10,16 +10,15 @@ use crate::{UnitQuaternion, rotation};
 use nalgebra::{Quaternion, Unit};
 use pulp::Simd;
 
-/// Largest square of the sine of half an angle for which the logarithm needs no call: angles up to
-/// pi/3.
+/// Upper limit of the squared sine of half the angle for polynomials: angles up to pi/3.
 const LARGEST_SQUARED_SINE: f64 = 0.25;
-/// The same for which short polynomials do: angles up to a quarter of a radian.
+/// Upper limit for short polynomials: angles up to a quarter of a radian.
 const LARGEST_SMALL: f64 = 1.0 / 64.0;
 
 /// Quaternions, scalar part first.
 pub type WideQuaternion<S> = [<S as Simd>::f64s; 4];
 
-/// `p q`: first the turn `q` as seen from the body `p`.
+/// Product `p q`.
 #[inline(always)]
 pub fn product<S: Simd>(simd: S, p: WideQuaternion<S>, q: WideQuaternion<S>) -> WideQuaternion<S> {
     let ([pw, px, py, pz], [qw, qx, qy, qz]) = (p, q);
@@ -30,7 +29,7 @@ pub fn product<S: Simd>(simd: S, p: WideQuaternion<S>, q: WideQuaternion<S>) -> 
     [simd.negate_mul_add_e_f64s(pz, qz, w), x, y, z]
 }
 
-/// `p q` for a turn `q = (w, 0, 0, z)` about the third axis.
+/// Product `p q` for a rotation `q = (w, 0, 0, z)` about the third axis.
 #[inline(always)]
 pub fn product_about_z<S: Simd>(
     simd: S,
@@ -45,7 +44,7 @@ pub fn product_about_z<S: Simd>(
     ]
 }
 
-/// `c - a s` for numbers `s`.
+/// `c - a s` for scalars `s`.
 #[inline(always)]
 fn scale_sub<S: Simd>(simd: S, a: Wide3<S>, s: S::f64s, c: Wide3<S>) -> Wide3<S> {
     [
@@ -55,19 +54,19 @@ fn scale_sub<S: Simd>(simd: S, a: Wide3<S>, s: S::f64s, c: Wide3<S>) -> Wide3<S>
     ]
 }
 
-/// `p* q`: the rotation `q` as seen from the body `p`.
+/// Relative rotation `p* q`.
 #[inline(always)]
 pub fn relative<S: Simd>(simd: S, p: WideQuaternion<S>, q: WideQuaternion<S>) -> WideQuaternion<S> {
     let ([pw, px, py, pz], [qw, qx, qy, qz]) = (p, q);
     let w = simd.mul_f64s(pw, qw);
     let (p, q) = ([px, py, pz], [qx, qy, qz]);
-    // The imaginary part is pw q - qw p - p x q.
+    // Imaginary part: pw q - qw p - p x q.
     let along = scale_sub(simd, p, qw, scale(simd, q, pw));
     let [x, y, z] = cross_add(simd, q, p, along);
     [dot_add(simd, p, q, w), x, y, z]
 }
 
-/// The matrices of unit quaternions.
+/// Rotation matrices of unit quaternions.
 #[inline(always)]
 pub fn matrix<S: Simd>(simd: S, q: WideQuaternion<S>) -> WideMatrix<S> {
     let [w, x, y, z] = q;
@@ -102,7 +101,8 @@ pub fn matrix<S: Simd>(simd: S, q: WideQuaternion<S>) -> WideMatrix<S> {
     ]
 }
 
-/// `Q v` with `Q` the rotation of `q`: `v + 2 w u x v + 2 u x (u x v)`, `u` the imaginary part.
+/// `Q v = v + 2 w u x v + 2 u x (u x v)`, where `Q` is the rotation of `q` and `u` its imaginary
+/// part.
 #[inline(always)]
 pub fn turn<S: Simd>(simd: S, [w, x, y, z]: WideQuaternion<S>, v: Wide3<S>) -> Wide3<S> {
     let u = [x, y, z];
@@ -110,7 +110,7 @@ pub fn turn<S: Simd>(simd: S, [w, x, y, z]: WideQuaternion<S>, v: Wide3<S>) -> W
     cross_add(simd, u, twice, scale_add(simd, twice, w, v))
 }
 
-/// `Q^T v`: `v` as seen from a body that has turned by `q`.
+/// `Q^T v`, the components of `v` in a body with orientation `q`.
 #[inline(always)]
 pub fn turn_back<S: Simd>(simd: S, [w, x, y, z]: WideQuaternion<S>, v: Wide3<S>) -> Wide3<S> {
     let u = [x, y, z];
@@ -120,9 +120,8 @@ pub fn turn_back<S: Simd>(simd: S, [w, x, y, z]: WideQuaternion<S>, v: Wide3<S>)
 
 /// Rotation vectors (rad) of unit quaternions, and the coefficients of their inverse Jacobians.
 ///
-/// Accurate to round-off at every angle. The references are [`rotation::log`] and
-/// [`rotation::inverse_jacobian_coefficient`], which angles above pi/3 are handed to. What a lane
-/// gets depends on its own angle alone, and is the same with any number of lanes.
+/// Accurate to round-off. Angles above pi/3 are computed by the references, [`rotation::log`] and
+/// [`rotation::inverse_jacobian_coefficient`]. The result of a lane depends on its angle alone.
 #[inline(always)]
 pub fn log_with_coefficient<S: Simd>(simd: S, q: WideQuaternion<S>) -> (Wide3<S>, S::f64s) {
     let v = [q[1], q[2], q[3]];
@@ -144,7 +143,8 @@ pub fn log_with_coefficient<S: Simd>(simd: S, q: WideQuaternion<S>) -> (Wide3<S>
     select(simd, is_known, found, log_of_any(simd, q))
 }
 
-/// The same by polynomials in `u`, the squared sine of half the angle, and in the squared angle.
+/// Rotation vector and coefficient by polynomials in `u`, the squared sine of half the angle, and
+/// in the squared angle.
 #[inline(always)]
 fn log_by<S: Simd, const N: usize, const M: usize>(
     simd: S,
@@ -160,7 +160,6 @@ fn log_by<S: Simd, const N: usize, const M: usize>(
     (scale(simd, [x, y, z], signed), coefficient)
 }
 
-/// The first where `mask` is set, the second elsewhere.
 #[inline(always)]
 fn select<S: Simd>(
     simd: S,
@@ -176,7 +175,6 @@ fn select<S: Simd>(
     (chosen, simd.select_f64s(mask, c, d))
 }
 
-/// The same by the scalar functions.
 #[inline(always)]
 fn log_of_any<S: Simd>(simd: S, q: WideQuaternion<S>) -> (Wide3<S>, S::f64s) {
     let mut lanes = [[0.0; MOST_LANES]; 4];
@@ -188,7 +186,6 @@ fn log_of_any<S: Simd>(simd: S, q: WideQuaternion<S>) -> (Wide3<S>, S::f64s) {
     (theta, read(simd, &c, 0))
 }
 
-/// The scalar functions, one lane after the other.
 #[cold]
 #[inline(never)]
 fn log_of_each(q: &[[f64; MOST_LANES]; 4]) -> [[f64; MOST_LANES]; 4] {

@@ -1,4 +1,4 @@
-//! The wide functions against their scalar references, with one lane and with as many as there are.
+//! Comparison of the wide functions with their scalar references for each number of lanes.
 
 use super::*;
 use crate::Xorshift;
@@ -7,10 +7,9 @@ use crate::{UnitQuaternion, Vector3, rotation};
 use nalgebra::Unit;
 use std::f64::consts::PI;
 
-/// Numbers of bodies that fill the lanes, and numbers that leave a rest.
 const COUNTS: [usize; 9] = [0, 1, 2, 3, 4, 5, 8, 15, 33];
 
-/// Angles (rad): zero, the smallest numbers, both sides of every switch, nearly half a turn.
+/// Angles (rad): zero, the smallest numbers, both sides of each switch, nearly pi.
 const ANGLES: [f64; 16] = [
     0.0,
     5e-324,
@@ -30,7 +29,6 @@ const ANGLES: [f64; 16] = [
     PI - 1e-6,
 ];
 
-/// Logarithms and coefficients of all `q`.
 struct Logs<'a>(&'a [UnitQuaternion]);
 
 impl WithSimd for Logs<'_> {
@@ -39,7 +37,7 @@ impl WithSimd for Logs<'_> {
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) -> Self::Output {
         let part = |k: usize| self.0.iter().map(|q| q.as_vector()[k]).collect::<Vec<_>>();
-        // nalgebra puts the scalar part last.
+        // nalgebra stores the scalar part last.
         let (w, x, y, z) = (part(3), part(0), part(1), part(2));
         let mut out = [w.clone(), w.clone(), w.clone(), w.clone()];
         let q = Columns::<S, 4>::new([&w, &x, &y, &z]);
@@ -53,7 +51,6 @@ impl WithSimd for Logs<'_> {
     }
 }
 
-/// Cosine and sinc of angles whose squares these are.
 struct Turns<'a>(&'a [f64]);
 
 impl WithSimd for Turns<'_> {
@@ -73,7 +70,6 @@ impl WithSimd for Turns<'_> {
     }
 }
 
-/// Hyperbolic tangents.
 struct Tangents<'a>(&'a [f64]);
 
 impl WithSimd for Tangents<'_> {
@@ -91,7 +87,6 @@ impl WithSimd for Tangents<'_> {
     }
 }
 
-/// Numbers within a bound to either side.
 struct Clamped<'a>(&'a [f64], f64);
 
 impl WithSimd for Clamped<'_> {
@@ -109,7 +104,6 @@ impl WithSimd for Clamped<'_> {
     }
 }
 
-/// Numbers 1, 2, 3, ... of two columns moved down by one body, the first apart.
 struct ShiftDown(usize);
 
 impl WithSimd for ShiftDown {
@@ -141,7 +135,6 @@ impl WithSimd for ShiftDown {
     }
 }
 
-/// A vector put into one lane after the other, and what all lanes hold then.
 struct OneLane(Vector3);
 
 impl WithSimd for OneLane {
@@ -158,7 +151,6 @@ impl WithSimd for OneLane {
     }
 }
 
-/// Vectors 1, 2, 3, ... moved up by one body.
 struct Shift(usize);
 
 impl WithSimd for Shift {
@@ -179,7 +171,6 @@ impl WithSimd for Shift {
     }
 }
 
-/// Random axes with all angles, both quaternions of each rotation.
 fn rotations() -> Vec<UnitQuaternion> {
     let mut noise = Xorshift::new(3);
     let mut all = Vec::new();
@@ -192,8 +183,7 @@ fn rotations() -> Vec<UnitQuaternion> {
     all
 }
 
-/// A sign or a lane mixed up, a term too few: errors far above the 3e-15 that rounding leaves
-/// (the reference itself is accurate to 1e-14).
+/// Tolerance 3e-15 for rounding; the reference is accurate to 1e-14.
 fn assert_logs_agree(q: &[UnitQuaternion]) {
     for arch in architectures() {
         for (q, (theta, c)) in q.iter().zip(arch.dispatch(Logs(q))) {
@@ -206,7 +196,6 @@ fn assert_logs_agree(q: &[UnitQuaternion]) {
     }
 }
 
-/// Groups whose lanes all hold small angles, and groups in which one angle is large.
 #[test]
 fn logarithms_are_those_of_the_reference() {
     let all = rotations();
@@ -228,8 +217,8 @@ fn cosine_and_sinc_are_those_of_the_standard_library() {
             let [cosine, sinc] = arch.dispatch(Turns(squared));
             for (i, u) in squared.iter().enumerate() {
                 let angle = u.sqrt();
-                // Numbers near 1, where 2.2e-16 is one unit in the last place; the square root
-                // of the reference costs another.
+                // Numbers near 1, with a unit in the last place of 2.2e-16; the square root of the
+                // reference adds another.
                 assert!((cosine[i] - angle.cos()).abs() < 3e-16, "{angle}");
                 let expected = if angle > 0.0 {
                     angle.sin() / angle
@@ -242,7 +231,6 @@ fn cosine_and_sinc_are_those_of_the_standard_library() {
     }
 }
 
-/// What is not a number stays where it is: one broken body must not hide which one it is.
 #[test]
 fn lanes_do_not_leak() {
     let mut q = rotations();
@@ -264,7 +252,7 @@ fn lanes_do_not_leak() {
 }
 
 #[test]
-fn each_body_receives_what_the_one_before_had() {
+fn numbers_are_shifted_up() {
     for arch in architectures() {
         for count in COUNTS {
             let expected: Vec<f64> = (0..count).map(|i| i as f64).collect();
@@ -274,7 +262,7 @@ fn each_body_receives_what_the_one_before_had() {
 }
 
 #[test]
-fn each_body_receives_what_the_next_has() {
+fn numbers_are_shifted_down() {
     for arch in architectures() {
         for count in COUNTS {
             let expected: Vec<f64> = (2..=count).map(|i| i as f64).chain([0.0]).collect();
@@ -286,7 +274,7 @@ fn each_body_receives_what_the_next_has() {
 }
 
 #[test]
-fn a_vector_stands_in_its_lane_alone() {
+fn a_vector_is_in_one_lane_only() {
     let v = Vector3::new(1.0, -2.0, 3.0);
     for arch in architectures() {
         let held = arch.dispatch(OneLane(v));
@@ -298,7 +286,6 @@ fn a_vector_stands_in_its_lane_alone() {
     }
 }
 
-/// Both sides of where it saturates, and numbers so small that they are their own tangent.
 #[test]
 fn hyperbolic_tangents_are_those_of_the_standard_library() {
     let mut all: Vec<f64> = (0..=2000).map(|i| 0.0113 * f64::from(i)).collect();
@@ -318,7 +305,7 @@ fn hyperbolic_tangents_are_those_of_the_standard_library() {
     for arch in architectures() {
         for (x, found) in all.iter().zip(arch.dispatch(Tangents(&all))) {
             let expected = x.tanh();
-            // Seven roundings; the smallest numbers are halved on the way.
+            // Seven roundings; denormal numbers lose one bit in halving.
             let error = (found - expected).abs();
             assert!(error <= 1e-15 * expected.abs() + 1e-322, "{x:e}: {error:e}");
             assert_eq!(found > 0.0, expected > 0.0 && found != 0.0, "{x:e}");
@@ -326,10 +313,9 @@ fn hyperbolic_tangents_are_those_of_the_standard_library() {
     }
 }
 
-/// The least of a bound and of what is not a number is, for some instructions, the bound: a broken
-/// angle would have a sound couple.
+/// Some minimum instructions return the bound for NaN, which would hide an invalid angle.
 #[test]
-fn tangents_of_what_is_not_a_number_are_none() {
+fn the_tangent_of_nan_is_nan() {
     let x = [0.5, f64::NAN, -f64::NAN, f64::INFINITY, f64::NEG_INFINITY];
     for arch in architectures() {
         let found = arch.dispatch(Tangents(&x));

@@ -1,17 +1,17 @@
-//! Vectors and matrices of several bodies, and how they are read and written.
+//! Vectors and matrices of several bodies, and functions to load and store them.
 
 use super::MOST_LANES;
 use crate::{Quaternions, Vector3, Vectors};
 use pulp::Simd;
 use std::ops::Range;
 
-/// Three-vectors.
+/// Vectors of several bodies.
 pub type Wide3<S> = [<S as Simd>::f64s; 3];
 
-/// Rotation matrices, row by row.
+/// Rotation matrices of several bodies, row by row.
 pub type WideMatrix<S> = [Wide3<S>; 3];
 
-/// The numbers at `range`, at most as many as there are lanes; zero in the lanes beyond.
+/// Loads the numbers at `range`, at most one per lane, padded with zeros.
 #[inline(always)]
 pub fn load<S: Simd>(simd: S, values: &[f64], range: &Range<usize>) -> S::f64s {
     let values = &values[range.clone()];
@@ -21,7 +21,6 @@ pub fn load<S: Simd>(simd: S, values: &[f64], range: &Range<usize>) -> S::f64s {
     }
 }
 
-/// Adds to the numbers at `range`, at most as many as there are lanes.
 #[inline(always)]
 fn add_to<S: Simd>(simd: S, values: &mut [f64], range: &Range<usize>, terms: S::f64s) {
     let values = &mut values[range.clone()];
@@ -33,7 +32,7 @@ fn add_to<S: Simd>(simd: S, values: &mut [f64], range: &Range<usize>, terms: S::
     }
 }
 
-/// The numbers that fill the lanes for the `place`-th time.
+/// Reads the group of lanes with the index `place`.
 #[inline(always)]
 pub fn read<S: Simd, const N: usize>(simd: S, numbers: &[f64; N], place: usize) -> S::f64s {
     match S::as_simd_f64s(numbers).0.get(place) {
@@ -42,7 +41,7 @@ pub fn read<S: Simd, const N: usize>(simd: S, numbers: &[f64; N], place: usize) 
     }
 }
 
-/// Replaces the numbers that [`read`] returns.
+/// Replaces the numbers returned by [`read`].
 #[inline(always)]
 pub fn write<S: Simd, const N: usize>(
     simd: S,
@@ -56,7 +55,7 @@ pub fn write<S: Simd, const N: usize>(
     }
 }
 
-/// The same vector in all lanes.
+/// Equal vectors in all lanes.
 #[inline(always)]
 pub fn splat<S: Simd>(simd: S, v: Vector3) -> Wide3<S> {
     [
@@ -80,7 +79,7 @@ pub fn in_lane<S: Simd>(simd: S, lane: usize, v: Vector3) -> Wide3<S> {
     ]
 }
 
-/// The vector in one lane.
+/// Vector of one lane.
 #[inline(always)]
 pub fn lane<S: Simd>(simd: S, lane: usize, vectors: Wide3<S>) -> Vector3 {
     let mut lanes = [[0.0; MOST_LANES]; 3];
@@ -90,7 +89,7 @@ pub fn lane<S: Simd>(simd: S, lane: usize, vectors: Wide3<S>) -> Vector3 {
     Vector3::new(lanes[0][lane], lanes[1][lane], lanes[2][lane])
 }
 
-/// The vectors at `range`.
+/// Loads the vectors at `range`.
 #[inline(always)]
 pub fn load3<S: Simd>(simd: S, vectors: &Vectors, range: &Range<usize>) -> Wide3<S> {
     [
@@ -108,7 +107,7 @@ pub fn add3<S: Simd>(simd: S, vectors: &mut Vectors, range: &Range<usize>, terms
     add_to(simd, &mut vectors.z, range, terms[2]);
 }
 
-/// The quaternions at `range`, scalar part first.
+/// Loads the quaternions at `range`, scalar part first.
 #[inline(always)]
 pub fn load_quaternions<S: Simd>(simd: S, q: &Quaternions, range: &Range<usize>) -> [S::f64s; 4] {
     [
@@ -139,7 +138,7 @@ pub fn sub<S: Simd>(simd: S, a: Wide3<S>, b: Wide3<S>) -> Wide3<S> {
     ]
 }
 
-/// `a b`, component by component.
+/// Componentwise product of `a` and `b`.
 #[inline(always)]
 pub fn mul_each<S: Simd>(simd: S, a: Wide3<S>, b: Wide3<S>) -> Wide3<S> {
     [
@@ -149,7 +148,7 @@ pub fn mul_each<S: Simd>(simd: S, a: Wide3<S>, b: Wide3<S>) -> Wide3<S> {
     ]
 }
 
-/// `a s` for numbers `s`.
+/// `a s` for scalars `s`.
 #[inline(always)]
 pub fn scale<S: Simd>(simd: S, a: Wide3<S>, s: S::f64s) -> Wide3<S> {
     [
@@ -159,7 +158,7 @@ pub fn scale<S: Simd>(simd: S, a: Wide3<S>, s: S::f64s) -> Wide3<S> {
     ]
 }
 
-/// `a s + c` for numbers `s`.
+/// `a s + c` for scalars `s`.
 #[inline(always)]
 pub fn scale_add<S: Simd>(simd: S, a: Wide3<S>, s: S::f64s, c: Wide3<S>) -> Wide3<S> {
     [
@@ -240,7 +239,7 @@ pub fn mul<S: Simd>(simd: S, m: &WideMatrix<S>, v: Wide3<S>) -> Wide3<S> {
     [dot(simd, m[0], v), dot(simd, m[1], v), dot(simd, m[2], v)]
 }
 
-/// The transposed matrix.
+/// Transpose of the matrices.
 #[inline(always)]
 pub fn transpose<S: Simd>(m: &WideMatrix<S>) -> WideMatrix<S> {
     [

@@ -1,54 +1,46 @@
 //! The rod's law against filaments of monomers: what `cargo xtask load-cases` measures, as rows with verdicts.
 
-use super::{Run, surface};
+use super::draft::{Column, Draft, number};
+use super::surface;
 use crate::load_cases;
-use actin_draw::report::{Artefact, Picture, Row, write_csv};
-use std::time::Instant;
+use actin_draw::report::{Picture, Row};
 
-/// The artefact.
-const ID: &str = "law";
 /// The law that is judged.
 const LAW: &str = "Homogenised";
 
+const COLUMNS: [Column<(String, String, Row)>; 5] = [
+    ("case", |(case, _, _)| case.clone()),
+    ("quantity", |(_, quantity, _)| quantity.clone()),
+    ("rod", |(_, _, row)| number(row.ours)),
+    ("monomers", |(_, _, row)| {
+        row.paper.map_or(String::new(), number)
+    }),
+    ("largest_difference", |(_, _, row)| {
+        row.tolerance.map_or(String::new(), number)
+    }),
+];
+
 /// All load cases under the law.
-pub(super) fn reproduce(run: Run<'_>) -> Result<Artefact, String> {
-    let started = Instant::now();
+pub(super) fn law(draft: &mut Draft<'_>) -> Result<(), String> {
     let done = || {
-        run.progress.expect(1);
-        run.progress.done();
+        draft.progress.expect(1);
+        draft.progress.done();
     };
-    let compared = load_cases::compared(LAW, run.quick, run.out, &done)?;
-    let columns = ["case", "quantity", "rod", "monomers", "largest_difference"];
-    let cells = compared.iter().map(|(case, quantity, row)| {
-        let number = |value: Option<f64>| value.map_or(String::new(), |v| format!("{v:.6e}"));
-        let numbers = [Some(row.ours), row.paper, row.tolerance].map(number);
-        [vec![case.clone(), quantity.clone()], numbers.into()].concat()
-    });
-    write_csv(run.out, "law.csv", &columns, cells)?;
-    let mut pictures = vec![Picture {
+    let compared = load_cases::compared(LAW, draft.quick, draft.out, &done)?;
+    draft.table("law.csv", &compared, &COLUMNS)?;
+    draft.settings = format!(
+        "law {LAW}, segments of 10 nm, compared with the mean filament and, in notes, filaments of 64 drawn bonds; \
+         equilibria at the end of the same path; bounds as in docs/tables/load-cases.md"
+    );
+    for (case, quantity, row) in compared {
+        let quantity = format!("{}/{}", slug(&case), slug(&quantity));
+        draft.compared(Row { quantity, ..row });
+    }
+    draft.pictures.push(Picture {
         file: "load-cases.svg".to_owned(),
         caption: "Errors of the rod against the mean filament, over their bounds.".to_owned(),
-    }];
-    pictures.extend(surface::draw(run.out)?);
-    Ok(Artefact {
-        id: ID,
-        title: "The law of the rod in load cases that entered nothing",
-        settings: format!(
-            "law {LAW}, segments of 10 nm, beside the mean filament and, in notes, filaments of 64 drawn bonds; \
-             equilibria at the end of the same path; bounds as in docs/tables/load-cases.md"
-        ),
-        rows: compared.into_iter().map(named).collect(),
-        pictures,
-        views: Vec::new(),
-        wall_s: started.elapsed().as_secs_f64(),
-    })
-}
-
-fn named((case, quantity, row): (String, String, Row)) -> Row {
-    Row {
-        quantity: format!("{}/{}", slug(&case), slug(&quantity)),
-        ..row
-    }
+    });
+    surface::draw(draft)
 }
 
 /// A name of letters, digits, signs and points in which anything else is one dash.

@@ -1,41 +1,47 @@
 //! Artefacts of the paper, its figures and tables, computed and compared.
 //!
-//! Each artefact is a function that runs simulations, writes its pictures and tables into a
-//! folder and returns rows that set our number beside the paper's. Nothing here is drawn from
-//! anything but a simulation of that run. Artefacts follow one another; the runs of each are spread
-//! over threads and put together in an order that does not depend on them.
+//! Each artefact is an [`Experiment`]: it solves scenes, measures quantities and draws pictures into a
+//! [`Draft`]. Expected numbers are data (`data/expected.csv`, `data/claims.csv`). Artefacts
+//! follow one another; the runs of each are spread over threads and put together in an order that does not
+//! depend on them.
 
-mod bounds;
 mod buckling;
-mod claims;
-mod figure4;
-mod figure7;
-mod figure9;
-mod html;
-mod kept;
+mod cache;
+mod cantilever;
+mod centre_line;
+mod charts;
+mod draft;
+mod expected;
 mod law;
-pub(crate) mod linked;
+mod linkers;
+mod middle;
+mod model;
+mod motion;
+mod page;
 mod print;
 mod progress;
 mod schematics;
-mod settles;
 mod surface;
 mod tables;
+mod twist_fits;
 
 pub use crate::palette::Palette;
-pub(crate) use html::unexplained;
+pub(crate) use centre_line::CentreLine;
+pub(crate) use page::unexplained;
 
 use crate::Tell;
 use actin_draw::report::{self, Artefact, Row};
-use kept::{Kept, Reason, Shelf};
+use cache::{Cache, CachedArtefact, Reason};
+use draft::Draft;
 use progress::Progress;
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
+use std::time::Instant;
 
-/// What is computed, and how.
+/// Choice of artefacts and settings.
 #[derive(Clone, Debug)]
 pub struct Options {
-    /// Which: fig1 to fig10, table1 to table5, law; all if none is named.
+    /// Which: fig1 to fig10, table1 to table5, law; all if the list is empty.
     pub ids: Vec<String>,
     /// Where to write pictures, tables and reports.
     pub out: PathBuf,
@@ -58,47 +64,109 @@ impl Options {
     }
 }
 
-/// What a recipe is given.
+/// An artefact: its name and title, and what solves, measures and draws it.
 #[derive(Clone, Copy, Debug)]
-struct Run<'a> {
-    /// Folder for pictures and tables.
-    out: &'a Path,
-    /// Fewer resolutions and samplings, and equilibria only.
-    quick: bool,
-    /// Counts its runs.
-    progress: &'a Progress,
+struct Experiment {
+    id: &'static str,
+    title: &'static str,
+    run: fn(&mut Draft<'_>) -> Result<(), String>,
 }
 
-/// An artefact: its name, and what computes it.
-type Recipe = (&'static str, fn(Run<'_>) -> Result<Artefact, String>);
+const fn experiment(
+    id: &'static str,
+    title: &'static str,
+    run: fn(&mut Draft<'_>) -> Result<(), String>,
+) -> Experiment {
+    Experiment { id, title, run }
+}
 
 /// The artefacts that exist.
-const RECIPES: [Recipe; 16] = [
-    ("fig1", schematics::figure1),
-    ("fig2", schematics::figure2),
-    ("fig3", schematics::figure3),
-    ("fig4", figure4::reproduce),
-    ("fig5", linked::figure5),
-    ("fig6", linked::figure6),
-    ("fig7", figure7::reproduce),
-    ("fig8", buckling::figure8),
-    ("fig9", figure9::reproduce),
-    ("fig10", buckling::figure10),
-    ("table1", tables::table1),
-    ("table2", tables::table2),
-    ("table3", tables::table3),
-    ("table4", tables::table4),
-    ("table5", tables::table5),
-    ("law", law::reproduce),
+const EXPERIMENTS: [Experiment; 16] = [
+    experiment(
+        "fig1",
+        "The two models and their combination",
+        schematics::figure1,
+    ),
+    experiment(
+        "fig2",
+        "The junction of monomers and rod",
+        schematics::figure2,
+    ),
+    experiment("fig3", "Three kinds of scenes", schematics::figure3),
+    experiment(
+        "fig4",
+        "Cantilever of 160 nm under a tip force, resolved in seven ways",
+        cantilever::figure4,
+    ),
+    experiment(
+        "fig5",
+        "Free filament of 160 nm on three linkers in one plane",
+        linkers::figure5,
+    ),
+    experiment(
+        "fig6",
+        "Free filament of 210 nm on four linkers all round it",
+        linkers::figure6,
+    ),
+    experiment(
+        "fig7",
+        "Turned in the middle: the energy of both halves",
+        middle::figure7,
+    ),
+    experiment(
+        "fig8",
+        "Twisted and pushed together: constant rigidities",
+        buckling::figure8,
+    ),
+    experiment(
+        "fig9",
+        "Twisting rigidity and change of length against twist, fitted",
+        twist_fits::figure9,
+    ),
+    experiment(
+        "fig10",
+        "Twisted and pushed together: rods whose twist changes them",
+        buckling::figure10,
+    ),
+    experiment(
+        "table1",
+        "Parameters of the ellipsoid model",
+        tables::table1,
+    ),
+    experiment(
+        "table2",
+        "Parameters of the preceding paper's Cosserat rod",
+        tables::table2,
+    ),
+    experiment(
+        "table3",
+        "Secant twisting rigidity of the ellipsoid filament",
+        tables::table3,
+    ),
+    experiment(
+        "table4",
+        "Rigidities of the multi-resolution model, measured on the monomers",
+        tables::table4,
+    ),
+    experiment(
+        "table5",
+        "Change of length of the twisted ellipsoid filament",
+        tables::table5,
+    ),
+    experiment(
+        "law",
+        "The law of the rod in load cases that entered nothing",
+        law::law,
+    ),
 ];
 
-/// Computes the artefacts that are asked for, or takes them from an earlier run, and writes pictures,
+/// Computes the chosen artefacts, or takes them from an earlier run, and writes pictures,
 /// tables, `report.json` and `report.html`; the rows of all.
 ///
 /// # Errors
 /// An artefact that is not known, a scene without a result, and a file that cannot be written.
 pub fn reproduce(options: &Options, tell: Tell<'_>) -> Result<Vec<Row>, String> {
-    let known: Vec<&str> = RECIPES.iter().map(|(id, _)| *id).collect();
+    let known: Vec<&str> = EXPERIMENTS.iter().map(|e| e.id).collect();
     let is_known = |id: &&String| known.contains(&id.as_str());
     if let Some(unknown) = options.ids.iter().find(|id| !is_known(id)) {
         return Err(format!(
@@ -107,14 +175,14 @@ pub fn reproduce(options: &Options, tell: Tell<'_>) -> Result<Vec<Row>, String> 
         ));
     }
     crate::palette::choose(options.palette);
-    let artefacts = on_threads(options.threads, || artefacts(&RECIPES, options, tell))?;
+    let artefacts = on_threads(options.threads, || artefacts(&EXPERIMENTS, options, tell))?;
     let out = &options.out;
     report::write(&artefacts, out)?;
     if options.print {
         let count = on_threads(options.threads, || print::write(&artefacts, out))?;
         tell(format_args!("printed: {count} pictures as PDF and PNG"));
     }
-    html::write(&artefacts, out, options.quick)?;
+    page::write(&artefacts, out, options.quick)?;
     tell(format_args!(
         "written: {}",
         out.join("report.html").display()
@@ -131,68 +199,63 @@ fn on_threads<T: Send>(
     pool.build().map_err(|e| e.to_string())?.install(work)
 }
 
-/// The chosen artefacts, in the order of the recipes.
+/// The chosen artefacts, in the order of the experiments.
 fn artefacts(
-    recipes: &[Recipe],
+    experiments: &[Experiment],
     options: &Options,
     tell: Tell<'_>,
 ) -> Result<Vec<Artefact>, String> {
     fs::create_dir_all(&options.out).map_err(|e| format!("{}: {e}", options.out.display()))?;
-    let shelf = Shelf::new(&options.out, kept::fingerprint(&options.choices())?)?;
-    let chosen = |id: &str| options.ids.is_empty() || options.ids.iter().any(|wanted| wanted == id);
-    let chosen = recipes.iter().filter(|(id, _)| chosen(id));
+    let cache = Cache::new(&options.out, cache::fingerprint(&options.choices())?)?;
+    let is_chosen =
+        |e: &&Experiment| options.ids.is_empty() || options.ids.iter().any(|wanted| wanted == e.id);
+    let chosen = experiments.iter().filter(is_chosen);
     chosen
-        .map(|&recipe| {
-            let (kept, _) = artefact(recipe, &shelf, options, tell)?;
-            Ok(kept.artefact)
-        })
+        .map(|experiment| Ok(artefact(experiment, &cache, options, tell)?.0.artefact))
         .collect()
 }
 
 /// One artefact, and why it was computed if it was.
 fn artefact(
-    (id, recipe): Recipe,
-    shelf: &Shelf<'_>,
+    &Experiment { id, title, run }: &Experiment,
+    cache: &Cache<'_>,
     options: &Options,
     tell: Tell<'_>,
-) -> Result<(Kept, Option<Reason>), String> {
+) -> Result<(CachedArtefact, Option<Reason>), String> {
     let found = if options.fresh {
-        Err(Reason::Asked)
+        Err(Reason::Requested)
     } else {
-        shelf.find(id)
+        cache.find(id)
     };
     let reason = match found {
-        Ok(kept) => {
+        Ok(cached) => {
             tell(format_args!(
                 "{id}: kept from an earlier run ({})",
-                effort(&kept)
+                effort(&cached)
             ));
-            return Ok((kept, None));
+            return Ok((cached, None));
         }
         Err(reason) => reason,
     };
     tell(format_args!("{id}: started, {reason}"));
-    let kept = shelf.compute(id, |out| {
+    let computed = cache.compute(id, |out| {
         let progress = Progress::new(id);
-        let run = Run {
-            out,
-            quick: options.quick,
-            progress: &progress,
-        };
-        let mut artefact = recipe(run)?;
-        artefact.rows.extend(claims::rows(id, &artefact.rows));
+        let started = Instant::now();
+        let mut draft = Draft::new(id, out, options.quick, &progress);
+        run(&mut draft)?;
+        let artefact = draft.finish(title, started.elapsed().as_secs_f64());
         Ok((artefact, progress.finish()))
     })?;
-    tell(format_args!("{id}: finished, {}", effort(&kept)));
-    Ok((kept, Some(reason)))
+    tell(format_args!("{id}: finished, {}", effort(&computed)));
+    Ok((computed, Some(reason)))
 }
 
 /// Runs and time of an artefact, in words.
-fn effort(kept: &Kept) -> String {
-    format!("{} runs in {:.1} s", kept.runs, kept.artefact.wall_s)
+fn effort(cached: &CachedArtefact) -> String {
+    format!("{} runs in {:.1} s", cached.runs, cached.artefact.wall_s)
 }
 
 #[cfg(test)]
-mod repeats;
+mod repeats_tests;
 #[cfg(test)]
 mod tests;

@@ -1,12 +1,12 @@
 //! Cuts through the energy surface: the law `Homogenised` as lines, relaxed cells as dots.
 
+use super::charts::{dots, line};
+use super::draft::Draft;
 use crate::cells::{mean, strain, twisted};
 use actin_cosserat::Homogenised;
-use actin_draw::report::Picture;
-use actin_draw::{Chart, Ramp, Series};
+use actin_draw::Ramp;
 use actin_sim::ellipsoid::{Cell, SixVector};
 use rayon::prelude::*;
-use std::path::Path;
 
 /// Curvature (rad/nm), twist (rad/nm), shear, extension.
 type Point = [f64; 4];
@@ -53,25 +53,21 @@ const POINTS: u32 = 60;
 const CELLS: u32 = 12;
 
 /// Draws all cuts.
-pub(super) fn draw(out: &Path) -> Result<Vec<Picture>, String> {
+pub(super) fn draw(draft: &mut Draft<'_>) -> Result<(), String> {
     let cell = mean()?;
     let law = Homogenised::mean_filament();
-    CUTS.iter().map(|cut| cut.draw(&cell, law, out)).collect()
+    CUTS.iter().try_for_each(|cut| cut.draw(&cell, law, draft))
 }
 
 impl Cut {
-    fn draw(&self, cell: &Cell, law: &Homogenised, out: &Path) -> Result<Picture, String> {
+    fn draw(&self, cell: &Cell, law: &Homogenised, draft: &mut Draft<'_>) -> Result<(), String> {
         let mut series = Vec::new();
         for (k, value) in self.values.into_iter().enumerate() {
             let colour = Ramp::RED_YELLOW_BLUE.at(k as f64 / (self.values.len() - 1) as f64);
-            let line = self.places(value, POINTS);
-            let of_law = line.map(|(x, point)| (x, law.energy_density(&six(law, point))));
-            series.push(Series {
-                label: Some(format!("{} {value}", self.by.1)),
-                colour,
-                points: of_law.collect(),
-                dots: false,
-            });
+            let places = self.places(value, POINTS);
+            let of_law = places.map(|(x, point)| (x, law.energy_density(&six(law, point))));
+            let label = format!("{} {value}", self.by.1);
+            series.push(line(label, colour, of_law.collect()));
             let cells: Vec<_> = self.places(value, CELLS).collect();
             let energy = |&(x, point): &(f64, Point)| -> Result<(f64, f64), String> {
                 let start = twisted(cell, point[1])?;
@@ -79,25 +75,11 @@ impl Cut {
                 Ok((x, relaxed.map_err(|e| e.to_string())?.energy))
             };
             let points: Result<_, String> = cells.par_iter().map(energy).collect();
-            series.push(Series {
-                label: None,
-                colour,
-                points: points?,
-                dots: true,
-            });
+            series.push(dots(colour, points?));
         }
-        let chart = Chart {
-            title: self.title,
-            x_label: self.over.1,
-            y_label: "energy per length (pN)",
-            series,
-            equal_axes: false,
-        };
-        chart.draw(&out.join(self.file))?;
-        Ok(Picture {
-            file: self.file.to_owned(),
-            caption: format!("{}: the law (lines) and relaxed cells (dots).", self.title),
-        })
+        let caption = format!("{}: the law (lines) and relaxed cells (dots).", self.title);
+        let labels = [self.over.1, "energy per length (pN)"];
+        draft.plot(self.file, self.title, labels, series, caption)
     }
 
     /// Places on the line of one value, and where they stand on the axis.

@@ -1,8 +1,9 @@
-//! Artefacts are computed once, and again where something is amiss. The recipes here are cheap.
+//! Artefacts are computed once, and again if a file is missing or changed. The experiments here are cheap.
 
 use super::*;
 use actin_draw::report::{Picture, save};
 use std::collections::BTreeSet;
+use std::path::Path;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 /// Nothing is told.
@@ -30,36 +31,30 @@ impl Drop for Folder {
 }
 
 /// An artefact with one picture and one table.
-fn drawn(id: &'static str, out: &Path) -> Result<Artefact, String> {
-    let picture = format!("{id}.svg");
-    save(out, &picture, "<svg/>")?;
+fn drawn(draft: &mut Draft<'_>) -> Result<(), String> {
+    let (id, out) = (draft.id, draft.out);
+    let file = format!("{id}.svg");
+    save(out, &file, "<svg/>")?;
     save(out, &format!("{id}.csv"), "a,b\n")?;
-    Ok(Artefact {
-        id,
-        title: "A title",
-        settings: "seeds 0 to 3".into(),
-        // A third has no short decimal form: it must come back to the last bit.
-        rows: vec![Row::measured(id, "third", "nm", 1.0 / 3.0, "")],
-        pictures: vec![Picture {
-            file: picture,
-            caption: "Seen".into(),
-        }],
-        views: Vec::new(),
-        wall_s: 0.1,
-    })
+    draft.settings = "seeds 0 to 3".into();
+    // A third has no short decimal form: it must come back to the last bit.
+    draft.row("third", "nm", 1.0 / 3.0, "");
+    draft.pictures.push(Picture {
+        file,
+        caption: "Seen".into(),
+    });
+    Ok(())
 }
 
-fn one(Run { out, progress, .. }: Run<'_>) -> Result<Artefact, String> {
-    progress.expect(3);
-    (0..3).for_each(|_| progress.done());
-    drawn("fig1", out)
+fn one(draft: &mut Draft<'_>) -> Result<(), String> {
+    draft.solve(&[1, 2, 3], |_| ());
+    drawn(draft)
 }
 
-fn two(Run { out, .. }: Run<'_>) -> Result<Artefact, String> {
-    drawn("fig2", out)
-}
-
-const BOTH: [Recipe; 2] = [("fig1", one), ("fig2", two)];
+const BOTH: [Experiment; 2] = [
+    experiment("fig1", "A title", one),
+    experiment("fig2", "A title", drawn),
+];
 
 fn options(out: &Path) -> Options {
     Options {
@@ -73,10 +68,10 @@ fn options(out: &Path) -> Options {
     }
 }
 
-/// Both artefacts on a shelf with this fingerprint; why each was computed, if it was.
+/// Both artefacts under this fingerprint; why each was computed, if it was.
 fn reasons(options: &Options, fingerprint: &str) -> [Option<Reason>; 2] {
-    let shelf = Shelf::new(&options.out, fingerprint.to_owned()).unwrap();
-    BOTH.map(|recipe| artefact(recipe, &shelf, options, SILENT).unwrap().1)
+    let cache = Cache::new(&options.out, fingerprint.to_owned()).unwrap();
+    BOTH.map(|e| artefact(&e, &cache, options, SILENT).unwrap().1)
 }
 
 #[test]
@@ -88,8 +83,8 @@ fn finished_artefacts_are_kept_to_the_last_bit() {
     assert_eq!(first, again);
     assert_eq!(reasons(&options, "other")[0], Some(Reason::Outdated));
     assert_eq!(reasons(&options, "other"), [None, None]);
-    let shelf = Shelf::new(&folder.0, "other".into()).unwrap();
-    assert_eq!(shelf.find("fig1").unwrap().runs, 3);
+    let cache = Cache::new(&folder.0, "other".into()).unwrap();
+    assert_eq!(cache.find("fig1").unwrap().runs, 3);
 }
 
 /// A missing picture, a changed table, a broken record, a wish: what is amiss is computed, and
@@ -100,7 +95,7 @@ fn what_is_amiss_is_computed_again() {
     let out = folder.0.as_path();
     let options = options(out);
     let all = || reasons(&options, "same");
-    assert_eq!(all(), [Some(Reason::NotThere), Some(Reason::NotThere)]);
+    assert_eq!(all(), [Some(Reason::Missing), Some(Reason::Missing)]);
     fs::remove_file(out.join("fig1.svg")).unwrap();
     assert_eq!(all(), [Some(Reason::FileMissing("fig1.svg".into())), None]);
     fs::write(out.join("fig2.csv"), "a,c\n").unwrap();
@@ -117,19 +112,19 @@ fn what_is_amiss_is_computed_again() {
     };
     assert_eq!(
         reasons(&fresh, "same"),
-        [Some(Reason::Asked), Some(Reason::Asked)]
+        [Some(Reason::Requested), Some(Reason::Requested)]
     );
 }
 
 static FAILS: AtomicBool = AtomicBool::new(true);
 
 /// Writes one of its files and stops, as a killed command does; the next time it goes through.
-fn stops(Run { out, .. }: Run<'_>) -> Result<Artefact, String> {
-    save(out, "half.csv", "a")?;
+fn stops(draft: &mut Draft<'_>) -> Result<(), String> {
+    save(draft.out, "half.csv", "a")?;
     if FAILS.swap(false, Ordering::Relaxed) {
         return Err("stopped".into());
     }
-    drawn("fig2", out)
+    drawn(draft)
 }
 
 /// What an ended command left behind is not taken for a result, and what it had finished is kept.
@@ -137,9 +132,9 @@ fn stops(Run { out, .. }: Run<'_>) -> Result<Artefact, String> {
 fn an_ended_command_goes_on_where_it_was() {
     let folder = Folder::new();
     let options = options(&folder.0);
-    let recipes: [Recipe; 2] = [("fig1", one), ("fig2", stops)];
+    let experiments = [BOTH[0], experiment("fig2", "A title", stops)];
     assert_eq!(
-        artefacts(&recipes, &options, SILENT).unwrap_err(),
+        artefacts(&experiments, &options, SILENT).unwrap_err(),
         "stopped"
     );
     let names = || -> BTreeSet<String> {
@@ -149,9 +144,9 @@ fn an_ended_command_goes_on_where_it_was() {
     };
     let finished = [".artefacts", "fig1.csv", "fig1.svg"];
     assert!(names().iter().eq(finished), "{:?}", names());
-    let shelf = Shelf::new(&folder.0, kept::fingerprint(&options.choices()).unwrap()).unwrap();
-    let again = recipes.map(|recipe| artefact(recipe, &shelf, &options, SILENT).unwrap().1);
-    assert_eq!(again, [None, Some(Reason::NotThere)]);
+    let cache = Cache::new(&folder.0, cache::fingerprint(&options.choices()).unwrap()).unwrap();
+    let again = experiments.map(|e| artefact(&e, &cache, &options, SILENT).unwrap().1);
+    assert_eq!(again, [None, Some(Reason::Missing)]);
     assert!(names().contains("fig2.svg"));
 }
 
@@ -168,7 +163,7 @@ fn fingerprints_tell_choices_apart() {
         threads: Some(1),
         ..quick.clone()
     };
-    let of = |options: &Options| kept::fingerprint(&options.choices()).unwrap();
+    let of = |options: &Options| cache::fingerprint(&options.choices()).unwrap();
     assert_ne!(of(&quick), of(&full));
     assert_eq!(of(&quick), of(&elsewhere));
 }

@@ -31,7 +31,7 @@ impl TwistData {
     /// Tables 3 and 5, without the rows that the paper calls unreliable unless `all_rows`.
     pub(crate) fn from_paper(all_rows: bool) -> Result<Self, String> {
         let column = |table| -> Result<Vec<(f64, f64)>, String> {
-            let wanted = entries(table)?.into_iter();
+            let wanted = entries(table).into_iter();
             let wanted = wanted.filter(|entry| all_rows || entry.is_reliable());
             Ok(wanted.map(|e| (e.curvature, e.value)).collect())
         };

@@ -6,6 +6,7 @@ use super::filament::Made;
 use super::solve::scene;
 use crate::Tell;
 use crate::measure::follow;
+use crate::statistics::sample;
 use actin_draw::report::save;
 use actin_sim::{End, RodLaw};
 use rayon::prelude::*;
@@ -64,14 +65,14 @@ fn excesses(out: &Path, rises: f64) -> Result<Vec<Excess>, String> {
         let tip = ends.assembly.tip_nm(&stop.state, End::End).x - start;
         let name = format!("tip at {force} pN (nm)");
         let tips: Vec<f64> = monomers.iter().filter_map(|m| m.value(&name)).collect();
-        let mean = tips.iter().sum::<f64>() / tips.len() as f64;
         let error = |of: f64| (tip / of - 1.0).abs();
-        let of_one_azimuth = tips.iter().copied().map(error).fold(f64::NAN, f64::max);
+        let of_mean = error(sample(tips.iter().copied()).mean);
+        let of_one_azimuth = sample(tips.into_iter().map(error)).high;
         for beyond in ends.assembly.beyond_range(&stop.state) {
             all.push(Excess {
                 quantity: beyond.quantity,
                 value: beyond.value,
-                of_mean: error(mean),
+                of_mean,
                 of_one_azimuth,
             });
         }

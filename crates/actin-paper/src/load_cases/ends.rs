@@ -2,10 +2,10 @@
 
 use super::case::{Case, Group, Loading, azimuths_deg};
 use super::filament::Made;
-use super::mixed::spread;
 use super::solve::{Found, solve};
 use super::{Law, kept};
 use crate::Tell;
+use crate::statistics::sample;
 use actin_draw::report::save;
 use actin_sim::{RodLaw, Slides};
 use rayon::prelude::*;
@@ -135,9 +135,8 @@ fn halves(out: &Path, law: &RodLaw) -> Result<String, String> {
 
 /// Mean of a quantity, and its range over its mean.
 fn mean_of(found: &[Found], name: &str) -> (f64, f64) {
-    let values: Vec<f64> = found.iter().filter_map(|found| found.value(name)).collect();
-    let mean = values.iter().sum::<f64>() / values.len() as f64;
-    (mean, spread(&values).unwrap_or_default())
+    let s = sample(found.iter().filter_map(|found| found.value(name)));
+    (s.mean, s.spread().abs())
 }
 
 /// The mean filament at azimuths at equal distances, or at one if no direction across the axis is distinguished.

@@ -4,7 +4,7 @@ use super::case::{Case, Group};
 use super::filament::{Made, RISE_NM};
 use super::row::Row;
 use super::solve::{Found, solve};
-use crate::measure::Sampled;
+use crate::statistics::sample;
 use actin_sim::RodLaw;
 use rayon::prelude::*;
 use std::fmt::Write as _;
@@ -74,31 +74,12 @@ impl Set {
             }
         }
         let is_whole = values.len() == solved.len();
-        let mean = Sampled::of(values.iter().copied()).mean;
+        let s = sample(values);
         Row {
-            rod: (!values.is_empty()).then_some(mean),
-            error_mean: spread(&values).filter(|_| is_whole),
+            rod: (s.count > 0).then_some(s.mean),
+            error_mean: is_whole.then_some(s.spread().abs()),
             note: note + &failures,
             ..Row::open(Group::Mixed, &self.case.name, quantity, law)
         }
-    }
-}
-
-/// Largest minus smallest value over the size of their mean; `None` without values.
-pub(super) fn spread(values: &[f64]) -> Option<f64> {
-    let largest = values.iter().copied().reduce(f64::max)?;
-    let smallest = values.iter().copied().reduce(f64::min)?;
-    let mean = values.iter().sum::<f64>() / values.len() as f64;
-    Some((largest - smallest) / mean.abs())
-}
-
-#[cfg(test)]
-mod tests {
-    use super::spread;
-
-    #[test]
-    fn spreads_are_relative_to_the_mean() {
-        assert_eq!(spread(&[-9.0, -11.0, -10.0]), Some(0.2));
-        assert_eq!(spread(&[]), None);
     }
 }

@@ -2,6 +2,7 @@
 
 use super::case::Bound;
 use super::row::Row;
+use crate::charts::line;
 use crate::palette;
 use actin_draw::{Chart, Series};
 use std::path::Path;
@@ -15,19 +16,14 @@ pub(super) fn draw(out: &Path, rows: &[Row]) -> Result<(), String> {
     let judged: Vec<&Row> = rows.iter().filter(|r| r.bound != Bound::Open).collect();
     let places = distinct(judged.iter().map(|row| (&*row.case, &*row.quantity)));
     let laws = distinct(judged.iter().map(|row| &*row.law));
-    let mut series = vec![Series {
-        label: Some("bound".to_owned()),
-        colour: palette::GREY,
-        points: vec![(0.0, 0.0), (places.len() as f64 + 1.0, 0.0)],
-        dots: false,
-    }];
+    let bound = vec![(0.0, 0.0), (places.len() as f64 + 1.0, 0.0)];
+    let mut series = vec![line("bound", palette::GREY, bound)];
     for (k, law) in laws.iter().enumerate() {
         let own = judged.iter().filter(|row| row.law == *law);
+        let points = own.filter_map(|row| point(row, &places)).collect();
         series.push(Series {
-            label: Some((*law).to_owned()),
-            colour: palette::line(k),
-            points: own.filter_map(|row| point(row, &places)).collect(),
             dots: true,
+            ..line(*law, palette::line(k), points)
         });
     }
     let chart = Chart {

@@ -2,9 +2,9 @@
 
 use super::case::{Case, Loading, TURNED_NM};
 use super::filament::Made;
-use crate::figures::linked::centre_line::CentreLine;
+use crate::figures::CentreLine;
 use crate::measure::{Evidence, Specimen, far_end_shift, follow, reaction, twist};
-use crate::run::{clamp, free, run_to_end, scenario};
+use crate::run::{Solved, clamp, free, scenario};
 use actin_mechanics::{State, Vector3};
 use actin_sim::shape::Ribbon;
 use actin_sim::{
@@ -230,17 +230,15 @@ fn linked(figure: u32, made: &Made) -> Result<Found, String> {
     for start in STARTS_DEG {
         let mut assembly = Assembly::build(&scene).map_err(|e| e.to_string())?;
         assembly.roll(start.to_radians());
-        let (trajectory, report) = run_to_end(&mut assembly).map_err(|e| e.to_string())?;
-        let last = trajectory.records.last().ok_or("no record")?;
-        let energy = last.potential_pn_nm();
-        let certificate = report.equilibrium.ok_or("no certificate")?.certificate;
+        let solved = Solved::run(assembly)?;
+        let energy = solved.last().potential_pn_nm();
         if lowest.as_ref().is_some_and(|(low, _)| energy >= *low) {
             continue;
         }
         let found = Found {
             values: vec![("energy (pN nm)".to_owned(), energy)],
-            line: Some(CentreLine::of(&assembly, &last.state)),
-            doubtful: usize::from(certificate.negative + certificate.unresolved > 0),
+            line: Some(CentreLine::of(&solved.assembly, solved.state())),
+            doubtful: usize::from(solved.doubtful() != Some([0, 0])),
             ..Found::default()
         };
         lowest = Some((energy, found));

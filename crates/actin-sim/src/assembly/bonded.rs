@@ -64,7 +64,6 @@ impl Assembly {
         section + 1 < filament.sections.end && is_ellipsoids(section) && is_ellipsoids(section + 1)
     }
 
-    /// Returns `true` if a section and the next one have different resolutions.
     pub(crate) fn is_junction(&self, section: usize) -> bool {
         let is_ellipsoids = |i: usize| self.sections[i].is_ellipsoids();
         is_ellipsoids(section) != is_ellipsoids(section + 1)
@@ -165,7 +164,6 @@ mod tests {
         "bonds"
     }
 
-    /// At rest a bond spans the radius of the helix and half a rise or one and a half.
     #[test]
     fn junction_bonds_reach_from_the_nearest_two_monomers() {
         let assembly = build();

@@ -85,7 +85,7 @@ impl Assembly {
 }
 
 #[derive(Default)]
-struct Stock {
+struct SceneParts {
     state: State,
     points: Vec<PointInfo>,
     frames: Vec<FrameInfo>,
@@ -95,14 +95,14 @@ struct Stock {
     rods: Vec<Rod>,
 }
 
-impl Stock {
+impl SceneParts {
     fn displace(&mut self, scene: &Scene, filaments: &[FilamentSpan]) {
         let bodies = (self.points.as_slice(), self.frames.as_slice());
         imperfection::displace(scene, filaments, bodies, &mut self.state);
     }
 }
 
-impl Stock {
+impl SceneParts {
     fn push_term(&mut self, interaction: Box<dyn Interaction>, part: Part) {
         let name = interaction.term();
         self.terms.push(Term { name, part });
@@ -117,7 +117,7 @@ struct Builder<'a> {
     held: HeldEnds,
     strands: Vec<Strand<'a>>,
     filaments: Vec<FilamentSpan>,
-    stock: Stock,
+    stock: SceneParts,
     clamps: Vec<Clamped>,
     loads: Vec<ControlId>,
     linkers: Vec<Linker>,
@@ -150,7 +150,7 @@ impl<'a> Builder<'a> {
             held,
             strands,
             filaments: Vec::new(),
-            stock: Stock::default(),
+            stock: SceneParts::default(),
             clamps: Vec::new(),
             loads: Vec::new(),
             linkers: Vec::new(),
@@ -235,7 +235,6 @@ impl<'a> Builder<'a> {
         assembly
     }
 
-    /// Returns the scene with explicit segment counts of all rods.
     fn resolved_scene(&self) -> Scene {
         let mut scene = self.scene.clone();
         let sections = scene.filaments_mut().flat_map(|f| f.sections.iter_mut());
@@ -248,7 +247,6 @@ impl<'a> Builder<'a> {
     }
 }
 
-/// Arc lengths (nm) of the couples on each filament.
 fn couples_nm(scene: &Scene) -> BTreeMap<usize, Vec<f64>> {
     let mut all: BTreeMap<usize, Vec<f64>> = BTreeMap::new();
     for load in &scene.loads {

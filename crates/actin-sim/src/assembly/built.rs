@@ -14,7 +14,6 @@ pub(crate) struct Built {
     sections: Vec<Shifted>,
 }
 
-/// Arc lengths (nm) of a section and shifts from the curve (nm) at its start and end.
 #[derive(Clone, Debug, PartialEq)]
 struct Shifted {
     span: [f64; 2],
@@ -37,13 +36,11 @@ impl Built {
         (self.sections.last()).map_or_else(Vector3::zeros, |section| section.shifts[1])
     }
 
-    /// Appends a section that spans arc lengths `span` (nm), with the shift of its end.
     pub(super) fn push(&mut self, span: [f64; 2], shift: Vector3) {
         let shifts = [self.last_shift(), shift];
         self.sections.push(Shifted { span, shifts });
     }
 
-    /// Position (nm) and frame of the axis at an arc length.
     pub(crate) fn at(&self, s_nm: f64) -> (Vector3, UnitQuaternion) {
         let (place, frame) = self.curve.at(s_nm);
         let past = self

@@ -35,8 +35,6 @@ struct HeldEnd {
 }
 
 impl Drive {
-    /// Creates the drive from the bodies of `rest` that the clamps hold, and the controls of loads
-    /// and anchors.
     pub(super) fn new(
         scene: &Scene,
         (held, clamps): (&HeldEnds, &[Clamped]),
@@ -98,12 +96,10 @@ impl Drive {
         self.anchors.iter().any(|(controls, _)| *controls == anchor)
     }
 
-    /// Returns `true` if the path sets the factor of a load.
     pub(super) fn sets(&self, load: ControlId) -> bool {
         self.loads.iter().any(|(control, _)| *control == load)
     }
 
-    /// Rotation vector of a clamp's end (rad, lab frame) at path parameter `u`.
     pub(crate) fn turn(&self, clamp: usize, u: f64) -> Vector3 {
         self.motion(self.ends[clamp].turn.as_ref(), (u, 0.0)).0
     }
@@ -129,7 +125,6 @@ impl Drive {
         }
     }
 
-    /// Sets the controls to their values at path parameter `u`.
     pub(super) fn set_controls(&self, state: &mut State, u: f64) {
         for (load, factor) in &self.loads {
             state.controls[*load] = self.at(factor, u).0;
@@ -153,7 +148,6 @@ impl Drive {
         (value, slope * rate)
     }
 
-    /// Value at path parameter `u` and its slope, linear within a stage.
     fn at<T>(&self, values: &Values<T>, u: f64) -> (T, T)
     where
         T: Copy + Default + Add<Output = T> + Sub<Output = T> + Mul<f64, Output = T>,
@@ -172,7 +166,6 @@ impl Drive {
     }
 }
 
-/// Values of the controls that some stage sets.
 fn those_set<C, T>(
     controls: impl Iterator<Item = Option<C>>,
     values: Vec<Option<Values<T>>>,
@@ -256,7 +249,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn angular_velocity_is_that_of_the_rotation() {
+    fn angular_velocity_agrees_with_the_rotation() {
         let rate = Vector3::new(0.3, -0.2, 0.5);
         let axis = Vector3::new(1.0, 2.0, -0.5).normalize();
         for angle in [0.0, 1e-6, 0.7, 3.0, 12.0] {

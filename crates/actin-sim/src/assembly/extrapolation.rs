@@ -45,7 +45,6 @@ impl MeasuredError {
 mod tests {
     use super::*;
 
-    /// No error is available in tension, in twist or beyond the measured range.
     #[test]
     fn errors_are_given_as_far_as_they_were_measured() {
         for (quantity, near, far) in [

@@ -181,7 +181,6 @@ impl FilamentDrag<'_> {
         friction.turns.push(share);
     }
 
-    /// Additional drag at an end.
     fn of_end(&self, end: End) -> Dashpot {
         let sections = self.assembly.filaments[self.filament].sections.clone();
         let (section, rod_end) = match end {
@@ -218,7 +217,6 @@ mod tests {
         (assembly, friction)
     }
 
-    /// Translation, tilt and axial rotation have the drag of the cylinder for every resolution.
     #[test]
     fn resolutions_have_the_same_drag() {
         for sections in [

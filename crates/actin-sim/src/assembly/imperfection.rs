@@ -29,7 +29,6 @@ const PLACES: u32 = 256;
 /// Separates this random stream from other uses of the seed.
 const PURPOSE: [u8; 8] = *b"imperfec";
 
-/// Displaces the free bodies of all filaments with an imperfection.
 pub(super) fn displace(
     scene: &Scene,
     filaments: &[FilamentSpan],
@@ -63,7 +62,6 @@ pub(super) fn displace(
     }
 }
 
-/// Displacement field of a filament along lab +z.
 struct Field {
     length_nm: f64,
     coefficients: [Vector3; MODES],
@@ -93,13 +91,11 @@ impl Field {
         field
     }
 
-    /// Displacement (nm) at the relative arc length `x`.
     fn shift(&self, x: f64) -> Vector3 {
         let of = |(k, c): (f64, &Vector3)| c * ((PI * x).sin() * (k * PI * x).sin());
         numbered(&self.coefficients).map(of).sum()
     }
 
-    /// Derivative of the displacement with respect to `x`.
     fn slope(&self, x: f64) -> Vector3 {
         let of = |(k, c): (f64, &Vector3)| {
             let ((sin, cos), (sin_k, cos_k)) = ((PI * x).sin_cos(), (k * PI * x).sin_cos());
@@ -160,7 +156,7 @@ mod tests {
 
     /// Tolerances cover the curvature between monomers and the second order of the slope.
     #[test]
-    fn the_field_is_that_of_arc_length_in_every_model() {
+    fn the_field_depends_on_arc_length_in_every_model() {
         let imperfection = "imperfection: (amplitude_nm: 0.02, seed: 7),";
         for (sections, clamps) in SECTIONS.iter().flat_map(|s| CLAMPS.map(|c| (s, c))) {
             let assembly = build(sections, clamps, imperfection);

@@ -19,7 +19,7 @@ pub(crate) const COARSEST: f64 = 0.1;
 
 /// Kind of a linker event.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub enum Happening {
+pub enum LinkerEventKind {
     /// The linker broke.
     Broke,
     /// The linker formed.
@@ -30,7 +30,7 @@ pub enum Happening {
     Left,
 }
 
-impl fmt::Display for Happening {
+impl fmt::Display for LinkerEventKind {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Self::Broke => "broke",
@@ -51,7 +51,7 @@ pub struct LinkerEvent {
     /// Index of the linker.
     pub linker: usize,
     /// Kind of the event.
-    pub what: Happening,
+    pub what: LinkerEventKind,
     /// Tension of the linker (pN) just before the event; for a formed linker, just after it.
     pub force_pn: f64,
     /// Arc length of the site (nm); after a step, arc length of the new place.
@@ -69,7 +69,6 @@ struct Switching {
     places_nm: Vec<f64>,
 }
 
-/// All linkers of a scene that break, form or step.
 #[derive(Clone, Debug)]
 pub(crate) struct Kinetics {
     all: Vec<Switching>,
@@ -89,7 +88,6 @@ pub(crate) struct Happenings {
 }
 
 impl Kinetics {
-    /// Creates an empty set and its controls in a state under construction.
     pub(super) fn new(state: &mut State) -> Self {
         Self {
             all: Vec::new(),
@@ -98,7 +96,6 @@ impl Kinetics {
         }
     }
 
-    /// Adds linker `index` with the arc lengths of its places (nm).
     pub(super) fn push(
         &mut self,
         index: usize,
@@ -120,7 +117,6 @@ impl Kinetics {
         Some((&switching.linker, &switching.places_nm))
     }
 
-    /// Accumulated energy change by events in `state` (pN nm).
     pub(crate) fn booked(&self, state: &State) -> f64 {
         state.controls[self.booked]
     }
@@ -172,7 +168,7 @@ impl Kinetics {
                 linker: switching.index,
                 what,
                 force_pn: match what {
-                    Happening::Formed => switching.tension(state),
+                    LinkerEventKind::Formed => switching.tension(state),
                     _ => tension,
                 },
                 at_nm: switching.places_nm[place],
@@ -199,7 +195,7 @@ impl StepEnd for Happenings {
 impl Switching {
     /// Samples the event at the end of a step. Returns its kind and the place of the site, and the
     /// sum of all rates (1/ns).
-    fn drawn(&self, state: &State, step: u64, h: f64) -> (Option<(Happening, usize)>, f64) {
+    fn drawn(&self, state: &State, step: u64, h: f64) -> (Option<(LinkerEventKind, usize)>, f64) {
         let place = self.linker.place(state);
         let happens = |rate: f64, draw: f64| draw < -(-rate * h).exp_m1();
         if !self.linker.is_bound(state) {
@@ -208,7 +204,7 @@ impl Switching {
             };
             let [draw, _] = self.uniform(step);
             return (
-                happens(rate, draw).then_some((Happening::Formed, nearest)),
+                happens(rate, draw).then_some((LinkerEventKind::Formed, nearest)),
                 rate,
             );
         }
@@ -227,12 +223,12 @@ impl Switching {
         }
         // An infinite rate always breaks the linker.
         let happening = if breaking.is_infinite() || which * rate < breaking {
-            Some((Happening::Broke, place))
+            Some((LinkerEventKind::Broke, place))
         } else if place + 1 < self.places_nm.len() {
-            Some((Happening::Stepped, place + 1))
+            Some((LinkerEventKind::Stepped, place + 1))
         } else {
             let leaves = self.rates.steps.is_some_and(|steps| steps.leaves_at_end);
-            leaves.then_some((Happening::Left, place))
+            leaves.then_some((LinkerEventKind::Left, place))
         };
         (happening, rate)
     }
@@ -275,10 +271,10 @@ impl Switching {
         along.map_or(0.0, |along| -places[place].force(state).dot(&along))
     }
 
-    fn change(&self, state: &mut State, what: Happening, place: usize) {
+    fn change(&self, state: &mut State, what: LinkerEventKind, place: usize) {
         match what {
-            Happening::Broke | Happening::Left => self.linker.release(state),
-            Happening::Formed | Happening::Stepped => self.linker.bind(state, place),
+            LinkerEventKind::Broke | LinkerEventKind::Left => self.linker.release(state),
+            LinkerEventKind::Formed | LinkerEventKind::Stepped => self.linker.bind(state, place),
         }
     }
 

@@ -7,7 +7,6 @@
 
 use crate::scene::{End, Filament, HeldEnds, MOST_COUNTED, Scene, SceneProblem, Section};
 
-/// Monomers and boundaries of one section.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Resolved {
     /// Arc length of the start (nm).
@@ -27,19 +26,16 @@ pub(super) struct Lattice {
 }
 
 impl Lattice {
-    /// Creates the lattice of a filament with held or free start and end.
     pub(super) fn of(filament: &Filament, [start, _]: [bool; 2]) -> Self {
         let rise_nm = filament.monomers.rise_nm;
         let origin_nm = if start { 0.0 } else { -0.5 * rise_nm };
         Self { origin_nm, rise_nm }
     }
 
-    /// Arc length of monomer `j` (nm).
     pub(super) fn s_nm(&self, j: i64) -> f64 {
         self.origin_nm + j as f64 * self.rise_nm
     }
 
-    /// Index of the monomer nearest to arc length `s_nm`.
     #[expect(
         clippy::cast_possible_truncation,
         reason = "`check_reach` refuses places that i64 could not count"
@@ -124,7 +120,6 @@ pub(crate) fn cells_nm(
     Ok(boundaries)
 }
 
-/// Refuses a boundary beyond the largest exact lattice index.
 fn check_reach(filament: &Filament, lattice: &Lattice, i: usize) -> Result<(), SceneProblem> {
     let sections = &filament.sections;
     let (_, to_nm) = sections[i].span_nm();

@@ -12,9 +12,8 @@ use actin_cosserat::{
 };
 use actin_mechanics::Interaction;
 
-/// Conditions at the ends of a rod.
 #[derive(Debug)]
-pub(super) struct Around {
+pub(super) struct EndConditions {
     /// Elements that join the start and the end of the rod to monomers.
     pub(super) joined: [Vec<JoinedElement>; 2],
     /// Shear conditions at the start and end of the chain of rods that contains this rod.
@@ -67,7 +66,6 @@ impl Law {
         Ok(Self { material, ..self })
     }
 
-    /// Law of a scene for filaments of these monomers.
     fn new(rod: &RodModel, monomers: &Monomers, in_bath: bool) -> Result<Self, SceneProblem> {
         check_beside_law(rod)?;
         let rigidities = rod.material.rigidities();
@@ -92,20 +90,22 @@ impl Law {
         })
     }
 
-    /// Returns the material and the law that couples its strains.
     pub(super) fn of_strains(&self) -> (RodMaterial, SegmentLaw) {
         let coupled = SegmentLaw::of(&self.material, self.twist_stretch);
         (self.material, coupled.unwrap_or_default())
     }
 
-    /// Returns the ranges of the data of the laws.
     pub(super) fn ranges(&self) -> Ranges {
         Ranges::of(&self.material, self.twist_stretch.as_ref())
     }
 
     /// Returns the monitor of twist stability; `None` if no axial force can destabilise the twist,
     /// or if the loads have no energy.
-    pub(super) fn twist_watch(&self, layout: &RodLayout, around: &Around) -> Option<TwistWatch> {
+    pub(super) fn twist_watch(
+        &self,
+        layout: &RodLayout,
+        around: &EndConditions,
+    ) -> Option<TwistWatch> {
         if self.balance != ForceLaw::EnergyGradient {
             return None;
         }
@@ -121,7 +121,7 @@ impl Law {
     }
 
     /// Mean curvatures around segments and, for a potential, the end conditions of shear and twist.
-    fn curvature(&self, layout: &RodLayout, around: &Around) -> SegmentCurvature {
+    fn curvature(&self, layout: &RodLayout, around: &EndConditions) -> SegmentCurvature {
         let [start, end] = &around.joined;
         let curvature = SegmentCurvature::new(layout, start, end);
         if self.material.potential().is_none() {
@@ -135,8 +135,11 @@ impl Law {
         SegmentLaw::of(&self.material, self.twist_stretch).is_some()
     }
 
-    /// Creates the interaction of a rod.
-    pub(super) fn interaction(&self, layout: &RodLayout, around: &Around) -> Box<dyn Interaction> {
+    pub(super) fn interaction(
+        &self,
+        layout: &RodLayout,
+        around: &EndConditions,
+    ) -> Box<dyn Interaction> {
         let curvature = || self.curvature(layout, around);
         let (own, material) = (layout.clone(), self.material);
         match self.balance {
@@ -159,7 +162,6 @@ impl Law {
     }
 }
 
-/// Refuses a balance or a material that is incompatible with the law of a rod.
 fn check_beside_law(rod: &RodModel) -> Result<(), SceneProblem> {
     let extends = !matches!(rod.law, RodLaw::Constant | RodLaw::PublishedExtension);
     if rod.force_law == ForceLaw::PaperBalance && extends {
@@ -230,10 +232,8 @@ fn written(parameter: RodKey) -> &'static str {
     }
 }
 
-/// Material with an optional twist-stretch law.
 type Parts = (RodMaterial, Option<TwistStretch>);
 
-/// Law at zero temperature for filaments of these monomers.
 fn athermal(monomers: &Monomers) -> Parts {
     let law = match monomers.drawn_bonds() {
         Some(bonds) => Homogenised::drawn_filament(bonds),
@@ -242,7 +242,6 @@ fn athermal(monomers: &Monomers) -> Parts {
     (RodMaterial::homogenised(law), None)
 }
 
-/// Law at 298 K.
 fn heated() -> Parts {
     let law = Homogenised::mean_filament_at_298_k();
     (RodMaterial::homogenised(law), None)

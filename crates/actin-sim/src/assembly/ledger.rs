@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 /// The total energy minus this sum is constant up to the time-stepping error. Perturbations that
 /// leave saddles are not included.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Booked {
+pub struct EnergyExchange {
     /// Work of moving ends and anchors and of loads that change in time.
     pub work_pn_nm: f64,
     /// Heat from drag and, in a bath, noise; negative if drag dominates. Not computed for
@@ -20,15 +20,14 @@ pub struct Booked {
     pub events_pn_nm: f64,
 }
 
-impl Booked {
+impl EnergyExchange {
     /// Sum of work, heat and events.
     pub fn sum_pn_nm(&self) -> f64 {
         self.work_pn_nm + self.heat_pn_nm + self.events_pn_nm
     }
 }
 
-/// Name and value of a column of `energies.csv`.
-pub(crate) type Column = (&'static str, fn(&Booked) -> f64);
+pub(crate) type Column = (&'static str, fn(&EnergyExchange) -> f64);
 
 /// Adds the energy balance of a motion to a state under construction; `None` for other tasks.
 pub(super) fn of_motion(task: &Task, state: &mut State) -> Option<Ledger> {
@@ -42,12 +41,12 @@ impl Assembly {
     /// Returns the energy received up to `state`, a state of a run in progress.
     ///
     /// States read from files do not contain it; read `energies.csv` instead.
-    pub fn booked(&self, state: &State) -> Booked {
+    pub fn booked(&self, state: &State) -> EnergyExchange {
         let [work_pn_nm, heat_pn_nm] = self.ledger.map_or([0.0; 2], |ledger| {
             [ledger.work, ledger.heat].map(|control| state.controls[control])
         });
         let events = self.kinetics.as_ref().map(|all| all.booked(state));
-        Booked {
+        EnergyExchange {
             work_pn_nm,
             heat_pn_nm,
             events_pn_nm: events.unwrap_or_default(),

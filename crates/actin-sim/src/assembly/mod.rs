@@ -4,7 +4,6 @@
 //! points, frames and terms. Bodies are stored filament by filament, in order along the filament:
 //! monomers, junction frames, rod nodes and segments.
 
-mod beyond_use;
 mod bonded;
 mod build;
 mod built;
@@ -18,6 +17,7 @@ mod kinetics;
 mod lattice;
 mod law;
 mod ledger;
+mod model_limits;
 mod models;
 mod parts;
 mod ramp;
@@ -28,23 +28,23 @@ mod several_states;
 mod slip;
 mod unstable_twist;
 
-pub use beyond_use::BeyondUse;
-pub(crate) use beyond_use::worst as worst_of;
 pub use bonded::JunctionBond;
 pub(crate) use build::Sampled;
 pub use drive::Drive;
 pub use extrapolation::MeasuredError;
 pub(crate) use kinetics::{COARSEST, Kinetics, Log};
-pub use kinetics::{Happening, LinkerEvent};
+pub use kinetics::{LinkerEvent, LinkerEventKind};
 pub(crate) use lattice::cells_nm;
-pub use ledger::Booked;
+pub use ledger::EnergyExchange;
+pub use model_limits::ModelLimitExceeded;
+pub(crate) use model_limits::worst as worst_of;
 pub(crate) use models::ellipsoids;
 pub(crate) use parts::Rod;
 pub use parts::{
     BodyKind, Counts, FilamentSpan, FrameInfo, Part, PointInfo, Resolution, SectionSpan, Term,
 };
 pub(crate) use ramp::{Ramp, StageTimes};
-pub use range::{BeyondRange, Fluctuations};
+pub use range::{Fluctuations, LawExtrapolation};
 pub(crate) use range::{RangeWatch, Ranges};
 pub use reaction::{Clamped, Reaction};
 pub(crate) use repelled::Repelled;
@@ -81,15 +81,11 @@ pub struct Assembly {
     /// Clamped ends.
     pub clamps: Vec<Clamped>,
     pub(crate) held: HeldEnds,
-    /// Controls of the load factors, in the order of the scene.
     pub(crate) loads: Vec<ControlId>,
     /// Linkers in the order of the scene; stepping linkers at their first place.
     pub linkers: Vec<Linker>,
-    /// Linkers whose state changes in time, if any.
     pub(crate) kinetics: Option<Arc<Kinetics>>,
-    /// Energy balance of a motion; `None` for other tasks.
     pub(crate) ledger: Option<Ledger>,
-    /// Repelling bodies, if any.
     pub(crate) repelled: Option<Repelled>,
     /// Arc length interval (nm) of each element of each term; empty for loads and linkers.
     pub(crate) spans: Vec<Vec<[f64; 2]>>,
@@ -98,11 +94,9 @@ pub struct Assembly {
     pub drive: Drive,
     /// State as built: unloaded, at rest and without imperfections.
     pub rest: State,
-    /// Runs of monomers with quasi-harmonic interfaces.
     pub(crate) sampled: Vec<Sampled>,
     /// Choice of automatic sections, if the scene has any.
     pub chosen: Option<Chosen>,
-    /// Duration of the build (s).
     pub(crate) build_s: f64,
     /// Estimated memory of the task without its records (bytes).
     pub(crate) bytes: f64,

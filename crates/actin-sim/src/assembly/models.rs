@@ -29,7 +29,6 @@ pub(crate) fn ellipsoids(
     })
 }
 
-/// Key of a monomer parameter in a scene.
 fn scene_key(parameter: EllipsoidKey) -> String {
     let key = match parameter {
         EllipsoidKey::Radius => "radius_nm",
@@ -54,7 +53,6 @@ fn scene_key(parameter: EllipsoidKey) -> String {
     format!("filament.monomers.{key}")
 }
 
-/// Error of a scene for an interface without bonds.
 pub(super) fn unbonded(error: &InterfaceError, monomers: &Monomers) -> SceneProblem {
     let kind = match error {
         InterfaceError::NoBonds { kind, .. } | InterfaceError::FewBonds { kind, .. } => kind,

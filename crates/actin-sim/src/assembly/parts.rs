@@ -107,7 +107,6 @@ pub struct FilamentSpan {
     pub origin_nm: Vector3,
     /// Rotation from lab +z to the filament or to its curve.
     pub rotation: UnitQuaternion,
-    /// Axis of a curved filament, along lab +z.
     pub(crate) shape: Option<Built>,
 }
 
@@ -178,9 +177,7 @@ pub struct SectionSpan {
     pub points: Range<usize>,
     /// Range of the frames of its monomers or segments.
     pub frames: Range<usize>,
-    /// Points whose mean is the first tip.
     pub(super) first_tip: Vec<usize>,
-    /// Points whose mean is the last tip.
     pub(super) last_tip: Vec<usize>,
 }
 

@@ -24,7 +24,6 @@ pub(crate) struct Ramp {
 const RATE_OVER: f64 = 1e-3;
 
 impl Ramp {
-    /// Creates the ramp of an assembly; `None` if nothing moves.
     pub(crate) fn of(assembly: &Assembly) -> Option<Self> {
         let drive = assembly.drive.clone();
         let loads = assembly.scene.loads.iter().zip(&assembly.loads);
@@ -51,7 +50,6 @@ impl Ramp {
     }
 }
 
-/// Terms of the loads and linkers whose controls change.
 fn controlled(assembly: &Assembly) -> Vec<usize> {
     let changes = |part: Part| match part {
         Part::Load(i) => {
@@ -70,7 +68,6 @@ fn controlled(assembly: &Assembly) -> Vec<usize> {
         .collect()
 }
 
-/// Start times and durations of the stages of a path.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct StageTimes {
     /// Start and duration of each stage (ns), and its pace.

@@ -14,7 +14,7 @@ use std::fmt;
 /// In files, `value` and `range` of twist and curvature are `value_per_nm` and `range_per_nm`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(into = "Written", from = "Written")]
-pub struct BeyondRange {
+pub struct LawExtrapolation {
     /// Index of the filament.
     pub filament: usize,
     /// Index of the section in its filament.
@@ -33,7 +33,7 @@ pub struct BeyondRange {
     pub measured_error: Option<MeasuredError>,
 }
 
-impl fmt::Display for BeyondRange {
+impl fmt::Display for LawExtrapolation {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let (quantity, value, range) = (&self.quantity, self.value, self.range);
         let place = format!("s = {:.1} nm{}", self.s_nm, of_filament(self.filament));
@@ -60,7 +60,6 @@ impl fmt::Display for BeyondRange {
     }
 }
 
-/// Suffix that names a filament other than the first.
 pub(super) fn of_filament(filament: usize) -> String {
     match filament {
         0 => String::new(),
@@ -68,7 +67,6 @@ pub(super) fn of_filament(filament: usize) -> String {
     }
 }
 
-/// Formats a share in per cent with two digits.
 pub(super) fn percent(share: f64) -> String {
     match 100.0 * share {
         percent if percent >= 10.0 => format!("{percent:.0} %"),
@@ -77,7 +75,6 @@ pub(super) fn percent(share: f64) -> String {
     }
 }
 
-/// Serialised form of [`BeyondRange`].
 #[derive(Clone, Serialize, Deserialize)]
 struct Written {
     #[serde(default)]
@@ -99,8 +96,8 @@ struct Written {
     measured_error: Option<MeasuredError>,
 }
 
-impl From<BeyondRange> for Written {
-    fn from(beyond: BeyondRange) -> Self {
+impl From<LawExtrapolation> for Written {
+    fn from(beyond: LawExtrapolation) -> Self {
         let (value, range) = (Some(beyond.value), Some(beyond.range));
         let is_strain = beyond.is_strain();
         let of_strain = |number: Option<f64>| number.filter(|_| is_strain);
@@ -120,7 +117,7 @@ impl From<BeyondRange> for Written {
     }
 }
 
-impl From<Written> for BeyondRange {
+impl From<Written> for LawExtrapolation {
     fn from(written: Written) -> Self {
         Self {
             filament: written.filament,
@@ -145,7 +142,6 @@ pub struct Fluctuations {
     pub share_of_elements: f64,
 }
 
-/// Ranges of the data of a rod's laws; `None` where unbounded.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Ranges {
     /// Curvature at rest, from which deformations are counted.
@@ -158,7 +154,6 @@ pub(crate) struct Ranges {
 }
 
 impl Ranges {
-    /// Ranges of a material and of a twist-stretch law.
     pub(super) fn of(material: &RodMaterial, length: Option<&TwistStretch>) -> Self {
         if let Some(law) = material.potential() {
             return Self {
@@ -192,7 +187,6 @@ impl Ranges {
 /// Values of a quantity and their arc lengths from the rod's start (nm).
 type Values<'a> = Box<dyn Iterator<Item = (f64, f64)> + 'a>;
 
-/// Quantity that the data of a law bound.
 #[derive(Clone, Copy)]
 struct Quantity {
     name: &'static str,
@@ -231,7 +225,7 @@ impl Assembly {
     /// Beyond their data, laws of twist and length are continued linearly; bending laws and
     /// potentials by their formulas. Bending elements that join a rod to junction frames belong to
     /// the end of the rod.
-    pub fn beyond_range(&self, state: &State) -> Vec<BeyondRange> {
+    pub fn beyond_range(&self, state: &State) -> Vec<LawExtrapolation> {
         let mut found = Vec::new();
         for rod in &self.rods {
             for quantity in 0..QUANTITIES.len() {
@@ -242,7 +236,7 @@ impl Assembly {
         found
     }
 
-    fn told(&self, excess: Excess, fluctuations: Option<Fluctuations>) -> BeyondRange {
+    fn told(&self, excess: Excess, fluctuations: Option<Fluctuations>) -> LawExtrapolation {
         let filament = self.filament_of_section(excess.section);
         let section = excess.section - self.filaments[filament].sections.start;
         let quantity = QUANTITIES[excess.quantity].name;
@@ -254,7 +248,7 @@ impl Assembly {
             _ => false,
         };
         let measured = is_measured.then(|| MeasuredError::at(quantity, excess.value));
-        BeyondRange {
+        LawExtrapolation {
             filament,
             section,
             quantity: quantity.to_owned(),
@@ -272,7 +266,7 @@ impl Assembly {
     pub fn beyond_range_over<'a>(
         &self,
         states: impl IntoIterator<Item = &'a State>,
-    ) -> Vec<BeyondRange> {
+    ) -> Vec<LawExtrapolation> {
         let mut watch = RangeWatch::new(self);
         states.into_iter().for_each(|state| watch.add(self, state));
         watch.end(self)
@@ -317,7 +311,7 @@ impl Assembly {
     }
 }
 
-impl BeyondRange {
+impl LawExtrapolation {
     /// Describes the measured error.
     pub fn error_text(&self) -> String {
         let Some(error) = &self.measured_error else {
@@ -339,7 +333,6 @@ impl BeyondRange {
     }
 }
 
-/// Largest excess of a quantity, in the units of [`BeyondRange`].
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 struct Excess {
     /// Index of the section among all filaments.
@@ -406,7 +399,6 @@ fn strains<'a>(rod: &'a Rod, state: &'a State) -> impl Iterator<Item = (f64, Vec
     })
 }
 
-/// Monitor of excesses over a sequence of states.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub(crate) struct RangeWatch(Found);
 
@@ -416,7 +408,6 @@ enum Found {
     InBath(Box<InBath>),
 }
 
-/// Largest excess of each section and quantity.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 struct Worst {
     list: Vec<Excess>,
@@ -424,7 +415,6 @@ struct Worst {
     places: BTreeMap<(usize, usize), usize>,
 }
 
-/// Counts for each quantity in a heat bath.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 struct InBath {
     states: u32,
@@ -450,8 +440,7 @@ impl RangeWatch {
         }
     }
 
-    /// Returns the excesses over all states.
-    pub(crate) fn end(self, assembly: &Assembly) -> Vec<BeyondRange> {
+    pub(crate) fn end(self, assembly: &Assembly) -> Vec<LawExtrapolation> {
         match self.0 {
             Found::Worst(worst) => {
                 let list = worst.list.into_iter();
@@ -495,8 +484,7 @@ impl InBath {
         }
     }
 
-    /// Returns one entry for each quantity that exceeded its range in any state.
-    fn end(self, assembly: &Assembly) -> Vec<BeyondRange> {
+    fn end(self, assembly: &Assembly) -> Vec<LawExtrapolation> {
         let found = self.tallies.into_iter().filter_map(|(all, states_beyond)| {
             let fluctuations = Some(Fluctuations {
                 share_of_records: f64::from(states_beyond) / f64::from(self.states),
@@ -508,7 +496,6 @@ impl InBath {
     }
 }
 
-/// Number and largest value of the excesses of a quantity.
 #[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
 struct Tally {
     elements: usize,

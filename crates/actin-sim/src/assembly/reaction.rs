@@ -18,7 +18,6 @@ pub struct Clamped {
     pub about_nm: Vector3,
     /// Sliding directions of the end.
     pub slides: Slides,
-    /// Unit vector along the filament as built (lab frame).
     pub(super) axis: Vector3,
     /// Position of the first held point minus the clamped point, as built (nm, lab frame).
     pub(super) arm_nm: Vector3,

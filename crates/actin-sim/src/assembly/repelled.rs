@@ -6,32 +6,26 @@ use actin_coupling::repulsion::{Capsule, Contacts, Gap, Tethers, WallContact};
 use actin_integrate::FrequencyError;
 use actin_mechanics::{Interaction, State, System};
 
-/// Repelling bodies and interactions of a scene.
 #[derive(Clone, Debug)]
 pub(crate) struct Repelled {
-    /// Capsules of all filaments.
     pub(super) capsules: Vec<Capsule>,
     pub(super) contacts: Option<Contacts>,
     pub(super) walls: Vec<(Part, WallContact)>,
     pub(crate) radius_nm: f64,
 }
 
-/// Pair of surfaces near each other.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Touching {
-    /// Kind of the contact: filaments, plane or sphere.
     pub(crate) part: Part,
     pub(crate) gap: Gap,
     /// Indices of both filaments; equal for a wall.
     pub(crate) filaments: [usize; 2],
     /// Penetration depth over the contact distance; for a wall, over the radius.
     pub(crate) depth: f64,
-    /// Limit of the depth.
     pub(crate) limit: f64,
 }
 
 impl Repelled {
-    /// Number of pairs of capsules near each other.
     pub(crate) fn pairs(&self, state: &State) -> usize {
         let contacts = self.contacts.as_ref();
         contacts.map_or(0, |contacts| contacts.pairs(state))
@@ -75,12 +69,10 @@ impl Repelled {
 }
 
 impl Touching {
-    /// Returns `true` if the penetration exceeds the range of the repulsion.
     pub(crate) fn is_beyond(&self) -> bool {
         self.depth > self.limit
     }
 
-    /// Describes the penetration in a scene with this number of filaments.
     pub(crate) fn in_words(&self, filaments: usize) -> String {
         let [a, b] = self.filaments;
         let [s, t] = self.gap.places;
@@ -132,7 +124,6 @@ impl Assembly {
         Ok(frequency.hypot(of_contact))
     }
 
-    /// Warnings about filaments that penetrate each other or walls as built.
     pub(crate) fn notes_on_repulsion(&self) -> Vec<String> {
         let Some(repelled) = &self.repelled else {
             return Vec::new();

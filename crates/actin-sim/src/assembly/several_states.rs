@@ -46,8 +46,6 @@ impl Assembly {
     }
 }
 
-/// Returns `true` if monomers have several states at this curvature and twist (rad/nm, relative to
-/// rest).
 fn has_several(bend: Vector3) -> bool {
     let within = |[low, high]: [f64; 2], value: f64| low <= value && value <= high;
     within(TWISTS, bend.z) && within(CURVATURES, bend.xy().norm() / bend.z.abs())
@@ -81,7 +79,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn stretches_lie_about_what_is_marked() {
+    fn stretches_surround_marked_places() {
         let at = |s: f64, is_marked: bool| (s, is_marked);
         let places = vec![
             at(40.0, true),

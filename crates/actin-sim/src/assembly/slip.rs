@@ -66,7 +66,6 @@ impl Assembly {
         (turns[1] - turns[0]).abs()
     }
 
-    /// Key of the last turn of a filament in a stage, or of the stage.
     fn key_of_turn(&self, filament: usize, stage: usize) -> String {
         let settings = &self.scene.path[stage].set;
         let is_turn = |setting: &Setting| matches!(setting, Setting::Turn { filament: f, .. } if *f == filament);

@@ -63,7 +63,6 @@ pub(crate) struct TwistWatch {
     pub(crate) curvature: SegmentCurvature,
 }
 
-/// Segment of a rod with the least stable twist.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 struct Weakest {
     tangent: f64,
@@ -125,7 +124,6 @@ impl Assembly {
     }
 }
 
-/// Monitor of twist stability over a sequence of states.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub(crate) struct TwistRecords {
     states: u32,
@@ -145,7 +143,6 @@ impl TwistRecords {
         }
     }
 
-    /// Returns `true` if both monitors have the same number of rods.
     pub(crate) fn fits(&self, other: &Self) -> bool {
         self.worst.len() == other.worst.len()
     }
@@ -163,7 +160,6 @@ impl TwistRecords {
         }
     }
 
-    /// Returns the instabilities over all states.
     pub(crate) fn end(self) -> Vec<UnstableTwist> {
         let states = f64::from(self.states);
         let found = self.worst.into_iter().filter_map(|(count, weakest)| {

@@ -7,7 +7,6 @@ use std::num::NonZeroUsize;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-/// State shared by the threads.
 pub(super) struct Crew<'a, F, T> {
     ensemble: &'a Ensemble<'a>,
     /// Runs a replica, unless interrupted.
@@ -20,7 +19,6 @@ pub(super) struct Crew<'a, F, T> {
     made: Mutex<Made<T>>,
 }
 
-/// Results so far.
 struct Made<T> {
     /// Observations of each replica.
     observed: Vec<Option<T>>,
@@ -49,7 +47,6 @@ where
         }
     }
 
-    /// Runs all replicas.
     pub(super) fn work_all(self) -> Result<Vec<T>, EnsembleError> {
         let of = self.ensemble.seeds.len();
         std::thread::scope(|scope| {
@@ -77,7 +74,6 @@ where
         wanted.min(self.ensemble.seeds.len())
     }
 
-    /// Runs replicas until none remain.
     fn work(&self) {
         loop {
             let index = self.next.fetch_add(1, Ordering::Relaxed);

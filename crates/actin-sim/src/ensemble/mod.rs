@@ -104,7 +104,7 @@ impl<'a> Ensemble<'a> {
     /// #     clamps: [Clamp(end: Start)],
     /// #     task: Equilibrium(),
     /// # )";
-    /// // Weighted bonds are not drawn, and an equilibrium has no noise.
+    /// // Quadrature bonds are not sampled, and an equilibrium has no noise.
     /// let scene = Scene::from_ron(text)?;
     /// let refused = Ensemble::of_seeds(&scene, vec![7, 8], &[Drawn::Bonds]);
     /// assert!(refused.is_err());

@@ -1,14 +1,11 @@
 //! Sink that stops the run of a replica together with its ensemble.
 
-use crate::{Progress, Record, Recorded, RunPosition, Sink};
+use crate::{Progress, Record, RecordSummary, RunPosition, Sink};
 use actin_mechanics::State;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
-/// Conditions that stop a replica.
 pub(super) struct Stop<'a> {
-    /// Index of the replica.
     pub(super) index: usize,
-    /// First replica with an error.
     pub(super) first_failed: &'a AtomicUsize,
     pub(super) interrupted: Option<&'a AtomicBool>,
 }
@@ -20,7 +17,6 @@ impl Stop<'_> {
         is_interrupted || self.first_failed.load(Ordering::Relaxed) < self.index
     }
 
-    /// Wraps a sink with this stop condition.
     pub(super) fn over<'s>(&'s self, sink: &'s mut dyn Sink) -> impl Sink + 's {
         Stopped { stop: self, sink }
     }
@@ -52,7 +48,7 @@ impl Sink for Stopped<'_> {
         self.sink.is_checkpoint_due()
     }
 
-    fn checkpoint(&mut self, position: &RunPosition, recorded: &Recorded, wall_s: f64) {
+    fn checkpoint(&mut self, position: &RunPosition, recorded: &RecordSummary, wall_s: f64) {
         self.sink.checkpoint(position, recorded, wall_s);
     }
 }

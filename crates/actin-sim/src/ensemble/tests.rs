@@ -6,7 +6,6 @@ use crate::{Record, SimError};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// Short rod in a heat bath.
 fn heated(duration_ns: f64, more: &str) -> Scene {
     let text = format!(
         "Scene(
@@ -23,7 +22,6 @@ fn heated(duration_ns: f64, more: &str) -> Scene {
     Scene::from_ron(&text).unwrap()
 }
 
-/// Monomers with sampled bonds under a force.
 const DRAWN: &str = "Scene(
     filament: Filament(
         sections: [Ellipsoids(from_nm: 0.0, to_nm: 20.0)],
@@ -46,7 +44,7 @@ fn records(scene: &Scene, number: usize) -> Vec<(usize, u64, Vec<Record>)> {
 }
 
 #[test]
-fn results_are_those_of_single_runs_on_any_number_of_threads() {
+fn results_equal_single_runs_on_any_number_of_threads() {
     for mut scene in [heated(0.3, ""), Scene::from_ron(DRAWN).unwrap()] {
         let one = records(&scene, 1);
         assert_eq!(one, records(&scene, 2));

@@ -27,12 +27,10 @@ impl Cells {
         self.boundaries_nm.len() - 1
     }
 
-    /// Boundaries of the cells (nm) in order.
     pub(super) fn boundaries_nm(&self) -> &[f64] {
         &self.boundaries_nm
     }
 
-    /// Arc length interval of each cell (nm).
     pub(super) fn spans_nm(&self) -> impl Iterator<Item = [f64; 2]> + '_ {
         self.boundaries_nm.windows(2).map(|ends| [ends[0], ends[1]])
     }

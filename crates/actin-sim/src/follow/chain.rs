@@ -1,13 +1,13 @@
 //! Motion as a chain of stretches with constant resolution.
 
 use super::cells::Cells;
-use super::criterion::{Criterion, FilamentState, Wish, wish_of};
+use super::criterion::{Criterion, FilamentState, ResolutionRequest, wish_of};
 use super::transfer::{Switch, Transfer};
 use crate::run::record;
 use crate::scene::{Scene, SceneProblem};
 use crate::{
-    Assembly, BehindSwitch, MotionPosition, Outcome, Plan, Progress, Record, Recorded, RunError,
-    RunPosition, Saved, Sink, Status, Trajectory,
+    Assembly, MotionPosition, Outcome, Plan, Progress, Record, RecordSummary, ResolutionSwitch,
+    RunError, RunPosition, SavedRun, Sink, Status, Trajectory,
 };
 use actin_integrate::{Checkpoint, Moment, Snapshot};
 use actin_mechanics::{Split, State};
@@ -29,8 +29,8 @@ use serde::{Deserialize, Serialize};
 ///     task: Dynamics(duration_ns: 3.0, record_every_ns: 0.5),
 /// )";
 /// let run = Follower::new(&Scene::from_ron(text)?)?.run()?;
-/// // It bends, and monomers come.
-/// let switch = run.switches().next().expect("it bends");
+/// // The filament bends, and cells become monomers.
+/// let switch = run.switches().next().expect("the filament bends");
 /// assert!(!switch.to_monomers.is_empty());
 /// assert!(run.stretches[0].stretch.assembly.counts().monomers == 0);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -70,7 +70,7 @@ pub struct Beginning {
 
 /// Stretch with its results.
 #[derive(Debug)]
-pub struct Ran {
+pub struct CompletedStretch {
     /// The stretch.
     pub stretch: Stretch,
     /// Records; after a switch, the first one is at the time of the switch.
@@ -83,7 +83,7 @@ pub struct Ran {
 #[derive(Debug)]
 pub struct Followed {
     /// Stretches in order.
-    pub stretches: Vec<Ran>,
+    pub stretches: Vec<CompletedStretch>,
 }
 
 impl Followed {
@@ -96,7 +96,7 @@ impl Followed {
 
 /// End of a stretch.
 #[derive(Debug)]
-pub enum Left {
+pub enum StretchEnd {
     /// The motion ended or was interrupted.
     Over(Outcome),
     /// Cells are switched; with the next stretch and its start.
@@ -109,7 +109,7 @@ pub struct Next {
     /// The stretch.
     pub stretch: Stretch,
     /// Its initial state; its first record is the last one taken.
-    pub saved: Saved,
+    pub saved: SavedRun,
 }
 
 impl Follower {
@@ -165,7 +165,6 @@ impl Follower {
         Ok(first)
     }
 
-    /// Stretch that starts in the state as built.
     fn stretch(&self, is_monomers: Vec<bool>) -> Result<Stretch, SceneProblem> {
         self.again(Beginning {
             index: 0,
@@ -207,9 +206,9 @@ impl Follower {
                 .zip(&stretch.beginning.free_from)
                 .map(|(cell, &free_from)| match wish_of(&self.criteria, &cell) {
                     _ if step < free_from => cell.is_monomers,
-                    Wish::Monomers => true,
-                    Wish::Rod => false,
-                    Wish::Stay => cell.is_monomers,
+                    ResolutionRequest::Monomers => true,
+                    ResolutionRequest::Rod => false,
+                    ResolutionRequest::Stay => cell.is_monomers,
                 });
         let wanted: Vec<bool> = wishes.collect();
         (wanted != stretch.beginning.is_monomers).then_some(wanted)
@@ -226,9 +225,9 @@ impl Follower {
     pub fn advance(
         &self,
         (stretch, plan): (&Stretch, &Plan<'_>),
-        saved: Option<Saved>,
+        saved: Option<SavedRun>,
         sink: &mut dyn Sink,
-    ) -> Result<Left, RunError> {
+    ) -> Result<StretchEnd, RunError> {
         let mut watching = Watching {
             sink,
             follower: self,
@@ -241,7 +240,7 @@ impl Follower {
             Some(saved) => plan.resume_into(saved, &mut watching),
         }?;
         let (Some(wanted), Some(saved)) = (watching.wanted, watching.saved) else {
-            return Ok(Left::Over(outcome));
+            return Ok(StretchEnd::Over(outcome));
         };
         let next = self.next(stretch, wanted, &saved)?;
         let outcome = Outcome {
@@ -249,18 +248,17 @@ impl Follower {
             begun_with_pn_nm: None,
             ..outcome
         };
-        Ok(Left::Switched(outcome, Box::new(next)))
+        Ok(StretchEnd::Switched(outcome, Box::new(next)))
     }
 
-    /// Stretch after a switch to `is_monomers`.
     fn next(
         &self,
         left: &Stretch,
         is_monomers: Vec<bool>,
-        saved: &Saved,
+        saved: &SavedRun,
     ) -> Result<Next, SceneProblem> {
         let RunPosition::Motion(position) = &saved.position else {
-            unreachable!("a motion is left where it stands in time");
+            unreachable!("a motion stops at a position in time");
         };
         let here = &position.checkpoint.here;
         let kinds = [&left.beginning.is_monomers, &is_monomers];
@@ -340,10 +338,10 @@ impl Follower {
             let plan = Plan::new(&stretch.assembly)?;
             let left = self.advance((&stretch, &plan), saved.take(), &mut trajectory)?;
             let (outcome, next) = match left {
-                Left::Over(outcome) => (outcome, None),
-                Left::Switched(outcome, next) => (outcome, Some(*next)),
+                StretchEnd::Over(outcome) => (outcome, None),
+                StretchEnd::Switched(outcome, next) => (outcome, Some(*next)),
             };
-            let ran = |stretch| Ran {
+            let ran = |stretch| CompletedStretch {
                 stretch,
                 trajectory,
                 outcome,
@@ -358,8 +356,7 @@ impl Follower {
     }
 }
 
-/// First record of a stretch after a switch.
-fn first_record(saved: Option<&Saved>) -> Option<Record> {
+fn first_record(saved: Option<&SavedRun>) -> Option<Record> {
     saved.and_then(|saved| saved.recorded.last.clone())
 }
 
@@ -399,8 +396,11 @@ fn whole_steps(steps: f64) -> u64 {
     steps.ceil() as u64
 }
 
-/// Start of a stretch that continues from `state`.
-fn begun(assembly: &Assembly, state: State, (saved, position): (&Saved, &MotionPosition)) -> Saved {
+fn begun(
+    assembly: &Assembly,
+    state: State,
+    (saved, position): (&SavedRun, &MotionPosition),
+) -> SavedRun {
     let before = &position.checkpoint;
     let mut system = assembly.system.in_state(state);
     let (step, time) = (before.here.step, before.here.motion.time);
@@ -413,7 +413,7 @@ fn begun(assembly: &Assembly, state: State, (saved, position): (&Saved, &MotionP
         force_evaluations: before.here.force_evaluations + system.force_evaluations(),
         largest_kinetic: before.here.largest_kinetic.max(first.kinetic_pn_nm),
     };
-    Saved {
+    SavedRun {
         position: RunPosition::Motion(Box::new(MotionPosition {
             checkpoint: Checkpoint {
                 last_good: here.clone(),
@@ -422,7 +422,7 @@ fn begun(assembly: &Assembly, state: State, (saved, position): (&Saved, &MotionP
             },
             pushes: Vec::new(),
             events: position.events.clone(),
-            behind_switch: Some(BehindSwitch {
+            behind_switch: Some(ResolutionSwitch {
                 step,
                 energy_pn_nm: energy,
             }),
@@ -438,7 +438,7 @@ struct Watching<'a> {
     follower: &'a Follower,
     stretch: &'a Stretch,
     wanted: Option<Vec<bool>>,
-    saved: Option<Saved>,
+    saved: Option<SavedRun>,
 }
 
 impl Sink for Watching<'_> {
@@ -464,12 +464,12 @@ impl Sink for Watching<'_> {
     }
 
     /// Skips the checkpoint at a switch, from which a resumed run would not switch.
-    fn checkpoint(&mut self, position: &RunPosition, recorded: &Recorded, wall_s: f64) {
+    fn checkpoint(&mut self, position: &RunPosition, recorded: &RecordSummary, wall_s: f64) {
         if self.wanted.is_none() {
             self.sink.checkpoint(position, recorded, wall_s);
             return;
         }
-        self.saved = Some(Saved {
+        self.saved = Some(SavedRun {
             position: position.clone(),
             recorded: recorded.clone(),
             wall_s,

@@ -137,7 +137,7 @@ impl Cell<'_> {
 
 /// Resolution that a criterion requests for a cell.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Wish {
+pub enum ResolutionRequest {
     /// Monomers.
     Monomers,
     /// Rod, unless another criterion requests monomers or the present resolution.
@@ -152,11 +152,11 @@ pub enum Wish {
 /// state.
 pub trait Criterion: Debug + Send + Sync {
     /// Returns the requested resolution of a cell.
-    fn wish(&self, cell: &Cell<'_>) -> Wish;
+    fn wish(&self, cell: &Cell<'_>) -> ResolutionRequest;
 }
 
 impl Criterion for Where {
-    fn wish(&self, cell: &Cell<'_>) -> Wish {
+    fn wish(&self, cell: &Cell<'_>) -> ResolutionRequest {
         let (_, [low, high]) = self.thresholds();
         let value = value(self, cell);
         let [is_needed, is_superfluous] = match self {
@@ -164,9 +164,9 @@ impl Criterion for Where {
             _ => [value > high, value < low],
         };
         match (is_needed, is_superfluous) {
-            (true, _) => Wish::Monomers,
-            (false, true) => Wish::Rod,
-            (false, false) => Wish::Stay,
+            (true, _) => ResolutionRequest::Monomers,
+            (false, true) => ResolutionRequest::Rod,
+            (false, false) => ResolutionRequest::Stay,
         }
     }
 }
@@ -200,11 +200,15 @@ fn distance_nm(cell: &Cell<'_>, linker: usize) -> f64 {
 }
 
 /// Combines several criteria: monomers if any requests them, a rod if all request it.
-pub(super) fn wish_of(criteria: &[Box<dyn Criterion>], cell: &Cell<'_>) -> Wish {
+pub(super) fn wish_of(criteria: &[Box<dyn Criterion>], cell: &Cell<'_>) -> ResolutionRequest {
     let wishes = criteria.iter().map(|criterion| criterion.wish(cell));
-    wishes.fold(Wish::Rod, |so_far, wish| match (so_far, wish) {
-        (Wish::Monomers, _) | (_, Wish::Monomers) => Wish::Monomers,
-        (Wish::Rod, wish) => wish,
-        (Wish::Stay, _) => Wish::Stay,
+    wishes.fold(ResolutionRequest::Rod, |so_far, wish| {
+        match (so_far, wish) {
+            (ResolutionRequest::Monomers, _) | (_, ResolutionRequest::Monomers) => {
+                ResolutionRequest::Monomers
+            }
+            (ResolutionRequest::Rod, wish) => wish,
+            (ResolutionRequest::Stay, _) => ResolutionRequest::Stay,
+        }
     })
 }

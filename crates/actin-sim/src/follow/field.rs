@@ -10,10 +10,8 @@ use nalgebra::{DMatrix, DVector};
 /// alternation of strands.
 const MONOMERS_BESIDE: usize = 4;
 
-/// Cross-section and its motion.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct CrossSection {
-    /// Position (nm).
     pub(super) place: Vector3,
     /// Axes (body to lab).
     pub(super) axes: UnitQuaternion,
@@ -23,7 +21,6 @@ pub(super) struct CrossSection {
     pub(super) angular_velocity: Vector3,
 }
 
-/// Arc length (nm) and value of a sample.
 type Known = (f64, Vector3);
 
 /// Cross-sections of a filament interpolated from its bodies.
@@ -37,7 +34,6 @@ pub(super) struct Field {
     monomers: Vec<Monomer>,
 }
 
-/// Monomer projected to the axis.
 #[derive(Clone, Copy, Debug)]
 struct Monomer {
     s_nm: f64,
@@ -48,7 +44,6 @@ struct Monomer {
 }
 
 impl Field {
-    /// Creates the field of filament 0.
     pub(super) fn of(assembly: &Assembly, state: &State) -> Self {
         let monomers = monomers(assembly, state);
         let nodes = (0..assembly.points.len())
@@ -105,7 +100,6 @@ impl Field {
     }
 }
 
-/// Angular velocity of a frame (rad/ns, lab frame).
 pub(super) fn angular_velocity(state: &State, i: usize) -> Vector3 {
     let momentum = state.frames.angular_momentum.get(i);
     state.frames.orientation.get(i) * state.frames.angular_velocity(i, momentum)

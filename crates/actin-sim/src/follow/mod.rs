@@ -28,6 +28,6 @@ mod settling;
 mod transfer;
 
 pub(crate) use cells::Cells;
-pub use chain::{Beginning, Followed, Follower, Left, Next, Ran, Stretch};
-pub use criterion::{Cell, Criterion, FilamentState, Wish};
+pub use chain::{Beginning, CompletedStretch, Followed, Follower, Next, Stretch, StretchEnd};
+pub use criterion::{Cell, Criterion, FilamentState, ResolutionRequest};
 pub use transfer::Switch;

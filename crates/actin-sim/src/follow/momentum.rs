@@ -18,7 +18,6 @@ impl Momentum {
     }
 }
 
-/// Subset of the free bodies of a state.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Bodies {
     pub(super) points: Vec<usize>,
@@ -70,7 +69,6 @@ impl Bodies {
         }
     }
 
-    /// Adds a velocity (nm/ns) and an angular velocity (rad/ns) about a centre.
     fn add(&self, state: &mut State, centre: Vector3, velocity: Vector3, turn: Vector3) {
         for &i in &self.points {
             let arm = state.points.position.get(i) - centre;

@@ -30,7 +30,6 @@ pub struct Switch {
     pub angular_momentum_change: f64,
 }
 
-/// Change of resolution at one moment.
 pub(super) struct Transfer<'a> {
     pub(super) from: &'a Assembly,
     pub(super) to: &'a Assembly,
@@ -183,7 +182,6 @@ impl Transfer<'_> {
         &self.to.filaments[0]
     }
 
-    /// Cross-section of the old filament at an arc length (nm).
     fn cross_section(&self, field: &Field, s_nm: f64) -> CrossSection {
         let sections = self.from.sections_of(0);
         let behind = sections.partition_point(|section| section.to_nm < s_nm);
@@ -195,7 +193,6 @@ impl Transfer<'_> {
     }
 }
 
-/// New bodies with their cross-sections.
 #[derive(Default)]
 struct Made {
     points: Vec<(usize, CrossSection)>,
@@ -203,7 +200,6 @@ struct Made {
 }
 
 impl Made {
-    /// Sets velocities of new bodies to the motion of their cross-sections.
     fn move_along(&self, state: &mut State) {
         for (i, section) in &self.points {
             let arm = state.points.position.get(*i) - section.place;

@@ -1,6 +1,6 @@
 //! Stable codes of warnings, for use by other programs.
 
-/// Rods left the data behind their law; their results there are extrapolated.
+/// Rods exceed the data of their law; results there are extrapolated.
 pub const LAW_RANGE: &str = "law-range";
 /// Force along a rod makes its twist unstable.
 pub const UNSTABLE_TWIST: &str = "unstable-twist";

@@ -25,7 +25,6 @@ fn fitted_without_heat(law: &RodLaw) -> Option<(&'static str, InBath)> {
     }
 }
 
-/// Command that measures these values.
 const COMMAND: &str = "cargo run --release -p actin-paper --example persistence_length";
 
 /// Warnings on the laws of a filament's rods, in a heat bath of temperature `bath_k` (K) or without
@@ -46,7 +45,6 @@ pub(super) fn notes(filament: &Filament, bath_k: Option<f64>) -> Vec<String> {
 /// Largest difference (K) between the temperatures of the free energy and of the bath.
 const NEAR_K: f64 = 10.0;
 
-/// Warning on a free energy at another temperature than the bath.
 fn far_from(temperature_k: f64) -> Option<String> {
     let own = Homogenised::HEATED_K;
     ((temperature_k - own).abs() > NEAR_K).then(|| {
@@ -81,11 +79,9 @@ fn is_of_others(rod: &RodModel, monomers: &Monomers) -> bool {
     rod.law.is_homogenised() && *monomers != same
 }
 
-/// Warning on rods for other monomers.
 const OF_OTHERS: &str = "rods under the law Homogenised: the law was derived from monomers of the default shape, lattice and bonds, but \
     the monomers of this scene differ; resolve them, or write law: Constant with suitable rigidities";
 
-/// Warning on rods under a potential in filaments with sampled bonds.
 fn drawn_bonds(rod: &RodModel, monomers: &Monomers, in_bath: bool) -> Option<String> {
     let bonds = monomers
         .drawn_bonds()
@@ -107,22 +103,19 @@ fn drawn_bonds(rod: &RodModel, monomers: &Monomers, in_bath: bool) -> Option<Str
     }
 }
 
-/// Warning on the free energy with sampled bonds.
 const DRAWN_IN_BATH: &str = "rods under the law Homogenised at 298 K: they represent the mean filament, although this scene has sampled \
     bonds. The persistence length is 11.2 um with 64 sampled bonds per interface, and 11.5 um for the mean filament \
     (docs/measured/heat.md)";
 
 /// Warning on the published rigidities, with the numbers of bounds met
 /// (`docs/tables/load-cases.md`).
-const CONSTANT: &str = "rods under the law Constant, the published rigidities: compared with 92 numbers of filaments of monomers under \
+const CONSTANT: &str = "rods under the law Constant, the published rigidities: of 92 numbers of filaments of monomers under \
     various loads, this law meets 11 within the required tolerance, Homogenised 82 (cargo xtask load-cases)";
 
-/// Warning on the free energy without a heat bath.
 const HEATED: &str = "rods under the law HomogenisedAt298K without a heat bath: their free energy at 298 K is minimal at a \
     length 0.46 % below the length as built, so that a rod held at both ends is under tension; Homogenised without heat \
     is the energy of monomers at zero temperature";
 
-/// Warning on the energy at zero temperature in a heat bath.
 const ATHERMAL: &str = "rods under the law HomogenisedAthermal in a heat bath: it is the energy at zero \
     temperature, not a free energy. At 298 K free rods of 110 nm in segments of 10 nm have a persistence length of \
     11.0 um and a twisting rigidity of 7.8e3 pN nm^2, monomers 11.5 um and 7.6e3 pN nm^2 (cargo xtask load-cases)";
@@ -223,7 +216,7 @@ mod tests {
     }
 
     #[test]
-    fn bounds_that_are_met_are_those_of_the_table() {
+    fn numbers_of_met_bounds_agree_with_the_table() {
         let table = include_str!("../../../../docs/tables/load-cases.md");
         let met = |law: &str| -> [u32; 2] {
             let rows = table.lines().map(|line| line.split('|').map(str::trim));

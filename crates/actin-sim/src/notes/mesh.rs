@@ -10,7 +10,6 @@ const LONG: f64 = 0.1;
 const FINE: f64 = 0.01;
 
 impl Assembly {
-    /// Warnings on clamped filaments with long segments.
     pub(super) fn long_segments(&self) -> Vec<String> {
         let filaments = 0..self.filaments.len();
         let notes = filaments.filter_map(|filament| {
@@ -57,7 +56,6 @@ impl Assembly {
         Some(factor * cubes / length.powi(3))
     }
 
-    /// Lengths of the segments of a filament's rods (nm).
     fn segments_of(&self, filament: usize) -> impl Iterator<Item = f64> + '_ {
         let rods = self.rods.iter();
         let own = rods.filter(move |rod| self.filament_of_section(rod.section) == filament);

@@ -55,7 +55,6 @@ impl fmt::Display for Note {
     }
 }
 
-/// Creates warnings of one code.
 fn warnings(
     code: &'static str,
     messages: impl IntoIterator<Item = String>,
@@ -151,7 +150,6 @@ impl Assembly {
         untold.collect()
     }
 
-    /// Warning on the shortest rod under a homogenised law.
     fn short_rods(&self) -> Option<String> {
         let under_law = |rod: &&Rod| {
             let filament = self.filament_of_section(rod.section);
@@ -175,7 +173,6 @@ impl Assembly {
 }
 
 impl Sampled {
-    /// Note on the accuracy of a run of quasi-harmonic monomers.
     fn note(&self) -> Note {
         let Self { monomers, error } = self;
         let is_unsure = *error > UNSURE;
@@ -254,7 +251,6 @@ impl Outcome {
     }
 }
 
-/// Warnings on filaments for which a loss of twist is undecided.
 fn unknown_twist(assembly: &Assembly, last: &Record) -> Vec<String> {
     let filaments = 0..assembly.filaments.len();
     let here = (&last.state, last.at);
@@ -291,7 +287,6 @@ fn several_states(assembly: &Assembly, state: &State) -> Option<String> {
     ))
 }
 
-/// Warning on loads that act in full along a path that sets none of them.
 fn loads_along_path(scene: &Scene) -> Option<String> {
     let unset = unset_loads(scene);
     let first = unset.first()?;
@@ -306,7 +301,6 @@ fn loads_along_path(scene: &Scene) -> Option<String> {
     ))
 }
 
-/// Warning on quadrature bonds that are too few to meet all moments.
 fn few_bonds(monomers: &Monomers, kind: InterfaceKind) -> Option<String> {
     if monomers.anchors != Anchors::Cubature {
         return None;

@@ -35,7 +35,6 @@ impl Observe for Contour {
     }
 }
 
-/// Rest length (nm) and both ends (nm) of each edge.
 fn edges(ribbon: &Ribbon) -> impl Iterator<Item = (f64, Vector3, Vector3)> + '_ {
     let lengths = ribbon.s_nm.windows(2).map(|s| s[1] - s[0]);
     let ends = ribbon.points_nm.windows(2).map(|p| (p[0], p[1]));

@@ -5,7 +5,6 @@ use crate::scene::Point;
 use crate::{Assembly, End, Estimate};
 use actin_mechanics::Vector3;
 
-/// Relative tolerance for equal times.
 const SAME: f64 = 1e-6;
 
 /// Squared displacement of a point since the first record or over a lag.
@@ -17,7 +16,6 @@ pub(super) struct SquaredDisplacement {
 }
 
 impl SquaredDisplacement {
-    /// Position of the point (nm).
     fn place(&self, view: &View<'_>) -> Vector3 {
         match self.of {
             Point::Tip => view.assembly.tip_of(self.filament, view.state, End::End),

@@ -11,7 +11,6 @@ pub(crate) struct Names {
 }
 
 impl Names {
-    /// Names of the terms of an assembly.
     pub(crate) fn of(assembly: &Assembly) -> Self {
         let mut parts: Vec<Part> = Vec::new();
         let mut place = |part: Part| match part {

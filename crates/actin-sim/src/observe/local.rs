@@ -80,7 +80,6 @@ fn strains(ribbon: &Ribbon) -> Vec<Vector3> {
         .collect()
 }
 
-/// Linear interpolation at ascending places, constant beyond.
 fn between(places: &[f64], values: &[Vector3], at: f64) -> Vector3 {
     let last = places.len() - 1;
     let above = places.partition_point(|&place| place < at);

@@ -47,7 +47,6 @@ pub struct DerivedLength {
 }
 
 impl ObservableSummary {
-    /// Numbers with their keys.
     pub(crate) fn scalars(&self, name: &str) -> Vec<(String, f64)> {
         let mean = self.mean.unwrap_or_default();
         let derived = mean.derived.unwrap_or_default();
@@ -98,7 +97,6 @@ impl<'a> Averages<'a> {
         all.end()
     }
 
-    /// Adds the row of the next record at a time (ns).
     pub(crate) fn add(&mut self, time_ns: f64, row: &[f64]) {
         if self.from_ns.is_some_and(|from| time_ns >= from) {
             let known = self.columns.iter_mut().zip(row);
@@ -109,7 +107,6 @@ impl<'a> Averages<'a> {
         self.last = row.to_vec();
     }
 
-    /// Summaries of all columns by name.
     pub(crate) fn end(self) -> BTreeMap<String, ObservableSummary> {
         let names = self.observers.columns().iter().enumerate();
         let one = |(i, name): (usize, &String)| {

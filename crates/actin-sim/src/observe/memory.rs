@@ -10,14 +10,12 @@ pub(crate) struct Memory(Vec<Past>);
 /// Positions stored by one observer; empty for most.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(super) struct Past {
-    /// Position at the first record (nm).
     pub(super) first: Option<[f64; 3]>,
     /// Times (ns) and positions (nm) at later records, in order.
     pub(super) recent: VecDeque<(f64, [f64; 3])>,
 }
 
 impl Memory {
-    /// Initial state of this number of observers.
     pub(super) fn of(observers: usize) -> Self {
         Self(vec![Past::default(); observers])
     }
@@ -26,7 +24,6 @@ impl Memory {
         self.0.iter_mut()
     }
 
-    /// Returns `true` if both have the same number of observers.
     pub(crate) fn fits(&self, other: &Self) -> bool {
         self.0.len() == other.0.len()
     }

@@ -33,7 +33,6 @@ use std::fmt::Debug;
 
 /// Observer of some columns.
 trait Observe: Debug + Send + Sync {
-    /// Names of the columns with units.
     fn columns(&self) -> Vec<String>;
 
     /// Appends the values of the columns, NaN if not yet defined. `past` is the observer's state.
@@ -54,7 +53,6 @@ trait Observe: Debug + Send + Sync {
 /// Key below the observable, its value and the violated rule.
 type Checked = Result<(), (&'static str, f64, String)>;
 
-/// All observers of a scene.
 #[derive(Debug, Default)]
 pub(crate) struct Observers {
     list: Vec<Box<dyn Observe>>,
@@ -62,7 +60,6 @@ pub(crate) struct Observers {
 }
 
 impl Observers {
-    /// Creates the observers of a scene with terms named by `energies`.
     pub(crate) fn new(scene: &Scene, energies: &energies::Names) -> Self {
         let list: Vec<_> = scene
             .observe
@@ -73,12 +70,10 @@ impl Observers {
         Self { list, columns }
     }
 
-    /// Names of all columns.
     pub(crate) fn columns(&self) -> &[String] {
         &self.columns
     }
 
-    /// Initial state of the observers.
     pub(crate) fn memory(&self) -> Memory {
         Memory::of(self.list.len())
     }
@@ -92,7 +87,6 @@ impl Observers {
         row
     }
 
-    /// Length derived from the mean of a column and its standard error.
     pub(crate) fn derived(
         &self,
         column: &str,
@@ -166,7 +160,6 @@ fn vector(name: &str, unit: &str) -> Vec<String> {
         .into()
 }
 
-/// Name of an end in columns; the end of the filament is the tip.
 fn end_name(end: crate::End) -> &'static str {
     match end {
         crate::End::Start => "start",

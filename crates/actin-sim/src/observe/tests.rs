@@ -1,7 +1,7 @@
 //! Observed quantities against theory, summaries and profiles of the same state.
 
 use super::View;
-use crate::{Assembly, At, Booked, End, Plan, Record, Scene, Summary};
+use crate::{Assembly, At, End, EnergyExchange, Plan, Record, Scene, Summary};
 use actin_mechanics::{State, Vector3, Xorshift, perturb, rotation};
 
 pub(super) fn build(text: &str) -> Assembly {
@@ -27,7 +27,6 @@ pub(super) fn value(assembly: &Assembly, row: &[f64], column: &str) -> f64 {
     row[place.unwrap_or_else(|| panic!("{column} is not in {columns:?}"))]
 }
 
-/// All observables of a mixed filament with a linker.
 const ALL: &str = "Scene(
     filament: Filament(sections: [
         Ellipsoids(from_nm: 0.0, to_nm: 30.0), Rod(from_nm: 30.0, to_nm: 80.0),
@@ -48,7 +47,6 @@ const ALL: &str = "Scene(
     task: Dynamics(duration_ns: 1.0, record_every_ns: 0.25),
 )";
 
-/// Record of the mixed filament in a random state near rest, and its summary.
 fn recorded(assembly: &Assembly) -> (Record, Summary) {
     let mut state = assembly.rest.clone();
     perturb(&mut state, &mut Xorshift::new(5), 0.05, 0.02);
@@ -59,7 +57,7 @@ fn recorded(assembly: &Assembly) -> (Record, Summary) {
         kinetic_pn_nm: 0.25,
         residual_force_pn: 0.0,
         residual_torque_pn_nm: 0.0,
-        booked: Booked::default(),
+        booked: EnergyExchange::default(),
         observed: observe(assembly, &state),
         state,
     };
@@ -255,7 +253,7 @@ fn tangents_correlate_over_any_distance() {
 }
 
 #[test]
-fn ends_are_told_apart() {
+fn ends_are_distinguished() {
     let assembly = build(ALL);
     let row = observe(&assembly, &assembly.rest);
     let start = assembly.tip_nm(&assembly.rest, End::Start);

@@ -5,21 +5,17 @@ use crate::{Assembly, At};
 use actin_mechanics::{Loads, State};
 use std::cell::OnceCell;
 
-/// Record under evaluation.
 pub(crate) struct View<'a> {
     pub(crate) assembly: &'a Assembly,
     pub(crate) at: At,
     pub(crate) state: &'a State,
-    /// Energy of each term (pN nm).
     pub(crate) energies_pn_nm: &'a [f64],
-    /// Kinetic energy (pN nm).
     pub(crate) kinetic_pn_nm: f64,
     ribbons: Vec<OnceCell<Ribbon>>,
     loads: OnceCell<Loads>,
 }
 
 impl<'a> View<'a> {
-    /// Creates the view of a state of `assembly` with its energies.
     pub(crate) fn new(
         assembly: &'a Assembly,
         (at, state): (At, &'a State),
@@ -36,7 +32,6 @@ impl<'a> View<'a> {
         }
     }
 
-    /// Centre line of a filament.
     pub(crate) fn ribbon(&self, filament: usize) -> &Ribbon {
         let of = || Ribbon::of(self.assembly, filament, self.state);
         self.ribbons[filament].get_or_init(of)

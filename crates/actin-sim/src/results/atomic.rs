@@ -1,25 +1,23 @@
-//! Files that are whole or not there: written under another name, and renamed when they are complete.
-//! What a file holds, and whose it is, is not known here.
+//! Atomic replacement of files: written under a temporary name, renamed when complete.
 
 use std::fs::{self, File};
 use std::io::{self, BufWriter};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// Appended to the name of a file that is not complete yet.
+/// Suffix of incomplete files.
 pub(super) const UNFINISHED: &str = ".part";
 
-/// Files that wait for the disk at the same time: a hundred small ones then take as long as ten.
+/// Number of concurrent `fsync` calls. A hundred small files then take as long as ten.
 const SYNCED_AT_ONCE: usize = 8;
 
-/// The name under which a file is written until it is complete.
 pub(super) fn unfinished(path: &Path) -> PathBuf {
     let mut name = path.as_os_str().to_owned();
     name.push(UNFINISHED);
     name.into()
 }
 
-/// Writes a file under its unfinished name; if that fails, nothing is left of it.
+/// Writes a file under its temporary name and removes it on failure.
 pub(super) fn stage(
     path: &Path,
     fill: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>,
@@ -37,19 +35,18 @@ fn stage_as(
         out.into_inner().map(drop).map_err(io::Error::from)
     });
     if written.is_err() {
-        // The error that led here says more than one about the removal could.
+        // The first error is the relevant one.
         let _ = fs::remove_file(unfinished);
     }
     written
 }
 
-/// Gives a file that was staged its name. What had that name is gone; a link goes itself, and what
-/// it points to stays.
+/// Renames a staged file to its final name. An existing link there is replaced, not followed.
 pub(super) fn publish(path: &Path) -> io::Result<()> {
     fs::rename(unfinished(path), path)
 }
 
-/// Puts a whole file in the place of `path`, or leaves what was there.
+/// Replaces `path` by a complete file; on failure the old file stays.
 pub(super) fn replace(
     path: &Path,
     fill: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>,
@@ -58,7 +55,7 @@ pub(super) fn replace(
     publish_or_remove(&unfinished(path), path)
 }
 
-/// The same so that it holds even if power is lost: the file and its new name are on the disk.
+/// Replaces `path` like [`replace`], durably: the file and its name are on the disk at return.
 pub(super) fn replace_durably(
     path: &Path,
     fill: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>,
@@ -66,11 +63,13 @@ pub(super) fn replace_durably(
     replace_file(path, &unfinished(path), fill)
 }
 
-/// Puts a whole file in the place of `path`, or leaves what was there, even if power is lost. It is written as
-/// `unfinished`, in the same folder: where several processes may write the same file, a name of each its own.
+/// Replaces `path` durably by a complete file; on failure the old file stays.
+///
+/// `unfinished` is the temporary path in the same folder. It must differ between processes that may
+/// write the same file.
 ///
 /// # Errors
-/// A refusal of the file system; nothing is left of the unfinished file.
+/// A refusal of the file system; the temporary file is removed.
 pub fn replace_file(
     path: &Path,
     unfinished: &Path,
@@ -82,7 +81,7 @@ pub fn replace_file(
         out.get_ref().sync_all()
     })?;
     publish_or_remove(unfinished, path)?;
-    // That of a name without a folder is the empty path, which stands for the working directory.
+    // The parent of a bare file name is empty and means the working directory.
     let folder = path
         .parent()
         .filter(|folder| !folder.as_os_str().is_empty());
@@ -95,7 +94,7 @@ fn publish_or_remove(unfinished: &Path, path: &Path) -> io::Result<()> {
     })
 }
 
-/// A new file. One that a killed run has left goes; a link is never followed.
+/// Creates a new file in place of one left by a killed run, without following links.
 fn create(path: &Path) -> io::Result<File> {
     let create = || File::options().write(true).create_new(true).open(path);
     create().or_else(|error| match error.kind() {
@@ -104,9 +103,8 @@ fn create(path: &Path) -> io::Result<File> {
     })
 }
 
-/// Waits until a file or directory is on the disk.
 pub(super) fn sync(path: &Path) -> io::Result<()> {
-    // Some systems cannot open a directory; there a rename is as durable as it gets.
+    // Some systems cannot open directories; the rename alone has to suffice there.
     match File::open(path) {
         Ok(file) => file.sync_all(),
         Err(error) if error.kind() == io::ErrorKind::PermissionDenied => Ok(()),
@@ -114,7 +112,7 @@ pub(super) fn sync(path: &Path) -> io::Result<()> {
     }
 }
 
-/// Waits until `count` files, each at a `path`, are on the disk; otherwise says which is not.
+/// Waits until `count` files are on the disk. An error names the first file that fails.
 pub(super) fn sync_all(
     count: usize,
     path: impl Fn(usize) -> PathBuf + Sync,
@@ -145,9 +143,8 @@ mod tests {
     use crate::results::fixture::names;
     use std::io::Write;
 
-    /// What was there before stays whole, and the unfinished file is gone; both ways of replacing.
     #[test]
-    fn a_file_that_fails_half_way_is_not_seen() {
+    fn failed_writing_keeps_the_old_file() {
         type Replace = fn(&Path, fn(&mut BufWriter<File>) -> io::Result<()>) -> io::Result<()>;
         let ways: [Replace; 2] = [
             |path, fill| replace(path, fill),
@@ -167,7 +164,6 @@ mod tests {
         }
     }
 
-    /// A link in the place of a file, or of its unfinished name, is replaced; what it points to stays.
     #[cfg(unix)]
     #[test]
     fn links_are_not_followed() {
@@ -184,9 +180,8 @@ mod tests {
         assert_eq!(names(folder.path()), ["mine", "table.csv"]);
     }
 
-    /// More files than threads; one that is missing is named.
     #[test]
-    fn all_files_reach_the_disk_or_one_is_named() {
+    fn sync_all_names_the_missing_file() {
         let folder = tempfile::tempdir().unwrap();
         let paths: Vec<_> = (0..3 * SYNCED_AT_ONCE)
             .map(|i| folder.path().join(i.to_string()))

@@ -1,17 +1,17 @@
-//! Where two texts differ.
+//! Comparison of two texts.
 
-/// The first line in which two texts differ.
+/// First line in which two texts differ.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Difference {
-    /// Its number, from 1.
+    /// Line number, starting at 1.
     pub line: usize,
-    /// The line of the one text, without white space around it; empty behind its end.
+    /// Line of the first text, trimmed; empty after its end.
     pub kept: String,
-    /// The same of the other.
+    /// Line of the second text, trimmed; empty after its end.
     pub given: String,
 }
 
-/// The first line in which two texts differ; none of the same text.
+/// Returns the first line in which two texts differ; `None` if they are equal.
 pub fn first_difference(kept: &str, given: &str) -> Option<Difference> {
     if kept == given {
         return None;
@@ -33,7 +33,6 @@ pub fn first_difference(kept: &str, given: &str) -> Option<Difference> {
 mod tests {
     use super::*;
 
-    /// A changed line, a text that goes on, texts that differ in how their last line ends.
     #[test]
     fn the_first_line_is_found() {
         let of = |a, b| first_difference(a, b).map(|d| (d.line, d.kept, d.given));

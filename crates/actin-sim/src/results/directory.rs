@@ -1,5 +1,4 @@
-//! The directory itself: what a run may take, replace and remove. It does not know what its files
-//! hold.
+//! Creation, overwriting and reopening of run directories.
 
 use super::RunDirectoryError;
 use super::atomic::UNFINISHED;
@@ -11,34 +10,36 @@ use std::path::{Path, PathBuf};
 
 /// A directory that holds the results of one run.
 ///
-/// Results are written under other names and renamed when all of them are complete and on the disk, so
-/// that a run that is interrupted, or a disk that is full, leaves no half file under a final name, and
-/// no new file beside an old one. `summary.json` comes last: where it is, the rest is complete.
+/// Results are written under temporary names. They are renamed after all of them are complete and
+/// on the disk, so an interrupted run or a full disk leaves no partial results. `summary.json` is
+/// renamed last: if it exists, all other results are complete.
 ///
-/// `actin-run.json`, the manifest, lists what the run has written. Only files that it lists are ever
-/// replaced or removed, and links are not followed.
+/// The manifest `actin-run.json` lists the files of the run. Only listed files are replaced or
+/// removed, and links are not followed.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct RunDirectory {
     pub(super) path: PathBuf,
 }
 
 impl RunDirectory {
-    /// Creates the directory, and those above it, if need be.
+    /// Creates the directory and its parents if they do not exist.
     ///
-    /// With `overwrite`, the files that an earlier run's manifest lists are removed at once, so that
-    /// results of two runs never stand side by side; files of other names are left alone.
+    /// With `overwrite`, the files listed in the manifest of an earlier run are removed; all other
+    /// files stay.
     ///
     /// # Errors
-    /// A path that is no directory; a directory in which another run goes on or that is not empty
-    /// (unless `overwrite`); with `overwrite`, one without a manifest, one that holds something that
-    /// would have to go and that the manifest does not list, one in which a text (`scene.ron`, tables) was
-    /// changed after the run, or a link to a directory; a refusal of the file system. Nothing has been removed then,
-    /// unless the file system refuses half way.
+    /// - The path is not a directory, or another run is using it.
+    /// - The directory is not empty and `overwrite` is false.
+    /// - With `overwrite`: the directory has no manifest or is a link, an unlisted file has the name
+    ///   of a result, or a text (`scene.ron`, a table) was changed after the run.
+    /// - The file system refuses an operation.
+    ///
+    /// Nothing has been removed then, unless the file system refuses a removal.
     pub fn create(path: impl AsRef<Path>, overwrite: bool) -> Result<Self, RunDirectoryError> {
         Self::create_locked(path, overwrite).map(|(directory, _)| directory)
     }
 
-    /// The same, with what keeps other runs out of it.
+    /// Creates the directory like [`create`](Self::create) and returns it with its lock.
     ///
     /// # Errors
     /// As [`create`](Self::create).
@@ -52,13 +53,13 @@ impl RunDirectory {
         }
         fs::create_dir_all(&path).map_err(RunDirectoryError::io(&path))?;
         let directory = Self { path };
-        // Without a lock, for which one may have to be allowed to write.
+        // Checked before locking, which may require write permission.
         if !is_empty(&directory.path)? {
             refuse_in_use(&directory.path)?;
         }
         directory.earlier_run(overwrite)?;
         let lock = RunLock::take(&directory.path)?;
-        // Again: another run may have been there in between.
+        // Checked again: another run may have written files before the lock was taken.
         if let Some(earlier) = directory.earlier_run(overwrite)? {
             earlier.remove_files(&directory.path)?;
         }
@@ -68,30 +69,30 @@ impl RunDirectory {
         Ok((directory, lock))
     }
 
-    /// Where the directory is.
+    /// Path of the directory.
     pub fn path(&self) -> &Path {
         &self.path
     }
 
-    /// Whether a run was here that has neither results nor a checkpoint: it was killed early.
+    /// Returns true if a run ended here without results and without a checkpoint.
     pub fn is_unfinished(&self) -> bool {
         let is_there = |name| self.path.join(name).exists();
         is_there(MANIFEST) && !is_there(SUMMARY) && !is_there(CHECKPOINT)
     }
 
-    /// Whether `file` lies in the directory, at any depth; links are followed to find out.
+    /// Returns true if `file` lies in the directory, at any depth. Links are followed.
     pub fn holds(&self, file: impl AsRef<Path>) -> bool {
         let [file, folder] = [file.as_ref(), &self.path].map(fs::canonicalize);
         matches!((file, folder), (Ok(file), Ok(folder)) if file.starts_with(&folder))
     }
 
-    /// Refuses to go on in a directory that holds something else in the place of a run's file.
+    /// Prepares the directory of an interrupted run for resuming, after its checkpoint was read.
     ///
-    /// To be called when its checkpoint has been read: where there is no manifest, the checkpoint tells
-    /// that a run was here, and what it has written is listed now.
+    /// If the manifest is missing, a new one lists all files that have names of results.
     ///
     /// # Errors
-    /// The file or link, a text that was changed after the run wrote it, or a refusal of the file system.
+    /// An unlisted file or link under the name of a result, a text that was changed after the run
+    /// wrote it, or a refusal of the file system.
     pub fn reopen(&self) -> Result<(), RunDirectoryError> {
         let listed = Manifest::read(&self.path)?;
         let mut manifest = listed.map_or_else(|| Manifest::of_all_in(&self.path), Ok)?;
@@ -101,7 +102,7 @@ impl RunDirectory {
         manifest.write(&self.path)
     }
 
-    /// What an earlier run has left, if the directory is not empty and it may go. Changes nothing.
+    /// Manifest of an earlier run whose files may be removed; `None` if the directory is empty.
     fn earlier_run(&self, overwrite: bool) -> Result<Option<Manifest>, RunDirectoryError> {
         let path = &self.path;
         let manifest = Manifest::read(path);
@@ -121,7 +122,6 @@ impl RunDirectory {
     }
 }
 
-/// Whether there is nothing in a directory but what keeps runs apart.
 fn is_empty(directory: &Path) -> Result<bool, RunDirectoryError> {
     let io = || RunDirectoryError::io(directory);
     let unfinished = format!("{MANIFEST}{UNFINISHED}");
@@ -134,9 +134,8 @@ fn is_empty(directory: &Path) -> Result<bool, RunDirectoryError> {
     Ok(true)
 }
 
-/// Refuses a path that is itself a link: what it points to may be meant or not.
 fn refuse_link(path: &Path) -> Result<(), RunDirectoryError> {
-    // A slash behind a link stands for what it points to; here it is the link that counts.
+    // Drops a trailing slash, which would make `read_link` follow the link.
     let path: PathBuf = path.components().collect();
     match fs::read_link(&path) {
         Ok(target) => Err(RunDirectoryError::Link { path, target }),
@@ -154,17 +153,16 @@ mod tests {
     };
 
     #[test]
-    fn a_new_or_empty_directory_is_taken() {
+    fn new_or_empty_directory_is_accepted() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("runs/one");
         assert_eq!(RunDirectory::create(&path, false).unwrap().path(), path);
         assert!(RunDirectory::create(&path, false).is_ok());
     }
 
-    /// That it is not empty is said before anything is locked, for which one may have to be allowed to
-    /// write: here a lock can never be had. One in which a run goes on is in use, with whatever in it.
+    /// A nonempty directory is refused before the lock is taken; locking is made impossible here.
     #[test]
-    fn what_is_not_empty_needs_no_lock() {
+    fn nonempty_directory_is_refused_before_locking() {
         let folder = tempfile::tempdir().unwrap();
         fs::create_dir(folder.path().join(LOCK)).unwrap();
         let refusal = || RunDirectory::create(folder.path(), false).unwrap_err();
@@ -183,7 +181,7 @@ mod tests {
     }
 
     #[test]
-    fn a_file_is_no_directory() {
+    fn file_in_place_of_the_directory_is_refused() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("file");
         fs::write(&path, "text").unwrap();
@@ -194,7 +192,6 @@ mod tests {
         assert_eq!(fs::read(&path).unwrap(), b"text");
     }
 
-    /// A run directory with files of all kinds that its manifest lists, some unfinished, some of others.
     fn earlier_run(folder: &Path) {
         fs::create_dir(folder.join(PICTURES)).unwrap();
         let mut manifest = Manifest::new();
@@ -212,7 +209,7 @@ mod tests {
         }
     }
 
-    /// Refuses to overwrite what `spoil` makes of an earlier run, and changes nothing; returns why.
+    /// Error of overwriting an earlier run modified by `spoil`; checks that no file changes.
     fn refusal(spoil: impl FnOnce(&Path)) -> String {
         let folder = tempfile::tempdir().unwrap();
         earlier_run(folder.path());
@@ -223,9 +220,8 @@ mod tests {
         error.to_string()
     }
 
-    /// Overwriting takes away what the manifest lists, and nothing else.
     #[test]
-    fn overwriting_removes_what_the_run_has_written() {
+    fn overwriting_removes_listed_files_only() {
         let folder = tempfile::tempdir().unwrap();
         earlier_run(folder.path());
         let error = RunDirectory::create(folder.path(), false).unwrap_err();
@@ -236,15 +232,13 @@ mod tests {
         assert_eq!(names(folder.path()), left);
         let pictures = names(&folder.path().join(PICTURES));
         assert_eq!(pictures, ["12.vtp", "mine.vtp"]);
-        // The new run has a manifest of its own, and nothing of the old one.
         let manifest = Manifest::read(folder.path()).unwrap().unwrap();
         assert!(manifest.names().eq([CHECKPOINT, RECORDS, SCENE]));
     }
 
-    /// Killed anywhere between the first removal and the first file of the new run: what is left can be
-    /// overwritten again, and is removed then.
+    /// Simulates a kill after each possible number of removals.
     #[test]
-    fn overwriting_that_was_killed_can_be_done_again() {
+    fn interrupted_overwriting_can_be_repeated() {
         for removed in 0..=FILES.len() {
             let folder = tempfile::tempdir().unwrap();
             earlier_run(folder.path());
@@ -255,7 +249,7 @@ mod tests {
             let left = [LOCK, MANIFEST, "notes.txt", PICTURES];
             assert_eq!(names(folder.path()), left);
         }
-        // Even before its first own file, the directory is still one that a run may take.
+        // Killed before the manifest was complete.
         let folder = tempfile::tempdir().unwrap();
         for name in [LOCK, "actin-run.json.part"] {
             fs::write(folder.path().join(name), "").unwrap();
@@ -264,10 +258,8 @@ mod tests {
         RunDirectory::create(folder.path(), false).unwrap();
     }
 
-    /// Without a manifest, with one that no run has written, with a file in the way that it does not
-    /// list: refused by name, and everything stays.
     #[test]
-    fn what_no_manifest_lists_is_not_overwritten() {
+    fn unlisted_files_are_not_overwritten() {
         let without = refusal(|folder| fs::remove_file(folder.join(MANIFEST)).unwrap());
         assert!(without.contains(MANIFEST), "{without}");
         let foreign = refusal(|folder| fs::write(folder.join(MANIFEST), "{}").unwrap());
@@ -284,7 +276,6 @@ mod tests {
         assert!(folder.contains("profile.csv was not written"), "{folder}");
     }
 
-    /// Nothing goes through a link: of a file, of the pictures, of the directory, with a slash or not.
     #[cfg(unix)]
     #[test]
     fn links_are_not_followed() {
@@ -316,10 +307,9 @@ mod tests {
         assert!(matches!(error, RunDirectoryError::NotADirectory { .. }));
     }
 
-    /// A run that goes on finds its files; something else in their place is refused. An older run
-    /// without a manifest gets one.
+    /// An old run without a manifest gets one.
     #[test]
-    fn a_directory_is_reopened_with_its_own_files() {
+    fn reopening_requires_files_of_the_run() {
         let folder = tempfile::tempdir().unwrap();
         earlier_run(folder.path());
         let directory = RunDirectory::existing(folder.path());
@@ -335,7 +325,7 @@ mod tests {
     }
 
     #[test]
-    fn what_lies_in_the_directory_is_known() {
+    fn holds_finds_files_at_any_depth() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("a");
         fs::create_dir_all(path.join("deep")).unwrap();

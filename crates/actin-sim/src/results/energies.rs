@@ -1,28 +1,25 @@
-//! `energies.csv`: energies and residuals of every record, per term and per part.
+//! `energies.csv`: energies and residuals of every record, by term and by part.
 
 use super::clock;
 use super::names::ENERGIES;
 use super::{RunDirectoryError, finite::ensure_finite_in};
-use crate::{Assembly, Booked, Part, Records, Row, Term};
+use crate::{Assembly, EnergyExchange, Part, Records, Row, Term};
 use std::collections::HashMap;
 use std::hash::Hash;
 use std::io::{self, Write};
 
-/// Energies of one record, in pN nm.
+/// Energies of one record (pN nm).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Totals {
-    /// Potential and kinetic energy.
+    /// Sum of potential and kinetic energy.
     pub total: f64,
-    /// Energy of all interactions.
     pub potential: f64,
-    /// Energy of all interactions but loads.
+    /// Energy of all interactions except loads.
     pub elastic: f64,
-    /// Kinetic energy of the free bodies.
     pub kinetic: f64,
 }
 
 impl Totals {
-    /// The totals of a record whose energies belong to `terms`.
     pub(super) fn new(terms: &[Term], record: &Row) -> Self {
         let potential = sum_where(terms, record, |_| true);
         let elastic = sum_where(terms, record, |term| !matches!(term.part, Part::Load(_)));
@@ -35,7 +32,7 @@ impl Totals {
     }
 }
 
-/// Energy of those terms of a record that `belongs` accepts (pN nm).
+/// Energy of the terms accepted by `belongs` (pN nm).
 pub(super) fn sum_where(terms: &[Term], record: &Row, belongs: impl Fn(&Term) -> bool) -> f64 {
     let energies = terms.iter().zip(&record.energies_pn_nm);
     energies
@@ -44,12 +41,12 @@ pub(super) fn sum_where(terms: &[Term], record: &Row, belongs: impl Fn(&Term) ->
         .sum()
 }
 
-/// The different values of `of`, in the order in which the terms bring them.
+/// Distinct values of `of`, in order of first occurrence.
 pub(super) fn distinct<T: Eq + Hash + Copy>(terms: &[Term], of: impl Fn(&Term) -> T) -> Vec<T> {
     places(terms, of).0
 }
 
-/// The same, and for each term the place of its value among them.
+/// Distinct values of `of`, and for each term the index of its value.
 fn places<T: Eq + Hash + Copy>(terms: &[Term], of: impl Fn(&Term) -> T) -> (Vec<T>, Vec<usize>) {
     let (mut values, mut known) = (Vec::new(), HashMap::new());
     let place = |value: T| {
@@ -62,20 +59,17 @@ fn places<T: Eq + Hash + Copy>(terms: &[Term], of: impl Fn(&Term) -> T) -> (Vec<
     (values, places)
 }
 
-/// The table: a header and one row for each record.
 #[derive(Debug)]
 pub(super) struct EnergyTable<'a> {
     terms: &'a [Term],
     header: Vec<String>,
-    /// For each term the place of its name, and that of its part, behind those of all names.
+    /// Column of the name and of the part of each term; columns of parts follow those of names.
     places: [Vec<usize>; 2],
     sums: usize,
-    /// What stands in the columns of what came from outside.
-    booked: Vec<fn(&Booked) -> f64>,
+    booked: Vec<fn(&EnergyExchange) -> f64>,
 }
 
 impl<'a> EnergyTable<'a> {
-    /// The table of records whose energies belong to the terms of `assembly`.
     pub(super) fn new(assembly: &'a Assembly) -> Self {
         let terms = &assembly.terms;
         let (names, by_name) = places(terms, |term| term.name);
@@ -94,9 +88,8 @@ impl<'a> EnergyTable<'a> {
         }
     }
 
-    /// The row of a record.
     fn row(&self, record: &Row) -> Vec<f64> {
-        // What the sum of no numbers is: a term of -0 stays as it is.
+        // Adding to -0.0 preserves the sign of a term of -0.0.
         let mut sums = vec![-0.0; self.sums];
         for places in &self.places {
             for (energy, &place) in record.energies_pn_nm.iter().zip(places) {
@@ -108,19 +101,12 @@ impl<'a> EnergyTable<'a> {
         row
     }
 
-    /// Refuses numbers of record `i` that are not finite.
-    ///
-    /// # Errors
-    /// The first such number, with its column and the index of its row.
     pub(super) fn ensure_finite(&self, i: usize, record: &Row) -> Result<(), RunDirectoryError> {
         let mut columns = self.header.iter().zip(self.row(record));
         columns.try_for_each(|(name, value)| ensure_finite_in((ENERGIES, name), i, &[], [value]))
     }
 
-    /// Writes the table of `records`. Numbers have as many digits as bring them back exactly.
-    ///
-    /// # Errors
-    /// Those of `out` and of the records.
+    /// Writes the table of `records`. Numbers have enough digits for an exact round trip.
     pub(super) fn write(&self, records: &dyn Records, out: &mut impl Write) -> io::Result<()> {
         let mut writer = csv::Writer::from_writer(out);
         writer.write_record(&self.header)?;
@@ -140,7 +126,7 @@ fn header(assembly: &Assembly, names: &[&str], parts: &[Part]) -> Vec<String> {
         .chain(parts.iter().map(|part| assembly.name_of(*part)))
         .map(|name| format!("{name}_pn_nm"));
     let residuals = ["residual_force_pn", "residual_torque_pn_nm"].map(str::to_owned);
-    // What has come from outside so far: the total less these is constant.
+    // Energy supplied from outside; the total minus these columns is constant.
     let booked = assembly.booked_columns().into_iter();
     let booked = booked.map(|(name, _)| name.to_owned());
     std::iter::once(clock(assembly).to_owned())
@@ -150,7 +136,6 @@ fn header(assembly: &Assembly, names: &[&str], parts: &[Part]) -> Vec<String> {
         .collect()
 }
 
-/// One row, with sums of energies by name and by part.
 fn row(terms: &[Term], record: &Row, sums: Vec<f64>) -> Vec<f64> {
     let totals = Totals::new(terms, record);
     [
@@ -194,7 +179,6 @@ mod tests {
         &row[header.iter().position(|h| h == name).unwrap()]
     }
 
-    /// Every name of the fixed layout is there, once, and every unit with it.
     #[test]
     fn columns_are_named_with_their_units() {
         let assembly = fixture::linked();
@@ -229,9 +213,9 @@ mod tests {
         }
     }
 
-    /// Parts of filament 0 keep their names; those of others carry the index of their filament.
+    /// Parts of filament 0 have no index in their names.
     #[test]
-    fn parts_of_further_filaments_are_told_apart() {
+    fn parts_of_further_filaments_have_an_index() {
         let assembly = fixture::pair();
         let (header, rows) = table_of(&assembly, &fixture::trajectory(&assembly));
         let parts = [
@@ -245,15 +229,14 @@ mod tests {
         ];
         let values = parts.map(|name| *column(&header, &rows[0], &format!("{name}_pn_nm")));
         let elastic = *column(&header, &rows[0], "elastic_pn_nm");
-        // A few additions in another order.
+        // Round-off of sums in different order.
         assert!((values.iter().sum::<f64>() / elastic - 1.0).abs() < 1e-13);
         assert!(values.iter().all(|v| *v > 0.0));
     }
 
-    /// Single numbers come back bit for bit: fewer digits would be enough for a plot, but not for
-    /// an energy error of 1e-8.
+    /// Energy errors of 1e-8 require all digits.
     #[test]
-    fn numbers_come_back_exactly() {
+    fn numbers_survive_the_round_trip() {
         let assembly = fixture::clamped_start();
         let trajectory = fixture::trajectory(&assembly);
         let (header, rows) = table_of(&assembly, &trajectory);
@@ -281,10 +264,8 @@ mod tests {
         }
     }
 
-    /// Names and parts are two ways to cut the same potential: a term counted twice or left out
-    /// shows in one of the sums.
     #[test]
-    fn names_and_parts_each_add_up_to_the_potential() {
+    fn sums_over_names_and_parts_equal_the_potential() {
         let assembly = fixture::clamped_start();
         let (header, rows) = table_of(&assembly, &fixture::trajectory(&assembly));
         let names = distinct(&assembly.terms, |term| term.name);
@@ -295,7 +276,7 @@ mod tests {
             let of = |name: &str| *column(&header, row, &format!("{name}_pn_nm"));
             let sum = |names: &[String]| names.iter().map(|name| of(name)).sum::<f64>();
             let scale: f64 = parts.iter().map(|part| of(part).abs()).sum();
-            // A few additions in another order: some units of round-off.
+            // Round-off of sums in different order.
             let same = |a: f64, b: f64| (a - b).abs() <= 1e-14 * scale;
             assert!(same(sum(&names), of("potential")));
             assert!(same(sum(&parts), of("potential")));

@@ -1,24 +1,24 @@
-//! Why a run directory was refused or could not be written.
+//! Errors of run directories.
 
 use super::names::MANIFEST;
 use std::io;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
 
-/// Why a run directory was refused or could not be written.
+/// Error of reading or writing a run directory.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum RunDirectoryError {
-    /// There is something in the directory already.
+    /// The directory is not empty.
     #[error(
-        "{} exists and is not empty: results are never overwritten unless that is asked for; \
-         name another directory, or ask to overwrite", .path.display()
+        "{} exists and is not empty: results are never overwritten without request; \
+         name another directory, or request overwriting", .path.display()
     )]
     NotEmpty {
         /// The directory.
         path: PathBuf,
     },
-    /// A directory that was to be overwritten has no manifest.
+    /// A directory to be overwritten has no manifest.
     #[error(
         "{} is not empty and has no {MANIFEST}, the list of the files that a run has written: nothing in it \
          is removed; name another directory, or remove this one if it is to go", .path.display()
@@ -27,7 +27,7 @@ pub enum RunDirectoryError {
         /// The directory.
         path: PathBuf,
     },
-    /// Something has a name that runs write, and is not a file that the run has written.
+    /// A file, folder or link that the run has not written has the name of a result.
     #[error(
         "{} was not written by the run whose files {MANIFEST} lists: it is left alone; move it, or name \
          another directory", .path.display()
@@ -36,7 +36,7 @@ pub enum RunDirectoryError {
         /// The file, folder or link.
         path: PathBuf,
     },
-    /// A text of an earlier run is no longer what that run has written.
+    /// A text of an earlier run was changed after that run wrote it.
     #[error(
         "{} has been changed since the run wrote it: it is left alone; move it, or name another directory",
         .path.display()
@@ -45,7 +45,7 @@ pub enum RunDirectoryError {
         /// The file.
         path: PathBuf,
     },
-    /// A manifest that no run has written, or another version.
+    /// The manifest is invalid or has another version.
     #[error(
         "{} is not the list of a run's files that it should be: {reason}; nothing is removed; name another \
          directory, or remove this one if it is to go", .path.display()
@@ -53,10 +53,10 @@ pub enum RunDirectoryError {
     Manifest {
         /// The file.
         path: PathBuf,
-        /// What is wrong with it.
+        /// Reason.
         reason: String,
     },
-    /// A link to a directory was to be overwritten.
+    /// The directory to be overwritten is a link.
     #[error(
         "{} is a link to {target}: nothing is removed through a link; name {target} itself", .path.display(),
         target = .target.display()
@@ -64,16 +64,16 @@ pub enum RunDirectoryError {
     Link {
         /// The link.
         path: PathBuf,
-        /// What it points to.
+        /// Target of the link.
         target: PathBuf,
     },
-    /// The path names something that is no directory.
+    /// The path is not a directory.
     #[error("{} is not a directory: a run writes several files into one directory", .path.display())]
     NotADirectory {
         /// The path.
         path: PathBuf,
     },
-    /// Another run is going on in the directory.
+    /// Another run is using the directory.
     #[error(
         "{} is in use: another run{} is writing into it; wait for its end, or name another \
          directory", .path.display(), by(*.process)
@@ -81,13 +81,13 @@ pub enum RunDirectoryError {
     InUse {
         /// The directory.
         path: PathBuf,
-        /// The process of that run, if it has said.
+        /// Process number of that run, if available.
         process: Option<u32>,
     },
-    /// The lock of the directory is a file that no run has written.
+    /// The file in place of the lock was not written by a run.
     #[error(
-        "{} is in the place of the lock and was not written by a run: it is left alone; move it, or \
-         name another directory", .path.display()
+        "{} has the name of the lock but was not written by a run: move it, or name another \
+         directory", .path.display()
     )]
     ForeignLock {
         /// The file.
@@ -98,49 +98,49 @@ pub enum RunDirectoryError {
     Io {
         /// The file or directory.
         path: PathBuf,
-        /// What the file system says.
+        /// Error of the file system.
         source: io::Error,
     },
-    /// A record of the run could not be read back.
+    /// A record cannot be read back.
     #[error("a record cannot be read back: {0}")]
     Unreadable(io::Error),
-    /// A file of results that is not what a run has written.
+    /// A file of results is damaged.
     #[error("{} is damaged: {reason}", .path.display())]
     Damaged {
         /// The file.
         path: PathBuf,
-        /// What is wrong with it.
+        /// Reason.
         reason: String,
     },
-    /// Results of other bodies than those of the scene beside them.
+    /// Results do not belong to the scene in the directory.
     #[error("{} does not belong to the scene: {reason}", .path.display())]
     OtherBodies {
         /// The file.
         path: PathBuf,
-        /// What differs.
+        /// Difference.
         reason: String,
     },
-    /// A number that is not finite.
+    /// A value is not finite.
     #[error("{file}: {quantity}{} is {value}: only finite numbers are written", place(.index))]
     NotFinite {
-        /// The file that would have held it.
+        /// File to be written.
         file: String,
         /// Name of the quantity in that file.
         quantity: String,
-        /// Index in the quantity's array; empty for a single number.
+        /// Index in the array of the quantity; empty for a scalar.
         index: Vec<usize>,
-        /// The number.
+        /// The value.
         value: f64,
     },
-    /// There is nothing to write.
-    #[error("the trajectory holds no record: a run directory needs at least one")]
+    /// The trajectory is empty.
+    #[error("the trajectory holds no record: a run directory requires at least one")]
     NoRecord,
-    /// A record that does not belong to the assembly.
+    /// A record does not belong to the assembly.
     #[error("record {record} holds {found} {quantity} where the assembly has {expected}")]
     Mismatch {
         /// Index of the record.
         record: usize,
-        /// What was counted.
+        /// Name of the counted quantity.
         quantity: &'static str,
         /// Number in the record.
         found: usize,
@@ -150,7 +150,6 @@ pub enum RunDirectoryError {
 }
 
 impl RunDirectoryError {
-    /// The error of an operation on `path`.
     pub(super) fn io(path: &Path) -> impl FnOnce(io::Error) -> Self {
         move |source| Self::Io {
             path: path.to_owned(),
@@ -159,12 +158,10 @@ impl RunDirectoryError {
     }
 }
 
-/// The process in brackets, where it is known.
 fn by(process: Option<u32>) -> String {
     process.map_or_else(String::new, |id| format!(" (process {id})"))
 }
 
-/// The index in brackets; nothing for a single number.
 fn place(index: &[usize]) -> String {
     if index.is_empty() {
         String::new()

@@ -1,4 +1,4 @@
-//! `events.csv`: what happened to linkers, one row for each event.
+//! `events.csv`: linker events, one row per event.
 
 use super::names::EVENTS;
 use super::{RunDirectoryError, finite::ensure_finite};
@@ -14,10 +14,6 @@ const COLUMNS: [&str; 6] = [
     "energy_pn_nm",
 ];
 
-/// Refuses numbers that are not finite.
-///
-/// # Errors
-/// The first such number, with its column and the index of its row.
 pub(super) fn ensure_all_finite(events: &[LinkerEvent]) -> Result<(), RunDirectoryError> {
     let numbers = |e: &LinkerEvent| [e.time_ns, e.force_pn, e.at_nm, e.energy_pn_nm];
     let names = ["time_ns", "force_pn", "at_nm", "energy_pn_nm"];
@@ -28,10 +24,7 @@ pub(super) fn ensure_all_finite(events: &[LinkerEvent]) -> Result<(), RunDirecto
     Ok(())
 }
 
-/// Writes the table: a header and a row for each event. Numbers have as many digits as bring them back exactly.
-///
-/// # Errors
-/// Those of `out`.
+/// Writes a header and one row per event. Numbers have enough digits for an exact round trip.
 pub(super) fn write(events: &[LinkerEvent], out: &mut impl Write) -> io::Result<()> {
     let mut writer = csv::Writer::from_writer(out);
     writer.write_record(COLUMNS)?;

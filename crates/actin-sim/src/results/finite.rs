@@ -1,12 +1,8 @@
-//! Refusing numbers that are not finite.
+//! Checks that values are finite.
 
 use super::RunDirectoryError;
 
-/// Accepts `values`, laid out as an array of `shape` with the last index fastest, if all of them
-/// are finite.
-///
-/// # Errors
-/// The first value that is not, with its index.
+/// Checks `values` of an array of `shape`, with the last index fastest.
 pub(super) fn ensure_finite(
     file: &str,
     quantity: &str,
@@ -24,10 +20,7 @@ pub(super) fn ensure_finite(
     }
 }
 
-/// The same of what record `i` has in a `quantity` of a file, which has the records as its first index.
-///
-/// # Errors
-/// The first value that is not, with its index.
+/// Checks the values of record `i` in a `quantity` whose first index is the record.
 pub(super) fn ensure_finite_in(
     (file, quantity): (&str, &str),
     i: usize,
@@ -43,7 +36,7 @@ pub(super) fn ensure_finite_in(
     })
 }
 
-/// Index in an array of `shape` of the value at place `flat`.
+/// Index in an array of `shape` of the value at the flat index `flat`.
 fn unravel(flat: usize, shape: &[usize]) -> Vec<usize> {
     let mut rest = flat;
     let mut index: Vec<usize> = shape
@@ -63,7 +56,8 @@ fn unravel(flat: usize, shape: &[usize]) -> Vec<usize> {
 mod tests {
     use super::*;
 
-    /// In an array [2, 3, 4] value 17 stands at [1, 1, 1]; the wrong order would say [1, 1, 2].
+    /// In an array of shape [2, 3, 4], value 17 has the index [1, 1, 1]; the reverse order gives
+    /// [1, 1, 2].
     #[test]
     fn the_first_bad_value_is_named_with_its_index() {
         for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {

@@ -1,12 +1,14 @@
-//! A small mixed filament and a made-up run of it, for the tests of this module.
+//! Small mixed filaments and synthetic runs for the tests of this module.
 
-use crate::{Assembly, At, Booked, Linker, LinkerSite, Outcome, Record, Scene, Status, Trajectory};
+use crate::{
+    Assembly, At, EnergyExchange, Linker, LinkerSite, Outcome, Record, Scene, Status, Trajectory,
+};
 use actin_mechanics::{Loads, State};
 use actin_mechanics::{Xorshift, perturb, randomise_velocities};
 use std::path::Path;
 use vtkio::model::{DataSet, Piece, PolyDataPiece, Vtk};
 
-/// Monomers at a clamped start, then a rod; the title has everything that XML escapes.
+/// Monomers at a clamped start, followed by a rod. The title needs XML escapes.
 const CLAMPED_START: &str = r#"Scene(
     title: "A tip <force> & \"two\" models",
     filament: Filament(sections: [
@@ -18,7 +20,7 @@ const CLAMPED_START: &str = r#"Scene(
     task: Dynamics(duration_ns: 1.0),
 )"#;
 
-/// A rod clamped at its end and loaded at its start.
+/// A rod clamped at its end, with a force at its start.
 const CLAMPED_END: &str = r"Scene(
     filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 30.0, segments: 3)]),
     clamps: [Clamp(end: End)],
@@ -31,12 +33,10 @@ fn build(text: &str) -> Assembly {
     Assembly::build(&scene).unwrap()
 }
 
-/// Monomers at a clamped start, then a rod with a force at its end.
 pub(super) fn clamped_start() -> Assembly {
     build(CLAMPED_START)
 }
 
-/// The same with a linker.
 pub(super) fn linked() -> Assembly {
     let mut scene = Scene::from_ron(CLAMPED_START).unwrap();
     scene.linkers.push(Linker {
@@ -54,7 +54,7 @@ pub(super) fn linked() -> Assembly {
     Assembly::build(&scene).unwrap()
 }
 
-/// The filament of [`clamped_start`] and a mixed one beside it, joined by a linker.
+/// Builds the filament of [`clamped_start`] and a second mixed one, joined by a linker.
 pub(super) fn pair() -> Assembly {
     let mut scene = Scene::from_ron(CLAMPED_START).unwrap();
     let mut beside = scene.filament.clone();
@@ -82,12 +82,10 @@ pub(super) fn pair() -> Assembly {
     Assembly::build(&scene).unwrap()
 }
 
-/// A rod clamped at its end, with a force at its start.
 pub(super) fn clamped_end() -> Assembly {
     build(CLAMPED_END)
 }
 
-/// Sorted names of what lies in a folder.
 pub(super) fn names(folder: &Path) -> Vec<String> {
     let entries = std::fs::read_dir(folder).unwrap();
     let mut names: Vec<_> = entries
@@ -97,7 +95,7 @@ pub(super) fn names(folder: &Path) -> Vec<String> {
     names
 }
 
-/// What vtkio, which shares no code with the writer, reads of a picture.
+/// Parses a picture with vtkio, which is independent of the writer.
 pub(super) fn parsed(picture: &[u8]) -> Box<PolyDataPiece> {
     let DataSet::PolyData { mut pieces, .. } = Vtk::parse_xml(picture).unwrap().data else {
         panic!("not PolyData");
@@ -108,7 +106,7 @@ pub(super) fn parsed(picture: &[u8]) -> Box<PolyDataPiece> {
     piece
 }
 
-/// Three records of random states near rest; all numbers differ, held bodies excepted.
+/// Three records of random states near rest. All numbers differ, except those of fixed bodies.
 pub(super) fn trajectory(assembly: &Assembly) -> Trajectory {
     let mut noise = Xorshift::new(7);
     let records = [0.0, 0.1, 1.0 / 3.0].map(|time_ns| {
@@ -122,7 +120,6 @@ pub(super) fn trajectory(assembly: &Assembly) -> Trajectory {
     }
 }
 
-/// The record of one state.
 pub(super) fn record(assembly: &Assembly, time_ns: f64, state: State) -> Record {
     let residual = loads(assembly, &state).residual(&state);
     let interactions = assembly.system.interactions();
@@ -132,13 +129,12 @@ pub(super) fn record(assembly: &Assembly, time_ns: f64, state: State) -> Record 
         kinetic_pn_nm: state.kinetic_energy(),
         residual_force_pn: residual.force,
         residual_torque_pn_nm: residual.torque,
-        booked: Booked::default(),
+        booked: EnergyExchange::default(),
         observed: Vec::new(),
         state,
     }
 }
 
-/// All loads of an assembly in `state`.
 pub(super) fn loads(assembly: &Assembly, state: &State) -> Loads {
     let mut loads = Loads::zeros(state);
     for interaction in assembly.system.interactions() {
@@ -147,7 +143,6 @@ pub(super) fn loads(assembly: &Assembly, state: &State) -> Loads {
     loads
 }
 
-/// An outcome with numbers that all differ.
 pub(super) fn outcome() -> Outcome {
     Outcome {
         steps: 12,

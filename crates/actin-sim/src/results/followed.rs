@@ -1,14 +1,14 @@
-//! The directory of a motion whose sections follow it: a chain of run directories, and what they have in common.
+//! Directory of a motion with adaptive sections: a chain of run directories and their common files.
 //!
-//! | file | holds |
+//! | file | contents |
 //! |---|---|
-//! | `scene.ron`, `summary.json` | the scene; the last record, with what switches did under `following` |
-//! | `stretches/NNNN/` | a run directory for each stretch between two switches, its sections written |
-//! | `stretches.json` | how each stretch begins |
-//! | `switches.csv` | when and where cells were switched, and what that did to energy and momentum |
-//! | `energies.csv`, `observables.csv` | those of all stretches, one after the other |
+//! | `scene.ron`, `summary.json` | scene; last record, with switches under `following` |
+//! | `stretches/NNNN/` | run directory of each stretch between two switches, with explicit sections |
+//! | `stretches.json` | start of each stretch |
+//! | `switches.csv` | time, position and changes of energy and momentum of each switch |
+//! | `energies.csv`, `observables.csv` | tables of all stretches, concatenated |
 //!
-//! At a switch there are two records at the same time, before and after.
+//! Each switch has two records at the same time, before and after it.
 
 use super::atomic;
 use super::directory::RunDirectory;
@@ -24,10 +24,9 @@ use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-/// The folder of the stretches.
 const FOLDER: &str = "stretches";
 
-/// Columns of `energies.csv` that do not depend on how a filament is resolved.
+/// Columns of `energies.csv` that do not depend on the resolution.
 const COMMON: [&str; 7] = [
     "time_ns",
     "total_pn_nm",
@@ -38,53 +37,53 @@ const COMMON: [&str; 7] = [
     "residual_torque_pn_nm",
 ];
 
-/// Those of what comes from outside, where it does.
+/// Optional columns for energy supplied from outside.
 const BOOKED: [&str; 3] = ["work_pn_nm", "heat_pn_nm", "events_pn_nm"];
 
-/// What switches of cells did in a whole motion.
+/// Effect of all switches of cells during a motion.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct FollowingSummary {
-    /// How many switches there were; one may switch several cells.
+    /// Number of switches; one switch may change several cells.
     pub switches: usize,
-    /// What they added to the energy, all together (pN nm).
+    /// Total energy added by switches (pN nm).
     pub switches_pn_nm: f64,
-    /// The largest change of momentum by one of them (ag nm/ns): round-off.
+    /// Largest momentum change of a switch (ag nm/ns), due to round-off.
     pub largest_momentum_change: f64,
-    /// Share of the cells that were monomers, mean over time.
+    /// Fraction of cells resolved by monomers, averaged over time.
     pub share_of_monomers: f64,
 }
 
-/// The directory of a chain of stretches.
+/// Directory of a chain of stretches.
 #[derive(Clone, Debug)]
 pub struct FollowedDirectory {
     path: PathBuf,
 }
 
 impl FollowedDirectory {
-    /// That at `path`, which is a [`RunDirectory`] itself.
+    /// Opens the directory at `path`, which is also a [`RunDirectory`].
     pub fn at(path: impl Into<PathBuf>) -> Self {
         Self { path: path.into() }
     }
 
-    /// Whether there is one at `path`.
+    /// Returns true if `path` contains a list of stretches.
     pub fn is_at(path: &Path) -> bool {
         path.join(STRETCHES).is_file()
     }
 
-    /// Where it is.
+    /// Path of the directory.
     pub fn path(&self) -> &Path {
         &self.path
     }
 
-    /// Where a stretch is.
+    /// Path of a stretch.
     pub fn stretch(&self, index: usize) -> PathBuf {
         self.path.join(FOLDER).join(format!("{index:04}"))
     }
 
-    /// How the stretches begin that there are; empty where there are none.
+    /// Returns the starts of all stretches; empty without stretches.
     ///
     /// # Errors
-    /// A file that cannot be read or is no list of stretches.
+    /// The file is unreadable or not a list of stretches.
     pub fn beginnings(&self) -> Result<Vec<Beginning>, RunDirectoryError> {
         if !Self::is_at(&self.path) {
             return Ok(Vec::new());
@@ -94,7 +93,7 @@ impl FollowedDirectory {
         read.map_err(RunDirectoryError::io(&path))
     }
 
-    /// Keeps how all stretches begin.
+    /// Writes the starts of all stretches.
     ///
     /// # Errors
     /// A refusal of the file system.
@@ -102,10 +101,10 @@ impl FollowedDirectory {
         self.replace(STRETCHES, |out| Ok(serde_json::to_writer(out, beginnings)?))
     }
 
-    /// Removes the run directories of stretches from `first` on, the last first.
+    /// Removes the run directories of stretch `first` and all later ones, in descending order.
     ///
     /// # Errors
-    /// A directory with files that no run has written, or a refusal of the file system.
+    /// A directory contains files that no run has written, or the file system refuses an operation.
     pub fn remove_from(&self, first: usize) -> Result<(), RunDirectoryError> {
         let folder = self.path.join(FOLDER);
         let Ok(entries) = fs::read_dir(&folder) else {
@@ -120,10 +119,11 @@ impl FollowedDirectory {
         Ok(())
     }
 
-    /// Writes what the stretches have in common; `last` is the summary of the last of them. All have their files.
+    /// Writes the common files after all stretches were written; `last` is the summary of the last
+    /// stretch.
     ///
     /// # Errors
-    /// Files of a stretch that cannot be read, or a refusal of the file system.
+    /// Files of a stretch are unreadable, or the file system refuses an operation.
     pub fn write(
         &self,
         beginnings: &[Beginning],
@@ -154,7 +154,7 @@ impl FollowedDirectory {
         Ok(summary)
     }
 
-    /// The last summary with what is wrong in any stretch: of each quantity the worst.
+    /// Summary of the last stretch with the notes and the worst values of all stretches.
     fn with_remarks(
         &self,
         beginnings: &[Beginning],
@@ -185,14 +185,16 @@ impl FollowedDirectory {
             .sort_by(|a, b| b.compression_pn.total_cmp(&a.compression_pn));
         all.unstable_twist.truncate(1);
         if !last.observables.is_empty() || last.thermal.is_some() {
-            let note = "means over records are those of each stretch, in stretches/*/summary.json";
+            let note =
+                "means over records are available per stretch only, in stretches/*/summary.json";
             all.notes.push(note.to_owned());
         }
         Ok(all.with_derived_warnings())
     }
 
-    /// Joins a table of all stretches, of each the columns that `of` finds in its header, with what switches have booked up
-    /// to there behind them; returns the first and the last time of each stretch (ns).
+    /// Concatenates a table of all stretches and appends the cumulative energy of the switches.
+    ///
+    /// `of` selects columns by the header. Returns the first and last time of each stretch (ns).
     fn join(
         &self,
         name: &str,
@@ -231,7 +233,6 @@ impl FollowedDirectory {
         Ok(spans)
     }
 
-    /// Replaces a file, which the manifest lists from then on.
     fn replace(
         &self,
         name: &str,
@@ -247,11 +248,11 @@ impl FollowedDirectory {
     }
 }
 
-/// Removes a run directory: what its manifest lists, and then itself.
+/// Removes a run directory with the files listed in its manifest.
 fn remove_run(path: &Path) -> Result<(), RunDirectoryError> {
     let io = || RunDirectoryError::io(path);
     let lock = RunDirectory::create_locked(path, true)?;
-    // Empty now, if it is the run's alone.
+    // Fails if the folder contains files of the user, which are detected below.
     let _ = fs::remove_dir(path.join(PICTURES));
     for entry in fs::read_dir(path).map_err(io())? {
         let name = entry.map_err(io())?.file_name();
@@ -263,7 +264,6 @@ fn remove_run(path: &Path) -> Result<(), RunDirectoryError> {
     fs::remove_dir_all(path).map_err(io())
 }
 
-/// Whether two notes differ in numbers alone.
 fn is_alike(one: &str, other: &str) -> bool {
     let words = |note: &str| -> String { note.chars().filter(|c| !c.is_ascii_digit()).collect() };
     words(one) == words(other)

@@ -1,41 +1,39 @@
-//! One run at a time in a directory.
+//! Lock that admits one run at a time to a directory.
 
 use super::RunDirectoryError;
 use std::fs::{self, File, TryLockError};
 use std::io::{self, Read, Seek, Write};
 use std::path::Path;
 
-/// Name of the file that is locked, which no user file is likely to have.
+/// Name of the locked file, which user files are unlikely to have.
 pub(super) const LOCK: &str = ".actin-run.lock";
 
-/// Most digits of a process number.
 const MOST_DIGITS: u64 = 20;
 
-/// `ENOLCK`: what a network file system without a service for locks says.
+/// `ENOLCK`: error of a network file system without a lock service.
 const NO_LOCKS_AVAILABLE: Option<i32> = if cfg!(target_os = "linux") {
     Some(37)
 } else {
     None
 };
 
-/// Keeps other runs out of a directory until it is dropped.
+/// Exclusive access of a run to a directory, released on drop.
 ///
-/// What is locked is an open file: the operating system lets go of it when the process ends, however it
-/// ends. The file stays, so that all runs lock the same one; it is empty, or holds the number of the
-/// process that runs or was killed. A file of that name that holds anything else was not written by a run,
-/// and a link is not followed: both are refused. On a file system without locks there is no lock.
+/// The operating system releases the lock on the open file whenever the process ends. The file
+/// itself stays, so that all runs lock the same file. It is empty or holds the process number of a
+/// running or killed run. Files with other contents and links are refused. File systems without
+/// locks provide no protection.
 #[derive(Debug)]
 pub struct RunLock {
-    /// Open as long as the lock is held.
     file: File,
 }
 
 impl RunLock {
-    /// Locks `directory`, which exists.
+    /// Locks an existing directory.
     ///
     /// # Errors
-    /// If another run has locked it, if something that no run has written stands in the place of the
-    /// lock, or a refusal of the file system.
+    /// Another run holds the lock, the file in place of the lock was not written by a run, or the
+    /// file system refuses an operation.
     pub fn take(directory: impl AsRef<Path>) -> Result<Self, RunDirectoryError> {
         let directory = directory.as_ref();
         let path = directory.join(LOCK);
@@ -66,14 +64,15 @@ impl RunLock {
 
 impl Drop for RunLock {
     fn drop(&mut self) {
-        // A number that stays does no harm: no process holds the lock.
+        // A remaining number is harmless, because the file is not locked.
         let _ = self.file.set_len(0);
     }
 }
 
-/// Refuses a directory in which a run goes on, as far as can be seen without writing.
+/// Refuses a directory in use by another run, without writing to it.
 ///
-/// A run that takes the lock in the same instant may be refused for this look.
+/// The check holds a shared lock for a moment, so a run that starts at the same time may be
+/// refused.
 pub(super) fn refuse_in_use(directory: &Path) -> Result<(), RunDirectoryError> {
     let path = directory.join(LOCK);
     // Opening a pipe would block until a writer opens it.
@@ -87,13 +86,12 @@ pub(super) fn refuse_in_use(directory: &Path) -> Result<(), RunDirectoryError> {
     }
 }
 
-/// Whether the file system says that it knows no locks.
 fn has_no_locks(error: &io::Error) -> bool {
     error.kind() == io::ErrorKind::Unsupported
         || NO_LOCKS_AVAILABLE.is_some_and(|code| error.raw_os_error() == Some(code))
 }
 
-/// Whether a file is what a run leaves: nothing, or a process number if it was killed.
+/// Returns true if a file is empty or holds a process number.
 fn is_of_a_run(mut file: &File) -> io::Result<bool> {
     let mut bytes = Vec::new();
     file.take(MOST_DIGITS + 1).read_to_end(&mut bytes)?;
@@ -101,7 +99,7 @@ fn is_of_a_run(mut file: &File) -> io::Result<bool> {
     Ok(bytes.len() as u64 <= MOST_DIGITS && bytes.iter().all(u8::is_ascii_digit))
 }
 
-/// Writes into the file who holds it, for the message of others; a full disk only makes that shorter.
+/// Writes the process number for error messages of other runs; failures are ignored.
 fn sign(file: &File) {
     let id = std::process::id().to_string();
     let mut file = file;
@@ -120,8 +118,6 @@ fn in_use(directory: &Path, lock: &Path) -> RunDirectoryError {
 mod tests {
     use super::*;
 
-    /// The second is refused, from any process, with the process that holds it; afterwards an empty file is
-    /// left, which keeps no run out.
     #[test]
     fn a_directory_has_one_run_at_a_time() {
         let folder = tempfile::tempdir().unwrap();
@@ -139,9 +135,8 @@ mod tests {
         assert!(RunLock::take(folder.path()).is_ok());
     }
 
-    /// A file that a killed run has left, with its number, is only a file.
     #[test]
-    fn what_a_killed_run_has_left_keeps_nobody_out() {
+    fn lock_file_of_a_killed_run_is_reused() {
         let folder = tempfile::tempdir().unwrap();
         fs::write(folder.path().join(LOCK), "4194304999").unwrap();
         let _lock = RunLock::take(folder.path()).unwrap();
@@ -149,10 +144,9 @@ mod tests {
         assert_eq!(signed, std::process::id().to_string());
     }
 
-    /// A user file of that name is neither emptied nor removed; numbers that are too long for
-    /// a process are theirs, too.
+    /// Numbers with too many digits for a process also count as user data.
     #[test]
-    fn what_no_run_has_left_stays() {
+    fn user_file_with_the_name_of_the_lock_is_kept() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join(LOCK);
         for text in ["mine", "12 ", "-1", "123456789012345678901", "12\n"] {
@@ -166,8 +160,7 @@ mod tests {
         assert!(RunLock::take(folder.path()).is_ok());
     }
 
-    /// A link to an empty file, or to a number, would pass for the lock: neither is written to, nor is a
-    /// file made where a link points to nothing.
+    /// The target is neither written nor created, even if its contents look like a lock file.
     #[cfg(unix)]
     #[test]
     fn a_link_is_not_followed() {
@@ -185,10 +178,8 @@ mod tests {
         }
     }
 
-    /// A look refuses while a run goes on, sees through what a killed one has left, and leaves all as
-    /// it is.
     #[test]
-    fn a_look_changes_nothing() {
+    fn refuse_in_use_changes_nothing() {
         let folder = tempfile::tempdir().unwrap();
         refuse_in_use(folder.path()).unwrap();
         assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0);
@@ -208,17 +199,17 @@ mod tests {
     }
 
     #[test]
-    fn a_file_system_without_locks_is_told_from_a_refusal() {
+    fn missing_lock_support_is_recognised() {
         assert!(has_no_locks(&io::ErrorKind::Unsupported.into()));
         assert!(!has_no_locks(&io::ErrorKind::PermissionDenied.into()));
         #[cfg(target_os = "linux")]
         assert!(has_no_locks(&io::Error::from_raw_os_error(37)));
     }
 
-    /// Many at once, for as long as it takes: never two inside, and all get in. A lock whose file were
-    /// removed would let a second one in: it locks the removed file, a third makes a new one.
+    /// Threads compete for the lock. Removing the file on release would admit two: one that locks
+    /// the removed file and one that creates a new one.
     #[test]
-    fn never_are_two_inside() {
+    fn competing_threads_hold_the_lock_one_at_a_time() {
         use std::sync::atomic::{AtomicUsize, Ordering};
         let folder = tempfile::tempdir().unwrap();
         let (inside, together) = (AtomicUsize::new(0), AtomicUsize::new(0));

@@ -1,7 +1,7 @@
-//! The manifest of a run directory: which of its files a run has written, and so may replace or remove.
+//! Manifest of a run directory: the files that a run may replace or remove.
 //!
-//! Nothing is written under a name before the manifest lists it, and nothing goes that it does not
-//! list, so that a run may be killed at any moment. What the files hold is not known here.
+//! A name is listed before its file is written, and only listed files are removed. A run can
+//! therefore be killed at any time.
 
 use super::RunDirectoryError;
 use super::atomic::{self, UNFINISHED};
@@ -12,35 +12,31 @@ use std::fs::{self, FileType};
 use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
 
-/// What the file says it is.
 const FORMAT: &str = "actin run directory";
-/// Version of the format: to be raised when a key changes.
+/// Version of the format; increase it when a key changes.
 const VERSION: u32 = 1;
 
-/// What a manifest of any version begins with.
 #[derive(Debug, Deserialize)]
 struct Head {
     format: String,
     version: u32,
 }
 
-/// The files of a run.
 #[derive(Clone, Debug, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Manifest {
     format: String,
     version: u32,
-    /// CRC-32 (IEEE) of `scene.ron` as the run has written it: people edit that file.
+    /// CRC-32 (IEEE) of `scene.ron` as written by the run, which detects edits.
     scene_crc32: Option<u32>,
-    /// The same of other texts, by name: as they are, and as they are about to be.
+    /// CRC-32 of other texts by name: current contents and contents about to be published.
     #[serde(default)]
     crc32: BTreeMap<String, BTreeSet<u32>>,
-    /// Names that the run has written or is about to write, relative to the directory.
+    /// Names of written and planned files, relative to the directory.
     files: BTreeSet<String>,
 }
 
 impl Manifest {
-    /// A manifest that lists nothing.
     pub(super) fn new() -> Self {
         Self {
             format: FORMAT.into(),
@@ -51,21 +47,18 @@ impl Manifest {
         }
     }
 
-    /// A manifest that lists everything in `folder` that has a name which runs write.
-    ///
-    /// # Errors
-    /// A refusal of the file system.
+    /// Creates a manifest of all files in `folder` that have names of results.
     pub(super) fn of_all_in(folder: &Path) -> Result<Self, RunDirectoryError> {
         let mut manifest = Self::new();
         manifest.add(found(folder)?.into_iter().map(|entry| entry.name));
         Ok(manifest)
     }
 
-    /// The manifest in `folder`, if there is one.
+    /// Reads the manifest in `folder`, if it exists.
     ///
     /// # Errors
-    /// A file of that name that is not the manifest of a run: of another format or version, or with a
-    /// name that no run writes.
+    /// The file is not a manifest, has another format or version, or lists a name that no run
+    /// writes.
     pub(super) fn read(folder: &Path) -> Result<Option<Self>, RunDirectoryError> {
         let path = folder.join(MANIFEST);
         let refused = |reason: String| RunDirectoryError::Manifest {
@@ -91,7 +84,7 @@ impl Manifest {
         if head.version != VERSION {
             let version = head.version;
             return Err(format!(
-                "its version is {version}, this program knows {VERSION}"
+                "its version is {version}, but this program reads version {VERSION}"
             ));
         }
         let manifest: Self = serde_json::from_slice(text).map_err(in_words)?;
@@ -101,7 +94,6 @@ impl Manifest {
         }
     }
 
-    /// Puts the manifest into `folder`.
     pub(super) fn write(&self, folder: &Path) -> Result<(), RunDirectoryError> {
         let path = folder.join(MANIFEST);
         let written = atomic::replace(&path, |out| {
@@ -111,20 +103,15 @@ impl Manifest {
         written.map_err(RunDirectoryError::io(&path))
     }
 
-    /// Lists more names.
     pub(super) fn add<S: Into<String>>(&mut self, names: impl IntoIterator<Item = S>) {
         self.files.extend(names.into_iter().map(Into::into));
     }
 
-    /// Notes what `scene.ron` will hold.
     pub(super) fn note_scene(&mut self, text: &str) {
         self.scene_crc32 = Some(crc32fast::hash(text.as_bytes()));
     }
 
-    /// Notes what a text will hold, once the unfinished file beside it has its name; until then it may be as it was.
-    ///
-    /// # Errors
-    /// A refusal of the file system.
+    /// Stores the checksums of a text and of its unpublished replacement.
     pub(super) fn note_text(&mut self, folder: &Path, name: &str) -> Result<(), RunDirectoryError> {
         let path = folder.join(name);
         let known = self.crc32.entry(name.to_owned()).or_default();
@@ -134,16 +121,11 @@ impl Manifest {
         Ok(())
     }
 
-    /// The names that are listed.
     pub(super) fn names(&self) -> impl Iterator<Item = &str> {
         self.files.iter().map(String::as_str)
     }
 
-    /// Refuses a folder in which something has a name that runs write, and is not listed or not a
-    /// regular file; other files and folders are ignored.
-    ///
-    /// # Errors
-    /// The first such file or link.
+    /// Refuses a folder with unlisted or irregular files under names of results.
     pub(super) fn ensure_own(&self, folder: &Path) -> Result<(), RunDirectoryError> {
         let pictures = folder.join(PICTURES);
         match fs::symlink_metadata(&pictures) {
@@ -159,10 +141,7 @@ impl Manifest {
         }
     }
 
-    /// Refuses a folder in which a text is no longer what the run has written.
-    ///
-    /// # Errors
-    /// That file, or a refusal of the file system.
+    /// Refuses a folder with a text that was changed after the run wrote it.
     pub(super) fn ensure_unchanged(&self, folder: &Path) -> Result<(), RunDirectoryError> {
         let scene = self.scene_crc32.map(|sum| (SCENE, BTreeSet::from([sum])));
         let others = self.crc32.iter();
@@ -176,7 +155,8 @@ impl Manifest {
         Ok(())
     }
 
-    /// Removes what is listed, complete or not; the summary first, which says that the rest is there.
+    /// Removes all listed files, complete or not. The summary is removed first, because it marks
+    /// the results as complete.
     pub(super) fn remove_files(&self, folder: &Path) -> Result<(), RunDirectoryError> {
         for name in [SUMMARY].into_iter().chain(self.names()) {
             let path = folder.join(name);
@@ -187,7 +167,6 @@ impl Manifest {
     }
 }
 
-/// CRC-32 of a file; `None` if there is none.
 fn checksum(path: &Path) -> Result<Option<u32>, RunDirectoryError> {
     let sum = || {
         let mut file = fs::File::open(path)?;
@@ -206,16 +185,14 @@ fn checksum(path: &Path) -> Result<Option<u32>, RunDirectoryError> {
     }
 }
 
-/// A file, link or folder that has a name which runs write.
+/// A file, link or folder with the name of a result.
 struct Found {
-    /// The name in a manifest, without what marks it as unfinished.
+    /// Name in a manifest, without the suffix of incomplete files.
     name: String,
     path: PathBuf,
-    /// Its own kind: of a link, not of what it points to.
     kind: FileType,
 }
 
-/// Everything in `folder` that has a name which runs write, complete or not.
 fn found(folder: &Path) -> Result<Vec<Found>, RunDirectoryError> {
     let mut all = found_in(folder, "")?;
     let pictures = folder.join(PICTURES);
@@ -237,7 +214,7 @@ fn found_in(folder: &Path, prefix: &str) -> Result<Vec<Found>, RunDirectoryError
             "" => name.to_owned(),
             prefix => format!("{prefix}/{name}"),
         };
-        // Some file systems take no notice of case.
+        // Some file systems ignore case.
         if is_of_runs(&name.to_ascii_lowercase()) {
             let kind = entry.file_type().map_err(io())?;
             all.push(Found {
@@ -250,12 +227,10 @@ fn found_in(folder: &Path, prefix: &str) -> Result<Vec<Found>, RunDirectoryError
     Ok(all)
 }
 
-/// Whether runs write files of this name.
 fn is_of_runs(name: &str) -> bool {
     FILES.contains(&name) || picture_index(name).is_some()
 }
 
-/// Removes a file that need not exist.
 pub(super) fn remove_if_there(path: &Path) -> Result<(), RunDirectoryError> {
     match fs::remove_file(path) {
         Err(error) if error.kind() != io::ErrorKind::NotFound => {
@@ -275,9 +250,8 @@ mod tests {
         manifest
     }
 
-    /// What is written is read, and what is not there is no error.
     #[test]
-    fn a_manifest_comes_back() {
+    fn manifest_survives_the_round_trip() {
         let folder = tempfile::tempdir().unwrap();
         assert!(Manifest::read(folder.path()).unwrap().is_none());
         let mut written = manifest(&[SCENE, "vtk/0000.vtp", "vtk/12345.vtp"]);
@@ -288,10 +262,8 @@ mod tests {
         assert_eq!(read.scene_crc32, written.scene_crc32);
     }
 
-    /// A file of another program, a later version, names that lead elsewhere or that no run writes,
-    /// a link: refused by name and reason. A manifest is a list of what may be removed.
     #[test]
-    fn what_is_no_manifest_is_refused() {
+    fn invalid_manifests_are_refused() {
         let head = |rest: &str| format!("{{\"format\":\"{FORMAT}\",\"version\":{rest}");
         let lists = |name: &str| head(&format!("1,\"scene_crc32\":null,\"files\":[\"{name}\"]}}"));
         let bad = [
@@ -325,9 +297,8 @@ mod tests {
         assert!(Manifest::parse(good.as_bytes()).is_ok(), "{good}");
     }
 
-    /// Files that runs write are to be listed, and files; whatever else is there does not matter.
     #[test]
-    fn only_listed_files_are_own() {
+    fn unlisted_files_with_names_of_results_are_refused() {
         let listed = manifest(&[SCENE, "vtk/0000.vtp"]);
         let refused = |spoil: &dyn Fn(&Path)| {
             let folder = tempfile::tempdir().unwrap();

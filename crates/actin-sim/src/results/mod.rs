@@ -1,24 +1,24 @@
-//! What a run leaves behind: a directory of files that other programs open.
+//! Results of a run: a directory of files in common formats.
 //!
-//! | file | holds | opens with |
+//! | file | contents | opens with |
 //! |---|---|---|
-//! | `scene.ron` | the scene, every default written out | `actin run` |
-//! | `energies.csv` | energies and residuals of every record | anything |
-//! | `observables.csv` | what the scene observes, of every record | anything |
-//! | `profile.csv` | the last record along each filament: place, curvature, twist, energy | anything |
-//! | `states.npz` | every record's state | numpy |
-//! | `other_states.npz` | stable states that were looked for, as `states.npz`; in place of the path it counts | numpy |
+//! | `scene.ron` | the scene with all defaults written out | `actin run` |
+//! | `energies.csv` | energies and residuals of every record | any program |
+//! | `observables.csv` | observables of every record | any program |
+//! | `profile.csv` | last record along each filament: position, curvature, twist, energy | any program |
+//! | `states.npz` | state of every record | numpy |
+//! | `other_states.npz` | stable states of a search, in the format of `states.npz` with their index as `path` | numpy |
 //! | `vtk/NNNN.vtp`, `run.pvd` | every record as a picture | `ParaView`, pyvista |
-//! | `open_in_paraview.py` | monomers as ellipsoids, rods as tubes | `ParaView` |
-//! | `summary.json` | the last record in numbers | anything |
-//! | `records.bin` | the records of a run that has not ended, from which the rest is written | `actin run --resume` |
-//! | `checkpoint.bin` | where such a run stands | `actin run --resume` |
-//! | `actin-run.json` | the names of all these files: only what it lists is ever replaced or removed | anything |
-//! | `.actin-run.lock` | nothing; while a run goes on, the number of its process | anything |
+//! | `open_in_paraview.py` | script that shows monomers as ellipsoids and rods as tubes | `ParaView` |
+//! | `summary.json` | numbers of the last record | any program |
+//! | `records.bin` | records of an unfinished run | `actin run --resume` |
+//! | `checkpoint.bin` | position of an unfinished run | `actin run --resume` |
+//! | `actin-run.json` | manifest: names of the files that may be replaced or removed | any program |
+//! | `.actin-run.lock` | process number during a run, otherwise empty | any program |
 //!
-//! Records are read back from `records.bin` one by one, once for each array and file, so that memory does
-//! not grow with their number. Only this module knows file formats; nothing here computes physics beyond
-//! sums: shapes come from [`crate::shape`]. Nothing that is not finite is ever written.
+//! Records are read from `records.bin` one at a time, once for each array and file, so memory use
+//! does not grow with their number. All file formats are defined in this module. Values that are
+//! not finite are refused before anything is written.
 
 mod atomic;
 mod checkpoint;
@@ -62,7 +62,7 @@ pub use summary::{
 
 use crate::{Assembly, Task};
 
-/// What records are counted by: time (ns), or the path of equilibria, which counts stages.
+/// Name of the coordinate of records: time (ns) or, for equilibria, the path (in stages).
 fn clock(assembly: &Assembly) -> &'static str {
     match assembly.scene.task {
         Task::Dynamics(_) | Task::Brownian(_) => "time_ns",

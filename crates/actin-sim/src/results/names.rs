@@ -1,4 +1,4 @@
-//! The names of the files of a run directory.
+//! Names of the files of a run directory.
 
 pub(super) const SCENE: &str = "scene.ron";
 pub(super) const SUMMARY: &str = "summary.json";
@@ -14,13 +14,12 @@ pub(super) const CHECKPOINT: &str = "checkpoint.bin";
 pub(super) const RECORDS: &str = "records.bin";
 pub(super) const STRETCHES: &str = "stretches.json";
 pub(super) const SWITCHES: &str = "switches.csv";
-/// The folder of the pictures.
 pub(super) const PICTURES: &str = "vtk";
 
-/// The manifest, a name which no user file is likely to have.
+/// Manifest, a name that user files are unlikely to have.
 pub(super) const MANIFEST: &str = "actin-run.json";
 
-/// Everything that a run writes, beside its pictures, its manifest and its lock.
+/// Files of a run except pictures, manifest and lock.
 pub(super) const FILES: [&str; 14] = [
     SCENE,
     SUMMARY,
@@ -38,18 +37,16 @@ pub(super) const FILES: [&str; 14] = [
     SWITCHES,
 ];
 
-/// Tables, which people open and may save with changes.
+/// Tables, which users may edit.
 pub(super) const TABLES: [&str; 4] = [ENERGIES, EVENTS, OBSERVABLES, PROFILE];
 
-/// What a run writes before it has results.
 pub(super) const BEFORE_RESULTS: [&str; 3] = [SCENE, CHECKPOINT, RECORDS];
 
-/// Name of the picture of a record, in the directory.
 pub(super) fn picture_name(record: usize) -> String {
     format!("{PICTURES}/{record:04}.vtp")
 }
 
-/// The record whose picture has this name in the directory.
+/// Index of the record whose picture has this name.
 pub(super) fn picture_index(name: &str) -> Option<usize> {
     let rest = name.strip_prefix(PICTURES)?.strip_prefix('/')?;
     let index = rest.strip_suffix(".vtp")?.parse().ok()?;

@@ -1,4 +1,4 @@
-//! `observables.csv`: what the scene observes, a row for each record.
+//! `observables.csv`: observables, one row per record.
 
 use super::clock;
 use super::names::OBSERVABLES;
@@ -6,7 +6,6 @@ use super::{RunDirectoryError, finite::ensure_finite_in};
 use crate::{Assembly, Records, Row};
 use std::io::{self, Write};
 
-/// The table: time or path, then the columns of all that is observed.
 pub(super) struct ObservableTable<'a> {
     assembly: &'a Assembly,
 }
@@ -16,7 +15,6 @@ impl<'a> ObservableTable<'a> {
         Self { assembly }
     }
 
-    /// Whether there is nothing to write.
     pub(super) fn is_empty(&self) -> bool {
         self.columns().is_empty()
     }
@@ -25,10 +23,7 @@ impl<'a> ObservableTable<'a> {
         self.assembly.observers.columns()
     }
 
-    /// Refuses numbers of record `i` that are infinite. (What is no number stands for nothing yet.)
-    ///
-    /// # Errors
-    /// The first such number, with its column and the index of its row.
+    /// Refuses infinite values of record `i`; NaN means that no value is available yet.
     pub(super) fn ensure_finite(&self, i: usize, row: &Row) -> Result<(), RunDirectoryError> {
         let mut columns = self.columns().iter().zip(&row.observed);
         columns.try_for_each(|(name, value)| {
@@ -37,11 +32,8 @@ impl<'a> ObservableTable<'a> {
         })
     }
 
-    /// Writes the table of `records`. Numbers have as many digits as bring them back exactly; where there is
-    /// nothing yet, a cell is empty.
-    ///
-    /// # Errors
-    /// Those of `out` and of the records.
+    /// Writes the table of `records`. Numbers have enough digits for an exact round trip; cells
+    /// without a value are empty.
     pub(super) fn write(&self, records: &dyn Records, out: &mut impl Write) -> io::Result<()> {
         let mut writer = csv::Writer::from_writer(out);
         let columns = self.columns().iter().map(String::as_str);

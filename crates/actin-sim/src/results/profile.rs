@@ -4,7 +4,6 @@ use super::{RunDirectoryError, finite::ensure_finite};
 use crate::shape::ProfilePoint;
 use std::io::{self, Write};
 
-/// Names of the columns of numbers.
 const COLUMNS: [&str; 7] = [
     "s_nm",
     "x_nm",
@@ -15,7 +14,6 @@ const COLUMNS: [&str; 7] = [
     "energy_per_length_pn",
 ];
 
-/// The numbers of one row.
 fn numbers(point: &ProfilePoint) -> [f64; 7] {
     let [x, y, z] = point.position_nm.into();
     [
@@ -29,10 +27,7 @@ fn numbers(point: &ProfilePoint) -> [f64; 7] {
     ]
 }
 
-/// Refuses numbers that are not finite; `points` are those of each filament in turn.
-///
-/// # Errors
-/// The first such number, with its column and the index of its row.
+/// Refuses values that are not finite; `points` has one list per filament.
 pub(super) fn ensure_all_finite(
     points: &[Vec<ProfilePoint>],
     file: &str,
@@ -45,11 +40,8 @@ pub(super) fn ensure_all_finite(
     Ok(())
 }
 
-/// Writes the table: a header and a row for each point, the kind of its section and the index of
-/// its filament last. Numbers have as many digits as bring them back exactly.
-///
-/// # Errors
-/// Those of `out`.
+/// Writes a header and one row per point; the last two columns are the section kind and the
+/// filament index. Numbers have enough digits for an exact round trip.
 pub(super) fn write(points: &[Vec<ProfilePoint>], out: &mut impl Write) -> io::Result<()> {
     let mut writer = csv::Writer::from_writer(out);
     writer.write_record(COLUMNS.into_iter().chain(["section", "filament"]))?;

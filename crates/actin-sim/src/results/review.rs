@@ -1,4 +1,4 @@
-//! Looking at all records of a run, one by one: what is wrong with them, and what a summary says of all.
+//! Validation of all records and statistics over them for the summary.
 
 use super::RunDirectoryError;
 use super::energies::EnergyTable;
@@ -10,16 +10,14 @@ use crate::{Assembly, ObservableSummary, Record, Records, Row};
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 
-/// What is known of records that were looked at one by one.
 pub(super) struct Review {
     pub(super) kinetic: LateKinetic,
     pub(super) observables: BTreeMap<String, ObservableSummary>,
     pub(super) last: Option<Record>,
-    /// The first number that is not, those of `energies.csv` before those of `states.npz`.
+    /// First value that is not finite; `energies.csv` takes precedence over `states.npz`.
     pub(super) are_finite: Result<(), RunDirectoryError>,
 }
 
-/// The files that are written of all records.
 pub(super) struct Tables<'a> {
     pub(super) energies: EnergyTable<'a>,
     pub(super) observables: ObservableTable<'a>,
@@ -37,10 +35,10 @@ impl<'a> Tables<'a> {
 }
 
 impl Review {
-    /// Looks at all records: at their states as far as they are kept, then at the rest.
+    /// Validates the records, with their states if they are stored.
     ///
     /// # Errors
-    /// Records of other bodies, terms or columns than those of the assembly, or that cannot be read.
+    /// Records that cannot be read or whose bodies, terms or columns do not match the assembly.
     pub(super) fn of(
         assembly: &Assembly,
         records: &dyn Records,
@@ -74,7 +72,6 @@ impl Review {
     }
 }
 
-/// Refuses record `i` if it has other bodies than those of the assembly.
 fn ensure_same_bodies(
     assembly: &Assembly,
     i: usize,
@@ -85,7 +82,6 @@ fn ensure_same_bodies(
     ensure_same(i, ("frames", state.frames.len()), assembly.frames.len())
 }
 
-/// Refuses record `i` if it has other terms or columns.
 fn ensure_same_numbers(assembly: &Assembly, i: usize, row: &Row) -> Result<(), RunDirectoryError> {
     let energies = ("energies", row.energies_pn_nm.len());
     ensure_same(i, energies, assembly.terms.len())?;

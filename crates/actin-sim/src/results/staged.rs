@@ -1,4 +1,4 @@
-//! New files of a run that get their names together, when all of them are on the disk.
+//! New files of a run, renamed together after all of them are on the disk.
 
 use super::RunDirectoryError;
 use super::atomic::{self, sync, sync_all};
@@ -8,14 +8,13 @@ use std::fs::{self, File};
 use std::io::{self, BufWriter};
 use std::path::{Path, PathBuf};
 
-/// Files that are written and have not got their names yet; those that never get them are removed.
+/// Files that await their final names; dropping removes the unpublished ones.
 ///
-/// They get their names picture by picture and then in the order in which they were written.
+/// Pictures are renamed first, then the other files in the order of writing.
 pub(super) struct Staged<'a> {
     pub(super) folder: &'a Path,
     pictures: usize,
     files: Vec<PathBuf>,
-    /// How many have their names.
     published: usize,
 }
 
@@ -40,7 +39,6 @@ impl<'a> Staged<'a> {
         Ok(())
     }
 
-    /// The next picture.
     pub(super) fn picture(
         &mut self,
         fill: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>,
@@ -55,7 +53,6 @@ impl<'a> Staged<'a> {
         self.pictures + self.files.len()
     }
 
-    /// The final name of a file.
     fn path(&self, i: usize) -> PathBuf {
         match i.checked_sub(self.pictures) {
             Some(file) => self.files[file].clone(),
@@ -63,8 +60,8 @@ impl<'a> Staged<'a> {
         }
     }
 
-    /// Waits until all files are on the disk, and gives them their names; pictures of a longer run
-    /// before go, or a shorter one would seem to go on.
+    /// Waits until all files are on the disk, renames them and removes surplus pictures of an
+    /// earlier, longer run.
     pub(super) fn publish(mut self) -> Result<(), RunDirectoryError> {
         let unfinished = |i| atomic::unfinished(&self.path(i));
         sync_all(self.count(), unfinished)
@@ -77,7 +74,7 @@ impl<'a> Staged<'a> {
             atomic::publish(&path).map_err(RunDirectoryError::io(&path))?;
             self.published += 1;
         }
-        // Forgets the tables that have been replaced.
+        // Drops the checksums of replaced tables.
         self.note_tables()?;
         let pictures = (self.pictures > 0).then(|| self.folder.join(PICTURES));
         for folder in pictures.iter().map(PathBuf::as_path).chain([self.folder]) {
@@ -86,7 +83,7 @@ impl<'a> Staged<'a> {
         Ok(())
     }
 
-    /// Notes what tables will hold, so that later changes are noticed.
+    /// Stores the checksums of the new tables in the manifest, so that later edits are detected.
     fn note_tables(&self) -> Result<(), RunDirectoryError> {
         let Some(mut manifest) = Manifest::read(self.folder)? else {
             return Ok(());
@@ -110,7 +107,7 @@ impl<'a> Staged<'a> {
 impl Drop for Staged<'_> {
     fn drop(&mut self) {
         for i in self.published..self.count() {
-            // What has led here is told by an error.
+            // The error has already been reported.
             let _ = fs::remove_file(atomic::unfinished(&self.path(i)));
         }
     }

@@ -1,18 +1,18 @@
-//! `states.npz`: the state of every record as numpy arrays.
+//! `states.npz`: states of all records as numpy arrays.
 //!
-//! | array | shape | holds |
+//! | array | shape | contents |
 //! |---|---|---|
-//! | `time_ns`, or `path` of equilibria | [T] | time, or stages of the path |
+//! | `time_ns`, or `path` of equilibria | [T] | time, or position on the path in stages |
 //! | `position_nm`, `velocity_nm_per_ns` | [T, points, 3] | lab frame |
-//! | `centre_line_nm` | [T, points, 3] | points brought to the axis: nodes as they are, monomers moved inward |
+//! | `centre_line_nm` | [T, points, 3] | centre line: positions of nodes, monomer centres shifted to the axis |
 //! | `quaternion` | [T, frames, 4] | orientation, body to lab, in order w, x, y, z |
 //! | `angular_momentum` | [T, frames, 3] | body frame, pN nm ns |
 //! | `s_nm`, `kind` | [points] | arc length at rest, code of [`BodyKind`](crate::BodyKind) |
-//! | `kind_names` | [kinds] | what the codes stand for |
+//! | `kind_names` | [kinds] | names of the codes |
 //! | `filament` | [points] | index of the filament |
 //! | `frame_s_nm`, `frame_kind`, `frame_filament` | [frames] | the same for frames |
 //!
-//! Entries are stored, not deflated, and may exceed 4 GiB.
+//! Entries are stored without compression and may exceed 4 GiB.
 
 use super::names::STATES;
 use super::{RunDirectoryError, clock, finite::ensure_finite_in};
@@ -23,11 +23,11 @@ use std::io::{self, Seek, SeekFrom, Write};
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, DateTime, ZipWriter};
 
-/// A writer that fails once. What is written after its first error is dropped: a `ZipWriter` that is dropped writes its
-/// directory, and would print the error on standard error.
+/// A writer that reports its first error only and discards later output.
+///
+/// A dropped `ZipWriter` writes its directory and would print a second error to standard error.
 struct Silent<W> {
     out: W,
-    /// Place in the file, as the archive sees it.
     place: u64,
     has_failed: bool,
 }
@@ -84,10 +84,9 @@ impl<W: Write + Seek> Seek for Silent<W> {
     }
 }
 
-/// One array of a state's components.
+/// One component of a state vector, for all bodies.
 type Component = fn(&State) -> &[f64];
 
-/// A quantity of every record and body.
 struct Field {
     name: &'static str,
     bodies: usize,
@@ -95,20 +94,18 @@ struct Field {
 }
 
 impl Field {
-    /// Its values in a state: body by body, component by component.
+    /// Values in one state, with the component index fastest.
     fn values<'a>(&'a self, state: &'a State) -> impl Iterator<Item = f64> + 'a {
         let bodies = 0..self.bodies;
         bodies.flat_map(move |i| self.components.iter().map(move |c| c(state)[i]))
     }
 }
 
-/// The arrays of a run.
 pub(super) struct States<'a> {
     assembly: &'a Assembly,
 }
 
 impl<'a> States<'a> {
-    /// The arrays of records that belong to `assembly`.
     pub(super) fn new(assembly: &'a Assembly) -> Self {
         Self { assembly }
     }
@@ -129,7 +126,7 @@ impl<'a> States<'a> {
         ]
     }
 
-    /// Every point brought to the centre line.
+    /// Points on the centre line (nm, lab frame).
     fn centre_line(&self, state: &State) -> Vec<f64> {
         let points = 0..self.assembly.points.len();
         let places = points.map(|i| self.assembly.centre_line_nm(state, i));
@@ -138,7 +135,6 @@ impl<'a> States<'a> {
             .collect()
     }
 
-    /// One number for each body.
     fn columns(&self) -> [(&'static str, Vec<f64>); 2] {
         let Assembly { points, frames, .. } = self.assembly;
         [
@@ -147,7 +143,6 @@ impl<'a> States<'a> {
         ]
     }
 
-    /// Codes of the kinds of bodies.
     fn kinds(&self) -> [(&'static str, Vec<u8>); 2] {
         let Assembly { points, frames, .. } = self.assembly;
         [
@@ -156,7 +151,6 @@ impl<'a> States<'a> {
         ]
     }
 
-    /// Indices of filaments.
     fn filaments(&self) -> [(&'static str, Vec<u64>); 2] {
         let spans = &self.assembly.filaments;
         let indices = |count_of: fn(&FilamentSpan) -> usize| {
@@ -171,10 +165,6 @@ impl<'a> States<'a> {
         ]
     }
 
-    /// Refuses numbers of record `i` that are not finite.
-    ///
-    /// # Errors
-    /// The first such number, with its index in the array.
     pub(super) fn ensure_finite(&self, i: usize, record: &Record) -> Result<(), RunDirectoryError> {
         let of = |name| (STATES, name);
         ensure_finite_in(of(clock(self.assembly)), i, &[], [record.at.value()])?;
@@ -185,10 +175,7 @@ impl<'a> States<'a> {
         Ok(())
     }
 
-    /// Writes the archive of `records`, which are gone through once for each array.
-    ///
-    /// # Errors
-    /// Those of `out` and of the records.
+    /// Writes the archive, with one pass over `records` for each array.
     pub(super) fn write(
         &self,
         records: &dyn Records,
@@ -229,7 +216,6 @@ impl<'a> States<'a> {
     }
 }
 
-/// Adds an array of values that are at hand.
 fn write_array<W: Write + Seek, T: npyz::AutoSerialize>(
     archive: &mut ZipWriter<W>,
     name: &str,
@@ -240,7 +226,6 @@ fn write_array<W: Write + Seek, T: npyz::AutoSerialize>(
     writer.finish()
 }
 
-/// Adds an array of texts, as numpy writes them.
 fn write_texts<W: Write + Seek>(
     archive: &mut ZipWriter<W>,
     name: &str,
@@ -248,7 +233,7 @@ fn write_texts<W: Write + Seek>(
 ) -> io::Result<()> {
     let longest = texts.iter().map(|text| text.chars().count()).max();
     let kind = format!("<U{}", longest.unwrap_or(1));
-    let kind = kind.parse().expect("the name of a type of numpy");
+    let kind = kind.parse().expect("a valid numpy type name");
     begin_entry(archive, name)?;
     let mut writer = npyz::WriteOptions::<str>::new()
         .dtype(npyz::DType::Plain(kind))
@@ -261,7 +246,6 @@ fn write_texts<W: Write + Seek>(
     writer.finish()
 }
 
-/// Adds an array with what `of` gives of each record.
 fn write_records<W: Write + Seek, V: IntoIterator<Item = f64>>(
     archive: &mut ZipWriter<W>,
     name: &str,
@@ -276,8 +260,8 @@ fn write_records<W: Write + Seek, V: IntoIterator<Item = f64>>(
     writer.finish()
 }
 
-/// Begins an array as numpy does: a stored entry that may exceed 4 GiB. Numbers of a trajectory
-/// hardly compress (4 % where it was tried), and a fixed time keeps equal runs equal to the byte.
+/// Begins an uncompressed array that may exceed 4 GiB. Trajectories compress by about 4 % only. The
+/// fixed modification time keeps files of equal runs identical.
 fn begin_array<'a, W: Write + Seek, T: npyz::AutoSerialize>(
     archive: &'a mut ZipWriter<W>,
     name: &str,
@@ -331,7 +315,6 @@ mod tests {
     use std::io::{Cursor, Read};
     use zip::ZipArchive;
 
-    /// A quantity of the state.
     type Quantity = fn(&State) -> &Vectors;
 
     fn archive(assembly: &Assembly, trajectory: &Trajectory) -> ZipArchive<Cursor<Vec<u8>>> {
@@ -351,10 +334,9 @@ mod tests {
         (array.shape().to_vec(), array.into_vec().unwrap())
     }
 
-    /// Indices run record, body, component; a transposed write would keep the numbers but not
-    /// their places. Comparisons are exact: the file holds the same 64 bits.
+    /// Values are compared bit for bit; a transposed array would fail.
     #[test]
-    fn vectors_stand_in_their_places() {
+    fn vector_arrays_have_record_body_component_order() {
         let assembly = fixture::clamped_start();
         let trajectory = fixture::trajectory(&assembly);
         let mut archive = archive(&assembly, &trajectory);
@@ -378,7 +360,7 @@ mod tests {
         }
     }
 
-    /// The scalar part comes first, where nalgebra's own storage has it last.
+    /// nalgebra stores the scalar part last.
     #[test]
     fn quaternions_are_w_x_y_z() {
         let assembly = fixture::clamped_start();
@@ -396,7 +378,7 @@ mod tests {
     }
 
     #[test]
-    fn bodies_are_described() {
+    fn arrays_describe_bodies() {
         let assembly = fixture::clamped_start();
         let trajectory = fixture::trajectory(&assembly);
         let mut archive = archive(&assembly, &trajectory);
@@ -408,7 +390,7 @@ mod tests {
         let frame_s_nm: Vec<f64> = assembly.frames.iter().map(|f| f.s_nm).collect();
         assert_eq!(read::<f64>(&mut archive, "frame_s_nm").1, frame_s_nm);
         let (_, kinds) = read::<u8>(&mut archive, "kind");
-        // The filament begins with monomers (0) and ends with a rod's nodes (1).
+        // Monomers (0) at the start, rod nodes (1) at the end.
         assert_eq!((kinds[0], kinds[kinds.len() - 1]), (0, 1));
         assert_eq!(kinds.len(), assembly.points.len());
         let (_, frame_kinds) = read::<u8>(&mut archive, "frame_kind");
@@ -424,7 +406,7 @@ mod tests {
         assert_eq!(archive.len(), 13);
     }
 
-    /// At rest the centre line is the axis, through monomers and nodes alike; a node is its own place.
+    /// At rest, the centre line coincides with the axis.
     #[test]
     fn the_centre_line_runs_through_monomers_and_nodes() {
         let assembly = fixture::clamped_start();
@@ -435,7 +417,7 @@ mod tests {
         let points = assembly.points.len();
         assert_eq!(shape, [3, points as u64, 3]);
         for (point, place) in assembly.points.iter().zip(line.chunks(3)) {
-            // Round-off of places of 42 nm.
+            // Round-off of coordinates of about 42 nm.
             assert!(place[0].hypot(place[1]) < 1e-13 && (place[2] - point.s_nm).abs() < 1e-12);
         }
         let (_, positions) = read::<f64>(&mut archive, "position_nm");
@@ -443,9 +425,8 @@ mod tests {
         assert_eq!(line[last..], positions[last..]);
     }
 
-    /// Each body says which filament it belongs to: as many of the second as of the first here.
     #[test]
-    fn bodies_belong_to_filaments() {
+    fn filament_indices_match_the_bodies() {
         let assembly = fixture::pair();
         let mut archive = archive(&assembly, &fixture::trajectory(&assembly));
         for (name, count) in [
@@ -453,7 +434,7 @@ mod tests {
             ("frame_filament", assembly.frames.len()),
         ] {
             let (_, filaments) = read::<u64>(&mut archive, name);
-            // The first is clamped and has a monomer more, outside of its length.
+            // The clamped first filament has one extra monomer beyond its length.
             let first = filaments.iter().filter(|f| **f == 0).count();
             assert_eq!((filaments.len(), first), (count, count.div_ceil(2)));
             assert!(filaments.is_sorted());

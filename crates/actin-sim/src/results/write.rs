@@ -1,4 +1,4 @@
-//! Writing the results of a run into its directory: what is checked, and in which order.
+//! Writing of results: validation, staging and publication.
 
 use super::atomic;
 use super::directory::RunDirectory;
@@ -17,13 +17,13 @@ use std::fs;
 use std::io::{self, Write};
 
 impl RunDirectory {
-    /// Writes the scene as resolved, which a run does before it starts.
+    /// Writes the resolved scene before the run starts.
     ///
     /// # Errors
     /// A refusal of the file system.
     pub fn write_scene(&self, scene: &Scene) -> Result<(), RunDirectoryError> {
         let (path, text) = (self.path.join(SCENE), scene.to_ron());
-        // First, so that a run that is killed leaves a scene whose changes are noticed.
+        // The checksum comes first, so that edits after a kill are detected.
         let mut manifest = Manifest::read(&self.path)?.unwrap_or_else(Manifest::new);
         manifest.add([SCENE]);
         manifest.note_scene(&text);
@@ -32,18 +32,16 @@ impl RunDirectory {
         written.map_err(RunDirectoryError::io(&path))
     }
 
-    /// Writes every file of a run and returns what its summary says.
+    /// Writes all results of a run and returns its summary.
     ///
-    /// The records, of a [`Trajectory`](crate::Trajectory) or of the sink of this directory, are gone
-    /// through several times, one by one.
-    ///
-    /// Everything but the pictures is checked before the first file is written. The files of an earlier
-    /// part of the run are replaced when all new ones are complete and on the disk, and not before.
+    /// The records are read one at a time, in several passes. Everything except the pictures is
+    /// validated before writing starts. Files of an earlier part of the run are replaced after all
+    /// new files are complete and on the disk.
     ///
     /// # Errors
-    /// No record, records of another assembly, numbers that are not finite, something in the place of
-    /// a file that the run has not written, or a refusal of the file system. The directory is then as
-    /// it was, unless the file system refuses to give complete files their names.
+    /// There is no record, the records belong to another assembly, a value is not finite, an
+    /// unlisted file has the name of a result, or the file system refuses an operation. The old
+    /// results then stay, unless the file system refuses to rename complete files.
     pub fn write(
         &self,
         plan: &Plan<'_>,
@@ -58,10 +56,11 @@ impl RunDirectory {
         Ok(results.summary)
     }
 
-    /// Writes the summary of a run that failed before it had a record: title of the scene, status and why.
+    /// Writes the summary of a run that failed before its first record: scene title, status and
+    /// reason.
     ///
     /// # Errors
-    /// Something in the place of the summary that the run has not written, or a refusal of the file system.
+    /// An unlisted file has the name of a result, or the file system refuses an operation.
     pub fn write_failure(&self, title: &str, why: &str) -> Result<(), RunDirectoryError> {
         let mut manifest = Manifest::read(&self.path)?.unwrap_or_else(Manifest::new);
         manifest.ensure_own(&self.path)?;
@@ -77,10 +76,10 @@ impl RunDirectory {
         written.map_err(RunDirectoryError::io(&path))
     }
 
-    /// Reads back the summary that a run has written here.
+    /// Reads the summary of the run in this directory.
     ///
     /// # Errors
-    /// A file that is not there, cannot be read or is not a summary.
+    /// The file is missing, unreadable or not a summary.
     pub fn summary(&self) -> Result<Summary, RunDirectoryError> {
         let path = self.path.join(SUMMARY);
         let read = fs::read_to_string(&path);
@@ -88,7 +87,7 @@ impl RunDirectory {
         summary.map_err(RunDirectoryError::io(&path))
     }
 
-    /// Lists what is about to be written, where nothing that the run has not written is in the way.
+    /// Lists the results in the manifest, after checking that unlisted files have other names.
     fn announce(&self, results: &Results<'_>) -> Result<(), RunDirectoryError> {
         let mut manifest = Manifest::read(&self.path)?.unwrap_or_else(Manifest::new);
         manifest.ensure_own(&self.path)?;
@@ -111,7 +110,6 @@ impl RunDirectory {
     }
 }
 
-/// Everything that is written of a run, checked.
 struct Results<'a> {
     assembly: &'a Assembly,
     records: &'a dyn Records,
@@ -119,13 +117,13 @@ struct Results<'a> {
     tables: Tables<'a>,
     along: Vec<Vec<ProfilePoint>>,
     summary: Summary,
-    /// None where nothing happens to linkers.
+    /// `None` if the scene has no linker kinetics.
     events: Option<Vec<LinkerEvent>>,
-    /// Stable states that were looked for; none where they were not.
+    /// Stable states of a search; `None` without a search.
     others: Option<Trajectory>,
 }
 
-/// The stable states that a run has found, in the order of their energies.
+/// Stable states found by the run, sorted by energy.
 fn others(outcome: &Outcome) -> Option<Trajectory> {
     let states = outcome.equilibrium.as_ref()?.states.as_ref()?;
     let states = states.states.iter().enumerate();
@@ -139,11 +137,12 @@ fn others(outcome: &Outcome) -> Option<Trajectory> {
 }
 
 impl Summary {
-    /// The summary of a whole run, which [`RunDirectory::write`] writes: with means over its records, and the worst
-    /// of them all.
+    /// Summary of a whole run, as written by [`RunDirectory::write`].
+    ///
+    /// It contains means and worst cases over all records.
     ///
     /// # Errors
-    /// No record, or records of another assembly.
+    /// There is no record, or the records belong to another assembly.
     pub fn of_run(
         assembly: &Assembly,
         records: &dyn Records,
@@ -155,7 +154,6 @@ impl Summary {
     }
 }
 
-/// The summary of a run whose records were looked at.
 fn reviewed(assembly: &Assembly, review: &Review, (last, outcome): (&Record, &Outcome)) -> Summary {
     Summary {
         beyond_range: outcome.beyond_range.clone(),
@@ -262,7 +260,6 @@ mod tests {
     use std::path::{Path, PathBuf};
     use tempfile::TempDir;
 
-    /// Makes one number of a state useless.
     type Spoil = fn(&mut State);
 
     fn plan(assembly: &Assembly) -> Plan<'_> {
@@ -276,7 +273,7 @@ mod tests {
     }
 
     #[test]
-    fn all_files_of_a_run_are_there() {
+    fn write_creates_all_files() {
         let (folder, directory) = empty();
         let assembly = fixture::clamped_start();
         let trajectory = fixture::trajectory(&assembly);
@@ -317,9 +314,8 @@ mod tests {
         assert_eq!(names(&folder.path().join(PICTURES)).len(), 3);
     }
 
-    /// A run that is killed before it has results leaves its scene; changed, it is not overwritten.
     #[test]
-    fn a_scene_that_was_changed_before_there_are_results_is_kept() {
+    fn edited_scene_of_a_killed_run_is_not_overwritten() {
         let (folder, directory) = empty();
         let assembly = fixture::clamped_start();
         directory.write_scene(&assembly.scene).unwrap();
@@ -334,7 +330,7 @@ mod tests {
         assert_eq!(fs::read(folder.path().join(SCENE)).unwrap(), b"mine");
     }
 
-    /// Pictures of the longer run before are gone, or the shorter one would seem to go on.
+    /// Remaining pictures would seem to belong to the shorter run.
     #[test]
     fn a_shorter_run_leaves_no_pictures_of_a_longer_one() {
         let (folder, directory) = empty();
@@ -351,8 +347,7 @@ mod tests {
         assert_eq!(names(&folder.path().join(PICTURES)), ["0000.vtp"]);
     }
 
-    /// All files or none: what cannot be written, here because something stands in the place of its
-    /// unfinished name, leaves the results of before, every byte, and nothing unfinished.
+    /// A folder in place of a temporary file makes writing fail; the old results stay unchanged.
     #[test]
     fn results_are_replaced_together_or_not_at_all() {
         let (folder, directory) = empty();
@@ -374,7 +369,7 @@ mod tests {
             assert!(error.to_string().contains(name), "{error}");
             fs::remove_dir(&obstacle).unwrap();
             let mut after = contents(folder.path());
-            // What the run may write is listed before it is written.
+            // The manifest is written first.
             after.retain(|(path, _)| !path.ends_with(MANIFEST));
             let same = before.iter().filter(|(path, _)| !path.ends_with(MANIFEST));
             assert!(after.iter().eq(same), "{name}");
@@ -385,9 +380,8 @@ mod tests {
         assert_eq!(names(&folder.path().join(PICTURES)).len(), 3);
     }
 
-    /// A text that somebody has changed is refused by name, to go on as to overwrite, and stays.
     #[test]
-    fn tables_that_were_changed_are_not_replaced() {
+    fn edited_texts_are_not_replaced() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path();
         let directory = RunDirectory::create(path, false).unwrap();
@@ -395,7 +389,7 @@ mod tests {
         let trajectory = fixture::trajectory(&assembly);
         let outcome = fixture::outcome();
         let write = || directory.write(&plan(&assembly), &trajectory, &outcome);
-        // Twice, as a run does that was interrupted and goes on.
+        // An interrupted run writes its results again after it is resumed.
         write().unwrap();
         directory.reopen().unwrap();
         write().unwrap();
@@ -419,10 +413,10 @@ mod tests {
         RunDirectory::create(path, true).unwrap();
     }
 
-    /// A writer that is full anywhere, also where the directory of the archive begins, gives an error; what the
-    /// archive writes when it is dropped is lost in silence.
+    /// Writing fails at any position, including the directory of the zip archive. Errors of writing
+    /// during the drop of the archive are ignored.
     #[test]
-    fn a_full_disk_is_one_error() {
+    fn full_disk_is_one_error() {
         struct Full(io::Cursor<Vec<u8>>, u64);
         impl Write for Full {
             fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
@@ -455,9 +449,8 @@ mod tests {
         }
     }
 
-    /// A file that no run has written, or a link, in the place of a result: refused by name, and stays.
     #[test]
-    fn results_do_not_replace_the_files_of_others() {
+    fn unlisted_files_are_not_replaced() {
         for name in [ENERGIES, "vtk/0001.vtp", "vtk/0007.vtp"] {
             let (folder, directory) = empty();
             fs::create_dir(folder.path().join(PICTURES)).unwrap();
@@ -472,9 +465,8 @@ mod tests {
         }
     }
 
-    /// Each kind of number is caught before any file is written, and named where it stands.
     #[test]
-    fn nothing_is_written_if_a_number_is_not_finite() {
+    fn values_that_are_not_finite_are_refused_before_writing() {
         let assembly = fixture::clamped_start();
         let spoil: [(&str, Spoil); 4] = [
             ("states.npz: position_nm[1, 4, 2] is", |s| {
@@ -507,7 +499,7 @@ mod tests {
     }
 
     #[test]
-    fn a_trajectory_that_does_not_fit_is_refused() {
+    fn records_of_another_assembly_are_refused() {
         let assembly = fixture::clamped_start();
         assert_refused(
             &assembly,
@@ -533,7 +525,6 @@ mod tests {
         assert_eq!(names(folder.path()), [LOCK, MANIFEST]);
     }
 
-    /// The files of a run directory with their bytes.
     fn contents(folder: &Path) -> Vec<(PathBuf, Vec<u8>)> {
         let folders = [folder.to_owned(), folder.join(PICTURES)];
         let entries = folders.iter().flat_map(|f| fs::read_dir(f).unwrap());

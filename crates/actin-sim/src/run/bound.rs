@@ -47,7 +47,6 @@ fn stays(load: &Load) -> bool {
     !load.follows() && load.factor().is_constant() && !matches!(load, Load::Acceleration(_))
 }
 
-/// Thermal energy `kT` (pN nm); 0 without a bath.
 fn thermal_energy(assembly: &Assembly) -> f64 {
     match &assembly.scene.task {
         Task::Dynamics(dynamics) => dynamics.thermal.map_or(0.0, |t| t.energy_pn_nm()),

@@ -2,7 +2,7 @@
 
 use super::dynamics::{check_records, conclude};
 use super::recorder::Recorder;
-use super::sink::{Clock, Saved, Sink};
+use super::sink::{Clock, SavedRun, Sink};
 use super::steps::{LongestStep, Steps};
 use super::unknowns::layout;
 use super::{Estimate, Failure, Outcome, Plan, Status, long_steps};
@@ -92,7 +92,6 @@ impl Plan<'_> {
     }
 }
 
-/// Relaxation problem of an assembly in the fluid of its task.
 fn relaxation(assembly: &Assembly, fluid: &Fluid) -> Result<Relaxation, SceneProblem> {
     let friction = assembly.friction(fluid)?;
     let layout = layout(assembly)?;
@@ -100,7 +99,6 @@ fn relaxation(assembly: &Assembly, fluid: &Fluid) -> Result<Relaxation, ScenePro
         .map_err(|error| SceneProblem::new("task", "", error.to_string()))
 }
 
-/// Time step and number of steps of overdamped motion.
 pub(super) fn estimate(assembly: &Assembly, task: &Task) -> Result<Estimate, SceneProblem> {
     assembly.check_slip()?;
     let motion = task.as_motion();
@@ -237,7 +235,7 @@ pub(super) fn run(
     assembly: &Assembly,
     task: &Task,
     estimate: &Estimate,
-    saved: Option<Saved>,
+    saved: Option<SavedRun>,
     clock: Clock,
     sink: &mut dyn Sink,
 ) -> Result<(Outcome, Option<Failure>), SceneProblem> {

@@ -4,7 +4,7 @@ use super::bound::kinetic_limit;
 use super::points::check_points;
 use super::recorder::{Ending, Recorder};
 use super::rest::{is_saddle, saddle};
-use super::sink::{Clock, Saved, Sink};
+use super::sink::{Clock, SavedRun, Sink};
 use super::steps::{LongestStep, Steps};
 use super::unknowns::layout;
 use super::{Failure, Outcome, Status};
@@ -83,7 +83,6 @@ fn estimate_of(assembly: &Assembly, dynamics: &Dynamics) -> Result<Estimate, Sce
     estimate_at(assembly, dynamics, assembly.with_contact(frequency)?)
 }
 
-/// Largest frequency of an assembly in its present state (rad/ns).
 fn frequency_of(assembly: &Assembly) -> Result<f64, SceneProblem> {
     let system = &assembly.system;
     let found = match &assembly.kinetics {
@@ -100,7 +99,6 @@ fn no_step(error: &dyn std::error::Error) -> SceneProblem {
     SceneProblem::new("filament", error, "has no stable time step")
 }
 
-/// Estimate at a known largest frequency (rad/ns) of the filaments.
 fn estimate_at(
     assembly: &Assembly,
     dynamics: &Dynamics,
@@ -166,7 +164,6 @@ fn share_of_laws(assembly: &Assembly, dynamics: &Dynamics) -> f64 {
     }
 }
 
-/// Error for a time step (ns) above the limit (ns) at a frequency (rad/ns).
 fn unstable(scheme: &Composition, wanted: f64, limit: f64, frequency: f64) -> SceneProblem {
     SceneProblem::new(
         "task.time_step_ns",
@@ -179,7 +176,6 @@ fn unstable(scheme: &Composition, wanted: f64, limit: f64, frequency: f64) -> Sc
     )
 }
 
-/// Refuses records that exceed the memory.
 pub(super) fn check_records(
     assembly: &Assembly,
     dynamics: &Dynamics,
@@ -227,7 +223,7 @@ pub(super) fn run(
     assembly: &Assembly,
     dynamics: &Dynamics,
     estimate: &Estimate,
-    saved: Option<Saved>,
+    saved: Option<SavedRun>,
     clock: Clock,
     sink: &mut dyn Sink,
 ) -> Result<(Outcome, Option<Failure>), SceneProblem> {
@@ -264,7 +260,6 @@ pub(super) fn run(
     Ok(conclude(assembly, dynamics, ending, outcome))
 }
 
-/// Completes the outcome of a motion with the end of its run.
 pub(super) fn conclude(
     assembly: &Assembly,
     dynamics: &Dynamics,
@@ -317,7 +312,6 @@ fn ended(
     (outcome, failure)
 }
 
-/// Remedy for a motion that ends on a saddle.
 fn way_off(dynamics: &Dynamics) -> &'static str {
     match dynamics.leave_saddles {
         0 => {
@@ -328,7 +322,6 @@ fn way_off(dynamics: &Dynamics) -> &'static str {
     }
 }
 
-/// Creates the run of the scene with its drive and observers.
 fn prepare(
     (assembly, dynamics): (&Assembly, &Dynamics),
     recorder: &Recorder<'_>,
@@ -347,7 +340,6 @@ fn prepare(
     })
 }
 
-/// Creates the run of the scene, whose numbers are validated.
 fn plan(dynamics: &Dynamics, estimate: &Estimate) -> Result<Run, SceneProblem> {
     let refused = |key: &str, error: &dyn std::error::Error| {
         SceneProblem::new(format!("task.{key}"), "", error.to_string())
@@ -381,7 +373,6 @@ fn plan(dynamics: &Dynamics, estimate: &Estimate) -> Result<Run, SceneProblem> {
         .map_err(|error| refused("stop", &error))
 }
 
-/// Stepper of inertial motion in a fluid.
 fn langevin(
     assembly: &Assembly,
     dynamics: &Dynamics,

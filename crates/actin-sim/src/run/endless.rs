@@ -10,11 +10,11 @@ pub(super) const PERIOD: usize = 13;
 
 /// Infinite filament with quadrature bonds, as a periodic cell under uniform strain.
 #[derive(Debug)]
-pub(super) struct EndlessFilament {
+pub(super) struct PeriodicFilament {
     cell: Cell,
 }
 
-impl EndlessFilament {
+impl PeriodicFilament {
     /// Creates the filament from the parameters of its monomers.
     ///
     /// # Errors

@@ -1,16 +1,16 @@
 //! Equilibria by Newton's method, from the state as built or along the path of the scene.
 
 use super::lost_load::lost_load;
+use super::record_stream::RecordStream;
 use super::rest::{is_saddle, saddle};
-use super::sink::{Arrival, Clock, PathPosition, Saved, Sink};
+use super::sink::{Clock, PathPosition, SavedRun, Sink, SolveReport};
 use super::start::near_equilibrium;
 use super::states::{StableStates, search};
-use super::taken::Taken;
 use super::unknowns::newton;
-use super::{At, Failure, Outcome, Progress, Record, Recorded, RunPosition, Status};
+use super::{At, Failure, Outcome, Progress, Record, RecordSummary, RunPosition, Status};
 use crate::scene::{Equilibrium as Settings, Load, SceneProblem};
 use crate::trade::{ModelErrorResult, model_error};
-use crate::{Assembly, Booked};
+use crate::{Assembly, EnergyExchange};
 use actin_equilibrium::{
     Certificate, Convergence, Equilibrium, Iteration, Jumps, Newton, NewtonFailure, Path,
     PathError, PathFailure, PathObserver, PathOptions, PathPoint, Saddles, SolverWork,
@@ -44,7 +44,7 @@ pub struct EquilibriumReport {
 pub(super) fn run(
     assembly: &Assembly,
     settings: &Settings,
-    saved: Option<Saved>,
+    saved: Option<SavedRun>,
     clock: Clock,
     sink: &mut dyn Sink,
 ) -> Result<(Outcome, Option<Failure>), SceneProblem> {
@@ -91,7 +91,6 @@ pub(super) fn run(
     Ok((outcome, failure))
 }
 
-/// Names the stage after `stages_done` stages; empty without a path.
 fn place(assembly: &Assembly, stages_done: usize) -> String {
     match assembly.drive.stages() {
         0 => String::new(),
@@ -136,11 +135,10 @@ fn path(settings: &Settings) -> Result<Path, SceneProblem> {
     Path::new(options).map_err(|error| SceneProblem::new("task", "", error.to_string()))
 }
 
-/// State of a run along the path.
 struct Follower<'a> {
     assembly: &'a Assembly,
     settings: &'a Settings,
-    taken: Taken<'a>,
+    taken: RecordStream<'a>,
     clock: Clock,
     /// Position for resuming the run.
     position: PathPosition,
@@ -152,7 +150,7 @@ impl<'a> Follower<'a> {
     fn new(
         assembly: &'a Assembly,
         settings: &'a Settings,
-        saved: Option<Saved>,
+        saved: Option<SavedRun>,
         clock: Clock,
         sink: &'a mut dyn Sink,
     ) -> Self {
@@ -168,7 +166,7 @@ impl<'a> Follower<'a> {
         };
         let (position, recorded) = match saved {
             None => (start, None),
-            Some(Saved {
+            Some(SavedRun {
                 position: RunPosition::Path(position),
                 recorded,
                 ..
@@ -178,7 +176,7 @@ impl<'a> Follower<'a> {
         Self {
             assembly,
             settings,
-            taken: Taken::new(assembly, recorded, sink),
+            taken: RecordStream::new(assembly, recorded, sink),
             clock,
             position,
             is_interrupted: false,
@@ -222,7 +220,6 @@ impl<'a> Follower<'a> {
         Ok(failure)
     }
 
-    /// Searches for other stable states, if requested.
     fn look_around(
         &mut self,
         newton: &mut Newton,
@@ -259,11 +256,10 @@ impl<'a> Follower<'a> {
         }
     }
 
-    /// Returns the failure of the last equilibrium, if any.
     fn flaw(&self) -> Option<Failure> {
         let last = self.taken.last();
         let lost = last.and_then(|last| lost_load(self.assembly, last));
-        lost.map(Failure::LoadLost).or_else(|| {
+        lost.map(Failure::LoadBelowResidual).or_else(|| {
             let certificate = self.position.last.as_ref()?.certificate?;
             let attempts = self.settings.leave_saddles;
             let way = match attempts {
@@ -372,14 +368,13 @@ impl<'a> Follower<'a> {
         .map(drop)
     }
 
-    /// Records an equilibrium. Ends the path if twist was lost since the previous one.
     fn record(&mut self, u: f64, state: &State, equilibrium: &Equilibrium) -> ControlFlow<()> {
         if !self.taken.take(record(&self.assembly.system, u, state)) {
             return ControlFlow::Break(());
         }
         self.position.points += 1;
         self.position.saddles_left += equilibrium.saddles_left;
-        self.position.last = Some(Arrival {
+        self.position.last = Some(SolveReport {
             certificate: equilibrium.certificate,
             floor: (equilibrium.ending == Convergence::FloorReached).then_some(equilibrium.floor),
             history: equilibrium
@@ -408,7 +403,7 @@ impl<'a> Follower<'a> {
             self.taken.checkpoint(&position, wall_s);
         } else {
             // Best state of a failed attempt; the next attempt starts without it.
-            let none = Recorded::new(self.assembly);
+            let none = RecordSummary::new(self.assembly);
             self.taken.checkpoint_behind(&position, &none, wall_s);
         }
     }
@@ -465,7 +460,7 @@ pub(super) fn record(system: &System, u: f64, state: &State) -> Record {
         kinetic_pn_nm: 0.0,
         residual_force_pn: residual.force,
         residual_torque_pn_nm: residual.torque,
-        booked: Booked::default(),
+        booked: EnergyExchange::default(),
         observed: Vec::new(),
         state: state.clone(),
     }
@@ -475,7 +470,7 @@ fn lowest_eigenvalue(
     newton: &mut Newton,
     system: &System,
     state: &State,
-    last: Option<&Arrival>,
+    last: Option<&SolveReport>,
 ) -> Option<f64> {
     let certificate = last?.certificate?;
     let lowest = newton.lowest_eigenvalue(state, system.interactions(), &certificate);

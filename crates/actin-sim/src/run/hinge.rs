@@ -45,7 +45,6 @@ impl fmt::Display for HingeSlip {
     }
 }
 
-/// Hinged end and the two frames of its spring.
 #[derive(Clone, Copy, Debug)]
 struct Hinge {
     filament: usize,
@@ -68,7 +67,6 @@ impl Hinge {
         hinged.collect()
     }
 
-    /// Rotation of the spring.
     fn rotation(&self, state: &State) -> UnitQuaternion {
         let [from, to] = self.frames.map(|i| state.frames.orientation.get(i));
         from.inverse() * to
@@ -85,7 +83,6 @@ impl Hinge {
     }
 }
 
-/// Monitor of the hinges of a motion.
 #[derive(Clone, Debug)]
 pub(super) struct HingeWatch {
     hinges: Vec<Hinge>,
@@ -100,7 +97,6 @@ struct Seen {
 }
 
 impl HingeWatch {
-    /// Creates a monitor of an assembly in its state as built.
     pub(super) fn new(assembly: &Assembly) -> Self {
         let watch = Self {
             hinges: Hinge::all(assembly),
@@ -110,7 +106,6 @@ impl HingeWatch {
         watch
     }
 
-    /// Starts the monitor at `state`.
     pub(super) fn begin(&self, state: &State) {
         let mut seen = self.seen.lock().unwrap_or_else(PoisonError::into_inner);
         seen.last = self.hinges.iter().map(|h| h.rotation(state)).collect();
@@ -126,7 +121,6 @@ impl HingeWatch {
         Some(Box::new(Watched { ramp, watch }))
     }
 
-    /// Returns the first slip, if any.
     pub(super) fn slip(&self) -> Option<HingeSlip> {
         let seen = self.seen.lock().unwrap_or_else(PoisonError::into_inner);
         seen.slip
@@ -144,7 +138,6 @@ impl HingeWatch {
     }
 }
 
-/// Ramp followed by a check of the hinges.
 #[derive(Debug)]
 struct Watched {
     ramp: Option<Ramp>,

@@ -23,7 +23,6 @@ const LONGEST_FOLLOWED_NM: f64 = 40.0;
 /// (`docs/measured/motion.md`).
 const PER_RECORD: f64 = 20.0;
 
-/// Default number of records.
 const RECORDS: f64 = 100.0;
 
 /// Default step (ns). At finite temperature it resolves bending to 1 % (`actin_brownian::Brownian`)

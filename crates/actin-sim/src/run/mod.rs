@@ -11,6 +11,7 @@ mod lost_load;
 mod outcome;
 mod plan;
 mod points;
+mod record_stream;
 mod recorder;
 mod records;
 mod rest;
@@ -19,7 +20,6 @@ mod slip;
 mod start;
 mod states;
 mod steps;
-mod taken;
 mod unknowns;
 
 pub use brownian::RelaxationTimes;
@@ -29,18 +29,19 @@ pub use equilibrium::EquilibriumReport;
 pub use hinge::HingeSlip;
 pub use outcome::{FailedRun, Failure, Outcome, RunError, Status};
 pub use plan::Plan;
+pub use record_stream::RecordSummary;
+pub(crate) use record_stream::RunStatistics;
 pub(crate) use recorder::record;
 pub use records::{At, Record, RecordIter, Records, Row, RowIter, Trajectory};
 pub use rest::SaddlePush;
 pub use sink::{
-    Arrival, BehindSwitch, MotionPosition, PathPosition, Progress, RunPosition, Saved, Sink,
+    MotionPosition, PathPosition, Progress, ResolutionSwitch, RunPosition, SavedRun, Sink,
+    SolveReport,
 };
 pub use slip::Slip;
 pub use start::near_equilibrium;
 pub use states::{StableState, StableStates};
 pub use steps::LongestStep;
-pub(crate) use taken::Carried;
-pub use taken::Recorded;
 pub use unknowns::newton as solver;
 pub(crate) use unknowns::order;
 
@@ -78,11 +79,11 @@ impl Plan<'_> {
     ///
     /// # Panics
     /// If `saved` belongs to another task or to other numbers of bodies.
-    pub fn resume_into(&self, saved: Saved, sink: &mut dyn Sink) -> Result<Outcome, RunError> {
+    pub fn resume_into(&self, saved: SavedRun, sink: &mut dyn Sink) -> Result<Outcome, RunError> {
         self.execute(Some(saved), sink)
     }
 
-    fn execute(&self, saved: Option<Saved>, sink: &mut dyn Sink) -> Result<Outcome, RunError> {
+    fn execute(&self, saved: Option<SavedRun>, sink: &mut dyn Sink) -> Result<Outcome, RunError> {
         let assembly = self.assembly();
         if assembly.scene.filament.sections.following().is_some() {
             let rule = "sections that follow a motion can only be run by `actin run`, or by `follow::Follower` in Rust";
@@ -105,8 +106,9 @@ impl Plan<'_> {
         };
         outcome.plan_notes = self.notes();
         let is_of_use = outcome.beyond_use.is_empty() || outcome.status == Status::Interrupted;
-        let failure = failure
-            .or_else(|| (!is_of_use).then(|| Failure::BeyondUse(outcome.beyond_use.clone())));
+        let failure = failure.or_else(|| {
+            (!is_of_use).then(|| Failure::ModelLimitExceeded(outcome.beyond_use.clone()))
+        });
         match failure {
             None => Ok(outcome),
             Some(failure) => {

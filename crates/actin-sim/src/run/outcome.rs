@@ -1,11 +1,11 @@
 //! Outcome of a run: status, cost, warnings and failures.
 
-use super::taken::Remarks;
+use super::record_stream::StateWarnings;
 use super::{EquilibriumReport, HingeSlip, SaddlePush, Slip};
 use crate::notes::Note;
 use crate::scene::SceneProblem;
 use crate::trade::{ModelError, Scatter};
-use crate::{BeyondRange, BeyondUse, LinkerEvent, UnstableTwist};
+use crate::{LawExtrapolation, LinkerEvent, ModelLimitExceeded, UnstableTwist};
 use actin_equilibrium::{Certificate, PathFailure, Residual};
 use actin_integrate::RunFailure;
 use serde::{Deserialize, Serialize};
@@ -58,9 +58,9 @@ pub struct Outcome {
     /// Number of sudden jumps after which the path continued.
     pub jumps: usize,
     /// Exceeded model limits, largest over all records; if nonempty, the run has failed.
-    pub beyond_use: Vec<BeyondUse>,
+    pub beyond_use: Vec<ModelLimitExceeded>,
     /// Extrapolations of rod laws, largest over all records; in a heat bath with their frequency.
-    pub beyond_range: Vec<BeyondRange>,
+    pub beyond_range: Vec<LawExtrapolation>,
     /// Segments with unstable twist, worst over all records; empty in a heat bath.
     pub unstable_twist: Vec<UnstableTwist>,
     /// Warnings of its plan.
@@ -72,7 +72,6 @@ pub struct Outcome {
 }
 
 impl Outcome {
-    /// Creates an outcome with a status and a run time (s).
     pub(crate) fn new(status: Status, wall_s: f64) -> Self {
         Self {
             status,
@@ -97,9 +96,8 @@ impl Outcome {
         }
     }
 
-    /// Adds the warnings about the states of the records.
-    pub(super) fn with(self, remarks: Remarks) -> Self {
-        let Remarks {
+    pub(super) fn with(self, remarks: StateWarnings) -> Self {
+        let StateWarnings {
             beyond_use,
             beyond_range,
             unstable_twist,
@@ -178,9 +176,9 @@ pub enum Failure {
         hint: &'static str,
     },
     /// A load of the last equilibrium is below its residual.
-    LoadLost(SceneProblem),
+    LoadBelowResidual(SceneProblem),
     /// States exceed the validity of the model; at least one entry.
-    BeyondUse(Vec<BeyondUse>),
+    ModelLimitExceeded(Vec<ModelLimitExceeded>),
     /// The run ended on a saddle.
     Saddle(SceneProblem),
     /// A filament lost twist.
@@ -214,8 +212,8 @@ impl fmt::Display for Failure {
                 failure,
                 hint,
             } => write!(f, "{place}{failure}{hint}"),
-            Self::LoadLost(problem) | Self::Saddle(problem) => write!(f, "{problem}"),
-            Self::BeyondUse(worst) => {
+            Self::LoadBelowResidual(problem) | Self::Saddle(problem) => write!(f, "{problem}"),
+            Self::ModelLimitExceeded(worst) => {
                 write!(f, "the model does not apply to the result: {}", worst[0])?;
                 match worst.len() - 1 {
                     0 => Ok(()),

@@ -72,7 +72,6 @@ impl<'a> Plan<'a> {
         self.estimate.as_ref()
     }
 
-    /// Duration of build and plan (s).
     pub(crate) fn set_up_s(&self) -> f64 {
         self.set_up_s
     }

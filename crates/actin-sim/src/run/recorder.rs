@@ -1,14 +1,14 @@
 //! Observer of a motion: records, checkpoints, lost turns, and perturbation at saddles.
 
 use super::hinge::HingeWatch;
+use super::record_stream::RecordStream;
 use super::rest::{RestJudge, SaddlePush, is_saddle};
-use super::sink::{BehindSwitch, Clock, MotionPosition, Saved};
-use super::slip::Lost;
-use super::taken::Taken;
-use super::{At, Progress, Record, Recorded, RunPosition, Sink};
+use super::sink::{Clock, MotionPosition, ResolutionSwitch, SavedRun};
+use super::slip::TurnLoss;
+use super::{At, Progress, Record, RecordSummary, RunPosition, Sink};
 use crate::assembly::{Log, Ramp};
 use crate::scene::{Dynamics, Task};
-use crate::{Assembly, Booked, LinkerEvent};
+use crate::{Assembly, EnergyExchange, LinkerEvent};
 use actin_equilibrium::Certificate;
 use actin_integrate::{
     Checkpoint, DEFAULT_CHECK_EVERY, Moment, Observer, Pause, Reason, Run, RunFailure, RunOutcome,
@@ -20,7 +20,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 /// Observer that records a motion and perturbs it at saddles.
 pub(super) struct Recorder<'a> {
-    pub(super) taken: Taken<'a>,
+    pub(super) taken: RecordStream<'a>,
     pub(super) pushes: Vec<SaddlePush>,
     end_ns: f64,
     /// End of the path (ns); the motion is not checked for rest before.
@@ -31,8 +31,8 @@ pub(super) struct Recorder<'a> {
     /// Position at which an interrupted run continues.
     position: Option<Checkpoint>,
     /// Checkpoint at the last record after which the motion continued, with the records up to then.
-    /// Those are unknown if the run was resumed since.
-    last_good: Option<(Checkpoint, Option<Recorded>)>,
+    /// They are unknown if the run was resumed since.
+    last_good: Option<(Checkpoint, Option<RecordSummary>)>,
     /// A record was made since `last_good`.
     is_behind: bool,
     is_interrupted: bool,
@@ -42,20 +42,18 @@ pub(super) struct Recorder<'a> {
     hinges: HingeWatch,
     /// Largest kinetic energy at a check (pN nm), set at the end.
     pub(super) largest_kinetic_pn_nm: f64,
-    /// Start after a switch of cells.
-    pub(super) behind_switch: Option<BehindSwitch>,
+    pub(super) behind_switch: Option<ResolutionSwitch>,
     /// Steps between queries whether to leave the motion.
     look_every: u64,
 }
 
-/// End of a motion.
 pub(super) enum Ending {
     /// Interrupted; can be resumed.
     Interrupted(RunOutcome),
     /// Completed, with the certificate of a state at rest.
     Ended(RunOutcome, Option<Certificate>),
     /// Turns were lost; with the step of the last good state.
-    Slipped(Lost, u64),
+    Slipped(TurnLoss, u64),
     /// The state diverged.
     Failed(RunFailure),
 }
@@ -68,25 +66,22 @@ impl<'a> Recorder<'a> {
     pub(super) fn new(
         assembly: &'a Assembly,
         dynamics: &Dynamics,
-        saved: Option<Saved>,
+        saved: Option<SavedRun>,
         clock: Clock,
         sink: &'a mut dyn Sink,
     ) -> Self {
         let (position, recorded) = saved.map(|s| (s.position, s.recorded)).unzip();
-        let motion = match position {
-            None => None,
-            Some(RunPosition::Motion(motion)) => Some(*motion),
-            Some(RunPosition::Path(_)) => {
-                panic!("the checkpoint of a path of equilibria cannot resume a motion")
-            }
-        };
+        let motion = position.map(|position| match position {
+            RunPosition::Motion(motion) => *motion,
+            RunPosition::Path(_) => panic!("the checkpoint belongs to a path of equilibria"),
+        });
         let behind_switch = motion.as_ref().and_then(|m| m.behind_switch);
         let (position, pushes, events) = match motion {
             None => (None, Vec::new(), Vec::new()),
             Some(motion) => (Some(motion.checkpoint), motion.pushes, motion.events),
         };
         Self {
-            taken: Taken::new(assembly, recorded, sink),
+            taken: RecordStream::new(assembly, recorded, sink),
             pushes,
             end_ns: dynamics.duration_ns,
             rest_from_ns: Ramp::of(assembly).map_or(0.0, |ramp| ramp.duration()),
@@ -124,27 +119,23 @@ impl<'a> Recorder<'a> {
         self.rest_from_ns
     }
 
-    /// Installs the linker events in `system`, from the present step on.
     pub(super) fn let_happen(&self, system: &mut System) {
         if let Some(kinetics) = &self.assembly.kinetics {
             system.set_step_end(Box::new(kinetics.happenings(&self.log)));
         }
     }
 
-    /// Linker events so far.
     pub(super) fn events(&self) -> Vec<LinkerEvent> {
         let log = self.log.lock().unwrap_or_else(PoisonError::into_inner);
         log.clone()
     }
 
-    /// Linker events up to a step.
     fn events_until(&self, step: u64) -> Vec<LinkerEvent> {
         let mut events = self.events();
         events.retain(|event| event.step <= step);
         events
     }
 
-    /// Executes the remaining run with the steps of `stepper`.
     pub(super) fn execute_steps(
         &mut self,
         run: &Run,
@@ -160,7 +151,6 @@ impl<'a> Recorder<'a> {
         }
     }
 
-    /// Executes the remaining run.
     pub(super) fn execute(
         &mut self,
         run: &Run,
@@ -175,14 +165,12 @@ impl<'a> Recorder<'a> {
         }
     }
 
-    /// Restarts the monitor of hinges at a checkpoint.
     fn begin_hinges(&mut self, checkpoint: &Checkpoint, system: &System) {
         let mut state = system.state().clone();
         state.set_motion(&checkpoint.here.motion);
         self.hinges.begin(&state);
     }
 
-    /// Initial energy of the motion (pN nm).
     pub(super) fn begun_with_pn_nm(&self) -> f64 {
         let built = || self.assembly.system.total_energy();
         self.behind_switch.map_or_else(built, |s| s.energy_pn_nm)
@@ -193,7 +181,6 @@ impl<'a> Recorder<'a> {
         self.behind_switch.is_none()
     }
 
-    /// Run time (s).
     pub(super) fn wall_s(&self) -> f64 {
         self.clock.wall_s()
     }
@@ -234,7 +221,6 @@ impl<'a> Recorder<'a> {
         Ending::Ended(outcome, certificate)
     }
 
-    /// Certificate of the state in which the motion came to rest, if it has.
     fn certificate(&mut self, reason: Reason, system: &System) -> Option<Certificate> {
         let record = self.taken.last()?;
         let judge = self
@@ -245,16 +231,14 @@ impl<'a> Recorder<'a> {
         Some(nearest.certificate)
     }
 
-    /// Ends the run if a hinge slipped.
     fn look_at_hinges(&mut self) -> ControlFlow<()> {
         let Some(slip) = self.hinges.slip() else {
             return ControlFlow::Continue(());
         };
-        self.taken.lose(Lost::Hinge(slip));
+        self.taken.lose(TurnLoss::Hinge(slip));
         ControlFlow::Break(())
     }
 
-    /// Keeps a checkpoint after all records.
     fn keep(&mut self, checkpoint: Checkpoint) {
         let position = self.position_at(checkpoint);
         self.taken.checkpoint(&position, self.clock.wall_s());
@@ -345,7 +329,6 @@ fn progress(moment: &mut Moment<'_>, end_ns: f64) -> Progress {
     }
 }
 
-/// Creates the record of a moment.
 pub(crate) fn record(moment: &mut Moment<'_>) -> Record {
     let residual = moment.residual();
     Record {
@@ -355,7 +338,7 @@ pub(crate) fn record(moment: &mut Moment<'_>) -> Record {
         kinetic_pn_nm: moment.kinetic_energy(),
         residual_force_pn: residual.force,
         residual_torque_pn_nm: residual.torque,
-        booked: Booked::default(),
+        booked: EnergyExchange::default(),
         observed: Vec::new(),
     }
 }

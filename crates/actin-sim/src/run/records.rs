@@ -1,6 +1,6 @@
 //! Records in memory or read one by one from files.
 
-use crate::Booked;
+use crate::EnergyExchange;
 use actin_mechanics::State;
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
@@ -56,7 +56,7 @@ pub struct Record {
     /// Largest torque on a free frame (pN nm).
     pub residual_torque_pn_nm: f64,
     /// Energy received from the surroundings so far.
-    pub booked: Booked,
+    pub booked: EnergyExchange,
     /// Observed quantities in the order of the columns of `observables.csv`; NaN if not yet
     /// defined.
     pub observed: Vec<f64>,
@@ -96,7 +96,7 @@ pub struct Row {
     /// Largest torque on a free frame (pN nm).
     pub residual_torque_pn_nm: f64,
     /// Energy received from the surroundings so far.
-    pub booked: Booked,
+    pub booked: EnergyExchange,
     /// Observed quantities.
     pub observed: Vec<f64>,
 }

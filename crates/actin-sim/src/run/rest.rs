@@ -40,7 +40,6 @@ pub struct SaddlePush {
     pub turn_rad: f64,
 }
 
-/// Test whether a motion is at rest.
 #[derive(Debug)]
 pub(super) struct RestJudge<'a> {
     assembly: &'a Assembly,
@@ -49,7 +48,6 @@ pub(super) struct RestJudge<'a> {
 }
 
 impl<'a> RestJudge<'a> {
-    /// Creates the test for the motions of an assembly; `None` in a heat bath.
     pub(super) fn new(assembly: &'a Assembly, dynamics: &Dynamics) -> Option<Self> {
         let newton = None;
         (dynamics.thermal.is_none()).then_some(Self { assembly, newton })
@@ -123,17 +121,14 @@ impl SaddlePush {
     }
 }
 
-/// Potential energy (pN nm) of the equilibrium nearest to a record.
 fn energy_of(record: &Record, nearest: &Nearest) -> f64 {
     record.potential_pn_nm() - nearest.energy_above
 }
 
-/// Returns `true` if the certificate shows a saddle.
 pub(super) fn is_saddle(certificate: &Certificate) -> bool {
     matches!(certificate.stability(), Stability::Saddle { .. })
 }
 
-/// Error for a run that ends on a saddle, with a remedy.
 pub(super) fn saddle(certificate: &Certificate, leave_saddles: usize, way: &str) -> SceneProblem {
     let rule = format!(
         "the run ends on a saddle, an unstable equilibrium: the stiffness has {} negative \

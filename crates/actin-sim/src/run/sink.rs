@@ -1,6 +1,6 @@
 //! Output of a run: records, progress and checkpoints. Files are written by `results`.
 
-use super::{At, Record, Recorded, SaddlePush, Trajectory};
+use super::{At, Record, RecordSummary, SaddlePush, Trajectory};
 use crate::LinkerEvent;
 use actin_equilibrium::{Certificate, PathCheckpoint, SolverWork};
 use actin_integrate::Checkpoint;
@@ -42,7 +42,7 @@ pub trait Sink {
     ///
     /// Called when a checkpoint is due, and when the run is interrupted, fails or ends. Errors must
     /// be reported by the sink; the run continues.
-    fn checkpoint(&mut self, _position: &RunPosition, _recorded: &Recorded, _wall_s: f64) {}
+    fn checkpoint(&mut self, _position: &RunPosition, _recorded: &RecordSummary, _wall_s: f64) {}
 }
 
 impl Sink for Trajectory {
@@ -74,7 +74,6 @@ pub enum RunPosition {
 }
 
 impl RunPosition {
-    /// Returns `true` if the numbers of bodies and controls match `state`.
     pub(crate) fn fits(&self, state: &State) -> bool {
         match self {
             Self::Motion(position) => {
@@ -102,12 +101,12 @@ pub struct MotionPosition {
     /// Linker events so far.
     pub events: Vec<LinkerEvent>,
     /// Start of the motion, if it continues after a switch of cells.
-    pub behind_switch: Option<BehindSwitch>,
+    pub behind_switch: Option<ResolutionSwitch>,
 }
 
 /// Start of a motion that continues after a switch of cells.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct BehindSwitch {
+pub struct ResolutionSwitch {
     /// Steps before the switch.
     pub step: u64,
     /// Energy after the switch (pN nm).
@@ -130,14 +129,14 @@ pub struct PathPosition {
     /// Sudden jumps so far after which the path continued.
     pub jumps: usize,
     /// Report of the last equilibrium.
-    pub last: Option<Arrival>,
+    pub last: Option<SolveReport>,
     /// Work of the solver so far.
     pub work: SolverWork,
 }
 
 /// Solver results of an equilibrium.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Arrival {
+pub struct SolveReport {
     /// Eigenvalue counts.
     pub certificate: Option<Certificate>,
     /// Residual force (pN) and torque (pN nm) at round-off, if the tolerance was not reached.
@@ -148,11 +147,11 @@ pub struct Arrival {
 
 /// Saved state of an interrupted run.
 #[derive(Clone, Debug)]
-pub struct Saved {
+pub struct SavedRun {
     /// Position of the run.
     pub position: RunPosition,
     /// Summary of the records up to the position.
-    pub recorded: Recorded,
+    pub recorded: RecordSummary,
     /// Run time so far (s).
     pub wall_s: f64,
 }
@@ -165,8 +164,7 @@ pub(super) struct Clock {
 }
 
 impl Clock {
-    /// Starts the clock of a run with `set_up_s` (s) of build and plan.
-    pub(super) fn new(saved: Option<&Saved>, set_up_s: f64) -> Self {
+    pub(super) fn new(saved: Option<&SavedRun>, set_up_s: f64) -> Self {
         Self {
             started: Instant::now(),
             earlier_s: set_up_s + saved.map_or(0.0, |saved| saved.wall_s),

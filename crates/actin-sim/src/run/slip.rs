@@ -56,16 +56,15 @@ impl fmt::Display for Slip {
     }
 }
 
-/// Kind of loss of turns.
 #[derive(Clone, Debug)]
-pub(super) enum Lost {
+pub(super) enum TurnLoss {
     /// Through self-passage or a joint.
     Twist(Slip),
     /// Through the spring of a hinged end.
     Hinge(HingeSlip),
 }
 
-impl Lost {
+impl TurnLoss {
     pub(super) fn at(&self) -> At {
         match self {
             Self::Twist(slip) => slip.at,
@@ -73,7 +72,6 @@ impl Lost {
         }
     }
 
-    /// Converts to a failure of a run at `place`, a time or a stage.
     pub(super) fn failure(self, place: String) -> Failure {
         match self {
             Self::Twist(slip) => Failure::TwistLost { place, slip },
@@ -88,7 +86,6 @@ pub(super) struct LinkWatch {
     held: Vec<Held>,
 }
 
-/// Filament with both ends held.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 struct Held {
     filament: usize,
@@ -102,7 +99,6 @@ struct Held {
 }
 
 impl LinkWatch {
-    /// Creates the monitor of a run that starts in `start` at the beginning of its path.
     pub(super) fn new(assembly: &Assembly, start: &State) -> Self {
         let held = (0..assembly.filaments.len()).filter_map(|filament| {
             let ends = [End::Start, End::End].map(|end| {
@@ -126,7 +122,6 @@ impl LinkWatch {
         }
     }
 
-    /// Returns `true` if both monitors have the same number of filaments.
     pub(super) fn fits(&self, other: &Self) -> bool {
         self.held.len() == other.held.len()
     }

@@ -7,11 +7,11 @@
 //! whole filament in the sense of lower potential energy of a periodic cell (`endless.rs`).
 //! Monomers are placed as in cells under the local force and torque.
 //!
-//! Local loads are those of the straight filament. If they would bend it far, only a part of them
+//! Local loads are computed on the straight filament. If they would bend it far, only a part of them
 //! is applied. If the sense of lower energy differs between loads (it reverses above about 20 pN
 //! nm), no initial guess is made.
 
-use super::endless::{EndlessFilament, PERIOD};
+use super::endless::{PERIOD, PeriodicFilament};
 use crate::assembly::Part;
 use crate::scene::{Anchors, End, Filament, Slides, Task};
 use crate::shape::axis::CrossSection;
@@ -31,9 +31,7 @@ const LARGEST_BEND: f64 = 5.0;
 /// Largest axial force times squared length over rigidity. The filament buckles at 2.5, and under
 /// tension it bends only near its ends.
 const LARGEST_ALONG: f64 = 2.0;
-/// Initial twist (rad/nm) of either sense.
 const TWIST: f64 = 2e-3;
-/// Number of sampled places.
 const PLACES: u32 = 64;
 /// Relative transverse torque below which it is round-off.
 const ROUNDING: f64 = 1e-6;
@@ -76,7 +74,7 @@ pub fn near_equilibrium(assembly: &Assembly) -> Option<State> {
 struct Cantilever<'a> {
     assembly: &'a Assembly,
     span: &'a FilamentSpan,
-    monomers: EndlessFilament,
+    monomers: PeriodicFilament,
     rise_nm: f64,
     length_nm: f64,
     /// Arc length and sums of forces and moments about the lab origin, accumulated from the free
@@ -101,11 +99,9 @@ impl Place {
     }
 }
 
-/// Cells in the order of arc length.
 type Curve = Vec<Place>;
 
 impl<'a> Cantilever<'a> {
-    /// Returns filament `index`, if it is such a cantilever.
     fn of(assembly: &'a Assembly, index: usize, written: &Filament) -> Option<Self> {
         let span = &assembly.filaments[index];
         let [section] = assembly.sections_of(index) else {
@@ -125,7 +121,7 @@ impl<'a> Cantilever<'a> {
         Some(Self {
             assembly,
             span,
-            monomers: EndlessFilament::of(&written.monomers).ok()?,
+            monomers: PeriodicFilament::of(&written.monomers).ok()?,
             rise_nm: written.monomers.rise_nm,
             length_nm: section.to_nm,
             sums: sums_from_free_end(assembly, span),
@@ -237,7 +233,6 @@ impl<'a> Cantilever<'a> {
         self.monomers.under_from_twist(load, twist, Some(&start))
     }
 
-    /// Distance to the next cell (nm).
     fn step(&self, at: f64, strain: &SixVector) -> f64 {
         let left = self.length_nm - at;
         let couple = |at| self.load(at, self.span.rotation).fixed_rows::<3>(0).norm();
@@ -301,12 +296,10 @@ impl<'a> Cantilever<'a> {
     }
 }
 
-/// Magnitude of the transverse components.
 fn across(six: &SixVector) -> f64 {
     six[0].hypot(six[1])
 }
 
-/// Cells around an arc length, and the weight of the second.
 fn about(curve: &[Place], at: f64) -> (&Place, &Place, f64) {
     let after = curve.partition_point(|place| place.at < at);
     let after = after.clamp(1, curve.len() - 1);

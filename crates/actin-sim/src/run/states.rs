@@ -1,13 +1,12 @@
 //! Search for other stable states near the equilibrium at the end of a path.
 
-use super::taken::Taken;
+use super::record_stream::RecordStream;
 use super::{At, Record};
 use crate::Assembly;
 use actin_equilibrium::{Found, Iteration, Known, Newton, Search, SearchObserver, SolveError};
 use actin_mechanics::State;
 use std::ops::ControlFlow;
 
-/// Seed of the initial guesses.
 const SEED: u64 = 1;
 
 /// Stable states found by a search.
@@ -40,7 +39,7 @@ pub struct StableState {
 /// If the equilibrium cannot be solved again.
 pub(super) fn search(
     assembly: &Assembly,
-    (newton, taken): (&mut Newton, &mut Taken<'_>),
+    (newton, taken): (&mut Newton, &mut RecordStream<'_>),
     (state, at): (&State, At),
     starts: usize,
 ) -> Result<Option<StableStates>, SolveError> {
@@ -87,7 +86,7 @@ pub(super) fn search(
 /// Observer that interrupts the search for the sink and filters valid results.
 struct Watch<'a, 't> {
     assembly: &'a Assembly,
-    taken: &'a mut Taken<'t>,
+    taken: &'a mut RecordStream<'t>,
     at: At,
 }
 

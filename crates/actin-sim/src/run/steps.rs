@@ -5,7 +5,6 @@ use crate::notes::{Note, codes};
 use crate::scene::{Dynamics, Scene, SceneProblem, Task};
 use actin_integrate::Drag;
 
-/// Default number of records.
 const DEFAULT_RECORDS: f64 = 100.0;
 
 /// Largest exact number of steps, 2^53.
@@ -27,7 +26,6 @@ const ROUND_OFF: f64 = 1e-12;
 /// Relative error of the recorded drift velocity that gives a warning.
 const RECORDED_DRIFT: f64 = 0.01;
 
-/// Steps of a motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Steps {
     /// Length (ns): the duration over the number of steps.
@@ -69,7 +67,6 @@ impl Steps {
     }
 }
 
-/// Error for too many steps, due to short steps or close records.
 fn uncountable(dynamics: &Dynamics, largest_ns: f64) -> SceneProblem {
     match dynamics.record_every_ns {
         Some(every) if every < largest_ns => SceneProblem::new(
@@ -179,7 +176,6 @@ impl Estimate {
         self.time_step_ns > ns * (1.0 + WHOLE)
     }
 
-    /// Warning about overdamped steps that give inaccurate fast modes.
     fn note_on_long_steps(&self) -> Option<String> {
         let longest = self.longest_sound_step.as_ref()?;
         let what = if longest.has_bonds {

@@ -51,7 +51,6 @@ pub fn newton(assembly: &Assembly, settings: &Settings) -> Result<Newton, SceneP
     }
 }
 
-/// Free unknowns in their order.
 pub(crate) fn layout(assembly: &Assembly) -> Result<Layout, SceneProblem> {
     let layout = Layout::new(&assembly.rest, Some(&order(assembly)), Vec::new())
         .map_err(|error| SceneProblem::new("filament", "", error.to_string()))?;
@@ -83,7 +82,6 @@ fn loose_pairs(assembly: &Assembly) -> Vec<[Coordinates; 2]> {
         .collect()
 }
 
-/// Bodies of a site.
 fn bodies_of(site: &Site) -> Vec<Coordinates> {
     let points = site.shares().iter().map(|&(i, _)| Coordinates::Point(i));
     points.chain([Coordinates::Frame(site.frame())]).collect()
@@ -108,7 +106,6 @@ fn are_apart(assembly: &Assembly, reaches: &[f64], (a, b): (Coordinates, Coordin
     f != g || (s_a - s_b).abs() > reaches[f]
 }
 
-/// Order of all bodies by filament and arc length.
 pub(crate) fn order(assembly: &Assembly) -> BodyOrder {
     let mut order = BodyOrder::default();
     let mut behind = 0.0;

@@ -28,7 +28,6 @@ impl Axis {
         Self::along(&Ribbon::new(assembly, state))
     }
 
-    /// Creates the axis of the filament of a ribbon.
     pub(crate) fn along(ribbon: &Ribbon) -> Self {
         let frames = ribbon.frames.iter().copied();
         let inside = ribbon.frame_s_nm.iter().copied().zip(frames);
@@ -49,7 +48,6 @@ impl Axis {
         axis
     }
 
-    /// Axes at an arc length (nm).
     fn axes(&self, s_nm: f64) -> UnitQuaternion {
         let frames = &self.frames;
         let [(s_a, a), (s_b, b)] = match frames.len() {
@@ -62,7 +60,6 @@ impl Axis {
         a.slerp(&b, ((s_nm - s_a) / (s_b - s_a)).clamp(0.0, 1.0))
     }
 
-    /// Cross-section at an arc length (nm).
     pub(crate) fn at(&self, s_nm: f64) -> CrossSection {
         let (first, last) = (self.vertices[0], self.vertices[self.vertices.len() - 1]);
         let place = if s_nm <= first.0 {

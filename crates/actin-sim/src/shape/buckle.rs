@@ -139,7 +139,6 @@ fn turn_of_normals(edges: &[Vector3]) -> f64 {
     normals.windows(2).map(|pair| pair[0].angle(&pair[1])).sum()
 }
 
-/// Supertwist (rad).
 fn supertwist(edges: &[Vector3], axis: Vector3) -> f64 {
     let across = |edge: &Vector3| {
         let seen = edge - axis * edge.dot(&axis);
@@ -172,7 +171,6 @@ mod tests {
     use super::*;
     use std::f64::consts::PI;
 
-    /// Points of a curve over a parameter from 0 to 1.
     fn curve(count: usize, at: impl Fn(f64) -> [f64; 3]) -> Vec<Vector3> {
         let share = |i: usize| i as f64 / (count - 1) as f64;
         (0..count).map(|i| at(share(i)).into()).collect()

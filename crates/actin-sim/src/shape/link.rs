@@ -29,7 +29,6 @@ pub fn link_of(assembly: &Assembly, filament: usize, at: At) -> Option<f64> {
     link_at(assembly, filament, path_parameter(assembly, at))
 }
 
-/// Link at a path parameter.
 pub(crate) fn link_at(assembly: &Assembly, filament: usize, parameter: f64) -> Option<f64> {
     let axis = axis_of_ends(assembly, filament)?;
     let turn = |end| {
@@ -64,12 +63,10 @@ impl TurnedEnd {
         })
     }
 
-    /// Direction of the filament at this end as built.
     fn axis(&self) -> Vector3 {
         self.built * Vector3::z()
     }
 
-    /// Returns `true` if the prescribed rotation tilts the axis.
     fn is_tilted(&self) -> bool {
         is_across(self.turn, self.axis())
     }
@@ -145,7 +142,6 @@ fn angle_about(turn: Vector3, axis: Vector3) -> f64 {
     2.0 * (half + there - here) * along.signum()
 }
 
-/// Path parameter of a record.
 pub(crate) fn path_parameter(assembly: &Assembly, at: At) -> f64 {
     match at {
         At::Path(parameter) => parameter,

@@ -86,7 +86,6 @@ impl Ribbon {
     }
 }
 
-/// Returns `true` if two unit vectors point in the same direction.
 pub(super) fn is_parallel(one: Vector3, other: Vector3) -> bool {
     1.0 - one.dot(&other) <= PARALLEL
 }
@@ -134,7 +133,6 @@ mod tests {
         Assembly::build(&Scene::from_ron(&text).unwrap()).unwrap()
     }
 
-    /// Displaces free bodies at random.
     fn shaken(assembly: &Assembly, noise: &mut Xorshift, size: f64) -> State {
         let mut state = assembly.rest.clone();
         perturb(&mut state, noise, size, 0.2 * size);

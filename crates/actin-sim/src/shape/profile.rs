@@ -26,7 +26,7 @@ pub struct ProfilePoint {
 
 /// Returns the fields at each vertex of the [`Ribbon`] of filament 0 in `state`.
 ///
-/// For rods, curvature and twist are those of the bending elements. For monomers they come from the
+/// For rods, curvature and twist come from the bending elements. For monomers they come from the
 /// rotation between neighbouring monomers without the rotation of the helix, averaged over
 /// neighbouring pairs with weights 1/4, 1/2, 1/4 to remove the alternation of the strands. An end
 /// without bending repeats the adjacent value.
@@ -88,7 +88,6 @@ impl Ribbon {
     }
 }
 
-/// Curvature between two frames with their arc lengths.
 fn bend((s_a, a): (f64, UnitQuaternion), (s_b, b): (f64, UnitQuaternion)) -> Vector3 {
     rotation::log(a.inverse() * b) / (s_b - s_a)
 }
@@ -181,7 +180,6 @@ mod tests {
         Assembly::build(&Scene::from_ron(&text).unwrap()).unwrap()
     }
 
-    /// The energy of the linker is not included.
     #[test]
     fn the_energy_of_the_filament_is_kept() {
         let mut noise = Xorshift::new(6);

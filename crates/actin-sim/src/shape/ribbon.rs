@@ -204,7 +204,6 @@ impl Ribbon {
     }
 }
 
-/// Distance of each point (nm, lab frame) from the straight axis as built.
 fn distances(span: &FilamentSpan, points_nm: &[Vector3]) -> Vec<f64> {
     let seen = points_nm.iter().map(|&p| span.seen_along_z(p));
     seen.map(|p| p.x.hypot(p.y)).collect()
@@ -230,7 +229,6 @@ pub(crate) fn from_rest(assembly: &Assembly, state: &State, i: usize) -> UnitQua
     turned * span.frame_at(assembly.frames[i].s_nm)
 }
 
-/// Held frame of a hinged end, and its cross-section.
 fn hinge_frames(
     assembly: &Assembly,
     filament: usize,
@@ -241,7 +239,6 @@ fn hinge_frames(
     Some(frames.map(|frame| from_rest(assembly, state, frame)))
 }
 
-/// Outermost frame that a clamp holds.
 fn held_frame(
     assembly: &Assembly,
     filament: usize,
@@ -267,7 +264,6 @@ pub(super) fn built_frame(
     Some(span.frame_at(assembly.frames[frame].s_nm))
 }
 
-/// Direction of the filament there (lab frame).
 fn built_axis(assembly: &Assembly, filament: usize, end: End) -> Option<Vector3> {
     built_frame(assembly, filament, end).map(|frame| frame * Vector3::z())
 }

@@ -15,7 +15,6 @@ pub struct SectionLoad {
     pub couple_pn_nm: Vector3,
 }
 
-/// Force on all bodies after an arc length, and its moment about the lab origin.
 #[derive(Clone, Copy, Debug, Default)]
 struct Resultant {
     s_nm: f64,
@@ -98,7 +97,6 @@ mod tests {
         "Ellipsoids(from_nm: 0.0, to_nm: 50.0), Rod(from_nm: 50.0, to_nm: 100.0)",
     ];
 
-    /// Internal loads and tip position of a cantilever in equilibrium.
     fn solved(sections: &str, load: &str) -> (SectionLoads, Vector3) {
         let text = format!(
             "Scene(

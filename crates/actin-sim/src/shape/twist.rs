@@ -57,7 +57,6 @@ mod tests {
     use actin_mechanics::Xorshift;
     use actin_mechanics::rotation;
 
-    /// Half a turn about z and a bend by 1 rad about y do not mix.
     #[test]
     fn bending_is_no_twist() {
         let frames: Vec<UnitQuaternion> = (0..40)

@@ -219,7 +219,7 @@ mod tests {
     }
 
     #[test]
-    fn the_writhe_is_that_of_the_curve() {
+    fn the_writhe_is_invariant() {
         let mut noise = Xorshift::new(3);
         let points = random(12, &mut noise);
         let writhe = closed_writhe(&points);

@@ -40,7 +40,6 @@ pub struct BlockAverages {
     levels: Vec<Level>,
 }
 
-/// Blocks of one length.
 #[derive(Clone, Debug, Default, PartialEq)]
 struct Level {
     count: u64,
@@ -182,7 +181,7 @@ mod tests {
     /// Over 32 series the mean error scatters by 1 %, and the squared deviation in errors by a
     /// quarter (tolerance: four of these).
     #[test]
-    fn errors_are_those_of_theory() {
+    fn errors_agree_with_theory() {
         for phi in [0.0, 0.5, 0.9] {
             let count = 1 << 16;
             let exact = exact_error(phi, count);

@@ -16,7 +16,6 @@ use std::time::Instant;
 /// its beginning only.
 const MOST_WORK: f64 = 1e9;
 
-/// Smallest number of compared records of a motion.
 const FEWEST_RECORDS: usize = 10;
 
 /// Evaluation time of a rod segment under `Homogenised`, in evaluations of a bond.
@@ -159,7 +158,6 @@ impl<'a> Choice<'a> {
         }
     }
 
-    /// Builds the scene with every monomer in the `Adaptive` filaments.
     fn full_resolution(&self) -> Result<(FullResolution, Assembly), SceneProblem> {
         let (every, fixed) = every_monomer_of(self.scene, |filament| self.adaptive[filament]);
         let mut adaptive = self.adaptive.iter().zip(&fixed);
@@ -177,7 +175,6 @@ impl<'a> Choice<'a> {
         Ok((full, assembly))
     }
 
-    /// Returns the measurer of the wanted quantities.
     fn measurer(&self, assembly: &Assembly) -> Result<Measurer, SceneProblem> {
         let wanted = self.wanted.iter();
         let measures: Vec<Measure> = wanted.map(|(measure, _)| measure.clone()).collect();
@@ -194,7 +191,6 @@ impl<'a> Choice<'a> {
         ))
     }
 
-    /// Returns the scene with the `Adaptive` sections replaced by the sections of `other`.
     fn with_sections_of(&self, other: &Scene) -> Scene {
         let mut scene = self.scene.clone();
         let filaments = scene.filaments_mut().zip(other.filaments());
@@ -246,7 +242,6 @@ impl<'a> Choice<'a> {
         Ok((self.with_sections_of(&best.scene), chosen))
     }
 
-    /// Returns the largest error of each wanted quantity.
     fn errors(&self, measurer: &Measurer, (values, found): (&Values, &Values)) -> Vec<f64> {
         let all = errors(measurer, values, found);
         let of_wanted = |measure: &Measure| {
@@ -312,7 +307,6 @@ fn records_of(assembly: &Assembly) -> Result<Option<(usize, usize)>, SceneProble
     Ok(Some((first.max(FEWEST_RECORDS).min(all), all)))
 }
 
-/// A resolution with its errors and its work.
 struct Trial {
     name: String,
     scene: Scene,

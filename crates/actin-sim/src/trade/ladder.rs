@@ -9,7 +9,6 @@ const LONGEST: f64 = 0.9;
 /// Time steps of overdamped candidates in units of the default step.
 const MULTIPLES: [u32; 2] = [4, 20];
 
-/// A named scene to run.
 #[derive(Clone, Debug)]
 pub(super) struct Proposal {
     pub name: String,
@@ -66,7 +65,6 @@ fn with_step(scene: &Scene, step_ns: f64) -> Scene {
     scene
 }
 
-/// Returns the scene with the step and the integrator of coarse candidates.
 fn quick(scene: &Scene, default_ns: Option<f64>) -> Scene {
     let mut scene = scene.clone();
     let is_hot = scene.thermal().is_some();
@@ -88,7 +86,6 @@ fn quick(scene: &Scene, default_ns: Option<f64>) -> Scene {
     scene
 }
 
-/// Possible centres of windows of monomers.
 struct Places<'a> {
     full: &'a FullResolution,
     bends_most: &'a [Option<f64>],
@@ -100,7 +97,6 @@ impl Places<'_> {
         [walls, sites].concat()
     }
 
-    /// Returns filaments of rods without monomers.
     fn rods(&self, rods: &[(RodLaw, f64)]) -> impl Iterator<Item = Proposal> {
         rods.iter().map(|(law, segment_nm)| {
             let rods = self::rods(&self.full.scene, law, *segment_nm);
@@ -314,7 +310,6 @@ impl Rods {
     }
 }
 
-/// Returns one candidate for each filament: this filament as a rod, all others as monomers.
 fn single_rods(full: &FullResolution) -> Vec<Proposal> {
     let free: Vec<usize> = full.free().collect();
     if free.len() < 2 || free.len() > 4 {

@@ -210,7 +210,6 @@ impl Item {
     }
 }
 
-/// Values of all items, indexed by item, record and component.
 pub(super) type Values = Vec<Vec<Vec<f64>>>;
 
 /// Evaluates the compared items of one scene in any resolution.
@@ -277,12 +276,10 @@ impl Measurer {
         }
     }
 
-    /// Returns true if the azimuth about the symmetry axis is excluded.
     pub(super) fn leaves_out_azimuth(&self) -> bool {
         self.free_about.is_some()
     }
 
-    /// Returns the value of each item in each record.
     pub(super) fn values(&self, assembly: &Assembly, records: &[Record]) -> Values {
         let views: Vec<View<'_>> = records
             .iter()
@@ -356,7 +353,6 @@ impl Measurer {
     }
 }
 
-/// Returns the mean and the fluctuation of an item in heat.
 fn moments(item: &Item) -> [Item; 2] {
     let of = |name: &str, moment| Item {
         name: format!("{} {name}", item.name),
@@ -418,7 +414,6 @@ fn items_of(assembly: &Assembly, measure: &Measure) -> Vec<Item> {
     }
 }
 
-/// Appends the index of the filament if the scene has several.
 fn name_of(assembly: &Assembly, what: &str, filament: usize) -> String {
     match assembly.filaments.len() {
         1 => what.to_owned(),

@@ -8,7 +8,6 @@ use crate::scene::{Quantity, Scene, SceneProblem};
 use crate::{Assembly, Record};
 use serde::{Deserialize, Serialize};
 
-/// Number of filaments with sampled bonds.
 const FILAMENTS: u64 = 3;
 
 /// Error of a quantity of an equilibrium against every monomer.
@@ -25,7 +24,6 @@ pub struct ModelError {
 }
 
 impl ModelError {
-    /// Returns the error and the scatter as a sentence.
     pub(crate) fn note(&self, scatter: &Scatter) -> String {
         let size = self.corrected().abs().max(f64::MIN_POSITIVE);
         format!(

@@ -26,7 +26,6 @@ pub(super) struct Setup<'a> {
     total: Option<usize>,
 }
 
-/// Reference with its sample.
 pub(super) struct ReferenceRun {
     pub reference: Reference,
     pub sample: Sample,
@@ -127,7 +126,6 @@ impl<'a> Setup<'a> {
             })
     }
 
-    /// Makes a sample the reference, with errors against a coarser reference.
     fn reference_run(
         &self,
         (name, scene): (&str, Scene),
@@ -179,7 +177,6 @@ impl<'a> Setup<'a> {
     }
 }
 
-/// Returns the number of records of a motion.
 fn records_of(estimate: Option<&crate::Estimate>) -> Option<usize> {
     let estimate = estimate?;
     usize::try_from(estimate.steps / estimate.steps_between_records + 1).ok()

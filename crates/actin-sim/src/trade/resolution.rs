@@ -12,7 +12,6 @@ const SHORTEST_ROD_NM: f64 = 36.0;
 /// Largest fraction of monomers in candidates with windows; above it windows save little time.
 const MOST_MONOMERS: f64 = 0.75;
 
-/// Quadrature points per interface.
 const POINTS: usize = 12;
 
 /// A scene with every monomer resolved, except for filaments with fixed sections.
@@ -65,7 +64,6 @@ pub(super) fn every_monomer_of(
     (full, fixed)
 }
 
-/// Returns the monomers with quadrature bonds.
 pub(crate) fn weighted(written: &Monomers) -> Monomers {
     if written.anchors == Anchors::Cubature {
         return written.clone();
@@ -79,7 +77,6 @@ pub(crate) fn weighted(written: &Monomers) -> Monomers {
     }
 }
 
-/// Returns a section of monomers between two arc lengths.
 fn monomers(from_nm: f64, to_nm: f64) -> Section {
     Section::Ellipsoids {
         from_nm,
@@ -100,7 +97,6 @@ fn reason_fixed(scene: &Scene, filament: usize) -> Option<&'static str> {
     }
 }
 
-/// Law, segment length (nm) and rotary inertia of rods.
 #[derive(Clone, Debug)]
 pub(super) struct Rods {
     pub law: RodLaw,
@@ -109,7 +105,6 @@ pub(super) struct Rods {
 }
 
 impl FullResolution {
-    /// Creates the full resolution from the assembled scene with every monomer.
     pub(super) fn new(assembly: &Assembly, fixed: FixedSections) -> Self {
         let filaments = 0..assembly.filaments.len();
         Self {
@@ -119,12 +114,10 @@ impl FullResolution {
         }
     }
 
-    /// Returns the filaments without fixed sections.
     pub(super) fn free(&self) -> impl Iterator<Item = usize> + '_ {
         (0..self.fixed.len()).filter(|f| self.fixed[*f].is_none())
     }
 
-    /// Returns the scene with `rods`, and with monomers in the `windows` (nm) of each filament.
     pub(super) fn resolved(&self, rods: &Rods, windows: &[Vec<[f64; 2]>]) -> Scene {
         let mut scene = self.with_sections(rods.segment_nm, windows);
         for (filament, fixed) in scene.filaments_mut().zip(&self.fixed) {
@@ -149,7 +142,6 @@ impl FullResolution {
         scene
     }
 
-    /// Returns an empty list of windows for each filament.
     pub(super) fn no_windows(&self) -> Vec<Vec<[f64; 2]>> {
         vec![Vec::new(); self.fixed.len()]
     }
@@ -169,7 +161,6 @@ impl FullResolution {
         (resolved > 0.0 && resolved < MOST_MONOMERS * length).then_some(windows)
     }
 
-    /// Returns the arc lengths of the clamped ends of a filament (nm).
     pub(super) fn walls(&self, filament: usize) -> Vec<f64> {
         let clamps = self.scene.clamps.iter();
         let of = clamps.filter(|clamp| clamp.filament == filament);

@@ -7,10 +7,8 @@ use std::time::{Duration, Instant};
 /// Time (s) below which runs are repeated; the shortest time counts.
 const SHORT_S: f64 = 0.05;
 
-/// Number of repetitions of a short run.
 const REPEATS: usize = 2;
 
-/// Limits of a run.
 #[derive(Clone, Copy)]
 pub(super) struct Limits<'a> {
     /// Longest time.
@@ -21,7 +19,6 @@ pub(super) struct Limits<'a> {
     pub is_interrupted: &'a dyn Fn() -> bool,
 }
 
-/// Result of a completed run, or of a run up to its limit of records or time.
 pub(super) struct RunResult {
     pub assembly: Assembly,
     /// Compared records.
@@ -37,7 +34,6 @@ pub(super) struct RunResult {
     pub is_cut: bool,
 }
 
-/// Reason for a run without a result.
 #[derive(Clone, Debug)]
 pub(super) enum TrialFailure {
     Interrupted,
@@ -56,7 +52,6 @@ pub(super) fn run(scene: &Scene, limits: Limits<'_>) -> Result<RunResult, TrialF
     Ok(first)
 }
 
-/// Assembles and runs a scene once.
 pub(super) fn run_once(scene: &Scene, limits: Limits<'_>) -> Result<RunResult, TrialFailure> {
     let began = Instant::now();
     let assembly = Assembly::build(scene).map_err(TrialFailure::Refused)?;

@@ -5,10 +5,8 @@ use super::run::{Limits, RunResult, TrialFailure, run, run_once};
 use crate::Counts;
 use crate::scene::{Drawn, Scene};
 
-/// Number of seeds of a scene in heat.
 pub(super) const SEEDS: u64 = 4;
 
-/// Compared values of a scene.
 pub(super) struct Sample {
     pub counts: Counts,
     /// Time of one run (s); in heat the mean over seeds.

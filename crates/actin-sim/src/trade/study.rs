@@ -88,7 +88,6 @@ fn check(scene: &Scene, options: &Options) -> Result<(), SceneProblem> {
     Ok(())
 }
 
-/// State of a trade between its runs.
 struct Study<'a> {
     setup: Setup<'a>,
     reference: Reference,
@@ -195,7 +194,6 @@ impl<'a> Study<'a> {
         errors(&self.setup.measurer, &self.values, values)
     }
 
-    /// Returns coarser resolutions and the scene as written.
     fn resolutions(&self, written: &Scene) -> Vec<Proposal> {
         let mut proposals = ladder::resolutions(
             &self.setup.full,
@@ -452,7 +450,6 @@ impl<'a> Study<'a> {
     }
 }
 
-/// Returns the scene with sampled bonds in each interface.
 pub(super) fn drawn(scene: &Scene, seed: u64) -> Scene {
     let mut drawn = scene.clone();
     for filament in drawn.filaments_mut() {
@@ -506,7 +503,6 @@ fn bends_most(result: &RunResult) -> Vec<Option<f64>> {
     (0..result.assembly.filaments.len()).map(of).collect()
 }
 
-/// Returns the scene with scaled loads, shifts and turns; `None` for an unloaded scene.
 fn at_load(scene: &Scene, share: f64) -> Option<Scene> {
     let mut scene = scene.clone();
     let mut is_loaded = !scene.loads.is_empty();

@@ -3,10 +3,8 @@
 use super::{Candidate, Trade};
 use std::fmt;
 
-/// Largest number of items with a column each.
 const MOST_COLUMNS: usize = 8;
 
-/// Width of the column of names.
 const NAME: usize = 60;
 
 impl Trade {
@@ -177,7 +175,6 @@ impl Trade {
 /// Column name and indices of the items; the column shows the largest error of these items.
 type Column = (String, Vec<usize>);
 
-/// Returns the largest error of each column, with its standard error.
 fn shown(
     columns: &[Column],
     errors: &[Option<f64>],

@@ -1,5 +1,5 @@
-//! `cargo xtask extremes`: extreme values of all numbers of a scene, as a table with figures. Each case must give a
-//! correct result, within a stated accuracy, or a message.
+//! `cargo xtask extremes`: every number that a user can write, taken to where it breaks, as a table with pictures. The
+//! result is right to a stated accuracy, or a message says why there is none.
 
 mod directories;
 mod fields;
@@ -22,23 +22,24 @@ use std::fs;
 use std::path::PathBuf;
 use std::time::Instant;
 
+/// Extent and output of the study.
 #[derive(clap::Args, Debug)]
 pub(crate) struct Options {
-    /// Output folder of the table and the figures.
+    /// Folder of the table and the pictures.
     #[arg(long, default_value = "target/extremes")]
     out: PathBuf,
-    /// Includes rows that take minutes: 1e6 bodies, 1e7 steps.
+    /// Also the rows that take minutes: 1e6 bodies, 1e7 steps.
     #[arg(long)]
     long: bool,
-    /// Also writes `docs/tables/extremes.md` and the figures of `docs/extremes.md`, if all rows are sound.
+    /// Also into `docs/extremes.csv`, with the pictures of `docs/extremes.md`, if all rows are sound.
     #[arg(long, requires = "long")]
     write: bool,
 }
 
-/// Computes and writes the table with its figures, and prints defects.
+/// Computes the table, prints the defects in it, and writes it with its pictures.
 ///
 /// # Errors
-/// If a row is unsound, or a file cannot be written.
+/// A row that is neither right nor refused, and a file that cannot be written.
 pub(crate) fn run(options: &Options) -> Result<()> {
     let out = &options.out;
     fs::create_dir_all(out).with_context(|| out.display().to_string())?;
@@ -58,14 +59,16 @@ pub(crate) fn run(options: &Options) -> Result<()> {
     }
     if options.write {
         let docs = workspace_root().join("docs");
-        write::document(&rows, out, &docs).map_err(Error::msg)?;
+        write::document(out, &docs).map_err(Error::msg)?;
     }
     Ok(())
 }
 
+/// A name, and what computes the rows.
 type Group<'a> = (&'static str, &'a (dyn Fn() -> Vec<Row> + Sync));
 
-/// Returns the table. Tests omit rows that take long, and fields, which have a separate test.
+/// The table, in the order in which it is printed; in tests without the rows that take long, and without fields, which
+/// have a test of their own.
 fn table(is_long: bool) -> Vec<Row> {
     let is_test = cfg!(test);
     let steps = match (is_test, is_long) {
@@ -73,7 +76,7 @@ fn table(is_long: bool) -> Vec<Row> {
         (false, false) => 100_000,
         (false, true) => 10_000_000,
     };
-    // Computed alone, since the rows contain run times and memory.
+    // Alone on the machine: the rows hold their times and their memory.
     let sizes = timed(&("sizes", &|| sizes::sizes(is_long)));
     let groups: [Group<'_>; 20] = [
         ("time steps", &steps::limits),
@@ -101,6 +104,7 @@ fn table(is_long: bool) -> Vec<Row> {
     rows.collect::<Vec<_>>().concat()
 }
 
+/// The rows of a group; prints how long they took.
 fn timed((name, rows): &Group<'_>) -> Vec<Row> {
     let clock = Instant::now();
     let rows = rows();
@@ -108,6 +112,7 @@ fn timed((name, rows): &Group<'_>) -> Vec<Row> {
     rows
 }
 
+/// Rows with an unexpected outcome, in words.
 fn defects(rows: &[Row]) -> Vec<String> {
     let defects = rows.iter().filter(|row| !row.is_sound());
     defects.map(Row::words).collect()
@@ -117,6 +122,7 @@ fn defects(rows: &[Row]) -> Vec<String> {
 mod tests {
     use super::*;
 
+    /// Every row ends as its case says.
     #[test]
     fn every_case_ends_as_expected() {
         let rows = table(false);
@@ -126,6 +132,7 @@ mod tests {
         assert_eq!(defects(&rows), Vec::<String>::new());
     }
 
+    /// The same over all the steps of the table.
     #[test]
     #[ignore = "takes minutes; run by hand with --ignored --nocapture"]
     fn undamped_motion_of_ten_million_steps() {

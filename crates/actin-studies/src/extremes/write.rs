@@ -1,11 +1,11 @@
-//! Output of the table as CSV and Markdown.
+//! The table of extremes as CSV.
 
 use super::row::Row;
-use actin_draw::report::{save, write_csv};
-use std::fmt::Write as _;
+use actin_draw::report::write_csv;
 use std::fs;
 use std::path::Path;
 
+/// Writes `extremes.csv`.
 pub(super) fn table(rows: &[Row], out: &Path) -> Result<(), String> {
     let header = ["varied", "case", "is_sound", "outcome"];
     let cells = rows.iter().map(|row| {
@@ -17,38 +17,14 @@ pub(super) fn table(rows: &[Row], out: &Path) -> Result<(), String> {
             row.outcome.words(),
         ]
     });
-    write_csv(out, "extremes.csv", &header, cells)?;
-    save(out, "extremes.md", &tables(rows))
+    write_csv(out, "extremes.csv", &header, cells)
 }
 
-pub(super) fn document(rows: &[Row], out: &Path, docs: &Path) -> Result<(), String> {
-    save(
-        docs,
-        "tables/extremes.md",
-        &(HEAD.to_owned() + &tables(rows)),
-    )?;
-    for picture in ["extremes-limits.svg", "extremes-energy.svg"] {
-        let path = docs.join(picture);
-        fs::copy(out.join(picture), &path).map_err(|e| format!("{}: {e}", path.display()))?;
+/// Copies the table and the pictures of the documents from `out`.
+pub(super) fn document(out: &Path, docs: &Path) -> Result<(), String> {
+    for file in ["extremes.csv", "extremes-limits.svg", "extremes-energy.svg"] {
+        let path = docs.join(file);
+        fs::copy(out.join(file), &path).map_err(|e| format!("{}: {e}", path.display()))?;
     }
     Ok(())
-}
-
-const HEAD: &str = "# Extremes, case by case
-
-Computed by `cargo xtask extremes --long --write`; the short rows are tests (`cargo test -p actin-studies
-extremes`). [Extremes](../extremes.md) says what they show.
-";
-
-fn tables(rows: &[Row]) -> String {
-    let mut text = String::new();
-    for group in rows.chunk_by(|a, b| a.varied == b.varied) {
-        let varied = group[0].varied;
-        _ = writeln!(text, "\n### {varied}\n\n| case | outcome |\n|---|---|");
-        for row in group {
-            let outcome = row.outcome.words().replace('|', "\\|").replace('\n', " ");
-            _ = writeln!(text, "| {} | {outcome} |", row.case);
-        }
-    }
-    text
 }

@@ -1,23 +1,22 @@
-//! Bending, and what it has to do with twist and shear.
+//! Bending, and its coupling to twist and shear.
 
 use crate::{BendLaw, Stiffening};
 use actin_mechanics::wide::{Simd, Wide3};
 use std::fmt::Debug;
 
-/// How a rod resists bending.
+/// Law of bending.
 pub(in crate::fast) trait Bend: Copy + Debug {
-    /// Whether it has to do with the strain of segments.
+    /// `true` if bending is coupled to the strain of segments.
     const COUPLES: bool;
 
-    /// The law, if it is of this kind; `in_segments` where shear stiffens it.
     fn of(bend: &BendLaw, in_segments: Option<&Stiffening>) -> Option<Self>;
 
-    /// Couple (pN nm) at curvature `kappa` (rad/nm), beside the couple of `twist` about d3. The
-    /// reference is [`BendLaw::couple`].
+    /// Torque (pN nm) at curvature `kappa` (rad/nm), plus the torque `twist` about d3. Reference:
+    /// [`BendLaw::couple`].
     fn couple<S: Simd>(&self, simd: S, kappa: Wide3<S>, twist: S::f64s) -> Wide3<S>;
 
-    /// Force (pN) and couple (pN nm) of segments at strain and mean curvature, beside a `force` and
-    /// a couple of `twist` about d3. The reference is what `SegmentLaw::loads` adds.
+    /// Force (pN) and torque (pN nm) of segments with stiffening, plus `force` and the torque
+    /// `twist` about d3. Reference: `SegmentLaw::loads`.
     fn stiffened<S: Simd>(
         &self,
         simd: S,
@@ -64,7 +63,7 @@ impl Bend for ConstantBend {
     }
 }
 
-/// The law of [`Stiffening`], its scales inverted and squared.
+/// Law of [`Stiffening`] with inverse squared scales.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::fast) struct WideStiffening {
     /// Rigidities at rest (pN nm^2).
@@ -72,7 +71,7 @@ pub(in crate::fast) struct WideStiffening {
     rise: f64,
     curvature: f64,
     twist: f64,
-    /// Zero where shear has no effect.
+    /// Zero without stiffening by shear.
     shear: f64,
 }
 
@@ -122,7 +121,7 @@ impl Bend for WideStiffening {
         let shear = simd.splat_f64s(self.shear);
         let across = simd.mul_add_e_f64s(sigma[1], sigma[1], simd.mul_f64s(sigma[0], sigma[0]));
         let g = simd.mul_f64s(across, shear);
-        // 1 + q + t and 1 + t, without the shear and with it.
+        // 1 + q + t and 1 + t, without and with shear.
         let less = simd.add_f64s(one, t);
         let all = simd.add_f64s(less, q);
         let (less_with, all_with) = (simd.add_f64s(less, g), simd.add_f64s(all, g));
@@ -162,7 +161,6 @@ impl WideStiffening {
         }
     }
 
-    /// Rigidities that nothing raises.
     fn constant(rest: [f64; 2]) -> Self {
         Self {
             rest,

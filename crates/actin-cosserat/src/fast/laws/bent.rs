@@ -1,14 +1,14 @@
-//! A law of rods that are bent or twisted at rest.
+//! Law of rods that are bent or twisted at rest.
 
 use super::Law;
 use crate::RodMaterial;
 use actin_mechanics::wide::{self, Simd, Wide3};
 
-/// A law whose curvatures are counted from one at rest.
+/// Law with curvatures relative to a rest curvature.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::fast) struct Bent<L> {
     law: L,
-    /// Curvature at rest (rad/nm, body axes).
+    /// Rest curvature (rad/nm, body axes).
     rest: [f64; 3],
 }
 

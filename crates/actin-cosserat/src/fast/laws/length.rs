@@ -1,22 +1,18 @@
-//! How the natural length depends on the twist.
+//! Dependence of the natural length on twist.
 
 use crate::{PolynomialStretch, RootedStretch, TwistStretch};
 use actin_mechanics::wide::{self, Simd};
 use std::fmt::Debug;
 
-/// The natural length of segments.
 pub(in crate::fast) trait Length: Copy + Debug {
-    /// Whether it depends on the twist.
     const COUPLES: bool;
 
-    /// The law, if it is of this kind.
     fn of(law: Option<&TwistStretch>) -> Option<Self>;
 
-    /// `xi - 1` and its derivative at twist `k` (rad/nm). The reference is [`TwistStretch::jet`].
+    /// `xi - 1` and its derivative at twist `k` (rad/nm). Reference: [`TwistStretch::jet`].
     fn extension<S: Simd>(&self, simd: S, k: S::f64s) -> [S::f64s; 2];
 }
 
-/// A length that does not depend on the twist.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::fast) struct NaturalLength;
 
@@ -33,7 +29,6 @@ impl Length for NaturalLength {
     }
 }
 
-/// The law of [`PolynomialStretch`].
 #[derive(Clone, Copy, Debug)]
 pub(in crate::fast) struct Polynomial(PolynomialStretch);
 
@@ -56,7 +51,7 @@ impl Length for Polynomial {
         let inside = wide::clamp(simd, k, self.0.range);
         let [p0, lower @ .., p6] = self.0.coefficients;
         let (mut value, mut slope) = (simd.splat_f64s(p6), simd.splat_f64s(p6));
-        // Of `u k + p` the slope is that of `u` times `k`, plus `u`.
+        // Horner scheme for value and derivative.
         for p in lower.into_iter().rev() {
             value = simd.mul_add_e_f64s(value, inside, simd.splat_f64s(p));
             slope = simd.mul_add_e_f64s(slope, inside, value);
@@ -67,7 +62,6 @@ impl Length for Polynomial {
     }
 }
 
-/// The law of [`RootedStretch`].
 #[derive(Clone, Copy, Debug)]
 pub(in crate::fast) struct Rooted(RootedStretch);
 
@@ -96,7 +90,7 @@ impl Length for Rooted {
         let squared = simd.mul_f64s(inside, inside);
         let root = simd.sqrt_f64s(simd.mul_add_e_f64s(half, half, squared));
         let sum = simd.add_f64s(root, half);
-        // One quotient for 1 / root and 1 / (root + half).
+        // One division for 1 / root and 1 / (root + half).
         let both = simd.div_f64s(simd.splat_f64s(law.bend), simd.mul_f64s(root, sum));
         let cube = simd.mul_f64s(simd.splat_f64s(law.cubic), squared);
         let straight = simd.add_f64s(simd.splat_f64s(law.slope), cube);

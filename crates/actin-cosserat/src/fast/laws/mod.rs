@@ -1,8 +1,7 @@
-//! The laws of a material, several elements at a time.
+//! Vectorised laws of a material.
 //!
-//! Loops need first derivatives alone: energies and tangents stay with the scalar laws in
-//! `crate::law` and `crate::extended`, which are the references here. No law asks on which side of a switch
-//! a lane stands by a branch: both sides are evaluated, or their numbers selected.
+//! The scalar laws in `crate::law` and `crate::extended` are the references. Branches are replaced
+//! by selection.
 
 mod bend;
 mod bent;
@@ -22,28 +21,27 @@ pub(crate) use potential::Potential;
 pub(super) use shear::{CubicAcross, LinearShear, Shear};
 pub(super) use twist::{ConstantTwist, Sided, Tanh, Twist};
 
-/// What the loop asks a material.
+/// Interface between kernels and materials.
 pub(crate) trait Law: Copy + Debug {
-    /// Whether the curvature around a segment has to do with its strain.
+    /// `true` if the strain of segments is coupled to the curvature around them.
     const COUPLES: bool;
 
-    /// Whether joints beside free ends stand for the half segments there, and segments near ends have factors of
-    /// their shear.
+    /// `true` if joints next to free ends cover the half segments there, and shear has factors near
+    /// ends.
     const COVERS: bool = false;
 
-    /// Whether it has couples without curvature: what does not exist is then not zero by itself.
+    /// `true` if there are torques at zero curvature, so that missing elements must be masked.
     const BENT: bool = false;
 
-    /// Couple of bending elements (pN nm) at curvature `kappa` (rad/nm). The reference is
+    /// Torque of bending elements (pN nm) at curvature `kappa` (rad/nm). Reference:
     /// [`RodMaterial::bending_couple`].
     fn bending<S: Simd>(&self, simd: S, kappa: Wide3<S>) -> Wide3<S>;
 
-    /// Force (pN) and couple (pN nm) of segments at strain `sigma` and mean curvature `kappa`
-    /// (rad/nm). The reference is `SegmentLaw::loads`.
+    /// Force (pN) and torque (pN nm) of segments at strain `sigma` and mean curvature `kappa`
+    /// (rad/nm). Reference: `SegmentLaw::loads`.
     fn segment<S: Simd>(&self, simd: S, sigma: Wide3<S>, kappa: Wide3<S>) -> [Wide3<S>; 2];
 }
 
-/// A law for each deformation.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Laws<A, B, T, X> {
     shear: A,
@@ -53,7 +51,6 @@ pub(super) struct Laws<A, B, T, X> {
 }
 
 impl<A: Shear, B: Bend, T: Twist, X: Length> Laws<A, B, T, X> {
-    /// Those of a material and of what couples its segments, if they are of these kinds.
     pub(super) fn of(material: &RodMaterial, coupling: Option<&SegmentLaw>) -> Option<Self> {
         let laws = material.laws()?;
         Some(Self {

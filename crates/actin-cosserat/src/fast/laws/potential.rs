@@ -1,4 +1,4 @@
-//! One potential for all strains.
+//! Potential of all strains.
 
 use super::Law;
 use crate::Term;
@@ -7,11 +7,10 @@ use crate::homogenised::{
 };
 use actin_mechanics::wide::{Scalar, Simd, Wide3};
 
-/// The law of [`Homogenised`]: what terms are multiplied by, as constants or as polynomials in the bounded
+/// Law of `Homogenised`: coefficients of terms, as constants or as polynomials in the bounded
 /// twist.
 ///
-/// Joints have the terms of curvature alone; in segments these cancel, so that the others are all that is left
-/// of `W - U`.
+/// Joints have the terms of curvature alone. These cancel in segments, whose energy is `W - U`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Potential {
     rest: f64,
@@ -42,7 +41,6 @@ pub(crate) struct Potential {
 }
 
 impl Potential {
-    /// The law of a form with these coefficients of each term.
     pub(crate) fn new(form: &HomogenisedForm, terms: &[Polynomial; Term::ALL.len()]) -> Self {
         Self {
             rest: form.rest(),
@@ -75,7 +73,7 @@ impl Potential {
 }
 
 impl Potential {
-    /// Couple (pN nm) of a twist (rad/nm) alone, without bending: the third component of [`Law::bending`].
+    /// Torque (pN nm) of a twist (rad/nm) without bending.
     #[inline]
     pub(crate) fn twisting(&self, k: f64) -> f64 {
         let root = k.mul_add(k, TWIST_SIZE * TWIST_SIZE).sqrt();
@@ -86,7 +84,7 @@ impl Potential {
     }
 }
 
-/// The coefficients of a term up to its degree, `N - 1`.
+/// Coefficients of a term up to its degree, `N - 1`.
 fn of<const N: usize>(terms: &[Polynomial; Term::ALL.len()], term: Term) -> [f64; N] {
     debug_assert_eq!(N, term.degree() + 1, "{term:?}");
     let mut all = Term::ALL.into_iter().zip(terms);
@@ -94,7 +92,7 @@ fn of<const N: usize>(terms: &[Polynomial; Term::ALL.len()], term: Term) -> [f64
     std::array::from_fn(|k| found.map_or(0.0, |(_, polynomial)| polynomial[k]))
 }
 
-/// A polynomial at the bounded twist, and its derivative by that.
+/// Polynomial in the bounded twist, and its derivative.
 #[inline(always)]
 fn jet<S: Simd, const N: usize>(simd: S, coefficients: &[f64; N], t: S::f64s) -> [S::f64s; 2] {
     let mut value = simd.splat_f64s(coefficients[N - 1]);
@@ -107,7 +105,6 @@ fn jet<S: Simd, const N: usize>(simd: S, coefficients: &[f64; N], t: S::f64s) ->
     [simd.mul_add_e_f64s(value, t, lowest), slope]
 }
 
-/// The sum of the squares of two numbers.
 #[inline(always)]
 fn squared<S: Simd>(simd: S, [x, y, _]: Wide3<S>) -> S::f64s {
     simd.mul_add_e_f64s(y, y, simd.mul_f64s(x, x))
@@ -123,19 +120,18 @@ fn denominator<S: Simd>(simd: S, x: S::f64s, size: f64) -> S::f64s {
     )
 }
 
-/// Roots that the terms of twist and bending need, before they are divided by.
+/// Square roots and denominators of the terms of twist and bending.
 struct Roots<S: Simd> {
     /// `sqrt(k^2 + k_0^2)`.
     twist: S::f64s,
     /// `q = 1 + a / size^2`.
     q: S::f64s,
-    /// `s = sqrt((a + b^2 q) q)`, of which `s / q` is the root.
+    /// `s = sqrt((a + b^2 q) q)`, with the root `s / q`.
     s: S::f64s,
 }
 
-/// Functions of the curvature, with their derivatives.
 struct Bent<S: Simd> {
-    /// Bounded twist `t = k / sqrt(k^2 + k_0^2)` with `k_0^2 / (k^2 + k_0^2)^(3/2)`.
+    /// Bounded twist `t = k / sqrt(k^2 + k_0^2)` and `k_0^2 / (k^2 + k_0^2)^(3/2)`.
     twist: [S::f64s; 2],
     /// `1 / q`.
     fading: S::f64s,
@@ -164,7 +160,7 @@ impl<S: Simd> Roots<S> {
         simd.mul_f64s(self.q, self.s)
     }
 
-    /// From the inverse of the root of twist and of `q s`.
+    /// Functions given the inverses of the root of twist and of `q s`.
     #[inline(always)]
     fn bent(&self, simd: S, [a, k]: [S::f64s; 2], [of_twist, of_qs]: [S::f64s; 2]) -> Bent<S> {
         let ratio = simd.mul_f64s(simd.splat_f64s(TWIST_SIZE), of_twist);
@@ -189,7 +185,6 @@ impl<S: Simd> Roots<S> {
     }
 }
 
-/// `2 x`, of which the derivative of a square is made.
 #[inline(always)]
 fn twice<S: Simd>(simd: S, x: S::f64s) -> S::f64s {
     simd.add_f64s(x, x)
@@ -229,18 +224,17 @@ impl Law for Potential {
     }
 }
 
-/// What the terms of a segment are made of.
 struct Strained<S: Simd> {
     bent: Bent<S>,
-    /// Derivative of the natural length by the twist.
+    /// Derivative of the natural length with respect to twist.
     natural: S::f64s,
     /// `e`, `E` and the derivative of `E`.
     stretch: [S::f64s; 3],
     /// `1 / (1 + g / size^2)`, `G` and its derivative.
     shear: [S::f64s; 3],
-    /// `C` and its derivative by `c`.
+    /// `C` and its derivative with respect to `c`.
     coupling: [S::f64s; 2],
-    /// Of compression, with its derivative by the extension.
+    /// Function of compression and its derivative with respect to extension.
     slack: [S::f64s; 2],
 }
 
@@ -251,7 +245,7 @@ impl<S: Simd> Strained<S> {
         let (a, g) = (squared(simd, kappa), squared(simd, sigma));
         let c = simd.mul_add_e_f64s(x, sigma[0], simd.mul_f64s(y, sigma[1]));
         let (roots, of_shear) = (Roots::new(simd, a, k), denominator(simd, g, SHEAR));
-        // One quotient for four inverses.
+        // One division for four inverses.
         let (qs, others) = (roots.product(simd), simd.mul_f64s(of_shear, roots.twist));
         let inverse = simd.div_f64s(simd.splat_f64s(1.0), simd.mul_f64s(qs, others));
         let (of_others, of_qs) = (simd.mul_f64s(inverse, qs), simd.mul_f64s(inverse, others));
@@ -279,8 +273,9 @@ impl<S: Simd> Strained<S> {
     }
 }
 
-/// `e`, `E` with its derivative, and what compression gives: `y^3 / (y + w)` with its derivative by the
-/// extension, of which `y` is the negative where bonds give way, else zero.
+/// `e`, `E` and its derivative, and `y^3 / (y + w)` with its derivative with respect to extension.
+///
+/// `y` is the compression beyond the onset of slack, or zero.
 #[inline(always)]
 fn extended<S: Simd>(simd: S, e: S::f64s, [r, g, k]: [S::f64s; 3]) -> ([S::f64s; 3], [S::f64s; 2]) {
     let [of_r, of_g, of_k] = TIGHT.map(|each| simd.splat_f64s(each));
@@ -300,18 +295,16 @@ fn extended<S: Simd>(simd: S, e: S::f64s, [r, g, k]: [S::f64s; 3]) -> ([S::f64s;
     (stretch, [simd.mul_f64s(y, product), by_x])
 }
 
-/// Derivatives of the energy by what its terms are made of.
 struct Slopes<S: Simd> {
-    /// By `E`, `A`, `r`, `G` and `C`.
+    /// With respect to `E`, `A`, `r`, `G` and `C`.
     by: [S::f64s; 5],
-    /// By the bounded twist.
+    /// With respect to the bounded twist.
     by_t: S::f64s,
-    /// By the extension of compression.
+    /// With respect to the extension in the compression term.
     pushed: S::f64s,
 }
 
 impl<S: Simd> Strained<S> {
-    /// Force and couple.
     #[inline(always)]
     fn loads(&self, simd: S, law: &Potential, sigma: Wide3<S>, kappa: Wide3<S>) -> [Wide3<S>; 2] {
         let Slopes {
@@ -384,7 +377,7 @@ impl<S: Simd> Strained<S> {
     }
 }
 
-/// Adds up terms' derivatives: by the parts that they are products of, each with its place, and by `t`.
+/// Sums of the derivatives of terms, with respect to their factors and to `t`.
 struct Sums<S: Simd> {
     simd: S,
     t: S::f64s,
@@ -393,7 +386,7 @@ struct Sums<S: Simd> {
 }
 
 impl<S: Simd> Sums<S> {
-    /// The polynomial; adds its slope times the term.
+    /// Returns the polynomial, and adds its slope times the term to `by_t`.
     #[inline(always)]
     fn value<const N: usize>(&mut self, coefficients: &[f64; N], term: S::f64s) -> S::f64s {
         let [value, slope] = jet(self.simd, coefficients, self.t);

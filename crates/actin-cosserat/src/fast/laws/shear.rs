@@ -5,17 +5,14 @@ use actin_mechanics::Vector3;
 use actin_mechanics::wide::{self, Simd, Wide3};
 use std::fmt::Debug;
 
-/// How segments resist shear and stretch.
 pub(in crate::fast) trait Shear: Copy + Debug {
-    /// The law, if it is of this kind.
     fn of(shear: &CubicShear, stretch: &StretchLaw) -> Option<Self>;
 
-    /// Force (pN, body axes) and the pull that stretch beyond `natural` contributes to it. The
-    /// reference is `RodMaterial::shear_force_beyond`.
+    /// Force (pN, body axes), and tension due to stretch beyond `natural`. Reference:
+    /// `RodMaterial::shear_force_beyond`.
     fn force<S: Simd>(&self, simd: S, sigma: Wide3<S>, natural: S::f64s) -> (Wide3<S>, S::f64s);
 }
 
-/// Constant rigidities.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::fast) struct LinearShear {
     /// S1, S2, S3 (pN).
@@ -40,7 +37,7 @@ impl Shear for LinearShear {
     }
 }
 
-/// Shear that has a cubic part, and tension along the segment instead of along its frame.
+/// Shear with a cubic part, and tension along the segment instead of its frame.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::fast) struct CubicAcross {
     law: CubicShear,
@@ -62,15 +59,14 @@ impl Shear for CubicAcross {
         let [x, y, z] = sigma;
         let one = simd.splat_f64s(1.0);
         let across = simd.mul_add_e_f64s(y, y, simd.mul_f64s(x, x));
-        // The segment over its rest length is e3 + sigma: its length is found from its components, in
-        // which nothing cancels where it is short, and the strain from the square of the length
-        // less 1, in which nothing cancels where that is small.
+        // The segment divided by its rest length is e3 + sigma. The strain is computed from the
+        // squared length minus 1, to avoid cancellation at small strain.
         let along_d3 = simd.add_f64s(one, z);
         let length = simd.sqrt_f64s(simd.mul_add_e_f64s(along_d3, along_d3, across));
         let twice = simd.add_f64s(z, z);
         let excess = simd.add_f64s(simd.mul_add_e_f64s(z, z, across), twice);
         let more = simd.add_f64s(length, one);
-        // One quotient for 1 / length and 1 / (length + 1).
+        // One division for 1 / length and 1 / (length + 1).
         let both = simd.div_f64s(one, simd.mul_f64s(length, more));
         let strain = simd.mul_f64s(excess, simd.mul_f64s(both, length));
         let rigidity = simd.splat_f64s(self.stretch);

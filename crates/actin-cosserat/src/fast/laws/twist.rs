@@ -4,16 +4,14 @@ use crate::{SidedTwist, TanhTwist, TwistLaw, TwistRise};
 use actin_mechanics::wide::{self, Simd};
 use std::fmt::Debug;
 
-/// How a rod resists twist.
 pub(in crate::fast) trait Twist: Copy + Debug {
-    /// The law, if it is of this kind.
     fn of(law: &TwistLaw) -> Option<Self>;
 
-    /// Couple (pN nm) at twist `k` (rad/nm). The reference is [`TwistLaw::couple`].
+    /// Torque (pN nm) at twist `k` (rad/nm). Reference: [`TwistLaw::couple`].
     fn couple<S: Simd>(&self, simd: S, k: S::f64s) -> S::f64s;
 }
 
-/// A constant rigidity B3 (pN nm^2).
+/// Constant rigidity B3 (pN nm^2).
 #[derive(Clone, Copy, Debug)]
 pub(in crate::fast) struct ConstantTwist(f64);
 
@@ -31,16 +29,14 @@ impl Twist for ConstantTwist {
     }
 }
 
-/// How a law goes on outside its range: with its slope at either end.
+/// Linear extrapolation outside the range of a law.
 #[derive(Clone, Copy, Debug)]
 struct Beyond {
     range: f64,
-    /// Slopes at the lower and at the upper end.
     slopes: [f64; 2],
 }
 
 impl Beyond {
-    /// That of a constant rigidity (pN nm^2), whose range no twist leaves.
     fn nowhere(b3: f64) -> Self {
         Self {
             range: f64::MAX,
@@ -48,7 +44,7 @@ impl Beyond {
         }
     }
 
-    /// The twist within the range, and what the couple gains beyond it.
+    /// Twist clamped to the range, and torque of the extrapolation.
     #[inline(always)]
     fn split<S: Simd>(&self, simd: S, k: S::f64s) -> [S::f64s; 2] {
         let inside = wide::clamp(simd, k, self.range);
@@ -58,14 +54,12 @@ impl Beyond {
     }
 }
 
-/// `under` where `k` is negative, else `over`.
 #[inline(always)]
 fn sided<S: Simd>(simd: S, k: S::f64s, under: f64, over: f64) -> S::f64s {
     let negative = simd.less_than_f64s(k, simd.splat_f64s(0.0));
     simd.select_f64s(negative, simd.splat_f64s(under), simd.splat_f64s(over))
 }
 
-/// The law of [`TanhTwist`].
 #[derive(Clone, Copy, Debug)]
 pub(in crate::fast) struct Tanh {
     mean: f64,
@@ -109,7 +103,6 @@ impl Tanh {
         }
     }
 
-    /// A rigidity without steps.
     fn constant(b3: f64) -> Self {
         Self {
             mean: b3,
@@ -119,11 +112,10 @@ impl Tanh {
     }
 }
 
-/// The law of [`SidedTwist`].
 #[derive(Clone, Copy, Debug)]
 pub(in crate::fast) struct Sided {
     rest: f64,
-    /// `rise`, `slow` and the square of `half` of under-twist, then of over-twist.
+    /// `rise`, `slow` and squared `half` of under-twist, then of over-twist.
     sides: [[f64; 3]; 2],
     beyond: Beyond,
 }
@@ -166,7 +158,6 @@ impl Sided {
         }
     }
 
-    /// A rigidity that rises to neither side.
     fn constant(b3: f64) -> Self {
         Self {
             rest: b3,

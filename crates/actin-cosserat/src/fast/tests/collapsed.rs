@@ -1,14 +1,10 @@
-//! Segments that have lost nearly all their length, and such as point backwards.
-//!
-//! Where shear is cubic, tension is along the segment. Its length and direction are that of
-//! `e3 + sigma`, which is a small difference there.
+//! Segments of nearly zero length, and inverted segments.
 
 use super::*;
 use crate::extended::MeanCurvature;
 use crate::fast::laws::Law;
 use actin_mechanics::wide::{Columns, ColumnsMut, Simd, WithSimd};
 
-/// Force and couple of segments at these strains and curvatures.
 struct OfSegments<'a, L>(L, &'a [[Vector3; 2]]);
 
 impl<L: Law> WithSimd for OfSegments<'_, L> {
@@ -33,7 +29,6 @@ impl<L: Law> WithSimd for OfSegments<'_, L> {
     }
 }
 
-/// The same by the loop of a law.
 fn of_segments(arch: Arch, rod: &FastRod, states: &[[Vector3; 2]]) -> Vec<[Vector3; 2]> {
     match &rod.0 {
         Kind::Constant(rod) => arch.dispatch(OfSegments(rod.law, states)),
@@ -45,8 +40,8 @@ fn of_segments(arch: Arch, rod: &FastRod, states: &[[Vector3; 2]]) -> Vec<[Vecto
     }
 }
 
-/// Strains at which a segment has from a billionth to three times its length, in all directions and
-/// exactly across, at random curvatures.
+/// Strains of segments with 1e-9 to 3 times their rest length, in all directions, at random
+/// curvatures.
 fn states() -> Vec<[Vector3; 2]> {
     let mut noise = Xorshift::new(11);
     let mut segments = vec![
@@ -62,8 +57,7 @@ fn states() -> Vec<[Vector3; 2]> {
     segments.into_iter().map(state).collect()
 }
 
-/// With `sqrt(1 + (|e3 + sigma|^2 - 1))` for the length, a segment of a billionth pulls without bound
-/// or is not a number, and one of 1e-4 is wrong by 1e-8.
+/// A length computed from the squared length minus 1 would be inaccurate here.
 #[test]
 fn laws_of_collapsed_and_inverted_segments_are_the_scalar_ones() {
     let (states, (_, layout)) = (states(), rod(3, Walls::default(), &mut Xorshift::new(9)));
@@ -75,9 +69,8 @@ fn laws_of_collapsed_and_inverted_segments_are_the_scalar_ones() {
             let found = of_segments(arch, &rod, &states);
             for ([sigma, kappa], [force, couple]) in states.iter().zip(found) {
                 let expected = scalar.loads(&law.1, *sigma, MeanCurvature::inside(*kappa));
-                // Some ten roundings of terms that are no larger than these forces, or than
-                // 4e4 pN nm^2 times strain and curvature; of the potential, whose polynomials are small
-                // differences of large terms, than twenty times that.
+                // About ten roundings of terms up to the forces or 4e4 pN nm^2 times strain and
+                // curvature. The potential's polynomials cancel by up to a factor of 20.
                 let cancels = if law.0 == "potential" { 20.0 } else { 1.0 };
                 let scale = expected.0.norm() + 4e4 * (sigma.norm() + kappa.norm());
                 let error = (force - expected.0)
@@ -94,7 +87,6 @@ fn laws_of_collapsed_and_inverted_segments_are_the_scalar_ones() {
     }
 }
 
-/// Makes each segment this part of its length, in any direction as seen from its frame.
 fn collapse((state, layout): (&mut State, &RodLayout), size: f64, noise: &mut Xorshift) {
     let first = layout.points().start;
     for (k, length) in layout.segment_lengths().iter().enumerate() {
@@ -105,8 +97,7 @@ fn collapse((state, layout): (&mut State, &RodLayout), size: f64, noise: &mut Xo
     }
 }
 
-/// Strains are accurate to some 2e-16, and so the direction of a segment of a hundredth of its length
-/// to 2e-14.
+/// Strains are accurate to 2e-16, and the direction of a segment of 1 % of its length to 2e-14.
 #[test]
 fn loads_of_collapsed_rods_are_those_of_the_scalar_path() {
     let mut noise = Xorshift::new(12);

@@ -1,11 +1,10 @@
-//! Rods that several tests use.
+//! Rods for tests.
 #![allow(dead_code, reason = "each test file uses some of these")]
 
 use actin_cosserat::{Rigidities, RodLayout, RodMaterial, StraightRod, Walls};
 use actin_mechanics::{State, Vector3};
 use actin_mechanics::{Xorshift, perturb};
 
-/// Every combination of walls.
 pub(crate) const ALL_WALLS: [Walls; 4] = [
     Walls {
         start: false,
@@ -25,7 +24,6 @@ pub(crate) const ALL_WALLS: [Walls; 4] = [
     },
 ];
 
-/// Rigidities that all differ, so that no mix-up of axes goes unseen.
 pub(crate) fn material() -> RodMaterial {
     RodMaterial::new(Rigidities {
         shear: Vector3::new(1.6e4, 2.1e4, 3.4e4),
@@ -34,7 +32,6 @@ pub(crate) fn material() -> RodMaterial {
     .unwrap()
 }
 
-/// A rod of unequal segments of 6 to 14 nm, turned and shifted, with other bodies around it.
 pub(crate) fn rod(segments: usize, walls: Walls, noise: &mut Xorshift) -> (State, RodLayout) {
     let mut state = State::default();
     let neighbour = StraightRod::uniform(1, 10.0);
@@ -51,7 +48,6 @@ pub(crate) fn rod(segments: usize, walls: Walls, noise: &mut Xorshift) -> (State
     (state, layout)
 }
 
-/// The same, far from rest: strains up to about 0.5, angles up to about 1 rad per axis.
 pub(crate) fn strained_rod(
     segments: usize,
     walls: Walls,

@@ -17,7 +17,6 @@ const LONGEST: f64 = 1.0;
 pub(super) struct Chain<'a> {
     potential: &'a Potential<'a>,
     normal: Normal,
-    /// Coordinates, then strains.
     pub(super) place: DVector<f64>,
     pub(super) gradient: DVector<f64>,
     energy: f64,
@@ -65,16 +64,14 @@ impl<'a> Chain<'a> {
         mean
     }
 
-    /// Inverse of the mean Hessian times `force`.
     pub(super) fn mobility(&self, force: &DMatrix<f64>) -> DMatrix<f64> {
         &self.map * self.map.tr_mul(force) / self.potential.kt
     }
 
     /// Performs one trajectory and returns its acceptance probability.
     ///
-    /// Momenta, number of leapfrog steps and time step are drawn independently of the state. The
-    /// reverse trajectory is therefore equally likely, and the Metropolis test makes the Boltzmann
-    /// distribution stationary for any time step.
+    /// Momenta, number of leapfrog steps and time step are independent of the state. The Metropolis
+    /// test therefore makes the Boltzmann distribution stationary for any time step.
     pub(super) fn advance(&mut self) -> f64 {
         let kt = self.potential.kt;
         let mut momentum = DVector::from_fn(self.map.ncols(), |_, _| self.normal.next());
@@ -93,7 +90,6 @@ impl<'a> Chain<'a> {
         }
         let after = energy / kt + 0.5 * momentum.norm_squared();
         let gain = before - after;
-        // Diverging trajectories are rejected.
         let accepted = if gain.is_nan() {
             0.0
         } else {
@@ -109,7 +105,7 @@ impl<'a> Chain<'a> {
 #[expect(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,
-    reason = "a positive number of a few, or the conversion saturates"
+    reason = "the number is positive and small, or the conversion saturates"
 )]
 fn count(number: f64) -> usize {
     number.ceil() as usize

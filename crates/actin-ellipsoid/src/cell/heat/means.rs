@@ -1,3 +1,5 @@
+//! Means over a chain.
+
 use super::super::pairs::Derivatives;
 use super::super::{STRAINS, SixMatrix, SixVector};
 use super::potential::Potential;
@@ -28,7 +30,6 @@ pub(super) struct Sums {
 
 #[derive(Clone, Debug)]
 pub(super) struct Means {
-    /// Relative to the origin.
     pub(super) strain: SixVector,
     pub(super) covariance: SixMatrix,
     /// Derivatives of the free energy, with and without control variates.

@@ -80,22 +80,22 @@ impl Cell {
     /// Mean response at finite temperature to given strains or loads.
     ///
     /// The means of `u` and `w` are held as for [`Cell::relax`]. All other coordinates follow the
-    /// Boltzmann distribution with the uniform measure of rotations, exactly for any time step. The
-    /// factor `det <J_l^-1(w)>` of the constraint on the mean rotation is omitted; it corresponds
-    /// to a potential of 2/13 of that of the measure, `kT |w|^2/12` per monomer.
+    /// Boltzmann distribution with the uniform measure of rotations, for any time step. The factor
+    /// `det <J_l^-1(w)>` of the constraint on the mean rotation is omitted: 2/13 of the potential
+    /// of the measure, `kT |w|^2/12` per monomer.
     ///
     /// ```text
     /// loads   <D E>,   D E = dE/dxi + A^T dE/dx
     /// tangent (<D^2 E> - cov(D E) / kT) / length
     ///
-    /// A   displacement of the free coordinates with the strain
+    /// A   displacement of the free coordinates with the strain, from the harmonic cell
     /// ```
     ///
-    /// The second term of `D E` has zero mean. With `A` of the harmonic cell it removes most of the
-    /// variance. The chain starts from `start`, by default from the relaxed built filament.
+    /// The second term of `D E` has zero mean and removes most of the variance. The chain starts
+    /// from `start`, by default from the relaxed built filament.
     ///
     /// # Errors
-    /// [`CellError::NoMinimum`] if the relaxation of the initial state does not converge.
+    /// [`CellError::NoMinimum`] if the relaxation does not converge.
     ///
     /// # Panics
     /// If `start` has a different number of monomers.
@@ -203,7 +203,6 @@ impl Cell {
         }
     }
 
-    /// Displacements with the strains in the harmonic cell with the mean Hessian.
     fn moves(&self, potential: &Potential<'_>, chain: &Chain<'_>, hessian: &DMatrix<f64>) -> Moves {
         let mixed = hessian.columns(self.coordinates(), STRAINS).into_owned();
         let mut along = -chain.mobility(&mixed);

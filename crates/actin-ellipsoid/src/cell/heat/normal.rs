@@ -1,9 +1,10 @@
+//! Normal random numbers.
+
 use crate::stream::Stream;
 
 /// Separates these streams from the streams of bonds.
 const MOTION: u64 = u64::MAX;
 
-/// Independent standard normal numbers.
 #[derive(Clone, Debug)]
 pub(super) struct Normal {
     stream: Stream,
@@ -18,8 +19,6 @@ impl Normal {
         }
     }
 
-    /// Next number.
-    ///
     /// # Source
     /// Polar method of Marsaglia and Bray, SIAM Review 6 (1964) 260.
     pub(super) fn next(&mut self) -> f64 {

@@ -1,3 +1,5 @@
+//! Potential of the sampled distribution.
+
 use super::super::jets::log_density;
 use super::super::pairs::Derivatives;
 use super::super::{Cell, STRAINS, SixVector};

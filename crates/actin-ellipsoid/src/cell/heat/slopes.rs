@@ -14,7 +14,6 @@ struct Placed {
 }
 
 impl Placed {
-    /// Derivative with respect to the rotation vector.
     fn couple(&self, couple: Vector3) -> Vector3 {
         self.jacobian.tr_mul(&couple)
     }
@@ -29,7 +28,6 @@ struct PairLoads {
 }
 
 impl CellPair {
-    /// Loads for a relative pose in the lower frame.
     fn loads(&self, turn: &Matrix3, shift: &Vector3) -> PairLoads {
         let mut sum = PairLoads {
             energy: 0.0,

@@ -1,3 +1,5 @@
+//! Limits of the sampling.
+
 use super::*;
 use crate::cell::Control::{Load, Strain};
 use crate::{EllipsoidModel, EllipsoidParameters, Hold};

@@ -1,3 +1,5 @@
+//! Filaments for integration tests.
+
 use actin_ellipsoid::{Anchors, Bonds, EllipsoidModel, EllipsoidParameters, Monomers, Placement};
 use actin_mechanics::State;
 
@@ -17,17 +19,16 @@ pub(crate) fn model_with(anchors: Anchors, seed: u64, bonds: usize) -> Ellipsoid
 }
 
 /// Quadrature bonds.
-#[allow(dead_code, reason = "not every test asks for weighted bonds")]
+#[allow(dead_code, reason = "not used by every test")]
 pub(crate) fn weighted(points: usize) -> EllipsoidModel {
     model_with(Anchors::Cubature, 0, points)
 }
 
-#[allow(dead_code, reason = "not every test asks for all models")]
+#[allow(dead_code, reason = "not used by every test")]
 pub(crate) fn models(seed: u64) -> [EllipsoidModel; 3] {
     [model(seed, 8), model(seed, 64), weighted(12)]
 }
 
-/// `count` monomers at rest, starting with lattice index 0.
 pub(crate) fn filament(model: &EllipsoidModel, count: usize) -> (State, Monomers, Bonds) {
     let mut state = State::default();
     let monomers = model
@@ -35,6 +36,6 @@ pub(crate) fn filament(model: &EllipsoidModel, count: usize) -> (State, Monomers
         .unwrap();
     let bonds = model
         .bonds(&monomers)
-        .expect("the defaults leave room for bonds");
+        .expect("the default interfaces have bonds");
     (state, monomers, bonds)
 }

@@ -1,3 +1,5 @@
+//! Second derivative along carried steps.
+
 use crate::assemble::Assembly;
 use crate::evaluation::Evaluation;
 use crate::{BodyOrder, Layout};
@@ -21,7 +23,6 @@ impl Joints {
         (0..self.bodies - self.step).map(|i| [i, i + self.step])
     }
 
-    /// Arms and vector between the anchors (lab frame).
     fn geometry(&self, state: &State, [i, j]: [usize; 2]) -> ([Vector3; 2], Vector3) {
         let q = &state.frames.orientation;
         let arms = [q.get(i) * self.ends[0], q.get(j) * self.ends[1]];

@@ -1,3 +1,5 @@
+//! Clamped rod.
+
 use actin_cosserat::{
     EnergyGradient, Rigidities, RodClamp, RodEnd, RodLayout, RodMaterial, StraightRod,
 };

@@ -1,17 +1,18 @@
 //! One buckled filament: what it is made of, how it is held, turned and pushed together, and the
 //! scene that says so.
 
-use super::group::{Figure, Group};
-use super::resolved::{LENGTH_NM, Resolved};
+use super::{Figure, LENGTH_NM};
+use crate::figures::model::{Model, Resolution, monomers};
 use crate::run::scenario;
-use actin_sim::{Hold, Scene, Section, Setting, Stage, Task};
+use actin_sim::{Hold, Pace, Scene, Section, Setting, Stage, Task};
 
 /// Length of a filament of monomers alone between its inner held monomers, where rods of
 /// [`LENGTH_NM`] are held in node and frame (nm): the frame held lies half a segment inside.
 const MONOMERS_NM: f64 = 290.0;
-
-/// Lengths of the rod part (nm), split evenly between the ends, as in the paper.
-pub(super) const ROD_LENGTHS: [u32; 7] = [40, 73, 107, 140, 173, 207, 240];
+/// Largest step of a path in small steps, as a share of a stage.
+const SMALL_STEP: f64 = 0.04;
+/// Random starts from which other stable states are looked for.
+const STATES: usize = 16;
 
 /// The order in which the ends are moved.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -35,10 +36,11 @@ pub(super) struct Start {
 }
 
 /// One filament along one path.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug)]
 pub(super) struct Case {
-    pub group: Group,
-    pub resolved: Resolved,
+    pub figure: &'static Figure,
+    pub model: Model,
+    pub resolution: Resolution,
     /// Turn of each end, opposite at the other; positive is over-twist (deg).
     pub turn_deg: i32,
     /// Seed of the bonds.
@@ -46,10 +48,13 @@ pub(super) struct Case {
     pub start: Start,
 }
 
-/// Largest step of a path in small steps, as a share of a stage.
-const SMALL_STEP: f64 = 0.04;
-/// Random starts from which other stable states are looked for.
-const STATES: usize = 16;
+impl PartialEq for Case {
+    fn eq(&self, other: &Self) -> bool {
+        (self.figure.id, self.model.name) == (other.figure.id, other.model.name)
+            && (self.resolution, self.turn_deg) == (other.resolution, other.turn_deg)
+            && (self.seed, self.start) == (other.seed, other.start)
+    }
+}
 
 impl Start {
     /// Twist first, pulled towards +x.
@@ -58,6 +63,33 @@ impl Start {
         pull_deg: 0,
         small_steps: false,
     };
+    pub(super) const COMPRESSION_FIRST: Self = Self {
+        order: Order::CompressionFirst,
+        ..Self::DEFAULT
+    };
+
+    /// Twist first and compression first.
+    pub(super) fn orders() -> Vec<Self> {
+        vec![Self::DEFAULT, Self::COMPRESSION_FIRST]
+    }
+
+    /// Three orders, each pulled two ways, and two of them in small steps: eight starts.
+    pub(super) fn all() -> Vec<Self> {
+        let mut all = Vec::new();
+        for order in [Order::TwistFirst, Order::CompressionFirst, Order::Together] {
+            all.extend([0, 120].map(|pull_deg| Self {
+                order,
+                pull_deg,
+                small_steps: false,
+            }));
+        }
+        let small = Self::orders().into_iter();
+        all.extend(small.map(|start| Self {
+            small_steps: true,
+            ..start
+        }));
+        all
+    }
 
     /// Name in tables.
     pub(super) fn name(self) -> String {
@@ -71,63 +103,49 @@ impl Start {
     }
 }
 
+/// `over/180` or `under/180`.
+pub(super) fn turn_name(turn_deg: i32) -> String {
+    let direction = if turn_deg > 0 { "over" } else { "under" };
+    format!("{direction}/{}", turn_deg.abs())
+}
+
 impl Case {
-    /// A case from its default start.
-    pub(super) fn new(group: Group, resolved: Resolved, turn_deg: i32, seed: u64) -> Self {
-        Self {
-            group: group.relevant_to(resolved),
-            resolved,
-            turn_deg,
-            seed: if resolved == Resolved::Rod {
-                0
-            } else {
-                group.seed(seed)
-            },
-            start: Start::DEFAULT,
-        }
-    }
-
-    /// The same case from another start.
-    pub(super) fn from(self, start: Start) -> Self {
-        Self { start, ..self }
-    }
-
-    /// `over/180` or `under/180`.
-    pub(super) fn turn_name(turn_deg: i32) -> String {
-        let direction = if turn_deg > 0 { "over" } else { "under" };
-        format!("{direction}/{}", turn_deg.abs())
+    /// Turn and resolution in quantities.
+    pub(super) fn path(&self) -> String {
+        format!("{}/{}", turn_name(self.turn_deg), self.resolution.name())
     }
 
     /// Name in messages.
     pub(super) fn name(&self) -> String {
-        let (turn, resolved) = (Self::turn_name(self.turn_deg), self.resolved.name());
-        format!("{turn}/{resolved}/seed-{}/{}", self.seed, self.start.name())
+        format!("{}/seed-{}/{}", self.path(), self.seed, self.start.name())
     }
 
-    /// The scene: the one in the folder of the figure, with what the case changes.
+    pub(super) fn rod_nm(&self) -> f64 {
+        self.resolution.rod_nm(LENGTH_NM)
+    }
+
+    /// +1 for over-twist, -1 for under-twist.
+    pub(super) fn sign(&self) -> f64 {
+        f64::from(self.turn_deg.signum())
+    }
+
+    /// True for filaments whose other stable states are searched: one sampling of those in the pictures, monomers alone
+    /// in Figure 8 only.
+    fn has_states(&self) -> bool {
+        let is_shown = self.model == self.figure.models[0];
+        let is_new = self.resolution != Resolution::Ellipsoids || self.figure.id == "fig8";
+        is_shown && is_new && self.seed == 0 && self.start == Start::DEFAULT
+    }
+
+    /// The scene of the figure with the changes of the case.
     pub(super) fn scene(&self) -> Result<Scene, String> {
-        let folder = match self.group.figure {
-            Figure::Eight => "figure-8",
-            Figure::Ten => "figure-10",
-        };
-        let mut scene = scenario(&format!("{folder}/rod-140.ron"))?;
-        self.apply(&mut scene);
-        Ok(scene)
-    }
-
-    /// Whether other stable states are looked for: of the filaments that the figure shows, one sampling.
-    fn looks_around(&self) -> bool {
-        let is_shown = self.group == Group::main(self.group.figure);
-        is_shown && self.seed == 0 && self.start == Start::DEFAULT
-    }
-
-    fn apply(&self, scene: &mut Scene) {
+        let mut scene = scenario(self.figure.file)?;
         scene.title = self.name();
         scene.filament.sections = self.sections().into();
-        self.group.apply(scene, self.seed);
-        let hold = match self.resolved {
-            Resolved::Ellipsoids => Hold::Wall,
-            _ => self.group.hold,
+        self.model.apply(&mut scene, self.seed);
+        let hold = match self.resolution {
+            Resolution::Ellipsoids => Hold::Wall,
+            _ => self.model.hold,
         };
         scene.clamps.iter_mut().for_each(|clamp| clamp.hold = hold);
         for linker in &mut scene.linkers {
@@ -136,44 +154,41 @@ impl Case {
             let [x, y, z] = linker.displaced_nm.unwrap_or_default();
             linker.displaced_nm = Some([cos * x - sin * y, sin * x + cos * y, z]);
         }
-        scene.path = self.path(&scene.path);
+        scene.path = self.path_of(&scene.path);
         if let Task::Equilibrium(equilibrium) = &mut scene.task {
             if self.start.small_steps {
                 equilibrium.largest_step = SMALL_STEP;
             }
-            if self.looks_around() {
+            if self.has_states() {
                 equilibrium.states = STATES;
             }
         }
+        Ok(scene)
     }
 
     fn length_nm(&self) -> f64 {
-        match (self.resolved, self.group.hold) {
-            (Resolved::Ellipsoids, Hold::NodeAndFrame | Hold::TwoNodesAndFrame) => MONOMERS_NM,
+        match (self.resolution, self.model.hold) {
+            (Resolution::Ellipsoids, Hold::NodeAndFrame | Hold::TwoNodesAndFrame) => MONOMERS_NM,
             _ => LENGTH_NM,
         }
     }
 
     fn sections(&self) -> Vec<Section> {
         let rod = |from_nm, to_nm| Section::rod(from_nm, to_nm, None);
-        let monomers = |from_nm, to_nm| Section::Ellipsoids {
-            from_nm,
-            to_nm,
-            altered: None,
-        };
-        let length = self.length_nm();
-        match self.resolved {
-            Resolved::Rod => vec![rod(0.0, length)],
-            Resolved::Ellipsoids => vec![monomers(0.0, length)],
-            Resolved::Mixed(total) => {
-                let (from, to) = (0.5 * f64::from(total), length - 0.5 * f64::from(total));
-                vec![rod(0.0, from), monomers(from, to), rod(to, length)]
-            }
+        let (length, half) = (self.length_nm(), 0.5 * self.rod_nm());
+        match self.resolution {
+            Resolution::Rod => vec![rod(0.0, length)],
+            Resolution::Ellipsoids => vec![monomers(0.0, length)],
+            Resolution::Mixed(_) => vec![
+                rod(0.0, half),
+                monomers(half, length - half),
+                rod(length - half, length),
+            ],
         }
     }
 
     /// The stages of the scene, turn before shift, with the turn and in the order of the case.
-    fn path(&self, stages: &[Stage]) -> Vec<Stage> {
+    fn path_of(&self, stages: &[Stage]) -> Vec<Stage> {
         let mut stages = stages.to_vec();
         for setting in stages.iter_mut().flat_map(|stage| &mut stage.set) {
             if let Setting::Turn { turn_deg, .. } = setting {
@@ -183,43 +198,32 @@ impl Case {
         match self.start.order {
             Order::TwistFirst => stages,
             Order::CompressionFirst => stages.into_iter().rev().collect(),
-            Order::Together => {
-                let duration_ns = stages.iter().map(|stage| stage.duration_ns).sum();
-                let set = stages.into_iter().flat_map(|stage| stage.set).collect();
-                vec![Stage {
-                    set,
-                    duration_ns,
-                    pace: actin_sim::Pace::Smooth,
-                }]
-            }
+            Order::Together => vec![Stage {
+                duration_ns: stages.iter().map(|stage| stage.duration_ns).sum(),
+                set: stages.into_iter().flat_map(|stage| stage.set).collect(),
+                pace: Pace::Smooth,
+            }],
         }
-    }
-
-    /// +1 for over-twist, -1 for under-twist.
-    pub(super) fn sign(&self) -> f64 {
-        f64::from(self.turn_deg.signum())
     }
 }
 
 #[cfg(test)]
 mod tests {
+    use super::super::{FIGURE_8, Plan};
     use super::*;
-
-    fn case(turn_deg: i32, order: Order) -> Case {
-        let group = Group::main(Figure::Eight);
-        let start = Start {
-            order,
-            ..Start::DEFAULT
-        };
-        Case::new(group, Resolved::Mixed(140), turn_deg, 0).from(start)
-    }
 
     /// The default case is the scene as written; under-twist turns both ends the other way; the
     /// orders hold the same settings.
     #[test]
     fn cases_change_what_they_name() {
-        let turns = |case: Case| -> Vec<f64> {
-            let scene = case.scene().unwrap();
+        let plan = Plan::new(&FIGURE_8, false);
+        let turns = |turn_deg, order| -> Vec<f64> {
+            let case = plan.case(plan.shown(), Resolution::Mixed(140), turn_deg, 0);
+            let start = Start {
+                order,
+                ..Start::DEFAULT
+            };
+            let scene = Case { start, ..case }.scene().unwrap();
             let settings = scene.path.iter().flat_map(|stage| &stage.set);
             let turn = settings.filter_map(|setting| match setting {
                 Setting::Turn { turn_deg, .. } => Some(turn_deg[2]),
@@ -227,8 +231,8 @@ mod tests {
             });
             turn.collect()
         };
-        assert_eq!(turns(case(180, Order::TwistFirst)), [-180.0, 180.0]);
-        assert_eq!(turns(case(-270, Order::CompressionFirst)), [270.0, -270.0]);
-        assert_eq!(turns(case(360, Order::Together)), [-360.0, 360.0]);
+        assert_eq!(turns(180, Order::TwistFirst), [-180.0, 180.0]);
+        assert_eq!(turns(-270, Order::CompressionFirst), [270.0, -270.0]);
+        assert_eq!(turns(360, Order::Together), [-360.0, 360.0]);
     }
 }

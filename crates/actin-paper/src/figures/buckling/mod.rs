@@ -4,145 +4,340 @@
 //! statics; one resolution is also moved there in time. A pull of 1e-3 pN at half the length
 //! breaks the symmetry, so only what does not depend on its direction is compared.
 
-mod balance;
 mod case;
-mod dynamics;
-mod expected;
-mod followed;
-mod group;
-mod lists;
-mod outcome;
 mod pictures;
 mod plane;
-mod resolved;
-mod results;
 mod rows;
+mod solve;
 mod starts;
-mod tables;
 
-use super::Run;
-use super::progress::Progress;
-use actin_draw::report::Artefact;
-use actin_sim::Assembly;
-use case::Case;
-use dynamics::Motion;
-use group::Figure;
-use lists::Plan;
-use outcome::Outcome;
-use rayon::prelude::*;
-use results::Results;
-use std::time::Instant;
+use super::draft::Draft;
+use super::model::{Model, Resolution, Rods};
+use crate::statistics::{Sample, sample};
+use actin_sim::{ForceLaw, Hold, JunctionWeight};
+use case::{Case, Start};
+use solve::{Measured, Motion, Outcome};
+
+/// Length of the filament (nm).
+const LENGTH_NM: f64 = 300.0;
+/// Lengths of the rod part (nm), split evenly between the ends, as in the paper, and for `--quick`.
+const RODS: [u32; 7] = [240, 207, 173, 140, 107, 73, 40];
+const QUICK_RODS: [u32; 3] = [240, 140, 40];
+/// Largest turn (deg) with the balance as printed: at larger turns there are many states.
+const FEW_STATES_DEG: i32 = 270;
+
+/// A figure of buckled filaments.
+#[derive(Debug)]
+struct Figure {
+    id: &'static str,
+    /// The scene file, in `scenarios`.
+    file: &'static str,
+    /// Law of the rods, in captions.
+    rods: &'static str,
+    /// The first is the one that the figure shows.
+    models: &'static [Model],
+    /// Turns of the ends (deg).
+    turns: &'static [i32],
+    /// Samplings of the bonds, and for `--quick`.
+    seeds: [u64; 2],
+    /// Starts of the shown model, and for `--quick`; turns (deg) at which it is solved from all of them, and for
+    /// `--quick`.
+    starts: [fn() -> Vec<Start>; 2],
+    started: [&'static [i32]; 2],
+}
+
+const SHOWN_8: Model = Model {
+    hold: Hold::TwoNodesAndFrame,
+    ..Model::STANDARD
+};
+const SHOWN_10: Model = Model {
+    rods: Rods::Extended,
+    hold: Hold::NodeAndFrame,
+    ..Model::STANDARD
+};
+const MEAN_8: Model = mean(SHOWN_8);
+const MEAN_10: Model = mean(SHOWN_10);
+
+const fn mean(model: Model) -> Model {
+    Model {
+        name: "mean-filament/",
+        words: "mean filament",
+        is_mean: true,
+        ..model
+    }
+}
+
+const fn wall(model: Model) -> Model {
+    Model {
+        name: "wall/",
+        words: "clamp Wall",
+        hold: Hold::Wall,
+        ..model
+    }
+}
+
+/// The junction as printed.
+const FULL: Model = Model {
+    name: "full/",
+    words: "junction as printed",
+    junction: JunctionWeight::Full,
+    ..SHOWN_8
+};
+const CONSTANT: Model = Model {
+    name: "standard/",
+    words: "constant rigidities",
+    rods: Rods::Constant,
+    ..SHOWN_10
+};
+const COUPLING: Model = Model {
+    name: "coupling-energy/",
+    words: "C3 energy",
+    rods: Rods::CouplingEnergy,
+    ..SHOWN_10
+};
+/// The extended rod in the balance of forces and torques as printed, which has no energy.
+const AS_PRINTED: Model = Model {
+    name: "paper-balance/",
+    words: "balance as printed",
+    balance: ForceLaw::PaperBalance,
+    ..MEAN_10
+};
+
+static FIGURE_8: Figure = Figure {
+    id: "fig8",
+    file: "figure-8/rod-140.ron",
+    rods: "rods of constant rigidities",
+    models: &[SHOWN_8, MEAN_8, wall(SHOWN_8), FULL],
+    turns: &[180, -180],
+    seeds: [8, 2],
+    starts: [Start::all, Start::orders],
+    started: [&[180, -180], &[180, -180]],
+};
+
+static FIGURE_10: Figure = Figure {
+    id: "fig10",
+    file: "figure-10/rod-140.ron",
+    rods: "rods with the published B3(kappa) and xi(kappa)",
+    models: &[
+        SHOWN_10,
+        MEAN_10,
+        wall(SHOWN_10),
+        CONSTANT,
+        COUPLING,
+        AS_PRINTED,
+    ],
+    turns: &[180, -180, 270, -270, 360, -360],
+    seeds: [4, 1],
+    starts: [Start::all, Start::all],
+    started: [&[360, -360], &[360]],
+};
 
 /// Figure 8: rods of constant rigidities.
-pub(super) fn figure8(run: Run<'_>) -> Result<Artefact, String> {
-    reproduce(&Plan::eight(run.quick), run)
+pub(super) fn figure8(draft: &mut Draft<'_>) -> Result<(), String> {
+    reproduce(&Plan::new(&FIGURE_8, draft.quick), draft)
 }
 
 /// Figure 10: rods with the published twist extensions.
-pub(super) fn figure10(run: Run<'_>) -> Result<Artefact, String> {
-    reproduce(&Plan::ten(run.quick), run)
-}
-
-/// One piece of work, and what comes out of it.
-enum Job {
-    Statics(Case),
-    Dynamics(Case),
-}
-
-enum Done {
-    Statics(Box<Outcome>),
-    Dynamics(Box<Motion>),
-}
-
-/// Runs all cases, draws them and compares them.
-fn reproduce(plan: &Plan, Run { out, progress, .. }: Run<'_>) -> Result<Artefact, String> {
-    let started = Instant::now();
-    let (results, motions) = compute(plan, progress);
-    let mut rows = rows::rows(plan, &results);
-    rows.extend(starts::rows(plan, &results));
-    rows.extend(dynamics::rows(plan, &results, &motions));
-    tables::write(plan, &results, out)?;
-    let mut views = vec![pictures::view_in_space(plan, &results, out)?];
-    if plan.moving && plan.figure == Figure::Ten {
-        views.push(followed::view(out)?);
+pub(super) fn figure10(draft: &mut Draft<'_>) -> Result<(), String> {
+    let plan = Plan::new(&FIGURE_10, draft.quick);
+    reproduce(&plan, draft)?;
+    if draft.quick {
+        return Ok(());
     }
-    Ok(Artefact {
-        id: plan.figure.id(),
-        title: match plan.figure {
-            Figure::Eight => "Twisted and pushed together: constant rigidities",
-            Figure::Ten => "Twisted and pushed together: rods whose twist changes them",
-        },
-        settings: settings(plan, &results),
-        rows,
-        pictures: pictures::draw(plan, &results, out)?,
-        views,
-        wall_s: started.elapsed().as_secs_f64(),
-    })
+    pictures::followed(draft)
 }
 
-/// Runs the dynamics, which takes longest, and all equilibria.
-fn compute(plan: &Plan, progress: &Progress) -> (Results, Vec<Motion>) {
-    let moved = dynamics::cases(plan).into_iter().map(Job::Dynamics);
-    let jobs: Vec<Job> = moved
-        .chain(plan.cases().into_iter().map(Job::Statics))
-        .collect();
-    progress.expect(jobs.len());
-    let done: Vec<Result<Done, String>> = jobs
-        .par_iter()
-        .with_max_len(1)
-        .map(|job| {
-            let done = match job {
-                Job::Statics(case) => solve(case).map(|o| Done::Statics(Box::new(o))),
-                Job::Dynamics(case) => dynamics::run(case).map(|m| Done::Dynamics(Box::new(m))),
-            };
-            progress.done();
-            done
-        })
-        .collect();
-    sort(done)
-}
-
-/// Finds the equilibrium of `case` along its path, or where loads without an energy come to rest.
-///
-/// # Errors
-/// A scene that cannot be read or built, a path that ends early: in words, with the case.
-fn solve(case: &Case) -> Result<Outcome, String> {
-    if case.group.rods == group::Rods::PaperBalance {
-        return balance::rest(case);
-    }
-    let fail = |error: &dyn std::fmt::Display| format!("{}: {error}", case.name());
-    let mut assembly = Assembly::build(&case.scene()?).map_err(|e| fail(&e))?;
-    outcome::outcome(case, &mut assembly)
-}
-
-fn sort(done: Vec<Result<Done, String>>) -> (Results, Vec<Motion>) {
-    let mut results = Results {
-        outcomes: Vec::with_capacity(done.len()),
-        failures: Vec::new(),
-    };
-    let mut motions = Vec::new();
-    for item in done {
-        match item {
-            Ok(Done::Statics(outcome)) => results.outcomes.push(*outcome),
-            Ok(Done::Dynamics(motion)) => motions.push(*motion),
-            Err(failure) => results.failures.push(failure),
-        }
-    }
-    (results, motions)
-}
-
-/// How the cases were run, in words.
-fn settings(plan: &Plan, results: &Results) -> String {
-    let folder = match plan.figure {
-        Figure::Eight => "figure-8",
-        Figure::Ten => "figure-10",
-    };
-    format!(
-        "Scene scenarios/{folder}/rod-140.ron and what follows from it: {} equilibria at the end \
-         of paths, {} samplings of drawn bonds, seeds from 0, and the mean filament, which has none; \
-         twist first unless named. Rods are 300 nm long; monomers alone 290 nm between the inner held ones, 300 nm where the clamp is Wall. A \
-         pull of 1e-3 pN at half the length, towards a point 100 nm aside, breaks the symmetry.",
+fn reproduce(plan: &Plan, draft: &mut Draft<'_>) -> Result<(), String> {
+    let mut results = Results::default();
+    let mut failures = Vec::new();
+    let mut keep = |failure| failures.push(failure);
+    let motions = draft.solve(&plan.moved(), solve::motion).into_iter();
+    results.motions = motions.filter_map(|r| r.map_err(&mut keep).ok()).collect();
+    let outcomes = draft.solve(&plan.cases(), solve::outcome).into_iter();
+    results.outcomes = outcomes.filter_map(|r| r.map_err(&mut keep).ok()).collect();
+    results.failures = failures;
+    draft.settings = format!(
+        "Scene scenarios/{} and what follows from it: {} equilibria at the end of paths, {} samplings of drawn \
+         bonds, seeds from 0, and the mean filament, which has no seed; twist first unless named. Rods are 300 nm \
+         long; monomers alone 290 nm between the inner held ones, 300 nm where the clamp is Wall. A pull of \
+         1e-3 pN at half the length, towards a point 100 nm aside, breaks the symmetry.",
+        plan.figure.file,
         results.outcomes.len(),
         plan.seeds,
-    )
+    );
+    rows::rows(plan, draft, &results);
+    starts::rows(plan, draft, &results);
+    rows::motions(plan, draft, &results);
+    rows::tables(draft, &results)?;
+    pictures::draw(plan, draft, &results)
+}
+
+/// Resolutions, samplings and starts of one run.
+#[derive(Clone, Debug)]
+struct Plan {
+    figure: &'static Figure,
+    models: Vec<Model>,
+    resolutions: Vec<Resolution>,
+    seeds: u64,
+    /// Starts from which every resolution of the shown model is solved, and at which turns.
+    starts: Vec<Start>,
+    started: &'static [i32],
+    quick: bool,
+}
+
+impl Plan {
+    fn new(figure: &'static Figure, quick: bool) -> Self {
+        let rods: &[u32] = if quick { &QUICK_RODS } else { &RODS };
+        let mixed = rods.iter().map(|&rod| Resolution::Mixed(rod));
+        let all = [Resolution::Rod].into_iter().chain(mixed);
+        let k = usize::from(quick);
+        let models = figure.models.iter().copied();
+        Self {
+            figure,
+            models: models.filter(|m| !quick || *m != AS_PRINTED).collect(),
+            resolutions: all.chain([Resolution::Ellipsoids]).collect(),
+            seeds: figure.seeds[k],
+            starts: (figure.starts[k])(),
+            started: figure.started[k],
+            quick,
+        }
+    }
+
+    /// The model that the figure shows.
+    fn shown(&self) -> Model {
+        self.figure.models[0]
+    }
+
+    /// The case of a model at a resolution and a turn, from its default start.
+    fn case(&self, model: Model, resolution: Resolution, turn_deg: i32, seed: u64) -> Case {
+        let is_drawn = !model.is_mean && resolution != Resolution::Rod;
+        Case {
+            figure: self.figure,
+            model: model.solved_as(self.figure.models, resolution),
+            resolution,
+            turn_deg,
+            seed: if is_drawn { seed } else { 0 },
+            start: Start::DEFAULT,
+        }
+    }
+
+    /// The turns at which a model is compared (deg).
+    fn turns_of(&self, model: Model) -> impl Iterator<Item = i32> {
+        let most = if model == AS_PRINTED {
+            FEW_STATES_DEG
+        } else {
+            i32::MAX
+        };
+        let turns = self.figure.turns.iter().copied();
+        turns.filter(move |turn| turn.abs() <= most)
+    }
+
+    /// Starts at a turn: at least both orders.
+    fn starts_at(&self, turn: i32) -> Vec<Start> {
+        if self.started.contains(&turn) {
+            self.starts.clone()
+        } else {
+            Start::orders()
+        }
+    }
+
+    /// The cases that are moved in time: one mixed resolution in both directions; empty for `--quick`.
+    fn moved(&self) -> Vec<Case> {
+        let turns: &[i32] = if self.quick { &[] } else { &[180, -180] };
+        let case = |&turn| self.case(self.shown(), Resolution::Mixed(140), turn, 0);
+        turns.iter().map(case).collect()
+    }
+
+    /// Every case, each once.
+    fn cases(&self) -> Vec<Case> {
+        let mut all = Vec::new();
+        for &model in &self.models {
+            for turn in self.turns_of(model) {
+                for &resolution in &self.resolutions {
+                    let seeds = 0..model.seeds(self.seeds);
+                    all.extend(seeds.map(|seed| self.case(model, resolution, turn, seed)));
+                }
+            }
+        }
+        for &turn in self.figure.turns {
+            for &resolution in &self.resolutions {
+                let case = self.case(self.shown(), resolution, turn, 0);
+                let starts = self.starts_at(turn).into_iter();
+                all.extend(starts.map(|start| Case { start, ..case }));
+            }
+        }
+        let mut unique: Vec<Case> = Vec::with_capacity(all.len());
+        for case in all {
+            if !unique.contains(&case) {
+                unique.push(case);
+            }
+        }
+        unique
+    }
+}
+
+/// Outcomes of all cases.
+#[derive(Debug, Default)]
+struct Results {
+    outcomes: Vec<Outcome>,
+    motions: Vec<Motion>,
+    /// Messages of cases without an equilibrium.
+    failures: Vec<String>,
+}
+
+impl Results {
+    /// The outcome of one case.
+    fn of(&self, case: Case) -> Option<&Outcome> {
+        self.outcomes.iter().find(|outcome| outcome.case == case)
+    }
+
+    /// Samplings of one filament.
+    fn samplings(&self, case: Case) -> impl Iterator<Item = &Outcome> {
+        self.outcomes.iter().filter(move |outcome| {
+            let seed = outcome.case.seed;
+            outcome.case == Case { seed, ..case }
+        })
+    }
+
+    /// Statistics of an observable over samplings; `None` where nothing was found.
+    fn sample(&self, case: Case, of: fn(&Measured) -> f64) -> Option<Sample> {
+        let sample = sample(self.samplings(case).map(|o| of(&o.measured)));
+        (sample.count > 0).then_some(sample)
+    }
+}
+
+/// An observable that does not depend on the plane of buckling: name, unit, value.
+type Observable = (&'static str, &'static str, fn(&Measured) -> f64);
+
+const OBSERVABLES: [Observable; 4] = [
+    ("height", "nm", |m| m.height_nm),
+    ("couple", "pN nm", |m| m.couple_pn_nm),
+    ("force", "pN", |m| m.force_pn),
+    ("energy", "pN nm", |m| m.energy_pn_nm),
+];
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A model adds only the filaments that it changes: eight of the mean filament, since the rod has no
+    /// bonds, and seven junctions as printed at each turn. The balance as printed is a law of rods.
+    #[test]
+    fn every_model_adds_the_filaments_that_it_changes() {
+        let [eight, ten] = [&FIGURE_8, &FIGURE_10].map(|figure| Plan::new(figure, false));
+        for plan in [&eight, &ten] {
+            assert!(plan.seeds >= 3 && plan.starts.len() >= 6);
+            assert_eq!(plan.resolutions.len(), 9);
+        }
+        let count = |plan: &Plan, model: Model| {
+            plan.cases()
+                .iter()
+                .filter(|case| case.model == model)
+                .count()
+        };
+        assert_eq!(count(&eight, MEAN_8), 2 * 8);
+        assert_eq!(count(&eight, FULL), 2 * 7 * 8);
+        assert_eq!(count(&ten, AS_PRINTED), 4 * 8);
+        assert_eq!(count(&Plan::new(&FIGURE_10, true), AS_PRINTED), 0);
+    }
 }

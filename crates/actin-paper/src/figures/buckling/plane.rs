@@ -1,14 +1,12 @@
 //! The plane in which a filament has buckled.
 
-use super::outcome::Place;
-
 /// Turns a centre line about the axis (lab z) so that most of it lies in one plane.
 ///
 /// The plane is that of the largest second moment of (x, y) about the axis, so the line's offsets
 /// are largest along the first returned coordinate; that coordinate is positive on average.
 /// Returns (along the axis from the middle between the ends, in the plane, out of it), in nm.
-pub(super) fn in_own_plane(line: &[Place]) -> Vec<Place> {
-    let moment = |product: fn(&Place) -> f64| line.iter().map(product).sum::<f64>();
+pub(super) fn in_own_plane(line: &[[f64; 3]]) -> Vec<[f64; 3]> {
+    let moment = |product: fn(&[f64; 3]) -> f64| line.iter().map(product).sum::<f64>();
     let (xx, xy, yy) = (
         moment(|p| p[0] * p[0]),
         moment(|p| p[0] * p[1]),

@@ -1,253 +1,273 @@
-//! Numbers of Figures 8 and 10 as rows of the report: values, spreads and trends.
+//! Numbers of Figures 8 and 10 as rows of the report and as tables.
 
-use super::balance;
-use super::case::Case;
-use super::expected;
-use super::group::{Figure, Group};
-use super::lists::Plan;
-use super::outcome::{Evidence, Outcome};
-use super::resolved::Resolved;
-use super::results::{OBSERVABLES, Observable, Results, range};
-use crate::figures::bounds::{A_DIFFERENCE, CROSS_CHECK, ROUND_OFF, SHAPE_NM};
-use actin_draw::report::{Origin, Row, printed};
+use super::case::{Case, turn_name};
+use super::solve::{Motion, Outcome, STOP};
+use super::starts::is_same;
+use super::{CONSTANT, OBSERVABLES, Observable, Plan, Results};
+use crate::figures::draft::{Column, Draft, number};
+use crate::figures::expected::Bound;
+use crate::figures::model::{Model, Resolution};
+use crate::statistics::{largest, sample};
 
 /// The extended rod, and what the paper prints or offers for the same.
 const EXTENDED: [&str; 3] = ["", "coupling-energy/", "paper-balance/"];
+/// Largest turn (deg) that is judged: at larger turns filaments have many equilibria.
+const JUDGED_DEG: i32 = 270;
 
-/// All values, then the spreads, group by group.
-pub(super) fn rows(plan: &Plan, results: &Results) -> Vec<Row> {
-    let mut all = Vec::new();
-    for (name, group) in plan.groups() {
-        for turn in plan.turns_of(group) {
+/// All values, then the spreads, model by model.
+pub(super) fn rows(plan: &Plan, draft: &mut Draft<'_>, results: &Results) {
+    for &model in &plan.models {
+        for turn in plan.turns_of(model) {
             for observable in OBSERVABLES {
-                for &resolved in &plan.resolved {
-                    all.extend(value(results, (name, group), observable, resolved, turn));
-                }
-                all.extend(spread(plan, results, (name, group), observable, turn));
+                values(plan, draft, results, (model, turn), observable);
             }
         }
     }
-    all.extend(writhes(plan, results));
-    all.extend(link_error(plan.figure, results));
-    all.push(uncertified(plan.figure, results));
-    all.extend(balance::row(plan.figure.id(), &results.outcomes));
-    all
-}
-
-/// Writhe of every filament of the first group, the sampling with seed 0.
-fn writhes(plan: &Plan, results: &Results) -> Vec<Row> {
-    let turns = plan.turns.iter();
-    let pairs = turns.flat_map(|&turn| plan.resolved.iter().map(move |&r| (turn, r)));
-    let row = |(turn, resolved): (i32, Resolved)| {
-        let m = &results
-            .of(Case::new(plan.main(), resolved, turn, 0))?
-            .measured;
-        let note = format!(
-            "of the smoothed centre line, seed 0; twist {:.4}, link {:.4} turns",
-            m.twist_turns, m.link_turns
-        );
-        let quantity = format!("writhe/{}/{}", Case::turn_name(turn), resolved.name());
-        Some(Row::measured(
-            plan.figure.id(),
-            quantity,
-            "",
-            m.writhe,
-            note,
-        ))
-    };
-    pairs.filter_map(row).collect()
-}
-
-/// Largest deviation of twist plus writhe from link over all equilibria.
-fn link_error(figure: Figure, results: &Results) -> Option<Row> {
-    let worst = results.outcomes.iter().max_by(|a, b| {
-        let error = |o: &Outcome| o.measured.link_error().abs();
-        error(a).total_cmp(&error(b))
-    })?;
-    let note = format!(
-        "largest of twist plus writhe minus link over {} equilibria, at {}",
-        results.outcomes.len(),
-        worst.case.name()
-    );
-    let value = worst.measured.link_error().abs();
-    let row = Row::measured(figure.id(), "link_error", "turns", value, note);
-    Some(row.against(0.0, ROUND_OFF).of(Origin::Theory))
-}
-
-/// One observable of one filament: the mean over samplings.
-fn value(
-    results: &Results,
-    (name, group): (&str, Group),
-    observable: Observable,
-    resolved: Resolved,
-    turn: i32,
-) -> Option<Row> {
-    let sample = results.sample(group, resolved, turn, observable.of)?;
-    let scatter = match sample.count {
-        1 => "one filament".into(),
-        count => format!("{count} samplings, sd {:.3}", sample.sd),
-    };
-    let found: Vec<&Outcome> = results.samplings(group, resolved, turn).collect();
-    let note = format!("{scatter}; {}", found_by(&found));
-    let expected =
-        expected::of(group.figure, observable.name, resolved, turn).filter(|_| name.is_empty());
-    let quantity = format!(
-        "{name}{}/{}/{}",
-        observable.name,
-        Case::turn_name(turn),
-        resolved.name()
-    );
-    let row = |note| {
-        Row::measured(
-            group.figure.id(),
-            quantity,
-            observable.unit,
-            sample.mean,
-            note,
-        )
-    };
-    let Some(theirs) = expected else {
-        return Some(row(note));
-    };
-    // With monomers the earlier calculation had other bonds, and a variant is judged nowhere.
-    if resolved == Resolved::Rod && name.is_empty() {
-        let row = row(format!("{CROSS_CHECK}; {note}")).against_printed(theirs, 0.0);
-        return Some(row.of(Origin::CrossCheck));
+    if plan.models.contains(&CONSTANT) {
+        improvements(plan, draft);
     }
-    let words = "beside an earlier calculation with 32 bonds of any length; not judged";
-    let (value, _) = printed(theirs);
-    Some(row(format!("{words}; {note}")).beside(value, Origin::CrossCheck))
+    for &turn in plan.figure.turns {
+        for &resolution in &plan.resolutions {
+            let case = plan.case(plan.shown(), resolution, turn, 0);
+            let Some(found) = results.of(case) else {
+                continue;
+            };
+            let m = &found.measured;
+            let note = format!(
+                "of the smoothed centre line, seed 0; twist {:.4}, link {:.4} turns",
+                m.twist_turns, m.link_turns
+            );
+            draft.row(format!("writhe/{}", case.path()), "", m.writhe, note);
+        }
+    }
+    checks(draft, results);
+}
+
+/// Means over samplings of one observable at all resolutions, and their spread: absolute for heights, otherwise
+/// relative to the mean.
+fn values(
+    plan: &Plan,
+    draft: &mut Draft<'_>,
+    results: &Results,
+    (model, turn): (Model, i32),
+    (name, unit, of): Observable,
+) {
+    let mut means: Vec<(Resolution, f64)> = Vec::new();
+    for &resolution in &plan.resolutions {
+        let case = plan.case(model, resolution, turn, 0);
+        let Some(s) = results.sample(case, of) else {
+            continue;
+        };
+        let scatter = match s.count {
+            1 => "one filament".into(),
+            count => format!("{count} samplings, sd {:.3}", s.sd),
+        };
+        let found: Vec<&Outcome> = results.samplings(case).collect();
+        let quantity = format!("{}{name}/{}", model.name, case.path());
+        draft.row(
+            quantity,
+            unit,
+            s.mean,
+            format!("{scatter}; {}", found_by(&found)),
+        );
+        means.push((resolution, s.mean));
+    }
+    if means.is_empty() {
+        return;
+    }
+    let all = sample(means.iter().map(|m| m.1));
+    let mixed = means.iter().filter(|m| m.0.is_mixed());
+    let mixed = sample(mixed.map(|m| m.1));
+    let (what, unit, scale) = match name {
+        "height" => ("max - min", unit, 1.0),
+        _ => ("(max - min)/mean", "", 1.0 / all.mean),
+    };
+    let listed: Vec<String> = means.iter().map(|m| format!("{:.2}", m.1)).collect();
+    let note = format!(
+        "{what} over {} resolutions, pure cases included; over mixed ones {:.4}; from rod to ellipsoids {}",
+        all.count,
+        mixed.range() * scale,
+        listed.join(", ")
+    );
+    let quantity = format!("{}{name}_spread/{}", model.name, turn_name(turn));
+    draft.row(quantity, unit, all.range() * scale, note);
 }
 
 /// How states were found and what is known of them, in words.
 fn found_by(outcomes: &[&Outcome]) -> String {
-    if let [
-        Outcome {
-            evidence: Evidence::Motion { time_ns, .. },
-            residual: (force, torque),
-            ..
-        },
-    ] = outcomes
+    if let [only] = outcomes
+        && !only.is_solved()
     {
+        let [force, torque] = only.residual;
         return format!(
-            "damped motion of {time_ns:.0} ns from the equilibrium of the law with an energy, \
-             residual {force:.1e} pN and {torque:.1e} pN nm"
+            "damped motion of {:.0} ns from the equilibrium of the law with an energy, residual {force:.1e} pN and \
+             {torque:.1e} pN nm",
+            only.time_ns
         );
     }
     let unstable = outcomes.iter().filter(|o| !o.is_stable()).count();
     format!("{unstable} not certified stable")
 }
 
-/// Largest minus smallest of the means over all resolutions; of couples, forces and energies
-/// relative to their mean.
-fn spread(
-    plan: &Plan,
-    results: &Results,
-    (name, group): (&str, Group),
-    observable: Observable,
-    turn: i32,
-) -> Option<Row> {
-    let mean = |resolved: &Resolved| {
-        let sample = results.sample(group, *resolved, turn, observable.of)?;
-        Some((*resolved, sample.mean))
-    };
-    let means: Vec<(Resolved, f64)> = plan.resolved.iter().filter_map(mean).collect();
-    let (low, high) = range(means.iter().map(|m| m.1))?;
-    let is_mixed = |m: &&(Resolved, f64)| matches!(m.0, Resolved::Mixed(_));
-    let (mixed_low, mixed_high) = range(means.iter().filter(is_mixed).map(|m| m.1))?;
-    let average = means.iter().map(|m| m.1).sum::<f64>() / means.len() as f64;
-    let is_height = observable.name == "height";
-    let (unit, scale) = if is_height {
-        ("nm", 1.0)
-    } else {
-        ("", 1.0 / average)
-    };
-    let note = format!(
-        "{} over {} resolutions, pure cases included: {low:.2} to {high:.2} {}; over mixed ones {:.4}; {}",
-        if is_height {
-            "max - min"
-        } else {
-            "(max - min)/mean"
-        },
-        means.len(),
-        observable.unit,
-        (mixed_high - mixed_low) * scale,
-        trend(&means)
-    );
-    let quantity = format!("{name}{}_spread/{}", observable.name, Case::turn_name(turn));
-    let row = Row::measured(
-        group.figure.id(),
-        quantity,
-        unit,
-        (high - low) * scale,
-        note,
-    );
-    Some(judged(row, plan.figure, (name, observable.name), turn))
-}
-
-/// The spread judged where extended rods should agree: the paper says that they improve, not by how much.
-fn judged(row: Row, figure: Figure, (group, observable): (&str, &str), turn: i32) -> Row {
-    match (figure, group, observable, turn) {
-        (Figure::Ten, group, "height", 180 | 270) if EXTENDED.contains(&group) => {
-            row.against(0.0, SHAPE_NM).of(Origin::Bound)
+/// Claims that spreads over resolutions are smaller with the extensions than without.
+fn improvements(plan: &Plan, draft: &mut Draft<'_>) {
+    for &turn_deg in plan.figure.turns {
+        let turn = turn_name(turn_deg);
+        for model in EXTENDED {
+            for name in ["height", "couple"] {
+                let extended = draft.value(&format!("{model}{name}_spread/{turn}"));
+                let constant = draft.value(&format!("standard/{name}_spread/{turn}"));
+                let (Some(extended), Some(constant)) = (extended, constant) else {
+                    continue;
+                };
+                let statement = format!(
+                    "the extended rod improves the agreement between resolutions; spread of the {name} over that \
+                     with constant rigidities, {extended:.3} over {constant:.3}"
+                );
+                let bound = if turn_deg.abs() > JUDGED_DEG {
+                    Bound::None
+                } else {
+                    Bound::AtMost(1.0)
+                };
+                let quantity = format!("{name}_improves/{model}{turn}");
+                draft.claim(&quantity, extended / constant, bound, statement);
+            }
         }
-        (Figure::Ten, group, "couple", -180) if EXTENDED.contains(&group) => {
-            row.against(0.0, A_DIFFERENCE).of(Origin::Bound)
-        }
-        _ => row,
     }
 }
 
-/// How the means go from all rod to all monomers, in words.
-fn trend(means: &[(Resolved, f64)]) -> String {
-    let steps = || means.windows(2).map(|pair| pair[1].1 - pair[0].1);
-    let total: f64 = steps().sum();
-    let against = steps().filter(|step| step * total < 0.0).count();
-    let direction = if total < 0.0 { "falls" } else { "rises" };
-    let steps = steps().count();
-    let values: Vec<String> = means.iter().map(|m| format!("{:.2}", m.1)).collect();
-    format!(
-        "from rod to ellipsoids it {direction} by {:.2}, {against} of {steps} steps go the other way ({})",
-        total.abs(),
-        values.join(", ")
-    )
-}
-
-/// Equilibria without a certificate of stability, and paths that ended early.
-fn uncertified(figure: Figure, results: &Results) -> Row {
-    let solved = results.outcomes.iter().filter(|o| o.is_solved());
-    let unstable = solved.clone().filter(|o| !o.is_stable());
-    let names: Vec<String> = unstable.map(|o| o.case.name()).collect();
-    let worst = |pick: fn(&(f64, f64)) -> f64| {
-        let residuals = solved.clone().map(|o| pick(&o.residual));
-        residuals.fold(0.0, f64::max)
-    };
+/// White's formula, certificates, and how far from rest motions ended.
+fn checks(draft: &mut Draft<'_>, results: &Results) {
+    let outcomes = &results.outcomes;
     let note = format!(
-        "of {} equilibria, largest residual {:.1e} pN and {:.1e} pN nm; {}; paths that ended \
-         early: {} {}",
-        solved.clone().count(),
-        worst(|r| r.0),
-        worst(|r| r.1),
+        "largest of twist plus writhe minus link over {} states",
+        outcomes.len()
+    );
+    let error = largest(outcomes.iter().map(|o| o.measured.link_error()));
+    draft.row("link_error", "turns", error, note);
+    let solved = || outcomes.iter().filter(|o| o.is_solved());
+    let unstable = solved().filter(|o| !o.is_stable());
+    let names: Vec<String> = unstable.map(|o| o.case.name()).collect();
+    let worst = |k: usize| largest(solved().map(|o| o.residual[k]));
+    let note = format!(
+        "of {} equilibria, largest residual {:.1e} pN and {:.1e} pN nm; {}; paths that ended early: {} {}",
+        solved().count(),
+        worst(0),
+        worst(1),
         names.join(", "),
         results.failures.len(),
         results.failures.join("; ")
     );
-    let count = (names.len() + results.failures.len()) as f64;
-    Row::measured(figure.id(), "not_certified_stable", "", count, note)
+    let count = names.len() + results.failures.len();
+    draft.row("not_certified_stable", "", count as f64, note);
+    let moved = outcomes.iter().filter(|o| !o.is_solved());
+    let residuals: Vec<f64> = moved.map(|o| o.residual[0].max(o.residual[1])).collect();
+    if !residuals.is_empty() {
+        let open = residuals.iter().filter(|r| **r > STOP).count();
+        let note = format!(
+            "largest residual force (pN) or torque (pN nm) at the end of {} damped motions with the balance as \
+             printed; {open} are not at rest to {STOP}",
+            residuals.len()
+        );
+        draft.row("paper-balance/residual", "", largest(residuals), note);
+    }
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// A fall with one step up is told as such.
-    #[test]
-    fn trends_say_what_goes_the_other_way() {
-        let means = [3.0, 2.0, 2.5, 1.0].map(|value| (Resolved::Rod, value));
-        let words = trend(&means);
-        assert!(
-            words.starts_with("from rod to ellipsoids it falls by 2.00, 1 of 3"),
-            "{words}"
+/// Differences between the end of a motion and its equilibrium, and the number of starts that find it.
+pub(super) fn motions(plan: &Plan, draft: &mut Draft<'_>, results: &Results) {
+    for Motion { end, nearest } in &results.motions {
+        let path = end.case.path();
+        let note = format!(
+            "end of damped motion, residual {:.1e} pN and {:.1e} pN nm, minus the equilibrium that Newton's \
+             method finds from it; certified stable: {}",
+            end.residual[0],
+            end.residual[1],
+            nearest.is_stable()
         );
+        for (name, unit, of) in OBSERVABLES {
+            let value = of(&end.measured) - of(&nearest.measured);
+            draft.row(
+                format!("dynamics_difference/{name}/{path}"),
+                unit,
+                value,
+                &*note,
+            );
+        }
+        let starts = plan.starts_at(end.case.turn_deg).into_iter();
+        let found = starts.filter_map(|start| results.of(Case { start, ..end.case }));
+        let found: Vec<&Outcome> = found.collect();
+        let same = found.iter().filter(|o| is_same(o, nearest)).count();
+        let note = format!(
+            "of {} starts of statics that end in the equilibrium that damped motion finds",
+            found.len()
+        );
+        draft.row(
+            format!("dynamics_same_as_statics/{path}"),
+            "",
+            same as f64,
+            note,
+        );
+    }
+}
+
+const COLUMNS: [Column<Outcome>; 23] = [
+    ("variant", |o| variant(&o.case)),
+    ("turn_deg", |o| o.case.turn_deg.to_string()),
+    ("case", |o| o.case.resolution.name()),
+    ("rod_nm", |o| number(o.case.rod_nm())),
+    ("seed", |o| o.case.seed.to_string()),
+    ("start", |o| o.case.start.name()),
+    ("height_nm", |o| number(o.measured.height_nm)),
+    ("couple_pn_nm", |o| number(o.measured.couple_pn_nm)),
+    ("force_pn", |o| number(o.measured.force_pn)),
+    ("energy_pn_nm", |o| number(o.measured.energy_pn_nm)),
+    ("link_turns", |o| number(o.measured.link_turns)),
+    ("twist_turns", |o| number(o.measured.twist_turns)),
+    ("writhe", |o| number(o.measured.writhe)),
+    ("beyond_data_per_nm", |o| {
+        o.measured.beyond_per_nm.map_or(String::new(), number)
+    }),
+    ("stable", |o| o.is_stable().to_string()),
+    ("negative_eigenvalues", |o| text(o.doubtful.map(|n| n[0]))),
+    ("unresolved_eigenvalues", |o| text(o.doubtful.map(|n| n[1]))),
+    ("residual_pn", |o| number(o.residual[0])),
+    ("residual_pn_nm", |o| number(o.residual[1])),
+    ("newton_iterations", |o| text(o.search.map(|s| s.0))),
+    ("equilibria_on_path", |o| text(o.search.map(|s| s.1))),
+    ("time_ns", |o| number(o.time_ns)),
+    ("force_evaluations", |o| o.force_evaluations.to_string()),
+];
+
+/// A count in a table, if there is one.
+fn text(count: Option<impl ToString>) -> String {
+    count.map_or(String::new(), |n| n.to_string())
+}
+
+/// Writes `figN.csv` and `figN_centre_lines.csv`.
+pub(super) fn tables(draft: &Draft<'_>, results: &Results) -> Result<(), String> {
+    let id = draft.id;
+    draft.table(&format!("{id}.csv"), &results.outcomes, &COLUMNS)?;
+    let drawn = results.outcomes.iter().filter(|o| o.case.seed == 0);
+    let lines = drawn.map(|o| {
+        let case = &o.case;
+        let names = [
+            variant(case),
+            case.turn_deg.to_string(),
+            case.resolution.name(),
+            case.start.name(),
+        ];
+        (names.into(), o.measured.centre_line.clone())
+    });
+    let header = [
+        "variant", "turn_deg", "case", "start", "x_nm", "y_nm", "z_nm",
+    ];
+    draft.curves(&format!("{id}_centre_lines.csv"), &header, lines)
+}
+
+/// Name of a model in tables.
+fn variant(case: &Case) -> String {
+    match case.model.name {
+        "" => "shown".into(),
+        name => name.trim_end_matches('/').into(),
     }
 }

@@ -1,86 +1,76 @@
 //! How many equilibria there are: the same filament from several starts, and what the order of
 //! twist and compression changes.
 
-use super::case::{Case, Order, Start};
-use super::lists::Plan;
-use super::outcome::Outcome;
-use super::resolved::Resolved;
-use super::results::{OBSERVABLES, Observable, Results};
-use actin_draw::report::Row;
+use super::case::{Case, Start, turn_name};
+use super::solve::Outcome;
+use super::{OBSERVABLES, Plan, Results};
+use crate::figures::draft::Draft;
+use crate::statistics::largest;
 
 /// Equilibria are the same if their energies (pN nm), heights (nm) and couples (pN nm) are within
 /// these of each other. The pull that breaks the symmetry does less: 1e-3 pN over 40 nm.
 const SAME: (f64, f64, f64) = (0.1, 0.03, 0.3);
 
-/// Rows on starts and orders.
-pub(super) fn rows(plan: &Plan, results: &Results) -> Vec<Row> {
-    let mut all = Vec::new();
-    for &turn in &plan.turns {
-        for observable in OBSERVABLES {
-            all.extend(order_difference(plan, results, observable, turn));
+/// Rows on starts and orders, seed 0.
+pub(super) fn rows(plan: &Plan, draft: &mut Draft<'_>, results: &Results) {
+    for &turn in plan.figure.turns {
+        order_differences(plan, draft, results, turn);
+        if !plan.started.contains(&turn) {
+            continue;
         }
-        if plan.started.contains(&turn) {
-            let resolved = plan.resolved.iter();
-            all.extend(
-                resolved
-                    .clone()
-                    .filter_map(|&r| distinct_row(plan, results, r, turn)),
-            );
-            all.extend(resolved.filter_map(|&r| lowest_row(plan, results, r, turn)));
+        for &resolution in &plan.resolutions {
+            let case = plan.case(plan.shown(), resolution, turn, 0);
+            distinct_row(plan, draft, results, case);
+            lowest_row(draft, results, case);
         }
     }
-    all
 }
 
-/// Largest difference between both orders over the resolutions, seed 0.
-fn order_difference(
-    plan: &Plan,
-    results: &Results,
-    observable: Observable,
-    turn: i32,
-) -> Option<Row> {
-    let compression_first = Start {
-        order: Order::CompressionFirst,
-        ..Start::DEFAULT
-    };
-    let difference = |&resolved: &Resolved| {
-        let case = Case::new(plan.main(), resolved, turn, 0);
-        let value = |case| Some((observable.of)(&results.of(case)?.measured));
-        Some((
-            resolved,
-            value(case.from(compression_first))? - value(case)?,
-        ))
-    };
-    let all: Vec<(Resolved, f64)> = plan.resolved.iter().filter_map(difference).collect();
-    let largest = all.iter().map(|d| d.1.abs()).reduce(f64::max)?;
-    let each: Vec<String> = all
+/// Largest differences between both orders over the resolutions.
+fn order_differences(plan: &Plan, draft: &mut Draft<'_>, results: &Results, turn: i32) {
+    let cases = plan
+        .resolutions
         .iter()
-        .map(|(resolved, d)| format!("{} {d:+.3}", resolved.name()))
-        .collect();
-    let note = format!(
-        "largest of compression first minus twist first, seed 0: {}",
-        each.join(", ")
-    );
-    let quantity = format!(
-        "order_difference/{}/{}",
-        observable.name,
-        Case::turn_name(turn)
-    );
-    Some(Row::measured(
-        plan.figure.id(),
-        quantity,
-        observable.unit,
-        largest,
-        note,
-    ))
+        .map(|&r| plan.case(plan.shown(), r, turn, 0));
+    let pairs = cases.filter_map(|case| {
+        let start = Start::COMPRESSION_FIRST;
+        Some((results.of(case)?, results.of(Case { start, ..case })?))
+    });
+    let pairs: Vec<(&Outcome, &Outcome)> = pairs.collect();
+    if pairs.is_empty() {
+        return;
+    }
+    for (name, unit, of) in OBSERVABLES {
+        let difference = |(twist, compression): &(&Outcome, &Outcome)| {
+            of(&compression.measured) - of(&twist.measured)
+        };
+        let each: Vec<String> = pairs
+            .iter()
+            .map(|pair| format!("{} {:+.3}", pair.0.case.resolution.name(), difference(pair)))
+            .collect();
+        let note = format!(
+            "largest of compression first minus twist first, seed 0: {}",
+            each.join(", ")
+        );
+        let value = largest(pairs.iter().map(|pair| difference(pair).abs()));
+        draft.row(
+            format!("order_difference/{name}/{}", turn_name(turn)),
+            unit,
+            value,
+            note,
+        );
+    }
 }
 
 /// Number of distinct equilibria of one filament.
-fn distinct_row(plan: &Plan, results: &Results, resolved: Resolved, turn: i32) -> Option<Row> {
-    let case = Case::new(plan.main(), resolved, turn, 0);
-    let outcomes = results.started(case, &plan.starts_at(turn));
+fn distinct_row(plan: &Plan, draft: &mut Draft<'_>, results: &Results, case: Case) {
+    let starts = plan.starts_at(case.turn_deg).into_iter();
+    let outcomes = starts.filter_map(|start| results.of(Case { start, ..case }));
+    let outcomes: Vec<&Outcome> = outcomes.collect();
     let distinct = distinct(&outcomes);
-    let first = distinct.first()?;
+    let Some(first) = distinct.first() else {
+        return;
+    };
     let each: Vec<String> = distinct
         .iter()
         .map(|kind| {
@@ -100,39 +90,30 @@ fn distinct_row(plan: &Plan, results: &Results, resolved: Resolved, turn: i32) -
         each.join("; "),
         first[0].case.start.name()
     );
-    let quantity = format!(
-        "distinct_equilibria/{}/{}",
-        Case::turn_name(turn),
-        resolved.name()
+    draft.row(
+        format!("distinct_equilibria/{}", case.path()),
+        "",
+        distinct.len() as f64,
+        note,
     );
-    let count = distinct.len() as f64;
-    Some(Row::measured(plan.figure.id(), quantity, "", count, note))
 }
 
 /// How far above the lowest state found from random starts the one that the figure shows is.
-fn lowest_row(plan: &Plan, results: &Results, resolved: Resolved, turn: i32) -> Option<Row> {
-    let others = results
-        .of(Case::new(plan.main(), resolved, turn, 0))?
-        .states?;
+fn lowest_row(draft: &mut Draft<'_>, results: &Results, case: Case) {
+    let Some(others) = results.of(case).and_then(|o| o.states) else {
+        return;
+    };
     let note = format!(
         "energy of the state at the end of the path, seed 0, less that of the lowest of {} stable states from {} \
          random starts",
         others.count, others.starts
     );
-    let (turn, resolved) = (Case::turn_name(turn), resolved.name());
-    let quantity = format!("above_lowest_state/{turn}/{resolved}");
-    let above = others.above_lowest_pn_nm;
-    Some(Row::measured(
-        plan.figure.id(),
-        quantity,
-        "pN nm",
-        above,
-        note,
-    ))
+    let quantity = format!("above_lowest_state/{}", case.path());
+    draft.row(quantity, "pN nm", others.above_lowest_pn_nm, note);
 }
 
 /// Groups equal equilibria, lowest energy first.
-pub(super) fn distinct<'a>(outcomes: &[&'a Outcome]) -> Vec<Vec<&'a Outcome>> {
+fn distinct<'a>(outcomes: &[&'a Outcome]) -> Vec<Vec<&'a Outcome>> {
     let mut sorted = outcomes.to_vec();
     sorted.sort_by(|a, b| a.measured.energy_pn_nm.total_cmp(&b.measured.energy_pn_nm));
     let mut kinds: Vec<Vec<&Outcome>> = Vec::new();

@@ -3,9 +3,14 @@
 
 use super::style;
 use actin_draw::scene3d::{Item, Solid, Stroke};
-use actin_mechanics::{Matrix3, State, Vector3};
-use actin_sim::{Assembly, BodyKind, End};
+use actin_mechanics::{Matrix3, State, Vector3, rotation};
+use actin_sim::{Assembly, BodyKind, End, Setting};
 use actin_view::bodies;
+
+/// Straight pieces of an arc.
+const PIECES: u32 = 24;
+/// Distance of arrows of shifts from the held point, and of arcs beyond it (nm).
+const CLEAR_NM: f64 = 3.0;
 
 /// The filaments of an assembly in a state, to be drawn.
 #[derive(Clone, Copy, Debug)]
@@ -189,7 +194,7 @@ impl<'a> Drawn<'a> {
 
     /// Where a held end is (nm, lab frame), and unit vectors out of its filament and across it as
     /// built; none if the end is free.
-    pub(super) fn held(&self, filament: usize, end: End) -> Option<[Vector3; 3]> {
+    fn held(&self, filament: usize, end: End) -> Option<[Vector3; 3]> {
         let clamp = self.assembly.clamp_at(filament, end)?;
         let built = self.assembly.filaments[filament].rotation;
         let outward = match end {
@@ -201,6 +206,53 @@ impl<'a> Drawn<'a> {
             built * outward,
             built * Vector3::x(),
         ])
+    }
+
+    /// Motions of held ends along the scene's path: shifts as arrows to scale that end next to the held point, turns
+    /// as arcs of the true angle about the axis.
+    pub(super) fn imposed(&self, radius_nm: f64) -> Vec<Item> {
+        let stages = self.assembly.scene.path.iter();
+        let settings = stages.flat_map(|stage| &stage.set);
+        settings
+            .flat_map(|setting| match setting {
+                Setting::Shift {
+                    filament,
+                    end,
+                    shift_nm,
+                } => self.shift(*filament, *end, (*shift_nm).into()),
+                Setting::Turn {
+                    filament,
+                    end,
+                    turn_deg,
+                } => self.turn(*filament, *end, (*turn_deg).into(), radius_nm),
+                // A load is drawn as it acts, an anchor where it ends.
+                Setting::LoadFactor { .. } | Setting::Anchor { .. } => Vec::new(),
+            })
+            .collect()
+    }
+
+    fn shift(&self, filament: usize, end: End, shift: Vector3) -> Vec<Item> {
+        let Some([at, outward, _]) = self.held(filament, end) else {
+            return Vec::new();
+        };
+        let to = at + outward * CLEAR_NM;
+        vec![style::arrow([to - shift, to])]
+    }
+
+    fn turn(&self, filament: usize, end: End, turn_deg: Vector3, radius_nm: f64) -> Vec<Item> {
+        let Some([at, outward, across]) = self.held(filament, end) else {
+            return Vec::new();
+        };
+        let centre = at + outward * CLEAR_NM;
+        let on_arc = |k: u32| {
+            let share = f64::from(k) / f64::from(PIECES);
+            let angle = turn_deg.map(f64::to_radians) * share;
+            centre + rotation::exp(angle) * across * radius_nm
+        };
+        let stroke = Stroke::solid(style::of(|t| t.force), 2.2);
+        let pieces = (0..PIECES - 1).map(|k| Item::line([on_arc(k), on_arc(k + 1)], stroke));
+        let head = style::arrow([on_arc(PIECES - 3), on_arc(PIECES)]);
+        pieces.chain([head]).collect()
     }
 
     /// Forces as arrows that begin where they act.

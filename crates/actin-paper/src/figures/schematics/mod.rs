@@ -1,64 +1,512 @@
 //! Figures 1 to 3: what the models are, how they are joined, and what is done with them, each
 //! drawn from an equilibrium of a scene under `scenarios/`.
 
-mod examples;
 mod filament;
-mod imposed;
-mod joint;
-mod models;
-mod solved;
 mod style;
 
-pub(super) use examples::reproduce as figure3;
-pub(super) use joint::reproduce as figure2;
-pub(super) use models::reproduce as figure1;
+use super::draft::{Draft, residuals};
+use crate::run::{Solved, scenario};
+use actin_draw::report::{Picture, save};
+use actin_draw::scene3d::{Item, Key, Label, Panel, Sheet, View};
+use actin_mechanics::Vector3;
+use actin_sim::shape::Ribbon;
+use actin_sim::{BodyKind, End, JunctionBond};
+use actin_view::{Attitude, Pose, bodies};
+use filament::Drawn;
+use std::collections::BTreeSet;
 
-use actin_draw::report::{Artefact, Picture, Row, save};
-use actin_draw::scene3d::Sheet;
-use actin_view::{Attitude, Pose, Shown, states};
-use solved::Solved;
-use std::path::Path;
-use std::time::Instant;
+const CAPTION_1: &str = "A filament of 52 nm, held below and pulled sideways at its tip by 10 pN: (a) as monomers, (b) as \
+    monomers joined to a rod, (c) as a rod whose cylinders have the cross-section of its mass, 38.5 nm^2. (d) \
+    The middle of (a) from near by. Ellipsoids are drawn with their own semi-axes, translucent; each bond runs \
+    from its anchor on one to that on the other. There are 16 bonds per interface here, and all are drawn; \
+    simulations have 64.";
+const CAPTION_2: &str = "Where 26 nm of monomers, held at the far end, go over into a rod that 10 pN bend: (a) with the \
+    two bonds side by side, (b) along the centre line, from the rod's end, (c) across the plane in which it \
+    bends. Two bonds (yellow) run from the centres of the last two monomers to the rod's end; each has a frame \
+    of its own, drawn at its middle, between the frame of its monomer and that of the rod's first segment. \
+    Ellipsoids are translucent.";
+const CAPTION_3: &str = "Filaments of monomers and rod: (a) 100 nm on a wall, 5 pN down at the tip; (b) 160 nm, both ends \
+    turned by 150 deg in opposite senses, which over-twists, and moved in by 8 nm each, so that it buckles, a \
+    little out of a plane, seen from the side and along its axis; arcs show the turns, straight arrows the \
+    shifts, both to scale; (c) 110 nm held by four linkers to fixed anchors alone.";
 
-/// Writes the picture of a figure and puts its artefact together.
-fn artefact(
-    (id, title): (&'static str, &'static str),
-    solved: &[Solved],
-    (sheet, caption): (&Sheet, String),
-    rows: Vec<Row>,
-    (out, started): (&Path, Instant),
-) -> Result<Artefact, String> {
-    let file = format!("{id}.svg");
-    save(out, &file, &sheet.svg())?;
-    let shown: Vec<Shown> = solved.iter().map(shown).collect();
-    let attitude = if id == "fig1" {
-        Attitude::STANDING
-    } else {
-        Attitude::LYING
+/// Figure 1: monomers, monomers joined to a rod, and a rod, of one length under one force; and the
+/// bonds between a few monomers from near by.
+pub(super) fn figure1(draft: &mut Draft<'_>) -> Result<(), String> {
+    let names = ["figure-1/monomers", "figure-1/coupled", "figure-1/rod"];
+    let solved = solve(draft, &names)?;
+    let titles = ["(a) monomers", "(b) joined", "(c) rod"];
+    let filaments = solved.iter().zip(titles).zip(0..);
+    let mut panels: Vec<Panel> = filaments
+        .map(|((solved, title), k)| standing(solved, title, 8.0 + 230.0 * f64::from(k)))
+        .collect();
+    let monomers = Drawn::whole(&solved[0].assembly);
+    let near = Drawn {
+        range_nm: [20.0, 33.0],
+        ..monomers
     };
-    let view = states::write(id, attitude, &shown, VIEW.into(), out)?;
-    Ok(Artefact {
-        id,
-        title,
-        settings: solved::settings(solved),
-        rows,
-        pictures: vec![Picture { file, caption }],
-        views: vec![view],
-        wall_s: started.elapsed().as_secs_f64(),
-    })
+    panels.push(bonds_of(&near));
+    bond_counts(draft, [&monomers, &near]);
+    let (radius, rise) = radius_and_rise_nm(&solved[0]);
+    draft.row("radius", "nm", radius, HELIX);
+    draft.row("rise", "nm", rise, HELIX);
+    let junction = [style::junction()];
+    let legend = [
+        style::bodies(),
+        style::bonds(),
+        junction.into(),
+        style::axes(),
+        style::holds("force"),
+    ];
+    finish(
+        draft,
+        (&names, &solved),
+        ([1040.0, 550.0], panels, &legend),
+        CAPTION_1,
+    )
 }
 
-const VIEW: &str = "The same equilibria, to be turned.";
+const HELIX: &str = "of the helix through the bent filament's centres, from root mean square distances to the next \
+    monomer and the one after; at rest 1.8 and 2.7385";
 
-/// A solved scene under the name of its file.
-fn shown(solved: &Solved) -> Shown {
-    let counts = solved.assembly.counts();
-    let rods = counts.segments as f64;
-    Shown {
-        group: "all".into(),
-        name: solved.name.rsplit('/').next().unwrap_or(solved.name).into(),
-        // Monomers are 2.7 nm apart, segments 10 nm long or less: of what there is more.
-        share: rods / (rods + counts.monomers as f64),
-        pose: Pose::of(&solved.assembly, solved.assembly.system.state()),
+/// The bonds of a few monomers from near by.
+fn bonds_of(drawn: &Drawn<'_>) -> Panel {
+    Panel {
+        title: "(d) bonds of (a)".into(),
+        place: [708.0, 6.0, 324.0, 540.0],
+        view: View {
+            towards_viewer: Vector3::new(0.3, -1.0, 0.1),
+            up: Vector3::z(),
+        },
+        items: [drawn.monomers(0.3), drawn.bonds(2.0).items].concat(),
+        labels: Vec::new(),
+        bar_nm: 2.0,
+        room: [14.0, 8.0, 14.0, 8.0],
     }
+}
+
+/// Numbers of lines in panels (a) and (d).
+fn bond_counts(draft: &mut Draft<'_>, drawn: [&Drawn<'_>; 2]) {
+    for (drawn, panel) in drawn.into_iter().zip(["a", "d"]) {
+        for (kind, count) in ["lateral", "longitudinal"]
+            .into_iter()
+            .zip(drawn.bonds(1.0).counts)
+        {
+            let note = "lines in the picture, from anchor to anchor";
+            draft.row(
+                format!("{kind}_bonds_drawn/{panel}"),
+                "",
+                count as f64,
+                note,
+            );
+        }
+    }
+}
+
+/// A filament standing upright.
+fn standing(solved: &Solved, title: &str, left: f64) -> Panel {
+    let drawn = Drawn::whole(&solved.assembly);
+    let nm_per_pn = 0.9;
+    Panel {
+        title: title.into(),
+        place: [left, 6.0, 230.0, 540.0],
+        view: View {
+            towards_viewer: Vector3::new(-0.35, -1.0, 0.25),
+            up: Vector3::z(),
+        },
+        items: [
+            drawn.walls(6.0),
+            drawn.monomers(0.8),
+            drawn.bonds(1.0).items,
+            drawn.rods(0.28),
+            drawn.segment_frames(4.6),
+            drawn.junction_bonds(3.0),
+            drawn.arrows(nm_per_pn),
+        ]
+        .concat(),
+        labels: forces(&drawn, nm_per_pn, [0.0, -16.0]),
+        bar_nm: 10.0,
+        room: [14.0, 18.0, 14.0, 8.0],
+    }
+}
+
+/// The sizes of forces, so far along their arrows.
+fn forces(drawn: &Drawn<'_>, nm_per_pn: f64, offset: [f64; 2]) -> Vec<Label> {
+    let forces = bodies::forces(drawn.assembly, drawn.state).into_iter();
+    let labels = forces.map(|(at, force)| Label {
+        at: at + force * nm_per_pn,
+        text: format!("{} pN", force.norm()),
+        offset,
+    });
+    labels.collect()
+}
+
+/// Radius and rise of the helix in the present state, taken as if it were straight.
+///
+/// With `a` the distance from i to i + 1 and `b` from i to i + 2 of a helix of radius `R`, rise
+/// `z` and turn `t`, `a^2 = z^2 + 4 R^2 sin^2(t/2)` and `b^2 = 4 z^2 + 4 R^2 sin^2 t`;
+/// both squares are means over the monomers.
+fn radius_and_rise_nm(solved: &Solved) -> (f64, f64) {
+    let points = solved.assembly.points.iter().enumerate();
+    let monomers = points.filter(|(_, info)| info.kind == BodyKind::Monomer);
+    let centres: Vec<Vector3> = monomers
+        .map(|(i, _)| solved.state().points.position.get(i))
+        .collect();
+    let mean_square = |step: usize| {
+        let pairs = centres.iter().zip(&centres[step..]);
+        let sum: f64 = pairs.map(|(p, q)| (q - p).norm_squared()).sum();
+        sum / (centres.len() - step) as f64
+    };
+    let turn = solved
+        .assembly
+        .scene
+        .filament
+        .monomers
+        .turn_deg
+        .to_radians();
+    let across = |angle: f64| 4.0 * (0.5 * angle).sin().powi(2);
+    let (one, two) = (across(turn), across(2.0 * turn));
+    let (a, b) = (mean_square(1), mean_square(2));
+    let radius_square = (4.0 * a - b) / (4.0 * one - two);
+    (radius_square.sqrt(), (a - one * radius_square).sqrt())
+}
+
+/// Figure 2: the junction of monomers and rod, from two sides and along the centre line.
+pub(super) fn figure2(draft: &mut Draft<'_>) -> Result<(), String> {
+    let names = ["figure-2/junction"];
+    let solved = solve(draft, &names)?;
+    let (x, y, z) = (Vector3::x(), Vector3::y(), Vector3::z());
+    let shown_nm = [9.0, 48.0];
+    let both = (2.0 * x + 1.2 * y - 0.5 * z, 1.2 * x - 2.0 * y);
+    let along = (z + 0.12 * x + 0.05 * y, x);
+    let mut panels: Vec<Panel> = [
+        (
+            "(a) both bonds and their frames",
+            [8.0, 6.0, 1064.0, 380.0],
+            both,
+            shown_nm,
+        ),
+        (
+            "(b) along the centre line",
+            [8.0, 392.0, 410.0, 330.0],
+            along,
+            [20.0, 39.0],
+        ),
+        (
+            "(c) across the plane of bending",
+            [426.0, 392.0, 646.0, 330.0],
+            (y + 0.1 * z, x),
+            shown_nm,
+        ),
+    ]
+    .into_iter()
+    .map(|(title, place, view, range_nm)| joint(&solved[0], title, place, view, range_nm))
+    .collect();
+    let drawn = Drawn::whole(&solved[0].assembly);
+    panels[0].labels = bond_names(&drawn);
+    bond_rows(draft, &drawn);
+    let legend = [style::bodies(), vec![style::junction()], style::axes()];
+    finish(
+        draft,
+        (&names, &solved),
+        ([1080.0, 730.0], panels, &legend),
+        CAPTION_2,
+    )
+}
+
+fn joint(
+    solved: &Solved,
+    title: &str,
+    place: [f64; 4],
+    (towards_viewer, up): (Vector3, Vector3),
+    range_nm: [f64; 2],
+) -> Panel {
+    let drawn = Drawn {
+        range_nm,
+        ..Drawn::whole(&solved.assembly)
+    };
+    let frames: Vec<Item> = numbered_bonds(&drawn)
+        .into_iter()
+        .flat_map(|(_, bond)| {
+            let [monomer, node] = bodies::ends_of(&bond, drawn.state);
+            drawn.frame(bond.frame, 0.5 * (monomer + node), 3.0)
+        })
+        .collect();
+    Panel {
+        title: title.into(),
+        place,
+        view: View { towards_viewer, up },
+        items: [
+            drawn.monomers(0.4),
+            drawn.rods(0.22),
+            drawn.segment_frames(4.2),
+            drawn.junction_bonds(4.0),
+            frames,
+        ]
+        .concat(),
+        labels: Vec::new(),
+        bar_nm: 5.0,
+        room: [20.0, 10.0, 20.0, 8.0],
+    }
+}
+
+/// The bonds of the junction, each with its number counted from the rod's end.
+fn numbered_bonds(drawn: &Drawn<'_>) -> Vec<(usize, JunctionBond)> {
+    let bonds = drawn.assembly.junction_bonds();
+    (1..=bonds.len()).rev().zip(bonds).collect()
+}
+
+/// Names of monomer and frame of each bond, with their places (pixels, right and down).
+fn bond_names(drawn: &Drawn<'_>) -> Vec<Label> {
+    let offsets = [
+        [[-100.0, -120.0], [-20.0, -155.0]],
+        [[-124.0, 120.0], [-20.0, 155.0]],
+    ];
+    let mut labels = Vec::new();
+    let mut name = |at, text: String, offset| labels.push(Label { at, text, offset });
+    for (k, bond) in numbered_bonds(drawn) {
+        let [monomer, node] = bodies::ends_of(&bond, drawn.state);
+        let [monomer_offset, frame_offset] = offsets[k - 1];
+        name(monomer, format!("monomer {k}"), monomer_offset);
+        name(
+            0.5 * (monomer + node),
+            format!("frame {k} (Q_MR)"),
+            frame_offset,
+        );
+        if k == 1 {
+            name(node, "end of the rod".into(), [60.0, 140.0]);
+        }
+    }
+    labels
+}
+
+fn bond_rows(draft: &mut Draft<'_>, drawn: &Drawn<'_>) {
+    let rest = &drawn.assembly.rest;
+    for (k, bond) in numbered_bonds(drawn) {
+        let [length, rest_length] = [drawn.state, rest].map(|state| {
+            let [monomer, node] = bodies::ends_of(&bond, state);
+            (node - monomer).norm()
+        });
+        let [now, built] =
+            [drawn.state, rest].map(|state| state.frames.orientation.get(bond.frame));
+        let from = "from the monomer's centre to the rod's end";
+        draft.row(format!("bond-{k}/length"), "nm", length, from);
+        draft.row(format!("bond-{k}/rest_length"), "nm", rest_length, from);
+        let turn = (now * built.inverse()).angle().to_degrees();
+        draft.row(
+            format!("bond-{k}/turn"),
+            "deg",
+            turn,
+            "of the bond's frame from how it was built",
+        );
+    }
+}
+
+/// Figure 3: the three kinds of scenes: a cantilever, a filament turned and pushed together until
+/// it buckles, a filament held by linkers.
+pub(super) fn figure3(draft: &mut Draft<'_>) -> Result<(), String> {
+    let names = [
+        "figure-3/cantilever",
+        "figure-3/buckling",
+        "figure-3/linkers",
+    ];
+    let solved = solve(draft, &names)?;
+    let panels = example_panels(&solved);
+    example_rows(draft, &solved)?;
+    let legend = [
+        style::bodies(),
+        style::holds("force, shift, turn"),
+        style::linkers(),
+    ];
+    finish(
+        draft,
+        (&names, &solved),
+        ([1080.0, 680.0], panels, &legend),
+        CAPTION_3,
+    )
+}
+
+fn example_panels(solved: &[Solved]) -> Vec<Panel> {
+    let (x, y, z) = (Vector3::x(), Vector3::y(), Vector3::z());
+    let side = y + 0.3 * x + 0.2 * z;
+    let panels = [
+        (0, "(a) cantilever", [8.0, 6.0, 410.0, 330.0], side),
+        (
+            1,
+            "(b) turned and pushed together",
+            [426.0, 6.0, 646.0, 330.0],
+            side,
+        ),
+        (
+            2,
+            "(c) linkers",
+            [8.0, 342.0, 690.0, 330.0],
+            y + 0.5 * x + 0.2 * z,
+        ),
+        (
+            1,
+            "(b) along the axis",
+            [706.0, 342.0, 366.0, 330.0],
+            z + 0.1 * x,
+        ),
+    ];
+    let panels = panels.into_iter();
+    let panels =
+        panels.map(|(k, title, place, towards)| example(&solved[k], title, place, towards));
+    panels.collect()
+}
+
+fn example(solved: &Solved, title: &str, place: [f64; 4], towards_viewer: Vector3) -> Panel {
+    let drawn = Drawn::whole(&solved.assembly);
+    let nm_per_pn = 3.5;
+    let mut items = [
+        drawn.walls(8.0),
+        drawn.monomers(1.0),
+        drawn.rods(0.3),
+        drawn.arrows(nm_per_pn),
+        drawn.imposed(6.0),
+    ]
+    .concat();
+    if solved.assembly.clamps.is_empty() {
+        items.extend(drawn.linkers());
+    }
+    Panel {
+        title: title.into(),
+        place,
+        view: View {
+            towards_viewer,
+            up: Vector3::x(),
+        },
+        items,
+        labels: forces(&drawn, 0.5 * nm_per_pn, [-14.0, 0.0]),
+        bar_nm: 20.0,
+        room: [20.0, 8.0, 20.0, 26.0],
+    }
+}
+
+fn example_rows(draft: &mut Draft<'_>, solved: &[Solved]) -> Result<(), String> {
+    let [cantilever, buckled, linked] = solved else {
+        return Err("three scenes are needed".into());
+    };
+    let tip = |state| cantilever.assembly.tip_nm(state, End::End);
+    let moved = tip(cantilever.state()) - tip(&cantilever.assembly.rest);
+    draft.row(
+        "cantilever/deflection",
+        "nm",
+        -moved.x,
+        "of the tip, along the force",
+    );
+    let ribbon = Ribbon::new(&buckled.assembly, buckled.state());
+    let note = "largest distance of the centre line from the axis";
+    draft.row("buckling/height", "nm", ribbon.largest_distance_nm(), note);
+    let writhe = ribbon.writhe().ok_or("too many vertices for a writhe")?;
+    let note =
+        "of the filament, straight beyond both ends; 0 for a plane curve: how far it is a helix";
+    draft.row("buckling/writhe", "", writhe, note);
+    for (i, linker) in linked.assembly.linkers.iter().enumerate() {
+        let force = linker.force(linked.state()).norm();
+        draft.row(
+            format!("linkers/{i}/force"),
+            "pN",
+            force,
+            "pull of the linker",
+        );
+    }
+    Ok(())
+}
+
+/// The equilibria of some scenes.
+fn solve(draft: &Draft<'_>, names: &[&str]) -> Result<Vec<Solved>, String> {
+    let solved = draft.solve(names, |name| {
+        let scene = scenario(&format!("{name}.ron"))?;
+        Solved::new(&scene).map_err(|e| format!("{name}.ron: {e}"))
+    });
+    solved.into_iter().collect()
+}
+
+/// Last part of a path.
+fn file_name(name: &str) -> &str {
+    name.rsplit('/').next().unwrap_or(name)
+}
+
+/// Size, panels and legend of a picture.
+type Drawing<'a> = ([f64; 2], Vec<Panel>, &'a [Vec<(Key, String)>]);
+
+/// Writes the picture, counts what is drawn, and shows the states in the viewer.
+fn finish(
+    draft: &mut Draft<'_>,
+    (names, solved): (&[&str], &[Solved]),
+    ([width, height], panels, legend): Drawing<'_>,
+    caption: &str,
+) -> Result<(), String> {
+    let sheet = Sheet {
+        prefix: draft.id,
+        width,
+        height,
+        panels,
+        legend: legend.concat(),
+    };
+    let file = format!("{}.svg", draft.id);
+    save(draft.out, &file, &sheet.svg())?;
+    draft.pictures.push(Picture {
+        file,
+        caption: caption.into(),
+    });
+    let shown: Vec<_> = names
+        .iter()
+        .zip(solved)
+        .map(|(name, solved)| counted(draft, file_name(name), solved))
+        .collect();
+    let attitude = match draft.id {
+        "fig1" => Attitude::STANDING,
+        _ => Attitude::LYING,
+    };
+    draft.settings = settings(names, solved);
+    draft.view(
+        draft.id,
+        attitude,
+        shown,
+        "The same equilibria, to be turned.",
+    )
+}
+
+/// Counts of bodies as rows, and the state for the viewer.
+fn counted(draft: &mut Draft<'_>, name: &str, solved: &Solved) -> (String, String, f64, Pose) {
+    let counts = solved.assembly.counts();
+    for (quantity, number) in [
+        ("monomers", counts.monomers),
+        ("bonds", counts.bonds),
+        ("segments", counts.segments),
+        ("junctions", counts.junctions),
+    ] {
+        let note = "in the scene that is drawn";
+        draft.row(format!("{name}/{quantity}"), "", number as f64, note);
+    }
+    let rods = counts.segments as f64;
+    // Monomers are 2.7 nm apart, segments 10 nm long or less: of what there is more.
+    let share = rods / (rods + counts.monomers as f64);
+    ("all".to_owned(), name.to_owned(), share, solved.pose())
+}
+
+/// Settings of the states.
+fn settings(names: &[&str], solved: &[Solved]) -> String {
+    let names: Vec<String> = names.iter().map(|name| format!("{name}.ron")).collect();
+    let stable = solved
+        .iter()
+        .filter(|s| s.doubtful() == Some([0, 0]))
+        .count();
+    let seeds = solved
+        .iter()
+        .map(|s| s.assembly.scene.filament.monomers.seed);
+    let seeds: BTreeSet<u64> = seeds.collect();
+    let seeds: Vec<String> = seeds.iter().map(u64::to_string).collect();
+    format!(
+        "Scenes scenarios/: {}. Each is drawn in its equilibrium: {}, {stable} of {} certified stable. Places, \
+         orientations, semi-axes and ends of bonds are those of the state; the scale bar holds at the middle of the \
+         scene. Seed of the bonds: {}.",
+        names.join(", "),
+        residuals(solved.iter().map(Solved::residual)),
+        solved.len(),
+        seeds.join(", "),
+    )
 }

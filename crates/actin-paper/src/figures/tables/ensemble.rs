@@ -1,11 +1,10 @@
 //! Twisted filaments of many bond samplings: what Tables 3 and 5 are made from.
 
-use super::statistics::{Sample, sample};
-use crate::figures::Run;
-use crate::measure::{Curve, MeasureError, Specimen, Stability, TwistPoint, twist, twist_in_order};
+use crate::figures::draft::Draft;
+use crate::measure::{Curve, MeasureError, Specimen, Stability, TwistPoint, twist};
 use crate::published::{Entry, Table, entries};
+use crate::statistics::{Sample, sample};
 use actin_sim::{Anchors, Monomers, ellipsoid_constants as monomer};
-use rayon::prelude::*;
 use std::sync::OnceLock;
 
 /// Rises between the inner held monomers: 30 monomers, two held at each end, 73.94 nm.
@@ -19,13 +18,11 @@ const SEEDS: u64 = 16;
 /// The same for `--quick`, of the default kind only.
 const QUICK_SEEDS: u64 = 4;
 
-/// How interfaces are bonded, and on which way the filament is measured.
+/// How interfaces are bonded.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Kind {
     pub anchors: Anchors,
     pub bonds: usize,
-    /// Whether points are those on the way back from the largest angle.
-    pub returning: bool,
 }
 
 impl Kind {
@@ -33,44 +30,23 @@ impl Kind {
     pub(super) const MEAN: Self = Self {
         anchors: Anchors::Cubature,
         bonds: monomer::POINTS_PER_INTERFACE,
-        returning: false,
     };
     /// 64 bonds, drawn for each interface.
     pub(super) const DEFAULT: Self = Self {
         anchors: Anchors::Independent,
         bonds: 64,
-        returning: false,
-    };
-    /// The same on the way back.
-    pub(super) const RETURNING: Self = Self {
-        returning: true,
-        ..Self::DEFAULT
     };
 
     /// Those that every run measures.
-    pub(super) const CORE: [Self; 3] = [Self::DEFAULT, Self::MEAN, Self::RETURNING];
-
-    /// `independent`, `identical` or `weighted`.
-    pub(super) fn anchors_name(&self) -> &'static str {
-        match self.anchors {
-            Anchors::Independent => "independent",
-            Anchors::Identical => "identical",
-            Anchors::Cubature => "weighted",
-        }
-    }
+    pub(super) const CORE: [Self; 2] = [Self::DEFAULT, Self::MEAN];
 
     /// Name in quantities and legends.
     pub(super) fn name(&self) -> String {
-        let way = if self.returning { "-returning" } else { "" };
         match self.anchors {
             Anchors::Cubature => "mean-filament".to_owned(),
-            _ => format!("{}-{}{way}", self.anchors_name(), self.bonds),
+            Anchors::Independent => format!("independent-{}", self.bonds),
+            Anchors::Identical => format!("identical-{}", self.bonds),
         }
-    }
-
-    /// `out` or `back`.
-    pub(super) fn way(&self) -> &'static str {
-        if self.returning { "back" } else { "out" }
     }
 
     /// Seeds of its samplings, at most so many: one if nothing is drawn.
@@ -86,11 +62,7 @@ impl Kind {
     fn twist(&self, seed: u64, turns: &[f64]) -> Result<Curve<TwistPoint>, MeasureError> {
         let monomers = self.monomers(seed);
         let specimen = Specimen::ellipsoids(RISES * monomers.rise_nm, monomers);
-        if self.returning {
-            out_and_back(&specimen, turns)
-        } else {
-            twist(&specimen, turns)
-        }
+        twist(&specimen, turns)
     }
 
     pub(super) fn monomers(&self, seed: u64) -> Monomers {
@@ -133,23 +105,23 @@ pub(super) struct Doubts {
 static CORE: OnceLock<Result<Ensemble, String>> = OnceLock::new();
 static ENSEMBLE: OnceLock<Result<Ensemble, String>> = OnceLock::new();
 
-/// Samplings of the default kind, on both ways, and the mean filament; computed once.
-pub(super) fn core(run: Run<'_>) -> Result<&'static Ensemble, String> {
-    CORE.get_or_init(|| Ensemble::run(run, Kind::CORE.into()))
+/// Samplings of the default kind and the mean filament; computed once.
+pub(super) fn core(draft: &Draft<'_>) -> Result<&'static Ensemble, String> {
+    CORE.get_or_init(|| Ensemble::run(draft, Kind::CORE.into()))
         .as_ref()
         .map_err(Clone::clone)
 }
 
-/// The same with all other kinds, unless `quick`: computed once for the tables that share it.
-pub(super) fn ensemble(run: Run<'_>) -> Result<&'static Ensemble, String> {
-    if run.quick {
-        return core(run);
+/// The same with all other kinds, unless `--quick`: computed once for the tables that share it.
+pub(super) fn ensemble(draft: &Draft<'_>) -> Result<&'static Ensemble, String> {
+    if draft.quick {
+        return core(draft);
     }
     ENSEMBLE
         .get_or_init(|| {
-            let mut all = core(run)?.clone();
-            all.samplings
-                .extend(Ensemble::run(run, other_kinds())?.samplings);
+            let mut all = core(draft)?.clone();
+            let others = Ensemble::run(draft, other_kinds())?;
+            all.samplings.extend(others.samplings);
             Ok(all)
         })
         .as_ref()
@@ -157,29 +129,18 @@ pub(super) fn ensemble(run: Run<'_>) -> Result<&'static Ensemble, String> {
 }
 
 impl Ensemble {
-    fn run(
-        Run {
-            quick, progress, ..
-        }: Run<'_>,
-        kinds: Vec<Kind>,
-    ) -> Result<Self, String> {
-        let turns = turns_deg()?;
-        let seeds = if quick { QUICK_SEEDS } else { SEEDS };
-        let cases: Vec<(Kind, u64)> = kinds
-            .into_iter()
-            .flat_map(|kind| kind.seeds(seeds).map(move |seed| (kind, seed)))
-            .collect();
-        progress.expect(cases.len());
-        let samplings = cases
-            .into_par_iter()
-            .map(|(kind, seed)| {
-                let curve = kind
-                    .twist(seed, &turns)
-                    .map_err(|error| format!("{}, seed {seed}: {error}", kind.name()))?;
-                progress.done();
-                Ok(Sampling { kind, seed, curve })
-            })
-            .collect::<Result<_, String>>()?;
+    fn run(draft: &Draft<'_>, kinds: Vec<Kind>) -> Result<Self, String> {
+        let entries = entries(Table::Rigidity);
+        let turns: Vec<f64> = entries.iter().map(turn_deg).collect();
+        let seeds = if draft.quick { QUICK_SEEDS } else { SEEDS };
+        let kinds = kinds.into_iter();
+        let cases = kinds.flat_map(|kind| kind.seeds(seeds).map(move |seed| (kind, seed)));
+        let samplings = draft.solve(&cases.collect::<Vec<_>>(), |&(kind, seed)| {
+            let curve = kind.twist(seed, &turns);
+            let curve = curve.map_err(|e| format!("{}, seed {seed}: {e}", kind.name()))?;
+            Ok(Sampling { kind, seed, curve })
+        });
+        let samplings = samplings.into_iter().collect::<Result<_, String>>()?;
         Ok(Self { samplings, seeds })
     }
 
@@ -274,10 +235,6 @@ pub(super) fn turn_deg(entry: &Entry) -> f64 {
     (entry.curvature * RISES * Monomers::default().rise_nm).to_degrees()
 }
 
-fn turns_deg() -> Result<Vec<f64>, String> {
-    Ok(entries(Table::Rigidity)?.iter().map(turn_deg).collect())
-}
-
 fn point_at(curve: &Curve<TwistPoint>, entry: &Entry) -> Option<TwistPoint> {
     let turn = turn_deg(entry);
     // Neighbouring angles are ten degrees apart.
@@ -288,30 +245,9 @@ fn point_at(curve: &Curve<TwistPoint>, entry: &Entry) -> Option<TwistPoint> {
     found.copied()
 }
 
-/// Twists out to the largest angle and back, in both directions; the points of the way back.
-fn out_and_back(specimen: &Specimen, turns: &[f64]) -> Result<Curve<TwistPoint>, MeasureError> {
-    let leg = |sign: f64| -> Result<Curve<TwistPoint>, MeasureError> {
-        let mut way: Vec<f64> = turns.iter().copied().filter(|t| t * sign > 0.0).collect();
-        way.sort_by(|a, b| a.abs().total_cmp(&b.abs()));
-        let back = way.len() - 1;
-        way.extend(way.clone().into_iter().rev().skip(1));
-        let mut curve = twist_in_order(specimen, &way)?;
-        curve.points.drain(..back.min(curve.points.len()));
-        Ok(curve)
-    };
-    let (mut curve, mut under) = (leg(1.0)?, leg(-1.0)?);
-    curve.points.append(&mut under.points);
-    curve.unreached.append(&mut under.unreached);
-    Ok(curve)
-}
-
 /// Other numbers and patterns of bonds.
 fn other_kinds() -> Vec<Kind> {
-    let kind = |anchors, bonds| Kind {
-        anchors,
-        bonds,
-        returning: false,
-    };
+    let kind = |anchors, bonds| Kind { anchors, bonds };
     [Anchors::Independent, Anchors::Identical]
         .into_iter()
         .flat_map(|anchors| BONDS.map(|bonds| kind(anchors, bonds)))

@@ -1,12 +1,10 @@
 //! How far Table 3 depends on the length of the filament: small twist is resisted by the ends.
 
 use super::ensemble::Kind;
-use super::statistics::sample;
-use crate::figures::Run;
+use crate::figures::draft::Draft;
 use crate::measure::{Curve, Specimen, TwistPoint, twist};
-use actin_draw::report::{Row, write_csv};
+use crate::statistics::sample;
 use actin_sim::Monomers;
-use rayon::prelude::*;
 
 /// Rises between the inner held monomers; 27 is the length of the tables, 28 the next to it.
 const RISES: [u32; 5] = [14, 27, 28, 55, 109];
@@ -15,61 +13,52 @@ const CURVATURES: [(f64, f64); 4] = [(1e-4, 0.0), (0.0023, 10.0), (0.0185, 80.0)
 /// Bond samplings of each length.
 const SEEDS: u64 = 8;
 
-/// Measures every length; rows for the secant rigidity, a table with the change of length too.
-pub(super) fn rows(Run { out, progress, .. }: Run<'_>) -> Result<Vec<Row>, String> {
-    let cases: Vec<(u32, u64)> = RISES
+const HEADER: [&str; 6] = [
+    "rises",
+    "kappa3_rad_per_nm",
+    "b3_mean",
+    "b3_sd",
+    "dl_over_l_mean",
+    "dl_over_l_sd",
+];
+
+/// Measures every length: rows for the secant rigidity, a table with the change of length too.
+pub(super) fn rows(draft: &mut Draft<'_>) -> Result<(), String> {
+    let cases = RISES
         .into_iter()
-        .flat_map(|rises| (0..SEEDS).map(move |seed| (rises, seed)))
-        .collect();
-    progress.expect(cases.len());
-    let curves: Vec<(u32, Curve<TwistPoint>)> = cases
-        .into_par_iter()
-        .map(|(rises, seed)| Ok((rises, measure(rises, seed)?)))
-        .inspect(|_| progress.done())
-        .collect::<Result<_, String>>()?;
-    let mut rows = Vec::new();
+        .flat_map(|rises| (0..SEEDS).map(move |seed| (rises, seed)));
+    let cases: Vec<(u32, u64)> = cases.collect();
+    let curves = draft.solve(&cases, |&(rises, seed)| Ok((rises, measure(rises, seed)?)));
+    let curves: Vec<(u32, Curve<TwistPoint>)> =
+        curves.into_iter().collect::<Result<_, String>>()?;
     let mut lines = Vec::new();
     for rises in RISES {
         for (i, (curvature, phi)) in angles().into_iter().enumerate() {
-            let points: Vec<&TwistPoint> = curves
+            let whole = curves
                 .iter()
-                .filter(|(of, curve)| *of == rises && curve.unreached.is_empty())
-                .map(|(_, curve)| &curve.points[i])
-                .collect();
+                .filter(|(of, c)| *of == rises && c.unreached.is_empty());
+            let points: Vec<&TwistPoint> = whole.map(|(_, curve)| &curve.points[i]).collect();
             let b3 = sample(points.iter().map(|p| p.rigidity_pn_nm2));
             let change = sample(points.iter().map(|p| p.relative_length_change));
-            rows.push(row(rises, curvature, phi, (b3.mean, b3.sd, b3.count)));
-            let numbers = [b3.mean, b3.sd, change.mean, change.sd].map(|x| format!("{x:.6e}"));
-            let mut line = vec![rises.to_string(), curvature.to_string()];
-            line.extend(numbers);
-            lines.push(line);
+            let note = format!(
+                "{rises} rises, {:.2} nm, at {curvature} rad/nm; mean of {} samplings, sd {:.0}",
+                length_nm(rises),
+                b3.count,
+                b3.sd
+            );
+            let direction = if curvature > 0.0 { "over" } else { "under" };
+            let at = if phi > 0.0 {
+                phi.to_string()
+            } else {
+                "rest".into()
+            };
+            let quantity = format!("b3/length-{rises}/{direction}/{at}");
+            draft.row(quantity, "pN nm^2", b3.mean, note);
+            let numbers = [curvature, b3.mean, b3.sd, change.mean, change.sd];
+            lines.push((vec![rises.to_string()], vec![numbers]));
         }
     }
-    let header = [
-        "rises",
-        "kappa3_rad_per_nm",
-        "b3_mean",
-        "b3_sd",
-        "dl_over_l_mean",
-        "dl_over_l_sd",
-    ];
-    write_csv(out, "table3_lengths.csv", &header, lines)?;
-    Ok(rows)
-}
-
-fn row(rises: u32, curvature: f64, phi: f64, (mean, sd, count): (f64, f64, usize)) -> Row {
-    let direction = if curvature > 0.0 { "over" } else { "under" };
-    let note = format!(
-        "{rises} rises, {:.2} nm, at {curvature} rad/nm; mean of {count} samplings, sd {sd:.0}",
-        length_nm(rises)
-    );
-    let at = if phi > 0.0 {
-        phi.to_string()
-    } else {
-        "rest".to_owned()
-    };
-    let quantity = format!("b3/length-{rises}/{direction}/{at}");
-    Row::measured("table3", quantity, "pN nm^2", mean, note)
+    draft.curves("table3_lengths.csv", &HEADER, lines)
 }
 
 fn length_nm(rises: u32) -> f64 {

@@ -1,85 +1,343 @@
-//! Table 4: rigidities measured on ensembles of the ellipsoid filament.
+//! Table 4: rigidities measured on ensembles of the ellipsoid filament in stretch, bending, shear and twist, and
+//! what Appendix B derives from them.
 
-use super::ensemble::{Ensemble, Kind, RISES, core};
-use super::loads::{AZIMUTHS_DEG, CANTILEVER_PN, CURVATURES, Measured, PULL_PN};
-use super::parameters::write_rows;
-use super::statistics::Sample;
+use super::ensemble::{Kind, RISES, core};
 use super::thermal;
-use crate::figures::Run;
+use crate::figures::draft::{Column, Draft, number};
+use crate::measure::{
+    Curve, Evidence, MeasureError, Specimen, bend_by_couples, bend_by_tip_force, shear_by_force,
+    stretch_by_force, stretch_by_shift,
+};
 use crate::published::{Table, entries};
+use crate::statistics::{Sample, largest, sample};
 use actin_draw::page::significant;
-use actin_draw::report::{Artefact, Row};
-use actin_sim::{Monomers, ellipsoid_constants as monomer};
-use std::time::Instant;
+use actin_sim::{Monomers, ellipsoid_constants as monomer, rod_constants as rod};
+use std::f64::consts::PI;
 
-/// Computes Table 4.
-pub(in crate::figures) fn table4(run: Run<'_>) -> Result<Artefact, String> {
-    let started = Instant::now();
-    let ensemble = core(run)?;
-    let measured = Measured::run(run, Kind::DEFAULT)?;
-    let mean = Measured::run(run, Kind::MEAN)?;
-    let mut rows = rigidities(&measured, ensemble, Kind::DEFAULT)?;
-    rows.extend(interfaces());
-    if !run.quick {
-        rows.extend(thermal::rows(run)?);
+/// Axial forces (pN), and the one at which S3 is compared.
+const FORCES_PN: [f64; 6] = [-10.0, -1.0, 1.0, 10.0, PULL_PN, 500.0];
+const PULL_PN: f64 = 100.0;
+/// Held strains.
+const STRAINS: [f64; 2] = [-0.001, 0.003];
+/// Curvatures (rad/nm): B at rest is that of the first, B1 is compared at the last.
+const CURVATURES: [f64; 4] = [AT_REST, 1e-3, 3e-3, BENT];
+const AT_REST: f64 = 1e-4;
+const BENT: f64 = 1e-2;
+/// Tip forces (pN).
+const TIP_PN: [f64; 3] = [0.1, 0.5, 2.0];
+/// Tip force (pN) and length (nm) of the cantilever that the paper describes.
+const CANTILEVER_PN: f64 = 2.0;
+const CANTILEVER_NM: f64 = 160.0;
+/// Transverse forces on the guided end (pN). At the largest bending is nearly all of the shift, and the rest
+/// means little.
+const SHEAR_PN: [f64; 3] = [0.01, 0.1, 1.0];
+const MOST_SHEAR_PN: f64 = 0.5;
+/// Azimuths of bending and shear (deg).
+const AZIMUTHS_DEG: [f64; 4] = [0.0, 45.0, 90.0, 135.0];
+/// Rises between the inner held monomers of bent filaments: 150.62 nm.
+const BENT_RISES: f64 = 55.0;
+/// Samplings in stretch, and in bending and shear; then for `--quick`.
+const SEEDS: [u64; 2] = [16, 8];
+const QUICK_SEEDS: [u64; 2] = [4, 2];
+/// Young's modulus of Appendix B (pN/nm^2), the factor by which stretching is stiffer than E A, Poisson's ratio.
+const YOUNG: f64 = 330.0;
+const STIFFER: f64 = 2.7;
+const POISSON: f64 = 0.4;
+
+/// How a filament is loaded, and how the load is read as a rigidity.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Protocol {
+    StretchByForce,
+    StretchByShift,
+    Couples,
+    TipLinear,
+    TipElastica,
+    CantileverLinear,
+    CantileverElastica,
+    /// `F L / d`, bending included.
+    ShearApparent,
+    /// `F / gamma` with the bending of a guided beam taken off.
+    ShearSecant,
+    /// `F / gamma^3` likewise.
+    ShearCubic,
+}
+
+/// Protocols whose readings are all rows: path of the quantity, unit, what it is.
+const LISTED: [(Protocol, &str, &str, &str); 8] = [
+    (
+        Protocol::StretchByForce,
+        "s3/by-force",
+        "pN",
+        "secant F L/dL at a force (pN)",
+    ),
+    (
+        Protocol::StretchByShift,
+        "s3/by-shift",
+        "pN",
+        "secant F L/dL at a held strain",
+    ),
+    (
+        Protocol::Couples,
+        "b1/couples",
+        "pN nm^2",
+        "secant M/kappa at a curvature (rad/nm)",
+    ),
+    (
+        Protocol::TipLinear,
+        "b1/tip-force-linear",
+        "pN nm^2",
+        "cantilever at a force (pN), linear theory without shear, which adds to the deflection",
+    ),
+    (
+        Protocol::TipElastica,
+        "b1/tip-force-elastica",
+        "pN nm^2",
+        "cantilever at a force (pN), elastica without shear, which adds to the deflection",
+    ),
+    (
+        Protocol::ShearApparent,
+        "s1/apparent",
+        "pN",
+        "F L/d at a force (pN), bending included",
+    ),
+    (
+        Protocol::ShearSecant,
+        "s1/secant",
+        "pN",
+        "secant F/gamma at a force (pN) on parallel ends, the bending of a guided beam with B at 1e-4 rad/nm taken \
+         off",
+    ),
+    (
+        Protocol::ShearCubic,
+        "s1/cubic",
+        "pN",
+        "F/gamma^3 at a force (pN); of a cubic law a constant",
+    ),
+];
+
+/// A state that was measured.
+#[derive(Clone, Copy, Debug)]
+struct Reading {
+    protocol: Protocol,
+    seed: u64,
+    /// Azimuth of the load (deg); 0 of an axial one.
+    azimuth: f64,
+    /// What is prescribed, and the secant rigidity.
+    at: f64,
+    secant: f64,
+    evidence: Evidence,
+}
+
+/// What was measured of one filament under one load.
+#[derive(Clone, Debug, Default)]
+struct Readings {
+    all: Vec<Reading>,
+    /// Loads that were not reached.
+    unreached: usize,
+    /// Largest relative difference between the couples at the two ends.
+    mismatch: f64,
+}
+
+/// Table 4.
+pub(in crate::figures) fn table4(draft: &mut Draft<'_>) -> Result<(), String> {
+    let drawn = measure(draft, Kind::DEFAULT)?;
+    let mean = measure(draft, Kind::MEAN)?;
+    draft.settings = settings(&drawn);
+    rigidities(draft, &drawn, Kind::DEFAULT)?;
+    derived(draft);
+    if !draft.quick {
+        thermal::rows(draft)?;
     }
-    let mean_rows = rigidities(&mean, ensemble, Kind::MEAN)?;
-    rows.extend(mean_rows.into_iter().map(of_mean_filament));
-    write_rows("table4", &rows, run.out)?;
-    measured.write(run.out, "table4_samplings.csv")?;
-    mean.write(run.out, "table4_mean_filament.csv")?;
-    Ok(Artefact {
-        id: "table4",
-        title: "Rigidities of the multi-resolution model, measured on the monomers",
-        settings: settings(&measured),
-        rows,
-        pictures: Vec::new(),
-        views: Vec::new(),
-        wall_s: started.elapsed().as_secs_f64(),
-    })
+    rigidities(draft, &mean, Kind::MEAN)?;
+    draft.list()?;
+    draft.table("table4_samplings.csv", &drawn.all, &COLUMNS)?;
+    draft.table("table4_mean_filament.csv", &mean.all, &COLUMNS)
 }
 
-/// All that was measured of one kind.
-fn rigidities(measured: &Measured, ensemble: &Ensemble, kind: Kind) -> Result<Vec<Row>, String> {
-    let mut rows = stretching(measured);
-    rows.extend(bending(measured));
-    rows.extend(shearing(measured));
-    rows.extend(twisting(ensemble, kind)?);
-    rows.extend(persistence(measured));
-    Ok(rows)
-}
-
-/// The mean filament is ours: it stands beside the paper's numbers under a path of its own, without a
-/// verdict and so without a tolerance.
-fn of_mean_filament(mut row: Row) -> Row {
-    if let Some(tolerance) = row.note.find("; tolerance") {
-        row.note.truncate(tolerance);
+/// Measures filaments of a kind; one filament if nothing is drawn.
+fn measure(draft: &Draft<'_>, kind: Kind) -> Result<Readings, String> {
+    let [stretched, bent] = if draft.quick { QUICK_SEEDS } else { SEEDS };
+    let axial = kind.seeds(stretched).map(|seed| (seed, None));
+    let across = kind
+        .seeds(bent)
+        .flat_map(|seed| AZIMUTHS_DEG.map(|azimuth| (seed, Some(azimuth))));
+    let cases: Vec<(u64, Option<f64>)> = axial.chain(across).collect();
+    let found = draft.solve(&cases, |&(seed, azimuth)| {
+        let found =
+            azimuth.map_or_else(|| stretch(kind, seed), |azimuth| bend(kind, seed, azimuth));
+        found.map_err(|e| e.to_string())
+    });
+    let mut readings = Readings::default();
+    for one in found {
+        let one: Readings = one?;
+        readings.all.extend(one.all);
+        readings.unreached += one.unreached;
+        readings.mismatch = readings.mismatch.max(one.mismatch);
     }
-    row.quantity = format!("{}/{}", Kind::MEAN.name(), row.quantity);
-    (row.tolerance, row.pass) = (None, None);
-    row
+    readings.without_bending();
+    Ok(readings)
 }
 
-fn settings(measured: &Measured) -> String {
+fn stretch(kind: Kind, seed: u64) -> Result<Readings, MeasureError> {
+    let monomers = kind.monomers(seed);
+    let specimen = Specimen::ellipsoids(RISES * monomers.rise_nm, monomers);
+    let mut readings = Readings::default();
+    let curve = stretch_by_force(&specimen, &FORCES_PN)?;
+    let of = (Protocol::StretchByForce, seed, 0.0);
+    readings.add(of, &FORCES_PN, &curve, |p| (p.rigidity_pn, p.evidence));
+    let curve = stretch_by_shift(&specimen, &STRAINS)?;
+    let of = (Protocol::StretchByShift, seed, 0.0);
+    readings.add(of, &STRAINS, &curve, |p| (p.rigidity_pn, p.evidence));
+    Ok(readings)
+}
+
+fn bend(kind: Kind, seed: u64, azimuth: f64) -> Result<Readings, MeasureError> {
+    let monomers = kind.monomers(seed);
+    let specimen = Specimen::ellipsoids(BENT_RISES * monomers.rise_nm, monomers);
+    let cantilever = Specimen::ellipsoids(CANTILEVER_NM, kind.monomers(seed));
+    let of = |protocol| (protocol, seed, azimuth);
+    let mut readings = Readings::default();
+    let curve = bend_by_couples(&specimen, &CURVATURES, azimuth)?;
+    let mismatch = |p: &crate::measure::CouplePoint| {
+        ((p.couple_pn_nm + p.near_couple_pn_nm) / p.couple_pn_nm).abs()
+    };
+    readings.mismatch = largest(curve.points.iter().map(mismatch));
+    let of_couples = of(Protocol::Couples);
+    readings.add(of_couples, &CURVATURES, &curve, |p| {
+        (p.rigidity_pn_nm2, p.evidence)
+    });
+    let tip = bend_by_tip_force(&specimen, &TIP_PN, azimuth)?;
+    let long = bend_by_tip_force(&cantilever, &[CANTILEVER_PN], azimuth)?;
+    for (curve, forces, linear, elastica) in [
+        (tip, &TIP_PN[..], Protocol::TipLinear, Protocol::TipElastica),
+        (
+            long,
+            &[CANTILEVER_PN],
+            Protocol::CantileverLinear,
+            Protocol::CantileverElastica,
+        ),
+    ] {
+        readings.add(of(linear), forces, &curve, |p| {
+            (p.linear_rigidity_pn_nm2, p.evidence)
+        });
+        readings.add(of(elastica), forces, &curve, |p| {
+            (p.elastica_rigidity_pn_nm2, p.evidence)
+        });
+    }
+    let curve = shear_by_force(&specimen, &SHEAR_PN, azimuth)?;
+    let of_shear = of(Protocol::ShearApparent);
+    readings.add(of_shear, &SHEAR_PN, &curve, |p| {
+        (p.apparent_rigidity_pn, p.evidence)
+    });
+    Ok(readings)
+}
+
+impl Readings {
+    /// Adds the points of a curve; one with loads that were not reached is left out.
+    fn add<P>(
+        &mut self,
+        (protocol, seed, azimuth): (Protocol, u64, f64),
+        prescribed: &[f64],
+        curve: &Curve<P>,
+        read: impl Fn(&P) -> (f64, Evidence),
+    ) {
+        if !curve.unreached.is_empty() {
+            self.unreached += curve.unreached.len();
+            return;
+        }
+        let points = prescribed.iter().zip(&curve.points);
+        self.all.extend(points.map(|(&at, point)| {
+            let (secant, evidence) = read(point);
+            Reading {
+                protocol,
+                seed,
+                azimuth,
+                at,
+                secant,
+                evidence,
+            }
+        }));
+    }
+
+    /// Adds shear without the bending of a guided beam whose rigidity is that of the filament at rest.
+    fn without_bending(&mut self) {
+        let bending = self.sample(Protocol::Couples, AT_REST).mean;
+        let length = BENT_RISES * Monomers::default().rise_nm;
+        let sheared = self
+            .of(Protocol::ShearApparent)
+            .filter(|r| r.at < MOST_SHEAR_PN);
+        let without = sheared.flat_map(|r| {
+            let shear = r.at / r.secant - r.at * length.powi(2) / (12.0 * bending);
+            [
+                (Protocol::ShearSecant, r.at / shear),
+                (Protocol::ShearCubic, r.at / shear.powi(3)),
+            ]
+            .map(|(protocol, secant)| Reading {
+                protocol,
+                secant,
+                ..*r
+            })
+        });
+        let without: Vec<Reading> = without.collect();
+        self.all.extend(without);
+    }
+
+    fn of(&self, protocol: Protocol) -> impl Iterator<Item = &Reading> {
+        self.all.iter().filter(move |r| r.protocol == protocol)
+    }
+
+    /// Statistics over filaments and azimuths at a prescribed value.
+    fn sample(&self, protocol: Protocol, at: f64) -> Sample {
+        let own = self.of(protocol).filter(|r| is_at(r, at));
+        sample(own.map(|r| r.secant))
+    }
+
+    /// Prescribed values in the order of the protocol.
+    fn prescribed(&self, protocol: Protocol) -> Vec<f64> {
+        let mut values: Vec<f64> = Vec::new();
+        for reading in self.of(protocol) {
+            if !values.iter().any(|&at| is_at(reading, at)) {
+                values.push(reading.at);
+            }
+        }
+        values
+    }
+
+    /// Largest difference of bending between two azimuths of a sampling over its mean.
+    fn anisotropy(&self) -> f64 {
+        let bent = self.of(Protocol::Couples).filter(|r| is_at(r, BENT));
+        let bent: Vec<&Reading> = bent.collect();
+        let samplings = bent.chunk_by(|a, b| a.seed == b.seed);
+        largest(samplings.map(|s| sample(s.iter().map(|r| r.secant)).spread()))
+    }
+}
+
+/// Whether a reading is at a prescribed value.
+fn is_at(reading: &Reading, at: f64) -> bool {
+    reading.at.total_cmp(&at).is_eq()
+}
+
+fn settings(readings: &Readings) -> String {
+    let count = |protocol, at| readings.sample(protocol, at).count;
+    let unstable = readings
+        .all
+        .iter()
+        .filter(|r| !r.evidence.is_stable())
+        .count();
     format!(
-        "64 independent bonds per interface; the mean filament has 12 weighted ones that stand for all and \
-         is one filament. Stretch: {} samplings (seeds from 0), {:.2} nm, turn blocked. \
-         Bending and shear: {} samplings at azimuths {AZIMUTHS_DEG:?} deg, {:.2} nm, both ends \
-         held in orientation, the far one slides freely. Two monomers are held at each end; \
-         lengths are those between the inner ones. Seeds count from 0. {} of {} states are not stable beyond doubt; \
-         {} loads were not reached.",
-        measured.stretch_samplings,
+        "64 independent bonds per interface; the mean filament has 12 weighted ones that stand for all and is one \
+         filament. Stretch: {} samplings (seeds from 0), {:.2} nm, turn blocked. Bending and shear: {} samplings at \
+         azimuths {AZIMUTHS_DEG:?} deg, {:.2} nm, both ends held in orientation, the far one slides freely. Two \
+         monomers are held at each end; lengths are those between the inner ones. {unstable} of {} readings are \
+         not stable beyond doubt; {} loads were not reached. Couples at the two ends agree to {:.0e}.",
+        count(Protocol::StretchByForce, PULL_PN),
         RISES * Monomers::default().rise_nm,
-        measured.bend_samplings,
-        measured.bend_length_nm,
-        measured.unstable,
-        measured.states,
-        measured.unreached,
+        count(Protocol::Couples, BENT) / AZIMUTHS_DEG.len(),
+        BENT_RISES * Monomers::default().rise_nm,
+        readings.all.len(),
+        readings.unreached,
+        readings.mismatch,
     )
-}
-
-fn row(quantity: impl Into<String>, unit: &'static str, ours: f64, note: impl Into<String>) -> Row {
-    Row::measured("table4", quantity, unit, ours, note)
 }
 
 fn describe(sample: &Sample) -> String {
@@ -95,202 +353,160 @@ fn describe(sample: &Sample) -> String {
     )
 }
 
+/// Rigidities that are compared: name, unit, protocol, prescribed value, and what it is.
+const COMPARED: [(&str, &str, Protocol, f64, &str); 5] = [
+    (
+        "s3",
+        "pN",
+        Protocol::StretchByForce,
+        PULL_PN,
+        "secant F L/dL at 100 pN",
+    ),
+    (
+        "b1",
+        "pN nm^2",
+        Protocol::Couples,
+        BENT,
+        "secant M/kappa at 0.01 rad/nm",
+    ),
+    (
+        "b1/cantilever",
+        "pN nm^2",
+        Protocol::CantileverLinear,
+        CANTILEVER_PN,
+        "2 pN at the tip of 160 nm",
+    ),
+    (
+        "b1/cantilever/elastica",
+        "pN nm^2",
+        Protocol::CantileverElastica,
+        CANTILEVER_PN,
+        "2 pN at the tip of 160 nm",
+    ),
+    (
+        "s1",
+        "pN",
+        Protocol::ShearSecant,
+        SHEAR_PN[0],
+        "secant F/gamma at 0.01 pN",
+    ),
+];
+
+/// All that was measured of one kind. The mean filament has rows under a path of its own.
+fn rigidities(draft: &mut Draft<'_>, readings: &Readings, kind: Kind) -> Result<(), String> {
+    let path = match kind {
+        Kind::MEAN => "mean-filament/",
+        _ => "",
+    };
+    for (protocol, quantity, unit, words) in LISTED {
+        for at in readings.prescribed(protocol) {
+            let s = readings.sample(protocol, at);
+            let note = format!("{words}, {}", describe(&s));
+            draft.row(format!("{path}{quantity}/{at}"), unit, s.mean, note);
+        }
+    }
+    for (name, unit, protocol, at, words) in COMPARED {
+        let s = readings.sample(protocol, at);
+        let (name, note) = (
+            format!("{path}{name}"),
+            format!("{words}, {}", describe(&s)),
+        );
+        if ["s3", "b1"].iter().any(|of| name.ends_with(of)) {
+            scatter(draft, &name, unit, s.sd);
+        }
+        draft.mean(name, unit, &s, note);
+    }
+    let note = "largest difference between two azimuths of one sampling over its mean";
+    let anisotropy = readings.anisotropy();
+    draft.row(format!("{path}b1/anisotropy"), "", anisotropy, note);
+    let per_um = 1e-3 / monomer::THERMAL_ENERGY;
+    for (name, at, scale) in [
+        ("persistence_length_um", BENT, per_um),
+        (
+            "persistence_length_unscaled_um",
+            BENT,
+            per_um / monomer::RIGIDITY_SCALE,
+        ),
+        ("persistence_length_um/at-rest", AT_REST, per_um),
+    ] {
+        let b1 = readings.sample(Protocol::Couples, at);
+        let length = (b1.mean * scale, b1.sd * scale);
+        draft.scattered(format!("{path}{name}"), "um", length, "");
+    }
+    twisting(draft, path, kind)
+}
+
 /// Standard deviation of a single filament, which tolerances are made of.
-fn scatter(of: &str, unit: &'static str, sd: f64) -> Row {
-    row(
+fn scatter(draft: &mut Draft<'_>, of: &str, unit: &'static str, sd: f64) {
+    draft.row(
         format!("{of}/sd"),
         unit,
         sd,
         "standard deviation of a single filament",
-    )
+    );
 }
 
-fn stretching(measured: &Measured) -> Vec<Row> {
-    let mut rows = Vec::new();
-    for (force, sample) in &measured.by_force {
-        let note = format!("secant F L/dL at {force} pN, {}", describe(sample));
-        if force.total_cmp(&PULL_PN).is_eq() {
-            let main = row("s3", "pN", sample.mean, note.clone());
-            rows.push(main.against_printed("3.4e4", sample.sd));
-            rows.push(scatter("s3", "pN", sample.sd));
-        }
-        rows.push(row(format!("s3/by-force/{force}"), "pN", sample.mean, note));
-    }
-    for (strain, sample) in &measured.by_shift {
-        let note = format!(
-            "secant F L/dL at held strain {strain}, {}",
-            describe(sample)
-        );
-        rows.push(row(
-            format!("s3/by-shift/{strain}"),
-            "pN",
-            sample.mean,
-            note,
-        ));
-    }
-    rows
-}
-
-fn bending(measured: &Measured) -> Vec<Row> {
-    let mut rows = Vec::new();
-    for (curvature, sample) in &measured.by_couples {
-        let note = format!(
-            "secant M/kappa at {curvature} rad/nm, {}; couples at the two ends agree to {:.0e}",
-            describe(sample),
-            measured.couple_mismatch
-        );
-        if curvature
-            .total_cmp(&CURVATURES[CURVATURES.len() - 1])
-            .is_eq()
-        {
-            let main = row("b1", "pN nm^2", sample.mean, note.clone());
-            rows.push(main.against_printed("3.9e4", sample.sd));
-            rows.push(scatter("b1", "pN nm^2", sample.sd));
-            let share = measured.anisotropy;
-            let note = "largest difference between two azimuths of one sampling over its mean";
-            rows.push(row("b1/anisotropy", "", share, note));
-        }
-        let quantity = format!("b1/couples/{curvature}");
-        rows.push(row(quantity, "pN nm^2", sample.mean, note));
-    }
-    rows.extend(tip_forces(measured));
-    rows.extend(cantilever(measured));
-    rows
-}
-
-/// B1 as the paper defines it, at the force and the length that it names.
-fn cantilever(measured: &Measured) -> [Row; 2] {
-    let (length, [linear, elastica]) = (measured.cantilever_nm, &measured.by_cantilever);
-    let note = |theory: &str, sample: &Sample| {
-        format!(
-            "{theory}; {CANTILEVER_PN} pN at the tip of {length:.2} nm, {}",
-            describe(sample)
-        )
-    };
-    let paper = "the paper's own way, F L^3 / 3 Delta of the cantilever of Section 4.1, which holds for \
-                 small deflections only";
-    let exact = "the same deflection by the exact elastica";
-    [
-        row("b1/cantilever", "pN nm^2", linear.mean, note(paper, linear))
-            .against_printed("3.9e4", linear.sd),
-        row(
-            "b1/cantilever/elastica",
-            "pN nm^2",
-            elastica.mean,
-            note(exact, elastica),
-        ),
-    ]
-}
-
-fn tip_forces(measured: &Measured) -> Vec<Row> {
-    let mut rows = Vec::new();
-    for (force, linear, elastica) in &measured.by_tip_force {
-        for (name, sample) in [("linear", linear), ("elastica", elastica)] {
-            let note = format!(
-                "cantilever at {force} pN, {name} theory without shear, which adds to the \
-                 deflection; {}",
-                describe(sample)
-            );
-            let quantity = format!("b1/tip-force-{name}/{force}");
-            rows.push(row(quantity, "pN nm^2", sample.mean, note));
-        }
-    }
-    rows
-}
-
-const NO_SHEARING_RIGIDITY: &str = "the rod's S1 is an assumption of the paper, which scaled \
-    4GA/3 by 2.7, and has no support in the monomers: at rest they shear without resistance, and \
-    the force grows with the cube of the shear";
-
-fn shearing(measured: &Measured) -> Vec<Row> {
-    let mut rows = Vec::new();
-    for (i, shear) in measured.by_shear.iter().enumerate() {
-        let (force, secant) = (shear.force_pn, &shear.secant);
-        let note = format!(
-            "secant F/gamma at {force} pN on parallel ends, the bending of a guided beam with B \
-             at 1e-4 rad/nm taken off, {}",
-            describe(secant)
-        );
-        if i == 0 {
-            let note = format!("{note}; {NO_SHEARING_RIGIDITY}");
-            rows.push(row("s1", "pN", secant.mean, note).against_printed("1.6e4", secant.sd));
-        }
-        // At the largest force bending is nearly all of the shift, and the rest means little.
-        if i + 1 < measured.by_shear.len() {
-            rows.push(row(format!("s1/secant/{force}"), "pN", secant.mean, note));
-            let (mean, sd) = (shear.cubic.mean, shear.cubic.sd);
-            let note = format!("F/gamma^3 at {force} pN, sd {sd:.1e}; of a cubic law a constant");
-            rows.push(row(format!("s1/cubic/{force}"), "pN", mean, note));
-        }
-        let note = format!(
-            "F L/d at {force} pN, bending included, {}; a rod with Table 4's S1 and B1 reads {:.2}",
-            describe(&shear.apparent),
-            measured.rod_shear
-        );
-        let quantity = format!("s1/apparent/{force}");
-        rows.push(row(quantity, "pN", shear.apparent.mean, note));
-    }
-    rows
-}
-
-fn twisting(ensemble: &Ensemble, kind: Kind) -> Result<Vec<Row>, String> {
-    let entries = entries(Table::Rigidity)?;
-    let largest = |direction: &str| {
-        entries
+/// The largest twisting rigidities of both directions.
+fn twisting(draft: &mut Draft<'_>, path: &str, kind: Kind) -> Result<(), String> {
+    let ensemble = core(draft)?;
+    let entries = entries(Table::Rigidity);
+    for (name, direction) in [("b3_min", "under"), ("b3_max", "over")] {
+        let own = entries
             .iter()
-            .filter(|entry| entry.direction() == direction)
-            .map(|entry| {
-                let sample = ensemble.sample(kind, entry, Table::Rigidity);
-                (sample.mean, sample.sd, entry.phi_deg)
-            })
-            .max_by(|a, b| a.0.total_cmp(&b.0))
-            .expect("each direction has entries")
-    };
-    let rows = [
-        ("b3_min", "under", "9.6e3", "rounded to 1.0e4 in Table 4"),
-        ("b3_max", "over", "1.6e4", "as in Table 4"),
-    ];
-    let rows = rows.map(|(name, direction, paper, printed)| {
-        let (value, sd, phi) = largest(direction);
+            .filter(|entry| entry.direction() == direction);
+        let samples =
+            own.map(|entry| (entry.phi_deg, ensemble.sample(kind, entry, Table::Rigidity)));
+        let (phi, s) = samples
+            .max_by(|a, b| a.1.mean.total_cmp(&b.1.mean))
+            .ok_or("no entries")?;
         let note = format!(
-            "largest mean secant in {direction}-twist, at the curvature of {phi} deg in Table 3; \
-             the paper's is that of its Table 3, {printed}"
+            "largest mean secant in {direction}-twist, at the curvature of {phi} deg in Table 3"
         );
-        let main = row(name, "pN nm^2", value, note).against_printed(paper, sd);
-        [main, scatter(name, "pN nm^2", sd)]
-    });
-    Ok(rows.into_iter().flatten().collect())
+        draft.mean(format!("{path}{name}"), "pN nm^2", &s, note);
+        scatter(draft, &format!("{path}{name}"), "pN nm^2", s.sd);
+    }
+    Ok(())
 }
 
-fn interfaces() -> [Row; 2] {
-    let note = "published rigidity x 1.4 x kBT; printed in pN, pN/nm is meant; tolerance: rounding";
-    [
-        row("s_perp", "pN/nm", monomer::LATERAL_RIGIDITY, note).derived("2.3e3"),
-        row("s_par", "pN/nm", monomer::LONGITUDINAL_RIGIDITY, note).derived("3.4e3"),
-    ]
-}
-
-fn persistence(measured: &Measured) -> Vec<Row> {
-    let length_um = |b: f64| b / monomer::THERMAL_ENERGY * 1e-3;
-    let at = |i: usize| &measured.by_couples[i].1;
-    let (b1, at_rest) = (at(CURVATURES.len() - 1), at(0));
-    let (length, sd) = (length_um(b1.mean), length_um(b1.sd));
-    let scale = monomer::RIGIDITY_SCALE;
-    let note = "B1/kBT with B1 at 0.01 rad/nm; tolerance: half a digit, and twice the sd of B1";
-    vec![
-        row("persistence_length_um", "um", length, note).against_printed("9.8", sd),
-        row(
-            "persistence_length_unscaled_um",
-            "um",
-            length / scale,
-            "the same with interfaces of the published rigidity: all energies are 1.4 times less",
-        )
-        .against_printed("7.0", sd / scale),
-        row(
-            "persistence_length_um/at-rest",
-            "um",
-            length_um(at_rest.mean),
-            "B/kBT with B at 1e-4 rad/nm: a filament that is nearly straight bends more easily",
+/// Numbers of Appendix B that follow from those of Table 4.
+fn derived(draft: &mut Draft<'_>) {
+    let area = rod::CROSS_SECTION_AREA;
+    let inertia = area.powi(2) / (4.0 * PI);
+    let known = |name: &str| draft.value(name).unwrap_or(f64::NAN);
+    let (young, stretching) = (known("b1") / inertia, known("s3"));
+    let b3_mean = 0.5 * (known("b3_min") + known("b3_max"));
+    let shear_modulus = YOUNG / (2.0 * (1.0 + POISSON));
+    for (name, unit, value) in [
+        ("young_modulus", "pN/nm^2", young),
+        ("s3_over_ea", "", stretching / (young * area)),
+        ("b3_mean", "pN nm^2", b3_mean),
+        ("printed/ea", "pN", YOUNG * area),
+        (
+            "printed/s1",
+            "pN",
+            STIFFER * 4.0 / 3.0 * shear_modulus * area,
         ),
-    ]
+        ("rigidity_scale", "", monomer::RIGIDITY_SCALE),
+        ("s_perp", "pN/nm", monomer::LATERAL_RIGIDITY),
+        ("s_par", "pN/nm", monomer::LONGITUDINAL_RIGIDITY),
+    ] {
+        draft.row(name, unit, value, "");
+    }
 }
+
+const COLUMNS: [Column<Reading>; 10] = [
+    ("protocol", |r| format!("{:?}", r.protocol)),
+    ("seed", |r| r.seed.to_string()),
+    ("azimuth_deg", |r| r.azimuth.to_string()),
+    ("prescribed", |r| number(r.at)),
+    ("secant", |r| number(r.secant)),
+    ("residual_pn", |r| number(r.evidence.residual_force_pn)),
+    ("negative_eigenvalues", |r| {
+        r.evidence.certificate.negative.to_string()
+    }),
+    ("unresolved_eigenvalues", |r| {
+        r.evidence.certificate.unresolved.to_string()
+    }),
+    ("saddles_left", |r| r.evidence.saddles_left.to_string()),
+    ("jumps", |r| r.evidence.jumps.to_string()),
+];

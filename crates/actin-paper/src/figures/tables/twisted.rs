@@ -1,314 +1,509 @@
-//! Tables 3 and 5: the paper's entries beside ours, for the default filament and for ensembles.
+//! Tables 3 and 5: the paper's entries and ours, for the default filament and for ensembles.
 
-use super::ensemble::{Ensemble, Kind, ensemble, turn_deg, value};
-use super::statistics::{rms, sample};
-use super::{lengths, listings, pictures};
-use crate::figures::Run;
-use crate::figures::bounds::A_DIFFERENCE;
+use super::ensemble::{Doubts, Ensemble, Kind, core, ensemble, turn_deg, value};
+use super::lengths;
+use crate::figures::charts::{dots, line};
+use crate::figures::draft::{Column, Draft, Measured, number};
+use crate::figures::expected::{Bound, DIFFERENCE};
+use crate::fit::TwistData;
+use crate::measure::TwistPoint;
+use crate::palette;
 use crate::published::{CURVATURE_ROUNDING, Entry, Table, entries};
-use actin_draw::report::DEVIATIONS;
-use actin_draw::report::{Artefact, Origin, Row};
-use std::time::Instant;
+use crate::statistics::{Sample, rms, sample};
+use actin_draw::report::{DEVIATIONS, Origin, Row};
+use actin_draw::{Colour, Series};
+use actin_sim::Anchors;
 
 /// Angles (deg) over which the root mean square is taken.
 const COMPARED_DEG: std::ops::RangeInclusive<f64> = 40.0..=200.0;
+/// Half the width of the cap of an error bar (rad/nm).
+const CAP: f64 = 3.5e-4;
 
-/// Computes Table 3.
-pub(in crate::figures) fn table3(run: Run<'_>) -> Result<Artefact, String> {
-    reproduce(Table::Rigidity, run)
+/// Table 3: twisting rigidity.
+pub(in crate::figures) fn table3(draft: &mut Draft<'_>) -> Result<(), String> {
+    let twisted = Twisted::new(Table::Rigidity, draft)?;
+    twisted.reproduce(draft)?;
+    // The statement holds of every pair of entries that the paper calls reliable.
+    let reliable = twisted.entries.iter().filter(|e| e.is_reliable());
+    let (over, under): (Vec<&Entry>, Vec<&Entry>) = reliable.partition(|e| e.direction() == "over");
+    let easier = over.iter().filter(|o| {
+        let mirrored = under
+            .iter()
+            .find(|u| u.phi_deg.total_cmp(&o.phi_deg).is_eq());
+        mirrored.is_some_and(|u| twisted.mean(Kind::DEFAULT, u) < twisted.mean(Kind::DEFAULT, o))
+    });
+    let share = easier.count() as f64 / over.len() as f64;
+    let statement = format!(
+        "it is easier to under-twist than to over-twist; share of the {} angles to 200 deg at which B3 is smaller \
+         in under-twist",
+        over.len()
+    );
+    draft.claim("under_twist_easier", share, Bound::AtLeast(1.0), statement);
+    if draft.quick {
+        return Ok(());
+    }
+    lengths::rows(draft)
 }
 
-/// Computes Table 5.
-pub(in crate::figures) fn table5(run: Run<'_>) -> Result<Artefact, String> {
-    reproduce(Table::LengthChange, run)
+/// Table 5: change of length.
+pub(in crate::figures) fn table5(draft: &mut Draft<'_>) -> Result<(), String> {
+    Twisted::new(Table::LengthChange, draft)?.reproduce(draft)
 }
 
-fn reproduce(table: Table, run: Run<'_>) -> Result<Artefact, String> {
-    let started = Instant::now();
-    let out = run.out;
-    let ensemble = ensemble(run)?;
-    let entries = entries(table)?;
-    listings::write(table, ensemble, &entries, out)?;
-    let pictures = pictures::draw(table, ensemble, &entries, out)?;
-    let mut rows = Vec::new();
-    for entry in &entries {
-        rows.push(mean_row(table, ensemble, entry));
-    }
-    for one in [DEFAULT_FILAMENT, MEAN_FILAMENT] {
-        let row = |entry| filament_row(table, ensemble, one, entry);
-        rows.extend(entries.iter().filter_map(row));
-    }
-    rows.extend(entries.iter().map(|e| returning_row(table, ensemble, e)));
-    rows.push(printed_length(table, &entries));
-    for kind in ensemble.kinds() {
-        rows.push(rms_row(table, ensemble, kind, &entries));
-    }
-    if table == Table::Rigidity && !run.quick {
-        rows.extend(lengths::rows(run)?);
-    }
-    Ok(Artefact {
-        id: table.id(),
-        title: table.title(),
-        settings: settings(ensemble, &entries),
-        rows,
-        pictures,
-        views: Vec::new(),
-        wall_s: started.elapsed().as_secs_f64(),
-    })
+/// Twisting rigidity and change of length of our own filaments at the curvatures that the paper calls reliable, for
+/// Figure 9: the mean over samplings of drawn bonds, then the mean filament.
+pub(in crate::figures) fn monomers(draft: &Draft<'_>) -> Result<[TwistData; 2], String> {
+    let ensemble = core(draft)?;
+    let of = |kind, source: String| -> Result<TwistData, String> {
+        let column = |table| -> Result<Vec<(f64, f64)>, String> {
+            let all = entries(table).into_iter();
+            let reliable = all.filter(Entry::is_reliable);
+            let points = reliable.map(|e| (e.curvature, ensemble.sample(kind, &e, table).mean));
+            Ok(points.collect())
+        };
+        let [rigidity, length] = [column(Table::Rigidity)?, column(Table::LengthChange)?];
+        Ok(TwistData::new(source, rigidity, length))
+    };
+    let drawn = format!("our monomers, mean of {} samplings", ensemble.seeds);
+    Ok([
+        of(Kind::DEFAULT, drawn)?,
+        of(Kind::MEAN, "our monomers, mean filament".to_owned())?,
+    ])
 }
 
-impl Table {
-    pub(super) fn id(self) -> &'static str {
-        match self {
-            Self::Rigidity => "table3",
-            Self::LengthChange => "table5",
-        }
+/// A table with the filaments that it is compared with.
+struct Twisted {
+    table: Table,
+    /// Name of the column in quantities.
+    column: &'static str,
+    unit: &'static str,
+    ensemble: &'static Ensemble,
+    entries: Vec<Entry>,
+}
+
+impl Twisted {
+    fn new(table: Table, draft: &Draft<'_>) -> Result<Self, String> {
+        let (column, unit) = match table {
+            Table::Rigidity => ("b3", "pN nm^2"),
+            Table::LengthChange => ("dl_over_l", ""),
+        };
+        Ok(Self {
+            table,
+            column,
+            unit,
+            ensemble: ensemble(draft)?,
+            entries: entries(table),
+        })
     }
 
-    fn title(self) -> &'static str {
-        match self {
-            Self::Rigidity => "Secant twisting rigidity of the ellipsoid filament",
-            Self::LengthChange => "Change of length of the twisted ellipsoid filament",
+    fn reproduce(&self, draft: &mut Draft<'_>) -> Result<(), String> {
+        draft.settings = self.settings();
+        for entry in &self.entries {
+            self.mean_row(draft, entry);
+            self.filament_row(draft, Kind::DEFAULT, "seed-0/", entry);
+            self.filament_row(draft, Kind::MEAN, "", entry);
         }
+        self.printed_length(draft);
+        for kind in self.ensemble.kinds() {
+            self.rms_row(draft, kind);
+        }
+        self.listings(draft)?;
+        self.pictures(draft)
     }
 
-    pub(super) fn quantity(self) -> &'static str {
-        match self {
-            Self::Rigidity => "b3",
-            Self::LengthChange => "dl_over_l",
+    fn mean(&self, kind: Kind, entry: &Entry) -> f64 {
+        self.ensemble.sample(kind, entry, self.table).mean
+    }
+
+    fn path(&self, folder: &str, entry: &Entry) -> String {
+        format!(
+            "{}/{folder}{}/{}",
+            self.column,
+            entry.direction(),
+            entry.phi_deg
+        )
+    }
+
+    fn settings(&self) -> String {
+        let doubts = self.ensemble.doubts(Kind::DEFAULT, &self.entries);
+        let unreached = self.ensemble.unreached();
+        let unreached = match unreached.first() {
+            None => "Every angle was reached.".to_owned(),
+            Some(first) => format!("{} angles were not reached: {first}.", unreached.len()),
+        };
+        format!(
+            "30 monomers, two held at each end, 73.94 nm between the inner held ones; the far pair is turned about \
+             the axis and slides along it only; secants at the printed curvatures. {} samplings of the bonds of \
+             each drawn kind, seeds from 0; the mean is over those with 64 independent bonds. Of these {}. The \
+             mean filament has 12 weighted bonds at each interface that stand for all, and no seed. {unreached}",
+            self.ensemble.seeds,
+            doubts.describe()
+        )
+    }
+
+    /// One entry: the mean over samplings of the default kind.
+    fn mean_row(&self, draft: &mut Draft<'_>, entry: &Entry) {
+        let sample = self.ensemble.sample(Kind::DEFAULT, entry, self.table);
+        let doubts = self
+            .ensemble
+            .doubts(Kind::DEFAULT, std::slice::from_ref(entry));
+        let along = self.slope(entry) * CURVATURE_ROUNDING;
+        let note = format!(
+            "mean of {} samplings at {:.2} deg, sd {}; {}",
+            sample.count,
+            turn_deg(entry),
+            short(sample.sd),
+            doubts.describe()
+        );
+        let row =
+            |note| Row::measured(draft.id, self.path("", entry), self.unit, sample.mean, note);
+        if !entry.is_reliable() {
+            let row = row(format!("{note}; the paper calls its value unreliable"));
+            draft.rows.push(Measured::beside(row, entry.value));
+            return;
         }
+        let note = format!(
+            "{note}; tolerance: half a digit of the paper's value {} and of its curvature {}, and 2 sd of one \
+             sampling of ours (of the paper's, neither number nor pattern of bonds is known)",
+            short(entry.rounding),
+            short(along)
+        );
+        let tolerance = entry.rounding + along + DEVIATIONS * sample.sd;
+        let row = row(note).against(entry.value, tolerance);
+        draft.compared(row);
+    }
+
+    /// One filament without scatter, the first of its kind.
+    fn filament_row(&self, draft: &mut Draft<'_>, kind: Kind, folder: &str, entry: &Entry) {
+        let points = self.ensemble.points(kind, entry);
+        let Some((_, point)) = points.iter().find(|(seed, _)| *seed == 0) else {
+            return;
+        };
+        let (words, before) = match kind {
+            Kind::MEAN => ("weighted bonds that stand for all", "mean-filament/"),
+            _ => ("drawn bonds, seed 0", ""),
+        };
+        let evidence = &point.evidence;
+        let note = format!(
+            "{words}; couple {:.3} pN nm, residual {:.1e} pN, {:?}",
+            point.torque_pn_nm,
+            evidence.residual_force_pn,
+            evidence.stability()
+        );
+        let quantity = format!("{before}{}", self.path(folder, entry));
+        let row = Row::measured(
+            draft.id,
+            quantity,
+            self.unit,
+            value(point, self.table),
+            note,
+        );
+        draft.rows.push(Measured::beside(row, entry.value));
+    }
+
+    /// The length that the printed angles and curvatures belong to.
+    fn printed_length(&self, draft: &mut Draft<'_>) {
+        let lengths = self.entries.iter();
+        let lengths = sample(lengths.map(|e| e.phi_deg.to_radians() / e.curvature.abs()));
+        let note = format!(
+            "angle over curvature as printed, mean of {} entries, range {:.2} to {:.2}; ours is 73.94 nm and \
+             turned to the printed curvatures",
+            lengths.count, lengths.low, lengths.high
+        );
+        draft.row("printed_length", "nm", lengths.mean, note);
     }
 
     /// How far a value is from the paper's: relative for rigidities.
-    fn difference(self, ours: f64, entry: &Entry) -> f64 {
-        match self {
-            Self::Rigidity => ours / entry.value - 1.0,
-            Self::LengthChange => ours - entry.value,
+    fn difference(&self, ours: f64, entry: &Entry) -> f64 {
+        match self.table {
+            Table::Rigidity => ours / entry.value - 1.0,
+            Table::LengthChange => ours - entry.value,
         }
     }
 
-    fn unit(self) -> &'static str {
-        match self {
-            Self::Rigidity => "pN nm^2",
-            Self::LengthChange => "",
-        }
-    }
-}
-
-fn settings(ensemble: &Ensemble, entries: &[Entry]) -> String {
-    let doubts = ensemble.doubts(Kind::DEFAULT, entries);
-    let unreached = ensemble.unreached();
-    let unreached = match unreached.first() {
-        None => "Every angle was reached.".to_owned(),
-        Some(first) => format!("{} angles were not reached: {first}.", unreached.len()),
-    };
-    format!(
-        "30 monomers, two held at each end, 73.94 nm between the inner held ones; the far pair is \
-         turned about the axis and slides along it only; secants at the printed curvatures. {} \
-         samplings of the bonds of each drawn kind, seeds from 0; the mean is over those with 64 \
-         independent bonds. Of these {}. The mean filament has 12 weighted bonds at each interface that \
-         stand for all, and no seed. {unreached}",
-        ensemble.seeds,
-        doubts.describe()
-    )
-}
-
-/// One entry: the mean over samplings of the default kind.
-fn mean_row(table: Table, ensemble: &Ensemble, entry: &Entry) -> Row {
-    let sample = ensemble.sample(Kind::DEFAULT, entry, table);
-    let doubts = ensemble.doubts(Kind::DEFAULT, std::slice::from_ref(entry));
-    let along = slope(table, ensemble, entry) * CURVATURE_ROUNDING;
-    let tolerance = entry.rounding + along + DEVIATIONS * sample.sd;
-    let note = format!(
-        "mean of {} samplings at {:.2} deg, sd {}; {}",
-        sample.count,
-        turn_deg(entry),
-        short(sample.sd),
-        doubts.describe()
-    );
-    let quantity = path(table, "", entry);
-    let row = |note| Row::measured(table.id(), quantity, table.unit(), sample.mean, note);
-    if !entry.is_reliable() {
-        let note = format!("{note}; the paper calls its value unreliable");
-        return Row {
-            paper: Some(entry.value),
-            origin: Some(Origin::Paper),
-            ..row(note)
+    /// The difference from the paper over the angles that are compared.
+    fn rms_row(&self, draft: &mut Draft<'_>, kind: Kind) {
+        let compared = self
+            .entries
+            .iter()
+            .filter(|e| COMPARED_DEG.contains(&e.phi_deg));
+        let compared: Vec<Entry> = compared.copied().collect();
+        let differences = || {
+            compared
+                .iter()
+                .map(|e| self.difference(self.mean(kind, e), e))
         };
+        let single = sample(self.ensemble.of_kind(kind).map(|sampling| {
+            let values = compared
+                .iter()
+                .filter_map(|e| Some((e, sampling.value(e, self.table)?)));
+            rms(values.map(|(e, value)| self.difference(value, e)))
+        }));
+        let (what, scale) = match self.table {
+            Table::Rigidity => ("relative difference", 1.0),
+            Table::LengthChange => ("difference", rms(compared.iter().map(|e| e.value))),
+        };
+        let note = format!(
+            "rms {what} of the mean of {} samplings from the paper, 40 to 200 deg in both directions, mean {what} \
+             {:+.2e}; of a single sampling the rms is {:.2e} to {:.2e}; {}",
+            single.count,
+            sample(differences()).mean,
+            single.low,
+            single.high,
+            self.ensemble.doubts(kind, &compared).describe()
+        );
+        let name = format!("{}_rms", self.column);
+        let quantity = match kind {
+            Kind::DEFAULT => name,
+            Kind::MEAN => format!("{}/{name}", kind.name()),
+            _ => format!("{name}/{}", kind.name()),
+        };
+        let mut row = Row::measured(draft.id, quantity, "", rms(differences()), note);
+        if kind == Kind::DEFAULT {
+            row = row.against(0.0, DIFFERENCE * scale).of(Origin::Bound);
+        }
+        draft.compared(row);
     }
-    row(format!(
-        "{note}; tolerance: half a digit of the paper's value {} and of its curvature {}, and 2 sd \
-         of one sampling of ours (of the paper's, neither number nor pattern of bonds is known)",
-        short(entry.rounding),
-        short(along)
-    ))
-    .against(entry.value, tolerance)
-}
 
-/// The length that the printed angles and curvatures belong to.
-fn printed_length(table: Table, entries: &[Entry]) -> Row {
-    let lengths = entries
-        .iter()
-        .map(|e| e.phi_deg.to_radians() / e.curvature.abs());
-    let lengths = sample(lengths);
-    let note = format!(
-        "angle over curvature as printed, mean of {} entries, range {:.2} to {:.2}; ours is 73.94 nm \
-         and turned to the printed curvatures",
-        lengths.count, lengths.low, lengths.high
-    );
-    let row = Row::measured(table.id(), "printed_length", "nm", lengths.mean, note);
-    match table {
-        Table::Rigidity => row.derived("75"),
-        // The same columns again.
-        Table::LengthChange => row.beside(75.0, Origin::Derived),
+    /// Change of our mean per curvature at an entry, from its neighbours.
+    fn slope(&self, entry: &Entry) -> f64 {
+        let own = self
+            .entries
+            .iter()
+            .filter(|e| e.direction() == entry.direction());
+        let mut points: Vec<(f64, f64)> = own
+            .map(|e| (e.curvature, self.mean(Kind::DEFAULT, e)))
+            .collect();
+        // Zero twist is a point of both tables' curves as far as a slope goes.
+        points.push((0.0, 0.0));
+        points.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let near = 0.8 * entry.curvature;
+        let [here, there] =
+            [entry.curvature, near].map(|curvature| interpolate(&points, curvature));
+        ((here - there) / (entry.curvature - near)).abs()
     }
-}
 
-/// A filament without scatter: its kind, the name of its rows and what it is.
-type Filament = (Kind, &'static str, &'static str);
-const DEFAULT_FILAMENT: Filament = (Kind::DEFAULT, "seed-0/", "drawn bonds, seed 0");
-const MEAN_FILAMENT: Filament = (
-    Kind::MEAN,
-    "",
-    "mean filament: weighted bonds that stand for all, nothing drawn",
-);
-
-/// One filament itself, the first of its kind.
-fn filament_row(
-    table: Table,
-    ensemble: &Ensemble,
-    (kind, before, words): Filament,
-    entry: &Entry,
-) -> Option<Row> {
-    let points = ensemble.points(kind, entry);
-    let (_, point) = points.iter().find(|(seed, _)| *seed == 0)?;
-    let evidence = &point.evidence;
-    let note = format!(
-        "{words}; couple {:.3} pN nm, residual {:.1e} pN, {:?}",
-        point.torque_pn_nm,
-        evidence.residual_force_pn,
-        evidence.stability()
-    );
-    let quantity = of_kind(kind, path(table, before, entry));
-    Some(Row {
-        paper: Some(entry.value),
-        origin: Some(Origin::Paper),
-        ..Row::measured(
-            table.id(),
-            quantity,
-            table.unit(),
-            value(point, table),
-            note,
+    /// Writes every kind with its scatter, and every filament with its evidence.
+    fn listings(&self, draft: &Draft<'_>) -> Result<(), String> {
+        let (mut kinds, mut filaments) = (Vec::new(), Vec::new());
+        for kind in self.ensemble.kinds() {
+            for &entry in &self.entries {
+                kinds.push(OfKind {
+                    kind,
+                    entry,
+                    sample: self.ensemble.sample(kind, &entry, self.table),
+                    doubts: self.ensemble.doubts(kind, &[entry]),
+                });
+                let points = self.ensemble.points(kind, &entry).into_iter();
+                filaments.extend(points.map(|(seed, point)| (kind, seed, point)));
+            }
+        }
+        draft.table(&format!("{}.csv", draft.id), &kinds, &KINDS)?;
+        draft.table(
+            &format!("{}_samplings.csv", draft.id),
+            &filaments,
+            &FILAMENTS,
         )
-    })
-}
-
-/// The mean filament has rows under a path of its own.
-fn of_kind(kind: Kind, quantity: String) -> String {
-    match kind {
-        Kind::MEAN => format!("{}/{quantity}", kind.name()),
-        _ => quantity,
     }
-}
 
-/// The mean on the way back from the largest angle: where it differs there are two equilibria.
-fn returning_row(table: Table, ensemble: &Ensemble, entry: &Entry) -> Row {
-    let sample = ensemble.sample(Kind::RETURNING, entry, table);
-    let doubts = ensemble.doubts(Kind::RETURNING, std::slice::from_ref(entry));
-    let note = format!(
-        "the same filaments on the way back from 240 deg, sd {}; {}",
-        short(sample.sd),
-        doubts.describe()
-    );
-    let quantity = path(table, "returning/", entry);
-    Row {
-        paper: Some(entry.value),
-        origin: Some(Origin::Paper),
-        ..Row::measured(table.id(), quantity, table.unit(), sample.mean, note)
+    /// Draws the default kind with error bars, and all kinds if there are more.
+    fn pictures(&self, draft: &mut Draft<'_>) -> Result<(), String> {
+        let (id, seeds) = (draft.id, self.ensemble.seeds);
+        let symbol = match self.table {
+            Table::Rigidity => "B3",
+            Table::LengthChange => "dL/L",
+        };
+        let caption = format!(
+            "{symbol} of 64 independent bonds per interface: mean and 2 sd over {seeds} samplings, and one \
+             sampling (seed 0). Mean filament: 12 weighted bonds per \
+             interface that stand for all. Dots: the paper; its entries above 200 deg, which it calls unreliable, \
+             are grey."
+        );
+        let title = format!("{symbol} at held twist, {seeds} bond samplings");
+        self.chart(
+            draft,
+            format!("{id}.svg"),
+            &title,
+            self.of_default(),
+            caption,
+        )?;
+        if self.ensemble.kinds().len() == Kind::CORE.len() {
+            return Ok(());
+        }
+        let [few, many] = palette::chosen().end_names();
+        let caption = format!(
+            "Means for 12 ({few}) to 160 ({many}) independent bonds, and mean with 2 sd for one pattern of 40 \
+             bonds on all interfaces (grey). The mean filament is the limit of many."
+        );
+        let title = format!("{symbol} for other numbers and patterns of bonds");
+        self.chart(
+            draft,
+            format!("{id}_bonds.svg"),
+            &title,
+            self.of_kinds(),
+            caption,
+        )
     }
-}
 
-/// The difference to the paper over the angles that are compared.
-fn rms_row(table: Table, ensemble: &Ensemble, kind: Kind, entries: &[Entry]) -> Row {
-    let compared: Vec<Entry> = entries.iter().copied().filter(is_compared).collect();
-    let differences = || {
-        compared
+    fn chart(
+        &self,
+        draft: &mut Draft<'_>,
+        file: String,
+        title: &str,
+        mut series: Vec<Series>,
+        caption: String,
+    ) -> Result<(), String> {
+        let mean = self.curve(Kind::MEAN);
+        series.push(line("mean filament", palette::line(4), mean));
+        for (is_reliable, label, colour) in [
+            (true, "paper", palette::DATA),
+            (false, "paper, unreliable", palette::LIGHT_GREY),
+        ] {
+            let own = self
+                .entries
+                .iter()
+                .filter(|e| e.is_reliable() == is_reliable);
+            let points = own.map(|e| (e.curvature, e.value)).collect();
+            series.push(Series {
+                label: Some(label.into()),
+                ..dots(colour, points)
+            });
+        }
+        let (y_label, factor) = match self.table {
+            // In thousands, so that the labels of the axis are short.
+            Table::Rigidity => ("secant twisting rigidity B3 (1000 pN nm^2)", 1e-3),
+            Table::LengthChange => ("relative change of length dL/L", 1.0),
+        };
+        let points = series.iter_mut().flat_map(|s| &mut s.points);
+        points.for_each(|point| point.1 *= factor);
+        let x_label = "curvature phi/L (rad/nm); over-twist is positive";
+        draft.plot(file, title, [x_label, y_label], series, caption)
+    }
+
+    fn of_default(&self) -> Vec<Series> {
+        let blue = palette::resolution(1.0);
+        let mut series = self.bars(Kind::DEFAULT, blue);
+        series.push(line(
+            "drawn, mean and 2 sd",
+            blue,
+            self.curve(Kind::DEFAULT),
+        ));
+        let first = self.ensemble.of_kind(Kind::DEFAULT).find(|s| s.seed == 0);
+        let seed_0 = self
+            .entries
             .iter()
-            .map(|entry| table.difference(ensemble.sample(kind, entry, table).mean, entry))
-    };
-    let ours = rms(differences());
-    let (what, scale) = match table {
-        Table::Rigidity => ("relative difference", 1.0),
-        Table::LengthChange => ("difference", rms(compared.iter().map(|entry| entry.value))),
-    };
-    let (of, single) = match kind {
-        Kind::MEAN => ("the mean filament".to_owned(), String::new()),
-        _ => (
-            format!("the mean of {} samplings", ensemble.seeds),
-            single_rms(table, ensemble, kind, &compared),
-        ),
-    };
-    let note = format!(
-        "rms {what} of {of} from the paper, 40 to 200 deg in both directions, mean {what} \
-         {:+.2e}; {single}{}",
-        sample(differences()).mean,
-        ensemble.doubts(kind, &compared).describe()
-    );
-    let name = table.quantity();
-    if kind == Kind::DEFAULT {
-        let row = Row::measured(table.id(), format!("{name}_rms"), "", ours, note);
-        return row.against(0.0, A_DIFFERENCE * scale).of(Origin::Bound);
+            .filter_map(|entry| Some((entry.curvature, first?.value(entry, self.table)?)));
+        series.push(line(
+            "drawn, seed 0",
+            palette::resolution(0.25),
+            seed_0.collect(),
+        ));
+        series
     }
-    let quantity = match kind {
-        Kind::MEAN => of_kind(kind, format!("{name}_rms")),
-        _ => format!("{name}_rms/{}", kind.name()),
-    };
-    Row::measured(table.id(), quantity, "", ours, note)
-}
 
-/// The range of the root mean square over single samplings, in words.
-fn single_rms(table: Table, ensemble: &Ensemble, kind: Kind, compared: &[Entry]) -> String {
-    let single = sample(ensemble.of_kind(kind).map(|sampling| {
-        rms(compared
+    fn of_kinds(&self) -> Vec<Series> {
+        let pattern = Kind {
+            anchors: Anchors::Identical,
+            bonds: 40,
+        };
+        let mut series = self.bars(pattern, palette::GREY);
+        series.push(line(
+            "one pattern of 40",
+            palette::GREY,
+            self.curve(pattern),
+        ));
+        let mut independent: Vec<Kind> = self.ensemble.kinds();
+        independent.retain(|kind| kind.anchors == Anchors::Independent);
+        independent.sort_by_key(|kind| kind.bonds);
+        let last = (independent.len() - 1).max(1) as f64;
+        for (i, kind) in independent.into_iter().enumerate() {
+            let colour = palette::resolution(i as f64 / last);
+            let label = format!("{} independent", kind.bonds);
+            series.push(line(label, colour, self.curve(kind)));
+        }
+        series
+    }
+
+    fn curve(&self, kind: Kind) -> Vec<(f64, f64)> {
+        let points = self
+            .entries
             .iter()
-            .filter_map(|entry| Some(table.difference(sampling.value(entry, table)?, entry))))
-    }));
-    format!(
-        "of a single sampling the rms is {:.2e} to {:.2e}; ",
-        single.low, single.high
-    )
+            .map(|e| (e.curvature, self.mean(kind, e)));
+        points.collect()
+    }
+
+    /// Two standard deviations up and down, with caps.
+    fn bars(&self, kind: Kind, colour: Colour) -> Vec<Series> {
+        let bar = |entry: &Entry| {
+            let s = self.ensemble.sample(kind, entry, self.table);
+            let (low, high) = (s.mean - 2.0 * s.sd, s.mean + 2.0 * s.sd);
+            let x = entry.curvature;
+            let cap = |y| [(x - CAP, y), (x + CAP, y), (x, y)];
+            let upper = cap(high).into_iter().rev();
+            let points = cap(low).into_iter().chain(upper).collect();
+            Series {
+                dots: false,
+                ..dots(colour, points)
+            }
+        };
+        self.entries.iter().map(bar).collect()
+    }
 }
 
-fn is_compared(entry: &Entry) -> bool {
-    COMPARED_DEG.contains(&entry.phi_deg)
+/// A kind of filaments at an entry.
+struct OfKind {
+    kind: Kind,
+    entry: Entry,
+    sample: Sample,
+    doubts: Doubts,
 }
 
-/// Change of our mean per curvature at an entry, from its neighbours.
-fn slope(table: Table, ensemble: &Ensemble, entry: &Entry) -> f64 {
-    // Zero twist is a point of both tables' curves as far as a slope goes.
-    let near = 0.8 * entry.curvature;
-    let at = |curvature: f64| {
-        let points: Vec<(f64, f64)> = curve(table, ensemble, entry.direction());
-        interpolate(&points, curvature)
-    };
-    ((at(entry.curvature) - at(near)) / (entry.curvature - near)).abs()
-}
+const KINDS: [Column<OfKind>; 14] = [
+    ("kind", |k| k.kind.name()),
+    ("direction", |k| k.entry.direction().to_owned()),
+    ("phi_deg", |k| k.entry.phi_deg.to_string()),
+    ("kappa3_rad_per_nm", |k| k.entry.curvature.to_string()),
+    ("paper_calls_it_reliable", |k| {
+        k.entry.is_reliable().to_string()
+    }),
+    ("paper", |k| number(k.entry.value)),
+    ("mean", |k| number(k.sample.mean)),
+    ("sd", |k| number(k.sample.sd)),
+    ("low", |k| number(k.sample.low)),
+    ("high", |k| number(k.sample.high)),
+    ("samplings", |k| k.sample.count.to_string()),
+    ("saddles", |k| k.doubts.saddles.to_string()),
+    ("neutral", |k| k.doubts.neutral.to_string()),
+    ("off_the_branch", |k| k.doubts.off_the_branch.to_string()),
+];
 
-/// Means of the default kind in one direction against curvature.
-fn curve(table: Table, ensemble: &Ensemble, direction: &str) -> Vec<(f64, f64)> {
-    let all = entries(table).unwrap_or_default();
-    let mut points: Vec<(f64, f64)> = all
-        .iter()
-        .filter(|entry| entry.direction() == direction)
-        .map(|entry| {
-            let mean = ensemble.sample(Kind::DEFAULT, entry, table).mean;
-            (entry.curvature, mean)
-        })
-        .collect();
-    points.push((0.0, 0.0));
-    points.sort_by(|a, b| a.0.total_cmp(&b.0));
-    points
-}
+const FILAMENTS: [Column<(Kind, u64, TwistPoint)>; 13] = [
+    ("kind", |(kind, ..)| kind.name()),
+    ("seed", |(_, seed, _)| seed.to_string()),
+    ("turn_deg", |(.., p)| number(p.turn_deg)),
+    ("kappa3_rad_per_nm", |(.., p)| {
+        number(p.curvature_rad_per_nm)
+    }),
+    ("torque_pn_nm", |(.., p)| number(p.torque_pn_nm)),
+    ("b3", |(.., p)| number(p.rigidity_pn_nm2)),
+    ("dl_over_l", |(.., p)| number(p.relative_length_change)),
+    ("residual_pn", |(.., p)| {
+        number(p.evidence.residual_force_pn)
+    }),
+    ("residual_pn_nm", |(.., p)| {
+        number(p.evidence.residual_torque_pn_nm)
+    }),
+    ("negative_eigenvalues", |(.., p)| {
+        p.evidence.certificate.negative.to_string()
+    }),
+    ("unresolved_eigenvalues", |(.., p)| {
+        p.evidence.certificate.unresolved.to_string()
+    }),
+    ("saddles_left", |(.., p)| {
+        p.evidence.saddles_left.to_string()
+    }),
+    ("jumps", |(.., p)| p.evidence.jumps.to_string()),
+];
 
 fn interpolate(points: &[(f64, f64)], x: f64) -> f64 {
     let pair = points.windows(2).find(|w| w[0].0 <= x && x <= w[1].0);
@@ -316,11 +511,6 @@ fn interpolate(points: &[(f64, f64)], x: f64) -> f64 {
         let t = (x - w[0].0) / (w[1].0 - w[0].0);
         w[0].1 + t * (w[1].1 - w[0].1)
     })
-}
-
-fn path(table: Table, before: &str, entry: &Entry) -> String {
-    let (name, direction) = (table.quantity(), entry.direction());
-    format!("{name}/{before}{direction}/{}", entry.phi_deg)
 }
 
 fn short(value: f64) -> String {

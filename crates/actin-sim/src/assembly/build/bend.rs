@@ -1,6 +1,6 @@
 //! Bending of a straight, unstrained filament to the curve of its shape.
 
-use super::Stock;
+use super::SceneParts;
 use super::strand::{Body, Strand};
 use crate::assembly::built::Built;
 use crate::scene::{Curve, SceneProblem};
@@ -20,7 +20,7 @@ impl Strand<'_> {
     pub(super) fn bend(
         &mut self,
         frames: Range<usize>,
-        stock: &mut Stock,
+        stock: &mut SceneParts,
     ) -> Result<(), SceneProblem> {
         if self.filament.shape.is_none() {
             return Ok(());
@@ -50,7 +50,7 @@ impl Strand<'_> {
         Ok(())
     }
 
-    fn turn_frames(&self, frames: Range<usize>, curve: &Curve, stock: &mut Stock) {
+    fn turn_frames(&self, frames: Range<usize>, curve: &Curve, stock: &mut SceneParts) {
         let rotation = self.placement.rotation;
         for f in frames {
             let turn = rotation * curve.at(stock.frames[f].s_nm).1 * rotation.inverse();
@@ -59,7 +59,7 @@ impl Strand<'_> {
         }
     }
 
-    fn move_point(&self, point: usize, curve: &Curve, shift: Vector3, stock: &mut Stock) {
+    fn move_point(&self, point: usize, curve: &Curve, shift: Vector3, stock: &mut SceneParts) {
         let s_nm = stock.points[point].s_nm;
         let own = stock.state.points.position.get(point) - self.placement.translation;
         let own = self.placement.rotation.inverse_transform_vector(&own);
@@ -69,8 +69,7 @@ impl Strand<'_> {
         stock.state.points.position.set(point, lab);
     }
 
-    /// Places the nodes of a rod along its segments and returns the position of the last node.
-    fn lay(&self, layout: &RodLayout, start: Vector3, stock: &mut Stock) -> Vector3 {
+    fn lay(&self, layout: &RodLayout, start: Vector3, stock: &mut SceneParts) -> Vector3 {
         let (rotation, translation) = (self.placement.rotation, self.placement.translation);
         let mut place = start;
         let first = layout.points().start;
@@ -92,8 +91,7 @@ impl Strand<'_> {
     }
 }
 
-/// Refuses too large angles between the segments of section `i` in their present positions.
-fn check_angles(i: usize, layout: &RodLayout, stock: &Stock) -> Result<(), SceneProblem> {
+fn check_angles(i: usize, layout: &RodLayout, stock: &SceneParts) -> Result<(), SceneProblem> {
     let q = &stock.state.frames.orientation;
     let chain = layout.bending_chain();
     let angles = chain.clone().zip(chain.skip(1));
@@ -102,7 +100,6 @@ fn check_angles(i: usize, layout: &RodLayout, stock: &Stock) -> Result<(), Scene
     check_angle(i, layout.segments(), largest)
 }
 
-/// Refuses an angle (rad) between neighbouring segments of a section of at least the bound.
 pub(super) fn check_angle(i: usize, segments: usize, angle: f64) -> Result<(), SceneProblem> {
     if angle < LARGEST_ANGLE {
         return Ok(());

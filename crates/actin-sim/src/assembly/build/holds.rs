@@ -64,7 +64,6 @@ impl Builder<'_> {
         }
     }
 
-    /// Holds the bodies of clamp `i`; returns their points and frames.
     fn hold(
         &mut self,
         i: usize,

@@ -1,8 +1,8 @@
 //! Interactions within one filament: sections and the junctions between them.
 
-use super::Stock;
+use super::SceneParts;
 use super::strand::{Body, Strand, junction_problem};
-use crate::assembly::law::Around;
+use crate::assembly::law::EndConditions;
 use crate::assembly::{Part, Resolution, Rod, models};
 use crate::scene::SceneProblem;
 use actin_cosserat::RodLayout;
@@ -16,7 +16,7 @@ impl Strand<'_> {
     pub(super) fn push_interactions(
         &self,
         chains: &[Option<QuasiHarmonic>],
-        stock: &mut Stock,
+        stock: &mut SceneParts,
     ) -> Result<(), SceneProblem> {
         let junctions: Vec<Option<Junction>> = (1..self.bodies.len())
             .map(|i| {
@@ -31,7 +31,7 @@ impl Strand<'_> {
         for i in 0..self.bodies.len() {
             let before = i.checked_sub(1).map(|k| &junctions[k]);
             let run = self.run_of(i);
-            let around = Around {
+            let around = EndConditions {
                 joined: [joined(before), joined(junctions.get(i))],
                 ends: self.end_shear(run),
                 beyond_nm: self.beyond_nm(i, run),
@@ -52,8 +52,8 @@ impl Strand<'_> {
     fn interaction_of(
         &self,
         i: usize,
-        around: &Around,
-        stock: &mut Stock,
+        around: &EndConditions,
+        stock: &mut SceneParts,
     ) -> Result<Box<dyn Interaction>, SceneProblem> {
         Ok(match &self.bodies[i] {
             Body::Monomers(monomers) => {
@@ -76,7 +76,7 @@ impl Strand<'_> {
     }
 
     /// The rod of section `i` with the ranges of the data of its laws.
-    fn rod(&self, i: usize, layout: &RodLayout, around: &Around) -> Rod {
+    fn rod(&self, i: usize, layout: &RodLayout, around: &EndConditions) -> Rod {
         Rod {
             section: self.first_section + i,
             layout: layout.clone(),
@@ -87,7 +87,7 @@ impl Strand<'_> {
         }
     }
 
-    fn junction(&self, i: usize, stock: &Stock) -> Result<Junction, SceneProblem> {
+    fn junction(&self, i: usize, stock: &SceneParts) -> Result<Junction, SceneProblem> {
         let n = self.attached();
         let attach = |monomers: &Monomers, from: usize| -> Vec<AttachedMonomer> {
             (from..from + n)

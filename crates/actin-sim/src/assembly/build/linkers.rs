@@ -17,7 +17,6 @@ const NODE_TOLERANCE_NM: f64 = 1e-9;
 const SHUT_NM: f64 = 1e-9;
 
 impl Builder<'_> {
-    /// Pushes the linkers, each anchored linker with three controls.
     pub(super) fn push_linkers(&mut self) -> Result<(), SceneProblem> {
         let mut nodes = Nodes::default();
         for (i, linker) in self.scene.linkers.iter().enumerate() {
@@ -108,14 +107,12 @@ impl Builder<'_> {
         Ok(built)
     }
 
-    /// Position of the anchor of a linker from `site` (nm, lab frame).
     fn anchor(&self, linker: &scene::Linker, site: &Site) -> Vector3 {
         let displaced = |d: [f64; 3]| site.position(&self.stock.state) + Vector3::from(d);
         let place = linker.anchor_nm.map(Vector3::from);
         place.unwrap_or_else(|| displaced(linker.displaced_nm.unwrap_or_default()))
     }
 
-    /// Site at an arc length, radius and azimuth of a filament.
     pub(super) fn site(&self, at: &LinkerSite, nodes: &mut Nodes) -> Result<Site, LinkerError> {
         let strand = &self.strands[at.filament];
         let s_nm = at.at_nm;
@@ -178,7 +175,6 @@ impl Builder<'_> {
 pub(super) struct Nodes(HashMap<usize, Vec<f64>>);
 
 impl Nodes {
-    /// Nodes of the rod of a section (nm from the rod's start).
     pub(super) fn of(&mut self, section: usize, layout: &RodLayout) -> &[f64] {
         self.0
             .entry(section)
@@ -195,7 +191,6 @@ fn on_segment(nodes: &[f64], lengths: &[f64], s_nm: f64) -> (usize, f64) {
     (segment, share.clamp(0.0, 1.0))
 }
 
-/// First index in `0..count` for which `is_before` is false, or `count`.
 fn partition_point(count: usize, is_before: impl Fn(usize) -> bool) -> usize {
     let (mut from, mut to) = (0, count);
     while from < to {

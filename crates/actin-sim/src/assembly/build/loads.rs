@@ -12,11 +12,9 @@ use actin_mechanics::{
 };
 use std::error::Error;
 
-/// Frames with their shares of a couple.
 type Shares = Vec<(usize, f64)>;
 
 impl Builder<'_> {
-    /// Pushes the loads with the controls of their factors.
     pub(super) fn push_loads(&mut self) -> Result<(), SceneProblem> {
         let mut nodes = Nodes::default();
         for (i, load) in self.scene.loads.iter().enumerate() {
@@ -46,7 +44,6 @@ impl Builder<'_> {
         force.max(torque) > 0.0
     }
 
-    /// Creates the interaction of a load with the factor `control`.
     fn load(
         &mut self,
         load: &Load,
@@ -96,7 +93,6 @@ impl Builder<'_> {
         self.stock.sections[section].tip_points(end)
     }
 
-    /// Points of a filament with their masses.
     fn masses(&self, filament: usize) -> Vec<(usize, f64)> {
         let points = &self.stock.state.points;
         let all = self.filaments[filament].points.clone();
@@ -137,8 +133,6 @@ impl Builder<'_> {
         Ok(rescaled(sites, interval))
     }
 
-    /// Monomers of a section within an interval, held on the axis, with the lengths that they
-    /// represent.
     fn monomer_sites(
         &self,
         strand: &Strand<'_>,
@@ -183,7 +177,6 @@ impl Builder<'_> {
         }
     }
 
-    /// Site on the axis next to a monomer, fixed in the monomer.
     fn on_axis(
         &self,
         strand: &Strand<'_>,
@@ -196,7 +189,6 @@ impl Builder<'_> {
         Site::on_monomer(point, frame, q.inverse_transform_vector(&arm))
     }
 
-    /// Frames of a couple with their shares, or with the lengths that they represent.
     fn couple_shares(&self, load: &Load) -> Shares {
         let filament = load.filament();
         let strand = &self.strands[filament];
@@ -271,7 +263,6 @@ impl Builder<'_> {
         vec![(before, 1.0 - share), (behind, share)]
     }
 
-    /// Arc length interval (nm) of each segment or monomer.
     fn cells(&self, filament: usize) -> impl Iterator<Item = (usize, [f64; 2])> {
         let strand = &self.strands[filament];
         let bodies = strand.bodies.iter().zip(&strand.resolved);
@@ -323,7 +314,6 @@ fn rod_sites(
 }
 
 impl Strand<'_> {
-    /// Arc length interval (nm) that the monomer at an arc length represents.
     pub(super) fn cell(&self, s_nm: f64) -> [f64; 2] {
         let half = 0.5 * self.lattice.rise_nm;
         [s_nm - half, s_nm + half]
@@ -340,7 +330,6 @@ fn rescaled<T>(mut parts: Vec<(T, f64)>, [from, to]: [f64; 2]) -> Vec<(T, f64)> 
     parts
 }
 
-/// Intersection of two intervals; `None` if it has no length.
 fn overlap(a: [f64; 2], b: [f64; 2]) -> Option<[f64; 2]> {
     let common = [a[0].max(b[0]), a[1].min(b[1])];
     (common[1] > common[0]).then_some(common)

@@ -59,7 +59,6 @@ impl Builder<'_> {
         Ok(())
     }
 
-    /// Error for filaments that penetrate each other or a wall as built.
     fn built_into(&self, touching: &Touching, radius: f64) -> SceneProblem {
         let key = match touching.part {
             Part::Plane(i) => format!("repulsion.planes[{i}]"),
@@ -77,7 +76,6 @@ impl Builder<'_> {
         SceneProblem::new(key, value, rule)
     }
 
-    /// Capsules of all filaments in the order of arc length.
     fn capsules(&self) -> Result<Vec<Capsule>, RepulsionError> {
         let mut capsules = Vec::new();
         for (filament, strand) in self.strands.iter().enumerate() {
@@ -95,7 +93,6 @@ impl Builder<'_> {
         Ok(capsules)
     }
 
-    /// Capsules of monomers, each one rise long.
     fn monomers(
         &self,
         strand: &Strand<'_>,
@@ -118,7 +115,6 @@ impl Builder<'_> {
     }
 }
 
-/// Capsules of the segments of a rod that begins at this arc length (nm).
 fn segments(
     layout: &RodLayout,
     (filament, from_nm): (usize, f64),
@@ -137,7 +133,6 @@ fn segments(
     lengths.map(capsule).collect()
 }
 
-/// Walls of a scene, planes first.
 fn walls_of(repulsion: &Repulsion) -> Vec<(Part, Wall)> {
     let planes = repulsion.planes.iter().enumerate().map(|(i, plane)| {
         let wall = Wall::Plane {

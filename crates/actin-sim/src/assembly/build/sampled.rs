@@ -22,9 +22,7 @@ const PARTS: u64 = 4;
 /// Rate of the bath (1/ns). Positions of neighbours decorrelate within a few tenths of a
 /// nanosecond.
 const DRAG: f64 = 5.0;
-/// Equilibration time of each part (ns).
 const WARM_UP_NS: f64 = 5.0;
-/// Time between samples (ns).
 const APART_NS: f64 = 0.05;
 /// Time step over the largest stable step, for a relative error of the potential energy of 1e-3.
 const SHARE: f64 = 0.5;
@@ -43,14 +41,12 @@ const MOST_KEPT: usize = 50_000;
 /// do not depend on the cache.
 static KEPT: Mutex<BTreeMap<String, (Vec<Link>, Sampled)>> = Mutex::new(BTreeMap::new());
 
-/// Parameters of the sampling.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Sampling {
     thermal_energy: f64,
     duration_ns: f64,
 }
 
-/// Accuracy of the stiffness of a run of monomers.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Sampled {
     pub(crate) monomers: usize,
@@ -74,7 +70,6 @@ impl Sampling {
     }
 }
 
-/// Sampled monomers of a section.
 #[derive(Clone, Copy, Debug)]
 struct Piece {
     section: usize,
@@ -92,7 +87,6 @@ fn prolonged(links: &[Link], count: usize) -> Vec<Link> {
     all.copied().collect()
 }
 
-/// Bonds of an isolated run.
 struct Alone {
     monomers: Monomers,
     system: System,
@@ -100,7 +94,6 @@ struct Alone {
 }
 
 impl Strand<'_> {
-    /// Runs of bonded sections of monomers.
     fn bonded_sections(&self) -> Vec<Range<usize>> {
         let mut runs: Vec<Range<usize>> = Vec::new();
         for (i, body) in self.bodies.iter().enumerate() {
@@ -141,7 +134,6 @@ impl Strand<'_> {
         Ok((chains, known))
     }
 
-    /// Links of a run, sampled or from the cache.
     fn sample_run(
         &self,
         sections: Range<usize>,
@@ -169,7 +161,6 @@ impl Strand<'_> {
         Ok((prolonged(links, monomers - 1), sampled))
     }
 
-    /// Pieces of a run that are sampled.
     fn pieces(&self, sections: Range<usize>) -> Vec<Piece> {
         let mut models = self.models[sections.clone()].iter();
         let is_weighted = models.all(|m| m.parameters().anchors == Anchors::Cubature);
@@ -195,7 +186,6 @@ impl Strand<'_> {
         sections.map(piece).collect()
     }
 
-    /// Cache key with all parameters of the links of a run.
     fn key(&self, pieces: &[Piece], sampling: Sampling) -> String {
         let of_piece = |piece: &Piece| {
             let parameters = self.models[piece.section].parameters();
@@ -212,7 +202,6 @@ impl Strand<'_> {
         }
     }
 
-    /// Bonds of one run of monomers.
     fn alone(&self, pieces: &[Piece]) -> Result<Alone, SceneProblem> {
         let refused = |error: &dyn std::error::Error| {
             SceneProblem::new("filament.sections", "", error.to_string())
@@ -249,7 +238,6 @@ impl Strand<'_> {
 }
 
 impl Alone {
-    /// Chain with the moments of the thermal motion.
     fn sample(&self, sampling: Sampling) -> Result<(QuasiHarmonic, Sampled), SceneProblem> {
         let parts = self.parts(sampling)?;
         let mut all = Fluctuations::about(&self.monomers, self.system.state());
@@ -270,7 +258,6 @@ impl Alone {
         Ok((chain, sampled))
     }
 
-    /// Moments of each part, in order.
     fn parts(&self, sampling: Sampling) -> Result<Vec<Fluctuations>, SceneProblem> {
         let cores = std::thread::available_parallelism().map_or(1, usize::from);
         let numbers: Vec<u64> = (0..PARTS).collect();
@@ -317,7 +304,6 @@ impl Alone {
     }
 }
 
-/// Quotient of two times, rounded up.
 #[allow(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,
@@ -331,7 +317,7 @@ fn times(whole: f64, part: f64) -> u64 {
 mod tests {
     use super::*;
     use crate::Scene;
-    use crate::assembly::build::Stock;
+    use crate::assembly::build::SceneParts;
 
     const SAMPLING: Sampling = Sampling {
         thermal_energy: 4.11,
@@ -352,7 +338,7 @@ mod tests {
         let scene = Scene::from_ron(&text).unwrap();
         let mut strand =
             Strand::new((0, &scene.filament), ([None; 2], Vec::new()), 0, true).unwrap();
-        strand.push_bodies(&mut Stock::default()).unwrap();
+        strand.push_bodies(&mut SceneParts::default()).unwrap();
         ask(&strand)
     }
 
@@ -379,7 +365,7 @@ mod tests {
 
     /// Quadrature bonds depend on the length of a run, sampled bonds also on its place.
     #[test]
-    fn runs_are_known_by_what_bonds_depend_on() {
+    fn runs_are_keyed_by_the_parameters_of_bonds() {
         let key = |sections: &str, anchors: &str| {
             of(sections, anchors, |strand| {
                 assert_eq!(strand.monomers_of(1), 13);

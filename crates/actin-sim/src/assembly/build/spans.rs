@@ -64,7 +64,6 @@ impl Strand<'_> {
         (0..monomers.count).flat_map(of).collect()
     }
 
-    /// Intervals from each attached monomer to the middle of the rod's end segment.
     fn junction_bonds(&self, i: usize) -> Vec<[f64; 2]> {
         let n = self.attached();
         let s_nm = |m: &Monomers, k: usize| self.lattice.s_nm(m.index(k));

@@ -1,6 +1,6 @@
 //! Filament under construction: bodies and interactions, section by section.
 
-use super::Stock;
+use super::SceneParts;
 use super::bend::check_angle;
 use crate::assembly::built::Built;
 use crate::assembly::lattice::{Lattice, Resolved, resolve};
@@ -13,10 +13,8 @@ use actin_ellipsoid::{EllipsoidModel, Monomers, Placement};
 use actin_mechanics::{Frame, UnitQuaternion, Vector3};
 use std::ops::Range;
 
-/// Default length of a rod's segments (nm).
 const DEFAULT_SEGMENT_NM: f64 = 10.0;
 
-/// Bodies of a section.
 pub(super) enum Body {
     Monomers(Monomers),
     Rod(RodLayout),
@@ -28,17 +26,13 @@ pub(super) struct Strand<'a> {
     pub(super) filament: &'a Filament,
     /// Holds of start and end; `None` for a free end.
     holds: [Option<Hold>; 2],
-    /// Springs of hinged ends.
     pub(super) hinges: [Option<Hinge>; 2],
-    /// Held frames of hinged ends.
     pub(super) hinge_frames: [Option<usize>; 2],
     /// Arc lengths of couples (nm).
     couples_nm: Vec<f64>,
-    /// Index of its first section among all filaments.
     pub(super) first_section: usize,
     /// Position of arc length 0 and rotation from lab +z.
     pub(super) placement: Placement,
-    /// Axis of a curved filament.
     pub(super) built: Option<Built>,
     pub(super) resolved: Vec<Resolved>,
     pub(super) lattice: Lattice,
@@ -48,7 +42,6 @@ pub(super) struct Strand<'a> {
     pub(super) laws: Vec<law::Law>,
     cross_section: CrossSection,
     pub(super) bodies: Vec<Body>,
-    /// Frames of the junction between section i and the next.
     pub(super) junction_frames: Vec<Range<usize>>,
 }
 
@@ -110,7 +103,6 @@ impl<'a> Strand<'a> {
         self.placement.translation + self.placement.rotation * own
     }
 
-    /// Arc length of an end (nm).
     pub(super) fn end_nm(&self, end: End) -> f64 {
         let section = &self.resolved[self.filament.end_index(end)];
         match end {
@@ -119,14 +111,12 @@ impl<'a> Strand<'a> {
         }
     }
 
-    /// Rotation from lab +z at an arc length (nm).
     pub(super) fn frame_at(&self, s_nm: f64) -> UnitQuaternion {
         let rotation = self.placement.rotation;
         let built = self.built.as_ref();
         built.map_or(rotation, |built| rotation * built.at(s_nm).1)
     }
 
-    /// Unit tangent at an arc length (nm, lab frame).
     pub(super) fn tangent_at(&self, s_nm: f64) -> Vector3 {
         match self.built {
             None => self.filament.axis(),
@@ -134,8 +124,10 @@ impl<'a> Strand<'a> {
         }
     }
 
-    /// Pushes the bodies of all sections and junctions.
-    pub(super) fn push_bodies(&mut self, stock: &mut Stock) -> Result<FilamentSpan, SceneProblem> {
+    pub(super) fn push_bodies(
+        &mut self,
+        stock: &mut SceneParts,
+    ) -> Result<FilamentSpan, SceneProblem> {
         let first = (stock.points.len(), stock.frames.len());
         while self.bodies.len() < self.filament.sections.len() {
             self.push_section(self.bodies.len(), stock)?;
@@ -153,7 +145,7 @@ impl<'a> Strand<'a> {
 
     /// Pushes the junction to the section before and the bodies of section `i`. A rod includes all
     /// rods that follow it.
-    fn push_section(&mut self, i: usize, stock: &mut Stock) -> Result<(), SceneProblem> {
+    fn push_section(&mut self, i: usize, stock: &mut SceneParts) -> Result<(), SceneProblem> {
         if i > 0 && self.is_junction(i - 1) {
             self.push_junction_frames(i - 1, stock)?;
         } else if i > 0 {
@@ -169,7 +161,7 @@ impl<'a> Strand<'a> {
         &mut self,
         i: usize,
         (first, last): (i64, i64),
-        stock: &mut Stock,
+        stock: &mut SceneParts,
     ) -> Result<(), SceneProblem> {
         let placement = Placement {
             translation: self.axis_at(self.lattice.origin_nm),
@@ -208,7 +200,7 @@ impl<'a> Strand<'a> {
     }
 
     /// Pushes section `first` and all rods that follow it, which share nodes and cross-sections.
-    fn push_rods(&mut self, first: usize, stock: &mut Stock) -> Result<(), SceneProblem> {
+    fn push_rods(&mut self, first: usize, stock: &mut SceneParts) -> Result<(), SceneProblem> {
         let rods = self.resolved[first..].iter();
         let past = first + rods.take_while(|r| r.monomers.is_none()).count();
         let segments: Vec<usize> = (first..past)
@@ -242,7 +234,6 @@ impl<'a> Strand<'a> {
         Ok(())
     }
 
-    /// Straight rod for sections `first..past` with these segment counts and lengths (nm).
     fn straight_rod(
         &self,
         [first, past]: [usize; 2],
@@ -323,7 +314,7 @@ impl<'a> Strand<'a> {
         i: usize,
         end: End,
         (s_nm, length): (f64, f64),
-        stock: &mut Stock,
+        stock: &mut SceneParts,
     ) {
         if i != self.filament.end_index(end) || self.hinges[end as usize].is_none() {
             return;
@@ -338,7 +329,6 @@ impl<'a> Strand<'a> {
         self.hinge_frames[end as usize] = Some(frame);
     }
 
-    /// Number of segments of rod section `i`: as written, or nearest to the default length.
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,
@@ -366,7 +356,7 @@ impl<'a> Strand<'a> {
         ))
     }
 
-    fn describe_rod(&self, i: usize, layout: &RodLayout, length: f64, stock: &mut Stock) {
+    fn describe_rod(&self, i: usize, layout: &RodLayout, length: f64, stock: &mut SceneParts) {
         let Resolved { from_nm, to_nm, .. } = self.resolved[i];
         let node = |k: usize| from_nm + k as f64 * length;
         // The node and cross-section shared with a preceding rod already exist.
@@ -406,7 +396,7 @@ impl<'a> Strand<'a> {
         resolution: Resolution,
         (points, frames): (Range<usize>, Range<usize>),
         (first_tip, last_tip): (Vec<usize>, Vec<usize>),
-        stock: &mut Stock,
+        stock: &mut SceneParts,
     ) {
         stock.sections.push(SectionSpan {
             resolution,
@@ -426,7 +416,6 @@ impl<'a> Strand<'a> {
         sections.is_some_and(|(a, b)| a.monomers.is_some() != b.monomers.is_some())
     }
 
-    /// Returns `true` if section `i` and the next are both rods.
     fn is_joint(&self, i: usize) -> bool {
         let is_rod = |r: &Resolved| r.monomers.is_none();
         let rods = self.resolved[i..].iter().take(2).filter(|r| is_rod(r));
@@ -443,13 +432,15 @@ impl<'a> Strand<'a> {
         }
     }
 
-    /// Number of monomers of section `i` attached to a junction.
     pub(super) fn attached(&self) -> usize {
         self.filament.junction.attached_monomers
     }
 
-    /// Pushes the frames of the junction between section `i` and the next in filament order.
-    fn push_junction_frames(&mut self, i: usize, stock: &mut Stock) -> Result<(), SceneProblem> {
+    fn push_junction_frames(
+        &mut self,
+        i: usize,
+        stock: &mut SceneParts,
+    ) -> Result<(), SceneProblem> {
         let rise = self.lattice.rise_nm;
         let boundary = self.resolved[i].to_nm;
         let monomers_first = self.resolved[i].monomers.is_some();

@@ -1,15 +1,14 @@
 //! Linker events in a constant state: rates, places and energies against closed forms. Tolerances
 //! are 4.5 standard errors at fixed seeds.
 
-use super::Happening::{self, Formed, Left, Stepped};
 use super::LinkerEvent;
+use super::LinkerEventKind::{self, Formed, Left, Stepped};
 use crate::{Assembly, Scene};
 use actin_mechanics::State;
 
 /// Time step (ns), far beyond a stable step of a motion; the bodies are fixed here.
 const STEP_NS: f64 = 1.0;
 
-/// Equal linkers on a rod of 80 nm along z.
 fn linkers(count: usize, linker: &str, kinetics: &str) -> Assembly {
     let one = format!("Linker({linker}, kinetics: Kinetics(seed: 5, {kinetics})),");
     let text = format!(
@@ -45,7 +44,7 @@ fn lifetime(kinetics: &str, rate: f64) -> (f64, f64, f64) {
     let broken = events(&assembly, &mut assembly.rest.clone(), 1..2000);
     assert_eq!(broken.len(), count, "each linker must break exactly once");
     for event in &broken {
-        assert_eq!(event.what, Happening::Broke);
+        assert_eq!(event.what, LinkerEventKind::Broke);
         assert!((event.force_pn - 5.0).abs() < 1e-9 && (event.energy_pn_nm + 25.0).abs() < 1e-9);
     }
     let mean = broken.iter().map(|e| e.time_ns).sum::<f64>() / count as f64;
@@ -56,7 +55,7 @@ fn lifetime(kinetics: &str, rate: f64) -> (f64, f64, f64) {
 
 /// Bell's rate, a constant rate and a catch bond.
 #[test]
-fn lifetimes_under_force_are_those_of_the_rates() {
+fn lifetimes_under_force_agree_with_the_rates() {
     let e = std::f64::consts::E;
     for (kinetics, rate) in [
         ("breaks: Breaking(rate_per_ns: 0.02)", 0.02),
@@ -212,7 +211,7 @@ fn great_tension_breaks() {
     let assembly = linkers(1, linker, kinetics);
     let broken = events(&assembly, &mut assembly.rest.clone(), 1..2);
     assert_eq!(broken.len(), 1);
-    assert_eq!(broken[0].what, Happening::Broke);
+    assert_eq!(broken[0].what, LinkerEventKind::Broke);
 }
 
 #[test]

@@ -1,4 +1,4 @@
-//! Checkpoints of a run in its directory: when they are written, and what is left at the end.
+//! Checkpoints of a run in its directory.
 
 use super::file::{Contents, Identity, same_scene};
 use super::log::{RecordLog, Tally};
@@ -10,7 +10,7 @@ use crate::results::manifest::remove_if_there;
 use crate::results::names::{CHECKPOINT, RECORDS, SCENE, SUMMARY};
 use crate::results::{RunDirectoryError, Summary};
 use crate::run::{
-    Plan, Record, RecordIter, Recorded, Records, RowIter, RunPosition, Saved, Sink, Status,
+    Plan, Record, RecordIter, RecordSummary, Records, RowIter, RunPosition, SavedRun, Sink, Status,
 };
 use std::borrow::Cow;
 use std::fs;
@@ -20,11 +20,11 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
-/// The sink of a run directory: writes records to the disk as they are taken, and checkpoints at an interval
-/// of time and when the run is interrupted or ends. It holds no more than a buffer of records in memory.
+/// Sink of a run directory, which writes records and checkpoints.
 ///
-/// A checkpoint that cannot be written leaves the one before as it was and is tried again after the
-/// interval.
+/// Checkpoints are written at an interval of time, on interruption and at the end of the run.
+/// Memory holds at most one buffer of records. If a checkpoint cannot be written, the previous one
+/// stays and writing is repeated after the interval.
 #[derive(Debug)]
 pub struct Checkpoints {
     path: PathBuf,
@@ -39,8 +39,10 @@ pub struct Checkpoints {
 }
 
 impl Checkpoints {
-    /// The sink in `directory` of a plan, with a checkpoint every `every`. The run is interrupted as soon
-    /// as `interrupted` is set; `warn` is told of checkpoints that cannot be written.
+    /// Creates the sink of a plan in `directory`, with a checkpoint interval `every`.
+    ///
+    /// Setting `interrupted` interrupts the run. `warn` is called when a checkpoint cannot be
+    /// written.
     pub fn new(
         directory: &RunDirectory,
         plan: &Plan<'_>,
@@ -63,32 +65,31 @@ impl Checkpoints {
         }
     }
 
-    /// Reads what the directory keeps of the run of this plan, from where
-    /// [`resume_into`](Plan::resume_into) goes on.
+    /// Reads the checkpoint of an interrupted run, for [`resume_into`](Plan::resume_into).
     ///
     /// # Errors
-    /// If there is no checkpoint, or one that is damaged, of another scene or of another program.
-    pub fn resume(&mut self, plan: &Plan<'_>) -> Result<Saved, CheckpointError> {
+    /// The checkpoint or its records are missing or damaged, or belong to another scene or version.
+    pub fn resume(&mut self, plan: &Plan<'_>) -> Result<SavedRun, CheckpointError> {
         let damaged = |damage: Damage| damage.of(&self.path);
         let contents = self.identity.read(&self.path).map_err(damaged)?;
         let (records, form) = (contents.records, &self.identity.form);
-        let none = Recorded::new(plan.assembly());
+        let none = RecordSummary::new(plan.assembly());
         let saved = contents.saved(&none, form).map_err(damaged)?;
         let path = self.path.with_file_name(RECORDS);
         self.log = RecordLog::new(path.clone(), records, form, saved.recorded.last.as_ref());
-        // What cannot be read is found now and not when the run has ended.
+        // Reports unreadable records before the run continues.
         for stored in self.log.read().map_err(|damage| damage.of(&path))? {
             stored.map_err(|damage| damage.of(&path))?;
         }
         Ok(saved)
     }
 
-    /// Checkpoints written so far.
+    /// Number of checkpoints written.
     pub fn written(&self) -> u64 {
         self.written
     }
 
-    /// Whether the last attempt to write a checkpoint failed.
+    /// Returns true if the last attempt to write a checkpoint failed.
     pub fn last_failed(&self) -> bool {
         self.last_failed
     }
@@ -96,7 +97,7 @@ impl Checkpoints {
     fn write(
         &mut self,
         position: &RunPosition,
-        recorded: &Recorded,
+        recorded: &RecordSummary,
         wall_s: f64,
     ) -> Result<(), CheckpointError> {
         let log = self.path.with_file_name(RECORDS);
@@ -127,7 +128,7 @@ impl Sink for Checkpoints {
         self.last.elapsed() >= self.every
     }
 
-    fn checkpoint(&mut self, position: &RunPosition, recorded: &Recorded, wall_s: f64) {
+    fn checkpoint(&mut self, position: &RunPosition, recorded: &RecordSummary, wall_s: f64) {
         let outcome = self.write(position, recorded, wall_s);
         self.last_failed = outcome.is_err();
         match outcome {
@@ -138,7 +139,7 @@ impl Sink for Checkpoints {
     }
 }
 
-/// All records taken so far, those before the run was resumed included.
+/// All records, including those before the run was resumed.
 impl Records for Checkpoints {
     fn count(&self) -> usize {
         self.log.count()
@@ -154,20 +155,20 @@ impl Records for Checkpoints {
 }
 
 impl RunDirectory {
-    /// The directory of a run that is to be resumed; nothing in it is touched.
+    /// Opens the directory of a run to be resumed, without changing it.
     pub fn existing(path: impl Into<PathBuf>) -> Self {
         Self { path: path.into() }
     }
 
-    /// Whether the directory keeps a checkpoint.
+    /// Returns true if the directory contains a checkpoint.
     pub fn has_checkpoint(&self) -> bool {
         self.path.join(CHECKPOINT).exists()
     }
 
-    /// How the run of this plan ended whose results are in the directory, if it has ended.
+    /// Returns the status of a finished run of this plan; `None` without results.
     ///
     /// # Errors
-    /// If they are those of another scene.
+    /// The results belong to another scene.
     pub fn ending(&self, plan: &Plan<'_>) -> Result<Option<Status>, CheckpointError> {
         let read = |name| fs::read_to_string(self.path.join(name)).ok();
         let (Some(summary), Some(scene)) = (read(SUMMARY), read(SCENE)) else {
@@ -184,8 +185,7 @@ impl RunDirectory {
         Ok(Some(summary.status))
     }
 
-    /// Removes the checkpoint of a run whose results have been [written](RunDirectory::write), and so
-    /// are on the disk.
+    /// Removes the checkpoint after the results were [written](RunDirectory::write) to the disk.
     ///
     /// # Errors
     /// A refusal of the file system.

@@ -1,91 +1,91 @@
-//! Why a checkpoint was refused or could not be written.
+//! Errors of checkpoints.
 
 use std::io;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
 
-/// Why a checkpoint was refused or could not be written: which file, and what is wrong with it.
+/// Error of reading or writing a checkpoint file.
 #[derive(Debug, Error)]
 #[error("{}: {damage}", .path.display())]
 pub struct CheckpointError {
     /// The file.
     pub path: PathBuf,
-    /// What is wrong with it.
+    /// Reason.
     pub damage: Damage,
 }
 
-/// What is wrong with a checkpoint.
+/// Reason for refusing a checkpoint.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum Damage {
-    /// There is no such file.
+    /// The file does not exist.
     #[error("missing: there is nothing to resume from; run without --resume to begin")]
     Missing,
-    /// The file system refused.
+    /// The file system refused an operation.
     #[error("{0}")]
     Io(#[from] io::Error),
-    /// Another kind of file.
+    /// The file has another format.
     #[error("not a checkpoint: it does not begin with {expected:?}")]
     OtherFile {
-        /// What it should begin with.
+        /// Expected beginning of the file.
         expected: &'static str,
     },
-    /// A format of another version of this program.
+    /// The version of the format is not supported.
     #[error("format version {found}: this program reads version {known}")]
     Format {
-        /// The version of the file.
+        /// Version of the file.
         found: u32,
-        /// The version that is read.
+        /// Supported version.
         known: u32,
     },
-    /// Too few or too many bytes.
+    /// The file has the wrong length.
     #[error("{found} bytes where its header says {expected}: truncated or appended to")]
     Length {
-        /// Bytes that there are.
+        /// Actual length in bytes.
         found: u64,
-        /// Bytes that there should be.
+        /// Expected length in bytes.
         expected: u64,
     },
-    /// Bytes that are not those that were written.
+    /// A checksum is wrong.
     #[error("damaged: the checksum of {part} is {found:08x} and should be {expected:08x}")]
     Checksum {
-        /// Which part of the file.
+        /// Part of the file.
         part: String,
-        /// The checksum of what is there.
+        /// Actual checksum.
         found: u32,
-        /// The checksum of what was written.
+        /// Expected checksum.
         expected: u32,
     },
-    /// Written by another program.
+    /// The file was written by another version of the program.
     #[error(
         "written by version {found} of this program, which is {here}: bits may differ, so the run \
          can only be resumed with {found}"
     )]
     Program {
-        /// The version that wrote it.
+        /// Version that wrote the file.
         found: String,
-        /// This version.
+        /// Version of this program.
         here: String,
     },
-    /// A run of another scene.
+    /// The file belongs to another scene.
     #[error(
         "belongs to another scene: line {line} of the resolved scene was {kept:?} and is {given:?}"
     )]
     Scene {
-        /// The first line that differs, from 1.
+        /// First line that differs, starting at 1.
         line: usize,
-        /// The line as it was.
+        /// Line of the stored scene.
         kept: String,
-        /// The line as it is.
+        /// Line of the given scene.
         given: String,
     },
-    /// Contents that make no sense although the checksum is right.
-    #[error("makes no sense: {0}")]
+    /// The contents are inconsistent although the checksum is correct.
+    #[error("inconsistent contents: {0}")]
     Contents(String),
 }
 
 impl Damage {
-    /// The same with its file.
+    /// Adds the path of the file.
     pub(super) fn of(self, path: &Path) -> CheckpointError {
         CheckpointError {
             path: path.to_owned(),

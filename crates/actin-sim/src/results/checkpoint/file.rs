@@ -1,11 +1,11 @@
-//! `checkpoint.bin`: its header, whose it is, and how it replaces the one before.
+//! Format of `checkpoint.bin`.
 
 use super::Damage;
 use super::log::{Tally, compare, open};
 use super::stored::{Form, Stored};
 use super::wire::{decode, decode_all, encode};
 use crate::results::difference::{Difference, first_difference};
-use crate::run::{Carried, Recorded, RunPosition, Saved};
+use crate::run::{RecordSummary, RunPosition, RunStatistics, SavedRun};
 use crate::{Plan, Task};
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
@@ -13,45 +13,40 @@ use std::io::Read;
 use std::path::Path;
 
 const MAGIC: &[u8; 8] = b"ACTINCKP";
-/// Version of the format: to be raised with every change of a byte,
-/// those of the records included.
+/// Version of the format; increase it with every change, including changes to the records.
 const FORMAT: u32 = 8;
-/// Bytes of the header: magic, version, length and checksum of the contents, checksum of these.
+/// Length of the header: magic, version, length and checksum of the contents, checksum of the
+/// header.
 const HEADER: usize = 8 + 4 + 8 + 4 + 4;
-/// Version of the program.
 const PROGRAM: &str = env!("CARGO_PKG_VERSION");
 
-/// Whose checkpoint it is.
+/// Scene and record layout of a checkpoint.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Identity {
-    /// The scene as resolved.
     scene: String,
-    /// What its records have in common.
     pub(super) form: Form,
-    /// Whether the scene asks for a motion in time.
+    /// True for motions in time, false for equilibria.
     is_motion: bool,
 }
 
-/// What a checkpoint begins with: other programs may write the rest in another way.
+/// Beginning of the contents. It is decoded first, since the rest depends on the program version.
 #[derive(Serialize, Deserialize)]
 struct Origin<'a> {
     program: &'a str,
     scene: &'a str,
 }
 
-/// What a checkpoint says.
+/// Contents of a checkpoint after the origin.
 #[derive(Debug, Serialize, Deserialize)]
 pub(super) struct Contents<'a> {
     pub(super) wall_s: f64,
     pub(super) records: Tally,
     pub(super) position: Cow<'a, RunPosition>,
-    /// What the run carries from record to record, and the last of them.
-    pub(super) carried: Cow<'a, Carried>,
+    pub(super) carried: Cow<'a, RunStatistics>,
     pub(super) last: Option<Stored<'a>>,
 }
 
 impl Identity {
-    /// That of a plan.
     pub(super) fn of(plan: &Plan<'_>) -> Self {
         let assembly = plan.assembly();
         Self {
@@ -66,7 +61,6 @@ impl Identity {
         }
     }
 
-    /// The bytes of a checkpoint.
     pub(super) fn encode(&self, contents: &Contents<'_>) -> Vec<u8> {
         let origin = Origin {
             program: PROGRAM,
@@ -76,7 +70,6 @@ impl Identity {
         with_header(file)
     }
 
-    /// Reads the checkpoint at `path`.
     pub(super) fn read(&self, path: &Path) -> Result<Contents<'static>, Damage> {
         let body = read_body(path)?;
         let (origin, rest): (Origin<'_>, _) = decode(&body)?;
@@ -92,14 +85,14 @@ impl Identity {
             return Err(Damage::Contents("a run of another task".into()));
         }
         if !contents.position.fits(&self.form.like) {
-            let what = "other numbers of bodies or controls than the scene has";
+            let what = "the numbers of bodies or controls differ from the scene";
             return Err(Damage::Contents(what.into()));
         }
         Ok(contents)
     }
 }
 
-/// Refuses another scene, with the first line that differs.
+/// Refuses another scene and reports the first line that differs.
 pub(super) fn same_scene(kept: &str, given: &str) -> Result<(), Damage> {
     match first_difference(kept, given) {
         None => Ok(()),
@@ -108,30 +101,29 @@ pub(super) fn same_scene(kept: &str, given: &str) -> Result<(), Damage> {
 }
 
 impl Contents<'_> {
-    /// The run that was interrupted, which remembers `none` before its first record.
+    /// Restores the interrupted run; `none` is its state before the first record.
     ///
     /// # Errors
-    /// Contents of a run with other numbers of records, bodies or columns.
-    pub(super) fn saved(self, none: &Recorded, form: &Form) -> Result<Saved, Damage> {
+    /// The numbers of records, bodies or columns differ from those of the run.
+    pub(super) fn saved(self, none: &RecordSummary, form: &Form) -> Result<SavedRun, Damage> {
         let carried = self.carried.into_owned();
         let is_sound = carried.count == self.records.count
             && carried.fits(&none.carried)
             && self.last.is_some() == (carried.count > 0)
             && self.last.as_ref().is_none_or(|last| last.fits(form));
         if !is_sound {
-            let what = "other numbers of records, bodies or columns than the run has";
+            let what = "the numbers of records, bodies or columns differ from the run";
             return Err(Damage::Contents(what.into()));
         }
         let last = self.last.and_then(|last| last.into_record(form));
-        Ok(Saved {
+        Ok(SavedRun {
             position: self.position.into_owned(),
-            recorded: Recorded { carried, last },
+            recorded: RecordSummary { carried, last },
             wall_s: self.wall_s,
         })
     }
 }
 
-/// Fills in the header of a file, for which there is room.
 fn with_header(mut file: Vec<u8>) -> Vec<u8> {
     let (header, body) = file.split_at_mut(HEADER);
     header[..8].copy_from_slice(MAGIC);
@@ -143,8 +135,9 @@ fn with_header(mut file: Vec<u8>) -> Vec<u8> {
     file
 }
 
-/// What is behind the header, which is checked first: nothing is read or allocated for a file that
-/// is no checkpoint, of another format, or of another length than its header says.
+/// Reads the contents after validating the header.
+///
+/// Nothing is allocated for files of another type, version or length.
 fn read_body(path: &Path) -> Result<Vec<u8>, Damage> {
     let mut file = open(path)?;
     let found = file.metadata()?.len();
@@ -180,7 +173,6 @@ fn read_body(path: &Path) -> Result<Vec<u8>, Damage> {
     Ok(body)
 }
 
-/// The little-endian number of four bytes at a place.
 fn word(header: &[u8; HEADER], at: usize) -> u32 {
     u32::from_le_bytes(std::array::from_fn(|k| header[at + k]))
 }

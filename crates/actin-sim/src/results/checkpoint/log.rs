@@ -1,4 +1,4 @@
-//! `records.bin`: records appended one after the other, each with the checksum of all up to it.
+//! Format of `records.bin`: consecutive records, each with the checksum of all records up to it.
 
 use super::Damage;
 use super::stored::{Form, Stored};
@@ -13,45 +13,39 @@ use std::path::{Path, PathBuf};
 const MAGIC: &[u8; 8] = b"ACTINREC";
 /// Bytes before the first record.
 const HEADER: u64 = 8;
-/// Bytes of a checksum.
 const CHECKSUM: usize = 4;
-/// So many bytes of records wait until they are written together.
+/// Buffer size (bytes) at which records are written.
 const BUFFER: usize = 1 << 20;
 
-/// How many records there are, and the checksum of all of them.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub(super) struct Tally {
     pub(super) count: usize,
     pub(super) checksum: u32,
 }
 
-/// The log of the records of a run: a file that is only ever appended to, and a buffer.
+/// Log of the records of a run: an append-only file and a buffer.
 ///
-/// What a disk refuses stays in the buffer, and is tried again when that has doubled and at the next
-/// checkpoint.
+/// Records that cannot be written stay in the buffer. Writing is repeated when the buffer has
+/// doubled and at the next checkpoint.
 #[derive(Debug)]
 pub(super) struct RecordLog {
     path: PathBuf,
     form: Form,
-    /// The last record, where the log has no states.
     last: Option<Record>,
-    /// Bytes of a record with its checksum.
+    /// Bytes of a record and its checksum.
     length: usize,
-    /// Open from the first time that it is written to.
     file: Option<File>,
-    /// What is on the disk.
+    /// Records on the disk.
     written: Tally,
-    /// All records.
     taken: Tally,
-    /// Those that are not in the file, as bytes.
+    /// Encoded records that are not in the file.
     buffer: Vec<u8>,
-    /// How many bytes the buffer is to hold before it is written.
+    /// Buffer size (bytes) that triggers the next write.
     patience: usize,
 }
 
 impl RecordLog {
-    /// The log at `path` of a run with records of this form, of which `tally` is known to be on the disk and
-    /// `last` is the last.
+    /// Creates the log at `path` with `tally` records on the disk, the last of which is `last`.
     pub(super) fn new(path: PathBuf, tally: Tally, form: &Form, last: Option<&Record>) -> Self {
         Self {
             path,
@@ -66,7 +60,7 @@ impl RecordLog {
         }
     }
 
-    /// Adds a record. Where the disk refuses, [`sync`](Self::sync) will tell.
+    /// Adds a record. Write errors are reported by [`sync`](Self::sync).
     pub(super) fn push(&mut self, record: &Record) {
         let start = self.buffer.len();
         let stored = Stored::new(record, self.form.has_states);
@@ -85,7 +79,7 @@ impl RecordLog {
         }
     }
 
-    /// Waits until all records are on the disk, and returns the tally of the first `count` of them.
+    /// Waits until all records are on the disk and returns the tally of the first `count`.
     pub(super) fn sync(&mut self, count: usize) -> io::Result<Tally> {
         if !self.buffer.is_empty() || self.taken.count == 0 {
             self.flush()?;
@@ -93,7 +87,8 @@ impl RecordLog {
         self.tally_of(count)
     }
 
-    /// Writes what is in the buffer and waits until it is on the disk. What a failure leaves behind the known records is cut off again.
+    /// Writes the buffer and waits until it is on the disk. After a failure, partial output is
+    /// removed.
     fn flush(&mut self) -> io::Result<()> {
         let start = match self.written.count {
             0 => 0,
@@ -103,10 +98,10 @@ impl RecordLog {
             Some(file) => file,
             None => create(&self.path, start)?,
         };
-        // A failed sync may drop what was written: the buffer is kept until the disk has it.
+        // A failed sync may lose written data, so the buffer is kept until then.
         let written = append(&mut file, start, &self.buffer).and_then(|()| file.sync_data());
         if let Err(error) = written {
-            // Room for other files on a disk that is full; without it the rest is overwritten next time.
+            // Frees space on a full disk; if this fails, the next write overwrites the rest.
             let _ = file.set_len(start);
             return Err(error);
         }
@@ -117,7 +112,6 @@ impl RecordLog {
         Ok(())
     }
 
-    /// The tally of the first `count` records, which are in the file.
     fn tally_of(&self, count: usize) -> io::Result<Tally> {
         let checksum = match count {
             0 => 0,
@@ -134,7 +128,6 @@ impl RecordLog {
         Ok(Tally { count, checksum })
     }
 
-    /// Where the records that are in the file end.
     fn end(&self) -> u64 {
         HEADER + self.written.count as u64 * self.length as u64
     }
@@ -144,7 +137,6 @@ impl RecordLog {
         records.checked_add(HEADER)
     }
 
-    /// What the log holds from the first record on.
     fn stored(&self) -> Box<dyn Iterator<Item = io::Result<Stored<'static>>> + '_> {
         let refused = |damage: Damage| io::Error::other(damage.of(&self.path));
         match self.read() {
@@ -153,7 +145,6 @@ impl RecordLog {
         }
     }
 
-    /// Reads the records from the first on.
     pub(super) fn read(&self) -> Result<Reading<'_>, Damage> {
         let file: Box<dyn Read> = match self.written.count {
             0 => Box::new(io::empty()),
@@ -168,7 +159,6 @@ impl RecordLog {
         })
     }
 
-    /// The records that are in the file.
     fn read_file(&self) -> Result<impl Read + use<>, Damage> {
         let Some(expected) = self.checked_end() else {
             let count = self.written.count;
@@ -209,13 +199,10 @@ impl Records for RecordLog {
     }
 }
 
-/// Reads the records of a log one by one.
 pub(super) struct Reading<'a> {
     log: &'a RecordLog,
     source: Box<dyn Read + 'a>,
-    /// What was read.
     tally: Tally,
-    /// Of one record.
     bytes: Vec<u8>,
     has_ended: bool,
 }
@@ -224,13 +211,13 @@ impl Reading<'_> {
     fn next_record(&mut self) -> Result<Option<Stored<'static>>, Damage> {
         let Self { log, tally, .. } = self;
         if tally.count == log.taken.count {
-            let part = "all records, which belong to another checkpoint,".into();
+            let part = "all records (possibly of another checkpoint)".into();
             return compare(part, tally.checksum, log.taken.checksum).map(|()| None);
         }
         self.source.read_exact(&mut self.bytes)?;
         let (body, written) = self.bytes.split_at(log.length - CHECKSUM);
         tally.checksum = follow(tally.checksum, body);
-        let written = written.try_into().expect("as many bytes as a checksum has");
+        let written = written.try_into().expect("four bytes of checksum");
         let written = u32::from_le_bytes(written);
         compare(format!("record {}", tally.count), tally.checksum, written)?;
         tally.count += 1;
@@ -251,7 +238,7 @@ impl Iterator for Reading<'_> {
     }
 }
 
-/// Opens a log to write it, and makes it if need be. What is behind `end` goes: no checkpoint counts it.
+/// Opens or creates a log for writing and truncates it to `end` bytes.
 fn create(path: &Path, end: u64) -> io::Result<File> {
     let mut options = OpenOptions::new();
     let file = options
@@ -263,7 +250,7 @@ fn create(path: &Path, end: u64) -> io::Result<File> {
     Ok(file)
 }
 
-/// Writes records behind `start` bytes; a log begins with what it is.
+/// Writes records after `start` bytes, with the magic number if the file is empty.
 fn append(file: &mut File, start: u64, records: &[u8]) -> io::Result<()> {
     file.seek(SeekFrom::Start(start))?;
     if start == 0 {
@@ -272,14 +259,13 @@ fn append(file: &mut File, start: u64, records: &[u8]) -> io::Result<()> {
     file.write_all(records)
 }
 
-/// The checksum of `bytes` behind others of checksum `chain`.
+/// Checksum of `bytes` after data with the checksum `chain`.
 fn follow(chain: u32, bytes: &[u8]) -> u32 {
     let mut hasher = crc32fast::Hasher::new_with_initial(chain);
     hasher.update(bytes);
     hasher.finalize()
 }
 
-/// Refuses a checksum other than the one that was written.
 pub(super) fn compare(part: String, found: u32, expected: u32) -> Result<(), Damage> {
     if found == expected {
         return Ok(());
@@ -291,7 +277,6 @@ pub(super) fn compare(part: String, found: u32, expected: u32) -> Result<(), Dam
     })
 }
 
-/// Opens a file to read it.
 pub(super) fn open(path: &Path) -> Result<File, Damage> {
     File::open(path).map_err(|error| match error.kind() {
         io::ErrorKind::NotFound => Damage::Missing,
@@ -306,7 +291,6 @@ mod tests {
     use crate::{Row, Trajectory};
     use std::fs;
 
-    /// A log of a made-up run, its folder, and the records that go into it.
     fn log_of(has_states: bool) -> (tempfile::TempDir, RecordLog, Vec<Record>) {
         let assembly = fixture::clamped_start();
         let folder = tempfile::tempdir().unwrap();
@@ -326,10 +310,10 @@ mod tests {
         log_of(true)
     }
 
-    /// However many records there are, less than a buffer and a record of them wait in memory; the rest is
-    /// in the file. All come back, first from the file and then from the buffer.
+    /// Memory holds less than a buffer and one record. Reading continues from the file to the
+    /// buffer.
     #[test]
-    fn records_go_to_the_disk_as_they_are_taken() {
+    fn records_are_written_during_the_run() {
         let (_folder, mut log, records) = log();
         let count = 3 * BUFFER.div_ceil(log.length) + 2;
         for i in 0..count {
@@ -347,8 +331,6 @@ mod tests {
         }
     }
 
-    /// The tally of a checkpoint is that of the records which it counts: a log that has no more of them
-    /// has the same.
     #[test]
     fn a_checkpoint_may_count_fewer_records() {
         let (_folder, mut log, records) = log();
@@ -362,7 +344,7 @@ mod tests {
         }
         let mut again = RecordLog::new(log.path.clone(), tallies[2], &log.form, None);
         assert_eq!(Trajectory::read(&again).unwrap().records.len(), 2);
-        // Resumed, the file ends behind them, until there are more.
+        // The first write after resuming truncates the file to these records.
         again.push(&records[2]);
         again.sync(3).unwrap();
         assert_eq!(Trajectory::read(&again).unwrap().records.len(), 3);
@@ -370,9 +352,8 @@ mod tests {
         assert_eq!(length, HEADER + 3 * again.length as u64);
     }
 
-    /// What cannot be written waits, and is read back all the same.
     #[test]
-    fn a_disk_that_refuses_loses_nothing() {
+    fn write_errors_lose_no_records() {
         let (_folder, mut log, records) = log();
         fs::create_dir(&log.path).unwrap();
         for record in &records {
@@ -386,8 +367,7 @@ mod tests {
         assert_eq!(Trajectory::read(&log).unwrap().records.len(), 3);
     }
 
-    /// Without states a record takes the bytes of its numbers, however many bodies there are; all rows come
-    /// back, and of the states that of the last.
+    /// The length of a record does not depend on the number of bodies. Only the last state is kept.
     #[test]
     fn without_states_records_are_rows() {
         let (_folder, mut log, records) = log_of(false);
@@ -395,7 +375,8 @@ mod tests {
             log.push(record);
         }
         log.sync(3).unwrap();
-        // A time with its kind, six numbers, as many energies as terms, two lengths, no state.
+        // Tagged time, six numbers, energies of the terms, two list lengths and a flag without
+        // state.
         let expected = 9 + 6 * 8 + 8 * log.form.terms + 3;
         assert_eq!(log.length, expected + CHECKSUM);
         let rows: Vec<Row> = log.rows().map(Result::unwrap).collect();

@@ -1,19 +1,18 @@
-//! Values as bytes, in the format of `postcard`: floating-point numbers are their bits.
+//! Encoding of values in the `postcard` format, which preserves all bits of numbers.
 
 use super::Damage;
 use serde::{Deserialize, Serialize};
 
-/// Appends a value to `bytes`.
 pub(super) fn encode<T: Serialize>(value: &T, bytes: Vec<u8>) -> Vec<u8> {
     postcard::to_extend(value, bytes).expect("numbers, texts and lists of them can be encoded")
 }
 
-/// Reads a value and returns what is behind it.
+/// Decodes a value and returns it with the remaining bytes.
 pub(super) fn decode<'a, T: Deserialize<'a>>(bytes: &'a [u8]) -> Result<(T, &'a [u8]), Damage> {
     postcard::take_from_bytes(bytes).map_err(|error| Damage::Contents(error.to_string()))
 }
 
-/// Reads a value, behind which nothing may be.
+/// Decodes a value that uses all bytes.
 pub(super) fn decode_all<'a, T: Deserialize<'a>>(bytes: &'a [u8]) -> Result<T, Damage> {
     match decode(bytes)? {
         (value, []) => Ok(value),
@@ -25,9 +24,8 @@ pub(super) fn decode_all<'a, T: Deserialize<'a>>(bytes: &'a [u8]) -> Result<T, D
 mod tests {
     use super::*;
 
-    /// Bits come back, signed zeros and what is no number included.
     #[test]
-    fn numbers_come_back_to_the_bit() {
+    fn numbers_survive_the_round_trip() {
         let numbers = vec![-0.0, f64::NAN, -f64::NAN, 5e-324, 1.0 / 3.0];
         let bytes = encode(&numbers, Vec::new());
         let back: Vec<f64> = decode_all(&bytes).unwrap();
@@ -39,7 +37,7 @@ mod tests {
         assert!(error.to_string().contains("1 bytes too many"), "{error}");
     }
 
-    /// Nothing is allocated for a length that the contents do not have.
+    /// Lengths are checked before memory is allocated.
     #[test]
     fn lengths_beyond_the_contents_are_refused() {
         let bytes = encode(&(1_u64 << 60), Vec::new());

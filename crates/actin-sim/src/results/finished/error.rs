@@ -1,4 +1,4 @@
-//! Why the states of a run cannot be read.
+//! Errors of reading finished runs.
 
 use super::super::RunDirectoryError;
 use super::super::names::{SCENE, STATES};
@@ -7,17 +7,17 @@ use std::io;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
 
-/// Why the states of a run cannot be read.
+/// Error of reading a finished run.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum FinishedRunError {
-    /// There is no scene.
+    /// The directory has no scene.
     #[error("{} is not a run directory: it has no {SCENE}", .path.display())]
     NotARun {
         /// The directory.
         path: PathBuf,
     },
-    /// There are no states.
+    /// The directory has no states.
     #[error(
         "{} has no {STATES}: its run has not ended, or its scene has `output: (states: false)`",
         .path.display()
@@ -26,12 +26,12 @@ pub enum FinishedRunError {
         /// The directory.
         path: PathBuf,
     },
-    /// The scene is refused.
+    /// The scene is invalid.
     #[error("{}:{error}", .path.display())]
     Scene {
         /// The file.
         path: PathBuf,
-        /// What is wrong with it.
+        /// Error of the scene.
         error: SceneError,
     },
     /// The scene cannot be built.
@@ -39,10 +39,10 @@ pub enum FinishedRunError {
     Problem {
         /// The file.
         path: PathBuf,
-        /// Why not.
+        /// Reason.
         problem: SceneProblem,
     },
-    /// States that cannot be read.
+    /// The states cannot be read.
     #[error(transparent)]
     States(#[from] RunDirectoryError),
     /// The file system refused.
@@ -50,13 +50,12 @@ pub enum FinishedRunError {
     Io {
         /// The file.
         path: PathBuf,
-        /// What the file system says.
+        /// Error of the file system.
         source: io::Error,
     },
 }
 
 impl FinishedRunError {
-    /// The error of an operation on `path`.
     pub(super) fn io(path: &Path) -> impl FnOnce(io::Error) -> Self {
         move |source| Self::Io {
             path: path.to_owned(),

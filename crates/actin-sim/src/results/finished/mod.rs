@@ -1,4 +1,4 @@
-//! A finished run, read back: its scene, built again, and its [stored states](super::StoredStates).
+//! Finished runs: the rebuilt scene and its [stored states](super::StoredStates).
 
 mod error;
 
@@ -11,7 +11,7 @@ use std::fs;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-/// A run directory, opened to read its states.
+/// A finished run, opened to read its states.
 #[derive(Debug)]
 pub struct FinishedRun {
     path: PathBuf,
@@ -20,11 +20,11 @@ pub struct FinishedRun {
 }
 
 impl FinishedRun {
-    /// Opens a run directory and builds its scene again.
+    /// Opens a run directory and rebuilds its scene.
     ///
     /// # Errors
-    /// A directory without a scene or without states, a scene that this version refuses, states that are
-    /// damaged or of other bodies than the scene has.
+    /// The directory has no scene or no states, this version refuses the scene, or the states are
+    /// damaged or do not belong to the scene.
     pub fn open(path: impl AsRef<Path>) -> Result<Self, FinishedRunError> {
         let path = path.as_ref().to_owned();
         let scene = read_scene(&path)?;
@@ -43,12 +43,12 @@ impl FinishedRun {
         }
     }
 
-    /// Where it is.
+    /// Path of the directory.
     pub fn path(&self) -> &Path {
         &self.path
     }
 
-    /// Its scene, built.
+    /// Assembly of the scene.
     pub fn assembly(&self) -> &Assembly {
         &self.assembly
     }
@@ -58,15 +58,15 @@ impl FinishedRun {
         self.at().len()
     }
 
-    /// When each record was taken, or where on the path.
+    /// Time or path position of each record.
     pub fn at(&self) -> &[At] {
         self.stored.at()
     }
 
-    /// The states of all records in order.
+    /// Reads the states of all records in order.
     ///
     /// # Errors
-    /// An array that is missing or does not fit.
+    /// An array is missing or has the wrong shape.
     pub fn states(&self) -> Result<StateIter<'_, Range<usize>>, RunDirectoryError> {
         self.stored.states(&self.assembly, 0..self.count())
     }

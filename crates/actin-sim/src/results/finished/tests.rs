@@ -1,11 +1,10 @@
-//! Runs that are read back.
+//! Tests of reading finished runs.
 
 use super::*;
 use crate::Plan;
 use crate::results::names::STATES;
 use actin_mechanics::State;
 
-/// A bend that the path drives, with an anchor that it shifts; `task` and `stage` as the test has them.
 fn scene(task: &str, stage: &str) -> String {
     format!(
         "Scene(
@@ -25,7 +24,6 @@ const MOTION: (&str, &str) = (
 );
 const STATICS: (&str, &str) = ("Equilibrium(largest_step: 0.5)", "");
 
-/// Runs a scene into a folder and returns the states that it had.
 fn run(folder: &Path, (task, stage): (&str, &str)) -> Vec<(f64, State)> {
     let scene = Scene::from_ron(&scene(task, stage)).unwrap();
     let assembly = Assembly::build(&scene).unwrap();
@@ -37,9 +35,9 @@ fn run(folder: &Path, (task, stage): (&str, &str)) -> Vec<(f64, State)> {
     records.map(|r| (r.at.value(), r.state)).collect()
 }
 
-/// Every bit of every state comes back, with the anchor where the path had it.
+/// States are compared bit for bit, including the driven anchor.
 #[test]
-fn states_come_back_as_they_were() {
+fn states_survive_the_round_trip() {
     for task in [MOTION, STATICS] {
         let folder = tempfile::tempdir().unwrap();
         let was = run(folder.path(), task);
@@ -54,7 +52,7 @@ fn states_come_back_as_they_were() {
             assert_eq!(state.points.velocity, was.points.velocity);
             assert_eq!(state.frames.orientation, was.frames.orientation);
             assert_eq!(state.frames.angular_momentum, was.frames.angular_momentum);
-            // Placed again from the time of the record; what was booked stands in `energies.csv`.
+            // The energy balance is not part of `states.npz`.
             let ledger = finished.assembly().ledger;
             let is_booked = |id| ledger.is_some_and(|all| id == all.work || id == all.heat);
             for id in was.controls.ids().filter(|id| !is_booked(*id)) {
@@ -63,13 +61,13 @@ fn states_come_back_as_they_were() {
             }
             anchors.push(finished.assembly().linkers[0].end_position(&state).y);
         }
-        // As far as it is shifted.
+        // Prescribed displacement of the anchor.
         let moved = anchors[anchors.len() - 1] - anchors[0];
         assert!((moved - 1.0).abs() < 1e-12, "{moved}");
     }
 }
 
-/// What the error of a directory says that `spoil` has damaged.
+/// Error of opening a run directory damaged by `spoil`.
 fn refusal(spoil: impl FnOnce(&Path)) -> String {
     let folder = tempfile::tempdir().unwrap();
     run(folder.path(), STATICS);
@@ -78,7 +76,7 @@ fn refusal(spoil: impl FnOnce(&Path)) -> String {
 }
 
 #[test]
-fn what_is_no_finished_run_is_refused() {
+fn damaged_or_unfinished_runs_are_refused() {
     let remove =
         |name: &'static str| move |folder: &Path| fs::remove_file(folder.join(name)).unwrap();
     assert!(refusal(remove(SCENE)).ends_with("is not a run directory: it has no scene.ron"));
@@ -89,7 +87,7 @@ fn what_is_no_finished_run_is_refused() {
     );
     let message = refusal(|folder| fs::write(folder.join(STATES), "no archive").unwrap());
     assert!(message.contains("states.npz is damaged"), "{message}");
-    // Scenes that were edited: as many bodies elsewhere, and others.
+    // Edited scenes with equal and different numbers of bodies.
     let edited = |from: &'static str, to: &'static str| {
         refusal(move |folder| {
             let text = fs::read_to_string(folder.join(SCENE)).unwrap();
@@ -99,7 +97,7 @@ fn what_is_no_finished_run_is_refused() {
     };
     let message = edited("to_nm: 42.0", "to_nm: 62.0");
     assert!(
-        message.contains("s_nm is not that of scene.ron"),
+        message.contains("s_nm does not match scene.ron"),
         "{message}"
     );
     let message = refusal(|folder| {
@@ -116,9 +114,8 @@ fn what_is_no_finished_run_is_refused() {
     assert!(message.contains("scene.ron:2:"), "{message}");
 }
 
-/// A file that ends early is an error of the record that it lacks.
 #[test]
-fn a_file_that_is_cut_off_is_an_error() {
+fn truncated_file_is_an_error() {
     let message = refusal(|folder| {
         let bytes = fs::read(folder.join(STATES)).unwrap();
         fs::write(folder.join(STATES), &bytes[..bytes.len() / 2]).unwrap();

@@ -1,4 +1,4 @@
-//! Arrays of `states.npz`, each read from its own place in the file, number by number.
+//! Sequential reading of the arrays of `states.npz`.
 
 use super::super::RunDirectoryError;
 use npyz::{NpyFile, Order};
@@ -7,7 +7,6 @@ use std::io::{BufReader, Read, Seek, SeekFrom, Take};
 use std::path::{Path, PathBuf};
 use zip::{CompressionMethod, ZipArchive};
 
-/// The archive.
 #[derive(Debug)]
 pub(super) struct Arrays {
     path: PathBuf,
@@ -15,10 +14,6 @@ pub(super) struct Arrays {
 }
 
 impl Arrays {
-    /// Opens the archive.
-    ///
-    /// # Errors
-    /// A file that cannot be read, or is no archive.
     pub(super) fn open(path: PathBuf) -> Result<Self, RunDirectoryError> {
         let file = File::open(&path).map_err(RunDirectoryError::io(&path))?;
         let archive = ZipArchive::new(BufReader::new(file))
@@ -27,15 +22,15 @@ impl Arrays {
         Ok(Self { path, archive })
     }
 
-    /// Where the archive is.
     pub(super) fn path(&self) -> &Path {
         &self.path
     }
 
-    /// Opens an array of `records` (any number where it is not given) times `shape` numbers.
+    /// Opens an array with values of `shape` for each record. `records` is the expected number, if
+    /// known.
     ///
     /// # Errors
-    /// An array that is not there, is compressed, is of another type or has another shape.
+    /// The array is missing or compressed, or has another type or shape.
     pub(super) fn open_array(
         &self,
         name: &str,
@@ -57,7 +52,9 @@ impl Arrays {
         if found != expected || array.order() != Order::C {
             return Err(RunDirectoryError::OtherBodies {
                 path: self.path.clone(),
-                reason: format!("{name} has the shape {found:?} where the scene has {expected:?}"),
+                reason: format!(
+                    "{name} has the shape {found:?}, but the scene requires {expected:?}"
+                ),
             });
         }
         let values = array
@@ -70,7 +67,6 @@ impl Arrays {
         })
     }
 
-    /// Where the bytes of an array begin, and how many they are.
     fn place(&self, name: &str) -> Result<(u64, u64), RunDirectoryError> {
         let refused = |reason: String| damaged(&self.path, format!("{name}: {reason}"));
         let mut archive = self.archive.borrow_mut();
@@ -78,7 +74,9 @@ impl Arrays {
         let entry = entry.map_err(|error| refused(error.to_string()))?;
         match (entry.compression(), entry.data_start()) {
             (CompressionMethod::Stored, Some(start)) => Ok((start, entry.size())),
-            _ => Err(refused("is compressed, which no run does".to_owned())),
+            _ => Err(refused(
+                "is compressed, but arrays of a run are not".to_owned(),
+            )),
         }
     }
 }
@@ -90,7 +88,6 @@ fn damaged(path: &Path, reason: String) -> RunDirectoryError {
     }
 }
 
-/// One array, as far as it has been read.
 pub(super) struct Array {
     path: PathBuf,
     name: String,
@@ -98,10 +95,6 @@ pub(super) struct Array {
 }
 
 impl Array {
-    /// The next number.
-    ///
-    /// # Errors
-    /// The end of the array, a number that is not finite, or a file that cannot be read.
     pub(super) fn next(&mut self) -> Result<f64, RunDirectoryError> {
         match self.values.next() {
             Some(Ok(value)) if value.is_finite() => Ok(value),
@@ -111,23 +104,14 @@ impl Array {
         }
     }
 
-    /// Goes over so many numbers.
-    ///
-    /// # Errors
-    /// As [`next`](Self::next).
     pub(super) fn skip(&mut self, count: usize) -> Result<(), RunDirectoryError> {
         (0..count).try_for_each(|_| self.next().map(drop))
     }
 
-    /// What is wrong with the array.
     pub(super) fn damaged(&self, reason: &str) -> RunDirectoryError {
         damaged(&self.path, format!("{}: {reason}", self.name))
     }
 
-    /// All numbers that are left.
-    ///
-    /// # Errors
-    /// A file that cannot be read.
     pub(super) fn read_all(mut self) -> Result<Vec<f64>, RunDirectoryError> {
         (0..self.values.len()).map(|_| self.next()).collect()
     }

@@ -1,23 +1,18 @@
-//! What happened to linkers, read back from `events.csv`.
+//! Linker events read from `events.csv`.
 
 use super::super::RunDirectoryError;
-use crate::{Assembly, Happening};
+use crate::{Assembly, LinkerEventKind};
 use actin_mechanics::State;
 use std::path::Path;
 
-/// What happened to a linker.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Event {
     time_ns: f64,
     linker: usize,
-    what: Happening,
+    what: LinkerEventKind,
     at_nm: f64,
 }
 
-/// The events of a run, in order.
-///
-/// # Errors
-/// A file that cannot be read, or a row that is no event.
 pub(super) fn read(path: &Path) -> Result<Vec<Event>, RunDirectoryError> {
     let refused = |reason: String| RunDirectoryError::Damaged {
         path: path.to_owned(),
@@ -27,7 +22,8 @@ pub(super) fn read(path: &Path) -> Result<Vec<Event>, RunDirectoryError> {
     let mut all = Vec::new();
     for (row, record) in reader.records().enumerate() {
         let record = record.map_err(|error| refused(error.to_string()))?;
-        let event = event(&record).ok_or_else(|| refused(format!("row {} is no event", row + 1)));
+        let event =
+            event(&record).ok_or_else(|| refused(format!("row {} is not an event", row + 1)));
         all.push(event?);
     }
     Ok(all)
@@ -35,10 +31,10 @@ pub(super) fn read(path: &Path) -> Result<Vec<Event>, RunDirectoryError> {
 
 fn event(record: &csv::StringRecord) -> Option<Event> {
     let all = [
-        Happening::Broke,
-        Happening::Formed,
-        Happening::Stepped,
-        Happening::Left,
+        LinkerEventKind::Broke,
+        LinkerEventKind::Formed,
+        LinkerEventKind::Stepped,
+        LinkerEventKind::Left,
     ];
     let what = record.get(2)?;
     Some(Event {
@@ -49,7 +45,7 @@ fn event(record: &csv::StringRecord) -> Option<Event> {
     })
 }
 
-/// Puts linkers where they are after all that happened up to a time (ns).
+/// Applies all linker events up to `time_ns` to `state`.
 pub(super) fn replay(events: &[Event], assembly: &Assembly, state: &mut State, time_ns: f64) {
     let Some(kinetics) = &assembly.kinetics else {
         return;
@@ -59,8 +55,8 @@ pub(super) fn replay(events: &[Event], assembly: &Assembly, state: &mut State, t
             continue;
         };
         match event.what {
-            Happening::Broke | Happening::Left => linker.release(state),
-            Happening::Formed | Happening::Stepped => {
+            LinkerEventKind::Broke | LinkerEventKind::Left => linker.release(state),
+            LinkerEventKind::Formed | LinkerEventKind::Stepped => {
                 let distance = |place: &usize| (places_nm[*place] - event.at_nm).abs();
                 let nearest =
                     (0..places_nm.len()).min_by(|a, b| distance(a).total_cmp(&distance(b)));

@@ -1,7 +1,7 @@
-//! States read back from `states.npz` of a run directory, one by one, so that memory does not grow with their number.
+//! Stored states, read from `states.npz` one at a time.
 //!
-//! Places, velocities and orientations are in the file and come back to the bit; what a scene moves from outside
-//! (factors of loads, anchors, held ends) follows from its path and time, and which linkers hold from `events.csv`.
+//! Positions, velocities and orientations are exact. Controls (load factors, anchors, driven ends)
+//! follow from the scene and the time or path, bound linkers from `events.csv`.
 
 mod arrays;
 mod events;
@@ -13,12 +13,12 @@ use actin_mechanics::{Quaternions, State, Vectors};
 use arrays::{Array, Arrays};
 use events::Event;
 
-/// How far from 1 the length of a quaternion may be that was written as a unit.
+/// Maximum deviation of the norm of a quaternion from 1.
 const UNIT: f64 = 1e-6;
-/// Arc lengths closer than this (nm) are the same: far above round-off, far below any change of a scene.
+/// Tolerance for equal arc lengths (nm): far above round-off, far below changes of a scene.
 const SAME_PLACE_NM: f64 = 1e-6;
 
-/// The states of a run, in its directory; they are read when asked for.
+/// States of a run, read on demand.
 #[derive(Debug)]
 pub struct StoredStates {
     arrays: Arrays,
@@ -27,10 +27,10 @@ pub struct StoredStates {
 }
 
 impl RunDirectory {
-    /// The states that `states.npz` holds of the run of this assembly; none where there is no such file.
+    /// Opens the states of a run of `assembly`; `None` without `states.npz`.
     ///
     /// # Errors
-    /// A file that cannot be read, that is damaged, or that holds other bodies.
+    /// The file is unreadable or damaged, or contains other bodies.
     pub fn stored_states(
         &self,
         assembly: &Assembly,
@@ -52,7 +52,7 @@ impl RunDirectory {
             at: at.into_iter().map(at_of).collect(),
             events,
         };
-        // Opened once, so that what does not fit is refused now and not half way.
+        // Reports arrays of the wrong shape before reading starts.
         stored.states(assembly, [])?;
         stored.ensure_own_scene(assembly)?;
         Ok(Some(stored))
@@ -60,15 +60,15 @@ impl RunDirectory {
 }
 
 impl StoredStates {
-    /// When, or where on the path, each state was recorded.
+    /// Time or path position of each record.
     pub fn at(&self) -> &[At] {
         &self.at
     }
 
-    /// The states of records `which`, which ascend, of the run of this assembly.
+    /// Reads the states of records `which`, in ascending order.
     ///
     /// # Errors
-    /// An array that is missing or does not fit.
+    /// An array is missing or has the wrong shape.
     pub fn states<'a, I>(
         &'a self,
         assembly: &'a Assembly,
@@ -94,7 +94,7 @@ impl StoredStates {
         })
     }
 
-    /// Refuses states of other bodies than those of the scene, if they are as many.
+    /// Refuses states whose arc lengths differ from the scene.
     fn ensure_own_scene(&self, assembly: &Assembly) -> Result<(), RunDirectoryError> {
         let places = self.arrays.open_array("s_nm", None, &[])?.read_all()?;
         let own = assembly.points.iter().map(|point| point.s_nm);
@@ -102,20 +102,19 @@ impl StoredStates {
         if places.into_iter().zip(own).any(differ) {
             return Err(RunDirectoryError::OtherBodies {
                 path: self.arrays.path().to_owned(),
-                reason: format!("s_nm is not that of {SCENE}, which was changed"),
+                reason: format!("s_nm does not match {SCENE}, which was changed after the run"),
             });
         }
         Ok(())
     }
 }
 
-/// States of a run, one after the other.
+/// Iterator over states of a run.
 #[derive(Debug)]
 pub struct StateIter<'a, I> {
     stored: &'a StoredStates,
     assembly: &'a Assembly,
     which: I,
-    /// The record that the arrays stand at.
     next: usize,
     position: Array,
     velocity: Array,
@@ -124,7 +123,7 @@ pub struct StateIter<'a, I> {
 }
 
 impl<I> StateIter<'_, I> {
-    /// The state of a record that is not yet behind, as built but for what is read.
+    /// Reads the state of a record at or after the current position.
     fn read(&mut self, record: usize) -> Result<State, RunDirectoryError> {
         let mut state = self.assembly.rest.clone();
         self.skip(record - self.next)?;
@@ -143,7 +142,6 @@ impl<I> StateIter<'_, I> {
         Ok(state)
     }
 
-    /// Goes over so many records.
     fn skip(&mut self, records: usize) -> Result<(), RunDirectoryError> {
         let (points, frames) = (self.assembly.points.len(), self.assembly.frames.len());
         self.position.skip(3 * points * records)?;
@@ -157,7 +155,7 @@ impl<I: Iterator<Item = usize>> Iterator for StateIter<'_, I> {
     type Item = Result<State, RunDirectoryError>;
 
     fn next(&mut self) -> Option<Self::Item> {
-        // Behind an error there is nothing that could be trusted.
+        // Ends the iteration after an error.
         let records = self.stored.at.len();
         let ahead = self.next..records;
         let record = self.which.next().filter(|record| ahead.contains(record))?;
@@ -181,7 +179,7 @@ fn turn(turns: &mut Quaternions, array: &mut Array) -> Result<(), RunDirectoryEr
         let [w, x, y, z] = [array.next()?, array.next()?, array.next()?, array.next()?];
         let length = (w * w + x * x + y * y + z * z).sqrt();
         if (length - 1.0).abs() > UNIT {
-            return Err(array.damaged(&format!("a quaternion has the length {length} and not 1")));
+            return Err(array.damaged(&format!("a quaternion has the norm {length} instead of 1")));
         }
         (turns.w[i], turns.x[i], turns.y[i], turns.z[i]) = (w, x, y, z);
     }

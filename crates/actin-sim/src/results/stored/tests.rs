@@ -1,11 +1,10 @@
-//! States that are written and come back.
+//! Tests of reading stored states.
 
 use super::*;
 use crate::results::fixture;
 use crate::results::states::States;
 use std::fs::File;
 
-/// A directory with the states of a made-up run, and that run.
 fn written(assembly: &Assembly) -> (tempfile::TempDir, crate::Trajectory) {
     let folder = tempfile::tempdir().unwrap();
     let trajectory = fixture::trajectory(assembly);
@@ -14,10 +13,9 @@ fn written(assembly: &Assembly) -> (tempfile::TempDir, crate::Trajectory) {
     (folder, trajectory)
 }
 
-/// What was written comes back to the last bit, also of records between which others are left out. Without the
-/// file there are none.
+/// States are compared bit for bit, also for a subset of the records.
 #[test]
-fn states_come_back() {
+fn states_survive_the_round_trip() {
     let assembly = fixture::clamped_start();
     let (folder, trajectory) = written(&assembly);
     let directory = RunDirectory::existing(folder.path());

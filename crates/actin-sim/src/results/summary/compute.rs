@@ -6,12 +6,13 @@ use super::{
     WorkSummary,
 };
 use crate::observe::{Averages, View};
-use crate::{Assembly, At, Booked, End, Outcome, Record, Status, Task, shape};
+use crate::{Assembly, At, End, EnergyExchange, Outcome, Record, Status, Task, shape};
 use actin_equilibrium::Certificate;
 use actin_mechanics::{Loads, Residual};
 
 impl Summary {
-    /// The summary of an assembly as built, before anything is computed: which keys that of its run has.
+    /// Creates the summary of an assembly as built, with the keys of a run's summary but without
+    /// results.
     pub fn as_built(assembly: &Assembly) -> Self {
         let at = match assembly.scene.task {
             Task::Dynamics(_) | Task::Brownian(_) => At::Time(0.0),
@@ -24,7 +25,7 @@ impl Summary {
             kinetic_pn_nm: 0.0,
             residual_force_pn: 0.0,
             residual_torque_pn_nm: 0.0,
-            booked: Booked::default(),
+            booked: EnergyExchange::default(),
             observed: Vec::new(),
         };
         let energies = (record.energies_pn_nm.as_slice(), 0.0);
@@ -34,12 +35,12 @@ impl Summary {
         Self::new(assembly, &record, &Outcome::new(Status::Interrupted, 0.0))
     }
 
-    /// The summary of a run of `assembly` that ended with the record `last`.
+    /// Creates the summary of a run of `assembly` that ended with the record `last`.
     pub fn new(assembly: &Assembly, last: &Record, outcome: &Outcome) -> Self {
         Self::without_derived_warnings(assembly, last, outcome).with_derived_warnings()
     }
 
-    /// The same without the warnings that follow from its other keys.
+    /// Creates the summary without the warnings that follow from other keys.
     #[expect(clippy::too_many_lines, reason = "a line for each key")]
     pub(in crate::results) fn without_derived_warnings(
         assembly: &Assembly,
@@ -92,7 +93,6 @@ impl Summary {
     }
 }
 
-/// The kinetic energy of a record alone.
 fn kinetic_of(record: &Record) -> LateKinetic {
     let mut kinetic = LateKinetic::of(1);
     kinetic.add(record.kinetic_pn_nm);
@@ -112,7 +112,8 @@ impl WorkSummary {
 
 impl FilamentSummary {
     pub(super) fn all(assembly: &Assembly, last: &Record) -> Vec<Self> {
-        // The system's own loads belong to its present state, which need not be the record's.
+        // Computed for the state of the record, which may differ from the current state of the
+        // system.
         let mut loads = Loads::zeros(&last.state);
         for interaction in assembly.system.interactions() {
             interaction.add_loads(&last.state, &mut loads);
@@ -124,7 +125,7 @@ impl FilamentSummary {
             .collect()
     }
 
-    /// That of a filament under the loads of the last record, which stands at a `parameter` of the
+    /// Creates the summary of a filament from the loads of the last record, at `parameter` of the
     /// path.
     fn new(
         assembly: &Assembly,
@@ -177,7 +178,7 @@ impl From<Residual> for ResidualSummary {
     }
 }
 
-/// The end whose tip is reported: the last, unless it is clamped and the first is free.
+/// End whose tip is reported: the last one, unless it is clamped and the first one is free.
 fn reported_tip(assembly: &Assembly, filament: usize) -> End {
     let is_clamped = |end| assembly.clamp_at(filament, end).is_some();
     if is_clamped(End::End) && !is_clamped(End::Start) {
@@ -200,11 +201,10 @@ mod tests {
         (last, summary)
     }
 
-    /// Internal forces cancel, so what the clamp does, plus the end force, is the sum of forces
-    /// on the free points. Loads taken from the system, which is still at rest, would give no
-    /// reaction at all; a missing sign would give the opposite one.
+    /// Internal forces cancel, so the reaction plus the end force equals the sum of forces on the
+    /// free points.
     #[test]
-    fn reaction_balances_the_end_force_and_what_is_not_at_rest() {
+    fn reaction_balances_the_end_force_and_the_residual_forces() {
         for assembly in [fixture::clamped_start(), fixture::clamped_end()] {
             let (last, summary) = last_summary(&assembly);
             let loads = fixture::loads(&assembly, &last.state);
@@ -218,18 +218,18 @@ mod tests {
             let reaction = reactions.start.or(reactions.end).unwrap();
             let end_force = Vector3::new(2.0, -1.0, 0.5);
             let rest = Vector3::from(reaction.force_pn) + end_force - free;
-            // Round-off of a sum of forces that cancel.
+            // Round-off of forces that cancel.
             assert!(rest.norm() <= 1e-12 * scale, "{rest} of {scale}");
             assert!(Vector3::from(reaction.force_pn).norm() > 1e-3);
         }
     }
 
-    /// The same for torques about the clamped point, couples included.
+    /// Torques balance about the clamped point, including couples.
     #[test]
     fn reaction_torque_is_about_the_clamped_point() {
         let assembly = fixture::clamped_start();
         let (mut last, summary) = last_summary(&assembly);
-        // The random state moves held bodies too, and the clamped point with them.
+        // The random state also moves the clamped bodies.
         let about = assembly.clamps[0].point_nm(&last.state);
         for i in 0..last.state.points.len() {
             last.state.points.position.add(i, -about);
@@ -249,11 +249,11 @@ mod tests {
         let scale: f64 = (0..last.state.points.len())
             .map(|i| last.state.points.position.get(i).norm() * loads.force.get(i).norm())
             .sum();
-        // Round-off of moments that cancel.
+        // Round-off of torques that cancel.
         assert!(rest.norm() <= 1e-12 * scale, "{rest} of {scale}");
     }
 
-    /// A force on a free start moves the start: reporting the held end would report zero.
+    /// The displacement of the clamped end would be zero.
     #[test]
     fn the_tip_is_the_free_end() {
         let at_end = fixture::clamped_start();
@@ -271,7 +271,7 @@ mod tests {
         assert!(summary.end_reactions.start.is_none() && summary.end_reactions.end.is_some());
     }
 
-    /// Extension and force belong together, and the force points from the site to the anchor.
+    /// The force is extension times stiffness and points from the site to the anchor.
     #[test]
     fn linkers_are_reported() {
         let assembly = fixture::linked();
@@ -285,14 +285,13 @@ mod tests {
         assert!((Vector3::from(linker.force_pn) - expected).norm() < 1e-13);
         let energy = summary.energy_pn_nm.terms["linker"];
         assert!((energy - 1.5 * linker.extension_nm.powi(2)).abs() < 1e-13);
-        // The random state has moved the site, and the rod's elastic energy with it.
+        // The random state has moved the site and strained the rod.
         let at_rest = assembly.linkers[0].site().position(&assembly.rest);
         assert!((Vector3::from(linker.site_nm) - at_rest).norm() > 1e-3);
         assert!(last.energies_pn_nm.len() == assembly.terms.len());
     }
 
-    /// Each filament has its own tip, counts and energy; what linkers store belongs to none, and the
-    /// keys of the whole are those of filament 0.
+    /// Energies of linkers belong to no filament. Top-level keys describe filament 0.
     #[test]
     fn filaments_are_reported_one_by_one() {
         let assembly = fixture::pair();
@@ -312,7 +311,7 @@ mod tests {
         assert_eq!(all.dofs, one.dofs + other.dofs);
         let energy = &summary.energy_pn_nm;
         let parts = first.elastic_pn_nm + second.elastic_pn_nm + energy.terms["linker"];
-        // A few additions in another order.
+        // Round-off of sums in different order.
         assert!((parts / energy.elastic - 1.0).abs() < 1e-13);
         let linker = &summary.linkers[0];
         assert_eq!((linker.filament, linker.to_filament), (1, Some(0)));
@@ -329,7 +328,7 @@ mod tests {
         assert_eq!(energy.total.to_bits(), total.to_bits());
         let terms: f64 = energy.terms.values().sum();
         let scale: f64 = energy.terms.values().map(|e| e.abs()).sum();
-        // A few additions in another order: some units of round-off.
+        // Round-off of sums in different order.
         assert!((terms - potential).abs() <= 1e-14 * scale);
         assert!((energy.elastic + energy.terms["load"] - potential).abs() <= 1e-14 * scale);
     }

@@ -8,15 +8,15 @@ use std::collections::BTreeMap;
 /// Energies of one record (pN nm).
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct EnergySummary {
-    /// Potential and kinetic energy.
+    /// Sum of potential and kinetic energy.
     pub total: f64,
     /// Energy of all interactions.
     pub potential: f64,
-    /// Energy of all interactions but loads.
+    /// Energy of all interactions except loads.
     pub elastic: f64,
     /// Kinetic energy of the free bodies.
     pub kinetic: f64,
-    /// Energy of each kind of interaction, under its name.
+    /// Energy of each kind of interaction, by name.
     #[serde(flatten)]
     pub terms: BTreeMap<String, f64>,
 }
@@ -40,7 +40,6 @@ impl EnergySummary {
         }
     }
 
-    /// Its numbers under their keys.
     pub(super) fn scalars(&self) -> impl Iterator<Item = (String, f64)> {
         let sums = [
             ("total", self.total),

@@ -6,28 +6,28 @@ use actin_coupling::Linker;
 use actin_mechanics::State;
 use serde::{Deserialize, Serialize};
 
-/// What a linker does.
+/// Position, force and extension of a linker.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct LinkerSummary {
-    /// Index of the filament that has the site.
+    /// Index of the filament with the site.
     #[serde(default)]
     pub filament: usize,
-    /// Index of the filament that has the site at the other end; none if that is an anchor.
+    /// Index of the filament with the second site; `None` for an anchor.
     #[serde(default)]
     pub to_filament: Option<usize>,
     /// Position of the site (nm, lab frame).
     pub site_nm: [f64; 3],
-    /// Position of the other end: of the anchor, or of the other site (nm, lab frame).
+    /// Position of the anchor or of the second site (nm, lab frame).
     pub anchor_nm: [f64; 3],
-    /// Force on the filament at the site (pN, lab frame); the opposite acts at the other end.
+    /// Force on the filament at the site (pN, lab frame); the opposite force acts at the other end.
     pub force_pn: [f64; 3],
-    /// Whether it holds; none of one that always does. One that does not has no force.
+    /// True if bound; an unbound linker has no force. `None` for permanent linkers.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub bound: Option<bool>,
-    /// Arc length of the site (nm); none of one that always holds where it was put.
+    /// Arc length of the site (nm); `None` for permanent linkers.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub at_nm: Option<f64>,
-    /// Length beyond the rest length (nm); negative where the linker is shorter.
+    /// Length minus rest length (nm).
     pub extension_nm: f64,
 }
 

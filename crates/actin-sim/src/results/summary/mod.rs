@@ -1,5 +1,6 @@
-//! `summary.json`: the last record of a run in numbers. Each observable has a file of its own, with its keys,
-//! how it is found and its numbers, which must be finite.
+//! `summary.json`: numbers of the last record of a run.
+//!
+//! Each group of keys has a file with its type, computation and check for finite values.
 
 mod compute;
 mod energy;
@@ -24,113 +25,116 @@ use super::{FollowingSummary, RunDirectoryError, finite::ensure_finite};
 use crate::notes::Note;
 use crate::trade::{Chosen, ModelError, Scatter};
 use crate::{
-    Assembly, BeyondRange, BeyondUse, Counts, ObservableSummary, Outcome, SaddlePush, Status,
-    UnstableTwist,
+    Assembly, Counts, LawExtrapolation, ModelLimitExceeded, ObservableSummary, Outcome, SaddlePush,
+    Status, UnstableTwist,
 };
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
-/// What a run ended with. Field names are the keys of `summary.json`.
+/// Final results of a run. Field names are the keys of `summary.json`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Summary {
     /// Title of the scene.
     pub scene: String,
-    /// How the run ended.
+    /// Status of the run.
     pub status: Status,
-    /// Why the run failed, in words; no key unless it did.
+    /// Reason of a failure; key only after a failure.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub failure: String,
-    /// Number of bodies and elements.
+    /// Numbers of bodies and elements.
     #[serde(with = "CountKeys")]
     pub counts: Counts,
-    /// Simulated time (ns); none of an equilibrium.
+    /// Simulated time (ns); `None` for equilibria.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub time_ns: Option<f64>,
-    /// Where on the path of equilibria the last record stands, in stages; none of a motion in time.
+    /// Position of the last record on the path of equilibria, in stages; `None` for motions in
+    /// time.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub path: Option<f64>,
-    /// Time step (ns); none of an equilibrium.
+    /// Time step (ns); `None` for equilibria.
     pub time_step_ns: Option<f64>,
-    /// Largest frequency found at the start (rad/ns); none of an equilibrium.
+    /// Largest frequency at the start (rad/ns); `None` for equilibria.
     pub largest_frequency_rad_per_ns: Option<f64>,
-    /// Whether the equilibrium is stable, or that in which a motion has come to rest; none of a motion
-    /// that has not, that is in a heat bath, or whose loads have no potential.
+    /// Stability of the equilibrium, or of the rest state of a motion. `None` for motions that are
+    /// not at rest or have a heat bath, and for loads without a potential.
     pub stability: Option<StabilitySummary>,
-    /// How many saddles were left, on the whole path or in the whole motion.
+    /// Number of saddles left during the run.
     #[serde(default)]
     pub saddles_left: usize,
-    /// How a motion was pushed off saddles; no key where it was not.
+    /// Perturbations of a motion at saddles; key only if there are any.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub pushes: Vec<SaddlePush>,
-    /// How often a path of equilibria went on from where a sudden jump led.
+    /// Number of sudden jumps of a path of equilibria.
     #[serde(default)]
     pub jumps: usize,
-    /// Energies.
+    /// Energies (pN nm).
     pub energy_pn_nm: EnergySummary,
-    /// Position of the tip of filament 0 (nm, lab frame): that of its end, or that of its start if
-    /// the end is clamped and the start is free.
+    /// Position of the tip of filament 0 (nm, lab frame): its end, or its start if the end is
+    /// clamped and the start is free.
     pub tip_nm: [f64; 3],
-    /// Displacement of that tip from the state as built (nm, lab frame).
+    /// Displacement of that tip from the initial state (nm, lab frame).
     pub tip_displacement_nm: [f64; 3],
-    /// What holds the clamped ends of filament 0.
+    /// Reactions at the clamped ends of filament 0.
     pub end_reactions: EndReactions,
-    /// The same of every filament, in the order of the scene.
+    /// Results of each filament, in the order of the scene.
     #[serde(default)]
     pub filaments: Vec<FilamentSummary>,
-    /// Texts of all notes on the scene and the run, warnings included.
+    /// Texts of all notes and warnings.
     #[serde(default)]
     pub notes: Vec<String>,
     /// Warnings with their codes.
     #[serde(default)]
     pub warnings: Vec<Note>,
-    /// Where rods left the data behind their laws, the worst of all records in a run's summary (of
-    /// the last record in one computed alone); there the numbers rest on the laws' continuation.
-    /// In a heat bath one entry for each quantity, with how often it occurs.
-    pub beyond_range: Vec<BeyondRange>,
-    /// Where the model does not apply, the worst of all records; a run with any has failed.
+    /// Largest excess over the data range of each rod law; results there are extrapolated.
+    ///
+    /// The worst of all records for a run, otherwise of the last record. In a heat bath, one entry
+    /// per quantity with its frequency.
+    pub beyond_range: Vec<LawExtrapolation>,
+    /// Violations of the limits of the model, the worst of all records; the run has then failed.
     #[serde(default)]
-    pub beyond_use: Vec<BeyondUse>,
-    /// Where the force along a rod makes its twist unstable, the worst of all records in a run's
-    /// summary (of the last record in one computed alone); never in a heat bath.
+    pub beyond_use: Vec<ModelLimitExceeded>,
+    /// Compression at which the twist of a rod becomes unstable; empty in a heat bath.
+    ///
+    /// The worst of all records for a run, otherwise of the last record.
     #[serde(default)]
     pub unstable_twist: Vec<UnstableTwist>,
-    /// What the linkers do, in the order of the scene.
+    /// Linkers, in the order of the scene.
     #[serde(default)]
     pub linkers: Vec<LinkerSummary>,
-    /// What the scene observes, by the columns of `observables.csv`: the last record, and in a heat bath means;
-    /// no key where nothing is observed.
+    /// Observables by column of `observables.csv`: values of the last record and, in a heat bath,
+    /// means. Key only with observables.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub observables: BTreeMap<String, ObservableSummary>,
-    /// Distance of the two surfaces nearest to each other (nm), of filaments that repel or of walls;
-    /// negative where one is in the other. No key unless two are within a quarter of a radius.
+    /// Smallest distance between surfaces of repelling filaments or walls (nm); negative if they
+    /// overlap. Key only below a quarter of a radius.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub smallest_gap_nm: Option<f64>,
-    /// Twist, writhe, link and distance from the axis of filament 0.
+    /// Twist, writhe, link and largest distance from the axis of filament 0.
     pub shape: ShapeSummary,
-    /// How far from an equilibrium the last record is.
+    /// Residual forces of the last record.
     pub residual: ResidualSummary,
-    /// What rounding leaves of the residual (estimate), where an equilibrium ends there since its
-    /// tolerance is below that; none where the tolerance is met.
+    /// Estimated round-off of the residual if the tolerance of the equilibrium is smaller; `None`
+    /// if the tolerance was reached.
     #[serde(default)]
     pub residual_floor: Option<ResidualSummary>,
-    /// Thermal motion; none unless the scene has a temperature.
+    /// Thermal motion; `None` without a temperature.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub thermal: Option<ThermalSummary>,
-    /// What switches of cells did; no key where sections do not follow the motion. Means are then those of stretches, in
-    /// their directories.
+    /// Switches of cells; key only for adaptive sections. Means are then in the directories of the
+    /// stretches.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub following: Option<FollowingSummary>,
-    /// Lowest eigenvalue of the stiffness; none unless an equilibrium was asked for it.
+    /// Lowest eigenvalue of the stiffness; `None` unless requested for an equilibrium.
     pub lowest_stiffness_eigenvalue: Option<f64>,
-    /// Stable states, where an equilibrium was asked for others; no key where it was not.
+    /// Other stable states; key only if requested for an equilibrium.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub states: Option<StatesSummary>,
-    /// What is known of the error of the resolution.
+    /// Estimated errors of the resolution.
     #[serde(flatten)]
     pub accuracy: AccuracySummary,
-    /// What the run cost in work.
+    /// Computational work.
     pub work: WorkSummary,
-    /// What the run cost in time (s).
+    /// Elapsed time (s).
     pub wall_s: f64,
     /// Version of this crate.
     pub version: String,
@@ -138,36 +142,36 @@ pub struct Summary {
     pub seed: u64,
 }
 
-/// What one filament of a scene ended with.
+/// Final results of one filament.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct FilamentSummary {
-    /// Number of its bodies and elements.
+    /// Numbers of bodies and elements.
     #[serde(with = "CountKeys")]
     pub counts: Counts,
-    /// Position of its tip (nm, lab frame).
+    /// Position of the tip (nm, lab frame).
     pub tip_nm: [f64; 3],
-    /// Displacement of its tip from the state as built (nm, lab frame).
+    /// Displacement of the tip from the initial state (nm, lab frame).
     pub tip_displacement_nm: [f64; 3],
-    /// What holds its clamped ends.
+    /// Reactions at the clamped ends.
     pub end_reactions: EndReactions,
-    /// Elastic energy of its sections and junctions (pN nm); linkers belong to no filament.
+    /// Elastic energy of sections and junctions, without linkers (pN nm).
     pub elastic_pn_nm: f64,
-    /// Its shape.
+    /// Shape.
     pub shape: ShapeSummary,
-    /// Seed of its bond anchors.
+    /// Seed of the bond anchors.
     pub seed: u64,
 }
 
-/// What the eigenvalues of the stiffness say of an equilibrium.
+/// Stability of an equilibrium from the eigenvalues of its stiffness.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct StabilitySummary {
-    /// Whether all eigenvalues are positive beyond doubt: a minimum of the energy.
+    /// True if all eigenvalues exceed the resolution: a minimum of the energy.
     pub stable: bool,
-    /// Number of negative eigenvalues: more than none is a saddle.
+    /// Number of negative eigenvalues; positive at a saddle.
     pub negative_eigenvalues: usize,
-    /// Number of neutral modes: eigenvalues that cannot be distinguished from zero.
+    /// Number of neutral modes, with eigenvalues below the resolution.
     pub unresolved_eigenvalues: usize,
-    /// Below this magnitude eigenvalues cannot be told from zero (pN/nm).
+    /// Smallest magnitude of resolved eigenvalues (pN/nm).
     pub resolution_pn_per_nm: f64,
 }
 
@@ -180,18 +184,17 @@ pub struct ResidualSummary {
     pub torque_pn_nm: f64,
 }
 
-/// Work that a run took.
+/// Computational work of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct WorkSummary {
     /// Time steps.
     pub steps: u64,
     /// Evaluations of all loads.
     pub force_evaluations: u64,
-    /// Newton iterations; none in dynamics.
+    /// Newton iterations; zero in dynamics.
     pub newton_iterations: u64,
 }
 
-/// The keys of [`Counts`] in the file.
 #[derive(Serialize, Deserialize)]
 #[serde(remote = "Counts")]
 struct CountKeys {
@@ -202,16 +205,16 @@ struct CountKeys {
     dofs: usize,
 }
 
-/// What is known of the error of the resolution.
+/// Estimated errors of the resolution.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct AccuracySummary {
-    /// The error of the number that an equilibrium was asked for it; no key where it was not.
+    /// Error of the requested quantity of an equilibrium; key only if requested.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub model_error: Option<ModelError>,
-    /// How filaments with drawn bonds scatter in that number; no key where it is not known.
+    /// Scatter of that quantity among filaments with sampled bonds; key only if known.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub drawn_bonds: Option<Scatter>,
-    /// How sections were chosen; no key where the scene has them, also after it was resumed.
+    /// Choice of automatic sections; key only if sections were chosen in this run.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub resolution: Option<Chosen>,
 }
@@ -227,10 +230,7 @@ impl AccuracySummary {
 }
 
 impl Summary {
-    /// Refuses numbers that are not finite: JSON has no way to write them.
-    ///
-    /// # Errors
-    /// The first such number, with its key.
+    /// Refuses values that are not finite, which JSON cannot represent.
     pub(super) fn ensure_finite(&self, file: &str) -> Result<(), RunDirectoryError> {
         for (key, value) in self.scalars() {
             ensure_finite(file, &key, &[], [value])?;
@@ -299,7 +299,6 @@ impl FilamentSummary {
     }
 }
 
-/// Vectors of a filament under their keys.
 fn vectors(
     tip_nm: [f64; 3],
     tip_displacement_nm: [f64; 3],

@@ -1,8 +1,7 @@
-//! Pushes off saddles in `summary.json`.
+//! Perturbations at saddles in `summary.json`.
 
 use crate::SaddlePush;
 
-/// Numbers of a push under their keys.
 pub(super) fn scalars((i, push): (usize, &SaddlePush)) -> [(String, f64); 5] {
     [
         ("time_ns", push.time_ns),

@@ -1,21 +1,21 @@
-//! What holds clamped ends, in `summary.json`.
+//! Reactions at clamped ends in `summary.json`.
 
 use crate::{Assembly, End, Reaction};
 use actin_mechanics::{Loads, State, Vector3};
 use serde::{Deserialize, Serialize};
 
-/// Reactions at the clamped ends; a free end has none and no key.
+/// Reactions at the clamped ends; free ends have no key.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct EndReactions {
-    /// At the start.
+    /// Reaction at the start.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub start: Option<EndReaction>,
-    /// At the end.
+    /// Reaction at the end.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub end: Option<EndReaction>,
 }
 
-/// What a clamp does to the filament.
+/// Reaction force and torque of a clamp on the filament.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct EndReaction {
     /// Force on the filament (pN, lab frame).
@@ -36,7 +36,6 @@ impl EndReactions {
         }
     }
 
-    /// Its vectors under their keys.
     pub(super) fn vectors(&self) -> Vec<(&'static str, [f64; 3])> {
         let mut vectors = Vec::new();
         if let Some(start) = self.start {

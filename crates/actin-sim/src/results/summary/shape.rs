@@ -1,22 +1,22 @@
-//! Twist, writhe, link and distance from the axis, in `summary.json`.
+//! Twist, writhe, link and distance from the axis in `summary.json`.
 
 use crate::Assembly;
 use crate::shape::{self, Ribbon};
 use actin_mechanics::State;
 use serde::{Deserialize, Serialize};
 
-/// The shape of the filament, which goes on straight beyond both ends.
+/// Shape of a filament, extended straight beyond both ends.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ShapeSummary {
     /// Twist from end to end (turns); over-twist is positive.
     pub twist_turns: f64,
-    /// Writhe of the centre line; none of filaments whose points times those of all filaments are more
-    /// than 1e8.
+    /// Writhe of the centre line; `None` if its points times the points of all filaments exceed
+    /// 1e8.
     pub writhe: Option<f64>,
-    /// Turn of the end against the start (turns), which is twist plus writhe; none unless both ends
-    /// are clamped and parallel.
+    /// Rotation of the end relative to the start (turns), equal to twist plus writhe. `None` unless
+    /// both ends are clamped and parallel.
     pub link_turns: Option<f64>,
-    /// Largest distance of the centre line from the axis as built (nm).
+    /// Largest distance of the centre line from the initial axis (nm).
     pub largest_distance_nm: f64,
 }
 

@@ -1,37 +1,37 @@
-//! The stable states of a scene, in `summary.json`.
+//! Stable states in `summary.json`.
 
 use super::FilamentSummary;
 use crate::{Assembly, Outcome, StableState};
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
-/// Energy (pN nm) by which equal states may differ.
+/// Energy difference that counts as zero (pN nm).
 const ROUNDING: f64 = 1e-3;
 
-/// Stable states that were looked for, that of least energy first.
+/// Stable states of a search, sorted by energy.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct StatesSummary {
-    /// The states; the result of the run is one of them.
+    /// States, including the result of the run.
     pub found: Vec<StateSummary>,
-    /// Starts that led to no stable state, or to one that lost a turn or left the model's use on the way.
+    /// Number of starts without a valid stable state. Lost turns and violations of model limits
+    /// count too.
     pub lost: usize,
 }
 
-/// One of several stable states.
+/// Stable state of a search.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct StateSummary {
-    /// Potential energy less that of the result (pN nm).
+    /// Potential energy relative to the result of the run (pN nm).
     pub above_result_pn_nm: f64,
-    /// How many starts led to it.
+    /// Number of starts that led to this state.
     pub starts: usize,
-    /// Whether it is the result of the run.
+    /// True for the result of the run.
     pub is_result: bool,
-    /// Its filaments, in the order of the scene.
+    /// Filaments, in the order of the scene.
     pub filaments: Vec<FilamentSummary>,
 }
 
 impl StatesSummary {
-    /// Those of an outcome; none where none were looked for.
     pub(super) fn of(assembly: &Assembly, outcome: &Outcome) -> Option<Self> {
         let states = outcome.equilibrium.as_ref()?.states.as_ref()?;
         let one = |state: &StableState| StateSummary {
@@ -46,7 +46,7 @@ impl StatesSummary {
         })
     }
 
-    /// How far the result is above the state of least energy (pN nm).
+    /// Energy of the result above the lowest state (pN nm).
     pub fn result_above_lowest_pn_nm(&self) -> f64 {
         self.found
             .first()
@@ -60,7 +60,7 @@ impl fmt::Display for StatesSummary {
         let starts = lost + self.found.iter().map(|state| state.starts).sum::<usize>();
         write!(
             f,
-            "{found} stable state(s) from {starts} random starts, of which {lost} led nowhere; of those found the result is "
+            "{found} stable state(s) from {starts} random starts ({lost} failed); the result is "
         )?;
         match self.result_above_lowest_pn_nm() {
             above if above > ROUNDING => write!(f, "{above:.4} pN nm above the lowest"),

@@ -1,4 +1,4 @@
-//! The keys and the text of `summary.json`.
+//! Tests of the keys and the text of `summary.json`.
 
 use super::*;
 use crate::results::fixture;
@@ -70,7 +70,6 @@ const KEYS: &[&str] = &[
     "/jumps",
 ];
 
-/// The keys that other programs rely on, nested ones included.
 #[test]
 fn keys_are_the_fixed_ones() {
     let json = serde_json::to_value(summary()).unwrap();
@@ -81,19 +80,18 @@ fn keys_are_the_fixed_ones() {
     assert_eq!(json["lowest_stiffness_eigenvalue"], Value::Null);
     assert_eq!(json["version"], env!("CARGO_PKG_VERSION"));
     assert!(json["end_reactions"].get("end").is_none());
-    // Beyond 2^53: a seed that went through a float would come back as another.
+    // Larger than 2^53, so conversion to `f64` would change the seed.
     assert_eq!(json["seed"], u64::MAX);
 }
 
 #[test]
-fn a_met_stop_rule_is_converged() {
+fn satisfied_stop_rule_means_converged() {
     let json = serde_json::to_value(crate::Status::Converged).unwrap();
     assert_eq!(json, "converged");
 }
 
-/// The text holds enough digits for every bit: a parser that rounds correctly, as `str::parse`
-/// does, finds the number that was written. (`serde_json` itself rounds to within one unit
-/// unless it is built with `float_roundtrip`.)
+/// The text round-trips with `str::parse`. `serde_json` without `float_roundtrip` rounds to within
+/// one unit.
 #[test]
 fn the_text_is_exact_and_reads_back() {
     let summary = summary();
@@ -119,7 +117,7 @@ fn the_text_is_exact_and_reads_back() {
 }
 
 #[test]
-fn a_number_that_json_cannot_hold_is_refused_with_its_key() {
+fn values_that_are_not_finite_are_refused_with_their_key() {
     let mut summary = summary();
     summary.tip_displacement_nm[1] = f64::NAN;
     let error = summary.ensure_finite("summary.json").unwrap_err();

@@ -1,25 +1,29 @@
-//! What a summary says of thermal motion.
+//! Thermal motion in `summary.json`.
 
 use crate::Assembly;
 use crate::scene::{BOLTZMANN_PN_NM_PER_K, Task, Thermal};
 use serde::{Deserialize, Serialize};
 
-/// The temperature that was asked for and the one that was met.
+/// Prescribed and measured temperature.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ThermalSummary {
     /// Temperature of the bath (K).
     pub temperature_k: f64,
     /// Seed of the noise.
     pub seed: u64,
-    /// Temperature of the motion (K): `2 K / (n k_B)` with the kinetic energy `K` of the `n`
-    /// degrees of freedom, the mean over the second half of a run's records (that of the last
-    /// record in a summary computed alone). Of one record it scatters by `sqrt(2/n)`. None of overdamped motion.
+    /// Temperature of the motion (K); `None` for overdamped motion.
+    ///
+    /// ```text
+    /// T = 2 K / (n k_B)
+    /// ```
+    ///
+    /// `K` is the kinetic energy of the `n` degrees of freedom, averaged over the second half of
+    /// the records, or that of the last record if only that is available. The standard deviation of
+    /// one record is `T sqrt(2/n)`.
     pub kinetic_temperature_k: Option<f64>,
 }
 
 impl ThermalSummary {
-    /// That of records whose late half has this kinetic energy, if the scene of `assembly` has a
-    /// temperature.
     pub(in crate::results) fn new(assembly: &Assembly, late: &LateKinetic) -> Option<Self> {
         let Thermal {
             temperature_k,
@@ -36,18 +40,15 @@ impl ThermalSummary {
     }
 }
 
-/// The kinetic energy of the second half of some records, which are shown one by one.
+/// Sum of the kinetic energy over the second half of the records.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::results) struct LateKinetic {
-    /// Records that do not count yet.
     early: usize,
-    /// Records that did.
     records: usize,
     sum_pn_nm: f64,
 }
 
 impl LateKinetic {
-    /// That of so many records.
     pub(in crate::results) fn of(count: usize) -> Self {
         Self {
             early: count / 2,
@@ -56,7 +57,6 @@ impl LateKinetic {
         }
     }
 
-    /// Adds the kinetic energy (pN nm) of the next record.
     pub(in crate::results) fn add(&mut self, kinetic_pn_nm: f64) {
         match self.early {
             0 => {
@@ -74,8 +74,7 @@ mod tests {
     use crate::Scene;
     use crate::results::fixture;
 
-    /// Three records with 5, 1 and 3 pN nm: the later two count, which is 2 for each of the
-    /// degrees of freedom. A scene without a temperature has none to report.
+    /// The second half of 5, 1 and 3 pN nm has a mean of 2 pN nm.
     #[test]
     fn the_temperature_is_that_of_the_second_half() {
         let cold = fixture::clamped_start();

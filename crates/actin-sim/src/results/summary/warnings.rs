@@ -3,7 +3,6 @@
 use super::{Status, Summary};
 use crate::notes::{Note, codes};
 
-/// Codes of these warnings.
 const DERIVED: [&str; 6] = [
     codes::LAW_RANGE,
     codes::UNSTABLE_TWIST,
@@ -14,7 +13,7 @@ const DERIVED: [&str; 6] = [
 ];
 
 impl Summary {
-    /// All notes, each with its code if it is a warning.
+    /// Returns all notes, with codes for warnings.
     pub fn coded_notes(&self) -> Vec<Note> {
         let coded = |text: &String| {
             let warning = self
@@ -26,13 +25,11 @@ impl Summary {
         self.notes.iter().map(coded).collect()
     }
 
-    /// Adds a note, and to the warnings if it is one.
     pub(in crate::results) fn add_note(&mut self, note: Note) {
         self.notes.push(note.message.clone());
         self.warnings.extend(note.code.is_some().then_some(note));
     }
 
-    /// Adds the warnings that follow from the other keys, in place of earlier ones.
     #[must_use]
     pub(in crate::results) fn with_derived_warnings(mut self) -> Self {
         let is_derived = |note: &Note| note.code.as_ref().is_some_and(|c| DERIVED.contains(&&**c));
@@ -52,7 +49,7 @@ impl Summary {
         if let Some(floor) = &self.residual_floor {
             let (force, torque) = (floor.force_pn, floor.torque_pn_nm);
             let text = format!(
-                "the tolerance is below round-off, which leaves some {force:.1e} pN, {torque:.1e} pN nm of the residual"
+                "the tolerance is below round-off; the residual is limited to about {force:.1e} pN, {torque:.1e} pN nm"
             );
             add(codes::RESIDUAL_FLOOR, text);
         }
@@ -62,7 +59,7 @@ impl Summary {
         for unstable in &self.unstable_twist {
             add(codes::UNSTABLE_TWIST, unstable.to_string());
         }
-        // A run that has failed says why.
+        // The failure of a run already names exceeded limits and saddles.
         if self.status != Status::Failed {
             for beyond in &self.beyond_use {
                 add(codes::MODEL_LIMIT, beyond.to_string());
@@ -73,8 +70,8 @@ impl Summary {
                 .map_or(0, |s| s.negative_eigenvalues);
             if negative > 0 {
                 let text = format!(
-                    "the equilibrium is a saddle with {negative} negative eigenvalue(s): a disturbance leads away from it; \
-                     `leave_saddles` in the task leads to a stable state"
+                    "the equilibrium is a saddle with {negative} negative eigenvalue(s) and unstable; \
+                     set `leave_saddles` in the task to reach a stable state"
                 );
                 add(codes::SADDLE, text);
             }
@@ -82,8 +79,8 @@ impl Summary {
         if self.states.is_none() && self.saddles_left + self.jumps > 0 {
             let (saddles, jumps) = (self.saddles_left, self.jumps);
             let text = format!(
-                "{saddles} saddle(s) were left and {jumps} sudden jump(s) made on the way: there are other stable states, \
-                 and this one may not be connected to the start; `states: 24` of the task looks for others"
+                "{saddles} saddle(s) were left and {jumps} sudden jump(s) made along the path: other stable states exist, \
+                 and this one may not be connected to the start; set `states: 24` in the task to search for them"
             );
             add(codes::OTHER_STATES, text);
         }

@@ -1,9 +1,9 @@
-//! Records as pictures: rods as lines, monomers as vertices, each point with its frame.
+//! Records as VTK pictures: rods as lines, monomers as vertices, with a frame at each point.
 //!
-//! In `ParaView`, a glyph "3D Glyphs" of a sphere of radius 1 with orientation mode Quaternion,
-//! orientation array `orientation` and scale array `semi_axes_nm` (by vector components) draws
-//! the monomers as the ellipsoids that they are, and a tube the rods: [`MACRO`] does both. The field array `kind_names` tells what the codes of `kind`
-//! stand for.
+//! In `ParaView`, "3D Glyphs" of a sphere of radius 1 show monomers as ellipsoids, with orientation
+//! mode Quaternion, orientation array `orientation` and scale array `semi_axes_nm` (by vector
+//! components). Tubes show rods. [`MACRO`] sets up both. The field array `kind_names` contains the
+//! names of the codes of `kind`.
 
 mod poly_data;
 mod xml;
@@ -14,22 +14,19 @@ use actin_mechanics::{State, UnitQuaternion, Vector3};
 use poly_data::{Array, PolyData, Values};
 use std::io::{self, Write};
 
-/// The Python script that shows a run in `ParaView`.
+/// Python script that shows a run in `ParaView`.
 pub(super) const MACRO: &str = include_str!("open_in_paraview.py");
 
-/// What does not change between the pictures of one run.
 #[derive(Debug)]
 pub(super) struct Drawing<'a> {
     assembly: &'a Assembly,
-    /// For each point the index of its section among those of all filaments, if it has one.
+    /// Section index of each point, counted over all filaments.
     section: Vec<Option<usize>>,
-    /// For each point the frame that is drawn at it: a monomer's own, a node's neighbouring
-    /// segment.
+    /// Frame shown at each point: that of the monomer, or of a segment next to the node.
     frame: Vec<Option<usize>>,
 }
 
 impl<'a> Drawing<'a> {
-    /// Prepares the pictures of a run.
     pub(super) fn new(assembly: &'a Assembly) -> Self {
         let mut section = vec![None; assembly.points.len()];
         for (index, span) in assembly.sections.iter().enumerate() {
@@ -44,7 +41,6 @@ impl<'a> Drawing<'a> {
         }
     }
 
-    /// The picture of one state.
     pub(super) fn picture(&self, time_ns: f64, state: &State) -> Picture {
         let turns: Vec<UnitQuaternion> = self
             .frame
@@ -85,7 +81,7 @@ impl<'a> Drawing<'a> {
         ]
     }
 
-    /// Index of the section of each point within its filament; -1 where there is none.
+    /// Section index of each point within its filament; -1 without a section.
     fn sections(&self) -> Vec<i64> {
         let within = |section: usize| {
             let filament = self.assembly.filament_of_section(section);
@@ -95,7 +91,6 @@ impl<'a> Drawing<'a> {
         self.section.iter().map(index).collect()
     }
 
-    /// Index of the filament of each point.
     fn filaments(&self) -> Vec<i64> {
         let spans = self.assembly.filaments.iter().enumerate();
         spans
@@ -103,7 +98,7 @@ impl<'a> Drawing<'a> {
             .collect()
     }
 
-    /// Semi-axes along d1, d2 and d3; zero for nodes.
+    /// Semi-axes along d1, d2 and d3 (nm); zero for nodes.
     fn semi_axes_nm(&self) -> Vec<f64> {
         let assembly = self.assembly;
         let spans = assembly.filaments.iter().enumerate();
@@ -130,15 +125,11 @@ impl<'a> Drawing<'a> {
     }
 }
 
-/// One picture, ready to be written.
 #[derive(Debug)]
 pub(super) struct Picture(PolyData);
 
 impl Picture {
     /// Refuses coordinates and data that are not finite.
-    ///
-    /// # Errors
-    /// The first such number, with point and component.
     pub(super) fn ensure_finite(&self, file: &str) -> Result<(), RunDirectoryError> {
         let PolyData {
             time,
@@ -159,15 +150,12 @@ impl Picture {
     }
 
     /// Writes the picture as a `.vtp` file.
-    ///
-    /// # Errors
-    /// Those of `out`.
     pub(super) fn write(&self, out: &mut impl Write) -> io::Result<()> {
         self.0.write(out)
     }
 }
 
-/// Orientation as a quaternion (w, x, y, z; body to lab) and as the body axes in the lab frame.
+/// Orientations as quaternions (w, x, y, z; body to lab) and as body axes in the lab frame.
 fn frame_arrays(turns: &[UnitQuaternion]) -> [Array; 4] {
     let quaternions = turns.iter().flat_map(|q| [q.w, q.i, q.j, q.k]).collect();
     let axis = |e: Vector3| Values::Float64(flat(turns.iter().map(move |q| q * e)));
@@ -191,11 +179,7 @@ fn flat(vectors: impl Iterator<Item = Vector3>) -> Vec<f64> {
     vectors.flat_map(|v| [v.x, v.y, v.z]).collect()
 }
 
-/// Writes the collection file that gives each picture its time; `pictures` are times (ns) and paths
-/// relative to the collection.
-///
-/// # Errors
-/// Those of `out` and of the pictures.
+/// Writes the collection file from the times (ns) and relative paths of `pictures`.
 pub(super) fn write_collection(
     title: &str,
     pictures: impl Iterator<Item = io::Result<(f64, String)>>,

@@ -1,11 +1,11 @@
 """Shows a run in ParaView: monomers as ellipsoids, rods as tubes, all records in time.
 
     cd runs/cantilever
-    paraview --script=open_in_paraview.py       opens it
+    paraview --script=open_in_paraview.py       opens the run
     pvpython open_in_paraview.py a.png          writes a picture of the last record
 
-It reads the run.pvd beside it or, where ParaView does not tell a script its place, of the folder in which
-ParaView was started.
+The script reads run.pvd from its own folder. If ParaView does not set `__file__`, it reads run.pvd from the
+working directory.
 """
 
 import os
@@ -17,18 +17,18 @@ ROD_RADIUS_NM = 3.5
 
 
 def collection():
-    """Path of the run.pvd that is shown."""
+    """Returns the path of run.pvd."""
     here = globals().get("__file__")
     folders = [os.path.dirname(os.path.abspath(here))] if here else []
     for folder in folders + [os.getcwd()]:
         path = os.path.join(folder, "run.pvd")
         if os.path.exists(path):
             return path
-    raise RuntimeError("there is no run.pvd beside this script nor in the folder in which ParaView was started")
+    raise RuntimeError("run.pvd not found next to this script or in the working directory: start ParaView in the run directory")
 
 
 def monomers(run, view):
-    """Points as ellipsoids; those of rods have no semi-axes, and so none."""
+    """Shows monomers as ellipsoids; nodes of rods have zero semi-axes and are invisible."""
     shown = simple.Show(run, view, "GeometryRepresentation")
     shown.SetRepresentationType("3D Glyphs")
     shown.GlyphType = "Sphere"
@@ -48,7 +48,7 @@ def monomers(run, view):
 
 
 def rods(run, view):
-    """Lines as tubes."""
+    """Shows rods as tubes."""
     tube = simple.Tube(registrationName="rods", Input=run)
     tube.Radius = ROD_RADIUS_NM
     tube.NumberofSides = 24
@@ -58,7 +58,7 @@ def rods(run, view):
 
 
 def look(view):
-    """Lab z to the right and x upwards, a little from above; the last record."""
+    """Shows the last record with lab z to the right and x upwards, seen slightly from above."""
     scene = simple.GetAnimationScene()
     scene.UpdateAnimationUsingDataTimeSteps()
     scene.GoToLast()

@@ -1,22 +1,17 @@
-//! A writer of VTK `PolyData` files: points with data, vertices and lines. It knows no actin.
+//! Writer of VTK `PolyData` files: points with data, vertices and lines.
 //!
-//! Data stand in the file as base64 of their little-endian bytes, after their length in bytes as
-//! a 64-bit number. So every bit arrives, whatever decimal parser the reader has; the file is half
-//! as long as with decimals, and one `DataArray` stays one line.
+//! Data are stored as base64 of their length (64 bits) and their little-endian bytes. This
+//! preserves all bits and takes half the space of decimal numbers.
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use std::io::{self, Write};
 use std::ops::Range;
 
-/// Numbers of one array.
 #[derive(Debug)]
 pub(super) enum Values {
-    /// Floating-point numbers.
     Float64(Vec<f64>),
-    /// Signed integers.
     Int64(Vec<i64>),
-    /// Small codes.
     UInt8(Vec<u8>),
 }
 
@@ -38,39 +33,30 @@ impl Values {
     }
 }
 
-/// A named array, `components` numbers for each point.
+/// Named array with `components` values per point.
 #[derive(Debug)]
 pub(super) struct Array {
-    /// Name.
     pub name: &'static str,
-    /// Numbers per point.
     pub components: usize,
-    /// All numbers, point after point.
+    /// Values, with the component index fastest.
     pub values: Values,
 }
 
-/// A picture: points with data, some of them drawn as vertices, some joined to lines.
 #[derive(Debug)]
 pub(super) struct PolyData {
-    /// Time that the picture shows, in the unit of the caller.
+    /// Time in the unit of the caller.
     pub time: f64,
-    /// Texts of the whole picture: a name, and what stands under it.
     pub texts: Vec<(&'static str, Vec<&'static str>)>,
-    /// Coordinates, three for each point.
     pub points: Vec<f64>,
-    /// Data of the points.
     pub arrays: Vec<Array>,
-    /// Points that are vertices.
+    /// Indices of points that are vertices.
     pub vertices: Vec<usize>,
-    /// Runs of points that are lines.
+    /// Ranges of points that form lines.
     pub lines: Vec<Range<usize>>,
 }
 
 impl PolyData {
     /// Writes the file (VTK XML format 1.0).
-    ///
-    /// # Errors
-    /// Those of `out`.
     pub(super) fn write(&self, out: &mut impl Write) -> io::Result<()> {
         writeln!(out, r#"<?xml version="1.0" encoding="UTF-8"?>"#)?;
         writeln!(
@@ -91,8 +77,8 @@ impl PolyData {
         writeln!(out, "</Piece>\n</PolyData>\n</VTKFile>")
     }
 
-    /// The time under the name by which VTK's readers find it, and texts as numbers of their characters, each
-    /// text with a zero behind it.
+    /// Writes the time under the name used by VTK readers, and texts as zero-terminated character
+    /// codes.
     fn write_field(&self, out: &mut impl Write) -> io::Result<()> {
         writeln!(out, "<FieldData>")?;
         writeln!(
@@ -119,7 +105,7 @@ impl PolyData {
             write_array(out, array.name, array.components, &array.values)?;
         }
         writeln!(out, "</PointData>\n<Points>")?;
-        // Cloning keeps one code path for all arrays; the copy is small beside the encoded text.
+        // The copy is small compared with the encoded text.
         write_array(out, "Points", 3, &Values::Float64(self.points.clone()))?;
         writeln!(out, "</Points>")
     }
@@ -131,7 +117,7 @@ impl PolyData {
     }
 }
 
-/// Cells of one kind: the points of all cells, then where each cell ends among them.
+/// Writes cells of one kind: the points of all cells and the end offset of each cell.
 fn write_kind(
     out: &mut impl Write,
     kind: &str,
@@ -164,7 +150,6 @@ fn write_array(
     )
 }
 
-/// Length and bytes, encoded as one run.
 fn block(bytes: &[u8]) -> String {
     let mut run = Vec::with_capacity(8 + bytes.len());
     run.extend((bytes.len() as u64).to_le_bytes());
@@ -172,7 +157,6 @@ fn block(bytes: &[u8]) -> String {
     STANDARD.encode(&run)
 }
 
-/// An index as VTK stores it.
 pub(super) fn to_i64(index: usize) -> i64 {
     i64::try_from(index).expect("an index into memory is below 2^63")
 }
@@ -224,12 +208,11 @@ mod tests {
     }
 
     fn assert_same(found: &impl Debug, expected: &impl Debug) {
-        // Debug tells -0.0 from 0.0, which == does not.
+        // Unlike `==`, `Debug` output distinguishes -0.0 from 0.0.
         assert_eq!(format!("{found:?}"), format!("{expected:?}"));
     }
 
-    /// A reader that shares no code with the writer finds every bit; a wrong header length or
-    /// byte order shows up as an error or as other numbers.
+    /// vtkio is independent of the writer. Values are compared bit for bit.
     #[test]
     fn vtkio_reads_back_what_was_written() {
         let picture = picture();
@@ -255,7 +238,7 @@ mod tests {
         assert_same(&arrays, &expected);
     }
 
-    /// Texts are bytes in decimals, as `vtkStringArray` is read.
+    /// `vtkStringArray` reads character codes in decimal.
     #[test]
     fn texts_are_written_as_characters() {
         let mut bytes = Vec::new();
@@ -265,7 +248,7 @@ mod tests {
         assert!(text.contains(expected), "{text}");
     }
 
-    /// Offsets are ends, not starts: the first vertex ends at 1.
+    /// Offsets are ends of cells: the first vertex ends at 1.
     #[test]
     fn vtkio_finds_vertices_and_lines() {
         let piece = parse(&picture());
@@ -279,7 +262,6 @@ mod tests {
         assert_eq!(piece.lines, cells(&[2, 3, 4], &[3]));
     }
 
-    /// A filament of one kind has no cells of the other: empty arrays are still arrays.
     #[test]
     fn a_picture_without_lines_is_read() {
         let picture = PolyData {

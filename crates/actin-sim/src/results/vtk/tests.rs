@@ -1,11 +1,10 @@
-//! Pictures, parsed back with vtkio.
+//! Tests of pictures, parsed with vtkio.
 
 use super::*;
 use crate::results::fixture;
 use actin_mechanics::Matrix3;
 use vtkio::model::{Attribute, IOBuffer, PolyDataPiece, VertexNumbers};
 
-/// The second record of the mixed filament, drawn and parsed.
 fn drawn() -> (Assembly, State, Box<PolyDataPiece>) {
     let assembly = fixture::clamped_start();
     let record = fixture::trajectory(&assembly).records.remove(1);
@@ -31,7 +30,6 @@ fn floats(buffer: &IOBuffer) -> &[f64] {
     values
 }
 
-/// Comparisons are exact: the file holds the same 64 bits.
 #[test]
 fn points_are_positions() {
     let (assembly, state, piece) = drawn();
@@ -44,7 +42,6 @@ fn points_are_positions() {
     assert_eq!(floats(data(&piece, "s_nm")), s_nm);
 }
 
-/// Monomers are vertices, the rod is one line through all its nodes.
 #[test]
 fn monomers_are_vertices_and_rods_are_lines() {
     let (assembly, _, piece) = drawn();
@@ -72,9 +69,8 @@ fn monomers_are_vertices_and_rods_are_lines() {
     assert!(rod.points.clone().all(|i| section[i] == 1));
 }
 
-/// A monomer carries its own frame; of a rod of n segments node i < n carries frame i and the
-/// last node frame n - 1. A junction's frame stands between the two in the state: counting
-/// frames along the points would give nodes the frames of their predecessors.
+/// A monomer has its own frame. In a rod of n segments, node i < n has frame i and the last node
+/// has frame n - 1. The frame of a junction lies between both and belongs to no point.
 #[test]
 fn points_carry_the_frames_next_to_them() {
     let (assembly, state, piece) = drawn();
@@ -96,7 +92,7 @@ fn points_carry_the_frames_next_to_them() {
     assert_eq!(at(rod.points.end - 1), expected(rod.frames.end - 1));
 }
 
-/// d1, d2, d3 are the columns of the rotation body to lab, not its rows.
+/// d1, d2 and d3 are the columns of the rotation from body to lab.
 #[test]
 fn axes_are_the_columns_of_the_orientation() {
     let (assembly, state, piece) = drawn();
@@ -109,13 +105,13 @@ fn axes_are_the_columns_of_the_orientation() {
         .into();
     for (name, column) in [("d1", 0), ("d2", 1), ("d3", 2)] {
         let axis = Vector3::from_column_slice(&floats(data(&piece, name))[..3]);
-        // The quaternion turns vectors in another order of operations than the matrix.
+        // Rotation by the quaternion and by the matrix differ in round-off.
         assert!((axis - q.column(column)).norm() < 1e-15, "{name}");
     }
 }
 
 #[test]
-fn only_monomers_have_an_extent() {
+fn only_monomers_have_semi_axes() {
     let (assembly, _, piece) = drawn();
     let semi_axes = floats(data(&piece, "semi_axes_nm"));
     let IOBuffer::U8(kinds) = data(&piece, "kind") else {
@@ -131,10 +127,9 @@ fn only_monomers_have_an_extent() {
     }
 }
 
-/// Each filament is drawn by itself: no line runs from one to the other, and monomers have the
-/// extent of their own filament's.
+/// No line joins two filaments, and monomers have the semi-axes of their own filament.
 #[test]
-fn filaments_are_drawn_apart() {
+fn filaments_are_separate() {
     let assembly = fixture::pair();
     let drawing = Drawing::new(&assembly);
     let first = assembly.filaments[0].points.end;
@@ -144,7 +139,7 @@ fn filaments_are_drawn_apart() {
     assert_eq!(drawing.lines().len(), 2);
     let filaments = drawing.filaments();
     assert_eq!((filaments[first - 1], filaments[first]), (0, 1));
-    // As in `energies.csv`: sections are counted within a filament.
+    // Sections are numbered within a filament, as in `energies.csv`.
     let sections = drawing.sections();
     for filament in 0..2 {
         for (k, span) in assembly.sections_of(filament).iter().enumerate() {
@@ -159,7 +154,6 @@ fn filaments_are_drawn_apart() {
     assert_eq!(semi_axes[3 * first..3 * first + 3], expected[1]);
 }
 
-/// Names the quantity, the point and the component.
 #[test]
 fn a_picture_that_is_not_finite_is_refused() {
     let assembly = fixture::clamped_start();
@@ -174,7 +168,7 @@ fn a_picture_that_is_not_finite_is_refused() {
     );
 }
 
-/// Each picture has its own time with every digit; the title cannot break the file.
+/// Times have all digits, and the title is escaped.
 #[test]
 fn the_collection_lists_pictures_and_times() {
     let pictures = [(0.0, "vtk/0000.vtp"), (1.0 / 3.0, "vtk/0001.vtp")];

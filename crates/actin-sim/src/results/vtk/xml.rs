@@ -1,9 +1,9 @@
-//! Text inside XML attributes.
+//! Escaping of text in XML attributes.
 
-/// `text` for use between double quotes in XML 1.0.
+/// Escapes `text` for use between double quotes in XML 1.0.
 ///
-/// Markup becomes entities; line breaks become character references, which readers do not turn
-/// into spaces; characters that XML forbids in any form become U+FFFD.
+/// Markup becomes entities and line breaks become character references, since readers replace
+/// literal line breaks by spaces. Characters forbidden in XML become U+FFFD.
 ///
 /// # Source
 /// XML 1.0 (fifth edition), sections 2.2, 2.4 and 3.3.3.

@@ -1,0 +1,23 @@
+//! Lines and dots of charts.
+
+use actin_draw::{Colour, Series};
+
+/// A line with a name in the legend.
+pub(crate) fn line(label: impl Into<String>, colour: Colour, points: Vec<(f64, f64)>) -> Series {
+    Series {
+        label: Some(label.into()),
+        colour,
+        points,
+        dots: false,
+    }
+}
+
+/// Dots without a name in the legend.
+pub(crate) fn dots(colour: Colour, points: Vec<(f64, f64)>) -> Series {
+    Series {
+        label: None,
+        colour,
+        points,
+        dots: true,
+    }
+}

@@ -1,0 +1,201 @@
+//! Finished artefacts, cached in the output folder until program, scenes or settings change.
+//!
+//! An artefact is computed in a folder of its own; when it is finished its files move to the output
+//! folder, and then its record with a hash of each file is written. A command that is ended in between
+//! leaves no record, so that the artefact counts as not computed.
+
+use crate::workspace_root;
+use actin_draw::report::{Artefact, write_atomically};
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+use std::fmt;
+use std::fs;
+use std::hash::{DefaultHasher, Hash, Hasher};
+use std::path::{Path, PathBuf};
+
+/// Folder of the records, in the output folder.
+const FOLDER: &str = ".artefacts";
+
+/// A finished artefact.
+#[derive(Debug, Deserialize, Serialize)]
+pub(super) struct CachedArtefact {
+    /// Hash of program, scenes and settings.
+    fingerprint: String,
+    /// Hashes of the files that it wrote, by name.
+    files: BTreeMap<String, String>,
+    /// Number of its runs.
+    pub runs: u64,
+    pub artefact: Artefact,
+}
+
+/// Why an artefact has to be computed.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) enum Reason {
+    Missing,
+    Requested,
+    Unreadable(String),
+    Outdated,
+    FileMissing(String),
+    FileChanged(String),
+}
+
+impl fmt::Display for Reason {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Missing => f.write_str("not computed before"),
+            Self::Requested => f.write_str("computed afresh, as requested"),
+            Self::Unreadable(error) => write!(f, "its record cannot be read: {error}"),
+            Self::Outdated => f.write_str("program, scenes or settings have changed"),
+            Self::FileMissing(name) => write!(f, "{name} is missing"),
+            Self::FileChanged(name) => write!(f, "{name} has been changed"),
+        }
+    }
+}
+
+/// The artefacts of one output folder.
+#[derive(Debug)]
+pub(super) struct Cache<'a> {
+    out: &'a Path,
+    fingerprint: String,
+}
+
+impl<'a> Cache<'a> {
+    /// The cache in `out` of artefacts with this fingerprint.
+    pub(super) fn new(out: &'a Path, fingerprint: String) -> Result<Self, String> {
+        let folder = out.join(FOLDER);
+        fs::create_dir_all(&folder).map_err(|e| at(&folder, &e))?;
+        Ok(Self { out, fingerprint })
+    }
+
+    /// The artefact if it is there, unchanged.
+    pub(super) fn find(&self, id: &str) -> Result<CachedArtefact, Reason> {
+        let cached = self.read(id)?;
+        if cached.fingerprint != self.fingerprint {
+            return Err(Reason::Outdated);
+        }
+        for (name, hash) in &cached.files {
+            match fs::read(self.out.join(name)) {
+                Err(_) => return Err(Reason::FileMissing(name.clone())),
+                Ok(bytes) if hash_of(&bytes) != *hash => {
+                    return Err(Reason::FileChanged(name.clone()));
+                }
+                Ok(_) => {}
+            }
+        }
+        Ok(cached)
+    }
+
+    /// Computes an artefact in place of a cached one; `work` returns its number of runs, too.
+    pub(super) fn compute(
+        &self,
+        id: &str,
+        work: impl FnOnce(&Path) -> Result<(Artefact, u64), String>,
+    ) -> Result<CachedArtefact, String> {
+        self.remove(id)?;
+        let folder = self.out.join(FOLDER).join(format!("{id}.new"));
+        fs::create_dir_all(&folder).map_err(|e| at(&folder, &e))?;
+        let (artefact, runs) = work(&folder)?;
+        let cached = CachedArtefact {
+            fingerprint: self.fingerprint.clone(),
+            files: self.take_files(&folder)?,
+            runs,
+            artefact,
+        };
+        let json = serde_json::to_string_pretty(&cached).map_err(|e| e.to_string())?;
+        write_atomically(&self.record(id), &json)?;
+        Ok(cached)
+    }
+
+    fn record(&self, id: &str) -> PathBuf {
+        self.out.join(FOLDER).join(format!("{id}.json"))
+    }
+
+    fn read(&self, id: &str) -> Result<CachedArtefact, Reason> {
+        let path = self.record(id);
+        if !path.exists() {
+            return Err(Reason::Missing);
+        }
+        let text = fs::read_to_string(&path).map_err(|e| Reason::Unreadable(e.to_string()))?;
+        serde_json::from_str(&text).map_err(|e| Reason::Unreadable(e.to_string()))
+    }
+
+    /// Removes the record, the files it names and what an ended command left.
+    fn remove(&self, id: &str) -> Result<(), String> {
+        let old = self.read(id);
+        let (record, unfinished) = (self.record(id), self.out.join(FOLDER));
+        let unfinished = unfinished.join(format!("{id}.new"));
+        if unfinished.exists() {
+            fs::remove_dir_all(&unfinished).map_err(|e| at(&unfinished, &e))?;
+        }
+        if record.exists() {
+            fs::remove_file(&record).map_err(|e| at(&record, &e))?;
+        }
+        let files = old.map_or_else(|_| BTreeMap::new(), |cached| cached.files);
+        let there = files.keys().map(|name| self.out.join(name));
+        for path in there.filter(|path| path.is_file()) {
+            fs::remove_file(&path).map_err(|e| at(&path, &e))?;
+        }
+        Ok(())
+    }
+
+    /// Moves all files of `folder` to the output folder; their hashes by name.
+    fn take_files(&self, folder: &Path) -> Result<BTreeMap<String, String>, String> {
+        let mut files = BTreeMap::new();
+        for entry in fs::read_dir(folder).map_err(|e| at(folder, &e))? {
+            let path = entry.map_err(|e| at(folder, &e))?.path();
+            let name = path.file_name().unwrap_or_default().to_string_lossy();
+            let bytes = fs::read(&path).map_err(|e| at(&path, &e))?;
+            fs::rename(&path, self.out.join(&*name)).map_err(|e| at(&path, &e))?;
+            files.insert(name.into_owned(), hash_of(&bytes));
+        }
+        fs::remove_dir(folder).map_err(|e| at(folder, &e))?;
+        Ok(files)
+    }
+}
+
+/// Of this program, the scenes and what is chosen: `choices` is all that changes an artefact.
+pub(super) fn fingerprint(choices: &str) -> Result<String, String> {
+    let mut hasher = DefaultHasher::new();
+    env!("CARGO_PKG_VERSION").hash(&mut hasher);
+    choices.hash(&mut hasher);
+    let program = std::env::current_exe().map_err(|e| e.to_string())?;
+    fs::read(&program)
+        .map_err(|e| at(&program, &e))?
+        .hash(&mut hasher);
+    for path in scenes()? {
+        path.hash(&mut hasher);
+        fs::read(&path)
+            .map_err(|e| at(&path, &e))?
+            .hash(&mut hasher);
+    }
+    Ok(format!("{:016x}", hasher.finish()))
+}
+
+/// All files under `scenarios`, in order.
+fn scenes() -> Result<Vec<PathBuf>, String> {
+    let mut folders = vec![workspace_root().join("scenarios")];
+    let mut all = Vec::new();
+    while let Some(folder) = folders.pop() {
+        for entry in fs::read_dir(&folder).map_err(|e| at(&folder, &e))? {
+            let path = entry.map_err(|e| at(&folder, &e))?.path();
+            if path.is_dir() {
+                folders.push(path);
+            } else {
+                all.push(path);
+            }
+        }
+    }
+    all.sort();
+    Ok(all)
+}
+
+/// A hash that one program gives to the same bytes again; it guards against accidents only.
+fn hash_of(bytes: &[u8]) -> String {
+    let mut hasher = DefaultHasher::new();
+    bytes.hash(&mut hasher);
+    format!("{:016x}", hasher.finish())
+}
+
+fn at(path: &Path, error: &std::io::Error) -> String {
+    format!("{}: {error}", path.display())
+}

@@ -1,0 +1,617 @@
+//! Figure 4: the multi-resolution cantilever at seven resolutions.
+//!
+//! Every case is damped dynamics to a stated residual, which ends in an equilibrium; with less drag
+//! its filament swings, which gives the first flexural mode and its decay. `--quick` solves for the
+//! equilibria alone. Variants: the mean filament, the model as the paper prints it, and the rigidity of
+//! the preceding paper.
+
+use super::charts::{Curve, Filament, Side, against_rod, draw_from};
+use super::draft::{Column, Draft, number, residuals};
+use super::model::{Model, Resolution};
+use super::motion::{RingDown, energy_decays, ring_down};
+use crate::palette;
+use crate::run::{Shape, Solved, energy, scenario};
+use crate::statistics::{largest, sample};
+use actin_draw::Colour;
+use actin_sim::{
+    Assembly, DragRates, End, Equilibrium, ForceLaw, JunctionWeight, Part, Record, Scene, Section,
+    Task,
+};
+use actin_view::Attitude;
+
+/// Length of the filament (nm).
+const LENGTH_NM: f64 = 160.0;
+/// Lengths of the rod part (nm), as in the paper, and for `--quick`.
+const RODS: [u32; 7] = [20, 40, 60, 80, 100, 120, 140];
+const QUICK_RODS: [u32; 3] = [20, 80, 140];
+/// Bond samplings of the fully resolved filament.
+const SEEDS: u64 = 8;
+/// Segments of refined rods, whose tips extrapolate to the limit of short segments.
+const REFINED: [u32; 3] = [32, 64, 128];
+/// Drag rates while a filament swings (1/ns): the amplitude decays at half this rate.
+const SWING_DRAG_PER_NS: f64 = 0.04;
+/// Time for which it swings (ns): about four periods.
+const SWING_NS: f64 = 150.0;
+/// Force (pN), length (nm), E (pN/nm^2) and I (nm^4) of the deflection that Section 4.1 computes.
+const PRINTED: [f64; 4] = [2.0, 160.0, 2000.0, 120.0];
+
+const SHARED: Model = Model {
+    words: "2 pN, junction shared",
+    ..Model::STANDARD
+};
+const FULL: Model = Model {
+    name: "full/",
+    words: "2 pN, junction full",
+    junction: JunctionWeight::Full,
+    ..SHARED
+};
+const WEAK: Model = Model {
+    name: "0.5-pN/",
+    words: "0.5 pN, junction shared",
+    is_weak: true,
+    ..SHARED
+};
+const MEAN: Model = Model {
+    name: "mean-filament/",
+    words: "2 pN, junction shared, mean filament",
+    is_mean: true,
+    ..SHARED
+};
+const WEAK_MEAN: Model = Model {
+    name: "0.5-pN/mean-filament/",
+    words: "0.5 pN, junction shared, mean filament",
+    is_weak: true,
+    ..MEAN
+};
+const STIFF: Model = Model {
+    name: "preceding-paper/",
+    words: "2 pN, junction shared, the preceding paper's rigidity",
+    is_stiff: true,
+    ..SHARED
+};
+const STIFF_FULL: Model = Model {
+    name: "preceding-paper/full/",
+    words: "2 pN, junction full, the preceding paper's rigidity",
+    is_stiff: true,
+    ..FULL
+};
+const STIFF_MEAN: Model = Model {
+    name: "preceding-paper/mean-filament/",
+    words: "2 pN, junction shared, the preceding paper's rigidity, mean filament",
+    is_stiff: true,
+    ..MEAN
+};
+/// The junction and the rod's balance of loads as printed; it has no potential and no equilibria.
+const AS_PRINTED: Model = Model {
+    name: "paper-balance/",
+    words: "2 pN, junction and balance as printed",
+    balance: ForceLaw::PaperBalance,
+    ..FULL
+};
+const MODELS: [Model; 9] = [
+    SHARED, FULL, WEAK, MEAN, WEAK_MEAN, STIFF, STIFF_FULL, STIFF_MEAN, AS_PRINTED,
+];
+
+/// One cantilever.
+#[derive(Clone, Copy, Debug)]
+struct Case {
+    model: Model,
+    resolution: Resolution,
+    seed: u64,
+    /// Segments of a rod that is refined.
+    segments: Option<u32>,
+}
+
+/// Outcome of a case.
+#[derive(Debug)]
+struct Outcome {
+    case: Case,
+    /// Distance by which the tip went along the force (nm).
+    tip_drop_nm: f64,
+    /// Elastic energy at equilibrium (pN nm), Newton's where there is one.
+    elastic_pn_nm: f64,
+    /// Difference from the tip of Newton's equilibrium (nm), and its certificate; `None` for loads without a potential.
+    newton: Option<(f64, bool)>,
+    /// Moved in time, not solved by Newton's method alone.
+    is_moved: bool,
+    /// Time (ns), elastic plus kinetic energy (pN nm).
+    energy: Vec<(f64, f64)>,
+    /// Energy with the load's potential (pN nm), record by record.
+    total: Vec<f64>,
+    /// Evaluations of bonds and segments.
+    work: f64,
+    ring_down: Option<RingDown>,
+    shape: Shape,
+    residual: [f64; 2],
+    has_converged: bool,
+    time_ns: f64,
+    force_evaluations: u64,
+}
+
+/// Solves all cases, draws them and compares them.
+pub(super) fn figure4(draft: &mut Draft<'_>) -> Result<(), String> {
+    let quick = draft.quick;
+    let outcomes = draft.solve(&cases(quick), |case| {
+        let outcome = case.solve(!quick);
+        outcome.map_err(|e| format!("{}: {e}", case.path()))
+    });
+    let outcomes: Vec<Outcome> = outcomes.into_iter().collect::<Result<_, _>>()?;
+    draft.settings = settings(&outcomes);
+    rows(draft, &outcomes);
+    tables(draft, &outcomes)?;
+    panels(draft, &outcomes)?;
+    against_resolution(draft, &outcomes)?;
+    view(draft, &outcomes)
+}
+
+fn cases(quick: bool) -> Vec<Case> {
+    let rods: &[u32] = if quick { &QUICK_RODS } else { &RODS };
+    let case = |model, resolution, seed, segments| Case {
+        model,
+        resolution,
+        seed,
+        segments,
+    };
+    let mut all = Vec::new();
+    for model in MODELS.into_iter().filter(|m| !quick || *m != AS_PRINTED) {
+        let mixed = rods.iter().map(|&rod| Resolution::Mixed(rod));
+        let resolutions = mixed.chain([Resolution::Rod, Resolution::Ellipsoids]);
+        let own = resolutions.filter(|&r| model.solved_as(&MODELS, r) == model);
+        all.extend(own.map(|resolution| case(model, resolution, 0, None)));
+    }
+    let refined = REFINED.map(|n| case(SHARED, Resolution::Rod, 0, Some(n)));
+    all.extend(refined);
+    if !quick {
+        all.extend((1..SEEDS).map(|seed| case(SHARED, Resolution::Ellipsoids, seed, None)));
+    }
+    all
+}
+
+impl Case {
+    /// Its name in quantities.
+    fn path(&self) -> String {
+        let folder = match (self.model.name, self.resolution) {
+            ("", Resolution::Mixed(_)) => "shared/",
+            (name, _) => name,
+        };
+        let name = self.resolution.name();
+        match (self.segments, self.seed) {
+            (Some(segments), _) => format!("{folder}rod-of-{segments}-segments"),
+            (None, 0) => format!("{folder}{name}"),
+            (None, seed) => format!("{folder}{name}/seed-{seed}"),
+        }
+    }
+
+    /// Refined rods and further seeds are numbers, not lines.
+    fn is_drawn(&self) -> bool {
+        self.segments.is_none() && self.seed == 0
+    }
+
+    fn rod_nm(&self) -> f64 {
+        self.resolution.rod_nm(LENGTH_NM)
+    }
+
+    /// The first flexural motion is compared for our model, the mean filament and the paper's own model.
+    fn swings(&self) -> bool {
+        self.is_drawn() && [SHARED, MEAN, AS_PRINTED].contains(&self.model)
+    }
+
+    fn scene(&self) -> Result<Scene, String> {
+        let file = match self.resolution {
+            Resolution::Mixed(rod) => format!("rod-{rod:03}.ron"),
+            other => format!("{}.ron", other.name()),
+        };
+        let mut scene = scenario(&format!("figure-4/{file}"))?;
+        self.model.apply(&mut scene, self.seed);
+        if let (Some(n), Section::Rod { segments, .. }) =
+            (self.segments, &mut scene.filament.sections[0])
+        {
+            *segments = Some(n as usize);
+        }
+        Ok(scene)
+    }
+
+    /// Runs the case to its end, in time if `moving` and if its model is moved.
+    fn solve(&self, moving: bool) -> Result<Outcome, String> {
+        let scene = self.scene()?;
+        // The preceding paper's rigidity is shown by equilibria alone.
+        let is_moved = moving && !self.model.is_stiff;
+        let mut statics = scene.clone();
+        statics.task = Task::Equilibrium(Equilibrium::default());
+        let has_potential = self.model.balance == ForceLaw::EnergyGradient;
+        let newton = has_potential.then(|| Solved::new(&statics)).transpose()?;
+        let moved = is_moved.then(|| Solved::new(&scene)).transpose()?;
+        let solved = moved
+            .as_ref()
+            .or(newton.as_ref())
+            .ok_or("nothing to solve")?;
+        let drop = tip_drop(&solved.assembly, solved.last());
+        let newton = newton.as_ref().map(|n| {
+            let tip = tip_drop(&n.assembly, n.last());
+            let energy = internal_energy(&n.assembly, n.last());
+            (energy, ((drop - tip).abs(), n.doubtful() == Some([0, 0])))
+        });
+        let records = solved.records.iter();
+        let energies = records.map(|r| (r.at.value(), internal_energy(&solved.assembly, r)));
+        let energy: Vec<(f64, f64)> = energies.collect();
+        let counts = solved.assembly.counts();
+        let total = |r: &Record| r.potential_pn_nm() + r.kinetic_pn_nm;
+        Ok(Outcome {
+            case: *self,
+            tip_drop_nm: drop,
+            elastic_pn_nm: newton.map_or(energy[energy.len() - 1].1, |n| n.0),
+            newton: newton.map(|n| n.1),
+            is_moved,
+            energy,
+            total: solved.records.iter().map(total).collect(),
+            work: solved.report.force_evaluations as f64 * (counts.bonds + counts.segments) as f64,
+            ring_down: self.ring_down(is_moved, &scene, drop)?,
+            shape: solved.shape(),
+            residual: solved.residual(),
+            has_converged: solved.report.has_converged(),
+            time_ns: solved.last().at.value(),
+            force_evaluations: solved.report.force_evaluations,
+        })
+    }
+
+    /// Lets the filament swing about its equilibrium with little drag, the same for all cases.
+    fn ring_down(
+        &self,
+        is_moved: bool,
+        scene: &Scene,
+        equilibrium_nm: f64,
+    ) -> Result<Option<RingDown>, String> {
+        let mut scene = scene.clone();
+        let Task::Dynamics(dynamics) = &mut scene.task else {
+            return Err("the scene asks for no dynamics".into());
+        };
+        if !is_moved || !self.swings() {
+            return Ok(None);
+        }
+        dynamics.drag = DragRates {
+            translational_per_ns: SWING_DRAG_PER_NS,
+            rotational_per_ns: SWING_DRAG_PER_NS,
+        }
+        .into();
+        dynamics.duration_ns = SWING_NS;
+        dynamics.stop = None;
+        let swung = Solved::new(&scene)?;
+        let records = swung.records.iter();
+        let approach: Vec<(f64, f64)> = records
+            .map(|record| (record.at.value(), tip_drop(&swung.assembly, record)))
+            .collect();
+        Ok(ring_down(&approach, equilibrium_nm))
+    }
+}
+
+/// Distance by which the tip went along the force, towards -x (nm).
+fn tip_drop(assembly: &Assembly, record: &Record) -> f64 {
+    -(assembly.tip_nm(&record.state, End::End) - assembly.tip_nm(&assembly.rest, End::End)).x
+}
+
+/// Energy without the potential of the load (pN nm).
+fn internal_energy(assembly: &Assembly, record: &Record) -> f64 {
+    let elastic = energy(assembly, record, |part| !matches!(part, Part::Load(_)));
+    elastic + record.kinetic_pn_nm
+}
+
+fn settings(outcomes: &[Outcome]) -> String {
+    let unfinished = outcomes.iter().filter(|o| !o.has_converged).count();
+    let how = if outcomes.iter().any(|o| o.is_moved) {
+        "damped dynamics, and equilibria by Newton's method for the preceding paper's rigidity"
+    } else {
+        "equilibria by Newton's method; the printed balance, which has no potential, is left out"
+    };
+    format!(
+        "Scenes scenarios/figure-4/*.ron, {} cases, {how}; at the end {}; {unfinished} case(s) ended before. Seed 0 \
+         unless named; the mean filament has weighted bonds and no seed.",
+        outcomes.len(),
+        residuals(outcomes.iter().map(|o| o.residual)),
+    )
+}
+
+fn rows(draft: &mut Draft<'_>, outcomes: &[Outcome]) {
+    for o in outcomes {
+        let path = o.case.path();
+        draft.row(format!("tip_drop/{path}"), "nm", o.tip_drop_nm, o.ending());
+        let note = "elastic energy of monomers, junctions and rod at equilibrium, without that of the load";
+        draft.row(format!("energy/{path}"), "pN nm", o.elastic_pn_nm, note);
+        if let Some(ring) = o.ring_down {
+            let note = format!(
+                "from the tip's extrema, drag rates {SWING_DRAG_PER_NS} per ns; expected decay half of that; \
+                 theory for small motion of the rod: 0.170 rad/ns"
+            );
+            let frequency = ring.frequency_rad_per_ns;
+            draft.row(format!("frequency/{path}"), "rad/ns", frequency, &*note);
+            draft.row(format!("decay/{path}"), "1/ns", ring.decay_per_ns, note);
+        }
+        if o.is_moved && [SHARED, MEAN].contains(&o.case.model) {
+            let note = "evaluations of bonds and segments until the stop rule is met";
+            draft.row(format!("work/{path}"), "", o.work, note);
+        }
+    }
+    for model in MODELS {
+        spreads(draft, outcomes, model);
+    }
+    checks(draft, outcomes);
+    let [force, length, modulus, inertia] = PRINTED;
+    let deflection = force * length.powi(3) / (3.0 * modulus * inertia);
+    draft.row("claim/printed_deflection", "nm", deflection, "");
+}
+
+impl Outcome {
+    /// End of the run, for notes.
+    fn ending(&self) -> String {
+        let end = match (self.is_moved, self.has_converged) {
+            (false, _) => "by Newton's method",
+            (true, true) => "stop rule met",
+            (true, false) => "ended by time",
+        };
+        format!(
+            "{end} at {:.0} ns, residual {:.1e} pN and {:.1e} pN nm, {} force evaluations",
+            self.time_ns, self.residual[0], self.residual[1], self.force_evaluations
+        )
+    }
+}
+
+/// Largest minus smallest tip drop and energy of the mixed resolutions, relative to their mean.
+fn spreads(draft: &mut Draft<'_>, outcomes: &[Outcome], model: Model) {
+    let of_model = outcomes.iter().filter(|o| o.case.model == model);
+    let mixed: Vec<&Outcome> = of_model.filter(|o| o.case.resolution.is_mixed()).collect();
+    if mixed.is_empty() {
+        return;
+    }
+    let name = match model.name.trim_end_matches('/') {
+        "" => "shared",
+        name => name,
+    };
+    let tips = sample(mixed.iter().map(|o| o.tip_drop_nm));
+    let energies = sample(mixed.iter().map(|o| o.elastic_pn_nm));
+    for (quantity, unit, s) in [
+        ("tip_spread", "nm", tips),
+        ("energy_spread", "pN nm", energies),
+    ] {
+        let note = format!(
+            "(max - min)/mean over {} mixed resolutions, {:.3} to {:.3} {unit}",
+            s.count, s.low, s.high
+        );
+        draft.row(format!("{quantity}/{name}"), "", s.spread(), note);
+    }
+}
+
+/// Length of segments, Newton's method against dynamics, certificates, samplings.
+fn checks(draft: &mut Draft<'_>, outcomes: &[Outcome]) {
+    let rod = |segments: Option<u32>| {
+        let rods = outcomes
+            .iter()
+            .filter(|o| o.case.resolution == Resolution::Rod);
+        let mut own = rods.filter(|o| o.case.model == SHARED && o.case.segments == segments);
+        own.next().map_or(f64::NAN, |o| o.tip_drop_nm)
+    };
+    let fine = rod(Some(128));
+    // The error falls with the square of the segment length.
+    let limit = fine + (fine - rod(Some(64))) / 3.0;
+    let note = format!(
+        "10 nm segments against the limit {limit:.4} nm of 2.5 and 1.25 nm; expected within 0.005"
+    );
+    draft.row("rod_mesh_error", "", rod(None) / limit - 1.0, note);
+    let newton = || outcomes.iter().filter_map(|o| o.newton);
+    let note = "largest difference of the tip between the end of damped dynamics and Newton's method over all \
+        cases: the residual at which the dynamics stopped, or a second equilibrium close by";
+    let difference = largest(newton().map(|(difference, _)| difference));
+    draft.row("newton_difference/largest", "nm", difference, note);
+    let unstable = newton().filter(|(_, is_stable)| !is_stable).count();
+    let note = "equilibria found by Newton's method whose stiffness is not positive definite";
+    draft.row("not_certified_stable", "", unstable as f64, note);
+    let sampled = outcomes
+        .iter()
+        .filter(|o| o.case.model == SHARED && o.case.resolution == Resolution::Ellipsoids);
+    let drops = sample(sampled.map(|o| o.tip_drop_nm));
+    if drops.count > 1 {
+        let note = format!(
+            "{} seeds of the bonds, 64 independent bonds per interface",
+            drops.count
+        );
+        draft.row("tip_drop/ellipsoids/mean", "nm", drops.mean, &*note);
+        draft.row("tip_drop/ellipsoids/sd", "nm", drops.sd, note);
+    }
+    let moved = outcomes.iter().filter(|o| o.is_moved && o.newton.is_some());
+    let totals: Vec<Vec<f64>> = moved.map(|o| o.total.clone()).collect();
+    energy_decays(draft, &totals);
+}
+
+fn tables(draft: &Draft<'_>, outcomes: &[Outcome]) -> Result<(), String> {
+    let places = |keep: fn(&Outcome) -> &Vec<[f64; 3]>| {
+        outcomes
+            .iter()
+            .map(move |o| (vec![o.case.path()], keep(o).clone()))
+    };
+    let header = ["case", "x_nm", "y_nm", "z_nm"];
+    draft.curves("fig4_centre_lines.csv", &header, places(|o| &o.shape.line))?;
+    draft.curves("fig4_monomers.csv", &header, places(|o| &o.shape.monomers))?;
+    let energies = outcomes.iter().map(|o| {
+        let energy = o.energy.iter().map(|&(t, e)| [t, e]);
+        (vec![o.case.path()], energy.collect())
+    });
+    draft.curves(
+        "fig4_energy.csv",
+        &["case", "time_ns", "energy_pn_nm"],
+        energies,
+    )?;
+    draft.table("fig4.csv", outcomes, &COLUMNS)
+}
+
+const COLUMNS: [Column<Outcome>; 7] = [
+    ("case", |o| o.case.path()),
+    ("tip_drop_nm", |o| number(o.tip_drop_nm)),
+    ("energy_pn_nm", |o| number(o.elastic_pn_nm)),
+    ("residual_pn", |o| number(o.residual[0])),
+    ("residual_pn_nm", |o| number(o.residual[1])),
+    ("time_ns", |o| number(o.time_ns)),
+    ("force_evaluations", |o| o.force_evaluations.to_string()),
+];
+
+const X_LABEL: &str = "x (nm); the force pulls towards -x";
+const SIDES: [Side; 2] = [
+    Side {
+        panel: "side",
+        title: "Side view",
+        labels: ["z along the unloaded filament (nm)", X_LABEL],
+        project: |p| (p[2], p[0]),
+        equal_axes: true,
+    },
+    Side {
+        panel: "end",
+        title: "End view",
+        labels: ["y (nm)", X_LABEL],
+        project: |p| (p[1], p[0]),
+        equal_axes: true,
+    },
+];
+
+/// The outcomes that are drawn for a model, from monomers to rod.
+fn drawn(outcomes: &[Outcome], is_chosen: impl Fn(&Case) -> bool) -> Vec<&Outcome> {
+    let chosen = outcomes
+        .iter()
+        .filter(|o| o.case.is_drawn() && is_chosen(&o.case));
+    let mut drawn: Vec<&Outcome> = chosen.collect();
+    drawn.sort_by(|a, b| a.case.rod_nm().total_cmp(&b.case.rod_nm()));
+    drawn
+}
+
+/// Pictures of four models, each with the mean filament where there is one.
+fn panels(draft: &mut Draft<'_>, outcomes: &[Outcome]) -> Result<(), String> {
+    for (model, mean, name) in [
+        (SHARED, Some(MEAN), "2_pN_shared"),
+        (FULL, None, "2_pN_full"),
+        (WEAK, Some(WEAK_MEAN), "0.5_pN_shared"),
+        (STIFF, Some(STIFF_MEAN), "preceding_paper"),
+    ] {
+        let mut chosen = drawn(outcomes, |case| case.model == model);
+        chosen.extend(drawn(outcomes, |case| {
+            Some(case.model) == mean && case.resolution == Resolution::Ellipsoids
+        }));
+        let filaments = chosen.iter();
+        let filaments = filaments.map(|o| o.filament(Some(o.case.model) == mean));
+        let filaments: Vec<Filament> = filaments.collect();
+        let dashed = mean.map_or(
+            "",
+            |_| " Dashed: monomers alone with weighted bonds, the mean filament.",
+        );
+        let file = format!("fig4_{name}");
+        views(draft, &file, (model.words, dashed), &filaments)?;
+        if chosen[0].is_moved {
+            let curves = filaments.iter().zip(&chosen);
+            let series = curves.flat_map(|(f, o)| f.curve(o.energy.clone(), false));
+            draft.plot(
+                format!("{file}_energy.svg"),
+                &format!("Energy, {}", model.words),
+                ["time (ns)", "elastic and kinetic energy (pN nm)"],
+                series.collect(),
+                format!(
+                    "Elastic and kinetic energy while the damped motion comes to rest.{dashed}"
+                ),
+            )?;
+        }
+    }
+    Ok(())
+}
+
+/// Side view and end view of the filaments of one model.
+fn views(
+    draft: &mut Draft<'_>,
+    file: &str,
+    (words, dashed): (&str, &str),
+    filaments: &[Filament],
+) -> Result<(), String> {
+    let captions = [
+        format!(
+            "Equilibria under {words}. Lines: nodes of the rod, and the centre line of the monomers; dots: monomer \
+             centres. {}{dashed}",
+            palette::chosen().ends()
+        ),
+        format!("The same states seen along the unloaded filament.{dashed}"),
+    ];
+    for (side, caption) in SIDES.iter().zip(captions) {
+        let title = format!("{}, {words}", side.title);
+        draw_from(draft, file, (side, &title), filaments, Vec::new(), caption)?;
+    }
+    Ok(())
+}
+
+impl Outcome {
+    fn filament(&self, is_mean: bool) -> Filament {
+        if is_mean {
+            return Filament::mean("mean filament", &self.shape);
+        }
+        let share = self.case.rod_nm() / LENGTH_NM;
+        Filament::new(self.case.resolution.name(), share, &self.shape)
+    }
+}
+
+/// A number that is drawn against the length of rod.
+type Value = fn(&Outcome) -> f64;
+
+/// A value of a model's filaments against the length of rod; no points if the model was not computed.
+fn curve(outcomes: &[Outcome], model: Model, colour: Colour, value: Value) -> Curve {
+    let is_computed = outcomes.iter().any(|o| o.case.model == model);
+    let own = drawn(outcomes, |case| {
+        is_computed && case.model == model.solved_as(&MODELS, case.resolution)
+    });
+    Curve {
+        name: model.words.into(),
+        colour,
+        // It lies upon the line of the junction as printed alone.
+        is_dashed: model == AS_PRINTED,
+        points: own.iter().map(|o| (o.case.rod_nm(), value(o))).collect(),
+    }
+}
+
+/// Tips and elastic energies of equilibria under 2 pN against the length of rod.
+fn against_resolution(draft: &mut Draft<'_>, outcomes: &[Outcome]) -> Result<(), String> {
+    let charts: [(&str, &str, Value); 2] = [
+        ("tips", "distance of the tip along the force (nm)", |o| {
+            o.tip_drop_nm
+        }),
+        ("energies", "elastic energy at equilibrium (pN nm)", |o| {
+            o.elastic_pn_nm
+        }),
+    ];
+    for (name, y_label, value) in charts {
+        let curves = [
+            (SHARED, palette::line(0)),
+            (FULL, palette::line(1)),
+            (AS_PRINTED, palette::line(3)),
+            (MEAN, palette::DATA),
+        ];
+        let curves = curves.map(|(model, colour)| curve(outcomes, model, colour, value));
+        let caption = format!(
+            "The {y_label} against the length of rod, monomers alone at 0 and rod alone at 160 nm; drawn bonds \
+             of the first sampling, and the mean filament (black)."
+        );
+        draft.plot(
+            format!("fig4_{name}.svg"),
+            "Equilibria under 2 pN against resolution",
+            ["rod at the tip (nm)", y_label],
+            against_rod(curves.into()),
+            caption,
+        )?;
+    }
+    Ok(())
+}
+
+/// The drawn states for the viewer.
+fn view(draft: &mut Draft<'_>, outcomes: &[Outcome]) -> Result<(), String> {
+    let shown = drawn(outcomes, |_| true).into_iter().map(|o| {
+        let share = o.case.rod_nm() / LENGTH_NM;
+        (
+            o.case.model.words.into(),
+            o.case.resolution.name(),
+            share,
+            o.shape.pose.clone(),
+        )
+    });
+    let caption = "Where the damped motions came to rest, in space: monomers with their own semi-axes and \
+        orientations, the rod with a stripe along its first axis. The force acts at the tip.";
+    draft.view("fig4", Attitude::LYING, shown, caption)
+}

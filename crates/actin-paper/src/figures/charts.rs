@@ -1,0 +1,128 @@
+//! Charts that several figures share: centre lines seen from some sides, and curves against the length of
+//! rod.
+
+pub(super) use crate::charts::{dots, line};
+
+use super::draft::Draft;
+use crate::palette;
+use crate::run::Shape;
+use actin_draw::{Chart, Colour, Series};
+
+/// A white dot that makes room for the legend.
+pub(super) fn room(at: (f64, f64)) -> Series {
+    dots(Colour([255; 3]), vec![at])
+}
+
+/// A filament in a chart.
+#[derive(Clone, Debug)]
+pub(super) struct Filament {
+    pub name: String,
+    pub colour: Colour,
+    pub is_dashed: bool,
+    /// Centre line (nm).
+    pub line: Vec<[f64; 3]>,
+    /// Centres of monomers that are drawn as dots (nm).
+    pub monomers: Vec<[f64; 3]>,
+}
+
+impl Filament {
+    /// A filament in the colour of its share of rod.
+    pub(super) fn new(name: String, share: f64, shape: &Shape) -> Self {
+        Self {
+            name,
+            colour: palette::resolution(share),
+            is_dashed: false,
+            line: shape.line.clone(),
+            monomers: shape.monomers.clone(),
+        }
+    }
+
+    /// The mean filament of monomers: its centre line alone, in dashes.
+    pub(super) fn mean(name: &str, shape: &Shape) -> Self {
+        Self {
+            colour: palette::DATA,
+            is_dashed: true,
+            monomers: Vec::new(),
+            ..Self::new(name.into(), 0.0, shape)
+        }
+    }
+
+    /// A curve of this filament in its colour.
+    pub(super) fn curve(&self, points: Vec<(f64, f64)>, equal_axes: bool) -> Vec<Series> {
+        let line = line(self.name.clone(), self.colour, points);
+        if self.is_dashed {
+            line.dashed(equal_axes)
+        } else {
+            vec![line]
+        }
+    }
+}
+
+/// A direction from which centre lines are seen.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Side {
+    /// End of the file's name.
+    pub panel: &'static str,
+    /// In the title of the chart.
+    pub title: &'static str,
+    pub labels: [&'static str; 2],
+    pub project: fn(&[f64; 3]) -> (f64, f64),
+    pub equal_axes: bool,
+}
+
+/// Monomers as dots, centre lines above them, and what else is seen.
+pub(super) fn seen_from(side: &Side, filaments: &[Filament], others: Vec<Series>) -> Vec<Series> {
+    let project = |places: &[[f64; 3]]| places.iter().map(side.project).collect();
+    let with_monomers = filaments.iter().filter(|f| !f.monomers.is_empty());
+    let monomers = with_monomers.map(|f| dots(f.colour, project(&f.monomers)));
+    let lines = filaments
+        .iter()
+        .flat_map(|f| f.curve(project(&f.line), side.equal_axes));
+    monomers.chain(lines).chain(others).collect()
+}
+
+/// Draws filaments as seen from a side.
+pub(super) fn draw_from(
+    draft: &mut Draft<'_>,
+    file: &str,
+    (side, title): (&Side, &str),
+    filaments: &[Filament],
+    others: Vec<Series>,
+    caption: String,
+) -> Result<(), String> {
+    let chart = Chart {
+        title,
+        x_label: side.labels[0],
+        y_label: side.labels[1],
+        series: seen_from(side, filaments, others),
+        equal_axes: side.equal_axes,
+    };
+    draft.chart(format!("{file}_{}.svg", side.panel), &chart, caption)
+}
+
+/// A value against the length of rod, for one model.
+#[derive(Clone, Debug)]
+pub(super) struct Curve {
+    pub name: String,
+    pub colour: Colour,
+    pub is_dashed: bool,
+    /// Length of rod (nm) and value, in any order.
+    pub points: Vec<(f64, f64)>,
+}
+
+/// A line with a dot at each resolution for every curve that has points.
+pub(super) fn against_rod(curves: Vec<Curve>) -> Vec<Series> {
+    let curves = curves.into_iter().filter(|curve| !curve.points.is_empty());
+    let series = curves.flat_map(|mut curve| {
+        curve.points.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let line = line(curve.name, curve.colour, curve.points.clone());
+        let mut series = if curve.is_dashed {
+            line.dashed(false)
+        } else {
+            vec![line]
+        };
+        series.push(dots(curve.colour, curve.points));
+        series
+    });
+    series.collect()
+}

@@ -1,0 +1,269 @@
+//! Rows, pictures and tables of an experiment while it runs.
+
+use super::expected::{self, Bound};
+use super::progress::Progress;
+use crate::statistics::{Sample, largest};
+use actin_draw::report::{Artefact, Origin, Picture, Row, View, write_csv};
+use actin_draw::{Chart, Series};
+use actin_view::{Attitude, Pose, Shown, states};
+use rayon::prelude::*;
+use std::path::Path;
+
+/// Results of an experiment so far.
+#[derive(Debug)]
+pub(super) struct Draft<'a> {
+    pub id: &'static str,
+    /// Folder for pictures and tables.
+    pub out: &'a Path,
+    /// Fewer resolutions and samplings, and equilibria only.
+    pub quick: bool,
+    pub progress: &'a Progress,
+    /// Scenes, stop rule, seeds.
+    pub settings: String,
+    pub rows: Vec<Measured>,
+    pub pictures: Vec<Picture>,
+    pub views: Vec<View>,
+}
+
+/// A row, and the standard deviation of a single sample, which widens the bounds of printed numbers.
+#[derive(Clone, Debug)]
+pub(super) struct Measured {
+    pub row: Row,
+    pub sd: f64,
+}
+
+/// A column of a table of results: its header, and the text of a cell.
+pub(super) type Column<R> = (&'static str, fn(&R) -> String);
+
+impl<'a> Draft<'a> {
+    pub(super) fn new(
+        id: &'static str,
+        out: &'a Path,
+        quick: bool,
+        progress: &'a Progress,
+    ) -> Self {
+        Self {
+            id,
+            out,
+            quick,
+            progress,
+            settings: String::new(),
+            rows: Vec::new(),
+            pictures: Vec::new(),
+            views: Vec::new(),
+        }
+    }
+
+    /// Solves all cases over the threads; the results are in the order of the cases.
+    pub(super) fn solve<C: Sync, R: Send>(
+        &self,
+        cases: &[C],
+        solve: impl Fn(&C) -> R + Sync,
+    ) -> Vec<R> {
+        self.progress.expect(cases.len());
+        cases
+            .par_iter()
+            .with_max_len(1)
+            .map(|case| {
+                let result = solve(case);
+                self.progress.done();
+                result
+            })
+            .collect()
+    }
+
+    /// A number without scatter.
+    pub(super) fn row(
+        &mut self,
+        quantity: impl Into<String>,
+        unit: &'static str,
+        ours: f64,
+        note: impl Into<String>,
+    ) {
+        self.scattered(quantity, unit, (ours, 0.0), note);
+    }
+
+    /// The mean of a sample.
+    pub(super) fn mean(
+        &mut self,
+        quantity: impl Into<String>,
+        unit: &'static str,
+        sample: &Sample,
+        note: impl Into<String>,
+    ) {
+        self.scattered(quantity, unit, (sample.mean, sample.sd), note);
+    }
+
+    /// A number with its standard deviation.
+    pub(super) fn scattered(
+        &mut self,
+        quantity: impl Into<String>,
+        unit: &'static str,
+        (ours, sd): (f64, f64),
+        note: impl Into<String>,
+    ) {
+        let row = Row::measured(self.id, quantity, unit, ours, note);
+        self.rows.push(Measured { row, sd });
+    }
+
+    /// A row whose comparison is made already.
+    pub(super) fn compared(&mut self, row: Row) {
+        self.rows.push(Measured { row, sd: 0.0 });
+    }
+
+    /// A statement of the paper as a number with a bound.
+    pub(super) fn claim(
+        &mut self,
+        quantity: &str,
+        ours: f64,
+        bound: Bound,
+        statement: impl Into<String>,
+    ) {
+        let row = expected::claim(self.id, quantity, "", ours, bound, statement);
+        self.compared(row);
+    }
+
+    /// The value of a row.
+    pub(super) fn value(&self, quantity: &str) -> Option<f64> {
+        let mut all = self.rows.iter();
+        let found = all.find(|measured| measured.row.quantity == quantity)?;
+        Some(found.row.ours)
+    }
+
+    /// Draws a chart into a file.
+    pub(super) fn chart(
+        &mut self,
+        file: String,
+        chart: &Chart<'_>,
+        caption: impl Into<String>,
+    ) -> Result<(), String> {
+        chart.draw(&self.out.join(&file))?;
+        self.pictures.push(Picture {
+            file,
+            caption: caption.into(),
+        });
+        Ok(())
+    }
+
+    /// Draws series over axes with independent scales and these labels.
+    pub(super) fn plot(
+        &mut self,
+        file: impl Into<String>,
+        title: &str,
+        [x_label, y_label]: [&str; 2],
+        series: Vec<Series>,
+        caption: impl Into<String>,
+    ) -> Result<(), String> {
+        let chart = Chart {
+            title,
+            x_label,
+            y_label,
+            series,
+            equal_axes: false,
+        };
+        self.chart(file.into(), &chart, caption)
+    }
+
+    /// Writes states for the viewer of the page: group, name, share of rod, bodies.
+    pub(super) fn view(
+        &mut self,
+        id: &str,
+        attitude: Attitude,
+        shown: impl IntoIterator<Item = (String, String, f64, Pose)>,
+        caption: &str,
+    ) -> Result<(), String> {
+        let shown = shown.into_iter().map(|(group, name, share, pose)| Shown {
+            group,
+            name,
+            share,
+            pose,
+        });
+        let shown: Vec<Shown> = shown.collect();
+        let view = states::write(id, attitude, &shown, caption.into(), self.out)?;
+        self.views.push(view);
+        Ok(())
+    }
+
+    /// Writes a table with a line for each result.
+    pub(super) fn table<'r, R: 'r>(
+        &self,
+        file: &str,
+        results: impl IntoIterator<Item = &'r R>,
+        columns: &[Column<R>],
+    ) -> Result<(), String> {
+        let header: Vec<&str> = columns.iter().map(|(name, _)| *name).collect();
+        let lines = results.into_iter();
+        let lines = lines.map(|r| columns.iter().map(|(_, cell)| cell(r)).collect());
+        write_csv(self.out, file, &header, lines)
+    }
+
+    /// Writes the rows with their expected numbers as a table.
+    pub(super) fn list(&self) -> Result<(), String> {
+        let rows = expected::judged(self.id, self.rows.clone());
+        self.table(&format!("{}.csv", self.id), &rows, &ROWS)
+    }
+
+    /// Writes a table with a line for each point of some curves, after the names of its curve.
+    pub(super) fn curves<const N: usize>(
+        &self,
+        file: &str,
+        header: &[&str],
+        curves: impl IntoIterator<Item = (Vec<String>, Vec<[f64; N]>)>,
+    ) -> Result<(), String> {
+        let lines = curves.into_iter().flat_map(|(names, points)| {
+            let line = move |point: [f64; N]| [names.clone(), point.map(number).into()].concat();
+            points.into_iter().map(line)
+        });
+        write_csv(self.out, file, header, lines)
+    }
+
+    /// The artefact, its rows compared with expected numbers.
+    pub(super) fn finish(self, title: &'static str, wall_s: f64) -> Artefact {
+        Artefact {
+            id: self.id,
+            title,
+            settings: self.settings,
+            rows: expected::judged(self.id, self.rows),
+            pictures: self.pictures,
+            views: self.views,
+            wall_s,
+        }
+    }
+}
+
+impl Measured {
+    /// The row beside a number of the paper that judges nothing.
+    pub(super) fn beside(row: Row, expected: f64) -> Self {
+        let row = row.beside(expected, Origin::Paper);
+        Self { row, sd: 0.0 }
+    }
+}
+
+const ROWS: [Column<Row>; 8] = [
+    ("quantity", |row| row.quantity.clone()),
+    ("unit", |row| row.unit.to_owned()),
+    ("paper", |row| row.paper.map_or(String::new(), number)),
+    ("ours", |row| number(row.ours)),
+    ("tolerance", |row| {
+        row.tolerance.map_or(String::new(), number)
+    }),
+    ("pass", |row| {
+        row.pass.map_or(String::new(), |pass| pass.to_string())
+    }),
+    ("note", |row| row.note.clone()),
+    ("origin", |row| {
+        row.origin.map_or(String::new(), |o| o.name().to_owned())
+    }),
+];
+
+/// A number in a table.
+pub(super) fn number(x: f64) -> String {
+    format!("{x:.9e}")
+}
+
+/// Text for the largest of some residuals.
+pub(super) fn residuals(all: impl Iterator<Item = [f64; 2]>) -> String {
+    let all: Vec<[f64; 2]> = all.collect();
+    let [force, torque] = [0, 1].map(|k| largest(all.iter().map(|r| r[k])));
+    format!("every force is below {force:.1e} pN and every torque below {torque:.1e} pN nm")
+}

@@ -1,0 +1,327 @@
+//! Numbers of Figures 5 and 6 as rows of the report and as tables.
+
+use super::solve::{Balance, Motion, Outcome, SAME_PN_NM};
+use super::{Case, FULL, Figure, MODELS, STANDARD};
+use crate::figures::draft::{Column, Draft, number, residuals};
+use crate::figures::expected::Bound;
+use crate::figures::model::Model;
+use crate::figures::motion::energy_decays;
+use crate::statistics::{Sample, largest, sample};
+
+/// Spreads over resolutions of one filament.
+#[derive(Debug)]
+struct Spread {
+    /// Energies (pN nm).
+    energy: Sample,
+    /// Largest distance of two centre lines at equal arc length (nm), and which and where.
+    node: f64,
+    farthest: String,
+    /// Largest difference of a linker's pull over its mean, over the linkers.
+    force: f64,
+}
+
+/// A number that is read off a spread.
+type Pick = fn(&Spread) -> f64;
+
+impl Spread {
+    /// The spread of one model and seed over the mixed resolutions, or over all.
+    fn over(outcomes: &[Outcome], model: Model, seed: u64, with_pure: bool) -> Self {
+        let own = outcomes
+            .iter()
+            .filter(|o| o.case.model == model && o.case.seed == seed);
+        let chosen: Vec<(String, &Balance)> = own
+            .filter(|o| with_pure || o.case.resolution.is_mixed())
+            .map(|o| (o.case.resolution.name(), &o.lowest))
+            .collect();
+        let linkers = 0..chosen[0].1.forces.len();
+        let forces = linkers.map(|k| sample(chosen.iter().map(|(_, b)| b.forces[k])).spread());
+        let (node, farthest) = farthest(&chosen);
+        Self {
+            energy: sample(chosen.iter().map(|(_, b)| b.energy)),
+            node,
+            farthest,
+            force: largest(forces),
+        }
+    }
+
+    /// Spreads of all samplings of the bonds.
+    fn over_seeds(outcomes: &[Outcome], model: Model) -> Vec<Self> {
+        let seeds = 0..model.seeds(seeds(outcomes));
+        seeds
+            .map(|seed| Self::over(outcomes, model, seed, false))
+            .collect()
+    }
+
+    fn energies(&self) -> String {
+        format!("{:.2} to {:.2} pN nm", self.energy.low, self.energy.high)
+    }
+}
+
+/// The two centre lines farthest apart: their distance (nm), and which they are and where.
+fn farthest(chosen: &[(String, &Balance)]) -> (f64, String) {
+    let mut worst = (0.0, String::new());
+    for (i, (one, a)) in chosen.iter().enumerate() {
+        for (other, b) in &chosen[..i] {
+            let (distance, s) = a.centre_line.farthest_from(&b.centre_line);
+            if distance > worst.0 {
+                worst = (distance, format!("{other} and {one} at s = {s:.0} nm"));
+            }
+        }
+    }
+    worst
+}
+
+fn seeds(outcomes: &[Outcome]) -> u64 {
+    outcomes.iter().map(|o| o.case.seed + 1).max().unwrap_or(0)
+}
+
+/// The rows that both figures have.
+pub(super) fn rows(draft: &mut Draft<'_>, outcomes: &[Outcome]) {
+    for model in MODELS {
+        spreads(draft, outcomes, model);
+    }
+    with_pure(draft, outcomes);
+    for o in outcomes.iter().filter(|o| o.case.seed == 0) {
+        let found = &o.lowest;
+        let note = format!(
+            "of it {:.2} in the linkers; {} Newton iterations, residual {:.1e} pN and {:.1e} pN nm, lowest \
+             eigenvalue {:.1e} pN/nm",
+            found.linkers,
+            found.iterations,
+            found.residual[0],
+            found.residual[1],
+            found.lowest.unwrap_or(f64::NAN)
+        );
+        let quantity = format!("energy{}/{}", o.case.model.name, o.case.resolution.name());
+        draft.row(quantity, "pN nm", found.energy, note);
+    }
+    evidence(draft, outcomes);
+    motions(draft, outcomes);
+}
+
+/// Spreads of one model: of the first sampling, and the mean over samplings.
+fn spreads(draft: &mut Draft<'_>, outcomes: &[Outcome], model: Model) {
+    let all = Spread::over_seeds(outcomes, model);
+    let (first, words) = (&all[0], model.words);
+    let picks: [(&str, &str, Pick, String); 3] = [
+        (
+            "energy_spread",
+            "",
+            |s| s.energy.spread(),
+            format!(
+                "(max - min)/mean over {} mixed resolutions, {}",
+                first.energy.count,
+                first.energies()
+            ),
+        ),
+        (
+            "node_spread",
+            "nm",
+            |s| s.node,
+            format!("largest between {}", first.farthest),
+        ),
+        (
+            "linker_force_spread",
+            "",
+            |s| s.force,
+            "largest (max - min)/mean of a linker's pull".into(),
+        ),
+    ];
+    for (name, unit, pick, note) in picks {
+        let quantity = format!("{name}{}", model.name);
+        draft.row(&*quantity, unit, pick(first), format!("{note}; {words}"));
+        if !model.is_mean {
+            let s = sample(all.iter().map(pick));
+            let note = format!(
+                "{} samplings of the bonds, sd {:.4}; {words}",
+                s.count, s.sd
+            );
+            draft.row(format!("{quantity}/mean"), unit, s.mean, note);
+        }
+    }
+}
+
+fn with_pure(draft: &mut Draft<'_>, outcomes: &[Outcome]) {
+    let all = Spread::over(outcomes, STANDARD, 0, true);
+    let note = format!("pure rod and pure monomers included; {}", all.energies());
+    draft.row("energy_spread/with-pure", "", all.energy.spread(), note);
+    let note = format!("between {}", all.farthest);
+    draft.row("node_spread/with-pure", "nm", all.node, note);
+    let standard = outcomes.iter().filter(|o| o.case.is_drawn());
+    let rolls = sample(standard.map(|o| o.lowest.roll));
+    let note = "turn of the body that holds the second linker, from how it was built, over all resolutions and \
+                the pure cases";
+    draft.row("roll/least", "deg", rolls.low, note);
+    draft.row("roll/most", "deg", rolls.high, note);
+}
+
+/// Certificates, and how many filaments have more than one equilibrium.
+fn evidence(draft: &mut Draft<'_>, outcomes: &[Outcome]) {
+    let of = format!("of {} filaments", outcomes.len());
+    let unstable = outcomes.iter().filter(|o| !o.lowest.is_stable).count();
+    let note = format!("{of}: equilibria whose stiffness is not positive definite");
+    draft.row("not_certified_stable", "", unstable as f64, note);
+    let above = outcomes
+        .iter()
+        .map(|o| largest(o.starts.iter().map(|e| e - o.lowest.energy)));
+    let above: Vec<f64> = above.collect();
+    let several = above.iter().filter(|above| **above > SAME_PN_NM).count();
+    let note = format!(
+        "{of}: those for which starts turned by 0, 90, 180 and 270 deg find energies more than {SAME_PN_NM} \
+         pN nm apart"
+    );
+    draft.row("several_equilibria", "", several as f64, note);
+    let note = "how far the highest of them is above the lowest of its filament, which counts";
+    draft.row("highest_equilibrium", "pN nm", largest(above), note);
+}
+
+fn moved(outcomes: &[Outcome]) -> impl Iterator<Item = (&Outcome, &Motion)> {
+    outcomes
+        .iter()
+        .filter_map(|o| Some((o, o.motion.as_ref()?)))
+}
+
+/// Damped dynamics against Newton's method.
+fn motions(draft: &mut Draft<'_>, outcomes: &[Outcome]) {
+    let count = moved(outcomes).count();
+    if count == 0 {
+        return;
+    }
+    let energies =
+        moved(outcomes).map(|(_, m)| (m.energy[m.energy.len() - 1][1] - m.limit.energy).abs());
+    let unfinished = moved(outcomes).filter(|(_, m)| !m.has_converged).count();
+    let note = format!(
+        "largest difference between the end of damped dynamics and the certified equilibrium that Newton's \
+         method reaches from there, {count} motions; {unfinished} ended by time, all others by the stop rule"
+    );
+    draft.row(
+        "newton_difference/energy",
+        "pN nm",
+        largest(energies),
+        &*note,
+    );
+    let nodes = moved(outcomes).map(|(_, m)| m.from_limit_nm);
+    draft.row("newton_difference/node", "nm", largest(nodes), note);
+    let elsewhere = moved(outcomes).filter(|(o, m)| m.limit.energy > o.lowest.energy + SAME_PN_NM);
+    let note = format!("of {count} motions: those that end in another equilibrium than the lowest");
+    draft.row(
+        "motions_to_a_higher_equilibrium",
+        "",
+        elsewhere.count() as f64,
+        note,
+    );
+    let energies = moved(outcomes).map(|(_, m)| m.energy.iter().map(|e| e[1]).collect());
+    energy_decays(draft, &energies.collect::<Vec<_>>());
+}
+
+/// Claims of Figure 6: deviations of shape and energy are larger than in Figure 5. Judged are the paper's own
+/// models, by what its Figure 6(c) shows: energies in pN nm.
+pub(super) fn larger_claims(draft: &mut Draft<'_>, figures: [&[Outcome]; 2]) {
+    let claims: [(&str, &str, Pick); 3] = [
+        (
+            "node_spread",
+            "deviations of shape are more noticeable",
+            |s| s.node,
+        ),
+        ("energy_range", "energies vary more (in pN nm)", |s| {
+            s.energy.range()
+        }),
+        (
+            "energy_spread",
+            "energies vary more (relative to the mean)",
+            |s| s.energy.spread(),
+        ),
+    ];
+    for model in MODELS {
+        let spreads = figures.map(|outcomes| Spread::over_seeds(outcomes, model));
+        for (name, words, pick) in claims {
+            let [here, there] = [&spreads[0], &spreads[1]].map(|s| sample(s.iter().map(pick)));
+            let statement = format!(
+                "{words} than in Figure 5. Means over {} samplings: {:.4} (sd {:.4}) here, {:.4} (sd {:.4}) there; {}",
+                here.count, here.mean, here.sd, there.mean, there.sd, model.words
+            );
+            let is_judged = [STANDARD, FULL].contains(&model) && name != "energy_spread";
+            let bound = if is_judged {
+                Bound::AtLeast(1.0)
+            } else {
+                Bound::None
+            };
+            let quantity = format!("{name}_over_fig5{}", model.name);
+            draft.claim(&quantity, here.mean / there.mean, bound, statement);
+        }
+    }
+}
+
+/// Settings of the cases.
+pub(super) fn settings(figure: &Figure, outcomes: &[Outcome]) -> String {
+    format!(
+        "Scene scenarios/{}, the rod in the middle resolved as named, {} filaments, {} samplings of the bonds \
+         (seeds from 0; 0 unless named; the mean filament has weighted bonds and no seed). Equilibria by \
+         Newton's method from the built filament turned by 0, 90, 180 and 270 deg about its axis, where {}; the \
+         lowest counts. Motions: anchors away from the sites at once, drag 0.3 per ns for velocities and for \
+         angular momenta.",
+        figure.file,
+        outcomes.len(),
+        seeds(outcomes),
+        residuals(outcomes.iter().map(|o| o.lowest.residual)),
+    )
+}
+
+const COLUMNS: [Column<Outcome>; 13] = [
+    ("case", |o| o.case.resolution.name()),
+    ("variant", |o| variant(&o.case)),
+    ("seed", |o| o.case.seed.to_string()),
+    ("energy_pn_nm", |o| number(o.lowest.energy)),
+    ("linkers_pn_nm", |o| number(o.lowest.linkers)),
+    ("stable", |o| o.lowest.is_stable.to_string()),
+    ("lowest_eigenvalue_pn_per_nm", |o| {
+        o.lowest.lowest.map_or(String::new(), number)
+    }),
+    ("newton_iterations", |o| o.lowest.iterations.to_string()),
+    ("roll_deg", |o| format!("{:.3}", o.lowest.roll)),
+    ("energies_by_start_pn_nm", |o| {
+        let starts: Vec<String> = o.starts.iter().map(|e| format!("{e:.6}")).collect();
+        starts.join(" ")
+    }),
+    ("motion_limit_pn_nm", |o| {
+        of_motion(o, |m| number(m.limit.energy))
+    }),
+    ("motion_time_ns", |o| {
+        of_motion(o, |m| format!("{:.2}", m.time_ns))
+    }),
+    ("motion_force_evaluations", |o| {
+        of_motion(o, |m| m.force_evaluations.to_string())
+    }),
+];
+
+/// A cell of an outcome that was moved; empty otherwise.
+fn of_motion(outcome: &Outcome, cell: fn(&Motion) -> String) -> String {
+    outcome.motion.as_ref().map_or(String::new(), cell)
+}
+
+/// Writes the tables behind rows and pictures.
+pub(super) fn tables(draft: &Draft<'_>, outcomes: &[Outcome]) -> Result<(), String> {
+    let file = |name: &str| format!("{}{name}.csv", draft.id);
+    draft.table(&file(""), outcomes, &COLUMNS)?;
+    let lines = outcomes.iter().map(|o| {
+        let line = &o.lowest.centre_line;
+        let points = line.arc_lengths().iter().zip(line.points());
+        let case = &o.case;
+        (
+            vec![case.resolution.name(), variant(case), case.seed.to_string()],
+            points.map(|(s, [x, y, z])| [*s, *x, *y, *z]).collect(),
+        )
+    });
+    let header = ["case", "variant", "seed", "s_nm", "x_nm", "y_nm", "z_nm"];
+    draft.curves(&file("_centre_lines"), &header, lines)?;
+    let energies = moved(outcomes).map(|(o, m)| (vec![o.case.resolution.name()], m.energy.clone()));
+    let header = ["case", "time_ns", "total_pn_nm", "potential_pn_nm"];
+    draft.curves(&file("_energy"), &header, energies)
+}
+
+fn variant(case: &Case) -> String {
+    match case.model.name {
+        "" => "standard".into(),
+        name => name.trim_start_matches('/').into(),
+    }
+}

@@ -1,0 +1,153 @@
+//! Equilibria of a case from several starts, and its damped motion.
+
+use super::Case;
+use crate::figures::centre_line::CentreLine;
+use crate::run::{Shape, Solved};
+use actin_mechanics::State;
+use actin_sim::{Assembly, Equilibrium, Part, Scene, Task};
+
+/// Turns of the built filament about its axis from which equilibria are sought (deg).
+const STARTS_DEG: [f64; 4] = [0.0, 90.0, 180.0, 270.0];
+/// Equilibria whose energies differ by more (pN nm) are two: a residual of 1e-7 changes the energy
+/// by far less.
+pub(super) const SAME_PN_NM: f64 = 1e-3;
+
+/// An equilibrium.
+#[derive(Clone, Debug)]
+pub(super) struct Balance {
+    /// Energy of filament and linkers (pN nm).
+    pub energy: f64,
+    /// The linkers' part of it (pN nm).
+    pub linkers: f64,
+    /// Positive definiteness of the stiffness, and its lowest eigenvalue (pN/nm).
+    pub is_stable: bool,
+    pub lowest: Option<f64>,
+    pub iterations: u64,
+    pub residual: [f64; 2],
+    pub centre_line: CentreLine,
+    pub shape: Shape,
+    /// Anchors (nm).
+    pub anchors: Vec<[f64; 3]>,
+    /// Pull of each linker (pN).
+    pub forces: Vec<f64>,
+    /// Turn of the body that holds the second linker, from how it was built (deg).
+    pub roll: f64,
+}
+
+/// A damped motion that has come to rest.
+#[derive(Clone, Debug)]
+pub(super) struct Motion {
+    /// Time (ns), energy of filament and linkers with the kinetic one, and without (pN nm).
+    pub energy: Vec<[f64; 3]>,
+    pub has_converged: bool,
+    pub time_ns: f64,
+    pub force_evaluations: u64,
+    /// Largest distance between its last centre line and its limit (nm).
+    pub from_limit_nm: f64,
+    /// The equilibrium that Newton's method reaches from where it ended.
+    pub limit: Balance,
+}
+
+/// Outcome of a case.
+#[derive(Clone, Debug)]
+pub(super) struct Outcome {
+    pub case: Case,
+    /// The equilibrium of lowest energy that was found.
+    pub lowest: Balance,
+    /// Energies of all that were found (pN nm), by the turn of the start.
+    pub starts: Vec<f64>,
+    pub motion: Option<Motion>,
+}
+
+impl Outcome {
+    /// Solves the case; follows its motion too if `moving`.
+    pub(super) fn of(case: &Case, moving: bool) -> Result<Self, String> {
+        let scene = case.scene()?;
+        let starts = STARTS_DEG.iter();
+        let found = starts.map(|turn| balance(&scene, &Start::Turned(*turn)));
+        let mut found: Vec<Balance> = found.collect::<Result<_, _>>()?;
+        let starts = found.iter().map(|b| b.energy).collect();
+        let motion = moving.then(|| motion(&scene)).transpose()?;
+        found.extend(motion.as_ref().map(|m| m.limit.clone()));
+        // Of equals the first, whose count of iterations is that from a built filament.
+        let lower = |best: Balance, other: Balance| {
+            if other.energy < best.energy - SAME_PN_NM {
+                other
+            } else {
+                best
+            }
+        };
+        let lowest = found.into_iter().reduce(lower).expect("there are starts");
+        Ok(Self {
+            case: *case,
+            lowest,
+            starts,
+            motion,
+        })
+    }
+}
+
+/// Initial state of the search for an equilibrium.
+enum Start<'a> {
+    /// The built filament, turned about its axis (deg).
+    Turned(f64),
+    State(&'a State),
+}
+
+/// The equilibrium near a start.
+fn balance(scene: &Scene, start: &Start<'_>) -> Result<Balance, String> {
+    let mut scene = scene.clone();
+    scene.task = Task::Equilibrium(Equilibrium {
+        lowest_eigenvalue: true,
+        ..Equilibrium::default()
+    });
+    let mut assembly = Assembly::build(&scene).map_err(|e| e.to_string())?;
+    match start {
+        Start::Turned(degrees) => assembly.roll(degrees.to_radians()),
+        Start::State(state) => *assembly.system.state_mut() = (*state).clone(),
+    }
+    let solved = Solved::run(assembly).map_err(|error| format!("Newton: {error}"))?;
+    Ok(describe(&solved))
+}
+
+fn describe(solved: &Solved) -> Balance {
+    let (assembly, state) = (&solved.assembly, solved.state());
+    let known = solved.report.equilibrium.as_ref();
+    let middle = assembly.linkers[1].site().frame();
+    let turned = state.frames.orientation.get(middle)
+        * assembly.rest.frames.orientation.get(middle).inverse();
+    let linkers = || assembly.linkers.iter();
+    Balance {
+        energy: solved.last().potential_pn_nm(),
+        linkers: solved.energy(|part| matches!(part, Part::Linker(_))),
+        is_stable: solved.doubtful() == Some([0, 0]),
+        lowest: known.and_then(|e| e.lowest_eigenvalue),
+        iterations: known.map_or(0, |e| e.newton_iterations),
+        residual: solved.residual(),
+        centre_line: CentreLine::of(assembly, state),
+        shape: solved.shape(),
+        anchors: linkers().map(|l| l.end_position(state).into()).collect(),
+        forces: linkers().map(|l| l.force(state).norm()).collect(),
+        roll: turned.angle().to_degrees(),
+    }
+}
+
+/// The damped motion of the scene from the built state, and the equilibrium it tends to.
+fn motion(scene: &Scene) -> Result<Motion, String> {
+    let moved = Solved::new(scene).map_err(|error| format!("dynamics: {error}"))?;
+    let limit = balance(scene, &Start::State(moved.state()))?;
+    let end = CentreLine::of(&moved.assembly, moved.state());
+    let energies = moved.records.iter().map(|record| {
+        let potential = record.potential_pn_nm();
+        let total = potential + record.kinetic_pn_nm;
+        [record.at.value(), total, potential]
+    });
+    Ok(Motion {
+        energy: energies.collect(),
+        has_converged: moved.report.has_converged(),
+        time_ns: moved.last().at.value(),
+        force_evaluations: moved.report.force_evaluations,
+        from_limit_nm: end.farthest_from(&limit.centre_line).0,
+        limit,
+    })
+}

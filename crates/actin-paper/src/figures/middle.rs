@@ -1,0 +1,384 @@
+//! Figure 7: a filament held at both ends and turned in its middle by a linker, as a rod, whose
+//! halves store the same, and as monomers, whose over-twisted half stores more. Variants: the mean
+//! filament, and a rod with the energy of the supplement, which couples stretch and twist.
+
+use super::charts::{line, room};
+use super::draft::{Column, Draft, number, residuals};
+use crate::palette;
+use crate::run::{Solved, scenario};
+use crate::statistics::{largest, sample};
+use actin_draw::{Colour, Series};
+use actin_sim::shape::{Ribbon, profile};
+use actin_sim::{Assembly, Hold, Monomers, Part, RodLaw, Scene, Slides};
+use actin_view::{Attitude, Pose};
+
+/// Samplings of the bonds, each pulled in both directions, and for `--quick`.
+const SEEDS: u64 = 16;
+const QUICK_SEEDS: u64 = 4;
+
+/// Model of the filament.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Resolved {
+    /// 19 segments under this law, held so.
+    Rod(Rod, Hold),
+    /// 67 monomers with so many drawn bonds per interface.
+    Ellipsoids(usize),
+    /// 67 monomers with quadrature bonds: the mean filament.
+    Mean,
+}
+
+/// Law of the rod.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Rod {
+    Constant,
+    /// With the energy of the supplement, which couples stretch and twist.
+    Coupled,
+}
+
+/// Name in quantities and number of ends that slide along the axis. The linker then still holds the middle along
+/// the axis: with one end held, the half towards it stays in tension.
+const SLIDING: [(&str, usize); 3] = [("", 0), ("far-end-slides/", 1), ("both-ends-slide/", 2)];
+
+/// Kinds of filaments: name in quantities, and model.
+const KINDS: [(&str, Resolved); 7] = [
+    ("rod", Resolved::Rod(Rod::Constant, Hold::TwoNodesAndFrame)),
+    ("wall/rod", Resolved::Rod(Rod::Constant, Hold::Wall)),
+    (
+        "coupling-energy/rod",
+        Resolved::Rod(Rod::Coupled, Hold::TwoNodesAndFrame),
+    ),
+    (
+        "coupling-energy/wall/rod",
+        Resolved::Rod(Rod::Coupled, Hold::Wall),
+    ),
+    ("ellipsoid", Resolved::Ellipsoids(64)),
+    ("bonds-32/ellipsoid", Resolved::Ellipsoids(32)),
+    ("mean-filament/ellipsoid", Resolved::Mean),
+];
+
+/// One filament.
+#[derive(Clone, Debug)]
+struct Case {
+    /// Name of its kind in quantities.
+    kind: String,
+    resolved: Resolved,
+    /// Number of ends that slide along the axis.
+    sliding: usize,
+    /// Seed of the bonds.
+    seed: u64,
+    /// The linker turns the middle the other way.
+    is_reversed: bool,
+}
+
+/// Energies of both halves.
+#[derive(Clone, Debug)]
+struct Halves {
+    case: Case,
+    /// Elastic energy of the over-twisted and of the under-twisted half (pN nm).
+    over_pn_nm: f64,
+    under_pn_nm: f64,
+    /// Turn of the middle about the axis, along the pull (deg).
+    turn_deg: f64,
+    /// Pull of the linker (pN).
+    pull_pn: f64,
+    /// Tension at the first end that is held along the axis (pN); zero if both slide.
+    tension_pn: f64,
+    /// Eigenvalues of the stiffness that are not positive beyond doubt.
+    doubtful: usize,
+    residual: [f64; 2],
+    /// Arc length from the middle (nm), towards the over-twisted half, and energy per length (pN).
+    profile: Vec<[f64; 2]>,
+    pose: Pose,
+}
+
+impl Halves {
+    /// Energy of the over-twisted half over the energy of the under-twisted half.
+    fn ratio(&self) -> f64 {
+        self.over_pn_nm / self.under_pn_nm
+    }
+}
+
+/// Runs all cases, draws them and compares them.
+pub(super) fn figure7(draft: &mut Draft<'_>) -> Result<(), String> {
+    let cases = cases(if draft.quick { QUICK_SEEDS } else { SEEDS });
+    let results = draft.solve(&cases, |case| {
+        case.solve().map_err(|e| format!("{}: {e}", case.kind))
+    });
+    let results: Vec<Halves> = results.into_iter().collect::<Result<_, _>>()?;
+    draft.settings = format!(
+        "Scenes scenarios/figure-7/*.ron, {} equilibria; seeds of the bonds from 0 (the mean filament has no \
+         seed), each pulled both ways; {}.",
+        results.len(),
+        residuals(results.iter().map(|h| h.residual))
+    );
+    rows(draft, &results);
+    tables(draft, &results)?;
+    picture(draft, &results)?;
+    view(draft, &results)
+}
+
+/// All kinds with zero, one or two ends sliding. Filaments of monomers are pulled both ways.
+fn cases(seeds: u64) -> Vec<Case> {
+    let mut all = Vec::new();
+    for (slides, sliding) in SLIDING {
+        for (kind, resolved) in KINDS {
+            let seeds = match resolved {
+                Resolved::Ellipsoids(_) => seeds,
+                _ => 1,
+            };
+            let directions: &[bool] = match resolved {
+                Resolved::Rod(..) => &[false],
+                _ => &[false, true],
+            };
+            for seed in 0..seeds {
+                all.extend(directions.iter().map(|&is_reversed| Case {
+                    kind: format!("{slides}{kind}"),
+                    resolved,
+                    sliding,
+                    seed,
+                    is_reversed,
+                }));
+            }
+        }
+    }
+    all
+}
+
+impl Case {
+    fn scene(&self) -> Result<Scene, String> {
+        let mut scene = scenario(match self.resolved {
+            Resolved::Rod(..) => "figure-7/rod.ron",
+            _ => "figure-7/ellipsoids.ron",
+        })?;
+        match self.resolved {
+            Resolved::Rod(law, hold) => {
+                scene.clamps.iter_mut().for_each(|clamp| clamp.hold = hold);
+                if law == Rod::Coupled {
+                    scene.filament.rod.law = RodLaw::CouplingEnergy;
+                }
+            }
+            Resolved::Mean => scene.filament.monomers = Monomers::default(),
+            Resolved::Ellipsoids(bonds) => {
+                let monomers = &mut scene.filament.monomers;
+                monomers.seed = self.seed;
+                monomers.lateral_bonds = bonds;
+                monomers.longitudinal_bonds = bonds;
+            }
+        }
+        for clamp in scene.clamps.iter_mut().rev().take(self.sliding) {
+            clamp.slides = Slides::AlongAxis;
+        }
+        if self.is_reversed {
+            let linkers = scene.linkers.iter_mut();
+            let anchors = linkers.filter_map(|linker| linker.displaced_nm.as_mut());
+            anchors.flatten().for_each(|v| *v = -*v);
+        }
+        Ok(scene)
+    }
+
+    /// Finds the equilibrium and measures both halves.
+    fn solve(&self) -> Result<Halves, String> {
+        let mut solved = Solved::new(&self.scene()?)?;
+        let loads = solved.assembly.system.loads().clone();
+        let assembly = &solved.assembly;
+        let clamp = assembly.clamps.iter().find(|c| c.slides == Slides::Nowhere);
+        let tension = clamp.map_or(0.0, |c| -c.reaction(solved.state(), &loads).force_pn.z);
+        let energy = solved.energy(|part| matches!(part, Part::Linker(_)));
+        let stiffness = assembly.scene.linkers[0].stiffness_pn_per_nm;
+        let turn_deg = turn_of_middle(assembly).to_degrees();
+        let ([first, second], profile) = halves(assembly, turn_deg.signum());
+        let (over, under) = if turn_deg > 0.0 {
+            (first, second)
+        } else {
+            (second, first)
+        };
+        Ok(Halves {
+            case: self.clone(),
+            over_pn_nm: over,
+            under_pn_nm: under,
+            turn_deg: turn_deg.abs(),
+            pull_pn: (2.0 * stiffness * energy).sqrt(),
+            tension_pn: tension,
+            doubtful: solved.doubtful().ok_or("no certificate")?.iter().sum(),
+            residual: solved.residual(),
+            profile,
+            pose: solved.pose(),
+        })
+    }
+}
+
+/// Turn of the body in the middle about lab z (rad).
+fn turn_of_middle(assembly: &Assembly) -> f64 {
+    let middle = 0.5 * assembly.length_nm();
+    let distance = |i: usize| (assembly.frames[i].s_nm - middle).abs();
+    let frames = 0..assembly.frames.len();
+    let nearest = frames.min_by(|&a, &b| distance(a).total_cmp(&distance(b)));
+    let i = nearest.unwrap_or_default();
+    let now = assembly.system.state().frames.orientation.get(i);
+    let turn = now * assembly.rest.frames.orientation.get(i).inverse();
+    2.0 * turn.k.atan2(turn.w)
+}
+
+/// Elastic energies of the first and the second half (pN nm), and energy per length about the
+/// middle, with the over-twisted half (the first if `sign` is positive) on the positive side.
+fn halves(assembly: &Assembly, sign: f64) -> ([f64; 2], Vec<[f64; 2]>) {
+    let state = assembly.system.state();
+    let points = profile(assembly, state);
+    let ribbon = Ribbon::new(assembly, state);
+    let mut cells = vec![points[0].s_nm];
+    cells.extend(&ribbon.frame_s_nm);
+    cells.push(points[points.len() - 1].s_nm);
+    let middle = 0.5 * assembly.length_nm();
+    let mut energies = [0.0; 2];
+    for (point, cell) in points.iter().zip(cells.windows(2)) {
+        let half = usize::from(0.5 * (cell[0] + cell[1]) > middle);
+        energies[half] += point.energy_per_length_pn * (cell[1] - cell[0]);
+    }
+    let along = points.iter();
+    let along = along.map(|p| [sign * (middle - p.s_nm), p.energy_per_length_pn]);
+    let mut along: Vec<[f64; 2]> = along.collect();
+    along.sort_by(|a, b| a[0].total_cmp(&b[0]));
+    (energies, along)
+}
+
+/// A measured quantity: name, unit, value.
+type Quantity = (&'static str, &'static str, fn(&Halves) -> f64);
+
+const QUANTITIES: [Quantity; 6] = [
+    ("half_energy_ratio", "", Halves::ratio),
+    ("half_energy_excess", "pN nm", |h| {
+        h.over_pn_nm - h.under_pn_nm
+    }),
+    ("energy", "pN nm", |h| h.over_pn_nm + h.under_pn_nm),
+    ("turn", "deg", |h| h.turn_deg),
+    ("pull", "pN", |h| h.pull_pn),
+    ("tension", "pN", |h| h.tension_pn),
+];
+
+/// Means over samplings and directions, kind by kind.
+fn rows(draft: &mut Draft<'_>, results: &[Halves]) {
+    for halves in results.chunk_by(|a, b| a.case.kind == b.case.kind) {
+        let case = &halves[0].case;
+        for (name, unit, of) in QUANTITIES {
+            let s = sample(halves.iter().map(of));
+            let note = match (s.count, case.resolved) {
+                (1, _) => "one equilibrium".into(),
+                (n, resolved) => format!(
+                    "mean over {n} ({}both directions), sd {:.4}, standard error {:.4}, range {:.4} to {:.4}",
+                    match resolved {
+                        Resolved::Ellipsoids(_) => "samplings, ",
+                        _ => "",
+                    },
+                    s.sd,
+                    s.sd / (n as f64).sqrt(),
+                    s.low,
+                    s.high
+                ),
+            };
+            draft.mean(format!("{name}/{}", case.kind), unit, &s, note);
+        }
+    }
+    let doubtful = results.iter().filter(|r| r.doubtful > 0).count();
+    let note = format!("of {} equilibria", results.len());
+    draft.row("not_certified_stable", "", doubtful as f64, note);
+}
+
+const COLUMNS: [Column<Halves>; 12] = [
+    ("kind", |h| h.case.kind.clone()),
+    ("seed", |h| h.case.seed.to_string()),
+    ("reversed", |h| h.case.is_reversed.to_string()),
+    ("over_twisted_half_pn_nm", |h| number(h.over_pn_nm)),
+    ("under_twisted_half_pn_nm", |h| number(h.under_pn_nm)),
+    ("ratio", |h| number(h.ratio())),
+    ("turn_deg", |h| number(h.turn_deg)),
+    ("pull_pn", |h| number(h.pull_pn)),
+    ("tension_pn", |h| number(h.tension_pn)),
+    ("not_positive_eigenvalues", |h| h.doubtful.to_string()),
+    ("residual_pn", |h| number(h.residual[0])),
+    ("residual_pn_nm", |h| number(h.residual[1])),
+];
+
+/// Writes `fig7.csv` and `fig7_profile.csv`.
+fn tables(draft: &Draft<'_>, results: &[Halves]) -> Result<(), String> {
+    draft.table("fig7.csv", results, &COLUMNS)?;
+    let profiles = results.iter().map(|h| {
+        let case = &h.case;
+        let names = [
+            case.kind.clone(),
+            case.seed.to_string(),
+            case.is_reversed.to_string(),
+        ];
+        (names.into(), h.profile.clone())
+    });
+    let header = [
+        "kind",
+        "seed",
+        "reversed",
+        "s_from_middle_nm",
+        "energy_per_length_pn",
+    ];
+    draft.curves("fig7_profile.csv", &header, profiles)
+}
+
+/// Energy per length: rods, the mean of the monomers with the default bonds, and the mean filament.
+fn picture(draft: &mut Draft<'_>, results: &[Halves]) -> Result<(), String> {
+    let curve = |label: &str, colour: Colour, kind: &str| -> Series {
+        let own = results.iter().filter(|h| h.case.kind == kind);
+        line(label, colour, mean_profile(&own.collect::<Vec<_>>()))
+    };
+    let [monomers, sliding, rod] = [0.0, 0.4, 1.0].map(palette::resolution);
+    let mut series = vec![
+        curve("rod", rod, "rod"),
+        curve("rod, C3 energy", palette::line(4), "coupling-energy/rod"),
+        curve("ellipsoids", monomers, "ellipsoid"),
+        curve(
+            "ellipsoids, both ends slide",
+            sliding,
+            "both-ends-slide/ellipsoid",
+        ),
+    ];
+    let values = series.iter().flat_map(|s| s.points.iter().map(|p| p.1));
+    let top = 1.4 * largest(values);
+    series.push(room((0.0, top)));
+    let mean = curve("mean filament", palette::DATA, "mean-filament/ellipsoid");
+    series.extend(mean.dashed(false));
+    let caption = "Elastic energy per length; of ellipsoids the mean over all samplings and both directions of the \
+        pull. Dashed: weighted bonds, the mean filament. C3 energy: the coupling of stretch and twist of the \
+        paper's supplement.";
+    draft.plot(
+        "fig7_energy.svg",
+        "Energy along the filament; the over-twisted half is on the right",
+        [
+            "arc length from the middle (nm)",
+            "elastic energy per length (pN)",
+        ],
+        series,
+        caption,
+    )
+}
+
+/// Mean over profiles that are known at the same places, within the mirror image.
+fn mean_profile(halves: &[&Halves]) -> Vec<(f64, f64)> {
+    let places = halves.first().map_or(0, |first| first.profile.len());
+    let mean = |i: usize| sample(halves.iter().map(|h| h.profile[i][1])).mean;
+    (0..places)
+        .map(|i| (halves[0].profile[i][0], mean(i)))
+        .collect()
+}
+
+/// The pure cases with both ends held, the first sampling, for the viewer.
+fn view(draft: &mut Draft<'_>, results: &[Halves]) -> Result<(), String> {
+    let shown = [("rod", 1.0), ("ellipsoid", 0.0)]
+        .into_iter()
+        .filter_map(|(kind, share)| {
+            let first = results.iter().find(|h| h.case.kind == kind)?;
+            Some((
+                "both ends held".into(),
+                kind.into(),
+                share,
+                first.pose.clone(),
+            ))
+        });
+    let caption = "The equilibria in space, with the linker that turns the middle.";
+    draft.view("fig7", Attitude::LYING, shown, caption)
+}

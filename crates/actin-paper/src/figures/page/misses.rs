@@ -1,0 +1,140 @@
+//! Reasons of failed comparisons. The page marks a miss without a known reason.
+
+use super::texts::{Reason, TEXTS};
+use actin_draw::page::{Explained, Misses};
+use actin_draw::report::Row;
+
+/// Heading of misses without a reason.
+const OPEN: &str = "No reason is known for what follows. A quick run misses more than a full one: it has \
+                    fewer samplings and resolutions.";
+
+/// The misses among the rows, under their reasons.
+pub(super) fn of<'a>(rows: impl Iterator<Item = &'a Row>) -> Misses<'a> {
+    let missed: Vec<&Row> = rows.filter(|row| row.pass == Some(false)).collect();
+    let chosen = |is_chosen: &dyn Fn(&Row) -> bool| {
+        let chosen = missed.iter().copied().filter(|row| is_chosen(row));
+        chosen.collect()
+    };
+    let explained = TEXTS.reasons.iter().map(|reason| Explained {
+        artefact: &reason.artefact,
+        title: &reason.title,
+        text: &reason.text,
+        rows: chosen(&|row| reason.covers(row)),
+    });
+    Misses {
+        explained: explained.collect(),
+        open: chosen(&|row| Reason::of(row).is_none()),
+        open_note: OPEN,
+    }
+}
+
+/// Misses without a reason, and reasons without a miss in an artefact that was computed, a line each.
+pub(crate) fn unexplained(rows: &[Row]) -> Vec<String> {
+    let missed: Vec<&Row> = rows.iter().filter(|row| row.pass == Some(false)).collect();
+    let mut all = Vec::new();
+    for row in &missed {
+        let count = TEXTS
+            .reasons
+            .iter()
+            .filter(|reason| reason.covers(row))
+            .count();
+        if count != 1 {
+            let (artefact, quantity) = (row.artefact, &row.quantity);
+            all.push(format!(
+                "{artefact}:{quantity} is missed and has {count} reasons"
+            ));
+        }
+    }
+    let is_run = |reason: &&Reason| rows.iter().any(|row| row.artefact == reason.artefact);
+    for reason in TEXTS.reasons.iter().filter(is_run) {
+        if !missed.iter().any(|row| reason.covers(row)) {
+            all.push(format!(
+                "{}: nothing is missed for: {}",
+                reason.artefact, reason.title
+            ));
+        }
+    }
+    all
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::workspace_root;
+    use actin_draw::report;
+
+    /// Every miss of the committed report has its reason, and every reason its miss: what is told of a
+    /// number that agrees by now would be wrong.
+    #[test]
+    fn every_miss_has_its_reason() {
+        let rows = report::read(&workspace_root().join("docs/report.json")).unwrap();
+        let open = unexplained(&rows);
+        assert!(open.is_empty(), "{}", open.join("\n"));
+        let miss = |quantity| Row::measured("fig1", quantity, "nm", 1.0, "").against(2.0, 0.5);
+        let told = unexplained(&[miss("a"), miss("b")]);
+        assert_eq!(told.len(), 2);
+        assert_eq!(told[1], "fig1:b is missed and has 0 reasons");
+    }
+
+    /// A name covers itself and, with a slash at its end, what lies below. Symptom of a bare prefix: 10
+    /// deg explains 100 deg.
+    #[test]
+    fn names_are_matched_whole() {
+        let row = |artefact, quantity: &str| Row::measured(artefact, quantity, "", 0.0, "");
+        assert!(Reason::of(&row("table3", "b3/under/10")).is_some());
+        assert!(Reason::of(&row("table3", "b3/length-14/under/10")).is_none());
+        assert!(Reason::of(&row("table4", "s3")).is_some());
+        assert!(Reason::of(&row("table4", "s3_over_ea")).is_none());
+        assert!(Reason::of(&row("table5", "dl_over_l/under/100")).is_some());
+        assert!(Reason::of(&row("table4", "s1/secant/0.01")).is_none());
+        assert!(Reason::of(&row("fig8", "couple/over/180/rod")).is_none());
+    }
+
+    /// Numbers that the texts hold are those of the committed report.
+    #[test]
+    fn numbers_in_the_texts_are_those_of_the_report() {
+        let rows = report::read(&workspace_root().join("docs/report.json")).unwrap();
+        let row = |artefact: &str, quantity: &str| {
+            let mut found = rows.iter().filter(|row| row.artefact == artefact);
+            found.find(|row| row.quantity == quantity).unwrap()
+        };
+        let says = |artefact: &str, quantity: &str, text: &str| {
+            Reason::of(row(artefact, quantity))
+                .unwrap()
+                .text
+                .contains(text)
+        };
+        let printed = "claim/printed_deflection";
+        let text = format!("gives {:.1} nm", row("fig4", printed).ours);
+        assert!(says("fig4", printed, &text), "{text}");
+        let text = format!("gives {:.0} nm", row("fig4", "tip_drop/rod").ours);
+        assert!(says("fig4", printed, &text), "{text}");
+        let within = |artefact: &str, path: &str, middle: f64| {
+            let is_mixed = |row: &&Row| {
+                let name = row.quantity.strip_prefix(path);
+                row.artefact == artefact && name.is_some_and(|name| name.starts_with("rod-"))
+            };
+            let mut mixed = rows.iter().filter(is_mixed).peekable();
+            assert!(mixed.peek().is_some());
+            mixed.all(|row| (row.ours - middle).abs() <= 1.0)
+        };
+        assert!(within("fig8", "height/under/180/", 39.0));
+        let under = "claim/height_grows_with_rod/under/180";
+        assert!(says("fig8", under, "within 1 nm of 39 nm"));
+    }
+
+    /// Rows that the texts send a reader to are there.
+    #[test]
+    fn rows_that_are_named_exist() {
+        let rows = report::read(&workspace_root().join("docs/report.json")).unwrap();
+        for reason in &TEXTS.reasons {
+            let named = reason.text.split(&[' ', '(', ')', ',']);
+            for path in named.filter(|word| word.contains('/')) {
+                let start = path.trim_end_matches('.');
+                let is_there =
+                    |row: &Row| row.artefact == reason.artefact && row.quantity.starts_with(start);
+                assert!(rows.iter().any(is_there), "{path}: {}", reason.title);
+            }
+        }
+    }
+}

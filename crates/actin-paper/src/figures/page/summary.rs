@@ -1,0 +1,277 @@
+//! Texts of the page: its head, findings, guide, and the lead of the verdicts.
+
+use super::TITLE;
+use super::texts::{Cause, Finding, Reason, TEXTS};
+use crate::palette;
+use actin_draw::page::{Page, Verdicts, breakable, name};
+use actin_draw::report::{Artefact, Origin, Row};
+use maud::{Markup, html};
+
+fn all(artefacts: &[Artefact]) -> Verdicts {
+    artefacts.iter().map(|a| Verdicts::of(&a.rows)).sum()
+}
+
+/// Title and origin, in two lines: figures follow.
+pub(super) fn head(artefacts: &[Artefact], quick: bool, version: &str) -> Markup {
+    let all = all(artefacts);
+    html! {
+        h1 id="summary" { (TITLE) }
+        p class="soft" {
+            "Gunaratne, Floyd, Ni, Papoian and Erban, arXiv 2203.01284. Version " (version) ". "
+            @if all.compared() > 0 {
+                (all.agree) " of " (all.compared()) " numbers that are judged agree: "
+                a href="#verdicts" { "verdicts" } "."
+            }
+        }
+        @if quick {
+            p class="quick" {
+                "This was a quick run: fewer resolutions and samplings, equilibria more often than \
+                 motions. The full run leaves " code { "--quick" } " out; the reasons given for what \
+                 was missed, and the numbers in them, are those of the full run."
+            }
+        }
+    }
+}
+
+/// Findings, counts and choices.
+pub(super) fn words(artefacts: &[Artefact]) -> Markup {
+    html! {
+        (findings(artefacts))
+        (judged(artefacts))
+        p { strong { "Choices." } " " (TEXTS.choices) }
+    }
+}
+
+/// Guide to the page.
+pub(super) fn how_to_read(page: &mut Page<'_>) -> Markup {
+    let stops = palette::chosen().ramp().stops().iter();
+    let stops: Vec<String> = stops.map(|&stop| page.colour(stop)).collect();
+    reading(&stops)
+}
+
+/// Lead of the table of verdicts.
+pub(super) fn verdicts(artefacts: &[Artefact]) -> Markup {
+    html! {
+        (score(artefacts))
+        p {
+            "Every number that is judged, figure by figure: first what was missed, under its reason. The \
+             reasons, and the numbers in them, are those of the full run of this version. The note of a row \
+             says how its number came about; the " a href="#errata" { "errata" }
+            " say where the paper is open or contradicts itself."
+        }
+    }
+}
+
+fn judged(artefacts: &[Artefact]) -> Markup {
+    let all = all(artefacts);
+    html! {
+        p {
+            (all.compared()) " numbers are judged: "
+            span class="pass" { (all.agree) " agree" } " within their tolerance; "
+            span class="miss" { (all.missed) " do not" } ". " (all.measured)
+            " more were measured and are not judged. All numbers and pictures come from simulations of \
+             the run that wrote this page. Nothing was fitted in it, but for the laws of Figure 9 and \
+             the rows named fitted; the choices that follow were made beforehand to meet Tables 3, 4 \
+             and 5."
+        }
+    }
+}
+
+fn reading(stops: &[String]) -> Markup {
+    let ramp = format!("background:linear-gradient(to right,{})", stops.join(","));
+    html! {
+        p {
+            "A row agrees if ours differs from the expected number by no more than the tolerance; where \
+             no number is expected, the tolerance is the bound itself, and the note says on which side \
+             of it to be. Who expects the number or sets the bound stands under " em { "by" }
+            ". Units are nm, pN, ns and rad; a row without one is a ratio or a count. On a narrow screen a \
+             picture grows when it is touched. Colour is resolution, the share of the filament that \
+             is rod:"
+        }
+        div class="ramp" style=(ramp) {}
+        div class="ends" { span { "all monomers" } span { "all rod" } }
+        details {
+            summary { "What the names of quantities mean" }
+            dl {
+                @for (name, meaning) in &TEXTS.names {
+                    dt { code { (name) } } dd { (meaning) }
+                }
+            }
+        }
+        p class="soft" {
+            "Another set of colours: " code { "--palette paper" } " or "
+            code { "--palette colour-blind" } "."
+        }
+    }
+}
+
+impl Finding {
+    /// The verdict; `None` if rows are missing in the run.
+    fn verdict(&self, artefacts: &[Artefact]) -> Option<bool> {
+        let artefact = artefacts.iter().find(|a| a.id == self.artefact)?;
+        let verdict = |name: &String| {
+            let row = artefact.rows.iter().find(|row| row.quantity == *name)?;
+            row.pass
+        };
+        let verdicts: Option<Vec<bool>> = self.quantities.iter().map(verdict).collect();
+        verdicts.map(|all| all.into_iter().all(|pass| pass))
+    }
+}
+
+/// Sentences on the artefacts that were computed.
+fn findings(artefacts: &[Artefact]) -> Markup {
+    let sentences = sentences(artefacts);
+    html! {
+        @for (title, class, text) in sentences.iter().filter(|(.., text)| !text.is_empty()) {
+            p class="lead" { span class=(class) { (title) ":" } " " (text) "." }
+        }
+    }
+}
+
+/// Title, class and text of each sentence.
+fn sentences(artefacts: &[Artefact]) -> [(&'static str, &'static str, String); 3] {
+    let verdicts = TEXTS.findings.iter().map(|f| (f, f.verdict(artefacts)));
+    let of = |wanted: bool| {
+        let chosen = verdicts.clone().filter(move |(_, v)| *v == Some(wanted));
+        let words = chosen.map(|(f, _)| f.in_words(wanted));
+        words.collect::<Vec<_>>().join("; ")
+    };
+    let rows = artefacts.iter().flat_map(|a| &a.rows);
+    let missed: Vec<&Row> = rows.filter(|row| row.pass == Some(false)).collect();
+    [
+        ("Confirmed", "pass", of(true)),
+        ("Not confirmed", "miss", of(false)),
+        ("Why", "open", causes(&missed)),
+    ]
+}
+
+/// Text for the numbers of misses by cause; empty without misses.
+fn causes(missed: &[&Row]) -> String {
+    let count = |cause: Option<Cause>| {
+        let causes = missed.iter().map(|row| Reason::of(row).map(|r| r.cause));
+        causes.filter(|found| *found == cause).count()
+    };
+    let known = Cause::ALL.map(|cause| (count(Some(cause)), Some(cause)));
+    let counted = known.into_iter().chain([(count(None), None)]);
+    let causes: Vec<String> = counted
+        .filter(|(count, _)| *count > 0)
+        .map(|(count, cause)| {
+            let unknown = || format!("{count} nobody has looked into yet");
+            cause.map_or_else(unknown, |cause| cause.in_words(count))
+        })
+        .collect();
+    match missed.len() {
+        0 => String::new(),
+        1 => format!("1 comparison failed. {}", causes.concat()),
+        many => format!("{many} comparisons failed. {}", causes.join("; ")),
+    }
+}
+
+/// Origins of expected numbers, with their titles.
+const GROUPS: [(Origin, &str); 6] = [
+    (
+        Origin::Paper,
+        "Numbers that the paper prints, beside simulated ones",
+    ),
+    (
+        Origin::Derived,
+        "Numbers that the paper prints, beside what follows from others that it prints (no simulation)",
+    ),
+    (Origin::Words, "Statements of the paper in words"),
+    (Origin::Theory, "Theory"),
+    (
+        Origin::CrossCheck,
+        "Cross-checks: an earlier calculation that shares this code's modelling decisions",
+    ),
+    (
+        Origin::Bound,
+        "Checks of the calculation, and bounds set here",
+    ),
+];
+
+/// The rule and the counts; nothing if nothing is judged.
+fn score(artefacts: &[Artefact]) -> Markup {
+    let groups = GROUPS.map(|(origin, title)| group(artefacts, origin, title));
+    if groups.iter().all(|group| group.0.is_empty()) {
+        return Markup::default();
+    }
+    html! {
+        h3 { "What agrees" }
+        p {
+            "One rule decides in all figures and tables. A printed number is met within half a unit of \
+             its last digit and, where bonds are drawn, twice the standard deviation of a single \
+             filament; shapes called alike within 1.8 nm, the radius of the helix; numbers called alike \
+             within 10 %, which the paper calls a difference itself; an order by its sign."
+        }
+        details {
+            summary { "The rule in full, and what is not judged" }
+            dl {
+                @for (of, bound) in &TEXTS.rule {
+                    dt { (of) } dd { (bound) "." }
+                }
+            }
+            p class="soft" {
+                "Not judged, and not counted: numbers copied from the paper, variants of its models, \
+                 what cannot come out otherwise, and twist of 360 deg."
+            }
+        }
+        table class="verdicts" {
+            thead {
+                tr {
+                    th { "expected" } th class="n" { "met" } th class="n" { "of" } th { "not met" }
+                }
+            }
+            tbody { @for group in groups { (group) } }
+        }
+    }
+}
+
+/// One line for all artefacts and, for numbers and statements of the paper, one for each artefact.
+fn group(artefacts: &[Artefact], origin: Origin, title: &str) -> Markup {
+    let judged = |a: &Artefact| -> Vec<Row> {
+        let rows = a.rows.iter().filter(|row| row.origin == Some(origin));
+        rows.filter(|row| row.pass.is_some()).cloned().collect()
+    };
+    let each: Vec<(&str, Vec<Row>)> = artefacts.iter().map(|a| (a.id, judged(a))).collect();
+    let each: Vec<_> = each
+        .into_iter()
+        .filter(|(_, rows)| !rows.is_empty())
+        .collect();
+    let all: Vec<Row> = each.iter().flat_map(|(_, rows)| rows.clone()).collect();
+    if all.is_empty() {
+        return Markup::default();
+    }
+    let is_told = matches!(origin, Origin::Paper | Origin::Derived | Origin::Words);
+    html! {
+        (line(&html! { strong { (title) } }, &all, !is_told))
+        @if is_told {
+            @for (id, rows) in &each {
+                (line(&html! { a href={ "#" (id) } { (name(id)) } }, rows, true))
+            }
+        }
+    }
+}
+
+fn line(title: &Markup, rows: &[Row], with_misses: bool) -> Markup {
+    let verdicts = Verdicts::of(rows);
+    let missed = rows
+        .iter()
+        .filter(|row| with_misses && row.pass == Some(false));
+    html! {
+        tr {
+            td class="wide" { (title) }
+            td class="n pass" data-label="met" { (verdicts.agree) }
+            td class="n" data-label="of" { (verdicts.compared()) }
+            td class="wide" {
+                @for (i, row) in missed.enumerate() {
+                    @if i > 0 { ", " }
+                    code { (breakable(&row.quantity)) }
+                }
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+#[path = "summary_tests.rs"]
+mod tests;

@@ -1,0 +1,214 @@
+//! Record stream of a run with running diagnostics, without storing the records.
+
+use super::hinge::slip_between;
+use super::slip::{LinkWatch, TurnLoss};
+use super::{At, Plan, Progress, Record, RunPosition, Sink};
+use crate::assembly::{RangeWatch, TwistRecords, worst_of};
+use crate::observe::{Memory, View};
+use crate::{Assembly, LawExtrapolation, ModelLimitExceeded, UnstableTwist};
+use actin_mechanics::State;
+use serde::{Deserialize, Serialize};
+
+/// Summary of the records of a run, including the last record.
+#[derive(Clone, Debug)]
+pub struct RecordSummary {
+    pub(crate) carried: RunStatistics,
+    pub(crate) last: Option<Record>,
+}
+
+/// Running statistics of the records, stored in checkpoints.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub(crate) struct RunStatistics {
+    pub(crate) count: usize,
+    links: LinkWatch,
+    beyond_use: Vec<ModelLimitExceeded>,
+    ranges: RangeWatch,
+    twist: TwistRecords,
+    observed: Memory,
+}
+
+#[derive(Debug)]
+pub(super) struct StateWarnings {
+    pub(super) beyond_use: Vec<ModelLimitExceeded>,
+    pub(super) beyond_range: Vec<LawExtrapolation>,
+    pub(super) unstable_twist: Vec<UnstableTwist>,
+}
+
+impl RecordSummary {
+    /// Creates the summary of a run of `assembly` without records.
+    pub(crate) fn new(assembly: &Assembly) -> Self {
+        let mut start = assembly.system.state().clone();
+        // Without a path, the caller sets held ends.
+        if !assembly.drive.is_still() {
+            assembly.drive.place(&mut start, 0.0);
+        }
+        Self {
+            carried: RunStatistics {
+                count: 0,
+                links: LinkWatch::new(assembly, &start),
+                beyond_use: Vec::new(),
+                ranges: RangeWatch::new(assembly),
+                twist: TwistRecords::new(assembly),
+                observed: assembly.observers.memory(),
+            },
+            last: None,
+        }
+    }
+
+    /// Creates the summary of a run with these `records`, in order, for a user-defined sink that
+    /// [resumes](crate::Plan::resume_into) it.
+    pub fn of(plan: &Plan<'_>, records: impl IntoIterator<Item = Record>) -> Self {
+        let assembly = plan.assembly();
+        let mut recorded = Self::new(assembly);
+        for record in records {
+            recorded.carried.links.follow(assembly, &record);
+            recorded.push(assembly, record);
+        }
+        recorded
+    }
+
+    /// Creates the summary of a run that continues after a switch of cells with a first record.
+    /// Statistics that do not depend on the resolution are kept.
+    pub(crate) fn behind_switch(&self, assembly: &Assembly, first: Record) -> Self {
+        let mut recorded = Self::new(assembly);
+        recorded.carried.links = self.carried.links.clone();
+        recorded.carried.observed = self.carried.observed.clone();
+        recorded.carried.links.follow(assembly, &first);
+        recorded.push(assembly, first);
+        recorded
+    }
+
+    /// Returns the last record.
+    pub fn last(&self) -> Option<&Record> {
+        self.last.as_ref()
+    }
+
+    /// Returns the number of records.
+    pub fn count(&self) -> usize {
+        self.carried.count
+    }
+
+    fn push(&mut self, assembly: &Assembly, mut record: Record) -> &Record {
+        let all = &mut self.carried;
+        let energies = (record.energies_pn_nm.as_slice(), record.kinetic_pn_nm);
+        let view = View::new(assembly, (record.at, &record.state), energies);
+        record.booked = assembly.booked(&record.state);
+        record.observed = assembly.observers.row(&view, &mut all.observed);
+        let beyond = assembly.beyond_use(&record.state);
+        all.beyond_use = worst_of(all.beyond_use.drain(..).chain(beyond).collect::<Vec<_>>());
+        all.ranges.add(assembly, &record.state);
+        all.twist.add(assembly, &record.state);
+        all.count += 1;
+        self.last.insert(record)
+    }
+}
+
+impl RunStatistics {
+    pub(crate) fn fits(&self, other: &Self) -> bool {
+        self.observed.fits(&other.observed)
+            && self.links.fits(&other.links)
+            && self.twist.fits(&other.twist)
+    }
+}
+
+/// Passes records to a sink while checking for lost twist.
+pub(super) struct RecordStream<'a> {
+    pub(super) sink: &'a mut dyn Sink,
+    assembly: &'a Assembly,
+    recorded: RecordSummary,
+    lost: Option<TurnLoss>,
+}
+
+impl<'a> RecordStream<'a> {
+    pub(super) fn new(
+        assembly: &'a Assembly,
+        recorded: Option<RecordSummary>,
+        sink: &'a mut dyn Sink,
+    ) -> Self {
+        Self {
+            sink,
+            assembly,
+            recorded: recorded.unwrap_or_else(|| RecordSummary::new(assembly)),
+            lost: None,
+        }
+    }
+
+    /// Accepts a record and returns `true`, unless turns were lost since the previous record.
+    pub(super) fn take(&mut self, record: Record) -> bool {
+        let RecordSummary { carried, last } = &mut self.recorded;
+        let good = carried.links.clone();
+        let before = last.as_ref().map(|record| &record.state);
+        let here = (&record.state, record.at);
+        let twist = carried.links.slip(self.assembly, here, before);
+        // In a motion, hinges are checked more often. A turn lost by a hinge is also missing in the
+        // filament.
+        let path = before.filter(|_| matches!(record.at, At::Path(_)));
+        let hinge = path.and_then(|path| slip_between(self.assembly, path, here));
+        self.lost = hinge.map(TurnLoss::Hinge).or(twist.map(TurnLoss::Twist));
+        if self.lost.is_some() {
+            carried.links = good;
+            return false;
+        }
+        self.take_unchecked(record);
+        true
+    }
+
+    /// Accepts the record of a failed attempt without a check of its twist.
+    pub(super) fn take_unchecked(&mut self, record: Record) {
+        let record = self.recorded.push(self.assembly, record);
+        self.sink.record(record);
+    }
+
+    /// Returns `true` if an unrecorded state has all turns of the last record.
+    pub(super) fn has_all_turns(&self, here: (&State, At)) -> bool {
+        let mut links = self.recorded.carried.links.clone();
+        let before = self.last().map(|record| &record.state);
+        links.slip(self.assembly, here, before).is_none()
+    }
+
+    pub(super) fn last(&self) -> Option<&Record> {
+        self.recorded.last.as_ref()
+    }
+
+    pub(super) fn recorded(&self) -> &RecordSummary {
+        &self.recorded
+    }
+
+    pub(super) fn lose(&mut self, lost: TurnLoss) {
+        self.lost = Some(lost);
+    }
+
+    pub(super) fn has_lost(&self) -> bool {
+        self.lost.is_some()
+    }
+
+    pub(super) fn lost(&mut self) -> Option<TurnLoss> {
+        self.lost.take()
+    }
+
+    pub(super) fn into_remarks(self) -> StateWarnings {
+        let carried = self.recorded.carried;
+        StateWarnings {
+            beyond_use: carried.beyond_use,
+            beyond_range: carried.ranges.end(self.assembly),
+            unstable_twist: carried.twist.end(),
+        }
+    }
+
+    pub(super) fn checkpoint(&mut self, position: &RunPosition, wall_s: f64) {
+        self.sink.checkpoint(position, &self.recorded, wall_s);
+    }
+
+    pub(super) fn checkpoint_behind(
+        &mut self,
+        position: &RunPosition,
+        recorded: &RecordSummary,
+        wall_s: f64,
+    ) {
+        self.sink.checkpoint(position, recorded, wall_s);
+    }
+
+    pub(super) fn progress(&mut self, progress: &Progress) {
+        self.sink.progress(progress);
+    }
+}
