@@ -98,8 +98,12 @@ fn parameters_and_laws_are_written_and_read_with_the_feature_serde() {
     where
         T: serde::Serialize + serde::de::DeserializeOwned + PartialEq + std::fmt::Debug,
     {
-        let text = ron::to_string(value).unwrap();
-        assert_eq!(&ron::from_str::<T>(&text).unwrap(), value, "{text}");
+        let text = actin_sim::to_ron(value, 0);
+        assert_eq!(
+            &actin_sim::read_ron::<T>(&text, "Law").unwrap(),
+            value,
+            "{text}"
+        );
     }
     comes_back(&EllipsoidParameters::default());
     comes_back(&EllipsoidParameters::drawn(64, 3));

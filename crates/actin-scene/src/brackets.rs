@@ -18,7 +18,10 @@ pub(super) fn mistake(text: &str, file: &str, parsed: &Parsed) -> Option<SceneEr
         return error(at, &message);
     }
     if let Some(at) = brackets.unclosed_text {
-        return error(at, "a text begins here and does not end: a quotation mark is missing");
+        return error(
+            at,
+            "a text begins here and does not end: a quotation mark is missing",
+        );
     }
     let is_broken = brackets.misfit.is_some() || brackets.is_unclosed;
     if !is_broken && !brackets.has_listed_key {

@@ -10,7 +10,7 @@ use serde::de::DeserializeOwned;
 use std::path::Path;
 
 /// Structures within so many others have one line for each key.
-const SCENE_DEPTH: usize = 6;
+pub(super) const SCENE_DEPTH: usize = 6;
 
 impl RodLaws {
     /// The laws as a scene writes them after `law:`.

@@ -3,6 +3,8 @@
 use super::deserialize::{Refusal, deserialize};
 use super::parse::{Parsed, parse, word};
 use super::position::{line_and_column, place, without_mark};
+use super::print::print;
+use super::read::SCENE_DEPTH;
 use super::tree::{Kind, SceneValue, Source};
 use super::{Readings, Scene, SceneError, SceneProblem, brackets, trace, validate};
 use super::{validate::validate, written::Written};
@@ -118,6 +120,8 @@ pub struct SceneText {
     name: String,
     parsed: Parsed,
     overrides: Vec<Override>,
+    /// Whether the tree has values that are not written.
+    is_changed: bool,
 }
 
 impl SceneText {
@@ -133,6 +137,7 @@ impl SceneText {
             parsed: parse(&written, &name.to_lowercase()),
             name: name.to_owned(),
             overrides: Vec::new(),
+            is_changed: false,
             written,
         }
     }
@@ -142,9 +147,12 @@ impl SceneText {
         &self.written
     }
 
-    /// The text with all overrides and points of files, on one line.
+    /// The text with all overrides and points of files.
     pub fn text(&self) -> String {
-        self.parsed.root.to_string()
+        match self.is_changed {
+            true => print(&self.parsed.root, SCENE_DEPTH),
+            false => self.written.clone(),
+        }
     }
 
     /// Gives a key a value, whether the text has the key or not. Later overrides win.
@@ -163,6 +171,7 @@ impl SceneText {
             ..SceneError::new((1, 1), &message)
         })?;
         self.overrides.push(one);
+        self.is_changed = true;
         Ok(())
     }
 
@@ -171,7 +180,9 @@ impl SceneText {
     /// # Errors
     /// A file that cannot be read, or a row in it that is no point, at the key that names the file.
     pub fn read_points(&mut self, folder: &Path) -> Result<(), SceneError> {
+        let before = self.parsed.root.clone();
         let read = trace::read_points(&mut self.parsed.root, folder);
+        self.is_changed |= self.parsed.root != before;
         read.map_err(|problem| self.locate(&problem))
     }
 
@@ -255,7 +266,10 @@ impl SceneText {
                 mistakes.retain(|(at, _)| !(place.start..place.until).contains(at));
             }
             if !is_consequence(&tree, &refusal) {
-                mistakes.push((refusal.at.unwrap_or_default(), self.refused(&tree, &refusal)));
+                mistakes.push((
+                    refusal.at.unwrap_or_default(),
+                    self.refused(&tree, &refusal),
+                ));
             }
             if indices.is_empty() {
                 break;

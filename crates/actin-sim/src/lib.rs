@@ -52,7 +52,7 @@ pub use actin_scene::{
     Slides, Sphere, SphereSide, Stage, Stepping, StopTolerances, StretchLaw, Task, Thermal,
     TwistLaw, TwistRise, TwistStretchLaw, Want, Water, Where,
 };
-pub use actin_scene::{Readings, read_all, read_ron};
+pub use actin_scene::{Readings, read_all, read_ron, to_ron};
 pub use assembly::{
     Assembly, BodyKind, Clamped, Counts, Drive, EnergyExchange, FilamentSpan, Fluctuations,
     FrameInfo, JunctionBond, LawExtrapolation, LinkerEvent, LinkerEventKind, MeasuredError,

@@ -81,7 +81,7 @@ impl ValidatedSweep {
             }
             return Err(in_scene(all));
         }
-        let opened = Self::with(sweep, scene.text().to_owned());
+        let opened = Self::with(sweep, scene.text());
         opened.map_err(|problems| refused(problems.iter().map(at).collect()))
     }
 

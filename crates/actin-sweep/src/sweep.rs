@@ -1,8 +1,7 @@
 //! Input data of a sweep. `rules.rs` validates them.
 
-use actin_sim::{Drawn, SceneError, read_ron};
-use ron::value::RawValue;
-use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use actin_sim::{Drawn, SceneError, read_ron, to_ron};
+use serde::{Deserialize, Serialize};
 
 /// A sweep: a scene, its varied keys, the number of samples, and the tabulated results.
 ///
@@ -156,22 +155,9 @@ fn all() -> Vec<Drawn> {
 }
 
 /// A value in RON: a number, a name, a list, a structure.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename = "$written")]
 pub struct Ron(pub String);
-
-impl<'de> Deserialize<'de> for Ron {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        let raw = Box::<RawValue>::deserialize(deserializer)?;
-        Ok(Self(raw.trim().get_ron().to_owned()))
-    }
-}
-
-impl Serialize for Ron {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let raw = RawValue::from_ron(&self.0).map_err(serde::ser::Error::custom)?;
-        raw.serialize(serializer)
-    }
-}
 
 #[cfg(feature = "schema")]
 impl schemars::JsonSchema for Ron {
@@ -198,18 +184,7 @@ impl Sweep {
     }
 
     /// Returns the sweep as RON, with all defaults.
-    ///
-    /// # Panics
-    /// Never: all fields can be written as RON.
     pub fn to_ron(&self) -> String {
-        let config = ron::ser::PrettyConfig::new()
-            .struct_names(true)
-            .depth_limit(3)
-            .compact_arrays(true);
-        let options = ron::Options::default()
-            .with_default_extension(ron::extensions::Extensions::IMPLICIT_SOME)
-            .with_default_extension(ron::extensions::Extensions::UNWRAP_VARIANT_NEWTYPES);
-        let text = options.to_string_pretty(self, config);
-        text.expect("all fields can be written as RON") + "\n"
+        to_ron(self, 3) + "\n"
     }
 }

@@ -59,7 +59,8 @@ pub(super) struct Reason {
 
 /// The texts of this version.
 pub(super) static TEXTS: LazyLock<Texts> = LazyLock::new(|| {
-    ron::from_str(include_str!("../../../data/page.ron")).expect("the texts are well formed")
+    actin_sim::read_ron(include_str!("../../../data/page.ron"), "Texts")
+        .expect("the texts are well formed")
 });
 
 impl Finding {
