@@ -20,18 +20,12 @@ const UNNAMED: &str = "Drag";
 #[derive(Debug)]
 pub(super) struct Refusal {
     reason: Reason,
+    /// The structure or choice that the reason is about.
+    of: String,
     /// Place in the text; `None` until the value is known.
     pub(super) at: Option<usize>,
     /// Indices of children that lead to the value, from the innermost outwards.
     steps: Vec<usize>,
-    /// The key or choice that was probably meant.
-    pub(super) meant: Option<String>,
-    /// Whether the text means the same without the value.
-    pub(super) is_needless: bool,
-    /// The key that is missing.
-    pub(super) missing: Option<&'static str>,
-    /// Whether the message is a sentence that names its key.
-    pub(super) is_complete: bool,
 }
 
 #[derive(Debug)]
@@ -47,12 +41,9 @@ impl From<Reason> for Refusal {
     fn from(reason: Reason) -> Self {
         Self {
             reason,
+            of: String::new(),
             at: None,
             steps: Vec::new(),
-            meant: None,
-            is_needless: false,
-            missing: None,
-            is_complete: false,
         }
     }
 }
@@ -69,6 +60,34 @@ impl Refusal {
         self.steps.iter().rev().copied().collect()
     }
 
+    /// The key or choice that was probably meant.
+    pub(super) fn meant(&self) -> Option<String> {
+        match &self.reason {
+            Reason::UnknownKey(found, known) | Reason::UnknownChoice(found, known) => {
+                meant(found, known)
+            }
+            _ => None,
+        }
+    }
+
+    /// The key that is missing.
+    pub(super) fn missing(&self) -> Option<&'static str> {
+        match self.reason {
+            Reason::Missing(key) => Some(key),
+            _ => None,
+        }
+    }
+
+    /// Whether the text means the same without the value.
+    pub(super) fn is_needless(&self) -> bool {
+        matches!(self.reason, Reason::UnknownKey(..) | Reason::Duplicate(_))
+    }
+
+    /// Whether the message names its key.
+    pub(super) fn is_complete(&self) -> bool {
+        !matches!(self.reason, Reason::Message(_))
+    }
+
     /// The same seen from the value that holds `node` as its child `step`.
     fn under(mut self, step: usize, node: &SceneValue) -> Self {
         self.steps.push(step);
@@ -76,59 +95,42 @@ impl Refusal {
         self
     }
 
-    /// Says what is wrong with the keys of a structure: at one of its values, or at its end.
-    fn of_keys(self, name: &str, node: &SceneValue, index: usize) -> Self {
-        let child = || node.children()[index].place.start;
-        let (at, message) = match &self.reason {
-            Reason::UnknownKey(found, known) => (child(), unknown_key(found, known, name)),
-            Reason::Duplicate(key) => (child(), format!("key {key} is written twice in {name}")),
-            Reason::Missing(key) => {
-                let place = &node.place;
-                let end = place.close.unwrap_or(place.value.end);
-                (end, format!("missing key {key} in {name}"))
-            }
-            _ => return self,
-        };
-        let meant = match &self.reason {
-            Reason::UnknownKey(found, known) => meant(found, known),
-            _ => None,
-        };
-        let missing = match self.reason {
-            Reason::Missing(key) => Some(key),
-            _ => None,
-        };
-        let refusal = Self {
-            meant,
-            missing,
-            is_needless: missing.is_none(),
-            is_complete: true,
-            ..Self::new(at, message)
-        };
-        if missing.is_some() {
-            refusal
-        } else {
-            refusal.under(index, &node.children()[index])
+    /// Says which structure an unplaced refusal of keys is about: of its child `index`, or of a missing one.
+    fn of_keys(mut self, name: &str, node: &SceneValue, index: usize) -> Self {
+        if !self.of.is_empty() || matches!(self.reason, Reason::UnknownChoice(..)) {
+            return self;
         }
+        name.clone_into(&mut self.of);
+        if self.is_needless() {
+            let child = &node.children()[index];
+            self.at = Some(child.place.start);
+            return self.under(index, child);
+        }
+        if self.missing().is_some() {
+            self.at = Some(node.place.close.unwrap_or(node.place.value.end));
+        }
+        self
     }
 
-    /// Says that a choice is not known.
-    fn of_choice(self, kind: &str, node: &SceneValue) -> Self {
-        let Reason::UnknownChoice(found, known) = &self.reason else {
-            return self;
-        };
-        Self {
-            meant: meant(found, known),
-            is_complete: true,
-            ..Self::new(node.place.value.start, unknown_choice(found, known, kind))
+    /// Says which kind of choice is not known.
+    fn of_choice(mut self, kind: &str, node: &SceneValue) -> Self {
+        if self.of.is_empty() && matches!(self.reason, Reason::UnknownChoice(..)) {
+            kind.clone_into(&mut self.of);
+            self.at = Some(node.place.value.start);
         }
+        self
     }
 }
 
 impl fmt::Display for Refusal {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let of = &self.of;
         match &self.reason {
+            Reason::UnknownKey(found, known) => f.write_str(&unknown_key(found, known, of)),
+            Reason::UnknownChoice(found, known) => f.write_str(&unknown_choice(found, known, of)),
+            Reason::Missing(key) => write!(f, "missing key {key} in {of}"),
+            Reason::Duplicate(key) => write!(f, "key {key} is written twice in {of}"),
             Reason::Message(message) => f.write_str(message),
-            reason => write!(f, "{reason:?}"),
         }
     }
 }
@@ -292,7 +294,6 @@ impl<'de> Value<'de> {
                 "a key is expected, not {}; decimals are written with a point",
                 self.written()
             )),
-            Kind::Text(_) => self.expected("a name", ""),
             _ => self.expected("a name", ""),
         }
     }

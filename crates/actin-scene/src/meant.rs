@@ -62,3 +62,28 @@ fn stem(key: &str) -> &str {
         .find_map(|suffix| key.strip_suffix(suffix));
     shorter.map_or(key, stem)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The unit may be several suffixes long; a key without a unit is never suggested.
+    #[test]
+    fn a_mistaken_unit_is_recognised() {
+        assert_eq!(
+            stem("longitudinal_rigidity_pn_per_nm"),
+            "longitudinal_rigidity"
+        );
+        assert_eq!(stem("translational_per_ns"), "translational");
+        assert_eq!(stem("bend_pn_nm2"), "bend");
+        let keys = ["from_nm", "to_nm", "segments", "force_pn", "turn_deg"];
+        let hint = |found| unit_hint(&keys, found);
+        let to_nm = Some("the unit is part of the key, write to_nm".into());
+        assert_eq!((hint("to_um"), hint("to")), (to_nm.clone(), to_nm));
+        assert!(hint("turn_rad").unwrap().ends_with("turn_deg"));
+        assert_eq!(
+            (hint("segments_nm"), hint("total"), hint("")),
+            (None, None, None)
+        );
+    }
+}

@@ -208,9 +208,10 @@ impl<'a> Parser<'a> {
     fn unseparated(&self, value: &SceneValue, is_key: bool, end: usize) -> (usize, String) {
         let rest = self.rest();
         if is_key {
-            let remedy = match rest.starts_with('=') {
-                true => "in place of =",
-                false => "between key and value",
+            let remedy = if rest.starts_with('=') {
+                "in place of ="
+            } else {
+                "between key and value"
             };
             return (end, format!("a colon is expected {remedy}"));
         }

@@ -61,7 +61,7 @@ impl Scene {
     /// `folder`; without one they are refused.
     ///
     /// ```
-    /// use actin_scene::{Kind, Scene, SceneValue};
+    /// use actin_scene::{Scene, SceneKind, SceneValue};
     /// let text = "Scene(
     ///     filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 40.0)]),
     ///     clamps: [Clamp(end: Start)],
@@ -69,7 +69,7 @@ impl Scene {
     /// )";
     /// let scene = Scene::from_ron(text)?;
     /// assert_eq!(Scene::from_value(&scene.to_value(), None)?, scene);
-    /// let none = SceneValue::keys(vec![("filamnt".into(), Kind::None.into())]);
+    /// let none = SceneValue::keys(vec![("filamnt".into(), SceneKind::None.into())]);
     /// let problem = Scene::from_value(&none, None).unwrap_err();
     /// assert_eq!(problem.key, "filamnt");
     /// assert!(problem.rule.ends_with("did you mean filament?"));
@@ -84,7 +84,7 @@ impl Scene {
             trace::read_points(&mut value, folder)?;
         }
         let written: Written = deserialize(&value, "").map_err(|refusal| {
-            let rule = match &refusal.meant {
+            let rule = match refusal.meant() {
                 Some(meant) => format!("{refusal}; did you mean {meant}?"),
                 None => refusal.to_string(),
             };
@@ -137,4 +137,77 @@ impl<T> Readings<T> {
 /// of more than 100 kB.
 pub fn read_all<T: DeserializeOwned>(text: &str, name: &str) -> Readings<T> {
     SceneText::named(text, name).readings()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SCENE: &str = "Scene(
+    title: \"\u{3c6}\",
+    filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 30.0)]),
+    clamps: [Clamp(end: Start)],
+    task: Equilibrium(),
+)";
+
+    /// Editors write a mark that they do not show: it is skipped, and columns are those they show.
+    #[test]
+    fn a_byte_order_mark_is_skipped() {
+        let marked = format!("\u{feff}{SCENE}");
+        assert_eq!(Scene::from_ron(&marked), Scene::from_ron(SCENE));
+        assert!(Scene::from_ron(SCENE).is_ok());
+        for spoilt in [
+            SCENE.replacen("Scene(", "Scene(path: 1,", 1),
+            SCENE.replacen("Scene(", "Scene(filament: Filament(sections: []),", 1),
+            SCENE.replacen("title", "name", 1),
+            "// nothing".into(),
+        ] {
+            let error = Scene::from_ron(&spoilt).unwrap_err();
+            let marked = Scene::from_ron(&format!("\u{feff}{spoilt}"));
+            assert_eq!(marked.unwrap_err(), error);
+        }
+        let problem = SceneProblem::new("task", "", "is placed");
+        let of = |text: &str| SceneError::locate(&problem, text);
+        let one_line = SCENE.replace('\n', " ");
+        assert_eq!(of(&format!("\u{feff}{one_line}")), of(&one_line));
+    }
+
+    /// Line and column of the first byte that is no UTF-8, in characters; the mark takes none.
+    #[test]
+    fn text_that_is_not_utf8_has_a_place() {
+        let place = |bytes: &[u8]| {
+            let error = Scene::text(bytes.to_vec()).unwrap_err();
+            (error.line, error.column)
+        };
+        assert_eq!(Scene::text(SCENE.into()).unwrap(), SCENE);
+        assert_eq!(place(b"\xff"), (1, 1));
+        assert_eq!(place(b"\xef\xbb\xbfab\xe9"), (1, 3));
+        assert_eq!(place(b"Scene(\n  // \xc3\xa9t\xe9\n"), (2, 8));
+        // Cut off within a character.
+        assert_eq!(place(b"a\n\xc3"), (2, 1));
+        let latin = Scene::text(b"// \xe9t".to_vec()).unwrap_err().to_string();
+        assert!(latin.starts_with("1:4: byte 0xe9 is not UTF-8"), "{latin}");
+        let wide = Scene::text(vec![0xff, 0xfe, b'S', 0]).unwrap_err();
+        assert!(wide.message.contains("UTF-16"), "{wide}");
+    }
+
+    /// A key of a megabyte is cut wherever it stands in the message; the known keys are still told.
+    #[test]
+    fn a_key_of_a_megabyte_is_cut() {
+        let key = "k".repeat(1 << 20);
+        for (from, to) in [
+            ("title", key.clone()),
+            ("Equilibrium", key.clone()),
+            ("to_nm: 30.0", format!("to_nm: {key}")),
+            ("to_nm: 30.0", format!("{key}: (a: 1.0)")),
+            ("\"\u{3c6}\"", format!("({key}: \"{key}\")")),
+            ("Equilibrium()", format!("\"{}\"", "a b ".repeat(1 << 18))),
+        ] {
+            let text = SCENE.replacen(from, &to, 1);
+            let error = Scene::from_ron(&text).unwrap_err();
+            assert!(error.message.len() < 3000, "{} bytes", error.message.len());
+        }
+        let error = Scene::from_ron(&SCENE.replacen("title", &key, 1)).unwrap_err();
+        assert!(error.message.contains("known are title, "), "{error}");
+    }
 }

@@ -42,10 +42,6 @@ fn unwritable<T>(what: &str) -> Result<T, Unwritable> {
     Err(Unwritable::custom(format!("no scene holds {what}")))
 }
 
-fn written(kind: Kind) -> Written {
-    Ok(kind.into())
-}
-
 #[derive(Clone, Copy)]
 struct Writer {
     has_names: bool,
@@ -56,17 +52,13 @@ struct Values {
     writer: Writer,
     /// The name before the bracket.
     name: Option<&'static str>,
-    values: Vec<SceneValue>,
+    all: Vec<SceneValue>,
 }
 
 impl Writer {
     fn values(self, name: Option<&'static str>) -> Values {
-        let (writer, values) = (self, Vec::new());
-        Values {
-            writer,
-            name,
-            values,
-        }
+        let (writer, all) = (self, Vec::new());
+        Values { writer, name, all }
     }
 }
 
@@ -79,13 +71,13 @@ impl Values {
         let value = value.serialize(self.writer)?;
         if self.writer.has_names || key.is_none() || value.kind != Kind::None {
             let key = key.map(str::to_owned);
-            self.values.push(SceneValue { key, ..value });
+            self.all.push(SceneValue { key, ..value });
         }
         Ok(())
     }
 
-    fn group(self) -> Written {
-        written(Kind::Group(self.name.map(str::to_owned), self.values))
+    fn group(self) -> SceneValue {
+        Kind::Group(self.name.map(str::to_owned), self.all).into()
     }
 }
 
@@ -101,7 +93,7 @@ impl Serializer for Writer {
     type SerializeStructVariant = Values;
 
     fn serialize_bool(self, value: bool) -> Written {
-        written(Kind::Bool(value))
+        Ok(Kind::Bool(value).into())
     }
 
     fn serialize_i8(self, value: i8) -> Written {
@@ -121,7 +113,7 @@ impl Serializer for Writer {
     }
 
     fn serialize_i128(self, value: i128) -> Written {
-        written(Kind::Whole(value))
+        Ok(Kind::Whole(value).into())
     }
 
     fn serialize_u8(self, value: u8) -> Written {
@@ -145,15 +137,15 @@ impl Serializer for Writer {
     }
 
     fn serialize_f64(self, value: f64) -> Written {
-        written(Kind::Number(value))
+        Ok(Kind::Number(value).into())
     }
 
     fn serialize_char(self, value: char) -> Written {
-        written(Kind::Text(value.into()))
+        Ok(Kind::Text(value.into()).into())
     }
 
     fn serialize_str(self, value: &str) -> Written {
-        written(Kind::Text(value.to_owned()))
+        Ok(Kind::Text(value.to_owned()).into())
     }
 
     fn serialize_bytes(self, _: &[u8]) -> Written {
@@ -161,7 +153,7 @@ impl Serializer for Writer {
     }
 
     fn serialize_none(self) -> Written {
-        written(Kind::None)
+        Ok(Kind::None.into())
     }
 
     fn serialize_some<T: ?Sized + Serialize>(self, value: &T) -> Written {
@@ -169,15 +161,15 @@ impl Serializer for Writer {
     }
 
     fn serialize_unit(self) -> Written {
-        written(Kind::None)
+        Ok(Kind::None.into())
     }
 
     fn serialize_unit_struct(self, name: &'static str) -> Written {
-        self.values(Some(name).filter(|_| self.has_names)).group()
+        Ok(self.values(Some(name).filter(|_| self.has_names)).group())
     }
 
     fn serialize_unit_variant(self, _: &'static str, _: u32, variant: &'static str) -> Written {
-        written(Kind::Name(variant.to_owned()))
+        Ok(Kind::Name(variant.to_owned()).into())
     }
 
     fn serialize_newtype_struct<T: ?Sized + Serialize>(
@@ -187,8 +179,10 @@ impl Serializer for Writer {
     ) -> Written {
         let value = value.serialize(self)?;
         match value.kind {
-            Kind::Text(text) if name == super::deserialize::AS_WRITTEN => written(Kind::Name(text)),
-            kind => written(kind),
+            Kind::Text(text) if name == super::deserialize::AS_WRITTEN => {
+                Ok(Kind::Name(text).into())
+            }
+            kind => Ok(kind.into()),
         }
     }
 
@@ -201,7 +195,7 @@ impl Serializer for Writer {
     ) -> Written {
         let SceneValue { kind, .. } = value.serialize(self)?;
         match kind {
-            Kind::Group(_, values) => written(Kind::Group(Some(variant.to_owned()), values)),
+            Kind::Group(_, values) => Ok(Kind::Group(Some(variant.to_owned()), values).into()),
             _ => unwritable(variant),
         }
     }
@@ -260,7 +254,7 @@ impl SerializeSeq for Values {
     }
 
     fn end(self) -> Written {
-        written(Kind::List(self.values))
+        Ok(Kind::List(self.all).into())
     }
 }
 
@@ -273,7 +267,7 @@ impl SerializeTuple for Values {
     }
 
     fn end(self) -> Written {
-        self.group()
+        Ok(self.group())
     }
 }
 
@@ -290,7 +284,7 @@ impl SerializeStruct for Values {
     }
 
     fn end(self) -> Written {
-        self.group()
+        Ok(self.group())
     }
 }
 
@@ -307,6 +301,6 @@ impl SerializeStructVariant for Values {
     }
 
     fn end(self) -> Written {
-        self.group()
+        Ok(self.group())
     }
 }

@@ -149,9 +149,10 @@ impl SceneText {
 
     /// The text with all overrides and points of files.
     pub fn text(&self) -> String {
-        match self.is_changed {
-            true => print(&self.parsed.root, SCENE_DEPTH),
-            false => self.written.clone(),
+        if self.is_changed {
+            print(&self.parsed.root, SCENE_DEPTH)
+        } else {
+            self.written.clone()
         }
     }
 
@@ -237,52 +238,57 @@ impl SceneText {
             return Readings { value, mistakes };
         }
         let mut tree = Cow::Borrowed(&self.parsed.root);
-        let syntax = self.parsed.mistakes.iter();
-        let mut mistakes: Vec<(usize, SceneError)> = syntax
-            .map(|(at, message)| {
-                let path = tree.path(&tree.indices_at(*at));
-                (*at, self.error(*at, &path, message))
-            })
-            .collect();
+        let mut mistakes = self.mistakes_between_values();
         let mut is_whole = mistakes.is_empty();
         let mut value = None;
-        let most = match self.parsed.brackets.has_text_after {
-            true => 0,
-            false => self.most(),
-        };
-        for _ in 0..most {
-            let refusal = match deserialize(&tree, &self.written) {
+        let is_read = !self.parsed.brackets.has_text_after;
+        for _ in 0..self.most() * usize::from(is_read) {
+            match deserialize(&tree, &self.written) {
                 Ok(read) => {
                     value = Some(read).filter(|_| is_whole);
                     break;
                 }
-                Err(refusal) => refusal,
-            };
-            is_whole &= refusal.is_needless;
-            let indices = tree.without_components(refusal.indices());
-            let place = &tree.at(&refusal.indices()).place;
-            if place.is_mistaken {
-                // The text after the value is part of the same mistake.
-                mistakes.retain(|(at, _)| !(place.start..place.until).contains(at));
-            }
-            if !is_consequence(&tree, &refusal) {
-                mistakes.push((
-                    refusal.at.unwrap_or_default(),
-                    self.refused(&tree, &refusal),
-                ));
-            }
-            if indices.is_empty() {
-                break;
-            }
-            let node = tree.to_mut().at_mut(&indices);
-            node.kind = Kind::Refused;
-            if refusal.is_needless {
-                node.key = refusal.meant.or(node.key.take());
+                Err(refusal) => {
+                    is_whole &= refusal.is_needless();
+                    self.note(&tree, &refusal, &mut mistakes);
+                    let indices = tree.without_components(refusal.indices());
+                    if indices.is_empty() {
+                        break;
+                    }
+                    tree.to_mut().at_mut(&indices).refuse(&refusal);
+                }
             }
         }
         mistakes.sort_by_key(|(at, _)| *at);
         let mistakes = mistakes.into_iter().map(|(_, mistake)| mistake).collect();
         Readings { value, mistakes }
+    }
+
+    /// Mistakes that reading has found, with their places.
+    fn mistakes_between_values(&self) -> Vec<(usize, SceneError)> {
+        let root = &self.parsed.root;
+        let mistakes = self.parsed.mistakes.iter();
+        let placed = mistakes.map(|(at, message)| {
+            let path = root.path(&root.indices_at(*at));
+            (*at, self.error(*at, &path, message))
+        });
+        placed.collect()
+    }
+
+    /// Adds a refusal to the mistakes, unless it follows from another one.
+    fn note(&self, tree: &SceneValue, refusal: &Refusal, mistakes: &mut Vec<(usize, SceneError)>) {
+        let node = tree.at(&refusal.indices());
+        let place = &node.place;
+        if place.is_mistaken {
+            // The text after the value is part of the same mistake.
+            mistakes.retain(|(at, _)| !(place.start..place.until).contains(at));
+        }
+        let is_refused =
+            |value: &SceneValue| value.kind == Kind::Refused && value.key() == refusal.missing();
+        let is_consequence = refusal.missing().is_some() && node.children().iter().any(is_refused);
+        if !is_consequence {
+            mistakes.push((refusal.at.unwrap_or_default(), self.refused(tree, refusal)));
+        }
     }
 
     /// A mistake after which nothing else can be judged.
@@ -305,12 +311,13 @@ impl SceneText {
     /// A refusal in the words of a mistake.
     fn refused(&self, tree: &SceneValue, refusal: &Refusal) -> SceneError {
         let indices = refusal.indices();
-        let path = match refusal.is_complete {
-            true => String::new(),
-            false => tree.path(&indices),
+        let path = if refusal.is_complete() {
+            String::new()
+        } else {
+            tree.path(&indices)
         };
         let error = self.error(refusal.at.unwrap_or_default(), &path, &refusal.to_string());
-        let meant = refusal.meant.clone();
+        let meant = refusal.meant();
         let set = self.blamed(tree, &indices);
         SceneError {
             set,
@@ -336,9 +343,10 @@ impl SceneText {
         let indices = root.indices_at(at);
         let value = &root.at(&indices).place.value;
         let first = text[at..].chars().next().map_or(0, char::len_utf8);
-        let end = match indices.is_empty() || at >= value.end {
-            true => at + word(&text[at..]).len().max(first),
-            false => value.end,
+        let end = if indices.is_empty() || at >= value.end {
+            at + word(&text[at..]).len().max(first)
+        } else {
+            value.end
         };
         let line_end = text[at..].find('\n').map_or(text.len(), |line| at + line);
         at..end.min(line_end)
@@ -370,14 +378,14 @@ impl SceneText {
             Some(set) => Some(self.overrides[set].to_string()),
             None => self.blamed(root, &indices),
         };
-        let start = match indices.is_empty() {
-            true => 0,
-            false => root.at(&indices).place.start,
-        };
-        let shown = match self.is_listed(&problem.key) {
-            true => problem.clone().with_filament("filaments[0]"),
-            false => problem.clone(),
-        };
+        let mut start = 0;
+        if !indices.is_empty() {
+            start = root.at(&indices).place.start;
+        }
+        let mut shown = problem.clone();
+        if self.is_listed(&problem.key) {
+            shown = shown.with_filament("filaments[0]");
+        }
         let error = SceneError::new(line_and_column(&self.written, start), &shown.to_string());
         SceneError { set, ..error }
     }
@@ -401,13 +409,15 @@ fn last_override(node: &SceneValue) -> Option<usize> {
         .fold(own, Option::max)
 }
 
-/// Whether a key is missing since its value was refused.
-fn is_consequence(tree: &SceneValue, refusal: &Refusal) -> bool {
-    let Some(missing) = refusal.missing else {
-        return false;
-    };
-    let mut values = tree.at(&refusal.indices()).children().iter();
-    values.any(|value| value.kind == Kind::Refused && value.key() == Some(missing))
+impl SceneValue {
+    /// Leaves the value out of further readings.
+    fn refuse(&mut self, refusal: &Refusal) {
+        self.kind = Kind::Refused;
+        if refusal.is_needless() {
+            // Not missing, only misspelled.
+            self.key = refusal.meant().or(self.key.take());
+        }
+    }
 }
 
 #[cfg(test)]

@@ -252,7 +252,7 @@ impl SceneValue {
     /// Gives a key a value, whether the key is written or not. The path is that of an [`Override`](super::Override).
     ///
     /// ```
-    /// use actin_scene::{Kind::Whole, SceneValue};
+    /// use actin_scene::{SceneKind::Whole, SceneValue};
     /// let keys = |name: &str, value| SceneValue::keys(vec![(name.into(), value)]);
     /// let all = |to_nm| keys("section", keys("Rod", keys("to_nm", to_nm)));
     /// let mut scene = all(Whole(40).into());
@@ -274,12 +274,11 @@ impl SceneValue {
         };
         let host = self.at_mut(&indices);
         let steps = &steps[indices.len()..];
-        let place = Place {
+        let mut value = value;
+        value.move_to(&Place {
             source: value.place.source,
             ..host.place.clone()
-        };
-        let mut value = value;
-        value.move_to(&place);
+        });
         let Some((first, inner)) = steps.split_first() else {
             let key = host.key.take();
             *host = Self { key, ..value };
@@ -288,24 +287,29 @@ impl SceneValue {
         if let (Kind::None, Step::Key(_)) = (&host.kind, first) {
             host.kind = Kind::Group(None, Vec::new());
         }
-        let count = host.children().len();
-        let rule = match (&host.kind, first) {
-            (Kind::List(_), Step::Index(index)) if *index > count => {
+        host.check_step(first, &name, &value).map_err(refused)?;
+        let value = nested(inner, value).map_err(refused)?;
+        host.push(match first {
+            Step::Key(key) => value.with_key(key),
+            Step::Index(_) => value,
+        });
+        Ok(())
+    }
+
+    /// Refuses a step to a child that cannot be added; `name` is that of the value.
+    fn check_step(&self, step: &Step, name: &str, child: &Self) -> Result<(), String> {
+        let count = self.children().len();
+        // Only texts grow by an element.
+        let most = count - usize::from(child.is_dictionary() && count > 0);
+        Err(match (&self.kind, step) {
+            (Kind::List(_), Step::Index(index)) if *index > most => {
                 format!("{name} has {count} elements, counted from 0")
             }
             (Kind::List(_), Step::Key(_)) => format!("{name} is a list: write {name}[0]"),
             (Kind::Group(..), Step::Index(_)) => format!("{name} is not a list"),
-            (Kind::List(_) | Kind::Group(..), _) => {
-                let value = nested(inner, value).map_err(refused)?;
-                host.push(match first {
-                    Step::Key(key) => value.with_key(key),
-                    Step::Index(_) => value,
-                });
-                return Ok(());
-            }
-            _ => format!("{name} is {host}, which has no keys"),
-        };
-        Err(refused(rule))
+            (Kind::List(_) | Kind::Group(..), _) => return Ok(()),
+            _ => format!("{name} is {self}, which has no keys"),
+        })
     }
 
     /// Places a value and all in it where another one is written.

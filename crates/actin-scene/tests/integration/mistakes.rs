@@ -1,0 +1,144 @@
+//! Every mistake of a text, with its place.
+
+use actin_scene::{Scene, SceneError, SceneProblem, SceneText};
+
+const SCENE: &str = "Scene(
+    filament: Filament(
+        sections: [Ellipsoids(from_nm: 0.0, to_nm: 80.0), Rod(from_nm: 80.0, to_nm: 160.0)],
+    ),
+    clamps: [Clamp(end: Start)],
+    loads: [EndForce(end: End, force_pn: (-2.0, 0.0, 0.0))],
+    task: Equilibrium(force_pn: 1e-6),
+)";
+
+/// Any two mistakes in different places are both found, each in the words that it has alone; the first in the text comes
+/// first.
+#[test]
+fn of_two_mistakes_neither_hides_the_other() {
+    assert_eq!(SceneText::new(SCENE).mistakes(), []);
+    let mistakes = [
+        ("to_nm: 80.0", "two_nm: 80.0"),
+        ("80.0, to_nm: 160.0", "80.0"),
+        ("end: Start", "end: Begin"),
+        ("-2.0, 0.0", "-2.0, x"),
+        ("Equilibrium(", "Equilibrium(largest_stop: 1.0, "),
+    ];
+    let of = |text: &str| -> Vec<String> {
+        let errors = SceneText::new(text).mistakes();
+        errors.iter().map(|error| error.message.clone()).collect()
+    };
+    for (i, (from, to)) in mistakes.iter().enumerate() {
+        let one = SCENE.replacen(from, to, 1);
+        let first = of(&one);
+        assert_eq!(first, [Scene::from_ron(&one).unwrap_err().message]);
+        for (from, to) in &mistakes[i + 1..] {
+            let second = of(&SCENE.replacen(from, to, 1));
+            let both = of(&one.replacen(from, to, 1));
+            assert_eq!(both, [&first[..], &second].concat(), "{from}");
+        }
+    }
+}
+
+/// Of 5000 mistakes 20 are listed; of a text of a megabyte as many as two readings show.
+#[test]
+fn of_many_mistakes_the_first_are_found() {
+    let many = |what: &str, count: usize| {
+        let clamps = vec![what; count].join(", ");
+        let text = SCENE.replace("[Clamp(end: Start)]", &format!("[{clamps}]"));
+        SceneText::new(&text).mistakes()
+    };
+    let problems = many("Clamp(end: Start)", 5000);
+    assert_eq!(problems.len(), 20);
+    assert!(
+        problems[0].message.starts_with("clamps[1].end"),
+        "{}",
+        problems[0]
+    );
+    // Every second reading finds that the key of a refused value is missing.
+    assert_eq!(many("Clamp(end: Begin)", 1000).len(), 10);
+    assert_eq!(many("Clamp(end: Begin)", 60_000).len(), 1);
+    let deep = SceneText::new(&"(".repeat(200_000)).mistakes();
+    let expected = "1:129: brackets are nested more than 128 deep here";
+    assert_eq!(
+        deep.iter().map(ToString::to_string).collect::<Vec<_>>(),
+        [expected]
+    );
+}
+
+/// Broken rules of numbers are found together; those of the whole scene if the numbers break none.
+#[test]
+fn broken_rules_are_found_together() {
+    let keys = |text: &str| -> Vec<String> {
+        let mistakes = SceneText::new(text).mistakes();
+        let key = |error: &SceneError| error.message.split(' ').next().unwrap().to_owned();
+        mistakes.iter().map(key).collect()
+    };
+    let spoilt = SCENE
+        .replace("160.0", "60.0")
+        .replace("-2.0", "inf")
+        .replace("1e-6", "-1.0");
+    let expected = [
+        "filament.sections[1].to_nm",
+        "loads[0].force_pn",
+        "task.force_pn",
+    ];
+    assert_eq!(keys(&spoilt), expected);
+    assert_eq!(keys(&SCENE.replace("1e-6", "1.5")), ["task.force_pn"]);
+    assert_eq!(keys(&SCENE.replace("[Clamp(end: Start)]", "[]")).len(), 1);
+}
+
+const PLACES: &str = r#"// a: comment (
+Scene(
+    title: "x: ( \" [",
+    filament: (
+        sections: [
+            Rod(from_nm: 0.0, to_nm: 1e1),
+            Rod(
+                from_nm: 10.0, /* nested /* to_nm: */ */
+                to_nm: 5.0,
+            ),
+        ],
+    ),
+    loads: [EndForce(end: End, force_pn: (0.0, inf, 0.0))],
+)"#;
+
+/// Keys are found beyond comments, texts and lists; a key that is not written is placed at the one above it.
+#[test]
+fn problems_are_placed_at_their_keys() {
+    for (key, place) in [
+        ("filament", (4, 5)),
+        ("filament.sections[1]", (7, 13)),
+        ("filament.sections[1].to_nm", (9, 17)),
+        ("filament.sections[0].to_nm", (6, 31)),
+        ("loads[0].force_pn", (13, 32)),
+        ("loads[0].force_pn[1]", (13, 32)),
+        ("filament.monomers.seed", (4, 5)),
+        ("filaments[0].monomers.seed", (4, 5)),
+        ("absent", (1, 1)),
+    ] {
+        let error = SceneError::locate(&SceneProblem::new(key, "", ""), PLACES);
+        assert_eq!((error.line, error.column), place, "{key}");
+    }
+}
+
+/// After a missing comma, a missing colon or a comment of another language the rest of the text is still read.
+#[test]
+fn slips_between_values_hide_nothing() {
+    for (from, to, place) in [
+        ("80.0), Rod", "80.0) Rod", (3, 58)),
+        ("force_pn: (-2.0, 0.0", "force_pn: (-2.0 0.0", (6, 48)),
+        ("end: Start", "end Start", (5, 23)),
+        ("end: Start", "end = Start", (5, 23)),
+        ("    clamps", "    # ends\n    clamps", (5, 5)),
+    ] {
+        let text = SCENE.replacen(from, to, 1).replace("1e-6", "tiny");
+        let found = SceneText::new(&text).mistakes();
+        assert_eq!(found.len(), 2, "{to}: {found:?}");
+        assert_eq!((found[0].line, found[0].column), place, "{}", found[0]);
+        assert!(
+            found[1].message.starts_with("task.force_pn"),
+            "{}",
+            found[1]
+        );
+    }
+}
