@@ -25,7 +25,7 @@ impl StrainLaws {
                 linear: [shear.x, shear.y],
                 cubic: 0.0,
             },
-            stretch: StretchLaw::Constant(shear.z),
+            stretch: StretchLaw::Constant { rigidity: shear.z },
             bend: BendLaw::Constant([bend.x, bend.y]),
             twist: TwistLaw::Constant(bend.z),
         }

@@ -4,46 +4,49 @@
 //! parameters, with twelve weighted bonds an interface: `docs/validation.md` says how well they meet the
 //! filaments and why each term is there.
 
-use super::{BendLaw, RodLaws, ShearLaw, StretchLaw, TwistLaw, TwistRise, TwistStretchLaw};
+use super::{BendLaw, RodLaws, ShearLaw, TwistLaw};
+use actin_cosserat::{
+    CubicShear, RootedStretch, SidedTwist, Stiffening, StretchLaw, TwistRise, TwistStretch,
+};
 
 /// A law for every deformation; nothing of the scene's material is left.
 pub fn laws() -> RodLaws {
     RodLaws {
-        bend: Some(BendLaw::Stiffening {
-            rest_pn_nm2: 33_467.6,
-            rise_pn_nm2: 6_456.1,
-            curvature_per_nm: 3.283_8e-3,
-            twist_per_nm: Some(4.044_1e-3),
-            shear: Some(1.061_32e-2),
-            range_per_nm: 0.015,
-        }),
-        twist: Some(TwistLaw::Sided {
-            rest_pn_nm2: 235.488,
+        bend: Some(BendLaw::Stiffening(Stiffening {
+            rest: 33_467.6,
+            rise: 6_456.1,
+            curvature: 3.283_8e-3,
+            twist: 4.044_1e-3,
+            shear: 1.061_32e-2,
+            range: 0.015,
+        })),
+        twist: Some(TwistLaw::Sided(SidedTwist {
+            rest: 235.488,
             under: TwistRise {
-                rise_pn_nm2: 14_168.8,
-                half_per_nm: 1.082_02e-2,
-                slow_per_nm: 2.332_57e-2,
+                rise: 14_168.8,
+                half: 1.082_02e-2,
+                slow: 2.332_57e-2,
             },
             over: TwistRise {
-                rise_pn_nm2: 26_502.7,
-                half_per_nm: 1.425_36e-2,
-                slow_per_nm: 2.244_5e-2,
+                rise: 26_502.7,
+                half: 1.425_36e-2,
+                slow: 2.244_5e-2,
             },
-            range_per_nm: 0.0472,
-        }),
+            range: 0.0472,
+        })),
         stretch: Some(StretchLaw::Constant {
-            rigidity_pn: 3.354_4e4,
+            rigidity: 3.354_4e4,
         }),
-        shear: Some(ShearLaw::Cubic {
-            linear_pn: [0.0, 0.0],
-            cubic_pn: 5.717_5e5,
-        }),
-        twist_stretch: Some(TwistStretchLaw::Rooted {
-            slope_nm: -0.296_235,
-            bend_nm: 0.463_366,
-            half_per_nm: 6.021_36e-3,
-            cubic_nm3: 31.715_1,
-            range_per_nm: 0.0472,
-        }),
+        shear: Some(ShearLaw::Cubic(CubicShear {
+            linear: [0.0, 0.0],
+            cubic: 5.717_5e5,
+        })),
+        twist_stretch: Some(TwistStretch::Rooted(RootedStretch {
+            slope: -0.296_235,
+            bend: 0.463_366,
+            half: 6.021_36e-3,
+            cubic: 31.715_1,
+            range: 0.0472,
+        })),
     }
 }

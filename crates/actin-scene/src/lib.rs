@@ -57,6 +57,10 @@ mod types;
 mod validate;
 mod written;
 
+pub use actin_cosserat::{
+    CubicShear, PolynomialStretch, RootedStretch, SidedTwist, Stiffening, StretchLaw, TanhTwist,
+    TwistRise, TwistStretch as TwistStretchLaw,
+};
 pub use arrangement::{Arrangement, Orientation};
 pub use brownian::{Brownian, Fluid, Interfaces, Water};
 pub use curve::{Curve, swept};
@@ -68,9 +72,7 @@ pub use flow::Flow;
 pub use following::{Following, Where};
 pub use imperfection::Imperfection;
 pub use kinetics::{Breaking, Catch, Forming, Kinetics, Stepping};
-pub use law::{
-    BendLaw, RodLaw, RodLaws, ShearLaw, StretchLaw, TwistLaw, TwistRise, TwistStretchLaw,
-};
+pub use law::{BendLaw, RodLaw, RodLaws, ShearLaw, TwistLaw};
 pub use linker::{Linker, LinkerSite};
 pub use linkers_between::LinkersBetween;
 pub use load::Resultant;

@@ -58,7 +58,7 @@ fn fitted(constant: RodMaterial) -> (RodMaterial, TwistStretch) {
     let material = constant
         .with_bend(BendLaw::Stiffening(BEND))
         .and_then(|m| m.with_twist(TwistLaw::Sided(TWIST)))
-        .and_then(|m| m.with_stretch(StretchLaw::Constant(3.29e4)))
+        .and_then(|m| m.with_stretch(StretchLaw::Constant { rigidity: 3.29e4 }))
         .and_then(|m| m.with_shear(SHEAR))
         .expect("the laws are valid");
     (material, TwistStretch::Rooted(LENGTH))

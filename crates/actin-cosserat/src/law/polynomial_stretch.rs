@@ -14,10 +14,13 @@ use crate::{RodKey, RodParameterError, constants};
 /// arXiv 2203.01284, Section 3.3 and Appendix B, where the printed polynomial is that of `xi - 1`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct PolynomialStretch {
-    /// `p_0` to `p_6` (nm^i/rad^i).
+    /// `p_0` to `p_6` (nm^i/rad^i); finite.
     pub coefficients: [f64; 7],
-    /// Largest `|k|` of the data (rad/nm).
+    /// Largest `|k|` of the data (rad/nm); positive, may be infinite (`inf`).
+    #[cfg_attr(feature = "serde", serde(rename = "range_per_nm"))]
     pub range: f64,
 }
 

@@ -14,16 +14,23 @@ use crate::{RodKey, RodParameterError};
 /// Form after twisted filaments of monomers (`docs/validation.md`, Figure 9).
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct RootedStretch {
-    /// Slope at rest (nm/rad).
+    /// Slope at rest (nm/rad); finite.
+    #[cfg_attr(feature = "serde", serde(rename = "slope_nm"))]
     pub slope: f64,
-    /// Half the difference of the limiting slopes (nm/rad).
+    /// Half the difference of the limiting slopes (nm/rad); finite.
+    #[cfg_attr(feature = "serde", serde(rename = "bend_nm"))]
     pub bend: f64,
-    /// Twist scale of the transition (rad/nm).
+    /// Twist scale of the transition (rad/nm); positive.
+    #[cfg_attr(feature = "serde", serde(rename = "half_per_nm"))]
     pub half: f64,
-    /// Cubic coefficient (nm^3/rad^3).
+    /// Cubic coefficient (nm^3/rad^3); finite.
+    #[cfg_attr(feature = "serde", serde(rename = "cubic_nm3"))]
     pub cubic: f64,
-    /// Largest `|k|` of the data (rad/nm).
+    /// Largest `|k|` of the data (rad/nm); positive and finite.
+    #[cfg_attr(feature = "serde", serde(rename = "range_per_nm"))]
     pub range: f64,
 }
 

@@ -15,10 +15,14 @@ type Pair = Vector2<f64>;
 /// The linear part may be zero, as for filaments of monomers at rest.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct CubicShear {
-    /// Linear rigidities S1 and S2 (pN).
+    /// Linear rigidities S1 and S2 (pN); each at least 0.
+    #[cfg_attr(feature = "serde", serde(rename = "linear_pn"))]
     pub linear: [f64; 2],
-    /// Cubic rigidity `c` (pN).
+    /// Cubic rigidity `c` (pN); at least 0, and positive unless S1 and S2 are.
+    #[cfg_attr(feature = "serde", serde(rename = "cubic_pn"))]
     pub cubic: f64,
 }
 

@@ -16,26 +16,35 @@ use crate::{RodKey, RodParameterError};
 /// Figure 9).
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct SidedTwist {
-    /// Rigidity at rest (pN nm^2).
+    /// Rigidity at rest (pN nm^2); at least 0.
+    #[cfg_attr(feature = "serde", serde(rename = "rest_pn_nm2"))]
     pub rest: f64,
     /// Rise in under-twist.
     pub under: TwistRise,
     /// Rise in over-twist.
     pub over: TwistRise,
-    /// Largest `|k|` of the data (rad/nm).
+    /// Largest `|k|` of the data (rad/nm); positive and finite.
+    #[cfg_attr(feature = "serde", serde(rename = "range_per_nm"))]
     pub range: f64,
 }
 
 /// Parameters of one side of a [`SidedTwist`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct TwistRise {
-    /// Increase of the rigidity at large twist (pN nm^2).
+    /// Increase of the rigidity at large twist (pN nm^2); positive.
+    #[cfg_attr(feature = "serde", serde(rename = "rise_pn_nm2"))]
     pub rise: f64,
-    /// Twist at half the rise for `slow = 0` (rad/nm).
+    /// Twist at half the rise without a slow part (rad/nm); positive.
+    #[cfg_attr(feature = "serde", serde(rename = "half_per_nm"))]
     pub half: f64,
-    /// Twist scale of the slow part of the rise (rad/nm).
+    /// Twist scale of the slow part of the rise (rad/nm); at least 0.
+    #[cfg_attr(feature = "serde", serde(rename = "slow_per_nm"))]
     pub slow: f64,
 }
 

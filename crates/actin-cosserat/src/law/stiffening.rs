@@ -16,19 +16,66 @@ use crate::{RodKey, RodParameterError};
 /// motions.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Stiffening {
-    /// Rigidity at rest (pN nm^2).
+    /// Rigidity at rest (pN nm^2); positive.
+    #[cfg_attr(feature = "serde", serde(rename = "rest_pn_nm2"))]
     pub rest: f64,
-    /// Increase of the rigidity (pN nm^2).
+    /// Increase of the rigidity (pN nm^2); at least 0.
+    #[cfg_attr(feature = "serde", serde(rename = "rise_pn_nm2"))]
     pub rise: f64,
-    /// Curvature `k0` at half the increase (rad/nm).
+    /// Curvature `k0` at half the increase (rad/nm); positive.
+    #[cfg_attr(feature = "serde", serde(rename = "curvature_per_nm"))]
     pub curvature: f64,
-    /// Twist at half the increase (rad/nm), or infinity without stiffening by twist.
+    /// Twist at half the increase (rad/nm); positive. Without stiffening by twist it is infinite, and its key is left out.
+    #[cfg_attr(
+        feature = "serde",
+        serde(
+            rename = "twist_per_nm",
+            deserialize_with = "effect::read",
+            default = "effect::none",
+            skip_serializing_if = "effect::is_none"
+        )
+    )]
     pub twist: f64,
-    /// Shear strain at half the increase, or infinity without stiffening by shear.
+    /// Shear strain at half the increase; positive. Without stiffening by shear it is infinite, and its key is left out.
+    #[cfg_attr(
+        feature = "serde",
+        serde(
+            deserialize_with = "effect::read",
+            default = "effect::none",
+            skip_serializing_if = "effect::is_none"
+        )
+    )]
     pub shear: f64,
-    /// Largest curvature of the data (rad/nm).
+    /// Largest curvature of the data (rad/nm); positive, may be infinite (`inf`).
+    #[cfg_attr(feature = "serde", serde(rename = "range_per_nm"))]
     pub range: f64,
+}
+
+/// A scale that is infinite without its effect, in texts an optional key.
+#[cfg(feature = "serde")]
+mod effect {
+    use serde::de::Error;
+    use serde::{Deserialize, Deserializer};
+
+    pub(super) fn none() -> f64 {
+        f64::INFINITY
+    }
+
+    pub(super) fn is_none(scale: &f64) -> bool {
+        scale.is_infinite()
+    }
+
+    pub(super) fn read<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
+        match Option::<f64>::deserialize(deserializer)? {
+            Some(scale) if is_none(&scale) => Err(D::Error::custom(
+                "must be finite; left out, it has no effect",
+            )),
+            scale => Ok(scale.unwrap_or_else(none)),
+        }
+    }
 }
 
 /// Function of `p = k^2` and `s` with its derivatives.

@@ -5,19 +5,27 @@ use crate::{RodKey, RodParameterError};
 /// Law of stretch, as a function of the strain along the rod.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub enum StretchLaw {
-    /// Constant rigidity (pN).
-    Constant(f64),
+    /// Constant rigidity.
+    Constant {
+        /// Rigidity (pN); positive.
+        #[cfg_attr(feature = "serde", serde(rename = "rigidity_pn"))]
+        rigidity: f64,
+    },
     /// Different rigidities in tension and compression with a smooth transition.
     ///
     /// The force at strain `e` is `m e + h (sqrt(e^2 + w^2) - w)`, where `m` and `h` are half the
     /// sum and half the difference of the rigidities.
     Sided {
-        /// Rigidity in tension (pN).
+        /// Rigidity far in tension (pN); positive.
+        #[cfg_attr(feature = "serde", serde(rename = "tension_pn"))]
         tension: f64,
-        /// Rigidity in compression (pN).
+        /// Rigidity far in compression (pN); positive.
+        #[cfg_attr(feature = "serde", serde(rename = "compression_pn"))]
         compression: f64,
-        /// Strain width `w` of the transition.
+        /// Strain width `w` of the transition; positive.
         width: f64,
     },
 }
@@ -29,7 +37,7 @@ impl StretchLaw {
     /// If a parameter is not positive and finite.
     pub fn validate(&self) -> Result<(), RodParameterError> {
         match *self {
-            Self::Constant(s3) => RodParameterError::unless_positive(RodKey::S3, s3),
+            Self::Constant { rigidity: s3 } => RodParameterError::unless_positive(RodKey::S3, s3),
             Self::Sided {
                 tension,
                 compression,
@@ -46,7 +54,9 @@ impl StretchLaw {
 
     pub(crate) fn times(self, factor: f64) -> Self {
         match self {
-            Self::Constant(s3) => Self::Constant(s3 * factor),
+            Self::Constant { rigidity } => Self::Constant {
+                rigidity: rigidity * factor,
+            },
             Self::Sided {
                 tension,
                 compression,
@@ -63,7 +73,7 @@ impl StretchLaw {
     #[inline]
     pub fn force(&self, e: f64) -> f64 {
         match *self {
-            Self::Constant(s3) => s3 * e,
+            Self::Constant { rigidity: s3 } => s3 * e,
             Self::Sided {
                 tension,
                 compression,
@@ -81,7 +91,7 @@ impl StretchLaw {
     #[inline]
     pub fn tangent(&self, e: f64) -> f64 {
         match *self {
-            Self::Constant(s3) => s3,
+            Self::Constant { rigidity: s3 } => s3,
             Self::Sided {
                 tension,
                 compression,
@@ -97,7 +107,7 @@ impl StretchLaw {
     #[inline]
     pub fn energy_density(&self, e: f64) -> f64 {
         match *self {
-            Self::Constant(s3) => 0.5 * s3 * e * e,
+            Self::Constant { rigidity: s3 } => 0.5 * s3 * e * e,
             Self::Sided {
                 tension,
                 compression,

@@ -18,14 +18,20 @@ use crate::{RodKey, RodParameterError, constants};
 /// with the printed torque.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct TanhTwist {
-    /// Limit at large over-twist (pN nm^2).
+    /// Limit at large over-twist (pN nm^2); finite.
+    #[cfg_attr(feature = "serde", serde(rename = "b_plus_pn_nm2"))]
     pub b_plus: f64,
-    /// Limit at large under-twist (pN nm^2).
+    /// Limit at large under-twist (pN nm^2); finite.
+    #[cfg_attr(feature = "serde", serde(rename = "b_minus_pn_nm2"))]
     pub b_minus: f64,
-    /// `l1` to `l7` (rad/nm; `l3` dimensionless).
+    /// `l1` to `l7` (rad/nm; `l3` dimensionless); finite, `l2`, `l5` and `l7` positive. The couple must grow at the end of the
+    /// range.
     pub lambda: [f64; 7],
-    /// Largest `|k|` of the data (rad/nm).
+    /// Largest `|k|` of the data (rad/nm); positive and finite.
+    #[cfg_attr(feature = "serde", serde(rename = "range_per_nm"))]
     pub range: f64,
 }
 

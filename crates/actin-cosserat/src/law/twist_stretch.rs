@@ -6,6 +6,7 @@ use crate::RodParameterError;
 /// Law of the ratio `xi` of natural to rest length as a function of twist.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub enum TwistStretch {
     /// Polynomial, as published.

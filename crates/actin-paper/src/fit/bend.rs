@@ -5,9 +5,9 @@ use super::found::{Fault, Found};
 use super::measured::{BendData, Point};
 use super::search::{LawFit, SHEARED, TWISTED, stiffened};
 use crate::measure::{Specimen, bend_by_tip_force, shear_by_force};
-use actin_cosserat::Stiffening;
+use actin_cosserat::{CubicShear, Stiffening, StretchLaw};
 use actin_fit::{ClosureModel, Data, FitError, LevenbergMarquardt, Observations, Options, Starts};
-use actin_sim::{RodLaw, RodLaws, RodModel, ShearLaw, StretchLaw};
+use actin_sim::{BendLaw, RodLaw, RodLaws, RodModel, ShearLaw};
 
 /// Segments of the rods that stand in for filaments (nm).
 const SEGMENT_NM: f64 = 5.0;
@@ -73,7 +73,7 @@ impl BendFits {
     pub(crate) fn laws(&self) -> RodLaws {
         RodLaws {
             stretch: Some(StretchLaw::Constant {
-                rigidity_pn: self.stretch_pn,
+                rigidity: self.stretch_pn,
             }),
             ..laws(self.law, self.cubic_pn)
         }
@@ -82,11 +82,11 @@ impl BendFits {
 
 fn laws(law: Stiffening, cubic_pn: f64) -> RodLaws {
     RodLaws {
-        bend: Some(super::scene_law::stiffening(law)),
-        shear: Some(ShearLaw::Cubic {
-            linear_pn: [0.0; 2],
-            cubic_pn,
-        }),
+        bend: Some(BendLaw::Stiffening(law)),
+        shear: Some(ShearLaw::Cubic(CubicShear {
+            linear: [0.0; 2],
+            cubic: cubic_pn,
+        })),
         ..RodLaws::default()
     }
 }

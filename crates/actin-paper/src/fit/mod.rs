@@ -9,7 +9,6 @@ mod measured;
 mod own;
 mod pictures;
 mod print;
-mod scene_law;
 mod search;
 mod table;
 #[cfg(test)]

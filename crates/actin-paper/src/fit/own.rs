@@ -6,12 +6,12 @@ use super::pictures::{self, LawCurve};
 use super::search::{LawFit, rooted, sided, stiffened, stretched};
 use super::table::Table;
 use super::twist::rms;
-use super::{print, scene_law, write};
+use super::{print, write};
 use crate::Tell;
-use actin_cosserat::{RootedStretch, SidedTwist, Stiffening, StretchLaw};
+use actin_cosserat::{RootedStretch, SidedTwist, Stiffening, StretchLaw, TwistStretch};
 use actin_draw::report::write_csv;
 use actin_fit::{Goodness, Model};
-use actin_sim::RodLaws;
+use actin_sim::{BendLaw, RodLaws, TwistLaw};
 use std::path::Path;
 
 /// The laws that a table has columns for.
@@ -82,10 +82,13 @@ impl OwnFits {
     /// What a scene takes behind `law:`; what the table does not tell is left to the material.
     pub(super) fn laws(&self) -> RodLaws {
         RodLaws {
-            twist: self.twist.as_ref().map(|(law, _)| write::sided(*law)),
-            twist_stretch: self.length.as_ref().map(|fit| write::rooted(fit.law)),
-            bend: self.bend.as_ref().map(|fit| scene_law::stiffening(fit.law)),
-            stretch: self.stretch.as_ref().map(|fit| scene_law::stretch(fit.law)),
+            twist: self.twist.as_ref().map(|(law, _)| TwistLaw::Sided(*law)),
+            twist_stretch: self
+                .length
+                .as_ref()
+                .map(|fit| TwistStretch::Rooted(fit.law)),
+            bend: self.bend.as_ref().map(|fit| BendLaw::Stiffening(fit.law)),
+            stretch: self.stretch.as_ref().map(|fit| fit.law),
             ..RodLaws::default()
         }
     }
@@ -119,7 +122,7 @@ impl OwnFits {
                 &table.stretch,
             );
             print::basis(tell, basis);
-            if let StretchLaw::Constant(rigidity) = law {
+            if let StretchLaw::Constant { rigidity } = law {
                 tell(format_args!("  rigidity {rigidity:.5e} pN"));
             }
             quality(tell, &table.stretch, basis.goodness(), |f| strain(*law, f));
@@ -164,7 +167,7 @@ impl OwnFits {
 
 fn strain(law: StretchLaw, force: f64) -> f64 {
     match law {
-        StretchLaw::Constant(rigidity) => force / rigidity,
+        StretchLaw::Constant { rigidity } => force / rigidity,
         StretchLaw::Sided {
             tension,
             compression,

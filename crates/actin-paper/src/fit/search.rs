@@ -275,7 +275,7 @@ pub(super) fn stretched(column: &Column) -> Result<LawFit<StretchLaw>, String> {
             basis: Basis::Full(found),
         },
         None => LawFit {
-            law: StretchLaw::Constant(rigidity),
+            law: StretchLaw::Constant { rigidity },
             basis: Basis::Simple {
                 note: ONE_RIGIDITY[usize::from(has_sides)],
                 names: &["strain per force (1/pN)"],

@@ -165,7 +165,7 @@ fn simpler_laws_are_taken_where_they_do() {
         bend.law.validate().unwrap();
         let column = observed(&Stretched, &sides(12, 200.0), &[2e4, 2e4, 1e-3], share, 9);
         let stretch = stretched(&column).unwrap().law;
-        let StretchLaw::Constant(rigidity) = stretch else {
+        let StretchLaw::Constant { rigidity } = stretch else {
             panic!("{stretch:?}");
         };
         assert!((rigidity / 2e4 - 1.0).abs() < 0.02);

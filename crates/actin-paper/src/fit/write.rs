@@ -4,9 +4,9 @@ use super::bend::BendFits;
 use super::data::TwistData;
 use super::measured::{BendData, Point};
 use super::twist::TwistFits;
-use actin_cosserat::{PolynomialStretch, RootedStretch, SidedTwist, TanhTwist, TwistRise};
+use actin_cosserat::{PolynomialStretch, TanhTwist, TwistStretch};
 use actin_draw::report::{save, write_csv};
-use actin_sim::{RodLaws, TwistLaw, TwistStretchLaw};
+use actin_sim::{RodLaws, TwistLaw};
 use std::fs;
 use std::path::Path;
 
@@ -17,14 +17,16 @@ const CURVE: i32 = 400;
 /// what stands in them goes behind `law:` in a scene's `RodModel`.
 pub(super) fn laws(fits: &TwistFits, bend: Option<&BendFits>, out: &Path) -> Result<(), String> {
     let smallest = RodLaws {
-        twist: Some(sided(fits.sided.0)),
-        twist_stretch: Some(rooted(fits.rooted.law)),
+        twist: Some(TwistLaw::Sided(fits.sided.0)),
+        twist_stretch: Some(TwistStretch::Rooted(fits.rooted.law)),
         ..bend.map(BendFits::laws).unwrap_or_default()
     };
     law(&smallest, "rod-law.ron", out)?;
     let published = RodLaws {
-        twist: Some(tanh(fits.tanh_law(&fits.tanh.fit))),
-        twist_stretch: Some(polynomial(fits.polynomial_law(&fits.without_offset))),
+        twist: Some(TwistLaw::Tanh(fits.tanh_law(&fits.tanh.fit))),
+        twist_stretch: Some(TwistStretch::Polynomial(
+            fits.polynomial_law(&fits.without_offset),
+        )),
         ..RodLaws::default()
     };
     law(&published, "published-form.ron", out)
@@ -34,46 +36,6 @@ pub(super) fn laws(fits: &TwistFits, bend: Option<&BendFits>, out: &Path) -> Res
 pub(super) fn law(laws: &RodLaws, name: &str, out: &Path) -> Result<(), String> {
     let head = "// A rod law for a scene: `rod: RodModel(law: ...)`. Written by fit-parameters.\n";
     save(out, name, &format!("{head}{}\n", laws.to_ron()))
-}
-
-pub(super) fn sided(law: SidedTwist) -> TwistLaw {
-    let side = |side: TwistRise| actin_sim::TwistRise {
-        rise_pn_nm2: side.rise,
-        half_per_nm: side.half,
-        slow_per_nm: side.slow,
-    };
-    TwistLaw::Sided {
-        rest_pn_nm2: law.rest,
-        under: side(law.under),
-        over: side(law.over),
-        range_per_nm: law.range,
-    }
-}
-
-fn tanh(law: TanhTwist) -> TwistLaw {
-    TwistLaw::Tanh {
-        b_plus_pn_nm2: law.b_plus,
-        b_minus_pn_nm2: law.b_minus,
-        lambda: law.lambda,
-        range_per_nm: law.range,
-    }
-}
-
-pub(super) fn rooted(law: RootedStretch) -> TwistStretchLaw {
-    TwistStretchLaw::Rooted {
-        slope_nm: law.slope,
-        bend_nm: law.bend,
-        half_per_nm: law.half,
-        cubic_nm3: law.cubic,
-        range_per_nm: law.range,
-    }
-}
-
-fn polynomial(law: PolynomialStretch) -> TwistStretchLaw {
-    TwistStretchLaw::Polynomial {
-        coefficients: law.coefficients,
-        range_per_nm: law.range,
-    }
 }
 
 /// Writes `curves.csv`: every form over the range of the data.

@@ -24,30 +24,17 @@ fn published(k: f64) -> (f64, f64) {
 /// The same of the law `Fitted`, from the numbers of its scene.
 fn fitted(k: f64) -> (f64, f64) {
     let laws = actin_sim::fitted_laws();
-    let Some(actin_sim::TwistLaw::Sided {
-        rest_pn_nm2: rest,
-        under,
-        over,
-        ..
-    }) = laws.twist
-    else {
+    let Some(actin_sim::TwistLaw::Sided(twist)) = laws.twist else {
         panic!("the law of twist has another form");
     };
-    let Some(actin_sim::TwistStretchLaw::Rooted {
-        slope_nm,
-        bend_nm,
-        half_per_nm: half,
-        cubic_nm3,
-        ..
-    }) = laws.twist_stretch
-    else {
+    let Some(actin_sim::TwistStretchLaw::Rooted(length)) = laws.twist_stretch else {
         panic!("the law of length against twist has another form");
     };
-    let side = if k < 0.0 { under } else { over };
-    let gained = k * k / (k * k + side.slow_per_nm * k.abs() + side.half_per_nm.powi(2));
-    let root = (k * k + half * half).sqrt() - half;
-    let extension = slope_nm * k - bend_nm * root + cubic_nm3 * k.powi(3);
-    (rest + side.rise_pn_nm2 * gained, extension)
+    let side = if k < 0.0 { twist.under } else { twist.over };
+    let gained = k * k / (k * k + side.slow * k.abs() + side.half.powi(2));
+    let root = (k * k + length.half * length.half).sqrt() - length.half;
+    let extension = length.slope * k - length.bend * root + length.cubic * k.powi(3);
+    (twist.rest + side.rise * gained, extension)
 }
 
 /// Between walls, uniform twist carries `B3(k) k` at both ends and is `L (xi - 1)` longer. An end

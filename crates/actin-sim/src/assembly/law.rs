@@ -2,8 +2,8 @@
 
 use super::{Ranges, TwistWatch};
 use crate::scene::{
-    self, AlteredRod, Filament, ForceLaw, Material, Monomers, RodLaw, RodLaws, RodModel,
-    SceneProblem, Section, fitted_laws,
+    AlteredRod, Filament, ForceLaw, Material, Monomers, RodLaw, RodLaws, RodModel, SceneProblem,
+    Section, fitted_laws,
 };
 use actin_cosserat::{
     EndShear, EnergyGradient, Homogenised, JoinedElement, PaperBalance, RodKey, RodLayout,
@@ -255,44 +255,20 @@ fn published(material: RodMaterial, law: TwistStretch) -> Result<Parts, ScenePro
 
 fn with_laws(mut material: RodMaterial, laws: &RodLaws) -> Result<Parts, SceneProblem> {
     if let Some(bend) = laws.bend {
-        check_written(bend)?;
         material = (material.with_bend(bend.into())).map_err(refused("law.bend"))?;
     }
     if let Some(twist) = laws.twist {
         material = (material.with_twist(twist.into())).map_err(refused("law.twist"))?;
     }
     if let Some(stretch) = laws.stretch {
-        material = (material.with_stretch(stretch.into())).map_err(refused("law.stretch"))?;
+        material = (material.with_stretch(stretch)).map_err(refused("law.stretch"))?;
     }
     if let Some(shear) = laws.shear {
         material = (material.with_shear(shear.into())).map_err(refused("law.shear"))?;
     }
-    let twist_stretch = laws.twist_stretch.map(TwistStretch::from);
+    let twist_stretch = laws.twist_stretch;
     if let Some(law) = &twist_stretch {
         law.validate().map_err(refused("law.twist_stretch"))?;
     }
     Ok((material, twist_stretch))
-}
-
-/// Refuses infinite values, which represent absent effects in the material; a scene omits their
-/// keys instead.
-fn check_written(law: scene::BendLaw) -> Result<(), SceneProblem> {
-    let scene::BendLaw::Stiffening {
-        twist_per_nm,
-        shear,
-        ..
-    } = law
-    else {
-        return Ok(());
-    };
-    for (key, value) in [("twist_per_nm", twist_per_nm), ("shear", shear)] {
-        if value.is_some_and(f64::is_infinite) {
-            return Err(SceneProblem::new(
-                format!("filament.rod.law.bend.{key}"),
-                value.map_or_else(String::new, |v| format!("{v:?}")),
-                "must be finite; left out, it has no effect",
-            ));
-        }
-    }
-    Ok(())
 }

@@ -21,7 +21,7 @@ pub(in crate::fast) struct LinearShear {
 
 impl Shear for LinearShear {
     fn of(shear: &CubicShear, stretch: &StretchLaw) -> Option<Self> {
-        let ([s1, s2], StretchLaw::Constant(s3)) = (shear.linear, stretch) else {
+        let ([s1, s2], StretchLaw::Constant { rigidity: s3 }) = (shear.linear, stretch) else {
             return None;
         };
         let rigidities = Vector3::new(s1, s2, *s3);
@@ -47,7 +47,7 @@ pub(in crate::fast) struct CubicAcross {
 
 impl Shear for CubicAcross {
     fn of(shear: &CubicShear, stretch: &StretchLaw) -> Option<Self> {
-        let StretchLaw::Constant(stretch) = *stretch else {
+        let StretchLaw::Constant { rigidity: stretch } = *stretch else {
             return None;
         };
         let law = *shear;
