@@ -53,7 +53,7 @@ pub(crate) fn interaction(layout: &RodLayout, (_, material, xi): Law) -> EnergyG
     }
 }
 
-/// Law `Fitted` of scenes, with the numbers of `crates/actin-sim/src/scene/fitted.rs`.
+/// Law `Fitted` of scenes, with the numbers of `crates/actin-scene/src/fitted.rs`.
 fn fitted(constant: RodMaterial) -> (RodMaterial, TwistStretch) {
     let material = constant
         .with_bend(BendLaw::Stiffening(BEND))

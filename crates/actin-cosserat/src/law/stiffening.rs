@@ -64,6 +64,8 @@ mod effect {
         f64::INFINITY
     }
 
+    // The signature is that of `skip_serializing_if`.
+    #[allow(clippy::trivially_copy_pass_by_ref)]
     pub(super) fn is_none(scale: &f64) -> bool {
         scale.is_infinite()
     }
