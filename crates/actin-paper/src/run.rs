@@ -97,8 +97,7 @@ impl Solved {
         [last.residual_force_pn, last.residual_torque_pn_nm]
     }
 
-    /// Eigenvalues of the stiffness that are negative, and that cannot be told from zero; `None` of a
-    /// motion.
+    /// Numbers of negative and of unresolved eigenvalues of the stiffness; `None` for a motion.
     pub(crate) fn doubtful(&self) -> Option<[usize; 2]> {
         let certificate = &self.report.equilibrium.as_ref()?.certificate;
         Some([certificate.negative, certificate.unresolved])
@@ -128,7 +127,7 @@ impl Solved {
     }
 }
 
-/// A state as it is drawn.
+/// Centre line and bodies of a state, for pictures.
 #[derive(Clone, Debug)]
 pub(crate) struct Shape {
     /// The centre line (nm).

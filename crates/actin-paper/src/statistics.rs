@@ -23,7 +23,7 @@ impl Sample {
     }
 }
 
-/// The statistics of `values`; not a number if there are none.
+/// The statistics of `values`; NaN without values.
 pub(crate) fn sample(values: impl IntoIterator<Item = f64>) -> Sample {
     let values: Vec<f64> = values.into_iter().collect();
     let n = values.len() as f64;
@@ -38,7 +38,7 @@ pub(crate) fn sample(values: impl IntoIterator<Item = f64>) -> Sample {
     }
 }
 
-/// Root mean square; not a number if there are no values.
+/// Root mean square; NaN without values.
 pub(crate) fn rms(values: impl IntoIterator<Item = f64>) -> f64 {
     let (count, sum) = values
         .into_iter()

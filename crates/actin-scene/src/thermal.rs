@@ -27,7 +27,7 @@ impl Thermal {
     /// The thermal energy `kT` (pN nm).
     ///
     /// ```
-    /// let thermal = actin_sim::Thermal { temperature_k: 300.0, seed: 1 };
+    /// let thermal = actin_scene::Thermal { temperature_k: 300.0, seed: 1 };
     /// assert!((thermal.energy_pn_nm() - 4.142).abs() < 1e-3);
     /// ```
     pub fn energy_pn_nm(&self) -> f64 {

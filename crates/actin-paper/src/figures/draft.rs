@@ -9,7 +9,7 @@ use actin_view::{Attitude, Pose, Shown, states};
 use rayon::prelude::*;
 use std::path::Path;
 
-/// What an experiment has measured and drawn so far.
+/// Results of an experiment so far.
 #[derive(Debug)]
 pub(super) struct Draft<'a> {
     pub id: &'static str,
@@ -18,7 +18,7 @@ pub(super) struct Draft<'a> {
     /// Fewer resolutions and samplings, and equilibria only.
     pub quick: bool,
     pub progress: &'a Progress,
-    /// How it was made: scenes, stop rule, seeds.
+    /// Scenes, stop rule, seeds.
     pub settings: String,
     pub rows: Vec<Measured>,
     pub pictures: Vec<Picture>,
@@ -111,7 +111,7 @@ impl<'a> Draft<'a> {
         self.rows.push(Measured { row, sd: 0.0 });
     }
 
-    /// A statement of the paper in words, as a number and the bound within which the statement holds.
+    /// A statement of the paper as a number with a bound.
     pub(super) fn claim(
         &mut self,
         quantity: &str,
@@ -145,7 +145,7 @@ impl<'a> Draft<'a> {
         Ok(())
     }
 
-    /// Draws series over axes of scales of their own, with the labels of both.
+    /// Draws series over axes with independent scales and these labels.
     pub(super) fn plot(
         &mut self,
         file: impl Into<String>,
@@ -197,7 +197,7 @@ impl<'a> Draft<'a> {
         write_csv(self.out, file, &header, lines)
     }
 
-    /// Writes the rows as a table, with what is expected of them.
+    /// Writes the rows with their expected numbers as a table.
     pub(super) fn list(&self) -> Result<(), String> {
         let rows = expected::judged(self.id, self.rows.clone());
         self.table(&format!("{}.csv", self.id), &rows, &ROWS)
@@ -217,7 +217,7 @@ impl<'a> Draft<'a> {
         write_csv(self.out, file, header, lines)
     }
 
-    /// The artefact, its rows compared with what is expected of them.
+    /// The artefact, its rows compared with expected numbers.
     pub(super) fn finish(self, title: &'static str, wall_s: f64) -> Artefact {
         Artefact {
             id: self.id,
@@ -261,7 +261,7 @@ pub(super) fn number(x: f64) -> String {
     format!("{x:.9e}")
 }
 
-/// The largest of some residuals, in words.
+/// Text for the largest of some residuals.
 pub(super) fn residuals(all: impl Iterator<Item = [f64; 2]>) -> String {
     let all: Vec<[f64; 2]> = all.collect();
     let [force, torque] = [0, 1].map(|k| largest(all.iter().map(|r| r[k])));

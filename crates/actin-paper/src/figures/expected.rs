@@ -1,8 +1,8 @@
-//! What is expected of numbers, and the verdicts that follow.
+//! Expected numbers and verdicts.
 //!
-//! `data/expected.csv` holds numbers to compare rows with, `data/claims.csv` statements of the paper in
-//! words, each with a bound. One rule sets all bounds (`data/page.ron` states it): it looks at what is
-//! expected, not at what comes out.
+//! `data/expected.csv` holds numbers to compare rows with, `data/claims.csv` the paper's verbal statements with
+//! their bounds. One rule sets all bounds (`data/page.ron` states it): it depends on the expectation, not on
+//! the result.
 
 use super::draft::Measured;
 use crate::published::table;
@@ -18,7 +18,7 @@ pub(super) const DIFFERENCE: f64 = 0.1;
 struct Expected {
     artefact: String,
     quantity: String,
-    /// As it is printed, so that its last digit counts; empty if the line is a note only.
+    /// The printed text, whose last digit sets the tolerance; empty if the line is a note only.
     #[serde(rename = "expected")]
     number: String,
     /// Largest difference that passes; half a unit of the last digit and twice the standard deviation of a
@@ -36,7 +36,7 @@ struct Claim {
     quantity: String,
     unit: String,
     measure: Measure,
-    /// Names of rows, separated by blanks; `*` stands for a number and selects rows by ascending number.
+    /// Names of rows, separated by blanks; `*` matches a number and selects rows by ascending number.
     rows: String,
     /// A reference number of the measure.
     reference: Option<f64>,
@@ -45,11 +45,11 @@ struct Claim {
     statement: String,
 }
 
-/// A number that follows from those of some rows.
+/// A number that is computed from some rows.
 #[derive(Clone, Copy, Debug, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 enum Measure {
-    /// That of the only row.
+    /// The number of the only row.
     Value,
     /// The first over the last.
     Ratio,
@@ -73,7 +73,7 @@ enum Holds {
     Unjudged,
 }
 
-/// The bound of a statement in words.
+/// The bound of a statement.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Bound {
     AtMost(f64),
@@ -86,8 +86,8 @@ static EXPECTED: LazyLock<Vec<Expected>> =
 static CLAIMS: LazyLock<Vec<Claim>> =
     LazyLock::new(|| table(include_str!("../../data/claims.csv")));
 
-/// The rows of an artefact with their verdicts, and the claims that follow from them. Claims on rows that
-/// a run does not have are left out.
+/// The rows of an artefact with their verdicts, and the claims that follow from them. Claims whose
+/// rows are missing in a run are omitted.
 pub(super) fn judged(artefact: &'static str, measured: Vec<Measured>) -> Vec<Row> {
     let mut rows: Vec<Row> = measured.into_iter().map(Measured::judged).collect();
     let claims = CLAIMS.iter().filter(|claim| claim.artefact == artefact);
@@ -154,7 +154,7 @@ impl Claim {
     }
 }
 
-/// A statement of the paper in words, as a number with a verdict if there is a bound.
+/// A statement of the paper as a number, with a verdict if there is a bound.
 pub(super) fn claim(
     artefact: &'static str,
     quantity: &str,
@@ -185,7 +185,7 @@ pub(super) fn claim(
     }
 }
 
-/// Numbers of the rows that a pattern names; those of a `*` by ascending number.
+/// Numbers of the rows that match a pattern, by ascending number at the `*`.
 fn select(pattern: &str, rows: &[Row]) -> Vec<f64> {
     let Some((before, after)) = pattern.split_once('*') else {
         let found = rows.iter().find(|row| row.quantity == pattern);

@@ -16,14 +16,14 @@ use actin_view::{Attitude, Pose};
 const SEEDS: u64 = 16;
 const QUICK_SEEDS: u64 = 4;
 
-/// What resolves the filament.
+/// Model of the filament.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Resolved {
     /// 19 segments under this law, held so.
     Rod(Rod, Hold),
     /// 67 monomers with so many drawn bonds per interface.
     Ellipsoids(usize),
-    /// 67 monomers with weighted bonds, which stand for all: the mean filament.
+    /// 67 monomers with quadrature bonds: the mean filament.
     Mean,
 }
 
@@ -39,7 +39,7 @@ enum Rod {
 /// the axis: with one end held, the half towards it stays in tension.
 const SLIDING: [(&str, usize); 3] = [("", 0), ("far-end-slides/", 1), ("both-ends-slide/", 2)];
 
-/// What is computed: name in quantities, and resolution.
+/// Kinds of filaments: name in quantities, and model.
 const KINDS: [(&str, Resolved); 7] = [
     ("rod", Resolved::Rod(Rod::Constant, Hold::TwoNodesAndFrame)),
     ("wall/rod", Resolved::Rod(Rod::Constant, Hold::Wall)),
@@ -66,11 +66,11 @@ struct Case {
     sliding: usize,
     /// Seed of the bonds.
     seed: u64,
-    /// Whether the linker turns the middle the other way.
+    /// The linker turns the middle the other way.
     is_reversed: bool,
 }
 
-/// What came out of it.
+/// Energies of both halves.
 #[derive(Clone, Debug)]
 struct Halves {
     case: Case,
@@ -92,7 +92,7 @@ struct Halves {
 }
 
 impl Halves {
-    /// Energy of the over-twisted half over that of the under-twisted one.
+    /// Energy of the over-twisted half over the energy of the under-twisted half.
     fn ratio(&self) -> f64 {
         self.over_pn_nm / self.under_pn_nm
     }
@@ -117,7 +117,7 @@ pub(super) fn figure7(draft: &mut Draft<'_>) -> Result<(), String> {
     view(draft, &results)
 }
 
-/// All kinds; with both ends held along the axis, one or none. Filaments of monomers are pulled both ways.
+/// All kinds with zero, one or two ends sliding. Filaments of monomers are pulled both ways.
 fn cases(seeds: u64) -> Vec<Case> {
     let mut all = Vec::new();
     for (slides, sliding) in SLIDING {
@@ -207,7 +207,7 @@ impl Case {
     }
 }
 
-/// How far the body in the middle has been turned about lab z (rad).
+/// Turn of the body in the middle about lab z (rad).
 fn turn_of_middle(assembly: &Assembly) -> f64 {
     let middle = 0.5 * assembly.length_nm();
     let distance = |i: usize| (assembly.frames[i].s_nm - middle).abs();

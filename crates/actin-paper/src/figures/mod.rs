@@ -1,7 +1,7 @@
 //! Artefacts of the paper, its figures and tables, computed and compared.
 //!
 //! Each artefact is an [`Experiment`]: it solves scenes, measures quantities and draws pictures into a
-//! [`Draft`]. What is expected of the numbers is data (`data/expected.csv`, `data/claims.csv`). Artefacts
+//! [`Draft`]. Expected numbers are data (`data/expected.csv`, `data/claims.csv`). Artefacts
 //! follow one another; the runs of each are spread over threads and put together in an order that does not
 //! depend on them.
 
@@ -38,7 +38,7 @@ use std::fs;
 use std::path::PathBuf;
 use std::time::Instant;
 
-/// Which artefacts are computed, and how.
+/// Choice of artefacts and settings.
 #[derive(Clone, Debug)]
 pub struct Options {
     /// Which: fig1 to fig10, table1 to table5, law; all if the list is empty.

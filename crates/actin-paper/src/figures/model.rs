@@ -5,7 +5,7 @@ use actin_sim::{
     fitted_laws,
 };
 
-/// How much of a filament is rod.
+/// Share of rod in a filament.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Resolution {
     /// All.
@@ -56,7 +56,7 @@ pub(super) enum Rods {
     Constant,
     /// The law fitted to filaments of monomers.
     Fitted,
-    /// The same with the constant shearing rigidity.
+    /// `Fitted` with the constant shearing rigidity.
     FittedWithoutShear,
     /// The published `B3(kappa)` and `xi(kappa)`.
     Extended,
@@ -79,14 +79,14 @@ impl Rods {
     }
 }
 
-/// What filaments are made of and how they are loaded, whatever their resolution.
+/// Composition and loads of filaments, independent of the resolution.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Model {
     /// In quantities; empty for the model that a figure shows.
     pub name: &'static str,
     /// In legends.
     pub words: &'static str,
-    /// Weighted bonds that stand for all, the default of scenes, in place of drawn ones.
+    /// Quadrature bonds, the default of scenes, instead of sampled bonds.
     pub is_mean: bool,
     /// Weight of each bond of a junction.
     pub junction: JunctionWeight,
@@ -94,7 +94,7 @@ pub(super) struct Model {
     pub balance: ForceLaw,
     /// Length of a rod's segments (nm).
     pub segment_nm: f64,
-    /// What clamps hold of rods.
+    /// Bodies of rods that clamps hold.
     pub hold: Hold,
     /// A quarter of the loads.
     pub is_weak: bool,
@@ -153,7 +153,7 @@ impl Model {
         if self.is_mean { 1 } else { most }
     }
 
-    /// Changes a scene of drawn bonds into that of the model.
+    /// Changes a scene of sampled bonds into the scene of the model.
     pub(super) fn apply(self, scene: &mut Scene, seed: u64) {
         let filament = &mut scene.filament;
         if self.is_mean {
@@ -179,7 +179,7 @@ impl Model {
     }
 }
 
-/// Bending rigidity of the preceding paper's rod over that of Table 4, which is the monomers'.
+/// Bending rigidity of the preceding paper's rod over the one of Table 4, which is the monomers'.
 pub(super) fn stiffness_ratio() -> f64 {
     let bend = |material: Material| material.rigidities().bend.x;
     bend(Material::PrecedingPaper) / bend(Material::Table4)

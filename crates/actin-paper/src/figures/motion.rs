@@ -1,4 +1,4 @@
-//! What is read off damped motions: frequency and decay of the slowest mode, and falling energies.
+//! Readings of damped motions: frequency and decay of the slowest mode, and falling energies.
 
 use super::draft::Draft;
 use super::expected::Bound;
@@ -58,7 +58,7 @@ fn vertex(w: &[(f64, f64)]) -> (f64, f64) {
 
 /// Shows the claim that energies decay as motions come to rest, from energies in time.
 ///
-/// It is not judged: drag takes energy out at every instant, so that nothing else can come out.
+/// It is not judged: drag removes energy at every instant.
 pub(super) fn energy_decays(draft: &mut Draft<'_>, motions: &[Vec<f64>]) {
     if motions.is_empty() {
         return;

@@ -92,7 +92,7 @@ fn parameters(draft: &mut Draft<'_>, fits: &TwistFits) {
     }
 }
 
-/// How far our own monomers are from the paper's rows, and from its laws.
+/// Differences of our own monomers from the paper's rows and from its laws.
 fn monomer_rows(draft: &mut Draft<'_>, name: &str, ours: &TwistData, paper: &TwistData) {
     // Both columns hold the paper's curvatures in the same order.
     let differences = |ours: &[f64], theirs: &[f64]| {

@@ -3,12 +3,14 @@
 use super::column::Column;
 use super::data::TwistData;
 use super::twist::TwistFits;
+use crate::charts::line;
 use crate::palette;
+use crate::statistics::sample;
 use actin_cosserat::{PolynomialStretch, TanhTwist};
 use actin_draw::{Chart, Series};
 use std::path::Path;
 
-/// A law beside its data, as it is printed, written and drawn.
+/// A law with its data, for prints, tables and pictures.
 pub(super) struct LawCurve<'a> {
     /// Begin of file names.
     pub name: &'static str,
@@ -27,22 +29,26 @@ const SMALLEST: usize = 3;
 const DRAWN: usize = 2;
 const MEAN: usize = 4;
 /// Points of a curve.
-const CURVE: i32 = 300;
+const CURVE: i32 = 600;
 
-/// Numbers to be drawn beside what is fitted.
+/// Numbers that are drawn and not fitted.
 pub(crate) struct Beside<'a> {
     pub data: &'a TwistData,
-    /// Whether they are drawn as dots instead of a line.
+    /// Dots instead of a line.
     pub dots: bool,
 }
 
-/// One of the two pictures: its curves, and the column that it shows, in the unit of its axis.
-struct Panel {
-    chart: Chart<'static>,
+/// A law as a function of its argument.
+type Law<'a> = Box<dyn Fn(f64) -> f64 + 'a>;
+
+/// One of the two pictures: the column that it shows, and the laws over it, in the unit of its axis.
+struct Panel<'a> {
     file: &'static str,
-    what: &'static str,
+    title: &'static str,
+    y_label: &'static str,
     column: fn(&TwistData) -> &Column,
     scale: f64,
+    laws: [(&'static str, Law<'a>); 3],
 }
 
 /// Writes `figure-9a.svg` and `figure-9b.svg`; returns their names and captions.
@@ -52,43 +58,67 @@ pub(crate) fn draw(
     beside: &[Beside<'_>],
     out: &Path,
 ) -> Result<Vec<(String, String)>, String> {
-    let panels = [
-        Panel {
-            chart: rigidity(data, fits),
-            file: "figure-9a.svg",
-            what: "Secant twisting rigidity",
-            column: |data| &data.rigidity,
-            scale: 1e-3,
-        },
-        Panel {
-            chart: length(data, fits),
-            file: "figure-9b.svg",
-            what: "Relative change of length",
-            column: |data| &data.length,
-            scale: 100.0,
-        },
-    ];
-    let pictures = panels.into_iter();
-    pictures
-        .map(|panel| panel.draw(data, beside, out))
-        .collect()
+    let (tanh, sided) = (fits.tanh_law(&fits.tanh.fit), fits.sided.0);
+    let (polynomial, rooted) = (fits.polynomial_law(&fits.polynomial), fits.rooted.law);
+    let (b3, xi) = (TanhTwist::published(), PolynomialStretch::published());
+    let rigidity = Panel {
+        file: "figure-9a.svg",
+        title: "Twisting rigidity against twist",
+        y_label: "B3 (1000 pN nm^2)",
+        column: |data| &data.rigidity,
+        scale: 1e-3,
+        laws: [
+            ("published parameters", Box::new(move |k| b3.secant(k))),
+            ("the same form, refitted", Box::new(move |k| tanh.secant(k))),
+            (
+                "saturating to either side",
+                Box::new(move |k| sided.secant(k)),
+            ),
+        ],
+    };
+    let length = Panel {
+        file: "figure-9b.svg",
+        title: "Change of length against twist",
+        y_label: "dL / L (%)",
+        column: |data| &data.length,
+        scale: 100.0,
+        laws: [
+            ("published polynomial", Box::new(move |k| xi.extension(k))),
+            (
+                "refitted polynomial",
+                Box::new(move |k| polynomial.extension(k)),
+            ),
+            ("two slopes", Box::new(move |k| rooted.jet(k)[0])),
+        ],
+    };
+    let panels = [rigidity, length].into_iter();
+    panels.map(|panel| panel.draw(data, beside, out)).collect()
 }
 
-impl Panel {
-    /// Draws the data and what stands beside them over the curves; returns file and caption.
+impl Panel<'_> {
+    /// Draws curves, then data and other filaments; returns file and caption.
     fn draw(
-        mut self,
+        &self,
         data: &TwistData,
         beside: &[Beside<'_>],
         out: &Path,
     ) -> Result<(String, String), String> {
-        let (label, more) = if beside.is_empty() {
-            ("data", "")
-        } else {
-            (
+        let range = (self.column)(data).range();
+        let laws = self.laws.iter().zip([PUBLISHED, SAME_FORM, SMALLEST]);
+        let laws = laws.map(|((label, law), colour)| {
+            let scaled = |k: f64| self.scale * law(k);
+            line(
+                *label,
+                palette::line(colour),
+                curve([-range, range], scaled),
+            )
+        });
+        let (label, more) = match beside {
+            [] => ("data", ""),
+            _ => (
                 "paper",
                 " Our own monomers, measured in this run, are not fitted.",
-            )
+            ),
         };
         let given = dots((self.column)(data), label, self.scale);
         let others = beside.iter().map(|other| Series {
@@ -96,104 +126,45 @@ impl Panel {
             dots: other.dots,
             ..dots((self.column)(other.data), &other.data.source, self.scale)
         });
-        self.chart.series.push(given);
-        self.chart.series.extend(others);
-        self.chart.draw(&out.join(self.file))?;
-        let (what, source) = (self.what, &data.source);
-        let caption = format!("{what} against twist, with three fits. Data: {source}.{more}");
+        let chart = Chart {
+            title: self.title,
+            x_label: "twist (rad/nm); positive: over-twist",
+            y_label: self.y_label,
+            series: laws.chain([given]).chain(others).collect(),
+            equal_axes: false,
+        };
+        chart.draw(&out.join(self.file))?;
+        let (title, source) = (self.title, &data.source);
+        let caption = format!("{title}, with three fits. Data: {source}.{more}");
         Ok((self.file.to_owned(), caption))
     }
 }
 
-fn rigidity(data: &TwistData, fits: &TwistFits) -> Chart<'static> {
-    let (tanh, sided) = (fits.tanh_law(&fits.tanh.fit), fits.sided.0);
-    let published = TanhTwist::published();
-    let range = data.rigidity.range();
-    Chart {
-        title: "Twisting rigidity against twist",
-        x_label: "twist (rad/nm); positive: over-twist",
-        y_label: "B3 (1000 pN nm^2)",
-        series: vec![
-            curve("published parameters", PUBLISHED, range, |k| {
-                1e-3 * published.secant(k)
-            }),
-            curve("the same form, refitted", SAME_FORM, range, |k| {
-                1e-3 * tanh.secant(k)
-            }),
-            curve("saturating to either side", SMALLEST, range, |k| {
-                1e-3 * sided.secant(k)
-            }),
-        ],
-        equal_axes: false,
-    }
-}
-
-fn length(data: &TwistData, fits: &TwistFits) -> Chart<'static> {
-    let (polynomial, rooted) = (fits.polynomial_law(&fits.polynomial), fits.rooted.law);
-    let published = PolynomialStretch::published();
-    let range = data.length.range();
-    Chart {
-        title: "Change of length against twist",
-        x_label: "twist (rad/nm); positive: over-twist",
-        y_label: "dL / L (%)",
-        series: vec![
-            curve("published polynomial", PUBLISHED, range, |k| {
-                100.0 * published.extension(k)
-            }),
-            curve("refitted polynomial", SAME_FORM, range, |k| {
-                100.0 * polynomial.extension(k)
-            }),
-            curve("two slopes", SMALLEST, range, |k| 100.0 * rooted.jet(k)[0]),
-        ],
-        equal_axes: false,
-    }
-}
-
-fn curve(label: &str, line: usize, range: f64, law: impl Fn(f64) -> f64) -> Series {
-    let points = (-CURVE..=CURVE).map(|i| {
-        let k = range * f64::from(i) / f64::from(CURVE);
-        (k, law(k))
-    });
-    Series {
-        label: Some(label.to_owned()),
-        colour: palette::line(line),
-        points: points.collect(),
-        dots: false,
-    }
+/// Points of a law between two places.
+fn curve([from, to]: [f64; 2], law: impl Fn(f64) -> f64) -> Vec<(f64, f64)> {
+    let places = (0..=CURVE).map(|i| from + (to - from) * f64::from(i) / f64::from(CURVE));
+    places.map(|x| (x, law(x))).collect()
 }
 
 fn dots(column: &Column, label: &str, scale: f64) -> Series {
+    let points = column.pairs().map(|(k, v)| (k, v * scale));
     Series {
-        label: Some(label.to_owned()),
-        colour: palette::DATA,
-        points: column.pairs().map(|(k, v)| (k, v * scale)).collect(),
         dots: true,
+        ..line(label, palette::DATA, points.collect())
     }
 }
 
-/// Draws a law beside its data, over the range of the data.
-pub(super) fn curve_with_data(curve: &LawCurve<'_>, out: &Path) -> Result<(), String> {
-    let ends = curve
-        .data
-        .x
-        .iter()
-        .fold([0.0_f64; 2], |ends, x| [ends[0].min(*x), ends[1].max(*x)]);
-    let points = (0..=CURVE).map(|i| {
-        let x = ends[0] + (ends[1] - ends[0]) * f64::from(i) / f64::from(CURVE);
-        (x, (curve.law)(x))
-    });
-    let law = Series {
-        label: Some("law".to_owned()),
-        colour: palette::line(SMALLEST),
-        points: points.collect(),
-        dots: false,
-    };
+/// Draws a law and its data, over the range of the data.
+pub(super) fn curve_with_data(data: &LawCurve<'_>, out: &Path) -> Result<(), String> {
+    let range = sample(data.data.x.iter().copied().chain([0.0]));
+    let points = curve([range.low, range.high], &data.law);
+    let law = line("law", palette::line(SMALLEST), points);
     let chart = Chart {
-        title: curve.title,
-        x_label: curve.x_label,
-        y_label: curve.y_label,
-        series: vec![law, dots(curve.data, "data", 1.0)],
+        title: data.title,
+        x_label: data.x_label,
+        y_label: data.y_label,
+        series: vec![law, dots(data.data, "data", 1.0)],
         equal_axes: false,
     };
-    chart.draw(&out.join(format!("{}.svg", curve.name)))
+    chart.draw(&out.join(format!("{}.svg", data.name)))
 }

@@ -129,15 +129,15 @@ impl Case {
         f64::from(self.turn_deg.signum())
     }
 
-    /// Whether other stable states are looked for: of the filaments that the figure shows, one sampling;
-    /// of monomers alone in Figure 8.
+    /// True for filaments whose other stable states are searched: one sampling of those in the pictures, monomers alone
+    /// in Figure 8 only.
     fn has_states(&self) -> bool {
         let is_shown = self.model == self.figure.models[0];
         let is_new = self.resolution != Resolution::Ellipsoids || self.figure.id == "fig8";
         is_shown && is_new && self.seed == 0 && self.start == Start::DEFAULT
     }
 
-    /// The scene of the figure with what the case changes.
+    /// The scene of the figure with the changes of the case.
     pub(super) fn scene(&self) -> Result<Scene, String> {
         let mut scene = scenario(self.figure.file)?;
         scene.title = self.name();

@@ -23,7 +23,7 @@ const LENGTH_NM: f64 = 300.0;
 /// Lengths of the rod part (nm), split evenly between the ends, as in the paper, and for `--quick`.
 const RODS: [u32; 7] = [240, 207, 173, 140, 107, 73, 40];
 const QUICK_RODS: [u32; 3] = [240, 140, 40];
-/// Turn (deg) beyond which the balance as printed is not followed: states are many there.
+/// Largest turn (deg) with the balance as printed: at larger turns there are many states.
 const FEW_STATES_DEG: i32 = 270;
 
 /// A figure of buckled filaments.
@@ -241,7 +241,7 @@ impl Plan {
         }
     }
 
-    /// The cases that are moved in time: one mixed resolution in both directions, or none.
+    /// The cases that are moved in time: one mixed resolution in both directions; empty for `--quick`.
     fn moved(&self) -> Vec<Case> {
         let turns: &[i32] = if self.quick { &[] } else { &[180, -180] };
         let case = |&turn| self.case(self.shown(), Resolution::Mixed(140), turn, 0);
@@ -276,12 +276,12 @@ impl Plan {
     }
 }
 
-/// What came out of all cases.
+/// Outcomes of all cases.
 #[derive(Debug, Default)]
 struct Results {
     outcomes: Vec<Outcome>,
     motions: Vec<Motion>,
-    /// Cases that ended without an equilibrium, in words.
+    /// Messages of cases without an equilibrium.
     failures: Vec<String>,
 }
 
@@ -306,7 +306,7 @@ impl Results {
     }
 }
 
-/// What does not depend on the plane of buckling: name, unit, value.
+/// An observable that does not depend on the plane of buckling: name, unit, value.
 type Observable = (&'static str, &'static str, fn(&Measured) -> f64);
 
 const OBSERVABLES: [Observable; 4] = [
@@ -320,9 +320,8 @@ const OBSERVABLES: [Observable; 4] = [
 mod tests {
     use super::*;
 
-    /// What means nothing for a resolution makes no case of its own: eight of the mean filament, since
-    /// the rod has no bonds, and seven junctions as printed at each turn. The balance as printed is a
-    /// law of rods.
+    /// A model adds only the filaments that it changes: eight of the mean filament, since the rod has no
+    /// bonds, and seven junctions as printed at each turn. The balance as printed is a law of rods.
     #[test]
     fn every_model_adds_the_filaments_that_it_changes() {
         let [eight, ten] = [&FIGURE_8, &FIGURE_10].map(|figure| Plan::new(figure, false));

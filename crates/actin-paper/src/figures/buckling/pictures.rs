@@ -58,7 +58,7 @@ pub(super) fn draw(plan: &Plan, draft: &mut Draft<'_>, results: &Results) -> Res
     view(plan, draft, results)
 }
 
-/// Ends of a turn, in words.
+/// Text for a turn.
 fn in_words(turn: i32) -> String {
     let direction = if turn > 0 {
         "over-twist"

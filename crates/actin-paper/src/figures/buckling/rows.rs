@@ -11,7 +11,7 @@ use crate::statistics::{largest, sample};
 
 /// The extended rod, and what the paper prints or offers for the same.
 const EXTENDED: [&str; 3] = ["", "coupling-energy/", "paper-balance/"];
-/// Turn (deg) beyond which filaments have many equilibria, so that nothing is judged.
+/// Largest turn (deg) that is judged: at larger turns filaments have many equilibria.
 const JUDGED_DEG: i32 = 270;
 
 /// All values, then the spreads, model by model.
@@ -43,8 +43,8 @@ pub(super) fn rows(plan: &Plan, draft: &mut Draft<'_>, results: &Results) {
     checks(draft, results);
 }
 
-/// Means over samplings of one observable at all resolutions, and their spread: relative to the mean but for
-/// heights.
+/// Means over samplings of one observable at all resolutions, and their spread: absolute for heights, otherwise
+/// relative to the mean.
 fn values(
     plan: &Plan,
     draft: &mut Draft<'_>,
@@ -173,7 +173,7 @@ fn checks(draft: &mut Draft<'_>, results: &Results) {
     }
 }
 
-/// How far the end of a motion is from its equilibrium, and which equilibrium that is.
+/// Differences between the end of a motion and its equilibrium, and the number of starts that find it.
 pub(super) fn motions(plan: &Plan, draft: &mut Draft<'_>, results: &Results) {
     for Motion { end, nearest } in &results.motions {
         let path = end.case.path();

@@ -21,7 +21,7 @@ pub(super) const STOP: f64 = 1e-3;
 pub(super) struct Outcome {
     pub case: Case,
     pub measured: Measured,
-    /// Eigenvalues of the stiffness below zero, and those that cannot be told from it; `None` of a motion.
+    /// Numbers of negative and of unresolved eigenvalues of the stiffness; `None` for a motion.
     pub doubtful: Option<[usize; 2]>,
     /// Newton steps of the whole path, and equilibria on it.
     pub search: Option<(u64, usize)>,
@@ -39,11 +39,11 @@ pub(super) struct Outcome {
 /// Stable states that were found from random starts.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Others {
-    /// How many there are, this one included.
+    /// Number of states, this one included.
     pub count: usize,
     /// From how many starts.
     pub starts: usize,
-    /// Energy of this one less that of the lowest (pN nm).
+    /// Energy above the lowest state (pN nm).
     pub above_lowest_pn_nm: f64,
 }
 
@@ -56,9 +56,9 @@ pub(super) struct Measured {
     pub couple_pn_nm: f64,
     /// Thrust that pushes the far end in (pN).
     pub force_pn: f64,
-    /// Elastic energy, without that of the pull (pN nm).
+    /// Elastic energy without the energy of the pull (pN nm).
     pub energy_pn_nm: f64,
-    /// Largest twist or curvature beyond the data behind a rod's law (rad/nm), if any.
+    /// Largest twist or curvature outside the data of a rod's law (rad/nm), if any.
     pub beyond_per_nm: Option<f64>,
     /// Turns by which the ends have been turned against each other: the change of the link.
     pub link_turns: f64,
@@ -77,7 +77,7 @@ pub(super) struct Motion {
 }
 
 impl Measured {
-    /// Twist and writhe minus link: what White's formula says is zero.
+    /// Twist plus writhe minus link, which is zero by White's formula.
     pub(super) fn link_error(&self) -> f64 {
         (self.twist_turns + self.writhe - self.link_turns).abs()
     }
@@ -232,7 +232,7 @@ impl Measured {
             beyond_per_nm: beyond.map(|b| b.value.abs()).reduce(f64::max),
             link_turns: f64::from(2 * case.turn_deg) / 360.0,
             twist_turns: ribbon.twist(),
-            // There is no writhe of curves a hundred times as long.
+            // The writhe is `None` for curves a hundred times as long.
             writhe: ribbon.writhe().unwrap_or(f64::NAN),
             centre_line,
         }

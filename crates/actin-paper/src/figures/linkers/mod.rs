@@ -1,8 +1,8 @@
 //! Figures 5 and 6: free filaments on linkers, in one plane and all round.
 //!
-//! Every equilibrium is Newton's, sought from several turns of the filament about its axis; of
-//! those that are found the one of lowest energy counts. The energy against time is that of damped
-//! dynamics from the built state, whose anchors stand away from the sites at once.
+//! Every equilibrium is found by Newton's method from several turns of the filament about its axis; the
+//! equilibrium of lowest energy counts. Energies against time are from damped dynamics of the built state,
+//! whose anchors are displaced from the sites at once.
 
 mod pictures;
 mod rows;
@@ -192,7 +192,7 @@ impl Case {
         self.resolution.rod_nm(self.figure.length_nm)
     }
 
-    /// The scene of the figure, resolved as this case says.
+    /// The scene of the figure at the resolution of the case.
     fn scene(&self) -> Result<Scene, String> {
         let mut scene = scenario(self.figure.file)?;
         scene.filament.sections = self.sections().into();

@@ -18,7 +18,7 @@ const LIMIT_DOTS: usize = 60;
 /// Half the width of the cross that marks an anchor (nm).
 const CROSS_NM: f64 = 0.8;
 const GREY: Colour = Colour([70, 70, 70]);
-/// Which line is the mean filament.
+/// Legend of the mean filament.
 const IN_BLACK: &str = "Dashed: monomers alone with weighted bonds, the mean filament.";
 
 const ALONG: &str = "z along the filament as built (nm)";
@@ -46,7 +46,7 @@ const SIDES: [Side; 3] = [
     },
 ];
 
-/// Draws all panels; those of motions only where motions were followed.
+/// Draws all panels; the panel of energies only if motions were followed.
 pub(super) fn draw(
     figure: &Figure,
     draft: &mut Draft<'_>,

@@ -252,7 +252,7 @@ pub(super) fn larger_claims(draft: &mut Draft<'_>, figures: [&[Outcome]; 2]) {
     }
 }
 
-/// How the cases were run, in words.
+/// Settings of the cases.
 pub(super) fn settings(figure: &Figure, outcomes: &[Outcome]) -> String {
     format!(
         "Scene scenarios/{}, the rod in the middle resolved as named, {} filaments, {} samplings of the bonds \

@@ -19,7 +19,7 @@ pub(super) struct Balance {
     pub energy: f64,
     /// The linkers' part of it (pN nm).
     pub linkers: f64,
-    /// Whether the stiffness is positive definite, and its lowest eigenvalue (pN/nm).
+    /// Positive definiteness of the stiffness, and its lowest eigenvalue (pN/nm).
     pub is_stable: bool,
     pub lowest: Option<f64>,
     pub iterations: u64,
@@ -42,13 +42,13 @@ pub(super) struct Motion {
     pub has_converged: bool,
     pub time_ns: f64,
     pub force_evaluations: u64,
-    /// Largest distance of its last centre line from that of its limit (nm).
+    /// Largest distance between its last centre line and its limit (nm).
     pub from_limit_nm: f64,
     /// The equilibrium that Newton's method reaches from where it ended.
     pub limit: Balance,
 }
 
-/// What came out of a case.
+/// Outcome of a case.
 #[derive(Clone, Debug)]
 pub(super) struct Outcome {
     pub case: Case,

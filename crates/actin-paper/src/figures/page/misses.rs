@@ -1,5 +1,4 @@
-//! Why comparisons fail, for a reader who has nothing but the page. A miss that nobody has looked into has no
-//! reason, and the page says so.
+//! Reasons of failed comparisons. The page marks a miss without a known reason.
 
 use super::texts::{Reason, TEXTS};
 use actin_draw::page::{Explained, Misses};

@@ -1,4 +1,4 @@
-//! Parts of the page in words: its head, what is found, how to read it, and what stands above the verdicts.
+//! Texts of the page: its head, findings, guide, and the lead of the verdicts.
 
 use super::TITLE;
 use super::texts::{Cause, Finding, Reason, TEXTS};
@@ -33,7 +33,7 @@ pub(super) fn head(artefacts: &[Artefact], quick: bool, version: &str) -> Markup
     }
 }
 
-/// What is found, in words, and what was chosen beforehand.
+/// Findings, counts and choices.
 pub(super) fn words(artefacts: &[Artefact]) -> Markup {
     html! {
         (findings(artefacts))
@@ -42,14 +42,14 @@ pub(super) fn words(artefacts: &[Artefact]) -> Markup {
     }
 }
 
-/// How to read the page.
+/// Guide to the page.
 pub(super) fn how_to_read(page: &mut Page<'_>) -> Markup {
     let stops = palette::chosen().ramp().stops().iter();
     let stops: Vec<String> = stops.map(|&stop| page.colour(stop)).collect();
     reading(&stops)
 }
 
-/// What stands above the table of verdicts.
+/// Lead of the table of verdicts.
 pub(super) fn verdicts(artefacts: &[Artefact]) -> Markup {
     html! {
         (score(artefacts))
@@ -106,7 +106,7 @@ fn reading(stops: &[String]) -> Markup {
 }
 
 impl Finding {
-    /// Whether it is confirmed; nothing if the run has not all of its rows.
+    /// The verdict; `None` if rows are missing in the run.
     fn verdict(&self, artefacts: &[Artefact]) -> Option<bool> {
         let artefact = artefacts.iter().find(|a| a.id == self.artefact)?;
         let verdict = |name: &String| {
@@ -118,7 +118,7 @@ impl Finding {
     }
 }
 
-/// The sentences; nothing of what was not computed.
+/// Sentences on the artefacts that were computed.
 fn findings(artefacts: &[Artefact]) -> Markup {
     let sentences = sentences(artefacts);
     html! {
@@ -145,7 +145,7 @@ fn sentences(artefacts: &[Artefact]) -> [(&'static str, &'static str, String); 3
     ]
 }
 
-/// How many misses have which cause, in words; nothing if there are none.
+/// Text for the numbers of misses by cause; empty without misses.
 fn causes(missed: &[&Row]) -> String {
     let count = |cause: Option<Cause>| {
         let causes = missed.iter().map(|row| Reason::of(row).map(|r| r.cause));
@@ -167,7 +167,7 @@ fn causes(missed: &[&Row]) -> String {
     }
 }
 
-/// Where expected numbers come from, and what the page says of it.
+/// Origins of expected numbers, with their titles.
 const GROUPS: [(Origin, &str); 6] = [
     (
         Origin::Paper,
@@ -226,7 +226,7 @@ fn score(artefacts: &[Artefact]) -> Markup {
     }
 }
 
-/// One line for all artefacts and, of what the paper says, one for each.
+/// One line for all artefacts and, for numbers and statements of the paper, one for each artefact.
 fn group(artefacts: &[Artefact], origin: Origin, title: &str) -> Markup {
     let judged = |a: &Artefact| -> Vec<Row> {
         let rows = a.rows.iter().filter(|row| row.origin == Some(origin));

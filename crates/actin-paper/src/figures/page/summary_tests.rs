@@ -48,8 +48,7 @@ fn statements_follow_the_verdicts() {
     assert!(after[2].contains("nobody has looked into"));
 }
 
-/// Symptom of a clause that leans on its neighbours: it begins with "they" or "so does", and a run of
-/// one artefact says what nobody can understand.
+/// A statement must not refer to its neighbours: in a run of one artefact it stands alone.
 #[test]
 fn every_statement_can_be_read_alone() {
     let artefacts = committed();

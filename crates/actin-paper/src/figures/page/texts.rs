@@ -1,5 +1,4 @@
-//! Texts of the page, in `data/page.ron`: what decides a verdict, what is found, why comparisons fail, and what
-//! names mean.
+//! Texts of the page, in `data/page.ron`: the rule of verdicts, findings, reasons of misses, meanings of names.
 
 use actin_draw::report::Row;
 use serde::Deserialize;
@@ -13,10 +12,10 @@ pub(super) struct Texts {
     pub findings: Vec<Finding>,
     /// In the order in which they are reported: what concerns most of the paper first.
     pub reasons: Vec<Reason>,
-    /// Parts of the names of quantities, and what they stand for.
+    /// Parts of the names of quantities, and their meaning.
     pub names: Vec<(String, String)>,
-    /// What the paper leaves open and Tables 3 and 4 decided. A reader has to know, since agreement with
-    /// these tables is then no proof of those choices.
+    /// Choices that the paper leaves open and Tables 3 and 4 decided. Agreement with these tables is then no
+    /// proof of the choices.
     pub choices: String,
 }
 
@@ -33,14 +32,14 @@ pub(super) struct Finding {
     pub refuted: Option<String>,
 }
 
-/// Where a miss comes from.
+/// Cause of a miss.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
 pub(super) enum Cause {
     /// The paper contradicts itself.
     Paper,
     /// The bonds are random, and the paper shows one set of them.
     Bonds,
-    /// The models here do not do what the paper says.
+    /// The models contradict the paper.
     Models,
     /// The number that was missed is not the paper's.
     Elsewhere,
@@ -53,7 +52,7 @@ pub(super) struct Reason {
     /// Names of rows, or what they begin with: the latter end in `/`.
     pub quantities: Vec<String>,
     pub cause: Cause,
-    /// What is found, as a heading.
+    /// Finding, as a heading.
     pub title: String,
     pub text: String,
 }
@@ -64,7 +63,7 @@ pub(super) static TEXTS: LazyLock<Texts> = LazyLock::new(|| {
 });
 
 impl Finding {
-    /// The statement, or what is said if it is refuted.
+    /// The confirmed or the refuted statement.
     pub(super) fn in_words(&self, is_confirmed: bool) -> String {
         if is_confirmed {
             return self.confirmed.clone();
@@ -76,7 +75,7 @@ impl Finding {
 impl Cause {
     pub(super) const ALL: [Self; 4] = [Self::Paper, Self::Bonds, Self::Models, Self::Elsewhere];
 
-    /// So many misses of this cause, in words.
+    /// Text for a number of misses of this cause.
     pub(super) fn in_words(self, count: usize) -> String {
         let s = if count == 1 { "s" } else { "" };
         match self {

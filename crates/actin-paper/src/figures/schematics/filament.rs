@@ -208,8 +208,8 @@ impl<'a> Drawn<'a> {
         ])
     }
 
-    /// What is done to held ends by the scene's path: shifts as arrows of their own length that end next to the
-    /// held point, turns as arcs of their own angle about the axis.
+    /// Motions of held ends along the scene's path: shifts as arrows to scale that end next to the held point, turns
+    /// as arcs of the true angle about the axis.
     pub(super) fn imposed(&self, radius_nm: f64) -> Vec<Item> {
         let stages = self.assembly.scene.path.iter();
         let settings = stages.flat_map(|stage| &stage.set);

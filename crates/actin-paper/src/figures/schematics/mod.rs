@@ -470,7 +470,7 @@ fn finish(
     )
 }
 
-/// Numbers of what is drawn as rows, and the state as it is shown in the viewer.
+/// Counts of bodies as rows, and the state for the viewer.
 fn counted(draft: &mut Draft<'_>, name: &str, solved: &Solved) -> (String, String, f64, Pose) {
     let counts = solved.assembly.counts();
     for (quantity, number) in [
@@ -488,7 +488,7 @@ fn counted(draft: &mut Draft<'_>, name: &str, solved: &Solved) -> (String, Strin
     ("all".to_owned(), name.to_owned(), share, solved.pose())
 }
 
-/// How the states were found.
+/// Settings of the states.
 fn settings(names: &[&str], solved: &[Solved]) -> String {
     let names: Vec<String> = names.iter().map(|name| format!("{name}.ron")).collect();
     let stable = solved
