@@ -107,10 +107,10 @@ def main():
     push = pushed(beside, options.bundle_push_sweep)
     study.save(figure, f"{options.figures}/bundle.svg")
     lines = [[f"{k:g}", f"{t:.4f}", f"{deflection(k):.4f}", f"{r / EI:.1f}"] for k, t, r in zip(stiffness, tips, rigidity)]
-    study.put_table(options.page, ["linker (pN/nm)", "end moves by (nm)", "frame of beam elements (nm)",
-                                   "rigidity over that of one"], lines)
-    study.put_table(options.page, ["force (pN)", "least distance of axes (nm)", "with repulsion", "it moves by (nm)",
-                                   "with repulsion", "the opposite one moves by (nm)", "with repulsion"], push, "push")
+    study.put_table(options.page, ["linker (pN/nm)", "end displacement (nm)", "frame of beam elements (nm)",
+                                   "rigidity / one filament"], lines, "bundle")
+    study.put_table(options.page, ["force (pN)", "least distance of axes (nm)", "with repulsion", "its displacement (nm)",
+                                   "with repulsion", "displacement of the opposite one (nm)", "with repulsion"], push, "bundle-push")
 
 
 if __name__ == "__main__":

@@ -61,7 +61,7 @@ def main():
     panel.legend(fontsize=7)
     study.save(figure, f"{options.figures}/compression.svg")
     study.put_table(options.page, ["filament", "force (pN) at 470 nm", "425 nm", "380 nm", "350 nm",
-                                   "farthest from the axis (nm)", "turns of twist"], lines)
+                                   "largest distance from the axis (nm)", "turns of twist"], lines, "compression")
 
 
 if __name__ == "__main__":

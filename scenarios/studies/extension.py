@@ -73,7 +73,7 @@ def main():
     panel.legend(fontsize=8)
     study.save(figure, f"{options.figures}/extension.svg")
     study.put_table(options.page, ["filament", "force (pN)", "extension (nm)", "error from blocks (nm)", "error from runs (nm)",
-                                   "theory (nm)", "difference / larger error", "chain without ends (nm)"], lines)
+                                   "theory (nm)", "difference / larger error", "chain without ends (nm)"], lines, "extension")
 
 
 if __name__ == "__main__":

@@ -154,8 +154,8 @@ def main():
         panel.minorticks_off()
         panel.legend(fontsize=6, loc="lower left")
     study.save(figure, f"{options.figures}/flicker.svg")
-    study.put_table(options.page, ["mode", "variance (nm)", "of the exact chain (nm)", "persistence length from it (um)",
-                                   "falls to 1/e in (ms)", "small bends (ms)"], lines)
+    study.put_table(options.page, ["mode", "variance (nm)", "exact chain (nm)", "persistence length (um)",
+                                   "falls to 1/e in (ms)", "theory of small bending (ms)"], lines, "flicker")
 
 
 if __name__ == "__main__":

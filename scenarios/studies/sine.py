@@ -71,7 +71,7 @@ def main():
     panels[0].legend(fontsize=8)
     study.save(figure, f"{options.figures}/sine.svg")
     study.put_table(options.page, ["filament", "drag (1/ns)", "largest response (nm/pN)", "at period (ns)",
-                                   "median difference from the beam (%)", "not at the driven frequency (%)"], lines)
+                                   "median difference from the beam (%)", "not at the driven frequency (%)"], lines, "sine")
 
 
 if __name__ == "__main__":

@@ -116,7 +116,7 @@ def main():
     study.save(figure, f"{options.figures}/softened.svg")
     study.put_table(options.page, ["end turned by", "deg", "softer all along by", "share of the middle: monomers",
                                    "rod, `Fitted`", "rod, `Constant`", "each part by its own law",
-                                   f"stepped beam, {BENDING:g} and {TWIST:g}"], lines)
+                                   f"stepped beam, {BENDING:g} and {TWIST:g}"], lines, "softened")
 
 
 if __name__ == "__main__":

@@ -88,7 +88,7 @@ def save(figure, path):
     print(path)
 
 
-def put_table(page, head, lines, name="numbers"):
+def put_table(page, head, lines, name):
     """Replaces a table of a page, between the comments `generated: NAME` and `end`."""
     table = "\n".join("| " + " | ".join(map(str, line)) + " |" for line in [head, ["---"] * len(head), *lines])
     print(table)

@@ -119,7 +119,7 @@ def main():
     study.save(figure, f"{options.figures}/subcell.svg")
     study.put_table(options.page, ["filament at 350 nm", "mean distance from the line of the ends (nm)", "asymmetry of the peak",
                                    "non-coplanarity", "supertwist (deg)", "the same, 200 points"],
-                    [*lines, *plain, *heat, *turned, *reasons])
+                    [*lines, *plain, *heat, *turned, *reasons], "subcell")
 
 
 if __name__ == "__main__":

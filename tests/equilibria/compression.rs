@@ -1,5 +1,5 @@
 //! Rods with twist-stretch coupling in compression: beyond a bound their twist is unstable
-//! (`docs/statics.md`, "Extended rods in compression").
+//! (`docs/numerics.md`, "Extended rods in compression").
 
 use super::common::{build, run, run_anyway};
 use actin_cosserat::{Rigidities, TwistStretch};

@@ -51,7 +51,7 @@ pub const LONGITUDINAL_RIGIDITY: f64 =
 
 /// Minimum bond length of both kinds (nm). A choice: the geometry allows 0.146 nm, which is about
 /// the rounding of Table 1 and dominates twist and stretch. With 64 sampled bonds, 0.20 nm
-/// reproduces Tables 3 to 5 (`docs/bonds.md`).
+/// reproduces Tables 3 to 5 (`docs/decisions.md`).
 pub const MINIMUM_LENGTH: f64 = 0.20;
 
 /// Maximum length of a lateral bond (nm; Table 1).

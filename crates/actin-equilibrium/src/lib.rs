@@ -13,7 +13,7 @@
 struct Readme;
 
 #[cfg(doctest)]
-#[doc = include_str!("../../../docs/how-to/write-an-interaction.md")]
+#[doc = include_str!("../../../docs/how-to/rust.md")]
 struct WriteAnInteraction;
 
 mod assemble;

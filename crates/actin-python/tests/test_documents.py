@@ -6,7 +6,7 @@ import sys
 
 import pytest
 
-PAGES = ["crates/actin-python/README.md", "docs/how-to/use-from-python.md"]
+PAGES = ["crates/actin-python/README.md", "docs/how-to/python.md"]
 
 
 @pytest.mark.parametrize("page", PAGES)

@@ -156,7 +156,7 @@ def test_diverging_steps_report_their_location(motion):
         (lambda s: s.add_springs([(0, 9)], 1.0, 1.0), ValueError, "must be two different ones"),
         (lambda s: s.add_force([9], (0, 0, 1)), IndexError, "no point 9"),
         (lambda s: s.set_factor(3, 1.0), IndexError, "no load 3"),
-        (lambda s: s.step(1, h=0.1, scheme="euler"), ValueError, "known are"),
+        (lambda s: s.step(1, h=0.1, scheme="euler"), ValueError, "unknown integration method"),
         (lambda s: s.step(1, h=-0.1), ValueError, "time step"),
         (lambda s: s.drive([1.0, 2.0], points=[0]), ValueError, "ascend from 0"),
         (lambda s: s.set_path(0.5), ValueError, "with a path"),

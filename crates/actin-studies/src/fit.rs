@@ -6,7 +6,7 @@ use std::path::PathBuf;
 
 #[derive(clap::Args, Debug)]
 pub(crate) struct Options {
-    /// Fits a table with columns of twist, length, bending or stretch (docs/how-to/fit-a-rod-law.md).
+    /// Fits a table with columns of twist, length, bending or stretch (docs/how-to/rod-laws.md).
     #[arg(long, value_name = "FILE.csv", conflicts_with_all = ["measure", "all_rows"])]
     data: Option<PathBuf>,
     /// Measures monomer filaments and fits all rigidities, including bending and shear.

@@ -181,7 +181,8 @@ fn sweeps_run_and_scripts_draw_them() {
         }
         let Some(python) = &python else { continue };
         let page = "page.md";
-        let empty = "<!-- generated: numbers -->\n\n<!-- end -->\n\n<!-- generated: push -->\n\n<!-- end -->\n";
+        let block = |name: &str| format!("<!-- generated: {name} -->\n\n<!-- end -->\n\n");
+        let empty = block(name) + &block("bundle-push");
         fs::write(place.path(page), empty).unwrap();
         let output = Command::new(python)
             .args([&format!("{name}.py"), "--page", page])

@@ -5,19 +5,17 @@
 //! equilibria alone. Variants: the mean filament, the model as the paper prints it, and the rigidity of
 //! the preceding paper.
 
-use super::charts::{Curve, Filament, Side, against_rod, draw_from};
+mod pictures;
+
 use super::draft::{Column, Draft, number, residuals};
 use super::model::{Model, Resolution};
 use super::motion::{RingDown, energy_decays, ring_down};
-use crate::palette;
 use crate::run::{Shape, Solved, energy, scenario};
 use crate::statistics::{largest, sample};
-use actin_draw::Colour;
 use actin_sim::{
     Assembly, DragRates, End, Equilibrium, ForceLaw, JunctionWeight, Part, Record, Scene, Section,
     Task,
 };
-use actin_view::Attitude;
 
 /// Length of the filament (nm).
 const LENGTH_NM: f64 = 160.0;
@@ -139,9 +137,9 @@ pub(super) fn figure4(draft: &mut Draft<'_>) -> Result<(), String> {
     draft.settings = settings(&outcomes);
     rows(draft, &outcomes);
     tables(draft, &outcomes)?;
-    panels(draft, &outcomes)?;
-    against_resolution(draft, &outcomes)?;
-    view(draft, &outcomes)
+    pictures::panels(draft, &outcomes)?;
+    pictures::against_resolution(draft, &outcomes)?;
+    pictures::view(draft, &outcomes)
 }
 
 fn cases(quick: bool) -> Vec<Case> {
@@ -450,168 +448,3 @@ const COLUMNS: [Column<Outcome>; 7] = [
     ("time_ns", |o| number(o.time_ns)),
     ("force_evaluations", |o| o.force_evaluations.to_string()),
 ];
-
-const X_LABEL: &str = "x (nm); the force pulls towards -x";
-const SIDES: [Side; 2] = [
-    Side {
-        panel: "side",
-        title: "Side view",
-        labels: ["z along the unloaded filament (nm)", X_LABEL],
-        project: |p| (p[2], p[0]),
-        equal_axes: true,
-    },
-    Side {
-        panel: "end",
-        title: "End view",
-        labels: ["y (nm)", X_LABEL],
-        project: |p| (p[1], p[0]),
-        equal_axes: true,
-    },
-];
-
-/// The outcomes that are drawn for a model, from monomers to rod.
-fn drawn(outcomes: &[Outcome], is_chosen: impl Fn(&Case) -> bool) -> Vec<&Outcome> {
-    let chosen = outcomes
-        .iter()
-        .filter(|o| o.case.is_drawn() && is_chosen(&o.case));
-    let mut drawn: Vec<&Outcome> = chosen.collect();
-    drawn.sort_by(|a, b| a.case.rod_nm().total_cmp(&b.case.rod_nm()));
-    drawn
-}
-
-/// Pictures of four models, each with the mean filament where there is one.
-fn panels(draft: &mut Draft<'_>, outcomes: &[Outcome]) -> Result<(), String> {
-    for (model, mean, name) in [
-        (SHARED, Some(MEAN), "2_pN_shared"),
-        (FULL, None, "2_pN_full"),
-        (WEAK, Some(WEAK_MEAN), "0.5_pN_shared"),
-        (STIFF, Some(STIFF_MEAN), "preceding_paper"),
-    ] {
-        let mut chosen = drawn(outcomes, |case| case.model == model);
-        chosen.extend(drawn(outcomes, |case| {
-            Some(case.model) == mean && case.resolution == Resolution::Ellipsoids
-        }));
-        let filaments = chosen.iter();
-        let filaments = filaments.map(|o| o.filament(Some(o.case.model) == mean));
-        let filaments: Vec<Filament> = filaments.collect();
-        let dashed = mean.map_or(
-            "",
-            |_| " Dashed: monomers alone with weighted bonds, the mean filament.",
-        );
-        let file = format!("fig4_{name}");
-        views(draft, &file, (model.words, dashed), &filaments)?;
-        if chosen[0].is_moved {
-            let curves = filaments.iter().zip(&chosen);
-            let series = curves.flat_map(|(f, o)| f.curve(o.energy.clone(), false));
-            draft.plot(
-                format!("{file}_energy.svg"),
-                &format!("Energy, {}", model.words),
-                ["time (ns)", "elastic and kinetic energy (pN nm)"],
-                series.collect(),
-                format!(
-                    "Elastic and kinetic energy while the damped motion comes to rest.{dashed}"
-                ),
-            )?;
-        }
-    }
-    Ok(())
-}
-
-/// Side view and end view of the filaments of one model.
-fn views(
-    draft: &mut Draft<'_>,
-    file: &str,
-    (words, dashed): (&str, &str),
-    filaments: &[Filament],
-) -> Result<(), String> {
-    let captions = [
-        format!(
-            "Equilibria under {words}. Lines: nodes of the rod, and the centre line of the monomers; dots: monomer \
-             centres. {}{dashed}",
-            palette::chosen().ends()
-        ),
-        format!("The same states seen along the unloaded filament.{dashed}"),
-    ];
-    for (side, caption) in SIDES.iter().zip(captions) {
-        let title = format!("{}, {words}", side.title);
-        draw_from(draft, file, (side, &title), filaments, Vec::new(), caption)?;
-    }
-    Ok(())
-}
-
-impl Outcome {
-    fn filament(&self, is_mean: bool) -> Filament {
-        if is_mean {
-            return Filament::mean("mean filament", &self.shape);
-        }
-        let share = self.case.rod_nm() / LENGTH_NM;
-        Filament::new(self.case.resolution.name(), share, &self.shape)
-    }
-}
-
-/// A number that is drawn against the length of rod.
-type Value = fn(&Outcome) -> f64;
-
-/// A value of a model's filaments against the length of rod; no points if the model was not computed.
-fn curve(outcomes: &[Outcome], model: Model, colour: Colour, value: Value) -> Curve {
-    let is_computed = outcomes.iter().any(|o| o.case.model == model);
-    let own = drawn(outcomes, |case| {
-        is_computed && case.model == model.solved_as(&MODELS, case.resolution)
-    });
-    Curve {
-        name: model.words.into(),
-        colour,
-        // It lies upon the line of the junction as printed alone.
-        is_dashed: model == AS_PRINTED,
-        points: own.iter().map(|o| (o.case.rod_nm(), value(o))).collect(),
-    }
-}
-
-/// Tips and elastic energies of equilibria under 2 pN against the length of rod.
-fn against_resolution(draft: &mut Draft<'_>, outcomes: &[Outcome]) -> Result<(), String> {
-    let charts: [(&str, &str, Value); 2] = [
-        ("tips", "distance of the tip along the force (nm)", |o| {
-            o.tip_drop_nm
-        }),
-        ("energies", "elastic energy at equilibrium (pN nm)", |o| {
-            o.elastic_pn_nm
-        }),
-    ];
-    for (name, y_label, value) in charts {
-        let curves = [
-            (SHARED, palette::line(0)),
-            (FULL, palette::line(1)),
-            (AS_PRINTED, palette::line(3)),
-            (MEAN, palette::DATA),
-        ];
-        let curves = curves.map(|(model, colour)| curve(outcomes, model, colour, value));
-        let caption = format!(
-            "The {y_label} against the length of rod, monomers alone at 0 and rod alone at 160 nm; drawn bonds \
-             of the first sampling, and the mean filament (black)."
-        );
-        draft.plot(
-            format!("fig4_{name}.svg"),
-            "Equilibria under 2 pN against resolution",
-            ["rod at the tip (nm)", y_label],
-            against_rod(curves.into()),
-            caption,
-        )?;
-    }
-    Ok(())
-}
-
-/// The drawn states for the viewer.
-fn view(draft: &mut Draft<'_>, outcomes: &[Outcome]) -> Result<(), String> {
-    let shown = drawn(outcomes, |_| true).into_iter().map(|o| {
-        let share = o.case.rod_nm() / LENGTH_NM;
-        (
-            o.case.model.words.into(),
-            o.case.resolution.name(),
-            share,
-            o.shape.pose.clone(),
-        )
-    });
-    let caption = "Where the damped motions came to rest, in space: monomers with their own semi-axes and \
-        orientations, the rod with a stripe along its first axis. The force acts at the tip.";
-    draft.view("fig4", Attitude::LYING, shown, caption)
-}

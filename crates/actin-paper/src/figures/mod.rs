@@ -1,7 +1,7 @@
 //! Artefacts of the paper, its figures and tables, computed and compared.
 //!
-//! Each artefact is an [`Experiment`]: it solves scenes, measures quantities and draws pictures into a
-//! [`Draft`]. Expected numbers are data (`data/expected.csv`, `data/claims.csv`). Artefacts
+//! Each artefact is an `Experiment`: it solves scenes, measures quantities and draws pictures into a
+//! `Draft`. Expected numbers are data (`data/expected.csv`, `data/claims.csv`). Artefacts
 //! follow one another; the runs of each are spread over threads and put together in an order that does not
 //! depend on them.
 

@@ -30,7 +30,7 @@ use std::time::Instant;
 #[derive(Clone, Debug)]
 pub struct Options {
     /// Fits a table of one's own, with its columns of twist, length, bending or stretch
-    /// (docs/how-to/fit-a-rod-law.md).
+    /// (docs/how-to/rod-laws.md).
     pub data: Option<PathBuf>,
     /// Measures filaments of monomers first and fits what they show, bending and shear included.
     pub measure: bool,

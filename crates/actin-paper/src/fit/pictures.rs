@@ -38,6 +38,9 @@ pub(crate) struct Beside<'a> {
     pub dots: bool,
 }
 
+/// A law as a function of its argument.
+type Law<'a> = Box<dyn Fn(f64) -> f64 + 'a>;
+
 /// One of the two pictures: the column that it shows, and the laws over it, in the unit of its axis.
 struct Panel<'a> {
     file: &'static str,
@@ -45,7 +48,7 @@ struct Panel<'a> {
     y_label: &'static str,
     column: fn(&TwistData) -> &Column,
     scale: f64,
-    laws: [(&'static str, Box<dyn Fn(f64) -> f64 + 'a>); 3],
+    laws: [(&'static str, Law<'a>); 3],
 }
 
 /// Writes `figure-9a.svg` and `figure-9b.svg`; returns their names and captions.

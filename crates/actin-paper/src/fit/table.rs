@@ -1,4 +1,4 @@
-//! A user's table, read from CSV: `docs/how-to/fit-a-rod-law.md` describes it.
+//! A user's table, read from CSV: `docs/how-to/rod-laws.md` describes it.
 
 use super::column::Column;
 use csv::StringRecord;

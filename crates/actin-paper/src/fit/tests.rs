@@ -288,7 +288,7 @@ fn scene_with(law: &str) -> Scene {
 /// written runs and shows the rigidities of the table.
 #[test]
 fn a_scene_takes_what_is_written() {
-    let page = include_str!("../../../../docs/how-to/fit-a-rod-law.md");
+    let page = include_str!("../../../../docs/how-to/rod-laws.md");
     let (_, rest) = page.split_once("```csv\n").unwrap();
     let (example, _) = rest.split_once("```").unwrap();
     let folder = tempfile::tempdir().unwrap();

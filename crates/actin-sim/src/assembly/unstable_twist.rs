@@ -74,7 +74,7 @@ impl Assembly {
     /// section with the lowest tangent.
     ///
     /// # Source
-    /// `docs/statics.md`, "Extended rods in compression".
+    /// `docs/numerics.md`, "Extended rods in compression".
     pub fn unstable_twist(&self, state: &State) -> Vec<UnstableTwist> {
         let rods = self.rods.iter();
         let all = rods.filter_map(|rod| self.weakest_of(rod, state));

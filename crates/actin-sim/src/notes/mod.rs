@@ -312,7 +312,7 @@ fn few_bonds(monomers: &Monomers, kind: InterfaceKind) -> Option<String> {
         format!(
             "{} quadrature bonds for a {kind} interface are too few: a moment has an error of \
              {:.0} % of its root mean square. Eight bonds make twist a quarter too soft, four much softer \
-             (docs/bonds.md). Use 12, which meet all moments, or anchors: Independent for sampled bonds",
+             (docs/decisions.md). Use 12, which meet all moments, or anchors: Independent for sampled bonds",
             found.points.len(),
             100.0 * residual
         )
@@ -326,7 +326,7 @@ mod tests {
 
     #[test]
     fn codes_are_documented() {
-        let page = include_str!("../../../../docs/reference/run-directory.md");
+        let page = include_str!("../../../../docs/reference/troubleshooting.md");
         for (i, code) in codes::ALL.iter().enumerate() {
             assert!(page.contains(&format!("| `{code}` |")), "{code}");
             assert!(!codes::ALL[..i].contains(code), "{code}");

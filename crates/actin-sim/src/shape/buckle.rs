@@ -33,7 +33,7 @@ pub struct Buckle {
     ///
     /// Between clamped ends these two edges are nearly parallel to the axis. Their residual angle
     /// comes from the helix of monomers and the spacing of points, and the supertwist does not
-    /// measure the shape (`docs/studies/subcell.md`).
+    /// measure the shape (`docs/studies.md`).
     pub supertwist_deg: f64,
 }
 

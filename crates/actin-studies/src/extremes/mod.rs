@@ -31,7 +31,7 @@ pub(crate) struct Options {
     /// Also the rows that take minutes: 1e6 bodies, 1e7 steps.
     #[arg(long)]
     long: bool,
-    /// Also into `docs/extremes.csv`, with the pictures of `docs/extremes.md`, if all rows are sound.
+    /// Also into `docs/extremes.csv`, with the pictures of `docs/numerics.md`, if all rows are sound.
     #[arg(long, requires = "long")]
     write: bool,
 }

@@ -126,7 +126,7 @@ pub(super) fn compression() -> Vec<Row> {
     rows.collect()
 }
 
-/// Returns the number of unstable twist modes at a fraction of the bound, as derived in `docs/statics.md`.
+/// Returns the number of unstable twist modes at a fraction of the bound, as derived in `docs/numerics.md`.
 fn unstable_modes(share: f64) -> usize {
     let softens = |m: usize| (m as f64 * PI / (2 * SEGMENTS) as f64).cos().powi(2);
     (1..SEGMENTS).filter(|&m| softens(m) * share > 1.0).count()

@@ -29,7 +29,7 @@ pub(super) struct Region {
     pub(super) shear: f64,
     /// Extension relative to the natural length at the twist, or at the twist, bending and shear.
     pub(super) extension: [f64; 2],
-    /// True if the natural length includes [shortening](shortening) by bending and shear.
+    /// True if the natural length includes the shortening by bending and shear.
     is_shortened: bool,
 }
 

@@ -1,4 +1,4 @@
-//! Sizes of files, and their headers. A lint limits the sizes of functions (`clippy.toml`).
+//! Sizes of files. A lint limits the sizes of functions (`clippy.toml`).
 
 /// Largest number of lines of a file.
 const MOST_LINES: usize = 600;
@@ -9,9 +9,6 @@ pub(super) fn findings(name: &str, text: &str) -> Vec<String> {
     if lines > MOST_LINES {
         all.push(format!("{name}: {lines} lines, at most {MOST_LINES}"));
     }
-    if !text.trim_start().starts_with("//!") {
-        all.push(format!("{name}: does not open with //!"));
-    }
     all
 }
 
@@ -20,10 +17,9 @@ mod tests {
     use super::findings;
 
     #[test]
-    fn a_long_file_and_a_missing_header_are_found() {
-        assert_eq!(findings("a.rs", "fn f() {}\n").len(), 1);
-        assert!(findings("a.rs", "//! Header.\n").is_empty());
-        let long = format!("//! Header.\n{}", "fn f() {}\n".repeat(600));
+    fn a_long_file_is_found() {
+        assert!(findings("a.rs", "fn f() {}\n").is_empty());
+        let long = "fn f() {}\n".repeat(601);
         let found = findings("a.rs", &long);
         assert_eq!(found, ["a.rs: 601 lines, at most 600"]);
     }
