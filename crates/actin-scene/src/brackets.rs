@@ -77,7 +77,7 @@ impl Signs<'_> {
         strange.map(|child| child.place.start).or_else(close)
     }
 
-    /// Whether a place begins a later line than a bracket, with less indentation or `equal`.
+    /// Returns `true` at the start of a later line than a bracket, with less indentation or, if `equal`, the same.
     fn is_outdented(&self, at: usize, open: usize, equal: bool) -> bool {
         let line = |at: usize| self.text[..at].rfind('\n').map_or(0, |end| end + 1);
         let indent = |at: usize| {

@@ -1,4 +1,4 @@
-//! Types from the tree of values, with the place of what is refused.
+//! Deserialization of types from the tree of values, with places of errors.
 
 use super::meant::{meant, unknown_choice, unknown_key};
 use super::tree::{Kind, SceneValue, Source};
@@ -10,13 +10,13 @@ use serde::de::{
 use std::borrow::Cow;
 use std::fmt;
 
-/// Name of a newtype of a text that holds a value as it is written.
+/// Name of a newtype that receives the source text of a value.
 pub(super) const AS_WRITTEN: &str = "$written";
 
 /// The choice whose keys may stand without its name.
 const UNNAMED: &str = "Drag";
 
-/// A value that is refused.
+/// Refusal of a value.
 #[derive(Debug)]
 pub(super) struct Refusal {
     reason: Reason,
@@ -78,12 +78,12 @@ impl Refusal {
         }
     }
 
-    /// Whether the text means the same without the value.
+    /// Returns `true` if the text has the same meaning without the value.
     pub(super) fn is_needless(&self) -> bool {
         matches!(self.reason, Reason::UnknownKey(..) | Reason::Duplicate(_))
     }
 
-    /// Whether the message names its key.
+    /// Returns `true` if the message includes its key.
     pub(super) fn is_complete(&self) -> bool {
         !matches!(self.reason, Reason::Message(_))
     }
@@ -95,7 +95,7 @@ impl Refusal {
         self
     }
 
-    /// Says which structure an unplaced refusal of keys is about: of its child `index`, or of a missing one.
+    /// Sets structure and place of a refusal of the key of child `index`, or of a missing key.
     fn of_keys(mut self, name: &str, node: &SceneValue, index: usize) -> Self {
         if !self.of.is_empty() || matches!(self.reason, Reason::UnknownChoice(..)) {
             return self;
@@ -112,7 +112,7 @@ impl Refusal {
         self
     }
 
-    /// Says which kind of choice is not known.
+    /// Sets kind and place of a refusal of an unknown choice.
     fn of_choice(mut self, kind: &str, node: &SceneValue) -> Self {
         if self.of.is_empty() && matches!(self.reason, Reason::UnknownChoice(..)) {
             kind.clone_into(&mut self.of);
@@ -176,7 +176,7 @@ pub(super) fn deserialize<T: DeserializeOwned>(
 struct Value<'de> {
     node: &'de SceneValue,
     text: &'de str,
-    /// Whether the name before the bracket is that of a choice, which has been read.
+    /// `true` after the name before the bracket has been read as a choice.
     is_chosen: bool,
 }
 
@@ -194,7 +194,7 @@ impl<'de> Value<'de> {
         Self::new(&self.node.children()[index], self.text)
     }
 
-    /// The value as it is written.
+    /// Source text of the value.
     fn written(&self) -> Cow<'de, str> {
         match self.node.place.source {
             Source::Ron | Source::Json => self.text[self.node.place.value.clone()].into(),
@@ -283,7 +283,7 @@ impl<'de> Value<'de> {
         })
     }
 
-    /// What stands in the place of a key.
+    /// Error for a value without a key in a structure.
     fn unkeyed(&self) -> Refusal {
         let place = &self.node.place;
         match &self.node.kind {

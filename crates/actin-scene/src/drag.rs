@@ -87,7 +87,7 @@ pub(super) fn check(dynamics: &Dynamics) -> Result<(), SceneProblem> {
     ))
 }
 
-/// Keys without a name are those of `Drag`.
+/// Reads keys without a name as `Drag`.
 impl<'de> Deserialize<'de> for DragModel {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         #[derive(Deserialize)]

@@ -1,26 +1,26 @@
-//! Keys and choices that were probably meant in place of unknown ones.
+//! Suggestions for unknown keys and choices.
 
-/// Suffixes that keys carry for their units; a suffix stands before those that it ends with.
+/// Unit suffixes of keys; longer suffixes precede their endings.
 const UNIT_SUFFIXES: [&str; 10] = [
     "_mpa_s", "_ms", "_per_ns", "_per_nm", "_nm", "_nm2", "_pn", "_ns", "_deg", "_ag",
 ];
 
-/// Longest word that is compared with those that are known.
+/// Maximum length of a word for comparison with known keys.
 const LONGEST_KEY: usize = 100;
 
-/// Says that a key of a structure is not known.
+/// Message for an unknown key of a structure.
 pub(super) fn unknown_key(found: &str, known: &[&'static str], structure: &str) -> String {
     let hint = unit_hint(known, found);
     let hint = hint.unwrap_or_else(|| format!("known are {}", known.join(", ")));
     format!("unknown key {found} in {structure}: {hint}")
 }
 
-/// Says that a choice is not known.
+/// Message for an unknown choice.
 pub(super) fn unknown_choice(found: &str, known: &[&'static str], kind: &str) -> String {
     format!("unknown {kind} {found}: known are {}", known.join(", "))
 }
 
-/// The key or choice that is close to one which is not known.
+/// Known key or choice closest to an unknown one.
 pub(super) fn meant(found: &str, known: &[&'static str]) -> Option<String> {
     if found.len() > LONGEST_KEY {
         return None;
@@ -38,13 +38,13 @@ pub(super) fn meant(found: &str, known: &[&'static str]) -> Option<String> {
     (distance <= most).then(|| key.to_owned())
 }
 
-/// The remedy if `found` is a known key with another unit or none.
+/// Remedy if `found` differs from a known key only by its unit.
 fn unit_hint(known: &[&'static str], found: &str) -> Option<String> {
     let key = key_of_unit(known, found);
     key.map(|key| format!("the unit is part of the key, write {key}"))
 }
 
-/// The key that is `found` with another unit or none.
+/// Known key that differs from `found` only by its unit.
 fn key_of_unit(known: &[&'static str], found: &str) -> Option<&'static str> {
     let is_meant = |key: &&&str| {
         let stem = stem(key);

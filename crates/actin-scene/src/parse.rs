@@ -1,5 +1,4 @@
-//! The reader of RON and JSON: text becomes a tree of values with places. It reads on after a mistake, so that all that
-//! follows is found too.
+//! Parser of RON and JSON: text to a tree of values with places. It recovers after a mistake and finds further ones.
 
 use super::position::without_mark;
 use super::tree::{Kind, Place, SceneValue, Source};
@@ -7,12 +6,12 @@ use super::tree::{Kind, Place, SceneValue, Source};
 /// Most brackets within each other.
 pub(super) const MOST_DEPTH: usize = 128;
 
-/// A text that is read.
+/// Result of parsing.
 #[derive(Clone, Debug)]
 pub(super) struct Parsed {
     /// The first value.
     pub(super) root: SceneValue,
-    /// Mistakes in what is between values, with their places.
+    /// Mistakes between values, with their places.
     pub(super) mistakes: Vec<(usize, String)>,
     pub(super) brackets: Brackets,
 }
@@ -24,18 +23,18 @@ pub(super) struct Brackets {
     pub(super) misfit: Option<(usize, usize)>,
     /// The first bracket beyond [`MOST_DEPTH`], where reading stopped.
     pub(super) too_deep: Option<usize>,
-    /// Whether a bracket is not closed.
+    /// `true` for an unclosed bracket.
     pub(super) is_unclosed: bool,
-    /// Whether a list has a key.
+    /// `true` for a list with a key.
     pub(super) has_listed_key: bool,
-    /// Whether there is text after the first value.
+    /// `true` for text after the first value.
     pub(super) has_text_after: bool,
     /// The first text without its closing quotation mark.
     pub(super) unclosed_text: Option<usize>,
 }
 
 impl Brackets {
-    /// Whether a bracket is missing, or seems to be.
+    /// Returns `true` if a bracket is missing or seems to be.
     pub(super) fn are_mistaken(self) -> bool {
         let is_odd = self.is_unclosed || self.has_listed_key;
         is_odd || self.misfit.is_some() || self.too_deep.is_some() || self.unclosed_text.is_some()
@@ -94,7 +93,7 @@ pub(super) fn word(text: &str) -> &str {
     &text[..text.find(|c| !is_part(c)).unwrap_or(text.len())]
 }
 
-/// Whether a key with its colon comes first.
+/// Returns `true` if a text begins with a key and its colon.
 fn begins_with_key(rest: &str) -> bool {
     let word = word(rest);
     let is_word = word.starts_with(|c: char| c.is_alphabetic() || c == '_');
@@ -191,20 +190,19 @@ impl<'a> Parser<'a> {
         value
     }
 
-    /// Whether a comma or closing bracket comes next, or the end of the text.
+    /// Returns `true` before a comma, a closing bracket and the end of the text.
     fn is_at_end(&self) -> bool {
         self.rest().is_empty() || self.rest().starts_with([',', ')', ']', '}'])
     }
 
-    /// Whether the next element of a list or vector follows a value without a comma.
+    /// Returns `true` if the next element of a list or vector follows `value` without a comma.
     fn begins_next(&self, value: &SceneValue, is_key: bool) -> bool {
         let begins = |c: char| c.is_ascii_digit() || c.is_uppercase() || "+-.\"".contains(c);
         let is_element = value.key.is_none() && !is_key && value.kind != Kind::Unread;
         is_element && self.rest().starts_with(begins)
     }
 
-    /// The mistake where a value, or a word in the place of a key, ends at `end` and something else than a comma or bracket
-    /// comes.
+    /// Mistake after a value or a key without a colon that ends at `end`, before anything but a comma or bracket.
     fn unseparated(&self, value: &SceneValue, is_key: bool, end: usize) -> (usize, String) {
         let rest = self.rest();
         if is_key {
@@ -251,7 +249,7 @@ impl<'a> Parser<'a> {
         }
     }
 
-    /// The word that stands in the place of a key, if a value does not stand there.
+    /// Key without a colon that was parsed as `value`.
     fn key_without_colon(&self, value: &SceneValue) -> Option<String> {
         let has_keys = self.opens.last().is_some_and(|open| open.0 != '[');
         match &value.kind {
@@ -346,7 +344,7 @@ impl<'a> Parser<'a> {
         Kind::List(values)
     }
 
-    /// The values up to a closing bracket, which is not taken if it belongs to an outer one.
+    /// Parses values up to a closing bracket. The closing bracket of an outer value is left.
     fn elements(&mut self, place: &mut Place) -> Vec<SceneValue> {
         let depth = self.opens.len();
         let (mut values, mut is_separated) = (Vec::new(), true);
@@ -380,7 +378,7 @@ impl<'a> Parser<'a> {
         }
     }
 
-    /// Closes the innermost bracket, and takes the closing one unless it is that of an outer one.
+    /// Closes the innermost bracket. The closing bracket of an outer value is left.
     fn close(&mut self, closing: char) -> bool {
         let opening = match closing {
             ')' => '(',
@@ -514,7 +512,7 @@ fn of_number(text: &str) -> Kind {
     }
 }
 
-/// What stands where a value has ended and a comma is expected.
+/// Message for text in place of a comma.
 fn before_comma(rest: &str) -> String {
     let word: String = rest.chars().take_while(char::is_ascii_alphabetic).collect();
     if rest.starts_with("()") {

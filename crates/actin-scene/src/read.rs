@@ -94,7 +94,7 @@ impl Scene {
         validate(&scene).map(|()| scene)
     }
 
-    /// The scene as a value with every default; what is left out is no key.
+    /// Returns the scene as a value with all defaults, without keys of absent options.
     pub fn to_value(&self) -> SceneValue {
         serialize::to_value(self, false)
     }

@@ -1,4 +1,4 @@
-//! The tree of values from types.
+//! Serialization of types to the tree of values.
 
 use super::tree::{Kind, SceneValue};
 use serde::Serialize;
@@ -8,8 +8,7 @@ use serde::ser::{
 };
 use std::fmt;
 
-/// A type of scenes as a value, with the names of structures or without. Without them, an optional key that is not set is left
-/// out.
+/// Serializes a type, with or without names of structures. Without names, absent options have no key.
 ///
 /// # Panics
 /// On bytes, maps and tuples with names, which no scene holds.

@@ -120,7 +120,7 @@ pub struct SceneText {
     name: String,
     parsed: Parsed,
     overrides: Vec<Override>,
-    /// Whether the tree has values that are not written.
+    /// `true` after overrides or points of files.
     is_changed: bool,
 }
 
@@ -230,8 +230,8 @@ impl SceneText {
         (MOST_BYTES / self.written.len().max(1)).clamp(1, MOST)
     }
 
-    /// Reads a type and finds every mistake. What is refused is left out, and the rest read again; a key that is missing
-    /// since its value was refused is no mistake.
+    /// Reads a type and finds all mistakes: refused values are removed and the rest is read again. A key with a refused
+    /// value does not count as missing.
     pub(super) fn readings<T: DeserializeOwned>(&self) -> Readings<T> {
         if let Some(mistake) = self.mistake_of_whole() {
             let (value, mistakes) = (None, vec![mistake]);
@@ -390,7 +390,7 @@ impl SceneText {
         SceneError { set, ..error }
     }
 
-    /// Whether the key is of filament 0, which the text has in a list.
+    /// Returns `true` for keys of filament 0 if it is written in a list.
     fn is_listed(&self, key: &str) -> bool {
         let resolved = self.parsed.root.resolved(key);
         resolved.len() > super::tree::steps(key).len()

@@ -1,4 +1,4 @@
-//! Points of a shape that stand in a file of their own: found beside the scene, and put into its text.
+//! Points of shapes from files next to the scene.
 
 use super::SceneProblem;
 use super::tree::{Kind, SceneValue};
@@ -31,7 +31,7 @@ fn of_filament(filament: &mut SceneValue, key: &str, folder: &Path) -> Result<()
     let Kind::Group(_, values) = &mut shape.kind else {
         return Ok(());
     };
-    // A list without points is one that is left out.
+    // An empty list counts as absent.
     values.retain(|value| !(value.key() == Some("nm") && value.kind == Kind::List(Vec::new())));
     for value in values {
         let Kind::Text(file) = &value.kind else {

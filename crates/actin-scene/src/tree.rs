@@ -20,7 +20,7 @@ pub struct SceneValue {
     pub(crate) place: Place,
 }
 
-/// What a value is.
+/// Kind of a value.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Kind {
     /// Nothing: an optional key that is not set.
@@ -66,7 +66,7 @@ pub(crate) struct Place {
     pub(crate) value: Range<usize>,
     /// The comma or bracket that ends it, or the end of the text.
     pub(crate) until: usize,
-    /// Whether something that is no part of the value stands after it.
+    /// `true` if extra text follows the value.
     pub(crate) is_mistaken: bool,
     /// Its opening and closing brackets.
     pub(crate) open: Option<usize>,
@@ -152,7 +152,7 @@ impl SceneValue {
         matches!(self.kind, Kind::List(_))
     }
 
-    /// Whether choices are strings and vectors lists.
+    /// Returns `true` for values with strings for choices and lists for vectors.
     pub(crate) fn is_dictionary(&self) -> bool {
         matches!(self.place.source, Source::Memory | Source::Json)
     }
@@ -167,8 +167,7 @@ impl SceneValue {
         found.map(|(i, _)| i)
     }
 
-    /// The indices of children that a path leads through, as far as it is written. Filament 0 is found under `filament`
-    /// and under `filaments`.
+    /// Indices of children along a path, up to the last written one.
     pub(crate) fn follow(&self, path: &[Step]) -> Vec<usize> {
         let (mut node, mut taken) = (self, Vec::new());
         for step in path {
@@ -221,7 +220,7 @@ impl SceneValue {
         indices
     }
 
-    /// The path in words of the value at indices of children.
+    /// Path of the value at indices of children, such as `filament.sections[1].to_nm`.
     pub(crate) fn path(&self, indices: &[usize]) -> String {
         let (mut node, mut path) = (self, String::new());
         for i in indices {
@@ -237,7 +236,7 @@ impl SceneValue {
         path
     }
 
-    /// The indices without those of components of vectors, which have no place of their own.
+    /// Indices up to the innermost value with a key or list index, without vector components.
     pub(crate) fn without_components(&self, mut indices: Vec<usize>) -> Vec<usize> {
         while let Some((last, above)) = indices.split_last() {
             let parent = self.at(above);
@@ -249,7 +248,7 @@ impl SceneValue {
         indices
     }
 
-    /// Gives a key a value, whether the key is written or not. The path is that of an [`Override`](super::Override).
+    /// Sets or adds a key. [`Override`](super::Override) describes paths.
     ///
     /// ```
     /// use actin_scene::{SceneKind::Whole, SceneValue};
@@ -296,7 +295,7 @@ impl SceneValue {
         Ok(())
     }
 
-    /// Refuses a step to a child that cannot be added; `name` is that of the value.
+    /// Refuses steps to children that cannot be added to the value `name`.
     fn check_step(&self, step: &Step, name: &str, child: &Self) -> Result<(), String> {
         let count = self.children().len();
         // Only texts grow by an element.
