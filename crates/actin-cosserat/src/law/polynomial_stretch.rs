@@ -16,6 +16,10 @@ use crate::{RodKey, RodParameterError, constants};
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(
+    feature = "schema",
+    schemars(description = "Change of length as a polynomial of the twist.")
+)]
 pub struct PolynomialStretch {
     /// `p_0` to `p_6` (nm^i/rad^i); finite.
     pub coefficients: [f64; 7],

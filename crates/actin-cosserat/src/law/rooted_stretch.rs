@@ -16,6 +16,12 @@ use crate::{RodKey, RodParameterError};
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(
+    feature = "schema",
+    schemars(
+        description = "Change of length with different slopes on both sides of rest: `slope k - bend (sqrt(k^2 + half^2) - half) + cubic k^3` at the twist `k`."
+    )
+)]
 pub struct RootedStretch {
     /// Slope at rest (nm/rad); finite.
     #[cfg_attr(feature = "serde", serde(rename = "slope_nm"))]

@@ -17,6 +17,10 @@ type Pair = Vector2<f64>;
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(
+    feature = "schema",
+    schemars(description = "Shear force with a linear and a cubic part.")
+)]
 pub struct CubicShear {
     /// Linear rigidities S1 and S2 (pN); each at least 0.
     #[cfg_attr(feature = "serde", serde(rename = "linear_pn"))]

@@ -18,6 +18,10 @@ use crate::{RodKey, RodParameterError};
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(
+    feature = "schema",
+    schemars(description = "Twist rigidity that saturates, with its own rise to either side.")
+)]
 pub struct SidedTwist {
     /// Rigidity at rest (pN nm^2); at least 0.
     #[cfg_attr(feature = "serde", serde(rename = "rest_pn_nm2"))]

@@ -18,6 +18,12 @@ use crate::{RodKey, RodParameterError};
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(
+    feature = "schema",
+    schemars(
+        description = "Bending rigidity that rises from rest with curvature, twist and shear."
+    )
+)]
 pub struct Stiffening {
     /// Rigidity at rest (pN nm^2); positive.
     #[cfg_attr(feature = "serde", serde(rename = "rest_pn_nm2"))]

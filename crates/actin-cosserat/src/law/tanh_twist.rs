@@ -20,6 +20,10 @@ use crate::{RodKey, RodParameterError, constants};
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(
+    feature = "schema",
+    schemars(description = "Twist rigidity with three tanh steps, as published.")
+)]
 pub struct TanhTwist {
     /// Limit at large over-twist (pN nm^2); finite.
     #[cfg_attr(feature = "serde", serde(rename = "b_plus_pn_nm2"))]
