@@ -1,43 +1,43 @@
-//! The rod's constitutive law, as a scene writes it.
+//! Constitutive law of the rod.
 
 use actin_cosserat::{
     CubicShear, PolynomialStretch, RootedStretch, SidedTwist, Stiffening, TanhTwist, TwistStretch,
 };
 use serde::{Deserialize, Serialize};
 
-/// Constitutive law of a rod. `Homogenised` is nearest to filaments of monomers; those named "to reproduce the paper" are for
-/// its figures.
+/// Constitutive law of a rod. `Homogenised` is the best approximation of filaments of monomers. Laws marked "to
+/// reproduce the paper" are for its figures.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub enum RodLaw {
-    /// One potential of all strains: the energy of cells of monomers, of the mean filament or, where `monomers` draw
-    /// bonds for each interface, the mean over drawings. In a heat bath (`thermal`) the free energy of the mean filament at
-    /// 298 K. The material must be left out.
+    /// One potential of all strains: the energy of cells of monomers of the mean filament or, with sampled bonds in
+    /// `monomers`, the mean over samples. In a heat bath (`thermal`) it is the free energy of the mean filament at
+    /// 298 K. The material must be omitted.
     #[default]
     Homogenised,
-    /// That without heat, in a heat bath too.
+    /// `Homogenised` without thermal effects, also in a heat bath.
     HomogenisedAthermal,
-    /// That at 298 K, without a heat bath too: 0.46 % shorter than built, so that a rod held at both ends is under tension.
+    /// `Homogenised` at 298 K, also without a heat bath. The rest length is 0.46 % shorter than as built: a rod held
+    /// at both ends is under tension.
     HomogenisedAt298K,
-    /// The rigidities of the material at every strain: for a material of your own, for analytic limits, and to reproduce the
-    /// paper.
+    /// Constant rigidities of the material: for a custom material, for analytic limits, and to reproduce the paper.
     Constant,
-    /// The paper's twisting rigidity B3(kappa) and extension xi(kappa), all parameters as published,
-    /// `p_0` included: to reproduce the paper.
+    /// The paper's twisting rigidity B3(kappa) and extension xi(kappa) with all published parameters, `p_0` included:
+    /// to reproduce the paper.
     PublishedExtension,
-    /// The paper's B3(kappa) and an energy `C3 sigma_3 kappa_3` per length that couples stretch
-    /// and twist: to reproduce the paper.
+    /// The paper's B3(kappa) and an energy `C3 sigma_3 kappa_3` per length that couples stretch and twist: to
+    /// reproduce the paper.
     CouplingEnergy,
-    /// Laws of single deformations fitted to filaments of monomers, as the paper fits them: to go on from the paper. The
-    /// material must be left out.
+    /// Laws of single deformations fitted to filaments of monomers by the method of the paper: to extend the paper.
+    /// The material must be omitted.
     Fitted,
-    /// Your own laws. Deformations without one keep the rigidity of the material.
+    /// Custom laws. Deformations without a law keep the rigidity of the material.
     Laws(Box<RodLaws>),
 }
 
 impl RodLaw {
-    /// Whether it is one potential of all strains, with heat or without.
+    /// Returns whether the law is one potential of all strains, with or without thermal effects.
     pub fn is_homogenised(&self) -> bool {
         matches!(
             self,
@@ -45,7 +45,7 @@ impl RodLaw {
         )
     }
 
-    /// Whether it is one of the paper's, under which neither bending nor shear gets stiffer.
+    /// Returns whether the law is one of the paper's, with constant bending and shearing rigidities.
     pub fn is_published(&self) -> bool {
         matches!(
             self,
@@ -53,7 +53,7 @@ impl RodLaw {
         )
     }
 
-    /// Whether rods under it resist shear only once they are sheared.
+    /// Returns whether the shear stiffness increases from a small value at rest.
     pub fn shears_softly(&self) -> bool {
         match self {
             Self::Laws(laws) => laws.shear.is_some(),
@@ -61,7 +61,7 @@ impl RodLaw {
         }
     }
 
-    /// The name of a law that leaves nothing to the material.
+    /// Returns the name of a law that does not use the material, or `None`.
     pub fn whole(&self) -> Option<&'static str> {
         match self {
             Self::Fitted => Some("Fitted"),
@@ -73,7 +73,7 @@ impl RodLaw {
     }
 }
 
-/// A law for each deformation that has one.
+/// Laws for single deformations.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, default)]
@@ -86,36 +86,36 @@ pub struct RodLaws {
     pub stretch: Option<StretchLaw>,
     /// Law of shear.
     pub shear: Option<ShearLaw>,
-    /// Law of natural length against twist.
+    /// Law of extension against twist.
     pub twist_stretch: Option<TwistStretchLaw>,
 }
 
-/// A law of bending.
+/// Law of bending.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 #[non_exhaustive]
 pub enum BendLaw {
-    /// Rigidity that rises with bending, twist and shear.
+    /// Rigidity that increases with bending, twist and shear.
     Stiffening {
         /// Rigidity at rest; positive.
         rest_pn_nm2: f64,
-        /// What the rigidity gains far from rest; at least 0.
+        /// Increase of the rigidity at large strain; at least 0.
         rise_pn_nm2: f64,
-        /// Curvature at which half is gained; positive.
+        /// Curvature at half of the increase; positive.
         curvature_per_nm: f64,
-        /// Twist at which half is gained; positive. Left out, twist does not stiffen bending.
+        /// Twist at half of the increase; positive. By default twist does not stiffen bending.
         #[serde(default)]
         twist_per_nm: Option<f64>,
-        /// Shear strain at which half is gained; positive. Left out, shear does not stiffen bending.
+        /// Shear strain at half of the increase; positive. By default shear does not stiffen bending.
         #[serde(default)]
         shear: Option<f64>,
-        /// Largest curvature of the data behind the law; positive, may be infinite (`inf`).
+        /// Largest curvature in the data of the fit; positive, may be infinite (`inf`).
         range_per_nm: f64,
     },
 }
 
-/// A law of twist.
+/// Law of twist.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
@@ -123,79 +123,79 @@ pub enum BendLaw {
 pub enum TwistLaw {
     /// Three tanh steps, as published.
     Tanh {
-        /// Limit of far over-twist; finite.
+        /// Limit at large over-twist; finite.
         b_plus_pn_nm2: f64,
-        /// Limit of far under-twist; finite.
+        /// Limit at large under-twist; finite.
         b_minus_pn_nm2: f64,
-        /// The seven parameters lambda; finite, the second, fifth and seventh positive. The couple must
-        /// grow at the end of the range.
+        /// Parameters lambda 1 to 7; finite, with positive second, fifth and seventh. The couple must increase with
+        /// twist at the end of the range.
         lambda: [f64; 7],
-        /// Largest twist of the data behind the law; positive and finite.
+        /// Largest twist in the data of the fit; positive and finite.
         range_per_nm: f64,
     },
-    /// Saturating, with its own rise to either side.
+    /// Saturating rigidity with different increases in under-twist and over-twist.
     Sided {
         /// Rigidity at rest; at least 0.
         rest_pn_nm2: f64,
-        /// In under-twist.
+        /// Increase in under-twist.
         under: TwistRise,
-        /// In over-twist.
+        /// Increase in over-twist.
         over: TwistRise,
-        /// Largest twist of the data behind the law; positive and finite.
+        /// Largest twist in the data of the fit; positive and finite.
         range_per_nm: f64,
     },
 }
 
-/// One side of a law of twist: the secant gains `rise k^2 / (k^2 + slow |k| + half^2)`.
+/// One side of a law of twist. The secant rigidity increases by `rise k^2 / (k^2 + slow |k| + half^2)` at twist `k`.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct TwistRise {
-    /// What the rigidity gains far from rest; positive.
+    /// Increase of the rigidity at large twist; positive.
     pub rise_pn_nm2: f64,
-    /// Twist at which half is gained if `slow_per_nm` is 0; positive.
+    /// Twist at half of the increase if `slow_per_nm` is 0; positive.
     pub half_per_nm: f64,
-    /// How much the rise is drawn out; at least 0.
+    /// Twist that delays the saturation (`slow`); at least 0.
     pub slow_per_nm: f64,
 }
 
-/// A law of stretch.
+/// Law of stretch.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 #[non_exhaustive]
 pub enum StretchLaw {
-    /// One rigidity at every strain, instead of the material's.
+    /// Constant rigidity, which replaces the rigidity of the material.
     Constant {
         /// Rigidity; positive.
         rigidity_pn: f64,
     },
-    /// One rigidity in tension, another in compression.
+    /// Different rigidities in tension and compression.
     Sided {
-        /// Rigidity far in tension; positive.
+        /// Rigidity at large tension; positive.
         tension_pn: f64,
-        /// Rigidity far in compression; positive.
+        /// Rigidity at large compression; positive.
         compression_pn: f64,
-        /// Strain over which one changes into the other; positive.
+        /// Width of the transition in strain; positive.
         width: f64,
     },
 }
 
-/// A law of shear.
+/// Law of shear.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub enum ShearLaw {
-    /// Force with a linear and a cubic part.
+    /// Force with a linear and a cubic term.
     Cubic {
-        /// S1 and S2; each at least 0.
+        /// Linear rigidities S1 and S2; each at least 0.
         linear_pn: [f64; 2],
-        /// Force over the cube of the strain; at least 0, and positive unless S1 and S2 are.
+        /// Force divided by the cube of the strain; at least 0, and positive unless S1 and S2 are.
         cubic_pn: f64,
     },
 }
 
-/// A law of natural length against twist.
+/// Law of extension against twist.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
@@ -204,7 +204,7 @@ pub enum TwistStretchLaw {
     Polynomial {
         /// `p_0` to `p_6` (nm^i/rad^i); finite.
         coefficients: [f64; 7],
-        /// Largest twist of the data behind the law; positive, may be infinite (`inf`).
+        /// Largest twist in the data of the fit; positive, may be infinite (`inf`).
         range_per_nm: f64,
     },
     /// `xi - 1 = slope k - bend (sqrt(k^2 + half^2) - half) + cubic k^3`.
@@ -213,11 +213,11 @@ pub enum TwistStretchLaw {
         slope_nm: f64,
         /// Half the difference of the slopes on either side (nm/rad); finite.
         bend_nm: f64,
-        /// Twist over which one changes into the other; positive.
+        /// Width of the transition in twist; positive.
         half_per_nm: f64,
         /// Coefficient of the cube (nm^3/rad^3); finite.
         cubic_nm3: f64,
-        /// Largest twist of the data behind the law; positive and finite.
+        /// Largest twist in the data of the fit; positive and finite.
         range_per_nm: f64,
     },
 }
