@@ -1,4 +1,4 @@
-//! Arrangements of many filaments: copies, random networks and bundles.
+//! Arrangements of filaments: copies, random networks and bundles.
 
 use super::rules::{all_finite, direction, non_negative, positive, show};
 use super::{Filament, SceneProblem, Section};
@@ -11,14 +11,14 @@ use std::f64::consts::TAU;
 /// Largest number of filaments of one arrangement.
 const MOST_FILAMENTS: usize = 100_000;
 
-/// A rule that places many filaments. The arranged filaments follow the listed filaments in the order of the arrangements.
+/// Placement of many filaments. The arranged filaments follow the listed ones, in the order of the arrangements.
 ///
 /// The resolved scene lists each filament.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub enum Arrangement {
-    /// Copies of a filament, each displaced from its predecessor.
+    /// Copies of a filament at equal displacements.
     Copies {
         /// The first copy.
         filament: Filament,
@@ -27,13 +27,13 @@ pub enum Arrangement {
         /// Displacement from one copy to the next (lab frame); finite, not zero.
         shift_nm: [f64; 3],
     },
-    /// Filaments with uniformly distributed midpoints in a box, rotated about their axes by random angles.
+    /// Filaments with uniformly distributed midpoints in a box and random rotations about their axes.
     Random {
-        /// Filament to place. Its `at_nm` is ignored; its `direction` counts for parallel orientations.
+        /// Filament to place. Its `at_nm` is ignored; its `direction` is used for parallel orientations.
         filament: Filament,
         /// Number of filaments; from 1 to 100,000.
         count: usize,
-        /// Edges of the box along x, y and z; at least 0. Ends of filaments may lie outside of the box.
+        /// Edges of the box along x, y and z; at least 0. Ends of filaments may lie outside the box.
         box_nm: [f64; 3],
         /// Centre of the box (lab frame); finite.
         #[serde(default)]
@@ -41,8 +41,8 @@ pub enum Arrangement {
         /// Distribution of directions.
         #[serde(default)]
         orientation: Orientation,
-        /// Bounds of uniformly distributed lengths; positive, in ascending order. Requires a filament of one section. By
-        /// default all filaments are as long as `filament`.
+        /// Bounds of uniformly distributed lengths; positive, in ascending order. Requires a filament of one section.
+        /// By default all filaments have the length of `filament`.
         #[serde(default)]
         lengths_nm: Option<[f64; 2]>,
         /// Seed of places, directions and lengths.
@@ -56,7 +56,7 @@ pub enum Arrangement {
         count: usize,
         /// Distance between neighbouring axes; positive.
         spacing_nm: f64,
-        /// Largest displacement along the axis, uniformly distributed from 0; at least 0.
+        /// Largest displacement along the axis; at least 0. Displacements are uniform between 0 and this value.
         #[serde(default)]
         stagger_nm: f64,
         /// True if the direction of each filament is reversed with probability one half.
@@ -84,7 +84,7 @@ pub enum Orientation {
 }
 
 impl Arrangement {
-    /// Returns the placed filament of the rule.
+    /// Returns the filament to place.
     pub fn filament(&self) -> &Filament {
         match self {
             Self::Copies { filament, .. }
@@ -104,7 +104,7 @@ impl Arrangement {
     /// Returns the filaments of arrangement `k` of a scene.
     ///
     /// # Errors
-    /// A number against its rule, with its key.
+    /// If a number breaks its rule.
     pub(super) fn filaments(&self, k: usize) -> Result<Vec<Filament>, SceneProblem> {
         self.check(k)?;
         Ok(match self {
@@ -246,7 +246,6 @@ fn check_lengths(key: &str, lengths: [f64; 2], filament: &Filament) -> Result<()
 }
 
 impl Orientation {
-    /// Draws a unit vector.
     fn draw(self, filament: &Filament, random: &mut ChaCha8Rng) -> Vector3 {
         match self {
             Self::Isotropic => {
@@ -264,12 +263,13 @@ impl Orientation {
     }
 }
 
-/// Returns a uniformly distributed number from 0 to 1.
+/// Returns a uniform random number in [0, 1).
 fn unit(random: &mut impl Rng) -> f64 {
     random.random()
 }
 
-/// Returns the `count` places of a hexagonal lattice with spacing 1 that are closest to the origin, by distance and azimuth.
+/// Returns the `count` points of a hexagonal lattice of spacing 1 closest to the origin, sorted by distance and
+/// azimuth.
 fn hexagonal(count: usize) -> Vec<[f64; 2]> {
     let holds = |rings: i32| 1 + 3 * i64::from(rings) * i64::from(rings + 1);
     let mut rings = 0;
@@ -295,7 +295,6 @@ fn hexagonal(count: usize) -> Vec<[f64; 2]> {
 }
 
 impl Section {
-    /// Moves the end of the section to an arc length (nm).
     fn end_at(&mut self, s_nm: f64) {
         let (Self::Ellipsoids { to_nm, .. } | Self::Rod { to_nm, .. }) = self;
         *to_nm = s_nm;

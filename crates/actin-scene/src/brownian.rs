@@ -1,4 +1,4 @@
-//! Overdamped motion in a fluid, as a scene writes it, and its rules.
+//! Overdamped motion in a fluid: the task `Brownian` and its validation.
 
 use super::rules::{non_negative, positive, show};
 use super::{
@@ -7,42 +7,43 @@ use super::{
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 
-/// Least ratio of length to diameter for which the friction of a cylinder is known.
+/// Smallest ratio of length to diameter for which the friction formula of a cylinder holds.
 const LEAST_RATIO: f64 = 3.0;
 
-/// Nanoseconds in a millisecond.
 const NS_PER_MS: f64 = 1e6;
 
-/// Overdamped motion in a fluid, thermal or athermal, by steps that are implicit in the stiffness. Inertia plays no part:
-/// velocities are recorded as zero. Rods need `EnergyGradient`; loads that turn with the filament are refused.
+/// Overdamped motion in a fluid, thermal or athermal, with steps that are implicit in the stiffness. Inertia is
+/// neglected: recorded velocities are zero. Rods require `EnergyGradient`. Loads that turn with the filament are
+/// refused.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Brownian {
-    /// Simulated time; positive, at least what the path takes.
+    /// Simulated time; positive, at least the duration of the path.
     pub duration_ms: f64,
-    /// Temperature of the fluid; at least 0. At 0 filaments relax without noise.
+    /// Temperature of the fluid; at least 0. At 0 the motion has no noise.
     pub temperature_k: f64,
     /// Seed of the noise.
     #[serde(default)]
     pub seed: u64,
-    /// The fluid, and what it does to a filament.
+    /// Fluid and its drag on the filaments.
     #[serde(default)]
     pub drag: Fluid,
-    /// How the fluid moves. Drag pulls filaments along with it.
+    /// Flow of the fluid, which carries filaments along.
     #[serde(default)]
     pub flow: Flow,
-    /// What holds monomers together.
+    /// Model of the interfaces between monomers.
     #[serde(default)]
     pub interfaces: Interfaces,
-    /// Longest time step; positive. By default of rods at a temperature the time in which the drag of a segment bends it, 180 ns on
-    /// 40 nm: what is faster is drawn anew in each step, means are right to 1 %. It is shorter where stages, loads, rates,
-    /// shear or records need it; monomers with interfaces `QuasiHarmonic` take steps as segments of a fifth of their filament's
-    /// length, at most 40 nm. Of other monomers at a temperature, and with `repulsion`, it is 50 times the fastest relaxation, at which
-    /// all strains have their thermal energy to 1 % on segments of 20 nm or more. Without heat it is a twentieth of the time between
-    /// records, and at most a hundredth of that in which a stage or a load changes: displacements are right to 0.1 %. Steps are
-    /// shortened so that whole ones make up the duration and the interval of records; without heat those that cannot be
-    /// solved are halved.
+    /// Largest time step; positive. Steps are shortened to fit a whole number into the duration and into the interval
+    /// of records. Default for rods at a temperature: the bending relaxation time of a segment, 180 ns for 40 nm.
+    /// Faster modes are resampled in each step, and means are accurate to 1 %. Stages, loads, rates, shear or records
+    /// can require shorter steps. Monomers with `QuasiHarmonic` interfaces use the step of segments of a fifth of
+    /// their filament's length, at most 40 nm. Default for other monomers at a temperature and with `repulsion`: 50
+    /// times the fastest relaxation time. All strains then have their thermal energy to 1 % on segments of 20 nm or
+    /// more. Default at temperature 0: a twentieth of the time between records, at most a hundredth of the time in
+    /// which a stage or load changes. Displacements are then accurate to 0.1 %, and steps that cannot be solved are
+    /// halved.
     #[serde(default)]
     pub time_step_ns: Option<f64>,
     /// Time between recorded states; positive. By default about a hundredth of the duration.
@@ -50,7 +51,7 @@ pub struct Brownian {
     pub record_every_ns: Option<f64>,
 }
 
-/// A fluid and the drag in it, which follows from its viscosity. Rates of `Dynamics` are numerical damping.
+/// Fluid whose drag follows from its viscosity. The rates of `Dynamics` are numerical damping instead.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub enum Fluid {
@@ -73,28 +74,28 @@ pub struct Water {
     pub at_ends: bool,
 }
 
-/// What holds the monomers of an overdamped motion together.
+/// Model of the interfaces between monomers in overdamped motion.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub enum Interfaces {
-    /// Bonds. Their fastest relaxation takes a tenth of a picosecond, so that a microsecond takes ten million steps.
+    /// Bonds. Their fastest relaxation time is a tenth of a picosecond: a microsecond takes ten million steps.
     #[default]
     Bonds,
-    /// A quadratic energy with the means and the covariances that neighbours have in thermal motion with their bonds, which is
-    /// simulated first. It needs a temperature, and takes steps ten thousand times longer. Stiffness is that at
-    /// this temperature without loads: it does not change with tension, twist or bending.
+    /// Quadratic energy with the means and covariances of the thermal motion of neighbours with bonds, which is
+    /// simulated first. Requires a temperature. Time steps are ten thousand times longer than with `Bonds`. The
+    /// stiffness is that at this temperature without loads: it does not change with tension, twist or bending.
     QuasiHarmonic {
-        /// How long the motion of the bonds is simulated; positive, at most 20,000. By default 400 ns: seconds before anything
-        /// else, or about a minute for each micrometre of monomers with drawn bonds. The same for every seed of the task, so
-        /// that it is no part of their scatter.
+        /// Duration of the simulation of the bonds; positive, at most 20,000. The default of 400 ns takes seconds, or
+        /// about a minute for each micrometre of monomers with sampled bonds. It is the same for every seed of the
+        /// task and adds nothing to their scatter.
         #[serde(default = "sampled_ns")]
         sampled_ns: f64,
     },
 }
 
 impl Interfaces {
-    /// Quasi-harmonic ones instead of bonds, where there is a temperature (K).
+    /// Replaces bonds by quasi-harmonic interfaces at temperatures (K) above 0.
     pub fn allow_long_steps(&mut self, temperature_k: f64) {
         if *self == Self::Bonds && temperature_k > 0.0 {
             *self = Self::QuasiHarmonic {
@@ -104,7 +105,7 @@ impl Interfaces {
     }
 }
 
-/// Longest motion (ns) that interfaces are sampled from: an hour for each micrometre of monomers with drawn bonds.
+/// Largest duration (ns) of the simulation of the bonds: an hour for each micrometre of monomers with sampled bonds.
 const MOST_SAMPLED_NS: f64 = 2e4;
 
 fn sampled_ns() -> f64 {
@@ -129,7 +130,7 @@ impl Default for Fluid {
 }
 
 impl Brownian {
-    /// What it has in common with motion that has inertia: times, records and temperature.
+    /// Converts the times, records and temperature to a `Dynamics` task.
     pub fn as_motion(&self) -> Dynamics {
         Dynamics {
             duration_ns: self.duration_ms * NS_PER_MS,
@@ -145,7 +146,7 @@ impl Brownian {
         }
     }
 
-    /// Its noise; none at temperature 0.
+    /// Returns the temperature and seed of the noise, or `None` at temperature 0.
     pub fn thermal(&self) -> Option<Thermal> {
         (self.temperature_k > 0.0).then_some(Thermal {
             temperature_k: self.temperature_k,
@@ -155,8 +156,7 @@ impl Brownian {
 }
 
 impl Task {
-    /// The motion in time that it asks for, with inertia or, as far as they have it in common, without; none of an
-    /// equilibrium.
+    /// Returns the task as `Dynamics`, for `Brownian` only the common settings; `None` for `Equilibrium`.
     pub fn motion(&self) -> Option<Cow<'_, Dynamics>> {
         match self {
             Self::Dynamics(dynamics) => Some(Cow::Borrowed(dynamics)),
@@ -166,7 +166,6 @@ impl Task {
     }
 }
 
-/// Checks the numbers of the task.
 pub(super) fn check(brownian: &Brownian) -> Result<(), SceneProblem> {
     positive("task.duration_ms", brownian.duration_ms)?;
     non_negative("task.temperature_k", brownian.temperature_k)?;
@@ -179,8 +178,9 @@ pub(super) fn check(brownian: &Brownian) -> Result<(), SceneProblem> {
     if let Interfaces::QuasiHarmonic { sampled_ns } = brownian.interfaces {
         positive("task.interfaces.sampled_ns", sampled_ns)?;
         if sampled_ns > MOST_SAMPLED_NS {
-            let rule =
-                format!("must be at most {MOST_SAMPLED_NS:?}: 400 ns know each stiffness to 2 %");
+            let rule = format!(
+                "must be at most {MOST_SAMPLED_NS:?}: 400 ns determine each stiffness to 2 %"
+            );
             return Err(SceneProblem::new(
                 "task.interfaces.sampled_ns",
                 sampled_ns,
@@ -188,7 +188,7 @@ pub(super) fn check(brownian: &Brownian) -> Result<(), SceneProblem> {
             ));
         }
         if brownian.temperature_k == 0.0 {
-            let rule = "interfaces have the stiffness of their thermal motion: write a temperature, or Bonds";
+            let rule = "QuasiHarmonic interfaces require a temperature above 0: write a temperature, or Bonds";
             return Err(SceneProblem::new("task.interfaces", "QuasiHarmonic", rule));
         }
     }
@@ -197,7 +197,6 @@ pub(super) fn check(brownian: &Brownian) -> Result<(), SceneProblem> {
 }
 
 impl Fluid {
-    /// Checks its numbers.
     pub(super) fn check(&self) -> Result<(), SceneProblem> {
         let Self::Water(Water {
             viscosity_mpa_s,
@@ -208,7 +207,6 @@ impl Fluid {
         positive("task.drag.radius_nm", radius_nm)
     }
 
-    /// Refuses filaments that are not slender.
     pub(super) fn check_filaments(&self, scene: &Scene) -> Result<(), SceneProblem> {
         let Self::Water(Water { radius_nm, .. }) = *self;
         let diameter = 2.0 * radius_nm;
@@ -227,7 +225,7 @@ impl Fluid {
     }
 }
 
-/// Checks what the task asks of the rest of the scene: potentials, and filaments that are slender.
+/// Checks the rest of the scene: filaments must be slender and have a potential; loads must not follow the filament.
 pub(super) fn check_whole(scene: &Scene, brownian: &Brownian) -> Result<(), SceneProblem> {
     for (i, one) in scene.filaments().enumerate() {
         rules::check_potential(one).map_err(|p| p.with_filament(&scene.filament_key(i)))?;
@@ -235,7 +233,7 @@ pub(super) fn check_whole(scene: &Scene, brownian: &Brownian) -> Result<(), Scen
     brownian.drag.check_filaments(scene)?;
     let follows = scene.loads.iter().position(super::Load::follows);
     follows.map_or(Ok(()), |i| {
-        let rule = "a load that turns with the filament has no stiffness in which Brownian could be implicit: \
+        let rule = "a load that turns with the filament is not supported by the implicit steps of Brownian: \
                     Dynamics takes it";
         Err(SceneProblem::new(format!("loads[{i}].follows"), true, rule))
     })

@@ -1,32 +1,31 @@
-//! The curve along which a filament is built, with a frame at every arc length: pieces of constant curvature,
-//! of which a spline has many.
+//! Reference curve of a filament: pieces of constant curvature with a frame at every arc length.
 //!
-//! A filament is seen as if it were along lab +z from the origin; where it is built is in `place.rs`.
+//! The curve starts at the origin along lab +z. `place.rs` moves it to the position of the filament.
 
 use super::{AlteredRod, Filament, Shape};
 use actin_mechanics::{UnitQuaternion, Vector3, rotation};
 use std::f64::consts::TAU;
 
-/// Pieces of a spline between two of its points.
+/// Pieces of a spline between two consecutive points.
 const PIECES: u32 = 64;
 
-/// A curve with frames whose third axes are its tangents.
+/// Curve with frames whose third axes are its tangents.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Curve {
     pieces: Vec<Piece>,
-    /// Where it ends (nm), if it does.
+    /// Length (nm) of a spline.
     length: Option<f64>,
 }
 
-/// A stretch of constant curvature, with the place and the frame of its start.
+/// Piece of constant curvature with the position and frame of its start.
 #[derive(Clone, Debug, PartialEq)]
 struct Piece {
     from: f64,
     place: Vector3,
     frame: UnitQuaternion,
-    /// Curvature (rad/nm, body axes) of frames that go with the normal of the curve.
+    /// Curvature (rad/nm, body axes) of the Frenet frame.
     curvature: Vector3,
-    /// Rate (rad/nm) at which frames without twist turn back against these.
+    /// Rotation rate (rad/nm) of the Frenet frame relative to the untwisted frame.
     unroll: f64,
 }
 
@@ -54,7 +53,7 @@ impl Piece {
 }
 
 impl Curve {
-    /// That of a filament whose sections meet at these arc lengths (nm).
+    /// Creates the curve of a filament whose sections start at these arc lengths (nm).
     pub fn of(filament: &Filament, boundaries: &[f64]) -> Self {
         match &filament.shape {
             None => Self::of_pieces(vec![Piece::straight()]),
@@ -101,7 +100,7 @@ impl Curve {
         Self::of_pieces(pieces)
     }
 
-    /// The natural cubic spline through points, with frames that turn as little as they can.
+    /// Natural cubic spline through points with frames of least rotation.
     fn through(points: &[[f64; 3]]) -> Self {
         let spline = Spline::through(points);
         let mut pieces: Vec<Piece> = Vec::new();
@@ -137,18 +136,19 @@ impl Curve {
         }
     }
 
-    /// Place (nm) and frame at an arc length; beyond its ends the curve goes on as it is there.
+    /// Returns position (nm) and frame at an arc length. Outside its ends the curve continues with the same
+    /// curvature.
     pub fn at(&self, s_nm: f64) -> (Vector3, UnitQuaternion) {
         let past = self.pieces.partition_point(|piece| piece.from <= s_nm);
         self.pieces[past.saturating_sub(1)].at(s_nm)
     }
 
-    /// Where it ends (nm), if it does.
+    /// Returns the length (nm) of a spline; other curves are unbounded.
     pub fn length(&self) -> Option<f64> {
         self.length
     }
 
-    /// Largest curvature up to an arc length, and where its piece begins (nm).
+    /// Returns the start (nm) of the piece with the largest curvature up to an arc length, and this curvature (1/nm).
     pub fn largest_curvature(&self, length: f64) -> (f64, f64) {
         let reached = self.pieces.iter().take_while(|piece| piece.from < length);
         let bends = reached.map(|piece| (piece.from, piece.curvature.xy().norm()));
@@ -157,20 +157,20 @@ impl Curve {
     }
 }
 
-/// Curvature of 1 that bends what is along z towards an azimuth.
+/// Unit curvature vector that bends the z axis towards an azimuth.
 fn towards(azimuth_deg: f64) -> Vector3 {
     let (sin, cos) = azimuth_deg.to_radians().sin_cos();
     Vector3::new(-sin, cos, 0.0)
 }
 
-/// A helix about an axis along z that stands at a distance towards an azimuth of the start.
+/// Helix about an axis parallel to z, at a distance `radius` from the start in the direction of the azimuth.
 fn helix(radius: f64, pitch: f64, azimuth_deg: f64) -> Piece {
     let rise = pitch / TAU;
     let squared = radius * radius + rise * rise;
     let torsion = rise / squared;
     let azimuth = rotation::exp(Vector3::z() * azimuth_deg.to_radians());
-    // The tangent is across the way to the axis, which is along x before the turn to the azimuth: on the way
-    // round the axis to the left where the helix rises, so that it is right-handed.
+    // The helix axis lies towards x before the rotation to the azimuth. The tangent is tilted about x, with the sign
+    // of the handedness.
     let slope = radius.atan2(rise.abs());
     let sense = if rise < 0.0 { -1.0 } else { 1.0 };
     let tilt = rotation::exp(Vector3::x() * (sense * slope));
@@ -182,16 +182,16 @@ fn helix(radius: f64, pitch: f64, azimuth_deg: f64) -> Piece {
     }
 }
 
-/// A frame turned as little as possible until its third axis is along a vector.
+/// Rotates a frame by the smallest angle that aligns its third axis with a vector.
 fn turned_to(frame: UnitQuaternion, along: Vector3) -> UnitQuaternion {
     let axis = frame * Vector3::z();
     let turn = UnitQuaternion::rotation_between(&axis, &along);
-    // Opposite vectors have no least turn: any half turn does.
+    // The rotation is not unique for opposite vectors.
     let half = || rotation::exp(frame * Vector3::x() * std::f64::consts::PI);
     turn.unwrap_or_else(half) * frame
 }
 
-/// `J_l(theta) v`: what becomes of `v` that is swept from no rotation to that by `theta`.
+/// Returns `J_l(theta) v`, with the left Jacobian of SO(3): the mean of `exp(t theta) v` over `t` in [0, 1].
 pub fn swept(theta: Vector3, v: Vector3) -> Vector3 {
     let angle = theta.norm();
     if angle < 1e-8 {
@@ -204,7 +204,7 @@ pub fn swept(theta: Vector3, v: Vector3) -> Vector3 {
         + axis.cross(&v) * ((1.0 - cos) / angle)
 }
 
-/// A natural cubic spline over the lengths of the chords between its points.
+/// Natural cubic spline with chord lengths as parameter.
 struct Spline {
     points: Vec<Vector3>,
     chords: Vec<f64>,
@@ -221,7 +221,8 @@ impl Spline {
             .zip(&chords)
             .map(|(p, h)| (p[1] - p[0]) / *h);
         let slopes: Vec<Vector3> = slopes.collect();
-        // Thomas' elimination of `h' m' + 2 (h' + h) m + h m'' = 6 (slope - slope')`; zero at the ends.
+        // Thomas algorithm for `h' m' + 2 (h' + h) m + h m'' = 6 (slope - slope')` with zero second derivatives at
+        // the ends.
         let n = points.len();
         let (mut above, mut right) = (vec![0.0; n], vec![Vector3::zeros(); n]);
         for i in 1..n - 1 {
@@ -241,7 +242,7 @@ impl Spline {
         }
     }
 
-    /// Place and derivative by the length of the chord at a share of chord `k`.
+    /// Position and derivative with respect to chord length, at a fraction of chord `k`.
     fn at(&self, k: usize, share: f64) -> (Vector3, Vector3) {
         let h = self.chords[k];
         let (a, b) = (1.0 - share, share);
@@ -267,7 +268,7 @@ mod tests {
         Curve::of(&filament, &filament.boundaries())
     }
 
-    /// Tangents are third axes and derivatives of places; the frames have no twist: turned by the curve alone.
+    /// Asserts that tangents are the third axes and the derivatives of positions, and that frames have no twist.
     fn assert_is_untwisted(curve: &Curve, tolerance: f64) {
         let h = 1e-4;
         for i in 1..20 {
@@ -281,7 +282,6 @@ mod tests {
         }
     }
 
-    /// An arc towards azimuth 90 ends where the circle about (0, R) does.
     #[test]
     fn an_arc_bends_towards_its_azimuth() {
         let arc = curve(Shape::Arc {
@@ -296,7 +296,6 @@ mod tests {
         assert!((frame * Vector3::x() - Vector3::x()).norm() < 1e-14);
     }
 
-    /// Every point of a helix is at its radius from the axis, and rises as the pitch says, to either hand.
     #[test]
     fn a_helix_goes_round_its_axis() {
         for pitch in [40.0, -40.0] {
@@ -315,15 +314,14 @@ mod tests {
                 assert!(((place - axis).xy().norm() - 8.0).abs() < 1e-12);
                 assert!((place.z - 40.0 * s / turn).abs() < 1e-12);
             }
-            // A little above the start, to the left of the axis where it is right-handed.
+            // A right-handed helix starts to the left of the axis.
             let near = helix.at(1.0).0 - helix.at(0.0).0;
             let handed = (helix.at(0.0).0 - axis).cross(&near).z;
             assert!(handed * pitch > 0.0, "{handed} {pitch}");
         }
     }
 
-    /// The spline through points of a circle is that circle to the fourth power of their distance inside, goes
-    /// through all of them, and its frames have no twist.
+    /// The error of a spline through points of a circle decreases with their distance.
     #[test]
     fn a_spline_goes_through_its_points() {
         let points = |n: u32| -> Vec<[f64; 3]> {
@@ -346,7 +344,6 @@ mod tests {
         assert!(fine < 1e-4 && fine < coarse, "{coarse:e} {fine:e}");
     }
 
-    /// Twist at rest makes a helix of an arc; a second section goes on from the first.
     #[test]
     fn pieces_at_rest_follow_one_another() {
         let rod = |from, to, altered| Section::Rod {
@@ -375,7 +372,6 @@ mod tests {
         assert!((turn - Vector3::new(0.02, 0.0, 0.05)).norm() < 1e-13);
     }
 
-    /// `J_l` against the integral that it is.
     #[test]
     fn sweeping_is_integrating() {
         let (theta, v) = (Vector3::new(0.3, -1.2, 0.7), Vector3::new(0.2, 1.0, -0.4));

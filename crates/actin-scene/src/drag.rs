@@ -1,31 +1,31 @@
-//! What slows a motion with inertia, as a scene writes it: numerical damping, or a fluid.
+//! Drag of motion with inertia: numerical damping or a fluid.
 
 use super::brownian::{Fluid, Water};
 use super::rules::non_negative;
 use super::{Dynamics, Integrator, SceneProblem};
 use serde::{Deserialize, Deserializer, Serialize};
 
-/// Numerical damping, proportional to mass: velocities decay as `exp(-rate t)`. No fluid has such rates: `Water` has those that
-/// follow from its viscosity.
+/// Numerical damping, proportional to mass: velocities decay as `exp(-rate t)`. Physical drag follows from the
+/// viscosity of `Water`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 #[serde(rename = "Drag")]
 pub struct DragRates {
-    /// Rate for velocities; at least 0.
+    /// Damping rate of velocities; at least 0.
     pub translational_per_ns: f64,
-    /// Rate for angular momenta; at least 0.
+    /// Damping rate of angular momenta; at least 0.
     pub rotational_per_ns: f64,
 }
 
-/// What slows a motion with inertia.
+/// Drag of motion with inertia.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(untagged)]
 pub enum DragModel {
     /// Numerical damping.
     Rates(DragRates),
-    /// The drag of a fluid, as in `Brownian`.
+    /// Drag of a fluid, as in `Brownian`.
     Fluid(Fluid),
 }
 
@@ -48,7 +48,7 @@ impl From<DragRates> for DragModel {
 }
 
 impl DragModel {
-    /// The rates of numerical damping; zero in a fluid.
+    /// Returns the rates of numerical damping, which are zero in a fluid.
     pub fn rates(&self) -> DragRates {
         match self {
             Self::Rates(rates) => *rates,
@@ -56,7 +56,7 @@ impl DragModel {
         }
     }
 
-    /// The fluid, if there is one.
+    /// Returns the fluid, if any.
     pub fn fluid(&self) -> Option<&Fluid> {
         match self {
             Self::Rates(_) => None,
@@ -65,7 +65,7 @@ impl DragModel {
     }
 }
 
-/// Checks the drag of a motion and what it asks of the rest of its task.
+/// Checks the drag and the integrator of a motion.
 pub(super) fn check(dynamics: &Dynamics) -> Result<(), SceneProblem> {
     let Some(fluid) = dynamics.drag.fluid() else {
         let rates = dynamics.drag.rates();
@@ -79,7 +79,7 @@ pub(super) fn check(dynamics: &Dynamics) -> Result<(), SceneProblem> {
     ) {
         return Ok(());
     }
-    let rule = "must be left out in Water, whose steps are those of Gronbech-Jensen and Farago";
+    let rule = "is not used with Water, which has its own integrator (Gronbech-Jensen and Farago): leave it out";
     Err(SceneProblem::new(
         "task.integrator",
         format!("{:?}", dynamics.integrator),
@@ -125,7 +125,6 @@ mod tests {
         }
     }
 
-    /// Damping and fluid are told apart, are written as they are read, and have their defaults.
     #[test]
     fn damping_and_fluids_are_read() {
         let rates = DragRates {
@@ -143,7 +142,6 @@ mod tests {
         assert_ne!(thick, DragModel::Fluid(water));
     }
 
-    /// What is neither is refused in the words of the rest of the scene, with its line.
     #[test]
     fn mistakes_are_told() {
         for (drag, told) in [

@@ -1,34 +1,33 @@
-//! How a load changes in time.
+//! Factor of a load as a function of time.
 
 use super::SceneProblem;
 use super::rules::{finite, positive, show};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
 
-/// Factor of a load in time, in `Dynamics` and `Brownian`. Where the path sets the factor of the load too, the two are
-/// multiplied.
+/// Time-dependent factor of a load, in `Dynamics` and `Brownian`. It multiplies the factor that the path sets.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub enum Factor {
-    /// 1 throughout.
+    /// 1 at all times.
     #[default]
     Constant,
-    /// From one value to another, smoothly: velocity and acceleration are continuous at both ends.
+    /// Smooth change from one value to another: velocity and acceleration are continuous at both ends.
     Ramp {
-        /// When it begins; finite.
+        /// Start of the change; finite.
         #[serde(default)]
         begin_ns: f64,
-        /// How long it takes; positive.
+        /// Duration of the change; positive.
         duration_ns: f64,
-        /// Factor before; finite.
+        /// Initial factor; finite.
         #[serde(default)]
         from: f64,
-        /// Factor behind; finite.
+        /// Final factor; finite.
         #[serde(default = "one")]
         to: f64,
     },
-    /// `mean + amplitude sin(360 deg time / period + phase)`. Not with `stop` of `Dynamics`.
+    /// `mean + amplitude sin(360 deg time / period + phase)`. Not allowed with `stop` of `Dynamics`.
     Sine {
         /// Period; positive.
         period_ns: f64,
@@ -42,11 +41,11 @@ pub enum Factor {
         #[serde(default)]
         mean: f64,
     },
-    /// Straight lines between points; constant before the first and after the last.
+    /// Linear interpolation between points; constant before the first and after the last.
     Table {
-        /// Times; finite, at least one, ascending.
+        /// Times; finite, ascending, at least one.
         time_ns: Vec<f64>,
-        /// Factors at these times, as many; finite.
+        /// Factors at these times, one for each; finite.
         factor: Vec<f64>,
     },
 }
@@ -55,18 +54,18 @@ fn one() -> f64 {
     1.0
 }
 
-/// What grows from 0 to 1 with x, its first two derivatives zero at both ends: `x^3 (10 - 15 x + 6 x^2)`.
+/// Smooth step `x^3 (10 - 15 x + 6 x^2)` from 0 to 1, with vanishing first and second derivatives at both ends.
 pub fn smooth(x: f64) -> f64 {
     x.powi(3) * (10.0 + x * (6.0 * x - 15.0))
 }
 
 impl Factor {
-    /// Whether it is 1 at all times.
+    /// Returns whether the factor is 1 at all times.
     pub fn is_constant(&self) -> bool {
         *self == Self::Constant
     }
 
-    /// Its value at a time (ns).
+    /// Returns the factor at a time (ns).
     pub fn at(&self, time: f64) -> f64 {
         match self {
             Self::Constant => 1.0,
@@ -86,7 +85,7 @@ impl Factor {
         }
     }
 
-    /// From when on it stays as it is (ns).
+    /// Returns the time (ns) after which the factor is constant; infinite for `Sine`.
     pub fn settles_at(&self) -> f64 {
         match self {
             Self::Constant => 0.0,
@@ -100,7 +99,7 @@ impl Factor {
         }
     }
 
-    /// The largest magnitude that it takes.
+    /// Returns an upper bound of the magnitude of the factor.
     pub fn largest(&self) -> f64 {
         match self {
             Self::Constant => 1.0,
@@ -112,7 +111,7 @@ impl Factor {
         }
     }
 
-    /// The shortest time in which it changes (ns); none of a constant.
+    /// Returns the shortest time scale of a change (ns), or `None` for a constant.
     pub fn shortest(&self) -> Option<f64> {
         match self {
             Self::Constant => None,
@@ -125,7 +124,7 @@ impl Factor {
         }
     }
 
-    /// Refuses numbers without a meaning; keys begin with `key`.
+    /// Checks the numbers; keys begin with `key`.
     pub(super) fn check(&self, key: &str) -> Result<(), SceneProblem> {
         let key = |name: &str| format!("{key}.{name}");
         match self {
@@ -174,20 +173,20 @@ fn check_table(
         return refused("time_ns", "[]".into(), "a table has at least one time");
     }
     if factors.len() != times.len() {
-        let rule = format!("must be as many as times: {}", times.len());
+        let rule = format!("must have as many values as time_ns: {}", times.len());
         return refused("factor", format!("{} values", factors.len()), &rule);
     }
     match times.windows(2).position(|pair| pair[1] <= pair[0]) {
         Some(i) => refused(
             &format!("time_ns[{}]", i + 1),
             show(times[i + 1]),
-            "times ascend: must be greater than the one before",
+            "must be greater than the time before: times are in ascending order",
         ),
         None => Ok(()),
     }
 }
 
-/// The value at `x` on straight lines through points of ascending places; constant outside.
+/// Linear interpolation at `x` between points in ascending order; constant outside.
 fn between(places: &[f64], values: &[f64], x: f64) -> f64 {
     let above = places.partition_point(|place| *place <= x);
     if above == 0 || above == places.len() {

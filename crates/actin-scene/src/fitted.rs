@@ -1,15 +1,14 @@
-//! The law `Fitted`: what measurements on filaments of monomers say of a rod.
+//! The law `Fitted`, fitted to measurements on filaments of monomers.
 //!
-//! Every number was printed by `cargo xtask fit-parameters --measure`, from filaments of the default
-//! parameters, with twelve weighted bonds an interface: `docs/validation.md` says how well they meet the
-//! filaments and why each term is there.
+//! `cargo xtask fit-parameters --measure` prints all numbers, for the default monomers with twelve quadrature bonds
+//! per interface. `docs/validation.md` states the accuracy of the fit and the reason for each term.
 
 use super::{BendLaw, RodLaws, ShearLaw, TwistLaw};
 use actin_cosserat::{
     CubicShear, RootedStretch, SidedTwist, Stiffening, StretchLaw, TwistRise, TwistStretch,
 };
 
-/// A law for every deformation; nothing of the scene's material is left.
+/// Returns a law for every deformation. None uses the material of the scene.
 pub fn laws() -> RodLaws {
     RodLaws {
         bend: Some(BendLaw::Stiffening(Stiffening {

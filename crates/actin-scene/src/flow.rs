@@ -1,39 +1,39 @@
-//! How a fluid moves, as a scene writes it.
+//! Flow of the fluid in `Brownian`.
 
 use super::rules::{all_finite, finite, show};
 use super::{SceneProblem, rules};
 use actin_mechanics::Vector3;
 use serde::{Deserialize, Serialize};
 
-/// A rate per second in 1/ns.
+/// Conversion from 1/s to 1/ns.
 const PER_S: f64 = 1e-9;
 
-/// Largest turn (rad) of the fluid in one step.
+/// Largest rotation (rad) of the fluid in one step.
 const LARGEST_TURN: f64 = 0.1;
 
-/// Cosine of the angle between directions that count as perpendicular.
+/// Largest cosine of the angle between directions that count as perpendicular.
 const PERPENDICULAR: f64 = 1e-6;
 
-/// How the fluid moves (lab frame).
+/// Flow of the fluid (lab frame).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub enum Flow {
-    /// Not at all.
+    /// Fluid at rest.
     #[default]
     AtRest,
-    /// With the same velocity everywhere.
+    /// Uniform flow.
     Stream {
         /// Velocity; finite.
         velocity_um_per_s: [f64; 3],
     },
-    /// In one direction, the faster the farther in another; at rest at the origin.
+    /// Simple shear flow with zero velocity at the origin.
     Shear {
-        /// Growth of the velocity with distance; finite.
+        /// Shear rate; finite.
         rate_per_s: f64,
-        /// Direction of the velocity, of any length but zero.
+        /// Direction of the velocity; any length except zero.
         along: [f64; 3],
-        /// Direction in which it grows, perpendicular to `along`, of any length but zero.
+        /// Direction of the velocity gradient, perpendicular to `along`; any length except zero.
         across: [f64; 3],
     },
 }
@@ -63,7 +63,7 @@ impl Flow {
         }
     }
 
-    /// The longest step (ns) in which the fluid does not turn far.
+    /// Returns the longest step (ns): the fluid rotates by at most 0.1 rad in it.
     pub fn longest_step(&self) -> f64 {
         match *self {
             Self::Shear { rate_per_s, .. } => LARGEST_TURN / (rate_per_s.abs() * PER_S),
@@ -71,10 +71,10 @@ impl Flow {
         }
     }
 
-    /// Refuses steps (ns) in which the fluid turns far.
+    /// Checks the rotation of the fluid in a step (ns).
     ///
     /// # Errors
-    /// A turn of more than 0.1 rad in one step.
+    /// If the fluid rotates by more than 0.1 rad in one step.
     pub fn check_step(&self, step_ns: f64) -> Result<(), SceneProblem> {
         let Self::Shear { rate_per_s, .. } = *self else {
             return Ok(());
@@ -94,7 +94,7 @@ impl Flow {
     }
 }
 
-/// Of unit length, however large or small it is written.
+/// Normalises a vector without overflow or underflow.
 fn unit(direction: [f64; 3]) -> Vector3 {
     let direction = Vector3::from(direction);
     (direction / direction.amax()).normalize()

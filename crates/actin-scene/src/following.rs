@@ -1,38 +1,38 @@
-//! What a scene says of sections that follow a motion: where monomers are resolved while it goes on.
+//! Sections that follow a motion: cells resolved into monomers where needed.
 
 use super::rules::{finite, positive, show};
 use super::{Hold, Scene, SceneProblem, Task};
 use serde::{Deserialize, Serialize};
 
-/// A cell holds at least so many monomers: fewer do not tell its curvature.
+/// Smallest number of monomers in a cell, below which its curvature is not well defined.
 const LEAST_MONOMERS: f64 = 8.0;
 
-/// Sections that change while a motion goes on: cells of a rod, each of which is resolved into monomers where one of
-/// the criteria asks for it, and becomes a rod again where none does.
+/// Sections that follow a motion. Cells of a rod are resolved into monomers where at least one criterion requires it, and become
+/// a rod again where none does.
 ///
-/// Each criterion has two thresholds; between them a cell stays as it is.
+/// Each criterion has two thresholds. Between them a cell keeps its model.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Following {
-    /// Length of the filament; positive. It is rounded to whole monomers.
+    /// Length of the filament; positive. It is rounded to a whole number of monomers.
     pub length_nm: f64,
-    /// Where monomers are resolved; at least one criterion.
+    /// Criteria for monomers; at least one.
     pub monomers_where: Vec<Where>,
-    /// Length of a cell, 8 rises or more; it is rounded to whole monomers.
+    /// Length of a cell; at least 8 rises. It is rounded to a whole number of monomers.
     #[serde(default = "default_cell")]
     pub cell_nm: f64,
-    /// Segments of a cell that is a rod, at least 1. Steps of `Brownian` at a temperature grow as the fourth power of their
-    /// length: with one they are 1300 times longer than with six.
+    /// Segments of a rod cell; at least 1. Steps of `Brownian` at a temperature grow as the fourth power of the
+    /// segment length: they are 1300 times longer with one segment than with six.
     #[serde(default = "default_segments")]
     pub segments: usize,
-    /// Time for which a cell stays as it is after it was switched; positive.
+    /// Shortest time between two changes of the model of a cell; positive.
     #[serde(default = "default_least")]
     pub least_ns: f64,
 }
 
 impl Following {
-    /// A filament of this length (nm) with these criteria, cells and times by default.
+    /// Creates a filament of this length (nm) with these criteria and default cells and times.
     pub fn new(length_nm: f64, monomers_where: Vec<Where>) -> Self {
         Self {
             length_nm,
@@ -44,12 +44,13 @@ impl Following {
     }
 }
 
-/// A period of the helix: 13 monomers.
+/// Period of the helix: 13 monomers.
 fn default_cell() -> f64 {
     36.0
 }
 
-/// Of 6 nm: lumped at their nodes, their mass resists turns of a cell 1.4 % more than that of monomers.
+/// Segments of 6 nm. With the mass lumped at the nodes, the rotational inertia of a cell is 1.4 % larger than with
+/// monomers.
 fn default_segments() -> usize {
     6
 }
@@ -58,72 +59,72 @@ fn default_least() -> f64 {
     1.0
 }
 
-/// Where a cell is resolved into monomers.
+/// Criterion for resolving a cell into monomers.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub enum Where {
-    /// By the mean curvature of the cell.
+    /// Mean curvature of the cell.
     Curvature {
-        /// Above this it is resolved.
+        /// A cell above this value is resolved.
         above_per_nm: f64,
-        /// Below this it becomes a rod; at least 0, less than `above_per_nm`.
+        /// A cell below this value becomes a rod; at least 0, less than `above_per_nm`.
         below_per_nm: f64,
     },
-    /// By the size of its mean twist beyond that at rest.
+    /// Magnitude of the mean twist relative to the rest twist.
     Twist {
-        /// Above this it is resolved.
+        /// A cell above this value is resolved.
         above_per_nm: f64,
-        /// Below this it becomes a rod; at least 0, less than `above_per_nm`.
+        /// A cell below this value becomes a rod; at least 0, less than `above_per_nm`.
         below_per_nm: f64,
     },
-    /// By the size of its mean extension, the strain of the distance between its ends.
+    /// Magnitude of the mean extension: the strain of the distance between the ends of the cell.
     Extension {
-        /// Above this it is resolved.
+        /// A cell above this value is resolved.
         above: f64,
-        /// Below this it becomes a rod; at least 0, less than `above`.
+        /// A cell below this value becomes a rod; at least 0, less than `above`.
         below: f64,
     },
-    /// By the size of the internal force, averaged over the cell.
+    /// Magnitude of the internal force, averaged over the cell.
     Force {
-        /// Above this it is resolved.
+        /// A cell above this value is resolved.
         above_pn: f64,
-        /// Below this it becomes a rod; at least 0, less than `above_pn`.
+        /// A cell below this value becomes a rod; at least 0, less than `above_pn`.
         below_pn: f64,
     },
-    /// By the size of the internal couple, averaged over the cell: bending moment and torque.
+    /// Magnitude of the internal moment (bending and twisting), averaged over the cell.
     Couple {
-        /// Above this it is resolved.
+        /// A cell above this value is resolved.
         above_pn_nm: f64,
-        /// Below this it becomes a rod; at least 0, less than `above_pn_nm`.
+        /// A cell below this value becomes a rod; at least 0, less than `above_pn_nm`.
         below_pn_nm: f64,
     },
-    /// By the elastic energy per length of the cell (pN nm per nm).
+    /// Elastic energy per length of the cell (pN nm per nm).
     Energy {
-        /// Above this it is resolved.
+        /// A cell above this value is resolved.
         above_pn: f64,
-        /// Below this it becomes a rod; at least 0, less than `above_pn`.
+        /// A cell below this value becomes a rod; at least 0, less than `above_pn`.
         below_pn: f64,
     },
-    /// By the elastic energy per length in units of the largest of all cells.
+    /// Elastic energy per length relative to the largest of all cells.
     LargestEnergy {
-        /// Above this it is resolved; at most 1.
+        /// A cell above this value is resolved; at most 1.
         above: f64,
-        /// Below this it becomes a rod; at least 0, less than `above`.
+        /// A cell below this value becomes a rod; at least 0, less than `above`.
         below: f64,
     },
-    /// By the distance of a linker's site along the filament, which may step; of one that does not hold by none.
+    /// Distance from the site of a linker along the filament. The site can step; an unbound linker has no effect.
     Linker {
         /// Index of the linker.
         linker: usize,
-        /// Closer than this to the cell it is resolved; at least 0.
+        /// A cell closer than this is resolved; at least 0.
         within_nm: f64,
-        /// Further than this it becomes a rod; greater than `within_nm`.
+        /// A cell further away than this becomes a rod; greater than `within_nm`.
         beyond_nm: f64,
     },
 }
 
-/// Checks how sections follow the motion of a scene.
+/// Checks the `Following` sections of a scene.
 pub(super) fn check_following(scene: &Scene, following: &Following) -> Result<(), SceneProblem> {
     let key = |name: &str| format!("filament.sections.{name}");
     positive(&key("length_nm"), following.length_nm)?;
@@ -166,7 +167,7 @@ fn check_where(scene: &Scene, key: &str, criterion: &Where) -> Result<(), SceneP
     if let Where::LargestEnergy { above, .. } = *criterion
         && above > 1.0
     {
-        let rule = "must be at most 1: the largest energy is the unit";
+        let rule = "must be at most 1: energies are relative to the largest";
         return Err(SceneProblem::new(format!("{key}.above"), show(above), rule));
     }
     let ([lower, upper], [low, high]) = criterion.thresholds();
@@ -212,10 +213,10 @@ impl Where {
     }
 }
 
-/// Refuses scenes whose sections cannot follow.
+/// Checks that the scene supports `Following` sections.
 fn check_scene(scene: &Scene) -> Result<(), SceneProblem> {
     let refused = |key: &str, rule: &str| {
-        let rule = format!("sections that follow a motion are not known with {rule}");
+        let rule = format!("sections that follow a motion do not support {rule}");
         Err(SceneProblem::new(key, "", rule))
     };
     if !scene.further.is_empty() {
@@ -223,16 +224,16 @@ fn check_scene(scene: &Scene) -> Result<(), SceneProblem> {
     }
     let mut clamps = scene.clamps.iter();
     if clamps.any(|clamp| clamp.hold != Hold::Wall || clamp.hinge.is_some()) {
-        return refused("clamps", "ends that are not held by Wall, as monomers are");
+        return refused("clamps", "these clamps: write hold: Wall without a hinge");
     }
     if scene.repulsion.is_some() {
         return refused("repulsion", "repulsion");
     }
     match &scene.task {
         Task::Dynamics(task) if task.leave_saddles > 0 => {
-            refused("task.leave_saddles", "pushes off saddles")
+            refused("task.leave_saddles", "leave_saddles: leave it out")
         }
         Task::Dynamics(_) | Task::Brownian(_) => Ok(()),
-        Task::Equilibrium(_) => refused("task", "Equilibrium: it is no motion"),
+        Task::Equilibrium(_) => refused("task", "Equilibrium: write Dynamics or Brownian"),
     }
 }

@@ -1,27 +1,25 @@
-//! A small imperfection of a filament in a scene, and its rules.
+//! Small geometric imperfection of a filament.
 
 use super::{Filament, SceneProblem, rules};
 use serde::{Deserialize, Serialize};
 
-/// Largest amplitude, as a share of the filament's length: larger ones would stretch it noticeably.
+/// Largest amplitude relative to the length of the filament: larger ones would stretch it noticeably.
 const LARGEST: f64 = 0.01;
 
-/// A smooth displacement of a filament from its axis, with which a run begins.
+/// Smooth initial displacement of a filament from its axis.
 ///
-/// It breaks the symmetry of a straight filament, which otherwise stays straight under any
-/// compression. The filament is displaced but not changed: its shape without strain stays straight,
-/// and equilibria are those of the perfect filament.
+/// It breaks the symmetry of a straight filament, which otherwise stays straight under any compression. The rest
+/// shape stays straight: equilibria equal the equilibria of the perfect filament.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Imperfection {
     /// Largest displacement of the axis; positive, at most a hundredth of the length.
     pub amplitude_nm: f64,
-    /// Seed of its shape.
+    /// Seed of the shape.
     pub seed: u64,
 }
 
-/// Checks the imperfection of a filament.
 pub(super) fn check(filament: &Filament) -> Result<(), SceneProblem> {
     let Some(imperfection) = &filament.imperfection else {
         return Ok(());

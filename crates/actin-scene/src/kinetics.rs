@@ -1,93 +1,93 @@
-//! Rates at which linkers break, form and step, as a scene writes them, and the rules of their numbers.
+//! Rates of breaking, forming and stepping of linkers, and their validation.
 
 use super::rules::{positive, show};
 use super::{Dynamics, Linker, Scene, SceneProblem, Task};
 use serde::{Deserialize, Serialize};
 
-/// Most places on a filament at which a linker that steps may hold.
+/// Largest number of sites of a stepping linker on a filament.
 const MOST_PLACES: f64 = 1e5;
 
-/// A linker that breaks, forms and steps at random: a dynamic cross-link, or a motor. In `Dynamics` and
-/// `Brownian`.
+/// Random breaking, forming and stepping of a linker: a dynamic cross-link or a motor. For `Dynamics` and `Brownian`.
 ///
-/// At the end of each time step `h` an event of rate `k` happens with the probability `1 - exp(-k h)`, at most one for each
-/// linker. Times are those of the rates at ends of steps: their error is of order one, `k h/2` relative, so rates without
-/// force times the step may be 0.1 at most. `f` is the tension of the linker, 0 where it is shorter than at rest.
+/// At the end of each time step `h` an event of rate `k` occurs with probability `1 - exp(-k h)`, at most one per
+/// linker. Rates are evaluated at the ends of steps. The relative error of event times is `k h/2`, so zero-force
+/// rates times the step may be at most 0.1. In the rates below, `f` is the tension of the linker, or 0 if it is
+/// shorter than its rest length.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Kinetics {
-    /// Seed of its events, which depend on it, the number of the step and the index of the linker alone.
+    /// Seed of the events. They depend only on the seed, the number of the step and the index of the linker.
     pub seed: u64,
-    /// Whether it holds at the start.
+    /// True if the linker is bound at the start.
     #[serde(default = "yes")]
     pub bound: bool,
-    /// How it breaks; by default it does not.
+    /// Breaking; by default the linker does not break.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub breaks: Option<Breaking>,
-    /// How it forms; by default it does not.
+    /// Forming; by default the linker does not form.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub forms: Option<Forming>,
-    /// How its site steps along the filament; by default it does not.
+    /// Stepping of the site along the filament; by default the site is fixed.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub steps: Option<Stepping>,
 }
 
-/// Breaking at the rate `k exp(f/F)` (Bell), plus that of a catch bond.
+/// Breaking at the rate `k exp(f/F)` (Bell), plus the rate of a catch bond.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Breaking {
     /// Rate `k` without force; positive.
     pub rate_per_ns: f64,
-    /// Force `F` by which it grows `e`-fold; positive. By default it does not depend on force.
+    /// Force `F` at which the rate is `e` times `k`; positive. By default the rate does not depend on force.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub force_pn: Option<f64>,
-    /// A second way to break that force closes.
+    /// Additional breaking path whose rate decreases with force.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub catch: Option<Catch>,
 }
 
-/// Breaking at the rate `k exp(-f/F)`, added to that of `Breaking`.
+/// Catch bond: breaking at the rate `k exp(-f/F)`, in addition to the rate of `Breaking`.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Catch {
     /// Rate `k` without force; positive.
     pub rate_per_ns: f64,
-    /// Force `F` by which it falls `e`-fold; positive.
+    /// Force `F` at which the rate is `k/e`; positive.
     pub force_pn: f64,
 }
 
-/// Forming where the site is within reach of the other end; of several places at the one where it is strained least.
+/// Forming within reach of the other end; of several sites the one with the least strain is chosen.
 ///
-/// The rate within reach is constant, whatever the energy `U` of the linker where it forms. Detailed balance would need rates
-/// of forming and breaking in the ratio `exp(-U/kT)`, which neither a constant rate nor that of Bell has. So with `breaks` in
-/// a heat bath the filament settles in a steady state that is not thermal equilibrium, and these events exchange energy with
-/// it (`events_pn_nm`).
+/// The rate within reach is constant, independent of the energy `U` of the formed linker. Detailed balance requires
+/// the ratio `exp(-U/kT)` of the rates of forming and breaking, which a constant rate and the rate of Bell do not
+/// satisfy. With `breaks` in a heat bath the steady state is therefore not thermal equilibrium, and events exchange
+/// energy with the filament (`events_pn_nm`).
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Forming {
     /// Rate within reach; positive.
     pub rate_per_ns: f64,
-    /// By how much the linker may be longer or shorter than at rest where it forms; positive.
+    /// Largest difference between the length at forming and the rest length; positive.
     pub reach_nm: f64,
 }
 
-/// Stepping of a site that holds, at the rate `k (1 - f/F)` between 0 and `k`; `f` is what the linker pulls back with along
-/// the filament.
+/// Stepping of a bound site at the rate `k (1 - f/F)`, limited to 0 to `k`. Here `f` is the resisting force of the
+/// linker along the filament.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Stepping {
-    /// Length of a step along the filament; negative towards its start, and not zero. The first place is `at_nm`.
+    /// Step length along the filament; not zero, negative towards the start. The first site is `at_nm`.
     pub step_nm: f64,
     /// Rate `k` without force; positive.
     pub rate_per_ns: f64,
-    /// Force `F` at which it stalls; positive.
+    /// Stall force `F`; positive.
     pub stall_pn: f64,
-    /// Whether it lets go when it would step off the end of the filament; otherwise it stays there.
+    /// True if the linker detaches when it would step beyond the end of the filament; otherwise it stays there.
     #[serde(default)]
     pub leaves_at_end: bool,
 }
@@ -97,7 +97,7 @@ fn yes() -> bool {
 }
 
 impl Kinetics {
-    /// Rates without force (1/ns), with their keys below `kinetics`.
+    /// Returns the zero-force rates (1/ns) with their keys below `kinetics`.
     pub fn rates(&self) -> Vec<(&'static str, f64)> {
         let breaks = self.breaks.map(|b| ("breaks.rate_per_ns", b.rate_per_ns));
         let catch = self.breaks.and_then(|b| b.catch);
@@ -110,7 +110,7 @@ impl Kinetics {
             .collect()
     }
 
-    /// Checks the numbers of a linker's rates, whose keys stand under `key`; the site of the linker is sound.
+    /// Checks the rates of a linker with a valid site; keys begin with `key`.
     fn check(&self, key: &str, length: f64) -> Result<(), SceneProblem> {
         for (name, rate) in self.rates() {
             positive(&format!("{key}.{name}"), rate)?;
@@ -129,7 +129,7 @@ impl Kinetics {
         }
         let happens = self.breaks.is_some() || self.forms.is_some() || self.steps.is_some();
         if !happens {
-            let rule = "nothing happens: write breaks, forms or steps, or leave kinetics out";
+            let rule = "has no events: write breaks, forms or steps, or leave kinetics out";
             return Err(SceneProblem::new(key, "", rule));
         }
         if !self.bound && self.forms.is_none() {
@@ -156,25 +156,26 @@ impl Stepping {
         ))
     }
 
-    /// Arc lengths (nm) of a site that starts at `from_nm` of a filament of a length (nm).
+    /// Returns the arc lengths (nm) of the sites that a linker can reach from `from_nm` on a filament of a length
+    /// (nm).
     pub fn places_nm(&self, from_nm: f64, length: f64) -> Vec<f64> {
         let at = |k: u32| from_nm + f64::from(k) * self.step_nm;
         let places = (0..).map(at);
-        // Room for the round-off of a sum of steps that ends at an end.
+        // Tolerance for round-off of steps that end at an end.
         let is_on = |s: &f64| *s >= -1e-9 && *s <= length + 1e-9;
         let on = places.take_while(is_on);
         on.map(|s| s.clamp(0.0, length)).collect()
     }
 }
 
-/// Checks the rates of linker `i`, if it has some, whose other numbers are sound.
+/// Checks the rates of linker `i`, whose other numbers are valid.
 pub(super) fn check(scene: &Scene, i: usize, linker: &Linker) -> Result<(), SceneProblem> {
     let Some(kinetics) = &linker.kinetics else {
         return Ok(());
     };
     let key = format!("linkers[{i}].kinetics");
     if let Task::Equilibrium(_) = scene.task {
-        let rule = "Equilibrium knows no time, in which linkers break, form or step: write Dynamics or Brownian, or \
+        let rule = "Equilibrium is time-independent, without events of linkers: write Dynamics or Brownian, or \
                     leave kinetics out";
         return Err(SceneProblem::new(key, "", rule));
     }
@@ -183,14 +184,14 @@ pub(super) fn check(scene: &Scene, i: usize, linker: &Linker) -> Result<(), Scen
     kinetics.check(&key, length)
 }
 
-/// What `stop` and pushes off saddles ask of linkers: that nothing happens to them.
+/// Refuses `stop` and `leave_saddles` in scenes with random linker events.
 pub(super) fn check_rest(scene: &Scene, dynamics: &Dynamics) -> Result<(), SceneProblem> {
     let Some(i) = scene.linkers.iter().position(|l| l.kinetics.is_some()) else {
         return Ok(());
     };
     let rule = |key: &str| {
         format!(
-            "linkers[{i}] breaks, forms or steps at random, so that nothing comes to rest: leave {key} out"
+            "linkers[{i}] breaks, forms or steps at random, so that the filament never comes to rest: leave {key} out"
         )
     };
     if dynamics.stop.is_some() {
@@ -204,7 +205,7 @@ pub(super) fn check_rest(scene: &Scene, dynamics: &Dynamics) -> Result<(), Scene
 }
 
 impl Breaking {
-    /// Rate (1/ns) at a tension (pN).
+    /// Returns the rate (1/ns) at a tension (pN).
     pub fn rate(&self, tension: f64) -> f64 {
         let growth = self.force_pn.map_or(0.0, |force| tension / force);
         let catch = self.catch.map_or(0.0, |catch| {
@@ -215,7 +216,7 @@ impl Breaking {
 }
 
 impl Stepping {
-    /// Rate (1/ns) against a force (pN).
+    /// Returns the rate (1/ns) against a force (pN).
     pub fn rate(&self, resistance: f64) -> f64 {
         self.rate_per_ns * (1.0 - resistance / self.stall_pn).clamp(0.0, 1.0)
     }

@@ -1,41 +1,41 @@
-//! The rod's constitutive law, as a scene writes it.
+//! Constitutive law of the rod.
 
 use actin_cosserat::{CubicShear, SidedTwist, Stiffening, StretchLaw, TanhTwist, TwistStretch};
 use serde::{Deserialize, Serialize};
 
-/// Constitutive law of a rod. `Homogenised` is nearest to filaments of monomers; those named "to reproduce the paper" are for
-/// its figures.
+/// Constitutive law of a rod. `Homogenised` is the best approximation of filaments of monomers. Laws marked "to
+/// reproduce the paper" are for its figures.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub enum RodLaw {
-    /// One potential of all strains: the energy of cells of monomers, of the mean filament or, where `monomers` draw
-    /// bonds for each interface, the mean over drawings. In a heat bath (`thermal`) the free energy of the mean filament at
-    /// 298 K. The material must be left out.
+    /// One potential of all strains: the energy of cells of monomers of the mean filament or, with sampled bonds in
+    /// `monomers`, the mean over samples. In a heat bath (`thermal`) it is the free energy of the mean filament at
+    /// 298 K. The material must be omitted.
     #[default]
     Homogenised,
-    /// That without heat, in a heat bath too.
+    /// `Homogenised` without thermal effects, also in a heat bath.
     HomogenisedAthermal,
-    /// That at 298 K, without a heat bath too: 0.46 % shorter than built, so that a rod held at both ends is under tension.
+    /// `Homogenised` at 298 K, also without a heat bath. The rest length is 0.46 % shorter than as built: a rod held
+    /// at both ends is under tension.
     HomogenisedAt298K,
-    /// The rigidities of the material at every strain: for a material of your own, for analytic limits, and to reproduce the
-    /// paper.
+    /// Constant rigidities of the material: for a custom material, for analytic limits, and to reproduce the paper.
     Constant,
-    /// The paper's twisting rigidity B3(kappa) and extension xi(kappa), all parameters as published,
-    /// `p_0` included: to reproduce the paper.
+    /// The paper's twisting rigidity B3(kappa) and extension xi(kappa) with all published parameters, `p_0` included:
+    /// to reproduce the paper.
     PublishedExtension,
-    /// The paper's B3(kappa) and an energy `C3 sigma_3 kappa_3` per length that couples stretch
-    /// and twist: to reproduce the paper.
+    /// The paper's B3(kappa) and an energy `C3 sigma_3 kappa_3` per length that couples stretch and twist: to
+    /// reproduce the paper.
     CouplingEnergy,
-    /// Laws of single deformations fitted to filaments of monomers, as the paper fits them: to go on from the paper. The
-    /// material must be left out.
+    /// Laws of single deformations fitted to filaments of monomers by the method of the paper: to extend the paper.
+    /// The material must be omitted.
     Fitted,
-    /// Your own laws. Deformations without one keep the rigidity of the material.
+    /// Custom laws. Deformations without a law keep the rigidity of the material.
     Laws(Box<RodLaws>),
 }
 
 impl RodLaw {
-    /// Whether it is one potential of all strains, with heat or without.
+    /// Returns whether the law is one potential of all strains, with or without thermal effects.
     pub fn is_homogenised(&self) -> bool {
         matches!(
             self,
@@ -43,7 +43,7 @@ impl RodLaw {
         )
     }
 
-    /// Whether it is one of the paper's, under which neither bending nor shear gets stiffer.
+    /// Returns whether the law is one of the paper's, with constant bending and shearing rigidities.
     pub fn is_published(&self) -> bool {
         matches!(
             self,
@@ -51,7 +51,7 @@ impl RodLaw {
         )
     }
 
-    /// Whether rods under it resist shear only once they are sheared.
+    /// Returns whether the shear stiffness increases from a small value at rest.
     pub fn shears_softly(&self) -> bool {
         match self {
             Self::Laws(laws) => laws.shear.is_some(),
@@ -59,7 +59,7 @@ impl RodLaw {
         }
     }
 
-    /// The name of a law that leaves nothing to the material.
+    /// Returns the name of a law that does not use the material, or `None`.
     pub fn whole(&self) -> Option<&'static str> {
         match self {
             Self::Fitted => Some("Fitted"),
@@ -71,7 +71,7 @@ impl RodLaw {
     }
 }
 
-/// A law for each deformation that has one.
+/// Laws for single deformations.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, default)]
@@ -88,7 +88,7 @@ pub struct RodLaws {
     pub twist_stretch: Option<TwistStretch>,
 }
 
-/// A law of bending.
+/// Law of bending.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
@@ -97,7 +97,7 @@ pub enum BendLaw {
     Stiffening(Stiffening),
 }
 
-/// A law of twist.
+/// Law of twist.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
@@ -108,7 +108,7 @@ pub enum TwistLaw {
     Sided(SidedTwist),
 }
 
-/// A law of shear.
+/// Law of shear.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub enum ShearLaw {

@@ -1,8 +1,8 @@
 //! Scenes of actin filaments: types of the format, strict reading, validation and defaults.
 //!
-//! A [`Scene`] lists filaments, clamps, loads, linkers and a task. [`Scene::from_ron`] refuses unknown and missing keys and
-//! values against a rule, each with line and column; [`Scene::to_ron`] writes every default.
-//! Units: nm, pN, ns, rad (degrees where a key says so); mass in ag = 1e-21 kg = pN ns^2/nm.
+//! A [`Scene`] lists filaments, clamps, loads, linkers and a task. [`Scene::from_ron`] refuses unknown keys, missing keys and
+//! invalid values, each with line and column; [`Scene::to_ron`] writes every default.
+//! Units: nm, pN, ns, rad (degrees for keys that end in `_deg`); mass in ag = 1e-21 kg = pN ns^2/nm.
 
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]

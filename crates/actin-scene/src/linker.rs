@@ -1,15 +1,13 @@
-//! Linkers, as a scene writes them, and the rules of their numbers.
+//! Linkers and their validation.
 
 use super::rules::{finite, non_negative, positive};
 use super::{Kinetics, Scene, SceneProblem, kinetics};
 use serde::{Deserialize, Serialize};
 
-/// A Hookean linker between a site of a filament and an anchor outside of it, or another site.
+/// Hookean linker between a site of a filament and another site or a fixed anchor.
 ///
-/// Where it holds is said by arc length, distance from the axis and azimuth in the filament as
-/// built, so that a scene means the same whichever model resolves the site. The other end is
-/// another site, or an anchor given by its place or by its displacement from the site: exactly one
-/// of the three.
+/// A site has an arc length, a distance from the axis and an azimuth in the filament as built, independent of the
+/// model at the site. Exactly one of `to`, `anchor_nm` and `displaced_nm` defines the other end.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
@@ -25,15 +23,15 @@ pub struct Linker {
     /// Azimuth of the site in the filament as built; finite. 0 is lab +x of a filament along lab +z.
     #[serde(default)]
     pub azimuth_deg: f64,
-    /// The site at the other end; another place than this one. Exactly one of `to`, `anchor_nm` and
-    /// `displaced_nm` is given.
+    /// Site at the other end; it must differ from this one. Exactly one of `to`, `anchor_nm` and `displaced_nm` is
+    /// given.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub to: Option<LinkerSite>,
-    /// Place of the anchor (lab frame); finite.
+    /// Position of the anchor (lab frame); finite.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub anchor_nm: Option<[f64; 3]>,
-    /// Place of the anchor from that of the site in the filament as built (lab frame); finite, and not
-    /// zero if there is a rest length.
+    /// Displacement of the anchor from the site in the filament as built (lab frame); finite, and not zero if the
+    /// rest length is positive.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub displaced_nm: Option<[f64; 3]>,
     /// Stiffness; positive.
@@ -41,12 +39,12 @@ pub struct Linker {
     /// Rest length; at least 0.
     #[serde(default)]
     pub rest_length_nm: f64,
-    /// Rates at which it breaks, forms and steps; by default it holds throughout.
+    /// Rates of breaking, forming and stepping; by default the linker is permanent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub kinetics: Option<Kinetics>,
 }
 
-/// Where on a filament a linker holds.
+/// Site of a linker on a filament.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, rename = "Site")]
@@ -65,7 +63,7 @@ pub struct LinkerSite {
 }
 
 impl Linker {
-    /// The site from which the linker goes.
+    /// Returns the site at the first end.
     pub fn site(&self) -> LinkerSite {
         LinkerSite {
             filament: self.filament,
@@ -75,7 +73,7 @@ impl Linker {
         }
     }
 
-    /// The key by which the other end is given.
+    /// Returns the key of the other end.
     pub fn end_key(&self) -> &'static str {
         match (self.to, self.anchor_nm) {
             (Some(_), _) => "to",
@@ -84,14 +82,14 @@ impl Linker {
         }
     }
 
-    /// Anchor or displacement as written; none of a linker between sites.
+    /// Returns the anchor or displacement as written, or `None` for a linker between sites.
     pub fn anchor(&self) -> Option<[f64; 3]> {
         self.anchor_nm.or(self.displaced_nm)
     }
 }
 
 impl LinkerSite {
-    /// Whether the other site is the same place in the same filament.
+    /// Returns whether both sites have the same position in the same filament.
     fn is_at(&self, other: &Self) -> bool {
         let same = |a: f64, b: f64| (a - b).abs() <= 0.0;
         let same_side = (self.azimuth_deg - other.azimuth_deg).rem_euclid(360.0) <= 0.0;
@@ -102,7 +100,7 @@ impl LinkerSite {
     }
 }
 
-/// Checks linker `i` of a scene whose sections are known to be sound.
+/// Checks linker `i` of a scene with valid sections.
 pub(super) fn check(scene: &Scene, i: usize, linker: &Linker) -> Result<(), SceneProblem> {
     let key = |name: &str| format!("linkers[{i}].{name}");
     check_site(scene, &format!("linkers[{i}]"), &linker.site())?;
@@ -125,7 +123,7 @@ pub(super) fn check(scene: &Scene, i: usize, linker: &Linker) -> Result<(), Scen
     }
 }
 
-/// Exactly one of the three ends is given.
+/// Checks that exactly one of `to`, `anchor_nm` and `displaced_nm` is given.
 fn check_one_end(i: usize, linker: &Linker) -> Result<(), SceneProblem> {
     let first = linker.end_key();
     let rule = || match first {
@@ -152,7 +150,7 @@ fn check_one_end(i: usize, linker: &Linker) -> Result<(), SceneProblem> {
     Ok(())
 }
 
-/// Checks a site, whose keys stand under `key`.
+/// Checks a site; its keys begin with `key`.
 fn check_site(scene: &Scene, key: &str, site: &LinkerSite) -> Result<(), SceneProblem> {
     let filament = scene.named_filament(&format!("{key}.filament"), site.filament)?;
     let length = filament.length_nm();

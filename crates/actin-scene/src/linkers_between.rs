@@ -14,8 +14,8 @@ const SITE_SPACING_NM: f64 = 36.0;
 /// Largest number of sites of all filaments.
 const MOST_SITES: f64 = 1e7;
 
-/// Linkers between random pairs of sites of different filaments. Sites lie on the axes at equal distances; each site has one
-/// linker at most. The linkers follow the listed linkers.
+/// Linkers between random pairs of sites of different filaments. Sites lie on the axes at equal distances; each site
+/// has at most one linker. The linkers follow the listed linkers.
 ///
 /// The resolved scene lists each linker.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -29,15 +29,17 @@ pub struct LinkersBetween {
     /// Smallest distance between two linked sites as built; at least 0.
     #[serde(default)]
     pub least_reach_nm: f64,
-    /// Distance between neighbouring sites of a filament; positive. The first site is half of it from the start.
+    /// Distance between neighbouring sites of a filament; positive. The first site is half this distance from the
+    /// start.
     #[serde(default = "site_spacing")]
     pub site_spacing_nm: f64,
     /// Stiffness; positive.
     pub stiffness_pn_per_nm: f64,
-    /// Rest length; at least 0. By default the distance of the two sites as built, so that linkers begin without force.
+    /// Rest length; at least 0. By default the distance between the two sites as built: linkers are initially free of
+    /// force.
     #[serde(default)]
     pub rest_length_nm: Option<f64>,
-    /// Rates at which they break, form and step; by default they hold throughout.
+    /// Rates of breaking, forming and stepping; by default linkers are permanent.
     #[serde(default)]
     pub kinetics: Option<Kinetics>,
     /// Seed of the choice of pairs.
@@ -48,21 +50,21 @@ fn site_spacing() -> f64 {
     SITE_SPACING_NM
 }
 
-/// Site of a filament with its place as built (nm).
+/// Site of a filament with its position as built (nm).
 struct Site {
     filament: usize,
     at_nm: f64,
     place: Vector3,
 }
 
-/// Pair of sites with their distance (nm).
+/// Two sites and their distance (nm).
 type Pair = (usize, usize, f64);
 
 impl LinkersBetween {
     /// Returns the linkers of set `k` of a scene with these filaments.
     ///
     /// # Errors
-    /// A number against its rule; fewer pairs of sites within reach than linkers.
+    /// If a number breaks its rule, or if there are fewer pairs of sites within reach than linkers.
     pub(super) fn linkers(
         &self,
         k: usize,
@@ -75,7 +77,7 @@ impl LinkersBetween {
         let chosen = self.choose(&mut pairs, (sites.len(), filaments.len()));
         chosen.map_err(|(found, wanted)| {
             let rule = format!(
-                "{wanted} linkers are wanted, but only {found} pairs of unoccupied sites were found among {reachable} \
+                "{wanted} linkers are required, but only {found} pairs of unoccupied sites were found among {reachable} \
                  pairs of sites within reach: increase reach_nm or reduce site_spacing_nm"
             );
             SceneProblem::new(
@@ -129,7 +131,7 @@ impl LinkersBetween {
         filaments.iter().enumerate().flat_map(of_filament).collect()
     }
 
-    /// Returns the pairs of sites of different filaments within reach, from a search in cubes with the reach as edge.
+    /// Returns the pairs of sites of different filaments within reach, found by a search in cubic cells.
     fn pairs(&self, sites: &[Site]) -> Vec<Pair> {
         #[expect(
             clippy::cast_possible_truncation,
@@ -156,8 +158,8 @@ impl LinkersBetween {
         pairs
     }
 
-    /// Reduces `pairs` to a random choice without a common site, in the order of sites; returns the number found and the
-    /// number wanted if there are too few.
+    /// Reduces `pairs` to a random choice without common sites, sorted by site. If there are too few, returns the
+    /// number found and the number required.
     fn choose(
         &self,
         pairs: &mut Vec<Pair>,
@@ -235,8 +237,8 @@ mod tests {
         filament.place_at(site.at_nm)
     }
 
-    /// Linkers join different filaments within reach, without force, each site once, and the resolved text describes the
-    /// same scene.
+    /// Linkers join different filaments within reach without force, and each site has one linker. The resolved scene
+    /// is equal.
     #[test]
     fn linkers_of_a_random_network_are_within_reach() {
         let scene = Scene::from_ron(NETWORK).expect("the scene is valid");
@@ -250,7 +252,7 @@ mod tests {
             assert_ne!(linker.filament, to.filament);
             let distance = (site_of(&scene, linker.site()) - site_of(&scene, to)).norm();
             assert!((5.0..=100.0).contains(&distance));
-            // Places are of the size of 1000 nm.
+            // Positions are of the order of 1000 nm.
             assert!((distance - linker.rest_length_nm).abs() < 1e-9);
             for site in [linker.site(), to] {
                 assert!(sites.insert((site.filament, site.at_nm.to_bits())));
@@ -260,7 +262,6 @@ mod tests {
         assert_eq!(again, scene);
     }
 
-    /// The search in cubes finds the pairs of a direct search.
     #[test]
     fn pairs_are_those_of_a_direct_search() {
         let scene = Scene::from_ron(NETWORK).expect("the scene is valid");
@@ -290,7 +291,6 @@ mod tests {
         assert_eq!(found, direct);
     }
 
-    /// A set with more linkers than pairs within reach is refused with its key.
     #[test]
     fn too_many_linkers_are_refused() {
         let text = NETWORK.replace("reach_nm: 100.0, least_reach_nm: 5.0", "reach_nm: 1.0");
@@ -300,7 +300,6 @@ mod tests {
         assert!(refused.contains("linker_sets[0].per_filament") && refused.contains("100 linkers"));
     }
 
-    /// Each mistake of an arrangement is refused with its key.
     #[test]
     fn mistakes_of_arrangements_are_refused() {
         for (right, wrong, key) in [
@@ -327,7 +326,7 @@ mod tests {
         }
     }
 
-    /// The filaments of a bundle are neighbours on a hexagonal lattice, also along a tilted axis.
+    /// The filaments of a bundle form a hexagonal lattice, also along a tilted axis.
     #[test]
     fn bundles_are_hexagonal() {
         let scene = Scene::from_ron(

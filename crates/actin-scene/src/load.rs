@@ -1,43 +1,38 @@
-//! Loads as a scene writes them, and what all of them have in common. Their rules are in
-//! `load_rules.rs`, the interactions that they are in `assembly/build/loads.rs`.
-//!
-//! A load of a new kind is a variant here; other files ask these functions.
+//! Loads of a scene. Their validation is in `load_rules.rs`.
 
 use super::{End, Factor, Scene};
 use actin_mechanics::Vector3;
 use serde::{Deserialize, Serialize};
 
-/// A load on a filament. Every load has a factor: that of time, `factor`, times what the path sets, 1
-/// where it sets none.
+/// Load on a filament. Its factor in time (`factor`) is multiplied by the factor that the path sets, 1 by default.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub enum Load {
-    /// A constant force on a free end: on the last node of a rod, or half on each of the last two
-    /// monomers. On an end that slides it acts on the inner held body. `Force` says more.
+    /// Constant force on an end: on the last node of a rod, or half on each of the last two monomers. At a sliding
+    /// end it acts on the inner held body. `Force` has more options.
     EndForce {
         /// Index of the filament.
         #[serde(default)]
         filament: usize,
-        /// Which end. It must be free or slide.
+        /// End of the filament; it must be free or slide.
         end: End,
-        /// Force in the lab frame; finite. In `Equilibrium` forces along unconstrained directions must
-        /// balance.
+        /// Force in the lab frame; finite. In `Equilibrium` the forces along unconstrained directions must balance.
         force_pn: [f64; 3],
     },
-    /// A force at an end or at any arc length.
+    /// Force at an end or at an arc length.
     Force(Force),
-    /// A couple at an end or at any arc length.
+    /// Couple at an end or at an arc length.
     Couple(Couple),
-    /// A force per length on an interval.
+    /// Force per length on an interval.
     ForcePerLength(ForcePerLength),
-    /// A couple per length on an interval.
+    /// Couple per length on an interval.
     CouplePerLength(CouplePerLength),
-    /// A force on every mass, such as weight.
+    /// Force proportional to mass, such as weight.
     Acceleration(Acceleration),
 }
 
-/// A force at one place of a filament.
+/// Force at one position of a filament.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
@@ -45,27 +40,26 @@ pub struct Force {
     /// Index of the filament.
     #[serde(default)]
     pub filament: usize,
-    /// Which end: the last node of a rod, or half on each of the last two monomers. It must be free or
+    /// End of the filament: the last node of a rod, or half on each of the last two monomers. It must be free or
     /// slide. Exactly one of `end` and `at_nm` is given.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub end: Option<End>,
-    /// Arc length, from 0 to the length of the filament: on the axis, between the two nodes of a segment or
-    /// on the nearest monomer.
+    /// Arc length, from 0 to the length of the filament. The force acts on the axis, shared by the two nodes of a
+    /// segment, or on the nearest monomer.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub at_nm: Option<f64>,
-    /// Force in the lab frame; finite. In `Equilibrium` forces along unconstrained directions must
-    /// balance.
+    /// Force in the lab frame; finite. In `Equilibrium` the forces along unconstrained directions must balance.
     pub force_pn: [f64; 3],
-    /// Whether it turns with the segment or monomer that it acts on, from the direction given for the
-    /// filament as built. Such a force has no potential: `Equilibrium` refuses it.
+    /// True if the force rotates with its segment or monomer, starting from the given direction in the filament as
+    /// built. This force has no potential: `Equilibrium` refuses it.
     #[serde(default)]
     pub follows: bool,
-    /// Its factor in time.
+    /// Factor in time.
     #[serde(default)]
     pub factor: Factor,
 }
 
-/// A couple at one place of a filament.
+/// Couple at one position of a filament.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
@@ -73,29 +67,29 @@ pub struct Couple {
     /// Index of the filament.
     #[serde(default)]
     pub filament: usize,
-    /// Which end: the cross-section at the last node of a rod, which half a segment of bending joins to the last
-    /// segment as at a wall, or half on each of the last two monomers. It must be free or pinned. Exactly one of
-    /// `end` and `at_nm` is given.
+    /// End of the filament: the cross-section at the last node of a rod, or half on each of the last two monomers.
+    /// The cross-section is joined to the last segment by half a segment of bending, as at a wall. The end must be
+    /// free or pinned. Exactly one of `end` and `at_nm` is given.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub end: Option<End>,
-    /// Arc length, from 0 to the length of the filament: shared between the two segments or monomers
-    /// whose middles are next to it, or between the last segment and the cross-section at the end.
+    /// Arc length, from 0 to the length of the filament. The couple is shared by the two segments or monomers with
+    /// the nearest midpoints, or by the last segment and the cross-section at the end.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub at_nm: Option<f64>,
-    /// Couple in the lab frame; finite. Its work is its size times the twist about its axis, so it has a
-    /// potential. It is constant as long as the cross-section turns about this axis alone; where that is
-    /// swung away by an angle, the couple tilts half as far, and its component along the axis stays.
+    /// Couple in the lab frame; finite. Its work is its magnitude times the twist about its axis: it has a potential.
+    /// The couple is constant while the cross-section rotates about this axis only. If the cross-section tilts by an
+    /// angle, the couple tilts by half of it, and its component along the axis is constant.
     pub couple_pn_nm: [f64; 3],
-    /// Whether it turns with the segment or monomer that it acts on, from the axis given for the filament
-    /// as built. Such a couple has no potential: `Equilibrium` refuses it.
+    /// True if the couple rotates with its segment or monomer, starting from the given axis in the filament as built.
+    /// This couple has no potential: `Equilibrium` refuses it.
     #[serde(default)]
     pub follows: bool,
-    /// Its factor in time.
+    /// Factor in time.
     #[serde(default)]
     pub factor: Factor,
 }
 
-/// A force per length of the filament at rest.
+/// Force per length of the filament at rest.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
@@ -103,25 +97,25 @@ pub struct ForcePerLength {
     /// Index of the filament.
     #[serde(default)]
     pub filament: usize,
-    /// Arc length at which it begins; at least 0, by default 0.
+    /// Arc length of the start of the interval; at least 0, by default 0.
     #[serde(default)]
     pub from_nm: f64,
-    /// Arc length at which it ends; greater than `from_nm`, at most the length of the filament. By default
-    /// its end.
+    /// Arc length of the end of the interval; greater than `from_nm`, at most the length of the filament. By default
+    /// the end of the filament.
     #[serde(default)]
     pub to_nm: Option<f64>,
     /// Force per length in the lab frame; finite.
     pub force_pn_per_nm: [f64; 3],
-    /// Whether it turns with the segments or monomers that it acts on. Such a force has no potential:
-    /// `Equilibrium` refuses it.
+    /// True if the force rotates with its segments or monomers. This force has no potential: `Equilibrium` refuses
+    /// it.
     #[serde(default)]
     pub follows: bool,
-    /// Its factor in time.
+    /// Factor in time.
     #[serde(default)]
     pub factor: Factor,
 }
 
-/// A couple per length of the filament at rest.
+/// Couple per length of the filament at rest.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
@@ -129,26 +123,25 @@ pub struct CouplePerLength {
     /// Index of the filament.
     #[serde(default)]
     pub filament: usize,
-    /// Arc length at which it begins; at least 0, by default 0.
+    /// Arc length of the start of the interval; at least 0, by default 0.
     #[serde(default)]
     pub from_nm: f64,
-    /// Arc length at which it ends; greater than `from_nm`, at most the length of the filament. By default
-    /// its end.
+    /// Arc length of the end of the interval; greater than `from_nm`, at most the length of the filament. By default
+    /// the end of the filament.
     #[serde(default)]
     pub to_nm: Option<f64>,
-    /// Couple per length in the lab frame; finite. Each segment or monomer takes its part as under
-    /// `Couple`.
+    /// Couple per length in the lab frame; finite. It acts on each segment or monomer as described for `Couple`.
     pub couple_pn_nm_per_nm: [f64; 3],
-    /// Whether it turns with the segments or monomers that it acts on. Such a couple has no potential:
-    /// `Equilibrium` refuses it.
+    /// True if the couple rotates with its segments or monomers. This couple has no potential: `Equilibrium`
+    /// refuses it.
     #[serde(default)]
     pub follows: bool,
-    /// Its factor in time.
+    /// Factor in time.
     #[serde(default)]
     pub factor: Factor,
 }
 
-/// A force on each mass in proportion to it: weight, or what a filament feels in an accelerated frame.
+/// Force proportional to mass: weight, or the inertial force in an accelerated frame.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
@@ -156,14 +149,14 @@ pub struct Acceleration {
     /// Index of the filament.
     #[serde(default)]
     pub filament: usize,
-    /// Acceleration in the lab frame; finite. That of gravity is 9.81e-9 nm/ns^2.
+    /// Acceleration in the lab frame; finite. Gravity is 9.81e-9 nm/ns^2.
     pub acceleration_nm_per_ns2: [f64; 3],
-    /// Its factor in time.
+    /// Factor in time.
     #[serde(default)]
     pub factor: Factor,
 }
 
-/// What a load puts on a filament as a whole, at factor 1.
+/// Resultant of a load on a filament at factor 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Resultant {
     /// A force (pN, lab frame).
@@ -173,7 +166,7 @@ pub enum Resultant {
 }
 
 impl Load {
-    /// The filament that it acts on.
+    /// Returns the index of the filament.
     pub fn filament(&self) -> usize {
         match self {
             Self::EndForce { filament, .. }
@@ -185,7 +178,7 @@ impl Load {
         }
     }
 
-    /// Its factor in time.
+    /// Factor in time.
     pub fn factor(&self) -> &Factor {
         match self {
             Self::EndForce { .. } => &Factor::Constant,
@@ -197,7 +190,7 @@ impl Load {
         }
     }
 
-    /// Whether it turns with what it acts on, and so has no potential.
+    /// Returns whether the load rotates with the filament and so has no potential.
     pub fn follows(&self) -> bool {
         match self {
             Self::EndForce { .. } | Self::Acceleration(_) => false,
@@ -208,7 +201,7 @@ impl Load {
         }
     }
 
-    /// The key of its size, and the size as written.
+    /// Returns the key and the value of the load as written.
     pub fn written(&self) -> (&'static str, [f64; 3]) {
         match self {
             Self::EndForce { force_pn, .. } | Self::Force(Force { force_pn, .. }) => {
@@ -221,7 +214,7 @@ impl Load {
         }
     }
 
-    /// Multiplies its size.
+    /// Multiplies the load by a factor.
     pub fn scale(&mut self, share: f64) {
         let size = match self {
             Self::EndForce { force_pn, .. } | Self::Force(Force { force_pn, .. }) => force_pn,
@@ -233,7 +226,7 @@ impl Load {
         *size = size.map(|x| share * x);
     }
 
-    /// The end that it acts on, if it acts on one.
+    /// Returns the end on which the load acts, if any.
     pub fn end(&self) -> Option<End> {
         match self {
             Self::EndForce { end, .. } => Some(*end),
@@ -242,7 +235,7 @@ impl Load {
         }
     }
 
-    /// The arc lengths between which it acts (nm), if it acts on an interval.
+    /// Returns the arc lengths (nm) of the interval on which the load acts, if any.
     pub fn interval(&self, scene: &Scene) -> Option<[f64; 2]> {
         let (from, to) = match self {
             Self::EndForce { .. } | Self::Force(_) | Self::Couple(_) => return None,
@@ -255,7 +248,7 @@ impl Load {
         Some([from, to.unwrap_or(length)])
     }
 
-    /// By what its size as written is multiplied in its resultant: a length (nm), a mass (ag), or 1.
+    /// Returns the ratio of the resultant to the load as written: a length (nm), a mass (ag), or 1.
     pub fn extent(&self, scene: &Scene) -> f64 {
         let length = self.interval(scene).map_or(1.0, |[from, to]| to - from);
         match self {
@@ -263,7 +256,7 @@ impl Load {
                 let filament = scene.filament_at(load.filament);
                 let density = filament.map_or(0.0, |f| f.monomers.mass_ag / f.monomers.rise_nm);
                 let sections = filament.into_iter().flat_map(|f| &f.sections);
-                // Lengths by which the masses of altered monomers exceed those of the others.
+                // Additional length equivalent to the additional mass of altered monomers.
                 let excess = sections.filter_map(|section| {
                     let (from, to) = section.span_nm();
                     Some((section.altered()?.mass_factor - 1.0) * (to - from))
@@ -274,7 +267,7 @@ impl Load {
         }
     }
 
-    /// Its resultant at factor 1; of one that follows as if the filament were as built.
+    /// Returns the resultant at factor 1, with the filament as built.
     pub fn resultant(&self, scene: &Scene) -> Resultant {
         let whole = Vector3::from(self.written().1) * self.extent(scene);
         match self {

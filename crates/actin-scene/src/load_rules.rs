@@ -1,4 +1,4 @@
-//! The rules of loads: where they may act, how large they are, and what a task asks of them.
+//! Validation of loads.
 
 use super::rules::{all_finite, check_exactly_one, show};
 use super::{
@@ -6,7 +6,7 @@ use super::{
 };
 
 impl Load {
-    /// Refuses load `i` of a scene where it makes no sense.
+    /// Checks load `i` of a scene.
     pub(super) fn check(
         &self,
         i: usize,
@@ -22,7 +22,7 @@ impl Load {
         self.check_end(&key, (scene, held))
     }
 
-    /// One end or one arc length on the filament.
+    /// Checks that one end or one arc length on the filament is given.
     fn check_place(&self, key: &str, scene: &Scene) -> Result<(), SceneProblem> {
         let (Self::Force(Force { end, at_nm, .. }) | Self::Couple(Couple { end, at_nm, .. })) =
             self
@@ -68,7 +68,7 @@ impl Load {
         Ok(())
     }
 
-    /// A force on an end that cannot move, or a couple on one that cannot turn, does nothing.
+    /// Refuses a force on an end that cannot move and a couple on an end that cannot rotate.
     fn check_end(&self, key: &str, (scene, held): (&Scene, &HeldEnds)) -> Result<(), SceneProblem> {
         let Some(end) = self.end() else {
             return Ok(());
@@ -81,23 +81,23 @@ impl Load {
         let rule = if is_couple && clamp.hold == Hold::Pin {
             return Ok(());
         } else if is_couple {
-            "this end is clamped: a couple on it turns nothing"
+            "this end is clamped: a couple on it has no effect"
         } else if clamp.slides == Slides::Nowhere {
-            "this end is clamped: a force on it moves nothing"
+            "this end is clamped: a force on it has no effect"
         } else {
             return Ok(());
         };
         Err(SceneProblem::new(format!("{key}.end"), show(end), rule))
     }
 
-    /// That the size of load `i` breaks a rule.
+    /// Creates the error that the value of load `i` breaks a rule.
     pub fn problem(&self, i: usize, rule: String) -> SceneProblem {
         let (name, size) = self.written();
         SceneProblem::new(format!("loads[{i}].{name}"), show(size), rule)
     }
 
-    /// The key and size of what a body takes of it at least, as a force (pN) or torque (pN nm) to be
-    /// compared with tolerances: half of what acts at a place, what acts on a nanometre of an interval.
+    /// Smallest force (pN) or torque (pN nm) on a single body, for comparison with tolerances: half of a load at a
+    /// point, or the load on 1 nm of an interval.
     pub(super) fn least(&self, scene: &Scene) -> Resultant {
         let part = match self.interval(scene) {
             None => 0.5,
@@ -110,16 +110,16 @@ impl Load {
     }
 }
 
-/// What `Equilibrium` asks of loads: a potential, and no time.
+/// Checks for `Equilibrium` that loads have a potential and are constant in time.
 pub(super) fn check_statics(scene: &Scene) -> Result<(), SceneProblem> {
     for (i, load) in scene.loads.iter().enumerate() {
         if load.follows() {
-            let rule = "a load that turns with the filament has no potential, of which Equilibrium finds \
+            let rule = "a load that turns with the filament has no potential, which Equilibrium needs to find \
                         minima: damped Dynamics takes it";
             return Err(SceneProblem::new(format!("loads[{i}].follows"), true, rule));
         }
         if !load.factor().is_constant() {
-            let rule = "Equilibrium knows no time: leave the factor out, and let stages of the path set \
+            let rule = "Equilibrium is time-independent: leave the factor out, and let stages of the path set \
                         it (LoadFactor)";
             return Err(SceneProblem::new(format!("loads[{i}].factor"), "", rule));
         }
@@ -127,7 +127,7 @@ pub(super) fn check_statics(scene: &Scene) -> Result<(), SceneProblem> {
     Ok(())
 }
 
-/// What `stop` and `leave_saddles` ask of loads: nothing is at rest before they have ended their changes.
+/// Checks for `stop` and `leave_saddles` that all factors become constant within the duration.
 pub(super) fn check_rest(scene: &Scene, dynamics: &Dynamics) -> Result<(), SceneProblem> {
     let key = match dynamics {
         Dynamics { stop: Some(_), .. } => "stop",
@@ -144,11 +144,11 @@ pub(super) fn check_rest(scene: &Scene, dynamics: &Dynamics) -> Result<(), Scene
     let until = settles(&scene.loads[i]);
     let rule = if until.is_infinite() {
         format!(
-            "loads[{i}] has a Sine for a factor, under which nothing comes to rest: leave {key} out"
+            "loads[{i}] has a Sine for a factor, under which the filament never comes to rest: leave {key} out"
         )
     } else {
         format!(
-            "the factor of loads[{i}] changes until {until:?} ns, and nothing is at rest before: must be \
+            "the factor of loads[{i}] changes until {until:?} ns, and the filament cannot be at rest before: must be \
              below duration_ns = {:?}, or leave {key} out",
             dynamics.duration_ns
         )

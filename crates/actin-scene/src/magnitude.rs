@@ -1,19 +1,18 @@
-//! The magnitudes that numbers of a scene may have.
+//! Permitted magnitudes of the numbers of a scene.
 //!
-//! Between them products of a few numbers neither overflow nor vanish, so that what is wrong is the
-//! number that a scene wrote and not what became of it. What is not finite has rules of its own.
+//! Within them products of a few numbers neither overflow nor underflow. Numbers that are not finite have separate
+//! rules.
 
 use super::tree::{Kind, SceneValue};
 use super::{Scene, SceneProblem};
 
-/// Largest magnitude of a number: of such a stiffness over the smallest mass, the square of the
-/// frequency is 1e120.
+/// Largest magnitude. Divided by the smallest mass, such a stiffness is a squared frequency of 1e120.
 const LARGEST: f64 = 1e60;
 
-/// Smallest magnitude of a number that is not zero.
+/// Smallest magnitude of a nonzero number.
 const SMALLEST: f64 = 1e-60;
 
-/// Refuses the first number that is too large or too small to compute with.
+/// Refuses numbers outside the permitted magnitudes.
 pub(super) fn check(scene: &Scene) -> Result<(), SceneProblem> {
     walk(&scene.to_value(), "")
 }

@@ -1,4 +1,4 @@
-//! Parameters of the models, as a scene writes them.
+//! Parameters of monomers, rods and junctions.
 
 use super::RodLaw;
 use actin_cosserat::Rigidities;
@@ -10,20 +10,20 @@ use serde::{Deserialize, Serialize};
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, default)]
 pub struct Monomers {
-    /// Seed of drawn bonds. Left out with `Cubature`, which draws none.
+    /// Seed of sampled bonds. Must be omitted with `Cubature`.
     pub seed: u64,
-    /// How the bonds of an interface are chosen.
+    /// Choice of the bonds of an interface.
     pub anchors: Anchors,
-    /// Bonds per lateral interface (monomer i to i + 1): 4 to 64 weighted, 12 by default; or 1 to 10,000
-    /// drawn, 64 by default.
+    /// Bonds per lateral interface (monomer i to i + 1): 4 to 64 quadrature bonds, 12 by default; or 1 to 10,000
+    /// sampled bonds, 64 by default.
     #[serde(default = "by_anchors")]
     #[cfg_attr(feature = "schema", schemars(extend("default" = 12)))]
     pub lateral_bonds: usize,
-    /// Bonds per longitudinal interface (monomer i to i + 2): the same.
+    /// Bonds per longitudinal interface (monomer i to i + 2), with the ranges and defaults of `lateral_bonds`.
     #[serde(default = "by_anchors")]
     #[cfg_attr(feature = "schema", schemars(extend("default" = 12)))]
     pub longitudinal_bonds: usize,
-    /// Shortest bond of either kind; at least 0, below both longest ones. Shorter bonds are drawn again.
+    /// Shortest bond of either kind; at least 0, less than both largest lengths. Shorter bonds are sampled again.
     pub min_bond_nm: f64,
     /// Rigidity of a lateral interface, shared by its bonds; positive.
     pub lateral_rigidity_pn_per_nm: f64,
@@ -39,29 +39,29 @@ pub struct Monomers {
     pub semi_axes_nm: [f64; 3],
     /// Rise from monomer i to i + 1; positive.
     pub rise_nm: f64,
-    /// Turn about the axis from monomer i to i + 1, right-handed; finite.
+    /// Rotation about the axis from monomer i to i + 1, right-handed; finite.
     pub turn_deg: f64,
     /// Azimuth of lattice index 0; finite.
     pub azimuth_deg: f64,
-    /// Mass of a monomer (ag = 1e-21 kg); positive. Rods take their mass per length from it.
+    /// Mass of a monomer (ag = 1e-21 kg); positive. It also determines the mass per length of rods.
     pub mass_ag: f64,
 }
 
-/// How the bonds of an interface are chosen.
+/// Choice of the bonds of an interface.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub enum Anchors {
-    /// Each interface has bonds of its own, drawn at random.
+    /// Different random bonds in each interface.
     Independent,
-    /// All interfaces of a kind share one pattern, drawn at random.
+    /// The same random bonds in all interfaces of a kind.
     Identical,
-    /// All interfaces of a kind have the same weighted bonds, which represent all that could be drawn:
-    /// the mean filament.
+    /// The same quadrature bonds in all interfaces of a kind, which represent the distribution of random bonds: the
+    /// mean filament.
     Cubature,
 }
 
 impl Anchors {
-    /// Bonds of an interface if a scene does not say how many.
+    /// Returns the default number of bonds of an interface.
     pub fn usual_bonds(self) -> usize {
         match self {
             Self::Independent | Self::Identical => constants::BONDS_PER_INTERFACE,
@@ -70,7 +70,7 @@ impl Anchors {
     }
 }
 
-/// A number of bonds that a scene does not give: more than any interface may have.
+/// Marks a number of bonds that the scene omits; larger than any valid number.
 const BY_ANCHORS: usize = usize::MAX;
 
 fn by_anchors() -> usize {
@@ -82,12 +82,11 @@ fn by_anchors() -> usize {
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, default)]
 pub struct RodModel {
-    /// How strains and curvatures become loads. `PaperBalance` takes the laws `Constant` and
-    /// `PublishedExtension` only.
+    /// Force law. `PaperBalance` requires the law `Constant` or `PublishedExtension`.
     pub force_law: ForceLaw,
     /// Rigidities.
     pub material: Material,
-    /// Constitutive law. `Fitted` and the laws `Homogenised` need the default material: a material of your own is written with
+    /// Constitutive law. `Fitted` and the `Homogenised` laws require the default material; a custom material requires
     /// `law: Constant`.
     pub law: RodLaw,
     /// Transverse inertia of segments.
@@ -95,7 +94,7 @@ pub struct RodModel {
 }
 
 impl RodModel {
-    /// Rods under this law, all else as it is where a scene leaves it out.
+    /// Creates a rod model with this law and default parameters.
     pub fn of_law(law: RodLaw) -> Self {
         Self {
             law,
@@ -104,27 +103,26 @@ impl RodModel {
     }
 }
 
-/// What the transverse inertia of a segment holds. It matters in `Dynamics` alone, and not for means and
-/// fluctuations in a heat bath.
+/// Transverse inertia of a segment. It affects only `Dynamics`, and not the means and fluctuations in a heat bath.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub enum RotaryInertia {
-    /// That of the cross-section. The time step does not grow with the length of segments beyond 10 nm.
+    /// Inertia of the cross-section. The time step does not grow with the length of segments above 10 nm.
     #[default]
     CrossSection,
-    /// In addition that of a rigid piece of rod, `mass length^2 / 12`: the time step grows with the length of
-    /// segments, and slow bending is slower by `(2 pi length / wavelength)^2 / 24`.
+    /// Inertia of the cross-section and of a rigid piece of rod, `mass length^2 / 12`. The time step grows with the
+    /// length of segments; slow bending is slower by `(2 pi length / wavelength)^2 / 24`.
     RigidSegment,
 }
 
-/// The two force laws of the rod.
+/// Force law of the rod.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub enum ForceLaw {
-    /// Loads are minus the gradient of an energy.
+    /// Forces and torques are minus the gradient of an energy.
     #[default]
     EnergyGradient,
-    /// The balance equations as the paper prints them. They have no potential: `Dynamics` only.
+    /// The balance equations as printed in the paper. They have no potential: `Dynamics` only.
     PaperBalance,
 }
 
@@ -136,13 +134,13 @@ pub enum Material {
     /// Table 4 of the paper.
     #[default]
     Table4,
-    /// Table 2 of the paper: the preceding paper's parameters with a section of 38.5 nm^2.
+    /// Table 2 of the paper: parameters of the preceding paper with a cross-section of 38.5 nm^2.
     PrecedingPaper,
-    /// Your own numbers.
+    /// Custom rigidities.
     Rigidities {
-        /// Shearing (twice) and stretching rigidity; each positive.
+        /// Two shearing rigidities and the stretching rigidity; each positive.
         shear_pn: [f64; 3],
-        /// Bending (twice) and twisting rigidity; each positive.
+        /// Two bending rigidities and the twisting rigidity; each positive.
         bend_pn_nm2: [f64; 3],
     },
 }
@@ -154,7 +152,7 @@ pub enum Material {
 pub struct JunctionModel {
     /// Weight of each bond.
     pub weight: JunctionWeight,
-    /// Number of monomers that are attached: 1 or 2.
+    /// Number of attached monomers: 1 or 2.
     pub attached_monomers: usize,
 }
 
@@ -162,9 +160,9 @@ pub struct JunctionModel {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub enum JunctionWeight {
-    /// The bonds of a junction share the rod's rigidity.
+    /// The bonds of a junction share the rigidity of the rod.
     Shared,
-    /// Every bond has the rod's full rigidity, as the paper's text has it.
+    /// Every bond has the full rigidity of the rod, as in the text of the paper.
     Full,
 }
 
@@ -184,7 +182,7 @@ impl Default for Monomers {
 }
 
 impl Monomers {
-    /// The default monomers with so many bonds drawn for each interface, from a seed.
+    /// Creates default monomers with this number of sampled bonds per interface.
     pub fn drawn(bonds: usize, seed: u64) -> Self {
         Self {
             seed,
@@ -195,13 +193,14 @@ impl Monomers {
         }
     }
 
-    /// Where each interface has bonds of its own, how many: the harmonic mean of lateral and longitudinal ones.
+    /// Returns the harmonic mean of the numbers of lateral and longitudinal bonds for `Independent` bonds, otherwise
+    /// `None`.
     pub fn drawn_bonds(&self) -> Option<usize> {
         let (a, b) = (self.lateral_bonds, self.longitudinal_bonds);
         (self.anchors == Anchors::Independent).then(|| 2 * a * b / (a + b))
     }
 
-    /// The default monomers with so many weighted bonds in each interface.
+    /// Creates default monomers with this number of quadrature bonds per interface.
     pub fn weighted(points: usize) -> Self {
         Self {
             anchors: Anchors::Cubature,
@@ -209,7 +208,7 @@ impl Monomers {
         }
     }
 
-    /// Puts the usual numbers of bonds where a scene gives none.
+    /// Replaces omitted numbers of bonds by their defaults.
     pub(super) fn resolve(&mut self) {
         let usual = self.anchors.usual_bonds();
         for bonds in [&mut self.lateral_bonds, &mut self.longitudinal_bonds] {
@@ -221,7 +220,7 @@ impl Monomers {
 }
 
 impl Material {
-    /// The rigidities that the name stands for, not yet validated.
+    /// Returns the rigidities, not validated.
     pub fn rigidities(&self) -> Rigidities {
         match *self {
             Self::Table4 => Rigidities::table4(),
@@ -318,12 +317,10 @@ mod tests {
             )"
         );
         let scene = Scene::from_ron(&text).expect("the scene is valid");
-        // What is written out in full is read back as it was.
         assert_eq!(Scene::from_ron(&scene.to_ron()).as_ref(), Ok(&scene));
         scene.filament.monomers
     }
 
-    /// How many bonds an interface has goes with how they are chosen, unless a scene says.
     #[test]
     fn numbers_of_bonds_go_with_how_they_are_chosen() {
         let bonds = |text| {

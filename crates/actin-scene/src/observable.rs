@@ -268,7 +268,7 @@ pub(super) fn check_linker(scene: &Scene, key: &str, linker: usize) -> Result<()
 fn check_lag(scene: &Scene, key: &str, lag_ns: f64) -> Result<(), SceneProblem> {
     positive(key, lag_ns)?;
     let rule = match scene.task.motion() {
-        None => "Equilibrium knows no time: leave it out".to_owned(),
+        None => "Equilibrium is time-independent: leave it out".to_owned(),
         Some(motion) if lag_ns >= motion.duration_ns => {
             format!("must be below the duration, {:?} ns", motion.duration_ns)
         }
