@@ -1,7 +1,7 @@
 //! Paths that end on a saddle or lose twist fail.
 
 use super::common::{build, cantilever, failure, run, run_anyway};
-use actin_sim::{Failure, Scene, Status};
+use actin_sim::{End, Failure, Scene, Status};
 
 /// Beyond its critical load of 3.76 pN, `leave_saddles: 0` keeps the straight column and reports
 /// the saddle.
@@ -33,7 +33,7 @@ fn an_imperfection_chooses_the_side() {
         let mut assembly = build(&text.replace("rod:", &imperfection));
         let (_, report) = run(&mut assembly).unwrap();
         assert_eq!(report.saddles_left, 0);
-        let tip = assembly.tip_nm(assembly.system.state(), actin_sim::End::End);
+        let tip = assembly.tip_nm(assembly.system.state(), End::End);
         tip.y.atan2(tip.x)
     };
     let sides = [1, 2, 3].map(tip);
@@ -86,4 +86,38 @@ fn a_start_that_is_twisted_has_lost_nothing() {
     let mut again = actin_sim::Assembly::build(&scene).unwrap();
     *again.system.state_mut() = trajectory.records.last().unwrap().state.clone();
     assert!(run(&mut again).is_ok());
+}
+
+/// Columns of 1000 nm between walls, of which one slides, from their straight state. Under
+/// `Homogenised` half of the modes of that state are unstable, and the loads have no component along
+/// them.
+#[test]
+fn straight_columns_buckle_under_every_law() {
+    let solve = |section: &str, law: &str, force: f64| {
+        let text = format!(
+            "Scene(
+                filament: Filament(sections: [{section}], rod: RodModel(law: {law})),
+                clamps: [Clamp(end: Start), Clamp(end: End, slides: AlongAxis)],
+                loads: [EndForce(end: End, force_pn: (0, 0, -{force:?}))],
+                task: Equilibrium(),
+            )"
+        );
+        let mut assembly = build(&text);
+        let (_, report) = run(&mut assembly).unwrap();
+        assert_eq!(report.certificate().unwrap().negative, 0, "{law}");
+        let tip = assembly.tip_nm(assembly.system.state(), End::End).z - 1000.0;
+        (tip, assembly.system.potential_energy())
+    };
+    let rod = "Rod(from_nm: 0, to_nm: 1000, segments: 20)";
+    for law in ["Constant", "Fitted", "Homogenised"] {
+        for force in [1.7, 2.0, 5.0] {
+            let (tip, energy) = solve(rod, law, force);
+            println!("{law}, {force} pN: tip {tip} nm, energy {energy} pN nm");
+            assert!(tip < -100.0 && energy < -10.0);
+        }
+    }
+    let (_, monomers) = solve("Ellipsoids(from_nm: 0, to_nm: 1000)", "Constant", 1.7);
+    let (_, homogenised) = solve(rod, "Homogenised", 1.7);
+    println!("energy of monomers {monomers}, of the rod {homogenised} pN nm");
+    assert!((homogenised / monomers - 1.0).abs() < 0.02);
 }

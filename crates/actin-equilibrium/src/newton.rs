@@ -9,6 +9,10 @@
 //! step relaxes quickly in the following ones (watchdog technique). An unsuccessful excursion is
 //! reverted.
 //!
+//! Far from equilibrium, a symmetric state may have many unstable modes along which the loads have no
+//! component. The regularised steps are then short. After 20 of them the state is displaced along the
+//! lowest mode.
+//!
 //! # Source
 //! J. Nocedal and S. J. Wright, Numerical Optimization, 2nd ed. (2006), sections 3.4 (modified
 //! Cholesky) and 15.6 (watchdog).
@@ -17,11 +21,12 @@ use crate::certificate::Certificate;
 use crate::certify::certify;
 use crate::descent::Descent;
 use crate::direction::Solver;
-use crate::history::{Iteration, SolverWork};
+use crate::history::{Iteration, SolverWork, Verdict};
 use crate::layout::Layout;
 use crate::load_scale::{LoadScale, is_loaded};
 use crate::options::{NewtonOptions, OptionsError};
 use crate::outcome::{Convergence, Equilibrium, NewtonFailure, SolveError};
+use crate::saddle::leave_saddle;
 use actin_mechanics::Residual;
 use actin_mechanics::{Interaction, Loads, State};
 use std::ops::ControlFlow;
@@ -32,6 +37,10 @@ const AT_FLOOR: f64 = 8.0;
 pub(crate) const NEAR_FLOOR: f64 = 100.0;
 /// Minimum decrease of a residual per step.
 pub(crate) const STILL_FALLING: f64 = 0.5;
+/// Number of consecutive slow steps with indefinite stiffness that ends in a displacement along the
+/// lowest mode, and the largest rotation and strain of such a step.
+const SLOW_STEPS: usize = 20;
+const SLOW: f64 = 1e-3;
 /// Fraction of the residual along zero-stiffness motions that makes an equilibrium impossible.
 const UNRESISTED: f64 = 0.9;
 
@@ -126,6 +135,7 @@ impl Newton {
             options: &self.options,
             interactions,
             history: Vec::new(),
+            displaced_at: 0,
             residual: Residual::default(),
             floor: Residual::default(),
             previous: f64::INFINITY,
@@ -221,6 +231,8 @@ struct Run<'a> {
     options: &'a NewtonOptions,
     interactions: &'a [Box<dyn Interaction>],
     history: Vec<Iteration>,
+    /// Number of steps before the last displacement along the lowest mode.
+    displaced_at: usize,
     residual: Residual,
     floor: Residual,
     previous: f64,
@@ -280,6 +292,9 @@ impl Run<'_> {
         if self.history.len() >= self.options.iterations {
             return self.give_up(descent, SolveError::IterationLimit(self.options.iterations));
         }
+        if self.is_slow() && self.displace(descent)? {
+            return Ok(None);
+        }
         self.previous = self.residual.relative_to(&self.options.tolerance);
         let before = descent.here.energy;
         let Some((direction, taken)) = descent.advance(self.solver, self.interactions)? else {
@@ -305,6 +320,30 @@ impl Run<'_> {
             verdict: taken.verdict,
         });
         Ok(None)
+    }
+
+    /// Short regularised steps: the loads have small components along the unstable modes.
+    fn is_slow(&self) -> bool {
+        let steps = &self.history[self.displaced_at..];
+        steps.len() >= SLOW_STEPS
+            && steps.iter().rev().take(SLOW_STEPS).all(|step| {
+                step.negative_pivots > 0
+                    && step.regularization > 0.0
+                    && step.verdict == Verdict::Decrease
+                    && step.extent.rotation.max(step.extent.strain) < SLOW
+            })
+    }
+
+    /// Displaces the state along the lowest mode; `false` without a mode of negative stiffness.
+    fn displace(&mut self, descent: &mut Descent) -> Result<bool, SolveError> {
+        self.displaced_at = self.history.len();
+        let mut state = descent.state.clone();
+        let (solver, turn_length) = (&mut *self.solver, self.options.turn_length);
+        let mode = leave_saddle(solver, turn_length, &mut state, self.interactions)?;
+        if mode.is_some() {
+            *descent = Descent::new(self.interactions, &state, self.options);
+        }
+        Ok(mode.is_some())
     }
 
     /// Reason for termination, if any. Within the tolerance, steps continue as long as they halve

@@ -1,5 +1,6 @@
 //! Motion off saddles.
 
+use crate::direction::Solver;
 use crate::evaluation::Evaluation;
 use crate::history::Iteration;
 use crate::mode::{self, Mode};
@@ -51,24 +52,9 @@ impl Newton {
         state: &mut State,
         interactions: &[Box<dyn Interaction>],
     ) -> Result<Option<Mode>, SolveError> {
-        let Some(mode) = self.unstable_mode(state, interactions)? else {
-            return Ok(None);
-        };
-        let extent = self.layout().step_extent(&mode.shape);
-        let unit = 1.0 / largest(&extent, self.options().turn_length);
-        let ridge = Ridge::new(state, interactions, &mode);
-        let (side, (mut best, mut moved)) = ridge.lower_side(self, FIRST * unit);
-        let mut amplitude = 2.0 * FIRST;
-        while amplitude <= LAST {
-            let (energy, further) = ridge.at(self, amplitude * unit * side);
-            if energy.is_nan() || energy >= best {
-                break;
-            }
-            (best, moved) = (energy, further);
-            amplitude *= 2.0;
-        }
-        *state = moved;
-        Ok(Some(mode))
+        self.solver.prepare(state, interactions)?;
+        let turn_length = self.options().turn_length;
+        leave_saddle(&mut self.solver, turn_length, state, interactions)
     }
 
     /// Moves `state` off a saddle by a given amount along the lowest mode, in the direction of
@@ -86,25 +72,18 @@ impl Newton {
         interactions: &[Box<dyn Interaction>],
         largest: &StepSize,
     ) -> Result<Option<Push>, SolveError> {
-        let Some(mode) = self.unstable_mode(state, interactions)? else {
+        self.solver.prepare(state, interactions)?;
+        let Some(mode) = unstable_mode(&mut self.solver)? else {
             return Ok(None);
         };
         let extent = self.layout().step_extent(&mode.shape);
         let amplitude =
             (largest.displacement / extent.displacement).min(largest.rotation / extent.rotation);
-        let (_, (_, moved)) = Ridge::new(state, interactions, &mode).lower_side(self, amplitude);
+        let (_, (_, moved)) =
+            Ridge::new(state, interactions, &mode).lower_side(&mut self.solver, amplitude);
         *state = moved;
         let extent = extent.scaled(amplitude);
         Ok(Some(Push { mode, extent }))
-    }
-
-    fn unstable_mode(
-        &mut self,
-        state: &State,
-        interactions: &[Box<dyn Interaction>],
-    ) -> Result<Option<Mode>, SolveError> {
-        let mode = self.lowest_mode(state, interactions)?;
-        Ok(mode.filter(|mode| mode.eigenvalue < -mode.error))
     }
 
     /// Moves `state` to a minimum: solves, and leaves saddles up to `attempts` times.
@@ -158,6 +137,38 @@ impl Newton {
     }
 }
 
+/// As [`Newton::leave_saddle`], for the assembled stiffness of `state`.
+pub(crate) fn leave_saddle(
+    solver: &mut Solver,
+    turn_length: f64,
+    state: &mut State,
+    interactions: &[Box<dyn Interaction>],
+) -> Result<Option<Mode>, SolveError> {
+    let Some(mode) = unstable_mode(solver)? else {
+        return Ok(None);
+    };
+    let extent = solver.layout.step_extent(&mode.shape);
+    let unit = 1.0 / largest(&extent, turn_length);
+    let ridge = Ridge::new(state, interactions, &mode);
+    let (side, (mut best, mut moved)) = ridge.lower_side(solver, FIRST * unit);
+    let mut amplitude = 2.0 * FIRST;
+    while amplitude <= LAST {
+        let (energy, further) = ridge.at(solver, amplitude * unit * side);
+        if energy.is_nan() || energy >= best {
+            break;
+        }
+        (best, moved) = (energy, further);
+        amplitude *= 2.0;
+    }
+    *state = moved;
+    Ok(Some(mode))
+}
+
+fn unstable_mode(solver: &mut Solver) -> Result<Option<Mode>, SolveError> {
+    let mode = mode::lowest(solver)?;
+    Ok(mode.filter(|mode| mode.eigenvalue < -mode.error))
+}
+
 /// Saddle, or a nearby state, with its mode.
 struct Ridge<'a> {
     state: &'a State,
@@ -177,20 +188,18 @@ impl<'a> Ridge<'a> {
     }
 
     /// Relative energy (pN nm) and state at `amplitude`.
-    fn at(&self, newton: &mut Newton, amplitude: f64) -> (f64, State) {
+    fn at(&self, solver: &mut Solver, amplitude: f64) -> (f64, State) {
         let mut moved = self.state.clone();
-        newton
-            .layout()
-            .apply(&mut moved, &self.mode.shape, amplitude);
+        solver.layout.apply(&mut moved, &self.mode.shape, amplitude);
         let mut there = self.energies.clone();
         there.follow(self.interactions, (self.state, &moved));
-        newton.solver.work.evaluations += 1;
+        solver.work.evaluations += 1;
         (there.energy_above(&self.energies), moved)
     }
 
     /// Direction of lower energy, with energy and state there.
-    fn lower_side(&self, newton: &mut Newton, amplitude: f64) -> (f64, (f64, State)) {
-        let (plus, minus) = (self.at(newton, amplitude), self.at(newton, -amplitude));
+    fn lower_side(&self, solver: &mut Solver, amplitude: f64) -> (f64, (f64, State)) {
+        let (plus, minus) = (self.at(solver, amplitude), self.at(solver, -amplitude));
         if plus.0 <= minus.0 {
             (1.0, plus)
         } else {
