@@ -8,7 +8,6 @@ use rand_chacha::ChaCha8Rng;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
 
-/// Largest number of filaments of one arrangement.
 const MOST_FILAMENTS: usize = 100_000;
 
 /// Placement of many filaments. The arranged filaments follow the listed ones, in the order of the arrangements.
@@ -263,7 +262,6 @@ impl Orientation {
     }
 }
 
-/// Returns a uniform random number in [0, 1).
 fn unit(random: &mut impl Rng) -> f64 {
     random.random()
 }

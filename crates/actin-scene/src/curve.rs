@@ -1,12 +1,10 @@
-//! Reference curve of a filament: pieces of constant curvature with a frame at every arc length.
-//!
-//! The curve starts at the origin along lab +z. `place.rs` moves it to the position of the filament.
+//! Reference curve of a filament: pieces of constant curvature with a frame at every arc length. The curve
+//! starts at the origin along lab +z.
 
 use super::{AlteredRod, Filament, Shape};
 use actin_mechanics::{UnitQuaternion, Vector3, rotation};
 use std::f64::consts::TAU;
 
-/// Pieces of a spline between two consecutive points.
 const PIECES: u32 = 64;
 
 /// Curve with frames whose third axes are its tangents.
@@ -115,7 +113,6 @@ impl Curve {
                     .last()
                     .map_or_else(UnitQuaternion::identity, |p| p.frame);
                 let frame = turned_to(frame, before.1);
-                // Simpson's rule.
                 let speeds = before.1.norm() + 4.0 * middle.1.norm() + after.1.norm();
                 let length = h * speeds / 6.0;
                 let next = turned_to(frame, after.1);

@@ -1,4 +1,4 @@
-//! Deserialization of types from the tree of values, with places of errors.
+//! Deserialization of types from the tree of values, with positions of errors.
 
 use super::meant::{meant, unknown_choice, unknown_key};
 use super::tree::{Kind, SceneValue, Source};
@@ -13,18 +13,18 @@ use std::fmt;
 /// Name of a newtype that receives the source text of a value.
 pub(super) const AS_WRITTEN: &str = "$written";
 
-/// The choice whose keys may stand without its name.
+/// Enum whose keys may be written without the name of the choice.
 const UNNAMED: &str = "Drag";
 
-/// Refusal of a value.
+/// Error of deserialization.
 #[derive(Debug)]
 pub(super) struct Refusal {
     reason: Reason,
-    /// The structure or choice that the reason is about.
+    /// Name of the structure or enum that the reason refers to.
     of: String,
-    /// Place in the text; `None` until the value is known.
+    /// Position in the text; `None` until the value is known.
     pub(super) at: Option<usize>,
-    /// Indices of children that lead to the value, from the innermost outwards.
+    /// Indices of children that lead to the value, innermost first.
     steps: Vec<usize>,
 }
 
@@ -55,12 +55,12 @@ impl Refusal {
         Self { at, ..unplaced }
     }
 
-    /// Indices of children that lead to the value.
+    /// Indices of children that lead to the value, outermost first.
     pub(super) fn indices(&self) -> Vec<usize> {
         self.steps.iter().rev().copied().collect()
     }
 
-    /// The key or choice that was probably meant.
+    /// Closest known key or choice.
     pub(super) fn meant(&self) -> Option<String> {
         match &self.reason {
             Reason::UnknownKey(found, known) | Reason::UnknownChoice(found, known) => {
@@ -70,7 +70,6 @@ impl Refusal {
         }
     }
 
-    /// The key that is missing.
     pub(super) fn missing(&self) -> Option<&'static str> {
         match self.reason {
             Reason::Missing(key) => Some(key),
@@ -88,14 +87,14 @@ impl Refusal {
         !matches!(self.reason, Reason::Message(_))
     }
 
-    /// The same seen from the value that holds `node` as its child `step`.
+    /// Extends the path of an error by the parent `node`, whose child `step` contains it.
     fn under(mut self, step: usize, node: &SceneValue) -> Self {
         self.steps.push(step);
         self.at.get_or_insert(node.place.value.start);
         self
     }
 
-    /// Sets structure and place of a refusal of the key of child `index`, or of a missing key.
+    /// Sets structure and position of an error about the key of child `index` or a missing key.
     fn of_keys(mut self, name: &str, node: &SceneValue, index: usize) -> Self {
         if !self.of.is_empty() || matches!(self.reason, Reason::UnknownChoice(..)) {
             return self;
@@ -112,7 +111,7 @@ impl Refusal {
         self
     }
 
-    /// Sets kind and place of a refusal of an unknown choice.
+    /// Sets enum and position of an error about an unknown choice.
     fn of_choice(mut self, kind: &str, node: &SceneValue) -> Self {
         if self.of.is_empty() && matches!(self.reason, Reason::UnknownChoice(..)) {
             kind.clone_into(&mut self.of);
@@ -163,7 +162,7 @@ impl de::Error for Refusal {
     }
 }
 
-/// Reads a type from a value of a text.
+/// Deserializes a type from a value of a text.
 pub(super) fn deserialize<T: DeserializeOwned>(
     node: &SceneValue,
     text: &str,
@@ -171,7 +170,6 @@ pub(super) fn deserialize<T: DeserializeOwned>(
     T::deserialize(Value::new(node, text))
 }
 
-/// A value that is deserialised, with its text.
 #[derive(Clone, Copy)]
 struct Value<'de> {
     node: &'de SceneValue,
@@ -194,7 +192,6 @@ impl<'de> Value<'de> {
         Self::new(&self.node.children()[index], self.text)
     }
 
-    /// Source text of the value.
     fn written(&self) -> Cow<'de, str> {
         match self.node.place.source {
             Source::Ron | Source::Json => self.text[self.node.place.value.clone()].into(),
@@ -206,7 +203,7 @@ impl<'de> Value<'de> {
         Refusal::new(self.node.place.value.start, message)
     }
 
-    /// A value of another kind than is expected.
+    /// Error for a value of another kind than expected.
     fn expected(&self, what: &str, remedy: &str) -> Refusal {
         if self.node.is_dictionary() {
             return self.refused(format!("{what} is expected, not {}", self.node));
@@ -245,7 +242,7 @@ impl<'de> Value<'de> {
         }
     }
 
-    /// A value in place of one in round brackets, named if `name` is not empty.
+    /// Error for a value that is not in round brackets after `name`, which may be empty.
     fn unbracketed(&self, name: &str) -> Refusal {
         let node = self.node;
         match &node.kind {
@@ -266,7 +263,6 @@ impl<'de> Value<'de> {
         }
     }
 
-    /// Reads the keys of a structure or choice of this name.
     fn keys<V: Visitor<'de>>(self, name: &str, visitor: V) -> Result<V::Value, Refusal> {
         let mut children = Children {
             value: self,
@@ -457,14 +453,14 @@ impl<'de> Deserializer<'de> for Value<'de> {
     }
 }
 
-/// The values in a bracket, one after the other.
+/// Iterator over the values in a bracket.
 struct Children<'de> {
     value: Value<'de>,
     next: usize,
 }
 
 impl<'de> Children<'de> {
-    /// The next value that has not been refused.
+    /// Returns the next value that has not been refused.
     fn next(&mut self) -> Option<Value<'de>> {
         let all = self.value.node.children();
         while matches!(all.get(self.next)?.kind, Kind::Refused) {
@@ -517,10 +513,10 @@ impl<'de> MapAccess<'de> for &mut Children<'de> {
     }
 }
 
-/// A choice by its name.
+/// Variant of an enum.
 struct Choice<'de> {
     value: Value<'de>,
-    /// The name of a group that has none.
+    /// Name of a group without one.
     default: &'static str,
 }
 
@@ -532,7 +528,6 @@ impl<'de> Choice<'de> {
         }
     }
 
-    /// The keys of the choice.
     fn inner(&self) -> Result<Value<'de>, Refusal> {
         let (value, name) = (self.value, self.name());
         match value.node.kind {

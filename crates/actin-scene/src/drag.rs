@@ -65,7 +65,6 @@ impl DragModel {
     }
 }
 
-/// Checks the drag and the integrator of a motion.
 pub(super) fn check(dynamics: &Dynamics) -> Result<(), SceneProblem> {
     let Some(fluid) = dynamics.drag.fluid() else {
         let rates = dynamics.drag.rates();

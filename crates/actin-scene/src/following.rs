@@ -1,4 +1,4 @@
-//! Sections that follow a motion: cells resolved into monomers where needed.
+//! Adaptive resolution during a motion: cells resolved into monomers where needed.
 
 use super::rules::{finite, positive, show};
 use super::{Hold, Scene, SceneProblem, Task};
@@ -7,8 +7,8 @@ use serde::{Deserialize, Serialize};
 /// Smallest number of monomers in a cell, below which its curvature is not well defined.
 const LEAST_MONOMERS: f64 = 8.0;
 
-/// Sections that follow a motion. Cells of a rod are resolved into monomers where at least one criterion requires it, and become
-/// a rod again where none does.
+/// Adaptive resolution during a motion. A cell of the rod is resolved into monomers if at least one criterion
+/// requires it, and becomes a rod again if no criterion does.
 ///
 /// Each criterion has two thresholds. Between them a cell keeps its model.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -124,7 +124,6 @@ pub enum Where {
     },
 }
 
-/// Checks the `Following` sections of a scene.
 pub(super) fn check_following(scene: &Scene, following: &Following) -> Result<(), SceneProblem> {
     let key = |name: &str| format!("filament.sections.{name}");
     positive(&key("length_nm"), following.length_nm)?;

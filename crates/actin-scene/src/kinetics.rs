@@ -4,7 +4,6 @@ use super::rules::{positive, show};
 use super::{Dynamics, Linker, Scene, SceneProblem, Task};
 use serde::{Deserialize, Serialize};
 
-/// Largest number of sites of a stepping linker on a filament.
 const MOST_PLACES: f64 = 1e5;
 
 /// Random breaking, forming and stepping of a linker: a dynamic cross-link or a motor. For `Dynamics` and `Brownian`.
@@ -110,7 +109,6 @@ impl Kinetics {
             .collect()
     }
 
-    /// Checks the rates of a linker with a valid site; keys begin with `key`.
     fn check(&self, key: &str, length: f64) -> Result<(), SceneProblem> {
         for (name, rate) in self.rates() {
             positive(&format!("{key}.{name}"), rate)?;
@@ -168,7 +166,7 @@ impl Stepping {
     }
 }
 
-/// Checks the rates of linker `i`, whose other numbers are valid.
+/// Checks the rates of linker `i`. Its other numbers must be valid.
 pub(super) fn check(scene: &Scene, i: usize, linker: &Linker) -> Result<(), SceneProblem> {
     let Some(kinetics) = &linker.kinetics else {
         return Ok(());

@@ -1,4 +1,4 @@
-//! Constitutive law of the rod.
+//! Constitutive laws of rods.
 
 use actin_cosserat::{CubicShear, SidedTwist, Stiffening, StretchLaw, TanhTwist, TwistStretch};
 use serde::{Deserialize, Serialize};
@@ -35,7 +35,7 @@ pub enum RodLaw {
 }
 
 impl RodLaw {
-    /// Returns whether the law is one potential of all strains, with or without thermal effects.
+    /// Returns whether the law is one potential of all strains.
     pub fn is_homogenised(&self) -> bool {
         matches!(
             self,
@@ -43,7 +43,7 @@ impl RodLaw {
         )
     }
 
-    /// Returns whether the law is one of the paper's, with constant bending and shearing rigidities.
+    /// Returns whether the law is one of the paper's, with constant bending and shear rigidities.
     pub fn is_published(&self) -> bool {
         matches!(
             self,
@@ -84,7 +84,7 @@ pub struct RodLaws {
     pub stretch: Option<StretchLaw>,
     /// Law of shear.
     pub shear: Option<ShearLaw>,
-    /// Law of natural length against twist.
+    /// Law of rest length against twist.
     pub twist_stretch: Option<TwistStretch>,
 }
 
@@ -93,7 +93,7 @@ pub struct RodLaws {
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub enum BendLaw {
-    /// Rigidity that rises with bending, twist and shear.
+    /// Rigidity that increases with bending, twist and shear.
     Stiffening(Stiffening),
 }
 
@@ -104,7 +104,7 @@ pub enum BendLaw {
 pub enum TwistLaw {
     /// Three tanh steps, as published.
     Tanh(TanhTwist),
-    /// Saturating, with its own rise to either side.
+    /// Saturating rigidity, with separate parameters for under- and over-twist.
     Sided(SidedTwist),
 }
 

@@ -100,7 +100,7 @@ impl LinkerSite {
     }
 }
 
-/// Checks linker `i` of a scene with valid sections.
+/// Checks linker `i`. The sections of the scene must be valid.
 pub(super) fn check(scene: &Scene, i: usize, linker: &Linker) -> Result<(), SceneProblem> {
     let key = |name: &str| format!("linkers[{i}].{name}");
     check_site(scene, &format!("linkers[{i}]"), &linker.site())?;
@@ -123,7 +123,6 @@ pub(super) fn check(scene: &Scene, i: usize, linker: &Linker) -> Result<(), Scen
     }
 }
 
-/// Checks that exactly one of `to`, `anchor_nm` and `displaced_nm` is given.
 fn check_one_end(i: usize, linker: &Linker) -> Result<(), SceneProblem> {
     let first = linker.end_key();
     let rule = || match first {
@@ -150,7 +149,7 @@ fn check_one_end(i: usize, linker: &Linker) -> Result<(), SceneProblem> {
     Ok(())
 }
 
-/// Checks a site; its keys begin with `key`.
+/// Checks a site. Its keys begin with `key`.
 fn check_site(scene: &Scene, key: &str, site: &LinkerSite) -> Result<(), SceneProblem> {
     let filament = scene.named_filament(&format!("{key}.filament"), site.filament)?;
     let length = filament.length_nm();

@@ -11,7 +11,6 @@ use std::collections::HashMap;
 /// Default distance between sites (nm): half the pitch of the long-pitch helix.
 const SITE_SPACING_NM: f64 = 36.0;
 
-/// Largest number of sites of all filaments.
 const MOST_SITES: f64 = 1e7;
 
 /// Linkers between random pairs of sites of different filaments. Sites lie on the axes at equal distances; each site
@@ -57,7 +56,6 @@ struct Site {
     place: Vector3,
 }
 
-/// Two sites and their distance (nm).
 type Pair = (usize, usize, f64);
 
 impl LinkersBetween {
@@ -237,8 +235,8 @@ mod tests {
         filament.place_at(site.at_nm)
     }
 
-    /// Linkers join different filaments within reach without force, and each site has one linker. The resolved scene
-    /// is equal.
+    /// Linkers join different filaments within reach without force, and each site has at most one linker. The
+    /// resolved scene is equal.
     #[test]
     fn linkers_of_a_random_network_are_within_reach() {
         let scene = Scene::from_ron(NETWORK).expect("the scene is valid");
@@ -252,7 +250,6 @@ mod tests {
             assert_ne!(linker.filament, to.filament);
             let distance = (site_of(&scene, linker.site()) - site_of(&scene, to)).norm();
             assert!((5.0..=100.0).contains(&distance));
-            // Positions are of the order of 1000 nm.
             assert!((distance - linker.rest_length_nm).abs() < 1e-9);
             for site in [linker.site(), to] {
                 assert!(sites.insert((site.filament, site.at_nm.to_bits())));

@@ -6,7 +6,6 @@ use super::{
 };
 
 impl Load {
-    /// Checks load `i` of a scene.
     pub(super) fn check(
         &self,
         i: usize,
@@ -22,7 +21,6 @@ impl Load {
         self.check_end(&key, (scene, held))
     }
 
-    /// Checks that one end or one arc length on the filament is given.
     fn check_place(&self, key: &str, scene: &Scene) -> Result<(), SceneProblem> {
         let (Self::Force(Force { end, at_nm, .. }) | Self::Couple(Couple { end, at_nm, .. })) =
             self

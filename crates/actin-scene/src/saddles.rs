@@ -1,9 +1,8 @@
-//! What pushes off a saddle need in a scene.
+//! Validation of `leave_saddles`.
 
 use super::{Dynamics, Load, Scene, SceneProblem, rules};
 
-/// Checks `leave_saddles` of a motion against the rest of the scene: saddles are those of an energy,
-/// and a motion comes to rest on them.
+/// Checks that the scene has a potential and no noise, which `leave_saddles` requires.
 pub(super) fn check(scene: &Scene, dynamics: &Dynamics) -> Result<(), SceneProblem> {
     if dynamics.leave_saddles == 0 {
         return Ok(());

@@ -1,14 +1,13 @@
-//! The rules of the sections of a filament.
+//! Validation of sections.
 
 use super::rules::{check_curvature, each_positive, finite, non_negative, positive, show};
 use super::sections::check_adaptive;
 use super::validate::check_bonds;
 use super::{AlteredRod, Filament, Material, SceneProblem, Section};
 
-/// Sections are contiguous if their boundaries agree to this length (nm).
+/// Tolerance (nm) of the boundaries of contiguous sections.
 const BOUNDARY_TOLERANCE_NM: f64 = 1e-9;
 
-/// Checks the sections of a filament, each of which may break a rule.
 pub(super) fn check(filament: &Filament, note: &mut impl FnMut(Result<(), SceneProblem>)) {
     if let Some(adaptive) = filament.sections.adaptive() {
         note(check_adaptive(adaptive));
@@ -37,7 +36,6 @@ pub(super) fn check(filament: &Filament, note: &mut impl FnMut(Result<(), SceneP
     }
 }
 
-/// Of the curvature the radius is that of the filament or greater: the rod does not turn inside out.
 fn check_altered_rod(key: &str, altered: &AlteredRod) -> Result<(), SceneProblem> {
     for (name, factor) in [
         ("bend_rigidity_factor", altered.bend_rigidity_factor),

@@ -1,11 +1,11 @@
-//! The rules of a path: what its stages may set, and how long they take.
+//! Validation of paths.
 
 use super::path::load_factors;
 use super::rules::{all_finite, finite, positive, show};
 use super::support::is_along;
 use super::{End, HeldEnds, Hold, Scene, SceneProblem, Setting, Slides, Stage};
 
-/// Checks that what stage `i` sets exists and may be set.
+/// Checks the settings of stage `i`.
 pub(super) fn check(
     scene: &Scene,
     held: &HeldEnds,
@@ -52,7 +52,7 @@ pub(super) fn check(
     Ok(())
 }
 
-/// Checks that a path that sets factors of loads sets those of all loads without a factor in time.
+/// Checks that a path that sets load factors sets the factors of all loads without a factor in time.
 pub(super) fn check_loads(scene: &Scene) -> Result<(), SceneProblem> {
     let unset = unset_loads(scene);
     match unset.first() {
@@ -67,7 +67,8 @@ pub(super) fn check_loads(scene: &Scene) -> Result<(), SceneProblem> {
     }
 }
 
-/// Indices of loads that act in full along the whole path: no stage sets them, and they have no factor in time.
+/// Returns the indices of loads that act in full along the whole path: no stage sets them, and they have no
+/// factor in time.
 pub fn unset_loads(scene: &Scene) -> Vec<usize> {
     if scene.path.is_empty() {
         return Vec::new();
@@ -85,7 +86,7 @@ fn sets_a_load(stage: &Stage) -> bool {
         .any(|setting| matches!(setting, Setting::LoadFactor { .. }))
 }
 
-/// What a setting moves from outside is held; its keys begin with `prefix`.
+/// Checks that an end is clamped. Keys begin with `prefix`.
 fn check_held(
     (scene, held): (&Scene, &HeldEnds),
     prefix: &str,
@@ -100,7 +101,7 @@ fn check_held(
     Err(SceneProblem::new(format!("{prefix}end"), show(end), rule))
 }
 
-/// What is shifted from outside is held, and does not slide along the shift.
+/// Checks that an end is clamped and does not slide in the direction of a shift.
 fn check_shift(
     (scene, held): (&Scene, &HeldEnds),
     prefix: &str,
@@ -129,7 +130,7 @@ fn check_shift(
     Err(SceneProblem::new(key, show(shift_nm), rule))
 }
 
-/// What is turned from outside is held, and does not turn by itself.
+/// Checks that an end is clamped and not free to rotate.
 fn check_turns(
     (scene, held): (&Scene, &HeldEnds),
     prefix: &str,
@@ -144,7 +145,7 @@ fn check_turns(
     Ok(())
 }
 
-/// In time, every stage takes some.
+/// Checks the durations of stages for tasks in time.
 pub(super) fn check_durations(scene: &Scene, duration_ns: f64) -> Result<(), SceneProblem> {
     for (i, stage) in scene.path.iter().enumerate() {
         let key = format!("path[{i}].duration_ns");

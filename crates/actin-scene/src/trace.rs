@@ -1,13 +1,13 @@
-//! Points of shapes from files next to the scene.
+//! Points of shapes from CSV files.
 
 use super::SceneProblem;
 use super::tree::{Kind, SceneValue};
 use std::path::Path;
 
-/// Takes the points of every `Points(file: ...)` from the file, whose path is relative to `folder`.
+/// Replaces every `Points(file: ...)` by the points of the file, whose path is relative to `folder`.
 ///
 /// # Errors
-/// A file that cannot be read, or a row in it that is no point.
+/// A file that cannot be read, or an invalid row.
 pub(super) fn read_points(scene: &mut SceneValue, folder: &Path) -> Result<(), SceneProblem> {
     for value in scene.children_mut() {
         match value.key() {
@@ -55,7 +55,6 @@ fn of_filament(filament: &mut SceneValue, key: &str, folder: &Path) -> Result<()
     Ok(())
 }
 
-/// The points of a file.
 fn points(path: &Path) -> Result<Vec<[f64; 3]>, String> {
     let text = std::fs::read_to_string(path).map_err(|error| format!("cannot be read: {error}"))?;
     let rows = text.trim_start_matches('\u{feff}').lines().zip(1..);
@@ -71,7 +70,7 @@ fn point(line: &str) -> Option<[f64; 3]> {
     numbers.try_into().ok()
 }
 
-/// Whether no word of a row is a number.
+/// Returns whether a row contains no number.
 fn is_heading(line: &str) -> bool {
     let mut words = line.split(|c: char| c.is_whitespace() || c == ',' || c == ';');
     words.all(|word| word.parse::<f64>().is_err())
@@ -109,7 +108,7 @@ mod tests {
         text.read_points(folder.path()).map(|()| text)
     }
 
-    /// Headings, blank lines and spaces are skipped; what is read is a scene by itself, with the points.
+    /// Headings, blank lines and spaces are skipped.
     #[test]
     fn points_come_from_their_file() {
         let text = read("x_nm,y_nm,z_nm\n0, 0, 0\n\n0,5.5,20\n1e0,0,41\n").unwrap();
@@ -121,7 +120,7 @@ mod tests {
         assert_eq!(crate::Scene::from_ron(&scene.to_ron()), Ok(scene));
     }
 
-    /// Each mistake stands at the key of the file; a text alone has no folder to look in.
+    /// Errors are located at the key of the file. A text without a folder is refused.
     #[test]
     fn files_without_points_are_refused() {
         let told = |csv| read(csv).map(|_| ()).unwrap_err().to_string();
@@ -129,7 +128,7 @@ mod tests {
         let rule = "must be three numbers x, y, z (nm) with decimal points, separated by commas";
         for (csv, line, more) in [
             ("0,0,0\n1,2\n", 2, ""),
-            // The first row is a heading only if no word of it is a number.
+            // The first row is a heading only if it contains no number.
             ("0,0,O\n0,0,41\n", 1, ""),
             ("x,y,z\n0,0\n", 2, ""),
             ("0;0;0\n0;0;41\n", 1, ", not by semicolons"),
@@ -149,7 +148,7 @@ mod tests {
         );
         let alone = crate::Scene::from_ron(SCENE).unwrap_err().to_string();
         assert!(alone.starts_with(&format!("{place}is not read")), "{alone}");
-        // Later lines are still where they were.
+        // Reading points does not change positions in the text.
         let short = read("0,0,0\n0,0,10\n").unwrap().scene().unwrap_err();
         assert_eq!((short.line, short.column), (4, 23), "{short}");
     }
