@@ -231,8 +231,8 @@ pub(super) fn check_whole(scene: &Scene, brownian: &Brownian) -> Result<(), Scen
     brownian.drag.check_filaments(scene)?;
     let follows = scene.loads.iter().position(super::Load::follows);
     follows.map_or(Ok(()), |i| {
-        let rule = "a load that turns with the filament is not supported by the implicit steps of Brownian: \
-                    Dynamics takes it";
+        let rule =
+            "loads that rotate with the filament are not supported in Brownian: write Dynamics";
         Err(SceneProblem::new(format!("loads[{i}].follows"), true, rule))
     })
 }

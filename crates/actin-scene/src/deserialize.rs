@@ -250,9 +250,7 @@ impl<'de> Value<'de> {
             _ if node.is_dictionary() => self.refused(format!("{name} is a dictionary of keys")),
             Kind::Name(found) if name.is_empty() || found == name => Refusal::new(
                 node.place.value.end,
-                format!(
-                    "{found} is written with round brackets, even if nothing is in them: {found}()"
-                ),
+                format!("{found} requires round brackets: write {found}()"),
             ),
             Kind::Name(found) => self.refused(format!("{name} is expected, not {found}")),
             Kind::Bool(found) if !name.is_empty() => {

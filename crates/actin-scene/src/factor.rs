@@ -179,7 +179,7 @@ fn check_table(
         Some(i) => refused(
             &format!("time_ns[{}]", i + 1),
             show(times[i + 1]),
-            "must be greater than the time before: times are in ascending order",
+            "must be greater than the previous time",
         ),
         None => Ok(()),
     }

@@ -131,7 +131,8 @@ impl Kinetics {
             return Err(SceneProblem::new(key, "", rule));
         }
         if !self.bound && self.forms.is_none() {
-            let rule = "a linker that does not hold at the start and never forms: write forms";
+            let rule =
+                "the linker is unbound at the start and never forms: write forms, or bound: true";
             return Err(SceneProblem::new(format!("{key}.bound"), false, rule));
         }
         Ok(())

@@ -110,7 +110,7 @@ pub(super) fn check(scene: &Scene, i: usize, linker: &Linker) -> Result<(), Scen
     if let Some(other) = &linker.to {
         check_site(scene, &key("to"), other)?;
         if other.is_at(&linker.site()) {
-            let rule = "is the site at which the linker starts: must be another place";
+            let rule = "is the site of the first end: write another site";
             return Err(SceneProblem::new(key("to"), "", rule));
         }
     }

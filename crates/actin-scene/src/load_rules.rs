@@ -30,7 +30,7 @@ impl Load {
         check_exactly_one(
             key,
             [("end", end.map(show)), ("at_nm", at_nm.map(show))],
-            "says where it acts",
+            "position",
         )?;
         let filament = scene.named_filament(&format!("{key}.filament"), self.filament())?;
         let length = filament.length_nm();
@@ -112,13 +112,13 @@ impl Load {
 pub(super) fn check_statics(scene: &Scene) -> Result<(), SceneProblem> {
     for (i, load) in scene.loads.iter().enumerate() {
         if load.follows() {
-            let rule = "a load that turns with the filament has no potential, which Equilibrium needs to find \
-                        minima: damped Dynamics takes it";
+            let rule = "a load that rotates with the filament has no potential, which Equilibrium requires: \
+                        write Dynamics with drag";
             return Err(SceneProblem::new(format!("loads[{i}].follows"), true, rule));
         }
         if !load.factor().is_constant() {
-            let rule = "Equilibrium is time-independent: leave the factor out, and let stages of the path set \
-                        it (LoadFactor)";
+            let rule = "Equilibrium is time-independent: leave the factor out, and write LoadFactor in \
+                        stages of the path";
             return Err(SceneProblem::new(format!("loads[{i}].factor"), "", rule));
         }
     }

@@ -228,7 +228,7 @@ impl Observable {
     ) -> Result<(), SceneProblem> {
         match self {
             Self::EndReaction { filament, end } if !held.is_held(filament, end) => {
-                let rule = "this end is free: nothing holds it";
+                let rule = "this end is free: clamp it, or leave the observable out";
                 Err(SceneProblem::new(key("end"), show(end), rule))
             }
             Self::Buckling { points, .. } if !(4..=10_000).contains(&points) => {
@@ -263,7 +263,7 @@ pub(super) fn check_linker(scene: &Scene, key: &str, linker: usize) -> Result<()
     let rule = match scene.linkers.len() {
         count if linker < count => return Ok(()),
         0 => "the scene has no linkers".to_owned(),
-        1 => "there is one linker, which is 0".to_owned(),
+        1 => "the only linker has index 0".to_owned(),
         count => format!("there are {count} linkers, counted from 0"),
     };
     Err(SceneProblem::new(key, linker, rule))
@@ -306,13 +306,13 @@ fn check_burn_in(scene: &Scene) -> Result<(), SceneProblem> {
     non_negative("burn_in_ns", burn_in)?;
     let rule = match scene.task.motion() {
         Some(motion) if motion.thermal.is_none() => {
-            "means are of thermal motion: leave it out, or write thermal".to_owned()
+            "means require thermal noise: leave it out, or write thermal".to_owned()
         }
         Some(motion) if burn_in >= motion.duration_ns => {
             format!("must be below the duration, {:?} ns", motion.duration_ns)
         }
         Some(_) => return Ok(()),
-        None => "Equilibrium has no means: leave it out".to_owned(),
+        None => "Equilibrium has no means over time: leave it out".to_owned(),
     };
     Err(SceneProblem::new("burn_in_ns", show(burn_in), rule))
 }

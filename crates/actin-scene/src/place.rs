@@ -151,7 +151,7 @@ impl Scene {
     ) -> Result<&Filament, SceneProblem> {
         self.filament_at(index).ok_or_else(|| {
             let rule = match self.number_of_filaments() {
-                1 => "there is one filament, which is 0".to_owned(),
+                1 => "the only filament has index 0".to_owned(),
                 count => format!("there are {count} filaments, counted from 0"),
             };
             SceneProblem::new(key, index, rule)

@@ -32,13 +32,11 @@ impl Scene {
             let before = String::from_utf8_lossy(&bytes[..good]);
             let before = without_mark(&before);
             let hint = match bytes {
-                [0xff, 0xfe, ..] | [0xfe, 0xff, ..] => "; the file begins as UTF-16 does",
+                [0xff, 0xfe, ..] | [0xfe, 0xff, ..] => "; the file seems to be UTF-16",
                 _ => "",
             };
             let byte = bytes[good];
-            let message = format!(
-                "byte {byte:#04x} is not UTF-8, in which scenes are written{hint}: save the file as UTF-8"
-            );
+            let message = format!("byte {byte:#04x} is not UTF-8{hint}: save the file as UTF-8");
             SceneError::new(line_and_column(before, before.len()), &message)
         })
     }

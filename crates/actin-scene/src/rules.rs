@@ -87,8 +87,7 @@ pub(super) fn check_curvature(
         return Ok(());
     }
     let rule = format!(
-        "bends the filament more than to its own radius of {radius:.1} nm: its inner side would turn \
-         inside out"
+        "the radius of curvature must be greater than the radius of the filament, {radius:.1} nm"
     );
     Err(SceneProblem::new(key, value, rule))
 }
@@ -103,7 +102,7 @@ pub(super) fn check_potential(filament: &Filament) -> Result<(), SceneProblem> {
         return Err(SceneProblem::new(
             "filament.rod.force_law",
             "PaperBalance",
-            "has no potential: Equilibrium needs EnergyGradient; damped Dynamics takes either",
+            "has no potential, which Equilibrium and Brownian require: write EnergyGradient",
         ));
     }
     Ok(())
@@ -118,13 +117,13 @@ pub(super) fn check_exactly_one<const N: usize>(
     let names = given.each_ref().map(|(name, _)| *name).join(" or ");
     let mut found = given.into_iter().filter_map(|(name, v)| Some((name, v?)));
     let Some((first, _)) = found.next() else {
-        let rule = format!("nothing {what}: write {names}");
+        let rule = format!("no {what} is given: write {names}");
         return Err(SceneProblem::new(key, "", rule));
     };
     match found.next() {
         None => Ok(()),
         Some((name, value)) => {
-            let rule = format!("{first} {what} already: write one of the two");
+            let rule = format!("the {what} is given by {first} already: write one of the two");
             Err(SceneProblem::new(format!("{key}.{name}"), value, rule))
         }
     }

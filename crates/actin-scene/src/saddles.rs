@@ -16,7 +16,7 @@ pub(super) fn check(scene: &Scene, dynamics: &Dynamics) -> Result<(), SceneProbl
     }
     if scene.loads.iter().any(Load::follows) {
         return Err(refused(
-            "saddles are those of an energy, which loads that turn with the filament do not have",
+            "requires an energy, which loads with follows: true do not have: leave it out",
         ));
     }
     if scene
@@ -24,7 +24,7 @@ pub(super) fn check(scene: &Scene, dynamics: &Dynamics) -> Result<(), SceneProbl
         .any(|one| rules::check_potential(one).is_err())
     {
         return Err(refused(
-            "saddles are those of an energy, which PaperBalance does not have: write EnergyGradient",
+            "requires an energy, which PaperBalance does not have: write EnergyGradient",
         ));
     }
     Ok(())

@@ -125,9 +125,9 @@ fn check_boundary(
     let rule = match previous {
         None => "the first section starts at 0".to_owned(),
         Some(_) if from < before => {
-            format!("overlaps the section before it, which ends at {before:?}")
+            format!("overlaps the previous section, which ends at {before:?}")
         }
-        Some(_) => format!("leaves a gap behind the section before it, which ends at {before:?}"),
+        Some(_) => format!("leaves a gap after the previous section, which ends at {before:?}"),
     };
     let key = format!("filament.sections[{i}]");
     if (from - before).abs() > BOUNDARY_TOLERANCE_NM {
@@ -142,7 +142,7 @@ fn check_boundary(
         return Err(SceneProblem::new(
             format!("{key}.from_nm"),
             show(from),
-            "neighbouring sections of the same monomers are one section: write them as one",
+            "adjacent sections have the same monomers: write them as one section",
         ));
     }
     Ok(())

@@ -345,16 +345,16 @@ impl schemars::JsonSchema for Sections {
         let following = generator.subschema_for::<Following>();
         schemars::json_schema!({
             "oneOf": [
-                { "description": "Sections one by one.", "allOf": [list] },
+                { "description": "List of sections.", "allOf": [list] },
                 {
-                    "description": "The program chooses them; see there.",
+                    "description": "Sections chosen by the program.",
                     "type": "object",
                     "properties": { "Adaptive": adaptive },
                     "required": ["Adaptive"],
                     "additionalProperties": false
                 },
                 {
-                    "description": "They change while a motion goes on; see there.",
+                    "description": "Sections that follow a motion.",
                     "type": "object",
                     "properties": { "Following": following },
                     "required": ["Following"],

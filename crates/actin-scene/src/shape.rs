@@ -127,8 +127,7 @@ fn check_helix(length: f64, radius: f64, pitch: f64) -> Result<(), SceneProblem>
 fn check_points(nm: &[[f64; 3]], file: Option<&str>) -> Result<(), SceneProblem> {
     let key = "filament.shape.nm";
     if let Some(file) = file {
-        let rule = "is not read: a file of points is found beside the file of a scene; a text alone has \
-                    the points as nm";
+        let rule = "cannot be read without a scene file: write the points as nm";
         return Err(SceneProblem::new("filament.shape.file", show(file), rule));
     }
     if nm.len() < 2 {
@@ -140,7 +139,7 @@ fn check_points(nm: &[[f64; 3]], file: Option<&str>) -> Result<(), SceneProblem>
         let is_before =
             |other: &[f64; 3]| other.iter().zip(point).all(|(a, b)| (a - b).abs() <= 0.0);
         if i > 0 && is_before(&nm[i - 1]) {
-            let rule = "is the point before it: neighbouring points are at different places";
+            let rule = "equals the previous point: write different points";
             return Err(SceneProblem::new(format!("{key}[{i}]"), show(point), rule));
         }
     }

@@ -26,7 +26,7 @@ pub(super) fn check(
             Setting::Anchor { linker, shift_nm } => {
                 exists("linker", linker, scene.linkers.len())?;
                 if scene.linkers[linker].to.is_some() {
-                    let rule = "this linker joins two sites: it has no anchor to be moved";
+                    let rule = "this linker joins two sites and has no anchor: write a linker with an anchor";
                     return Err(SceneProblem::new(key("linker"), linker, rule));
                 }
                 all_finite(&key("shift_nm"), shift_nm)?;
@@ -119,12 +119,11 @@ fn check_shift(
         return Ok(());
     }
     let remedy = match slides {
-        Slides::Freely => "leave the shift out, or let the clamp slide AlongAxis or Nowhere",
-        _ => "shift it across its axis only, or let the clamp slide Nowhere",
+        Slides::Freely => "leave the shift out, or write slides: AlongAxis or Nowhere",
+        _ => "shift the end across its axis, or write slides: Nowhere",
     };
     let rule = format!(
-        "moves this end along directions in which clamps[{clamp}].slides = {slides:?} leaves it free, and \
-         would do nothing there: {remedy}"
+        "has a component along which the end slides (clamps[{clamp}].slides = {slides:?}), where it has no effect: {remedy}"
     );
     let key = format!("{prefix}shift_nm");
     Err(SceneProblem::new(key, show(shift_nm), rule))
@@ -139,7 +138,7 @@ fn check_turns(
     check_held((scene, held), prefix, filament, end)?;
     let clamp = held.clamp_at(filament, end).map(|c| &scene.clamps[c]);
     if clamp.is_some_and(|c| c.hold == Hold::Pin && c.hinge.is_none()) {
-        let rule = "this end is pinned: it turns by itself";
+        let rule = "this end is pinned and rotates freely: add a hinge to the clamp, or leave the turn out";
         return Err(SceneProblem::new(format!("{prefix}end"), show(end), rule));
     }
     Ok(())
@@ -151,7 +150,7 @@ pub(super) fn check_durations(scene: &Scene, duration_ns: f64) -> Result<(), Sce
         let key = format!("path[{i}].duration_ns");
         let Some(duration) = stage.duration_ns else {
             let rule =
-                "in Dynamics and Brownian every stage of the path takes a time: write duration_ns";
+                "Dynamics and Brownian require the duration of every stage: write duration_ns";
             return Err(SceneProblem::new(key, "none", rule));
         };
         positive(&key, duration)?;
@@ -161,7 +160,7 @@ pub(super) fn check_durations(scene: &Scene, duration_ns: f64) -> Result<(), Sce
         return Err(SceneProblem::new(
             "task.duration_ns",
             show(duration_ns),
-            format!("must be at least {whole:?}, which the stages of the path take"),
+            format!("must be at least the duration of the path, {whole:?}"),
         ));
     }
     Ok(())

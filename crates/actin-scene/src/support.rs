@@ -35,8 +35,8 @@ pub(super) fn check_swings(scene: &Scene, held: &HeldEnds) -> Result<(), ScenePr
                 return Err(SceneProblem::new(
                     format!("path[{i}].set[{k}].turn_deg"),
                     format!("{turn_deg:?}"),
-                    "in Dynamics and Brownian an end that slides turns about its axis only, and one that slides \
-                     Freely not at all: Equilibrium follows such paths",
+                    "in Dynamics and Brownian an end that slides AlongAxis can turn about its axis only, and an end \
+                     that slides Freely cannot turn: write Equilibrium, or change slides",
                 ));
             }
         }
@@ -190,8 +190,8 @@ impl Group {
                 if ends(&self.couples, factors).all(|stages| self.balances(axis, factors, stages)) {
                     return Ok(());
                 }
-                "both ends are pinned and turn about the line between them: nothing resists this couple \
-                 about it; a hinge or another hold would"
+                "both ends are pinned, and no clamp resists this couple about the line between them: \
+                 add a hinge, or write another hold"
             }
             Turning::Freely | Turning::AboutPin(_) => {
                 "no clamp holds the orientation of this filament: under couples it has no stable \
@@ -422,6 +422,6 @@ mod tests {
         // 90 deg about the axis (1, 2, 2.5) / 3.354102.
         assert_eq!(turned("(26.8328, 53.6656, 67.0820)"), "");
         let message = turned("(26.84, 53.67, 67.07)");
-        assert!(message.contains("turns about its axis only"), "{message}");
+        assert!(message.contains("turn about its axis only"), "{message}");
     }
 }

@@ -147,7 +147,10 @@ mod tests {
             "{missing}"
         );
         let alone = crate::Scene::from_ron(SCENE).unwrap_err().to_string();
-        assert!(alone.starts_with(&format!("{place}is not read")), "{alone}");
+        assert!(
+            alone.starts_with(&format!("{place}cannot be read without")),
+            "{alone}"
+        );
         // Reading points does not change positions in the text.
         let short = read("0,0,0\n0,0,10\n").unwrap().scene().unwrap_err();
         assert_eq!((short.line, short.column), (4, 23), "{short}");

@@ -173,19 +173,23 @@ fn missing(scene: &Scene, quantity: Quantity) -> Option<(&'static str, String)> 
         let length_nm = scene.filament.length_nm();
         let is_inside = (0.0..=length_nm).contains(&at_nm);
         let rule = || {
-            format!("the curvature at {at_nm:?} nm is wanted, of a filament of {length_nm:?} nm")
+            format!(
+                "the curvature at {at_nm:?} nm is requested, outside the filament of {length_nm:?} nm"
+            )
         };
         return (!is_inside).then(|| ("filament.sections", rule()));
     }
     let mut clamps = scene.clamps.iter();
     let clamp = clamps.find(|clamp| clamp.filament == 0 && clamp.end == End::End);
     let rule = match (quantity, clamp.map(|clamp| clamp.slides)) {
-        (Quantity::Tip, Some(Slides::Nowhere)) => "the tip at the end is wanted, but it is clamped",
+        (Quantity::Tip, Some(Slides::Nowhere)) => {
+            "the displacement of the end is requested, but the end is clamped"
+        }
         (Quantity::EndForce | Quantity::EndCouple, None) => {
-            "what the end bears is wanted, but it is free"
+            "the reaction at the end is requested, but the end is free"
         }
         (Quantity::EndForce, Some(Slides::AlongAxis | Slides::Freely)) => {
-            "the force on the end is wanted, along which it slides"
+            "the force on the end is requested, but the end slides in its direction"
         }
         _ => return None,
     };
@@ -253,7 +257,7 @@ fn check_monomers(m: &Monomers) -> Result<(), SceneProblem> {
         return Err(SceneProblem::new(
             "filament.monomers.seed",
             m.seed,
-            "weighted bonds are not drawn: leave the seed out, or write anchors: Independent",
+            "quadrature bonds are not sampled: leave the seed out, or write anchors: Independent",
         ));
     }
     Ok(())
@@ -267,9 +271,10 @@ pub(super) fn check_bonds(key: &str, anchors: Anchors, bonds: usize) -> Result<(
             (drawn, rule)
         }
         Anchors::Cubature => {
-            let weighted = format!("{FEWEST_POINTS} to {MOST_POINTS} weighted bonds");
-            let rule =
-                format!("an interface has {weighted}; anchors: Independent takes other numbers");
+            let weighted = format!("{FEWEST_POINTS} to {MOST_POINTS} quadrature bonds");
+            let rule = format!(
+                "an interface has {weighted}: write such a number, or anchors: Independent"
+            );
             (FEWEST_POINTS..=MOST_POINTS, rule)
         }
     };
@@ -324,7 +329,7 @@ fn check_clamp(
         return Err(SceneProblem::new(
             format!("{key}.hold"),
             show(clamp.hold),
-            "monomers end the filament here: they take Wall only, which holds the last two",
+            "this end consists of monomers: write Wall, which holds the last two",
         ));
     }
     check_pin(&key, clamp)
@@ -342,8 +347,7 @@ fn check_pin(key: &str, clamp: &Clamp) -> Result<(), SceneProblem> {
     };
     let key = format!("{key}.hinge");
     if !is_pinned {
-        let rule =
-            "only a pinned end turns against a spring: write hold: Pin, or leave the hinge out";
+        let rule = "a hinge requires a pinned end: write hold: Pin, or leave the hinge out";
         return Err(SceneProblem::new(key, "", rule));
     }
     let (bend, twist) = (hinge.bend_pn_nm_per_rad, hinge.twist_pn_nm_per_rad);
@@ -398,7 +402,7 @@ fn check_tolerance(
                     2.0 * least
                 ),
                 Some(_) => {
-                    format!("must be below what loads[{i}] puts on a nanometre ({least:e} {unit})")
+                    format!("must be below the load of loads[{i}] on 1 nm ({least:e} {unit})")
                 }
             };
             return Err(SceneProblem::new(

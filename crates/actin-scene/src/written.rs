@@ -114,7 +114,7 @@ fn listed(
         (None, Some(filaments)) => Ok(filaments),
         (None, None) if is_arranged => Ok(Vec::new()),
         (None, None) => {
-            let rule = "is missing: a scene has a filament, or several as filaments";
+            let rule = "is missing: write filament, filaments or arrangements";
             Err(SceneProblem::new("filament", "", rule))
         }
         (Some(_), Some(_)) => {
