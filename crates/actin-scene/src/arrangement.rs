@@ -266,8 +266,7 @@ fn unit(random: &mut impl Rng) -> f64 {
     random.random()
 }
 
-/// Returns the `count` points of a hexagonal lattice of spacing 1 closest to the origin, sorted by distance and
-/// azimuth.
+/// Returns the points of a unit hexagonal lattice closest to the origin, sorted by distance and azimuth.
 fn hexagonal(count: usize) -> Vec<[f64; 2]> {
     let holds = |rings: i32| 1 + 3 * i64::from(rings) * i64::from(rings + 1);
     let mut rings = 0;

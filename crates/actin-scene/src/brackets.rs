@@ -8,7 +8,6 @@ use super::parse::{MOST_DEPTH, Parsed, word};
 use super::position::line_and_column;
 use super::tree::SceneValue;
 
-/// Mistake in the brackets of a text, if any.
 pub(super) fn mistake(text: &str, file: &str, parsed: &Parsed) -> Option<SceneError> {
     let brackets = parsed.brackets;
     let error =
@@ -187,9 +186,8 @@ mod tests {
         ),
     ];
 
-    /// Removes each bracket of a scene in turn.
     #[test]
-    fn a_missing_bracket_is_blamed_where_it_is_missing() {
+    fn missing_brackets_are_located() {
         for &(from, to, place, before) in MISSING {
             let text = SCENE.replacen(from, to, 1);
             let error = found(&text).unwrap_or_else(|| panic!("{from}"));

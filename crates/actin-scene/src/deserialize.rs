@@ -16,12 +16,11 @@ pub(super) const AS_WRITTEN: &str = "$written";
 /// Enum whose keys may be written without the name of the choice.
 const UNNAMED: &str = "Drag";
 
-/// Error of deserialization.
 #[derive(Debug)]
 pub(super) struct Refusal {
     reason: Reason,
     /// Name of the structure or enum that the reason refers to.
-    of: String,
+    parent: String,
     /// Position in the text; `None` until the value is known.
     pub(super) at: Option<usize>,
     /// Indices of children that lead to the value, innermost first.
@@ -41,7 +40,7 @@ impl From<Reason> for Refusal {
     fn from(reason: Reason) -> Self {
         Self {
             reason,
-            of: String::new(),
+            parent: String::new(),
             at: None,
             steps: Vec::new(),
         }
@@ -60,7 +59,6 @@ impl Refusal {
         self.steps.iter().rev().copied().collect()
     }
 
-    /// Closest known key or choice.
     pub(super) fn meant(&self) -> Option<String> {
         match &self.reason {
             Reason::UnknownKey(found, known) | Reason::UnknownChoice(found, known) => {
@@ -95,11 +93,11 @@ impl Refusal {
     }
 
     /// Sets structure and position of an error about the key of child `index` or a missing key.
-    fn of_keys(mut self, name: &str, node: &SceneValue, index: usize) -> Self {
-        if !self.of.is_empty() || matches!(self.reason, Reason::UnknownChoice(..)) {
+    fn in_structure(mut self, name: &str, node: &SceneValue, index: usize) -> Self {
+        if !self.parent.is_empty() || matches!(self.reason, Reason::UnknownChoice(..)) {
             return self;
         }
-        name.clone_into(&mut self.of);
+        name.clone_into(&mut self.parent);
         if self.is_needless() {
             let child = &node.children()[index];
             self.at = Some(child.place.start);
@@ -112,9 +110,9 @@ impl Refusal {
     }
 
     /// Sets enum and position of an error about an unknown choice.
-    fn of_choice(mut self, kind: &str, node: &SceneValue) -> Self {
-        if self.of.is_empty() && matches!(self.reason, Reason::UnknownChoice(..)) {
-            kind.clone_into(&mut self.of);
+    fn in_choice(mut self, kind: &str, node: &SceneValue) -> Self {
+        if self.parent.is_empty() && matches!(self.reason, Reason::UnknownChoice(..)) {
+            kind.clone_into(&mut self.parent);
             self.at = Some(node.place.value.start);
         }
         self
@@ -123,12 +121,14 @@ impl Refusal {
 
 impl fmt::Display for Refusal {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let of = &self.of;
+        let parent = &self.parent;
         match &self.reason {
-            Reason::UnknownKey(found, known) => f.write_str(&unknown_key(found, known, of)),
-            Reason::UnknownChoice(found, known) => f.write_str(&unknown_choice(found, known, of)),
-            Reason::Missing(key) => write!(f, "missing key {key} in {of}"),
-            Reason::Duplicate(key) => write!(f, "key {key} is written twice in {of}"),
+            Reason::UnknownKey(found, known) => f.write_str(&unknown_key(found, known, parent)),
+            Reason::UnknownChoice(found, known) => {
+                f.write_str(&unknown_choice(found, known, parent))
+            }
+            Reason::Missing(key) => write!(f, "missing key {key} in {parent}"),
+            Reason::Duplicate(key) => write!(f, "key {key} is written twice in {parent}"),
             Reason::Message(message) => f.write_str(message),
         }
     }
@@ -162,7 +162,6 @@ impl de::Error for Refusal {
     }
 }
 
-/// Deserializes a type from a value of a text.
 pub(super) fn deserialize<T: DeserializeOwned>(
     node: &SceneValue,
     text: &str,
@@ -267,7 +266,7 @@ impl<'de> Value<'de> {
             next: 0,
         };
         let value = visitor.visit_map(&mut children);
-        value.map_err(|refusal| refusal.of_keys(name, self.node, children.next.max(1) - 1))
+        value.map_err(|refusal| refusal.in_structure(name, self.node, children.next.max(1) - 1))
     }
 
     fn list<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Refusal> {
@@ -277,7 +276,6 @@ impl<'de> Value<'de> {
         })
     }
 
-    /// Error for a value without a key in a structure.
     fn unkeyed(&self) -> Refusal {
         let place = &self.node.place;
         match &self.node.kind {
@@ -439,7 +437,7 @@ impl<'de> Deserializer<'de> for Value<'de> {
             value: self,
             default: kind,
         });
-        value.map_err(|refusal| refusal.of_choice(kind, node))
+        value.map_err(|refusal| refusal.in_choice(kind, node))
     }
 
     fn deserialize_ignored_any<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Refusal> {
@@ -451,7 +449,6 @@ impl<'de> Deserializer<'de> for Value<'de> {
     }
 }
 
-/// Iterator over the values in a bracket.
 struct Children<'de> {
     value: Value<'de>,
     next: usize,
@@ -511,10 +508,8 @@ impl<'de> MapAccess<'de> for &mut Children<'de> {
     }
 }
 
-/// Variant of an enum.
 struct Choice<'de> {
     value: Value<'de>,
-    /// Name of a group without one.
     default: &'static str,
 }
 

@@ -8,9 +8,8 @@ use serde::{Deserialize, Serialize};
 const LEAST_MONOMERS: f64 = 8.0;
 
 /// Adaptive resolution during a motion. A cell of the rod is resolved into monomers if at least one criterion
-/// requires it, and becomes a rod again if no criterion does.
-///
-/// Each criterion has two thresholds. Between them a cell keeps its model.
+/// requires it, and becomes a rod again if none does. Between the two thresholds of a criterion a cell keeps
+/// its model.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
@@ -22,8 +21,8 @@ pub struct Following {
     /// Length of a cell; at least 8 rises. It is rounded to a whole number of monomers.
     #[serde(default = "default_cell")]
     pub cell_nm: f64,
-    /// Segments of a rod cell; at least 1. Steps of `Brownian` at a temperature grow as the fourth power of the
-    /// segment length: they are 1300 times longer with one segment than with six.
+    /// Segments of a rod cell; at least 1. At a temperature the step of `Brownian` grows as the fourth power of
+    /// the segment length.
     #[serde(default = "default_segments")]
     pub segments: usize,
     /// Shortest time between two changes of the model of a cell; positive.
@@ -49,8 +48,7 @@ fn default_cell() -> f64 {
     36.0
 }
 
-/// Segments of 6 nm. With the mass lumped at the nodes, the rotational inertia of a cell is 1.4 % larger than with
-/// monomers.
+/// With segments of 6 nm, lumping the mass increases the rotational inertia of a cell by 1.4 %.
 fn default_segments() -> usize {
     6
 }

@@ -9,9 +9,9 @@ use serde::{Deserialize, Serialize};
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub enum RodLaw {
-    /// One potential of all strains: the energy of cells of monomers of the mean filament or, with sampled bonds in
-    /// `monomers`, the mean over samples. In a heat bath (`thermal`) it is the free energy of the mean filament at
-    /// 298 K. The material must be omitted.
+    /// One potential of all strains: the energy of cells of monomers of the mean filament or, with sampled
+    /// bonds, the mean over samples. With `thermal` it is the free energy of the mean filament at 298 K. The
+    /// material must be omitted.
     #[default]
     Homogenised,
     /// `Homogenised` without thermal effects, also in a heat bath.
@@ -19,7 +19,7 @@ pub enum RodLaw {
     /// `Homogenised` at 298 K, also without a heat bath. The rest length is 0.46 % shorter than as built: a rod held
     /// at both ends is under tension.
     HomogenisedAt298K,
-    /// Constant rigidities of the material: for a custom material, for analytic limits, and to reproduce the paper.
+    /// Constant rigidities of the material: for custom materials, analytic limits, and to reproduce the paper.
     Constant,
     /// The paper's twisting rigidity B3(kappa) and extension xi(kappa) with all published parameters, `p_0` included:
     /// to reproduce the paper.
@@ -27,8 +27,8 @@ pub enum RodLaw {
     /// The paper's B3(kappa) and an energy `C3 sigma_3 kappa_3` per length that couples stretch and twist: to
     /// reproduce the paper.
     CouplingEnergy,
-    /// Laws of single deformations fitted to filaments of monomers by the method of the paper: to extend the paper.
-    /// The material must be omitted.
+    /// Laws of single deformations, fitted to filaments of monomers by the method of the paper. The material
+    /// must be omitted.
     Fitted,
     /// Custom laws. Deformations without a law keep the rigidity of the material.
     Laws(Box<RodLaws>),

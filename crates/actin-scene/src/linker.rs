@@ -20,11 +20,10 @@ pub struct Linker {
     /// Distance of the site from the axis; at least 0.
     #[serde(default)]
     pub radius_nm: f64,
-    /// Azimuth of the site in the filament as built; finite. 0 is lab +x of a filament along lab +z.
+    /// Azimuth of the site in the filament as built; finite. 0 is lab +x for a filament along lab +z.
     #[serde(default)]
     pub azimuth_deg: f64,
-    /// Site at the other end; it must differ from this one. Exactly one of `to`, `anchor_nm` and `displaced_nm` is
-    /// given.
+    /// Site at the other end; it must differ from this one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub to: Option<LinkerSite>,
     /// Position of the anchor (lab frame); finite.

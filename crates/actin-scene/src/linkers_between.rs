@@ -8,7 +8,7 @@ use rand_chacha::ChaCha8Rng;
 use serde::{Deserialize, Serialize};
 use std::collections::HashMap;
 
-/// Default distance between sites (nm): half the pitch of the long-pitch helix.
+/// Half the pitch of the long-pitch helix.
 const SITE_SPACING_NM: f64 = 36.0;
 
 const MOST_SITES: f64 = 1e7;
@@ -49,7 +49,6 @@ fn site_spacing() -> f64 {
     SITE_SPACING_NM
 }
 
-/// Site of a filament with its position as built (nm).
 struct Site {
     filament: usize,
     at_nm: f64,
@@ -129,7 +128,7 @@ impl LinkersBetween {
         filaments.iter().enumerate().flat_map(of_filament).collect()
     }
 
-    /// Returns the pairs of sites of different filaments within reach, found by a search in cubic cells.
+    /// Finds pairs within reach with a grid of cubic cells.
     fn pairs(&self, sites: &[Site]) -> Vec<Pair> {
         #[expect(
             clippy::cast_possible_truncation,
@@ -156,8 +155,8 @@ impl LinkersBetween {
         pairs
     }
 
-    /// Reduces `pairs` to a random choice without common sites, sorted by site. If there are too few, returns the
-    /// number found and the number required.
+    /// Reduces `pairs` to a random subset without common sites. On failure returns the numbers found and
+    /// required.
     fn choose(
         &self,
         pairs: &mut Vec<Pair>,
@@ -235,8 +234,6 @@ mod tests {
         filament.place_at(site.at_nm)
     }
 
-    /// Linkers join different filaments within reach without force, and each site has at most one linker. The
-    /// resolved scene is equal.
     #[test]
     fn linkers_of_a_random_network_are_within_reach() {
         let scene = Scene::from_ron(NETWORK).expect("the scene is valid");
@@ -260,7 +257,7 @@ mod tests {
     }
 
     #[test]
-    fn pairs_are_those_of_a_direct_search() {
+    fn pairs_agree_with_a_direct_search() {
         let scene = Scene::from_ron(NETWORK).expect("the scene is valid");
         let filaments: Vec<Filament> = scene.filaments().cloned().collect();
         let set = LinkersBetween {
@@ -323,7 +320,6 @@ mod tests {
         }
     }
 
-    /// The filaments of a bundle form a hexagonal lattice, also along a tilted axis.
     #[test]
     fn bundles_are_hexagonal() {
         let scene = Scene::from_ron(

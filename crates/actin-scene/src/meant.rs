@@ -1,6 +1,6 @@
 //! Suggestions for unknown keys and choices.
 
-/// Unit suffixes of keys; longer suffixes precede their endings.
+/// Longer suffixes precede their endings.
 const UNIT_SUFFIXES: [&str; 10] = [
     "_mpa_s", "_ms", "_per_ns", "_per_nm", "_nm", "_nm2", "_pn", "_ns", "_deg", "_ag",
 ];
@@ -41,7 +41,6 @@ fn unit_hint(known: &[&'static str], found: &str) -> Option<String> {
     key.map(|key| format!("the unit is part of the key, write {key}"))
 }
 
-/// Known key that differs from `found` only by its unit.
 fn key_of_unit(known: &[&'static str], found: &str) -> Option<&'static str> {
     let is_meant = |key: &&&str| {
         let stem = stem(key);
@@ -63,7 +62,6 @@ fn stem(key: &str) -> &str {
 mod tests {
     use super::*;
 
-    /// The unit may be several suffixes long; a key without a unit is never suggested.
     #[test]
     fn a_mistaken_unit_is_recognised() {
         assert_eq!(

@@ -5,7 +5,6 @@ use super::{End, HeldEnds, Linker, Scene, SceneProblem, Section};
 use serde::{Deserialize, Serialize};
 use std::collections::HashSet;
 
-/// Default fraction of the duration that means exclude.
 const BURN_IN: f64 = 0.2;
 
 /// Quantity computed for every record and written to `observables.csv`.
@@ -206,7 +205,6 @@ impl Observable {
         }
     }
 
-    /// Checks observable `i`.
     fn check(self, i: usize, (scene, held): (&Scene, &HeldEnds)) -> Result<(), SceneProblem> {
         let key = format!("observe[{i}]");
         let length = match self.filament() {
@@ -219,7 +217,6 @@ impl Observable {
         self.check_own(&|name| format!("{key}.{name}"), (scene, held), length)
     }
 
-    /// Checks the keys of an observable on a filament of this length (nm).
     fn check_own(
         self,
         key: &dyn Fn(&str) -> String,
@@ -258,7 +255,6 @@ impl Observable {
     }
 }
 
-/// Checks that a linker exists.
 pub(super) fn check_linker(scene: &Scene, key: &str, linker: usize) -> Result<(), SceneProblem> {
     let rule = match scene.linkers.len() {
         count if linker < count => return Ok(()),
@@ -281,7 +277,6 @@ fn check_lag(scene: &Scene, key: &str, lag_ns: f64) -> Result<(), SceneProblem> 
     Err(SceneProblem::new(key, show(lag_ns), rule))
 }
 
-/// Checks all observables and `burn_in_ns`.
 pub(super) fn check_all(
     scene: &Scene,
     held: &HeldEnds,

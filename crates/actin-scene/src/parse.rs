@@ -23,7 +23,6 @@ pub(super) struct Brackets {
     pub(super) is_unclosed: bool,
     /// `true` if a list contains a key.
     pub(super) has_listed_key: bool,
-    /// `true` if text follows the first value.
     pub(super) has_text_after: bool,
     /// First string without a closing quotation mark.
     pub(super) unclosed_text: Option<usize>,
@@ -74,7 +73,6 @@ struct Parser<'a> {
     text: &'a str,
     at: usize,
     source: Source,
-    /// Open brackets with their positions.
     opens: Vec<(char, usize)>,
     mistakes: Vec<(usize, String)>,
     brackets: Brackets,
@@ -84,7 +82,6 @@ fn is_part(c: char) -> bool {
     c.is_alphanumeric() || c == '_'
 }
 
-/// Word at the beginning of a text.
 pub(super) fn word(text: &str) -> &str {
     &text[..text.find(|c| !is_part(c)).unwrap_or(text.len())]
 }
@@ -104,7 +101,6 @@ impl<'a> Parser<'a> {
         loop {
             let rest = self.rest();
             if rest.starts_with("#![") {
-                // RON attribute.
                 self.skip_to("]");
                 continue;
             }
@@ -125,7 +121,6 @@ impl<'a> Parser<'a> {
         }
     }
 
-    /// Moves past the next `mark`.
     fn skip_to(&mut self, mark: &str) {
         let found = self.rest().find(mark);
         self.at = found.map_or(self.text.len(), |found| self.at + found + mark.len());
@@ -275,7 +270,7 @@ impl<'a> Parser<'a> {
             Some(_) if number > 0 => {
                 let text = rest[..number].to_owned();
                 self.at += number;
-                of_number(&text)
+                number_kind(&text)
             }
             Some(c) if is_part(c) => self.named(&mut place),
             Some(c) => {
@@ -453,7 +448,6 @@ fn unescaped(c: char, rest: &mut impl Iterator<Item = (usize, char)>) -> Option<
     char::from_u32(u32::from_str_radix(&digits, 16).ok()?)
 }
 
-/// Length of the number at the beginning of a text.
 fn number(text: &str) -> usize {
     let digits = |from: usize| {
         let rest = &text[from..];
@@ -485,7 +479,7 @@ fn number(text: &str) -> usize {
     0
 }
 
-fn of_number(text: &str) -> Kind {
+fn number_kind(text: &str) -> Kind {
     let text = text.replace('_', "");
     let (sign, digits) = match text.strip_prefix('-') {
         Some(digits) => (-1, digits),
@@ -504,7 +498,6 @@ fn of_number(text: &str) -> Kind {
     }
 }
 
-/// Error for text in place of a comma.
 fn before_comma(rest: &str) -> String {
     let word: String = rest.chars().take_while(char::is_ascii_alphabetic).collect();
     if rest.starts_with("()") {

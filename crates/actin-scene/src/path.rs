@@ -7,7 +7,6 @@ use super::{Setting, Stage};
 /// The value is constant in stages that do not set the control. Memory grows with the number of settings.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Values<T> {
-    /// Ends of stages, counted from 1 in ascending order, and the values set there.
     set: Vec<(usize, T)>,
 }
 
@@ -100,11 +99,11 @@ mod tests {
     }
 
     #[test]
-    fn what_is_kept_grows_with_the_settings_alone() {
+    fn memory_grows_with_the_settings() {
         let count = 300;
         let path: Vec<Stage> = (0..count).map(|i| stage(&[(i, 1.0)])).collect();
         let factors = load_factors(&path, count);
-        let kept = |values: &Option<Values<f64>>| values.as_ref().map_or(0, |v| v.set.len());
-        assert_eq!(factors.iter().map(kept).sum::<usize>(), count);
+        let length = |values: &Option<Values<f64>>| values.as_ref().map_or(0, |v| v.set.len());
+        assert_eq!(factors.iter().map(length).sum::<usize>(), count);
     }
 }

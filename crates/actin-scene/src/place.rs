@@ -163,9 +163,7 @@ impl Scene {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct HeldEnds {
     clamps: Vec<[Option<usize>; 2]>,
-    /// Clamps that hold the orientation of the end.
     fixed: Vec<[Option<usize>; 2]>,
-    /// Clamps with a frame: at the end, or at the other side of a hinge.
     turned: Vec<[Option<usize>; 2]>,
 }
 
@@ -234,9 +232,8 @@ mod tests {
         }
     }
 
-    /// The default rotation is exactly the identity.
     #[test]
-    fn the_default_turns_nothing() {
+    fn the_default_rotation_is_the_identity() {
         assert_eq!(
             along([0.0, 0.0, 1.0], 0.0).rotation(),
             UnitQuaternion::identity()
@@ -248,7 +245,7 @@ mod tests {
     }
 
     #[test]
-    fn the_axis_and_the_azimuth_go_where_they_are_sent() {
+    fn rotations_follow_direction_and_roll() {
         for direction in [
             [3.0, 0.0, 4.0],
             [0.0, -2.0, -1e-9],
@@ -268,7 +265,6 @@ mod tests {
             assert!((filament.rotation() * Vector3::x() - y).norm() < 1e-15);
             assert!(x.cross(&y).dot(&axis) > 0.999);
         }
-        // The shortest rotation from z to x maps x to -z.
         let turned = along([1.0, 0.0, 0.0], 0.0).rotation() * Vector3::x();
         assert!((turned + Vector3::z()).norm() < 1e-15);
     }

@@ -96,7 +96,6 @@ impl SceneError {
     }
 }
 
-/// Cuts a text to `most` characters and appends its full length.
 fn cut(text: &str, most: usize) -> Cow<'_, str> {
     match text.char_indices().nth(most) {
         None => text.into(),
@@ -122,9 +121,8 @@ impl std::error::Error for SceneError {}
 mod tests {
     use super::*;
 
-    /// Lengths are counted in characters, not bytes. A remedy after an overlong key is kept.
     #[test]
-    fn what_nobody_reads_is_cut() {
+    fn overlong_messages_are_cut() {
         let message = |text: &str| SceneError::new((1, 1), text).message;
         assert_eq!(message("unknown key a: write b"), "unknown key a: write b");
         let key = "\u{e9}".repeat(1 << 20);

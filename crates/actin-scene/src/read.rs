@@ -9,7 +9,6 @@ use serde::Serialize;
 use serde::de::DeserializeOwned;
 use std::path::Path;
 
-/// Depth of structures with one line for each key.
 pub(super) const SCENE_DEPTH: usize = 6;
 
 impl RodLaws {
@@ -146,7 +145,6 @@ mod tests {
     task: Equilibrium(),
 )";
 
-    /// Columns do not count a byte-order mark, which editors do not show.
     #[test]
     fn a_byte_order_mark_is_skipped() {
         let marked = format!("\u{feff}{SCENE}");
@@ -168,7 +166,6 @@ mod tests {
         assert_eq!(of(&format!("\u{feff}{one_line}")), of(&one_line));
     }
 
-    /// Columns are counted in characters.
     #[test]
     fn text_that_is_not_utf8_has_a_place() {
         let place = |bytes: &[u8]| {
@@ -179,7 +176,6 @@ mod tests {
         assert_eq!(place(b"\xff"), (1, 1));
         assert_eq!(place(b"\xef\xbb\xbfab\xe9"), (1, 3));
         assert_eq!(place(b"Scene(\n  // \xc3\xa9t\xe9\n"), (2, 8));
-        // Incomplete character.
         assert_eq!(place(b"a\n\xc3"), (2, 1));
         let latin = Scene::text(b"// \xe9t".to_vec()).unwrap_err().to_string();
         assert!(latin.starts_with("1:4: byte 0xe9 is not UTF-8"), "{latin}");
@@ -187,7 +183,6 @@ mod tests {
         assert!(wide.message.contains("UTF-16"), "{wide}");
     }
 
-    /// An overlong key is cut, and the known keys are listed.
     #[test]
     fn a_key_of_a_megabyte_is_cut() {
         let key = "k".repeat(1 << 20);

@@ -10,7 +10,6 @@ pub(super) fn show(value: impl Debug) -> String {
     format!("{value:?}")
 }
 
-/// Checks that a number is finite.
 pub(super) fn finite(key: &str, value: f64) -> Result<(), SceneProblem> {
     if value.is_finite() {
         return Ok(());
@@ -18,7 +17,6 @@ pub(super) fn finite(key: &str, value: f64) -> Result<(), SceneProblem> {
     Err(SceneProblem::new(key, show(value), "must be finite"))
 }
 
-/// Checks that a number is finite and greater than zero.
 pub(super) fn positive(key: &str, value: f64) -> Result<(), SceneProblem> {
     if value.is_finite() && value > 0.0 {
         return Ok(());
@@ -30,7 +28,6 @@ pub(super) fn positive(key: &str, value: f64) -> Result<(), SceneProblem> {
     ))
 }
 
-/// Checks that a number is finite and not negative.
 pub(super) fn non_negative(key: &str, value: f64) -> Result<(), SceneProblem> {
     if value.is_finite() && value >= 0.0 {
         return Ok(());
@@ -42,7 +39,6 @@ pub(super) fn non_negative(key: &str, value: f64) -> Result<(), SceneProblem> {
     ))
 }
 
-/// Checks that three numbers are finite.
 pub(super) fn all_finite(key: &str, values: [f64; 3]) -> Result<(), SceneProblem> {
     if values.iter().all(|v| v.is_finite()) {
         return Ok(());
@@ -59,7 +55,6 @@ pub(super) fn direction(key: &str, values: [f64; 3]) -> Result<(), SceneProblem>
     Err(SceneProblem::new(key, show(values), "must not be zero"))
 }
 
-/// Checks that three numbers are finite and greater than zero.
 pub(super) fn each_positive(key: &str, values: [f64; 3]) -> Result<(), SceneProblem> {
     if values.iter().all(|v| v.is_finite() && *v > 0.0) {
         return Ok(());

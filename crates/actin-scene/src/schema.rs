@@ -19,7 +19,7 @@ mod tests {
         fn undescribed(value: &Value, path: &str, found: &mut Vec<String>) {
             if let Some(keys) = value["properties"].as_object() {
                 for (key, below) in keys {
-                    // The single key of an enum is the name of a variant. Its description is one level higher.
+                    // Variants are described one level higher.
                     let is_variant = key.starts_with(char::is_uppercase);
                     let described = if is_variant { value } else { below };
                     if described["description"].is_null() {

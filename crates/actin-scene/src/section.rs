@@ -100,9 +100,8 @@ impl AlteredRod {
 ///
 /// An interface belongs to the section of its lower monomer. Equal factors for both rigidities multiply every
 /// rigidity of the filament. A smaller lateral factor reduces twisting more than bending, and more at large
-/// twist. Example: factors 0.03 (lateral) and 0.23 (longitudinal) reduce bending by 5 and twisting by 5 at
-/// small twist, by 7 in over-twist and by 13 in under-twist at 0.01 rad/nm. Cofilin reduces them by about 5 and
-/// 10.
+/// twist. Factors of 0.03 (lateral) and 0.23 (longitudinal) approximate cofilin: bending is 5 times softer,
+/// twisting 5 times at small twist, 7 times in over-twist and 13 times in under-twist at 0.01 rad/nm.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, default)]
@@ -184,15 +183,15 @@ impl Section {
     }
 
     /// Returns the rod model of the section, without rigidity factors and rest curvature.
-    pub fn rod_model(&self, of_filament: &RodModel) -> RodModel {
+    pub fn rod_model(&self, filament: &RodModel) -> RodModel {
         let altered = self.altered_rod();
         let law = altered.and_then(|altered| altered.law.clone());
         let material = altered.and_then(|altered| altered.material);
         RodModel {
-            force_law: of_filament.force_law,
-            rotary_inertia: of_filament.rotary_inertia,
-            law: law.unwrap_or_else(|| of_filament.law.clone()),
-            material: material.unwrap_or(of_filament.material),
+            force_law: filament.force_law,
+            rotary_inertia: filament.rotary_inertia,
+            law: law.unwrap_or_else(|| filament.law.clone()),
+            material: material.unwrap_or(filament.material),
         }
     }
 
@@ -205,10 +204,10 @@ impl Section {
     }
 
     /// Returns the monomers of the section.
-    pub fn monomers(&self, of_filament: &Monomers) -> Monomers {
+    pub fn monomers(&self, filament: &Monomers) -> Monomers {
         match self.altered() {
-            Some(altered) => altered.applied_to(of_filament),
-            None => of_filament.clone(),
+            Some(altered) => altered.applied_to(filament),
+            None => filament.clone(),
         }
     }
 

@@ -5,7 +5,6 @@ use super::sections::check_adaptive;
 use super::validate::check_bonds;
 use super::{AlteredRod, Filament, Material, SceneProblem, Section};
 
-/// Tolerance (nm) of the boundaries of contiguous sections.
 const BOUNDARY_TOLERANCE_NM: f64 = 1e-9;
 
 pub(super) fn check(filament: &Filament, note: &mut impl FnMut(Result<(), SceneProblem>)) {

@@ -15,13 +15,12 @@ use std::ops::{Deref, DerefMut};
 #[derive(Clone, Debug, Default)]
 pub struct Sections {
     list: Vec<Section>,
-    left: Option<Left>,
+    automatic: Option<AutoSections>,
 }
 
-/// Automatic sections are equal if their parameters are equal.
 impl PartialEq for Sections {
     fn eq(&self, other: &Self) -> bool {
-        match (&self.left, &other.left) {
+        match (&self.automatic, &other.automatic) {
             (None, None) => self.list == other.list,
             (one, other) => one == other,
         }
@@ -31,7 +30,7 @@ impl PartialEq for Sections {
 /// Automatic sections.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(rename = "Sections")]
-enum Left {
+enum AutoSections {
     Adaptive(Adaptive),
     Following(Following),
 }
@@ -223,8 +222,8 @@ pub(super) fn check_adaptive(adaptive: &Adaptive) -> Result<(), SceneProblem> {
 impl Sections {
     /// Returns the targets of automatic sections, or `None`.
     pub fn adaptive(&self) -> Option<&Adaptive> {
-        match &self.left {
-            Some(Left::Adaptive(adaptive)) => Some(adaptive),
+        match &self.automatic {
+            Some(AutoSections::Adaptive(adaptive)) => Some(adaptive),
             _ => None,
         }
     }
@@ -233,15 +232,15 @@ impl Sections {
     #[must_use]
     pub fn with_following(self, following: Following) -> Self {
         Self {
-            left: Some(Left::Following(following)),
+            automatic: Some(AutoSections::Following(following)),
             ..self
         }
     }
 
     /// Returns the parameters of sections that follow a motion, or `None`.
     pub fn following(&self) -> Option<&Following> {
-        match &self.left {
-            Some(Left::Following(following)) => Some(following),
+        match &self.automatic {
+            Some(AutoSections::Following(following)) => Some(following),
             _ => None,
         }
     }
@@ -249,7 +248,10 @@ impl Sections {
 
 impl From<Vec<Section>> for Sections {
     fn from(list: Vec<Section>) -> Self {
-        Self { list, left: None }
+        Self {
+            list,
+            automatic: None,
+        }
     }
 }
 
@@ -257,7 +259,7 @@ impl From<Adaptive> for Sections {
     fn from(adaptive: Adaptive) -> Self {
         Self {
             list: vec![Section::rod(0.0, adaptive.length_nm, None)],
-            left: Some(Left::Adaptive(adaptive)),
+            automatic: Some(AutoSections::Adaptive(adaptive)),
         }
     }
 }
@@ -266,7 +268,7 @@ impl From<Following> for Sections {
     fn from(following: Following) -> Self {
         Self {
             list: vec![Section::rod(0.0, following.length_nm, None)],
-            left: Some(Left::Following(following)),
+            automatic: Some(AutoSections::Following(following)),
         }
     }
 }
@@ -296,22 +298,22 @@ impl<'a> IntoIterator for &'a Sections {
 
 impl Serialize for Sections {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        match &self.left {
+        match &self.automatic {
             None => self.list.serialize(serializer),
-            Some(left) => left.serialize(serializer),
+            Some(automatic) => automatic.serialize(serializer),
         }
     }
 }
 
 impl<'de> Deserialize<'de> for Sections {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        deserializer.deserialize_any(ListOrLeft)
+        deserializer.deserialize_any(SectionsVisitor)
     }
 }
 
-struct ListOrLeft;
+struct SectionsVisitor;
 
-impl<'de> Visitor<'de> for ListOrLeft {
+impl<'de> Visitor<'de> for SectionsVisitor {
     type Value = Sections;
 
     fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -323,8 +325,8 @@ impl<'de> Visitor<'de> for ListOrLeft {
         Ok(list.into())
     }
 
-    fn visit_enum<A: EnumAccess<'de>>(self, left: A) -> Result<Sections, A::Error> {
-        let (name, keys): (String, _) = left.variant()?;
+    fn visit_enum<A: EnumAccess<'de>>(self, automatic: A) -> Result<Sections, A::Error> {
+        let (name, keys): (String, _) = automatic.variant()?;
         match name.as_str() {
             "Adaptive" => keys.newtype_variant::<Adaptive>().map(Sections::from),
             "Following" => keys.newtype_variant::<Following>().map(Sections::from),

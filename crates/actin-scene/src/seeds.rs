@@ -31,10 +31,10 @@ impl Scene {
                 let drawing = self.filaments_mut().filter(|filament| {
                     let is_monomers = |s: &Section| matches!(s, Section::Ellipsoids { .. });
                     let sections = &filament.sections;
-                    // Automatic sections may contain monomers.
-                    let is_left = sections.adaptive().is_some() || sections.following().is_some();
+                    let is_automatic =
+                        sections.adaptive().is_some() || sections.following().is_some();
                     filament.monomers.anchors != Anchors::Cubature
-                        && (is_left || sections.iter().any(is_monomers))
+                        && (is_automatic || sections.iter().any(is_monomers))
                 });
                 drawing.map(|f| f.monomers.seed = seed).count()
             }
@@ -67,9 +67,8 @@ impl Scene {
 mod tests {
     use super::*;
 
-    /// Unused seeds are not changed, and the scene stays valid.
     #[test]
-    fn what_is_drawn_takes_the_seed() {
+    fn only_random_parts_are_seeded() {
         let text = "Scene(
             filaments: [
                 Filament(
@@ -96,7 +95,7 @@ mod tests {
     }
 
     #[test]
-    fn bonds_of_chosen_sections_take_the_seed() {
+    fn automatic_sections_are_seeded() {
         let text = "Scene(
             filament: Filament(
                 sections: Adaptive(length_nm: 160.0, want: Tip(error: 0.02)),

@@ -5,7 +5,6 @@ use super::rules::{all_finite, finite, positive, show};
 use super::support::is_along;
 use super::{End, HeldEnds, Hold, Scene, SceneProblem, Setting, Slides, Stage};
 
-/// Checks the settings of stage `i`.
 pub(super) fn check(
     scene: &Scene,
     held: &HeldEnds,

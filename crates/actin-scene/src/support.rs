@@ -70,7 +70,6 @@ pub(super) fn check_support(scene: &Scene) -> Result<(), SceneProblem> {
     let joined = joined(scene);
     let groups = groups(scene, &joined);
     let factors = path::load_factors(&scene.path, scene.loads.len());
-    // The lowest index of a group represents it.
     groups
         .iter()
         .enumerate()
@@ -81,10 +80,8 @@ pub(super) fn check_support(scene: &Scene) -> Result<(), SceneProblem> {
         })
 }
 
-/// Filaments joined by linkers.
 #[derive(Clone)]
 struct Group {
-    /// True if a linker leads to an anchor.
     is_anchored: bool,
     /// Orthonormal directions in which the clamps permit translation.
     free: Vec<Vector3>,
@@ -98,13 +95,11 @@ struct Group {
 /// Rotations that the clamps of a group permit.
 #[derive(Clone, Copy)]
 enum Turning {
-    /// All rotations.
     Freely,
-    /// All rotations about the pin of a filament.
+    /// About the pin of a filament.
     AboutPin(usize),
-    /// Rotations about the line between both pins of a filament.
+    /// About the line between both pins of a filament.
     AboutLine(Vector3),
-    /// No rotation.
     Not,
 }
 
@@ -152,7 +147,6 @@ fn groups(scene: &Scene, joined: &[usize]) -> Vec<Group> {
     groups
 }
 
-/// Factors of all loads.
 type Factors = [Option<Values<f64>>];
 
 impl Group {
@@ -201,7 +195,6 @@ impl Group {
         Err(scene.loads[first].problem(first, rule.to_owned()))
     }
 
-    /// Returns whether the couples about an axis balance after a stage.
     fn balances(&self, axis: Vector3, factors: &Factors, stages: usize) -> bool {
         let parts = self
             .couples
@@ -213,7 +206,6 @@ impl Group {
         sum.abs() <= WRITTEN * all
     }
 
-    /// Checks that the forces balance along the free directions after a stage.
     fn check_balance(
         &self,
         scene: &Scene,
@@ -224,17 +216,17 @@ impl Group {
         let factor = |i: usize| factor(factors, i, stages);
         let along = |force: &Vector3| -> Vector3 { free.iter().map(|d| d * d.dot(force)).sum() };
         let forces = loads.iter().map(|&(i, force)| force * factor(i));
-        let left_over = along(&forces.clone().sum());
+        let residual = along(&forces.clone().sum());
         let all: f64 = forces.clone().map(|force| force.norm()).sum();
-        if left_over.norm() <= ROUNDING * all {
+        if residual.norm() <= ROUNDING * all {
             return Ok(());
         }
         let drifts = |force: &Vector3| along(force).norm() > ROUNDING * force.norm();
-        let Some(blamed) = forces.clone().position(|force| drifts(&force)) else {
+        let Some(first) = forces.clone().position(|force| drifts(&force)) else {
             return Ok(());
         };
-        let (i, force) = loads[blamed];
-        let size = left_over.norm();
+        let (i, force) = loads[first];
+        let size = residual.norm();
         let mut rule = vec!["no clamp or linker resists this force".to_owned()];
         if forces.filter(drifts).count() > 1 {
             rule.push(format!(
@@ -243,7 +235,7 @@ impl Group {
         }
         let load = &scene.loads[i];
         if size <= DIGITS * all {
-            let balanced = force - left_over / factor(i);
+            let balanced = force - residual / factor(i);
             let [x, y, z] = (balanced / load.extent(scene)).into();
             rule.push(format!(" (it would be balanced as ({x:?}, {y:?}, {z:?}))"));
         }
@@ -252,14 +244,13 @@ impl Group {
     }
 }
 
-/// Ends of stages at which one of the loads changes, including the start.
+/// Ends of stages at which a load changes, and the start.
 fn ends(loads: &[(usize, Vector3)], factors: &Factors) -> impl Iterator<Item = usize> {
     let set = loads.iter().filter_map(|(i, _)| factors[*i].as_ref());
     let ends: BTreeSet<usize> = set.flat_map(Values::ends).chain([0]).collect();
     ends.into_iter()
 }
 
-/// Factor of load `i` after a stage.
 fn factor(factors: &Factors, i: usize, stages: usize) -> f64 {
     factors[i].as_ref().map_or(path::UNSET, |v| v.after(stages))
 }
@@ -291,7 +282,6 @@ fn lowest(lower: &mut [usize], mut filament: usize) -> usize {
 mod tests {
     use crate::Scene;
 
-    /// Error of a scene of three filaments, or an empty text.
     fn refusal(clamps: &str, linkers: &str, force: &str) -> String {
         let rod = "sections: [Rod(from_nm: 0.0, to_nm: 30.0)]";
         let text = format!(
@@ -310,9 +300,8 @@ mod tests {
         Scene::from_ron(&text).map_or_else(|error| error.to_string(), |_| String::new())
     }
 
-    /// Clamps and anchors support the filaments that linkers join to them.
     #[test]
-    fn support_goes_along_linkers() {
+    fn linkers_transmit_support() {
         let link = |a: usize, b: usize| {
             format!(
                 "Linker(filament: {a}, at_nm: 30.0, to: Site(filament: {b}, at_nm: 30.0), stiffness_pn_per_nm: 1.0),"
@@ -321,12 +310,12 @@ mod tests {
         let chain = [link(2, 1), link(0, 2)].concat();
         let anchor = "Linker(at_nm: 0.0, displaced_nm: (1.0, 0.0, 0.0), stiffness_pn_per_nm: 1.0)";
         let force = "(0.0, 0.0, 1.0)";
-        let is_borne = |clamps: &str, linkers: &str| refusal(clamps, linkers, force).is_empty();
-        assert!(!is_borne("", "") && !is_borne("Clamp(end: Start)", ""));
-        assert!(is_borne("Clamp(filament: 1, end: Start)", ""));
-        assert!(is_borne("Clamp(end: Start)", &chain));
-        assert!(!is_borne("", &chain) && is_borne("", &[&chain, anchor].concat()));
-        assert!(!is_borne("Clamp(end: Start)", &link(2, 1)) && !is_borne("", anchor));
+        let is_supported = |clamps: &str, linkers: &str| refusal(clamps, linkers, force).is_empty();
+        assert!(!is_supported("", "") && !is_supported("Clamp(end: Start)", ""));
+        assert!(is_supported("Clamp(filament: 1, end: Start)", ""));
+        assert!(is_supported("Clamp(end: Start)", &chain));
+        assert!(!is_supported("", &chain) && is_supported("", &[&chain, anchor].concat()));
+        assert!(!is_supported("Clamp(end: Start)", &link(2, 1)) && !is_supported("", anchor));
         let message = refusal("", "", force);
         assert!(
             message.contains("loads[0].force_pn = [0.0, 0.0, 1.0]: no clamp or linker"),
@@ -337,7 +326,7 @@ mod tests {
     /// A sliding end does not support a force along its axis, unless linkers join it to an end with another
     /// axis.
     #[test]
-    fn axes_that_differ_hold_each_other() {
+    fn sliding_ends_with_different_axes_support_all_forces() {
         let slide = |f: usize| format!("Clamp(filament: {f}, end: Start, slides: AlongAxis),");
         let join = "Linker(filament: 1, at_nm: 30.0, to: Site(filament: 2, at_nm: 30.0), stiffness_pn_per_nm: 1.0),";
         assert!(!refusal(&slide(1), "", "(0.0, 0.0, 1.0)").is_empty());
@@ -347,7 +336,6 @@ mod tests {
         assert!(refusal(&both, join, "(1.0, 1.0, 1.0)").is_empty());
     }
 
-    /// Error of a free rod with these loads and stages, or an empty text.
     fn balance(loads: &str, stages: &str) -> String {
         let text = format!(
             "Scene(
@@ -360,9 +348,8 @@ mod tests {
         Scene::from_ron(&text).map_or_else(|error| error.to_string(), |_| String::new())
     }
 
-    /// Forces must balance at the end of every stage.
     #[test]
-    fn forces_that_balance_need_no_support() {
+    fn balanced_forces_need_no_support() {
         let pair = "EndForce(end: End, force_pn: (0.3, -0.1, 2.0)),
                     EndForce(end: Start, force_pn: (-0.3, 0.1, -2.0)),";
         let stage = |a: f64, b: f64| {
@@ -384,9 +371,8 @@ mod tests {
         assert!(balance(&half, "").contains("the other forces do not balance it"));
     }
 
-    /// The message contains the balanced force with all digits.
     #[test]
-    fn digits_that_are_missing_are_told() {
+    fn missing_digits_are_suggested() {
         let forces = |third: &str| {
             format!(
                 "EndForce(end: End, force_pn: (0.333333, 0.0, 1.0)),
@@ -395,8 +381,8 @@ mod tests {
             )
         };
         let message = balance(&forces("(0.666666, 0.0, 0.0)"), "");
-        let (_, told) = message.split_once("balanced as (").unwrap();
-        let first = told.split_once(')').unwrap().0;
+        let (_, suggested) = message.split_once("balanced as (").unwrap();
+        let first = suggested.split_once(')').unwrap().0;
         let corrected = forces("(0.666666, 0.0, 0.0)").replace("0.333333, 0.0, 1.0", first);
         assert_eq!(balance(&corrected, ""), "", "{message}");
         assert!(!balance(&forces("(0.6, 0.0, 0.0)"), "").contains("balanced as"));
@@ -404,7 +390,7 @@ mod tests {
 
     /// A turn vector with six digits counts as parallel to a tilted axis; four digits do not.
     #[test]
-    fn six_digits_are_enough_for_a_turn() {
+    fn turn_vectors_need_six_digits() {
         let turned = |turn: &str| {
             let text = format!(
                 "Scene(

@@ -15,7 +15,6 @@ use std::ops::Range;
 use std::path::Path;
 use std::str::FromStr;
 
-/// Maximum number of mistakes.
 const MOST: usize = 20;
 
 /// Maximum number of bytes read to find mistakes: each mistake requires reading the whole text.
@@ -36,7 +35,6 @@ pub struct Override {
 impl FromStr for Override {
     type Err = String;
 
-    /// Parses `key=value`.
     fn from_str(text: &str) -> Result<Self, String> {
         let (key, value) = text
             .split_once('=')
@@ -52,7 +50,6 @@ impl FromStr for Override {
     }
 }
 
-/// Returns whether a text is a path of keys and indices.
 fn is_path(key: &str) -> bool {
     let is_key = |word: &str| {
         word.starts_with(|c: char| c.is_alphabetic() || c == '_')
@@ -128,7 +125,6 @@ impl SceneText {
         Self::named(text, "Scene")
     }
 
-    /// Parses the text of a structure of this name.
     pub(super) fn named(text: &str, name: &str) -> Self {
         let written = without_mark(text).to_owned();
         Self {
@@ -224,7 +220,6 @@ impl SceneText {
         all
     }
 
-    /// Maximum number of mistakes, which decreases with the length of the text.
     fn most(&self) -> usize {
         (MOST_BYTES / self.written.len().max(1)).clamp(1, MOST)
     }
@@ -263,7 +258,6 @@ impl SceneText {
         Readings { value, mistakes }
     }
 
-    /// Syntax errors with their positions.
     fn mistakes_between_values(&self) -> Vec<(usize, SceneError)> {
         let root = &self.parsed.root;
         let mistakes = self.parsed.mistakes.iter();
@@ -307,7 +301,6 @@ impl SceneText {
         SceneError::new(place, &format!("{path}{colon}{message}"))
     }
 
-    /// Converts a refusal to a scene error.
     fn refused(&self, tree: &SceneValue, refusal: &Refusal) -> SceneError {
         let indices = refusal.indices();
         let path = if refusal.is_complete() {
@@ -325,7 +318,6 @@ impl SceneText {
         }
     }
 
-    /// Returns the override that set a value.
     fn blamed(&self, tree: &SceneValue, indices: &[usize]) -> Option<String> {
         match tree.at(indices).place.source {
             Source::Override(set) => Some(self.overrides[set].to_string()),
@@ -395,7 +387,6 @@ impl SceneText {
     }
 }
 
-/// Last override that set a value or a child of it.
 fn last_override(node: &SceneValue) -> Option<usize> {
     let own = match node.place.source {
         Source::Override(set) => Some(set),
@@ -408,11 +399,9 @@ fn last_override(node: &SceneValue) -> Option<usize> {
 }
 
 impl SceneValue {
-    /// Removes the value from further readings.
     fn refuse(&mut self, refusal: &Refusal) {
         self.kind = Kind::Refused;
         if refusal.is_needless() {
-            // The key is misspelled, not missing.
             self.key = refusal.meant().or(self.key.take());
         }
     }
@@ -503,9 +492,8 @@ mod tests {
         ),
     ];
 
-    /// Overrides are equivalent to the same changes of the text.
     #[test]
-    fn overrides_say_what_the_text_would() {
+    fn overrides_are_equivalent_to_changes_of_the_text() {
         for &(text, overrides, (from, to)) in SAME {
             let expected = Scene::from_ron(&SCENE.replacen(from, to, 1)).unwrap();
             assert_eq!(with(text, overrides).unwrap(), expected, "{overrides:?}");
@@ -555,7 +543,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_override_is_refused() {
+    fn invalid_overrides_are_refused() {
         for text in [
             "", "a", "=1", "a=", "a=(", "a=1, b=2", "a..b=1", "a[x]=1", "a[0=1", "a b=1",
         ] {

@@ -11,10 +11,10 @@ use std::path::Path;
 pub(super) fn read_points(scene: &mut SceneValue, folder: &Path) -> Result<(), SceneProblem> {
     for value in scene.children_mut() {
         match value.key() {
-            Some("filament") => of_filament(value, "filament", folder)?,
+            Some("filament") => read_filament(value, "filament", folder)?,
             Some("filaments") => {
                 for (i, filament) in value.children_mut().iter_mut().enumerate() {
-                    of_filament(filament, &format!("filaments[{i}]"), folder)?;
+                    read_filament(filament, &format!("filaments[{i}]"), folder)?;
                 }
             }
             _ => {}
@@ -23,7 +23,7 @@ pub(super) fn read_points(scene: &mut SceneValue, folder: &Path) -> Result<(), S
     Ok(())
 }
 
-fn of_filament(filament: &mut SceneValue, key: &str, folder: &Path) -> Result<(), SceneProblem> {
+fn read_filament(filament: &mut SceneValue, key: &str, folder: &Path) -> Result<(), SceneProblem> {
     let mut keys = filament.children_mut().iter_mut();
     let Some(shape) = keys.find(|value| value.key() == Some("shape")) else {
         return Ok(());
@@ -70,7 +70,6 @@ fn point(line: &str) -> Option<[f64; 3]> {
     numbers.try_into().ok()
 }
 
-/// Returns whether a row contains no number.
 fn is_heading(line: &str) -> bool {
     let mut words = line.split(|c: char| c.is_whitespace() || c == ',' || c == ';');
     words.all(|word| word.parse::<f64>().is_err())
@@ -108,7 +107,6 @@ mod tests {
         text.read_points(folder.path()).map(|()| text)
     }
 
-    /// Headings, blank lines and spaces are skipped.
     #[test]
     fn points_come_from_their_file() {
         let text = read("x_nm,y_nm,z_nm\n0, 0, 0\n\n0,5.5,20\n1e0,0,41\n").unwrap();
@@ -120,15 +118,13 @@ mod tests {
         assert_eq!(crate::Scene::from_ron(&scene.to_ron()), Ok(scene));
     }
 
-    /// Errors are located at the key of the file. A text without a folder is refused.
     #[test]
     fn files_without_points_are_refused() {
-        let told = |csv| read(csv).map(|_| ()).unwrap_err().to_string();
+        let message = |csv| read(csv).map(|_| ()).unwrap_err().to_string();
         let place = "4:23: filament.shape.file = \"trace.csv\": ";
         let rule = "must be three numbers x, y, z (nm) with decimal points, separated by commas";
         for (csv, line, more) in [
             ("0,0,0\n1,2\n", 2, ""),
-            // The first row is a heading only if it contains no number.
             ("0,0,O\n0,0,41\n", 1, ""),
             ("x,y,z\n0,0\n", 2, ""),
             ("0;0;0\n0;0;41\n", 1, ", not by semicolons"),
@@ -136,7 +132,7 @@ mod tests {
             ("x y z\n0 0 0\n", 2, ", not by spaces"),
             ("0\t0\t0\n", 1, ", not by tabs"),
         ] {
-            assert_eq!(told(csv), format!("{place}line {line}: {rule}{more}"));
+            assert_eq!(message(csv), format!("{place}line {line}: {rule}{more}"));
         }
         let mut text = SceneText::new(SCENE);
         let missing = text.read_points(Path::new("/nowhere")).unwrap_err();
@@ -151,7 +147,6 @@ mod tests {
             alone.starts_with(&format!("{place}cannot be read without")),
             "{alone}"
         );
-        // Reading points does not change positions in the text.
         let short = read("0,0,0\n0,0,10\n").unwrap().scene().unwrap_err();
         assert_eq!((short.line, short.column), (4, 23), "{short}");
     }

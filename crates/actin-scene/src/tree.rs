@@ -52,7 +52,6 @@ pub(crate) enum Source {
     Memory,
     Json,
     Ron,
-    /// Override with this index.
     Override(usize),
 }
 
@@ -60,7 +59,6 @@ pub(crate) enum Source {
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Place {
     pub(crate) source: Source,
-    /// Start of the key, or of a value without one.
     pub(crate) start: usize,
     /// Range of the value, including the name before its bracket.
     pub(crate) value: Range<usize>,
@@ -68,7 +66,6 @@ pub(crate) struct Place {
     pub(crate) until: usize,
     /// `true` if unexpected text follows the value.
     pub(crate) is_mistaken: bool,
-    /// Opening bracket.
     pub(crate) open: Option<usize>,
     pub(crate) close: Option<usize>,
 }
@@ -89,7 +86,7 @@ pub(crate) fn steps(path: &str) -> Vec<Step> {
         .collect()
 }
 
-/// Positions are ignored.
+/// Compares keys and values, not positions.
 impl PartialEq for SceneValue {
     fn eq(&self, other: &Self) -> bool {
         self.key == other.key && self.kind == other.kind
@@ -293,7 +290,6 @@ impl SceneValue {
         Ok(())
     }
 
-    /// Checks that a child can be added to the value `name`.
     fn check_step(&self, step: &Step, name: &str, child: &Self) -> Result<(), String> {
         let count = self.children().len();
         // An element can be appended only to a list of a text.
@@ -309,7 +305,6 @@ impl SceneValue {
         })
     }
 
-    /// Assigns a position to a value and its children.
     pub(crate) fn move_to(&mut self, place: &Place) {
         self.place = place.clone();
         for child in self.children_mut() {
@@ -318,7 +313,6 @@ impl SceneValue {
     }
 }
 
-/// Wraps a value in new structures and lists.
 fn nested(steps: &[Step], value: SceneValue) -> Result<SceneValue, String> {
     let Some((first, rest)) = steps.split_first() else {
         return Ok(value);
@@ -335,7 +329,6 @@ fn nested(steps: &[Step], value: SceneValue) -> Result<SceneValue, String> {
 }
 
 impl Kind {
-    /// Converts a dictionary with a single capitalised key to a choice.
     pub(crate) fn choice(self) -> Self {
         match self {
             Self::Group(None, mut only)

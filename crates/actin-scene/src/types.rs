@@ -240,7 +240,7 @@ pub enum Task {
     Dynamics(Dynamics),
     /// Overdamped motion in a fluid.
     Brownian(Brownian),
-    /// Equilibrium by Newton's method, along the path if there is one. Rods require `EnergyGradient`.
+    /// Equilibrium by Newton's method. Rods require `EnergyGradient`.
     Equilibrium(Equilibrium),
 }
 

@@ -97,7 +97,6 @@ pub(super) fn check_filament(one: &Filament, key: &str) -> Result<(), SceneProbl
     first
 }
 
-/// Checks rules that relate several parts of a scene.
 fn check_whole(scene: &Scene, held: &HeldEnds) -> Result<(), SceneProblem> {
     check_adaptive(scene)?;
     for following in scene.filaments().filter_map(|f| f.sections.following()) {
@@ -139,7 +138,6 @@ fn check_whole(scene: &Scene, held: &HeldEnds) -> Result<(), SceneProblem> {
     }
 }
 
-/// Checks the target quantities of automatic sections.
 fn check_adaptive(scene: &Scene) -> Result<(), SceneProblem> {
     for (i, filament) in scene.filaments().enumerate() {
         let wants = filament

@@ -28,7 +28,7 @@ fn refused(section: SceneValue) -> (String, String) {
 
 /// All scenes of the repository are unchanged by conversion to values and back.
 #[test]
-fn all_scenes_go_there_and_back() {
+fn scenes_are_unchanged_by_conversion() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenarios");
     let mut folders = vec![folder];
     let mut number = 0;
@@ -84,7 +84,7 @@ fn mistakes_name_their_keys() {
 
 /// Vectors have a fixed number of components, and choices with keys are dictionaries.
 #[test]
-fn forms_are_those_of_the_text() {
+fn forms_agree_with_the_text() {
     let rod = || {
         let all = keys(&[("from_nm", Whole(0).into()), ("to_nm", Whole(40).into())]);
         keys(&[("Rod", all)])
@@ -120,7 +120,7 @@ const JSON: &str = r#"{
 
 /// A text that begins with a curly bracket is JSON, and errors have lines.
 #[test]
-fn json_says_what_ron_does() {
+fn json_agrees_with_ron() {
     let ron = "Scene(
         filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 40.0)]),
         clamps: [Clamp(end: Start)],
