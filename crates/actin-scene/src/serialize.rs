@@ -14,7 +14,7 @@ use std::fmt;
 /// On bytes, maps and tuple structures, which scenes do not contain.
 pub(super) fn to_value<T: Serialize + ?Sized>(value: &T, has_names: bool) -> SceneValue {
     let value = value.serialize(Writer { has_names });
-    value.expect("scenes hold numbers, names, lists and structures only")
+    value.expect("scenes contain only numbers, names, lists and structures")
 }
 
 /// Type that a scene cannot contain.
@@ -38,7 +38,7 @@ impl serde::ser::Error for Unwritable {
 type Written = Result<SceneValue, Unwritable>;
 
 fn unwritable<T>(what: &str) -> Result<T, Unwritable> {
-    Err(Unwritable::custom(format!("no scene holds {what}")))
+    Err(Unwritable::custom(format!("scenes cannot contain {what}")))
 }
 
 #[derive(Clone, Copy)]

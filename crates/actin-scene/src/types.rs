@@ -315,7 +315,7 @@ pub struct Dynamics {
     pub allow_unstable_step: bool,
     /// Numerical damping as `(translational_per_ns: 1.0, rotational_per_ns: 1.0)`, or a fluid as
     /// `Water(viscosity_mpa_s: 0.89)`; by default no drag. Steps in a fluid follow Gronbech-Jensen and Farago
-    /// (2013), who permit any drag.
+    /// (2013), which permits any drag.
     #[serde(default)]
     pub drag: DragModel,
     /// Thermal noise. Requires a fluid, or positive damping rates. Must be omitted with `stop`.
