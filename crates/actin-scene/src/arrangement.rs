@@ -8,7 +8,6 @@ use rand_chacha::ChaCha8Rng;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
 
-/// Largest number of filaments of one arrangement.
 const MOST_FILAMENTS: usize = 100_000;
 
 /// Placement of many filaments. The arranged filaments follow the listed ones, in the order of the arrangements.
@@ -263,13 +262,11 @@ impl Orientation {
     }
 }
 
-/// Returns a uniform random number in [0, 1).
 fn unit(random: &mut impl Rng) -> f64 {
     random.random()
 }
 
-/// Returns the `count` points of a hexagonal lattice of spacing 1 closest to the origin, sorted by distance and
-/// azimuth.
+/// Returns the points of a unit hexagonal lattice closest to the origin, sorted by distance and azimuth.
 fn hexagonal(count: usize) -> Vec<[f64; 2]> {
     let holds = |rings: i32| 1 + 3 * i64::from(rings) * i64::from(rings + 1);
     let mut rings = 0;

@@ -1,14 +1,13 @@
 //! Location of missing brackets.
 //!
-//! Every bracket after a missing one closes another than was meant, so the text stops making sense later than the
-//! mistake. Better signs are a key in a list, an element without a key among keys, and indentation.
+//! After a missing bracket, the parser fails later than at the mistake. More reliable signs are a key in a
+//! list, an element without a key among keys, and indentation.
 
 use super::SceneError;
 use super::parse::{MOST_DEPTH, Parsed, word};
 use super::position::line_and_column;
 use super::tree::SceneValue;
 
-/// The mistake in the brackets of a text, if there is one.
 pub(super) fn mistake(text: &str, file: &str, parsed: &Parsed) -> Option<SceneError> {
     let brackets = parsed.brackets;
     let error =
@@ -49,7 +48,7 @@ struct Signs<'a> {
 }
 
 impl Signs<'_> {
-    /// The last bracket that seems to lack its closing one, and the place before which that is missing.
+    /// Last bracket that seems unclosed, and the position before which its closing bracket is missing.
     fn suspect(&self, node: &SceneValue) -> Option<(usize, usize)> {
         let mut inner = node.children().iter().rev();
         let within = inner.find_map(|child| self.suspect(child));
@@ -135,7 +134,7 @@ mod tests {
 )
 ";
 
-    /// What is written in place of what, where that is blamed, and what the message has.
+    /// Replaced text, replacement, expected position and part of the message.
     const MISSING: &[(&str, &str, (usize, usize), &str)] = &[
         (
             "to_nm: 80.0)",
@@ -187,10 +186,8 @@ mod tests {
         ),
     ];
 
-    /// Each bracket of a scene left out in turn: blamed where it is missing, but for the last, of which the
-    /// end of the text tells.
     #[test]
-    fn a_missing_bracket_is_blamed_where_it_is_missing() {
+    fn missing_brackets_are_located() {
         for &(from, to, place, before) in MISSING {
             let text = SCENE.replacen(from, to, 1);
             let error = found(&text).unwrap_or_else(|| panic!("{from}"));

@@ -7,14 +7,12 @@ use super::{
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 
-/// Smallest ratio of length to diameter for which the friction formula of a cylinder holds.
 const LEAST_RATIO: f64 = 3.0;
 
 const NS_PER_MS: f64 = 1e6;
 
-/// Overdamped motion in a fluid, thermal or athermal, with steps that are implicit in the stiffness. Inertia is
-/// neglected: recorded velocities are zero. Rods require `EnergyGradient`. Loads that turn with the filament are
-/// refused.
+/// Overdamped motion in a fluid, with steps that are implicit in the stiffness. Inertia is neglected: recorded
+/// velocities are zero. Rods require `EnergyGradient`. Loads that rotate with the filament are refused.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
@@ -35,15 +33,16 @@ pub struct Brownian {
     /// Model of the interfaces between monomers.
     #[serde(default)]
     pub interfaces: Interfaces,
-    /// Largest time step; positive. Steps are shortened to fit a whole number into the duration and into the interval
-    /// of records. Default for rods at a temperature: the bending relaxation time of a segment, 180 ns for 40 nm.
-    /// Faster modes are resampled in each step, and means are accurate to 1 %. Stages, loads, rates, shear or records
-    /// can require shorter steps. Monomers with `QuasiHarmonic` interfaces use the step of segments of a fifth of
-    /// their filament's length, at most 40 nm. Default for other monomers at a temperature and with `repulsion`: 50
-    /// times the fastest relaxation time. All strains then have their thermal energy to 1 % on segments of 20 nm or
-    /// more. Default at temperature 0: a twentieth of the time between records, at most a hundredth of the time in
-    /// which a stage or load changes. Displacements are then accurate to 0.1 %, and steps that cannot be solved are
-    /// halved.
+    /// Largest time step; positive. Steps are shortened to fit a whole number into the duration and into the
+    /// interval between records.
+    ///
+    /// Default for rods at a temperature: the bending relaxation time of a segment, 180 ns for 40 nm. Means are
+    /// accurate to 1 %. Stages, loads, rates, shear or records can require shorter steps. Default for monomers
+    /// with `QuasiHarmonic` interfaces: the step of segments of a fifth of the filament's length, at most 40
+    /// nm. Default for other monomers at a temperature and with `repulsion`: 50 times the fastest relaxation
+    /// time. Strains then have their thermal energy to 1 % on segments of 20 nm or more. Default at temperature
+    /// 0: a twentieth of the time between records, at most a hundredth of the time in which a stage or load
+    /// changes. Displacements are accurate to 0.1 %, and steps that cannot be solved are halved.
     #[serde(default)]
     pub time_step_ns: Option<f64>,
     /// Time between recorded states; positive. By default about a hundredth of the duration.
@@ -51,26 +50,26 @@ pub struct Brownian {
     pub record_every_ns: Option<f64>,
 }
 
-/// Fluid whose drag follows from its viscosity. The rates of `Dynamics` are numerical damping instead.
+/// Fluid with physical drag.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub enum Fluid {
-    /// A viscous fluid at rest.
+    /// A viscous fluid.
     Water(Water),
 }
 
-/// A viscous fluid at rest, felt locally, along, across and about each piece of filament: a cylinder of the filament's
-/// length shares its drag out evenly (Tirado, Lopez Martinez and Garcia de la Torre 1984).
+/// A viscous fluid. Its drag is anisotropic and local: the drag of a cylinder of the filament's length,
+/// distributed uniformly (Tirado, Lopez Martinez and Garcia de la Torre 1984).
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, default)]
 pub struct Water {
-    /// Viscosity; positive. By default that of water at 25 degrees C.
+    /// Viscosity; positive. The default is the viscosity of water at 25 degrees C.
     pub viscosity_mpa_s: f64,
     /// Radius of the cylinder; positive, at most a sixth of the length of each filament.
     pub radius_nm: f64,
-    /// Whether part of the drag across acts at the ends, so that straight filaments turn end over end as fast as they
-    /// should.
+    /// True if part of the transverse drag acts at the ends, so that straight filaments have the rotational
+    /// drag of the cylinder.
     pub at_ends: bool,
 }
 
@@ -79,16 +78,16 @@ pub struct Water {
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub enum Interfaces {
-    /// Bonds. Their fastest relaxation time is a tenth of a picosecond: a microsecond takes ten million steps.
+    /// Bonds. Their fastest relaxation time is 0.1 ps: a microsecond takes ten million steps.
     #[default]
     Bonds,
     /// Quadratic energy with the means and covariances of the thermal motion of neighbours with bonds, which is
     /// simulated first. Requires a temperature. Time steps are ten thousand times longer than with `Bonds`. The
-    /// stiffness is that at this temperature without loads: it does not change with tension, twist or bending.
+    /// stiffness does not change with tension, twist or bending.
     QuasiHarmonic {
-        /// Duration of the simulation of the bonds; positive, at most 20,000. The default of 400 ns takes seconds, or
-        /// about a minute for each micrometre of monomers with sampled bonds. It is the same for every seed of the
-        /// task and adds nothing to their scatter.
+        /// Duration of the simulation of the bonds; positive, at most 20,000. The default of 400 ns takes
+        /// seconds, or about a minute for each micrometre of monomers with sampled bonds. It does not depend on
+        /// the seed of the task.
         #[serde(default = "sampled_ns")]
         sampled_ns: f64,
     },
@@ -105,7 +104,6 @@ impl Interfaces {
     }
 }
 
-/// Largest duration (ns) of the simulation of the bonds: an hour for each micrometre of monomers with sampled bonds.
 const MOST_SAMPLED_NS: f64 = 2e4;
 
 fn sampled_ns() -> f64 {
@@ -225,7 +223,7 @@ impl Fluid {
     }
 }
 
-/// Checks the rest of the scene: filaments must be slender and have a potential; loads must not follow the filament.
+/// Checks that filaments are slender and have a potential, and that loads do not follow the filament.
 pub(super) fn check_whole(scene: &Scene, brownian: &Brownian) -> Result<(), SceneProblem> {
     for (i, one) in scene.filaments().enumerate() {
         rules::check_potential(one).map_err(|p| p.with_filament(&scene.filament_key(i)))?;
@@ -233,8 +231,8 @@ pub(super) fn check_whole(scene: &Scene, brownian: &Brownian) -> Result<(), Scen
     brownian.drag.check_filaments(scene)?;
     let follows = scene.loads.iter().position(super::Load::follows);
     follows.map_or(Ok(()), |i| {
-        let rule = "a load that turns with the filament is not supported by the implicit steps of Brownian: \
-                    Dynamics takes it";
+        let rule =
+            "loads that rotate with the filament are not supported in Brownian: write Dynamics";
         Err(SceneProblem::new(format!("loads[{i}].follows"), true, rule))
     })
 }

@@ -1,15 +1,12 @@
-//! Reference curve of a filament: pieces of constant curvature with a frame at every arc length.
-//!
-//! The curve starts at the origin along lab +z. `place.rs` moves it to the position of the filament.
+//! Reference curve of a filament, of pieces of constant curvature. It starts at the origin along lab +z.
 
 use super::{AlteredRod, Filament, Shape};
 use actin_mechanics::{UnitQuaternion, Vector3, rotation};
 use std::f64::consts::TAU;
 
-/// Pieces of a spline between two consecutive points.
 const PIECES: u32 = 64;
 
-/// Curve with frames whose third axes are its tangents.
+/// Curve with a frame at every arc length. The third axis is the tangent.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Curve {
     pieces: Vec<Piece>,
@@ -17,7 +14,6 @@ pub struct Curve {
     length: Option<f64>,
 }
 
-/// Piece of constant curvature with the position and frame of its start.
 #[derive(Clone, Debug, PartialEq)]
 struct Piece {
     from: f64,
@@ -100,7 +96,7 @@ impl Curve {
         Self::of_pieces(pieces)
     }
 
-    /// Natural cubic spline through points with frames of least rotation.
+    /// Natural cubic spline with rotation-minimising frames.
     fn through(points: &[[f64; 3]]) -> Self {
         let spline = Spline::through(points);
         let mut pieces: Vec<Piece> = Vec::new();
@@ -115,7 +111,6 @@ impl Curve {
                     .last()
                     .map_or_else(UnitQuaternion::identity, |p| p.frame);
                 let frame = turned_to(frame, before.1);
-                // Simpson's rule.
                 let speeds = before.1.norm() + 4.0 * middle.1.norm() + after.1.norm();
                 let length = h * speeds / 6.0;
                 let next = turned_to(frame, after.1);
@@ -169,8 +164,7 @@ fn helix(radius: f64, pitch: f64, azimuth_deg: f64) -> Piece {
     let squared = radius * radius + rise * rise;
     let torsion = rise / squared;
     let azimuth = rotation::exp(Vector3::z() * azimuth_deg.to_radians());
-    // The helix axis lies towards x before the rotation to the azimuth. The tangent is tilted about x, with the sign
-    // of the handedness.
+    // The axis lies towards x before rotation to the azimuth. The tangent is tilted about x.
     let slope = radius.atan2(rise.abs());
     let sense = if rise < 0.0 { -1.0 } else { 1.0 };
     let tilt = rotation::exp(Vector3::x() * (sense * slope));
@@ -204,7 +198,7 @@ pub fn swept(theta: Vector3, v: Vector3) -> Vector3 {
         + axis.cross(&v) * ((1.0 - cos) / angle)
 }
 
-/// Natural cubic spline with chord lengths as parameter.
+/// Natural cubic spline, parametrised by chord length.
 struct Spline {
     points: Vec<Vector3>,
     chords: Vec<f64>,
@@ -268,7 +262,7 @@ mod tests {
         Curve::of(&filament, &filament.boundaries())
     }
 
-    /// Asserts that tangents are the third axes and the derivatives of positions, and that frames have no twist.
+    /// Asserts that tangents are third axes and derivatives of positions, and that frames are untwisted.
     fn assert_is_untwisted(curve: &Curve, tolerance: f64) {
         let h = 1e-4;
         for i in 1..20 {
@@ -297,7 +291,7 @@ mod tests {
     }
 
     #[test]
-    fn a_helix_goes_round_its_axis() {
+    fn a_helix_has_a_constant_radius() {
         for pitch in [40.0, -40.0] {
             let helix = curve(Shape::Helix {
                 radius_nm: 8.0,
@@ -321,7 +315,6 @@ mod tests {
         }
     }
 
-    /// The error of a spline through points of a circle decreases with their distance.
     #[test]
     fn a_spline_goes_through_its_points() {
         let points = |n: u32| -> Vec<[f64; 3]> {
@@ -345,7 +338,7 @@ mod tests {
     }
 
     #[test]
-    fn pieces_at_rest_follow_one_another() {
+    fn pieces_at_rest_are_continuous() {
         let rod = |from, to, altered| Section::Rod {
             from_nm: from,
             to_nm: to,
@@ -373,7 +366,7 @@ mod tests {
     }
 
     #[test]
-    fn sweeping_is_integrating() {
+    fn swept_is_the_mean_of_rotated_vectors() {
         let (theta, v) = (Vector3::new(0.3, -1.2, 0.7), Vector3::new(0.2, 1.0, -0.4));
         let n = 1000;
         let middle = |i: i32| (f64::from(i) + 0.5) / f64::from(n);

@@ -1,4 +1,4 @@
-//! Deserialization of types from the tree of values, with places of errors.
+//! Deserialization of types from the tree of values, with positions of errors.
 
 use super::meant::{meant, unknown_choice, unknown_key};
 use super::tree::{Kind, SceneValue, Source};
@@ -13,18 +13,17 @@ use std::fmt;
 /// Name of a newtype that receives the source text of a value.
 pub(super) const AS_WRITTEN: &str = "$written";
 
-/// The choice whose keys may stand without its name.
+/// Enum whose keys may be written without the name of the choice.
 const UNNAMED: &str = "Drag";
 
-/// Refusal of a value.
 #[derive(Debug)]
 pub(super) struct Refusal {
     reason: Reason,
-    /// The structure or choice that the reason is about.
-    of: String,
-    /// Place in the text; `None` until the value is known.
+    /// Name of the structure or enum that the reason refers to.
+    parent: String,
+    /// Position in the text; `None` until the value is known.
     pub(super) at: Option<usize>,
-    /// Indices of children that lead to the value, from the innermost outwards.
+    /// Indices of children that lead to the value, innermost first.
     steps: Vec<usize>,
 }
 
@@ -41,7 +40,7 @@ impl From<Reason> for Refusal {
     fn from(reason: Reason) -> Self {
         Self {
             reason,
-            of: String::new(),
+            parent: String::new(),
             at: None,
             steps: Vec::new(),
         }
@@ -55,12 +54,11 @@ impl Refusal {
         Self { at, ..unplaced }
     }
 
-    /// Indices of children that lead to the value.
+    /// Indices of children that lead to the value, outermost first.
     pub(super) fn indices(&self) -> Vec<usize> {
         self.steps.iter().rev().copied().collect()
     }
 
-    /// The key or choice that was probably meant.
     pub(super) fn meant(&self) -> Option<String> {
         match &self.reason {
             Reason::UnknownKey(found, known) | Reason::UnknownChoice(found, known) => {
@@ -70,7 +68,6 @@ impl Refusal {
         }
     }
 
-    /// The key that is missing.
     pub(super) fn missing(&self) -> Option<&'static str> {
         match self.reason {
             Reason::Missing(key) => Some(key),
@@ -88,19 +85,19 @@ impl Refusal {
         !matches!(self.reason, Reason::Message(_))
     }
 
-    /// The same seen from the value that holds `node` as its child `step`.
+    /// Extends the path of an error by the parent `node`, whose child `step` contains it.
     fn under(mut self, step: usize, node: &SceneValue) -> Self {
         self.steps.push(step);
         self.at.get_or_insert(node.place.value.start);
         self
     }
 
-    /// Sets structure and place of a refusal of the key of child `index`, or of a missing key.
-    fn of_keys(mut self, name: &str, node: &SceneValue, index: usize) -> Self {
-        if !self.of.is_empty() || matches!(self.reason, Reason::UnknownChoice(..)) {
+    /// Sets structure and position of an error about the key of child `index` or a missing key.
+    fn in_structure(mut self, name: &str, node: &SceneValue, index: usize) -> Self {
+        if !self.parent.is_empty() || matches!(self.reason, Reason::UnknownChoice(..)) {
             return self;
         }
-        name.clone_into(&mut self.of);
+        name.clone_into(&mut self.parent);
         if self.is_needless() {
             let child = &node.children()[index];
             self.at = Some(child.place.start);
@@ -112,10 +109,10 @@ impl Refusal {
         self
     }
 
-    /// Sets kind and place of a refusal of an unknown choice.
-    fn of_choice(mut self, kind: &str, node: &SceneValue) -> Self {
-        if self.of.is_empty() && matches!(self.reason, Reason::UnknownChoice(..)) {
-            kind.clone_into(&mut self.of);
+    /// Sets enum and position of an error about an unknown choice.
+    fn in_choice(mut self, kind: &str, node: &SceneValue) -> Self {
+        if self.parent.is_empty() && matches!(self.reason, Reason::UnknownChoice(..)) {
+            kind.clone_into(&mut self.parent);
             self.at = Some(node.place.value.start);
         }
         self
@@ -124,12 +121,14 @@ impl Refusal {
 
 impl fmt::Display for Refusal {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let of = &self.of;
+        let parent = &self.parent;
         match &self.reason {
-            Reason::UnknownKey(found, known) => f.write_str(&unknown_key(found, known, of)),
-            Reason::UnknownChoice(found, known) => f.write_str(&unknown_choice(found, known, of)),
-            Reason::Missing(key) => write!(f, "missing key {key} in {of}"),
-            Reason::Duplicate(key) => write!(f, "key {key} is written twice in {of}"),
+            Reason::UnknownKey(found, known) => f.write_str(&unknown_key(found, known, parent)),
+            Reason::UnknownChoice(found, known) => {
+                f.write_str(&unknown_choice(found, known, parent))
+            }
+            Reason::Missing(key) => write!(f, "missing key {key} in {parent}"),
+            Reason::Duplicate(key) => write!(f, "key {key} is written twice in {parent}"),
             Reason::Message(message) => f.write_str(message),
         }
     }
@@ -163,7 +162,6 @@ impl de::Error for Refusal {
     }
 }
 
-/// Reads a type from a value of a text.
 pub(super) fn deserialize<T: DeserializeOwned>(
     node: &SceneValue,
     text: &str,
@@ -171,7 +169,6 @@ pub(super) fn deserialize<T: DeserializeOwned>(
     T::deserialize(Value::new(node, text))
 }
 
-/// A value that is deserialised, with its text.
 #[derive(Clone, Copy)]
 struct Value<'de> {
     node: &'de SceneValue,
@@ -194,7 +191,6 @@ impl<'de> Value<'de> {
         Self::new(&self.node.children()[index], self.text)
     }
 
-    /// Source text of the value.
     fn written(&self) -> Cow<'de, str> {
         match self.node.place.source {
             Source::Ron | Source::Json => self.text[self.node.place.value.clone()].into(),
@@ -206,7 +202,7 @@ impl<'de> Value<'de> {
         Refusal::new(self.node.place.value.start, message)
     }
 
-    /// A value of another kind than is expected.
+    /// Error for a value of another kind than expected.
     fn expected(&self, what: &str, remedy: &str) -> Refusal {
         if self.node.is_dictionary() {
             return self.refused(format!("{what} is expected, not {}", self.node));
@@ -245,7 +241,7 @@ impl<'de> Value<'de> {
         }
     }
 
-    /// A value in place of one in round brackets, named if `name` is not empty.
+    /// Error for a value that is not in round brackets after `name`, which may be empty.
     fn unbracketed(&self, name: &str) -> Refusal {
         let node = self.node;
         match &node.kind {
@@ -253,9 +249,7 @@ impl<'de> Value<'de> {
             _ if node.is_dictionary() => self.refused(format!("{name} is a dictionary of keys")),
             Kind::Name(found) if name.is_empty() || found == name => Refusal::new(
                 node.place.value.end,
-                format!(
-                    "{found} is written with round brackets, even if nothing is in them: {found}()"
-                ),
+                format!("{found} requires round brackets: write {found}()"),
             ),
             Kind::Name(found) => self.refused(format!("{name} is expected, not {found}")),
             Kind::Bool(found) if !name.is_empty() => {
@@ -266,14 +260,13 @@ impl<'de> Value<'de> {
         }
     }
 
-    /// Reads the keys of a structure or choice of this name.
     fn keys<V: Visitor<'de>>(self, name: &str, visitor: V) -> Result<V::Value, Refusal> {
         let mut children = Children {
             value: self,
             next: 0,
         };
         let value = visitor.visit_map(&mut children);
-        value.map_err(|refusal| refusal.of_keys(name, self.node, children.next.max(1) - 1))
+        value.map_err(|refusal| refusal.in_structure(name, self.node, children.next.max(1) - 1))
     }
 
     fn list<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Refusal> {
@@ -283,7 +276,6 @@ impl<'de> Value<'de> {
         })
     }
 
-    /// Error for a value without a key in a structure.
     fn unkeyed(&self) -> Refusal {
         let place = &self.node.place;
         match &self.node.kind {
@@ -445,7 +437,7 @@ impl<'de> Deserializer<'de> for Value<'de> {
             value: self,
             default: kind,
         });
-        value.map_err(|refusal| refusal.of_choice(kind, node))
+        value.map_err(|refusal| refusal.in_choice(kind, node))
     }
 
     fn deserialize_ignored_any<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Refusal> {
@@ -457,14 +449,13 @@ impl<'de> Deserializer<'de> for Value<'de> {
     }
 }
 
-/// The values in a bracket, one after the other.
 struct Children<'de> {
     value: Value<'de>,
     next: usize,
 }
 
 impl<'de> Children<'de> {
-    /// The next value that has not been refused.
+    /// Returns the next value that has not been refused.
     fn next(&mut self) -> Option<Value<'de>> {
         let all = self.value.node.children();
         while matches!(all.get(self.next)?.kind, Kind::Refused) {
@@ -517,10 +508,8 @@ impl<'de> MapAccess<'de> for &mut Children<'de> {
     }
 }
 
-/// A choice by its name.
 struct Choice<'de> {
     value: Value<'de>,
-    /// The name of a group that has none.
     default: &'static str,
 }
 
@@ -532,7 +521,6 @@ impl<'de> Choice<'de> {
         }
     }
 
-    /// The keys of the choice.
     fn inner(&self) -> Result<Value<'de>, Refusal> {
         let (value, name) = (self.value, self.name());
         match value.node.kind {

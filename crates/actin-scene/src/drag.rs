@@ -65,7 +65,6 @@ impl DragModel {
     }
 }
 
-/// Checks the drag and the integrator of a motion.
 pub(super) fn check(dynamics: &Dynamics) -> Result<(), SceneProblem> {
     let Some(fluid) = dynamics.drag.fluid() else {
         let rates = dynamics.drag.rates();
@@ -143,8 +142,8 @@ mod tests {
     }
 
     #[test]
-    fn mistakes_are_told() {
-        for (drag, told) in [
+    fn mistakes_are_refused() {
+        for (drag, expected) in [
             ("Oil(viscosity_mpa_s: 1.0)", "unknown Drag Oil"),
             ("Water(viscosity: 1.0)", "write viscosity_mpa_s"),
             ("Water(viscosity_mpa_s: -1.0)", "task.drag.viscosity_mpa_s"),
@@ -167,7 +166,7 @@ mod tests {
         ] {
             let error = read(drag).unwrap_err();
             println!("{drag}: {error}");
-            assert!(error.contains(told), "{drag}: {error}");
+            assert!(error.contains(expected), "{drag}: {error}");
             assert!(
                 error.starts_with("5:") || error.starts_with("6:"),
                 "{drag}: {error}"

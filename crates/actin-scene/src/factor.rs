@@ -124,7 +124,6 @@ impl Factor {
         }
     }
 
-    /// Checks the numbers; keys begin with `key`.
     pub(super) fn check(&self, key: &str) -> Result<(), SceneProblem> {
         let key = |name: &str| format!("{key}.{name}");
         match self {
@@ -180,13 +179,12 @@ fn check_table(
         Some(i) => refused(
             &format!("time_ns[{}]", i + 1),
             show(times[i + 1]),
-            "must be greater than the time before: times are in ascending order",
+            "must be greater than the previous time",
         ),
         None => Ok(()),
     }
 }
 
-/// Linear interpolation at `x` between points in ascending order; constant outside.
 fn between(places: &[f64], values: &[f64], x: f64) -> f64 {
     let above = places.partition_point(|place| *place <= x);
     if above == 0 || above == places.len() {

@@ -5,7 +5,6 @@ use super::{SceneProblem, rules};
 use actin_mechanics::Vector3;
 use serde::{Deserialize, Serialize};
 
-/// Conversion from 1/s to 1/ns.
 const PER_S: f64 = 1e-9;
 
 /// Largest rotation (rad) of the fluid in one step.
@@ -94,7 +93,6 @@ impl Flow {
     }
 }
 
-/// Normalises a vector without overflow or underflow.
 fn unit(direction: [f64; 3]) -> Vector3 {
     let direction = Vector3::from(direction);
     (direction / direction.amax()).normalize()

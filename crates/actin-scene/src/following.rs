@@ -1,4 +1,4 @@
-//! Sections that follow a motion: cells resolved into monomers where needed.
+//! Adaptive resolution during a motion: cells resolved into monomers where needed.
 
 use super::rules::{finite, positive, show};
 use super::{Hold, Scene, SceneProblem, Task};
@@ -7,10 +7,9 @@ use serde::{Deserialize, Serialize};
 /// Smallest number of monomers in a cell, below which its curvature is not well defined.
 const LEAST_MONOMERS: f64 = 8.0;
 
-/// Sections that follow a motion. Cells of a rod are resolved into monomers where at least one criterion requires it, and become
-/// a rod again where none does.
-///
-/// Each criterion has two thresholds. Between them a cell keeps its model.
+/// Adaptive resolution during a motion. A cell of the rod is resolved into monomers if at least one criterion
+/// requires it, and becomes a rod again if none does. Between the two thresholds of a criterion a cell keeps
+/// its model.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
@@ -22,8 +21,8 @@ pub struct Following {
     /// Length of a cell; at least 8 rises. It is rounded to a whole number of monomers.
     #[serde(default = "default_cell")]
     pub cell_nm: f64,
-    /// Segments of a rod cell; at least 1. Steps of `Brownian` at a temperature grow as the fourth power of the
-    /// segment length: they are 1300 times longer with one segment than with six.
+    /// Segments of a rod cell; at least 1. At a temperature the step of `Brownian` grows as the fourth power of
+    /// the segment length.
     #[serde(default = "default_segments")]
     pub segments: usize,
     /// Shortest time between two changes of the model of a cell; positive.
@@ -49,8 +48,7 @@ fn default_cell() -> f64 {
     36.0
 }
 
-/// Segments of 6 nm. With the mass lumped at the nodes, the rotational inertia of a cell is 1.4 % larger than with
-/// monomers.
+/// With segments of 6 nm, lumping the mass increases the rotational inertia of a cell by 1.4 %.
 fn default_segments() -> usize {
     6
 }
@@ -124,7 +122,6 @@ pub enum Where {
     },
 }
 
-/// Checks the `Following` sections of a scene.
 pub(super) fn check_following(scene: &Scene, following: &Following) -> Result<(), SceneProblem> {
     let key = |name: &str| format!("filament.sections.{name}");
     positive(&key("length_nm"), following.length_nm)?;

@@ -4,15 +4,14 @@ use super::rules::{positive, show};
 use super::{Dynamics, Linker, Scene, SceneProblem, Task};
 use serde::{Deserialize, Serialize};
 
-/// Largest number of sites of a stepping linker on a filament.
 const MOST_PLACES: f64 = 1e5;
 
-/// Random breaking, forming and stepping of a linker: a dynamic cross-link or a motor. For `Dynamics` and `Brownian`.
+/// Random breaking, forming and stepping of a linker: a dynamic cross-link or a motor. For `Dynamics` and
+/// `Brownian`.
 ///
-/// At the end of each time step `h` an event of rate `k` occurs with probability `1 - exp(-k h)`, at most one per
-/// linker. Rates are evaluated at the ends of steps. The relative error of event times is `k h/2`, so zero-force
-/// rates times the step may be at most 0.1. In the rates below, `f` is the tension of the linker, or 0 if it is
-/// shorter than its rest length.
+/// At the end of each time step `h` an event of rate `k` occurs with probability `1 - exp(-k h)`, at most one
+/// per linker. Zero-force rates times the step may be at most 0.1: the relative error of event times is `k
+/// h/2`. Below, `f` is the tension of the linker, or 0 in compression.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
@@ -61,10 +60,10 @@ pub struct Catch {
 
 /// Forming within reach of the other end; of several sites the one with the least strain is chosen.
 ///
-/// The rate within reach is constant, independent of the energy `U` of the formed linker. Detailed balance requires
-/// the ratio `exp(-U/kT)` of the rates of forming and breaking, which a constant rate and the rate of Bell do not
-/// satisfy. With `breaks` in a heat bath the steady state is therefore not thermal equilibrium, and events exchange
-/// energy with the filament (`events_pn_nm`).
+/// The rate is constant within reach, independent of the energy `U` of the linker. Detailed balance requires
+/// the ratio `exp(-U/kT)` of forming to breaking rates, which `breaks` does not satisfy. The steady state in a
+/// heat bath is therefore not thermal equilibrium, and events exchange energy with the filament
+/// (`events_pn_nm`).
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
@@ -110,7 +109,6 @@ impl Kinetics {
             .collect()
     }
 
-    /// Checks the rates of a linker with a valid site; keys begin with `key`.
     fn check(&self, key: &str, length: f64) -> Result<(), SceneProblem> {
         for (name, rate) in self.rates() {
             positive(&format!("{key}.{name}"), rate)?;
@@ -133,7 +131,8 @@ impl Kinetics {
             return Err(SceneProblem::new(key, "", rule));
         }
         if !self.bound && self.forms.is_none() {
-            let rule = "a linker that does not hold at the start and never forms: write forms";
+            let rule =
+                "the linker is unbound at the start and never forms: write forms, or bound: true";
             return Err(SceneProblem::new(format!("{key}.bound"), false, rule));
         }
         Ok(())
@@ -156,8 +155,8 @@ impl Stepping {
         ))
     }
 
-    /// Returns the arc lengths (nm) of the sites that a linker can reach from `from_nm` on a filament of a length
-    /// (nm).
+    /// Returns the arc lengths (nm) of all sites of a linker that steps from `from_nm`, on a filament of a
+    /// length (nm).
     pub fn places_nm(&self, from_nm: f64, length: f64) -> Vec<f64> {
         let at = |k: u32| from_nm + f64::from(k) * self.step_nm;
         let places = (0..).map(at);
@@ -168,7 +167,7 @@ impl Stepping {
     }
 }
 
-/// Checks the rates of linker `i`, whose other numbers are valid.
+/// Checks the rates of linker `i`. Its other numbers must be valid.
 pub(super) fn check(scene: &Scene, i: usize, linker: &Linker) -> Result<(), SceneProblem> {
     let Some(kinetics) = &linker.kinetics else {
         return Ok(());

@@ -1,4 +1,4 @@
-//! Constitutive law of the rod.
+//! Constitutive laws of rods.
 
 use actin_cosserat::{CubicShear, SidedTwist, Stiffening, StretchLaw, TanhTwist, TwistStretch};
 use serde::{Deserialize, Serialize};
@@ -9,9 +9,9 @@ use serde::{Deserialize, Serialize};
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub enum RodLaw {
-    /// One potential of all strains: the energy of cells of monomers of the mean filament or, with sampled bonds in
-    /// `monomers`, the mean over samples. In a heat bath (`thermal`) it is the free energy of the mean filament at
-    /// 298 K. The material must be omitted.
+    /// One potential of all strains: the energy of cells of monomers of the mean filament or, with sampled
+    /// bonds, the mean over samples. With `thermal` it is the free energy of the mean filament at 298 K. The
+    /// material must be omitted.
     #[default]
     Homogenised,
     /// `Homogenised` without thermal effects, also in a heat bath.
@@ -19,7 +19,7 @@ pub enum RodLaw {
     /// `Homogenised` at 298 K, also without a heat bath. The rest length is 0.46 % shorter than as built: a rod held
     /// at both ends is under tension.
     HomogenisedAt298K,
-    /// Constant rigidities of the material: for a custom material, for analytic limits, and to reproduce the paper.
+    /// Constant rigidities of the material: for custom materials, analytic limits, and to reproduce the paper.
     Constant,
     /// The paper's twisting rigidity B3(kappa) and extension xi(kappa) with all published parameters, `p_0` included:
     /// to reproduce the paper.
@@ -27,15 +27,15 @@ pub enum RodLaw {
     /// The paper's B3(kappa) and an energy `C3 sigma_3 kappa_3` per length that couples stretch and twist: to
     /// reproduce the paper.
     CouplingEnergy,
-    /// Laws of single deformations fitted to filaments of monomers by the method of the paper: to extend the paper.
-    /// The material must be omitted.
+    /// Laws of single deformations, fitted to filaments of monomers by the method of the paper. The material
+    /// must be omitted.
     Fitted,
     /// Custom laws. Deformations without a law keep the rigidity of the material.
     Laws(Box<RodLaws>),
 }
 
 impl RodLaw {
-    /// Returns whether the law is one potential of all strains, with or without thermal effects.
+    /// Returns whether the law is one potential of all strains.
     pub fn is_homogenised(&self) -> bool {
         matches!(
             self,
@@ -43,7 +43,7 @@ impl RodLaw {
         )
     }
 
-    /// Returns whether the law is one of the paper's, with constant bending and shearing rigidities.
+    /// Returns whether the law is one of the paper's, with constant bending and shear rigidities.
     pub fn is_published(&self) -> bool {
         matches!(
             self,
@@ -84,7 +84,7 @@ pub struct RodLaws {
     pub stretch: Option<StretchLaw>,
     /// Law of shear.
     pub shear: Option<ShearLaw>,
-    /// Law of natural length against twist.
+    /// Law of rest length against twist.
     pub twist_stretch: Option<TwistStretch>,
 }
 
@@ -93,7 +93,7 @@ pub struct RodLaws {
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub enum BendLaw {
-    /// Rigidity that rises with bending, twist and shear.
+    /// Rigidity that increases with bending, twist and shear.
     Stiffening(Stiffening),
 }
 
@@ -104,7 +104,7 @@ pub enum BendLaw {
 pub enum TwistLaw {
     /// Three tanh steps, as published.
     Tanh(TanhTwist),
-    /// Saturating, with its own rise to either side.
+    /// Saturating rigidity, with separate parameters for under- and over-twist.
     Sided(SidedTwist),
 }
 

@@ -20,11 +20,10 @@ pub struct Linker {
     /// Distance of the site from the axis; at least 0.
     #[serde(default)]
     pub radius_nm: f64,
-    /// Azimuth of the site in the filament as built; finite. 0 is lab +x of a filament along lab +z.
+    /// Azimuth of the site in the filament as built; finite. 0 is lab +x for a filament along lab +z.
     #[serde(default)]
     pub azimuth_deg: f64,
-    /// Site at the other end; it must differ from this one. Exactly one of `to`, `anchor_nm` and `displaced_nm` is
-    /// given.
+    /// Site at the other end; it must differ from this one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub to: Option<LinkerSite>,
     /// Position of the anchor (lab frame); finite.
@@ -100,7 +99,7 @@ impl LinkerSite {
     }
 }
 
-/// Checks linker `i` of a scene with valid sections.
+/// Checks linker `i`. The sections of the scene must be valid.
 pub(super) fn check(scene: &Scene, i: usize, linker: &Linker) -> Result<(), SceneProblem> {
     let key = |name: &str| format!("linkers[{i}].{name}");
     check_site(scene, &format!("linkers[{i}]"), &linker.site())?;
@@ -110,7 +109,7 @@ pub(super) fn check(scene: &Scene, i: usize, linker: &Linker) -> Result<(), Scen
     if let Some(other) = &linker.to {
         check_site(scene, &key("to"), other)?;
         if other.is_at(&linker.site()) {
-            let rule = "is the site at which the linker starts: must be another place";
+            let rule = "is the site of the first end: write another site";
             return Err(SceneProblem::new(key("to"), "", rule));
         }
     }
@@ -123,7 +122,6 @@ pub(super) fn check(scene: &Scene, i: usize, linker: &Linker) -> Result<(), Scen
     }
 }
 
-/// Checks that exactly one of `to`, `anchor_nm` and `displaced_nm` is given.
 fn check_one_end(i: usize, linker: &Linker) -> Result<(), SceneProblem> {
     let first = linker.end_key();
     let rule = || match first {
@@ -150,7 +148,7 @@ fn check_one_end(i: usize, linker: &Linker) -> Result<(), SceneProblem> {
     Ok(())
 }
 
-/// Checks a site; its keys begin with `key`.
+/// Checks a site. Its keys begin with `key`.
 fn check_site(scene: &Scene, key: &str, site: &LinkerSite) -> Result<(), SceneProblem> {
     let filament = scene.named_filament(&format!("{key}.filament"), site.filament)?;
     let length = filament.length_nm();

@@ -8,10 +8,9 @@ use rand_chacha::ChaCha8Rng;
 use serde::{Deserialize, Serialize};
 use std::collections::HashMap;
 
-/// Default distance between sites (nm): half the pitch of the long-pitch helix.
+/// Half the pitch of the long-pitch helix.
 const SITE_SPACING_NM: f64 = 36.0;
 
-/// Largest number of sites of all filaments.
 const MOST_SITES: f64 = 1e7;
 
 /// Linkers between random pairs of sites of different filaments. Sites lie on the axes at equal distances; each site
@@ -50,14 +49,12 @@ fn site_spacing() -> f64 {
     SITE_SPACING_NM
 }
 
-/// Site of a filament with its position as built (nm).
 struct Site {
     filament: usize,
     at_nm: f64,
     place: Vector3,
 }
 
-/// Two sites and their distance (nm).
 type Pair = (usize, usize, f64);
 
 impl LinkersBetween {
@@ -131,7 +128,7 @@ impl LinkersBetween {
         filaments.iter().enumerate().flat_map(of_filament).collect()
     }
 
-    /// Returns the pairs of sites of different filaments within reach, found by a search in cubic cells.
+    /// Finds pairs within reach with a grid of cubic cells.
     fn pairs(&self, sites: &[Site]) -> Vec<Pair> {
         #[expect(
             clippy::cast_possible_truncation,
@@ -158,8 +155,8 @@ impl LinkersBetween {
         pairs
     }
 
-    /// Reduces `pairs` to a random choice without common sites, sorted by site. If there are too few, returns the
-    /// number found and the number required.
+    /// Reduces `pairs` to a random subset without common sites. On failure returns the numbers found and
+    /// required.
     fn choose(
         &self,
         pairs: &mut Vec<Pair>,
@@ -237,8 +234,6 @@ mod tests {
         filament.place_at(site.at_nm)
     }
 
-    /// Linkers join different filaments within reach without force, and each site has one linker. The resolved scene
-    /// is equal.
     #[test]
     fn linkers_of_a_random_network_are_within_reach() {
         let scene = Scene::from_ron(NETWORK).expect("the scene is valid");
@@ -252,7 +247,6 @@ mod tests {
             assert_ne!(linker.filament, to.filament);
             let distance = (site_of(&scene, linker.site()) - site_of(&scene, to)).norm();
             assert!((5.0..=100.0).contains(&distance));
-            // Positions are of the order of 1000 nm.
             assert!((distance - linker.rest_length_nm).abs() < 1e-9);
             for site in [linker.site(), to] {
                 assert!(sites.insert((site.filament, site.at_nm.to_bits())));
@@ -263,7 +257,7 @@ mod tests {
     }
 
     #[test]
-    fn pairs_are_those_of_a_direct_search() {
+    fn pairs_agree_with_a_direct_search() {
         let scene = Scene::from_ron(NETWORK).expect("the scene is valid");
         let filaments: Vec<Filament> = scene.filaments().cloned().collect();
         let set = LinkersBetween {
@@ -326,7 +320,6 @@ mod tests {
         }
     }
 
-    /// The filaments of a bundle form a hexagonal lattice, also along a tilted axis.
     #[test]
     fn bundles_are_hexagonal() {
         let scene = Scene::from_ron(

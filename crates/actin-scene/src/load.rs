@@ -4,7 +4,7 @@ use super::{End, Factor, Scene};
 use actin_mechanics::Vector3;
 use serde::{Deserialize, Serialize};
 
-/// Load on a filament. Its factor in time (`factor`) is multiplied by the factor that the path sets, 1 by default.
+/// Load on a filament. The path multiplies `factor` by its own load factor.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
@@ -50,8 +50,8 @@ pub struct Force {
     pub at_nm: Option<f64>,
     /// Force in the lab frame; finite. In `Equilibrium` the forces along unconstrained directions must balance.
     pub force_pn: [f64; 3],
-    /// True if the force rotates with its segment or monomer, starting from the given direction in the filament as
-    /// built. This force has no potential: `Equilibrium` refuses it.
+    /// True if the force rotates with its segment or monomer, from the given direction as built. It has no
+    /// potential: `Equilibrium` refuses it.
     #[serde(default)]
     pub follows: bool,
     /// Factor in time.
@@ -76,12 +76,12 @@ pub struct Couple {
     /// the nearest midpoints, or by the last segment and the cross-section at the end.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub at_nm: Option<f64>,
-    /// Couple in the lab frame; finite. Its work is its magnitude times the twist about its axis: it has a potential.
-    /// The couple is constant while the cross-section rotates about this axis only. If the cross-section tilts by an
-    /// angle, the couple tilts by half of it, and its component along the axis is constant.
+    /// Couple in the lab frame; finite. It has a potential: its magnitude times the twist about its axis. It is
+    /// constant while the cross-section rotates about this axis. If the cross-section tilts by an angle, the
+    /// couple tilts by half of it, with a constant component along the axis.
     pub couple_pn_nm: [f64; 3],
-    /// True if the couple rotates with its segment or monomer, starting from the given axis in the filament as built.
-    /// This couple has no potential: `Equilibrium` refuses it.
+    /// True if the couple rotates with its segment or monomer, from the given axis as built. It has no
+    /// potential: `Equilibrium` refuses it.
     #[serde(default)]
     pub follows: bool,
     /// Factor in time.
@@ -97,17 +97,15 @@ pub struct ForcePerLength {
     /// Index of the filament.
     #[serde(default)]
     pub filament: usize,
-    /// Arc length of the start of the interval; at least 0, by default 0.
+    /// Arc length of the start; at least 0.
     #[serde(default)]
     pub from_nm: f64,
-    /// Arc length of the end of the interval; greater than `from_nm`, at most the length of the filament. By default
-    /// the end of the filament.
+    /// Arc length of the end; greater than `from_nm`. By default the length of the filament.
     #[serde(default)]
     pub to_nm: Option<f64>,
     /// Force per length in the lab frame; finite.
     pub force_pn_per_nm: [f64; 3],
-    /// True if the force rotates with its segments or monomers. This force has no potential: `Equilibrium` refuses
-    /// it.
+    /// True if the force rotates with its segments or monomers. `Equilibrium` refuses it.
     #[serde(default)]
     pub follows: bool,
     /// Factor in time.
@@ -123,17 +121,15 @@ pub struct CouplePerLength {
     /// Index of the filament.
     #[serde(default)]
     pub filament: usize,
-    /// Arc length of the start of the interval; at least 0, by default 0.
+    /// Arc length of the start; at least 0.
     #[serde(default)]
     pub from_nm: f64,
-    /// Arc length of the end of the interval; greater than `from_nm`, at most the length of the filament. By default
-    /// the end of the filament.
+    /// Arc length of the end; greater than `from_nm`. By default the length of the filament.
     #[serde(default)]
     pub to_nm: Option<f64>,
     /// Couple per length in the lab frame; finite. It acts on each segment or monomer as described for `Couple`.
     pub couple_pn_nm_per_nm: [f64; 3],
-    /// True if the couple rotates with its segments or monomers. This couple has no potential: `Equilibrium`
-    /// refuses it.
+    /// True if the couple rotates with its segments or monomers. `Equilibrium` refuses it.
     #[serde(default)]
     pub follows: bool,
     /// Factor in time.
@@ -256,7 +252,7 @@ impl Load {
                 let filament = scene.filament_at(load.filament);
                 let density = filament.map_or(0.0, |f| f.monomers.mass_ag / f.monomers.rise_nm);
                 let sections = filament.into_iter().flat_map(|f| &f.sections);
-                // Additional length equivalent to the additional mass of altered monomers.
+                // Length equivalent to the additional mass of altered monomers.
                 let excess = sections.filter_map(|section| {
                     let (from, to) = section.span_nm();
                     Some((section.altered()?.mass_factor - 1.0) * (to - from))

@@ -6,7 +6,6 @@ use super::{
 };
 
 impl Load {
-    /// Checks load `i` of a scene.
     pub(super) fn check(
         &self,
         i: usize,
@@ -22,7 +21,6 @@ impl Load {
         self.check_end(&key, (scene, held))
     }
 
-    /// Checks that one end or one arc length on the filament is given.
     fn check_place(&self, key: &str, scene: &Scene) -> Result<(), SceneProblem> {
         let (Self::Force(Force { end, at_nm, .. }) | Self::Couple(Couple { end, at_nm, .. })) =
             self
@@ -32,7 +30,7 @@ impl Load {
         check_exactly_one(
             key,
             [("end", end.map(show)), ("at_nm", at_nm.map(show))],
-            "says where it acts",
+            "position",
         )?;
         let filament = scene.named_filament(&format!("{key}.filament"), self.filament())?;
         let length = filament.length_nm();
@@ -114,13 +112,13 @@ impl Load {
 pub(super) fn check_statics(scene: &Scene) -> Result<(), SceneProblem> {
     for (i, load) in scene.loads.iter().enumerate() {
         if load.follows() {
-            let rule = "a load that turns with the filament has no potential, which Equilibrium needs to find \
-                        minima: damped Dynamics takes it";
+            let rule = "a load that rotates with the filament has no potential, which Equilibrium requires: \
+                        write Dynamics with drag";
             return Err(SceneProblem::new(format!("loads[{i}].follows"), true, rule));
         }
         if !load.factor().is_constant() {
-            let rule = "Equilibrium is time-independent: leave the factor out, and let stages of the path set \
-                        it (LoadFactor)";
+            let rule = "Equilibrium is time-independent: leave the factor out, and write LoadFactor in \
+                        stages of the path";
             return Err(SceneProblem::new(format!("loads[{i}].factor"), "", rule));
         }
     }

@@ -1,23 +1,18 @@
-//! Permitted magnitudes of the numbers of a scene.
-//!
-//! Within them products of a few numbers neither overflow nor underflow. Numbers that are not finite have separate
-//! rules.
+//! Permitted magnitudes of the numbers of a scene. Within them, products of a few numbers neither overflow nor
+//! underflow.
 
 use super::tree::{Kind, SceneValue};
 use super::{Scene, SceneProblem};
 
-/// Largest magnitude. Divided by the smallest mass, such a stiffness is a squared frequency of 1e120.
 const LARGEST: f64 = 1e60;
 
-/// Smallest magnitude of a nonzero number.
 const SMALLEST: f64 = 1e-60;
 
-/// Refuses numbers outside the permitted magnitudes.
+/// Refuses finite numbers outside the permitted magnitudes.
 pub(super) fn check(scene: &Scene) -> Result<(), SceneProblem> {
     walk(&scene.to_value(), "")
 }
 
-/// Checks the numbers of a value whose path is `path`.
 fn walk(value: &SceneValue, path: &str) -> Result<(), SceneProblem> {
     if let Kind::Number(number) = value.kind
         && number.is_finite()

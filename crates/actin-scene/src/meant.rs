@@ -1,21 +1,18 @@
 //! Suggestions for unknown keys and choices.
 
-/// Unit suffixes of keys; longer suffixes precede their endings.
+/// Longer suffixes precede their endings.
 const UNIT_SUFFIXES: [&str; 10] = [
     "_mpa_s", "_ms", "_per_ns", "_per_nm", "_nm", "_nm2", "_pn", "_ns", "_deg", "_ag",
 ];
 
-/// Maximum length of a word for comparison with known keys.
 const LONGEST_KEY: usize = 100;
 
-/// Message for an unknown key of a structure.
 pub(super) fn unknown_key(found: &str, known: &[&'static str], structure: &str) -> String {
     let hint = unit_hint(known, found);
     let hint = hint.unwrap_or_else(|| format!("known are {}", known.join(", ")));
     format!("unknown key {found} in {structure}: {hint}")
 }
 
-/// Message for an unknown choice.
 pub(super) fn unknown_choice(found: &str, known: &[&'static str], kind: &str) -> String {
     format!("unknown {kind} {found}: known are {}", known.join(", "))
 }
@@ -28,7 +25,7 @@ pub(super) fn meant(found: &str, known: &[&'static str]) -> Option<String> {
     if let Some(key) = key_of_unit(known, found) {
         return Some(key.to_owned());
     }
-    // One slip for every three letters.
+    // One edit for every three letters.
     let most = (found.chars().count() / 3).max(1);
     let near = known.iter().map(|&key| {
         let distance = strsim::damerau_levenshtein(&key.to_lowercase(), &found.to_lowercase());
@@ -44,7 +41,6 @@ fn unit_hint(known: &[&'static str], found: &str) -> Option<String> {
     key.map(|key| format!("the unit is part of the key, write {key}"))
 }
 
-/// Known key that differs from `found` only by its unit.
 fn key_of_unit(known: &[&'static str], found: &str) -> Option<&'static str> {
     let is_meant = |key: &&&str| {
         let stem = stem(key);
@@ -55,7 +51,6 @@ fn key_of_unit(known: &[&'static str], found: &str) -> Option<&'static str> {
     meant.max_by_key(|key| key.len()).copied()
 }
 
-/// A key without its unit.
 fn stem(key: &str) -> &str {
     let shorter = UNIT_SUFFIXES
         .iter()
@@ -67,7 +62,6 @@ fn stem(key: &str) -> &str {
 mod tests {
     use super::*;
 
-    /// The unit may be several suffixes long; a key without a unit is never suggested.
     #[test]
     fn a_mistaken_unit_is_recognised() {
         assert_eq!(

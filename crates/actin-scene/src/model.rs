@@ -70,7 +70,7 @@ impl Anchors {
     }
 }
 
-/// Marks a number of bonds that the scene omits; larger than any valid number.
+/// Omitted number of bonds.
 const BY_ANCHORS: usize = usize::MAX;
 
 fn by_anchors() -> usize {
@@ -208,7 +208,6 @@ impl Monomers {
         }
     }
 
-    /// Replaces omitted numbers of bonds by their defaults.
     pub(super) fn resolve(&mut self) {
         let usual = self.anchors.usual_bonds();
         for bonds in [&mut self.lateral_bonds, &mut self.longitudinal_bonds] {
@@ -322,7 +321,7 @@ mod tests {
     }
 
     #[test]
-    fn numbers_of_bonds_go_with_how_they_are_chosen() {
+    fn default_numbers_of_bonds_depend_on_anchors() {
         let bonds = |text| {
             let monomers = monomers(text);
             (monomers.lateral_bonds, monomers.longitudinal_bonds)

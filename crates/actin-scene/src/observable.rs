@@ -1,51 +1,50 @@
-//! What a scene observes as records are taken, what it writes of them, and the rules of both.
+//! Observables and output files of a scene, and their validation.
 
 use super::rules::{non_negative, positive, show};
 use super::{End, HeldEnds, Linker, Scene, SceneProblem, Section};
 use serde::{Deserialize, Serialize};
 use std::collections::HashSet;
 
-/// Share of a motion that means leave out by default.
 const BURN_IN: f64 = 0.2;
 
-/// Something that is computed of every record and written to `observables.csv`.
+/// Quantity computed for every record and written to `observables.csv`.
 ///
-/// Names of its columns begin with what it is and the index of the filament (of the linker), and end with
-/// their unit: `tip[0]_x_nm`. Components are in the lab frame unless it says otherwise.
+/// Names of columns begin with the quantity and the index of the filament or linker, and end with the unit:
+/// `tip[0]_x_nm`. Components are in the lab frame unless stated otherwise.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub enum Observable {
-    /// Place of an end: `tip[0]_x_nm`, of the other end `start[0]_x_nm`. That of monomers is the mean of the
+    /// Position of an end: `tip[0]_x_nm`, for the other end `start[0]_x_nm`. For monomers it is the mean of the
     /// outermost two.
     Tip {
         /// Index of the filament.
         #[serde(default)]
         filament: usize,
-        /// Which end.
+        /// End of the filament.
         #[serde(default = "last")]
         end: End,
     },
-    /// Force and torque of a clamp on the filament, the torque about the clamped point:
-    /// `reaction[0]_start_force_x_pn`, `reaction[0]_start_torque_x_pn_nm`. Along directions in which the end slides the
-    /// force is zero: what loads the end there is its own inertia and drag.
+    /// Reaction force and torque of a clamp on the filament: `reaction[0]_start_force_x_pn`,
+    /// `reaction[0]_start_torque_x_pn_nm`. The torque is about the clamped point. Forces along free directions
+    /// are zero.
     EndReaction {
         /// Index of the filament.
         #[serde(default)]
         filament: usize,
-        /// Which end. It must be clamped.
+        /// End of the filament; it must be clamped.
         end: End,
     },
-    /// What a linker does: its force on the filament at the site, `linker[0]_force_x_pn`, its tension,
-    /// `linker[0]_tension_pn`, negative where it pushes, and its length, `linker[0]_length_nm`.
+    /// Force of a linker on the filament at its site, `linker[0]_force_x_pn`, tension, `linker[0]_tension_pn`
+    /// (negative in compression), and length, `linker[0]_length_nm`.
     Linker {
         /// Index of the linker in `linkers`, from 0.
         linker: usize,
     },
-    /// Curvature at an arc length, about the axes of the cross-section as built and in size:
-    /// `curvature[0]_at_80nm_x_rad_per_nm`, `curvature[0]_at_80nm_rad_per_nm`. As in `profile.csv`, straight
-    /// lines between its places. In a heat bath such a mean of two values fluctuates less than either, on a rod
-    /// midway with half of the variance: for fluctuations ask at a place of `profile.csv`.
+    /// Curvature at an arc length, as components along the axes of the cross-section as built and as magnitude:
+    /// `curvature[0]_at_80nm_x_rad_per_nm`, `curvature[0]_at_80nm_rad_per_nm`. Values are interpolated linearly
+    /// between the positions of `profile.csv`. Interpolation reduces the variance in a heat bath, by up to a
+    /// half midway between two positions of a rod. For fluctuations, use a position of `profile.csv`.
     Curvature {
         /// Index of the filament.
         #[serde(default)]
@@ -53,9 +52,8 @@ pub enum Observable {
         /// Arc length; from 0 to the length of the filament.
         at_nm: f64,
     },
-    /// Twist beyond that of the helix at an arc length, positive for over-twist:
-    /// `twist[0]_at_80nm_rad_per_nm`. As in `profile.csv`, straight lines between its places, with the
-    /// variance of a mean midway between two, as under `Curvature`.
+    /// Twist relative to the helix at an arc length, positive for over-twist: `twist[0]_at_80nm_rad_per_nm`.
+    /// Values are interpolated as for `Curvature`.
     Twist {
         /// Index of the filament.
         #[serde(default)]
@@ -63,9 +61,9 @@ pub enum Observable {
         /// Arc length; from 0 to the length of the filament.
         at_nm: f64,
     },
-    /// Strain of the centre line at an arc length, along the axes of the cross-section as built: shear
-    /// `strain[0]_at_80nm_x`, `strain[0]_at_80nm_y`, stretch `strain[0]_at_80nm_z`. Straight lines between
-    /// the middles of segments, with the variance of a mean midway between two, as under `Curvature`.
+    /// Strain of the centre line at an arc length along the axes of the cross-section as built: shear
+    /// `strain[0]_at_80nm_x`, `strain[0]_at_80nm_y`, stretch `strain[0]_at_80nm_z`. Values are interpolated
+    /// between midpoints of segments, as for `Curvature`.
     Strain {
         /// Index of the filament.
         #[serde(default)]
@@ -73,24 +71,23 @@ pub enum Observable {
         /// Arc length; from 0 to the length of the filament.
         at_nm: f64,
     },
-    /// Vector from the start to the end, and its length: `end_to_end[0]_x_nm`, `end_to_end[0]_nm`.
+    /// Vector from the start to the end and its length: `end_to_end[0]_x_nm`, `end_to_end[0]_nm`.
     EndToEnd {
         /// Index of the filament.
         #[serde(default)]
         filament: usize,
     },
-    /// The centre line as a whole: `contour[0]_length_nm`, `contour[0]_gyration_radius_nm`,
-    /// `contour[0]_largest_distance_nm` and `contour[0]_twist_turns`. The distance is that from the axis as built; of a
-    /// filament with a `shape` it is that from the straight line through `at_nm` along `direction`, to which the
-    /// curve is a tangent at its start, and not from the curve.
+    /// Properties of the centre line: `contour[0]_length_nm`, `contour[0]_gyration_radius_nm`,
+    /// `contour[0]_largest_distance_nm` and `contour[0]_twist_turns`. The distance is measured from the axis as
+    /// built. With a `shape` it is measured from the straight line through `at_nm` along `direction`.
     Contour {
         /// Index of the filament.
         #[serde(default)]
         filament: usize,
     },
-    /// How far, how evenly and how flat the filament has buckled, from points at equal lengths along its centre line:
-    /// `buckling[0]_50_points_contour_nm`, `_mean_distance_nm` from the line through the ends, `_peak_asymmetry`,
-    /// `_non_coplanarity`, `_bend`, `_normals_rad_per_nm`, `_supertwist_deg`. Defined at
+    /// Shape of a buckled filament, from points at equal distances along its centre line:
+    /// `buckling[0]_50_points_contour_nm`, `_mean_distance_nm` (from the line through the ends),
+    /// `_peak_asymmetry`, `_non_coplanarity`, `_bend`, `_normals_rad_per_nm`, `_supertwist_deg`. Defined at
     /// `actin_sim::shape::Buckle`.
     Buckling {
         /// Index of the filament.
@@ -100,52 +97,58 @@ pub enum Observable {
         #[serde(default = "fifty")]
         points: usize,
     },
-    /// Energies of all: `energy_potential_pn_nm`, `energy_kinetic_pn_nm`; and of each section and junction:
-    /// `energy_section_0_pn_nm`.
+    /// Total energies, `energy_potential_pn_nm` and `energy_kinetic_pn_nm`, and the energy of each section and
+    /// junction, `energy_section_0_pn_nm`.
     Energies,
-    /// Properties of all filaments together, with edges of centre lines weighted by length:
-    /// `network_order_parameter` (largest eigenvalue of `(3 <t t^T> - 1) / 2` with tangents `t`; 1 for parallel and
-    /// antiparallel filaments), `network_polarity` (length of the mean tangent), `network_gyration_radius_nm`; of
-    /// bound linkers: `network_bound_linkers`, `network_clusters` (sets of joined filaments),
-    /// `network_largest_cluster` (number of its filaments), `network_linker_tension_mean_pn`, `_rms_pn`, `_smallest_pn`,
-    /// `_largest_pn`; `network_virial_xx_pn_nm` and `_yy`, `_zz`, `_xy`, `_xz`, `_yz`: `-sum r f^T` over points with the forces
-    /// of filaments, linkers between sites and contacts. The virial divided by the volume is the stress without the
-    /// thermal part, positive in tension.
+    /// Properties of all filaments and bound linkers.
+    ///
+    /// Of filaments, weighted by length: `network_order_parameter` (largest eigenvalue of `(3 <t t^T> - 1) / 2`
+    /// with tangents `t`; 1 for parallel and antiparallel filaments), `network_polarity` (magnitude of the mean
+    /// tangent), `network_gyration_radius_nm`.
+    ///
+    /// Of linkers: `network_bound_linkers`, `network_clusters` (groups of joined filaments),
+    /// `network_largest_cluster` (number of its filaments), `network_linker_tension_mean_pn`, `_rms_pn`,
+    /// `_smallest_pn`, `_largest_pn`.
+    ///
+    /// Virial: `network_virial_xx_pn_nm` and `_yy`, `_zz`, `_xy`, `_xz`, `_yz`. It is `-sum r f^T` over points
+    /// with the forces of filaments, linkers between sites and contacts. Divided by the volume it is the stress
+    /// without the thermal part, positive in tension.
     Network,
-    /// Square of the displacement of a point since the first record,
-    /// `squared_displacement[0]_tip_nm2`; with `lag_ns` over that time,
-    /// `squared_displacement[0]_tip_over_5ns_nm2`, whose mean over a run is the mean squared displacement.
+    /// Squared displacement of a point since the first record, `squared_displacement[0]_tip_nm2`. With `lag_ns`
+    /// it is the squared displacement over that time, `squared_displacement[0]_tip_over_5ns_nm2`; its mean is
+    /// the mean squared displacement.
     SquaredDisplacement {
         /// Index of the filament.
         #[serde(default)]
         filament: usize,
-        /// Which point.
+        /// Point of the filament.
         of: Point,
-        /// Time over which; positive, a multiple of the time between records, below the duration. In
-        /// `Dynamics` and `Brownian`.
+        /// Time lag; positive, a multiple of the time between records, below the duration. Only in `Dynamics`
+        /// and `Brownian`.
         #[serde(default)]
         lag_ns: Option<f64>,
     },
-    /// Mean cosine of the angle between cross-sections a distance apart, over all such pairs of the filament:
-    /// `tangent_correlation[0]_over_20nm`. In a heat bath `summary.json` has the persistence length that
-    /// follows, `-distance / ln(mean)`, unless something else than heat bends or straightens the filament: loads,
-    /// linkers, walls, a second held end, a `shape`, curvature at rest.
+    /// Mean cosine of the angle between cross-sections at a given distance, over all such pairs of the
+    /// filament: `tangent_correlation[0]_over_20nm`. In a heat bath `summary.json` contains the persistence
+    /// length, `-distance / ln(mean)`. It is omitted if loads, linkers, walls, a second clamp, a `shape` or a
+    /// rest curvature also change the angles.
     TangentCorrelation {
         /// Index of the filament.
         #[serde(default)]
         filament: usize,
-        /// Distance along the filament; positive, at most that of the outermost segments or monomers.
+        /// Distance along the filament; positive, at most the distance between the outermost segments or
+        /// monomers.
         over_nm: f64,
     },
 }
 
-/// A point that moves with a filament.
+/// Point that moves with a filament.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub enum Point {
-    /// Its end.
+    /// End of the filament.
     Tip,
-    /// The centre of its centre line.
+    /// Centre of the centre line.
     Centre,
 }
 
@@ -157,14 +160,14 @@ fn last() -> End {
     End::End
 }
 
-/// Which of the larger files a run writes.
+/// Optional output files of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, default)]
 pub struct Output {
-    /// Whether pictures are written: `vtk` and `run.pvd`.
+    /// True if pictures are written: `vtk` and `run.pvd`.
     pub vtk: bool,
-    /// Whether `states.npz` is written. Without it and without pictures, states of records are kept nowhere.
+    /// True if `states.npz` is written. The states of records are saved only there and in pictures.
     pub states: bool,
 }
 
@@ -178,14 +181,14 @@ impl Default for Output {
 }
 
 impl Output {
-    /// Whether the states of records are needed once they were taken.
+    /// Returns whether states are needed after they were recorded.
     pub fn needs_states(self) -> bool {
         self.vtk || self.states
     }
 }
 
 impl Observable {
-    /// The filament that it is of; none of what is of no single one.
+    /// Returns the filament of the quantity, if it refers to one.
     fn filament(self) -> Option<usize> {
         match self {
             Self::Tip { filament, .. }
@@ -202,7 +205,6 @@ impl Observable {
         }
     }
 
-    /// Refuses observable `i` of a scene where it makes no sense.
     fn check(self, i: usize, (scene, held): (&Scene, &HeldEnds)) -> Result<(), SceneProblem> {
         let key = format!("observe[{i}]");
         let length = match self.filament() {
@@ -215,7 +217,6 @@ impl Observable {
         self.check_own(&|name| format!("{key}.{name}"), (scene, held), length)
     }
 
-    /// The same of its own keys, on a filament of this length (nm).
     fn check_own(
         self,
         key: &dyn Fn(&str) -> String,
@@ -224,7 +225,7 @@ impl Observable {
     ) -> Result<(), SceneProblem> {
         match self {
             Self::EndReaction { filament, end } if !held.is_held(filament, end) => {
-                let rule = "this end is free: nothing holds it";
+                let rule = "this end is free: clamp it, or leave the observable out";
                 Err(SceneProblem::new(key("end"), show(end), rule))
             }
             Self::Buckling { points, .. } if !(4..=10_000).contains(&points) => {
@@ -254,12 +255,11 @@ impl Observable {
     }
 }
 
-/// Whether a scene has a linker of this index.
 pub(super) fn check_linker(scene: &Scene, key: &str, linker: usize) -> Result<(), SceneProblem> {
     let rule = match scene.linkers.len() {
         count if linker < count => return Ok(()),
         0 => "the scene has no linkers".to_owned(),
-        1 => "there is one linker, which is 0".to_owned(),
+        1 => "the only linker has index 0".to_owned(),
         count => format!("there are {count} linkers, counted from 0"),
     };
     Err(SceneProblem::new(key, linker, rule))
@@ -277,7 +277,6 @@ fn check_lag(scene: &Scene, key: &str, lag_ns: f64) -> Result<(), SceneProblem> 
     Err(SceneProblem::new(key, show(lag_ns), rule))
 }
 
-/// Checks all that is observed, and what means leave out.
 pub(super) fn check_all(
     scene: &Scene,
     held: &HeldEnds,
@@ -295,7 +294,6 @@ pub(super) fn check_all(
     note(check_burn_in(scene));
 }
 
-/// Checks what means leave out.
 fn check_burn_in(scene: &Scene) -> Result<(), SceneProblem> {
     let Some(burn_in) = scene.burn_in_ns else {
         return Ok(());
@@ -303,19 +301,20 @@ fn check_burn_in(scene: &Scene) -> Result<(), SceneProblem> {
     non_negative("burn_in_ns", burn_in)?;
     let rule = match scene.task.motion() {
         Some(motion) if motion.thermal.is_none() => {
-            "means are of thermal motion: leave it out, or write thermal".to_owned()
+            "means require thermal noise: leave it out, or write thermal".to_owned()
         }
         Some(motion) if burn_in >= motion.duration_ns => {
             format!("must be below the duration, {:?} ns", motion.duration_ns)
         }
         Some(_) => return Ok(()),
-        None => "Equilibrium has no means: leave it out".to_owned(),
+        None => "Equilibrium has no means over time: leave it out".to_owned(),
     };
     Err(SceneProblem::new("burn_in_ns", show(burn_in), rule))
 }
 
 impl Scene {
-    /// What bends or straightens a filament besides heat, so that its tangents do not tell its persistence length.
+    /// Returns a cause other than thermal noise that changes the tangents of a filament, so that their
+    /// correlation does not determine the persistence length.
     pub fn bends_besides_heat(&self, filament: usize) -> Option<&'static str> {
         let written = self.filament_at(filament)?;
         let is_curved = |section: &Section| match section {
@@ -347,7 +346,8 @@ impl Scene {
         true_ones.next().map(|(_, reason)| reason)
     }
 
-    /// Time that means leave out (ns): as written, or a fifth of the duration; none without thermal noise.
+    /// Returns the initial time (ns) that means exclude: as written, or a fifth of the duration; `None` without
+    /// thermal noise.
     pub fn burn_in(&self) -> Option<f64> {
         let motion = self.task.motion()?;
         let default = BURN_IN * motion.duration_ns;

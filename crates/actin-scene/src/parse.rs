@@ -1,47 +1,42 @@
-//! Parser of RON and JSON: text to a tree of values with places. It recovers after a mistake and finds further ones.
+//! Parser of RON and JSON. It continues after a mistake and finds further ones.
 
 use super::position::without_mark;
 use super::tree::{Kind, Place, SceneValue, Source};
 
-/// Most brackets within each other.
+/// Largest depth of brackets.
 pub(super) const MOST_DEPTH: usize = 128;
 
-/// Result of parsing.
 #[derive(Clone, Debug)]
 pub(super) struct Parsed {
-    /// The first value.
     pub(super) root: SceneValue,
-    /// Mistakes between values, with their places.
+    /// Syntax errors, with their positions.
     pub(super) mistakes: Vec<(usize, String)>,
     pub(super) brackets: Brackets,
 }
 
-/// Mistakes in brackets.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Brackets {
-    /// The first closing bracket that does not close the last open one, with the place of that.
+    /// First closing bracket that does not match the innermost open one, and the position of the open one.
     pub(super) misfit: Option<(usize, usize)>,
-    /// The first bracket beyond [`MOST_DEPTH`], where reading stopped.
+    /// First bracket deeper than [`MOST_DEPTH`], where parsing stopped.
     pub(super) too_deep: Option<usize>,
-    /// `true` for an unclosed bracket.
     pub(super) is_unclosed: bool,
-    /// `true` for a list with a key.
+    /// `true` if a list contains a key.
     pub(super) has_listed_key: bool,
-    /// `true` for text after the first value.
     pub(super) has_text_after: bool,
-    /// The first text without its closing quotation mark.
+    /// First string without a closing quotation mark.
     pub(super) unclosed_text: Option<usize>,
 }
 
 impl Brackets {
-    /// Returns `true` if a bracket is missing or seems to be.
+    /// Returns `true` if a bracket or quotation mark seems to be missing.
     pub(super) fn are_mistaken(self) -> bool {
         let is_odd = self.is_unclosed || self.has_listed_key;
         is_odd || self.misfit.is_some() || self.too_deep.is_some() || self.unclosed_text.is_some()
     }
 }
 
-/// Reads the text of a file of this kind, such as `scene`.
+/// Parses the text of a file; `file` is its kind for messages, such as `scene`.
 pub(super) fn parse(text: &str, file: &str) -> Parsed {
     let text = without_mark(text);
     let mut parser = Parser {
@@ -78,7 +73,6 @@ struct Parser<'a> {
     text: &'a str,
     at: usize,
     source: Source,
-    /// Open brackets with their places.
     opens: Vec<(char, usize)>,
     mistakes: Vec<(usize, String)>,
     brackets: Brackets,
@@ -88,12 +82,10 @@ fn is_part(c: char) -> bool {
     c.is_alphanumeric() || c == '_'
 }
 
-/// The word at the beginning of a text.
 pub(super) fn word(text: &str) -> &str {
     &text[..text.find(|c| !is_part(c)).unwrap_or(text.len())]
 }
 
-/// Returns `true` if a text begins with a key and its colon.
 fn begins_with_key(rest: &str) -> bool {
     let word = word(rest);
     let is_word = word.starts_with(|c: char| c.is_alphabetic() || c == '_');
@@ -109,7 +101,6 @@ impl<'a> Parser<'a> {
         loop {
             let rest = self.rest();
             if rest.starts_with("#![") {
-                // An attribute of RON.
                 self.skip_to("]");
                 continue;
             }
@@ -130,7 +121,6 @@ impl<'a> Parser<'a> {
         }
     }
 
-    /// Skips the next `mark` and everything before it.
     fn skip_to(&mut self, mark: &str) {
         let found = self.rest().find(mark);
         self.at = found.map_or(self.text.len(), |found| self.at + found + mark.len());
@@ -152,7 +142,7 @@ impl<'a> Parser<'a> {
         }
     }
 
-    /// Reads a value with its key, to the comma or bracket that ends it.
+    /// Parses a value with its key, up to the comma or bracket after it.
     fn element(&mut self) -> SceneValue {
         self.skip_blank();
         let start = self.at;
@@ -190,7 +180,6 @@ impl<'a> Parser<'a> {
         value
     }
 
-    /// Returns `true` before a comma, a closing bracket and the end of the text.
     fn is_at_end(&self) -> bool {
         self.rest().is_empty() || self.rest().starts_with([',', ')', ']', '}'])
     }
@@ -202,7 +191,7 @@ impl<'a> Parser<'a> {
         is_element && self.rest().starts_with(begins)
     }
 
-    /// Mistake after a value or a key without a colon that ends at `end`, before anything but a comma or bracket.
+    /// Error for unexpected text after a value, or after a key without a colon (`is_key`), that ends at `end`.
     fn unseparated(&self, value: &SceneValue, is_key: bool, end: usize) -> (usize, String) {
         let rest = self.rest();
         if is_key {
@@ -220,7 +209,7 @@ impl<'a> Parser<'a> {
         (self.at, before_comma(rest))
     }
 
-    /// A word that a colon follows; in JSON a text.
+    /// Parses a key and its colon. In JSON the key is a string.
     fn key(&mut self) -> Option<String> {
         if self.opens.is_empty() {
             return None;
@@ -281,7 +270,7 @@ impl<'a> Parser<'a> {
             Some(_) if number > 0 => {
                 let text = rest[..number].to_owned();
                 self.at += number;
-                of_number(&text)
+                number_kind(&text)
             }
             Some(c) if is_part(c) => self.named(&mut place),
             Some(c) => {
@@ -297,7 +286,6 @@ impl<'a> Parser<'a> {
         SceneValue { key, kind, place }
     }
 
-    /// A name, alone or before a bracket.
     fn named(&mut self, place: &mut Place) -> Kind {
         let name = word(self.rest()).to_owned();
         self.at += name.len();
@@ -344,7 +332,7 @@ impl<'a> Parser<'a> {
         Kind::List(values)
     }
 
-    /// Parses values up to a closing bracket. The closing bracket of an outer value is left.
+    /// Parses values up to a closing bracket. A bracket that closes an outer value is not consumed.
     fn elements(&mut self, place: &mut Place) -> Vec<SceneValue> {
         let depth = self.opens.len();
         let (mut values, mut is_separated) = (Vec::new(), true);
@@ -378,7 +366,7 @@ impl<'a> Parser<'a> {
         }
     }
 
-    /// Closes the innermost bracket. The closing bracket of an outer value is left.
+    /// Closes the innermost bracket. A bracket that closes an outer value is not consumed.
     fn close(&mut self, closing: char) -> bool {
         let opening = match closing {
             ')' => '(',
@@ -440,7 +428,6 @@ impl<'a> Parser<'a> {
     }
 }
 
-/// The character of an escape.
 fn unescaped(c: char, rest: &mut impl Iterator<Item = (usize, char)>) -> Option<char> {
     let mut rest = rest.map(|(_, c)| c);
     let digits: String = match c {
@@ -461,7 +448,6 @@ fn unescaped(c: char, rest: &mut impl Iterator<Item = (usize, char)>) -> Option<
     char::from_u32(u32::from_str_radix(&digits, 16).ok()?)
 }
 
-/// Length of the number at the beginning of a text.
 fn number(text: &str) -> usize {
     let digits = |from: usize| {
         let rest = &text[from..];
@@ -493,7 +479,7 @@ fn number(text: &str) -> usize {
     0
 }
 
-fn of_number(text: &str) -> Kind {
+fn number_kind(text: &str) -> Kind {
     let text = text.replace('_', "");
     let (sign, digits) = match text.strip_prefix('-') {
         Some(digits) => (-1, digits),
@@ -512,7 +498,6 @@ fn of_number(text: &str) -> Kind {
     }
 }
 
-/// Message for text in place of a comma.
 fn before_comma(rest: &str) -> String {
     let word: String = rest.chars().take_while(char::is_ascii_alphabetic).collect();
     if rest.starts_with("()") {

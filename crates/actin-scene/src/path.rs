@@ -1,32 +1,29 @@
-//! What the settings of a path mean: the values of a control at the ends of its stages. What moves,
-//! and how, is no business of this file.
+//! Values of controls at the ends of the stages of a path.
 
 use super::{Setting, Stage};
 
-/// The values of a control at the ends of the stages, of which the first, 0, is before the path.
+/// Values of a control at the ends of stages. Stage 0 is the state before the path, where the value is zero.
 ///
-/// It begins at zero and stays where a stage does not set it. Only the stages that set it are kept,
-/// so that as many controls as stages take no square of either.
+/// The value is constant in stages that do not set the control. Memory grows with the number of settings.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Values<T> {
-    /// Ends of stages, counted from 1, and what is set there; ascending.
     set: Vec<(usize, T)>,
 }
 
 impl<T: Copy + Default> Values<T> {
-    /// The value at the end of so many stages.
+    /// Returns the value at the end of a stage.
     pub fn after(&self, stages: usize) -> T {
         let known = self.set.partition_point(|(end, _)| *end <= stages);
         known.checked_sub(1).map_or(T::default(), |k| self.set[k].1)
     }
 
-    /// The ends of stages at which it is set, ascending.
+    /// Returns the ends of stages at which the control is set, in ascending order.
     pub fn ends(&self) -> impl Iterator<Item = usize> + '_ {
         self.set.iter().map(|(end, _)| *end)
     }
 
-    /// Sets it at the end of a stage that is not before any other that set it; of several settings
-    /// in one stage the last counts.
+    /// Sets the value at the end of a stage. Stages must be in ascending order; the last setting of a stage
+    /// counts.
     fn push(&mut self, end: usize, value: T) {
         match self.set.last_mut() {
             Some((last, known)) if *last == end => *known = value,
@@ -35,8 +32,8 @@ impl<T: Copy + Default> Values<T> {
     }
 }
 
-/// The values of each of `count` controls; `None` of one that no stage sets. `find` gives the index
-/// and the value of the control that a setting sets, if it is one of these.
+/// Returns the values of each of `count` controls, or `None` for controls that no stage sets. `find` returns
+/// the index and value of a setting of one of these controls.
 pub fn values<T: Copy + Default>(
     path: &[Stage],
     count: usize,
@@ -53,8 +50,7 @@ pub fn values<T: Copy + Default>(
     values
 }
 
-/// Factors of `count` loads, as [`values`]; `None` of a load that no stage sets, whose factor is
-/// [`UNSET`].
+/// Returns the factors of `count` loads, as [`values`]. Loads that no stage sets have the factor [`UNSET`].
 pub fn load_factors(path: &[Stage], count: usize) -> Vec<Option<Values<f64>>> {
     values(path, count, |setting| match *setting {
         Setting::LoadFactor { load, factor } => Some((load, factor)),
@@ -78,8 +74,6 @@ mod tests {
         }
     }
 
-    /// Zero before the path, the last of a stage, what it was where a stage sets others; nothing for a
-    /// load that is never set.
     #[test]
     fn factors_by_hand() {
         let path = [
@@ -104,13 +98,12 @@ mod tests {
         assert_eq!(load_factors(&[], 1), [None]);
     }
 
-    /// As many controls as stages, each set once: what is kept is what was written.
     #[test]
-    fn what_is_kept_grows_with_the_settings_alone() {
+    fn memory_grows_with_the_settings() {
         let count = 300;
         let path: Vec<Stage> = (0..count).map(|i| stage(&[(i, 1.0)])).collect();
         let factors = load_factors(&path, count);
-        let kept = |values: &Option<Values<f64>>| values.as_ref().map_or(0, |v| v.set.len());
-        assert_eq!(factors.iter().map(kept).sum::<usize>(), count);
+        let length = |values: &Option<Values<f64>>| values.as_ref().map_or(0, |v| v.set.len());
+        assert_eq!(factors.iter().map(length).sum::<usize>(), count);
     }
 }

@@ -1,4 +1,4 @@
-//! Which filament a scene means by an index, and where each is built.
+//! Filaments by index, and their reference positions.
 
 use super::curve::Curve;
 use super::types::along_z;
@@ -9,7 +9,7 @@ use actin_mechanics::{UnitQuaternion, Vector3};
 use nalgebra::Quaternion;
 
 impl Filament {
-    /// A filament of these sections along lab +z from the origin, every parameter the default.
+    /// Creates a straight filament of these sections along lab +z from the origin, with default parameters.
     pub fn new(sections: Vec<Section>) -> Self {
         Self {
             sections: sections.into(),
@@ -24,20 +24,20 @@ impl Filament {
         }
     }
 
-    /// Unit vector along the filament as built (lab frame).
+    /// Returns the unit vector along the filament as built (lab frame).
     pub fn axis(&self) -> Vector3 {
         let direction = Vector3::from(self.direction);
-        // Scaled first, so that squares neither overflow nor underflow.
+        // The division prevents overflow and underflow of squares.
         (direction / direction.amax()).normalize()
     }
 
-    /// The turn that takes a filament along lab +z, its azimuth 0 at +x, to where it is built: by
-    /// `roll_deg` about lab z, then by the shortest turn that takes lab z to the axis (where they
-    /// are opposite: half a turn about lab x).
+    /// Returns the rotation from a filament along lab +z, with azimuth 0 at +x, to the filament as built:
+    /// `roll_deg` about lab z, then the shortest rotation from lab z to the axis. For opposite vectors it is
+    /// half a turn about lab x.
     pub fn rotation(&self) -> UnitQuaternion {
         let axis = self.axis();
         let (sine, cosine) = (Vector3::z().cross(&axis), axis.z);
-        // Sine and cosine of half the angle, the smaller of the two from the larger.
+        // Sine and cosine of the half angle; the smaller one is computed from the larger one.
         let larger = (0.5 * (1.0 + cosine.abs())).sqrt();
         let smaller = 0.5 * sine.norm() / larger;
         let about = sine.try_normalize(0.0).unwrap_or_else(Vector3::x);
@@ -52,30 +52,30 @@ impl Filament {
         tilt * UnitQuaternion::from_axis_angle(&Vector3::z_axis(), roll)
     }
 
-    /// Returns the place of the axis as built (lab frame, nm) at an arc length (nm).
+    /// Returns the reference position (lab frame, nm) of the axis at an arc length (nm).
     pub fn place_at(&self, s_nm: f64) -> Vector3 {
         self.places_at(&[s_nm])[0]
     }
 
-    /// Returns the places of the axis as built (lab frame, nm) at arc lengths (nm).
+    /// Returns the reference positions (lab frame, nm) of the axis at arc lengths (nm).
     pub fn places_at(&self, s_nm: &[f64]) -> Vec<Vector3> {
         let (at, turn) = (Vector3::from(self.at_nm), self.rotation());
         let curve = Curve::of(self, &self.boundaries());
         s_nm.iter().map(|s| at + turn * curve.at(*s).0).collect()
     }
 
-    /// The rods of its sections, but for factors and what they are like at rest.
+    /// Returns the rod models of the sections, without rigidity factors and rest curvature.
     pub fn rod_models(&self) -> impl Iterator<Item = RodModel> {
         let rods = self.sections.iter().filter(|section| section.is_rod());
         rods.map(|section| section.rod_model(&self.rod))
     }
 
-    /// Where its sections begin (nm), as written.
+    /// Returns the arc lengths (nm) at which sections start, as written.
     pub fn boundaries(&self) -> Vec<f64> {
         self.sections.iter().map(|s| s.span_nm().0).collect()
     }
 
-    /// Unit vector along the filament at one end as built (lab frame).
+    /// Returns the unit tangent at one end of the filament as built (lab frame).
     pub fn axis_at(&self, end: End) -> Vector3 {
         if self.shape.is_none() {
             return self.axis();
@@ -88,7 +88,7 @@ impl Filament {
         self.rotation() * frame * Vector3::z()
     }
 
-    /// Index of the section at one end.
+    /// Returns the index of the section at one end.
     pub fn end_index(&self, end: End) -> usize {
         match end {
             End::Start => 0,
@@ -96,34 +96,34 @@ impl Filament {
         }
     }
 
-    /// Arc length at its end, as written (nm).
+    /// Returns the length (nm), as written.
     pub fn length_nm(&self) -> f64 {
         self.sections.last().map_or(0.0, |s| s.span_nm().1)
     }
 
-    /// Whether a rod is at one end.
+    /// Returns whether the section at one end is a rod.
     pub fn is_rod_at(&self, end: End) -> bool {
         matches!(self.sections[self.end_index(end)], Section::Rod { .. })
     }
 }
 
 impl Scene {
-    /// All filaments in the order of their indices.
+    /// Iterates over all filaments in the order of their indices.
     pub fn filaments(&self) -> impl Iterator<Item = &Filament> {
         std::iter::once(&self.filament).chain(&self.further)
     }
 
-    /// All filaments, to be changed.
+    /// Iterates mutably over all filaments.
     pub fn filaments_mut(&mut self) -> impl Iterator<Item = &mut Filament> {
         std::iter::once(&mut self.filament).chain(&mut self.further)
     }
 
-    /// Number of filaments.
+    /// Returns the number of filaments.
     pub fn number_of_filaments(&self) -> usize {
         1 + self.further.len()
     }
 
-    /// Filament `index`, if there is one.
+    /// Returns a filament by its index.
     pub fn filament_at(&self, index: usize) -> Option<&Filament> {
         match index.checked_sub(1) {
             None => Some(&self.filament),
@@ -131,7 +131,7 @@ impl Scene {
         }
     }
 
-    /// The key of filament `index` in a scene's text.
+    /// Returns the key of a filament in the text of the scene.
     pub fn filament_key(&self, index: usize) -> String {
         if self.further.is_empty() {
             "filament".to_owned()
@@ -140,10 +140,10 @@ impl Scene {
         }
     }
 
-    /// The filament that `key` names by its index.
+    /// Returns a filament by the index at `key`.
     ///
     /// # Errors
-    /// An index beyond the last.
+    /// If the index is out of range.
     pub(super) fn named_filament(
         &self,
         key: &str,
@@ -151,7 +151,7 @@ impl Scene {
     ) -> Result<&Filament, SceneProblem> {
         self.filament_at(index).ok_or_else(|| {
             let rule = match self.number_of_filaments() {
-                1 => "there is one filament, which is 0".to_owned(),
+                1 => "the only filament has index 0".to_owned(),
                 count => format!("there are {count} filaments, counted from 0"),
             };
             SceneProblem::new(key, index, rule)
@@ -159,19 +159,16 @@ impl Scene {
     }
 }
 
-/// Which clamp holds each end of each filament, found once for all of them.
+/// Clamps by filament and end.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct HeldEnds {
     clamps: Vec<[Option<usize>; 2]>,
-    /// Of these, those that hold the orientation of the end.
     fixed: Vec<[Option<usize>; 2]>,
-    /// These, and those with a hinge.
     turned: Vec<[Option<usize>; 2]>,
 }
 
 impl HeldEnds {
-    /// Those of a scene. Of several clamps at one end the first counts, and what names no filament
-    /// holds none.
+    /// Finds the clamps of a scene. The first clamp of an end counts; invalid filament indices are skipped.
     pub fn of(scene: &Scene) -> Self {
         let mut held = vec![[None; 2]; scene.number_of_filaments()];
         for (i, clamp) in scene.clamps.iter().enumerate() {
@@ -190,29 +187,30 @@ impl HeldEnds {
         }
     }
 
-    /// The index of the clamp at one end of a filament; none if it is free.
+    /// Returns the index of the clamp at one end of a filament, or `None` if the end is free.
     pub fn clamp_at(&self, filament: usize, end: End) -> Option<usize> {
         self.clamps.get(filament)?[end as usize]
     }
 
-    /// The same of a clamp that holds the orientation of the end, which a pin does not.
+    /// Returns the index of the clamp at one end if it holds the orientation, which a pin does not.
     pub fn fixed_at(&self, filament: usize, end: End) -> Option<usize> {
         self.fixed.get(filament)?[end as usize]
     }
 
-    /// The same of a clamp that holds a frame: at the end, or behind the spring of a hinge.
+    /// Returns the index of the clamp at one end if it has a frame: at the end, or at the other side of a
+    /// hinge.
     pub fn turned_at(&self, filament: usize, end: End) -> Option<usize> {
         self.turned.get(filament)?[end as usize]
     }
 
-    /// Whether an end is held.
+    /// Returns whether an end is clamped.
     pub fn is_held(&self, filament: usize, end: End) -> bool {
         self.clamp_at(filament, end).is_some()
     }
 }
 
 impl Slides {
-    /// The directions, orthonormal (lab frame), at a filament whose axis as built is `axis`.
+    /// Returns the orthonormal free directions (lab frame) for an axis as built.
     pub fn directions(self, axis: Vector3) -> Vec<Vector3> {
         match self {
             Self::Nowhere => Vec::new(),
@@ -234,9 +232,8 @@ mod tests {
         }
     }
 
-    /// By default nothing is turned, to the last bit: results of scenes that place nothing stay.
     #[test]
-    fn the_default_turns_nothing() {
+    fn the_default_rotation_is_the_identity() {
         assert_eq!(
             along([0.0, 0.0, 1.0], 0.0).rotation(),
             UnitQuaternion::identity()
@@ -247,9 +244,8 @@ mod tests {
         );
     }
 
-    /// Lab z goes to the direction, of any length and opposite to z too; the roll is about it.
     #[test]
-    fn the_axis_and_the_azimuth_go_where_they_are_sent() {
+    fn rotations_follow_direction_and_roll() {
         for direction in [
             [3.0, 0.0, 4.0],
             [0.0, -2.0, -1e-9],
@@ -261,7 +257,6 @@ mod tests {
             let axis = filament.axis();
             assert!((axis.norm() - 1.0).abs() < 1e-15);
             let unrolled = along(direction, 0.0).rotation();
-            // Rounding of square roots and a rotation.
             assert!(
                 (unrolled * Vector3::z() - axis).norm() < 1e-15,
                 "{direction:?}"
@@ -270,7 +265,6 @@ mod tests {
             assert!((filament.rotation() * Vector3::x() - y).norm() < 1e-15);
             assert!(x.cross(&y).dot(&axis) > 0.999);
         }
-        // The shortest turn from z to x takes x to -z.
         let turned = along([1.0, 0.0, 0.0], 0.0).rotation() * Vector3::x();
         assert!((turned + Vector3::z()).norm() < 1e-15);
     }

@@ -1,6 +1,6 @@
-//! Lines and columns of places in a text.
+//! Lines and columns in a text.
 
-/// Line and column (in characters) of a place, from 1.
+/// Line and column (in characters) of a byte offset, from 1.
 pub(super) fn line_and_column(text: &str, at: usize) -> (usize, usize) {
     let before = &text[..at.min(text.len())];
     let line = before.matches('\n').count() + 1;
@@ -8,7 +8,7 @@ pub(super) fn line_and_column(text: &str, at: usize) -> (usize, usize) {
     (line, column)
 }
 
-/// The place of a line and column; the end of a line or of the text where they lie beyond it.
+/// Byte offset of a line and column, limited to the end of the line or text.
 pub(super) fn place(text: &str, (line, column): (usize, usize)) -> usize {
     let mut start = 0;
     for (number, content) in (1..).zip(text.split_inclusive('\n')) {
@@ -22,7 +22,7 @@ pub(super) fn place(text: &str, (line, column): (usize, usize)) -> usize {
     text.len()
 }
 
-/// The text after a byte-order mark, which takes no column.
+/// Removes a byte-order mark.
 pub(super) fn without_mark(text: &str) -> &str {
     text.strip_prefix('\u{feff}').unwrap_or(text)
 }

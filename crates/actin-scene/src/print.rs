@@ -1,9 +1,9 @@
-//! Values as RON.
+//! Output of values as RON.
 
 use super::tree::{Kind, SceneValue};
 use std::fmt::Write as _;
 
-/// A value as RON; structures within fewer than `depth` others have one line for each key.
+/// Value as RON. Structures at a depth below `depth` have one line for each key.
 pub(super) fn print(value: &SceneValue, depth: usize) -> String {
     let mut printer = Printer {
         text: String::new(),

@@ -1,22 +1,22 @@
-//! What is wrong with a scene, and where.
+//! Errors of scenes and their positions.
 
 use super::SceneText;
 use std::borrow::Cow;
 use std::fmt;
 
-/// A value that a scene may not have: the key, the value and the rule it breaks.
+/// Value that breaks a rule of scenes.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SceneProblem {
     /// Path of the key, such as `filament.sections[1].to_nm`.
     pub key: String,
-    /// The value as read; empty if the key stands for a structure.
+    /// Value as read; empty for a structure.
     pub value: String,
-    /// What a value has to satisfy.
+    /// Violated rule, with a remedy.
     pub rule: String,
 }
 
 impl SceneProblem {
-    /// A problem with the value of `key`.
+    /// Creates a problem with the value of `key`.
     pub fn new(key: impl Into<String>, value: impl fmt::Display, rule: impl Into<String>) -> Self {
         Self {
             key: key.into(),
@@ -25,7 +25,7 @@ impl SceneProblem {
         }
     }
 
-    /// The same problem with the beginning `filament` of its key replaced by `key`.
+    /// Replaces the first component `filament` of the key.
     #[must_use]
     pub fn with_filament(self, key: &str) -> Self {
         match self.key.strip_prefix("filament") {
@@ -50,29 +50,29 @@ impl fmt::Display for SceneProblem {
 
 impl std::error::Error for SceneProblem {}
 
-/// A scene that was refused, with the place in its text.
+/// Error of a scene with its position in the text.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SceneError {
     /// Line, counted from 1.
     pub line: usize,
     /// Column in characters, counted from 1.
     pub column: usize,
-    /// The override that is to blame, as `key=value`; none where the text is.
+    /// Override that causes the error, as `key=value`; `None` if the text causes it.
     pub set: Option<String>,
-    /// The key or choice that was probably meant, where one is close.
+    /// Closest known key or choice, if any.
     pub meant: Option<String>,
-    /// What is wrong.
+    /// Description of the error.
     pub message: String,
 }
 
-/// Most characters of a word in a message, more than any key of a scene has with its path.
+/// Maximum length of a word in a message (characters). All valid keys with their paths are shorter.
 const LONGEST_WORD: usize = 100;
 
-/// Most characters of a message, more than any list of known keys has.
+/// Maximum length of a message (characters). All lists of known keys are shorter.
 const LONGEST_MESSAGE: usize = 2000;
 
 impl SceneError {
-    /// An error at a place. What the text has made longer than anybody reads is cut.
+    /// Creates an error at a line and column. Overlong words and messages are cut.
     pub(super) fn new((line, column): (usize, usize), message: &str) -> Self {
         let words = message.split_inclusive(char::is_whitespace);
         let message: String = words
@@ -90,14 +90,12 @@ impl SceneError {
         }
     }
 
-    /// Places a problem in the text of its scene: at its key, or at the innermost key above it
-    /// that is written there.
+    /// Locates a problem in the text of its scene: at its key, or at the innermost written parent.
     pub fn locate(problem: &SceneProblem, text: &str) -> Self {
         SceneText::new(text).locate(problem)
     }
 }
 
-/// The beginning of a text that is longer than `most` characters, with the number of all.
 fn cut(text: &str, most: usize) -> Cow<'_, str> {
     match text.char_indices().nth(most) {
         None => text.into(),
@@ -123,10 +121,8 @@ impl std::error::Error for SceneError {}
 mod tests {
     use super::*;
 
-    /// A key of a megabyte, and a megabyte of short words: the message says how long they were, and
-    /// keeps what stands behind a key. Characters are counted, not bytes.
     #[test]
-    fn what_nobody_reads_is_cut() {
+    fn overlong_messages_are_cut() {
         let message = |text: &str| SceneError::new((1, 1), text).message;
         assert_eq!(message("unknown key a: write b"), "unknown key a: write b");
         let key = "\u{e9}".repeat(1 << 20);

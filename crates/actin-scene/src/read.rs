@@ -1,4 +1,4 @@
-//! Scenes from texts and values, and back.
+//! Conversion of scenes from and to text and values.
 
 use super::deserialize::deserialize;
 use super::position::{line_and_column, without_mark};
@@ -9,11 +9,10 @@ use serde::Serialize;
 use serde::de::DeserializeOwned;
 use std::path::Path;
 
-/// Structures within so many others have one line for each key.
 pub(super) const SCENE_DEPTH: usize = 6;
 
 impl RodLaws {
-    /// The laws as a scene writes them after `law:`.
+    /// Returns the laws as RON, as written after `law:` in a scene.
     pub fn to_ron(&self) -> String {
         let law = RodLaw::Laws(Box::new(self.clone()));
         print(&serialize::to_value(&law, false), 4)
@@ -21,10 +20,10 @@ impl RodLaws {
 }
 
 impl Scene {
-    /// The text of a scene from the bytes of its file, which are UTF-8.
+    /// Decodes the bytes of a scene file as UTF-8.
     ///
     /// # Errors
-    /// The first byte that is not, with its line and column.
+    /// The first invalid byte, with line and column.
     pub fn text(bytes: Vec<u8>) -> Result<String, SceneError> {
         String::from_utf8(bytes).map_err(|error| {
             let good = error.utf8_error().valid_up_to();
@@ -32,33 +31,30 @@ impl Scene {
             let before = String::from_utf8_lossy(&bytes[..good]);
             let before = without_mark(&before);
             let hint = match bytes {
-                [0xff, 0xfe, ..] | [0xfe, 0xff, ..] => "; the file begins as UTF-16 does",
+                [0xff, 0xfe, ..] | [0xfe, 0xff, ..] => "; the file seems to be UTF-16",
                 _ => "",
             };
             let byte = bytes[good];
-            let message = format!(
-                "byte {byte:#04x} is not UTF-8, in which scenes are written{hint}: save the file as UTF-8"
-            );
+            let message = format!("byte {byte:#04x} is not UTF-8{hint}: save the file as UTF-8");
             SceneError::new(line_and_column(before, before.len()), &message)
         })
     }
 
-    /// Reads and validates a scene; a byte-order mark before it is skipped. A text that begins with `{` is JSON.
+    /// Reads and validates a scene. A byte-order mark is skipped. A text that begins with `{` is JSON.
     ///
     /// # Errors
-    /// Text that is no RON, an unknown or missing key, or a value against the rules, each with
-    /// line and column.
+    /// Invalid RON or JSON, an unknown or missing key, or an invalid value, each with line and column.
     pub fn from_ron(text: &str) -> Result<Self, SceneError> {
         SceneText::new(text).scene()
     }
 
-    /// The scene as RON with every default written out.
+    /// Returns the scene as RON with all defaults.
     pub fn to_ron(&self) -> String {
         to_ron(self, SCENE_DEPTH)
     }
 
-    /// Reads and validates a scene as [`from_ron`](Self::from_ron) does its text. Files of points are looked for in
-    /// `folder`; without one they are refused.
+    /// Reads and validates a scene like [`from_ron`](Self::from_ron). Files of points are relative to `folder`;
+    /// without a folder they are refused.
     ///
     /// ```
     /// use actin_scene::{Scene, SceneKind, SceneValue};
@@ -77,7 +73,7 @@ impl Scene {
     /// ```
     ///
     /// # Errors
-    /// An unknown or missing key, a value of another type, or one against the rules.
+    /// An unknown or missing key, a value of another type, or an invalid value.
     pub fn from_value(value: &SceneValue, folder: Option<&Path>) -> Result<Self, SceneProblem> {
         let mut value = value.clone();
         if let Some(folder) = folder {
@@ -94,32 +90,31 @@ impl Scene {
         validate(&scene).map(|()| scene)
     }
 
-    /// Returns the scene as a value with all defaults, without keys of absent options.
+    /// Returns the scene as a value with all defaults. Options that are `None` have no key.
     pub fn to_value(&self) -> SceneValue {
         serialize::to_value(self, false)
     }
 }
 
-/// A value as RON; structures within fewer than `depth` others have one line for each key.
+/// Returns a value as RON. Structures at a depth below `depth` have one line for each key.
 pub fn to_ron<T: Serialize>(value: &T, depth: usize) -> String {
     print(&serialize::to_value(value, true), depth)
 }
 
-/// Reads what a RON text describes, strictly, as scenes are read; `name` is that of the outermost
-/// structure. A byte-order mark is skipped.
+/// Reads a structure from RON; `name` is its name. Unknown keys are refused, and a byte-order mark is skipped.
 ///
 /// # Errors
-/// Text that is no RON, an unknown or missing key, a value of another type, each with line and column.
+/// Invalid RON, an unknown or missing key, or a value of another type, each with line and column.
 pub fn read_ron<T: DeserializeOwned>(text: &str, name: &str) -> Result<T, SceneError> {
     SceneText::named(text, name).readings().into_result()
 }
 
-/// The value of a text, and every mistake in it.
+/// Value of a text, and all mistakes in it.
 #[derive(Clone, Debug)]
 pub struct Readings<T> {
-    /// The value without unknown keys; `None` if a mistake leaves it without meaning.
+    /// Value without unknown keys; `None` if it cannot be determined.
     pub value: Option<T>,
-    /// Mistakes in the order of the text, as far as one does not hide another.
+    /// Independent mistakes in the order of the text.
     pub mistakes: Vec<SceneError>,
 }
 
@@ -133,8 +128,8 @@ impl<T> Readings<T> {
     }
 }
 
-/// Reads a RON text as [`read_ron`] does, and finds every mistake, not only the first: the first 20, and fewer in a text
-/// of more than 100 kB.
+/// Reads a structure like [`read_ron`], and returns up to 20 mistakes instead of only the first. Texts longer
+/// than 100 kB have fewer.
 pub fn read_all<T: DeserializeOwned>(text: &str, name: &str) -> Readings<T> {
     SceneText::named(text, name).readings()
 }
@@ -150,7 +145,6 @@ mod tests {
     task: Equilibrium(),
 )";
 
-    /// Editors write a mark that they do not show: it is skipped, and columns are those they show.
     #[test]
     fn a_byte_order_mark_is_skipped() {
         let marked = format!("\u{feff}{SCENE}");
@@ -172,7 +166,6 @@ mod tests {
         assert_eq!(of(&format!("\u{feff}{one_line}")), of(&one_line));
     }
 
-    /// Line and column of the first byte that is no UTF-8, in characters; the mark takes none.
     #[test]
     fn text_that_is_not_utf8_has_a_place() {
         let place = |bytes: &[u8]| {
@@ -183,7 +176,6 @@ mod tests {
         assert_eq!(place(b"\xff"), (1, 1));
         assert_eq!(place(b"\xef\xbb\xbfab\xe9"), (1, 3));
         assert_eq!(place(b"Scene(\n  // \xc3\xa9t\xe9\n"), (2, 8));
-        // Cut off within a character.
         assert_eq!(place(b"a\n\xc3"), (2, 1));
         let latin = Scene::text(b"// \xe9t".to_vec()).unwrap_err().to_string();
         assert!(latin.starts_with("1:4: byte 0xe9 is not UTF-8"), "{latin}");
@@ -191,7 +183,6 @@ mod tests {
         assert!(wide.message.contains("UTF-16"), "{wide}");
     }
 
-    /// A key of a megabyte is cut wherever it stands in the message; the known keys are still told.
     #[test]
     fn a_key_of_a_megabyte_is_cut() {
         let key = "k".repeat(1 << 20);

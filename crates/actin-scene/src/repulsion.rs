@@ -1,75 +1,72 @@
-//! What a scene says of filaments that keep out of each other and out of walls, and the rules of its numbers.
+//! Repulsion of filaments from each other and from walls, and its validation.
 
 use super::rules::{all_finite, positive, show};
 use super::{Scene, SceneProblem};
 use serde::{Deserialize, Serialize};
 
-/// Radius (nm) within which a monomer lies: its centre is 1.8 nm from the axis, its semi-axis outward 1.9 nm.
+/// Radius (nm) that contains a monomer: centre at 1.8 nm, radial semi-axis 1.9 nm.
 const RADIUS_NM: f64 = 3.7;
 
-/// Default stiffness (pN/nm): time steps become 7 % shorter, and 10 pN press two crossing filaments 0.7 nm
-/// into each other.
+/// Default stiffness (pN/nm). Time steps become 7 % shorter; two crossing filaments overlap by 0.7 nm at 10 pN.
 const STIFFNESS_PN_PER_NM: f64 = 1000.0;
 
-/// Repulsion of filaments from each other and from walls, by their axes: a surface is the same whatever
-/// resolves it.
+/// Repulsion of filaments from each other and from walls. It depends on the axes of filaments, not on their
+/// resolution. There is no friction between surfaces.
 ///
-/// Two filaments repel each other within twice their radius, softly at first: `2 pi e d q^4` where they
-/// cross at a right angle at a distance `d`, with `q = 1 - d^2/(4 R^2)` and `e` 0.27 of the stiffness. At a
-/// third of the contact distance this is greatest, `0.70 k R`; a run with a record
-/// that comes closer has failed, and so has one in which, at any time, two come twice as close as that: they
-/// pass through each other. No step of `Equilibrium` leads there. A wall pushes
-/// with `k p^3/(6 R^3)` per length where a surface is pressed into it by `p`. Drag or friction between surfaces
-/// there is none.
+/// Filaments repel each other at distances below `2 R`. At a distance `d`, two filaments that cross at a right
+/// angle repel each other with the force `2 pi e d q^4`, where `q = 1 - d^2/(4 R^2)` and `e = 0.27 k`. The
+/// force is largest, `0.70 k R`, at `d = 2 R/3`. A run fails if two filaments are closer than this in a record,
+/// or closer than half of it at any time: they would pass through each other. `Equilibrium` rejects such steps.
+/// A wall exerts the force per length `k p^3/(6 R^3)` on a filament whose surface penetrates it by `p`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, default)]
 pub struct Repulsion {
-    /// Whether filaments repel each other, and parts of one that are at least three segments, three rises and
-    /// `pi` radii apart along it. With `false` there is a wall.
+    /// True if filaments repel each other. Parts of the same filament repel each other if their distance along
+    /// it is at least three segments, three rises and `pi R`. `false` requires a wall.
     pub filaments: bool,
-    /// Radius `R` of filaments; positive. By default all of a monomer lies within it.
+    /// Radius `R` of filaments; positive. The default radius contains the monomers.
     pub radius_nm: f64,
-    /// Stiffness `k`; positive. Two filaments that cross at a right angle are this stiff at most, and so is
-    /// a stretch as long as it is thick with its axis pressed to the surface of a wall.
+    /// Stiffness `k`; positive. It is the largest stiffness of two filaments that cross at a right angle, and
+    /// the stiffness of a piece of filament of length `2 R` with its axis on the surface of a wall.
     pub stiffness_pn_per_nm: f64,
-    /// Planes that filaments stay in front of.
+    /// Plane walls.
     pub planes: Vec<Plane>,
-    /// Spheres that filaments stay inside or outside of.
+    /// Spherical walls.
     pub spheres: Vec<Sphere>,
 }
 
-/// A plane that filaments stay in front of.
+/// Plane wall.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Plane {
-    /// A point of it (lab frame); finite.
+    /// Point of the plane (lab frame); finite.
     pub at_nm: [f64; 3],
-    /// Direction in which filaments are (lab frame); of any length but zero.
+    /// Normal of the plane towards the filaments (lab frame); any length except zero.
     pub normal: [f64; 3],
 }
 
-/// A sphere that filaments stay inside or outside of.
+/// Spherical wall.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Sphere {
-    /// Its centre (lab frame); finite.
+    /// Centre (lab frame); finite.
     pub at_nm: [f64; 3],
-    /// Its radius; positive, and greater than that of filaments inside.
+    /// Radius; positive. With `Inside` it is greater than the radius of filaments.
     pub radius_nm: f64,
-    /// Where filaments are.
+    /// Side of the sphere on which the filaments are.
     pub side: SphereSide,
 }
 
-/// A side of a sphere.
+/// Side of a sphere.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub enum SphereSide {
-    /// Within it.
+    /// Filaments are inside the sphere.
     Inside,
-    /// Around it.
+    /// Filaments are outside the sphere.
     Outside,
 }
 
@@ -86,15 +83,13 @@ impl Default for Repulsion {
 }
 
 impl Repulsion {
-    /// Whether there is a wall.
     pub(super) fn has_walls(&self) -> bool {
         !(self.planes.is_empty() && self.spheres.is_empty())
     }
 
-    /// Every broken rule.
     fn check(&self, note: &mut impl FnMut(Result<(), SceneProblem>)) {
         if !self.filaments && !self.has_walls() {
-            let rule = "nothing is repelled: write planes or spheres, or leave repulsion out";
+            let rule = "repulsion has no effect: write planes or spheres, or leave it out";
             note(Err(SceneProblem::new("repulsion.filaments", false, rule)));
         }
         note(positive("repulsion.radius_nm", self.radius_nm));
@@ -136,7 +131,6 @@ impl Sphere {
     }
 }
 
-/// Every broken rule of what a scene says of repulsion.
 pub(super) fn check(scene: &Scene, note: &mut impl FnMut(Result<(), SceneProblem>)) {
     if let Some(repulsion) = &scene.repulsion {
         repulsion.check(note);
@@ -144,7 +138,7 @@ pub(super) fn check(scene: &Scene, note: &mut impl FnMut(Result<(), SceneProblem
 }
 
 impl Scene {
-    /// Whether something bears loads that no clamp does.
+    /// Returns whether the scene has walls, which can resist loads.
     pub(super) fn has_walls(&self) -> bool {
         self.repulsion.as_ref().is_some_and(Repulsion::has_walls)
     }

@@ -1,16 +1,15 @@
-//! Rules that several numbers of a scene share.
+//! Rules for numbers that several parts of a scene share.
 
 use super::{Filament, ForceLaw, SceneProblem, Section};
 use actin_cosserat::constants::CROSS_SECTION_AREA;
 use std::f64::consts::PI;
 use std::fmt::Debug;
 
-/// The value as Rust writes it, with all its digits.
+/// Value with all its digits.
 pub(super) fn show(value: impl Debug) -> String {
     format!("{value:?}")
 }
 
-/// A number that is finite.
 pub(super) fn finite(key: &str, value: f64) -> Result<(), SceneProblem> {
     if value.is_finite() {
         return Ok(());
@@ -18,7 +17,6 @@ pub(super) fn finite(key: &str, value: f64) -> Result<(), SceneProblem> {
     Err(SceneProblem::new(key, show(value), "must be finite"))
 }
 
-/// A number that is finite and greater than zero.
 pub(super) fn positive(key: &str, value: f64) -> Result<(), SceneProblem> {
     if value.is_finite() && value > 0.0 {
         return Ok(());
@@ -30,7 +28,6 @@ pub(super) fn positive(key: &str, value: f64) -> Result<(), SceneProblem> {
     ))
 }
 
-/// A number that is finite and not negative.
 pub(super) fn non_negative(key: &str, value: f64) -> Result<(), SceneProblem> {
     if value.is_finite() && value >= 0.0 {
         return Ok(());
@@ -42,7 +39,6 @@ pub(super) fn non_negative(key: &str, value: f64) -> Result<(), SceneProblem> {
     ))
 }
 
-/// Three finite numbers.
 pub(super) fn all_finite(key: &str, values: [f64; 3]) -> Result<(), SceneProblem> {
     if values.iter().all(|v| v.is_finite()) {
         return Ok(());
@@ -50,7 +46,7 @@ pub(super) fn all_finite(key: &str, values: [f64; 3]) -> Result<(), SceneProblem
     Err(SceneProblem::new(key, show(values), "must be finite"))
 }
 
-/// A direction: three finite numbers, not all zero.
+/// Checks that three numbers are finite and not all zero.
 pub(super) fn direction(key: &str, values: [f64; 3]) -> Result<(), SceneProblem> {
     all_finite(key, values)?;
     if values.iter().any(|v| v.abs() > 0.0) {
@@ -59,7 +55,6 @@ pub(super) fn direction(key: &str, values: [f64; 3]) -> Result<(), SceneProblem>
     Err(SceneProblem::new(key, show(values), "must not be zero"))
 }
 
-/// Three finite numbers greater than zero.
 pub(super) fn each_positive(key: &str, values: [f64; 3]) -> Result<(), SceneProblem> {
     if values.iter().all(|v| v.is_finite() && *v > 0.0) {
         return Ok(());
@@ -71,12 +66,12 @@ pub(super) fn each_positive(key: &str, values: [f64; 3]) -> Result<(), SceneProb
     ))
 }
 
-/// Radius of a filament's cross-section (nm).
+/// Radius (nm) of the cross-section of a filament.
 pub(super) fn radius_nm() -> f64 {
     (CROSS_SECTION_AREA / PI).sqrt()
 }
 
-/// A curvature (1/nm) whose radius is greater than that of the filament.
+/// Checks that the radius of curvature exceeds the radius of the filament. `curvature` is in 1/nm.
 pub(super) fn check_curvature(
     key: &str,
     value: String,
@@ -87,13 +82,12 @@ pub(super) fn check_curvature(
         return Ok(());
     }
     let rule = format!(
-        "bends the filament more than to its own radius of {radius:.1} nm: its inner side would turn \
-         inside out"
+        "the radius of curvature must be greater than the radius of the filament, {radius:.1} nm"
     );
     Err(SceneProblem::new(key, value, rule))
 }
 
-/// An equilibrium is a minimum of the energy, which the printed balance does not have.
+/// Checks that the forces of a filament have a potential, which `PaperBalance` does not.
 pub(super) fn check_potential(filament: &Filament) -> Result<(), SceneProblem> {
     let has_rod = filament
         .sections
@@ -103,13 +97,13 @@ pub(super) fn check_potential(filament: &Filament) -> Result<(), SceneProblem> {
         return Err(SceneProblem::new(
             "filament.rod.force_law",
             "PaperBalance",
-            "has no potential: Equilibrium needs EnergyGradient; damped Dynamics takes either",
+            "has no potential, which Equilibrium and Brownian require: write EnergyGradient",
         ));
     }
     Ok(())
 }
 
-/// Exactly one of several keys below `key` is given.
+/// Checks that exactly one of several keys below `key` is given.
 pub(super) fn check_exactly_one<const N: usize>(
     key: &str,
     given: [(&str, Option<String>); N],
@@ -118,13 +112,13 @@ pub(super) fn check_exactly_one<const N: usize>(
     let names = given.each_ref().map(|(name, _)| *name).join(" or ");
     let mut found = given.into_iter().filter_map(|(name, v)| Some((name, v?)));
     let Some((first, _)) = found.next() else {
-        let rule = format!("nothing {what}: write {names}");
+        let rule = format!("no {what} is given: write {names}");
         return Err(SceneProblem::new(key, "", rule));
     };
     match found.next() {
         None => Ok(()),
         Some((name, value)) => {
-            let rule = format!("{first} {what} already: write one of the two");
+            let rule = format!("the {what} is given by {first} already: write one of the two");
             Err(SceneProblem::new(format!("{key}.{name}"), value, rule))
         }
     }

@@ -1,9 +1,8 @@
-//! What pushes off a saddle need in a scene.
+//! Validation of `leave_saddles`.
 
 use super::{Dynamics, Load, Scene, SceneProblem, rules};
 
-/// Checks `leave_saddles` of a motion against the rest of the scene: saddles are those of an energy,
-/// and a motion comes to rest on them.
+/// Checks that the scene has a potential and no noise, which `leave_saddles` requires.
 pub(super) fn check(scene: &Scene, dynamics: &Dynamics) -> Result<(), SceneProblem> {
     if dynamics.leave_saddles == 0 {
         return Ok(());
@@ -17,7 +16,7 @@ pub(super) fn check(scene: &Scene, dynamics: &Dynamics) -> Result<(), SceneProbl
     }
     if scene.loads.iter().any(Load::follows) {
         return Err(refused(
-            "saddles are those of an energy, which loads that turn with the filament do not have",
+            "requires an energy, which loads with follows: true do not have: leave it out",
         ));
     }
     if scene
@@ -25,7 +24,7 @@ pub(super) fn check(scene: &Scene, dynamics: &Dynamics) -> Result<(), SceneProbl
         .any(|one| rules::check_potential(one).is_err())
     {
         return Err(refused(
-            "saddles are those of an energy, which PaperBalance does not have: write EnergyGradient",
+            "requires an energy, which PaperBalance does not have: write EnergyGradient",
         ));
     }
     Ok(())

@@ -1,12 +1,11 @@
-//! The keys of scene files as a JSON schema, from the types that read them.
+//! JSON schema of scenes.
 
 use super::written::Written;
 use serde_json::Value;
 
-/// The JSON schema of a scene: every key with its type, default and meaning; types under `$defs`. It
-/// describes the data that the RON text of a scene stands for: `Name(key: value)` of an enum is an object
-/// with the one key `Name`. Rules between numbers are in the descriptions; [`crate::Scene::from_ron`]
-/// enforces them.
+/// Returns the JSON schema of a scene, with the type, default and meaning of every key. `Name(key: value)` of
+/// an enum is an object with the single key `Name`. Relations between numbers are described in words;
+/// [`crate::Scene::from_ron`] checks them.
 pub fn schema() -> Value {
     schemars::schema_for!(Written).to_value()
 }
@@ -15,13 +14,12 @@ pub fn schema() -> Value {
 mod tests {
     use super::*;
 
-    /// Every key and every variant has a description.
     #[test]
     fn everything_is_described() {
         fn undescribed(value: &Value, path: &str, found: &mut Vec<String>) {
             if let Some(keys) = value["properties"].as_object() {
                 for (key, below) in keys {
-                    // The one key of an enum is the name of a variant, described above it.
+                    // Variants are described one level higher.
                     let is_variant = key.starts_with(char::is_uppercase);
                     let described = if is_variant { value } else { below };
                     if described["description"].is_null() {

@@ -1,4 +1,4 @@
-//! What a scene says of the stretches of a filament: how each is resolved, and in what it differs.
+//! Sections of a filament and their altered parameters.
 
 use super::RodLaw;
 use super::model::{Material, Monomers, RodModel};
@@ -6,60 +6,59 @@ use actin_cosserat::RigidityFactors;
 use actin_mechanics::Vector3;
 use serde::{Deserialize, Serialize};
 
-/// A stretch of filament resolved in one way.
+/// Section of a filament with one resolution.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub enum Section {
-    /// Every monomer as a rigid ellipsoid. Boundaries move to the nearest place half a rise
-    /// beyond a monomer.
+    /// Monomers as rigid ellipsoids. Boundaries are moved to the nearest position half a rise after a monomer.
     Ellipsoids {
-        /// Arc length at which the section starts; at least 0.
+        /// Arc length of the start; at least 0.
         from_nm: f64,
-        /// Arc length at which it ends; greater than `from_nm`, by two monomers or more.
+        /// Arc length of the end; greater than `from_nm`, by at least two monomers.
         to_nm: f64,
-        /// In what its monomers differ from those of the filament. Neighbouring sections of monomers
-        /// differ from each other in this.
+        /// Parameters that differ from `monomers` of the filament. They differ between adjacent sections of
+        /// monomers.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         altered: Option<Altered>,
     },
-    /// A Cosserat rod.
+    /// Cosserat rod.
     Rod {
-        /// Arc length at which the section starts; at least 0.
+        /// Arc length of the start; at least 0.
         from_nm: f64,
-        /// Arc length at which it ends; greater than `from_nm`.
+        /// Arc length of the end; greater than `from_nm`.
         to_nm: f64,
-        /// Number of segments, at least 1. By default the number that makes them most nearly 10 nm long.
+        /// Number of segments; at least 1. By default segments are as close to 10 nm as possible.
         #[serde(default)]
         segments: Option<usize>,
-        /// In what its rod differs from that of the filament. Neighbouring rods differ from each other in
-        /// this; they share the cross-section at the boundary, where half a segment of either bends in series.
+        /// Parameters that differ from `rod` of the filament. They differ between adjacent rods. Adjacent rods
+        /// share the cross-section at the boundary, where half a segment of each bends in series.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         altered: Option<Box<AlteredRod>>,
     },
 }
 
-/// In what the rod of a section differs from that of the filament.
+/// Parameters of a rod that differ from `rod` of the filament.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, default)]
 pub struct AlteredRod {
-    /// Its constitutive law, instead of the filament's.
+    /// Constitutive law; by default the law of the filament.
     pub law: Option<RodLaw>,
-    /// Its rigidities, instead of the filament's; laws as for the filament.
+    /// Rigidities; by default the rigidities of the filament. The same laws require the default material.
     pub material: Option<Material>,
-    /// Factor of the rigidity of bending; positive. The laws `Homogenised` take no factors.
+    /// Factor of the bending rigidity; positive. The `Homogenised` laws do not support factors.
     pub bend_rigidity_factor: f64,
-    /// Factor of the rigidity of twist; positive.
+    /// Factor of the twisting rigidity; positive.
     pub twist_rigidity_factor: f64,
-    /// Factor of the rigidity of stretch; positive.
+    /// Factor of the stretching rigidity; positive.
     pub stretch_rigidity_factor: f64,
-    /// Factor of the rigidity of shear; positive.
+    /// Factor of the shear rigidity; positive.
     pub shear_rigidity_factor: f64,
-    /// Curvature at rest about the two axes across, d1 and d2 (of a filament along lab z, x and y); finite,
-    /// its radius greater than that of the filament, 3.5 nm.
+    /// Rest curvature about the transverse axes d1 and d2, which are x and y for a filament along lab z;
+    /// finite. The radius of curvature is greater than the radius of the filament, 3.5 nm.
     pub rest_curvature_per_nm: [f64; 2],
-    /// Twist at rest; finite. Together with the curvature it makes a helix.
+    /// Rest twist; finite. Together with the rest curvature it defines a helix.
     pub rest_twist_per_nm: f64,
 }
 
@@ -79,7 +78,7 @@ impl Default for AlteredRod {
 }
 
 impl AlteredRod {
-    /// The factors of its rigidities.
+    /// Returns the factors of the rigidities.
     pub fn factors(&self) -> RigidityFactors {
         RigidityFactors {
             shear: self.shear_rigidity_factor,
@@ -89,21 +88,20 @@ impl AlteredRod {
         }
     }
 
-    /// Curvature and twist at rest (rad/nm, body axes).
+    /// Returns the rest curvature and twist (rad/nm, body axes).
     pub fn rest_curvature(&self) -> Vector3 {
         let [x, y] = self.rest_curvature_per_nm;
         Vector3::new(x, y, self.rest_twist_per_nm)
     }
 }
 
-/// In what the monomers of a section differ from those of the filament, for example where they are
-/// decorated by another protein.
+/// Parameters of monomers that differ from `monomers` of the filament, for example of monomers with another
+/// protein bound.
 ///
-/// An interface belongs to the section of its lower monomer. Bending and twist come from the same bonds: with
-/// both factors of rigidity the same, every rigidity of the filament is multiplied by it. Softer lateral bonds
-/// take more from twist than from bending, and the more the larger the twist: with 0.03 (lateral) and 0.23
-/// bending is 5 times softer, twist 5 times at little of it, and at 0.01 rad/nm 7 times in over-twist and 13
-/// times in under-twist: about cofilin's 5 and 10.
+/// An interface belongs to the section of its lower monomer. Equal factors for both rigidities multiply every
+/// rigidity of the filament. A smaller lateral factor reduces twisting more than bending, and more at large
+/// twist. Factors of 0.03 (lateral) and 0.23 (longitudinal) approximate cofilin: bending is 5 times softer,
+/// twisting 5 times at small twist, 7 times in over-twist and 13 times in under-twist at 0.01 rad/nm.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, default)]
@@ -112,11 +110,11 @@ pub struct Altered {
     pub lateral_rigidity_factor: f64,
     /// Factor of the rigidity of longitudinal interfaces; positive.
     pub longitudinal_rigidity_factor: f64,
-    /// Bonds per lateral interface, instead of those of the filament.
+    /// Bonds per lateral interface; by default the number of the filament.
     pub lateral_bonds: Option<usize>,
-    /// Bonds per longitudinal interface, instead of those of the filament.
+    /// Bonds per longitudinal interface; by default the number of the filament.
     pub longitudinal_bonds: Option<usize>,
-    /// Factor of the mass of a monomer, and so of its moments of inertia; positive.
+    /// Factor of the mass and moments of inertia of a monomer; positive.
     pub mass_factor: f64,
 }
 
@@ -133,7 +131,7 @@ impl Default for Altered {
 }
 
 impl Altered {
-    /// Monomers of a filament, altered.
+    /// Returns altered monomers.
     pub fn applied_to(&self, monomers: &Monomers) -> Monomers {
         let mut altered = monomers.clone();
         altered.lateral_rigidity_pn_per_nm *= self.lateral_rigidity_factor;
@@ -148,7 +146,7 @@ impl Altered {
 }
 
 impl Section {
-    /// A rod that differs in nothing from that of its filament.
+    /// Creates a rod with the parameters of its filament.
     pub fn rod(from_nm: f64, to_nm: f64, segments: Option<usize>) -> Self {
         Self::Rod {
             from_nm,
@@ -158,12 +156,12 @@ impl Section {
         }
     }
 
-    /// Whether it is a rod.
+    /// Returns whether the section is a rod.
     pub fn is_rod(&self) -> bool {
         matches!(self, Self::Rod { .. })
     }
 
-    /// In what its rod differs from that of its filament; nothing of monomers.
+    /// Returns the altered parameters of a rod.
     pub fn altered_rod(&self) -> Option<&AlteredRod> {
         match self {
             Self::Rod { altered, .. } => altered.as_deref(),
@@ -171,7 +169,7 @@ impl Section {
         }
     }
 
-    /// The same, to be changed.
+    /// Returns the altered parameters of a rod, mutably.
     pub fn altered_rod_mut(&mut self) -> Option<&mut AlteredRod> {
         match self {
             Self::Rod { altered, .. } => altered.as_deref_mut(),
@@ -179,25 +177,25 @@ impl Section {
         }
     }
 
-    /// Whether it differs from its filament.
+    /// Returns whether parameters differ from those in the filament.
     pub fn is_altered(&self) -> bool {
         self.altered().is_some() || self.altered_rod().is_some()
     }
 
-    /// The rod of a section of a filament of this rod, but for factors and what it is like at rest.
-    pub fn rod_model(&self, of_filament: &RodModel) -> RodModel {
+    /// Returns the rod model of the section, without rigidity factors and rest curvature.
+    pub fn rod_model(&self, filament: &RodModel) -> RodModel {
         let altered = self.altered_rod();
         let law = altered.and_then(|altered| altered.law.clone());
         let material = altered.and_then(|altered| altered.material);
         RodModel {
-            force_law: of_filament.force_law,
-            rotary_inertia: of_filament.rotary_inertia,
-            law: law.unwrap_or_else(|| of_filament.law.clone()),
-            material: material.unwrap_or(of_filament.material),
+            force_law: filament.force_law,
+            rotary_inertia: filament.rotary_inertia,
+            law: law.unwrap_or_else(|| filament.law.clone()),
+            material: material.unwrap_or(filament.material),
         }
     }
 
-    /// In what its monomers differ from those of its filament; nothing of a rod.
+    /// Returns the altered parameters of monomers.
     pub fn altered(&self) -> Option<Altered> {
         match self {
             Self::Ellipsoids { altered, .. } => *altered,
@@ -205,15 +203,15 @@ impl Section {
         }
     }
 
-    /// The monomers of a section of a filament of these monomers.
-    pub fn monomers(&self, of_filament: &Monomers) -> Monomers {
+    /// Returns the monomers of the section.
+    pub fn monomers(&self, filament: &Monomers) -> Monomers {
         match self.altered() {
-            Some(altered) => altered.applied_to(of_filament),
-            None => of_filament.clone(),
+            Some(altered) => altered.applied_to(filament),
+            None => filament.clone(),
         }
     }
 
-    /// Arc lengths of start and end as written (nm).
+    /// Returns the arc lengths (nm) of start and end, as written.
     pub fn span_nm(&self) -> (f64, f64) {
         match *self {
             Self::Ellipsoids { from_nm, to_nm, .. } | Self::Rod { from_nm, to_nm, .. } => {

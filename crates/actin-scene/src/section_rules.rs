@@ -1,14 +1,12 @@
-//! The rules of the sections of a filament.
+//! Validation of sections.
 
 use super::rules::{check_curvature, each_positive, finite, non_negative, positive, show};
 use super::sections::check_adaptive;
 use super::validate::check_bonds;
 use super::{AlteredRod, Filament, Material, SceneProblem, Section};
 
-/// Sections are contiguous if their boundaries agree to this length (nm).
 const BOUNDARY_TOLERANCE_NM: f64 = 1e-9;
 
-/// Checks the sections of a filament, each of which may break a rule.
 pub(super) fn check(filament: &Filament, note: &mut impl FnMut(Result<(), SceneProblem>)) {
     if let Some(adaptive) = filament.sections.adaptive() {
         note(check_adaptive(adaptive));
@@ -37,7 +35,6 @@ pub(super) fn check(filament: &Filament, note: &mut impl FnMut(Result<(), SceneP
     }
 }
 
-/// Of the curvature the radius is that of the filament or greater: the rod does not turn inside out.
 fn check_altered_rod(key: &str, altered: &AlteredRod) -> Result<(), SceneProblem> {
     for (name, factor) in [
         ("bend_rigidity_factor", altered.bend_rigidity_factor),
@@ -127,9 +124,9 @@ fn check_boundary(
     let rule = match previous {
         None => "the first section starts at 0".to_owned(),
         Some(_) if from < before => {
-            format!("overlaps the section before it, which ends at {before:?}")
+            format!("overlaps the previous section, which ends at {before:?}")
         }
-        Some(_) => format!("leaves a gap behind the section before it, which ends at {before:?}"),
+        Some(_) => format!("leaves a gap after the previous section, which ends at {before:?}"),
     };
     let key = format!("filament.sections[{i}]");
     if (from - before).abs() > BOUNDARY_TOLERANCE_NM {
@@ -144,7 +141,7 @@ fn check_boundary(
         return Err(SceneProblem::new(
             format!("{key}.from_nm"),
             show(from),
-            "neighbouring sections of the same monomers are one section: write them as one",
+            "adjacent sections have the same monomers: write them as one section",
         ));
     }
     Ok(())

@@ -1,4 +1,4 @@
-//! The sections of a filament: written one by one, chosen by the program, or following a motion.
+//! Sections of a filament: listed, chosen by the program, or adapted during a motion.
 
 use super::rules::{positive, show};
 use super::{Following, SceneProblem, Section};
@@ -8,139 +8,139 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::fmt;
 use std::ops::{Deref, DerefMut};
 
-/// The sections of a filament in order of arc length, a list that may be changed like any other.
+/// Sections of a filament in order of arc length.
 ///
-/// With [`adaptive`](Self::adaptive) the list is one rod of the whole length until
-/// `Assembly::build` of `actin-sim` has chosen others; with [`following`](Self::following) until a
-/// motion has begun.
+/// With [`adaptive`](Self::adaptive) the list is one rod until `Assembly::build` of `actin-sim` chooses
+/// sections. With [`following`](Self::following) it is one rod until a motion starts.
 #[derive(Clone, Debug, Default)]
 pub struct Sections {
     list: Vec<Section>,
-    left: Option<Left>,
+    automatic: Option<AutoSections>,
 }
 
-/// Sections that are left to the program are the same if they are left to it in the same way.
 impl PartialEq for Sections {
     fn eq(&self, other: &Self) -> bool {
-        match (&self.left, &other.left) {
+        match (&self.automatic, &other.automatic) {
             (None, None) => self.list == other.list,
             (one, other) => one == other,
         }
     }
 }
 
-/// Sections that the program chooses.
+/// Automatic sections.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(rename = "Sections")]
-enum Left {
+enum AutoSections {
     Adaptive(Adaptive),
     Following(Following),
 }
 
-/// Automatic choice of sections before a run, for a wanted accuracy. The program runs every monomer, rods, and windows of
-/// monomers at walls, loads and linkers; for a long motion only the beginning. It chooses the resolution with the least
-/// work within the wanted errors. For an equilibrium without a limit of monomers the choice is every monomer, since any
-/// measured error requires that run. Not available in heat.
+/// Automatic choice of sections before a run, for target accuracies. The program compares monomers, rods, and
+/// intervals of monomers at walls, loads and linkers; for a long motion only its beginning. It chooses the
+/// resolution with the least work among those within the target errors. For an equilibrium without a limit of
+/// monomers the choice is monomers everywhere, since the measured errors require this run. Not available with
+/// thermal noise.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Adaptive {
-    /// Length of the filament; positive. It is rounded to whole monomers.
+    /// Length of the filament; positive. It is rounded to a whole number of monomers.
     pub length_nm: f64,
-    /// Wanted quantity with its largest error against every monomer.
+    /// Target quantity, with its largest error relative to a filament of monomers.
     pub want: Want,
-    /// Further wanted quantities.
+    /// Further target quantities.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub also: Vec<Want>,
-    /// Largest number of resolved monomers; at least 13, a period. If the wanted errors require more, the program chooses
-    /// the resolution with the smallest error and warns.
+    /// Largest number of resolved monomers; at least 13, a period of the helix. If the target errors require
+    /// more, the program chooses the resolution with the smallest error and warns.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub monomers: Option<usize>,
 }
 
 impl Adaptive {
-    /// Returns all wanted quantities.
+    /// Returns all target quantities.
     pub fn wants(&self) -> impl Iterator<Item = &Want> + Clone {
         std::iter::once(&self.want).chain(&self.also)
     }
 }
 
-/// A number that is wanted of the equilibrium, with its largest relative error.
+/// Target quantity of the equilibrium, with its largest relative error.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub enum Want {
-    /// The displacement of the tip at the end.
+    /// Displacement of the end of the filament.
     Tip {
-        /// Largest error over the displacement; greater than 0, below 1.
+        /// Largest relative error; greater than 0, below 1.
         error: f64,
     },
-    /// The largest distance from the axis of the filament as built.
+    /// Largest distance from the axis as built.
     Height {
-        /// Largest error over the distance; greater than 0, below 1.
+        /// Largest relative error; greater than 0, below 1.
         error: f64,
     },
-    /// The force along the filament as built that the clamp at its end bears.
+    /// Reaction force of the clamp at the end, along the filament as built.
     EndForce {
-        /// Largest error over the force; greater than 0, below 1.
+        /// Largest relative error; greater than 0, below 1.
         error: f64,
     },
-    /// The couple about the filament as built that the clamp at its end bears.
+    /// Reaction torque of the clamp at the end, about the filament as built.
     EndCouple {
-        /// Largest error over the couple; greater than 0, below 1.
+        /// Largest relative error; greater than 0, below 1.
         error: f64,
     },
-    /// The elastic energy of the filament, without that of linkers and loads.
+    /// Elastic energy of the filament, without linkers and loads.
     Energy {
-        /// Largest error over the energy; greater than 0, below 1.
+        /// Largest relative error; greater than 0, below 1.
         error: f64,
     },
-    /// The size of the force of a linker.
+    /// Magnitude of the force of a linker.
     LinkerForce {
         /// Index of the linker in `linkers`, from 0.
         linker: usize,
-        /// Largest error over the force; greater than 0, below 1.
+        /// Largest relative error; greater than 0, below 1.
         error: f64,
     },
-    /// The size of the curvature about a place.
+    /// Magnitude of the curvature near an arc length.
     Curvature {
-        /// Where, by arc length; inside the filament, two periods (71.2 nm) or more from clamped ends and junctions.
+        /// Arc length inside the filament; at least two periods (71.2 nm) from clamped ends and junctions.
         at_nm: f64,
-        /// Largest error over the curvature; greater than 0, below 1.
+        /// Largest relative error; greater than 0, below 1.
         error: f64,
     },
 }
 
-/// A number that is wanted of an equilibrium.
+/// Quantity of an equilibrium.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub enum Quantity {
-    /// The displacement of the tip at the end (nm).
+    /// Displacement of the end of the filament (nm).
     Tip,
-    /// The largest distance from the axis of the filament as built (nm).
+    /// Largest distance from the axis as built (nm).
     Height,
-    /// The force along the filament as built that the clamp at its end bears (pN).
+    /// Reaction force of the clamp at the end, along the filament as built (pN).
     EndForce,
-    /// The couple about the filament as built that the clamp at its end bears (pN nm).
+    /// Reaction torque of the clamp at the end, about the filament as built (pN nm).
     EndCouple,
-    /// The elastic energy of the filament (pN nm): of its sections and junctions, without linkers and loads.
+    /// Elastic energy of sections and junctions (pN nm), without linkers and loads.
     Energy,
-    /// The size of the force of a linker (pN).
+    /// Magnitude of the force of a linker (pN).
     LinkerForce {
         /// Index of the linker in `linkers`, from 0.
         linker: usize,
     },
-    /// The size of the curvature about a place (rad/nm): the turn of the mean axes of one period of 13 monomers against
-    /// those of the period before it, over its length. Near an end these are the outermost two periods.
+    /// Magnitude of the curvature near an arc length (rad/nm): the angle between the mean axes of two
+    /// successive periods of 13 monomers, divided by the length of a period. Near an end the outermost two
+    /// periods are used.
     Curvature {
-        /// Where, by arc length (nm); inside the filament, two periods (71.2 nm) or more from clamped ends and junctions.
+        /// Arc length inside the filament; at least two periods (71.2 nm) from clamped ends and junctions.
         at_nm: f64,
     },
 }
 
 impl Quantity {
-    /// Its unit.
+    /// Returns the unit.
     pub fn unit(self) -> &'static str {
         match self {
             Self::Tip | Self::Height => "nm",
@@ -152,7 +152,7 @@ impl Quantity {
 }
 
 impl Quantity {
-    /// A value of it in words.
+    /// Formats a value with its unit.
     pub fn show(self, value: f64) -> String {
         match self {
             Self::Curvature { .. } => format!("{value:.4e} {}", self.unit()),
@@ -161,7 +161,7 @@ impl Quantity {
     }
 }
 
-/// As a scene writes it.
+/// Formats the quantity as in a scene.
 impl fmt::Display for Quantity {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -173,7 +173,7 @@ impl fmt::Display for Quantity {
 }
 
 impl Want {
-    /// What is wanted.
+    /// Returns the quantity.
     pub fn quantity(&self) -> Quantity {
         match *self {
             Self::Tip { .. } => Quantity::Tip,
@@ -186,7 +186,7 @@ impl Want {
         }
     }
 
-    /// Its largest relative error.
+    /// Returns the largest relative error.
     pub fn error(&self) -> f64 {
         match *self {
             Self::Tip { error }
@@ -200,10 +200,8 @@ impl Want {
     }
 }
 
-/// The least limit of monomers.
 const FEWEST_MONOMERS: usize = 13;
 
-/// Checks what the sections of a filament are chosen by.
 pub(super) fn check_adaptive(adaptive: &Adaptive) -> Result<(), SceneProblem> {
     positive("filament.sections.length_nm", adaptive.length_nm)?;
     if let Some(few) = adaptive.monomers.filter(|&most| most < FEWEST_MONOMERS) {
@@ -222,27 +220,27 @@ pub(super) fn check_adaptive(adaptive: &Adaptive) -> Result<(), SceneProblem> {
 }
 
 impl Sections {
-    /// What the program is to choose them by; none where they are written.
+    /// Returns the targets of automatic sections, or `None`.
     pub fn adaptive(&self) -> Option<&Adaptive> {
-        match &self.left {
-            Some(Left::Adaptive(adaptive)) => Some(adaptive),
+        match &self.automatic {
+            Some(AutoSections::Adaptive(adaptive)) => Some(adaptive),
             _ => None,
         }
     }
 
-    /// The same list, to follow a motion.
+    /// Makes the sections follow a motion.
     #[must_use]
     pub fn with_following(self, following: Following) -> Self {
         Self {
-            left: Some(Left::Following(following)),
+            automatic: Some(AutoSections::Following(following)),
             ..self
         }
     }
 
-    /// How they follow a motion; none where they stay.
+    /// Returns the parameters of sections that follow a motion, or `None`.
     pub fn following(&self) -> Option<&Following> {
-        match &self.left {
-            Some(Left::Following(following)) => Some(following),
+        match &self.automatic {
+            Some(AutoSections::Following(following)) => Some(following),
             _ => None,
         }
     }
@@ -250,7 +248,10 @@ impl Sections {
 
 impl From<Vec<Section>> for Sections {
     fn from(list: Vec<Section>) -> Self {
-        Self { list, left: None }
+        Self {
+            list,
+            automatic: None,
+        }
     }
 }
 
@@ -258,7 +259,7 @@ impl From<Adaptive> for Sections {
     fn from(adaptive: Adaptive) -> Self {
         Self {
             list: vec![Section::rod(0.0, adaptive.length_nm, None)],
-            left: Some(Left::Adaptive(adaptive)),
+            automatic: Some(AutoSections::Adaptive(adaptive)),
         }
     }
 }
@@ -267,7 +268,7 @@ impl From<Following> for Sections {
     fn from(following: Following) -> Self {
         Self {
             list: vec![Section::rod(0.0, following.length_nm, None)],
-            left: Some(Left::Following(following)),
+            automatic: Some(AutoSections::Following(following)),
         }
     }
 }
@@ -297,22 +298,22 @@ impl<'a> IntoIterator for &'a Sections {
 
 impl Serialize for Sections {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        match &self.left {
+        match &self.automatic {
             None => self.list.serialize(serializer),
-            Some(left) => left.serialize(serializer),
+            Some(automatic) => automatic.serialize(serializer),
         }
     }
 }
 
 impl<'de> Deserialize<'de> for Sections {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        deserializer.deserialize_any(ListOrLeft)
+        deserializer.deserialize_any(SectionsVisitor)
     }
 }
 
-struct ListOrLeft;
+struct SectionsVisitor;
 
-impl<'de> Visitor<'de> for ListOrLeft {
+impl<'de> Visitor<'de> for SectionsVisitor {
     type Value = Sections;
 
     fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -324,8 +325,8 @@ impl<'de> Visitor<'de> for ListOrLeft {
         Ok(list.into())
     }
 
-    fn visit_enum<A: EnumAccess<'de>>(self, left: A) -> Result<Sections, A::Error> {
-        let (name, keys): (String, _) = left.variant()?;
+    fn visit_enum<A: EnumAccess<'de>>(self, automatic: A) -> Result<Sections, A::Error> {
+        let (name, keys): (String, _) = automatic.variant()?;
         match name.as_str() {
             "Adaptive" => keys.newtype_variant::<Adaptive>().map(Sections::from),
             "Following" => keys.newtype_variant::<Following>().map(Sections::from),
@@ -346,16 +347,16 @@ impl schemars::JsonSchema for Sections {
         let following = generator.subschema_for::<Following>();
         schemars::json_schema!({
             "oneOf": [
-                { "description": "Sections one by one.", "allOf": [list] },
+                { "description": "List of sections.", "allOf": [list] },
                 {
-                    "description": "The program chooses them; see there.",
+                    "description": "Sections chosen by the program.",
                     "type": "object",
                     "properties": { "Adaptive": adaptive },
                     "required": ["Adaptive"],
                     "additionalProperties": false
                 },
                 {
-                    "description": "They change while a motion goes on; see there.",
+                    "description": "Sections that follow a motion.",
                     "type": "object",
                     "properties": { "Following": following },
                     "required": ["Following"],

@@ -1,40 +1,40 @@
-//! The seeds of a scene: what it draws at random.
+//! Seeds of the random parts of a scene.
 
 use super::{Anchors, Scene, Section, Task};
 use serde::{Deserialize, Serialize};
 
-/// What a scene may draw at random.
+/// Random part of a scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub enum Drawn {
-    /// Bonds of monomers (`monomers.seed`), where `anchors` are drawn.
+    /// Sampled bonds of monomers (`monomers.seed`).
     Bonds,
     /// Thermal noise (`task.thermal.seed`).
     Noise,
-    /// The shapes of imperfections (`imperfection.seed`).
+    /// Shapes of imperfections (`imperfection.seed`).
     Imperfections,
-    /// What happens to linkers (`linkers[].kinetics.seed`).
+    /// Events of linkers (`linkers[].kinetics.seed`).
     Linkers,
 }
 
 impl Drawn {
-    /// Everything that can be drawn.
+    /// All random parts.
     pub const ALL: [Self; 4] = [Self::Bonds, Self::Noise, Self::Imperfections, Self::Linkers];
 }
 
 impl Scene {
-    /// Gives a seed to all of one kind that the scene draws; returns how many draw from it now. What the
-    /// scene does not draw stays as it is.
+    /// Sets the seed of one random part wherever the scene uses it. Returns the number of seeds set. Unused
+    /// seeds are not changed.
     pub fn reseed(&mut self, what: Drawn, seed: u64) -> usize {
         match what {
             Drawn::Bonds => {
                 let drawing = self.filaments_mut().filter(|filament| {
                     let is_monomers = |s: &Section| matches!(s, Section::Ellipsoids { .. });
                     let sections = &filament.sections;
-                    // The program may resolve monomers in what is left to it.
-                    let is_left = sections.adaptive().is_some() || sections.following().is_some();
+                    let is_automatic =
+                        sections.adaptive().is_some() || sections.following().is_some();
                     filament.monomers.anchors != Anchors::Cubature
-                        && (is_left || sections.iter().any(is_monomers))
+                        && (is_automatic || sections.iter().any(is_monomers))
                 });
                 drawing.map(|f| f.monomers.seed = seed).count()
             }
@@ -67,9 +67,8 @@ impl Scene {
 mod tests {
     use super::*;
 
-    /// Only what is drawn takes a seed, and the scene stays valid.
     #[test]
-    fn what_is_drawn_takes_the_seed() {
+    fn only_random_parts_are_seeded() {
         let text = "Scene(
             filaments: [
                 Filament(
@@ -95,9 +94,8 @@ mod tests {
         assert!(scene.validate().is_ok());
     }
 
-    /// Where the program chooses, there may be monomers.
     #[test]
-    fn bonds_of_chosen_sections_take_the_seed() {
+    fn automatic_sections_are_seeded() {
         let text = "Scene(
             filament: Filament(
                 sections: Adaptive(length_nm: 160.0, want: Tip(error: 0.02)),

@@ -8,16 +8,16 @@ use serde::ser::{
 };
 use std::fmt;
 
-/// Serializes a type, with or without names of structures. Without names, absent options have no key.
+/// Serializes a type, with or without names of structures. Without names, options that are `None` have no key.
 ///
 /// # Panics
-/// On bytes, maps and tuples with names, which no scene holds.
+/// On bytes, maps and tuple structures, which scenes do not contain.
 pub(super) fn to_value<T: Serialize + ?Sized>(value: &T, has_names: bool) -> SceneValue {
     let value = value.serialize(Writer { has_names });
-    value.expect("scenes hold numbers, names, lists and structures only")
+    value.expect("scenes contain only numbers, names, lists and structures")
 }
 
-/// A type that no scene holds.
+/// Type that a scene cannot contain.
 #[derive(Debug)]
 pub(super) struct Unwritable(String);
 
@@ -38,7 +38,7 @@ impl serde::ser::Error for Unwritable {
 type Written = Result<SceneValue, Unwritable>;
 
 fn unwritable<T>(what: &str) -> Result<T, Unwritable> {
-    Err(Unwritable::custom(format!("no scene holds {what}")))
+    Err(Unwritable::custom(format!("scenes cannot contain {what}")))
 }
 
 #[derive(Clone, Copy)]
@@ -46,10 +46,8 @@ struct Writer {
     has_names: bool,
 }
 
-/// The values of a bracket.
 struct Values {
     writer: Writer,
-    /// The name before the bracket.
     name: Option<&'static str>,
     all: Vec<SceneValue>,
 }

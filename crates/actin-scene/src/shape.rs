@@ -1,5 +1,4 @@
-//! The shape in which a filament is built, and its rules. The curve that it stands for is in `curve.rs`,
-//! files of points in `trace.rs`.
+//! Initial shape of a filament and its validation.
 
 use super::curve::Curve;
 use super::rules::{check_curvature, finite, positive, radius_nm, show};
@@ -7,56 +6,55 @@ use super::{Filament, SceneProblem};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
 
-/// The curve along which a filament is built. It is its initial shape, not that at rest: a filament whose
-/// sections are straight at rest is bent along it, without stretch or shear, and begins under stress.
+/// Curve along which a filament is built. It is the initial shape, not the rest shape: a filament with straight
+/// sections is bent along the curve, without stretch or shear, and starts under stress.
 ///
-/// Cross-sections go along the curve without twist (parallel transport), from `roll_deg` at the start; along
-/// `AtRest` they have the twist of the rods at rest.
+/// Cross-sections follow the curve without twist (parallel transport), from `roll_deg` at the start. Along
+/// `AtRest` they have the rest twist of the rods.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub enum Shape {
-    /// Part of a circle that begins along `direction`; less than all of it.
+    /// Arc of a circle that starts along `direction`; shorter than the full circle.
     Arc {
-        /// Its radius; greater than that of the filament, 3.5 nm.
+        /// Radius of the circle; greater than the radius of the filament, 3.5 nm.
         radius_nm: f64,
-        /// Azimuth towards which it bends, counted as those of linkers; finite.
+        /// Azimuth of the centre of the circle, defined as for linkers; finite.
         #[serde(default)]
         azimuth_deg: f64,
     },
-    /// A helix whose axis is along `direction`.
+    /// Helix with an axis along `direction`.
     Helix {
-        /// Its radius; positive.
+        /// Radius of the helix; positive.
         radius_nm: f64,
-        /// Rise in a turn, negative where it is left-handed; neighbouring turns are a filament's
-        /// diameter, 7 nm, apart or further.
+        /// Rise per turn; negative for a left-handed helix. Adjacent turns are at least a filament diameter, 7
+        /// nm, apart.
         pitch_nm: f64,
-        /// Azimuth of its axis seen from the start; finite.
+        /// Azimuth of the helix axis relative to the start of the filament; finite.
         #[serde(default)]
         azimuth_deg: f64,
     },
-    /// A smooth curve through points, from the first on as far as the filament is long: a natural cubic
-    /// spline over the lengths of its chords. `at_nm`, `direction` and `roll_deg` move it as they move a
-    /// filament along lab z from the origin: by default points are places in the lab.
+    /// Natural cubic spline through points, with chord length as parameter. It starts at the first point and
+    /// ends at the length of the filament. `at_nm`, `direction` and `roll_deg` move the curve like a filament
+    /// along lab z from the origin. By default points are positions in the lab frame.
     Points {
-        /// The points, at least two; finite, neighbours at different places, the curve at least as long
-        /// as the filament.
+        /// Points; finite, at least two, adjacent points different. The curve must be at least as long as the
+        /// filament.
         #[serde(default)]
         nm: Vec<[f64; 3]>,
-        /// Instead of `nm` a CSV file with x, y and z (nm) of a point in each row, behind at most one row of
-        /// headings. Its path is relative to the file of the scene or, of a scene from standard input, to
-        /// the working directory. The scene of a run directory has the points.
+        /// CSV file with the points, instead of `nm`: x, y and z (nm) in each row, after at most one row of
+        /// headings. The path is relative to the scene file, or to the working directory for a scene from
+        /// standard input. The scene in a run directory contains the points.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         file: Option<String>,
     },
-    /// The shape at rest: rods as curved and twisted as they are `altered`, monomers straight.
+    /// Rest shape: rods with their rest curvature and twist, monomers straight.
     AtRest,
 }
 
-/// Share of the length by which a curve through points may be too short: what digits of points leave open.
+/// Relative tolerance of the length of a curve through points, for rounded coordinates.
 const SHORT: f64 = 1e-6;
 
-/// Checks the shape of a filament.
 pub(super) fn check(filament: &Filament) -> Result<(), SceneProblem> {
     let Some(shape) = &filament.shape else {
         return Ok(());
@@ -129,8 +127,7 @@ fn check_helix(length: f64, radius: f64, pitch: f64) -> Result<(), SceneProblem>
 fn check_points(nm: &[[f64; 3]], file: Option<&str>) -> Result<(), SceneProblem> {
     let key = "filament.shape.nm";
     if let Some(file) = file {
-        let rule = "is not read: a file of points is found beside the file of a scene; a text alone has \
-                    the points as nm";
+        let rule = "cannot be read without a scene file: write the points as nm";
         return Err(SceneProblem::new("filament.shape.file", show(file), rule));
     }
     if nm.len() < 2 {
@@ -142,14 +139,14 @@ fn check_points(nm: &[[f64; 3]], file: Option<&str>) -> Result<(), SceneProblem>
         let is_before =
             |other: &[f64; 3]| other.iter().zip(point).all(|(a, b)| (a - b).abs() <= 0.0);
         if i > 0 && is_before(&nm[i - 1]) {
-            let rule = "is the point before it: neighbouring points are at different places";
+            let rule = "equals the previous point: write different points";
             return Err(SceneProblem::new(format!("{key}[{i}]"), show(point), rule));
         }
     }
     Ok(())
 }
 
-/// What only the curve shows: its length, its curvature, and whether its ends meet.
+/// Checks the length and curvature of the curve, and that it is not closed.
 fn check_curve(filament: &Filament, shape: &Shape, length: f64) -> Result<(), SceneProblem> {
     let curve = Curve::of(filament, &filament.boundaries());
     let key = match shape {
@@ -160,7 +157,6 @@ fn check_curve(filament: &Filament, shape: &Shape, length: f64) -> Result<(), Sc
         .length()
         .filter(|whole| *whole < length * (1.0 - SHORT))
     {
-        // Points in micrometres are as good as any but for a factor.
         let what = if (whole * 1e3 >= length * (1.0 - SHORT)) && whole * 1e2 < length {
             "are the points in um? They are read in nm"
         } else {

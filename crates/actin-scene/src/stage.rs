@@ -1,11 +1,10 @@
-//! The rules of a path: what its stages may set, and how long they take.
+//! Validation of paths.
 
 use super::path::load_factors;
 use super::rules::{all_finite, finite, positive, show};
 use super::support::is_along;
 use super::{End, HeldEnds, Hold, Scene, SceneProblem, Setting, Slides, Stage};
 
-/// Checks that what stage `i` sets exists and may be set.
 pub(super) fn check(
     scene: &Scene,
     held: &HeldEnds,
@@ -26,7 +25,7 @@ pub(super) fn check(
             Setting::Anchor { linker, shift_nm } => {
                 exists("linker", linker, scene.linkers.len())?;
                 if scene.linkers[linker].to.is_some() {
-                    let rule = "this linker joins two sites: it has no anchor to be moved";
+                    let rule = "this linker joins two sites and has no anchor: write a linker with an anchor";
                     return Err(SceneProblem::new(key("linker"), linker, rule));
                 }
                 all_finite(&key("shift_nm"), shift_nm)?;
@@ -52,7 +51,7 @@ pub(super) fn check(
     Ok(())
 }
 
-/// Checks that a path that sets factors of loads sets those of all loads without a factor in time.
+/// Checks that a path that sets load factors sets the factors of all loads without a factor in time.
 pub(super) fn check_loads(scene: &Scene) -> Result<(), SceneProblem> {
     let unset = unset_loads(scene);
     match unset.first() {
@@ -67,7 +66,8 @@ pub(super) fn check_loads(scene: &Scene) -> Result<(), SceneProblem> {
     }
 }
 
-/// Indices of loads that act in full along the whole path: no stage sets them, and they have no factor in time.
+/// Returns the indices of loads that act in full along the whole path: no stage sets them, and they have no
+/// factor in time.
 pub fn unset_loads(scene: &Scene) -> Vec<usize> {
     if scene.path.is_empty() {
         return Vec::new();
@@ -85,7 +85,7 @@ fn sets_a_load(stage: &Stage) -> bool {
         .any(|setting| matches!(setting, Setting::LoadFactor { .. }))
 }
 
-/// What a setting moves from outside is held; its keys begin with `prefix`.
+/// Checks that an end is clamped. Keys begin with `prefix`.
 fn check_held(
     (scene, held): (&Scene, &HeldEnds),
     prefix: &str,
@@ -100,7 +100,7 @@ fn check_held(
     Err(SceneProblem::new(format!("{prefix}end"), show(end), rule))
 }
 
-/// What is shifted from outside is held, and does not slide along the shift.
+/// Checks that an end is clamped and does not slide in the direction of a shift.
 fn check_shift(
     (scene, held): (&Scene, &HeldEnds),
     prefix: &str,
@@ -118,18 +118,17 @@ fn check_shift(
         return Ok(());
     }
     let remedy = match slides {
-        Slides::Freely => "leave the shift out, or let the clamp slide AlongAxis or Nowhere",
-        _ => "shift it across its axis only, or let the clamp slide Nowhere",
+        Slides::Freely => "leave the shift out, or write slides: AlongAxis or Nowhere",
+        _ => "shift the end across its axis, or write slides: Nowhere",
     };
     let rule = format!(
-        "moves this end along directions in which clamps[{clamp}].slides = {slides:?} leaves it free, and \
-         would do nothing there: {remedy}"
+        "has a component along which the end slides (clamps[{clamp}].slides = {slides:?}), where it has no effect: {remedy}"
     );
     let key = format!("{prefix}shift_nm");
     Err(SceneProblem::new(key, show(shift_nm), rule))
 }
 
-/// What is turned from outside is held, and does not turn by itself.
+/// Checks that an end is clamped and not free to rotate.
 fn check_turns(
     (scene, held): (&Scene, &HeldEnds),
     prefix: &str,
@@ -138,19 +137,19 @@ fn check_turns(
     check_held((scene, held), prefix, filament, end)?;
     let clamp = held.clamp_at(filament, end).map(|c| &scene.clamps[c]);
     if clamp.is_some_and(|c| c.hold == Hold::Pin && c.hinge.is_none()) {
-        let rule = "this end is pinned: it turns by itself";
+        let rule = "this end is pinned and rotates freely: add a hinge to the clamp, or leave the turn out";
         return Err(SceneProblem::new(format!("{prefix}end"), show(end), rule));
     }
     Ok(())
 }
 
-/// In time, every stage takes some.
+/// Checks the durations of stages for tasks in time.
 pub(super) fn check_durations(scene: &Scene, duration_ns: f64) -> Result<(), SceneProblem> {
     for (i, stage) in scene.path.iter().enumerate() {
         let key = format!("path[{i}].duration_ns");
         let Some(duration) = stage.duration_ns else {
             let rule =
-                "in Dynamics and Brownian every stage of the path takes a time: write duration_ns";
+                "Dynamics and Brownian require the duration of every stage: write duration_ns";
             return Err(SceneProblem::new(key, "none", rule));
         };
         positive(&key, duration)?;
@@ -160,7 +159,7 @@ pub(super) fn check_durations(scene: &Scene, duration_ns: f64) -> Result<(), Sce
         return Err(SceneProblem::new(
             "task.duration_ns",
             show(duration_ns),
-            format!("must be at least {whole:?}, which the stages of the path take"),
+            format!("must be at least the duration of the path, {whole:?}"),
         ));
     }
     Ok(())

@@ -1,23 +1,21 @@
-//! Whether a scene's loads are borne, and whether its turns go with how its ends slide.
+//! Checks that loads are supported, and that turns of sliding ends are possible.
 
 use super::path::{self, Values};
 use super::{Clamp, HeldEnds, Hold, Resultant, Scene, SceneProblem, Setting, Slides};
 use actin_mechanics::Vector3;
 use std::collections::BTreeSet;
 
-/// Part of the forces below which what is left of them is a rounding: sums and components of a few
-/// forces are exact to a few units of 1e-16.
+/// Relative residual force that counts as round-off.
 const ROUNDING: f64 = 1e-12;
 
-/// Angle (rad) below which two written directions are the same: what six digits of each component
-/// leave open.
+/// Angle (rad) below which two directions are equal: the accuracy of six digits.
 const WRITTEN: f64 = 1e-5;
 
-/// Part of the forces below which what is left of them looks like too few digits.
+/// Relative residual force below which digits are probably missing.
 const DIGITS: f64 = 1e-3;
 
-/// In time, the inertia of an end that slides is that of its motion along straight lines: a turn must
-/// not swing it along them.
+/// Refuses turns that move a sliding end along its free directions: its inertia is modelled for straight motion
+/// only.
 pub(super) fn check_swings(scene: &Scene, held: &HeldEnds) -> Result<(), SceneProblem> {
     for (i, stage) in scene.path.iter().enumerate() {
         for (k, setting) in stage.set.iter().enumerate() {
@@ -37,8 +35,8 @@ pub(super) fn check_swings(scene: &Scene, held: &HeldEnds) -> Result<(), ScenePr
                 return Err(SceneProblem::new(
                     format!("path[{i}].set[{k}].turn_deg"),
                     format!("{turn_deg:?}"),
-                    "in Dynamics and Brownian an end that slides turns about its axis only, and one that slides \
-                     Freely not at all: Equilibrium follows such paths",
+                    "in Dynamics and Brownian an end that slides AlongAxis can turn about its axis only, and an end \
+                     that slides Freely cannot turn: write Equilibrium, or change slides",
                 ));
             }
         }
@@ -46,26 +44,25 @@ pub(super) fn check_swings(scene: &Scene, held: &HeldEnds) -> Result<(), ScenePr
     Ok(())
 }
 
-/// Whether `vector` has a component across the unit vector `axis`, beyond what six digits leave open.
+/// Returns whether a vector is not parallel to the unit vector `axis`, to six digits.
 ///
-/// Numbers that depend on the angle between them by its cosine are then right to 5e-11.
+/// The relative error of a cosine of the angle is below 5e-11 for parallel vectors.
 pub fn is_across(vector: Vector3, axis: Vector3) -> bool {
     vector.cross(&axis).norm() > WRITTEN * vector.norm()
 }
 
-/// Whether `vector` has a component along one of some orthonormal `directions`, beyond what six digits leave open.
+/// Returns whether a vector has a component along orthonormal directions, to six digits.
 pub(super) fn is_along(vector: Vector3, directions: &[Vector3]) -> bool {
     let along = directions.iter().map(|d| d.dot(&vector).powi(2));
     along.sum::<f64>().sqrt() > WRITTEN * vector.norm()
 }
 
-/// Forces that do not balance along a direction in which nothing is held have no equilibrium. Where
-/// they do balance they have one: the filament turns until their couple vanishes.
+/// Checks that forces balance along the free directions of filaments, which an equilibrium requires. A residual
+/// torque is no obstacle: the filament rotates until it vanishes.
 ///
-/// What holds a filament also holds those that linkers join to it. A linker to an anchor holds
-/// against every force: it follows its site around the anchor until it points along it. Load factors
-/// are linear within a stage, so that what balances at the ends of all stages balances between. Walls may bear
-/// anything.
+/// Clamps also support the filaments that linkers join. A linker to an anchor supports every force. Load
+/// factors are linear within a stage, so a balance at the ends of all stages is sufficient. Walls may support
+/// any load.
 pub(super) fn check_support(scene: &Scene) -> Result<(), SceneProblem> {
     if scene.has_walls() {
         return Ok(());
@@ -73,7 +70,6 @@ pub(super) fn check_support(scene: &Scene) -> Result<(), SceneProblem> {
     let joined = joined(scene);
     let groups = groups(scene, &joined);
     let factors = path::load_factors(&scene.path, scene.loads.len());
-    // Of each group the lowest index stands for all.
     groups
         .iter()
         .enumerate()
@@ -84,36 +80,31 @@ pub(super) fn check_support(scene: &Scene) -> Result<(), SceneProblem> {
         })
 }
 
-/// Filaments that linkers join.
 #[derive(Clone)]
 struct Group {
-    /// Whether a linker leads to an anchor.
     is_anchored: bool,
-    /// Directions, orthonormal, along which the clamps let it move.
+    /// Orthonormal directions in which the clamps permit translation.
     free: Vec<Vector3>,
-    /// How it may turn.
     turns: Turning,
-    /// Its loads by their indices, with their forces at factor 1 (pN).
+    /// Indices and forces (pN, factor 1) of its loads.
     loads: Vec<(usize, Vector3)>,
-    /// The same of couples (pN nm).
+    /// Indices and torques (pN nm, factor 1) of its couples.
     couples: Vec<(usize, Vector3)>,
 }
 
-/// How the clamps of filaments that linkers join let them turn.
+/// Rotations that the clamps of a group permit.
 #[derive(Clone, Copy)]
 enum Turning {
-    /// In any way.
     Freely,
-    /// In any way, about the pin of a filament.
+    /// About the pin of a filament.
     AboutPin(usize),
-    /// About the line between both pins of one filament, its axis as built.
+    /// About the line between both pins of a filament.
     AboutLine(Vector3),
-    /// Not at all.
     Not,
 }
 
 impl Turning {
-    /// How it turns once `clamp` holds it too; `axis` is that of the clamp's filament.
+    /// Returns the permitted rotations after adding a clamp on a filament with this axis.
     fn held_by(self, clamp: &Clamp, axis: Vector3) -> Self {
         let is_bare_pin = clamp.hold == Hold::Pin && clamp.hinge.is_none();
         match self {
@@ -126,8 +117,7 @@ impl Turning {
     }
 }
 
-/// For each filament that stands for a group what holds and loads that group; what is joined to
-/// which is in `joined`.
+/// Returns the group of each filament that represents one; `joined` contains the representatives.
 fn groups(scene: &Scene, joined: &[usize]) -> Vec<Group> {
     let unheld = Group {
         is_anchored: false,
@@ -157,11 +147,10 @@ fn groups(scene: &Scene, joined: &[usize]) -> Vec<Group> {
     groups
 }
 
-/// The factors of all loads of a scene, by their indices.
 type Factors = [Option<Values<f64>>];
 
 impl Group {
-    /// Holds it by a clamp that lets it move along the directions `slides` alone.
+    /// Adds a clamp that permits translation only along the directions `slides`.
     fn hold(&mut self, slides: Vec<Vector3>) {
         let free = &mut self.free;
         match slides.len() {
@@ -172,7 +161,7 @@ impl Group {
         }
     }
 
-    /// Whether its loads balance before the path and after each stage that changes one of them.
+    /// Checks the balance of forces before the path and after each stage that changes one of the loads.
     fn check(&self, scene: &Scene, factors: &Factors) -> Result<(), SceneProblem> {
         if self.free.is_empty() {
             return Ok(());
@@ -181,9 +170,9 @@ impl Group {
         ends.try_for_each(|stages| self.check_balance(scene, factors, stages))
     }
 
-    /// Couples about axes of the lab on what nothing keeps from turning: one spins it, and several that
-    /// balance leave it no minimum, since it gains by bending wherever it turns to. What turns about the
-    /// line between two pins alone takes couples that balance about it.
+    /// Refuses couples on filaments that are free to rotate. A single couple spins the filament; balanced
+    /// couples have no energy minimum. Filaments between two pins require couples that balance about the line
+    /// between the pins.
     fn check_couples(&self, scene: &Scene, factors: &Factors) -> Result<(), SceneProblem> {
         let mut acting = self.couples.iter().filter(|(_, m)| m.norm() > 0.0);
         let Some(&(first, _)) = acting.next() else {
@@ -195,8 +184,8 @@ impl Group {
                 if ends(&self.couples, factors).all(|stages| self.balances(axis, factors, stages)) {
                     return Ok(());
                 }
-                "both ends are pinned and turn about the line between them: nothing resists this couple \
-                 about it; a hinge or another hold would"
+                "both ends are pinned, and no clamp resists this couple about the line between them: \
+                 add a hinge, or write another hold"
             }
             Turning::Freely | Turning::AboutPin(_) => {
                 "no clamp holds the orientation of this filament: under couples it has no stable \
@@ -206,7 +195,6 @@ impl Group {
         Err(scene.loads[first].problem(first, rule.to_owned()))
     }
 
-    /// Whether its couples have no sum about an axis after so many stages.
     fn balances(&self, axis: Vector3, factors: &Factors, stages: usize) -> bool {
         let parts = self
             .couples
@@ -218,7 +206,6 @@ impl Group {
         sum.abs() <= WRITTEN * all
     }
 
-    /// Whether the forces balance along the free directions after so many stages.
     fn check_balance(
         &self,
         scene: &Scene,
@@ -229,17 +216,17 @@ impl Group {
         let factor = |i: usize| factor(factors, i, stages);
         let along = |force: &Vector3| -> Vector3 { free.iter().map(|d| d * d.dot(force)).sum() };
         let forces = loads.iter().map(|&(i, force)| force * factor(i));
-        let left_over = along(&forces.clone().sum());
+        let residual = along(&forces.clone().sum());
         let all: f64 = forces.clone().map(|force| force.norm()).sum();
-        if left_over.norm() <= ROUNDING * all {
+        if residual.norm() <= ROUNDING * all {
             return Ok(());
         }
         let drifts = |force: &Vector3| along(force).norm() > ROUNDING * force.norm();
-        let Some(blamed) = forces.clone().position(|force| drifts(&force)) else {
+        let Some(first) = forces.clone().position(|force| drifts(&force)) else {
             return Ok(());
         };
-        let (i, force) = loads[blamed];
-        let size = left_over.norm();
+        let (i, force) = loads[first];
+        let size = residual.norm();
         let mut rule = vec!["no clamp or linker resists this force".to_owned()];
         if forces.filter(drifts).count() > 1 {
             rule.push(format!(
@@ -248,7 +235,7 @@ impl Group {
         }
         let load = &scene.loads[i];
         if size <= DIGITS * all {
-            let balanced = force - left_over / factor(i);
+            let balanced = force - residual / factor(i);
             let [x, y, z] = (balanced / load.extent(scene)).into();
             rule.push(format!(" (it would be balanced as ({x:?}, {y:?}, {z:?}))"));
         }
@@ -257,19 +244,18 @@ impl Group {
     }
 }
 
-/// The ends of stages at which one of some loads changes, the beginning included.
+/// Ends of stages at which a load changes, and the start.
 fn ends(loads: &[(usize, Vector3)], factors: &Factors) -> impl Iterator<Item = usize> {
     let set = loads.iter().filter_map(|(i, _)| factors[*i].as_ref());
     let ends: BTreeSet<usize> = set.flat_map(Values::ends).chain([0]).collect();
     ends.into_iter()
 }
 
-/// Factor of load `i` after so many stages.
 fn factor(factors: &Factors, i: usize, stages: usize) -> f64 {
     factors[i].as_ref().map_or(path::UNSET, |v| v.after(stages))
 }
 
-/// For each filament the lowest index among those that linkers join it to, itself included.
+/// For each filament, the lowest index of the filaments that linkers join to it.
 fn joined(scene: &Scene) -> Vec<usize> {
     let mut lower: Vec<usize> = (0..scene.number_of_filaments()).collect();
     let pairs = scene
@@ -283,8 +269,7 @@ fn joined(scene: &Scene) -> Vec<usize> {
     (0..lower.len()).map(|f| lowest(&mut lower, f)).collect()
 }
 
-/// The lowest index that `filament` leads to, each one in `lower` leading to one of its group that is
-/// not above it; halves the way for those who come later.
+/// Finds the representative of a filament in a union-find structure, with path halving.
 fn lowest(lower: &mut [usize], mut filament: usize) -> usize {
     while lower[filament] != filament {
         lower[filament] = lower[lower[filament]];
@@ -297,7 +282,6 @@ fn lowest(lower: &mut [usize], mut filament: usize) -> usize {
 mod tests {
     use crate::Scene;
 
-    /// The message with which a scene of three filaments is refused; empty if it is taken.
     fn refusal(clamps: &str, linkers: &str, force: &str) -> String {
         let rod = "sections: [Rod(from_nm: 0.0, to_nm: 30.0)]";
         let text = format!(
@@ -316,9 +300,8 @@ mod tests {
         Scene::from_ron(&text).map_or_else(|error| error.to_string(), |_| String::new())
     }
 
-    /// A clamp or an anchor bears what linkers lead to it, and nothing else.
     #[test]
-    fn support_goes_along_linkers() {
+    fn linkers_transmit_support() {
         let link = |a: usize, b: usize| {
             format!(
                 "Linker(filament: {a}, at_nm: 30.0, to: Site(filament: {b}, at_nm: 30.0), stiffness_pn_per_nm: 1.0),"
@@ -327,12 +310,12 @@ mod tests {
         let chain = [link(2, 1), link(0, 2)].concat();
         let anchor = "Linker(at_nm: 0.0, displaced_nm: (1.0, 0.0, 0.0), stiffness_pn_per_nm: 1.0)";
         let force = "(0.0, 0.0, 1.0)";
-        let is_borne = |clamps: &str, linkers: &str| refusal(clamps, linkers, force).is_empty();
-        assert!(!is_borne("", "") && !is_borne("Clamp(end: Start)", ""));
-        assert!(is_borne("Clamp(filament: 1, end: Start)", ""));
-        assert!(is_borne("Clamp(end: Start)", &chain));
-        assert!(!is_borne("", &chain) && is_borne("", &[&chain, anchor].concat()));
-        assert!(!is_borne("Clamp(end: Start)", &link(2, 1)) && !is_borne("", anchor));
+        let is_supported = |clamps: &str, linkers: &str| refusal(clamps, linkers, force).is_empty();
+        assert!(!is_supported("", "") && !is_supported("Clamp(end: Start)", ""));
+        assert!(is_supported("Clamp(filament: 1, end: Start)", ""));
+        assert!(is_supported("Clamp(end: Start)", &chain));
+        assert!(!is_supported("", &chain) && is_supported("", &[&chain, anchor].concat()));
+        assert!(!is_supported("Clamp(end: Start)", &link(2, 1)) && !is_supported("", anchor));
         let message = refusal("", "", force);
         assert!(
             message.contains("loads[0].force_pn = [0.0, 0.0, 1.0]: no clamp or linker"),
@@ -340,10 +323,10 @@ mod tests {
         );
     }
 
-    /// An end that slides along its axis bears no force along it, unless another end that slides
-    /// along another axis is joined to it.
+    /// A sliding end does not support a force along its axis, unless linkers join it to an end with another
+    /// axis.
     #[test]
-    fn axes_that_differ_hold_each_other() {
+    fn sliding_ends_with_different_axes_support_all_forces() {
         let slide = |f: usize| format!("Clamp(filament: {f}, end: Start, slides: AlongAxis),");
         let join = "Linker(filament: 1, at_nm: 30.0, to: Site(filament: 2, at_nm: 30.0), stiffness_pn_per_nm: 1.0),";
         assert!(!refusal(&slide(1), "", "(0.0, 0.0, 1.0)").is_empty());
@@ -353,7 +336,6 @@ mod tests {
         assert!(refusal(&both, join, "(1.0, 1.0, 1.0)").is_empty());
     }
 
-    /// The message with which a free rod under these forces, after these stages, is refused.
     fn balance(loads: &str, stages: &str) -> String {
         let text = format!(
             "Scene(
@@ -366,9 +348,8 @@ mod tests {
         Scene::from_ron(&text).map_or_else(|error| error.to_string(), |_| String::new())
     }
 
-    /// Forces are judged by their sum, at the end of every stage: balance at the end is not enough.
     #[test]
-    fn forces_that_balance_need_no_support() {
+    fn balanced_forces_need_no_support() {
         let pair = "EndForce(end: End, force_pn: (0.3, -0.1, 2.0)),
                     EndForce(end: Start, force_pn: (-0.3, 0.1, -2.0)),";
         let stage = |a: f64, b: f64| {
@@ -384,16 +365,14 @@ mod tests {
         let message = balance(pair, &[stage(0.5, 0.6), stage(1.0, 1.0)].concat());
         assert!(message.contains("loads[0].force_pn"), "{message}");
         assert!(message.contains("their sum is 2.0e-1 pN"), "{message}");
-        // A stage that sets one of the two leaves out the other.
         let one = "Stage(set: [LoadFactor(load: 0, factor: 1.0)])";
         assert!(balance(pair, one).contains("no stage of the path sets this load"));
         let half = pair.replace("-2.0", "-1.0");
         assert!(balance(&half, "").contains("the other forces do not balance it"));
     }
 
-    /// What was written with too few digits is told in full, and is taken then.
     #[test]
-    fn digits_that_are_missing_are_told() {
+    fn missing_digits_are_suggested() {
         let forces = |third: &str| {
             format!(
                 "EndForce(end: End, force_pn: (0.333333, 0.0, 1.0)),
@@ -402,17 +381,16 @@ mod tests {
             )
         };
         let message = balance(&forces("(0.666666, 0.0, 0.0)"), "");
-        let (_, told) = message.split_once("balanced as (").unwrap();
-        let first = told.split_once(')').unwrap().0;
+        let (_, suggested) = message.split_once("balanced as (").unwrap();
+        let first = suggested.split_once(')').unwrap().0;
         let corrected = forces("(0.666666, 0.0, 0.0)").replace("0.333333, 0.0, 1.0", first);
         assert_eq!(balance(&corrected, ""), "", "{message}");
         assert!(!balance(&forces("(0.6, 0.0, 0.0)"), "").contains("balanced as"));
     }
 
-    /// A turn about a tilted axis that was written with six digits is one about that axis; one in five
-    /// digits more is not.
+    /// A turn vector with six digits counts as parallel to a tilted axis; four digits do not.
     #[test]
-    fn six_digits_are_enough_for_a_turn() {
+    fn turn_vectors_need_six_digits() {
         let turned = |turn: &str| {
             let text = format!(
                 "Scene(
@@ -427,9 +405,9 @@ mod tests {
             );
             Scene::from_ron(&text).map_or_else(|error| error.to_string(), |_| String::new())
         };
-        // 90 deg about the axis, (1, 2, 2.5) / 3.354102.
+        // 90 deg about the axis (1, 2, 2.5) / 3.354102.
         assert_eq!(turned("(26.8328, 53.6656, 67.0820)"), "");
         let message = turned("(26.84, 53.67, 67.07)");
-        assert!(message.contains("turns about its axis only"), "{message}");
+        assert!(message.contains("turn about its axis only"), "{message}");
     }
 }

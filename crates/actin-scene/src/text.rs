@@ -1,4 +1,4 @@
-//! The text of a scene, and values that keys of it are given from outside.
+//! Text of a scene, and overrides of its keys.
 
 use super::deserialize::{Refusal, deserialize};
 use super::parse::{Parsed, parse, word};
@@ -15,16 +15,15 @@ use std::ops::Range;
 use std::path::Path;
 use std::str::FromStr;
 
-/// Most mistakes that are looked for.
 const MOST: usize = 20;
 
-/// Most bytes that are read to find mistakes: each takes a reading of the whole text.
+/// Maximum number of bytes read to find mistakes: each mistake requires reading the whole text.
 const MOST_BYTES: usize = 2_000_000;
 
-/// A value for a key of a scene, both as text: `filament.rod.law=Constant`.
+/// Value for a key of a scene as text: `filament.rod.law=Constant`.
 ///
-/// The key is a path of keys and, in brackets, indices of lists and vectors; names of choices are no part
-/// of it (`task.duration_ns`). The value is RON.
+/// The key is a path of keys and indices of lists and vectors, without names of choices (`task.duration_ns`).
+/// The value is RON.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Override {
     /// Path of the key, such as `loads[0].force_pn[2]`.
@@ -36,7 +35,6 @@ pub struct Override {
 impl FromStr for Override {
     type Err = String;
 
-    /// Reads `key=value`.
     fn from_str(text: &str) -> Result<Self, String> {
         let (key, value) = text
             .split_once('=')
@@ -52,7 +50,6 @@ impl FromStr for Override {
     }
 }
 
-/// Whether a text is keys with dots between them, and indices in brackets.
 fn is_path(key: &str) -> bool {
     let is_key = |word: &str| {
         word.starts_with(|c: char| c.is_alphabetic() || c == '_')
@@ -71,7 +68,6 @@ fn is_path(key: &str) -> bool {
 }
 
 impl Override {
-    /// The value as a tree.
     fn parsed(&self) -> Result<SceneValue, String> {
         let Parsed {
             root,
@@ -116,21 +112,19 @@ impl fmt::Display for Override {
 #[derive(Clone, Debug)]
 pub struct SceneText {
     written: String,
-    /// Name of the outermost structure.
     name: String,
     parsed: Parsed,
     overrides: Vec<Override>,
-    /// `true` after overrides or points of files.
+    /// `true` after overrides or after reading points from files.
     is_changed: bool,
 }
 
 impl SceneText {
-    /// The text of a scene.
+    /// Parses the text of a scene.
     pub fn new(text: &str) -> Self {
         Self::named(text, "Scene")
     }
 
-    /// The text of a structure of this name.
     pub(super) fn named(text: &str, name: &str) -> Self {
         let written = without_mark(text).to_owned();
         Self {
@@ -142,12 +136,12 @@ impl SceneText {
         }
     }
 
-    /// The text without overrides.
+    /// Returns the text without overrides.
     pub fn written(&self) -> &str {
         &self.written
     }
 
-    /// The text with all overrides and points of files.
+    /// Returns the text with all overrides and points of files.
     pub fn text(&self) -> String {
         if self.is_changed {
             print(&self.parsed.root, SCENE_DEPTH)
@@ -156,11 +150,11 @@ impl SceneText {
         }
     }
 
-    /// Gives a key a value, whether the text has the key or not. Later overrides win.
+    /// Sets or adds a key. Later overrides replace earlier ones.
     ///
     /// # Errors
-    /// A key that cannot be: in what has no keys, or beyond the end of a list. Whether the scene knows the
-    /// key, and what it may be, is found when the scene is read.
+    /// If the path leads through a value without keys or beyond the end of a list. Unknown keys and invalid
+    /// values are errors of [`scene`](Self::scene).
     pub fn set(&mut self, one: Override) -> Result<(), SceneError> {
         let value = one.parsed().and_then(|mut value| {
             value.place.source = Source::Override(self.overrides.len());
@@ -176,10 +170,10 @@ impl SceneText {
         Ok(())
     }
 
-    /// Takes the points of every `Points(file: ...)` from the file, whose path is relative to `folder`.
+    /// Replaces every `Points(file: ...)` by the points of the file, whose path is relative to `folder`.
     ///
     /// # Errors
-    /// A file that cannot be read, or a row in it that is no point, at the key that names the file.
+    /// A file that cannot be read, or an invalid row, located at the key of the file.
     pub fn read_points(&mut self, folder: &Path) -> Result<(), SceneError> {
         let before = self.parsed.root.clone();
         let read = trace::read_points(&mut self.parsed.root, folder);
@@ -187,19 +181,20 @@ impl SceneText {
         read.map_err(|problem| self.locate(&problem))
     }
 
-    /// The scene that the text describes.
+    /// Returns the scene.
     ///
     /// # Errors
-    /// As [`Scene::from_ron`], with the place in the text as written or the override to blame.
+    /// As [`Scene::from_ron`], with the position in the text without overrides or the override that causes the
+    /// error.
     pub fn scene(&self) -> Result<Scene, SceneError> {
         let (scene, refusal) = self.read()?;
         refusal.map_or(Ok(scene), Err)
     }
 
-    /// The same of a text whose values the rules of a scene may refuse, and why they do.
+    /// Returns the scene and the first violated rule, if any.
     ///
     /// # Errors
-    /// A text that is no scene.
+    /// A text that is not a scene.
     pub fn read(&self) -> Result<(Scene, Option<SceneError>), SceneError> {
         let written = self.readings::<Written>().into_result()?;
         let scene = Scene::try_from(written).map_err(|problem| self.locate(&problem))?;
@@ -207,10 +202,10 @@ impl SceneText {
         Ok((scene, problem.map(|problem| self.locate(&problem))))
     }
 
-    /// The mistakes of the text, as far as one does not hide another; none of a scene that is read. Of a text with
-    /// many the first 20 that cannot be read and the first 20 broken rules, and fewer if it has more than 100 kB.
+    /// Returns independent mistakes in the order of the text; none for a valid scene. At most 20 errors of
+    /// reading and 20 violated rules are returned, and fewer for texts longer than 100 kB.
     ///
-    /// The first is that of [`scene`](Self::scene), or stands before it in the text.
+    /// The first is the error of [`scene`](Self::scene) or precedes it in the text.
     pub fn mistakes(&self) -> Vec<SceneError> {
         let Readings { value, mistakes } = self.readings::<Written>();
         let problems = match value.map(Scene::try_from) {
@@ -225,13 +220,12 @@ impl SceneText {
         all
     }
 
-    /// The number of mistakes that are looked for: fewer in a long text.
     fn most(&self) -> usize {
         (MOST_BYTES / self.written.len().max(1)).clamp(1, MOST)
     }
 
-    /// Reads a type and finds all mistakes: refused values are removed and the rest is read again. A key with a refused
-    /// value does not count as missing.
+    /// Reads a type and finds all mistakes. Refused values are removed and the rest is read again. A key with a
+    /// refused value does not count as missing.
     pub(super) fn readings<T: DeserializeOwned>(&self) -> Readings<T> {
         if let Some(mistake) = self.mistake_of_whole() {
             let (value, mistakes) = (None, vec![mistake]);
@@ -264,7 +258,6 @@ impl SceneText {
         Readings { value, mistakes }
     }
 
-    /// Mistakes that reading has found, with their places.
     fn mistakes_between_values(&self) -> Vec<(usize, SceneError)> {
         let root = &self.parsed.root;
         let mistakes = self.parsed.mistakes.iter();
@@ -275,12 +268,12 @@ impl SceneText {
         placed.collect()
     }
 
-    /// Adds a refusal to the mistakes, unless it follows from another one.
+    /// Adds a refusal, unless it follows from another mistake.
     fn note(&self, tree: &SceneValue, refusal: &Refusal, mistakes: &mut Vec<(usize, SceneError)>) {
         let node = tree.at(&refusal.indices());
         let place = &node.place;
         if place.is_mistaken {
-            // The text after the value is part of the same mistake.
+            // The text after the value belongs to the same mistake.
             mistakes.retain(|(at, _)| !(place.start..place.until).contains(at));
         }
         let is_refused =
@@ -291,7 +284,7 @@ impl SceneText {
         }
     }
 
-    /// A mistake after which nothing else can be judged.
+    /// Returns a mistake that prevents reading the rest of the text.
     fn mistake_of_whole(&self) -> Option<SceneError> {
         let file = self.name.to_lowercase();
         let is_blank = |line: &str| line.trim().is_empty() || line.trim().starts_with("//");
@@ -308,7 +301,6 @@ impl SceneText {
         SceneError::new(place, &format!("{path}{colon}{message}"))
     }
 
-    /// A refusal in the words of a mistake.
     fn refused(&self, tree: &SceneValue, refusal: &Refusal) -> SceneError {
         let indices = refusal.indices();
         let path = if refusal.is_complete() {
@@ -326,7 +318,6 @@ impl SceneText {
         }
     }
 
-    /// The override that a value comes from.
     fn blamed(&self, tree: &SceneValue, indices: &[usize]) -> Option<String> {
         match tree.at(indices).place.source {
             Source::Override(set) => Some(self.overrides[set].to_string()),
@@ -334,8 +325,8 @@ impl SceneText {
         }
     }
 
-    /// What to underline of a mistake, in bytes of the text as written: the key with its value, the value, or
-    /// a character; on one line.
+    /// Returns the bytes of the text without overrides to underline for a mistake: the key with its value, the
+    /// value, or a character, on one line.
     pub fn span(&self, error: &SceneError) -> Range<usize> {
         let text = &self.written;
         let at = place(text, (error.line, error.column));
@@ -352,8 +343,8 @@ impl SceneText {
         at..end.min(line_end)
     }
 
-    /// Path of the key or list element that a mistake is about; empty outside of all, and the key of the override
-    /// where one is to blame.
+    /// Returns the path of the key or list element of a mistake: empty outside all keys, and the key of the
+    /// override that causes the mistake.
     pub fn key(&self, error: &SceneError) -> String {
         if let Some((key, _)) = error.set.as_ref().and_then(|set| set.split_once('=')) {
             return key.to_owned();
@@ -363,8 +354,7 @@ impl SceneText {
         root.path(&root.indices_at(at))
     }
 
-    /// Places a problem: at its key, or at the innermost key above it that is written; or in the override that sets the
-    /// key, or something above or below it.
+    /// Locates a problem: at its key or the innermost written parent, or in the override that set one of them.
     pub fn locate(&self, problem: &SceneProblem) -> SceneError {
         let root = &self.parsed.root;
         let steps = root.resolved(&problem.key);
@@ -397,7 +387,6 @@ impl SceneText {
     }
 }
 
-/// The last override that a value or one within it comes from.
 fn last_override(node: &SceneValue) -> Option<usize> {
     let own = match node.place.source {
         Source::Override(set) => Some(set),
@@ -410,11 +399,9 @@ fn last_override(node: &SceneValue) -> Option<usize> {
 }
 
 impl SceneValue {
-    /// Leaves the value out of further readings.
     fn refuse(&mut self, refusal: &Refusal) {
         self.kind = Kind::Refused;
         if refusal.is_needless() {
-            // Not missing, only misspelled.
             self.key = refusal.meant().or(self.key.take());
         }
     }
@@ -454,7 +441,7 @@ mod tests {
         (&'static str, &'static str),
     );
 
-    /// A text, overrides, and what is written in place of what by a text that says the same.
+    /// A text, overrides, and the replacement in a text of the same meaning.
     const SAME: &[Same] = &[
         (
             SCENE,
@@ -505,19 +492,15 @@ mod tests {
         ),
     ];
 
-    /// Overrides give the scene whose text says the same: values in place, new keys at any depth, in an
-    /// empty bracket, components of vectors, new elements, filament 0 in a list and alone, a later
-    /// override of what an earlier one has written.
     #[test]
-    fn overrides_say_what_the_text_would() {
+    fn overrides_are_equivalent_to_changes_of_the_text() {
         for &(text, overrides, (from, to)) in SAME {
             let expected = Scene::from_ron(&SCENE.replacen(from, to, 1)).unwrap();
             assert_eq!(with(text, overrides).unwrap(), expected, "{overrides:?}");
         }
     }
 
-    /// The override is named, whether its key, its value or a rule is to blame; what is wrong with the text
-    /// has its place there.
+    /// Errors of overrides name the override; errors of the text have a position.
     #[test]
     fn errors_name_the_override_or_the_place() {
         let error = |text: &str, one: &str| with(text, &[one]).unwrap_err().to_string();
@@ -560,7 +543,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_override_is_refused() {
+    fn invalid_overrides_are_refused() {
         for text in [
             "", "a", "=1", "a=", "a=(", "a=1, b=2", "a..b=1", "a[x]=1", "a[0=1", "a b=1",
         ] {

@@ -1,18 +1,16 @@
-//! Thermal noise in a scene: its temperature, its seed, and what it needs.
+//! Thermal noise and its validation.
 
 use super::{Dynamics, Scene, SceneProblem, Task, rules};
 use serde::{Deserialize, Serialize};
 
-/// Boltzmann's constant (pN nm / K), exact by definition of the kelvin.
+/// Boltzmann constant (pN nm/K), exact in the SI.
 ///
 /// # Source
-/// Bureau International des Poids et Mesures, The International System of Units, 9th edition
-/// (2019).
+/// Bureau International des Poids et Mesures, The International System of Units, 9th edition (2019).
 pub const BOLTZMANN_PN_NM_PER_K: f64 = 0.013_806_49;
 
-/// Thermal noise, the counterpart of drag: together they keep the filament at a temperature.
-///
-/// The noise is a function of the seed, the number of the step and the index of the body.
+/// Thermal noise, in balance with drag at a temperature. It depends only on the seed, the number of the step
+/// and the index of the body.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
@@ -24,7 +22,7 @@ pub struct Thermal {
 }
 
 impl Thermal {
-    /// The thermal energy `kT` (pN nm).
+    /// Returns the thermal energy `kT` (pN nm).
     ///
     /// ```
     /// let thermal = actin_scene::Thermal { temperature_k: 300.0, seed: 1 };
@@ -36,7 +34,7 @@ impl Thermal {
 }
 
 impl Scene {
-    /// The thermal noise of a motion in a heat bath or a fluid; none without one.
+    /// Returns the thermal noise of the task, or `None`.
     pub fn thermal(&self) -> Option<Thermal> {
         match &self.task {
             Task::Dynamics(dynamics) => dynamics.thermal,
@@ -46,7 +44,6 @@ impl Scene {
     }
 }
 
-/// Checks a temperature against the rest of the task.
 pub(super) fn check(dynamics: &Dynamics) -> Result<(), SceneProblem> {
     let Some(thermal) = &dynamics.thermal else {
         return Ok(());

@@ -1,20 +1,20 @@
-//! Points of shapes from files next to the scene.
+//! Points of shapes from CSV files.
 
 use super::SceneProblem;
 use super::tree::{Kind, SceneValue};
 use std::path::Path;
 
-/// Takes the points of every `Points(file: ...)` from the file, whose path is relative to `folder`.
+/// Replaces every `Points(file: ...)` by the points of the file, whose path is relative to `folder`.
 ///
 /// # Errors
-/// A file that cannot be read, or a row in it that is no point.
+/// A file that cannot be read, or an invalid row.
 pub(super) fn read_points(scene: &mut SceneValue, folder: &Path) -> Result<(), SceneProblem> {
     for value in scene.children_mut() {
         match value.key() {
-            Some("filament") => of_filament(value, "filament", folder)?,
+            Some("filament") => read_filament(value, "filament", folder)?,
             Some("filaments") => {
                 for (i, filament) in value.children_mut().iter_mut().enumerate() {
-                    of_filament(filament, &format!("filaments[{i}]"), folder)?;
+                    read_filament(filament, &format!("filaments[{i}]"), folder)?;
                 }
             }
             _ => {}
@@ -23,7 +23,7 @@ pub(super) fn read_points(scene: &mut SceneValue, folder: &Path) -> Result<(), S
     Ok(())
 }
 
-fn of_filament(filament: &mut SceneValue, key: &str, folder: &Path) -> Result<(), SceneProblem> {
+fn read_filament(filament: &mut SceneValue, key: &str, folder: &Path) -> Result<(), SceneProblem> {
     let mut keys = filament.children_mut().iter_mut();
     let Some(shape) = keys.find(|value| value.key() == Some("shape")) else {
         return Ok(());
@@ -55,7 +55,6 @@ fn of_filament(filament: &mut SceneValue, key: &str, folder: &Path) -> Result<()
     Ok(())
 }
 
-/// The points of a file.
 fn points(path: &Path) -> Result<Vec<[f64; 3]>, String> {
     let text = std::fs::read_to_string(path).map_err(|error| format!("cannot be read: {error}"))?;
     let rows = text.trim_start_matches('\u{feff}').lines().zip(1..);
@@ -71,7 +70,6 @@ fn point(line: &str) -> Option<[f64; 3]> {
     numbers.try_into().ok()
 }
 
-/// Whether no word of a row is a number.
 fn is_heading(line: &str) -> bool {
     let mut words = line.split(|c: char| c.is_whitespace() || c == ',' || c == ';');
     words.all(|word| word.parse::<f64>().is_err())
@@ -109,7 +107,6 @@ mod tests {
         text.read_points(folder.path()).map(|()| text)
     }
 
-    /// Headings, blank lines and spaces are skipped; what is read is a scene by itself, with the points.
     #[test]
     fn points_come_from_their_file() {
         let text = read("x_nm,y_nm,z_nm\n0, 0, 0\n\n0,5.5,20\n1e0,0,41\n").unwrap();
@@ -121,15 +118,13 @@ mod tests {
         assert_eq!(crate::Scene::from_ron(&scene.to_ron()), Ok(scene));
     }
 
-    /// Each mistake stands at the key of the file; a text alone has no folder to look in.
     #[test]
     fn files_without_points_are_refused() {
-        let told = |csv| read(csv).map(|_| ()).unwrap_err().to_string();
+        let message = |csv| read(csv).map(|_| ()).unwrap_err().to_string();
         let place = "4:23: filament.shape.file = \"trace.csv\": ";
         let rule = "must be three numbers x, y, z (nm) with decimal points, separated by commas";
         for (csv, line, more) in [
             ("0,0,0\n1,2\n", 2, ""),
-            // The first row is a heading only if no word of it is a number.
             ("0,0,O\n0,0,41\n", 1, ""),
             ("x,y,z\n0,0\n", 2, ""),
             ("0;0;0\n0;0;41\n", 1, ", not by semicolons"),
@@ -137,7 +132,7 @@ mod tests {
             ("x y z\n0 0 0\n", 2, ", not by spaces"),
             ("0\t0\t0\n", 1, ", not by tabs"),
         ] {
-            assert_eq!(told(csv), format!("{place}line {line}: {rule}{more}"));
+            assert_eq!(message(csv), format!("{place}line {line}: {rule}{more}"));
         }
         let mut text = SceneText::new(SCENE);
         let missing = text.read_points(Path::new("/nowhere")).unwrap_err();
@@ -148,8 +143,10 @@ mod tests {
             "{missing}"
         );
         let alone = crate::Scene::from_ron(SCENE).unwrap_err().to_string();
-        assert!(alone.starts_with(&format!("{place}is not read")), "{alone}");
-        // Later lines are still where they were.
+        assert!(
+            alone.starts_with(&format!("{place}cannot be read without")),
+            "{alone}"
+        );
         let short = read("0,0,0\n0,0,10\n").unwrap().scene().unwrap_err();
         assert_eq!((short.line, short.column), (4, 23), "{short}");
     }

@@ -1,10 +1,10 @@
-//! The tree of values that texts and dictionaries are read into, with the place of each value.
+//! Tree of values of texts and dictionaries, with the position of each value.
 
 use super::SceneProblem;
 use std::fmt;
 use std::ops::Range;
 
-/// A scene, or a part of one, as a tree of values.
+/// Scene or part of a scene as a tree of values.
 ///
 /// | RON | dictionaries | kind |
 /// |---|---|---|
@@ -23,57 +23,53 @@ pub struct SceneValue {
 /// Kind of a value.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Kind {
-    /// Nothing: an optional key that is not set.
+    /// Absent value of an optional key.
     None,
-    /// A truth value.
+    /// Boolean.
     Bool(bool),
-    /// A whole number.
+    /// Integer.
     Whole(i128),
-    /// A number.
+    /// Floating-point number.
     Number(f64),
-    /// A text.
+    /// String in quotation marks.
     Text(String),
-    /// A word without quotation marks: a choice without keys.
+    /// Word without quotation marks: a choice without keys.
     Name(String),
     /// Values in square brackets.
     List(Vec<SceneValue>),
-    /// Values with keys, or a vector, after the name of a structure or choice.
+    /// Values with keys, or a vector, after an optional name.
     Group(Option<String>, Vec<SceneValue>),
-    /// Text that is no value.
+    /// Text that is not a value.
     Unread,
-    /// A value that has been refused.
+    /// Value that has been refused.
     Refused,
 }
 
-/// Origin of a value. Values in memory and in JSON write choices as strings and vectors as lists.
+/// Origin of a value. Values in memory and in JSON have strings for choices and lists for vectors.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) enum Source {
     #[default]
     Memory,
     Json,
     Ron,
-    /// An override, by its index.
     Override(usize),
 }
 
-/// Place of a value in its text, in bytes.
+/// Position of a value in its text (bytes).
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Place {
     pub(crate) source: Source,
-    /// Start of the key, or of an element without one.
     pub(crate) start: usize,
-    /// The value, with the name before its bracket.
+    /// Range of the value, including the name before its bracket.
     pub(crate) value: Range<usize>,
-    /// The comma or bracket that ends it, or the end of the text.
+    /// Comma or bracket after the value, or the end of the text.
     pub(crate) until: usize,
-    /// `true` if extra text follows the value.
+    /// `true` if unexpected text follows the value.
     pub(crate) is_mistaken: bool,
-    /// Its opening and closing brackets.
     pub(crate) open: Option<usize>,
     pub(crate) close: Option<usize>,
 }
 
-/// One step of a path: a key of a structure or an index of a list.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum Step {
     Key(String),
@@ -90,7 +86,7 @@ pub(crate) fn steps(path: &str) -> Vec<Step> {
         .collect()
 }
 
-/// Equal values, wherever they are written.
+/// Compares keys and values, not positions.
 impl PartialEq for SceneValue {
     fn eq(&self, other: &Self) -> bool {
         self.key == other.key && self.kind == other.kind
@@ -106,7 +102,7 @@ impl From<Kind> for SceneValue {
 }
 
 impl SceneValue {
-    /// A dictionary. One key that begins with a capital letter is the name of a choice.
+    /// Creates a dictionary. A single key that begins with a capital letter is the name of a choice.
     pub fn keys(entries: Vec<(String, Self)>) -> Self {
         let named = entries.into_iter().map(|(key, value)| value.with_key(key));
         Kind::Group(None, named.collect()).choice().into()
@@ -117,17 +113,17 @@ impl SceneValue {
         Self { key, ..self }
     }
 
-    /// The kind of value.
+    /// Returns the kind of the value.
     pub fn kind(&self) -> &Kind {
         &self.kind
     }
 
-    /// The key of the value in its dictionary.
+    /// Returns the key of the value in its dictionary.
     pub fn key(&self) -> Option<&str> {
         self.key.as_deref()
     }
 
-    /// The values in its bracket.
+    /// Returns the values in its bracket.
     pub fn children(&self) -> &[Self] {
         match &self.kind {
             Kind::List(values) | Kind::Group(_, values) => values,
@@ -157,7 +153,6 @@ impl SceneValue {
         matches!(self.place.source, Source::Memory | Source::Json)
     }
 
-    /// The index of the child that a step leads to.
     fn child(&self, step: &Step) -> Option<usize> {
         let mut children = self.children().iter().enumerate();
         let found = children.find(|(i, child)| match step {
@@ -167,7 +162,7 @@ impl SceneValue {
         found.map(|(i, _)| i)
     }
 
-    /// Indices of children along a path, up to the last written one.
+    /// Indices of children along a path, up to the last existing one.
     pub(crate) fn follow(&self, path: &[Step]) -> Vec<usize> {
         let (mut node, mut taken) = (self, Vec::new());
         for step in path {
@@ -180,7 +175,7 @@ impl SceneValue {
         taken
     }
 
-    /// A path as the tree writes it: the one filament is `filament` or `filaments[0]`.
+    /// Parses a path. A single filament is `filament` or `filaments[0]`, as in the tree.
     pub(crate) fn resolved(&self, path: &str) -> Vec<Step> {
         let mut path = steps(path);
         let has = |key: &str| self.child(&Step::Key(key.into())).is_some();
@@ -196,7 +191,7 @@ impl SceneValue {
         path
     }
 
-    /// The value at indices of children.
+    /// Returns the value at a path of indices.
     pub(crate) fn at(&self, indices: &[usize]) -> &Self {
         indices.iter().fold(self, |node, i| &node.children()[*i])
     }
@@ -209,7 +204,7 @@ impl SceneValue {
         node
     }
 
-    /// Indices of children to the innermost value that begins at or before a place and does not end before it.
+    /// Returns the indices that lead to the innermost value at a position.
     pub(crate) fn indices_at(&self, place: usize) -> Vec<usize> {
         let holds = |child: &Self| child.place.start <= place && place < child.place.until;
         let (mut node, mut indices) = (self, Vec::new());
@@ -236,7 +231,7 @@ impl SceneValue {
         path
     }
 
-    /// Indices up to the innermost value with a key or list index, without vector components.
+    /// Indices of the innermost value with a key or list index, without vector components.
     pub(crate) fn without_components(&self, mut indices: Vec<usize>) -> Vec<usize> {
         while let Some((last, above)) = indices.split_last() {
             let parent = self.at(above);
@@ -262,7 +257,7 @@ impl SceneValue {
     /// ```
     ///
     /// # Errors
-    /// A key in a value without keys, an index beyond the end of a list.
+    /// If the path leads through a value without keys or beyond the end of a list.
     pub fn set(&mut self, path: &str, value: Self) -> Result<(), SceneProblem> {
         let refused = |rule: String| SceneProblem::new(path, "", rule);
         let steps = self.resolved(path);
@@ -295,10 +290,9 @@ impl SceneValue {
         Ok(())
     }
 
-    /// Refuses steps to children that cannot be added to the value `name`.
     fn check_step(&self, step: &Step, name: &str, child: &Self) -> Result<(), String> {
         let count = self.children().len();
-        // Only texts grow by an element.
+        // An element can be appended only to a list of a text.
         let most = count - usize::from(child.is_dictionary() && count > 0);
         Err(match (&self.kind, step) {
             (Kind::List(_), Step::Index(index)) if *index > most => {
@@ -311,7 +305,6 @@ impl SceneValue {
         })
     }
 
-    /// Places a value and all in it where another one is written.
     pub(crate) fn move_to(&mut self, place: &Place) {
         self.place = place.clone();
         for child in self.children_mut() {
@@ -320,7 +313,6 @@ impl SceneValue {
     }
 }
 
-/// A value within new structures and lists.
 fn nested(steps: &[Step], value: SceneValue) -> Result<SceneValue, String> {
     let Some((first, rest)) = steps.split_first() else {
         return Ok(value);
@@ -337,7 +329,6 @@ fn nested(steps: &[Step], value: SceneValue) -> Result<SceneValue, String> {
 }
 
 impl Kind {
-    /// A dictionary of one key that names a choice, as that choice.
     pub(crate) fn choice(self) -> Self {
         match self {
             Self::Group(None, mut only)
@@ -358,7 +349,7 @@ impl Kind {
     }
 }
 
-/// RON on one line.
+/// Formats the value as RON on one line.
 impl fmt::Display for SceneValue {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(&super::print::print(self, 0))

@@ -1,4 +1,4 @@
-//! The rules that numbers of a scene have to satisfy.
+//! Validation of scenes.
 
 use super::following::check_following;
 use super::rules::{
@@ -13,25 +13,23 @@ use super::{
 };
 use actin_ellipsoid::{FEWEST_POINTS, MOST_POINTS};
 
-/// Most bodies of a section, and the furthest place on the lattice: 2^53, up to which whole numbers
-/// are told apart. Memory runs out long before.
+/// Largest number of bodies of a section and largest lattice index: 2^53, the limit of exact integers in `f64`.
 pub const MOST_COUNTED: f64 = 9_007_199_254_740_992.0;
 
-/// Most bonds of one interface: with a hundredth of them the anchors' sampling noise is gone.
+/// Largest number of bonds of an interface. Sampling noise is negligible with a hundredth of it.
 const MOST_BONDS_PER_INTERFACE: usize = 10_000;
-/// Most starts of a search for stable states.
 const MOST_STATES: usize = 10_000;
 
-/// Checks every rule that does not need the filament to be built.
+/// Checks all rules that do not require the assembled filament.
 ///
 /// # Errors
-/// The first rule that is broken.
+/// The first violated rule.
 pub(super) fn validate(scene: &Scene) -> Result<(), SceneProblem> {
     problems(scene, 1).into_iter().next().map_or(Ok(()), Err)
 }
 
-/// The first `most` broken rules, one for each key: those of numbers and names, or, where they break none, those
-/// of the whole scene.
+/// Returns the first `most` violated rules, one for each key. Rules of the whole scene are checked only if all
+/// numbers are valid.
 pub(super) fn problems(scene: &Scene, most: usize) -> Vec<SceneProblem> {
     let mut found = Vec::new();
     let held = HeldEnds::of(scene);
@@ -71,7 +69,6 @@ pub(super) fn problems(scene: &Scene, most: usize) -> Vec<SceneProblem> {
     found
 }
 
-/// Checks each filament by itself.
 fn filaments(scene: &Scene, note: &mut impl FnMut(Result<(), SceneProblem>)) {
     for (i, one) in scene.filaments().enumerate() {
         filament(one, &scene.filament_key(i), note);
@@ -89,7 +86,7 @@ fn filament(one: &Filament, key: &str, note: &mut impl FnMut(Result<(), ScenePro
 /// Checks a filament whose keys begin with `key`.
 ///
 /// # Errors
-/// The first rule that is broken.
+/// The first violated rule.
 pub(super) fn check_filament(one: &Filament, key: &str) -> Result<(), SceneProblem> {
     let mut first = Ok(());
     filament(one, key, &mut |checked| {
@@ -100,7 +97,6 @@ pub(super) fn check_filament(one: &Filament, key: &str) -> Result<(), SceneProbl
     first
 }
 
-/// The rules between parts of a scene that are sound each.
 fn check_whole(scene: &Scene, held: &HeldEnds) -> Result<(), SceneProblem> {
     check_adaptive(scene)?;
     for following in scene.filaments().filter_map(|f| f.sections.following()) {
@@ -142,7 +138,6 @@ fn check_whole(scene: &Scene, held: &HeldEnds) -> Result<(), SceneProblem> {
     }
 }
 
-/// Whether the scene has what sections are to be chosen for.
 fn check_adaptive(scene: &Scene) -> Result<(), SceneProblem> {
     for (i, filament) in scene.filaments().enumerate() {
         let wants = filament
@@ -159,7 +154,7 @@ fn check_adaptive(scene: &Scene) -> Result<(), SceneProblem> {
     Ok(())
 }
 
-/// Whether the scene has a quantity that `key` names.
+/// Checks that the scene has a quantity, which `key` requests.
 fn check_wanted(scene: &Scene, key: &str, quantity: Quantity) -> Result<(), SceneProblem> {
     if let Quantity::LinkerForce { linker } = quantity {
         observable::check_linker(scene, &format!("{key}.linker"), linker)?;
@@ -170,25 +165,29 @@ fn check_wanted(scene: &Scene, key: &str, quantity: Quantity) -> Result<(), Scen
     }
 }
 
-/// Why a scene does not have a quantity, with the key that is to blame.
+/// Key and reason if a scene does not have a quantity.
 fn missing(scene: &Scene, quantity: Quantity) -> Option<(&'static str, String)> {
     if let Quantity::Curvature { at_nm } = quantity {
         let length_nm = scene.filament.length_nm();
         let is_inside = (0.0..=length_nm).contains(&at_nm);
         let rule = || {
-            format!("the curvature at {at_nm:?} nm is wanted, of a filament of {length_nm:?} nm")
+            format!(
+                "the curvature at {at_nm:?} nm is requested, outside the filament of {length_nm:?} nm"
+            )
         };
         return (!is_inside).then(|| ("filament.sections", rule()));
     }
     let mut clamps = scene.clamps.iter();
     let clamp = clamps.find(|clamp| clamp.filament == 0 && clamp.end == End::End);
     let rule = match (quantity, clamp.map(|clamp| clamp.slides)) {
-        (Quantity::Tip, Some(Slides::Nowhere)) => "the tip at the end is wanted, but it is clamped",
+        (Quantity::Tip, Some(Slides::Nowhere)) => {
+            "the displacement of the end is requested, but the end is clamped"
+        }
         (Quantity::EndForce | Quantity::EndCouple, None) => {
-            "what the end bears is wanted, but it is free"
+            "the reaction at the end is requested, but the end is free"
         }
         (Quantity::EndForce, Some(Slides::AlongAxis | Slides::Freely)) => {
-            "the force on the end is wanted, along which it slides"
+            "the force on the end is requested, but the end slides in its direction"
         }
         _ => return None,
     };
@@ -256,7 +255,7 @@ fn check_monomers(m: &Monomers) -> Result<(), SceneProblem> {
         return Err(SceneProblem::new(
             "filament.monomers.seed",
             m.seed,
-            "weighted bonds are not drawn: leave the seed out, or write anchors: Independent",
+            "quadrature bonds are not sampled: leave the seed out, or write anchors: Independent",
         ));
     }
     Ok(())
@@ -270,9 +269,10 @@ pub(super) fn check_bonds(key: &str, anchors: Anchors, bonds: usize) -> Result<(
             (drawn, rule)
         }
         Anchors::Cubature => {
-            let weighted = format!("{FEWEST_POINTS} to {MOST_POINTS} weighted bonds");
-            let rule =
-                format!("an interface has {weighted}; anchors: Independent takes other numbers");
+            let weighted = format!("{FEWEST_POINTS} to {MOST_POINTS} quadrature bonds");
+            let rule = format!(
+                "an interface has {weighted}: write such a number, or anchors: Independent"
+            );
             (FEWEST_POINTS..=MOST_POINTS, rule)
         }
     };
@@ -282,7 +282,8 @@ pub(super) fn check_bonds(key: &str, anchors: Anchors, bonds: usize) -> Result<(
     Err(SceneProblem::new(key, bonds, rule))
 }
 
-/// Both kinds of interface have the same shortest bond. The default one is not to blame.
+/// Checks the shortest bond, common to both kinds of interface. If it is the default, the error names the
+/// longest bond.
 fn check_shortest(monomers: &Monomers) -> Result<(), SceneProblem> {
     let key = "filament.monomers.min_bond_nm";
     let shortest = monomers.min_bond_nm;
@@ -326,13 +327,13 @@ fn check_clamp(
         return Err(SceneProblem::new(
             format!("{key}.hold"),
             show(clamp.hold),
-            "monomers end the filament here: they take Wall only, which holds the last two",
+            "this end consists of monomers: write Wall, which holds the last two",
         ));
     }
     check_pin(&key, clamp)
 }
 
-/// A pinned end that slides freely is a free one, and only a pinned end turns against a spring.
+/// Refuses pinned ends that slide freely, and hinges at other ends.
 fn check_pin(key: &str, clamp: &Clamp) -> Result<(), SceneProblem> {
     let is_pinned = clamp.hold == Hold::Pin;
     if is_pinned && clamp.slides == Slides::Freely {
@@ -344,8 +345,7 @@ fn check_pin(key: &str, clamp: &Clamp) -> Result<(), SceneProblem> {
     };
     let key = format!("{key}.hinge");
     if !is_pinned {
-        let rule =
-            "only a pinned end turns against a spring: write hold: Pin, or leave the hinge out";
+        let rule = "a hinge requires a pinned end: write hold: Pin, or leave the hinge out";
         return Err(SceneProblem::new(key, "", rule));
     }
     let (bend, twist) = (hinge.bend_pn_nm_per_rad, hinge.twist_pn_nm_per_rad);
@@ -382,8 +382,7 @@ fn check_equilibrium(equilibrium: &Equilibrium) -> Result<(), SceneProblem> {
     Ok(())
 }
 
-/// A tolerance that a load does not exceed is met before the filament has moved. Monomers bear
-/// half the force each.
+/// Checks that every load exceeds the tolerance. Otherwise the filament counts as at rest before it has moved.
 fn check_tolerance(
     scene: &Scene,
     key: &str,
@@ -401,7 +400,7 @@ fn check_tolerance(
                     2.0 * least
                 ),
                 Some(_) => {
-                    format!("must be below what loads[{i}] puts on a nanometre ({least:e} {unit})")
+                    format!("must be below the load of loads[{i}] on 1 nm ({least:e} {unit})")
                 }
             };
             return Err(SceneProblem::new(
@@ -444,11 +443,10 @@ fn check_stop(stop: &StopTolerances) -> Result<(), SceneProblem> {
 }
 
 impl Scene {
-    /// Checks every rule that does not need the filament to be built; scenes that were read have
-    /// passed.
+    /// Checks all rules that do not require the assembled filament. Scenes from text have passed them.
     ///
     /// # Errors
-    /// The first rule that is broken.
+    /// The first violated rule.
     pub fn validate(&self) -> Result<(), SceneProblem> {
         validate(self)
     }

@@ -1,4 +1,4 @@
-//! A scene as its text has it: one `filament` or a list of `filaments`.
+//! Scene as written: a single `filament` or a list of `filaments`.
 
 use super::validate::check_filament;
 use super::{
@@ -7,58 +7,56 @@ use super::{
 };
 use serde::{Deserialize, Serialize};
 
-/// A scene: filaments, what holds, loads and links them, and what is computed.
+/// A scene: filaments, clamps, loads, linkers and a task.
 #[derive(Clone, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, rename = "Scene")]
 pub(super) struct Written {
-    /// What the scene shows, in words.
+    /// Title of the scene.
     #[serde(default)]
     title: String,
-    /// The filament, if there is one only. Either this or `filaments` is required.
+    /// The filament of a scene with a single one. A scene has `filament`, `filaments` or `arrangements`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     filament: Option<Filament>,
-    /// The filaments, at least one, counted from 0. Only linkers join them; without `repulsion` they
-    /// pass through each other.
+    /// Filaments, at least one, with indices from 0. Only linkers and `repulsion` act between them.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     filaments: Option<Vec<Filament>>,
-    /// Rules that place many filaments: copies, random networks, bundles.
+    /// Arrangements of many filaments: copies, random networks, bundles.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     arrangements: Vec<Arrangement>,
-    /// Clamped ends. All others are free.
+    /// Clamped ends. All other ends are free.
     #[serde(default)]
     clamps: Vec<Clamp>,
     /// Forces and couples.
     #[serde(default)]
     loads: Vec<Load>,
-    /// Springs from sites on filaments to points in space or to other sites.
+    /// Springs from sites on filaments to fixed points or to other sites.
     #[serde(default)]
     linkers: Vec<Linker>,
     /// Random linkers between neighbouring filaments.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     linker_sets: Vec<LinkersBetween>,
-    /// What keeps filaments out of each other and out of walls; without it nothing does.
+    /// Repulsion of filaments from each other and from walls; by default none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     repulsion: Option<Repulsion>,
-    /// Stages along which loads, clamped ends and anchors are moved. Shifts and turns begin at zero, and
-    /// so does the factor of every load that some stage sets; all other loads act in full throughout.
+    /// Stages that change load factors and move clamped ends and anchors. Shifts, turns and the factors of
+    /// loads that a stage sets start at zero. All other loads act in full.
     #[serde(default)]
     path: Vec<Stage>,
-    /// What is computed of every record as it is taken, for `observables.csv`.
+    /// Quantities computed for every record and written to `observables.csv`.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     observe: Vec<Observable>,
-    /// Time from the start that means of `observe` leave out; at least 0, below `duration_ns`. Only with
-    /// `thermal`, where it is a fifth of `duration_ns` by default.
+    /// Initial time that means of `observe` exclude; at least 0, below `duration_ns`. Only with `thermal`. By
+    /// default a fifth of `duration_ns`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     burn_in_ns: Option<f64>,
-    /// Which of the larger files are written.
+    /// Optional output files.
     #[serde(default, skip_serializing_if = "is_default")]
     output: Output,
-    /// What is computed.
+    /// Computation to run.
     task: Task,
 }
 
-/// Whether a key says what scenes without it say.
 fn is_default<T: Default + PartialEq>(value: &T) -> bool {
     *value == T::default()
 }
@@ -105,7 +103,7 @@ impl TryFrom<Written> for Scene {
     }
 }
 
-/// Returns the filaments of the keys `filament` or `filaments`; both may be absent in a scene with arrangements.
+/// Returns the filaments of the keys `filament` or `filaments`. Scenes with arrangements may omit both.
 fn listed(
     alone: Option<Filament>,
     several: Option<Vec<Filament>>,
@@ -116,7 +114,7 @@ fn listed(
         (None, Some(filaments)) => Ok(filaments),
         (None, None) if is_arranged => Ok(Vec::new()),
         (None, None) => {
-            let rule = "is missing: a scene has a filament, or several as filaments";
+            let rule = "is missing: write filament, filaments or arrangements";
             Err(SceneProblem::new("filament", "", rule))
         }
         (Some(_), Some(_)) => {

@@ -385,7 +385,7 @@ fn weighted_bonds_have_no_samplings() {
     let measured = over_samplings(&specimen, &[0, 1], |s| stretch_by_force(s, &[10.0]));
     let message = measured.unwrap_err().to_string();
     assert!(
-        message.contains("weighted bonds are not drawn"),
+        message.contains("quadrature bonds are not sampled"),
         "{message}"
     );
 }

@@ -1,4 +1,4 @@
-//! Reading of scenes, as a user of the crate does it.
+//! Reading of scenes through the public interface.
 
 mod mistakes;
 mod values;

@@ -1,4 +1,4 @@
-//! Every mistake of a text, with its place.
+//! Collection of all mistakes of a text.
 
 use actin_scene::{Scene, SceneError, SceneProblem, SceneText};
 
@@ -11,8 +11,7 @@ const SCENE: &str = "Scene(
     task: Equilibrium(force_pn: 1e-6),
 )";
 
-/// Any two mistakes in different places are both found, each in the words that it has alone; the first in the text comes
-/// first.
+/// Two mistakes in different places are both found, in the order of the text, with the same messages as alone.
 #[test]
 fn of_two_mistakes_neither_hides_the_other() {
     assert_eq!(SceneText::new(SCENE).mistakes(), []);
@@ -39,7 +38,7 @@ fn of_two_mistakes_neither_hides_the_other() {
     }
 }
 
-/// Of 5000 mistakes 20 are listed; of a text of a megabyte as many as two readings show.
+/// At most 20 mistakes are listed, and fewer in long texts.
 #[test]
 fn of_many_mistakes_the_first_are_found() {
     let many = |what: &str, count: usize| {
@@ -65,7 +64,7 @@ fn of_many_mistakes_the_first_are_found() {
     );
 }
 
-/// Broken rules of numbers are found together; those of the whole scene if the numbers break none.
+/// Rules of the whole scene are checked only if all numbers are valid.
 #[test]
 fn broken_rules_are_found_together() {
     let keys = |text: &str| -> Vec<String> {
@@ -102,7 +101,7 @@ Scene(
     loads: [EndForce(end: End, force_pn: (0.0, inf, 0.0))],
 )"#;
 
-/// Keys are found beyond comments, texts and lists; a key that is not written is placed at the one above it.
+/// Keys after comments, strings and lists are located. An absent key is located at its parent.
 #[test]
 fn problems_are_placed_at_their_keys() {
     for (key, place) in [
@@ -121,7 +120,7 @@ fn problems_are_placed_at_their_keys() {
     }
 }
 
-/// After a missing comma, a missing colon or a comment of another language the rest of the text is still read.
+/// Parsing continues after a missing comma, a missing colon or an unknown comment.
 #[test]
 fn slips_between_values_hide_nothing() {
     for (from, to, place) in [

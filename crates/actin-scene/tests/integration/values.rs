@@ -26,9 +26,9 @@ fn refused(section: SceneValue) -> (String, String) {
     (problem.key, problem.rule)
 }
 
-/// Every scene of the repository comes back as it was, whatever it is made of.
+/// All scenes of the repository are unchanged by conversion to values and back.
 #[test]
-fn all_scenes_go_there_and_back() {
+fn scenes_are_unchanged_by_conversion() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenarios");
     let mut folders = vec![folder];
     let mut number = 0;
@@ -55,7 +55,7 @@ fn all_scenes_go_there_and_back() {
     assert!(number > 10, "{number} scenes");
 }
 
-/// Each mistake under its path, in the words that the text of a scene has for it.
+/// Errors have the path of the key and the message of the text form.
 #[test]
 fn mistakes_name_their_keys() {
     let rod = |key: &str, value: Kind| {
@@ -82,9 +82,9 @@ fn mistakes_name_their_keys() {
     assert!(rule.contains("a section's length is positive"), "{rule}");
 }
 
-/// Vectors have as many numbers as they need; choices with keys are dictionaries.
+/// Vectors have a fixed number of components, and choices with keys are dictionaries.
 #[test]
-fn forms_are_those_of_the_text() {
+fn forms_agree_with_the_text() {
     let rod = || {
         let all = keys(&[("from_nm", Whole(0).into()), ("to_nm", Whole(40).into())]);
         keys(&[("Rod", all)])
@@ -118,9 +118,9 @@ const JSON: &str = r#"{
     "task": {"Equilibrium": {}}
 }"#;
 
-/// A text that begins with a curly bracket is JSON; mistakes have their lines there too.
+/// A text that begins with a curly bracket is JSON, and errors have lines.
 #[test]
-fn json_says_what_ron_does() {
+fn json_agrees_with_ron() {
     let ron = "Scene(
         filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 40.0)]),
         clamps: [Clamp(end: Start)],
