@@ -132,10 +132,7 @@ mod tests {
             message.starts_with("no law is written: bend.rise is bad; "),
             "{message}"
         );
-        assert!(
-            message.ends_with("--allow-bounds bend.rise"),
-            "{message}"
-        );
+        assert!(message.ends_with("--allow-bounds bend.rise"), "{message}");
         let message = accept(&[fault("b3.rest", false)], &both).unwrap_err();
         assert_eq!(message, "no law is written: b3.rest is bad");
     }

@@ -181,7 +181,7 @@ pub(super) fn nonlinear(tell: Tell<'_>, found: &Found, published: Option<&[f64]>
         let theirs = published.map_or_else(String::new, |p| format!(", published {:11.4e}", p[j]));
         let status = match fit.statuses[j] {
             Status::Determined => "",
-", WEAK: known worse than its bounds", =>             Status::Weak => ", WEAK: standard error exceeds the width of its bounds", => ", WEAK: known worse than its bounds",
+            Status::Weak => ", WEAK: standard error exceeds the width of its bounds",
             Status::Undetermined => ", NOT DETERMINED by the data",
             Status::AtLowerBound => ", AT ITS LOWER BOUND",
             Status::AtUpperBound => ", AT ITS UPPER BOUND",

@@ -126,9 +126,7 @@ fn check_header(header: &StringRecord) -> Result<(), String> {
     for group in &GROUPS {
         for (key, needed) in [(group.error, group.value), (group.value, group.x)] {
             if has(key) && !has(needed) {
-                return Err(format!(
-                    "column `{needed}` is missing: `{key}` needs it"
-                ));
+                return Err(format!("column `{needed}` is missing: `{key}` needs it"));
             }
         }
     }
@@ -263,10 +261,7 @@ mod tests {
             assert!(message.contains(expected), "{message}");
         }
         let message = read("force_pn,strain\n1,\n").unwrap_err();
-        assert!(
-            message.contains("the table has no values"),
-            "{message}"
-        );
+        assert!(message.contains("the table has no values"), "{message}");
     }
 
     #[test]
