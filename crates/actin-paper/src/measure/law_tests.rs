@@ -23,7 +23,7 @@ fn assert_near(value: f64, expected: f64, tolerance: f64) {
 /// A twisted and bent rod is a helix under one couple. Both of its rigidities are recovered for
 /// both senses of twist, also beyond half a turn.
 #[test]
-fn a_helix_gives_back_both_rigidities_of_a_rod() {
+fn a_helix_has_both_rigidities_of_the_rod() {
     for (twist, azimuth) in [(0.03, 0.0), (-0.03, 50.0), (0.06, 0.0), (1e-4, 120.0)] {
         let curve = bend_twisted(&rod(), twist, &[-0.01, 0.002], azimuth).unwrap();
         assert_eq!(curve.points.len(), 2);
@@ -41,7 +41,7 @@ fn a_helix_gives_back_both_rigidities_of_a_rod() {
 /// Tension increases the end couple of a bent rod by `x / tanh x`, here by a half; compression
 /// decreases it.
 #[test]
-fn tension_is_taken_off_the_couple_of_a_bent_rod() {
+fn the_rigidity_is_independent_of_tension() {
     for force in [50.0, -20.0] {
         let curve = bend_under_tension(&rod(), force, &[-1e-3, 1e-3], 30.0).unwrap();
         for point in &curve.points {
@@ -138,7 +138,7 @@ fn one_value_has_no_scatter() {
 }
 
 #[test]
-fn twists_and_forces_that_mean_nothing_are_refused() {
+fn undefined_twists_and_forces_are_refused() {
     let refused = |name: &str, error: MeasureError| match error {
         MeasureError::Value { name: found, .. } => assert_eq!(found, name),
         other => panic!("{other}"),

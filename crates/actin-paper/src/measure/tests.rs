@@ -103,7 +103,7 @@ fn a_rod_that_is_soft_in_shear_shows_its_shearing_rigidity() {
 /// + z dz = 0` holds for neighbours, and with `2 t` and `2 z` for second neighbours. The result is
 /// `dz / dt = R^2 sin t / z = -0.2831 nm`.
 #[test]
-fn small_twist_changes_the_length_as_inextensible_interfaces_demand() {
+fn small_twist_changes_the_length_as_for_inextensible_interfaces() {
     let (rise, radius, turn) = helix();
     let expected = radius.powi(2) * turn.sin() / rise;
     assert!((expected + 0.2831).abs() < 1e-4);
@@ -260,7 +260,7 @@ fn scenes_give_what_the_protocols_give() {
 
 /// Angles with a unique equilibrium give the same points out and back.
 #[test]
-fn moderate_twist_does_not_remember_its_way() {
+fn moderate_twist_is_independent_of_the_path() {
     let specimen = monomers(27.0, 1);
     let curve = twist_in_order(&specimen, &[40.0, 80.0, 40.0]).unwrap();
     let there = curve.points[0].rigidity_pn_nm2;
@@ -333,7 +333,7 @@ fn values_that_are_not_reached_are_named() {
 /// in stretch and 1 % in bending. The minimum bond length is 0.2 nm. Twist and bending are cubic
 /// and sensitive to the moments of `1/L^2` and `1/L^3`.
 #[test]
-fn twelve_weighted_bonds_do_the_work_of_thousands() {
+fn twelve_quadrature_bonds_equal_thousands_of_sampled_bonds() {
     let specimen = |monomers: Monomers| {
         let monomers = Monomers {
             min_bond_nm: 0.2,
