@@ -17,7 +17,6 @@ fn config() -> Config {
     });
     Config {
         cases,
-        // Failing inputs are added as separate tests.
         failure_persistence: None,
         ..Config::default()
     }
@@ -184,7 +183,6 @@ fn random_scenes_are_built_or_refused() {
     outcome.unwrap_or_else(|error| panic!("{error}"));
 }
 
-/// Time limit (s), 1e4 times longer than usual, for busy machines.
 const PATIENCE_S: f64 = 60.0;
 
 fn check(text: &str) {
@@ -213,7 +211,6 @@ fn noise_is_refused() {
     outcome.unwrap_or_else(|error| panic!("{error}"));
 }
 
-/// 100 000 brackets in a thread with a small stack are refused by the limit on nesting.
 #[test]
 fn deep_nesting_is_refused_without_a_deep_stack() {
     let deep = 100_000;

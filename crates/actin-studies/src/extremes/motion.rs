@@ -118,14 +118,14 @@ fn damped(
     Parts::new(sections, rest, task).run()
 }
 
-/// Compares the displacement of a free filament under an axial end force in the second nanosecond with theory.
+/// Compares the displacement of a free filament under an axial end force in the second nanosecond
+/// with theory.
 ///
 /// ```text
 /// x(t) = F/(M g) (t - (1 - exp(-g t))/g)
 /// ```
 ///
-/// In a heat bath, the displacement is relative to the same filament without the force and with the same noise, since
-/// internal forces do not move the centre of mass.
+/// In a heat bath, the reference is the same filament without the force and with the same noise.
 fn pulled(sections: &str, rate: f64, kelvin: Option<u32>) -> CaseResult {
     let thermal = kelvin.map(|t| format!("thermal: (temperature_k: {t}.0, seed: 3),"));
     let keys = format!("record_every_ns: 1.0, {}", thermal.unwrap_or_default());
@@ -157,7 +157,6 @@ fn pulled(sections: &str, rate: f64, kelvin: Option<u32>) -> CaseResult {
     correct("way of the centre of mass", error, bound)
 }
 
-/// Sections and loads of a short cantilever, whose lowest frequency is 11 rad/ns.
 const CANTILEVER: (&str, &str) = (
     "Rod(from_nm: 0.0, to_nm: 20.0, segments: 2)",
     "clamps: [Clamp(end: Start)], loads: [EndForce(end: End, force_pn: (2.0, 0.0, 0.0))],",

@@ -51,7 +51,6 @@ const BEND: f64 = 3.9e4;
 const TWIST: f64 = 1.3e4;
 const SEGMENT: f64 = 10.0;
 
-/// The number of neutral modes is correct; otherwise a floating filament would be certified as stable.
 pub(super) fn neutral_modes() -> Vec<Row> {
     let row = |(case, count, model, length, clamps, modes): (&str, i64, &str, f64, &str, Modes)| {
         let tried = neutral(count, (model, length), clamps, modes);
@@ -162,8 +161,8 @@ fn compressed(law: &str, shift: f64, bound: f64, share: f64) -> CaseResult {
     correct(what, error, 0.0)
 }
 
-/// Motions that compress a straight rod, as keys of the filament and of the task. Without a perturbation the rod
-/// stays straight by symmetry; the others lead to the buckled state.
+/// Motions that compress a straight rod, as keys of the filament and of the task. Without a
+/// perturbation the rod stays straight by symmetry.
 const WAYS: [(&str, &str, &str); 3] = [
     ("as it is", "", ""),
     (

@@ -57,7 +57,6 @@ fn measured_limit(system: &mut System, integrator: Integrator) -> f64 {
     if grows(system, integrator, low * predicted) {
         (low, high) = (0.0, low);
     }
-    // Accuracy of 1e-4.
     for _ in 0..14 {
         let middle = 0.5 * (low + high);
         if grows(system, integrator, middle * predicted) {
@@ -102,7 +101,7 @@ pub(super) fn limits() -> Vec<Row> {
     })
 }
 
-/// Returns the largest relative deviation of the energy over 1000 steps of small motion at a fraction of the limit.
+/// Returns the largest relative deviation of the energy over 1000 steps of small motion.
 fn energy_error(system: &mut System, integrator: Integrator, share: f64) -> f64 {
     let scheme = actin_sim::composition(integrator);
     let h = step_at(system, scheme, share);
@@ -129,8 +128,8 @@ fn fluctuation(scheme: &Composition, share: f64) -> f64 {
     2.0 * share.powi(order) / (1.0 - share * share)
 }
 
-/// Energy fluctuation from 0.001 to 0.99 of the limit. A wrong coefficient reduces the order, which is visible at
-/// small steps.
+/// Energy fluctuation from 0.001 to 0.99 of the limit. A wrong coefficient would reduce the order
+/// at small steps.
 pub(super) fn energies() -> Vec<Row> {
     each(|model, sections, integrator| {
         let tried = free(sections).and_then(|mut system| {

@@ -118,7 +118,6 @@ fn of_tangent(free: &Natural, held: &HeatResponse) -> Vec<Number> {
         let value = 1.0 / mean(&compliance, k, k);
         // d(1/c_kk) = (c_k t' c_k)/c_kk^2
         let column = compliance.column(k);
-        // The matrix is symmetric.
         let squares = SixMatrix::from_fn(|i, j| (column[i] * column[j] * errors[(i, j)]).powi(2));
         let square = 2.0 * squares.sum() - squares.diagonal().sum();
         (value, value * value * square.sqrt() * share(k))

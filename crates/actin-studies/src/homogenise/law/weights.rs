@@ -33,7 +33,7 @@ const SMALL: f64 = 0.1;
 /// rest.
 const REST_EXTENSION: [f64; 2] = [-1e-4, 1e-3];
 const REST_TWIST: f64 = 4e-3;
-/// Unit residual of a strain under given loads, relative to the strain.
+/// Unit residual of a strain under given loads (relative).
 const STRAIN: f64 = 0.01;
 /// Relative residual above which the loss grows less than quadratically, since strains close to a change of branch
 /// are not smooth functions of loads.
