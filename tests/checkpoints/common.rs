@@ -189,7 +189,7 @@ impl Sink for Leaving<'_> {
     }
 
     fn is_checkpoint_due(&mut self) -> bool {
-        // Every other time, so that the log grows in steps.
+        // Alternates, so that the log grows in steps.
         self.left.is_multiple_of(2)
     }
 

@@ -32,7 +32,6 @@ fn fluctuations(scene: &Scene) -> Fluctuations {
     };
     let (trajectory, _) = Plan::new(&assembly).unwrap().run().unwrap();
     let mut found = Fluctuations::about(&monomers, &assembly.rest);
-    // Excludes the warm-up.
     let warm = trajectory.records.len() / 50;
     let records = trajectory.records.iter().skip(warm);
     records.for_each(|record| found.add(&record.state));
@@ -78,8 +77,7 @@ fn warmth(attached: usize) -> [f64; 2] {
     [sums[0] / per[0], sums[1] / per[1]]
 }
 
-/// Every strain of an open filament has kT/2. Junctions without random stress would make the whole
-/// 8 % too cold in these steps of 100 ns. Two monomers attached to one rod form a loop with
+/// Every strain of an open filament has kT/2. Two monomers attached to one rod form a loop with
 /// dependent strains.
 #[test]
 fn energy_agrees_with_the_temperature() {

@@ -31,7 +31,6 @@ impl EnergyRecord {
             for _ in 0..200 {
                 advance(system, &PEFRL, h, steps / 2000, &Drag::NONE);
                 let deviation = system.total_energy() / start - 1.0;
-                // A diverged state must not pass as incomparable.
                 let deviation = if deviation.is_nan() {
                     f64::INFINITY
                 } else {

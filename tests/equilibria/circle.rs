@@ -70,9 +70,9 @@ fn half_a_turn_has_the_right_diameter() {
     assert!(limit.abs() < 1e-6, "{limit:e}");
 }
 
-/// A rod with small twisting rigidity leaves the plane before it closes. With `c = B3 / B` this
-/// occurs at the turn `2 x` with `tan x = -x (1 - c)/c`, the first conjugate point of the
-/// force-free rod (a symmetric top). For `c = 1/3` it is 210.46 deg.
+/// A rod with small twisting rigidity leaves the plane before it closes. With `c = B3 / B` the
+/// critical turn is `2 x` with `tan x = -x (1 - c)/c`, the first conjugate point of the force-free
+/// rod. It is 210.46 deg for `c = 1/3`.
 #[test]
 fn a_rod_that_twists_easily_leaves_the_plane() {
     let c: f64 = 1.0 / 3.0;
@@ -93,8 +93,7 @@ fn a_rod_that_twists_easily_leaves_the_plane() {
     assert!(limit.abs() < 1e-5, "{limit:e}");
 }
 
-/// A couple about a fixed axis rolls up a free end to half a turn, where it loses stability. The
-/// message gives the reason.
+/// A couple about a fixed axis rolls up a free end to half a turn, where it loses stability.
 #[test]
 fn a_couple_on_a_free_end_rolls_up_half_a_turn() {
     let couple = 2.0 * PI * BEND / LENGTH;
@@ -119,7 +118,6 @@ fn a_couple_on_a_free_end_rolls_up_half_a_turn() {
     let Failure::PathEnded { failure, .. } = failure else {
         panic!("{message}");
     };
-    // Half a turn of the end, up to a segment.
     assert!((failure.parameter - 0.5).abs() < 1.0 / 40.0, "{message}");
     for part in ["loses its stability: ", "at half a turn", "slides: Freely"] {
         assert!(message.contains(part), "{part:?} in {message}");

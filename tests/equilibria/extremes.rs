@@ -1,8 +1,6 @@
-//! Extreme loads: each scene ends in a certified equilibrium or in a failure report, in a bounded
-//! number of steps.
-//!
-//! `cargo test -p actin-sim --test integration equilibria::extremes -- --nocapture` prints the
-//! table of `docs/measured/statics.md`.
+//! Extreme loads: each scene ends in a certified equilibrium or a failure report, in a bounded
+//! number of steps. The table of `docs/measured/statics.md` is printed by `cargo test -p actin-sim
+//! --test integration equilibria::extremes -- --nocapture`.
 
 use super::common::{build, run, run_anyway};
 use actin_equilibrium::{PathFailure, Stability};
@@ -73,7 +71,6 @@ impl Extreme {
         ))
     }
 
-    /// Runs the scene, prints its row, and checks its result. Returns `true` if it reached its end.
     fn check(&self) -> bool {
         let mut assembly = self.assembly();
         let clock = Instant::now();
@@ -92,7 +89,6 @@ impl Extreme {
         let found = report.equilibrium.as_ref();
         let steps = steps.max(found.map(|f| f.newton_iterations)).unwrap();
         println!("| {} | {ended} | {steps} | {seconds:.2} s |", self.name);
-        // At most a thousand equilibria with ten iterations each.
         assert!(steps < 10_000, "{}: {steps} iterations", self.name);
         let Some(found) = found else {
             let failure = failure.unwrap();
@@ -293,6 +289,5 @@ fn full_turns_of_twist_are_kept() {
     let clamp = assembly.clamps.iter().find(|c| c.end == End::End).unwrap();
     let couple = clamp.reaction(assembly.system.state(), &loads).torque_pn_nm;
     let exact = 1.3e4 * 4.0 * std::f64::consts::PI / 75.0;
-    // The residual in each of eight frames.
     assert!((couple.z - exact).abs() < 1e-5, "{couple} against {exact}");
 }

@@ -152,7 +152,7 @@ fn solved(n: usize) -> Coiled {
     let (mut state, layout, terms) = coiled(n);
     let mut newton = Newton::new(Layout::free(&state), to(1e-9)).unwrap();
     let found = newton.solve(&mut state, &terms).unwrap();
-    // The coil slides along the rod and rotates about it at almost zero cost.
+    // The coil slides along the rod and rotates about it at almost constant energy.
     let certificate = found.certificate.unwrap();
     assert_eq!((certificate.negative, certificate.unresolved), (0, 2));
     let h = LENGTH / n as f64;
@@ -189,15 +189,14 @@ fn lowest(values: &[f64]) -> (f64, f64) {
     (k as f64 - slope / bend, at - 0.5 * slope * slope / bend)
 }
 
-/// Twist lost at a wall, or bending that depends on the principal axis (the section rotates forty
-/// times within the coil), would shift moment and tilt by percents.
+/// Moment and tilt depend on the twist at the walls and on the axisymmetry of bending.
 #[test]
 fn a_twisted_rod_coils_up_in_its_middle() {
     let meshes = [300, 600, 1200].map(solved);
     let limit = |what: &str, value: fn(&Coiled) -> f64, exact: f64| {
         let values = [0, 1, 2].map(|k| value(&meshes[k]));
         let limit = second_order_limit(what, values, exact, 0.1);
-        // Fourth-order terms, and for the tilt the rounding of the source.
+        // Fourth-order terms and, for the tilt, the rounding of the source.
         assert!(limit.abs() < 2e-5, "{what}: {limit:e}");
     };
     limit("coil, largest tilt", |m| m.tilt, TILT_DEG);

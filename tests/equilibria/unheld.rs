@@ -1,5 +1,5 @@
-//! Unconstrained filaments under balanced forces: they rotate until the couple vanishes, and the
-//! certificate counts the remaining rigid motions.
+//! Unconstrained filaments under balanced forces rotate until the couple vanishes. The certificate
+//! counts the remaining rigid motions.
 
 use super::common::solved;
 use actin_equilibrium::Stability;
@@ -66,7 +66,7 @@ fn other_filaments_end_without_a_couple() {
         let (_, span, stability) = pulled_apart(sections, force);
         let couple = span.cross(&Vector3::from(force)).norm();
         println!("{couple:e} pN nm, {stability:?}");
-        // Some dozen bodies, each with the tolerance in torque and in force at 60 nm.
+        // A few dozen bodies, each with the tolerance in torque and in force at 60 nm.
         assert!(couple < 1e-5);
         assert!(span.dot(&Vector3::from(force)) > 0.0);
         assert!(

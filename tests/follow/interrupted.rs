@@ -85,7 +85,6 @@ fn run(scene: &Scene, every_ns: f64, every: u32) -> (Vec<(usize, Record)>, u32) 
     }
 }
 
-/// Interruptions at every check, including checks at switches and between them.
 #[test]
 fn an_interrupted_motion_is_the_same_to_the_bit() {
     for (scene, every_ns) in [(thermal(), 0.5), (overdamped(), 120.0)] {

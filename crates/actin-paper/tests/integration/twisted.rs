@@ -263,7 +263,8 @@ fn crossings(scene: &str, law: &str, resolved: &Resolved) -> (f64, Vec<Crossing>
 /// The torque is uniform, and the missing turn at a junction is as tabulated in
 /// `docs/measured/fitted-law.md`. The twist of the rod equals the twist of the monomers under a law
 /// fitted to them. A junction of shared weight has no missing turn.
-fn a_mixed_filament_carries_one_couple_through_its_junctions() {
+#[test]
+fn a_mixed_filament_has_one_torque_through_its_junctions() {
     println!("| filament | law | weight | turn | couple | rod | monomers | missing |");
     for angle in [90.0, -90.0] {
         let resolved = Resolved::new(angle / 90.0);
