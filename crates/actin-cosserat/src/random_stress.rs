@@ -14,7 +14,7 @@
 //! `kappa_1` and `kappa_2` are the mean curvatures of both sides, `kappa` is their mean, `w` is
 //! 1/2, or 1 for a segment with a single side: nine numbers per segment.
 //!
-//! Axial torques on frames are those of twist alone. Only friction resists axial rotations, so
+//! Axial torques on frames are due to twist alone. Only friction resists axial rotations, so that
 //! other torques would rotate frames until the stress increases the existing bending.
 
 use crate::extended::{ExtendedSegments, SegmentJet, SegmentSurroundings};
@@ -392,8 +392,8 @@ mod tests {
         }
     }
 
-    /// Under tension, for positive shear stiffness. Independent draws of curvature and strain would
-    /// fluctuate 20 % too much.
+    /// Tension makes the shear stiffness positive. Independent samples of curvature and strain
+    /// would have 20 % too large fluctuations.
     #[test]
     fn stress_of_coupled_strains_has_the_covariance_of_the_stiffness() {
         for law in [

@@ -195,8 +195,7 @@ impl Linker {
             for &(b, slope_b) in &slopes[k + 1..] {
                 let block = slope_a.transpose() * spring * slope_b;
                 if a == b {
-                    // Both sites follow this body, so the block and its transpose are on the
-                    // diagonal.
+                    // Both sites follow this body: block and transpose are on the diagonal.
                     stiffness.push(a, a, block + block.transpose());
                 } else {
                     stiffness.push(a, b, block);

@@ -152,7 +152,7 @@ mod tests {
         (material, law.unwrap())
     }
 
-    /// All nonlinear laws at once. With `cubic`, the linear shear rigidity is zero.
+    /// All nonlinear laws. With `cubic`, the linear shear rigidity is zero.
     fn sided(cubic: bool) -> (RodMaterial, SegmentLaw) {
         let bend = Stiffening {
             rest: 3.2e4,

@@ -82,7 +82,7 @@ impl Neighbours {
                 [i, j].map(|k| later[k]),
             )
         };
-        // All possible pairs of a short step are in the list.
+        // All possible pairs are in the list.
         if 2.0 * farthest + least <= reach.known {
             return self.pairs.iter().copied().find(passes);
         }
