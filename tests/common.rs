@@ -39,7 +39,6 @@ pub(crate) fn ran(text: &str) -> (Assembly, Trajectory, Outcome) {
     (assembly, trajectory, outcome)
 }
 
-/// Message of the refusal of a scene; empty if it is accepted.
 pub(crate) fn refusal(text: &str) -> String {
     let scene = match Scene::from_ron(text) {
         Ok(scene) => scene,

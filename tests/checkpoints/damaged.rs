@@ -54,7 +54,6 @@ impl Left {
     }
 }
 
-/// Indices of the first bytes of a file, and of a thousand bytes of the rest.
 fn places(length: usize) -> impl Iterator<Item = usize> {
     let stride = (length / 1000).max(1);
     (0..length.min(64)).chain((64..length).step_by(stride))
@@ -183,8 +182,6 @@ fn a_huge_length_is_refused() {
     assert!(left.refusal().contains("truncated"));
 }
 
-/// Random contents with valid checksums are refused or accepted as another position, without panic
-/// or large allocation.
 #[test]
 fn forged_contents_cause_no_panic() {
     let mut refused = 0;

@@ -104,8 +104,6 @@ fn runs_without_states_resume_to_the_same_bytes() {
     }
 }
 
-/// Without states the disk holds one row per record. All other files are bitwise equal, except for
-/// the keys of the scene.
 #[test]
 fn files_do_not_depend_on_whether_states_are_kept() {
     for text in SCENES {

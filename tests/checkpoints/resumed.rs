@@ -107,8 +107,6 @@ fn choice() -> impl Strategy<Value = Choice> {
 proptest! {
     #![proptest_config(ProptestConfig { cases: 60, failure_persistence: None, ..Default::default() })]
 
-    /// Motions of one or two filaments with every integrator, ramp, drag, noise, stop rule and
-    /// interval of records, interrupted up to three times.
     #[test]
     fn motions_resume_to_the_same_bits(
         choice in choice(),
@@ -121,7 +119,6 @@ proptest! {
 proptest! {
     #![proptest_config(ProptestConfig { cases: 30, failure_persistence: None, ..Default::default() })]
 
-    /// Equilibria, alone and along paths, interrupted within a solve or between two.
     #[test]
     fn paths_of_equilibria_resume_to_the_same_bits(
         choice in choice().prop_filter("statics has no time", |choice| choice.held != IN_TIME),

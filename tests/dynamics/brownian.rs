@@ -206,7 +206,6 @@ fn long_steps_give_warnings() {
     }
 }
 
-/// Mean energy (kT) of a free rod of 120 nm in six segments over `steps` steps.
 fn mean_energy(law: &str, step_ns: f64, steps: u32) -> f64 {
     let duration = f64::from(steps) * step_ns * 1e-6;
     let text = format!(

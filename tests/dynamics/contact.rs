@@ -130,7 +130,6 @@ fn the_time_step_includes_contact_before_it_occurs() {
     }
 }
 
-/// Free rod pushed across a clamped one with this stiffness (pN/nm) of the repulsion.
 pub(crate) fn pushed_across(stiffness: &str, task: &str) -> String {
     format!(
         "Scene(

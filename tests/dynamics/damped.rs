@@ -146,7 +146,6 @@ fn a_free_filament_turns_as_the_couple_says() {
     }
 }
 
-/// Tip positions every half nanosecond of a half-monomer, half-rod filament released under 2 pN.
 fn let_go(integrator: &str, share: f64, rate: f64) -> Vec<Vector3> {
     let (assembly, trajectory, _) = ran(&format!(
         "Scene(
@@ -168,7 +167,6 @@ fn let_go(integrator: &str, share: f64, rate: f64) -> Vec<Vector3> {
     trajectory.records.iter().map(tip).collect()
 }
 
-/// Position Verlet at its default step is compared with short steps, rms over 20 ns.
 #[test]
 #[ignore = "takes minutes; run by hand with --ignored --nocapture"]
 fn position_verlet_follows_slow_motion_under_drag() {

@@ -17,7 +17,6 @@ fn at_rest(filament: Filament) -> System {
     assemble(filament, ForceLaw::EnergyGradient).system
 }
 
-/// Heats all degrees of freedom to `level`, with the step at `share` of the stability limit.
 fn heated(filament: Filament, level: f64, share: f64) -> EnergyRecord {
     let mut system = at_rest(filament);
     let frequency = largest_frequency(&system).unwrap();
@@ -80,7 +79,6 @@ fn room_temperature_costs_monomers_some_energy() {
     }
 }
 
-/// Excites only slow modes to `level`, with the step at `share` of the stability limit.
 fn slow(filament: Filament, level: f64, share: f64, steps: u64) -> EnergyRecord {
     let mut system = at_rest(filament);
     let modes = Modes::of(&system);

@@ -1,11 +1,12 @@
 //! Configurational temperature of monomers in a heat bath at the default step.
 //!
-//! Velocities have the bath temperature at any step. Configurations are tested by the identity `<B
-//! . grad U> = kT <div B>`, valid for every potential, with two fields `B`:
+//! Configurations are tested by the identity `<B . grad U> = kT <div B>`, valid for every
+//! potential, with two fields `B`:
 //!
-//! - the displacement and rotation of each monomer relative to the previous one, from rest, which
-//!   weigh all modes alike;
-//! - `M^-1 grad U`, which weighs modes by squared frequency and reveals overheated fast modes.
+//! - displacement and rotation of each monomer relative to the previous one, from rest: equal
+//! weights of
+//!    all modes;
+//! - `M^-1 grad U`: weights with the squared frequency.
 
 use super::filaments::KBT;
 use actin_integrate::{
@@ -49,7 +50,6 @@ impl Sums {
 type Blocks = [Vec<Sums>; 2];
 
 struct Thermometer {
-    /// Position and orientation of each monomer relative to the previous one, at rest.
     relative: Vec<(Vector3, UnitQuaternion)>,
     stiffness: Stiffness,
 }
@@ -127,7 +127,6 @@ struct Case {
     rate: f64,
 }
 
-/// Sums of both fields in `blocks` blocks of `samples` samples.
 fn sample(case: Case, blocks: usize, samples: usize, seed: u64) -> Blocks {
     let mut system = monomers(case.bonds);
     let frequency = largest_frequency(&system).unwrap();

@@ -8,8 +8,6 @@ use actin_mechanics::{System, Vector3};
 use actin_mechanics::{Xorshift, perturb, randomise_velocities};
 use actin_sim::{Assembly, Scene};
 
-/// Monomers and a crossing rod, joined by two stretched linkers, one with a rest length, and a
-/// third between two sites of the rod.
 fn tumbling() -> System {
     let scene = Scene::from_ron(
         "Scene(

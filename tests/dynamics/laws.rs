@@ -18,7 +18,6 @@ const LAWS: [&str; 4] = [
 struct Case {
     filament: Filament,
     law: &'static str,
-    /// Bending and twist (rad/nm).
     kappa: [f64; 3],
     extension: f64,
 }
@@ -130,7 +129,6 @@ fn every_law_keeps_momenta() {
     }
 }
 
-/// Half the step reduces the fluctuation to a sixteenth.
 #[test]
 fn every_law_keeps_its_energy() {
     for case in Case::all() {

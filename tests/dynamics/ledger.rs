@@ -126,7 +126,6 @@ fn heat_is_recorded() {
     }
 }
 
-/// The error is below a hundredth in steps of 0.004 ns and of second order in the step.
 #[test]
 fn overdamped_motion_records_work_and_drag() {
     for (name, body) in DRIVEN {
@@ -138,7 +137,6 @@ fn overdamped_motion_records_work_and_drag() {
     }
 }
 
-/// Noise does not change the mean work on a nearly linear filament.
 #[test]
 fn overdamped_motion_in_a_bath_records_work() {
     let of = |temperature: f64, seed: u64| {
@@ -197,7 +195,6 @@ fn energy_errors_give_a_warning() {
     assert!(note.contains("use a shorter time_step_ns"), "{note}");
 }
 
-/// A pinned end rotates by several turns under a couple.
 #[test]
 fn work_of_a_couple_over_turns_is_recorded() {
     let body = "clamps: [Clamp(end: Start, hold: Pin)],

@@ -26,7 +26,6 @@ fn mean(summary: &Summary, column: &str) -> MeanSummary {
     mean
 }
 
-/// Kinetic and elastic energy are `kT/2` per degree of freedom after the burn-in.
 #[test]
 fn energies_satisfy_equipartition() {
     let (assembly, records, summary) = run("Scene(
@@ -57,7 +56,6 @@ fn energies_satisfy_equipartition() {
     }
 }
 
-/// Persistence length and length of a free rod (nm).
 const LENGTH: f64 = 100.0;
 
 fn free_rod() -> String {

@@ -36,8 +36,6 @@ fn steps_of_one_radian(filament: Filament) -> u32 {
     (omega * TIME).ceil() as u32
 }
 
-/// Detects a kick with `(I omega) x omega` instead of the exact free rotation, which has order 1 in
-/// rotations.
 #[test]
 fn every_method_has_its_order_on_every_filament() {
     for filament in FILAMENTS {

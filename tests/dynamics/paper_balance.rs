@@ -38,7 +38,6 @@ fn rods(assembly: &Assembly) -> Vec<(Range<usize>, f64)> {
     assembly.sections.iter().filter_map(rod).collect()
 }
 
-/// Energy and largest extension over 1e5 steps of PEFRL at half the stability limit.
 fn run(filament: Filament, law: ForceLaw, start: Start) -> (EnergyRecord, f64) {
     let mut assembly = assemble(filament, law);
     let rods = rods(&assembly);

@@ -21,7 +21,6 @@ fn quasi_harmonic(duration_ms: f64, step_ns: f64) -> String {
     )
 }
 
-/// Moments of neighbouring monomers of a scene, over its records.
 fn fluctuations(scene: &Scene) -> Fluctuations {
     let assembly = Assembly::build(scene).unwrap();
     let monomers = Monomers {
@@ -88,7 +87,6 @@ fn energy_agrees_with_the_temperature() {
     }
 }
 
-/// Energy of a scene's filament stretched by a thousandth.
 fn stretched(sections: &str) -> f64 {
     let assembly = Assembly::build(&scene(sections, &quasi_harmonic(1e-3, 100.0))).unwrap();
     let mut state = assembly.rest.clone();

@@ -3,7 +3,6 @@
 use crate::common::{build, failure, run, run_anyway};
 use actin_sim::{End, Failure, Outcome, RunError, Status, Trajectory};
 
-/// Rod of 200 nm between two walls, compressed by 60 nm within 5 ns.
 fn pushed(filament: &str, task: &str) -> String {
     format!(
         "Scene(

@@ -60,8 +60,6 @@ fn steps_grow_with_rigid_segments() {
     assert!(limits[3] > 10.0 * before);
 }
 
-/// The default step is a smaller share of its limit if any section has a law that softens in
-/// compression.
 #[test]
 fn the_law_of_a_section_shortens_the_step() {
     let share = |altered: &str| {

@@ -15,8 +15,7 @@ fn bath(rate: f64, kt: f64, seed: u64) -> Bath {
     Bath::new(Drag::new(rate, rate).unwrap(), kt, seed).unwrap()
 }
 
-/// A quarter of the stability limit of PEFRL, with an error of 3e-4 in the temperature of the
-/// fastest mode.
+/// Step with an error of 3e-4 in the temperature of the fastest mode.
 fn step(system: &System) -> f64 {
     stable_step(&PEFRL, largest_frequency(system).unwrap(), 0.25).unwrap()
 }
@@ -61,8 +60,6 @@ fn temperatures(assembly: &Assembly, state: &State) -> BTreeMap<String, f64> {
     sums.into_iter().map(share).collect()
 }
 
-/// `m v^2` and `L_a^2/I_a` have the mean kT for all kinds of bodies, and `P^2/M` for the whole
-/// filament.
 #[test]
 fn every_kind_of_body_has_the_temperature() {
     for (filament, kinds) in FILAMENTS.into_iter().zip([3, 3, 6, 6]) {

@@ -19,7 +19,6 @@ fn tips(sections: &str, force_pn: f64, task: &str) -> (Vec<Vector3>, u64) {
     (tips, report.force_evaluations)
 }
 
-/// Largest difference of the deflections with and without inertia, relative to the last deflection.
 fn largest_difference(sections: &str, duration_ns: f64, step_ns: f64) -> f64 {
     let every = duration_ns / 10.0;
     let water = "drag: Water(viscosity_mpa_s: 1.0)";
@@ -51,7 +50,6 @@ fn cantilevers_relax_alike_with_inertia_and_without() {
     }
 }
 
-/// For 160 nm inertia takes a million steps.
 #[test]
 #[ignore = "takes minutes"]
 fn long_cantilevers_relax_alike_with_inertia_and_without() {

@@ -94,7 +94,6 @@ impl Section {
         }
     }
 
-    /// Integrates along the arc in `steps` of the classical fourth-order Runge-Kutta method.
     fn at_tip(couple: Vector3, force: Vector3, steps: usize) -> Self {
         let mut at = Self {
             place: Vector3::zeros(),

@@ -84,8 +84,7 @@ fn column(n: usize, wall: bool) -> (State, Parts, BodyOrder) {
     (state, parts, order)
 }
 
-/// Both ends pinned: the far node slides along the axis, no frame is held. The axial rotation is a
-/// neutral mode.
+/// The axial rotation is a neutral mode.
 #[test]
 fn pinned_column() {
     let values = MESHES.map(|n| {
@@ -102,7 +101,6 @@ fn pinned_column() {
     assert!(limit.abs() < 1e-5, "{limit:e}");
 }
 
-/// Both ends clamped; the far one slides along the axis as one body with its frame.
 #[test]
 fn clamped_column() {
     let values = MESHES.map(|n| {

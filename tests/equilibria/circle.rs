@@ -6,7 +6,6 @@ use actin_mechanics::Vector3;
 use actin_sim::{Assembly, End, Failure, Outcome, RunError};
 use std::f64::consts::PI;
 
-/// Rod with its end turned about y by `turn` (deg) and twisting rigidity `twist`; stable or not.
 fn rolled(segments: usize, twist: f64, turn: f64) -> (Assembly, Outcome) {
     let mut assembly = build(&format!(
         "Scene(
@@ -93,7 +92,6 @@ fn a_rod_that_twists_easily_leaves_the_plane() {
     assert!(limit.abs() < 1e-5, "{limit:e}");
 }
 
-/// A couple about a fixed axis rolls up a free end to half a turn, where it loses stability.
 #[test]
 fn a_couple_on_a_free_end_rolls_up_half_a_turn() {
     let couple = 2.0 * PI * BEND / LENGTH;

@@ -44,7 +44,6 @@ fn set_uniform(assembly: &mut Assembly, twist: f64, strain: f64) {
     }
 }
 
-/// Sets the uniform state of this twist under a compression (pN), by bisection of its strain.
 fn push(assembly: &mut Assembly, twist: f64, compression: f64) {
     let (mut low, mut high) = (-0.1, 0.1);
     for _ in 0..100 {
@@ -91,8 +90,6 @@ fn only(found: &[UnstableTwist]) -> UnstableTwist {
     found[0]
 }
 
-/// A bound at constant length, or with the secant rigidity, would be wrong by up to a factor of
-/// ten.
 #[test]
 fn modes_turn_unstable_at_the_bound() {
     for (law, at_rest) in LAWS {

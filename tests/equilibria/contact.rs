@@ -5,7 +5,6 @@ use actin_mechanics::testing::resultant;
 use actin_mechanics::{Loads, Vector3};
 use actin_sim::{Assembly, Failure, Part, Summary};
 
-/// Force of one part of an assembly on all bodies, and its place along z.
 fn pushed(assembly: &Assembly, part: Part) -> (Vector3, f64) {
     let term = assembly.terms.iter().position(|t| t.part == part).unwrap();
     let state = assembly.system.state();
@@ -16,7 +15,6 @@ fn pushed(assembly: &Assembly, part: Part) -> (Vector3, f64) {
     (force, moment.y / force.x)
 }
 
-/// Cantilever of 160 nm bent by a sphere near its end, which is moved by `shift_nm`.
 fn pressed(section: &str, at_nm: f64, x_nm: f64) -> String {
     format!(
         "Scene(

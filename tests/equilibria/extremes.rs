@@ -104,7 +104,6 @@ impl Extreme {
         failure.is_none()
     }
 
-    /// Returns the results and the failure, if any. An equilibrium beyond the model limits is kept.
     fn take(
         &self,
         result: (Trajectory, Result<Outcome, RunError>),
@@ -211,7 +210,6 @@ const PULLED: [(&str, &str, [f64; 3]); 11] = [
     ),
 ];
 
-/// Turns of the far end about the axis (deg), which slides along it.
 const TURNED: [(&str, &str, f64); 6] = [
     ("75 nm of monomers by +720 deg", MONOMERS_75, 720.0),
     ("75 nm of monomers by -720 deg", MONOMERS_75, -720.0),
@@ -224,7 +222,6 @@ const TURNED: [(&str, &str, f64); 6] = [
 /// Paths with a small snap that does not end them.
 const SNAPS: [&str; 1] = ["75 nm of monomers by +720 deg"];
 
-/// Shifts of the far end along the axis (nm).
 const SHIFTED: [(&str, &str, f64); 4] = [
     ("75 nm of monomers pushed by 20 %", MONOMERS_75, -15.0),
     ("75 nm of monomers pushed to 20 %", MONOMERS_75, -60.0),

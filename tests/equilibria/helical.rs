@@ -56,7 +56,6 @@ impl Coil {
         1.0 - (1.0 - self.least_cosine) / (self.mu * s).cosh().powi(2)
     }
 
-    /// Rotation rates of the tangent about the axis and of the section about the tangent.
     fn rates(&self, s: f64) -> (f64, f64) {
         let cosine = self.cosine(s);
         let round = self.moment / (1.0 + cosine);
@@ -138,7 +137,6 @@ fn coiled(n: usize) -> (State, RodLayout, Vec<Box<dyn Interaction>>) {
 }
 
 struct Coiled {
-    /// Largest tilt (deg).
     tilt: f64,
     /// `M L / B`.
     moment: f64,
@@ -189,7 +187,6 @@ fn lowest(values: &[f64]) -> (f64, f64) {
     (k as f64 - slope / bend, at - 0.5 * slope * slope / bend)
 }
 
-/// Moment and tilt depend on the twist at the walls and on the axisymmetry of bending.
 #[test]
 fn a_twisted_rod_coils_up_in_its_middle() {
     let meshes = [300, 600, 1200].map(solved);

@@ -6,7 +6,6 @@ use actin_mechanics::testing::assert_is_balanced;
 use actin_mechanics::{Xorshift, perturb};
 use actin_sim::{Assembly, Outcome, Part};
 
-/// Filament of `length` nm on a wall with a clamp `end`, under an end force (pN).
 fn scene(sections: &str, end: &str, [x, y, z]: [f64; 3]) -> String {
     format!(
         "Scene(

@@ -99,7 +99,6 @@ fn a_spring_that_is_pushed_together_swings_round() {
     assert!(tips[0].x - tips[1].x > 19.0);
 }
 
-/// Monomers and rods joined by two linkers, one with a rest length, under an oblique load.
 fn tied(task: &str) -> String {
     format!(
         "Scene(

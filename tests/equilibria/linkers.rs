@@ -5,7 +5,6 @@ use super::common::{MIXED, solved};
 use actin_mechanics::{Vector3, rotation};
 use actin_sim::{Assembly, BodyKind};
 
-/// Rod of 19 segments of 9.5 nm, clamped at both ends, with an off-axis linker in the middle.
 const PULLED_ROUND: &str = "Scene(
     filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 180.5, segments: 19)], rod: RodModel(law: Constant)),
     clamps: [

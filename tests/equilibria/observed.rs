@@ -35,7 +35,6 @@ fn observed(load: &str, observe: &str) -> BTreeMap<String, f64> {
     all.map(|(name, one)| (name, one.last.unwrap())).collect()
 }
 
-/// A couple bends a cantilever into an arc of curvature `M/B` up to the tip.
 #[test]
 fn a_couple_bends_into_an_arc() {
     let found = observed(

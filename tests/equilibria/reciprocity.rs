@@ -5,7 +5,6 @@ use super::common::{newton, solved};
 use actin_mechanics::{Loads, State, Vector3, rotation};
 use actin_sim::Assembly;
 
-/// Filament clamped at both ends, with its far end at a turn (deg) and an axial shift (nm).
 struct Held {
     assembly: Assembly,
     state: State,
@@ -80,7 +79,6 @@ const MIXED: &str = "Rod(from_nm: 0.0, to_nm: 20.0), Ellipsoids(from_nm: 20.0, t
     Rod(from_nm: 55.0, to_nm: 75.0)";
 const MONOMERS: &str = "Ellipsoids(from_nm: 0.0, to_nm: 75.0)";
 
-/// The derivatives are equal for conservative loads only.
 #[test]
 fn couple_against_shift_is_force_against_turn() {
     for (sections, law) in [

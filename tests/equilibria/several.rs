@@ -82,7 +82,6 @@ fn unlinked_filaments_are_each_alone() {
     }
 }
 
-/// The second of two equal filaments has different bonds.
 #[test]
 fn filaments_alike_are_sampled_independently() {
     let bonds = |assembly: &Assembly, section| {
@@ -138,7 +137,6 @@ fn solve(scene: &Scene) -> Assembly {
     assembly
 }
 
-/// A rigid motion of the scene moves the equilibrium rigidly.
 #[test]
 fn equilibria_are_invariant_under_rigid_motion() {
     let mut noise = Xorshift::new(4);

@@ -31,8 +31,6 @@ fn buckled(sections: &str, turn: f64) -> String {
     )
 }
 
-/// Twist, writhe and largest distance at the end. Twist plus writhe is compared with the link at
-/// every equilibrium.
 fn measured(what: &str, text: &str) -> [f64; 3] {
     let (assembly, trajectory, _) = ran(text);
     let mut worst: f64 = 0.0;

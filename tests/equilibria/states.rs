@@ -25,7 +25,6 @@ fn found(outcome: &Outcome) -> &StableStates {
         .unwrap()
 }
 
-/// All states are minima within the tolerance, sorted by energy; the result is one of them.
 #[test]
 fn stable_states_are_stable() {
     let (assembly, outcome) = solved(&buckled(12));

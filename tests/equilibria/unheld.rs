@@ -8,7 +8,6 @@ use actin_sim::{Assembly, End};
 
 const TIGHT: &str = "task: Equilibrium(force_pn: 1e-9, torque_pn_nm: 1e-8)";
 
-/// Free filament with `force` (pN) on its end and the opposite on its start.
 fn pulled_apart(sections: &str, [x, y, z]: [f64; 3]) -> (Assembly, Vector3, Stability) {
     let text = format!(
         "Scene(

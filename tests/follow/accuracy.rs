@@ -33,7 +33,6 @@ fn tips<'a>(runs: impl Iterator<Item = (&'a Assembly, &'a [Record])>) -> Vec<(f6
     all.collect()
 }
 
-/// Relative root-mean-square difference at the times of the reference.
 fn error(found: &[(f64, [f64; 3])], reference: &[(f64, [f64; 3])]) -> f64 {
     let (mut difference, mut size) = (0.0, 0.0);
     for (time, tip) in reference {
@@ -53,7 +52,6 @@ fn unchanged(sections: &str) -> Vec<(f64, [f64; 3])> {
     tips([(&assembly, trajectory.records.as_slice())].into_iter())
 }
 
-/// Undamped motion under 10 pN across the tip of 150 nm over 20 ns.
 #[test]
 fn followed_motion_approaches_monomers_as_thresholds_fall() {
     let monomers = unchanged("[Ellipsoids(from_nm: 0.0, to_nm: 150.0)]");

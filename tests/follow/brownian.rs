@@ -84,7 +84,6 @@ fn mean_square_angle<'a>(records: impl Iterator<Item = Seen<'a>>) -> f64 {
     sum / count
 }
 
-/// Switching cells do not change strains and shape of the filament.
 #[test]
 fn a_thousand_switches_leave_temperature_and_shape() {
     let scene = thermal(0.1001);
@@ -124,7 +123,6 @@ fn a_thousand_switches_leave_temperature_and_shape() {
     assert!(velocities.fold(0.0, |most: f64, v| most.max(v.norm())) < 1e-300);
 }
 
-/// Energies of the nonlinear bonds after a switch and before the next.
 #[test]
 fn bonds_have_their_temperature_after_switches() {
     let rest = "task: Brownian(duration_ms: 1.6e-5, temperature_k: 298.0, seed: 5, record_every_ns: 0.02),";
@@ -175,7 +173,6 @@ fn without_noise_the_energy_is_balanced() {
     assert!(fall > 10.0 && open < 1e-3 * fall, "{open}");
 }
 
-/// Energy without noise decreases between switches.
 #[test]
 fn without_noise_energy_decreases_between_switches() {
     let (scene, run) = falling();
@@ -206,8 +203,7 @@ fn without_noise_energy_decreases_between_switches() {
     assert!(found > rod - margin && found < monomers + margin);
 }
 
-/// A free filament moves with the flow, also through switches. The tangent of its angle in a shear
-/// flow is rate times time.
+/// The tangent of its angle in a shear flow is rate times time.
 #[test]
 fn switches_do_not_disturb_motion_in_a_flow() {
     let moved = |flow: &str| {
@@ -236,7 +232,6 @@ fn switches_do_not_disturb_motion_in_a_flow() {
     assert!((tangent / 0.5 - 1.0).abs() < 0.01, "{tangent}");
 }
 
-/// Cells of six short segments need steps a thousand times shorter.
 #[test]
 fn short_segments_of_cells_give_a_note() {
     let note = |segments: usize, step: &str| {

@@ -50,7 +50,6 @@ fn mean_square_angle(run: &Followed, from_ns: f64) -> f64 {
     sum / count
 }
 
-/// New bodies must have the temperature of the bath and conserve the momenta.
 #[test]
 fn a_thousand_switches_neither_heat_nor_cool() {
     let run = to_and_fro(&thermal(501.0), 0.5);

@@ -15,7 +15,6 @@ fn thermal() -> Scene {
     scene(108.0, 0.25, rest)
 }
 
-/// Overdamped motion with three steps between switches and a check at each.
 fn overdamped() -> Scene {
     let rest = "task: Brownian(
             duration_ms: 1.6e-3,

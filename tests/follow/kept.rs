@@ -15,7 +15,6 @@ fn pairs(run: &Followed) -> impl Iterator<Item = (&CompletedStretch, &CompletedS
     run.stretches.iter().zip(&run.stretches[1..])
 }
 
-/// Momentum and angular momentum of all free bodies, including junction frames.
 #[test]
 fn momentum_is_kept_to_round_off() {
     let run = to_and_fro(&swinging(), 0.75);

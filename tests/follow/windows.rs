@@ -4,7 +4,6 @@ use super::scene;
 use actin_sim::follow::{Cell, Criterion, FilamentState, Follower, ResolutionRequest};
 use actin_sim::{Assembly, Plan, Scene, Where};
 
-/// Criterion that requests monomers and a rod alternately at every check.
 #[derive(Debug)]
 struct Restless;
 
@@ -172,7 +171,6 @@ fn check_window(task: &str) {
     assert!(first < 6.0);
 }
 
-/// The wall is bitwise unchanged by switches of the adjacent cells of a bent filament.
 #[test]
 fn held_ends_stay_where_they_were_built() {
     let scene = scene(

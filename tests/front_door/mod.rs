@@ -30,7 +30,6 @@ const MEASUREMENTS: [&str; 8] = [
     "weighted_bonds",
 ];
 
-/// Largest number of lines of an example.
 const MOST_LINES: usize = 60;
 
 fn folder(name: &str) -> PathBuf {

@@ -207,8 +207,6 @@ fn a_hinge_past_half_a_turn_is_a_lost_turn() {
     }
 }
 
-/// A linker holds the tip while the start is turned over. Statics detects the slip between
-/// equilibria.
 #[test]
 fn a_hinge_bent_past_half_a_turn_is_reported() {
     let turned = |degrees: f64| {
@@ -237,7 +235,6 @@ fn a_hinge_bent_past_half_a_turn_is_reported() {
     assert!(angle > 150.0 && angle < 180.0 && twist.abs() < 1.0);
 }
 
-/// Loads in the middle of a motion of an arc under a force, with a sliding end.
 fn sliding(sections: &str, slides: &str) -> (Assembly, State, Loads) {
     let (assembly, trajectory) = run(&format!(
         "Scene(

@@ -22,7 +22,6 @@ fn receptance(omega: f64, drag: f64) -> Complex<f64> {
     (s * ch - c * sh) / (b.powu(3) * (c * ch + 1.0)) * (LENGTH.powi(3) / BEND)
 }
 
-/// The static receptance is `L^3 / 3B`.
 #[test]
 fn the_receptance_agrees_with_statics() {
     let slow = receptance(1e-3, 0.0);

@@ -58,8 +58,7 @@ fn cuts_change_nothing() {
     }
 }
 
-/// The cross-section between two rods takes its inertia from its neighbours: the largest frequency
-/// rises by at most the root of 4/3.
+/// The largest frequency rises by at most the root of 4/3.
 #[test]
 fn a_cut_keeps_the_time_step() {
     let frequency = |sections: &str| {
@@ -150,7 +149,6 @@ fn the_shape_at_rest_is_unloaded() {
     assert!(tip.xy().norm() > 10.0, "{tip}");
 }
 
-/// Ranges belong to the section's law and are relative to its rest shape.
 #[test]
 fn sections_leave_the_data_of_their_own_laws() {
     let sections = "Rod(from_nm: 0.0, to_nm: 40.0),

@@ -5,7 +5,6 @@ use crate::common::refusal;
 use actin_mechanics::{Vector3, Xorshift, perturb, rotation};
 use actin_sim::{Assembly, End};
 
-/// Length of filaments with an altered middle, and of uniform specimens (nm).
 const LENGTH: f64 = 210.0;
 const SPECIMEN: f64 = 120.0;
 
@@ -185,7 +184,6 @@ fn masses_are_multiplied() {
     assert!((ratio - 1.5).abs() < 1e-14, "{ratio}");
 }
 
-/// A load that balances the weight of altered monomers has an equilibrium.
 #[test]
 fn weight_counts_the_mass_of_sections() {
     let density = 0.0697 / (71.2 / 26.0);

@@ -14,7 +14,6 @@ fn solved(segments: usize, loads: &str) -> Assembly {
     run(&cantilever(segments, SHEAR, loads, TASK)).0
 }
 
-/// Rod with a twisting rigidity twice its bending rigidity, under a couple applied along a path.
 fn stiff_in_twist(segments: usize, loads: &str) -> Assembly {
     let rest = "path: [Stage(set: [LoadFactor(load: 0, factor: 1.0)])], task: Equilibrium(),";
     run(&twisting(segments, (SHEAR, 2.0 * BEND), loads, rest)).0
@@ -231,7 +230,6 @@ fn a_force_per_length_acts_on_its_interval() {
     }
 }
 
-/// The reaction of the wall balances force and torque of every load.
 #[test]
 fn reactions_balance_every_load_in_every_model() {
     let loads = "Force(end: End, force_pn: (0.5, 0.0, 0.3)),

@@ -48,8 +48,6 @@ fn ends(noise: &mut Xorshift, count: usize) -> Vec<f64> {
         .collect()
 }
 
-/// Boundaries lie half a rise beyond a monomer, nearest to the requested place; ends of rods are
-/// exact.
 #[test]
 fn sections_meet_half_a_rise_beyond_a_monomer() {
     let mut noise = Xorshift::new(11);
@@ -82,8 +80,6 @@ fn sections_meet_half_a_rise_beyond_a_monomer() {
     }
 }
 
-/// Checks that nodes are equally spaced, and that monomers lie half a rise inside the ends, or on a
-/// clamped end.
 fn check_bodies(assembly: &Assembly, i: usize, what: &str) {
     let section = &assembly.sections[i];
     let s: Vec<f64> = assembly.points[section.points.clone()]
@@ -186,8 +182,6 @@ fn bond_energy(assembly: &Assembly, i: usize, moved: &Range<i64>) -> f64 {
         .sum()
 }
 
-/// Growing a section or adding another leaves existing monomers bitwise in place, with the same
-/// bonds.
 #[test]
 fn resolving_more_does_not_move_a_monomer() {
     let mut noise = Xorshift::new(23);

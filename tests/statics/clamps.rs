@@ -33,7 +33,6 @@ fn a_held_frame_costs_nine_percent_where_a_wall_costs_a_fifth_of_one() {
     }
 }
 
-/// The printed balance differs from the energy gradient by the strain, 1e-4 to 1e-3.
 #[test]
 fn both_force_laws_bend_alike() {
     let rod = Rod::actin(16);

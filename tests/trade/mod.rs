@@ -77,7 +77,6 @@ fn errors_of_the_table_match_independent_runs() {
     assert!(best <= 0.05, "{best}");
 }
 
-/// The length of 98.585 nm is rounded to whole monomers, also for rods.
 #[test]
 fn rods_are_as_long_as_the_monomers() {
     let found = traded(CANTILEVER, |options| options.load_shares.clear());
@@ -189,7 +188,6 @@ fn sections_of_an_equilibrium_are_every_monomer_or_the_nearest() {
     );
 }
 
-/// The chosen sections meet the wanted error in an independent run. The choice is reproducible.
 #[test]
 fn sections_of_a_motion_meet_the_wanted_error() {
     let adaptive = "Adaptive(length_nm: 108.0, want: Tip(error: 0.05))";

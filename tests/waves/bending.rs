@@ -39,7 +39,6 @@ impl Mode {
         [shape, slope]
     }
 
-    /// Frequency (rad/ns) in a slender rod.
     fn slender(&self) -> f64 {
         (self.beta_l / LENGTH).powi(2) * (BEND / DENSITY).sqrt()
     }

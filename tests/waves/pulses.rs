@@ -119,7 +119,6 @@ enum Beyond {
     Rod,
 }
 
-/// Filament with a rod long enough for the pulse, and an equal length beyond.
 fn filament(pulse: Pulse, segment: f64, beyond: Beyond) -> (Assembly, f64) {
     let enough = 2.0 * REACH * pulse.width;
     let count = (1_usize..1000)
@@ -151,7 +150,6 @@ fn filament(pulse: Pulse, segment: f64, beyond: Beyond) -> (Assembly, f64) {
     (build(&scene), half)
 }
 
-/// Share of the energy in the first half of the filament at the end.
 fn reflected(pulse: Pulse, segment: f64, beyond: Beyond) -> f64 {
     let (mut assembly, half) = filament(pulse, segment, beyond);
     let middle = half - REACH * pulse.width;

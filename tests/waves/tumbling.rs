@@ -4,7 +4,6 @@ use super::field::{build, set_spin};
 use actin_mechanics::{State, Vector3, rotation};
 use actin_sim::Assembly;
 
-/// Length (nm), number of segments.
 const LENGTH: f64 = 160.0;
 const SEGMENTS: usize = 16;
 /// Initial spin of the rod about its axis and across it (rad/ns).
@@ -47,7 +46,6 @@ fn moments(state: &State) -> (f64, f64) {
     (along, across)
 }
 
-/// Angular momentum about the resting centre of mass (pN ns nm, lab frame).
 fn angular_momentum(state: &State) -> Vector3 {
     let middle = Vector3::z() * (0.5 * LENGTH);
     let points = (0..state.points.len()).map(|i| {
