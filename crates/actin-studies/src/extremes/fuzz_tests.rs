@@ -42,7 +42,6 @@ fn factor() -> impl Strategy<Value = f64> {
     ]
 }
 
-/// Draws up to four alternating sections with lengths from 0.01 nm to 40 nm.
 fn sections() -> impl Strategy<Value = String> {
     let length = prop_oneof![4 => 3.0..40.0f64, 1 => 0.01..3.0f64];
     let rod = prop::option::of(1usize..6);
@@ -147,7 +146,6 @@ fn scene() -> impl Strategy<Value = String> {
     )
 }
 
-/// Builds the scene, estimates its time step and evaluates loads in the initial and in a perturbed state.
 fn evaluate(text: &str) -> Result<(), SceneProblem> {
     let Ok(scene) = Scene::from_ron(text) else {
         return Ok(());

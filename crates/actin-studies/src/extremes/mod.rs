@@ -64,7 +64,6 @@ pub(crate) fn run(options: &Options) -> Result<()> {
     Ok(())
 }
 
-/// Name and function of a group of rows.
 type Group<'a> = (&'static str, &'a (dyn Fn() -> Vec<Row> + Sync));
 
 /// The table in print order. Tests omit the rows that take long, and test fields separately.
@@ -103,7 +102,6 @@ fn table(is_long: bool) -> Vec<Row> {
     rows.collect::<Vec<_>>().concat()
 }
 
-/// Computes the rows of a group and prints the run time.
 fn timed((name, rows): &Group<'_>) -> Vec<Row> {
     let clock = Instant::now();
     let rows = rows();
@@ -111,7 +109,6 @@ fn timed((name, rows): &Group<'_>) -> Vec<Row> {
     rows
 }
 
-/// Descriptions of the rows with an unexpected outcome.
 fn defects(rows: &[Row]) -> Vec<String> {
     let defects = rows.iter().filter(|row| !row.is_sound());
     defects.map(Row::words).collect()
@@ -130,7 +127,6 @@ mod tests {
         assert_eq!(defects(&rows), Vec::<String>::new());
     }
 
-    /// All steps of the table.
     #[test]
     #[ignore = "takes minutes; run by hand with --ignored --nocapture"]
     fn undamped_motion_of_ten_million_steps() {

@@ -9,8 +9,7 @@ use actin_integrate::{
 };
 use actin_mechanics::{State, System, Vector3, Xorshift, randomise_velocities};
 
-/// Damping rates of free flights and of other cases (1/ns). In water they are about 1e2 across a filament and 1e3
-/// about it.
+/// Damping rates (1/ns). In water they are about 1e2 across a filament and 1e3 about it.
 const RATES: [f64; 7] = [0.0, 1e-3, 1.0, 1e2, 1e4, 1e5, 1e6];
 const LOADED: [f64; 6] = [0.0, 1.0, 10.0, 1e2, 1e3, 1e4];
 
@@ -187,7 +186,7 @@ fn creeping(rate: f64) -> CaseResult {
     correct("tip against an eighth of the step", error, 0.0015 / time)
 }
 
-/// Compares the mean square displacement of the centre of mass with theory (diffusion coefficient `kT/(M g)`).
+/// Compares the mean square displacement of the centre of mass with theory.
 ///
 /// ```text
 /// <x^2> = 2 kT/(M g) (t - c (1 - exp(-g t))/g)     along each axis
@@ -222,8 +221,8 @@ fn diffusion(mut system: System, rate: f64) -> CaseResult {
     )
 }
 
-/// Compares mean kinetic and strain energies of a free rod at kT/100 with equipartition: `kT/2` for each of 21
-/// coordinates. Six are rigid motions without strain energy.
+/// Compares mean kinetic and strain energies at kT/100 with equipartition. Six of 21 coordinates
+/// are rigid motions.
 fn temperature(mut system: System, rate: f64) -> CaseResult {
     let (h, kt) = (step(&system, 0.5), 0.01 * KT);
     let bath = Bath::new(uniform(rate), kt, 31).expect("it is positive");
@@ -275,9 +274,8 @@ pub(super) fn undamped(count: u64) -> Vec<Row> {
     rows.collect()
 }
 
-/// Runs at a quarter of the stability limit with 1000 samples. Returns the trend of the energy and the relative
-/// changes of momentum and angular momentum (about the origin and the centre of mass). With the centre at rest, the
-/// momentum has no scale.
+/// Runs at a quarter of the stability limit. Returns the trend of the energy and the relative
+/// changes of momentum and angular momentum.
 fn drift(mut system: System, count: u64, is_flying: bool) -> Vec<(&'static str, CaseResult)> {
     set_moving(system.state_mut(), is_flying);
     let h = step(&system, 0.25);

@@ -193,7 +193,6 @@ impl<'a> Normal<'a> {
     }
 }
 
-/// Positivity condition of the tangent.
 pub(super) struct Positivity {
     /// Units of the strains (nm, 1), in which the stiffness in all directions should be at least [`LEAST`].
     pub(super) units: [f64; 6],
@@ -214,13 +213,10 @@ fn units(form: &HomogenisedForm, terms: &[Term], strain: &SixVector) -> Vec<Pote
     terms.iter().flat_map(units).collect()
 }
 
-/// Conditions that the stiffness in some directions is at least 1 plus a margin.
 #[derive(Default)]
 struct Conditions {
     rows: Vec<DVector<f64>>,
-    /// Number of leading conditions with the large weight [`HARD`].
     hard: usize,
-    /// Weight of the other conditions.
     strength: f64,
 }
 

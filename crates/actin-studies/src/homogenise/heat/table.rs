@@ -9,7 +9,6 @@ use rayon::prelude::*;
 use std::fmt::Write as _;
 use std::path::Path;
 
-/// Number of random streams of each cell.
 const STREAMS: u64 = 1000;
 
 type Number = (f64, f64);
@@ -93,8 +92,7 @@ fn numbers(cell: &Cell, kt: f64, samples: usize, stream: u64) -> Result<Vec<Numb
     Ok(all)
 }
 
-/// Returns the natural state and its rigidities. Errors are propagated to first order from independent errors of the
-/// entries of the tangent.
+/// Returns the natural state and its rigidities, with errors propagated to first order.
 fn of_tangent(free: &Natural, held: &HeatResponse) -> Vec<Number> {
     let (tangent, errors) = (&held.tangent, &held.tangent_error);
     let inverse = |t: &SixMatrix| {

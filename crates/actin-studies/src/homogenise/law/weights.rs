@@ -25,8 +25,7 @@ const BRANCH: f64 = -50.0;
 const STRAIGHT_CELL: (f64, f64) = (36.0, 150.0);
 const BENT_OR_SHEARED: (f64, f64) = (0.9, 1.4);
 const BOTH: (f64, f64) = (0.6, 0.6);
-/// Factors of the weight of the tangent at rest and at other small strains, for which loaded cells contain the
-/// information.
+/// Factors of the weight of the tangent at rest and at other small strains.
 const AT_REST: f64 = 6.0;
 const SMALL: f64 = 0.1;
 /// Extensions below which a cell is compressed and up to which it is at rest; twist (rad/nm) up to which it is at
