@@ -207,7 +207,6 @@ impl StraightRod {
         (0..=lengths.len()).map(node).collect()
     }
 
-    /// Checks the frames of whole segments and of quarter segments, at free walls.
     fn check_frames(&self) -> Result<(), RodError> {
         let is_refused = |&length: &f64| {
             let pieces = [0.25 * length, length];

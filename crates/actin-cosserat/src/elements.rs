@@ -244,7 +244,6 @@ impl Interaction for RodElements {
 }
 
 impl RodElements {
-    /// Force of each segment and torque of each joint under random stress.
     fn internal(&self, stresses: &[f64]) -> (Vec<InternalForce>, Vec<InternalCouple>) {
         let (vectors, _) = stresses.as_chunks::<3>();
         let (forces, couples) = vectors.split_at(self.segments.len());

@@ -173,7 +173,6 @@ impl Linker {
         slopes
     }
 
-    /// Adds the loads of a force at the site (pN, lab frame).
     fn add_force(&self, force: Vector3, state: &State, loads: &mut Loads) {
         self.site.add_force(force, state, loads);
         if let LinkerEnd::Site(other) = &self.end {

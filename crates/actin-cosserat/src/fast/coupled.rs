@@ -48,7 +48,6 @@ impl<L: Law> AddLoads<'_, L> {
     }
 }
 
-/// Loads on a group of bodies.
 struct Group<S: Simd> {
     /// Forces on nodes (pN).
     force: Wide3<S>,

@@ -135,7 +135,6 @@ fn all_walls() -> [Walls; 4] {
         .map(|(start, end)| Walls { start, end })
 }
 
-/// Elements joined to neighbouring rods: none, or one at the start and two at the end.
 fn joined(layout: &RodLayout, any: bool) -> [Vec<JoinedElement>; 2] {
     let element = |frames, rest_distance| JoinedElement {
         frames,
@@ -313,7 +312,6 @@ fn a_rod_at_rest_has_no_loads() {
     }
 }
 
-/// Torques are proportional to the angle, 3900 pN nm per rad.
 #[test]
 fn the_smallest_angles_have_torques() {
     for angle in [5e-324, 1e-310, 1e-200, 1e-20] {

@@ -28,7 +28,6 @@ pub(super) struct Neighbours {
     pub(super) pairs: Vec<[usize; 2]>,
     /// Current ends of all axes (nm, lab frame).
     pub(super) ends: Vec<[Vector3; 2]>,
-    /// Ends of all axes when the list was built.
     found_at: Vec<[Vector3; 2]>,
 }
 
