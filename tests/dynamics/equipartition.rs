@@ -4,8 +4,7 @@
 //! potential, with two fields `B`:
 //!
 //! - displacement and rotation of each monomer relative to the previous one, from rest: equal
-//! weights of
-//!    all modes;
+//!   weights of all modes;
 //! - `M^-1 grad U`: weights with the squared frequency.
 
 use super::filaments::KBT;
