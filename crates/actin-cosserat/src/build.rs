@@ -36,6 +36,7 @@ pub struct StraightRod {
     pub free_walls: Walls,
 }
 
+/// Transverse inertia of a segment.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum RotaryInertia {
     /// Moments of the cross-section, as in the rod equations. The highest frequency, of rotation

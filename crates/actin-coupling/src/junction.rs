@@ -55,6 +55,7 @@ pub struct JunctionParts<'a> {
     pub material: RodMaterial,
 }
 
+/// Junction of one or two monomers with the end of a rod: term `junction`, one element per bond.
 ///
 /// ```text
 /// E = w [ W(sigma) |lhat| + U(kappa_E) D_E + U(kappa_C) D_C ]

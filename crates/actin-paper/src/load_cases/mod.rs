@@ -40,9 +40,11 @@ pub struct Options {
     pub laws: Vec<String>,
     /// Also writes `docs/tables/load-cases.md`.
     pub write: bool,
+    /// Subject of the comparison.
     pub subject: Subject,
 }
 
+/// Subject of the comparison.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Subject {
     /// All load cases.

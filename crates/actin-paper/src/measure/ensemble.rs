@@ -47,7 +47,6 @@ impl Sampled {
 ///
 /// # Errors
 /// The first error of `measure` in the order of the seeds. Quadrature bonds accept only seed 0.
-/// is refused.
 pub fn over_samplings<T: Send>(
     specimen: &Specimen,
     seeds: &[u64],
