@@ -24,10 +24,7 @@ pub(crate) fn run(assembly: &mut Assembly) -> Result<(Trajectory, Outcome), RunE
     outcome.map(|outcome| (trajectory, outcome))
 }
 
-/// Failure and partial outcome of a run.
-///
-/// # Panics
-/// If the run succeeded or was refused.
+/// Failure and partial outcome of a run; panics if the run succeeded or was refused.
 pub(crate) fn failure(outcome: Result<Outcome, RunError>) -> (Failure, Outcome) {
     match outcome {
         Err(RunError::Failed(failed)) => (failed.failure, failed.outcome),
@@ -42,7 +39,6 @@ pub(crate) fn ran(text: &str) -> (Assembly, Trajectory, Outcome) {
     (assembly, trajectory, outcome)
 }
 
-/// Message with which a scene is refused before its run; empty if it is accepted.
 pub(crate) fn refusal(text: &str) -> String {
     let scene = match Scene::from_ron(text) {
         Ok(scene) => scene,

@@ -18,9 +18,6 @@ pub(crate) fn second_order_limit(what: &str, values: [f64; 3], exact: f64, slack
 
 /// Bisection between two positive bounds for the value at which `holds` becomes true, to a relative
 /// `precision`.
-///
-/// # Panics
-/// If it is true at the lower bound or false at the upper one.
 pub(crate) fn bisect(
     mut holds: impl FnMut(f64) -> bool,
     [mut low, mut high]: [f64; 2],

@@ -164,7 +164,7 @@ def lammps(bodies):
 
 
 def is_installed(package):
-    """Whether it is, with its version on the standard error."""
+    """Returns True if the package is installed, and prints its version to standard error."""
     try:
         print(f"{package} {version(package)}", file=sys.stderr)
     except PackageNotFoundError:

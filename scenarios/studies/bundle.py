@@ -1,4 +1,4 @@
-"""Deflection of a bundle of seven filaments against the stiffness of its linkers, beside a frame of beam elements.
+"""Deflection of a bundle of seven filaments against the stiffness of its linkers, compared with a frame of beam elements.
 
 Needs numpy and matplotlib. From the folder of `actin sweep` of bundle-sweep.ron and bundle-push-sweep.ron:
     python3 scenarios/studies/bundle.py
@@ -16,7 +16,7 @@ PAIRS = [(i, j) for i in range(7) for j in range(i + 1, 7) if abs(math.dist(PLAC
 
 
 def element(h):
-    """Stiffness of a beam element along z by (ux, uy, uz, tx, ty, tz) of both nodes, exact with shear (Przemieniecki)."""
+    """Stiffness of a beam element along z for (ux, uy, uz, tx, ty, tz) of both nodes, exact with shear (Przemieniecki)."""
     k = np.zeros((12, 12))
     for axis, rigidity in (2, EA), (5, GJ):
         k[np.ix_([axis, axis + 6], [axis, axis + 6])] += rigidity / h * np.array([[1, -1], [-1, 1]])
@@ -46,7 +46,7 @@ def deflection(stiffness, force=FORCE):
     for i, j in PAIRS:
         half = (PLACES[j] - PLACES[i]) / 2
         for node in range(EVERY, nodes, EVERY):
-            # What the points that the linker joins move apart: u_i + t_i x r - u_j + t_j x r.
+            # Relative displacement of the joined points: u_i + t_i x r - u_j + t_j x r.
             arm = np.array([[0, 0, half[1]], [0, 0, -half[0]], [-half[1], half[0], 0]])
             apart = np.zeros((3, len(matrix)))
             a, b = ((f * nodes + node) * 6 for f in (i, j))
@@ -63,7 +63,7 @@ def deflection(stiffness, force=FORCE):
 
 
 def pushed(panel, sweep):
-    """Least distance of the axes of any two filaments against the force on an outer one; rows of the table."""
+    """Smallest distance of two axes against the force on an outer filament; rows of the table."""
     lines = {}
     for row in study.rows(sweep):
         arrays = study.states(f"{sweep}/runs/{row['point']:.0f}")

@@ -1,4 +1,4 @@
-"""Force over time while 500 nm are compressed to 350 nm at every resolution, beside the elastica.
+"""Force over time while 500 nm are compressed to 350 nm at every resolution, compared with the elastica.
 
 Needs numpy and matplotlib. From the folder of `actin sweep scenarios/studies/compression-sweep.ron`:
     python3 scenarios/studies/compression.py --compression-sweep sweeps/compression-sweep
@@ -22,7 +22,7 @@ def elliptic(m):
 
 
 def elastica(shortening):
-    """Force (pN) on an inextensible rod between clamped ends that are nearer by so much (nm): four arcs alike, each
+    """Force (pN) on an inextensible rod between clamped ends at an end displacement (nm): four equal arcs, each
     with 1 - d/L = 2 E(m)/K(m) - 1 and F = 16 K(m)^2 B / L^2."""
     m = np.linspace(1e-9, 0.6, 4000)
     k, e = np.array([elliptic(x) for x in m]).T
@@ -37,7 +37,7 @@ def name(row):
 
 
 def force(run):
-    """Times (ns) and force (pN): the mean of both ends, which bear drag, one against the other for it."""
+    """Times (ns) and force (pN), the mean of both ends, in which drag cancels."""
     (time, pushed), (_, pulled) = (study.observed(run, f"reaction[0]_{end}_force_z_pn") for end in ("start", "end"))
     return time, (pushed - pulled) / 2
 

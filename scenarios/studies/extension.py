@@ -1,4 +1,4 @@
-"""Force against extension at 298 K beside a worm-like chain of finite length, clamped at one end.
+"""Force against extension at 298 K, compared with a worm-like chain of finite length, clamped at one end.
 
 Needs numpy and matplotlib. From the folder of `actin sweep scenarios/studies/extension-sweep.ron`:
     python3 scenarios/studies/extension.py --extension-sweep sweeps/extension-sweep
@@ -8,25 +8,25 @@ import numpy as np
 import study
 
 LENGTH, BEND, STRETCH = 100.0, 3.9e4, 3.4e4  # nm, pN nm^2, pN: of the rod
-# Of monomers in heat: their persistence length in free motion, 11.7 um, and the stretching rigidity of their cells,
-# free to turn (docs/measured/heat.md).
+# Monomers in a heat bath: persistence length in free motion, 11.7 um, and stretching rigidity of their cells,
+# with free rotation (docs/measured/heat.md).
 MONOMERS = {"bend": 11.7e3 * study.KT_298, "stretch": 2.0e4}
 
 
 def finite_chain(force, length=LENGTH, bend=BEND, stretch=STRETCH):
-    """Extension (nm) of a stiff chain held in direction at one end: P. K. Purohit and others, Int. J. Non-Linear
-    Mech. 43, 1056 (2008). Angles aside have the modes sin((n + 1/2) pi s / L), each with kT / (B q^2 + F)."""
+    """Extension (nm) of a stiff chain with a clamped end: P. K. Purohit and others, Int. J. Non-Linear
+    Mech. 43, 1056 (2008). Transverse angles have the modes sin((n + 1/2) pi s / L) with variances kT / (B q^2 + F)."""
     root = np.sqrt(bend * force)
     return length * (1 - study.KT_298 / (2 * root) * np.tanh(length * force / root) + force / stretch)
 
 
 def long_chain(force, length=LENGTH, bend=BEND, stretch=STRETCH):
-    """The same without ends (Odijk 1995)."""
+    """Extension (nm) of a long stiff chain (Odijk 1995)."""
     return length * (1 - study.KT_298 / (2 * np.sqrt(bend * force)) + force / stretch)
 
 
 def segments(force, number=10, length=LENGTH, bend=BEND, stretch=STRETCH):
-    """The same of a rod of so many segments, from the inverse of the stiffness of its angles aside."""
+    """Extension (nm) of a rod of segments, from the inverse stiffness matrix of its transverse angles."""
     h = length / number
     matrix = np.diag(np.full(number, 2 * bend / h + force * h)) - bend / h * (np.eye(number, k=1) + np.eye(number, k=-1))
     matrix[0, 0] += bend / h  # the wall: half a segment
@@ -52,12 +52,12 @@ def main():
         mean = np.array([r.mean() for r in runs])
         blocks = np.array([np.sqrt((np.array(found[kind, f])[:, 1] ** 2).sum()) / len(found[kind, f]) for f in forces])
         scatter = np.array([r.std(ddof=1) / np.sqrt(len(r)) for r in runs])
-        # Of two estimates the larger: blocks miss motions that are slower than a run, few runs scatter by chance.
+        # The larger of two estimates: blocks miss motions slower than a run, few runs scatter by chance.
         errors = np.maximum(blocks, scatter)
         panel.errorbar(forces, mean, errors, fmt="os"[kinds.index(kind)], color=f"C{kinds.index(kind)}", mfc="none",
                        capsize=2, label=kind)
         if kind == "monomers":
-            # One number is fitted: the length, which heat changes.
+            # The length, which depends on temperature, is fitted.
             curve = finite_chain(forces, **MONOMERS)
             length = np.average(mean - curve, weights=errors**-2)
             panel.semilogx(force, finite_chain(force, **MONOMERS) + length, "C1-", lw=0.8,

@@ -1,4 +1,4 @@
-"""Bending modes of a free filament in water: variances and relaxation times beside an exact chain and measured filaments.
+"""Bending modes of a free filament in water: variances and relaxation times, compared with an exact chain and experiments.
 
 Needs numpy and matplotlib. From the folder of `actin sweep scenarios/studies/flicker-sweep.ron`:
     python3 scenarios/studies/flicker.py --flicker-sweep sweeps/flicker-sweep
@@ -14,14 +14,14 @@ VISCOSITY, RADIUS = 0.89, 3.5  # mPa s, nm
 MODES = np.arange(1, 7)
 STEP = LENGTH / SEGMENTS
 MIDDLES = (np.arange(SEGMENTS) + 0.5) * STEP
-# Persistence lengths (um) from such modes of single filaments with phalloidin: F. Gittes and others, J. Cell Biol. 120
+# Persistence lengths (um) from bending modes of single filaments with phalloidin: F. Gittes and others, J. Cell Biol. 120
 # (1993) 923; C. P. Brangwynne and others, Biophys. J. 93 (2007) 346. H. Isambert and others, J. Biol. Chem. 270 (1995)
-# 11437, have 18 with phalloidin and 9 without.
+# 11437, measured 18 with phalloidin and 9 without.
 MEASURED = {"Gittes 1993": 17.7, "Brangwynne 2007": 17.0}
 
 
 def modes(tangents):
-    """Amplitudes (nm^(1/2)) of the cosine modes of the tangents (..., segments, 3), across their mean direction."""
+    """Amplitudes (nm^(1/2)) of the cosine modes of the tangents (..., segments, 3), perpendicular to their mean direction."""
     mean = tangents.mean(axis=-2, keepdims=True)
     mean /= np.linalg.norm(mean, axis=-1, keepdims=True)
     across = tangents - mean * (tangents * mean).sum(axis=-1, keepdims=True)
@@ -30,7 +30,7 @@ def modes(tangents):
 
 
 def variance(amplitudes):
-    """Mean squares per direction across."""
+    """Mean squares per transverse direction."""
     return 0.5 * (amplitudes**2).sum(axis=-1).mean(axis=0)
 
 
@@ -59,7 +59,7 @@ def drawn(number=20000):
 
 
 def friction():
-    """Drag across between the ends, per length, and at each end, as of a cylinder (Tirado and others 1984)."""
+    """Transverse drag of a cylinder, per length and at each end (Tirado and others 1984)."""
     p = LENGTH / (2 * RADIUS)
     whole = 4 * np.pi * VISCOSITY * LENGTH / (np.log(p) + 0.839 + 0.185 / p + 0.233 / p**2)
     turning = np.pi * VISCOSITY * LENGTH**3 / (3 * (np.log(p) - 0.662 + 0.917 / p - 0.05 / p**2))
@@ -81,7 +81,7 @@ def decay():
     rates, vectors = np.linalg.eigh(root @ (BEND / STEP**3 * second.T @ second) @ root.T)
     rates, shapes = rates[2:], (root.T @ vectors)[:, 2:]
     slopes = np.diff(shapes, axis=0) / STEP
-    # Less the mean direction, as `modes` has it.
+    # Without the mean direction, as in `modes`.
     cosines = np.cos(np.pi * MODES[:, None] * MIDDLES / LENGTH)
     weights = (cosines @ (slopes - slopes.mean(axis=0))) ** 2 / rates
     times = np.geomspace(1e3, 1e9, 3000)
@@ -93,7 +93,7 @@ def decay():
 
 
 def fall(amplitudes, every):
-    """The same of a series."""
+    """Times (ns) in which the correlations of a series fall to 1/e."""
     found = []
     for k in range(len(MODES)):
         series = amplitudes[:, k]
@@ -107,11 +107,11 @@ def fall(amplitudes, every):
 
 
 def shapes(panel, tangents):
-    """A dozen shapes, each turned into its own mean direction and moved to its middle."""
+    """A dozen shapes, aligned with their mean directions and centred."""
     for k, frame in enumerate(tangents[:: max(1, len(tangents) // 12)][:12]):
         places = np.cumsum(np.vstack([np.zeros(3), frame * STEP]), axis=0)
         places -= places.mean(axis=0)
-        # In the plane in which it bends most.
+        # Projection on the plane of largest bending.
         _, _, axes = np.linalg.svd(places)
         along, aside = places @ axes[0], places @ axes[1]
         panel.plot(along / 1e3, aside / 1e3 * (-1) ** k, lw=0.8, color=f"C{k % 10}")

@@ -1,6 +1,6 @@
-"""Writes the scene of the bundle, seven filaments, hexagonally packed 12 nm apart, joined by linkers, and its sweep.
+"""Writes the scene and sweeps of the bundle: seven filaments, hexagonally packed 12 nm apart, joined by linkers.
 
-Needs nothing but Python:
+Needs only Python:
     python3 scenarios/studies/make_bundle.py scenarios/studies
 """
 

@@ -1,4 +1,4 @@
-"""Frequency response of a driven end: amplitude and phase against those of a damped Euler-Bernoulli beam.
+"""Frequency response of a driven end: amplitude and phase, compared with a damped Euler-Bernoulli beam.
 
 Needs numpy and matplotlib. From the folder of `actin sweep scenarios/studies/sine-sweep.ron`:
     python3 scenarios/studies/sine.py --sine-sweep sweeps/sine-sweep
@@ -15,14 +15,14 @@ SETTLED = 200.0  # ns: 10 times the slowest decay
 
 
 def receptance(omega, drag):
-    """Displacement of the free end over the force on it (nm/pN) of a cantilever: beta^4 = (rho w^2 - i rho g w)/B."""
+    """Receptance of the free end of a cantilever (nm/pN): beta^4 = (rho w^2 - i rho g w)/B."""
     beta = (DENSITY * omega * (omega - 1j * drag) / BEND) ** 0.25
     x = beta * LENGTH
     return (np.sin(x) * np.cosh(x) - np.cos(x) * np.sinh(x)) / (BEND * beta**3 * (1 + np.cos(x) * np.cosh(x)))
 
 
 def measured(run, period):
-    """The same from the motion of the end, by least squares over whole periods; and what the fit leaves, relative."""
+    """Receptance from the motion of the end, by least squares over whole periods, and relative residual."""
     time, place = study.observed(run, "tip[0]_x_nm")
     begin = time[-1] - period * np.floor((time[-1] - min(SETTLED, 0.5 * time[-1])) / period)
     late = time >= begin - 1e-9

@@ -1,4 +1,4 @@
-"""A softened middle: how the end's turn is shared out along the filament, beside stepped beams.
+"""Distribution of the end's turn along a filament with a softened middle, compared with stepped beams.
 
 Needs numpy and matplotlib. From the folder of `actin sweep scenarios/studies/softened-sweep.ron`:
     python3 scenarios/studies/softened.py --softened-sweep sweeps/softened-sweep
@@ -8,7 +8,7 @@ import numpy as np
 import study
 
 BARE, SOFT, MIDDLE, CONSTANT, FITTED = range(5)
-BENDING, TWIST = 5.0, 10.0  # how much softer the middle is to be
+BENDING, TWIST = 5.0, 10.0  # softening factors of the middle
 EDGES = np.array([50.0, 100.0])  # nm
 LISTED = [30.0, 60.0, 120.0, -30.0, -60.0, -120.0]  # turns in the table (deg)
 
@@ -35,27 +35,27 @@ def read(sweep):
 
 
 def law(found, kind, axis, sign, length):
-    """Couples (pN nm) and curvatures or twists (1/nm) of a filament that is the same all along."""
+    """Couples (pN nm) and curvatures or twists (1/nm) of a uniform filament."""
     points = [(abs(couple), np.radians(abs(turn)) / length)
               for (k, a, turn), (couple, _) in found.items() if (k, a) == (kind, axis) and turn * sign > 0]
     return np.array(sorted(points)).T
 
 
 def shared(s, total, ratio, edges):
-    """Turn along a beam of constant rigidities, `ratio` times less between the edges, under an end couple."""
+    """Turn along a beam with constant rigidities, smaller by `ratio` between the edges, under an end couple."""
     length = np.interp(s, [s[0], *edges, s[-1]], np.cumsum([0, edges[0] - s[0], ratio * (edges[1] - edges[0]), s[-1] - edges[1]]))
     return total * length / length[-1]
 
 
 def powers(x, xs, ys):
-    """Between points, and below the first two, by powers of x."""
+    """Interpolation and extrapolation towards zero by powers of x."""
     x, xs, ys = np.log(x), np.log(xs), np.log(ys)
     below = ys[0] + (x - xs[0]) * (ys[1] - ys[0]) / (xs[1] - xs[0])
     return np.exp(np.where(x < xs[0], below, np.interp(x, xs, ys)))
 
 
 def expected(found, axis, sign, total, lengths, whole):
-    """Share of the middle if each part follows the law measured on its own: the couple is one all along."""
+    """Share of the middle if each part follows the law of a uniform filament at the same couple."""
     bare, soft = (law(found, kind, axis, sign, whole) for kind in (BARE, SOFT))
     couples = np.geomspace(1e-2 * soft[0][0], min(bare[0][-1], soft[0][-1]), 20000)
     parts = [powers(couples, *measured) * n for measured, n in zip((bare, soft), lengths)]
@@ -64,15 +64,15 @@ def expected(found, axis, sign, total, lengths, whole):
 
 
 def slopes(s, angle, edges):
-    """Slopes before, between and behind the edges, by least squares."""
+    """Slopes before, between and after the edges, by least squares."""
     kinks = [np.ones_like(s), s, *(np.maximum(s - edge, 0) for edge in edges)]
     return np.cumsum(np.linalg.lstsq(np.array(kinks).T, angle, rcond=None)[0][1:])
 
 
 def along(run, axis):
-    """Arc lengths from one held cross-section to the other, and turn (rad) about an axis of what is between."""
+    """Arc lengths between the held cross-sections, and turns (rad) about an axis there."""
     s, vectors = study.turns(run)
-    if s[1] - s[0] < 4:  # of two held monomers the inner one
+    if s[1] - s[0] < 4:  # the inner one of two held monomers
         s, vectors = s[1:-1], vectors[1:-1]
     return s, np.unwrap(vectors[:, axis])
 

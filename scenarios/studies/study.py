@@ -1,4 +1,4 @@
-"""What the scripts of the studies share: tables and run directories, series in time, figures and tables of a page.
+"""Shared functions of the studies: tables and run directories, time series, figures and tables of a page.
 
 Needs numpy and matplotlib.
 """
@@ -23,7 +23,7 @@ KT_298 = 1.380649e-2 * 298.0  # pN nm
 
 
 def rows(sweep, name="table.csv"):
-    """Rows of a table of a sweep; numbers as floats, empty cells as None."""
+    """Rows of a sweep's table; numbers as floats, empty cells as None."""
     with open(Path(sweep) / name, newline="") as file:
         return [{key: number(cell) for key, cell in row.items()} for row in csv.DictReader(file)]
 
@@ -36,7 +36,7 @@ def number(cell):
 
 
 def vector(text):
-    """Components of a vector as a table writes it: (0.0, 1.0, 0.0)."""
+    """Components of a vector in the format of tables: (0.0, 1.0, 0.0)."""
     return [float(x) for x in text.strip("()").split(",")]
 
 
@@ -61,7 +61,7 @@ def observed(run, name):
 
 
 def turns(run):
-    """Arc lengths, and rotation vectors (lab, rad) of all frames since the first record, at the last one."""
+    """Arc lengths, and rotation vectors (lab, rad) of all frames from the first to the last record."""
     arrays = states(run)
     w, xyz = arrays["quaternion"][..., 0], arrays["quaternion"][..., 1:]
     # The product of the last orientation and the inverse of the first.
@@ -74,7 +74,7 @@ def turns(run):
 
 
 def smooth(s, values, reach=18.0):
-    """Means over half a turn of the helix to either side, of which monomers wobble about."""
+    """Moving averages over half a turn of the helix on both sides, which remove the alternation of monomers."""
     return np.array([values[abs(s - x) <= min(reach, x - s[0], s[-1] - x) + 1e-9].mean(axis=0) for x in s])
 
 
@@ -83,7 +83,7 @@ def axes(columns=1, rows=1, width=6.4, height=2.9, **more):
 
 
 def save(figure, path):
-    """An SVG that is the same to the byte for the same numbers."""
+    """Writes a reproducible SVG: equal numbers give equal bytes."""
     figure.savefig(path, metadata={"Date": None, "Creator": None})
     print(path)
 

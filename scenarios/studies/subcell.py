@@ -1,4 +1,4 @@
-"""500 nm of filament pressed to 350 nm at seven resolutions, beside ReaDDy and Cytosim, and what bends it out of its plane.
+"""500 nm of filament compressed to 350 nm at seven resolutions, compared with ReaDDy and Cytosim; causes of bending out of plane.
 
 Needs numpy and matplotlib. From the folder of the sweeps subcell-sweep, subcell-heat-sweep and subcell-why-sweep:
     python3 scenarios/studies/subcell.py
@@ -30,15 +30,15 @@ def name(row):
 
 
 def shown(values, digits):
-    """Mean and standard deviation, of one value the value."""
+    """Mean and standard deviation, or the value if there is only one."""
     values = np.array(values, float)
-    # Adding zero takes the sign from a zero.
+    # Adding zero converts -0.0 to 0.0.
     text = f"{round(values.mean(), digits) + 0.0:.{digits}f}"
     return text if len(values) == 1 else f"{text} ± {values.std(ddof=1):.{digits}f}"
 
 
 def at(run, points, metric):
-    """Times from the push on, 0 to 1, and values."""
+    """Relative times of the compression, 0 to 1, and values."""
     time, values = study.observed(run, f"buckling[0]_{points}_points_{metric}")
     text = (Path(run) / "scene.ron").read_text()
     stages = [float(part.split(",")[0].split(")")[0]) for part in text.split("duration_ns: ")[1:-1]]
@@ -47,7 +47,7 @@ def at(run, points, metric):
 
 
 def line(label, runs):
-    """The last values of runs as a row: four metrics of 50 points, and the supertwist of 200."""
+    """Final values of runs as a row: four metrics of 50 points, and the supertwist of 200."""
     last = lambda points, metric: [at(run, points, metric)[1][-1] for run in runs]
     cells = [shown(last(50, metric), digits) for metric, digits in zip(METRICS, DIGITS)]
     return [label, *cells, shown(last(200, "supertwist_deg"), 0)]
@@ -60,7 +60,7 @@ def runs(sweep, row):
 
 
 def why(row):
-    """What the row of the sweep does otherwise than the plain rod."""
+    """Difference of the row of the sweep from the plain rod."""
     path = row["path"]
     if "Turn" in path:
         return f"rod, turned by {float(path.split('0.0, 0.0, ')[1].split(')')[0]):.0f} deg first"

@@ -1,6 +1,6 @@
-"""Times 400 short runs as a sweep on one core and on two, and one by one, and says what the sweep adds.
+"""Times 400 short runs as a sweep on one core and on two, and one by one; prints the overhead of the sweep.
 
-Needs nothing but Python, and actin on the path or in ACTIN:
+Needs only Python, and actin on the path or in ACTIN:
     python3 scenarios/studies/time_sweep.py [RUNS]
 """
 

@@ -44,7 +44,6 @@ const FILAMENTS: [&str; 5] = [
 
 const PAIR: usize = 3;
 
-/// Clamp of the second filament, and its linker to the first.
 const SECOND: [&str; 2] = [
     "Clamp(filament: 1, end: Start)",
     "Linker(at_nm: 30.0, radius_nm: 1.8,
@@ -55,8 +54,6 @@ const SECOND: [&str; 2] = [
 /// Index in [`HELD`] for motions only.
 pub(crate) const IN_TIME: usize = 4;
 
-/// Clamps, linkers and other keys: a sudden force, a ramped force, a turned and sliding end, a
-/// linker with a moving anchor, time-dependent following loads.
 const HELD: [[&str; 3]; 5] = [
     [
         "Clamp(end: Start),",
@@ -189,7 +186,7 @@ impl Sink for Leaving<'_> {
     }
 
     fn is_checkpoint_due(&mut self) -> bool {
-        // Every other time, so that the log grows in steps.
+        // Alternates, so that the log grows in steps.
         self.left.is_multiple_of(2)
     }
 

@@ -54,8 +54,8 @@ fn steps_with(system: &mut System, h: f64, steps: u64, every: u64) -> f64 {
     })
 }
 
-/// Times of a step; of a step without merging the halves of neighbouring steps; of a step with a
-/// check; and the relative cost at the default interval of checks.
+/// Times of a step, of a step without merged kicks, and of a step with a check; relative cost at
+/// the default interval of checks.
 #[test]
 #[ignore = "prints times; run by hand with --ignored --nocapture"]
 fn cost_of_checks() {

@@ -54,13 +54,11 @@ impl Left {
     }
 }
 
-/// All of the first bytes of a file, and a thousand spread over the rest.
 fn places(length: usize) -> impl Iterator<Item = usize> {
     let stride = (length / 1000).max(1);
     (0..length.min(64)).chain((64..length).step_by(stride))
 }
 
-/// Both files of a motion and of a path; one bit or all bits of each byte are flipped.
 #[test]
 fn every_flipped_byte_is_found() {
     let mut flipped = 0;
@@ -110,7 +108,6 @@ fn every_truncation_is_found() {
     assert!(left.refusal().contains("appended"));
 }
 
-/// The resumed run makes such records again.
 #[test]
 fn records_that_no_checkpoint_counts_are_ignored() {
     let left = Left::of(CHOICE.motion());
@@ -174,7 +171,6 @@ fn other_formats_and_files_are_named() {
     assert!(left.refusal().contains("there is nothing to resume from"));
 }
 
-/// A header with a valid checksum that declares 2^63 bytes is refused before allocation.
 #[test]
 fn a_huge_length_is_refused() {
     let left = Left::of(CHOICE.motion());
@@ -186,8 +182,6 @@ fn a_huge_length_is_refused() {
     assert!(left.refusal().contains("truncated"));
 }
 
-/// Random contents with valid checksums are refused or accepted as another position, without panic
-/// or large allocation.
 #[test]
 fn forged_contents_cause_no_panic() {
     let mut refused = 0;

@@ -15,8 +15,7 @@ const CHOICE: Choice = Choice {
     duration_ns: 0.4,
 };
 
-/// A directory in place of the file makes the write fail, first for the checkpoint, then for the
-/// records.
+/// A directory in place of the file makes the write fail.
 #[test]
 fn a_failed_checkpoint_leaves_the_last_one() {
     let folder = tempfile::tempdir().unwrap();

@@ -1,5 +1,5 @@
-//! Runs that keep no states leave bitwise the same files when interrupted, and the same files as
-//! runs that keep states.
+//! Runs without stored states: interrupted runs give bitwise equal files, and the files equal those
+//! of runs with states.
 
 use super::common::{Leaving, build, checkpoints, files};
 use actin_sim::{Plan, Records, RunDirectory, Scene, Status};
@@ -69,7 +69,6 @@ fn run(scene: &Scene, path: &Path, leave: &[u64]) -> (u64, usize) {
         };
         let outcome = outcome.unwrap();
         resumes = true;
-        // Interrupted runs write their results too.
         if files.count() > 0 {
             directory.write(&plan, &files, &outcome).unwrap();
         }
@@ -105,8 +104,6 @@ fn runs_without_states_resume_to_the_same_bytes() {
     }
 }
 
-/// Without states the disk holds one row per record; all other files are bitwise equal, except for
-/// the keys of the scene.
 #[test]
 fn files_do_not_depend_on_whether_states_are_kept() {
     for text in SCENES {

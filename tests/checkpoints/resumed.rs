@@ -55,7 +55,7 @@ fn compare(scene: &Scene, leave: &[u64]) {
     };
     assert_same(&expected, &trajectory);
     assert_eq!(timeless(&report), timeless(&resumed));
-    // The final state is kept, so that a program that failed to write the results can repeat it.
+    // The final state is stored, so that results can be written again.
     let (_, again, once_more) = advance(scene, &pieces, true, u64::MAX);
     assert_same(&expected, &again);
     assert_eq!(timeless(&report), timeless(&once_more));
@@ -107,8 +107,6 @@ fn choice() -> impl Strategy<Value = Choice> {
 proptest! {
     #![proptest_config(ProptestConfig { cases: 60, failure_persistence: None, ..Default::default() })]
 
-    /// Motions of one or two filaments with every integrator, ramp, drag, noise, stop rule and
-    /// interval of records, interrupted up to three times.
     #[test]
     fn motions_resume_to_the_same_bits(
         choice in choice(),
@@ -121,7 +119,6 @@ proptest! {
 proptest! {
     #![proptest_config(ProptestConfig { cases: 30, failure_persistence: None, ..Default::default() })]
 
-    /// Equilibria, alone and along paths, interrupted within a solve or between two.
     #[test]
     fn paths_of_equilibria_resume_to_the_same_bits(
         choice in choice().prop_filter("statics has no time", |choice| choice.held != IN_TIME),
@@ -131,7 +128,6 @@ proptest! {
     }
 }
 
-/// Interruptions before, at and after the perturbation at a saddle.
 #[test]
 fn a_motion_is_pushed_off_a_saddle_once_however_often_it_is_left() {
     let text = "Scene(
@@ -161,7 +157,6 @@ fn a_motion_is_pushed_off_a_saddle_once_however_often_it_is_left() {
     compare(&scene, &[3 * before, 2, 1]);
 }
 
-/// The checkpoint holds the number of turns of a pinned rod under a couple.
 #[test]
 fn turns_of_a_couple_resume_to_the_same_bits() {
     for task in [
@@ -181,7 +176,7 @@ fn turns_of_a_couple_resume_to_the_same_bits() {
     }
 }
 
-/// The checkpoint holds neither the list of neighbours nor the pattern of the stiffness.
+/// Neighbour list and stiffness pattern are not in the checkpoint.
 #[test]
 fn contacts_resume_to_the_same_bits() {
     let scene = |path: &str, task: &str| {
@@ -211,7 +206,6 @@ fn contacts_resume_to_the_same_bits() {
     );
 }
 
-/// The checkpoint holds the states of linkers and the log of events.
 #[test]
 fn linkers_resume_to_the_same_bits() {
     let scene = |task: &str| {

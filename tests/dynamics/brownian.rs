@@ -60,8 +60,8 @@ fn noise_depends_on_the_seed() {
     assert_eq!(tip(0.0, 1), tip(0.0, 2));
 }
 
-/// A free filament moves with a stream. In a shear flow it rotates by the angle whose tangent is
-/// rate times time.
+/// A free filament moves with the flow. The tangent of its angle in a shear flow is rate times
+/// time.
 #[test]
 fn free_filaments_follow_a_flow() {
     for sections in SECTIONS {
@@ -104,8 +104,8 @@ fn default_step(rest: &str, task: &str) -> f64 {
     plan.estimate().unwrap().time_step_ns
 }
 
-/// The default step is the bending time of a segment, `3.0 x 20^4 / 4e4` = 12 ns, and shorter under
-/// fast changes or strong loads, down to 50 times the fastest relaxation.
+/// The default step is the bending time of a segment, `3.0 x 20^4 / 4e4` = 12 ns. Fast changes or
+/// strong loads reduce it, down to 50 times the fastest relaxation time.
 #[test]
 fn default_steps_resolve_changes() {
     let usual = default_step("", "");
@@ -144,8 +144,8 @@ fn athermal_tips(scene: &str, duration_ns: f64, step: &str) -> (f64, Vec<Vector3
     (plan.estimate().unwrap().time_step_ns, tips.collect())
 }
 
-/// Without heat the default step resolves the tip to 0.1 % of its displacement. The reference has a
-/// quarter of the step, hence a sixteenth of the error.
+/// The default step without heat resolves the tip to 0.1 % of its displacement. The reference has a
+/// quarter of the step.
 #[test]
 fn default_steps_without_heat_resolve_the_tip() {
     let rod = |nm: f64, law: &str| {
@@ -206,7 +206,6 @@ fn long_steps_give_warnings() {
     }
 }
 
-/// Mean energy (kT) of a free rod of 120 nm in six segments over `steps` steps.
 fn mean_energy(law: &str, step_ns: f64, steps: u32) -> f64 {
     let duration = f64::from(steps) * step_ns * 1e-6;
     let text = format!(
@@ -229,8 +228,8 @@ fn mean_energy(law: &str, step_ns: f64, steps: u32) -> f64 {
 }
 
 /// A free rod with 33 strain coordinates has an energy of 16.5 kT, in steps up to 10,000 times the
-/// fastest relaxation. The standard error of 4000 states with a correlation of about ten steps is 1
-/// %. Midpoint steps of 1 ns are 9 % too warm.
+/// fastest relaxation time. The standard error of 4000 states with a correlation of ten steps is 1
+/// %.
 #[test]
 fn rods_have_their_energy_in_long_steps() {
     for step in [5.0, 50.0] {
@@ -251,9 +250,8 @@ fn passage_through_a_filament_fails() {
     assert!(failure.contains("pass through each other"), "{failure}");
 }
 
-/// Twelve rods with thirty linkers of zero length, in steps of 2 us. Each rod has 33 coordinates.
-/// The spin of each rod and six rigid motions of the network have zero stiffness; each other
-/// coordinate has kT/2.
+/// Twelve rods with thirty linkers of zero length, in steps of 2 us. The 33 coordinates of each rod
+/// have kT/2 each, except its spin and six rigid motions of the network.
 #[test]
 fn linked_rods_have_their_energy_in_long_steps() {
     const RODS: usize = 12;

@@ -40,8 +40,8 @@ fn after(scheme: &actin_integrate::Composition, steps: u32) -> System {
     system
 }
 
-/// A kernel with a discontinuous third derivative or a late list of neighbours would reduce the
-/// order. Below 1e-11 nm round-off dominates.
+/// Requires three continuous derivatives and an up-to-date neighbour list. Round-off dominates
+/// below 1e-11 nm.
 #[test]
 fn methods_keep_their_order_through_a_hit() {
     let reference = after(&PEFRL, 6400);
@@ -94,7 +94,7 @@ fn a_hit_conserves_energy_and_momenta() {
 }
 
 #[test]
-fn the_time_step_knows_contact_before_it_happens() {
+fn the_time_step_includes_contact_before_it_occurs() {
     for section in [
         "Rod(from_nm: 0.0, to_nm: 40.0)",
         "Ellipsoids(from_nm: 0.0, to_nm: 40.0)",
@@ -130,7 +130,6 @@ fn the_time_step_knows_contact_before_it_happens() {
     }
 }
 
-/// Free rod pushed across a clamped one with this stiffness (pN/nm) of the repulsion.
 pub(crate) fn pushed_across(stiffness: &str, task: &str) -> String {
     format!(
         "Scene(
@@ -170,7 +169,7 @@ fn passing_through_between_records_fails() {
 }
 
 #[test]
-fn a_motion_that_begins_late_goes_on() {
+fn a_motion_that_begins_late_continues() {
     let text = "Scene(
         filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 60.0)], direction: (1.0, 1.0, 0.3), rod: RodModel(law: Constant)),
         clamps: [Clamp(end: Start)],

@@ -27,8 +27,7 @@ fn displaced(gamma: f64, omega: f64, t: f64) -> f64 {
     (1.0 - free) / (omega * omega)
 }
 
-/// A cantilever under a small force follows the sum of its modes at any drag. Without the rescaling
-/// of time its relaxation would be 1.66 times too fast at 1000 per ns.
+/// A cantilever under a small force follows the sum of its modes at any drag.
 #[test]
 fn a_cantilever_creeps_as_its_modes_do() {
     let (segments, force) = (4, 1e-3);
@@ -65,8 +64,8 @@ fn a_cantilever_creeps_as_its_modes_do() {
                 "{integrator}, {rate} per ns: {at_end:.4} of the way after 5 ns, largest error \
                  {largest:.1e}"
             );
-            // Relaxing modes: h/2T with T = 0.5 ns and h up to 0.003 ns. Oscillating modes: phases
-            // of the fastest modes, which hardly move the tip.
+            // Relaxing modes: h/2T with T = 0.5 ns and h up to 0.003 ns. Oscillating modes: phase
+            // errors of the fastest modes, which hardly move the tip.
             assert!(largest < 3e-3, "{integrator}, {rate}: {largest:e}");
         }
     }
@@ -110,7 +109,7 @@ fn torque_of_drag(before: &State, after: &State, t: f64, rates: (f64, f64)) -> V
 fn a_free_filament_turns_as_the_couple_says() {
     for (model, sections) in FREE {
         for (translational, rotational) in [(100.0, 100.0), (1e3, 1e3), (1e4, 1e4), (1e3, 1e4)] {
-            // Until the slowest bending, of about 30 rad/ns, has relaxed; rotations stay small.
+            // Relaxation time of the slowest bending mode, about 30 rad/ns; rotations stay small.
             let duration = (0.04f64 * translational).max(4.0);
             let force = 1e-6 * translational / duration;
             let (assembly, trajectory, _) = ran(&format!(
@@ -147,7 +146,6 @@ fn a_free_filament_turns_as_the_couple_says() {
     }
 }
 
-/// Tip positions every half nanosecond of a half-monomer, half-rod filament released under 2 pN.
 fn let_go(integrator: &str, share: f64, rate: f64) -> Vec<Vector3> {
     let (assembly, trajectory, _) = ran(&format!(
         "Scene(
@@ -169,7 +167,6 @@ fn let_go(integrator: &str, share: f64, rate: f64) -> Vec<Vector3> {
     trajectory.records.iter().map(tip).collect()
 }
 
-/// Position Verlet at its default step is compared with short steps, rms over 20 ns.
 #[test]
 #[ignore = "takes minutes; run by hand with --ignored --nocapture"]
 fn position_verlet_follows_slow_motion_under_drag() {

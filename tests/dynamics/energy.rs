@@ -17,7 +17,6 @@ fn at_rest(filament: Filament) -> System {
     assemble(filament, ForceLaw::EnergyGradient).system
 }
 
-/// Heats all degrees of freedom to `level`, with the step at `share` of the stability limit.
 fn heated(filament: Filament, level: f64, share: f64) -> EnergyRecord {
     let mut system = at_rest(filament);
     let frequency = largest_frequency(&system).unwrap();
@@ -32,13 +31,9 @@ fn heated(filament: Filament, level: f64, share: f64) -> EnergyRecord {
     record
 }
 
-/// At half the stability limit the energy fluctuates without drift: the rod at room temperature,
-/// filaments with monomers at a hundredth of it. Nonconservative loads would shift the mean; the
-/// printed balance does by twice the fluctuation.
-///
-/// Closer to the limit, the rod has no drift either, because its limit hardly depends on its
-/// strains. Monomers gain energy or diverge at a hundredth of room temperature and 0.9 of the
-/// limit.
+/// At half the stability limit the energy fluctuates without drift: for the rod at room
+/// temperature, for filaments with monomers at a hundredth of it. Nearer to the limit the rod has
+/// no drift, but monomers gain energy or diverge at 0.9 of the limit.
 #[test]
 fn energy_is_bounded_without_a_trend_up_to_the_limit() {
     // (omega h)^4 of the fastest modes, weighted by their participation: measured 3e-4 to 6e-3 at
@@ -54,7 +49,6 @@ fn energy_is_bounded_without_a_trend_up_to_the_limit() {
     ] {
         let record = heated(filament, level, share);
         let (early, wander, trend) = (record.early(), record.wander(), record.trend());
-        // The energy of the fastest modes fluctuates.
         assert!(
             wander < 1.5 * early && wander < most,
             "{}: {early:e} became {wander:e}",
@@ -67,8 +61,8 @@ fn energy_is_bounded_without_a_trend_up_to_the_limit() {
 }
 
 /// Known limitation: at room temperature the shortest bonds approach zero length
-/// (`short_bonds.rs`). The energy then jumps at any step, and grows by some percent at half the
-/// limit. Junctions raise the largest frequency, so mixed filaments have smaller steps.
+/// (`short_bonds.rs`). The energy then jumps at any step, and grows by a few percent at half the
+/// limit. Mixed filaments have smaller steps, since junctions increase the largest frequency.
 #[test]
 fn room_temperature_costs_monomers_some_energy() {
     for (filament, at_half, at_quarter) in [
@@ -85,7 +79,6 @@ fn room_temperature_costs_monomers_some_energy() {
     }
 }
 
-/// Excites only slow modes to `level`, with the step at `share` of the stability limit.
 fn slow(filament: Filament, level: f64, share: f64, steps: u64) -> EnergyRecord {
     let mut system = at_rest(filament);
     let modes = Modes::of(&system);
@@ -113,9 +106,9 @@ fn slow(filament: Filament, level: f64, share: f64, steps: u64) -> EnergyRecord 
 /// A start that excites only modes below a hundredth of the largest frequency conserves its energy
 /// to 1e-8 over 1e5 steps at half the stability limit.
 ///
-/// This holds for the rod at 30 kBT per mode (7 nm of deflection in 80 nm). Monomers have slow
-/// modes with zero stiffness and a quartic potential, through which they heat the fast modes. There
-/// it holds only for motions of a few hundredths of a nm.
+/// The rod has 30 kBT per mode (7 nm of deflection in 80 nm). Monomers have slow modes with zero
+/// stiffness and a quartic potential, which couple to fast modes; their motion is limited to a few
+/// hundredths of a nm.
 #[test]
 fn slow_motion_keeps_its_energy() {
     for (filament, level) in [
@@ -130,8 +123,8 @@ fn slow_motion_keeps_its_energy() {
     }
 }
 
-/// At ten times that level the loss is the integrator error of the heated fast modes: half the step
-/// leaves a sixteenth.
+/// At ten times this level the energy loss is the integrator error of the fast modes, a sixteenth
+/// at half the step.
 #[test]
 fn energy_loss_of_slow_monomers_is_the_step_error() {
     for filament in [ELLIPSOIDS, MIXED] {
@@ -139,15 +132,15 @@ fn energy_loss_of_slow_monomers_is_the_step_error() {
         let fine = slow(filament, 0.1, 0.25, 2 * STEPS);
         let ratio = coarse.rms() / fine.rms();
         println!("  ratio of the rms {ratio:.1}");
-        // The two runs soon diverge chaotically.
+        // The two runs diverge chaotically.
         assert!(ratio > 8.0 && ratio < 40.0, "{}: {ratio}", filament.0);
         // Over two starts: 6e-5 to 1.3e-3.
         assert!(coarse.wander() < 3e-3, "{}: {}", filament.0, coarse.line());
     }
 }
 
-/// Slow modes are six rigid motions and N + 1 floppy modes for monomers; a rod has its two lowest
-/// flexural modes. A free beam of 80 nm has the first one at 22.37 / L^2 sqrt(B / mu) = 4.3 rad/ns,
+/// Slow modes of monomers are six rigid motions and N + 1 floppy modes; a rod has its two lowest
+/// bending modes. The first mode of a free beam of 80 nm is 22.37 / L^2 sqrt(B / mu) = 4.3 rad/ns,
 /// reduced by 7 % by shear.
 #[test]
 fn slow_modes_are_the_floppy_and_the_flexural_ones() {
@@ -162,7 +155,7 @@ fn slow_modes_are_the_floppy_and_the_flexural_ones() {
             &modes.frequencies[zero..slow]
         );
         let estimate = largest_frequency(&system).unwrap();
-        // The estimate is a lower bound, close on small systems.
+        // The estimate is a lower bound, accurate on small systems.
         assert!(
             (estimate / modes.largest() - 1.0).abs() < 1e-4,
             "{estimate}"

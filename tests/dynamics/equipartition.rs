@@ -1,11 +1,11 @@
 //! Configurational temperature of monomers in a heat bath at the default step.
 //!
-//! Velocities have the bath temperature at any step. Configurations are tested by the identity `<B
-//! . grad U> = kT <div B>`, valid for every potential, with two fields `B`:
+//! Configurations are tested by the identity `<B . grad U> = kT <div B>`, valid for every
+//! potential, with two fields `B`:
 //!
-//! - the displacement and rotation of each monomer relative to the previous one, from rest, which
-//!   weigh all modes alike;
-//! - `M^-1 grad U`, which weighs modes by squared frequency and reveals overheated fast modes.
+//! - displacement and rotation of each monomer relative to the previous one, from rest: equal
+//!   weights of all modes;
+//! - `M^-1 grad U`: weights with the squared frequency.
 
 use super::filaments::KBT;
 use actin_integrate::{
@@ -49,7 +49,6 @@ impl Sums {
 type Blocks = [Vec<Sums>; 2];
 
 struct Thermometer {
-    /// Position and orientation of each monomer relative to the previous one, at rest.
     relative: Vec<(Vector3, UnitQuaternion)>,
     stiffness: Stiffness,
 }
@@ -81,7 +80,6 @@ impl Thermometer {
         sums[1].add(work, divergence);
     }
 
-    /// Squared loads over inertia, and trace of stiffness over inertia.
     fn weighted(&mut self, system: &System, loads: &actin_mechanics::Loads) -> (f64, f64) {
         let state = system.state();
         let inverse = |body: Coordinates| match body {
@@ -99,7 +97,9 @@ impl Thermometer {
                 .sum::<f64>();
         self.stiffness.clear();
         for interaction in system.interactions() {
-            let known = interaction.second_order().expect("bonds know theirs");
+            let known = interaction
+                .second_order()
+                .expect("bonds have second derivatives");
             known.add_stiffness(state, &mut self.stiffness);
         }
         let blocks = self.stiffness.blocks().iter().filter(|(a, b, _)| a == b);
@@ -126,7 +126,6 @@ struct Case {
     rate: f64,
 }
 
-/// Sums of both fields in `blocks` blocks of `samples` samples.
 fn sample(case: Case, blocks: usize, samples: usize, seed: u64) -> Blocks {
     let mut system = monomers(case.bonds);
     let frequency = largest_frequency(&system).unwrap();
@@ -135,7 +134,7 @@ fn sample(case: Case, blocks: usize, samples: usize, seed: u64) -> Blocks {
     let bath = Bath::new(drag, KBT, seed).unwrap();
     let mut thermometer = Thermometer::new(system.state());
     let apart = steps(h, APART_NS);
-    // Until the initial state is forgotten to exp(-10).
+    // Until correlations with the initial state fall to exp(-10).
     let mut now = steps(h, 10.0 / case.rate);
     advance_in(&mut system, &PEFRL, h, now, &bath, 0);
     let mut all: Blocks = Default::default();
@@ -153,7 +152,6 @@ fn sample(case: Case, blocks: usize, samples: usize, seed: u64) -> Blocks {
     all
 }
 
-/// Ratio of the sums and its standard error from the scatter of the blocks.
 fn ratio(blocks: &[Sums]) -> (f64, f64) {
     let n = blocks.len() as f64;
     let divergence: f64 = blocks.iter().map(|b| b.divergence).sum();
@@ -165,8 +163,7 @@ fn ratio(blocks: &[Sums]) -> (f64, f64) {
 
 const FIELDS: [&str; 2] = ["all motions alike", "weighted by frequency squared"];
 
-/// At the default step of a scene the configurational temperature of monomers is within 1 % of the
-/// bath.
+/// At the default step the configurational temperature is within 1 % of the bath.
 #[test]
 fn monomers_have_the_temperature_at_their_default_step() {
     let case = Case {
@@ -204,7 +201,7 @@ fn temperatures_of_positions_at_shares_of_the_limit() {
 }
 
 /// Growth of the energy of monomers at 298 K without drag, per ns and relative to `kT` per degree
-/// of freedom. Under a drag `g` the excess temperature is this over `g`.
+/// of freedom. The excess temperature under a drag `g` is this value over `g`.
 #[test]
 #[ignore = "takes minutes; run by hand with --ignored --nocapture"]
 fn energy_that_the_step_adds_at_room_temperature() {

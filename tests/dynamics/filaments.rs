@@ -112,8 +112,6 @@ fn mean_of_turned(theta: Vector3, v: Vector3) -> Vector3 {
     sum / (3.0 * f64::from(PARTS))
 }
 
-/// Adds a velocity (nm/ns) and an angular velocity (rad/ns) about the origin, both in the lab
-/// frame.
 pub(crate) fn fly(state: &mut State, velocity: Vector3, omega: Vector3) {
     for i in 0..state.points.len() {
         let v = velocity + omega.cross(&state.points.position.get(i));

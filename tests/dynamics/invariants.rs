@@ -10,8 +10,8 @@ pub(crate) fn step(system: &System, scheme: &Composition, share: f64) -> f64 {
     stable_step(scheme, largest_frequency(system).unwrap(), share).unwrap()
 }
 
-/// A drift without inverse, an asymmetric table or velocity-dependent loads would miss the start by
-/// the step error, above 1e-6 nm at a quarter of the limit.
+/// A drift without inverse, an asymmetric table or velocity-dependent loads would give an error
+/// above 1e-6 nm.
 #[test]
 fn time_reversal() {
     for filament in FILAMENTS {
@@ -29,9 +29,9 @@ fn time_reversal() {
                 scientific(&missed)
             );
             assert!(gone[0] > 1.0 && gone[2] > 0.3, "{gone:?}");
-            // Positions of 30 nm have 4e-15 of round-off. Up to 6600 stages and chaotic divergence
-            // multiply it, by less than a hundred as measured. Velocities are more sensitive by the
-            // largest frequency.
+            // Positions of 30 nm have a round-off of 4e-15. Up to 6600 stages and chaotic
+            // divergence multiply it by less than a hundred (measured). The factor for velocities
+            // includes the largest frequency.
             let allowed = [1e-11, 1e-8, 1e-11, 1e-9];
             for (missed, allowed) in missed.iter().zip(allowed) {
                 assert!(*missed < allowed, "{}, {scheme}: {missed:e}", filament.0);
@@ -52,7 +52,6 @@ pub(crate) fn scales(state: &State) -> (f64, f64) {
     )
 }
 
-/// A junction with unbalanced forces or torques would change the momenta by 1e-3 and more.
 #[test]
 fn momentum_and_angular_momentum_stay() {
     for filament in FILAMENTS {

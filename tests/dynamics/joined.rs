@@ -8,8 +8,6 @@ use actin_mechanics::{System, Vector3};
 use actin_mechanics::{Xorshift, perturb, randomise_velocities};
 use actin_sim::{Assembly, Scene};
 
-/// Monomers and a crossing rod, joined by two stretched linkers, one with a rest length, and a
-/// third between two sites of the rod.
 fn tumbling() -> System {
     let scene = Scene::from_ron(
         "Scene(
@@ -72,6 +70,6 @@ fn linkers_between_filaments_keep_momentum_and_angular_momentum() {
     assert!(gone > 10.0);
     // A random walk of 4e4 kicks of relative round-off 1e-16: 2e-14.
     assert!(changes.iter().all(|c| *c < 1e-13), "{changes:?}");
-    // Order 4 at 0.15 of the limit; a nonconservative force would do work of order one.
+    // Order 4 at 0.15 of the limit.
     assert!(drift.abs() < 1e-3);
 }

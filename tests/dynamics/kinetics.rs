@@ -29,8 +29,7 @@ const LINKERS: &str = "
     Linker(at_nm: 6.0, radius_nm: 1.8, displaced_nm: (0.0, 0.0, 0.0), stiffness_pn_per_nm: 1.0,
         kinetics: Kinetics(seed: 2, steps: Stepping(step_nm: 5.5, rate_per_ns: 20.0, stall_pn: 30.0))),";
 
-/// Without drag the energy changes only by events, to 1e-7. A motor steps from monomers onto the
-/// rod, whose linkers break and form.
+/// Without drag the energy changes only by events, to 1e-7.
 #[test]
 fn energy_changes_by_events_are_recorded() {
     for integrator in ["Pefrl", "Vefrl"] {

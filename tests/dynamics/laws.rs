@@ -18,7 +18,6 @@ const LAWS: [&str; 4] = [
 struct Case {
     filament: Filament,
     law: &'static str,
-    /// Bending and twist (rad/nm).
     kappa: [f64; 3],
     extension: f64,
 }
@@ -27,10 +26,9 @@ impl Case {
     /// Every law on every filament with a rod, over- and under-twisted. Rods are stretched as by
     /// 100 pN.
     ///
-    /// Mixed filaments are deformed less. Their junctions have bending elements of 0.7 nm, where a
-    /// rotation of 0.03 rad exceeds the range of a published law and 0.002 rad is half of the rise
-    /// of `Fitted`'s bending. Larger motions are smooth only for far smaller steps: at 7e-3 rad/nm
-    /// `Fitted` measures orders of 4 to 9.
+    /// Mixed filaments are deformed less, since their junctions have bending elements of 0.7 nm. A
+    /// rotation of 0.03 rad there exceeds the range of a published law, and 0.002 rad is half of
+    /// the rise of `Fitted`'s bending.
     fn all() -> Vec<Self> {
         let filaments = [
             (ROD, [6e-3, -3e-3, 1.5e-2], 3e-3),
@@ -57,8 +55,7 @@ impl Case {
     }
 
     /// Largest frequency (rad/ns), at least the frequency of a rod with the shear rigidity of Table
-    /// 4. `Fitted` has no shear stiffness at rest; at half the limit of its frequency there, 228
-    /// rad/ns, the motion diverges.
+    /// 4. `Fitted` has no shear stiffness at rest; half of its limit there is unstable in motion.
     fn frequency(self) -> f64 {
         largest_frequency(&self.in_flight()).unwrap().max(490.0)
     }
@@ -93,11 +90,10 @@ fn steps_of_one_radian(case: Case) -> u32 {
     (case.frequency() * TIME).ceil() as u32
 }
 
-/// A discontinuous load, or a load at curvatures of another time than its strain, would measure 1
-/// to 2.
+/// A discontinuous load would have order 1 to 2.
 ///
-/// `Homogenised` is excluded: it softens in compression within a strain of 7e-5, which these
-/// motions cross, and measures orders of 2 to 3.2 at these steps.
+/// `Homogenised` is excluded: it softens in compression within a strain of 7e-5 and has orders of 2
+/// to 3.2 at these steps.
 #[test]
 fn every_law_moves_with_order_four() {
     let is_smooth = |case: &Case| case.law != "Homogenised";
@@ -128,14 +124,11 @@ fn every_law_keeps_momenta() {
         let (p_end, l_end) = (system.state().momentum(), system.state().angular_momentum());
         let changes = [(p_end - p).norm() / p.norm(), (l_end - l).norm() / l.norm()];
         println!("{}: relative changes {}", case.name(), scientific(&changes));
-        // 4e4 kicks of round-off 1e-16, with lever arms that grow to 1e3 nm, 10 times the length of
-        // the filaments.
+        // 4e4 kicks of round-off 1e-16, with lever arms up to 10 times the length of the filaments.
         assert!(changes[0] < 1e-13 && changes[1] < 1e-12, "{changes:?}");
     }
 }
 
-/// Half the step leaves a sixteenth of the fluctuation. Without the conjugate torque of xi the
-/// energy would fluctuate at any step.
 #[test]
 fn every_law_keeps_its_energy() {
     for case in Case::all() {
@@ -144,12 +137,11 @@ fn every_law_keeps_its_energy() {
         });
         let (name, ratio) = (case.name(), coarse.early() / fine.early());
         println!("{name}: {}, ratio {ratio:.0}", coarse.line());
-        // Over the first three tenths, before chaotic motions diverge: measured 6 and more. A wrong
-        // gradient gives 1. For `Homogenised`, half the step leaves more at the onset of
-        // compression; its gradient is tested by differences elsewhere.
+        // Over the first three tenths, before chaotic divergence: 6 or more (measured), 1 for a
+        // wrong gradient. The onset of compression limits `Homogenised`.
         assert!(ratio > 3.0 || case.law == "Homogenised", "{name}: {ratio}");
-        // (omega h)^4 of the fastest modes by participation: measured up to 2.5e-6. Chaotic motions
-        // later differ by tens of 1e-6 between orders of summation.
+        // (omega h)^4 of the fastest modes by participation: up to 2.5e-6 (measured). Chaotic
+        // motions differ by tens of 1e-6 between orders of summation.
         assert!(coarse.early() < 2e-5, "{name}");
         let resists_shear = !["Fitted", "Homogenised"].contains(&case.law);
         if case.filament == ROD && resists_shear {

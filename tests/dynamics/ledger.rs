@@ -47,7 +47,7 @@ fn of_sections(sections: &str, body: &str, task: &str) -> String {
     )
 }
 
-/// Overdamped rod in water of low viscosity. Monomers would be pushed through each other.
+/// Overdamped rod in water of low viscosity.
 fn overdamped(body: &str, task: &str) -> String {
     let water = "drag: Water(viscosity_mpa_s: 0.001)";
     of_sections(
@@ -93,7 +93,6 @@ const DRIVEN: [(&str, &str); 5] = [
     ),
 ];
 
-/// The tolerance is a thousandth of the exchanged energy at the default step.
 #[test]
 fn work_and_drag_are_recorded() {
     for (name, body) in DRIVEN {
@@ -102,7 +101,7 @@ fn work_and_drag_are_recorded() {
             let [(at_default, size), (at_half, _)] = [1.0, 0.5].map(|share| open(&text, share));
             println!("{name}, {integrator}: {at_default:.1e}, {at_half:.1e} of {size:.2} pN nm");
             assert!(size > 1.0 && at_default < 1e-3 * size, "{name}");
-            // The order of the method, less half an order for the records.
+            // Order of the method, less half an order for the records.
             assert!(
                 at_default > at_half * 2.0_f64.powf(f64::from(order) - 0.5),
                 "{name}"
@@ -111,8 +110,8 @@ fn work_and_drag_are_recorded() {
     }
 }
 
-/// Heat from noise and drag is one column. At 298 K the energy error of Verlet steps in water is 3
-/// % at the default step, so both are tested at a quarter.
+/// Heat from noise and drag is one column. Verlet steps in water at 298 K have an energy error of 3
+/// % at the default step, so both cases use a quarter of it.
 #[test]
 fn heat_is_recorded() {
     let bath = format!("{DRAG}, thermal: Thermal(temperature_k: 298.0, seed: 3)");
@@ -127,8 +126,6 @@ fn heat_is_recorded() {
     }
 }
 
-/// Overdamped motion: the tolerance is a hundredth in steps of 0.004 ns, with second order in the
-/// step.
 #[test]
 fn overdamped_motion_records_work_and_drag() {
     for (name, body) in DRIVEN {
@@ -140,7 +137,6 @@ fn overdamped_motion_records_work_and_drag() {
     }
 }
 
-/// In a nearly linear filament noise changes the work of single runs, but not its mean.
 #[test]
 fn overdamped_motion_in_a_bath_records_work() {
     let of = |temperature: f64, seed: u64| {
@@ -170,9 +166,8 @@ fn isolated_motions_exchange_no_energy() {
     assert!(left < 1e-12 && size == 0.0, "{left} {size}");
 }
 
-/// The warning appears above a hundredth of the exchanged energy. The error of the default step,
-/// heat and round-off give none, nor does a load that starts later on a filament with an
-/// imperfection.
+/// The warning appears above a hundredth of the exchanged energy. Errors of the default step, heat,
+/// round-off, and a late load on a filament with an imperfection give no warning.
 #[test]
 fn energy_errors_give_a_warning() {
     let told_of = |text: &str, share: f64| {
@@ -200,7 +195,6 @@ fn energy_errors_give_a_warning() {
     assert!(note.contains("use a shorter time_step_ns"), "{note}");
 }
 
-/// A pinned end rotates several turns under a couple; the energy accumulates beyond the first turn.
 #[test]
 fn work_of_a_couple_over_turns_is_recorded() {
     let body = "clamps: [Clamp(end: Start, hold: Pin)],
@@ -224,7 +218,6 @@ fn work_of_a_couple_over_turns_is_recorded() {
         let rod = "Rod(from_nm: 0.0, to_nm: 60.0)";
         let (left, size) = open(&of_sections(rod, body, &task), 1.0);
         println!("{task}: {left:.1e} of {size:.2} pN nm");
-        // More than the work of two turns.
         assert!(size > 400.0 * 2.0 * TAU && left < bound * size, "{task}");
     }
 }

@@ -8,7 +8,6 @@ use nalgebra::{DMatrix, DVector};
 /// Frequencies (rad/ns) and mass-weighted shapes of vibrations about a state at rest.
 pub(crate) struct Modes {
     pub(crate) frequencies: Vec<f64>,
-    /// Columns in the order of the frequencies.
     shapes: DMatrix<f64>,
     /// Inverse square roots of masses and moments, three per body, points first.
     weights: DVector<f64>,
@@ -61,7 +60,6 @@ impl Modes {
         self.frequencies[self.frequencies.len() - 1]
     }
 
-    /// Number of modes below a hundredth of the largest frequency, without rigid motions.
     pub(crate) fn slow(&self) -> usize {
         self.below(0.01 * self.largest()) - 6
     }
@@ -111,7 +109,6 @@ impl Modes {
     }
 }
 
-/// Inverse square roots of masses and moments; zero for held bodies.
 fn weights(state: &State) -> DVector<f64> {
     let points = state.points.inverse_mass().iter().flat_map(|m| [*m; 3]);
     let frames = (0..state.frames.len()).flat_map(|i| {
@@ -154,7 +151,6 @@ fn loads_at(system: &System, c: usize, step: f64) -> DVector<f64> {
     DVector::from_vec(both.flat_map(|v| [v.x, v.y, v.z]).collect())
 }
 
-/// Translations and rotations about the origin, mass-weighted and orthonormalised.
 fn rigid_motions(state: &State, weights: &DVector<f64>) -> Vec<DVector<f64>> {
     let mut all: Vec<DVector<f64>> = Vec::new();
     for k in 0..6 {

@@ -26,8 +26,6 @@ fn mean(summary: &Summary, column: &str) -> MeanSummary {
     mean
 }
 
-/// Kinetic and elastic energy are `kT/2` per degree of freedom. The burn-in is excluded because the
-/// rod starts at rest.
 #[test]
 fn energies_satisfy_equipartition() {
     let (assembly, records, summary) = run("Scene(
@@ -52,13 +50,12 @@ fn energies_satisfy_equipartition() {
             (value - expected).abs() < ERRORS * error,
             "{column}: {value} {expected}"
         );
-        // Excludes a scatter that hides errors.
+        // The scatter must not hide errors.
         assert!(error < 0.05 * expected, "{column}: {error}");
         assert!(found.independent_samples.unwrap() < 2001.0);
     }
 }
 
-/// Persistence length and length of a free rod (nm).
 const LENGTH: f64 = 100.0;
 
 fn free_rod() -> String {
@@ -163,7 +160,6 @@ const BENDS: [(&str, &str, &str); 6] = [
     ),
 ];
 
-/// A clamp at one end and twist at rest do not affect the persistence length.
 #[test]
 fn persistence_lengths_require_bending_by_heat_alone() {
     let told = |filament: &str, scene: &str| {

@@ -8,8 +8,7 @@ use actin_integrate::{
 };
 use actin_mechanics::State;
 
-/// Duration of the flight (ns): a rotation of more than half a radian, 50 to 90 radians of the
-/// fastest mode.
+/// Duration of the flight (ns): 50 to 90 radians of the fastest mode.
 const TIME: f64 = 0.1;
 
 fn state_after(filament: Filament, scheme: &Composition, steps: u32) -> State {
@@ -37,17 +36,15 @@ fn steps_of_one_radian(filament: Filament) -> u32 {
     (omega * TIME).ceil() as u32
 }
 
-/// With `(I omega) x omega` in the kick instead of the exact free rotation in the drift,
-/// fourth-order methods would measure 1 in rotations. Loads of another time or frame would measure
-/// 1 to 2.
 #[test]
 fn every_method_has_its_order_on_every_filament() {
     for filament in FILAMENTS {
         let steps = steps_of_one_radian(filament);
-        // PEFRL has the smallest error: at 1/64 rad per step, 1/4096 of the smallest below.
+        // PEFRL has the smallest error; at 1/64 rad per step it is 1/4096 of the smallest error
+        // below.
         let reference = state_after(filament, &PEFRL, 64 * steps);
-        // The next term of the error is of relative order (omega h)^2. Verlet, with the largest
-        // phase error, runs at half the step.
+        // The next term of the error is of relative order (omega h)^2. Verlet runs at half the
+        // step.
         for (scheme, fraction) in [
             (POSITION_VERLET, 16),
             (PEFRL, 4),

@@ -38,7 +38,6 @@ fn rods(assembly: &Assembly) -> Vec<(Range<usize>, f64)> {
     assembly.sections.iter().filter_map(rod).collect()
 }
 
-/// Energy and largest extension over 1e5 steps of PEFRL at half the stability limit.
 fn run(filament: Filament, law: ForceLaw, start: Start) -> (EnergyRecord, f64) {
     let mut assembly = assemble(filament, law);
     let rods = rods(&assembly);
@@ -57,9 +56,8 @@ fn run(filament: Filament, law: ForceLaw, start: Start) -> (EnergyRecord, f64) {
     (record, extension)
 }
 
-/// The energy of the printed law varies by the order of the strain at any step. Over 1e5 steps it
-/// stays within five times the largest extension, plus the variation of the gradient law. A wrong
-/// sign would exceed that within a few steps.
+/// The energy of the printed law varies by the order of the strain at any step. Over 1e5 steps the
+/// variation is less than five times the largest extension, plus the variation of the gradient law.
 #[test]
 fn paper_balance_wanders_by_the_order_of_the_strain() {
     let strong = [Start::Heated(1.0), Start::Slow(1.0)];
@@ -75,7 +73,7 @@ fn paper_balance_wanders_by_the_order_of_the_strain() {
                 gradient.line(),
                 printed.line()
             );
-            // Later the energy of mixed filaments drifts by as much again.
+            // Later the energy of mixed filaments drifts further.
             let allowed = 5.0 * extension + gradient.early();
             assert!(
                 printed.early() < allowed,

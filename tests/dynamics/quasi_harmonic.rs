@@ -21,7 +21,6 @@ fn quasi_harmonic(duration_ms: f64, step_ns: f64) -> String {
     )
 }
 
-/// Moments of neighbouring monomers of a scene, over its records.
 fn fluctuations(scene: &Scene) -> Fluctuations {
     let assembly = Assembly::build(scene).unwrap();
     let monomers = Monomers {
@@ -32,7 +31,6 @@ fn fluctuations(scene: &Scene) -> Fluctuations {
     };
     let (trajectory, _) = Plan::new(&assembly).unwrap().run().unwrap();
     let mut found = Fluctuations::about(&monomers, &assembly.rest);
-    // Excludes the warm-up.
     let warm = trajectory.records.len() / 50;
     let records = trajectory.records.iter().skip(warm);
     records.for_each(|record| found.add(&record.state));
@@ -78,8 +76,7 @@ fn warmth(attached: usize) -> [f64; 2] {
     [sums[0] / per[0], sums[1] / per[1]]
 }
 
-/// Every strain of an open filament has kT/2. Junctions without random stress would make the whole
-/// 8 % too cold in these steps of 100 ns. Two monomers attached to one rod form a loop with
+/// Every strain of an open filament has kT/2. Two monomers attached to one rod form a loop with
 /// dependent strains.
 #[test]
 fn energy_agrees_with_the_temperature() {
@@ -90,7 +87,6 @@ fn energy_agrees_with_the_temperature() {
     }
 }
 
-/// Energy of a scene's filament stretched by a thousandth.
 fn stretched(sections: &str) -> f64 {
     let assembly = Assembly::build(&scene(sections, &quasi_harmonic(1e-3, 100.0))).unwrap();
     let mut state = assembly.rest.clone();

@@ -4,8 +4,8 @@ use crate::common::build;
 use actin_cosserat::BendingElement;
 use actin_sim::{Assembly, LawExtrapolation};
 
-/// Segment length of the first filament (nm), at which twist fluctuates by 0.02 rad/nm and
-/// curvature by 0.01, with data up to 0.0472 and 0.015.
+/// Segment length of the first filament (nm). Twist fluctuates by 0.02 rad/nm and curvature by
+/// 0.01; the data end at 0.0472 and 0.015.
 const SEGMENT: f64 = 2.0;
 const RANGES: [(&str, f64); 2] = [("twist", 0.0472), ("curvature", 0.015)];
 

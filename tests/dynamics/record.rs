@@ -8,7 +8,6 @@ use actin_mechanics::{State, System};
 pub(crate) struct EnergyRecord {
     means: [f64; 10],
     largest: [f64; 10],
-    /// Sum of squares over all 2000 samples.
     squares: f64,
 }
 
@@ -31,7 +30,6 @@ impl EnergyRecord {
             for _ in 0..200 {
                 advance(system, &PEFRL, h, steps / 2000, &Drag::NONE);
                 let deviation = system.total_energy() / start - 1.0;
-                // A diverged state must not pass as incomparable.
                 let deviation = if deviation.is_nan() {
                     f64::INFINITY
                 } else {
@@ -58,7 +56,6 @@ impl EnergyRecord {
         self.largest[..3].iter().copied().fold(0.0, f64::max)
     }
 
-    /// Shift of the mean from the first three tenths to the last three.
     pub(crate) fn trend(&self) -> f64 {
         let mean = |part: &[f64]| part.iter().sum::<f64>() / 3.0;
         mean(&self.means[7..]) - mean(&self.means[..3])

@@ -3,7 +3,6 @@
 use crate::common::{build, failure, run, run_anyway};
 use actin_sim::{End, Failure, Outcome, RunError, Status, Trajectory};
 
-/// Rod of 200 nm between two walls, compressed by 60 nm within 5 ns.
 fn pushed(filament: &str, task: &str) -> String {
     format!(
         "Scene(
@@ -47,7 +46,7 @@ fn buckled() -> f64 {
     energy(&trajectory)
 }
 
-/// Compressed exactly along its axis, the rod stays straight at `S3 strain^2 L / 2` = 306000 pN nm,
+/// Without imperfection the rod stays straight with the energy `S3 strain^2 L / 2` = 306000 pN nm,
 /// a thousand times the energy of the buckled state.
 #[test]
 fn a_straight_rod_that_stays_straight_is_a_saddle() {
@@ -66,8 +65,8 @@ fn a_straight_rod_that_stays_straight_is_a_saddle() {
     }
 }
 
-/// An imperfection of 0.01 nm leads to the buckled state of statics. The difference is second order
-/// in the residual of the stop rule.
+/// An imperfection of 0.01 nm leads to the buckled equilibrium. The energy difference is second
+/// order in the residual of the stop rule.
 #[test]
 fn an_imperfection_leads_to_the_buckled_state() {
     let imperfection = "imperfection: (amplitude_nm: 0.01, seed: 1),";
@@ -81,7 +80,6 @@ fn an_imperfection_leads_to_the_buckled_state() {
 
 #[test]
 fn a_motion_is_pushed_off_saddles() {
-    // Without a stop rule, a motion is at rest at 1e-6 of its energy.
     for (stop, bound) in [(STOP, 1e-8), ("", 1e-6)] {
         let task = damped(&format!("leave_saddles: 3, {stop}"));
         let (trajectory, report) = moved(&pushed("", &task)).unwrap();
@@ -91,7 +89,7 @@ fn a_motion_is_pushed_off_saddles() {
         assert_eq!(report.at_rest.unwrap().negative, 0);
         assert_eq!(report.saddles_left, report.pushes.len());
         let push = report.pushes[0];
-        // The path takes 5 ns; the energy is that of the straight rod.
+        // The path takes 5 ns and ends with the energy of the straight rod.
         assert!(push.time_ns >= 5.0 && push.negative_eigenvalues > 0);
         assert!((push.energy_pn_nm / 306_000.0 - 1.0).abs() < 1e-6);
         let size = (push.displacement_nm / 0.01).max(push.turn_rad / 1e-3);
@@ -149,8 +147,8 @@ fn a_free_filament_is_neutral() {
     assert_eq!(moved(&pulled).unwrap().1.at_rest, None);
 }
 
-/// Two and a half turns in a few ps do not spread over the segments and slip. An arc slips too,
-/// with its end turned about lab z and tilted. The same rotation at low speed succeeds.
+/// Two and a half turns in a few ps do not spread over the segments and slip. An arc slips too. The
+/// same rotation at low speed succeeds.
 #[test]
 fn twist_that_slips_is_an_error() {
     let straight = ("Rod(from_nm: 0.0, to_nm: 60.0, segments: 6)", "");
@@ -207,8 +205,8 @@ fn hinged(load: &str, path: &str, end: &str) -> String {
     )
 }
 
-/// The spring carries at most `pi k`, 62.8 pN nm about the rod. A larger couple, or a frame turned
-/// faster than the rod follows, exceeds half a turn for a free and for a pinned end.
+/// The spring carries at most `pi k` = 62.8 pN nm. A larger couple, or a frame that turns faster
+/// than the rod, exceeds half a turn.
 #[test]
 fn a_hinge_past_half_a_turn_is_an_error() {
     let couple = |size: f64| format!("Couple(end: End, couple_pn_nm: (0.0, 0.0, {size:?}))");

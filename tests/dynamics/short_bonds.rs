@@ -29,8 +29,7 @@ fn shortest(bonds: &Bonds, state: &State) -> f64 {
 }
 
 /// At a hundredth of room temperature every bond keeps 0.7 of its length. At room temperature some
-/// bonds pass zero, where a force of constant magnitude reverses. The shortest length depends on
-/// rounding: 0.51 of the rest length in scalar code, less with fused multiply-add.
+/// bonds pass zero length, where the force reverses. The shortest length depends on rounding.
 #[test]
 fn bonds_lose_their_length_at_room_temperature() {
     for (level, share_left) in [(0.01, 0.7..1.0), (1.0, 0.0..0.7)] {

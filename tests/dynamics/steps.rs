@@ -28,8 +28,7 @@ fn monomers(to: f64) -> String {
     format!("Ellipsoids(from_nm: 0.0, to_nm: {to:?}),")
 }
 
-/// A junction reduces the step of the rod or the monomers by less than a twentieth. Without the
-/// inertia of its frames it would halve the step.
+/// A junction reduces the step of the rod or the monomers by less than a twentieth.
 #[test]
 fn a_junction_costs_no_step() {
     let all = limit(&monomers(160.0), "CrossSection");
@@ -48,8 +47,8 @@ fn a_junction_costs_no_step() {
     }
 }
 
-/// With the rotary inertia of rigid segments the step is proportional to their length from 10 nm
-/// on, where the fastest mode is a stretch between nodes.
+/// With the rotary inertia of rigid segments the step is proportional to their length above 10 nm,
+/// where the fastest mode is a stretch between nodes.
 #[test]
 fn steps_grow_with_rigid_segments() {
     let limits = [10.0, 20.0, 40.0, 80.0].map(|h| limit(&rod(0.0, h), "RigidSegment"));
@@ -61,8 +60,6 @@ fn steps_grow_with_rigid_segments() {
     assert!(limits[3] > 10.0 * before);
 }
 
-/// The default step is a smaller share of its limit if any section has a law that softens in
-/// compression.
 #[test]
 fn the_law_of_a_section_shortens_the_step() {
     let share = |altered: &str| {

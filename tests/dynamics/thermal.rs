@@ -15,8 +15,7 @@ fn bath(rate: f64, kt: f64, seed: u64) -> Bath {
     Bath::new(Drag::new(rate, rate).unwrap(), kt, seed).unwrap()
 }
 
-/// A quarter of the stability limit of PEFRL, with an error of 3e-4 in the temperature of the
-/// fastest mode.
+/// Step with an error of 3e-4 in the temperature of the fastest mode.
 fn step(system: &System) -> f64 {
     stable_step(&PEFRL, largest_frequency(system).unwrap(), 0.25).unwrap()
 }
@@ -32,7 +31,7 @@ fn assert_is_one(what: &str, blocks: &[f64]) {
     let (mean, error) = estimate(blocks);
     println!("{what}: {mean:.4} +- {error:.4}");
     assert!((mean - 1.0).abs() < ERRORS * error, "{what}");
-    // Excludes a scatter that hides errors.
+    // The scatter must not hide errors.
     assert!(error < 0.05, "{what}: {error}");
 }
 
@@ -61,8 +60,6 @@ fn temperatures(assembly: &Assembly, state: &State) -> BTreeMap<String, f64> {
     sums.into_iter().map(share).collect()
 }
 
-/// `m v^2` and `L_a^2/I_a` have the mean kT for all kinds of bodies, and `P^2/M` for the whole
-/// filament. Noise scaled with the inertia instead of its root would fail.
 #[test]
 fn every_kind_of_body_has_the_temperature() {
     for (filament, kinds) in FILAMENTS.into_iter().zip([3, 3, 6, 6]) {
@@ -89,7 +86,6 @@ fn every_kind_of_body_has_the_temperature() {
                 blocks.entry(key).or_default().push(value);
             }
         }
-        // Points and frames of monomers, nodes, segments and junction frames, and the whole.
         assert_eq!(blocks.len(), kinds, "{:?}", blocks.keys());
         for (what, blocks) in blocks {
             assert_is_one(&format!("{}, {what}", filament.0), &blocks);
@@ -152,9 +148,8 @@ impl Sampled {
     }
 }
 
-/// Every mode has kT/2 of potential energy. A bath inside the stages, or on one side only, would
-/// cool the fast modes. The second case has drag far beyond the resolution of a step, different for
-/// points and frames: `g h` of 3 and 1.
+/// Every mode has kT/2 of potential energy. The second case has a drag beyond the resolution of a
+/// step, different for points and frames: `g h` of 3 and 1.
 #[test]
 fn every_mode_of_a_clamped_rod_has_its_share() {
     for (what, sampled) in [

@@ -4,7 +4,6 @@ use crate::common::{build, ran};
 use actin_sim::mechanics::Vector3;
 use actin_sim::{End, Plan, Record};
 
-/// The assembly, its tip in all records, and the work.
 fn tips(sections: &str, force_pn: f64, task: &str) -> (Vec<Vector3>, u64) {
     let text = format!(
         "Scene(
@@ -20,7 +19,6 @@ fn tips(sections: &str, force_pn: f64, task: &str) -> (Vec<Vector3>, u64) {
     (tips, report.force_evaluations)
 }
 
-/// Largest difference of the deflections with and without inertia, over the last deflection.
 fn largest_difference(sections: &str, duration_ns: f64, step_ns: f64) -> f64 {
     let every = duration_ns / 10.0;
     let water = "drag: Water(viscosity_mpa_s: 1.0)";
@@ -40,8 +38,7 @@ fn largest_difference(sections: &str, duration_ns: f64, step_ns: f64) -> f64 {
     largest
 }
 
-/// Relaxation with and without inertia agrees to 1 % of the deflection, over 150 ns; velocities
-/// decay in 0.01 ns.
+/// Relaxation over 150 ns with and without inertia agrees to 1 % of the deflection.
 #[test]
 fn cantilevers_relax_alike_with_inertia_and_without() {
     for sections in [
@@ -53,7 +50,6 @@ fn cantilevers_relax_alike_with_inertia_and_without() {
     }
 }
 
-/// For 160 nm inertia takes a million steps.
 #[test]
 #[ignore = "takes minutes"]
 fn long_cantilevers_relax_alike_with_inertia_and_without() {

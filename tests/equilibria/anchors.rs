@@ -39,7 +39,7 @@ const TIGHT: &str = "Equilibrium(force_pn: 1e-9, torque_pn_nm: 1e-9)";
 const SHIFTS: [[f64; 3]; 2] = [[2.0, 0.5, 1.0], [-3.0, 0.0, 2.0]];
 
 #[test]
-fn a_path_of_anchors_ends_where_they_stand() {
+fn a_path_of_anchors_ends_in_the_direct_equilibrium() {
     let shifts = SHIFTS.map(Vector3::from);
     let (at_once, _) = solved(&clamped(shifts, None, TIGHT));
     let (moved, _) = solved(&clamped([Vector3::zeros(); 2], Some(shifts), TIGHT));
@@ -132,8 +132,7 @@ fn numbers(assembly: &Assembly) -> [f64; 3] {
 }
 
 /// As junctions pass the outer sites, energy and tension change per step by less than their spread
-/// over resolutions that keep the sites. A wrong site on either model would jump by hundreds of pN
-/// nm.
+/// over resolutions.
 #[test]
 fn the_equilibrium_is_continuous_where_a_junction_crosses_a_site() {
     let crossing: Vec<Assembly> = [95.0, 98.0, 101.0, 104.0, 108.0, 112.0, 116.0]

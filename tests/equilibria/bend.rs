@@ -57,7 +57,8 @@ fn tip(force: f64, n: usize) -> [f64; 3] {
     let terms: Vec<Box<dyn Interaction>> = vec![Box::new(rod), Box::new(load)];
     let mut newton = Newton::new(Layout::free(&state), to(1e-6)).unwrap();
     let found = newton.solve(&mut state, &terms).unwrap();
-    // From straight, under the full load, convergence takes 22 to 51 steps, depending on round-off.
+    // From the straight state under the full load, convergence takes 22 to 51 steps, depending on
+    // round-off.
     assert!(found.history.len() < 100, "{:?}", found.work);
     let tip = state.points.position.get(n);
     [tip.z, tip.x, tip.y]
@@ -93,7 +94,6 @@ impl Section {
         }
     }
 
-    /// Integrates along the arc in `steps` of the classical fourth-order Runge-Kutta method.
     fn at_tip(couple: Vector3, force: Vector3, steps: usize) -> Self {
         let mut at = Self {
             place: Vector3::zeros(),
@@ -116,7 +116,6 @@ impl Section {
 /// Tip by shooting for the moment at the clamp that vanishes at the tip.
 fn shot(force: f64, steps: usize) -> [f64; 3] {
     let mut couple = Vector3::zeros();
-    // In increments of the load, each by Newton's method with differences.
     for part in 1..=8 {
         let load = Vector3::y() * (force * f64::from(part) / 8.0);
         let miss = |couple| Section::at_tip(couple, load, steps).couple;
@@ -138,7 +137,7 @@ fn shot(force: f64, steps: usize) -> [f64; 3] {
     [tip.z, tip.x, tip.y]
 }
 
-/// Curvature at rest, bending in both planes and twist act together. The published tip for 600
+/// Curvature at rest, bending in both planes and twist are coupled. The published tip for 600
 /// verifies the shooting, which is the reference for other loads.
 #[test]
 fn the_bend_converges_to_its_tip_with_order_two() {
@@ -149,7 +148,6 @@ fn the_bend_converges_to_its_tip_with_order_two() {
             // Fourth order: the difference is 15 times the remaining error.
             assert!((coarse[k] - exact[k]).abs() < 1e-8, "{coarse:?}, {exact:?}");
             if force == FORCES[2] {
-                // The published tip has six decimals.
                 assert!((exact[k] - TIP[k]).abs() < 1e-6, "{exact:?}");
             }
         }
@@ -198,7 +196,7 @@ fn the_bend_of_a_scene_converges_to_the_same_tip() {
             let what = format!("scene, {force}, {axis}");
             let limit = second_order_limit(&what, values, exact[k], 0.02);
             assert!(limit.abs() < 1e-5, "{what}: {limit:e}");
-            // Their eight elements have errors up to half a per cent of the radius.
+            // The published eight elements have errors up to half a per cent of the radius.
             let off = (exact[k] - PUBLISHED[i][k]).abs();
             assert!(off < 0.5, "{what}: {} {}", exact[k], PUBLISHED[i][k]);
         }

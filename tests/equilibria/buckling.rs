@@ -84,8 +84,7 @@ fn column(n: usize, wall: bool) -> (State, Parts, BodyOrder) {
     (state, parts, order)
 }
 
-/// Both ends pinned: the far node slides along the axis, no frame is held. The axial rotation is a
-/// neutral mode that must not be counted.
+/// The axial rotation is a neutral mode.
 #[test]
 fn pinned_column() {
     let values = MESHES.map(|n| {
@@ -102,7 +101,6 @@ fn pinned_column() {
     assert!(limit.abs() < 1e-5, "{limit:e}");
 }
 
-/// Both ends clamped; the far one slides along the axis as one body with its frame.
 #[test]
 fn clamped_column() {
     let values = MESHES.map(|n| {
@@ -186,8 +184,7 @@ fn post_buckling_of_the_clamped_free_column() {
 }
 
 /// A rod between walls with a small transverse force is compressed to 1.25 nm, far beyond its
-/// critical 1.6e-4. The path ends on the connected branch on the side of the force, which has the
-/// lower energy.
+/// critical 1.6e-4 nm. The path ends on the branch on the side of the force.
 #[test]
 fn a_pushed_rod_stays_on_the_side_of_its_force() {
     for force in [0.005_f64, -0.005] {

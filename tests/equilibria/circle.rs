@@ -6,7 +6,6 @@ use actin_mechanics::Vector3;
 use actin_sim::{Assembly, End, Failure, Outcome, RunError};
 use std::f64::consts::PI;
 
-/// Rod with its end turned about y by `turn` (deg) and twisting rigidity `twist`; stable or not.
 fn rolled(segments: usize, twist: f64, turn: f64) -> (Assembly, Outcome) {
     let mut assembly = build(&format!(
         "Scene(
@@ -70,9 +69,9 @@ fn half_a_turn_has_the_right_diameter() {
     assert!(limit.abs() < 1e-6, "{limit:e}");
 }
 
-/// A rod with small twisting rigidity leaves the plane before it closes. With `c = B3 / B` this
-/// occurs at the turn `2 x` with `tan x = -x (1 - c)/c`, the first conjugate point of the
-/// force-free rod (a symmetric top). For `c = 1/3` it is 210.46 deg.
+/// A rod with small twisting rigidity leaves the plane before it closes. With `c = B3 / B` the
+/// critical turn is `2 x` with `tan x = -x (1 - c)/c`, the first conjugate point of the force-free
+/// rod. It is 210.46 deg for `c = 1/3`.
 #[test]
 fn a_rod_that_twists_easily_leaves_the_plane() {
     let c: f64 = 1.0 / 3.0;
@@ -93,8 +92,6 @@ fn a_rod_that_twists_easily_leaves_the_plane() {
     assert!(limit.abs() < 1e-5, "{limit:e}");
 }
 
-/// A couple about a fixed axis rolls up a free end to half a turn, where it loses stability. The
-/// message gives the reason.
 #[test]
 fn a_couple_on_a_free_end_rolls_up_half_a_turn() {
     let couple = 2.0 * PI * BEND / LENGTH;
@@ -119,7 +116,6 @@ fn a_couple_on_a_free_end_rolls_up_half_a_turn() {
     let Failure::PathEnded { failure, .. } = failure else {
         panic!("{message}");
     };
-    // Half a turn of the end, up to a segment.
     assert!((failure.parameter - 0.5).abs() < 1.0 / 40.0, "{message}");
     for part in ["loses its stability: ", "at half a turn", "slides: Freely"] {
         assert!(message.contains(part), "{part:?} in {message}");

@@ -25,9 +25,9 @@ pub(crate) const MIXED: &str = "Filament(
 
 /// Scene of a cantilever rod: 160 nm, `B = 3.9e4` pN nm^2, under a tip force (pN).
 ///
-/// Shear and stretch have the same rigidity `S` (pN), so that the moment `n x r'` with `r' = d3 +
-/// n/S` equals that of an unstrained segment. The frames are exactly those of an inextensible rod,
-/// for any `S`.
+/// Shear and stretch have the same rigidity `S` (pN). The moment `n x r'` with `r' = d3 + n/S` is
+/// then equal to the moment for an unstrained segment, and frames are exactly as in an inextensible
+/// rod.
 pub(crate) fn cantilever(segments: usize, force: [f64; 3], task: &str) -> String {
     let [x, y, z] = force;
     format!(

@@ -1,4 +1,4 @@
-//! Rods with twist-stretch coupling in compression: beyond a bound their twist is unstable
+//! Compressed rods with twist-stretch coupling have unstable twist beyond a critical force
 //! (`docs/numerics.md`, "Extended rods in compression").
 
 use super::common::{build, run, run_anyway};
@@ -44,7 +44,6 @@ fn set_uniform(assembly: &mut Assembly, twist: f64, strain: f64) {
     }
 }
 
-/// Sets the uniform state of this twist under a compression (pN), by bisection of its strain.
 fn push(assembly: &mut Assembly, twist: f64, compression: f64) {
     let (mut low, mut high) = (-0.1, 0.1);
     for _ in 0..100 {
@@ -91,8 +90,6 @@ fn only(found: &[UnstableTwist]) -> UnstableTwist {
     found[0]
 }
 
-/// A bound at constant length, or with the secant of a twisted rod, is wrong by up to a factor of
-/// ten. A mean over one node would make `n - 1` modes unstable at once.
 #[test]
 fn modes_turn_unstable_at_the_bound() {
     for (law, at_rest) in LAWS {
@@ -101,7 +98,6 @@ fn modes_turn_unstable_at_the_bound() {
             push(&mut assembly, twist, 50.0 * at_rest);
             let bound = only(&assembly.unstable_twist(assembly.system.state())).bound_pn;
             if twist == 0.0 {
-                // The digits of the bound by hand.
                 assert!((bound / at_rest - 1.0).abs() < 1e-3, "{law}: {bound}");
             }
             let mut counts = Vec::new();
@@ -125,8 +121,8 @@ fn modes_turn_unstable_at_the_bound() {
     }
 }
 
-/// The certificate of an equilibrium, including bending and shear, gives the known counts of the
-/// published law: 0 at 13 pN, 2 at 14.5, 12 at 40.
+/// Number of unstable modes of the published law, including bending and shear: 0 at 13 pN, 2 at
+/// 14.5, 12 at 40.
 #[test]
 fn certificates_count_unstable_modes() {
     for (compression, negative) in [(13.0, 0), (14.5, 2), (40.0, 12)] {
@@ -155,12 +151,10 @@ fn certificates_count_unstable_modes() {
         let said = only(&said);
         println!("{compression} pN: {said:?}");
         assert!((said.compression_pn / compression - 1.0).abs() < 1e-6);
-        // The path starts without compression and ends beyond the bound.
         assert!(said.share_of_records > 0.0 && said.share_of_records < 1.0);
     }
 }
 
-/// The pulse of a shift within 0.2 ns exceeds the bound temporarily.
 #[test]
 fn a_motion_reports_its_share_of_unstable_records() {
     for (law, _) in LAWS {
@@ -194,8 +188,8 @@ fn twists(assembly: &Assembly) -> Vec<f64> {
     frames.map(twist).collect()
 }
 
-/// The unstable rod divides into domains of over- and under-twist in stable ranges, separated by
-/// one or two elements on any mesh: the law has no length scale.
+/// The unstable rod divides into stable domains of over-twist and under-twist. Domain walls have
+/// one or two elements on any mesh, since the law has no length scale.
 #[test]
 fn domain_walls_are_as_fine_as_the_mesh() {
     for segments in [10, 20, 40, 80] {

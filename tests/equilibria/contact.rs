@@ -5,7 +5,6 @@ use actin_mechanics::testing::resultant;
 use actin_mechanics::{Loads, Vector3};
 use actin_sim::{Assembly, Failure, Part, Summary};
 
-/// Force of one part of an assembly on all bodies, and its place along z.
 fn pushed(assembly: &Assembly, part: Part) -> (Vector3, f64) {
     let term = assembly.terms.iter().position(|t| t.part == part).unwrap();
     let state = assembly.system.state();
@@ -16,7 +15,6 @@ fn pushed(assembly: &Assembly, part: Part) -> (Vector3, f64) {
     (force, moment.y / force.x)
 }
 
-/// Cantilever of 160 nm bent by a sphere near its end, which is moved by `shift_nm`.
 fn pressed(section: &str, at_nm: f64, x_nm: f64) -> String {
     format!(
         "Scene(
@@ -31,8 +29,8 @@ fn pressed(section: &str, at_nm: f64, x_nm: f64) -> String {
     )
 }
 
-/// Beam theory gives the force `d / (s^3/3B + s/S)` for a deflection `d` at the contact. Segments
-/// of 5 nm miss 0.03 % of bending, and the contact is 4 nm wide: together less than half a percent.
+/// Beam theory gives the force `d / (s^3/3B + s/S)` for a deflection `d` at the contact.
+/// Discretisation (0.03 %) and the contact width of 4 nm cause an error below half a percent.
 #[test]
 fn a_sphere_presses_a_cantilever_as_beam_theory_has_it() {
     let rod = "Rod(from_nm: 0.0, to_nm: 160.0, segments: 32)";
@@ -77,7 +75,7 @@ fn a_filament_lies_on_a_plane_at_the_depth_of_its_weight() {
         let state = assembly.system.state();
         let gap = assembly.smallest_gap_nm(state).unwrap();
         println!("{section}: {gap:.6} nm, {depth:.6} nm deep");
-        // Ends of a clamped monomer filament reach a rise beyond the load: 3 % more length, 1 %
+        // Ends of a clamped monomer filament extend a rise beyond the load: 3 % more length, 1 %
         // less depth.
         let bound = if section.starts_with("Rod") {
             1e-6
@@ -122,8 +120,8 @@ fn crossing(first: &str, shift_nm: f64) -> String {
     )
 }
 
-/// Each filament is bent by 4 nm. The contact force equals the derivative of the energy by the
-/// displacement of the ends.
+/// Each filament is bent by 4 nm. The contact force equals the derivative of the energy with
+/// respect to the displacement of the ends.
 #[test]
 fn crossing_filaments_bend_each_other() {
     let rod = "Rod(from_nm: 0.0, to_nm: 80.0, segments: 16)";
@@ -151,7 +149,7 @@ fn crossing_filaments_bend_each_other() {
             on(1).x
         );
         assert!((on(0) + on(1)).norm() < 1e-10 * on(0).norm());
-        // The square of 0.05 nm over that of a few nm.
+        // Square of the ratio of 0.05 nm to a few nm.
         assert!(
             error.abs() < 1e-3 && gap < -1.0 && gap > -2.0,
             "{error}, {gap}"
@@ -223,8 +221,8 @@ fn overlapping_filaments_are_refused_or_give_a_warning() {
     assert!(problem(7.5).unwrap().is_empty());
 }
 
-/// Beyond a filament there is a stable equilibrium without energy, which the path must not reach by
-/// passing through.
+/// A stable equilibrium without energy exists on the other side of a filament; the path must not
+/// reach it.
 #[test]
 fn a_path_does_not_lead_filaments_through_each_other() {
     for (stiffness, largest_step) in [(20.0, 1.0), (20.0, 0.02), (600.0, 1.0)] {
@@ -251,7 +249,6 @@ fn a_path_does_not_lead_filaments_through_each_other() {
         let reason = failure.to_string();
         println!("{stiffness} pN/nm, steps of {largest_step}: {reason}");
         assert!(reason.contains("an interaction forbids"), "{reason}");
-        // The axis of the one is still on its side of the other.
         let last = &trajectory.records.last().unwrap().state.points.position;
         let x = |filament: usize| {
             let points = assembly.filaments[filament].points.clone();

@@ -23,7 +23,7 @@ fn deflection(alpha: f64, segments: usize) -> f64 {
         "task: Equilibrium()",
     ));
     let found = report.equilibrium.unwrap();
-    // Each step moves the tip along its arc, so that even alpha = 10 takes few.
+    // Each step moves the tip along its arc.
     assert!(found.newton_iterations <= 12, "{}", found.newton_iterations);
     let tip = assembly.tip_nm(assembly.system.state(), End::End);
     tip.x / LENGTH - force / SHEAR

@@ -1,8 +1,6 @@
-//! Extreme loads: each scene ends in a certified equilibrium or in a failure report, in a bounded
-//! number of steps.
-//!
-//! `cargo test -p actin-sim --test integration equilibria::extremes -- --nocapture` prints the
-//! table of `docs/measured/statics.md`.
+//! Extreme loads: each scene ends in a certified equilibrium or a failure report, in a bounded
+//! number of steps. The table of `docs/measured/statics.md` is printed by `cargo test -p actin-sim
+//! --test integration equilibria::extremes -- --nocapture`.
 
 use super::common::{build, run, run_anyway};
 use actin_equilibrium::{PathFailure, Stability};
@@ -73,7 +71,6 @@ impl Extreme {
         ))
     }
 
-    /// Runs the scene, prints its row, and checks its result. Returns `true` if it reached its end.
     fn check(&self) -> bool {
         let mut assembly = self.assembly();
         let clock = Instant::now();
@@ -92,7 +89,6 @@ impl Extreme {
         let found = report.equilibrium.as_ref();
         let steps = steps.max(found.map(|f| f.newton_iterations)).unwrap();
         println!("| {} | {ended} | {steps} | {seconds:.2} s |", self.name);
-        // At most a thousand equilibria with ten iterations each.
         assert!(steps < 10_000, "{}: {steps} iterations", self.name);
         let Some(found) = found else {
             let failure = failure.unwrap();
@@ -108,7 +104,6 @@ impl Extreme {
         failure.is_none()
     }
 
-    /// Returns the results and the failure, if any. An equilibrium beyond the model limits is kept.
     fn take(
         &self,
         result: (Trajectory, Result<Outcome, RunError>),
@@ -215,7 +210,6 @@ const PULLED: [(&str, &str, [f64; 3]); 11] = [
     ),
 ];
 
-/// Turns of the far end about the axis (deg), which slides along it.
 const TURNED: [(&str, &str, f64); 6] = [
     ("75 nm of monomers by +720 deg", MONOMERS_75, 720.0),
     ("75 nm of monomers by -720 deg", MONOMERS_75, -720.0),
@@ -228,7 +222,6 @@ const TURNED: [(&str, &str, f64); 6] = [
 /// Paths with a small snap that does not end them.
 const SNAPS: [&str; 1] = ["75 nm of monomers by +720 deg"];
 
-/// Shifts of the far end along the axis (nm).
 const SHIFTED: [(&str, &str, f64); 4] = [
     ("75 nm of monomers pushed by 20 %", MONOMERS_75, -15.0),
     ("75 nm of monomers pushed to 20 %", MONOMERS_75, -60.0),
@@ -293,6 +286,5 @@ fn full_turns_of_twist_are_kept() {
     let clamp = assembly.clamps.iter().find(|c| c.end == End::End).unwrap();
     let couple = clamp.reaction(assembly.system.state(), &loads).torque_pn_nm;
     let exact = 1.3e4 * 4.0 * std::f64::consts::PI / 75.0;
-    // The residual in each of eight frames.
     assert!((couple.z - exact).abs() < 1e-5, "{couple} against {exact}");
 }

@@ -56,7 +56,6 @@ impl Coil {
         1.0 - (1.0 - self.least_cosine) / (self.mu * s).cosh().powi(2)
     }
 
-    /// Rotation rates of the tangent about the axis and of the section about the tangent.
     fn rates(&self, s: f64) -> (f64, f64) {
         let cosine = self.cosine(s);
         let round = self.moment / (1.0 + cosine);
@@ -138,7 +137,6 @@ fn coiled(n: usize) -> (State, RodLayout, Vec<Box<dyn Interaction>>) {
 }
 
 struct Coiled {
-    /// Largest tilt (deg).
     tilt: f64,
     /// `M L / B`.
     moment: f64,
@@ -152,7 +150,7 @@ fn solved(n: usize) -> Coiled {
     let (mut state, layout, terms) = coiled(n);
     let mut newton = Newton::new(Layout::free(&state), to(1e-9)).unwrap();
     let found = newton.solve(&mut state, &terms).unwrap();
-    // The coil slides along the rod and rotates about it at almost zero cost.
+    // The coil slides along the rod and rotates about it at almost constant energy.
     let certificate = found.certificate.unwrap();
     assert_eq!((certificate.negative, certificate.unresolved), (0, 2));
     let h = LENGTH / n as f64;
@@ -189,15 +187,13 @@ fn lowest(values: &[f64]) -> (f64, f64) {
     (k as f64 - slope / bend, at - 0.5 * slope * slope / bend)
 }
 
-/// Twist lost at a wall, or bending that depends on the principal axis (the section rotates forty
-/// times within the coil), would shift moment and tilt by percents.
 #[test]
 fn a_twisted_rod_coils_up_in_its_middle() {
     let meshes = [300, 600, 1200].map(solved);
     let limit = |what: &str, value: fn(&Coiled) -> f64, exact: f64| {
         let values = [0, 1, 2].map(|k| value(&meshes[k]));
         let limit = second_order_limit(what, values, exact, 0.1);
-        // Fourth-order terms, and for the tilt the rounding of the source.
+        // Fourth-order terms and, for the tilt, the rounding of the source.
         assert!(limit.abs() < 2e-5, "{what}: {limit:e}");
     };
     limit("coil, largest tilt", |m| m.tilt, TILT_DEG);

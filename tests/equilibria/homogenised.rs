@@ -6,7 +6,6 @@ use actin_mechanics::testing::assert_is_balanced;
 use actin_mechanics::{Xorshift, perturb};
 use actin_sim::{Assembly, Outcome, Part};
 
-/// Filament of `length` nm on a wall with a clamp `end`, under an end force (pN).
 fn scene(sections: &str, end: &str, [x, y, z]: [f64; 3]) -> String {
     format!(
         "Scene(
@@ -30,8 +29,8 @@ fn moved((assembly, outcome): &(Assembly, Outcome)) -> [f64; 3] {
     (place(assembly.system.state()) - place(&assembly.rest)).into()
 }
 
-/// Bending, tension and shear, with twist from tension. Without the half segment at the free end
-/// the order would be 1. Segments are shorter than the boundary layer of a wall.
+/// Bending, tension and shear, with twist from tension. Segments are shorter than the boundary
+/// layer of a wall.
 #[test]
 fn combined_loads_converge_with_order_two() {
     let force = [0.5, 0.2, 10.0];
@@ -40,7 +39,7 @@ fn combined_loads_converge_with_order_two() {
         let [a, b, c, d] = tips.map(|tip| tip[k]);
         let orders = [(a - b) / (b - c), (b - c) / (c - d)].map(|ratio| ratio.abs().log2());
         println!("component {k}: {d:.6} nm, orders {orders:.3?}");
-        // The last is the small difference of stretch and shortening, with a cancelling error.
+        // The last is the small difference of stretch and shortening.
         let most = if k == 2 { 3.0 } else { 2.1 };
         assert!(orders.iter().all(|order| (1.9..most).contains(order)));
     }
@@ -61,7 +60,7 @@ fn tips_under_tension() {
     }
 }
 
-/// A guided beam is far softer than a rod of constant shear and stiffens under tension: monomers
+/// A guided beam is much softer than a rod of constant shear and stiffens under tension: monomers
 /// move 3.41 and 2.24 nm per pN. Straight rods that rotate freely are five times as compliant in
 /// compression.
 #[test]
@@ -89,7 +88,7 @@ fn guided(sections: &str, tension: f64) -> f64 {
     moved(&solved(&scene(sections, freely, [0.1, 0.0, tension])))[0] / 0.1
 }
 
-/// Short beams against monomers (the mean filament over eight azimuths). Without the boundary
+/// Short beams compared with monomers (mean filament over eight azimuths). Without the boundary
 /// correction of shear rods are 22 to 77 % too soft.
 #[test]
 fn short_beams_under_tension() {
@@ -120,8 +119,8 @@ fn short_beams_do_not_depend_on_segments() {
     }
 }
 
-/// A junction prevents shear of its two monomers, which the rod's end compensates. Without this the
-/// beam is 15 % too stiff; 6 % remain.
+/// A junction prevents shear of its two monomers, which the rod's end compensates; an error of 6 %
+/// remains.
 #[test]
 fn junctions_do_not_stiffen_beams() {
     let half = |azimuth: f64, segments: usize| {

@@ -43,11 +43,10 @@ fn moved(assembly: &Assembly, filament: usize) -> Vector3 {
     tip(assembly.system.state()) - tip(&assembly.rest)
 }
 
-/// Two rods joined at their tips by a spring of stiffness `k`, pulled apart by a force on one of
-/// them. It carries `F - f` and the other `f = F / (2 + 1 / (k c))`, with `c` the compliance of a
-/// single rod.
+/// Two rods joined at their tips by a spring of stiffness `k`, with a force on one of them. The
+/// spring carries `f = F / (2 + 1 / (k c))` with the compliance `c` of a single rod.
 #[test]
-fn two_rods_joined_at_their_tips_bear_half_each() {
+fn two_rods_joined_at_their_tips_share_the_load() {
     let (force, k) = (0.4, 100.0);
     let tight = "Equilibrium(force_pn: 1e-10, torque_pn_nm: 1e-10)";
     let load = format!("EndForce(end: End, force_pn: ({:?}, 0.0, 0.0))", -force);
@@ -59,30 +58,28 @@ fn two_rods_joined_at_their_tips_bear_half_each() {
     };
     let loads = pair.system.loads().clone();
     let state = pair.system.state();
-    // Towards the other rod, which is pulled the opposite way.
     let borne = pair.linkers[0].force(state);
     let tips = [0, 1].map(|filament| moved(&pair, filament));
     println!("linker: {borne:?} pN; tips {:?} nm", tips.map(|t| t.x));
-    // The ends stay level to 1e-4 of their distance, so that the spring pulls along x to this
-    // accuracy.
+    // The ends stay level to 1e-4 of their distance.
     for (tip, bears) in tips.iter().zip([force - borne.x, borne.x]) {
         assert!((tip - alone(bears)).norm() < 1e-3);
     }
     let compliance = alone(0.5 * force).norm() / (0.5 * force);
     let share = force / (2.0 + 1.0 / (k * compliance));
-    // Compliances fall with the square of the deflection, 7 nm of 160.
+    // Compliances decrease with the square of the deflection, 7 nm of 160.
     assert!((borne.x / share - 1.0).abs() < 1e-4);
     let half = 0.5 * force;
     let deflection = half * LENGTH.powi(3) / (3.0 * BEND) + half * LENGTH / SHEAR;
     assert!((tips[1].x / -deflection - 1.0).abs() < 0.01);
     let [one, other] = [0, 1].map(|i| pair.clamps[i].reaction(state, &loads).force_pn);
     let whole = Vector3::x() * -force;
-    // Residuals of 1e-10 pN on some 60 bodies.
+    // Residuals of 1e-10 pN on about 60 bodies.
     assert!((other - borne).norm() < 1e-8 && (one + other + whole).norm() < 1e-8);
 }
 
-/// Pushed towards the other, the loaded rod rotates the spring to a minimum below the balance in
-/// line, which is a saddle. With a limit on such rotations 5000 steps did not suffice.
+/// The loaded rod is pushed towards the other and rotates the spring, since the balance in line is
+/// a saddle.
 #[test]
 fn a_spring_that_is_pushed_together_swings_round() {
     let load = "EndForce(end: End, force_pn: (0.4, 0.0, 0.0))";
@@ -102,7 +99,6 @@ fn a_spring_that_is_pushed_together_swings_round() {
     assert!(tips[0].x - tips[1].x > 19.0);
 }
 
-/// Monomers and rods joined by two linkers, one with a rest length, under an oblique load.
 fn tied(task: &str) -> String {
     format!(
         "Scene(
@@ -197,7 +193,6 @@ fn one_by_one(assembly: &Assembly) -> BodyOrder {
     order
 }
 
-/// The order of elimination changes only the work: four rods cross-linked every 40 nm.
 #[test]
 fn the_order_of_elimination_changes_the_fill_only() {
     let assembly = bundle();
@@ -224,14 +219,13 @@ fn the_order_of_elimination_changes_the_fill_only() {
         "entries: {} one by one, {} along, {} least",
         ordered.1, along.1, least.1
     );
-    // Measured: 11469, 8634 and 6222.
+    // Measured: 11469, 8634 and 6222 entries.
     assert!(3 * least.1 < 2 * ordered.1 && 4 * least.1 < 3 * along.1);
     for other in [&ordered, &along] {
         let apart = apart(&least.0, &other.0);
         println!("{apart:.1e} nm apart, eigenvalue {:.6e}", other.2);
-        // Residuals of 1e-10 pN at compliances of up to 10 nm/pN; 3e-12 as measured.
+        // Residuals of 1e-10 pN at compliances of up to 10 nm/pN; 3e-12 (measured).
         assert!(apart < 1e-9);
-        // Each to the 1e-9 at which the iteration ends.
         assert!((other.2 / least.2 - 1.0).abs() < 1e-6);
     }
 }

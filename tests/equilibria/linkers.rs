@@ -5,7 +5,6 @@ use super::common::{MIXED, solved};
 use actin_mechanics::{Vector3, rotation};
 use actin_sim::{Assembly, BodyKind};
 
-/// Rod of 19 segments of 9.5 nm, clamped at both ends, with an off-axis linker in the middle.
 const PULLED_ROUND: &str = "Scene(
     filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 180.5, segments: 19)], rod: RodModel(law: Constant)),
     clamps: [
@@ -37,14 +36,12 @@ fn a_linker_turns_the_middle_of_a_clamped_rod() {
         .to_degrees();
     let force = assembly.linkers[0].force(state).norm();
     println!("pulled round: {elastic:.4} pN nm, {turn:.4} deg, {force:.4} pN");
-    // All digits of the prototype.
     assert!((elastic - 27.96).abs() < 0.005);
     assert!((turn - 5.285).abs() < 0.0005);
     assert!((force - 15.65).abs() < 0.005);
 }
 
-/// Reflection at the middle plane exchanges the halves and reverses the twist, in which the
-/// constant rigidities are even.
+/// Reflection at the middle plane exchanges the halves and reverses the twist.
 #[test]
 fn the_halves_of_the_clamped_rod_are_mirror_images() {
     let (assembly, _) = solved(PULLED_ROUND);
@@ -59,7 +56,7 @@ fn the_halves_of_the_clamped_rod_are_mirror_images() {
     };
     let worst = apart(shear).max(apart(bending));
     println!("halves differ by {worst:.1e} pN nm");
-    // A residual of 1e-7 pN moves an element of 1 pN nm by that times some nanometres.
+    // A residual of 1e-7 pN changes an element of 1 pN nm by its product with a few nanometres.
     assert!(worst < 1e-8);
 }
 
@@ -97,12 +94,12 @@ fn clamp_and_linkers_balance() {
         torque += arm.cross(&linker.force(state));
     }
     println!(
-        "left over: {:.1e} pN, {:.1e} pN nm",
+        "unbalanced: {:.1e} pN, {:.1e} pN nm",
         force.norm(),
         torque.norm()
     );
     assert!(reaction.force_pn.norm() > 1.0);
-    // Some 40 residuals of 1e-9, at up to 40 nm.
+    // About 40 residuals of 1e-9, at up to 40 nm.
     assert!(force.norm() < 4e-8 && torque.norm() < 2e-6);
 }
 
@@ -111,7 +108,7 @@ fn dynamics_comes_to_rest_where_newton_ends() {
     assert_dynamics_ends_with_newton(mixed);
 }
 
-/// The site of a filament held by a linker only lies on the line from the anchor along the force.
+/// The site of a filament held only by a linker lies on the line from the anchor along the force.
 #[test]
 fn a_filament_hangs_on_its_linker() {
     let (assembly, _) = solved(
@@ -129,7 +126,7 @@ fn a_filament_hangs_on_its_linker() {
     let linker = &assembly.linkers[0];
     assert!((linker.force(state) + Vector3::x() * 3.0).norm() < 1e-6);
     let expected = Vector3::new(2.5, 0.0, 3.0);
-    // The line rotates by the residual of 1e-7 pN over 3 pN.
+    // The line rotates by the ratio of the residual of 1e-7 pN to 3 pN.
     assert!((linker.site().position(state) - expected).norm() < 1e-6);
     let tip = assembly
         .points

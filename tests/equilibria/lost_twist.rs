@@ -64,7 +64,7 @@ fn tilted_ends_lose_nothing_unseen() {
 }
 
 /// An end pushed past the other has lost no turn. With overlapping extensions the sum is
-/// inconclusive and the summary gives a warning.
+/// inconclusive and gives a warning.
 #[test]
 fn ends_that_pass_each_other_lose_nothing() {
     for (segments, aside, is_known) in [(20, 0.0, false), (40, 0.0, false), (20, 5.0, true)] {
@@ -97,7 +97,7 @@ const HELIX: &str = "Helix(radius_nm: 5.0, pitch_nm: 60.0)";
 const CURVE: &str = "Points(
     nm: [(0.0, 0.0, 0.0), (20.0, 10.0, 30.0), (10.0, 30.0, 70.0), (0.0, 0.0, 120.0)])";
 
-/// For bent filaments the rotation of the ends is relative to the filament as built. Unmoved ends
+/// The rotation of the ends of bent filaments is relative to the filament as built. Unmoved ends
 /// give no warning, unless their extensions cross.
 #[test]
 fn bent_filaments_that_stay_lose_nothing() {
@@ -108,7 +108,7 @@ fn bent_filaments_that_stay_lose_nothing() {
         for sections in [ROD, MIXED] {
             let filament = format!("sections: [{sections}], shape: {shape}");
             let doubts = unknown(&driven(&filament, "", still));
-            // The outermost monomer lies beyond its clamped point, where the half circle points
+            // The outermost monomer extends beyond its clamped point, where the half circle points
             // inward.
             let crosses = shape == crossing || (shape, sections) == (HALF, MIXED);
             assert_eq!(doubts, usize::from(crosses), "{shape} {sections}");
@@ -117,7 +117,7 @@ fn bent_filaments_that_stay_lose_nothing() {
 }
 
 /// A rotation that segments follow is no loss; a slip through three segments is reported. An arc of
-/// 80 degrees is turned about the tangents of its end and its start.
+/// 80 degrees is turned about the tangents of its ends.
 #[test]
 fn bent_filaments_lose_nothing_unseen() {
     let arc = "Arc(radius_nm: 57.29577951308232)";
@@ -150,7 +150,7 @@ fn bent_filaments_lose_nothing_unseen() {
 }
 
 /// A quarter of a circle is turned about the tangent of its end. Too large a turn for ten segments
-/// is refused, as for a straight filament.
+/// is refused.
 #[test]
 fn turns_count_about_the_tangent() {
     let turned = |degrees: f64| {

@@ -1,6 +1,6 @@
-//! Equilibria by Newton's method against differences of the loads, damped dynamics, closed
-//! solutions of rods, and extreme loads. `docs/measured/statics.md` quotes the numbers that these
-//! tests print (`-- --nocapture`).
+//! Equilibria by Newton's method, compared with differences of the loads, damped dynamics and
+//! closed solutions of rods. `docs/measured/statics.md` quotes the numbers that these tests print
+//! (`-- --nocapture`).
 
 mod agreement;
 mod anchors;

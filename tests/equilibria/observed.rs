@@ -25,7 +25,6 @@ fn observed(load: &str, observe: &str) -> BTreeMap<String, f64> {
         )"
     );
     let (assembly, trajectory, outcome) = ran(&text);
-    // One row per record of the path.
     let columns = trajectory.records[0].observed.len();
     assert!(trajectory.records.len() > 2 && columns > 0);
     let lengths = trajectory.records.iter().map(|r| r.observed.len());
@@ -36,7 +35,6 @@ fn observed(load: &str, observe: &str) -> BTreeMap<String, f64> {
     all.map(|(name, one)| (name, one.last.unwrap())).collect()
 }
 
-/// A couple bends a cantilever into an arc of curvature `M/B` up to the tip.
 #[test]
 fn a_couple_bends_into_an_arc() {
     let found = observed(
@@ -54,7 +52,8 @@ fn a_couple_bends_into_an_arc() {
     }
     assert!(found["twist[0]_at_80nm_rad_per_nm"].abs() < 1e-10);
     assert!((found["reaction[0]_start_torque_y_pn_nm"] + 90.0).abs() < 1e-5);
-    // The chord of an arc, `2 sin(kappa L / 2) / kappa`; 32 segments miss `(kappa h)^2 / 24` of it.
+    // The chord of an arc is `2 sin(kappa L / 2) / kappa`; 32 segments have a relative error of
+    // `(kappa h)^2 / 24`.
     let chord = 2.0 / curvature * (0.5 * curvature * L).sin();
     assert!((found["end_to_end[0]_nm"] / chord - 1.0).abs() < 2e-5);
 }

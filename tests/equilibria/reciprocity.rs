@@ -5,7 +5,6 @@ use super::common::{newton, solved};
 use actin_mechanics::{Loads, State, Vector3, rotation};
 use actin_sim::Assembly;
 
-/// Filament clamped at both ends, with its far end at a turn (deg) and an axial shift (nm).
 struct Held {
     assembly: Assembly,
     state: State,
@@ -80,8 +79,6 @@ const MIXED: &str = "Rod(from_nm: 0.0, to_nm: 20.0), Ellipsoids(from_nm: 20.0, t
     Rod(from_nm: 55.0, to_nm: 75.0)";
 const MONOMERS: &str = "Ellipsoids(from_nm: 0.0, to_nm: 75.0)";
 
-/// A nonconservative load would give different derivatives; with the printed extension one of them
-/// is zero.
 #[test]
 fn couple_against_shift_is_force_against_turn() {
     for (sections, law) in [
@@ -103,14 +100,15 @@ fn couple_against_shift_is_force_against_turn() {
                  {of_shift:.6} and {of_turn:.6} pN, relative difference {difference:.1e}"
             );
             assert!(of_turn.abs() > 10.0, "no coupling: {of_turn}");
-            // Residuals of 1e-9 over steps of 2e-3 give 1e-6 pN of 50; truncation is less.
+            // Residuals of 1e-9 over steps of 2e-3 give 1e-6 pN of 50; the truncation error is
+            // smaller.
             assert!(difference.abs() < 1e-7, "{difference:e}");
         }
     }
 }
 
-/// A pulled rod is straight and stable under every law. With the tension along d3 instead of the
-/// segment, a rod with cubic shear would buckle to a zigzag under the smallest tension.
+/// A rod under tension is straight and stable with every law. Tension along d3 would buckle a rod
+/// with cubic shear.
 #[test]
 fn tension_holds_a_rod_straight() {
     for (law, pull) in [("CouplingEnergy", 3.4e4), ("Fitted", 3.3544e4)] {
@@ -119,7 +117,6 @@ fn tension_holds_a_rod_straight() {
             let (force, _) = held.beside(0.0, 0.0);
             let expected = pull * shift_nm / 75.0;
             println!("{law}, {shift_nm} nm: {force:.6} pN for {expected:.6}");
-            // The residual of 1e-9 pN.
             assert!((force - expected).abs() < 1e-8, "{law}");
             let positions = held.state.points.position.iter();
             let farthest = positions.map(|x| x.xy().norm()).fold(0.0, f64::max);

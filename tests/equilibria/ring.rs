@@ -43,7 +43,7 @@ fn ring(n: usize, twist: f64) -> (State, Vec<Box<dyn Interaction>>) {
             offsets: [none, seen],
         });
     }
-    // Removes the rigid motions except the rotation about the centre line.
+    // Removes rigid motions except the rotation about the centre line.
     state.points.hold(0);
     state.frames.hold(0);
     let material = material([1e6; 3], [1.0, 1.0, 1.0 / RATIO]);
@@ -61,8 +61,8 @@ fn a_twisted_ring_leaves_its_plane() {
             let mut newton = Newton::new(Layout::free(&state), to(1e-9)).unwrap();
             let flat: f64 = terms.iter().map(|term| term.energy(&state)).sum();
             let found = newton.solve(&mut state, &terms).unwrap();
-            // Round-off leads out of the plane where that lowers the energy, to a figure of eight
-            // with a third of the energy.
+            // Round-off leads out of the plane to a figure of eight, which has a third of the
+            // energy.
             found.is_saddle() || found.energy < 0.8 * flat
         };
         bisect(is_unstable, [0.9 * exact, 1.1 * exact], PRECISION)

@@ -3,8 +3,7 @@
 use super::common::{build, cantilever, failure, run, run_anyway};
 use actin_sim::{End, Failure, Scene, Status};
 
-/// Beyond its critical load of 3.76 pN, `leave_saddles: 0` keeps the straight column and reports
-/// the saddle.
+/// Beyond its critical load of 3.76 pN, `leave_saddles: 0` keeps the straight column on the saddle.
 #[test]
 fn a_column_that_is_kept_straight_is_a_saddle() {
     let column = |task: &str| run_anyway(&mut build(&cantilever(8, [0.0, 0.0, -6.0], task)));
@@ -13,7 +12,7 @@ fn a_column_that_is_kept_straight_is_a_saddle() {
         panic!("no saddle");
     };
     assert!(report.status == Status::Failed && report.saddles_left == 0);
-    // Both planes.
+    // Both bending planes.
     assert_eq!(report.certificate().unwrap().negative, 2);
     assert_eq!(trajectory.records.len(), 1);
     assert_eq!(

@@ -1,7 +1,7 @@
 //! The stiffness of whole assemblies is the derivative of their loads.
 //!
-//! With unknowns `u`, `K v = -d f(u + t v)/dt`, and for a frame plus half the cross product of its
-//! torque with its rotation, since `f` is expressed in rotating axes.
+//! With unknowns `u`, `K v = -d f(u + t v)/dt`. For a frame, half the cross product of its torque
+//! with its rotation is added, since `f` is expressed in rotating axes.
 
 use super::common::{build, newton};
 use actin_mechanics::testing::derivative;

@@ -41,7 +41,6 @@ fn apart(
     (0..count).map(distance).fold(0.0, f64::max)
 }
 
-/// Unlinked filaments reach their separate equilibria, and their energies add up.
 #[test]
 fn unlinked_filaments_are_each_alone() {
     let task = format!("task: {TIGHT}");
@@ -72,7 +71,7 @@ fn unlinked_filaments_are_each_alone() {
     let shown = distances.map(|d| format!("{d:.1e}")).join(" ");
     println!("unlinked: {shown} nm, {excess:.1e} pN nm");
     assert!(report.equilibrium.unwrap().certificate.negative == 0);
-    // Round-off of Newton's last step, 1e-12 as measured; energies are second order in it.
+    // Round-off of Newton's last step, 1e-12 (measured); energies are second order in it.
     assert!(distances.iter().all(|d| *d < 1e-10));
     assert!(excess.abs() < 1e-10);
     let tips = [0, 1].map(|f| both.tip_of(f, both.system.state(), End::End));
@@ -83,8 +82,6 @@ fn unlinked_filaments_are_each_alone() {
     }
 }
 
-/// The second of two equal filaments has different bonds; the first has the bonds of a single
-/// filament.
 #[test]
 fn filaments_alike_are_sampled_independently() {
     let bonds = |assembly: &Assembly, section| {
@@ -140,8 +137,6 @@ fn solve(scene: &Scene) -> Assembly {
     assembly
 }
 
-/// A rigid motion of the scene moves the equilibrium. Sites, clamps, slides or azimuths in lab axes
-/// would show.
 #[test]
 fn equilibria_are_invariant_under_rigid_motion() {
     let mut noise = Xorshift::new(4);
@@ -171,7 +166,7 @@ fn equilibria_are_invariant_under_rigid_motion() {
         let distance = apart((&here, 0), (&there, 0), here.points.len(), back);
         let excess = energy(&there) - energy(&here);
         println!("moved: {distance:.1e} nm, {excess:.1e} pN nm");
-        // Round-off of positions of 50 nm, 4e-14 as measured, and Newton's last step.
+        // Round-off of positions of 50 nm, 4e-14 (measured), and Newton's last step.
         assert!(distance < 1e-9 && excess.abs() < 1e-9);
         let tips = [0, 1].map(|f| here.tip_of(f, &here.rest, End::End));
         let ends = [0, 1].map(|f| here.tip_of(f, here.system.state(), End::End));
@@ -208,7 +203,6 @@ fn a_path_moves_the_end_of_the_filament_that_it_names() {
 
     let mut built = scene.clone();
     let rotated = rotation::exp(turn);
-    // The clamped point, at arc length 0, is only shifted.
     move_filament(
         &mut built.further[0],
         rotated,

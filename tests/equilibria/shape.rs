@@ -31,8 +31,6 @@ fn buckled(sections: &str, turn: f64) -> String {
     )
 }
 
-/// Twist, writhe and largest distance at the end. Their sum is compared with the link at every
-/// equilibrium.
 fn measured(what: &str, text: &str) -> [f64; 3] {
     let (assembly, trajectory, _) = ran(text);
     let mut worst: f64 = 0.0;
@@ -56,7 +54,6 @@ fn rod(segments: usize) -> String {
     format!("Rod(from_nm: 0.0, to_nm: 300.0, segments: {segments})")
 }
 
-/// Twist and writhe each converge with second order.
 #[test]
 fn twist_and_writhe_of_a_buckled_rod_make_its_link() {
     for turn in [270.0, -270.0] {

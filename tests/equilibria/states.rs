@@ -25,8 +25,6 @@ fn found(outcome: &Outcome) -> &StableStates {
         .unwrap()
 }
 
-/// All states are minima within the tolerance, sorted by energy; the result is one of them and
-/// independent of the search.
 #[test]
 fn stable_states_are_stable() {
     let (assembly, outcome) = solved(&buckled(12));
@@ -80,8 +78,8 @@ fn a_run_directory_holds_other_states() {
     std::fs::remove_dir_all(&folder).unwrap();
 }
 
-/// A rod with unequal bending rigidities buckles to either side at equal energy. States connected
-/// by zero-stiffness modes count as one.
+/// A rod with unequal bending rigidities buckles to both sides at equal energy. States connected by
+/// zero-stiffness modes count as one.
 #[test]
 fn states_along_neutral_modes_count_once() {
     let count = |ends: &str, law: &str| {

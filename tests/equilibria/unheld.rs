@@ -1,5 +1,5 @@
-//! Unconstrained filaments under balanced forces: they rotate until the couple vanishes, and the
-//! certificate counts the remaining rigid motions.
+//! Unconstrained filaments under balanced forces rotate until the couple vanishes. The certificate
+//! counts the remaining rigid motions.
 
 use super::common::solved;
 use actin_equilibrium::Stability;
@@ -8,7 +8,6 @@ use actin_sim::{Assembly, End};
 
 const TIGHT: &str = "task: Equilibrium(force_pn: 1e-9, torque_pn_nm: 1e-8)";
 
-/// Free filament with `force` (pN) on its end and the opposite on its start.
 fn pulled_apart(sections: &str, [x, y, z]: [f64; 3]) -> (Assembly, Vector3, Stability) {
     let text = format!(
         "Scene(
@@ -66,7 +65,7 @@ fn other_filaments_end_without_a_couple() {
         let (_, span, stability) = pulled_apart(sections, force);
         let couple = span.cross(&Vector3::from(force)).norm();
         println!("{couple:e} pN nm, {stability:?}");
-        // Some dozen bodies, each with the tolerance in torque and in force at 60 nm.
+        // A few dozen bodies, each with the tolerance in torque and in force at 60 nm.
         assert!(couple < 1e-5);
         assert!(span.dot(&Vector3::from(force)) > 0.0);
         assert!(

@@ -5,8 +5,8 @@ use actin_sim::{Assembly, End, Plan, Record, Scene};
 
 const LOWER: f64 = 0.6;
 
-/// Largest error with each upper threshold of curvature (1/nm). Undamped waves of the tip are late where rods bend, so the
-/// error grows with the threshold; a rod alone, 0.18, bounds it. Bounds are rounded up by a third of the value.
+/// Largest error for each upper threshold of curvature (1/nm). The error grows with the threshold,
+/// up to 0.18 for a rod alone. Bounds exceed measured values by a third.
 const BOUNDS: [(f64, f64); 3] = [(0.008, 0.09), (0.002, 0.06), (1e-4, 0.025)];
 
 fn scene(sections: &str) -> Scene {
@@ -33,7 +33,6 @@ fn tips<'a>(runs: impl Iterator<Item = (&'a Assembly, &'a [Record])>) -> Vec<(f6
     all.collect()
 }
 
-/// Relative root-mean-square difference at the times of the reference.
 fn error(found: &[(f64, [f64; 3])], reference: &[(f64, [f64; 3])]) -> f64 {
     let (mut difference, mut size) = (0.0, 0.0);
     for (time, tip) in reference {
@@ -53,7 +52,6 @@ fn unchanged(sections: &str) -> Vec<(f64, [f64; 3])> {
     tips([(&assembly, trajectory.records.as_slice())].into_iter())
 }
 
-/// Undamped, 10 pN across the tip of 150 nm over 20 ns, with one reversal of the tip.
 #[test]
 fn followed_motion_approaches_monomers_as_thresholds_fall() {
     let monomers = unchanged("[Ellipsoids(from_nm: 0.0, to_nm: 150.0)]");

@@ -84,8 +84,6 @@ fn mean_square_angle<'a>(records: impl Iterator<Item = Seen<'a>>) -> f64 {
     sum / count
 }
 
-/// A filament with switching cells has the strains and shape of filaments without switches. New
-/// bodies that do not settle would be 11 % too warm, with half of the energy changes positive.
 #[test]
 fn a_thousand_switches_leave_temperature_and_shape() {
     let scene = thermal(0.1001);
@@ -110,25 +108,23 @@ fn a_thousand_switches_leave_temperature_and_shape() {
         switches.len()
     );
     // 160 strains in 2000 records, 1000 at switches: 0.3 and 0.4 %; loops at junctions and long
-    // steps may add 1 %.
+    // steps add up to 1 %.
     assert!((all - 1.0).abs() < 0.02, "{all}");
     assert!((first - 1.0).abs() < 0.02, "{first}");
     assert!((last - 1.0).abs() < 0.02, "{last}");
     // Resampled strains give energy changes of either sign: 3 % of their sizes.
     assert!(booked.abs() < 0.1 * sizes);
     // 2000 nearly independent shapes: 2.2 %, and 2 % of the two others. Tangents of monomers also
-    // fluctuate at the ends, by a fifth from their persistence length of 11.7 um.
+    // fluctuate at the ends.
     assert!((angle / expected - 1.0).abs() < 0.1);
-    // Overdamped motion has no momentum.
     let momenta = switches.iter().map(|s| s.momentum_change);
     assert!(momenta.fold(0.0, f64::max) < 1e-300);
     let velocities = warm(&run).flat_map(|(_, record)| record.state.points.velocity.iter());
     assert!(velocities.fold(0.0, |most: f64, v| most.max(v.norm())) < 1e-300);
 }
 
-/// Energies of the nonlinear bonds after a switch and before the next.
 #[test]
-fn bonds_have_their_temperature_behind_switches() {
+fn bonds_have_their_temperature_after_switches() {
     let rest = "task: Brownian(duration_ms: 1.6e-5, temperature_k: 298.0, seed: 5, record_every_ns: 0.02),";
     let run = to_and_fro(&scene(72.0, 0.01, rest), 0.2);
     let [first, last] = about_switches(&run).map(warmth);
@@ -159,8 +155,7 @@ fn less_switches(run: &Followed) -> impl Iterator<Item = (f64, &Record)> {
     })
 }
 
-/// The energy minus changes by switches and drag is constant, to a thousandth of the released
-/// energy.
+/// Energy minus changes by switches and drag is constant to a thousandth of the released energy.
 #[test]
 fn without_noise_the_energy_is_balanced() {
     let (_, run) = falling();
@@ -178,8 +173,6 @@ fn without_noise_the_energy_is_balanced() {
     assert!(fall > 10.0 && open < 1e-3 * fall, "{open}");
 }
 
-/// Without noise the energy decreases between switches. The tip lies between the rod and the
-/// monomers, which relax more slowly at zero temperature.
 #[test]
 fn without_noise_energy_decreases_between_switches() {
     let (scene, run) = falling();
@@ -200,7 +193,6 @@ fn without_noise_energy_decreases_between_switches() {
     let monomers = of_monomers(&scene);
     let (trajectory, _) = Plan::new(&monomers).unwrap().run().unwrap();
     let (found, monomers) = (of_last(&run), tip(&monomers, &trajectory.records));
-    // New bodies that did not settle would add more than the cantilever releases.
     assert!(sizes < 0.2 * fall, "{sizes} of {fall}");
     println!(
         "rise {worst:.2e} of {fall:.1} pN nm; tip {found:.3} nm, rod {rod:.3}, monomers {monomers:.3}"
@@ -211,8 +203,7 @@ fn without_noise_energy_decreases_between_switches() {
     assert!(found > rod - margin && found < monomers + margin);
 }
 
-/// A free filament moves with a stream. In a shear flow it rotates by the angle whose tangent is
-/// rate times time, also through switches. Changed friction of cells would delay the ends.
+/// The tangent of its angle in a shear flow is rate times time.
 #[test]
 fn switches_do_not_disturb_motion_in_a_flow() {
     let moved = |flow: &str| {
@@ -241,7 +232,6 @@ fn switches_do_not_disturb_motion_in_a_flow() {
     assert!((tangent / 0.5 - 1.0).abs() < 0.01, "{tangent}");
 }
 
-/// Cells of six short segments need steps a thousand times shorter.
 #[test]
 fn short_segments_of_cells_give_a_note() {
     let note = |segments: usize, step: &str| {

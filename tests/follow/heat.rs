@@ -50,8 +50,6 @@ fn mean_square_angle(run: &Followed, from_ns: f64) -> f64 {
     sum / count
 }
 
-/// New bodies colder than the bath would lose energy at each switch (17 pN nm with another
-/// integrator); new velocities without the momenta would heat.
 #[test]
 fn a_thousand_switches_neither_heat_nor_cool() {
     let run = to_and_fro(&thermal(501.0), 0.5);
@@ -75,6 +73,6 @@ fn a_thousand_switches_neither_heat_nor_cool() {
     assert!((temperature - 1.0).abs() < 0.01);
     assert!(booked.abs() < 0.1 * sizes);
     assert!(momentum < 1e-12);
-    // Some 400 independent shapes: 5 %, and 5 % from the ends.
+    // About 400 independent shapes: 5 %, and 5 % from the ends.
     assert!((angle / expected - 1.0).abs() < 0.2);
 }

@@ -15,7 +15,6 @@ fn thermal() -> Scene {
     scene(108.0, 0.25, rest)
 }
 
-/// Overdamped motion with three steps between switches and a check at each.
 fn overdamped() -> Scene {
     let rest = "task: Brownian(
             duration_ms: 1.6e-3,
@@ -85,7 +84,6 @@ fn run(scene: &Scene, every_ns: f64, every: u32) -> (Vec<(usize, Record)>, u32) 
     }
 }
 
-/// Interruptions at every check, including checks at switches and between them.
 #[test]
 fn an_interrupted_motion_is_the_same_to_the_bit() {
     for (scene, every_ns) in [(thermal(), 0.5), (overdamped(), 120.0)] {

@@ -15,7 +15,6 @@ fn pairs(run: &Followed) -> impl Iterator<Item = (&CompletedStretch, &CompletedS
     run.stretches.iter().zip(&run.stretches[1..])
 }
 
-/// Momentum and angular momentum of all free bodies, including junction frames.
 #[test]
 fn momentum_is_kept_to_round_off() {
     let run = to_and_fro(&swinging(), 0.75);
@@ -72,8 +71,7 @@ fn bodies_outside_switched_cells_are_unchanged() {
     assert_eq!(kept, 6 * (run.stretches.len() - 1));
 }
 
-/// The energy minus work, heat and changes by switches is constant up to the integrator error,
-/// without drag, and with drag and a moving end.
+/// Energy minus work, heat and changes by switches is constant up to the integrator error.
 #[test]
 fn the_energy_is_balanced() {
     let driven = "clamps: [Clamp(end: Start), Clamp(end: End)],
@@ -106,7 +104,6 @@ fn the_energy_is_balanced() {
     }
 }
 
-/// A monomer has the bonds of the filament with every monomer, at any switch.
 #[test]
 fn bonds_do_not_depend_on_when_monomers_are_resolved() {
     let run = to_and_fro(&swinging(), 0.75);

@@ -4,7 +4,6 @@ use super::scene;
 use actin_sim::follow::{Cell, Criterion, FilamentState, Follower, ResolutionRequest};
 use actin_sim::{Assembly, Plan, Scene, Where};
 
-/// Criterion that requests monomers and a rod alternately at every check.
 #[derive(Debug)]
 struct Restless;
 
@@ -54,7 +53,7 @@ fn criteria_read_loads_and_energies_of_cells() {
     for cell in &cells {
         let [from, to] = cell.span_nm.map(|s_nm| 0.5 * (144.0 - s_nm));
         let load = cell.mean_load();
-        // Cross-sections rotate by up to 0.06 within a cell, and deflections shorten the arms by
+        // Cross-sections rotate by up to 0.06 within a cell; deflections shorten the lever arms by
         // less than 1 %.
         assert!((load.force_pn.norm() - 0.5).abs() < 1e-3, "{load:?}");
         let couple = load.couple_pn_nm.norm() / (0.5 * (from + to));
@@ -108,7 +107,7 @@ fn criteria(bend: f64) -> [(Where, [ResolutionRequest; 4]); 5] {
 }
 
 #[test]
-fn without_a_wish_there_are_no_monomers() {
+fn without_requests_there_are_no_monomers() {
     let scene = scene(
         144.0,
         1.0,
@@ -159,7 +158,6 @@ fn check_window(task: &str) {
     assert!(run.stretches.len() >= 3);
     for ran in &run.stretches {
         let assembly = &ran.stretch.assembly;
-        // Up to one further step since the check of the switch.
         let record = &ran.trajectory.records[0];
         let (_, s_nm) = assembly.switched(0, &record.state).unwrap();
         let mut sections = assembly.sections.iter().filter(|s| s.is_ellipsoids());
@@ -173,7 +171,6 @@ fn check_window(task: &str) {
     assert!(first < 6.0);
 }
 
-/// The wall is bitwise unchanged by switches of the adjacent cells of a bent filament.
 #[test]
 fn held_ends_stay_where_they_were_built() {
     let scene = scene(

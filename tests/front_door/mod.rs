@@ -30,17 +30,15 @@ const MEASUREMENTS: [&str; 8] = [
     "weighted_bonds",
 ];
 
-/// Largest number of lines of an example; a user-defined interaction takes 40.
 const MOST_LINES: usize = 60;
 
 fn folder(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(name)
 }
 
-/// Names and sources, without headers, of the examples of a crate that a user would copy.
 fn examples(name: &str) -> Vec<(String, String)> {
     let files = fs::read_dir(folder(name).join("examples")).expect("every library has examples");
-    // An example in a folder is a measurement.
+    // Examples in folders are measurements.
     let paths = files.map(|file| file.expect("it can be read").path());
     let paths = paths.filter(|path| path.is_file());
     let named = paths.map(|path| {
@@ -65,9 +63,12 @@ fn every_example_is_short_and_shown() {
             let lines = program.lines().count();
             assert!(lines <= MOST_LINES, "{name}: {example} has {lines} lines");
             let shown = readme.contains(&format!("```rust\n{program}\n```"));
-            assert!(shown, "{name}: its README does not show {example} as it is");
+            assert!(shown, "{name}: show the current {example} in the README");
             let command = format!("cargo run -p {name} --example {example}`");
-            assert!(readme.contains(&command), "{name}: how to run {example}?");
+            assert!(
+                readme.contains(&command),
+                "{name}: add the command of {example} to the README"
+            );
         }
     }
 }
@@ -85,7 +86,7 @@ fn every_library_can_be_used_alone() {
         let alone = examples(name).iter().any(|(_, program)| is_alone(program));
         assert!(
             alone,
-            "{name} has no example that needs no other crate of ours"
+            "{name}: add an example that uses no other crate of the workspace"
         );
     }
 }

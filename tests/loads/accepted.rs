@@ -34,7 +34,7 @@ fn valid_loads_are_accepted() {
     let balanced = [couple(20.0, -1.0), couple(50.0, 1.0)].concat();
     let stop = "Dynamics(duration_ns: 10.0, stop: (force_pn: 1e-4, torque_pn_nm: 1e-4, kinetic_pn_nm: 1e-8))";
     for (clamps, loads, task) in [
-        // Motion accepts loads without a potential, loads that change in time and small loads.
+        // Motion accepts loads without a potential, time-dependent loads and small loads.
         (wall, follower, motion),
         (wall, &sine, motion),
         (wall, small, motion),
@@ -44,7 +44,7 @@ fn valid_loads_are_accepted() {
         (&slide, bend, statics),
         (&pins, &couple(50.0, 0.0), statics),
         (&pins, &balanced, statics),
-        // Loads that have settled before the motion may come to rest.
+        // Loads that settle before the motion comes to rest.
         (wall, &ramp, stop),
         (wall, &ramp, "Dynamics(duration_ns: 10.0, leave_saddles: 2)"),
     ] {

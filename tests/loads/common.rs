@@ -9,8 +9,7 @@ use actin_sim::{Assembly, Trajectory};
 pub(crate) const LENGTH: f64 = 160.0;
 pub(crate) const BEND: f64 = 3.9e4;
 pub(crate) const TWIST: f64 = 1.3e4;
-/// Equal shear and stretch rigidity (pN), for which frames are those of an inextensible,
-/// unshearable rod (see `tests/equilibria/common.rs`).
+/// Equal shear and stretch rigidity (pN), as explained in `tests/equilibria/common.rs`.
 pub(crate) const SHEAR: f64 = 1e6;
 /// Mass per length (ag/nm) of the default monomers.
 pub(crate) const DENSITY: f64 = 0.0697 / (71.2 / 26.0);
@@ -67,7 +66,6 @@ pub(crate) fn deflection_under_uniform_force(alpha: f64, steps: usize) -> f64 {
         }
         y
     };
-    // The curvature at the tip grows with the curvature at the wall, at most alpha/2.
     let curvature = bisect(
         |curvature| shot(curvature)[1] > 0.0,
         [0.0, 0.5 * alpha],

@@ -22,7 +22,7 @@ fn critical(segments: usize, start: &str, bounds: [f64; 2]) -> f64 {
         Err(RunError::Failed(failed)) if matches!(failed.failure, Failure::Saddle(_)) => true,
         Err(error) => panic!("{force}: {error}"),
     };
-    // Far below the smallest mesh error, 1e-4.
+    // Much smaller than the smallest discretisation error, 1e-4.
     bisect(is_unstable, bounds, 1e-7)
 }
 
@@ -59,8 +59,8 @@ fn a_hinged_column_buckles() {
     assert!(limit.abs() < 1e-4, "{limit:e}");
 }
 
-/// On a hinge, the compliance of the spring adds to the compliance of the rod; the reaction is the
-/// spring's torque.
+/// The compliance of the hinge adds to the compliance of the rod; the reaction is the spring's
+/// torque.
 #[test]
 fn compliances_of_hinge_and_rod_add() {
     let (force, couple, bend, twist) = (1e-3, 30.0, 400.0, 120.0);
@@ -158,7 +158,7 @@ fn a_steady_stage_moves_at_constant_velocity() {
         let share = (t / 4.0).min(1.0);
         let place = Vector3::new(0.4 * share, 0.0, 100.0 - 2.0 * share);
         let off = (record.state.points.position.get(end) - place).norm();
-        // Time is a sum of some hundred steps.
+        // Time is a sum of a few hundred steps.
         assert!(off < 1e-11, "{t}: {off:e}");
         let velocity = Vector3::new(0.1, 0.0, -0.5);
         let expected = if t < 3.9 { velocity } else { Vector3::zeros() };
@@ -167,8 +167,8 @@ fn a_steady_stage_moves_at_constant_velocity() {
     }
 }
 
-/// A path that turns a hinge past half a turn loses a turn. The rod takes `k / (k + C / L)` of the
-/// turn, here 0.596, and the hinge the rest: 180 deg at 446 deg.
+/// A path that turns a hinge past half a turn loses a turn. The rod takes `k / (k + C / L)` = 0.596
+/// of the turn, and the hinge reaches 180 deg at 446 deg.
 #[test]
 fn a_hinge_past_half_a_turn_is_a_lost_turn() {
     let lost = |turn: f64| {
@@ -207,8 +207,6 @@ fn a_hinge_past_half_a_turn_is_a_lost_turn() {
     }
 }
 
-/// A linker holds the tip while the start is turned over; statics detects the slip between
-/// equilibria.
 #[test]
 fn a_hinge_bent_past_half_a_turn_is_reported() {
     let turned = |degrees: f64| {
@@ -232,12 +230,11 @@ fn a_hinge_bent_past_half_a_turn_is_reported() {
         panic!("{}", failed.failure);
     };
     println!("{place}{slip}");
-    // Bent, not twisted; equilibria are a few degrees apart.
+    // Bent without twist; equilibria are a few degrees apart.
     let [angle, twist] = slip.turned_deg;
     assert!(angle > 150.0 && angle < 180.0 && twist.abs() < 1.0);
 }
 
-/// Loads in the middle of a motion of an arc under a force, with a sliding end.
 fn sliding(sections: &str, slides: &str) -> (Assembly, State, Loads) {
     let (assembly, trajectory) = run(&format!(
         "Scene(
@@ -266,14 +263,13 @@ fn reactions_vanish_along_sliding_directions() {
             "Freely" => felt,
             _ => tangent * tangent.dot(&felt),
         };
-        // The axial loads are nonzero, because the end moves.
         assert!(free.norm() > 1e-3, "{slides}: {}", free.norm());
         let left = clamp.reaction(&state, &loads).force_pn + felt - free;
         assert!(left.norm() < 1e-12 * felt.norm(), "{slides}");
     }
 }
 
-/// The torque of two freely sliding monomers is about their centre, where the accelerating loads
+/// The torque of two freely sliding monomers refers to their centre, where the accelerating loads
 /// have no moment.
 #[test]
 fn freely_sliding_ends_have_no_moment_of_acceleration() {

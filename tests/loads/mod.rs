@@ -1,5 +1,5 @@
 //! Loads, ends and sections of scenes against theory. Tolerances were set before the results;
-//! orders and limits are printed with `--nocapture`.
+//! `--nocapture` prints orders and limits.
 
 mod accepted;
 mod common;

@@ -22,7 +22,6 @@ fn receptance(omega: f64, drag: f64) -> Complex<f64> {
     (s * ch - c * sh) / (b.powu(3) * (c * ch + 1.0)) * (LENGTH.powi(3) / BEND)
 }
 
-/// The static receptance is `L^3 / 3B`.
 #[test]
 fn the_receptance_agrees_with_statics() {
     let slow = receptance(1e-3, 0.0);
@@ -43,7 +42,6 @@ fn harmonic(tips: &[(f64, f64)], omega: f64, periods: f64) -> Complex<f64> {
         sum += Complex::new(0.0, -omega * t).exp() * *x;
         count += 1.0;
     }
-    // x = Im(A exp(i omega t)) has the mean A / 2i.
     sum * Complex::new(0.0, 2.0) / count
 }
 
@@ -55,7 +53,7 @@ fn a_sine_drives_a_cantilever_as_beam_theory_says() {
     for share in [0.5, 1.0, 1.8] {
         let omega = share * first;
         let period = TAU / omega;
-        // Transients decay by exp(-drag t / 2): to 1e-6 in 185 ns.
+        // Transients decay by exp(-drag t / 2), to 1e-6 in 185 ns.
         let periods = (190.0 / period).ceil() + 2.0;
         let exact = receptance(omega, drag) * force;
         let answers = [8, 16, 32].map(|segments| {
@@ -73,8 +71,7 @@ fn a_sine_drives_a_cantilever_as_beam_theory_says() {
             harmonic(&tips(&assembly, &trajectory), omega, 2.0)
         });
         let what = format!("sine at {share} of the resonance");
-        // Shear and rotary inertia, absent from beam theory, would hide the order of the finest
-        // mesh. Differences of meshes exclude them.
+        // Differences of meshes exclude shear and rotary inertia, which beam theory neglects.
         let order = ((answers[0] - answers[1]).norm() / (answers[1] - answers[2]).norm()).log2();
         let limit = (answers[2] * 4.0 - answers[1]) / 3.0 / exact - 1.0;
         println!("{what}: order {order:.3}, extrapolated {limit:.1e}");
@@ -86,7 +83,6 @@ fn a_sine_drives_a_cantilever_as_beam_theory_says() {
     }
 }
 
-/// A force constant over each step would reduce the order to one.
 #[test]
 fn a_sine_keeps_the_order_of_the_method() {
     let state = |steps: u32| {
@@ -133,7 +129,6 @@ fn the_stop_rule_waits_for_changing_loads() {
         tip / exact - 1.0
     );
     assert!(end > 40.0 && end < 600.0, "{end}");
-    // The filament rests before the table begins.
     assert!(
         all.iter()
             .filter(|(t, _)| *t <= 20.0)
@@ -143,8 +138,6 @@ fn the_stop_rule_waits_for_changing_loads() {
     assert!((tip / exact - 1.0).abs() < 5e-3, "{tip}");
 }
 
-/// Undamped motion in space conserves the energy of rod, dead forces, couples about fixed axes and
-/// weight.
 #[test]
 fn loads_with_a_potential_conserve_energy() {
     let loads = "Force(at_nm: 90.0, force_pn: (2.0, 0.0, 0.0)),
@@ -170,12 +163,12 @@ fn loads_with_a_potential_conserve_energy() {
         .fold(0.0, f64::max);
     println!("energy: {worst:.1e} off, {kinetic:.0} pN nm at most in motion");
     assert!(kinetic > 50.0, "{kinetic}");
-    // PEFRL at a quarter of its limit: far below a thousandth of the exchanged energy.
+    // PEFRL at a quarter of its limit.
     assert!(worst < 1e-4 * kinetic, "{worst} of {kinetic}");
 }
 
 /// Growth of the deflection of a cantilever under a following axial force, from the first to the
-/// last third of the motion.
+/// last third.
 fn growth(load: f64) -> f64 {
     let force = -load * BEND / LENGTH.powi(2);
     let loads = format!(
@@ -191,13 +184,13 @@ fn growth(load: f64) -> f64 {
     largest(&all[2 * third..]) / largest(&all[..third])
 }
 
-/// Beck's column: a cantilever under a following tip force flutters from `P = 20.05 B / L^2`. A
-/// dead force would buckle it at `pi^2/4`. Sixteen segments have an error of about a percent.
+/// Beck's column: a cantilever under a following tip force flutters from `P = 20.05 B / L^2`.
+/// Sixteen segments have an error of about a percent.
 ///
 /// # Source
 /// M. Beck, Z. angew. Math. Phys. 3 (1952) 225.
 #[test]
-fn a_follower_makes_a_column_flutter() {
+fn a_column_under_a_following_force_flutters() {
     let [below, above] = [18.0, 22.0].map(growth);
     println!("Beck's column: growth {below:.2} below, {above:.2} above the critical load");
     assert!(below < 2.0, "{below}");

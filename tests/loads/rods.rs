@@ -30,8 +30,8 @@ const ONE: &str = "Rod(from_nm: 0.0, to_nm: 160.0, segments: 16)";
 const TWO: &str = "Rod(from_nm: 0.0, to_nm: 70.0, segments: 7),
     Rod(from_nm: 70.0, to_nm: 160.0, segments: 9, altered: ())";
 
-/// A rod cut into equal sections bends as one. With curvature-dependent strains each half segment
-/// uses the curvature on its side, which changes the tip far less than finer segments do.
+/// Cutting a rod into equal sections does not change its bending. Each half segment uses the
+/// curvature on its side, with an effect much smaller than mesh refinement.
 #[test]
 fn cuts_change_nothing() {
     for law in ["Constant", "PublishedExtension", "Fitted", "Homogenised"] {
@@ -58,8 +58,7 @@ fn cuts_change_nothing() {
     }
 }
 
-/// The cross-section between two rods takes its inertia from its neighbours, so that the largest
-/// frequency rises by at most the root of 4/3.
+/// The largest frequency rises by at most the root of 4/3.
 #[test]
 fn a_cut_keeps_the_time_step() {
     let frequency = |sections: &str| {
@@ -85,7 +84,7 @@ fn cofilin(refined: usize) -> Assembly {
 }
 
 /// Stepped beam: deflection `F (int (L - s)^2/B ds + L/S)` with order two, twist `M int ds/C`
-/// exactly. A joint with the rigidity of one neighbour would have order one.
+/// exactly.
 #[test]
 fn a_softened_stretch_is_a_stepped_beam() {
     let [from, to] = STRETCH;
@@ -99,14 +98,13 @@ fn a_softened_stretch_is_a_stepped_beam() {
         *tip = assembly.tip_nm(state, End::End).x;
         let last = assembly.sections[2].frames.end - 1;
         let turn = rotation::log(state.frames.orientation.get(last)).z;
-        // The last segment's frame lies at its middle.
         let s = assembly.frames[last].s_nm;
         let twisted = 0.5 * (s - (to - from) + (to - from) / SOFTER[1]) / TWIST;
         println!("{} segments: twist {:.1e}", 16 << k, turn / twisted - 1.0);
         assert!((turn / twisted - 1.0).abs() < 1e-6, "{turn} {twisted}");
     }
     let limit = second_order_limit("softened stretch", tips, exact, 0.02);
-    // Slopes of 0.01 make the beam nonlinear by their square.
+    // Slopes of 0.01: the nonlinearity is their square.
     assert!(limit.abs() < 1e-4, "{limit:e}");
 }
 
@@ -136,24 +134,21 @@ fn every_section_is_the_gradient_of_its_energy() {
 
 #[test]
 fn the_shape_at_rest_is_unloaded() {
-    // Without the published length, which strains a filament at rest.
     let sections = MANY.replace("law: PublishedExtension, ", "");
     let text = text(&sections, "Fitted", "").replace("rod:", "shape: AtRest, rod:");
     let mut assembly = build(&text);
     let loads = assembly.system.loads().clone();
     let residual = loads.residual(&assembly.rest);
-    // Round-off of strains of 1e-15 at rigidities of 1e4 and couples over 10 nm.
+    // Round-off: strains of 1e-15 times rigidities of 1e4, and couples over 10 nm.
     assert!(
         residual.force < 1e-8 && residual.torque < 1e-7,
         "{residual:?}"
     );
     assert_eq!(assembly.beyond_range(&assembly.rest), []);
-    // The rest shape is curved.
     let tip = assembly.tip_nm(&assembly.rest, End::End);
     assert!(tip.xy().norm() > 10.0, "{tip}");
 }
 
-/// Ranges belong to the section's law and are relative to its rest shape.
 #[test]
 fn sections_leave_the_data_of_their_own_laws() {
     let sections = "Rod(from_nm: 0.0, to_nm: 40.0),

@@ -5,7 +5,6 @@ use crate::common::refusal;
 use actin_mechanics::{Vector3, Xorshift, perturb, rotation};
 use actin_sim::{Assembly, End};
 
-/// Length of filaments with an altered middle, and of uniform specimens (nm).
 const LENGTH: f64 = 210.0;
 const SPECIMEN: f64 = 120.0;
 
@@ -37,8 +36,8 @@ fn middle(change: &str) -> String {
     )
 }
 
-/// Rotation between the monomers at two arc lengths over their distance (rad/nm, lab frame).
-/// Averages over half a turn of the helix on either side remove the alternation of monomers.
+/// Rotation between the monomers at two arc lengths over their distance (rad/nm, lab frame),
+/// averaged over half a turn of the helix on both sides.
 fn turn_between(assembly: &Assembly, places: [f64; 2]) -> Vector3 {
     let [from, to] = places.map(|s_nm| {
         let frames = assembly.frames.iter().enumerate();
@@ -70,7 +69,7 @@ fn cuts_change_nothing() {
         terms.iter().map(|term| term.energy(&state)).sum::<f64>()
     };
     let (a, b) = (energy(&one), energy(&three));
-    // Sums of some thousand terms.
+    // Sums of about a thousand terms.
     assert!((a / b - 1.0).abs() < 1e-12, "{a} {b}");
     let elements: usize = three
         .system
@@ -81,7 +80,6 @@ fn cuts_change_nothing() {
     assert_eq!(elements, one.system.interactions()[0].elements());
 }
 
-/// One factor for all rigidities and the load leaves the shape unchanged.
 #[test]
 fn one_factor_is_one_of_every_rigidity() {
     let tip = |sections: &str, force: f64| {
@@ -95,8 +93,8 @@ fn one_factor_is_one_of_every_rigidity() {
     assert!((full - soft).norm() < 1e-4, "{full} {soft}");
 }
 
-/// Filament between a wall and an end turned by an angle (deg), transversely (axis 1) and moving
-/// freely, or about its axis (2) and sliding along it; with the required couple (pN nm).
+/// Filament between a wall and an end turned by an angle (deg). Axis 1: transverse, sliding freely;
+/// axis 2: about the filament, sliding along it. Also returns the couple.
 fn turned(sections: &str, axis: usize, angle: f64) -> (Assembly, f64) {
     let mut turn = [0.0; 3];
     turn[axis] = angle;
@@ -123,14 +121,13 @@ fn softer(change: &str, axis: usize, angle: f64) -> f64 {
     couple("") / couple(change)
 }
 
-/// Rigidity factors for a stretch decorated by cofilin, where bending is 5 and twist 10 times
-/// softer. One factor changes both equally. Softer lateral bonds reduce twist more than bending,
-/// especially large twist and under-twist: at 0.01 rad/nm the mean of both senses is 10 at 5.
+/// Rigidity factors for a section decorated by cofilin: bending is 5 and twist 10 times softer.
+/// Softer lateral bonds reduce twist more than bending, especially large twist and under-twist: at
+/// 0.01 rad/nm the mean of both senses is 10 at 5.
 #[test]
 fn bending_and_twist_soften_differently() {
     for (axis, angle) in [(1, 20.0), (2, 40.0)] {
         let one = softer(&altered(0.2, 0.2), axis, angle);
-        // The same shape under a fifth of the loads.
         assert!((one - 5.0).abs() < 1e-5, "{one:?}");
     }
     let cofilin = altered(0.03, 0.23);
@@ -147,8 +144,8 @@ fn bending_and_twist_soften_differently() {
     assert!((0.5 * (over + under) - 10.0).abs() < 1.0, "{over} {under}");
 }
 
-/// The soft middle deforms as a uniformly soft filament under the same couple, and the rest as an
-/// unaltered one. The boundary layer is a few monomers long.
+/// The soft middle deforms as a uniformly soft filament under the same couple, except for boundary
+/// layers of a few monomers.
 #[test]
 fn a_softened_middle_deforms_as_a_uniform_filament() {
     let soft = altered(0.2, 0.2);
@@ -187,8 +184,6 @@ fn masses_are_multiplied() {
     assert!((ratio - 1.5).abs() < 1e-14, "{ratio}");
 }
 
-/// A load that balances the weight of altered monomers has an equilibrium; one that ignores their
-/// mass has not.
 #[test]
 fn weight_counts_the_mass_of_sections() {
     let density = 0.0697 / (71.2 / 26.0);

@@ -53,7 +53,7 @@ fn every_model_follows_the_arc() {
         for (i, point) in assembly.points.iter().enumerate() {
             let (place, _) = on_arc(&assembly, point.s_nm);
             let found = assembly.centre_line_nm(&assembly.rest, i);
-            // The frame of a monomer is at its arc length: its centre projects to the axis.
+            // A monomer's frame is at its arc length: its centre projects to the axis.
             assert!(
                 (found - place).norm() < miss,
                 "{sections} {point:?}: {found} {place}"
@@ -73,7 +73,6 @@ fn every_model_follows_the_arc() {
         let (sin, cos) = 30.0_f64.to_radians().sin_cos();
         let site = place + frame * Vector3::new(1.8 * cos, 1.8 * sin, 0.0);
         let found = assembly.linkers[0].site().position(&assembly.rest);
-        // A site on a segment has the frame of its middle, within 2.4 nm.
         let tilt = if sections == MONOMERS {
             1e-12
         } else {

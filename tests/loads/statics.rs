@@ -14,7 +14,6 @@ fn solved(segments: usize, loads: &str) -> Assembly {
     run(&cantilever(segments, SHEAR, loads, TASK)).0
 }
 
-/// Rod with a twisting rigidity twice its bending rigidity, under a couple applied along a path.
 fn stiff_in_twist(segments: usize, loads: &str) -> Assembly {
     let rest = "path: [Stage(set: [LoadFactor(load: 0, factor: 1.0)])], task: Equilibrium(),";
     run(&twisting(segments, (SHEAR, 2.0 * BEND), loads, rest)).0
@@ -41,7 +40,6 @@ fn wall_torque(assembly: &mut Assembly) -> Vector3 {
         .torque_pn_nm
 }
 
-/// The work of a couple accumulates over two and a half turns of its end.
 #[test]
 fn a_couple_turns_an_end_more_than_once() {
     let (size, twist) = (300.0, 3e3);
@@ -53,7 +51,6 @@ fn a_couple_turns_an_end_more_than_once() {
         .filter(|(term, _)| term.name == "load")
         .map(|(_, e)| e)
         .sum();
-    // The end rotates by 16 rad.
     let expected = -size * size * LENGTH / twist;
     assert!((work / expected - 1.0).abs() < 1e-9, "{work} {expected}");
 }
@@ -98,7 +95,7 @@ fn a_couple_per_length_twists() {
             "CouplePerLength(from_nm: {from:?}, to_nm: {to:?}, couple_pn_nm_per_nm: (0.0, 0.0, {size:?}))"
         );
         let assembly = solved(16, &load);
-        // The last frame lies at its middle; the half segment beyond adds t h^2 / 8C.
+        // The last frame is at its middle; the half segment after it adds t h^2 / 8C.
         let beyond = if to < LENGTH {
             0.0
         } else {
@@ -114,9 +111,8 @@ fn a_couple_per_length_twists() {
     }
 }
 
-/// A transverse couple bends the rod into an arc, here up to 0.9 of half a circle. Beyond half a
-/// circle the rod leaves the plane. The chord converges with order two, and the angle is exact on
-/// any mesh.
+/// A transverse couple bends the rod into an arc, here up to 0.9 of half a circle, beyond which it
+/// leaves the plane. The chord converges with order two, and the angle is exact on any mesh.
 #[test]
 fn a_couple_bends_into_an_arc() {
     for angle in [0.5 * PI, 0.9 * PI] {
@@ -137,9 +133,9 @@ fn a_couple_bends_into_an_arc() {
     }
 }
 
-/// A couple about any other axis bends the rod into a helix about the internal moment `m`, which is
-/// uniform: the tangent rotates about `m` at `|m|/B` per length. The moment is the load's torque `M
-/// (e + Re) / (1 + e . Re)`.
+/// A couple about any other axis bends the rod into a helix about the uniform internal moment `m`:
+/// the tangent rotates about `m` at `|m|/B` per length. The moment is the torque of the load, `M (e
+/// + Re) / (1 + e . Re)`.
 #[test]
 fn a_couple_bends_into_a_helix() {
     let couple = Vector3::new(300.0, 0.0, 260.0);
@@ -158,7 +154,6 @@ fn a_couple_bends_into_a_helix() {
             "{borne} {expected}"
         );
         assert!((borne.dot(&axis) - couple.norm()).abs() < 1e-6 * couple.norm());
-        // The moment deviates from the couple fixed in the lab.
         assert!(borne.cross(&axis).norm() > 0.1 * couple.norm(), "{borne}");
         // Integral of exp(m s / B) e3.
         let (rate, about) = (borne.norm() / BEND, borne.normalize());
@@ -235,9 +230,8 @@ fn a_force_per_length_acts_on_its_interval() {
     }
 }
 
-/// The reaction of the wall balances force and torque of every load, for every resolution.
 #[test]
-fn walls_bear_every_load_in_every_model() {
+fn reactions_balance_every_load_in_every_model() {
     let loads = "Force(end: End, force_pn: (0.5, 0.0, 0.3)),
         Force(at_nm: 21.3, force_pn: (0.0, 0.4, 0.0)),
         Couple(end: End, couple_pn_nm: (0.0, 3.0, 5.0)),
@@ -267,7 +261,7 @@ fn walls_bear_every_load_in_every_model() {
             .sum();
         let expected = Vector3::new(0.5 + 0.05 * (mass + held), 0.4 + 0.28, 0.3);
         let off = (reaction.force_pn + expected).norm();
-        // Some thirty bodies of 1e-7 pN each.
+        // About thirty bodies of 1e-7 pN each.
         assert!(off < 1e-5, "{sections}: {}", reaction.force_pn);
         // The energy of the loads decreases by their work.
         let energies = assembly.system.energies();
@@ -313,8 +307,8 @@ fn energy(assembly: &Assembly) -> f64 {
     assembly.system.potential_energy()
 }
 
-/// A couple `M` rotates its end by `M L / B` and stores `M^2 L / 2 B`, on any mesh, at either end.
-/// The tolerance covers residuals of 1e-10 for couples of 5 pN nm, and rounding.
+/// A couple `M` rotates its end by `M L / B` and stores `M^2 L / 2 B` on any mesh. The tolerance
+/// covers residuals of 1e-10 for couples of 5 pN nm, and rounding.
 #[test]
 fn a_couple_acts_at_the_end_of_a_rod() {
     for end in [End::Start, End::End] {
@@ -335,8 +329,8 @@ fn a_couple_acts_at_the_end_of_a_rod() {
 }
 
 /// The work of an end couple is independent of the mesh, except for the wall corrections of
-/// `Homogenised`. A missing half segment would change it by `1 / 4n` from `n` to `2n` segments; the
-/// tolerance there is a tenth of that.
+/// `Homogenised`. The tolerance there is a tenth of the error without the end's half segment, `1 /
+/// 4n` from `n` to `2n` segments.
 #[test]
 fn the_work_of_an_end_couple_is_independent_of_the_mesh() {
     for (law, bound) in [
@@ -376,8 +370,7 @@ fn an_end_couple_after_monomers_twists_half_a_segment() {
     assert!((turn / expected - 1.0).abs() < 1e-9, "{turn} {expected}");
 }
 
-/// Without the half segment at the end the order would be one. The tolerance is a tenth of an order
-/// on 8 to 32 segments.
+/// Tolerance: a tenth of an order on 8 to 32 segments.
 #[test]
 fn a_force_and_a_couple_at_an_end_converge_with_order_two() {
     let loads = "EndForce(end: End, force_pn: (0.1, 0.0, 0.0)),

@@ -36,8 +36,6 @@ const MONOMERS_THEN_ROD: &str =
 const ROD_THEN_MONOMERS: &str =
     "Rod(from_nm: 0.0, to_nm: 30.0), Ellipsoids(from_nm: 30.0, to_nm: 60.0)";
 
-/// Force and torque about the clamped point balance up to the residuals of the free bodies, for
-/// both models and ends.
 #[test]
 fn the_reaction_balances_the_load() {
     for (sections, clamped, loaded) in [
@@ -82,8 +80,7 @@ fn rows(text: &str) -> Vec<BTreeMap<String, f64>> {
         .collect()
 }
 
-/// Terms and parts have the same sum in every row. At rest the energy of a dead load is minus the
-/// force times the displacement.
+/// The energy of a dead load at rest is minus the force times the displacement.
 #[test]
 fn the_columns_of_the_energies_add_up() {
     let settled = settled(MONOMERS_THEN_ROD, "Start", "End");

@@ -48,8 +48,6 @@ fn ends(noise: &mut Xorshift, count: usize) -> Vec<f64> {
         .collect()
 }
 
-/// Boundaries lie half a rise beyond a monomer, nearest to the requested place; ends of rods are
-/// exact.
 #[test]
 fn sections_meet_half_a_rise_beyond_a_monomer() {
     let mut noise = Xorshift::new(11);
@@ -82,8 +80,6 @@ fn sections_meet_half_a_rise_beyond_a_monomer() {
     }
 }
 
-/// Checks that nodes are equally spaced between the ends, and that monomers lie half a rise inside,
-/// or on a clamped end.
 fn check_bodies(assembly: &Assembly, i: usize, what: &str) {
     let section = &assembly.sections[i];
     let s: Vec<f64> = assembly.points[section.points.clone()]
@@ -128,10 +124,8 @@ fn overhang(assembly: &Assembly, i: usize, end: End) -> f64 {
     } else if i != outermost {
         -0.5 * RISE
     } else if clamped {
-        // The outer held monomer lies outside the length.
         RISE
     } else {
-        // The tip is midway between the last two.
         0.5 * RISE
     }
 }
@@ -188,8 +182,6 @@ fn bond_energy(assembly: &Assembly, i: usize, moved: &Range<i64>) -> f64 {
         .sum()
 }
 
-/// Growing a section at either end or adding another leaves existing monomers bitwise in place,
-/// with the same bonds.
 #[test]
 fn resolving_more_does_not_move_a_monomer() {
     let mut noise = Xorshift::new(23);
@@ -215,7 +207,6 @@ fn resolving_more_does_not_move_a_monomer() {
                 );
             }
             let same = bond_energy(&other, section, &inner);
-            // The same bonds, summed in the same order apart from zeros.
             assert!((same / energy - 1.0).abs() < 1e-12, "{same} for {energy}");
         }
     }

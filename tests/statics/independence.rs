@@ -27,7 +27,7 @@ fn settled(way: Way) -> Settled {
         translational_per_ns,
         rotational_per_ns,
     } = way;
-    // Motion that the residual could reverse: a force of TOLERANCE over a stiffness of 1 pN/nm.
+    // Motion that the residual could reverse: TOLERANCE over a stiffness of 1 pN/nm.
     let kinetic = TOLERANCE * TOLERANCE;
     settle(&format!(
         "Scene(
@@ -56,7 +56,6 @@ fn settled(way: Way) -> Settled {
     ))
 }
 
-/// Drag inside sub-steps with negative coefficients, or a wrong kick, would move the equilibrium.
 #[test]
 fn every_way_leads_to_the_same_equilibrium() {
     let usual = settled(USUAL);
@@ -82,10 +81,9 @@ fn every_way_leads_to_the_same_equilibrium() {
         let apart = (settled.tip_displacement_nm(End::End) - place).norm();
         let energies_apart = (settled.last().potential_pn_nm() - energy).abs();
         println!("{way:?}: {apart:.1e} nm, {energies_apart:.1e} pN nm");
-        // Residual over the smallest tip stiffness, 0.1 pN/nm, where floppy modes are stiffened by
-        // the load.
+        // Residual over the smallest tip stiffness, 0.1 pN/nm.
         assert!(apart < 10.0 * TOLERANCE, "{way:?}: {apart:e} nm");
-        // Second order in the distance from the equilibrium: only round-off of cancelling terms.
+        // Second order in the distance from the equilibrium: only round-off.
         assert!(energies_apart < 1e-11, "{way:?}: {energies_apart:e} pN nm");
     }
 }

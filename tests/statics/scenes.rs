@@ -42,18 +42,16 @@ fn good_scenes_read_build_and_have_a_stable_step() {
     for path in all {
         let (assembly, estimate) = check(&fs::read_to_string(&path).unwrap())
             .unwrap_or_else(|error| panic!("{}:{error}", path.display()));
-        // An equilibrium has no time step.
         if let Some(estimate) = estimate {
             assert!(estimate.time_step_ns <= estimate.stability_limit_ns);
         }
-        // The resolved scene, with all defaults, is an equivalent scene.
         let again = Scene::from_ron(&assembly.scene.to_ron()).unwrap();
         assert_eq!(again, assembly.scene, "{}", path.display());
     }
 }
 
 /// Each bad scene starts with its message: position, key, value and rule. Positions count the
-/// comment line. Text after dots depends on the machine.
+/// comment line; text after dots depends on the machine.
 #[test]
 fn bad_scenes_give_their_messages() {
     let folder = scenarios().join("bad");

@@ -48,8 +48,8 @@ fn apart(a: [f64; 3], b: [f64; 3]) -> f64 {
     squares.sum::<f64>().sqrt()
 }
 
-/// Errors of vectors include the direction: for this tip displacement rods have the correct size within 1 %, but an error
-/// of a quarter.
+/// Errors of vectors include the direction: the tip displacement of rods has the correct size
+/// within 1 %, but an error of a quarter.
 #[test]
 fn errors_of_the_table_match_independent_runs() {
     let found = traded(CANTILEVER, |options| {
@@ -77,7 +77,6 @@ fn errors_of_the_table_match_independent_runs() {
     assert!(best <= 0.05, "{best}");
 }
 
-/// The length of 98.585 nm is rounded to whole monomers: rods have the rounded length of the reference.
 #[test]
 fn rods_are_as_long_as_the_monomers() {
     let found = traded(CANTILEVER, |options| options.load_shares.clear());
@@ -95,8 +94,8 @@ fn rods_are_as_long_as_the_monomers() {
     }
 }
 
-/// Position Verlet at 0.9 of the stability limit agrees with half of the default step within 0.1 %. Hence the best
-/// candidate either resolves every monomer or has a larger error than this.
+/// Position Verlet at 0.9 of the stability limit agrees with half of the default step within 0.1 %.
+/// The best candidate resolves every monomer or has a larger error.
 #[test]
 fn candidates_of_motions_include_longer_steps() {
     let found = traded(SWINGING, |_| {});
@@ -134,7 +133,8 @@ fn candidates_of_motions_include_longer_steps() {
     assert_eq!(one.to_bits(), other.to_bits());
 }
 
-/// A straight filament under compression buckles in an undetermined direction: axial and transverse parts are compared.
+/// A straight filament under compression buckles in an undetermined direction: axial and transverse
+/// parts are compared.
 #[test]
 fn undetermined_directions_are_left_out() {
     let found = traded(PUSHED, |options| {
@@ -162,8 +162,8 @@ fn chosen(sections: &str, scene: &str) -> Assembly {
     Assembly::build(&Scene::from_ron(&scene).unwrap()).unwrap()
 }
 
-/// An equilibrium without a limit of monomers resolves every monomer. With a limit too small for the wanted errors the
-/// resolution with the smallest error is chosen, with a warning.
+/// Without a limit of monomers every monomer is resolved. With too small a limit the resolution
+/// with the smallest error is chosen, with a warning.
 #[test]
 fn sections_of_an_equilibrium_are_every_monomer_or_the_nearest() {
     let still = SWINGING.replace(
@@ -188,7 +188,6 @@ fn sections_of_an_equilibrium_are_every_monomer_or_the_nearest() {
     );
 }
 
-/// The chosen sections of a motion meet the wanted error in an independent run. The choice is reproducible.
 #[test]
 fn sections_of_a_motion_meet_the_wanted_error() {
     let adaptive = "Adaptive(length_nm: 108.0, want: Tip(error: 0.05))";
@@ -216,7 +215,6 @@ fn sections_of_a_motion_meet_the_wanted_error() {
     assert!(((apart / size).sqrt() - found.errors[0]).abs() < 1e-9);
 }
 
-/// `error_of` agrees with the difference between independent runs of the scene and of every monomer.
 #[test]
 fn error_of_is_the_difference_from_every_monomer() {
     let still = SWINGING.replace(
@@ -240,7 +238,6 @@ fn error_of_is_the_difference_from_every_monomer() {
     assert!(none.relative < 1e-9 && scatter.deviation > 0.0);
 }
 
-/// 10 um of monomers exceed the budget: the reference is a rod, or the error names the budget.
 #[test]
 fn a_budget_is_kept() {
     let scene = CANTILEVER
@@ -260,8 +257,8 @@ fn a_budget_is_kept() {
     }
 }
 
-/// In heat, means over seeds are compared with their standard errors. The fluctuations of a rod agree with the fluctuations
-/// of its monomers within the bound; half of these fluctuations would not.
+/// Means over seeds are compared with their standard errors; rods fluctuate as their monomers
+/// within the bound.
 #[test]
 fn means_over_seeds_are_compared_in_heat() {
     let hot = "Scene(

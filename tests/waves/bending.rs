@@ -39,7 +39,6 @@ impl Mode {
         [shape, slope]
     }
 
-    /// Frequency (rad/ns) in a slender rod.
     fn slender(&self) -> f64 {
         (self.beta_l / LENGTH).powi(2) * (BEND / DENSITY).sqrt()
     }
@@ -94,8 +93,7 @@ const AREA: f64 = 38.5;
 const SHEAR: f64 = 1.6e4;
 
 /// To first order, rotary inertia and shear reduce the frequency by `(A / 4 pi + B / S) / 2` times
-/// the mean squared slope over the mean squared displacement. A wrong tip mass would change it by a
-/// tenth, a wrong inertia by a percent.
+/// the mean squared slope over the mean squared displacement.
 #[test]
 fn the_first_flexural_frequency_agrees_with_the_beam() {
     let mode = &MODES[0];
@@ -104,7 +102,6 @@ fn the_first_flexural_frequency_agrees_with_the_beam() {
     let radii = 0.5 * (AREA / (4.0 * PI) + BEND / SHEAR);
     let theory = slender * (1.0 - radii * mode.slopes / (LENGTH * LENGTH));
     let values = [8, 16, 32].map(|segments| mode.measured(segments, "CrossSection", SHEAR));
-    // Against the slender beam, on segments of 10 nm.
     assert!((values[1] / slender - 1.0).abs() < 0.01, "{values:?}");
     let limit = second_order_limit("first flexural frequency", values, theory, 0.05);
     // Second-order terms of the thickness and fourth-order terms of the mesh, each about 1e-6.

@@ -5,7 +5,6 @@ use actin_mechanics::{State, Vector3, rotation};
 use actin_sim::Assembly;
 use std::f64::consts::PI;
 
-/// Motion of the cross-section at one arc length.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Motion {
     /// Displacement of the axis (nm).

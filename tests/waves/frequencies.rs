@@ -1,8 +1,8 @@
 //! Longitudinal and torsional vibrations of a clamped rod.
 //!
-//! Both are waves on a lattice of spacing `h`. Their modes equal those of the continuous rod at the
-//! nodes (stretch) and at the middles of the segments (twist). The frequencies are exactly `2 c/h
-//! sin(k h/2)` with `k = (2m - 1) pi / 2L`.
+//! Both are waves on a lattice of spacing `h`. Their modes equal the modes of the continuous rod at
+//! the nodes (stretch) and at the middles of the segments (twist). The frequencies are `2 c/h sin(k
+//! h/2)` with `k = (2m - 1) pi / 2L`.
 
 use super::field::{Motion, build, frequency_of, set};
 use actin_mechanics::Vector3;
@@ -94,8 +94,6 @@ fn measured(wave: Wave, segments: usize, m: usize) -> f64 {
     frequency_of(&amplitudes)
 }
 
-/// A wrong mass or polar moment would change the frequency by tens of percent, a wall at a whole
-/// segment's distance by percents.
 #[test]
 fn stretching_and_twisting_frequencies_agree_with_the_lattice() {
     println!("wave, segments, mode: rad/ns, of the lattice, of the continuous rod");

@@ -1,9 +1,9 @@
 //! Reflection of pulses at a junction between rod and monomers.
 //!
-//! Measured is the share of the energy in the rod after the reflection. Weakly twisted or bent
-//! monomers are softer than the rod that represents them, so part of the reflection is not due to
-//! the junction. An axial pulse also twists them. A rod throughout gives the share due to the mesh
-//! and the initial pulse.
+//! The measured value is the share of the energy in the rod after the reflection. Weakly twisted or
+//! bent monomers are softer than the rod, and an axial pulse also twists them, so part of the
+//! reflection is not due to the junction. A rod throughout gives the share due to the mesh and the
+//! initial pulse.
 
 use super::field::{Motion, build, set};
 use crate::common::run;
@@ -18,7 +18,7 @@ const POLAR: f64 = DENSITY * 38.5 / TAU;
 const STRETCH: f64 = 3.4e4;
 const BEND: f64 = 3.9e4;
 const TWIST: f64 = 1.3e4;
-/// Distance, in widths of the pulse, beyond which it is negligible.
+/// Distance, in widths of the pulse, at which it is negligible.
 const REACH: f64 = 7.0;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -119,7 +119,6 @@ enum Beyond {
     Rod,
 }
 
-/// Filament with a rod long enough for the pulse, and an equal length beyond.
 fn filament(pulse: Pulse, segment: f64, beyond: Beyond) -> (Assembly, f64) {
     let enough = 2.0 * REACH * pulse.width;
     let count = (1_usize..1000)
@@ -151,7 +150,6 @@ fn filament(pulse: Pulse, segment: f64, beyond: Beyond) -> (Assembly, f64) {
     (build(&scene), half)
 }
 
-/// Share of the energy in the first half of the filament at the end.
 fn reflected(pulse: Pulse, segment: f64, beyond: Beyond) -> f64 {
     let (mut assembly, half) = filament(pulse, segment, beyond);
     let middle = half - REACH * pulse.width;
@@ -224,14 +222,14 @@ fn shares(kind: Kind, width: f64, segment: f64) -> Shares {
     shares
 }
 
-/// A rod throughout reflects almost nothing; bending waves some percent, since the initial wave
+/// A rod throughout reflects almost nothing; bending waves a few percent, since the initial wave
 /// ignores shear and rotary inertia.
 ///
-/// Axial pulses pass monomers with some percent reflected. A twist of 1e-5 rad/nm is mostly
-/// reflected, because monomers have almost no secant twisting rigidity there. It reaches the rod's
-/// within 0.03 rad/nm, and stronger twist passes better.
+/// Axial pulses pass monomers with a few percent reflected. A twist of 1e-5 rad/nm is mostly
+/// reflected, because monomers have almost no secant twisting rigidity there. It reaches the
+/// rigidity of the rod within 0.03 rad/nm.
 #[test]
-fn pulses_pass_the_junction_as_monomers_resist_them() {
+fn reflection_follows_the_rigidity_of_monomers() {
     println!("pulse, width nm, segment nm: share reflected by rod, shared, full");
     for (width, segment) in [(20.0, 5.0), (40.0, 10.0)] {
         let axial = shares(Kind::Axial(1e-3), width, segment);
@@ -253,8 +251,8 @@ fn pulses_pass_the_junction_as_monomers_resist_them() {
     assert!(bends[1].shared.0 < bends[0].shared.0);
 }
 
-/// Monomers with blocked rotation have the rod's stretching rigidity. With free rotation they are
-/// twenty times softer at small forces, which explains the reflection of axial pulses.
+/// Monomers with blocked rotation have the stretching rigidity of the rod. With free rotation they
+/// are twenty times softer at small forces, which explains the reflection of axial pulses.
 #[test]
 fn monomers_that_cannot_turn_resist_stretching_as_the_rod() {
     let resistance = |force: f64, end_clamp: &str| {
@@ -276,7 +274,7 @@ fn monomers_that_cannot_turn_resist_stretching_as_the_rod() {
         let kept = resistance(force, ", Clamp(end: End, slides: AlongAxis)");
         let free = resistance(force, "");
         println!("{force} pN: {kept:.3e} pN kept from turning, {free:.3e} pN free to turn");
-        // Two per cent below the rod's: bonds of one sampling.
+        // Two per cent below the rod: bonds of one sampling.
         assert!((kept / STRETCH - 1.0).abs() < 0.05, "{kept}");
         assert!(free < 0.7 * kept, "{free}");
     }

@@ -4,7 +4,6 @@ use super::field::{build, set_spin};
 use actin_mechanics::{State, Vector3, rotation};
 use actin_sim::Assembly;
 
-/// Length (nm), number of segments.
 const LENGTH: f64 = 160.0;
 const SEGMENTS: usize = 16;
 /// Initial spin of the rod about its axis and across it (rad/ns).
@@ -47,7 +46,6 @@ fn moments(state: &State) -> (f64, f64) {
     (along, across)
 }
 
-/// Angular momentum about the resting centre of mass (pN ns nm, lab frame).
 fn angular_momentum(state: &State) -> Vector3 {
     let middle = Vector3::z() * (0.5 * LENGTH);
     let points = (0..state.points.len()).map(|i| {
@@ -60,10 +58,10 @@ fn angular_momentum(state: &State) -> Vector3 {
 }
 
 /// The axis of a free symmetric top precesses about the angular momentum at the rate `|L| /
-/// I_across` at a fixed angle. Centrifugal strain is the square of the tumbling rate over the first
-/// bending frequency, (2e-3 / 1.1)^2 = 3e-6.
+/// I_across` at a fixed angle. The centrifugal strain is (2e-3 / 1.1)^2 = 3e-6, the squared ratio
+/// of the tumbling rate to the first bending frequency.
 #[test]
-fn a_slowly_tumbling_rod_moves_as_a_symmetric_top() {
+fn a_slowly_tumbling_rod_is_a_symmetric_top() {
     let assembly = tumbling(3.0);
     let (along, across) = moments(assembly.system.state());
     let momentum = angular_momentum(assembly.system.state());
@@ -79,7 +77,7 @@ fn a_slowly_tumbling_rod_moves_as_a_symmetric_top() {
         let turned = rotation::exp(pole * (rate * record.at.value())) * Vector3::z();
         worst = worst.max((axis - turned).norm());
         let now = angular_momentum(&record.state);
-        // Round-off of some 1e5 steps.
+        // Round-off of about 1e5 steps.
         assert!((now - momentum).norm() < 1e-11 * momentum.norm());
     }
     println!("tumbling: axis off by at most {worst:.1e} rad in three turns");

@@ -335,8 +335,6 @@ mod tests {
         }
     }
 
-    /// The energy is half the squared angle, with second derivatives 1 along the axis and (t/2)
-    /// cot(t/2) across.
     #[test]
     fn equal_rigidities_have_the_stiffness_of_the_squared_angle() {
         let material = material(Vector3::from_element(10.0));

@@ -45,8 +45,8 @@ pub enum RotaryInertia {
     CrossSection,
     /// Adds `mu l^3 / 12`, the inertia of a rigid segment of length `l` and mass per length `mu`.
     ///
-    /// The highest frequency decreases as `1 / l`, that of bending at wave number `k` by a relative
-    /// `(k l)^2 / 24`. Equilibria and thermal fluctuations do not change.
+    /// The highest frequency decreases as `1 / l`. The bending frequency at wave number `k`
+    /// decreases by a relative `(k l)^2 / 24`. Equilibria and thermal fluctuations do not change.
     RigidSegment,
 }
 
@@ -105,7 +105,7 @@ impl StraightRod {
     /// adjacent segment; free wall frames ([`free_walls`](Self::free_walls)) share it.
     ///
     /// # Errors
-    /// If there are no segments, if a length or an inertia (or its inverse) is not positive and
+    /// If the rod has no segments, if a length or an inertia (or its inverse) is not positive and
     /// finite, or if a position or the orientation is not finite. The state is unchanged on error.
     pub fn push(&self, state: &mut State) -> Result<RodLayout, RodError> {
         let layouts = self.push_in_parts(&[self.segment_lengths.len()], state)?;
@@ -208,7 +208,6 @@ impl StraightRod {
         (0..=lengths.len()).map(node).collect()
     }
 
-    /// Checks the frames of whole segments and of quarter segments, at free walls.
     fn check_frames(&self) -> Result<(), RodError> {
         let is_refused = |&length: &f64| {
             let pieces = [0.25 * length, length];
@@ -320,7 +319,6 @@ mod tests {
         let (a, b) = (inertia(&whole), inertia(&divided));
         assert!((a / b - 1.0).abs() < 1e-14, "{a} {b}");
         let lengths: f64 = parts.iter().flat_map(RodLayout::voronoi_lengths).sum();
-        // The outer half segment at the free end does not bend.
         assert!((lengths - 8.5).abs() < 1e-14);
         for wrong in [&[4, 0][..], &[1, 2], &[]] {
             assert!(rod.push_in_parts(wrong, &mut State::default()).is_err());

@@ -62,7 +62,7 @@ impl RodJoint {
 
 /// Segments between points and joints between frames of one material: term `rod`.
 ///
-/// Elements are the segments, then the joints. The energy is that of
+/// Elements are the segments, then the joints. The energy equals the energy of
 /// [`EnergyGradient`](crate::EnergyGradient), which is faster for straight rods.
 ///
 /// ```
@@ -244,7 +244,6 @@ impl Interaction for RodElements {
 }
 
 impl RodElements {
-    /// Force of each segment and torque of each joint under random stress.
     fn internal(&self, stresses: &[f64]) -> (Vec<InternalForce>, Vec<InternalCouple>) {
         let (vectors, _) = stresses.as_chunks::<3>();
         let (forces, couples) = vectors.split_at(self.segments.len());
@@ -363,7 +362,6 @@ mod tests {
     fn curved_rods_are_the_gradient_of_their_energy() {
         let (mut state, law) = curved();
         let residual = loads_of(&law, &state).residual(&state);
-        // Strain errors of 1e-15 times rigidities of 1e4.
         assert!(
             residual.force < 1e-9 && residual.torque < 1e-9,
             "{residual:?}"

@@ -41,7 +41,7 @@ impl RodLayout {
     /// segment's frame, and rest lengths (nm).
     ///
     /// # Errors
-    /// If there are no segments, or if a length or its inverse is not positive and finite.
+    /// If the rod has no segments, or if a length or its inverse is not positive and finite.
     ///
     /// # Panics
     /// If there is a wall at the start and `first_frame` is 0.

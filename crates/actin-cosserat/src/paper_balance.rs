@@ -25,8 +25,8 @@ use actin_mechanics::{Interaction, Loads, State, UnitQuaternion, Vector3};
 ///
 /// Forces balance exactly. The residual moment is `(xi - 1) |lhat| t x n` per segment with an
 /// extension, and `theta^3 m / 12` per bending element unless `m` is parallel to the angle `theta`.
-/// The energy is that of [`EnergyGradient`](crate::EnergyGradient) at `l / xi`; the loads differ
-/// from its gradient to first order in the strain.
+/// The energy equals the energy of [`EnergyGradient`](crate::EnergyGradient) at `l / xi`; the loads
+/// differ from its gradient to first order in the strain.
 ///
 /// # Source
 /// arXiv 2203.01284, Section 2.2, after Gazzola et al. (2018).
@@ -96,7 +96,7 @@ impl PaperBalance {
         let l = self.scaled_vector(k, state);
         let q = state.frames.orientation.get(frame);
         let inverse_extension = rest_length / l.norm();
-        // Both printed loads are those of the energy divided by e.
+        // Both printed loads are the loads of the energy divided by e.
         let shear = ShearElement::segment(rest_length).loads(&self.material, q, l);
         loads.force.add(i, shear.force * inverse_extension);
         loads.force.add(i + 1, -shear.force * inverse_extension);

@@ -14,7 +14,7 @@
 //! `kappa_1` and `kappa_2` are the mean curvatures of both sides, `kappa` is their mean, `w` is
 //! 1/2, or 1 for a segment with a single side: nine numbers per segment.
 //!
-//! Axial torques on frames are those of twist alone. Only friction resists axial rotations, so
+//! Axial torques on frames are due to twist alone. Only friction resists axial rotations, so that
 //! other torques would rotate frames until the stress increases the existing bending.
 
 use crate::extended::{ExtendedSegments, SegmentJet, SegmentSurroundings};
@@ -27,7 +27,6 @@ use nalgebra::SMatrix;
 use std::ops::Range;
 
 const VECTOR: usize = 3;
-/// Stress components of a segment with extension: `n`, `m_1`, `m_2`.
 const EXTENDED: usize = 9;
 
 /// Transforms deviates to covariance `c`.
@@ -37,8 +36,6 @@ fn drawn(c: Matrix3, deviates: &[f64]) -> Vector3 {
     values.into()
 }
 
-/// Transforms six deviates to `scale` times the second derivatives with respect to strain and
-/// curvature.
 fn drawn_together(jet: &SegmentJet, scale: f64, deviates: &[f64]) -> [Vector3; 2] {
     let mut c = SMatrix::<f64, 6, 6>::zeros();
     c.fixed_view_mut::<3, 3>(0, 0).copy_from(&jet.by_strain);
@@ -109,7 +106,6 @@ impl Parts<'_> {
     }
 }
 
-/// Number of stress components per segment.
 fn stride(rod: &EnergyGradient) -> usize {
     if rod.extended().is_some() {
         EXTENDED
@@ -360,7 +356,6 @@ mod tests {
         }
     }
 
-    /// Twist and stretch only, for which the omitted axial torques vanish.
     #[test]
     fn stress_of_separate_strains_has_the_covariance_of_the_stiffness() {
         let (mut state, layout) = clamped();
@@ -392,8 +387,8 @@ mod tests {
         }
     }
 
-    /// Under tension, for positive shear stiffness. Independent draws of curvature and strain would
-    /// fluctuate 20 % too much.
+    /// Tension makes the shear stiffness positive. Independent samples of curvature and strain
+    /// would have 20 % too large fluctuations.
     #[test]
     fn stress_of_coupled_strains_has_the_covariance_of_the_stiffness() {
         for law in [

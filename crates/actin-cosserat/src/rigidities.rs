@@ -131,7 +131,6 @@ impl RigidityFactors {
 mod tests {
     use super::*;
 
-    /// G = 2000/2.8 = 714.29, A^2 = 1482.25.
     #[test]
     fn preceding_paper_by_hand() {
         let r = Rigidities::preceding_paper();
@@ -143,7 +142,6 @@ mod tests {
             (r.bend.y, 235_907.0),
             (r.bend.z, 168_505.0),
         ] {
-            // Expected numbers have six digits.
             assert!((value - expected).abs() < 1e-5 * expected, "{value}");
         }
     }

@@ -39,11 +39,13 @@ pub fn push_junction_frames(
 /// A frame with bending rigidity `B` over a distance `D` and transverse inertia `i` per length of
 /// the rod has the frequency `sqrt(B / i) / D`: 870 rad/ns half a rise from its monomer, compared
 /// with 470 rad/ns of bonds. An inertia larger by `(l / D)^2` reduces it to `sqrt(B / i) / l`.
-/// Larger `l` increases the time step and the reflection of short waves. Values of 0 (off), 5.5,
-/// 6.1 and 7.5 nm were compared for 80 nm of monomers next to 80 nm of rod in 8 segments. The time
-/// step limit is 0.57, 0.97, 0.98 and 0.99 times that of the rod (`actin check`). The reflection of
-/// axial pulses is 3.1, 4.1, 4.2 and 4.3 % for a width of 20 nm, and 2.5, 2.6, 2.6 and 2.7 % for 40
-/// nm (`cargo test --workspace --test integration waves::pulses -- --nocapture`).
+/// Larger `l` increases the time step and the reflection of short waves.
+///
+/// For 80 nm of monomers next to 80 nm of rod in 8 segments and `l` of 0 (off), 5.5, 6.1 and 7.5
+/// nm: the ratio of the time step limit to the limit of the rod is 0.57, 0.97, 0.98 and 0.99
+/// (`actin check`). The reflection of axial pulses is 3.1, 4.1, 4.2 and 4.3 % for a width of 20 nm,
+/// and 2.5, 2.6, 2.6 and 2.7 % for 40 nm (`cargo test --workspace --test integration waves::pulses
+/// -- --nocapture`).
 const SWING_NM: f64 = 6.1;
 
 fn inertia(cross_section: &CrossSection, distance: f64) -> Inertia {
@@ -75,7 +77,8 @@ mod tests {
     use super::*;
     use actin_mechanics::Vector3;
 
-    /// The axial inertia equals that of a piece of rod; the transverse inertia has a lower limit.
+    /// The axial inertia equals the inertia of a piece of rod; the transverse inertia has a lower
+    /// limit.
     #[test]
     fn frames_have_the_inertia_of_a_piece_of_rod() {
         let section = CrossSection::actin();

@@ -15,7 +15,7 @@ pub enum JunctionError {
     /// The number of attached monomers is not one or two.
     #[error("attached monomers = {0}: must be 1 or 2")]
     AttachedMonomers(usize),
-    /// The number of junction frames differs from that of the attached monomers.
+    /// The numbers of junction frames and of attached monomers differ.
     #[error("{frames} junction frames for {monomers} attached monomers: the numbers must be equal")]
     JunctionFrames {
         /// Number of junction frames.

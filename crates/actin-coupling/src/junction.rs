@@ -7,8 +7,7 @@ use actin_mechanics::{
 };
 use std::ops::Range;
 
-/// Largest angle (rad) between parallel frames: far above rounding errors and far below relevant
-/// strains.
+/// Largest angle (rad) between parallel frames.
 const PARALLEL: f64 = 1e-9;
 
 /// Weight of the bonds of a junction.
@@ -85,7 +84,7 @@ pub struct Junction {
     pub(crate) material: RodMaterial,
     /// Half the rest length of the end segment (nm).
     pub(crate) half_segment: f64,
-    /// Whether the random stress of the rod includes the half segment beyond the last frame.
+    /// `true` if the random stress of the rod includes the half segment beyond the last frame.
     pub(crate) is_covered: bool,
 }
 
@@ -130,7 +129,7 @@ impl Junction {
     }
 
     /// Adapts the [random stress](actin_mechanics::RandomStress) to a rod whose strain depends on
-    /// the curvature, including that of the [joined elements](Self::joined_elements).
+    /// the curvature, with the [joined elements](Self::joined_elements) included.
     #[must_use]
     pub fn beside_extended_rod(self) -> Self {
         Self {
@@ -249,7 +248,6 @@ fn bends_at_rest(
 ) -> ([BendingElement; 2], [RodMaterial; 2]) {
     let distances = [0.5 * axial, 0.5 * (segment + axial)];
     let mut bending = distances.map(|rest_distance| BendingElement { rest_distance });
-    // Only the rod part has a rest curvature.
     let shares = [0.0, 0.5 * segment / distances[1]];
     let mut materials = shares.map(|share| {
         let own = material.with_rest_curvature(material.rest_curvature() * share);

@@ -2,8 +2,8 @@
 //!
 //! A [`Junction`] attaches the one or two monomers next to a rod to its end. Each bond shears,
 //! stretches, bends and twists like a piece of the rod, and has one massive junction frame.
-//! [`push_junction_frames`] adds these frames between those of the two sections. [`Junction::new`]
-//! creates the interaction once all bodies are in the state.
+//! [`push_junction_frames`] adds these frames to the state, between the frames of the two sections.
+//! [`Junction::new`] creates the interaction when all bodies are in the state.
 //!
 //! A [`Linker`] is a spring from a [`Site`] of a filament to an [`Anchor`] or another site. A
 //! [`SwitchedLinker`] can be released and bound at several places. A [`SiteForce`] applies a force

@@ -173,7 +173,6 @@ impl Linker {
         slopes
     }
 
-    /// Adds the loads of a force at the site (pN, lab frame).
     fn add_force(&self, force: Vector3, state: &State, loads: &mut Loads) {
         self.site.add_force(force, state, loads);
         if let LinkerEnd::Site(other) = &self.end {
@@ -195,8 +194,7 @@ impl Linker {
             for &(b, slope_b) in &slopes[k + 1..] {
                 let block = slope_a.transpose() * spring * slope_b;
                 if a == b {
-                    // Both sites follow this body, so the block and its transpose are on the
-                    // diagonal.
+                    // Both sites follow this body: block and transpose are on the diagonal.
                     stiffness.push(a, a, block + block.transpose());
                 } else {
                     stiffness.push(a, b, block);

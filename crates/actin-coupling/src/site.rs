@@ -2,7 +2,7 @@ use crate::{LinkerError, LinkerKey};
 use actin_cosserat::RodLayout;
 use actin_mechanics::{Coordinates, Loads, Matrix3, State, Vector3};
 
-/// Material point of a filament:
+/// Material point of a filament.
 ///
 /// ```text
 /// r = sum_k w_k x_k + Q b

@@ -148,8 +148,7 @@ impl Couple {
     }
 }
 
-/// Twist `psi` of a frame about `axis`. Among the values modulo two turns, the one nearest to
-/// `near`.
+/// Twist `psi` of a frame about `axis`, modulo two turns nearest to `near`.
 fn twist(axis: Vector3, [now, rest]: [UnitQuaternion; 2], near: f64) -> f64 {
     let turn = now * rest.inverse();
     let known = 2.0 * turn.imag().dot(&axis).atan2(turn.w);
@@ -243,8 +242,7 @@ mod tests {
     use crate::testing::{assert_is_gradient, assert_is_stiffness, loads_of};
     use crate::{Frame, Inertia, Xorshift, rotation};
 
-    /// Two frames under a couple of 3.7, with shares of 1/4 and 3/4, rotated by `turn` after its
-    /// creation.
+    /// Two frames under a couple of 3.7 with shares of 1/4 and 3/4, rotated by `turn`.
     fn turned(kind: CoupleKind, turn: Vector3) -> (State, Couple) {
         let mut state = State::default();
         let control = state.add_control(0.8);
@@ -326,7 +324,6 @@ mod tests {
             for i in 0..2 {
                 let turn = rotation::exp(axis.normalize() * angle);
                 let q = turn * start.frames.orientation.get(i);
-                // Continuous in the angle.
                 let sign = if (0.5 * angle).cos() * (turn.w) < 0.0 {
                     -1.0
                 } else {
@@ -345,8 +342,7 @@ mod tests {
         }
     }
 
-    /// Work along a closed path of rotations about two axes: zero for the axial couple, nonzero for
-    /// the follower.
+    /// Work along a closed path of rotations about two axes.
     #[test]
     fn only_follower_couples_do_work_on_a_closed_path() {
         let work = |kind| {
@@ -366,7 +362,6 @@ mod tests {
                     work += turn(&mut state, axis / f64::from(n));
                 }
             }
-            // The last rotation closes the path.
             let back = rotation::log(state.frames.orientation.get(0).inverse() * first);
             for _ in 0..n {
                 work += turn(&mut state, back / f64::from(n));

@@ -31,8 +31,7 @@ impl Ledger {
     }
 }
 
-/// Work (pN nm) of the sum of two loads on free bodies between two states. Torques are in body
-/// axes, which both states share.
+/// Work (pN nm) of the sum of two loads on free bodies between two states.
 pub(crate) fn work_on_free([a, b]: [&Loads; 2], [from, to]: [&State; 2]) -> f64 {
     let force = |i: usize| a.force.get(i) + b.force.get(i);
     let (places, frames) = (&from.points.position, &from.frames.orientation);

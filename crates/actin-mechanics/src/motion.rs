@@ -46,7 +46,7 @@ impl State {
 
     /// Returns the time-dependent part.
     pub fn into_motion(self) -> Motion {
-        // Exhaustive, so that a new field of the state causes a compiler error here.
+        // A new field of the state is a compiler error here.
         let Self {
             points,
             frames,

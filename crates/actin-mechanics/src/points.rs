@@ -196,7 +196,6 @@ impl Points {
 mod tests {
     use super::*;
 
-    /// A negative or NaN mass would be mistaken for a held point.
     #[test]
     fn invalid_masses_are_refused() {
         for mass in [0.0, -1.0, f64::NAN, f64::INFINITY, 1e-310] {

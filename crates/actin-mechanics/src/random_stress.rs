@@ -19,7 +19,7 @@ pub trait RandomStress {
     fn draw(&self, state: &State, thermal_energy: f64, stresses: &mut [f64]);
 
     /// Writes the stresses that cancel the elements' own stresses at `state`. The sum exerts no
-    /// loads, and its second derivatives are those of linear strains.
+    /// loads and has the second derivatives of linear strains.
     fn balance(&self, state: &State, stresses: &mut [f64]);
 
     /// Adds the loads of the stresses, `s . de/dx`.

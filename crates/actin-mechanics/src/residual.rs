@@ -12,12 +12,13 @@ pub struct Residual {
 }
 
 impl Residual {
-    /// Returns `true` if both parts are at most those of `limit`, and `false` if one is NaN.
+    /// Returns `true` if both parts are at most equal to the parts of `limit`, and `false` if one
+    /// is NaN.
     pub fn is_within(&self, limit: &Self) -> bool {
         self.force <= limit.force && self.torque <= limit.torque
     }
 
-    /// Larger of the two parts divided by those of `unit`. A zero part counts as zero.
+    /// Larger of the ratios of both parts to `unit`. A zero part counts as zero.
     pub fn relative_to(&self, unit: &Self) -> f64 {
         let part = |value: f64, unit: f64| if value == 0.0 { 0.0 } else { value / unit };
         part(self.force, unit.force).max(part(self.torque, unit.torque))

@@ -111,8 +111,7 @@ const SLOPE_SERIES: [f64; 14] = [
 /// The relative error is below 1e-13 up to 2 pi - 0.1. The function diverges at 2 pi.
 #[inline]
 pub fn inverse_jacobian_coefficient_slope(phi_squared: f64) -> f64 {
-    // The closed form loses less than three digits above this limit. The series is converged below
-    // it.
+    // Below this limit the series converges; above it the closed form loses less than three digits.
     if phi_squared < 2.25 {
         let horner = |sum: f64, coefficient: &f64| sum * phi_squared + coefficient;
         SLOPE_SERIES.iter().rev().fold(0.0, horner)
@@ -238,7 +237,6 @@ mod tests {
         angles
     }
 
-    /// A logarithm by `acos` fails below 1e-7 rad.
     #[test]
     fn logarithm_inverts_exponential_from_1e_12_to_nearly_pi() {
         for axis in axes() {

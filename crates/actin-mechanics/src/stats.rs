@@ -60,9 +60,8 @@ impl WithSimd for Pass<'_> {
     }
 }
 
-/// Twice the kinetic energy of free points, or NaN if any number of any point is not finite.
-///
-/// Zero times a number that is not finite is NaN, which propagates through the sum.
+/// Twice the kinetic energy of free points, or NaN if any number of any point is not finite: zero
+/// times such a number is NaN.
 #[inline(always)]
 fn points<S: Simd>(simd: S, points: &Points) -> f64 {
     let (x, v) = (&points.position, &points.velocity);
@@ -128,7 +127,6 @@ mod tests {
         if bodies > 1 {
             state.points.hold(1);
             state.frames.hold(1);
-            // Velocities of driven bodies must not contribute.
             state.points.velocity.set(1, Vector3::x() * 50.0);
             state.frames.angular_momentum.set(1, Vector3::x() * 50.0);
         }

@@ -368,8 +368,8 @@ mod tests {
     use crate::testing::{push_frame, push_point};
     use crate::{Slider, UnitQuaternion, Vector3};
 
-    /// Two points of mass 4, the second held. A held pair that slides along z with mass 16. Two
-    /// tops of moments (1, 1, 9), the second held.
+    /// A free and a held point of mass 4, a held pair that slides along z with mass 16, and a free
+    /// and a held top of moments (1, 1, 9).
     fn bodies() -> System {
         let mut state = State::default();
         for mass in [4.0, 4.0, 2.0, 2.0] {

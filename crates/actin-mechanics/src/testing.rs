@@ -48,7 +48,7 @@ pub fn push_point(state: &mut State, position: Vector3, mass: f64) -> usize {
 /// Adds a frame with the given moments of inertia to a state and returns its index.
 ///
 /// # Panics
-/// If the moments are not those of a symmetric top.
+/// If the moments do not belong to a symmetric top.
 pub fn push_frame(state: &mut State, orientation: UnitQuaternion, moments: [f64; 3]) -> usize {
     let inertia = Inertia::from_moments(moments).expect("use the moments of a symmetric top");
     state.frames.push(Frame {

@@ -1,6 +1,5 @@
 //! Mean, scatter and range of samples.
 
-/// Statistics of some values.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Sample {
     pub count: usize,
@@ -46,7 +45,7 @@ pub(crate) fn rms(values: impl IntoIterator<Item = f64>) -> f64 {
     f64::sqrt(sum / count)
 }
 
-/// Largest of some values that are not negative; 0 if there are none.
+/// Largest of non-negative values; 0 without values.
 pub(crate) fn largest(values: impl IntoIterator<Item = f64>) -> f64 {
     values.into_iter().fold(0.0, f64::max)
 }
@@ -55,7 +54,6 @@ pub(crate) fn largest(values: impl IntoIterator<Item = f64>) -> f64 {
 mod tests {
     use super::{rms, sample};
 
-    /// 1, 2, 3, 6: mean 3, squares 4 + 1 + 0 + 9 = 14 over 3.
     #[test]
     fn by_hand() {
         let s = sample([1.0, 2.0, 3.0, 6.0]);

@@ -13,7 +13,7 @@ pub struct JoinedElement {
     pub frames: [usize; 2],
     /// Bending element.
     pub element: BendingElement,
-    /// Rest curvature of the rod minus that of the element (rad/nm).
+    /// Difference between the rest curvatures of the rod and of the element (rad/nm).
     pub lacking: Vector3,
 }
 
@@ -186,7 +186,6 @@ mod tests {
         assert_eq!(shares(&curvature, 2), last);
     }
 
-    /// Linear cost: a search over all elements for each segment would take hours.
     #[test]
     fn a_million_segments_have_two_neighbours_each() {
         let n = 1_000_000;

@@ -27,7 +27,6 @@ pub enum EndShear {
 pub const END_SHEAR_NM: f64 = 5.477;
 
 impl EndShear {
-    /// Relative change of the shear compliance at the end.
     fn sign(self) -> f64 {
         match self {
             Self::Blocked => -1.0,

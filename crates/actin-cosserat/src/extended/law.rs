@@ -234,7 +234,6 @@ struct Stiffened {
     of_p: Vector3,
     of_t: Vector3,
     of_g: Vector3,
-    /// Half the second derivatives of `t` and `g`.
     twist: f64,
     shear: f64,
 }

@@ -34,7 +34,6 @@ impl Segment<'_> {
         strain.component_mul(&self.factors)
     }
 
-    /// Torque per length of a bending element for the torque `couple` (pN nm) of the mean.
     fn couple_on(&self, around: &AdjacentElement, couple: Vector3) -> Vector3 {
         self.element.rest_length * around.share / around.element.rest_distance * couple
     }
@@ -194,7 +193,6 @@ impl ExtendedSegments {
     }
 }
 
-/// Coordinates of a body, and a derivative with respect to them.
 type Slope = (Coordinates, Matrix3);
 
 /// Derivatives of the strain (1/nm and 1).

@@ -126,7 +126,6 @@ impl SegmentLaw {
         ]
     }
 
-    /// Tangent of twist without axial force (pN nm^2).
     fn free_tangent(&self, material: &StrainLaws, sigma: Vector3, kappa: Vector3) -> f64 {
         let tangent = material.bending_tangent(kappa) + self.shear_by_curvature(sigma, kappa);
         tangent[(2, 2)]
@@ -152,7 +151,6 @@ mod tests {
         (material, law.unwrap())
     }
 
-    /// All nonlinear laws at once. With `cubic`, the linear shear rigidity is zero.
     fn sided(cubic: bool) -> (RodMaterial, SegmentLaw) {
         let bend = Stiffening {
             rest: 3.2e4,

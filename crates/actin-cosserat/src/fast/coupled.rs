@@ -48,11 +48,10 @@ impl<L: Law> AddLoads<'_, L> {
     }
 }
 
-/// Loads on a group of bodies.
 struct Group<S: Simd> {
     /// Forces on nodes (pN).
     force: Wide3<S>,
-    /// Torques on frames (pN nm), without those of the following elements.
+    /// Torques on frames (pN nm), without the contributions of the following elements.
     torque: Wide3<S>,
     /// Torques of the elements after the frames of the preceding group.
     before: Wide3<S>,

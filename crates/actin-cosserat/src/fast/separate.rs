@@ -67,7 +67,6 @@ struct SegmentLoop<'a, S: Simd, L> {
     first: Columns<'a, S, 3>,
     second: Columns<'a, S, 3>,
     frames: Columns<'a, S, 4>,
-    /// Rest lengths (nm) and their inverse.
     lengths: Columns<'a, S, 2>,
     law: L,
     /// Forces on first nodes (pN).
@@ -91,7 +90,6 @@ impl<S: Simd, L: Law> SegmentLoop<'_, S, L> {
         self.torque.add(simd, group, on_frame);
     }
 
-    /// Last group, if it contains only the last node.
     #[inline(always)]
     fn end(&mut self, simd: S, group: usize) {
         let zero = [simd.splat_f64s(0.0); 3];
@@ -131,7 +129,6 @@ impl<S: Simd, L: Law> BendingLoop<'_, S, L> {
         self.torque.add(simd, group, torque);
     }
 
-    /// Last group, if it contains only the last frame.
     #[inline(always)]
     fn end(&mut self, simd: S, group: usize) {
         let zero = [simd.splat_f64s(0.0); 3];

@@ -135,7 +135,6 @@ fn all_walls() -> [Walls; 4] {
         .map(|(start, end)| Walls { start, end })
 }
 
-/// Elements joined to neighbouring rods: none, or one at the start and two at the end.
 fn joined(layout: &RodLayout, any: bool) -> [Vec<JoinedElement>; 2] {
     let element = |frames, rest_distance| JoinedElement {
         frames,
@@ -293,8 +292,7 @@ fn fast_loads(state: &State, layout: &RodLayout, law: &Named) -> Loads {
     loads
 }
 
-/// Lanes after the end must not add the force of a segment without length. Laws with a stretch at
-/// rest are skipped.
+/// Lanes after the end must not contribute. Laws with a stretch at rest are skipped.
 #[test]
 fn a_rod_at_rest_has_no_loads() {
     let without_offset = |law: &TwistStretch| law.extension(0.0) == 0.0;
@@ -314,7 +312,6 @@ fn a_rod_at_rest_has_no_loads() {
     }
 }
 
-/// Torques are proportional to the angle down to the smallest numbers: 3900 pN nm per rad.
 #[test]
 fn the_smallest_angles_have_torques() {
     for angle in [5e-324, 1e-310, 1e-200, 1e-20] {
@@ -368,7 +365,6 @@ fn kind_of(law: &Named) -> Option<&'static str> {
     })
 }
 
-/// The fastest suitable kernel must be chosen.
 #[test]
 fn every_law_has_its_kernel() {
     for law in laws().iter().chain(&bent()) {

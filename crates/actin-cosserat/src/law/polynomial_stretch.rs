@@ -11,7 +11,7 @@ use crate::{RodKey, RodParameterError, constants};
 /// Extrapolated linearly outside `range`, where the polynomial diverges.
 ///
 /// # Source
-/// arXiv 2203.01284, Section 3.3 and Appendix B, where the printed polynomial is that of `xi - 1`.
+/// arXiv 2203.01284, Section 3.3 and Appendix B, where `xi - 1` is printed as `xi`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]

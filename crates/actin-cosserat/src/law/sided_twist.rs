@@ -20,7 +20,9 @@ use crate::{RodKey, RodParameterError};
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[cfg_attr(
     feature = "schema",
-    schemars(description = "Twist rigidity that saturates, with its own rise to either side.")
+    schemars(
+        description = "Twist rigidity that saturates, with separate rises in under-twist and over-twist."
+    )
 )]
 pub struct SidedTwist {
     /// Rigidity at rest (pN nm^2); at least 0.

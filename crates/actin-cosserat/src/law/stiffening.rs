@@ -34,7 +34,7 @@ pub struct Stiffening {
     /// Curvature `k0` at half the increase (rad/nm); positive.
     #[cfg_attr(feature = "serde", serde(rename = "curvature_per_nm"))]
     pub curvature: f64,
-    /// Twist at half the increase (rad/nm); positive. Without stiffening by twist it is infinite, and its key is left out.
+    /// Twist at half the increase (rad/nm); positive. Infinite without stiffening by twist; scenes then omit the key.
     #[cfg_attr(
         feature = "serde",
         serde(
@@ -45,7 +45,7 @@ pub struct Stiffening {
         )
     )]
     pub twist: f64,
-    /// Shear strain at half the increase; positive. Without stiffening by shear it is infinite, and its key is left out.
+    /// Shear strain at half the increase; positive. Infinite without stiffening by shear; scenes then omit the key.
     #[cfg_attr(
         feature = "serde",
         serde(
@@ -60,7 +60,7 @@ pub struct Stiffening {
     pub range: f64,
 }
 
-/// A scale that is infinite without its effect, in texts an optional key.
+/// Serialisation of a scale that is infinite without its effect: an optional key.
 #[cfg(feature = "serde")]
 mod effect {
     use serde::de::Error;
@@ -70,7 +70,7 @@ mod effect {
         f64::INFINITY
     }
 
-    // The signature is that of `skip_serializing_if`.
+    // `skip_serializing_if` requires this signature.
     #[allow(clippy::trivially_copy_pass_by_ref)]
     pub(super) fn is_none(scale: &f64) -> bool {
         scale.is_infinite()
@@ -79,7 +79,7 @@ mod effect {
     pub(super) fn read<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
         match Option::<f64>::deserialize(deserializer)? {
             Some(scale) if is_none(&scale) => Err(D::Error::custom(
-                "must be finite; left out, it has no effect",
+                "must be finite; omit the key for no effect",
             )),
             scale => Ok(scale.unwrap_or_else(none)),
         }

@@ -142,7 +142,7 @@ mod tests {
         }
     }
 
-    /// At large strain the force differs from rigidity times strain by h w = 8.5 pN.
+    /// At large strain the force differs by h w = 8.5 pN from rigidity times strain.
     #[test]
     fn each_side_has_its_own_rigidity() {
         assert!((SIDED.force(0.1) - (3.4e3 - 8.5)).abs() < 0.1);

@@ -211,7 +211,6 @@ pub(super) mod tests {
         }
     }
 
-    /// Rms error of the published fit: 349 pN nm^2.
     #[test]
     fn published_parameters_follow_table_3() {
         let law = TanhTwist::published();

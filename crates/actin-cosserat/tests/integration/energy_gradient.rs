@@ -67,7 +67,6 @@ fn assert_only_end_couples(state: &State, layout: &RodLayout, couple: Vector3) {
     }
 }
 
-/// The end torque is B3 times the twist, with the sign of right-handed twist.
 #[test]
 fn uniform_twist() {
     let (mut state, layout) = actin_rod();
@@ -79,7 +78,6 @@ fn uniform_twist() {
     assert_only_end_couples(&state, &layout, Vector3::z() * (1.3e4 * twist));
 }
 
-/// End moment 2 pi B / L.
 #[test]
 fn an_end_moment_closes_a_circle() {
     let (mut state, layout) = actin_rod();
@@ -126,7 +124,6 @@ fn simple_shear() {
     assert!((loads.torque.get(0) - Vector3::y() * 1600.0).norm() < 1e-9);
 }
 
-/// The torque at a wall is twice the torque between segments for an equal angle.
 #[test]
 fn walls_bend_over_half_a_segment() {
     let mut state = State::default();

@@ -333,7 +333,6 @@ fn uniform_twist_has_its_length_and_couple() {
 fn force_and_couple_are_reciprocal() {
     let k = 0.02;
     let couple = |e: f64| {
-        // Work of a uniform twist: sum of torque times rotation.
         let (state, rod) = uniform(k, 1.0 + e);
         let end = rod.layout().frames().end - 1;
         let loads = loads_of(&rod, &state);
@@ -347,7 +346,6 @@ fn force_and_couple_are_reciprocal() {
         let end = rod.layout().points().end - 1;
         -loads_of(&rod, &state).force.get(end).z
     };
-    // Work of a uniform stretch: force times length.
     let of_stretch = derivative(1e-4, couple);
     let of_twist = derivative(1e-4, |h| force(k + h)) * 100.0;
     assert!(of_stretch.abs() > 1e4, "nothing couples: {of_stretch}");
@@ -368,7 +366,6 @@ fn coupling_energy_is_the_printed_product() {
     let rod = EnergyGradient::new(layout, constant()).with_extension(law, curvature);
     let mut energies = vec![0.0; rod.elements()];
     rod.write_energies(&state, &mut energies);
-    // Segment of 10 nm, and the element at its node.
     let expected = 10.0 * (0.5 * s3 * e * e + c3 * e * k + 0.5 * (b3 + c3 * c3 / s3) * k * k);
     assert!((energies[4] + energies[13] - expected).abs() < 1e-12 * expected);
 }
@@ -403,6 +400,5 @@ fn only_the_printed_balance_does_work_around_a_cycle() {
     println!("work around the cycle: gradient {gradient:.3e} pN nm, printed {printed:.3e} pN nm");
     // The midpoint rule is exact to round-off for a smooth cycle; the energy is about 500 pN nm.
     assert!(gradient.abs() < 1e-9, "{gradient}");
-    // Number quoted in the errata.
     assert!((printed - 421.0).abs() < 1.0, "{printed}");
 }

@@ -17,7 +17,6 @@ fn relative_difference(a: &Loads, b: &Loads) -> f64 {
     difference(&a.force, &b.force).max(difference(&a.torque, &b.torque))
 }
 
-/// The relative difference is proportional to the strain.
 #[test]
 fn the_difference_of_the_laws_is_of_the_order_of_the_strain() {
     for walls in ALL_WALLS {
@@ -32,7 +31,7 @@ fn the_difference_of_the_laws_is_of_the_order_of_the_strain() {
             };
             let (coarse, fine) = (difference(2e-4), difference(1e-4));
             assert!(coarse > 1e-5 && coarse < 2e-3, "{coarse}");
-            // Terms of second order are 1e-3 times those of first order.
+            // Second-order terms are 1e-3 times first-order terms.
             assert!((coarse / fine - 2.0).abs() < 0.02, "{}", coarse / fine);
         }
     }
@@ -73,7 +72,6 @@ fn couples_balance_up_to_the_third_power_of_the_angle() {
     let m = material().bending_couple(theta / 10.0);
     let expected = theta.cross(&theta.cross(&theta.cross(&m))) / 12.0;
     let torque = residual_torque(theta);
-    // The next term of the series is smaller by half the angle.
     assert!((torque - expected).norm() < 0.6 * theta.norm() * expected.norm());
     // The residual vanishes for torques parallel to the angle.
     for axis in [Vector3::x(), Vector3::y(), Vector3::z()] {

@@ -41,7 +41,6 @@ fn rigid_motion(state: &State, shift: Vector3, turn: Vector3) -> DVector<f64> {
     DVector::from_vec(rows)
 }
 
-/// Six zero eigenvalues; all others are positive.
 #[test]
 fn only_rigid_motions_are_free_at_rest() {
     let mut noise = Xorshift::new(13);

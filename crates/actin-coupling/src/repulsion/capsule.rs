@@ -195,7 +195,6 @@ pub(super) struct Row {
 }
 
 impl Row {
-    /// Integration points for a radius (nm).
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,

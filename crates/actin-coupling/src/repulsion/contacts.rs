@@ -11,8 +11,8 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 const SKIN: f64 = 1.0;
 /// Distance from contact within which pairs are part of the stiffness, in radii.
 const MARGIN: f64 = 0.25;
-/// Axis distance over the radius below which a step counts as a crossing: half the distance of the
-/// largest force.
+/// Ratio of axis distance to radius below which a step counts as a crossing: half the distance of
+/// the largest force.
 const IMPASSABLE: f64 = Kernel::YIELD;
 /// Effective number of neighbours that press on a filament: half of six in a bundle act along one
 /// direction.

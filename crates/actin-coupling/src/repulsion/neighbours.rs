@@ -28,7 +28,6 @@ pub(super) struct Neighbours {
     pub(super) pairs: Vec<[usize; 2]>,
     /// Current ends of all axes (nm, lab frame).
     pub(super) ends: Vec<[Vector3; 2]>,
-    /// Ends of all axes when the list was built.
     found_at: Vec<[Vector3; 2]>,
 }
 
@@ -82,7 +81,7 @@ impl Neighbours {
                 [i, j].map(|k| later[k]),
             )
         };
-        // All possible pairs of a short step are in the list.
+        // All possible pairs are in the list.
         if 2.0 * farthest + least <= reach.known {
             return self.pairs.iter().copied().find(passes);
         }

@@ -5,7 +5,6 @@ pub(super) type Ends = [Vector3; 2];
 
 /// Lines that start within the limit must keep this fraction of their distance.
 const STAY: f64 = 0.99;
-/// Relative tolerance of the limit.
 const CLOSE: f64 = 1e-3;
 /// Maximum number of steps. Longer searches occur for lines that slide along each other.
 const STEPS: usize = 10_000;

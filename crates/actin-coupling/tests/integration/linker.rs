@@ -86,8 +86,7 @@ fn loads_are_minus_the_gradient() {
     for rest_length in [0.0, 2.5, 40.0] {
         let scene = scene(&mut noise);
         for linker in all(&scene, rest_length) {
-            // h = 0.01 nm and rad: truncation and rounding errors of energies up to 3e3 pN nm over
-            // loads of 30 pN are below 1e-11.
+            // h = 0.01 nm and rad: truncation and rounding errors are below 1e-11 of 30 pN.
             assert_is_gradient(&linker, &scene.state, 0.01, 1e-9);
         }
     }
@@ -99,7 +98,6 @@ fn stiffness_is_the_derivative_of_the_loads() {
     for rest_length in [0.0, 2.5, 40.0] {
         let scene = scene(&mut noise);
         for linker in all(&scene, rest_length) {
-            // Tolerance as in the gradient test.
             assert_is_stiffness(&linker, &scene.state, 0.01, 1e-9);
             if linker.extension(&scene.state) > 0.0 {
                 assert_fluctuates(&[&linker], &scene.state, 1e-12);
@@ -116,7 +114,6 @@ fn a_linker_within_a_rigid_body_does_nothing() {
     let linker = Linker::new(scene.on_monomer(1), other, 7.0, 0.5).unwrap();
     let (force, torque) = resultant(&scene.state, &loads_of(&linker, &scene.state));
     let stiffness = stiffness_matrix(&linker, &scene.state);
-    // Rounding errors of a force of 10 pN at 40 nm, and of a stiffness of 7 pN/nm.
     assert!(linker.force(&scene.state).norm() > 1.0);
     assert!(force.norm() < 1e-12 && torque.norm() < 1e-12);
     assert!(stiffness.amax() < 1e-12, "{}", stiffness.amax());
@@ -128,7 +125,7 @@ proptest! {
         let scene = scene(&mut Xorshift::new(seed));
         for linker in all(&scene, [0.0, 2.5, 40.0][slack]) {
             if let LinkerEnd::Site(_) = linker.end() {
-                // Sums of about ten products with rounded arms exceed 1e-14 in some of 20000 draws.
+                // Rounding of sums of about ten products; 1e-14 is exceeded in some of 20000 draws.
                 assert_is_balanced(&linker, &scene.state, 1e-12);
                 // Near the rest length cancellation dominates the energy.
                 if slack == 0 {
@@ -140,13 +137,13 @@ proptest! {
             let pull = linker.force(&scene.state);
             let moment = linker.end_position(&scene.state).cross(&pull);
             prop_assert!((force - pull).norm() <= 1e-14 * pull.norm());
-            // Weights and arm of the site are rounded once more than the position of the anchor.
+            // Weights and arm of the site have one rounding error more than the position of the
+            // anchor.
             prop_assert!((torque - moment).norm() <= 1e-13 * 60.0 * pull.norm());
         }
     }
 }
 
-/// Equal points of a rigid segment and of a monomer with the same frame give equal forces.
 #[test]
 fn rod_and_monomer_sites_agree_at_the_same_point() {
     let mut noise = Xorshift::new(14);
@@ -177,7 +174,6 @@ fn rod_and_monomer_sites_agree_at_the_same_point() {
     }
 }
 
-/// Hand calculation: 3 nm along x at 2 pN/nm, 4 nm off the axis along y, with a torque about -z.
 #[test]
 fn a_linker_pulls_by_its_extension() {
     let mut state = State::default();
@@ -185,7 +181,6 @@ fn a_linker_pulls_by_its_extension() {
     let site = Site::on_rod(&rod, place(1, 0.25, 4.0, FRAC_PI_2)).unwrap();
     let end = LinkerEnd::Anchor(Anchor::fixed(Vector3::new(5.0, 4.0, 12.5)));
     let linker = Linker::new(site, end, 2.0, 2.0).unwrap();
-    // cos(pi/2) is 6e-17, not 0.
     assert!((linker.energy(&state) - 9.0).abs() < 1e-14);
     let loads = loads_of(&linker, &state);
     let expected = [(0, 0.0), (1, 4.5), (2, 1.5)];

@@ -141,7 +141,6 @@ fn crossing_force_does_not_depend_on_position_or_division() {
     }
 }
 
-/// Derivative of `256/315 e D q^4.5` per length.
 #[test]
 fn parallel_filaments_have_the_force_per_length_of_the_integral() {
     let (y, z) = (Vector3::y(), Vector3::z());
@@ -150,7 +149,6 @@ fn parallel_filaments_have_the_force_per_length_of_the_integral() {
         let (e, q) = (27.0 * STIFFNESS / (32.0 * PI), 1.0 - (d / reach).powi(2));
         256.0 / 315.0 * e * reach * 4.5 * q.powf(3.5) * 2.0 * d / (reach * reach)
     };
-    // The force on the second filament is uniform.
     for (d, bound) in [(3.0, 1e-4), (5.0, 1e-3), (6.3, 3e-2)] {
         for shift in [0.0, 0.7] {
             let second = (y * d + z * (20.0 + shift), z);
@@ -161,8 +159,8 @@ fn parallel_filaments_have_the_force_per_length_of_the_integral() {
     }
 }
 
-/// The largest stiffness of a crossing equals the parameter. For parallel filaments it equals that
-/// of tethers.
+/// The largest stiffness of a crossing equals the parameter; for parallel filaments it equals the
+/// stiffness of tethers.
 #[test]
 fn greatest_stiffness_equals_the_parameter() {
     let (x, y, z) = (Vector3::x(), Vector3::y(), Vector3::z());

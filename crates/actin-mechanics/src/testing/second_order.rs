@@ -9,10 +9,10 @@ use nalgebra::{DMatrix, DVector};
 
 /// Asserts that the second derivatives of the energy are minus the derivatives of the loads.
 ///
-/// Forces must change by `-K`, torques by `-(K - [tau]x / 2)` with the rotation of their own frame
-/// and by `-K` otherwise. Diagonal blocks must be symmetric, and pairs must not depend on the
-/// state. `h` is the step of [`derivative`], and `relative` is the tolerance relative to the
-/// largest entry of the same kind (point-point, point-frame, frame-frame).
+/// Forces change by `-K`, and torques by `-(K - [tau]x / 2)` for rotations of the same frame and by
+/// `-K` otherwise. Diagonal blocks must be symmetric, and pairs must not depend on the state. `h`
+/// is the step of [`derivative`]. `relative` is the tolerance relative to the largest entry of the
+/// same kind (point-point, point-frame, frame-frame).
 ///
 /// # Panics
 /// If a condition does not hold, or if the interaction has no second derivatives.
@@ -91,7 +91,7 @@ fn stiffness_of(interaction: &dyn Interaction, state: &State) -> Stiffness {
     stiffness
 }
 
-/// Asserts that pairs do not depend on the state, because assemblers store the positions of blocks.
+/// Asserts that pairs do not depend on the state.
 fn assert_same_pairs(interaction: &dyn Interaction, state: &State) {
     let here = stiffness_of(interaction, state);
     let mut moved = state.clone();
@@ -101,7 +101,7 @@ fn assert_same_pairs(interaction: &dyn Interaction, state: &State) {
     assert_eq!(pairs(&here), pairs(&elsewhere), "pairs at another state");
 }
 
-/// Asserts that diagonal blocks are symmetric, because assemblers read one triangle.
+/// Asserts that diagonal blocks are symmetric.
 fn assert_diagonal(interaction: &dyn Interaction, state: &State, relative: f64) {
     let here = stiffness_of(interaction, state);
     for (a, _, block) in here.blocks().iter().filter(|(a, b, _)| a == b) {
@@ -177,7 +177,6 @@ mod tests {
     #[derive(Debug)]
     struct Spring {
         arm: Vector3,
-        /// Factor of the geometric part of the frame block; 1 is correct.
         geometric: f64,
     }
 
@@ -241,7 +240,6 @@ mod tests {
         assert_is_stiffness(&Spring { arm, geometric }, &state, 0.02, 1e-12);
     }
 
-    /// The torque is not zero, so that the sign of `[tau]x / 2` is tested.
     #[test]
     fn second_derivatives_of_a_spring_are_accepted() {
         check(1.0);

@@ -114,11 +114,11 @@ impl<S: Simd> ColumnsMut<'_, S, 3> {
     }
 }
 
-/// Shift of successive groups up by one body: lane `i` receives the number of lane `i - 1`, and the
-/// first lane that of the last lane of the preceding group.
+/// Shift of successive groups up by one body. Lane `i` receives the number of lane `i - 1`; the
+/// first lane receives the last number of the preceding group.
 ///
-/// This moves the reaction of an interaction between neighbours to the second body, without
-/// overlapping stores and loads.
+/// Moves the reaction of an interaction between neighbours to the second body without overlapping
+/// stores and loads.
 #[derive(Clone, Copy, Debug)]
 pub struct ShiftedUp<S: Simd, const N: usize> {
     first_lane: S::m64s,
@@ -159,10 +159,10 @@ impl<S: Simd, const N: usize> ShiftedUp<S, N> {
     }
 }
 
-/// Shift of successive groups down by one body: lane `i` receives the number of lane `i + 1`, and
-/// the last lane that of the first lane of the next group.
+/// Shift of successive groups down by one body. Lane `i` receives the number of lane `i + 1`; the
+/// last lane receives the first number of the next group.
 ///
-/// A group is complete when the next one is known, so results are delayed by one call.
+/// Results are delayed by one call, since a group needs the next one.
 #[derive(Clone, Copy, Debug)]
 pub struct ShiftedDown<S: Simd, const N: usize> {
     last_lane: S::m64s,

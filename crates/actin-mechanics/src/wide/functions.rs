@@ -103,8 +103,8 @@ const DECAY: [f64; 13] = [
     9.465_923_857_189_377e-11,
 ];
 
-/// Polynomial with the given coefficients, constant first. Separate sums of even and odd powers
-/// halve the chain of dependent products.
+/// Polynomial with the given coefficients, constant first. Even and odd powers are summed
+/// separately to shorten the chain of dependent products.
 #[inline(always)]
 pub(super) fn polynomial<S: Simd, const N: usize>(
     simd: S,

@@ -1,4 +1,4 @@
-//! Fits of bending and shear: rigidity against curvature, and what shear and twist add to it.
+//! Fits of bending and shear: bending rigidity against curvature, twist and shear strain.
 
 use super::column::Column;
 use super::found::{Fault, Found};
@@ -9,34 +9,34 @@ use actin_cosserat::{CubicShear, Stiffening, StretchLaw};
 use actin_fit::{ClosureModel, Data, FitError, LevenbergMarquardt, Observations, Options, Starts};
 use actin_sim::{BendLaw, RodLaw, RodLaws, RodModel, ShearLaw};
 
-/// Segments of the rods that stand in for filaments (nm).
+/// Segment length of the fitted rods (nm).
 const SEGMENT_NM: f64 = 5.0;
-/// Cosine at which the search for shear ends: 5e-5 standard errors from its minimum. Deflections are
-/// those of equilibria, solved to a residual, and leave a cosine of 7e-7.
+/// Tolerance on the cosine between residuals and derivatives. At this tolerance, parameters are
+/// within 5e-5 standard errors of the minimum. The residuals of the equilibria limit the cosine to
+/// 7e-7.
 const COSINE: f64 = 1e-5;
-/// Share of a parameter by which it moves for a derivative.
+/// Relative step of a parameter for numerical derivatives.
 const MOVE: f64 = 1e-3;
 
-/// The fits and what they make together.
+/// Fitted bending and shear laws.
 #[derive(Debug)]
 pub(crate) struct BendFits {
-    /// Rest, rise and curvature.
     pub bend: LawFit<Stiffening>,
-    /// Cubic shear (pN) and the shear strain that gains half the rise.
+    /// Cubic shear rigidity (pN) and the shear strain at half the rise.
     pub shear: Found,
-    /// The twist that gains half the rise (rad/nm).
+    /// Twist at half the rise (rad/nm).
     pub twist: Found,
-    /// All of it.
+    /// Bending law with all fitted scales.
     pub law: Stiffening,
     pub cubic_pn: f64,
     /// Stretching rigidity in tension (pN).
     pub stretch_pn: f64,
-    /// Relative deviations of deflections and shifts: length, force, share.
+    /// Length (nm), force (pN) and relative deviation of the deflection.
     pub checks: Vec<[f64; 3]>,
 }
 
 impl BendFits {
-    /// Fits bending first, then what twist and shear add to it.
+    /// Fits bending first, then the scales of twist and shear.
     pub(crate) fn new(data: &BendData) -> Result<Self, String> {
         let bend = stiffened(&column(&data.bend))?;
         let mut law = bend.law;
@@ -62,14 +62,13 @@ impl BendFits {
         })
     }
 
-    /// What must not become part of a law.
+    /// Parameters that are undetermined or at a bound.
     pub(super) fn faults(&self) -> Vec<Fault> {
         let searches = [&self.twist, &self.shear].into_iter();
         let faults = searches.flat_map(Found::faults);
         faults.chain(self.bend.basis.faults()).collect()
     }
 
-    /// The parts of a scene's law that they are.
     pub(crate) fn laws(&self) -> RodLaws {
         RodLaws {
             stretch: Some(StretchLaw::Constant {
@@ -104,7 +103,7 @@ fn column(points: &[Point]) -> Column {
     column
 }
 
-/// The one scale by which twist stiffens bending.
+/// Fits the twist at half the rise.
 fn fit_twist(data: &BendData, law: Stiffening) -> Result<Found, String> {
     let x: Vec<f64> = data
         .twisted
@@ -131,13 +130,13 @@ fn fit_twist(data: &BendData, law: Stiffening) -> Result<Found, String> {
     Found::search(&TWISTED, &model, &data, bounds, &starts)
 }
 
-/// Tips and guided ends with what they are.
+/// Tips (`true`) and guided ends (`false`).
 fn beams(data: &BendData) -> impl Iterator<Item = (bool, Point)> + '_ {
     let tips = data.tips.iter().map(|p| (true, *p));
     tips.chain(data.guided.iter().map(|p| (false, *p)))
 }
 
-/// Cubic shear and its share in stiffening, from rods under the same loads as the filaments.
+/// Fits cubic shear and the shear scale of the bending law to deflections under the same loads.
 fn fit_shear(data: &BendData, law: Stiffening) -> Result<Found, String> {
     let all: Vec<(bool, Point)> = beams(data).collect();
     let x: Vec<f64> = (0..all.len()).map(|i| i as f64).collect();
@@ -177,8 +176,7 @@ fn fit_shear(data: &BendData, law: Stiffening) -> Result<Found, String> {
     Found::search_by(method, &SHEARED, &model, &data, bounds, &starts)
 }
 
-/// How far a rod of this law goes where a filament was measured (nm); not a number if it has no
-/// equilibrium there.
+/// Deflection (nm) of a rod under the load of `point`; NaN without an equilibrium.
 fn shift(is_tip: bool, point: &Point, law: Stiffening, cubic_pn: f64) -> f64 {
     let rod = RodModel::of_law(RodLaw::Laws(Box::new(laws(law, cubic_pn))));
     #[expect(

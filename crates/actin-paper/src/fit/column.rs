@@ -1,4 +1,4 @@
-//! A column of values with what they are plotted against.
+//! Values against a variable, with standard errors.
 
 use actin_fit::{Data, FitError, Observations};
 
@@ -8,16 +8,15 @@ use actin_fit::{Data, FitError, Observations};
 pub(crate) struct Column {
     pub x: Vec<f64>,
     pub value: Vec<f64>,
-    /// Standard errors: as many as values, or none.
+    /// Standard errors; empty if unknown.
     pub error: Vec<f64>,
 }
 
-/// How values without standard errors are weighted.
+/// Weights of values without standard errors.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Weight {
-    /// All alike.
     Equal,
-    /// By one over their squares, so that relative differences count.
+    /// Inverse squares of the values: residuals are relative.
     Relative,
 }
 
@@ -37,7 +36,6 @@ impl Column {
         self.value.push(value);
     }
 
-    /// Number of values.
     pub(crate) fn len(&self) -> usize {
         self.value.len()
     }
@@ -46,23 +44,23 @@ impl Column {
         self.value.is_empty()
     }
 
-    /// Largest size of the variable.
+    /// Largest absolute value of the variable.
     pub(crate) fn range(&self) -> f64 {
         self.x.iter().fold(0.0, |most, x| x.abs().max(most))
     }
 
-    /// Largest size of a value.
+    /// Largest absolute value.
     pub(super) fn largest(&self) -> f64 {
         self.value.iter().fold(0.0, |most, v| v.abs().max(most))
     }
 
-    /// The value where the variable is least in size.
+    /// The value at the smallest absolute value of the variable.
     pub(super) fn at_rest(&self) -> f64 {
         let least = self.pairs().min_by(|a, b| a.0.abs().total_cmp(&b.0.abs()));
         least.map_or(0.0, |(_, value)| value)
     }
 
-    /// The value where the variable is largest, taken times `sign`.
+    /// The value at the largest `sign * x`.
     pub(super) fn at_end(&self, sign: f64) -> f64 {
         let end = self
             .pairs()
@@ -70,7 +68,7 @@ impl Column {
         end.map_or(0.0, |(_, value)| value)
     }
 
-    /// Number of values on the side of `sign`.
+    /// Number of values with `sign * x > 0`.
     pub(super) fn on_side(&self, sign: f64) -> usize {
         self.x.iter().filter(|x| sign * **x > 0.0).count()
     }
@@ -79,12 +77,12 @@ impl Column {
         self.x.iter().copied().zip(self.value.iter().copied())
     }
 
-    /// Whether the standard errors of all values are known.
+    /// Returns `true` if the standard errors are known.
     pub(crate) fn is_known(&self) -> bool {
         !self.error.is_empty()
     }
 
-    /// The column as data to fit: weighted by its standard errors if it has them.
+    /// Converts the column to data for a fit, weighted by its standard errors if known.
     pub(super) fn observed(&self, weight: Weight) -> Result<Data, FitError> {
         let observations = Observations::new(&self.value)?;
         let observations = if self.is_known() {

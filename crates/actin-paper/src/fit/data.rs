@@ -1,12 +1,12 @@
-//! What is fitted of a filament's twist: tables of B3 and of the change of length, with their source.
+//! Data of the twist fits: tables of B3 and of the change of length.
 
 use super::column::Column;
 use crate::published::{Table, entries};
 
-/// A filament's twist in two columns.
+/// Twisting rigidity and length change against twist.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct TwistData {
-    /// Where the numbers come from, in words.
+    /// Description of the source.
     pub source: String,
     /// Secant twisting rigidity (pN nm^2).
     pub rigidity: Column,
@@ -15,7 +15,6 @@ pub(crate) struct TwistData {
 }
 
 impl TwistData {
-    /// Pairs of twist and value in columns.
     pub(crate) fn new(
         source: String,
         rigidity: impl IntoIterator<Item = (f64, f64)>,
@@ -28,7 +27,7 @@ impl TwistData {
         }
     }
 
-    /// Tables 3 and 5, without the rows that the paper calls unreliable unless `all_rows`.
+    /// Tables 3 and 5; without the rows that the paper calls unreliable unless `all_rows`.
     pub(crate) fn from_paper(all_rows: bool) -> Result<Self, String> {
         let column = |table| -> Result<Vec<(f64, f64)>, String> {
             let wanted = entries(table).into_iter();

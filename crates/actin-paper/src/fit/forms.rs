@@ -1,30 +1,28 @@
-//! The rod's laws as models to fit: their values and derivatives in the parameters.
-//!
-//! The forms themselves live with the rod; here they only get their parameters in a row.
+//! The laws of rods as models to fit: values, and derivatives with respect to the parameters.
 
 use actin_cosserat::{RootedStretch, SidedTwist, Stiffening, StretchLaw, TanhTwist, TwistRise};
 use actin_fit::Model;
 
-/// B3 against twist as published, the two limits held: `lambda_1` to `lambda_7`.
+/// Published form of B3 against twist with fixed limits: `lambda_1` to `lambda_7`.
 #[derive(Debug)]
 pub(super) struct Tanh {
     pub limits: TanhTwist,
 }
 
-/// B3 against twist with its own saturation to either side: `rest`, then rise, half and slow of
-/// under-twist and of over-twist.
+/// B3 against twist, saturating separately in under-twist and over-twist: `rest`, then `rise`,
+/// `half` and `slow` of each side.
 #[derive(Debug)]
 pub(super) struct Sided {
     pub range: f64,
 }
 
-/// `xi - 1` against twist with two slopes: slope, bend, half, cubic.
+/// `xi - 1` against twist with two slopes: `slope`, `bend`, `half`, `cubic`.
 #[derive(Debug)]
 pub(super) struct Rooted {
     pub range: f64,
 }
 
-/// Bending rigidity against curvature: rest, rise and the curvature of half the rise.
+/// Bending rigidity against curvature: `rest`, `rise` and the curvature at half the rise.
 #[derive(Debug)]
 pub(super) struct Stiffened {
     pub range: f64,
@@ -135,7 +133,7 @@ impl Model for Stiffened {
     }
 }
 
-/// Strain against axial force: tension, compression and width of the law.
+/// Strain against axial force: `tension`, `compression` and `width` of the law.
 #[derive(Debug)]
 pub(super) struct Stretched;
 
@@ -154,7 +152,7 @@ impl Model for Stretched {
         3
     }
 
-    /// The root of a quadratic equation, and Newton's step for the digits that it loses.
+    /// Root of a quadratic equation, refined by one Newton step against cancellation.
     fn value(&self, x: &[f64], p: &[f64]) -> f64 {
         let (force, law) = (x[0], Self::law(p));
         let (mean, half) = (0.5 * (p[0] + p[1]), 0.5 * (p[0] - p[1]));
@@ -186,7 +184,7 @@ mod tests {
     use super::*;
     use actin_fit::{Data, Observations, check_gradient};
 
-    /// The strain of a force bears that force, to rounding, on both sides and between them.
+    /// The force at the strain of a force equals that force to rounding.
     #[test]
     fn strains_of_forces() {
         for p in [[3e4, 1.5e4, 1e-3], [1e4, 2e4, 1e-4], [2e4, 2e4, 1e-3]] {

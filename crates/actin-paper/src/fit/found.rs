@@ -1,16 +1,15 @@
-//! What a search found, and whether it may become a law.
+//! Result of a parameter search, and the checks before it becomes a law.
 
 use actin_fit::{Bounds, Data, Fit, FitError, LevenbergMarquardt, Model, Starts, Status};
 
-/// Names of the parameters of a form: keys, as `--allow-bounds` takes them, and units.
+/// Names of the parameters of a form (keys of `--allow-bounds`) and units.
 #[derive(Debug, PartialEq)]
 pub(super) struct Form {
-    /// What is fitted, in words.
+    /// Name of the fitted quantity.
     pub what: &'static str,
     pub parameters: &'static [(&'static str, &'static str)],
 }
 
-/// A fit with its form and the bounds of the search.
 #[derive(Clone, Debug)]
 pub(crate) struct Found {
     pub fit: Fit,
@@ -18,22 +17,17 @@ pub(crate) struct Found {
     pub(super) bounds: Vec<(f64, f64)>,
 }
 
-/// A parameter that must not become part of a law.
+/// A parameter that is undetermined or at a bound.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Fault {
-    /// Key of the parameter.
     key: &'static str,
-    /// What is wrong.
     message: String,
-    /// Whether it may be allowed.
+    /// `true` if `--allow-bounds` can accept it.
     is_bound: bool,
 }
 
 impl Found {
-    /// Searches within bounds.
-    ///
-    /// # Errors
-    /// What the least squares refuse, in words.
+    /// Searches within bounds with the default settings.
     pub(super) fn search(
         form: &'static Form,
         model: &dyn Model,
@@ -45,7 +39,7 @@ impl Found {
         Self::search_by(method, form, model, data, bounds, starts)
     }
 
-    /// The same with settings of one's own.
+    /// Searches within bounds with the settings of `method`.
     pub(super) fn search_by(
         method: LevenbergMarquardt,
         form: &'static Form,
@@ -63,7 +57,7 @@ impl Found {
         })
     }
 
-    /// Parameters at a bound, and those that the data do not determine.
+    /// Parameters that are at a bound or that the data do not determine.
     pub(super) fn faults(&self) -> Vec<Fault> {
         let all = self.form.parameters.iter().zip(&self.fit.parameters);
         let fault = |(j, (&(key, unit), value)): (usize, (&(&'static str, &str), &f64))| {
@@ -90,10 +84,7 @@ impl Found {
     }
 }
 
-/// Refuses faults, except for bounds that are allowed by key.
-///
-/// # Errors
-/// A message with a line for each fault.
+/// Returns an error with one line for each fault, except for the bounds in `allowed`.
 pub(super) fn accept(faults: &[Fault], allowed: &[String]) -> Result<(), String> {
     let refused: Vec<&Fault> = faults
         .iter()
@@ -112,7 +103,7 @@ pub(super) fn accept(faults: &[Fault], allowed: &[String]) -> Result<(), String>
         String::new()
     } else {
         let keys = keys.join(",");
-        format!("; bounds follow the data, so look at these first; --allow-bounds {keys} accepts")
+        format!("; check the data, or accept these bounds with --allow-bounds {keys}")
     };
     Err(format!("no law is written: {}{hint}", lines.join("; ")))
 }
@@ -130,7 +121,6 @@ mod tests {
         }
     }
 
-    /// Only bounds can be allowed, and each by its own key.
     #[test]
     fn bounds_are_allowed_by_key() {
         let faults = [fault("b3.rest", true), fault("bend.rise", true)];
@@ -142,10 +132,7 @@ mod tests {
             message.starts_with("no law is written: bend.rise is bad; "),
             "{message}"
         );
-        assert!(
-            message.ends_with("--allow-bounds bend.rise accepts"),
-            "{message}"
-        );
+        assert!(message.ends_with("--allow-bounds bend.rise"), "{message}");
         let message = accept(&[fault("b3.rest", false)], &both).unwrap_err();
         assert_eq!(message, "no law is written: b3.rest is bad");
     }

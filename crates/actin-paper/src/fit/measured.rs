@@ -1,4 +1,4 @@
-//! Fresh data: filaments of monomers, twisted, bent and sheared.
+//! Data from filaments of monomers: twisted, bent and sheared.
 
 use super::column::Column;
 use super::data::TwistData;
@@ -9,54 +9,50 @@ use crate::measure::{
 use actin_sim::Monomers;
 use rayon::prelude::*;
 
-/// Rises between the inner held monomers of a twisted filament (73.94 nm), as for Table 3.
+/// Rises between the inner held monomers of a twisted filament (73.94 nm, as in Table 3).
 const SHORT: f64 = 27.0;
-/// The same of bent and sheared ones (150.6 and 301.2 nm).
+/// Rises between the inner held monomers of bent and sheared filaments (150.6 and 301.2 nm).
 const LONG: [f64; 2] = [55.0, 110.0];
-/// Angles (deg) to either side, up to the largest that the paper calls reliable.
+/// Angles (deg) in both senses, up to the largest reliable angle of the paper.
 const TURNS_DEG: [f64; 13] = [
     5.0, 10.0, 15.0, 20.0, 30.0, 40.0, 60.0, 80.0, 100.0, 125.0, 150.0, 175.0, 200.0,
 ];
-/// Curvatures by end couples (rad/nm).
 const CURVATURES: [f64; 14] = [
     1e-4, 3e-4, 6e-4, 1e-3, 1.5e-3, 2e-3, 3e-3, 4e-3, 5e-3, 6.5e-3, 8e-3, 1e-2, 1.25e-2, 1.5e-2,
 ];
-/// Twists at which filaments are bent, and the tilts per length (rad/nm).
+/// Twists of bent filaments, and tilts per length (rad/nm).
 const TWISTS: [f64; 6] = [-0.02, -0.01, -0.005, 0.005, 0.01, 0.02];
 const TILTS: [f64; 2] = [1e-3, 1e-2];
-/// Forces on the tip of a cantilever of 160 nm (pN).
+/// Forces at the tip of a cantilever of 160 nm (pN).
 pub(super) const TIP_FORCES: [f64; 9] = [0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0];
-/// Axial forces (pN): the rigidity is that of tension; compression is measured beside it.
+/// Axial forces (pN). The fit uses tension; compression is only printed.
 const AXIAL_FORCES: [f64; 6] = [-20.0, -1.0, 1.0, 10.0, 100.0, 500.0];
-/// Forces across the guided end of long filaments (pN).
+/// Transverse forces at the guided end of long filaments (pN).
 const SHEAR_FORCES: [f64; 7] = [1e-3, 3e-3, 1e-2, 3e-2, 0.1, 0.3, 1.0];
-/// Azimuths of transverse loads (deg).
 const AZIMUTHS_DEG: [f64; 4] = [0.0, 90.0, 180.0, 270.0];
 
-/// One measured number.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Point {
-    /// Length of the filament (nm).
     pub length_nm: f64,
-    /// What was prescribed.
+    /// Prescribed curvature (rad/nm) or force (pN).
     pub x: f64,
-    /// Mean, and its standard error over azimuths.
+    /// Mean and standard error over azimuths.
     pub mean: f64,
     pub error: f64,
 }
 
-/// What a rod law is fitted to beyond twist.
+/// Data of the bending, shear and stretch fits.
 #[derive(Clone, Debug)]
 pub(crate) struct BendData {
     /// Secant bending rigidity (pN nm^2) against curvature (rad/nm).
     pub bend: Vec<Point>,
-    /// The same of twisted filaments: twist, curvature, rigidity.
+    /// Twist (rad/nm), curvature (rad/nm) and bending rigidity (pN nm^2) of twisted filaments.
     pub twisted: Vec<[f64; 3]>,
-    /// Secant stretching rigidity (pN) against axial force (pN), turn blocked.
+    /// Secant stretching rigidity (pN) against axial force (pN) at blocked turn.
     pub stretch: Vec<Point>,
-    /// Deflection (nm) of a tip against force (pN).
+    /// Tip deflection (nm) against force (pN).
     pub tips: Vec<Point>,
-    /// Shift (nm) of a guided end against force (pN).
+    /// Displacement (nm) of a guided end against force (pN).
     pub guided: Vec<Point>,
 }
 
@@ -69,7 +65,7 @@ fn failed(what: &str) -> impl Fn(MeasureError) -> String + '_ {
     move |error| format!("{what}: {error}")
 }
 
-/// B3 and dL/L of the default filament, whose bonds have no samplings.
+/// B3 and dL/L of the default filament with quadrature bonds.
 pub(super) fn twisted() -> Result<TwistData, String> {
     let turns: Vec<f64> = TURNS_DEG.iter().flat_map(|&turn| [-turn, turn]).collect();
     let curve = twist(&filament(SHORT), &turns).map_err(failed("twisting"))?;
@@ -87,7 +83,7 @@ pub(super) fn twisted() -> Result<TwistData, String> {
     })
 }
 
-/// All azimuths, in parallel.
+/// Measures at all azimuths in parallel.
 fn around<P: Send>(
     specimen: &Specimen,
     measure: impl Fn(&Specimen, f64) -> Result<Curve<P>, MeasureError> + Sync,
@@ -107,14 +103,12 @@ fn points<P>(curves: &[Curve<P>], x: impl Fn(&P) -> f64, y: impl Fn(&P) -> f64) 
             length_nm,
             x,
             mean: sample.mean,
-            // Of one value there is none.
             error: if sample.count > 1 { sample.error } else { 0.0 },
         })
         .collect()
 }
 
 impl BendData {
-    /// Measures the default filament at four azimuths.
     pub(super) fn measure() -> Result<Self, String> {
         let bent = around(&filament(LONG[0]), |s, a| {
             bend_by_couples(s, &CURVATURES, a)
@@ -142,7 +136,7 @@ impl BendData {
     }
 }
 
-/// Bending rigidities of twisted filaments, the short ones: long ones would turn too far.
+/// Bending rigidities of twisted filaments. Filaments are short, since the turn grows with length.
 fn twisted_bends() -> Result<Vec<[f64; 3]>, String> {
     let mut all = Vec::new();
     for k3 in TWISTS {

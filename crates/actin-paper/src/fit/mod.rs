@@ -1,4 +1,4 @@
-//! A rod's laws fitted to tables or to filaments of monomers.
+//! Fits of rod laws to tables or to filaments of monomers.
 
 mod bend;
 mod column;
@@ -26,28 +26,27 @@ use measured::BendData;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-/// What is fitted, and where the result goes.
+/// Data and output of a fit.
 #[derive(Clone, Debug)]
 pub struct Options {
-    /// Fits a table of one's own, with its columns of twist, length, bending or stretch
-    /// (docs/how-to/rod-laws.md).
+    /// Fits a user's table with columns of twist, length, bending or stretch
+    /// (`docs/how-to/rod-laws.md`).
     pub data: Option<PathBuf>,
-    /// Measures filaments of monomers first and fits what they show, bending and shear included.
+    /// Measures filaments of monomers and fits the results, including bending and shear.
     pub measure: bool,
-    /// Takes also the rows of the paper's tables above 200 degrees, which it calls unreliable.
+    /// Includes the rows of the paper's tables above 200 degrees, which it calls unreliable.
     pub all_rows: bool,
-    /// Accepts these parameters, such as `b3.rest,bend.rise`, at a bound of their search; any other
-    /// one there is a failure, and nothing is written.
+    /// Parameters, such as `b3.rest,bend.rise`, that are accepted at a bound of their search.
     pub allow_bounds: Vec<String>,
-    /// Where to write laws, curves and pictures.
+    /// Output folder.
     pub out: PathBuf,
 }
 
-/// Fits, prints and writes.
+/// Fits, prints and writes the laws.
 ///
 /// # Errors
-/// Data that cannot be read or fitted, and a fit with a parameter at a bound that is not allowed, or
-/// that the data do not determine. Nothing is written then.
+/// Unreadable or unsuitable data, an undetermined parameter, or a parameter at a bound that is not
+/// allowed. No files are written on error.
 pub fn run(options: &Options, tell: Tell<'_>) -> Result<(), String> {
     let started = Instant::now();
     let out: &Path = &options.out;
@@ -64,7 +63,7 @@ pub fn run(options: &Options, tell: Tell<'_>) -> Result<(), String> {
     Ok(())
 }
 
-/// Fits the paper's tables, or filaments measured on the spot.
+/// Fits the paper's tables, or newly measured filaments.
 fn tables(options: &Options, out: &Path, tell: Tell<'_>) -> Result<(), String> {
     let data = if options.measure {
         measured::twisted()?

@@ -1,4 +1,4 @@
-//! Fits of a table of one's own: for each group of its columns the law that a scene has for it.
+//! Fits of a user's table: one rod law for each group of columns.
 
 use super::column::Column;
 use super::found::{self, Fault, Found};
@@ -14,7 +14,6 @@ use actin_fit::{Goodness, Model};
 use actin_sim::{BendLaw, RodLaws, TwistLaw};
 use std::path::Path;
 
-/// The laws that a table has columns for.
 #[derive(Clone, Debug)]
 pub(super) struct OwnFits {
     twist: Option<(SidedTwist, Found)>,
@@ -24,9 +23,6 @@ pub(super) struct OwnFits {
 }
 
 /// Reads, fits, prints and writes.
-///
-/// # Errors
-/// A table that is refused, a fit that fails or may not become a law, a file that cannot be written.
 pub(super) fn run(
     path: &Path,
     allowed: &[String],
@@ -52,7 +48,7 @@ pub(super) fn run(
     Ok(())
 }
 
-/// Nothing where a column is empty.
+/// Fits a column; `None` if it is empty.
 fn fit<L>(
     column: &Column,
     fit: impl FnOnce(&Column) -> Result<L, String>,
@@ -70,7 +66,7 @@ impl OwnFits {
         })
     }
 
-    /// What must not become part of a law.
+    /// Parameters that are undetermined or at a bound.
     pub(super) fn faults(&self) -> Vec<Fault> {
         let twist = self.twist.iter().flat_map(|(_, found)| found.faults());
         let length = self.length.iter().flat_map(|fit| fit.basis.faults());
@@ -79,7 +75,7 @@ impl OwnFits {
         twist.chain(length).chain(bend).chain(stretch).collect()
     }
 
-    /// What a scene takes behind `law:`; what the table does not tell is left to the material.
+    /// The value of `law:` in a scene. Parts without data keep the values of the material.
     pub(super) fn laws(&self) -> RodLaws {
         RodLaws {
             twist: self.twist.as_ref().map(|(law, _)| TwistLaw::Sided(*law)),
@@ -185,7 +181,7 @@ fn head(tell: Tell<'_>, form: &str, column: &Column) {
     tell(format_args!("\n{form}, {} values {weights}", column.len()));
 }
 
-/// How well a law meets its data.
+/// Prints the deviations of a law from its data.
 fn quality(tell: Tell<'_>, column: &Column, goodness: &Goodness, law: impl Fn(f64) -> f64) {
     if column.is_known() {
         print::chi_squared(tell, goodness);

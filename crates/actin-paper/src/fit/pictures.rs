@@ -10,9 +10,8 @@ use actin_cosserat::{PolynomialStretch, TanhTwist};
 use actin_draw::{Chart, Series};
 use std::path::Path;
 
-/// A law with its data, for prints, tables and pictures.
 pub(super) struct LawCurve<'a> {
-    /// Begin of file names.
+    /// Stem of file names.
     pub name: &'static str,
     pub title: &'static str,
     pub x_label: &'static str,
@@ -21,27 +20,25 @@ pub(super) struct LawCurve<'a> {
     pub law: Box<dyn Fn(f64) -> f64 + 'a>,
 }
 
-/// Lines of the published parameters, of the same form refitted, and of a smaller form.
+/// Colours of the published parameters, of the refitted form, and of a smaller form.
 const PUBLISHED: usize = 0;
 const SAME_FORM: usize = 1;
 const SMALLEST: usize = 3;
-/// Our own filaments: samplings, and the mean filament.
+/// Colours of sampled filaments and of the mean filament.
 const DRAWN: usize = 2;
 const MEAN: usize = 4;
-/// Points of a curve.
 const CURVE: i32 = 600;
 
-/// Numbers that are drawn and not fitted.
+/// Data that are drawn but not fitted.
 pub(crate) struct Beside<'a> {
     pub data: &'a TwistData,
-    /// Dots instead of a line.
+    /// Draws dots instead of a line.
     pub dots: bool,
 }
 
-/// A law as a function of its argument.
 type Law<'a> = Box<dyn Fn(f64) -> f64 + 'a>;
 
-/// One of the two pictures: the column that it shows, and the laws over it, in the unit of its axis.
+/// One of the two pictures: its column, and the laws in the unit of its axis.
 struct Panel<'a> {
     file: &'static str,
     title: &'static str,
@@ -96,7 +93,6 @@ pub(crate) fn draw(
 }
 
 impl Panel<'_> {
-    /// Draws curves, then data and other filaments; returns file and caption.
     fn draw(
         &self,
         data: &TwistData,
@@ -140,7 +136,7 @@ impl Panel<'_> {
     }
 }
 
-/// Points of a law between two places.
+/// Points of a law between two arguments.
 fn curve([from, to]: [f64; 2], law: impl Fn(f64) -> f64) -> Vec<(f64, f64)> {
     let places = (0..=CURVE).map(|i| from + (to - from) * f64::from(i) / f64::from(CURVE));
     places.map(|x| (x, law(x))).collect()
@@ -154,7 +150,7 @@ fn dots(column: &Column, label: &str, scale: f64) -> Series {
     }
 }
 
-/// Draws a law and its data, over the range of the data.
+/// Draws a law and its data over the range of the data.
 pub(super) fn curve_with_data(data: &LawCurve<'_>, out: &Path) -> Result<(), String> {
     let range = sample(data.data.x.iter().copied().chain([0.0]));
     let points = curve([range.low, range.high], &data.law);

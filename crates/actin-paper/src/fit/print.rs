@@ -1,4 +1,4 @@
-//! What the fits say, as text.
+//! Printed results of the fits.
 
 use super::bend::BendFits;
 use super::column::Column;
@@ -11,10 +11,9 @@ use crate::Tell;
 use actin_cosserat::{PolynomialStretch, TanhTwist};
 use actin_fit::{Goodness, LinearFit, Precision, Status};
 
-/// Agreement of chi squared that counts starts as having found the same minimum.
+/// Relative difference of chi squared below which two starts found the same minimum.
 const SAME: f64 = 1e-6;
 
-/// Fits of B3 and xi.
 pub(super) fn twist(tell: Tell<'_>, data: &TwistData, fits: &TwistFits) {
     tell(format_args!("data: {}", data.source));
     length(tell, data, fits);
@@ -88,7 +87,7 @@ fn saturating(tell: Tell<'_>, data: &TwistData, fits: &TwistFits) {
     ));
 }
 
-/// Largest difference, or relative difference, of `law` and a column.
+/// Largest difference, or relative difference, between `law` and a column.
 pub(super) fn largest(column: &Column, law: impl Fn(f64) -> f64, relative: bool) -> f64 {
     let differences = column.pairs().map(|(k, value)| {
         let scale = if relative { value } else { 1.0 };
@@ -97,7 +96,6 @@ pub(super) fn largest(column: &Column, law: impl Fn(f64) -> f64, relative: bool)
     differences.fold(0.0, f64::max)
 }
 
-/// Fits of bending and shear.
 pub(super) fn bend(tell: Tell<'_>, data: &BendData, fits: &BendFits) {
     tell(format_args!(
         "\nB = rest + rise q/(1 + q), q = k^2/k0^2, {} values",
@@ -154,7 +152,6 @@ fn standard_error(precision: &Precision, j: usize) -> String {
         .map_or_else(|| "   -   ".into(), |e| format!("{e:7.1e}"))
 }
 
-/// The fit behind a law.
 pub(super) fn basis(tell: Tell<'_>, basis: &Basis) {
     match basis {
         Basis::Full(found) => nonlinear(tell, found, None),
@@ -168,11 +165,11 @@ pub(super) fn basis(tell: Tell<'_>, basis: &Basis) {
     }
 }
 
-/// Chi squared of values with standard errors.
+/// Prints chi squared of values with standard errors.
 pub(super) fn chi_squared(tell: Tell<'_>, goodness: &Goodness) {
     let freedom = goodness.degrees_of_freedom;
     tell(format_args!(
-        "  chi^2 = {:.4} for {freedom} degrees of freedom; errors are those of the given ones",
+        "  chi^2 = {:.4} for {freedom} degrees of freedom; errors follow the given standard errors",
         goodness.chi_squared
     ));
 }
@@ -184,7 +181,7 @@ pub(super) fn nonlinear(tell: Tell<'_>, found: &Found, published: Option<&[f64]>
         let theirs = published.map_or_else(String::new, |p| format!(", published {:11.4e}", p[j]));
         let status = match fit.statuses[j] {
             Status::Determined => "",
-            Status::Weak => ", WEAK: known worse than its bounds",
+            Status::Weak => ", WEAK: standard error exceeds the width of its bounds",
             Status::Undetermined => ", NOT DETERMINED by the data",
             Status::AtLowerBound => ", AT ITS LOWER BOUND",
             Status::AtUpperBound => ", AT ITS UPPER BOUND",
@@ -212,7 +209,7 @@ pub(super) fn nonlinear(tell: Tell<'_>, found: &Found, published: Option<&[f64]>
     ));
 }
 
-/// The two parameters that the data tell apart worst.
+/// The two parameters with the largest correlation.
 fn strongest(precision: &Precision, names: &[&str]) -> String {
     let correlation = precision.correlation();
     let mut worst = (0.0_f64, 0, 0);

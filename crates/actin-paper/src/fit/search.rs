@@ -1,5 +1,5 @@
-//! The rod's laws fitted to columns: bounds and starts follow the data, and a simpler form is taken
-//! where the data do not ask for more.
+//! Fits of rod laws to columns. Bounds and starts scale with the data. A simpler form is used if it
+//! fits the data as well.
 
 use super::column::{Column, Weight};
 use super::forms::{Rooted, Sided, Stiffened, Stretched};
@@ -29,13 +29,13 @@ pub(super) const TANH: Form = Form {
     ],
 };
 
-/// Starts that are drawn for each search, and the seed of the draws.
+/// Number of random starts of each search, and their seed.
 pub(super) const STARTS: (usize, u64) = (200, 20_220_304);
-/// Fewest values on either side of a law with two.
+/// Fewest values on each side for a law with two sides.
 const FEWEST: usize = 3;
-/// Probability, of an improvement by chance, below which two more parameters are taken.
+/// Probability of a chance improvement below which the form with two more parameters is used.
 const CHANCE: f64 = 1e-3;
-/// Residuals over values below which a form meets the data to rounding.
+/// Relative residual below which a form fits to rounding.
 const ROUNDING: f64 = 1e-12;
 
 const SIDED: Form = Form {
@@ -79,23 +79,22 @@ const STRETCHED: Form = Form {
     ],
 };
 
-/// A law with the fit behind it.
+/// A law with its fit.
 #[derive(Clone, Debug)]
 pub(crate) struct LawFit<L> {
     pub law: L,
     pub basis: Basis,
 }
 
-/// The fit behind a law.
+/// The fit of a law.
 #[derive(Clone, Debug)]
 pub(crate) enum Basis {
-    /// Of the form with all its parameters.
+    /// Full form.
     Full(Found),
-    /// Of a form with two parameters less, which meets the data as well.
+    /// Form with two parameters fewer that fits the data as well.
     Simple {
-        /// What is simpler.
+        /// Reason for the simpler form.
         note: &'static str,
-        /// Names of its parameters.
         names: &'static [&'static str],
         fit: LinearFit,
     },
@@ -109,7 +108,7 @@ impl Basis {
         }
     }
 
-    /// What must not become part of a law.
+    /// Parameters that are undetermined or at a bound.
     pub(super) fn faults(&self) -> Vec<Fault> {
         match self {
             Self::Full(found) => found.faults(),
@@ -118,10 +117,7 @@ impl Basis {
     }
 }
 
-/// B3 against twist: `rest`, and a rise on either side.
-///
-/// # Errors
-/// Fewer than three values on a side, and what the least squares refuse.
+/// Fits B3 against twist with a rise on each side; needs three values on each side.
 pub(super) fn sided(column: &Column) -> Result<(SidedTwist, Found), String> {
     for (side, sign) in [("under", -1.0), ("over", 1.0)] {
         let count = column.on_side(sign);
@@ -158,10 +154,7 @@ pub(super) fn sided(column: &Column) -> Result<(SidedTwist, Found), String> {
     Ok((form.law(&found.fit.parameters), found))
 }
 
-/// Length against twist: two slopes and a cube, or one slope and a cube.
-///
-/// # Errors
-/// What the least squares refuse.
+/// Fits length against twist with two slopes and a cubic term, or one slope and a cubic term.
 pub(super) fn rooted(column: &Column) -> Result<LawFit<RootedStretch>, String> {
     let data = observed(&ROOTED, column, Weight::Equal)?;
     let range = column.range();
@@ -194,24 +187,22 @@ pub(super) fn rooted(column: &Column) -> Result<LawFit<RootedStretch>, String> {
         range,
     };
     let basis = Basis::Simple {
-        note: "one slope meets the values as well as two",
+        note: "one slope fits as well as two",
         names: &["slope (nm)", "cubic (nm^3)"],
         fit: straight,
     };
     Ok(LawFit { law, basis })
 }
 
-/// B against curvature: a rise from `rest`, or a constant.
-///
-/// # Errors
-/// What the least squares refuse, and bending that softens.
+/// Fits B against curvature: a rise from `rest`, or a constant. Softening is an error.
 pub(super) fn stiffened(column: &Column) -> Result<LawFit<Stiffening>, String> {
     let data = observed(&STIFFENED, column, Weight::Relative)?;
     let (most, range) = (column.largest(), column.range());
     let ones = Mat::full(data.len(), 1, 1.0);
     let constant = simple(&STIFFENED, fit_linear(ones.as_ref(), data.observations()))?;
     let full = || {
-        // A negative rise is searched for as well, to be refused rather than taken for none.
+        // The search includes negative rises, so that softening data are refused and not fitted by
+        // a constant.
         let bounds = vec![
             (1e-3 * most, 2.0 * most),
             (-0.999 * most, 20.0 * most),
@@ -230,7 +221,7 @@ pub(super) fn stiffened(column: &Column) -> Result<LawFit<Stiffening>, String> {
         None => LawFit {
             law: Stiffened { range }.law(&[constant.parameters[0], 0.0, range]),
             basis: Basis::Simple {
-                note: "a constant meets the values as well as a rise",
+                note: "a constant fits as well as a rise",
                 names: &["B (pN nm^2)"],
                 fit: constant,
             },
@@ -241,10 +232,8 @@ pub(super) fn stiffened(column: &Column) -> Result<LawFit<Stiffening>, String> {
     Ok(chosen)
 }
 
-/// Strain against force: a rigidity on either side, or one for both.
-///
-/// # Errors
-/// What the least squares refuse, and strains against their force.
+/// Fits strain against force with one rigidity for each side, or one for both. A strain that
+/// opposes its force is an error.
 pub(super) fn stretched(column: &Column) -> Result<LawFit<StretchLaw>, String> {
     let data = observed(&STRETCHED, column, Weight::Equal)?;
     let forces = Mat::from_fn(data.len(), 1, |i, _| data.row(i)[0]);
@@ -285,16 +274,13 @@ pub(super) fn stretched(column: &Column) -> Result<LawFit<StretchLaw>, String> {
     })
 }
 
-/// Why there is one rigidity, where the data are not and where they are on both sides.
+/// Reasons for one rigidity: too few values on one side, or an equally good fit.
 const ONE_RIGIDITY: [&str; 2] = [
-    "one rigidity: two need three values on either side",
-    "one rigidity meets both sides as well as two",
+    "one rigidity: two need three values on each side",
+    "one rigidity fits both sides as well as two",
 ];
 
-/// Checks that keys name parameters of searches.
-///
-/// # Errors
-/// The first that does not, with those that there are.
+/// Returns an error if a key is not a parameter of a search.
 pub(super) fn check_keys(keys: &[String]) -> Result<(), String> {
     let forms = [
         &SIDED, &ROOTED, &STIFFENED, &STRETCHED, &TWISTED, &SHEARED, &TANH,
@@ -304,7 +290,7 @@ pub(super) fn check_keys(keys: &[String]) -> Result<(), String> {
     match keys.iter().find(|key| !known.contains(&key.as_str())) {
         None => Ok(()),
         Some(key) => Err(format!(
-            "--allow-bounds {key}: must be of {}",
+            "--allow-bounds {key}: unknown parameter; known: {}",
             known.join(", ")
         )),
     }
@@ -319,8 +305,8 @@ fn simple(form: &Form, fit: Result<LinearFit, FitError>) -> Result<LinearFit, St
     fit.map_err(|e| format!("{}: {e}", form.what))
 }
 
-/// The fit of the full form, with two parameters more, unless the simple one meets the data as well:
-/// to rounding, or so that chance explains what the full one gains.
+/// Fits the full form, with two more parameters. Returns `None` if the simple form fits to rounding
+/// or if the improvement is explained by chance.
 fn unless_simple(
     data: &Data,
     simple: &LinearFit,
@@ -336,7 +322,7 @@ fn unless_simple(
     let found = full()?;
     let [before, after] = [&simple.goodness, &found.fit.goodness].map(|g| g.chi_squared);
     let freedom = (data.len() - parameters) as f64;
-    // Of chi squared with two degrees of freedom, or of F with two and `freedom`.
+    // Tail probability of chi squared with 2 degrees of freedom, or of F with 2 and `freedom`.
     let chance = match observations.noise() {
         Noise::Known => (-0.5 * (before - after)).exp(),
         Noise::Unknown | Noise::Relative => (after / before).powf(0.5 * freedom),

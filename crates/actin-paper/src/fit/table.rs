@@ -1,13 +1,13 @@
-//! A user's table, read from CSV: `docs/how-to/rod-laws.md` describes it.
+//! A user's table, read from CSV. Its format is described in `docs/how-to/rod-laws.md`.
 
 use super::column::Column;
 use csv::StringRecord;
 use std::path::Path;
 
-/// A table of one's own: the columns that it has; the others are empty.
+/// Columns of a user's table; missing columns are empty.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Table {
-    /// The file.
+    /// Path of the file.
     pub source: String,
     /// Secant twisting rigidity (pN nm^2) against twist (rad/nm).
     pub rigidity: Column,
@@ -19,12 +19,12 @@ pub(super) struct Table {
     pub stretch: Column,
 }
 
-/// Names of columns that go together.
+/// Names of columns that belong together.
 struct Group {
     x: &'static str,
     value: &'static str,
     error: &'static str,
-    /// Whether values must be positive.
+    /// `true` if values must be positive.
     is_rigidity: bool,
 }
 
@@ -56,7 +56,7 @@ const GROUPS: [Group; 4] = [
     },
 ];
 
-/// What a cell may hold.
+/// Valid values of a cell.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Rule {
     Finite,
@@ -64,12 +64,12 @@ enum Rule {
 }
 
 impl Table {
-    /// Reads columns under a header, in any order; an empty cell is no value. Lines that begin with
-    /// `#` are skipped, and so is a byte-order mark.
+    /// Reads columns with a header, in any order. Empty cells have no value. Lines that begin with
+    /// `#` and a byte-order mark are skipped.
     ///
     /// # Errors
-    /// A file that cannot be read; a column that is unknown, there twice, or without the one that it
-    /// goes with; a cell against its rule, with line, column, value and rule; no value at all.
+    /// An unreadable file; an unknown, repeated or incomplete column; an invalid cell, with line,
+    /// column, value and rule; a table without values.
     pub(super) fn from_csv(path: &Path) -> Result<Self, String> {
         let name = path.display();
         let mut reader = csv::ReaderBuilder::new()
@@ -92,7 +92,7 @@ impl Table {
             }
         }
         if columns.iter().all(Column::is_empty) {
-            return Err(format!("{name}: there is no value in any column"));
+            return Err(format!("{name}: the table has no values"));
         }
         let [rigidity, length, bend, stretch] = columns;
         let source = name.to_string();
@@ -106,7 +106,7 @@ impl Table {
     }
 }
 
-/// Refuses unknown, repeated and lonely columns.
+/// Refuses unknown, repeated and incomplete columns.
 fn check_header(header: &StringRecord) -> Result<(), String> {
     let mut known: Vec<&str> = GROUPS
         .iter()
@@ -117,18 +117,16 @@ fn check_header(header: &StringRecord) -> Result<(), String> {
     for (at, key) in header.iter().enumerate() {
         if !known.contains(&key) {
             let known = known.join(", ");
-            return Err(format!("column `{key}` is unknown: there are {known}"));
+            return Err(format!("column `{key}` is unknown; known columns: {known}"));
         }
         if header.iter().take(at).any(|before| before == key) {
-            return Err(format!("column `{key}` is there twice"));
+            return Err(format!("column `{key}` occurs twice"));
         }
     }
     for group in &GROUPS {
         for (key, needed) in [(group.error, group.value), (group.value, group.x)] {
             if has(key) && !has(needed) {
-                return Err(format!(
-                    "column `{needed}` is missing: `{key}` goes with it"
-                ));
+                return Err(format!("column `{needed}` is missing: `{key}` needs it"));
             }
         }
     }
@@ -139,14 +137,13 @@ fn check_header(header: &StringRecord) -> Result<(), String> {
     Err(format!("a column of values is missing, one of {values}"))
 }
 
-/// A row of the table.
 struct Row<'a> {
     header: &'a StringRecord,
     record: &'a StringRecord,
 }
 
 impl Row<'_> {
-    /// Adds the row's value to the column of a group, if it has one.
+    /// Appends the value of the row, if any, to the column of a group.
     fn read(&self, group: &Group, column: &mut Column) -> Result<(), String> {
         let rule = if group.is_rigidity {
             Rule::Positive
@@ -181,7 +178,7 @@ impl Row<'_> {
         self.header.iter().position(|found| found == key)
     }
 
-    /// A cell as a number; `None` if it is empty or there is no such column.
+    /// Returns a cell as a number; `None` if the cell is empty or the column is missing.
     fn cell(&self, key: &str, rule: Rule) -> Result<Option<f64>, String> {
         let Some(at) = self.place(key) else {
             return Ok(None);
@@ -226,7 +223,6 @@ mod tests {
         assert!(data.bend.is_empty() && data.stretch.is_empty() && !data.length.is_known());
     }
 
-    /// Groups share a file, row by row or one below the other, with standard errors or without.
     #[test]
     fn groups_share_a_file() {
         let data = read(
@@ -245,33 +241,29 @@ mod tests {
         for (header, expected) in [
             (
                 "kappa,b3_pn_nm2",
-                "column `kappa` is unknown: there are kappa3_rad_per_nm, b3_pn_nm2,",
+                "column `kappa` is unknown; known columns: kappa3_rad_per_nm, b3_pn_nm2,",
             ),
             (
                 "b3_pn_nm2",
-                "column `kappa3_rad_per_nm` is missing: `b3_pn_nm2` goes with it",
+                "column `kappa3_rad_per_nm` is missing: `b3_pn_nm2` needs it",
             ),
             (
                 "force_pn,strain_error",
-                "column `strain` is missing: `strain_error` goes with it",
+                "column `strain` is missing: `strain_error` needs it",
             ),
             (
                 "kappa3_rad_per_nm",
                 "a column of values is missing, one of b3_pn_nm2, dl_over_l,",
             ),
-            ("force_pn,strain,strain", "column `strain` is there twice"),
+            ("force_pn,strain,strain", "column `strain` occurs twice"),
         ] {
             let message = read(format!("{header}\n1,2\n")).unwrap_err();
             assert!(message.contains(expected), "{message}");
         }
         let message = read("force_pn,strain\n1,\n").unwrap_err();
-        assert!(
-            message.contains("there is no value in any column"),
-            "{message}"
-        );
+        assert!(message.contains("the table has no values"), "{message}");
     }
 
-    /// Line, column, value and rule.
     #[test]
     fn bad_cells_are_refused_with_their_place() {
         let header = "kappa3_rad_per_nm,b3_pn_nm2,b3_error_pn_nm2\n0.01,100,1\n";
@@ -306,8 +298,8 @@ mod tests {
     }
 
     proptest! {
-        /// Tables of anything: numbers or a message, never a panic. Rows of other lengths, quotes
-        /// that are not closed and bytes that are no text come as they come.
+        /// Random tables give numbers or a message, never a panic. They include rows of unequal
+        /// length, unclosed quotes and invalid UTF-8.
         #[test]
         fn spoilt_tables_are_read_or_refused(
             header in prop::sample::subsequence(

@@ -1,4 +1,4 @@
-//! Tables of known laws: they come back within their errors, at any size, and a scene takes them.
+//! Fits to synthetic tables recover the parameters of known laws at any scale.
 
 use super::column::Column;
 use super::forms::{Rooted, Sided, Stiffened, Stretched};
@@ -13,13 +13,13 @@ use actin_fit::{Fit, Model};
 use actin_sim::{Assembly, Scene};
 use std::path::Path;
 
-/// Normal numbers of mean 0 and deviation 1: sums of twelve uniform ones.
+/// Normal deviates: sums of twelve uniform deviates.
 struct Noise(u64);
 
 impl Noise {
     fn next(&mut self) -> f64 {
         let uniform = |_| {
-            // Knuth's linear congruence; the upper bits are taken.
+            // Linear congruential generator (Knuth, MMIX); upper bits.
             self.0 = self
                 .0
                 .wrapping_mul(6_364_136_223_846_793_005)
@@ -30,13 +30,13 @@ impl Noise {
     }
 }
 
-/// Places to both sides, closer at rest.
+/// Arguments on both sides, denser near zero.
 fn sides(count: i32, range: f64) -> Vec<f64> {
     let place = |i: i32| (f64::from(i) / f64::from(count)).powi(2) * range * f64::from(i.signum());
     (-count..=count).map(place).collect()
 }
 
-/// Values of a model with noise of `share` of each, and that as standard error.
+/// Values of a model with relative noise `share`, and their standard errors.
 fn observed(model: &dyn Model, x: &[f64], p: &[f64], share: f64, seed: u64) -> Column {
     let mut noise = Noise(seed);
     let mut column = Column::default();
@@ -51,7 +51,8 @@ fn observed(model: &dyn Model, x: &[f64], p: &[f64], share: f64, seed: u64) -> C
     column
 }
 
-/// Parameters within 4 standard errors of the truth; chi squared within 4 of its deviations.
+/// Parameters are within 4 standard errors of the truth, and chi squared within 4 standard
+/// deviations.
 fn assert_near(fit: &Fit, truth: &[f64]) {
     for (j, (got, is)) in fit.parameters.iter().zip(truth).enumerate() {
         let error = fit.precision.standard_error(j).expect("determined");
@@ -61,7 +62,7 @@ fn assert_near(fit: &Fit, truth: &[f64]) {
         );
         assert!(
             error < is.abs(),
-            "{j}: an error that says nothing, {error:e} of {is:e}"
+            "{j}: standard error {error:e} exceeds the value {is:e}"
         );
     }
     let freedom = fit.goodness.degrees_of_freedom as f64;
@@ -83,10 +84,10 @@ fn full<L>(fit: &LawFit<L>) -> &Fit {
     }
 }
 
-/// Twisting rigidities of any size, with 1 % of noise; a search that is capped at 5e3 fails from
-/// the second size on.
+/// Twisting rigidities of any size with 1 % noise. A bound of 5e3 pN nm^2 on `rest` would fail at
+/// the second size.
 #[test]
-fn twist_comes_back_at_every_size() {
+fn twist_is_recovered_at_every_scale() {
     for (seed, rest) in [(1, 100.0), (2, 1e4), (3, 1e5), (4, 3e3)] {
         for range in [0.05, 2e-3] {
             let truth = [
@@ -107,9 +108,8 @@ fn twist_comes_back_at_every_size() {
     }
 }
 
-/// Without noise the parameters come back to many digits, whatever rigidities and lengths are.
 #[test]
-fn clean_tables_give_their_laws() {
+fn laws_are_recovered_without_noise() {
     let range = 0.05;
     for size in [1e-3, 1.0, 1e5] {
         let near = |fit: &Fit, truth: &[f64]| {
@@ -141,7 +141,7 @@ fn clean_tables_give_their_laws() {
 }
 
 #[test]
-fn bending_and_stretch_come_back_at_every_size() {
+fn bending_and_stretch_are_recovered_at_every_scale() {
     for (seed, rest) in [(5, 100.0), (6, 3e4), (7, 1e5)] {
         let (range, truth) = (0.02, [rest, 0.4 * rest, 4e-3]);
         let x: Vec<f64> = (1..60).map(|i| range * f64::from(i) / 59.0).collect();
@@ -153,10 +153,9 @@ fn bending_and_stretch_come_back_at_every_size() {
     }
 }
 
-/// A constant B, one rigidity on both sides and a single slope are told from their noise: the form
-/// with more parameters, two of which the data would not determine, is not taken.
+/// Constant B, equal rigidities and a single slope are recognised with and without noise.
 #[test]
-fn simpler_laws_are_taken_where_they_do() {
+fn simpler_laws_are_preferred_if_they_fit() {
     let x: Vec<f64> = (1..30).map(|i| 5e-4 * f64::from(i)).collect();
     for share in [0.0, 0.02] {
         let column = observed(&Stiffened { range: 0.015 }, &x, &[2e4, 0.0, 1e-3], share, 9);
@@ -175,26 +174,25 @@ fn simpler_laws_are_taken_where_they_do() {
         assert!((length.slope / -0.3 - 1.0).abs() < 0.03 && length.bend.abs() < 1e-12);
         length.validate().unwrap();
     }
-    // Bending that softens is no constant.
     let column = observed(&Stiffened { range: 0.015 }, &x, &[2e4, -8e3, 4e-3], 0.01, 9);
     let message = stiffened(&column).unwrap_err();
     assert!(message.contains("no law softens"), "{message}");
 }
 
-/// The command, with nothing told.
+/// Runs the command without output.
 fn fitted(options: &Options) -> Result<(), String> {
     run(options, &|_| ())
 }
 
-/// The case that was capped: smooth rigidities of 8 to 20e3.
+/// Smooth rigidities of 8e3 to 20e3 pN nm^2, beyond a bound of 5e3 on `rest`.
 #[test]
-fn stiff_data_are_met() {
+fn stiff_data_are_fitted() {
     let mut column = Column::default();
     for x in sides(12, 0.05) {
         column.push(x, 8e3 + 12e3 * x * x / (x * x + 4e-4));
     }
     let (law, found) = sided(&column).unwrap();
-    // The form lacks nothing: slow is zero, at its bound, or above it by rounding.
+    // The form is exact with `slow` = 0, which is a bound.
     for (x, value) in column.pairs() {
         assert!(
             (law.secant(x) / value - 1.0).abs() < 1e-5,
@@ -215,8 +213,8 @@ fn options(data: &Path, out: &Path, allowed: &[&str]) -> Options {
     }
 }
 
-/// Rigidities that rise as the square of the twist, to no limit: the rises stop at their bounds. This
-/// is a failure that leaves nothing behind, unless each of them is allowed.
+/// Rigidities that grow as the square of the twist without limit: the rises end at their bounds.
+/// Each of them must be allowed, or no file is written.
 #[test]
 fn a_parameter_at_a_bound_is_a_failure() {
     let folder = tempfile::tempdir().unwrap();
@@ -245,14 +243,14 @@ fn a_parameter_at_a_bound_is_a_failure() {
     assert!(out.join("rod-law.ron").exists());
     let unknown = fitted(&options(&file, &out, &["b3.rests"])).unwrap_err();
     assert!(
-        unknown.starts_with("--allow-bounds b3.rests: must be of b3.rest, "),
+        unknown.starts_with("--allow-bounds b3.rests: unknown parameter; known: b3.rest, "),
         "{unknown}"
     );
 }
 
-/// Data on one side do not tell the other, and twist that is one place tells no law.
+/// Data on one side do not determine the other, and a single absolute twist determines no law.
 #[test]
-fn what_the_data_do_not_tell_is_refused() {
+fn undetermined_parameters_are_refused() {
     let mut column = Column::default();
     for x in (1..20).map(|i| 2e-3 * f64::from(i)) {
         column.push(x, 1e3 + 1e6 * x);
@@ -274,7 +272,6 @@ fn what_the_data_do_not_tell_is_refused() {
     );
 }
 
-/// A rod of 75 nm with this law, turned by a quarter.
 fn scene_with(law: &str) -> Scene {
     let text = format!(
         "Scene(title: \"mine\", filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 75.0)], \
@@ -284,10 +281,10 @@ fn scene_with(law: &str) -> Scene {
     Scene::from_ron(&text).unwrap()
 }
 
-/// The example of the documentation is a table, its law is written, and a scene with that law as
-/// written runs and shows the rigidities of the table.
+/// The example of the documentation gives a law file. A scene with that law has the rigidities of
+/// the table.
 #[test]
-fn a_scene_takes_what_is_written() {
+fn a_scene_reads_the_written_law() {
     let page = include_str!("../../../../docs/how-to/rod-laws.md");
     let (_, rest) = page.split_once("```csv\n").unwrap();
     let (example, _) = rest.split_once("```").unwrap();

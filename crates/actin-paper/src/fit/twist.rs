@@ -8,13 +8,12 @@ use super::search::{LawFit, STARTS, TANH, rooted, sided};
 use actin_cosserat::{PolynomialStretch, RootedStretch, SidedTwist, TanhTwist};
 use actin_fit::{Data, Fit, LinearFit, Polynomial, Starts};
 
-/// Degree of the published polynomial.
 const DEGREE: u8 = 6;
-/// Standard deviation of a number that is rounded to four decimals.
+/// Standard deviation of a number rounded to four decimals.
 const ROUNDING_DEVIATION: f64 = 2.887e-5;
 
-/// Bounds of the published form's parameters: steps lie within the data and are no narrower than
-/// half the distance of two rows, below which every width fits as well.
+/// Bounds of the parameters of the published form. Steps lie within the data and are at least half
+/// a row distance wide, since narrower steps all fit equally.
 const LAMBDA_BOUNDS: [(f64, f64); 7] = [
     (-0.05, 0.05),
     (1e-3, 0.06),
@@ -25,33 +24,28 @@ const LAMBDA_BOUNDS: [(f64, f64); 7] = [
     (2e-3, 0.06),
 ];
 
-/// All fits to one table.
 #[derive(Debug)]
 pub(crate) struct TwistFits {
-    /// `p_0` to `p_6`.
+    /// Polynomial with `p_0` to `p_6`.
     pub polynomial: LinearFit,
-    /// `p_1` to `p_6`, with nothing at rest.
+    /// Polynomial with `p_1` to `p_6`.
     pub without_offset: LinearFit,
     /// `xi - 1` with two slopes.
     pub rooted: LawFit<RootedStretch>,
-    /// Published form of B3, every row with the same weight.
+    /// Published form of B3 with equal weights.
     pub tanh: Found,
-    /// The same with relative weights: the small rigidities of small twists count as much.
+    /// Published form of B3 with relative weights.
     pub tanh_relative: Found,
-    /// Saturation to either side, with relative weights.
+    /// Separate saturation in both senses of twist, with relative weights.
     pub sided: (SidedTwist, Found),
-    /// Root mean square of the published `xi`, and of it without its offset.
+    /// Root mean square residual of the published `xi`, with and without its offset.
     pub published_xi_rms: [f64; 2],
-    /// Root mean square of the published B3 (pN nm^2), and relative.
+    /// Root mean square residual of the published B3 (pN nm^2), and relative.
     pub published_b3_rms: [f64; 2],
     pub ranges: [f64; 2],
 }
 
 impl TwistFits {
-    /// Fits every form to `data`.
-    ///
-    /// # Errors
-    /// What the least squares refuse: too few rows, and searches of which none converged.
     pub(crate) fn new(data: &TwistData) -> Result<Self, String> {
         let (rigidity, length) = (&data.rigidity, &data.length);
         let of_xi = |e| format!("xi against twist: {e}");
@@ -92,15 +86,14 @@ impl TwistFits {
         })
     }
 
-    /// What must not become part of a law.
+    /// Parameters that are undetermined or at a bound.
     pub(super) fn faults(&self) -> Vec<Fault> {
         let searches = [&self.tanh, &self.sided.1].into_iter();
         let faults = searches.flat_map(Found::faults);
         faults.chain(self.rooted.basis.faults()).collect()
     }
 
-    /// What the rounding of the paper's rows does to coefficient `j` of the polynomial: its
-    /// standard error if half a unit in the last decimal were all the noise.
+    /// Standard error of coefficient `j` of the polynomial due to the rounding of the paper's rows.
     pub(crate) fn rounding_error(&self, j: usize) -> f64 {
         let fit = &self.polynomial;
         let noise = fit
@@ -111,7 +104,6 @@ impl TwistFits {
         error / noise * ROUNDING_DEVIATION
     }
 
-    /// The published form with the parameters of a fit.
     pub(crate) fn tanh_law(&self, fit: &Fit) -> TanhTwist {
         let law = Tanh {
             limits: TanhTwist::published(),
@@ -123,7 +115,7 @@ impl TwistFits {
         }
     }
 
-    /// A polynomial as fitted; one without offset has `p_0 = 0`.
+    /// The law of a polynomial fit; `p_0 = 0` if the fit has no offset.
     pub(crate) fn polynomial_law(&self, fit: &LinearFit) -> PolynomialStretch {
         let mut coefficients = [0.0; 7];
         let first = 7 - fit.parameters.len();
@@ -135,7 +127,7 @@ impl TwistFits {
     }
 }
 
-/// The law without the end of its range, since fits read the formula.
+/// The law without a limited range, for fits of the formula.
 fn wide(law: TanhTwist) -> TanhTwist {
     TanhTwist {
         range: f64::MAX,
@@ -143,7 +135,7 @@ fn wide(law: TanhTwist) -> TanhTwist {
     }
 }
 
-/// Root mean square of `law` against a column, of differences or of relative ones.
+/// Root mean square of the differences, or relative differences, between `law` and a column.
 pub(crate) fn rms(column: &Column, law: impl Fn(f64) -> f64, relative: bool) -> f64 {
     let squares = column.pairs().map(|(k, value)| {
         let scale = if relative { value } else { 1.0 };
@@ -158,8 +150,7 @@ mod tests {
     use crate::fit::forms::{Rooted, Sided};
     use actin_fit::{Model, check_gradient};
 
-    /// The published polynomial is the least-squares one, and
-    /// the published lambda are not.
+    /// The published polynomial is the least-squares fit; the published `lambda` are not.
     #[test]
     fn paper_rows_give_the_published_polynomial_and_a_better_tanh() {
         let data = TwistData::from_paper(false).unwrap();
@@ -178,7 +169,7 @@ mod tests {
             );
             assert!(
                 rounding < 0.1 * theirs.abs(),
-                "a bound that says nothing: {rounding}"
+                "the rounding error {rounding} exceeds 10 % of {theirs}"
             );
         }
         assert!((fits.published_b3_rms[0] - 349.0).abs() < 1.0);
@@ -209,7 +200,7 @@ mod tests {
         ];
         for (model, parameters) in checks {
             let check = check_gradient(model, &data, parameters).unwrap();
-            // Differences of 7e-4 of each parameter.
+            // The difference step is 7e-4 of each parameter.
             assert!(check.error < 1e-5, "{check:?}");
         }
     }

@@ -1,4 +1,4 @@
-//! Laws as RON that a scene takes, curves and data as CSV.
+//! Output of the fits: laws as RON for scenes, curves and data as CSV.
 
 use super::bend::BendFits;
 use super::data::TwistData;
@@ -10,11 +10,10 @@ use actin_sim::{RodLaws, TwistLaw};
 use std::fs;
 use std::path::Path;
 
-/// Points of a curve.
 const CURVE: i32 = 400;
 
-/// Writes `rod-law.ron`, the smallest forms, and `published-form.ron`, the paper's forms refitted;
-/// what stands in them goes behind `law:` in a scene's `RodModel`.
+/// Writes `rod-law.ron`, the smallest forms, and `published-form.ron`, the refitted forms of the
+/// paper. Both are values of `law:` in a scene's `RodModel`.
 pub(super) fn laws(fits: &TwistFits, bend: Option<&BendFits>, out: &Path) -> Result<(), String> {
     let smallest = RodLaws {
         twist: Some(TwistLaw::Sided(fits.sided.0)),
@@ -32,13 +31,13 @@ pub(super) fn laws(fits: &TwistFits, bend: Option<&BendFits>, out: &Path) -> Res
     law(&published, "published-form.ron", out)
 }
 
-/// Writes a law as a scene takes it.
+/// Writes a law in the format of scenes.
 pub(super) fn law(laws: &RodLaws, name: &str, out: &Path) -> Result<(), String> {
     let head = "// A rod law for a scene: `rod: RodModel(law: ...)`. Written by fit-parameters.\n";
     save(out, name, &format!("{head}{}\n", laws.to_ron()))
 }
 
-/// Writes `curves.csv`: every form over the range of the data.
+/// Writes `curves.csv`: all forms over the range of the data.
 pub(super) fn curves(data: &TwistData, fits: &TwistFits, out: &Path) -> Result<(), String> {
     let range = data.rigidity.range().max(data.length.range());
     let (tanh, relative) = (
@@ -75,7 +74,7 @@ pub(super) fn curves(data: &TwistData, fits: &TwistFits, out: &Path) -> Result<(
     write_csv(out, "curves.csv", &header, rows)
 }
 
-/// Writes `bend.csv` and `beams.csv`: what was measured beside the law.
+/// Writes `bend.csv` and `beams.csv`: measured values and the law.
 pub(super) fn bend_csv(data: &BendData, fits: &BendFits, out: &Path) -> Result<(), String> {
     let number = |x: f64| format!("{x:.8e}");
     let bend = data.bend.iter().map(|p: &Point| {
@@ -94,7 +93,6 @@ pub(super) fn bend_csv(data: &BendData, fits: &BendFits, out: &Path) -> Result<(
     write_csv(out, "beams.csv", &header, beams)
 }
 
-/// Creates the folder of the results.
 pub(super) fn create(out: &Path) -> Result<(), String> {
     fs::create_dir_all(out).map_err(|e| format!("{}: {e}", out.display()))
 }

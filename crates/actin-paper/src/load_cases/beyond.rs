@@ -1,4 +1,4 @@
-//! Errors of cantilevers that leave the data of `Homogenised`: the numbers that the warning gives.
+//! Errors of cantilevers beyond the data of `Homogenised`, which the extrapolation warning quotes.
 
 use super::case::{Case, Group};
 use super::ends::of_mean_filament;
@@ -13,19 +13,17 @@ use rayon::prelude::*;
 use std::fmt::Write as _;
 use std::path::Path;
 
-/// From the wall to the load (rises): 62, 100, 160, 220, 303 nm.
+/// Lengths of the cantilevers (rises): 62, 100, 160, 220, 303 nm.
 const RISES: [f64; 5] = [22.5, 36.5, 58.5, 80.5, 110.5];
-/// Forces across the tip (pN).
+/// Transverse tip forces (pN).
 const FORCES_PN: [f64; 7] = [1.0, 2.0, 3.0, 4.0, 5.0, 7.0, 10.0];
-/// Azimuths of the lattice.
 const AZIMUTHS: u32 = 6;
-/// Rows of each quantity.
 const GROUPS: usize = 5;
-/// Folder from which the program reads them.
+/// Folder of the committed table, which the program includes.
 const COMMITTED: &str = "crates/actin-sim/src/assembly";
 const FILE: &str = "extrapolation.csv";
 
-/// A quantity that a cantilever takes beyond its range.
+/// A quantity that exceeds its range.
 struct Excess {
     quantity: String,
     value: f64,
@@ -33,10 +31,7 @@ struct Excess {
     of_one_azimuth: f64,
 }
 
-/// Measures, and writes `extrapolation.csv`; with `write` also where the program reads it.
-///
-/// # Errors
-/// A rod or monomers without an equilibrium, and a file that cannot be written.
+/// Writes `extrapolation.csv`; with `write` also into the folder of the committed table.
 pub(super) fn run(out: &Path, write: bool, tell: Tell<'_>) -> Result<(), String> {
     let all = RISES.par_iter().map(|&rises| excesses(out, rises));
     let all = all.collect::<Result<Vec<_>, String>>()?;
@@ -49,7 +44,7 @@ pub(super) fn run(out: &Path, write: bool, tell: Tell<'_>) -> Result<(), String>
     Ok(())
 }
 
-/// Strains of a rod of segments of 10 nm beyond the data of its law, and its errors, under each force.
+/// Excess strains and errors under each force, for a rod with segments of 10 nm.
 fn excesses(out: &Path, rises: f64) -> Result<Vec<Excess>, String> {
     let name = format!("{rises} rises, beyond");
     let case = Case::forces(Group::Beside, name, rises, (None, 0.0, &FORCES_PN));
@@ -78,11 +73,11 @@ fn excesses(out: &Path, rises: f64) -> Result<Vec<Excess>, String> {
         }
     }
     let is_whole = monomers.iter().all(|m| m.values.len() == FORCES_PN.len());
-    let lost = || format!("{}: not every force was reached", case.name);
+    let lost = || format!("{}: no equilibrium at some of the forces", case.name);
     is_whole.then_some(all).ok_or_else(lost)
 }
 
-/// For each quantity groups of about equal size by value, with the largest errors up to there.
+/// Largest errors up to each excess, for groups of about equal size.
 fn table(mut all: Vec<Excess>) -> String {
     all.sort_by(|a, b| a.value.abs().total_cmp(&b.value.abs()));
     let mut text = "quantity,up_to,of_mean,of_one_azimuth\n".to_owned();

@@ -1,17 +1,15 @@
-//! Load cases: how a filament is held and loaded, which quantity is read, and how far a rod may be off. Cases and bounds
-//! were set before any result was seen.
+//! Load cases: clamps, loads, compared quantities and error bounds. Cases and bounds were fixed
+//! before the first result.
 
 use super::filament::RISE_NM;
 use actin_sim::Slides;
 
-/// A load case.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Case {
-    /// Section of the table.
     pub group: Group,
-    /// Name in tables and files.
     pub name: String,
-    /// Length in rises; of a cantilever to where the force acts, midway between the last two monomers.
+    /// Length in rises. For a cantilever, the length to the point of the force, midway between the
+    /// last two monomers.
     pub rises: f64,
     pub loading: Loading,
 }
@@ -19,48 +17,51 @@ pub(super) struct Case {
 /// Ways of loading.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Loading {
-    /// Held at the start, turned (deg per 73.94 nm) or pulled (pN), then loaded with each force (pN): along the axis if the far
-    /// end slides along it, else across. Read: far end displacement (nm) of a cantilever, over the force (nm/pN) if it
-    /// slides freely, secant stretching rigidity (pN) if it slides along the axis.
+    /// Clamped at the start, turned (deg per 73.94 nm) or pulled (pN), then loaded with each force
+    /// (pN). The force is axial if the far end slides along the axis, else transverse.
+    ///
+    /// Compared: displacement of the far end (nm) of a cantilever, displacement over force (nm/pN)
+    /// if the end slides freely, secant stretching rigidity (pN) if it slides along the axis.
     Forces {
         far_end: Option<Slides>,
         turn_deg: f64,
         tension_pn: f64,
         forces_pn: Vec<f64>,
     },
-    /// Figure 5, or Figure 6. Read: energy (pN nm) and centre line.
+    /// Figure 5 or Figure 6. Compared: energy (pN nm) and centre line.
     Linked { figure: u32 },
-    /// Each end turned by this angle (deg) and pushed in by 7.5 nm. Read: height (nm), couple (pN nm), thrust (pN).
+    /// Each end turned by this angle (deg) and pushed in by 7.5 nm. Compared: height (nm), torque
+    /// (pN nm), thrust (pN).
     Buckled { turn_deg: f64 },
-    /// Turned by these angles (deg) per 73.94 nm, free to change its length. Read: secant twisting rigidity
-    /// (pN nm^2) and change of length.
+    /// Turned by these angles (deg) per 73.94 nm with free length. Compared: secant twisting
+    /// rigidity (pN nm^2) and change of length.
     Twisted { turns_deg: Vec<f64> },
 }
 
-/// The length to which turns refer (nm): that of Tables 3 and 5, 27 rises.
+/// Reference length of turns (nm): 27 rises, as in Tables 3 and 5.
 pub(super) const TURNED_NM: f64 = 27.0 * RISE_NM;
 
-/// Forces across and tensions of cantilevers of 160.2 nm (pN).
+/// Transverse forces and tensions of cantilevers of 160.2 nm (pN).
 const ACROSS_PN: [f64; 5] = [0.05, 0.2, 1.0, 2.0, 5.0];
 const SMALL_PN: [f64; 2] = [0.1, 0.5];
 const PULL_PN: [f64; 4] = [1.0, 5.0, 10.0, 40.0];
-/// Tensions of guided beams (pN), and spans with and without a bound: 60, 90, 150 nm; 25, 30, 40 nm.
+/// Tensions of guided beams (pN), and spans with a bound (60, 90, 150 nm) and without (25, 30, 40
+/// nm).
 const GUIDED_PULL_PN: [f64; 3] = [0.0, 5.0, 10.0];
 const SPANS: [(Group, [f64; 3]); 2] = [
     (Group::Guided, [22.0, 33.0, 55.0]),
     (Group::Beside, [9.0, 11.0, 15.0]),
 ];
-/// Turns of buckled filaments (deg).
 const BUCKLED_DEG: [f64; 4] = [180.0, -180.0, 270.0, -270.0];
-/// Turns (deg) of which Tables 3 and 5 have rows.
+/// Turns (deg) of the rows of Tables 3 and 5.
 const TURNS_DEG: [f64; 10] = [
     10.0, -10.0, 40.0, -40.0, 80.0, -80.0, 120.0, -120.0, 180.0, -180.0,
 ];
-/// Forces along a filament (pN), and twist under which it is stretched (deg per 73.94 nm).
+/// Axial forces (pN), and twists of stretched filaments (deg per 73.94 nm).
 const ALONG_PN: [f64; 3] = [2.0, 10.0, 40.0];
 const HELD_DEG: [f64; 3] = [0.0, 80.0, -80.0];
 
-/// All cases; a few that cover most of the table if `quick`.
+/// All cases, or a representative subset if `quick`.
 pub(super) fn all(quick: bool) -> Vec<Case> {
     let cantilever = |group, pull: f64, forces: &[f64]| {
         let name = format!("160 nm, tension {pull} pN");
@@ -110,7 +111,7 @@ impl Case {
         }
     }
 
-    /// Held at the start, pulled by a tension (pN), then pushed across by each force (pN).
+    /// Clamped at the start, pulled by a tension (pN), then loaded with each transverse force (pN).
     pub(super) fn forces(
         group: Group,
         name: String,
@@ -126,7 +127,7 @@ impl Case {
         Self::new(group, name, rises, loading)
     }
 
-    /// Both ends held against turning, the far one slides freely.
+    /// Both ends held against rotation; the far end slides freely.
     pub(super) fn guided(group: Group, rises: f64, tension_pn: f64) -> Self {
         let name = format!("guided {:.0} nm, tension {tension_pn} pN", rises * RISE_NM);
         let loads = (Some(Slides::Freely), tension_pn, &SMALL_PN[..]);
@@ -148,7 +149,7 @@ impl Case {
         case
     }
 
-    /// 301.2 nm, turned at both ends and pushed together.
+    /// A filament of 301.2 nm, turned and pushed in at both ends.
     pub(super) fn buckled(group: Group, name: String, turn_deg: f64) -> Self {
         Self::new(group, name, 110.0, Loading::Buckled { turn_deg })
     }
@@ -157,7 +158,6 @@ impl Case {
         self.rises * RISE_NM
     }
 
-    /// Cases of a quick run.
     fn is_quick(&self) -> bool {
         match &self.loading {
             Loading::Linked { figure } => *figure == 5,
@@ -176,8 +176,8 @@ impl Case {
         }
     }
 
-    /// Azimuths of the lattice at which the mean filament and one sampling are loaded (deg): one if no direction across the
-    /// axis is distinguished.
+    /// Azimuths (deg) of the lattice for the mean filament and for one sampling. Axisymmetric cases
+    /// have one azimuth.
     pub(super) fn azimuths_deg(&self, quick: bool) -> [Vec<f64>; 2] {
         let counts = match &self.loading {
             Loading::Twisted { .. } => [1, 1],
@@ -195,7 +195,7 @@ impl Case {
         counts.map(azimuths_deg)
     }
 
-    /// Its name as part of a file's.
+    /// Stem of file names.
     pub(super) fn file(&self) -> String {
         let name = format!("{:?}-{}", self.group, self.name);
         name.replace(
@@ -205,13 +205,12 @@ impl Case {
     }
 }
 
-/// Azimuths at equal distances (deg).
+/// Equidistant azimuths (deg).
 pub(super) fn azimuths_deg(count: u32) -> Vec<f64> {
     let step = 360.0 / f64::from(count);
     (0..count).map(|k| f64::from(k) * step).collect()
 }
 
-/// Sections of the table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Group {
     Cantilever,
@@ -221,30 +220,29 @@ pub(super) enum Group {
     Buckled,
     Twisted,
     Stretched,
-    /// Rods joined to monomers, over all resolutions.
+    /// Rods joined to monomers, at all resolutions.
     Mixed,
     /// Free filaments in a heat bath.
     Thermal,
-    /// Shown, without a bound.
+    /// Reported without a bound.
     Beside,
 }
 
-/// A bound of an error.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Bound {
     /// Relative difference.
     Relative(f64),
     /// Largest distance of centre lines (nm), averaged over filaments.
     Distance(f64),
-    /// One standard deviation of single filaments of drawn bonds.
+    /// One standard deviation of single filaments with sampled bonds.
     Scatter,
-    /// Largest minus smallest over the mean.
+    /// Range over the mean.
     Spread(f64),
-    /// None.
+    /// No bound.
     Open,
 }
 
-/// Groups in the order of tables, with their names there and their bounds.
+/// Groups in the order of tables, with their names and bounds.
 const GROUPS: [(Group, &str, Bound); 10] = [
     (Group::Cantilever, "cantilever", TWO),
     (Group::PulledCantilever, "cantilever under tension", THREE),
@@ -262,12 +260,10 @@ const THREE: Bound = Bound::Relative(0.03);
 const FIVE: Bound = Bound::Relative(0.05);
 
 impl Group {
-    /// Name in tables.
     pub(super) fn name(self) -> &'static str {
         GROUPS[self as usize].1
     }
 
-    /// The bound of a quantity.
     pub(super) fn bound(self, quantity: &str) -> Bound {
         match (self, quantity) {
             (Self::Linked, "shape") => Bound::Distance(1.5),
@@ -278,7 +274,7 @@ impl Group {
 }
 
 impl Bound {
-    /// Its size; `scatter` is the relative deviation of single filaments.
+    /// Value of the bound; `scatter` is the relative deviation of single filaments.
     pub(super) fn size(self, scatter: Option<f64>) -> Option<f64> {
         match self {
             Self::Relative(bound) | Self::Distance(bound) | Self::Spread(bound) => Some(bound),
@@ -287,12 +283,11 @@ impl Bound {
         }
     }
 
-    /// Whether an error is within it; `None` without a bound.
+    /// Returns whether an error is within the bound; `None` without a bound.
     pub(super) fn is_met(self, error: f64, scatter: Option<f64>) -> Option<bool> {
         self.size(scatter).map(|bound| error.abs() <= bound)
     }
 
-    /// In tables.
     pub(super) fn text(self) -> String {
         match self {
             Self::Relative(bound) | Self::Spread(bound) => format!("{:.0} %", 100.0 * bound),
@@ -308,9 +303,9 @@ mod tests {
     use super::*;
     use std::collections::BTreeSet;
 
-    /// Every row of the table that has load cases of its own has some, no two of one name.
+    /// Every group with load cases has some, with unique names.
     #[test]
-    fn the_table_is_covered() {
+    fn every_group_has_cases_with_unique_names() {
         let cases = all(false);
         let groups: BTreeSet<Group> = cases.iter().map(|case| case.group).collect();
         let own = GROUPS.iter().map(|(group, ..)| *group);
@@ -322,7 +317,6 @@ mod tests {
         assert!(names.is_subset(&files) && names.len() < files.len());
     }
 
-    /// The table, as it was asked for.
     #[test]
     fn bounds_are_those_of_the_table() {
         let texts = GROUPS.map(|(group, ..)| group.bound("").text());

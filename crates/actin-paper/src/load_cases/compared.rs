@@ -1,4 +1,4 @@
-//! One law compared with monomers, for a report. Only the picture is written to disk.
+//! Comparison of one law with monomers, for a report.
 
 use super::case::{self, Bound, Group};
 use super::filament;
@@ -7,15 +7,13 @@ use super::{Effort, monomers, of_law, picture};
 use actin_draw::report::{self, Origin};
 use std::path::Path;
 
-/// The load case, the quantity, and the number of the rod (of shapes the distance from monomers, of mixed filaments the
-/// spread) against the mean filament.
+/// The load case, the quantity, and the result of the rod against the mean filament. For shapes the
+/// result is the distance of centre lines, for mixed filaments the spread.
 pub(crate) type Compared = (String, String, report::Row);
 
-/// All load cases of a law, with segments of 10 nm; draws `load-cases.svg`. A quick run leaves out motion, whose
-/// numbers depend on rounding. `done` is told of each filament of monomers.
-///
-/// # Errors
-/// A law that scenes do not know, and a file that cannot be written.
+/// Runs all load cases of a law with segments of 10 nm and draws `load-cases.svg`. A quick run
+/// omits trajectories, whose numbers depend on rounding. `done` is called after each filament of
+/// monomers.
 pub(crate) fn compared(
     name: &str,
     quick: bool,
@@ -39,7 +37,6 @@ pub(crate) fn compared(
     Ok(all)
 }
 
-/// A number with its unit and note, against an expected value and the largest difference.
 fn judged((unit, ours, note): (&'static str, f64, String), to: Option<(f64, f64)>) -> report::Row {
     let row = report::Row::measured("law", "", unit, ours, note);
     match to {
@@ -48,7 +45,7 @@ fn judged((unit, ours, note): (&'static str, f64, String), to: Option<(f64, f64)
     }
 }
 
-/// `None` where the rod has no equilibrium.
+/// `None` without an equilibrium of the rod.
 fn of_row(row: &Row) -> Option<Compared> {
     let mean = row.mean.map(|sampled| sampled.mean);
     let relative = |bound: f64| (row.rod, mean.map(|m| (m, bound * m.abs())));

@@ -1,4 +1,5 @@
-//! Errors of rods at short spans, from 25 to 151 nm, and of guided beams that are half rod: `ends.md`.
+//! Errors of rods at short spans, from 25 to 151 nm, and of guided beams that are half rod; writes
+//! `ends.md`.
 
 use super::case::{Case, Group, Loading, azimuths_deg};
 use super::filament::Made;
@@ -12,18 +13,14 @@ use rayon::prelude::*;
 use std::fmt::Write as _;
 use std::path::Path;
 
-/// Spans (rises): 25, 30, 41, 60, 90, 151 nm.
 const SPANS: [f64; 6] = [9.0, 11.0, 15.0, 22.0, 33.0, 55.0];
-/// Azimuths of the lattice over which the mean filament is averaged.
+/// Number of azimuths over which the mean filament is averaged.
 const AZIMUTHS: u32 = 8;
-/// Spans and tensions (pN) of beams that are half rod.
+/// Spans (rises) and tensions (pN) of beams that are half rod.
 const HALVED: [f64; 4] = [11.0, 15.0, 22.0, 33.0];
 const HALVED_PULL_PN: [f64; 2] = [0.0, 10.0];
 
-/// Measures all laws; writes `ends.md`.
-///
-/// # Errors
-/// A file that cannot be written, and monomers without an equilibrium.
+/// Measures all laws and writes `ends.md`.
 pub(super) fn run(out: &Path, laws: &[Law], tell: Tell<'_>) -> Result<(), String> {
     let mut text = String::from("# Ends\n");
     for (name, law) in laws {
@@ -60,8 +57,8 @@ fn cases(rises: f64) -> [(&'static str, Case); 6] {
     ]
 }
 
-/// Table of errors by load and span: of a rod of short segments against the mean filament, ± half the range of the
-/// latter over azimuths.
+/// Table of errors by load and span for a rod with short segments, ± half the range of the mean
+/// filament over azimuths.
 fn spans(out: &Path, law: &RodLaw) -> Result<String, String> {
     let columns = SPANS.par_iter().map(|&rises| {
         let errors = cases(rises).into_iter().map(|(load, case)| {
@@ -97,7 +94,8 @@ fn spans(out: &Path, law: &RodLaw) -> Result<String, String> {
     Ok(text)
 }
 
-/// Table of errors of guided beams: of rod, and of half rod; in brackets from the mean of rod and monomers.
+/// Table of errors of guided beams that are rod and half rod; in brackets the error against the
+/// mean of rod and monomers.
 fn halves(out: &Path, law: &RodLaw) -> Result<String, String> {
     let mut text = String::from(
         "| span | tension | force | rod | half rod |\n| ---: | ---: | ---: | ---: | ---: |\n",
@@ -139,7 +137,7 @@ fn mean_of(found: &[Found], name: &str) -> (f64, f64) {
     (s.mean, s.spread().abs())
 }
 
-/// The mean filament at azimuths at equal distances, or at one if no direction across the axis is distinguished.
+/// The mean filament at equidistant azimuths; axisymmetric cases have one azimuth.
 pub(super) fn of_mean_filament(
     out: &Path,
     case: &Case,

@@ -1,22 +1,21 @@
-//! Filaments under load: monomers, a rod under a law, or both joined; and laws by the names that scenes use.
+//! Filaments of monomers, of a rod, or of both, and laws by their names in scenes.
 
 use actin_sim::{Filament, Monomers, RodLaw, RodModel, Scene, Section};
 
-/// Rise per monomer (nm): lengths are whole numbers of it, so that all resolutions have the same.
+/// Rise per monomer (nm). Lengths are whole numbers of rises, so that they agree at all
+/// resolutions.
 pub(super) const RISE_NM: f64 = 71.2 / 26.0;
-/// Drawn bonds of an interface.
+/// Number of sampled bonds of an interface.
 const DRAWN: usize = 64;
-/// Length of segments by default, and of segments so short that their length has no effect (nm).
+/// Default segment length, and a segment length with negligible discretisation error (nm).
 const SEGMENT_NM: f64 = 10.0;
 const FINE_NM: f64 = 2.5;
 
-/// Composition of a filament.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Made {
-    /// Name in files and messages.
     pub name: String,
     monomers: Monomers,
-    /// Stretches of rod (arc lengths, nm); monomers are between them.
+    /// Arc lengths (nm) of the rod sections; monomers fill the rest.
     rods: Vec<[f64; 2]>,
     rod: RodModel,
     segment_nm: f64,
@@ -33,7 +32,7 @@ impl Made {
         }
     }
 
-    /// The mean filament: monomers with the default weighted bonds, whose lattice has this azimuth.
+    /// Mean filament: monomers with the default quadrature bonds and a lattice at this azimuth.
     pub(super) fn mean(azimuth_deg: f64) -> Self {
         let monomers = Monomers {
             azimuth_deg,
@@ -42,7 +41,7 @@ impl Made {
         Self::new(format!("mean-{azimuth_deg}"), monomers)
     }
 
-    /// Monomers with drawn bonds.
+    /// Monomers with sampled bonds.
     pub(super) fn drawn(seed: u64, azimuth_deg: f64) -> Self {
         let monomers = Monomers {
             azimuth_deg,
@@ -51,7 +50,7 @@ impl Made {
         Self::new(format!("drawn-{seed}-{azimuth_deg}"), monomers)
     }
 
-    /// A rod of segments as long as scenes make them.
+    /// Rod with segments of the default length.
     pub(super) fn coarse(law: &RodLaw) -> Self {
         let whole = vec![[0.0, f64::INFINITY]];
         Self {
@@ -60,7 +59,7 @@ impl Made {
         }
     }
 
-    /// The same in the place of monomers with drawn bonds.
+    /// Rod for comparison with sampled bonds.
     pub(super) fn of_drawn(law: &RodLaw) -> Self {
         Self {
             monomers: Monomers::drawn(DRAWN, 0),
@@ -68,7 +67,7 @@ impl Made {
         }
     }
 
-    /// A rod of short segments.
+    /// Rod with short segments.
     pub(super) fn fine(law: &RodLaw) -> Self {
         Self {
             name: format!("rod of {FINE_NM} nm segments"),
@@ -76,7 +75,6 @@ impl Made {
         }
     }
 
-    /// With rods in these stretches.
     pub(super) fn with_rods(self, law: &RodLaw, rods: Vec<[f64; 2]>) -> Self {
         Self {
             name: format!("rod at {rods:?}"),
@@ -86,7 +84,7 @@ impl Made {
         }
     }
 
-    /// With segments of 2.5 nm.
+    /// Uses segments of 2.5 nm.
     pub(super) fn with_short_segments(self) -> Self {
         Self {
             segment_nm: FINE_NM,
@@ -134,10 +132,7 @@ impl Made {
     }
 }
 
-/// The law that scenes call so.
-///
-/// # Errors
-/// A name that they do not know.
+/// Returns the law with this name in scenes.
 pub(super) fn law(name: &str) -> Result<RodLaw, String> {
     let text = format!(
         "Scene(filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 10.0)], rod: RodModel(law: {name})), \
@@ -151,16 +146,14 @@ pub(super) fn law(name: &str) -> Result<RodLaw, String> {
 mod tests {
     use super::*;
 
-    /// Laws are those of scenes; others are refused by name.
     #[test]
     fn laws_are_those_of_scenes() {
         assert_eq!(law("Fitted"), Ok(RodLaw::Fitted));
         assert!(law("Best").unwrap_err().contains("law `Best`"));
     }
 
-    /// Stretches of rod between monomers, and whole rods.
     #[test]
-    fn filaments_are_made_as_asked() {
+    fn sections_match_the_composition() {
         let spans = |made: &Made| -> Vec<(f64, f64)> {
             let sections = made.filament(100.0).sections;
             sections.iter().map(Section::span_nm).collect()

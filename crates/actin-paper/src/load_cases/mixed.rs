@@ -1,4 +1,4 @@
-//! Rods joined to the mean filament, at every resolution: how far results lie apart.
+//! Spread of results over resolutions, for rods joined to the mean filament.
 
 use super::case::{Case, Group};
 use super::filament::{Made, RISE_NM};
@@ -9,12 +9,12 @@ use actin_sim::RodLaw;
 use rayon::prelude::*;
 use std::fmt::Write as _;
 
-/// Lengths of rod (nm) at the tip of a cantilever, as in Figure 4, and at both ends of a buckled filament together, as in
-/// Figures 8 and 10.
+/// Lengths of rod (nm): at the tip of a cantilever (Figure 4), and at both ends of a buckled
+/// filament (Figures 8 and 10).
 const AT_TIP_NM: [f64; 7] = [20.0, 40.0, 60.0, 80.0, 100.0, 120.0, 140.0];
 const AT_ENDS_NM: [f64; 7] = [40.0, 73.0, 107.0, 140.0, 173.0, 207.0, 240.0];
 
-/// A case, the compared quantities, the stretches of rod of one length in a filament, and the lengths (nm).
+/// A case, its compared quantities, the rod sections for a length of rod, and the lengths (nm).
 struct Set {
     case: Case,
     quantities: &'static [&'static str],
@@ -22,7 +22,7 @@ struct Set {
     lengths_nm: [f64; 7],
 }
 
-/// All rows of a law; every third length if `quick`, and without the under-twisted filament.
+/// All rows of a law. A quick run has every third length, without the under-twisted filament.
 pub(super) fn rows(name: &str, law: &RodLaw, quick: bool) -> Vec<Row> {
     let tip = "Figure 4, rod at the tip".to_owned();
     let mut sets = vec![Set {

@@ -1,7 +1,6 @@
-//! A rod's laws against filaments of monomers, load case by load case: how far each is off, and whether that
-//! is within what is asked of a law (`case.rs`).
+//! Comparison of rod laws with filaments of monomers: the error in each load case and its bound.
 //!
-//! Equilibria of monomers are kept in the folder of results, so that another law costs its rods only.
+//! Equilibria of monomers are cached in the output folder.
 
 mod beyond;
 mod case;
@@ -33,40 +32,38 @@ use std::time::Instant;
 /// Subject and output of the study.
 #[derive(Clone, Debug)]
 pub struct Options {
-    /// Folder of tables and pictures, and of kept equilibria of monomers.
+    /// Folder of tables, pictures and cached equilibria of monomers.
     pub out: PathBuf,
-    /// Fewer cases, azimuths and samplings.
+    /// Uses fewer cases, azimuths and samplings.
     pub quick: bool,
-    /// Laws by the names that scenes use.
+    /// Names of laws in scenes.
     pub laws: Vec<String>,
-    /// Also into `docs/tables/load-cases.md`.
+    /// Also writes `docs/tables/load-cases.md`.
     pub write: bool,
-    /// Subject of the measurement.
+    /// Subject of the comparison.
     pub subject: Subject,
 }
 
-/// Subject of a measurement.
+/// Subject of the comparison.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Subject {
     /// All load cases.
     Cases,
     /// Errors at short spans, and of beams that are half rod.
     Ends,
-    /// Errors of cantilevers that leave the data of `Homogenised`.
+    /// Errors of cantilevers beyond the data of `Homogenised`.
     BeyondData,
 }
 
-/// Samplings of drawn bonds.
 const SAMPLINGS: u64 = 8;
 const QUICK_SAMPLINGS: u64 = 2;
 
-/// A law with its name.
 type Law = (String, RodLaw);
 
-/// Measures, writes, draws and tells.
+/// Measures, writes and draws.
 ///
 /// # Errors
-/// A law that scenes do not know, and a file that cannot be written.
+/// An unknown law, or a file that cannot be written.
 pub fn run(options: &Options, tell: Tell<'_>) -> Result<(), String> {
     let named = |name: &String| Ok((name.clone(), filament::law(name)?));
     let laws: Vec<Law> = options
@@ -103,7 +100,8 @@ pub fn run(options: &Options, tell: Tell<'_>) -> Result<(), String> {
 #[derive(Clone, Copy)]
 struct Effort {
     quick: bool,
-    /// Rods with segments of 10 nm in the place of the mean filament alone, and without motion in a quick run.
+    /// Computes only segments of 10 nm against the mean filament, without trajectories in a quick
+    /// run.
     only_coarse: bool,
 }
 
@@ -133,7 +131,7 @@ fn measured(out: &Path, laws: &[Law], quick: bool, tell: Tell<'_>) -> Result<Vec
         rows.extend(of_law(law, &cases, &monomers, effort));
         timed(&law.0, clock);
     }
-    // By group, case and quantity, in the order in which they came, with the laws of each in turn.
+    // Sorts by group, case and quantity in order of occurrence, then by law.
     let named = |row: &Row| (row.group, row.case.clone(), row.quantity.clone());
     let names: Vec<_> = rows.iter().map(named).collect();
     let first = |row: &Row| names.iter().position(|name| *name == named(row));
@@ -141,7 +139,6 @@ fn measured(out: &Path, laws: &[Law], quick: bool, tell: Tell<'_>) -> Result<Vec
     Ok(rows)
 }
 
-/// The rows of all cases under a law.
 fn of_law(
     (name, law): &Law,
     cases: &[Case],
@@ -154,7 +151,7 @@ fn of_law(
             let missing = || Err("not computed".to_owned());
             return [coarse, missing(), missing()];
         }
-        // Only these laws depend on the bonds that a rod stands for.
+        // Only these laws depend on the bonds.
         let of_drawn = match law {
             RodLaw::Homogenised | RodLaw::HomogenisedAthermal => solve(case, &Made::of_drawn(law)),
             _ => coarse.clone(),
@@ -173,8 +170,8 @@ fn of_law(
     rows
 }
 
-/// Filaments of monomers under all cases, side by side; equilibria in the folder are not computed again. `done` is
-/// called for each, with the error of new ones without an equilibrium.
+/// Computes filaments of monomers under all cases in parallel, with cached equilibria. `done` is
+/// called for each, with the error of a new one without an equilibrium.
 fn monomers(
     folder: Option<&Path>,
     cases: &[Case],
@@ -206,7 +203,8 @@ fn monomers(
     Ok(all)
 }
 
-/// The mean filament at its azimuths, and samplings at theirs, each sampling turned further round.
+/// The mean filament at its azimuths, and samplings at theirs, rotated by an offset for each
+/// sampling.
 fn filaments(case: &Case, samplings: u64, quick: bool) -> Vec<Made> {
     let [mean, drawn] = case.azimuths_deg(quick);
     let drawn = (0..samplings).flat_map(|seed| {
@@ -217,28 +215,25 @@ fn filaments(case: &Case, samplings: u64, quick: bool) -> Vec<Made> {
     mean.into_iter().map(Made::mean).chain(drawn).collect()
 }
 
-/// Folder of the equilibria of monomers.
+/// Folder of the cached equilibria of monomers.
 fn folder(out: &Path) -> Result<PathBuf, String> {
     let folder = out.join("monomers");
     fs::create_dir_all(&folder).map_err(|e| format!("{}: {e}", folder.display()))?;
     Ok(folder)
 }
 
-/// Raised when results of the same parameters change.
+/// Version of the cache; raise it if results of the same parameters change.
 const VERSION: u32 = 3;
 
-/// File of an equilibrium, or of the error of a filament without one.
+/// Cached equilibrium, or the error of a filament without one.
 #[derive(Deserialize, Serialize)]
 struct Kept {
     key: String,
     outcome: Result<Found, String>,
 }
 
-/// Equilibria of monomers, from a file with the same key if there is one, and whether there was; without a folder they are
-/// computed.
-///
-/// # Errors
-/// A file that cannot be written.
+/// Returns the equilibria of monomers from the cache, or computes them, and whether they were
+/// cached. Without a folder they are computed.
 fn kept(
     folder: Option<&Path>,
     case: &Case,
@@ -269,9 +264,8 @@ mod tests {
     use super::*;
     use case::Group;
 
-    /// The second time an outcome comes from its file, to the last bit; under other loads it is computed.
     #[test]
-    fn outcomes_come_back() {
+    fn cached_outcomes_are_bit_identical() {
         let folder = tempfile::tempdir().unwrap();
         let mut case = Case::guided(Group::Beside, 9.0, 5.0);
         let made = Made::mean(0.0);

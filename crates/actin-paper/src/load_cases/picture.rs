@@ -1,4 +1,4 @@
-//! Errors of all laws over their bounds, case by case.
+//! Ratios of errors to bounds for all laws and cases.
 
 use super::case::Bound;
 use super::row::Row;
@@ -7,11 +7,11 @@ use crate::palette;
 use actin_draw::{Chart, Series};
 use std::path::Path;
 
-/// Errors below this share of their bound are drawn as it.
+/// Smallest drawn ratio of error to bound.
 const LEAST: f64 = 1e-2;
 
-/// Draws `load-cases.svg`: the logarithm of each error against the mean filament over its bound, in the order of
-/// the table.
+/// Draws `load-cases.svg`: logarithm of the ratio of error to bound against the mean filament, in
+/// the order of the table.
 pub(super) fn draw(out: &Path, rows: &[Row]) -> Result<(), String> {
     let judged: Vec<&Row> = rows.iter().filter(|r| r.bound != Bound::Open).collect();
     let places = distinct(judged.iter().map(|row| (&*row.case, &*row.quantity)));
@@ -36,7 +36,7 @@ pub(super) fn draw(out: &Path, rows: &[Row]) -> Result<(), String> {
     chart.draw(&out.join("load-cases.svg"))
 }
 
-/// Each once, in the order in which they come.
+/// Distinct values in order of occurrence.
 pub(super) fn distinct<T: PartialEq>(all: impl Iterator<Item = T>) -> Vec<T> {
     let mut kept = Vec::new();
     for one in all {
@@ -47,7 +47,7 @@ pub(super) fn distinct<T: PartialEq>(all: impl Iterator<Item = T>) -> Vec<T> {
     kept
 }
 
-/// Place in the table and logarithm; none where there is no error.
+/// Position in the table and logarithm; `None` without an error.
 fn point(row: &Row, places: &[(&str, &str)]) -> Option<(f64, f64)> {
     let own = (&*row.case, &*row.quantity);
     let place = places.iter().position(|place| *place == own)?;

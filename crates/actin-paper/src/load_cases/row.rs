@@ -1,55 +1,53 @@
-//! A rod under one law compared with monomers, in one quantity of one case.
+//! Comparison of one law with monomers in one quantity of one case.
 
 use super::case::{Bound, Group};
 use super::solve::Found;
 use crate::measure::Sampled;
 
-/// A row of the table.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Row {
     pub group: Group,
     pub case: String,
     pub quantity: String,
     pub law: String,
-    /// The mean filament, over azimuths.
+    /// Mean filament, over azimuths.
     pub mean: Option<Sampled>,
-    /// Filaments of drawn bonds, over samplings and azimuths.
+    /// Filaments with sampled bonds, over samplings and azimuths.
     pub drawn: Option<Sampled>,
-    /// The rod with segments of 10 nm, of 2.5 nm, and of 10 nm in the place of drawn bonds.
+    /// Rods with segments of 10 nm, with segments of 2.5 nm, and with segments of 10 nm for sampled
+    /// bonds.
     pub rod: Option<f64>,
     pub fine: Option<f64>,
     pub rod_of_drawn: Option<f64>,
-    /// Errors of the rod against the mean filament, of that of drawn bonds against these, and of the fine one against the
-    /// mean filament: relative, or the distance of centre lines (nm), or a spread over resolutions.
+    /// Errors of the rod against the mean filament, against filaments with sampled bonds, and of
+    /// the fine rod against the mean filament. They are relative, distances of centre lines (nm),
+    /// or spreads over resolutions.
     pub error_mean: Option<f64>,
     pub error_drawn: Option<f64>,
     pub error_fine: Option<f64>,
-    /// Deviation of single filaments of drawn bonds, in the same measure.
+    /// Standard deviation of single filaments with sampled bonds, in the unit of the errors.
     pub scatter: Option<f64>,
     pub bound: Bound,
-    /// Remarks.
     pub note: String,
 }
 
-/// Filaments of monomers under a case.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Monomers {
-    /// The mean filament at some azimuths.
     pub mean: Vec<Found>,
-    /// Filaments of drawn bonds.
+    /// Filaments with sampled bonds.
     pub drawn: Vec<Found>,
     /// Filaments without an equilibrium.
     pub failures: Vec<String>,
 }
 
-/// The rod under a case: with segments of 10 nm, of 2.5 nm, and of 10 nm in the place of drawn bonds.
+/// Rods with segments of 10 nm, with segments of 2.5 nm, and with segments of 10 nm for sampled
+/// bonds.
 pub(super) type Rods = [Result<Found, String>; 3];
 
-/// Writhe by which equilibria differ that count as two (turns).
+/// Difference of writhe (turns) that distinguishes two equilibria.
 const OTHER_STATE: f64 = 0.1;
 
 impl Row {
-    /// A row without results.
     pub(super) fn open(group: Group, case: &str, quantity: &str, law: &str) -> Self {
         Self {
             group,
@@ -70,8 +68,8 @@ impl Row {
         }
     }
 
-    /// Whether the rod is within the bound, against the mean filament and against drawn ones; none where
-    /// there is nothing to decide. A rod without an equilibrium is not.
+    /// Returns whether the rod is within the bound, against the mean filament and against sampled
+    /// bonds; `None` without a bound or error. A rod without an equilibrium is not within it.
     pub(super) fn is_met(&self) -> [Option<bool>; 2] {
         let against = |error: Option<f64>| {
             let error = error.unwrap_or(f64::INFINITY);
@@ -84,7 +82,7 @@ impl Row {
         ]
     }
 
-    /// Errors against the mean filament and drawn ones over the bound.
+    /// Ratios of the errors to the bound, against the mean filament and against sampled bonds.
     pub(super) fn shares_of_bound(&self) -> [Option<f64>; 2] {
         let bound = self.bound.size(self.scatter);
         let share = |error: Option<f64>| Some(error?.abs() / bound?);
@@ -92,7 +90,6 @@ impl Row {
     }
 }
 
-/// All rows of a case under one law.
 pub(super) fn rows(
     group: Group,
     case: &str,
@@ -227,7 +224,8 @@ mod tests {
         }
     }
 
-    /// Against a mean of 10 a rod of 10.1 is 1 % off and within 2 %; of drawn ones that are softer it is not.
+    /// A rod of 10.1 against a mean of 10 is 1 % off and within a bound of 2 %; against softer
+    /// sampled filaments it is outside.
     #[test]
     fn errors_count_against_both() {
         let monomers = |drawn: [f64; 2]| Monomers {

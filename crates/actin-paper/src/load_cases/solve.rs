@@ -1,4 +1,4 @@
-//! Load case of one filament: its scene, the certified equilibria along its path, and the quantities read from them.
+//! Solution of a load case for one filament: scene, certified equilibria, and compared quantities.
 
 use super::case::{Case, Loading, TURNED_NM};
 use super::filament::Made;
@@ -12,16 +12,15 @@ use actin_sim::{
 };
 use serde::{Deserialize, Serialize};
 
-/// Turns of a free filament about its axis from which equilibria are sought (deg).
+/// Initial rotations of a free filament about its axis (deg).
 const STARTS_DEG: [f64; 4] = [0.0, 90.0, 180.0, 270.0];
-/// Most iterations for one equilibrium of a rod, and the smallest step along its path: monomers with their soft directions
-/// may need thousands, rods fail there too.
+/// Iteration limit of a rod equilibrium, and the smallest step along its path. Monomers have soft
+/// modes and may need thousands of iterations; rods that exceed the limit fail.
 const ROD_ITERATIONS: usize = 300;
 const ROD_STEP: f64 = 0.01;
-/// Unit forces.
 const ALONG: [f64; 3] = [0.0, 0.0, 1.0];
 const ACROSS: [f64; 3] = [1.0, 0.0, 0.0];
-/// Distance by which each end of a buckled filament is pushed in (nm).
+/// Displacement of each end of a buckled filament (nm).
 const PUSHED_NM: f64 = 7.5;
 
 /// Results of a filament under the loads of a case.
@@ -29,20 +28,19 @@ const PUSHED_NM: f64 = 7.5;
 pub(super) struct Found {
     /// Compared quantities by name.
     pub values: Vec<(String, f64)>,
-    /// Centre line, where shapes are compared.
+    /// Centre line, if shapes are compared.
     pub line: Option<CentreLine>,
-    /// Numbers that tell one equilibrium from another: writhe in turns.
+    /// Writhe (turns), which distinguishes equilibria.
     pub writhe: Option<f64>,
-    /// Equilibria that are not minima beyond doubt.
+    /// Number of equilibria that are not certified as minima.
     pub doubtful: usize,
-    /// Sudden jumps.
+    /// Number of jumps.
     pub jumps: usize,
-    /// Values that were not reached, and why.
+    /// Values without an equilibrium, with the reason.
     pub unreached: Vec<String>,
 }
 
 impl Found {
-    /// The value of a quantity.
     pub(super) fn value(&self, name: &str) -> Option<f64> {
         let found = self.values.iter().find(|(own, _)| own == name);
         found.map(|(_, value)| *value)
@@ -57,7 +55,7 @@ impl Found {
 /// Solves a case.
 ///
 /// # Errors
-/// A scene that is refused, one without an equilibrium, and a number that is not finite.
+/// An invalid scene, a scene without an equilibrium, or a value that is not finite.
 pub(super) fn solve(case: &Case, made: &Made) -> Result<Found, String> {
     let found = match &case.loading {
         Loading::Linked { figure } => linked(*figure, made),
@@ -91,7 +89,7 @@ fn stage(set: impl Into<Vec<Setting>>) -> Stage {
     }
 }
 
-/// Settings of a path that tries each stage at once.
+/// Settings of a path that tries each stage in one step.
 fn solver(made: &Made) -> Equilibrium {
     let mut solver = Equilibrium {
         largest_step: 1.0,
@@ -104,7 +102,7 @@ fn solver(made: &Made) -> Equilibrium {
     solver
 }
 
-/// The scene of a case of forces, and how many stages come before those of the forces.
+/// The scene of a case of forces, and the number of stages before those of the forces.
 pub(super) fn scene(case: &Case, made: &Made) -> (Scene, usize) {
     let Loading::Forces {
         far_end,
@@ -113,7 +111,7 @@ pub(super) fn scene(case: &Case, made: &Made) -> (Scene, usize) {
         forces_pn,
     } = &case.loading
     else {
-        unreachable!("other cases have scenes of their own")
+        unreachable!("other cases do not use this scene")
     };
     let factor = |load, factor| Setting::LoadFactor { load, factor };
     let mut before = Vec::new();
@@ -121,7 +119,7 @@ pub(super) fn scene(case: &Case, made: &Made) -> (Scene, usize) {
         let turn_deg = turn_deg * case.length_nm() / TURNED_NM;
         before.push(turn(End::End, turn_deg));
     }
-    // Unit forces on the end; the last one is set to each value.
+    // Unit forces on the end; the last one is scaled to each value.
     let is_along = *far_end == Some(Slides::AlongAxis);
     let mut directions = vec![if is_along { ALONG } else { ACROSS }];
     if *tension_pn != 0.0 {
@@ -149,7 +147,7 @@ pub(super) fn scene(case: &Case, made: &Made) -> (Scene, usize) {
     (scene, count)
 }
 
-/// A filament that is loaded step by step, read at each.
+/// A filament loaded step by step, with a value at each step.
 fn loaded(
     case: &Case,
     (far_end, forces_pn): (Option<Slides>, &[f64]),
@@ -162,7 +160,7 @@ fn loaded(
         Some(_) => far_end_shift(assembly, state),
         None => assembly.tip_nm(state, End::End),
     };
-    // Displacements start from the state under the loads before.
+    // Displacements refer to the state under the previous loads.
     let start = match before {
         0 => place(&assembly.rest),
         _ => ends
@@ -187,7 +185,7 @@ fn loaded(
     Ok(found)
 }
 
-/// Twist by the protocol of Tables 3 and 5.
+/// Twist with the protocol of Tables 3 and 5.
 fn twisted(length_nm: f64, turns_deg: &[f64], made: &Made) -> Result<Found, String> {
     let specimen = Specimen {
         solver: solver(made),
@@ -216,7 +214,7 @@ fn twisted(length_nm: f64, turns_deg: &[f64], made: &Made) -> Result<Found, Stri
     Ok(found)
 }
 
-/// A free filament on linkers: of the equilibria from several turns the lowest.
+/// A free filament on linkers: the equilibrium of lowest energy from several initial rotations.
 fn linked(figure: u32, made: &Made) -> Result<Found, String> {
     let mut scene = scenario(&format!("figure-{figure}/linkers.ron"))?;
     let length = scene.filament.sections.last().map(|s| s.span_nm().1);
@@ -248,7 +246,7 @@ fn linked(figure: u32, made: &Made) -> Result<Found, String> {
         .ok_or_else(|| "no start".to_owned())
 }
 
-/// A filament whose ends are turned and pushed together, in both orders: the lower equilibrium.
+/// A filament whose ends are turned and pushed in, in both orders; the equilibrium of lower energy.
 fn buckled(length_nm: f64, turn_deg: f64, made: &Made) -> Result<Found, String> {
     let mut scene = scenario("figure-8/rod-140.ron")?;
     scene.filament = made.filament(length_nm);
@@ -314,7 +312,7 @@ fn buckled_along(scene: &Scene, turn_deg: f64) -> Result<(f64, Found), String> {
     Ok((energy, found))
 }
 
-/// Energy of the filament alone (pN nm).
+/// Energy of the filament without linkers and loads (pN nm).
 fn elastic(assembly: &Assembly) -> f64 {
     let terms = assembly.terms.iter().zip(assembly.system.energies());
     let own = terms.filter(|(term, _)| !matches!(term.part, Part::Load(_) | Part::Linker(_)));
@@ -327,9 +325,9 @@ mod tests {
     use crate::load_cases::case::Group;
     use actin_sim::RodLaw;
 
-    /// A case of tension 0 has no load along the axis, one of 5 pN a load of which a stage sets 5 times 1 pN.
+    /// A case of tension 0 has no axial load. A tension of 5 pN scales a unit load by 5.
     #[test]
-    fn tension_is_what_the_case_says() {
+    fn the_axial_load_equals_the_tension_of_the_case() {
         let made = Made::coarse(&RodLaw::Constant);
         for (tension, along) in [(0.0, 0.0), (5.0, 5.0)] {
             let (scene, _) = scene(&Case::guided(Group::Guided, 22.0, tension), &made);

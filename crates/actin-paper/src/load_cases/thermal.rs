@@ -1,4 +1,4 @@
-//! Free rods in a heat bath: persistence length and twisting rigidity compared with monomers
+//! Persistence length and twisting rigidity of free rods in a heat bath, compared with monomers
 //! (`docs/measured/heat.md`).
 
 use super::case::Group;
@@ -9,16 +9,15 @@ use actin_integrate::PEFRL;
 use actin_sim::RodLaw;
 use rayon::prelude::*;
 
-/// Replicas, which differ in noise.
+/// Number of replicas with independent noise.
 const REPLICAS: u64 = 192;
 const QUICK_REPLICAS: u64 = 8;
-/// Time step as a share of the stability limit.
+/// Time step relative to the stability limit.
 const SHARE: f64 = 0.5;
-/// Length (nm).
 const LENGTH_NM: f64 = 110.0;
 
-/// Persistence length (um) and twisting rigidity (pN nm^2) of the mean filament and of drawn ones, each
-/// with its standard error, by the same protocol.
+/// Persistence length (um) and twisting rigidity (pN nm^2) of the mean filament and of filaments
+/// with sampled bonds, with standard errors, by the same protocol.
 const MONOMERS: [(&str, [f64; 2], [f64; 2]); 2] = [
     ("persistence length", [11.49, 0.06], [11.17, 0.12]),
     ("C", [7.63e3, 0.03e3], [7.32e3, 0.06e3]),
@@ -27,7 +26,7 @@ const MONOMERS: [(&str, [f64; 2], [f64; 2]); 2] = [
 /// Both rows of a law.
 pub(super) fn rows(name: &str, law: &RodLaw, quick: bool) -> Vec<Row> {
     let replicas = if quick { QUICK_REPLICAS } else { REPLICAS };
-    // The law of a scene with a heat bath.
+    // The law in a scene with a heat bath.
     let law = match law {
         RodLaw::Homogenised => &RodLaw::HomogenisedAt298K,
         law => law,

@@ -1,4 +1,4 @@
-//! The table as CSV and as Markdown.
+//! The table of load cases as CSV and Markdown.
 
 use super::case::Bound;
 use super::picture::distinct;
@@ -8,7 +8,6 @@ use actin_draw::report::{save, write_csv};
 use std::fmt::Write as _;
 use std::path::Path;
 
-/// A column of `load-cases.csv`.
 type Column = (&'static str, fn(&Row) -> String);
 
 const COLUMNS: [Column; 23] = [
@@ -37,7 +36,6 @@ const COLUMNS: [Column; 23] = [
     ("note", |r| r.note.clone()),
 ];
 
-/// Writes `load-cases.csv`.
 pub(super) fn csv(out: &Path, rows: &[Row]) -> Result<(), String> {
     let cells = |row: &Row| COLUMNS.map(|(_, cell)| cell(row)).to_vec();
     let header = COLUMNS.map(|(name, _)| name);
@@ -58,7 +56,7 @@ fn yes_or_no(met: Option<bool>) -> String {
         .to_owned()
 }
 
-/// Number of met bounds, and the largest error over its bound, in words.
+/// Number of errors within their bounds, and the largest ratio of error to bound.
 fn score(rows: &[&Row], against: usize) -> [String; 2] {
     let verdicts = || rows.iter().filter_map(|row| row.is_met()[against]);
     let (judged, good) = (verdicts().count(), verdicts().filter(|met| *met).count());
@@ -83,7 +81,7 @@ pub(super) fn page(rows: &[Row]) -> String {
     text.to_owned() + &summary(rows)
 }
 
-/// Numbers of met bounds by case and law.
+/// Numbers of errors within their bounds, by case and law.
 pub(super) fn summary(rows: &[Row]) -> String {
     let mut text = "\n| case | law | met, mean | worst | met, drawn | worst |\n\
                     | --- | --- | ---: | ---: | ---: | ---: |\n"

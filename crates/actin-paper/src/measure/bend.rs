@@ -16,22 +16,23 @@ pub struct TipForcePoint {
     pub force_pn: f64,
     /// Displacement of the tip along the force (nm).
     pub deflection_nm: f64,
-    /// Secant bending rigidity of small deflections, `F L^3 / 3 d` (pN nm^2).
+    /// Secant bending rigidity for small deflections, `F L^3 / 3 d` (pN nm^2).
     pub linear_rigidity_pn_nm2: f64,
     /// Rigidity of the inextensible elastica with the same deflection (pN nm^2).
     pub elastica_rigidity_pn_nm2: f64,
-    /// How far to trust it.
+    /// Quality of the equilibrium.
     pub evidence: Evidence,
 }
 
-/// Loads the free tip with each force (pN) across the axis, at an azimuth about it (deg, from
-/// lab x).
+/// Loads the free tip with each transverse force (pN) at an azimuth about the axis (deg, from lab
+/// x).
 ///
-/// Both rigidities leave out shear, and the elastica stretch: of monomers, which shear without
-/// resistance at rest, neither is a property at small forces. See [`super::bend_by_couples`].
+/// Both rigidities neglect shear, and the elastica neglects stretch. Monomers have no shear
+/// stiffness at rest, so that neither value is a material property at small forces. See
+/// [`super::bend_by_couples`].
 ///
 /// # Errors
-/// A filament that is refused, a force that is zero or not finite.
+/// An invalid filament, or a force that is zero or not finite.
 pub fn bend_by_tip_force(
     specimen: &Specimen,
     forces_pn: &[f64],

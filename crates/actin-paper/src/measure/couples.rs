@@ -1,4 +1,4 @@
-//! Bending by end couples: both ends held in orientation, no force at the far one.
+//! Bending by end couples: both ends are held in orientation, the far end is free of force.
 
 use super::follow::{Evidence, Stop};
 use super::sweep::{Curve, across, reaction, sweep};
@@ -7,36 +7,36 @@ use actin_mechanics::Vector3;
 use actin_sim::Assembly;
 use actin_sim::{End, Scene, Setting, Slides, Stage};
 
-/// A filament bent by couples at its ends.
+/// A filament bent by end couples.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CouplePoint {
-    /// Turn between the ends over length at rest (rad/nm).
+    /// Relative rotation of the ends over the length at rest (rad/nm).
     pub curvature_rad_per_nm: f64,
-    /// Couple about the axis of bending that holds the far end (pN nm).
+    /// Couple about the bending axis at the far end (pN nm).
     pub couple_pn_nm: f64,
-    /// Couple about the axis of bending that holds the near end (pN nm); minus the other.
+    /// Couple about the bending axis at the near end (pN nm); minus the far couple in equilibrium.
     pub near_couple_pn_nm: f64,
-    /// Couple across the axis of bending at the far end (pN nm): zero if isotropic and untwisted.
+    /// Couple across the bending axis at the far end (pN nm): zero if isotropic and untwisted.
     pub cross_couple_pn_nm: f64,
     /// Secant bending rigidity `M / kappa` (pN nm^2).
     pub rigidity_pn_nm2: f64,
-    /// How far to trust it.
+    /// Quality of the equilibrium.
     pub evidence: Evidence,
 }
 
-/// Turns the far end by `kappa L` for each curvature (rad/nm) about the transverse axis at an
-/// azimuth (deg, from lab x); it slides freely, so that no force acts and the couple is the same
-/// all along.
+/// Rotates the far end by `kappa L` for each curvature (rad/nm) about the transverse axis at an
+/// azimuth (deg, from lab x). The far end slides freely, so that no force acts and the couple is
+/// uniform.
 ///
 /// # Errors
-/// A filament that is refused, a curvature that is zero or not finite.
+/// An invalid filament, or a curvature that is zero or not finite.
 pub fn bend_by_couples(
     specimen: &Specimen,
     curvatures_rad_per_nm: &[f64],
     azimuth_deg: f64,
 ) -> Result<Curve<CouplePoint>, MeasureError> {
     let axis = across(azimuth_deg);
-    // The length as resolved, not as asked for, makes turns of curvatures.
+    // The turn uses the resolved length, which can differ from the requested length.
     let length = Assembly::build(&turns(specimen, &axis, &[]))?.length_nm();
     let scene = |curvatures: &[f64]| {
         let turns_rad: Vec<f64> = curvatures.iter().map(|kappa| kappa * length).collect();

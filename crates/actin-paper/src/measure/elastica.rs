@@ -1,13 +1,13 @@
-//! The inextensible elastica under a tip force, by which deflections become rigidities.
+//! The inextensible elastica under a tip force, which relates deflection to bending rigidity.
 
 use std::f64::consts::{FRAC_1_SQRT_2, FRAC_PI_2};
 
-/// Deflections over length up to which the elastica is inverted; it reaches 1 only for an
-/// infinite force.
+/// Largest ratio of deflection to length for which the elastica is inverted; the ratio tends to 1
+/// for an infinite force.
 const LARGEST_DEFLECTION: f64 = 0.95;
 
-/// Deflection over length of an inextensible elastica, clamped at one end, under a force across
-/// its undeformed axis at the other; `alpha = F L^2 / B`.
+/// Ratio of deflection to length of a clamped inextensible elastica under a tip force across its
+/// undeformed axis, with `alpha = F L^2 / B`.
 ///
 /// With the slope `theta` at the tip, `k^2 = (1 + sin theta) / 2` and `sin phi = 1 / (k sqrt 2)`:
 /// `sqrt(alpha) = K(k) - F(phi, k)` and `d / L = 1 - 2 (E(k) - E(phi, k)) / sqrt(alpha)`, with
@@ -25,8 +25,8 @@ pub fn elastica_deflection(alpha: f64) -> f64 {
     at_slope(slope).1
 }
 
-/// The rigidity of the elastica over `F L^3 / 3 d` at the deflection `d / L`: `(3 d / L) / alpha`,
-/// 1 for small deflections. Not a number above 0.95, where the tip force says little.
+/// Ratio `(3 d / L) / alpha` of the elastica rigidity to `F L^3 / 3 d` at the deflection `d / L`; 1
+/// for small deflections. NaN above 0.95, where the deflection hardly depends on the force.
 pub(super) fn rigidity_ratio(deflection: f64) -> f64 {
     if deflection > LARGEST_DEFLECTION || deflection.is_nan() {
         return f64::NAN;
@@ -36,13 +36,13 @@ pub(super) fn rigidity_ratio(deflection: f64) -> f64 {
     if alpha == 0.0 { 1.0 } else { 3.0 * at / alpha }
 }
 
-/// `alpha` and deflection over length at a tip slope (rad).
+/// `alpha` and the ratio of deflection to length at a tip slope (rad).
 fn at_slope(slope: f64) -> (f64, f64) {
     let k2 = 0.5 * (1.0 + slope.sin());
     let phi = (FRAC_1_SQRT_2 / k2.sqrt()).min(1.0).asin();
     let root = |t: f64| (1.0 - k2 * t.sin().powi(2)).sqrt();
     let first = integrate(phi, FRAC_PI_2, |t| 1.0 / root(t));
-    // 1 - 2 E / F as the integral of 1/root - 2 root, which does not cancel for small slopes.
+    // 1 - 2 E / F as the integral of 1/root - 2 root, which avoids cancellation at small slopes.
     let deflection = integrate(phi, FRAC_PI_2, |t| 1.0 / root(t) - 2.0 * root(t));
     if first == 0.0 {
         return (0.0, 0.0);
@@ -50,7 +50,7 @@ fn at_slope(slope: f64) -> (f64, f64) {
     (first * first, deflection / first)
 }
 
-/// Composite Gauss-Legendre rule of 3 points in 64 intervals.
+/// Composite Gauss-Legendre rule with 3 points in 64 intervals.
 fn integrate(from: f64, to: f64, f: impl Fn(f64) -> f64) -> f64 {
     const INTERVALS: usize = 64;
     let half = 0.5 * (to - from) / INTERVALS as f64;
@@ -81,7 +81,7 @@ fn bisect(mut low: f64, mut high: f64, f: impl Fn(f64) -> f64) -> f64 {
 mod tests {
     use super::{elastica_deflection, rigidity_ratio};
 
-    /// Published to ten digits.
+    /// Literature values with ten digits.
     const ORACLE: [(f64, f64); 5] = [
         (0.2, 0.066_364_482_1),
         (1.0, 0.301_720_773_8),
@@ -91,10 +91,10 @@ mod tests {
     ];
 
     #[test]
-    fn deflections_are_those_of_the_literature() {
+    fn deflections_equal_literature_values() {
         for (alpha, expected) in ORACLE {
             let deflection = elastica_deflection(alpha);
-            // The literature rounds at 5e-11.
+            // The literature values are rounded to 5e-11.
             assert!(
                 (deflection - expected).abs() < 1e-10,
                 "{alpha}: {deflection}"
@@ -102,13 +102,13 @@ mod tests {
         }
     }
 
-    /// A rigidity of 1 is found again from the deflection that it gave; of small deflections
-    /// linear theory is right.
+    /// The inverse of the deflection at rigidity 1 is 1. Small deflections agree with linear
+    /// theory.
     #[test]
-    fn the_inverse_finds_the_rigidity_again() {
+    fn the_inverse_recovers_the_rigidity() {
         for (alpha, deflection) in ORACLE {
             let rigidity = alpha / (3.0 * deflection) * rigidity_ratio(deflection);
-            // The inverse multiplies the rounding of the literature by at most ten.
+            // The inverse multiplies the rounding error of the literature values by at most ten.
             assert!((rigidity - 1.0).abs() < 1e-8, "{alpha}: {rigidity}");
         }
         assert!((rigidity_ratio(1e-4) - 1.0).abs() < 1e-6);

@@ -1,25 +1,25 @@
-//! Many bond samplings of one filament, and what their curves have in common.
+//! Averages over bond samplings of one filament.
 
 use super::sweep::Curve;
 use super::{MeasureError, Specimen};
 use rayon::prelude::*;
 
-/// Mean and scatter of one quantity over specimens.
+/// Mean and scatter of a quantity over specimens.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sampled {
-    /// Arithmetic mean; not a number of no values.
+    /// Arithmetic mean; NaN without values.
     pub mean: f64,
-    /// Standard deviation of a single value, `sqrt(sum (x - mean)^2 / (n - 1))`; not a number of
-    /// fewer than two.
+    /// Standard deviation of a single value, `sqrt(sum (x - mean)^2 / (n - 1))`; NaN for fewer than
+    /// two values.
     pub deviation: f64,
-    /// Standard error of the mean, `deviation / sqrt(n)`, if the values are independent.
+    /// Standard error of the mean of independent values, `deviation / sqrt(n)`.
     pub error: f64,
     /// Number of values.
     pub count: usize,
 }
 
 impl Sampled {
-    /// Mean and scatter of some values.
+    /// Computes mean and scatter of `values`.
     ///
     /// ```
     /// let sampled = actin_paper::measure::Sampled::of([1.0, 3.0]);
@@ -31,7 +31,7 @@ impl Sampled {
         let n = values.len() as f64;
         let mean = values.iter().sum::<f64>() / n;
         let squares: f64 = values.iter().map(|x| (x - mean).powi(2)).sum();
-        // Of one value the quotient is 0 / 0, of none it is 0 / -1, and the mean says so.
+        // The quotient is 0 / 0 for one value and 0 / -1 for none, where the mean is NaN.
         let deviation = (squares / (n - 1.0)).sqrt();
         Self {
             mean,
@@ -42,12 +42,11 @@ impl Sampled {
     }
 }
 
-/// Measures specimens that differ in the seed of their bonds only, in parallel; the results are in
-/// the order of the seeds.
+/// Measures specimens that differ only in the seed of their bonds, in parallel. Results are in the
+/// order of the seeds.
 ///
 /// # Errors
-/// The first error of `measure`, in the order of the seeds; weighted bonds, of which any seed but 0
-/// is refused.
+/// The first error of `measure` in the order of the seeds. Quadrature bonds accept only seed 0.
 pub fn over_samplings<T: Send>(
     specimen: &Specimen,
     seeds: &[u64],
@@ -64,8 +63,8 @@ pub fn over_samplings<T: Send>(
     measured.into_iter().collect()
 }
 
-/// Measures every sampling at each azimuth (deg) of a transverse load, in parallel over samplings;
-/// curves of one sampling stand together.
+/// Measures every sampling at each azimuth (deg) of a transverse load, in parallel over samplings.
+/// Curves of one sampling are contiguous.
 ///
 /// # Errors
 /// The first error of `measure`, in the order of the seeds.
@@ -84,10 +83,10 @@ pub fn over_samplings_and_azimuths<P: Send>(
     Ok(curves.into_iter().flatten().collect())
 }
 
-/// Mean and scatter of `measured` at each value of `prescribed` that occurs in the curves, in
-/// ascending order. Values of `prescribed` within 1e-9 of each other (relative) are the same.
+/// Mean and scatter of `measured` at each value of `prescribed` in the curves, in ascending order.
+/// Values of `prescribed` with a relative difference below 1e-9 are equal.
 ///
-/// Where a curve ended early, the count is smaller.
+/// Curves that ended early reduce the count.
 pub fn sampled_by<P>(
     curves: &[Curve<P>],
     prescribed: impl Fn(&P) -> f64,

@@ -1,26 +1,27 @@
-//! Why nothing was measured.
+//! Errors of measuring protocols.
 
 use actin_equilibrium::OptionsError;
 use actin_sim::SceneProblem;
 use thiserror::Error;
 
-/// Why a protocol could not begin. A curve that ends early is no error: it says what is missing.
+/// Reason why a protocol could not begin. A path that ends early is not an error; see
+/// [`super::Curve`].
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum MeasureError {
-    /// The filament, or what is asked of it, breaks a rule.
+    /// Invalid filament or protocol.
     #[error(transparent)]
     Refused(#[from] SceneProblem),
-    /// A value at which nothing can be measured.
+    /// Prescribed value for which a measurement is undefined.
     #[error("{name} = {value}: must be {rule}")]
     Value {
-        /// What it stands for.
+        /// Name of the value.
         name: &'static str,
-        /// What it was.
+        /// The value.
         value: f64,
-        /// What it must be.
+        /// Valid values.
         rule: &'static str,
     },
-    /// The solver refused its settings.
+    /// Invalid settings of the solver.
     #[error(transparent)]
     Options(#[from] OptionsError),
 }

@@ -1,4 +1,4 @@
-//! One path of equilibria through all values of a protocol, with the certificate of each.
+//! Path of certified equilibria through all values of a protocol.
 
 use super::MeasureError;
 use actin_equilibrium::{
@@ -10,40 +10,39 @@ use actin_sim::solver;
 use actin_sim::{Equilibrium as Settings, Scene, Task};
 use std::ops::ControlFlow;
 
-/// How far the equilibrium behind a measured point is to be trusted.
+/// Quality of the equilibrium at a measured point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Evidence {
     /// Largest force on a free body (pN).
     pub residual_force_pn: f64,
     /// Largest torque on a free body (pN nm).
     pub residual_torque_pn_nm: f64,
-    /// Counts of negative and unresolved eigenvalues of the stiffness.
+    /// Numbers of negative and unresolved eigenvalues of the stiffness matrix.
     pub certificate: Certificate,
-    /// Saddles that were left along their lowest mode since the point before.
+    /// Number of saddles left along their lowest mode since the previous point.
     pub saddles_left: usize,
-    /// Sudden jumps since the point before.
+    /// Number of jumps since the previous point.
     pub jumps: usize,
 }
 
 impl Evidence {
-    /// Stable, neutral within the resolution, or a saddle.
+    /// Returns whether the equilibrium is stable, neutral within the resolution, or a saddle.
     pub fn stability(&self) -> Stability {
         self.certificate.stability()
     }
 
-    /// Whether no eigenvalue is negative or too small to be told from zero.
+    /// Returns `true` if all eigenvalues are positive and resolved.
     pub fn is_stable(&self) -> bool {
         self.stability() == Stability::Stable
     }
 }
 
-/// The equilibrium at the end of a stage.
 pub(crate) struct Stop {
     pub(crate) state: State,
     pub(crate) evidence: Evidence,
 }
 
-/// The stops of a path, and why it ended early if it did.
+/// Equilibria at the ends of the stages, and the reason for an early end.
 pub(crate) struct Course {
     pub(crate) assembly: Assembly,
     pub(crate) stops: Vec<Stop>,
@@ -51,14 +50,11 @@ pub(crate) struct Course {
 }
 
 /// Follows the path of `scene` from stage to stage.
-///
-/// # Errors
-/// A scene or settings that are refused.
 pub(crate) fn follow(scene: &Scene) -> Result<Course, MeasureError> {
     scene.validate()?;
     let assembly = Assembly::build(scene)?;
     let Task::Equilibrium(settings) = &scene.task else {
-        unreachable!("a specimen's scenes ask for equilibria");
+        unreachable!("scenes of a specimen have the task Equilibrium");
     };
     let mut newton = solver(&assembly, settings)?;
     let path = path(settings)?;
@@ -84,7 +80,7 @@ pub(crate) fn follow(scene: &Scene) -> Result<Course, MeasureError> {
     })
 }
 
-/// A path that first tries a whole stage at once, and makes smaller steps where that fails.
+/// A path that tries each stage in one step, with smaller steps after a failure.
 fn path(settings: &Settings) -> Result<Path, MeasureError> {
     let options = PathOptions {
         first_step: settings.largest_step,
@@ -104,7 +100,7 @@ fn path(settings: &Settings) -> Result<Path, MeasureError> {
     Ok(Path::new(options)?)
 }
 
-/// Follows one stage; `state` ends in its last equilibrium.
+/// Follows one stage; `state` becomes its last equilibrium.
 fn advance(
     assembly: &Assembly,
     path: &Path,
@@ -134,7 +130,7 @@ fn evidence(end: &PathEnd, saddles_left: usize, jumps: usize) -> Evidence {
         residual_torque_pn_nm: equilibrium.residual.torque,
         certificate: equilibrium
             .certificate
-            .expect("the solver of a scene certifies what it finds"),
+            .expect("the solver of a scene certifies its equilibria"),
         saddles_left,
         jumps,
     }

@@ -20,17 +20,16 @@ fn assert_near(value: f64, expected: f64, tolerance: f64) {
     );
 }
 
-/// A twisted and bent rod is a helix under one couple: both of its rigidities come back, whichever
-/// way it is twisted, beyond half a turn too. A tilt before the turn instead of after it, or a twist
-/// that is off by full turns, would miss; so would a curvature taken from the tilt.
+/// A twisted and bent rod is a helix under one couple. Both of its rigidities are recovered for
+/// both senses of twist, also beyond half a turn.
 #[test]
-fn a_helix_gives_back_both_rigidities_of_a_rod() {
+fn a_helix_has_both_rigidities_of_the_rod() {
     for (twist, azimuth) in [(0.03, 0.0), (-0.03, 50.0), (0.06, 0.0), (1e-4, 120.0)] {
         let curve = bend_twisted(&rod(), twist, &[-0.01, 0.002], azimuth).unwrap();
         assert_eq!(curve.points.len(), 2);
         for point in &curve.points {
-            // Elements of 1.6 nm that turn by up to 0.1 rad: (theta^2) / 12 of the difference of
-            // the two rigidities.
+            // Elements of 1.6 nm turn by up to 0.1 rad: the error is (theta^2) / 12 of the
+            // difference of the rigidities.
             assert_near(point.rigidity_pn_nm2, 3.9e4, 2e-3);
             let twisting = point.twisting_couple_pn_nm / point.helix_twist_rad_per_nm;
             assert_near(twisting, 1.3e4, 2e-3);
@@ -39,33 +38,33 @@ fn a_helix_gives_back_both_rigidities_of_a_rod() {
     }
 }
 
-/// Tension pulls a bent rod straight between its ends, so the couple that turns them grows by
-/// `x / tanh x`, here by a half; compression lets it fall.
+/// Tension increases the end couple of a bent rod by `x / tanh x`, here by a half; compression
+/// decreases it.
 #[test]
-fn tension_is_taken_off_the_couple_of_a_bent_rod() {
+fn the_rigidity_is_independent_of_tension() {
     for force in [50.0, -20.0] {
         let curve = bend_under_tension(&rod(), force, &[-1e-3, 1e-3], 30.0).unwrap();
         for point in &curve.points {
-            // Shear adds F / S1 = 3e-3 to slopes, finite angles (0.04 rad) their squares.
+            // Shear adds F / S1 = 3e-3 to slopes; finite angles (0.04 rad) add their squares.
             assert_near(point.rigidity_pn_nm2, 3.9e4, 5e-3);
             let secant = point.couple_pn_nm / point.curvature_rad_per_nm;
             assert!((secant > 1.4 * 3.9e4) == (force > 0.0), "{secant}");
         }
     }
     let without = bend_under_tension(&rod(), 0.0, &[1e-3], 30.0).unwrap();
-    // Newton stops at 1e-7 pN nm of 39.
+    // Newton's tolerance is 1e-7 pN nm of 39.
     assert_near(without.points[0].rigidity_pn_nm2, 3.9e4, 1e-6);
 }
 
-/// Without force the protocol is that of twist; with it the couple at a blocked turn is that of
-/// stretch at blocked turn.
+/// Without force the protocol equals `twist`. With force, the torque at a blocked turn equals the
+/// torque of `stretch_by_force`.
 #[test]
 fn twist_under_tension_is_twist_without_force() {
     let specimen = monomers();
     let free = twist(&specimen, &[-60.0, 40.0]).unwrap();
     let pulled = twist_under_tension(&specimen, 0.0, &[-60.0, 40.0]).unwrap();
     for (a, b) in free.points.iter().zip(&pulled.points) {
-        // One path goes there with an idle load; both stop at 1e-7.
+        // Both paths have a tolerance of 1e-7.
         assert_near(b.twist.torque_pn_nm, a.torque_pn_nm, 1e-7);
         assert_near(
             b.twist.relative_length_change,
@@ -73,16 +72,17 @@ fn twist_under_tension_is_twist_without_force() {
             1e-6,
         );
     }
-    // The twist-stretch slope at rest is -0.283 nm, so tension needs +0.283 nm F to block the turn.
+    // The twist-stretch slope at rest is -0.283 nm, so that a torque of +0.283 nm F blocks the
+    // turn.
     let blocked = stretch_by_force(&specimen, &[10.0]).unwrap().points[0].torque_pn_nm;
     let near = twist_under_tension(&specimen, 10.0, &[1e-3]).unwrap();
     assert!((2.6..3.0).contains(&blocked), "{blocked}");
-    // 1e-3 deg adds 3e-4 nm F at most, from the twisting rigidity of a short specimen.
+    // 1e-3 deg adds at most 3e-4 nm F, from the twisting rigidity of a short specimen.
     assert!((near.points[0].twist.torque_pn_nm - blocked).abs() < 1e-3);
 }
 
-/// Over-twist shortens monomers, so tension unwinds them, and less than in proportion, since what
-/// resists grows with the twist. A search that walks with the couple would find nothing.
+/// Over-twist shortens monomers, so that tension unwinds them. The turn grows less than in
+/// proportion, since the torque stiffness grows with the twist.
 #[test]
 fn tension_unwinds_an_end_that_is_free_to_turn() {
     let specimen = monomers();
@@ -92,14 +92,14 @@ fn tension_unwinds_an_end_that_is_free_to_turn() {
         let turn = point.twist.turn_deg;
         let again = twist_under_tension(&specimen, point.force_pn, &[turn]).unwrap();
         let blocked = 0.283 * point.force_pn;
-        // The stop rule is 1e-4 of the blocking couple, which falls below 0.283 nm F at 100 pN.
+        // The tolerance is 1e-4 of the blocking torque, which is below 0.283 nm F at 100 pN.
         assert!(again.points[0].twist.torque_pn_nm.abs() < 1.1e-4 * blocked);
     }
     let twist_at = |i: usize| curve.points[i].twist.curvature_rad_per_nm;
     assert!(twist_at(0) < 0.0 && twist_at(1) < twist_at(0) && twist_at(1) > 10.0 * twist_at(0));
 }
 
-/// Each sampling is that of its seed, in the order asked for, whatever runs first.
+/// Samplings are in the order of their seeds, independent of scheduling.
 #[test]
 fn samplings_come_in_the_order_of_their_seeds() {
     let seeds = [7, 2, 5];
@@ -118,7 +118,7 @@ fn samplings_come_in_the_order_of_their_seeds() {
         [-5.0, 10.0]
     );
     let by_hand: f64 = curves.iter().map(|c| c.points[1].rigidity_pn / 3.0).sum();
-    // Three numbers added in another order.
+    // Rounding of a sum of three numbers in another order.
     assert_near(sampled[1].1.mean, by_hand, 1e-14);
     assert!(sampled.iter().all(|s| s.1.count == 3 && s.1.error > 0.0));
     assert_near(
@@ -128,7 +128,7 @@ fn samplings_come_in_the_order_of_their_seeds() {
     );
 }
 
-/// A scatter of one value is unknown, not zero: zero would weigh infinitely in a fit.
+/// The scatter of one value is unknown, not zero: zero would give an infinite weight in a fit.
 #[test]
 fn one_value_has_no_scatter() {
     let one = Sampled::of([2.0]);
@@ -138,7 +138,7 @@ fn one_value_has_no_scatter() {
 }
 
 #[test]
-fn twists_and_forces_that_mean_nothing_are_refused() {
+fn undefined_twists_and_forces_are_refused() {
     let refused = |name: &str, error: MeasureError| match error {
         MeasureError::Value { name: found, .. } => assert_eq!(found, name),
         other => panic!("{other}"),

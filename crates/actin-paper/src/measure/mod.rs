@@ -1,11 +1,10 @@
-//! Measuring protocols: how stiff a filament is in twist, stretch, bending and shear.
+//! Measuring protocols: stiffness of a filament in twist, stretch, bending and shear.
 //!
-//! A [`Specimen`] is a filament of any resolution with parameters of one's own. A protocol holds
-//! its ends (two monomers at each end of a monomer section, the far pair moved as one rigid body),
-//! leads it along a path of angles, strains or forces and returns a [`Curve`]: for each of them
-//! the raw numbers, the secant rigidity, and the certificate of the equilibrium.
-//! [`over_samplings`] measures many samplings of the bonds, [`sampled_by`] averages their curves.
-//! Nothing is fitted here.
+//! A [`Specimen`] is a filament of any resolution and parameters. A protocol holds its ends and
+//! prescribes angles, strains or forces. An end of monomers is held by its last two monomers; at
+//! the far end they move as one rigid body. The result is a [`Curve`] with raw values, secant
+//! rigidity and certificate of each equilibrium. [`over_samplings`] measures many samplings of the
+//! bonds, and [`sampled_by`] averages their curves.
 //!
 //! | protocol | held | moved | reads |
 //! |---|---|---|---|
@@ -20,9 +19,9 @@
 //! | [`free_turn_under_tension`] | the same | turn until no couple is left | turn, `dL / L` |
 //! | [`shear_by_force`] | both ends in orientation, the far one slides freely | transverse force | `F / gamma` |
 //!
-//! [`Turns`] sums up how cross-sections of a filament in a heat bath turn against each other.
+//! [`Turns`] averages the relative rotations of cross-sections of a filament in a heat bath.
 //!
-//! The length is that between the clamped points: of held monomers the inner ones.
+//! The length `L` is the distance of the clamped points, or of the inner held monomers.
 //!
 //! ```
 //! use actin_paper::measure::{Specimen, twist};

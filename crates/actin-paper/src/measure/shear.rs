@@ -1,4 +1,4 @@
-//! Shear: the far end pushed across the axis, its orientation held.
+//! Shear: the far end is pushed across the axis with its orientation held.
 
 use super::follow::{Evidence, Stop};
 use super::stretch::factors;
@@ -8,36 +8,36 @@ use actin_mechanics::Vector3;
 use actin_sim::Assembly;
 use actin_sim::{End, Load, Slides};
 
-/// A filament sheared by a transverse force, its ends kept parallel.
+/// A filament sheared by a transverse force with parallel ends.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ShearPoint {
     /// Transverse force on the far end (pN).
     pub force_pn: f64,
     /// Displacement of the far end along the force (nm).
     pub shift_nm: f64,
-    /// Displacement over length at rest: shear and S-shaped bending together.
+    /// Displacement over length at rest, from shear and S-shaped bending.
     pub shear: f64,
-    /// Secant `F L / d` (pN), a lower bound of the shearing rigidity: bending adds to `d`.
+    /// Secant `F L / d` (pN), a lower bound of the shear rigidity, since bending adds to `d`.
     pub apparent_rigidity_pn: f64,
-    /// How far to trust it.
+    /// Quality of the equilibrium.
     pub evidence: Evidence,
 }
 
 impl ShearPoint {
-    /// The secant shearing rigidity (pN) left when the bending of a guided beam of rigidity
-    /// `bending_pn_nm2` is taken off: `F / (d / L - F L^2 / 12 B)`. Negative where bending alone
-    /// would go further than `d`.
+    /// Returns the secant shear rigidity (pN) after subtraction of the bending of a guided beam
+    /// with rigidity `bending_pn_nm2`: `F / (d / L - F L^2 / 12 B)`. Negative if the bending
+    /// deflection exceeds `d`.
     pub fn rigidity_pn(&self, length_nm: f64, bending_pn_nm2: f64) -> f64 {
         let bending = self.force_pn * length_nm.powi(2) / (12.0 * bending_pn_nm2);
         self.force_pn / (self.shear - bending)
     }
 }
 
-/// Pushes the far end with each force (pN) across the axis, at an azimuth about it (deg, from
-/// lab x); its orientation is held and it slides freely.
+/// Pushes the far end with each transverse force (pN) at an azimuth about the axis (deg, from lab
+/// x). Its orientation is held and it slides freely.
 ///
 /// # Errors
-/// A filament that is refused, a force that is zero or not finite.
+/// An invalid filament, or a force that is zero or not finite.
 pub fn shear_by_force(
     specimen: &Specimen,
     forces_pn: &[f64],

@@ -1,4 +1,4 @@
-//! What is measured.
+//! Specimens of the measuring protocols.
 
 use crate::run::free;
 use actin_sim::{
@@ -6,23 +6,23 @@ use actin_sim::{
     Stage, Task,
 };
 
-/// A filament to be measured, how it is held and how far equilibria are solved.
+/// A filament with its clamps and the solver of its equilibria.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Specimen {
     /// The filament, of any resolution.
     pub filament: Filament,
-    /// What holds an end that is a rod; of monomers the last two are held.
+    /// Constraint of a rod end; at an end of monomers the last two monomers are held.
     pub hold: Hold,
-    /// Tolerances of the equilibria, and how saddles and jumps are dealt with. The path makes its
-    /// own first step: it tries to go from one value to the next at once.
+    /// Tolerances of the equilibria, and the treatment of saddles and jumps. The first step of a
+    /// path is a whole stage, independent of this setting.
     pub solver: Equilibrium,
 }
 
 impl Specimen {
-    /// This filament, walls at the ends of rods, default tolerances.
+    /// A specimen with clamped rod ends and default tolerances.
     ///
-    /// A saddle is left along its lowest mode, and the curve goes on from where a sudden jump
-    /// leads: the evidence of each point says so.
+    /// The solver leaves saddles along their lowest mode and continues after jumps. The evidence of
+    /// each point counts both.
     pub fn new(filament: Filament) -> Self {
         Self {
             filament,
@@ -35,7 +35,7 @@ impl Specimen {
         }
     }
 
-    /// Monomers all along; the length moves to the nearest monomer.
+    /// A filament of monomers; its length is rounded to whole monomers.
     pub fn ellipsoids(length_nm: f64, monomers: Monomers) -> Self {
         let section = Section::Ellipsoids {
             from_nm: 0.0,
@@ -45,7 +45,7 @@ impl Specimen {
         Self::of_one_section(section, monomers, RodModel::default())
     }
 
-    /// A rod all along, by default of segments as near to 10 nm as fits.
+    /// A rod, by default with segments of about 10 nm.
     pub fn rod(length_nm: f64, segments: Option<usize>, rod: RodModel) -> Self {
         let section = Section::rod(0.0, length_nm, segments);
         Self::of_one_section(section, Monomers::default(), rod)
@@ -59,7 +59,7 @@ impl Specimen {
         })
     }
 
-    /// The scene in which the start is held and the far end slides so, or is free.
+    /// The scene with a held start and, unless `far_end` is `None`, a clamp at the far end.
     pub(super) fn scene(
         &self,
         title: &str,

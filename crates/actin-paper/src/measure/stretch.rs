@@ -1,4 +1,4 @@
-//! Stretch with the turn blocked: by a force, or by a displacement.
+//! Stretch at blocked turn, by a force or a displacement.
 
 use super::follow::{Evidence, Stop};
 use super::sweep::{Curve, far_end_shift, reaction, sweep};
@@ -6,7 +6,7 @@ use super::{MeasureError, Specimen};
 use actin_sim::Assembly;
 use actin_sim::{End, Load, Scene, Setting, Slides, Stage};
 
-/// A filament under axial force, its ends kept from turning.
+/// A filament under axial force with its ends held against rotation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StretchPoint {
     /// Axial force on the far end (pN), positive in tension.
@@ -15,16 +15,16 @@ pub struct StretchPoint {
     pub strain: f64,
     /// Secant stretching rigidity `F L / dL` (pN).
     pub rigidity_pn: f64,
-    /// Couple about the axis that keeps the far end from turning (pN nm).
+    /// Torque about the axis that holds the far end (pN nm).
     pub torque_pn_nm: f64,
-    /// How far to trust it.
+    /// Quality of the equilibrium.
     pub evidence: Evidence,
 }
 
 /// Pulls the far end along the axis with each force (pN); it slides along the axis only.
 ///
 /// # Errors
-/// A filament that is refused, a force that is zero or not finite.
+/// An invalid filament, or a force that is zero or not finite.
 ///
 /// # Source
 /// arXiv 2203.01284, Appendix B: `S3 = F L / dL`.
@@ -54,7 +54,7 @@ pub fn stretch_by_force(
 /// Moves the far end along the axis to each strain.
 ///
 /// # Errors
-/// A filament that is refused, a strain that is zero or not finite.
+/// An invalid filament, or a strain that is zero or not finite.
 ///
 /// # Source
 /// arXiv 2203.01284, Appendix B.
@@ -62,7 +62,7 @@ pub fn stretch_by_shift(
     specimen: &Specimen,
     strains: &[f64],
 ) -> Result<Curve<StretchPoint>, MeasureError> {
-    // The length as resolved, not as asked for, makes strains of shifts.
+    // The displacement uses the resolved length, which can differ from the requested length.
     let length = Assembly::build(&shifts(specimen, &[]))?.length_nm();
     let scene = |strains: &[f64]| {
         let shifts_nm: Vec<f64> = strains.iter().map(|strain| strain * length).collect();

@@ -1,4 +1,4 @@
-//! Values of both signs, each sign along one path from rest.
+//! Curves over values of both signs, with one path from rest for each sign.
 
 use super::MeasureError;
 use super::follow::{Stop, follow};
@@ -6,29 +6,29 @@ use actin_mechanics::{Loads, State, Vector3};
 use actin_sim::{Assembly, Reaction};
 use actin_sim::{End, Scene};
 
-/// What a protocol measured, in ascending order of what it prescribed, or in the order asked for.
+/// Points of a protocol, in ascending order of the prescribed value or in the requested order.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Curve<P> {
     /// Length between the clamped points, or from the clamped point to the tip, at rest (nm).
     pub length_nm: f64,
-    /// The points.
+    /// Measured points.
     pub points: Vec<P>,
-    /// Values that were not reached.
+    /// Values without an equilibrium.
     pub unreached: Vec<Unreached>,
 }
 
-/// A value that was not reached.
+/// A value without an equilibrium.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Unreached {
-    /// The value, in the unit in which it was asked for.
+    /// The value, in the unit of the protocol.
     pub value: f64,
-    /// Why the path ended before.
+    /// Reason for the end of the path.
     pub reason: String,
 }
 
-/// Measures at all `values`: negative and positive ones by a path each, in order of magnitude.
+/// Measures at all `values` along one path for each sign, in order of magnitude.
 ///
-/// `scene` makes the scene with one stage per value; `read` reads a point off a stop.
+/// `scene` makes the scene with one stage per value; `read` reads a point from a stop.
 pub(super) fn sweep<P>(
     name: &'static str,
     values: &[f64],
@@ -63,7 +63,7 @@ pub(super) fn sweep<P>(
     Ok(curve.expect("there is a value, and it is not zero"))
 }
 
-/// Measures at `values` along one path, in the order in which they are given.
+/// Measures at `values` along one path, in the given order.
 pub(super) fn in_order<P>(
     name: &'static str,
     values: &[f64],
@@ -103,7 +103,7 @@ pub(super) fn check(name: &'static str, values: &[f64]) -> Result<(), MeasureErr
         Some(&value) => Err(MeasureError::Value {
             name,
             value,
-            rule: "finite and not zero, where a secant means nothing",
+            rule: "finite and not zero, since a secant is undefined at zero",
         }),
         None if values.is_empty() => Err(MeasureError::Value {
             name,
@@ -114,7 +114,7 @@ pub(super) fn check(name: &'static str, values: &[f64]) -> Result<(), MeasureErr
     }
 }
 
-/// Whether a value that is held while others are swept is one; zero is.
+/// Checks that a constant value is finite; zero is valid.
 pub(super) fn check_finite(name: &'static str, value: f64) -> Result<(), MeasureError> {
     if value.is_finite() {
         return Ok(());
@@ -140,13 +140,13 @@ pub(crate) fn reaction(assembly: &Assembly, state: &State, end: End) -> Reaction
     }
     let clamp = assembly.clamps.iter().find(|clamp| clamp.end == end);
     clamp
-        .expect("protocols ask for ends that they hold")
+        .expect("the protocol holds this end")
         .reaction(state, &loads)
 }
 
-/// How far the clamped point at the far end has moved since rest (nm, lab frame).
+/// Displacement of the clamped point at the far end from rest (nm, lab frame).
 pub(crate) fn far_end_shift(assembly: &Assembly, state: &State) -> Vector3 {
     let clamp = assembly.clamps.iter().find(|clamp| clamp.end == End::End);
-    let clamp = clamp.expect("protocols ask for ends that they hold");
+    let clamp = clamp.expect("the protocol holds this end");
     clamp.point_nm(state) - clamp.point_nm(&assembly.rest)
 }

@@ -1,15 +1,15 @@
-//! Twist under axial force: couples at held turns, and the turn of an end that is free to turn.
+//! Twist under axial force: torques at held turns, and the equilibrium turn of a free end.
 
 use super::sweep::{Curve, Unreached, check, check_finite, in_order, sweep};
 use super::twist::{self, TwistPoint};
 use super::{MeasureError, Specimen};
 use actin_sim::{End, Load, Scene, Setting, Slides, Stage};
 
-/// Couple that may be left on an end that is free to turn, as a share of that at turn 0.
+/// Tolerance on the torque at a free end, relative to the torque at turn 0.
 const COUPLE_LEFT: f64 = 1e-4;
-/// Most equilibria in the search for the turn without couple, for one force.
+/// Limit on the number of equilibria in the search for the torque-free turn at one force.
 const TRIALS: usize = 60;
-/// First step of that search (deg); it grows by the factor 2 until the couple changes its sign.
+/// First step of the search (deg); it doubles until the torque changes sign.
 const FIRST_STEP_DEG: f64 = 0.25;
 
 /// A filament under axial force, twisted or free to turn.
@@ -17,19 +17,19 @@ const FIRST_STEP_DEG: f64 = 0.25;
 pub struct PulledTwistPoint {
     /// Axial force on the far end (pN), positive in tension.
     pub force_pn: f64,
-    /// Turn, couple and change of length, all against the filament at rest without force.
+    /// Turn, torque and change of length relative to the unloaded filament at rest.
     pub twist: TwistPoint,
 }
 
-/// Turns the far end about the axis by each angle (deg) while a force (pN, positive in tension)
-/// pulls it along the axis, along which it slides.
+/// Turns the far end about the axis by each angle (deg) under an axial force (pN, positive in
+/// tension). The far end slides along the axis.
 ///
-/// Of an energy `U(strain, kappa_3)` per length the couple is `dU / d kappa_3` at the strain which
-/// the force makes. With `U = int B3 k dk + S3 (strain - xi + 1)^2 / 2` it is
-/// `B3 kappa_3 - F d xi / d kappa_3`: twist-stretch coupling is what the force adds.
+/// For an energy `U(strain, kappa_3)` per length, the torque is `dU / d kappa_3` at the strain of
+/// the force. With `U = int B3 k dk + S3 (strain - xi + 1)^2 / 2` it is `B3 kappa_3 - F d xi / d
+/// kappa_3`: the force adds the torque of twist-stretch coupling.
 ///
 /// # Errors
-/// A filament that is refused, an angle that is zero or not finite, a force that is not finite.
+/// An invalid filament, an angle that is zero or not finite, or a force that is not finite.
 pub fn twist_under_tension(
     specimen: &Specimen,
     force_pn: f64,
@@ -46,14 +46,14 @@ pub fn twist_under_tension(
     })
 }
 
-/// Pulls the far end along the axis with each force (pN) and turns it until no couple holds it, to
-/// 1e-4 of the couple that would block the turn.
+/// Pulls the far end along the axis with each force (pN) and turns it until its torque is below
+/// 1e-4 of the blocking torque.
 ///
-/// Of monomers in compression the couple can jump over zero, between equilibria that differ in
-/// which way loose monomers give; such a force is not reached.
+/// The torque of monomers in compression can jump across zero between two equilibria. The force is
+/// then reported as unreached.
 ///
 /// # Errors
-/// A filament that is refused, a force that is zero or not finite.
+/// An invalid filament, or a force that is zero or not finite.
 pub fn free_turn_under_tension(
     specimen: &Specimen,
     forces_pn: &[f64],
@@ -90,19 +90,19 @@ fn free_turn(specimen: &Specimen, force_pn: f64) -> Result<Curve<PulledTwistPoin
         search.narrow(turn, left);
     }
     curve.points.clear();
-    // A couple that jumps over zero has no zero: there are several equilibria.
-    let reason = format!("after {TRIALS} trials {left} pN nm are left at {turn} deg");
+    // A torque that jumps across zero has several equilibria and no root.
+    let reason = format!("a torque of {left} pN nm remains at {turn} deg after {TRIALS} trials");
     let value = force_pn;
     curve.unreached.push(Unreached { value, reason });
     Ok(curve)
 }
 
-/// Walks from turn 0 against the couple until that changes its sign, then closes in on the zero by
-/// false position, where the weight of an end that stays is halved (Illinois).
+/// Brackets the zero from turn 0 by growing steps against the torque, then applies false position
+/// with halved weight of a retained end (Illinois algorithm).
 struct Search {
-    /// Turn (deg) and couple (pN nm) at the far side of the zero, or nearest to it so far.
+    /// Turn (deg) and torque (pN nm) on the far side of the zero, or nearest to it.
     from: (f64, f64),
-    /// The same at the latest trial; before there is a bracket, the next trial.
+    /// Turn and torque of the latest trial; without a bracket, the next trial.
     to: (f64, f64),
     is_bracket: bool,
 }
@@ -145,7 +145,7 @@ fn couple(point: &PulledTwistPoint) -> f64 {
     point.twist.torque_pn_nm
 }
 
-/// One equilibrium at a force and a turn; of the turn 0 the secant rigidity is not a number.
+/// Equilibrium at a force and a turn; the secant rigidity is NaN at turn 0.
 fn held(
     specimen: &Specimen,
     force_pn: f64,

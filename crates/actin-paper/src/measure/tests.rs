@@ -1,4 +1,4 @@
-//! Closed forms that the protocols must find, on rods, monomers and both.
+//! Closed forms for rods, monomers and mixed filaments under the protocols.
 
 use super::follow::follow;
 use super::sweep::{far_end_shift, reaction};
@@ -24,13 +24,13 @@ fn rod(length_nm: f64, segments: usize) -> Specimen {
     )
 }
 
-/// So many rises of monomers with 160 bonds per interface.
+/// A filament with this number of rises and 160 bonds per interface.
 fn monomers(rises: f64, seed: u64) -> Specimen {
     let monomers = Monomers::drawn(160, seed);
     Specimen::ellipsoids(rises * monomers.rise_nm, monomers)
 }
 
-/// Secants whose relative differences from `expected` are within `tolerance`.
+/// Checks that the relative differences of the secants from `expected` are within `tolerance`.
 fn assert_all(secants: impl IntoIterator<Item = f64>, expected: f64, tolerance: f64) {
     let mut count = 0;
     for secant in secants {
@@ -38,17 +38,16 @@ fn assert_all(secants: impl IntoIterator<Item = f64>, expected: f64, tolerance: 
         assert!(error <= tolerance, "{secant} for {expected}: {error:.2e}");
         count += 1;
     }
-    assert!(count > 0, "nothing was measured");
+    assert!(count > 0, "the curve has no points");
 }
 
-/// Twist, axial strain and curvature are uniform in a rod under end couples and axial force, so
-/// its segments change nothing: the secants are the material's at every load. A length taken from
-/// the outer nodes, or an angle that forgets the walls, would miss by a segment.
+/// Strains of a rod under end couples and axial force are uniform, so that the secants equal the
+/// rigidities of the material at every load and segment length.
 #[test]
 fn a_rod_has_the_rigidities_of_its_material() {
     let rod = rod(75.0, 7);
     let b3 = twist(&rod, &[-200.0, -10.0, 10.0, 200.0]).unwrap();
-    // Newton stops at 1e-7 pN and pN nm, of couples above 30 pN nm and forces above 1 pN.
+    // Newton's tolerance is 1e-7 pN and pN nm; couples exceed 30 pN nm and forces 1 pN.
     assert_all(b3.points.iter().map(|p| p.rigidity_pn_nm2), 1.3e4, 1e-7);
     assert!(
         b3.points
@@ -69,19 +68,20 @@ fn a_rod_has_the_rigidities_of_its_material() {
     }
 }
 
-/// A cantilever's elastica gives back the rod's rigidity where linear theory is 10 % off.
+/// The elastica recovers the rigidity of a cantilever where the error of linear theory is 10 %.
 #[test]
 fn the_elastica_of_a_tip_force_gives_back_the_rigidity() {
     let curve = bend_by_tip_force(&rod(160.0, 64), &[0.02, 2.0], 30.0).unwrap();
     let (small, large) = (&curve.points[0], &curve.points[1]);
-    // Segments cost 0.2 % at 16 and a sixteenth of it at 64; shear adds 3 B / S1 L^2 = 2.9e-4.
+    // The discretisation error is 0.2 % for 16 segments, a sixteenth of that for 64; shear adds 3 B
+    // / S1 L^2 = 2.9e-4.
     let tolerance = 1e-3;
     assert_all([small.elastica_rigidity_pn_nm2], 3.9e4, tolerance);
     assert_all([large.elastica_rigidity_pn_nm2], 3.9e4, tolerance);
     assert!(large.linear_rigidity_pn_nm2 > 1.1 * 3.9e4);
 }
 
-/// A guided Timoshenko beam: d / L = F (L^2 / 12 B + 1 / S1). Soft in shear, so that S1 counts.
+/// Guided Timoshenko beam: `d / L = F (L^2 / 12 B + 1 / S1)`, with a small `S1`.
 #[test]
 fn a_rod_that_is_soft_in_shear_shows_its_shearing_rigidity() {
     let model = RodModel {
@@ -93,18 +93,17 @@ fn a_rod_that_is_soft_in_shear_shows_its_shearing_rigidity() {
     };
     let curve = shear_by_force(&Specimen::rod(80.0, Some(64), model), &[0.01], 20.0).unwrap();
     let point = &curve.points[0];
-    // Bending is 40 % of the shift, and its mesh error, 2 (h / L)^2, is 5e-4 of that.
+    // Bending is 40 % of the displacement; its discretisation error is 2 (h / L)^2 = 5e-4.
     assert_all([point.rigidity_pn(curve.length_nm, 3.9e4)], 50.0, 1e-3);
     assert!(point.apparent_rigidity_pn < 0.8 * 50.0);
 }
 
-/// If neither kind of interface changes the distance of its centres, twist changes radius and
-/// length together: with the turn `t` and rise `z` from monomer to monomer and `x = R dR`,
-/// `2 (1 - cos t) x + R^2 sin t dt + z dz = 0` and the same for the second neighbour, `2 t` and
-/// `2 z`, give `dz / dt = R^2 sin t / z = -0.2831 nm`. (With the radius held, the second neighbour
-/// alone would give -0.2749.) The wrong sense of the helix would give the other sign.
+/// If both kinds of interfaces keep the distance of their centres, twist changes radius and length
+/// together. With turn `t` and rise `z` per monomer and `x = R dR`, `2 (1 - cos t) x + R^2 sin t dt
+/// + z dz = 0` holds for neighbours, and with `2 t` and `2 z` for second neighbours. The result is
+/// `dz / dt = R^2 sin t / z = -0.2831 nm`.
 #[test]
-fn small_twist_changes_the_length_as_inextensible_interfaces_demand() {
+fn small_twist_changes_the_length_as_for_inextensible_interfaces() {
     let (rise, radius, turn) = helix();
     let expected = radius.powi(2) * turn.sin() / rise;
     assert!((expected + 0.2831).abs() < 1e-4);
@@ -113,14 +112,13 @@ fn small_twist_changes_the_length_as_inextensible_interfaces_demand() {
         let [under, over] = [&curve.points[0], &curve.points[1]];
         let change = over.relative_length_change - under.relative_length_change;
         let slope = change / (over.curvature_rad_per_nm - under.curvature_rad_per_nm);
-        // Ends and sampling: 0.002 at 27 rises, falling with the length to 0.0002 here.
+        // End effects and sampling: 0.002 at 27 rises, decreasing with length to 0.0002 here.
         assert!((slope - expected).abs() < 6e-4, "{slope}");
     }
 }
 
-/// Springs of rigidity `S_perp` and `S_par` between centres, strained uniformly with the radius free
-/// and the turn held: an upper bound, since a filament may also relax in other ways. It is below
-/// the coarser bound `2 S_par (2 z)` of two strands alone.
+/// Upper bound: springs of rigidity `S_perp` and `S_par` between centres, strained uniformly with
+/// free radius and held turn. It is below the bound `2 S_par (2 z)` of two strands.
 #[test]
 fn stretching_stays_below_the_uniformly_strained_springs() {
     let m = Monomers::default();
@@ -138,7 +136,7 @@ fn stretching_stays_below_the_uniformly_strained_springs() {
     for seed in 0..2 {
         let by_force = stretch_by_force(&monomers(109.0, seed), &[100.0]).unwrap();
         let measured = by_force.points[0].rigidity_pn;
-        // Rotations of monomers under sampled bonds, and the ends, cost 2 to 3 %.
+        // Rotations of monomers with sampled bonds, and the ends, reduce the rigidity by 2 to 3 %.
         assert!(
             measured < uniform && measured > 0.96 * uniform,
             "{measured}"
@@ -148,8 +146,8 @@ fn stretching_stays_below_the_uniformly_strained_springs() {
     }
 }
 
-/// Two controls of one potential: what a force does to the couple at held turn, a turn does to the
-/// length at held force (Maxwell and Betti). A reaction about the wrong point would break it.
+/// Reciprocity (Maxwell, Betti): the torque per force at held turn equals the length change per
+/// turn at held force.
 #[test]
 fn pulling_and_turning_are_reciprocal() {
     let specimen = monomers(27.0, 0);
@@ -185,15 +183,15 @@ fn pulling_and_turning_are_reciprocal() {
     let by_force = (at(turn, force + dforce).0 - at(turn, force - dforce).0) / (2.0 * dforce);
     let by_turn =
         (at(turn + dturn, force).1 - at(turn - dturn, force).1) / (2.0 * dturn.to_radians());
-    // Differences of second order: twice these steps change the fifth digit.
+    // Second-order differences: doubling the steps changes the fifth digit.
     assert!(
         (by_force + by_turn).abs() < 1e-5 * by_turn.abs(),
         "{by_force} {by_turn}"
     );
 }
 
-/// Couples at the two ends of any filament without lateral force balance, and a mixed filament
-/// twists as much as its parts in series.
+/// Torques at the two ends balance without lateral forces. A mixed filament twists as much as its
+/// parts in series.
 #[test]
 fn mixed_filaments_are_measured_like_any_other() {
     let monomers = Section::Ellipsoids {
@@ -211,7 +209,8 @@ fn mixed_filaments_are_measured_like_any_other() {
     let softer = twist(&whole, &turns).unwrap();
     for (point, monomers) in curve.points.iter().zip(&softer.points) {
         assert!((point.torque_pn_nm + point.near_torque_pn_nm).abs() < 1e-5);
-        // Stiffer than monomers alone, whose secant grows with the twist, softer than the rod.
+        // The rigidity is larger than for monomers alone, whose secant grows with the twist, and
+        // smaller than for the rod.
         assert!(point.rigidity_pn_nm2 > monomers.rigidity_pn_nm2);
         assert!(point.rigidity_pn_nm2 < 1.3e4);
         assert!(point.evidence.is_stable() && point.relative_length_change < 0.0);
@@ -221,7 +220,7 @@ fn mixed_filaments_are_measured_like_any_other() {
     assert!(couples.abs() < 1e-5);
 }
 
-/// A protocol is a scene that anybody can write: the files in `scenarios/rigidity` give the same.
+/// The scenes in `scenarios/rigidity` give the results of the protocols.
 #[test]
 fn scenes_give_what_the_protocols_give() {
     let run = |name: &str| {
@@ -243,7 +242,7 @@ fn scenes_give_what_the_protocols_give() {
     let (reaction, _, length) = run("twist");
     let b3 = reaction.torque_pn_nm[2] * length / (120.0 * PI / 180.0);
     let curve = twist(&specimen, &[40.0, 80.0, 120.0]).unwrap();
-    // Both solve to 1e-7, of couples of 340 pN nm and a shift of 0.2 nm.
+    // Both solve to 1e-7, for torques of 340 pN nm and a displacement of 0.2 nm.
     assert_all([b3], curve.points[2].rigidity_pn_nm2, 1e-8);
     let (_, shift, length) = run("stretch");
     let curve = stretch_by_force(&specimen, &[1.0, 10.0, 100.0]).unwrap();
@@ -251,7 +250,7 @@ fn scenes_give_what_the_protocols_give() {
     let (reaction, _, _) = run("bend");
     let specimen = Specimen::ellipsoids(150.6154, Monomers::default());
     let curve = bend_by_couples(&specimen, &[0.01], 0.0).unwrap();
-    // The file rounds the turn to 1e-4 degrees of 86.
+    // The file rounds the turn of 86 deg to 1e-4 deg.
     assert_all(
         [reaction.torque_pn_nm[0] / 0.01],
         curve.points[0].rigidity_pn_nm2,
@@ -259,9 +258,9 @@ fn scenes_give_what_the_protocols_give() {
     );
 }
 
-/// Out and back over angles with one equilibrium gives the same points twice.
+/// Angles with a unique equilibrium give the same points out and back.
 #[test]
-fn moderate_twist_does_not_remember_its_way() {
+fn moderate_twist_is_independent_of_the_path() {
     let specimen = monomers(27.0, 1);
     let curve = twist_in_order(&specimen, &[40.0, 80.0, 40.0]).unwrap();
     let there = curve.points[0].rigidity_pn_nm2;
@@ -304,7 +303,7 @@ fn values_and_models_that_cannot_be_measured_are_refused() {
     assert!(twist(&held, &[10.0]).is_ok());
 }
 
-/// The balance law has no potential, so there is no equilibrium of least energy to measure.
+/// The balance law has no potential and thus no equilibrium of least energy.
 #[test]
 fn rods_without_a_potential_are_refused() {
     let model = RodModel {
@@ -318,7 +317,7 @@ fn rods_without_a_potential_are_refused() {
     );
 }
 
-/// A path that ends early keeps what it has and names the rest.
+/// A path that ends early keeps its points and lists the remaining values.
 #[test]
 fn values_that_are_not_reached_are_named() {
     let mut specimen = monomers(13.0, 0);
@@ -330,12 +329,11 @@ fn values_that_are_not_reached_are_named() {
     assert!(curve.points.is_empty() && !curve.unreached[0].reason.is_empty());
 }
 
-/// Twelve weighted bonds against 4096 drawn for each interface, none below 0.2 nm: within 4 % in twist,
-/// 0.2 % in stretch and 1 % in bending, as a prototype was. Points that missed the moments of `1/L^2`
-/// or `1/L^3` would be off by more in twist and bending, which are cubic. (Of 1024 drawn bonds two
-/// samplings differ by 1 % in bending.)
+/// Twelve quadrature bonds agree with 4096 sampled bonds per interface within 4 % in twist, 0.2 %
+/// in stretch and 1 % in bending. The minimum bond length is 0.2 nm. Twist and bending are cubic
+/// and sensitive to the moments of `1/L^2` and `1/L^3`.
 #[test]
-fn twelve_weighted_bonds_do_the_work_of_thousands() {
+fn twelve_quadrature_bonds_equal_thousands_of_sampled_bonds() {
     let specimen = |monomers: Monomers| {
         let monomers = Monomers {
             min_bond_nm: 0.2,
@@ -377,7 +375,7 @@ fn twelve_weighted_bonds_do_the_work_of_thousands() {
     );
 }
 
-/// Weighted bonds have no samplings: another seed is refused, not ignored.
+/// Quadrature bonds have no samplings: a seed other than 0 is an error.
 #[test]
 fn weighted_bonds_have_no_samplings() {
     let monomers = Monomers::weighted(12);

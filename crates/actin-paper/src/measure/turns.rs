@@ -1,7 +1,8 @@
-//! How much cross-sections of a filament in a heat bath turn against each other.
+//! Relative rotations of cross-sections of a filament in a heat bath.
 //!
-//! At distance `s`, `<cos theta> = exp(-s / lp)` and `<phi^2> = s kT / C`, where `theta` tilts the axis
-//! and `phi` goes about it; `lp` is the persistence length and `C` the twisting rigidity.
+//! At the distance `s`, `<cos theta> = exp(-s / lp)` and `<phi^2> = s kT / C`. Here `theta` is the
+//! tilt of the axis, `phi` the rotation about it, `lp` the persistence length and `C` the twisting
+//! rigidity.
 
 use crate::run::free;
 use actin_integrate::{Bath, Composition, Drag, advance_in, largest_frequency, stable_step};
@@ -10,15 +11,15 @@ use actin_sim::{Assembly, BOLTZMANN_PN_NM_PER_K, Filament};
 
 /// Thermal energy at 298 K (pN nm).
 pub(crate) const ROOM_PN_NM: f64 = BOLTZMANN_PN_NM_PER_K * 298.0;
-/// Drag rate (1/ns): near critical for the slowest bending of 110 nm.
+/// Drag rate (1/ns), near critical for the slowest bending mode of 110 nm.
 const DRAG: f64 = 5.0;
-/// Motion before the first sample, ten relaxations of the slowest bending, and between samples (ns).
+/// Time before the first sample, ten relaxation times of the slowest bending mode, and time between
+/// samples (ns).
 const WARM_UP_NS: f64 = 5.0;
 const APART_NS: f64 = 0.25;
-/// Samples of one filament.
 const SAMPLES: u32 = 400;
 
-/// Means over samples of one filament, by separation of frames.
+/// Means over samples of one filament, indexed by the separation of frames.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Turns {
     /// `<cos theta>`.
@@ -28,7 +29,7 @@ pub struct Turns {
 }
 
 impl Turns {
-    /// No samples yet of a filament of so many frames.
+    /// Zero means for a filament with this number of frames.
     pub fn new(frames: usize) -> Self {
         Self {
             cosine: vec![0.0; frames],
@@ -36,11 +37,11 @@ impl Turns {
         }
     }
 
-    /// Adds one of so many `samples`: the mean over all pairs of frames at each separation. The axis of
-    /// the filament at `rest` is z.
+    /// Adds one of `samples` samples: the mean over all pairs of frames at each separation. The
+    /// axis of the filament at `rest` is z.
     pub fn add(&mut self, rest: &State, state: &State, samples: usize) {
         let (q0, q) = (&rest.frames.orientation, &state.frames.orientation);
-        // Turns from rest, in the axes of the filament at rest.
+        // Rotations from rest, in the axes of the filament at rest.
         let turns: Vec<UnitQuaternion> = (0..q.len())
             .map(|i| q.get(i) * q0.get(i).inverse())
             .collect();
@@ -50,7 +51,7 @@ impl Turns {
             for (a, b) in pairs {
                 let relative = a.inverse() * b;
                 let (x, y) = (relative.i, relative.j);
-                // Of a rotation, the element (3, 3) of its matrix.
+                // Element (3, 3) of the rotation matrix.
                 self.cosine[k] += weight * (1.0 - 2.0 * (x * x + y * y));
                 self.twist[k] += weight * rotation::log(relative).z.powi(2);
             }
@@ -58,11 +59,8 @@ impl Turns {
     }
 }
 
-/// Turns of a free filament in a heat bath at 298 K, moved at a share of the stability limit at rest; replicas differ
-/// in their noise.
-///
-/// # Errors
-/// A filament that cannot be built or moved.
+/// Rotations of a free filament in a heat bath at 298 K. The time step is a share of the stability
+/// limit at rest; replicas differ in their noise.
 pub(crate) fn turns_in_bath(
     filament: Filament,
     (scheme, share): (&Composition, f64),
@@ -85,8 +83,9 @@ pub(crate) fn turns_in_bath(
     Ok(turns)
 }
 
-/// Persistence length (nm) and twisting rigidity over kT (nm) with their standard errors, from slopes between 1/5 and 3/5
-/// of the length, which the wobble of single monomers does not enter; frames are `apart_nm` from each other.
+/// Persistence length (nm) and twisting rigidity over kT (nm) with their standard errors. The
+/// slopes between 1/5 and 3/5 of the length exclude local fluctuations of single monomers. The
+/// distance between frames is `apart_nm`.
 pub(crate) fn far_lengths(all: &[Turns], apart_nm: f64) -> [(f64, f64); 2] {
     let count = all[0].cosine.len();
     let (from, to) = (count / 5, 3 * count / 5);
@@ -104,7 +103,7 @@ pub(crate) fn far_lengths(all: &[Turns], apart_nm: f64) -> [(f64, f64); 2] {
     ]
 }
 
-/// Steps of `h` in a duration, the last one included.
+/// Number of steps of `h` in a duration, rounded up.
 #[expect(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,
@@ -114,7 +113,7 @@ pub fn steps_in(duration: f64, h: f64) -> u64 {
     (duration / h).ceil() as u64
 }
 
-/// An estimate from all replicas, with its standard error.
+/// Jackknife estimate over all replicas, with its standard error.
 pub fn jackknife<T>(replicas: &[T], estimate: impl Fn(&[&T]) -> f64) -> (f64, f64) {
     let all: Vec<&T> = replicas.iter().collect();
     let whole = estimate(&all);
@@ -136,7 +135,7 @@ mod tests {
     use super::*;
     use actin_mechanics::{Frame, Inertia, Vector3};
 
-    /// Of a mean, the jackknife is the usual standard error: of 1, 2, 3, 4 it is `sqrt(5/12)`.
+    /// The jackknife error of a mean is the usual standard error: `sqrt(5/12)` for 1, 2, 3, 4.
     #[test]
     fn the_jackknife_of_a_mean_is_its_standard_error() {
         let mean = |chosen: &[&f64]| chosen.iter().copied().sum::<f64>() / chosen.len() as f64;
@@ -145,9 +144,10 @@ mod tests {
         assert!((error - (5.0_f64 / 12.0).sqrt()).abs() < 1e-15);
     }
 
-    /// Three frames, the second tilted by 0.3 and the third twisted by 0.4, seen from the first.
+    /// Three frames: the second is tilted by 0.3 and the third twisted by 0.4, relative to the
+    /// first.
     #[test]
-    fn tilt_and_twist_are_told_apart() {
+    fn tilt_and_twist_are_separated() {
         let state = |turns: [Vector3; 3]| {
             let mut state = State::default();
             for turn in turns {
@@ -163,10 +163,10 @@ mod tests {
         let mut turns = Turns::new(3);
         turns.add(&rest, &state([Vector3::zeros(), tilt, twist]), 1);
         assert!((turns.cosine[0] - 1.0).abs() < 1e-15 && turns.twist[0].abs() < 1e-15);
-        // Separation 2: first and third only.
+        // Separation 2: first and third frame only.
         assert!((turns.cosine[2] - 1.0).abs() < 1e-15);
         assert!((turns.twist[2] - 0.16).abs() < 1e-15);
-        // Separation 1: the pair of the first two has the tilt alone.
+        // Separation 1: only the pair of the first two has tilt.
         let of_second = 2.0 * turns.cosine[1] - 0.3_f64.cos();
         assert!((of_second - 0.3_f64.cos()).abs() < 1e-15);
     }

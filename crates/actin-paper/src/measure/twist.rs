@@ -1,4 +1,4 @@
-//! Twist: couple and change of length at held angles.
+//! Twist: torque and change of length at held angles.
 
 use super::follow::{Evidence, Stop};
 use super::sweep::{Curve, far_end_shift, in_order, reaction, sweep};
@@ -6,32 +6,33 @@ use super::{MeasureError, Specimen};
 use actin_sim::Assembly;
 use actin_sim::{End, Scene, Setting, Slides, Stage};
 
-/// A filament held at an angle of twist, free to change its length.
+/// A filament held at an angle of twist with free length.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TwistPoint {
     /// Turn of the far end about the axis (deg); positive is right-handed, that is over-twist.
     pub turn_deg: f64,
     /// Turn per length at rest, `kappa = phi / L` (rad/nm).
     pub curvature_rad_per_nm: f64,
-    /// Couple about the axis that holds the far end (pN nm).
+    /// Torque about the axis that holds the far end (pN nm).
     pub torque_pn_nm: f64,
-    /// Couple about the axis that holds the near end (pN nm); minus the other.
+    /// Torque about the axis that holds the near end (pN nm); minus the far torque in equilibrium.
     pub near_torque_pn_nm: f64,
     /// Secant twisting rigidity `tau L / phi` (pN nm^2).
     pub rigidity_pn_nm2: f64,
     /// Change of length over length at rest.
     pub relative_length_change: f64,
-    /// How far to trust it.
+    /// Quality of the equilibrium.
     pub evidence: Evidence,
 }
 
-/// Turns the far end about the axis by each angle (deg), free to slide along the axis only.
+/// Turns the far end about the axis by each angle (deg). It slides along the axis only.
 ///
-/// The secant rigidity is `B3 = tau L / phi`, `tau` the couple at the far end about lab z, `L` the
-/// length at rest, `phi` the angle. Torques are accurate to about the tolerance of the solver.
+/// The secant rigidity is `B3 = tau L / phi` with the torque `tau` at the far end about lab z, the
+/// length at rest `L` and the angle `phi`. The accuracy of torques is about the tolerance of the
+/// solver.
 ///
 /// # Errors
-/// A filament that is refused, an angle that is zero or not finite.
+/// An invalid filament, or an angle that is zero or not finite.
 ///
 /// # Source
 /// arXiv 2203.01284, Appendix B, Tables 3 and 5.
@@ -40,11 +41,11 @@ pub fn twist(specimen: &Specimen, turns_deg: &[f64]) -> Result<Curve<TwistPoint>
     sweep("turn_deg", turns_deg, scene, read)
 }
 
-/// The same along one path, in the order in which the angles are given: out and back, say, which
-/// shows where large twist has more than one equilibrium.
+/// Turns the far end along one path, in the given order of the angles. A path out and back shows
+/// multiple equilibria at large twist.
 ///
 /// # Errors
-/// As [`twist`].
+/// See [`twist`].
 pub fn twist_in_order(
     specimen: &Specimen,
     turns_deg: &[f64],

@@ -1,4 +1,4 @@
-//! Bending by couples of a filament that is twisted, or pulled along its axis.
+//! Bending by couples of a filament under twist or axial force.
 
 use super::follow::{Evidence, Stop};
 use super::sweep::{Curve, across, check, check_finite, reaction, sweep};
@@ -8,39 +8,39 @@ use actin_sim::Assembly;
 use actin_sim::{End, Load, Scene, Setting, Slides, Stage};
 use std::f64::consts::TAU;
 
-/// A filament twisted and bent by one couple, the same all along: a helix.
+/// A filament twisted and bent by a uniform couple: a helix.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HelixPoint {
-    /// Turn of the far end about the axis, before it is tilted, over length at rest (rad/nm).
+    /// Turn of the far end about the axis, before the tilt, over length at rest (rad/nm).
     pub twist_rad_per_nm: f64,
-    /// Tilt of the far end over length at rest (rad/nm): what is prescribed.
+    /// Prescribed tilt of the far end over length at rest (rad/nm).
     pub tilt_rad_per_nm: f64,
-    /// Curvature of the helix across its own axis (rad/nm); the tilt per length if untwisted.
+    /// Curvature of the helix (rad/nm); equal to the tilt per length if untwisted.
     pub curvature_rad_per_nm: f64,
-    /// Couple that holds the far end (pN nm, lab frame).
+    /// Couple at the far end (pN nm, lab frame).
     pub couple_pn_nm: Vector3,
-    /// Its component about the filament (pN nm), read at the near end.
+    /// Component of the couple along the filament (pN nm), at the near end.
     pub twisting_couple_pn_nm: f64,
-    /// Twist of the helix (rad/nm): that by which the turn of the far end comes about.
+    /// Twist of the helix (rad/nm) that gives the turn of the far end.
     pub helix_twist_rad_per_nm: f64,
-    /// Secant bending rigidity (pN nm^2): couple across the filament over curvature.
+    /// Secant bending rigidity (pN nm^2): transverse component of the couple over curvature.
     pub rigidity_pn_nm2: f64,
-    /// How far to trust it.
+    /// Quality of the equilibrium.
     pub evidence: Evidence,
 }
 
 /// Turns the far end about the axis by `twist L`, then tilts it by each `tilt L` (rad/nm) about the
-/// transverse axis at an azimuth (deg, from lab x); it slides freely, so that no force acts.
+/// transverse axis at an azimuth (deg, from lab x). It slides freely, so that no force acts.
 ///
-/// The couple `m` is then the same all along, and an isotropic rod with `B` and `B3` of its own for
-/// this curvature and twist is a helix: its far end is turned by
-/// `exp(L m / B) exp(L (kappa_3 - m_3 / B) e3)`, `m_3 = m . e3` at the near end. The tilt gives `B`:
-/// `sin(theta / 2) = sin(gamma) sin(L m / 2 B)`, `gamma` the angle between couple and filament. The
-/// smallest root is taken, so `L m / B` must stay below a half-turn: shorter filaments for
-/// larger twist. Where there is no root, rigidity and curvature are not numbers.
+/// The couple `m` is uniform, and an isotropic rod with secants `B` and `B3` is a helix. Its far
+/// end is rotated by `exp(L m / B) exp(L (kappa_3 - m_3 / B) e3)` with `m_3 = m . e3` at the near
+/// end. `B` follows from the tilt: `sin(theta / 2) = sin(gamma) sin(L m / 2 B)` with the angle
+/// `gamma` between couple and filament. The result is the smallest root, so that `L m / B` must be
+/// less than half a turn; use shorter filaments for larger twist. Rigidity and curvature are NaN
+/// without a root.
 ///
 /// # Errors
-/// A filament that is refused, a tilt that is zero or not finite, a twist that is not finite.
+/// An invalid filament, a tilt that is zero or not finite, or a twist that is not finite.
 pub fn bend_twisted(
     specimen: &Specimen,
     twist_rad_per_nm: f64,
@@ -75,7 +75,7 @@ pub fn bend_twisted(
     sweep("tilt_rad_per_nm", tilts_rad_per_nm, scene, read)
 }
 
-/// Curvature, twist and bending rigidity of a helix under one couple.
+/// Curvature, twist and bending rigidity of a helix under a uniform couple.
 struct Helix {
     curvature: f64,
     twist: f64,
@@ -83,13 +83,13 @@ struct Helix {
 }
 
 impl Helix {
-    /// From the couple, the tilt and turn (rad) of the far end.
+    /// Computes the helix from the couple, and the tilt and turn (rad) of the far end.
     fn of(couple: Vector3, tilt: f64, length: f64, axis: Vector3, turn: f64) -> Self {
         let sine = couple.xy().norm() / couple.norm();
         let angle = 2.0 * ((0.5 * tilt.abs()).sin() / sine).asin();
         let rigidity = length * couple.norm() / angle;
         let end = rotation::exp(axis * tilt) * rotation::exp(Vector3::z() * turn);
-        // What is left is a turn about e3 alone, known but for full turns.
+        // The remaining rotation is a turn about e3, known up to full turns.
         let left = rotation::exp(couple * (length / rigidity)).inverse() * end;
         let spin = couple.z * length / rigidity;
         let rest = rotation::log(left).z;
@@ -110,7 +110,7 @@ fn composed(tilt: Vector3, twist: Vector3) -> Vector3 {
     if angle == 0.0 {
         return twist;
     }
-    // The same rotation by any number of full turns about the same axis.
+    // Adds full turns about the same axis.
     let unit = vector / angle;
     let turns = ((twist.dot(&unit) - angle) / TAU).round();
     unit * (angle + TAU * turns)
@@ -135,32 +135,32 @@ fn helix(specimen: &Specimen, turns: &[Vector3]) -> Scene {
     )
 }
 
-/// A filament under axial force, bent by couples at its ends.
+/// A filament bent by end couples under axial force.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PulledBendPoint {
     /// Axial force on the far end (pN), positive in tension.
     pub force_pn: f64,
-    /// Turn between the ends over length at rest (rad/nm).
+    /// Relative rotation of the ends over length at rest (rad/nm).
     pub curvature_rad_per_nm: f64,
-    /// Couple about the axis of bending that holds the far end (pN nm).
+    /// Couple about the bending axis at the far end (pN nm).
     pub couple_pn_nm: f64,
-    /// Secant bending rigidity (pN nm^2) of small bending under tension.
+    /// Secant bending rigidity (pN nm^2) for small bending under tension.
     pub rigidity_pn_nm2: f64,
-    /// How far to trust it.
+    /// Quality of the equilibrium.
     pub evidence: Evidence,
 }
 
-/// Turns both ends by `kappa L / 2` against each other for each curvature (rad/nm) about the
-/// transverse axis at an azimuth (deg, from lab x) while a force (pN) pulls the far end along the
-/// axis as built; it slides freely.
+/// Rotates the ends by `kappa L / 2` in opposite senses for each curvature (rad/nm), about the
+/// transverse axis at an azimuth (deg, from lab x). A force (pN) pulls the freely sliding far end
+/// along the undeformed axis.
 ///
-/// The couple at the ends is `M = B kappa x / tanh x`, `x = (L / 2) sqrt(F / B)`, for small angles and
-/// no shear (with `tan` in compression); `B` solves it. The force acts on a monomer off the axis and
-/// adds a couple that does not change its sign with the curvature: average over both signs, or over
-/// opposite azimuths.
+/// The end couple is `M = B kappa x / tanh x` with `x = (L / 2) sqrt(F / B)`, for small angles and
+/// without shear (`tan` in compression). `B` is the solution of this equation. The force acts on a
+/// monomer off the axis and adds a couple that is even in the curvature: average over both signs or
+/// over opposite azimuths.
 ///
 /// # Errors
-/// A filament that is refused, a curvature that is zero or not finite, a force that is not finite.
+/// An invalid filament, a curvature that is zero or not finite, or a force that is not finite.
 pub fn bend_under_tension(
     specimen: &Specimen,
     force_pn: f64,
@@ -193,8 +193,7 @@ pub fn bend_under_tension(
     sweep("curvature_rad_per_nm", curvatures_rad_per_nm, scene, read)
 }
 
-/// The `B` of `secant = B x / tanh x`, `x = (L / 2) sqrt(F / B)`, by fixed point: the right side
-/// changes slowly.
+/// Solves `secant = B x / tanh x` with `x = (L / 2) sqrt(F / B)` for `B` by fixed-point iteration.
 fn pulled_rigidity(secant: f64, force: f64, length: f64) -> f64 {
     let mut rigidity = secant;
     for _ in 0..200 {

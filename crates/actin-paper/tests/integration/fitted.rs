@@ -1,18 +1,17 @@
-//! The law `Fitted` against filaments of monomers other than those it was fitted to: other lengths,
-//! azimuths and turns.
+//! The law `Fitted` compared with filaments of monomers at other lengths, azimuths and turns than
+//! its fit.
 
 use actin_paper::measure::{Curve, Sampled, Specimen, bend_by_tip_force, sampled_by, twist};
 use actin_sim::{Filament, JunctionModel, JunctionWeight, Monomers, RodLaw, RodModel, Section};
 
-/// Azimuths of the force (deg) between those of the fit.
 const AZIMUTHS_DEG: [f64; 4] = [45.0, 135.0, 225.0, 315.0];
 
-/// Length of so many rises (nm).
+/// Length of a number of rises (nm).
 fn rises(count: f64) -> f64 {
     count * Monomers::default().rise_nm
 }
 
-/// The gate of the deflections: 1 %, where a rod of constant rigidities misses by 28 % at 0.1 pN.
+/// Deflections agree within 1 %. A rod of constant rigidities differs by 28 % at 0.1 pN.
 #[test]
 fn cantilevers_of_rod_and_monomers_bend_alike() {
     let length = rises(80.5);
@@ -41,7 +40,7 @@ fn cantilevers_of_rod_and_monomers_bend_alike() {
     }
 }
 
-/// The gate of twist: secants within 2 % and lengths within 5e-4, to 200 degrees.
+/// Secants agree within 2 % and lengths within 5e-4, up to 200 degrees.
 #[test]
 fn rod_and_monomers_twist_and_shorten_alike() {
     let turns = [
@@ -66,7 +65,7 @@ fn rod_and_monomers_twist_and_shorten_alike() {
     }
 }
 
-/// Tip deflection (nm) of a mixed cantilever of 160 nm with this much rod at the tip.
+/// Tip deflection (nm) of a mixed cantilever of 160 nm with a length `rod_nm` of rod at the tip.
 fn tip(rod_nm: f64, force: f64, law: &RodLaw, weight: JunctionWeight) -> f64 {
     let boundary = 160.0 - rod_nm;
     let sections = vec![
@@ -89,7 +88,7 @@ fn tip(rod_nm: f64, force: f64, law: &RodLaw, weight: JunctionWeight) -> f64 {
     curve.points[0].deflection_nm
 }
 
-/// Tips for 20, 40, ... 140 nm of rod, and their spread relative to their mean.
+/// Tip deflections for 20, 40, ... 140 nm of rod, and their range over their mean.
 fn spread(force: f64, law: &RodLaw, weight: JunctionWeight) -> f64 {
     let tips: Vec<f64> = (1..=7)
         .map(|k| tip(20.0 * f64::from(k), force, law, weight))
@@ -104,8 +103,8 @@ fn spread(force: f64, law: &RodLaw, weight: JunctionWeight) -> f64 {
     spread
 }
 
-/// Of the spread over the resolutions the law of the rod makes the most, and the weight of the
-/// junction the rest: a rod that bends as the monomers do leaves half of it, or a quarter.
+/// Most of the spread over resolutions is due to the rod law, and the rest to the weight of the
+/// junction. Both the fitted law and a shared weight reduce the spread.
 #[test]
 fn mixed_cantilevers_spread_less_under_the_fitted_law() {
     for force in [0.5, 2.0] {

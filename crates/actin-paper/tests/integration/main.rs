@@ -1,5 +1,5 @@
-//! Laws of the rod against filaments of monomers and against their own formulas, by the measuring
-//! protocols and through whole scenes.
+//! Rod laws compared with filaments of monomers and with their formulas, through measuring
+//! protocols and whole scenes.
 //!
 //! `docs/measured/fitted-law.md` quotes the numbers that these tests print (`-- --nocapture`).
 

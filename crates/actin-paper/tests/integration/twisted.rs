@@ -1,4 +1,4 @@
-//! Rods and mixed filaments twisted through the whole program, free to change their length.
+//! Rods and mixed filaments under twist with free length, simulated from scenes.
 
 use actin_mechanics::{Loads, State, rotation};
 use actin_paper::measure::{Sampled, Specimen, twist};
@@ -10,7 +10,7 @@ use actin_sim::{
 /// `B3(kappa)` (pN nm^2) and `xi - 1` at a twist (rad/nm).
 type Formula = fn(f64) -> (f64, f64);
 
-/// Both as the paper prints them.
+/// Published law.
 fn published(k: f64) -> (f64, f64) {
     let (plus, minus) = (rod_constants::B3_PLUS, rod_constants::B3_MINUS);
     let [l1, l2, l3, l4, l5, l6, l7] = rod_constants::B3_LAMBDA;
@@ -21,14 +21,14 @@ fn published(k: f64) -> (f64, f64) {
     (b3, coefficients.fold(0.0, |sum, p| sum * k + p))
 }
 
-/// The same of the law `Fitted`, from the numbers of its scene.
+/// Law `Fitted`, from the numbers of its scene.
 fn fitted(k: f64) -> (f64, f64) {
     let laws = actin_sim::fitted_laws();
     let Some(actin_sim::TwistLaw::Sided(twist)) = laws.twist else {
-        panic!("the law of twist has another form");
+        panic!("the law of twist is not of the form Sided");
     };
     let Some(actin_sim::TwistStretchLaw::Rooted(length)) = laws.twist_stretch else {
-        panic!("the law of length against twist has another form");
+        panic!("the law of length against twist is not of the form Rooted");
     };
     let side = if k < 0.0 { twist.under } else { twist.over };
     let gained = k * k / (k * k + side.slow * k.abs() + side.half.powi(2));
@@ -37,10 +37,9 @@ fn fitted(k: f64) -> (f64, f64) {
     (twist.rest + side.rise * gained, extension)
 }
 
-/// Between walls, uniform twist carries `B3(k) k` at both ends and is `L (xi - 1)` longer. An end
-/// segment with half the curvature, or without its wall's, would be another length.
+/// A rod under uniform twist has the torque `B3(k) k` at both ends and is longer by `L (xi - 1)`.
 #[test]
-fn a_twisted_rod_has_its_couple_and_length() {
+fn a_twisted_rod_has_the_torque_and_length_of_its_law() {
     let laws: [(RodLaw, Formula); 2] = [
         (RodLaw::PublishedExtension, published),
         (RodLaw::Fitted, fitted),
@@ -59,10 +58,10 @@ fn a_twisted_rod_has_its_couple_and_length() {
             let near = point.near_torque_pn_nm / (b3 * k) + 1.0;
             let length = point.relative_length_change - extension;
             println!(
-                "{:?}, {} deg: couple off by {couple:.1e} and {near:.1e}, length by {length:.1e}",
+                "{:?}, {} deg: relative errors of the torques {couple:.1e} and {near:.1e}, of the length {length:.1e}",
                 specimen.filament.rod.law, point.turn_deg
             );
-            // Residuals of 1e-9 pN nm of 10 and more; of 1e-9 pN over S3.
+            // Residuals of 1e-9 pN nm relative to 10 pN nm and more; of 1e-9 pN relative to S3.
             assert!(
                 couple.abs() < 1e-9 && near.abs() < 1e-9,
                 "{couple:e} {near:e}"
@@ -72,13 +71,12 @@ fn a_twisted_rod_has_its_couple_and_length() {
     }
 }
 
-/// The assembly of a scene.
 fn build(text: &str) -> Assembly {
     let scene = Scene::from_ron(text).unwrap_or_else(|error| panic!("{error}\n{text}"));
     Assembly::build(&scene).unwrap_or_else(|problem| panic!("{problem}\n{text}"))
 }
 
-/// Runs an assembly as its scene asks, to the end, in whose state it is then.
+/// Runs an assembly to its end.
 fn run(assembly: &mut Assembly) -> (Trajectory, Outcome) {
     let ran = Plan::new(assembly).unwrap().run();
     let (trajectory, outcome) = ran.unwrap_or_else(|error| panic!("{error}"));
@@ -86,7 +84,7 @@ fn run(assembly: &mut Assembly) -> (Trajectory, Outcome) {
     (trajectory, outcome)
 }
 
-/// 150 nm, the far end sliding, turned through `turns_deg`, a stage for each.
+/// A filament of 150 nm with a sliding far end, turned by `turns_deg`, one stage for each.
 fn scene(sections: &str, law: &str, weight: &str, turns_deg: &[f64]) -> String {
     let stage =
         |turn: &f64| format!("Stage(set: [Turn(end: End, turn_deg: (0.0, 0.0, {turn:?}))])");
@@ -118,7 +116,7 @@ const MIXED: [(&str, &str); 2] = [
     ),
 ];
 
-/// Couples (pN nm) that hold the two ends about the axis.
+/// Torques about the axis at the two ends (pN nm).
 fn couples(assembly: &Assembly, state: &State) -> [f64; 2] {
     let mut loads = Loads::zeros(state);
     for interaction in assembly.system.interactions() {
@@ -142,7 +140,7 @@ fn turns(assembly: &Assembly, state: &State, kind: BodyKind) -> Turns {
         .collect()
 }
 
-/// A fully resolved filament under twist of one sign: couples, and the turns of its monomers.
+/// A fully resolved filament under twist of one sign: torques, and turns of its monomers.
 struct Resolved(Vec<(f64, Turns)>);
 
 /// Pairs of arc length (nm) and turn (rad).
@@ -166,7 +164,7 @@ impl Resolved {
         )
     }
 
-    /// Turns of the monomers under `couple`, by interpolation.
+    /// Turns of the monomers at the torque `couple`, by interpolation.
     fn under(&self, couple: f64) -> Turns {
         let after = self.0.iter().position(|(c, _)| c.abs() > couple.abs());
         let after = after.expect("the filament is turned far enough");
@@ -186,23 +184,23 @@ fn at(turns: &[(f64, f64)], s: f64) -> f64 {
     a.1 + (b.1 - a.1) * (s - a.0) / (b.0 - a.0)
 }
 
-/// What the segments next to a junction and the monomers next to it say of it.
+/// Twist and turn in the neighbourhood of a junction.
 #[derive(Clone, Copy)]
 struct Crossing {
     /// Twist of the rod, and of the same monomers in the resolved filament (rad/nm).
     rod: f64,
     monomers: f64,
-    /// Length of rod that would carry the turn that is missing (nm).
+    /// Length of rod with the missing turn (nm).
     missing: f64,
 }
 
-/// Length over which monomers are looked at (nm): 10 rises.
+/// Length of monomers next to the junction that is compared (nm): 10 rises.
 const REACH: f64 = 27.385;
 
 impl Crossing {
-    /// The junction at arc length `boundary`. Between a monomer [`REACH`] away from it and the second
-    /// segment, the turn is that of the same monomers under the same couple in `resolved`, up to the
-    /// boundary, and that of uniform rod from there; `missing` is what it lacks.
+    /// The junction at arc length `boundary`. The reference turn between a monomer at the distance
+    /// [`REACH`] and the second segment is the turn of the same monomers in `resolved` at the same
+    /// torque, continued by a uniform rod. `missing` is the difference.
     fn new(assembly: &Assembly, boundary: f64, rod_first: bool, resolved: &[(f64, f64)]) -> Self {
         let state = assembly.system.state();
         let mut segments = turns(assembly, state, BodyKind::Segment);
@@ -223,7 +221,7 @@ impl Crossing {
     }
 }
 
-/// Largest relative difference of `B3(k) k` in a rod's bending elements from `couple`.
+/// Largest relative difference between `B3(k) k` in the bending elements of a rod and `couple`.
 fn unlike(assembly: &Assembly, law: &str, couple: f64) -> f64 {
     let q = &assembly.system.state().frames.orientation;
     let is_segment = |i: usize| assembly.frames[i].kind == BodyKind::Segment;
@@ -242,17 +240,17 @@ fn unlike(assembly: &Assembly, law: &str, couple: f64) -> f64 {
         .fold(0.0, f64::max)
 }
 
-/// The junctions of a mixed filament turned by `angle` (deg), and the couple.
+/// The junctions of a mixed filament turned by `angle` (deg), and the torque.
 fn crossings(scene: &str, law: &str, resolved: &Resolved) -> (f64, Vec<Crossing>) {
     let mut assembly = build(scene);
     let (_, report) = run(&mut assembly);
     assert_eq!(report.equilibrium.unwrap().certificate.negative, 0);
     let [near, couple] = couples(&assembly, assembly.system.state());
-    // Residuals of 1e-9 pN and pN nm, some nanometres off the axis.
+    // Residuals of 1e-9 pN and pN nm at a few nanometres from the axis.
     assert!((near / couple + 1.0).abs() < 1e-9, "{near} {couple}");
     let unlike = unlike(&assembly, law, couple);
-    // The rod is tilted by some 0.01 rad, by half of whose square the couple about d3 is less, and
-    // carries the moment of a small lateral force.
+    // The rod is tilted by about 0.01 rad, which reduces the torque about d3 by half its square,
+    // and has the moment of a small lateral force.
     assert!(unlike < 1e-3, "{unlike:e}");
     let monomers = resolved.under(couple);
     let junctions = assembly.sections.windows(2).map(|pair| {
@@ -262,11 +260,11 @@ fn crossings(scene: &str, law: &str, resolved: &Resolved) -> (f64, Vec<Crossing>
     (couple, junctions.collect())
 }
 
-/// One couple everywhere, and how much of the turn a junction swallows: the table of
-/// `docs/measured/fitted-law.md`. A rod beside the same monomers under a law that follows them has as
-/// much twist as they have, and a junction of shared weight is as soft as what it stands for.
+/// The torque is uniform, and the missing turn at a junction is as tabulated in
+/// `docs/measured/fitted-law.md`. The twist of the rod equals the twist of the monomers under a law
+/// fitted to them. A junction of shared weight has no missing turn.
 #[test]
-fn a_mixed_filament_carries_one_couple_through_its_junctions() {
+fn a_mixed_filament_has_one_torque_through_its_junctions() {
     println!("| filament | law | weight | turn | couple | rod | monomers | missing |");
     for angle in [90.0, -90.0] {
         let resolved = Resolved::new(angle / 90.0);
@@ -286,10 +284,10 @@ fn a_mixed_filament_carries_one_couple_through_its_junctions() {
                     );
                     missing.mean
                 });
-                // Twice the weight on the same springs.
+                // Full weight doubles the stiffness of the same springs.
                 assert!(full - shared > 2.0, "{name}, {law}");
                 if law == "Fitted" {
-                    // Half a rise of a monomer, and a whole one.
+                    // Half a rise of a monomer, and one rise.
                     assert!(shared.abs() < 1.37 && full < 2.74, "{shared} {full}");
                 }
             }

@@ -88,7 +88,6 @@ const fn case(name: &'static str, work: Work, target: Option<f64>) -> Case {
     Case { name, work, target }
 }
 
-/// Targets 95 % parallel efficiency on two threads.
 const fn ensemble(name: &'static str, of: Replicated) -> Case {
     case(name, Work::Ensemble(of), Some(1.9))
 }

@@ -35,7 +35,7 @@ pub(super) fn measure(length_nm: f64) -> Result<Measured, String> {
         times.push(solve(length_nm, tolerance)?.seconds);
     }
     let floor = if tolerance > RESIDUAL {
-        format!(" (asked for {tolerance:.0e}, the floor of rounding)")
+        format!(" (tolerance {tolerance:.0e}, limited by round-off)")
     } else {
         String::new()
     };
@@ -80,7 +80,7 @@ fn tighter(solved: Solved, tolerance: f64) -> Result<String, String> {
         task.torque_pn_nm = 0.1 * tolerance;
     }
     let Ok(tight) = solve_on(assembly) else {
-        return Ok("unchanged: no tighter solve, this is the floor of rounding".to_owned());
+        return Ok("no tighter solve: the residual is round-off".to_owned());
     };
     let change = (displacement(&tight.assembly) / before - 1.0).abs();
     if change > TIP_ERROR {

@@ -115,7 +115,7 @@ fn chosen(names: &[String]) -> Result<Vec<&'static Case>, String> {
         if !CASES.iter().any(|case| case.name == name) {
             let known: Vec<_> = CASES.iter().map(|case| case.name).collect();
             return Err(format!(
-                "no case is called {name:?}; known are {}",
+                "unknown case {name:?}; known cases: {}",
                 known.join(", ")
             ));
         }
@@ -124,10 +124,7 @@ fn chosen(names: &[String]) -> Result<Vec<&'static Case>, String> {
     Ok(CASES.iter().filter(wanted).collect())
 }
 
-/// Returns the median.
-///
-/// # Panics
-/// If there are no values.
+/// Returns the median of at least one value.
 fn median(mut values: Vec<f64>) -> f64 {
     values.sort_by(f64::total_cmp);
     values[values.len() / 2]

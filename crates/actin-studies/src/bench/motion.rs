@@ -8,7 +8,7 @@ use std::time::Instant;
 
 /// Element-steps of a batch, about 3 ms, so that some batches are not interrupted by other processes.
 const BATCH: usize = 200_000;
-/// The same for bonds, which are several times faster than segments.
+/// Bonds of a batch; bonds are several times faster than segments.
 const BOND_BATCH: usize = 1_200_000;
 /// Smallest number of steps of a batch, so that the overhead at its end is negligible.
 const FEWEST_STEPS: u64 = 150;
@@ -70,7 +70,6 @@ fn plan(assembly: &Assembly, steps: u64) -> Result<Run, String> {
     let estimate = plan.estimate().ok_or("a motion has time steps")?;
     let scheme = actin_sim::composition(integrator(assembly)?);
     let run = Run::new(scheme, estimate.time_step_ns, steps);
-    // No observation within a batch.
     run.and_then(|run| run.observing_every(steps))
         .map_err(|error| error.to_string())
 }

@@ -62,7 +62,7 @@ fn page(printed: &str) -> Result<String, String> {
             .split("\n\n")
             .map(str::trim)
             .find(|block| block.starts_with(&begin))
-            .ok_or_else(|| format!("{PRINTED} has nothing of {name}"))?;
+            .ok_or_else(|| format!("{PRINTED} has no message of {name}"))?;
         _ = write!(text, "\n## {mistake}\n\n```text\n{block}\n```\n");
     }
     Ok(text)
@@ -76,6 +76,9 @@ mod tests {
     fn a_mistake_that_is_not_printed_is_named() {
         let one = "error: missing-unit.ron:1:2: no unit\n  |\n\n";
         let error = page(one).unwrap_err();
-        assert!(error.ends_with("nothing of unknown-unit-suffix"), "{error}");
+        assert!(
+            error.ends_with("no message of unknown-unit-suffix"),
+            "{error}"
+        );
     }
 }

@@ -12,7 +12,6 @@ const SCENE: &str = "Scene(
     filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 30.0)], rod: RodModel(law: Constant)), clamps: [Clamp(end: Start)],
     loads: [EndForce(end: End, force_pn: (-2.0, 0.0, 0.0))], task: Equilibrium())";
 
-/// Changes the finished run directory `run` or its surroundings.
 type Spoil = fn(&Path) -> io::Result<()>;
 
 const OVERWRITE_OBSTACLES: [(&str, Spoil); 7] = [
@@ -46,7 +45,6 @@ const OVERWRITE_OBSTACLES: [(&str, Spoil); 7] = [
 /// Obstacles to writing results: directories with the names of unfinished files.
 const OBSTACLES: [&str; 3] = ["scene.ron.part", "states.npz.part", "summary.json.part"];
 
-/// Only files of a run are removed, and results are written completely or not at all.
 pub(super) fn rows() -> Vec<Row> {
     let overwritten = OVERWRITE_OBSTACLES.map(|(case, spoil)| {
         let tried = overwritten(spoil).map_err(|e| not_tried(&e));
@@ -64,7 +62,6 @@ fn not_tried(error: &str) -> Outcome {
     Outcome::Wrong(format!("not tried: {error}"))
 }
 
-/// A finished short run in the subfolder `run` of a temporary folder.
 struct Made {
     folder: tempfile::TempDir,
     ran: Ran,
@@ -128,7 +125,6 @@ fn refused_by_the_disk(name: &str) -> Result<Outcome, String> {
     })
 }
 
-/// Returns all files in a folder with their contents, and links with their targets, without the lock.
 fn contents(folder: &Path) -> Result<BTreeMap<PathBuf, Vec<u8>>, String> {
     let mut all = BTreeMap::new();
     let mut folders = vec![folder.to_owned()];

@@ -43,7 +43,6 @@ fn trials(text: &str, value: &'static str) -> Vec<Trial> {
     numbers(text).into_iter().map(trial).collect()
 }
 
-/// Returns a row for each value over all scenes; only if `is_wanted`, since this takes long.
 pub(super) fn rows(is_wanted: bool) -> Vec<Row> {
     let values = if is_wanted { &VALUES[..] } else { &[] };
     let scenes = scenes();
@@ -79,9 +78,7 @@ const MOST_STEPS: u64 = 2_000;
 pub(super) enum Verdict {
     /// Refused when read, built or estimated, with a position in the text.
     Refused(SceneError),
-    /// Ended early with a message.
     Broke(String),
-    /// Completed with finite results.
     Ran,
     /// Valid, but too long to be run here.
     Accepted,
@@ -127,7 +124,6 @@ fn finite(trajectory: &Trajectory) -> Verdict {
 #[derive(Clone, Debug, PartialEq)]
 struct Number {
     place: Range<usize>,
-    /// Last key before the number.
     key: String,
 }
 
@@ -174,8 +170,8 @@ fn with_number(text: &str, number: &Number, value: &str) -> String {
 mod tests {
     use super::*;
 
-    /// Non-finite, overflowing and subnormal numbers are refused with their key, line and column. Other numbers are
-    /// refused or give finite results. Unbounded ranges of laws may be infinite.
+    /// Numbers that are not finite, overflow or are subnormal are refused with key, line and
+    /// column. Unbounded ranges of laws may be infinite.
     #[test]
     fn invalid_numbers_are_refused_in_every_field() {
         let refused_anywhere = ["NaN", "inf", "-inf", "1e400", "1e308", "-1e308", "1e-310"];

@@ -17,7 +17,6 @@ fn config() -> Config {
     });
     Config {
         cases,
-        // Failing inputs are added as separate tests.
         failure_persistence: None,
         ..Config::default()
     }
@@ -43,7 +42,6 @@ fn factor() -> impl Strategy<Value = f64> {
     ]
 }
 
-/// Draws up to four alternating sections with lengths from 0.01 nm to 40 nm.
 fn sections() -> impl Strategy<Value = String> {
     let length = prop_oneof![4 => 3.0..40.0f64, 1 => 0.01..3.0f64];
     let rod = prop::option::of(1usize..6);
@@ -148,7 +146,6 @@ fn scene() -> impl Strategy<Value = String> {
     )
 }
 
-/// Builds the scene, estimates its time step and evaluates loads in the initial and in a perturbed state.
 fn evaluate(text: &str) -> Result<(), SceneProblem> {
     let Ok(scene) = Scene::from_ron(text) else {
         return Ok(());
@@ -184,7 +181,6 @@ fn random_scenes_are_built_or_refused() {
     outcome.unwrap_or_else(|error| panic!("{error}"));
 }
 
-/// Time limit (s), 1e4 times longer than usual, for busy machines.
 const PATIENCE_S: f64 = 60.0;
 
 fn check(text: &str) {
@@ -213,7 +209,6 @@ fn noise_is_refused() {
     outcome.unwrap_or_else(|error| panic!("{error}"));
 }
 
-/// 100 000 brackets in a thread with a small stack are refused by the limit on nesting.
 #[test]
 fn deep_nesting_is_refused_without_a_deep_stack() {
     let deep = 100_000;

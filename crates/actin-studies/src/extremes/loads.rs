@@ -6,7 +6,6 @@ use super::scenes::{self, Parts};
 use super::steps::limit;
 use actin_sim::Integrator;
 
-/// Rigidities of bending (pN nm^2), shear and stretch (pN).
 const BEND: f64 = 3.9e4;
 const SHEAR: f64 = 1.6e4;
 const STRETCH: f64 = 3.4e4;
@@ -28,9 +27,9 @@ const DIRECTIONS: [(&str, &str, [f64; 3]); 6] = [
     ("against monomers", MONOMERS, [0.0, 0.0, -1.0]),
 ];
 
-/// All forces on both models. Results are correct from 1e-8 to 1e2 pN, and from 1e-12 pN for transverse forces on the
-/// rod. Smaller forces are refused because of round-off. From 1e4 pN, incorrect results are outside the model or
-/// saddles.
+/// All forces on both models. Results are correct from 1e-8 to 1e2 pN, and for transverse forces on
+/// the rod from 1e-12 pN. Smaller forces are refused because of round-off. Results above 1e4 pN are
+/// outside the model or saddles.
 pub(super) fn forces() -> Vec<Row> {
     let row = |force: f64, (case, sections, direction): (&str, &str, [f64; 3])| {
         let tried = match case {
@@ -74,7 +73,6 @@ fn chain_compliance(n: u32, l: f64) -> f64 {
     deflection + f64::from(n) * l / SHEAR
 }
 
-/// Compares the deflection of a rod with segments of `l` nm with the linear chain.
 fn deflection(sections: &str, segments: u32, l: f64, force: f64) -> CaseResult {
     let ran = Parts::pulled(sections, [force, 0.0, 0.0]).run()?;
     let exact = force * chain_compliance(segments, l);
@@ -91,7 +89,6 @@ fn across(force: f64) -> CaseResult {
     deflection(ROD, 10, 10.0, force)
 }
 
-/// Axial force on the rod, compared with the extension `L F / S3`.
 fn along(force: f64) -> CaseResult {
     let ran = Parts::pulled(ROD, [0.0, 0.0, force]).run()?;
     let exact = 100.0 * force / STRETCH;
@@ -102,8 +99,8 @@ fn along(force: f64) -> CaseResult {
     correct(what, (error.abs() - rounding).max(0.0), 1e-5)
 }
 
-/// Compares the reaction of the clamp with the load. The bound contains the tolerance, 1e-6 of the force, for about a
-/// dozen bodies with lever arms of a few nm, and 1e-10 pN of round-off.
+/// Compares the reaction of the clamp with the load. The bound is the tolerance, 1e-6 of the force,
+/// for about a dozen bodies with lever arms of a few nm, plus round-off of 1e-10 pN.
 fn balanced(sections: &str, force: [f64; 3], bound: f64) -> CaseResult {
     let mut ran = Parts::pulled(sections, force).run()?;
     correct("reaction of the wall", ran.imbalance(), bound)
@@ -112,8 +109,8 @@ fn balanced(sections: &str, force: [f64; 3], bound: f64) -> CaseResult {
 const LENGTHS: [f64; 5] = [0.1, 1.0, 10.0, 100.0, 1000.0];
 const SEGMENTS: u32 = 20;
 
-/// Deflection and stable time step for each length of segments. The tip angle of 1e-4 rad causes a relative error of
-/// 1e-8 of linear theory. The spectrum of a chain is densest at its upper end, so its estimate may be 2e-4 too low.
+/// Deflection and stable time step for each length of segments. The tip angle of 1e-4 rad causes a
+/// relative error of 1e-8. The estimated frequency of a chain may be 2e-4 too low.
 pub(super) fn segments() -> Vec<Row> {
     let rows = LENGTHS.into_iter().flat_map(|l| {
         let length = f64::from(SEGMENTS) * l;
@@ -198,8 +195,8 @@ fn stiff(factor: f64, force: f64, task: impl Into<String>) -> Parts {
     }
 }
 
-/// Compares the reaction under a force that bends the softer part by a few degrees. The bound is the tolerance summed
-/// over two dozen bodies with their lever arms.
+/// Compares the reaction under a force that bends the softer part by a few degrees. The bound is
+/// the tolerance summed over two dozen bodies.
 fn contrast_balance(factor: f64) -> CaseResult {
     let tolerance = 1e-7 * factor.min(1.0);
     let torque = 10.0 * tolerance;

@@ -1,5 +1,5 @@
-//! `cargo xtask extremes`: every number that a user can write, taken to where it breaks, as a table with pictures. The
-//! result is right to a stated accuracy, or a message says why there is none.
+//! `cargo xtask extremes`: tests every number of a scene at its limits and writes a table with
+//! pictures. A result must have its stated accuracy, or a message must explain why there is none.
 
 mod directories;
 mod fields;
@@ -22,24 +22,24 @@ use std::fs;
 use std::path::PathBuf;
 use std::time::Instant;
 
-/// Extent and output of the study.
 #[derive(clap::Args, Debug)]
 pub(crate) struct Options {
-    /// Folder of the table and the pictures.
+    /// Output folder of the table and the pictures.
     #[arg(long, default_value = "target/extremes")]
     out: PathBuf,
-    /// Also the rows that take minutes: 1e6 bodies, 1e7 steps.
+    /// Includes rows that take minutes: 1e6 bodies, 1e7 steps.
     #[arg(long)]
     long: bool,
-    /// Also into `docs/extremes.csv`, with the pictures of `docs/numerics.md`, if all rows are sound.
+    /// Also writes `docs/extremes.csv` and the pictures of `docs/numerics.md`, if all rows are
+    /// sound.
     #[arg(long, requires = "long")]
     write: bool,
 }
 
-/// Computes the table, prints the defects in it, and writes it with its pictures.
+/// Computes the table, prints defects, and writes the table with its pictures.
 ///
 /// # Errors
-/// A row that is neither right nor refused, and a file that cannot be written.
+/// A row that is neither correct nor refused, or a file that cannot be written.
 pub(crate) fn run(options: &Options) -> Result<()> {
     let out = &options.out;
     fs::create_dir_all(out).with_context(|| out.display().to_string())?;
@@ -64,11 +64,9 @@ pub(crate) fn run(options: &Options) -> Result<()> {
     Ok(())
 }
 
-/// A name, and what computes the rows.
 type Group<'a> = (&'static str, &'a (dyn Fn() -> Vec<Row> + Sync));
 
-/// The table, in the order in which it is printed; in tests without the rows that take long, and without fields, which
-/// have a test of their own.
+/// The table in print order. Tests omit the rows that take long, and test fields separately.
 fn table(is_long: bool) -> Vec<Row> {
     let is_test = cfg!(test);
     let steps = match (is_test, is_long) {
@@ -76,7 +74,7 @@ fn table(is_long: bool) -> Vec<Row> {
         (false, false) => 100_000,
         (false, true) => 10_000_000,
     };
-    // Alone on the machine: the rows hold their times and their memory.
+    // Not in parallel with other groups, since the rows measure time and memory.
     let sizes = timed(&("sizes", &|| sizes::sizes(is_long)));
     let groups: [Group<'_>; 20] = [
         ("time steps", &steps::limits),
@@ -104,7 +102,6 @@ fn table(is_long: bool) -> Vec<Row> {
     rows.collect::<Vec<_>>().concat()
 }
 
-/// The rows of a group; prints how long they took.
 fn timed((name, rows): &Group<'_>) -> Vec<Row> {
     let clock = Instant::now();
     let rows = rows();
@@ -112,7 +109,6 @@ fn timed((name, rows): &Group<'_>) -> Vec<Row> {
     rows
 }
 
-/// Rows with an unexpected outcome, in words.
 fn defects(rows: &[Row]) -> Vec<String> {
     let defects = rows.iter().filter(|row| !row.is_sound());
     defects.map(Row::words).collect()
@@ -122,7 +118,6 @@ fn defects(rows: &[Row]) -> Vec<String> {
 mod tests {
     use super::*;
 
-    /// Every row ends as its case says.
     #[test]
     fn every_case_ends_as_expected() {
         let rows = table(false);
@@ -132,7 +127,6 @@ mod tests {
         assert_eq!(defects(&rows), Vec::<String>::new());
     }
 
-    /// The same over all the steps of the table.
     #[test]
     #[ignore = "takes minutes; run by hand with --ignored --nocapture"]
     fn undamped_motion_of_ten_million_steps() {

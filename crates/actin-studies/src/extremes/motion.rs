@@ -9,8 +9,7 @@ use actin_integrate::{
 };
 use actin_mechanics::{State, System, Vector3, Xorshift, randomise_velocities};
 
-/// Damping rates of free flights and of other cases (1/ns). In water they are about 1e2 across a filament and 1e3
-/// about it.
+/// Damping rates (1/ns). In water they are about 1e2 across a filament and 1e3 about it.
 const RATES: [f64; 7] = [0.0, 1e-3, 1.0, 1e2, 1e4, 1e5, 1e6];
 const LOADED: [f64; 6] = [0.0, 1.0, 10.0, 1e2, 1e3, 1e4];
 
@@ -118,14 +117,14 @@ fn damped(
     Parts::new(sections, rest, task).run()
 }
 
-/// Compares the displacement of a free filament under an axial end force in the second nanosecond with theory.
+/// Compares the displacement of a free filament under an axial end force in the second nanosecond
+/// with theory.
 ///
 /// ```text
 /// x(t) = F/(M g) (t - (1 - exp(-g t))/g)
 /// ```
 ///
-/// In a heat bath, the displacement is relative to the same filament without the force and with the same noise, since
-/// internal forces do not move the centre of mass.
+/// In a heat bath, the reference is the same filament without the force and with the same noise.
 fn pulled(sections: &str, rate: f64, kelvin: Option<u32>) -> CaseResult {
     let thermal = kelvin.map(|t| format!("thermal: (temperature_k: {t}.0, seed: 3),"));
     let keys = format!("record_every_ns: 1.0, {}", thermal.unwrap_or_default());
@@ -157,7 +156,6 @@ fn pulled(sections: &str, rate: f64, kelvin: Option<u32>) -> CaseResult {
     correct("way of the centre of mass", error, bound)
 }
 
-/// Sections and loads of a short cantilever, whose lowest frequency is 11 rad/ns.
 const CANTILEVER: (&str, &str) = (
     "Rod(from_nm: 0.0, to_nm: 20.0, segments: 2)",
     "clamps: [Clamp(end: Start)], loads: [EndForce(end: End, force_pn: (2.0, 0.0, 0.0))],",
@@ -188,7 +186,7 @@ fn creeping(rate: f64) -> CaseResult {
     correct("tip against an eighth of the step", error, 0.0015 / time)
 }
 
-/// Compares the mean square displacement of the centre of mass with theory (diffusion coefficient `kT/(M g)`).
+/// Compares the mean square displacement of the centre of mass with theory.
 ///
 /// ```text
 /// <x^2> = 2 kT/(M g) (t - c (1 - exp(-g t))/g)     along each axis
@@ -223,8 +221,8 @@ fn diffusion(mut system: System, rate: f64) -> CaseResult {
     )
 }
 
-/// Compares mean kinetic and strain energies of a free rod at kT/100 with equipartition: `kT/2` for each of 21
-/// coordinates. Six are rigid motions without strain energy.
+/// Compares mean kinetic and strain energies at kT/100 with equipartition. Six of 21 coordinates
+/// are rigid motions.
 fn temperature(mut system: System, rate: f64) -> CaseResult {
     let (h, kt) = (step(&system, 0.5), 0.01 * KT);
     let bath = Bath::new(uniform(rate), kt, 31).expect("it is positive");
@@ -276,9 +274,8 @@ pub(super) fn undamped(count: u64) -> Vec<Row> {
     rows.collect()
 }
 
-/// Runs at a quarter of the stability limit with 1000 samples. Returns the trend of the energy and the relative
-/// changes of momentum and angular momentum (about the origin and the centre of mass). With the centre at rest, the
-/// momentum has no scale.
+/// Runs at a quarter of the stability limit. Returns the trend of the energy and the relative
+/// changes of momentum and angular momentum.
 fn drift(mut system: System, count: u64, is_flying: bool) -> Vec<(&'static str, CaseResult)> {
     set_moving(system.state_mut(), is_flying);
     let h = step(&system, 0.25);

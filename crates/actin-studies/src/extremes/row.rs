@@ -17,7 +17,6 @@ pub(super) enum Outcome {
     Wrong(String),
 }
 
-/// An outcome, also as an error for use with `?`.
 pub(super) type CaseResult = Result<Outcome, Outcome>;
 
 /// Returns `Correct`, or a defect if the error exceeds its bound or is not a number.
@@ -59,7 +58,6 @@ pub(super) enum Expected {
     /// Ended early with a message that contains one of these texts, if there are any.
     Fails(&'static [&'static str]),
     Stops,
-    /// Correct, or ended early with one of these texts.
     CorrectOrFails(&'static [&'static str]),
     Sound,
 }

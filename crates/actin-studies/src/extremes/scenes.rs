@@ -10,7 +10,6 @@ use actin_sim::{
 #[derive(Clone, Debug, Default)]
 pub(super) struct Parts {
     pub(super) sections: String,
-    /// Keys of the filament after its sections and monomers.
     pub(super) models: String,
     pub(super) rest: String,
     pub(super) task: String,

@@ -25,7 +25,6 @@ const TOO_SMALL: [(&str, &str); 2] = [
     ("2 monomers", "Ellipsoids(from_nm: 0.0, to_nm: 1.3)"),
 ];
 
-/// Large numbers of bodies and stages: a thousand, or 1e6 and 1e5, for which the memory may be insufficient.
 pub(super) fn sizes(is_long: bool) -> Vec<Row> {
     let small = |(name, sections): (&str, &str)| {
         let tried = moved(&Parts::free(sections).text(), 1000);
@@ -52,8 +51,7 @@ pub(super) fn sizes(is_long: bool) -> Vec<Row> {
     smallest.chain(refused).chain(large).collect()
 }
 
-/// Very many bodies, in one filament and in a hundredth as many filaments. The case contains run time and memory of
-/// 20 steps.
+/// Many bodies, in one filament and in a hundredth as many filaments.
 fn largest(count: u32) -> Vec<Row> {
     let (filaments, length) = (count / 100, f64::from(count));
     let (rod_nm, monomers_nm) = (10.0 * length, 71.2 / 26.0 * length);
@@ -88,7 +86,6 @@ fn largest(count: u32) -> Vec<Row> {
     texts.map(row).to_vec()
 }
 
-/// A rod with `count` loads and stages, each of which sets the factor of one load; compares the final factors.
 fn driven(count: u32) -> CaseResult {
     let load = "EndForce(end: End, force_pn: (0.001, 0.0, 0.0)), ".repeat(count as usize);
     let stage = |i: u32| format!("Stage(set: [LoadFactor(load: {i}, factor: {}.0)]), ", i + 1);
@@ -141,7 +138,7 @@ fn moved(text: &str, steps: u64) -> CaseResult {
 
 const BEYOND: &str = include_str!("guards.csv");
 
-/// Time limit of a refusal (s), a thousand times longer than usual. Running the scenes would take hours.
+/// Time limit of a refusal (s), a thousand times longer than usual.
 const PATIENCE_S: f64 = 30.0;
 
 pub(super) fn guards() -> Vec<Row> {
@@ -164,7 +161,6 @@ pub(super) fn guards() -> Vec<Row> {
     table.deserialize().map(row).collect()
 }
 
-/// Distances of the filament from the origin (nm).
 const SHIFTS: [f64; 4] = [1e2, 1e4, 1e5, 1e6];
 
 /// Largest stiffness (pN/nm): stretch of a segment of 5 nm.

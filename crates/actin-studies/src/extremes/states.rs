@@ -51,7 +51,6 @@ const BEND: f64 = 3.9e4;
 const TWIST: f64 = 1.3e4;
 const SEGMENT: f64 = 10.0;
 
-/// The number of neutral modes is correct; otherwise a floating filament would be certified as stable.
 pub(super) fn neutral_modes() -> Vec<Row> {
     let row = |(case, count, model, length, clamps, modes): (&str, i64, &str, f64, &str, Modes)| {
         let tried = neutral(count, (model, length), clamps, modes);
@@ -93,9 +92,9 @@ fn neutral(count: i64, (model, length): (&str, f64), clamps: &str, modes: Modes)
     correct(what, error, 0.0)
 }
 
-/// Laws with a natural length that depends on twist: name, bound of the compression of the untwisted rod (pN),
-/// relative change of the natural length, stretching rigidity (pN), and compressions relative to the bound. Rods with
-/// the law `Fitted` have no stiffness for small shear and do not stay straight at larger compressions.
+/// Laws with twist-dependent natural length: name, critical compression (pN), relative change of
+/// the natural length, stretching rigidity (pN), and compressions relative to the critical one.
+/// `Fitted` has no stiffness for small shear and does not stay straight at larger compressions.
 const LAWS: [(&str, f64, f64, f64, &[f64]); 2] = [
     (
         "PublishedExtension",
@@ -112,7 +111,6 @@ const LAWS: [(&str, f64, f64, f64, &[f64]); 2] = [
 const PUSHED: f64 = 40.0;
 const SEGMENTS: usize = 20;
 
-/// Compressed rods are stable below the bound, and have the expected number of unstable modes of the mesh above it.
 pub(super) fn compression() -> Vec<Row> {
     let rows = LAWS
         .iter()
@@ -132,8 +130,8 @@ fn unstable_modes(share: f64) -> usize {
     (1..SEGMENTS).filter(|&m| softens(m) * share > 1.0).count()
 }
 
-/// Checks the warning about the twist instability, its bound, and the number of unstable modes in the certificate.
-/// The law `Fitted` also has unstable shear modes.
+/// Checks the warning about the twist instability and the number of unstable modes. The law
+/// `Fitted` also has unstable shear modes.
 fn compressed(law: &str, shift: f64, bound: f64, share: f64) -> CaseResult {
     let parts = Parts {
         models: format!("rod: RodModel(law: {law}),"),
@@ -162,8 +160,8 @@ fn compressed(law: &str, shift: f64, bound: f64, share: f64) -> CaseResult {
     correct(what, error, 0.0)
 }
 
-/// Motions that compress a straight rod, as keys of the filament and of the task. Without a perturbation the rod
-/// stays straight by symmetry; the others lead to the buckled state.
+/// Motions that compress a straight rod, as keys of the filament and of the task. Without a
+/// perturbation the rod stays straight by symmetry.
 const WAYS: [(&str, &str, &str); 3] = [
     ("as it is", "", ""),
     (
@@ -176,8 +174,8 @@ const WAYS: [(&str, &str, &str); 3] = [
 /// Compressions relative to the length; the critical one is 0.11 %.
 const PUSHES: [f64; 4] = [1e-3, 3e-3, 0.03, 0.3];
 
-/// Compares the final energy of damped motions with the equilibrium; the residual of the stop rule contributes in
-/// second order. A motion that stays straight above the critical load fails on a saddle.
+/// Compares the final energy of damped motions with the equilibrium. A motion that stays straight
+/// above the critical load fails on a saddle.
 pub(super) fn straight() -> Vec<Row> {
     let pushed = |share: f64, imperfection: &str, task: String| {
         Parts {
@@ -267,7 +265,8 @@ pub(super) fn twist(has_monomers: bool) -> Vec<Row> {
     rows
 }
 
-/// Twist of one segment between two clamps, half of it at each. Correct up to 180 deg at each clamp, an error above.
+/// Twist of one segment between two clamps, half of it at each; an error above 180 deg at each
+/// clamp.
 pub(super) fn one_segment() -> Vec<Row> {
     let rows = [90.0, 350.0, 359.9, 360.1, 400.0, 720.0]
         .into_iter()
@@ -306,8 +305,6 @@ const SLIPPING: [(&str, &str, f64, Option<f64>, Expected); 7] = [
 ];
 const SIX: &str = "six segments of rod";
 
-/// Excessive twist is refused or reported as lost: twist plus writhe never differ from the rotation of the ends
-/// without a message.
 pub(super) fn slipping() -> Vec<Row> {
     let row =
         |(model, sections, degrees, ns, expected): (&str, &str, f64, Option<f64>, Expected)| {

@@ -32,9 +32,8 @@ const STEPS: u64 = 2_000;
 /// the inverse relative distance to the limit.
 const GROWN: f64 = 1e6;
 const SHARES: [f64; 10] = [1e-3, 3e-3, 1e-2, 3e-2, 0.1, 0.25, 0.5, 0.75, 0.9, 0.99];
-/// Round-off of the energy in `energy_error`. Positions of 30 nm have round-off of 4e-15 nm. Motion of 1e-3 nm/ns at
-/// 500 rad/ns has an amplitude of 2e-6 nm, so that its relative energy error is 4e-9. The bound is five times larger,
-/// for many bodies.
+/// Relative round-off of the energy. Positions of 30 nm have a round-off of 4e-15 nm, and the
+/// amplitude of the motion is 2e-6 nm: an error of 4e-9, times five for many bodies.
 const ENERGY_ROUNDING: f64 = 2e-8;
 
 fn each(rows: impl Fn(&str, &str, Integrator) -> Vec<Row>) -> Vec<Row> {
@@ -57,7 +56,6 @@ fn measured_limit(system: &mut System, integrator: Integrator) -> f64 {
     if grows(system, integrator, low * predicted) {
         (low, high) = (0.0, low);
     }
-    // Accuracy of 1e-4.
     for _ in 0..14 {
         let middle = 0.5 * (low + high);
         if grows(system, integrator, middle * predicted) {
@@ -102,7 +100,6 @@ pub(super) fn limits() -> Vec<Row> {
     })
 }
 
-/// Returns the largest relative deviation of the energy over 1000 steps of small motion at a fraction of the limit.
 fn energy_error(system: &mut System, integrator: Integrator, share: f64) -> f64 {
     let scheme = actin_sim::composition(integrator);
     let h = step_at(system, scheme, share);
@@ -129,8 +126,6 @@ fn fluctuation(scheme: &Composition, share: f64) -> f64 {
     2.0 * share.powi(order) / (1.0 - share * share)
 }
 
-/// Energy fluctuation from 0.001 to 0.99 of the limit. A wrong coefficient reduces the order, which is visible at
-/// small steps.
 pub(super) fn energies() -> Vec<Row> {
     each(|model, sections, integrator| {
         let tried = free(sections).and_then(|mut system| {

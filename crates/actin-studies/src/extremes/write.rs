@@ -5,7 +5,6 @@ use actin_draw::report::write_csv;
 use std::fs;
 use std::path::Path;
 
-/// Writes `extremes.csv`.
 pub(super) fn table(rows: &[Row], out: &Path) -> Result<(), String> {
     let header = ["varied", "case", "is_sound", "outcome"];
     let cells = rows.iter().map(|row| {

@@ -3,14 +3,12 @@
 /// Grid values of each strain. A slice has one twist and one extension.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Axes {
-    /// Twist `kappa_3` (rad/nm).
     pub(super) twist: Vec<f64>,
     /// Stretch `sigma_3` relative to the free filament of the same twist with its
     /// [shortening](actin_paper::cells::shortening).
     pub(super) extension: Vec<f64>,
     /// Angle between curvature and shear (deg). Opposite angles are equivalent by end-for-end symmetry.
     pub(super) angle_deg: Vec<f64>,
-    /// Curvature of bending (rad/nm).
     pub(super) curvature: Vec<f64>,
     pub(super) shear: Vec<f64>,
 }

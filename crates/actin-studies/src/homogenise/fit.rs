@@ -7,7 +7,7 @@ use actin_sim::ellipsoid::{SixMatrix, SixVector};
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
-/// Number of rows whose total weight equals that of a unit condition.
+/// Number of rows with the total weight of one unit condition.
 const ROWS: f64 = 1000.0;
 /// Regularisation of the scaled matrix, since powers of a bounded variable are nearly dependent.
 const RIDGE: f64 = 1e-9;
@@ -81,7 +81,7 @@ impl<'a> Normal<'a> {
     pub(super) fn new(form: &'a HomogenisedForm, terms: &[Term], rows: &[Weighted<'_>]) -> Self {
         let n = columns(terms).len();
         let zero = || (DMatrix::zeros(n, n), DVector::zeros(n));
-        // Chunks are added in order, so that the result is independent of the number of cores.
+        // Chunks are added in order: the result is independent of the number of cores.
         let chunk = |rows: &[Weighted<'_>]| {
             let (mut matrix, mut right) = zero();
             for row in rows {
@@ -193,7 +193,6 @@ impl<'a> Normal<'a> {
     }
 }
 
-/// Positivity condition of the tangent.
 pub(super) struct Positivity {
     /// Units of the strains (nm, 1), in which the stiffness in all directions should be at least [`LEAST`].
     pub(super) units: [f64; 6],
@@ -214,13 +213,10 @@ fn units(form: &HomogenisedForm, terms: &[Term], strain: &SixVector) -> Vec<Pote
     terms.iter().flat_map(units).collect()
 }
 
-/// Conditions that the stiffness in some directions is at least 1 plus a margin.
 #[derive(Default)]
 struct Conditions {
     rows: Vec<DVector<f64>>,
-    /// Number of leading conditions with the large weight [`HARD`].
     hard: usize,
-    /// Weight of the other conditions.
     strength: f64,
 }
 

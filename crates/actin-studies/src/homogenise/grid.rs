@@ -42,7 +42,6 @@ pub(super) fn compute(out: &Path, axes: &Axes) -> Result<Vec<Row>, String> {
     Ok(all)
 }
 
-/// Returns the points of a slice, and the number of points at which two starts led to different minima.
 fn slice(
     cell: &Cell,
     axes: &Axes,
@@ -80,7 +79,6 @@ fn slice(
     Ok((rows, branches))
 }
 
-/// Returns the lowest minimum reached from the starts, and whether the minima differ.
 fn least(
     cell: &Cell,
     [curvature, twist, shear, stretch, angle]: [f64; 5],

@@ -17,7 +17,6 @@ use std::path::Path;
 /// Numbers of turns and monomers in a period, for each twist.
 const TURNS: [u8; 14] = [10, 9, 17, 8, 15, 7, 20, 13, 19, 11, 5, 9, 13, 4];
 const MONOMERS: [u8; 14] = [21, 19, 36, 17, 32, 15, 43, 28, 41, 24, 11, 20, 29, 9];
-/// Tensions (pN).
 const TENSIONS: [f64; 4] = [-20.0, 0.0, 10.0, 40.0];
 /// Increment of curvature (rad/nm), number of increments, and number of further increments before bending is
 /// reversed.
@@ -72,7 +71,6 @@ pub(super) fn run(out: &Path) -> Result<(), String> {
 }
 
 struct Bent {
-    /// Bending torque after [`BENT`] increments (pN nm).
     couple: f64,
     /// Difference of the torques about the axis between both directions (pN nm) at each increment, `None` for equal
     /// states.

@@ -49,7 +49,7 @@ fn broken(
     }
     let headings = &pages.get(&path)?.headings;
     (!heading.is_empty() && !headings.iter().any(|h| h == heading))
-        .then(|| format!("{place}: {to}: there is no such heading"))
+        .then(|| format!("{place}: {to}: missing heading"))
 }
 
 fn read(text: &str) -> Page {
@@ -139,7 +139,7 @@ mod tests {
             [
                 "docs/SUMMARY.md: does not list docs/b.md",
                 "docs/a.md:2: links to none.md, which does not exist",
-                "docs/a.md:2: b.md#no: there is no such heading",
+                "docs/a.md:2: b.md#no: missing heading",
             ]
         );
     }

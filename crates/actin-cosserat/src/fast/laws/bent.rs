@@ -8,7 +8,6 @@ use actin_mechanics::wide::{self, Simd, Wide3};
 #[derive(Clone, Copy, Debug)]
 pub(in crate::fast) struct Bent<L> {
     law: L,
-    /// Rest curvature (rad/nm, body axes).
     rest: [f64; 3],
 }
 

@@ -84,7 +84,6 @@ impl Potential {
     }
 }
 
-/// Coefficients of a term up to its degree, `N - 1`.
 fn of<const N: usize>(terms: &[Polynomial; Term::ALL.len()], term: Term) -> [f64; N] {
     debug_assert_eq!(N, term.degree() + 1, "{term:?}");
     let mut all = Term::ALL.into_iter().zip(terms);
@@ -92,7 +91,6 @@ fn of<const N: usize>(terms: &[Polynomial; Term::ALL.len()], term: Term) -> [f64
     std::array::from_fn(|k| found.map_or(0.0, |(_, polynomial)| polynomial[k]))
 }
 
-/// Polynomial in the bounded twist, and its derivative.
 #[inline(always)]
 fn jet<S: Simd, const N: usize>(simd: S, coefficients: &[f64; N], t: S::f64s) -> [S::f64s; 2] {
     let mut value = simd.splat_f64s(coefficients[N - 1]);
@@ -160,7 +158,6 @@ impl<S: Simd> Roots<S> {
         simd.mul_f64s(self.q, self.s)
     }
 
-    /// Functions given the inverses of the root of twist and of `q s`.
     #[inline(always)]
     fn bent(&self, simd: S, [a, k]: [S::f64s; 2], [of_twist, of_qs]: [S::f64s; 2]) -> Bent<S> {
         let ratio = simd.mul_f64s(simd.splat_f64s(TWIST_SIZE), of_twist);

@@ -57,7 +57,6 @@ fn states() -> Vec<[Vector3; 2]> {
     segments.into_iter().map(state).collect()
 }
 
-/// A length computed from the squared length minus 1 would be inaccurate here.
 #[test]
 fn laws_of_collapsed_and_inverted_segments_are_the_scalar_ones() {
     let (states, (_, layout)) = (states(), rod(3, Walls::default(), &mut Xorshift::new(9)));

@@ -151,7 +151,7 @@ fn stiffness_is_the_derivative_of_the_loads_far_from_rest() {
         let mut filament = filament(side, attached).moved(&mut noise);
         let junction = filament.junction(side, weight);
         perturb(&mut filament.state, &mut noise, 0.7, 0.5);
-        // h = 0.01 nm and rad: truncation and rounding errors are below 1e-12.
+        // As above.
         assert_is_stiffness(&junction, &filament.state, 0.01, 1e-10);
     }
 }
@@ -167,8 +167,8 @@ fn assert_joined(junction: &Junction, state: &State, side: usize, rod: usize) {
     }
 }
 
-/// Right-handed twist is positive in all elements of both kinds of junctions. The energy is even in
-/// the curvature and cannot show this.
+/// Right-handed twist is positive in all elements of both kinds of junctions; the energy is even in
+/// the curvature.
 #[test]
 fn curvatures_follow_the_filament() {
     for side in SIDES {
@@ -255,7 +255,6 @@ fn rotation_of_monomers_and_junction_frames_twists_the_rod_element() {
             let expected = weight.of(attached) * 0.5 * 1.3e4 * turn * turn / distance;
             assert!((energy / expected - 1.0).abs() < 1e-12);
         }
-        // The torque on the rod acts towards the rotation of the monomers.
         let loads = loads_of(&junction, &filament.state);
         let rod = filament.rod.end_frame(side.rod_end());
         assert!(loads.torque.get(rod).z > 0.0);
@@ -329,7 +328,6 @@ fn both_sides_are_mirror_images() {
     let mut noise = Xorshift::new(5);
     let mut before = filament(JunctionSide::MonomersFirst, 1);
     let mut after = filament(JunctionSide::RodFirst, 1);
-    // Image of the monomer.
     let (from, to) = (before.monomers[0], after.monomers[0]);
     let x = half_turn * before.state.points.position.get(from.point);
     after.state.points.position.set(to.point, x);
@@ -344,7 +342,6 @@ fn both_sides_are_mirror_images() {
         make(&before, JunctionSide::MonomersFirst),
         make(&after, JunctionSide::RodFirst),
     ];
-    // Equal perturbations of both filaments.
     let pairs = bond_frames(&before, JunctionSide::MonomersFirst)
         .into_iter()
         .zip(bond_frames(&after, JunctionSide::RodFirst));

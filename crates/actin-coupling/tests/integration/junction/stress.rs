@@ -23,7 +23,7 @@ fn stress_has_the_covariance_of_the_stiffness() {
     }
 }
 
-/// The stress of rod and junction together; half of the end segment counts once. The stretch gives
+/// Random stress of rod and junction, with half of the end segment counted once. The stretch gives
 /// shear a geometric stiffness.
 #[test]
 fn stress_beside_an_extended_rod_has_the_covariance_of_the_stiffness() {

@@ -40,7 +40,6 @@ const QUICK: Bent<4> = [[0.0, 0.01, 0.0, 5e-3], [0.0, 0.0, 0.015, 7.5e-3], [0.0;
 
 #[derive(Clone, Debug, PartialEq)]
 struct HeatAxes {
-    /// Twist `kappa_3` (rad/nm).
     twist: Vec<f64>,
     /// Stretch `sigma_3` relative to the free filament of the same twist and temperature.
     extension: Vec<f64>,

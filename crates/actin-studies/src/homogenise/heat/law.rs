@@ -140,7 +140,6 @@ fn form(rows: &[Row]) -> Result<HomogenisedForm, String> {
         .map_err(|e| e.to_string())
 }
 
-/// Number of coefficients of the natural length.
 const NATURAL: usize = 5;
 
 fn residuals(law: &Homogenised, rows: &[Row]) -> String {

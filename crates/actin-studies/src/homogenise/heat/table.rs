@@ -9,7 +9,6 @@ use rayon::prelude::*;
 use std::fmt::Write as _;
 use std::path::Path;
 
-/// Number of random streams of each cell.
 const STREAMS: u64 = 1000;
 
 type Number = (f64, f64);
@@ -93,8 +92,7 @@ fn numbers(cell: &Cell, kt: f64, samples: usize, stream: u64) -> Result<Vec<Numb
     Ok(all)
 }
 
-/// Returns the natural state and its rigidities. Errors are propagated to first order from independent errors of the
-/// entries of the tangent.
+/// Returns the natural state and its rigidities, with errors propagated to first order.
 fn of_tangent(free: &Natural, held: &HeatResponse) -> Vec<Number> {
     let (tangent, errors) = (&held.tangent, &held.tangent_error);
     let inverse = |t: &SixMatrix| {
@@ -118,7 +116,6 @@ fn of_tangent(free: &Natural, held: &HeatResponse) -> Vec<Number> {
         let value = 1.0 / mean(&compliance, k, k);
         // d(1/c_kk) = (c_k t' c_k)/c_kk^2
         let column = compliance.column(k);
-        // The matrix is symmetric.
         let squares = SixMatrix::from_fn(|i, j| (column[i] * column[j] * errors[(i, j)]).powi(2));
         let square = 2.0 * squares.sum() - squares.diagonal().sum();
         (value, value * value * square.sqrt() * share(k))

@@ -17,7 +17,7 @@ use actin_sim::ellipsoid::Cell;
 use rayon::prelude::*;
 use std::path::Path;
 
-/// Number of cells, and first seeds of fitted and of validation cells, which differ from those of load cases.
+/// Number of cells, and first seeds of fitted and of validation cells. Load cases use other seeds.
 const CELLS: u64 = 32;
 const FITTED: u64 = 10_001;
 const OTHERS: u64 = 20_001;

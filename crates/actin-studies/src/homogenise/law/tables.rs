@@ -58,8 +58,8 @@ fn more(law: &Homogenised, row: &Row) -> [f64; 4] {
     ]
 }
 
-/// Returns the number of independent strains with a positive tangent, within the range and within twice the range,
-/// and the number of strained cells for which the tangents of cell and law are positive.
+/// Counts independent strains with a positive tangent, within the range and within twice the range.
+/// Counts strained cells for which the tangents of cell and law are positive.
 pub(super) fn stability(law: &Homogenised, cells: &[Row]) -> String {
     let mut text = String::new();
     let twice = |x: f64| 2.0 * x;

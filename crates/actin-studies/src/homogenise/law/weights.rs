@@ -25,15 +25,14 @@ const BRANCH: f64 = -50.0;
 const STRAIGHT_CELL: (f64, f64) = (36.0, 150.0);
 const BENT_OR_SHEARED: (f64, f64) = (0.9, 1.4);
 const BOTH: (f64, f64) = (0.6, 0.6);
-/// Factors of the weight of the tangent at rest and at other small strains, for which loaded cells contain the
-/// information.
+/// Factors of the weight of the tangent at rest and at other small strains.
 const AT_REST: f64 = 6.0;
 const SMALL: f64 = 0.1;
 /// Extensions below which a cell is compressed and up to which it is at rest; twist (rad/nm) up to which it is at
 /// rest.
 const REST_EXTENSION: [f64; 2] = [-1e-4, 1e-3];
 const REST_TWIST: f64 = 4e-3;
-/// Unit residual of a strain under given loads, relative to the strain.
+/// Unit residual of a strain under given loads (relative).
 const STRAIN: f64 = 0.01;
 /// Relative residual above which the loss grows less than quadratically, since strains close to a change of branch
 /// are not smooth functions of loads.
