@@ -14,8 +14,8 @@ pub const REFERENCE: &str = "docs/report.json";
 /// Report of a quick run.
 const QUICK: &str = "docs/report-quick.json";
 
-/// Relative tolerance. The stopping residual of 1e-7 pN determines tips, energies and torques to 2e-8. Replacing AVX-512
-/// by AVX2 in all libraries changes rows outside `sensitive.csv` by less than 1e-7.
+/// Relative tolerance. The stopping residual of 1e-7 pN determines tips, energies and torques to 2e-8. Replacing
+/// AVX-512 by AVX2 in all libraries changes rows outside `sensitive.csv` by less than 1e-7.
 const AGREES: f64 = 1e-6;
 /// Tolerance of fitted parameters in standard errors. Such a step changes the sum of squares by 1e-6 of its variance.
 const AGREES_IN_STANDARD_ERRORS: f64 = 1e-3;

@@ -386,7 +386,8 @@ fn checks(draft: &mut Draft<'_>, outcomes: &[Outcome]) {
     // The error is proportional to the square of the segment length.
     let limit = fine + (fine - rod(Some(64))) / 3.0;
     let note = format!(
-        "segments of 10 nm relative to the limit {limit:.4} nm, extrapolated from 2.5 and 1.25 nm; expected within 0.005"
+        "segments of 10 nm relative to the limit {limit:.4} nm, extrapolated from 2.5 and 1.25 nm; expected within \
+         0.005"
     );
     draft.row("rod_mesh_error", "", rod(None) / limit - 1.0, note);
     let newton = || outcomes.iter().filter_map(|o| o.newton);

@@ -21,8 +21,8 @@ pub(super) fn figure9(draft: &mut Draft<'_>) -> Result<(), String> {
         .map(|(file, caption)| Picture { file, caption })
         .collect();
     draft.settings = format!(
-        "Least squares on {}; {} initial guesses for each nonlinear fit. For comparison, our filaments of Tables 3 and 5: \
-         64 sampled bonds per interface, and the mean filament.",
+        "Least squares on {}; {} initial guesses for each nonlinear fit. For comparison, our filaments of Tables 3 \
+         and 5: 64 sampled bonds per interface, and the mean filament.",
         data.source,
         fits.tanh.fit.starts.len()
     );

@@ -5,8 +5,8 @@ use crate::figures::model::{Model, Resolution, monomers};
 use crate::run::scenario;
 use actin_sim::{Hold, Pace, Scene, Section, Setting, Stage, Task};
 
-/// Length between the inner clamped monomers of a filament without rod (nm). It corresponds to rods of [`LENGTH_NM`] with
-/// clamped nodes and frames, because a clamped frame lies half a segment inside.
+/// Length between the inner clamped monomers of a filament without rod (nm). It corresponds to rods of [`LENGTH_NM`]
+/// with clamped nodes and frames, because a clamped frame lies half a segment inside.
 const MONOMERS_NM: f64 = 290.0;
 /// Step of a path in small steps, as a fraction of a stage.
 const SMALL_STEP: f64 = 0.04;
@@ -122,8 +122,8 @@ impl Case {
         f64::from(self.turn_deg.signum())
     }
 
-    /// True if other stable states are searched: first sampling of filaments in the pictures, and filaments without rod in
-    /// Figure 8 only.
+    /// True if other stable states are searched: first sampling of filaments in the pictures, and filaments without rod
+    /// in Figure 8 only.
     fn has_states(&self) -> bool {
         let is_shown = self.model == self.figure.models[0];
         let is_new = self.resolution != Resolution::Ellipsoids || self.figure.id == "fig8";

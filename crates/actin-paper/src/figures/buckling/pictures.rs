@@ -164,8 +164,8 @@ fn against_resolution(
         turn_name(turn).replace('/', "_")
     );
     let caption = format!(
-        "{what} against the length of rod, {}. Sampled bonds: 64 per interface, mean over {} samplings. The \
-         mean filament has 12 quadrature bonds per interface, which represent all possible bonds. The balance as printed \
+        "{what} against the length of rod, {}. Sampled bonds: 64 per interface, mean over {} samplings. The mean \
+         filament has 12 quadrature bonds per interface, which represent all possible bonds. The balance as printed \
          uses it.",
         plan.figure.rods, plan.seeds,
     );

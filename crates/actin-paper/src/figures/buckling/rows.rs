@@ -121,8 +121,8 @@ fn improvements(plan: &Plan, draft: &mut Draft<'_>) {
                     continue;
                 };
                 let statement = format!(
-                    "the extended rod improves the agreement between resolutions; ratio of the spread of the {name} to the spread \
-                     with constant rigidities, {extended:.3} over {constant:.3}"
+                    "the extended rod improves the agreement between resolutions; ratio of the spread of the {name} \
+                     to the spread with constant rigidities, {extended:.3} over {constant:.3}"
                 );
                 let bound = if turn_deg.abs() > JUDGED_DEG {
                     Bound::None

@@ -131,8 +131,8 @@ fn moved(case: &Case) -> Result<Motion, String> {
 
 /// Damped motion of a case with non-conservative loads, from the equilibrium of the conservative rod with fixed ends.
 ///
-/// Such loads feed energy into rotations. With a rotational drag rate of 0.3 per ns, 10 of 32 filaments diverge and 4 do
-/// not come to rest. Rotational drag has little effect on bending, because moments of inertia are small.
+/// Such loads feed energy into rotations. With a rotational drag rate of 0.3 per ns, 10 of 32 filaments diverge and 4
+/// do not come to rest. Rotational drag has little effect on bending, because moments of inertia are small.
 fn rest(case: &Case) -> Result<Solved, String> {
     let with_energy = Model {
         balance: ForceLaw::EnergyGradient,

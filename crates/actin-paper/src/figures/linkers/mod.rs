@@ -1,7 +1,7 @@
 //! Figures 5 and 6: free filaments on linkers in one plane and on all sides.
 //!
-//! Newton's method starts from several rotations of the filament about its axis, and the equilibrium of lowest energy is
-//! used. Energies against time are from damped dynamics of the built state with displaced anchors.
+//! Newton's method starts from several rotations of the filament about its axis, and the equilibrium of lowest energy
+//! is used. Energies against time are from damped dynamics of the built state with displaced anchors.
 
 mod pictures;
 mod rows;

@@ -149,8 +149,8 @@ fn with_pure(draft: &mut Draft<'_>, outcomes: &[Outcome]) {
     draft.row("node_spread/with-pure", "nm", all.node, note);
     let standard = outcomes.iter().filter(|o| o.case.is_drawn());
     let rolls = sample(standard.map(|o| o.lowest.roll));
-    let note = "rotation of the body with the second linker relative to the built state, over all mixed resolutions and \
-                the pure cases";
+    let note = "rotation of the body with the second linker relative to the built state, over all mixed resolutions \
+                and the pure cases";
     draft.row("roll/least", "deg", rolls.low, note);
     draft.row("roll/most", "deg", rolls.high, note);
 }
@@ -214,8 +214,8 @@ fn motions(draft: &mut Draft<'_>, outcomes: &[Outcome]) {
     energy_decays(draft, &energies.collect::<Vec<_>>());
 }
 
-/// Claims that deviations of shape and energy are larger in Figure 6 than in Figure 5. Models of the paper have verdicts,
-/// with energies in pN nm as in Figure 6(c).
+/// Claims that deviations of shape and energy are larger in Figure 6 than in Figure 5. Models of the paper have
+/// verdicts, with energies in pN nm as in Figure 6(c).
 pub(super) fn larger_claims(draft: &mut Draft<'_>, figures: [&[Outcome]; 2]) {
     let claims: [(&str, &str, Pick); 3] = [
         (

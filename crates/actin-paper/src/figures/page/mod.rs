@@ -27,7 +27,7 @@ pub(super) fn write(artefacts: &[Artefact], out: &Path, quick: bool) -> Result<(
     }
     page.section("words", "Summary", &summary::words(artefacts));
     let reading = summary::how_to_read(&mut page);
-    page.section("reading", "How to read this page", &reading);
+    page.section("reading", "Guide to this page", &reading);
     page.markdown("errata", "Errata of the paper", &errata()?);
     page.verdicts(&summary::verdicts(artefacts));
     page.data("palette", &palette::chosen().json());

@@ -69,10 +69,9 @@ fn judged(artefacts: &[Artefact]) -> Markup {
             (all.compared()) " numbers are compared: "
             span class="pass" { (all.agree) " agree" } " within their tolerance; "
             span class="miss" { (all.missed) " do not" } ". " (all.measured)
-            " further numbers have no verdict. All numbers and pictures are from simulations of \
-             the run that wrote this page. The run fitted only the laws of Figure 9; \
-             rows named fitted use a law fitted to monomers. The following choices were made in advance to reproduce Tables 3, 4 \
-             and 5."
+            " further numbers have no verdict. All numbers and pictures are from simulations of the run that wrote \
+             this page. The run fitted only the laws of Figure 9; rows named fitted use a law fitted to monomers. \
+             The following choices were made in advance to reproduce Tables 3, 4 and 5."
         }
     }
 }
@@ -99,7 +98,7 @@ fn reading(stops: &[String]) -> Markup {
             }
         }
         p class="soft" {
-            "Other palettes: "  code { "--palette paper" } " or "
+            "Other palettes: " code { "--palette paper" } " or "
             code { "--palette colour-blind" } "."
         }
     }
@@ -195,10 +194,10 @@ fn score(artefacts: &[Artefact]) -> Markup {
     html! {
         h3 { "What agrees" }
         p {
-            "One rule applies to all figures and tables. A printed number agrees within half a unit of \
-             its last digit and, for sampled bonds, twice the standard deviation of a single \
-             filament. Shapes that the paper calls equal agree within 1.8 nm, the radius of the helix. Numbers that it calls equal agree \
-             within 10 %, the size of a difference that it reports as one. For an order, the sign decides."
+            "One rule applies to all figures and tables. A printed number agrees within half a unit of its last \
+             digit and, for sampled bonds, twice the standard deviation of a single filament. Shapes that the paper \
+             calls equal agree within 1.8 nm, the radius of the helix. Numbers that it calls equal agree within 10 \
+             %, the size of a difference that it reports as one. For an order, the sign decides."
         }
         details {
             summary { "Complete rule, and rows without a verdict" }

@@ -1,36 +1,36 @@
-//! Colours of the schematics and their legend: one style for all of them.
+//! Colours and legends of the schematics.
 
 use crate::palette::{self, Things};
 use actin_draw::Colour;
 use actin_draw::scene3d::{Item, Key, Solid, Stroke};
 use actin_mechanics::Vector3;
 
-/// What lies on a monomer's surface counts so much nearer than its middle (nm).
+/// Depth offset of items on the surface of a monomer (nm).
 pub(super) const ON_SURFACE_NM: f64 = 0.5;
-/// What is to be seen through a body counts as nearer than any part of it (nm).
+/// Depth offset of items inside a translucent body (nm).
 pub(super) const INSIDE_NM: f64 = 8.0;
 
-/// The colour of a thing in the palette of this run.
+/// Colour of a kind of body in the palette of this run.
 pub(super) fn of(thing: fn(&Things) -> [u8; 3]) -> Colour {
     Colour(thing(palette::chosen().things()))
 }
 
-/// The colour of lateral (0) or longitudinal (1) bonds.
+/// Colour of lateral (0) or longitudinal (1) bonds.
 pub(super) fn bond(kind: usize) -> Colour {
     Colour(palette::chosen().things().bonds[kind])
 }
 
-/// The colour of the axis number `k` of a frame.
+/// Colour of axis `k` of a frame.
 pub(super) fn axis(k: usize) -> Colour {
     Colour(palette::chosen().things().axes[k])
 }
 
-/// Monomers: the end of the ramp where all is monomers.
+/// Colour of monomers.
 pub(super) fn monomer() -> Colour {
     palette::resolution(0.0)
 }
 
-/// Rods: the end of the ramp where all is rod.
+/// Colour of rods.
 pub(super) fn rod() -> Colour {
     palette::resolution(1.0)
 }
@@ -39,7 +39,7 @@ fn force() -> Stroke {
     Stroke::solid(of(|t| t.force), 3.0)
 }
 
-/// A force or a displacement.
+/// Arrow of a force or a displacement.
 pub(super) fn arrow(ends: [Vector3; 2]) -> Item {
     let stroke = force();
     Item::new(Solid::Arrow { ends, stroke }, stroke.colour).nearer(INSIDE_NM)
@@ -49,7 +49,7 @@ fn entry(key: Key, text: &str) -> (Key, String) {
     (key, text.to_owned())
 }
 
-/// Monomer, rod and what belongs to it.
+/// Legend of monomers and rods.
 pub(super) fn bodies() -> Vec<(Key, String)> {
     let line = Stroke::solid(rod().darker(0.3), 1.6);
     vec![
@@ -60,7 +60,7 @@ pub(super) fn bodies() -> Vec<(Key, String)> {
     ]
 }
 
-/// The two kinds of bonds.
+/// Legend of both kinds of bonds.
 pub(super) fn bonds() -> Vec<(Key, String)> {
     let key = |k: usize| Key::Line(Stroke::solid(bond(k), 2.5));
     vec![
@@ -69,14 +69,14 @@ pub(super) fn bonds() -> Vec<(Key, String)> {
     ]
 }
 
-/// The three axes of frames.
+/// Legend of the axes of frames.
 pub(super) fn axes() -> Vec<(Key, String)> {
     let key = |k: usize| Key::Arrow(Stroke::solid(axis(k), 2.0));
     let names = ["d1", "d2", "d3"];
     (0..3).map(|k| entry(key(k), names[k])).collect()
 }
 
-/// A junction's bond.
+/// Legend of junction bonds.
 pub(super) fn junction() -> (Key, String) {
     entry(
         Key::Line(Stroke::solid(of(|t| t.junction), 5.0)),
@@ -84,7 +84,7 @@ pub(super) fn junction() -> (Key, String) {
     )
 }
 
-/// What holds, and what the arrows are.
+/// Legend of clamps and arrows.
 pub(super) fn holds(arrow: &str) -> Vec<(Key, String)> {
     vec![
         entry(Key::Area(of(|t| t.clamp), 0.75), "clamp"),
@@ -92,7 +92,7 @@ pub(super) fn holds(arrow: &str) -> Vec<(Key, String)> {
     ]
 }
 
-/// Linkers and their anchors.
+/// Legend of linkers and anchors.
 pub(super) fn linkers() -> Vec<(Key, String)> {
     let line = Stroke {
         dashed: true,
