@@ -19,7 +19,6 @@ const QUICK: &str = "docs/report-quick.json";
 const AGREES: f64 = 1e-6;
 /// Tolerance of fitted parameters in standard errors. Such a step changes the sum of squares by 1e-6 of its variance.
 const AGREES_IN_STANDARD_ERRORS: f64 = 1e-3;
-/// Maximum number of listed differences.
 const MOST_LISTED: usize = 20;
 
 /// Rows by artefact and quantity.
@@ -29,11 +28,9 @@ pub type Report = BTreeMap<(String, String), Row>;
 #[derive(Debug, Deserialize)]
 struct Sensitive {
     artefact: String,
-    /// Substring of the quantity.
     part: String,
     /// Relative tolerance; `None` if the rows are not compared.
     share: Option<f64>,
-    /// Applies to pure rods.
     also_rods: bool,
 }
 
@@ -104,10 +101,8 @@ pub(crate) fn stale(rows: &[Row]) -> Result<Vec<String>, String> {
     Ok(all)
 }
 
-/// A committed report.
 struct Committed {
     file: &'static str,
-    /// Command that regenerates the file.
     command: &'static str,
     rows: Report,
 }
@@ -143,7 +138,6 @@ impl Committed {
         all
     }
 
-    /// New and changed rows.
     fn changes(&self, rows: &[Row]) -> Vec<String> {
         let compared = rows.iter().filter(|row| agreement(row).is_some());
         let changed = compared.filter_map(|row| {

@@ -18,7 +18,6 @@ pub(crate) fn choose(palette: Palette) {
     CHOSEN.get_or_init(|| palette);
 }
 
-/// Palette of this run.
 pub(crate) fn chosen() -> Palette {
     *CHOSEN.get_or_init(Palette::default)
 }

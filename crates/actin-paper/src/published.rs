@@ -11,16 +11,12 @@ const RELIABLE_DEG: f64 = 200.0;
 /// Rounding of a printed curvature, half a unit of the last digit (rad/nm).
 pub(super) const CURVATURE_ROUNDING: f64 = 5e-5;
 
-/// Table of the paper with entries by twist.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Table {
-    /// Secant twisting rigidity (pN nm^2).
     Rigidity,
-    /// Relative change of length.
     LengthChange,
 }
 
-/// One entry of Table 3 or 5.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Entry {
     /// Angle (deg), printed without a sign.
@@ -34,7 +30,6 @@ pub(crate) struct Entry {
 }
 
 impl Entry {
-    /// `over` or `under`.
     pub(super) fn direction(&self) -> &'static str {
         if self.curvature > 0.0 {
             "over"
@@ -91,7 +86,6 @@ fn rounding(table: Table, value: f64) -> f64 {
 mod tests {
     use super::{Table, entries};
 
-    /// 13 angles in two directions.
     #[test]
     fn entries_have_signs_and_rounding() {
         for table in [Table::Rigidity, Table::LengthChange] {

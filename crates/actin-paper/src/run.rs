@@ -43,7 +43,6 @@ pub(crate) fn run_to_end(assembly: &mut Assembly) -> Result<(Trajectory, Outcome
     Ok((trajectory, outcome))
 }
 
-/// Wall clamp at an end of filament 0.
 pub(crate) fn clamp(end: End, slides: Slides) -> Clamp {
     Clamp {
         filament: 0,
@@ -64,7 +63,6 @@ pub(crate) struct Solved {
 }
 
 impl Solved {
-    /// Builds and runs a scene.
     pub(crate) fn new(scene: &Scene) -> Result<Self, String> {
         Self::run(Assembly::build(scene).map_err(|e| e.to_string())?)
     }
@@ -90,7 +88,6 @@ impl Solved {
         self.assembly.system.state()
     }
 
-    /// Residual force (pN) and torque (pN nm).
     pub(crate) fn residual(&self) -> [f64; 2] {
         let last = self.last();
         [last.residual_force_pn, last.residual_torque_pn_nm]

@@ -13,20 +13,16 @@ use std::fs;
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::{Path, PathBuf};
 
-/// Subfolder of the records.
 const FOLDER: &str = ".artefacts";
 
 #[derive(Debug, Deserialize, Serialize)]
 pub(super) struct CachedArtefact {
-    /// Hash of program, scenes and settings.
     fingerprint: String,
-    /// Hashes of the written files, by name.
     files: BTreeMap<String, String>,
     pub runs: u64,
     pub artefact: Artefact,
 }
 
-/// Reason for computing an artefact.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) enum Reason {
     Missing,
@@ -50,7 +46,6 @@ impl fmt::Display for Reason {
     }
 }
 
-/// Cached artefacts of one output folder.
 #[derive(Debug)]
 pub(super) struct Cache<'a> {
     out: &'a Path,
@@ -65,7 +60,6 @@ impl<'a> Cache<'a> {
         Ok(Self { out, fingerprint })
     }
 
-    /// Returns the artefact if its record and files are present and unchanged.
     pub(super) fn find(&self, id: &str) -> Result<CachedArtefact, Reason> {
         let cached = self.read(id)?;
         if cached.fingerprint != self.fingerprint {
@@ -151,7 +145,6 @@ impl<'a> Cache<'a> {
     }
 }
 
-/// Hash of the program, the scenes and `choices`, the options that affect results.
 pub(super) fn fingerprint(choices: &str) -> Result<String, String> {
     let mut hasher = DefaultHasher::new();
     env!("CARGO_PKG_VERSION").hash(&mut hasher);
@@ -169,7 +162,6 @@ pub(super) fn fingerprint(choices: &str) -> Result<String, String> {
     Ok(format!("{:016x}", hasher.finish()))
 }
 
-/// Sorted paths of all files under `scenarios`.
 fn scenes() -> Result<Vec<PathBuf>, String> {
     let mut folders = vec![workspace_root().join("scenarios")];
     let mut all = Vec::new();

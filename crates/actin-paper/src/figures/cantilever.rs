@@ -16,7 +16,6 @@ use actin_sim::{
     Task,
 };
 
-/// Length of the filament (nm).
 const LENGTH_NM: f64 = 160.0;
 /// Lengths of rod (nm) in the paper and with `--quick`.
 const RODS: [u32; 7] = [20, 40, 60, 80, 100, 120, 140];
@@ -94,7 +93,6 @@ struct Case {
     model: Model,
     resolution: Resolution,
     seed: u64,
-    /// Segments of a refined rod.
     segments: Option<u32>,
 }
 
@@ -113,7 +111,6 @@ struct Outcome {
     energy: Vec<(f64, f64)>,
     /// Energy including the potential of the load (pN nm), by record.
     total: Vec<f64>,
-    /// Evaluations of bonds and segments.
     work: f64,
     ring_down: Option<RingDown>,
     shape: Shape,
@@ -162,7 +159,6 @@ fn cases(quick: bool) -> Vec<Case> {
 }
 
 impl Case {
-    /// Name in quantities.
     fn path(&self) -> String {
         let folder = match (self.model.name, self.resolution) {
             ("", Resolution::Mixed(_)) => "shared/",
@@ -176,7 +172,6 @@ impl Case {
         }
     }
 
-    /// True for cases in the pictures.
     fn is_drawn(&self) -> bool {
         self.segments.is_none() && self.seed == 0
     }
@@ -248,7 +243,6 @@ impl Case {
         })
     }
 
-    /// Measures the oscillation about the equilibrium with little drag.
     fn ring_down(
         &self,
         is_moved: bool,
@@ -278,7 +272,6 @@ impl Case {
     }
 }
 
-/// Deflection of the tip along the force, towards -x (nm).
 fn tip_drop(assembly: &Assembly, record: &Record) -> f64 {
     -(assembly.tip_nm(&record.state, End::End) - assembly.tip_nm(&assembly.rest, End::End)).x
 }
@@ -334,7 +327,6 @@ fn rows(draft: &mut Draft<'_>, outcomes: &[Outcome]) {
 }
 
 impl Outcome {
-    /// Description of the end of the run.
     fn ending(&self) -> String {
         let end = match (self.is_moved, self.has_converged) {
             (false, _) => "by Newton's method",
@@ -373,7 +365,6 @@ fn spreads(draft: &mut Draft<'_>, outcomes: &[Outcome], model: Model) {
     }
 }
 
-/// Rows on discretisation error, Newton's method against dynamics, stability and samplings.
 fn checks(draft: &mut Draft<'_>, outcomes: &[Outcome]) {
     let rod = |segments: Option<u32>| {
         let rods = outcomes

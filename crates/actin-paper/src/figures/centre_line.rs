@@ -21,7 +21,6 @@ pub(crate) struct CentreLine {
 }
 
 impl CentreLine {
-    /// Centre line of filament 0.
     pub(crate) fn of(assembly: &Assembly, state: &State) -> Self {
         let n = assembly.points.len();
         let s: Vec<f64> = assembly.points.iter().map(|p| p.s_nm).collect();
@@ -40,12 +39,10 @@ impl CentreLine {
         }
     }
 
-    /// Points (nm).
     pub(crate) fn points(&self) -> &[Triple] {
         &self.places
     }
 
-    /// Arc lengths of the points (nm).
     pub(super) fn arc_lengths(&self) -> &[f64] {
         &self.s
     }
@@ -122,7 +119,6 @@ fn norm([x, y, z]: Triple) -> f64 {
 mod tests {
     use super::*;
 
-    /// Nodes on a parabola. Chords deviate by up to h^2/8 times the curvature.
     fn parabola(h: f64, nodes: usize) -> CentreLine {
         let s: Vec<f64> = (0..nodes).map(|k| k as f64 * h).collect();
         let place = |&s: &f64| [0.01 * s * s, 0.0, s];

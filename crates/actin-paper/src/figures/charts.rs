@@ -12,7 +12,6 @@ pub(super) fn room(at: (f64, f64)) -> Series {
     dots(Colour([255; 3]), vec![at])
 }
 
-/// Filament in a chart.
 #[derive(Clone, Debug)]
 pub(super) struct Filament {
     pub name: String,
@@ -25,7 +24,6 @@ pub(super) struct Filament {
 }
 
 impl Filament {
-    /// Filament in the colour of its share of rod.
     pub(super) fn new(name: String, share: f64, shape: &Shape) -> Self {
         Self {
             name,
@@ -46,7 +44,6 @@ impl Filament {
         }
     }
 
-    /// Curve in the colour of this filament.
     pub(super) fn curve(&self, points: Vec<(f64, f64)>, equal_axes: bool) -> Vec<Series> {
         let line = line(self.name.clone(), self.colour, points);
         if self.is_dashed {
@@ -57,7 +54,6 @@ impl Filament {
     }
 }
 
-/// Projection of centre lines.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Side {
     /// Suffix of the file name.
@@ -79,7 +75,6 @@ pub(super) fn seen_from(side: &Side, filaments: &[Filament], others: Vec<Series>
     monomers.chain(lines).chain(others).collect()
 }
 
-/// Draws a projection of filaments.
 pub(super) fn draw_from(
     draft: &mut Draft<'_>,
     file: &str,
@@ -98,7 +93,6 @@ pub(super) fn draw_from(
     draft.chart(format!("{file}_{}.svg", side.panel), &chart, caption)
 }
 
-/// Value against the length of rod, for one model.
 #[derive(Clone, Debug)]
 pub(super) struct Curve {
     pub name: String,
@@ -108,7 +102,6 @@ pub(super) struct Curve {
     pub points: Vec<(f64, f64)>,
 }
 
-/// Series of a line and dots for every curve with points.
 pub(super) fn against_rod(curves: Vec<Curve>) -> Vec<Series> {
     let curves = curves.into_iter().filter(|curve| !curve.points.is_empty());
     let series = curves.flat_map(|mut curve| {

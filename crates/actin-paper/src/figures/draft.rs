@@ -9,7 +9,6 @@ use actin_view::{Attitude, Pose, Shown, states};
 use rayon::prelude::*;
 use std::path::Path;
 
-/// Partial results of an experiment.
 #[derive(Debug)]
 pub(super) struct Draft<'a> {
     pub id: &'static str,
@@ -32,7 +31,6 @@ pub(super) struct Measured {
     pub sd: f64,
 }
 
-/// Header and cell text of a column.
 pub(super) type Column<R> = (&'static str, fn(&R) -> String);
 
 impl<'a> Draft<'a> {
@@ -72,7 +70,6 @@ impl<'a> Draft<'a> {
             .collect()
     }
 
-    /// Adds a number without scatter.
     pub(super) fn row(
         &mut self,
         quantity: impl Into<String>,
@@ -83,7 +80,6 @@ impl<'a> Draft<'a> {
         self.scattered(quantity, unit, (ours, 0.0), note);
     }
 
-    /// Adds the mean of a sample.
     pub(super) fn mean(
         &mut self,
         quantity: impl Into<String>,
@@ -94,7 +90,6 @@ impl<'a> Draft<'a> {
         self.scattered(quantity, unit, (sample.mean, sample.sd), note);
     }
 
-    /// Adds a number with its standard deviation.
     pub(super) fn scattered(
         &mut self,
         quantity: impl Into<String>,
@@ -106,7 +101,6 @@ impl<'a> Draft<'a> {
         self.rows.push(Measured { row, sd });
     }
 
-    /// Adds a row with its comparison.
     pub(super) fn compared(&mut self, row: Row) {
         self.rows.push(Measured { row, sd: 0.0 });
     }
@@ -123,14 +117,12 @@ impl<'a> Draft<'a> {
         self.compared(row);
     }
 
-    /// Value of a row.
     pub(super) fn value(&self, quantity: &str) -> Option<f64> {
         let mut all = self.rows.iter();
         let found = all.find(|measured| measured.row.quantity == quantity)?;
         Some(found.row.ours)
     }
 
-    /// Draws a chart and adds its picture.
     pub(super) fn chart(
         &mut self,
         file: String,
@@ -184,7 +176,6 @@ impl<'a> Draft<'a> {
         Ok(())
     }
 
-    /// Writes a table with one line per result.
     pub(super) fn table<'r, R: 'r>(
         &self,
         file: &str,
@@ -197,7 +188,6 @@ impl<'a> Draft<'a> {
         write_csv(self.out, file, &header, lines)
     }
 
-    /// Writes the rows and expected numbers as a table.
     pub(super) fn list(&self) -> Result<(), String> {
         let rows = expected::judged(self.id, self.rows.clone());
         self.table(&format!("{}.csv", self.id), &rows, &ROWS)
@@ -217,7 +207,6 @@ impl<'a> Draft<'a> {
         write_csv(self.out, file, header, lines)
     }
 
-    /// Completes the artefact and compares its rows with expected numbers.
     pub(super) fn finish(self, title: &'static str, wall_s: f64) -> Artefact {
         Artefact {
             id: self.id,
@@ -256,12 +245,10 @@ const ROWS: [Column<Row>; 8] = [
     }),
 ];
 
-/// Number format of tables.
 pub(super) fn number(x: f64) -> String {
     format!("{x:.9e}")
 }
 
-/// Description of the largest residuals.
 pub(super) fn residuals(all: impl Iterator<Item = [f64; 2]>) -> String {
     let all: Vec<[f64; 2]> = all.collect();
     let [force, torque] = [0, 1].map(|k| largest(all.iter().map(|r| r[k])));

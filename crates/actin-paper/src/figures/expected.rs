@@ -12,7 +12,6 @@ use std::sync::LazyLock;
 /// Relative size that the paper reports as a difference (Figure 7).
 pub(super) const DIFFERENCE: f64 = 0.1;
 
-/// Expected number of a row.
 #[derive(Debug, Deserialize)]
 struct Expected {
     artefact: String,
@@ -24,7 +23,6 @@ struct Expected {
     /// sample. Empty if the number is shown without a verdict.
     tolerance: String,
     origin: Origin,
-    /// Prefix of the note of the row.
     reason: String,
 }
 
@@ -37,14 +35,12 @@ struct Claim {
     measure: Measure,
     /// Names of rows, separated by spaces. `*` matches a number and selects rows in ascending order of it.
     rows: String,
-    /// Reference of [`Measure::Relative`].
     reference: Option<f64>,
     holds: Holds,
     bound: Option<f64>,
     statement: String,
 }
 
-/// Number computed from rows.
 #[derive(Clone, Copy, Debug, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 enum Measure {
@@ -62,7 +58,6 @@ enum Measure {
     Relative,
 }
 
-/// Kind of bound.
 #[derive(Clone, Copy, Debug, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 enum Holds {
@@ -72,7 +67,6 @@ enum Holds {
     Unjudged,
 }
 
-/// Bound of a statement.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Bound {
     AtMost(f64),
@@ -152,7 +146,6 @@ impl Claim {
     }
 }
 
-/// Row of a verbal statement, with a verdict if there is a bound.
 pub(super) fn claim(
     artefact: &'static str,
     quantity: &str,

@@ -5,7 +5,6 @@ use super::surface;
 use crate::load_cases;
 use actin_draw::report::{Picture, Row};
 
-/// Compared rod law.
 const LAW: &str = "Homogenised";
 
 const COLUMNS: [Column<(String, String, Row)>; 5] = [

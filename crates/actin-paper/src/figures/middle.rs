@@ -17,7 +17,6 @@ use actin_view::{Attitude, Pose};
 const SEEDS: u64 = 16;
 const QUICK_SEEDS: u64 = 4;
 
-/// Model of the filament.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Resolved {
     /// 19 segments with a law and a type of clamp.
@@ -39,7 +38,6 @@ enum Rod {
 /// with one sliding end, the other half stays in tension.
 const SLIDING: [(&str, usize); 3] = [("", 0), ("far-end-slides/", 1), ("both-ends-slide/", 2)];
 
-/// Kinds of filaments by their name in quantities.
 const KINDS: [(&str, Resolved); 7] = [
     ("rod", Resolved::Rod(Rod::Constant, Hold::TwoNodesAndFrame)),
     ("wall/rod", Resolved::Rod(Rod::Constant, Hold::Wall)),
@@ -58,26 +56,21 @@ const KINDS: [(&str, Resolved); 7] = [
 
 #[derive(Clone, Debug)]
 struct Case {
-    /// Name of the kind in quantities.
     kind: String,
     resolved: Resolved,
-    /// Number of ends that slide along the axis.
     sliding: usize,
     seed: u64,
     /// The linker turns the middle in the opposite direction.
     is_reversed: bool,
 }
 
-/// Energies of both halves and further results.
 #[derive(Clone, Debug)]
 struct Halves {
     case: Case,
-    /// Elastic energy of the over-twisted and of the under-twisted half (pN nm).
     over_pn_nm: f64,
     under_pn_nm: f64,
     /// Rotation of the middle about the axis, in the direction of the pull (deg).
     turn_deg: f64,
-    /// Force of the linker (pN).
     pull_pn: f64,
     /// Tension at the first end without sliding (pN); zero if both ends slide.
     tension_pn: f64,
@@ -90,7 +83,6 @@ struct Halves {
 }
 
 impl Halves {
-    /// Energy of the over-twisted half divided by the energy of the under-twisted half.
     fn ratio(&self) -> f64 {
         self.over_pn_nm / self.under_pn_nm
     }
@@ -173,7 +165,6 @@ impl Case {
         Ok(scene)
     }
 
-    /// Computes the equilibrium and measures both halves.
     fn solve(&self) -> Result<Halves, String> {
         let mut solved = Solved::new(&self.scene()?)?;
         let loads = solved.assembly.system.loads().clone();
@@ -242,7 +233,6 @@ fn halves(assembly: &Assembly, sign: f64) -> ([f64; 2], Vec<[f64; 2]>) {
     (energies, along)
 }
 
-/// Name, unit and value of a quantity.
 type Quantity = (&'static str, &'static str, fn(&Halves) -> f64);
 
 const QUANTITIES: [Quantity; 6] = [
@@ -256,7 +246,6 @@ const QUANTITIES: [Quantity; 6] = [
     ("tension", "pN", |h| h.tension_pn),
 ];
 
-/// Rows of means over samplings and directions.
 fn rows(draft: &mut Draft<'_>, results: &[Halves]) {
     for halves in results.chunk_by(|a, b| a.case.kind == b.case.kind) {
         let case = &halves[0].case;
@@ -299,7 +288,6 @@ const COLUMNS: [Column<Halves>; 12] = [
     ("residual_pn_nm", |h| number(h.residual[1])),
 ];
 
-/// Writes `fig7.csv` and `fig7_profile.csv`.
 fn tables(draft: &Draft<'_>, results: &[Halves]) -> Result<(), String> {
     draft.table("fig7.csv", results, &COLUMNS)?;
     let profiles = results.iter().map(|h| {
@@ -321,7 +309,6 @@ fn tables(draft: &Draft<'_>, results: &[Halves]) -> Result<(), String> {
     draft.curves("fig7_profile.csv", &header, profiles)
 }
 
-/// Draws the energy per length of rods, monomers and the mean filament.
 fn picture(draft: &mut Draft<'_>, results: &[Halves]) -> Result<(), String> {
     let curve = |label: &str, colour: Colour, kind: &str| -> Series {
         let own = results.iter().filter(|h| h.case.kind == kind);
@@ -367,7 +354,6 @@ fn mean_profile(halves: &[&Halves]) -> Vec<(f64, f64)> {
         .collect()
 }
 
-/// Writes the first sampling with both ends clamped for the viewer.
 fn view(draft: &mut Draft<'_>, results: &[Halves]) -> Result<(), String> {
     let shown = [("rod", 1.0), ("ellipsoid", 0.0)]
         .into_iter()

@@ -57,13 +57,11 @@ pub struct Options {
 }
 
 impl Options {
-    /// Options that affect results.
     fn choices(&self) -> String {
         format!("quick: {}, palette: {:?}", self.quick, self.palette)
     }
 }
 
-/// Artefact with its title and computation.
 #[derive(Clone, Copy, Debug)]
 struct Experiment {
     id: &'static str,
@@ -188,7 +186,6 @@ pub fn reproduce(options: &Options, tell: Tell<'_>) -> Result<Vec<Row>, String> 
     Ok(artefacts.into_iter().flat_map(|a| a.rows).collect())
 }
 
-/// Runs `work` on the given number of threads.
 fn on_threads<T: Send>(
     threads: Option<usize>,
     work: impl FnOnce() -> Result<T, String> + Send,

@@ -5,7 +5,6 @@ use actin_sim::{
     fitted_laws,
 };
 
-/// Resolution of a filament.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Resolution {
     Rod,
@@ -15,7 +14,6 @@ pub(super) enum Resolution {
 }
 
 impl Resolution {
-    /// Name in tables, legends and quantities.
     pub(super) fn name(self) -> String {
         match self {
             Self::Rod => "rod".into(),
@@ -46,11 +44,9 @@ pub(super) fn monomers(from_nm: f64, to_nm: f64) -> Section {
     }
 }
 
-/// Rod law.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Rods {
     Constant,
-    /// Law fitted to filaments of monomers.
     Fitted,
     /// `Fitted` with constant shearing rigidity.
     FittedWithoutShear,
@@ -175,7 +171,6 @@ impl Model {
     }
 }
 
-/// Ratio of the bending rigidities of the preceding paper and of Table 4.
 pub(super) fn stiffness_ratio() -> f64 {
     let bend = |material: Material| material.rigidities().bend.x;
     bend(Material::PrecedingPaper) / bend(Material::Table4)

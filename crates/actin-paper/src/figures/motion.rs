@@ -12,7 +12,6 @@ pub(super) struct RingDown {
     pub decay_per_ns: f64,
 }
 
-/// Maximum number of extrema.
 const MOST_EXTREMA: usize = 8;
 
 /// Frequency and decay rate from the extrema of `approach` (time, value) about the equilibrium `end`.

@@ -27,7 +27,6 @@ pub(super) fn write(artefacts: &[Artefact], out: &Path) -> Result<usize, String>
     Ok(pictures.len())
 }
 
-/// Writes one picture as PDF and as PNG.
 fn print(browser: &Path, path: &Path) -> Result<(), String> {
     let at = |error: &dyn std::fmt::Display| format!("{}: {error}", path.display());
     let svg = fs::read_to_string(path).map_err(|e| at(&e))?;
@@ -56,7 +55,6 @@ fn print(browser: &Path, path: &Path) -> Result<(), String> {
     run(browser, &to_png, &page, &png)
 }
 
-/// Converts a page to `file`.
 fn run(browser: &Path, arguments: &[String], page: &Path, file: &Path) -> Result<(), String> {
     let profile = page.with_file_name("profile");
     let ended = Command::new(browser)

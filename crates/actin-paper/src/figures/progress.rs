@@ -3,14 +3,12 @@
 use indicatif::{ProgressBar, ProgressStyle};
 use std::time::Duration;
 
-/// Counter of the completed runs of an artefact, shared between threads.
 #[derive(Debug)]
 pub(super) struct Progress {
     bar: ProgressBar,
 }
 
 impl Progress {
-    /// Starts the bar of the artefact `id`.
     pub(super) fn new(id: &'static str) -> Self {
         let style = ProgressStyle::with_template("{prefix:7} {bar:32} {pos}/{len} runs, {elapsed}")
             .expect("the template of the progress bar is well formed");
@@ -19,12 +17,10 @@ impl Progress {
         Self { bar }
     }
 
-    /// Adds expected runs.
     pub(super) fn expect(&self, runs: usize) {
         self.bar.inc_length(runs as u64);
     }
 
-    /// Counts a completed run.
     pub(super) fn done(&self) {
         self.bar.inc(1);
     }

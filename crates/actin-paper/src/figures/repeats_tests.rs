@@ -35,7 +35,6 @@ fn run_in_separate_process() {
     reproduce(&options, &|line| println!("{line}")).unwrap();
 }
 
-/// Computes artefacts in a separate process.
 fn run(ids: &[&str], threads: usize) -> TempDir {
     let folder = tempfile::tempdir().unwrap();
     let output = std::process::Command::new(std::env::current_exe().unwrap())
@@ -57,7 +56,6 @@ fn run(ids: &[&str], threads: usize) -> TempDir {
     folder
 }
 
-/// Files of a run by name, without the page, which contains computing times.
 fn files(out: &Path) -> BTreeMap<String, Vec<u8>> {
     let entries = fs::read_dir(out).unwrap();
     let paths = entries.map(|entry| entry.unwrap().path());
@@ -68,7 +66,6 @@ fn files(out: &Path) -> BTreeMap<String, Vec<u8>> {
     written.filter(|(name, _)| name != "report.html").collect()
 }
 
-/// Record of an artefact without the computing time.
 fn record(out: &Path, id: &str) -> serde_json::Value {
     let path = out.join(".artefacts").join(format!("{id}.json"));
     let mut record: serde_json::Value =
@@ -90,7 +87,6 @@ fn assert_current(out: &Path) {
     );
 }
 
-/// Computes all artefacts outside [`CHEAP`].
 #[test]
 fn committed_numbers_are_reproduced() {
     let ids = EXPERIMENTS.map(|e| e.id);

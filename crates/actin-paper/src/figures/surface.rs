@@ -52,7 +52,6 @@ const CUTS: [Cut; 3] = [
 const POINTS: u32 = 60;
 const CELLS: u32 = 12;
 
-/// Draws all sections.
 pub(super) fn draw(draft: &mut Draft<'_>) -> Result<(), String> {
     let cell = mean()?;
     let law = Homogenised::mean_filament();
@@ -95,7 +94,6 @@ impl Cut {
     }
 }
 
-/// Strain vector.
 fn six(law: &Homogenised, [curvature, twist, shear, extension]: Point) -> SixVector {
     let stretch = law.form().natural_stretch(twist) + extension;
     strain([curvature, twist, shear, stretch, 0.0])

@@ -10,7 +10,6 @@ const SILENT: Tell<'static> = &|_| ();
 
 static FOLDERS: AtomicUsize = AtomicUsize::new(0);
 
-/// Temporary folder of a test.
 struct Folder(PathBuf);
 
 impl Folder {
@@ -67,7 +66,6 @@ fn options(out: &Path) -> Options {
     }
 }
 
-/// Computes or reads both artefacts. Returns the reasons of computation.
 fn reasons(options: &Options, fingerprint: &str) -> [Option<Reason>; 2] {
     let cache = Cache::new(&options.out, fingerprint.to_owned()).unwrap();
     BOTH.map(|e| artefact(&e, &cache, options, SILENT).unwrap().1)

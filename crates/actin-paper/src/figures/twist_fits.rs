@@ -10,7 +10,6 @@ const PUBLISHED: &str = "published parameters, rows of the paper to 200 deg";
 const REFITTED: &str = "published form, refitted to the same rows; not judged, because the minimum of the sum of \
     squares cannot exceed the published one";
 
-/// Fits rows of the paper and draws data, published and fitted curves.
 pub(super) fn figure9(draft: &mut Draft<'_>) -> Result<(), String> {
     let data = TwistData::from_paper(false)?;
     let fits = TwistFits::new(&data)?;
@@ -34,7 +33,6 @@ pub(super) fn figure9(draft: &mut Draft<'_>) -> Result<(), String> {
     Ok(())
 }
 
-/// Rows of the root mean squares of all fits.
 fn goodness(draft: &mut Draft<'_>, fits: &TwistFits) {
     let b3 = "pN nm^2";
     for (quantity, unit, rms, note) in [

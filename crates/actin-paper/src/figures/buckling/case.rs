@@ -10,10 +10,8 @@ use actin_sim::{Hold, Pace, Scene, Section, Setting, Stage, Task};
 const MONOMERS_NM: f64 = 290.0;
 /// Step of a path in small steps, as a fraction of a stage.
 const SMALL_STEP: f64 = 0.04;
-/// Random initial guesses in the search for other stable states.
 const STATES: usize = 16;
 
-/// Order of the motions of the ends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Order {
     TwistFirst,
@@ -30,7 +28,6 @@ pub(super) struct Start {
     pub small_steps: bool,
 }
 
-/// One filament with one path.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Case {
     pub figure: &'static Figure,
@@ -84,7 +81,6 @@ impl Start {
         all
     }
 
-    /// Name in tables.
     pub(super) fn name(self) -> String {
         let order = match self.order {
             Order::TwistFirst => "twist-first",
@@ -96,19 +92,16 @@ impl Start {
     }
 }
 
-/// Name such as `over/180` or `under/180`.
 pub(super) fn turn_name(turn_deg: i32) -> String {
     let direction = if turn_deg > 0 { "over" } else { "under" };
     format!("{direction}/{}", turn_deg.abs())
 }
 
 impl Case {
-    /// Name of turn and resolution in quantities.
     pub(super) fn path(&self) -> String {
         format!("{}/{}", turn_name(self.turn_deg), self.resolution.name())
     }
 
-    /// Name in messages.
     pub(super) fn name(&self) -> String {
         format!("{}/seed-{}/{}", self.path(), self.seed, self.start.name())
     }
@@ -130,7 +123,6 @@ impl Case {
         is_shown && is_new && self.seed == 0 && self.start == Start::DEFAULT
     }
 
-    /// Scene of the figure, modified for the case.
     pub(super) fn scene(&self) -> Result<Scene, String> {
         let mut scene = scenario(self.figure.file)?;
         scene.title = self.name();

@@ -18,7 +18,6 @@ use actin_sim::{ForceLaw, Hold, JunctionWeight};
 use case::{Case, Start};
 use solve::{Measured, Motion, Outcome};
 
-/// Length of the filament (nm).
 const LENGTH_NM: f64 = 300.0;
 /// Lengths of rod (nm) in the paper and with `--quick`. Each end has half of the rod.
 const RODS: [u32; 7] = [240, 207, 173, 140, 107, 73, 40];
@@ -74,7 +73,6 @@ const fn wall(model: Model) -> Model {
     }
 }
 
-/// Junction as printed.
 const FULL: Model = Model {
     name: "full/",
     words: "junction as printed",
@@ -130,7 +128,6 @@ static FIGURE_10: Figure = Figure {
     started: [&[360, -360], &[360]],
 };
 
-/// Figure 8: rods of constant rigidities.
 pub(super) fn figure8(draft: &mut Draft<'_>) -> Result<(), String> {
     reproduce(&Plan::new(&FIGURE_8, draft.quick), draft)
 }
@@ -206,7 +203,6 @@ impl Plan {
         self.figure.models[0]
     }
 
-    /// Case with the default start.
     fn case(&self, model: Model, resolution: Resolution, turn_deg: i32, seed: u64) -> Case {
         let is_drawn = !model.is_mean && resolution != Resolution::Rod;
         Case {
@@ -219,7 +215,6 @@ impl Plan {
         }
     }
 
-    /// Turns of a model (deg).
     fn turns_of(&self, model: Model) -> impl Iterator<Item = i32> {
         let most = if model == AS_PRINTED {
             FEW_STATES_DEG
@@ -246,7 +241,6 @@ impl Plan {
         turns.iter().map(case).collect()
     }
 
-    /// All cases without duplicates.
     fn cases(&self) -> Vec<Case> {
         let mut all = Vec::new();
         for &model in &self.models {
@@ -278,7 +272,6 @@ impl Plan {
 struct Results {
     outcomes: Vec<Outcome>,
     motions: Vec<Motion>,
-    /// Messages of failed cases.
     failures: Vec<String>,
 }
 

@@ -65,14 +65,12 @@ fn in_words(turn: i32) -> String {
     format!("{} deg of {direction}", turn.abs())
 }
 
-/// Outcomes in the pictures of a turn, from monomers to rod.
 fn drawn<'a>(plan: &Plan, results: &'a Results, turn: i32) -> Vec<&'a Outcome> {
     let cases = plan.resolutions.iter().rev();
     let outcomes = cases.filter_map(|&r| results.of(plan.case(plan.shown(), r, turn, 0)));
     outcomes.collect()
 }
 
-/// Filaments in the pictures of a turn, each in its plane of buckling.
 fn filaments(plan: &Plan, results: &Results, turn: i32) -> Vec<Filament> {
     let filament = |o: &Outcome, name: String, colour| Filament {
         name,
@@ -92,7 +90,6 @@ fn filaments(plan: &Plan, results: &Results, turn: i32) -> Vec<Filament> {
     drawn.chain(mean).collect()
 }
 
-/// Draws all projections of the centre lines at one turn.
 fn lines(plan: &Plan, draft: &mut Draft<'_>, results: &Results, turn: i32) -> Result<(), String> {
     let filaments = filaments(plan, results, turn);
     let file = format!("{}_{}", plan.figure.id, turn_name(turn).replace('/', "_"));
@@ -121,7 +118,6 @@ fn lines(plan: &Plan, draft: &mut Draft<'_>, results: &Results, turn: i32) -> Re
     Ok(())
 }
 
-/// Colour of a model in charts against the length of rod.
 fn colour(model: Model) -> Colour {
     match model.name {
         "" => palette::line(3),
@@ -133,7 +129,6 @@ fn colour(model: Model) -> Colour {
     }
 }
 
-/// Draws an observable of all models against the length of rod at one turn.
 fn against_resolution(
     plan: &Plan,
     draft: &mut Draft<'_>,
@@ -181,7 +176,6 @@ fn against_resolution(
     )
 }
 
-/// Writes the states for the viewer.
 fn view(plan: &Plan, draft: &mut Draft<'_>, results: &Results) -> Result<(), String> {
     let mut shown = Vec::new();
     for &turn in plan.figure.turns {

@@ -9,12 +9,10 @@ use crate::figures::expected::Bound;
 use crate::figures::model::{Model, Resolution};
 use crate::statistics::{largest, sample};
 
-/// Models of the paper for the twist-dependent rod.
 const EXTENDED: [&str; 3] = ["", "coupling-energy/", "paper-balance/"];
 /// Largest turn (deg) with verdicts. Larger turns have many equilibria.
 const JUDGED_DEG: i32 = 270;
 
-/// Rows of values and spreads of all models.
 pub(super) fn rows(plan: &Plan, draft: &mut Draft<'_>, results: &Results) {
     for &model in &plan.models {
         for turn in plan.turns_of(model) {
@@ -93,7 +91,6 @@ fn values(
     draft.row(quantity, unit, all.range() * scale, note);
 }
 
-/// Description of method and stability.
 fn found_by(outcomes: &[&Outcome]) -> String {
     if let [only] = outcomes
         && !only.is_solved()
@@ -136,7 +133,6 @@ fn improvements(plan: &Plan, draft: &mut Draft<'_>) {
     }
 }
 
-/// Rows on White's formula, stability and residuals of motions.
 fn checks(draft: &mut Draft<'_>, results: &Results) {
     let outcomes = &results.outcomes;
     let note = format!(
@@ -238,12 +234,10 @@ const COLUMNS: [Column<Outcome>; 23] = [
     ("force_evaluations", |o| o.force_evaluations.to_string()),
 ];
 
-/// Count in a table; empty for `None`.
 fn text(count: Option<impl ToString>) -> String {
     count.map_or(String::new(), |n| n.to_string())
 }
 
-/// Writes `figN.csv` and `figN_centre_lines.csv`.
 pub(super) fn tables(draft: &Draft<'_>, results: &Results) -> Result<(), String> {
     let id = draft.id;
     draft.table(&format!("{id}.csv"), &results.outcomes, &COLUMNS)?;
@@ -264,7 +258,6 @@ pub(super) fn tables(draft: &Draft<'_>, results: &Results) -> Result<(), String>
     draft.curves(&format!("{id}_centre_lines.csv"), &header, lines)
 }
 
-/// Name of a model in tables.
 fn variant(case: &Case) -> String {
     match case.model.name {
         "" => "shown".into(),

@@ -15,7 +15,6 @@ use actin_view::Pose;
 /// it.
 pub(super) const STOP: f64 = 1e-3;
 
-/// State of a case with its properties.
 #[derive(Clone, Debug)]
 pub(super) struct Outcome {
     pub case: Case,
@@ -35,7 +34,6 @@ pub(super) struct Outcome {
     pub pose: Pose,
 }
 
-/// Stable states found from random initial guesses.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Others {
     /// Number of states, including the outcome.
@@ -46,7 +44,6 @@ pub(super) struct Others {
     pub above_lowest_pn_nm: f64,
 }
 
-/// Observables of a state.
 #[derive(Clone, Debug)]
 pub(super) struct Measured {
     /// Largest distance of the centre line from the axis (nm).
@@ -83,18 +80,15 @@ impl Measured {
 }
 
 impl Outcome {
-    /// True for equilibria of Newton's method.
     pub(super) fn is_solved(&self) -> bool {
         self.doubtful.is_some()
     }
 
-    /// True for certified minima of the energy.
     pub(super) fn is_stable(&self) -> bool {
         self.doubtful == Some([0, 0])
     }
 }
 
-/// Computes the equilibrium of `case` along its path, or the rest state of loads without an energy.
 pub(super) fn outcome(case: &Case) -> Result<Outcome, String> {
     let found = match case.model.balance {
         ForceLaw::EnergyGradient => case.scene().and_then(|scene| Solved::new(&scene)),
@@ -105,7 +99,6 @@ pub(super) fn outcome(case: &Case) -> Result<Outcome, String> {
         .map_err(|e| in_words(case, &e))
 }
 
-/// Computes the damped motion along the path, then the equilibrium from its end.
 pub(super) fn motion(case: &Case) -> Result<Motion, String> {
     moved(case).map_err(|e| in_words(case, &format!("dynamics: {e}")))
 }

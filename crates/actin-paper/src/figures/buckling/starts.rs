@@ -10,7 +10,6 @@ use crate::statistics::largest;
 /// symmetry-breaking force, 1e-3 pN over 40 nm.
 const SAME: (f64, f64, f64) = (0.1, 0.03, 0.3);
 
-/// Rows on starts and orders for seed 0.
 pub(super) fn rows(plan: &Plan, draft: &mut Draft<'_>, results: &Results) {
     for &turn in plan.figure.turns {
         order_differences(plan, draft, results, turn);
@@ -25,7 +24,6 @@ pub(super) fn rows(plan: &Plan, draft: &mut Draft<'_>, results: &Results) {
     }
 }
 
-/// Rows of the largest differences between both orders over the resolutions.
 fn order_differences(plan: &Plan, draft: &mut Draft<'_>, results: &Results, turn: i32) {
     let cases = plan
         .resolutions
@@ -61,7 +59,6 @@ fn order_differences(plan: &Plan, draft: &mut Draft<'_>, results: &Results, turn
     }
 }
 
-/// Row of the number of distinct equilibria of a filament.
 fn distinct_row(plan: &Plan, draft: &mut Draft<'_>, results: &Results, case: Case) {
     let starts = plan.starts_at(case.turn_deg).into_iter();
     let outcomes = starts.filter_map(|start| results.of(Case { start, ..case }));
@@ -97,7 +94,6 @@ fn distinct_row(plan: &Plan, draft: &mut Draft<'_>, results: &Results, case: Cas
     );
 }
 
-/// Row of the energy of the shown state relative to the lowest state from random initial guesses.
 fn lowest_row(draft: &mut Draft<'_>, results: &Results, case: Case) {
     let Some(others) = results.of(case).and_then(|o| o.states) else {
         return;
@@ -125,7 +121,6 @@ fn distinct<'a>(outcomes: &[&'a Outcome]) -> Vec<Vec<&'a Outcome>> {
     kinds
 }
 
-/// True if two outcomes are the same equilibrium.
 pub(super) fn is_same(a: &Outcome, b: &Outcome) -> bool {
     let (a, b) = (&a.measured, &b.measured);
     (a.energy_pn_nm - b.energy_pn_nm).abs() < SAME.0

@@ -29,7 +29,6 @@ const SIDES: [Side; 2] = [
     },
 ];
 
-/// Outcomes in the pictures of a model, from monomers to rod.
 fn drawn(outcomes: &[Outcome], is_chosen: impl Fn(&Case) -> bool) -> Vec<&Outcome> {
     let chosen = outcomes
         .iter()
@@ -75,7 +74,6 @@ pub(super) fn panels(draft: &mut Draft<'_>, outcomes: &[Outcome]) -> Result<(), 
     Ok(())
 }
 
-/// Draws side view and end view of the filaments of one model.
 fn views(
     draft: &mut Draft<'_>,
     file: &str,
@@ -107,7 +105,6 @@ impl Outcome {
     }
 }
 
-/// Quantity drawn against the length of rod.
 type Value = fn(&Outcome) -> f64;
 
 /// Curve of a model against the length of rod, without points if the model was not computed.
@@ -125,7 +122,6 @@ fn curve(outcomes: &[Outcome], model: Model, colour: Colour, value: Value) -> Cu
     }
 }
 
-/// Draws tips and elastic energies of equilibria under 2 pN against the length of rod.
 pub(super) fn against_resolution(
     draft: &mut Draft<'_>,
     outcomes: &[Outcome],
@@ -161,7 +157,6 @@ pub(super) fn against_resolution(
     Ok(())
 }
 
-/// Writes the states for the viewer.
 pub(super) fn view(draft: &mut Draft<'_>, outcomes: &[Outcome]) -> Result<(), String> {
     let shown = drawn(outcomes, |_| true).into_iter().map(|o| {
         let share = o.case.rod_nm() / LENGTH_NM;

@@ -13,16 +13,13 @@ use crate::run::scenario;
 use actin_sim::{JunctionWeight, Scene, Section};
 use solve::Outcome;
 
-/// Samplings of the bonds, by default and with `--quick`.
 const SEEDS: u64 = 8;
 const QUICK_SEEDS: u64 = 2;
 
 #[derive(Debug)]
 struct Figure {
     id: &'static str,
-    /// Name in titles.
     name: &'static str,
-    /// Scene file in `scenarios`.
     file: &'static str,
     length_nm: f64,
     /// Lengths of the rod in the middle (nm), by default and with `--quick`.
@@ -59,7 +56,6 @@ const FITTED: Model = Model {
     rods: Rods::Fitted,
     ..STANDARD
 };
-/// Junction as printed: each bond has the full rigidity of the rod.
 const FULL: Model = Model {
     name: "/full",
     words: "junction full",
@@ -107,7 +103,6 @@ struct Case {
     seed: u64,
 }
 
-/// Figure 5: linkers in one plane.
 pub(super) fn figure5(draft: &mut Draft<'_>) -> Result<(), String> {
     let outcomes = solve_all(&FIGURE_5, draft, !draft.quick)?;
     draw(&FIGURE_5, draft, &outcomes)
@@ -156,7 +151,6 @@ fn cases(figure: &'static Figure, quick: bool) -> Vec<Case> {
     for model in MODELS {
         for seed in 0..model.seeds(seeds) {
             let mixed = rods.iter().map(|&rod| Resolution::Mixed(rod));
-            // Rods have no bonds.
             let rod = (seed == 0).then_some(Resolution::Rod);
             let resolutions = mixed.chain(rod).chain([Resolution::Ellipsoids]);
             let own = resolutions.filter(|&r| model.solved_as(&MODELS, r) == model);
@@ -182,12 +176,10 @@ impl Case {
         self.model == MEAN && self.resolution == Resolution::Ellipsoids
     }
 
-    /// Length of the rod (nm).
     fn rod_nm(&self) -> f64 {
         self.resolution.rod_nm(self.figure.length_nm)
     }
 
-    /// Scene of the figure, modified for the case.
     fn scene(&self) -> Result<Scene, String> {
         let mut scene = scenario(self.figure.file)?;
         scene.filament.sections = self.sections().into();

@@ -11,11 +11,8 @@ use actin_view::Attitude;
 
 /// Largest energy in the picture, relative to the highest limit.
 const DRAWN_TO: f64 = 2.0;
-/// Duration in the picture (ns).
 const DRAWN_NS: f64 = 60.0;
-/// Number of dots of a limit over this duration.
 const LIMIT_DOTS: usize = 60;
-/// Half width of the cross at an anchor (nm).
 const CROSS_NM: f64 = 0.8;
 const GREY: Colour = Colour([70, 70, 70]);
 const IN_BLACK: &str = "Dashed: the mean filament (monomers with quadrature bonds).";
@@ -78,7 +75,6 @@ pub(super) fn draw(
     against_resolution(figure, draft, outcomes)
 }
 
-/// Writes the equilibria for the viewer.
 fn view(figure: &Figure, draft: &mut Draft<'_>, chosen: &[&Outcome]) -> Result<(), String> {
     let shown = chosen.iter().map(|o| {
         let share = o.case.rod_nm() / figure.length_nm;
@@ -121,7 +117,6 @@ fn crosses(anchors: &[[f64; 3]], side: &Side) -> Vec<Series> {
     series
 }
 
-/// Draws energies against time, with dotted lines for the limits.
 fn energies(figure: &Figure, draft: &mut Draft<'_>, chosen: &[&Outcome]) -> Result<(), String> {
     let moved = chosen.iter().filter_map(|o| Some((*o, o.motion.as_ref()?)));
     let moved: Vec<(&Outcome, &Motion)> = moved.collect();
@@ -157,7 +152,6 @@ fn energies(figure: &Figure, draft: &mut Draft<'_>, chosen: &[&Outcome]) -> Resu
     )
 }
 
-/// Draws the energy of the equilibrium against the length of rod for every model.
 fn against_resolution(
     figure: &Figure,
     draft: &mut Draft<'_>,

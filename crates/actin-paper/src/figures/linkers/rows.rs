@@ -8,10 +8,8 @@ use crate::figures::model::Model;
 use crate::figures::motion::energy_decays;
 use crate::statistics::{Sample, largest, sample};
 
-/// Spreads over the resolutions of one filament.
 #[derive(Debug)]
 struct Spread {
-    /// Energies (pN nm).
     energy: Sample,
     /// Largest distance between two centre lines at equal arc length (nm), and description of its location.
     node: f64,
@@ -20,7 +18,6 @@ struct Spread {
     force: f64,
 }
 
-/// Property of a spread.
 type Pick = fn(&Spread) -> f64;
 
 impl Spread {
@@ -44,7 +41,6 @@ impl Spread {
         }
     }
 
-    /// Spreads of all samplings of the bonds.
     fn over_seeds(outcomes: &[Outcome], model: Model) -> Vec<Self> {
         let seeds = 0..model.seeds(seeds(outcomes));
         seeds
@@ -75,7 +71,6 @@ fn seeds(outcomes: &[Outcome]) -> u64 {
     outcomes.iter().map(|o| o.case.seed + 1).max().unwrap_or(0)
 }
 
-/// Rows of both figures.
 pub(super) fn rows(draft: &mut Draft<'_>, outcomes: &[Outcome]) {
     for model in MODELS {
         spreads(draft, outcomes, model);
@@ -99,7 +94,6 @@ pub(super) fn rows(draft: &mut Draft<'_>, outcomes: &[Outcome]) {
     motions(draft, outcomes);
 }
 
-/// Rows of the spreads of one model: first sampling, and mean over samplings.
 fn spreads(draft: &mut Draft<'_>, outcomes: &[Outcome], model: Model) {
     let all = Spread::over_seeds(outcomes, model);
     let (first, words) = (&all[0], model.words);
@@ -155,7 +149,6 @@ fn with_pure(draft: &mut Draft<'_>, outcomes: &[Outcome]) {
     draft.row("roll/most", "deg", rolls.high, note);
 }
 
-/// Rows on stability and on filaments with several equilibria.
 fn evidence(draft: &mut Draft<'_>, outcomes: &[Outcome]) {
     let of = format!("of {} filaments", outcomes.len());
     let unstable = outcomes.iter().filter(|o| !o.lowest.is_stable).count();
@@ -181,7 +174,6 @@ fn moved(outcomes: &[Outcome]) -> impl Iterator<Item = (&Outcome, &Motion)> {
         .filter_map(|o| Some((o, o.motion.as_ref()?)))
 }
 
-/// Rows on damped dynamics compared with Newton's method.
 fn motions(draft: &mut Draft<'_>, outcomes: &[Outcome]) {
     let count = moved(outcomes).count();
     if count == 0 {
@@ -293,12 +285,10 @@ const COLUMNS: [Column<Outcome>; 13] = [
     }),
 ];
 
-/// Cell of an outcome with a motion; empty otherwise.
 fn of_motion(outcome: &Outcome, cell: fn(&Motion) -> String) -> String {
     outcome.motion.as_ref().map_or(String::new(), cell)
 }
 
-/// Writes the tables of rows and pictures.
 pub(super) fn tables(draft: &Draft<'_>, outcomes: &[Outcome]) -> Result<(), String> {
     let file = |name: &str| format!("{}{name}.csv", draft.id);
     draft.table(&file(""), outcomes, &COLUMNS)?;

@@ -11,7 +11,6 @@ const STARTS_DEG: [f64; 4] = [0.0, 90.0, 180.0, 270.0];
 /// Tolerance of the energies of equal equilibria (pN nm). The effect of a residual of 1e-7 is much smaller.
 pub(super) const SAME_PN_NM: f64 = 1e-3;
 
-/// Equilibrium.
 #[derive(Clone, Debug)]
 pub(super) struct Balance {
     /// Energy of filament and linkers (pN nm).
@@ -33,7 +32,6 @@ pub(super) struct Balance {
     pub roll: f64,
 }
 
-/// Damped motion to rest.
 #[derive(Clone, Debug)]
 pub(super) struct Motion {
     /// Time (ns), and energy of filament and linkers (pN nm) with and without kinetic energy.
@@ -58,7 +56,6 @@ pub(super) struct Outcome {
 }
 
 impl Outcome {
-    /// Solves the case, with its motion if `moving`.
     pub(super) fn of(case: &Case, moving: bool) -> Result<Self, String> {
         let scene = case.scene()?;
         let starts = STARTS_DEG.iter();
@@ -88,14 +85,11 @@ impl Outcome {
     }
 }
 
-/// Initial guess of an equilibrium.
 enum Start<'a> {
-    /// Built filament, rotated about its axis (deg).
     Turned(f64),
     State(&'a State),
 }
 
-/// Computes the equilibrium from an initial guess.
 fn balance(scene: &Scene, start: &Start<'_>) -> Result<Balance, String> {
     let mut scene = scene.clone();
     scene.task = Task::Equilibrium(Equilibrium {
@@ -133,7 +127,6 @@ fn describe(solved: &Solved) -> Balance {
     }
 }
 
-/// Computes the damped motion from the built state, and the equilibrium at its end.
 fn motion(scene: &Scene) -> Result<Motion, String> {
     let moved = Solved::new(scene).map_err(|error| format!("dynamics: {error}"))?;
     let limit = balance(scene, &Start::State(moved.state()))?;

@@ -11,10 +11,8 @@ use std::fs;
 use std::path::Path;
 
 const PROBE: &str = include_str!("probe.js");
-/// Tested page widths (pixels): phone and laptop.
 const WIDTHS: [u32; 2] = [360, 1280];
 
-/// Results of the probe for `page` at each width.
 fn probed(browser: &Path, page: &str, mode: Mode, folder: &Path) -> Vec<Value> {
     chromium::probed(browser, (page, PROBE), &WIDTHS, mode, folder)
 }
@@ -23,7 +21,6 @@ fn probed(browser: &Path, page: &str, mode: Mode, folder: &Path) -> Vec<Value> {
 const KINDS: [&str; 8] = [
     "fig1", "fig4", "fig6", "fig7", "fig8", "fig9", "table1", "table3",
 ];
-/// Number of their views: one per figure except Figure 9.
 const VIEWS: usize = 5;
 
 #[test]
@@ -90,7 +87,6 @@ fn assert_legible(picture: &Value, mode: Mode) {
     }
 }
 
-/// Sum of the colour components, at most 765.
 fn brightness(colour: &Value) -> i64 {
     let components = colour.as_array().unwrap().iter();
     components.take(3).map(|c| c.as_i64().unwrap()).sum()
@@ -113,7 +109,6 @@ fn assert_is_alive(view: &Value, width: u32) {
     assert!(count(&view["legend"]) >= 2);
 }
 
-/// Checks the probe on a page with known errors.
 #[test]
 fn probe_finds_errors() {
     let page = "<!doctype html><html><head></head><body><img src=\"missing.png\">\

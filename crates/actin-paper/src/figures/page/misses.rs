@@ -4,11 +4,9 @@ use super::texts::{Reason, TEXTS};
 use actin_draw::page::{Explained, Misses};
 use actin_draw::report::Row;
 
-/// Note on misses without a reason.
 const OPEN: &str = "The reason of the following misses is unknown. A quick run misses more than a full run, because \
                     it has fewer samplings and resolutions.";
 
-/// Groups misses by reason.
 pub(super) fn of<'a>(rows: impl Iterator<Item = &'a Row>) -> Misses<'a> {
     let missed: Vec<&Row> = rows.filter(|row| row.pass == Some(false)).collect();
     let chosen = |is_chosen: &dyn Fn(&Row) -> bool| {

@@ -17,7 +17,6 @@ use std::path::Path;
 
 const TITLE: &str = "Actin at two resolutions: reproduction of the figures and tables of the paper";
 
-/// Writes the page with all pictures and data embedded.
 pub(super) fn write(artefacts: &[Artefact], out: &Path, quick: bool) -> Result<(), String> {
     let version = version();
     let mut page = Page::new(TITLE, &version);
@@ -50,7 +49,6 @@ fn version() -> String {
     )
 }
 
-/// Text of `docs/errata.md`.
 fn errata() -> Result<String, String> {
     let path = workspace_root().join("docs/errata.md");
     fs::read_to_string(&path).map_err(|e| format!("{}: {e}", path.display()))

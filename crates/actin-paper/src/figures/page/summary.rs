@@ -11,7 +11,6 @@ fn all(artefacts: &[Artefact]) -> Verdicts {
     artefacts.iter().map(|a| Verdicts::of(&a.rows)).sum()
 }
 
-/// Title, source and score.
 pub(super) fn head(artefacts: &[Artefact], quick: bool, version: &str) -> Markup {
     let all = all(artefacts);
     html! {
@@ -33,7 +32,6 @@ pub(super) fn head(artefacts: &[Artefact], quick: bool, version: &str) -> Markup
     }
 }
 
-/// Findings, counts and choices.
 pub(super) fn words(artefacts: &[Artefact]) -> Markup {
     html! {
         (findings(artefacts))
@@ -42,14 +40,12 @@ pub(super) fn words(artefacts: &[Artefact]) -> Markup {
     }
 }
 
-/// Guide to the page.
 pub(super) fn how_to_read(page: &mut Page<'_>) -> Markup {
     let stops = palette::chosen().ramp().stops().iter();
     let stops: Vec<String> = stops.map(|&stop| page.colour(stop)).collect();
     reading(&stops)
 }
 
-/// Lead of the table of verdicts.
 pub(super) fn verdicts(artefacts: &[Artefact]) -> Markup {
     html! {
         (score(artefacts))
@@ -117,7 +113,6 @@ impl Finding {
     }
 }
 
-/// Summary of the computed artefacts.
 fn findings(artefacts: &[Artefact]) -> Markup {
     let sentences = sentences(artefacts);
     html! {
@@ -127,7 +122,6 @@ fn findings(artefacts: &[Artefact]) -> Markup {
     }
 }
 
-/// Title, class and text of each sentence.
 fn sentences(artefacts: &[Artefact]) -> [(&'static str, &'static str, String); 3] {
     let verdicts = TEXTS.findings.iter().map(|f| (f, f.verdict(artefacts)));
     let of = |wanted: bool| {
@@ -166,7 +160,6 @@ fn causes(missed: &[&Row]) -> String {
     }
 }
 
-/// Origins of expected numbers with titles.
 const GROUPS: [(Origin, &str); 6] = [
     (Origin::Paper, "Printed numbers compared with simulations"),
     (

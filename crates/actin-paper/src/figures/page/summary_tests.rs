@@ -4,7 +4,6 @@ use super::*;
 use crate::workspace_root;
 use actin_draw::report;
 
-/// Artefacts of the committed report with their rows.
 fn committed() -> Vec<Artefact> {
     let rows = report::read(&workspace_root().join("docs/report.json")).unwrap();
     let mut artefacts: Vec<Artefact> = Vec::new();
@@ -25,7 +24,6 @@ fn committed() -> Vec<Artefact> {
     artefacts
 }
 
-/// A full run decides every finding, and a changed verdict moves its statement.
 #[test]
 fn statements_follow_the_verdicts() {
     let mut artefacts = committed();

@@ -30,20 +30,16 @@ pub(super) struct Finding {
     pub refuted: Option<String>,
 }
 
-/// Cause of a miss.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
 pub(super) enum Cause {
-    /// The paper contradicts itself.
     Paper,
     /// The paper shows one set of random bonds.
     Bonds,
-    /// The models contradict the paper.
     Models,
     /// The bound is not from the paper.
     Elsewhere,
 }
 
-/// Common reason of misses.
 #[derive(Debug, Deserialize)]
 pub(super) struct Reason {
     pub artefact: String,
@@ -61,7 +57,6 @@ pub(super) static TEXTS: LazyLock<Texts> = LazyLock::new(|| {
 });
 
 impl Finding {
-    /// Confirmed or refuted statement.
     pub(super) fn in_words(&self, is_confirmed: bool) -> String {
         if is_confirmed {
             return self.confirmed.clone();
@@ -73,7 +68,6 @@ impl Finding {
 impl Cause {
     pub(super) const ALL: [Self; 4] = [Self::Paper, Self::Bonds, Self::Models, Self::Elsewhere];
 
-    /// Description of the number of misses with this cause.
     pub(super) fn in_words(self, count: usize) -> String {
         let s = if count == 1 { "s" } else { "" };
         match self {
@@ -97,7 +91,6 @@ impl Reason {
         row.artefact == self.artefact && self.quantities.iter().any(names)
     }
 
-    /// Reason of the miss of a row.
     pub(super) fn of(row: &Row) -> Option<&'static Self> {
         TEXTS.reasons.iter().find(|reason| reason.covers(row))
     }

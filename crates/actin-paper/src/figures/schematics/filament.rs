@@ -6,12 +6,10 @@ use actin_mechanics::{Matrix3, State, Vector3, rotation};
 use actin_sim::{Assembly, BodyKind, End, Setting};
 use actin_view::bodies;
 
-/// Straight segments of an arc.
 const PIECES: u32 = 24;
 /// Distance of arrows and arcs from the clamped point (nm).
 const CLEAR_NM: f64 = 3.0;
 
-/// Filaments of an assembly in a state.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Drawn<'a> {
     pub assembly: &'a Assembly,
@@ -20,7 +18,6 @@ pub(super) struct Drawn<'a> {
     pub range_nm: [f64; 2],
 }
 
-/// Solids of the bonds between monomers.
 #[derive(Debug, Default)]
 pub(super) struct BondItems {
     pub items: Vec<Item>,
@@ -42,7 +39,6 @@ impl<'a> Drawn<'a> {
         (self.range_nm[0]..=self.range_nm[1]).contains(&s_nm)
     }
 
-    /// Position of a point (nm, lab frame).
     pub(super) fn place(&self, point: usize) -> Vector3 {
         self.state.points.position.get(point)
     }
@@ -52,7 +48,6 @@ impl<'a> Drawn<'a> {
         orientation.to_rotation_matrix().into_inner()
     }
 
-    /// Drawn points of a kind.
     pub(super) fn points(&self, kind: BodyKind) -> Vec<usize> {
         let points = self.assembly.points.iter().enumerate();
         let shown = points.filter(|(_, info)| info.kind == kind && self.shows(info.s_nm));
@@ -132,7 +127,6 @@ impl<'a> Drawn<'a> {
             .collect()
     }
 
-    /// Frames of segments at their middles.
     pub(super) fn segment_frames(&self, length_nm: f64) -> Vec<Item> {
         let mut items = Vec::new();
         for section in self.assembly.sections.iter().filter(|s| !s.is_ellipsoids()) {
@@ -150,7 +144,6 @@ impl<'a> Drawn<'a> {
         items
     }
 
-    /// Axes of a frame at a position.
     pub(super) fn frame(&self, frame: usize, at: Vector3, length_nm: f64) -> Vec<Item> {
         let axes = self.matrix(frame);
         let axis = |k: usize| {
@@ -161,7 +154,6 @@ impl<'a> Drawn<'a> {
         [0, 1, 2].map(axis).into()
     }
 
-    /// Bonds of all junctions.
     pub(super) fn junction_bonds(&self, width: f64) -> Vec<Item> {
         let bonds = self.assembly.junction_bonds().into_iter();
         let edge = Stroke::solid(style::of(|t| t.junction).darker(0.55), width + 2.0);
@@ -178,7 +170,6 @@ impl<'a> Drawn<'a> {
             .collect()
     }
 
-    /// Walls at clamped ends.
     pub(super) fn walls(&self, half_nm: f64) -> Vec<Item> {
         let plates = bodies::plates(self.assembly, self.state, half_nm).into_iter();
         plates
@@ -261,7 +252,6 @@ impl<'a> Drawn<'a> {
             .collect()
     }
 
-    /// Linkers with their sites and anchors.
     pub(super) fn linkers(&self) -> Vec<Item> {
         let linkers = self.assembly.linkers.iter().enumerate();
         linkers
@@ -316,7 +306,6 @@ mod tests {
         assert_eq!(drawn.segments().len(), counts.segments);
         assert!(drawn.segments().iter().all(|[a, b]| (b - a).norm() < 11.0));
         assert_eq!(drawn.bonds(1.0).items.len(), counts.bonds);
-        // Each linker has a line and two dots.
         assert_eq!(drawn.linkers().len(), 3 * assembly.linkers.len());
         assert!(bodies::anchors(&assembly, assembly.system.state()).is_empty());
         for (plate, axis_x) in bodies::plates(&assembly, drawn.state, 6.0)

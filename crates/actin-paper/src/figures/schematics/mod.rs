@@ -66,7 +66,6 @@ pub(super) fn figure1(draft: &mut Draft<'_>) -> Result<(), String> {
 const HELIX: &str = "of the helix through the centres of the bent filament, from root mean square distances to the \
     next two monomers; at rest 1.8 and 2.7385";
 
-/// Close-up of the bonds of a few monomers.
 fn bonds_of(drawn: &Drawn<'_>) -> Panel {
     Panel {
         title: "(d) bonds of (a)".into(),
@@ -82,7 +81,6 @@ fn bonds_of(drawn: &Drawn<'_>) -> Panel {
     }
 }
 
-/// Rows of the numbers of lines in panels (a) and (d).
 fn bond_counts(draft: &mut Draft<'_>, drawn: [&Drawn<'_>; 2]) {
     for (drawn, panel) in drawn.into_iter().zip(["a", "d"]) {
         for (kind, count) in ["lateral", "longitudinal"]
@@ -100,7 +98,6 @@ fn bond_counts(draft: &mut Draft<'_>, drawn: [&Drawn<'_>; 2]) {
     }
 }
 
-/// Panel of an upright filament.
 fn standing(solved: &Solved, title: &str, left: f64) -> Panel {
     let drawn = Drawn::whole(&solved.assembly);
     let nm_per_pn = 0.9;
@@ -127,7 +124,6 @@ fn standing(solved: &Solved, title: &str, left: f64) -> Panel {
     }
 }
 
-/// Labels of the magnitudes of forces.
 fn forces(drawn: &Drawn<'_>, nm_per_pn: f64, offset: [f64; 2]) -> Vec<Label> {
     let forces = bodies::forces(drawn.assembly, drawn.state).into_iter();
     let labels = forces.map(|(at, force)| Label {
@@ -415,7 +411,6 @@ fn example_rows(draft: &mut Draft<'_>, solved: &[Solved]) -> Result<(), String> 
     Ok(())
 }
 
-/// Solves scenes for their equilibria.
 fn solve(draft: &Draft<'_>, names: &[&str]) -> Result<Vec<Solved>, String> {
     let solved = draft.solve(names, |name| {
         let scene = scenario(&format!("{name}.ron"))?;
@@ -431,7 +426,6 @@ fn file_name(name: &str) -> &str {
 /// Size (pixels), panels and legend of a picture.
 type Drawing<'a> = ([f64; 2], Vec<Panel>, &'a [Vec<(Key, String)>]);
 
-/// Writes the picture, rows of counts, and states for the viewer.
 fn finish(
     draft: &mut Draft<'_>,
     (names, solved): (&[&str], &[Solved]),

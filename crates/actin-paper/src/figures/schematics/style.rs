@@ -10,27 +10,22 @@ pub(super) const ON_SURFACE_NM: f64 = 0.5;
 /// Depth offset of items inside a translucent body (nm).
 pub(super) const INSIDE_NM: f64 = 8.0;
 
-/// Colour of a kind of body in the palette of this run.
 pub(super) fn of(thing: fn(&Things) -> [u8; 3]) -> Colour {
     Colour(thing(palette::chosen().things()))
 }
 
-/// Colour of lateral (0) or longitudinal (1) bonds.
 pub(super) fn bond(kind: usize) -> Colour {
     Colour(palette::chosen().things().bonds[kind])
 }
 
-/// Colour of axis `k` of a frame.
 pub(super) fn axis(k: usize) -> Colour {
     Colour(palette::chosen().things().axes[k])
 }
 
-/// Colour of monomers.
 pub(super) fn monomer() -> Colour {
     palette::resolution(0.0)
 }
 
-/// Colour of rods.
 pub(super) fn rod() -> Colour {
     palette::resolution(1.0)
 }
@@ -49,7 +44,6 @@ fn entry(key: Key, text: &str) -> (Key, String) {
     (key, text.to_owned())
 }
 
-/// Legend of monomers and rods.
 pub(super) fn bodies() -> Vec<(Key, String)> {
     let line = Stroke::solid(rod().darker(0.3), 1.6);
     vec![
@@ -60,7 +54,6 @@ pub(super) fn bodies() -> Vec<(Key, String)> {
     ]
 }
 
-/// Legend of both kinds of bonds.
 pub(super) fn bonds() -> Vec<(Key, String)> {
     let key = |k: usize| Key::Line(Stroke::solid(bond(k), 2.5));
     vec![
@@ -69,14 +62,12 @@ pub(super) fn bonds() -> Vec<(Key, String)> {
     ]
 }
 
-/// Legend of the axes of frames.
 pub(super) fn axes() -> Vec<(Key, String)> {
     let key = |k: usize| Key::Arrow(Stroke::solid(axis(k), 2.0));
     let names = ["d1", "d2", "d3"];
     (0..3).map(|k| entry(key(k), names[k])).collect()
 }
 
-/// Legend of junction bonds.
 pub(super) fn junction() -> (Key, String) {
     entry(
         Key::Line(Stroke::solid(of(|t| t.junction), 5.0)),
@@ -84,7 +75,6 @@ pub(super) fn junction() -> (Key, String) {
     )
 }
 
-/// Legend of clamps and arrows.
 pub(super) fn holds(arrow: &str) -> Vec<(Key, String)> {
     vec![
         entry(Key::Area(of(|t| t.clamp), 0.75), "clamp"),
@@ -92,7 +82,6 @@ pub(super) fn holds(arrow: &str) -> Vec<(Key, String)> {
     ]
 }
 
-/// Legend of linkers and anchors.
 pub(super) fn linkers() -> Vec<(Key, String)> {
     let line = Stroke {
         dashed: true,

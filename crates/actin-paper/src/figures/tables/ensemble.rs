@@ -13,12 +13,9 @@ pub(super) const RISES: f64 = 27.0;
 const BONDS: [usize; 6] = [12, 20, 40, 64, 80, 160];
 /// Additional numbers of independent bonds, near those that may agree with both tables.
 const BONDS_BETWEEN: [usize; 2] = [28, 32];
-/// Bond samplings of each kind.
 const SEEDS: u64 = 16;
-/// Bond samplings of the default kind with `--quick`.
 const QUICK_SEEDS: u64 = 4;
 
-/// Pattern and number of the bonds of an interface.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Kind {
     pub anchors: Anchors,
@@ -37,10 +34,8 @@ impl Kind {
         bonds: 64,
     };
 
-    /// Kinds of every run.
     pub(super) const CORE: [Self; 2] = [Self::DEFAULT, Self::MEAN];
 
-    /// Name in quantities and legends.
     pub(super) fn name(&self) -> String {
         match self.anchors {
             Anchors::Cubature => "mean-filament".to_owned(),
@@ -58,7 +53,6 @@ impl Kind {
         }
     }
 
-    /// Twists a filament of this kind to all angles.
     fn twist(&self, seed: u64, turns: &[f64]) -> Result<Curve<TwistPoint>, MeasureError> {
         let monomers = self.monomers(seed);
         let specimen = Specimen::ellipsoids(RISES * monomers.rise_nm, monomers);
@@ -76,7 +70,6 @@ impl Kind {
     }
 }
 
-/// One filament at all angles.
 #[derive(Clone, Debug)]
 pub(super) struct Sampling {
     pub kind: Kind,
@@ -85,7 +78,6 @@ pub(super) struct Sampling {
     pub curve: Curve<TwistPoint>,
 }
 
-/// Filaments of all kinds and seeds.
 #[derive(Clone, Debug)]
 pub(super) struct Ensemble {
     pub samplings: Vec<Sampling>,
@@ -144,14 +136,12 @@ impl Ensemble {
         Ok(Self { samplings, seeds })
     }
 
-    /// Kinds of the samplings.
     pub(super) fn kinds(&self) -> Vec<Kind> {
         let mut kinds: Vec<Kind> = self.samplings.iter().map(|s| s.kind).collect();
         kinds.dedup();
         kinds
     }
 
-    /// Samplings of one kind.
     pub(super) fn of_kind(&self, kind: Kind) -> impl Iterator<Item = &Sampling> {
         self.samplings.iter().filter(move |s| s.kind == kind)
     }
@@ -163,13 +153,11 @@ impl Ensemble {
             .collect()
     }
 
-    /// Statistics of the values of a table.
     pub(super) fn sample(&self, kind: Kind, entry: &Entry, table: Table) -> Sample {
         let points = self.points(kind, entry);
         sample(points.iter().map(|(_, point)| value(point, table)))
     }
 
-    /// Doubts about the states of a kind at the given entries.
     pub(super) fn doubts(&self, kind: Kind, entries: &[Entry]) -> Doubts {
         let mut doubts = Doubts::default();
         for entry in entries {
@@ -180,7 +168,6 @@ impl Ensemble {
         doubts
     }
 
-    /// Descriptions of unreached angles.
     pub(super) fn unreached(&self) -> Vec<String> {
         let mut all = Vec::new();
         for s in &self.samplings {
@@ -221,7 +208,6 @@ impl Doubts {
     }
 }
 
-/// Value of a table.
 pub(super) fn value(point: &TwistPoint, table: Table) -> f64 {
     match table {
         Table::Rigidity => point.rigidity_pn_nm2,
@@ -244,7 +230,6 @@ fn point_at(curve: &Curve<TwistPoint>, entry: &Entry) -> Option<TwistPoint> {
     found.copied()
 }
 
-/// Kinds outside [`Kind::CORE`].
 fn other_kinds() -> Vec<Kind> {
     let kind = |anchors, bonds| Kind { anchors, bonds };
     [Anchors::Independent, Anchors::Identical]

@@ -10,7 +10,6 @@ use actin_sim::Monomers;
 const RISES: [u32; 5] = [14, 27, 28, 55, 109];
 /// Twists (rad/nm) and the corresponding printed angles (deg). The first is close to rest.
 const CURVATURES: [(f64, f64); 4] = [(1e-4, 0.0), (0.0023, 10.0), (0.0185, 80.0), (0.0416, 180.0)];
-/// Bond samplings of each length.
 const SEEDS: u64 = 8;
 
 const HEADER: [&str; 6] = [

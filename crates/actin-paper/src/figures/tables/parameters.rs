@@ -5,10 +5,8 @@ use crate::figures::draft::Draft;
 use actin_sim::{Material, Monomers, ellipsoid_constants as monomer, rod_constants as rod};
 use std::f64::consts::PI;
 
-/// Quantity, unit and value.
 type Parameter = (&'static str, &'static str, f64);
 
-/// Table 1.
 pub(in crate::figures) fn table1(draft: &mut Draft<'_>) -> Result<(), String> {
     draft.settings =
         "Defaults of the monomers of a scene compared with published numbers, and numbers derived from \
@@ -18,7 +16,6 @@ pub(in crate::figures) fn table1(draft: &mut Draft<'_>) -> Result<(), String> {
     list(draft, &[published(&monomers), derived(&monomers)].concat())
 }
 
-/// Table 2.
 pub(in crate::figures) fn table2(draft: &mut Draft<'_>) -> Result<(), String> {
     draft.settings = "The rod named PrecedingPaper in scenes, with a cross-section of 38.5 nm^2; the paper prints \
         formulas for some numbers. Only the stiff cantilever uses this rod. No random \

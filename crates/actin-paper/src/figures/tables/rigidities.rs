@@ -16,13 +16,11 @@ use std::f64::consts::PI;
 /// Axial forces (pN). S3 is compared at `PULL_PN`.
 const FORCES_PN: [f64; 6] = [-10.0, -1.0, 1.0, 10.0, PULL_PN, 500.0];
 const PULL_PN: f64 = 100.0;
-/// Prescribed strains.
 const STRAINS: [f64; 2] = [-0.001, 0.003];
 /// Curvatures (rad/nm). B at rest is measured at the first, B1 is compared at the last.
 const CURVATURES: [f64; 4] = [AT_REST, 1e-3, 3e-3, BENT];
 const AT_REST: f64 = 1e-4;
 const BENT: f64 = 1e-2;
-/// Tip forces (pN).
 const TIP_PN: [f64; 3] = [0.1, 0.5, 2.0];
 /// Tip force (pN) and length (nm) of the cantilever of the paper.
 const CANTILEVER_PN: f64 = 2.0;
@@ -31,7 +29,6 @@ const CANTILEVER_NM: f64 = 160.0;
 /// evaluated below `MOST_SHEAR_PN`.
 const SHEAR_PN: [f64; 3] = [0.01, 0.1, 1.0];
 const MOST_SHEAR_PN: f64 = 0.5;
-/// Azimuths of bending and shear (deg).
 const AZIMUTHS_DEG: [f64; 4] = [0.0, 45.0, 90.0, 135.0];
 /// Rises between the inner clamped monomers of bent filaments: 150.62 nm.
 const BENT_RISES: f64 = 55.0;
@@ -114,12 +111,10 @@ const LISTED: [(Protocol, &str, &str, &str); 8] = [
     ),
 ];
 
-/// Measured state.
 #[derive(Clone, Copy, Debug)]
 struct Reading {
     protocol: Protocol,
     seed: u64,
-    /// Azimuth of the load (deg); 0 for an axial load.
     azimuth: f64,
     /// Prescribed value; `secant` is the secant rigidity.
     at: f64,
@@ -127,17 +122,14 @@ struct Reading {
     evidence: Evidence,
 }
 
-/// Measurements of filaments.
 #[derive(Clone, Debug, Default)]
 struct Readings {
     all: Vec<Reading>,
-    /// Number of unreached loads.
     unreached: usize,
     /// Largest relative difference between the torques at both ends.
     mismatch: f64,
 }
 
-/// Table 4.
 pub(in crate::figures) fn table4(draft: &mut Draft<'_>) -> Result<(), String> {
     let drawn = measure(draft, Kind::DEFAULT)?;
     let mean = measure(draft, Kind::MEAN)?;
@@ -153,7 +145,6 @@ pub(in crate::figures) fn table4(draft: &mut Draft<'_>) -> Result<(), String> {
     draft.table("table4_mean_filament.csv", &mean.all, &COLUMNS)
 }
 
-/// Measures all filaments of a kind.
 fn measure(draft: &Draft<'_>, kind: Kind) -> Result<Readings, String> {
     let [stretched, bent] = if draft.quick { QUICK_SEEDS } else { SEEDS };
     let axial = kind.seeds(stretched).map(|seed| (seed, None));
@@ -285,7 +276,6 @@ impl Readings {
         self.all.iter().filter(move |r| r.protocol == protocol)
     }
 
-    /// Statistics over filaments and azimuths at a prescribed value.
     fn sample(&self, protocol: Protocol, at: f64) -> Sample {
         let own = self.of(protocol).filter(|r| is_at(r, at));
         sample(own.map(|r| r.secant))
@@ -434,7 +424,6 @@ fn rigidities(draft: &mut Draft<'_>, readings: &Readings, kind: Kind) -> Result<
     twisting(draft, path, kind)
 }
 
-/// Row of the standard deviation of a single filament.
 fn scatter(draft: &mut Draft<'_>, of: &str, unit: &'static str, sd: f64) {
     draft.row(
         format!("{of}/sd"),
@@ -466,7 +455,6 @@ fn twisting(draft: &mut Draft<'_>, path: &str, kind: Kind) -> Result<(), String>
     Ok(())
 }
 
-/// Rows of numbers of Appendix B derived from Table 4.
 fn derived(draft: &mut Draft<'_>) {
     let area = rod::CROSS_SECTION_AREA;
     let inertia = area.powi(2) / (4.0 * PI);

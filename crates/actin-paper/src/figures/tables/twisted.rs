@@ -14,12 +14,10 @@ use actin_draw::report::{DEVIATIONS, Origin, Row};
 use actin_draw::{Colour, Series};
 use actin_sim::Anchors;
 
-/// Angles of the root mean square difference (deg).
 const COMPARED_DEG: std::ops::RangeInclusive<f64> = 40.0..=200.0;
 /// Half the width of the cap of an error bar (rad/nm).
 const CAP: f64 = 3.5e-4;
 
-/// Table 3: twisting rigidity.
 pub(in crate::figures) fn table3(draft: &mut Draft<'_>) -> Result<(), String> {
     let twisted = Twisted::new(Table::Rigidity, draft)?;
     twisted.reproduce(draft)?;
@@ -44,7 +42,6 @@ pub(in crate::figures) fn table3(draft: &mut Draft<'_>) -> Result<(), String> {
     lengths::rows(draft)
 }
 
-/// Table 5: change of length.
 pub(in crate::figures) fn table5(draft: &mut Draft<'_>) -> Result<(), String> {
     Twisted::new(Table::LengthChange, draft)?.reproduce(draft)
 }
@@ -70,10 +67,8 @@ pub(in crate::figures) fn monomers(draft: &Draft<'_>) -> Result<[TwistData; 2], 
     ])
 }
 
-/// Table of the paper and the compared filaments.
 struct Twisted {
     table: Table,
-    /// Name of the column in quantities.
     column: &'static str,
     unit: &'static str,
     ensemble: &'static Ensemble,
@@ -172,7 +167,6 @@ impl Twisted {
         draft.compared(row);
     }
 
-    /// Row of the first filament of a kind.
     fn filament_row(&self, draft: &mut Draft<'_>, kind: Kind, folder: &str, entry: &Entry) {
         let points = self.ensemble.points(kind, entry);
         let Some((_, point)) = points.iter().find(|(seed, _)| *seed == 0) else {
@@ -431,7 +425,6 @@ impl Twisted {
         points.collect()
     }
 
-    /// Error bars of two standard deviations.
     fn bars(&self, kind: Kind, colour: Colour) -> Vec<Series> {
         let bar = |entry: &Entry| {
             let s = self.ensemble.sample(kind, entry, self.table);
@@ -449,7 +442,6 @@ impl Twisted {
     }
 }
 
-/// Kind of filament at an entry.
 struct OfKind {
     kind: Kind,
     entry: Entry,
