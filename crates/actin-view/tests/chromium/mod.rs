@@ -47,7 +47,10 @@ pub(crate) fn probed(
     let text = dumped(browser, mode, folder);
     let found = widths.iter().map(|width| {
         let begin = format!("<pre id=\"w{width}\">");
-        let place = text.find(&begin).expect("the body of the surrounding page exists") + begin.len();
+        let place = text
+            .find(&begin)
+            .expect("the body of the surrounding page exists")
+            + begin.len();
         let json = &text[place..place + text[place..].find("</pre>").unwrap()];
         serde_json::from_str(json).unwrap_or_else(|e| panic!("{width}: {e}: `{json}`"))
     });
