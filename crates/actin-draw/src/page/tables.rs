@@ -32,10 +32,7 @@ pub struct Explained<'a> {
 
 /// Returns a collapsed table of rows without a verdict; empty if there are none.
 pub(super) fn measured(rows: &[Row]) -> Markup {
-    let groups = [
-        (true, "Compared without a verdict"),
-        (false, "Measured"),
-    ];
+    let groups = [(true, "Compared without a verdict"), (false, "Measured")];
     html! {
         @for (beside, title) in groups {
             @let chosen: Vec<&Row> = rows

@@ -209,7 +209,9 @@ pub fn text(mut rows: Vec<Row>) -> Result<String, String> {
         let Row {
             artefact, quantity, ..
         } = twice;
-        return Err(format!("{artefact} {quantity} occurs twice: names of rows must be unique"));
+        return Err(format!(
+            "{artefact} {quantity} occurs twice: names of rows must be unique"
+        ));
     }
     let lines: Vec<String> = rows
         .iter()
