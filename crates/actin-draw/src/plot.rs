@@ -33,8 +33,8 @@ pub struct Chart<'a> {
 }
 
 impl Series {
-    /// Splits the line into dashes, so that lines below it are visible; `equal_axes` must be that of the chart. The
-    /// first dash has the label.
+    /// Splits the line into dashes, so that lines below it are visible. The first dash has the label. `equal_axes` must
+    /// agree with the chart.
     pub fn dashed(self, equal_axes: bool) -> Vec<Self> {
         let Self {
             mut label, colour, ..

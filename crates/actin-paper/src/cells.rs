@@ -1,26 +1,26 @@
-//! Periodic cells of monomers, and their states under given strains and loads.
+//! Periodic cells of monomers under prescribed strains and loads.
 
 use actin_sim::ellipsoid::{
     Cell, CellResponse, Control, EllipsoidModel, EllipsoidParameters, Hold, SixVector,
 };
 
-/// Monomers of a cell of the mean filament: one period of its mean structure.
+/// Number of monomers in one period of the mean filament.
 pub const PERIOD: usize = 13;
-/// Drawn bonds per interface.
+/// Sampled bonds per interface.
 const DRAWN: usize = 64;
 
-/// The cell of the mean filament, whose interfaces all have the default weighted bonds.
+/// Cell of the mean filament, with the default quadrature bonds.
 ///
 /// # Errors
-/// Parameters without a cell.
+/// The cell cannot be built.
 pub fn mean() -> Result<Cell, String> {
     of(EllipsoidParameters::default(), PERIOD, Hold::Means)
 }
 
-/// The cell of a filament whose bonds are all drawn afresh.
+/// Cell of a filament with 64 sampled bonds per interface.
 ///
 /// # Errors
-/// Parameters without a cell.
+/// The cell cannot be built.
 pub fn drawn(seed: u64, monomers: usize) -> Result<Cell, String> {
     of(
         EllipsoidParameters::drawn(DRAWN, seed),
@@ -29,24 +29,24 @@ pub fn drawn(seed: u64, monomers: usize) -> Result<Cell, String> {
     )
 }
 
-/// A cell of any parameters.
+/// Cell of `monomers` monomers with the given parameters.
 ///
 /// # Errors
-/// Parameters without a cell.
+/// The parameters are invalid or the cell cannot be built.
 pub fn of(parameters: EllipsoidParameters, monomers: usize, hold: Hold) -> Result<Cell, String> {
     let model = EllipsoidModel::new(parameters).map_err(|e| e.to_string())?;
     Cell::new(&model, monomers, hold).map_err(|e| e.to_string())
 }
 
-/// A force or couple of zero.
+/// Zero force or torque.
 pub const FREE: Control = Control::Load(0.0);
-/// A strain of zero.
+/// Zero strain.
 pub const NONE: Control = Control::Strain(0.0);
 
-/// The response under some strains and loads, from `start`, by default from rest.
+/// Equilibrium of a cell under strains and loads. The initial guess is `start`, by default the cell at rest.
 ///
 /// # Errors
-/// A cell without an equilibrium.
+/// The iteration does not converge.
 pub fn relax(
     cell: &Cell,
     controls: [Control; 6],
@@ -56,13 +56,13 @@ pub fn relax(
         .map_err(|e| e.to_string())
 }
 
-/// Steps in which twist is brought up (rad/nm).
+/// Largest increment of twist (rad/nm).
 const TWIST_STEP: f64 = 5e-3;
 
-/// The straight filament of this twist (rad/nm) that is otherwise free.
+/// Equilibrium of the straight, otherwise free filament under `twist` (rad/nm), reached in increments.
 ///
 /// # Errors
-/// A cell without an equilibrium.
+/// The iteration does not converge.
 pub fn twisted(cell: &Cell, twist: f64) -> Result<CellResponse, String> {
     let controls = |twist: f64| [NONE, NONE, Control::Strain(twist), FREE, FREE, FREE];
     let mut reached = twist.abs().min(TWIST_STEP);
@@ -74,14 +74,17 @@ pub fn twisted(cell: &Cell, twist: f64) -> Result<CellResponse, String> {
     Ok(response)
 }
 
-/// The strain of this curvature, at `angle` (rad) from the direction of shear, twist, shear and stretch.
+/// Strain vector of curvature and twist (rad/nm), shear and stretch. The curvature axis is at `angle` (rad) from the
+/// shear direction.
 pub fn strain([curvature, twist, shear, stretch, angle]: [f64; 5]) -> SixVector {
     let (sin, cos) = angle.sin_cos();
     SixVector::new(curvature * cos, curvature * sin, twist, shear, 0.0, stretch)
 }
 
-/// About how much shorter than the straight filament of the same twist one is that is bent (rad/nm) and sheared, without
-/// tension: from 45 `kappa^2` + 3 `gamma^2` at rest to 15 and 2 at large twist.
+/// Approximate relative shortening due to curvature `kappa` (rad/nm) and shear `gamma` at constant twist and zero
+/// tension.
+///
+/// The exact coefficients of `kappa^2` and `gamma^2` range from 45 and 3 at rest to 15 and 2 at large twist.
 pub fn shortening(curvature: f64, shear: f64) -> f64 {
     25.0 * curvature * curvature + 2.0 * shear * shear
 }

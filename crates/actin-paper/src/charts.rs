@@ -1,8 +1,7 @@
-//! Lines and dots of charts.
+//! Series of charts.
 
 use actin_draw::{Colour, Series};
 
-/// A line with a name in the legend.
 pub(crate) fn line(label: impl Into<String>, colour: Colour, points: Vec<(f64, f64)>) -> Series {
     Series {
         label: Some(label.into()),
@@ -12,7 +11,6 @@ pub(crate) fn line(label: impl Into<String>, colour: Colour, points: Vec<(f64, f
     }
 }
 
-/// Dots without a name in the legend.
 pub(crate) fn dots(colour: Colour, points: Vec<(f64, f64)>) -> Series {
     Series {
         label: None,

@@ -1,6 +1,7 @@
-//! Rows of a run compared with the committed reports in `docs`: `report.json` of a full run, the source of the
-//! documents, and `report-quick.json` of a quick run, which a test computes again. Numbers that both runs compute
-//! from the same scenes and settings are compared with both files, so that neither becomes stale unnoticed.
+//! Comparison of the rows of a run with the committed reports in `docs`.
+//!
+//! `report.json` is from a full run and the source of the documents. `report-quick.json` is from a quick run, which a
+//! test repeats. Numbers that both runs compute from the same scenes and settings are compared with both files.
 
 use crate::{Tell, figures, workspace_root};
 use actin_draw::report::{self, Row, save};
@@ -8,39 +9,35 @@ use serde::Deserialize;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::LazyLock;
 
-/// The report of a full run, below the folder of the workspace.
+/// Report of a full run, relative to the workspace root.
 pub const REFERENCE: &str = "docs/report.json";
-/// The report of a quick run.
+/// Report of a quick run.
 const QUICK: &str = "docs/report-quick.json";
 
-/// Rows agree within this share: a residual of 1e-7 pN, the stop rule of all equilibria, determines tips, energies and
-/// couples to 2e-8. With AVX2 instead of AVX-512 in all libraries no row that is not sensitive moves by more than 1e-7.
+/// Relative tolerance. The stopping residual of 1e-7 pN determines tips, energies and torques to 2e-8. Replacing
+/// AVX-512 by AVX2 in all libraries changes rows outside `sensitive.csv` by less than 1e-7.
 const AGREES: f64 = 1e-6;
-/// Fitted parameters agree within this share of their standard error: such a step changes the sum of squares by
-/// 1e-6 of its variance, so the fitted curve is the same.
+/// Tolerance of fitted parameters in standard errors. Such a step changes the sum of squares by 1e-6 of its variance.
 const AGREES_IN_STANDARD_ERRORS: f64 = 1e-3;
-/// Most differences that are listed.
 const MOST_LISTED: usize = 20;
 
 /// Rows by artefact and quantity.
 pub type Report = BTreeMap<(String, String), Row>;
 
-/// Rows that rounding moves further than [`AGREES`].
+/// Group of rows that rounding changes by more than [`AGREES`].
 #[derive(Debug, Deserialize)]
 struct Sensitive {
     artefact: String,
-    /// Part of the quantity.
     part: String,
-    /// The share within which the rows agree; `None` if they are not compared.
+    /// Relative tolerance; `None` if the rows are not compared.
     share: Option<f64>,
-    /// Pure rods are included.
     also_rods: bool,
 }
 
 static SENSITIVE: LazyLock<Vec<Sensitive>> =
     LazyLock::new(|| crate::published::table(include_str!("../data/sensitive.csv")));
 
-/// Rows under their names.
+/// Indexes rows by artefact and quantity.
 pub fn by_name(rows: Vec<Row>) -> Report {
     let named = rows.into_iter();
     named.map(|row| (name(&row), row)).collect()
@@ -50,11 +47,10 @@ fn name(row: &Row) -> (String, String) {
     (row.artefact.to_owned(), row.quantity.clone())
 }
 
-/// Lists differences of a run's rows from the committed ones, and, of a full run, misses without an explanation;
-/// neither is an error.
+/// Lists differences from the committed rows and, for a full run, misses without an explanation.
 ///
 /// # Errors
-/// A committed report that cannot be read.
+/// A committed report cannot be read.
 pub fn compare(rows: &[Row], quick: bool, tell: Tell<'_>) -> Result<(), String> {
     let lines = if quick {
         stale(rows)?
@@ -75,11 +71,10 @@ pub fn compare(rows: &[Row], quick: bool, tell: Tell<'_>) -> Result<(), String> 
     Ok(())
 }
 
-/// Takes the artefacts of a quick run over into `docs/report-quick.json`. Notes are dropped: they are long
-/// and not compared.
+/// Replaces the artefacts of a quick run in `docs/report-quick.json`. Notes are omitted, because they are not compared.
 ///
 /// # Errors
-/// A file that cannot be read or written.
+/// The report cannot be read or written.
 pub fn write_quick(rows: &[Row], tell: Tell<'_>) -> Result<(), String> {
     let root = workspace_root();
     let mut all = if root.join(QUICK).exists() {
@@ -98,7 +93,7 @@ pub fn write_quick(rows: &[Row], tell: Tell<'_>) -> Result<(), String> {
     save(&root, QUICK, &report::text(all.into_values().collect())?)
 }
 
-/// Differences of a quick run from the committed files, a line each.
+/// Differences of a quick run from both committed reports, one line each.
 pub(crate) fn stale(rows: &[Row]) -> Result<Vec<String>, String> {
     let mut all = Committed::quick()?.differences(rows);
     let shared: Vec<Row> = rows.iter().filter(|row| is_in_full(row)).cloned().collect();
@@ -106,10 +101,8 @@ pub(crate) fn stale(rows: &[Row]) -> Result<Vec<String>, String> {
     Ok(all)
 }
 
-/// A committed report.
 struct Committed {
     file: &'static str,
-    /// Brings it up to date.
     command: &'static str,
     rows: Report,
 }
@@ -134,7 +127,7 @@ impl Committed {
         })
     }
 
-    /// New and changed rows, and rows that are gone from the artefacts of a run.
+    /// New, changed and missing rows of the artefacts of a run.
     fn differences(&self, rows: &[Row]) -> Vec<String> {
         let mut all = self.changes(rows);
         let artefacts: BTreeSet<&str> = rows.iter().map(|row| row.artefact).collect();
@@ -145,7 +138,6 @@ impl Committed {
         all
     }
 
-    /// New and changed rows.
     fn changes(&self, rows: &[Row]) -> Vec<String> {
         let compared = rows.iter().filter(|row| agreement(row).is_some());
         let changed = compared.filter_map(|row| {
@@ -163,12 +155,12 @@ impl Committed {
             artefact, quantity, ..
         } = row;
         format!(
-            "{artefact}:{quantity} {what}; if that is meant: {}",
+            "{artefact}:{quantity} {what}; to accept the change, run: {}",
             self.command
         )
     }
 
-    /// Number, expected number or verdict that differs, with both values.
+    /// Description of a difference in number, expected number or verdict.
     fn change(&self, row: &Row, old: &Row) -> Option<String> {
         let (share, file) = (agreement(row)?, self.file);
         let flat = AGREES_IN_STANDARD_ERRORS * old.standard_error.unwrap_or(0.0);
@@ -193,7 +185,7 @@ impl Committed {
     }
 }
 
-/// Smallest difference that counts, by unit: what a residual of 1e-7 pN leaves of a zero.
+/// Absolute tolerance by unit: effect of a residual of 1e-7 pN on a zero.
 fn floor(unit: &str) -> f64 {
     match unit {
         "nm" | "pN" | "pN nm" | "deg" => 1e-6,
@@ -201,7 +193,7 @@ fn floor(unit: &str) -> f64 {
     }
 }
 
-/// Index of the first entry of [`SENSITIVE`] that matches a row.
+/// Index of the first matching entry of [`SENSITIVE`].
 fn entry(row: &Row) -> Option<usize> {
     let is_rod = row.quantity.ends_with("/rod");
     SENSITIVE.iter().position(|entry| {
@@ -210,17 +202,16 @@ fn entry(row: &Row) -> Option<usize> {
     })
 }
 
-/// The share within which a row agrees on every machine; `None` if rounding selects the state.
+/// Relative tolerance of a row; `None` if rounding selects the state.
 fn agreement(row: &Row) -> Option<f64> {
     entry(row).map_or(Some(AGREES), |entry| SENSITIVE[entry].share)
 }
 
-/// True if a full run computes the number of a quick run from the same scene and settings: parameters, fits of the
-/// paper's rows, pure rods, and single filaments of the first sampling.
+/// True for rows that full and quick runs compute from the same scene and settings: parameters, fits to rows of the
+/// paper, pure rods, and single filaments of the first sampling.
 fn is_in_full(row: &Row) -> bool {
     let quantity = row.quantity.as_str();
     let is_rod = quantity.ends_with("/rod");
-    // The mean filament is one, however many samplings there are.
     let is_mean = quantity.contains("mean-filament");
     match row.artefact {
         "table1" | "table2" => true,
@@ -250,8 +241,6 @@ mod tests {
         }
     }
 
-    /// A number that moves by more than rounding, a row that comes or goes, another verdict is a difference. The
-    /// line names row, both values and command.
     #[test]
     fn changes_are_listed() {
         let height = row("fig8", "height/rod", 39.4).against(39.0, 1.0);
@@ -262,8 +251,9 @@ mod tests {
         };
         assert_eq!(moved(39.4 * (1.0 + 1e-8), 1.0), [""; 0]);
         let (file, command) = (reference.file, reference.command);
-        let line =
-            format!("fig8:height/rod is 39.401, in {file} 39.4; if that is meant: {command}");
+        let line = format!(
+            "fig8:height/rod is 39.401, in {file} 39.4; to accept the change, run: {command}"
+        );
         assert_eq!(moved(39.401, 1.0), [line]);
         assert_eq!(moved(39.4, 0.1).len(), 1);
         assert_eq!(
@@ -274,9 +264,8 @@ mod tests {
         assert_eq!(reference.differences(&more).len(), 1);
     }
 
-    /// Zeros may differ by the effect of a residual, free filaments by more; states that rounding selects are not compared.
     #[test]
-    fn rounding_is_allowed_for() {
+    fn rounding_differences_are_tolerated() {
         let count = |artefact, quantity: &str, old, new| {
             let reference = committed(vec![row(artefact, quantity, old)]);
             reference.differences(&[row(artefact, quantity, new)]).len()
@@ -291,9 +280,9 @@ mod tests {
         assert_eq!(count("fig10", "height/under/270/rod-40", 28.8, 29.2), 1);
     }
 
-    /// An entry without a row is outdated; one that matches more than before loosens rows without a reason.
+    /// Guards against outdated entries and against entries that match additional rows.
     #[test]
-    fn each_exception_is_needed() {
+    fn sensitive_entries_match_known_numbers_of_rows() {
         let committed = report::read(&workspace_root().join(QUICK)).unwrap();
         let of_entry = |i| committed.iter().filter(|row| entry(row) == Some(i)).count();
         let counts: Vec<usize> = (0..SENSITIVE.len()).map(of_entry).collect();
@@ -306,9 +295,8 @@ mod tests {
         );
     }
 
-    /// A quick run has rows that the full report has, too, and they are compared.
     #[test]
-    fn the_full_report_cannot_go_stale() {
+    fn quick_run_is_compared_with_full_report() {
         let reference = committed(vec![row("fig7", "turn/rod", 5.285)]);
         assert_eq!(
             reference.changes(&[row("fig7", "turn/rod", 5.286)]).len(),

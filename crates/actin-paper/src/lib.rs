@@ -1,15 +1,13 @@
-//! The paper of Gunaratne, Floyd, Ni, Papoian and Erban (arXiv 2203.01284), computed again.
+//! Reproduction of the paper of Gunaratne, Floyd, Ni, Papoian and Erban (arXiv 2203.01284).
 //!
-//! - [`measure`]: protocols that read rigidities off a filament of any resolution. Start here.
-//! - [`figures`]: the paper's ten figures and five tables, computed and compared, as pictures, tables and
-//!   a page.
-//! - [`committed`]: how rows differ from those that the documents were written from.
-//! - [`fit`]: laws of the rod fitted to measured rows.
+//! - [`measure`]: protocols that measure the rigidities of a filament of any resolution. Start here.
+//! - [`figures`]: the ten figures and five tables of the paper, computed and compared.
+//! - [`committed`]: comparison of rows with the committed reports.
+//! - [`fit`]: rod laws fitted to measured rows.
 //! - [`cells`]: periodic cells of monomers under strains and loads.
-//! - [`load_cases`]: how far rods under a law are from monomers, load case by load case.
+//! - [`load_cases`]: comparison of rods with monomers in load cases.
 //!
-//! Scenes and committed numbers are those of the workspace that the crate was built in: `scenarios` and
-//! `docs`. How pictures and pages look is decided in `actin-draw`, how scenes run in `actin-sim`.
+//! Scenes and committed numbers are read from the folders `scenarios` and `docs` of the workspace.
 
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
@@ -33,7 +31,7 @@ use std::path::{Path, PathBuf};
 /// Receives the lines that a task prints while it runs.
 pub type Tell<'a> = &'a (dyn Fn(fmt::Arguments<'_>) + Sync);
 
-/// The folder of the workspace that this crate was built in.
+/// Root folder of the workspace.
 ///
 /// # Panics
 /// If this crate does not lie two folders below the workspace.

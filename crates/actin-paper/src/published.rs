@@ -1,31 +1,25 @@
-//! Tables 3 and 5 as the paper prints them.
+//! Tables 3 and 5 of the paper.
 
 use serde::de::DeserializeOwned;
 
-/// Table 3, with its source in a comment.
 const TABLE_3: &str = include_str!("../data/table3_twisting_rigidity.csv");
-/// Table 5, with its source in a comment.
 const TABLE_5: &str = include_str!("../data/table5_twist_stretch.csv");
 
 /// Angle (deg) above which the paper calls its numbers unreliable.
 const RELIABLE_DEG: f64 = 200.0;
 
-/// Half a unit of the last digit of a printed curvature (rad/nm).
+/// Rounding of a printed curvature, half a unit of the last digit (rad/nm).
 pub(super) const CURVATURE_ROUNDING: f64 = 5e-5;
 
-/// Which of the two is compared.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Table {
-    /// Secant twisting rigidity (pN nm^2).
     Rigidity,
-    /// Relative change of length.
     LengthChange,
 }
 
-/// One entry of Table 3 or 5.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Entry {
-    /// Angle (deg), as printed without a sign.
+    /// Angle (deg), printed without a sign.
     pub phi_deg: f64,
     /// Curvature (rad/nm), positive in over-twist.
     pub curvature: f64,
@@ -36,7 +30,6 @@ pub(crate) struct Entry {
 }
 
 impl Entry {
-    /// `over` or `under`.
     pub(super) fn direction(&self) -> &'static str {
         if self.curvature > 0.0 {
             "over"
@@ -45,22 +38,22 @@ impl Entry {
         }
     }
 
-    /// Whether the paper calls it reliable.
+    /// True if the paper calls the entry reliable.
     pub(crate) fn is_reliable(&self) -> bool {
         self.phi_deg <= RELIABLE_DEG
     }
 }
 
-/// The lines of a table of this crate without comments, which begin with `#`.
+/// Parses a table of this crate. Lines that begin with `#` are comments.
 pub(crate) fn table<T: DeserializeOwned>(text: &str) -> Vec<T> {
     let mut reader = csv::ReaderBuilder::new()
         .comment(Some(b'#'))
         .from_reader(text.as_bytes());
     let lines: Result<_, csv::Error> = reader.deserialize().collect();
-    lines.expect("a table of this crate is well formed")
+    lines.expect("tables of this crate are well formed")
 }
 
-/// All entries, under-twist first, in ascending order of curvature.
+/// Entries of a table in ascending order of curvature.
 pub(crate) fn entries(table: Table) -> Vec<Entry> {
     let text = match table {
         Table::Rigidity => TABLE_3,
@@ -81,7 +74,7 @@ pub(crate) fn entries(table: Table) -> Vec<Entry> {
     all
 }
 
-/// Half a unit of the last digit: rigidities have two digits, changes of length four decimals.
+/// Half a unit of the last digit. Rigidities have two digits, changes of length four decimals.
 fn rounding(table: Table, value: f64) -> f64 {
     match table {
         Table::Rigidity => 0.5 * 10f64.powf(value.log10().floor() - 1.0),
@@ -93,9 +86,8 @@ fn rounding(table: Table, value: f64) -> f64 {
 mod tests {
     use super::{Table, entries};
 
-    /// 13 angles in two directions; a swapped column would give the under-twisted value.
     #[test]
-    fn tables_are_read_with_their_signs_and_rounding() {
+    fn entries_have_signs_and_rounding() {
         for table in [Table::Rigidity, Table::LengthChange] {
             assert_eq!(entries(table).len(), 26);
         }
@@ -109,7 +101,6 @@ mod tests {
         assert_eq!((entry.value, entry.rounding), (1.6e4, 500.0));
         for (phi, rounding) in [(40.0, 50.0), (10.0, 5.0)] {
             let entry = find(Table::Rigidity, phi, "under");
-            // A power of ten, rounded.
             assert!((entry.rounding - rounding).abs() < 1e-12 * rounding);
         }
         let entry = find(Table::LengthChange, 40.0, "under");

@@ -1,4 +1,4 @@
-//! Scenes of the repository, and runs into memory.
+//! Scenes of the repository, and runs in memory.
 
 use crate::workspace_root;
 use actin_mechanics::State;
@@ -8,7 +8,7 @@ use actin_sim::{
 };
 use actin_view::Pose;
 
-/// The scene in a file of the folder `scenarios`.
+/// Reads a scene of the folder `scenarios`.
 pub(crate) fn scenario(file: &str) -> Result<Scene, String> {
     let path = workspace_root().join("scenarios").join(file);
     let text =
@@ -16,7 +16,7 @@ pub(crate) fn scenario(file: &str) -> Result<Scene, String> {
     Scene::from_ron(&text).map_err(|error| format!("{}:{error}", path.display()))
 }
 
-/// Free filament without loads, in equilibrium.
+/// Scene of the equilibrium of a free filament without loads.
 pub(crate) fn free(title: &str, filament: Filament) -> Scene {
     Scene {
         title: title.to_owned(),
@@ -34,7 +34,7 @@ pub(crate) fn free(title: &str, filament: Filament) -> Scene {
     }
 }
 
-/// Runs an assembly as its scene asks; it is then in its last state.
+/// Runs the task of an assembly and leaves the system in the last state.
 pub(crate) fn run_to_end(assembly: &mut Assembly) -> Result<(Trajectory, Outcome), RunError> {
     let (trajectory, outcome) = Plan::new(assembly)?.run()?;
     if let Some(last) = trajectory.records.last() {
@@ -43,7 +43,6 @@ pub(crate) fn run_to_end(assembly: &mut Assembly) -> Result<(Trajectory, Outcome
     Ok((trajectory, outcome))
 }
 
-/// A wall at an end of filament 0, which slides so.
 pub(crate) fn clamp(end: End, slides: Slides) -> Clamp {
     Clamp {
         filament: 0,
@@ -54,7 +53,7 @@ pub(crate) fn clamp(end: End, slides: Slides) -> Clamp {
     }
 }
 
-/// A scene after its run; the system is in the last state.
+/// Completed run of a scene, with the system in the last state.
 #[derive(Debug)]
 pub(crate) struct Solved {
     pub assembly: Assembly,
@@ -64,12 +63,11 @@ pub(crate) struct Solved {
 }
 
 impl Solved {
-    /// Builds and runs a scene.
     pub(crate) fn new(scene: &Scene) -> Result<Self, String> {
         Self::run(Assembly::build(scene).map_err(|e| e.to_string())?)
     }
 
-    /// Runs an assembly from the state that it is in.
+    /// Runs an assembly from its current state.
     pub(crate) fn run(mut assembly: Assembly) -> Result<Self, String> {
         let (trajectory, report) = run_to_end(&mut assembly).map_err(|e| e.to_string())?;
         if trajectory.records.is_empty() {
@@ -82,7 +80,6 @@ impl Solved {
         })
     }
 
-    /// The last record.
     pub(crate) fn last(&self) -> &Record {
         &self.records[self.records.len() - 1]
     }
@@ -91,7 +88,6 @@ impl Solved {
         self.assembly.system.state()
     }
 
-    /// Residual force (pN) and torque (pN nm).
     pub(crate) fn residual(&self) -> [f64; 2] {
         let last = self.last();
         [last.residual_force_pn, last.residual_torque_pn_nm]
@@ -103,7 +99,7 @@ impl Solved {
         Some([certificate.negative, certificate.unresolved])
     }
 
-    /// Potential energy of some parts of the system (pN nm).
+    /// Potential energy of the selected parts of the system (pN nm).
     pub(crate) fn energy(&self, is_counted: fn(&Part) -> bool) -> f64 {
         energy(&self.assembly, self.last(), is_counted)
     }
@@ -127,17 +123,17 @@ impl Solved {
     }
 }
 
-/// Centre line and bodies of a state, for pictures.
+/// Centre line and bodies of a state.
 #[derive(Clone, Debug)]
 pub(crate) struct Shape {
-    /// The centre line (nm).
+    /// Centre line (nm).
     pub line: Vec<[f64; 3]>,
     /// Centres of monomers (nm).
     pub monomers: Vec<[f64; 3]>,
     pub pose: Pose,
 }
 
-/// Potential energy of some parts of a system in a record (pN nm).
+/// Potential energy of the selected parts of the system in a record (pN nm).
 pub(crate) fn energy(assembly: &Assembly, record: &Record, is_counted: fn(&Part) -> bool) -> f64 {
     let terms = assembly.terms.iter().zip(&record.energies_pn_nm);
     terms

@@ -1,8 +1,7 @@
 //! Visualisation of runs: interactive pages of a run directory, films, and views of states for reports.
 //!
 //! - [`Run::open`] reads a run directory, which may be incomplete. [`Run::page`] makes a self-contained HTML page,
-//!   and
-//!   [`Film`] writes pictures.
+//!   and [`Film`] writes pictures.
 //! - [`Pose`] contains the visible bodies of a state; [`states`] writes several for comparison in a report.
 //! - [`Palette`] contains the colours.
 

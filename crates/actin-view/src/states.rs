@@ -54,7 +54,7 @@ struct File {
 /// Writes the states of artefact `id` to the output folder.
 ///
 /// # Errors
-/// If there are no states, a number is not finite, or the file cannot be written.
+/// If `states` is empty, a number is not finite, or the file cannot be written.
 pub fn write(
     id: &str,
     attitude: Attitude,

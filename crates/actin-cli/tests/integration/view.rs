@@ -166,7 +166,7 @@ fn directories_that_are_not_whole() {
     place.write("a/states.npz", &states[..states.len() / 3]);
     told("states.npz is damaged");
     fs::remove_file(place.path("a/states.npz")).unwrap();
-    told("There is no states.npz. The initial shape is shown.");
+    told("states.npz is missing. The initial shape is shown.");
     place.write("a/energies.csv", "time_ns,total_pn_nm\n0.0,what\n");
     told("energies.csv is damaged: row 1, total_pn_nm: &quot;what&quot; is not a number.");
     place.write("a/summary.json", "{}");

@@ -32,10 +32,7 @@ pub struct Explained<'a> {
 
 /// Returns a collapsed table of rows without a verdict; empty if there are none.
 pub(super) fn measured(rows: &[Row]) -> Markup {
-    let groups = [
-        (true, "Shown beside another number, not judged"),
-        (false, "Measured"),
-    ];
+    let groups = [(true, "Compared without a verdict"), (false, "Measured")];
     html! {
         @for (beside, title) in groups {
             @let chosen: Vec<&Row> = rows
@@ -52,7 +49,7 @@ pub(super) fn measured(rows: &[Row]) -> Markup {
     }
 }
 
-/// Returns the part of the table of verdicts for an artefact, with failed rows first; empty if there are no verdicts.
+/// Returns the part of the table of verdicts for an artefact, with failed rows first; empty without verdicts.
 pub(super) fn judged(artefact: &Artefact, misses: &Misses<'_>) -> Markup {
     let verdicts = Verdicts::of(&artefact.rows);
     if verdicts.compared() == 0 {

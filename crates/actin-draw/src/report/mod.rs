@@ -50,12 +50,12 @@ impl Origin {
     pub fn name(self) -> &'static str {
         match self {
             Self::Paper => "paper",
-            Self::Derived => "paper, from its own numbers",
-            Self::Words => "paper, in words",
-            Self::Parameter => "paper, copied",
+            Self::Derived => "paper (derived)",
+            Self::Words => "paper (text)",
+            Self::Parameter => "paper (copied)",
             Self::Theory => "theory",
             Self::CrossCheck => "cross-check",
-            Self::Bound => "bound set here",
+            Self::Bound => "bound of this report",
         }
     }
 }
@@ -186,7 +186,7 @@ pub fn write(artefacts: &[Artefact], out: &Path) -> Result<(), String> {
             artefact, quantity, ..
         } = row;
         return Err(format!(
-            "{artefact} {quantity} has a verdict on a copied number, or without an origin"
+            "{artefact} {quantity}: a verdict requires an origin other than a copied parameter"
         ));
     }
     write_atomically(&out.join("report.json"), &text(rows)?)
@@ -209,7 +209,9 @@ pub fn text(mut rows: Vec<Row>) -> Result<String, String> {
         let Row {
             artefact, quantity, ..
         } = twice;
-        return Err(format!("{artefact} {quantity} is written twice"));
+        return Err(format!(
+            "{artefact} {quantity} occurs twice: names of rows must be unique"
+        ));
     }
     let lines: Vec<String> = rows
         .iter()

@@ -1,8 +1,8 @@
-//! Finished artefacts, cached in the output folder until program, scenes or settings change.
+//! Cache of finished artefacts in the output folder.
 //!
-//! An artefact is computed in a folder of its own; when it is finished its files move to the output
-//! folder, and then its record with a hash of each file is written. A command that is ended in between
-//! leaves no record, so that the artefact counts as not computed.
+//! An entry is valid until program, scenes or settings change. Each artefact is computed in a temporary folder. Its
+//! files are then moved to the output folder, and a record with a hash of each file is written last. An interrupted
+//! computation leaves no record and is repeated.
 
 use crate::workspace_root;
 use actin_draw::report::{Artefact, write_atomically};
@@ -13,22 +13,16 @@ use std::fs;
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::{Path, PathBuf};
 
-/// Folder of the records, in the output folder.
 const FOLDER: &str = ".artefacts";
 
-/// A finished artefact.
 #[derive(Debug, Deserialize, Serialize)]
 pub(super) struct CachedArtefact {
-    /// Hash of program, scenes and settings.
     fingerprint: String,
-    /// Hashes of the files that it wrote, by name.
     files: BTreeMap<String, String>,
-    /// Number of its runs.
     pub runs: u64,
     pub artefact: Artefact,
 }
 
-/// Why an artefact has to be computed.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) enum Reason {
     Missing,
@@ -43,7 +37,7 @@ impl fmt::Display for Reason {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Missing => f.write_str("not computed before"),
-            Self::Requested => f.write_str("computed afresh, as requested"),
+            Self::Requested => f.write_str("recomputation requested"),
             Self::Unreadable(error) => write!(f, "its record cannot be read: {error}"),
             Self::Outdated => f.write_str("program, scenes or settings have changed"),
             Self::FileMissing(name) => write!(f, "{name} is missing"),
@@ -52,7 +46,6 @@ impl fmt::Display for Reason {
     }
 }
 
-/// The artefacts of one output folder.
 #[derive(Debug)]
 pub(super) struct Cache<'a> {
     out: &'a Path,
@@ -60,14 +53,13 @@ pub(super) struct Cache<'a> {
 }
 
 impl<'a> Cache<'a> {
-    /// The cache in `out` of artefacts with this fingerprint.
+    /// Opens the cache in `out`. Entries with another fingerprint are outdated.
     pub(super) fn new(out: &'a Path, fingerprint: String) -> Result<Self, String> {
         let folder = out.join(FOLDER);
         fs::create_dir_all(&folder).map_err(|e| at(&folder, &e))?;
         Ok(Self { out, fingerprint })
     }
 
-    /// The artefact if it is there, unchanged.
     pub(super) fn find(&self, id: &str) -> Result<CachedArtefact, Reason> {
         let cached = self.read(id)?;
         if cached.fingerprint != self.fingerprint {
@@ -85,7 +77,7 @@ impl<'a> Cache<'a> {
         Ok(cached)
     }
 
-    /// Computes an artefact in place of a cached one; `work` returns its number of runs, too.
+    /// Computes an artefact and replaces the cached one. `work` also returns the number of runs.
     pub(super) fn compute(
         &self,
         id: &str,
@@ -119,7 +111,7 @@ impl<'a> Cache<'a> {
         serde_json::from_str(&text).map_err(|e| Reason::Unreadable(e.to_string()))
     }
 
-    /// Removes the record, the files it names and what an ended command left.
+    /// Removes the record, its files and the temporary folder of an interrupted computation.
     fn remove(&self, id: &str) -> Result<(), String> {
         let old = self.read(id);
         let (record, unfinished) = (self.record(id), self.out.join(FOLDER));
@@ -138,7 +130,7 @@ impl<'a> Cache<'a> {
         Ok(())
     }
 
-    /// Moves all files of `folder` to the output folder; their hashes by name.
+    /// Moves all files of `folder` to the output folder. Returns their hashes by name.
     fn take_files(&self, folder: &Path) -> Result<BTreeMap<String, String>, String> {
         let mut files = BTreeMap::new();
         for entry in fs::read_dir(folder).map_err(|e| at(folder, &e))? {
@@ -153,7 +145,6 @@ impl<'a> Cache<'a> {
     }
 }
 
-/// Of this program, the scenes and what is chosen: `choices` is all that changes an artefact.
 pub(super) fn fingerprint(choices: &str) -> Result<String, String> {
     let mut hasher = DefaultHasher::new();
     env!("CARGO_PKG_VERSION").hash(&mut hasher);
@@ -171,7 +162,6 @@ pub(super) fn fingerprint(choices: &str) -> Result<String, String> {
     Ok(format!("{:016x}", hasher.finish()))
 }
 
-/// All files under `scenarios`, in order.
 fn scenes() -> Result<Vec<PathBuf>, String> {
     let mut folders = vec![workspace_root().join("scenarios")];
     let mut all = Vec::new();
@@ -189,7 +179,7 @@ fn scenes() -> Result<Vec<PathBuf>, String> {
     Ok(all)
 }
 
-/// A hash that one program gives to the same bytes again; it guards against accidents only.
+/// Hash that guards against accidental changes only. Other builds may give other values.
 fn hash_of(bytes: &[u8]) -> String {
     let mut hasher = DefaultHasher::new();
     bytes.hash(&mut hasher);

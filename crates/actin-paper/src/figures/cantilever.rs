@@ -1,9 +1,8 @@
-//! Figure 4: the multi-resolution cantilever at seven resolutions.
+//! Figure 4: cantilever at seven resolutions.
 //!
-//! Every case is damped dynamics to a stated residual, which ends in an equilibrium; with less drag
-//! its filament swings, which gives the first flexural mode and its decay. `--quick` solves for the
-//! equilibria alone. Variants: the mean filament, the model as the paper prints it, and the rigidity of
-//! the preceding paper.
+//! Each case is damped dynamics to a prescribed residual. A second run with less drag gives frequency and decay of the
+//! first flexural mode. `--quick` computes equilibria only. Variants: the mean filament, the model as printed, and the
+//! rigidity of the preceding paper.
 
 mod pictures;
 
@@ -17,20 +16,19 @@ use actin_sim::{
     Task,
 };
 
-/// Length of the filament (nm).
 const LENGTH_NM: f64 = 160.0;
-/// Lengths of the rod part (nm), as in the paper, and for `--quick`.
+/// Lengths of rod (nm) in the paper and with `--quick`.
 const RODS: [u32; 7] = [20, 40, 60, 80, 100, 120, 140];
 const QUICK_RODS: [u32; 3] = [20, 80, 140];
-/// Bond samplings of the fully resolved filament.
+/// Bond samplings of the filament of monomers.
 const SEEDS: u64 = 8;
-/// Segments of refined rods, whose tips extrapolate to the limit of short segments.
+/// Numbers of segments for the extrapolation to short segments.
 const REFINED: [u32; 3] = [32, 64, 128];
-/// Drag rates while a filament swings (1/ns): the amplitude decays at half this rate.
+/// Drag rates of the oscillation (1/ns). The amplitude decays at half this rate.
 const SWING_DRAG_PER_NS: f64 = 0.04;
-/// Time for which it swings (ns): about four periods.
+/// Duration of the oscillation (ns), about four periods.
 const SWING_NS: f64 = 150.0;
-/// Force (pN), length (nm), E (pN/nm^2) and I (nm^4) of the deflection that Section 4.1 computes.
+/// Force (pN), length (nm), E (pN/nm^2) and I (nm^4) of the deflection in Section 4.1 of the paper.
 const PRINTED: [f64; 4] = [2.0, 160.0, 2000.0, 120.0];
 
 const SHARED: Model = Model {
@@ -63,23 +61,23 @@ const WEAK_MEAN: Model = Model {
 };
 const STIFF: Model = Model {
     name: "preceding-paper/",
-    words: "2 pN, junction shared, the preceding paper's rigidity",
+    words: "2 pN, junction shared, rigidity of the preceding paper",
     is_stiff: true,
     ..SHARED
 };
 const STIFF_FULL: Model = Model {
     name: "preceding-paper/full/",
-    words: "2 pN, junction full, the preceding paper's rigidity",
+    words: "2 pN, junction full, rigidity of the preceding paper",
     is_stiff: true,
     ..FULL
 };
 const STIFF_MEAN: Model = Model {
     name: "preceding-paper/mean-filament/",
-    words: "2 pN, junction shared, the preceding paper's rigidity, mean filament",
+    words: "2 pN, junction shared, rigidity of the preceding paper, mean filament",
     is_stiff: true,
     ..MEAN
 };
-/// The junction and the rod's balance of loads as printed; it has no potential and no equilibria.
+/// Junction and balance of the rod as printed. The balance has no potential energy.
 const AS_PRINTED: Model = Model {
     name: "paper-balance/",
     words: "2 pN, junction and balance as printed",
@@ -90,33 +88,29 @@ const MODELS: [Model; 9] = [
     SHARED, FULL, WEAK, MEAN, WEAK_MEAN, STIFF, STIFF_FULL, STIFF_MEAN, AS_PRINTED,
 ];
 
-/// One cantilever.
 #[derive(Clone, Copy, Debug)]
 struct Case {
     model: Model,
     resolution: Resolution,
     seed: u64,
-    /// Segments of a rod that is refined.
     segments: Option<u32>,
 }
 
-/// Outcome of a case.
 #[derive(Debug)]
 struct Outcome {
     case: Case,
-    /// Distance by which the tip went along the force (nm).
+    /// Deflection of the tip along the force (nm).
     tip_drop_nm: f64,
-    /// Elastic energy at equilibrium (pN nm), Newton's where there is one.
+    /// Elastic energy at equilibrium (pN nm), by Newton's method if the loads have a potential.
     elastic_pn_nm: f64,
-    /// Difference from the tip of Newton's equilibrium (nm), and its certificate; `None` for loads without a potential.
+    /// Difference from the tip of Newton's equilibrium (nm), and stability; `None` for loads without a potential.
     newton: Option<(f64, bool)>,
-    /// Moved in time, not solved by Newton's method alone.
+    /// True for damped dynamics, false for Newton's method.
     is_moved: bool,
-    /// Time (ns), elastic plus kinetic energy (pN nm).
+    /// Time (ns), and elastic plus kinetic energy (pN nm).
     energy: Vec<(f64, f64)>,
-    /// Energy with the load's potential (pN nm), record by record.
+    /// Energy including the potential of the load (pN nm), by record.
     total: Vec<f64>,
-    /// Evaluations of bonds and segments.
     work: f64,
     ring_down: Option<RingDown>,
     shape: Shape,
@@ -126,7 +120,6 @@ struct Outcome {
     force_evaluations: u64,
 }
 
-/// Solves all cases, draws them and compares them.
 pub(super) fn figure4(draft: &mut Draft<'_>) -> Result<(), String> {
     let quick = draft.quick;
     let outcomes = draft.solve(&cases(quick), |case| {
@@ -166,7 +159,6 @@ fn cases(quick: bool) -> Vec<Case> {
 }
 
 impl Case {
-    /// Its name in quantities.
     fn path(&self) -> String {
         let folder = match (self.model.name, self.resolution) {
             ("", Resolution::Mixed(_)) => "shared/",
@@ -180,7 +172,6 @@ impl Case {
         }
     }
 
-    /// Refined rods and further seeds are numbers, not lines.
     fn is_drawn(&self) -> bool {
         self.segments.is_none() && self.seed == 0
     }
@@ -189,7 +180,7 @@ impl Case {
         self.resolution.rod_nm(LENGTH_NM)
     }
 
-    /// The first flexural motion is compared for our model, the mean filament and the paper's own model.
+    /// True for cases whose first flexural mode is compared.
     fn swings(&self) -> bool {
         self.is_drawn() && [SHARED, MEAN, AS_PRINTED].contains(&self.model)
     }
@@ -209,10 +200,10 @@ impl Case {
         Ok(scene)
     }
 
-    /// Runs the case to its end, in time if `moving` and if its model is moved.
+    /// Solves the case, by damped dynamics if `moving` and if the model allows it.
     fn solve(&self, moving: bool) -> Result<Outcome, String> {
         let scene = self.scene()?;
-        // The preceding paper's rigidity is shown by equilibria alone.
+        // The rigidity of the preceding paper is compared in equilibrium only.
         let is_moved = moving && !self.model.is_stiff;
         let mut statics = scene.clone();
         statics.task = Task::Equilibrium(Equilibrium::default());
@@ -222,7 +213,7 @@ impl Case {
         let solved = moved
             .as_ref()
             .or(newton.as_ref())
-            .ok_or("nothing to solve")?;
+            .ok_or("the case has neither dynamics nor an equilibrium")?;
         let drop = tip_drop(&solved.assembly, solved.last());
         let newton = newton.as_ref().map(|n| {
             let tip = tip_drop(&n.assembly, n.last());
@@ -252,7 +243,6 @@ impl Case {
         })
     }
 
-    /// Lets the filament swing about its equilibrium with little drag, the same for all cases.
     fn ring_down(
         &self,
         is_moved: bool,
@@ -261,7 +251,7 @@ impl Case {
     ) -> Result<Option<RingDown>, String> {
         let mut scene = scene.clone();
         let Task::Dynamics(dynamics) = &mut scene.task else {
-            return Err("the scene asks for no dynamics".into());
+            return Err("the task of the scene is not `Dynamics`".into());
         };
         if !is_moved || !self.swings() {
             return Ok(None);
@@ -282,7 +272,6 @@ impl Case {
     }
 }
 
-/// Distance by which the tip went along the force, towards -x (nm).
 fn tip_drop(assembly: &Assembly, record: &Record) -> f64 {
     -(assembly.tip_nm(&record.state, End::End) - assembly.tip_nm(&assembly.rest, End::End)).x
 }
@@ -296,13 +285,13 @@ fn internal_energy(assembly: &Assembly, record: &Record) -> f64 {
 fn settings(outcomes: &[Outcome]) -> String {
     let unfinished = outcomes.iter().filter(|o| !o.has_converged).count();
     let how = if outcomes.iter().any(|o| o.is_moved) {
-        "damped dynamics, and equilibria by Newton's method for the preceding paper's rigidity"
+        "damped dynamics, and equilibria by Newton's method with the rigidity of the preceding paper"
     } else {
-        "equilibria by Newton's method; the printed balance, which has no potential, is left out"
+        "equilibria by Newton's method, without the printed balance, which has no potential"
     };
     format!(
-        "Scenes scenarios/figure-4/*.ron, {} cases, {how}; at the end {}; {unfinished} case(s) ended before. Seed 0 \
-         unless named; the mean filament has weighted bonds and no seed.",
+        "Scenes scenarios/figure-4/*.ron, {} cases, {how}; at the end {}; {unfinished} case(s) ended earlier. Seed 0 \
+         unless named; the mean filament has quadrature bonds and no seed.",
         outcomes.len(),
         residuals(outcomes.iter().map(|o| o.residual)),
     )
@@ -312,12 +301,12 @@ fn rows(draft: &mut Draft<'_>, outcomes: &[Outcome]) {
     for o in outcomes {
         let path = o.case.path();
         draft.row(format!("tip_drop/{path}"), "nm", o.tip_drop_nm, o.ending());
-        let note = "elastic energy of monomers, junctions and rod at equilibrium, without that of the load";
+        let note = "elastic energy of monomers, junctions and rod at equilibrium, without the potential of the load";
         draft.row(format!("energy/{path}"), "pN nm", o.elastic_pn_nm, note);
         if let Some(ring) = o.ring_down {
             let note = format!(
-                "from the tip's extrema, drag rates {SWING_DRAG_PER_NS} per ns; expected decay half of that; \
-                 theory for small motion of the rod: 0.170 rad/ns"
+                "from extrema of the tip, drag rates {SWING_DRAG_PER_NS} per ns; expected decay: half of this rate; \
+                 theory for small oscillations of the rod: 0.170 rad/ns"
             );
             let frequency = ring.frequency_rad_per_ns;
             draft.row(format!("frequency/{path}"), "rad/ns", frequency, &*note);
@@ -338,12 +327,11 @@ fn rows(draft: &mut Draft<'_>, outcomes: &[Outcome]) {
 }
 
 impl Outcome {
-    /// End of the run, for notes.
     fn ending(&self) -> String {
         let end = match (self.is_moved, self.has_converged) {
             (false, _) => "by Newton's method",
             (true, true) => "stop rule met",
-            (true, false) => "ended by time",
+            (true, false) => "ended at the time limit",
         };
         format!(
             "{end} at {:.0} ns, residual {:.1e} pN and {:.1e} pN nm, {} force evaluations",
@@ -352,7 +340,7 @@ impl Outcome {
     }
 }
 
-/// Largest minus smallest tip drop and energy of the mixed resolutions, relative to their mean.
+/// Relative spread of tip drop and energy over the mixed resolutions.
 fn spreads(draft: &mut Draft<'_>, outcomes: &[Outcome], model: Model) {
     let of_model = outcomes.iter().filter(|o| o.case.model == model);
     let mixed: Vec<&Outcome> = of_model.filter(|o| o.case.resolution.is_mixed()).collect();
@@ -377,7 +365,6 @@ fn spreads(draft: &mut Draft<'_>, outcomes: &[Outcome], model: Model) {
     }
 }
 
-/// Length of segments, Newton's method against dynamics, certificates, samplings.
 fn checks(draft: &mut Draft<'_>, outcomes: &[Outcome]) {
     let rod = |segments: Option<u32>| {
         let rods = outcomes
@@ -387,19 +374,20 @@ fn checks(draft: &mut Draft<'_>, outcomes: &[Outcome]) {
         own.next().map_or(f64::NAN, |o| o.tip_drop_nm)
     };
     let fine = rod(Some(128));
-    // The error falls with the square of the segment length.
+    // The error is proportional to the square of the segment length.
     let limit = fine + (fine - rod(Some(64))) / 3.0;
     let note = format!(
-        "10 nm segments against the limit {limit:.4} nm of 2.5 and 1.25 nm; expected within 0.005"
+        "segments of 10 nm relative to the limit {limit:.4} nm, extrapolated from 2.5 and 1.25 nm; expected within \
+         0.005"
     );
     draft.row("rod_mesh_error", "", rod(None) / limit - 1.0, note);
     let newton = || outcomes.iter().filter_map(|o| o.newton);
-    let note = "largest difference of the tip between the end of damped dynamics and Newton's method over all \
-        cases: the residual at which the dynamics stopped, or a second equilibrium close by";
+    let note = "largest difference of the tip between damped dynamics and Newton's method over all \
+        cases, due to the stopping residual or to a second equilibrium nearby";
     let difference = largest(newton().map(|(difference, _)| difference));
     draft.row("newton_difference/largest", "nm", difference, note);
     let unstable = newton().filter(|(_, is_stable)| !is_stable).count();
-    let note = "equilibria found by Newton's method whose stiffness is not positive definite";
+    let note = "equilibria of Newton's method whose stiffness is not positive definite";
     draft.row("not_certified_stable", "", unstable as f64, note);
     let sampled = outcomes
         .iter()

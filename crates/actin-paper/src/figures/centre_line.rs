@@ -1,27 +1,26 @@
-//! Centre lines as functions of arc length, to be compared at equal s whatever resolves them.
+//! Centre lines as functions of arc length, for comparisons between resolutions.
 
 use actin_mechanics::State;
 use actin_sim::Assembly;
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
 
-/// A place or a direction (lab frame).
+/// Position (nm) or direction in the lab frame.
 type Triple = [f64; 3];
 
-/// Spacing of the places at which centre lines are compared (nm).
+/// Spacing of the compared points (nm).
 const SAMPLING_NM: f64 = 1.0;
 
-/// Points of a centre line in order of arc length.
+/// Points of a centre line by ascending arc length.
 #[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
 pub(crate) struct CentreLine {
     s: Vec<f64>,
     places: Vec<Triple>,
-    /// Tangents `dr/ds` at nodes of rods; monomers have none.
+    /// Tangents `dr/ds` at nodes of rods; `None` at monomers.
     tangents: Vec<Option<Triple>>,
 }
 
 impl CentreLine {
-    /// The centre line of filament 0 in a state.
     pub(crate) fn of(assembly: &Assembly, state: &State) -> Self {
         let n = assembly.points.len();
         let s: Vec<f64> = assembly.points.iter().map(|p| p.s_nm).collect();
@@ -40,18 +39,16 @@ impl CentreLine {
         }
     }
 
-    /// Its points (nm).
     pub(crate) fn points(&self) -> &[Triple] {
         &self.places
     }
 
-    /// Arc lengths of its points (nm).
     pub(super) fn arc_lengths(&self) -> &[f64] {
         &self.s
     }
 
-    /// Place at arc length `s` (nm): cubic between nodes of a rod, so that the chord of a segment
-    /// does not count as a difference, and straight elsewhere.
+    /// Position (nm) at arc length `s` (nm). Cubic Hermite interpolation between nodes of a rod avoids the error of the
+    /// chord; interpolation is linear elsewhere.
     fn at(&self, s: f64) -> Triple {
         let after = self
             .s
@@ -76,7 +73,7 @@ impl CentreLine {
         }
     }
 
-    /// Largest distance to `other` at equal arc length (nm), and where that is (nm).
+    /// Largest distance to `other` at equal arc length (nm), and its arc length (nm).
     pub(crate) fn farthest_from(&self, other: &Self) -> (f64, f64) {
         let ends = |line: &Self| (line.s[0], line.s[line.s.len() - 1]);
         let ((a, b), (c, d)) = (ends(self), ends(other));
@@ -94,8 +91,7 @@ impl CentreLine {
     }
 }
 
-/// Slope at node `i` of the parabola through three neighbouring nodes of equal spacing; a chord
-/// where there are but two.
+/// Slope at node `i` of the parabola through three neighbouring nodes of equal spacing. Two nodes give the chord.
 fn tangent(s: &[f64], places: &[Triple], nodes: &Range<usize>, i: usize) -> Triple {
     if nodes.len() < 3 {
         let (first, last) = (nodes.start, nodes.end - 1);
@@ -110,7 +106,6 @@ fn tangent(s: &[f64], places: &[Triple], nodes: &Range<usize>, i: usize) -> Trip
     sum(weights, [before, here, after])
 }
 
-/// The weighted sum of triples.
 fn sum<const N: usize>(weights: [f64; N], triples: [Triple; N]) -> Triple {
     let pairs = || weights.iter().zip(&triples);
     [0, 1, 2].map(|k| pairs().map(|(w, triple)| w * triple[k]).sum())
@@ -124,7 +119,6 @@ fn norm([x, y, z]: Triple) -> f64 {
 mod tests {
     use super::*;
 
-    /// Nodes on a parabola, whose chords would be up to h^2/8 of its curvature away.
     fn parabola(h: f64, nodes: usize) -> CentreLine {
         let s: Vec<f64> = (0..nodes).map(|k| k as f64 * h).collect();
         let place = |&s: &f64| [0.01 * s * s, 0.0, s];
@@ -140,19 +134,19 @@ mod tests {
     }
 
     #[test]
-    fn meshes_of_one_curve_are_no_distance_apart() {
+    fn meshes_of_one_curve_have_zero_distance() {
         let (apart, _) = parabola(10.0, 7).farthest_from(&parabola(4.0, 16));
-        // Round-off of places of 60 nm; chords would leave 0.02 * 100 / 8 = 0.25 nm.
+        // Round-off at coordinates of 60 nm. Linear interpolation would give 0.02 * 100 / 8 = 0.25 nm.
         assert!(apart < 1e-12, "{apart:e}");
     }
 
     #[test]
-    fn the_largest_distance_is_found_where_it_is() {
+    fn largest_distance_is_located() {
         let mut bulged = parabola(10.0, 7);
         bulged.places[3][1] = 2.0;
         let (apart, s) = parabola(10.0, 7).farthest_from(&bulged);
         assert!((apart - 2.0).abs() < 1e-12, "{apart}");
-        // Places are compared every nanometre, node 3 among them.
+        // Lines are compared every nanometre, which includes node 3.
         assert!((s - 30.0).abs() < 1e-9, "{s}");
     }
 }

@@ -1,5 +1,4 @@
-//! Charts that several figures share: centre lines seen from some sides, and curves against the length of
-//! rod.
+//! Charts of several figures: projected centre lines, and curves against the length of rod.
 
 pub(super) use crate::charts::{dots, line};
 
@@ -8,12 +7,11 @@ use crate::palette;
 use crate::run::Shape;
 use actin_draw::{Chart, Colour, Series};
 
-/// A white dot that makes room for the legend.
+/// Invisible dot that extends the axes for the legend.
 pub(super) fn room(at: (f64, f64)) -> Series {
     dots(Colour([255; 3]), vec![at])
 }
 
-/// A filament in a chart.
 #[derive(Clone, Debug)]
 pub(super) struct Filament {
     pub name: String,
@@ -21,12 +19,11 @@ pub(super) struct Filament {
     pub is_dashed: bool,
     /// Centre line (nm).
     pub line: Vec<[f64; 3]>,
-    /// Centres of monomers that are drawn as dots (nm).
+    /// Centres of monomers, drawn as dots (nm).
     pub monomers: Vec<[f64; 3]>,
 }
 
 impl Filament {
-    /// A filament in the colour of its share of rod.
     pub(super) fn new(name: String, share: f64, shape: &Shape) -> Self {
         Self {
             name,
@@ -37,7 +34,7 @@ impl Filament {
         }
     }
 
-    /// The mean filament of monomers: its centre line alone, in dashes.
+    /// Mean filament, drawn as a dashed centre line.
     pub(super) fn mean(name: &str, shape: &Shape) -> Self {
         Self {
             colour: palette::DATA,
@@ -47,7 +44,6 @@ impl Filament {
         }
     }
 
-    /// A curve of this filament in its colour.
     pub(super) fn curve(&self, points: Vec<(f64, f64)>, equal_axes: bool) -> Vec<Series> {
         let line = line(self.name.clone(), self.colour, points);
         if self.is_dashed {
@@ -58,19 +54,17 @@ impl Filament {
     }
 }
 
-/// A direction from which centre lines are seen.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Side {
-    /// End of the file's name.
+    /// Suffix of the file name.
     pub panel: &'static str,
-    /// In the title of the chart.
     pub title: &'static str,
     pub labels: [&'static str; 2],
     pub project: fn(&[f64; 3]) -> (f64, f64),
     pub equal_axes: bool,
 }
 
-/// Monomers as dots, centre lines above them, and what else is seen.
+/// Series of monomers, of centre lines above them, and of `others`.
 pub(super) fn seen_from(side: &Side, filaments: &[Filament], others: Vec<Series>) -> Vec<Series> {
     let project = |places: &[[f64; 3]]| places.iter().map(side.project).collect();
     let with_monomers = filaments.iter().filter(|f| !f.monomers.is_empty());
@@ -81,7 +75,6 @@ pub(super) fn seen_from(side: &Side, filaments: &[Filament], others: Vec<Series>
     monomers.chain(lines).chain(others).collect()
 }
 
-/// Draws filaments as seen from a side.
 pub(super) fn draw_from(
     draft: &mut Draft<'_>,
     file: &str,
@@ -100,7 +93,6 @@ pub(super) fn draw_from(
     draft.chart(format!("{file}_{}.svg", side.panel), &chart, caption)
 }
 
-/// A value against the length of rod, for one model.
 #[derive(Clone, Debug)]
 pub(super) struct Curve {
     pub name: String,
@@ -110,7 +102,6 @@ pub(super) struct Curve {
     pub points: Vec<(f64, f64)>,
 }
 
-/// A line with a dot at each resolution for every curve that has points.
 pub(super) fn against_rod(curves: Vec<Curve>) -> Vec<Series> {
     let curves = curves.into_iter().filter(|curve| !curve.points.is_empty());
     let series = curves.flat_map(|mut curve| {

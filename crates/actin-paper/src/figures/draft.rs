@@ -1,4 +1,4 @@
-//! Rows, pictures and tables of an experiment while it runs.
+//! Rows, pictures and tables of a running experiment.
 
 use super::expected::{self, Bound};
 use super::progress::Progress;
@@ -9,30 +9,28 @@ use actin_view::{Attitude, Pose, Shown, states};
 use rayon::prelude::*;
 use std::path::Path;
 
-/// Results of an experiment so far.
 #[derive(Debug)]
 pub(super) struct Draft<'a> {
     pub id: &'static str,
-    /// Folder for pictures and tables.
+    /// Output folder.
     pub out: &'a Path,
-    /// Fewer resolutions and samplings, and equilibria only.
+    /// Fewer resolutions and samplings, equilibria only.
     pub quick: bool,
     pub progress: &'a Progress,
-    /// Scenes, stop rule, seeds.
+    /// Description of scenes, stop rule and seeds.
     pub settings: String,
     pub rows: Vec<Measured>,
     pub pictures: Vec<Picture>,
     pub views: Vec<View>,
 }
 
-/// A row, and the standard deviation of a single sample, which widens the bounds of printed numbers.
+/// Row with the standard deviation of a single sample, which widens the bounds of printed numbers.
 #[derive(Clone, Debug)]
 pub(super) struct Measured {
     pub row: Row,
     pub sd: f64,
 }
 
-/// A column of a table of results: its header, and the text of a cell.
 pub(super) type Column<R> = (&'static str, fn(&R) -> String);
 
 impl<'a> Draft<'a> {
@@ -54,7 +52,7 @@ impl<'a> Draft<'a> {
         }
     }
 
-    /// Solves all cases over the threads; the results are in the order of the cases.
+    /// Solves all cases in parallel. Results are in the order of the cases.
     pub(super) fn solve<C: Sync, R: Send>(
         &self,
         cases: &[C],
@@ -72,7 +70,6 @@ impl<'a> Draft<'a> {
             .collect()
     }
 
-    /// A number without scatter.
     pub(super) fn row(
         &mut self,
         quantity: impl Into<String>,
@@ -83,7 +80,6 @@ impl<'a> Draft<'a> {
         self.scattered(quantity, unit, (ours, 0.0), note);
     }
 
-    /// The mean of a sample.
     pub(super) fn mean(
         &mut self,
         quantity: impl Into<String>,
@@ -94,7 +90,6 @@ impl<'a> Draft<'a> {
         self.scattered(quantity, unit, (sample.mean, sample.sd), note);
     }
 
-    /// A number with its standard deviation.
     pub(super) fn scattered(
         &mut self,
         quantity: impl Into<String>,
@@ -106,12 +101,11 @@ impl<'a> Draft<'a> {
         self.rows.push(Measured { row, sd });
     }
 
-    /// A row whose comparison is made already.
     pub(super) fn compared(&mut self, row: Row) {
         self.rows.push(Measured { row, sd: 0.0 });
     }
 
-    /// A statement of the paper as a number with a bound.
+    /// Adds a verbal statement of the paper as a number with a bound.
     pub(super) fn claim(
         &mut self,
         quantity: &str,
@@ -123,14 +117,12 @@ impl<'a> Draft<'a> {
         self.compared(row);
     }
 
-    /// The value of a row.
     pub(super) fn value(&self, quantity: &str) -> Option<f64> {
         let mut all = self.rows.iter();
         let found = all.find(|measured| measured.row.quantity == quantity)?;
         Some(found.row.ours)
     }
 
-    /// Draws a chart into a file.
     pub(super) fn chart(
         &mut self,
         file: String,
@@ -145,7 +137,7 @@ impl<'a> Draft<'a> {
         Ok(())
     }
 
-    /// Draws series over axes with independent scales and these labels.
+    /// Draws series on axes with independent scales.
     pub(super) fn plot(
         &mut self,
         file: impl Into<String>,
@@ -164,7 +156,7 @@ impl<'a> Draft<'a> {
         self.chart(file.into(), &chart, caption)
     }
 
-    /// Writes states for the viewer of the page: group, name, share of rod, bodies.
+    /// Writes states for the viewer. Each has a group, a name, a share of rod and a pose.
     pub(super) fn view(
         &mut self,
         id: &str,
@@ -184,7 +176,6 @@ impl<'a> Draft<'a> {
         Ok(())
     }
 
-    /// Writes a table with a line for each result.
     pub(super) fn table<'r, R: 'r>(
         &self,
         file: &str,
@@ -197,13 +188,12 @@ impl<'a> Draft<'a> {
         write_csv(self.out, file, &header, lines)
     }
 
-    /// Writes the rows with their expected numbers as a table.
     pub(super) fn list(&self) -> Result<(), String> {
         let rows = expected::judged(self.id, self.rows.clone());
         self.table(&format!("{}.csv", self.id), &rows, &ROWS)
     }
 
-    /// Writes a table with a line for each point of some curves, after the names of its curve.
+    /// Writes a table with one line per point of each curve. The names of the curve come first.
     pub(super) fn curves<const N: usize>(
         &self,
         file: &str,
@@ -217,7 +207,6 @@ impl<'a> Draft<'a> {
         write_csv(self.out, file, header, lines)
     }
 
-    /// The artefact, its rows compared with expected numbers.
     pub(super) fn finish(self, title: &'static str, wall_s: f64) -> Artefact {
         Artefact {
             id: self.id,
@@ -232,7 +221,7 @@ impl<'a> Draft<'a> {
 }
 
 impl Measured {
-    /// The row beside a number of the paper that judges nothing.
+    /// Shows a number of the paper next to the row, without a verdict.
     pub(super) fn beside(row: Row, expected: f64) -> Self {
         let row = row.beside(expected, Origin::Paper);
         Self { row, sd: 0.0 }
@@ -256,12 +245,10 @@ const ROWS: [Column<Row>; 8] = [
     }),
 ];
 
-/// A number in a table.
 pub(super) fn number(x: f64) -> String {
     format!("{x:.9e}")
 }
 
-/// Text for the largest of some residuals.
 pub(super) fn residuals(all: impl Iterator<Item = [f64; 2]>) -> String {
     let all: Vec<[f64; 2]> = all.collect();
     let [force, torque] = [0, 1].map(|k| largest(all.iter().map(|r| r[k])));

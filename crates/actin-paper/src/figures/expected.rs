@@ -1,8 +1,7 @@
 //! Expected numbers and verdicts.
 //!
-//! `data/expected.csv` holds numbers to compare rows with, `data/claims.csv` the paper's verbal statements with
-//! their bounds. One rule sets all bounds (`data/page.ron` states it): it depends on the expectation, not on
-//! the result.
+//! `data/expected.csv` contains expected numbers, `data/claims.csv` verbal statements of the paper with their bounds.
+//! `data/page.ron` states the rule for all bounds. It depends on the expectation, not on the result.
 
 use super::draft::Measured;
 use crate::published::table;
@@ -10,70 +9,64 @@ use actin_draw::report::{DEVIATIONS, Origin, Row, printed};
 use serde::Deserialize;
 use std::sync::LazyLock;
 
-/// Share by which two numbers differ where the paper itself speaks of a difference.
+/// Relative size that the paper reports as a difference (Figure 7).
 pub(super) const DIFFERENCE: f64 = 0.1;
 
-/// A number to compare a row with.
 #[derive(Debug, Deserialize)]
 struct Expected {
     artefact: String,
     quantity: String,
-    /// The printed text, whose last digit sets the tolerance; empty if the line is a note only.
+    /// Number as printed; its last digit sets the tolerance. Empty if the line contains only a note.
     #[serde(rename = "expected")]
     number: String,
-    /// Largest difference that passes; half a unit of the last digit and twice the standard deviation of a
-    /// sample if it is `digits`. Without it the number is shown and judges nothing.
+    /// Largest difference that passes. `digits` is half a unit of the last digit and twice the standard deviation of a
+    /// sample. Empty if the number is shown without a verdict.
     tolerance: String,
     origin: Origin,
-    /// Put before the note of the row.
     reason: String,
 }
 
-/// A statement of the paper that follows from rows of one artefact.
+/// Verbal statement of the paper, evaluated from rows of one artefact.
 #[derive(Debug, Deserialize)]
 struct Claim {
     artefact: String,
     quantity: String,
     unit: String,
     measure: Measure,
-    /// Names of rows, separated by blanks; `*` matches a number and selects rows by ascending number.
+    /// Names of rows, separated by spaces. `*` matches a number and selects rows in ascending order of it.
     rows: String,
-    /// A reference number of the measure.
     reference: Option<f64>,
     holds: Holds,
     bound: Option<f64>,
     statement: String,
 }
 
-/// A number that is computed from some rows.
 #[derive(Clone, Copy, Debug, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 enum Measure {
-    /// The number of the only row.
+    /// Value of a single row.
     Value,
-    /// The first over the last.
+    /// First value divided by the last.
     Ratio,
-    /// Largest minus smallest.
+    /// Largest minus smallest value.
     Range,
-    /// [`Measure::Range`] over the mean.
+    /// [`Measure::Range`] divided by the mean.
     Spread,
-    /// Share of the steps between neighbours that go up.
+    /// Share of increasing steps between neighbours.
     Rising,
-    /// Largest difference from the reference over the reference.
+    /// Largest difference from the reference, divided by the reference.
     Relative,
 }
 
-/// When a claim holds.
 #[derive(Clone, Copy, Debug, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 enum Holds {
     AtMost,
     AtLeast,
-    /// The number is shown and judges nothing.
+    /// Shown without a verdict.
     Unjudged,
 }
 
-/// The bound of a statement.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Bound {
     AtMost(f64),
@@ -86,8 +79,7 @@ static EXPECTED: LazyLock<Vec<Expected>> =
 static CLAIMS: LazyLock<Vec<Claim>> =
     LazyLock::new(|| table(include_str!("../../data/claims.csv")));
 
-/// The rows of an artefact with their verdicts, and the claims that follow from them. Claims whose
-/// rows are missing in a run are omitted.
+/// Rows of an artefact with verdicts, followed by its claims. Claims with missing rows are omitted.
 pub(super) fn judged(artefact: &'static str, measured: Vec<Measured>) -> Vec<Row> {
     let mut rows: Vec<Row> = measured.into_iter().map(Measured::judged).collect();
     let claims = CLAIMS.iter().filter(|claim| claim.artefact == artefact);
@@ -154,7 +146,6 @@ impl Claim {
     }
 }
 
-/// A statement of the paper as a number, with a verdict if there is a bound.
 pub(super) fn claim(
     artefact: &'static str,
     quantity: &str,
@@ -167,12 +158,12 @@ pub(super) fn claim(
         Bound::AtMost(limit) => (
             Some(limit),
             Some(ours <= limit),
-            "holds up to the tolerance",
+            "the tolerance is an upper bound",
         ),
         Bound::AtLeast(limit) => (
             Some(limit),
             Some(ours >= limit),
-            "holds from the tolerance on",
+            "the tolerance is a lower bound",
         ),
         Bound::None => (None, None, "not judged"),
     };
@@ -185,7 +176,7 @@ pub(super) fn claim(
     }
 }
 
-/// Numbers of the rows that match a pattern, by ascending number at the `*`.
+/// Values of the rows that match a pattern, in ascending order of the number at `*`.
 fn select(pattern: &str, rows: &[Row]) -> Vec<f64> {
     let Some((before, after)) = pattern.split_once('*') else {
         let found = rows.iter().find(|row| row.quantity == pattern);
@@ -201,7 +192,7 @@ fn select(pattern: &str, rows: &[Row]) -> Vec<f64> {
 }
 
 impl Measure {
-    /// The number; `None` if there are too few values.
+    /// Evaluates the measure; `None` if there are too few values.
     fn of(self, values: &[f64], reference: Option<f64>) -> Option<f64> {
         let sample = crate::statistics::sample(values.iter().copied());
         let is_family = !matches!(self, Self::Value);

@@ -1,11 +1,10 @@
-//! The rod's law against filaments of monomers: what `cargo xtask load-cases` measures, as rows with verdicts.
+//! Rods compared with filaments of monomers in the load cases of `cargo xtask load-cases`.
 
 use super::draft::{Column, Draft, number};
 use super::surface;
 use crate::load_cases;
 use actin_draw::report::{Picture, Row};
 
-/// The law that is judged.
 const LAW: &str = "Homogenised";
 
 const COLUMNS: [Column<(String, String, Row)>; 5] = [
@@ -20,7 +19,6 @@ const COLUMNS: [Column<(String, String, Row)>; 5] = [
     }),
 ];
 
-/// All load cases under the law.
 pub(super) fn law(draft: &mut Draft<'_>) -> Result<(), String> {
     let done = || {
         draft.progress.expect(1);
@@ -29,8 +27,8 @@ pub(super) fn law(draft: &mut Draft<'_>) -> Result<(), String> {
     let compared = load_cases::compared(LAW, draft.quick, draft.out, &done)?;
     draft.table("law.csv", &compared, &COLUMNS)?;
     draft.settings = format!(
-        "law {LAW}, segments of 10 nm, compared with the mean filament and, in notes, filaments of 64 drawn bonds; \
-         equilibria at the end of the same path; bounds as in docs/tables/load-cases.md"
+        "law {LAW}, segments of 10 nm, compared with the mean filament and, in notes, with filaments of 64 sampled \
+         bonds; equilibria at the end of the same path; bounds as in docs/tables/load-cases.md"
     );
     for (case, quantity, row) in compared {
         let quantity = format!("{}/{}", slug(&case), slug(&quantity));
@@ -38,12 +36,13 @@ pub(super) fn law(draft: &mut Draft<'_>) -> Result<(), String> {
     }
     draft.pictures.push(Picture {
         file: "load-cases.svg".to_owned(),
-        caption: "Errors of the rod against the mean filament, over their bounds.".to_owned(),
+        caption: "Errors of the rod relative to the mean filament, divided by their bounds."
+            .to_owned(),
     });
     surface::draw(draft)
 }
 
-/// A name of letters, digits, signs and points in which anything else is one dash.
+/// Replaces each run of characters other than letters, digits, signs and points by a dash.
 fn slug(name: &str) -> String {
     let kept = |c: char| c.is_ascii_alphanumeric() || "+-.".contains(c);
     let words = name.split(|c| !kept(c)).filter(|word| !word.is_empty());
@@ -54,7 +53,7 @@ fn slug(name: &str) -> String {
 mod tests {
     use super::*;
 
-    /// Names of rows are contracts: paths without blanks.
+    /// Names of rows are stable paths without spaces.
     #[test]
     fn names_are_paths() {
         let name = slug("160 nm, tension 0 pN") + "/" + &slug("tip at 0.05 pN (nm)");

@@ -1,6 +1,7 @@
-//! Figure 7: a filament held at both ends and turned in its middle by a linker, as a rod, whose
-//! halves store the same, and as monomers, whose over-twisted half stores more. Variants: the mean
-//! filament, and a rod with the energy of the supplement, which couples stretch and twist.
+//! Figure 7: filament clamped at both ends and turned in its middle by a linker.
+//!
+//! Both halves of a rod store the same energy. The over-twisted half of a filament of monomers stores more. Variants:
+//! the mean filament, and a rod with the energy of the supplement, which couples stretch and twist.
 
 use super::charts::{line, room};
 use super::draft::{Column, Draft, number, residuals};
@@ -12,34 +13,31 @@ use actin_sim::shape::{Ribbon, profile};
 use actin_sim::{Assembly, Hold, Monomers, Part, RodLaw, Scene, Slides};
 use actin_view::{Attitude, Pose};
 
-/// Samplings of the bonds, each pulled in both directions, and for `--quick`.
+/// Samplings of the bonds, by default and with `--quick`. Each is pulled in both directions.
 const SEEDS: u64 = 16;
 const QUICK_SEEDS: u64 = 4;
 
-/// Model of the filament.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Resolved {
-    /// 19 segments under this law, held so.
+    /// 19 segments with a law and a type of clamp.
     Rod(Rod, Hold),
-    /// 67 monomers with so many drawn bonds per interface.
+    /// 67 monomers with this number of sampled bonds per interface.
     Ellipsoids(usize),
-    /// 67 monomers with quadrature bonds: the mean filament.
+    /// Mean filament: 67 monomers with quadrature bonds.
     Mean,
 }
 
-/// Law of the rod.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Rod {
     Constant,
-    /// With the energy of the supplement, which couples stretch and twist.
+    /// Energy of the supplement, which couples stretch and twist.
     Coupled,
 }
 
-/// Name in quantities and number of ends that slide along the axis. The linker then still holds the middle along
-/// the axis: with one end held, the half towards it stays in tension.
+/// Name in quantities and number of ends that slide along the axis. The linker constrains the middle along the axis:
+/// with one sliding end, the other half stays in tension.
 const SLIDING: [(&str, usize); 3] = [("", 0), ("far-end-slides/", 1), ("both-ends-slide/", 2)];
 
-/// Kinds of filaments: name in quantities, and model.
 const KINDS: [(&str, Resolved); 7] = [
     ("rod", Resolved::Rod(Rod::Constant, Hold::TwoNodesAndFrame)),
     ("wall/rod", Resolved::Rod(Rod::Constant, Hold::Wall)),
@@ -56,49 +54,40 @@ const KINDS: [(&str, Resolved); 7] = [
     ("mean-filament/ellipsoid", Resolved::Mean),
 ];
 
-/// One filament.
 #[derive(Clone, Debug)]
 struct Case {
-    /// Name of its kind in quantities.
     kind: String,
     resolved: Resolved,
-    /// Number of ends that slide along the axis.
     sliding: usize,
-    /// Seed of the bonds.
     seed: u64,
-    /// The linker turns the middle the other way.
+    /// The linker turns the middle in the opposite direction.
     is_reversed: bool,
 }
 
-/// Energies of both halves.
 #[derive(Clone, Debug)]
 struct Halves {
     case: Case,
-    /// Elastic energy of the over-twisted and of the under-twisted half (pN nm).
     over_pn_nm: f64,
     under_pn_nm: f64,
-    /// Turn of the middle about the axis, along the pull (deg).
+    /// Rotation of the middle about the axis, in the direction of the pull (deg).
     turn_deg: f64,
-    /// Pull of the linker (pN).
     pull_pn: f64,
-    /// Tension at the first end that is held along the axis (pN); zero if both slide.
+    /// Tension at the first end without sliding (pN); zero if both ends slide.
     tension_pn: f64,
-    /// Eigenvalues of the stiffness that are not positive beyond doubt.
+    /// Number of negative and unresolved eigenvalues of the stiffness.
     doubtful: usize,
     residual: [f64; 2],
-    /// Arc length from the middle (nm), towards the over-twisted half, and energy per length (pN).
+    /// Arc length from the middle towards the over-twisted half (nm), and energy per length (pN).
     profile: Vec<[f64; 2]>,
     pose: Pose,
 }
 
 impl Halves {
-    /// Energy of the over-twisted half over the energy of the under-twisted half.
     fn ratio(&self) -> f64 {
         self.over_pn_nm / self.under_pn_nm
     }
 }
 
-/// Runs all cases, draws them and compares them.
 pub(super) fn figure7(draft: &mut Draft<'_>) -> Result<(), String> {
     let cases = cases(if draft.quick { QUICK_SEEDS } else { SEEDS });
     let results = draft.solve(&cases, |case| {
@@ -106,8 +95,8 @@ pub(super) fn figure7(draft: &mut Draft<'_>) -> Result<(), String> {
     });
     let results: Vec<Halves> = results.into_iter().collect::<Result<_, _>>()?;
     draft.settings = format!(
-        "Scenes scenarios/figure-7/*.ron, {} equilibria; seeds of the bonds from 0 (the mean filament has no \
-         seed), each pulled both ways; {}.",
+        "Scenes scenarios/figure-7/*.ron, {} equilibria; seeds of the bonds from 0 (none for the mean \
+         filament), each pulled in both directions; {}.",
         results.len(),
         residuals(results.iter().map(|h| h.residual))
     );
@@ -117,7 +106,7 @@ pub(super) fn figure7(draft: &mut Draft<'_>) -> Result<(), String> {
     view(draft, &results)
 }
 
-/// All kinds with zero, one or two ends sliding. Filaments of monomers are pulled both ways.
+/// All kinds with zero, one or two sliding ends. Filaments of monomers are pulled in both directions.
 fn cases(seeds: u64) -> Vec<Case> {
     let mut all = Vec::new();
     for (slides, sliding) in SLIDING {
@@ -176,7 +165,6 @@ impl Case {
         Ok(scene)
     }
 
-    /// Finds the equilibrium and measures both halves.
     fn solve(&self) -> Result<Halves, String> {
         let mut solved = Solved::new(&self.scene()?)?;
         let loads = solved.assembly.system.loads().clone();
@@ -199,7 +187,11 @@ impl Case {
             turn_deg: turn_deg.abs(),
             pull_pn: (2.0 * stiffness * energy).sqrt(),
             tension_pn: tension,
-            doubtful: solved.doubtful().ok_or("no certificate")?.iter().sum(),
+            doubtful: solved
+                .doubtful()
+                .ok_or("the equilibrium has no certificate of stability")?
+                .iter()
+                .sum(),
             residual: solved.residual(),
             profile,
             pose: solved.pose(),
@@ -207,7 +199,7 @@ impl Case {
     }
 }
 
-/// Turn of the body in the middle about lab z (rad).
+/// Rotation of the middle frame about lab z (rad).
 fn turn_of_middle(assembly: &Assembly) -> f64 {
     let middle = 0.5 * assembly.length_nm();
     let distance = |i: usize| (assembly.frames[i].s_nm - middle).abs();
@@ -219,8 +211,8 @@ fn turn_of_middle(assembly: &Assembly) -> f64 {
     2.0 * turn.k.atan2(turn.w)
 }
 
-/// Elastic energies of the first and the second half (pN nm), and energy per length about the
-/// middle, with the over-twisted half (the first if `sign` is positive) on the positive side.
+/// Elastic energies of the first and the second half (pN nm), and profile of energy per length. The over-twisted half,
+/// which is the first one for positive `sign`, has positive abscissae.
 fn halves(assembly: &Assembly, sign: f64) -> ([f64; 2], Vec<[f64; 2]>) {
     let state = assembly.system.state();
     let points = profile(assembly, state);
@@ -241,7 +233,6 @@ fn halves(assembly: &Assembly, sign: f64) -> ([f64; 2], Vec<[f64; 2]>) {
     (energies, along)
 }
 
-/// A measured quantity: name, unit, value.
 type Quantity = (&'static str, &'static str, fn(&Halves) -> f64);
 
 const QUANTITIES: [Quantity; 6] = [
@@ -255,7 +246,6 @@ const QUANTITIES: [Quantity; 6] = [
     ("tension", "pN", |h| h.tension_pn),
 ];
 
-/// Means over samplings and directions, kind by kind.
 fn rows(draft: &mut Draft<'_>, results: &[Halves]) {
     for halves in results.chunk_by(|a, b| a.case.kind == b.case.kind) {
         let case = &halves[0].case;
@@ -298,7 +288,6 @@ const COLUMNS: [Column<Halves>; 12] = [
     ("residual_pn_nm", |h| number(h.residual[1])),
 ];
 
-/// Writes `fig7.csv` and `fig7_profile.csv`.
 fn tables(draft: &Draft<'_>, results: &[Halves]) -> Result<(), String> {
     draft.table("fig7.csv", results, &COLUMNS)?;
     let profiles = results.iter().map(|h| {
@@ -320,7 +309,6 @@ fn tables(draft: &Draft<'_>, results: &[Halves]) -> Result<(), String> {
     draft.curves("fig7_profile.csv", &header, profiles)
 }
 
-/// Energy per length: rods, the mean of the monomers with the default bonds, and the mean filament.
 fn picture(draft: &mut Draft<'_>, results: &[Halves]) -> Result<(), String> {
     let curve = |label: &str, colour: Colour, kind: &str| -> Series {
         let own = results.iter().filter(|h| h.case.kind == kind);
@@ -342,12 +330,12 @@ fn picture(draft: &mut Draft<'_>, results: &[Halves]) -> Result<(), String> {
     series.push(room((0.0, top)));
     let mean = curve("mean filament", palette::DATA, "mean-filament/ellipsoid");
     series.extend(mean.dashed(false));
-    let caption = "Elastic energy per length; of ellipsoids the mean over all samplings and both directions of the \
-        pull. Dashed: weighted bonds, the mean filament. C3 energy: the coupling of stretch and twist of the \
-        paper's supplement.";
+    let caption = "Elastic energy per length; ellipsoids: mean over all samplings and both directions of the \
+        pull. Dashed: the mean filament (quadrature bonds). C3 energy: coupling of stretch and twist in the \
+        supplement of the paper.";
     draft.plot(
         "fig7_energy.svg",
-        "Energy along the filament; the over-twisted half is on the right",
+        "Energy along the filament, with the over-twisted half on the right",
         [
             "arc length from the middle (nm)",
             "elastic energy per length (pN)",
@@ -357,7 +345,7 @@ fn picture(draft: &mut Draft<'_>, results: &[Halves]) -> Result<(), String> {
     )
 }
 
-/// Mean over profiles that are known at the same places, within the mirror image.
+/// Mean of profiles with equal abscissae.
 fn mean_profile(halves: &[&Halves]) -> Vec<(f64, f64)> {
     let places = halves.first().map_or(0, |first| first.profile.len());
     let mean = |i: usize| sample(halves.iter().map(|h| h.profile[i][1])).mean;
@@ -366,19 +354,18 @@ fn mean_profile(halves: &[&Halves]) -> Vec<(f64, f64)> {
         .collect()
 }
 
-/// The pure cases with both ends held, the first sampling, for the viewer.
 fn view(draft: &mut Draft<'_>, results: &[Halves]) -> Result<(), String> {
     let shown = [("rod", 1.0), ("ellipsoid", 0.0)]
         .into_iter()
         .filter_map(|(kind, share)| {
             let first = results.iter().find(|h| h.case.kind == kind)?;
             Some((
-                "both ends held".into(),
+                "both ends clamped".into(),
                 kind.into(),
                 share,
                 first.pose.clone(),
             ))
         });
-    let caption = "The equilibria in space, with the linker that turns the middle.";
+    let caption = "Equilibria with the linker that turns the middle.";
     draft.view("fig7", Attitude::LYING, shown, caption)
 }

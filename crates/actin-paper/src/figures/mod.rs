@@ -1,9 +1,8 @@
-//! Artefacts of the paper, its figures and tables, computed and compared.
+//! Figures and tables of the paper, computed and compared.
 //!
-//! Each artefact is an `Experiment`: it solves scenes, measures quantities and draws pictures into a
-//! `Draft`. Expected numbers are data (`data/expected.csv`, `data/claims.csv`). Artefacts
-//! follow one another; the runs of each are spread over threads and put together in an order that does not
-//! depend on them.
+//! Each artefact is an `Experiment`. It solves scenes, measures quantities and draws pictures into a `Draft`. Expected
+//! numbers are in `data/expected.csv` and `data/claims.csv`. Artefacts are computed one after the other; the runs of
+//! each are distributed over threads. Results do not depend on the number of threads.
 
 mod buckling;
 mod cache;
@@ -38,33 +37,31 @@ use std::fs;
 use std::path::PathBuf;
 use std::time::Instant;
 
-/// Choice of artefacts and settings.
+/// Options of [`reproduce`].
 #[derive(Clone, Debug)]
 pub struct Options {
-    /// Which: fig1 to fig10, table1 to table5, law; all if the list is empty.
+    /// Artefacts: fig1 to fig10, table1 to table5, law; all if the list is empty.
     pub ids: Vec<String>,
-    /// Where to write pictures, tables and reports.
+    /// Output folder of pictures, tables and reports.
     pub out: PathBuf,
-    /// Fewer resolutions and samplings, and equilibria only.
+    /// Computes fewer resolutions and samplings, and equilibria only.
     pub quick: bool,
-    /// Number of threads; one for each core by default. The results do not depend on it.
+    /// Number of threads, by default one per core. Results do not depend on it.
     pub threads: Option<usize>,
-    /// Computes again also what an earlier run has finished.
+    /// Ignores results of earlier runs.
     pub fresh: bool,
-    /// Writes every picture as PDF and PNG, too.
+    /// Also writes every picture as PDF and PNG.
     pub print: bool,
     /// Colours of pictures and viewer.
     pub palette: Palette,
 }
 
 impl Options {
-    /// All that changes an artefact.
     fn choices(&self) -> String {
         format!("quick: {}, palette: {:?}", self.quick, self.palette)
     }
 }
 
-/// An artefact: its name and title, and what solves, measures and draws it.
 #[derive(Clone, Copy, Debug)]
 struct Experiment {
     id: &'static str,
@@ -80,7 +77,6 @@ const fn experiment(
     Experiment { id, title, run }
 }
 
-/// The artefacts that exist.
 const EXPERIMENTS: [Experiment; 16] = [
     experiment(
         "fig1",
@@ -105,17 +101,17 @@ const EXPERIMENTS: [Experiment; 16] = [
     ),
     experiment(
         "fig6",
-        "Free filament of 210 nm on four linkers all round it",
+        "Free filament of 210 nm on four linkers on all sides",
         linkers::figure6,
     ),
     experiment(
         "fig7",
-        "Turned in the middle: the energy of both halves",
+        "Filament turned in the middle: energy of both halves",
         middle::figure7,
     ),
     experiment(
         "fig8",
-        "Twisted and pushed together: constant rigidities",
+        "Twisted and compressed filaments: constant rigidities",
         buckling::figure8,
     ),
     experiment(
@@ -125,7 +121,7 @@ const EXPERIMENTS: [Experiment; 16] = [
     ),
     experiment(
         "fig10",
-        "Twisted and pushed together: rods whose twist changes them",
+        "Twisted and compressed filaments: twist-dependent rods",
         buckling::figure10,
     ),
     experiment(
@@ -155,22 +151,22 @@ const EXPERIMENTS: [Experiment; 16] = [
     ),
     experiment(
         "law",
-        "The law of the rod in load cases that entered nothing",
+        "The rod law in load cases that were not used for fitting",
         law::law,
     ),
 ];
 
-/// Computes the chosen artefacts, or takes them from an earlier run, and writes pictures,
-/// tables, `report.json` and `report.html`; the rows of all.
+/// Computes the chosen artefacts or reads them from the cache, and writes pictures, tables, `report.json` and
+/// `report.html`. Returns the rows of all artefacts.
 ///
 /// # Errors
-/// An artefact that is not known, a scene without a result, and a file that cannot be written.
+/// An artefact is unknown, a scene cannot be solved, or a file cannot be written.
 pub fn reproduce(options: &Options, tell: Tell<'_>) -> Result<Vec<Row>, String> {
     let known: Vec<&str> = EXPERIMENTS.iter().map(|e| e.id).collect();
     let is_known = |id: &&String| known.contains(&id.as_str());
     if let Some(unknown) = options.ids.iter().find(|id| !is_known(id)) {
         return Err(format!(
-            "no artefact `{unknown}`: there is {}",
+            "unknown artefact `{unknown}`: choose from {}",
             known.join(", ")
         ));
     }
@@ -190,7 +186,6 @@ pub fn reproduce(options: &Options, tell: Tell<'_>) -> Result<Vec<Row>, String> 
     Ok(artefacts.into_iter().flat_map(|a| a.rows).collect())
 }
 
-/// Does `work` on so many threads.
 fn on_threads<T: Send>(
     threads: Option<usize>,
     work: impl FnOnce() -> Result<T, String> + Send,
@@ -199,7 +194,6 @@ fn on_threads<T: Send>(
     pool.build().map_err(|e| e.to_string())?.install(work)
 }
 
-/// The chosen artefacts, in the order of the experiments.
 fn artefacts(
     experiments: &[Experiment],
     options: &Options,
@@ -215,7 +209,7 @@ fn artefacts(
         .collect()
 }
 
-/// One artefact, and why it was computed if it was.
+/// Computes or reads one artefact. The reason is `None` if it was read from the cache.
 fn artefact(
     &Experiment { id, title, run }: &Experiment,
     cache: &Cache<'_>,
@@ -230,7 +224,7 @@ fn artefact(
     let reason = match found {
         Ok(cached) => {
             tell(format_args!(
-                "{id}: kept from an earlier run ({})",
+                "{id}: reused from an earlier run ({})",
                 effort(&cached)
             ));
             return Ok((cached, None));
@@ -250,7 +244,6 @@ fn artefact(
     Ok((computed, Some(reason)))
 }
 
-/// Runs and time of an artefact, in words.
 fn effort(cached: &CachedArtefact) -> String {
     format!("{} runs in {:.1} s", cached.runs, cached.artefact.wall_s)
 }

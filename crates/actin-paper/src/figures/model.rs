@@ -1,23 +1,19 @@
-//! Families of filaments: how much of a filament is rod, and what its parts are made of.
+//! Families of filaments: resolutions and models.
 
 use actin_sim::{
     ForceLaw, Hold, JunctionWeight, Load, Material, Monomers, RodLaw, RodLaws, Scene, Section,
     fitted_laws,
 };
 
-/// Share of rod in a filament.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Resolution {
-    /// All.
     Rod,
-    /// So many nm.
+    /// Length of rod (nm); the rest is monomers.
     Mixed(u32),
-    /// Nothing.
     Ellipsoids,
 }
 
 impl Resolution {
-    /// Name in tables, legends and quantities.
     pub(super) fn name(self) -> String {
         match self {
             Self::Rod => "rod".into(),
@@ -30,7 +26,7 @@ impl Resolution {
         matches!(self, Self::Mixed(_))
     }
 
-    /// Length that is rod (nm) of a filament of `length` nm.
+    /// Length of rod (nm) in a filament of `length` nm.
     pub(super) fn rod_nm(self, length: f64) -> f64 {
         match self {
             Self::Rod => length,
@@ -40,7 +36,6 @@ impl Resolution {
     }
 }
 
-/// A section of monomers.
 pub(super) fn monomers(from_nm: f64, to_nm: f64) -> Section {
     Section::Ellipsoids {
         from_nm,
@@ -49,18 +44,15 @@ pub(super) fn monomers(from_nm: f64, to_nm: f64) -> Section {
     }
 }
 
-/// Law of the rods.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Rods {
-    /// Constant rigidities.
     Constant,
-    /// The law fitted to filaments of monomers.
     Fitted,
-    /// `Fitted` with the constant shearing rigidity.
+    /// `Fitted` with constant shearing rigidity.
     FittedWithoutShear,
-    /// The published `B3(kappa)` and `xi(kappa)`.
+    /// Published `B3(kappa)` and `xi(kappa)`.
     Extended,
-    /// The energy `C3 sigma_3 kappa_3` of the paper's supplement in place of `xi(kappa)`.
+    /// Energy `C3 sigma_3 kappa_3` of the supplement instead of `xi(kappa)`.
     CouplingEnergy,
 }
 
@@ -79,34 +71,34 @@ impl Rods {
     }
 }
 
-/// Composition and loads of filaments, independent of the resolution.
+/// Properties and loads of filaments, independent of the resolution.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Model {
-    /// In quantities; empty for the model that a figure shows.
+    /// Name in quantities; empty for the model of the figure.
     pub name: &'static str,
-    /// In legends.
+    /// Name in legends.
     pub words: &'static str,
-    /// Quadrature bonds, the default of scenes, instead of sampled bonds.
+    /// Uses quadrature bonds instead of sampled bonds.
     pub is_mean: bool,
     /// Weight of each bond of a junction.
     pub junction: JunctionWeight,
     pub rods: Rods,
     pub balance: ForceLaw,
-    /// Length of a rod's segments (nm).
+    /// Length of rod segments (nm).
     pub segment_nm: f64,
-    /// Bodies of rods that clamps hold.
+    /// Type of the clamps of rods.
     pub hold: Hold,
-    /// A quarter of the loads.
+    /// Divides end forces by four.
     pub is_weak: bool,
-    /// Monomers and rod as stiff in bending as the preceding paper's rod.
+    /// Gives monomers and rod the bending rigidity of the preceding paper.
     pub is_stiff: bool,
 }
 
 impl Model {
-    /// Drawn bonds, constant rigidities, segments of 10 nm, junctions whose bonds share the rod's rigidity.
+    /// Sampled bonds, constant rigidities, segments of 10 nm, junction bonds of weight one half.
     pub(super) const STANDARD: Self = Self {
         name: "",
-        words: "drawn bonds",
+        words: "sampled bonds",
         is_mean: false,
         junction: JunctionWeight::Shared,
         rods: Rods::Constant,
@@ -117,7 +109,7 @@ impl Model {
         is_stiff: false,
     };
 
-    /// The model with what does not matter at a resolution set to one value.
+    /// Resets properties without effect at a resolution to their standard values.
     fn relevant_to(self, resolution: Resolution) -> Self {
         let standard = Self {
             hold: self.hold,
@@ -140,7 +132,7 @@ impl Model {
         }
     }
 
-    /// The first of `models` that has the same filament at a resolution, which is solved for all of them.
+    /// First of `models` with an identical filament at a resolution. It is solved once for all of them.
     pub(super) fn solved_as(self, models: &[Self], resolution: Resolution) -> Self {
         let own = self.relevant_to(resolution);
         let mut all = models.iter().copied();
@@ -148,12 +140,12 @@ impl Model {
         first.unwrap_or(self)
     }
 
-    /// Number of samplings of its bonds, at most so many.
+    /// Number of samplings of the bonds, at most `most`.
     pub(super) fn seeds(self, most: u64) -> u64 {
         if self.is_mean { 1 } else { most }
     }
 
-    /// Changes a scene of sampled bonds into the scene of the model.
+    /// Applies the model to a scene with sampled bonds.
     pub(super) fn apply(self, scene: &mut Scene, seed: u64) {
         let filament = &mut scene.filament;
         if self.is_mean {
@@ -179,7 +171,6 @@ impl Model {
     }
 }
 
-/// Bending rigidity of the preceding paper's rod over the one of Table 4, which is the monomers'.
 pub(super) fn stiffness_ratio() -> f64 {
     let bend = |material: Material| material.rigidities().bend.x;
     bend(Material::PrecedingPaper) / bend(Material::Table4)
@@ -189,15 +180,15 @@ pub(super) fn stiffness_ratio() -> f64 {
 mod tests {
     use super::*;
 
-    /// E A^2/4 pi with 2000 pN/nm^2 and 38.5 nm^2, by hand 2.359e5 pN nm^2, over 3.9e4.
+    /// E A^2/4 pi = 2.359e5 pN nm^2 with 2000 pN/nm^2 and 38.5 nm^2, divided by 3.9e4.
     #[test]
-    fn the_preceding_paper_is_six_times_as_stiff() {
+    fn preceding_paper_is_six_times_as_stiff() {
         assert!((stiffness_ratio() - 235_907.0 / 3.9e4).abs() < 1e-4);
     }
 
-    /// A junction changes no filament of one model alone, bonds no rod and rods no monomers.
+    /// Junctions affect mixed filaments only, bonds do not affect rods, and rod laws do not affect monomers.
     #[test]
-    fn filaments_alike_are_solved_once() {
+    fn identical_filaments_are_solved_once() {
         let full = Model {
             name: "full/",
             junction: JunctionWeight::Full,

@@ -1,26 +1,24 @@
-//! Readings of damped motions: frequency and decay of the slowest mode, and falling energies.
+//! Frequency, decay rate and energies of damped motions.
 
 use super::draft::Draft;
 use super::expected::Bound;
 use crate::statistics::largest;
 
-/// A damped oscillation.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct RingDown {
-    /// Angular frequency of the damped oscillation (rad/ns).
+    /// Angular frequency (rad/ns).
     pub frequency_rad_per_ns: f64,
-    /// Decay rate of its amplitude (1/ns).
+    /// Decay rate of the amplitude (1/ns).
     pub decay_per_ns: f64,
 }
 
-/// Most extrema that are used.
 const MOST_EXTREMA: usize = 8;
 
-/// Fits the extrema of `approach`, pairs of time and value, about the equilibrium `end`.
+/// Frequency and decay rate from the extrema of `approach` (time, value) about the equilibrium `end`.
 ///
-/// Extrema of a damped oscillation are half a period apart and shrink by `exp(-decay T/2)`; both
-/// follow from the first and the last extremum used. Of several extrema between two passages through
-/// the equilibrium, which faster modes make, the largest counts. `None` if there are fewer than three.
+/// Extrema of a damped oscillation are half a period apart and decrease by `exp(-decay T/2)`. The first and the last
+/// extremum determine both numbers. Faster modes can cause several extrema between two zero crossings, of which the
+/// largest is used. Returns `None` for fewer than three extrema.
 pub(super) fn ring_down(approach: &[(f64, f64)], end: f64) -> Option<RingDown> {
     let all = approach
         .windows(3)
@@ -56,23 +54,21 @@ fn vertex(w: &[(f64, f64)]) -> (f64, f64) {
     (w[1].0 + t * h, w[1].1 + 0.5 * t * slope)
 }
 
-/// Shows the claim that energies decay as motions come to rest, from energies in time.
-///
-/// It is not judged: drag removes energy at every instant.
+/// Adds the claim that energies decay, without a verdict, because drag always removes energy.
 pub(super) fn energy_decays(draft: &mut Draft<'_>, motions: &[Vec<f64>]) {
     if motions.is_empty() {
         return;
     }
     let statement = format!(
-        "energies fall as the filaments approach equilibrium; largest rise of kinetic and potential energy \
-         (that of loads included) between two records over what the motion loses, {} motions",
+        "energies decay as the filaments approach equilibrium; largest rise of kinetic and potential energy \
+         (loads included) between two records, divided by the energy loss of the motion; {} motions",
         motions.len()
     );
     let ours = largest(motions.iter().map(|motion| largest_rise(motion)));
     draft.claim("energy_decays", ours, Bound::None, statement);
 }
 
-/// Largest rise between neighbours over the difference of first and last.
+/// Largest rise between neighbours, divided by the difference between first and last value.
 fn largest_rise(energies: &[f64]) -> f64 {
     let lost = (energies[0] - energies[energies.len() - 1]).abs();
     largest(energies.windows(2).map(|pair| pair[1] - pair[0])) / lost
@@ -82,9 +78,8 @@ fn largest_rise(energies: &[f64]) -> f64 {
 mod tests {
     use super::{largest_rise, ring_down};
 
-    /// A known oscillation, sampled 30 times a period, gives its numbers back.
     #[test]
-    fn a_damped_oscillation_is_recovered() {
+    fn damped_oscillation_is_recovered() {
         let (omega, decay) = (0.17, 0.025);
         let approach: Vec<(f64, f64)> = (0..2000)
             .map(|k| 1.2 * f64::from(k))
@@ -95,9 +90,9 @@ mod tests {
         assert!((ring.decay_per_ns - decay).abs() < 5e-3 * decay);
     }
 
-    /// A faster mode on top, which doubles extrema, changes nothing by more than it moves them.
+    /// A superposed faster mode adds extrema.
     #[test]
-    fn ripples_are_no_oscillation() {
+    fn fast_modes_are_ignored() {
         let (omega, decay) = (0.17, 0.025);
         let approach: Vec<(f64, f64)> = (0..1000)
             .map(|k| 0.5 * f64::from(k))
@@ -114,16 +109,16 @@ mod tests {
     }
 
     #[test]
-    fn a_monotone_approach_has_no_oscillation() {
+    fn monotone_approach_has_no_oscillation() {
         let approach: Vec<(f64, f64)> = (0..50)
             .map(|k| (f64::from(k), 1.0 - (-0.1 * f64::from(k)).exp()))
             .collect();
         assert!(ring_down(&approach, 1.0).is_none());
     }
 
-    /// From 10 to 2 with a rise of 0.4 on the way: 0.05 of the loss.
+    /// Rise of 0.4 during a loss of 8: ratio 0.05.
     #[test]
-    fn a_rise_is_seen() {
+    fn rise_is_relative_to_loss() {
         assert!((largest_rise(&[10.0, 3.0, 3.4, 2.0]) - 0.05).abs() < 1e-15);
         assert!(largest_rise(&[10.0, 3.0, 2.0]).abs() < 1e-15);
     }

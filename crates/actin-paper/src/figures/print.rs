@@ -1,7 +1,6 @@
-//! Pictures for papers: every SVG file of a report again as PDF, with its letters as text, and as PNG.
+//! Pictures for publications: SVG files of a report converted to PDF, with selectable text, and PNG.
 //!
-//! A Chromium makes them, which draws the pictures as the report page shows them; it is looked for in `CHROME`
-//! and on the path.
+//! Chromium or Chrome converts the files. It is searched in the variable `CHROME` and on the path.
 
 use actin_draw::browser;
 use actin_draw::report::{Artefact, Picture};
@@ -10,16 +9,16 @@ use std::fs;
 use std::path::Path;
 use std::process::{Command, Stdio};
 
-/// Pixels of a PNG file per pixel of the SVG file: a picture of 900 has 1800, which are 300 dpi on 152 mm.
+/// Pixels of a PNG file per pixel of the SVG file. A picture of 900 pixels has 300 dpi at a width of 152 mm.
 const FINER: u32 = 2;
 
-/// Writes PDF and PNG files beside the pictures of all artefacts.
+/// Writes PDF and PNG files next to the pictures of all artefacts.
 ///
 /// # Errors
-/// No browser, one that fails, a file that cannot be read or written.
+/// No browser is found, it fails, or a file cannot be read or written.
 pub(super) fn write(artefacts: &[Artefact], out: &Path) -> Result<usize, String> {
     let browser = browser().ok_or(
-        "--print needs a Chromium or Chrome: there is none on the path; name one in the variable CHROME",
+        "--print requires Chromium or Chrome, and none was found on the path: set the variable CHROME to its file",
     )?;
     let pictures: Vec<&Picture> = artefacts.iter().flat_map(|a| &a.pictures).collect();
     pictures
@@ -28,12 +27,11 @@ pub(super) fn write(artefacts: &[Artefact], out: &Path) -> Result<usize, String>
     Ok(pictures.len())
 }
 
-/// One picture as PDF and as PNG.
 fn print(browser: &Path, path: &Path) -> Result<(), String> {
     let at = |error: &dyn std::fmt::Display| format!("{}: {error}", path.display());
     let svg = fs::read_to_string(path).map_err(|e| at(&e))?;
     let [width, height] =
-        actin_draw::page::size(&svg).ok_or_else(|| at(&"says nothing of its size"))?;
+        actin_draw::page::size(&svg).ok_or_else(|| at(&"the picture has no width and height"))?;
     let folder = tempfile::tempdir().map_err(|e| at(&e))?;
     let page = folder.path().join("page.html");
     let text = format!(
@@ -57,7 +55,6 @@ fn print(browser: &Path, path: &Path) -> Result<(), String> {
     run(browser, &to_png, &page, &png)
 }
 
-/// Has the browser make `file` of a page.
 fn run(browser: &Path, arguments: &[String], page: &Path, file: &Path) -> Result<(), String> {
     let profile = page.with_file_name("profile");
     let ended = Command::new(browser)
@@ -83,19 +80,19 @@ fn run(browser: &Path, arguments: &[String], page: &Path, file: &Path) -> Result
         return Ok(());
     }
     let (file, browser) = (file.display(), browser.display());
-    Err(format!("{file}: not written by {browser}: {ended}"))
+    Err(format!("{file}: {browser} did not write the file: {ended}"))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    /// One page of the picture's size with letters as text, and twice as many pixels.
+    /// The PDF has one page of the size of the picture and contains text; the PNG has twice as many pixels.
     #[test]
-    fn a_picture_is_printed() {
+    fn picture_is_printed() {
         let Some(browser) = browser() else {
             assert!(std::env::var_os("ACTIN_REQUIRE_BROWSER").is_none());
-            eprintln!("SKIPPED: no Chromium on the path: no picture was printed");
+            eprintln!("SKIPPED: no Chromium on the path");
             return;
         };
         let folder = tempfile::tempdir().unwrap();
@@ -113,7 +110,7 @@ mod tests {
             .split(' ')
             .map(|side| side.parse().unwrap())
             .collect();
-        // Chromium rounds pages up by less than a point.
+        // Chromium rounds page sizes up by less than a point.
         assert!(
             (sides[0] - 240.0).abs() < 1.0 && (sides[1] - 150.0).abs() < 1.0,
             "{sides:?}"

@@ -1,29 +1,25 @@
-//! The command writes the same bytes again, on one thread or on two, and the numbers that are committed.
+//! Tests of reproducibility: independence of threads and agreement with the committed reports.
 
 use super::*;
 use std::collections::BTreeMap;
 use std::path::Path;
 use tempfile::TempDir;
 
-/// Artefacts that take a second or two together and cover the kinds of work: states that are drawn,
-/// motions of several resolutions, equilibria of several samplings, paths of several filaments, and
-/// fits, each spread over threads where it is more than one run.
+/// Artefacts that take a few seconds together and cover all kinds of computations.
 const CHEAP: [&str; 8] = [
     "fig1", "fig2", "fig3", "fig4", "fig7", "fig9", "table1", "table3",
 ];
 
-/// Which artefacts the process that [`a_run_of_its_own`] runs in shall compute, where it shall write, and on
-/// how many threads.
+/// Environment variables of [`run_in_separate_process`]: artefacts, output folder and number of threads.
 const IDS: &str = "ACTIN_FIGURES_IDS";
 const OUT: &str = "ACTIN_FIGURES_OUT";
 const THREADS: &str = "ACTIN_FIGURES_THREADS";
 
-/// The work of one process. Tables of one process share what they compute, so that runs to be
-/// compared need processes of their own.
+/// Runs in a separate process, because tables of one process share their computations.
 #[test]
 #[ignore = "started by the test below"]
-fn a_run_of_its_own() {
-    // Without them it was not the test below that started this one: there is nothing to do.
+fn run_in_separate_process() {
+    // The variables are missing if all ignored tests are run.
     let [Ok(ids), Ok(out), Ok(threads)] = [IDS, OUT, THREADS].map(std::env::var) else {
         return;
     };
@@ -39,12 +35,11 @@ fn a_run_of_its_own() {
     reproduce(&options, &|line| println!("{line}")).unwrap();
 }
 
-/// Runs the command for some artefacts.
 fn run(ids: &[&str], threads: usize) -> TempDir {
     let folder = tempfile::tempdir().unwrap();
     let output = std::process::Command::new(std::env::current_exe().unwrap())
         .args([
-            "figures::repeats_tests::a_run_of_its_own",
+            "figures::repeats_tests::run_in_separate_process",
             "--exact",
             "--ignored",
         ])
@@ -61,7 +56,6 @@ fn run(ids: &[&str], threads: usize) -> TempDir {
     folder
 }
 
-/// The files of a run by name. The page holds the time that it took.
 fn files(out: &Path) -> BTreeMap<String, Vec<u8>> {
     let entries = fs::read_dir(out).unwrap();
     let paths = entries.map(|entry| entry.unwrap().path());
@@ -72,7 +66,6 @@ fn files(out: &Path) -> BTreeMap<String, Vec<u8>> {
     written.filter(|(name, _)| name != "report.html").collect()
 }
 
-/// The records of a run, times left out: titles, settings and captions, which the page shows.
 fn record(out: &Path, id: &str) -> serde_json::Value {
     let path = out.join(".artefacts").join(format!("{id}.json"));
     let mut record: serde_json::Value =
@@ -82,8 +75,7 @@ fn record(out: &Path, id: &str) -> serde_json::Value {
     record
 }
 
-/// The numbers of a run are those of `docs/report-quick.json` and, where a full run computes the same,
-/// of `docs/report.json`.
+/// Asserts agreement with `docs/report-quick.json` and, for shared numbers, with `docs/report.json`.
 fn assert_current(out: &Path) {
     let rows = report::read(&out.join("report.json")).unwrap();
     let stale = crate::committed::stale(&rows).unwrap();
@@ -95,19 +87,17 @@ fn assert_current(out: &Path) {
     );
 }
 
-/// All other artefacts, once. Symptom of the plausible bug: a change of a model that leaves the committed
-/// numbers, and the documents with them, as they were.
 #[test]
-fn committed_numbers_come_out_again() {
+fn committed_numbers_are_reproduced() {
     let ids = EXPERIMENTS.map(|e| e.id);
     let rest: Vec<&str> = ids.into_iter().filter(|id| !CHEAP.contains(id)).collect();
     assert_current(run(&rest, 2).path());
 }
 
-/// Two processes, of one thread and of two. Symptoms of the plausible bugs: runs put together as they finish,
-/// a sum in the order of threads, a random start that is not seeded, a table in the order of a hash.
+/// Compares processes with one and two threads. Guards against unordered results, unordered sums, unseeded random
+/// numbers and iteration in hash order.
 #[test]
-fn threads_and_repetition_change_no_byte() {
+fn results_are_independent_of_threads() {
     let first = run(&CHEAP, 1);
     assert_current(first.path());
     let expected = files(first.path());

@@ -1,4 +1,4 @@
-//! Cuts through the energy surface: the law `Homogenised` as lines, relaxed cells as dots.
+//! Sections of the energy surface: the law `Homogenised` as lines, relaxed cells as dots.
 
 use super::charts::{dots, line};
 use super::draft::Draft;
@@ -11,7 +11,7 @@ use rayon::prelude::*;
 /// Curvature (rad/nm), twist (rad/nm), shear, extension.
 type Point = [f64; 4];
 
-/// Where the energy is cut: over the strain of one place up to a value, a line for each value of another.
+/// Section of the energy surface: energy against one strain, with a curve for each value of another.
 struct Cut {
     file: &'static str,
     title: &'static str,
@@ -33,7 +33,7 @@ const CUTS: [Cut; 3] = [
     Cut {
         file: "surface-stretch.svg",
         title: "Energy of the twisted and stretched filament",
-        over: (3, "stretch beyond the free filament"),
+        over: (3, "stretch relative to the free filament"),
         range: [-2e-3, 4e-3],
         by: (1, "twist (rad/nm)"),
         values: [-0.02, 0.0, 0.01, 0.02],
@@ -43,16 +43,15 @@ const CUTS: [Cut; 3] = [
         title: "Energy of the stretched and sheared filament, without twist",
         over: (2, "shear strain"),
         range: [0.0, 0.015],
-        by: (3, "stretch beyond the free filament"),
+        by: (3, "stretch relative to the free filament"),
         values: [0.0, 5e-4, 1.5e-3, 3e-3],
     },
 ];
 
-/// Points of a line, and cells.
+/// Intervals of a line, and of the computed cells.
 const POINTS: u32 = 60;
 const CELLS: u32 = 12;
 
-/// Draws all cuts.
 pub(super) fn draw(draft: &mut Draft<'_>) -> Result<(), String> {
     let cell = mean()?;
     let law = Homogenised::mean_filament();
@@ -77,12 +76,12 @@ impl Cut {
             let points: Result<_, String> = cells.par_iter().map(energy).collect();
             series.push(dots(colour, points?));
         }
-        let caption = format!("{}: the law (lines) and relaxed cells (dots).", self.title);
+        let caption = format!("{}: rod law (lines) and relaxed cells (dots).", self.title);
         let labels = [self.over.1, "energy per length (pN)"];
         draft.plot(self.file, self.title, labels, series, caption)
     }
 
-    /// Places on the line of one value, and where they stand on the axis.
+    /// Strains along the curve of a value, with their abscissae.
     fn places(&self, value: f64, count: u32) -> impl Iterator<Item = (f64, Point)> {
         let ([from, to], by, over) = (self.range, self.by.0, self.over.0);
         (0..=count).map(move |n| {
@@ -95,7 +94,6 @@ impl Cut {
     }
 }
 
-/// The six strains.
 fn six(law: &Homogenised, [curvature, twist, shear, extension]: Point) -> SixVector {
     let stretch = law.form().natural_stretch(twist) + extension;
     strain([curvature, twist, shear, stretch, 0.0])

@@ -1,4 +1,4 @@
-//! Artefacts are computed once, and again if a file is missing or changed. The experiments here are cheap.
+//! Tests of the cache with cheap experiments.
 
 use super::*;
 use actin_draw::report::{Picture, save};
@@ -6,12 +6,10 @@ use std::collections::BTreeSet;
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
-/// Nothing is told.
 const SILENT: Tell<'static> = &|_| ();
 
 static FOLDERS: AtomicUsize = AtomicUsize::new(0);
 
-/// A folder for one test, which goes with it.
 struct Folder(PathBuf);
 
 impl Folder {
@@ -30,14 +28,14 @@ impl Drop for Folder {
     }
 }
 
-/// An artefact with one picture and one table.
+/// Experiment with one picture and one table.
 fn drawn(draft: &mut Draft<'_>) -> Result<(), String> {
     let (id, out) = (draft.id, draft.out);
     let file = format!("{id}.svg");
     save(out, &file, "<svg/>")?;
     save(out, &format!("{id}.csv"), "a,b\n")?;
     draft.settings = "seeds 0 to 3".into();
-    // A third has no short decimal form: it must come back to the last bit.
+    // Checks that numbers are restored exactly.
     draft.row("third", "nm", 1.0 / 3.0, "");
     draft.pictures.push(Picture {
         file,
@@ -68,14 +66,13 @@ fn options(out: &Path) -> Options {
     }
 }
 
-/// Both artefacts under this fingerprint; why each was computed, if it was.
 fn reasons(options: &Options, fingerprint: &str) -> [Option<Reason>; 2] {
     let cache = Cache::new(&options.out, fingerprint.to_owned()).unwrap();
     BOTH.map(|e| artefact(&e, &cache, options, SILENT).unwrap().1)
 }
 
 #[test]
-fn finished_artefacts_are_kept_to_the_last_bit() {
+fn cached_artefacts_are_restored_exactly() {
     let folder = Folder::new();
     let options = options(&folder.0);
     let first = artefacts(&BOTH, &options, SILENT).unwrap();
@@ -87,10 +84,9 @@ fn finished_artefacts_are_kept_to_the_last_bit() {
     assert_eq!(cache.find("fig1").unwrap().runs, 3);
 }
 
-/// A missing picture, a changed table, a broken record, a wish: what is amiss is computed, and
-/// nothing else.
+/// Cases: missing picture, changed table, broken record, explicit request.
 #[test]
-fn what_is_amiss_is_computed_again() {
+fn only_invalid_artefacts_are_recomputed() {
     let folder = Folder::new();
     let out = folder.0.as_path();
     let options = options(out);
@@ -118,7 +114,7 @@ fn what_is_amiss_is_computed_again() {
 
 static FAILS: AtomicBool = AtomicBool::new(true);
 
-/// Writes one of its files and stops, as a killed command does; the next time it goes through.
+/// Experiment that writes a file and fails in its first call only.
 fn stops(draft: &mut Draft<'_>) -> Result<(), String> {
     save(draft.out, "half.csv", "a")?;
     if FAILS.swap(false, Ordering::Relaxed) {
@@ -127,9 +123,9 @@ fn stops(draft: &mut Draft<'_>) -> Result<(), String> {
     drawn(draft)
 }
 
-/// What an ended command left behind is not taken for a result, and what it had finished is kept.
+/// Files of an unfinished artefact are discarded; finished artefacts are kept.
 #[test]
-fn an_ended_command_goes_on_where_it_was() {
+fn interrupted_command_is_continued() {
     let folder = Folder::new();
     let options = options(&folder.0);
     let experiments = [BOTH[0], experiment("fig2", "A title", stops)];
@@ -150,9 +146,8 @@ fn an_ended_command_goes_on_where_it_was() {
     assert!(names().contains("fig2.svg"));
 }
 
-/// What changes an artefact changes its fingerprint, and nothing else does.
 #[test]
-fn fingerprints_tell_choices_apart() {
+fn fingerprint_depends_on_options_that_affect_results() {
     let quick = options(Path::new("a"));
     let full = Options {
         quick: false,

@@ -1,4 +1,4 @@
-//! Figure 9: how twisting rigidity and length depend on twist, fitted.
+//! Figure 9: fits of twisting rigidity and length as functions of twist.
 
 use super::draft::{Draft, Measured};
 use super::tables;
@@ -6,11 +6,10 @@ use crate::fit::{Beside, TwistData, TwistFits, draw, rms};
 use actin_cosserat::{PolynomialStretch, TanhTwist};
 use actin_draw::report::{Origin, Picture, Row};
 
-const PUBLISHED: &str = "published parameters on the paper's rows to 200 deg";
-const REFITTED: &str = "the published form, refitted to the same rows; not judged, since the least of all sums of \
-    squares is no larger than the published one";
+const PUBLISHED: &str = "published parameters, rows of the paper to 200 deg";
+const REFITTED: &str = "published form, refitted to the same rows; not judged, because the minimum of the sum of \
+    squares cannot exceed the published one";
 
-/// Fits the paper's rows and draws data, published and fitted curves.
 pub(super) fn figure9(draft: &mut Draft<'_>) -> Result<(), String> {
     let data = TwistData::from_paper(false)?;
     let fits = TwistFits::new(&data)?;
@@ -21,8 +20,8 @@ pub(super) fn figure9(draft: &mut Draft<'_>) -> Result<(), String> {
         .map(|(file, caption)| Picture { file, caption })
         .collect();
     draft.settings = format!(
-        "Least squares on {}; {} starts for each nonlinear fit. For comparison our own filaments of Tables 3 and 5: \
-         64 drawn bonds per interface, and the mean filament.",
+        "Least squares on {}; {} initial guesses for each nonlinear fit. For comparison, our filaments of Tables 3 \
+         and 5: 64 sampled bonds per interface, and the mean filament.",
         data.source,
         fits.tanh.fit.starts.len()
     );
@@ -34,7 +33,6 @@ pub(super) fn figure9(draft: &mut Draft<'_>) -> Result<(), String> {
     Ok(())
 }
 
-/// Root mean squares of all fits.
 fn goodness(draft: &mut Draft<'_>, fits: &TwistFits) {
     let b3 = "pN nm^2";
     for (quantity, unit, rms, note) in [
@@ -44,7 +42,7 @@ fn goodness(draft: &mut Draft<'_>, fits: &TwistFits) {
             "b3_rms/saturating",
             b3,
             fits.sided.1.fit.goodness.rms,
-            "seven parameters, saturating to either side, fitted with relative weights",
+            "seven parameters, saturating in both directions, fitted with relative weights",
         ),
         ("xi_rms/published", "", fits.published_xi_rms[0], PUBLISHED),
         ("xi_rms/fitted", "", fits.polynomial.goodness.rms, REFITTED),
@@ -52,13 +50,13 @@ fn goodness(draft: &mut Draft<'_>, fits: &TwistFits) {
             "xi_rms/without-offset",
             "",
             fits.without_offset.goodness.rms,
-            "the same with p_0 = 0: a rod at rest keeps its length",
+            "refitted with p_0 = 0, so that an untwisted rod keeps its length",
         ),
         (
             "xi_rms/two-slopes",
             "",
             fits.rooted.basis.goodness().rms,
-            "four parameters, one slope on either side of rest",
+            "four parameters, separate slopes in under-twist and over-twist",
         ),
     ] {
         draft.row(quantity, unit, rms, note);
@@ -68,7 +66,7 @@ fn goodness(draft: &mut Draft<'_>, fits: &TwistFits) {
 fn parameters(draft: &mut Draft<'_>, fits: &TwistFits) {
     let published = PolynomialStretch::published().coefficients;
     for (i, (&ours, paper)) in fits.polynomial.parameters.iter().zip(published).enumerate() {
-        let note = "the paper counts from 1; a difference within the rounding of its rows passes";
+        let note = "numbered from 1 in the paper; tolerance: effect of the rounding of its rows";
         let row = Row::measured(draft.id, format!("p/{i}"), "nm^i", ours, note);
         draft.compared(
             row.against(paper, fits.rounding_error(i))
@@ -82,7 +80,7 @@ fn parameters(draft: &mut Draft<'_>, fits: &TwistFits) {
     let published = TanhTwist::published().lambda;
     for ((&ours, paper), i) in fit.parameters.iter().zip(published).zip(1..) {
         let unit = if i == 3 { "" } else { "rad/nm" };
-        let note = "the refitted form meets the rows better with other parameters; no verdict";
+        let note = "not judged, because other parameters fit the rows better";
         let row = Row::measured(draft.id, format!("lambda/{i}"), unit, ours, note);
         let row = Row {
             standard_error: fit.precision.standard_error(i - 1),
@@ -92,14 +90,14 @@ fn parameters(draft: &mut Draft<'_>, fits: &TwistFits) {
     }
 }
 
-/// Differences of our own monomers from the paper's rows and from its laws.
+/// Rows of the differences of our monomers from rows and laws of the paper.
 fn monomer_rows(draft: &mut Draft<'_>, name: &str, ours: &TwistData, paper: &TwistData) {
-    // Both columns hold the paper's curvatures in the same order.
+    // Both columns contain the curvatures of the paper in the same order.
     let differences = |ours: &[f64], theirs: &[f64]| {
         crate::statistics::rms(ours.iter().zip(theirs).map(|(a, b)| a - b))
     };
     let (b3, xi) = (TanhTwist::published(), PolynomialStretch::published());
-    let (rows, law) = ("the paper's rows", "the published law");
+    let (rows, law) = ("the rows of the paper", "the published law");
     for (quantity, unit, value, from) in [
         (
             "b3_rms",

@@ -152,7 +152,7 @@ impl Run {
         Ok(all)
     }
 
-    /// Returns whether the resolution changes with time. Such a run can be shown by a film, but not by a page.
+    /// Returns whether the resolution changes with time. A film can show such a run, a page cannot.
     pub fn has_changing_resolution(&self) -> bool {
         !self.later.is_empty()
     }

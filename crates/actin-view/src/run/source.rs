@@ -96,7 +96,7 @@ impl Source {
                  shown."
                     .into(),
             ),
-            Ok(None) => self.remark("There is no states.npz. The initial shape is shown.".into()),
+            Ok(None) => self.remark("states.npz is missing. The initial shape is shown.".into()),
             Err(error) => self.remark(format!("{error}. The initial shape is shown.")),
         }
     }

@@ -13,13 +13,13 @@ use std::time::{Duration, Instant};
 
 const LIMIT: Duration = Duration::from_mins(8);
 
-/// Returns the browser. If there is none, prints a message, or fails if one is required.
+/// Returns the browser. A missing browser causes a message, or a panic if it is required.
 pub(crate) fn browser() -> Option<PathBuf> {
     let found = actin_view::draw::browser();
     if found.is_none() {
         assert!(
             std::env::var_os("ACTIN_REQUIRE_BROWSER").is_none(),
-            "ACTIN_REQUIRE_BROWSER is set and there is no browser"
+            "ACTIN_REQUIRE_BROWSER is set, but no browser was found"
         );
         eprintln!("SKIPPED: no Chromium on the path: the page was NOT tested in a browser");
     }
@@ -47,7 +47,10 @@ pub(crate) fn probed(
     let text = dumped(browser, mode, folder);
     let found = widths.iter().map(|width| {
         let begin = format!("<pre id=\"w{width}\">");
-        let place = text.find(&begin).expect("the page around has its place") + begin.len();
+        let place = text
+            .find(&begin)
+            .expect("the body of the surrounding page exists")
+            + begin.len();
         let json = &text[place..place + text[place..].find("</pre>").unwrap()];
         serde_json::from_str(json).unwrap_or_else(|e| panic!("{width}: {e}: `{json}`"))
     });

@@ -1,49 +1,40 @@
-//! One buckled filament: what it is made of, how it is held, turned and pushed together, and the
-//! scene that says so.
+//! Scene of one buckled filament: composition, clamps, rotation and compression of the ends.
 
 use super::{Figure, LENGTH_NM};
 use crate::figures::model::{Model, Resolution, monomers};
 use crate::run::scenario;
 use actin_sim::{Hold, Pace, Scene, Section, Setting, Stage, Task};
 
-/// Length of a filament of monomers alone between its inner held monomers, where rods of
-/// [`LENGTH_NM`] are held in node and frame (nm): the frame held lies half a segment inside.
+/// Length between the inner clamped monomers of a filament without rod (nm). It corresponds to rods of [`LENGTH_NM`]
+/// with clamped nodes and frames, because a clamped frame lies half a segment inside.
 const MONOMERS_NM: f64 = 290.0;
-/// Largest step of a path in small steps, as a share of a stage.
+/// Step of a path in small steps, as a fraction of a stage.
 const SMALL_STEP: f64 = 0.04;
-/// Random starts from which other stable states are looked for.
 const STATES: usize = 16;
 
-/// The order in which the ends are moved.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Order {
-    /// Turned, then pushed together.
     TwistFirst,
-    /// Pushed together, then turned.
     CompressionFirst,
-    /// Both at once.
     Together,
 }
 
-/// What decides which of several equilibria is met.
+/// Properties that select one of several equilibria.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Start {
     pub order: Order,
-    /// Azimuth of the pull that breaks the symmetry (deg).
+    /// Azimuth of the symmetry-breaking force (deg).
     pub pull_deg: u32,
-    /// Whether the path is followed in small steps.
     pub small_steps: bool,
 }
 
-/// One filament along one path.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Case {
     pub figure: &'static Figure,
     pub model: Model,
     pub resolution: Resolution,
-    /// Turn of each end, opposite at the other; positive is over-twist (deg).
+    /// Rotation of each end, in opposite directions (deg). Positive values are over-twist.
     pub turn_deg: i32,
-    /// Seed of the bonds.
     pub seed: u64,
     pub start: Start,
 }
@@ -57,7 +48,7 @@ impl PartialEq for Case {
 }
 
 impl Start {
-    /// Twist first, pulled towards +x.
+    /// Twist first, with the force towards +x.
     pub(super) const DEFAULT: Self = Self {
         order: Order::TwistFirst,
         pull_deg: 0,
@@ -68,12 +59,11 @@ impl Start {
         ..Self::DEFAULT
     };
 
-    /// Twist first and compression first.
     pub(super) fn orders() -> Vec<Self> {
         vec![Self::DEFAULT, Self::COMPRESSION_FIRST]
     }
 
-    /// Three orders, each pulled two ways, and two of them in small steps: eight starts.
+    /// Eight starts: three orders with two directions of the force, and two orders in small steps.
     pub(super) fn all() -> Vec<Self> {
         let mut all = Vec::new();
         for order in [Order::TwistFirst, Order::CompressionFirst, Order::Together] {
@@ -91,7 +81,6 @@ impl Start {
         all
     }
 
-    /// Name in tables.
     pub(super) fn name(self) -> String {
         let order = match self.order {
             Order::TwistFirst => "twist-first",
@@ -103,19 +92,16 @@ impl Start {
     }
 }
 
-/// `over/180` or `under/180`.
 pub(super) fn turn_name(turn_deg: i32) -> String {
     let direction = if turn_deg > 0 { "over" } else { "under" };
     format!("{direction}/{}", turn_deg.abs())
 }
 
 impl Case {
-    /// Turn and resolution in quantities.
     pub(super) fn path(&self) -> String {
         format!("{}/{}", turn_name(self.turn_deg), self.resolution.name())
     }
 
-    /// Name in messages.
     pub(super) fn name(&self) -> String {
         format!("{}/seed-{}/{}", self.path(), self.seed, self.start.name())
     }
@@ -129,7 +115,7 @@ impl Case {
         f64::from(self.turn_deg.signum())
     }
 
-    /// True for filaments whose other stable states are searched: one sampling of those in the pictures, monomers alone
+    /// True if other stable states are searched: first sampling of filaments in the pictures, and filaments without rod
     /// in Figure 8 only.
     fn has_states(&self) -> bool {
         let is_shown = self.model == self.figure.models[0];
@@ -137,7 +123,6 @@ impl Case {
         is_shown && is_new && self.seed == 0 && self.start == Start::DEFAULT
     }
 
-    /// The scene of the figure with the changes of the case.
     pub(super) fn scene(&self) -> Result<Scene, String> {
         let mut scene = scenario(self.figure.file)?;
         scene.title = self.name();
@@ -187,7 +172,7 @@ impl Case {
         }
     }
 
-    /// The stages of the scene, turn before shift, with the turn and in the order of the case.
+    /// Stages of the scene (turn, then shift) with the turn and the order of the case.
     fn path_of(&self, stages: &[Stage]) -> Vec<Stage> {
         let mut stages = stages.to_vec();
         for setting in stages.iter_mut().flat_map(|stage| &mut stage.set) {
@@ -212,10 +197,8 @@ mod tests {
     use super::super::{FIGURE_8, Plan};
     use super::*;
 
-    /// The default case is the scene as written; under-twist turns both ends the other way; the
-    /// orders hold the same settings.
     #[test]
-    fn cases_change_what_they_name() {
+    fn turns_and_orders_are_applied() {
         let plan = Plan::new(&FIGURE_8, false);
         let turns = |turn_deg, order| -> Vec<f64> {
             let case = plan.case(plan.shown(), Resolution::Mixed(140), turn_deg, 0);

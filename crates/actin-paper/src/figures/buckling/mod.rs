@@ -1,8 +1,8 @@
-//! Figures 8 and 10: a filament whose ends are turned against each other and pushed together.
+//! Figures 8 and 10: filaments with opposite rotations of the ends under compression.
 //!
-//! Every state is an equilibrium at the end of a path of turns and shifts, found and certified by
-//! statics; one resolution is also moved there in time. A pull of 1e-3 pN at half the length
-//! breaks the symmetry, so only what does not depend on its direction is compared.
+//! Every state is an equilibrium at the end of a path of turns and shifts, with a certificate of stability. One
+//! resolution is also computed by dynamics. A force of 1e-3 pN at half the length breaks the symmetry. Only observables
+//! that are independent of its direction are compared.
 
 mod case;
 mod pictures;
@@ -18,30 +18,27 @@ use actin_sim::{ForceLaw, Hold, JunctionWeight};
 use case::{Case, Start};
 use solve::{Measured, Motion, Outcome};
 
-/// Length of the filament (nm).
 const LENGTH_NM: f64 = 300.0;
-/// Lengths of the rod part (nm), split evenly between the ends, as in the paper, and for `--quick`.
+/// Lengths of rod (nm) in the paper and with `--quick`. Each end has half of the rod.
 const RODS: [u32; 7] = [240, 207, 173, 140, 107, 73, 40];
 const QUICK_RODS: [u32; 3] = [240, 140, 40];
-/// Largest turn (deg) with the balance as printed: at larger turns there are many states.
+/// Largest turn (deg) with the balance as printed. Larger turns have many states.
 const FEW_STATES_DEG: i32 = 270;
 
-/// A figure of buckled filaments.
 #[derive(Debug)]
 struct Figure {
     id: &'static str,
-    /// The scene file, in `scenarios`.
+    /// Scene file in `scenarios`.
     file: &'static str,
-    /// Law of the rods, in captions.
+    /// Name of the rod law in captions.
     rods: &'static str,
-    /// The first is the one that the figure shows.
+    /// Models; the figure shows the first one.
     models: &'static [Model],
     /// Turns of the ends (deg).
     turns: &'static [i32],
-    /// Samplings of the bonds, and for `--quick`.
+    /// Samplings of the bonds, by default and with `--quick`.
     seeds: [u64; 2],
-    /// Starts of the shown model, and for `--quick`; turns (deg) at which it is solved from all of them, and for
-    /// `--quick`.
+    /// Starts of the shown model, and turns (deg) with all starts, by default and with `--quick`.
     starts: [fn() -> Vec<Start>; 2],
     started: [&'static [i32]; 2],
 }
@@ -76,7 +73,6 @@ const fn wall(model: Model) -> Model {
     }
 }
 
-/// The junction as printed.
 const FULL: Model = Model {
     name: "full/",
     words: "junction as printed",
@@ -95,7 +91,7 @@ const COUPLING: Model = Model {
     rods: Rods::CouplingEnergy,
     ..SHOWN_10
 };
-/// The extended rod in the balance of forces and torques as printed, which has no energy.
+/// Extended rod with the balance of forces and torques as printed, which has no energy.
 const AS_PRINTED: Model = Model {
     name: "paper-balance/",
     words: "balance as printed",
@@ -132,7 +128,6 @@ static FIGURE_10: Figure = Figure {
     started: [&[360, -360], &[360]],
 };
 
-/// Figure 8: rods of constant rigidities.
 pub(super) fn figure8(draft: &mut Draft<'_>) -> Result<(), String> {
     reproduce(&Plan::new(&FIGURE_8, draft.quick), draft)
 }
@@ -157,10 +152,10 @@ fn reproduce(plan: &Plan, draft: &mut Draft<'_>) -> Result<(), String> {
     results.outcomes = outcomes.filter_map(|r| r.map_err(&mut keep).ok()).collect();
     results.failures = failures;
     draft.settings = format!(
-        "Scene scenarios/{} and what follows from it: {} equilibria at the end of paths, {} samplings of drawn \
+        "Scene scenarios/{} and variants: {} equilibria at the end of paths, {} samplings of the \
          bonds, seeds from 0, and the mean filament, which has no seed; twist first unless named. Rods are 300 nm \
-         long; monomers alone 290 nm between the inner held ones, 300 nm where the clamp is Wall. A pull of \
-         1e-3 pN at half the length, towards a point 100 nm aside, breaks the symmetry.",
+         long; filaments of monomers 290 nm between the inner clamped monomers, 300 nm with the clamp Wall. A force of \
+         1e-3 pN at half the length, towards a point at a distance of 100 nm, breaks the symmetry.",
         plan.figure.file,
         results.outcomes.len(),
         plan.seeds,
@@ -179,7 +174,7 @@ struct Plan {
     models: Vec<Model>,
     resolutions: Vec<Resolution>,
     seeds: u64,
-    /// Starts from which every resolution of the shown model is solved, and at which turns.
+    /// Starts of the shown model, and turns with all starts.
     starts: Vec<Start>,
     started: &'static [i32],
     quick: bool,
@@ -203,12 +198,11 @@ impl Plan {
         }
     }
 
-    /// The model that the figure shows.
+    /// Model shown in the figure.
     fn shown(&self) -> Model {
         self.figure.models[0]
     }
 
-    /// The case of a model at a resolution and a turn, from its default start.
     fn case(&self, model: Model, resolution: Resolution, turn_deg: i32, seed: u64) -> Case {
         let is_drawn = !model.is_mean && resolution != Resolution::Rod;
         Case {
@@ -221,7 +215,6 @@ impl Plan {
         }
     }
 
-    /// The turns at which a model is compared (deg).
     fn turns_of(&self, model: Model) -> impl Iterator<Item = i32> {
         let most = if model == AS_PRINTED {
             FEW_STATES_DEG
@@ -232,7 +225,7 @@ impl Plan {
         turns.filter(move |turn| turn.abs() <= most)
     }
 
-    /// Starts at a turn: at least both orders.
+    /// Starts at a turn, at least both orders.
     fn starts_at(&self, turn: i32) -> Vec<Start> {
         if self.started.contains(&turn) {
             self.starts.clone()
@@ -241,14 +234,13 @@ impl Plan {
         }
     }
 
-    /// The cases that are moved in time: one mixed resolution in both directions; empty for `--quick`.
+    /// Cases computed by dynamics: one mixed resolution in both directions; empty with `--quick`.
     fn moved(&self) -> Vec<Case> {
         let turns: &[i32] = if self.quick { &[] } else { &[180, -180] };
         let case = |&turn| self.case(self.shown(), Resolution::Mixed(140), turn, 0);
         turns.iter().map(case).collect()
     }
 
-    /// Every case, each once.
     fn cases(&self) -> Vec<Case> {
         let mut all = Vec::new();
         for &model in &self.models {
@@ -276,22 +268,19 @@ impl Plan {
     }
 }
 
-/// Outcomes of all cases.
 #[derive(Debug, Default)]
 struct Results {
     outcomes: Vec<Outcome>,
     motions: Vec<Motion>,
-    /// Messages of cases without an equilibrium.
     failures: Vec<String>,
 }
 
 impl Results {
-    /// The outcome of one case.
     fn of(&self, case: Case) -> Option<&Outcome> {
         self.outcomes.iter().find(|outcome| outcome.case == case)
     }
 
-    /// Samplings of one filament.
+    /// Outcomes of all samplings of a case.
     fn samplings(&self, case: Case) -> impl Iterator<Item = &Outcome> {
         self.outcomes.iter().filter(move |outcome| {
             let seed = outcome.case.seed;
@@ -299,14 +288,14 @@ impl Results {
         })
     }
 
-    /// Statistics of an observable over samplings; `None` where nothing was found.
+    /// Statistics of an observable over samplings; `None` without outcomes.
     fn sample(&self, case: Case, of: fn(&Measured) -> f64) -> Option<Sample> {
         let sample = sample(self.samplings(case).map(|o| of(&o.measured)));
         (sample.count > 0).then_some(sample)
     }
 }
 
-/// An observable that does not depend on the plane of buckling: name, unit, value.
+/// Name, unit and value of an observable that is independent of the plane of buckling.
 type Observable = (&'static str, &'static str, fn(&Measured) -> f64);
 
 const OBSERVABLES: [Observable; 4] = [
@@ -320,10 +309,9 @@ const OBSERVABLES: [Observable; 4] = [
 mod tests {
     use super::*;
 
-    /// A model adds only the filaments that it changes: eight of the mean filament, since the rod has no
-    /// bonds, and seven junctions as printed at each turn. The balance as printed is a law of rods.
+    /// The mean filament affects all resolutions except the rod, the junction only the seven mixed ones.
     #[test]
-    fn every_model_adds_the_filaments_that_it_changes() {
+    fn models_add_only_affected_filaments() {
         let [eight, ten] = [&FIGURE_8, &FIGURE_10].map(|figure| Plan::new(figure, false));
         for plan in [&eight, &ten] {
             assert!(plan.seeds >= 3 && plan.starts.len() >= 6);

@@ -1,5 +1,4 @@
-//! Pictures of Figures 8 and 10: centre lines in the plane of buckling and from its side, and
-//! heights and couples against the length of rod.
+//! Pictures of Figures 8 and 10: projected centre lines, and heights and torques against the length of rod.
 
 use super::case::turn_name;
 use super::plane::in_own_plane;
@@ -14,18 +13,18 @@ use actin_draw::Colour;
 use actin_sim::follow::Follower;
 use actin_view::{Attitude, Pose};
 
-/// Along the axis, in the plane of buckling and out of it are the coordinates 0, 1 and 2.
+/// Coordinates 0, 1 and 2 are along the axis, in the plane of buckling and out of the plane.
 const SIDES: [Side; 3] = [
     Side {
         panel: "plane",
-        title: "In each filament's own plane of buckling",
+        title: "In the plane of buckling of each filament",
         labels: ["along the axis, from the middle (nm)", "in the plane (nm)"],
         project: |p| (p[0], p[1]),
         equal_axes: false,
     },
     Side {
         panel: "side",
-        title: "From the side of that plane",
+        title: "Perpendicular to the plane of buckling",
         labels: [
             "along the axis, from the middle (nm)",
             "out of the plane (nm)",
@@ -42,14 +41,13 @@ const SIDES: [Side; 3] = [
     },
 ];
 
-/// Draws all pictures.
 pub(super) fn draw(plan: &Plan, draft: &mut Draft<'_>, results: &Results) -> Result<(), String> {
     for &turn in plan.figure.turns {
         lines(plan, draft, results, turn)?;
     }
     for (observable, what) in OBSERVABLES
         .into_iter()
-        .zip(["Largest distance from the axis", "End couple"])
+        .zip(["Largest distance from the axis", "End torque"])
     {
         for &turn in plan.figure.turns {
             against_resolution(plan, draft, results, (observable, what), turn)?;
@@ -58,7 +56,6 @@ pub(super) fn draw(plan: &Plan, draft: &mut Draft<'_>, results: &Results) -> Res
     view(plan, draft, results)
 }
 
-/// Text for a turn.
 fn in_words(turn: i32) -> String {
     let direction = if turn > 0 {
         "over-twist"
@@ -68,14 +65,12 @@ fn in_words(turn: i32) -> String {
     format!("{} deg of {direction}", turn.abs())
 }
 
-/// The outcomes that are drawn at a turn, from monomers to rod.
 fn drawn<'a>(plan: &Plan, results: &'a Results, turn: i32) -> Vec<&'a Outcome> {
     let cases = plan.resolutions.iter().rev();
     let outcomes = cases.filter_map(|&r| results.of(plan.case(plan.shown(), r, turn, 0)));
     outcomes.collect()
 }
 
-/// The filaments that are drawn at a turn, each in its own plane of buckling.
 fn filaments(plan: &Plan, results: &Results, turn: i32) -> Vec<Filament> {
     let filament = |o: &Outcome, name: String, colour| Filament {
         name,
@@ -95,20 +90,19 @@ fn filaments(plan: &Plan, results: &Results, turn: i32) -> Vec<Filament> {
     drawn.chain(mean).collect()
 }
 
-/// The views of the centre lines at one turn.
 fn lines(plan: &Plan, draft: &mut Draft<'_>, results: &Results, turn: i32) -> Result<(), String> {
     let filaments = filaments(plan, results, turn);
     let file = format!("{}_{}", plan.figure.id, turn_name(turn).replace('/', "_"));
     let captions = [
         format!(
-            "Centre lines, drawn bonds (seed 0), {}; every filament is turned about the axis until its own plane \
-             of buckling lies in the page. {} Black: the mean filament, all monomers. The scales of the two axes \
+            "Centre lines, sampled bonds (seed 0), {}; every filament is rotated about the axis so that its plane \
+             of buckling coincides with the page. {} Black: the mean filament without rod. The scales of the two axes \
              differ.",
             plan.figure.rods,
             palette::chosen().ends()
         ),
-        "The same lines from the side: what leaves the plane.".into(),
-        "The same lines seen along the axis of the ends, at equal scales.".into(),
+        "Centre lines out of the plane of buckling.".into(),
+        "Centre lines along the axis of the ends, with equal scales.".into(),
     ];
     for (side, caption) in SIDES.iter().zip(captions) {
         let title = format!("{}, {} at each end", side.title, in_words(turn));
@@ -124,7 +118,6 @@ fn lines(plan: &Plan, draft: &mut Draft<'_>, results: &Results, turn: i32) -> Re
     Ok(())
 }
 
-/// The colour of a model in charts against the length of rod.
 fn colour(model: Model) -> Colour {
     match model.name {
         "" => palette::line(3),
@@ -136,7 +129,6 @@ fn colour(model: Model) -> Colour {
     }
 }
 
-/// An observable against the length of rod at one turn, all models.
 fn against_resolution(
     plan: &Plan,
     draft: &mut Draft<'_>,
@@ -167,9 +159,9 @@ fn against_resolution(
         turn_name(turn).replace('/', "_")
     );
     let caption = format!(
-        "{what} against the length of rod, {}. Drawn bonds, 64 per interface, are means over {} samplings; the \
-         mean filament has 12 weighted bonds per interface that stand for all, and the balance as printed is \
-         solved for it.",
+        "{what} against the length of rod, {}. Sampled bonds: 64 per interface, mean over {} samplings. The mean \
+         filament has 12 quadrature bonds per interface, which represent all possible bonds. The balance as printed \
+         uses it.",
         plan.figure.rods, plan.seeds,
     );
     draft.plot(
@@ -184,7 +176,6 @@ fn against_resolution(
     )
 }
 
-/// The drawn states for the viewer.
 fn view(plan: &Plan, draft: &mut Draft<'_>, results: &Results) -> Result<(), String> {
     let mut shown = Vec::new();
     for &turn in plan.figure.turns {
@@ -198,32 +189,31 @@ fn view(plan: &Plan, draft: &mut Draft<'_>, results: &Results) -> Result<(), Str
             )
         }));
     }
-    let caption = "The equilibria of seed 0 in space, each in the plane in which it buckled; the stripe along rods \
-        is their first axis and shows the twist. The weak pull that breaks the symmetry is left out.";
+    let caption = "Equilibria of seed 0, each in its plane of buckling; the stripe along rods \
+        is their first axis and shows the twist. The weak symmetry-breaking force is not shown.";
     draft.view(plan.figure.id, Attitude::LYING, shown, caption)
 }
 
-/// Times of the states that are shown of the motion whose resolution follows it (ns): straight, bent, buckled, at
-/// rest.
+/// Times of the states of the adaptive motion (ns): straight, bent, buckled, at rest.
 const TIMES_NS: [f64; 5] = [0.0, 95.0, 125.0, 145.0, 400.0];
-/// Records are every 5 ns, at whole steps.
+/// Tolerance of the time of a record (ns). Records are every 5 ns, rounded to time steps.
 const NEAR_NS: f64 = 1.0;
 
-/// A filament that buckles while its resolution follows, for the viewer.
+/// Writes a buckling filament with adaptive resolution for the viewer.
 pub(super) fn followed(draft: &mut Draft<'_>) -> Result<(), String> {
     let fail = |error: &dyn std::fmt::Display| format!("following.ron: {error}");
     let follower = Follower::new(&scenario("following.ron")?).map_err(|e| fail(&e))?;
     let run = follower.run().map_err(|e| fail(&e))?;
     let mut shown = Vec::new();
     for time_ns in TIMES_NS {
-        // After a switch the later stretch shows what it made.
+        // At a switch of the resolution, the later stretch is shown.
         let found = run.stretches.iter().rev().find_map(|ran| {
             let mut records = ran.trajectory.records.iter();
             let record = records.find(|record| (record.at.value() - time_ns).abs() < NEAR_NS)?;
             let cells = &ran.stretch.beginning.is_monomers;
             let monomers = cells.iter().filter(|is_monomers| **is_monomers).count();
             Some((
-                "Pushed together by a fifth in 300 ns".into(),
+                "Compressed by a fifth in 300 ns".into(),
                 format!("{time_ns} ns"),
                 1.0 - monomers as f64 / cells.len() as f64,
                 Pose::of(&ran.stretch.assembly, &record.state),
@@ -231,7 +221,7 @@ pub(super) fn followed(draft: &mut Draft<'_>) -> Result<(), String> {
         });
         shown.push(found.ok_or_else(|| fail(&format!("no state at {time_ns} ns")))?);
     }
-    let caption = "A motion in time whose resolution follows it (scenarios/following.ron): cells of the rod become \
-        monomers where it bends by more than 0.008 per nm, and rod again below 0.005.";
+    let caption = "Motion with adaptive resolution (scenarios/following.ron): cells of the rod become \
+        monomers where the curvature exceeds 0.008 per nm, and rod again below 0.005 per nm.";
     draft.view("fig10_following", Attitude::LYING, shown, caption)
 }

@@ -1,10 +1,9 @@
-//! The plane in which a filament has buckled.
+//! Plane of buckling of a filament.
 
-/// Turns a centre line about the axis (lab z) so that most of it lies in one plane.
+/// Rotates a centre line about the axis (lab z) into its plane of buckling.
 ///
-/// The plane is that of the largest second moment of (x, y) about the axis, so the line's offsets
-/// are largest along the first returned coordinate; that coordinate is positive on average.
-/// Returns (along the axis from the middle between the ends, in the plane, out of it), in nm.
+/// The plane is the principal plane of the largest second moment of (x, y) about the axis. Returns coordinates (nm)
+/// along the axis from the middle between the ends, in the plane (positive on average), and out of the plane.
 pub(super) fn in_own_plane(line: &[[f64; 3]]) -> Vec<[f64; 3]> {
     let moment = |product: fn(&[f64; 3]) -> f64| line.iter().map(product).sum::<f64>();
     let (xx, xy, yy) = (
@@ -27,9 +26,8 @@ pub(super) fn in_own_plane(line: &[[f64; 3]]) -> Vec<[f64; 3]> {
 mod tests {
     use super::in_own_plane;
 
-    /// An arc in a plane at any azimuth lies in it entirely, on its positive side.
     #[test]
-    fn a_plane_arc_is_found() {
+    fn plane_arc_has_no_out_of_plane_part() {
         for azimuth in [0.0_f64, 0.7, 2.0, -2.5] {
             let line: Vec<[f64; 3]> = (0..20)
                 .map(|k| 0.3 * f64::from(k))

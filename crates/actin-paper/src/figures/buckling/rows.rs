@@ -1,4 +1,4 @@
-//! Numbers of Figures 8 and 10 as rows of the report and as tables.
+//! Rows and tables of Figures 8 and 10.
 
 use super::case::{Case, turn_name};
 use super::solve::{Motion, Outcome, STOP};
@@ -9,12 +9,10 @@ use crate::figures::expected::Bound;
 use crate::figures::model::{Model, Resolution};
 use crate::statistics::{largest, sample};
 
-/// The extended rod, and what the paper prints or offers for the same.
 const EXTENDED: [&str; 3] = ["", "coupling-energy/", "paper-balance/"];
-/// Largest turn (deg) that is judged: at larger turns filaments have many equilibria.
+/// Largest turn (deg) with verdicts. Larger turns have many equilibria.
 const JUDGED_DEG: i32 = 270;
 
-/// All values, then the spreads, model by model.
 pub(super) fn rows(plan: &Plan, draft: &mut Draft<'_>, results: &Results) {
     for &model in &plan.models {
         for turn in plan.turns_of(model) {
@@ -43,8 +41,8 @@ pub(super) fn rows(plan: &Plan, draft: &mut Draft<'_>, results: &Results) {
     checks(draft, results);
 }
 
-/// Means over samplings of one observable at all resolutions, and their spread: absolute for heights, otherwise
-/// relative to the mean.
+/// Rows of the means over samplings of an observable, and of their spread over resolutions. The spread is absolute for
+/// heights and relative to the mean otherwise.
 fn values(
     plan: &Plan,
     draft: &mut Draft<'_>,
@@ -93,14 +91,13 @@ fn values(
     draft.row(quantity, unit, all.range() * scale, note);
 }
 
-/// How states were found and what is known of them, in words.
 fn found_by(outcomes: &[&Outcome]) -> String {
     if let [only] = outcomes
         && !only.is_solved()
     {
         let [force, torque] = only.residual;
         return format!(
-            "damped motion of {:.0} ns from the equilibrium of the law with an energy, residual {force:.1e} pN and \
+            "damped motion of {:.0} ns from the equilibrium of the rod with an energy, residual {force:.1e} pN and \
              {torque:.1e} pN nm",
             only.time_ns
         );
@@ -109,7 +106,7 @@ fn found_by(outcomes: &[&Outcome]) -> String {
     format!("{unstable} not certified stable")
 }
 
-/// Claims that spreads over resolutions are smaller with the extensions than without.
+/// Claims that the extensions reduce the spread over resolutions.
 fn improvements(plan: &Plan, draft: &mut Draft<'_>) {
     for &turn_deg in plan.figure.turns {
         let turn = turn_name(turn_deg);
@@ -121,8 +118,8 @@ fn improvements(plan: &Plan, draft: &mut Draft<'_>) {
                     continue;
                 };
                 let statement = format!(
-                    "the extended rod improves the agreement between resolutions; spread of the {name} over that \
-                     with constant rigidities, {extended:.3} over {constant:.3}"
+                    "the extended rod improves the agreement between resolutions; ratio of the spread of the {name} \
+                     to the spread with constant rigidities, {extended:.3} over {constant:.3}"
                 );
                 let bound = if turn_deg.abs() > JUDGED_DEG {
                     Bound::None
@@ -136,11 +133,10 @@ fn improvements(plan: &Plan, draft: &mut Draft<'_>) {
     }
 }
 
-/// White's formula, certificates, and how far from rest motions ended.
 fn checks(draft: &mut Draft<'_>, results: &Results) {
     let outcomes = &results.outcomes;
     let note = format!(
-        "largest of twist plus writhe minus link over {} states",
+        "largest error of twist plus writhe minus link over {} states",
         outcomes.len()
     );
     let error = largest(outcomes.iter().map(|o| o.measured.link_error()));
@@ -166,20 +162,20 @@ fn checks(draft: &mut Draft<'_>, results: &Results) {
         let open = residuals.iter().filter(|r| **r > STOP).count();
         let note = format!(
             "largest residual force (pN) or torque (pN nm) at the end of {} damped motions with the balance as \
-             printed; {open} are not at rest to {STOP}",
+             printed; {open} exceed {STOP}",
             residuals.len()
         );
         draft.row("paper-balance/residual", "", largest(residuals), note);
     }
 }
 
-/// Differences between the end of a motion and its equilibrium, and the number of starts that find it.
+/// Rows of the difference between the end of a motion and its equilibrium, and of the number of starts that reach it.
 pub(super) fn motions(plan: &Plan, draft: &mut Draft<'_>, results: &Results) {
     for Motion { end, nearest } in &results.motions {
         let path = end.case.path();
         let note = format!(
-            "end of damped motion, residual {:.1e} pN and {:.1e} pN nm, minus the equilibrium that Newton's \
-             method finds from it; certified stable: {}",
+            "end of damped motion, residual {:.1e} pN and {:.1e} pN nm, minus the equilibrium of Newton's \
+             method from there; certified stable: {}",
             end.residual[0],
             end.residual[1],
             nearest.is_stable()
@@ -198,7 +194,7 @@ pub(super) fn motions(plan: &Plan, draft: &mut Draft<'_>, results: &Results) {
         let found: Vec<&Outcome> = found.collect();
         let same = found.iter().filter(|o| is_same(o, nearest)).count();
         let note = format!(
-            "of {} starts of statics that end in the equilibrium that damped motion finds",
+            "of {} starts of Newton's method that reach the equilibrium of the damped motion",
             found.len()
         );
         draft.row(
@@ -238,12 +234,10 @@ const COLUMNS: [Column<Outcome>; 23] = [
     ("force_evaluations", |o| o.force_evaluations.to_string()),
 ];
 
-/// A count in a table, if there is one.
 fn text(count: Option<impl ToString>) -> String {
     count.map_or(String::new(), |n| n.to_string())
 }
 
-/// Writes `figN.csv` and `figN_centre_lines.csv`.
 pub(super) fn tables(draft: &Draft<'_>, results: &Results) -> Result<(), String> {
     let id = draft.id;
     draft.table(&format!("{id}.csv"), &results.outcomes, &COLUMNS)?;
@@ -264,7 +258,6 @@ pub(super) fn tables(draft: &Draft<'_>, results: &Results) -> Result<(), String>
     draft.curves(&format!("{id}_centre_lines.csv"), &header, lines)
 }
 
-/// Name of a model in tables.
 fn variant(case: &Case) -> String {
     match case.model.name {
         "" => "shown".into(),

@@ -1,5 +1,4 @@
-//! States of a case: equilibria along its path, damped motions, and what does not depend on the plane in
-//! which the filament happens to buckle.
+//! Equilibria, damped motions and observables of a case.
 
 use super::case::Case;
 use crate::figures::model::Model;
@@ -12,64 +11,61 @@ use actin_sim::{
 };
 use actin_view::Pose;
 
-/// Residual at which motions are stopped (pN, pN nm). The plane of buckling may still turn then: what is
-/// compared does not depend on it.
+/// Residual at which motions stop (pN, pN nm). The plane of buckling may still rotate, but observables do not depend on
+/// it.
 pub(super) const STOP: f64 = 1e-3;
 
-/// A state in numbers.
 #[derive(Clone, Debug)]
 pub(super) struct Outcome {
     pub case: Case,
     pub measured: Measured,
     /// Numbers of negative and of unresolved eigenvalues of the stiffness; `None` for a motion.
     pub doubtful: Option<[usize; 2]>,
-    /// Newton steps of the whole path, and equilibria on it.
+    /// Newton steps and equilibria along the path.
     pub search: Option<(u64, usize)>,
     /// Time of the path, or of a damped motion (ns).
     pub time_ns: f64,
     pub force_evaluations: u64,
-    /// Stable states about it, where they were looked for.
+    /// Other stable states, if they were searched.
     pub states: Option<Others>,
     /// Residual force (pN) and torque (pN nm).
     pub residual: [f64; 2],
-    /// The state, without the pull that breaks the symmetry.
+    /// Pose without the symmetry-breaking force.
     pub pose: Pose,
 }
 
-/// Stable states that were found from random starts.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Others {
-    /// Number of states, this one included.
+    /// Number of states, including the outcome.
     pub count: usize,
-    /// From how many starts.
+    /// Number of random initial guesses.
     pub starts: usize,
-    /// Energy above the lowest state (pN nm).
+    /// Energy relative to the lowest state (pN nm).
     pub above_lowest_pn_nm: f64,
 }
 
-/// Observables of a state.
 #[derive(Clone, Debug)]
 pub(super) struct Measured {
     /// Largest distance of the centre line from the axis (nm).
     pub height_nm: f64,
-    /// Couple about the axis that turns the far end, positive along its turn (pN nm).
+    /// Torque about the axis on the far end, positive along its turn (pN nm).
     pub couple_pn_nm: f64,
-    /// Thrust that pushes the far end in (pN).
+    /// Compressive force on the far end (pN).
     pub force_pn: f64,
-    /// Elastic energy without the energy of the pull (pN nm).
+    /// Elastic energy without the symmetry-breaking force (pN nm).
     pub energy_pn_nm: f64,
-    /// Largest twist or curvature outside the data of a rod's law (rad/nm), if any.
+    /// Largest twist or curvature outside the range of the rod law (rad/nm), if any.
     pub beyond_per_nm: Option<f64>,
-    /// Turns by which the ends have been turned against each other: the change of the link.
+    /// Change of link: relative rotation of the ends (turns).
     pub link_turns: f64,
-    /// Twist in turns, and writhe of the smoothed centre line, the ends going on straight.
+    /// Twist (turns), and writhe of the smoothed centre line with straight extensions of both ends.
     pub twist_turns: f64,
     pub writhe: f64,
-    /// The centre line (nm).
+    /// Centre line (nm).
     pub centre_line: Vec<[f64; 3]>,
 }
 
-/// A damped motion along the path, and the equilibrium that Newton's method finds from its end.
+/// End of a damped motion along the path, and the equilibrium of Newton's method from there.
 #[derive(Clone, Debug)]
 pub(super) struct Motion {
     pub end: Outcome,
@@ -77,25 +73,22 @@ pub(super) struct Motion {
 }
 
 impl Measured {
-    /// Twist plus writhe minus link, which is zero by White's formula.
+    /// Absolute value of twist plus writhe minus link, zero by White's formula.
     pub(super) fn link_error(&self) -> f64 {
         (self.twist_turns + self.writhe - self.link_turns).abs()
     }
 }
 
 impl Outcome {
-    /// Found by Newton's method, with a certificate.
     pub(super) fn is_solved(&self) -> bool {
         self.doubtful.is_some()
     }
 
-    /// A minimum of the energy beyond doubt.
     pub(super) fn is_stable(&self) -> bool {
         self.doubtful == Some([0, 0])
     }
 }
 
-/// Finds the equilibrium of `case` along its path, or where loads without an energy come to rest.
 pub(super) fn outcome(case: &Case) -> Result<Outcome, String> {
     let found = match case.model.balance {
         ForceLaw::EnergyGradient => case.scene().and_then(|scene| Solved::new(&scene)),
@@ -106,7 +99,6 @@ pub(super) fn outcome(case: &Case) -> Result<Outcome, String> {
         .map_err(|e| in_words(case, &e))
 }
 
-/// Moves the filament along its path in time, then solves from where it came to rest.
 pub(super) fn motion(case: &Case) -> Result<Motion, String> {
     moved(case).map_err(|e| in_words(case, &format!("dynamics: {e}")))
 }
@@ -117,7 +109,7 @@ fn in_words(case: &Case, error: &str) -> String {
 
 fn moved(case: &Case) -> Result<Motion, String> {
     let mut scene = case.scene()?;
-    // About critical for the slowest mode of bending.
+    // Approximately critical damping of the slowest bending mode.
     scene.task = Task::Dynamics(damped(3000.0, [0.3, 0.3]));
     let moved = Solved::new(&scene)?;
     scene.path.clear();
@@ -130,12 +122,10 @@ fn moved(case: &Case) -> Result<Motion, String> {
     })
 }
 
-/// Follows a case whose loads have no energy to rest, from the equilibrium of the law that has one; the ends
-/// stay where the path has put them.
+/// Damped motion of a case with non-conservative loads, from the equilibrium of the conservative rod with fixed ends.
 ///
-/// Such loads feed rotations: with 0.3 per ns in rotation as well, 10 of 32 filaments gain energy until they
-/// break and 4 never come to rest. Bending hardly feels the drag on rotations, whose moments of inertia are
-/// small.
+/// Such loads feed energy into rotations. With a rotational drag rate of 0.3 per ns, 10 of 32 filaments diverge and 4
+/// do not come to rest. Rotational drag has little effect on bending, because moments of inertia are small.
 fn rest(case: &Case) -> Result<Solved, String> {
     let with_energy = Model {
         balance: ForceLaw::EnergyGradient,
@@ -151,7 +141,7 @@ fn rest(case: &Case) -> Result<Solved, String> {
     scene.task = Task::Dynamics(damped(1000.0, [1.0, 30.0]));
     let mut assembly = Assembly::build(&scene).map_err(|e| e.to_string())?;
     let mut start: State = from.state().clone();
-    // A motion appends controls for its energy balance; the equilibrium has none of them.
+    // Dynamics appends controls for the energy balance, which are absent in the equilibrium.
     let booked = assembly.system.state().controls.values().len() - start.controls.values().len();
     for _ in 0..booked {
         start.add_control(0.0);
@@ -160,7 +150,7 @@ fn rest(case: &Case) -> Result<Solved, String> {
     Solved::run(assembly)
 }
 
-/// Damped motion of at most so many ns, with drag rates (1/ns) of translation and rotation.
+/// Damped dynamics of at most `duration_ns`, with translational and rotational drag rates (1/ns).
 fn damped(duration_ns: f64, [translational_per_ns, rotational_per_ns]: [f64; 2]) -> Dynamics {
     let drag = DragRates {
         translational_per_ns,
@@ -232,7 +222,7 @@ impl Measured {
             beyond_per_nm: beyond.map(|b| b.value.abs()).reduce(f64::max),
             link_turns: f64::from(2 * case.turn_deg) / 360.0,
             twist_turns: ribbon.twist(),
-            // The writhe is `None` for curves a hundred times as long.
+            // `None` occurs only for curves with a hundred times as many vertices.
             writhe: ribbon.writhe().unwrap_or(f64::NAN),
             centre_line,
         }

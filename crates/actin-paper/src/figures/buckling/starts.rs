@@ -1,5 +1,4 @@
-//! How many equilibria there are: the same filament from several starts, and what the order of
-//! twist and compression changes.
+//! Number of equilibria from several starts, and effect of the order of twist and compression.
 
 use super::case::{Case, Start, turn_name};
 use super::solve::Outcome;
@@ -7,11 +6,10 @@ use super::{OBSERVABLES, Plan, Results};
 use crate::figures::draft::Draft;
 use crate::statistics::largest;
 
-/// Equilibria are the same if their energies (pN nm), heights (nm) and couples (pN nm) are within
-/// these of each other. The pull that breaks the symmetry does less: 1e-3 pN over 40 nm.
+/// Tolerances of energy (pN nm), height (nm) and torque (pN nm) for equal equilibria. They exceed the effect of the
+/// symmetry-breaking force, 1e-3 pN over 40 nm.
 const SAME: (f64, f64, f64) = (0.1, 0.03, 0.3);
 
-/// Rows on starts and orders, seed 0.
 pub(super) fn rows(plan: &Plan, draft: &mut Draft<'_>, results: &Results) {
     for &turn in plan.figure.turns {
         order_differences(plan, draft, results, turn);
@@ -26,7 +24,6 @@ pub(super) fn rows(plan: &Plan, draft: &mut Draft<'_>, results: &Results) {
     }
 }
 
-/// Largest differences between both orders over the resolutions.
 fn order_differences(plan: &Plan, draft: &mut Draft<'_>, results: &Results, turn: i32) {
     let cases = plan
         .resolutions
@@ -62,7 +59,6 @@ fn order_differences(plan: &Plan, draft: &mut Draft<'_>, results: &Results, turn
     }
 }
 
-/// Number of distinct equilibria of one filament.
 fn distinct_row(plan: &Plan, draft: &mut Draft<'_>, results: &Results, case: Case) {
     let starts = plan.starts_at(case.turn_deg).into_iter();
     let outcomes = starts.filter_map(|start| results.of(Case { start, ..case }));
@@ -85,7 +81,7 @@ fn distinct_row(plan: &Plan, draft: &mut Draft<'_>, results: &Results, case: Cas
         })
         .collect();
     let note = format!(
-        "from {} starts (order, plane of the pull, step), seed 0; by energy: {}; lowest from {}",
+        "from {} starts (order, direction of the symmetry-breaking force, step), seed 0; by energy: {}; lowest from {}",
         outcomes.len(),
         each.join("; "),
         first[0].case.start.name()
@@ -98,21 +94,20 @@ fn distinct_row(plan: &Plan, draft: &mut Draft<'_>, results: &Results, case: Cas
     );
 }
 
-/// How far above the lowest state found from random starts the one that the figure shows is.
 fn lowest_row(draft: &mut Draft<'_>, results: &Results, case: Case) {
     let Some(others) = results.of(case).and_then(|o| o.states) else {
         return;
     };
     let note = format!(
-        "energy of the state at the end of the path, seed 0, less that of the lowest of {} stable states from {} \
-         random starts",
+        "energy of the state at the end of the path, seed 0, relative to the lowest of {} stable states from {} \
+         random initial guesses",
         others.count, others.starts
     );
     let quantity = format!("above_lowest_state/{}", case.path());
     draft.row(quantity, "pN nm", others.above_lowest_pn_nm, note);
 }
 
-/// Groups equal equilibria, lowest energy first.
+/// Groups equal equilibria by ascending energy.
 fn distinct<'a>(outcomes: &[&'a Outcome]) -> Vec<Vec<&'a Outcome>> {
     let mut sorted = outcomes.to_vec();
     sorted.sort_by(|a, b| a.measured.energy_pn_nm.total_cmp(&b.measured.energy_pn_nm));
@@ -126,7 +121,6 @@ fn distinct<'a>(outcomes: &[&'a Outcome]) -> Vec<Vec<&'a Outcome>> {
     kinds
 }
 
-/// Whether two outcomes are one equilibrium.
 pub(super) fn is_same(a: &Outcome, b: &Outcome) -> bool {
     let (a, b) = (&a.measured, &b.measured);
     (a.energy_pn_nm - b.energy_pn_nm).abs() < SAME.0

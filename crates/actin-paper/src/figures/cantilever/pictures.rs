@@ -29,7 +29,6 @@ const SIDES: [Side; 2] = [
     },
 ];
 
-/// The outcomes that are drawn for a model, from monomers to rod.
 fn drawn(outcomes: &[Outcome], is_chosen: impl Fn(&Case) -> bool) -> Vec<&Outcome> {
     let chosen = outcomes
         .iter()
@@ -39,7 +38,7 @@ fn drawn(outcomes: &[Outcome], is_chosen: impl Fn(&Case) -> bool) -> Vec<&Outcom
     drawn
 }
 
-/// Pictures of four models, each with the mean filament where there is one.
+/// Draws four models, with the mean filament if it was computed.
 pub(super) fn panels(draft: &mut Draft<'_>, outcomes: &[Outcome]) -> Result<(), String> {
     for (model, mean, name) in [
         (SHARED, Some(MEAN), "2_pN_shared"),
@@ -56,7 +55,7 @@ pub(super) fn panels(draft: &mut Draft<'_>, outcomes: &[Outcome]) -> Result<(), 
         let filaments: Vec<Filament> = filaments.collect();
         let dashed = mean.map_or(
             "",
-            |_| " Dashed: monomers alone with weighted bonds, the mean filament.",
+            |_| " Dashed: the mean filament (monomers with quadrature bonds).",
         );
         let file = format!("fig4_{name}");
         views(draft, &file, (model.words, dashed), &filaments)?;
@@ -68,16 +67,13 @@ pub(super) fn panels(draft: &mut Draft<'_>, outcomes: &[Outcome]) -> Result<(), 
                 &format!("Energy, {}", model.words),
                 ["time (ns)", "elastic and kinetic energy (pN nm)"],
                 series.collect(),
-                format!(
-                    "Elastic and kinetic energy while the damped motion comes to rest.{dashed}"
-                ),
+                format!("Elastic and kinetic energy during the damped motion.{dashed}"),
             )?;
         }
     }
     Ok(())
 }
 
-/// Side view and end view of the filaments of one model.
 fn views(
     draft: &mut Draft<'_>,
     file: &str,
@@ -86,11 +82,11 @@ fn views(
 ) -> Result<(), String> {
     let captions = [
         format!(
-            "Equilibria under {words}. Lines: nodes of the rod, and the centre line of the monomers; dots: monomer \
+            "Equilibria, {words}. Lines: nodes of the rod and centre line of the monomers; dots: monomer \
              centres. {}{dashed}",
             palette::chosen().ends()
         ),
-        format!("The same states seen along the unloaded filament.{dashed}"),
+        format!("Equilibria seen along the unloaded filament.{dashed}"),
     ];
     for (side, caption) in SIDES.iter().zip(captions) {
         let title = format!("{}, {words}", side.title);
@@ -109,10 +105,9 @@ impl Outcome {
     }
 }
 
-/// A number that is drawn against the length of rod.
 type Value = fn(&Outcome) -> f64;
 
-/// A value of a model's filaments against the length of rod; no points if the model was not computed.
+/// Curve of a model against the length of rod, without points if the model was not computed.
 fn curve(outcomes: &[Outcome], model: Model, colour: Colour, value: Value) -> Curve {
     let is_computed = outcomes.iter().any(|o| o.case.model == model);
     let own = drawn(outcomes, |case| {
@@ -121,19 +116,18 @@ fn curve(outcomes: &[Outcome], model: Model, colour: Colour, value: Value) -> Cu
     Curve {
         name: model.words.into(),
         colour,
-        // It lies upon the line of the junction as printed alone.
+        // This curve coincides with the curve of `FULL`.
         is_dashed: model == AS_PRINTED,
         points: own.iter().map(|o| (o.case.rod_nm(), value(o))).collect(),
     }
 }
 
-/// Tips and elastic energies of equilibria under 2 pN against the length of rod.
 pub(super) fn against_resolution(
     draft: &mut Draft<'_>,
     outcomes: &[Outcome],
 ) -> Result<(), String> {
     let charts: [(&str, &str, Value); 2] = [
-        ("tips", "distance of the tip along the force (nm)", |o| {
+        ("tips", "deflection of the tip along the force (nm)", |o| {
             o.tip_drop_nm
         }),
         ("energies", "elastic energy at equilibrium (pN nm)", |o| {
@@ -149,8 +143,8 @@ pub(super) fn against_resolution(
         ];
         let curves = curves.map(|(model, colour)| curve(outcomes, model, colour, value));
         let caption = format!(
-            "The {y_label} against the length of rod, monomers alone at 0 and rod alone at 160 nm; drawn bonds \
-             of the first sampling, and the mean filament (black)."
+            "The {y_label} against the length of rod, from monomers only at 0 to rod only at 160 nm; first sampling \
+             of the bonds, and the mean filament (black)."
         );
         draft.plot(
             format!("fig4_{name}.svg"),
@@ -163,7 +157,6 @@ pub(super) fn against_resolution(
     Ok(())
 }
 
-/// The drawn states for the viewer.
 pub(super) fn view(draft: &mut Draft<'_>, outcomes: &[Outcome]) -> Result<(), String> {
     let shown = drawn(outcomes, |_| true).into_iter().map(|o| {
         let share = o.case.rod_nm() / LENGTH_NM;
@@ -174,7 +167,7 @@ pub(super) fn view(draft: &mut Draft<'_>, outcomes: &[Outcome]) -> Result<(), St
             o.shape.pose.clone(),
         )
     });
-    let caption = "Where the damped motions came to rest, in space: monomers with their own semi-axes and \
-        orientations, the rod with a stripe along its first axis. The force acts at the tip.";
+    let caption = "Final states of the damped motions: monomers with their semi-axes and \
+        orientations, rod with a stripe along its first axis. The force acts at the tip.";
     draft.view("fig4", Attitude::LYING, shown, caption)
 }

@@ -1,8 +1,7 @@
-//! Figures 5 and 6: free filaments on linkers, in one plane and all round.
+//! Figures 5 and 6: free filaments on linkers in one plane and on all sides.
 //!
-//! Every equilibrium is found by Newton's method from several turns of the filament about its axis; the
-//! equilibrium of lowest energy counts. Energies against time are from damped dynamics of the built state,
-//! whose anchors are displaced from the sites at once.
+//! Newton's method starts from several rotations of the filament about its axis, and the equilibrium of lowest energy
+//! is used. Energies against time are from damped dynamics of the built state with displaced anchors.
 
 mod pictures;
 mod rows;
@@ -14,21 +13,16 @@ use crate::run::scenario;
 use actin_sim::{JunctionWeight, Scene, Section};
 use solve::Outcome;
 
-/// Samplings of the bonds, and for `--quick`.
 const SEEDS: u64 = 8;
 const QUICK_SEEDS: u64 = 2;
 
-/// A figure of a free filament on linkers.
 #[derive(Debug)]
 struct Figure {
     id: &'static str,
-    /// Its name above pictures.
     name: &'static str,
-    /// The scene file, in `scenarios`.
     file: &'static str,
-    /// Length of the filament (nm).
     length_nm: f64,
-    /// Lengths of the rod in its middle (nm), and for `--quick`.
+    /// Lengths of the rod in the middle (nm), by default and with `--quick`.
     rods: &'static [u32],
     quick_rods: &'static [u32],
 }
@@ -51,7 +45,7 @@ static FIGURE_6: Figure = Figure {
     quick_rods: &[30, 90, 170],
 };
 
-/// The rod of the paper's figures: constant rigidities, segments of 10 nm.
+/// Rod of the figures of the paper: constant rigidities, segments of 10 nm.
 const STANDARD: Model = Model {
     words: "constant rigidities, segments of 10 nm",
     ..Model::STANDARD
@@ -62,7 +56,6 @@ const FITTED: Model = Model {
     rods: Rods::Fitted,
     ..STANDARD
 };
-/// The junction as printed: every bond of it has the rod's full rigidity.
 const FULL: Model = Model {
     name: "/full",
     words: "junction full",
@@ -102,23 +95,20 @@ const MODELS: [Model; 7] = [
     MEAN,
 ];
 
-/// One filament.
 #[derive(Clone, Copy, Debug)]
 struct Case {
     figure: &'static Figure,
     resolution: Resolution,
     model: Model,
-    /// Seed of the bonds.
     seed: u64,
 }
 
-/// Figure 5: linkers in one plane.
 pub(super) fn figure5(draft: &mut Draft<'_>) -> Result<(), String> {
     let outcomes = solve_all(&FIGURE_5, draft, !draft.quick)?;
     draw(&FIGURE_5, draft, &outcomes)
 }
 
-/// Figure 6: linkers all round, compared with those in one plane.
+/// Figure 6: linkers on all sides, compared with linkers in one plane.
 pub(super) fn figure6(draft: &mut Draft<'_>) -> Result<(), String> {
     let outcomes = solve_all(&FIGURE_6, draft, !draft.quick)?;
     let planar = solve_all(&FIGURE_5, draft, false)?;
@@ -138,7 +128,7 @@ fn draw(
     pictures::draw(figure, draft, outcomes)
 }
 
-/// Solves all cases of a figure; follows the motions that are drawn if `moving`.
+/// Solves all cases of a figure, with the motions in the pictures if `moving`.
 fn solve_all(
     figure: &'static Figure,
     draft: &Draft<'_>,
@@ -161,7 +151,6 @@ fn cases(figure: &'static Figure, quick: bool) -> Vec<Case> {
     for model in MODELS {
         for seed in 0..model.seeds(seeds) {
             let mixed = rods.iter().map(|&rod| Resolution::Mixed(rod));
-            // A rod has no bonds to sample.
             let rod = (seed == 0).then_some(Resolution::Rod);
             let resolutions = mixed.chain(rod).chain([Resolution::Ellipsoids]);
             let own = resolutions.filter(|&r| model.solved_as(&MODELS, r) == model);
@@ -177,22 +166,20 @@ fn cases(figure: &'static Figure, quick: bool) -> Vec<Case> {
 }
 
 impl Case {
-    /// The paper's rod and the first sampling of the bonds are drawn; all else is numbers.
+    /// True for cases in the pictures: the rod of the paper and the first sampling of the bonds.
     fn is_drawn(&self) -> bool {
         self.model == STANDARD && self.seed == 0
     }
 
-    /// The mean filament, monomers alone, is drawn with them.
+    /// True for the mean filament without rod, which is also in the pictures.
     fn is_drawn_mean(&self) -> bool {
         self.model == MEAN && self.resolution == Resolution::Ellipsoids
     }
 
-    /// Length of the rod (nm).
     fn rod_nm(&self) -> f64 {
         self.resolution.rod_nm(self.figure.length_nm)
     }
 
-    /// The scene of the figure at the resolution of the case.
     fn scene(&self) -> Result<Scene, String> {
         let mut scene = scenario(self.figure.file)?;
         scene.filament.sections = self.sections().into();

@@ -1,4 +1,4 @@
-//! The panels of Figures 5 and 6: two side views, a view along the filament, energy against time.
+//! Pictures of Figures 5 and 6: two side views, a view along the filament, and energies.
 
 use super::solve::{Motion, Outcome};
 use super::{FULL, Figure, MEAN, MODELS};
@@ -9,17 +9,13 @@ use crate::statistics::{largest, sample};
 use actin_draw::{Colour, Series};
 use actin_view::Attitude;
 
-/// Energies are drawn from where they have come down to this multiple of the highest limit.
+/// Largest energy in the picture, relative to the highest limit.
 const DRAWN_TO: f64 = 2.0;
-/// Time that is drawn (ns).
 const DRAWN_NS: f64 = 60.0;
-/// Dots of a limit across the time that is drawn.
 const LIMIT_DOTS: usize = 60;
-/// Half the width of the cross that marks an anchor (nm).
 const CROSS_NM: f64 = 0.8;
 const GREY: Colour = Colour([70, 70, 70]);
-/// Legend of the mean filament.
-const IN_BLACK: &str = "Dashed: monomers alone with weighted bonds, the mean filament.";
+const IN_BLACK: &str = "Dashed: the mean filament (monomers with quadrature bonds).";
 
 const ALONG: &str = "z along the filament as built (nm)";
 const SIDES: [Side; 3] = [
@@ -46,7 +42,7 @@ const SIDES: [Side; 3] = [
     },
 ];
 
-/// Draws all panels; the panel of energies only if motions were followed.
+/// Draws all pictures, energies against time only with motions.
 pub(super) fn draw(
     figure: &Figure,
     draft: &mut Draft<'_>,
@@ -60,7 +56,7 @@ pub(super) fn draw(
     for side in &SIDES {
         let title = format!("{}: {}", figure.name, side.title);
         let caption = format!(
-            "Certified equilibria, {}. Lines: nodes of the rod, and the centre line of the monomers; dots: \
+            "Certified equilibria, {}. Lines: nodes of the rod and centre line of the monomers; dots: \
              monomer centres; grey crosses: anchors. {} {IN_BLACK}",
             side.title,
             palette::chosen().ends()
@@ -79,7 +75,6 @@ pub(super) fn draw(
     against_resolution(figure, draft, outcomes)
 }
 
-/// The drawn equilibria for the viewer.
 fn view(figure: &Figure, draft: &mut Draft<'_>, chosen: &[&Outcome]) -> Result<(), String> {
     let shown = chosen.iter().map(|o| {
         let share = o.case.rod_nm() / figure.length_nm;
@@ -90,7 +85,7 @@ fn view(figure: &Figure, draft: &mut Draft<'_>, chosen: &[&Outcome]) -> Result<(
             o.lowest.shape.pose.clone(),
         )
     });
-    let caption = "The certified equilibria in space, with their linkers and the fixed anchors. The stripe along \
+    let caption = "Certified equilibria with linkers and fixed anchors. The stripe along \
         the rod is its first axis.";
     draft.view(figure.id, Attitude::LYING, shown, caption)
 }
@@ -109,7 +104,7 @@ impl Outcome {
     }
 }
 
-/// A cross at each anchor; the first has the name of all.
+/// Crosses at all anchors. The first one has the legend.
 fn crosses(anchors: &[[f64; 3]], side: &Side) -> Vec<Series> {
     let strokes = anchors.iter().map(side.project).flat_map(|(x, y)| {
         [(CROSS_NM, CROSS_NM), (CROSS_NM, -CROSS_NM)]
@@ -122,7 +117,6 @@ fn crosses(anchors: &[[f64; 3]], side: &Side) -> Vec<Series> {
     series
 }
 
-/// Energy against time, and the limits as dotted lines.
 fn energies(figure: &Figure, draft: &mut Draft<'_>, chosen: &[&Outcome]) -> Result<(), String> {
     let moved = chosen.iter().filter_map(|o| Some((*o, o.motion.as_ref()?)));
     let moved: Vec<(&Outcome, &Motion)> = moved.collect();
@@ -145,23 +139,19 @@ fn energies(figure: &Figure, draft: &mut Draft<'_>, chosen: &[&Outcome]) -> Resu
         series
     });
     let caption = format!(
-        "Energy of filament and linkers, kinetic energy included, in damped dynamics (drag 0.3 per ns). It \
-         begins at {start:.0} pN nm, all of it in the linkers, and is drawn from {top:.0} pN nm on. Dotted: the \
-         certified equilibrium that each motion tends to. {IN_BLACK}"
+        "Energy of filament and linkers, including kinetic energy, in damped dynamics (drag 0.3 per ns). It \
+         starts at {start:.0} pN nm in the linkers; the picture shows energies below {top:.0} pN nm. Dotted: the \
+         certified equilibrium at the end of each motion. {IN_BLACK}"
     );
     draft.plot(
         format!("{}_energy.svg", figure.id),
-        &format!(
-            "{}: energy while the damped motion comes to rest",
-            figure.name
-        ),
+        &format!("{}: energy during the damped motion", figure.name),
         ["time (ns)", "filament, linkers and kinetic energy (pN nm)"],
         series.collect(),
         caption,
     )
 }
 
-/// Energy of the equilibrium against the length of rod, for every model.
 fn against_resolution(
     figure: &Figure,
     draft: &mut Draft<'_>,
@@ -184,7 +174,7 @@ fn against_resolution(
     let mut series = against_rod(curves.collect());
     let energies = sample(first().map(|o| o.lowest.energy));
     series.push(room((0.0, energies.low - 0.5 * energies.range())));
-    let caption = "Certified equilibria against the length of the rod, pure monomers at 0 and pure rod at the \
+    let caption = "Certified equilibria against the length of rod, with monomers only at 0 and rod only at the \
         right end; the first sampling of the bonds, and the mean filament.";
     draft.plot(
         format!("{}_resolution.svg", figure.id),

@@ -1,4 +1,4 @@
-//! Numbers of Figures 5 and 6 as rows of the report and as tables.
+//! Rows and tables of Figures 5 and 6.
 
 use super::solve::{Balance, Motion, Outcome, SAME_PN_NM};
 use super::{Case, FULL, Figure, MODELS, STANDARD};
@@ -8,23 +8,20 @@ use crate::figures::model::Model;
 use crate::figures::motion::energy_decays;
 use crate::statistics::{Sample, largest, sample};
 
-/// Spreads over resolutions of one filament.
 #[derive(Debug)]
 struct Spread {
-    /// Energies (pN nm).
     energy: Sample,
-    /// Largest distance of two centre lines at equal arc length (nm), and which and where.
+    /// Largest distance between two centre lines at equal arc length (nm), and description of its location.
     node: f64,
     farthest: String,
-    /// Largest difference of a linker's pull over its mean, over the linkers.
+    /// Largest relative spread of the force of a linker.
     force: f64,
 }
 
-/// A number that is read off a spread.
 type Pick = fn(&Spread) -> f64;
 
 impl Spread {
-    /// The spread of one model and seed over the mixed resolutions, or over all.
+    /// Spread of one model and seed over the mixed resolutions, with the pure ones if `with_pure`.
     fn over(outcomes: &[Outcome], model: Model, seed: u64, with_pure: bool) -> Self {
         let own = outcomes
             .iter()
@@ -44,7 +41,6 @@ impl Spread {
         }
     }
 
-    /// Spreads of all samplings of the bonds.
     fn over_seeds(outcomes: &[Outcome], model: Model) -> Vec<Self> {
         let seeds = 0..model.seeds(seeds(outcomes));
         seeds
@@ -57,7 +53,7 @@ impl Spread {
     }
 }
 
-/// The two centre lines farthest apart: their distance (nm), and which they are and where.
+/// Largest distance between two centre lines (nm), and its description.
 fn farthest(chosen: &[(String, &Balance)]) -> (f64, String) {
     let mut worst = (0.0, String::new());
     for (i, (one, a)) in chosen.iter().enumerate() {
@@ -75,7 +71,6 @@ fn seeds(outcomes: &[Outcome]) -> u64 {
     outcomes.iter().map(|o| o.case.seed + 1).max().unwrap_or(0)
 }
 
-/// The rows that both figures have.
 pub(super) fn rows(draft: &mut Draft<'_>, outcomes: &[Outcome]) {
     for model in MODELS {
         spreads(draft, outcomes, model);
@@ -84,7 +79,7 @@ pub(super) fn rows(draft: &mut Draft<'_>, outcomes: &[Outcome]) {
     for o in outcomes.iter().filter(|o| o.case.seed == 0) {
         let found = &o.lowest;
         let note = format!(
-            "of it {:.2} in the linkers; {} Newton iterations, residual {:.1e} pN and {:.1e} pN nm, lowest \
+            "including {:.2} in the linkers; {} Newton iterations, residual {:.1e} pN and {:.1e} pN nm, lowest \
              eigenvalue {:.1e} pN/nm",
             found.linkers,
             found.iterations,
@@ -99,7 +94,6 @@ pub(super) fn rows(draft: &mut Draft<'_>, outcomes: &[Outcome]) {
     motions(draft, outcomes);
 }
 
-/// Spreads of one model: of the first sampling, and the mean over samplings.
 fn spreads(draft: &mut Draft<'_>, outcomes: &[Outcome], model: Model) {
     let all = Spread::over_seeds(outcomes, model);
     let (first, words) = (&all[0], model.words);
@@ -124,7 +118,7 @@ fn spreads(draft: &mut Draft<'_>, outcomes: &[Outcome], model: Model) {
             "linker_force_spread",
             "",
             |s| s.force,
-            "largest (max - min)/mean of a linker's pull".into(),
+            "largest (max - min)/mean of the force of a linker".into(),
         ),
     ];
     for (name, unit, pick, note) in picks {
@@ -149,13 +143,12 @@ fn with_pure(draft: &mut Draft<'_>, outcomes: &[Outcome]) {
     draft.row("node_spread/with-pure", "nm", all.node, note);
     let standard = outcomes.iter().filter(|o| o.case.is_drawn());
     let rolls = sample(standard.map(|o| o.lowest.roll));
-    let note = "turn of the body that holds the second linker, from how it was built, over all resolutions and \
-                the pure cases";
+    let note = "rotation of the body with the second linker relative to the built state, over all mixed resolutions \
+                and the pure cases";
     draft.row("roll/least", "deg", rolls.low, note);
     draft.row("roll/most", "deg", rolls.high, note);
 }
 
-/// Certificates, and how many filaments have more than one equilibrium.
 fn evidence(draft: &mut Draft<'_>, outcomes: &[Outcome]) {
     let of = format!("of {} filaments", outcomes.len());
     let unstable = outcomes.iter().filter(|o| !o.lowest.is_stable).count();
@@ -167,11 +160,11 @@ fn evidence(draft: &mut Draft<'_>, outcomes: &[Outcome]) {
     let above: Vec<f64> = above.collect();
     let several = above.iter().filter(|above| **above > SAME_PN_NM).count();
     let note = format!(
-        "{of}: those for which starts turned by 0, 90, 180 and 270 deg find energies more than {SAME_PN_NM} \
+        "{of}: filaments whose starts, rotated by 0, 90, 180 and 270 deg, reach energies more than {SAME_PN_NM} \
          pN nm apart"
     );
     draft.row("several_equilibria", "", several as f64, note);
-    let note = "how far the highest of them is above the lowest of its filament, which counts";
+    let note = "largest energy of an equilibrium relative to the lowest one of its filament";
     draft.row("highest_equilibrium", "pN nm", largest(above), note);
 }
 
@@ -181,7 +174,6 @@ fn moved(outcomes: &[Outcome]) -> impl Iterator<Item = (&Outcome, &Motion)> {
         .filter_map(|o| Some((o, o.motion.as_ref()?)))
 }
 
-/// Damped dynamics against Newton's method.
 fn motions(draft: &mut Draft<'_>, outcomes: &[Outcome]) {
     let count = moved(outcomes).count();
     if count == 0 {
@@ -192,7 +184,7 @@ fn motions(draft: &mut Draft<'_>, outcomes: &[Outcome]) {
     let unfinished = moved(outcomes).filter(|(_, m)| !m.has_converged).count();
     let note = format!(
         "largest difference between the end of damped dynamics and the certified equilibrium that Newton's \
-         method reaches from there, {count} motions; {unfinished} ended by time, all others by the stop rule"
+         method reaches from there, {count} motions; {unfinished} ended at the time limit, all others by the stop rule"
     );
     draft.row(
         "newton_difference/energy",
@@ -203,7 +195,7 @@ fn motions(draft: &mut Draft<'_>, outcomes: &[Outcome]) {
     let nodes = moved(outcomes).map(|(_, m)| m.from_limit_nm);
     draft.row("newton_difference/node", "nm", largest(nodes), note);
     let elsewhere = moved(outcomes).filter(|(o, m)| m.limit.energy > o.lowest.energy + SAME_PN_NM);
-    let note = format!("of {count} motions: those that end in another equilibrium than the lowest");
+    let note = format!("of {count} motions: motions that do not end in the lowest equilibrium");
     draft.row(
         "motions_to_a_higher_equilibrium",
         "",
@@ -214,8 +206,8 @@ fn motions(draft: &mut Draft<'_>, outcomes: &[Outcome]) {
     energy_decays(draft, &energies.collect::<Vec<_>>());
 }
 
-/// Claims of Figure 6: deviations of shape and energy are larger than in Figure 5. Judged are the paper's own
-/// models, by what its Figure 6(c) shows: energies in pN nm.
+/// Claims that deviations of shape and energy are larger in Figure 6 than in Figure 5. Models of the paper have
+/// verdicts, with energies in pN nm as in Figure 6(c).
 pub(super) fn larger_claims(draft: &mut Draft<'_>, figures: [&[Outcome]; 2]) {
     let claims: [(&str, &str, Pick); 3] = [
         (
@@ -252,13 +244,12 @@ pub(super) fn larger_claims(draft: &mut Draft<'_>, figures: [&[Outcome]; 2]) {
     }
 }
 
-/// Settings of the cases.
 pub(super) fn settings(figure: &Figure, outcomes: &[Outcome]) -> String {
     format!(
-        "Scene scenarios/{}, the rod in the middle resolved as named, {} filaments, {} samplings of the bonds \
-         (seeds from 0; 0 unless named; the mean filament has weighted bonds and no seed). Equilibria by \
-         Newton's method from the built filament turned by 0, 90, 180 and 270 deg about its axis, where {}; the \
-         lowest counts. Motions: anchors away from the sites at once, drag 0.3 per ns for velocities and for \
+        "Scene scenarios/{} with the named length of rod in the middle, {} filaments, {} samplings of the bonds \
+         (seeds from 0; 0 unless named; the mean filament has quadrature bonds and no seed). Equilibria by \
+         Newton's method from the built filament, rotated by 0, 90, 180 and 270 deg about its axis, where {}; the \
+         lowest is used. Motions: anchors displaced from the sites at the start, drag 0.3 per ns for velocities and \
          angular momenta.",
         figure.file,
         outcomes.len(),
@@ -294,12 +285,10 @@ const COLUMNS: [Column<Outcome>; 13] = [
     }),
 ];
 
-/// A cell of an outcome that was moved; empty otherwise.
 fn of_motion(outcome: &Outcome, cell: fn(&Motion) -> String) -> String {
     outcome.motion.as_ref().map_or(String::new(), cell)
 }
 
-/// Writes the tables behind rows and pictures.
 pub(super) fn tables(draft: &Draft<'_>, outcomes: &[Outcome]) -> Result<(), String> {
     let file = |name: &str| format!("{}{name}.csv", draft.id);
     draft.table(&file(""), outcomes, &COLUMNS)?;

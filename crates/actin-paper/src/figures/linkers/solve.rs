@@ -1,4 +1,4 @@
-//! Equilibria of a case from several starts, and its damped motion.
+//! Equilibria from several starts, and damped motion of a case.
 
 use super::Case;
 use crate::figures::centre_line::CentreLine;
@@ -6,20 +6,18 @@ use crate::run::{Shape, Solved};
 use actin_mechanics::State;
 use actin_sim::{Assembly, Equilibrium, Part, Scene, Task};
 
-/// Turns of the built filament about its axis from which equilibria are sought (deg).
+/// Rotations of the built filament about its axis as initial guesses (deg).
 const STARTS_DEG: [f64; 4] = [0.0, 90.0, 180.0, 270.0];
-/// Equilibria whose energies differ by more (pN nm) are two: a residual of 1e-7 changes the energy
-/// by far less.
+/// Tolerance of the energies of equal equilibria (pN nm). The effect of a residual of 1e-7 is much smaller.
 pub(super) const SAME_PN_NM: f64 = 1e-3;
 
-/// An equilibrium.
 #[derive(Clone, Debug)]
 pub(super) struct Balance {
     /// Energy of filament and linkers (pN nm).
     pub energy: f64,
-    /// The linkers' part of it (pN nm).
+    /// Energy of the linkers (pN nm).
     pub linkers: f64,
-    /// Positive definiteness of the stiffness, and its lowest eigenvalue (pN/nm).
+    /// Positive definite stiffness; `lowest` is its lowest eigenvalue (pN/nm).
     pub is_stable: bool,
     pub lowest: Option<f64>,
     pub iterations: u64,
@@ -28,39 +26,36 @@ pub(super) struct Balance {
     pub shape: Shape,
     /// Anchors (nm).
     pub anchors: Vec<[f64; 3]>,
-    /// Pull of each linker (pN).
+    /// Force of each linker (pN).
     pub forces: Vec<f64>,
-    /// Turn of the body that holds the second linker, from how it was built (deg).
+    /// Rotation of the body with the second linker relative to the built state (deg).
     pub roll: f64,
 }
 
-/// A damped motion that has come to rest.
 #[derive(Clone, Debug)]
 pub(super) struct Motion {
-    /// Time (ns), energy of filament and linkers with the kinetic one, and without (pN nm).
+    /// Time (ns), and energy of filament and linkers (pN nm) with and without kinetic energy.
     pub energy: Vec<[f64; 3]>,
     pub has_converged: bool,
     pub time_ns: f64,
     pub force_evaluations: u64,
-    /// Largest distance between its last centre line and its limit (nm).
+    /// Largest distance between the last centre line and the limit (nm).
     pub from_limit_nm: f64,
-    /// The equilibrium that Newton's method reaches from where it ended.
+    /// Equilibrium of Newton's method from the end of the motion.
     pub limit: Balance,
 }
 
-/// Outcome of a case.
 #[derive(Clone, Debug)]
 pub(super) struct Outcome {
     pub case: Case,
-    /// The equilibrium of lowest energy that was found.
+    /// Equilibrium of lowest energy.
     pub lowest: Balance,
-    /// Energies of all that were found (pN nm), by the turn of the start.
+    /// Energies from all initial guesses (pN nm).
     pub starts: Vec<f64>,
     pub motion: Option<Motion>,
 }
 
 impl Outcome {
-    /// Solves the case; follows its motion too if `moving`.
     pub(super) fn of(case: &Case, moving: bool) -> Result<Self, String> {
         let scene = case.scene()?;
         let starts = STARTS_DEG.iter();
@@ -69,7 +64,7 @@ impl Outcome {
         let starts = found.iter().map(|b| b.energy).collect();
         let motion = moving.then(|| motion(&scene)).transpose()?;
         found.extend(motion.as_ref().map(|m| m.limit.clone()));
-        // Of equals the first, whose count of iterations is that from a built filament.
+        // The first of equal equilibria is used, so that iterations are counted from the built filament.
         let lower = |best: Balance, other: Balance| {
             if other.energy < best.energy - SAME_PN_NM {
                 other
@@ -77,7 +72,10 @@ impl Outcome {
                 best
             }
         };
-        let lowest = found.into_iter().reduce(lower).expect("there are starts");
+        let lowest = found
+            .into_iter()
+            .reduce(lower)
+            .expect("`STARTS_DEG` is not empty");
         Ok(Self {
             case: *case,
             lowest,
@@ -87,14 +85,11 @@ impl Outcome {
     }
 }
 
-/// Initial state of the search for an equilibrium.
 enum Start<'a> {
-    /// The built filament, turned about its axis (deg).
     Turned(f64),
     State(&'a State),
 }
 
-/// The equilibrium near a start.
 fn balance(scene: &Scene, start: &Start<'_>) -> Result<Balance, String> {
     let mut scene = scene.clone();
     scene.task = Task::Equilibrium(Equilibrium {
@@ -132,7 +127,6 @@ fn describe(solved: &Solved) -> Balance {
     }
 }
 
-/// The damped motion of the scene from the built state, and the equilibrium it tends to.
 fn motion(scene: &Scene) -> Result<Motion, String> {
     let moved = Solved::new(scene).map_err(|error| format!("dynamics: {error}"))?;
     let limit = balance(scene, &Start::State(moved.state()))?;

@@ -1,7 +1,6 @@
-//! The page in headless Chromium, light and dark: nothing fails, every picture is there and follows
-//! the page's colours, every view is drawn and turns, and nothing reaches beyond a phone's screen.
+//! Tests of the page in headless Chromium, in light and dark mode: errors, pictures, views and page width.
 //!
-//! Needs a browser, as said in `chromium`.
+//! The module `chromium` describes the required browser.
 
 #[path = "../../../../actin-view/tests/chromium/mod.rs"]
 mod chromium;
@@ -12,24 +11,20 @@ use std::fs;
 use std::path::Path;
 
 const PROBE: &str = include_str!("probe.js");
-/// Widths at which the page is looked at (pixels): a phone, a laptop.
 const WIDTHS: [u32; 2] = [360, 1280];
 
-/// What the probe finds in `page` at each width.
 fn probed(browser: &Path, page: &str, mode: Mode, folder: &Path) -> Vec<Value> {
     chromium::probed(browser, (page, PROBE), &WIDTHS, mode, folder)
 }
 
-/// Artefacts of every kind, by the command's own code: three-dimensional pictures with views,
-/// motions, linkers, a filament turned in its middle, buckled filaments, fits, a list, samplings.
+/// Artefacts that cover all kinds of pictures, views and tables.
 const KINDS: [&str; 8] = [
     "fig1", "fig4", "fig6", "fig7", "fig8", "fig9", "table1", "table3",
 ];
-/// Views among them: those of the figures, but of that of the fits.
 const VIEWS: usize = 5;
 
 #[test]
-fn the_page_works_in_a_browser() {
+fn page_works_in_a_browser() {
     let Some(browser) = browser() else {
         return;
     };
@@ -78,7 +73,7 @@ fn assert_works(found: &Value, mode: Mode, width: u32) {
     }
 }
 
-/// All letters are far from their ground, and the right way round.
+/// Asserts contrast of all letters with the background, dark on light in light mode.
 fn assert_legible(picture: &Value, mode: Mode) {
     let ground = brightness(&picture["ground"]);
     let letters = picture["letters"].as_array().unwrap();
@@ -92,16 +87,15 @@ fn assert_legible(picture: &Value, mode: Mode) {
     }
 }
 
-/// The sum of the components of a colour, at most 765.
 fn brightness(colour: &Value) -> i64 {
     let components = colour.as_array().unwrap().iter();
     components.take(3).map(|c| c.as_i64().unwrap()).sum()
 }
 
-/// A view is drawn, every act changes it, and after the button it is as at first.
+/// Asserts that a view is drawn, responds to every input and returns to its initial state on reset.
 fn assert_is_alive(view: &Value, width: u32) {
     let pixels: u64 = view["size"].as_array().unwrap().iter().map(count).product();
-    // A filament and its axes cover between a hundredth and all but some of the view.
+    // A filament and its axes cover between 1 % and 90 % of the view.
     let some = pixels / 100..pixels * 9 / 10;
     assert!(some.contains(&count(&view["painted"])), "{width}: {view}");
     for act in ["turned", "zoomed", "keyed", "compared"] {
@@ -115,9 +109,8 @@ fn assert_is_alive(view: &Value, width: u32) {
     assert!(count(&view["legend"]) >= 2);
 }
 
-/// The probe finds what is wrong with a page that is: else the test above would prove nothing.
 #[test]
-fn the_probe_finds_what_is_wrong() {
+fn probe_finds_errors() {
     let page = "<!doctype html><html><head></head><body><img src=\"missing.png\">\
         <figure><svg width=\"200\" height=\"100\"></svg></figure>\
         <figure><svg width=\"200\" height=\"100\"><text x=\"190\" y=\"50\">out</text></svg></figure>\

@@ -1,14 +1,12 @@
-//! Reasons of failed comparisons. The page marks a miss without a known reason.
+//! Failed comparisons with their reasons.
 
 use super::texts::{Reason, TEXTS};
 use actin_draw::page::{Explained, Misses};
 use actin_draw::report::Row;
 
-/// Heading of misses without a reason.
-const OPEN: &str = "No reason is known for what follows. A quick run misses more than a full one: it has \
-                    fewer samplings and resolutions.";
+const OPEN: &str = "The reason of the following misses is unknown. A quick run misses more than a full run, because \
+                    it has fewer samplings and resolutions.";
 
-/// The misses among the rows, under their reasons.
 pub(super) fn of<'a>(rows: impl Iterator<Item = &'a Row>) -> Misses<'a> {
     let missed: Vec<&Row> = rows.filter(|row| row.pass == Some(false)).collect();
     let chosen = |is_chosen: &dyn Fn(&Row) -> bool| {
@@ -28,7 +26,7 @@ pub(super) fn of<'a>(rows: impl Iterator<Item = &'a Row>) -> Misses<'a> {
     }
 }
 
-/// Misses without a reason, and reasons without a miss in an artefact that was computed, a line each.
+/// Messages for misses without a unique reason, and for reasons without a miss in the computed artefacts.
 pub(crate) fn unexplained(rows: &[Row]) -> Vec<String> {
     let missed: Vec<&Row> = rows.iter().filter(|row| row.pass == Some(false)).collect();
     let mut all = Vec::new();
@@ -49,7 +47,7 @@ pub(crate) fn unexplained(rows: &[Row]) -> Vec<String> {
     for reason in TEXTS.reasons.iter().filter(is_run) {
         if !missed.iter().any(|row| reason.covers(row)) {
             all.push(format!(
-                "{}: nothing is missed for: {}",
+                "{}: no row is missed for the reason: {}",
                 reason.artefact, reason.title
             ));
         }
@@ -63,10 +61,8 @@ mod tests {
     use crate::workspace_root;
     use actin_draw::report;
 
-    /// Every miss of the committed report has its reason, and every reason its miss: what is told of a
-    /// number that agrees by now would be wrong.
     #[test]
-    fn every_miss_has_its_reason() {
+    fn misses_and_reasons_match() {
         let rows = report::read(&workspace_root().join("docs/report.json")).unwrap();
         let open = unexplained(&rows);
         assert!(open.is_empty(), "{}", open.join("\n"));
@@ -76,10 +72,9 @@ mod tests {
         assert_eq!(told[1], "fig1:b is missed and has 0 reasons");
     }
 
-    /// A name covers itself and, with a slash at its end, what lies below. Symptom of a bare prefix: 10
-    /// deg explains 100 deg.
+    /// Guards against prefixes: 10 deg must not match 100 deg.
     #[test]
-    fn names_are_matched_whole() {
+    fn names_are_matched_completely() {
         let row = |artefact, quantity: &str| Row::measured(artefact, quantity, "", 0.0, "");
         assert!(Reason::of(&row("table3", "b3/under/10")).is_some());
         assert!(Reason::of(&row("table3", "b3/length-14/under/10")).is_none());
@@ -90,9 +85,8 @@ mod tests {
         assert!(Reason::of(&row("fig8", "couple/over/180/rod")).is_none());
     }
 
-    /// Numbers that the texts hold are those of the committed report.
     #[test]
-    fn numbers_in_the_texts_are_those_of_the_report() {
+    fn numbers_in_texts_agree_with_the_report() {
         let rows = report::read(&workspace_root().join("docs/report.json")).unwrap();
         let row = |artefact: &str, quantity: &str| {
             let mut found = rows.iter().filter(|row| row.artefact == artefact);
@@ -123,9 +117,8 @@ mod tests {
         assert!(says("fig8", under, "within 1 nm of 39 nm"));
     }
 
-    /// Rows that the texts send a reader to are there.
     #[test]
-    fn rows_that_are_named_exist() {
+    fn rows_named_in_texts_exist() {
         let rows = report::read(&workspace_root().join("docs/report.json")).unwrap();
         for reason in &TEXTS.reasons {
             let named = reason.text.split(&[' ', '(', ')', ',']);

@@ -1,6 +1,4 @@
-//! `report.html`: one page without links to anything outside itself.
-//!
-//! Here is the order of the page; its texts are in `data/page.ron`. The views are those of `actin-view`.
+//! Structure of `report.html`, a self-contained page. Its texts are in `data/page.ron`.
 
 #[cfg(test)]
 mod browser_tests;
@@ -17,9 +15,8 @@ use actin_draw::report::{Artefact, save};
 use std::fs;
 use std::path::Path;
 
-const TITLE: &str = "Actin at two resolutions: the paper's figures and tables, computed again";
+const TITLE: &str = "Actin at two resolutions: reproduction of the figures and tables of the paper";
 
-/// Writes the page, with everything that it shows inside it.
 pub(super) fn write(artefacts: &[Artefact], out: &Path, quick: bool) -> Result<(), String> {
     let version = version();
     let mut page = Page::new(TITLE, &version);
@@ -27,9 +24,9 @@ pub(super) fn write(artefacts: &[Artefact], out: &Path, quick: bool) -> Result<(
     for artefact in artefacts {
         page.artefact(artefact, &misses::of(artefact.rows.iter()), out)?;
     }
-    page.section("words", "In words", &summary::words(artefacts));
+    page.section("words", "Summary", &summary::words(artefacts));
     let reading = summary::how_to_read(&mut page);
-    page.section("reading", "How to read this page", &reading);
+    page.section("reading", "Guide to this page", &reading);
     page.markdown("errata", "Errata of the paper", &errata()?);
     page.verdicts(&summary::verdicts(artefacts));
     page.data("palette", &palette::chosen().json());
@@ -38,7 +35,7 @@ pub(super) fn write(artefacts: &[Artefact], out: &Path, quick: bool) -> Result<(
     save(out, "report.html", &page.finish())
 }
 
-/// Version of the code, and of its sources if they are under git.
+/// Version of the code, with the commit of its sources if available.
 fn version() -> String {
     let number = env!("CARGO_PKG_VERSION");
     let mut git = std::process::Command::new("git");
@@ -52,7 +49,6 @@ fn version() -> String {
     )
 }
 
-/// The text of `docs/errata.md`.
 fn errata() -> Result<String, String> {
     let path = workspace_root().join("docs/errata.md");
     fs::read_to_string(&path).map_err(|e| format!("{}: {e}", path.display()))
@@ -62,7 +58,6 @@ fn errata() -> Result<String, String> {
 mod tests {
     use super::*;
 
-    /// Every row of the errata is on the page.
     #[test]
     fn all_errata_are_shown() {
         let mut page = Page::new("", "");
@@ -70,7 +65,7 @@ mod tests {
         let page = page.finish();
         let lines = errata().unwrap();
         let rows = lines.lines().filter(|line| line.starts_with("| ")).count();
-        // The head is one of them.
+        // One line is the header.
         assert_eq!(page.matches("data-label=\"finding\"").count(), rows - 1);
     }
 }

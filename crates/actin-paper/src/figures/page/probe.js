@@ -1,5 +1,5 @@
-// Put at the beginning of a copy of the page by the tests: listens for everything that goes wrong,
-// looks at all pictures, turns every view, and tells the page around it what it found.
+// Inserted at the beginning of a copy of the page by the tests. Records errors, inspects all pictures, operates
+// every view, and posts the results to the parent page.
 
 (() => {
   'use strict';
@@ -16,21 +16,21 @@
     error(...words);
   };
 
-  // Frames come by the clock: under virtual time on a busy machine those of the display may not come
-  // at all while a test waits for them.
+  // Animation frames are driven by timers, because display frames may be missing under virtual time
+  // on a busy machine.
   window.requestAnimationFrame = (draw) => setTimeout(() => draw(performance.now()), 16);
 
   const wait = (ms) => new Promise((done) => setTimeout(done, ms));
   const pixels = (canvas) =>
     canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height).data;
 
-  // Pixels that are not the background, which is transparent.
+  // Number of pixels that differ from the transparent background.
   const painted = (data) => {
     let count = 0;
     for (let i = 3; i < data.length; i += 4) if (data[i] > 0) count += 1;
     return count;
   };
-  // A browser that reads a canvas back goes on without the graphics card, which rounds otherwise by one step.
+  // Number of differing pixels. The tolerance allows for the different rounding of hardware and software rendering.
   const differing = (a, b) => {
     if (a.length !== b.length) return -1;
     let count = 0;
@@ -40,7 +40,7 @@
     return count;
   };
 
-  // Does something to a view, and waits until it has been drawn anew.
+  // Performs an action on a view and waits until it is redrawn.
   async function redrawn(canvas, act) {
     const before = canvas.dataset.drawn;
     act();
@@ -62,7 +62,7 @@
     for (let i = 0; i < 100 && !canvas.dataset.drawn; i += 1) await wait(20);
     const first = pixels(canvas);
     const turned = await redrawn(canvas, () => drag(canvas, 60, 30));
-    // About the middle: about a place far away it would lose what is seen.
+    // Zooms about the middle, so that the bodies remain visible.
     const box = canvas.getBoundingClientRect();
     const zoomed = await redrawn(canvas, () => canvas.dispatchEvent(new WheelEvent('wheel', {
       deltaY: -40, ctrlKey: true, cancelable: true,
@@ -90,7 +90,7 @@
     };
   }
 
-  // Texts that reach beyond their picture, half a pixel of rounding allowed for.
+  // Texts outside their picture, with a tolerance of half a pixel.
   function clipped(picture) {
     const box = picture.getBoundingClientRect();
     const texts = [...picture.querySelectorAll('text')].filter((text) => {
@@ -100,7 +100,7 @@
     return texts.map((text) => text.textContent);
   }
 
-  // Colours of the ground and of all letters, as shown, each once.
+  // Displayed colours of the background and of all letters, without duplicates.
   function shades(picture) {
     const fills = (name) => {
       const elements = [...picture.querySelectorAll(name)];
@@ -129,7 +129,7 @@
 
   window.addEventListener('load', async () => {
     let found;
-    // The browser tells of a promise that nobody keeps in a task of its own.
+    // The browser reports unhandled rejections in a separate task.
     await wait(500);
     try {
       found = await verdict();

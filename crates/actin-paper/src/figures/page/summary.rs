@@ -1,4 +1,4 @@
-//! Texts of the page: its head, findings, guide, and the lead of the verdicts.
+//! Sections of the page: head, findings, guide and verdicts.
 
 use super::TITLE;
 use super::texts::{Cause, Finding, Reason, TEXTS};
@@ -11,7 +11,6 @@ fn all(artefacts: &[Artefact]) -> Verdicts {
     artefacts.iter().map(|a| Verdicts::of(&a.rows)).sum()
 }
 
-/// Title and origin, in two lines: figures follow.
 pub(super) fn head(artefacts: &[Artefact], quick: bool, version: &str) -> Markup {
     let all = all(artefacts);
     html! {
@@ -19,21 +18,20 @@ pub(super) fn head(artefacts: &[Artefact], quick: bool, version: &str) -> Markup
         p class="soft" {
             "Gunaratne, Floyd, Ni, Papoian and Erban, arXiv 2203.01284. Version " (version) ". "
             @if all.compared() > 0 {
-                (all.agree) " of " (all.compared()) " numbers that are judged agree: "
+                (all.agree) " of " (all.compared()) " compared numbers agree: "
                 a href="#verdicts" { "verdicts" } "."
             }
         }
         @if quick {
             p class="quick" {
-                "This was a quick run: fewer resolutions and samplings, equilibria more often than \
-                 motions. The full run leaves " code { "--quick" } " out; the reasons given for what \
-                 was missed, and the numbers in them, are those of the full run."
+                "This is a quick run with fewer resolutions and samplings, and without most \
+                 motions. Omit " code { "--quick" } " for a full run. The reasons of \
+                 misses and the numbers in them refer to the full run."
             }
         }
     }
 }
 
-/// Findings, counts and choices.
 pub(super) fn words(artefacts: &[Artefact]) -> Markup {
     html! {
         (findings(artefacts))
@@ -42,22 +40,20 @@ pub(super) fn words(artefacts: &[Artefact]) -> Markup {
     }
 }
 
-/// Guide to the page.
 pub(super) fn how_to_read(page: &mut Page<'_>) -> Markup {
     let stops = palette::chosen().ramp().stops().iter();
     let stops: Vec<String> = stops.map(|&stop| page.colour(stop)).collect();
     reading(&stops)
 }
 
-/// Lead of the table of verdicts.
 pub(super) fn verdicts(artefacts: &[Artefact]) -> Markup {
     html! {
         (score(artefacts))
         p {
-            "Every number that is judged, figure by figure: first what was missed, under its reason. The \
-             reasons, and the numbers in them, are those of the full run of this version. The note of a row \
-             says how its number came about; the " a href="#errata" { "errata" }
-            " say where the paper is open or contradicts itself."
+            "All compared numbers by figure, first the misses with their reasons. The \
+             reasons and the numbers in them refer to the full run of this version. The note of a row \
+             explains its number; the " a href="#errata" { "errata" }
+            " list gaps and contradictions in the paper."
         }
     }
 }
@@ -66,13 +62,12 @@ fn judged(artefacts: &[Artefact]) -> Markup {
     let all = all(artefacts);
     html! {
         p {
-            (all.compared()) " numbers are judged: "
+            (all.compared()) " numbers are compared: "
             span class="pass" { (all.agree) " agree" } " within their tolerance; "
             span class="miss" { (all.missed) " do not" } ". " (all.measured)
-            " more were measured and are not judged. All numbers and pictures come from simulations of \
-             the run that wrote this page. Nothing was fitted in it, but for the laws of Figure 9 and \
-             the rows named fitted; the choices that follow were made beforehand to meet Tables 3, 4 \
-             and 5."
+            " further numbers have no verdict. All numbers and pictures are from simulations of the run that wrote \
+             this page. The run fitted only the laws of Figure 9; rows named fitted use a law fitted to monomers. \
+             The following choices were made in advance to reproduce Tables 3, 4 and 5."
         }
     }
 }
@@ -81,17 +76,17 @@ fn reading(stops: &[String]) -> Markup {
     let ramp = format!("background:linear-gradient(to right,{})", stops.join(","));
     html! {
         p {
-            "A row agrees if ours differs from the expected number by no more than the tolerance; where \
-             no number is expected, the tolerance is the bound itself, and the note says on which side \
-             of it to be. Who expects the number or sets the bound stands under " em { "by" }
-            ". Units are nm, pN, ns and rad; a row without one is a ratio or a count. On a narrow screen a \
-             picture grows when it is touched. Colour is resolution, the share of the filament that \
+            "A row agrees if our number differs from the expected one by at most the tolerance. If \
+             no number is expected, the tolerance is the bound itself, and the note states whether \
+             it is an upper or a lower bound. The column " em { "by" } " gives the origin of the number or bound"
+            ". Units are nm, pN, ns and rad; rows without a unit are ratios or counts. On a narrow screen, touch a \
+             picture to enlarge it. Colours show the resolution, the share of the filament that \
              is rod:"
         }
         div class="ramp" style=(ramp) {}
         div class="ends" { span { "all monomers" } span { "all rod" } }
         details {
-            summary { "What the names of quantities mean" }
+            summary { "Names of quantities" }
             dl {
                 @for (name, meaning) in &TEXTS.names {
                     dt { code { (name) } } dd { (meaning) }
@@ -99,14 +94,14 @@ fn reading(stops: &[String]) -> Markup {
             }
         }
         p class="soft" {
-            "Another set of colours: " code { "--palette paper" } " or "
+            "Other palettes: " code { "--palette paper" } " or "
             code { "--palette colour-blind" } "."
         }
     }
 }
 
 impl Finding {
-    /// The verdict; `None` if rows are missing in the run.
+    /// Verdict; `None` if rows are missing in the run.
     fn verdict(&self, artefacts: &[Artefact]) -> Option<bool> {
         let artefact = artefacts.iter().find(|a| a.id == self.artefact)?;
         let verdict = |name: &String| {
@@ -118,7 +113,6 @@ impl Finding {
     }
 }
 
-/// Sentences on the artefacts that were computed.
 fn findings(artefacts: &[Artefact]) -> Markup {
     let sentences = sentences(artefacts);
     html! {
@@ -128,7 +122,6 @@ fn findings(artefacts: &[Artefact]) -> Markup {
     }
 }
 
-/// Title, class and text of each sentence.
 fn sentences(artefacts: &[Artefact]) -> [(&'static str, &'static str, String); 3] {
     let verdicts = TEXTS.findings.iter().map(|f| (f, f.verdict(artefacts)));
     let of = |wanted: bool| {
@@ -141,11 +134,11 @@ fn sentences(artefacts: &[Artefact]) -> [(&'static str, &'static str, String); 3
     [
         ("Confirmed", "pass", of(true)),
         ("Not confirmed", "miss", of(false)),
-        ("Why", "open", causes(&missed)),
+        ("Reasons", "open", causes(&missed)),
     ]
 }
 
-/// Text for the numbers of misses by cause; empty without misses.
+/// Numbers of misses by cause; empty without misses.
 fn causes(missed: &[&Row]) -> String {
     let count = |cause: Option<Cause>| {
         let causes = missed.iter().map(|row| Reason::of(row).map(|r| r.cause));
@@ -156,7 +149,7 @@ fn causes(missed: &[&Row]) -> String {
     let causes: Vec<String> = counted
         .filter(|(count, _)| *count > 0)
         .map(|(count, cause)| {
-            let unknown = || format!("{count} nobody has looked into yet");
+            let unknown = || format!("{count} without known cause");
             cause.map_or_else(unknown, |cause| cause.in_words(count))
         })
         .collect();
@@ -167,29 +160,25 @@ fn causes(missed: &[&Row]) -> String {
     }
 }
 
-/// Origins of expected numbers, with their titles.
 const GROUPS: [(Origin, &str); 6] = [
-    (
-        Origin::Paper,
-        "Numbers that the paper prints, beside simulated ones",
-    ),
+    (Origin::Paper, "Printed numbers compared with simulations"),
     (
         Origin::Derived,
-        "Numbers that the paper prints, beside what follows from others that it prints (no simulation)",
+        "Printed numbers compared with values computed from other printed numbers (no simulation)",
     ),
-    (Origin::Words, "Statements of the paper in words"),
+    (Origin::Words, "Verbal statements of the paper"),
     (Origin::Theory, "Theory"),
     (
         Origin::CrossCheck,
-        "Cross-checks: an earlier calculation that shares this code's modelling decisions",
+        "Cross-checks with an earlier calculation of the same modelling decisions",
     ),
     (
         Origin::Bound,
-        "Checks of the calculation, and bounds set here",
+        "Checks of the computation, and bounds set here",
     ),
 ];
 
-/// The rule and the counts; nothing if nothing is judged.
+/// Rule and counts; empty without verdicts.
 fn score(artefacts: &[Artefact]) -> Markup {
     let groups = GROUPS.map(|(origin, title)| group(artefacts, origin, title));
     if groups.iter().all(|group| group.0.is_empty()) {
@@ -198,21 +187,21 @@ fn score(artefacts: &[Artefact]) -> Markup {
     html! {
         h3 { "What agrees" }
         p {
-            "One rule decides in all figures and tables. A printed number is met within half a unit of \
-             its last digit and, where bonds are drawn, twice the standard deviation of a single \
-             filament; shapes called alike within 1.8 nm, the radius of the helix; numbers called alike \
-             within 10 %, which the paper calls a difference itself; an order by its sign."
+            "One rule applies to all figures and tables. A printed number agrees within half a unit of its last \
+             digit and, for sampled bonds, twice the standard deviation of a single filament. Shapes that the paper \
+             calls equal agree within 1.8 nm, the radius of the helix. Numbers that it calls equal agree within 10 \
+             %, the size of a difference that it reports as one. For an order, the sign decides."
         }
         details {
-            summary { "The rule in full, and what is not judged" }
+            summary { "Complete rule, and rows without a verdict" }
             dl {
                 @for (of, bound) in &TEXTS.rule {
                     dt { (of) } dd { (bound) "." }
                 }
             }
             p class="soft" {
-                "Not judged, and not counted: numbers copied from the paper, variants of its models, \
-                 what cannot come out otherwise, and twist of 360 deg."
+                "Rows without a verdict are not counted: numbers copied from the paper, variants of its models, \
+                 identities, and twist of 360 deg."
             }
         }
         table class="verdicts" {
@@ -226,7 +215,7 @@ fn score(artefacts: &[Artefact]) -> Markup {
     }
 }
 
-/// One line for all artefacts and, for numbers and statements of the paper, one for each artefact.
+/// Line of all artefacts and, for numbers and statements of the paper, one line per artefact.
 fn group(artefacts: &[Artefact], origin: Origin, title: &str) -> Markup {
     let judged = |a: &Artefact| -> Vec<Row> {
         let rows = a.rows.iter().filter(|row| row.origin == Some(origin));

@@ -1,10 +1,9 @@
-//! Findings and counts of the page.
+//! Tests of findings and counts of the page.
 
 use super::*;
 use crate::workspace_root;
 use actin_draw::report;
 
-/// The artefacts of the committed report, with their rows and nothing else.
 fn committed() -> Vec<Artefact> {
     let rows = report::read(&workspace_root().join("docs/report.json")).unwrap();
     let mut artefacts: Vec<Artefact> = Vec::new();
@@ -25,7 +24,6 @@ fn committed() -> Vec<Artefact> {
     artefacts
 }
 
-/// A full run has a verdict on every finding, and a verdict that changes moves its statement.
 #[test]
 fn statements_follow_the_verdicts() {
     let mut artefacts = committed();
@@ -45,10 +43,10 @@ fn statements_follow_the_verdicts() {
     row.next().unwrap().pass = Some(false);
     let after = sentences(&artefacts);
     assert!(!after[0].contains("take one shape") && after[1].contains("take one shape"));
-    assert!(after[2].contains("nobody has looked into"));
+    assert!(after[2].contains("without known cause"));
 }
 
-/// A statement must not refer to its neighbours: in a run of one artefact it stands alone.
+/// In a run of one artefact, a statement has no neighbours to refer to.
 #[test]
 fn every_statement_can_be_read_alone() {
     let artefacts = committed();
@@ -100,17 +98,17 @@ fn misses_are_counted_by_their_cause() {
     let unknown = Row::measured("fig1", "q", "nm", 1.0, "").against(2.0, 0.5);
     assert_eq!(
         causes(&[&unknown]),
-        "1 comparison failed. 1 nobody has looked into yet"
+        "1 comparison failed. 1 without known cause"
     );
     assert_eq!(causes(&[]), "");
 }
 
 #[test]
-fn what_a_run_has_not_computed_is_not_spoken_of() {
+fn artefacts_without_rows_have_no_findings() {
     assert_eq!(findings(&[]).into_string(), "");
 }
 
-/// Printed numbers come first, table by table, with the names of misses; what is not judged is not counted.
+/// Printed numbers come first, by table, with the names of misses. Rows without a verdict are not counted.
 #[test]
 fn printed_numbers_come_first() {
     let row = |quantity: &str| Row::measured("table3", quantity, "", 1.0, "");
@@ -130,7 +128,7 @@ fn printed_numbers_come_first() {
     };
     let page = score(&[artefact]).into_string();
     let place = |text: &str| page.find(text).unwrap();
-    assert!(place("the paper prints, beside simulated") < place("Table 3</a>"));
+    assert!(place("Printed numbers compared with simulations") < place("Table 3</a>"));
     assert!(place("Table 3</a>") < place("Theory"));
     assert!(page.contains("data-label=\"met\">1</td><td class=\"n\" data-label=\"of\">2</td>"));
     assert!(page.contains("b3/<wbr>over/<wbr>20") && !page.contains("220"));

@@ -1,5 +1,4 @@
-//! From an assembly and its state to solids: what stands where comes from them, never from here.
-//! All filaments of a scene are drawn, each with its own parameters and about its own axis.
+//! Solids of all filaments of an assembly in a state.
 
 use super::style;
 use actin_draw::scene3d::{Item, Solid, Stroke};
@@ -7,30 +6,27 @@ use actin_mechanics::{Matrix3, State, Vector3, rotation};
 use actin_sim::{Assembly, BodyKind, End, Setting};
 use actin_view::bodies;
 
-/// Straight pieces of an arc.
 const PIECES: u32 = 24;
-/// Distance of arrows of shifts from the held point, and of arcs beyond it (nm).
+/// Distance of arrows and arcs from the clamped point (nm).
 const CLEAR_NM: f64 = 3.0;
 
-/// The filaments of an assembly in a state, to be drawn.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Drawn<'a> {
     pub assembly: &'a Assembly,
     pub state: &'a State,
-    /// Arc lengths between which bodies are drawn (nm).
+    /// Drawn range of arc length (nm).
     pub range_nm: [f64; 2],
 }
 
-/// Solids of the bonds between monomers, by kind.
 #[derive(Debug, Default)]
 pub(super) struct BondItems {
     pub items: Vec<Item>,
-    /// Lateral and longitudinal bonds.
+    /// Numbers of lateral and longitudinal bonds.
     pub counts: [usize; 2],
 }
 
 impl<'a> Drawn<'a> {
-    /// Whole filaments in the last state of their system.
+    /// Complete filaments in the current state of the system.
     pub(super) fn whole(assembly: &'a Assembly) -> Self {
         Self {
             assembly,
@@ -43,7 +39,6 @@ impl<'a> Drawn<'a> {
         (self.range_nm[0]..=self.range_nm[1]).contains(&s_nm)
     }
 
-    /// Position of a point (nm, lab frame).
     pub(super) fn place(&self, point: usize) -> Vector3 {
         self.state.points.position.get(point)
     }
@@ -53,14 +48,13 @@ impl<'a> Drawn<'a> {
         orientation.to_rotation_matrix().into_inner()
     }
 
-    /// Points of a kind that are shown.
     pub(super) fn points(&self, kind: BodyKind) -> Vec<usize> {
         let points = self.assembly.points.iter().enumerate();
         let shown = points.filter(|(_, info)| info.kind == kind && self.shows(info.s_nm));
         shown.map(|(i, _)| i).collect()
     }
 
-    /// Monomers, each with its semi-axes along its principal frame.
+    /// Ellipsoids of monomers in their principal frames.
     pub(super) fn monomers(&self, opacity: f64) -> Vec<Item> {
         let monomers = self.points(BodyKind::Monomer).into_iter();
         let body = monomers.filter_map(|i| Some((i, self.assembly.points[i].frame?)));
@@ -76,7 +70,7 @@ impl<'a> Drawn<'a> {
         .collect()
     }
 
-    /// Every bond between monomers that are shown, from anchor to anchor.
+    /// Lines of all bonds between drawn monomers, from anchor to anchor.
     pub(super) fn bonds(&self, width: f64) -> BondItems {
         let mut drawn = BondItems::default();
         let sections = 0..self.assembly.sections.len();
@@ -92,7 +86,7 @@ impl<'a> Drawn<'a> {
                 let kind = pair.upper - pair.lower - 1;
                 let stroke = Stroke::solid(style::bond(kind), width);
                 let lines = bonds.ends_of(pair, self.state);
-                // Anchors lie on surfaces that the ellipsoids' middles are behind.
+                // Anchors lie on the surfaces, in front of the centres of the ellipsoids.
                 let lines = lines.map(|ends| Item::line(ends, stroke).nearer(style::ON_SURFACE_NM));
                 drawn.counts[kind] += pair.bonds;
                 drawn.items.extend(lines);
@@ -101,7 +95,7 @@ impl<'a> Drawn<'a> {
         drawn
     }
 
-    /// Segments as cylinders of the rod's cross-section, their centre line and their nodes.
+    /// Segments as cylinders of the cross-section of the rod, with centre line and nodes.
     pub(super) fn rods(&self, opacity: f64) -> Vec<Item> {
         let radius = bodies::rod_radius_nm();
         let mut items = Vec::new();
@@ -121,7 +115,7 @@ impl<'a> Drawn<'a> {
         items
     }
 
-    /// Both nodes of every segment that is shown.
+    /// Both nodes of every drawn segment.
     fn segments(&self) -> Vec<[Vector3; 2]> {
         let nodes = self.points(BodyKind::Node);
         let next = nodes.windows(2).filter(|pair| {
@@ -133,7 +127,6 @@ impl<'a> Drawn<'a> {
             .collect()
     }
 
-    /// Frames of segments, each at the middle of its segment.
     pub(super) fn segment_frames(&self, length_nm: f64) -> Vec<Item> {
         let mut items = Vec::new();
         for section in self.assembly.sections.iter().filter(|s| !s.is_ellipsoids()) {
@@ -151,7 +144,6 @@ impl<'a> Drawn<'a> {
         items
     }
 
-    /// The axes of a frame, drawn at a place.
     pub(super) fn frame(&self, frame: usize, at: Vector3, length_nm: f64) -> Vec<Item> {
         let axes = self.matrix(frame);
         let axis = |k: usize| {
@@ -162,7 +154,6 @@ impl<'a> Drawn<'a> {
         [0, 1, 2].map(axis).into()
     }
 
-    /// Bonds of all junctions.
     pub(super) fn junction_bonds(&self, width: f64) -> Vec<Item> {
         let bonds = self.assembly.junction_bonds().into_iter();
         let edge = Stroke::solid(style::of(|t| t.junction).darker(0.55), width + 2.0);
@@ -179,7 +170,6 @@ impl<'a> Drawn<'a> {
             .collect()
     }
 
-    /// Walls at clamped ends.
     pub(super) fn walls(&self, half_nm: f64) -> Vec<Item> {
         let plates = bodies::plates(self.assembly, self.state, half_nm).into_iter();
         plates
@@ -192,8 +182,8 @@ impl<'a> Drawn<'a> {
             .collect()
     }
 
-    /// Where a held end is (nm, lab frame), and unit vectors out of its filament and across it as
-    /// built; none if the end is free.
+    /// Position of a clamped end (nm, lab frame), and unit vectors outward and across the built filament. `None` if the
+    /// end is free.
     fn held(&self, filament: usize, end: End) -> Option<[Vector3; 3]> {
         let clamp = self.assembly.clamp_at(filament, end)?;
         let built = self.assembly.filaments[filament].rotation;
@@ -208,8 +198,7 @@ impl<'a> Drawn<'a> {
         ])
     }
 
-    /// Motions of held ends along the scene's path: shifts as arrows to scale that end next to the held point, turns
-    /// as arcs of the true angle about the axis.
+    /// Prescribed motions of clamped ends: shifts as arrows to scale, turns as arcs of the true angle about the axis.
     pub(super) fn imposed(&self, radius_nm: f64) -> Vec<Item> {
         let stages = self.assembly.scene.path.iter();
         let settings = stages.flat_map(|stage| &stage.set);
@@ -225,7 +214,7 @@ impl<'a> Drawn<'a> {
                     end,
                     turn_deg,
                 } => self.turn(*filament, *end, (*turn_deg).into(), radius_nm),
-                // A load is drawn as it acts, an anchor where it ends.
+                // Loads and anchors are drawn in their final state.
                 Setting::LoadFactor { .. } | Setting::Anchor { .. } => Vec::new(),
             })
             .collect()
@@ -255,7 +244,7 @@ impl<'a> Drawn<'a> {
         pieces.chain([head]).collect()
     }
 
-    /// Forces as arrows that begin where they act.
+    /// Forces as arrows from their points of application.
     pub(super) fn arrows(&self, nm_per_pn: f64) -> Vec<Item> {
         let forces = bodies::forces(self.assembly, self.state).into_iter();
         forces
@@ -263,7 +252,6 @@ impl<'a> Drawn<'a> {
             .collect()
     }
 
-    /// Linkers from site to anchor or to the other site, and what they end on.
     pub(super) fn linkers(&self) -> Vec<Item> {
         let linkers = self.assembly.linkers.iter().enumerate();
         linkers
@@ -298,7 +286,7 @@ mod tests {
     use crate::workspace_root;
     use actin_sim::Scene;
 
-    /// Three linked filaments, pulled at the tip of the third and not of the first.
+    /// Three linked filaments with a force at the tip of the third one.
     fn linked() -> Assembly {
         let path = workspace_root().join("scenarios/crosslinked.ron");
         let text = std::fs::read_to_string(path).unwrap();
@@ -307,10 +295,10 @@ mod tests {
         Assembly::build(&Scene::from_ron(&pulled).unwrap()).unwrap()
     }
 
-    /// Symptom of the plausible bugs: nothing but the first filament, a segment from the end of one
-    /// filament to the start of the next, all forces and clamps at the first.
+    /// Guards against drawing only the first filament, segments between filaments, and forces or clamps at the first
+    /// one.
     #[test]
-    fn all_filaments_are_drawn_each_at_its_place() {
+    fn all_filaments_are_drawn_at_their_positions() {
         let assembly = linked();
         let drawn = Drawn::whole(&assembly);
         let counts = assembly.counts();
@@ -318,7 +306,6 @@ mod tests {
         assert_eq!(drawn.segments().len(), counts.segments);
         assert!(drawn.segments().iter().all(|[a, b]| (b - a).norm() < 11.0));
         assert_eq!(drawn.bonds(1.0).items.len(), counts.bonds);
-        // A line and what it ends on at either side.
         assert_eq!(drawn.linkers().len(), 3 * assembly.linkers.len());
         assert!(bodies::anchors(&assembly, assembly.system.state()).is_empty());
         for (plate, axis_x) in bodies::plates(&assembly, drawn.state, 6.0)

@@ -1,5 +1,4 @@
-//! Figures 1 to 3: what the models are, how they are joined, and what is done with them, each
-//! drawn from an equilibrium of a scene under `scenarios/`.
+//! Figures 1 to 3: the models, their junction and typical scenes, drawn from equilibria of scenes in `scenarios`.
 
 mod filament;
 mod style;
@@ -15,23 +14,21 @@ use actin_view::{Attitude, Pose, bodies};
 use filament::Drawn;
 use std::collections::BTreeSet;
 
-const CAPTION_1: &str = "A filament of 52 nm, held below and pulled sideways at its tip by 10 pN: (a) as monomers, (b) as \
-    monomers joined to a rod, (c) as a rod whose cylinders have the cross-section of its mass, 38.5 nm^2. (d) \
-    The middle of (a) from near by. Ellipsoids are drawn with their own semi-axes, translucent; each bond runs \
-    from its anchor on one to that on the other. There are 16 bonds per interface here, and all are drawn; \
-    simulations have 64.";
-const CAPTION_2: &str = "Where 26 nm of monomers, held at the far end, go over into a rod that 10 pN bend: (a) with the \
-    two bonds side by side, (b) along the centre line, from the rod's end, (c) across the plane in which it \
-    bends. Two bonds (yellow) run from the centres of the last two monomers to the rod's end; each has a frame \
-    of its own, drawn at its middle, between the frame of its monomer and that of the rod's first segment. \
+const CAPTION_1: &str = "Filament of 52 nm, clamped at the bottom, with a lateral tip force of 10 pN: (a) monomers, \
+    (b) monomers joined to a rod, (c) a rod; its cylinders have the cross-section of its mass, 38.5 nm^2. (d) \
+    close-up of the middle of (a). Ellipsoids are translucent and have their true semi-axes; each bond connects its \
+    two anchors. All 16 bonds per interface are drawn; simulations have 64.";
+const CAPTION_2: &str = "Junction between 26 nm of monomers, clamped at the far end, and a rod bent by 10 pN: (a) \
+    with the two bonds side by side, (b) along the centre line, from the end of the rod, (c) perpendicular to the \
+    plane of bending. Two bonds (yellow) connect the centres of the last two monomers with the end of the rod. Each \
+    has its own frame, drawn at its middle, between the frame of its monomer and the frame of the first segment. \
     Ellipsoids are translucent.";
-const CAPTION_3: &str = "Filaments of monomers and rod: (a) 100 nm on a wall, 5 pN down at the tip; (b) 160 nm, both ends \
-    turned by 150 deg in opposite senses, which over-twists, and moved in by 8 nm each, so that it buckles, a \
-    little out of a plane, seen from the side and along its axis; arcs show the turns, straight arrows the \
-    shifts, both to scale; (c) 110 nm held by four linkers to fixed anchors alone.";
+const CAPTION_3: &str = "Filaments of monomers and rod: (a) 100 nm, clamped, with a tip force of 5 pN; (b) 160 nm, \
+    both ends turned by 150 deg in opposite directions (over-twist) and moved inwards by 8 nm each. The filament \
+    buckles slightly out of a plane; it is seen from the side and along its axis. Arcs show the turns, straight \
+    arrows the shifts, both to scale; (c) 110 nm, held only by four linkers to fixed anchors.";
 
-/// Figure 1: monomers, monomers joined to a rod, and a rod, of one length under one force; and the
-/// bonds between a few monomers from near by.
+/// Figure 1: monomers, monomers joined to a rod, and a rod under the same force; close-up of bonds.
 pub(super) fn figure1(draft: &mut Draft<'_>) -> Result<(), String> {
     let names = ["figure-1/monomers", "figure-1/coupled", "figure-1/rod"];
     let solved = solve(draft, &names)?;
@@ -66,10 +63,9 @@ pub(super) fn figure1(draft: &mut Draft<'_>) -> Result<(), String> {
     )
 }
 
-const HELIX: &str = "of the helix through the bent filament's centres, from root mean square distances to the next \
-    monomer and the one after; at rest 1.8 and 2.7385";
+const HELIX: &str = "of the helix through the centres of the bent filament, from root mean square distances to the \
+    next two monomers; at rest 1.8 and 2.7385";
 
-/// The bonds of a few monomers from near by.
 fn bonds_of(drawn: &Drawn<'_>) -> Panel {
     Panel {
         title: "(d) bonds of (a)".into(),
@@ -85,7 +81,6 @@ fn bonds_of(drawn: &Drawn<'_>) -> Panel {
     }
 }
 
-/// Numbers of lines in panels (a) and (d).
 fn bond_counts(draft: &mut Draft<'_>, drawn: [&Drawn<'_>; 2]) {
     for (drawn, panel) in drawn.into_iter().zip(["a", "d"]) {
         for (kind, count) in ["lateral", "longitudinal"]
@@ -103,7 +98,6 @@ fn bond_counts(draft: &mut Draft<'_>, drawn: [&Drawn<'_>; 2]) {
     }
 }
 
-/// A filament standing upright.
 fn standing(solved: &Solved, title: &str, left: f64) -> Panel {
     let drawn = Drawn::whole(&solved.assembly);
     let nm_per_pn = 0.9;
@@ -130,7 +124,6 @@ fn standing(solved: &Solved, title: &str, left: f64) -> Panel {
     }
 }
 
-/// The sizes of forces, so far along their arrows.
 fn forces(drawn: &Drawn<'_>, nm_per_pn: f64, offset: [f64; 2]) -> Vec<Label> {
     let forces = bodies::forces(drawn.assembly, drawn.state).into_iter();
     let labels = forces.map(|(at, force)| Label {
@@ -141,11 +134,16 @@ fn forces(drawn: &Drawn<'_>, nm_per_pn: f64, offset: [f64; 2]) -> Vec<Label> {
     labels.collect()
 }
 
-/// Radius and rise of the helix in the present state, taken as if it were straight.
+/// Radius and rise (nm) of the helix in the current state, neglecting curvature.
 ///
-/// With `a` the distance from i to i + 1 and `b` from i to i + 2 of a helix of radius `R`, rise
-/// `z` and turn `t`, `a^2 = z^2 + 4 R^2 sin^2(t/2)` and `b^2 = 4 z^2 + 4 R^2 sin^2 t`;
-/// both squares are means over the monomers.
+/// For radius `R`, rise `z` and turn `t`, the distances `a` from i to i + 1 and `b` from i to i + 2 are
+///
+/// ```text
+/// a^2 = z^2 + 4 R^2 sin^2(t/2)
+/// b^2 = 4 z^2 + 4 R^2 sin^2 t
+/// ```
+///
+/// Squares are means over the monomers.
 fn radius_and_rise_nm(solved: &Solved) -> (f64, f64) {
     let points = solved.assembly.points.iter().enumerate();
     let monomers = points.filter(|(_, info)| info.kind == BodyKind::Monomer);
@@ -171,7 +169,7 @@ fn radius_and_rise_nm(solved: &Solved) -> (f64, f64) {
     (radius_square.sqrt(), (a - one * radius_square).sqrt())
 }
 
-/// Figure 2: the junction of monomers and rod, from two sides and along the centre line.
+/// Figure 2: junction of monomers and rod from three directions.
 pub(super) fn figure2(draft: &mut Draft<'_>) -> Result<(), String> {
     let names = ["figure-2/junction"];
     let solved = solve(draft, &names)?;
@@ -250,13 +248,13 @@ fn joint(
     }
 }
 
-/// The bonds of the junction, each with its number counted from the rod's end.
+/// Bonds of the junction, numbered from the end of the rod.
 fn numbered_bonds(drawn: &Drawn<'_>) -> Vec<(usize, JunctionBond)> {
     let bonds = drawn.assembly.junction_bonds();
     (1..=bonds.len()).rev().zip(bonds).collect()
 }
 
-/// Names of monomer and frame of each bond, with their places (pixels, right and down).
+/// Labels of monomer and frame of each bond, with offsets in pixels (right, down).
 fn bond_names(drawn: &Drawn<'_>) -> Vec<Label> {
     let offsets = [
         [[-100.0, -120.0], [-20.0, -155.0]],
@@ -289,7 +287,7 @@ fn bond_rows(draft: &mut Draft<'_>, drawn: &Drawn<'_>) {
         });
         let [now, built] =
             [drawn.state, rest].map(|state| state.frames.orientation.get(bond.frame));
-        let from = "from the monomer's centre to the rod's end";
+        let from = "from the centre of the monomer to the end of the rod";
         draft.row(format!("bond-{k}/length"), "nm", length, from);
         draft.row(format!("bond-{k}/rest_length"), "nm", rest_length, from);
         let turn = (now * built.inverse()).angle().to_degrees();
@@ -297,13 +295,12 @@ fn bond_rows(draft: &mut Draft<'_>, drawn: &Drawn<'_>) {
             format!("bond-{k}/turn"),
             "deg",
             turn,
-            "of the bond's frame from how it was built",
+            "rotation of the bond frame relative to the built state",
         );
     }
 }
 
-/// Figure 3: the three kinds of scenes: a cantilever, a filament turned and pushed together until
-/// it buckles, a filament held by linkers.
+/// Figure 3: cantilever, buckled filament, and filament on linkers.
 pub(super) fn figure3(draft: &mut Draft<'_>) -> Result<(), String> {
     let names = [
         "figure-3/cantilever",
@@ -333,7 +330,7 @@ fn example_panels(solved: &[Solved]) -> Vec<Panel> {
         (0, "(a) cantilever", [8.0, 6.0, 410.0, 330.0], side),
         (
             1,
-            "(b) turned and pushed together",
+            "(b) twisted and compressed",
             [426.0, 6.0, 646.0, 330.0],
             side,
         ),
@@ -386,7 +383,7 @@ fn example(solved: &Solved, title: &str, place: [f64; 4], towards_viewer: Vector
 
 fn example_rows(draft: &mut Draft<'_>, solved: &[Solved]) -> Result<(), String> {
     let [cantilever, buckled, linked] = solved else {
-        return Err("three scenes are needed".into());
+        return Err("Figure 3 requires three scenes".into());
     };
     let tip = |state| cantilever.assembly.tip_nm(state, End::End);
     let moved = tip(cantilever.state()) - tip(&cantilever.assembly.rest);
@@ -400,8 +397,7 @@ fn example_rows(draft: &mut Draft<'_>, solved: &[Solved]) -> Result<(), String> 
     let note = "largest distance of the centre line from the axis";
     draft.row("buckling/height", "nm", ribbon.largest_distance_nm(), note);
     let writhe = ribbon.writhe().ok_or("too many vertices for a writhe")?;
-    let note =
-        "of the filament, straight beyond both ends; 0 for a plane curve: how far it is a helix";
+    let note = "of the filament with straight extensions of both ends; 0 for a plane curve";
     draft.row("buckling/writhe", "", writhe, note);
     for (i, linker) in linked.assembly.linkers.iter().enumerate() {
         let force = linker.force(linked.state()).norm();
@@ -409,13 +405,12 @@ fn example_rows(draft: &mut Draft<'_>, solved: &[Solved]) -> Result<(), String> 
             format!("linkers/{i}/force"),
             "pN",
             force,
-            "pull of the linker",
+            "force of the linker",
         );
     }
     Ok(())
 }
 
-/// The equilibria of some scenes.
 fn solve(draft: &Draft<'_>, names: &[&str]) -> Result<Vec<Solved>, String> {
     let solved = draft.solve(names, |name| {
         let scene = scenario(&format!("{name}.ron"))?;
@@ -424,15 +419,13 @@ fn solve(draft: &Draft<'_>, names: &[&str]) -> Result<Vec<Solved>, String> {
     solved.into_iter().collect()
 }
 
-/// Last part of a path.
 fn file_name(name: &str) -> &str {
     name.rsplit('/').next().unwrap_or(name)
 }
 
-/// Size, panels and legend of a picture.
+/// Size (pixels), panels and legend of a picture.
 type Drawing<'a> = ([f64; 2], Vec<Panel>, &'a [Vec<(Key, String)>]);
 
-/// Writes the picture, counts what is drawn, and shows the states in the viewer.
 fn finish(
     draft: &mut Draft<'_>,
     (names, solved): (&[&str], &[Solved]),
@@ -466,11 +459,11 @@ fn finish(
         draft.id,
         attitude,
         shown,
-        "The same equilibria, to be turned.",
+        "Equilibria in the interactive view.",
     )
 }
 
-/// Counts of bodies as rows, and the state for the viewer.
+/// Adds rows of counts of bodies, and returns the state for the viewer.
 fn counted(draft: &mut Draft<'_>, name: &str, solved: &Solved) -> (String, String, f64, Pose) {
     let counts = solved.assembly.counts();
     for (quantity, number) in [
@@ -483,12 +476,11 @@ fn counted(draft: &mut Draft<'_>, name: &str, solved: &Solved) -> (String, Strin
         draft.row(format!("{name}/{quantity}"), "", number as f64, note);
     }
     let rods = counts.segments as f64;
-    // Monomers are 2.7 nm apart, segments 10 nm long or less: of what there is more.
+    // Approximate share: segments are up to 10 nm long, monomers have a rise of 2.7 nm.
     let share = rods / (rods + counts.monomers as f64);
     ("all".to_owned(), name.to_owned(), share, solved.pose())
 }
 
-/// Settings of the states.
 fn settings(names: &[&str], solved: &[Solved]) -> String {
     let names: Vec<String> = names.iter().map(|name| format!("{name}.ron")).collect();
     let stable = solved
@@ -501,8 +493,8 @@ fn settings(names: &[&str], solved: &[Solved]) -> String {
     let seeds: BTreeSet<u64> = seeds.collect();
     let seeds: Vec<String> = seeds.iter().map(u64::to_string).collect();
     format!(
-        "Scenes scenarios/: {}. Each is drawn in its equilibrium: {}, {stable} of {} certified stable. Places, \
-         orientations, semi-axes and ends of bonds are those of the state; the scale bar holds at the middle of the \
+        "Scenes scenarios/: {}. Each is drawn in equilibrium: {}, {stable} of {} certified stable. Positions, \
+         orientations, semi-axes and ends of bonds are from the state; the scale bar is valid at the middle of the \
          scene. Seed of the bonds: {}.",
         names.join(", "),
         residuals(solved.iter().map(Solved::residual)),

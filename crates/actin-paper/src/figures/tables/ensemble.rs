@@ -1,4 +1,4 @@
-//! Twisted filaments of many bond samplings: what Tables 3 and 5 are made from.
+//! Twisted filaments with many bond samplings for Tables 3 and 5.
 
 use crate::figures::draft::Draft;
 use crate::measure::{Curve, MeasureError, Specimen, Stability, TwistPoint, twist};
@@ -7,18 +7,15 @@ use crate::statistics::{Sample, sample};
 use actin_sim::{Anchors, Monomers, ellipsoid_constants as monomer};
 use std::sync::OnceLock;
 
-/// Rises between the inner held monomers: 30 monomers, two held at each end, 73.94 nm.
+/// Rises between the inner clamped monomers: 30 monomers, two clamped at each end, 73.94 nm.
 pub(super) const RISES: f64 = 27.0;
-/// Bonds per interface of the study; 64 is the default.
+/// Compared numbers of bonds per interface; the default is 64.
 const BONDS: [usize; 6] = [12, 20, 40, 64, 80, 160];
-/// The same, independent only: between these lie the numbers that may meet both tables.
+/// Additional numbers of independent bonds, near those that may agree with both tables.
 const BONDS_BETWEEN: [usize; 2] = [28, 32];
-/// Bond samplings of each kind.
 const SEEDS: u64 = 16;
-/// The same for `--quick`, of the default kind only.
 const QUICK_SEEDS: u64 = 4;
 
-/// How interfaces are bonded.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Kind {
     pub anchors: Anchors,
@@ -26,21 +23,19 @@ pub(super) struct Kind {
 }
 
 impl Kind {
-    /// Weighted bonds that stand for all that could be drawn: the default of scenes.
+    /// Quadrature bonds, the default of scenes.
     pub(super) const MEAN: Self = Self {
         anchors: Anchors::Cubature,
         bonds: monomer::POINTS_PER_INTERFACE,
     };
-    /// 64 bonds, drawn for each interface.
+    /// 64 bonds, sampled for each interface.
     pub(super) const DEFAULT: Self = Self {
         anchors: Anchors::Independent,
         bonds: 64,
     };
 
-    /// Those that every run measures.
     pub(super) const CORE: [Self; 2] = [Self::DEFAULT, Self::MEAN];
 
-    /// Name in quantities and legends.
     pub(super) fn name(&self) -> String {
         match self.anchors {
             Anchors::Cubature => "mean-filament".to_owned(),
@@ -49,7 +44,7 @@ impl Kind {
         }
     }
 
-    /// Seeds of its samplings, at most so many: one if nothing is drawn.
+    /// Seeds of the samplings, at most `most`; one for quadrature bonds.
     pub(super) fn seeds(&self, most: u64) -> std::ops::Range<u64> {
         0..if self.anchors == Anchors::Cubature {
             1
@@ -58,7 +53,6 @@ impl Kind {
         }
     }
 
-    /// Twists a filament of this kind to all angles.
     fn twist(&self, seed: u64, turns: &[f64]) -> Result<Curve<TwistPoint>, MeasureError> {
         let monomers = self.monomers(seed);
         let specimen = Specimen::ellipsoids(RISES * monomers.rise_nm, monomers);
@@ -76,43 +70,41 @@ impl Kind {
     }
 }
 
-/// One filament, twisted to all angles.
 #[derive(Clone, Debug)]
 pub(super) struct Sampling {
     pub kind: Kind,
     pub seed: u64,
-    /// Points in the order of the paper's entries.
+    /// Points in the order of the entries of the paper.
     pub curve: Curve<TwistPoint>,
 }
 
-/// All of them.
 #[derive(Clone, Debug)]
 pub(super) struct Ensemble {
     pub samplings: Vec<Sampling>,
     pub seeds: u64,
 }
 
-/// How many of a set of equilibria are not stable beyond doubt, and how they were reached.
+/// Numbers of equilibria without certified stability or on another branch.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Doubts {
     pub states: usize,
     pub saddles: usize,
     pub neutral: usize,
-    /// States on the way to which a saddle was left or a jump made.
+    /// States whose path left a saddle or jumped between branches.
     pub off_the_branch: usize,
 }
 
 static CORE: OnceLock<Result<Ensemble, String>> = OnceLock::new();
 static ENSEMBLE: OnceLock<Result<Ensemble, String>> = OnceLock::new();
 
-/// Samplings of the default kind and the mean filament; computed once.
+/// Samplings of the default kind, and the mean filament. Computed once per process.
 pub(super) fn core(draft: &Draft<'_>) -> Result<&'static Ensemble, String> {
     CORE.get_or_init(|| Ensemble::run(draft, Kind::CORE.into()))
         .as_ref()
         .map_err(Clone::clone)
 }
 
-/// The same with all other kinds, unless `--quick`: computed once for the tables that share it.
+/// Samplings of all kinds, without `--quick`. Computed once per process.
 pub(super) fn ensemble(draft: &Draft<'_>) -> Result<&'static Ensemble, String> {
     if draft.quick {
         return core(draft);
@@ -144,32 +136,28 @@ impl Ensemble {
         Ok(Self { samplings, seeds })
     }
 
-    /// The kinds that were sampled.
     pub(super) fn kinds(&self) -> Vec<Kind> {
         let mut kinds: Vec<Kind> = self.samplings.iter().map(|s| s.kind).collect();
         kinds.dedup();
         kinds
     }
 
-    /// The samplings of one kind.
     pub(super) fn of_kind(&self, kind: Kind) -> impl Iterator<Item = &Sampling> {
         self.samplings.iter().filter(move |s| s.kind == kind)
     }
 
-    /// The points of one kind at the curvature of an entry, with their seeds.
+    /// Seeds and points of one kind at the twist of an entry.
     pub(super) fn points(&self, kind: Kind, entry: &Entry) -> Vec<(u64, TwistPoint)> {
         self.of_kind(kind)
             .filter_map(|s| point_at(&s.curve, entry).map(|point| (s.seed, point)))
             .collect()
     }
 
-    /// Mean and scatter of what a table compares.
     pub(super) fn sample(&self, kind: Kind, entry: &Entry, table: Table) -> Sample {
         let points = self.points(kind, entry);
         sample(points.iter().map(|(_, point)| value(point, table)))
     }
 
-    /// Doubts about the states of a kind at the curvatures of some entries.
     pub(super) fn doubts(&self, kind: Kind, entries: &[Entry]) -> Doubts {
         let mut doubts = Doubts::default();
         for entry in entries {
@@ -180,7 +168,6 @@ impl Ensemble {
         doubts
     }
 
-    /// Angles that were not reached: kind, seed, angle (deg) and reason.
     pub(super) fn unreached(&self) -> Vec<String> {
         let mut all = Vec::new();
         for s in &self.samplings {
@@ -195,7 +182,7 @@ impl Ensemble {
 }
 
 impl Sampling {
-    /// What a table compares, at an entry that was reached.
+    /// Value of a table at an entry; `None` if it was not reached.
     pub(super) fn value(&self, entry: &Entry, table: Table) -> Option<f64> {
         point_at(&self.curve, entry).map(|point| value(&point, table))
     }
@@ -213,16 +200,14 @@ impl Doubts {
         self.off_the_branch += usize::from(left > 0);
     }
 
-    /// In words.
     pub(super) fn describe(&self) -> String {
         format!(
-            "{} of {} states are saddles, {} neutral; in {} a saddle was left or a jump made",
+            "{} of {} states are saddles, {} neutral; {} paths left a saddle or jumped",
             self.saddles, self.states, self.neutral, self.off_the_branch
         )
     }
 }
 
-/// What a table compares.
 pub(super) fn value(point: &TwistPoint, table: Table) -> f64 {
     match table {
         Table::Rigidity => point.rigidity_pn_nm2,
@@ -230,7 +215,7 @@ pub(super) fn value(point: &TwistPoint, table: Table) -> f64 {
     }
 }
 
-/// The turn of our filament at the curvature of an entry (deg).
+/// Turn of our filament at the twist of an entry (deg).
 pub(super) fn turn_deg(entry: &Entry) -> f64 {
     (entry.curvature * RISES * Monomers::default().rise_nm).to_degrees()
 }
@@ -245,7 +230,6 @@ fn point_at(curve: &Curve<TwistPoint>, entry: &Entry) -> Option<TwistPoint> {
     found.copied()
 }
 
-/// Other numbers and patterns of bonds.
 fn other_kinds() -> Vec<Kind> {
     let kind = |anchors, bonds| Kind { anchors, bonds };
     [Anchors::Independent, Anchors::Identical]

@@ -1,4 +1,4 @@
-//! How far Table 3 depends on the length of the filament: small twist is resisted by the ends.
+//! Dependence of Table 3 on the length of the filament, due to the clamped ends.
 
 use super::ensemble::Kind;
 use crate::figures::draft::Draft;
@@ -6,11 +6,10 @@ use crate::measure::{Curve, Specimen, TwistPoint, twist};
 use crate::statistics::sample;
 use actin_sim::Monomers;
 
-/// Rises between the inner held monomers; 27 is the length of the tables, 28 the next to it.
+/// Rises between the inner clamped monomers. The tables use 27.
 const RISES: [u32; 5] = [14, 27, 28, 55, 109];
-/// Curvatures (rad/nm) and the angles (deg) that the paper prints for them; the first is rest.
+/// Twists (rad/nm) and the corresponding printed angles (deg). The first is close to rest.
 const CURVATURES: [(f64, f64); 4] = [(1e-4, 0.0), (0.0023, 10.0), (0.0185, 80.0), (0.0416, 180.0)];
-/// Bond samplings of each length.
 const SEEDS: u64 = 8;
 
 const HEADER: [&str; 6] = [
@@ -22,7 +21,7 @@ const HEADER: [&str; 6] = [
     "dl_over_l_sd",
 ];
 
-/// Measures every length: rows for the secant rigidity, a table with the change of length too.
+/// Adds rows of the secant rigidity, and writes a table that also contains the change of length.
 pub(super) fn rows(draft: &mut Draft<'_>) -> Result<(), String> {
     let cases = RISES
         .into_iter()
@@ -65,7 +64,7 @@ fn length_nm(rises: u32) -> f64 {
     f64::from(rises) * Monomers::default().rise_nm
 }
 
-/// Curvatures in both directions, ascending, as a curve's points are.
+/// Twists in both directions in ascending order.
 fn angles() -> Vec<(f64, f64)> {
     let under = CURVATURES.iter().rev().map(|&(kappa, phi)| (-kappa, phi));
     under.chain(CURVATURES).collect()

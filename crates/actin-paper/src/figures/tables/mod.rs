@@ -1,4 +1,4 @@
-//! Tables 1 to 5: parameters and what was measured on the ellipsoid model.
+//! Tables 1 to 5: parameters and measurements of the ellipsoid model.
 
 mod ensemble;
 mod lengths;

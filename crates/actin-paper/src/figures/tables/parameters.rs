@@ -1,28 +1,25 @@
-//! Tables 1 and 2: parameters as the crates hold them, and what follows from them. The published numbers and
-//! notes are in `data/expected.csv`.
+//! Tables 1 and 2: parameters of the crates and derived numbers. Published numbers and notes are in
+//! `data/expected.csv`.
 
 use crate::figures::draft::Draft;
 use actin_sim::{Material, Monomers, ellipsoid_constants as monomer, rod_constants as rod};
 use std::f64::consts::PI;
 
-/// A quantity, its unit and its value.
 type Parameter = (&'static str, &'static str, f64);
 
-/// Table 1.
 pub(in crate::figures) fn table1(draft: &mut Draft<'_>) -> Result<(), String> {
     draft.settings =
-        "The defaults of a scene's monomers against the published numbers, and what follows from \
-        them. Nothing is fitted, nothing is drawn at random."
+        "Defaults of the monomers of a scene compared with published numbers, and numbers derived from \
+        them. No fits and no random numbers."
             .into();
     let monomers = Monomers::default();
     list(draft, &[published(&monomers), derived(&monomers)].concat())
 }
 
-/// Table 2.
 pub(in crate::figures) fn table2(draft: &mut Draft<'_>) -> Result<(), String> {
-    draft.settings = "The rod that scenes name PrecedingPaper, with a section of 38.5 nm^2; the paper prints \
-        formulas where it gives no number. None of the figures but the stiff cantilever uses it. Nothing is drawn \
-        at random."
+    draft.settings = "The rod named PrecedingPaper in scenes, with a cross-section of 38.5 nm^2; the paper prints \
+        formulas for some numbers. Only the stiff cantilever uses this rod. No random \
+        numbers."
         .into();
     list(draft, &rods())
 }
@@ -34,7 +31,7 @@ fn list(draft: &mut Draft<'_>, parameters: &[Parameter]) -> Result<(), String> {
     draft.list()
 }
 
-/// Published numbers as the crates hold them.
+/// Parameters with published numbers.
 fn published(m: &Monomers) -> Vec<Parameter> {
     let [radial, tangential, axial] = m.semi_axes_nm.map(|semi_axis| 2.0 * semi_axis);
     let [lateral, longitudinal] = [
@@ -58,10 +55,10 @@ fn published(m: &Monomers) -> Vec<Parameter> {
     ]
 }
 
-/// Choices, and what follows from the interfaces alone.
+/// Chosen parameters, and numbers derived from the interfaces.
 fn derived(m: &Monomers) -> Vec<Parameter> {
     let strand_turn = (2.0 * m.turn_deg).rem_euclid(360.0);
-    // Change of length with curvature if the distances over so many steps keep theirs.
+    // Relative change of length per twist for a constant distance over `steps` monomers.
     let slope = |steps: f64| {
         let turn = (steps * m.turn_deg).to_radians();
         m.radius_nm.powi(2) * turn.sin() / (steps * m.rise_nm)
@@ -80,9 +77,14 @@ fn derived(m: &Monomers) -> Vec<Parameter> {
     ]
 }
 
-/// Stretching rigidity (pN) of springs between centres, strained uniformly with the radius free and
-/// the turn held: per rise `(a1 b2 - a2 b1)^2 / (a1^2/k2 + a2^2/k1)`, `a` and `b` the changes of a
-/// spring's length by `R dR` and by the strain.
+/// Stretching rigidity of springs between centres under uniform strain, with free radius `R` and fixed turn (pN).
+///
+/// ```text
+/// S = (a1 b2 - a2 b1)^2 / (a1^2/k2 + a2^2/k1) / z
+/// ```
+///
+/// `z` is the rise (nm), `k` the stiffness of a spring (pN/nm), and `a` and `b` are the derivatives of its length with
+/// respect to `R dR` and to the strain. Indices 1 and 2 are the lateral and the longitudinal spring.
 fn uniform_stretching(m: &Monomers) -> f64 {
     let spring = |steps: f64| {
         let across = 2.0 * (1.0 - (steps * m.turn_deg).to_radians().cos());

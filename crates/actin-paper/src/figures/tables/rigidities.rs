@@ -1,5 +1,4 @@
-//! Table 4: rigidities measured on ensembles of the ellipsoid filament in stretch, bending, shear and twist, and
-//! what Appendix B derives from them.
+//! Table 4: rigidities of ellipsoid filaments in stretch, bending, shear and twist, and derived numbers of Appendix B.
 
 use super::ensemble::{Kind, RISES, core};
 use super::thermal;
@@ -14,37 +13,34 @@ use actin_draw::page::significant;
 use actin_sim::{Monomers, ellipsoid_constants as monomer, rod_constants as rod};
 use std::f64::consts::PI;
 
-/// Axial forces (pN), and the one at which S3 is compared.
+/// Axial forces (pN). S3 is compared at `PULL_PN`.
 const FORCES_PN: [f64; 6] = [-10.0, -1.0, 1.0, 10.0, PULL_PN, 500.0];
 const PULL_PN: f64 = 100.0;
-/// Held strains.
 const STRAINS: [f64; 2] = [-0.001, 0.003];
-/// Curvatures (rad/nm): B at rest is that of the first, B1 is compared at the last.
+/// Curvatures (rad/nm). B at rest is measured at the first, B1 is compared at the last.
 const CURVATURES: [f64; 4] = [AT_REST, 1e-3, 3e-3, BENT];
 const AT_REST: f64 = 1e-4;
 const BENT: f64 = 1e-2;
-/// Tip forces (pN).
 const TIP_PN: [f64; 3] = [0.1, 0.5, 2.0];
-/// Tip force (pN) and length (nm) of the cantilever that the paper describes.
+/// Tip force (pN) and length (nm) of the cantilever of the paper.
 const CANTILEVER_PN: f64 = 2.0;
 const CANTILEVER_NM: f64 = 160.0;
-/// Transverse forces on the guided end (pN). At the largest bending is nearly all of the shift, and the rest
-/// means little.
+/// Transverse forces on the guided end (pN). At the largest force, nearly all of the shift is bending, so shear is only
+/// evaluated below `MOST_SHEAR_PN`.
 const SHEAR_PN: [f64; 3] = [0.01, 0.1, 1.0];
 const MOST_SHEAR_PN: f64 = 0.5;
-/// Azimuths of bending and shear (deg).
 const AZIMUTHS_DEG: [f64; 4] = [0.0, 45.0, 90.0, 135.0];
-/// Rises between the inner held monomers of bent filaments: 150.62 nm.
+/// Rises between the inner clamped monomers of bent filaments: 150.62 nm.
 const BENT_RISES: f64 = 55.0;
-/// Samplings in stretch, and in bending and shear; then for `--quick`.
+/// Samplings in stretch, and in bending and shear, by default and with `--quick`.
 const SEEDS: [u64; 2] = [16, 8];
 const QUICK_SEEDS: [u64; 2] = [4, 2];
-/// Young's modulus of Appendix B (pN/nm^2), the factor by which stretching is stiffer than E A, Poisson's ratio.
+/// Young's modulus of Appendix B (pN/nm^2), ratio of the stretching rigidity to E A, and Poisson's ratio.
 const YOUNG: f64 = 330.0;
 const STIFFER: f64 = 2.7;
 const POISSON: f64 = 0.4;
 
-/// How a filament is loaded, and how the load is read as a rigidity.
+/// Load of a filament and evaluation of the rigidity.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Protocol {
     StretchByForce,
@@ -56,13 +52,13 @@ enum Protocol {
     CantileverElastica,
     /// `F L / d`, bending included.
     ShearApparent,
-    /// `F / gamma` with the bending of a guided beam taken off.
+    /// `F / gamma` without the bending of a guided beam.
     ShearSecant,
-    /// `F / gamma^3` likewise.
+    /// `F / gamma^3` without the bending of a guided beam.
     ShearCubic,
 }
 
-/// Protocols whose readings are all rows: path of the quantity, unit, what it is.
+/// Protocols with a row for every load: name of the quantity, unit and description.
 const LISTED: [(Protocol, &str, &str, &str); 8] = [
     (
         Protocol::StretchByForce,
@@ -74,7 +70,7 @@ const LISTED: [(Protocol, &str, &str, &str); 8] = [
         Protocol::StretchByShift,
         "s3/by-shift",
         "pN",
-        "secant F L/dL at a held strain",
+        "secant F L/dL at a prescribed strain",
     ),
     (
         Protocol::Couples,
@@ -86,13 +82,13 @@ const LISTED: [(Protocol, &str, &str, &str); 8] = [
         Protocol::TipLinear,
         "b1/tip-force-linear",
         "pN nm^2",
-        "cantilever at a force (pN), linear theory without shear, which adds to the deflection",
+        "cantilever at a force (pN), linear theory; shear, which adds to the deflection, is neglected",
     ),
     (
         Protocol::TipElastica,
         "b1/tip-force-elastica",
         "pN nm^2",
-        "cantilever at a force (pN), elastica without shear, which adds to the deflection",
+        "cantilever at a force (pN), elastica; shear, which adds to the deflection, is neglected",
     ),
     (
         Protocol::ShearApparent,
@@ -104,41 +100,36 @@ const LISTED: [(Protocol, &str, &str, &str); 8] = [
         Protocol::ShearSecant,
         "s1/secant",
         "pN",
-        "secant F/gamma at a force (pN) on parallel ends, the bending of a guided beam with B at 1e-4 rad/nm taken \
-         off",
+        "secant F/gamma at a force (pN) on parallel ends, without the bending of a guided beam with B at 1e-4 \
+         rad/nm",
     ),
     (
         Protocol::ShearCubic,
         "s1/cubic",
         "pN",
-        "F/gamma^3 at a force (pN); of a cubic law a constant",
+        "F/gamma^3 at a force (pN); constant for a cubic law",
     ),
 ];
 
-/// A state that was measured.
 #[derive(Clone, Copy, Debug)]
 struct Reading {
     protocol: Protocol,
     seed: u64,
-    /// Azimuth of the load (deg); 0 of an axial one.
     azimuth: f64,
-    /// What is prescribed, and the secant rigidity.
+    /// Prescribed value; `secant` is the secant rigidity.
     at: f64,
     secant: f64,
     evidence: Evidence,
 }
 
-/// What was measured of one filament under one load.
 #[derive(Clone, Debug, Default)]
 struct Readings {
     all: Vec<Reading>,
-    /// Loads that were not reached.
     unreached: usize,
-    /// Largest relative difference between the couples at the two ends.
+    /// Largest relative difference between the torques at both ends.
     mismatch: f64,
 }
 
-/// Table 4.
 pub(in crate::figures) fn table4(draft: &mut Draft<'_>) -> Result<(), String> {
     let drawn = measure(draft, Kind::DEFAULT)?;
     let mean = measure(draft, Kind::MEAN)?;
@@ -154,7 +145,6 @@ pub(in crate::figures) fn table4(draft: &mut Draft<'_>) -> Result<(), String> {
     draft.table("table4_mean_filament.csv", &mean.all, &COLUMNS)
 }
 
-/// Measures filaments of a kind; one filament if nothing is drawn.
 fn measure(draft: &Draft<'_>, kind: Kind) -> Result<Readings, String> {
     let [stretched, bent] = if draft.quick { QUICK_SEEDS } else { SEEDS };
     let axial = kind.seeds(stretched).map(|seed| (seed, None));
@@ -233,7 +223,7 @@ fn bend(kind: Kind, seed: u64, azimuth: f64) -> Result<Readings, MeasureError> {
 }
 
 impl Readings {
-    /// Adds the points of a curve; one with loads that were not reached is left out.
+    /// Adds the points of a curve. A curve with unreached loads is omitted.
     fn add<P>(
         &mut self,
         (protocol, seed, azimuth): (Protocol, u64, f64),
@@ -259,7 +249,7 @@ impl Readings {
         }));
     }
 
-    /// Adds shear without the bending of a guided beam whose rigidity is that of the filament at rest.
+    /// Adds readings of shear, without the bending of a guided beam with the rigidity of the filament at rest.
     fn without_bending(&mut self) {
         let bending = self.sample(Protocol::Couples, AT_REST).mean;
         let length = BENT_RISES * Monomers::default().rise_nm;
@@ -286,7 +276,6 @@ impl Readings {
         self.all.iter().filter(move |r| r.protocol == protocol)
     }
 
-    /// Statistics over filaments and azimuths at a prescribed value.
     fn sample(&self, protocol: Protocol, at: f64) -> Sample {
         let own = self.of(protocol).filter(|r| is_at(r, at));
         sample(own.map(|r| r.secant))
@@ -303,7 +292,7 @@ impl Readings {
         values
     }
 
-    /// Largest difference of bending between two azimuths of a sampling over its mean.
+    /// Largest relative spread of the bending rigidity over the azimuths of a sampling.
     fn anisotropy(&self) -> f64 {
         let bent = self.of(Protocol::Couples).filter(|r| is_at(r, BENT));
         let bent: Vec<&Reading> = bent.collect();
@@ -312,7 +301,6 @@ impl Readings {
     }
 }
 
-/// Whether a reading is at a prescribed value.
 fn is_at(reading: &Reading, at: f64) -> bool {
     reading.at.total_cmp(&at).is_eq()
 }
@@ -325,11 +313,11 @@ fn settings(readings: &Readings) -> String {
         .filter(|r| !r.evidence.is_stable())
         .count();
     format!(
-        "64 independent bonds per interface; the mean filament has 12 weighted ones that stand for all and is one \
-         filament. Stretch: {} samplings (seeds from 0), {:.2} nm, turn blocked. Bending and shear: {} samplings at \
-         azimuths {AZIMUTHS_DEG:?} deg, {:.2} nm, both ends held in orientation, the far one slides freely. Two \
-         monomers are held at each end; lengths are those between the inner ones. {unstable} of {} readings are \
-         not stable beyond doubt; {} loads were not reached. Couples at the two ends agree to {:.0e}.",
+        "64 independent bonds per interface; the mean filament has 12 quadrature bonds and is one filament. Stretch: \
+         {} samplings (seeds from 0), {:.2} nm, without rotation. Bending and shear: {} samplings at azimuths \
+         {AZIMUTHS_DEG:?} deg, {:.2} nm, both orientations clamped, the far end slides freely. Two monomers are \
+         clamped at each end; lengths are between the inner ones. {unstable} of {} readings are not certified \
+         stable; {} loads were not reached. Torques at both ends agree to {:.0e}.",
         count(Protocol::StretchByForce, PULL_PN),
         RISES * Monomers::default().rise_nm,
         count(Protocol::Couples, BENT) / AZIMUTHS_DEG.len(),
@@ -353,7 +341,7 @@ fn describe(sample: &Sample) -> String {
     )
 }
 
-/// Rigidities that are compared: name, unit, protocol, prescribed value, and what it is.
+/// Compared rigidities: name, unit, protocol, prescribed value and description.
 const COMPARED: [(&str, &str, Protocol, f64, &str); 5] = [
     (
         "s3",
@@ -392,7 +380,7 @@ const COMPARED: [(&str, &str, Protocol, f64, &str); 5] = [
     ),
 ];
 
-/// All that was measured of one kind. The mean filament has rows under a path of its own.
+/// Rows of all measurements of one kind. Names of the mean filament begin with `mean-filament/`.
 fn rigidities(draft: &mut Draft<'_>, readings: &Readings, kind: Kind) -> Result<(), String> {
     let path = match kind {
         Kind::MEAN => "mean-filament/",
@@ -416,7 +404,7 @@ fn rigidities(draft: &mut Draft<'_>, readings: &Readings, kind: Kind) -> Result<
         }
         draft.mean(name, unit, &s, note);
     }
-    let note = "largest difference between two azimuths of one sampling over its mean";
+    let note = "largest difference between two azimuths of one sampling, divided by its mean";
     let anisotropy = readings.anisotropy();
     draft.row(format!("{path}b1/anisotropy"), "", anisotropy, note);
     let per_um = 1e-3 / monomer::THERMAL_ENERGY;
@@ -436,7 +424,6 @@ fn rigidities(draft: &mut Draft<'_>, readings: &Readings, kind: Kind) -> Result<
     twisting(draft, path, kind)
 }
 
-/// Standard deviation of a single filament, which tolerances are made of.
 fn scatter(draft: &mut Draft<'_>, of: &str, unit: &'static str, sd: f64) {
     draft.row(
         format!("{of}/sd"),
@@ -446,7 +433,7 @@ fn scatter(draft: &mut Draft<'_>, of: &str, unit: &'static str, sd: f64) {
     );
 }
 
-/// The largest twisting rigidities of both directions.
+/// Rows of the largest twisting rigidity in each direction.
 fn twisting(draft: &mut Draft<'_>, path: &str, kind: Kind) -> Result<(), String> {
     let ensemble = core(draft)?;
     let entries = entries(Table::Rigidity);
@@ -460,7 +447,7 @@ fn twisting(draft: &mut Draft<'_>, path: &str, kind: Kind) -> Result<(), String>
             .max_by(|a, b| a.1.mean.total_cmp(&b.1.mean))
             .ok_or("no entries")?;
         let note = format!(
-            "largest mean secant in {direction}-twist, at the curvature of {phi} deg in Table 3"
+            "largest mean secant in {direction}-twist, at the twist of {phi} deg in Table 3"
         );
         draft.mean(format!("{path}{name}"), "pN nm^2", &s, note);
         scatter(draft, &format!("{path}{name}"), "pN nm^2", s.sd);
@@ -468,7 +455,6 @@ fn twisting(draft: &mut Draft<'_>, path: &str, kind: Kind) -> Result<(), String>
     Ok(())
 }
 
-/// Numbers of Appendix B that follow from those of Table 4.
 fn derived(draft: &mut Draft<'_>) {
     let area = rod::CROSS_SECTION_AREA;
     let inertia = area.powi(2) / (4.0 * PI);

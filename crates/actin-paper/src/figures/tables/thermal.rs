@@ -1,4 +1,4 @@
-//! The persistence length from thermal motion, of monomers as they are and without the factor 1.4.
+//! Persistence length from thermal motion, with and without the factor 1.4 on rigidities.
 
 use super::ensemble::Kind;
 use crate::figures::draft::Draft;
@@ -7,13 +7,13 @@ use crate::measure::{Turns, far_lengths, turns_in_bath};
 use actin_integrate::POSITION_VERLET;
 use actin_sim::{Filament, Monomers, ellipsoid_constants as monomer};
 
-/// Filaments of each kind: a standard error of 2 to 3 %.
+/// Filaments of each kind, for a standard error of 2 to 3 %.
 const FILAMENTS: u64 = 32;
-/// Length (nm), and time step over the stability limit.
+/// Length (nm), and ratio of the time step to the stability limit.
 const LENGTH_NM: f64 = 110.0;
 const SHARE: f64 = 0.4;
 
-/// Two rows: of monomers as they are, and with interfaces of the published rigidity.
+/// Rows for the default rigidities and for the published rigidities of the interfaces.
 pub(super) fn rows(draft: &mut Draft<'_>) -> Result<(), String> {
     let scaled = Kind::DEFAULT.monomers(0);
     let scale = monomer::RIGIDITY_SCALE;
@@ -29,16 +29,15 @@ pub(super) fn rows(draft: &mut Draft<'_>) -> Result<(), String> {
         let (length, error) = persistence_length_um(draft, &monomers)?;
         let note = format!(
             "slope of -ln <cos theta> between 22 and 66 nm at 298 K; {FILAMENTS} free filaments of 110 nm, 64 \
-             drawn bonds, 400 samples of each, standard error {error:.2}; position Verlet at 0.4 of its limit; \
-             tolerance: half a digit and twice the standard error"
+             sampled bonds, 400 samples each, standard error {error:.2}; position Verlet at 0.4 times its stability \
+             limit; tolerance: half a digit and twice the standard error"
         );
         draft.scattered(quantity, "um", (length, error), note);
     }
     Ok(())
 }
 
-/// Persistence length (um) of monomers at 298 K with its standard error, from free filaments
-/// that differ in their noise and in the sampling of their bonds.
+/// Persistence length at 298 K and its standard error (um), from free filaments with different noise and bonds.
 fn persistence_length_um(draft: &Draft<'_>, monomers: &Monomers) -> Result<(f64, f64), String> {
     let replicas: Vec<u64> = (0..FILAMENTS).collect();
     let all = draft.solve(&replicas, |&replica| {

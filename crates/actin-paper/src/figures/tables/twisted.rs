@@ -1,4 +1,4 @@
-//! Tables 3 and 5: the paper's entries and ours, for the default filament and for ensembles.
+//! Tables 3 and 5: entries of the paper compared with single filaments and ensembles.
 
 use super::ensemble::{Doubts, Ensemble, Kind, core, ensemble, turn_deg, value};
 use super::lengths;
@@ -14,16 +14,13 @@ use actin_draw::report::{DEVIATIONS, Origin, Row};
 use actin_draw::{Colour, Series};
 use actin_sim::Anchors;
 
-/// Angles (deg) over which the root mean square is taken.
 const COMPARED_DEG: std::ops::RangeInclusive<f64> = 40.0..=200.0;
 /// Half the width of the cap of an error bar (rad/nm).
 const CAP: f64 = 3.5e-4;
 
-/// Table 3: twisting rigidity.
 pub(in crate::figures) fn table3(draft: &mut Draft<'_>) -> Result<(), String> {
     let twisted = Twisted::new(Table::Rigidity, draft)?;
     twisted.reproduce(draft)?;
-    // The statement holds of every pair of entries that the paper calls reliable.
     let reliable = twisted.entries.iter().filter(|e| e.is_reliable());
     let (over, under): (Vec<&Entry>, Vec<&Entry>) = reliable.partition(|e| e.direction() == "over");
     let easier = over.iter().filter(|o| {
@@ -45,13 +42,12 @@ pub(in crate::figures) fn table3(draft: &mut Draft<'_>) -> Result<(), String> {
     lengths::rows(draft)
 }
 
-/// Table 5: change of length.
 pub(in crate::figures) fn table5(draft: &mut Draft<'_>) -> Result<(), String> {
     Twisted::new(Table::LengthChange, draft)?.reproduce(draft)
 }
 
-/// Twisting rigidity and change of length of our own filaments at the curvatures that the paper calls reliable, for
-/// Figure 9: the mean over samplings of drawn bonds, then the mean filament.
+/// Twisting rigidity and change of length of our filaments at the reliable entries of the paper, for Figure 9: mean
+/// over samplings of the bonds, and mean filament.
 pub(in crate::figures) fn monomers(draft: &Draft<'_>) -> Result<[TwistData; 2], String> {
     let ensemble = core(draft)?;
     let of = |kind, source: String| -> Result<TwistData, String> {
@@ -71,10 +67,8 @@ pub(in crate::figures) fn monomers(draft: &Draft<'_>) -> Result<[TwistData; 2], 
     ])
 }
 
-/// A table with the filaments that it is compared with.
 struct Twisted {
     table: Table,
-    /// Name of the column in quantities.
     column: &'static str,
     unit: &'static str,
     ensemble: &'static Ensemble,
@@ -132,16 +126,16 @@ impl Twisted {
             Some(first) => format!("{} angles were not reached: {first}.", unreached.len()),
         };
         format!(
-            "30 monomers, two held at each end, 73.94 nm between the inner held ones; the far pair is turned about \
-             the axis and slides along it only; secants at the printed curvatures. {} samplings of the bonds of \
-             each drawn kind, seeds from 0; the mean is over those with 64 independent bonds. Of these {}. The \
-             mean filament has 12 weighted bonds at each interface that stand for all, and no seed. {unreached}",
+            "30 monomers, two clamped at each end, 73.94 nm between the inner clamped ones; the far pair is rotated \
+             about the axis and slides only along it; secants at the printed twists. {} samplings of the bonds of \
+             each sampled kind, seeds from 0; means are over filaments with 64 independent bonds. Of these, {}. The \
+             mean filament has 12 quadrature bonds at each interface and no seed. {unreached}",
             self.ensemble.seeds,
             doubts.describe()
         )
     }
 
-    /// One entry: the mean over samplings of the default kind.
+    /// Row of an entry: mean over samplings of the default kind.
     fn mean_row(&self, draft: &mut Draft<'_>, entry: &Entry) {
         let sample = self.ensemble.sample(Kind::DEFAULT, entry, self.table);
         let doubts = self
@@ -163,8 +157,8 @@ impl Twisted {
             return;
         }
         let note = format!(
-            "{note}; tolerance: half a digit of the paper's value {} and of its curvature {}, and 2 sd of one \
-             sampling of ours (of the paper's, neither number nor pattern of bonds is known)",
+            "{note}; tolerance: half a digit of the printed value {} and of the printed twist {}, and 2 sd of one \
+             of our samplings (number and pattern of the bonds of the paper are unknown)",
             short(entry.rounding),
             short(along)
         );
@@ -173,19 +167,18 @@ impl Twisted {
         draft.compared(row);
     }
 
-    /// One filament without scatter, the first of its kind.
     fn filament_row(&self, draft: &mut Draft<'_>, kind: Kind, folder: &str, entry: &Entry) {
         let points = self.ensemble.points(kind, entry);
         let Some((_, point)) = points.iter().find(|(seed, _)| *seed == 0) else {
             return;
         };
         let (words, before) = match kind {
-            Kind::MEAN => ("weighted bonds that stand for all", "mean-filament/"),
-            _ => ("drawn bonds, seed 0", ""),
+            Kind::MEAN => ("quadrature bonds", "mean-filament/"),
+            _ => ("sampled bonds, seed 0", ""),
         };
         let evidence = &point.evidence;
         let note = format!(
-            "{words}; couple {:.3} pN nm, residual {:.1e} pN, {:?}",
+            "{words}; torque {:.3} pN nm, residual {:.1e} pN, {:?}",
             point.torque_pn_nm,
             evidence.residual_force_pn,
             evidence.stability()
@@ -201,19 +194,19 @@ impl Twisted {
         draft.rows.push(Measured::beside(row, entry.value));
     }
 
-    /// The length that the printed angles and curvatures belong to.
+    /// Row of the length that follows from the printed angles and twists.
     fn printed_length(&self, draft: &mut Draft<'_>) {
         let lengths = self.entries.iter();
         let lengths = sample(lengths.map(|e| e.phi_deg.to_radians() / e.curvature.abs()));
         let note = format!(
-            "angle over curvature as printed, mean of {} entries, range {:.2} to {:.2}; ours is 73.94 nm and \
-             turned to the printed curvatures",
+            "printed angle divided by printed twist, mean of {} entries, range {:.2} to {:.2}; our length is 73.94 \
+             nm, with the printed twists",
             lengths.count, lengths.low, lengths.high
         );
         draft.row("printed_length", "nm", lengths.mean, note);
     }
 
-    /// How far a value is from the paper's: relative for rigidities.
+    /// Difference from the value of the paper, relative for rigidities.
     fn difference(&self, ours: f64, entry: &Entry) -> f64 {
         match self.table {
             Table::Rigidity => ours / entry.value - 1.0,
@@ -221,7 +214,7 @@ impl Twisted {
         }
     }
 
-    /// The difference from the paper over the angles that are compared.
+    /// Row of the root mean square difference from the paper.
     fn rms_row(&self, draft: &mut Draft<'_>, kind: Kind) {
         let compared = self
             .entries
@@ -244,8 +237,8 @@ impl Twisted {
             Table::LengthChange => ("difference", rms(compared.iter().map(|e| e.value))),
         };
         let note = format!(
-            "rms {what} of the mean of {} samplings from the paper, 40 to 200 deg in both directions, mean {what} \
-             {:+.2e}; of a single sampling the rms is {:.2e} to {:.2e}; {}",
+            "rms {what} between the mean of {} samplings and the paper, 40 to 200 deg in both directions, mean {what} \
+             {:+.2e}; rms of a single sampling {:.2e} to {:.2e}; {}",
             single.count,
             sample(differences()).mean,
             single.low,
@@ -265,7 +258,7 @@ impl Twisted {
         draft.compared(row);
     }
 
-    /// Change of our mean per curvature at an entry, from its neighbours.
+    /// Derivative of our mean with respect to the twist at an entry.
     fn slope(&self, entry: &Entry) -> f64 {
         let own = self
             .entries
@@ -274,7 +267,7 @@ impl Twisted {
         let mut points: Vec<(f64, f64)> = own
             .map(|e| (e.curvature, self.mean(Kind::DEFAULT, e)))
             .collect();
-        // Zero twist is a point of both tables' curves as far as a slope goes.
+        // Zero twist is added for entries without an inner neighbour.
         points.push((0.0, 0.0));
         points.sort_by(|a, b| a.0.total_cmp(&b.0));
         let near = 0.8 * entry.curvature;
@@ -283,7 +276,7 @@ impl Twisted {
         ((here - there) / (entry.curvature - near)).abs()
     }
 
-    /// Writes every kind with its scatter, and every filament with its evidence.
+    /// Writes tables of kinds with their scatter, and of single filaments.
     fn listings(&self, draft: &Draft<'_>) -> Result<(), String> {
         let (mut kinds, mut filaments) = (Vec::new(), Vec::new());
         for kind in self.ensemble.kinds() {
@@ -306,7 +299,7 @@ impl Twisted {
         )
     }
 
-    /// Draws the default kind with error bars, and all kinds if there are more.
+    /// Draws the default kind with error bars, and all kinds if they were computed.
     fn pictures(&self, draft: &mut Draft<'_>) -> Result<(), String> {
         let (id, seeds) = (draft.id, self.ensemble.seeds);
         let symbol = match self.table {
@@ -315,11 +308,11 @@ impl Twisted {
         };
         let caption = format!(
             "{symbol} of 64 independent bonds per interface: mean and 2 sd over {seeds} samplings, and one \
-             sampling (seed 0). Mean filament: 12 weighted bonds per \
-             interface that stand for all. Dots: the paper; its entries above 200 deg, which it calls unreliable, \
+             sampling (seed 0). Mean filament: 12 quadrature bonds per \
+             interface. Dots: the paper; its entries above 200 deg, which it calls unreliable, \
              are grey."
         );
-        let title = format!("{symbol} at held twist, {seeds} bond samplings");
+        let title = format!("{symbol} at prescribed twist, {seeds} bond samplings");
         self.chart(
             draft,
             format!("{id}.svg"),
@@ -333,7 +326,7 @@ impl Twisted {
         let [few, many] = palette::chosen().end_names();
         let caption = format!(
             "Means for 12 ({few}) to 160 ({many}) independent bonds, and mean with 2 sd for one pattern of 40 \
-             bonds on all interfaces (grey). The mean filament is the limit of many."
+             bonds on all interfaces (grey). The mean filament is the limit of many bonds."
         );
         let title = format!("{symbol} for other numbers and patterns of bonds");
         self.chart(
@@ -370,13 +363,13 @@ impl Twisted {
             });
         }
         let (y_label, factor) = match self.table {
-            // In thousands, so that the labels of the axis are short.
+            // In thousands, for short axis labels.
             Table::Rigidity => ("secant twisting rigidity B3 (1000 pN nm^2)", 1e-3),
             Table::LengthChange => ("relative change of length dL/L", 1.0),
         };
         let points = series.iter_mut().flat_map(|s| &mut s.points);
         points.for_each(|point| point.1 *= factor);
-        let x_label = "curvature phi/L (rad/nm); over-twist is positive";
+        let x_label = "twist phi/L (rad/nm); over-twist is positive";
         draft.plot(file, title, [x_label, y_label], series, caption)
     }
 
@@ -384,7 +377,7 @@ impl Twisted {
         let blue = palette::resolution(1.0);
         let mut series = self.bars(Kind::DEFAULT, blue);
         series.push(line(
-            "drawn, mean and 2 sd",
+            "sampled, mean and 2 sd",
             blue,
             self.curve(Kind::DEFAULT),
         ));
@@ -394,7 +387,7 @@ impl Twisted {
             .iter()
             .filter_map(|entry| Some((entry.curvature, first?.value(entry, self.table)?)));
         series.push(line(
-            "drawn, seed 0",
+            "sampled, seed 0",
             palette::resolution(0.25),
             seed_0.collect(),
         ));
@@ -432,7 +425,6 @@ impl Twisted {
         points.collect()
     }
 
-    /// Two standard deviations up and down, with caps.
     fn bars(&self, kind: Kind, colour: Colour) -> Vec<Series> {
         let bar = |entry: &Entry| {
             let s = self.ensemble.sample(kind, entry, self.table);
@@ -450,7 +442,6 @@ impl Twisted {
     }
 }
 
-/// A kind of filaments at an entry.
 struct OfKind {
     kind: Kind,
     entry: Entry,
