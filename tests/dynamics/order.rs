@@ -2,6 +2,7 @@
 
 use super::filaments::{FILAMENTS, Filament, KBT, degrees_of_freedom, distances, in_flight};
 use super::record::scientific;
+use crate::common::ran;
 use actin_integrate::{
     Composition, Drag, FOREST_RUTH, PEFRL, POSITION_VERLET, SUZUKI, VEFRL, advance,
     largest_frequency,
@@ -73,4 +74,32 @@ fn every_method_has_its_order_on_every_filament() {
             }
         }
     }
+}
+
+/// The stiffness of `Homogenised` changes at the onset of compression, with four continuous
+/// derivatives of the energy.
+#[test]
+fn the_homogenised_law_keeps_the_order() {
+    let error = |step: f64| {
+        let (assembly, ..) = ran(&format!(
+            "Scene(
+                filament: Filament(
+                    sections: [Rod(from_nm: 0, to_nm: 80, segments: 8)],
+                    rod: RodModel(law: Homogenised),
+                ),
+                clamps: [Clamp(end: Start)],
+                loads: [EndForce(end: End, force_pn: (2, 0, 0))],
+                task: Dynamics(
+                    duration_ns: 20, time_step_ns: {step:?}, integrator: Pefrl,
+                    record_every_ns: 20,
+                ),
+            )"
+        ));
+        // Zero at the start.
+        assembly.system.total_energy().abs()
+    };
+    let errors = [2e-3, 1e-3, 5e-4, 2.5e-4].map(error);
+    let order = (errors[0] / errors[3]).log2() / 3.0;
+    println!("errors {}, order {order:.2}", scientific(&errors));
+    assert!(order > 3.9);
 }

@@ -109,6 +109,17 @@ impl Descent {
         }
     }
 
+    /// Continues from another state.
+    pub(crate) fn restart(&mut self, interactions: &[Box<dyn Interaction>], state: State) {
+        let start = std::mem::take(&mut self.start);
+        *self = Self {
+            start,
+            farthest: self.farthest,
+            size: self.size,
+            ..Self::new(interactions, &state, &self.options)
+        };
+    }
+
     /// Returns `true` if the energy must be unbounded.
     pub(crate) fn is_far(&self) -> bool {
         let limit = FARTHEST * self.size.max(self.options.turn_length);

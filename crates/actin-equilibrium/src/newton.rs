@@ -341,7 +341,7 @@ impl Run<'_> {
         let (solver, turn_length) = (&mut *self.solver, self.options.turn_length);
         let mode = leave_saddle(solver, turn_length, &mut state, self.interactions)?;
         if mode.is_some() {
-            *descent = Descent::new(self.interactions, &state, self.options);
+            descent.restart(self.interactions, state);
         }
         Ok(mode.is_some())
     }

@@ -12,7 +12,7 @@ pub(crate) const SHEAR: f64 = 0.1;
 /// Curvature (rad/nm) above which the shift of the neutral axis is constant.
 pub(crate) const BENT: f64 = 2.5e-3;
 /// Width of the transition from tension to compression.
-pub(crate) const SLACK: f64 = 2e-5;
+pub(crate) const SLACK: f64 = 2e-4;
 /// Coefficients of bending (nm), shear and twist (nm^2) in the onset of slack.
 pub(crate) const TIGHT: [f64; 3] = [0.5, 5.0, 20.0];
 
@@ -44,7 +44,7 @@ pub enum Term {
     Stretch,
     /// `E^3`: stiffening in tension, softening in compression.
     StretchThrice,
-    /// `y^3 / (y + 2e-5)`, `y = max(-x, 0)`, `x = e + 0.5 r + 5 g + 20 kappa_3^2`: slack bonds in
+    /// `y^5 / (y^2 + w^2)^(3/2)`, `y = max(-x, 0)`, `w = 2e-4`, `x = e + 0.5 r + 5 g + 20 kappa_3^2`: slack bonds in
     /// compression, unless bending, shear or twist tightens them.
     Compression,
     /// `A`: bending.
@@ -142,16 +142,15 @@ fn root(a: f64) -> Jet {
     of(outer, bent)
 }
 
-/// `y^3 / (y + w)` with `y = max(-x, 0)`.
+/// `y^5 / (y^2 + w^2)^(3/2)` with `y = max(-x, 0)`: four continuous derivatives.
 fn compression(x: f64) -> Jet {
     let y = (-x).max(0.0);
-    let q = (y + SLACK).recip();
-    let (u, w) = (y * q, SLACK * q);
-    // u + w = 1.
+    let u = y / y.hypot(SLACK);
+    let (u2, u3) = (u * u, u * u * u);
     [
-        y * y * u,
-        -y * u * (2.0 * u + 3.0 * w),
-        2.0 * u * (u * u + 3.0 * u * w + 3.0 * w * w),
+        y * y * u3,
+        -y * u3 * (5.0 - 3.0 * u2),
+        u3 * (20.0 - 33.0 * u2 + 15.0 * u2 * u2),
     ]
 }
 

@@ -270,7 +270,7 @@ impl<S: Simd> Strained<S> {
     }
 }
 
-/// `e`, `E` and its derivative, and `y^3 / (y + w)` with its derivative with respect to extension.
+/// `e`, `E` and its derivative, and `y^5 / (y^2 + w^2)^(3/2)` with its derivative with respect to extension.
 ///
 /// `y` is the compression beyond the onset of slack, or zero.
 #[inline(always)]
@@ -279,16 +279,19 @@ fn extended<S: Simd>(simd: S, e: S::f64s, [r, g, k]: [S::f64s; 3]) -> ([S::f64s;
     let mut x = simd.mul_add_e_f64s(of_r, r, simd.mul_f64s(of_k, simd.mul_f64s(k, k)));
     x = simd.add_f64s(e, simd.mul_add_e_f64s(of_g, g, x));
     let y = simd.max_f64s(simd.neg_f64s(x), simd.splat_f64s(0.0));
-    let sum = simd.add_f64s(y, simd.splat_f64s(SLACK));
+    let square = simd.mul_add_e_f64s(y, y, simd.splat_f64s(SLACK * SLACK));
+    let sum = simd.sqrt_f64s(square);
     let q = simd.sqrt_f64s(denominator(simd, simd.mul_f64s(e, e), EXTENSION));
     let inverse = simd.div_f64s(simd.splat_f64s(1.0), simd.mul_f64s(q, sum));
     let (of_q, of_sum) = (simd.mul_f64s(inverse, sum), simd.mul_f64s(inverse, q));
     let slope = simd.mul_f64s(simd.mul_f64s(of_q, of_q), of_q);
     let stretch = [e, simd.mul_f64s(e, of_q), slope];
     let share = simd.mul_f64s(y, of_sum);
-    let product = simd.mul_f64s(y, share);
-    // -(3 - u) y u
-    let by_x = simd.mul_f64s(product, simd.sub_f64s(share, simd.splat_f64s(3.0)));
+    let squared = simd.mul_f64s(share, share);
+    let product = simd.mul_f64s(simd.mul_f64s(y, share), squared);
+    // -(5 - 3 u^2) y u^3
+    let by_u = simd.mul_add_e_f64s(simd.splat_f64s(3.0), squared, simd.splat_f64s(-5.0));
+    let by_x = simd.mul_f64s(product, by_u);
     (stretch, [simd.mul_f64s(y, product), by_x])
 }
 
