@@ -55,8 +55,8 @@ impl Law {
     /// Applies factors of rigidities and a rest shape.
     fn altered(self, altered: &AlteredRod, key: &str) -> Result<Self, SceneProblem> {
         let softened = self.material.softened(&altered.factors()).map_err(|_| {
-            let rule = "has factors of rigidities beside a law that is one potential of all strains: \
-                        leave them out, or write law: Constant";
+            let rule =
+                "this law has no separate rigidities: remove the factors, or write law: Constant";
             SceneProblem::new(key, "", rule)
         })?;
         let material = softened.with_rest_curvature(altered.rest_curvature());
