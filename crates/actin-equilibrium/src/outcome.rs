@@ -8,13 +8,13 @@ use thiserror::Error;
 /// Reason for successful termination.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Convergence {
-    /// The residual is within the tolerance and either below 1e-8 of the largest load or not
-    /// reducible: the last step did not halve it, or the state is a saddle. It is also not reducible
-    /// within 8 times the rounding error without loads of interactions without stiffness.
+    /// The residual is within the tolerance, and one of the following holds: it is below 1e-8 of
+    /// the largest load, the last step did not halve it, the state is a saddle, or the residual is
+    /// within 8 times its rounding error and no interaction without stiffness exerts loads.
     Converged,
-    /// The residual exceeds the tolerance and does not decrease, but the loads of each body are
-    /// within the tolerance or 8 times their rounding error. The factor is 100 if no step reduces
-    /// the energy or the iteration limit is reached.
+    /// The residual exceeds the tolerance and does not decrease, but the loads on each body are
+    /// within the tolerance or 8 times their rounding error. The factor is 100 instead of 8 if no
+    /// step reduces the energy or the iteration limit is reached.
     FloorReached,
 }
 

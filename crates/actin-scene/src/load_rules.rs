@@ -142,7 +142,7 @@ pub(super) fn check_rest(scene: &Scene, dynamics: &Dynamics) -> Result<(), Scene
     let until = settles(&scene.loads[i]);
     let rule = if until.is_infinite() {
         format!(
-            "loads[{i}] has a Sine for a factor, under which the filament never comes to rest: leave {key} out"
+            "loads[{i}] has the factor Sine, so the filament never comes to rest: leave {key} out"
         )
     } else {
         format!(

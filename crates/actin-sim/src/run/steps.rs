@@ -72,12 +72,14 @@ fn uncountable(dynamics: &Dynamics, largest_ns: f64) -> SceneProblem {
         Some(every) if every < largest_ns => SceneProblem::new(
             "task.record_every_ns",
             format!("{every:?}"),
-            "takes more steps than can be counted, 2^53: none is longer than this",
+            "requires more than 2^53 steps, which cannot be counted: no step is longer than this interval",
         ),
         _ => SceneProblem::new(
             "task.duration_ns",
             format!("{:?}", dynamics.duration_ns),
-            format!("takes more steps of {largest_ns:.4e} ns than can be counted, 2^53"),
+            format!(
+                "requires more than 2^53 steps of {largest_ns:.4e} ns, which cannot be counted"
+            ),
         ),
     }
 }
