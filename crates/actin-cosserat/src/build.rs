@@ -114,8 +114,9 @@ impl StraightRod {
 
     /// Appends a rod in parts, which may have different materials; `parts` are numbers of segments.
     ///
-    /// Neighbouring parts share a node and a free wall frame. The half segments on both sides of the
-    /// frame bend in series. The frame takes a quarter of the inertia of both adjacent segments.
+    /// Neighbouring parts share a node and a free wall frame. The half segments on both sides of
+    /// the frame bend in series. The frame takes a quarter of the inertia of both adjacent
+    /// segments.
     ///
     /// # Errors
     /// If a part has no segments, if the sum of `parts` is not the number of segments, or as in

@@ -10,9 +10,9 @@
 //! therefore exceed its initial value for a few steps (watchdog technique). If it does not decrease
 //! afterwards, these steps are reverted.
 //!
-//! Far from equilibrium, a symmetric state may have many unstable modes along which the loads have no
-//! component. The regularised steps are then short. After 20 short steps the state is displaced along
-//! the lowest mode.
+//! Far from equilibrium, a symmetric state may have many unstable modes along which the loads have
+//! no component. The regularised steps are then short. After 20 short steps the state is displaced
+//! along the lowest mode.
 //!
 //! # Source
 //! J. Nocedal and S. J. Wright, Numerical Optimization, 2nd ed. (2006), sections 3.4 (modified
@@ -38,8 +38,8 @@ const AT_FLOOR: f64 = 8.0;
 pub(crate) const NEAR_FLOOR: f64 = 100.0;
 /// Minimum decrease of a residual per step.
 pub(crate) const STILL_FALLING: f64 = 0.5;
-/// Number of consecutive slow steps with indefinite stiffness before a displacement along the lowest
-/// mode.
+/// Number of consecutive slow steps with indefinite stiffness before a displacement along the
+/// lowest mode.
 const SLOW_STEPS: usize = 20;
 /// Largest rotation (rad) and strain of a slow step.
 const SLOW: f64 = 1e-3;

@@ -31,7 +31,7 @@ pub struct Equilibrium {
     pub floor: Residual,
     /// Certificate of stability; `None` if not requested.
     pub certificate: Option<Certificate>,
-    /// Number of saddles left during the solve.
+    /// Number of saddles that the solve reached and moved away from.
     pub saddles_left: usize,
     /// Newton steps.
     pub history: Vec<Iteration>,

@@ -15,8 +15,8 @@ use actin_mechanics::{Interaction, State};
 use std::ops::ControlFlow;
 use thiserror::Error;
 
-/// Ratio of the motion in a step to the extrapolated motion above which the step is a jump. Before a
-/// limit point the ratio is smaller.
+/// Ratio of the motion in a step to the extrapolated motion above which the step is a jump. Before
+/// a limit point the ratio is smaller.
 const SUDDEN: f64 = 4.0;
 /// Motion (rad, or strain) below which a step is not a jump. An example is the sudden but small
 /// bending at a critical load.
