@@ -8,9 +8,12 @@ use thiserror::Error;
 /// Reason for successful termination.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Convergence {
-    /// The residual is within the tolerance, and one of the following holds: it is below 1e-8 of
-    /// the largest load, the last step did not halve it, the state is a saddle, or the residual is
-    /// within 8 times its rounding error and no interaction without stiffness exerts loads.
+    /// The residual is within the tolerance, and one of the following holds:
+    ///
+    /// - The residual is below 1e-8 of the largest load.
+    /// - The last step did not halve the residual.
+    /// - The state is a saddle.
+    /// - The residual is within 8 times its rounding error, and no dead loads act.
     Converged,
     /// The residual exceeds the tolerance and does not decrease, but the loads on each body are
     /// within the tolerance or 8 times their rounding error. The factor is 100 instead of 8 if no
