@@ -78,7 +78,7 @@ pub(super) fn check(dynamics: &Dynamics) -> Result<(), SceneProblem> {
     ) {
         return Ok(());
     }
-    let rule = "is not used with Water, which has its own integrator (Gronbech-Jensen and Farago): leave it out";
+    let rule = "is not used with Water, which has its own integrator (Gronbech-Jensen and Farago): omit this key";
     Err(SceneProblem::new(
         "task.integrator",
         format!("{:?}", dynamics.integrator),

@@ -67,7 +67,7 @@ pub(super) fn check(dynamics: &Dynamics) -> Result<(), SceneProblem> {
         return Err(SceneProblem::new(
             "task.stop",
             "",
-            "a filament in thermal motion never comes to rest: leave out stop or thermal",
+            "a filament in thermal motion never comes to rest: omit stop or thermal",
         ));
     }
     Ok(())

@@ -180,7 +180,7 @@ fn check_beside_law(rod: &RodModel) -> Result<(), SceneProblem> {
             "filament.rod.material",
             format!("{:?}", rod.material),
             format!(
-                "the law {name} has a law for every deformation: leave the material out, or write law: Constant"
+                "the law {name} has a law for every deformation: omit the material, or write law: Constant"
             ),
         ));
     }
