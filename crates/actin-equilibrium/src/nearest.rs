@@ -32,7 +32,7 @@ fn size(state: &State) -> f64 {
 pub struct Nearest {
     /// Equilibrium, with the velocities of the given state.
     pub state: State,
-    /// Energy difference of the given state and the equilibrium (pN nm). Negative if the
+    /// Energy of the given state minus energy of the equilibrium (pN nm). Negative if the
     /// equilibrium is a saddle above the given state.
     pub energy_above: f64,
     /// Certificate of the equilibrium.

@@ -7,8 +7,8 @@
 //! In a straight step bodies move along straight lines. In a carried step each body keeps its pose
 //! relative to its predecessor (see `chain`); this step is used if the energy is lower. A straight
 //! step stretches a bent filament, and the following steps relax the stretch. The energy may
-//! therefore exceed its initial value for a few steps (watchdog technique). If it does not decrease
-//! afterwards, these steps are reverted.
+//! therefore exceed its initial value for a few steps (watchdog technique). If the energy does not
+//! decrease afterwards, these steps are reverted.
 //!
 //! Far from equilibrium, a symmetric state may have many unstable modes along which the loads have
 //! no component. The regularised steps are then short. After 20 short steps the state is displaced

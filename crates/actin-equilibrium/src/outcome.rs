@@ -13,7 +13,8 @@ pub enum Convergence {
     /// - The residual is below 1e-8 of the largest load.
     /// - The last step did not halve the residual.
     /// - The state is a saddle.
-    /// - The residual is within 8 times its rounding error, and no dead loads act.
+    /// - The residual is within 8 times its rounding error, and no interaction without stiffness
+    ///   (such as a constant force) exerts loads.
     Converged,
     /// The residual exceeds the tolerance and does not decrease, but the loads on each body are
     /// within the tolerance or 8 times their rounding error. The factor is 100 instead of 8 if no
