@@ -217,10 +217,11 @@ impl ImplicitSolver {
         self.linear.solve(&self.assembly, &mut self.step)
     }
 
-    /// Moves the bodies of `state` by the last step found and returns its extent. If a
-    /// filament is free or held at one place, each body keeps its pose relative to its predecessor
-    /// up to the step of their coupling, so strains are linear in the step. The step of a filament
-    /// is shortened if it rotates a body by more than `largest_turn` (rad).
+    /// Moves the bodies of `state` by the last step found and returns the extent of the step.
+    ///
+    /// In filaments that are free or held at one place, each body follows the motion of its
+    /// predecessor, so strains are linear in the step. The step of a filament is shortened if it
+    /// rotates a body by more than `largest_turn` (rad).
     pub fn advance_along(&mut self, state: &mut State, largest_turn: f64) -> StepSize {
         let mut from = self.from.take().unwrap_or_else(|| state.clone());
         from.copy_motion_from(state);
