@@ -206,7 +206,7 @@ fn overlapping_filaments_are_refused_or_give_a_warning() {
     let refused = problem(2.0).unwrap_err().to_string();
     assert!(
         refused.starts_with(
-            "repulsion.radius_nm = 3.7: as built filament 0 is 5.40 nm deep in filament 1 at s = 40.00 and 40.00 nm"
+            "repulsion.radius_nm = 3.7: in the initial state filament 0 overlaps filament 1 by 5.40 nm at s = 40.00 and 40.00 nm"
         ),
         "{refused}"
     );
@@ -214,8 +214,8 @@ fn overlapping_filaments_are_refused_or_give_a_warning() {
     assert_eq!(
         notes,
         [
-            "repulsion: as built filament 0 is 1.00 nm deep in filament 1 at s = 40.00 and 40.00 nm, so that it is not \
-          at rest"
+            "repulsion: in the initial state filament 0 overlaps filament 1 by 1.00 nm at s = 40.00 and 40.00 nm, so it \
+          is not an equilibrium"
         ]
     );
     assert!(problem(7.5).unwrap().is_empty());

@@ -206,5 +206,8 @@ fn weight_counts_the_mass_of_sections() {
     };
     assert_eq!(read(180.0), "");
     let refused = read(120.0);
-    assert!(refused.contains("it has no equilibrium"), "{refused}");
+    assert!(
+        refused.contains("the filament has no equilibrium"),
+        "{refused}"
+    );
 }

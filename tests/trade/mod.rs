@@ -182,7 +182,8 @@ fn sections_of_an_equilibrium_are_every_monomer_or_the_nearest() {
         .find(|n| n.message.contains("sections chosen"))
         .unwrap();
     assert!(
-        note.message.contains("not met within so many monomers"),
+        note.message
+            .contains("not reached with at most this number of monomers"),
         "{}",
         note.message
     );

@@ -30,9 +30,10 @@ use std::time::Duration;
 const EXIT_CODES: &str = "Exit codes:
     0  done, also for --resume of a finished run
     2  bad input: scene, arguments, directory or checkpoint; nothing was computed
-    3  numerical failure; the message names step, time, body and force term. Also: the run ended on a
-       saddle, a filament lost its twist, a load is below 100 times the residual, or neighbouring
-       monomers moved relative to each other by more than their size. Earlier results are on disk
+    3  numerical failure; the message states step, time, body and force term. Other causes: the final
+       state is a saddle, a filament lost its twist, a load is below 100 times the residual, or
+       neighbouring monomers moved relative to each other by more than their size. Earlier results
+       are on disk
    74  the run has ended, but its results could not be written (disk full, file size limit); if the
        message mentions a checkpoint, --resume writes them
   130  interrupted (SIGINT, SIGTERM, SIGHUP): --resume continues; a second SIGINT or SIGTERM ends the
@@ -84,7 +85,7 @@ enum Command {
 struct SceneArguments {
     /// Scene file; `-` reads standard input.
     scene: PathBuf,
-    /// Overrides a key of the scene, present or not. KEY is a path with indices of lists and vectors in
+    /// Replaces or adds a key of the scene. KEY is a path with indices of lists and vectors in
     /// brackets; VALUE is RON. Example: `loads[0].force_pn[2]=-4.0`.
     #[arg(long, value_name = "KEY=VALUE")]
     set: Vec<Override>,

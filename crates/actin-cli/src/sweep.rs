@@ -13,7 +13,7 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 pub(crate) const EXIT_CODES: &str = "Exit codes:
-    0  done; failed runs are rows of runs.csv with the reason
+    0  done; runs.csv lists failed runs with the reason
     2  bad input: sweep, scene, arguments or directory
     3  every run failed; the reasons are in runs.csv
    74  results could not be written; once the cause is removed, --resume continues
@@ -40,11 +40,11 @@ pub(crate) struct SweepArguments {
     /// Number of simultaneous runs, each on one core; by default the number of cores.
     #[arg(long, value_name = "N")]
     jobs: Option<NonZeroUsize>,
-    /// Makes or continues only these runs, for example 3,10-19, and writes no table. Several processes can use
+    /// Runs or continues only these runs, for example 3,10-19, and writes no table. Several processes can use
     /// this option in one directory.
     #[arg(long, value_name = "RUNS", value_parser = numbers, conflicts_with = "emit")]
     only: Option<Numbers>,
-    /// Writes a workflow into the directory without running it.
+    /// Writes a workflow for this engine into the directory without running it.
     #[arg(long, value_name = "ENGINE")]
     emit: Option<Engine>,
     /// Wall-clock time between checkpoints of a run.

@@ -16,7 +16,7 @@ pub(crate) struct TradeArguments {
     #[command(flatten)]
     source: SceneArguments,
     /// Compared quantities, separated by commas: tip, height, end-force, end-couple, energy, curvature, linker-force,
-    /// or the prefix of a column of observables.csv. By default the observables of the scene and its tips.
+    /// or the prefix of a column of observables.csv. By default the observables of the scene and the tip displacements.
     #[arg(long, value_name = "NAME", value_delimiter = ',')]
     quantity: Vec<String>,
     /// Largest accepted relative error.
@@ -25,7 +25,8 @@ pub(crate) struct TradeArguments {
     /// Longest wall-clock time of one run, in seconds.
     #[arg(long, value_name = "SECONDS", default_value = "60s", value_parser = budget)]
     budget: Duration,
-    /// Load fractions at which candidates within the error are run again; 1 disables further runs.
+    /// Fractions of the loads, separated by commas. Models within the error at full load run again at these
+    /// fractions; 1 disables these runs.
     #[arg(
         long,
         value_name = "SHARE",
@@ -33,7 +34,7 @@ pub(crate) struct TradeArguments {
         default_value = "0.5"
     )]
     loads: Vec<f64>,
-    /// Adds finer meshes and other laws to the candidates.
+    /// Also compares models with finer meshes and other rod laws.
     #[arg(long)]
     all: bool,
     /// Folder of trade.csv, trade.svg and best.ron; by default `trades/` and the name of the scene.

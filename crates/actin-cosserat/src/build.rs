@@ -31,16 +31,16 @@ pub struct StraightRod {
     pub walls: Walls,
     /// Ends with a free wall frame: the cross-section at the last node, on which end torques act.
     ///
-    /// Half a segment of bending joins it to the last segment. It takes a quarter of that segment's
-    /// inertia.
+    /// A bending element of half a segment connects the wall frame to the last segment. The wall
+    /// frame takes a quarter of the segment's inertia.
     pub free_walls: Walls,
 }
 
 /// Transverse inertia of a segment.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum RotaryInertia {
-    /// Moments of the cross-section, as in the rod equations. The highest frequency, of rotation
-    /// against shear, does not depend on the segment length.
+    /// Moments of the cross-section, as in the rod equations. The highest frequency, at which
+    /// segments rotate against shear, does not depend on the segment length.
     #[default]
     CrossSection,
     /// Adds `mu l^3 / 12`, the inertia of a rigid segment of length `l` and mass per length `mu`.
@@ -114,12 +114,13 @@ impl StraightRod {
 
     /// Appends a rod in parts, which may have different materials; `parts` are numbers of segments.
     ///
-    /// Neighbouring parts share a node and a free wall frame, so that half segments of both bend in
-    /// series. The frame takes a quarter of the inertia of both adjacent segments.
+    /// Neighbouring parts share a node and a free wall frame. The half segments on both sides of
+    /// the frame bend in series. The frame takes a quarter of the inertia of both adjacent
+    /// segments.
     ///
     /// # Errors
-    /// If a part has no segments, if the numbers do not add up, or as in [`push`](Self::push). The
-    /// state is unchanged on error.
+    /// If a part has no segments, if the sum of `parts` is not the number of segments, or as in
+    /// [`push`](Self::push). The state is unchanged on error.
     pub fn push_in_parts(
         &self,
         parts: &[usize],

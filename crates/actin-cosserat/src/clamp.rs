@@ -7,13 +7,14 @@ use std::ops::Range;
 /// Bodies held at a clamped end.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum RodClamp {
-    /// Last node and a wall frame, which half a segment of bending joins to the last segment.
+    /// Last node and a wall frame. A bending element of half a segment connects the wall frame to
+    /// the last segment.
     ///
     /// The error is of second order in the segment length, because the clamped cross-section is at
     /// the node.
     #[default]
     Wall,
-    /// Last node and frame of the last segment. This delays the curvature by half a segment.
+    /// Last node and frame of the last segment. The first half segment then remains straight.
     NodeAndFrame,
     /// Last two nodes and frame of the last segment, which cannot stretch.
     TwoNodesAndFrame,
@@ -31,7 +32,7 @@ pub struct Held {
 }
 
 impl Held {
-    /// Frees the bodies, at rest.
+    /// Releases the bodies with zero velocity.
     ///
     /// ```
     /// use actin_cosserat::{RodClamp, RodEnd, State, StraightRod};

@@ -60,16 +60,16 @@ impl RodJoint {
     }
 }
 
-/// Segments between points and joints between frames of one material: term `rod`.
+/// Interaction `rod`: segments between points and joints between frames, of one material.
 ///
-/// Elements are the segments, then the joints. The energy equals the energy of
-/// [`EnergyGradient`](crate::EnergyGradient), which is faster for straight rods.
+/// Elements are the segments, then the joints. For a straight rod the energy equals the energy of
+/// [`EnergyGradient`](crate::EnergyGradient), which is faster.
 ///
 /// ```
 /// use actin_cosserat::{
 ///     Interaction, Rigidities, RodElements, RodMaterial, State, StraightRod, Vector3,
 /// };
-/// // Rest radius of 100 nm over 50 nm, held straight: B L / 2 R^2.
+/// // A rod of 50 nm with a rest radius of 100 nm, held straight: B L / 2 R^2.
 /// let mut state = State::default();
 /// let rod = StraightRod::uniform(50, 1.0).push(&mut state)?;
 /// let material = RodMaterial::new(Rigidities::table4())?;
@@ -125,8 +125,8 @@ impl RodElements {
         })
     }
 
-    /// Creates the rod `layout` with the curvature of `state` as its rest shape and the rest
-    /// lengths of the layout.
+    /// Creates a rod with the rest lengths of `layout` and the curvature of `state` as its rest
+    /// shape.
     ///
     /// # Errors
     /// If the material is a potential, or if orientations are not finite.

@@ -5,7 +5,7 @@ use crate::fast::FastRod;
 use crate::{BendingElement, RodLayout, RodMaterial, SegmentCurvature, SegmentLaw, ShearElement};
 use actin_mechanics::{Interaction, Loads, RandomStress, SecondOrder, State, Stiffness};
 
-/// A rod whose loads are minus the gradient of its energy: term `rod`.
+/// Interaction `rod`, with the negative gradient of an energy as loads.
 ///
 /// ```text
 /// E = sum_i W(sigma_i) |lhat_i| + sum_j U(kappa_j) Dhat_j
@@ -27,7 +27,7 @@ pub struct EnergyGradient {
 
 impl EnergyGradient {
     /// Creates a rod with free ends. For a potential, [`with_extension`](Self::with_extension) sets
-    /// what is joined to the ends.
+    /// the elements joined to the ends.
     pub fn new(layout: RodLayout, material: RodMaterial) -> Self {
         let extended = material.potential().map(|_| ExtendedSegments {
             law: SegmentLaw::default(),
@@ -43,8 +43,8 @@ impl EnergyGradient {
 
     /// Makes the segment energy depend on the mean curvature around the segment.
     ///
-    /// The conjugate torque acts on the frames of the surrounding bending elements, so that tension
-    /// twists the rod and twist pulls it.
+    /// The conjugate torque acts on the frames of the surrounding bending elements. Tension then
+    /// twists the rod, and twist causes tension.
     #[must_use]
     pub fn with_extension(self, law: SegmentLaw, curvature: SegmentCurvature) -> Self {
         let extended = ExtendedSegments { law, curvature };
@@ -107,7 +107,7 @@ pub(crate) fn write_bending_energies(
 }
 
 impl EnergyGradient {
-    /// Scalar loads without end twists: the reference of the vector kernel.
+    /// Scalar loads without end twists, as a reference for tests of the vector kernel.
     pub(crate) fn add_scalar_loads(&self, state: &State, loads: &mut Loads) {
         match &self.extended {
             None => self.add_shear_loads(state, loads),

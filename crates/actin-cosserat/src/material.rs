@@ -37,8 +37,8 @@ impl RodMaterial {
         }
     }
 
-    /// Sets the rest curvature (rad/nm, body axes: two components of bending, one of twist), as for
-    /// arcs and helices.
+    /// Sets the rest curvature, for example of an arc or a helix (rad/nm, body axes: two components
+    /// of bending, one of twist).
     ///
     /// ```
     /// use actin_cosserat::{Rigidities, RodMaterial};
@@ -86,7 +86,7 @@ impl RodMaterial {
     /// Creates the material of a potential, such as [`Homogenised::mean_filament`].
     ///
     /// The loads of a segment depend on the mean curvature around it. Functions of a single strain
-    /// take the other strains as zero, and the length as natural.
+    /// assume that the other strains are zero and the length is the rest length.
     pub fn homogenised(law: &'static Homogenised) -> Self {
         Self::straight(Kind::Potential(law))
     }
@@ -98,7 +98,8 @@ impl RodMaterial {
     /// use actin_mechanics::Vector3;
     /// let published = TwistLaw::Tanh(TanhTwist::published());
     /// let material = RodMaterial::new(Rigidities::table4())?.with_twist(published)?;
-    /// // A right-handed turn of 10 degrees over 75.5 nm: a tenth of the constant 1.3e4.
+    /// // A right-handed turn of 10 degrees over 75.5 nm: less than a tenth of the couple with the
+    /// // constant rigidity 1.3e4 pN nm^2.
     /// let couple = material.bending_couple(Vector3::z() * 0.0023).z;
     /// assert!(couple < 0.1 * 1.3e4 * 0.0023);
     /// # Ok::<(), actin_cosserat::RodParameterError>(())

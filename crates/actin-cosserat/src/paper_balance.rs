@@ -7,7 +7,7 @@ use crate::{
 };
 use actin_mechanics::{Interaction, Loads, State, UnitQuaternion, Vector3};
 
-/// Rod with the balance equations as printed: term `rod`, not conservative.
+/// Interaction `rod` with the balance equations as printed in the paper; not conservative.
 ///
 /// ```text
 /// segment:  force Q n / e on the first node, -Q n / e on the second

@@ -90,7 +90,7 @@ impl Rigidities {
     }
 }
 
-/// Factors of the rigidities of a rod, as for decoration by another protein.
+/// Factors of the rigidities of a rod, for example due to a bound protein.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct RigidityFactors {

@@ -23,7 +23,7 @@ pub struct ShearElement {
 /// Loads of a shear element.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ShearLoads {
-    /// Force on the first point (pN, lab frame), opposite to that on the second.
+    /// Force on the first point (pN, lab frame), opposite to the force on the second point.
     pub force: Vector3,
     /// Torque on the frame (pN nm, body frame).
     pub torque: Vector3,

@@ -48,7 +48,7 @@ fn main() -> Result<(), EquilibriumError> {
     let r = state.points.position.get(0);
     println!("at ({:.6}, {:.6}, {:.6})", r.x, r.y, r.z);
     println!(
-        "energy {:.1e}, saddles left {}",
+        "energy {:.1e}, after {} saddle(s)",
         found.energy, found.saddles_left
     );
     assert!((r.x.abs() - 2.0).abs() < 1e-9 && found.saddles_left == 1);

@@ -31,8 +31,8 @@ impl Pivot {
 /// ```
 ///
 /// All vectors are in the lab frame. Only the span of the directions matters; a
-/// [`Layout`](crate::Layout) orthonormalises them. The group overrides whether the state holds its
-/// bodies. A group without directions is held.
+/// [`Layout`](crate::Layout) orthonormalises them. The bodies of a group move even if the
+/// state holds them. A group without directions is held.
 ///
 /// Last pair of a filament along z that slides along the axis:
 ///

@@ -8,7 +8,7 @@ use actin_mechanics::Residual;
 pub enum Verdict {
     /// The energy decreased sufficiently.
     Decrease,
-    /// The energy is above its previous value, temporarily.
+    /// The energy temporarily exceeds its previous value.
     Excursion,
     /// An unsuccessful excursion was reverted, and a shorter step made from its start.
     Return,
@@ -27,9 +27,9 @@ pub struct Iteration {
     /// Negative pivots of the stiffness before the step, without regularisation.
     pub negative_pivots: usize,
     /// Multiple of the metric added to the stiffness (pN/nm); for carried steps the largest
-    /// stiffness added to a tie.
+    /// stiffness added to a pair of neighbours.
     pub regularization: f64,
-    /// Stiffness added to each tie per motion of the tie (pN/nm^2).
+    /// Stiffness added to each pair of neighbours per relative motion (pN/nm^2).
     pub stiffening: f64,
     /// Fraction of the regularised Newton step.
     pub fraction: f64,

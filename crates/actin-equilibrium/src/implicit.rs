@@ -55,8 +55,9 @@ impl ImplicitSolver {
         }
     }
 
-    /// Decouples the rotations of these frames about their third axes from all unknowns except such
-    /// rotations of other frames. Steps along filaments apply them last.
+    /// Decouples the spins of these frames, which are rotations about their third axes, from all
+    /// unknowns except spins of other frames. [`advance_along`](Self::advance_along) applies spins
+    /// last.
     ///
     /// # Panics
     /// If nothing has been factorised.
@@ -216,10 +217,11 @@ impl ImplicitSolver {
         self.linear.solve(&self.assembly, &mut self.step)
     }
 
-    /// Moves the bodies of `state` by the last step found and returns its extent. Bodies of
-    /// filaments that are free or held at one place carry one another along, so strains are linear
-    /// in the step. The step of a filament that rotates a body by more than `largest_turn` (rad) is
-    /// shortened.
+    /// Moves the bodies of `state` by the last step found and returns the extent of the step.
+    ///
+    /// In filaments that are free or held at one place, each body follows the motion of its
+    /// predecessor, so strains are linear in the step. The step of a filament is shortened if it
+    /// rotates a body by more than `largest_turn` (rad).
     pub fn advance_along(&mut self, state: &mut State, largest_turn: f64) -> StepSize {
         let mut from = self.from.take().unwrap_or_else(|| state.clone());
         from.copy_motion_from(state);

@@ -9,7 +9,7 @@ use thiserror::Error;
 /// Position of each body along the filament, for a banded matrix.
 ///
 /// Any monotone measure is suitable, for instance arc length (nm). Points and frames are sorted
-/// together. A group has the largest number of its bodies.
+/// together. The position of a group is the largest position of its bodies.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct BodyOrder {
     /// One number per point.
@@ -116,9 +116,9 @@ pub struct Layout {
 /// Source of the order of unknowns.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Order {
-    /// Minimum degree, at the first assembly.
+    /// Minimum degree, determined at the first assembly.
     Sought,
-    /// Prescribed, or minimum degree if that reduces the fill, at the first assembly.
+    /// Prescribed, or minimum degree if this reduces the fill; determined at the first assembly.
     Compared,
     /// Fixed.
     Settled,
@@ -174,9 +174,9 @@ impl Layout {
         Ok(layout)
     }
 
-    /// Allows minimum degree elimination if its factor costs less than that of the given order, for
-    /// bodies that are not coupled along the order only. The choice depends on the couplings at the
-    /// first solve. Bodies follow one another in the given order in either case.
+    /// Allows minimum degree elimination if its factorisation costs less than in the given order,
+    /// for example for linked filaments. The choice depends on the couplings at the first solve.
+    /// Neighbours along a filament are determined by the given order in either case.
     #[must_use]
     pub fn with_least_fill(mut self) -> Self {
         if self.order == Order::Settled {
@@ -194,8 +194,9 @@ impl Layout {
         self
     }
 
-    /// Marks all pairs farther apart than `reach` in the given order as
-    /// [`with_loose`](Self::with_loose) does, for pairs that may become coupled, such as contacts.
+    /// Marks all pairs farther apart than `reach` in the given order, as
+    /// [`with_loose`](Self::with_loose) does. Contacts are an example of pairs that may become
+    /// coupled.
     #[must_use]
     pub fn with_loose_beyond(mut self, order: BodyOrder, reach: f64) -> Self {
         self.loose_beyond = Some((order, reach));
@@ -253,7 +254,7 @@ impl Layout {
         self.node_of(body).map(|node| self.range(node))
     }
 
-    /// Sets new directions of a group, as many as before.
+    /// Replaces the directions of a group by the same number of new directions.
     ///
     /// # Errors
     /// If the directions are linearly dependent or their number changes.

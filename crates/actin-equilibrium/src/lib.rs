@@ -1,10 +1,10 @@
 //! Equilibria of points and frames by Newton's method with sparse stiffness matrices and
-//! certificates.
+//! certificates of stability.
 //!
 //! [`relax`] moves a state to an equilibrium in one call. A [`Layout`] selects the unknowns and
 //! their order, [`Newton`] minimises the potential energy over them, and [`Path`] follows
-//! equilibria along a path of controls. [`ImplicitSolver`] solves the linear equations of an
-//! implicit time step.
+//! equilibria while controls (loads, clamps) change in steps. [`ImplicitSolver`] solves the linear
+//! equations of an implicit time step.
 //!
 //! Units are nm, pN and rad.
 

@@ -174,8 +174,8 @@ impl Layout {
 
     /// Step between two states: inverse of [`apply`](Layout::apply).
     ///
-    /// For a group, only motion along its directions is included; its rotation is that of its first
-    /// frame.
+    /// For a group, only motion along its directions is included; the rotation of the
+    /// group is the rotation of its first frame.
     pub fn difference(&self, from: &State, to: &State) -> Vec<f64> {
         let mut step = vec![0.0; self.unknowns()];
         for (node, range) in self.nodes() {

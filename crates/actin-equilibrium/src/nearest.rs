@@ -32,7 +32,8 @@ fn size(state: &State) -> f64 {
 pub struct Nearest {
     /// Equilibrium, with the velocities of the given state.
     pub state: State,
-    /// Energy of the given state minus that of the equilibrium (pN nm). Negative below a saddle.
+    /// Energy of the given state minus energy of the equilibrium (pN nm). Negative if the
+    /// equilibrium is a saddle above the given state.
     pub energy_above: f64,
     /// Certificate of the equilibrium.
     pub certificate: Certificate,

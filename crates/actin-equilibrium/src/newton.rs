@@ -1,17 +1,18 @@
 //! Newton's method for minima of the potential energy.
 //!
 //! Each step solves `(K + mu M) p = f` with the full stiffness `K` and the smallest shift `mu` that
-//! makes the sum positive definite. If the stiffness changes much within a step, ties between
-//! neighbours are stiffened in proportion to their relative motion (see `ties`).
+//! makes the sum positive definite. If the stiffness changes much within a step, the coupling of
+//! neighbours is stiffened in proportion to their relative motion (see `ties`).
 //!
-//! Bodies move straight or, if the energy is lower, each is carried along by its predecessor (see
-//! `chain`). A few steps above the initial energy are allowed, because the stretch of a straight
-//! step relaxes quickly in the following ones (watchdog technique). An unsuccessful excursion is
-//! reverted.
+//! In a straight step bodies move along straight lines. In a carried step each body keeps its pose
+//! relative to its predecessor (see `chain`); this step is used if the energy is lower. A straight
+//! step stretches a bent filament, and the following steps relax the stretch. The energy may
+//! therefore exceed its initial value for a few steps (watchdog technique). If the energy does not
+//! decrease afterwards, these steps are reverted.
 //!
-//! Far from equilibrium, a symmetric state may have many unstable modes along which the loads have no
-//! component. The regularised steps are then short. After 20 of them the state is displaced along the
-//! lowest mode.
+//! Far from equilibrium, a symmetric state may have many unstable modes along which the loads have
+//! no component. The regularised steps are then short. After 20 short steps the state is displaced
+//! along the lowest mode.
 //!
 //! # Source
 //! J. Nocedal and S. J. Wright, Numerical Optimization, 2nd ed. (2006), sections 3.4 (modified
@@ -33,15 +34,16 @@ use std::ops::ControlFlow;
 
 /// Multiple of the rounding error considered negligible.
 const AT_FLOOR: f64 = 8.0;
-/// The same if no further step is possible.
+/// Multiple of the rounding error considered negligible if no further step is possible.
 pub(crate) const NEAR_FLOOR: f64 = 100.0;
 /// Minimum decrease of a residual per step.
 pub(crate) const STILL_FALLING: f64 = 0.5;
-/// Number of consecutive slow steps with indefinite stiffness that ends in a displacement along the
-/// lowest mode, and the largest rotation and strain of such a step.
+/// Number of consecutive slow steps with indefinite stiffness before a displacement along the
+/// lowest mode.
 const SLOW_STEPS: usize = 20;
+/// Largest rotation (rad) and strain of a slow step.
 const SLOW: f64 = 1e-3;
-/// Fraction of the residual along zero-stiffness motions that makes an equilibrium impossible.
+/// Fraction of the residual along zero-stiffness motions above which no equilibrium exists.
 const UNRESISTED: f64 = 0.9;
 
 /// Newton solver for one model: layout, options and reusable factorisation.
@@ -79,8 +81,8 @@ impl Newton {
         &self.options
     }
 
-    /// Sets whether carried steps are used from any start with many bodies, or from floppy ones
-    /// only. Use them for starts with the shape of the equilibrium that are far from it.
+    /// Sets [`NewtonOptions::carries_along`]. Use `true` for an initial guess with the shape of the
+    /// equilibrium, but far from it.
     pub fn carry_along(&mut self, from_any_start: bool) {
         self.options.carries_along = from_any_start;
     }
@@ -90,15 +92,15 @@ impl Newton {
         self.solver.work
     }
 
-    /// Sets the cost counters, to continue those of an earlier solver. Its symbolic factorisation
-    /// is counted again.
+    /// Sets the cost counters, to continue the counters of an earlier solver. The symbolic
+    /// factorisation of this solver is counted in addition.
     pub fn count_on(&mut self, work: SolverWork) {
         self.solver.work = work;
     }
 
-    /// Fixes the order of unknowns by the couplings at `state`, for interactions with changing
-    /// pairs. Later results then do not depend on the state solved first. Does nothing if an
-    /// interaction has no potential or no second derivatives.
+    /// Determines the order of unknowns from the couplings at `state`. If an interaction has
+    /// changing pairs, later results then do not depend on the state that is solved first. Does
+    /// nothing if an interaction has no potential or no second derivatives.
     pub fn settle_order(&mut self, state: &State, interactions: &[Box<dyn Interaction>]) {
         // The next solve returns the error.
         let _ = self.solver.prepare(state, interactions);
@@ -322,7 +324,8 @@ impl Run<'_> {
         Ok(None)
     }
 
-    /// Short regularised steps: the loads have small components along the unstable modes.
+    /// Returns `true` if recent steps are short, because the loads have small components along the
+    /// unstable modes.
     fn is_slow(&self) -> bool {
         let steps = &self.history[self.displaced_at..];
         steps.len() >= SLOW_STEPS
@@ -371,8 +374,8 @@ impl Run<'_> {
         self.accept(&scale, ending)
     }
 
-    /// The residual exceeds rounding or a dead load acts. Steps from a saddle would move away from
-    /// it.
+    /// Returns `true` if the state is not a saddle, and the residual exceeds the rounding error or
+    /// a dead load acts. A step from a saddle would move away from the saddle.
     fn is_worth_another_step(&mut self, descent: &Descent) -> bool {
         let is_rounding = self.solver.is_at_floor(&Residual::default(), AT_FLOOR);
         (!is_rounding || is_loaded(self.interactions, &descent.state)) && self.solver.is_stable()
@@ -392,7 +395,7 @@ impl Run<'_> {
         }
     }
 
-    /// Arms range from the turn length to the size of the system.
+    /// Scale of the loads, with lever arms from the turn length to the size of the system.
     fn load_scale(&mut self, descent: &Descent) -> LoadScale {
         self.solver.work.evaluations += 1;
         let shortest = self.options.turn_length;
@@ -400,7 +403,7 @@ impl Run<'_> {
         LoadScale::new(self.interactions, &descent.state, arms)
     }
 
-    /// Termination without further steps: near the rounding error, or failure.
+    /// Result if no further step is possible: convergence near the rounding error, or failure.
     fn give_up(
         &mut self,
         descent: &Descent,

@@ -10,22 +10,25 @@ pub struct NewtonOptions {
     pub tolerance: Residual,
     /// Maximum number of Newton steps. Default: 2000.
     pub iterations: usize,
-    /// Maximum rotation of a body per step (rad). Default: 0.5. Not applied to carried steps.
+    /// Maximum rotation of a body per step (rad). Default: 0.5. Not applied to carried steps, in
+    /// which each body moves with its predecessor.
     pub largest_rotation: f64,
     /// Maximum relative motion of coupled bodies per step: rotation between two frames (rad), or
     /// relative displacement of two points over their distance. Default: 0.3.
     pub largest_strain: f64,
     /// Maximum displacement of a body per step (nm). Default: no limit.
     pub largest_displacement: f64,
-    /// Maximum number of consecutive steps with higher energy. Bending may first stretch a
-    /// filament, which then relaxes. Default: 12; zero requires a decrease in each step.
+    /// Maximum number of consecutive steps above the lowest energy. A bending step may stretch the
+    /// filament, and the following steps relax the stretch. Default: 12; zero requires a decrease
+    /// in each step.
     pub patience: usize,
-    /// Length (nm) that weights a rotation of 1 rad in eigenvalues and regularisation. Default: 1.
+    /// Displacement (nm) equivalent to a rotation of 1 rad in eigenvalues and regularisation.
+    /// Default: 1.
     pub turn_length: f64,
     /// Counts the eigenvalues of the stiffness at the end. Default: true.
     pub certify: bool,
-    /// Uses carried steps from any start with many bodies, not only from floppy ones. Default:
-    /// false.
+    /// Uses carried steps for all open chains of at least 400 bodies. If `false` (default), the
+    /// initial state must also have at least one zero-stiffness mode per 16 bodies.
     pub carries_along: bool,
 }
 

@@ -8,13 +8,17 @@ use thiserror::Error;
 /// Reason for successful termination.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Convergence {
-    /// The residual is within the tolerance and either below 1e-8 of the largest load or not
-    /// reducible: the last step did not halve it, or the state is a saddle. It is also not reducible
-    /// within 8 times the rounding error without loads of interactions without stiffness.
+    /// The residual is within the tolerance, and one of the following holds:
+    ///
+    /// - The residual is below 1e-8 of the largest load.
+    /// - The last step did not halve the residual.
+    /// - The state is a saddle.
+    /// - The residual is within 8 times its rounding error, and no interaction without stiffness
+    ///   (such as a constant force) exerts loads.
     Converged,
-    /// The residual exceeds the tolerance and does not decrease, but the loads of each body are
-    /// within the tolerance or 8 times their rounding error. The factor is 100 if no step reduces
-    /// the energy or the iteration limit is reached.
+    /// The residual exceeds the tolerance and does not decrease, but the loads on each body are
+    /// within the tolerance or 8 times their rounding error. The factor is 100 instead of 8 if no
+    /// step reduces the energy or the iteration limit is reached.
     FloorReached,
 }
 
@@ -31,7 +35,7 @@ pub struct Equilibrium {
     pub floor: Residual,
     /// Certificate of stability; `None` if not requested.
     pub certificate: Option<Certificate>,
-    /// Number of saddles left during the solve.
+    /// Number of saddles that the solve reached and moved away from.
     pub saddles_left: usize,
     /// Newton steps.
     pub history: Vec<Iteration>,

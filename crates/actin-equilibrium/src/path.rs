@@ -1,4 +1,4 @@
-//! Equilibria along a path of controls with adaptive steps.
+//! Equilibria under changing controls (loads, clamps), with adaptive steps.
 //!
 //! Steps shrink if Newton's method fails or the equilibrium deviates from the prediction. At a
 //! limit point they shrink to the minimum, and the path ends with the last equilibrium.
@@ -15,18 +15,18 @@ use actin_mechanics::{Interaction, State};
 use std::ops::ControlFlow;
 use thiserror::Error;
 
-/// Ratio to the extrapolated motion above which a step is a jump. Motion before a limit point is
-/// more gradual.
+/// Ratio of the motion in a step to the extrapolated motion above which the step is a jump. Before
+/// a limit point the ratio is smaller.
 const SUDDEN: f64 = 4.0;
-/// Motion (rad, or strain) below which no step is a jump, such as sudden but small bending at a
-/// critical load.
+/// Motion (rad, or strain) below which a step is not a jump. An example is the sudden but small
+/// bending at a critical load.
 const SMALL_MOTION: f64 = 0.1;
-/// Motion (rad, or strain) whose direction is not tested.
+/// Motion (rad, or strain) below which the direction is not compared with the prediction.
 const NEGLIGIBLE_MOTION: f64 = 1e-3;
-/// Fraction of a motion normal to the prediction above which it deviates.
+/// Component of a motion normal to the prediction, as a fraction, above which the step deviates.
 const UNEXPLAINED: f64 = 0.5;
 
-/// Path of controls for parameters from 0 to 1.
+/// Solver of equilibria for a parameter from 0 to 1 that determines the controls.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Path(PathOptions);
 
@@ -37,7 +37,7 @@ pub struct PathEnd {
     pub equilibrium: Equilibrium,
     /// Number of equilibria on the path, including both ends.
     pub points: usize,
-    /// Number of steps repeated with a smaller one.
+    /// Number of rejected steps, each repeated with a smaller step.
     pub refused: usize,
     /// Total cost.
     pub work: SolverWork,
@@ -120,8 +120,8 @@ impl Path {
     }
 
     /// As [`follow`](Self::follow), with an observer that may also interrupt a solve. With a
-    /// `waypoint`, the path continues from the equilibrium `state`, bitwise identical to an
-    /// uninterrupted path.
+    /// `waypoint`, the path continues from the equilibrium `state`. The results are bitwise
+    /// identical to an uninterrupted path.
     ///
     /// Cost and number of points continue from the waypoint; set the counters of `newton` with
     /// [`Newton::count_on`].
@@ -408,7 +408,7 @@ impl<'a> Walk<'a> {
             && expected.is_some_and(|expected| motion > SUDDEN * expected)
     }
 
-    /// Extended to 1 if less than the smallest step would remain.
+    /// Next parameter; 1 if less than the smallest step would remain.
     fn next_parameter(&self) -> f64 {
         let next = self.at.parameter + self.at.step;
         if next > 1.0 - self.options.smallest_step {
@@ -418,7 +418,7 @@ impl<'a> Walk<'a> {
         }
     }
 
-    /// Controls set, and extrapolated if this lowers the energy.
+    /// Initial guess for the next parameter, extrapolated if extrapolation lowers the energy.
     ///
     /// # Errors
     /// If the prescribed motion moves bodies through each other.
@@ -483,7 +483,7 @@ impl<'a> Walk<'a> {
         }
     }
 
-    /// Along a smooth path the deviation grows with the step.
+    /// Chooses the next step; along a smooth path the deviation increases with the step.
     fn adapt(&mut self, equilibrium: &Equilibrium, deviation: f64) {
         let iterations = equilibrium.history.len();
         let step = &mut self.at.step;

@@ -59,7 +59,7 @@ pub struct PathCheckpoint {
     pub rate: Option<f64>,
     /// Number of equilibria so far.
     pub points: usize,
-    /// Number of steps repeated with a smaller one.
+    /// Number of rejected steps, each repeated with a smaller step.
     pub refused: usize,
 }
 

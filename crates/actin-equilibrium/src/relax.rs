@@ -7,7 +7,7 @@ use crate::{
 use actin_mechanics::{Interaction, State};
 use thiserror::Error;
 
-/// Maximum number of saddles that [`relax`] leaves.
+/// Maximum number of displacements from saddles in [`relax`].
 const SADDLES: usize = 8;
 
 /// Error of any function of this crate, for use with `?`.
@@ -27,7 +27,9 @@ pub enum EquilibriumError {
     #[error(transparent)]
     Newton(#[from] Box<NewtonFailure>),
     /// The result is a saddle.
-    #[error("still at a saddle after leaving {0} saddles: displace the initial state")]
+    #[error(
+        "the result is a saddle, after {0} displacements from saddles: displace the initial state"
+    )]
     Saddle(usize),
     /// A path of equilibria ended early.
     #[error(transparent)]

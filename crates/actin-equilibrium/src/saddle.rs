@@ -1,4 +1,4 @@
-//! Motion off saddles.
+//! Motion away from saddles.
 
 use crate::direction::Solver;
 use crate::evaluation::Evaluation;
@@ -10,12 +10,12 @@ use crate::outcome::{Equilibrium, NewtonFailure, SolveError};
 use actin_mechanics::{Interaction, State};
 use std::ops::ControlFlow;
 
-/// First displacement off a saddle (nm and rad).
+/// First displacement from a saddle (nm and rad).
 const FIRST: f64 = 1e-3;
 /// Maximum displacement by doubling (rad, or nm per turn length).
 const LAST: f64 = 0.2;
 
-/// Displacement off a saddle.
+/// Displacement from a saddle.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Push {
     /// Mode of the displacement.
@@ -38,12 +38,13 @@ impl Newton {
         mode::lowest(&mut self.solver)
     }
 
-    /// Moves `state` off a saddle along the lowest mode, in the direction of lower energy. The
-    /// amplitude is doubled while the energy decreases, up to rotations of 0.2 rad.
+    /// Moves `state` away from a saddle along the lowest mode, in the direction of lower energy.
+    /// The amplitude is doubled while the energy decreases, up to rotations of 0.2 rad.
     ///
-    /// Returns the mode, or `None` without moving if the lowest eigenvalue is not negative beyond
-    /// its error. If both directions have equal energy, the sign of the mode decides reproducibly;
-    /// displace the state to select a branch.
+    /// Returns the mode. If the lowest eigenvalue is not negative by more than its error bound, the
+    /// state does not move and the result is `None`. If both directions have equal energy, the
+    /// computed sign of the mode determines the direction, reproducibly. Displace the state to
+    /// select a branch.
     ///
     /// # Errors
     /// If an interaction has no potential or no second derivatives.
@@ -57,12 +58,13 @@ impl Newton {
         leave_saddle(&mut self.solver, turn_length, state, interactions)
     }
 
-    /// Moves `state` off a saddle by a given amount along the lowest mode, in the direction of
-    /// lower energy: the largest displacement or rotation of a body is the value of `largest`.
-    /// Velocities are unchanged.
+    /// Moves `state` away from a saddle along the lowest mode, in the direction of lower energy.
+    /// `largest` limits the displacements and rotations of bodies, and one of its limits is
+    /// reached. Velocities are unchanged.
     ///
-    /// Returns the displacement, or `None` without moving if the lowest eigenvalue is not negative
-    /// beyond its error. The direction is chosen as in [`leave_saddle`](Newton::leave_saddle).
+    /// Returns the displacement. If the lowest eigenvalue is not negative by more than its error
+    /// bound, the state does not move and the result is `None`. The direction is chosen as in
+    /// [`leave_saddle`](Newton::leave_saddle).
     ///
     /// # Errors
     /// If an interaction has no potential or no second derivatives.
@@ -86,9 +88,9 @@ impl Newton {
         Ok(Some(Push { mode, extent }))
     }
 
-    /// Moves `state` to a minimum: solves, and leaves saddles up to `attempts` times.
+    /// Moves `state` to a minimum: solves, and moves away from saddles up to `attempts` times.
     ///
-    /// The equilibrium contains the number of saddles left and the history of all solves. It may
+    /// The result contains [`Equilibrium::saddles_left`] and the history of all solves. It may
     /// still be a saddle, see [`Equilibrium::is_saddle`].
     ///
     /// # Errors

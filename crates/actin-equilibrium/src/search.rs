@@ -1,8 +1,9 @@
 //! Random search for further stable equilibria of the same bodies.
 //!
-//! Initial guesses are sampled like thermal fluctuations about known equilibria with constant
-//! stiffness, or about a reference state (one third), scaled to a largest rotation, and minimised.
-//! The search may miss equilibria.
+//! Two thirds of the initial guesses are sampled about known equilibria, one third about a
+//! reference state. Displacements are sampled as thermal fluctuations with constant stiffness and
+//! scaled to a given largest rotation. Each guess is then minimised. The search may miss
+//! equilibria.
 
 use crate::direction::Solver;
 use crate::evaluation::{Evaluation, passes_through};
@@ -24,7 +25,7 @@ const SADDLES: usize = 8;
 pub struct Search {
     /// Number of initial guesses.
     pub starts: usize,
-    /// Seed of the initial guesses. Each is independent of their number.
+    /// Seed of the initial guesses. A guess does not depend on the number of guesses.
     pub seed: u64,
 }
 
@@ -47,7 +48,8 @@ pub struct Distinct {
     pub state: State,
     /// Properties of the equilibrium.
     pub equilibrium: Equilibrium,
-    /// Number of starts that led to it, including the known one.
+    /// Number of initial guesses that lead to this equilibrium; the known equilibrium counts as
+    /// one.
     pub found: usize,
     /// Marks the known equilibrium.
     pub is_known: bool,
@@ -58,7 +60,7 @@ pub struct Distinct {
 pub struct Found {
     /// Stable equilibria, ordered by energy.
     pub states: Vec<Distinct>,
-    /// Number of starts without an admissible equilibrium.
+    /// Number of initial guesses that lead to no admissible equilibrium.
     pub lost: usize,
 }
 
@@ -94,9 +96,9 @@ impl SearchObserver for () {}
 impl Newton {
     /// Searches for stable equilibria other than the `known` one.
     ///
-    /// Held bodies and controls are unchanged. Two equilibria are identical if their distance costs
-    /// less than 4e-3 pN nm at the stiffness of one of them. If one may have zero-stiffness modes,
-    /// they are also identical if their energies differ by less.
+    /// Held bodies and controls are unchanged. Two equilibria count as identical if the
+    /// displacement between them costs less than 4e-3 pN nm with the stiffness of one of them. If
+    /// one may have zero-stiffness modes, an energy difference below 4e-3 pN nm also suffices.
     ///
     /// # Errors
     /// [`Interrupted`](SolveError::Interrupted) if the observer interrupts; interactions without a

@@ -84,7 +84,7 @@ fn clamp(name: &str) -> PyResult<RodClamp> {
         "TwoNodesAndFrame" => Ok(RodClamp::TwoNodesAndFrame),
         "Pin" => Ok(RodClamp::Pin),
         other => Err(PyValueError::new_err(format!(
-            "no clamp is called {other:?}: known are Wall, NodeAndFrame, TwoNodesAndFrame, Pin"
+            "no clamp is called {other:?}: expected one of Wall, NodeAndFrame, TwoNodesAndFrame, Pin"
         ))),
     }
 }

@@ -18,11 +18,11 @@ const ARGUMENTS: [&str; 3] = ["quantity", "error", "loads"];
 /// Compares the error and run time of cheaper models of a scene with the all-monomer model.
 ///
 /// - `quantities`: `tip`, `height`, `end-force`, `end-couple`, `energy`, `curvature`, `linker-force`, or
-///   prefixes of observables; by default the observables of the scene and its tips.
+///   prefixes of observables; by default the observables of the scene and the tip displacements.
 /// - `error`: largest accepted relative error.
-/// - `loads`: load fractions at which candidates within the error are run again.
+/// - `loads`: fractions of the loads at which models within the error run again.
 /// - `budget_s`: longest time of one run (s).
-/// - `all`: adds finer meshes and other laws.
+/// - `all`: also compares models with finer meshes and other rod laws.
 /// - `progress`: `True` prints the name of each run (the default on a terminal), `False` prints nothing; a
 ///   function is called with the name.
 ///

@@ -36,7 +36,7 @@ pub(super) fn mistake(text: &str, file: &str, parsed: &Parsed) -> Option<SceneEr
         Some((open, at)) => Some(signs.describe(open, at)),
         None => error(
             text.trim_end().len(),
-            &format!("the text ends before the {file} does: a bracket is not closed"),
+            &format!("unexpected end of the {file}: a bracket is not closed"),
         ),
     }
 }

@@ -127,8 +127,8 @@ impl fmt::Display for Refusal {
             Reason::UnknownChoice(found, known) => {
                 f.write_str(&unknown_choice(found, known, parent))
             }
-            Reason::Missing(key) => write!(f, "missing key {key} in {parent}"),
-            Reason::Duplicate(key) => write!(f, "key {key} is written twice in {parent}"),
+            Reason::Missing(key) => write!(f, "missing key `{key}` in {parent}"),
+            Reason::Duplicate(key) => write!(f, "key `{key}` is written twice in {parent}"),
             Reason::Message(message) => f.write_str(message),
         }
     }
@@ -218,8 +218,9 @@ impl<'de> Value<'de> {
     fn whole<T: TryFrom<i128>>(&self) -> Result<T, Refusal> {
         let what = "a whole number";
         match self.node.kind {
-            Kind::Whole(value) => T::try_from(value)
-                .map_err(|_| self.expected(what, ", not negative and not beyond 2^64")),
+            Kind::Whole(value) => {
+                T::try_from(value).map_err(|_| self.expected(what, ", from 0 to 2^64 - 1"))
+            }
             Kind::Number(_) => {
                 let refusal = self.expected(what, "");
                 let fraction = match self.node.place.source {
@@ -424,7 +425,7 @@ impl<'de> Deserializer<'de> for Value<'de> {
             _ if node.is_dictionary() => {
                 let (first, known) = (choices.first().unwrap_or(&""), choices.join(", "));
                 return Err(self.refused(format!(
-                    "{kind} is a name, or a name with its keys as in {{\"{first}\": {{}}}}: known are {known}"
+                    "{kind} is a name, or a name with its keys as in {{\"{first}\": {{}}}}: expected one of {known}"
                 )));
             }
             _ if kind == UNNAMED => {

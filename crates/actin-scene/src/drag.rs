@@ -78,7 +78,7 @@ pub(super) fn check(dynamics: &Dynamics) -> Result<(), SceneProblem> {
     ) {
         return Ok(());
     }
-    let rule = "is not used with Water, which has its own integrator (Gronbech-Jensen and Farago): leave it out";
+    let rule = "is not used with Water, which has its own integrator (Gronbech-Jensen and Farago): omit this key";
     Err(SceneProblem::new(
         "task.integrator",
         format!("{:?}", dynamics.integrator),
@@ -151,17 +151,17 @@ mod tests {
             ("Water(translational_per_ns: 1.0)", "translational_per_ns"),
             (
                 "(translational_per_ns: 1.0)",
-                "missing key rotational_per_ns",
+                "missing key `rotational_per_ns`",
             ),
             (
                 "(viscosity_mpa_s: 1.0)",
-                "unknown key viscosity_mpa_s in Drag",
+                "unknown key `viscosity_mpa_s` in Drag",
             ),
             (
                 "(translational_per_ns: 1.0, translational_per_ns: 1.0, rotational_per_ns: 1.0)",
                 "is written twice",
             ),
-            ("()", "missing key translational_per_ns"),
+            ("()", "missing key `translational_per_ns`"),
             ("5.0", "Drag(..) or Water(..) is expected"),
         ] {
             let error = read(drag).unwrap_err();

@@ -228,7 +228,7 @@ fn check_scene(scene: &Scene) -> Result<(), SceneProblem> {
     }
     match &scene.task {
         Task::Dynamics(task) if task.leave_saddles > 0 => {
-            refused("task.leave_saddles", "leave_saddles: leave it out")
+            refused("task.leave_saddles", "leave_saddles: omit this key")
         }
         Task::Dynamics(_) | Task::Brownian(_) => Ok(()),
         Task::Equilibrium(_) => refused("task", "Equilibrium: write Dynamics or Brownian"),

@@ -127,7 +127,7 @@ impl Kinetics {
         }
         let happens = self.breaks.is_some() || self.forms.is_some() || self.steps.is_some();
         if !happens {
-            let rule = "has no events: write breaks, forms or steps, or leave kinetics out";
+            let rule = "has no events: write breaks, forms or steps, or omit kinetics";
             return Err(SceneProblem::new(key, "", rule));
         }
         if !self.bound && self.forms.is_none() {
@@ -175,7 +175,7 @@ pub(super) fn check(scene: &Scene, i: usize, linker: &Linker) -> Result<(), Scen
     let key = format!("linkers[{i}].kinetics");
     if let Task::Equilibrium(_) = scene.task {
         let rule = "Equilibrium is time-independent, without events of linkers: write Dynamics or Brownian, or \
-                    leave kinetics out";
+                    omit kinetics";
         return Err(SceneProblem::new(key, "", rule));
     }
     let filament = scene.filament_at(linker.filament);
@@ -190,7 +190,7 @@ pub(super) fn check_rest(scene: &Scene, dynamics: &Dynamics) -> Result<(), Scene
     };
     let rule = |key: &str| {
         format!(
-            "linkers[{i}] breaks, forms or steps at random, so that the filament never comes to rest: leave {key} out"
+            "linkers[{i}] breaks, forms or steps at random, so that the filament never comes to rest: omit {key}"
         )
     };
     if dynamics.stop.is_some() {

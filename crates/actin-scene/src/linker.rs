@@ -124,10 +124,7 @@ pub(super) fn check(scene: &Scene, i: usize, linker: &Linker) -> Result<(), Scen
 
 fn check_one_end(i: usize, linker: &Linker) -> Result<(), SceneProblem> {
     let first = linker.end_key();
-    let rule = || match first {
-        "to" => "the other end is given by to already: write one of the two".to_owned(),
-        first => format!("the other end is given by {first} already: write one of the two"),
-    };
+    let rule = || format!("the other end is already given by `{first}`: write one of the two keys");
     let ends = [
         ("anchor_nm", linker.anchor_nm),
         ("displaced_nm", linker.displaced_nm),
@@ -142,7 +139,7 @@ fn check_one_end(i: usize, linker: &Linker) -> Result<(), SceneProblem> {
         }
     }
     if linker.to.is_none() && linker.anchor().is_none() {
-        let rule = "has no other end: write anchor_nm, displaced_nm or to";
+        let rule = "has no other end: write one of the keys `anchor_nm`, `displaced_nm` or `to`";
         return Err(SceneProblem::new(format!("linkers[{i}]"), "", rule));
     }
     Ok(())

@@ -117,7 +117,7 @@ pub(super) fn check_statics(scene: &Scene) -> Result<(), SceneProblem> {
             return Err(SceneProblem::new(format!("loads[{i}].follows"), true, rule));
         }
         if !load.factor().is_constant() {
-            let rule = "Equilibrium is time-independent: leave the factor out, and write LoadFactor in \
+            let rule = "Equilibrium is time-independent: omit the factor, and write LoadFactor in \
                         stages of the path";
             return Err(SceneProblem::new(format!("loads[{i}].factor"), "", rule));
         }
@@ -141,13 +141,11 @@ pub(super) fn check_rest(scene: &Scene, dynamics: &Dynamics) -> Result<(), Scene
     };
     let until = settles(&scene.loads[i]);
     let rule = if until.is_infinite() {
-        format!(
-            "loads[{i}] has a Sine for a factor, under which the filament never comes to rest: leave {key} out"
-        )
+        format!("loads[{i}] has the factor Sine, so the filament never comes to rest: omit {key}")
     } else {
         format!(
             "the factor of loads[{i}] changes until {until:?} ns, and the filament cannot be at rest before: must be \
-             below duration_ns = {:?}, or leave {key} out",
+             below duration_ns = {:?}, or omit {key}",
             dynamics.duration_ns
         )
     };

@@ -9,12 +9,15 @@ const LONGEST_KEY: usize = 100;
 
 pub(super) fn unknown_key(found: &str, known: &[&'static str], structure: &str) -> String {
     let hint = unit_hint(known, found);
-    let hint = hint.unwrap_or_else(|| format!("known are {}", known.join(", ")));
-    format!("unknown key {found} in {structure}: {hint}")
+    let hint = hint.unwrap_or_else(|| format!("expected one of {}", known.join(", ")));
+    format!("unknown key `{found}` in {structure}: {hint}")
 }
 
 pub(super) fn unknown_choice(found: &str, known: &[&'static str], kind: &str) -> String {
-    format!("unknown {kind} {found}: known are {}", known.join(", "))
+    format!(
+        "unknown {kind} {found}: expected one of {}",
+        known.join(", ")
+    )
 }
 
 /// Known key or choice closest to an unknown one.

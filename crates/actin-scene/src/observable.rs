@@ -225,7 +225,7 @@ impl Observable {
     ) -> Result<(), SceneProblem> {
         match self {
             Self::EndReaction { filament, end } if !held.is_held(filament, end) => {
-                let rule = "this end is free: clamp it, or leave the observable out";
+                let rule = "this end is free: clamp it, or omit the observable";
                 Err(SceneProblem::new(key("end"), show(end), rule))
             }
             Self::Buckling { points, .. } if !(4..=10_000).contains(&points) => {
@@ -268,7 +268,7 @@ pub(super) fn check_linker(scene: &Scene, key: &str, linker: usize) -> Result<()
 fn check_lag(scene: &Scene, key: &str, lag_ns: f64) -> Result<(), SceneProblem> {
     positive(key, lag_ns)?;
     let rule = match scene.task.motion() {
-        None => "Equilibrium is time-independent: leave it out".to_owned(),
+        None => "Equilibrium is time-independent: omit this key".to_owned(),
         Some(motion) if lag_ns >= motion.duration_ns => {
             format!("must be below the duration, {:?} ns", motion.duration_ns)
         }
@@ -301,13 +301,13 @@ fn check_burn_in(scene: &Scene) -> Result<(), SceneProblem> {
     non_negative("burn_in_ns", burn_in)?;
     let rule = match scene.task.motion() {
         Some(motion) if motion.thermal.is_none() => {
-            "means require thermal noise: leave it out, or write thermal".to_owned()
+            "means require thermal noise: omit this key, or write thermal".to_owned()
         }
         Some(motion) if burn_in >= motion.duration_ns => {
             format!("must be below the duration, {:?} ns", motion.duration_ns)
         }
         Some(_) => return Ok(()),
-        None => "Equilibrium has no means over time: leave it out".to_owned(),
+        None => "Equilibrium has no means over time: omit this key".to_owned(),
     };
     Err(SceneProblem::new("burn_in_ns", show(burn_in), rule))
 }

@@ -505,6 +505,6 @@ fn before_comma(rest: &str) -> String {
     } else if !word.is_empty() && !begins_with_key(rest) && !rest[word.len()..].starts_with('(') {
         format!("a comma is expected, not {word}; units are part of keys")
     } else {
-        "a comma is missing before this".to_owned()
+        "a comma is missing here".to_owned()
     }
 }

@@ -199,6 +199,6 @@ mod tests {
             assert!(error.message.len() < 3000, "{} bytes", error.message.len());
         }
         let error = Scene::from_ron(&SCENE.replacen("title", &key, 1)).unwrap_err();
-        assert!(error.message.contains("known are title, "), "{error}");
+        assert!(error.message.contains("expected one of title, "), "{error}");
     }
 }

@@ -89,7 +89,7 @@ impl Repulsion {
 
     fn check(&self, note: &mut impl FnMut(Result<(), SceneProblem>)) {
         if !self.filaments && !self.has_walls() {
-            let rule = "repulsion has no effect: write planes or spheres, or leave it out";
+            let rule = "repulsion has no effect: write planes or spheres, or omit this key";
             note(Err(SceneProblem::new("repulsion.filaments", false, rule)));
         }
         note(positive("repulsion.radius_nm", self.radius_nm));

@@ -118,7 +118,8 @@ pub(super) fn check_exactly_one<const N: usize>(
     match found.next() {
         None => Ok(()),
         Some((name, value)) => {
-            let rule = format!("the {what} is given by {first} already: write one of the two");
+            let rule =
+                format!("the {what} is already given by `{first}`: write one of the two keys");
             Err(SceneProblem::new(format!("{key}.{name}"), value, rule))
         }
     }

@@ -10,13 +10,13 @@ pub(super) fn check(scene: &Scene, dynamics: &Dynamics) -> Result<(), SceneProbl
     let refused = |rule| SceneProblem::new("task.leave_saddles", dynamics.leave_saddles, rule);
     if dynamics.thermal.is_some() {
         return Err(refused(
-            "a filament in thermal motion is never at rest on a saddle: leave out leave_saddles or \
+            "a filament in thermal motion is never at rest on a saddle: omit leave_saddles or \
              thermal",
         ));
     }
     if scene.loads.iter().any(Load::follows) {
         return Err(refused(
-            "requires an energy, which loads with follows: true do not have: leave it out",
+            "requires an energy, which loads with follows: true do not have: omit this key",
         ));
     }
     if scene

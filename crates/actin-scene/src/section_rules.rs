@@ -98,7 +98,7 @@ fn check_span(i: usize, section: &Section) -> Result<(), SceneProblem> {
         return Err(SceneProblem::new(
             key("to_nm"),
             show(to),
-            format!("a section's length is positive: must be greater than from_nm = {from:?}"),
+            format!("must be greater than from_nm = {from:?}"),
         ));
     }
     if let Section::Rod {

@@ -158,12 +158,12 @@ fn check_curve(filament: &Filament, shape: &Shape, length: f64) -> Result<(), Sc
         .filter(|whole| *whole < length * (1.0 - SHORT))
     {
         let what = if (whole * 1e3 >= length * (1.0 - SHORT)) && whole * 1e2 < length {
-            "are the points in um? They are read in nm"
+            "the points must be in nm, not in um"
         } else {
-            "it needs more points"
+            "add points"
         };
         let rule =
-            format!("the curve is {whole:.3} nm long, and the filament {length:?} nm: {what}");
+            format!("the curve is {whole:.3} nm long, but the filament {length:?} nm: {what}");
         return Err(SceneProblem::new(key, "", rule));
     }
     let (s_nm, curvature) = curve.largest_curvature(length);

@@ -118,7 +118,7 @@ fn check_shift(
         return Ok(());
     }
     let remedy = match slides {
-        Slides::Freely => "leave the shift out, or write slides: AlongAxis or Nowhere",
+        Slides::Freely => "omit the shift, or write slides: AlongAxis or Nowhere",
         _ => "shift the end across its axis, or write slides: Nowhere",
     };
     let rule = format!(
@@ -137,7 +137,8 @@ fn check_turns(
     check_held((scene, held), prefix, filament, end)?;
     let clamp = held.clamp_at(filament, end).map(|c| &scene.clamps[c]);
     if clamp.is_some_and(|c| c.hold == Hold::Pin && c.hinge.is_none()) {
-        let rule = "this end is pinned and rotates freely: add a hinge to the clamp, or leave the turn out";
+        let rule =
+            "this end is pinned and rotates freely: add a hinge to the clamp, or omit the turn";
         return Err(SceneProblem::new(format!("{prefix}end"), show(end), rule));
     }
     Ok(())

@@ -237,9 +237,9 @@ impl Group {
         if size <= DIGITS * all {
             let balanced = force - residual / factor(i);
             let [x, y, z] = (balanced / load.extent(scene)).into();
-            rule.push(format!(" (it would be balanced as ({x:?}, {y:?}, {z:?}))"));
+            rule.push(format!(" (the sum is zero with ({x:?}, {y:?}, {z:?}))"));
         }
-        rule.push(": it has no equilibrium".to_owned());
+        rule.push(": the filament has no equilibrium".to_owned());
         Err(load.problem(i, rule.concat()))
     }
 }
@@ -381,11 +381,11 @@ mod tests {
             )
         };
         let message = balance(&forces("(0.666666, 0.0, 0.0)"), "");
-        let (_, suggested) = message.split_once("balanced as (").unwrap();
+        let (_, suggested) = message.split_once("the sum is zero with (").unwrap();
         let first = suggested.split_once(')').unwrap().0;
         let corrected = forces("(0.666666, 0.0, 0.0)").replace("0.333333, 0.0, 1.0", first);
         assert_eq!(balance(&corrected, ""), "", "{message}");
-        assert!(!balance(&forces("(0.6, 0.0, 0.0)"), "").contains("balanced as"));
+        assert!(!balance(&forces("(0.6, 0.0, 0.0)"), "").contains("the sum is zero"));
     }
 
     /// A turn vector with six digits counts as parallel to a tilted axis; four digits do not.

@@ -505,15 +505,15 @@ mod tests {
     fn errors_name_the_override_or_the_place() {
         let error = |text: &str, one: &str| with(text, &[one]).unwrap_err().to_string();
         for (one, message) in [
-            ("filament.rod.lav=Fitted", "unknown key lav in RodModel"),
+            ("filament.rod.lav=Fitted", "unknown key `lav` in RodModel"),
             ("filament.rod.law=Fittet", "unknown RodLaw Fittet"),
             (
                 "filament.sections=Adaptive(length_nm: 60.0, want: Tip(error: 0.1, eror: 0.1))",
-                "unknown key eror in Tip",
+                "unknown key `eror` in Tip",
             ),
             (
                 "task.error_of=Curvature(at_nm: 5.0, at: 6.0)",
-                "unknown key at in Curvature",
+                "unknown key `at` in Curvature",
             ),
             ("task.force_pn=zero", "task.force_pn: "),
             (
@@ -533,7 +533,7 @@ mod tests {
         }
         let spoilt = SCENE.replace("clamps", "clumps");
         let found = error(&spoilt, "filament.rod.law=Fitted");
-        assert!(found.starts_with("3:5: unknown key clumps"), "{found}");
+        assert!(found.starts_with("3:5: unknown key `clumps`"), "{found}");
         let negative = SCENE.replace("30.0", "-30.0");
         let found = error(&negative, "filament.rod.law=Fitted");
         assert!(

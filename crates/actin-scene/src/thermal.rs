@@ -59,8 +59,7 @@ pub(super) fn check(dynamics: &Dynamics) -> Result<(), SceneProblem> {
             return Err(SceneProblem::new(
                 format!("task.drag.{name}"),
                 format!("{rate:?}"),
-                "must be greater than 0 with thermal noise: without drag this motion never reaches the \
-                 temperature",
+                "must be greater than 0, because thermal noise requires drag",
             ));
         }
     }
@@ -68,7 +67,7 @@ pub(super) fn check(dynamics: &Dynamics) -> Result<(), SceneProblem> {
         return Err(SceneProblem::new(
             "task.stop",
             "",
-            "a filament in thermal motion never comes to rest: leave out stop or thermal",
+            "a filament in thermal motion never comes to rest: omit stop or thermal",
         ));
     }
     Ok(())

@@ -255,7 +255,7 @@ fn check_monomers(m: &Monomers) -> Result<(), SceneProblem> {
         return Err(SceneProblem::new(
             "filament.monomers.seed",
             m.seed,
-            "quadrature bonds are not sampled: leave the seed out, or write anchors: Independent",
+            "quadrature bonds are not sampled: omit the seed, or write anchors: Independent",
         ));
     }
     Ok(())
@@ -327,7 +327,7 @@ fn check_clamp(
         return Err(SceneProblem::new(
             format!("{key}.hold"),
             show(clamp.hold),
-            "this end consists of monomers: write Wall, which holds the last two",
+            "this end consists of monomers: write Wall, which holds the last two monomers",
         ));
     }
     check_pin(&key, clamp)
@@ -337,7 +337,7 @@ fn check_clamp(
 fn check_pin(key: &str, clamp: &Clamp) -> Result<(), SceneProblem> {
     let is_pinned = clamp.hold == Hold::Pin;
     if is_pinned && clamp.slides == Slides::Freely {
-        let rule = "a pinned end that slides freely is a free end: leave the clamp out";
+        let rule = "a pinned end that slides freely is a free end: omit the clamp";
         return Err(SceneProblem::new(format!("{key}.slides"), "Freely", rule));
     }
     let Some(hinge) = clamp.hinge else {
@@ -345,7 +345,7 @@ fn check_pin(key: &str, clamp: &Clamp) -> Result<(), SceneProblem> {
     };
     let key = format!("{key}.hinge");
     if !is_pinned {
-        let rule = "a hinge requires a pinned end: write hold: Pin, or leave the hinge out";
+        let rule = "a hinge requires a pinned end: write hold: Pin, or omit the hinge";
         return Err(SceneProblem::new(key, "", rule));
     }
     let (bend, twist) = (hinge.bend_pn_nm_per_rad, hinge.twist_pn_nm_per_rad);

@@ -118,7 +118,7 @@ fn listed(
             Err(SceneProblem::new("filament", "", rule))
         }
         (Some(_), Some(_)) => {
-            let rule = "the scene has filament already: write one of the two";
+            let rule = "the scene already has the key `filament`: write one of the two keys";
             Err(SceneProblem::new("filaments", "", rule))
         }
     }

@@ -96,7 +96,7 @@ fn unknown<'a>(step: &str, known: impl Iterator<Item = &'a String>) -> String {
     if step.is_empty() {
         format!("contains several numbers: {known}")
     } else {
-        format!("summary.json has no {step} there: known are {known}")
+        format!("summary.json has no {step} there: expected one of {known}")
     }
 }
 
@@ -156,7 +156,7 @@ mod tests {
         for (name, why) in [
             ("tip_nm", "is a list: write tip_nm[0]"),
             ("tip_nm[3]", "has 3 numbers"),
-            ("energy.sum", "no sum there: known are total"),
+            ("energy.sum", "no sum there: expected one of total"),
             ("energy", "contains several numbers: total"),
             ("status", "is not a number"),
             ("tip_nm.x", "x is not an index"),
@@ -166,7 +166,7 @@ mod tests {
             ),
             (
                 "observables.tip[0]_x_nm.last",
-                "no tip there: known are twist[0]_at_12.5nm",
+                "no tip there: expected one of twist[0]_at_12.5nm",
             ),
         ] {
             let found = refusal(&summary, name).unwrap();

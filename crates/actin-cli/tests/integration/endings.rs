@@ -42,7 +42,7 @@ fn saddles_that_were_left_are_reported() {
             )"
         ));
         let output = place.run("a");
-        let words = "1 saddle(s) were left and 0 sudden jump(s) made";
+        let words = "moved away from 1 saddle(s) and made 0 sudden jump(s)";
         let printed = output;
         assert_eq!(printed.contains(words), saddles > 0, "{printed}");
         assert_eq!(summary(&place)["saddles_left"], saddles);

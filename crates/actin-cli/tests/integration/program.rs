@@ -224,7 +224,7 @@ fn a_law_in_a_bath_is_noted_and_its_fluctuations_are_summed_up() {
             ),
         )",
     );
-    let note = "warning: rods under the law Fitted in a heat bath: ";
+    let note = "warning: rods with the law Fitted in a heat bath: ";
     let checked = place.succeed(&["check", "scene.ron"]);
     assert_eq!(checked.matches(&format!("// {note}")).count(), 1);
     assert!(Scene::from_ron(&checked).is_ok());

@@ -178,7 +178,7 @@ const MISTAKES: &[(&str, &str, &str)] = &[
     (
         "vary:",
         "varies:",
-        "sweep.ron:4:5: unknown key varies in Sweep: known are title, scene, results",
+        "sweep.ron:4:5: unknown key `varies` in Sweep: expected one of title, scene, results",
     ),
     (
         "[1].to_nm",
@@ -203,7 +203,7 @@ const MISTAKES: &[(&str, &str, &str)] = &[
     (
         "counts.segments",
         "counts.segment",
-        "sweep.ron:9:63: results[2] = counts.segment: summary.json has no segment there: known are",
+        "sweep.ron:9:63: results[2] = counts.segment: summary.json has no segment there: expected one of",
     ),
     (
         "number: 3",
@@ -257,7 +257,10 @@ fn all_mistakes_of_a_sweep_are_reported() {
     for (sweep, lines) in [
         (
             unread,
-            &["4:5: unknown key varies", "8:22: samples.number = 0: must"][..],
+            &[
+                "4:5: unknown key `varies`",
+                "8:22: samples.number = 0: must",
+            ][..],
         ),
         (
             rules,

@@ -2,8 +2,8 @@
 
 /// Effect of an end of a rod on shear and twist.
 ///
-/// A filament shears by sliding of its strands, which neighbouring sections share over
-/// [`END_SHEAR_NM`].
+/// A filament shears because its strands slide. The sliding of a section extends over
+/// [`END_SHEAR_NM`] into its neighbour.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum EndShear {
     /// Held section: removes [`END_SHEAR_NM`] of shear and adds

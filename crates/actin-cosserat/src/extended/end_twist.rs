@@ -7,9 +7,9 @@ use actin_mechanics::{Loads, Matrix3, State, Stiffness, Vector3, rotation};
 
 /// Additional length for twist at a blocked end (nm).
 ///
-/// A bond along a strand joins second neighbours and is rotated by both gaps between them. One bond
-/// at a wall has a single gap and resists less. If strands alone resisted twist, the length would
-/// be half a rise (1.4 nm).
+/// A bond along a strand joins second neighbours. The twist of two gaps between monomers rotates
+/// this bond. At a wall one bond spans only one gap and resists less. If only bonds along strands
+/// resisted twist, the length would be half a rise (1.4 nm).
 ///
 /// # Source
 /// Mean filament between walls 25 to 151 nm apart, twisted by 10 to 120 deg per 74 nm in both

@@ -228,7 +228,7 @@ impl SegmentLaw {
 struct Stiffened {
     /// Derivatives at `t + g`.
     with: Jet,
-    /// Derivatives at `t + g` minus those at `t`.
+    /// Derivatives at `t + g` minus derivatives at `t`.
     added: Jet,
     /// Gradients of `p` and `t` with respect to curvature, and of `g` with respect to strain.
     of_p: Vector3,

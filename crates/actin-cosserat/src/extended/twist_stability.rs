@@ -11,7 +11,7 @@ pub struct TwistStability {
     /// Axial force `N` (pN), negative in compression.
     pub tension: f64,
     /// Derivative of the torque about d3 with respect to twist at constant `N`, bending and shear
-    /// (pN nm^2). Twist is unstable if it is not positive.
+    /// (pN nm^2). Twist is unstable if this derivative is not positive.
     pub tangent: f64,
 }
 

@@ -19,7 +19,7 @@ pub struct Evidence {
     pub residual_torque_pn_nm: f64,
     /// Numbers of negative and unresolved eigenvalues of the stiffness matrix.
     pub certificate: Certificate,
-    /// Number of saddles left along their lowest mode since the previous point.
+    /// Number of displacements from saddles along the lowest mode since the previous point.
     pub saddles_left: usize,
     /// Number of jumps since the previous point.
     pub jumps: usize,

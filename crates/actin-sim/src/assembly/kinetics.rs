@@ -319,8 +319,8 @@ impl Assembly {
             for (name, rate) in rates {
                 if rate * step_ns > COARSEST {
                     let rule = format!(
-                        "is {:.2} in a time step of {step_ns:.3e} ns: must be at most {COARSEST}, or \
-                         events come too late; write a shorter task.time_step_ns",
+                        "is {:.2} per time step of {step_ns:.3e} ns, which delays events: must be at most \
+                         {COARSEST}; shorten task.time_step_ns",
                         rate * step_ns
                     );
                     let key = format!("linkers[{i}].kinetics.{name}");

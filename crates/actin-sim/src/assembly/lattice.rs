@@ -204,7 +204,7 @@ fn check(i: usize, section: &Section, resolved: Resolved) -> Result<Resolved, Sc
         return Err(SceneProblem::new(
             key,
             format!("{to_nm:?}"),
-            "no length is left for this section once its ends lie at monomers",
+            "the section is empty after its ends are moved to monomers: write a longer section",
         ));
     }
     Ok(resolved)

@@ -55,8 +55,8 @@ impl Law {
     /// Applies factors of rigidities and a rest shape.
     fn altered(self, altered: &AlteredRod, key: &str) -> Result<Self, SceneProblem> {
         let softened = self.material.softened(&altered.factors()).map_err(|_| {
-            let rule = "has factors of rigidities beside a law that is one potential of all strains: \
-                        leave them out, or write law: Constant";
+            let rule =
+                "this law has no separate rigidities: remove the factors, or write law: Constant";
             SceneProblem::new(key, "", rule)
         })?;
         let material = softened.with_rest_curvature(altered.rest_curvature());
@@ -180,7 +180,7 @@ fn check_beside_law(rod: &RodModel) -> Result<(), SceneProblem> {
             "filament.rod.material",
             format!("{:?}", rod.material),
             format!(
-                "the law {name} has a law for every deformation: leave the material out, or write law: Constant"
+                "the law {name} has a law for every deformation: omit the material, or write law: Constant"
             ),
         ));
     }

@@ -84,16 +84,16 @@ impl Touching {
         match self.part {
             Part::Plane(_) | Part::Sphere(_) => {
                 format!(
-                    "{} is {depth:.2} nm deep in this wall at s = {s:.2} nm",
+                    "{} penetrates this wall by {depth:.2} nm at s = {s:.2} nm",
                     name(a)
                 )
             }
             _ if a == b => format!(
-                "{} is {depth:.2} nm deep in itself at s = {s:.2} and {t:.2} nm",
+                "{} overlaps itself by {depth:.2} nm at s = {s:.2} and {t:.2} nm",
                 name(a)
             ),
             _ => format!(
-                "{} is {depth:.2} nm deep in {} at s = {s:.2} and {t:.2} nm",
+                "{} overlaps {} by {depth:.2} nm at s = {s:.2} and {t:.2} nm",
                 name(a),
                 name(b)
             ),
@@ -133,7 +133,7 @@ impl Assembly {
         pressed
             .map(|touching| {
                 let what = touching.in_words(self.filaments.len());
-                format!("repulsion: as built {what}, so that it is not at rest")
+                format!("repulsion: in the initial state {what}, so it is not an equilibrium")
             })
             .collect()
     }

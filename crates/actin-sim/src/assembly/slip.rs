@@ -40,7 +40,7 @@ impl Assembly {
                 let (whole, each) = (whole.to_degrees(), each.to_degrees());
                 let rule = format!(
                     "the ends of filament {filament} are turned by {whole:.0} deg against each \
-                     other, {each:.0} deg in a joint of two segments: from 180 deg on it slips; \
+                     other, {each:.0} deg in a joint of two segments: a joint loses a turn at 180 deg; \
                      use more segments"
                 );
                 return Err(SceneProblem::new(

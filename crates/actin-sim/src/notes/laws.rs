@@ -49,8 +49,8 @@ fn far_from(temperature_k: f64) -> Option<String> {
     let own = Homogenised::HEATED_K;
     ((temperature_k - own).abs() > NEAR_K).then(|| {
         format!(
-            "rods under the law Homogenised in a heat bath of {temperature_k} K: their free energy was measured at \
-             {own} K (measure another one with cargo xtask homogenise heat --temperature {temperature_k})"
+            "rods with the law Homogenised in a heat bath of {temperature_k} K: their free energy was measured at \
+             {own} K (measure it at this temperature with cargo xtask homogenise heat --temperature {temperature_k})"
         )
     })
 }
@@ -79,8 +79,8 @@ fn is_of_others(rod: &RodModel, monomers: &Monomers) -> bool {
     rod.law.is_homogenised() && *monomers != same
 }
 
-const OF_OTHERS: &str = "rods under the law Homogenised: the law was derived from monomers of the default shape, lattice and bonds, but \
-    the monomers of this scene differ; resolve them, or write law: Constant with suitable rigidities";
+const OF_OTHERS: &str = "rods with the law Homogenised: the law was derived from monomers of the default shape, lattice and bonds, but \
+    the monomers of this scene differ; resolve the rods as monomers, or write law: Constant with suitable rigidities";
 
 fn drawn_bonds(rod: &RodModel, monomers: &Monomers, in_bath: bool) -> Option<String> {
     let bonds = monomers
@@ -96,27 +96,27 @@ fn drawn_bonds(rod: &RodModel, monomers: &Monomers, in_bath: bool) -> Option<Str
     } else {
         (bonds < fewest).then(|| {
             format!(
-                "rods under the law Homogenised with {bonds} sampled bonds per interface: their stiffness is that of \
-                 filaments with {fewest} bonds, the smallest number in the law"
+                "rods with the law Homogenised with {bonds} sampled bonds per interface: the law uses the \
+                 stiffness of filaments with {fewest} bonds, its smallest number"
             )
         })
     }
 }
 
-const DRAWN_IN_BATH: &str = "rods under the law Homogenised at 298 K: they represent the mean filament, although this scene has sampled \
+const DRAWN_IN_BATH: &str = "rods with the law Homogenised at 298 K: they represent the mean filament, although this scene has sampled \
     bonds. The persistence length is 11.2 um with 64 sampled bonds per interface, and 11.5 um for the mean filament \
     (docs/measured/heat.md)";
 
 /// Warning on the published rigidities, with the numbers of bounds met
 /// (`docs/tables/load-cases.md`).
-const CONSTANT: &str = "rods under the law Constant, the published rigidities: of 92 numbers of filaments of monomers under \
-    various loads, this law meets 11 within the required tolerance, Homogenised 82 (cargo xtask load-cases)";
+const CONSTANT: &str = "rods with the law Constant, the published rigidities: this law reproduces 11 of 92 measured \
+    quantities of monomer filaments within the required tolerance, Homogenised 82 (cargo xtask load-cases)";
 
-const HEATED: &str = "rods under the law HomogenisedAt298K without a heat bath: their free energy at 298 K is minimal at a \
-    length 0.46 % below the length as built, so that a rod held at both ends is under tension; Homogenised without heat \
+const HEATED: &str = "rods with the law HomogenisedAt298K without a heat bath: their free energy at 298 K is minimal at a \
+    length 0.46 % below the initial length, so a rod held at both ends is under tension. Without heat, Homogenised \
     is the energy of monomers at zero temperature";
 
-const ATHERMAL: &str = "rods under the law HomogenisedAthermal in a heat bath: it is the energy at zero \
+const ATHERMAL: &str = "rods with the law HomogenisedAthermal in a heat bath: this law is the energy at zero \
     temperature, not a free energy. At 298 K free rods of 110 nm in segments of 10 nm have a persistence length of \
     11.0 um and a twisting rigidity of 7.8e3 pN nm^2, monomers 11.5 um and 7.6e3 pN nm^2 (cargo xtask load-cases)";
 
@@ -132,15 +132,15 @@ fn law_in_bath(rod: &RodModel, temperature_k: f64) -> Option<String> {
         _ => {}
     }
     let Some((name, (persistence, twist))) = fitted_without_heat(&rod.law) else {
-        let note = "rods under Laws in a heat bath: laws fitted to equilibria at zero temperature are not \
+        let note = "rods with the law Laws in a heat bath: laws fitted to equilibria at zero temperature are not \
                     free energies, so the fluctuations of rods differ from those of the fitted \
                     filaments";
         return Some(note.to_owned());
     };
     let (of_monomers, twist_of_monomers) = MONOMERS;
     Some(format!(
-        "rods under the law {name} in a heat bath: its parameters come from equilibria of monomers \
-         at zero temperature, so it is not a free energy. At 298 K free filaments of 110 nm have, with \
+        "rods with the law {name} in a heat bath: its parameters come from equilibria of monomers \
+         at zero temperature, so the law is not a free energy. At 298 K free filaments of 110 nm have, with \
          these rods, a persistence length of {persistence:.1} um and a twisting rigidity of \
          {twist:.1e} pN nm^2, with monomers {of_monomers:.1} um and {twist_of_monomers:.1e} pN nm^2 \
          ({COMMAND})"
@@ -171,7 +171,7 @@ mod tests {
         assert_eq!(found, [HEATED]);
         let heated = notes(filament, BATH);
         assert_eq!(heated.len(), 1, "{heated:?}");
-        assert!(heated[0].starts_with("rods under the law Fitted in a heat bath"));
+        assert!(heated[0].starts_with("rods with the law Fitted in a heat bath"));
     }
 
     /// Each law gives one warning, for any number of filaments.
@@ -203,11 +203,11 @@ mod tests {
         assert_eq!(
             begin,
             [
-                "a rod of 30.0 nm under the law Homogenised",
-                "rods under the law Fitted in a heat bath",
-                "rods under the law Constant in a heat bath",
-                "rods under Laws in a heat bath",
-                "rods under the law HomogenisedAthermal in a heat bath",
+                "a rod of 30.0 nm with the law Homogenised",
+                "rods with the law Fitted in a heat bath",
+                "rods with the law Constant in a heat bath",
+                "rods with the law Laws in a heat bath",
+                "rods with the law HomogenisedAthermal in a heat bath",
             ]
         );
         let at_rest = notes(&filaments, "");

@@ -89,7 +89,7 @@ impl Assembly {
         let is_bound = motion.time_step_ns.is_none() && motion.thermal().is_some();
         (is_bound && segments > 1).then(|| {
             format!(
-                "cells of rod have {segments} segments, which bound the time step: with `segments: 1` in `Following` it \
+                "cells of rod have {segments} segments, which limit the time step: with `segments: 1` in `Following` the time step \
                  may be up to {:.0} times longer",
                 (segments as f64).powi(4)
             )
@@ -163,7 +163,7 @@ impl Assembly {
             .min_by(f64::total_cmp)?;
         (shortest < SHORTEST_NM).then(|| {
             format!(
-                "a rod of {shortest:.1} nm under the law Homogenised: its bending is isotropic, but the compliance of \
+                "a rod of {shortest:.1} nm with the law Homogenised: its bending is isotropic, but the compliance of \
                  monomers between walls 60, 41, 30, 25 nm apart depends on the direction by up to 10, 25, 50, 55 % of the \
                  mean. A rod meets the mean to 3 % for 41 nm and more, 4 % at 30 nm, 7 % at 25 nm \
                  (cargo xtask load-cases --ends)"
@@ -258,7 +258,7 @@ fn unknown_twist(assembly: &Assembly, last: &Record) -> Vec<String> {
     unknown
         .map(|filament| {
             format!(
-                "filament {filament}: whether it has lost twist is not known. Twist plus writhe is not \
+                "filament {filament}: a loss of twist cannot be excluded. Twist plus writhe is not \
                  conclusive if one end has passed the other, if the straight extensions of the ends cross, or \
                  if the ends are tilted and the filament turns back"
             )
@@ -384,7 +384,7 @@ mod tests {
         };
         let found = rods("Homogenised", [40.0, 25.0]);
         assert_eq!(found.len(), 1);
-        assert!(found[0].starts_with("a rod of 25.0 nm under the law Homogenised"));
+        assert!(found[0].starts_with("a rod of 25.0 nm with the law Homogenised"));
         assert_eq!(rods("Homogenised", [61.0, 100.0]), [""; 0]);
         assert_eq!(rods("Fitted", [40.0, 25.0]), [""; 0]);
     }

@@ -170,7 +170,7 @@ fn unstable(scheme: &Composition, wanted: f64, limit: f64, frequency: f64) -> Sc
         format!("{wanted:?}"),
         format!(
             "above the stability limit of {limit:.4e} ns ({} at the largest frequency, \
-             {frequency:.1} rad/ns); allow_unstable_step: true runs it anyway",
+             {frequency:.1} rad/ns): shorten the time step, or set allow_unstable_step: true",
             scheme.name()
         ),
     )

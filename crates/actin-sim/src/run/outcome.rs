@@ -49,7 +49,7 @@ pub struct Outcome {
     pub begun_with_pn_nm: Option<f64>,
     /// Largest kinetic energy at a check of a motion (pN nm).
     pub largest_kinetic_pn_nm: f64,
-    /// Number of saddles left by the path or the motion.
+    /// Number of saddles that the path or the motion reached and moved away from.
     pub saddles_left: usize,
     /// Perturbations of a motion at saddles.
     pub pushes: Vec<SaddlePush>,

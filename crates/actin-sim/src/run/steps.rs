@@ -72,12 +72,14 @@ fn uncountable(dynamics: &Dynamics, largest_ns: f64) -> SceneProblem {
         Some(every) if every < largest_ns => SceneProblem::new(
             "task.record_every_ns",
             format!("{every:?}"),
-            "takes more steps than can be counted, 2^53: none is longer than this",
+            "requires more than 2^53 steps, which cannot be counted: no step is longer than this interval",
         ),
         _ => SceneProblem::new(
             "task.duration_ns",
             format!("{:?}", dynamics.duration_ns),
-            format!("takes more steps of {largest_ns:.4e} ns than can be counted, 2^53"),
+            format!(
+                "requires more than 2^53 steps of {largest_ns:.4e} ns, which cannot be counted"
+            ),
         ),
     }
 }
@@ -202,8 +204,8 @@ impl Estimate {
         };
         differs.then(|| {
             format!(
-                "task.time_step_ns = {asked:?}: steps of {step:.6e} ns are taken, so that whole \
-                 steps make up {whole}"
+                "task.time_step_ns = {asked:?}: steps of {step:.6e} ns are used, which divide {whole} \
+                 evenly"
             )
         })
     }
@@ -223,7 +225,7 @@ impl Estimate {
         differs.then(|| {
             format!(
                 "task.record_every_ns = {asked:?}: records are {every:.6} ns apart, because no step \
-                 of about {:.2e} ns makes up both that interval and the duration of {duration:?} ns",
+                 of about {:.2e} ns divides both this interval and the duration of {duration:?} ns evenly",
                 self.time_step_ns
             )
         })
@@ -319,7 +321,7 @@ mod tests {
         let notes = texts(estimate(&steps).notes(&Task::Dynamics(task)));
         assert_eq!(notes.len(), 2);
         assert!(
-            notes[0].contains("steps of 2.932075e-3 ns are taken"),
+            notes[0].contains("steps of 2.932075e-3 ns are used"),
             "{notes:?}"
         );
         assert!(
@@ -357,8 +359,8 @@ mod tests {
         assert_eq!(
             told,
             [
-                "task.time_step_ns = 0.003: steps of 2.941176e-3 ns are taken, so that whole steps make \
-              up the interval of records and the duration"
+                "task.time_step_ns = 0.003: steps of 2.941176e-3 ns are used, which divide the interval \
+              of records and the duration evenly"
             ]
         );
         assert!(notes("duration_ns: 1.0, record_every_ns: 0.05, time_step_ns: 0.0025").is_empty());

@@ -55,8 +55,7 @@ impl Chosen {
             .most_monomers
             .map_or_else(String::new, |most| format!(" with at most {most} monomers"));
         let found = if self.errors.is_empty() {
-            "; one equilibrium of every monomer is itself the reference, so no comparison was run"
-                .to_owned()
+            "; the all-monomer equilibrium is the reference, so no comparison was run".to_owned()
         } else {
             let errors = self.errors.iter().map(|e| format!("{:.2} %", 100.0 * e));
             let errors: Vec<String> = errors.collect();
@@ -66,15 +65,15 @@ impl Chosen {
                 String::new()
             };
             format!(
-                "; its error against every monomer is {}{part}",
+                "; the error relative to the all-monomer model is {}{part}",
                 errors.join(", ")
             )
         };
         let missed = if self.is_met {
             ""
         } else {
-            ". The wanted errors are not met within so many monomers: this resolution has the smallest \
-             error of all tried. Raise `monomers`, or accept a larger `error`"
+            ". The requested errors are not reached with at most this number of monomers: this resolution has \
+             the smallest error of those compared. Increase `monomers` or `error`"
         };
         let message = format!(
             "sections chosen for {}{limit}: {}{found}{missed}",

@@ -362,7 +362,8 @@ fn moments(item: &Item) -> [Item; 2] {
     [of("mean", Moment::Mean), of("rms", Moment::Fluctuation)]
 }
 
-/// Returns the default quantities: the observables of the scene and its tips, or its heights if no tip is free.
+/// Returns the default quantities: the observables of the scene and the tip displacements, or the heights if no tip
+/// is free.
 fn by_default(assembly: &Assembly) -> Vec<Measure> {
     let mut measures: Vec<Measure> = assembly
         .observed()

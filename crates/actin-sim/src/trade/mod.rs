@@ -34,14 +34,14 @@ use thiserror::Error;
 /// Options of a trade.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Options {
-    /// Compared quantities. An empty list selects the observables of the scene and its tips, or its heights if no tip
-    /// is free.
+    /// Compared quantities. An empty list selects the observables of the scene and the tip displacements, or the heights
+    /// if no tip is free.
     pub measures: Vec<Measure>,
     /// Largest accepted relative error; greater than 0, below 1.
     pub error: f64,
     /// Longest time of one run.
     pub budget: Duration,
-    /// Fractions of the loads, shifts and turns at which candidates within the error also run; each positive.
+    /// Fractions of the loads, shifts and turns at which models within the error run again; each positive.
     pub load_shares: Vec<f64>,
     /// Includes finer meshes and other laws.
     pub is_all: bool,

@@ -27,8 +27,8 @@ impl ModelError {
     pub(crate) fn note(&self, scatter: &Scatter) -> String {
         let size = self.corrected().abs().max(f64::MIN_POSITIVE);
         format!(
-            "{} is {}, and {} with every monomer (error {:.2} %); filaments with {} sampled bonds per interface differ \
-             from every monomer by {:+.2} % on average, with a root mean square difference of {:.2} %",
+            "{} is {}, and {} in the all-monomer model (error {:.2} %); filaments with {} sampled bonds per interface differ \
+             from the all-monomer model by {:+.2} % on average, with a root mean square difference of {:.2} %",
             self.quantity,
             self.quantity.show(self.value),
             self.quantity.show(self.corrected()),

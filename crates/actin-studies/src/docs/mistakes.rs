@@ -18,7 +18,7 @@ const MISTAKES: [(&str, &str); 20] = [
         "fractional-segments",
         "A fraction where a whole number is meant",
     ),
-    ("missing-comma", "A comma left out"),
+    ("missing-comma", "A missing comma"),
     ("equals-sign", "An equals sign for the colon"),
     ("comment-with-a-hash", "A comment as in Python"),
     ("vector-in-square-brackets", "A vector in square brackets"),

@@ -105,7 +105,7 @@ pub(super) fn check_angle(i: usize, segments: usize, angle: f64) -> Result<(), S
         return Ok(());
     }
     let rule = format!(
-        "neighbouring segments would stand at {:.0} deg to each other: use more, so that it is below {:.0}",
+        "the angle between neighbouring segments would be {:.0} deg: use more segments, for less than {:.0} deg",
         angle.to_degrees(),
         LARGEST_ANGLE.to_degrees()
     );

@@ -23,7 +23,7 @@ impl Builder<'_> {
                 return Err(SceneProblem::new(
                     format!("clamps[{i}].hold"),
                     format!("{:?}", clamp.hold),
-                    "holds bodies that the other clamp holds: the filament is too short for both",
+                    "both clamps hold the same bodies: the filament is too short for two clamps",
                 ));
             }
             let strand = &self.strands[clamp.filament];

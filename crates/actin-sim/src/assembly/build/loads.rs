@@ -25,7 +25,7 @@ impl Builder<'_> {
             let interaction = self.load(load, control, &mut nodes).map_err(refused)?;
             let is_zero = load.written().1.iter().all(|x| *x == 0.0);
             if !is_zero && !self.moves(&*interaction, control) {
-                let rule = "acts on held bodies alone, which it does not move";
+                let rule = "acts only on held bodies, so it has no effect";
                 return Err(load.problem(i, rule.to_owned()));
             }
             self.loads.push(control);

@@ -70,7 +70,7 @@ impl Builder<'_> {
             _ => String::new(),
         };
         let rule = format!(
-            "as built {}: farther than the repulsion could push back; place them apart",
+            "in the initial state {}, more than repulsion can separate: increase the distance",
             touching.in_words(self.filaments.len())
         );
         SceneProblem::new(key, value, rule)

@@ -58,7 +58,7 @@ pub struct Summary {
     /// Stability of the equilibrium, or of the rest state of a motion. `None` for motions that are
     /// not at rest or have a heat bath, and for loads without a potential.
     pub stability: Option<StabilitySummary>,
-    /// Number of saddles left during the run.
+    /// Number of saddles that the run reached and moved away from.
     #[serde(default)]
     pub saddles_left: usize,
     /// Perturbations of a motion at saddles; key only if there are any.

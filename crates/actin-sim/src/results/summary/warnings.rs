@@ -79,8 +79,8 @@ impl Summary {
         if self.states.is_none() && self.saddles_left + self.jumps > 0 {
             let (saddles, jumps) = (self.saddles_left, self.jumps);
             let text = format!(
-                "{saddles} saddle(s) were left and {jumps} sudden jump(s) made along the path: other stable states exist, \
-                 and this one may not be connected to the start; set `states: 24` in the task to search for them"
+                "the path moved away from {saddles} saddle(s) and made {jumps} sudden jump(s): other stable states exist, and \
+                 the final state may not be connected to the start; set `states: 24` in the task to search for other states"
             );
             add(codes::OTHER_STATES, text);
         }
