@@ -4,7 +4,7 @@
 //! `warnings` the warnings with their codes. Notes known before a run are in [`Assembly::notes`]
 //! and [`Plan::notes`](crate::Plan::notes); the summary adds those of the run.
 
-pub mod codes;
+pub(crate) mod codes;
 mod laws;
 mod mesh;
 

@@ -62,7 +62,7 @@ impl Ribbon {
     ///
     /// # Panics
     /// If the index is out of range.
-    pub fn of(assembly: &Assembly, filament: usize, state: &State) -> Self {
+    pub(crate) fn of(assembly: &Assembly, filament: usize, state: &State) -> Self {
         let mut ribbon = Self {
             s_nm: Vec::new(),
             points_nm: Vec::new(),

@@ -39,7 +39,7 @@ impl SectionLoads {
     ///
     /// # Panics
     /// If the index is out of range.
-    pub fn of(assembly: &Assembly, filament: usize, state: &State) -> Self {
+    pub(crate) fn of(assembly: &Assembly, filament: usize, state: &State) -> Self {
         let placed = &assembly.filaments[filament];
         let mut loads = Loads::zeros(state);
         for interaction in &assembly.system.interactions()[placed.terms.clone()] {
