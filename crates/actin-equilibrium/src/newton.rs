@@ -69,11 +69,6 @@ impl Newton {
         &self.solver.layout
     }
 
-    /// Mutable layout, to change the directions of groups.
-    pub fn layout_mut(&mut self) -> &mut Layout {
-        &mut self.solver.layout
-    }
-
     /// Options of the solver.
     pub fn options(&self) -> &NewtonOptions {
         &self.options
@@ -123,7 +118,7 @@ impl Newton {
     /// # Errors
     /// If no equilibrium is found or the observer interrupts; `state` is then the best state
     /// reached.
-    pub fn solve_observed(
+    pub(crate) fn solve_observed(
         &mut self,
         state: &mut State,
         interactions: &[Box<dyn Interaction>],
