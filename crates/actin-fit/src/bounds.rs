@@ -52,7 +52,7 @@ impl Bounds {
     ///
     /// # Panics
     /// If the index is out of range.
-    pub fn lower(&self, parameter: usize) -> f64 {
+    pub(crate) fn lower(&self, parameter: usize) -> f64 {
         self.lower[parameter]
     }
 
@@ -60,7 +60,7 @@ impl Bounds {
     ///
     /// # Panics
     /// If the index is out of range.
-    pub fn upper(&self, parameter: usize) -> f64 {
+    pub(crate) fn upper(&self, parameter: usize) -> f64 {
         self.upper[parameter]
     }
 
