@@ -124,7 +124,7 @@ impl Cylinder {
     }
 
     /// Total friction of the rotation end over end about the middle (pN nm ns).
-    pub fn end_over_end(&self) -> f64 {
+    pub(crate) fn end_over_end(&self) -> f64 {
         let p = self.ratio();
         let logarithm = p.ln() - 0.662 + 0.917 / p - 0.050 / (p * p);
         PI * self.viscosity * self.length.powi(3) / (3.0 * logarithm)
