@@ -77,7 +77,7 @@ impl Vectors {
     }
 
     /// Sets every vector to zero.
-    pub fn clear_to_zero(&mut self) {
+    pub(crate) fn clear_to_zero(&mut self) {
         self.x.fill(0.0);
         self.y.fill(0.0);
         self.z.fill(0.0);

@@ -206,7 +206,7 @@ pub struct Sums<S: Simd>([S::f64s; PARTS]);
 impl<S: Simd> Sums<S> {
     /// Zero.
     #[inline(always)]
-    pub fn new(simd: S) -> Self {
+    pub(crate) fn new(simd: S) -> Self {
         Self([simd.splat_f64s(0.0); PARTS])
     }
 
@@ -219,7 +219,7 @@ impl<S: Simd> Sums<S> {
 
     /// Value of the sum.
     #[inline(always)]
-    pub fn total(&self, simd: S) -> f64 {
+    pub(crate) fn total(&self, simd: S) -> f64 {
         let mut parts = [0.0; PARTS];
         for (place, part) in self.0.iter().enumerate().take(PARTS / S::F64_LANES) {
             write(simd, &mut parts, place, *part);

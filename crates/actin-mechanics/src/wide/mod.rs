@@ -32,17 +32,17 @@ mod rotations;
 mod vectors;
 
 pub use columns::{Columns, ColumnsMut, ShiftedDown, ShiftedUp, Sums};
-pub use functions::{clamp, cosine_and_sinc, tanh};
-pub use instructions::{INSTRUCTIONS, arch, chosen_arch};
+pub(crate) use functions::cosine_and_sinc;
+pub use functions::{clamp, tanh};
+pub use instructions::{arch, chosen_arch};
 pub use pulp::{Arch, Scalar, Simd, WithSimd};
+pub(crate) use rotations::product_about_z;
 pub use rotations::{
-    WideQuaternion, log_with_coefficient, matrix, product, product_about_z, relative, turn,
-    turn_back,
+    WideQuaternion, log_with_coefficient, matrix, product, relative, turn, turn_back,
 };
 pub use vectors::{
-    Wide3, WideMatrix, add, add3, cross, cross_add, dot, dot_add, in_lane, lane, load,
-    load_quaternions, load3, mul, mul_add, mul_each, neg, read, scale, scale_add, splat, sub,
-    transpose, write,
+    Wide3, WideMatrix, add, cross, cross_add, dot, dot_add, in_lane, lane, load, load_quaternions,
+    load3, mul, mul_add, mul_each, neg, read, scale, scale_add, splat, sub, transpose, write,
 };
 
 const MOST_LANES: usize = 16;

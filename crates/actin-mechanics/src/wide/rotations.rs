@@ -31,7 +31,7 @@ pub fn product<S: Simd>(simd: S, p: WideQuaternion<S>, q: WideQuaternion<S>) -> 
 
 /// Product `p q` for a rotation `q = (w, 0, 0, z)` about the third axis.
 #[inline(always)]
-pub fn product_about_z<S: Simd>(
+pub(crate) fn product_about_z<S: Simd>(
     simd: S,
     [pw, px, py, pz]: WideQuaternion<S>,
     [w, z]: [S::f64s; 2],
