@@ -38,11 +38,6 @@ impl CrossSection {
         self.linear_density
     }
 
-    /// Area (nm^2).
-    pub fn area(&self) -> f64 {
-        self.area
-    }
-
     /// Mass of a rod of the given length (nm).
     pub fn mass(&self, length: f64) -> f64 {
         self.linear_density * length

@@ -45,7 +45,7 @@ impl RodLayout {
     ///
     /// # Panics
     /// If there is a wall at the start and `first_frame` is 0.
-    pub fn new(
+    pub(crate) fn new(
         first_point: usize,
         first_frame: usize,
         segment_lengths: Vec<f64>,

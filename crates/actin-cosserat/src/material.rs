@@ -198,7 +198,7 @@ impl RodMaterial {
 
     /// Energy per rest length (pN) at shear strain `sigma`.
     #[inline]
-    pub fn shear_energy_density(&self, sigma: Vector3) -> f64 {
+    pub(crate) fn shear_energy_density(&self, sigma: Vector3) -> f64 {
         match &self.kind {
             Kind::Laws(laws) => laws.shear_energy_beyond(sigma, 0.0),
             Kind::Potential(law) => law.segment_energy(sigma, STRAIGHT),
@@ -237,7 +237,7 @@ impl RodMaterial {
 
     /// Energy per rest length (pN) at curvature `kappa` (rad/nm).
     #[inline]
-    pub fn bending_energy_density(&self, kappa: Vector3) -> f64 {
+    pub(crate) fn bending_energy_density(&self, kappa: Vector3) -> f64 {
         let kappa = kappa - self.rest_curvature;
         match &self.kind {
             Kind::Laws(laws) => laws.bending_energy_density(kappa),

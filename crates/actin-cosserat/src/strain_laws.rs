@@ -51,7 +51,7 @@ impl StrainLaws {
     }
 
     /// Law of stretch.
-    pub fn stretch(&self) -> &StretchLaw {
+    pub(crate) fn stretch(&self) -> &StretchLaw {
         &self.stretch
     }
 

@@ -24,7 +24,7 @@ pub enum EndShear {
 /// Guided beams of the mean filament of 19 to 192 nm under a transverse force of 0.01 pN, averaged
 /// over azimuths: 5.5, 5.6, 5.5, 5.4, 5.1, 4.6 nm for tensions of 1, 2, 5, 10, 20, 40 pN
 /// (`docs/how-to/rod-laws.md`).
-pub const END_SHEAR_NM: f64 = 5.477;
+pub(crate) const END_SHEAR_NM: f64 = 5.477;
 
 impl EndShear {
     fn sign(self) -> f64 {

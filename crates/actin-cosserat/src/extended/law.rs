@@ -93,7 +93,7 @@ impl SegmentLaw {
     }
 
     /// Law of twist and stretch.
-    pub fn twist_stretch(&self) -> Option<&TwistStretch> {
+    pub(crate) fn twist_stretch(&self) -> Option<&TwistStretch> {
         self.twist_stretch.as_ref()
     }
 

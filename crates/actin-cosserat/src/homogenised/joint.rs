@@ -11,7 +11,7 @@ use actin_mechanics::{Matrix3, Vector3};
 
 impl Homogenised {
     /// Energy per length (pN) of a joint at curvature `kappa` (rad/nm).
-    pub fn joint_energy(&self, kappa: Vector3) -> f64 {
+    pub(crate) fn joint_energy(&self, kappa: Vector3) -> f64 {
         self.energy_density(&self.unsheared(kappa))
     }
 
@@ -21,7 +21,7 @@ impl Homogenised {
     }
 
     /// Derivative of the torque (pN nm^2), symmetric.
-    pub fn joint_tangent(&self, kappa: Vector3) -> Matrix3 {
+    pub(crate) fn joint_tangent(&self, kappa: Vector3) -> Matrix3 {
         self.joint_jet(kappa).1
     }
 
