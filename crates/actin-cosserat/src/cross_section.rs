@@ -39,7 +39,7 @@ impl CrossSection {
     }
 
     /// Mass of a rod of the given length (nm).
-    pub fn mass(&self, length: f64) -> f64 {
+    pub(crate) fn mass(&self, length: f64) -> f64 {
         self.linear_density * length
     }
 

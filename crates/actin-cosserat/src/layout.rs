@@ -142,7 +142,7 @@ impl RodLayout {
 
     /// Number of elements: one shear element per segment, `n - 1` bending elements, and one more
     /// per wall.
-    pub fn elements(&self) -> usize {
+    pub(crate) fn elements(&self) -> usize {
         self.segment_lengths.len() + self.voronoi_lengths.len()
     }
 

@@ -56,7 +56,7 @@ impl StrainLaws {
     }
 
     /// Law of shear.
-    pub fn shear(&self) -> &CubicShear {
+    pub(crate) fn shear(&self) -> &CubicShear {
         &self.shear
     }
 

@@ -21,13 +21,13 @@ pub(crate) const LEFT_HANDED_TURNS_PER_PERIOD: f64 = 12.0;
 /// Rise per monomer (nm): 71.2 / 26 = 2.7385.
 ///
 /// Table 1 gives 5.52 nm per step of one strand, that is 2.76 nm per monomer.
-pub const RISE: f64 = PERIOD / MONOMERS_PER_PERIOD;
+pub(crate) const RISE: f64 = PERIOD / MONOMERS_PER_PERIOD;
 
 /// Turn about the axis per monomer (rad): -360 x 12 / 26 = -166.154 degrees.
-pub const TURN: f64 = -TAU * LEFT_HANDED_TURNS_PER_PERIOD / MONOMERS_PER_PERIOD;
+pub(crate) const TURN: f64 = -TAU * LEFT_HANDED_TURNS_PER_PERIOD / MONOMERS_PER_PERIOD;
 
 /// Distance of the monomer centres from the axis (nm): "effective interaction radius" of Table 1.
-pub const RADIUS: f64 = 1.8;
+pub(crate) const RADIUS: f64 = 1.8;
 
 /// Semi-axes along the radial, tangential and axial direction (nm): half of Table 1's dimensions
 /// 5.4 x 5.4 x 3.8 nm. Choosing the short axis to be radial is a choice.
@@ -69,4 +69,4 @@ pub const BONDS_PER_INTERFACE: usize = 64;
 pub const POINTS_PER_INTERFACE: usize = 12;
 
 /// Mass of a monomer (1e-21 kg = pN ns^2/nm): 42 kDa.
-pub const MASS: f64 = 0.0697;
+pub(crate) const MASS: f64 = 0.0697;

@@ -38,7 +38,7 @@ impl InterfaceKind {
     }
 
     /// Parameters of this kind of interface.
-    pub fn parameters(self, parameters: &EllipsoidParameters) -> &InterfaceParameters {
+    pub(crate) fn parameters(self, parameters: &EllipsoidParameters) -> &InterfaceParameters {
         match self {
             Self::Lateral => &parameters.lateral,
             Self::Longitudinal => &parameters.longitudinal,

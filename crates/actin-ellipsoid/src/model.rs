@@ -53,11 +53,6 @@ impl EllipsoidModel {
         Ellipsoid::new(self.parameters.semi_axes)
     }
 
-    /// Inertia of one monomer.
-    pub fn inertia(&self) -> Inertia {
-        self.inertia
-    }
-
     /// Appends `count` monomers at rest, starting with lattice index `first_index`, to a state.
     ///
     /// # Errors

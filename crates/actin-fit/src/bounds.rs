@@ -39,13 +39,8 @@ impl Bounds {
     }
 
     /// Number of parameters.
-    pub fn len(&self) -> usize {
+    pub(crate) fn len(&self) -> usize {
         self.lower.len()
-    }
-
-    /// Returns `true` if the number of parameters is zero.
-    pub fn is_empty(&self) -> bool {
-        self.lower.is_empty()
     }
 
     /// Lower bound of a parameter.

@@ -62,7 +62,7 @@ impl Vectors {
     }
 
     /// Appends a vector.
-    pub fn push(&mut self, v: Vector3) {
+    pub(crate) fn push(&mut self, v: Vector3) {
         self.x.push(v.x);
         self.y.push(v.y);
         self.z.push(v.z);

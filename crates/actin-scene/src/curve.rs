@@ -139,7 +139,7 @@ impl Curve {
     }
 
     /// Returns the length (nm) of a spline; other curves are unbounded.
-    pub fn length(&self) -> Option<f64> {
+    pub(crate) fn length(&self) -> Option<f64> {
         self.length
     }
 

@@ -67,7 +67,7 @@ impl Design {
     }
 
     /// Returns a run by its index.
-    pub fn run(&self, index: usize) -> Run {
+    pub(crate) fn run(&self, index: usize) -> Run {
         let of_point = self.runs_of_point();
         Run {
             index,

@@ -181,7 +181,7 @@ impl SidedTwist {
     }
 
     /// Energy per length (pN): integral of the torque, accurate to round-off.
-    pub fn energy_density(&self, k: f64) -> f64 {
+    pub(crate) fn energy_density(&self, k: f64) -> f64 {
         let inside = k.clamp(-self.range, self.range);
         let side = self.side(k);
         let energy = 0.5 * self.rest * inside * inside + side.rise * side.moment(inside.abs());

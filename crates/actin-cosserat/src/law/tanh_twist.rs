@@ -163,7 +163,7 @@ impl TanhTwist {
     }
 
     /// Energy per length (pN): integral of the torque, accurate to round-off.
-    pub fn energy_density(&self, k: f64) -> f64 {
+    pub(crate) fn energy_density(&self, k: f64) -> f64 {
         let inside = k.clamp(-self.range, self.range);
         let (mean, steps) = self.steps();
         let step = |[height, centre, width]: [f64; 3]| height * tanh_energy(inside, centre, width);

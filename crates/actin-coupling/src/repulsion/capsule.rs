@@ -97,7 +97,7 @@ impl Capsule {
     }
 
     /// Rest length (nm).
-    pub fn length(&self) -> f64 {
+    pub(crate) fn length(&self) -> f64 {
         self.length
     }
 

@@ -31,17 +31,18 @@ mod instructions;
 mod rotations;
 mod vectors;
 
-pub use columns::{Columns, ColumnsMut, ShiftedDown, ShiftedUp, Sums};
+pub(crate) use columns::Sums;
+pub use columns::{Columns, ColumnsMut, ShiftedDown, ShiftedUp};
 pub(crate) use functions::cosine_and_sinc;
 pub use functions::{clamp, tanh};
 pub use instructions::{arch, chosen_arch};
 pub use pulp::{Arch, Scalar, Simd, WithSimd};
+pub(crate) use rotations::product;
 pub(crate) use rotations::product_about_z;
-pub use rotations::{
-    WideQuaternion, log_with_coefficient, matrix, product, relative, turn, turn_back,
-};
+pub use rotations::{WideQuaternion, log_with_coefficient, matrix, relative, turn, turn_back};
+pub(crate) use vectors::dot;
 pub use vectors::{
-    Wide3, WideMatrix, add, cross, cross_add, dot, dot_add, in_lane, lane, load, load_quaternions,
+    Wide3, WideMatrix, add, cross, cross_add, dot_add, in_lane, lane, load, load_quaternions,
     load3, mul, mul_add, mul_each, neg, read, scale, scale_add, splat, sub, transpose, write,
 };
 

@@ -190,7 +190,7 @@ pub fn neg<S: Simd>(simd: S, a: Wide3<S>) -> Wide3<S> {
 
 /// `a . b`.
 #[inline(always)]
-pub fn dot<S: Simd>(simd: S, a: Wide3<S>, b: Wide3<S>) -> S::f64s {
+pub(crate) fn dot<S: Simd>(simd: S, a: Wide3<S>, b: Wide3<S>) -> S::f64s {
     let sum = simd.mul_f64s(a[0], b[0]);
     let sum = simd.mul_add_e_f64s(a[1], b[1], sum);
     simd.mul_add_e_f64s(a[2], b[2], sum)

@@ -200,7 +200,7 @@ pub enum Resolution {
 
 impl SectionSpan {
     /// Number of bonds; 0 for a rod.
-    pub fn bonds(&self) -> usize {
+    pub(crate) fn bonds(&self) -> usize {
         match self.resolution {
             Resolution::Ellipsoids { bonds, .. } => bonds,
             Resolution::Rod { .. } => 0,

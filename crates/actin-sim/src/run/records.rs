@@ -32,7 +32,7 @@ impl At {
     }
 
     /// Path parameter; `None` for a motion in time.
-    pub fn path(self) -> Option<f64> {
+    pub(crate) fn path(self) -> Option<f64> {
         match self {
             Self::Time(_) => None,
             Self::Path(parameter) => Some(parameter),

@@ -71,7 +71,7 @@ impl SectionLoads {
     }
 
     /// Returns the internal load at an arc length (nm); zero beyond the ends of the filament.
-    pub fn at(&self, s_nm: f64) -> SectionLoad {
+    pub(crate) fn at(&self, s_nm: f64) -> SectionLoad {
         let after = self.resultants.partition_point(|one| one.s_nm > s_nm);
         let Some(last) = after.checked_sub(1) else {
             return SectionLoad::default();
