@@ -131,7 +131,7 @@ impl Cylinder {
     }
 
     /// Friction across the axis at each end (pN ns/nm): `3 Z_r/L^2 - Z_t/4`. `Z_r` is the friction
-    /// [`end_over_end`](Self::end_over_end) without [`tilt`](Self::tilt), and `Z_t` the total
+    /// `end_over_end` without [`tilt`](Self::tilt), and `Z_t` the total
     /// friction across.
     pub fn at_ends(&self) -> f64 {
         let of_whole = self.across() * self.length;

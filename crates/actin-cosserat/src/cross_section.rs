@@ -25,7 +25,7 @@ impl CrossSection {
         })
     }
 
-    /// Cross-section of actin: [`constants::LINEAR_DENSITY`] and [`constants::CROSS_SECTION_AREA`].
+    /// Cross-section of actin: `constants::LINEAR_DENSITY` and [`constants::CROSS_SECTION_AREA`].
     pub fn actin() -> Self {
         Self {
             linear_density: constants::LINEAR_DENSITY,

@@ -105,7 +105,7 @@ impl RodMaterial {
     /// ```
     ///
     /// # Errors
-    /// If [`TwistLaw::validate`] fails, or if the material is a potential.
+    /// If `TwistLaw::validate` fails, or if the material is a potential.
     pub fn with_twist(self, twist: TwistLaw) -> Result<Self, RodParameterError> {
         twist.validate()?;
         let laws = self.replaceable(RodKey::Twist)?;
@@ -115,7 +115,7 @@ impl RodMaterial {
     /// Replaces the law of bending.
     ///
     /// # Errors
-    /// If [`BendLaw::validate`] fails, or if the material is a potential.
+    /// If `BendLaw::validate` fails, or if the material is a potential.
     pub fn with_bend(self, bend: BendLaw) -> Result<Self, RodParameterError> {
         bend.validate()?;
         let laws = self.replaceable(RodKey::Bend)?;
@@ -125,7 +125,7 @@ impl RodMaterial {
     /// Replaces the law of stretch.
     ///
     /// # Errors
-    /// If [`StretchLaw::validate`] fails, or if the material is a potential.
+    /// If `StretchLaw::validate` fails, or if the material is a potential.
     pub fn with_stretch(self, stretch: StretchLaw) -> Result<Self, RodParameterError> {
         stretch.validate()?;
         let laws = self.replaceable(RodKey::Tension)?;
@@ -135,7 +135,7 @@ impl RodMaterial {
     /// Replaces the law of shear.
     ///
     /// # Errors
-    /// If [`CubicShear::validate`] fails, or if the material is a potential.
+    /// If `CubicShear::validate` fails, or if the material is a potential.
     pub fn with_shear(self, shear: CubicShear) -> Result<Self, RodParameterError> {
         shear.validate()?;
         let laws = self.replaceable(RodKey::Shear)?;

@@ -28,7 +28,7 @@ impl EllipsoidModel {
     /// Model with the given parameters.
     ///
     /// # Errors
-    /// Invalid parameters ([`EllipsoidParameters::validate`]) or three different semi-axes.
+    /// Invalid parameters (`EllipsoidParameters::validate`) or three different semi-axes.
     pub fn new(parameters: EllipsoidParameters) -> Result<Self, EllipsoidParameterError> {
         parameters.validate()?;
         let inertia = Ellipsoid::new(parameters.semi_axes).inertia(parameters.mass)?;

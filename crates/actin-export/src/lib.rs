@@ -1,8 +1,7 @@
 //! Export of runs of actin filaments to files of other programs.
 //!
-//! [`export`] writes a [`FinishedRun`] to a file in a [`Format`]. [`write_gsd`] and [`write_simularium`] write to any
-//! writer. [`Particles`] describes the bodies of a run as particles and bonds, for all formats. Positions are stored
-//! in single precision, and the run directory is not changed.
+//! [`export`] writes a [`FinishedRun`] to a file in a [`Format`]. Positions are stored in single precision, and the
+//! run directory is not changed.
 
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]

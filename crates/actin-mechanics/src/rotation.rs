@@ -153,7 +153,7 @@ pub fn right_jacobian_inverse(theta: Vector3) -> Matrix3 {
 /// ```
 ///
 /// The coefficients are `c` ([`inverse_jacobian_coefficient`]) and `c'`
-/// ([`inverse_jacobian_coefficient_slope`]). Row `i` belongs to component `i` of the torque.
+/// (`inverse_jacobian_coefficient_slope`). Row `i` belongs to component `i` of the torque.
 ///
 /// ```
 /// use actin_mechanics::{Vector3, rotation};

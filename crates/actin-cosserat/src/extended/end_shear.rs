@@ -3,16 +3,16 @@
 /// Effect of an end of a rod on shear and twist.
 ///
 /// A filament shears by sliding of its strands, which neighbouring sections share over
-/// [`END_SHEAR_NM`].
+/// `END_SHEAR_NM`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum EndShear {
-    /// Held section: removes [`END_SHEAR_NM`] of shear and adds
-    /// [`END_TWIST_NM`](super::END_TWIST_NM) of twist.
+    /// Held section: removes `END_SHEAR_NM` of shear and adds
+    /// `END_TWIST_NM` of twist.
     Blocked,
     /// No effect.
     #[default]
     Even,
-    /// Free or pinned end, or a neighbour that blocks shear on its side: adds [`END_SHEAR_NM`] of
+    /// Free or pinned end, or a neighbour that blocks shear on its side: adds `END_SHEAR_NM` of
     /// shear.
     Loose,
 }

@@ -15,7 +15,7 @@ impl Homogenised {
         self.energy_density(&self.unsheared(kappa))
     }
 
-    /// Torque (pN nm), the gradient of [`joint_energy`](Self::joint_energy).
+    /// Torque (pN nm), the gradient of `joint_energy`.
     pub fn joint_couple(&self, kappa: Vector3) -> Vector3 {
         self.unrolled.bending(Scalar, kappa.into()).into()
     }

@@ -21,7 +21,7 @@ impl TwistStretch {
         Self::Polynomial(PolynomialStretch::published())
     }
 
-    /// Linear law; see [`PolynomialStretch::linear`].
+    /// Linear law; see `PolynomialStretch::linear`.
     pub fn linear(c3: f64, s3: f64) -> Self {
         Self::Polynomial(PolynomialStretch::linear(c3, s3))
     }

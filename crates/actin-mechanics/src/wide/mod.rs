@@ -18,7 +18,7 @@
 //! Functions of small angles are polynomials in the squared angle (`functions.rs`), accurate to
 //! round-off; larger angles are computed by scalar functions. Multiplications and additions are
 //! fused if possible, so results may differ from the reference in the last digits. Results with
-//! four and eight lanes are identical to the bit, because sums over bodies ([`Sums`],
+//! four and eight lanes are identical to the bit, because sums over bodies (`Sums`,
 //! [`ShiftedUp`]) have a fixed order.
 #![allow(
     clippy::inline_always,
