@@ -387,7 +387,7 @@ mod tests {
     fn elements_without_length_are_refused() {
         let (_, law) = curved();
         for value in [0.0, -1.0, f64::NAN, f64::INFINITY] {
-            let (mut segments, mut joints) = (law.segments.to_vec(), law.joints.to_vec());
+            let (mut segments, mut joints) = (law.segments.clone(), law.joints.clone());
             joints[2].rest_distance = value;
             let error = RodElements::new(law.material, segments.clone(), joints).unwrap_err();
             assert!(matches!(error, RodError::JointDistance { joint: 2, .. }));
