@@ -70,7 +70,7 @@ impl Starts {
     /// # Errors
     /// If a start does not match the bounds, a bound of random starts is infinite, or the list is
     /// empty.
-    pub(crate) fn points(&self, bounds: &Bounds) -> Result<Vec<Vec<f64>>, FitError> {
+    pub fn points(&self, bounds: &Bounds) -> Result<Vec<Vec<f64>>, FitError> {
         let mut points = self.given.clone();
         for (number, point) in points.iter().enumerate() {
             bounds.check(number, point)?;
