@@ -124,14 +124,14 @@ impl Cylinder {
     }
 
     /// Total friction of the rotation end over end about the middle (pN nm ns).
-    pub fn end_over_end(&self) -> f64 {
+    pub(crate) fn end_over_end(&self) -> f64 {
         let p = self.ratio();
         let logarithm = p.ln() - 0.662 + 0.917 / p - 0.050 / (p * p);
         PI * self.viscosity * self.length.powi(3) / (3.0 * logarithm)
     }
 
     /// Friction across the axis at each end (pN ns/nm): `3 Z_r/L^2 - Z_t/4`. `Z_r` is the friction
-    /// [`end_over_end`](Self::end_over_end) without [`tilt`](Self::tilt), and `Z_t` the total
+    /// `end_over_end` without [`tilt`](Self::tilt), and `Z_t` the total
     /// friction across.
     pub fn at_ends(&self) -> f64 {
         let of_whole = self.across() * self.length;

@@ -5,7 +5,7 @@ pub const TABLE_4_SHEAR: [f64; 3] = [1.6e4, 1.6e4, 3.4e4];
 
 /// Rigidities of bending (two) and twist (pN nm^2). Source: arXiv 2203.01284, Table 4, and Appendix
 /// B for B3.
-pub const TABLE_4_BEND: [f64; 3] = [3.9e4, 3.9e4, 1.3e4];
+pub(crate) const TABLE_4_BEND: [f64; 3] = [3.9e4, 3.9e4, 1.3e4];
 
 /// Young's modulus (pN/nm^2). Source: arXiv 2203.01284, Table 2.
 pub const PRECEDING_PAPER_YOUNG_MODULUS: f64 = 2000.0;
@@ -17,7 +17,7 @@ pub const PRECEDING_PAPER_POISSON_RATIO: f64 = 0.4;
 pub const CROSS_SECTION_AREA: f64 = 38.5;
 
 /// Mass per length (pN ns^2/nm^2): 42 kDa per rise of 71.2/26 nm, as for filaments of monomers.
-pub const LINEAR_DENSITY: f64 = 0.0697 / (71.2 / 26.0);
+pub(crate) const LINEAR_DENSITY: f64 = 0.0697 / (71.2 / 26.0);
 
 /// Limit of the twist rigidity in over-twist (pN nm^2). Source: arXiv 2203.01284, Appendix B.
 pub const B3_PLUS: f64 = 1.6e4;
@@ -39,7 +39,7 @@ pub const XI_COEFFICIENTS: [f64; 7] = [
 
 /// Largest twist (rad/nm) of the fitted rows of Tables 3 and 5: 200 degrees over 75.5 nm. Source:
 /// arXiv 2203.01284, Appendix B.
-pub const TWIST_RANGE: f64 = 0.0462;
+pub(crate) const TWIST_RANGE: f64 = 0.0462;
 
 /// Coupling `C3` of stretch and twist (pN nm): slope -0.2831 nm of length against twist times S3 =
 /// 3.4e4 pN.

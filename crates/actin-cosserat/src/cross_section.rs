@@ -25,7 +25,7 @@ impl CrossSection {
         })
     }
 
-    /// Cross-section of actin: [`constants::LINEAR_DENSITY`] and [`constants::CROSS_SECTION_AREA`].
+    /// Cross-section of actin: `constants::LINEAR_DENSITY` and [`constants::CROSS_SECTION_AREA`].
     pub fn actin() -> Self {
         Self {
             linear_density: constants::LINEAR_DENSITY,
@@ -38,13 +38,8 @@ impl CrossSection {
         self.linear_density
     }
 
-    /// Area (nm^2).
-    pub fn area(&self) -> f64 {
-        self.area
-    }
-
     /// Mass of a rod of the given length (nm).
-    pub fn mass(&self, length: f64) -> f64 {
+    pub(crate) fn mass(&self, length: f64) -> f64 {
         self.linear_density * length
     }
 

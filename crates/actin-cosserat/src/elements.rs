@@ -155,18 +155,8 @@ impl RodElements {
         Self::new(material, segments.collect(), joints.collect())
     }
 
-    /// Segments of the rod.
-    pub fn segments(&self) -> &[RodSegment] {
-        &self.segments
-    }
-
-    /// Joints of the rod.
-    pub fn joints(&self) -> &[RodJoint] {
-        &self.joints
-    }
-
     /// Curvature of each joint relative to the rest shape (rad/nm, axes of the joint's frames).
-    pub fn curvatures<'a>(
+    pub(crate) fn curvatures<'a>(
         &'a self,
         state: &'a State,
     ) -> impl ExactSizeIterator<Item = Vector3> + 'a {
@@ -397,7 +387,7 @@ mod tests {
     fn elements_without_length_are_refused() {
         let (_, law) = curved();
         for value in [0.0, -1.0, f64::NAN, f64::INFINITY] {
-            let (mut segments, mut joints) = (law.segments().to_vec(), law.joints().to_vec());
+            let (mut segments, mut joints) = (law.segments.clone(), law.joints.clone());
             joints[2].rest_distance = value;
             let error = RodElements::new(law.material, segments.clone(), joints).unwrap_err();
             assert!(matches!(error, RodError::JointDistance { joint: 2, .. }));

@@ -104,7 +104,7 @@ impl RodParameterError {
     ///
     /// # Errors
     /// If `value` is zero, negative, infinite or NaN.
-    pub fn unless_positive(key: RodKey, value: f64) -> Result<(), Self> {
+    pub(crate) fn unless_positive(key: RodKey, value: f64) -> Result<(), Self> {
         if value.is_finite() && value > 0.0 {
             Ok(())
         } else {
@@ -117,7 +117,7 @@ impl RodParameterError {
     ///
     /// # Errors
     /// If `value` is infinite or NaN.
-    pub fn unless_finite(key: RodKey, value: f64) -> Result<(), Self> {
+    pub(crate) fn unless_finite(key: RodKey, value: f64) -> Result<(), Self> {
         if value.is_finite() {
             Ok(())
         } else {

@@ -45,7 +45,7 @@ impl RodLayout {
     ///
     /// # Panics
     /// If there is a wall at the start and `first_frame` is 0.
-    pub fn new(
+    pub(crate) fn new(
         first_point: usize,
         first_frame: usize,
         segment_lengths: Vec<f64>,
@@ -142,7 +142,7 @@ impl RodLayout {
 
     /// Number of elements: one shear element per segment, `n - 1` bending elements, and one more
     /// per wall.
-    pub fn elements(&self) -> usize {
+    pub(crate) fn elements(&self) -> usize {
         self.segment_lengths.len() + self.voronoi_lengths.len()
     }
 

@@ -45,10 +45,7 @@ pub use cross_section::CrossSection;
 pub use elements::{RodElements, RodJoint, RodSegment};
 pub use energy_gradient::EnergyGradient;
 pub use error::{RodError, RodParameterError};
-pub use extended::{
-    END_SHEAR_NM, END_TWIST_NM, EndShear, JoinedElement, SegmentCurvature, SegmentLaw,
-    TwistStability,
-};
+pub use extended::{EndShear, JoinedElement, SegmentCurvature, SegmentLaw, TwistStability};
 pub use homogenised::{Homogenised, HomogenisedForm, PotentialJet, StrainRange, Term};
 pub use key::RodKey;
 pub use law::{

@@ -106,7 +106,7 @@ impl RodMaterial {
     /// ```
     ///
     /// # Errors
-    /// If [`TwistLaw::validate`] fails, or if the material is a potential.
+    /// If `TwistLaw::validate` fails, or if the material is a potential.
     pub fn with_twist(self, twist: TwistLaw) -> Result<Self, RodParameterError> {
         twist.validate()?;
         let laws = self.replaceable(RodKey::Twist)?;
@@ -116,7 +116,7 @@ impl RodMaterial {
     /// Replaces the law of bending.
     ///
     /// # Errors
-    /// If [`BendLaw::validate`] fails, or if the material is a potential.
+    /// If `BendLaw::validate` fails, or if the material is a potential.
     pub fn with_bend(self, bend: BendLaw) -> Result<Self, RodParameterError> {
         bend.validate()?;
         let laws = self.replaceable(RodKey::Bend)?;
@@ -126,7 +126,7 @@ impl RodMaterial {
     /// Replaces the law of stretch.
     ///
     /// # Errors
-    /// If [`StretchLaw::validate`] fails, or if the material is a potential.
+    /// If `StretchLaw::validate` fails, or if the material is a potential.
     pub fn with_stretch(self, stretch: StretchLaw) -> Result<Self, RodParameterError> {
         stretch.validate()?;
         let laws = self.replaceable(RodKey::Tension)?;
@@ -136,7 +136,7 @@ impl RodMaterial {
     /// Replaces the law of shear.
     ///
     /// # Errors
-    /// If [`CubicShear::validate`] fails, or if the material is a potential.
+    /// If `CubicShear::validate` fails, or if the material is a potential.
     pub fn with_shear(self, shear: CubicShear) -> Result<Self, RodParameterError> {
         shear.validate()?;
         let laws = self.replaceable(RodKey::Shear)?;
@@ -199,7 +199,7 @@ impl RodMaterial {
 
     /// Energy per rest length (pN) at shear strain `sigma`.
     #[inline]
-    pub fn shear_energy_density(&self, sigma: Vector3) -> f64 {
+    pub(crate) fn shear_energy_density(&self, sigma: Vector3) -> f64 {
         match &self.kind {
             Kind::Laws(laws) => laws.shear_energy_beyond(sigma, 0.0),
             Kind::Potential(law) => law.segment_energy(sigma, STRAIGHT),
@@ -238,7 +238,7 @@ impl RodMaterial {
 
     /// Energy per rest length (pN) at curvature `kappa` (rad/nm).
     #[inline]
-    pub fn bending_energy_density(&self, kappa: Vector3) -> f64 {
+    pub(crate) fn bending_energy_density(&self, kappa: Vector3) -> f64 {
         let kappa = kappa - self.rest_curvature;
         match &self.kind {
             Kind::Laws(laws) => laws.bending_energy_density(kappa),

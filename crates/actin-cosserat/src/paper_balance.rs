@@ -76,16 +76,6 @@ impl PaperBalance {
         }
     }
 
-    /// Layout of the rod.
-    pub fn layout(&self) -> &RodLayout {
-        &self.layout
-    }
-
-    /// Material of the rod.
-    pub fn material(&self) -> &RodMaterial {
-        &self.material
-    }
-
     #[inline]
     fn add_segment(&self, k: usize, state: &State, loads: &mut Loads) {
         let (i, frame) = (

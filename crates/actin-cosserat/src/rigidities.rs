@@ -73,7 +73,7 @@ impl Rigidities {
     ///
     /// # Errors
     /// If a rigidity is not positive and finite.
-    pub fn validate(&self) -> Result<(), RodParameterError> {
+    pub(crate) fn validate(&self) -> Result<(), RodParameterError> {
         for (key, value) in [RodKey::S1, RodKey::S2, RodKey::S3]
             .into_iter()
             .zip(&self.shear)
@@ -120,7 +120,7 @@ impl RigidityFactors {
     ///
     /// # Errors
     /// If a factor is not positive and finite.
-    pub fn validate(&self) -> Result<(), RodParameterError> {
+    pub(crate) fn validate(&self) -> Result<(), RodParameterError> {
         let all = [self.shear, self.stretch, self.bend, self.twist];
         all.into_iter()
             .try_for_each(|value| RodParameterError::unless_positive(RodKey::Factor, value))

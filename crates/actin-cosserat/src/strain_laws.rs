@@ -51,12 +51,12 @@ impl StrainLaws {
     }
 
     /// Law of stretch.
-    pub fn stretch(&self) -> &StretchLaw {
+    pub(crate) fn stretch(&self) -> &StretchLaw {
         &self.stretch
     }
 
     /// Law of shear.
-    pub fn shear(&self) -> &CubicShear {
+    pub(crate) fn shear(&self) -> &CubicShear {
         &self.shear
     }
 

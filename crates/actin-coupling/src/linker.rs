@@ -33,7 +33,7 @@ impl Anchor {
     }
 
     /// Current position (nm, lab frame).
-    pub fn position(&self, state: &State) -> Vector3 {
+    pub(crate) fn position(&self, state: &State) -> Vector3 {
         let displacement = self
             .controls
             .map(|c| c.map(|component| state.controls[component]));

@@ -78,11 +78,6 @@ impl SiteForce {
         })
     }
 
-    /// Control of the factor.
-    pub fn control(&self) -> ControlId {
-        self.control
-    }
-
     /// Force on a site (pN, lab frame); `rest` is the initial orientation of its frame.
     fn force_on(&self, site: &Site, rest: UnitQuaternion, state: &State) -> Vector3 {
         let force = self.force * state.controls[self.control];

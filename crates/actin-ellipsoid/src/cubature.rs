@@ -212,7 +212,7 @@ impl CubaturePoint {
 impl MomentCheck {
     /// Returns `true` if weights are positive and lengths and positions are those of possible
     /// bonds.
-    pub fn is_within_bounds(&self) -> bool {
+    pub(crate) fn is_within_bounds(&self) -> bool {
         let [least, most] = self.drawn_lengths;
         let roundoff = 1e-12 * most;
         self.weights[0] > 0.0

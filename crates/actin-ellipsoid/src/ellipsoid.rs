@@ -19,7 +19,7 @@ impl Ellipsoid {
     }
 
     /// Semi-axes along x, y and z (nm).
-    pub fn semi_axes(&self) -> [f64; 3] {
+    pub(crate) fn semi_axes(&self) -> [f64; 3] {
         self.semi_axes.into()
     }
 
@@ -44,7 +44,7 @@ impl Ellipsoid {
     }
 
     /// Outward normal at a point of the surface, not normalised.
-    pub fn normal(&self, point: Vector3) -> Vector3 {
+    pub(crate) fn normal(&self, point: Vector3) -> Vector3 {
         point
             .component_div(&self.semi_axes)
             .component_div(&self.semi_axes)

@@ -44,18 +44,13 @@ impl Helix {
         }
     }
 
-    /// Distance of the centres from the axis (nm).
-    pub fn radius(&self) -> f64 {
-        self.radius
-    }
-
     /// Rise per monomer (nm).
     pub fn rise(&self) -> f64 {
         self.rise
     }
 
     /// Azimuth of a monomer (rad), not reduced modulo 2 pi.
-    pub fn azimuth(&self, index: i64) -> f64 {
+    pub(crate) fn azimuth(&self, index: i64) -> f64 {
         index as f64 * self.turn + self.azimuth
     }
 
@@ -75,18 +70,6 @@ impl Helix {
         about_axis(self.azimuth(index))
     }
 
-    /// Fixed rotation from the axis-aligned basis of a monomer to its body frame. At rest
-    /// `orientation(index) * axis_offset(index)` is the lab basis; its third vector is the filament
-    /// axis.
-    pub fn axis_offset(&self, index: i64) -> UnitQuaternion {
-        self.orientation(index).inverse()
-    }
-
-    /// Axis-aligned basis of a monomer with the given current orientation.
-    pub fn axis_basis(&self, index: i64, orientation: UnitQuaternion) -> UnitQuaternion {
-        orientation * self.axis_offset(index)
-    }
-
     /// Point of the centre line at a monomer: `centre - radius * radial` (nm, lab frame).
     pub fn centre_line_point(&self, centre: Vector3, orientation: UnitQuaternion) -> Vector3 {
         centre - orientation * Vector3::new(self.radius, 0.0, 0.0)
@@ -99,7 +82,7 @@ impl Helix {
 
     /// Pose of the upper monomer of an interface in the frame of the lower one, the same for all
     /// indices.
-    pub fn neighbour(&self, kind: InterfaceKind) -> Neighbour {
+    pub(crate) fn neighbour(&self, kind: InterfaceKind) -> Neighbour {
         let steps = kind.steps() as f64;
         let (sin, cos) = (steps * self.turn).sin_cos();
         Neighbour {
@@ -140,19 +123,11 @@ mod tests {
         for index in [-27, -1, 0, 1, 2, 500] {
             let q = helix().orientation(index);
             let centre = helix().centre(index);
-            let radial = Vector3::new(centre.x, centre.y, 0.0) / helix().radius();
+            let radial = Vector3::new(centre.x, centre.y, 0.0) / helix().radius;
             // The rounding error of 1450 rad is 2e-13.
             assert!((q * Vector3::x() - radial).norm() < 1e-12);
             assert!((q * Vector3::z() - Vector3::z()).norm() < 1e-15);
             assert!((q * Vector3::y() - Vector3::z().cross(&radial)).norm() < 1e-12);
-        }
-    }
-
-    #[test]
-    fn axis_basis_is_the_lab_basis_at_rest() {
-        for index in -3..40 {
-            let basis = helix().axis_basis(index, helix().orientation(index));
-            assert!(basis.angle() < 1e-15);
         }
     }
 

@@ -38,7 +38,7 @@ impl InterfaceKind {
     }
 
     /// Parameters of this kind of interface.
-    pub fn parameters(self, parameters: &EllipsoidParameters) -> &InterfaceParameters {
+    pub(crate) fn parameters(self, parameters: &EllipsoidParameters) -> &InterfaceParameters {
         match self {
             Self::Lateral => &parameters.lateral,
             Self::Longitudinal => &parameters.longitudinal,
@@ -221,20 +221,6 @@ impl Interface {
             bonds,
             attempts,
         })
-    }
-
-    /// Mean square distance of the bonds from the line of centres (nm^2). Multiplied by half the
-    /// rigidity, it is the mean stiffness against tilting.
-    pub fn mean_square_distance(&self) -> f64 {
-        let axis = self.neighbour.offset.normalize();
-        let square = |bond: &Bond| bond.weight * bond.lower.cross(&axis).norm_squared();
-        self.bonds.iter().map(square).sum()
-    }
-
-    /// Mean rest length of the bonds (nm).
-    pub fn mean_length(&self) -> f64 {
-        let length = |bond: &Bond| bond.weight * bond.rest_length;
-        self.bonds.iter().map(length).sum()
     }
 }
 

@@ -28,7 +28,7 @@ impl EllipsoidModel {
     /// Model with the given parameters.
     ///
     /// # Errors
-    /// Invalid parameters ([`EllipsoidParameters::validate`]) or three different semi-axes.
+    /// Invalid parameters (`EllipsoidParameters::validate`) or three different semi-axes.
     pub fn new(parameters: EllipsoidParameters) -> Result<Self, EllipsoidParameterError> {
         parameters.validate()?;
         let inertia = Ellipsoid::new(parameters.semi_axes).inertia(parameters.mass)?;
@@ -51,11 +51,6 @@ impl EllipsoidModel {
     /// Shape of one monomer.
     pub fn ellipsoid(&self) -> Ellipsoid {
         Ellipsoid::new(self.parameters.semi_axes)
-    }
-
-    /// Inertia of one monomer.
-    pub fn inertia(&self) -> Inertia {
-        self.inertia
     }
 
     /// Appends `count` monomers at rest, starting with lattice index `first_index`, to a state.

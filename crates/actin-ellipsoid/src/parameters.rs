@@ -77,7 +77,7 @@ pub enum Anchors {
 
 impl Anchors {
     /// Returns `true` if all interfaces of a kind have the same bonds.
-    pub fn are_shared(self) -> bool {
+    pub(crate) fn are_shared(self) -> bool {
         match self {
             Self::Independent => false,
             Self::Identical | Self::Cubature => true,
@@ -153,7 +153,7 @@ impl EllipsoidParameters {
     ///
     /// # Errors
     /// The first parameter that violates its rule, or three different semi-axes.
-    pub fn validate(&self) -> Result<(), EllipsoidParameterError> {
+    pub(crate) fn validate(&self) -> Result<(), EllipsoidParameterError> {
         if !(self.radius.is_finite() && self.radius >= 0.0) {
             return Err(out_of_range(
                 EllipsoidKey::Radius,
@@ -206,7 +206,7 @@ impl InterfaceParameters {
     }
 
     /// Mean stiffness of a bond (pN/nm), equal to the stiffness of each sampled bond.
-    pub fn bond_stiffness(&self) -> f64 {
+    pub(crate) fn bond_stiffness(&self) -> f64 {
         self.rigidity / self.bonds as f64
     }
 }

@@ -157,11 +157,6 @@ impl QuasiHarmonic {
         }
     }
 
-    /// Monomers of the run.
-    pub fn monomers(&self) -> &Monomers {
-        &self.monomers
-    }
-
     /// Links of the whole chain.
     pub fn links(&self) -> &[Link] {
         &self.links

@@ -120,7 +120,7 @@ impl Layout {
     }
 
     /// Residual of `state` under `loads`.
-    pub fn residual(&self, state: &State, loads: &Loads) -> Residual {
+    pub(crate) fn residual(&self, state: &State, loads: &Loads) -> Residual {
         let mut reduced = vec![0.0; self.unknowns()];
         self.reduce(state, loads, &mut reduced);
         self.largest(&reduced)

@@ -71,11 +71,6 @@ impl Newton {
         &self.solver.layout
     }
 
-    /// Mutable layout, to change the directions of groups.
-    pub fn layout_mut(&mut self) -> &mut Layout {
-        &mut self.solver.layout
-    }
-
     /// Options of the solver.
     pub fn options(&self) -> &NewtonOptions {
         &self.options
@@ -125,7 +120,7 @@ impl Newton {
     /// # Errors
     /// If no equilibrium is found or the observer interrupts; `state` is then the best state
     /// reached.
-    pub fn solve_observed(
+    pub(crate) fn solve_observed(
         &mut self,
         state: &mut State,
         interactions: &[Box<dyn Interaction>],
@@ -300,15 +295,7 @@ impl Run<'_> {
         self.previous = self.residual.relative_to(&self.options.tolerance);
         let before = descent.here.energy;
         let Some((direction, taken)) = descent.advance(self.solver, self.interactions)? else {
-            self.solver
-                .assemble(self.interactions, &descent.state, &descent.here.loads);
-            self.measure(descent);
-            let cause = if descent.is_blocked() {
-                SolveError::PassesThrough
-            } else {
-                SolveError::Stagnated
-            };
-            return self.give_up(descent, cause);
+            return self.stop_at_best(descent);
         };
         self.solver.work.iterations += 1;
         self.history.push(Iteration {

@@ -17,7 +17,7 @@ pub enum Format {
 
 impl Format {
     /// Returns the file name extension.
-    pub fn extension(self) -> &'static str {
+    pub(crate) fn extension(self) -> &'static str {
         match self {
             Self::Gsd => "gsd",
             Self::Simularium => "simularium",

@@ -1,8 +1,7 @@
 //! Export of runs of actin filaments to files of other programs.
 //!
-//! [`export`] writes a [`FinishedRun`] to a file in a [`Format`]. [`write_gsd`] and [`write_simularium`] write to any
-//! writer. [`Particles`] describes the bodies of a run as particles and bonds, for all formats. Positions are stored
-//! in single precision, and the run directory is not changed.
+//! [`export`] writes a [`FinishedRun`] to a file in a [`Format`]. Positions are stored in single precision, and the
+//! run directory is not changed.
 
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
@@ -19,6 +18,6 @@ pub use actin_sim as sim;
 pub use actin_sim::{FinishedRun, FinishedRunError};
 pub use error::ExportError;
 pub use file::{Format, export};
-pub use gsd::write_gsd;
-pub use particles::{Bond, BondKind, Particles, Shape, Species};
-pub use simularium::{simularium_meshes, write_simularium};
+pub(crate) use gsd::write_gsd;
+pub(crate) use particles::{BondKind, Particles, Shape};
+pub(crate) use simularium::{simularium_meshes, write_simularium};

@@ -15,7 +15,7 @@ pub(crate) const LINKER_RADIUS_NM: f64 = 0.5;
 
 /// Shape of a particle.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Shape {
+pub(crate) enum Shape {
     /// Semi-axes (nm) along the axes of the body frame.
     Ellipsoid([f64; 3]),
     /// Radius (nm).
@@ -24,7 +24,7 @@ pub enum Shape {
 
 impl Shape {
     /// Returns the largest distance of the surface from the centre (nm).
-    pub fn radius_nm(self) -> f64 {
+    pub(crate) fn radius_nm(self) -> f64 {
         match self {
             Self::Ellipsoid(semi_axes) => semi_axes.into_iter().fold(0.0, f64::max),
             Self::Sphere(radius) => radius,
@@ -34,7 +34,7 @@ impl Shape {
 
 /// Particles with the same name and shape.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Species {
+pub(crate) struct Species {
     /// Name: `monomer`, `node` of a rod, or `linker` for ends of linkers. Further shapes of monomers are `monomer_1`
     /// etc.
     pub name: String,
@@ -44,7 +44,7 @@ pub struct Species {
 
 /// Kind of a bond.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum BondKind {
+pub(crate) enum BondKind {
     /// Monomers i and i + 1.
     Lateral,
     /// Monomers i and i + 2.
@@ -59,7 +59,7 @@ pub enum BondKind {
 
 impl BondKind {
     /// All kinds.
-    pub const ALL: [Self; 5] = [
+    pub(crate) const ALL: [Self; 5] = [
         Self::Lateral,
         Self::Longitudinal,
         Self::Segment,
@@ -68,7 +68,7 @@ impl BondKind {
     ];
 
     /// Returns the name in files.
-    pub fn name(self) -> &'static str {
+    pub(crate) fn name(self) -> &'static str {
         match self {
             Self::Lateral => "lateral",
             Self::Longitudinal => "longitudinal",
@@ -81,7 +81,7 @@ impl BondKind {
 
 /// A bond between two particles.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Bond {
+pub(crate) struct Bond {
     /// Kind of the bond.
     pub kind: BondKind,
     /// Indices of the particles.
@@ -92,7 +92,7 @@ pub struct Bond {
 ///
 /// Linkers with `kinetics` are not included, since they bind and unbind.
 #[derive(Debug)]
-pub struct Particles<'a> {
+pub(crate) struct Particles<'a> {
     assembly: &'a Assembly,
     /// Species of particles.
     pub species: Vec<Species>,
@@ -108,7 +108,7 @@ pub struct Particles<'a> {
 
 impl<'a> Particles<'a> {
     /// Creates the particles of an assembly.
-    pub fn new(assembly: &'a Assembly) -> Self {
+    pub(crate) fn new(assembly: &'a Assembly) -> Self {
         let linkers = assembly.scene.linkers.iter().enumerate();
         let lasting = linkers.filter(|(_, linker)| linker.kinetics.is_none());
         let points = 0..assembly.points.len();
@@ -137,12 +137,12 @@ impl<'a> Particles<'a> {
     }
 
     /// Returns the number of particles.
-    pub fn count(&self) -> usize {
+    pub(crate) fn count(&self) -> usize {
         self.sort.len()
     }
 
     /// Returns the assembly.
-    pub fn assembly(&self) -> &'a Assembly {
+    pub(crate) fn assembly(&self) -> &'a Assembly {
         self.assembly
     }
 
@@ -173,7 +173,7 @@ impl<'a> Particles<'a> {
     }
 
     /// Returns the positions of all particles (nm, lab frame).
-    pub fn places(&self, state: &State) -> Vec<Vector3> {
+    pub(crate) fn places(&self, state: &State) -> Vec<Vector3> {
         let mut places: Vec<Vector3> = state.points.position.iter().collect();
         for &i in &self.linkers {
             places.extend(self.linker(i, state));
@@ -188,7 +188,7 @@ impl<'a> Particles<'a> {
     }
 
     /// Returns the orientations of all particles, body to lab; the identity for points without a frame.
-    pub fn turns(&self, state: &State) -> Vec<UnitQuaternion> {
+    pub(crate) fn turns(&self, state: &State) -> Vec<UnitQuaternion> {
         let turn = |frame: &Option<usize>| {
             frame.map_or_else(UnitQuaternion::identity, |f| {
                 state.frames.orientation.get(f)
@@ -200,14 +200,14 @@ impl<'a> Particles<'a> {
     }
 
     /// Returns the velocities of all particles (nm/ns, lab frame); zero for ends of linkers.
-    pub fn velocities(&self, state: &State) -> Vec<Vector3> {
+    pub(crate) fn velocities(&self, state: &State) -> Vec<Vector3> {
         let mut velocities: Vec<Vector3> = state.points.velocity.iter().collect();
         velocities.resize(self.count(), Vector3::zeros());
         velocities
     }
 
     /// Returns the masses of all particles (ag), including clamped ones; zero for ends of linkers.
-    pub fn masses_ag(&self) -> Vec<f64> {
+    pub(crate) fn masses_ag(&self) -> Vec<f64> {
         let points = &self.assembly.rest.points;
         let mut masses: Vec<f64> = (0..points.len()).map(|i| points.mass(i)).collect();
         masses.resize(self.count(), 0.0);
@@ -216,7 +216,7 @@ impl<'a> Particles<'a> {
 
     /// Returns the principal moments of inertia of all particles (ag nm^2, body frame); zero for nodes and ends of
     /// linkers.
-    pub fn moments_of_inertia_ag_nm2(&self) -> Vec<Vector3> {
+    pub(crate) fn moments_of_inertia_ag_nm2(&self) -> Vec<Vector3> {
         let frames = &self.assembly.rest.frames;
         let points = self.assembly.points.iter();
         let moments = points.map(|point| {

@@ -39,20 +39,15 @@ impl Bounds {
     }
 
     /// Number of parameters.
-    pub fn len(&self) -> usize {
+    pub(crate) fn len(&self) -> usize {
         self.lower.len()
-    }
-
-    /// Returns `true` if the number of parameters is zero.
-    pub fn is_empty(&self) -> bool {
-        self.lower.is_empty()
     }
 
     /// Lower bound of a parameter.
     ///
     /// # Panics
     /// If the index is out of range.
-    pub fn lower(&self, parameter: usize) -> f64 {
+    pub(crate) fn lower(&self, parameter: usize) -> f64 {
         self.lower[parameter]
     }
 
@@ -60,7 +55,7 @@ impl Bounds {
     ///
     /// # Panics
     /// If the index is out of range.
-    pub fn upper(&self, parameter: usize) -> f64 {
+    pub(crate) fn upper(&self, parameter: usize) -> f64 {
         self.upper[parameter]
     }
 

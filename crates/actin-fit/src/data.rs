@@ -57,12 +57,12 @@ impl Data {
     }
 
     /// Rows of all points, concatenated.
-    pub fn rows(&self) -> &[f64] {
+    pub(crate) fn rows(&self) -> &[f64] {
         &self.rows
     }
 
     /// Number of independent variables per point.
-    pub fn width(&self) -> usize {
+    pub(crate) fn width(&self) -> usize {
         self.width
     }
 

@@ -45,7 +45,7 @@ impl Polynomial {
     }
 
     /// Number of coefficients.
-    pub fn coefficients(&self) -> usize {
+    pub(crate) fn coefficients(self) -> usize {
         self.powers().count()
     }
 

@@ -55,13 +55,8 @@ impl Bath {
         &self.drag
     }
 
-    /// Thermal energy `kT` (pN nm).
-    pub fn thermal_energy(&self) -> f64 {
-        self.thermal_energy
-    }
-
     /// Seed of the noise.
-    pub fn seed(&self) -> u64 {
+    pub(crate) fn seed(&self) -> u64 {
         self.seed
     }
 

@@ -13,7 +13,7 @@ pub enum Stage {
 impl Stage {
     /// Other kind of stage.
     #[must_use]
-    pub const fn other(self) -> Self {
+    pub(crate) const fn other(self) -> Self {
         match self {
             Self::Drift => Self::Kick,
             Self::Kick => Self::Drift,

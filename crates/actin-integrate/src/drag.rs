@@ -54,7 +54,7 @@ impl Drag {
     }
 
     /// Returns `true` if both rates are zero.
-    pub fn is_none(&self) -> bool {
+    pub(crate) fn is_none(&self) -> bool {
         *self == Self::NONE
     }
 

@@ -50,7 +50,7 @@ pub use observer::{Moment, Observer};
 pub use outcome::{Reason, RunOutcome};
 pub use own_split::{SplitMoment, SplitOutcome};
 pub use own_step::{StepFailure, Stepper};
-pub use run::{DEFAULT_CHECK_EVERY, DEFAULT_OBSERVE_EVERY, Run, RunSettingError};
+pub use run::{DEFAULT_CHECK_EVERY, Run, RunSettingError};
 pub use schemes::{
     FOREST_RUTH, PEFRL, POSITION_VERLET, SUZUKI, SUZUKI_WEIGHT, UnknownScheme, VEFRL,
     VELOCITY_VERLET,

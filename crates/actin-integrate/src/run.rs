@@ -7,7 +7,7 @@ use actin_mechanics::{System, Thermostat};
 use thiserror::Error;
 
 /// Default number of steps between observations.
-pub const DEFAULT_OBSERVE_EVERY: u64 = 1000;
+pub(crate) const DEFAULT_OBSERVE_EVERY: u64 = 1000;
 
 /// Default number of steps between checks of the state, which cost less than 1 % of the run.
 pub const DEFAULT_CHECK_EVERY: u64 = 100;
@@ -238,11 +238,6 @@ impl Run {
             merges_steps: false,
             ..self
         }
-    }
-
-    /// Integration method.
-    pub fn scheme(&self) -> &'static Composition {
-        self.scheme
     }
 
     /// Time step (ns).

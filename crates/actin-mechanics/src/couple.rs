@@ -137,11 +137,6 @@ impl Couple {
         self
     }
 
-    /// Control that is the load factor.
-    pub fn control(&self) -> ControlId {
-        self.control
-    }
-
     fn axis(&self) -> Option<(f64, Vector3)> {
         let size = self.moment.norm();
         (size > 0.0).then(|| (size, self.moment / size))

@@ -67,10 +67,6 @@ impl Frames {
         }
     }
 
-    pub(crate) fn shares_bodies_with(&self, other: &Self) -> bool {
-        self.inertias.is_same(&other.inertias)
-    }
-
     /// Appends a frame at rest and returns its index.
     ///
     /// # Panics
@@ -154,7 +150,7 @@ impl Frames {
         self.angular_momentum.assert_len("angular momenta", count);
     }
 
-    /// Rotates every frame freely for a time `h`, by the exact flow of [`Inertia::free_flow`].
+    /// Rotates every frame freely for a time `h`, by its exact flow.
     ///
     /// Quaternions are renormalised to first order, which keeps unit length to round-off.
     pub fn drift(&mut self, h: f64) {
@@ -194,7 +190,7 @@ impl Frames {
     }
 
     /// Kinetic energy of free frames.
-    pub fn kinetic_energy(&self) -> f64 {
+    pub(crate) fn kinetic_energy(&self) -> f64 {
         let l = &self.angular_momentum;
         let [transverse, x, y, z, mobility] = self.inertia_columns();
         let columns = [transverse, x, y, z, mobility, &l.x, &l.y, &l.z];

@@ -1,6 +1,8 @@
 //! Inertia of frames, and the exact free rotation of a symmetric top.
 
-use crate::{UnitQuaternion, Vector3, rotation};
+use crate::Vector3;
+#[cfg(test)]
+use crate::{UnitQuaternion, rotation};
 use thiserror::Error;
 
 /// A body axis.
@@ -16,7 +18,7 @@ pub enum Axis {
 
 impl Axis {
     /// Unit vector along the axis.
-    pub fn unit(self) -> Vector3 {
+    pub(crate) fn unit(self) -> Vector3 {
         match self {
             Self::X => Vector3::x(),
             Self::Y => Vector3::y(),
@@ -104,7 +106,13 @@ impl Inertia {
     ///
     /// `e` is the axis of symmetry, `I_a` and `I_t` are the axial and transverse moments. The flow
     /// is exact for every `t`. It is the scalar reference for [`crate::Frames::drift`].
-    pub fn free_flow(&self, q: UnitQuaternion, l: Vector3, t: f64) -> (UnitQuaternion, Vector3) {
+    #[cfg(test)]
+    pub(crate) fn free_flow(
+        &self,
+        q: UnitQuaternion,
+        l: Vector3,
+        t: f64,
+    ) -> (UnitQuaternion, Vector3) {
         let e = self.axis.unit();
         let spin = rotation::exp(e * (t * l.dot(&e) * (1.0 / self.axial - 1.0 / self.transverse)));
         let precession = rotation::exp(l * (t / self.transverse));

@@ -87,7 +87,7 @@ impl InternalForce {
 
 impl InternalCouple {
     /// Relative rotation vector `log(O^T Qa^T Qb)` (rad).
-    pub fn strain(&self, state: &State) -> Vector3 {
+    pub(crate) fn strain(&self, state: &State) -> Vector3 {
         let [a, b] = self.frames.map(|i| state.frames.orientation.get(i));
         rotation::log((a * self.rest).inverse() * b)
     }

@@ -144,12 +144,9 @@ mod tests {
     }
 
     #[test]
-    fn copies_share_masses() {
+    fn a_copy_has_its_own_masses() {
         let [state, mut moved] = states();
-        assert!(state.shares_bodies_with(&moved));
-        assert!(state.shares_bodies_with(&state.in_motion(moved.motion())));
         moved.points.hold(1);
-        assert!(!state.shares_bodies_with(&moved));
         assert!(state.points.is_free(1) && !moved.points.is_free(1));
     }
 }

@@ -59,10 +59,6 @@ impl Points {
         }
     }
 
-    pub(crate) fn shares_bodies_with(&self, other: &Self) -> bool {
-        self.masses.is_same(&other.masses)
-    }
-
     /// Appends a point at rest and returns its index.
     ///
     /// # Panics
@@ -131,7 +127,7 @@ impl Points {
     }
 
     /// Momentum of the free point `i`.
-    pub fn momentum(&self, i: usize) -> Vector3 {
+    pub(crate) fn momentum(&self, i: usize) -> Vector3 {
         self.velocity.get(i) / self.masses.inverse[i]
     }
 
@@ -179,7 +175,7 @@ impl Points {
     }
 
     /// Kinetic energy of free points.
-    pub fn kinetic_energy(&self) -> f64 {
+    pub(crate) fn kinetic_energy(&self) -> f64 {
         let (v, inverse) = (&self.velocity, &self.masses.inverse);
         0.5 * sum_in_lanes([inverse, &v.x, &v.y, &v.z], |[inverse, x, y, z]| {
             let squared = x * x + y * y + z * z;

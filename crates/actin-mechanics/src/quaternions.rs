@@ -44,7 +44,7 @@ impl Quaternions {
     }
 
     /// Appends a quaternion.
-    pub fn push(&mut self, q: UnitQuaternion) {
+    pub(crate) fn push(&mut self, q: UnitQuaternion) {
         self.w.push(q.w);
         self.x.push(q.i);
         self.y.push(q.j);

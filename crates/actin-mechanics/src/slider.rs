@@ -48,7 +48,7 @@ impl Slider {
     }
 
     /// Total force along each direction.
-    pub fn forces<'a>(&'a self, force: &'a Vectors) -> impl Iterator<Item = f64> + 'a {
+    pub(crate) fn forces<'a>(&'a self, force: &'a Vectors) -> impl Iterator<Item = f64> + 'a {
         self.directions
             .iter()
             .map(|d| self.points.iter().map(|&i| force.get(i).dot(d)).sum())

@@ -86,13 +86,6 @@ impl State {
         }
     }
 
-    /// Returns `true` if `other` shares the storage of masses, inertias, holds and sliders.
-    pub fn shares_bodies_with(&self, other: &Self) -> bool {
-        self.points.shares_bodies_with(&other.points)
-            && self.frames.shares_bodies_with(&other.frames)
-            && self.sliders.is_same(&other.sliders)
-    }
-
     /// Copies the time-dependent part of `other`, a state of the same bodies, without allocation.
     ///
     /// # Panics

@@ -62,7 +62,7 @@ impl Vectors {
     }
 
     /// Appends a vector.
-    pub fn push(&mut self, v: Vector3) {
+    pub(crate) fn push(&mut self, v: Vector3) {
         self.x.push(v.x);
         self.y.push(v.y);
         self.z.push(v.z);
@@ -77,7 +77,7 @@ impl Vectors {
     }
 
     /// Sets every vector to zero.
-    pub fn clear_to_zero(&mut self) {
+    pub(crate) fn clear_to_zero(&mut self) {
         self.x.fill(0.0);
         self.y.fill(0.0);
         self.z.fill(0.0);

@@ -16,7 +16,7 @@ const MOST_FILAMENTS: usize = 100_000;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
-pub enum Arrangement {
+pub(crate) enum Arrangement {
     /// Copies of a filament at equal displacements.
     Copies {
         /// The first copy.
@@ -70,7 +70,7 @@ pub enum Arrangement {
 /// Distribution of the directions of filaments.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub enum Orientation {
+pub(crate) enum Orientation {
     /// Uniform on the sphere.
     #[default]
     Isotropic,
@@ -84,7 +84,7 @@ pub enum Orientation {
 
 impl Arrangement {
     /// Returns the filament to place.
-    pub fn filament(&self) -> &Filament {
+    pub(crate) fn filament(&self) -> &Filament {
         match self {
             Self::Copies { filament, .. }
             | Self::Random { filament, .. }

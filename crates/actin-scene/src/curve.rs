@@ -139,12 +139,12 @@ impl Curve {
     }
 
     /// Returns the length (nm) of a spline; other curves are unbounded.
-    pub fn length(&self) -> Option<f64> {
+    pub(crate) fn length(&self) -> Option<f64> {
         self.length
     }
 
     /// Returns the start (nm) of the piece with the largest curvature up to an arc length, and this curvature (1/nm).
-    pub fn largest_curvature(&self, length: f64) -> (f64, f64) {
+    pub(crate) fn largest_curvature(&self, length: f64) -> (f64, f64) {
         let reached = self.pieces.iter().take_while(|piece| piece.from < length);
         let bends = reached.map(|piece| (piece.from, piece.curvature.xy().norm()));
         let largest = bends.max_by(|a, b| a.1.total_cmp(&b.1));

@@ -44,7 +44,7 @@ impl RodLaw {
     }
 
     /// Returns whether the law is one of the paper's, with constant bending and shear rigidities.
-    pub fn is_published(&self) -> bool {
+    pub(crate) fn is_published(&self) -> bool {
         matches!(
             self,
             Self::Constant | Self::PublishedExtension | Self::CouplingEnergy

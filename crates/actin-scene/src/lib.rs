@@ -61,7 +61,7 @@ pub use actin_cosserat::{
     CubicShear, PolynomialStretch, RootedStretch, SidedTwist, Stiffening, StretchLaw, TanhTwist,
     TwistRise, TwistStretch as TwistStretchLaw,
 };
-pub use arrangement::{Arrangement, Orientation};
+pub(crate) use arrangement::Arrangement;
 pub use brownian::{Brownian, Fluid, Interfaces, Water};
 pub use curve::{Curve, swept};
 pub use drag::{DragModel, DragRates};
@@ -74,7 +74,7 @@ pub use imperfection::Imperfection;
 pub use kinetics::{Breaking, Catch, Forming, Kinetics, Stepping};
 pub use law::{BendLaw, RodLaw, RodLaws, ShearLaw, TwistLaw};
 pub use linker::{Linker, LinkerSite};
-pub use linkers_between::LinkersBetween;
+pub(crate) use linkers_between::LinkersBetween;
 pub use load::Resultant;
 pub use load::{Acceleration, Couple, CouplePerLength, Force, ForcePerLength, Load};
 pub use model::{

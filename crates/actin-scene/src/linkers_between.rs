@@ -20,7 +20,7 @@ const MOST_SITES: f64 = 1e7;
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
-pub struct LinkersBetween {
+pub(crate) struct LinkersBetween {
     /// Number of linkers divided by the number of filaments; positive.
     pub per_filament: f64,
     /// Largest distance between two linked sites as built; positive.

@@ -223,7 +223,7 @@ impl Load {
     }
 
     /// Returns the end on which the load acts, if any.
-    pub fn end(&self) -> Option<End> {
+    pub(crate) fn end(&self) -> Option<End> {
         match self {
             Self::EndForce { end, .. } => Some(*end),
             Self::Force(Force { end, .. }) | Self::Couple(Couple { end, .. }) => *end,
@@ -245,7 +245,7 @@ impl Load {
     }
 
     /// Returns the ratio of the resultant to the load as written: a length (nm), a mass (ag), or 1.
-    pub fn extent(&self, scene: &Scene) -> f64 {
+    pub(crate) fn extent(&self, scene: &Scene) -> f64 {
         let length = self.interval(scene).map_or(1.0, |[from, to]| to - from);
         match self {
             Self::Acceleration(load) => {

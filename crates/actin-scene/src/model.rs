@@ -62,7 +62,7 @@ pub enum Anchors {
 
 impl Anchors {
     /// Returns the default number of bonds of an interface.
-    pub fn usual_bonds(self) -> usize {
+    pub(crate) fn usual_bonds(self) -> usize {
         match self {
             Self::Independent | Self::Identical => constants::BONDS_PER_INTERFACE,
             Self::Cubature => constants::POINTS_PER_INTERFACE,

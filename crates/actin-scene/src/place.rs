@@ -53,12 +53,12 @@ impl Filament {
     }
 
     /// Returns the reference position (lab frame, nm) of the axis at an arc length (nm).
-    pub fn place_at(&self, s_nm: f64) -> Vector3 {
+    pub(crate) fn place_at(&self, s_nm: f64) -> Vector3 {
         self.places_at(&[s_nm])[0]
     }
 
     /// Returns the reference positions (lab frame, nm) of the axis at arc lengths (nm).
-    pub fn places_at(&self, s_nm: &[f64]) -> Vec<Vector3> {
+    pub(crate) fn places_at(&self, s_nm: &[f64]) -> Vec<Vector3> {
         let (at, turn) = (Vector3::from(self.at_nm), self.rotation());
         let curve = Curve::of(self, &self.boundaries());
         s_nm.iter().map(|s| at + turn * curve.at(*s).0).collect()
@@ -71,12 +71,12 @@ impl Filament {
     }
 
     /// Returns the arc lengths (nm) at which sections start, as written.
-    pub fn boundaries(&self) -> Vec<f64> {
+    pub(crate) fn boundaries(&self) -> Vec<f64> {
         self.sections.iter().map(|s| s.span_nm().0).collect()
     }
 
     /// Returns the unit tangent at one end of the filament as built (lab frame).
-    pub fn axis_at(&self, end: End) -> Vector3 {
+    pub(crate) fn axis_at(&self, end: End) -> Vector3 {
         if self.shape.is_none() {
             return self.axis();
         }
@@ -102,7 +102,7 @@ impl Filament {
     }
 
     /// Returns whether the section at one end is a rod.
-    pub fn is_rod_at(&self, end: End) -> bool {
+    pub(crate) fn is_rod_at(&self, end: End) -> bool {
         matches!(self.sections[self.end_index(end)], Section::Rod { .. })
     }
 }
@@ -204,7 +204,7 @@ impl HeldEnds {
     }
 
     /// Returns whether an end is clamped.
-    pub fn is_held(&self, filament: usize, end: End) -> bool {
+    pub(crate) fn is_held(&self, filament: usize, end: End) -> bool {
         self.clamp_at(filament, end).is_some()
     }
 }

@@ -132,7 +132,7 @@ impl Default for Altered {
 
 impl Altered {
     /// Returns altered monomers.
-    pub fn applied_to(&self, monomers: &Monomers) -> Monomers {
+    pub(crate) fn applied_to(&self, monomers: &Monomers) -> Monomers {
         let mut altered = monomers.clone();
         altered.lateral_rigidity_pn_per_nm *= self.lateral_rigidity_factor;
         altered.longitudinal_rigidity_pn_per_nm *= self.longitudinal_rigidity_factor;
@@ -196,7 +196,7 @@ impl Section {
     }
 
     /// Returns the altered parameters of monomers.
-    pub fn altered(&self) -> Option<Altered> {
+    pub(crate) fn altered(&self) -> Option<Altered> {
         match self {
             Self::Ellipsoids { altered, .. } => *altered,
             Self::Rod { .. } => None,

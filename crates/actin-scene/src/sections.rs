@@ -141,7 +141,7 @@ pub enum Quantity {
 
 impl Quantity {
     /// Returns the unit.
-    pub fn unit(self) -> &'static str {
+    pub(crate) fn unit(self) -> &'static str {
         match self {
             Self::Tip | Self::Height => "nm",
             Self::EndForce | Self::LinkerForce { .. } => "pN",

@@ -124,7 +124,7 @@ impl SceneValue {
     }
 
     /// Returns the values in its bracket.
-    pub fn children(&self) -> &[Self] {
+    pub(crate) fn children(&self) -> &[Self] {
         match &self.kind {
             Kind::List(values) | Kind::Group(_, values) => values,
             _ => &[],

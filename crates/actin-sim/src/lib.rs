@@ -59,9 +59,9 @@ pub use assembly::{
     ModelLimitExceeded, Part, PointInfo, Reaction, Resolution, SectionSpan, Term, UnstableTwist,
 };
 pub use cost::{Cost, Timing};
-pub use ensemble::{Ensemble, EnsembleError, EnsembleProgress, Replica};
+pub use ensemble::{Ensemble, EnsembleError, Replica};
 pub use error::SimError;
-pub use notes::{Note, codes as warning_codes};
+pub use notes::Note;
 pub use observe::{DerivedLength, MeanSummary, ObservableSummary};
 pub use results::{
     AccuracySummary, CheckpointError, Checkpoints, Damage, Difference, EndReaction, EndReactions,
@@ -72,8 +72,7 @@ pub use results::{
 };
 pub use run::{
     At, EquilibriumReport, Estimate, FailedRun, Failure, HingeSlip, LongestStep, MotionPosition,
-    Outcome, PathPosition, Plan, Progress, Record, RecordIter, RecordSummary, Records,
-    RelaxationTimes, ResolutionSwitch, Row, RowIter, RunError, RunPosition, SaddlePush, SavedRun,
-    Sink, Slip, SolveReport, StableState, StableStates, Status, Trajectory, composition,
-    near_equilibrium, solver,
+    Outcome, PathPosition, Plan, Progress, Record, RecordSummary, Records, RelaxationTimes,
+    ResolutionSwitch, Row, RunError, RunPosition, SaddlePush, SavedRun, Sink, Slip, SolveReport,
+    StableState, StableStates, Status, Trajectory, composition, near_equilibrium, solver,
 };

@@ -67,7 +67,7 @@ impl Design {
     }
 
     /// Returns a run by its index.
-    pub fn run(&self, index: usize) -> Run {
+    pub(crate) fn run(&self, index: usize) -> Run {
         let of_point = self.runs_of_point();
         Run {
             index,
@@ -94,7 +94,7 @@ impl Design {
     }
 
     /// Returns the overrides of a point.
-    pub fn overrides(&self, point: usize) -> impl Iterator<Item = Override> {
+    pub(crate) fn overrides(&self, point: usize) -> impl Iterator<Item = Override> {
         let pairs = self.keys.iter().zip(&self.points[point]);
         pairs.map(|(key, value)| Override {
             key: key.clone(),

@@ -64,7 +64,7 @@ impl SweepDirectory {
     }
 
     /// Returns the directory of a run.
-    pub fn run(&self, run: usize) -> PathBuf {
+    pub(crate) fn run(&self, run: usize) -> PathBuf {
         self.path.join("runs").join(run.to_string())
     }
 
@@ -72,7 +72,7 @@ impl SweepDirectory {
     ///
     /// # Errors
     /// If another process holds the lock, or a file system operation fails.
-    pub fn lock(&self) -> Result<RunLock, SweepError> {
+    pub(crate) fn lock(&self) -> Result<RunLock, SweepError> {
         Ok(RunLock::take(&self.path)?)
     }
 

@@ -136,7 +136,7 @@ impl ValidatedSweep {
     ///
     /// # Errors
     /// If the scene is invalid.
-    pub fn scene_of(&self, run: Run) -> Result<(Scene, SceneText), SceneError> {
+    pub(crate) fn scene_of(&self, run: Run) -> Result<(Scene, SceneText), SceneError> {
         let text = self.text(run.point)?;
         let mut scene = text.scene()?;
         if let (Some(seed), Some(samples)) = (run.seed, &self.sweep.samples) {

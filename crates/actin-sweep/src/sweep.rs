@@ -184,7 +184,7 @@ impl Sweep {
     }
 
     /// Returns the sweep as RON, with all defaults.
-    pub fn to_ron(&self) -> String {
+    pub(crate) fn to_ron(&self) -> String {
         to_ron(self, 3) + "\n"
     }
 }

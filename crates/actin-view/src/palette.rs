@@ -38,7 +38,7 @@ pub struct Things {
 impl Things {
     /// Applies a function to every colour.
     #[must_use]
-    pub fn map(&self, shade: fn([u8; 3]) -> [u8; 3]) -> Self {
+    pub(crate) fn map(&self, shade: fn([u8; 3]) -> [u8; 3]) -> Self {
         Self {
             bonds: self.bonds.map(shade),
             axes: self.axes.map(shade),

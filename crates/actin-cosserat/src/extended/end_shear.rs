@@ -3,16 +3,16 @@
 /// Effect of an end of a rod on shear and twist.
 ///
 /// A filament shears because its strands slide. The sliding of a section extends over
-/// [`END_SHEAR_NM`] into its neighbour.
+/// `END_SHEAR_NM` into its neighbour.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum EndShear {
-    /// Held section: removes [`END_SHEAR_NM`] of shear and adds
-    /// [`END_TWIST_NM`](super::END_TWIST_NM) of twist.
+    /// Held section: removes `END_SHEAR_NM` of shear and adds
+    /// `END_TWIST_NM` of twist.
     Blocked,
     /// No effect.
     #[default]
     Even,
-    /// Free or pinned end, or a neighbour that blocks shear on its side: adds [`END_SHEAR_NM`] of
+    /// Free or pinned end, or a neighbour that blocks shear on its side: adds `END_SHEAR_NM` of
     /// shear.
     Loose,
 }
@@ -24,7 +24,7 @@ pub enum EndShear {
 /// Guided beams of the mean filament of 19 to 192 nm under a transverse force of 0.01 pN, averaged
 /// over azimuths: 5.5, 5.6, 5.5, 5.4, 5.1, 4.6 nm for tensions of 1, 2, 5, 10, 20, 40 pN
 /// (`docs/how-to/rod-laws.md`).
-pub const END_SHEAR_NM: f64 = 5.477;
+pub(crate) const END_SHEAR_NM: f64 = 5.477;
 
 impl EndShear {
     fn sign(self) -> f64 {

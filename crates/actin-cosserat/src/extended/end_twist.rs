@@ -14,7 +14,7 @@ use actin_mechanics::{Loads, Matrix3, State, Stiffness, Vector3, rotation};
 /// # Source
 /// Mean filament between walls 25 to 151 nm apart, twisted by 10 to 120 deg per 74 nm in both
 /// directions (`cargo xtask load-cases --ends`): torques agree within 5 % for 41 nm or more.
-pub const END_TWIST_NM: f64 = 0.9;
+pub(crate) const END_TWIST_NM: f64 = 0.9;
 
 /// Additional twist rigidity at a blocked end (pN nm^3), and twist (rad/nm) above which its torque
 /// saturates.

@@ -15,7 +15,7 @@ use actin_mechanics::{Matrix3, Vector3};
 ///
 /// `W` is the energy of shear and of stretch beyond the natural extension `xi - 1`. `U` is the
 /// bending energy with stiffening by shear `gamma`; `U(kappa, 0)` belongs to the nodes. For a
-/// potential, `U` is [`Homogenised::joint_energy`](crate::Homogenised::joint_energy).
+/// potential, `U` is `Homogenised::joint_energy`.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct SegmentLaw {
     twist_stretch: Option<TwistStretch>,
@@ -93,7 +93,7 @@ impl SegmentLaw {
     }
 
     /// Law of twist and stretch.
-    pub fn twist_stretch(&self) -> Option<&TwistStretch> {
+    pub(crate) fn twist_stretch(&self) -> Option<&TwistStretch> {
         self.twist_stretch.as_ref()
     }
 

@@ -13,8 +13,7 @@ mod segments;
 mod twist_stability;
 
 pub use curvature::{JoinedElement, SegmentCurvature};
-pub use end_shear::{END_SHEAR_NM, EndShear};
-pub use end_twist::END_TWIST_NM;
+pub use end_shear::EndShear;
 pub(crate) use end_twist::EndTwist;
 pub use law::SegmentLaw;
 pub(crate) use law::{MeanCurvature, SegmentJet};

@@ -11,17 +11,17 @@ use actin_mechanics::{Matrix3, Vector3};
 
 impl Homogenised {
     /// Energy per length (pN) of a joint at curvature `kappa` (rad/nm).
-    pub fn joint_energy(&self, kappa: Vector3) -> f64 {
+    pub(crate) fn joint_energy(&self, kappa: Vector3) -> f64 {
         self.energy_density(&self.unsheared(kappa))
     }
 
-    /// Torque (pN nm), the gradient of [`joint_energy`](Self::joint_energy).
+    /// Torque (pN nm), the gradient of `joint_energy`.
     pub fn joint_couple(&self, kappa: Vector3) -> Vector3 {
         self.unrolled.bending(Scalar, kappa.into()).into()
     }
 
     /// Derivative of the torque (pN nm^2), symmetric.
-    pub fn joint_tangent(&self, kappa: Vector3) -> Matrix3 {
+    pub(crate) fn joint_tangent(&self, kappa: Vector3) -> Matrix3 {
         self.joint_jet(kappa).1
     }
 

@@ -48,7 +48,7 @@ pub struct StrainRange {
 
 impl StrainRange {
     /// Unlimited range.
-    pub const UNBOUNDED: Self = Self {
+    pub(crate) const UNBOUNDED: Self = Self {
         twist: f64::INFINITY,
         curvature: f64::INFINITY,
         shear: f64::INFINITY,
@@ -124,7 +124,7 @@ impl Homogenised {
 
     /// Sets the range of the data.
     #[must_use]
-    pub fn with_range(self, range: StrainRange) -> Self {
+    pub(crate) fn with_range(self, range: StrainRange) -> Self {
         Self { range, ..self }
     }
 

@@ -20,7 +20,7 @@ impl BendLaw {
     ///
     /// # Errors
     /// If a parameter is out of range.
-    pub fn validate(&self) -> Result<(), RodParameterError> {
+    pub(crate) fn validate(&self) -> Result<(), RodParameterError> {
         match self {
             Self::Constant([b1, b2]) => {
                 RodParameterError::unless_positive(RodKey::B1, *b1)?;

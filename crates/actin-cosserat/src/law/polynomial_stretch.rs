@@ -55,7 +55,7 @@ impl PolynomialStretch {
     ///
     /// It is equivalent to the energy `s3 sigma_3^2 / 2 + c3 sigma_3 kappa_3` per length, minimised
     /// at zero force.
-    pub fn linear(c3: f64, s3: f64) -> Self {
+    pub(crate) fn linear(c3: f64, s3: f64) -> Self {
         let mut coefficients = [0.0; 7];
         coefficients[1] = -c3 / s3;
         Self {
@@ -68,7 +68,7 @@ impl PolynomialStretch {
     ///
     /// # Errors
     /// If a coefficient is not finite, or if the range is not positive.
-    pub fn validate(&self) -> Result<(), RodParameterError> {
+    pub(crate) fn validate(&self) -> Result<(), RodParameterError> {
         if self.range.is_nan() || self.range <= 0.0 {
             let (key, value, rule) = (RodKey::Range, self.range, "positive");
             return Err(RodParameterError { key, value, rule });

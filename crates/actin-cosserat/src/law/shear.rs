@@ -42,7 +42,7 @@ impl CubicShear {
     ///
     /// # Errors
     /// If a parameter is negative or not finite, or if linear and cubic part are both zero.
-    pub fn validate(&self) -> Result<(), RodParameterError> {
+    pub(crate) fn validate(&self) -> Result<(), RodParameterError> {
         let [s1, s2] = self.linear;
         for (key, value) in [
             (RodKey::S1, s1),

@@ -100,7 +100,7 @@ impl SidedTwist {
     ///
     /// # Errors
     /// If a rise, `half` or the range is not positive, or if `rest` or `slow` is negative.
-    pub fn validate(&self) -> Result<(), RodParameterError> {
+    pub(crate) fn validate(&self) -> Result<(), RodParameterError> {
         if !(self.rest >= 0.0 && self.rest.is_finite()) {
             let (key, value, rule) = (RodKey::Rest, self.rest, "finite and not negative");
             return Err(RodParameterError { key, value, rule });
@@ -164,7 +164,7 @@ impl SidedTwist {
 
     /// Torque (pN nm) at twist `k` (rad/nm).
     #[inline]
-    pub fn couple(&self, k: f64) -> f64 {
+    pub(crate) fn couple(&self, k: f64) -> f64 {
         let inside = k.clamp(-self.range, self.range);
         let couple = self.inner_couple(inside);
         if k.abs() <= self.range {
@@ -176,12 +176,12 @@ impl SidedTwist {
 
     /// Derivative of the torque (pN nm^2).
     #[inline]
-    pub fn tangent(&self, k: f64) -> f64 {
+    pub(crate) fn tangent(&self, k: f64) -> f64 {
         self.inner_tangent(k.clamp(-self.range, self.range))
     }
 
     /// Energy per length (pN): integral of the torque, accurate to round-off.
-    pub fn energy_density(&self, k: f64) -> f64 {
+    pub(crate) fn energy_density(&self, k: f64) -> f64 {
         let inside = k.clamp(-self.range, self.range);
         let side = self.side(k);
         let energy = 0.5 * self.rest * inside * inside + side.rise * side.moment(inside.abs());

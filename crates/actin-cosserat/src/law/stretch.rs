@@ -35,7 +35,7 @@ impl StretchLaw {
     ///
     /// # Errors
     /// If a parameter is not positive and finite.
-    pub fn validate(&self) -> Result<(), RodParameterError> {
+    pub(crate) fn validate(&self) -> Result<(), RodParameterError> {
         match *self {
             Self::Constant { rigidity: s3 } => RodParameterError::unless_positive(RodKey::S3, s3),
             Self::Sided {

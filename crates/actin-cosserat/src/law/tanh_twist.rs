@@ -61,7 +61,7 @@ impl TanhTwist {
     /// # Errors
     /// If `l2`, `l5`, `l7` or the range is not positive, if a parameter is not finite, or if the
     /// torque does not increase at a limit of the range.
-    pub fn validate(&self) -> Result<(), RodParameterError> {
+    pub(crate) fn validate(&self) -> Result<(), RodParameterError> {
         let widths = [
             (RodKey::Lambda2, 1),
             (RodKey::Lambda5, 4),
@@ -146,7 +146,7 @@ impl TanhTwist {
 
     /// Torque (pN nm) at twist `k` (rad/nm).
     #[inline]
-    pub fn couple(&self, k: f64) -> f64 {
+    pub(crate) fn couple(&self, k: f64) -> f64 {
         let inside = k.clamp(-self.range, self.range);
         let couple = self.formula(inside) * inside;
         if k.abs() <= self.range {
@@ -158,12 +158,12 @@ impl TanhTwist {
 
     /// Derivative of the torque (pN nm^2).
     #[inline]
-    pub fn tangent(&self, k: f64) -> f64 {
+    pub(crate) fn tangent(&self, k: f64) -> f64 {
         self.inner_tangent(k.clamp(-self.range, self.range))
     }
 
     /// Energy per length (pN): integral of the torque, accurate to round-off.
-    pub fn energy_density(&self, k: f64) -> f64 {
+    pub(crate) fn energy_density(&self, k: f64) -> f64 {
         let inside = k.clamp(-self.range, self.range);
         let (mean, steps) = self.steps();
         let step = |[height, centre, width]: [f64; 3]| height * tanh_energy(inside, centre, width);

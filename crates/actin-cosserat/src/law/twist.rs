@@ -21,7 +21,7 @@ impl TwistLaw {
     ///
     /// # Errors
     /// If a parameter is out of range.
-    pub fn validate(&self) -> Result<(), RodParameterError> {
+    pub(crate) fn validate(&self) -> Result<(), RodParameterError> {
         match self {
             Self::Constant(b3) => RodParameterError::unless_positive(RodKey::B3, *b3),
             Self::Tanh(law) => law.validate(),

@@ -21,7 +21,7 @@ impl TwistStretch {
         Self::Polynomial(PolynomialStretch::published())
     }
 
-    /// Linear law; see [`PolynomialStretch::linear`].
+    /// Linear law; see `PolynomialStretch::linear`.
     pub fn linear(c3: f64, s3: f64) -> Self {
         Self::Polynomial(PolynomialStretch::linear(c3, s3))
     }
@@ -39,7 +39,7 @@ impl TwistStretch {
 
     /// `xi - 1` at `k` (rad/nm), with two derivatives.
     #[inline]
-    pub fn jet(&self, k: f64) -> [f64; 3] {
+    pub(crate) fn jet(&self, k: f64) -> [f64; 3] {
         match self {
             Self::Polynomial(law) => law.jet(k),
             Self::Rooted(law) => law.jet(k),

@@ -97,7 +97,7 @@ impl Capsule {
     }
 
     /// Rest length (nm).
-    pub fn length(&self) -> f64 {
+    pub(crate) fn length(&self) -> f64 {
         self.length
     }
 
@@ -110,7 +110,7 @@ impl Capsule {
     }
 
     /// Ends of the axis (nm, lab frame).
-    pub fn ends(&self, state: &State) -> [Vector3; 2] {
+    pub(crate) fn ends(&self, state: &State) -> [Vector3; 2] {
         let x = &state.points.position;
         match self.axis {
             Axis::Points(points) => points.map(|i| x.get(i)),

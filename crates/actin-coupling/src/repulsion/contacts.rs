@@ -136,11 +136,6 @@ impl Contacts {
         })
     }
 
-    /// Capsules of all filaments.
-    pub fn capsules(&self) -> &[Capsule] {
-        &self.capsules
-    }
-
     /// Number of pairs in the neighbour list of `state`.
     pub fn pairs(&self, state: &State) -> usize {
         self.neighbours(state).pairs.len()

@@ -33,7 +33,7 @@ impl Verdicts {
     }
 
     /// Returns a short description.
-    pub fn in_words(self) -> String {
+    pub(crate) fn in_words(self) -> String {
         match (self.agree, self.missed) {
             (0, 0) => format!("{} measured", self.measured),
             (agree, 0) => format!("{agree} agree"),

@@ -17,7 +17,7 @@ use std::fs;
 use std::path::Path;
 
 /// A string literal. A string that is read from a file is leaked; each artefact is read once.
-pub type Literal = &'static str;
+pub(crate) type Literal = &'static str;
 
 fn literal<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Literal, D::Error> {
     Ok(Box::leak(

@@ -36,25 +36,6 @@ fn places(count: usize) -> i32 {
 }
 
 impl Row {
-    /// Compares with a printed number; `sd` is the standard deviation of a single sample, 0 without sampling.
-    ///
-    /// # Panics
-    /// If the text is not a number.
-    #[must_use]
-    pub fn against_printed(self, text: &str, sd: f64) -> Self {
-        let (value, half) = printed(text);
-        self.against(value, half + DEVIATIONS * sd)
-    }
-
-    /// Compares with a printed number that follows from other printed numbers without a simulation.
-    ///
-    /// # Panics
-    /// If the text is not a number.
-    #[must_use]
-    pub fn derived(self, text: &str) -> Self {
-        self.against_printed(text, 0.0).of(Origin::Derived)
-    }
-
     /// Adds a reference value without a verdict.
     #[must_use]
     pub fn beside(self, expected: f64, origin: Origin) -> Self {
@@ -89,15 +70,5 @@ mod tests {
             assert!((found - value).abs() <= 1e-12 * value, "{text}");
             assert!((tolerance - half).abs() <= 1e-12 * half, "{text}");
         }
-    }
-
-    #[test]
-    fn scatter_counts_twice() {
-        let row = |ours| Row::measured("table4", "q", "pN", ours, "");
-        let judged = |ours| row(ours).against_printed("1.6e4", 100.0).pass;
-        assert_eq!(judged(1.669e4), Some(true));
-        assert_eq!(judged(1.671e4), Some(false));
-        assert_eq!(row(1.0).beside(2.0, Origin::Parameter).pass, None);
-        assert_eq!(row(120.0).derived("120").origin, Some(Origin::Derived));
     }
 }

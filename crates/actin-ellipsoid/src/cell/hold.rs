@@ -21,9 +21,6 @@ pub enum Hold {
 }
 
 impl Hold {
-    /// All choices.
-    pub const ALL: [Self; 3] = [Self::Means, Self::AxisPoints, Self::Places];
-
     pub(super) fn rows(self, offsets: &[Vector3]) -> DMatrix<f64> {
         let mut rows = DMatrix::zeros(6, PER_MONOMER * offsets.len());
         for (i, offset) in offsets.iter().enumerate() {

@@ -136,7 +136,7 @@ impl Cell {
     }
 
     /// Number of monomers.
-    pub fn monomers(&self) -> usize {
+    pub(crate) fn monomers(&self) -> usize {
         self.offsets.len()
     }
 

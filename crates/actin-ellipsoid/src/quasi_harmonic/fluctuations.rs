@@ -71,11 +71,6 @@ impl Fluctuations {
         }
     }
 
-    /// Number of states.
-    pub fn states(&self) -> u64 {
-        self.states
-    }
-
     /// Root mean square relative deviation of the variances of strains from those of a chain at
     /// `thermal_energy` (pN nm), over all links and six directions.
     ///

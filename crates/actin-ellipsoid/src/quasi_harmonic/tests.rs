@@ -70,7 +70,7 @@ fn parts_add_up() {
 #[test]
 fn moments_reproduce_the_chain() {
     let (chain, mut state) = chain(5);
-    let monomers = *chain.monomers();
+    let monomers = chain.monomers;
     let mut fluctuations = Fluctuations::about(&monomers, &state);
     let mut noise = Xorshift::new(11);
     let states = 40_000;

@@ -36,7 +36,10 @@ const HEADER: Header = Header {
 ///
 /// # Errors
 /// If the states cannot be read, or `out` returns an error.
-pub fn write_gsd(run: &FinishedRun, out: &mut (impl Write + Seek)) -> Result<(), ExportError> {
+pub(crate) fn write_gsd(
+    run: &FinishedRun,
+    out: &mut (impl Write + Seek),
+) -> Result<(), ExportError> {
     let particles = Particles::new(run.assembly());
     let edges = extent::edges_nm(run, &particles)?;
     let mut writer = Writer::new(out, &HEADER)?;

@@ -23,7 +23,7 @@ const WITH_GEOMETRY: f32 = 1000.0;
 const FIBRE: f32 = 1001.0;
 
 /// Returns the meshes of the ellipsoids of a run: file names that begin with `prefix`, and contents.
-pub fn simularium_meshes(run: &FinishedRun, prefix: &str) -> Vec<(String, String)> {
+pub(crate) fn simularium_meshes(run: &FinishedRun, prefix: &str) -> Vec<(String, String)> {
     let particles = Particles::new(run.assembly());
     let meshes = particles.species.iter().filter_map(|s| match s.shape {
         Shape::Ellipsoid(semi_axes) => {
@@ -44,7 +44,7 @@ fn mesh_name(prefix: &str, species: &str) -> String {
 ///
 /// # Errors
 /// If the states cannot be read, or `out` returns an error.
-pub fn write_simularium(
+pub(crate) fn write_simularium(
     run: &FinishedRun,
     prefix: &str,
     out: &mut impl Write,

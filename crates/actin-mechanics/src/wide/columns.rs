@@ -76,7 +76,7 @@ impl<'a, S: Simd, const N: usize> ColumnsMut<'a, S, N> {
 
     /// Numbers of a group, padded with zeros.
     #[inline(always)]
-    pub fn get(&self, simd: S, group: usize) -> [S::f64s; N] {
+    pub(crate) fn get(&self, simd: S, group: usize) -> [S::f64s; N] {
         let mut values = [simd.splat_f64s(0.0); N];
         if group < self.full[0].len() {
             for (value, full) in values.iter_mut().zip(&self.full) {
@@ -201,25 +201,25 @@ const PARTS: usize = 8;
 
 /// Sum over bodies whose order does not depend on the number of lanes, up to eight lanes.
 #[derive(Clone, Copy, Debug)]
-pub struct Sums<S: Simd>([S::f64s; PARTS]);
+pub(crate) struct Sums<S: Simd>([S::f64s; PARTS]);
 
 impl<S: Simd> Sums<S> {
     /// Zero.
     #[inline(always)]
-    pub fn new(simd: S) -> Self {
+    pub(crate) fn new(simd: S) -> Self {
         Self([simd.splat_f64s(0.0); PARTS])
     }
 
     /// Adds the numbers of a group.
     #[inline(always)]
-    pub fn add(&mut self, simd: S, group: usize, terms: S::f64s) {
+    pub(crate) fn add(&mut self, simd: S, group: usize, terms: S::f64s) {
         let part = &mut self.0[group * S::F64_LANES % PARTS / S::F64_LANES];
         *part = simd.add_f64s(*part, terms);
     }
 
     /// Value of the sum.
     #[inline(always)]
-    pub fn total(&self, simd: S) -> f64 {
+    pub(crate) fn total(&self, simd: S) -> f64 {
         let mut parts = [0.0; PARTS];
         for (place, part) in self.0.iter().enumerate().take(PARTS / S::F64_LANES) {
             write(simd, &mut parts, place, *part);

@@ -133,7 +133,7 @@ pub(super) fn polynomial<S: Simd, const N: usize>(
 /// Accurate to round-off. Angles above 1/8 are computed by the standard library, the reference. The
 /// result of a lane depends on its angle alone.
 #[inline(always)]
-pub fn cosine_and_sinc<S: Simd>(simd: S, u: [S::f64s; 2]) -> [[S::f64s; 2]; 2] {
+pub(crate) fn cosine_and_sinc<S: Simd>(simd: S, u: [S::f64s; 2]) -> [[S::f64s; 2]; 2] {
     let results = [small(simd, u[0]), small(simd, u[1])];
     let largest = simd.reduce_max_f64s(simd.max_f64s(u[0], u[1]));
     if largest <= LARGEST_SQUARED_HALF_ANGLE {

@@ -4,7 +4,7 @@ use pulp::Arch;
 use std::sync::OnceLock;
 
 /// Environment variable that sets the instruction set: `scalar`, `avx2` or `avx512`.
-pub const INSTRUCTIONS: &str = "ACTIN_SIMD";
+pub(crate) const INSTRUCTIONS: &str = "ACTIN_SIMD";
 
 /// Instruction set of all vector code in this process: the best one of the processor, or the one
 /// named by the environment variable `ACTIN_SIMD`. Other libraries, such as faer, ignore the

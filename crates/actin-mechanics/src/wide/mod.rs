@@ -18,7 +18,7 @@
 //! Functions of small angles are polynomials in the squared angle (`functions.rs`), accurate to
 //! round-off; larger angles are computed by scalar functions. Multiplications and additions are
 //! fused if possible, so results may differ from the reference in the last digits. Results with
-//! four and eight lanes are identical to the bit, because sums over bodies ([`Sums`],
+//! four and eight lanes are identical to the bit, because sums over bodies (`Sums`,
 //! [`ShiftedUp`]) have a fixed order.
 #![allow(
     clippy::inline_always,
@@ -31,18 +31,19 @@ mod instructions;
 mod rotations;
 mod vectors;
 
-pub use columns::{Columns, ColumnsMut, ShiftedDown, ShiftedUp, Sums};
-pub use functions::{clamp, cosine_and_sinc, tanh};
-pub use instructions::{INSTRUCTIONS, arch, chosen_arch};
+pub(crate) use columns::Sums;
+pub use columns::{Columns, ColumnsMut, ShiftedDown, ShiftedUp};
+pub(crate) use functions::cosine_and_sinc;
+pub use functions::{clamp, tanh};
+pub use instructions::{arch, chosen_arch};
 pub use pulp::{Arch, Scalar, Simd, WithSimd};
-pub use rotations::{
-    WideQuaternion, log_with_coefficient, matrix, product, product_about_z, relative, turn,
-    turn_back,
-};
+pub(crate) use rotations::product;
+pub(crate) use rotations::product_about_z;
+pub use rotations::{WideQuaternion, log_with_coefficient, matrix, relative, turn, turn_back};
+pub(crate) use vectors::dot;
 pub use vectors::{
-    Wide3, WideMatrix, add, add3, cross, cross_add, dot, dot_add, in_lane, lane, load,
-    load_quaternions, load3, mul, mul_add, mul_each, neg, read, scale, scale_add, splat, sub,
-    transpose, write,
+    Wide3, WideMatrix, add, cross, cross_add, dot_add, in_lane, lane, load, load_quaternions,
+    load3, mul, mul_add, mul_each, neg, read, scale, scale_add, splat, sub, transpose, write,
 };
 
 const MOST_LANES: usize = 16;

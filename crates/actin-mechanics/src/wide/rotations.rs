@@ -20,7 +20,11 @@ pub type WideQuaternion<S> = [<S as Simd>::f64s; 4];
 
 /// Product `p q`.
 #[inline(always)]
-pub fn product<S: Simd>(simd: S, p: WideQuaternion<S>, q: WideQuaternion<S>) -> WideQuaternion<S> {
+pub(crate) fn product<S: Simd>(
+    simd: S,
+    p: WideQuaternion<S>,
+    q: WideQuaternion<S>,
+) -> WideQuaternion<S> {
     let ([pw, px, py, pz], [qw, qx, qy, qz]) = (p, q);
     let (p, q) = ([px, py, pz], [qx, qy, qz]);
     let [x, y, z] = cross_add(simd, p, q, scale_add(simd, q, pw, scale(simd, p, qw)));
@@ -31,7 +35,7 @@ pub fn product<S: Simd>(simd: S, p: WideQuaternion<S>, q: WideQuaternion<S>) -> 
 
 /// Product `p q` for a rotation `q = (w, 0, 0, z)` about the third axis.
 #[inline(always)]
-pub fn product_about_z<S: Simd>(
+pub(crate) fn product_about_z<S: Simd>(
     simd: S,
     [pw, px, py, pz]: WideQuaternion<S>,
     [w, z]: [S::f64s; 2],

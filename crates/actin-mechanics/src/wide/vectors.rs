@@ -21,17 +21,6 @@ pub fn load<S: Simd>(simd: S, values: &[f64], range: &Range<usize>) -> S::f64s {
     }
 }
 
-#[inline(always)]
-fn add_to<S: Simd>(simd: S, values: &mut [f64], range: &Range<usize>, terms: S::f64s) {
-    let values = &mut values[range.clone()];
-    if let [all] = S::as_mut_simd_f64s(values).0 {
-        *all = simd.add_f64s(*all, terms);
-    } else {
-        let sum = simd.add_f64s(simd.partial_load_f64s(values), terms);
-        simd.partial_store_f64s(values, sum);
-    }
-}
-
 /// Reads the group of lanes with the index `place`.
 #[inline(always)]
 pub fn read<S: Simd, const N: usize>(simd: S, numbers: &[f64; N], place: usize) -> S::f64s {
@@ -97,14 +86,6 @@ pub fn load3<S: Simd>(simd: S, vectors: &Vectors, range: &Range<usize>) -> Wide3
         load(simd, &vectors.y, range),
         load(simd, &vectors.z, range),
     ]
-}
-
-/// Adds to the vectors at `range`.
-#[inline(always)]
-pub fn add3<S: Simd>(simd: S, vectors: &mut Vectors, range: &Range<usize>, terms: Wide3<S>) {
-    add_to(simd, &mut vectors.x, range, terms[0]);
-    add_to(simd, &mut vectors.y, range, terms[1]);
-    add_to(simd, &mut vectors.z, range, terms[2]);
 }
 
 /// Loads the quaternions at `range`, scalar part first.
@@ -209,7 +190,7 @@ pub fn neg<S: Simd>(simd: S, a: Wide3<S>) -> Wide3<S> {
 
 /// `a . b`.
 #[inline(always)]
-pub fn dot<S: Simd>(simd: S, a: Wide3<S>, b: Wide3<S>) -> S::f64s {
+pub(crate) fn dot<S: Simd>(simd: S, a: Wide3<S>, b: Wide3<S>) -> S::f64s {
     let sum = simd.mul_f64s(a[0], b[0]);
     let sum = simd.mul_add_e_f64s(a[1], b[1], sum);
     simd.mul_add_e_f64s(a[2], b[2], sum)

@@ -41,7 +41,7 @@ impl Assembly {
     /// A    (nm)       factor such that max |u| is the amplitude
     /// ```
     ///
-    /// Automatic sections are [chosen](crate::trade::choose) first. Sections that follow a motion
+    /// Automatic sections are chosen first. Sections that follow a motion
     /// start as rods.
     ///
     /// # Errors

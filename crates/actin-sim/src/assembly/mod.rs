@@ -113,7 +113,7 @@ impl Assembly {
     ///
     /// # Panics
     /// If the index is out of range.
-    pub fn counts_of(&self, filament: usize) -> Counts {
+    pub(crate) fn counts_of(&self, filament: usize) -> Counts {
         let span = &self.filaments[filament];
         let (points, frames) = (span.points.clone(), span.frames.clone());
         self.counts_in(filament..filament + 1, points, frames)
@@ -166,7 +166,7 @@ impl Assembly {
     ///
     /// # Panics
     /// If the index is out of range.
-    pub fn length_of(&self, filament: usize) -> f64 {
+    pub(crate) fn length_of(&self, filament: usize) -> f64 {
         let sections = self.sections_of(filament);
         sections.last().map_or(0.0, |section| section.to_nm)
     }
@@ -222,18 +222,12 @@ impl Assembly {
         Some(&self.clamps[clamp])
     }
 
-    /// Returns the points whose mean is the tip of filament 0 at `end`: the last node of a rod, or
+    /// Returns the points whose mean is the tip of a filament at `end`: the last node of a rod, or
     /// the last two monomers. At a held end of monomers it is the inner held monomer.
-    pub fn tip_points(&self, end: End) -> &[usize] {
-        self.tip_points_of(0, end)
-    }
-
-    /// Returns the points whose mean is the tip of a filament; see
-    /// [`tip_points`](Self::tip_points).
     ///
     /// # Panics
     /// If the index is out of range.
-    pub fn tip_points_of(&self, filament: usize, end: End) -> &[usize] {
+    pub(crate) fn tip_points_of(&self, filament: usize, end: End) -> &[usize] {
         let sections = self.sections_of(filament);
         let section = match end {
             End::Start => sections.first(),

@@ -92,7 +92,7 @@ impl Assembly {
     ///
     /// Only neighbouring bodies and repelling bodies are checked. Without repulsion, distant parts
     /// of a filament or two filaments pass through each other undetected.
-    pub fn beyond_use(&self, state: &State) -> Vec<ModelLimitExceeded> {
+    pub(crate) fn beyond_use(&self, state: &State) -> Vec<ModelLimitExceeded> {
         let mut found = Vec::new();
         for rod in &self.rods {
             let radius = (CROSS_SECTION_AREA / PI).sqrt();
@@ -145,14 +145,6 @@ impl Assembly {
             let depth = (s_nm, touching.depth);
             self.push_beyond(found, section, (quantity, touching.limit), depth);
         }
-    }
-
-    /// Merges [`beyond_use`](Self::beyond_use) over several states, keeping the largest values.
-    pub fn worst_beyond_use<'a>(
-        &self,
-        states: impl IntoIterator<Item = &'a State>,
-    ) -> Vec<ModelLimitExceeded> {
-        worst(states.into_iter().flat_map(|state| self.beyond_use(state)))
     }
 
     fn push_beyond(
@@ -411,18 +403,5 @@ mod tests {
                 assert!((beyond.value - exact).abs() < 1e-12, "{beyond}");
             }
         }
-    }
-
-    #[test]
-    fn the_worst_of_some_states_is_kept() {
-        let assembly = build();
-        let from = assembly.sections[2].points.start;
-        let states = [2.0, 9.0, 5.0].map(|by| parted(&assembly, from, by));
-        let found = assembly.worst_beyond_use(&states);
-        let [strain] = &found[..] else {
-            panic!("{found:?}");
-        };
-        assert_eq!((strain.section, strain.quantity.as_str()), (1, "strain"));
-        assert_eq!(found, assembly.worst_beyond_use(&states[1..2]));
     }
 }

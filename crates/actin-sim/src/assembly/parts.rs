@@ -112,7 +112,7 @@ pub struct FilamentSpan {
 
 impl FilamentSpan {
     /// Position of the axis as built at an arc length (nm, lab frame).
-    pub fn axis_place(&self, s_nm: f64) -> Vector3 {
+    pub(crate) fn axis_place(&self, s_nm: f64) -> Vector3 {
         match &self.shape {
             None => self.origin_nm + self.axis() * s_nm,
             Some(built) => self.origin_nm + self.rotation * built.at(s_nm).0,
@@ -200,7 +200,7 @@ pub enum Resolution {
 
 impl SectionSpan {
     /// Number of bonds; 0 for a rod.
-    pub fn bonds(&self) -> usize {
+    pub(crate) fn bonds(&self) -> usize {
         match self.resolution {
             Resolution::Ellipsoids { bonds, .. } => bonds,
             Resolution::Rod { .. } => 0,

@@ -161,7 +161,7 @@ impl Assembly {
     }
 
     /// Sets load factors, anchors and held bodies to their values at a time or place of the path.
-    pub fn place_controls(&self, state: &mut State, at: At) {
+    pub(crate) fn place_controls(&self, state: &mut State, at: At) {
         match at {
             At::Path(parameter) => self.drive.place(state, parameter),
             At::Time(time_ns) => {

@@ -313,7 +313,7 @@ impl Assembly {
 
 impl LawExtrapolation {
     /// Describes the measured error.
-    pub fn error_text(&self) -> String {
+    pub(crate) fn error_text(&self) -> String {
         let Some(error) = &self.measured_error else {
             return "the error was not measured there".to_owned();
         };

@@ -1,7 +1,7 @@
 //! Worker threads that run replicas.
 
 use super::sink::Stop;
-use super::{Ensemble, EnsembleError, EnsembleProgress};
+use super::{Ensemble, EnsembleError};
 use crate::RunError;
 use std::num::NonZeroUsize;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -97,11 +97,6 @@ where
         let mut made = self.made();
         made.observed[index] = Some(observed);
         made.ended += 1;
-        // Called under the lock, so that the numbers are reported in order.
-        (self.ensemble.progress)(EnsembleProgress {
-            ended: made.ended,
-            of: self.ensemble.seeds.len(),
-        });
     }
 
     fn fail(&self, index: usize, error: RunError) {

@@ -53,7 +53,6 @@ pub struct Ensemble<'a> {
     drawn: Vec<Drawn>,
     threads: Option<NonZeroUsize>,
     interrupted: Option<&'a AtomicBool>,
-    progress: &'a (dyn Fn(EnsembleProgress) + Sync),
 }
 
 /// Replica at the end of its run.
@@ -69,15 +68,6 @@ pub struct Replica<'a, S = Trajectory> {
     pub sink: S,
     /// Outcome of the run.
     pub outcome: Outcome,
-}
-
-/// Progress of an ensemble.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct EnsembleProgress {
-    /// Number of completed replicas.
-    pub ended: usize,
-    /// Number of all replicas.
-    pub of: usize,
 }
 
 impl<'a> Ensemble<'a> {
@@ -120,7 +110,6 @@ impl<'a> Ensemble<'a> {
             drawn: drawn.to_vec(),
             threads: None,
             interrupted: None,
-            progress: &|_| (),
             seeds,
         };
         if ensemble.seeds.len() > 1 && ensemble.reseeded(1).1 == 0 {
@@ -147,12 +136,6 @@ impl<'a> Ensemble<'a> {
         }
     }
 
-    /// Sets a callback that receives the number of completed replicas after each one.
-    #[must_use]
-    pub fn with_progress(self, progress: &'a (dyn Fn(EnsembleProgress) + Sync)) -> Self {
-        Self { progress, ..self }
-    }
-
     /// Runs all replicas with records in memory. Calls `observe` at the end of each replica, on its
     /// thread, and returns the results in the order of the replicas.
     ///
@@ -172,7 +155,7 @@ impl<'a> Ensemble<'a> {
     /// # Errors
     /// As [`run`](Self::run). If a sink interrupts its run, the outcome of the replica has status
     /// `Interrupted`.
-    pub fn run_into<S: Sink, T: Send>(
+    pub(crate) fn run_into<S: Sink, T: Send>(
         &self,
         sink: impl Fn(&Plan<'_>) -> S + Sync,
         observe: impl Fn(Replica<'_, S>) -> T + Sync,

@@ -3,7 +3,6 @@
 use super::*;
 use crate::scene::SceneProblem;
 use crate::{Record, SimError};
-use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 fn heated(duration_ns: f64, more: &str) -> Scene {
@@ -148,14 +147,4 @@ fn an_ensemble_is_interrupted() {
         other => panic!("{other:?}"),
     };
     assert_eq!((ended, of), (0, 3));
-}
-
-#[test]
-fn progress_counts_replicas_in_order() {
-    let told = Mutex::new(Vec::new());
-    let scene = heated(0.01, "");
-    let tell = |p: EnsembleProgress| told.lock().unwrap().push((p.ended, p.of));
-    let ensemble = Ensemble::new(&scene, 4).unwrap().with_progress(&tell);
-    ensemble.on_threads(threads(2)).run(|_| ()).unwrap();
-    assert_eq!(*told.lock().unwrap(), [(1, 4), (2, 4), (3, 4), (4, 4)]);
 }

@@ -4,7 +4,7 @@
 //! `warnings` the warnings with their codes. Notes known before a run are in [`Assembly::notes`]
 //! and [`Plan::notes`](crate::Plan::notes); the summary adds those of the run.
 
-pub mod codes;
+pub(crate) mod codes;
 mod laws;
 mod mesh;
 
@@ -21,7 +21,7 @@ use std::fmt;
 /// Note on a scene or a run; a warning if it has a code.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Note {
-    /// Code of a warning, one of [`codes`].
+    /// Code of a warning, one of `codes`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub code: Option<Cow<'static, str>>,
     /// One or two sentences.

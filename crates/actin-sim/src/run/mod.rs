@@ -32,7 +32,8 @@ pub use plan::Plan;
 pub use record_stream::RecordSummary;
 pub(crate) use record_stream::RunStatistics;
 pub(crate) use recorder::record;
-pub use records::{At, Record, RecordIter, Records, Row, RowIter, Trajectory};
+pub use records::{At, Record, Records, Row, Trajectory};
+pub(crate) use records::{RecordIter, RowIter};
 pub use rest::SaddlePush;
 pub use sink::{
     MotionPosition, PathPosition, Progress, ResolutionSwitch, RunPosition, SavedRun, Sink,

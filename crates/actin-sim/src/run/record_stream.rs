@@ -2,7 +2,7 @@
 
 use super::hinge::slip_between;
 use super::slip::{LinkWatch, TurnLoss};
-use super::{At, Plan, Progress, Record, RunPosition, Sink};
+use super::{At, Progress, Record, RunPosition, Sink};
 use crate::assembly::{RangeWatch, TwistRecords, worst_of};
 use crate::observe::{Memory, View};
 use crate::{Assembly, LawExtrapolation, ModelLimitExceeded, UnstableTwist};
@@ -55,18 +55,6 @@ impl RecordSummary {
         }
     }
 
-    /// Creates the summary of a run with these `records`, in order, for a user-defined sink that
-    /// [resumes](crate::Plan::resume_into) it.
-    pub fn of(plan: &Plan<'_>, records: impl IntoIterator<Item = Record>) -> Self {
-        let assembly = plan.assembly();
-        let mut recorded = Self::new(assembly);
-        for record in records {
-            recorded.carried.links.follow(assembly, &record);
-            recorded.push(assembly, record);
-        }
-        recorded
-    }
-
     /// Creates the summary of a run that continues after a switch of cells with a first record.
     /// Statistics that do not depend on the resolution are kept.
     pub(crate) fn behind_switch(&self, assembly: &Assembly, first: Record) -> Self {
@@ -84,7 +72,7 @@ impl RecordSummary {
     }
 
     /// Returns the number of records.
-    pub fn count(&self) -> usize {
+    pub(crate) fn count(&self) -> usize {
         self.carried.count
     }
 

@@ -32,7 +32,7 @@ impl At {
     }
 
     /// Path parameter; `None` for a motion in time.
-    pub fn path(self) -> Option<f64> {
+    pub(crate) fn path(self) -> Option<f64> {
         match self {
             Self::Time(_) => None,
             Self::Path(parameter) => Some(parameter),
@@ -69,7 +69,7 @@ impl Record {
     }
 
     /// Returns the record without its state.
-    pub fn row(&self) -> Row {
+    pub(crate) fn row(&self) -> Row {
         Row {
             at: self.at,
             energies_pn_nm: self.energies_pn_nm.clone(),
@@ -120,10 +120,10 @@ pub trait Records {
 }
 
 /// Iterator over records.
-pub type RecordIter<'a> = Box<dyn Iterator<Item = io::Result<Cow<'a, Record>>> + 'a>;
+pub(crate) type RecordIter<'a> = Box<dyn Iterator<Item = io::Result<Cow<'a, Record>>> + 'a>;
 
 /// Iterator over records without their states.
-pub type RowIter<'a> = Box<dyn Iterator<Item = io::Result<Row>> + 'a>;
+pub(crate) type RowIter<'a> = Box<dyn Iterator<Item = io::Result<Row>> + 'a>;
 
 /// Records in memory.
 #[derive(Clone, Debug, Default)]

@@ -137,7 +137,7 @@ pub struct LongestStep {
 impl Estimate {
     /// Returns warnings about a time step and records that differ from the request in `task`, and
     /// about effects of strong drag on records.
-    pub fn notes(&self, task: &Task) -> Vec<Note> {
+    pub(crate) fn notes(&self, task: &Task) -> Vec<Note> {
         let Some(motion) = task.motion() else {
             return Vec::new();
         };

@@ -42,7 +42,7 @@ impl Buckle {
     ///
     /// # Panics
     /// If there are fewer than three points.
-    pub fn of(points: &[Vector3], axis: Vector3) -> Self {
+    pub(crate) fn of(points: &[Vector3], axis: Vector3) -> Self {
         assert!(
             points.len() > 2,
             "a buckled curve needs at least three points"
@@ -66,7 +66,7 @@ impl Buckle {
 ///
 /// # Panics
 /// If `points` or `count` has fewer than two points.
-pub fn equally_spaced(points: &[Vector3], count: usize) -> Vec<Vector3> {
+pub(crate) fn equally_spaced(points: &[Vector3], count: usize) -> Vec<Vector3> {
     assert!(
         points.len() > 1 && count > 1,
         "a polyline needs at least two points"

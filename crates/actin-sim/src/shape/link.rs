@@ -25,7 +25,7 @@ pub fn link(assembly: &Assembly, at: At) -> Option<f64> {
 ///
 /// # Panics
 /// If the index is out of range.
-pub fn link_of(assembly: &Assembly, filament: usize, at: At) -> Option<f64> {
+pub(crate) fn link_of(assembly: &Assembly, filament: usize, at: At) -> Option<f64> {
     link_at(assembly, filament, path_parameter(assembly, at))
 }
 

@@ -59,7 +59,7 @@ pub fn profile_of(assembly: &Assembly, filament: usize, state: &State) -> Vec<Pr
 
 impl Ribbon {
     /// Curvature vector at each vertex (rad/nm, axes of the frames); see [`profile`].
-    pub fn curvatures(&self) -> Vec<Vector3> {
+    pub(crate) fn curvatures(&self) -> Vec<Vector3> {
         let n = self.frames.len();
         let frame = |i: usize| (self.frame_s_nm[i], self.frames[i]);
         let inside: Vec<Vector3> = (1..n).map(|i| bend(frame(i - 1), frame(i))).collect();

@@ -62,7 +62,7 @@ impl Ribbon {
     ///
     /// # Panics
     /// If the index is out of range.
-    pub fn of(assembly: &Assembly, filament: usize, state: &State) -> Self {
+    pub(crate) fn of(assembly: &Assembly, filament: usize, state: &State) -> Self {
         let mut ribbon = Self {
             s_nm: Vec::new(),
             points_nm: Vec::new(),
@@ -175,7 +175,7 @@ impl Ribbon {
         ends.all(is_same)
     }
 
-    /// Writhe of the filament with straight extensions; see [`extended_writhe`]. `None` for more
+    /// Writhe of the filament with straight extensions; see `extended_writhe`. `None` for more
     /// than ten thousand vertices.
     pub fn writhe(&self) -> Option<f64> {
         let [(_, first), (_, last)] = self.extensions(&self.tangents());

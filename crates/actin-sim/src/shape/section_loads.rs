@@ -39,7 +39,7 @@ impl SectionLoads {
     ///
     /// # Panics
     /// If the index is out of range.
-    pub fn of(assembly: &Assembly, filament: usize, state: &State) -> Self {
+    pub(crate) fn of(assembly: &Assembly, filament: usize, state: &State) -> Self {
         let placed = &assembly.filaments[filament];
         let mut loads = Loads::zeros(state);
         for interaction in &assembly.system.interactions()[placed.terms.clone()] {
@@ -71,7 +71,7 @@ impl SectionLoads {
     }
 
     /// Returns the internal load at an arc length (nm); zero beyond the ends of the filament.
-    pub fn at(&self, s_nm: f64) -> SectionLoad {
+    pub(crate) fn at(&self, s_nm: f64) -> SectionLoad {
         let after = self.resultants.partition_point(|one| one.s_nm > s_nm);
         let Some(last) = after.checked_sub(1) else {
             return SectionLoad::default();

@@ -51,7 +51,7 @@ pub fn closed_writhe(points: &[Vector3]) -> f64 {
 /// `twist + writhe = link` holds, with the link given by the relative rotation of the extensions
 /// (Fuller and White). For other tangents it is a smooth function of the curve, but the link is not
 /// defined.
-pub fn extended_writhe(points: &[Vector3], tangents: [Vector3; 2]) -> f64 {
+pub(crate) fn extended_writhe(points: &[Vector3], tangents: [Vector3; 2]) -> f64 {
     let edges: Vec<[Vector3; 2]> = points.windows(2).map(|pair| [pair[0], pair[1]]).collect();
     let (first, last) = (points[0], points[points.len() - 1]);
     let mut sum = ray_and_ray(tangents[0], last - first, tangents[1]);

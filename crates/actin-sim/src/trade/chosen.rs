@@ -95,7 +95,7 @@ impl Chosen {
 ///
 /// # Errors
 /// Scenes without a reference, wanted quantities without a counterpart in the scene, a reference without a result.
-pub fn choose(scene: &Scene) -> Result<(Scene, Chosen), SceneProblem> {
+pub(crate) fn choose(scene: &Scene) -> Result<(Scene, Chosen), SceneProblem> {
     let began = Instant::now();
     let choice = Choice::of(scene)?;
     let is_equilibrium = matches!(scene.task, Task::Equilibrium(_));

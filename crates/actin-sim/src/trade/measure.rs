@@ -191,7 +191,7 @@ impl Item {
 
     /// Returns the relative error of a candidate: the root mean square size of the difference over records, divided by the
     /// root mean square size of the reference or, if larger, by the scale. `None` if the numbers of records differ.
-    pub fn error(&self, reference: &[Vec<f64>], candidate: &[Vec<f64>]) -> Option<f64> {
+    pub(crate) fn error(&self, reference: &[Vec<f64>], candidate: &[Vec<f64>]) -> Option<f64> {
         if reference.len() != candidate.len() || reference.is_empty() {
             return None;
         }

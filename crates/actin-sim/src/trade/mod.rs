@@ -17,7 +17,8 @@ mod study;
 mod table;
 
 pub use branches::OtherState;
-pub use chosen::{Chosen, choose};
+pub use chosen::Chosen;
+pub(crate) use chosen::choose;
 pub use measure::{Item, Measure};
 pub(crate) use model_error::model_error;
 pub use model_error::{ModelError, Scatter};

@@ -84,11 +84,6 @@ impl Checkpoints {
         Ok(saved)
     }
 
-    /// Number of checkpoints written.
-    pub fn written(&self) -> u64 {
-        self.written
-    }
-
     /// Returns true if the last attempt to write a checkpoint failed.
     pub fn last_failed(&self) -> bool {
         self.last_failed

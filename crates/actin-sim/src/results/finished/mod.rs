@@ -9,12 +9,11 @@ use super::{RunDirectory, RunDirectoryError, StateIter, StoredStates};
 use crate::{Assembly, At, Scene};
 use std::fs;
 use std::ops::Range;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// A finished run, opened to read its states.
 #[derive(Debug)]
 pub struct FinishedRun {
-    path: PathBuf,
     assembly: Assembly,
     stored: StoredStates,
 }
@@ -35,17 +34,8 @@ impl FinishedRun {
         let stored = RunDirectory::existing(&path).stored_states(&assembly)?;
         match stored {
             None => Err(FinishedRunError::NoStates { path }),
-            Some(stored) => Ok(Self {
-                path,
-                assembly,
-                stored,
-            }),
+            Some(stored) => Ok(Self { assembly, stored }),
         }
-    }
-
-    /// Path of the directory.
-    pub fn path(&self) -> &Path {
-        &self.path
     }
 
     /// Assembly of the scene.
