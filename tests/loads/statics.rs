@@ -134,8 +134,11 @@ fn a_couple_bends_into_an_arc() {
 }
 
 /// A couple about any other axis bends the rod into a helix about the uniform internal moment `m`:
-/// the tangent rotates about `m` at `|m|/B` per length. The moment is the torque of the load, `M (e
-/// + Re) / (1 + e . Re)`.
+/// the tangent rotates about `m` at `|m|/B` per length. The moment is the torque of the load:
+///
+/// ```text
+/// m = M (e + Re) / (1 + e . Re)
+/// ```
 #[test]
 fn a_couple_bends_into_a_helix() {
     let couple = Vector3::new(300.0, 0.0, 260.0);

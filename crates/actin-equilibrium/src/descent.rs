@@ -110,13 +110,13 @@ impl Descent {
     }
 
     /// Continues from another state.
-    pub(crate) fn restart(&mut self, interactions: &[Box<dyn Interaction>], state: State) {
+    pub(crate) fn restart(&mut self, interactions: &[Box<dyn Interaction>], state: &State) {
         let start = std::mem::take(&mut self.start);
         *self = Self {
             start,
             farthest: self.farthest,
             size: self.size,
-            ..Self::new(interactions, &state, &self.options)
+            ..Self::new(interactions, state, &self.options)
         };
     }
 

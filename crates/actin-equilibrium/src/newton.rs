@@ -311,6 +311,19 @@ impl Run<'_> {
         Ok(None)
     }
 
+    /// Termination where no step is accepted.
+    fn stop_at_best(&mut self, descent: &mut Descent) -> Result<Option<Convergence>, SolveError> {
+        self.solver
+            .assemble(self.interactions, &descent.state, &descent.here.loads);
+        self.measure(descent);
+        let cause = if descent.is_blocked() {
+            SolveError::PassesThrough
+        } else {
+            SolveError::Stagnated
+        };
+        self.give_up(descent, cause)
+    }
+
     /// Returns `true` if recent steps are short, because the loads have small components along the
     /// unstable modes.
     fn is_slow(&self) -> bool {
@@ -331,7 +344,7 @@ impl Run<'_> {
         let (solver, turn_length) = (&mut *self.solver, self.options.turn_length);
         let mode = leave_saddle(solver, turn_length, &mut state, self.interactions)?;
         if mode.is_some() {
-            descent.restart(self.interactions, state);
+            descent.restart(self.interactions, &state);
         }
         Ok(mode.is_some())
     }

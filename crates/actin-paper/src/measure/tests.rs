@@ -99,9 +99,12 @@ fn a_rod_that_is_soft_in_shear_shows_its_shearing_rigidity() {
 }
 
 /// If both kinds of interfaces keep the distance of their centres, twist changes radius and length
-/// together. With turn `t` and rise `z` per monomer and `x = R dR`, `2 (1 - cos t) x + R^2 sin t dt
-/// + z dz = 0` holds for neighbours, and with `2 t` and `2 z` for second neighbours. The result is
-/// `dz / dt = R^2 sin t / z = -0.2831 nm`.
+/// together. Turn `t` and rise `z` per monomer satisfy the equation below for neighbours, and with
+/// `2 t` and `2 z` for second neighbours. The result is `dz / dt = R^2 sin t / z = -0.2831 nm`.
+///
+/// ```text
+/// 2 (1 - cos t) R dR + R^2 sin t dt + z dz = 0
+/// ```
 #[test]
 fn small_twist_changes_the_length_as_for_inextensible_interfaces() {
     let (rise, radius, turn) = helix();
