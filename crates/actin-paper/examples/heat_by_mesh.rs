@@ -85,6 +85,10 @@ impl Case<'_> {
         Scene::from_ron(&text).unwrap_or_else(|error| panic!("{error}"))
     }
 
+    #[expect(
+        clippy::too_many_lines,
+        reason = "one protocol, from the filament to its means"
+    )]
     fn run(&self, seed: u64) -> Means {
         let mut assembly = Assembly::build(&self.scene(seed)).expect("a filament");
         let system = &mut assembly.system;

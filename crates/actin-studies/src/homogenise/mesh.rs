@@ -139,8 +139,7 @@ fn strains(law: &Homogenised, kt: f64) -> Vec<SixVector> {
             all.extend(normal);
         }
     }
-    let [_, twist, _] = [RANGE.curvature, RANGE.twist, RANGE.shear];
-    all.retain(|strain| strain[2].abs() <= twist && least(law, strain) > LEAST[0]);
+    all.retain(|strain| strain[2].abs() <= RANGE.twist && least(law, strain) > LEAST[0]);
     all
 }
 
@@ -217,8 +216,6 @@ fn clipped(values: &[f64]) -> Vec<f64> {
 /// Computes the coefficients for the temperature of the law of the cells.
 pub(super) fn run(out: &Path) -> Result<(), String> {
     let cell = Homogenised::mean_filament_at_298_k();
-    let kt = BOLTZMANN_PN_NM_PER_K * Homogenised::HEATED_K;
-    let cell_nm = PERIOD as f64 * constants::RISE;
     let mut table =
         String::from("| function | standard deviation | residual |\n| --- | ---: | ---: |\n");
     let mut fitted = |name: &str, strains: &[SixVector], values: &[f64]| {
@@ -226,7 +223,7 @@ pub(super) fn run(out: &Path) -> Result<(), String> {
         let _ = writeln!(table, "| {name} | {:.3} | {rms:.3} |", deviation(values));
         Ok::<_, String>(law)
     };
-    let all = strains(cell, kt);
+    let all = strains(cell, thermal_energy());
     let here: Vec<Tangents> = all.par_iter().map(|s| Tangents::of(cell, s)).collect();
     let plain: Vec<f64> = here.iter().map(|t| log_det(&t.all)).collect();
     let staggered: Vec<f64> = here.par_iter().map(Tangents::staggered).collect();
@@ -252,15 +249,28 @@ pub(super) fn run(out: &Path) -> Result<(), String> {
         &stiff,
         &curved(&|t, s| t.trace(&Tangents::of(&d_s, s))),
     )?;
-    let second = kt * kt / 8.0;
-    let by_power = [
-        vec![(0.5 * kt / cell_nm, &d), (second / cell_nm.powi(2), &x_cc)],
-        vec![(-0.5 * kt, &d_s), (-2.0 * second / cell_nm, &x_sc)],
-        vec![(second, &x_ss)],
-    ];
     println!("{table}");
     save(out, "mesh.md", &table)?;
+    let by_power = by_power([d, d_s], [x_cc, x_sc, x_ss]);
     save(out, "mean_filament_298_k_by_segment.csv", &lines(&by_power))
+}
+
+fn thermal_energy() -> f64 {
+    BOLTZMANN_PN_NM_PER_K * Homogenised::HEATED_K
+}
+
+/// Terms of each inverse power of the segment length.
+fn by_power(
+    [d, d_s]: [Homogenised; 2],
+    [x_cc, x_sc, x_ss]: [Homogenised; 3],
+) -> [Vec<(f64, Homogenised)>; 3] {
+    let kt = thermal_energy();
+    let (cell_nm, second) = (PERIOD as f64 * constants::RISE, kt * kt / 8.0);
+    [
+        vec![(0.5 * kt / cell_nm, d), (second / cell_nm.powi(2), x_cc)],
+        vec![(-0.5 * kt, d_s), (-2.0 * second / cell_nm, x_sc)],
+        vec![(second, x_ss)],
+    ]
 }
 
 fn deviation(values: &[f64]) -> f64 {
@@ -274,7 +284,7 @@ fn deviation(values: &[f64]) -> f64 {
         .sqrt()
 }
 
-fn lines(by_power: &[Vec<(f64, &Homogenised)>]) -> String {
+fn lines(by_power: &[Vec<(f64, Homogenised)>]) -> String {
     let mut text = String::new();
     for (power, parts) in by_power.iter().enumerate() {
         for term in Term::ALL {

@@ -60,17 +60,7 @@ impl<'a> Strand<'a> {
         let holds = clamps.map(|clamp| clamp.map(|c| c.hold));
         let is_held = holds.map(|hold| hold.is_some());
         let resolved = resolve(filament, is_held)?;
-        let laws = (filament.sections.iter().enumerate()).map(|(i, section)| {
-            let segment_nm = match section {
-                Section::Rod { .. } => {
-                    let length_nm = resolved[i].to_nm - resolved[i].from_nm;
-                    Some(length_nm / segments(i, section, &resolved[i])? as f64)
-                }
-                Section::Ellipsoids { .. } => None,
-            };
-            law::Law::of_section((i, section), filament, in_bath, segment_nm)
-        });
-        let laws = laws.collect::<Result<_, _>>()?;
+        let laws = laws(filament, &resolved, in_bath)?;
         Ok(Self {
             index,
             filament,
@@ -491,4 +481,24 @@ fn segments(
         value,
         format!("{count:.2e} segments in this section are more than can be counted"),
     ))
+}
+
+/// Law of each section.
+fn laws(
+    filament: &Filament,
+    resolved: &[Resolved],
+    in_bath: bool,
+) -> Result<Vec<law::Law>, SceneProblem> {
+    let sections = filament.sections.iter().zip(resolved).enumerate();
+    let laws = sections.map(|(i, (section, place))| {
+        let segment_nm = match section {
+            Section::Rod { .. } => {
+                let count = segments(i, section, place)? as f64;
+                Some((place.to_nm - place.from_nm) / count)
+            }
+            Section::Ellipsoids { .. } => None,
+        };
+        law::Law::of_section((i, section), filament, in_bath, segment_nm)
+    });
+    laws.collect()
 }
