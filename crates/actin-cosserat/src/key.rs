@@ -71,6 +71,8 @@ pub enum RodKey {
     LinearDensity,
     /// Area of the cross-section.
     Area,
+    /// Rest length of segments.
+    SegmentLength,
 }
 
 impl fmt::Display for RodKey {
@@ -109,6 +111,7 @@ impl fmt::Display for RodKey {
             Self::RestCurvature => "rest_curvature",
             Self::LinearDensity => "linear_density",
             Self::Area => "area",
+            Self::SegmentLength => "segment length",
         })
     }
 }

@@ -4,7 +4,7 @@
 //! `cargo run --release -p actin-paper --example persistence_length [SEEDS [CASE [FIRST]]]`
 //!
 //! Free filaments in a heat bath; of the turn of one cross-section against another at distance `s`,
-//! `<cos theta> = exp(-s/lp)` and `<phi^2> = s kT/C`, where `theta` tilts the axis and `phi` goes
+//! `<cos theta> = exp(-s/lp)` and `<phi^2> - <phi>^2 = s kT/C`, where `theta` tilts the axis and `phi` goes
 //! about it. `near` takes neighbours; `far` takes the slopes between 1/5 and 3/5 of 110 nm,
 //! which the wobble of single monomers does not enter; `further`, between 2/5 and 4/5. Errors are standard errors over seeds, by
 //! the jackknife; each seed is another noise and, of monomers, another sampling of anchors, but for
@@ -245,7 +245,7 @@ impl Case {
     }
 
     fn scene(&self, seed: u64) -> Scene {
-        let (sections, law) = (self.sections, self.law);
+        let (sections, law, temperature) = (self.sections, self.law, self.temperature);
         let monomers = self.monomers.replace("SEED", &seed.to_string());
         let text = format!(
             "Scene(
@@ -254,7 +254,11 @@ impl Case {
                     monomers: ({monomers}),
                     rod: RodModel(law: {law}),
                 ),
-                task: Dynamics(duration_ns: 1.0),
+                task: Dynamics(
+                    duration_ns: 1.0,
+                    drag: (translational_per_ns: {DRAG:?}, rotational_per_ns: {DRAG:?}),
+                    thermal: (temperature_k: {temperature:?}, seed: {seed}),
+                ),
             )"
         );
         Scene::from_ron(&text).unwrap_or_else(|error| panic!("{}:{error}", self.name))
@@ -303,19 +307,16 @@ fn measured(sums: &[Sums], kt: f64) -> String {
     let count = sums[0].frames_of_110_nm();
     let (near, far) = ((0, 1), (count / 5, 3 * count / 5));
     let further = (2 * count / 5, 4 * count / 5);
-    let of = |&(a, b): &(usize, usize), get: fn(&Sums) -> &Vec<f64>, log: bool| {
+    let of = |&(a, b): &(usize, usize), value: fn(&[&Turns], usize) -> f64| {
         jackknife(sums, |chosen| {
-            let at = |k: usize| {
-                let mean = chosen.iter().map(|s| get(s)[k]).sum::<f64>() / chosen.len() as f64;
-                if log { -mean.ln() } else { mean }
-            };
-            (b - a) as f64 * spacing / (at(b) - at(a))
+            let turns: Vec<&Turns> = chosen.iter().map(|sums| &sums.turns).collect();
+            (b - a) as f64 * spacing / (value(&turns, b) - value(&turns, a))
         })
     };
-    let (bend, bend_error) = of(&near, |s| &s.turns.cosine, true);
-    let (long, long_error) = of(&far, |s| &s.turns.cosine, true);
-    let (turn, turn_error) = of(&far, |s| &s.turns.twist, false);
-    let (turn_further, further_error) = of(&further, |s| &s.turns.twist, false);
+    let (bend, bend_error) = of(&near, Turns::tilt);
+    let (long, long_error) = of(&far, Turns::tilt);
+    let (turn, turn_error) = of(&far, Turns::twist_variance);
+    let (turn_further, further_error) = of(&further, Turns::twist_variance);
     let (energy, energy_error) = jackknife(sums, |chosen| {
         chosen.iter().map(|s| s.energy).sum::<f64>() / chosen.len() as f64
     });

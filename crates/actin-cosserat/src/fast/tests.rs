@@ -63,7 +63,7 @@ fn potential() -> RodMaterial {
 }
 
 fn heated() -> RodMaterial {
-    RodMaterial::homogenised(Homogenised::mean_filament_at_298_k())
+    RodMaterial::homogenised(Homogenised::heated_rod(10.0).expect("10 nm is in range"))
 }
 
 fn laws() -> Vec<Named> {

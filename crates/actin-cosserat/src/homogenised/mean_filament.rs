@@ -111,8 +111,8 @@ impl Homogenised {
     /// Free energy of mean filaments at [`HEATED_K`](Self::HEATED_K), averaged over the thermal
     /// motion of their monomers.
     ///
-    /// Measured in cells of 36 nm. Shorter segments in a heat bath count the motion at shorter
-    /// wavelengths twice.
+    /// Measured in cells of 35.6 nm with prescribed mean strain. Rods in a heat bath make the motion
+    /// of shorter wavelength again; their law is [`heated_rod`](Self::heated_rod).
     pub fn mean_filament_at_298_k() -> &'static Self {
         static LAW: LazyLock<Homogenised> =
             LazyLock::new(|| read(AT_298_K).with_range(RANGE_AT_298_K));
@@ -134,17 +134,19 @@ impl Homogenised {
     }
 }
 
+/// Numbers of the line that starts with `name`.
+pub(super) fn numbers(text: &str, name: &str) -> Vec<f64> {
+    let mut lines = text.lines().filter_map(|line| line.split_once(','));
+    let found = lines.find(|(other, _)| *other == name);
+    let fields = found.map(|(_, numbers)| numbers.split(','));
+    let number = |field: &str| field.parse().unwrap_or(f64::NAN);
+    fields.into_iter().flatten().map(number).collect()
+}
+
 fn read(text: &str) -> Homogenised {
-    let numbers = |name: &str| -> Vec<f64> {
-        let mut lines = text.lines().filter_map(|line| line.split_once(','));
-        let found = lines.find(|(other, _)| *other == name);
-        let fields = found.map(|(_, numbers)| numbers.split(','));
-        let number = |field: &str| field.parse().unwrap_or(f64::NAN);
-        fields.into_iter().flatten().map(number).collect()
-    };
-    let form = HomogenisedForm::new(&numbers("natural"))
-        .and_then(|form| form.with_rest(numbers("rest").into_iter().sum()));
-    form.and_then(|form| Homogenised::new(form, |term| numbers(&format!("{term:?}"))))
+    let form = HomogenisedForm::new(&numbers(text, "natural"))
+        .and_then(|form| form.with_rest(numbers(text, "rest").into_iter().sum()));
+    form.and_then(|form| Homogenised::new(form, |term| numbers(text, &format!("{term:?}"))))
         .expect("the embedded coefficients are valid")
 }
 

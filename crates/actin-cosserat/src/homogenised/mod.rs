@@ -1,8 +1,10 @@
 //! Potential of all six strains, fitted to periodic cells of monomers.
 //!
-//! Form: `terms.rs` and `polynomial.rs`. Coefficients: `mean_filament.rs`. Elements of rods:
+//! Form: `terms.rs` and `polynomial.rs`. Coefficients: `mean_filament.rs`, in a heat
+//! bath `heated.rs`. Elements of rods:
 //! `joint.rs` and `segment.rs`.
 
+mod heated;
 mod joint;
 mod mean_filament;
 mod polynomial;

@@ -77,6 +77,12 @@ pub enum Term {
     RootTwiceShear,
     /// `E^2 r`: softening of stretch by bending.
     StretchTwiceRoot,
+    /// `E`: tension at the natural length, in rods whose segments differ in length from the cells.
+    Pull,
+    /// `E^2 G`: correction to `E G` at large stretch.
+    StretchTwiceShear,
+    /// `E G^2`: dependence of fourth-order shear on stretch.
+    StretchShearTwice,
 }
 
 /// Function of one variable with two derivatives.
@@ -205,7 +211,7 @@ impl Factors {
 
 impl Term {
     /// All terms, in the order of the coefficients.
-    pub const ALL: [Self; 23] = [
+    pub const ALL: [Self; 26] = [
         Self::AnyStretch,
         Self::AnyBend,
         Self::AnyShear,
@@ -229,6 +235,9 @@ impl Term {
         Self::ShearThrice,
         Self::RootTwiceShear,
         Self::StretchTwiceRoot,
+        Self::Pull,
+        Self::StretchTwiceShear,
+        Self::StretchShearTwice,
     ];
 
     /// Degree of the polynomial in the bounded twist.
@@ -237,11 +246,13 @@ impl Term {
             Self::AnyStretch | Self::AnyBend | Self::AnyShear | Self::Turn => 0,
             Self::ShearThrice => 2,
             Self::StretchThrice => 4,
+            Self::StretchTwiceShear | Self::StretchShearTwice => 3,
             Self::StretchCoupling | Self::RootShear | Self::RootTwiceShear => 5,
             Self::Compression
             | Self::StretchRoot
             | Self::StretchBend
             | Self::StretchTwiceRoot
+            | Self::Pull
             | Self::ShearTwice => 6,
             Self::ShearCoupling => 7,
             Self::Bend
@@ -288,6 +299,9 @@ impl Term {
             Self::ShearThrice => [ONE, ONE, times(shear, times(shear, shear)), ONE, ONE],
             Self::RootTwiceShear => [ONE, times(root, root), shear, ONE, ONE],
             Self::StretchTwiceRoot => [times(stretch, stretch), root, ONE, ONE, ONE],
+            Self::Pull => [stretch, ONE, ONE, ONE, ONE],
+            Self::StretchTwiceShear => [times(stretch, stretch), ONE, shear, ONE, ONE],
+            Self::StretchShearTwice => [stretch, ONE, times(shear, shear), ONE, ONE],
         }
     }
 

@@ -1,16 +1,20 @@
 //! Relative rotations of cross-sections of a filament in a heat bath.
 //!
-//! At the distance `s`, `<cos theta> = exp(-s / lp)` and `<phi^2> = s kT / C`. Here `theta` is the
-//! tilt of the axis, `phi` the rotation about it, `lp` the persistence length and `C` the twisting
-//! rigidity.
+//! At the distance `s`, `<cos theta> = exp(-s / lp)` and `<phi^2> - <phi>^2 = s kT / C`. Here `theta`
+//! is the tilt of the axis, `phi` the rotation about it, `lp` the persistence length and `C` the
+//! twisting rigidity. The mean `<phi>` is not zero, since heat untwists filaments.
 
 use crate::run::free;
 use actin_integrate::{Bath, Composition, Drag, advance_in, largest_frequency, stable_step};
 use actin_mechanics::{State, UnitQuaternion, rotation};
-use actin_sim::{Assembly, BOLTZMANN_PN_NM_PER_K, Filament};
+use actin_sim::{
+    Assembly, BOLTZMANN_PN_NM_PER_K, DragModel, DragRates, Dynamics, Filament, Integrator, Task,
+    Thermal,
+};
 
+const ROOM_K: f64 = 298.0;
 /// Thermal energy at 298 K (pN nm).
-pub(crate) const ROOM_PN_NM: f64 = BOLTZMANN_PN_NM_PER_K * 298.0;
+pub(crate) const ROOM_PN_NM: f64 = BOLTZMANN_PN_NM_PER_K * ROOM_K;
 /// Drag rate (1/ns), near critical for the slowest bending mode of 110 nm.
 const DRAG: f64 = 5.0;
 /// Time before the first sample, ten relaxation times of the slowest bending mode, and time between
@@ -24,8 +28,10 @@ const SAMPLES: u32 = 400;
 pub struct Turns {
     /// `<cos theta>`.
     pub cosine: Vec<f64>,
+    /// `<phi>` (rad).
+    pub mean_twist: Vec<f64>,
     /// `<phi^2>` (rad^2).
-    pub twist: Vec<f64>,
+    pub square_twist: Vec<f64>,
 }
 
 impl Turns {
@@ -33,7 +39,8 @@ impl Turns {
     pub fn new(frames: usize) -> Self {
         Self {
             cosine: vec![0.0; frames],
-            twist: vec![0.0; frames],
+            mean_twist: vec![0.0; frames],
+            square_twist: vec![0.0; frames],
         }
     }
 
@@ -53,10 +60,28 @@ impl Turns {
                 let (x, y) = (relative.i, relative.j);
                 // Element (3, 3) of the rotation matrix.
                 self.cosine[k] += weight * (1.0 - 2.0 * (x * x + y * y));
-                self.twist[k] += weight * rotation::log(relative).z.powi(2);
+                let phi = rotation::log(relative).z;
+                self.mean_twist[k] += weight * phi;
+                self.square_twist[k] += weight * phi * phi;
             }
         }
     }
+
+    /// `-ln <cos theta>` over replicas at separation `k`.
+    pub fn tilt(replicas: &[&Self], k: usize) -> f64 {
+        -mean(replicas, |turns| turns.cosine[k]).ln()
+    }
+
+    /// Variance of `phi` over replicas at separation `k` (rad^2).
+    pub fn twist_variance(replicas: &[&Self], k: usize) -> f64 {
+        let first = mean(replicas, |turns| turns.mean_twist[k]);
+        mean(replicas, |turns| turns.square_twist[k]) - first * first
+    }
+}
+
+fn mean(replicas: &[&Turns], value: impl Fn(&Turns) -> f64) -> f64 {
+    let sum: f64 = replicas.iter().map(|turns| value(turns)).sum();
+    sum / replicas.len() as f64
 }
 
 /// Rotations of a free filament in a heat bath at 298 K. The time step is a share of the stability
@@ -66,7 +91,8 @@ pub(crate) fn turns_in_bath(
     (scheme, share): (&Composition, f64),
     replica: u64,
 ) -> Result<Turns, String> {
-    let scene = free("Free filament in a heat bath", filament);
+    let mut scene = free("Free filament in a heat bath", filament);
+    scene.task = Task::Dynamics(heated(replica + 1));
     let mut assembly = Assembly::build(&scene).map_err(|e| e.to_string())?;
     let frequency = largest_frequency(&assembly.system).map_err(|e| e.to_string())?;
     let step = stable_step(scheme, frequency, share).map_err(|e| e.to_string())?;
@@ -83,6 +109,28 @@ pub(crate) fn turns_in_bath(
     Ok(turns)
 }
 
+/// Motion in a heat bath at 298 K, which selects the law of rods.
+fn heated(seed: u64) -> Dynamics {
+    Dynamics {
+        duration_ns: WARM_UP_NS,
+        integrator: Integrator::default(),
+        time_step_ns: None,
+        step_safety: 0.5,
+        allow_unstable_step: false,
+        drag: DragModel::Rates(DragRates {
+            translational_per_ns: DRAG,
+            rotational_per_ns: DRAG,
+        }),
+        thermal: Some(Thermal {
+            temperature_k: ROOM_K,
+            seed,
+        }),
+        stop: None,
+        leave_saddles: 0,
+        record_every_ns: None,
+    }
+}
+
 /// Persistence length (nm) and twisting rigidity over kT (nm) with their standard errors. The
 /// slopes between 1/5 and 3/5 of the length exclude local fluctuations of single monomers. The
 /// distance between frames is `apart_nm`.
@@ -94,13 +142,7 @@ pub(crate) fn far_lengths(all: &[Turns], apart_nm: f64) -> [(f64, f64); 2] {
             (to - from) as f64 * apart_nm / (value(chosen, to) - value(chosen, from))
         })
     };
-    let mean = |chosen: &[&Turns], of: fn(&Turns) -> &[f64], k: usize| {
-        chosen.iter().map(|turns| of(turns)[k]).sum::<f64>() / chosen.len() as f64
-    };
-    [
-        slope(&|chosen, k| -mean(chosen, |t| &t.cosine, k).ln()),
-        slope(&|chosen, k| mean(chosen, |t| &t.twist, k)),
-    ]
+    [slope(&Turns::tilt), slope(&Turns::twist_variance)]
 }
 
 /// Number of steps of `h` in a duration, rounded up.
@@ -162,10 +204,13 @@ mod tests {
         let (tilt, twist) = (Vector3::x() * 0.3, Vector3::z() * 0.4);
         let mut turns = Turns::new(3);
         turns.add(&rest, &state([Vector3::zeros(), tilt, twist]), 1);
-        assert!((turns.cosine[0] - 1.0).abs() < 1e-15 && turns.twist[0].abs() < 1e-15);
-        // Separation 2: first and third frame only.
+        assert!((turns.cosine[0] - 1.0).abs() < 1e-15 && turns.square_twist[0].abs() < 1e-15);
+        // Separation 2: first and third only.
         assert!((turns.cosine[2] - 1.0).abs() < 1e-15);
-        assert!((turns.twist[2] - 0.16).abs() < 1e-15);
+        assert!((turns.mean_twist[2] - 0.4).abs() < 1e-15);
+        assert!((turns.square_twist[2] - 0.16).abs() < 1e-15);
+        // One sample: its variance is zero.
+        assert!(Turns::twist_variance(&[&turns], 2).abs() < 1e-15);
         // Separation 1: only the pair of the first two has tilt.
         let of_second = 2.0 * turns.cosine[1] - 0.3_f64.cos();
         assert!((of_second - 0.3_f64.cos()).abs() < 1e-15);

@@ -29,16 +29,19 @@ pub(super) struct Law {
 }
 
 impl Law {
-    /// Law of section `i` of a filament. `in_bath` selects the law at 298 K where the scene leaves
-    /// the choice open.
+    /// Law of section `i` of a filament with segments of `segment_nm`; `None` for monomers. `in_bath`
+    /// selects the law at 298 K where the scene leaves the choice open. Without a bath, that law is
+    /// the free energy of the cells, which contains all fluctuations up to 36 nm.
     pub(super) fn of_section(
         (i, section): (usize, &Section),
         filament: &Filament,
         in_bath: bool,
+        segment_nm: Option<f64>,
     ) -> Result<Self, SceneProblem> {
         let (rod, monomers) = (&filament.rod, &filament.monomers);
+        let heated = || heated(i, segment_nm.filter(|_| in_bath));
         let Some(altered) = section.altered_rod() else {
-            return Self::new(rod, monomers, in_bath);
+            return Self::new(rod, monomers, in_bath, heated);
         };
         let key = format!("filament.sections[{i}].altered");
         let named = |problem: SceneProblem| match problem.key.strip_prefix("filament.rod") {
@@ -48,7 +51,8 @@ impl Law {
             },
             _ => problem,
         };
-        let law = Self::new(&section.rod_model(rod), monomers, in_bath).map_err(named)?;
+        let model = section.rod_model(rod);
+        let law = Self::new(&model, monomers, in_bath, heated).map_err(named)?;
         law.altered(altered, &key)
     }
 
@@ -66,7 +70,12 @@ impl Law {
         Ok(Self { material, ..self })
     }
 
-    fn new(rod: &RodModel, monomers: &Monomers, in_bath: bool) -> Result<Self, SceneProblem> {
+    fn new(
+        rod: &RodModel,
+        monomers: &Monomers,
+        in_bath: bool,
+        heated: impl Fn() -> Result<Parts, SceneProblem>,
+    ) -> Result<Self, SceneProblem> {
         check_beside_law(rod)?;
         let rigidities = rod.material.rigidities();
         let material = RodMaterial::new(rigidities).map_err(refused("material"))?;
@@ -78,9 +87,9 @@ impl Law {
                 published(material, law)?
             }
             RodLaw::Fitted => with_laws(material, &fitted_laws())?,
-            RodLaw::Homogenised if in_bath => heated(),
+            RodLaw::Homogenised if in_bath => heated()?,
             RodLaw::Homogenised | RodLaw::HomogenisedAthermal => athermal(monomers),
-            RodLaw::HomogenisedAt298K => heated(),
+            RodLaw::HomogenisedAt298K => heated()?,
             RodLaw::Laws(laws) => with_laws(material, laws)?,
         };
         Ok(Self {
@@ -229,6 +238,7 @@ fn written(parameter: RodKey) -> &'static str {
         RodKey::RestCurvature => "rest_curvature_per_nm",
         RodKey::LinearDensity => "linear_density",
         RodKey::Area => "area",
+        RodKey::SegmentLength => "segments",
     }
 }
 
@@ -242,9 +252,22 @@ fn athermal(monomers: &Monomers) -> Parts {
     (RodMaterial::homogenised(law), None)
 }
 
-fn heated() -> Parts {
-    let law = Homogenised::mean_filament_at_298_k();
-    (RodMaterial::homogenised(law), None)
+/// Law at 298 K of section `i`: of segments of a length in a bath, or else of the cells.
+fn heated(i: usize, segment_nm: Option<f64>) -> Result<Parts, SceneProblem> {
+    let law = match segment_nm {
+        None => Homogenised::mean_filament_at_298_k(),
+        Some(nm) => Homogenised::heated_rod(nm).map_err(|_| {
+            let rule = format!(
+                "rods under the law Homogenised at 298 K need segments of at least {} nm: the monomers are 2.7 nm apart, \
+                 and the free energy of shorter segments is not convex; use fewer segments, resolve monomers, or write \
+                 law: HomogenisedAthermal",
+                Homogenised::SHORTEST_HEATED_NM
+            );
+            let key = format!("filament.sections[{i}].segments");
+            SceneProblem::new(key, format!("segments of {nm:.2} nm"), rule)
+        })?,
+    };
+    Ok((RodMaterial::homogenised(law), None))
 }
 
 fn published(material: RodMaterial, law: TwistStretch) -> Result<Parts, SceneProblem> {
@@ -271,4 +294,57 @@ fn with_laws(mut material: RodMaterial, laws: &RodLaws) -> Result<Parts, ScenePr
         law.validate().map_err(refused("law.twist_stretch"))?;
     }
     Ok((material, twist_stretch))
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::{Assembly, Scene};
+
+    fn build(segments: u32, law: &str, task: &str) -> Result<Assembly, String> {
+        let text = format!(
+            "Scene(
+                filament: Filament(
+                    sections: [Rod(from_nm: 0.0, to_nm: 60.0, segments: {segments})],
+                    rod: RodModel(law: {law}),
+                ),
+                task: {task},
+            )"
+        );
+        let scene = Scene::from_ron(&text).map_err(|error| error.to_string())?;
+        Assembly::build(&scene).map_err(|error| error.to_string())
+    }
+
+    const BATH: &str = "Dynamics(duration_ns: 1.0,
+        drag: (translational_per_ns: 5.0, rotational_per_ns: 5.0),
+        thermal: (temperature_k: 298.0, seed: 1))";
+
+    /// Tension of a straight rod of the length as built (pN).
+    fn tension(assembly: &mut Assembly) -> f64 {
+        -assembly.system.loads().force.get(0).z
+    }
+
+    #[test]
+    fn short_segments_are_refused_in_a_bath() {
+        for law in ["Homogenised", "HomogenisedAt298K"] {
+            let error = build(24, law, BATH).unwrap_err();
+            let expected = "filament.sections[0].segments = segments of 2.50 nm: rods under the law Homogenised at 298 K \
+                need segments of at least 5 nm";
+            assert!(error.contains(expected), "{error}");
+            assert!(build(12, law, BATH).is_ok());
+            assert!(build(24, law, "Equilibrium()").is_ok());
+        }
+        assert!(build(24, "HomogenisedAthermal", BATH).is_ok());
+    }
+
+    /// Fluctuations of shorter segments supply a part of the tension.
+    #[test]
+    fn the_law_in_a_bath_depends_on_the_segments() {
+        let [short, long] = [12, 2]
+            .map(|segments| tension(&mut build(segments, "Homogenised", BATH).unwrap()).abs());
+        assert!(short < 0.5 * long, "{short} {long}");
+        let [a, b] = [12, 2].map(|segments| {
+            tension(&mut build(segments, "HomogenisedAt298K", "Equilibrium()").unwrap())
+        });
+        assert!((a - b).abs() < 1e-9 * a.abs(), "{a} {b}");
+    }
 }

@@ -8,6 +8,7 @@ mod fit;
 mod grid;
 mod heat;
 mod law;
+mod mesh;
 mod region;
 mod rows;
 mod states;
@@ -46,6 +47,8 @@ enum Part {
     Drawn,
     /// Mean loads at a temperature, and the law fitted to them.
     Heat,
+    /// Dependence of the law at 298 K on the segment length.
+    Mesh,
 }
 
 /// Computes the parts, and prints and writes their tables.
@@ -70,6 +73,7 @@ fn compute(options: &Options) -> Result<(), String> {
             Part::Law => law::run(out, &axes, &grid()?)?,
             Part::Drawn => law::run_drawn(out, &axes, &grid()?)?,
             Part::Heat => heat::run(out, options.temperature, quick)?,
+            Part::Mesh => mesh::run(out)?,
         }
         println!("{part:?}: {:.0} s\n", clock.elapsed().as_secs_f64());
     }

@@ -38,6 +38,9 @@ pub(crate) struct Potential {
     shear_thrice: [f64; 3],
     root_twice_shear: [f64; 6],
     stretch_twice_root: [f64; 7],
+    pull: [f64; 7],
+    stretch_twice_shear: [f64; 4],
+    stretch_shear_twice: [f64; 4],
 }
 
 impl Potential {
@@ -68,6 +71,9 @@ impl Potential {
             shear_thrice: of(terms, Term::ShearThrice),
             root_twice_shear: of(terms, Term::RootTwiceShear),
             stretch_twice_root: of(terms, Term::StretchTwiceRoot),
+            pull: of(terms, Term::Pull),
+            stretch_twice_shear: of(terms, Term::StretchTwiceShear),
+            stretch_shear_twice: of(terms, Term::StretchShearTwice),
         }
     }
 }
@@ -351,6 +357,7 @@ impl<S: Simd> Strained<S> {
             by: [simd.splat_f64s(0.0); 5],
             by_t: simd.splat_f64s(0.0),
         };
+        sums.add(&law.pull, (0, stretch));
         sums.add_square(&law.stretch, (0, stretch));
         sums.add_product(&law.stretch_root, [(0, stretch), (2, root)]);
         sums.add_product(&law.stretch_bend, [(0, stretch), (1, bend)]);
@@ -367,6 +374,10 @@ impl<S: Simd> Strained<S> {
         sums.add_triple(&law.root_twice_shear, twice);
         let twice = [(0, stretch), (0, stretch), (2, root)];
         sums.add_triple(&law.stretch_twice_root, twice);
+        let twice = [(0, stretch), (0, stretch), (3, shear)];
+        sums.add_triple(&law.stretch_twice_shear, twice);
+        let twice = [(0, stretch), (3, shear), (3, shear)];
+        sums.add_triple(&law.stretch_shear_twice, twice);
         sums.add_cube(&law.stretch_thrice, (0, stretch));
         let [compression, slope] = jet(simd, &law.compression, t);
         Slopes {

@@ -59,6 +59,8 @@ impl<'a> Strand<'a> {
         let area = actin_cosserat::constants::CROSS_SECTION_AREA;
         let holds = clamps.map(|clamp| clamp.map(|c| c.hold));
         let is_held = holds.map(|hold| hold.is_some());
+        let resolved = resolve(filament, is_held)?;
+        let laws = laws(filament, &resolved, in_bath)?;
         Ok(Self {
             index,
             filament,
@@ -72,14 +74,12 @@ impl<'a> Strand<'a> {
                 translation: filament.at_nm.into(),
             },
             built: None,
-            resolved: resolve(filament, is_held)?,
+            resolved,
             lattice: Lattice::of(filament, is_held),
             models: (filament.sections.iter())
                 .map(|section| models::ellipsoids(&section.monomers(monomers), index))
                 .collect::<Result<_, _>>()?,
-            laws: (filament.sections.iter().enumerate())
-                .map(|section| law::Law::of_section(section, filament, in_bath))
-                .collect::<Result<_, _>>()?,
+            laws,
             cross_section: CrossSection::new(density, area).map_err(|error| {
                 let rule = format!("the mass per length that follows must be {}", error.rule);
                 SceneProblem::new("filament.monomers.mass_ag", error.value, rule)
@@ -329,31 +329,8 @@ impl<'a> Strand<'a> {
         self.hinge_frames[end as usize] = Some(frame);
     }
 
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "checked to lie between 1 and 2^53"
-    )]
     pub(super) fn segments(&self, i: usize) -> Result<usize, SceneProblem> {
-        let Resolved { from_nm, to_nm, .. } = self.resolved[i];
-        let written = match self.filament.sections[i] {
-            Section::Rod { segments, .. } => segments,
-            Section::Ellipsoids { .. } => None,
-        };
-        let (key, value, count) = if let Some(segments) = written {
-            ("segments", segments.to_string(), segments as f64)
-        } else {
-            let count = ((to_nm - from_nm) / DEFAULT_SEGMENT_NM).round().max(1.0);
-            ("to_nm", format!("{to_nm:?}"), count)
-        };
-        if count <= MOST_COUNTED {
-            return Ok(count as usize);
-        }
-        Err(SceneProblem::new(
-            format!("filament.sections[{i}].{key}"),
-            value,
-            format!("{count:.2e} segments in this section are more than can be counted"),
-        ))
+        segments(i, &self.filament.sections[i], &self.resolved[i])
     }
 
     fn describe_rod(&self, i: usize, layout: &RodLayout, length: f64, stock: &mut SceneParts) {
@@ -473,4 +450,55 @@ impl<'a> Strand<'a> {
 
 pub(super) fn junction_problem(error: &actin_coupling::JunctionError) -> SceneProblem {
     SceneProblem::new("filament.junction", "", error.to_string())
+}
+
+/// Number of segments of rod section `i`.
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "checked to lie between 1 and 2^53"
+)]
+fn segments(
+    i: usize,
+    section: &Section,
+    &Resolved { from_nm, to_nm, .. }: &Resolved,
+) -> Result<usize, SceneProblem> {
+    let written = match section {
+        Section::Rod { segments, .. } => *segments,
+        Section::Ellipsoids { .. } => None,
+    };
+    let (key, value, count) = if let Some(segments) = written {
+        ("segments", segments.to_string(), segments as f64)
+    } else {
+        let count = ((to_nm - from_nm) / DEFAULT_SEGMENT_NM).round().max(1.0);
+        ("to_nm", format!("{to_nm:?}"), count)
+    };
+    if count <= MOST_COUNTED {
+        return Ok(count as usize);
+    }
+    Err(SceneProblem::new(
+        format!("filament.sections[{i}].{key}"),
+        value,
+        format!("{count:.2e} segments in this section are more than can be counted"),
+    ))
+}
+
+/// Law of each section.
+fn laws(
+    filament: &Filament,
+    resolved: &[Resolved],
+    in_bath: bool,
+) -> Result<Vec<law::Law>, SceneProblem> {
+    let sections = filament.sections.iter().zip(resolved).enumerate();
+    let laws = sections.map(|(i, (section, place))| {
+        let segment_nm = match section {
+            Section::Rod { .. } => {
+                let count = segments(i, section, place)? as f64;
+                Some((place.to_nm - place.from_nm) / count)
+            }
+            Section::Ellipsoids { .. } => None,
+        };
+        law::Law::of_section((i, section), filament, in_bath, segment_nm)
+    });
+    laws.collect()
 }
