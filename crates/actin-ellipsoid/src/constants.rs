@@ -21,7 +21,7 @@ pub(crate) const LEFT_HANDED_TURNS_PER_PERIOD: f64 = 12.0;
 /// Rise per monomer (nm): 71.2 / 26 = 2.7385.
 ///
 /// Table 1 gives 5.52 nm per step of one strand, that is 2.76 nm per monomer.
-pub(crate) const RISE: f64 = PERIOD / MONOMERS_PER_PERIOD;
+pub const RISE: f64 = PERIOD / MONOMERS_PER_PERIOD;
 
 /// Turn about the axis per monomer (rad): -360 x 12 / 26 = -166.154 degrees.
 pub(crate) const TURN: f64 = -TAU * LEFT_HANDED_TURNS_PER_PERIOD / MONOMERS_PER_PERIOD;

@@ -21,7 +21,7 @@ impl Homogenised {
     }
 
     /// Derivative of the torque (pN nm^2), symmetric.
-    pub(crate) fn joint_tangent(&self, kappa: Vector3) -> Matrix3 {
+    pub fn joint_tangent(&self, kappa: Vector3) -> Matrix3 {
         self.joint_jet(kappa).1
     }
 

@@ -20,7 +20,7 @@ fn fitted_without_heat(law: &RodLaw) -> Option<(&'static str, InBath)> {
         RodLaw::Constant => Some(("Constant", (9.5, 1.30e4))),
         RodLaw::PublishedExtension => Some(("PublishedExtension", (9.5, 5.2e3))),
         RodLaw::CouplingEnergy => Some(("CouplingEnergy", (9.5, 5.2e3))),
-        RodLaw::Fitted => Some(("Fitted", (9.7, 4.6e3))),
+        RodLaw::Fitted => Some(("Fitted", (9.7, 5.2e3))),
         _ => None,
     }
 }
