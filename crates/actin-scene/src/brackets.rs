@@ -197,7 +197,10 @@ mod tests {
         }
         assert_eq!(found(SCENE), None);
         let unclosed = found(SCENE.trim_end().trim_end_matches(')')).unwrap();
-        assert!(unclosed.message.contains("ends before"), "{unclosed}");
+        assert!(
+            unclosed.message.contains("a bracket is not closed"),
+            "{unclosed}"
+        );
         let extra = crate::Scene::from_ron(&format!("{SCENE})")).unwrap_err();
         assert_eq!(extra.to_string(), "12:1: this ) closes nothing");
     }

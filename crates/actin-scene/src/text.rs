@@ -106,7 +106,7 @@ impl fmt::Display for Override {
 /// text.set("filament.rod.law=Fitted".parse()?)?;
 /// text.set("filament.sections[0].to_nm=-1.0".parse()?)?;
 /// let error = text.scene().unwrap_err().to_string();
-/// assert!(error.starts_with("filament.sections[0].to_nm=-1.0: filament.sections[0].to_nm = -1.0: a section"));
+/// assert!(error.starts_with("filament.sections[0].to_nm=-1.0: filament.sections[0].to_nm = -1.0: must"));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Debug)]

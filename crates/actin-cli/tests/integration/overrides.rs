@@ -54,8 +54,8 @@ fn invalid_overrides_are_refused_by_name() {
         ),
         (
             ["--set", "filament.sections[1].to_nm=5.0"],
-            "error: --set filament.sections[1].to_nm=5.0: filament.sections[1].to_nm = 5.0: a section's \
-             length",
+            "error: --set filament.sections[1].to_nm=5.0: filament.sections[1].to_nm = 5.0: must be \
+             greater than from_nm",
         ),
         (["--set", "filament.monomers.anchors=Cubature"], ""),
         (

@@ -82,7 +82,7 @@ fn mistakes_name_their_keys() {
     assert!(rule.contains("missing key `to_nm`"), "{rule}");
     let (key, rule) = refused(rod("to_nm", Whole(-40)));
     assert_eq!(key, "filament.sections[0].to_nm");
-    assert!(rule.contains("a section's length is positive"), "{rule}");
+    assert!(rule.contains("must be greater than from_nm"), "{rule}");
 }
 
 /// Vectors have a fixed number of components, and choices with keys are dictionaries.

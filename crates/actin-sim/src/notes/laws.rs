@@ -231,10 +231,9 @@ mod tests {
             })
         };
         let [[constant, all], [homogenised, _]] = ["Constant", "Homogenised"].map(met);
-        let said = format!("of {all} numbers");
+        let said = format!("{constant} of {all} measured quantities");
         assert!(CONSTANT.contains(&said), "{said}");
-        let said =
-            format!("meets {constant} within the required tolerance, Homogenised {homogenised} (");
+        let said = format!("required tolerance, Homogenised {homogenised} (");
         assert!(CONSTANT.contains(&said), "{said}");
     }
 
@@ -264,7 +263,7 @@ mod tests {
         assert_eq!(notes("anchors: Independent", ""), [""; 0]);
         let few = "anchors: Independent, lateral_bonds: 10, longitudinal_bonds: 10";
         let found = notes(few, "");
-        let said = "with 10 sampled bonds per interface: their stiffness is that of filaments with 64 bonds";
+        let said = "with 10 sampled bonds per interface: the law uses the stiffness of filaments with 64 bonds";
         assert!(found[0].contains(said), "{found:?}");
         assert_eq!(notes("anchors: Independent", BATH), [DRAWN_IN_BATH]);
         assert_eq!(notes("", BATH), [""; 0]);
