@@ -126,7 +126,7 @@ fn a_thousand_switches_leave_temperature_and_shape() {
 #[test]
 fn bonds_have_their_temperature_after_switches() {
     let rest = "task: Brownian(duration_ms: 1.6e-5, temperature_k: 298.0, seed: 5, record_every_ns: 0.02),";
-    let run = to_and_fro(&scene(72.0, 0.009, rest), 0.2);
+    let run = to_and_fro(&scene(72.0, 0.01, rest), 0.2);
     let [first, last] = about_switches(&run).map(warmth);
     println!(
         "{} switches: behind {first:.4}, before {last:.4}",

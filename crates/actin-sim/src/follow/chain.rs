@@ -370,6 +370,10 @@ fn resolved(scene: &Scene, cells: &Cells) -> Result<Scene, SceneProblem> {
     for cell in [0, cells.count() / 2, cells.count() - 1] {
         mixed[cell] = true;
     }
+    // Junctions can require the shortest steps.
+    if (2..=3).contains(&cells.count()) {
+        mixed[1] = false;
+    }
     for (cell, [from, to]) in cells.spans_nm().enumerate() {
         let mut linkers = scene.linkers.iter();
         mixed[cell] |= linkers.any(|linker| from <= linker.at_nm && linker.at_nm <= to);
