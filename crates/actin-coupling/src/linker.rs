@@ -2,7 +2,7 @@ use crate::site::{Site, ensure};
 use crate::{LinkerError, LinkerKey};
 use actin_mechanics::{
     ControlId, Coordinates, Hooke, Interaction, Loads, Matrix3, RandomStress, SecondOrder, State,
-    Stiffness, Vector3, correlate,
+    Stiffness, Vector3,
 };
 
 /// External point at one end of a linker.
@@ -253,9 +253,20 @@ impl RandomStress for Linker {
     }
 
     fn draw(&self, state: &State, thermal_energy: f64, stresses: &mut [f64]) {
-        let tangent = self.spring.tangent(self.reach(state));
-        for stress in stresses.as_chunks_mut().0 {
-            correlate(tangent * thermal_energy, stress);
+        let d = self.reach(state);
+        let axis = d.try_normalize(0.0).unwrap_or_else(Vector3::x);
+        let along = self.spring.stiffness;
+        let rest = self.spring.rest_length;
+        let across = if rest > 0.0 {
+            along * (1.0 - rest / d.norm()).max(0.0)
+        } else {
+            along
+        };
+        for stress in stresses.as_chunks_mut::<3>().0 {
+            let deviate = Vector3::from(*stress);
+            let own = axis * axis.dot(&deviate);
+            let correlated = own * along.sqrt() + (deviate - own) * across.sqrt();
+            *stress = (correlated * thermal_energy.sqrt()).into();
         }
     }
 

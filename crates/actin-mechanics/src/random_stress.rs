@@ -2,7 +2,7 @@
 //! relaxation time of strains.
 
 use crate::{Loads, State, Stiffness};
-use nalgebra::SMatrix;
+use nalgebra::{DMatrix, DVector, SMatrix};
 use std::ops::Range;
 
 /// Elements with strains `e(x)` under a random stress `s`, which adds the energy `-s . e(x)`.
@@ -54,22 +54,42 @@ pub trait RandomStress {
     }
 }
 
-/// Transforms independent deviates of mean 0 and variance 1 into deviates of covariance `c`
-/// (symmetric), by Cholesky factorisation. Directions with a pivot that is not positive are
-/// skipped.
+/// Transforms independent deviates of mean 0 and variance 1 into deviates whose covariance is `c`
+/// (symmetric). Negative eigenvalues count as zero.
+///
+/// A positive definite matrix is factorised by Cholesky's method. For an indefinite one, pivots
+/// close to zero would give unbounded factors; the square root of its positive part is used
+/// instead.
 ///
 /// ```
 /// use actin_mechanics::correlate;
 /// let mut deviates = [1.0, 1.0];
 /// correlate(nalgebra::Matrix2::new(4.0, 2.0, 2.0, 10.0), &mut deviates);
 /// assert_eq!(deviates, [2.0, 4.0]);
+/// // Positive part: 1/2 in each entry.
+/// correlate(nalgebra::Matrix2::new(0.0, 1.0, 1.0, 0.0), &mut deviates);
+/// assert!((deviates[0] - deviates[1]).abs() < 1e-15 && deviates[0].abs() < 5.0);
 /// ```
-pub fn correlate<const N: usize>(mut c: SMatrix<f64, N, N>, deviates: &mut [f64; N]) {
+pub fn correlate<const N: usize>(c: SMatrix<f64, N, N>, deviates: &mut [f64; N]) {
+    *deviates = lower_factor_times(c, deviates).unwrap_or_else(|| {
+        let eigen = DMatrix::from_fn(N, N, |i, j| c[(i, j)]).symmetric_eigen();
+        let roots = eigen.eigenvalues.map(|value| value.max(0.0).sqrt());
+        let own = DVector::from_column_slice(deviates).component_mul(&roots);
+        let sums = eigen.eigenvectors * own;
+        std::array::from_fn(|i| sums[i])
+    });
+}
+
+/// Product of the Cholesky factor and the deviates; `None` if a pivot is not positive.
+fn lower_factor_times<const N: usize>(
+    mut c: SMatrix<f64, N, N>,
+    deviates: &[f64; N],
+) -> Option<[f64; N]> {
     let mut sums = [0.0; N];
     for k in 0..N {
         let pivot = c[(k, k)];
         if pivot <= 0.0 {
-            continue;
+            return None;
         }
         let factors: [f64; N] = std::array::from_fn(|i| c[(i, k)] / pivot.sqrt());
         for i in k..N {
@@ -79,5 +99,31 @@ pub fn correlate<const N: usize>(mut c: SMatrix<f64, N, N>, deviates: &mut [f64;
             }
         }
     }
-    *deviates = sums;
+    Some(sums)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use nalgebra::{Matrix3, Vector3};
+
+    /// A compressed spring: stiff along its axis, slightly negative across. Close to the
+    /// direction where the first pivot vanishes, plain factors would be unbounded.
+    #[test]
+    fn indefinite_matrices_have_bounded_deviates() {
+        for angle in 0..2000 {
+            let (sine, cosine) = (f64::from(angle) * 1e-3).sin_cos();
+            let n = Vector3::new(sine, 0.6 * cosine, 0.8 * cosine);
+            let along = n * n.transpose();
+            let c = along - (Matrix3::identity() - along) * 0.01;
+            let mut deviates = [1.0, -2.0, 1.5];
+            let size = Vector3::from(deviates).norm();
+            correlate(c, &mut deviates);
+            let found = Vector3::from(deviates);
+            assert!(
+                found.cross(&n).norm() < 1e-12 && found.norm() <= size,
+                "{found}"
+            );
+        }
+    }
 }

@@ -5,7 +5,7 @@ use actin_mechanics::testing::{
     assert_is_stiffness, loads_of, resultant, stiffness_matrix,
 };
 use actin_mechanics::testing::{push_frame, push_point};
-use actin_mechanics::{Interaction, State, Vector3, rotation};
+use actin_mechanics::{Interaction, RandomStress, State, Vector3, rotation};
 use actin_mechanics::{Xorshift, perturb};
 use proptest::prelude::*;
 use std::f64::consts::FRAC_PI_2;
@@ -280,4 +280,27 @@ fn invalid_linkers_are_refused() {
     let expected = refused(LinkerKey::Anchor, infinite, "finite");
     assert_eq!(linker(1.0, 0.0, Vector3::new(infinite, 0.0, 0.0)), expected);
     assert!(on_rod(0, f64::NAN, 1.8, 0.0).is_err());
+}
+
+/// A linker pressed to 0.99 of its rest length, in many directions: the covariance of the stress is
+/// the stiffness along the linker, and zero across.
+#[test]
+fn compressed_linkers_have_bounded_random_stress() {
+    let (stiffness, rest, kt) = (0.2, 100.0, 4.11_f64);
+    let mut noise = Xorshift::new(3);
+    for _ in 0..2000 {
+        let mut state = State::default();
+        let rod = StraightRod::uniform(1, 10.0).push(&mut state).unwrap();
+        let site = Site::on_rod(&rod, place(0, 0.5, 0.0, 0.0)).unwrap();
+        let axis = Vector3::from_fn(|_, _| noise.sample()).normalize();
+        let end = site.position(&state) + axis * (0.99 * rest);
+        let anchor = LinkerEnd::Anchor(Anchor::fixed(end));
+        let linker = Linker::new(site, anchor, stiffness, rest).unwrap();
+        let deviate = Vector3::from_fn(|_, _| noise.sample());
+        let mut stress: [f64; 3] = deviate.into();
+        linker.draw(&state, kt, &mut stress);
+        let expected = axis * axis.dot(&deviate) * (kt * stiffness).sqrt();
+        let error = (Vector3::from(stress) - expected).norm();
+        assert!(error < 1e-12, "{error} along {axis}");
+    }
 }
