@@ -59,7 +59,7 @@ impl Dashpot {
         ]
     }
 
-    fn points(&self) -> impl Iterator<Item = (usize, f64)> {
+    pub(crate) fn points(&self) -> impl Iterator<Item = (usize, f64)> {
         self.points.into_iter().filter(|(_, weight)| *weight != 0.0)
     }
 
@@ -94,8 +94,15 @@ pub(crate) struct Velocities {
 }
 
 impl Friction {
-    pub(crate) fn add_loads(&self, state: &State, velocities: &Velocities, loads: &mut Loads) {
-        for dashpot in &self.dashpots {
+    /// Adds the loads of the dashpots at selected frames.
+    pub(crate) fn add_loads(
+        &self,
+        (state, velocities): (&State, &Velocities),
+        has_frame: impl Fn(usize) -> bool,
+        loads: &mut Loads,
+    ) {
+        let dashpots = self.dashpots.iter();
+        for dashpot in dashpots.filter(|dashpot| has_frame(dashpot.frame)) {
             let q = state.frames.orientation.get(dashpot.frame);
             let of_points = |(i, weight)| velocities.points.get(i) * weight;
             let v: Vector3 = dashpot.points().map(of_points).sum();
@@ -103,7 +110,7 @@ impl Friction {
             let u = q.inverse_transform_vector(&v) + omega.cross(&dashpot.arm);
             dashpot.add_force(state, -dashpot.friction.component_mul(&u), loads);
         }
-        for turn in &self.turns {
+        for turn in self.turns.iter().filter(|turn| has_frame(turn.frame)) {
             let omega = velocities.frames.get(turn.frame);
             let torque = -turn.friction.component_mul(&omega);
             loads.torque.add(turn.frame, torque);
@@ -148,6 +155,13 @@ pub(crate) struct Scaled<'a> {
 }
 
 impl<'a> Scaled<'a> {
+    pub(crate) fn scaled(self, factor: f64) -> Self {
+        Self {
+            factor: self.factor * factor,
+            ..self
+        }
+    }
+
     pub(crate) fn in_axes_of(self, state: &'a State) -> Self {
         Self {
             axes: Some(state),
@@ -156,33 +170,46 @@ impl<'a> Scaled<'a> {
     }
 }
 
-impl SecondOrder for Scaled<'_> {
-    fn add_stiffness(&self, state: &State, stiffness: &mut Stiffness) {
+impl Scaled<'_> {
+    pub(crate) fn add_dashpot(&self, k: usize, state: &State, stiffness: &mut Stiffness) {
         use Coordinates::{Frame, Point};
-        for dashpot in &self.friction.dashpots {
-            let own = Matrix3::from_diagonal(&(dashpot.friction * self.factor));
-            let axes = self.axes.unwrap_or(state);
-            let q = axes.frames.orientation.get(dashpot.frame);
-            let q = q.to_rotation_matrix().into_inner();
-            let in_lab = q * own * q.transpose();
-            let frame = Frame(dashpot.frame);
-            // omega x arm = A omega.
-            let a = -dashpot.arm.cross_matrix();
-            for (k, (i, weight)) in dashpot.points().enumerate() {
-                for (j, other) in dashpot.points().skip(k) {
-                    stiffness.push(Point(i), Point(j), in_lab * (weight * other));
-                }
-                if dashpot.has_arm() {
-                    stiffness.push(Point(i), frame, q * own * a * weight);
-                }
+        let dashpot = &self.friction.dashpots[k];
+        let own = Matrix3::from_diagonal(&(dashpot.friction * self.factor));
+        let axes = self.axes.unwrap_or(state);
+        let q = axes.frames.orientation.get(dashpot.frame);
+        let q = q.to_rotation_matrix().into_inner();
+        let in_lab = q * own * q.transpose();
+        let frame = Frame(dashpot.frame);
+        // omega x arm = A omega.
+        let a = -dashpot.arm.cross_matrix();
+        for (k, (i, weight)) in dashpot.points().enumerate() {
+            for (j, other) in dashpot.points().skip(k) {
+                stiffness.push(Point(i), Point(j), in_lab * (weight * other));
             }
             if dashpot.has_arm() {
-                stiffness.push(frame, frame, a.transpose() * own * a);
+                stiffness.push(Point(i), frame, q * own * a * weight);
             }
         }
-        for turn in &self.friction.turns {
-            let own = Matrix3::from_diagonal(&(turn.friction * self.factor));
-            stiffness.push(Frame(turn.frame), Frame(turn.frame), own);
+        if dashpot.has_arm() {
+            stiffness.push(frame, frame, a.transpose() * own * a);
+        }
+    }
+
+    pub(crate) fn add_turn(&self, k: usize, stiffness: &mut Stiffness) {
+        let turn = &self.friction.turns[k];
+        let frame = Coordinates::Frame(turn.frame);
+        let own = Matrix3::from_diagonal(&(turn.friction * self.factor));
+        stiffness.push(frame, frame, own);
+    }
+}
+
+impl SecondOrder for Scaled<'_> {
+    fn add_stiffness(&self, state: &State, stiffness: &mut Stiffness) {
+        for k in 0..self.friction.dashpots.len() {
+            self.add_dashpot(k, state, stiffness);
+        }
+        for k in 0..self.friction.turns.len() {
+            self.add_turn(k, stiffness);
         }
     }
 }

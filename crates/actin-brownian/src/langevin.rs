@@ -84,7 +84,7 @@ impl Langevin {
         }
         self.loads.clear();
         self.friction
-            .add_loads(state, &self.velocities, &mut self.loads);
+            .add_loads((state, &self.velocities), |_| true, &mut self.loads);
         if self.thermal_energy > 0.0 {
             let strength = (2.0 * self.thermal_energy / h).sqrt();
             self.noise.draw_stream(step, (1.0, 1.0));

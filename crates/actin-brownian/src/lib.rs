@@ -12,6 +12,7 @@
 #[doc = include_str!("../README.md")]
 struct Readme;
 
+mod components;
 mod cylinder;
 mod flow;
 mod friction;

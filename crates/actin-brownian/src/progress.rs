@@ -1,11 +1,11 @@
 use crate::StepLimits;
-use actin_equilibrium::StepSize;
+use actin_equilibrium::{ComponentStep, StepSize};
 
-/// Relative error of a step that is small compared with the noise.
-const ENOUGH: f64 = 1e-3;
+/// Energy of the error of a component that is small compared with its thermal energy (kT).
+const ENOUGH: f64 = 1e-2;
 
 /// Initial iterations that may grow.
-const FREE_ITERATIONS: usize = 3;
+const FREE_ITERATIONS: usize = 2;
 
 /// Factor of the change of added friction.
 const DAMPING: f64 = 4.0;
@@ -13,65 +13,148 @@ const DAMPING: f64 = 4.0;
 /// Largest added friction in units of the friction over the time step.
 const MOST_DAMPING: f64 = 64.0;
 
-#[derive(Clone, Copy, Debug, Default)]
+/// Growth of the predicted decrease of energy above which friction is added.
+const GROWTH: f64 = 1.1;
+
+/// Largest displacement of a solution in units of that of the first iteration.
+const FARTHEST: f64 = 3.0;
+
+/// Iterations of a step, for each component.
+#[derive(Clone, Debug, Default)]
 pub(crate) struct Progress {
-    first: StepSize,
-    last: StepSize,
+    components: Vec<Component>,
     iterations: usize,
+    /// Largest displacement of the first iteration (nm).
+    first: f64,
+}
+
+#[derive(Clone, Copy, Debug, Default)]
+struct Component {
+    last: ComponentStep,
     /// Added friction in units of the friction over the time step.
     damping: f64,
     /// Whether the last two iterations had equal friction.
     is_even: bool,
+    is_solved: bool,
 }
 
 impl Progress {
+    pub(crate) fn begin(&mut self, components: usize) {
+        self.components.clear();
+        self.components.resize(components, Component::default());
+        self.iterations = 0;
+        self.first = f64::INFINITY;
+    }
+
+    pub(crate) fn iterations(&self) -> usize {
+        self.iterations
+    }
+
+    pub(crate) fn is_solved(&self, component: usize) -> bool {
+        self.components[component].is_solved
+    }
+
     pub(crate) fn is_first(&self) -> bool {
         self.iterations == 0
     }
 
-    /// Factor of the friction in the next iteration, above 1 if iterations grow.
-    pub(crate) fn friction(&self) -> f64 {
-        1.0 + self.damping
+    /// Factor of the friction of a component in the next iteration, above 1 if iterations grow.
+    pub(crate) fn friction(&self, component: usize) -> f64 {
+        1.0 + self.components[component].damping
     }
 
-    /// Records the size of an iteration. Returns `true` if the predicted size of the next iteration
-    /// is within the limits, or below a thousandth of the first one.
-    pub(crate) fn is_solved(&mut self, extent: StepSize, limits: &StepLimits) -> bool {
-        let before = self.damping;
-        let is_first = self.is_first();
-        if is_first {
-            (self.first, self.last, self.is_even) = (extent, extent, true);
+    /// Limits of the next iteration.
+    pub(crate) fn limits(&self, largest_turn: f64) -> StepSize {
+        StepSize {
+            displacement: match self.iterations {
+                0 => f64::INFINITY,
+                _ => self.first,
+            },
+            rotation: largest_turn,
+            strain: f64::INFINITY,
         }
+    }
+
+    /// Returns `true` if a displacement (nm) from the start of the step is too long for the
+    /// solution on the branch of the linear one.
+    pub(crate) fn is_far(&self, displacement: f64) -> bool {
+        displacement > FARTHEST * self.first
+    }
+
+    /// Largest step of the last iteration.
+    pub(crate) fn largest(&self) -> StepSize {
+        let sizes = self.components.iter().map(|component| component.last.size);
+        sizes.fold(StepSize::default(), |largest, size| StepSize {
+            displacement: largest.displacement.max(size.displacement),
+            rotation: largest.rotation.max(size.rotation),
+            strain: largest.strain.max(size.strain),
+        })
+    }
+
+    /// Records an iteration. Returns `true` if the predicted next step of each component is within
+    /// the limits, or changes the energy by less than a hundredth of the thermal energy.
+    pub(crate) fn record(
+        &mut self,
+        steps: &[ComponentStep],
+        is_selected: impl Fn(usize) -> bool,
+        limits: &StepLimits,
+        thermal_energy: f64,
+    ) -> bool {
+        let is_first = self.is_first();
+        let components = self.components.iter_mut().zip(steps).enumerate();
+        for (_, (component, step)) in components.filter(|(c, _)| is_selected(*c)) {
+            if is_first {
+                component.begin(step, limits);
+            } else {
+                component.record(step, self.iterations, limits, ENOUGH * thermal_energy);
+            }
+        }
+        if is_first && self.largest().displacement > 0.0 {
+            self.first = self.largest().displacement;
+        }
+        self.iterations += 1;
+        self.components.iter().all(|component| component.is_solved)
+    }
+}
+
+impl Component {
+    fn begin(&mut self, step: &ComponentStep, limits: &StepLimits) {
+        self.last = *step;
+        self.is_even = true;
+        self.is_solved = limits.hold(&step.size);
+    }
+
+    fn record(
+        &mut self,
+        step: &ComponentStep,
+        iterations: usize,
+        limits: &StepLimits,
+        enough: f64,
+    ) {
         // Ratios of iterations with different friction do not measure convergence.
-        let was_even = self.is_even;
-        let ratios = [
-            extent.displacement / self.last.displacement,
-            extent.rotation / self.last.rotation,
-        ];
-        let ratio = ratios[0].max(ratios[1]);
-        if self.is_even && self.iterations >= FREE_ITERATIONS && ratio > 1.0 {
+        let ratio = if self.is_even {
+            (step.decrease.abs() / self.last.decrease.abs()).min(1.0)
+        } else {
+            1.0
+        };
+        let before = self.damping;
+        let energy = ratio * (1.0 + before) * step.decrease.abs();
+        let has_grown = energy > enough && step.decrease.abs() > GROWTH * self.last.decrease.abs();
+        if self.is_even && iterations >= FREE_ITERATIONS && has_grown {
             self.damping = (DAMPING * before).clamp(1.0, MOST_DAMPING);
         } else if self.is_even {
             self.damping = if before > 1.0 { before / DAMPING } else { 0.0 };
         }
         self.is_even = self.damping.total_cmp(&before).is_eq();
-        self.last = extent;
-        self.iterations += 1;
-        if is_first {
-            return limits.hold(&extent);
-        }
-        let limits = StepLimits {
-            displacement: limits.displacement.max(ENOUGH * self.first.displacement),
-            rotation: limits.rotation.max(ENOUGH * self.first.rotation),
-            ..*limits
+        self.last = *step;
+        // Without added friction, the step is longer.
+        let factor = 1.0 + before;
+        let length = ratio.sqrt() * factor;
+        let rest = StepSize {
+            displacement: length * step.size.displacement,
+            rotation: length * step.size.rotation,
+            strain: 0.0,
         };
-        // Size of the iteration without added friction.
-        let rests =
-            ratios.map(|ratio| if was_even { ratio.min(1.0) } else { 1.0 } * (1.0 + before));
-        limits.hold(&StepSize {
-            displacement: rests[0] * extent.displacement,
-            rotation: rests[1] * extent.rotation,
-            ..extent
-        })
+        self.is_solved = limits.hold(&rest) || energy <= enough;
     }
 }

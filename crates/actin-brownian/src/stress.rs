@@ -1,6 +1,9 @@
+use crate::components::Components;
 use crate::friction::Scaled;
+use crate::progress::Progress;
+use actin_equilibrium::MatrixParts;
 use actin_integrate::Noise;
-use actin_mechanics::{Interaction, Loads, RandomStress, SecondOrder, State, Stiffness};
+use actin_mechanics::{Interaction, Loads, RandomStress, State, Stiffness};
 use std::ops::Range;
 
 /// Separates this noise from other uses of the same seed.
@@ -14,6 +17,8 @@ pub(crate) struct Stresses {
     noise: Noise,
     /// Interactions with random stress, and the ranges of their components.
     parts: Vec<(usize, Range<usize>)>,
+    /// Part of each interaction, if it has random stress.
+    of_interactions: Vec<Option<usize>>,
     /// Stresses at the start of the step.
     drawn: Vec<f64>,
     /// Stresses in the axes of frames that have spun since.
@@ -32,11 +37,13 @@ type Interactions = [Box<dyn Interaction>];
 impl Stresses {
     pub(crate) fn new(interactions: &Interactions, seed: u64) -> Self {
         let mut parts = Vec::new();
+        let mut of_interactions = vec![None; interactions.len()];
         let mut end = 0;
         for (k, interaction) in interactions.iter().enumerate() {
             if let Some(stress) = interaction.random_stress() {
                 let start = end;
                 end += stress.components();
+                of_interactions[k] = Some(parts.len());
                 parts.push((k, start..end));
             }
         }
@@ -45,6 +52,7 @@ impl Stresses {
             is_balanced: vec![false; parts.len()],
             spins: vec![false; parts.len()],
             parts,
+            of_interactions,
             drawn: vec![0.0; end],
             turned: vec![0.0; end],
             balancing: vec![0.0; end],
@@ -84,8 +92,14 @@ impl Stresses {
 
     /// Transforms the stresses to the axes of frames that have spun by `spins` (rad) since the
     /// start.
-    pub(crate) fn turn_back(&mut self, interactions: &Interactions, spins: &[f64]) {
-        for ((k, range), has_spin) in self.parts.iter().zip(&self.spins) {
+    pub(crate) fn turn_back(
+        &mut self,
+        interactions: &Interactions,
+        components: &Components,
+        spins: &[f64],
+    ) {
+        let parts = self.parts.iter().zip(&self.spins);
+        for ((k, range), has_spin) in parts.filter(|((k, _), _)| components.has_interaction(*k)) {
             let (drawn, turned) = (&self.drawn[range.clone()], &mut self.turned[range.clone()]);
             if *has_spin {
                 of(interactions, *k).turn_back(spins, drawn, turned);
@@ -99,38 +113,60 @@ impl Stresses {
         self.is_balanced.fill(is_balanced);
     }
 
-    /// Balances further interactions: first those without axial frames, such as compressed springs,
-    /// then chains with one of the given frames, then all. Returns `false` if all were balanced
-    /// before.
-    pub(crate) fn balance_more(&mut self, interactions: &Interactions, frames: &[usize]) -> bool {
-        let axial = |k: usize| of(interactions, k).axial_frames();
-        let has_one = |k: usize| frames.iter().any(|frame| axial(k).contains(frame));
-        self.balance_if(|k| axial(k).is_empty())
-            || self.balance_if(has_one)
-            || self.balance_if(|_| true)
-    }
-
-    fn balance_if(&mut self, choice: impl Fn(usize) -> bool) -> bool {
-        let mut has_changed = false;
-        for ((k, _), is_balanced) in self.parts.iter().zip(&mut self.is_balanced) {
-            if !*is_balanced && choice(*k) {
-                (*is_balanced, has_changed) = (true, true);
+    /// Balances further interactions with the given components (ascending): first those without
+    /// axial frames, such as compressed springs, then all; finally all interactions. Returns the
+    /// interactions that were not balanced before.
+    pub(crate) fn balance_more(
+        &mut self,
+        interactions: &Interactions,
+        components: &Components,
+        worst: &[usize],
+    ) -> Vec<usize> {
+        let is_spring = |k: usize| of(interactions, k).axial_frames().is_empty();
+        let is_worst = |k: usize| components.couples(k, worst);
+        let choices: [&dyn Fn(usize) -> bool; 4] = [
+            &|k| is_spring(k) && is_worst(k),
+            &is_worst,
+            &is_spring,
+            &|_| true,
+        ];
+        let mut changed = Vec::new();
+        for choice in choices {
+            for ((k, _), is_balanced) in self.parts.iter().zip(&mut self.is_balanced) {
+                if !*is_balanced && components.has_interaction(*k) && choice(*k) {
+                    *is_balanced = true;
+                    changed.push(*k);
+                }
+            }
+            if !changed.is_empty() {
+                break;
             }
         }
-        has_changed
+        changed
     }
 
-    pub(crate) fn find_balance(&mut self, interactions: &Interactions, state: &State) {
+    pub(crate) fn find_balance(
+        &mut self,
+        interactions: &Interactions,
+        components: &Components,
+        state: &State,
+    ) {
         for ((k, range), is_balanced) in self.parts.iter().zip(&self.is_balanced) {
-            if *is_balanced {
+            if *is_balanced && components.has_interaction(*k) {
                 let stresses = &mut self.balancing[range.clone()];
                 of(interactions, *k).balance(state, stresses);
             }
         }
     }
 
-    pub(crate) fn add_loads(&self, interactions: &Interactions, state: &State, loads: &mut Loads) {
-        for (k, range) in &self.parts {
+    pub(crate) fn add_loads(
+        &self,
+        interactions: &Interactions,
+        components: &Components,
+        (state, loads): (&State, &mut Loads),
+    ) {
+        let parts = self.parts.iter();
+        for (k, range) in parts.filter(|(k, _)| components.has_interaction(*k)) {
             let stresses = &self.turned[range.clone()];
             of(interactions, *k).add_stress_loads(state, stresses, loads);
         }
@@ -142,30 +178,59 @@ fn of(interactions: &Interactions, k: usize) -> &dyn RandomStress {
     stress.expect("interactions do not lose their random stress")
 }
 
-pub(crate) struct Added<'a> {
-    pub(crate) friction: Scaled<'a>,
+/// Matrix of an iteration: interactions with their stresses, then the friction of each component.
+pub(crate) struct StepMatrix<'a> {
     pub(crate) interactions: &'a Interactions,
     pub(crate) stresses: &'a Stresses,
+    pub(crate) components: &'a Components,
+    pub(crate) friction: Scaled<'a>,
+    pub(crate) progress: &'a Progress,
 }
 
-impl SecondOrder for Added<'_> {
-    fn add_stiffness(&self, state: &State, stiffness: &mut Stiffness) {
-        self.friction.add_stiffness(state, stiffness);
-        let stresses = self.stresses;
-        let choices = stresses.is_balanced.iter().zip(&stresses.spins);
-        for ((k, range), (is_balanced, spins)) in stresses.parts.iter().zip(choices) {
-            let values = match is_balanced {
-                true => &stresses.balancing,
-                false => &stresses.turned,
-            };
-            let values = &values[range.clone()];
-            let stress = of(self.interactions, *k);
-            if *spins {
-                stress.add_turned_stiffness(state, values, stiffness);
-            } else {
-                stress.add_stress_stiffness(state, values, stiffness);
-            }
-            stress.add_convexity(state, *is_balanced, stiffness);
+impl MatrixParts for StepMatrix<'_> {
+    fn count(&self) -> usize {
+        self.interactions.len() + self.components.count()
+    }
+
+    fn add(&self, k: usize, state: &State, stiffness: &mut Stiffness) {
+        let Some(interaction) = self.interactions.get(k) else {
+            return self.add_friction(k - self.interactions.len(), state, stiffness);
+        };
+        if let Some(second_order) = interaction.second_order() {
+            second_order.add_stiffness(state, stiffness);
         }
+        if let Some(part) = self.stresses.of_interactions[k] {
+            self.add_stress(part, state, stiffness);
+        }
+    }
+}
+
+impl StepMatrix<'_> {
+    fn add_friction(&self, component: usize, state: &State, stiffness: &mut Stiffness) {
+        let friction = self.friction.scaled(self.progress.friction(component));
+        for &k in &self.components.dashpots[component] {
+            friction.add_dashpot(k, state, stiffness);
+        }
+        for &k in &self.components.turns[component] {
+            friction.add_turn(k, stiffness);
+        }
+    }
+
+    fn add_stress(&self, part: usize, state: &State, stiffness: &mut Stiffness) {
+        let stresses = self.stresses;
+        let (k, range) = &stresses.parts[part];
+        let is_balanced = stresses.is_balanced[part];
+        let values = if is_balanced {
+            &stresses.balancing[range.clone()]
+        } else {
+            &stresses.turned[range.clone()]
+        };
+        let stress = of(self.interactions, *k);
+        if stresses.spins[part] {
+            stress.add_turned_stiffness(state, values, stiffness);
+        } else {
+            stress.add_stress_stiffness(state, values, stiffness);
+        }
+        stress.add_convexity(state, is_balanced, stiffness);
     }
 }

@@ -11,10 +11,41 @@ use actin_mechanics::{
 use nalgebra::{Matrix3x6, Matrix6};
 use std::collections::BTreeMap;
 
+/// Matrix as a sum of parts, each of which couples bodies of few components.
+pub trait MatrixParts {
+    /// Number of parts.
+    fn count(&self) -> usize;
+
+    /// Adds the blocks of part `k`.
+    fn add(&self, k: usize, state: &State, stiffness: &mut Stiffness);
+}
+
+/// Stiffness of interactions and other blocks.
+pub(crate) struct Sum<'a> {
+    pub(crate) interactions: &'a [Box<dyn Interaction>],
+    pub(crate) other: Option<&'a dyn SecondOrder>,
+}
+
+impl MatrixParts for Sum<'_> {
+    fn count(&self) -> usize {
+        self.interactions.len() + usize::from(self.other.is_some())
+    }
+
+    fn add(&self, k: usize, state: &State, stiffness: &mut Stiffness) {
+        let interaction = self.interactions.get(k);
+        let second_order = interaction.map_or(self.other, |i| i.second_order());
+        if let Some(second_order) = second_order {
+            second_order.add_stiffness(state, stiffness);
+        }
+    }
+}
+
 /// Stiffness in the unknowns, upper triangle by columns.
 #[derive(Debug, Default)]
 pub(crate) struct Assembly {
     blocks: Stiffness,
+    /// First block of each part, and the number of all blocks.
+    starts: Vec<usize>,
     pattern: Option<Pattern>,
     pub(crate) values: Vec<f64>,
     ties: Ties,
@@ -44,23 +75,29 @@ impl Assembly {
         loads: &Loads,
         layout: &mut Layout,
     ) -> bool {
-        self.update_with(interactions, None, (state, loads), layout)
+        let other = None;
+        let sum = Sum {
+            interactions,
+            other,
+        };
+        self.update_with(&sum, (state, loads), layout)
     }
 
-    /// Assembles the stiffness with additional blocks. Returns `true` if the pattern is new; the
-    /// unknowns may then have been reordered.
+    /// Assembles a sum of parts. Returns `true` if the pattern is new; the unknowns may then have
+    /// been reordered.
     pub(crate) fn update_with(
         &mut self,
-        interactions: &[Box<dyn Interaction>],
-        other: Option<&dyn SecondOrder>,
+        parts: &dyn MatrixParts,
         (state, loads): (&State, &Loads),
         layout: &mut Layout,
     ) -> bool {
         self.blocks.clear();
-        let of_interactions = interactions.iter().filter_map(|i| i.second_order());
-        for second_order in of_interactions.chain(other) {
-            second_order.add_stiffness(state, &mut self.blocks);
+        self.starts.clear();
+        for k in 0..parts.count() {
+            self.starts.push(self.blocks.blocks().len());
+            parts.add(k, state, &mut self.blocks);
         }
+        self.starts.push(self.blocks.blocks().len());
         let is_new = !self
             .pattern
             .as_ref()
@@ -82,6 +119,46 @@ impl Assembly {
         target.add_all(state, &self.blocks, &pattern.places);
         target.add_turning_of_groups(state, loads);
         is_new
+    }
+
+    /// Assembles the columns of the selected nodes from the chosen parts, which must be all parts
+    /// with entries in these columns. Returns `false` if the pattern does not fit.
+    pub(crate) fn update_nodes(
+        &mut self,
+        (parts, is_chosen): (&dyn MatrixParts, &[bool]),
+        is_selected: &[bool],
+        (state, loads): (&State, &Loads),
+        layout: &Layout,
+    ) -> bool {
+        let Some(pattern) = &self.pattern else {
+            return false;
+        };
+        if self.starts.len() != parts.count() + 1 {
+            return false;
+        }
+        let ends = pattern.symbolic.col_ptr();
+        for (node, columns) in layout.nodes().map(|(_, range)| range).enumerate() {
+            if is_selected[node] {
+                self.values[ends[columns.start]..ends[columns.end]].fill(0.0);
+            }
+        }
+        let mut target = Target {
+            is_selected: Some(is_selected),
+            ..Target::onto(&mut self.values, pattern, layout)
+        };
+        for k in (0..parts.count()).filter(|&k| is_chosen[k]) {
+            self.blocks.clear();
+            parts.add(k, state, &mut self.blocks);
+            let places = self.starts[k]..self.starts[k + 1];
+            if self.blocks.blocks().len() != places.len()
+                || !pattern.fits_from(places.start, &self.blocks)
+            {
+                return false;
+            }
+            target.add_all(state, &self.blocks, &pattern.places[places]);
+        }
+        target.add_turning_of_groups(state, loads);
+        true
     }
 
     pub(crate) fn add_turning(&mut self, state: &State, loads: &Loads, layout: &Layout) {
@@ -217,6 +294,8 @@ struct Target<'a> {
     columns: &'a [usize],
     layout: &'a Layout,
     diagonal: &'a [usize],
+    /// Nodes whose columns are assembled; all by default.
+    is_selected: Option<&'a [bool]>,
 }
 
 impl<'a> Target<'a> {
@@ -232,13 +311,25 @@ impl<'a> Target<'a> {
             columns: pattern.symbolic.col_ptr(),
             layout,
             diagonal: &pattern.diagonal,
+            is_selected: None,
         }
     }
 
     fn add_all(&mut self, state: &State, blocks: &Stiffness, places: &[Place]) {
         for (&(a, b, block), &place) in blocks.blocks().iter().zip(places) {
-            self.add(state, a, b, &block, place);
+            if self.has(place) {
+                self.add(state, a, b, &block, place);
+            }
         }
+    }
+
+    fn has(&self, place: Place) -> bool {
+        let node = match place {
+            Place::Outside => return false,
+            Place::Diagonal { node, .. } | Place::Body { node, .. } => node,
+            Place::Above { column, .. } | Place::Bodies { column, .. } => column,
+        };
+        self.is_selected.is_none_or(|is_selected| is_selected[node])
     }
 
     fn add(
@@ -251,31 +342,38 @@ impl<'a> Target<'a> {
     ) {
         match place {
             Place::Outside => {}
-            Place::Diagonal { node, twice } => match self.layout.node(node) {
-                Node::Group(_) => {
-                    let block = self.in_unknowns(state, a, b, block);
-                    let block = if twice {
-                        block + block.transpose()
-                    } else {
-                        block
-                    };
-                    self.add_diagonal(node, |i, j| block[(i, j)]);
-                }
-                _ => self.add_diagonal(node, |i, j| block[(i, j)]),
-            },
+            Place::Body { at, .. } => self.add_columns(at, |j| j + 1, block),
+            Place::Bodies { at, transposed, .. } if transposed => {
+                self.add_columns(at, |_| 3, &block.transpose());
+            }
+            Place::Bodies { at, .. } => self.add_columns(at, |_| 3, block),
+            Place::Diagonal { node, twice } => {
+                let block = self.in_unknowns(state, a, b, block);
+                let block = if twice {
+                    block + block.transpose()
+                } else {
+                    block
+                };
+                self.add_diagonal(node, |i, j| block[(i, j)]);
+            }
             Place::Above {
                 row,
                 column,
                 local,
                 transposed,
             } => {
-                let tied = |node| matches!(self.layout.node(node), Node::Group(_));
-                if tied(row) || tied(column) {
-                    let block = self.in_unknowns(state, a, b, block);
-                    self.add_above(row, column, local, transposed, |i, j| block[(i, j)]);
-                } else {
-                    self.add_above(row, column, local, transposed, |i, j| block[(i, j)]);
-                }
+                let block = self.in_unknowns(state, a, b, block);
+                self.add_above(row, column, local, transposed, |i, j| block[(i, j)]);
+            }
+        }
+    }
+
+    /// Adds the first `rows` of each column.
+    fn add_columns(&mut self, at: [usize; 3], rows: impl Fn(usize) -> usize, block: &Matrix3) {
+        for (j, first) in at.into_iter().enumerate() {
+            let values = &mut self.values[first..first + rows(j)];
+            for (value, entry) in values.iter_mut().zip(block.column(j).iter()) {
+                *value += entry;
             }
         }
     }
@@ -346,7 +444,8 @@ impl<'a> Target<'a> {
                 continue;
             };
             let group = &layout.groups()[g];
-            if group.rotations.is_empty() {
+            let is_left_out = self.is_selected.is_some_and(|is_selected| !is_selected[k]);
+            if group.rotations.is_empty() || is_left_out {
                 continue;
             }
             let curvature = turning(group, state, loads);

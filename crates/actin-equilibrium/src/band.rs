@@ -5,6 +5,7 @@
     reason = "vector code must be compiled into the function that enables the instructions"
 )]
 
+use crate::gradients::dot;
 use actin_mechanics::wide::{Simd, WithSimd};
 use faer::sparse::SymbolicSparseColMatRef;
 use faer::sparse::linalg::cholesky::simplicial::SymbolicSimplicialCholesky;
@@ -44,10 +45,13 @@ impl Band {
         upper: SymbolicSparseColMatRef<'_, usize>,
         matrix: &[f64],
         values: &mut [f64],
+        ranges: &[Range<usize>],
     ) {
-        values.fill(0.0);
-        for (column, ends) in upper.col_ptr().windows(2).enumerate() {
-            let entries = ends[0]..ends[1];
+        for range in ranges {
+            values[self.starts[range.start]..self.starts[range.end]].fill(0.0);
+        }
+        for column in ranges.iter().cloned().flatten() {
+            let entries = upper.col_ptr()[column]..upper.col_ptr()[column + 1];
             for (&row, value) in upper.row_idx()[entries.clone()]
                 .iter()
                 .zip(&matrix[entries])
@@ -62,6 +66,8 @@ pub(crate) struct Eliminate<'a> {
     pub(crate) band: &'a Band,
     pub(crate) values: &'a mut [f64],
     pub(crate) least: f64,
+    /// Unknowns to eliminate (ascending); whole panels.
+    pub(crate) ranges: &'a [Range<usize>],
 }
 
 impl WithSimd for Eliminate<'_> {
@@ -70,7 +76,13 @@ impl WithSimd for Eliminate<'_> {
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
         let starts = &self.band.starts;
-        for (panel, end) in &self.band.panels {
+        let panels = self.ranges.iter().flat_map(|range| {
+            let panels = &self.band.panels;
+            let first = panels.partition_point(|(panel, _)| panel.start < range.start);
+            let last = panels.partition_point(|(panel, _)| panel.start < range.end);
+            &panels[first..last]
+        });
+        for (panel, end) in panels {
             let (head, right) = self.values.split_at_mut(starts[panel.end]);
             let own = &mut head[starts[panel.start]..];
             let shape = (end - panel.start, panel.len());
@@ -81,6 +93,35 @@ impl WithSimd for Eliminate<'_> {
                 subtract_panel(target, own, shape, &reciprocals);
             }
             scale_panel(own, shape, &reciprocals);
+        }
+    }
+}
+
+/// Solves for the ranges of unknowns, each of which is not coupled to others.
+pub(crate) struct Solve<'a> {
+    pub(crate) band: &'a Band,
+    pub(crate) values: &'a [f64],
+    pub(crate) b: &'a mut [f64],
+    pub(crate) ranges: &'a [Range<usize>],
+}
+
+impl WithSimd for Solve<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        let column = |k: usize| &self.values[self.band.starts[k]..self.band.starts[k + 1]];
+        for columns in self.ranges {
+            for k in columns.clone() {
+                let own = &column(k)[1..];
+                let (head, below) = self.b[k..].split_at_mut(1);
+                subtract(&mut below[..own.len()], [own], [head[0]]);
+            }
+            for k in columns.clone().rev() {
+                let own = column(k);
+                let below = &self.b[k + 1..k + own.len()];
+                self.b[k] = self.b[k] / own[0] - dot(&own[1..], below);
+            }
         }
     }
 }

@@ -7,13 +7,14 @@
 //! N. J. Higham, Accuracy and Stability of Numerical Algorithms, 2nd ed. (2002), theorems 10.3 and
 //! 11.4; faer, `sparse::linalg::cholesky::simplicial`.
 
-use crate::band::{Band, Eliminate};
+use crate::band::{Band, Eliminate, Solve};
 use actin_mechanics::wide;
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::cholesky::ldlt::factor::LdltRegularization;
 use faer::sparse::linalg::cholesky::simplicial;
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMat, SymbolicSparseColMatRef};
 use faer::{Conj, MatMut, Par};
+use std::ops::Range;
 
 /// A pivot within this many roundings of its diagonal entry is doubtful.
 const PIVOT_ROUNDINGS: f64 = 8.0;
@@ -46,6 +47,8 @@ pub(crate) struct Factor {
     values: Vec<f64>,
     shifted: Vec<f64>,
     diagonal: Vec<f64>,
+    /// Replacement of zero pivots.
+    least: f64,
     memory: MemBuffer,
 }
 
@@ -79,6 +82,7 @@ impl Factor {
             symbolic,
             shifted: Vec::new(),
             diagonal: Vec::new(),
+            least: 0.0,
             memory: MemBuffer::new(simplicial::factorize_simplicial_numeric_ldlt_scratch::<
                 usize,
                 f64,
@@ -113,6 +117,27 @@ impl Factor {
         self.factorize_shifted(upper, metric, shift)
     }
 
+    /// Factorises the ranges `changed` of columns, which are not coupled to others. Returns the
+    /// inertia of the ranges `all`.
+    pub(crate) fn factorize_columns(
+        &mut self,
+        upper: SymbolicSparseColMatRef<'_, usize>,
+        values: &[f64],
+        (changed, all): (&[Range<usize>], &[Range<usize>]),
+    ) -> Inertia {
+        self.shifted.resize(values.len(), 0.0);
+        self.diagonal.resize(upper.ncols(), 0.0);
+        for columns in changed {
+            let entries = upper.col_ptr()[columns.start]..upper.col_ptr()[columns.end];
+            self.shifted[entries.clone()].copy_from_slice(&values[entries]);
+            for column in columns.clone() {
+                self.diagonal[column] = self.shifted[upper.col_ptr()[column + 1] - 1].abs();
+            }
+        }
+        self.eliminate(upper, changed);
+        self.inertia(all)
+    }
+
     pub(crate) fn factorize_sum(
         &mut self,
         upper: SymbolicSparseColMatRef<'_, usize>,
@@ -141,20 +166,27 @@ impl Factor {
         let ends = &upper.col_ptr()[1..];
         self.diagonal
             .extend(ends.iter().map(|&end| self.shifted[end - 1].abs()));
+        let all = 0..upper.ncols();
+        self.eliminate(upper, std::slice::from_ref(&all));
+        self.inertia(&[all])
+    }
+
+    fn eliminate(&mut self, upper: SymbolicSparseColMatRef<'_, usize>, ranges: &[Range<usize>]) {
         let largest = self.largest_diagonal();
         let least = (f64::EPSILON * largest).max(f64::MIN_POSITIVE);
+        self.least = least;
         if let Some(band) = &self.band {
-            band.place(upper, &self.shifted, &mut self.values);
+            band.place(upper, &self.shifted, &mut self.values, ranges);
             let values = &mut self.values;
             wide::dispatch(Eliminate {
                 band,
                 values,
                 least,
+                ranges,
             });
         } else {
             self.eliminate_with_gaps(upper, least);
         }
-        self.inertia(least)
     }
 
     /// A non-finite pivot ends the elimination; the remaining pivots are doubtful.
@@ -177,13 +209,13 @@ impl Factor {
     }
 
     /// Pivots equal to `least` replace zeros.
-    fn inertia(&self, least: f64) -> Inertia {
+    fn inertia(&self, ranges: &[Range<usize>]) -> Inertia {
         let mut inertia = Inertia::default();
-        for column in 0..self.diagonal.len() {
+        for column in ranges.iter().cloned().flatten() {
             let pivot = self.pivot(column);
             let rounding = PIVOT_ROUNDINGS * f64::EPSILON * self.diagonal[column];
             inertia.negative += usize::from(pivot < 0.0);
-            let is_none = !pivot.is_finite() || pivot.to_bits() == least.to_bits();
+            let is_none = !pivot.is_finite() || pivot.to_bits() == self.least.to_bits();
             inertia.zero += usize::from(is_none);
             inertia.doubtful += usize::from(is_none || pivot.abs() <= rounding);
         }
@@ -197,8 +229,11 @@ impl Factor {
     }
 
     /// Columns with pivots not positive beyond rounding.
-    pub(crate) fn indefinite_columns(&self) -> impl Iterator<Item = usize> {
-        (0..self.diagonal.len()).filter(|&column| {
+    pub(crate) fn indefinite_columns(
+        &self,
+        ranges: &[Range<usize>],
+    ) -> impl Iterator<Item = usize> {
+        ranges.iter().cloned().flatten().filter(|&column| {
             let rounding = PIVOT_ROUNDINGS * f64::EPSILON * self.diagonal[column];
             let pivot = self.pivot(column);
             pivot <= rounding || pivot.is_nan()
@@ -217,6 +252,19 @@ impl Factor {
             Par::Seq,
             MemStack::new(&mut self.memory),
         );
+    }
+
+    /// Solves for the ranges of unknowns, which are not coupled to others.
+    pub(crate) fn solve_columns(&mut self, b: &mut [f64], ranges: &[Range<usize>]) {
+        match &self.band {
+            Some(band) => wide::dispatch(Solve {
+                band,
+                values: &self.values,
+                b,
+                ranges,
+            }),
+            None => self.solve(b),
+        }
     }
 
     /// Solves `L^T x = |D|^(-1/2) b`: white noise `b` gives the covariance `(L |D| L^T)^(-1)`.

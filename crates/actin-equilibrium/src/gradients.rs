@@ -10,63 +10,109 @@
 use crate::assemble::Assembly;
 use crate::factor::Factor;
 use crate::layout::Layout;
-use faer::sparse::SymbolicSparseColMat;
+use crate::pattern::Chains;
+use std::ops::Range;
 
 const MOST_ITERATIONS: usize = 500;
 
 #[derive(Debug)]
 pub(crate) struct Gradients {
-    chains: SymbolicSparseColMat<usize>,
-    places: Vec<usize>,
+    chains: Chains,
     values: Vec<f64>,
     factor: Factor,
+    /// Unknowns of the solve; others are held.
+    columns: Vec<Range<usize>>,
     residual: Vec<f64>,
     preconditioned: Vec<f64>,
     direction: Vec<f64>,
+    /// Matrix of the chains times the direction.
+    of_chains: Vec<f64>,
+    /// Whole matrix times the direction.
     product: Vec<f64>,
 }
 
 impl Gradients {
     pub(crate) fn new(assembly: &Assembly, layout: &Layout) -> Self {
-        let (chains, places) = assembly.pattern().chains(layout);
+        let chains = assembly.pattern().chains(layout);
         let zeros = vec![0.0; layout.unknowns()];
         Self {
-            factor: Factor::new(&chains),
+            factor: Factor::new(&chains.symbolic),
+            values: vec![0.0; chains.places.len()],
             chains,
-            values: vec![0.0; places.len()],
-            places,
+            columns: Vec::new(),
             residual: zeros.clone(),
             preconditioned: zeros.clone(),
             direction: zeros.clone(),
+            of_chains: zeros.clone(),
             product: zeros,
         }
     }
 
-    pub(crate) fn factorize(&mut self, assembly: &Assembly, metric: &[f64]) -> bool {
-        for (value, &place) in self.values.iter_mut().zip(&self.places) {
-            *value = assembly.values[place];
+    /// Factorises the components with the unknowns `columns`; other unknowns are held.
+    pub(crate) fn factorize(&mut self, assembly: &Assembly, columns: Vec<Range<usize>>) -> bool {
+        self.columns = columns;
+        let changed = self.columns.clone();
+        self.refactorize(assembly, &changed)
+    }
+
+    /// Factorises again the components with the unknowns `changed`.
+    pub(crate) fn refactorize(&mut self, assembly: &Assembly, changed: &[Range<usize>]) -> bool {
+        let upper = self.chains.symbolic.as_ref();
+        for columns in changed {
+            let entries = upper.col_ptr()[columns.start]..upper.col_ptr()[columns.end];
+            let places = &self.chains.places[entries.clone()];
+            for (value, &place) in self.values[entries].iter_mut().zip(places) {
+                *value = assembly.values[place];
+            }
         }
-        let chains = self.chains.as_ref();
-        let inertia = self.factor.factorize(chains, &self.values, metric, 0.0);
+        let columns = (changed, self.columns.as_slice());
+        let factor = &mut self.factor;
+        let inertia = factor.factorize_columns(upper, &self.values, columns);
         inertia.is_positive()
     }
 
     pub(crate) fn indefinite_columns(&self) -> Vec<usize> {
-        self.factor.indefinite_columns().collect()
+        self.factor.indefinite_columns(&self.columns).collect()
+    }
+
+    /// Contributions of the unknowns to the curvature along the last search direction.
+    pub(crate) fn curvatures(&self) -> impl Iterator<Item = f64> {
+        let terms = self.direction.iter().zip(&self.product);
+        terms.map(|(direction, product)| direction * product)
     }
 
     /// Solves in place until the preconditioned residual norm has decreased by `tolerance`. Returns
-    /// `false` at negative curvature.
+    /// `false` at negative curvature. Held unknowns become zero.
+    ///
+    /// With the matrix `M` of the chains, `M z = r` for the preconditioned residual `z`. The
+    /// product of `M` and the direction follows the recurrence of the direction.
     pub(crate) fn solve(&mut self, assembly: &Assembly, b: &mut [f64], tolerance: f64) -> bool {
-        self.residual.copy_from_slice(b);
-        b.fill(0.0);
-        self.precondition();
-        self.direction.copy_from_slice(&self.preconditioned);
-        let mut size = dot(&self.residual, &self.preconditioned);
+        let columns = std::mem::take(&mut self.columns);
+        let is_solved = self.solve_columns(assembly, b, tolerance, &columns);
+        self.columns = columns;
+        is_solved
+    }
+
+    fn solve_columns(
+        &mut self,
+        assembly: &Assembly,
+        b: &mut [f64],
+        tolerance: f64,
+        columns: &[Range<usize>],
+    ) -> bool {
+        self.begin(b, columns);
+        let mut size = self.precondition(columns);
         let enough = size * tolerance * tolerance;
+        let mut ratio = 0.0;
         for iteration in 0..MOST_ITERATIONS {
-            assembly.multiply(&self.direction, &mut self.product);
-            let curvature = dot(&self.direction, &self.product);
+            for columns in columns.iter().cloned() {
+                let new = &self.preconditioned[columns.clone()];
+                scale_and_add(&mut self.direction[columns.clone()], ratio, new);
+                let new = &self.residual[columns.clone()];
+                scale_and_add(&mut self.of_chains[columns], ratio, new);
+            }
+            self.multiply(assembly, columns);
+            let curvature = dot_in(columns, &self.direction, &self.product);
             if curvature <= 0.0 || size <= 0.0 || curvature.is_nan() || size.is_nan() {
                 if iteration == 0 {
                     b.copy_from_slice(&self.direction);
@@ -74,30 +120,67 @@ impl Gradients {
                 return size == 0.0;
             }
             let length = size / curvature;
-            add(b, length, &self.direction);
-            add(&mut self.residual, -length, &self.product);
-            self.precondition();
-            let next = dot(&self.residual, &self.preconditioned);
+            for columns in columns.iter().cloned() {
+                add(
+                    &mut b[columns.clone()],
+                    length,
+                    &self.direction[columns.clone()],
+                );
+                let product = &self.product[columns.clone()];
+                add(&mut self.residual[columns], -length, product);
+            }
+            let next = self.precondition(columns);
             if (0.0..=enough).contains(&next) {
                 return true;
             }
-            let ratio = next / size;
-            for (direction, new) in self.direction.iter_mut().zip(&self.preconditioned) {
-                *direction = new + ratio * *direction;
-            }
+            ratio = next / size;
             size = next;
         }
         false
     }
 
-    fn precondition(&mut self) {
-        self.preconditioned.copy_from_slice(&self.residual);
-        self.factor.solve(&mut self.preconditioned);
+    /// Moves `b` to the residual.
+    fn begin(&mut self, b: &mut [f64], columns: &[Range<usize>]) {
+        for vector in [&mut self.residual, &mut self.direction, &mut self.product] {
+            vector.fill(0.0);
+        }
+        for columns in columns.iter().cloned() {
+            self.residual[columns.clone()].copy_from_slice(&b[columns]);
+        }
+        b.fill(0.0);
+    }
+
+    /// Returns the squared norm of the preconditioned residual.
+    fn precondition(&mut self, columns: &[Range<usize>]) -> f64 {
+        for columns in columns.iter().cloned() {
+            self.preconditioned[columns.clone()].copy_from_slice(&self.residual[columns]);
+        }
+        self.factor.solve_columns(&mut self.preconditioned, columns);
+        dot_in(columns, &self.residual, &self.preconditioned)
+    }
+
+    fn multiply(&mut self, assembly: &Assembly, columns: &[Range<usize>]) {
+        for columns in columns.iter().cloned() {
+            self.product[columns.clone()].copy_from_slice(&self.of_chains[columns]);
+        }
+        let links = &self.chains.links;
+        links.add_product(
+            &assembly.values,
+            columns,
+            &self.direction,
+            &mut self.product,
+        );
     }
 }
 
+fn dot_in(columns: &[Range<usize>], a: &[f64], b: &[f64]) -> f64 {
+    let columns = columns.iter().cloned();
+    columns.map(|range| dot(&a[range.clone()], &b[range])).sum()
+}
+
 /// Four partial sums allow parallel additions.
-fn dot(a: &[f64], b: &[f64]) -> f64 {
+#[inline]
+pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
     let mut sums = [0.0; 4];
     let (a_chunks, a_rest) = a.as_chunks::<4>();
     let (b_chunks, b_rest) = b.as_chunks::<4>();
@@ -110,6 +193,13 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
     sums.iter().sum::<f64>() + rest
 }
 
+/// `to = factor to + new`.
+fn scale_and_add(to: &mut [f64], factor: f64, new: &[f64]) {
+    for (to, new) in to.iter_mut().zip(new) {
+        *to = new + factor * *to;
+    }
+}
+
 fn add(to: &mut [f64], factor: f64, from: &[f64]) {
     for (to, from) in to.iter_mut().zip(from) {
         *to += factor * from;
@@ -119,10 +209,12 @@ fn add(to: &mut [f64], factor: f64, from: &[f64]) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::assemble::Sum;
     use crate::layout::BodyOrder;
     use actin_mechanics::{
         Coordinates, Loads, Matrix3, Point, SecondOrder, State, Stiffness, Vector3,
     };
+    use std::iter;
 
     /// Two chains of ten points with soft springs across, and friction.
     struct Ladder;
@@ -165,11 +257,15 @@ mod tests {
         let mut layout = layout.with_loose(across);
         let loads = Loads::zeros(&state);
         let mut assembly = Assembly::new(1.0);
-        assembly.update_with(&[], Some(&Ladder), (&state, &loads), &mut layout);
+        let sum = Sum {
+            interactions: &[],
+            other: Some(&Ladder),
+        };
+        assembly.update_with(&sum, (&state, &loads), &mut layout);
         let metric = vec![0.0; layout.unknowns()];
         let mut gradients = Gradients::new(&assembly, &layout);
-        assert!(gradients.factorize(&assembly, &metric));
-        assert!(gradients.places.len() < assembly.values.len());
+        assert!(gradients.factorize(&assembly, iter::once(0..layout.unknowns()).collect()));
+        assert!(gradients.chains.places.len() < assembly.values.len());
         let load: Vec<f64> = (0..layout.unknowns()).map(|i| (i as f64).sin()).collect();
         let mut found = load.clone();
         assert!(gradients.solve(&assembly, &mut found, 1e-12));

@@ -1,14 +1,16 @@
 //! Linear solve of an implicit time step.
 
-use crate::assemble::Assembly;
+use crate::assemble::{Assembly, MatrixParts, Sum};
 use crate::chain::Clusters;
 use crate::direction::Solver;
 use crate::factor::Factor;
 use crate::gradients::Gradients;
 use crate::layout::{Layout, Node};
-use crate::motion::StepSize;
+use crate::motion::{ComponentStep, StepSize};
 use crate::outcome::SolveError;
-use actin_mechanics::{Interaction, Loads, SecondOrder, State, UnitQuaternion, Vectors};
+use actin_mechanics::{
+    Coordinates, Interaction, Loads, SecondOrder, State, UnitQuaternion, Vectors,
+};
 
 /// Solver for the linear equations of implicit time steps.
 ///
@@ -21,12 +23,25 @@ pub struct ImplicitSolver {
     linear: Linear,
     metric: Vec<f64>,
     step: Vec<f64>,
+    /// Generalised loads of the step.
+    loads: Vec<f64>,
     clusters: Clusters,
     /// Frames that spin about their third axes.
     spins: Vec<bool>,
     /// Matrix entries that couple spins to other unknowns.
     uncoupled: Vec<usize>,
     from: Option<State>,
+    /// Number of patterns so far.
+    patterns: u64,
+}
+
+/// Components and parts of the matrix that take part in a solve.
+#[derive(Clone, Copy, Debug)]
+pub struct Selection<'a> {
+    /// One flag per component; the bodies of others are held.
+    pub components: &'a [bool],
+    /// One flag per part of the matrix; set for all parts that couple selected components.
+    pub parts: &'a [bool],
 }
 
 #[derive(Debug)]
@@ -48,10 +63,12 @@ impl ImplicitSolver {
             linear: Linear::Unknown,
             metric: Vec::new(),
             step: Vec::new(),
+            loads: Vec::new(),
             clusters: Clusters::default(),
             spins: Vec::new(),
             uncoupled: Vec::new(),
             from: None,
+            patterns: 0,
         }
     }
 
@@ -110,26 +127,40 @@ impl ImplicitSolver {
         interactions: &[Box<dyn Interaction>],
         added: &dyn SecondOrder,
     ) -> bool {
-        let at = (state, loads);
+        let sum = Sum {
+            interactions,
+            other: Some(added),
+        };
+        self.factorize_parts((state, loads), &sum, None)
+    }
+
+    /// As [`factorize`](Self::factorize) for a sum of parts. With a selection, all other bodies are
+    /// held, which requires [`allows_selection`](Self::allows_selection).
+    pub fn factorize_parts(
+        &mut self,
+        at: (&State, &Loads),
+        parts: &dyn MatrixParts,
+        selection: Option<Selection<'_>>,
+    ) -> bool {
+        let all = vec![true; parts.count()];
+        let chosen = selection.map_or(&all[..], |selection| selection.parts);
+        let nodes = self.selected_nodes(selection);
+        let parts_of = (parts, chosen);
         let assembly = &mut self.assembly;
-        if assembly.update_with(interactions, Some(added), at, &mut self.layout) {
-            self.find_uncoupled();
-            let (layout, assembly) = (&self.layout, &self.assembly);
-            self.metric = vec![0.0; layout.unknowns()];
-            self.clusters = Clusters::new(layout, assembly.ties(), assembly.chain());
-            self.linear = if layout.has_gradients() {
-                Linear::Gradients(Box::new(Gradients::new(assembly, layout)))
-            } else {
-                Linear::Direct(Box::new(Factor::new(&assembly.pattern().symbolic)))
-            };
+        let is_same = assembly.update_nodes(parts_of, &nodes, at, &self.layout);
+        let is_new = !is_same && assembly.update_with(parts, at, &mut self.layout);
+        if is_new {
+            self.begin_pattern();
         }
-        for &at in &self.uncoupled {
-            self.assembly.values[at] = 0.0;
-        }
+        let columns = match selection {
+            Some(selection) if !is_new => self.clusters.columns(&self.layout, selection.components),
+            _ => std::iter::once(0..self.layout.unknowns()).collect(),
+        };
+        self.uncouple();
         let assembly = &self.assembly;
         match &mut self.linear {
             Linear::Unknown => unreachable!("the pattern is new at the first factorisation"),
-            Linear::Gradients(gradients) => gradients.factorize(assembly, &self.metric),
+            Linear::Gradients(gradients) => gradients.factorize(assembly, columns),
             Linear::Direct(factor) => {
                 let upper = assembly.pattern().symbolic.as_ref();
                 let pivots = factor.factorize(upper, &assembly.values, &self.metric, 0.0);
@@ -138,15 +169,100 @@ impl ImplicitSolver {
         }
     }
 
-    /// Frames of filaments with negative or doubtful pivots in the last factorisation.
-    pub fn indefinite_frames(&self) -> Vec<usize> {
+    /// Factorises again after changes of the chosen parts of the last matrix.
+    ///
+    /// # Panics
+    /// If the changed parts do not couple the same bodies.
+    pub fn refactorize_parts(
+        &mut self,
+        at: (&State, &Loads),
+        parts: &dyn MatrixParts,
+        changed: Selection<'_>,
+    ) -> bool {
+        let nodes = self.selected_nodes(Some(changed));
+        let parts_of = (parts, changed.parts);
+        let is_same = self
+            .assembly
+            .update_nodes(parts_of, &nodes, at, &self.layout);
+        assert!(is_same, "changes of parts do not change the pattern");
+        self.uncouple();
+        let Linear::Gradients(gradients) = &mut self.linear else {
+            return self.factorize_parts(at, parts, None);
+        };
+        let columns = self.clusters.columns(&self.layout, changed.components);
+        gradients.refactorize(&self.assembly, &columns)
+    }
+
+    fn selected_nodes(&self, selection: Option<Selection<'_>>) -> Vec<bool> {
+        let Some(selection) = selection else {
+            return vec![true; self.layout.len()];
+        };
+        let of_nodes = self.clusters.of_nodes(&self.layout);
+        of_nodes.iter().map(|&c| selection.components[c]).collect()
+    }
+
+    fn begin_pattern(&mut self) {
+        self.patterns += 1;
+        self.find_uncoupled();
+        let (layout, assembly) = (&self.layout, &self.assembly);
+        self.metric = vec![0.0; layout.unknowns()];
+        self.clusters = Clusters::new(layout, assembly.ties(), assembly.chain());
+        self.linear = if layout.has_gradients() {
+            Linear::Gradients(Box::new(Gradients::new(assembly, layout)))
+        } else {
+            Linear::Direct(Box::new(Factor::new(&assembly.pattern().symbolic)))
+        };
+    }
+
+    fn uncouple(&mut self) {
+        for &at in &self.uncoupled {
+            self.assembly.values[at] = 0.0;
+        }
+    }
+
+    /// Components with negative or doubtful pivots in the last factorisation (ascending).
+    pub fn indefinite_components(&self) -> Vec<usize> {
         match &self.linear {
             Linear::Gradients(gradients) => {
                 let columns = gradients.indefinite_columns();
-                self.clusters.frames_with(&self.layout, &columns)
+                self.clusters.with_unknowns(&self.layout, &columns)
             }
             Linear::Direct(_) | Linear::Unknown => Vec::new(),
         }
+    }
+
+    /// Components that contribute negative curvature along the last search direction (ascending).
+    pub fn components_of_negative_curvature(&self) -> Vec<usize> {
+        match &self.linear {
+            Linear::Gradients(gradients) => {
+                let terms: Vec<f64> = gradients.curvatures().collect();
+                let sums = self.clusters.sums(&self.layout, &terms);
+                (0..sums.len()).filter(|&c| sums[c] < 0.0).collect()
+            }
+            Linear::Direct(_) | Linear::Unknown => Vec::new(),
+        }
+    }
+
+    /// Returns `true` if components may be selected.
+    pub fn allows_selection(&self) -> bool {
+        matches!(self.linear, Linear::Gradients(_))
+    }
+
+    /// Number of patterns of the matrix so far. The components may change with the pattern.
+    pub fn patterns(&self) -> u64 {
+        self.patterns
+    }
+
+    /// Number of components: bodies that are coupled other than by links, such as filaments.
+    pub fn components(&self) -> usize {
+        self.clusters.len()
+    }
+
+    /// Components of bodies; `None` for held ones.
+    pub fn components_of(&self, bodies: impl Iterator<Item = Coordinates>) -> Vec<Option<usize>> {
+        let of_nodes = self.clusters.of_nodes(&self.layout);
+        let component = |body| self.layout.node_of(body).map(|k| of_nodes[k]);
+        bodies.map(component).collect()
     }
 
     /// Number of unknowns.
@@ -214,26 +330,34 @@ impl ImplicitSolver {
     pub fn find_step(&mut self, state: &State, loads: &Loads) -> bool {
         self.step.resize(self.layout.unknowns(), 0.0);
         self.layout.reduce(state, loads, &mut self.step);
+        self.loads.clone_from(&self.step);
         self.linear.solve(&self.assembly, &mut self.step)
     }
 
-    /// Moves the bodies of `state` by the last step found and returns the extent of the step.
+    /// Moves the bodies of `state` by the last step found and returns the steps of the components
+    /// before shortening.
     ///
     /// In filaments that are free or held at one place, each body follows the motion of its
-    /// predecessor, so strains are linear in the step. The step of a filament is shortened if it
-    /// rotates a body by more than `largest_turn` (rad).
-    pub fn advance_along(&mut self, state: &mut State, largest_turn: f64) -> StepSize {
+    /// predecessor, so strains are linear in the step. The step of a component is shortened to the
+    /// limits of displacement and rotation.
+    pub fn advance_along(&mut self, state: &mut State, limits: &StepSize) -> Vec<ComponentStep> {
         let mut from = self.from.take().unwrap_or_else(|| state.clone());
         from.copy_motion_from(state);
         let states = (&from, state);
-        let extent = self.clusters.advance(
-            &self.layout,
-            states,
-            &self.step,
-            (&self.spins, largest_turn),
-        );
+        let (layout, step) = (&self.layout, &self.step);
+        let sizes = self
+            .clusters
+            .advance(layout, states, step, (&self.spins, limits));
         self.from = Some(from);
-        extent
+        let work: Vec<f64> = self.loads.iter().zip(step).map(|(f, p)| f * p).collect();
+        let work = self.clusters.sums(layout, &work);
+        let steps = sizes.into_iter().zip(work);
+        steps
+            .map(|(size, work)| ComponentStep {
+                size,
+                decrease: 0.5 * work,
+            })
+            .collect()
     }
 
     /// Repeats the motion of free bodies from `start` to `middle`: straight for points, same

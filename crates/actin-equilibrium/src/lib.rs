@@ -46,13 +46,14 @@ mod saddle;
 mod search;
 mod ties;
 
+pub use assemble::MatrixParts;
 pub use certificate::{Certificate, Stability};
 pub use group::{Group, Pivot};
 pub use history::{Iteration, SolverWork, Verdict};
-pub use implicit::ImplicitSolver;
+pub use implicit::{ImplicitSolver, Selection};
 pub use layout::{BodyOrder, Layout, LayoutError};
 pub use mode::Mode;
-pub use motion::StepSize;
+pub use motion::{ComponentStep, StepSize};
 pub use nearest::Nearest;
 pub use newton::Newton;
 pub use options::{NewtonOptions, OptionsError};

@@ -17,7 +17,23 @@ pub struct StepSize {
     pub strain: f64,
 }
 
+/// Step of a component: bodies that are coupled other than by links, such as a filament.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct ComponentStep {
+    /// Extent.
+    pub size: StepSize,
+    /// Half the work of the loads along the step (pN nm): decrease of energy that the quadratic
+    /// model predicts.
+    pub decrease: f64,
+}
+
 impl StepSize {
+    pub(crate) const INFINITE: Self = Self {
+        displacement: f64::INFINITY,
+        rotation: f64::INFINITY,
+        strain: f64::INFINITY,
+    };
+
     pub(crate) fn scaled(&self, factor: f64) -> Self {
         Self {
             displacement: self.displacement * factor,

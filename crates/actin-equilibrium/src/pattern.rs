@@ -7,11 +7,21 @@ use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::sparse::linalg::amd;
 use faer::sparse::linalg::cholesky::simplicial;
 use faer::sparse::{SymbolicSparseColMat, SymbolicSparseColMatRef};
+use std::ops::Range;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Place {
     /// Not stored: one of the bodies does not move.
     Outside,
+    /// On the diagonal of a body; index of the first value of each column.
+    Body { node: usize, at: [usize; 3] },
+    /// Above the diagonal, between two bodies; index of the first value of each column.
+    Bodies {
+        /// Later node.
+        column: usize,
+        at: [usize; 3],
+        transposed: bool,
+    },
     /// On the diagonal of a node.
     Diagonal {
         node: usize,
@@ -40,6 +50,47 @@ pub(crate) struct Pattern {
     starts: Vec<Vec<usize>>,
 }
 
+/// Sparse matrix without loose couplings.
+#[derive(Debug)]
+pub(crate) struct Chains {
+    /// Upper triangle.
+    pub(crate) symbolic: SymbolicSparseColMat<usize>,
+    /// Index of each entry in the full pattern.
+    pub(crate) places: Vec<usize>,
+    /// Other entries of the full pattern.
+    pub(crate) links: Links,
+}
+
+/// Entries that couple chains, by columns.
+#[derive(Debug)]
+pub(crate) struct Links {
+    starts: Vec<usize>,
+    /// Row, and index in the full pattern.
+    links: Vec<(usize, usize)>,
+}
+
+impl Links {
+    /// Adds the product with `v`, which is zero outside of the columns; only these entries of the
+    /// product are valid.
+    pub(crate) fn add_product(
+        &self,
+        values: &[f64],
+        columns: &[Range<usize>],
+        v: &[f64],
+        product: &mut [f64],
+    ) {
+        for column in columns.iter().cloned().flatten() {
+            let mut sum = 0.0;
+            for &(row, place) in &self.links[self.starts[column]..self.starts[column + 1]] {
+                let value = values[place];
+                product[row] += value * v[column];
+                sum += value * v[row];
+            }
+            product[column] += sum;
+        }
+    }
+}
+
 impl Pattern {
     /// Fixes the order of the nodes of `layout`.
     pub(crate) fn new(stiffness: &Stiffness, layout: &mut Layout) -> Self {
@@ -52,9 +103,10 @@ impl Pattern {
             .iter()
             .map(|rows| running_sum(rows.iter().map(|&row| layout.range(row).len())))
             .collect();
+        let symbolic = upper_triangle(&neighbours, layout);
         Self {
-            symbolic: upper_triangle(&neighbours, layout),
-            places: places(blocks, layout, &neighbours, &starts),
+            places: places(blocks, layout, (&neighbours, &starts), symbolic.col_ptr()),
+            symbolic,
             diagonal: starts.iter().map(|s| s[s.len() - 1]).collect(),
             bodies: blocks.iter().map(|&(a, b, _)| (a, b)).collect(),
             neighbours,
@@ -63,35 +115,53 @@ impl Pattern {
     }
 
     pub(crate) fn places_of(&self, stiffness: &Stiffness, layout: &Layout) -> Vec<Place> {
-        places(stiffness.blocks(), layout, &self.neighbours, &self.starts)
+        let sparsity = (self.neighbours.as_slice(), self.starts.as_slice());
+        places(
+            stiffness.blocks(),
+            layout,
+            sparsity,
+            self.symbolic.col_ptr(),
+        )
     }
 
-    /// Upper triangle without loose couplings, with indices in the full pattern.
-    pub(crate) fn chains(&self, layout: &Layout) -> (SymbolicSparseColMat<usize>, Vec<usize>) {
-        let chains = upper_triangle(&without_loose(&self.neighbours, layout), layout);
-        let (whole, mut places) = (&self.symbolic, Vec::new());
-        for column in 0..chains.ncols() {
-            let rows = &whole.row_idx()[whole.col_ptr()[column]..whole.col_ptr()[column + 1]];
-            let own = &chains.row_idx()[chains.col_ptr()[column]..chains.col_ptr()[column + 1]];
-            let found = own.iter().map(|row| {
-                let at = rows
-                    .binary_search(row)
-                    .expect("the full pattern contains the row");
-                whole.col_ptr()[column] + at
-            });
-            places.extend(found);
+    /// Upper triangle without loose couplings, with indices in the full pattern, and the loose
+    /// entries.
+    pub(crate) fn chains(&self, layout: &Layout) -> Chains {
+        let symbolic = upper_triangle(&without_loose(&self.neighbours, layout), layout);
+        let (mut places, mut links) = (Vec::new(), Vec::new());
+        let mut starts = vec![0];
+        for column in 0..symbolic.ncols() {
+            let own = symbolic.col_ptr()[column]..symbolic.col_ptr()[column + 1];
+            let own = &symbolic.row_idx()[own];
+            for place in self.symbolic.col_ptr()[column]..self.symbolic.col_ptr()[column + 1] {
+                let row = self.symbolic.row_idx()[place];
+                if own.binary_search(&row).is_ok() {
+                    places.push(place);
+                } else {
+                    links.push((row, place));
+                }
+            }
+            starts.push(links.len());
         }
-        (chains, places)
+        Chains {
+            symbolic,
+            places,
+            links: Links { starts, links },
+        }
     }
 
     /// The blocks couple the same bodies in the same order.
     pub(crate) fn fits(&self, stiffness: &Stiffness) -> bool {
-        let blocks = stiffness.blocks();
-        blocks.len() == self.bodies.len()
-            && blocks
-                .iter()
-                .zip(&self.bodies)
-                .all(|(&(a, b, _), &pair)| (a, b) == pair)
+        stiffness.blocks().len() == self.bodies.len() && self.fits_from(0, stiffness)
+    }
+
+    /// The blocks couple the same bodies as those from `start` on.
+    pub(crate) fn fits_from(&self, start: usize, stiffness: &Stiffness) -> bool {
+        let blocks = stiffness.blocks().iter();
+        self.bodies.get(start..).is_some_and(|bodies| {
+            blocks.len() <= bodies.len()
+                && blocks.zip(bodies).all(|(&(a, b, _), &pair)| (a, b) == pair)
+        })
     }
 }
 
@@ -186,15 +256,18 @@ fn minimum_degree(neighbours: &[Vec<usize>]) -> Vec<usize> {
     forward
 }
 
+/// Sorted earlier nodes coupled to each node, and their first rows.
+type Sparsity<'a> = (&'a [Vec<usize>], &'a [Vec<usize>]);
+
 fn places(
     blocks: &[Block],
     layout: &Layout,
-    neighbours: &[Vec<usize>],
-    starts: &[Vec<usize>],
+    sparsity: Sparsity<'_>,
+    columns: &[usize],
 ) -> Vec<Place> {
     blocks
         .iter()
-        .map(|&(a, b, _)| place(a, b, layout, neighbours, starts))
+        .map(|&(a, b, _)| place(a, b, layout, sparsity, columns))
         .collect()
 }
 
@@ -202,27 +275,43 @@ fn place(
     a: Coordinates,
     b: Coordinates,
     layout: &Layout,
-    neighbours: &[Vec<usize>],
-    starts: &[Vec<usize>],
+    (neighbours, starts): Sparsity<'_>,
+    columns: &[usize],
 ) -> Place {
     let (Some(first), Some(second)) = (layout.node_of(a), layout.node_of(b)) else {
         return Place::Outside;
     };
+    let (row, column) = (first.min(second), first.max(second));
+    let start = layout.range(column).start;
+    let values = |local: usize| std::array::from_fn(|j| columns[start + j] + local);
+    let is_group = |node| matches!(layout.node(node), Node::Group(_));
     if first == second {
-        return Place::Diagonal {
-            node: first,
-            twice: a != b,
+        let local = starts[column][starts[column].len() - 1];
+        return if is_group(first) {
+            let twice = a != b;
+            Place::Diagonal { node: first, twice }
+        } else {
+            let at = values(local);
+            Place::Body { node: first, at }
         };
     }
-    let (row, column) = (first.min(second), first.max(second));
     let at = neighbours[column]
         .binary_search(&row)
         .expect("the pattern was made from the same blocks");
-    Place::Above {
-        row,
+    let (local, transposed) = (starts[column][at], first > second);
+    if is_group(row) || is_group(column) {
+        return Place::Above {
+            row,
+            column,
+            local,
+            transposed,
+        };
+    }
+    let at = values(local);
+    Place::Bodies {
         column,
-        local: starts[column][at],
-        transposed: first > second,
+        at,
+        transposed,
     }
 }
 

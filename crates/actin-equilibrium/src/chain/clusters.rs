@@ -7,6 +7,7 @@ use crate::motion::StepSize;
 use crate::ties::Ties;
 use actin_mechanics::{Coordinates, State, UnitQuaternion, Vector3, Vectors, rotation};
 use std::collections::BTreeMap;
+use std::ops::Range;
 
 /// Component of tied bodies.
 #[derive(Debug, Default)]
@@ -65,9 +66,9 @@ impl Clusters {
         Self(clusters)
     }
 
-    /// Free frames of clusters with one of the unknowns (ascending).
-    pub(crate) fn frames_with(&self, layout: &Layout, unknowns: &[usize]) -> Vec<usize> {
-        let has_one = |cluster: &&Cluster| {
+    /// Clusters with one of the unknowns (ascending).
+    pub(crate) fn with_unknowns(&self, layout: &Layout, unknowns: &[usize]) -> Vec<usize> {
+        let has_one = |cluster: &Cluster| {
             let mut nodes = cluster.nodes.iter();
             nodes.any(|&k| {
                 let range = layout.range(k);
@@ -77,28 +78,60 @@ impl Clusters {
                     .is_some_and(|unknown| range.contains(unknown))
             })
         };
-        let clusters = self.0.iter().filter(has_one);
-        clusters
-            .flat_map(|cluster| cluster.frames.iter().copied())
-            .collect()
+        (0..self.0.len()).filter(|&c| has_one(&self.0[c])).collect()
     }
 
-    /// Moves the bodies of `to`, a copy of `from`, and returns the extent of the whole step. The
-    /// step of each cluster is limited to `largest_turn` (rad). Free clusters keep their mean
-    /// displacement. Spins about third axes are applied last.
+    pub(crate) fn len(&self) -> usize {
+        self.0.len()
+    }
+
+    /// Cluster of each node.
+    pub(crate) fn of_nodes(&self, layout: &Layout) -> Vec<usize> {
+        let mut clusters = vec![0; layout.len()];
+        for (c, cluster) in self.0.iter().enumerate() {
+            cluster.nodes.iter().for_each(|&node| clusters[node] = c);
+        }
+        clusters
+    }
+
+    /// Ranges of the unknowns of the selected clusters (ascending).
+    pub(crate) fn columns(&self, layout: &Layout, is_selected: &[bool]) -> Vec<Range<usize>> {
+        let selected = self.0.iter().zip(is_selected).filter(|(_, is)| **is);
+        let mut ranges: Vec<_> = selected
+            .flat_map(|(cluster, _)| cluster.nodes.iter().map(|&k| layout.range(k)))
+            .collect();
+        ranges.sort_unstable_by_key(|range| range.start);
+        let mut merged: Vec<Range<usize>> = Vec::new();
+        for range in ranges {
+            match merged.last_mut() {
+                Some(last) if last.end == range.start => last.end = range.end,
+                _ => merged.push(range),
+            }
+        }
+        merged
+    }
+
+    /// Sum of terms, one per unknown, for each cluster.
+    pub(crate) fn sums(&self, layout: &Layout, terms: &[f64]) -> Vec<f64> {
+        let sum = |cluster: &Cluster| {
+            let nodes = cluster.nodes.iter();
+            nodes.flat_map(|&k| &terms[layout.range(k)]).sum()
+        };
+        self.0.iter().map(sum).collect()
+    }
+
+    /// Moves the bodies of `to`, a copy of `from`, and returns the unlimited extent of the step of
+    /// each cluster. The step of a cluster is shortened to the limits. Free clusters keep their
+    /// mean displacement. Spins about third axes are applied last.
     pub(crate) fn advance(
         &self,
         layout: &Layout,
         (from, to): (&State, &mut State),
         step: &[f64],
-        (spins, largest_turn): (&[bool], f64),
-    ) -> StepSize {
+        (spins, limits): (&[bool], &StepSize),
+    ) -> Vec<StepSize> {
         if step.iter().any(|value| !value.is_finite()) {
-            return StepSize {
-                displacement: f64::INFINITY,
-                rotation: f64::INFINITY,
-                strain: f64::INFINITY,
-            };
+            return vec![StepSize::INFINITE; self.0.len()];
         }
         let spinning = layout.spinning(spins);
         let mut tilts = step.to_vec();
@@ -107,28 +140,30 @@ impl Clusters {
         }
         let velocities = layout.velocities(from, &tilts);
         let mut scales = vec![1.0; from.frames.len()];
-        let mut extent = StepSize::default();
+        let mut sizes = Vec::with_capacity(self.0.len());
         for cluster in &self.0 {
+            if cluster.is_still(layout, step) {
+                sizes.push(StepSize::default());
+                continue;
+            }
             let own = layout.extent_of(&cluster.nodes, &tilts);
-            let scale = (largest_turn / own.rotation).min(1.0);
+            let scale = (limits.rotation / own.rotation)
+                .min(limits.displacement / own.displacement)
+                .min(1.0);
             layout.apply_to(&cluster.nodes, to, &tilts, scale);
             cluster.carry(from, &velocities, scale, to);
             for &i in &cluster.frames {
                 scales[i] = scale;
             }
-            extent.displacement = extent.displacement.max(own.displacement);
-            extent.rotation = extent.rotation.max(own.rotation);
+            sizes.push(layout.extent_of(&cluster.nodes, step));
         }
-        for &(_, at) in &spinning {
-            extent.rotation = extent.rotation.max(step[at].abs());
-        }
-        for (i, at) in spinning {
+        for (i, at) in spinning.into_iter().filter(|(_, at)| step[*at] != 0.0) {
             let turn = rotation::exp(Vector3::z() * (step[at] * scales[i]));
             let q = to.frames.orientation.get(i) * turn;
             let q = UnitQuaternion::new_normalize(q.into_inner());
             to.frames.orientation.set(i, q);
         }
-        extent
+        sizes
     }
 }
 
@@ -146,6 +181,11 @@ impl Layout {
 }
 
 impl Cluster {
+    fn is_still(&self, layout: &Layout, step: &[f64]) -> bool {
+        let mut own = self.nodes.iter().flat_map(|&k| &step[layout.range(k)]);
+        own.all(|value| *value == 0.0)
+    }
+
     fn carry(
         &self,
         from: &State,

@@ -1,0 +1,162 @@
+//! Solution of steps with random stress.
+
+use super::{Brownian, LARGEST_TURN, spin};
+use crate::components::{Components, Subset};
+use crate::stress::StepMatrix;
+use actin_integrate::StepFailure;
+use actin_mechanics::System;
+
+/// Initial iterations of all components.
+const FULL_ITERATIONS: usize = 2;
+
+/// Ratio of the number of all components to that of unsolved ones above which their neighbours are
+/// iterated as well.
+const FEW: usize = 16;
+
+impl Brownian {
+    pub(super) fn solve_stressed(
+        &mut self,
+        system: &mut System,
+        h: f64,
+    ) -> Result<(), StepFailure> {
+        let strength = (2.0 * self.thermal_energy / h).sqrt();
+        let noise = (&self.noise.points, &self.noise.frames);
+        self.random.clear();
+        self.friction
+            .add_noise(&self.start, strength, noise, &mut self.random);
+        self.begin_iterations();
+        let mut is_solved = false;
+        for _ in 0..self.limits.iterations {
+            self.iterations += 1;
+            self.find_residual(system, h);
+            let is_found = self.find_step(system, 1.0 / h);
+            if self.renew_components(system) {
+                continue;
+            }
+            let limits = self.progress.limits(LARGEST_TURN);
+            let steps = self.solver.advance_along(system.state_mut(), &limits);
+            let components = &self.components;
+            let is_selected = |c| components.has_component(c);
+            let kt = self.thermal_energy;
+            is_solved = self.progress.record(&steps, is_selected, &self.limits, kt);
+            is_solved &= is_found && components.selection().is_none();
+            if is_solved {
+                break;
+            }
+            self.select();
+        }
+        let moved = self.moved(system.state());
+        let is_far = moved.into_iter().any(|moved| self.progress.is_far(moved));
+        if is_solved && !is_far {
+            return Ok(());
+        }
+        Err(self.failure(system, &self.progress.largest()))
+    }
+
+    /// Returns `true` if the components have changed with the pattern of the matrix; the iterations
+    /// begin again.
+    fn renew_components(&mut self, system: &System) -> bool {
+        let has_changed = !self.components.fit(&self.solver);
+        if has_changed {
+            let (interactions, state) = (system.interactions(), system.state());
+            self.components = Components::new(&self.solver, interactions, state, &self.friction);
+            self.begin_iterations();
+        }
+        has_changed
+    }
+
+    fn begin_iterations(&mut self) {
+        let count = self.components.count();
+        self.progress.begin(count);
+        self.components.select(vec![true; count]);
+    }
+
+    /// Selects the components that are not solved if they are less than half of all. Neighbours of
+    /// few ones are included, because solved components are not iterated for their motion.
+    fn select(&mut self) {
+        let progress = &self.progress;
+        let count = self.components.count();
+        let mut selected: Vec<bool> = (0..count).map(|c| !progress.is_solved(c)).collect();
+        let open = selected.iter().filter(|open| **open).count();
+        let is_part = progress.iterations() >= FULL_ITERATIONS
+            && (1..=count / 2).contains(&open)
+            && self.solver.allows_selection();
+        if !is_part {
+            selected.fill(true);
+        } else if FEW * open <= count {
+            selected = self.components.with_neighbours(&selected);
+        }
+        self.components.select(selected);
+    }
+
+    /// Finds the unbalanced loads of the selected components.
+    fn find_residual(&mut self, system: &mut System, h: f64) {
+        if self.components.selection().is_none() {
+            self.loads.clone_from(system.loads());
+        } else {
+            self.loads.clear();
+            for (k, interaction) in system.interactions().iter().enumerate() {
+                if self.components.has_interaction(k) {
+                    interaction.add_loads(system.state(), &mut self.loads);
+                }
+            }
+        }
+        let (state, interactions) = (system.state(), system.interactions());
+        self.find_middle(state);
+        self.find_velocities(state, h, 0.5);
+        let components = &self.components;
+        for &i in self.axial.iter().filter(|&&i| components.has_frame(i)) {
+            self.spins[i] = spin(&self.start, state, i);
+        }
+        self.stresses
+            .turn_back(interactions, components, &self.spins);
+        self.residual.clone_from(&self.loads);
+        let residual = &mut self.residual;
+        self.stresses
+            .add_loads(interactions, components, (state, residual));
+        residual.add(&self.random);
+        let at = (&self.middle, &self.velocities);
+        let has_frame = |i| components.has_frame(i);
+        self.friction.add_loads(at, has_frame, residual);
+    }
+
+    /// Finds the step of an iteration, with the friction times `factor`. The geometric stiffness is
+    /// omitted in the first iteration and where the matrix is indefinite. Returns `false` if the
+    /// equations are not solved.
+    fn find_step(&mut self, system: &System, factor: f64) -> bool {
+        let (state, interactions) = (system.state(), system.interactions());
+        let friction = self.friction.times(factor).in_axes_of(&self.middle);
+        let components = &self.components;
+        self.stresses.balance_all(self.progress.is_first());
+        let mut changed: Option<Subset> = None;
+        loop {
+            self.stresses.find_balance(interactions, components, state);
+            let matrix = StepMatrix {
+                interactions,
+                stresses: &self.stresses,
+                components,
+                friction,
+                progress: &self.progress,
+            };
+            let at = (state, &self.loads);
+            let solver = &mut self.solver;
+            let is_positive = match &changed {
+                None => solver.factorize_parts(at, &matrix, components.selection()),
+                Some(changed) => solver.refactorize_parts(at, &matrix, changed.selection()),
+            };
+            if is_positive && solver.find_step(state, &self.residual) {
+                return true;
+            }
+            let worst = if is_positive {
+                solver.components_of_negative_curvature()
+            } else {
+                solver.indefinite_components()
+            };
+            let balanced = self.stresses.balance_more(interactions, components, &worst);
+            if balanced.is_empty() {
+                return solver.find_step(state, &self.residual);
+            }
+            changed = Some(components.coupled_by(&balanced));
+        }
+    }
+}
