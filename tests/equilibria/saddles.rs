@@ -1,6 +1,6 @@
 //! Paths that end on a saddle or lose twist fail.
 
-use super::common::{build, cantilever, failure, run, run_anyway};
+use super::common::{build, cantilever, failure, newton, run, run_anyway};
 use actin_sim::{End, Failure, Scene, Status};
 
 /// Beyond its critical load of 3.76 pN, `leave_saddles: 0` keeps the straight column on the saddle.
@@ -87,27 +87,104 @@ fn a_start_that_is_twisted_has_lost_nothing() {
     assert!(run(&mut again).is_ok());
 }
 
+/// A column of 200 nm under `Homogenised`, compressed beyond its critical load along a path. Half of
+/// the modes of the straight state are unstable, and the loads have no component along them.
+#[test]
+fn a_path_in_compression_leaves_the_axis_only_if_permitted() {
+    let follow = |task: &str| {
+        let text = format!(
+            "Scene(
+                filament: Filament(sections: [Rod(from_nm: 0, to_nm: 200, segments: 20)]),
+                clamps: [Clamp(end: Start), Clamp(end: End)],
+                path: [Stage(set: [Shift(end: End, shift_nm: (0, 0, -20))])],
+                task: Equilibrium({task}),
+            )"
+        );
+        let mut assembly = build(&text);
+        let (trajectory, ended) = run_anyway(&mut assembly);
+        let off_axis = |state: &actin_sim::mechanics::State| {
+            let positions = state.points.position.iter();
+            positions.map(|x| x.x.hypot(x.y)).fold(0.0, f64::max)
+        };
+        let records = trajectory.records.iter();
+        (
+            records.map(|r| off_axis(&r.state)).fold(0.0, f64::max),
+            ended,
+        )
+    };
+    let (off_axis, ended) = follow("leave_saddles: 0");
+    let (Failure::Saddle(problem), report) = failure(ended) else {
+        panic!("no saddle");
+    };
+    assert_eq!((off_axis, report.saddles_left), (0.0, 0));
+    println!("{}", problem.rule);
+
+    let (off_axis, ended) = follow("");
+    let report = ended.unwrap();
+    println!("{off_axis} nm off the axis");
+    assert!(off_axis > 30.0 && report.saddles_left > 0);
+    assert_eq!(report.certificate().unwrap().negative, 0);
+}
+
+fn straight_column(section: &str, law: &str, force: f64) -> String {
+    format!(
+        "Scene(
+            filament: Filament(sections: [{section}], rod: RodModel(law: {law})),
+            clamps: [Clamp(end: Start), Clamp(end: End, slides: AlongAxis)],
+            loads: [EndForce(end: End, force_pn: (0, 0, -{force:?}))],
+            task: Equilibrium(),
+        )"
+    )
+}
+
+const COLUMN: &str = "Rod(from_nm: 0, to_nm: 1000, segments: 20)";
+
+/// The observer receives each step once, displacements or not. Without attempts a column stays
+/// straight.
+#[test]
+fn slow_descents_are_displaced_if_saddles_may_be_left() {
+    for attempts in [0, 3] {
+        let assembly = build(&straight_column(COLUMN, "Homogenised", 5.0));
+        let mut state = assembly.system.state().clone();
+        let mut newton = newton(&assembly, 1e-7);
+        let mut observed = Vec::new();
+        let interactions = assembly.system.interactions();
+        let found = newton.minimize_observed(&mut state, interactions, attempts, &mut |step| {
+            observed.push(*step);
+            std::ops::ControlFlow::Continue(())
+        });
+        let positions = state.points.position.iter();
+        let off_axis = positions.map(|x| x.x.hypot(x.y)).fold(0.0, f64::max);
+        let (history, left) = match found {
+            Ok(found) => (found.history, found.saddles_left),
+            Err(failure) => (failure.history, 0),
+        };
+        println!(
+            "{attempts} attempts: {} steps, {left}, {off_axis} nm",
+            history.len()
+        );
+        assert_eq!(observed, history);
+        assert_eq!(left > 0, attempts > 0);
+        assert_eq!(off_axis > 100.0, attempts > 0);
+    }
+}
+
 /// Columns of 1000 nm between walls, of which one slides, from their straight state. Under
 /// `Homogenised` half of the modes of that state are unstable, and the loads have no component along
 /// them.
 #[test]
 fn straight_columns_buckle_under_every_law() {
     let solve = |section: &str, law: &str, force: f64| {
-        let text = format!(
-            "Scene(
-                filament: Filament(sections: [{section}], rod: RodModel(law: {law})),
-                clamps: [Clamp(end: Start), Clamp(end: End, slides: AlongAxis)],
-                loads: [EndForce(end: End, force_pn: (0, 0, -{force:?}))],
-                task: Equilibrium(),
-            )"
-        );
-        let mut assembly = build(&text);
+        let mut assembly = build(&straight_column(section, law, force));
         let (_, report) = run(&mut assembly).unwrap();
         assert_eq!(report.certificate().unwrap().negative, 0, "{law}");
+        let steps = report.equilibrium.unwrap().newton_iterations;
+        let left = report.saddles_left;
+        println!("{law}, {force} pN: {steps} steps, {left} displacements");
         let tip = assembly.tip_nm(assembly.system.state(), End::End).z - 1000.0;
         (tip, assembly.system.potential_energy())
     };
-    let rod = "Rod(from_nm: 0, to_nm: 1000, segments: 20)";
+    let rod = COLUMN;
     for law in ["Constant", "Fitted", "Homogenised"] {
         for force in [1.7, 2.0, 5.0] {
             let (tip, energy) = solve(rod, law, force);

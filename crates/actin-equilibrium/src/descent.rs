@@ -15,7 +15,7 @@ use composed::Composed;
 const ENOUGH: f64 = 1e-4;
 /// Relative energy change below which the work of the loads is used instead. The energy of an
 /// element is the square of a small strain, with a large relative rounding error.
-const ROUND_OFF: f64 = 1e-8;
+pub(crate) const ROUND_OFF: f64 = 1e-8;
 /// Bounds of the factor that shortens a rejected step.
 const SHORTEN: [f64; 2] = [0.05, 0.5];
 const SHORTEST: f64 = 1e-12;
@@ -109,13 +109,14 @@ impl Descent {
         }
     }
 
-    /// Continues from another state.
+    /// Continues from a state nearby. Bounds of the motion and blocked steps are kept.
     pub(crate) fn restart(&mut self, interactions: &[Box<dyn Interaction>], state: &State) {
         let start = std::mem::take(&mut self.start);
         *self = Self {
             start,
             farthest: self.farthest,
             size: self.size,
+            blocked: self.blocked,
             ..Self::new(interactions, state, &self.options)
         };
     }

@@ -11,8 +11,8 @@
 //! decrease afterwards, these steps are reverted.
 //!
 //! Far from equilibrium, a symmetric state may have many unstable modes along which the loads have
-//! no component. The regularised steps are then short. After 20 short steps the state is displaced
-//! along the lowest mode.
+//! no component. The regularised steps are then short. [`Newton::minimize`] therefore displaces the
+//! state along the lowest mode after 20 short steps.
 //!
 //! # Source
 //! J. Nocedal and S. J. Wright, Numerical Optimization, 2nd ed. (2006), sections 3.4 (modified
@@ -112,10 +112,13 @@ impl Newton {
         state: &mut State,
         interactions: &[Box<dyn Interaction>],
     ) -> Result<Equilibrium, Box<NewtonFailure>> {
-        self.solve_observed(state, interactions, &mut |_| ControlFlow::Continue(()))
+        self.solve_observed(state, interactions, false, &mut |_| {
+            ControlFlow::Continue(())
+        })
     }
 
-    /// As [`solve`](Self::solve), with a callback after every step that may interrupt it.
+    /// As [`solve`](Self::solve), with a callback after every step that may interrupt it. If
+    /// `may_displace`, slow descents of symmetric states are displaced along the lowest mode.
     ///
     /// # Errors
     /// If no equilibrium is found or the observer interrupts; `state` is then the best state
@@ -124,6 +127,7 @@ impl Newton {
         &mut self,
         state: &mut State,
         interactions: &[Box<dyn Interaction>],
+        may_displace: bool,
         observe: &mut dyn FnMut(&Iteration) -> ControlFlow<()>,
     ) -> Result<Equilibrium, Box<NewtonFailure>> {
         let before = self.solver.work;
@@ -132,13 +136,16 @@ impl Newton {
             options: &self.options,
             interactions,
             history: Vec::new(),
+            may_displace,
             displaced_at: 0,
+            displacements: 0,
             residual: Residual::default(),
             floor: Residual::default(),
             previous: f64::INFINITY,
         };
         let result = run.execute(state, observe);
         let (history, residual, floor) = (run.history, run.residual, run.floor);
+        let saddles_left = run.displacements;
         let solver = &mut self.solver;
         let certificate =
             (result.is_ok() && self.options.certify).then(|| certify(solver, state, interactions));
@@ -150,7 +157,7 @@ impl Newton {
                 residual,
                 floor,
                 certificate,
-                saddles_left: 0,
+                saddles_left,
                 history,
                 work,
             }),
@@ -228,8 +235,11 @@ struct Run<'a> {
     options: &'a NewtonOptions,
     interactions: &'a [Box<dyn Interaction>],
     history: Vec<Iteration>,
-    /// Number of steps before the last displacement along the lowest mode.
+    /// Permits displacements along the lowest mode.
+    may_displace: bool,
+    /// Number of steps before the last displacement, or before the last attempt.
     displaced_at: usize,
+    displacements: usize,
     residual: Residual,
     floor: Residual,
     previous: f64,
@@ -249,13 +259,15 @@ impl Run<'_> {
             return Err(SolveError::NotFinite);
         }
         let result = loop {
+            let steps = self.history.len();
             match self.step(&mut descent) {
                 Ok(None) => count_turns(self.interactions, &mut descent.state),
                 Ok(Some(ending)) => break Ok((ending, descent.here.energy)),
                 Err(cause) => break Err(cause),
             }
-            let last = self.history.last().expect("a step was recorded");
-            if observe(last).is_break() {
+            // Displacements along the lowest mode are not recorded.
+            let new = self.history.get(steps);
+            if new.is_some_and(|step| observe(step).is_break()) {
                 break Err(SolveError::Interrupted);
             }
         };
@@ -289,7 +301,7 @@ impl Run<'_> {
         if self.history.len() >= self.options.iterations {
             return self.give_up(descent, SolveError::IterationLimit(self.options.iterations));
         }
-        if self.is_slow() && self.displace(descent)? {
+        if self.may_displace && self.is_slow() && self.displace(descent)? {
             return Ok(None);
         }
         self.previous = self.residual.relative_to(&self.options.tolerance);
@@ -337,14 +349,15 @@ impl Run<'_> {
             })
     }
 
-    /// Displaces the state along the lowest mode; `false` without a mode of negative stiffness.
+    /// Displaces the state along the lowest mode; `false` if no displacement lowers the energy.
     fn displace(&mut self, descent: &mut Descent) -> Result<bool, SolveError> {
         self.displaced_at = self.history.len();
         let mut state = descent.state.clone();
-        let (solver, turn_length) = (&mut *self.solver, self.options.turn_length);
-        let mode = leave_saddle(solver, turn_length, &mut state, self.interactions)?;
+        let mode = leave_saddle(self.solver, self.options, &mut state, self.interactions)?;
         if mode.is_some() {
             descent.restart(self.interactions, &state);
+            self.solver.work.evaluations += 1;
+            self.displacements += 1;
         }
         Ok(mode.is_some())
     }

@@ -35,7 +35,8 @@ pub struct Equilibrium {
     pub floor: Residual,
     /// Certificate of stability; `None` if not requested.
     pub certificate: Option<Certificate>,
-    /// Number of saddles that the solve reached and moved away from.
+    /// Number of displacements along the lowest mode, from saddles and in slow descents of symmetric
+    /// states.
     pub saddles_left: usize,
     /// Newton steps.
     pub history: Vec<Iteration>,

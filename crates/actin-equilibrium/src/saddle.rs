@@ -1,11 +1,13 @@
 //! Motion away from saddles.
 
+use crate::descent::ROUND_OFF;
 use crate::direction::Solver;
 use crate::evaluation::Evaluation;
 use crate::history::Iteration;
 use crate::mode::{self, Mode};
 use crate::motion::StepSize;
 use crate::newton::Newton;
+use crate::options::NewtonOptions;
 use crate::outcome::{Equilibrium, NewtonFailure, SolveError};
 use actin_mechanics::{Interaction, State};
 use std::ops::ControlFlow;
@@ -14,6 +16,8 @@ use std::ops::ControlFlow;
 const FIRST: f64 = 1e-3;
 /// Maximum displacement by doubling (rad, or nm per turn length).
 const LAST: f64 = 0.2;
+/// Number of times that an amplitude is halved if it does not lower the energy.
+const HALVINGS: usize = 4;
 
 /// Displacement from a saddle.
 #[derive(Clone, Debug, PartialEq)]
@@ -39,10 +43,11 @@ impl Newton {
     }
 
     /// Moves `state` away from a saddle along the lowest mode, in the direction of lower energy.
-    /// The amplitude is doubled while the energy decreases, up to rotations of 0.2 rad.
+    /// The amplitude is doubled while the energy decreases, up to rotations of 0.2 rad and the limits
+    /// of a step.
     ///
-    /// Returns the mode. If the lowest eigenvalue is not negative by more than its error bound, the
-    /// state does not move and the result is `None`. If both directions have equal energy, the
+    /// Returns the mode. If the lowest eigenvalue is not negative by more than its error bound, or
+    /// no displacement lowers the energy, the state does not move and the result is `None`. If both directions have equal energy, the
     /// computed sign of the mode determines the direction, reproducibly. Displace the state to
     /// select a branch.
     ///
@@ -54,16 +59,17 @@ impl Newton {
         interactions: &[Box<dyn Interaction>],
     ) -> Result<Option<Mode>, SolveError> {
         self.solver.prepare(state, interactions)?;
-        let turn_length = self.options().turn_length;
-        leave_saddle(&mut self.solver, turn_length, state, interactions)
+        let options = *self.options();
+        leave_saddle(&mut self.solver, &options, state, interactions)
     }
 
     /// Moves `state` away from a saddle along the lowest mode, in the direction of lower energy.
-    /// `largest` limits the displacements and rotations of bodies, and one of its limits is
-    /// reached. Velocities are unchanged.
+    /// `largest` limits the displacements and rotations of bodies. One of its limits is reached,
+    /// unless only smaller amplitudes lower the energy. Velocities are unchanged.
     ///
     /// Returns the displacement. If the lowest eigenvalue is not negative by more than its error
-    /// bound, the state does not move and the result is `None`. The direction is chosen as in
+    /// bound, or no displacement lowers the energy, the state does not move and the result is
+    /// `None`. The direction is chosen as in
     /// [`leave_saddle`](Newton::leave_saddle).
     ///
     /// # Errors
@@ -81,14 +87,18 @@ impl Newton {
         let extent = self.layout().step_extent(&mode.shape);
         let amplitude =
             (largest.displacement / extent.displacement).min(largest.rotation / extent.rotation);
-        let (_, (_, moved)) =
-            Ridge::new(state, interactions, &mode).lower_side(&mut self.solver, amplitude);
-        *state = moved;
-        let extent = extent.scaled(amplitude);
-        Ok(Some(Push { mode, extent }))
+        let ridge = Ridge::new(state, interactions, &mode);
+        let lower = ridge.lower_side(&mut self.solver, amplitude);
+        Ok(lower.map(|lower| {
+            *state = lower.state;
+            let extent = extent.scaled(lower.amplitude.abs());
+            Push { mode, extent }
+        }))
     }
 
-    /// Moves `state` to a minimum: solves, and moves away from saddles up to `attempts` times.
+    /// Moves `state` to a minimum: solves, and moves away from saddles up to `attempts` times. Slow
+    /// descents of symmetric states are displaced along the lowest mode as often as necessary. With
+    /// 0 attempts nothing is displaced.
     ///
     /// The result contains [`Equilibrium::saddles_left`] and the history of all solves. It may
     /// still be a saddle, see [`Equilibrium::is_saddle`].
@@ -118,7 +128,8 @@ impl Newton {
         observe: &mut dyn FnMut(&Iteration) -> ControlFlow<()>,
     ) -> Result<Equilibrium, Box<NewtonFailure>> {
         let before = self.work();
-        let mut equilibrium = self.solve_observed(state, interactions, observe)?;
+        let may_displace = attempts > 0;
+        let mut equilibrium = self.solve_observed(state, interactions, may_displace, observe)?;
         for _ in 0..attempts {
             if !equilibrium.is_saddle() {
                 break;
@@ -128,10 +139,10 @@ impl Newton {
             if !matches!(left, Ok(Some(_))) {
                 break;
             }
-            let mut next = self.solve_observed(state, interactions, observe)?;
+            let mut next = self.solve_observed(state, interactions, may_displace, observe)?;
             equilibrium.history.append(&mut next.history);
             next.history = equilibrium.history;
-            next.saddles_left = equilibrium.saddles_left + 1;
+            next.saddles_left += equilibrium.saddles_left + 1;
             equilibrium = next;
         }
         equilibrium.work = self.work().since(&before);
@@ -142,7 +153,7 @@ impl Newton {
 /// As [`Newton::leave_saddle`], for the assembled stiffness of `state`.
 pub(crate) fn leave_saddle(
     solver: &mut Solver,
-    turn_length: f64,
+    options: &NewtonOptions,
     state: &mut State,
     interactions: &[Box<dyn Interaction>],
 ) -> Result<Option<Mode>, SolveError> {
@@ -150,19 +161,22 @@ pub(crate) fn leave_saddle(
         return Ok(None);
     };
     let extent = solver.layout.step_extent(&mode.shape);
-    let unit = 1.0 / largest(&extent, turn_length);
+    let unit = 1.0 / largest(&extent, options.turn_length);
+    let limit = (LAST * unit)
+        .min(options.largest_rotation / extent.rotation)
+        .min(options.largest_displacement / extent.displacement);
     let ridge = Ridge::new(state, interactions, &mode);
-    let (side, (mut best, mut moved)) = ridge.lower_side(solver, FIRST * unit);
-    let mut amplitude = 2.0 * FIRST;
-    while amplitude <= LAST {
-        let (energy, further) = ridge.at(solver, amplitude * unit * side);
-        if energy.is_nan() || energy >= best {
+    let Some(mut best) = ridge.lower_side(solver, limit.min(FIRST * unit)) else {
+        return Ok(None);
+    };
+    while 2.0 * best.amplitude.abs() <= limit {
+        let further = ridge.at(solver, 2.0 * best.amplitude);
+        if further.energy >= best.energy {
             break;
         }
-        (best, moved) = (energy, further);
-        amplitude *= 2.0;
+        best = further;
     }
-    *state = moved;
+    *state = best.state;
     Ok(Some(mode))
 }
 
@@ -189,25 +203,56 @@ impl<'a> Ridge<'a> {
         }
     }
 
-    /// Relative energy (pN nm) and state at `amplitude`.
-    fn at(&self, solver: &mut Solver, amplitude: f64) -> (f64, State) {
-        let mut moved = self.state.clone();
-        solver.layout.apply(&mut moved, &self.mode.shape, amplitude);
+    fn at(&self, solver: &mut Solver, amplitude: f64) -> Displaced {
+        let mut state = self.state.clone();
+        solver.layout.apply(&mut state, &self.mode.shape, amplitude);
         let mut there = self.energies.clone();
-        there.follow(self.interactions, (self.state, &moved));
+        there.follow(self.interactions, (self.state, &state));
         solver.work.evaluations += 1;
-        (there.energy_above(&self.energies), moved)
-    }
-
-    /// Direction of lower energy, with energy and state there.
-    fn lower_side(&self, solver: &mut Solver, amplitude: f64) -> (f64, (f64, State)) {
-        let (plus, minus) = (self.at(solver, amplitude), self.at(solver, -amplitude));
-        if plus.0 <= minus.0 {
-            (1.0, plus)
-        } else {
-            (-1.0, minus)
+        let is_finite = there.is_finite();
+        let energy = there.energy_above(&self.energies);
+        Displaced {
+            amplitude,
+            energy: if is_finite { energy } else { f64::INFINITY },
+            state,
         }
     }
+
+    /// Displacement in the direction of lower energy. The amplitude is halved if neither direction
+    /// lowers the energy; `None` if this does not help either.
+    fn lower_side(&self, solver: &mut Solver, amplitude: f64) -> Option<Displaced> {
+        let mut amplitude = amplitude;
+        for _ in 0..=HALVINGS {
+            let (plus, minus) = (self.at(solver, amplitude), self.at(solver, -amplitude));
+            let lower = if plus.energy <= minus.energy {
+                plus
+            } else {
+                minus
+            };
+            if self.is_lower(&lower) {
+                return Some(lower);
+            }
+            amplitude *= 0.5;
+        }
+        None
+    }
+
+    /// Returns `true` if the energy is lower, or if both the change and the decrease of the
+    /// quadratic model are within rounding.
+    fn is_lower(&self, displaced: &Displaced) -> bool {
+        let predicted = -0.5 * self.mode.eigenvalue * displaced.amplitude.powi(2);
+        let rounding = ROUND_OFF * self.energies.magnitude;
+        displaced.energy < 0.0 || predicted.max(displaced.energy) <= rounding
+    }
+}
+
+/// State displaced along a mode.
+struct Displaced {
+    amplitude: f64,
+    /// Energy relative to the ridge (pN nm); infinite if it is not finite, or if bodies passed
+    /// through each other.
+    energy: f64,
+    state: State,
 }
 
 fn largest(extent: &StepSize, turn_length: f64) -> f64 {

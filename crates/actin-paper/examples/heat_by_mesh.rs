@@ -1,16 +1,18 @@
 //! Tension and twisting rigidity of rods in a heat bath by the length of their segments, and of monomers.
 //!
-//! `cargo run --release -p actin-paper --example heat_by_mesh [LAW [SEEDS]]`
+//! `cargo run --release -p actin-paper --example heat_by_mesh [LAW [SEEDS [water [SEGMENT_NM]]]]`
 //!
 //! Tension: filaments clamped at both ends at a mean stretch, mean of the axial force over time. Twisting
 //! rigidity `C`: `kT` over the slope of the variance of the turn between cross-sections 30 and 120 nm apart,
 //! at least 45 nm from the ends of free filaments of 300 nm. Errors are standard errors over seeds, by the
-//! jackknife. The law `Monomers` resolves monomers.
+//! jackknife. The law `Monomers` resolves monomers. The law `Cells` is the free energy of the cells, without
+//! subtraction of the motion of segments. With `water`, the motion is `Brownian` with its default time step, of
+//! segments of 20 nm and less, and clamped filaments have the length of 60 nm as built.
 
 use actin_integrate::{Bath, Drag, PEFRL, advance_in, largest_frequency, stable_step};
-use actin_mechanics::rotation;
+use actin_mechanics::{Interaction, Loads, State, Vectors, rotation};
 use actin_paper::measure::{jackknife, steps_in};
-use actin_sim::{Assembly, BOLTZMANN_PN_NM_PER_K, Scene};
+use actin_sim::{Assembly, BOLTZMANN_PN_NM_PER_K, Plan, Scene};
 use rayon::prelude::*;
 
 const ROOM_K: f64 = 298.0;
@@ -32,6 +34,13 @@ const MARGIN_NM: f64 = 45.0;
 const NEAR_NM: f64 = 30.0;
 const FAR_NM: f64 = 120.0;
 
+/// Time between samples of the tension and of the turns in water (ns), and number of samples. The first tenth is
+/// not used.
+const APART_IN_WATER_NS: [f64; 2] = [5.0, 6.0];
+const SAMPLES_IN_WATER: u32 = 2000;
+
+const CELLS: &str = "Cells";
+
 #[derive(Clone, Copy)]
 struct Case<'a> {
     law: &'a str,
@@ -42,6 +51,7 @@ struct Case<'a> {
     /// Drag rate (1/ns).
     drag: f64,
     duration_ns: f64,
+    is_in_water: bool,
 }
 
 /// Means over one seed.
@@ -54,7 +64,11 @@ struct Means {
 
 impl Case<'_> {
     fn scene(&self, seed: u64) -> Scene {
-        let (law, to) = (self.law, self.length_nm);
+        let to = self.length_nm;
+        let law = match self.law {
+            CELLS => "HomogenisedAt298K",
+            law => law,
+        };
         let section = self.segment_nm.map_or_else(
             || format!("Ellipsoids(from_nm: 0.0, to_nm: {to:?})"),
             |nm| {
@@ -67,42 +81,61 @@ impl Case<'_> {
         let rod = self
             .segment_nm
             .map_or(String::new(), |_| format!("rod: RodModel(law: {law}),"));
+        let task = self.task(seed);
         let clamps = self
             .stretch
             .map_or("", |_| "Clamp(end: Start), Clamp(end: End)");
-        let drag = self.drag;
         let text = format!(
             "Scene(
                 filament: Filament(sections: [{section}], {rod}),
                 clamps: [{clamps}],
-                task: Dynamics(
-                    duration_ns: 1.0,
-                    drag: (translational_per_ns: {drag:?}, rotational_per_ns: {drag:?}),
-                    thermal: (temperature_k: {ROOM_K:?}, seed: {seed}),
-                ),
+                task: {task},
             )"
         );
         Scene::from_ron(&text).unwrap_or_else(|error| panic!("{error}"))
     }
 
-    #[expect(
-        clippy::too_many_lines,
-        reason = "one protocol, from the filament to its means"
-    )]
+    fn task(&self, seed: u64) -> String {
+        if self.law == CELLS {
+            // Without a bath, segments have the law of the cells.
+            return "Equilibrium()".to_owned();
+        }
+        if self.is_in_water {
+            let every_ns = APART_IN_WATER_NS[usize::from(self.stretch.is_none())];
+            let duration_ms = 1e-6 * every_ns * f64::from(SAMPLES_IN_WATER);
+            return format!(
+                "Brownian(duration_ms: {duration_ms:?}, record_every_ns: {every_ns:?}, temperature_k: {ROOM_K:?}, seed: {seed})"
+            );
+        }
+        let drag = self.drag;
+        format!(
+            "Dynamics(
+                duration_ns: 1.0,
+                drag: (translational_per_ns: {drag:?}, rotational_per_ns: {drag:?}),
+                thermal: (temperature_k: {ROOM_K:?}, seed: {seed}),
+            )"
+        )
+    }
+
     fn run(&self, seed: u64) -> Means {
         let mut assembly = Assembly::build(&self.scene(seed)).expect("a filament");
+        let mut sampler = Sampler::new(self, &assembly);
+        if self.is_in_water {
+            let plan = Plan::new(&assembly).expect("a motion that can run");
+            let (trajectory, _) = plan.run().expect("a motion");
+            let (_, records) = trajectory.records.split_at(trajectory.records.len() / 10);
+            for record in records {
+                sampler.add_state(&record.state, assembly.system.interactions());
+            }
+            return sampler.means();
+        }
         let system = &mut assembly.system;
         let frequency = largest_frequency(system).expect("a frequency");
         let step = stable_step(&PEFRL, frequency, SHARE).expect("a stable step");
         let drag = Drag::new(self.drag, self.drag).expect("positive rates");
         let kt = BOLTZMANN_PN_NM_PER_K * ROOM_K;
         let bath = Bath::new(drag, kt, seed).expect("a positive energy");
-        let rest = assembly.rest;
-        let count = rest.points.len();
-        // Both monomers of a clamp move together.
-        let along = |i: usize| rest.points.position.get(i).z.clamp(0.0, self.length_nm);
-        let places: Vec<f64> = (0..count).map(along).collect();
-        for (i, z) in places.iter().enumerate() {
+        for (i, z) in sampler.places.iter().enumerate() {
             let state = system.state_mut();
             let mut place = state.points.position.get(i);
             place.z += self.stretch.unwrap_or(0.0) * z;
@@ -111,41 +144,14 @@ impl Case<'_> {
         let warm_up = steps_in(WARM_UP_NS, step);
         advance_in(system, &PEFRL, step, warm_up, &bath, 0);
         let samples = steps_in(self.duration_ns, step) / APART;
-        let unturned = &rest.frames.orientation;
-        let frames = unturned.len();
-        let per_nm = frames as f64 / self.length_nm;
-        let [margin, near, far] = [MARGIN_NM, NEAR_NM, FAR_NM].map(|nm| rounded(nm * per_nm));
-        let mut means = Means {
-            tension: 0.0,
-            turns: [[0.0; 2]; 2],
-        };
         for sample in 0..samples {
             advance_in(system, &PEFRL, step, APART, &bath, warm_up + sample * APART);
-            let force = &system.loads().force;
-            // Derivative of the energy with respect to a uniform stretch.
-            let virial: f64 = places
-                .iter()
-                .enumerate()
-                .map(|(i, z)| force.get(i).z * z)
-                .sum();
-            means.tension -= virial / self.length_nm / samples as f64;
-            if self.stretch.is_some() || sample % TURNS_APART != 0 {
-                continue;
-            }
-            let turned = &system.state().frames.orientation;
-            let turn = |i: usize| turned.get(i) * unturned.get(i).inverse();
-            let taken = samples.div_ceil(TURNS_APART) as f64;
-            for (apart, moments) in [near, far].into_iter().zip(&mut means.turns) {
-                let pairs = frames - apart - 2 * margin;
-                for i in margin..margin + pairs {
-                    let phi = rotation::log(turn(i).inverse() * turn(i + apart)).z;
-                    let weight = (pairs as f64 * taken).recip();
-                    moments[0] += weight * phi;
-                    moments[1] += weight * phi * phi;
-                }
+            sampler.add_tension(&system.loads().force);
+            if sample % TURNS_APART == 0 {
+                sampler.add_turns(system.state());
             }
         }
-        means
+        sampler.means()
     }
 
     /// Tension (pN) or twisting rigidity (pN nm^2), with its standard error.
@@ -178,6 +184,86 @@ impl Case<'_> {
     }
 }
 
+/// Sums over samples of one filament.
+struct Sampler {
+    rest: State,
+    length_nm: f64,
+    /// Arc lengths of points (nm).
+    places: Vec<f64>,
+    /// Turns are sampled between these distances from the ends, in frames; `None` for clamped filaments.
+    margin: Option<usize>,
+    /// Distances in frames.
+    apart: [usize; 2],
+    tension: f64,
+    tensions: u32,
+    moments: [[f64; 2]; 2],
+    turns: u32,
+}
+
+impl Sampler {
+    fn new(case: &Case, assembly: &Assembly) -> Self {
+        let (rest, length_nm) = (assembly.rest.clone(), case.length_nm);
+        // Both monomers of a clamp move together.
+        let along = |i: usize| rest.points.position.get(i).z.clamp(0.0, length_nm);
+        let places = (0..rest.points.len()).map(along).collect();
+        let per_nm = rest.frames.len() as f64 / length_nm;
+        let [margin, near, far] = [MARGIN_NM, NEAR_NM, FAR_NM].map(|nm| rounded(nm * per_nm));
+        Self {
+            rest,
+            length_nm,
+            places,
+            margin: case.stretch.is_none().then_some(margin),
+            apart: [near, far],
+            tension: 0.0,
+            tensions: 0,
+            moments: [[0.0; 2]; 2],
+            turns: 0,
+        }
+    }
+
+    fn add_state(&mut self, state: &State, interactions: &[Box<dyn Interaction>]) {
+        let mut loads = Loads::zeros(state);
+        for interaction in interactions {
+            interaction.add_loads(state, &mut loads);
+        }
+        self.add_tension(&loads.force);
+        self.add_turns(state);
+    }
+
+    /// Derivative of the energy with respect to a uniform stretch, over the length.
+    fn add_tension(&mut self, force: &Vectors) {
+        let places = self.places.iter().enumerate();
+        let virial: f64 = places.map(|(i, z)| force.get(i).z * z).sum();
+        self.tension -= virial / self.length_nm;
+        self.tensions += 1;
+    }
+
+    fn add_turns(&mut self, state: &State) {
+        let Some(margin) = self.margin else {
+            return;
+        };
+        let (turned, unturned) = (&state.frames.orientation, &self.rest.frames.orientation);
+        let turn = |i: usize| turned.get(i) * unturned.get(i).inverse();
+        for (apart, moments) in self.apart.into_iter().zip(&mut self.moments) {
+            let pairs = unturned.len() - apart - 2 * margin;
+            for i in margin..margin + pairs {
+                let phi = rotation::log(turn(i).inverse() * turn(i + apart)).z;
+                moments[0] += phi / pairs as f64;
+                moments[1] += phi * phi / pairs as f64;
+            }
+        }
+        self.turns += 1;
+    }
+
+    fn means(self) -> Means {
+        let turns = f64::from(self.turns.max(1));
+        Means {
+            tension: self.tension / f64::from(self.tensions),
+            turns: self.moments.map(|moments| moments.map(|sum| sum / turns)),
+        }
+    }
+}
+
 #[expect(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,
@@ -191,13 +277,18 @@ fn main() {
     let mut arguments = std::env::args().skip(1);
     let law = arguments.next().unwrap_or("HomogenisedAt298K".to_owned());
     let seeds: u64 = arguments.next().map_or(8, |s| s.parse().expect("a count"));
+    let is_in_water = arguments.next().is_some_and(|motion| motion == "water");
+    let only: Option<f64> = arguments.next().map(|nm| nm.parse().expect("a length"));
+    let segments = SEGMENTS_NM[usize::from(is_in_water)..].iter().copied();
     let meshes: Vec<Option<f64>> = match law.as_str() {
         "Monomers" => vec![None],
-        _ => SEGMENTS_NM.map(Some).to_vec(),
+        _ => segments
+            .filter(|nm| only.is_none_or(|only| only.total_cmp(nm).is_eq()))
+            .map(Some)
+            .collect(),
     };
     println!("{law}, {seeds} seeds (C: four times as many)");
     for segment_nm in meshes {
-        let mesh = segment_nm.map_or("monomers".to_owned(), |nm| format!("{nm} nm"));
         let case = |length_nm, stretch, drag| Case {
             law: &law,
             segment_nm,
@@ -205,18 +296,33 @@ fn main() {
             stretch,
             drag,
             duration_ns: 500.0,
+            is_in_water,
         };
-        for span_nm in SPANS_NM {
-            let tensions = STRETCHES.map(|stretch| {
-                let (value, error) = case(span_nm, Some(stretch), 30.0).measure(seeds);
-                format!("{value:.1} ± {error:.1}")
-            });
-            println!(
-                "{mesh}: tension of {span_nm:.0} nm at {STRETCHES:?}: {} pN",
-                tensions.join(", ")
-            );
-        }
-        let (value, error) = case(FREE_NM, None, 5.0).measure(4 * seeds);
-        println!("{mesh}: C {value:.0} ± {error:.0} pN nm^2");
+        report(&case, seeds);
     }
+}
+
+/// Prints the tensions and the twisting rigidity of one mesh. `case` has the arguments length (nm), stretch, and
+/// drag (1/ns).
+fn report<'a>(case: &dyn Fn(f64, Option<f64>, f64) -> Case<'a>, seeds: u64) {
+    let free = case(FREE_NM, None, 5.0);
+    let mesh = (free.segment_nm).map_or("monomers".to_owned(), |nm| format!("{nm} nm"));
+    let (spans, stretches) = if free.is_in_water {
+        (&SPANS_NM[..1], &[0.0][..])
+    } else {
+        (&SPANS_NM[..], &STRETCHES[..])
+    };
+    for &span_nm in spans {
+        let tensions = stretches.iter().map(|&stretch| {
+            let (value, error) = case(span_nm, Some(stretch), 30.0).measure(seeds);
+            format!("{value:.1} ± {error:.1}")
+        });
+        let tensions: Vec<String> = tensions.collect();
+        println!(
+            "{mesh}: tension of {span_nm:.0} nm at {stretches:?}: {} pN",
+            tensions.join(", ")
+        );
+    }
+    let (value, error) = free.measure(4 * seeds);
+    println!("{mesh}: C {value:.0} ± {error:.0} pN nm^2");
 }

@@ -99,6 +99,7 @@ fn cases() -> Vec<Case> {
         rod_of("rod-published", "PublishedExtension"),
         rod_of("rod-coupling", "CouplingEnergy"),
         rod_of("rod-fitted", "Fitted"),
+        rod_of("rod-athermal", "HomogenisedAthermal"),
         rod_of("rod-homogenised", AT_298_K),
         rod_of("rod-homogenised-220", AT_298_K).of(LONG_ROD),
         case("monomers", MONOMERS, &PEFRL, 0.5, ROOM),

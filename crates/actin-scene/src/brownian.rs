@@ -1,9 +1,7 @@
 //! Overdamped motion in a fluid: the task `Brownian` and its validation.
 
 use super::rules::{non_negative, positive, show};
-use super::{
-    DragModel, Dynamics, Filament, Flow, Integrator, Scene, SceneProblem, Task, Thermal, rules,
-};
+use super::{Dynamics, Filament, Flow, Scene, SceneProblem, Task, Thermal, rules};
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 
@@ -131,16 +129,10 @@ impl Brownian {
     /// Converts the times, records and temperature to a `Dynamics` task.
     pub fn as_motion(&self) -> Dynamics {
         Dynamics {
-            duration_ns: self.duration_ms * NS_PER_MS,
-            integrator: Integrator::default(),
             time_step_ns: self.time_step_ns,
-            step_safety: super::types::STEP_SAFETY,
-            allow_unstable_step: false,
-            drag: DragModel::default(),
             thermal: self.thermal(),
-            stop: None,
-            leave_saddles: 0,
             record_every_ns: self.record_every_ns,
+            ..Dynamics::new(self.duration_ms * NS_PER_MS)
         }
     }
 

@@ -259,7 +259,8 @@ pub struct Equilibrium {
     pub largest_step: f64,
     /// Smallest step, below which the path ends; positive, at most `largest_step`.
     pub smallest_step: f64,
-    /// Largest number of times an equilibrium leaves a saddle along its lowest mode. With 0 the path follows
+    /// Largest number of times an equilibrium leaves a saddle along its lowest mode. Slow solves from symmetric
+    /// states are displaced in the same way, without a limit. With 0 nothing is displaced and the path follows
     /// saddles. A run whose last equilibrium is a saddle fails, and its results are written.
     pub leave_saddles: usize,
     /// True if the path continues after a large jump to another equilibrium; otherwise it ends there. Small
@@ -341,6 +342,22 @@ fn default_step_safety() -> f64 {
 }
 
 impl Dynamics {
+    /// Creates a motion of this duration (ns) without drag and noise, with default steps and records.
+    pub fn new(duration_ns: f64) -> Self {
+        Self {
+            duration_ns,
+            integrator: Integrator::default(),
+            time_step_ns: None,
+            step_safety: STEP_SAFETY,
+            allow_unstable_step: false,
+            drag: DragModel::default(),
+            thermal: None,
+            stop: None,
+            leave_saddles: 0,
+            record_every_ns: None,
+        }
+    }
+
     /// Returns whether the task has drag.
     pub fn has_drag(&self) -> bool {
         let rates = self.drag.rates();

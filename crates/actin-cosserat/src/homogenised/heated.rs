@@ -41,6 +41,10 @@ impl Homogenised {
     /// strain `s` and the mean curvature of their joints. `D`, `D_s` and `X` are fitted in the terms
     /// of `W`, so that each coefficient is a polynomial in `1/h`.
     ///
+    /// The mean of the first-order formulas with `D[W]` and with `D[U_1]`, where `U_1` is the
+    /// first-order result, has `X_sc + X_cs` in place of `2 X_sc`, with
+    /// `X_cs = tr(A^-1 d2D_s/de2)`. The two agree if the rod is not staggered, with `D_s = D`.
+    ///
     /// Accuracy: `docs/measured/heat.md`, "Segment length".
     ///
     /// ```

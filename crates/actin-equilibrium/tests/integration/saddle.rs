@@ -2,7 +2,9 @@
 
 use crate::common;
 use actin_equilibrium::{Layout, Newton, NewtonOptions, Stability, StepSize};
-use actin_mechanics::{Coordinates, Interaction, PointLoad, State, Vector3};
+use actin_mechanics::{
+    Coordinates, Interaction, Loads, PointLoad, SecondOrder, State, Stiffness, Vector3,
+};
 use actin_mechanics::{Xorshift, perturb};
 use common::{COLUMN, point, springs};
 use nalgebra::{DMatrix, SymmetricEigen};
@@ -213,4 +215,92 @@ fn a_push_has_the_requested_size() {
     let before = state.clone();
     let none = newton.push_off_saddle(&mut state, &terms, &StepSize::default());
     assert_eq!((none.unwrap(), state), (None, before));
+}
+
+/// Forbids motions of the tip above a distance (nm).
+#[derive(Debug)]
+struct Cage(f64);
+
+impl Interaction for Cage {
+    fn term(&self) -> &'static str {
+        "cage"
+    }
+
+    fn elements(&self) -> usize {
+        0
+    }
+
+    fn add_loads(&self, _state: &State, _loads: &mut Loads) {}
+
+    fn write_energies(&self, _state: &State, _energies: &mut [f64]) {}
+
+    fn second_order(&self) -> Option<&dyn SecondOrder> {
+        Some(self)
+    }
+
+    fn passes_through(&self, from: &State, to: &State) -> Option<Coordinates> {
+        let tip = from.points.len() - 1;
+        let moved = to.points.position.get(tip) - from.points.position.get(tip);
+        (moved.norm() > self.0).then_some(Coordinates::Point(tip))
+    }
+}
+
+impl SecondOrder for Cage {
+    fn add_stiffness(&self, _state: &State, _stiffness: &mut Stiffness) {}
+}
+
+/// A displacement moves no body through another one. Amplitudes are halved four times from 1e-3 nm.
+#[test]
+fn a_displacement_stays_within_a_cage() {
+    let (mut straight, terms) = compressed(8.0);
+    let mut newton = COLUMN.newton(&straight);
+    newton.solve(&mut straight, &terms).unwrap();
+    let mut free = straight.clone();
+    newton.leave_saddle(&mut free, &terms).unwrap().unwrap();
+    let moved = |state: &State| (COLUMN.tip(state) - COLUMN.tip(&straight)).norm();
+    assert!(moved(&free) > 0.1);
+    for (cage, moves) in [(1e-2, true), (3e-4, true), (1e-6, false)] {
+        let (mut state, mut terms) = (straight.clone(), compressed(8.0).1);
+        terms.push(Box::new(Cage(cage)));
+        let mut newton = COLUMN.newton(&state);
+        let mode = newton.leave_saddle(&mut state, &terms).unwrap();
+        assert_eq!(mode.is_some(), moves, "{cage}");
+        assert!(moved(&state) <= cage && (moved(&state) > 0.1 * cage) == moves);
+        let push = StepSize {
+            displacement: 0.01,
+            rotation: 1e-3,
+            strain: 0.0,
+        };
+        let mut state = straight.clone();
+        let pushed = newton.push_off_saddle(&mut state, &terms, &push).unwrap();
+        assert_eq!(pushed.is_some(), cage > 1e-3, "{cage}");
+        assert!(moved(&state) <= cage);
+    }
+}
+
+/// A displacement is at most as large as a step.
+#[test]
+fn a_displacement_respects_the_limits_of_steps() {
+    let (mut straight, terms) = compressed(8.0);
+    COLUMN
+        .newton(&straight)
+        .solve(&mut straight, &terms)
+        .unwrap();
+    for (largest_displacement, largest_rotation) in [(1e-5, 0.5), (0.02, 0.5), (1.0, 1e-4)] {
+        let mut state = straight.clone();
+        let options = NewtonOptions {
+            largest_displacement,
+            largest_rotation,
+            ..NewtonOptions::default()
+        };
+        let mut newton = Newton::new(COLUMN.layout(&state), options).unwrap();
+        newton.leave_saddle(&mut state, &terms).unwrap().unwrap();
+        let (points, turns) = (&state.points.position, &state.frames.orientation);
+        let moved = |i: usize| (points.get(i) - straight.points.position.get(i)).norm();
+        let turned = |i: usize| turns.get(i).angle_to(&straight.frames.orientation.get(i));
+        let displacement = (0..points.len()).map(moved).fold(0.0, f64::max);
+        let rotation = (0..turns.len()).map(turned).fold(0.0, f64::max);
+        let part = (displacement / largest_displacement).max(rotation / largest_rotation);
+        assert!(part > 0.5 && part < 1.0 + 1e-6, "{part}");
+    }
 }

@@ -26,11 +26,6 @@ const MONOMERS: [(&str, [f64; 2], [f64; 2]); 2] = [
 /// Both rows of a law.
 pub(super) fn rows(name: &str, law: &RodLaw, quick: bool) -> Vec<Row> {
     let replicas = if quick { QUICK_REPLICAS } else { REPLICAS };
-    // The law in a scene with a heat bath.
-    let law = match law {
-        RodLaw::Homogenised => &RodLaw::HomogenisedAt298K,
-        law => law,
-    };
     let replica = |k: u64| {
         let filament = Made::coarse(law).filament(LENGTH_NM);
         turns_in_bath(filament, (&PEFRL, SHARE), k)

@@ -8,8 +8,7 @@ use crate::run::free;
 use actin_integrate::{Bath, Composition, Drag, advance_in, largest_frequency, stable_step};
 use actin_mechanics::{State, UnitQuaternion, rotation};
 use actin_sim::{
-    Assembly, BOLTZMANN_PN_NM_PER_K, DragModel, DragRates, Dynamics, Filament, Integrator, Task,
-    Thermal,
+    Assembly, BOLTZMANN_PN_NM_PER_K, DragModel, DragRates, Dynamics, Filament, Task, Thermal,
 };
 
 const ROOM_K: f64 = 298.0;
@@ -28,8 +27,8 @@ const SAMPLES: u32 = 400;
 pub struct Turns {
     /// `<cos theta>`.
     pub cosine: Vec<f64>,
-    /// `<phi>` (rad).
-    pub mean_twist: Vec<f64>,
+    /// `<phi>` (rad) of each pair of frames.
+    pub mean_twist: Vec<Vec<f64>>,
     /// `<phi^2>` (rad^2).
     pub square_twist: Vec<f64>,
 }
@@ -39,7 +38,7 @@ impl Turns {
     pub fn new(frames: usize) -> Self {
         Self {
             cosine: vec![0.0; frames],
-            mean_twist: vec![0.0; frames],
+            mean_twist: (0..frames).map(|k| vec![0.0; frames - k]).collect(),
             square_twist: vec![0.0; frames],
         }
     }
@@ -55,13 +54,13 @@ impl Turns {
         for k in 0..turns.len() {
             let pairs = turns.iter().zip(&turns[k..]);
             let weight = 1.0 / (pairs.len() * samples) as f64;
-            for (a, b) in pairs {
+            for ((a, b), mean_twist) in pairs.zip(&mut self.mean_twist[k]) {
                 let relative = a.inverse() * b;
                 let (x, y) = (relative.i, relative.j);
                 // Element (3, 3) of the rotation matrix.
                 self.cosine[k] += weight * (1.0 - 2.0 * (x * x + y * y));
                 let phi = rotation::log(relative).z;
-                self.mean_twist[k] += weight * phi;
+                *mean_twist += phi / samples as f64;
                 self.square_twist[k] += weight * phi * phi;
             }
         }
@@ -72,10 +71,13 @@ impl Turns {
         -mean(replicas, |turns| turns.cosine[k]).ln()
     }
 
-    /// Variance of `phi` over replicas at separation `k` (rad^2).
+    /// Variance of `phi` over replicas at separation `k` (rad^2), about the mean of each pair: mean
+    /// rotations near the ends differ.
     pub fn twist_variance(replicas: &[&Self], k: usize) -> f64 {
-        let first = mean(replicas, |turns| turns.mean_twist[k]);
-        mean(replicas, |turns| turns.square_twist[k]) - first * first
+        let pairs = replicas[0].mean_twist[k].len();
+        let firsts = (0..pairs).map(|i| mean(replicas, |turns| turns.mean_twist[k][i]));
+        let squares: f64 = firsts.map(|first| first * first).sum();
+        mean(replicas, |turns| turns.square_twist[k]) - squares / pairs as f64
     }
 }
 
@@ -112,11 +114,6 @@ pub(crate) fn turns_in_bath(
 /// Motion in a heat bath at 298 K, which selects the law of rods.
 fn heated(seed: u64) -> Dynamics {
     Dynamics {
-        duration_ns: WARM_UP_NS,
-        integrator: Integrator::default(),
-        time_step_ns: None,
-        step_safety: 0.5,
-        allow_unstable_step: false,
         drag: DragModel::Rates(DragRates {
             translational_per_ns: DRAG,
             rotational_per_ns: DRAG,
@@ -125,9 +122,7 @@ fn heated(seed: u64) -> Dynamics {
             temperature_k: ROOM_K,
             seed,
         }),
-        stop: None,
-        leave_saddles: 0,
-        record_every_ns: None,
+        ..Dynamics::new(WARM_UP_NS)
     }
 }
 
@@ -207,10 +202,13 @@ mod tests {
         assert!((turns.cosine[0] - 1.0).abs() < 1e-15 && turns.square_twist[0].abs() < 1e-15);
         // Separation 2: first and third only.
         assert!((turns.cosine[2] - 1.0).abs() < 1e-15);
-        assert!((turns.mean_twist[2] - 0.4).abs() < 1e-15);
+        assert_eq!(turns.mean_twist[2].len(), 1);
+        assert!((turns.mean_twist[2][0] - 0.4).abs() < 1e-15);
         assert!((turns.square_twist[2] - 0.16).abs() < 1e-15);
-        // One sample: its variance is zero.
-        assert!(Turns::twist_variance(&[&turns], 2).abs() < 1e-15);
+        // One sample: its variance is zero, although the pairs of separation 1 differ.
+        for k in [1, 2] {
+            assert!(Turns::twist_variance(&[&turns], k).abs() < 1e-15);
+        }
         // Separation 1: only the pair of the first two has tilt.
         let of_second = 2.0 * turns.cosine[1] - 0.3_f64.cos();
         assert!((of_second - 0.3_f64.cos()).abs() < 1e-15);

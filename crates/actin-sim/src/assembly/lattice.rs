@@ -17,6 +17,12 @@ pub(super) struct Resolved {
     pub monomers: Option<(i64, i64)>,
 }
 
+impl Resolved {
+    pub(super) fn length_nm(&self) -> f64 {
+        self.to_nm - self.from_nm
+    }
+}
+
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Lattice {
     /// Arc length of monomer 0 (nm).

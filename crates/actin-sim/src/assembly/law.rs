@@ -29,19 +29,20 @@ pub(super) struct Law {
 }
 
 impl Law {
-    /// Law of section `i` of a filament with segments of `segment_nm`; `None` for monomers. `in_bath`
-    /// selects the law at 298 K where the scene leaves the choice open. Without a bath, that law is
-    /// the free energy of the cells, which contains all fluctuations up to 36 nm.
+    /// Law of section `i` of a filament. `bath` is the length (nm) of its segments in a heat bath, or
+    /// `None` without a bath and for monomers.
     pub(super) fn of_section(
         (i, section): (usize, &Section),
         filament: &Filament,
-        in_bath: bool,
-        segment_nm: Option<f64>,
+        bath: Option<f64>,
     ) -> Result<Self, SceneProblem> {
-        let (rod, monomers) = (&filament.rod, &filament.monomers);
-        let heated = || heated(i, segment_nm.filter(|_| in_bath));
+        let rod = &filament.rod;
+        let potential = |law: &RodLaw| {
+            let potential = potential(law, &filament.monomers, bath);
+            potential.map_err(|segment_nm| too_short((i, section), segment_nm))
+        };
         let Some(altered) = section.altered_rod() else {
-            return Self::new(rod, monomers, in_bath, heated);
+            return Self::new(rod, potential);
         };
         let key = format!("filament.sections[{i}].altered");
         let named = |problem: SceneProblem| match problem.key.strip_prefix("filament.rod") {
@@ -52,7 +53,7 @@ impl Law {
             _ => problem,
         };
         let model = section.rod_model(rod);
-        let law = Self::new(&model, monomers, in_bath, heated).map_err(named)?;
+        let law = Self::new(&model, potential).map_err(named)?;
         law.altered(altered, &key)
     }
 
@@ -72,9 +73,7 @@ impl Law {
 
     fn new(
         rod: &RodModel,
-        monomers: &Monomers,
-        in_bath: bool,
-        heated: impl Fn() -> Result<Parts, SceneProblem>,
+        potential: impl Fn(&RodLaw) -> Result<&'static Homogenised, SceneProblem>,
     ) -> Result<Self, SceneProblem> {
         check_beside_law(rod)?;
         let rigidities = rod.material.rigidities();
@@ -87,9 +86,9 @@ impl Law {
                 published(material, law)?
             }
             RodLaw::Fitted => with_laws(material, &fitted_laws())?,
-            RodLaw::Homogenised if in_bath => heated()?,
-            RodLaw::Homogenised | RodLaw::HomogenisedAthermal => athermal(monomers),
-            RodLaw::HomogenisedAt298K => heated()?,
+            law @ (RodLaw::Homogenised
+            | RodLaw::HomogenisedAthermal
+            | RodLaw::HomogenisedAt298K) => (RodMaterial::homogenised(potential(law)?), None),
             RodLaw::Laws(laws) => with_laws(material, laws)?,
         };
         Ok(Self {
@@ -244,30 +243,48 @@ fn written(parameter: RodKey) -> &'static str {
 
 type Parts = (RodMaterial, Option<TwistStretch>);
 
-fn athermal(monomers: &Monomers) -> Parts {
-    let law = match monomers.drawn_bonds() {
-        Some(bonds) => Homogenised::drawn_filament(bonds),
-        None => Homogenised::mean_filament(),
-    };
-    (RodMaterial::homogenised(law), None)
+/// Potential of a law `Homogenised`, with segments of length `bath` (nm) in a heat bath. Without a
+/// bath, the law at 298 K is the free energy of the cells, which contains all fluctuations up to
+/// 36 nm.
+///
+/// # Errors
+/// The length of the segments, if it is too short.
+pub(crate) fn potential(
+    law: &RodLaw,
+    monomers: &Monomers,
+    bath: Option<f64>,
+) -> Result<&'static Homogenised, f64> {
+    match (law, bath) {
+        (RodLaw::HomogenisedAthermal, _) | (RodLaw::Homogenised, None) => {
+            let bonds = monomers.drawn_bonds();
+            Ok(bonds.map_or_else(Homogenised::mean_filament, Homogenised::drawn_filament))
+        }
+        (_, None) => Ok(Homogenised::mean_filament_at_298_k()),
+        (_, Some(segment_nm)) => Homogenised::heated_rod(segment_nm).map_err(|error| error.value),
+    }
 }
 
-/// Law at 298 K of section `i`: of segments of a length in a bath, or else of the cells.
-fn heated(i: usize, segment_nm: Option<f64>) -> Result<Parts, SceneProblem> {
-    let law = match segment_nm {
-        None => Homogenised::mean_filament_at_298_k(),
-        Some(nm) => Homogenised::heated_rod(nm).map_err(|_| {
-            let rule = format!(
-                "rods under the law Homogenised at 298 K need segments of at least {} nm: the monomers are 2.7 nm apart, \
-                 and the free energy of shorter segments is not convex; use fewer segments, resolve monomers, or write \
-                 law: HomogenisedAthermal",
-                Homogenised::SHORTEST_HEATED_NM
-            );
-            let key = format!("filament.sections[{i}].segments");
-            SceneProblem::new(key, format!("segments of {nm:.2} nm"), rule)
-        })?,
+/// Rule for segments in a heat bath, without the remedy.
+pub(crate) const TOO_SHORT: &str = "rods under the law Homogenised at 298 K need segments of at least 5 nm: the monomers are 2.7 nm apart, \
+    and the free energy of shorter segments is not convex";
+
+fn too_short((i, section): (usize, &Section), segment_nm: f64) -> SceneProblem {
+    let written = match section {
+        Section::Rod { segments, .. } => segments.unwrap_or(1),
+        Section::Ellipsoids { .. } => 1,
     };
-    Ok((RodMaterial::homogenised(law), None))
+    let length_nm = segment_nm * written as f64;
+    let most = (length_nm / Homogenised::SHORTEST_HEATED_NM).floor();
+    let (key, remedy) = if most >= 1.0 {
+        (".segments", format!("write segments: {most} or fewer"))
+    } else {
+        ("", "make this section longer".to_owned())
+    };
+    SceneProblem::new(
+        format!("filament.sections[{i}]{key}"),
+        format!("segments of {segment_nm:.2} nm"),
+        format!("{TOO_SHORT}; {remedy}, resolve monomers, or write law: HomogenisedAthermal"),
+    )
 }
 
 fn published(material: RodMaterial, law: TwistStretch) -> Result<Parts, SceneProblem> {
@@ -301,10 +318,15 @@ mod tests {
     use crate::{Assembly, Scene};
 
     fn build(segments: u32, law: &str, task: &str) -> Result<Assembly, String> {
+        let sections = format!("[Rod(from_nm: 0.0, to_nm: 60.0, segments: {segments})]");
+        build_sections(&sections, law, task)
+    }
+
+    fn build_sections(sections: &str, law: &str, task: &str) -> Result<Assembly, String> {
         let text = format!(
             "Scene(
                 filament: Filament(
-                    sections: [Rod(from_nm: 0.0, to_nm: 60.0, segments: {segments})],
+                    sections: {sections},
                     rod: RodModel(law: {law}),
                 ),
                 task: {task},
@@ -327,13 +349,35 @@ mod tests {
     fn short_segments_are_refused_in_a_bath() {
         for law in ["Homogenised", "HomogenisedAt298K"] {
             let error = build(24, law, BATH).unwrap_err();
-            let expected = "filament.sections[0].segments = segments of 2.50 nm: rods under the law Homogenised at 298 K \
+            let begins = "filament.sections[0].segments = segments of 2.50 nm: rods under the law Homogenised at 298 K \
                 need segments of at least 5 nm";
-            assert!(error.contains(expected), "{error}");
+            let remedy = "; write segments: 12 or fewer, resolve monomers, or write law: HomogenisedAthermal";
+            assert!(error.contains(begins) && error.ends_with(remedy), "{error}");
             assert!(build(12, law, BATH).is_ok());
             assert!(build(24, law, "Equilibrium()").is_ok());
         }
         assert!(build(24, "HomogenisedAthermal", BATH).is_ok());
+    }
+
+    /// The remedies name the key that the user has written.
+    #[test]
+    fn remedies_are_possible() {
+        let short = "[Rod(from_nm: 0.0, to_nm: 4.0), Rod(from_nm: 4.0, to_nm: 60.0)]";
+        let error = build_sections(short, "Homogenised", BATH).unwrap_err();
+        let begins = "filament.sections[0] = segments of 4.00 nm: rods under";
+        assert!(error.contains(begins) && error.contains("; make this section longer, "));
+        let follow = |segments: usize| {
+            let sections = format!(
+                "Following(length_nm: 200.0, segments: {segments}, monomers_where: [Curvature(above_per_nm: 0.01, below_per_nm: 0.005)])"
+            );
+            build_sections(&sections, "Homogenised", BATH)
+        };
+        let error = follow(8).unwrap_err();
+        let begins = "filament.sections.segments = 8: in cells of";
+        let (_, remedy) = error.split_once("; write segments: ").expect(&error);
+        assert!(error.contains(begins), "{error}");
+        let (most, _) = remedy.split_once(" or fewer").expect(remedy);
+        assert!(follow(most.parse().unwrap()).is_ok(), "{error}");
     }
 
     /// Fluctuations of shorter segments supply a part of the tension.

@@ -35,6 +35,7 @@ pub use extrapolation::MeasuredError;
 pub(crate) use kinetics::{COARSEST, Kinetics, Log};
 pub use kinetics::{LinkerEvent, LinkerEventKind};
 pub(crate) use lattice::cells_nm;
+pub(crate) use law::{TOO_SHORT, potential};
 pub use ledger::EnergyExchange;
 pub use model_limits::ModelLimitExceeded;
 pub(crate) use model_limits::worst as worst_of;

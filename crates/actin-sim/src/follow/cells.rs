@@ -1,7 +1,8 @@
 //! Cells of a filament, and the scene with some of them as monomers.
 
-use crate::assembly::cells_nm;
-use crate::scene::{Following, Scene, SceneProblem, Section};
+use crate::assembly::{TOO_SHORT, cells_nm, potential};
+use crate::scene::{Filament, Following, Scene, SceneProblem, Section};
+use actin_cosserat::Homogenised;
 
 /// Tolerance (nm) for equal lengths of cells.
 const SAME_LENGTH_NM: f64 = 1e-6;
@@ -17,10 +18,33 @@ pub(crate) struct Cells {
 
 impl Cells {
     pub(crate) fn of(scene: &Scene, following: &Following) -> Result<Self, SceneProblem> {
-        Ok(Self {
+        let cells = Self {
             boundaries_nm: cells_nm(scene, following.length_nm, following.cell_nm)?,
             segments: following.segments,
-        })
+        };
+        cells.check_bath(scene)?;
+        Ok(cells)
+    }
+
+    /// Refuses segments that are too short for the rod law in a heat bath.
+    fn check_bath(&self, scene: &Scene) -> Result<(), SceneProblem> {
+        let Filament { rod, monomers, .. } = &scene.filament;
+        let lengths = self.spans_nm().map(|[from, to]| to - from);
+        let cell_nm = lengths.fold(f64::INFINITY, f64::min);
+        let bath = scene.thermal().map(|_| cell_nm / self.segments as f64);
+        let is_law = rod.law.is_homogenised();
+        if !is_law || potential(&rod.law, monomers, bath).is_ok() {
+            return Ok(());
+        }
+        let most = (cell_nm / Homogenised::SHORTEST_HEATED_NM).floor();
+        let rule = format!(
+            "in cells of {cell_nm:.2} nm: {TOO_SHORT}; write segments: {most} or fewer, a larger cell_nm, or law: HomogenisedAthermal"
+        );
+        Err(SceneProblem::new(
+            "filament.sections.segments",
+            self.segments,
+            rule,
+        ))
     }
 
     pub(crate) fn count(&self) -> usize {

@@ -21,6 +21,7 @@ fn fitted_without_heat(law: &RodLaw) -> Option<(&'static str, InBath)> {
         RodLaw::PublishedExtension => Some(("PublishedExtension", (9.5, 5.2e3))),
         RodLaw::CouplingEnergy => Some(("CouplingEnergy", (9.5, 5.2e3))),
         RodLaw::Fitted => Some(("Fitted", (9.7, 5.2e3))),
+        RodLaw::HomogenisedAthermal => Some(("HomogenisedAthermal", (10.5, 8.8e3))),
         _ => None,
     }
 }
@@ -42,15 +43,18 @@ pub(super) fn notes(filament: &Filament, bath_k: Option<f64>) -> Vec<String> {
     filament.rod_models().flat_map(of_rod).collect()
 }
 
-/// Largest difference (K) between the temperatures of the free energy and of the bath.
+/// Largest difference (K) between the temperatures of the free energy and of the bath without a
+/// warning. The thermal part of the free energy is then wrong by up to 3.5 %.
 const NEAR_K: f64 = 10.0;
 
 fn far_from(temperature_k: f64) -> Option<String> {
     let own = Homogenised::HEATED_K;
+    let error = 100.0 * (own / temperature_k - 1.0).abs();
     ((temperature_k - own).abs() > NEAR_K).then(|| {
         format!(
-            "rods with the law Homogenised in a heat bath of {temperature_k} K: their free energy was measured at \
-             {own} K (measure it at this temperature with cargo xtask homogenise heat --temperature {temperature_k})"
+            "rods with the law Homogenised in a heat bath of {temperature_k} K: their free energy is the one at \
+             {own} K, and the law has no other temperature. Its thermal part, such as the tension of a filament \
+             held at its length as built, is wrong by about {error:.0} %: resolve monomers, or set {own} K"
         )
     })
 }
@@ -116,20 +120,14 @@ const HEATED: &str = "rods with the law HomogenisedAt298K without a heat bath: t
     length 0.46 % below the initial length, so a rod held at both ends is under tension. Without heat, Homogenised \
     is the energy of monomers at zero temperature";
 
-const ATHERMAL: &str = "rods with the law HomogenisedAthermal in a heat bath: this law is the energy at zero \
-    temperature, not a free energy. At 298 K free rods of 110 nm in segments of 10 nm have a persistence length of \
-    11.0 um and a twisting rigidity of 7.8e3 pN nm^2, monomers 11.5 um and 7.6e3 pN nm^2 (cargo xtask load-cases)";
-
 /// Warning on a rod's law in a heat bath; `None` for user-defined constant rigidities, which can
 /// include thermal effects.
 fn law_in_bath(rod: &RodModel, temperature_k: f64) -> Option<String> {
     if rod.law == RodLaw::Constant && rod.material != Material::Table4 {
         return None;
     }
-    match rod.law {
-        RodLaw::Homogenised | RodLaw::HomogenisedAt298K => return far_from(temperature_k),
-        RodLaw::HomogenisedAthermal => return Some(ATHERMAL.to_owned()),
-        _ => {}
+    if matches!(rod.law, RodLaw::Homogenised | RodLaw::HomogenisedAt298K) {
+        return far_from(temperature_k);
     }
     let Some((name, (persistence, twist))) = fitted_without_heat(&rod.law) else {
         let note = "rods with the law Laws in a heat bath: laws fitted to equilibria at zero temperature are not \
@@ -172,6 +170,24 @@ mod tests {
         let heated = notes(filament, BATH);
         assert_eq!(heated.len(), 1, "{heated:?}");
         assert!(heated[0].starts_with("rods with the law Fitted in a heat bath"));
+    }
+
+    #[test]
+    fn other_temperatures_are_noted() {
+        let at = |kelvin: &str| {
+            notes(
+                &rod("law: HomogenisedAt298K", 0.0),
+                &BATH.replace("298.0", kelvin),
+            )
+        };
+        let is_far =
+            |note: &String| note.contains("is wrong by about 4 %: resolve monomers, or set 298 K");
+        assert!(at("310.0").iter().any(is_far), "{:?}", at("310.0"));
+        assert!(
+            !at("305.0")
+                .iter()
+                .any(|note| note.contains("other temperature"))
+        );
     }
 
     /// Each law gives one warning, for any number of filaments.

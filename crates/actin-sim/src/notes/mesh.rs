@@ -1,7 +1,8 @@
-//! Warnings on segments that are too long for bending.
+//! Warnings on segments that are too long for bending, or too short for random stress.
 
 use crate::Assembly;
-use crate::scene::Hold;
+use crate::assembly::Rod;
+use crate::scene::{Hold, RodLaw, Task};
 
 /// Largest relative error of displacements without a warning.
 const LONG: f64 = 0.1;
@@ -9,7 +10,34 @@ const LONG: f64 = 0.1;
 /// Relative error of displacements for the proposed segments.
 const FINE: f64 = 0.01;
 
+/// Length (nm) of segments below which the random stress of `Brownian` is inaccurate under
+/// `Homogenised` at 298 K.
+///
+/// # Source
+/// `docs/measured/heat.md`, "Segment length".
+const SHORTEST_IN_WATER_NM: f64 = 15.0;
+
 impl Assembly {
+    pub(super) fn short_segments_in_water(&self) -> Option<String> {
+        let is_stressed = matches!(self.scene.task, Task::Brownian(_))
+            && self.scene.thermal().is_some()
+            && self.counts().bonds == 0;
+        let is_heated = |rod: &&Rod| {
+            let law = self.law_of(rod);
+            matches!(law, Some(RodLaw::Homogenised | RodLaw::HomogenisedAt298K))
+        };
+        let rods = self.rods.iter().filter(|_| is_stressed).filter(is_heated);
+        let lengths = rods.flat_map(|rod| rod.layout.segment_lengths());
+        let shortest = lengths.copied().min_by(f64::total_cmp)?;
+        (shortest < SHORTEST_IN_WATER_NM).then(|| {
+            format!(
+                "overdamped rods with the law Homogenised at 298 K in segments of {shortest:.1} nm: the random stress of long steps is \
+                 not exact for this law. The tension of 60 nm between walls is 11 and 2.4 % too large with segments of 5 and 10 nm, and 0.5 % \
+                 too small with 20 nm; use segments of 20 nm or more (docs/measured/heat.md)"
+            )
+        })
+    }
+
     pub(super) fn long_segments(&self) -> Vec<String> {
         let filaments = 0..self.filaments.len();
         let notes = filaments.filter_map(|filament| {
@@ -78,6 +106,29 @@ mod tests {
     fn cantilever(segments: usize) -> Assembly {
         let rod = format!("Rod(from_nm: 0.0, to_nm: 400.0, segments: {segments})");
         scene(&rod, "Clamp(end: Start)")
+    }
+
+    #[test]
+    fn short_segments_in_water_are_noted() {
+        let noted = |law: &str, segments: usize, kelvin: f64| {
+            let text = format!(
+                "Scene(
+                    filament: Filament(
+                        sections: [Rod(from_nm: 0.0, to_nm: 60.0, segments: {segments})],
+                        rod: RodModel(law: {law}),
+                    ),
+                    task: Brownian(duration_ms: 1e-3, temperature_k: {kelvin:?}),
+                )"
+            );
+            let assembly = Assembly::build(&Scene::from_ron(&text).unwrap()).unwrap();
+            assembly.short_segments_in_water()
+        };
+        let note = noted("Homogenised", 6, 298.0).unwrap();
+        assert!(note.contains("in segments of 10.0 nm"), "{note}");
+        assert_eq!(noted("Homogenised", 3, 298.0), None);
+        assert_eq!(noted("Homogenised", 6, 0.0), None);
+        assert_eq!(noted("Constant", 6, 298.0), None);
+        assert_eq!(noted("HomogenisedAthermal", 6, 298.0), None);
     }
 
     #[test]

@@ -9,7 +9,7 @@ mod laws;
 mod mesh;
 
 use crate::assembly::{Rod, Sampled};
-use crate::scene::{Anchors, Following, Monomers, Observable, Scene, Task, unset_loads};
+use crate::scene::{Anchors, Following, Monomers, Observable, RodLaw, Scene, Task, unset_loads};
 use crate::trade::Chosen;
 use crate::{Assembly, Outcome, Record, shape};
 use actin_ellipsoid::{Cubature, EllipsoidParameters, InterfaceKind, MomentCheck};
@@ -116,6 +116,7 @@ impl Assembly {
         notes.extend(warnings(codes::SHORT_ROD, self.short_rods()));
         notes.extend(warnings(codes::LONG_SEGMENTS, self.long_segments()));
         notes.extend(warnings(codes::OVERLAP, self.notes_on_repulsion()));
+        notes.extend(warnings(codes::ROD_LAW, self.short_segments_in_water()));
         let bath_k = self.scene.thermal().map(|thermal| thermal.temperature_k);
         for filament in self.scene.filaments() {
             let of_laws = laws::notes(filament, bath_k);
@@ -150,13 +151,16 @@ impl Assembly {
         untold.collect()
     }
 
+    fn law_of(&self, rod: &Rod) -> Option<RodLaw> {
+        let filament = self.filament_of_section(rod.section);
+        let written = self.scene.filament_at(filament)?;
+        let i = rod.section - self.filaments[filament].sections.start;
+        Some(written.sections[i].rod_model(&written.rod).law)
+    }
+
     fn short_rods(&self) -> Option<String> {
-        let under_law = |rod: &&Rod| {
-            let filament = self.filament_of_section(rod.section);
-            let written = self.scene.filament_at(filament);
-            let i = rod.section - self.filaments[filament].sections.start;
-            written.is_some_and(|f| f.sections[i].rod_model(&f.rod).law.is_homogenised())
-        };
+        let under_law =
+            |rod: &&Rod| (self.law_of(rod)).is_some_and(|law| RodLaw::is_homogenised(&law));
         let lengths = self.rods.iter().filter(under_law);
         let shortest = lengths
             .map(|rod| rod.layout.length())

@@ -5,6 +5,7 @@ use crate::scene::{
     Anchors, Couple, End, Force, Hold, Load, Monomers, RodLaw, RodModel, RotaryInertia, Scene,
     Section, Task,
 };
+use actin_cosserat::Homogenised;
 
 /// Shortest rod (nm): a period of monomers. Monomers replace rods below this length.
 const SHORTEST_ROD_NM: f64 = 36.0;
@@ -219,14 +220,16 @@ fn sections(length_nm: f64, windows: &[[f64; 2]], segment_nm: f64) -> Vec<Sectio
     all
 }
 
-/// Returns the number of segments with a length closest to `segment_nm`, at least 1.
+/// Returns the number of segments with a length closest to `segment_nm`, at least 1, with segments that are permitted in a
+/// heat bath.
 #[expect(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,
     reason = "a filament has fewer segments than 2^53"
 )]
 fn segments(length_nm: f64, segment_nm: f64) -> usize {
-    (length_nm / segment_nm).round().max(1.0) as usize
+    let most = (length_nm / Homogenised::SHORTEST_HEATED_NM).floor();
+    (length_nm / segment_nm).round().min(most).max(1.0) as usize
 }
 
 /// Returns windows about `places`. Windows merge if the rod between them would be too short, and extend to an end of the
@@ -252,4 +255,29 @@ fn merged(mut places: Vec<f64>, width_nm: f64, length_nm: f64) -> Vec<[f64; 2]> 
         }
     }
     windows
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// 33 segments of 163 nm would be 4.94 nm long.
+    #[test]
+    fn segments_are_permitted_in_a_heat_bath() {
+        for (length_nm, segment_nm, expected) in [
+            (163.0, 5.0, 32),
+            (163.0, 10.0, 16),
+            (160.0, 5.0, 32),
+            (3.0, 5.0, 1),
+        ] {
+            assert_eq!(segments(length_nm, segment_nm), expected, "{length_nm}");
+        }
+        for length_nm in (36..300).map(f64::from) {
+            let count = segments(length_nm, 5.0) as f64;
+            assert!(
+                Homogenised::heated_rod(length_nm / count).is_ok(),
+                "{length_nm}"
+            );
+        }
+    }
 }

@@ -157,11 +157,8 @@ fn damped(duration_ns: f64, [translational_per_ns, rotational_per_ns]: [f64; 2])
         rotational_per_ns,
     };
     Dynamics {
-        duration_ns,
         integrator: Integrator::PositionVerlet,
-        time_step_ns: None,
         step_safety: 0.9,
-        allow_unstable_step: false,
         drag: drag.into(),
         thermal: None,
         stop: Some(StopTolerances {
@@ -169,8 +166,7 @@ fn damped(duration_ns: f64, [translational_per_ns, rotational_per_ns]: [f64; 2])
             torque_pn_nm: STOP,
             kinetic_pn_nm: 1e-6,
         }),
-        leave_saddles: 0,
-        record_every_ns: None,
+        ..Dynamics::new(duration_ns)
     }
 }
 

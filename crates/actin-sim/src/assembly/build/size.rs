@@ -33,7 +33,7 @@ fn add(
         *bytes += memory::of_monomers(count, bonds, &scene.task);
         (count, "monomers")
     } else {
-        let count = strand.segments(i)? as f64;
+        let count = strand.segments[i] as f64;
         let rod = filament.sections[i].rod_model(&filament.rod);
         *bytes += memory::of_segments(count, &rod, &scene.task);
         (count, "segments")

@@ -35,6 +35,8 @@ pub(super) struct Strand<'a> {
     pub(super) placement: Placement,
     pub(super) built: Option<Built>,
     pub(super) resolved: Vec<Resolved>,
+    /// Number of segments of each section; 0 for monomers.
+    pub(super) segments: Vec<usize>,
     pub(super) lattice: Lattice,
     /// Monomer model of each section; for a rod, the model of the monomers that it represents.
     pub(super) models: Vec<EllipsoidModel>,
@@ -60,7 +62,8 @@ impl<'a> Strand<'a> {
         let holds = clamps.map(|clamp| clamp.map(|c| c.hold));
         let is_held = holds.map(|hold| hold.is_some());
         let resolved = resolve(filament, is_held)?;
-        let laws = laws(filament, &resolved, in_bath)?;
+        let segments = segments(filament, &resolved)?;
+        let laws = laws(filament, &resolved, in_bath.then_some(segments.as_slice()))?;
         Ok(Self {
             index,
             filament,
@@ -75,6 +78,7 @@ impl<'a> Strand<'a> {
             },
             built: None,
             resolved,
+            segments,
             lattice: Lattice::of(filament, is_held),
             models: (filament.sections.iter())
                 .map(|section| models::ellipsoids(&section.monomers(monomers), index))
@@ -203,16 +207,11 @@ impl<'a> Strand<'a> {
     fn push_rods(&mut self, first: usize, stock: &mut SceneParts) -> Result<(), SceneProblem> {
         let rods = self.resolved[first..].iter();
         let past = first + rods.take_while(|r| r.monomers.is_none()).count();
-        let segments: Vec<usize> = (first..past)
-            .map(|i| self.segments(i))
-            .collect::<Result<_, _>>()?;
-        let length = |i: usize| {
-            let Resolved { from_nm, to_nm, .. } = self.resolved[i];
-            (to_nm - from_nm) / segments[i - first] as f64
-        };
+        let segments = self.segments[first..past].to_vec();
+        let length = |i: usize| self.resolved[i].length_nm() / self.segments[i] as f64;
         for i in first..past {
             let angle = self.laws[i].material.rest_curvature().norm() * length(i);
-            check_angle(i, segments[i - first], angle)?;
+            check_angle(i, self.segments[i], angle)?;
         }
         let spacing: Vec<f64> = (first..past).map(length).collect();
         let rod = self.straight_rod([first, past], &segments, &spacing);
@@ -327,10 +326,6 @@ impl<'a> Strand<'a> {
         let kind = BodyKind::Wall;
         stock.frames.push(FrameInfo { kind, s_nm });
         self.hinge_frames[end as usize] = Some(frame);
-    }
-
-    pub(super) fn segments(&self, i: usize) -> Result<usize, SceneProblem> {
-        segments(i, &self.filament.sections[i], &self.resolved[i])
     }
 
     fn describe_rod(&self, i: usize, layout: &RodLayout, length: f64, stock: &mut SceneParts) {
@@ -452,26 +447,32 @@ pub(super) fn junction_problem(error: &actin_coupling::JunctionError) -> ScenePr
     SceneProblem::new("filament.junction", "", error.to_string())
 }
 
-/// Number of segments of rod section `i`.
+/// Number of segments of each section; 0 for monomers.
+fn segments(filament: &Filament, resolved: &[Resolved]) -> Result<Vec<usize>, SceneProblem> {
+    let sections = filament.sections.iter().zip(resolved).enumerate();
+    let counts = sections.map(|(i, (section, place))| match section {
+        Section::Rod { segments, .. } => segments_of_rod(i, *segments, place),
+        Section::Ellipsoids { .. } => Ok(0),
+    });
+    counts.collect()
+}
+
+/// Number of segments of rod section `i`, as `written` in the scene or by default.
 #[expect(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,
     reason = "checked to lie between 1 and 2^53"
 )]
-fn segments(
+fn segments_of_rod(
     i: usize,
-    section: &Section,
-    &Resolved { from_nm, to_nm, .. }: &Resolved,
+    written: Option<usize>,
+    place: &Resolved,
 ) -> Result<usize, SceneProblem> {
-    let written = match section {
-        Section::Rod { segments, .. } => *segments,
-        Section::Ellipsoids { .. } => None,
-    };
     let (key, value, count) = if let Some(segments) = written {
         ("segments", segments.to_string(), segments as f64)
     } else {
-        let count = ((to_nm - from_nm) / DEFAULT_SEGMENT_NM).round().max(1.0);
-        ("to_nm", format!("{to_nm:?}"), count)
+        let count = (place.length_nm() / DEFAULT_SEGMENT_NM).round().max(1.0);
+        ("to_nm", format!("{:?}", place.to_nm), count)
     };
     if count <= MOST_COUNTED {
         return Ok(count as usize);
@@ -483,22 +484,17 @@ fn segments(
     ))
 }
 
-/// Law of each section.
+/// Law of each section. `heated` contains the numbers of segments in a heat bath.
 fn laws(
     filament: &Filament,
     resolved: &[Resolved],
-    in_bath: bool,
+    heated: Option<&[usize]>,
 ) -> Result<Vec<law::Law>, SceneProblem> {
     let sections = filament.sections.iter().zip(resolved).enumerate();
     let laws = sections.map(|(i, (section, place))| {
-        let segment_nm = match section {
-            Section::Rod { .. } => {
-                let count = segments(i, section, place)? as f64;
-                Some((place.to_nm - place.from_nm) / count)
-            }
-            Section::Ellipsoids { .. } => None,
-        };
-        law::Law::of_section((i, section), filament, in_bath, segment_nm)
+        let count = heated.map(|counts| counts[i]).filter(|&count| count > 0);
+        let segment_nm = count.map(|count| place.length_nm() / count as f64);
+        law::Law::of_section((i, section), filament, segment_nm)
     });
     laws.collect()
 }
