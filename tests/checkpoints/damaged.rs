@@ -16,14 +16,14 @@ const CHOICE: Choice = Choice {
     duration_ns: 0.4,
 };
 
-struct Left {
+struct DamagedRun {
     _folder: TempDir,
     directory: RunDirectory,
     scene: Scene,
 }
 
-impl Left {
-    fn of(scene: Scene) -> Self {
+impl DamagedRun {
+    fn new(scene: Scene) -> Self {
         let folder = tempfile::tempdir().unwrap();
         let directory = RunDirectory::create(folder.path().join("run"), false).unwrap();
         let (.., report) = advance(&scene, &directory, false, 9);
@@ -63,7 +63,7 @@ fn places(length: usize) -> impl Iterator<Item = usize> {
 fn every_flipped_byte_is_found() {
     let mut flipped = 0;
     for scene in [CHOICE.motion(), CHOICE.statics()] {
-        let left = Left::of(scene);
+        let left = DamagedRun::new(scene);
         let assembly = build(&left.scene);
         let plan = Plan::new(&assembly).unwrap();
         let mut files = checkpoints(&left.directory, &plan);
@@ -88,7 +88,7 @@ fn every_flipped_byte_is_found() {
 
 #[test]
 fn every_truncation_is_found() {
-    let left = Left::of(CHOICE.motion());
+    let left = DamagedRun::new(CHOICE.motion());
     for name in ["checkpoint.bin", "records.bin"] {
         let whole = left.bytes(name);
         for length in places(whole.len()) {
@@ -110,12 +110,12 @@ fn every_truncation_is_found() {
 
 #[test]
 fn records_that_no_checkpoint_counts_are_ignored() {
-    let left = Left::of(CHOICE.motion());
+    let left = DamagedRun::new(CHOICE.motion());
     let mut longer = left.bytes("records.bin");
     longer.extend_from_slice(&[0xab; 777]);
     left.replace("records.bin", &longer);
     let (_, trajectory, _) = advance(&left.scene, &left.directory, true, u64::MAX);
-    let one = Left::of(CHOICE.motion());
+    let one = DamagedRun::new(CHOICE.motion());
     let (_, expected, _) = advance(&one.scene, &one.directory, true, u64::MAX);
     assert_eq!(trajectory.records.len(), expected.records.len());
     for (a, b) in trajectory.records.iter().zip(&expected.records) {
@@ -125,7 +125,7 @@ fn records_that_no_checkpoint_counts_are_ignored() {
 
 #[test]
 fn another_scene_is_refused_with_the_line() {
-    let left = Left::of(CHOICE.motion());
+    let left = DamagedRun::new(CHOICE.motion());
     let other = Choice {
         drag: 0.31,
         ..CHOICE
@@ -154,7 +154,7 @@ fn another_scene_is_refused_with_the_line() {
 
 #[test]
 fn other_formats_and_files_are_named() {
-    let left = Left::of(CHOICE.motion());
+    let left = DamagedRun::new(CHOICE.motion());
     let mut bytes = left.bytes("checkpoint.bin");
     bytes[8] = 9;
     let checksum = crc32fast::hash(&bytes[..24]);
@@ -173,7 +173,7 @@ fn other_formats_and_files_are_named() {
 
 #[test]
 fn a_huge_length_is_refused() {
-    let left = Left::of(CHOICE.motion());
+    let left = DamagedRun::new(CHOICE.motion());
     let mut bytes = left.bytes("checkpoint.bin");
     bytes[12..20].copy_from_slice(&(1_u64 << 63).to_le_bytes());
     let checksum = crc32fast::hash(&bytes[..24]);
@@ -186,7 +186,7 @@ fn a_huge_length_is_refused() {
 fn forged_contents_cause_no_panic() {
     let mut refused = 0;
     for scene in [CHOICE.motion(), CHOICE.statics()] {
-        let left = Left::of(scene);
+        let left = DamagedRun::new(scene);
         let whole = left.bytes("checkpoint.bin");
         for place in places(whole.len()).filter(|&place| place >= 28) {
             let mut bytes = whole.clone();

@@ -48,7 +48,7 @@ fn a_cantilever_creeps_as_its_modes_do() {
             ));
             let mut start = assembly.system;
             *start.state_mut() = assembly.rest.clone();
-            let modes = Modes::of(&start);
+            let modes = Modes::new(&start);
             let tip = 3 * (assembly.points.len() - 1);
             let x = |state: &State| state.points.position.get(segments).x;
             let rest = modes.response(tip, (tip, force), |omega| 1.0 / (omega * omega));

@@ -22,7 +22,7 @@ fn heated(filament: Filament, level: f64, share: f64) -> EnergyRecord {
     let frequency = largest_frequency(&system).unwrap();
     heat(system.state_mut(), level, 1);
     let h = stable_step(&PEFRL, frequency, share).unwrap();
-    let record = EnergyRecord::of(&mut system, h, STEPS, |_| ());
+    let record = EnergyRecord::new(&mut system, h, STEPS, |_| ());
     println!(
         "{}, level {level:.0e}, {share} of the limit: {}",
         filament.0,
@@ -81,12 +81,12 @@ fn room_temperature_costs_monomers_some_energy() {
 
 fn slow(filament: Filament, level: f64, share: f64, steps: u64) -> EnergyRecord {
     let mut system = at_rest(filament);
-    let modes = Modes::of(&system);
+    let modes = Modes::new(&system);
     modes.set_slow_motion(system.state_mut(), level, 1);
     let start = system.state().clone();
     let h = stable_step(&PEFRL, modes.largest(), share).unwrap();
     let mut farthest: f64 = 0.0;
-    let record = EnergyRecord::of(&mut system, h, steps, |state| {
+    let record = EnergyRecord::new(&mut system, h, steps, |state| {
         let places = state
             .points
             .position
@@ -146,7 +146,7 @@ fn energy_loss_of_slow_monomers_is_the_step_error() {
 fn slow_modes_are_the_floppy_and_the_flexural_ones() {
     for filament in FILAMENTS {
         let system = at_rest(filament);
-        let modes = Modes::of(&system);
+        let modes = Modes::new(&system);
         let (zero, slow) = (modes.below(1e-2), modes.below(0.01 * modes.largest()));
         println!(
             "{}: largest frequency {:.1} rad/ns, {zero} modes without stiffness, above them {:.2?}",
@@ -161,9 +161,9 @@ fn slow_modes_are_the_floppy_and_the_flexural_ones() {
             "{estimate}"
         );
     }
-    let monomers = Modes::of(&at_rest(ELLIPSOIDS));
+    let monomers = Modes::new(&at_rest(ELLIPSOIDS));
     assert_eq!((monomers.below(1e-2), monomers.slow()), (15 + 7, 16));
-    let rod = Modes::of(&at_rest(ROD));
+    let rod = Modes::new(&at_rest(ROD));
     assert_eq!((rod.below(1e-2), rod.slow()), (6, 2));
     assert!((rod.frequencies[6] - 4.02).abs() < 0.01);
 }

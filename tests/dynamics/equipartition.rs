@@ -116,7 +116,7 @@ fn relative(state: &State, i: usize) -> (Vector3, UnitQuaternion) {
 }
 
 fn steps(h: f64, time: f64) -> u64 {
-    Run::over(&PEFRL, h, time).unwrap().steps()
+    Run::from_duration(&PEFRL, h, time).unwrap().steps()
 }
 
 #[derive(Clone, Copy, Debug)]

@@ -44,11 +44,11 @@ fn energy_changes_by_events_are_recorded() {
         .map(count);
         let size = booked.iter().fold(0.0, |m: f64, b| m.max(b.abs()));
         let start = totals[0];
-        let ledger = totals
+        let energy_balance = totals
             .iter()
             .zip(&booked)
             .map(|(total, booked)| (total - booked - start).abs());
-        let open = ledger.fold(0.0, f64::max);
+        let open = energy_balance.fold(0.0, f64::max);
         println!(
             "{integrator}: {counts:?} broke, formed, stepped; {size:.2} pN nm booked, {open:e} not"
         );

@@ -133,7 +133,7 @@ fn every_law_keeps_momenta() {
 fn every_law_keeps_its_energy() {
     for case in Case::all() {
         let [coarse, fine] = [(0.25, 10_000), (0.125, 20_000)].map(|(share, steps)| {
-            EnergyRecord::of(&mut case.in_flight(), case.step(share), steps, |_| ())
+            EnergyRecord::new(&mut case.in_flight(), case.step(share), steps, |_| ())
         });
         let (name, ratio) = (case.name(), coarse.early() / fine.early());
         println!("{name}: {}, ratio {ratio:.0}", coarse.line());

@@ -16,7 +16,7 @@ pub(crate) struct Modes {
 }
 
 impl Modes {
-    pub(crate) fn of(system: &System) -> Self {
+    pub(crate) fn new(system: &System) -> Self {
         let weights = weights(system.state());
         let n = weights.len();
         let mut dynamical = DMatrix::zeros(n, n);

@@ -42,7 +42,7 @@ fn run(filament: Filament, law: ForceLaw, start: Start) -> (EnergyRecord, f64) {
     let mut assembly = assemble(filament, law);
     let rods = rods(&assembly);
     // At rest both laws have the same stiffness.
-    let modes = Modes::of(&assembly.system);
+    let modes = Modes::new(&assembly.system);
     let h = stable_step(&PEFRL, modes.largest(), 0.5).unwrap();
     let state = assembly.system.state_mut();
     match start {
@@ -50,7 +50,7 @@ fn run(filament: Filament, law: ForceLaw, start: Start) -> (EnergyRecord, f64) {
         Start::Slow(level) => modes.set_slow_motion(state, level, 1),
     }
     let mut extension: f64 = 0.0;
-    let record = EnergyRecord::of(&mut assembly.system, h, 100_000, |state| {
+    let record = EnergyRecord::new(&mut assembly.system, h, 100_000, |state| {
         extension = extension.max(largest_extension(&rods, state));
     });
     (record, extension)

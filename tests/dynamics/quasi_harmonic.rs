@@ -30,7 +30,7 @@ fn fluctuations(scene: &Scene) -> Fluctuations {
         count: assembly.counts().monomers,
     };
     let (trajectory, _) = Plan::new(&assembly).unwrap().run().unwrap();
-    let mut found = Fluctuations::about(&monomers, &assembly.rest);
+    let mut found = Fluctuations::new(&monomers, &assembly.rest);
     let warm = trajectory.records.len() / 50;
     let records = trajectory.records.iter().skip(warm);
     records.for_each(|record| found.add(&record.state));

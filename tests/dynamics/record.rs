@@ -14,7 +14,7 @@ pub(crate) struct EnergyRecord {
 impl EnergyRecord {
     /// Runs PEFRL for `steps` steps of `h` (ns) and samples the energy 2000 times, calling `look`
     /// for each state. The energy is relative to the filament at rest.
-    pub(crate) fn of(
+    pub(crate) fn new(
         system: &mut System,
         h: f64,
         steps: u64,

@@ -9,7 +9,7 @@ use actin_sim::{Assembly, ForceLaw};
 
 /// Bonds of the filament of ellipsoids, built again to access their ends.
 fn bonds_of(assembly: &Assembly) -> Bonds {
-    let parameters = EllipsoidParameters::drawn(16, 1);
+    let parameters = EllipsoidParameters::with_sampled_bonds(16, 1);
     let placement = Placement {
         rotation: UnitQuaternion::identity(),
         translation: Vector3::zeros(),
@@ -44,7 +44,7 @@ fn bonds_lose_their_length_at_room_temperature() {
         let h = stable_step(&PEFRL, frequency, 0.25).unwrap();
         let mut least = at_rest;
         // Long enough for a shortest bond independent of round-off.
-        EnergyRecord::of(system, h, 80_000, |state| {
+        EnergyRecord::new(system, h, 80_000, |state| {
             least = least.min(shortest(&bonds, state));
         });
         println!("level {level}: shortest bond {at_rest:.3} nm at rest, {least:.3} nm in motion");

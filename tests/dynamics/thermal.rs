@@ -121,7 +121,7 @@ impl Sampled {
         ))
         .system;
         let rest = system.state().clone();
-        let modes = Modes::of(&system);
+        let modes = Modes::new(&system);
         let h = self.h_over_step * step(&system);
         let bath = Bath::new(self.drag, kt, self.seed).unwrap();
         let mut now = self.warm;

@@ -3,7 +3,7 @@
 use super::common::{build, run, solved};
 use actin_mechanics::Xorshift;
 use actin_mechanics::{UnitQuaternion, Vector3, rotation};
-use actin_sim::{Assembly, End, Filament, Load, Scene, Setting, Slides, Stage};
+use actin_sim::{Assembly, End, Filament, FreeTranslation, Load, Scene, Setting, Stage};
 
 const TIGHT: &str = "Equilibrium(force_pn: 1e-9, torque_pn_nm: 1e-9)";
 
@@ -197,14 +197,14 @@ fn moving(turn: Vector3, shift: Vector3, anchor: Vector3) -> Vec<Setting> {
 #[test]
 fn a_path_moves_the_end_of_the_filament_that_it_names() {
     let mut scene = linked();
-    scene.clamps[1].slides = Slides::Nowhere;
+    scene.clamps[1].slides = FreeTranslation::Nowhere;
     let (turn, shift) = (Vector3::new(0.3, -0.2, 0.4), Vector3::new(2.0, 3.0, -1.0));
-    let place = Vector3::from(scene.further[0].at_nm);
+    let place = Vector3::from(scene.other_filaments[0].at_nm);
 
     let mut built = scene.clone();
     let rotated = rotation::exp(turn);
     move_filament(
-        &mut built.further[0],
+        &mut built.other_filaments[0],
         rotated,
         place + shift - rotated * place,
     );
@@ -218,7 +218,7 @@ fn a_path_moves_the_end_of_the_filament_that_it_names() {
     scene.path = vec![Stage {
         set: moving(turn, shift, further),
         duration_ns: None,
-        pace: actin_sim::Pace::Smooth,
+        pace: actin_sim::TimeCourse::Smooth,
     }];
     let moved = solve(&scene);
     let distance = apart((&moved, 0), (&built, 0), moved.points.len(), |x| x);

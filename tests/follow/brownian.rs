@@ -1,7 +1,7 @@
 //! Overdamped motion with following resolution: temperature, shape and relaxation.
 
 use super::{scene, to_and_fro};
-use actin_sim::follow::{CompletedStretch, Followed, Follower};
+use actin_sim::follow::{AdaptiveMotion, CompletedStretch, Follower};
 use actin_sim::shape::Ribbon;
 use actin_sim::{Assembly, End, Plan, Record, RodLaw, Scene, Section};
 
@@ -39,7 +39,7 @@ fn of_monomers(scene: &Scene) -> Assembly {
 
 type Seen<'a> = (&'a Assembly, &'a Record);
 
-fn warm(run: &Followed) -> impl Iterator<Item = Seen<'_>> {
+fn warm(run: &AdaptiveMotion) -> impl Iterator<Item = Seen<'_>> {
     let all = run.stretches.iter().flat_map(|ran| {
         let assembly = &ran.stretch.assembly;
         let records = ran.trajectory.records.iter();
@@ -48,7 +48,7 @@ fn warm(run: &Followed) -> impl Iterator<Item = Seen<'_>> {
     all.skip(20)
 }
 
-fn about_switches(run: &Followed) -> [impl Iterator<Item = Seen<'_>>; 2] {
+fn about_switches(run: &AdaptiveMotion) -> [impl Iterator<Item = Seen<'_>>; 2] {
     [true, false].map(|is_first| {
         let stretches = run.stretches.iter().skip(20);
         stretches.filter_map(move |ran| {
@@ -137,7 +137,7 @@ fn bonds_have_their_temperature_after_switches() {
     assert!((first / last - 1.0).abs() < 0.1);
 }
 
-fn falling() -> (Scene, Followed) {
+fn falling() -> (Scene, AdaptiveMotion) {
     let rest = "clamps: [Clamp(end: Start)],
         loads: [EndForce(end: End, force_pn: (-5.0, 0.0, 0.0))],
         task: Brownian(duration_ms: 3e-4, temperature_k: 0.0, time_step_ns: 1.0, record_every_ns: 5.0),";
@@ -147,7 +147,7 @@ fn falling() -> (Scene, Followed) {
     (scene, run)
 }
 
-fn less_switches(run: &Followed) -> impl Iterator<Item = (f64, &Record)> {
+fn less_switches(run: &AdaptiveMotion) -> impl Iterator<Item = (f64, &Record)> {
     run.stretches.iter().flat_map(|ran| {
         let switches = ran.stretch.beginning.switches_pn_nm;
         let records = ran.trajectory.records.iter();
@@ -185,7 +185,7 @@ fn without_noise_energy_decreases_between_switches() {
         let last = &records[records.len() - 1];
         assembly.tip_nm(&last.state, End::End).x
     };
-    let of_last = |run: &Followed| {
+    let of_last = |run: &AdaptiveMotion| {
         let last = &run.stretches[run.stretches.len() - 1];
         tip(&last.stretch.assembly, &last.trajectory.records)
     };

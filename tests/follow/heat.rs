@@ -2,7 +2,7 @@
 
 use super::{scene, to_and_fro};
 use actin_sim::Scene;
-use actin_sim::follow::Followed;
+use actin_sim::follow::AdaptiveMotion;
 use actin_sim::shape::Ribbon;
 
 const KT: f64 = 0.013_806_49 * 298.0;
@@ -21,7 +21,7 @@ fn thermal(duration_ns: f64) -> Scene {
 }
 
 /// Mean temperature over the bath temperature, weighted by degrees of freedom, after `from_ns`.
-fn temperature(run: &Followed, from_ns: f64) -> f64 {
+fn temperature(run: &AdaptiveMotion, from_ns: f64) -> f64 {
     let (mut found, mut expected) = (0.0, 0.0);
     for ran in &run.stretches {
         let dofs = ran.stretch.assembly.counts().dofs as f64;
@@ -36,7 +36,7 @@ fn temperature(run: &Followed, from_ns: f64) -> f64 {
 }
 
 /// Mean squared angle between the tangents at the ends (rad^2) after `from_ns`.
-fn mean_square_angle(run: &Followed, from_ns: f64) -> f64 {
+fn mean_square_angle(run: &AdaptiveMotion, from_ns: f64) -> f64 {
     let (mut sum, mut count) = (0.0, 0.0);
     for ran in &run.stretches {
         let records = ran.trajectory.records.iter();

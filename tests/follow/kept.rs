@@ -1,7 +1,7 @@
 //! Quantities conserved by a switch, and its energy change.
 
 use super::{energy, scene, to_and_fro};
-use actin_sim::follow::{CompletedStretch, Followed};
+use actin_sim::follow::{AdaptiveMotion, CompletedStretch};
 use actin_sim::{BodyKind, End, Scene};
 
 fn swinging() -> Scene {
@@ -11,7 +11,7 @@ fn swinging() -> Scene {
     scene(144.0, 0.5, rest)
 }
 
-fn pairs(run: &Followed) -> impl Iterator<Item = (&CompletedStretch, &CompletedStretch)> {
+fn pairs(run: &AdaptiveMotion) -> impl Iterator<Item = (&CompletedStretch, &CompletedStretch)> {
     run.stretches.iter().zip(&run.stretches[1..])
 }
 

@@ -7,7 +7,7 @@ mod interrupted;
 mod kept;
 mod windows;
 
-use actin_sim::follow::{Cell, Criterion, Followed, Follower, ResolutionRequest};
+use actin_sim::follow::{AdaptiveMotion, Cell, Criterion, Follower, ResolutionRequest};
 use actin_sim::{Record, Scene};
 
 /// Criterion that alternates cells between rod and monomers at equal time intervals; the first cell
@@ -18,7 +18,7 @@ struct ToAndFro {
 }
 
 impl Criterion for ToAndFro {
-    fn wish(&self, cell: &Cell<'_>) -> ResolutionRequest {
+    fn request(&self, cell: &Cell<'_>) -> ResolutionRequest {
         let turn = (cell.filament.state.time / self.every_ns).floor();
         let place = (cell.span_nm[0] / 30.0).round();
         if place > 0.5 && (turn + place).rem_euclid(2.0) < 0.5 {
@@ -46,7 +46,7 @@ fn scene(length_nm: f64, least_ns: f64, rest: &str) -> Scene {
     Scene::from_ron(&text).unwrap_or_else(|error| panic!("{error}"))
 }
 
-fn to_and_fro(scene: &Scene, every_ns: f64) -> Followed {
+fn to_and_fro(scene: &Scene, every_ns: f64) -> AdaptiveMotion {
     let follower = Follower::new(scene).unwrap();
     let follower = follower.with_criterion(Box::new(ToAndFro { every_ns }));
     follower.run().unwrap_or_else(|error| panic!("{error}"))

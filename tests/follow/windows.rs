@@ -2,13 +2,13 @@
 
 use super::scene;
 use actin_sim::follow::{Cell, Criterion, FilamentState, Follower, ResolutionRequest};
-use actin_sim::{Assembly, Plan, Scene, Where};
+use actin_sim::{Assembly, Plan, RefinementCriterion, Scene};
 
 #[derive(Debug)]
 struct Restless;
 
 impl Criterion for Restless {
-    fn wish(&self, cell: &Cell<'_>) -> ResolutionRequest {
+    fn request(&self, cell: &Cell<'_>) -> ResolutionRequest {
         if cell.is_monomers {
             ResolutionRequest::Rod
         } else {
@@ -64,36 +64,36 @@ fn criteria_read_loads_and_energies_of_cells() {
         assert!((energy - 1.0).abs() < 0.05, "{energy}");
     }
     for (criterion, expected) in criteria(bend) {
-        let wishes = [0, 1, 2, 3].map(|i| criterion.wish(&cells[i]));
+        let wishes = [0, 1, 2, 3].map(|i| criterion.request(&cells[i]));
         assert_eq!(wishes, expected, "{criterion:?}");
     }
 }
 
 /// Criteria with thresholds at bending moments of 20 and 55 pN nm for a bending rigidity `bend` (pN
 /// nm^2), and the requests for four cells with 63, 45, 27 and 9 pN nm under 0.5 pN.
-fn criteria(bend: f64) -> [(Where, [ResolutionRequest; 4]); 5] {
+fn criteria(bend: f64) -> [(RefinementCriterion, [ResolutionRequest; 4]); 5] {
     let (monomers, stay, rod) = (
         ResolutionRequest::Monomers,
         ResolutionRequest::Stay,
         ResolutionRequest::Rod,
     );
-    let force = Where::Force {
+    let force = RefinementCriterion::Force {
         above_pn: 0.6,
         below_pn: 0.4,
     };
-    let couple = Where::Couple {
+    let couple = RefinementCriterion::Couple {
         above_pn_nm: 55.0,
         below_pn_nm: 20.0,
     };
-    let energy = Where::Energy {
+    let energy = RefinementCriterion::Energy {
         above_pn: 0.5 * 55.0 * 55.0 / bend,
         below_pn: 0.5 * 20.0 * 20.0 / bend,
     };
-    let largest = Where::LargestEnergy {
+    let largest = RefinementCriterion::LargestEnergy {
         above: 0.9,
         below: 0.3,
     };
-    let curvature = Where::Curvature {
+    let curvature = RefinementCriterion::Curvature {
         above_per_nm: 55.0 / bend,
         below_per_nm: 20.0 / bend,
     };

@@ -1,7 +1,7 @@
 //! `actin_sim::trade`: errors against independent runs, choice of the compared quantities, limits of the budget.
 
 use actin_sim::mechanics::Vector3;
-use actin_sim::trade::{Measure, Options, Trade, TradeError, Watch, trade};
+use actin_sim::trade::{Measure, Options, Trade, TradeCallbacks, TradeError, trade};
 use actin_sim::{Assembly, End, Plan, Scene, Section};
 use std::time::Duration;
 
@@ -32,7 +32,12 @@ const PUSHED: &str = "Scene(
 fn traded(text: &str, change: impl FnOnce(&mut Options)) -> Trade {
     let mut options = Options::default();
     change(&mut options);
-    trade(&Scene::from_ron(text).unwrap(), &options, &Watch::NOBODY).unwrap()
+    trade(
+        &Scene::from_ron(text).unwrap(),
+        &options,
+        &TradeCallbacks::NONE,
+    )
+    .unwrap()
 }
 
 fn tip(scene: &Scene) -> [f64; 3] {
@@ -249,7 +254,11 @@ fn a_budget_is_kept() {
         budget: Duration::from_millis(10),
         ..Options::default()
     };
-    match trade(&Scene::from_ron(&scene).unwrap(), &options, &Watch::NOBODY) {
+    match trade(
+        &Scene::from_ron(&scene).unwrap(),
+        &options,
+        &TradeCallbacks::NONE,
+    ) {
         Ok(found) => assert!(found.reference.name.contains("rod")),
         Err(error) => assert!(
             error.to_string().contains("the budget of 0.01 s"),
@@ -295,7 +304,7 @@ fn means_over_seeds_are_compared_in_heat() {
 fn missing_quantities_and_invalid_errors_are_refused() {
     let refused = |text: &str, options: &Options| {
         let scene = Scene::from_ron(text).unwrap();
-        match trade(&scene, options, &Watch::NOBODY) {
+        match trade(&scene, options, &TradeCallbacks::NONE) {
             Err(TradeError::Refused(problem)) => problem.to_string(),
             other => panic!("{other:?}"),
         }

@@ -138,8 +138,8 @@ impl Friction {
     }
 
     /// Friction times `factor` as a matrix, in axes of the state of evaluation.
-    pub(crate) fn times(&self, factor: f64) -> Scaled<'_> {
-        Scaled {
+    pub(crate) fn times(&self, factor: f64) -> ScaledFriction<'_> {
+        ScaledFriction {
             friction: self,
             factor,
             axes: None,
@@ -148,13 +148,13 @@ impl Friction {
 }
 
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Scaled<'a> {
+pub(crate) struct ScaledFriction<'a> {
     friction: &'a Friction,
     factor: f64,
     axes: Option<&'a State>,
 }
 
-impl<'a> Scaled<'a> {
+impl<'a> ScaledFriction<'a> {
     pub(crate) fn scaled(self, factor: f64) -> Self {
         Self {
             factor: self.factor * factor,
@@ -170,7 +170,7 @@ impl<'a> Scaled<'a> {
     }
 }
 
-impl Scaled<'_> {
+impl ScaledFriction<'_> {
     pub(crate) fn add_dashpot(&self, k: usize, state: &State, stiffness: &mut Stiffness) {
         use Coordinates::{Frame, Point};
         let dashpot = &self.friction.dashpots[k];
@@ -203,7 +203,7 @@ impl Scaled<'_> {
     }
 }
 
-impl SecondOrder for Scaled<'_> {
+impl SecondOrder for ScaledFriction<'_> {
     fn add_stiffness(&self, state: &State, stiffness: &mut Stiffness) {
         for k in 0..self.friction.dashpots.len() {
             self.add_dashpot(k, state, stiffness);

@@ -1,4 +1,4 @@
-use crate::friction::{Scaled, Velocities};
+use crate::friction::{ScaledFriction, Velocities};
 use crate::{BrownianError, Friction};
 use actin_equilibrium::{ImplicitSolver, Layout};
 use actin_integrate::{Noise, StepFailure, Stepper};
@@ -56,9 +56,9 @@ impl Langevin {
         let mut solver = ImplicitSolver::new(layout);
         // Determines the order of unknowns.
         let step = 1.0;
-        solver.factorize((state, &loads), &[], &Resistance::of(&friction, step));
+        solver.factorize((state, &loads), &[], &Resistance::new(&friction, step));
         Ok(Self {
-            noise: Noise::of_purpose(
+            noise: Noise::with_purpose(
                 PURPOSE,
                 seed,
                 (friction.dashpots.len(), friction.turns.len()),
@@ -92,7 +92,7 @@ impl Langevin {
             self.friction
                 .add_noise(state, strength, noise, &mut self.loads);
         }
-        let resistance = Resistance::of(&self.friction, h);
+        let resistance = Resistance::new(&self.friction, h);
         self.solver
             .factorize((state, &self.loads), &[], &resistance);
         let (points, frames) = self.solver.velocities(state, &self.loads);
@@ -113,16 +113,16 @@ fn add(state: &mut State, points: &Vectors, frames: &Vectors) {
 impl Stepper for Langevin {
     fn step(&mut self, system: &mut System, step: u64, h: f64) -> Result<(), StepFailure> {
         system.kick(0.5 * h, 0.5 * h);
-        system.book_work(0.5 * h);
+        system.record_work(0.5 * h);
         system.drift(0.5 * h);
         let before = system.kinetic_energies();
         self.rub(system, step, h);
         if let (Some(before), Some(after)) = (before, system.kinetic_energies()) {
-            system.book_heat(after.0 + after.1 - before.0 - before.1);
+            system.record_heat(after.0 + after.1 - before.0 - before.1);
         }
         system.drift(0.5 * h);
         system.kick(0.5 * h, 0.5 * h);
-        system.book_work(0.5 * h);
+        system.record_work(0.5 * h);
         if system.has_step_end() {
             system.end_step(step + 1, h);
         }
@@ -131,12 +131,12 @@ impl Stepper for Langevin {
 }
 
 struct Resistance<'a> {
-    friction: Scaled<'a>,
+    friction: ScaledFriction<'a>,
     h: f64,
 }
 
 impl<'a> Resistance<'a> {
-    fn of(friction: &'a Friction, h: f64) -> Self {
+    fn new(friction: &'a Friction, h: f64) -> Self {
         Self {
             friction: friction.times(0.5),
             h,

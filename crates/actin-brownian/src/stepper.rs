@@ -217,7 +217,7 @@ impl Brownian {
         solver.factorize((state, &loads), system.interactions(), &friction.times(1.0));
         let elements = (friction.dashpots.len(), friction.turns.len());
         Ok(Self {
-            noise: Noise::of_purpose(PURPOSE, seed, elements),
+            noise: Noise::with_purpose(PURPOSE, seed, elements),
             stresses,
             has_stress,
             spins: vec![0.0; state.frames.len()],
@@ -245,7 +245,7 @@ impl Brownian {
 
     /// Selects midpoint steps, for elements with strongly nonlinear strains in thermal motion.
     #[must_use]
-    pub fn by_midpoints(self) -> Self {
+    pub fn with_midpoint_steps(self) -> Self {
         Self {
             has_stress: false,
             ..self
@@ -260,8 +260,8 @@ impl Brownian {
         system: &System,
         is_bare: impl Fn(usize) -> bool,
     ) -> Self {
-        self.axial = self.stresses.let_spin(system.interactions(), is_bare);
-        self.solver.let_spin(&self.axial);
+        self.axial = self.stresses.decouple_spins(system.interactions(), is_bare);
+        self.solver.decouple_spins(&self.axial);
         self
     }
 
@@ -288,13 +288,13 @@ impl Brownian {
         if self.books_heat(system) {
             self.before.clone_from(system.loads());
         }
-        system.book_work(0.5 * h);
+        system.record_work(0.5 * h);
     }
 
     fn book(&self, system: &mut System, h: f64) {
-        system.book_work(0.5 * h);
+        system.record_work(0.5 * h);
         if self.books_heat(system) {
-            system.book_overdamped_heat((&self.start, &self.before));
+            system.record_overdamped_heat((&self.start, &self.before));
         }
     }
 
@@ -302,7 +302,7 @@ impl Brownian {
     /// relax within a step exchange about kT per step, and the error of a thousandth would dominate
     /// the balance.
     fn books_heat(&self, system: &System) -> bool {
-        system.keeps_ledger() && self.thermal_energy == 0.0
+        system.tracks_energy_balance() && self.thermal_energy == 0.0
     }
 
     /// Solves the implicit step of time `h` from `self.start`, with the noise of a step of time
@@ -398,7 +398,7 @@ impl Brownian {
             system.drift(0.5 * h);
             self.solve(system, 0.5 * h, 0.5 * h)?;
         }
-        self.solver.go_on(&self.middle, system.state_mut());
+        self.solver.repeat_motion(&self.middle, system.state_mut());
         Ok(())
     }
 
@@ -416,7 +416,7 @@ impl Brownian {
         } else {
             system.drift(0.5 * h);
             self.solve(system, 0.5 * h, h)?;
-            self.solver.go_on(&self.start, system.state_mut());
+            self.solver.repeat_motion(&self.start, system.state_mut());
             system.drift(0.5 * h);
         }
         self.book(system, h);

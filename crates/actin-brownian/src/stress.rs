@@ -1,5 +1,5 @@
 use crate::components::Components;
-use crate::friction::Scaled;
+use crate::friction::ScaledFriction;
 use crate::progress::Progress;
 use actin_equilibrium::MatrixParts;
 use actin_integrate::Noise;
@@ -48,7 +48,7 @@ impl Stresses {
             }
         }
         Self {
-            noise: Noise::of_purpose(PURPOSE, seed, (end.div_ceil(VECTOR), 0)),
+            noise: Noise::with_purpose(PURPOSE, seed, (end.div_ceil(VECTOR), 0)),
             is_balanced: vec![false; parts.len()],
             spins: vec![false; parts.len()],
             parts,
@@ -76,7 +76,7 @@ impl Stresses {
         }
     }
 
-    pub(crate) fn let_spin(
+    pub(crate) fn decouple_spins(
         &mut self,
         interactions: &Interactions,
         is_bare: impl Fn(usize) -> bool,
@@ -183,7 +183,7 @@ pub(crate) struct StepMatrix<'a> {
     pub(crate) interactions: &'a Interactions,
     pub(crate) stresses: &'a Stresses,
     pub(crate) components: &'a Components,
-    pub(crate) friction: Scaled<'a>,
+    pub(crate) friction: ScaledFriction<'a>,
     pub(crate) progress: &'a Progress,
 }
 

@@ -102,7 +102,7 @@ fn print_thermal(assembly: &Assembly, estimate: Option<&Estimate>) {
         println!(
             "// at this time step the positional temperature of the fastest mode is {:.4} times the set \
              temperature; slower modes deviate less",
-            estimate.warmth_of_the_fastest_mode(dynamics)
+            estimate.fastest_mode_temperature_ratio(dynamics)
         );
     }
 }

@@ -10,7 +10,7 @@ const WIDTH: usize = 120;
 /// For a mistake in an override, returns the suggestion only. The text begins with a line feed unless it is empty.
 pub(crate) fn of(text: &SceneText, mistake: &SceneError) -> String {
     let meant = mistake
-        .meant
+        .suggestion
         .as_ref()
         .map(|meant| format!("did you mean {meant}?"));
     if mistake.set.is_some() {

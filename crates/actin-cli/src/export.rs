@@ -45,7 +45,7 @@ impl Target {
 pub(crate) fn export(arguments: &ExportArguments) -> Result<(), Failure> {
     let format = arguments.to.format();
     let run = FinishedRun::open(&arguments.run).map_err(ExportError::from)?;
-    let by_default = || format.beside(&arguments.run);
+    let by_default = || format.default_path(&arguments.run);
     let out = arguments.out.clone().unwrap_or_else(by_default);
     let files = actin_export::export(&run, format, &out, arguments.overwrite)?;
     let files: Vec<String> = files

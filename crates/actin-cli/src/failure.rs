@@ -2,7 +2,8 @@
 
 use crate::{SceneArguments, excerpt};
 use actin_sim::{
-    Assembly, CheckpointError, Drawn, Note, Plan, RunDirectoryError, Scene, SceneError, SceneText,
+    Assembly, CheckpointError, Note, Plan, RandomPart, RunDirectoryError, Scene, SceneError,
+    SceneText,
 };
 use std::fmt;
 use std::io::Read as _;
@@ -89,7 +90,7 @@ impl ParsedScene {
         read.map_err(|error| Failure::Input(shown(&name, &text, &error)))?;
         let mut scene = text.scene().map_err(|first| all(&name, &text, first))?;
         if let Some(seed) = source.seed {
-            let reseeded = Drawn::ALL.map(|what| scene.reseed(what, seed));
+            let reseeded = RandomPart::ALL.map(|what| scene.reseed(what, seed));
             if reseeded.iter().sum::<usize>() == 0 {
                 return Err(Failure::Input(format!(
                     "--seed {seed}: {name} has nothing random (sampled bonds, thermal noise, imperfections, linker events): remove --seed"

@@ -4,7 +4,7 @@ use crate::RunArguments;
 use crate::failure::{BuiltScene, Failure};
 use crate::report::print;
 use crate::run::{RunSink, by_default, checkpoints, refuse_own_scene};
-use actin_sim::follow::{Beginning, Follower, Stretch, StretchEnd};
+use actin_sim::follow::{Follower, Stretch, StretchEnd, StretchStart};
 use actin_sim::{
     Checkpoints, FollowedDirectory, Outcome, Plan, RunDirectory, RunError, RunLock, SavedRun, Sink,
     Status, Summary,
@@ -16,14 +16,14 @@ struct Chain<'a> {
     opened: &'a BuiltScene,
     follower: &'a Follower,
     directory: FollowedDirectory,
-    beginnings: Vec<Beginning>,
+    beginnings: Vec<StretchStart>,
 }
 
 pub(crate) fn run(arguments: &RunArguments, opened: &BuiltScene) -> Result<(), Failure> {
     let out = arguments.out.clone();
     let out = out.unwrap_or_else(|| by_default(&arguments.source));
     let follower = Follower::new(&opened.assembly.scene).map_err(|p| opened.refuse(&p))?;
-    let directory = FollowedDirectory::at(&out);
+    let directory = FollowedDirectory::new(&out);
     let beginnings = if arguments.resume {
         directory.beginnings()?
     } else {
@@ -82,7 +82,7 @@ fn ending(directory: &Path) -> Option<Status> {
 
 fn claim(arguments: &RunArguments, out: &Path, is_new: bool) -> Result<RunLock, Failure> {
     if !is_new {
-        return Ok(RunLock::take(out)?);
+        return Ok(RunLock::acquire(out)?);
     }
     refuse_own_scene(arguments, out)?;
     let is_left = arguments.resume && RunDirectory::existing(out).is_unfinished();

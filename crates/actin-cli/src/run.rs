@@ -86,9 +86,9 @@ pub(crate) fn refuse_own_scene(arguments: &RunArguments, out: &Path) -> Result<(
 
 fn claim(arguments: &RunArguments, out: &Path) -> Result<Option<RunLock>, Failure> {
     refuse_own_scene(arguments, out)?;
-    if arguments.overwrite && FollowedDirectory::is_at(out) {
+    if arguments.overwrite && FollowedDirectory::exists_at(out) {
         // An earlier run with time-dependent resolution.
-        FollowedDirectory::at(out).remove_from(0)?;
+        FollowedDirectory::new(out).remove_from(0)?;
     }
     if !arguments.resume {
         let claimed = RunDirectory::create_locked(out, arguments.overwrite);
@@ -96,7 +96,7 @@ fn claim(arguments: &RunArguments, out: &Path) -> Result<Option<RunLock>, Failur
         return Ok(Some(lock));
     }
     if RunDirectory::existing(out).has_checkpoint() {
-        return Ok(Some(RunLock::take(out)?));
+        return Ok(Some(RunLock::acquire(out)?));
     }
     // Nothing to resume. A run that was killed before its first checkpoint or results is replaced.
     let is_left = RunDirectory::existing(out).is_unfinished();

@@ -94,7 +94,7 @@ pub(crate) fn sweep(arguments: &SweepArguments) -> Result<(), Failure> {
     let resume = arguments.resume || arguments.only.is_some() || arguments.emit.is_some();
     let directory = SweepDirectory::create(&out, &opened, resume)?;
     if let Some(Engine::Snakemake) = arguments.emit {
-        directory.write_snakemake(&opened, &opened.price(usize::MAX))?;
+        directory.write_snakemake(&opened, &opened.estimate_cost(usize::MAX))?;
         println!(
             "a workflow of {} runs is in {out}; to run it: cd {out} && snakemake --cores all",
             opened.design.len(),
@@ -131,7 +131,7 @@ fn make(
         }
     };
     let ended = match &arguments.only {
-        None => directory.carry_out(opened, &settings, &progress),
+        None => directory.run_all(opened, &settings, &progress),
         Some(Numbers(runs)) => directory.make_runs(opened, runs, &settings, &progress),
     };
     bar.finish_and_clear();
@@ -195,7 +195,7 @@ fn check(opened: &ValidatedSweep) {
     if let (Some(first), Some(last)) = (design.seeds.first(), design.seeds.last()) {
         println!("  seeds {first} to {last}");
     }
-    let priced = opened.price(BUILT);
+    let priced = opened.estimate_cost(BUILT);
     let refused = priced.refused.len();
     print_cost(design, &priced);
     let of_points = if priced.points < design.points.len() {

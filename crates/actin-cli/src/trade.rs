@@ -3,7 +3,7 @@
 use crate::failure::{Failure, ParsedScene};
 use crate::progress;
 use crate::{SceneArguments, signals};
-use actin_sim::trade::{Measure, Options, Trade, TradeError, Watch, trade as run};
+use actin_sim::trade::{Measure, Options, Trade, TradeCallbacks, TradeError, trade as run};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::Ordering;
@@ -55,8 +55,8 @@ pub(crate) fn trade(arguments: &TradeArguments) -> Result<(), Failure> {
     let interrupted = signals::interruption()
         .map_err(|error| Failure::Input(format!("cannot install signal handlers: {error}")))?;
     let bar = progress::spinner();
-    let watch = Watch {
-        says: &|what| bar.set_message(what.to_owned()),
+    let watch = TradeCallbacks {
+        report: &|what| bar.set_message(what.to_owned()),
         is_interrupted: &|| interrupted.load(Ordering::Relaxed),
     };
     let found = run(&read.scene, &arguments.options(), &watch);

@@ -178,8 +178,8 @@ impl StraightRod {
         for (k, &length) in lengths.iter().enumerate() {
             let is_beside = [k == 0, k + 1 == lengths.len()];
             let sides = is_beside.iter().zip(shares_inertia);
-            let lacking = sides.filter(|(beside, shares)| **beside && *shares).count();
-            let own = match lacking {
+            let curvature_difference = sides.filter(|(beside, shares)| **beside && *shares).count();
+            let own = match curvature_difference {
                 0 => length,
                 sides => length * (1.0 - 0.25 * sides as f64),
             };

@@ -24,14 +24,14 @@ pub enum RodClamp {
 
 /// Bodies held by a clamp.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Held {
+pub struct HeldBodies {
     /// Indices of the points.
     pub points: Range<usize>,
     /// Indices of the frames.
     pub frames: Range<usize>,
 }
 
-impl Held {
+impl HeldBodies {
     /// Releases the bodies with zero velocity.
     ///
     /// ```
@@ -40,7 +40,7 @@ impl Held {
     /// let rod = StraightRod::uniform(2, 10.0);
     /// let layout = rod.push_clamped(RodClamp::Wall, RodEnd::Start, &mut state)?;
     /// assert!(!state.points.is_free(0));
-    /// RodClamp::Wall.held(&layout, RodEnd::Start)?.release(&mut state);
+    /// RodClamp::Wall.held_bodies(&layout, RodEnd::Start)?.release(&mut state);
     /// assert!(state.points.is_free(0) && state.frames.is_free(0));
     /// # Ok::<(), actin_cosserat::RodError>(())
     /// ```
@@ -60,7 +60,7 @@ impl RodClamp {
     ///
     /// # Errors
     /// If the clamp is [`Wall`](Self::Wall) and the end has no wall frame.
-    pub fn held(self, layout: &RodLayout, end: RodEnd) -> Result<Held, RodError> {
+    pub fn held_bodies(self, layout: &RodLayout, end: RodEnd) -> Result<HeldBodies, RodError> {
         let frame = match self {
             Self::Wall => layout.wall(end).ok_or(RodError::NoWall(end))?,
             Self::NodeAndFrame | Self::TwoNodesAndFrame | Self::Pin => layout.end_frame(end),
@@ -74,7 +74,7 @@ impl RodClamp {
             RodEnd::Start => start..start + nodes,
             RodEnd::End => past - nodes..past,
         };
-        Ok(Held {
+        Ok(HeldBodies {
             points,
             frames: frame..frame + usize::from(self != Self::Pin),
         })
@@ -89,8 +89,8 @@ impl RodClamp {
         layout: &RodLayout,
         end: RodEnd,
         state: &mut State,
-    ) -> Result<Held, RodError> {
-        let held = self.held(layout, end)?;
+    ) -> Result<HeldBodies, RodError> {
+        let held = self.held_bodies(layout, end)?;
         held.points.clone().for_each(|i| state.points.hold(i));
         held.frames.clone().for_each(|i| state.frames.hold(i));
         Ok(held)

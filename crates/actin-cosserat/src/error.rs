@@ -117,7 +117,7 @@ impl RodParameterError {
     ///
     /// # Errors
     /// If `value` is infinite or NaN.
-    pub(crate) fn unless_finite(key: RodKey, value: f64) -> Result<(), Self> {
+    pub(crate) fn check_finite(key: RodKey, value: f64) -> Result<(), Self> {
         if value.is_finite() {
             Ok(())
         } else {

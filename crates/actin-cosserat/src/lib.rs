@@ -40,7 +40,7 @@ mod strain_laws;
 
 pub use bending::{BendingElement, BendingLoads, BendingStiffness};
 pub use build::{RotaryInertia, StraightRod, Walls};
-pub use clamp::{Held, RodClamp};
+pub use clamp::{HeldBodies, RodClamp};
 pub use cross_section::CrossSection;
 pub use elements::{RodElements, RodJoint, RodSegment};
 pub use energy_gradient::EnergyGradient;

@@ -55,7 +55,7 @@ impl RodMaterial {
     /// If a component is not finite.
     pub fn with_rest_curvature(self, kappa: Vector3) -> Result<Self, RodParameterError> {
         for value in &kappa {
-            RodParameterError::unless_finite(RodKey::RestCurvature, *value)?;
+            RodParameterError::check_finite(RodKey::RestCurvature, *value)?;
         }
         Ok(Self {
             rest_curvature: kappa,

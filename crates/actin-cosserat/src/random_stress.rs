@@ -92,7 +92,7 @@ impl Parts<'_> {
         let extended = self.rod.extended().into_iter();
         let sides = extended.flat_map(move |extended| {
             (0..layout.segments()).flat_map(move |k| {
-                extended.around(k, layout).map(move |around| {
+                extended.side_elements(k, layout).map(move |around| {
                     let stress = &self.stresses[EXTENDED * k + VECTOR * (1 + around.side)..];
                     InternalCouple {
                         frames: around.frames,

@@ -22,7 +22,7 @@ pub(crate) struct Bond {
     /// with its rod part.
     pub(crate) materials: [RodMaterial; 2],
     /// Difference between the rest curvatures of the rod and of the element at the rod (rad/nm).
-    pub(crate) lacking: Vector3,
+    pub(crate) curvature_difference: Vector3,
 }
 
 type Bend<'a> = (
@@ -42,7 +42,7 @@ impl Bond {
         JoinedElement {
             frames: [self.frames[k], self.frames[k + 1]],
             element: self.bending[k],
-            lacking: self.lacking,
+            curvature_difference: self.curvature_difference,
         }
     }
 

@@ -120,7 +120,7 @@ impl Junction {
             })
             .collect::<Result<Vec<_>, _>>()?;
         Ok(Self {
-            weight: weight.of(bonds.len()),
+            weight: weight.per_bond(bonds.len()),
             bonds,
             material,
             half_segment: 0.5 * rod.end_length(side.rod_end()),
@@ -131,7 +131,7 @@ impl Junction {
     /// Adapts the [random stress](actin_mechanics::RandomStress) to a rod whose strain depends on
     /// the curvature, with the [joined elements](Self::joined_elements) included.
     #[must_use]
-    pub fn beside_extended_rod(self) -> Self {
+    pub fn with_extended_rod(self) -> Self {
         Self {
             is_covered: true,
             ..self
@@ -165,9 +165,9 @@ impl JunctionWeight {
     ///
     /// ```
     /// use actin_coupling::JunctionWeight::{Full, Shared};
-    /// assert_eq!((Shared.of(1), Shared.of(2), Full.of(2)), (1.0, 0.5, 1.0));
+    /// assert_eq!((Shared.per_bond(1), Shared.per_bond(2), Full.per_bond(2)), (1.0, 0.5, 1.0));
     /// ```
-    pub fn of(self, bonds: usize) -> f64 {
+    pub fn per_bond(self, bonds: usize) -> f64 {
         match self {
             Self::Shared => 1.0 / bonds as f64,
             Self::Full => 1.0,
@@ -225,7 +225,7 @@ fn bond_at_rest(
             rest_direction: l.normalize(),
         },
         bending,
-        lacking: material.rest_curvature() - beside_rod.rest_curvature(),
+        curvature_difference: material.rest_curvature() - beside_rod.rest_curvature(),
         materials,
     })
 }

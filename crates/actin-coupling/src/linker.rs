@@ -284,12 +284,12 @@ impl RandomStress for Linker {
     }
 
     fn add_convexity(&self, state: &State, is_wanted: bool, stiffness: &mut Stiffness) {
-        let lacking = if is_wanted {
+        let curvature_difference = if is_wanted {
             negative_part(self.spring.tangent(self.reach(state)))
         } else {
             Matrix3::zeros()
         };
-        self.push_stiffness((Vector3::zeros(), lacking), state, stiffness);
+        self.push_stiffness((Vector3::zeros(), curvature_difference), state, stiffness);
     }
 }
 

@@ -99,7 +99,7 @@ impl Junction {
 
     /// Mean curvature (rad/nm) of the elements at the rod, including the rest curvature of the rod.
     fn curvature_of_rod(&self, state: &State) -> Vector3 {
-        let of = |bond: &Bond| bond.curvature_towards_rod(state) + bond.lacking;
+        let of = |bond: &Bond| bond.curvature_towards_rod(state) + bond.curvature_difference;
         self.bonds.iter().map(of).sum::<Vector3>() / self.bonds.len() as f64
     }
 

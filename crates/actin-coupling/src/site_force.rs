@@ -61,7 +61,7 @@ impl SiteForce {
         if !state.controls.has(control) {
             return Err(LoadError::Control(control));
         }
-        LoadError::unless_finite("force", force)?;
+        LoadError::check_finite("force", force)?;
         if let Some(&(_, weight)) = sites.iter().find(|(_, weight)| !weight.is_finite()) {
             return Err(LoadError::Share(weight));
         }

@@ -11,7 +11,7 @@ use std::hint::black_box;
 fn bond_loads(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("bond_loads");
     for (monomers, per_interface) in [(60, 10), (1000, 10), (60, 64)] {
-        let parameters = EllipsoidParameters::drawn(per_interface, 0);
+        let parameters = EllipsoidParameters::with_sampled_bonds(per_interface, 0);
         let model = EllipsoidModel::new(parameters).expect("the parameters are valid");
         let mut state = State::default();
         let run = model

@@ -12,7 +12,8 @@ use std::time::Instant;
 fn main() -> Result<(), Box<dyn Error>> {
     for monomers in [60, 1000] {
         for bonds in [10, 64] {
-            let (state, bonds) = filament(monomers, EllipsoidParameters::drawn(bonds, 0))?;
+            let (state, bonds) =
+                filament(monomers, EllipsoidParameters::with_sampled_bonds(bonds, 0))?;
             print_rates("drawn", &state, &bonds);
         }
         let (state, bonds) = filament(monomers, EllipsoidParameters::default())?;

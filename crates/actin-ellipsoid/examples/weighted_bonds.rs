@@ -16,7 +16,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         interface.minimum_length = shortest.unwrap_or(interface.minimum_length);
     }
     for kind in InterfaceKind::ALL {
-        print(kind, &*Cubature::of(&parameters, kind)?);
+        print(kind, &*Cubature::for_interface(&parameters, kind)?);
     }
     Ok(())
 }

@@ -138,7 +138,7 @@ impl Cubature {
     /// # Errors
     /// No admissible bonds, touching monomers without a minimum length, or moments that 12 or more
     /// points match worse than 1e-3.
-    pub fn of(
+    pub fn for_interface(
         parameters: &EllipsoidParameters,
         kind: InterfaceKind,
     ) -> Result<Arc<Self>, CubatureError> {
@@ -254,7 +254,7 @@ impl Finder {
         let longest = shares.iter().map(|share| share.length).fold(0.0, f64::max);
         Ok(Self {
             gap,
-            moments: Moments::of(&shares),
+            moments: Moments::new(&shares),
             patch,
             drawn: [least, longest],
         })

@@ -167,7 +167,7 @@ impl Interface {
     ) -> Result<Self, InterfaceError> {
         let helix = Helix::new(parameters);
         let (neighbour, half_turn) = (helix.neighbour(kind), helix.half_turn(kind));
-        let cubature = Cubature::of(parameters, kind)
+        let cubature = Cubature::for_interface(parameters, kind)
             .map_err(|reason| InterfaceError::NoCubature { kind, reason })?;
         let bond = |point: &CubaturePoint| {
             let [lower, upper] = point.ends(&neighbour, half_turn);

@@ -70,12 +70,12 @@ impl<S: Simd> Action<S> {
 
 /// Loads on upper bodies, shifted to their lanes.
 #[derive(Clone, Copy, Debug)]
-struct Moved<S: Simd> {
+struct ShiftedLoads<S: Simd> {
     force: ShiftedUp<S, 3>,
     torque: ShiftedUp<S, 3>,
 }
 
-impl<S: Simd> Moved<S> {
+impl<S: Simd> ShiftedLoads<S> {
     #[inline(always)]
     fn new(simd: S) -> Self {
         Self {
@@ -109,7 +109,7 @@ impl WithSimd for AddLoads<'_> {
             monomers: self.monomers,
             state: self.state,
         };
-        let (mut by_one, mut by_two) = (Moved::new(simd), Moved::new(simd));
+        let (mut by_one, mut by_two) = (ShiftedLoads::new(simd), ShiftedLoads::new(simd));
         for group in 0..force.groups() {
             let lower = pairs.lower(simd, group);
             let [next, second] = self.tables;

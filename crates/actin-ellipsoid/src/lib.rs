@@ -44,8 +44,8 @@ pub use key::{EllipsoidKey, InterfaceKey};
 pub use model::EllipsoidModel;
 pub use monomers::{LatticeError, Monomers, Placement};
 pub use parameters::{
-    Anchors, EllipsoidParameterError, EllipsoidParameters, FEWEST_POINTS, InterfaceParameters,
-    MOST_POINTS,
+    Anchors, EllipsoidParameterError, EllipsoidParameters, InterfaceParameters, MAX_POINTS,
+    MIN_POINTS,
 };
 pub use quasi_harmonic::{Fluctuations, FluctuationsError, Link, Pose, QuasiHarmonic};
 

@@ -6,12 +6,12 @@ use thiserror::Error;
 
 /// Minimum number of quadrature points: one more than the relative motions an interface resists at
 /// rest.
-pub const FEWEST_POINTS: usize = 4;
+pub const MIN_POINTS: usize = 4;
 /// Maximum number of quadrature points; fewer match all moments.
-pub const MOST_POINTS: usize = 64;
+pub const MAX_POINTS: usize = 64;
 
 /// Parameters of the ellipsoid model. The default is Table 1 and Table 4 of the paper with
-/// quadrature bonds and the choices documented in [`constants`]. [`Self::drawn`] has sampled bonds.
+/// quadrature bonds and the choices documented in [`constants`]. [`Self::with_sampled_bonds`] has sampled bonds.
 ///
 /// ```
 /// let parameters = actin_ellipsoid::EllipsoidParameters::default();
@@ -138,7 +138,7 @@ impl Default for EllipsoidParameters {
 
 impl EllipsoidParameters {
     /// Default parameters with the given number of sampled bonds per interface, as in the paper.
-    pub fn drawn(bonds: usize, seed: u64) -> Self {
+    pub fn with_sampled_bonds(bonds: usize, seed: u64) -> Self {
         let mut parameters = Self {
             anchors: Anchors::Independent,
             seed,
@@ -176,7 +176,7 @@ impl EllipsoidParameters {
                 (InterfaceKind::Longitudinal, &self.longitudinal),
             ] {
                 let key = EllipsoidKey::Interface(kind, InterfaceKey::Bonds);
-                if !(FEWEST_POINTS..=MOST_POINTS).contains(&interface.bonds) {
+                if !(MIN_POINTS..=MAX_POINTS).contains(&interface.bonds) {
                     let rule = "4 to 64 for quadrature bonds";
                     return Err(out_of_range(key, interface.bonds as f64, rule));
                 }

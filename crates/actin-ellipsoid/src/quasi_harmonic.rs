@@ -45,7 +45,7 @@ use std::ops::Range;
 /// let model = EllipsoidModel::new(EllipsoidParameters::default()).unwrap();
 /// let mut state = State::default();
 /// let monomers = model.build(&mut state, &Placement::default(), 0, 10).unwrap();
-/// let mut fluctuations = Fluctuations::about(&monomers, &state);
+/// let mut fluctuations = Fluctuations::new(&monomers, &state);
 /// // Artificial noise in place of states from a thermal run.
 /// for k in 0..100 {
 ///     let mut moved = state.clone();
@@ -104,7 +104,7 @@ fn parts(v: &SixVector) -> [Vector3; 2] {
 }
 
 impl Pose {
-    fn of_link(monomers: &Monomers, k: usize, state: &State) -> Self {
+    fn from_link(monomers: &Monomers, k: usize, state: &State) -> Self {
         let [lower, upper] = [k, k + 1].map(|k| state.frames.orientation.get(monomers.frame(k)));
         let [from, to] = [k, k + 1].map(|k| state.points.position.get(monomers.point(k)));
         Self {
@@ -168,7 +168,7 @@ impl QuasiHarmonic {
     }
 
     fn displacements(&self, k: usize, state: &State) -> SixVector {
-        Pose::of_link(&self.monomers, k, state).displacements(&self.links[k].pose)
+        Pose::from_link(&self.monomers, k, state).displacements(&self.links[k].pose)
     }
 
     fn strains<'a>(&'a self, state: &'a State) -> impl Iterator<Item = SixVector> + 'a {
@@ -224,7 +224,7 @@ impl QuasiHarmonic {
         let axes = state.frames.orientation.get(self.monomers.frame(k));
         let axes = axes.inverse().to_rotation_matrix().into_inner();
         let rest = &self.links[k].pose;
-        let pose = Pose::of_link(&self.monomers, k, state);
+        let pose = Pose::from_link(&self.monomers, k, state);
         let [_, turn] = parts(&pose.displacements(rest));
         let inverse = rotation::right_jacobian_inverse(turn);
         let to_rest = rest.turn.inverse().to_rotation_matrix().into_inner();

@@ -3,7 +3,7 @@
 use crate::chain::Chain;
 use crate::group::Group;
 use crate::layout::{Layout, Node};
-use crate::pattern::{Pattern, Place};
+use crate::pattern::{BlockPosition, Pattern};
 use crate::ties::Ties;
 use actin_mechanics::{
     Coordinates, Interaction, Loads, Matrix3, SecondOrder, State, Stiffness, Vector3,
@@ -52,10 +52,10 @@ pub(crate) struct Assembly {
     tie_lengths: Vec<f64>,
     chain: Chain,
     tie_blocks: Stiffness,
-    tie_places: Vec<Place>,
+    tie_places: Vec<BlockPosition>,
     pub(crate) tie_values: Vec<f64>,
     turning_blocks: Stiffness,
-    turning_places: Vec<Place>,
+    turning_places: Vec<BlockPosition>,
     turn_length: f64,
 }
 
@@ -315,7 +315,7 @@ impl<'a> Target<'a> {
         }
     }
 
-    fn add_all(&mut self, state: &State, blocks: &Stiffness, places: &[Place]) {
+    fn add_all(&mut self, state: &State, blocks: &Stiffness, places: &[BlockPosition]) {
         for (&(a, b, block), &place) in blocks.blocks().iter().zip(places) {
             if self.has(place) {
                 self.add(state, a, b, &block, place);
@@ -323,11 +323,11 @@ impl<'a> Target<'a> {
         }
     }
 
-    fn has(&self, place: Place) -> bool {
+    fn has(&self, place: BlockPosition) -> bool {
         let node = match place {
-            Place::Outside => return false,
-            Place::Diagonal { node, .. } | Place::Body { node, .. } => node,
-            Place::Above { column, .. } | Place::Bodies { column, .. } => column,
+            BlockPosition::Outside => return false,
+            BlockPosition::Diagonal { node, .. } | BlockPosition::Body { node, .. } => node,
+            BlockPosition::Above { column, .. } | BlockPosition::Bodies { column, .. } => column,
         };
         self.is_selected.is_none_or(|is_selected| is_selected[node])
     }
@@ -338,16 +338,16 @@ impl<'a> Target<'a> {
         a: Coordinates,
         b: Coordinates,
         block: &Matrix3,
-        place: Place,
+        place: BlockPosition,
     ) {
         match place {
-            Place::Outside => {}
-            Place::Body { at, .. } => self.add_columns(at, |j| j + 1, block),
-            Place::Bodies { at, transposed, .. } if transposed => {
+            BlockPosition::Outside => {}
+            BlockPosition::Body { at, .. } => self.add_columns(at, |j| j + 1, block),
+            BlockPosition::Bodies { at, transposed, .. } if transposed => {
                 self.add_columns(at, |_| 3, &block.transpose());
             }
-            Place::Bodies { at, .. } => self.add_columns(at, |_| 3, block),
-            Place::Diagonal { node, twice } => {
+            BlockPosition::Bodies { at, .. } => self.add_columns(at, |_| 3, block),
+            BlockPosition::Diagonal { node, twice } => {
                 let block = self.in_unknowns(state, a, b, block);
                 let block = if twice {
                     block + block.transpose()
@@ -356,7 +356,7 @@ impl<'a> Target<'a> {
                 };
                 self.add_diagonal(node, |i, j| block[(i, j)]);
             }
-            Place::Above {
+            BlockPosition::Above {
                 row,
                 column,
                 local,

@@ -23,7 +23,7 @@ pub(crate) struct Band {
 
 impl Band {
     /// Band of a factor; `None` if the rows of a column have gaps.
-    pub(crate) fn of(symbolic: &SymbolicSimplicialCholesky<usize>) -> Option<Self> {
+    pub(crate) fn from_symbolic(symbolic: &SymbolicSimplicialCholesky<usize>) -> Option<Self> {
         let starts = symbolic.col_ptr().to_vec();
         let mut panels: Vec<(Range<usize>, usize)> = Vec::new();
         for column in 0..symbolic.ncols() {

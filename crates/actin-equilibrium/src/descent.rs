@@ -9,7 +9,7 @@ use crate::motion::StepSize;
 use crate::options::NewtonOptions;
 use crate::outcome::SolveError;
 use actin_mechanics::{Interaction, State, Vectors};
-use composed::Composed;
+use composed::ComposedSteps;
 
 /// Sufficient decrease parameter (Armijo).
 const ENOUGH: f64 = 1e-4;
@@ -38,7 +38,7 @@ const STIFFER: f64 = 4.0;
 const BLOCKED: usize = 20;
 const REACH_GROWTH: f64 = 2.0;
 
-pub(crate) struct Taken {
+pub(crate) struct AcceptedStep {
     pub(crate) fraction: f64,
     pub(crate) extent: StepSize,
     pub(crate) verdict: Verdict,
@@ -74,7 +74,7 @@ pub(crate) struct Descent {
     is_cut: bool,
     /// Twice the blocked steps minus the others.
     blocked: usize,
-    composed: Composed,
+    composed: ComposedSteps,
     options: NewtonOptions,
 }
 
@@ -104,7 +104,7 @@ impl Descent {
             cubic: 0.0,
             is_cut: false,
             blocked: 0,
-            composed: Composed::new(options),
+            composed: ComposedSteps::new(options),
             options: *options,
         }
     }
@@ -172,7 +172,7 @@ impl Descent {
         &mut self,
         solver: &mut Solver,
         interactions: &[Box<dyn Interaction>],
-    ) -> Result<Option<(Direction, Taken)>, SolveError> {
+    ) -> Result<Option<(Direction, AcceptedStep)>, SolveError> {
         self.is_cut = false;
         let found = self.find_step(solver, interactions);
         self.blocked = if self.is_cut {
@@ -187,7 +187,7 @@ impl Descent {
         &mut self,
         solver: &mut Solver,
         interactions: &[Box<dyn Interaction>],
-    ) -> Result<Option<(Direction, Taken)>, SolveError> {
+    ) -> Result<Option<(Direction, AcceptedStep)>, SolveError> {
         if let Some(found) = self.compose(solver, interactions) {
             return Ok(Some(found));
         }
@@ -200,27 +200,27 @@ impl Descent {
         }
         let limits = (self.options.largest_strain, self.cubic);
         let direction = solver.direction(&self.state, plain, limits)?;
-        if let Some(taken) = self.attempt(solver, interactions, &direction) {
-            return Ok(Some((direction, taken)));
+        if let Some(accepted_step) = self.attempt(solver, interactions, &direction) {
+            return Ok(Some((direction, accepted_step)));
         }
         if let Some(anchor) = &mut self.anchor {
             anchor.steps_left = anchor.steps_left.saturating_sub(1);
             if self.there.is_finite() && anchor.steps_left > 0 {
                 self.accept();
-                let taken = self.taken(&direction, Verdict::Excursion);
-                return Ok(Some((direction, taken)));
+                let accepted_step = self.accepted_step(&direction, Verdict::Excursion);
+                return Ok(Some((direction, accepted_step)));
             }
             return Ok(self.go_back(solver, interactions));
         }
         let fraction = self.fraction(&direction.extent);
         if self.there.is_finite() && self.options.patience > 0 && self.rest == 0 {
             self.begin_excursion(&direction, fraction);
-            let taken = self.taken(&direction, Verdict::Excursion);
-            return Ok(Some((direction, taken)));
+            let accepted_step = self.accepted_step(&direction, Verdict::Excursion);
+            return Ok(Some((direction, accepted_step)));
         }
         self.cubic = (STIFFER * self.cubic).max(solver.least_cubic());
-        let taken = self.shorten(solver, interactions, &direction, fraction);
-        Ok(taken.map(|taken| (direction, taken)))
+        let accepted_step = self.shorten(solver, interactions, &direction, fraction);
+        Ok(accepted_step.map(|accepted_step| (direction, accepted_step)))
     }
 
     fn attempt(
@@ -228,7 +228,7 @@ impl Descent {
         solver: &mut Solver,
         interactions: &[Box<dyn Interaction>],
         direction: &Direction,
-    ) -> Option<Taken> {
+    ) -> Option<AcceptedStep> {
         let fraction = self.fraction(&direction.extent);
         self.try_step(solver, interactions, direction, fraction);
         let verdict = self.judge(solver, direction, fraction)?;
@@ -238,7 +238,7 @@ impl Descent {
         self.accept();
         self.anchor = None;
         self.reach = (self.reach * REACH_GROWTH).min(1.0);
-        Some(taken(direction, fraction, verdict))
+        Some(accepted_step(direction, fraction, verdict))
     }
 
     fn fraction(&self, extent: &StepSize) -> f64 {
@@ -256,8 +256,8 @@ impl Descent {
             .max(extent.displacement / self.farthest)
     }
 
-    fn taken(&self, direction: &Direction, verdict: Verdict) -> Taken {
-        taken(direction, self.fraction(&direction.extent), verdict)
+    fn accepted_step(&self, direction: &Direction, verdict: Verdict) -> AcceptedStep {
+        accepted_step(direction, self.fraction(&direction.extent), verdict)
     }
 
     fn try_step(
@@ -364,14 +364,15 @@ impl Descent {
         &mut self,
         solver: &mut Solver,
         interactions: &[Box<dyn Interaction>],
-    ) -> Option<(Direction, Taken)> {
+    ) -> Option<(Direction, AcceptedStep)> {
         let anchor = self.anchor.take()?;
         self.state = anchor.state;
         self.here = anchor.evaluation;
         self.rest = self.options.patience;
-        let mut taken = self.shorten(solver, interactions, &anchor.direction, anchor.fraction)?;
-        taken.verdict = Verdict::Return;
-        Some((anchor.direction, taken))
+        let mut accepted_step =
+            self.shorten(solver, interactions, &anchor.direction, anchor.fraction)?;
+        accepted_step.verdict = Verdict::Return;
+        Some((anchor.direction, accepted_step))
     }
 
     fn shorten(
@@ -380,7 +381,7 @@ impl Descent {
         interactions: &[Box<dyn Interaction>],
         direction: &Direction,
         refused: f64,
-    ) -> Option<Taken> {
+    ) -> Option<AcceptedStep> {
         let mut fraction = refused;
         let mut factor = SHORTEN[1];
         loop {
@@ -393,10 +394,10 @@ impl Descent {
             self.try_step(solver, interactions, direction, fraction);
             if let Some(verdict) = self.judge(solver, direction, fraction) {
                 self.accept();
-                let taken = taken(direction, fraction, verdict);
-                let part = self.part_of_limits(&taken.extent);
+                let accepted_step = accepted_step(direction, fraction, verdict);
+                let part = self.part_of_limits(&accepted_step.extent);
                 self.reach = (REACH_GROWTH * part).clamp(SHORTEST, 1.0);
-                return Some(taken);
+                return Some(accepted_step);
             }
             factor = self.next_factor(direction, fraction);
         }
@@ -434,8 +435,8 @@ fn size(state: &State) -> f64 {
     positions.map(|x| (x - first).norm()).fold(0.0, f64::max)
 }
 
-fn taken(direction: &Direction, fraction: f64, verdict: Verdict) -> Taken {
-    Taken {
+fn accepted_step(direction: &Direction, fraction: f64, verdict: Verdict) -> AcceptedStep {
+    AcceptedStep {
         fraction,
         extent: direction.extent.scaled(fraction),
         verdict,

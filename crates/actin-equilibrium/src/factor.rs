@@ -78,7 +78,7 @@ impl Factor {
                 .expect("the factor of a filament fits into memory");
         Self {
             values: vec![0.0; symbolic.len_val()],
-            band: Band::of(&symbolic),
+            band: Band::from_symbolic(&symbolic),
             symbolic,
             shifted: Vec::new(),
             diagonal: Vec::new(),

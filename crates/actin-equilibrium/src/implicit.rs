@@ -78,7 +78,7 @@ impl ImplicitSolver {
     ///
     /// # Panics
     /// If nothing has been factorised.
-    pub fn let_spin(&mut self, frames: &[usize]) {
+    pub fn decouple_spins(&mut self, frames: &[usize]) {
         let count = frames.iter().max().map_or(0, |most| most + 1);
         self.spins = vec![false; count];
         for &frame in frames {
@@ -362,7 +362,7 @@ impl ImplicitSolver {
 
     /// Repeats the motion of free bodies from `start` to `middle`: straight for points, same
     /// rotation for frames.
-    pub fn go_on(&self, start: &State, middle: &mut State) {
+    pub fn repeat_motion(&self, start: &State, middle: &mut State) {
         for (node, _) in self.layout.nodes() {
             match node {
                 Node::Point(i) => go_on(start, middle, i),

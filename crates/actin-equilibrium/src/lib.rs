@@ -63,7 +63,7 @@ pub use path_observer::{PathCheckpoint, PathObserver, PathPoint};
 pub use path_options::{Jumps, PathOptions, Saddles};
 pub use relax::{EquilibriumError, relax};
 pub use saddle::Push;
-pub use search::{Distinct, Found, Known, Search, SearchObserver};
+pub use search::{KnownEquilibrium, Search, SearchObserver, SearchResult, StableEquilibrium};
 
 /// Points, frames, loads and interactions.
 pub use actin_mechanics as mechanics;

@@ -89,14 +89,14 @@ impl Newton {
 
     /// Sets the cost counters, to continue the counters of an earlier solver. The symbolic
     /// factorisation of this solver is counted in addition.
-    pub fn count_on(&mut self, work: SolverWork) {
+    pub fn set_work(&mut self, work: SolverWork) {
         self.solver.work = work;
     }
 
     /// Determines the order of unknowns from the couplings at `state`. If an interaction has
     /// changing pairs, later results then do not depend on the state that is solved first. Does
     /// nothing if an interaction has no potential or no second derivatives.
-    pub fn settle_order(&mut self, state: &State, interactions: &[Box<dyn Interaction>]) {
+    pub fn determine_order(&mut self, state: &State, interactions: &[Box<dyn Interaction>]) {
         // The next solve returns the error.
         let _ = self.solver.prepare(state, interactions);
     }
@@ -306,7 +306,8 @@ impl Run<'_> {
         }
         self.previous = self.residual.relative_to(&self.options.tolerance);
         let before = descent.here.energy;
-        let Some((direction, taken)) = descent.advance(self.solver, self.interactions)? else {
+        let Some((direction, accepted_step)) = descent.advance(self.solver, self.interactions)?
+        else {
             return self.stop_at_best(descent);
         };
         self.solver.work.iterations += 1;
@@ -316,9 +317,9 @@ impl Run<'_> {
             negative_pivots: direction.negative_pivots,
             regularization: direction.regularization,
             stiffening: direction.cubic,
-            fraction: taken.fraction,
-            extent: taken.extent,
-            verdict: taken.verdict,
+            fraction: accepted_step.fraction,
+            extent: accepted_step.extent,
+            verdict: accepted_step.verdict,
         });
         Ok(None)
     }

@@ -124,7 +124,7 @@ impl Path {
     /// identical to an uninterrupted path.
     ///
     /// Cost and number of points continue from the waypoint; set the counters of `newton` with
-    /// [`Newton::count_on`].
+    /// [`Newton::set_work`].
     ///
     /// # Errors
     /// If the path is incomplete; `state` is then the last equilibrium.
@@ -218,7 +218,7 @@ impl<'a> Walk<'a> {
             let first = self.trial(state, 0.0, first, equilibrium);
             self.arrive(state, first, false, companion)?;
         } else {
-            self.settle_order(state);
+            self.determine_order(state);
         }
         while self.at.parameter < 1.0 {
             self.advance(state, set, companion)?;
@@ -227,10 +227,10 @@ impl<'a> Walk<'a> {
     }
 
     /// Fixes the order of unknowns of a continued path.
-    fn settle_order(&mut self, state: &State) {
+    fn determine_order(&mut self, state: &State) {
         let before = self.newton.work();
-        self.newton.settle_order(state, self.interactions);
-        self.newton.count_on(SolverWork {
+        self.newton.determine_order(state, self.interactions);
+        self.newton.set_work(SolverWork {
             evaluations: before.evaluations,
             assemblies: before.assemblies,
             ..self.newton.work()

@@ -10,7 +10,7 @@ use faer::sparse::{SymbolicSparseColMat, SymbolicSparseColMatRef};
 use std::ops::Range;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Place {
+pub(crate) enum BlockPosition {
     /// Not stored: one of the bodies does not move.
     Outside,
     /// On the diagonal of a body; index of the first value of each column.
@@ -42,7 +42,7 @@ pub(crate) enum Place {
 #[derive(Debug)]
 pub(crate) struct Pattern {
     pub(crate) symbolic: SymbolicSparseColMat<usize>,
-    pub(crate) places: Vec<Place>,
+    pub(crate) places: Vec<BlockPosition>,
     /// First diagonal row within the columns of each node.
     pub(crate) diagonal: Vec<usize>,
     bodies: Vec<(Coordinates, Coordinates)>,
@@ -114,7 +114,7 @@ impl Pattern {
         }
     }
 
-    pub(crate) fn places_of(&self, stiffness: &Stiffness, layout: &Layout) -> Vec<Place> {
+    pub(crate) fn places_of(&self, stiffness: &Stiffness, layout: &Layout) -> Vec<BlockPosition> {
         let sparsity = (self.neighbours.as_slice(), self.starts.as_slice());
         places(
             stiffness.blocks(),
@@ -264,7 +264,7 @@ fn places(
     layout: &Layout,
     sparsity: Sparsity<'_>,
     columns: &[usize],
-) -> Vec<Place> {
+) -> Vec<BlockPosition> {
     blocks
         .iter()
         .map(|&(a, b, _)| place(a, b, layout, sparsity, columns))
@@ -277,9 +277,9 @@ fn place(
     layout: &Layout,
     (neighbours, starts): Sparsity<'_>,
     columns: &[usize],
-) -> Place {
+) -> BlockPosition {
     let (Some(first), Some(second)) = (layout.node_of(a), layout.node_of(b)) else {
-        return Place::Outside;
+        return BlockPosition::Outside;
     };
     let (row, column) = (first.min(second), first.max(second));
     let start = layout.range(column).start;
@@ -289,10 +289,10 @@ fn place(
         let local = starts[column][starts[column].len() - 1];
         return if is_group(first) {
             let twice = a != b;
-            Place::Diagonal { node: first, twice }
+            BlockPosition::Diagonal { node: first, twice }
         } else {
             let at = values(local);
-            Place::Body { node: first, at }
+            BlockPosition::Body { node: first, at }
         };
     }
     let at = neighbours[column]
@@ -300,7 +300,7 @@ fn place(
         .expect("the pattern was made from the same blocks");
     let (local, transposed) = (starts[column][at], first > second);
     if is_group(row) || is_group(column) {
-        return Place::Above {
+        return BlockPosition::Above {
             row,
             column,
             local,
@@ -308,7 +308,7 @@ fn place(
         };
     }
     let at = values(local);
-    Place::Bodies {
+    BlockPosition::Bodies {
         column,
         at,
         transposed,

@@ -31,7 +31,7 @@ pub struct Search {
 
 /// Starting point of a search.
 #[derive(Clone, Copy, Debug)]
-pub struct Known<'a> {
+pub struct KnownEquilibrium<'a> {
     /// Known equilibrium.
     pub state: &'a State,
     /// Properties of the equilibrium.
@@ -43,7 +43,7 @@ pub struct Known<'a> {
 
 /// Stable equilibrium found by a search.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Distinct {
+pub struct StableEquilibrium {
     /// State, with the velocities of the known equilibrium.
     pub state: State,
     /// Properties of the equilibrium.
@@ -57,17 +57,17 @@ pub struct Distinct {
 
 /// Result of a search.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Found {
+pub struct SearchResult {
     /// Stable equilibria, ordered by energy.
-    pub states: Vec<Distinct>,
+    pub states: Vec<StableEquilibrium>,
     /// Number of initial guesses that lead to no admissible equilibrium.
     pub lost: usize,
 }
 
-impl Found {
-    fn beginning(known: &Known<'_>) -> Self {
+impl SearchResult {
+    fn beginning(known: &KnownEquilibrium<'_>) -> Self {
         Self {
-            states: vec![Distinct {
+            states: vec![StableEquilibrium {
                 state: known.state.clone(),
                 equilibrium: known.equilibrium.clone(),
                 found: 1,
@@ -105,13 +105,13 @@ impl Newton {
     /// potential or second derivatives.
     pub fn search(
         &mut self,
-        known: &Known<'_>,
+        known: &KnownEquilibrium<'_>,
         interactions: &[Box<dyn Interaction>],
         search: &Search,
         observer: &mut dyn SearchObserver,
-    ) -> Result<Found, SolveError> {
+    ) -> Result<SearchResult, SolveError> {
         Solver::check(interactions)?;
-        let mut found = Found::beginning(known);
+        let mut found = SearchResult::beginning(known);
         for start in 0..search.starts {
             // Separate random streams, about the known states in turn.
             let mut noise = Xorshift::new(
@@ -144,7 +144,7 @@ impl Newton {
                 _ => found.lost += 1,
             }
         }
-        let energy = |a: &Distinct| a.equilibrium.energy;
+        let energy = |a: &StableEquilibrium| a.equilibrium.energy;
         found.states.sort_by(|a, b| energy(a).total_cmp(&energy(b)));
         Ok(found)
     }
@@ -190,7 +190,7 @@ impl Newton {
 
     fn sort_in(
         &mut self,
-        found: &mut Found,
+        found: &mut SearchResult,
         (state, equilibrium): (State, Equilibrium),
         interactions: &[Box<dyn Interaction>],
     ) -> Result<(), SolveError> {
@@ -214,7 +214,7 @@ impl Newton {
                 return Ok(());
             }
         }
-        found.states.push(Distinct {
+        found.states.push(StableEquilibrium {
             state,
             equilibrium,
             found: 1,

@@ -27,7 +27,7 @@ impl Format {
     /// Returns the default file for a run directory: `runs/bent.gsd` for `runs/bent`.
     ///
     /// The file is outside the directory, since a new run replaces the directory.
-    pub fn beside(self, directory: &Path) -> PathBuf {
+    pub fn default_path(self, directory: &Path) -> PathBuf {
         let directory: PathBuf = directory.components().collect();
         let mut name = directory.into_os_string();
         name.push(".");

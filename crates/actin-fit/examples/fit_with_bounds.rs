@@ -30,7 +30,7 @@ fn main() -> Result<(), FitError> {
 
     // Bounds of both parameters, and eight random starts within them.
     let bounds = Bounds::new(&[(0.0, 20.0), (-1.0, 3.0)])?;
-    let fit = LevenbergMarquardt::default().fit(&Step, &data, &bounds, &Starts::drawn(8, 1))?;
+    let fit = LevenbergMarquardt::default().fit(&Step, &data, &bounds, &Starts::random(8, 1))?;
     for (j, (name, truth)) in [("height", 6.0), ("place", 1.0)].into_iter().enumerate() {
         let (found, error) = (fit.parameters[j], fit.precision.standard_error(j).unwrap());
         println!("{name}: {found:.3} +- {error:.3}; the data were made with {truth}");

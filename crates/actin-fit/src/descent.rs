@@ -2,7 +2,7 @@ use crate::acceleration::{Probe, accelerated};
 use crate::options::Options;
 use crate::problem::{Linearisation, Problem};
 use crate::search_report::{Progress, StartReport, Termination};
-use crate::step::{Damped, LARGEST_DAMPING, Room, SMALLEST_DAMPING, Step};
+use crate::step::{BoundDistances, Damped, LARGEST_DAMPING, SMALLEST_DAMPING, Step};
 use faer::Mat;
 
 /// Least accepted ratio of actual to predicted decrease.
@@ -138,13 +138,13 @@ impl<'a> Descent<'a> {
         }
     }
 
-    fn room(&self, free: Vec<bool>) -> Room {
+    fn room(&self, free: Vec<bool>) -> BoundDistances {
         let bounds = self.problem.bounds;
         let distance = |bound: fn(&crate::Bounds, usize) -> f64| {
             let to = |(j, v): (usize, &f64)| bound(bounds, j) - v;
             self.p.iter().enumerate().map(to).collect()
         };
-        Room {
+        BoundDistances {
             down: distance(crate::Bounds::lower),
             up: distance(crate::Bounds::upper),
             free,
@@ -215,7 +215,7 @@ impl<'a> Descent<'a> {
 
     /// Accepts a limited number of full steps whose effect on chi squared is within rounding, since
     /// the derivatives still point to the minimum.
-    fn trust(&mut self, room: &Room, step: &[f64]) -> Trial {
+    fn trust(&mut self, room: &BoundDistances, step: &[f64]) -> Trial {
         let (moved, residuals, chi_squared) = self.evaluate(room, step);
         let rise = chi_squared - self.chi_squared;
         let harmless = rise <= self.problem.rounding(self.chi_squared);
@@ -227,7 +227,7 @@ impl<'a> Descent<'a> {
         Trial::Taken
     }
 
-    fn evaluate(&mut self, room: &Room, step: &[f64]) -> (Vec<f64>, Vec<f64>, f64) {
+    fn evaluate(&mut self, room: &BoundDistances, step: &[f64]) -> (Vec<f64>, Vec<f64>, f64) {
         self.evaluations += 1;
         let moved = self.moved(room, step);
         let mut residuals = vec![0.0; self.residuals.len()];
@@ -246,7 +246,7 @@ impl<'a> Descent<'a> {
         self.chi_squared = chi_squared;
     }
 
-    fn moved(&self, room: &Room, step: &[f64]) -> Vec<f64> {
+    fn moved(&self, room: &BoundDistances, step: &[f64]) -> Vec<f64> {
         let bounds = self.problem.bounds;
         let to = |(j, (p, s)): (usize, (&f64, &f64))| {
             if *s <= room.down[j] {

@@ -9,7 +9,7 @@ use rand_chacha::ChaCha8Rng;
 /// use actin_fit::{Bounds, Starts};
 ///
 /// let bounds = Bounds::new(&[(0.0, 4.0)])?;
-/// let mut drawn = Starts::drawn(4, 7).points(&bounds)?;
+/// let mut drawn = Starts::random(4, 7).points(&bounds)?;
 /// drawn.sort_by(|a, b| a[0].total_cmp(&b[0]));
 /// // One start in each quarter of the range.
 /// let quarters: Vec<f64> = drawn.iter().map(|p| p[0].floor()).collect();
@@ -40,7 +40,7 @@ impl Starts {
     ///
     /// # Source
     /// `McKay`, Beckman and Conover, Technometrics 21 (1979) 239.
-    pub fn drawn(count: usize, seed: u64) -> Self {
+    pub fn random(count: usize, seed: u64) -> Self {
         Self {
             given: Vec::new(),
             drawn: count,
@@ -55,9 +55,9 @@ impl Starts {
         self
     }
 
-    /// Adds `count` random starts; see [`drawn`](Self::drawn).
+    /// Adds `count` random starts; see [`random`](Self::random).
     #[must_use]
-    pub fn and_drawn(self, count: usize, seed: u64) -> Self {
+    pub fn and_random(self, count: usize, seed: u64) -> Self {
         Self {
             drawn: count,
             seed,
@@ -137,7 +137,7 @@ mod tests {
     #[test]
     fn starts_are_those_of_the_first_release() {
         let bounds = Bounds::new(&[(-1.0, 1.0), (0.0, 10.0)]).unwrap();
-        let points = Starts::drawn(3, 11).points(&bounds).unwrap();
+        let points = Starts::random(3, 11).points(&bounds).unwrap();
         assert_eq!(points, GOLDEN);
     }
 

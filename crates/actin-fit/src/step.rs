@@ -12,7 +12,7 @@ const LENGTH_TOLERANCE: f64 = 0.05;
 const BISECTIONS: usize = 60;
 
 #[derive(Clone, Debug)]
-pub(crate) struct Room {
+pub(crate) struct BoundDistances {
     pub(crate) down: Vec<f64>,
     pub(crate) up: Vec<f64>,
     pub(crate) free: Vec<bool>,
@@ -34,7 +34,7 @@ pub(crate) struct Step {
 pub(crate) struct Damped<'a> {
     pub(crate) linear: &'a Linearisation,
     pub(crate) scales: &'a [f64],
-    pub(crate) room: &'a Room,
+    pub(crate) room: &'a BoundDistances,
 }
 
 impl Damped<'_> {
@@ -136,8 +136,8 @@ mod tests {
         Linearisation::new(matrix.as_ref(), &[2.0, 1.0]).unwrap()
     }
 
-    fn room(up: f64) -> Room {
-        Room {
+    fn room(up: f64) -> BoundDistances {
+        BoundDistances {
             down: vec![-9.0; 2],
             up: vec![9.0, up],
             free: vec![true; 2],

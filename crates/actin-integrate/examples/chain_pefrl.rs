@@ -28,7 +28,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     // The displacement repeats after one period.
     let period = TAU / (2.0 * (stiffness / mass).sqrt() * (PI / 20.0).sin());
     let step = stable_step(&PEFRL, largest_frequency(&system)?, SAFETY)?;
-    let outcome = Run::over(&PEFRL, step, period)?.execute(&mut system, &mut [])?;
+    let outcome = Run::from_duration(&PEFRL, step, period)?.execute(&mut system, &mut [])?;
     let middle = system.state().points.position.get(5).x - 5.0;
     println!("after one period, {} steps: {middle:.6}", outcome.steps);
     println!("at the start: {amplitude:.6}");

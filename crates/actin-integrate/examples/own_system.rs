@@ -35,7 +35,7 @@ fn main() -> Result<(), IntegrationError> {
         kicks: 0,
     };
     let mut farthest = 0.0_f64;
-    let run = Run::over(&PEFRL, 0.005, std::f64::consts::TAU)?.observing_every(1)?;
+    let run = Run::from_duration(&PEFRL, 0.005, std::f64::consts::TAU)?.observing_every(1)?;
     let outcome = run.execute_split(&mut planet, |moment| {
         farthest = farthest.max(moment.system.place.norm());
         ControlFlow::Continue(())

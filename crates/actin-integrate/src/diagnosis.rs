@@ -15,7 +15,7 @@ const LARGEST_GROWTH: f64 = 1e8;
 const STILL: f64 = 1e-4;
 
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Watch {
+pub(crate) struct DivergenceMonitor {
     pub(crate) h: f64,
     /// Upper limit of the kinetic energy (pN nm).
     pub(crate) kinetic_limit: f64,
@@ -23,7 +23,7 @@ pub(crate) struct Watch {
     pub(crate) largest_kinetic: f64,
 }
 
-impl Watch {
+impl DivergenceMonitor {
     pub(crate) fn new(h: f64, kinetic_limit: f64, largest_kinetic: f64) -> Self {
         Self {
             h: h.abs(),

@@ -1,4 +1,4 @@
-use crate::diagnosis::{Probe, Watch, blame, broken_energy, strongest_term};
+use crate::diagnosis::{DivergenceMonitor, Probe, blame, broken_energy, strongest_term};
 use crate::{
     Body, Checkpoint, FailureKind, Moment, Observer, Pause, Reason, Run, RunFailure, RunOutcome,
     Snapshot, StepFailure, Stepper,
@@ -12,7 +12,7 @@ pub(crate) struct Execution<'a, 'o> {
     stepper: Option<&'a mut dyn Stepper>,
     system: &'a mut System,
     observers: &'a mut [&'o mut dyn Observer],
-    watch: Watch,
+    watch: DivergenceMonitor,
     step: u64,
     /// Last observed state, or the start.
     last_good: Snapshot,
@@ -59,7 +59,7 @@ impl<'a, 'o> Execution<'a, 'o> {
         Self {
             run,
             stepper,
-            watch: Watch::new(run.h, run.kinetic_limit, here.largest_kinetic),
+            watch: DivergenceMonitor::new(run.h, run.kinetic_limit, here.largest_kinetic),
             step: here.step,
             last_good: checkpoint.last_good.clone(),
             sound: (here.step, system.state().clone()),

@@ -21,6 +21,7 @@ mod checkpoint;
 mod composition;
 mod diagnosis;
 mod drag;
+mod environment;
 mod error;
 mod execution;
 mod failure;
@@ -36,7 +37,6 @@ mod schemes;
 mod step;
 mod stepper;
 mod stop;
-mod surroundings;
 
 pub use bath::{Bath, BathError};
 pub use checkpoint::{Checkpoint, Pause, Snapshot};

@@ -20,7 +20,7 @@ pub(crate) enum Half {
 ///
 /// ```
 /// use actin_integrate::Noise;
-/// let mut noise = Noise::of_purpose(*b"example\0", 1, (2, 0));
+/// let mut noise = Noise::with_purpose(*b"example\0", 1, (2, 0));
 /// noise.draw_stream(7, (1.0, 1.0));
 /// let first = noise.points.get(0);
 /// noise.draw_stream(8, (1.0, 1.0));
@@ -38,12 +38,12 @@ pub struct Noise {
 
 impl Noise {
     pub(crate) fn new(seed: u64, bodies: (usize, usize)) -> Self {
-        Self::of_purpose(PURPOSE, seed, bodies)
+        Self::with_purpose(PURPOSE, seed, bodies)
     }
 
     /// Creates the noise of a `seed` for given numbers of points and frames. Other purposes have
     /// independent noise.
-    pub fn of_purpose(purpose: [u8; 8], seed: u64, (points, frames): (usize, usize)) -> Self {
+    pub fn with_purpose(purpose: [u8; 8], seed: u64, (points, frames): (usize, usize)) -> Self {
         let mut key = [0; 32];
         key[..8].copy_from_slice(&seed.to_le_bytes());
         key[8..16].copy_from_slice(&purpose);

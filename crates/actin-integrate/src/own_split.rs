@@ -45,7 +45,7 @@ impl Run {
     /// }
     ///
     /// let mut oscillator = Oscillator { x: 1.0, v: 0.0, kicks: 0 };
-    /// let run = Run::over(&PEFRL, 0.05, std::f64::consts::TAU)?;
+    /// let run = Run::from_duration(&PEFRL, 0.05, std::f64::consts::TAU)?;
     /// let outcome = run.execute_split(&mut oscillator, |_| ControlFlow::Continue(()))?;
     /// assert!((oscillator.x - 1.0).abs() < 1e-6 && oscillator.v.abs() < 1e-6);
     /// assert_eq!(outcome.force_evaluations, 4 * outcome.steps);

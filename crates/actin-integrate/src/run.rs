@@ -88,7 +88,7 @@ impl Run {
     ///
     /// # Errors
     /// If a step or duration is not positive and finite, or more than 2^53 steps are needed.
-    pub fn over(
+    pub fn from_duration(
         scheme: &'static Composition,
         largest_step: f64,
         duration: f64,

@@ -1,4 +1,4 @@
-use crate::surroundings::{Dragging, Heating, Nothing, Surroundings};
+use crate::environment::{DragHalves, Environment, Heating, NoEnvironment};
 use crate::{Bath, Composition, Drag, Stage};
 use actin_mechanics::{Split, Thermostat};
 
@@ -27,9 +27,9 @@ pub fn advance<S: Split + ?Sized>(
     drag: &Drag,
 ) {
     if drag.is_none() {
-        integrate(system, scheme, h, steps, &mut Nothing);
+        integrate(system, scheme, h, steps, &mut NoEnvironment);
     } else {
-        integrate(system, scheme, h, steps, &mut Dragging::over(drag, h));
+        integrate(system, scheme, h, steps, &mut DragHalves::new(drag, h));
     }
 }
 
@@ -50,7 +50,7 @@ pub fn advance_in<S: Thermostat + ?Sized>(
     bath: &Bath,
     first_step: u64,
 ) {
-    let mut heating = Heating::over(bath, h, first_step, system.bodies());
+    let mut heating = Heating::new(bath, h, first_step, system.bodies());
     integrate(system, scheme, h, steps, &mut heating);
 }
 
@@ -59,7 +59,7 @@ fn integrate<S: Split + ?Sized>(
     scheme: &Composition,
     h: f64,
     steps: u64,
-    surroundings: &mut impl Surroundings<S>,
+    environment: &mut impl Environment<S>,
 ) {
     let [outer, inner @ .., _] = scheme.coefficients else {
         return;
@@ -70,28 +70,28 @@ fn integrate<S: Split + ?Sized>(
     let (first, second) = (scheme.first, scheme.first.other());
     // The table is symmetric, so the last coefficient equals the first.
     let outer = outer * h;
-    surroundings.before(system);
-    surroundings.apply(first, system, outer);
+    environment.before(system);
+    environment.apply(first, system, outer);
     for _ in 1..steps {
-        apply_inner(system, surroundings, second, inner, h);
-        surroundings.between(system, first, outer);
+        apply_inner(system, environment, second, inner, h);
+        environment.between(system, first, outer);
     }
-    apply_inner(system, surroundings, second, inner, h);
-    surroundings.apply(first, system, outer);
-    surroundings.after(system);
+    apply_inner(system, environment, second, inner, h);
+    environment.apply(first, system, outer);
+    environment.after(system);
 }
 
 #[inline]
 fn apply_inner<S: Split + ?Sized>(
     system: &mut S,
-    surroundings: &impl Surroundings<S>,
+    environment: &impl Environment<S>,
     first: Stage,
     inner: &[f64],
     h: f64,
 ) {
     let mut stage = first;
     for coefficient in inner {
-        surroundings.apply(stage, system, coefficient * h);
+        environment.apply(stage, system, coefficient * h);
         stage = stage.other();
     }
 }

@@ -14,11 +14,11 @@ struct Readme;
 
 mod controls;
 mod couple;
+mod energy_balance;
 mod frames;
 mod inertia;
 mod interaction;
 mod internal;
-mod ledger;
 mod load;
 mod loads;
 mod motion;
@@ -43,11 +43,11 @@ pub mod wide;
 
 pub use controls::{ControlId, Controls};
 pub use couple::{Couple, CoupleKind};
+pub use energy_balance::EnergyBalance;
 pub use frames::{Frame, Frames};
 pub use inertia::{Axis, Inertia, InertiaError};
 pub use interaction::Interaction;
 pub use internal::{InternalCouple, InternalForce};
-pub use ledger::Ledger;
 pub use load::{LoadError, PointLoad};
 pub use loads::Loads;
 pub use motion::Motion;

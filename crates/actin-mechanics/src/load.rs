@@ -36,7 +36,7 @@ impl LoadError {
     ///
     /// # Errors
     /// If a component is infinite or NaN.
-    pub fn unless_finite(key: &'static str, value: Vector3) -> Result<(), Self> {
+    pub fn check_finite(key: &'static str, value: Vector3) -> Result<(), Self> {
         let is_finite = value.iter().all(|component| component.is_finite());
         is_finite
             .then_some(())
@@ -112,7 +112,7 @@ impl PointLoad {
 }
 
 fn check(state: &State, shares: &[(usize, f64)], force: Vector3) -> Result<(), LoadError> {
-    LoadError::unless_finite("force", force)?;
+    LoadError::check_finite("force", force)?;
     let count = state.points.len();
     shares.iter().try_for_each(|&(point, share)| {
         if point >= count {

@@ -1,13 +1,13 @@
 //! A state with its interactions, split into drift and kick.
 
-use crate::ledger::work_on_free;
-use crate::{Interaction, Ledger, Loads, Motion, Residual, State, Vectors};
+use crate::energy_balance::work_on_free;
+use crate::{EnergyBalance, Interaction, Loads, Motion, Residual, State, Vectors};
 use std::sync::Arc;
 
 /// Interface between integrators and systems.
 ///
-/// A wrapper that supports a [`Ledger`] must also forward `book_work`, `kinetic_energies` and
-/// `book_heat`.
+/// A wrapper that supports an [`EnergyBalance`] must also forward `record_work`, `kinetic_energies` and
+/// `record_heat`.
 pub trait Split {
     /// Moves all bodies freely for a time `h`, which may be negative.
     fn drift(&mut self, h: f64);
@@ -22,17 +22,17 @@ pub trait Split {
     /// Number of evaluations of the loads.
     fn force_evaluations(&self) -> u64;
 
-    /// Adds the work of the drive over a time `t` at the present positions to the [`Ledger`], if
+    /// Adds the work of the drive over a time `t` at the present positions to the [`EnergyBalance`], if
     /// there is one.
-    fn book_work(&mut self, _t: f64) {}
+    fn record_work(&mut self, _t: f64) {}
 
-    /// Kinetic energies of free points and of free frames, or `None` without a [`Ledger`].
+    /// Kinetic energies of free points and of free frames, or `None` without an [`EnergyBalance`].
     fn kinetic_energies(&self) -> Option<(f64, f64)> {
         None
     }
 
-    /// Adds energy from drag or noise to the [`Ledger`].
-    fn book_heat(&mut self, _energy: f64) {}
+    /// Adds energy from drag or noise to the [`EnergyBalance`].
+    fn record_heat(&mut self, _energy: f64) {}
 }
 
 /// Event between time steps, such as the rupture of a spring.
@@ -107,7 +107,7 @@ pub struct System {
     force_evaluations: u64,
     drive: Option<Box<dyn Drive>>,
     step_end: Option<Box<dyn StepEnd>>,
-    ledger: Option<Ledger>,
+    energy_balance: Option<EnergyBalance>,
 }
 
 impl System {
@@ -143,7 +143,7 @@ impl System {
             force_evaluations: 0,
             drive: None,
             step_end: None,
-            ledger: None,
+            energy_balance: None,
         }
     }
 
@@ -161,23 +161,23 @@ impl System {
     }
 
     /// Starts the energy balance in the controls of `ledger`.
-    pub fn keep_ledger(&mut self, ledger: Ledger) {
-        self.ledger = Some(ledger);
+    pub fn track_energy_balance(&mut self, energy_balance: EnergyBalance) {
+        self.energy_balance = Some(energy_balance);
     }
 
     /// Returns `true` if the system has an energy balance.
-    pub fn keeps_ledger(&self) -> bool {
-        self.ledger.is_some()
+    pub fn tracks_energy_balance(&self) -> bool {
+        self.energy_balance.is_some()
     }
 
     /// Adds the heat of an overdamped step from `start`, where the loads were `before`.
     ///
     /// The heat is minus the work on free bodies of the mean of the loads at the start and the end.
     /// Loads are evaluated if they are not current.
-    pub fn book_overdamped_heat(&mut self, (start, before): (&State, &Loads)) {
+    pub fn record_overdamped_heat(&mut self, (start, before): (&State, &Loads)) {
         self.loads();
         let both = work_on_free([before, &self.loads], [start, &self.state]);
-        self.book_heat(-0.5 * both);
+        self.record_heat(-0.5 * both);
     }
 
     /// Present state.
@@ -313,24 +313,24 @@ impl Split for System {
         self.force_evaluations
     }
 
-    fn book_work(&mut self, t: f64) {
-        let (Some(ledger), true) = (self.ledger, self.drive.is_some()) else {
+    fn record_work(&mut self, t: f64) {
+        let (Some(energy_balance), true) = (self.energy_balance, self.drive.is_some()) else {
             return;
         };
         self.loads();
         if let Some(drive) = &self.drive {
             let driven = (drive.as_ref(), &*self.interactions);
-            ledger.book_work(&mut self.state, driven, &self.loads, t);
+            energy_balance.record_work(&mut self.state, driven, &self.loads, t);
         }
     }
 
     fn kinetic_energies(&self) -> Option<(f64, f64)> {
-        self.ledger.map(|_| self.state.kinetic_energies())
+        self.energy_balance.map(|_| self.state.kinetic_energies())
     }
 
-    fn book_heat(&mut self, energy: f64) {
-        if let Some(ledger) = self.ledger {
-            self.state.controls[ledger.heat] += energy;
+    fn record_heat(&mut self, energy: f64) {
+        if let Some(energy_balance) = self.energy_balance {
+            self.state.controls[energy_balance.heat] += energy;
         }
     }
 }

@@ -40,7 +40,7 @@ impl Weight {
     /// # Errors
     /// If the acceleration is not finite. The state is unchanged on error.
     pub fn new(state: &mut State, acceleration: Vector3) -> Result<Self, LoadError> {
-        LoadError::unless_finite("acceleration", acceleration)?;
+        LoadError::check_finite("acceleration", acceleration)?;
         Ok(Self {
             acceleration,
             control: state.add_control(1.0),

@@ -7,7 +7,7 @@
 //! `n` counts values, `doubtful` those whose equilibrium is not certified as stable.
 
 use actin_paper::measure::{
-    Curve, Evidence, MeasureError, Sampled, Specimen, bend_by_couples, bend_by_tip_force,
+    Curve, Evidence, MeasureError, SampleStatistics, Specimen, bend_by_couples, bend_by_tip_force,
     bend_twisted, bend_under_tension, free_turn_under_tension, over_samplings,
     over_samplings_and_azimuths, sampled_by, shear_by_force, stretch_by_force, twist,
     twist_under_tension,
@@ -100,7 +100,7 @@ impl Table {
     ) {
         let doubt = |p: &P| f64::from(u8::from(!evidence(p).is_stable()));
         let doubts = sampled_by(curves, &prescribed, doubt);
-        let columns: Vec<Vec<(f64, Sampled)>> = columns
+        let columns: Vec<Vec<(f64, SampleStatistics)>> = columns
             .iter()
             .map(|column| sampled_by(curves, &prescribed, column))
             .collect();

@@ -14,7 +14,7 @@
 use actin_integrate::stable_step;
 use actin_integrate::{Bath, Composition, Drag, PEFRL, POSITION_VERLET, advance, advance_in};
 use actin_mechanics::System;
-use actin_paper::measure::{Turns, jackknife, steps_in};
+use actin_paper::measure::{RotationCorrelations, jackknife, steps_in};
 use actin_sim::{Assembly, BOLTZMANN_PN_NM_PER_K, Plan, Scene};
 use rayon::prelude::*;
 use std::ops::Range;
@@ -162,7 +162,7 @@ fn in_water(sections: &str, step: f64, seed: u64) -> Sums {
     let (trajectory, _) = plan.run().expect("a motion");
     // As built it is not yet warm.
     let (_, records) = trajectory.records.split_at(SAMPLES_IN_WATER / 100);
-    let mut sums = Sums::of(&assembly, step);
+    let mut sums = Sums::new(&assembly, step);
     let dofs = 3.0 * (assembly.rest.points.len() + assembly.rest.frames.len()) as f64;
     for record in records {
         sums.turns.add(&assembly.rest, &record.state, records.len());
@@ -206,7 +206,7 @@ fn cost(name: &str, sections: &'static str) {
 
 /// Means over one seed.
 struct Sums {
-    turns: Turns,
+    turns: RotationCorrelations,
     /// Potential energy per degree of freedom (kT).
     energy: f64,
     /// Distance of neighbouring frames along the axis (nm).
@@ -217,9 +217,9 @@ struct Sums {
 
 impl Sums {
     /// None yet.
-    fn of(assembly: &Assembly, step: f64) -> Self {
+    fn new(assembly: &Assembly, step: f64) -> Self {
         Self {
-            turns: Turns::new(assembly.rest.frames.len()),
+            turns: RotationCorrelations::new(assembly.rest.frames.len()),
             energy: 0.0,
             spacing: assembly.frames[1].s_nm - assembly.frames[0].s_nm,
             step,
@@ -279,7 +279,7 @@ impl Case {
         advance_in(system, self.scheme, h, warm_up, &bath, 0);
         let rest = assembly.rest.clone();
         let dofs = 3.0 * (rest.points.len() + rest.frames.len()) as f64;
-        let mut sums = Sums::of(&assembly, h);
+        let mut sums = Sums::new(&assembly, h);
         for sample in 0..SAMPLES as u64 {
             let system = &mut assembly.system;
             let first = warm_up + sample * apart;
@@ -308,16 +308,16 @@ fn measured(sums: &[Sums], kt: f64) -> String {
     let count = sums[0].frames_of_110_nm();
     let (near, far) = ((0, 1), (count / 5, 3 * count / 5));
     let further = (2 * count / 5, 4 * count / 5);
-    let of = |&(a, b): &(usize, usize), value: fn(&[&Turns], usize) -> f64| {
+    let of = |&(a, b): &(usize, usize), value: fn(&[&RotationCorrelations], usize) -> f64| {
         jackknife(sums, |chosen| {
-            let turns: Vec<&Turns> = chosen.iter().map(|sums| &sums.turns).collect();
+            let turns: Vec<&RotationCorrelations> = chosen.iter().map(|sums| &sums.turns).collect();
             (b - a) as f64 * spacing / (value(&turns, b) - value(&turns, a))
         })
     };
-    let (bend, bend_error) = of(&near, Turns::tilt);
-    let (long, long_error) = of(&far, Turns::tilt);
-    let (turn, turn_error) = of(&far, Turns::twist_variance);
-    let (turn_further, further_error) = of(&further, Turns::twist_variance);
+    let (bend, bend_error) = of(&near, RotationCorrelations::tilt);
+    let (long, long_error) = of(&far, RotationCorrelations::tilt);
+    let (turn, turn_error) = of(&far, RotationCorrelations::twist_variance);
+    let (turn_further, further_error) = of(&further, RotationCorrelations::twist_variance);
     let (energy, energy_error) = jackknife(sums, |chosen| {
         chosen.iter().map(|s| s.energy).sum::<f64>() / chosen.len() as f64
     });

@@ -11,7 +11,7 @@ fn main() -> Result<(), MeasureError> {
     let length_nm = 27.0 * monomers.rise_nm;
     let filament = twist(&Specimen::ellipsoids(length_nm, monomers), &turns)?;
     let rod = |law| {
-        let model = RodModel::of_law(law);
+        let model = RodModel::with_law(law);
         twist(&Specimen::rod(filament.length_nm, None, model), &turns)
     };
     let (constant, fitted) = (rod(RodLaw::Constant)?, rod(RodLaw::Fitted)?);

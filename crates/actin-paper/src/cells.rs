@@ -7,23 +7,23 @@ use actin_sim::ellipsoid::{
 /// Number of monomers in one period of the mean filament.
 pub const PERIOD: usize = 13;
 /// Sampled bonds per interface.
-const DRAWN: usize = 64;
+const SAMPLED_BONDS: usize = 64;
 
 /// Cell of the mean filament, with the default quadrature bonds.
 ///
 /// # Errors
 /// The cell cannot be built.
 pub fn mean() -> Result<Cell, String> {
-    of(EllipsoidParameters::default(), PERIOD, Hold::Means)
+    with_parameters(EllipsoidParameters::default(), PERIOD, Hold::Means)
 }
 
 /// Cell of a filament with 64 sampled bonds per interface.
 ///
 /// # Errors
 /// The cell cannot be built.
-pub fn drawn(seed: u64, monomers: usize) -> Result<Cell, String> {
-    of(
-        EllipsoidParameters::drawn(DRAWN, seed),
+pub fn with_sampled_bonds(seed: u64, monomers: usize) -> Result<Cell, String> {
+    with_parameters(
+        EllipsoidParameters::with_sampled_bonds(SAMPLED_BONDS, seed),
         monomers,
         Hold::Means,
     )
@@ -33,15 +33,19 @@ pub fn drawn(seed: u64, monomers: usize) -> Result<Cell, String> {
 ///
 /// # Errors
 /// The parameters are invalid or the cell cannot be built.
-pub fn of(parameters: EllipsoidParameters, monomers: usize, hold: Hold) -> Result<Cell, String> {
+pub fn with_parameters(
+    parameters: EllipsoidParameters,
+    monomers: usize,
+    hold: Hold,
+) -> Result<Cell, String> {
     let model = EllipsoidModel::new(parameters).map_err(|e| e.to_string())?;
     Cell::new(&model, monomers, hold).map_err(|e| e.to_string())
 }
 
 /// Zero force or torque.
-pub const FREE: Control = Control::Load(0.0);
+pub const ZERO_LOAD: Control = Control::Load(0.0);
 /// Zero strain.
-pub const NONE: Control = Control::Strain(0.0);
+pub const ZERO_STRAIN: Control = Control::Strain(0.0);
 
 /// Equilibrium of a cell under strains and loads. The initial guess is `start`, by default the cell at rest.
 ///
@@ -64,7 +68,16 @@ const TWIST_STEP: f64 = 5e-3;
 /// # Errors
 /// The iteration does not converge.
 pub fn twisted(cell: &Cell, twist: f64) -> Result<CellResponse, String> {
-    let controls = |twist: f64| [NONE, NONE, Control::Strain(twist), FREE, FREE, FREE];
+    let controls = |twist: f64| {
+        [
+            ZERO_STRAIN,
+            ZERO_STRAIN,
+            Control::Strain(twist),
+            ZERO_LOAD,
+            ZERO_LOAD,
+            ZERO_LOAD,
+        ]
+    };
     let mut reached = twist.abs().min(TWIST_STEP);
     let mut response = relax(cell, controls(reached.copysign(twist)), None)?;
     while reached < twist.abs() {

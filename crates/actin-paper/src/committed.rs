@@ -3,7 +3,7 @@
 //! `report.json` is from a full run and the source of the documents. `report-quick.json` is from a quick run, which a
 //! test repeats. Numbers that both runs compute from the same scenes and settings are compared with both files.
 
-use crate::{Tell, figures, workspace_root};
+use crate::{ProgressSink, figures, workspace_root};
 use actin_draw::report::{self, Row, save};
 use serde::Deserialize;
 use std::collections::{BTreeMap, BTreeSet};
@@ -26,7 +26,7 @@ pub type Report = BTreeMap<(String, String), Row>;
 
 /// Group of rows that rounding changes by more than [`AGREES`].
 #[derive(Debug, Deserialize)]
-struct Sensitive {
+struct RoundingSensitivity {
     artefact: String,
     part: String,
     /// Relative tolerance; `None` if the rows are not compared.
@@ -34,7 +34,7 @@ struct Sensitive {
     also_rods: bool,
 }
 
-static SENSITIVE: LazyLock<Vec<Sensitive>> =
+static SENSITIVE: LazyLock<Vec<RoundingSensitivity>> =
     LazyLock::new(|| crate::published::table(include_str!("../data/sensitive.csv")));
 
 /// Indexes rows by artefact and quantity.
@@ -51,11 +51,11 @@ fn name(row: &Row) -> (String, String) {
 ///
 /// # Errors
 /// A committed report cannot be read.
-pub fn compare(rows: &[Row], quick: bool, tell: Tell<'_>) -> Result<(), String> {
+pub fn compare(rows: &[Row], quick: bool, tell: ProgressSink<'_>) -> Result<(), String> {
     let lines = if quick {
         stale(rows)?
     } else {
-        Committed::full()?.differences(rows)
+        CommittedReport::full()?.differences(rows)
     };
     tell(format_args!(
         "{} rows differ from the committed ones",
@@ -75,10 +75,10 @@ pub fn compare(rows: &[Row], quick: bool, tell: Tell<'_>) -> Result<(), String> 
 ///
 /// # Errors
 /// The report cannot be read or written.
-pub fn write_quick(rows: &[Row], tell: Tell<'_>) -> Result<(), String> {
+pub fn write_quick(rows: &[Row], tell: ProgressSink<'_>) -> Result<(), String> {
     let root = workspace_root();
     let mut all = if root.join(QUICK).exists() {
-        Committed::quick()?.rows
+        CommittedReport::quick()?.rows
     } else {
         Report::new()
     };
@@ -95,19 +95,19 @@ pub fn write_quick(rows: &[Row], tell: Tell<'_>) -> Result<(), String> {
 
 /// Differences of a quick run from both committed reports, one line each.
 pub(crate) fn stale(rows: &[Row]) -> Result<Vec<String>, String> {
-    let mut all = Committed::quick()?.differences(rows);
+    let mut all = CommittedReport::quick()?.differences(rows);
     let shared: Vec<Row> = rows.iter().filter(|row| is_in_full(row)).cloned().collect();
-    all.extend(Committed::full()?.changes(&shared));
+    all.extend(CommittedReport::full()?.changes(&shared));
     Ok(all)
 }
 
-struct Committed {
+struct CommittedReport {
     file: &'static str,
     command: &'static str,
     rows: Report,
 }
 
-impl Committed {
+impl CommittedReport {
     fn quick() -> Result<Self, String> {
         Self::read(QUICK, "cargo xtask reproduce-figures --quick --write")
     }
@@ -234,19 +234,19 @@ mod tests {
         Row::measured(artefact, quantity, "nm", ours, "")
     }
 
-    fn committed(rows: Vec<Row>) -> Committed {
-        Committed {
+    fn committed(rows: Vec<Row>) -> CommittedReport {
+        CommittedReport {
             rows: by_name(rows),
-            ..Committed::quick().unwrap()
+            ..CommittedReport::quick().unwrap()
         }
     }
 
     #[test]
     fn changes_are_listed() {
-        let height = row("fig8", "height/rod", 39.4).against(39.0, 1.0);
+        let height = row("fig8", "height/rod", 39.4).with_paper_value(39.0, 1.0);
         let reference = committed(vec![height.clone(), row("fig8", "force", 16.0)]);
         let moved = |ours: f64, tolerance| {
-            let height = row("fig8", "height/rod", ours).against(39.0, tolerance);
+            let height = row("fig8", "height/rod", ours).with_paper_value(39.0, tolerance);
             reference.differences(&[height, row("fig8", "force", 16.0)])
         };
         assert_eq!(moved(39.4 * (1.0 + 1e-8), 1.0), [""; 0]);

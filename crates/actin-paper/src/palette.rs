@@ -3,8 +3,8 @@
 use actin_draw::Colour;
 use std::sync::OnceLock;
 
+pub(crate) use actin_view::BodyColours;
 pub use actin_view::Palette;
-pub(crate) use actin_view::Things;
 
 static CHOSEN: OnceLock<Palette> = OnceLock::new();
 

@@ -3,8 +3,8 @@
 use crate::workspace_root;
 use actin_mechanics::State;
 use actin_sim::{
-    Assembly, Clamp, End, Equilibrium, Filament, Hold, Outcome, Output, Part, Plan, Record,
-    RunError, Scene, Slides, Task, Trajectory,
+    Assembly, Clamp, End, Equilibrium, Filament, FreeTranslation, Hold, Outcome, Output, Part,
+    Plan, Record, RunError, Scene, Task, Trajectory,
 };
 use actin_view::Pose;
 
@@ -21,7 +21,7 @@ pub(crate) fn free(title: &str, filament: Filament) -> Scene {
     Scene {
         title: title.to_owned(),
         filament,
-        further: Vec::new(),
+        other_filaments: Vec::new(),
         clamps: Vec::new(),
         loads: Vec::new(),
         linkers: Vec::new(),
@@ -43,7 +43,7 @@ pub(crate) fn run_to_end(assembly: &mut Assembly) -> Result<(Trajectory, Outcome
     Ok((trajectory, outcome))
 }
 
-pub(crate) fn clamp(end: End, slides: Slides) -> Clamp {
+pub(crate) fn clamp(end: End, slides: FreeTranslation) -> Clamp {
     Clamp {
         filament: 0,
         end,
@@ -55,14 +55,14 @@ pub(crate) fn clamp(end: End, slides: Slides) -> Clamp {
 
 /// Completed run of a scene, with the system in the last state.
 #[derive(Debug)]
-pub(crate) struct Solved {
+pub(crate) struct SolvedScene {
     pub assembly: Assembly,
     /// At least one.
     pub records: Vec<Record>,
     pub report: Outcome,
 }
 
-impl Solved {
+impl SolvedScene {
     pub(crate) fn new(scene: &Scene) -> Result<Self, String> {
         Self::run(Assembly::build(scene).map_err(|e| e.to_string())?)
     }
@@ -119,7 +119,7 @@ impl Solved {
     }
 
     pub(crate) fn pose(&self) -> Pose {
-        Pose::of(&self.assembly, self.state())
+        Pose::new(&self.assembly, self.state())
     }
 }
 

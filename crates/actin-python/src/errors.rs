@@ -101,7 +101,7 @@ fn of_text(py: Python<'_>, text: &SceneText, mistake: &SceneError, message: &str
         .and_then(|()| attributes.set_item("rule", &mistake.message))
         .and_then(|()| attributes.set_item("line", mistake.line))
         .and_then(|()| attributes.set_item("column", mistake.column))
-        .and_then(|()| attributes.set_item("meant", mistake.meant.as_deref()));
+        .and_then(|()| attributes.set_item("meant", mistake.suggestion.as_deref()));
     match set {
         Ok(()) => raise(py, "SceneError", message, &attributes),
         Err(error) => error,

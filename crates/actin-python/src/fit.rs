@@ -220,8 +220,8 @@ pub(crate) fn fit(
         None => Bounds::none(parameters),
     };
     let starts = match &start {
-        Some(start) => Starts::at(start).and_drawn(drawn, seed),
-        None => Starts::drawn(drawn.max(DRAWN), seed),
+        Some(start) => Starts::at(start).and_random(drawn, seed),
+        None => Starts::random(drawn.max(DRAWN), seed),
     };
     let observed = observations(y, deviations)?;
     let model = Function::new(function, jacobian, x, (observed.len(), parameters));

@@ -54,7 +54,7 @@ const FIELDS: [Field; 4] = [
 
 /// Numbers of all records of a run.
 #[derive(Debug)]
-pub(crate) struct Gathered {
+pub(crate) struct RecordArrays {
     /// Time (ns) or path parameter.
     at: Vec<f64>,
     fields: [Vec<f64>; 4],
@@ -68,12 +68,12 @@ pub(crate) struct Gathered {
     states: usize,
 }
 
-impl Gathered {
+impl RecordArrays {
     /// Collects all records.
     ///
     /// # Errors
     /// If a record cannot be read.
-    pub(crate) fn of(assembly: &Assembly, records: &dyn Records) -> io::Result<Self> {
+    pub(crate) fn new(assembly: &Assembly, records: &dyn Records) -> io::Result<Self> {
         let mut all = Self {
             at: Vec::new(),
             fields: Default::default(),

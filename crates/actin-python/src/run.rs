@@ -1,7 +1,7 @@
 //! Runs of scenes in memory or in a run directory.
 
 use crate::errors;
-use crate::records::{Gathered, bodies};
+use crate::records::{RecordArrays, bodies};
 use crate::scene::Scene;
 use crate::watch::{Watch, callback, finish};
 use actin_sim::{
@@ -56,7 +56,7 @@ struct Job<'a> {
 }
 
 /// End of a run: outcome, failure if any, and the exception that interrupted it.
-struct Ended {
+struct RunEnd {
     outcome: Outcome,
     failure: Option<Failure>,
     error: Option<PyErr>,
@@ -69,7 +69,7 @@ impl Job<'_> {
         py: Python<'_>,
         saved: Option<SavedRun>,
         sink: &mut S,
-    ) -> PyResult<Ended> {
+    ) -> PyResult<RunEnd> {
         let progress = self
             .progress
             .as_ref()
@@ -84,14 +84,14 @@ impl Job<'_> {
         finish(py, self.progress.as_ref())?;
         let error = observed.watch.into_error();
         match result {
-            Ok(outcome) => Ok(Ended {
+            Ok(outcome) => Ok(RunEnd {
                 outcome,
                 failure: None,
                 error,
             }),
             Err(RunError::Failed(failed)) => {
                 let FailedRun { failure, outcome } = *failed;
-                Ok(Ended {
+                Ok(RunEnd {
                     outcome,
                     failure: Some(failure),
                     error,
@@ -105,11 +105,11 @@ impl Job<'_> {
     fn conclude(
         &self,
         py: Python<'_>,
-        ended: Ended,
+        ended: RunEnd,
         records: &dyn Records,
         summary: Option<Summary>,
     ) -> PyResult<Py<PyAny>> {
-        let Ended {
+        let RunEnd {
             outcome,
             failure,
             error,
@@ -141,7 +141,7 @@ impl Job<'_> {
         records: &dyn Records,
         summary: Option<Summary>,
     ) -> PyResult<Py<PyAny>> {
-        let of_run = || Summary::of_run(self.assembly, records, outcome);
+        let of_run = || Summary::from_run(self.assembly, records, outcome);
         let summary = summary.map_or_else(of_run, Ok);
         let summary = summary.map_err(|error| errors::directory(&error))?;
         let summary = serde_json::to_string(&summary).map_err(errors::value)?;
@@ -150,7 +150,7 @@ impl Job<'_> {
             inner: self.plan.scene().clone(),
             text: None,
         };
-        let arrays = Gathered::of(self.assembly, records)?.into_python(py, self.assembly)?;
+        let arrays = RecordArrays::new(self.assembly, records)?.into_python(py, self.assembly)?;
         let arguments = PyDict::new(py);
         arguments.set_item("scene", scene)?;
         arguments.set_item("summary", summary)?;
@@ -297,7 +297,7 @@ fn begin(
 ) -> PyResult<(Option<SavedRun>, RunLock)> {
     let refused = |error| errors::directory(&error);
     if target.resume && directory.has_checkpoint() {
-        let lock = RunLock::take(&target.path).map_err(refused)?;
+        let lock = RunLock::acquire(&target.path).map_err(refused)?;
         let saved = checkpoints.resume(job.plan).map_err(errors::value)?;
         directory.reopen().map_err(refused)?;
         return Ok((Some(saved), lock));

@@ -2,7 +2,7 @@
 
 use crate::errors;
 use crate::value::{from_python, to_python};
-use actin_sim::{Assembly, Drawn, Plan, Scene as Inner, SceneProblem, SceneText, SceneValue};
+use actin_sim::{Assembly, Plan, RandomPart, Scene as Inner, SceneProblem, SceneText, SceneValue};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyMapping};
 use std::io;
@@ -116,7 +116,7 @@ impl Scene {
     /// Returns the scene with all its seeds set.
     fn reseed(&self, py: Python<'_>, seed: u64) -> PyResult<Self> {
         let mut inner = self.inner.clone();
-        let drawn: usize = Drawn::ALL
+        let drawn: usize = RandomPart::ALL
             .iter()
             .map(|&what| inner.reseed(what, seed))
             .sum();

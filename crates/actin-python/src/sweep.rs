@@ -62,7 +62,7 @@ pub(crate) fn carry_out(
         samples: (samples > 0).then(|| Samples {
             number: samples,
             first_seed,
-            of: actin_sim::Drawn::ALL.to_vec(),
+            of: actin_sim::RandomPart::ALL.to_vec(),
         }),
     };
     let opened = py.detach(|| ValidatedSweep::new(sweep, scene.inner.to_ron()));
@@ -99,7 +99,7 @@ fn make(
         done.store(progress.ended, Ordering::Relaxed);
     };
     let ended = std::thread::scope(|scope| {
-        let runs = scope.spawn(|| directory.carry_out(opened, settings, &note));
+        let runs = scope.spawn(|| directory.run_all(opened, settings, &note));
         while !runs.is_finished() {
             std::thread::sleep(LOOK);
             watch.runs(done.load(Ordering::Relaxed), of.load(Ordering::Relaxed));

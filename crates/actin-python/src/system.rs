@@ -95,7 +95,7 @@ pub(crate) struct System {
 }
 
 impl System {
-    fn of(state: State, terms: Vec<Term>) -> Self {
+    fn from_parts(state: State, terms: Vec<Term>) -> Self {
         let mut system = Self {
             mechanics: Mechanics::new(State::default(), Vec::new()),
             terms,
@@ -210,7 +210,7 @@ fn read_scheme(name: &str) -> PyResult<&'static Composition> {
 impl System {
     #[new]
     fn new() -> Self {
-        Self::of(State::default(), Vec::new())
+        Self::from_parts(State::default(), Vec::new())
     }
 
     /// Creates the system of a scene in its initial state, with the method, time step, drag and noise of its task.
@@ -240,7 +240,7 @@ impl System {
         let settings = settings_of(&assembly, &plan)?;
         let count = assembly.system.interactions().len();
         let terms = (0..count).map(|i| Term::OfScene(Arc::clone(&assembly), i));
-        let mut system = Self::of(assembly.system.state().clone(), terms.collect());
+        let mut system = Self::from_parts(assembly.system.state().clone(), terms.collect());
         if matches!(assembly.scene.task, Task::Dynamics(_)) {
             system.motions.of_scene = assembly.drive_in_time().map(Arc::from);
             system.renew(assembly.system.state().clone());

@@ -85,8 +85,8 @@ fn watched(
     watch: Watch,
 ) -> (Result<Trade, TradeError>, Option<PyErr>) {
     let watch = RefCell::new(watch);
-    let observer = sim::Watch {
-        says: &|name| watch.borrow_mut().begins(name),
+    let observer = sim::TradeCallbacks {
+        report: &|name| watch.borrow_mut().begins(name),
         is_interrupted: &|| watch.borrow_mut().is_interrupted(),
     };
     let found = sim::trade(scene, options, &observer);

@@ -79,7 +79,7 @@ pub(crate) fn to_python<'py>(py: Python<'py>, value: &SceneValue) -> PyResult<Bo
             dictionary.set_item(name, group(py, values)?)?;
             dictionary.into_any()
         }
-        Kind::None | Kind::Unread | Kind::Refused => py.None().into_bound(py),
+        Kind::None | Kind::Invalid | Kind::Removed => py.None().into_bound(py),
     })
 }
 

@@ -127,7 +127,7 @@ impl Default for Fluid {
 
 impl Brownian {
     /// Converts the times, records and temperature to a `Dynamics` task.
-    pub fn as_motion(&self) -> Dynamics {
+    pub fn to_dynamics(&self) -> Dynamics {
         Dynamics {
             time_step_ns: self.time_step_ns,
             thermal: self.thermal(),
@@ -150,7 +150,7 @@ impl Task {
     pub fn motion(&self) -> Option<Cow<'_, Dynamics>> {
         match self {
             Self::Dynamics(dynamics) => Some(Cow::Borrowed(dynamics)),
-            Self::Brownian(brownian) => Some(Cow::Owned(brownian.as_motion())),
+            Self::Brownian(brownian) => Some(Cow::Owned(brownian.to_dynamics())),
             Self::Equilibrium(_) => None,
         }
     }

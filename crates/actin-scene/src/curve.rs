@@ -1,6 +1,6 @@
 //! Reference curve of a filament, of pieces of constant curvature. It starts at the origin along lab +z.
 
-use super::{AlteredRod, Filament, Shape};
+use super::{Filament, RodChanges, Shape};
 use actin_mechanics::{UnitQuaternion, Vector3, rotation};
 use std::f64::consts::TAU;
 
@@ -39,7 +39,7 @@ impl Piece {
     fn at(&self, s: f64) -> (Vector3, UnitQuaternion) {
         let along = s - self.from;
         let theta = self.curvature * along;
-        let place = self.place + self.frame * swept(theta, Vector3::z() * along);
+        let place = self.place + self.frame * left_jacobian_product(theta, Vector3::z() * along);
         let frame = self.frame * rotation::exp(theta);
         (
             place,
@@ -50,13 +50,13 @@ impl Piece {
 
 impl Curve {
     /// Creates the curve of a filament whose sections start at these arc lengths (nm).
-    pub fn of(filament: &Filament, boundaries: &[f64]) -> Self {
+    pub fn new(filament: &Filament, boundaries: &[f64]) -> Self {
         match &filament.shape {
-            None => Self::of_pieces(vec![Piece::straight()]),
+            None => Self::from_pieces(vec![Piece::straight()]),
             Some(Shape::Arc {
                 radius_nm,
                 azimuth_deg,
-            }) => Self::of_pieces(vec![Piece {
+            }) => Self::from_pieces(vec![Piece {
                 curvature: towards(*azimuth_deg) / *radius_nm,
                 ..Piece::straight()
             }]),
@@ -64,13 +64,13 @@ impl Curve {
                 radius_nm,
                 pitch_nm,
                 azimuth_deg,
-            }) => Self::of_pieces(vec![helix(*radius_nm, *pitch_nm, *azimuth_deg)]),
+            }) => Self::from_pieces(vec![helix(*radius_nm, *pitch_nm, *azimuth_deg)]),
             Some(Shape::Points { nm, .. }) => Self::through(nm),
             Some(Shape::AtRest) => Self::at_rest(filament, boundaries),
         }
     }
 
-    fn of_pieces(pieces: Vec<Piece>) -> Self {
+    fn from_pieces(pieces: Vec<Piece>) -> Self {
         Self {
             pieces,
             length: None,
@@ -89,11 +89,11 @@ impl Curve {
                 from,
                 place,
                 frame,
-                curvature: altered.map_or_else(Vector3::zeros, AlteredRod::rest_curvature),
+                curvature: altered.map_or_else(Vector3::zeros, RodChanges::rest_curvature),
                 unroll: 0.0,
             });
         }
-        Self::of_pieces(pieces)
+        Self::from_pieces(pieces)
     }
 
     /// Natural cubic spline with rotation-minimising frames.
@@ -186,7 +186,7 @@ fn turned_to(frame: UnitQuaternion, along: Vector3) -> UnitQuaternion {
 }
 
 /// Returns `J_l(theta) v`, with the left Jacobian of SO(3): the mean of `exp(t theta) v` over `t` in [0, 1].
-pub fn swept(theta: Vector3, v: Vector3) -> Vector3 {
+pub fn left_jacobian_product(theta: Vector3, v: Vector3) -> Vector3 {
     let angle = theta.norm();
     if angle < 1e-8 {
         return v + 0.5 * theta.cross(&v);
@@ -259,7 +259,7 @@ mod tests {
             shape: Some(shape),
             ..Filament::new(vec![Section::rod(0.0, 100.0, None)])
         };
-        Curve::of(&filament, &filament.boundaries())
+        Curve::new(&filament, &filament.boundaries())
     }
 
     /// Asserts that tangents are third axes and derivatives of positions, and that frames are untwisted.
@@ -345,11 +345,11 @@ mod tests {
             segments: None,
             altered: Some(Box::new(altered)),
         };
-        let bent = AlteredRod {
+        let bent = RodChanges {
             rest_curvature_per_nm: [0.02, 0.0],
-            ..AlteredRod::default()
+            ..RodChanges::default()
         };
-        let twisted = AlteredRod {
+        let twisted = RodChanges {
             rest_twist_per_nm: 0.05,
             ..bent.clone()
         };
@@ -358,7 +358,7 @@ mod tests {
             shape: Some(Shape::AtRest),
             ..Filament::new(sections)
         };
-        let curve = Curve::of(&filament, &filament.boundaries());
+        let curve = Curve::new(&filament, &filament.boundaries());
         let [before, after] = [40.0 - 1e-9, 40.0].map(|s| curve.at(s));
         assert!((before.0 - after.0).norm() < 1e-8);
         let turn = rotation::log(curve.at(70.0).1.inverse() * curve.at(71.0).1);
@@ -371,7 +371,7 @@ mod tests {
         let n = 1000;
         let middle = |i: i32| (f64::from(i) + 0.5) / f64::from(n);
         let sum: Vector3 = (0..n).map(|i| rotation::exp(theta * middle(i)) * v).sum();
-        assert!((sum / f64::from(n) - swept(theta, v)).norm() < 1e-6);
-        assert_eq!(swept(Vector3::zeros(), v), v);
+        assert!((sum / f64::from(n) - left_jacobian_product(theta, v)).norm() < 1e-6);
+        assert_eq!(left_jacobian_product(Vector3::zeros(), v), v);
     }
 }

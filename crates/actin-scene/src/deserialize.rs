@@ -1,6 +1,6 @@
 //! Deserialization of types from the tree of values, with positions of errors.
 
-use super::meant::{meant, unknown_choice, unknown_key};
+use super::suggestion::{suggestion, unknown_choice, unknown_key};
 use super::tree::{Kind, SceneValue, Source};
 use serde::de::value::{StrDeserializer, StringDeserializer};
 use serde::de::{
@@ -17,7 +17,7 @@ pub(super) const AS_WRITTEN: &str = "$written";
 const UNNAMED: &str = "Drag";
 
 #[derive(Debug)]
-pub(super) struct Refusal {
+pub(super) struct DeserializeError {
     reason: Reason,
     /// Name of the structure or enum that the reason refers to.
     parent: String,
@@ -36,7 +36,7 @@ enum Reason {
     Message(String),
 }
 
-impl From<Reason> for Refusal {
+impl From<Reason> for DeserializeError {
     fn from(reason: Reason) -> Self {
         Self {
             reason,
@@ -47,7 +47,7 @@ impl From<Reason> for Refusal {
     }
 }
 
-impl Refusal {
+impl DeserializeError {
     fn new(at: usize, message: impl Into<String>) -> Self {
         let unplaced = Self::from(Reason::Message(message.into()));
         let at = Some(at);
@@ -59,10 +59,10 @@ impl Refusal {
         self.steps.iter().rev().copied().collect()
     }
 
-    pub(super) fn meant(&self) -> Option<String> {
+    pub(super) fn suggestion(&self) -> Option<String> {
         match &self.reason {
             Reason::UnknownKey(found, known) | Reason::UnknownChoice(found, known) => {
-                meant(found, known)
+                suggestion(found, known)
             }
             _ => None,
         }
@@ -119,7 +119,7 @@ impl Refusal {
     }
 }
 
-impl fmt::Display for Refusal {
+impl fmt::Display for DeserializeError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let parent = &self.parent;
         match &self.reason {
@@ -134,9 +134,9 @@ impl fmt::Display for Refusal {
     }
 }
 
-impl std::error::Error for Refusal {}
+impl std::error::Error for DeserializeError {}
 
-impl de::Error for Refusal {
+impl de::Error for DeserializeError {
     fn custom<T: fmt::Display>(message: T) -> Self {
         Reason::Message(message.to_string()).into()
     }
@@ -165,7 +165,7 @@ impl de::Error for Refusal {
 pub(super) fn deserialize<T: DeserializeOwned>(
     node: &SceneValue,
     text: &str,
-) -> Result<T, Refusal> {
+) -> Result<T, DeserializeError> {
     T::deserialize(Value::new(node, text))
 }
 
@@ -198,12 +198,12 @@ impl<'de> Value<'de> {
         }
     }
 
-    fn refused(&self, message: impl Into<String>) -> Refusal {
-        Refusal::new(self.node.place.value.start, message)
+    fn refused(&self, message: impl Into<String>) -> DeserializeError {
+        DeserializeError::new(self.node.place.value.start, message)
     }
 
     /// Error for a value of another kind than expected.
-    fn expected(&self, what: &str, remedy: &str) -> Refusal {
+    fn expected(&self, what: &str, remedy: &str) -> DeserializeError {
         if self.node.is_dictionary() {
             return self.refused(format!("{what} is expected, not {}", self.node));
         }
@@ -215,7 +215,7 @@ impl<'de> Value<'de> {
         }
     }
 
-    fn whole<T: TryFrom<i128>>(&self) -> Result<T, Refusal> {
+    fn whole<T: TryFrom<i128>>(&self) -> Result<T, DeserializeError> {
         let what = "a whole number";
         match self.node.kind {
             Kind::Whole(value) => {
@@ -228,13 +228,13 @@ impl<'de> Value<'de> {
                     _ => 0,
                 };
                 let at = refusal.at.map(|at| at + fraction);
-                Err(Refusal { at, ..refusal })
+                Err(DeserializeError { at, ..refusal })
             }
             _ => Err(self.expected(what, "")),
         }
     }
 
-    fn number(&self) -> Result<f64, Refusal> {
+    fn number(&self) -> Result<f64, DeserializeError> {
         match self.node.kind {
             Kind::Whole(value) => Ok(value as f64),
             Kind::Number(value) => Ok(value),
@@ -243,12 +243,12 @@ impl<'de> Value<'de> {
     }
 
     /// Error for a value that is not in round brackets after `name`, which may be empty.
-    fn unbracketed(&self, name: &str) -> Refusal {
+    fn unbracketed(&self, name: &str) -> DeserializeError {
         let node = self.node;
         match &node.kind {
             _ if node.is_dictionary() && name.is_empty() => self.expected("a list", ""),
             _ if node.is_dictionary() => self.refused(format!("{name} is a dictionary of keys")),
-            Kind::Name(found) if name.is_empty() || found == name => Refusal::new(
+            Kind::Name(found) if name.is_empty() || found == name => DeserializeError::new(
                 node.place.value.end,
                 format!("{found} requires round brackets: write {found}()"),
             ),
@@ -261,7 +261,7 @@ impl<'de> Value<'de> {
         }
     }
 
-    fn keys<V: Visitor<'de>>(self, name: &str, visitor: V) -> Result<V::Value, Refusal> {
+    fn keys<V: Visitor<'de>>(self, name: &str, visitor: V) -> Result<V::Value, DeserializeError> {
         let mut children = Children {
             value: self,
             next: 0,
@@ -270,18 +270,18 @@ impl<'de> Value<'de> {
         value.map_err(|refusal| refusal.in_structure(name, self.node, children.next.max(1) - 1))
     }
 
-    fn list<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Refusal> {
+    fn list<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, DeserializeError> {
         visitor.visit_seq(&mut Children {
             value: self,
             next: 0,
         })
     }
 
-    fn unkeyed(&self) -> Refusal {
+    fn unkeyed(&self) -> DeserializeError {
         let place = &self.node.place;
         match &self.node.kind {
             Kind::Name(name) if name.starts_with(|c: char| c.is_lowercase() || c == '_') => {
-                Refusal::new(place.value.end, "a colon is expected between key and value")
+                DeserializeError::new(place.value.end, "a colon is expected between key and value")
             }
             Kind::Number(_) | Kind::Whole(_) => self.refused(format!(
                 "a key is expected, not {}; decimals are written with a point",
@@ -293,12 +293,12 @@ impl<'de> Value<'de> {
 }
 
 impl<'de> Deserializer<'de> for Value<'de> {
-    type Error = Refusal;
+    type Error = DeserializeError;
 
-    fn deserialize_any<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Refusal> {
+    fn deserialize_any<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, DeserializeError> {
         let node = self.node;
         match &node.kind {
-            Kind::None | Kind::Unread | Kind::Refused => visitor.visit_unit(),
+            Kind::None | Kind::Invalid | Kind::Removed => visitor.visit_unit(),
             Kind::Bool(value) => visitor.visit_bool(*value),
             Kind::Whole(_) => visitor.visit_i64(self.whole()?),
             Kind::Number(value) => visitor.visit_f64(*value),
@@ -311,37 +311,37 @@ impl<'de> Deserializer<'de> for Value<'de> {
         }
     }
 
-    fn deserialize_bool<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Refusal> {
+    fn deserialize_bool<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, DeserializeError> {
         match self.node.kind {
             Kind::Bool(value) => visitor.visit_bool(value),
             _ => Err(self.expected("true or false", "")),
         }
     }
 
-    fn deserialize_i64<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Refusal> {
+    fn deserialize_i64<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, DeserializeError> {
         visitor.visit_i64(self.whole()?)
     }
 
-    fn deserialize_u64<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Refusal> {
+    fn deserialize_u64<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, DeserializeError> {
         visitor.visit_u64(self.whole()?)
     }
 
-    fn deserialize_f64<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Refusal> {
+    fn deserialize_f64<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, DeserializeError> {
         visitor.visit_f64(self.number()?)
     }
 
-    fn deserialize_str<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Refusal> {
+    fn deserialize_str<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, DeserializeError> {
         match &self.node.kind {
             Kind::Text(text) => visitor.visit_borrowed_str(text),
             _ => Err(self.expected("text", ", in quotation marks")),
         }
     }
 
-    fn deserialize_string<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Refusal> {
+    fn deserialize_string<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, DeserializeError> {
         self.deserialize_str(visitor)
     }
 
-    fn deserialize_option<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Refusal> {
+    fn deserialize_option<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, DeserializeError> {
         match self.node.kind {
             Kind::None => visitor.visit_none(),
             _ => visitor.visit_some(self),
@@ -352,16 +352,16 @@ impl<'de> Deserializer<'de> for Value<'de> {
         self,
         name: &'static str,
         visitor: V,
-    ) -> Result<V::Value, Refusal> {
+    ) -> Result<V::Value, DeserializeError> {
         if name == AS_WRITTEN {
             let written = self.written().trim().to_owned();
-            let written: StringDeserializer<Refusal> = written.into_deserializer();
+            let written: StringDeserializer<DeserializeError> = written.into_deserializer();
             return visitor.visit_newtype_struct(written);
         }
         visitor.visit_newtype_struct(self)
     }
 
-    fn deserialize_seq<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Refusal> {
+    fn deserialize_seq<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, DeserializeError> {
         match self.node.kind {
             Kind::List(_) => self.list(visitor),
             _ => Err(self.expected("a list", ", in square brackets")),
@@ -372,7 +372,7 @@ impl<'de> Deserializer<'de> for Value<'de> {
         self,
         count: usize,
         visitor: V,
-    ) -> Result<V::Value, Refusal> {
+    ) -> Result<V::Value, DeserializeError> {
         let node = self.node;
         match &node.kind {
             Kind::List(_) if node.is_dictionary() => {}
@@ -384,7 +384,7 @@ impl<'de> Deserializer<'de> for Value<'de> {
             return self.list(visitor);
         }
         let checked = (0..values.len()).try_for_each(|i| match values[i].kind {
-            Kind::Unread => Err(self.child(i).expected("a number", "").under(i, &values[i])),
+            Kind::Invalid => Err(self.child(i).expected("a number", "").under(i, &values[i])),
             _ => Ok(()),
         });
         checked?;
@@ -393,7 +393,7 @@ impl<'de> Deserializer<'de> for Value<'de> {
         let at = at.or(place.close).unwrap_or(place.value.start);
         let found = values.len();
         let message = format!("{count} numbers are expected, not {found}");
-        Err(Refusal::new(at, message))
+        Err(DeserializeError::new(at, message))
     }
 
     fn deserialize_struct<V: Visitor<'de>>(
@@ -401,7 +401,7 @@ impl<'de> Deserializer<'de> for Value<'de> {
         name: &'static str,
         _fields: &'static [&'static str],
         visitor: V,
-    ) -> Result<V::Value, Refusal> {
+    ) -> Result<V::Value, DeserializeError> {
         match &self.node.kind {
             Kind::Group(Some(found), _) if !self.is_chosen && found != name => {
                 Err(self.refused(format!("{name} is expected, not {found}")))
@@ -416,7 +416,7 @@ impl<'de> Deserializer<'de> for Value<'de> {
         kind: &'static str,
         choices: &'static [&'static str],
         visitor: V,
-    ) -> Result<V::Value, Refusal> {
+    ) -> Result<V::Value, DeserializeError> {
         let node = self.node;
         match &node.kind {
             Kind::Name(_) | Kind::Group(Some(_), _) => {}
@@ -441,7 +441,10 @@ impl<'de> Deserializer<'de> for Value<'de> {
         value.map_err(|refusal| refusal.in_choice(kind, node))
     }
 
-    fn deserialize_ignored_any<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Refusal> {
+    fn deserialize_ignored_any<V: Visitor<'de>>(
+        self,
+        visitor: V,
+    ) -> Result<V::Value, DeserializeError> {
         visitor.visit_unit()
     }
 
@@ -459,7 +462,7 @@ impl<'de> Children<'de> {
     /// Returns the next value that has not been refused.
     fn next(&mut self) -> Option<Value<'de>> {
         let all = self.value.node.children();
-        while matches!(all.get(self.next)?.kind, Kind::Refused) {
+        while matches!(all.get(self.next)?.kind, Kind::Removed) {
             self.next += 1;
         }
         self.next += 1;
@@ -468,12 +471,12 @@ impl<'de> Children<'de> {
 }
 
 impl<'de> SeqAccess<'de> for &mut Children<'de> {
-    type Error = Refusal;
+    type Error = DeserializeError;
 
     fn next_element_seed<T: DeserializeSeed<'de>>(
         &mut self,
         seed: T,
-    ) -> Result<Option<T::Value>, Refusal> {
+    ) -> Result<Option<T::Value>, DeserializeError> {
         let Some(value) = self.next() else {
             return Ok(None);
         };
@@ -485,23 +488,26 @@ impl<'de> SeqAccess<'de> for &mut Children<'de> {
 }
 
 impl<'de> MapAccess<'de> for &mut Children<'de> {
-    type Error = Refusal;
+    type Error = DeserializeError;
 
     fn next_key_seed<K: DeserializeSeed<'de>>(
         &mut self,
         seed: K,
-    ) -> Result<Option<K::Value>, Refusal> {
+    ) -> Result<Option<K::Value>, DeserializeError> {
         let Some(value) = self.next() else {
             return Ok(None);
         };
         let Some(key) = &value.node.key else {
             return Err(value.unkeyed().under(self.next - 1, value.node));
         };
-        let key: StrDeserializer<'_, Refusal> = key.as_str().into_deserializer();
+        let key: StrDeserializer<'_, DeserializeError> = key.as_str().into_deserializer();
         seed.deserialize(key).map(Some)
     }
 
-    fn next_value_seed<T: DeserializeSeed<'de>>(&mut self, seed: T) -> Result<T::Value, Refusal> {
+    fn next_value_seed<T: DeserializeSeed<'de>>(
+        &mut self,
+        seed: T,
+    ) -> Result<T::Value, DeserializeError> {
         let index = self.next - 1;
         let value = self.value.child(index);
         let read = seed.deserialize(value);
@@ -522,7 +528,7 @@ impl<'de> Choice<'de> {
         }
     }
 
-    fn inner(&self) -> Result<Value<'de>, Refusal> {
+    fn inner(&self) -> Result<Value<'de>, DeserializeError> {
         let (value, name) = (self.value, self.name());
         match value.node.kind {
             Kind::Group(..) => Ok(Value {
@@ -538,19 +544,22 @@ impl<'de> Choice<'de> {
 }
 
 impl<'de> EnumAccess<'de> for Choice<'de> {
-    type Error = Refusal;
+    type Error = DeserializeError;
     type Variant = Self;
 
-    fn variant_seed<V: DeserializeSeed<'de>>(self, seed: V) -> Result<(V::Value, Self), Refusal> {
-        let name: StrDeserializer<'_, Refusal> = self.name().into_deserializer();
+    fn variant_seed<V: DeserializeSeed<'de>>(
+        self,
+        seed: V,
+    ) -> Result<(V::Value, Self), DeserializeError> {
+        let name: StrDeserializer<'_, DeserializeError> = self.name().into_deserializer();
         Ok((seed.deserialize(name)?, self))
     }
 }
 
 impl<'de> VariantAccess<'de> for Choice<'de> {
-    type Error = Refusal;
+    type Error = DeserializeError;
 
-    fn unit_variant(self) -> Result<(), Refusal> {
+    fn unit_variant(self) -> Result<(), DeserializeError> {
         let (node, name) = (self.value.node, self.name());
         match node.kind {
             Kind::Group(..) if node.is_dictionary() => Err(self
@@ -559,17 +568,24 @@ impl<'de> VariantAccess<'de> for Choice<'de> {
             Kind::Group(..) => {
                 let at = node.place.open.unwrap_or(node.place.value.start);
                 let message = "a choice without keys is written without brackets";
-                Err(Refusal::new(at, message))
+                Err(DeserializeError::new(at, message))
             }
             _ => Ok(()),
         }
     }
 
-    fn newtype_variant_seed<T: DeserializeSeed<'de>>(self, seed: T) -> Result<T::Value, Refusal> {
+    fn newtype_variant_seed<T: DeserializeSeed<'de>>(
+        self,
+        seed: T,
+    ) -> Result<T::Value, DeserializeError> {
         seed.deserialize(self.inner()?)
     }
 
-    fn tuple_variant<V: Visitor<'de>>(self, _: usize, visitor: V) -> Result<V::Value, Refusal> {
+    fn tuple_variant<V: Visitor<'de>>(
+        self,
+        _: usize,
+        visitor: V,
+    ) -> Result<V::Value, DeserializeError> {
         self.inner()?.list(visitor)
     }
 
@@ -577,7 +593,7 @@ impl<'de> VariantAccess<'de> for Choice<'de> {
         self,
         _fields: &'static [&'static str],
         visitor: V,
-    ) -> Result<V::Value, Refusal> {
+    ) -> Result<V::Value, DeserializeError> {
         self.inner()?.keys(self.name(), visitor)
     }
 }

@@ -53,7 +53,7 @@ impl RodLaw {
     }
 
     /// Returns whether the shear stiffness increases from a small value at rest.
-    pub fn shears_softly(&self) -> bool {
+    pub fn has_soft_shear(&self) -> bool {
         match self {
             Self::Laws(laws) => laws.shear.is_some(),
             law => !law.is_published(),

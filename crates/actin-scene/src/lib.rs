@@ -8,6 +8,7 @@
 #[doc = include_str!("../README.md")]
 struct Readme;
 
+mod adaptive_resolution;
 mod arrangement;
 mod brackets;
 mod brownian;
@@ -17,7 +18,6 @@ mod drag;
 mod factor;
 mod fitted;
 mod flow;
-mod following;
 mod imperfection;
 mod kinetics;
 mod law;
@@ -26,7 +26,6 @@ mod linkers_between;
 mod load;
 mod load_rules;
 mod magnitude;
-mod meant;
 mod model;
 mod observable;
 mod parse;
@@ -39,6 +38,7 @@ mod read;
 mod repulsion;
 mod rules;
 mod saddles;
+mod scene_file;
 #[cfg(feature = "schema")]
 mod schema;
 mod section;
@@ -48,6 +48,7 @@ mod seeds;
 mod serialize;
 mod shape;
 mod stage;
+mod suggestion;
 mod support;
 mod text;
 mod thermal;
@@ -55,21 +56,20 @@ mod trace;
 mod tree;
 mod types;
 mod validate;
-mod written;
 
 pub use actin_cosserat::{
     CubicShear, PolynomialStretch, RootedStretch, SidedTwist, Stiffening, StretchLaw, TanhTwist,
     TwistRise, TwistStretch as TwistStretchLaw,
 };
+pub use adaptive_resolution::{AdaptiveResolution, RefinementCriterion};
 pub(crate) use arrangement::Arrangement;
 pub use brownian::{Brownian, Fluid, Interfaces, Water};
-pub use curve::{Curve, swept};
+pub use curve::{Curve, left_jacobian_product};
 pub use drag::{DragModel, DragRates};
 pub use factor::Factor;
 pub use factor::smooth;
 pub use fitted::laws as fitted_laws;
 pub use flow::Flow;
-pub use following::{Following, Where};
 pub use imperfection::Imperfection;
 pub use kinetics::{Breaking, Catch, Forming, Kinetics, Stepping};
 pub use law::{BendLaw, RodLaw, RodLaws, ShearLaw, TwistLaw};
@@ -81,15 +81,15 @@ pub use model::{
     Anchors, ForceLaw, JunctionModel, JunctionWeight, Material, Monomers, RodModel, RotaryInertia,
 };
 pub use observable::{Observable, Output, Point};
-pub use place::HeldEnds;
+pub use place::ClampedEnds;
 pub use problem::{SceneError, SceneProblem};
-pub use read::{Readings, read_all, read_ron, to_ron};
+pub use read::{ParseReport, read_all, read_ron, to_ron};
 pub use repulsion::{Plane, Repulsion, Sphere, SphereSide};
 #[cfg(feature = "schema")]
 pub use schema::schema;
-pub use section::{Altered, AlteredRod, Section};
-pub use sections::{Adaptive, Quantity, Sections, Want};
-pub use seeds::Drawn;
+pub use section::{MonomerChanges, RodChanges, Section};
+pub use sections::{Adaptive, Quantity, Sections, Target};
+pub use seeds::RandomPart;
 pub use shape::Shape;
 pub use stage::unset_loads;
 pub use support::is_across;
@@ -97,7 +97,7 @@ pub use text::{Override, SceneText};
 pub use thermal::{BOLTZMANN_PN_NM_PER_K, Thermal};
 pub use tree::{Kind as SceneKind, SceneValue};
 pub use types::{
-    Clamp, Dynamics, End, Equilibrium, Filament, Hinge, Hold, Integrator, Pace, Scene, Setting,
-    Slides, Stage, StopTolerances, Task,
+    Clamp, Dynamics, End, Equilibrium, Filament, FreeTranslation, Hinge, Hold, Integrator, Scene,
+    Setting, Stage, StopTolerances, Task, TimeCourse,
 };
-pub use validate::MOST_COUNTED;
+pub use validate::MAX_EXACT_INTEGER;

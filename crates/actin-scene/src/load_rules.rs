@@ -2,14 +2,15 @@
 
 use super::rules::{all_finite, check_exactly_one, show};
 use super::{
-    Couple, Dynamics, Force, HeldEnds, Hold, Load, Resultant, Scene, SceneProblem, Slides,
+    ClampedEnds, Couple, Dynamics, Force, FreeTranslation, Hold, Load, Resultant, Scene,
+    SceneProblem,
 };
 
 impl Load {
     pub(super) fn check(
         &self,
         i: usize,
-        (scene, held): (&Scene, &HeldEnds),
+        (scene, held): (&Scene, &ClampedEnds),
     ) -> Result<(), SceneProblem> {
         let key = format!("loads[{i}]");
         scene.named_filament(&format!("{key}.filament"), self.filament())?;
@@ -67,7 +68,11 @@ impl Load {
     }
 
     /// Refuses a force on an end that cannot move and a couple on an end that cannot rotate.
-    fn check_end(&self, key: &str, (scene, held): (&Scene, &HeldEnds)) -> Result<(), SceneProblem> {
+    fn check_end(
+        &self,
+        key: &str,
+        (scene, held): (&Scene, &ClampedEnds),
+    ) -> Result<(), SceneProblem> {
         let Some(end) = self.end() else {
             return Ok(());
         };
@@ -80,7 +85,7 @@ impl Load {
             return Ok(());
         } else if is_couple {
             "this end is clamped: a couple on it has no effect"
-        } else if clamp.slides == Slides::Nowhere {
+        } else if clamp.slides == FreeTranslation::Nowhere {
             "this end is clamped: a force on it has no effect"
         } else {
             return Ok(());

@@ -95,7 +95,7 @@ pub struct RodModel {
 
 impl RodModel {
     /// Creates a rod model with this law and default parameters.
-    pub fn of_law(law: RodLaw) -> Self {
+    pub fn with_law(law: RodLaw) -> Self {
         Self {
             law,
             ..Self::default()
@@ -183,7 +183,7 @@ impl Default for Monomers {
 
 impl Monomers {
     /// Creates default monomers with this number of sampled bonds per interface.
-    pub fn drawn(bonds: usize, seed: u64) -> Self {
+    pub fn with_sampled_bonds(bonds: usize, seed: u64) -> Self {
         Self {
             seed,
             anchors: Anchors::Independent,
@@ -195,16 +195,16 @@ impl Monomers {
 
     /// Returns the harmonic mean of the numbers of lateral and longitudinal bonds for `Independent` bonds, otherwise
     /// `None`.
-    pub fn drawn_bonds(&self) -> Option<usize> {
+    pub fn sampled_bonds(&self) -> Option<usize> {
         let (a, b) = (self.lateral_bonds, self.longitudinal_bonds);
         (self.anchors == Anchors::Independent).then(|| 2 * a * b / (a + b))
     }
 
     /// Creates default monomers with this number of quadrature bonds per interface.
-    pub fn weighted(points: usize) -> Self {
+    pub fn with_quadrature_bonds(points: usize) -> Self {
         Self {
             anchors: Anchors::Cubature,
-            ..Self::drawn(points, 0)
+            ..Self::with_sampled_bonds(points, 0)
         }
     }
 
@@ -332,9 +332,12 @@ mod tests {
         assert_eq!(bonds("anchors: Cubature, longitudinal_bonds: 16"), (12, 16));
         assert_eq!(bonds(""), (12, 12));
         assert_eq!(monomers(""), Monomers::default());
-        assert_eq!(monomers("anchors: Cubature"), Monomers::weighted(12));
-        assert_eq!(Monomers::default(), Monomers::weighted(12));
+        assert_eq!(
+            monomers("anchors: Cubature"),
+            Monomers::with_quadrature_bonds(12)
+        );
+        assert_eq!(Monomers::default(), Monomers::with_quadrature_bonds(12));
         let drawn = "anchors: Independent, lateral_bonds: 9, longitudinal_bonds: 9, seed: 4";
-        assert_eq!(monomers(drawn), Monomers::drawn(9, 4));
+        assert_eq!(monomers(drawn), Monomers::with_sampled_bonds(9, 4));
     }
 }

@@ -1,7 +1,7 @@
 //! Observables and output files of a scene, and their validation.
 
 use super::rules::{non_negative, positive, show};
-use super::{End, HeldEnds, Linker, Scene, SceneProblem, Section};
+use super::{ClampedEnds, End, Linker, Scene, SceneProblem, Section};
 use serde::{Deserialize, Serialize};
 use std::collections::HashSet;
 
@@ -205,7 +205,7 @@ impl Observable {
         }
     }
 
-    fn check(self, i: usize, (scene, held): (&Scene, &HeldEnds)) -> Result<(), SceneProblem> {
+    fn check(self, i: usize, (scene, held): (&Scene, &ClampedEnds)) -> Result<(), SceneProblem> {
         let key = format!("observe[{i}]");
         let length = match self.filament() {
             None => 0.0,
@@ -220,11 +220,11 @@ impl Observable {
     fn check_own(
         self,
         key: &dyn Fn(&str) -> String,
-        (scene, held): (&Scene, &HeldEnds),
+        (scene, held): (&Scene, &ClampedEnds),
         length: f64,
     ) -> Result<(), SceneProblem> {
         match self {
-            Self::EndReaction { filament, end } if !held.is_held(filament, end) => {
+            Self::EndReaction { filament, end } if !held.is_clamped(filament, end) => {
                 let rule = "this end is free: clamp it, or omit the observable";
                 Err(SceneProblem::new(key("end"), show(end), rule))
             }
@@ -279,7 +279,7 @@ fn check_lag(scene: &Scene, key: &str, lag_ns: f64) -> Result<(), SceneProblem> 
 
 pub(super) fn check_all(
     scene: &Scene,
-    held: &HeldEnds,
+    held: &ClampedEnds,
     note: &mut impl FnMut(Result<(), SceneProblem>),
 ) {
     let mut before = HashSet::new();
@@ -315,7 +315,7 @@ fn check_burn_in(scene: &Scene) -> Result<(), SceneProblem> {
 impl Scene {
     /// Returns a cause other than thermal noise that changes the tangents of a filament, so that their
     /// correlation does not determine the persistence length.
-    pub fn bends_besides_heat(&self, filament: usize) -> Option<&'static str> {
+    pub fn nonthermal_bending_cause(&self, filament: usize) -> Option<&'static str> {
         let written = self.filament_at(filament)?;
         let is_curved = |section: &Section| match section {
             Section::Rod { altered, .. } => altered

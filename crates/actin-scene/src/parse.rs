@@ -1,7 +1,7 @@
 //! Parser of RON and JSON. It continues after a mistake and finds further ones.
 
 use super::position::without_mark;
-use super::tree::{Kind, Place, SceneValue, Source};
+use super::tree::{Kind, SceneValue, Source, TextSpan};
 
 /// Largest depth of brackets.
 pub(super) const MOST_DEPTH: usize = 128;
@@ -154,7 +154,7 @@ impl<'a> Parser<'a> {
         self.skip_blank();
         while !self.opens.is_empty() && !self.is_at_end() {
             let key = self.key_without_colon(&value);
-            if !value.place.is_mistaken && value.kind != Kind::Unread {
+            if !value.place.is_mistaken && value.kind != Kind::Invalid {
                 let mistake = self.unseparated(&value, key.is_some(), end);
                 self.mistakes.push(mistake);
             }
@@ -187,7 +187,7 @@ impl<'a> Parser<'a> {
     /// Returns `true` if the next element of a list or vector follows `value` without a comma.
     fn begins_next(&self, value: &SceneValue, is_key: bool) -> bool {
         let begins = |c: char| c.is_ascii_digit() || c.is_uppercase() || "+-.\"".contains(c);
-        let is_element = value.key.is_none() && !is_key && value.kind != Kind::Unread;
+        let is_element = value.key.is_none() && !is_key && value.kind != Kind::Invalid;
         is_element && self.rest().starts_with(begins)
     }
 
@@ -255,15 +255,15 @@ impl<'a> Parser<'a> {
 
     fn value(&mut self) -> SceneValue {
         let start = self.at;
-        let mut place = Place {
+        let mut place = TextSpan {
             source: self.source,
             start,
-            ..Place::default()
+            ..TextSpan::default()
         };
         let rest = self.rest();
         let number = number(rest);
         let mut kind = match rest.chars().next() {
-            None | Some(',' | ')' | ']' | '}') => Kind::Unread,
+            None | Some(',' | ')' | ']' | '}') => Kind::Invalid,
             Some('"') => self.string(),
             Some('r') if rest[1..].trim_start_matches('#').starts_with('"') => self.raw_string(),
             Some('(' | '[' | '{') => self.group(None, &mut place),
@@ -275,7 +275,7 @@ impl<'a> Parser<'a> {
             Some(c) if is_part(c) => self.named(&mut place),
             Some(c) => {
                 self.at += c.len_utf8();
-                Kind::Unread
+                Kind::Invalid
             }
         };
         if self.source == Source::Json {
@@ -286,7 +286,7 @@ impl<'a> Parser<'a> {
         SceneValue { key, kind, place }
     }
 
-    fn named(&mut self, place: &mut Place) -> Kind {
+    fn named(&mut self, place: &mut TextSpan) -> Kind {
         let name = word(self.rest()).to_owned();
         self.at += name.len();
         let end = self.at;
@@ -313,12 +313,12 @@ impl<'a> Parser<'a> {
         }
     }
 
-    fn group(&mut self, name: Option<String>, place: &mut Place) -> Kind {
+    fn group(&mut self, name: Option<String>, place: &mut TextSpan) -> Kind {
         let open = self.at;
         if self.opens.len() == MOST_DEPTH {
             self.brackets.too_deep = Some(open);
             self.at = self.text.len();
-            return Kind::Unread;
+            return Kind::Invalid;
         }
         let bracket = self.text.as_bytes()[open] as char;
         self.at += 1;
@@ -333,7 +333,7 @@ impl<'a> Parser<'a> {
     }
 
     /// Parses values up to a closing bracket. A bracket that closes an outer value is not consumed.
-    fn elements(&mut self, place: &mut Place) -> Vec<SceneValue> {
+    fn elements(&mut self, place: &mut TextSpan) -> Vec<SceneValue> {
         let depth = self.opens.len();
         let (mut values, mut is_separated) = (Vec::new(), true);
         loop {
@@ -373,12 +373,12 @@ impl<'a> Parser<'a> {
             ']' => '[',
             _ => '{',
         };
-        let meant = self.opens.iter().rposition(|open| open.0 == opening);
-        let is_last = meant.is_some_and(|meant| meant + 1 == self.opens.len());
+        let suggestion = self.opens.iter().rposition(|open| open.0 == opening);
+        let is_last = suggestion.is_some_and(|suggestion| suggestion + 1 == self.opens.len());
         if let (Some((_, open)), false) = (self.opens.pop(), is_last) {
             self.brackets.misfit.get_or_insert((self.at, open));
         }
-        let is_closed = is_last || meant.is_none();
+        let is_closed = is_last || suggestion.is_none();
         if is_closed {
             self.at += 1;
         } else {
@@ -413,7 +413,7 @@ impl<'a> Parser<'a> {
         if is_text && end.is_some() {
             Kind::Text(text)
         } else {
-            Kind::Unread
+            Kind::Invalid
         }
     }
 
@@ -424,7 +424,7 @@ impl<'a> Parser<'a> {
         self.at = start;
         self.skip_to(&end);
         let text = self.text[start..self.at].strip_suffix(&end);
-        text.map_or(Kind::Unread, |text| Kind::Text(text.to_owned()))
+        text.map_or(Kind::Invalid, |text| Kind::Text(text.to_owned()))
     }
 }
 
@@ -494,7 +494,7 @@ fn number_kind(text: &str) -> Kind {
     match (whole, text.parse()) {
         (Ok(whole), _) => Kind::Whole(sign * whole),
         (_, Ok(number)) => Kind::Number(number),
-        _ => Kind::Unread,
+        _ => Kind::Invalid,
     }
 }
 

@@ -70,7 +70,7 @@ mod tests {
         Stage {
             set: factors.iter().map(set).collect(),
             duration_ns: None,
-            pace: crate::Pace::Smooth,
+            pace: crate::TimeCourse::Smooth,
         }
     }
 

@@ -3,7 +3,8 @@
 use super::curve::Curve;
 use super::types::along_z;
 use super::{
-    End, Filament, Hold, JunctionModel, Monomers, RodModel, Scene, SceneProblem, Section, Slides,
+    End, Filament, FreeTranslation, Hold, JunctionModel, Monomers, RodModel, Scene, SceneProblem,
+    Section,
 };
 use actin_mechanics::{UnitQuaternion, Vector3};
 use nalgebra::Quaternion;
@@ -60,7 +61,7 @@ impl Filament {
     /// Returns the reference positions (lab frame, nm) of the axis at arc lengths (nm).
     pub(crate) fn places_at(&self, s_nm: &[f64]) -> Vec<Vector3> {
         let (at, turn) = (Vector3::from(self.at_nm), self.rotation());
-        let curve = Curve::of(self, &self.boundaries());
+        let curve = Curve::new(self, &self.boundaries());
         s_nm.iter().map(|s| at + turn * curve.at(*s).0).collect()
     }
 
@@ -84,7 +85,7 @@ impl Filament {
             End::Start => 0.0,
             End::End => self.length_nm(),
         };
-        let (_, frame) = Curve::of(self, &self.boundaries()).at(s_nm);
+        let (_, frame) = Curve::new(self, &self.boundaries()).at(s_nm);
         self.rotation() * frame * Vector3::z()
     }
 
@@ -110,30 +111,30 @@ impl Filament {
 impl Scene {
     /// Iterates over all filaments in the order of their indices.
     pub fn filaments(&self) -> impl Iterator<Item = &Filament> {
-        std::iter::once(&self.filament).chain(&self.further)
+        std::iter::once(&self.filament).chain(&self.other_filaments)
     }
 
     /// Iterates mutably over all filaments.
     pub fn filaments_mut(&mut self) -> impl Iterator<Item = &mut Filament> {
-        std::iter::once(&mut self.filament).chain(&mut self.further)
+        std::iter::once(&mut self.filament).chain(&mut self.other_filaments)
     }
 
     /// Returns the number of filaments.
     pub fn number_of_filaments(&self) -> usize {
-        1 + self.further.len()
+        1 + self.other_filaments.len()
     }
 
     /// Returns a filament by its index.
     pub fn filament_at(&self, index: usize) -> Option<&Filament> {
         match index.checked_sub(1) {
             None => Some(&self.filament),
-            Some(further) => self.further.get(further),
+            Some(further) => self.other_filaments.get(further),
         }
     }
 
     /// Returns the key of a filament in the text of the scene.
     pub fn filament_key(&self, index: usize) -> String {
-        if self.further.is_empty() {
+        if self.other_filaments.is_empty() {
             "filament".to_owned()
         } else {
             format!("filaments[{index}]")
@@ -161,15 +162,15 @@ impl Scene {
 
 /// Clamps by filament and end.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct HeldEnds {
+pub struct ClampedEnds {
     clamps: Vec<[Option<usize>; 2]>,
     fixed: Vec<[Option<usize>; 2]>,
     turned: Vec<[Option<usize>; 2]>,
 }
 
-impl HeldEnds {
+impl ClampedEnds {
     /// Finds the clamps of a scene. The first clamp of an end counts; invalid filament indices are skipped.
-    pub fn of(scene: &Scene) -> Self {
+    pub fn new(scene: &Scene) -> Self {
         let mut held = vec![[None; 2]; scene.number_of_filaments()];
         for (i, clamp) in scene.clamps.iter().enumerate() {
             if let Some(ends) = held.get_mut(clamp.filament) {
@@ -204,12 +205,12 @@ impl HeldEnds {
     }
 
     /// Returns whether an end is clamped.
-    pub(crate) fn is_held(&self, filament: usize, end: End) -> bool {
+    pub(crate) fn is_clamped(&self, filament: usize, end: End) -> bool {
         self.clamp_at(filament, end).is_some()
     }
 }
 
-impl Slides {
+impl FreeTranslation {
     /// Returns the orthonormal free directions (lab frame) for an axis as built.
     pub fn directions(self, axis: Vector3) -> Vec<Vector3> {
         match self {

@@ -28,7 +28,7 @@ impl Printer {
             Kind::Number(value) => write!(self.text, "{value:?}"),
             Kind::Text(value) => write!(self.text, "{value:?}"),
             Kind::Name(name) => write!(self.text, "{name}"),
-            Kind::Unread | Kind::Refused => Ok(()),
+            Kind::Invalid | Kind::Removed => Ok(()),
             Kind::List(values) => {
                 self.text.push('[');
                 self.inline(values, level);

@@ -60,7 +60,7 @@ pub struct SceneError {
     /// Override that causes the error, as `key=value`; `None` if the text causes it.
     pub set: Option<String>,
     /// Closest known key or choice, if any.
-    pub meant: Option<String>,
+    pub suggestion: Option<String>,
     /// Description of the error.
     pub message: String,
 }
@@ -85,7 +85,7 @@ impl SceneError {
             line,
             column,
             set: None,
-            meant: None,
+            suggestion: None,
             message: cut(&message, LONGEST_MESSAGE).into_owned(),
         }
     }

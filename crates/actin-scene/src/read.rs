@@ -4,7 +4,7 @@ use super::deserialize::deserialize;
 use super::position::{line_and_column, without_mark};
 use super::print::print;
 use super::{RodLaw, RodLaws, Scene, SceneError, SceneProblem, SceneText, SceneValue};
-use super::{serialize, trace, validate::validate, written::Written};
+use super::{scene_file::SceneFile, serialize, trace, validate::validate};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 use std::path::Path;
@@ -79,9 +79,9 @@ impl Scene {
         if let Some(folder) = folder {
             trace::read_points(&mut value, folder)?;
         }
-        let written: Written = deserialize(&value, "").map_err(|refusal| {
-            let rule = match refusal.meant() {
-                Some(meant) => format!("{refusal}; did you mean {meant}?"),
+        let written: SceneFile = deserialize(&value, "").map_err(|refusal| {
+            let rule = match refusal.suggestion() {
+                Some(suggestion) => format!("{refusal}; did you mean {suggestion}?"),
                 None => refusal.to_string(),
             };
             SceneProblem::new(value.path(&refusal.indices()), "", rule)
@@ -111,14 +111,14 @@ pub fn read_ron<T: DeserializeOwned>(text: &str, name: &str) -> Result<T, SceneE
 
 /// Value of a text, and all mistakes in it.
 #[derive(Clone, Debug)]
-pub struct Readings<T> {
+pub struct ParseReport<T> {
     /// Value without unknown keys; `None` if it cannot be determined.
     pub value: Option<T>,
     /// Independent mistakes in the order of the text.
     pub mistakes: Vec<SceneError>,
 }
 
-impl<T> Readings<T> {
+impl<T> ParseReport<T> {
     pub(super) fn into_result(self) -> Result<T, SceneError> {
         match (self.value, self.mistakes.into_iter().next()) {
             (Some(value), None) => Ok(value),
@@ -130,7 +130,7 @@ impl<T> Readings<T> {
 
 /// Reads a structure like [`read_ron`], and returns up to 20 mistakes instead of only the first. Texts longer
 /// than 100 kB have fewer.
-pub fn read_all<T: DeserializeOwned>(text: &str, name: &str) -> Readings<T> {
+pub fn read_all<T: DeserializeOwned>(text: &str, name: &str) -> ParseReport<T> {
     SceneText::named(text, name).readings()
 }
 

@@ -1,13 +1,13 @@
 //! JSON schema of scenes.
 
-use super::written::Written;
+use super::scene_file::SceneFile;
 use serde_json::Value;
 
 /// Returns the JSON schema of a scene, with the type, default and meaning of every key. `Name(key: value)` of
 /// an enum is an object with the single key `Name`. Relations between numbers are described in words;
 /// [`crate::Scene::from_ron`] checks them.
 pub fn schema() -> Value {
-    schemars::schema_for!(Written).to_value()
+    schemars::schema_for!(SceneFile).to_value()
 }
 
 #[cfg(test)]

@@ -20,7 +20,7 @@ pub enum Section {
         /// Parameters that differ from `monomers` of the filament. They differ between adjacent sections of
         /// monomers.
         #[serde(default, skip_serializing_if = "Option::is_none")]
-        altered: Option<Altered>,
+        altered: Option<MonomerChanges>,
     },
     /// Cosserat rod.
     Rod {
@@ -34,7 +34,7 @@ pub enum Section {
         /// Parameters that differ from `rod` of the filament. They differ between adjacent rods. Adjacent rods
         /// share the cross-section at the boundary, where half a segment of each bends in series.
         #[serde(default, skip_serializing_if = "Option::is_none")]
-        altered: Option<Box<AlteredRod>>,
+        altered: Option<Box<RodChanges>>,
     },
 }
 
@@ -42,7 +42,8 @@ pub enum Section {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, default)]
-pub struct AlteredRod {
+#[serde(rename = "AlteredRod")]
+pub struct RodChanges {
     /// Constitutive law; by default the law of the filament.
     pub law: Option<RodLaw>,
     /// Rigidities; by default the rigidities of the filament. The same laws require the default material.
@@ -62,7 +63,7 @@ pub struct AlteredRod {
     pub rest_twist_per_nm: f64,
 }
 
-impl Default for AlteredRod {
+impl Default for RodChanges {
     fn default() -> Self {
         Self {
             law: None,
@@ -77,7 +78,7 @@ impl Default for AlteredRod {
     }
 }
 
-impl AlteredRod {
+impl RodChanges {
     /// Returns the factors of the rigidities.
     pub fn factors(&self) -> RigidityFactors {
         RigidityFactors {
@@ -105,7 +106,8 @@ impl AlteredRod {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, default)]
-pub struct Altered {
+#[serde(rename = "Altered")]
+pub struct MonomerChanges {
     /// Factor of the rigidity of lateral interfaces; positive.
     pub lateral_rigidity_factor: f64,
     /// Factor of the rigidity of longitudinal interfaces; positive.
@@ -118,7 +120,7 @@ pub struct Altered {
     pub mass_factor: f64,
 }
 
-impl Default for Altered {
+impl Default for MonomerChanges {
     fn default() -> Self {
         Self {
             lateral_rigidity_factor: 1.0,
@@ -130,7 +132,7 @@ impl Default for Altered {
     }
 }
 
-impl Altered {
+impl MonomerChanges {
     /// Returns altered monomers.
     pub(crate) fn applied_to(&self, monomers: &Monomers) -> Monomers {
         let mut altered = monomers.clone();
@@ -162,7 +164,7 @@ impl Section {
     }
 
     /// Returns the altered parameters of a rod.
-    pub fn altered_rod(&self) -> Option<&AlteredRod> {
+    pub fn altered_rod(&self) -> Option<&RodChanges> {
         match self {
             Self::Rod { altered, .. } => altered.as_deref(),
             Self::Ellipsoids { .. } => None,
@@ -170,7 +172,7 @@ impl Section {
     }
 
     /// Returns the altered parameters of a rod, mutably.
-    pub fn altered_rod_mut(&mut self) -> Option<&mut AlteredRod> {
+    pub fn altered_rod_mut(&mut self) -> Option<&mut RodChanges> {
         match self {
             Self::Rod { altered, .. } => altered.as_deref_mut(),
             Self::Ellipsoids { .. } => None,
@@ -196,7 +198,7 @@ impl Section {
     }
 
     /// Returns the altered parameters of monomers.
-    pub(crate) fn altered(&self) -> Option<Altered> {
+    pub(crate) fn altered(&self) -> Option<MonomerChanges> {
         match self {
             Self::Ellipsoids { altered, .. } => *altered,
             Self::Rod { .. } => None,

@@ -3,7 +3,7 @@
 use super::rules::{check_curvature, each_positive, finite, non_negative, positive, show};
 use super::sections::check_adaptive;
 use super::validate::check_bonds;
-use super::{AlteredRod, Filament, Material, SceneProblem, Section};
+use super::{Filament, Material, RodChanges, SceneProblem, Section};
 
 const BOUNDARY_TOLERANCE_NM: f64 = 1e-9;
 
@@ -35,7 +35,7 @@ pub(super) fn check(filament: &Filament, note: &mut impl FnMut(Result<(), SceneP
     }
 }
 
-fn check_altered_rod(key: &str, altered: &AlteredRod) -> Result<(), SceneProblem> {
+fn check_altered_rod(key: &str, altered: &RodChanges) -> Result<(), SceneProblem> {
     for (name, factor) in [
         ("bend_rigidity_factor", altered.bend_rigidity_factor),
         ("twist_rigidity_factor", altered.twist_rigidity_factor),

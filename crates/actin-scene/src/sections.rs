@@ -1,7 +1,7 @@
 //! Sections of a filament: listed, chosen by the program, or adapted during a motion.
 
 use super::rules::{positive, show};
-use super::{Following, SceneProblem, Section};
+use super::{AdaptiveResolution, SceneProblem, Section};
 use serde::de::value::SeqAccessDeserializer;
 use serde::de::{EnumAccess, Error as _, SeqAccess, Unexpected, VariantAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
@@ -32,7 +32,7 @@ impl PartialEq for Sections {
 #[serde(rename = "Sections")]
 enum AutoSections {
     Adaptive(Adaptive),
-    Following(Following),
+    Following(AdaptiveResolution),
 }
 
 /// Automatic choice of sections before a run, for target accuracies. The program compares monomers, rods, and
@@ -47,10 +47,10 @@ pub struct Adaptive {
     /// Length of the filament; positive. It is rounded to a whole number of monomers.
     pub length_nm: f64,
     /// Target quantity, with its largest error relative to a filament of monomers.
-    pub want: Want,
+    pub want: Target,
     /// Further target quantities.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub also: Vec<Want>,
+    pub also: Vec<Target>,
     /// Largest number of resolved monomers; at least 13, a period of the helix. If the target errors require
     /// more, the program chooses the resolution with the smallest error and warns.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -59,7 +59,7 @@ pub struct Adaptive {
 
 impl Adaptive {
     /// Returns all target quantities.
-    pub fn wants(&self) -> impl Iterator<Item = &Want> + Clone {
+    pub fn targets(&self) -> impl Iterator<Item = &Target> + Clone {
         std::iter::once(&self.want).chain(&self.also)
     }
 }
@@ -68,7 +68,8 @@ impl Adaptive {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub enum Want {
+#[serde(rename = "Want")]
+pub enum Target {
     /// Displacement of the end of the filament.
     Tip {
         /// Largest relative error; greater than 0, below 1.
@@ -172,7 +173,7 @@ impl fmt::Display for Quantity {
     }
 }
 
-impl Want {
+impl Target {
     /// Returns the quantity.
     pub fn quantity(&self) -> Quantity {
         match *self {
@@ -208,7 +209,7 @@ pub(super) fn check_adaptive(adaptive: &Adaptive) -> Result<(), SceneProblem> {
         let rule = format!("must be at least {FEWEST_MONOMERS}, a period of the helix");
         return Err(SceneProblem::new("filament.sections.monomers", few, rule));
     }
-    let mut errors = adaptive.wants().map(Want::error);
+    let mut errors = adaptive.targets().map(Target::error);
     let Some(error) = errors.find(|error| !(*error > 0.0 && *error < 1.0)) else {
         return Ok(());
     };
@@ -230,7 +231,7 @@ impl Sections {
 
     /// Makes the sections follow a motion.
     #[must_use]
-    pub fn with_following(self, following: Following) -> Self {
+    pub fn with_following(self, following: AdaptiveResolution) -> Self {
         Self {
             automatic: Some(AutoSections::Following(following)),
             ..self
@@ -238,7 +239,7 @@ impl Sections {
     }
 
     /// Returns the parameters of sections that follow a motion, or `None`.
-    pub fn following(&self) -> Option<&Following> {
+    pub fn following(&self) -> Option<&AdaptiveResolution> {
         match &self.automatic {
             Some(AutoSections::Following(following)) => Some(following),
             _ => None,
@@ -264,8 +265,8 @@ impl From<Adaptive> for Sections {
     }
 }
 
-impl From<Following> for Sections {
-    fn from(following: Following) -> Self {
+impl From<AdaptiveResolution> for Sections {
+    fn from(following: AdaptiveResolution) -> Self {
         Self {
             list: vec![Section::rod(0.0, following.length_nm, None)],
             automatic: Some(AutoSections::Following(following)),
@@ -329,7 +330,9 @@ impl<'de> Visitor<'de> for SectionsVisitor {
         let (name, keys): (String, _) = automatic.variant()?;
         match name.as_str() {
             "Adaptive" => keys.newtype_variant::<Adaptive>().map(Sections::from),
-            "Following" => keys.newtype_variant::<Following>().map(Sections::from),
+            "Following" => keys
+                .newtype_variant::<AdaptiveResolution>()
+                .map(Sections::from),
             _ => Err(A::Error::invalid_type(Unexpected::Enum, &self)),
         }
     }
@@ -344,7 +347,7 @@ impl schemars::JsonSchema for Sections {
     fn json_schema(generator: &mut schemars::SchemaGenerator) -> schemars::Schema {
         let list = generator.subschema_for::<Vec<Section>>();
         let adaptive = generator.subschema_for::<Adaptive>();
-        let following = generator.subschema_for::<Following>();
+        let following = generator.subschema_for::<AdaptiveResolution>();
         schemars::json_schema!({
             "oneOf": [
                 { "description": "List of sections.", "allOf": [list] },

@@ -6,7 +6,8 @@ use serde::{Deserialize, Serialize};
 /// Random part of a scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub enum Drawn {
+#[serde(rename = "Drawn")]
+pub enum RandomPart {
     /// Sampled bonds of monomers (`monomers.seed`).
     Bonds,
     /// Thermal noise (`task.thermal.seed`).
@@ -17,7 +18,7 @@ pub enum Drawn {
     Linkers,
 }
 
-impl Drawn {
+impl RandomPart {
     /// All random parts.
     pub const ALL: [Self; 4] = [Self::Bonds, Self::Noise, Self::Imperfections, Self::Linkers];
 }
@@ -25,9 +26,9 @@ impl Drawn {
 impl Scene {
     /// Sets the seed of one random part wherever the scene uses it. Returns the number of seeds set. Unused
     /// seeds are not changed.
-    pub fn reseed(&mut self, what: Drawn, seed: u64) -> usize {
+    pub fn reseed(&mut self, what: RandomPart, seed: u64) -> usize {
         match what {
-            Drawn::Bonds => {
+            RandomPart::Bonds => {
                 let drawing = self.filaments_mut().filter(|filament| {
                     let is_monomers = |s: &Section| matches!(s, Section::Ellipsoids { .. });
                     let sections = &filament.sections;
@@ -38,7 +39,7 @@ impl Scene {
                 });
                 drawing.map(|f| f.monomers.seed = seed).count()
             }
-            Drawn::Noise => match &mut self.task {
+            RandomPart::Noise => match &mut self.task {
                 Task::Dynamics(dynamics) => {
                     let thermal = dynamics.thermal.iter_mut();
                     thermal.map(|thermal| thermal.seed = seed).count()
@@ -49,13 +50,13 @@ impl Scene {
                 }
                 Task::Equilibrium(_) => 0,
             },
-            Drawn::Imperfections => {
+            RandomPart::Imperfections => {
                 let imperfect = self.filaments_mut().filter_map(|f| f.imperfection.as_mut());
                 imperfect
                     .map(|imperfection| imperfection.seed = seed)
                     .count()
             }
-            Drawn::Linkers => {
+            RandomPart::Linkers => {
                 let linkers = self.linkers.iter_mut().filter_map(|l| l.kinetics.as_mut());
                 linkers.map(|kinetics| kinetics.seed = seed).count()
             }
@@ -87,10 +88,13 @@ mod tests {
             task: Dynamics(duration_ns: 1.0),
         )";
         let mut scene = Scene::from_ron(text).unwrap();
-        assert_eq!(Drawn::ALL.map(|what| scene.reseed(what, 7)), [1, 0, 1, 0]);
+        assert_eq!(
+            RandomPart::ALL.map(|what| scene.reseed(what, 7)),
+            [1, 0, 1, 0]
+        );
         assert_eq!(scene.filament.monomers.seed, 7);
-        assert_eq!(scene.further[0].monomers.seed, 0);
-        assert_eq!(scene.further[0].imperfection.unwrap().seed, 7);
+        assert_eq!(scene.other_filaments[0].monomers.seed, 0);
+        assert_eq!(scene.other_filaments[0].imperfection.unwrap().seed, 7);
         assert!(scene.validate().is_ok());
     }
 
@@ -105,7 +109,7 @@ mod tests {
             task: Equilibrium(),
         )";
         let mut scene = Scene::from_ron(text).unwrap();
-        assert_eq!(scene.reseed(Drawn::Bonds, 7), 1);
+        assert_eq!(scene.reseed(RandomPart::Bonds, 7), 1);
         assert_eq!(scene.filament.monomers.seed, 7);
     }
 }

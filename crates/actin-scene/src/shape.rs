@@ -148,7 +148,7 @@ fn check_points(nm: &[[f64; 3]], file: Option<&str>) -> Result<(), SceneProblem>
 
 /// Checks the length and curvature of the curve, and that it is not closed.
 fn check_curve(filament: &Filament, shape: &Shape, length: f64) -> Result<(), SceneProblem> {
-    let curve = Curve::of(filament, &filament.boundaries());
+    let curve = Curve::new(filament, &filament.boundaries());
     let key = match shape {
         Shape::Points { .. } => "filament.shape.nm",
         _ => "filament.shape",

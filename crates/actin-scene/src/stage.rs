@@ -3,11 +3,11 @@
 use super::path::load_factors;
 use super::rules::{all_finite, finite, positive, show};
 use super::support::is_along;
-use super::{End, HeldEnds, Hold, Scene, SceneProblem, Setting, Slides, Stage};
+use super::{ClampedEnds, End, FreeTranslation, Hold, Scene, SceneProblem, Setting, Stage};
 
 pub(super) fn check(
     scene: &Scene,
-    held: &HeldEnds,
+    held: &ClampedEnds,
     (i, stage): (usize, &Stage),
 ) -> Result<(), SceneProblem> {
     for (k, setting) in stage.set.iter().enumerate() {
@@ -87,13 +87,13 @@ fn sets_a_load(stage: &Stage) -> bool {
 
 /// Checks that an end is clamped. Keys begin with `prefix`.
 fn check_held(
-    (scene, held): (&Scene, &HeldEnds),
+    (scene, held): (&Scene, &ClampedEnds),
     prefix: &str,
     filament: usize,
     end: End,
 ) -> Result<(), SceneProblem> {
     scene.named_filament(&format!("{prefix}filament"), filament)?;
-    if held.is_held(filament, end) {
+    if held.is_clamped(filament, end) {
         return Ok(());
     }
     let rule = "this end is free: only a clamped end can be moved";
@@ -102,7 +102,7 @@ fn check_held(
 
 /// Checks that an end is clamped and does not slide in the direction of a shift.
 fn check_shift(
-    (scene, held): (&Scene, &HeldEnds),
+    (scene, held): (&Scene, &ClampedEnds),
     prefix: &str,
     (filament, end): (usize, End),
     shift_nm: [f64; 3],
@@ -118,7 +118,7 @@ fn check_shift(
         return Ok(());
     }
     let remedy = match slides {
-        Slides::Freely => "omit the shift, or write slides: AlongAxis or Nowhere",
+        FreeTranslation::Freely => "omit the shift, or write slides: AlongAxis or Nowhere",
         _ => "shift the end across its axis, or write slides: Nowhere",
     };
     let rule = format!(
@@ -130,7 +130,7 @@ fn check_shift(
 
 /// Checks that an end is clamped and not free to rotate.
 fn check_turns(
-    (scene, held): (&Scene, &HeldEnds),
+    (scene, held): (&Scene, &ClampedEnds),
     prefix: &str,
     (filament, end): (usize, End),
 ) -> Result<(), SceneProblem> {

@@ -1,7 +1,7 @@
 //! Checks that loads are supported, and that turns of sliding ends are possible.
 
 use super::path::{self, Values};
-use super::{Clamp, HeldEnds, Hold, Resultant, Scene, SceneProblem, Setting, Slides};
+use super::{Clamp, ClampedEnds, FreeTranslation, Hold, Resultant, Scene, SceneProblem, Setting};
 use actin_mechanics::Vector3;
 use std::collections::BTreeSet;
 
@@ -16,7 +16,7 @@ const DIGITS: f64 = 1e-3;
 
 /// Refuses turns that move a sliding end along its free directions: its inertia is modelled for straight motion
 /// only.
-pub(super) fn check_swings(scene: &Scene, held: &HeldEnds) -> Result<(), SceneProblem> {
+pub(super) fn check_swings(scene: &Scene, held: &ClampedEnds) -> Result<(), SceneProblem> {
     for (i, stage) in scene.path.iter().enumerate() {
         for (k, setting) in stage.set.iter().enumerate() {
             let Setting::Turn {
@@ -31,7 +31,9 @@ pub(super) fn check_swings(scene: &Scene, held: &HeldEnds) -> Result<(), ScenePr
             let slides = clamp.map(|c| scene.clamps[c].slides);
             let axis = scene.filament_at(filament).map(|f| f.axis_at(end));
             let tilts = axis.is_some_and(|axis| is_across(turn_deg.into(), axis));
-            if slides == Some(Slides::Freely) || (slides == Some(Slides::AlongAxis) && tilts) {
+            if slides == Some(FreeTranslation::Freely)
+                || (slides == Some(FreeTranslation::AlongAxis) && tilts)
+            {
                 return Err(SceneProblem::new(
                     format!("path[{i}].set[{k}].turn_deg"),
                     format!("{turn_deg:?}"),
@@ -121,7 +123,7 @@ impl Turning {
 fn groups(scene: &Scene, joined: &[usize]) -> Vec<Group> {
     let unheld = Group {
         is_anchored: false,
-        free: Slides::Freely.directions(Vector3::z()),
+        free: FreeTranslation::Freely.directions(Vector3::z()),
         turns: Turning::Freely,
         loads: Vec::new(),
         couples: Vec::new(),

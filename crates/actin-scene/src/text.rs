@@ -1,13 +1,13 @@
 //! Text of a scene, and overrides of its keys.
 
-use super::deserialize::{Refusal, deserialize};
+use super::deserialize::{DeserializeError, deserialize};
 use super::parse::{Parsed, parse, word};
 use super::position::{line_and_column, place, without_mark};
 use super::print::print;
 use super::read::SCENE_DEPTH;
 use super::tree::{Kind, SceneValue, Source};
-use super::{Readings, Scene, SceneError, SceneProblem, brackets, trace, validate};
-use super::{validate::validate, written::Written};
+use super::{ParseReport, Scene, SceneError, SceneProblem, brackets, trace, validate};
+use super::{scene_file::SceneFile, validate::validate};
 use serde::de::DeserializeOwned;
 use std::borrow::Cow;
 use std::fmt;
@@ -79,7 +79,7 @@ impl Override {
             _ if self.value.is_empty() => refused("there is no value"),
             _ if brackets.are_mistaken() => refused("a bracket is not closed, or closes nothing"),
             Some((_, mistake)) => refused(mistake),
-            None if root.kind == Kind::Unread => refused("a value is expected"),
+            None if root.kind == Kind::Invalid => refused("a value is expected"),
             None => Ok(root),
         }
     }
@@ -196,7 +196,7 @@ impl SceneText {
     /// # Errors
     /// A text that is not a scene.
     pub fn read(&self) -> Result<(Scene, Option<SceneError>), SceneError> {
-        let written = self.readings::<Written>().into_result()?;
+        let written = self.readings::<SceneFile>().into_result()?;
         let scene = Scene::try_from(written).map_err(|problem| self.locate(&problem))?;
         let problem = validate(&scene).err();
         Ok((scene, problem.map(|problem| self.locate(&problem))))
@@ -207,7 +207,7 @@ impl SceneText {
     ///
     /// The first is the error of [`scene`](Self::scene) or precedes it in the text.
     pub fn mistakes(&self) -> Vec<SceneError> {
-        let Readings { value, mistakes } = self.readings::<Written>();
+        let ParseReport { value, mistakes } = self.readings::<SceneFile>();
         let problems = match value.map(Scene::try_from) {
             Some(Ok(scene)) => validate::problems(&scene, self.most()),
             Some(Err(problem)) => vec![problem],
@@ -226,10 +226,10 @@ impl SceneText {
 
     /// Reads a type and finds all mistakes. Refused values are removed and the rest is read again. A key with a
     /// refused value does not count as missing.
-    pub(super) fn readings<T: DeserializeOwned>(&self) -> Readings<T> {
+    pub(super) fn readings<T: DeserializeOwned>(&self) -> ParseReport<T> {
         if let Some(mistake) = self.mistake_of_whole() {
             let (value, mistakes) = (None, vec![mistake]);
-            return Readings { value, mistakes };
+            return ParseReport { value, mistakes };
         }
         let mut tree = Cow::Borrowed(&self.parsed.root);
         let mut mistakes = self.mistakes_between_values();
@@ -255,7 +255,7 @@ impl SceneText {
         }
         mistakes.sort_by_key(|(at, _)| *at);
         let mistakes = mistakes.into_iter().map(|(_, mistake)| mistake).collect();
-        Readings { value, mistakes }
+        ParseReport { value, mistakes }
     }
 
     fn mistakes_between_values(&self) -> Vec<(usize, SceneError)> {
@@ -269,7 +269,12 @@ impl SceneText {
     }
 
     /// Adds a refusal, unless it follows from another mistake.
-    fn note(&self, tree: &SceneValue, refusal: &Refusal, mistakes: &mut Vec<(usize, SceneError)>) {
+    fn note(
+        &self,
+        tree: &SceneValue,
+        refusal: &DeserializeError,
+        mistakes: &mut Vec<(usize, SceneError)>,
+    ) {
         let node = tree.at(&refusal.indices());
         let place = &node.place;
         if place.is_mistaken {
@@ -277,7 +282,7 @@ impl SceneText {
             mistakes.retain(|(at, _)| !(place.start..place.until).contains(at));
         }
         let is_refused =
-            |value: &SceneValue| value.kind == Kind::Refused && value.key() == refusal.missing();
+            |value: &SceneValue| value.kind == Kind::Removed && value.key() == refusal.missing();
         let is_consequence = refusal.missing().is_some() && node.children().iter().any(is_refused);
         if !is_consequence {
             mistakes.push((refusal.at.unwrap_or_default(), self.refused(tree, refusal)));
@@ -301,7 +306,7 @@ impl SceneText {
         SceneError::new(place, &format!("{path}{colon}{message}"))
     }
 
-    fn refused(&self, tree: &SceneValue, refusal: &Refusal) -> SceneError {
+    fn refused(&self, tree: &SceneValue, refusal: &DeserializeError) -> SceneError {
         let indices = refusal.indices();
         let path = if refusal.is_complete() {
             String::new()
@@ -309,11 +314,11 @@ impl SceneText {
             tree.path(&indices)
         };
         let error = self.error(refusal.at.unwrap_or_default(), &path, &refusal.to_string());
-        let meant = refusal.meant();
+        let suggestion = refusal.suggestion();
         let set = self.blamed(tree, &indices);
         SceneError {
             set,
-            meant,
+            suggestion,
             ..error
         }
     }
@@ -399,10 +404,10 @@ fn last_override(node: &SceneValue) -> Option<usize> {
 }
 
 impl SceneValue {
-    fn refuse(&mut self, refusal: &Refusal) {
-        self.kind = Kind::Refused;
+    fn refuse(&mut self, refusal: &DeserializeError) {
+        self.kind = Kind::Removed;
         if refusal.is_needless() {
-            self.key = refusal.meant().or(self.key.take());
+            self.key = refusal.suggestion().or(self.key.take());
         }
     }
 }

@@ -17,7 +17,7 @@ use std::ops::Range;
 pub struct SceneValue {
     pub(crate) key: Option<String>,
     pub(crate) kind: Kind,
-    pub(crate) place: Place,
+    pub(crate) place: TextSpan,
 }
 
 /// Kind of a value.
@@ -40,9 +40,9 @@ pub enum Kind {
     /// Values with keys, or a vector, after an optional name.
     Group(Option<String>, Vec<SceneValue>),
     /// Text that is not a value.
-    Unread,
+    Invalid,
     /// Value that has been refused.
-    Refused,
+    Removed,
 }
 
 /// Origin of a value. Values in memory and in JSON have strings for choices and lists for vectors.
@@ -57,7 +57,7 @@ pub(crate) enum Source {
 
 /// Position of a value in its text (bytes).
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Place {
+pub(crate) struct TextSpan {
     pub(crate) source: Source,
     pub(crate) start: usize,
     /// Range of the value, including the name before its bracket.
@@ -95,7 +95,7 @@ impl PartialEq for SceneValue {
 
 impl From<Kind> for SceneValue {
     fn from(kind: Kind) -> Self {
-        let place = Place::default();
+        let place = TextSpan::default();
         let key = None;
         Self { key, kind, place }
     }
@@ -269,7 +269,7 @@ impl SceneValue {
         let host = self.at_mut(&indices);
         let steps = &steps[indices.len()..];
         let mut value = value;
-        value.move_to(&Place {
+        value.move_to(&TextSpan {
             source: value.place.source,
             ..host.place.clone()
         });
@@ -305,7 +305,7 @@ impl SceneValue {
         })
     }
 
-    pub(crate) fn move_to(&mut self, place: &Place) {
+    pub(crate) fn move_to(&mut self, place: &TextSpan) {
         self.place = place.clone();
         for child in self.children_mut() {
             child.move_to(place);

@@ -3,7 +3,7 @@
 use super::model::{JunctionModel, Monomers, RodModel};
 use super::{
     Brownian, DragModel, Imperfection, Linker, Load, Observable, Output, Quantity, Repulsion,
-    Sections, Shape, Thermal, written::Written,
+    Sections, Shape, Thermal, scene_file::SceneFile,
 };
 use serde::{Deserialize, Serialize};
 
@@ -12,14 +12,14 @@ use serde::{Deserialize, Serialize};
 /// The text has a single filament as `filament` or a list as `filaments`. Clamps, loads, linkers and settings
 /// refer to a filament by its index, 0 by default. Only linkers and `repulsion` act between filaments.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(try_from = "Written", into = "Written")]
+#[serde(try_from = "SceneFile", into = "SceneFile")]
 pub struct Scene {
     /// Title.
     pub title: String,
     /// Filament 0.
     pub filament: Filament,
     /// Filaments 1, 2 and so on.
-    pub further: Vec<Filament>,
+    pub other_filaments: Vec<Filament>,
     /// Clamped ends. All other ends are free.
     pub clamps: Vec<Clamp>,
     /// Forces and couples.
@@ -56,13 +56,14 @@ pub struct Stage {
     pub duration_ns: Option<f64>,
     /// Time course of the controls. `Equilibrium` ignores it.
     #[serde(default)]
-    pub pace: Pace,
+    pub pace: TimeCourse,
 }
 
 /// Time course of the controls of a stage.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub enum Pace {
+#[serde(rename = "Pace")]
+pub enum TimeCourse {
     /// Smooth ramp, with zero velocity and acceleration at both ends.
     #[default]
     Smooth,
@@ -184,7 +185,7 @@ pub struct Clamp {
     pub hinge: Option<Hinge>,
     /// Directions in which the end can move as a rigid body.
     #[serde(default)]
-    pub slides: Slides,
+    pub slides: FreeTranslation,
 }
 
 /// Rotational spring between the cross-section at a pinned end and a frame that the path may turn. Its energy
@@ -204,7 +205,8 @@ pub struct Hinge {
 /// force on a sliding end is a constant end load.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub enum Slides {
+#[serde(rename = "Slides")]
+pub enum FreeTranslation {
     /// Fixed position.
     #[default]
     Nowhere,

@@ -1,20 +1,20 @@
 //! Validation of scenes.
 
-use super::following::check_following;
+use super::adaptive_resolution::check_following;
 use super::rules::{
     all_finite, check_potential, direction, each_positive, finite, non_negative, positive, show,
 };
 use super::support::{check_support, check_swings};
 use super::{
-    Adaptive, Anchors, Clamp, Dynamics, End, Equilibrium, Filament, HeldEnds, Hold, Monomers,
-    Quantity, Resultant, Scene, SceneProblem, Slides, StopTolerances, Task, brownian, drag,
+    Adaptive, Anchors, Clamp, ClampedEnds, Dynamics, End, Equilibrium, Filament, FreeTranslation,
+    Hold, Monomers, Quantity, Resultant, Scene, SceneProblem, StopTolerances, Task, brownian, drag,
     imperfection, kinetics, linker, load_rules, magnitude, observable, repulsion, saddles,
     section_rules, shape, stage, thermal,
 };
-use actin_ellipsoid::{FEWEST_POINTS, MOST_POINTS};
+use actin_ellipsoid::{MAX_POINTS, MIN_POINTS};
 
 /// Largest number of bodies of a section and largest lattice index: 2^53, the limit of exact integers in `f64`.
-pub const MOST_COUNTED: f64 = 9_007_199_254_740_992.0;
+pub const MAX_EXACT_INTEGER: f64 = 9_007_199_254_740_992.0;
 
 /// Largest number of bonds of an interface. Sampling noise is negligible with a hundredth of it.
 const MOST_BONDS_PER_INTERFACE: usize = 10_000;
@@ -32,7 +32,7 @@ pub(super) fn validate(scene: &Scene) -> Result<(), SceneProblem> {
 /// numbers are valid.
 pub(super) fn problems(scene: &Scene, most: usize) -> Vec<SceneProblem> {
     let mut found = Vec::new();
-    let held = HeldEnds::of(scene);
+    let held = ClampedEnds::new(scene);
     let mut note = |checked: Result<(), SceneProblem>| {
         let problem = checked.err().filter(|_| found.len() < most);
         let is_new = |p: &SceneProblem| found.iter().all(|f: &SceneProblem| f.key != p.key);
@@ -97,7 +97,7 @@ pub(super) fn check_filament(one: &Filament, key: &str) -> Result<(), SceneProbl
     first
 }
 
-fn check_whole(scene: &Scene, held: &HeldEnds) -> Result<(), SceneProblem> {
+fn check_whole(scene: &Scene, held: &ClampedEnds) -> Result<(), SceneProblem> {
     check_adaptive(scene)?;
     for following in scene.filaments().filter_map(|f| f.sections.following()) {
         check_following(scene, following)?;
@@ -119,7 +119,7 @@ fn check_whole(scene: &Scene, held: &HeldEnds) -> Result<(), SceneProblem> {
             })
         }
         Task::Brownian(task) => {
-            stage::check_durations(scene, task.as_motion().duration_ns)?;
+            stage::check_durations(scene, task.to_dynamics().duration_ns)?;
             check_swings(scene, held)?;
             brownian::check_whole(scene, task)
         }
@@ -140,13 +140,13 @@ fn check_whole(scene: &Scene, held: &HeldEnds) -> Result<(), SceneProblem> {
 
 fn check_adaptive(scene: &Scene) -> Result<(), SceneProblem> {
     for (i, filament) in scene.filaments().enumerate() {
-        let wants = filament
+        let targets = filament
             .sections
             .adaptive()
             .into_iter()
-            .flat_map(Adaptive::wants);
+            .flat_map(Adaptive::targets);
         let mut checked =
-            wants.map(|want| check_wanted(scene, "filament.sections.want", want.quantity()));
+            targets.map(|want| check_wanted(scene, "filament.sections.want", want.quantity()));
         checked
             .try_for_each(|one| one)
             .map_err(|problem| problem.with_filament(&scene.filament_key(i)))?;
@@ -180,13 +180,13 @@ fn missing(scene: &Scene, quantity: Quantity) -> Option<(&'static str, String)> 
     let mut clamps = scene.clamps.iter();
     let clamp = clamps.find(|clamp| clamp.filament == 0 && clamp.end == End::End);
     let rule = match (quantity, clamp.map(|clamp| clamp.slides)) {
-        (Quantity::Tip, Some(Slides::Nowhere)) => {
+        (Quantity::Tip, Some(FreeTranslation::Nowhere)) => {
             "the displacement of the end is requested, but the end is clamped"
         }
         (Quantity::EndForce | Quantity::EndCouple, None) => {
             "the reaction at the end is requested, but the end is free"
         }
-        (Quantity::EndForce, Some(Slides::AlongAxis | Slides::Freely)) => {
+        (Quantity::EndForce, Some(FreeTranslation::AlongAxis | FreeTranslation::Freely)) => {
             "the force on the end is requested, but the end slides in its direction"
         }
         _ => return None,
@@ -269,11 +269,11 @@ pub(super) fn check_bonds(key: &str, anchors: Anchors, bonds: usize) -> Result<(
             (drawn, rule)
         }
         Anchors::Cubature => {
-            let weighted = format!("{FEWEST_POINTS} to {MOST_POINTS} quadrature bonds");
+            let weighted = format!("{MIN_POINTS} to {MAX_POINTS} quadrature bonds");
             let rule = format!(
                 "an interface has {weighted}: write such a number, or anchors: Independent"
             );
-            (FEWEST_POINTS..=MOST_POINTS, rule)
+            (MIN_POINTS..=MAX_POINTS, rule)
         }
     };
     if range.contains(&bonds) {
@@ -311,7 +311,7 @@ fn check_shortest(monomers: &Monomers) -> Result<(), SceneProblem> {
 
 fn check_clamp(
     scene: &Scene,
-    held: &HeldEnds,
+    held: &ClampedEnds,
     (i, clamp): (usize, &Clamp),
 ) -> Result<(), SceneProblem> {
     let key = format!("clamps[{i}]");
@@ -336,7 +336,7 @@ fn check_clamp(
 /// Refuses pinned ends that slide freely, and hinges at other ends.
 fn check_pin(key: &str, clamp: &Clamp) -> Result<(), SceneProblem> {
     let is_pinned = clamp.hold == Hold::Pin;
-    if is_pinned && clamp.slides == Slides::Freely {
+    if is_pinned && clamp.slides == FreeTranslation::Freely {
         let rule = "a pinned end that slides freely is a free end: omit the clamp";
         return Err(SceneProblem::new(format!("{key}.slides"), "Freely", rule));
     }

@@ -42,17 +42,18 @@ pub use actin_scene::fitted_laws;
 #[cfg(feature = "schema")]
 pub use actin_scene::schema;
 pub use actin_scene::{
-    Acceleration, Adaptive, Altered, AlteredRod, Anchors, BOLTZMANN_PN_NM_PER_K, BendLaw, Breaking,
-    Brownian, Catch, Clamp, Couple, CouplePerLength, DragModel, DragRates, Drawn, Dynamics, End,
-    Equilibrium, Factor, Filament, Flow, Fluid, Following, Force, ForceLaw, ForcePerLength,
-    Forming, Hinge, Hold, Imperfection, Integrator, Interfaces, JunctionModel, JunctionWeight,
-    Kinetics, Linker, LinkerSite, Load, Material, Monomers, Observable, Output, Override, Pace,
-    Plane, Point, Quantity, Repulsion, RodLaw, RodLaws, RodModel, RotaryInertia, Scene, SceneError,
-    SceneKind, SceneProblem, SceneText, SceneValue, Section, Sections, Setting, Shape, ShearLaw,
-    Slides, Sphere, SphereSide, Stage, Stepping, StopTolerances, StretchLaw, Task, Thermal,
-    TwistLaw, TwistRise, TwistStretchLaw, Want, Water, Where,
+    Acceleration, Adaptive, AdaptiveResolution, Anchors, BOLTZMANN_PN_NM_PER_K, BendLaw, Breaking,
+    Brownian, Catch, Clamp, Couple, CouplePerLength, DragModel, DragRates, Dynamics, End,
+    Equilibrium, Factor, Filament, Flow, Fluid, Force, ForceLaw, ForcePerLength, Forming,
+    FreeTranslation, Hinge, Hold, Imperfection, Integrator, Interfaces, JunctionModel,
+    JunctionWeight, Kinetics, Linker, LinkerSite, Load, Material, MonomerChanges, Monomers,
+    Observable, Output, Override, Plane, Point, Quantity, RandomPart, RefinementCriterion,
+    Repulsion, RodChanges, RodLaw, RodLaws, RodModel, RotaryInertia, Scene, SceneError, SceneKind,
+    SceneProblem, SceneText, SceneValue, Section, Sections, Setting, Shape, ShearLaw, Sphere,
+    SphereSide, Stage, Stepping, StopTolerances, StretchLaw, Target, Task, Thermal, TimeCourse,
+    TwistLaw, TwistRise, TwistStretchLaw, Water,
 };
-pub use actin_scene::{Readings, read_all, read_ron, to_ron};
+pub use actin_scene::{ParseReport, read_all, read_ron, to_ron};
 pub use assembly::{
     Assembly, BodyKind, Clamped, Counts, Drive, EnergyExchange, FilamentSpan, Fluctuations,
     FrameInfo, JunctionBond, LawExtrapolation, LinkerEvent, LinkerEventKind, MeasuredError,

@@ -1,6 +1,6 @@
 //! `cargo xtask tradeoff`: errors and run times of `actin trade` for the scenes of `scenarios/trade`.
 
-use actin_sim::trade::{Candidate, Measure, Options as TradeOptions, Trade, Watch, trade};
+use actin_sim::trade::{Candidate, Measure, Options as TradeOptions, Trade, TradeCallbacks, trade};
 use actin_sim::{Assembly, Scene};
 use anyhow::{Context, Error, Result};
 use std::fmt::Write as _;
@@ -104,7 +104,7 @@ fn traded(scene: &Scene) -> Result<Trade> {
         error: WANTED[0],
         ..TradeOptions::default()
     };
-    Ok(trade(scene, &options, &Watch::NOBODY)?)
+    Ok(trade(scene, &options, &TradeCallbacks::NONE)?)
 }
 
 fn best(trade: &Trade, error: f64) -> Option<(usize, &Candidate)> {

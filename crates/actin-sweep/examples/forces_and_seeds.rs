@@ -27,7 +27,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let opened = ValidatedSweep::new(sweep, SCENE.into())?;
     let folder = std::env::temp_dir().join(format!("actin-sweep-{}", std::process::id()));
     let directory = SweepDirectory::create(&folder, &opened, false)?;
-    let ended = directory.carry_out(&opened, &Settings::default(), &|_| ())?;
+    let ended = directory.run_all(&opened, &Settings::default(), &|_| ())?;
     assert_eq!((ended.ended, ended.failed), (10, 0));
     let table = std::fs::read_to_string(folder.join("table.csv"))?;
     println!("{table}");

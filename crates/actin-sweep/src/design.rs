@@ -78,7 +78,7 @@ impl Design {
 
     /// Selects at most `most` points, in order. The points are divided into `most` equal parts and one of each is
     /// drawn; the first and the last point are included. The selection is deterministic.
-    pub(crate) fn drawn(&self, most: usize) -> Vec<usize> {
+    pub(crate) fn sample_points(&self, most: usize) -> Vec<usize> {
         let count = self.points.len();
         if count <= most {
             return (0..count).collect();
@@ -168,8 +168,8 @@ mod tests {
             points: vec![Vec::new(); count],
             seeds: Vec::new(),
         };
-        assert_eq!(design(3).drawn(3), [0, 1, 2]);
-        let drawn = design(1_000_000).drawn(1000);
+        assert_eq!(design(3).sample_points(3), [0, 1, 2]);
+        let drawn = design(1_000_000).sample_points(1000);
         assert_eq!((drawn.len(), drawn[0], drawn[999]), (1000, 0, 999_999));
         assert!((0..1000).all(|k| drawn[k] / 1000 == k));
         // Not every thousandth point, which would have the same value on the last axis of a grid.

@@ -73,7 +73,7 @@ impl SweepDirectory {
     /// # Errors
     /// If another process holds the lock, or a file system operation fails.
     pub(crate) fn lock(&self) -> Result<RunLock, SweepError> {
-        Ok(RunLock::take(&self.path)?)
+        Ok(RunLock::acquire(&self.path)?)
     }
 
     fn is_empty(&self) -> Result<bool, SweepError> {

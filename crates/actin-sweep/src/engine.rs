@@ -71,7 +71,7 @@ impl SweepDirectory {
     /// # Errors
     /// If another process makes the runs of this directory, or results cannot be written. Failed runs are rows of the
     /// tables, not errors.
-    pub fn carry_out(
+    pub fn run_all(
         &self,
         opened: &ValidatedSweep,
         settings: &Settings,
@@ -88,7 +88,7 @@ impl SweepDirectory {
     /// concurrently.
     ///
     /// # Errors
-    /// Errors of [`carry_out`](Self::carry_out), or an invalid index.
+    /// Errors of [`run_all`](Self::run_all), or an invalid index.
     pub fn make_runs(
         &self,
         opened: &ValidatedSweep,
@@ -110,7 +110,7 @@ impl SweepDirectory {
         let of = runs.len();
         let report = |ended| progress(Progress { ended, before, of });
         report(before);
-        let crew = Crew {
+        let crew = WorkerPool {
             opened,
             directory: self,
             left: &left,
@@ -123,7 +123,7 @@ impl SweepDirectory {
         let has_failed = |run: &&usize| {
             let results = &opened.sweep.results;
             let summary = summary(&self.run(**run));
-            summary.is_some_and(|summary| !Row::of(&summary, results).failure.is_empty())
+            summary.is_some_and(|summary| !Row::new(&summary, results).failure.is_empty())
         };
         let failed = runs.iter().filter(has_failed).count();
         Ok(SweepOutcome { ended, failed, of })
@@ -152,7 +152,7 @@ fn threads(settings: &Settings) -> usize {
     settings.jobs.map_or_else(cores, NonZeroUsize::get)
 }
 
-struct Crew<'a> {
+struct WorkerPool<'a> {
     opened: &'a ValidatedSweep,
     directory: &'a SweepDirectory,
     left: &'a [usize],
@@ -162,7 +162,7 @@ struct Crew<'a> {
     ended: AtomicUsize,
 }
 
-impl Crew<'_> {
+impl WorkerPool<'_> {
     fn make_all(self, report: &(impl Fn(usize) + Sync)) -> Result<usize, SweepError> {
         std::thread::scope(|scope| {
             for _ in 0..threads(self.settings).min(self.left.len()) {

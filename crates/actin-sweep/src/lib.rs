@@ -3,7 +3,7 @@
 //! - [`Sweep`] is read from RON.
 //! - [`ValidatedSweep`] is a sweep validated with its scene; its [`Design`] lists all runs.
 //! - [`SweepDirectory`] contains a run directory for each run.
-//! - [`SweepDirectory::carry_out`] makes the missing runs in parallel and writes the table.
+//! - [`SweepDirectory::run_all`] makes the missing runs in parallel and writes the table.
 //!
 //! Each run has one thread, and the table is computed from the summaries of all runs in order. Results are therefore
 //! independent of the number of threads and of interruptions.

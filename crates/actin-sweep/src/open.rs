@@ -4,7 +4,7 @@ use crate::design::Run;
 use crate::sweep::Axis;
 use crate::{Design, Sweep, SweepError, chosen, rules};
 use actin_sim::{
-    Assembly, Override, Plan, Readings, Scene, SceneError, SceneProblem, SceneText, Summary,
+    Assembly, Override, ParseReport, Plan, Scene, SceneError, SceneProblem, SceneText, Summary,
     Timing, read_all,
 };
 use std::collections::BTreeSet;
@@ -54,7 +54,7 @@ impl ValidatedSweep {
         let path = path.as_ref();
         let text = read(path)?;
         let refused = |mistakes| SweepError::refused(path, &text, mistakes);
-        let Readings {
+        let ParseReport {
             value,
             mut mistakes,
         } = read_all::<Sweep>(&text, "Sweep");
@@ -218,9 +218,9 @@ impl ValidatedSweep {
     ///
     /// A larger design is sampled, with one point from each of `most` equal parts, including the first and the last
     /// point.
-    pub fn price(&self, most: usize) -> SweepCost {
+    pub fn estimate_cost(&self, most: usize) -> SweepCost {
         let mut all = SweepCost::default();
-        let points = self.design.drawn(most);
+        let points = self.design.sample_points(most);
         all.points = points.len();
         let mut most_work = 0.0;
         for point in points {

@@ -94,7 +94,7 @@ fn begin(
     warn: fn(&CheckpointError),
 ) -> Result<(Option<SavedRun>, RunLock), SweepError> {
     if kept.has_checkpoint() {
-        let lock = RunLock::take(kept.path())?;
+        let lock = RunLock::acquire(kept.path())?;
         match checkpoints.resume(plan) {
             Ok(saved) => {
                 kept.reopen()?;

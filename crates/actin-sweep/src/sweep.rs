@@ -1,6 +1,6 @@
 //! Input data of a sweep. `rules.rs` validates them.
 
-use actin_sim::{Drawn, SceneError, read_ron, to_ron};
+use actin_sim::{RandomPart, SceneError, read_ron, to_ron};
 use serde::{Deserialize, Serialize};
 
 /// A sweep: a scene, its varied keys, the number of samples, and the tabulated results.
@@ -143,15 +143,15 @@ pub struct Samples {
     pub first_seed: u64,
     /// Seeds of the scene that are set; all by default.
     #[serde(default = "all")]
-    pub of: Vec<Drawn>,
+    pub of: Vec<RandomPart>,
 }
 
 fn one() -> u64 {
     1
 }
 
-fn all() -> Vec<Drawn> {
-    Drawn::ALL.to_vec()
+fn all() -> Vec<RandomPart> {
+    RandomPart::ALL.to_vec()
 }
 
 /// A value in RON: a number, a name, a list, a structure.

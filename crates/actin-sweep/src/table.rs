@@ -34,7 +34,7 @@ impl Row {
         }
     }
 
-    pub(crate) fn of(summary: &Value, names: &[String]) -> Self {
+    pub(crate) fn new(summary: &Value, names: &[String]) -> Self {
         let text = |key: &str| summary[key].as_str().unwrap_or_default().to_owned();
         let status = text("status");
         let counts = status != "failed";
@@ -43,13 +43,19 @@ impl Row {
             value.filter(|value| !value.is_null()).cloned()
         };
         let results: Vec<_> = names.iter().map(found).collect();
-        let lacking = names.iter().zip(&results);
-        let lacking = lacking.filter(|(_, result)| counts && result.is_none());
-        let lacking: Vec<&str> = lacking.map(|(name, _)| name.as_str()).collect();
-        let failure = if lacking.is_empty() {
+        let curvature_difference = names.iter().zip(&results);
+        let curvature_difference =
+            curvature_difference.filter(|(_, result)| counts && result.is_none());
+        let curvature_difference: Vec<&str> = curvature_difference
+            .map(|(name, _)| name.as_str())
+            .collect();
+        let failure = if curvature_difference.is_empty() {
             text("failure")
         } else {
-            format!("its summary has no value of {}", lacking.join(", "))
+            format!(
+                "its summary has no value of {}",
+                curvature_difference.join(", ")
+            )
         };
         let warnings = summary["warnings"].as_array().into_iter().flatten();
         let mut codes: Vec<&str> = warnings.filter_map(|w| w["code"].as_str()).collect();
@@ -67,7 +73,7 @@ impl<'a> Table<'a> {
     pub(crate) fn new(opened: &'a ValidatedSweep, directory: &SweepDirectory) -> Self {
         let results = &opened.sweep.results;
         let row = |run| match summary(&directory.run(run)) {
-            Some(summary) => Row::of(&summary, results),
+            Some(summary) => Row::new(&summary, results),
             None => Row::unfinished(results.len()),
         };
         let rows = (0..opened.design.len()).map(row).collect();

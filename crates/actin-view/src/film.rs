@@ -4,7 +4,7 @@
 //! axis. Each picture shows the time and a scale bar.
 
 use crate::pose::{PLATE_NM, bodies};
-use crate::{Attitude, Palette, Run, Things};
+use crate::{Attitude, BodyColours, Palette, Run};
 use actin_draw::raster::{Camera, Canvas, Picture, TubeStyle};
 use actin_draw::scene3d::Matrix3;
 use actin_sim::Assembly;
@@ -50,7 +50,7 @@ impl Default for Film {
             size: [1280, 720],
             pictures: None,
             turn: 0.0,
-            attitude: Attitude::LYING,
+            attitude: Attitude::HORIZONTAL,
             palette: Palette::default(),
         }
     }
@@ -124,7 +124,7 @@ impl Film {
             assembly: run.assembly_of(record),
             state: &run.states[record],
             palette: self.palette,
-            things: self.palette.things(),
+            things: self.palette.body_colours(),
         };
         scene.paint();
         let mut picture = scene.canvas.finish(PAPER);
@@ -190,7 +190,7 @@ struct Scene<'a> {
     assembly: &'a Assembly,
     state: &'a State,
     palette: Palette,
-    things: &'a Things,
+    things: &'a BodyColours,
 }
 
 impl Scene<'_> {

@@ -19,10 +19,10 @@ mod trade;
 pub use actin_draw as draw;
 pub use actin_sim as sim;
 pub use film::Film;
-pub use palette::{Palette, Things};
+pub use palette::{BodyColours, Palette};
 pub use pose::{Bonds, Pose, Rod, Strand, bodies};
 pub use run::{Limits, Run, ViewError, is_page};
-pub use states::{Attitude, Shown};
+pub use states::{Attitude, ViewState};
 pub use trade::draw_trade;
 
 /// Script that converts a pose to solids; it requires the scripts of [`space`](actin_draw::space).

@@ -16,7 +16,7 @@ pub enum Palette {
 
 /// Colours of parts.
 #[derive(Clone, Copy, Debug, Serialize)]
-pub struct Things {
+pub struct BodyColours {
     /// Lateral and longitudinal bonds.
     pub bonds: [[u8; 3]; 2],
     /// Axes d1, d2, d3 of a frame.
@@ -35,7 +35,7 @@ pub struct Things {
     pub force: [u8; 3],
 }
 
-impl Things {
+impl BodyColours {
     /// Applies a function to every colour.
     #[must_use]
     pub(crate) fn map(&self, shade: fn([u8; 3]) -> [u8; 3]) -> Self {
@@ -53,7 +53,7 @@ impl Things {
 }
 
 /// Colours that are distinguishable from red monomers and blue rods.
-const BESIDE_RED_AND_BLUE: Things = Things {
+const DISTINCT_FROM_RED_AND_BLUE: BodyColours = BodyColours {
     bonds: [[120, 40, 150], [0, 150, 140]],
     axes: [[213, 94, 0], [60, 140, 40], [0, 70, 160]],
     junction: [250, 205, 30],
@@ -67,7 +67,7 @@ const BESIDE_RED_AND_BLUE: Things = Things {
 ///
 /// # Source
 /// M. Okabe and K. Ito, Color Universal Design (2008): vermilion, reddish purple, sky blue, blue, orange, yellow.
-const OKABE_ITO: Things = Things {
+const OKABE_ITO: BodyColours = BodyColours {
     bonds: [[204, 121, 167], [0, 114, 178]],
     axes: [[213, 94, 0], [86, 180, 233], [0, 0, 0]],
     junction: [240, 228, 66],
@@ -104,9 +104,9 @@ impl Palette {
     }
 
     /// Returns the colours of parts.
-    pub fn things(self) -> &'static Things {
+    pub fn body_colours(self) -> &'static BodyColours {
         match self {
-            Self::Paper => &BESIDE_RED_AND_BLUE,
+            Self::Paper => &DISTINCT_FROM_RED_AND_BLUE,
             Self::ColourBlind => &OKABE_ITO,
         }
     }
@@ -125,7 +125,7 @@ impl Palette {
             let stops = |ramp: Ramp| ramp.stops().iter().copied().map(shade).collect::<Vec<_>>();
             serde_json::json!({
                 "stops": stops(self.ramp()),
-                "things": self.things().map(shade),
+                "things": self.body_colours().map(shade),
                 "lines": self.lines().map(shade),
             })
         };
@@ -143,7 +143,7 @@ mod tests {
     fn every_thing_is_seen_on_the_dark_card() {
         let contrast = |one, other| Colour(one).contrast(Colour(other));
         for palette in [Palette::Paper, Palette::ColourBlind] {
-            let things = palette.things();
+            let things = palette.body_colours();
             let [first, second] = things.bonds;
             let [d1, d2, d3] = things.axes;
             let single = [things.junction, things.node, things.clamp, things.linker];

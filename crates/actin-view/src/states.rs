@@ -9,7 +9,7 @@ use std::path::Path;
 
 /// A state of a file.
 #[derive(Clone, Debug, Serialize)]
-pub struct Shown {
+pub struct ViewState {
     /// Group of states that are compared with each other.
     pub group: String,
     /// Name within the group.
@@ -32,12 +32,12 @@ pub struct Attitude {
 
 impl Attitude {
     /// Lab z to the right, lab x upwards, seen slightly from above.
-    pub const LYING: Self = Self {
+    pub const HORIZONTAL: Self = Self {
         towards: [0.35, 1.0, 0.15],
         up: [1.0, 0.0, 0.0],
     };
     /// Lab z upwards.
-    pub const STANDING: Self = Self {
+    pub const VERTICAL: Self = Self {
         towards: [-0.35, -1.0, 0.25],
         up: [0.0, 0.0, 1.0],
     };
@@ -48,7 +48,7 @@ struct File {
     attitude: Attitude,
     /// Sets of bonds, to which states refer by index.
     bonds: Vec<Bonds>,
-    states: Vec<Shown>,
+    states: Vec<ViewState>,
 }
 
 /// Writes the states of artefact `id` to the output folder.
@@ -58,7 +58,7 @@ struct File {
 pub fn write(
     id: &str,
     attitude: Attitude,
-    states: &[Shown],
+    states: &[ViewState],
     caption: String,
     out: &Path,
 ) -> Result<View, String> {
@@ -107,12 +107,12 @@ mod tests {
         built("figure-5/linkers.ron")
     }
 
-    fn shown(assembly: &Assembly) -> Shown {
-        Shown {
+    fn shown(assembly: &Assembly) -> ViewState {
+        ViewState {
             group: "a".into(),
             name: "b".into(),
             share: 0.5,
-            pose: Pose::of(assembly, assembly.system.state()),
+            pose: Pose::new(assembly, assembly.system.state()),
         }
     }
 
@@ -151,7 +151,7 @@ mod tests {
             // An initially straight filament lies on its own axis.
             for (line, filament) in pose.lines.iter().zip(&assembly.filaments) {
                 let off_axis = |p: &[f64; 3]| {
-                    let place = filament.seen_along_z(Vector3::from(*p));
+                    let place = filament.to_filament_frame(Vector3::from(*p));
                     place.x.hypot(place.y)
                 };
                 assert!(line.iter().all(|p| off_axis(p) < 1e-2));
@@ -223,7 +223,14 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let shown = shown(&mixed());
         let states = [shown.clone()];
-        let view = write("a", Attitude::LYING, &states, "c".into(), folder.path()).unwrap();
+        let view = write(
+            "a",
+            Attitude::HORIZONTAL,
+            &states,
+            "c".into(),
+            folder.path(),
+        )
+        .unwrap();
         let text = std::fs::read_to_string(folder.path().join(&view.file)).unwrap();
         let value: serde_json::Value = serde_json::from_str(&text).unwrap();
         let strand = &value["states"][0]["strands"][0];
@@ -238,13 +245,20 @@ mod tests {
         assert!(text.len() < 100 * bodies + 500 * all + 1000);
         // A second state with the same monomers adds no bonds.
         let states = [shown.clone(), shown.clone()];
-        let view = write("b", Attitude::LYING, &states, "c".into(), folder.path()).unwrap();
+        let view = write(
+            "b",
+            Attitude::HORIZONTAL,
+            &states,
+            "c".into(),
+            folder.path(),
+        )
+        .unwrap();
         let twice = std::fs::read_to_string(folder.path().join(&view.file)).unwrap();
         assert!(twice.len() - text.len() < 100 * bodies + 1000);
         let mut bad = shown;
         bad.pose.strands[0].monomers[0][0] = f64::NAN;
-        let refused = write("a", Attitude::LYING, &[bad], "c".into(), folder.path());
+        let refused = write("a", Attitude::HORIZONTAL, &[bad], "c".into(), folder.path());
         assert!(refused.unwrap_err().contains("not finite"));
-        assert!(write("a", Attitude::LYING, &[], "c".into(), folder.path()).is_err());
+        assert!(write("a", Attitude::HORIZONTAL, &[], "c".into(), folder.path()).is_err());
     }
 }

@@ -47,7 +47,7 @@ pub(crate) fn laws() -> [Law; 4] {
 pub(crate) fn interaction(layout: &RodLayout, (_, material, xi): Law) -> EnergyGradient {
     let rod = EnergyGradient::new(layout.clone(), material);
     let curvature = SegmentCurvature::new(layout, &[], &[]);
-    match SegmentLaw::of(&material, xi) {
+    match SegmentLaw::from_material(&material, xi) {
         Some(law) => rod.with_extension(law, curvature),
         None => rod,
     }

@@ -14,7 +14,7 @@ pub struct JoinedElement {
     /// Bending element.
     pub element: BendingElement,
     /// Difference between the rest curvatures of the rod and of the element (rad/nm).
-    pub lacking: Vector3,
+    pub curvature_difference: Vector3,
 }
 
 /// Quadrature of the mean curvature around each segment of a rod.
@@ -36,7 +36,7 @@ pub struct SegmentCurvature {
 pub(crate) struct AdjacentElement {
     pub(crate) frames: [usize; 2],
     pub(crate) element: BendingElement,
-    lacking: Vector3,
+    curvature_difference: Vector3,
     /// Weight in the mean; the weights of a segment sum to 1.
     pub(crate) share: f64,
 }
@@ -65,7 +65,7 @@ impl SegmentCurvature {
             Some(JoinedElement {
                 frames: [frame, frame + 1],
                 element: BendingElement { rest_distance },
-                lacking: Vector3::zeros(),
+                curvature_difference: Vector3::zeros(),
             })
         };
         let mut curvature = Self {
@@ -121,7 +121,7 @@ impl SegmentCurvature {
             self.around.extend(elements.map(|joined| AdjacentElement {
                 frames: joined.frames,
                 element: joined.element,
-                lacking: joined.lacking,
+                curvature_difference: joined.curvature_difference,
                 share,
             }));
         }
@@ -135,7 +135,7 @@ impl SegmentCurvature {
     }
 
     #[inline]
-    pub(crate) fn around(&self, segment: usize) -> &[AdjacentElement] {
+    pub(crate) fn adjacent_elements(&self, segment: usize) -> &[AdjacentElement] {
         &self.around[self.offsets[segment]..self.offsets[segment + 1]]
     }
 
@@ -145,9 +145,9 @@ impl SegmentCurvature {
         let q = &state.frames.orientation;
         let curvature = |a: &AdjacentElement| {
             let [first, second] = a.frames.map(|frame| q.get(frame));
-            a.share * (a.element.curvature(first, second) + a.lacking)
+            a.share * (a.element.curvature(first, second) + a.curvature_difference)
         };
-        self.around(segment).iter().map(curvature).sum()
+        self.adjacent_elements(segment).iter().map(curvature).sum()
     }
 }
 
@@ -157,7 +157,7 @@ mod tests {
     use crate::{StraightRod, Walls};
 
     fn shares(curvature: &SegmentCurvature, segment: usize) -> Vec<([usize; 2], f64)> {
-        let around = curvature.around(segment).iter();
+        let around = curvature.adjacent_elements(segment).iter();
         around.map(|a| (a.frames, a.share)).collect()
     }
 
@@ -177,7 +177,7 @@ mod tests {
         let joined = [4, 5].map(|junction| JoinedElement {
             frames: [3, junction],
             element: BendingElement { rest_distance: 6.0 },
-            lacking: Vector3::zeros(),
+            curvature_difference: Vector3::zeros(),
         });
         let curvature = SegmentCurvature::new(&layout, &[], &joined);
         assert_eq!(shares(&curvature, 0), [([0, 1], 0.5), ([1, 2], 0.5)]);

@@ -230,7 +230,7 @@ mod tests {
             state.points.position.set(i, Vector3::z() * z);
         }
         let material = RodMaterial::homogenised(Homogenised::mean_filament());
-        let law = SegmentLaw::of(&material, None).unwrap();
+        let law = SegmentLaw::from_material(&material, None).unwrap();
         let rod = EnergyGradient::new(layout, material).with_extension(law, curvature);
         (state, rod)
     }

@@ -78,7 +78,10 @@ impl SegmentJet {
 impl SegmentLaw {
     /// Returns the coupling of a material with a law of twist and stretch, or `None` without
     /// coupling. A potential ignores `twist_stretch`.
-    pub fn of(material: &RodMaterial, twist_stretch: Option<TwistStretch>) -> Option<Self> {
+    pub fn from_material(
+        material: &RodMaterial,
+        twist_stretch: Option<TwistStretch>,
+    ) -> Option<Self> {
         let Some(laws) = material.laws() else {
             return Some(Self::default());
         };

@@ -80,10 +80,14 @@ impl ExtendedSegments {
         Vector3::new(across, across, 1.0)
     }
 
-    pub(crate) fn around(&self, k: usize, layout: &RodLayout) -> impl Iterator<Item = SideElement> {
+    pub(crate) fn side_elements(
+        &self,
+        k: usize,
+        layout: &RodLayout,
+    ) -> impl Iterator<Item = SideElement> {
         let frame = layout.frames().start + k;
         let length = layout.segment_lengths()[k];
-        let around = self.curvature.around(k).iter();
+        let around = self.curvature.adjacent_elements(k).iter();
         around.map(move |around| SideElement {
             side: usize::from(around.frames[0] == frame),
             frames: around.frames,
@@ -99,7 +103,7 @@ impl ExtendedSegments {
     ) -> (SegmentJet, SegmentSurroundings) {
         let segment = self.segment(k, layout, state);
         let jet = self.law.jet(material, segment.strain(), segment.curvature);
-        let mut sides = self.around(k, layout).map(|beside| beside.side);
+        let mut sides = self.side_elements(k, layout).map(|beside| beside.side);
         let first = sides.next();
         let around = SegmentSurroundings {
             length: segment.element.rest_length,
@@ -127,7 +131,7 @@ impl ExtendedSegments {
                 kappa: self.curvature.mean(k, state),
                 covered: self.curvature.covered(k),
             },
-            around: self.curvature.around(k),
+            around: self.curvature.adjacent_elements(k),
             factors: self.factors(k),
         }
     }

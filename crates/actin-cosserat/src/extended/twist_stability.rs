@@ -46,7 +46,7 @@ impl SegmentLaw {
     /// use actin_mechanics::Vector3;
     /// let twist = TwistLaw::Tanh(TanhTwist::published());
     /// let material = RodMaterial::new(Rigidities::table4())?.with_twist(twist)?;
-    /// let law = SegmentLaw::of(&material, Some(TwistStretch::published())).unwrap();
+    /// let law = SegmentLaw::from_material(&material, Some(TwistStretch::published())).unwrap();
     /// // B3(0) = 566 pN nm^2 over xi''(0) = -2 x 20.508 nm^2.
     /// let rest = Vector3::zeros();
     /// let critical = law.critical_tension(&material, rest, rest).unwrap();
@@ -147,7 +147,7 @@ mod tests {
         let material = RodMaterial::new(Rigidities::table4())
             .and_then(|m| m.with_twist(TwistLaw::Tanh(TanhTwist::published())))
             .unwrap();
-        let law = SegmentLaw::of(&material, Some(TwistStretch::published()));
+        let law = SegmentLaw::from_material(&material, Some(TwistStretch::published()));
         (material, law.unwrap())
     }
 
@@ -188,7 +188,7 @@ mod tests {
         if cubic {
             material = material.with_shear(shear).unwrap();
         }
-        let law = SegmentLaw::of(&material, Some(TwistStretch::Rooted(ROOTED)));
+        let law = SegmentLaw::from_material(&material, Some(TwistStretch::Rooted(ROOTED)));
         (material, law.unwrap())
     }
 
@@ -277,7 +277,7 @@ mod tests {
         let beyond = Vector3::z() * 0.06;
         assert_eq!(law.critical_tension(&material, rest, beyond), None);
         let linear = TwistStretch::linear(9.35e3, 3.4e4);
-        let law = SegmentLaw::of(&material, Some(linear)).unwrap();
+        let law = SegmentLaw::from_material(&material, Some(linear)).unwrap();
         assert_eq!(law.critical_compression(&material, rest, rest), None);
         let pressed = law.twist_stability(&material, Vector3::z() * -0.01, rest);
         assert!(pressed.is_stable() && pressed.tension < -300.0);

@@ -13,14 +13,14 @@ use actin_mechanics::{Loads, State, Vector3, rotation};
 pub(super) const MOST_JOINED: usize = 8;
 
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Joined {
+pub(super) struct JoinedEnd {
     pub(super) frames: [usize; 2],
     pub(super) end: RodEnd,
     /// Weight in the mean curvature divided by rest distance (1/nm).
     pub(super) share: f64,
 }
 
-impl Joined {
+impl JoinedEnd {
     fn number(&self) -> usize {
         usize::from(self.end == RodEnd::End)
     }
@@ -28,7 +28,7 @@ impl Joined {
 
 #[derive(Debug)]
 pub(super) struct Ends<'a> {
-    joined: &'a [Joined],
+    joined: &'a [JoinedEnd],
     angles: [Vector3; MOST_JOINED],
     /// Group and lane of the first and of the last segment.
     places: [[usize; 2]; 2],
@@ -39,7 +39,11 @@ pub(super) struct Ends<'a> {
 }
 
 impl<'a> Ends<'a> {
-    pub(super) fn new(joined: &'a [Joined], state: &State, [segments, lanes]: [usize; 2]) -> Self {
+    pub(super) fn new(
+        joined: &'a [JoinedEnd],
+        state: &State,
+        [segments, lanes]: [usize; 2],
+    ) -> Self {
         let last = segments - 1;
         let mut ends = Self {
             joined,

@@ -102,7 +102,7 @@ impl FastRod {
         material: &RodMaterial,
         extended: Option<&ExtendedSegments>,
     ) -> Option<Self> {
-        let law = Laws::of(material, extended.map(|segments| &segments.law))?;
+        let law = Laws::from_law(material, extended.map(|segments| &segments.law))?;
         let rod = Rod::new(layout, Bent::new(law, material), extended)?;
         Some(Self(Kind::Bent(rod)))
     }
@@ -129,7 +129,7 @@ fn kind<A: Shear, B: Bend, T: Twist, X: Length>(
     (layout, material, extended): (&RodLayout, &RodMaterial, Option<&ExtendedSegments>),
     kind: AsKind<Laws<A, B, T, X>>,
 ) -> Option<Kind> {
-    let law = Laws::of(material, extended.map(|segments| &segments.law))?;
+    let law = Laws::from_law(material, extended.map(|segments| &segments.law))?;
     Rod::new(layout, law, extended).map(kind)
 }
 

@@ -1,6 +1,6 @@
 //! Data of a rod for the kernels, computed when the interaction is built.
 
-use super::ends::{Joined, MOST_JOINED};
+use super::ends::{JoinedEnd, MOST_JOINED};
 use super::laws::Law;
 use crate::extended::ExtendedSegments;
 use crate::{RodEnd, RodLayout, SegmentCurvature};
@@ -11,7 +11,7 @@ use actin_mechanics::{Loads, State};
 pub(super) struct Rod<L> {
     pub(super) law: L,
     pub(super) bodies: Bodies,
-    pub(super) joined: Vec<Joined>,
+    pub(super) joined: Vec<JoinedEnd>,
 }
 
 /// Properties of each segment and of the preceding bending element. There is one lane more than
@@ -91,7 +91,9 @@ impl<L: Law> Rod<L> {
             joined: Vec::new(),
         };
         for k in 0..layout.segments() {
-            for around in extended.map_or(&[][..], |segments| segments.curvature.around(k)) {
+            for around in
+                extended.map_or(&[][..], |segments| segments.curvature.adjacent_elements(k))
+            {
                 let share = around.share / around.element.rest_distance;
                 rod.add_around(k, layout, around.frames, share)?;
             }
@@ -126,7 +128,7 @@ impl<L: Law> Rod<L> {
                 [first, _] if first == frame && at(RodEnd::End) => RodEnd::End,
                 _ => return None,
             };
-            self.joined.push(Joined { frames, end, share });
+            self.joined.push(JoinedEnd { frames, end, share });
         }
         Some(())
     }
@@ -134,7 +136,10 @@ impl<L: Law> Rod<L> {
     /// Extends the only element around segment `k` over the uncovered part of the segment.
     fn cover(&mut self, k: usize, layout: &RodLayout, curvature: &SegmentCurvature) -> Option<()> {
         let bare = (1.0 - curvature.covered(k)) * layout.segment_lengths()[k];
-        let lane = match (curvature.around(k), self.bodies.shares[0][k] > 0.0) {
+        let lane = match (
+            curvature.adjacent_elements(k),
+            self.bodies.shares[0][k] > 0.0,
+        ) {
             _ if bare == 0.0 => return Some(()),
             ([], _) => return Some(()),
             ([_], true) => k,

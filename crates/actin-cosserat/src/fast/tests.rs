@@ -139,7 +139,7 @@ fn joined(layout: &RodLayout, any: bool) -> [Vec<JoinedElement>; 2] {
     let element = |frames, rest_distance| JoinedElement {
         frames,
         element: BendingElement { rest_distance },
-        lacking: Vector3::zeros(),
+        curvature_difference: Vector3::zeros(),
     };
     let (frames, after) = (layout.frames(), layout.bending_chain().end);
     let start = vec![element([0, frames.start], 6.0)];
@@ -156,7 +156,7 @@ fn extended(layout: &RodLayout, law: &Named, is_joined: bool) -> Option<Extended
     if law.1.potential().is_some() {
         curvature = curvature.with_ends(layout, [EndShear::Loose, EndShear::Blocked], [0.0; 2]);
     }
-    SegmentLaw::of(&law.1, law.2).map(|law| ExtendedSegments { law, curvature })
+    SegmentLaw::from_material(&law.1, law.2).map(|law| ExtendedSegments { law, curvature })
 }
 
 fn add_reference(
@@ -408,7 +408,7 @@ fn rods_joined_to_many_others_keep_the_scalar_path() {
     let [_, end] = joined(&layout, true);
     let has_loop = |count: usize| {
         let end: Vec<_> = end.iter().cycle().take(count).copied().collect();
-        let law = SegmentLaw::of(&material(), Some(ROOTED)).unwrap();
+        let law = SegmentLaw::from_material(&material(), Some(ROOTED)).unwrap();
         let curvature = SegmentCurvature::new(&layout, &[], &end);
         let segments = ExtendedSegments { law, curvature };
         FastRod::new(&layout, &material(), Some(&segments)).is_some()

@@ -59,7 +59,7 @@ impl Homogenised {
     /// # Errors
     /// If `segment_nm` is below [`SHORTEST_HEATED_NM`](Self::SHORTEST_HEATED_NM) or not finite.
     pub fn heated_rod(segment_nm: f64) -> Result<&'static Self, RodParameterError> {
-        // Leaked on purpose: see `drawn_filament`.
+        // Leaked on purpose: see `sampled_filament`.
         static LAWS: Mutex<BTreeMap<u64, &'static Homogenised>> = Mutex::new(BTreeMap::new());
         let rounded = (segment_nm * PER_NM).round() / PER_NM;
         if !(rounded >= Self::SHORTEST_HEATED_NM && rounded.is_finite()) {

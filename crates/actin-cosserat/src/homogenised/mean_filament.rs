@@ -10,7 +10,7 @@ use std::sync::{LazyLock, Mutex, PoisonError};
 /// Rows: stretch at rest, natural stretch, then each term, lowest order first.
 const COLD: &str = include_str!("mean_filament.csv");
 
-/// Coefficients for [`DRAWN_BONDS`](Homogenised::DRAWN_BONDS) sampled bonds, from
+/// Coefficients for [`SAMPLED_BONDS`](Homogenised::SAMPLED_BONDS) sampled bonds, from
 /// `cargo xtask homogenise drawn`.
 const DRAWN: &str = include_str!("drawn_filament.csv");
 
@@ -67,32 +67,32 @@ impl Homogenised {
     /// Mean law of filaments with `bonds` sampled bonds per interface.
     ///
     /// They are softer than the mean filament, because compliances in series add up. The difference
-    /// is inversely proportional to `bonds`, which is at least [`DRAWN_BONDS`](Self::DRAWN_BONDS).
+    /// is inversely proportional to `bonds`, which is at least [`SAMPLED_BONDS`](Self::SAMPLED_BONDS).
     ///
     /// ```
     /// use actin_cosserat::Homogenised;
     /// use actin_mechanics::Vector3;
     /// let bend = Vector3::x() * 1e-3;
     /// let couple = |law: &Homogenised| law.joint_couple(bend).x;
-    /// let of = |bonds| couple(Homogenised::drawn_filament(bonds)) / couple(Homogenised::mean_filament());
+    /// let of = |bonds| couple(Homogenised::sampled_filament(bonds)) / couple(Homogenised::mean_filament());
     /// assert!(of(64) < 0.98 && of(64) < of(640) && of(1_000_000_000) > 0.999_999);
     /// assert_eq!(of(10), of(64));
     /// ```
-    pub fn drawn_filament(bonds: usize) -> &'static Self {
+    pub fn sampled_filament(bonds: usize) -> &'static Self {
         // Leaked on purpose: programs use few laws, and materials refer to them permanently.
         static LAWS: Mutex<BTreeMap<usize, &'static Homogenised>> = Mutex::new(BTreeMap::new());
         static DRAWN_LAW: LazyLock<Homogenised> = LazyLock::new(|| read(DRAWN));
-        let bonds = bonds.max(Self::DRAWN_BONDS);
+        let bonds = bonds.max(Self::SAMPLED_BONDS);
         let mut laws = LAWS.lock().unwrap_or_else(PoisonError::into_inner);
         laws.entry(bonds).or_insert_with(|| {
-            let share = Self::DRAWN_BONDS as f64 / bonds as f64;
+            let share = Self::SAMPLED_BONDS as f64 / bonds as f64;
             let law = Self::mean_filament().towards(&DRAWN_LAW, share);
             Box::leak(Box::new(law.with_range(RANGE)))
         })
     }
 
     /// Bonds per interface of the measured cells with sampled bonds, as in the paper.
-    pub const DRAWN_BONDS: usize = 64;
+    pub const SAMPLED_BONDS: usize = 64;
 
     /// Interpolates the coefficients between `self` (0) and `other` (1). Extrapolated coefficients
     /// could have an unbounded energy.

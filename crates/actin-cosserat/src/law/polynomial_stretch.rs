@@ -74,7 +74,7 @@ impl PolynomialStretch {
             return Err(RodParameterError { key, value, rule });
         }
         let mut coefficients = self.coefficients.iter();
-        coefficients.try_for_each(|p| RodParameterError::unless_finite(RodKey::Coefficient, *p))
+        coefficients.try_for_each(|p| RodParameterError::check_finite(RodKey::Coefficient, *p))
     }
 
     /// `xi - 1` at `k` (rad/nm), with two derivatives.

@@ -54,7 +54,7 @@ impl RootedStretch {
             (RodKey::Cubic, self.cubic),
         ]
         .into_iter()
-        .try_for_each(|(key, value)| RodParameterError::unless_finite(key, value))
+        .try_for_each(|(key, value)| RodParameterError::check_finite(key, value))
     }
 
     /// `xi - 1` at `k` (rad/nm), with two derivatives.

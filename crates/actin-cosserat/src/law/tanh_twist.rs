@@ -74,7 +74,7 @@ impl TanhTwist {
         let others = [(RodKey::BPlus, self.b_plus), (RodKey::BMinus, self.b_minus)];
         let lambdas = self.lambda.map(|value| (RodKey::Lambda, value));
         for (key, value) in others.into_iter().chain(lambdas) {
-            RodParameterError::unless_finite(key, value)?;
+            RodParameterError::check_finite(key, value)?;
         }
         for end in [-self.range, self.range] {
             let key = RodKey::EndSlope;

@@ -212,7 +212,7 @@ fn rod_of(layout: RodLayout, material: RodMaterial, law: Option<TwistStretch>) -
     let joined = |frames, rest_distance| JoinedElement {
         frames,
         element: BendingElement { rest_distance },
-        lacking: Vector3::zeros(),
+        curvature_difference: Vector3::zeros(),
     };
     let frames = layout.frames();
     let start = joined([0, frames.start], 6.0);
@@ -223,7 +223,7 @@ fn rod_of(layout: RodLayout, material: RodMaterial, law: Option<TwistStretch>) -
         curvature = curvature.with_ends(&layout, ends, [0.0; 2]);
     }
     let rod = EnergyGradient::new(layout, material);
-    match SegmentLaw::of(&material, law) {
+    match SegmentLaw::from_material(&material, law) {
         Some(law) => rod.with_extension(law, curvature),
         None => rod,
     }
@@ -303,7 +303,7 @@ fn uniform(k: f64, extension: f64) -> (State, EnergyGradient) {
     }
     let twist = TwistLaw::Tanh(TanhTwist::published());
     let material = constant().with_twist(twist).unwrap();
-    let law = SegmentLaw::of(&material, Some(TwistStretch::published())).unwrap();
+    let law = SegmentLaw::from_material(&material, Some(TwistStretch::published())).unwrap();
     let curvature = SegmentCurvature::new(&layout, &[], &[]);
     let rod = EnergyGradient::new(layout, material).with_extension(law, curvature);
     (state, rod)
@@ -361,7 +361,7 @@ fn coupling_energy_is_the_printed_product() {
     let (k, e) = (0.01, 0.002);
     let (state, rod) = uniform(k, 1.0 + e);
     let layout = rod.layout().clone();
-    let law = SegmentLaw::of(&constant(), Some(TwistStretch::linear(c3, s3))).unwrap();
+    let law = SegmentLaw::from_material(&constant(), Some(TwistStretch::linear(c3, s3))).unwrap();
     let curvature = SegmentCurvature::new(&layout, &[], &[]);
     let rod = EnergyGradient::new(layout, constant()).with_extension(law, curvature);
     let mut energies = vec![0.0; rod.elements()];

@@ -200,7 +200,7 @@ impl Row {
         clippy::cast_sign_loss,
         reason = "a positive number; memory runs out long before the conversion saturates"
     )]
-    pub(super) fn of(capsule: &Capsule, radius: f64) -> Self {
+    pub(super) fn new(capsule: &Capsule, radius: f64) -> Self {
         let count = (capsule.length / (SPACING * radius)).ceil().max(1.0);
         Self {
             count: count as usize,

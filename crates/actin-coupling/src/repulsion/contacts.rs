@@ -123,7 +123,7 @@ impl Contacts {
             });
         }
         Ok(Self {
-            rows: capsules.iter().map(|c| Row::of(c, radius)).collect(),
+            rows: capsules.iter().map(|c| Row::new(c, radius)).collect(),
             capsules,
             radius,
             kernel: Kernel::new(stiffness, 2.0 * radius),

@@ -52,7 +52,7 @@ impl Neighbours {
 
     fn find(&mut self, capsules: &[Capsule], reach: &Reach) {
         let cutoff = reach.known + reach.skin;
-        let boxes: Vec<_> = self.ends.iter().map(Bounds::around).collect();
+        let boxes: Vec<_> = self.ends.iter().map(Bounds::new).collect();
         self.pairs.clear();
         for [i, j] in meeting(&boxes, capsules, reach.apart, cutoff) {
             if distance::between(self.ends[i], self.ends[j]).squared < cutoff * cutoff {
@@ -86,7 +86,7 @@ impl Neighbours {
             return self.pairs.iter().copied().find(passes);
         }
         let boxes: Vec<_> = ways()
-            .map(|way| Bounds::around(way.0).with(&Bounds::around(way.1)))
+            .map(|way| Bounds::new(way.0).with(&Bounds::new(way.1)))
             .collect();
         let mut pairs = meeting(&boxes, capsules, reach.apart, least).into_iter();
         pairs.find(passes)
@@ -100,7 +100,7 @@ struct Bounds {
 }
 
 impl Bounds {
-    fn around([a, b]: &[Vector3; 2]) -> Self {
+    fn new([a, b]: &[Vector3; 2]) -> Self {
         Self {
             lower: a.inf(b),
             upper: a.sup(b),

@@ -10,7 +10,7 @@ pub(super) struct Pair {
 
 /// Two points in contact: vector from first to second, depth, relative positions along the
 /// capsules, and product of their lengths.
-struct Touch {
+struct ContactPoint {
     d: Vector3,
     depth: f64,
     shares: [f64; 2],
@@ -20,7 +20,7 @@ struct Touch {
 impl Pair {
     /// Visits all pairs of points in contact, in order of the first and then of the second index.
     #[inline]
-    fn touches(&self, kernel: &Kernel, mut visit: impl FnMut(&Touch)) {
+    fn touches(&self, kernel: &Kernel, mut visit: impl FnMut(&ContactPoint)) {
         let [[a0, a1], [b0, b1]] = self.ends;
         let (along_a, along_b) = (a1 - a0, b1 - b0);
         let length2 = along_b.norm_squared();
@@ -44,7 +44,7 @@ impl Pair {
                 let d = along_b * at - start;
                 let depth = kernel.depth(d);
                 if depth > 0.0 {
-                    visit(&Touch {
+                    visit(&ContactPoint {
                         d,
                         depth,
                         shares: [share, at],

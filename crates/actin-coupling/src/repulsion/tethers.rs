@@ -18,7 +18,7 @@ impl Tethers {
     /// Creates tethers with a stiffness per length (pN/nm^2) for capsules of a radius (nm).
     pub fn new(state: &State, capsules: &[Capsule], radius: f64, stiffness: f64) -> Self {
         Self {
-            rows: capsules.iter().map(|c| Row::of(c, radius)).collect(),
+            rows: capsules.iter().map(|c| Row::new(c, radius)).collect(),
             places: capsules.iter().map(|c| c.ends(state)).collect(),
             capsules: capsules.to_vec(),
             stiffness,

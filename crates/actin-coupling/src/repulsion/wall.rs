@@ -58,7 +58,7 @@ pub struct WallContact {
 }
 
 /// Point of an axis in contact: depth, gradient and curvature of the wall distance.
-struct Touch {
+struct ContactPoint {
     depth: f64,
     away: Vector3,
     curving: f64,
@@ -107,7 +107,7 @@ impl WallContact {
             }
         };
         Ok(Self {
-            rows: capsules.iter().map(|c| Row::of(c, radius)).collect(),
+            rows: capsules.iter().map(|c| Row::new(c, radius)).collect(),
             capsules,
             wall,
             kernel: WallKernel::new(stiffness, radius),
@@ -187,14 +187,14 @@ impl WallContact {
         }
     }
 
-    fn touches(&self, i: usize, [start, end]: [Vector3; 2], mut visit: impl FnMut(&Touch)) {
+    fn touches(&self, i: usize, [start, end]: [Vector3; 2], mut visit: impl FnMut(&ContactPoint)) {
         let row = self.rows[i];
         for k in 0..row.count {
             let share = row.share(k);
             let (distance, away, curving) = self.distance(start + (end - start) * share);
             let depth = self.kernel.radius - distance;
             if depth > 0.0 {
-                visit(&Touch {
+                visit(&ContactPoint {
                     depth,
                     away,
                     curving,

@@ -12,7 +12,7 @@ mod verdicts;
 
 pub use maud::Markup;
 pub use shades::{DARK_CARD, on_dark};
-pub use tables::{Explained, Misses, breakable, significant};
+pub use tables::{ExplainedMisses, Misses, breakable, significant};
 pub use verdicts::Verdicts;
 
 use crate::report::{Artefact, Picture, View};
@@ -34,7 +34,7 @@ pub const STYLE: &str = include_str!("style.css");
 ///     id: "table1",
 ///     title: "One number",
 ///     settings: "none".into(),
-///     rows: vec![Row::measured("table1", "height", "nm", 36.7, "a note").against(36.0, 1.0)],
+///     rows: vec![Row::measured("table1", "height", "nm", 36.7, "a note").with_paper_value(36.0, 1.0)],
 ///     pictures: Vec::new(),
 ///     views: Vec::new(),
 ///     wall_s: 0.1,
@@ -101,7 +101,7 @@ impl<'a> Page<'a> {
         folder: &Path,
     ) -> Result<(), String> {
         let (id, title) = (artefact.id, artefact.title);
-        let counted = Verdicts::of(&artefact.rows);
+        let counted = Verdicts::from_rows(&artefact.rows);
         let line = html! {
             li class="artefact" {
                 a href={ "#" (id) } { (name(id)) ": " (title) }

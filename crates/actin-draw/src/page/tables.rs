@@ -10,7 +10,7 @@ const COLUMNS: usize = 9;
 #[derive(Clone, Debug, Default)]
 pub struct Misses<'a> {
     /// Rows with a reason, in order.
-    pub explained: Vec<Explained<'a>>,
+    pub explained: Vec<ExplainedMisses<'a>>,
     /// Rows without a reason.
     pub open: Vec<&'a Row>,
     /// Text about rows without a reason.
@@ -19,7 +19,7 @@ pub struct Misses<'a> {
 
 /// Failed rows of one artefact with the same reason.
 #[derive(Clone, Debug)]
-pub struct Explained<'a> {
+pub struct ExplainedMisses<'a> {
     /// Name of the artefact.
     pub artefact: &'a str,
     /// Heading.
@@ -51,7 +51,7 @@ pub(super) fn measured(rows: &[Row]) -> Markup {
 
 /// Returns the part of the table of verdicts for an artefact, with failed rows first; empty without verdicts.
 pub(super) fn judged(artefact: &Artefact, misses: &Misses<'_>) -> Markup {
-    let verdicts = Verdicts::of(&artefact.rows);
+    let verdicts = Verdicts::from_rows(&artefact.rows);
     if verdicts.compared() == 0 {
         return Markup::default();
     }
@@ -230,8 +230,8 @@ mod tests {
     #[test]
     fn misses_come_first_and_every_row_is_there_once() {
         let row = |i: usize| Row::measured("fig1", format!("q/{i}"), "nm", 1.0, "a < b");
-        let mut rows: Vec<Row> = (0..40).map(|i| row(i).against(1.0, 0.1)).collect();
-        rows.extend((40..60).map(|i| row(i).against(3.0, 0.1)));
+        let mut rows: Vec<Row> = (0..40).map(|i| row(i).with_paper_value(1.0, 0.1)).collect();
+        rows.extend((40..60).map(|i| row(i).with_paper_value(3.0, 0.1)));
         rows.extend((60..63).map(row));
         let artefact = Artefact {
             id: "fig1",

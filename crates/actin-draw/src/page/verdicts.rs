@@ -18,7 +18,7 @@ pub struct Verdicts {
 
 impl Verdicts {
     /// Counts the verdicts of rows.
-    pub fn of(rows: &[Row]) -> Self {
+    pub fn from_rows(rows: &[Row]) -> Self {
         let count = |verdict| rows.iter().filter(|row| row.pass == verdict).count();
         Self {
             agree: count(Some(true)),
@@ -88,12 +88,12 @@ mod tests {
     fn verdicts_are_counted() {
         let row = |ours| Row::measured("fig1", "q", "nm", ours, "");
         let rows = [
-            row(1.0).against(1.1, 0.2),
-            row(1.0).against(2.0, 0.2),
-            row(1.0).against(f64::NAN, 0.2),
+            row(1.0).with_paper_value(1.1, 0.2),
+            row(1.0).with_paper_value(2.0, 0.2),
+            row(1.0).with_paper_value(f64::NAN, 0.2),
             row(1.0),
         ];
-        let counted = Verdicts::of(&rows);
+        let counted = Verdicts::from_rows(&rows);
         let expected = Verdicts {
             agree: 1,
             missed: 2,

@@ -5,7 +5,7 @@
 //! let row = Row::measured("fig1", "height", "nm", 36.7, "mean of 8");
 //! assert_eq!(row.pass, None);
 // The reference is 36, with a tolerance of 1.
-//! assert_eq!(row.against(36.0, 1.0).pass, Some(true));
+//! assert_eq!(row.with_paper_value(36.0, 1.0).pass, Some(true));
 //! ```
 
 mod printed;
@@ -114,7 +114,7 @@ impl Row {
 
     /// Adds a reference value that is printed in the paper.
     #[must_use]
-    pub fn against(self, paper: f64, tolerance: f64) -> Self {
+    pub fn with_paper_value(self, paper: f64, tolerance: f64) -> Self {
         Self {
             origin: Some(Origin::Paper),
             paper: Some(paper),
@@ -126,7 +126,7 @@ impl Row {
 
     /// Sets the origin of the reference value.
     #[must_use]
-    pub fn of(self, origin: Origin) -> Self {
+    pub fn with_origin(self, origin: Origin) -> Self {
         Self {
             origin: Some(origin),
             ..self
@@ -281,7 +281,7 @@ mod tests {
         let json = serde_json::to_string(&row).unwrap();
         assert!(json.ends_with("\"note\":\"\"}"), "{json}");
         assert_eq!(serde_json::from_str::<Row>(&json).unwrap(), row);
-        let theory = row.against(2.0, 0.5).of(Origin::Theory);
+        let theory = row.with_paper_value(2.0, 0.5).with_origin(Origin::Theory);
         let json = serde_json::to_string(&theory).unwrap();
         assert!(json.ends_with(",\"origin\":\"theory\"}"), "{json}");
         let folder = tempfile::tempdir().unwrap();

@@ -38,7 +38,7 @@ fn places(count: usize) -> i32 {
 impl Row {
     /// Adds a reference value without a verdict.
     #[must_use]
-    pub fn beside(self, expected: f64, origin: Origin) -> Self {
+    pub fn with_reference(self, expected: f64, origin: Origin) -> Self {
         Self {
             paper: Some(expected),
             origin: Some(origin),

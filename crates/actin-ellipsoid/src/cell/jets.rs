@@ -66,16 +66,16 @@ pub(super) struct MatrixJet {
 impl MatrixJet {
     /// Rotation `exp([w]x)`.
     pub(super) fn rotation(w: Vector3) -> Self {
-        Self::of(w, 0)
+        Self::new(w, 0)
     }
 
     /// Left Jacobian `J_l(w)`: mean of the rotations by `t w` over `t` in [0, 1].
     pub(super) fn left_jacobian(w: Vector3) -> Self {
-        Self::of(w, 1)
+        Self::new(w, 1)
     }
 
     /// `c_n 1 + c_{n+1} [w]x + c_{n+2} w w^T`.
-    fn of(w: Vector3, n: usize) -> Self {
+    fn new(w: Vector3, n: usize) -> Self {
         let c = stumpff(w.norm_squared());
         let first: [f64; 6] = slopes(&c);
         let second: [f64; 4] = slopes(&first);

@@ -14,7 +14,7 @@ type Square = SMatrix<f64, OF_PAIR, OF_PAIR>;
 /// curvature.
 const OF_BOND: usize = 12;
 type Gradients = SMatrix<f64, 3, OF_BOND>;
-type Displaced = SMatrix<f64, OF_BOND, OF_PAIR>;
+type BondDisplacements = SMatrix<f64, OF_BOND, OF_PAIR>;
 
 #[derive(Clone, Debug)]
 pub(super) struct CellPair {
@@ -107,7 +107,7 @@ impl CellPair {
         let mut gradient = SVector::<f64, OF_BOND>::zeros();
         let mut hessian = SMatrix::<f64, OF_BOND, OF_BOND>::zeros();
         let mut energy = 0.0;
-        let mut curved = Curved::default();
+        let mut curved = BondMoments::default();
         let mut slopes = Gradients::identity();
         let shift = motion.shift();
         let bend = motion.shift_by_curvature();
@@ -172,8 +172,8 @@ impl Motion {
     }
 
     /// Derivatives of the variables of a bond with respect to those of the pair.
-    fn displaced(&self) -> Displaced {
-        let mut displaced = Displaced::zeros();
+    fn displaced(&self) -> BondDisplacements {
+        let mut displaced = BondDisplacements::zeros();
         let mut set = |row: usize, column: usize, block: Matrix3| {
             displaced
                 .fixed_view_mut::<3, 3>(row, column)
@@ -190,7 +190,7 @@ impl Motion {
 }
 
 #[derive(Default)]
-struct Curved {
+struct BondMoments {
     /// `f`.
     force: Vector3,
     /// `f a^T`, `f b^T` and `f y^T` with the anchors `a`, `b` as built and the current upper end
@@ -200,7 +200,7 @@ struct Curved {
     end: Matrix3,
 }
 
-impl Curved {
+impl BondMoments {
     fn add(&mut self, force: Vector3, bond: &CellBond, end: Vector3) {
         self.force += force;
         self.lower += force * bond.lower.transpose();

@@ -25,7 +25,11 @@ fn strain() -> SixVector {
 /// Eight-point differences. Sampled bonds exclude symmetries that could hide a wrong index.
 #[test]
 fn derivatives_of_the_cell_are_exact() {
-    let cell = cell(EllipsoidParameters::drawn(7, 3), 13, Hold::Means);
+    let cell = cell(
+        EllipsoidParameters::with_sampled_bonds(7, 3),
+        13,
+        Hold::Means,
+    );
     let coordinates = DVector::from_fn(78, |k, _| 0.05 * (7.3 * k as f64 + 1.0).sin());
     let at = |place: usize, h: f64| {
         let (mut coordinates, mut strain) = (coordinates.clone(), strain());

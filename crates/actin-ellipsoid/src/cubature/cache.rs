@@ -8,12 +8,12 @@ use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 /// Kind, number of points, and bits of the geometric parameters.
 type Key = (InterfaceKind, usize, [u64; 8]);
 
-type Found = Result<Arc<Cubature>, CubatureError>;
+type CubatureResult = Result<Arc<Cubature>, CubatureError>;
 
 /// Entries are filled by the first caller while others wait.
-static FOUND: Mutex<Option<HashMap<Key, Arc<OnceLock<Found>>>>> = Mutex::new(None);
+static FOUND: Mutex<Option<HashMap<Key, Arc<OnceLock<CubatureResult>>>>> = Mutex::new(None);
 
-pub(super) fn get(parameters: &EllipsoidParameters, kind: InterfaceKind) -> Found {
+pub(super) fn get(parameters: &EllipsoidParameters, kind: InterfaceKind) -> CubatureResult {
     let numbers = numbers(parameters, kind);
     let key = (
         kind,

@@ -76,7 +76,7 @@ fn exponents() -> impl Iterator<Item = (usize, usize, usize)> {
 }
 
 impl Moments {
-    pub(crate) fn of(shares: &[Share]) -> Self {
+    pub(crate) fn new(shares: &[Share]) -> Self {
         let mean = |value: &dyn Fn(&Share) -> f64| -> f64 {
             shares.iter().map(|s| s.weight * value(s)).sum()
         };
@@ -179,7 +179,7 @@ mod tests {
             (0.3, 1.5, 0.7, 2.0),
         ]
         .map(share);
-        let moments = Moments::of(&shares);
+        let moments = Moments::new(&shares);
         let sites = shares.iter().rev();
         let sites: Vec<_> = sites
             .map(|s| (moments.site(s.place, s.length), s.weight))

@@ -220,7 +220,7 @@ mod tests {
     fn moments_agree_with_sampled_bonds() {
         const DRAWS: usize = 100_000;
         for (i, patch) in patches().iter().enumerate() {
-            let moments = Moments::of(&patch.shares().unwrap());
+            let moments = Moments::new(&patch.shares().unwrap());
             let mut stream = Stream::new(i as u64, 0, 0);
             let points = std::iter::repeat_with(|| patch.gap.ellipsoid.sample(&mut stream));
             let bonds = points.filter_map(|point| patch.gap.bond_from(point));
@@ -241,7 +241,7 @@ mod tests {
     #[test]
     fn quadrature_has_converged() {
         for (i, patch) in patches().iter().enumerate() {
-            let moments = Moments::of(&patch.shares().unwrap());
+            let moments = Moments::new(&patch.shares().unwrap());
             let coarse = patch.shares_by(RAYS / 2, POINTS_PER_RAY / 2).unwrap();
             let error = difference(&moments, &coarse);
             let bound = if i < 4 { 1e-10 } else { 1e-5 };

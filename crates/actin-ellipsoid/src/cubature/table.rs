@@ -9,14 +9,14 @@ use crate::{EllipsoidParameters, InterfaceKind};
 /// Relative tolerance: conversion to degrees and back changes the last digits.
 const SAME: f64 = 1e-12;
 
-struct Known {
+struct StoredPoints {
     certificate: MomentCheck,
     /// Position (nm), height (nm), length (nm), weight.
     points: &'static [[f64; 5]],
 }
 
-impl Known {
-    fn of(kind: InterfaceKind) -> &'static Self {
+impl StoredPoints {
+    fn for_kind(kind: InterfaceKind) -> &'static Self {
         match kind {
             InterfaceKind::Lateral => &LATERAL,
             InterfaceKind::Longitudinal => &LONGITUDINAL,
@@ -37,7 +37,7 @@ impl Known {
 
 /// Built-in quadrature if the parameters agree with the default.
 pub(super) fn built_in(parameters: &EllipsoidParameters, kind: InterfaceKind) -> Option<Cubature> {
-    let known = Known::of(kind);
+    let known = StoredPoints::for_kind(kind);
     let standard = EllipsoidParameters::default();
     let pairs = numbers(parameters, kind)
         .into_iter()
@@ -52,7 +52,7 @@ pub(super) fn built_in(parameters: &EllipsoidParameters, kind: InterfaceKind) ->
 
 /// Points in dimensionless units, as initial guess for other geometries.
 pub(super) fn sites(kind: InterfaceKind) -> Vec<(Site, f64)> {
-    let known = Known::of(kind);
+    let known = StoredPoints::for_kind(kind);
     let mean = |square: fn(&CubaturePoint) -> f64| -> f64 {
         known.points().map(|p| p.weight * square(&p)).sum()
     };
@@ -68,7 +68,7 @@ pub(super) fn sites(kind: InterfaceKind) -> Vec<(Site, f64)> {
     known.points().map(site).collect()
 }
 
-static LATERAL: Known = Known {
+static LATERAL: StoredPoints = StoredPoints {
     certificate: MomentCheck {
         residual: 4.205e-5,
         weights: [0.037_123_242_537, 0.140_436_821_151],
@@ -164,7 +164,7 @@ static LATERAL: Known = Known {
     ],
 };
 
-static LONGITUDINAL: Known = Known {
+static LONGITUDINAL: StoredPoints = StoredPoints {
     certificate: MomentCheck {
         residual: 1.030e-5,
         weights: [0.020_517_527_464, 0.152_829_792_989],

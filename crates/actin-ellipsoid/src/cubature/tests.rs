@@ -62,7 +62,7 @@ fn moments_agree_with_sampled_bonds() {
             let drawn: Vec<(Site, f64)> = (0..DRAWS)
                 .map(|_| (finder.draw(&mut stream), share))
                 .collect();
-            let points = Cubature::of(&parameters, kind).unwrap();
+            let points = Cubature::for_interface(&parameters, kind).unwrap();
             let points: Vec<(Site, f64)> = points
                 .points
                 .iter()
@@ -130,19 +130,22 @@ fn the_table_is_reproduced() {
 #[test]
 fn points_are_cached() {
     let standard = parameters(12, 0.2);
-    let first = Cubature::of(&standard, Lateral).unwrap();
+    let first = Cubature::for_interface(&standard, Lateral).unwrap();
     assert!(Arc::ptr_eq(
         &first,
-        &Cubature::of(&standard, Lateral).unwrap()
+        &Cubature::for_interface(&standard, Lateral).unwrap()
     ));
     let mut other = standard.clone();
     other.seed = 9;
     other.azimuth = 1.0;
-    assert!(Arc::ptr_eq(&first, &Cubature::of(&other, Lateral).unwrap()));
+    assert!(Arc::ptr_eq(
+        &first,
+        &Cubature::for_interface(&other, Lateral).unwrap()
+    ));
     other.lateral.bonds = 13;
     assert!(!Arc::ptr_eq(
         &first,
-        &Cubature::of(&other, Lateral).unwrap()
+        &Cubature::for_interface(&other, Lateral).unwrap()
     ));
 }
 
@@ -200,7 +203,7 @@ fn overlapping_monomers_need_a_minimum_length() {
 fn a_range_of_lengths_without_points_is_refused() {
     let mut narrow = parameters(12, 0.2);
     narrow.longitudinal.minimum_length = narrow.longitudinal.maximum_length - 1e-4;
-    let error = Cubature::of(&narrow, Longitudinal).unwrap_err();
+    let error = Cubature::for_interface(&narrow, Longitudinal).unwrap_err();
     assert!(
         matches!(error, CubatureError::OutOfBounds { .. }),
         "{error}"
@@ -211,6 +214,6 @@ fn a_range_of_lengths_without_points_is_refused() {
 fn an_interface_without_bonds_is_refused() {
     let mut short = parameters(12, 0.0);
     short.longitudinal.maximum_length = 0.05;
-    let error = Cubature::of(&short, Longitudinal).unwrap_err();
+    let error = Cubature::for_interface(&short, Longitudinal).unwrap_err();
     assert!(matches!(error, CubatureError::NoBonds { .. }), "{error}");
 }

@@ -5,11 +5,11 @@ use crate::{EllipsoidModel, Helix};
 use InterfaceKind::{Lateral, Longitudinal};
 
 fn with_bonds(bonds: usize) -> EllipsoidParameters {
-    EllipsoidParameters::drawn(bonds, 0)
+    EllipsoidParameters::with_sampled_bonds(bonds, 0)
 }
 
 fn without_shortest(bonds: usize, seed: u64) -> EllipsoidParameters {
-    let mut parameters = EllipsoidParameters::drawn(bonds, seed);
+    let mut parameters = EllipsoidParameters::with_sampled_bonds(bonds, seed);
     parameters.lateral.minimum_length = 0.0;
     parameters.longitudinal.minimum_length = 0.0;
     parameters

@@ -37,9 +37,9 @@ pub struct FluctuationsError {
 
 impl Fluctuations {
     /// Empty statistics of a run of monomers, with the built state as reference.
-    pub fn about(monomers: &Monomers, built: &State) -> Self {
+    pub fn new(monomers: &Monomers, built: &State) -> Self {
         let links = 0..monomers.count.saturating_sub(1);
-        let built: Vec<Pose> = links.map(|k| Pose::of_link(monomers, k, built)).collect();
+        let built: Vec<Pose> = links.map(|k| Pose::from_link(monomers, k, built)).collect();
         Self {
             monomers: *monomers,
             sums: vec![Sums::default(); built.len()],
@@ -53,7 +53,7 @@ impl Fluctuations {
         self.states += 1;
         let mut below = SixVector::zeros();
         for (k, (sums, built)) in self.sums.iter_mut().zip(&self.built).enumerate() {
-            let own = Pose::of_link(&self.monomers, k, state).displacements(built);
+            let own = Pose::from_link(&self.monomers, k, state).displacements(built);
             sums.displacement += own;
             sums.product += own * own.transpose();
             sums.with_below += own * below.transpose();

@@ -28,7 +28,7 @@ fn chain(count: usize) -> (QuasiHarmonic, State) {
         let units = SixMatrix::from_diagonal(&scales);
         let follows = units * random(0.4) * units.try_inverse().unwrap();
         Link {
-            pose: Pose::of_link(&monomers, k, &state),
+            pose: Pose::from_link(&monomers, k, &state),
             follows: if k == 0 { SixMatrix::zeros() } else { follows },
             stiffness: KT * covariance.try_inverse().unwrap(),
         }
@@ -71,7 +71,7 @@ fn parts_add_up() {
 fn moments_reproduce_the_chain() {
     let (chain, mut state) = chain(5);
     let monomers = chain.monomers;
-    let mut fluctuations = Fluctuations::about(&monomers, &state);
+    let mut fluctuations = Fluctuations::new(&monomers, &state);
     let mut noise = Xorshift::new(11);
     let states = 40_000;
     for _ in 0..states {
@@ -111,7 +111,7 @@ fn moments_reproduce_the_chain() {
 #[test]
 fn too_few_states_are_refused() {
     let (monomers, state) = run(3);
-    let mut fluctuations = Fluctuations::about(&monomers, &state);
+    let mut fluctuations = Fluctuations::new(&monomers, &state);
     fluctuations.add(&state);
     let error = fluctuations.chain(KT).unwrap_err();
     assert_eq!((error.link, error.states), (0, 1));

@@ -25,7 +25,7 @@ pub(crate) struct Clusters(Vec<Cluster>);
 
 impl Clusters {
     pub(crate) fn new(layout: &Layout, ties: &Ties, chain: &Chain) -> Self {
-        let mut components = Components::of(layout, ties);
+        let mut components = Components::new(layout, ties);
         let holds = components.holds();
         let mut places = BTreeMap::new();
         let mut clusters: Vec<Cluster> = Vec::new();

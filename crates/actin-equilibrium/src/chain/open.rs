@@ -38,7 +38,7 @@ pub(super) struct Components {
 }
 
 impl Components {
-    pub(super) fn of(layout: &Layout, ties: &Ties) -> Self {
+    pub(super) fn new(layout: &Layout, ties: &Ties) -> Self {
         let mut components = Self::default();
         for (i, j, f) in ties.seen() {
             components.join(layout, Point(i), Point(j));
@@ -88,7 +88,7 @@ impl Components {
 pub(crate) fn is_open(layout: &Layout, ties: &Ties) -> bool {
     let is_held_once =
         |components: &mut Components| components.holds().values().all(|&places| places == 1);
-    !layout.has_loose() && is_held_once(&mut Components::of(layout, ties))
+    !layout.has_loose() && is_held_once(&mut Components::new(layout, ties))
 }
 
 #[cfg(test)]

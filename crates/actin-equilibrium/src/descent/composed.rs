@@ -5,7 +5,7 @@
 //! transverse stiffness. A multiple of the unit matrix would prevent large motion. After a step
 //! without decrease of the energy, straight steps are used for a while.
 
-use super::{Descent, Taken, taken};
+use super::{AcceptedStep, Descent, accepted_step};
 use crate::chain::is_open;
 use crate::direction::{Direction, Solver};
 use crate::history::Verdict;
@@ -21,7 +21,7 @@ const SHORTEN: f64 = 0.1;
 const REST: usize = 1;
 
 #[derive(Debug)]
-pub(super) struct Composed {
+pub(super) struct ComposedSteps {
     is_used: Option<bool>,
     failures: u32,
     /// Straight steps before the next carried one.
@@ -32,7 +32,7 @@ pub(super) struct Composed {
     is_wanted: bool,
 }
 
-impl Composed {
+impl ComposedSteps {
     pub(super) fn new(options: &NewtonOptions) -> Self {
         let is_free = options.largest_displacement.is_infinite();
         Self {
@@ -79,7 +79,7 @@ impl Descent {
         &mut self,
         solver: &mut Solver,
         interactions: &[Box<dyn Interaction>],
-    ) -> Option<(Direction, Taken)> {
+    ) -> Option<(Direction, AcceptedStep)> {
         if self.anchor.is_some() || !self.composed.is_due() {
             return None;
         }
@@ -89,8 +89,8 @@ impl Descent {
             .add_turning(&self.state, loads, &solver.layout);
         let direction = solver.composed_direction(&self.state, &mut self.composed.stiffest);
         let found = direction.and_then(|direction| {
-            let taken = self.carry_along(solver, interactions, &direction)?;
-            Some((direction, taken))
+            let accepted_step = self.carry_along(solver, interactions, &direction)?;
+            Some((direction, accepted_step))
         });
         self.composed.note(found.is_none());
         if found.is_none() {
@@ -104,7 +104,7 @@ impl Descent {
         solver: &mut Solver,
         interactions: &[Box<dyn Interaction>],
         direction: &Direction,
-    ) -> Option<Taken> {
+    ) -> Option<AcceptedStep> {
         let part = (direction.extent.strain / self.options.largest_strain)
             .max(direction.extent.displacement / self.farthest);
         let mut fraction = if part > 1.0 { 1.0 / part } else { 1.0 };
@@ -120,7 +120,7 @@ impl Descent {
             match self.judge(solver, direction, fraction) {
                 Some(Verdict::Decrease) => {
                     self.accept();
-                    return Some(taken(direction, fraction, Verdict::Decrease));
+                    return Some(accepted_step(direction, fraction, Verdict::Decrease));
                 }
                 Some(_) => return None,
                 None => {}

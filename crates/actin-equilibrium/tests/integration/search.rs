@@ -2,7 +2,8 @@
 
 use crate::common;
 use actin_equilibrium::{
-    Equilibrium, Found, Iteration, Known, Newton, NewtonOptions, Search, SearchObserver, SolveError,
+    Equilibrium, Iteration, KnownEquilibrium, Newton, NewtonOptions, Search, SearchObserver,
+    SearchResult, SolveError,
 };
 use actin_mechanics::{Interaction, State, Vector3};
 use common::COLUMN;
@@ -16,8 +17,8 @@ fn column(share: f64) -> (State, Vec<Box<dyn Interaction>>, Newton) {
     (state, terms, newton)
 }
 
-fn of<'a>(state: &'a State, equilibrium: &'a Equilibrium) -> Known<'a> {
-    Known {
+fn of<'a>(state: &'a State, equilibrium: &'a Equilibrium) -> KnownEquilibrium<'a> {
+    KnownEquilibrium {
         state,
         equilibrium,
         reference: state,
@@ -29,7 +30,7 @@ const SEARCH: Search = Search {
     seed: 1,
 };
 
-fn searched(share: f64, search: &Search) -> Found {
+fn searched(share: f64, search: &Search) -> SearchResult {
     let (mut state, terms, mut newton) = column(share);
     let known = newton.minimize(&mut state, &terms, 8).unwrap();
     newton
@@ -61,7 +62,7 @@ fn a_column_leans_to_either_side() {
     assert!((a - b).abs() < 1e-8 * a.abs(), "{a} and {b}");
     assert_eq!(leaning.states.iter().filter(|s| s.is_known).count(), 1);
     let fewer = searched(1.2, &Search { starts: 8, seed: 1 });
-    let found = |found: &Found| found.states.iter().map(|s| s.found).sum::<usize>();
+    let found = |found: &SearchResult| found.states.iter().map(|s| s.found).sum::<usize>();
     assert_eq!((found(&leaning), found(&fewer)), (17, 9));
 }
 
@@ -96,8 +97,9 @@ fn observers_interrupt_and_reject() {
         "{counted}, {}",
         found.lost
     );
-    let right =
-        |s: &&actin_equilibrium::Distinct| s.is_known || s.state.points.position.get(16).x > 0.0;
+    let right = |s: &&actin_equilibrium::StableEquilibrium| {
+        s.is_known || s.state.points.position.get(16).x > 0.0
+    };
     assert_eq!(
         found.states.iter().filter(right).count(),
         found.states.len()

@@ -61,7 +61,7 @@ fn sigmoid_with_known_noise() {
         let observations = observe(&y, &deviations, &mut noise);
         let data = Data::new(&x, observations.with_deviations(&deviations).unwrap()).unwrap();
         let fit = LevenbergMarquardt::default()
-            .fit(&Sigmoid, &data, &bounds, &Starts::drawn(4, repeat))
+            .fit(&Sigmoid, &data, &bounds, &Starts::random(4, repeat))
             .unwrap();
         count(&mut hits, &fit.parameters, &fit.precision, &truth);
         chi_squared += fit.goodness.chi_squared / f64::from(REPEATS);

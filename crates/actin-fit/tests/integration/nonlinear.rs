@@ -28,7 +28,7 @@ proptest! {
         let ends = (low - 2.0, low + rise + 2.0);
         let bounds = Bounds::new(&[ends, ends, (-1.0, 1.0), (0.15, 2.0)]).unwrap();
         let fit = LevenbergMarquardt::default()
-            .fit(&Sigmoid, &data, &bounds, &Starts::drawn(6, 3))
+            .fit(&Sigmoid, &data, &bounds, &Starts::random(6, 3))
             .unwrap();
         for (got, is) in fit.parameters.iter().zip(&p) {
             // Condition number below 1e2, values up to 14, and a search that ends at rounding.
@@ -224,7 +224,7 @@ fn a_step_lost_in_noise_is_weak() {
     );
     let bounds = Bounds::new(&[(0.0, 2.0), (0.0, 2.0), (-1.0, 1.0), (0.4, 0.8)]).unwrap();
     let fit = LevenbergMarquardt::default()
-        .fit(&Sigmoid, &data, &bounds, &Starts::drawn(10, 1))
+        .fit(&Sigmoid, &data, &bounds, &Starts::random(10, 1))
         .unwrap();
     let open = |status: &Status| *status != Status::Determined;
     assert!(fit.statuses[2..].iter().all(open), "{:?}", fit.statuses);
@@ -243,7 +243,7 @@ fn several_starts_find_the_lowest_minimum() {
     let one = fit(&sine, &data, &bounds, &[3.0]).unwrap();
     assert!((one.parameters[0] - 7.3).abs() > 1.0);
     let several = LevenbergMarquardt::default()
-        .fit(&sine, &data, &bounds, &Starts::at(&[3.0]).and_drawn(24, 9))
+        .fit(&sine, &data, &bounds, &Starts::at(&[3.0]).and_random(24, 9))
         .unwrap();
     assert!(
         (several.parameters[0] - 7.3).abs() < 0.02,
@@ -375,7 +375,7 @@ fn bounds_and_options_out_of_order_are_refused() {
 fn mismatched_bounds_and_starts_are_refused() {
     let half = Bounds::new(&[(0.0, 9.0), (0.0, f64::INFINITY)]).unwrap();
     let [one, out, short] = [&[1.0, 1.0][..], &[1.0, -1.0], &[1.0]].map(Starts::at);
-    let [some, none] = [3, 0].map(|count| Starts::drawn(count, 1));
+    let [some, none] = [3, 0].map(|count| Starts::random(count, 1));
     for (points, bounds, starts, message) in [
         (
             15,

@@ -213,14 +213,16 @@ proptest! {
             prop_assert!(goodness.chi_squared.is_finite() && goodness.rms.is_finite());
             prop_assert!(fit.precision.correlation()[(0, 1)].abs() <= 1.0 + 1e-9);
             if fit.statuses == [Status::Determined; 2] {
-                // At a minimum chi squared equals the value of the linear fit, except for rounding.
+                // At a minimum chi squared equals the value of the linear fit, except for rounding:
+                // weights of 1e-18 to 1e-25 amplify it in the parameters to about 1e-13 of the data,
+                // whose square is 1e-26 of the scale.
                 let Ok(straight) = straight else { return Ok(()) };
                 let scale: f64 = data.observations().values().iter()
                     .zip(data.observations().deviations())
                     .map(|(y, s)| (y / s).powi(2))
                     .sum();
                 let rise = goodness.chi_squared - straight.goodness.chi_squared;
-                prop_assert!(rise <= 1e-9 * straight.goodness.chi_squared + 1e-26 * scale, "{rise:e}");
+                prop_assert!(rise <= 1e-9 * straight.goodness.chi_squared + 1e-24 * scale, "{rise:e}");
             }
         }
     }

@@ -234,7 +234,7 @@ fn points_drift_and_diffuse_as_they_should_at_any_step() {
             let mut system = System::new(state, vec![Box::new(pull)]);
             let bath = bath(gamma, 1.0, KT, 41);
             // Equilibration of the velocities.
-            let warm = Run::over(&PEFRL, h, 20.0 / gamma).unwrap().steps();
+            let warm = Run::from_duration(&PEFRL, h, 20.0 / gamma).unwrap().steps();
             advance_in(&mut system, &scheme, h, warm, &bath, 0);
             let start = system.state().points.position.clone();
             advance_in(&mut system, &scheme, h, steps, &bath, warm);

@@ -136,7 +136,7 @@ fn relaxation(scheme: &Composition, gamma: f64, omega: f64, h: f64, rate: f64) -
     let drag = Drag::new(gamma, 0.0).unwrap();
     // The fast mode is then below 1e-13 of the slow one.
     let gap = gamma - 2.0 * rate;
-    let steps_of = |time: f64| Run::over(&PEFRL, h, time).unwrap().steps();
+    let steps_of = |time: f64| Run::from_duration(&PEFRL, h, time).unwrap().steps();
     let warm = steps_of(30.0 / gap);
     let steps = steps_of((1.0 / rate).min(3000.0 * h));
     advance(&mut system, scheme, h, warm, &drag);

@@ -27,7 +27,7 @@ fn settings_are_validated() {
         ));
     }
     for bad in [0.0, -1.0, f64::NAN, f64::INFINITY, 1e30] {
-        let run = Run::over(&PEFRL, 0.1, bad);
+        let run = Run::from_duration(&PEFRL, 0.1, bad);
         assert!(matches!(run, Err(RunSettingError::Duration(_))), "{bad}");
     }
     let run = Run::new(&PEFRL, 0.1, 1).unwrap();
@@ -40,10 +40,13 @@ fn settings_are_validated() {
 /// 1 ns in steps of at most 0.3 ns takes 4 steps of 0.25 ns; 0.1 * 3 fits in 0.3 despite rounding.
 #[test]
 fn durations_are_met_exactly() {
-    let run = Run::over(&PEFRL, 0.3, 1.0).unwrap();
+    let run = Run::from_duration(&PEFRL, 0.3, 1.0).unwrap();
     assert_eq!((run.steps(), run.step()), (4, 0.25));
-    assert_eq!(Run::over(&PEFRL, 0.1, 0.1 * 3.0).unwrap().steps(), 3);
-    assert_eq!(Run::over(&PEFRL, 5.0, 1.0).unwrap().steps(), 1);
+    assert_eq!(
+        Run::from_duration(&PEFRL, 0.1, 0.1 * 3.0).unwrap().steps(),
+        3
+    );
+    assert_eq!(Run::from_duration(&PEFRL, 5.0, 1.0).unwrap().steps(), 1);
 }
 
 /// Observations are at the start, at multiples of the interval and at the end. The energy of a

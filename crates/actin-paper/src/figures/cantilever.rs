@@ -9,7 +9,7 @@ mod pictures;
 use super::draft::{Column, Draft, number, residuals};
 use super::model::{Model, Resolution};
 use super::motion::{RingDown, energy_decays, ring_down};
-use crate::run::{Shape, Solved, energy, scenario};
+use crate::run::{Shape, SolvedScene, energy, scenario};
 use crate::statistics::{largest, sample};
 use actin_sim::{
     Assembly, DragRates, End, Equilibrium, ForceLaw, JunctionWeight, Part, Record, Scene, Section,
@@ -208,8 +208,10 @@ impl Case {
         let mut statics = scene.clone();
         statics.task = Task::Equilibrium(Equilibrium::default());
         let has_potential = self.model.balance == ForceLaw::EnergyGradient;
-        let newton = has_potential.then(|| Solved::new(&statics)).transpose()?;
-        let moved = is_moved.then(|| Solved::new(&scene)).transpose()?;
+        let newton = has_potential
+            .then(|| SolvedScene::new(&statics))
+            .transpose()?;
+        let moved = is_moved.then(|| SolvedScene::new(&scene)).transpose()?;
         let solved = moved
             .as_ref()
             .or(newton.as_ref())
@@ -263,7 +265,7 @@ impl Case {
         .into();
         dynamics.duration_ns = SWING_NS;
         dynamics.stop = None;
-        let swung = Solved::new(&scene)?;
+        let swung = SolvedScene::new(&scene)?;
         let records = swung.records.iter();
         let approach: Vec<(f64, f64)> = records
             .map(|record| (record.at.value(), tip_drop(&swung.assembly, record)))

@@ -21,7 +21,7 @@ pub(crate) struct CentreLine {
 }
 
 impl CentreLine {
-    pub(crate) fn of(assembly: &Assembly, state: &State) -> Self {
+    pub(crate) fn new(assembly: &Assembly, state: &State) -> Self {
         let n = assembly.points.len();
         let s: Vec<f64> = assembly.points.iter().map(|p| p.s_nm).collect();
         let place = |i| assembly.centre_line_nm(state, i).into();

@@ -5,7 +5,7 @@ use super::progress::Progress;
 use crate::statistics::{Sample, largest};
 use actin_draw::report::{Artefact, Origin, Picture, Row, View, write_csv};
 use actin_draw::{Chart, Series};
-use actin_view::{Attitude, Pose, Shown, states};
+use actin_view::{Attitude, Pose, ViewState, states};
 use rayon::prelude::*;
 use std::path::Path;
 
@@ -19,14 +19,14 @@ pub(super) struct Draft<'a> {
     pub progress: &'a Progress,
     /// Description of scenes, stop rule and seeds.
     pub settings: String,
-    pub rows: Vec<Measured>,
+    pub rows: Vec<MeasuredRow>,
     pub pictures: Vec<Picture>,
     pub views: Vec<View>,
 }
 
 /// Row with the standard deviation of a single sample, which widens the bounds of printed numbers.
 #[derive(Clone, Debug)]
-pub(super) struct Measured {
+pub(super) struct MeasuredRow {
     pub row: Row,
     pub sd: f64,
 }
@@ -98,11 +98,11 @@ impl<'a> Draft<'a> {
         note: impl Into<String>,
     ) {
         let row = Row::measured(self.id, quantity, unit, ours, note);
-        self.rows.push(Measured { row, sd });
+        self.rows.push(MeasuredRow { row, sd });
     }
 
     pub(super) fn compared(&mut self, row: Row) {
-        self.rows.push(Measured { row, sd: 0.0 });
+        self.rows.push(MeasuredRow { row, sd: 0.0 });
     }
 
     /// Adds a verbal statement of the paper as a number with a bound.
@@ -164,13 +164,15 @@ impl<'a> Draft<'a> {
         shown: impl IntoIterator<Item = (String, String, f64, Pose)>,
         caption: &str,
     ) -> Result<(), String> {
-        let shown = shown.into_iter().map(|(group, name, share, pose)| Shown {
-            group,
-            name,
-            share,
-            pose,
-        });
-        let shown: Vec<Shown> = shown.collect();
+        let shown = shown
+            .into_iter()
+            .map(|(group, name, share, pose)| ViewState {
+                group,
+                name,
+                share,
+                pose,
+            });
+        let shown: Vec<ViewState> = shown.collect();
         let view = states::write(id, attitude, &shown, caption.into(), self.out)?;
         self.views.push(view);
         Ok(())
@@ -220,10 +222,10 @@ impl<'a> Draft<'a> {
     }
 }
 
-impl Measured {
+impl MeasuredRow {
     /// Shows a number of the paper next to the row, without a verdict.
     pub(super) fn beside(row: Row, expected: f64) -> Self {
-        let row = row.beside(expected, Origin::Paper);
+        let row = row.with_reference(expected, Origin::Paper);
         Self { row, sd: 0.0 }
     }
 }

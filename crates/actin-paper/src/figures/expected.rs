@@ -3,7 +3,7 @@
 //! `data/expected.csv` contains expected numbers, `data/claims.csv` verbal statements of the paper with their bounds.
 //! `data/page.ron` states the rule for all bounds. It depends on the expectation, not on the result.
 
-use super::draft::Measured;
+use super::draft::MeasuredRow;
 use crate::published::table;
 use actin_draw::report::{DEVIATIONS, Origin, Row, printed};
 use serde::Deserialize;
@@ -36,7 +36,7 @@ struct Claim {
     /// Names of rows, separated by spaces. `*` matches a number and selects rows in ascending order of it.
     rows: String,
     reference: Option<f64>,
-    holds: Holds,
+    holds: BoundKind,
     bound: Option<f64>,
     statement: String,
 }
@@ -60,7 +60,7 @@ enum Measure {
 
 #[derive(Clone, Copy, Debug, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-enum Holds {
+enum BoundKind {
     AtMost,
     AtLeast,
     /// Shown without a verdict.
@@ -80,15 +80,15 @@ static CLAIMS: LazyLock<Vec<Claim>> =
     LazyLock::new(|| table(include_str!("../../data/claims.csv")));
 
 /// Rows of an artefact with verdicts, followed by its claims. Claims with missing rows are omitted.
-pub(super) fn judged(artefact: &'static str, measured: Vec<Measured>) -> Vec<Row> {
-    let mut rows: Vec<Row> = measured.into_iter().map(Measured::judged).collect();
+pub(super) fn judged(artefact: &'static str, measured: Vec<MeasuredRow>) -> Vec<Row> {
+    let mut rows: Vec<Row> = measured.into_iter().map(MeasuredRow::judged).collect();
     let claims = CLAIMS.iter().filter(|claim| claim.artefact == artefact);
     let claims: Vec<Row> = claims.filter_map(|c| c.row(artefact, &rows)).collect();
     rows.extend(claims);
     rows
 }
 
-impl Measured {
+impl MeasuredRow {
     fn judged(self) -> Row {
         let Self { row, sd } = self;
         let of_row = |e: &&Expected| e.artefact == row.artefact && e.quantity == row.quantity;
@@ -111,11 +111,13 @@ impl Expected {
         }
         let (expected, half) = printed(&self.number);
         let row = match self.tolerance.as_str() {
-            "" => row.beside(expected, self.origin),
-            "digits" => row.against(expected, half + DEVIATIONS * sd),
-            other => row.against(expected, other.parse().expect("a tolerance is a number")),
+            "" => row.with_reference(expected, self.origin),
+            "digits" => row.with_paper_value(expected, half + DEVIATIONS * sd),
+            other => {
+                row.with_paper_value(expected, other.parse().expect("a tolerance is a number"))
+            }
         };
-        row.of(self.origin)
+        row.with_origin(self.origin)
     }
 }
 
@@ -131,8 +133,8 @@ impl Claim {
         }
         let ours = self.measure.of(&values, self.reference)?;
         let bound = match (self.holds, self.bound) {
-            (Holds::AtMost, Some(bound)) => Bound::AtMost(bound),
-            (Holds::AtLeast, Some(bound)) => Bound::AtLeast(bound),
+            (BoundKind::AtMost, Some(bound)) => Bound::AtMost(bound),
+            (BoundKind::AtLeast, Some(bound)) => Bound::AtLeast(bound),
             _ => Bound::None,
         };
         Some(claim(

@@ -6,11 +6,11 @@
 use super::charts::{line, room};
 use super::draft::{Column, Draft, number, residuals};
 use crate::palette;
-use crate::run::{Solved, scenario};
+use crate::run::{SolvedScene, scenario};
 use crate::statistics::{largest, sample};
 use actin_draw::{Colour, Series};
 use actin_sim::shape::{Ribbon, profile};
-use actin_sim::{Assembly, Hold, Monomers, Part, RodLaw, Scene, Slides};
+use actin_sim::{Assembly, FreeTranslation, Hold, Monomers, Part, RodLaw, Scene};
 use actin_view::{Attitude, Pose};
 
 /// Samplings of the bonds, by default and with `--quick`. Each is pulled in both directions.
@@ -18,7 +18,7 @@ const SEEDS: u64 = 16;
 const QUICK_SEEDS: u64 = 4;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Resolved {
+enum FilamentResolution {
     /// 19 segments with a law and a type of clamp.
     Rod(Rod, Hold),
     /// 67 monomers with this number of sampled bonds per interface.
@@ -38,26 +38,32 @@ enum Rod {
 /// with one sliding end, the other half stays in tension.
 const SLIDING: [(&str, usize); 3] = [("", 0), ("far-end-slides/", 1), ("both-ends-slide/", 2)];
 
-const KINDS: [(&str, Resolved); 7] = [
-    ("rod", Resolved::Rod(Rod::Constant, Hold::TwoNodesAndFrame)),
-    ("wall/rod", Resolved::Rod(Rod::Constant, Hold::Wall)),
+const KINDS: [(&str, FilamentResolution); 7] = [
+    (
+        "rod",
+        FilamentResolution::Rod(Rod::Constant, Hold::TwoNodesAndFrame),
+    ),
+    (
+        "wall/rod",
+        FilamentResolution::Rod(Rod::Constant, Hold::Wall),
+    ),
     (
         "coupling-energy/rod",
-        Resolved::Rod(Rod::Coupled, Hold::TwoNodesAndFrame),
+        FilamentResolution::Rod(Rod::Coupled, Hold::TwoNodesAndFrame),
     ),
     (
         "coupling-energy/wall/rod",
-        Resolved::Rod(Rod::Coupled, Hold::Wall),
+        FilamentResolution::Rod(Rod::Coupled, Hold::Wall),
     ),
-    ("ellipsoid", Resolved::Ellipsoids(64)),
-    ("bonds-32/ellipsoid", Resolved::Ellipsoids(32)),
-    ("mean-filament/ellipsoid", Resolved::Mean),
+    ("ellipsoid", FilamentResolution::Ellipsoids(64)),
+    ("bonds-32/ellipsoid", FilamentResolution::Ellipsoids(32)),
+    ("mean-filament/ellipsoid", FilamentResolution::Mean),
 ];
 
 #[derive(Clone, Debug)]
 struct Case {
     kind: String,
-    resolved: Resolved,
+    resolved: FilamentResolution,
     sliding: usize,
     seed: u64,
     /// The linker turns the middle in the opposite direction.
@@ -112,11 +118,11 @@ fn cases(seeds: u64) -> Vec<Case> {
     for (slides, sliding) in SLIDING {
         for (kind, resolved) in KINDS {
             let seeds = match resolved {
-                Resolved::Ellipsoids(_) => seeds,
+                FilamentResolution::Ellipsoids(_) => seeds,
                 _ => 1,
             };
             let directions: &[bool] = match resolved {
-                Resolved::Rod(..) => &[false],
+                FilamentResolution::Rod(..) => &[false],
                 _ => &[false, true],
             };
             for seed in 0..seeds {
@@ -136,18 +142,18 @@ fn cases(seeds: u64) -> Vec<Case> {
 impl Case {
     fn scene(&self) -> Result<Scene, String> {
         let mut scene = scenario(match self.resolved {
-            Resolved::Rod(..) => "figure-7/rod.ron",
+            FilamentResolution::Rod(..) => "figure-7/rod.ron",
             _ => "figure-7/ellipsoids.ron",
         })?;
         match self.resolved {
-            Resolved::Rod(law, hold) => {
+            FilamentResolution::Rod(law, hold) => {
                 scene.clamps.iter_mut().for_each(|clamp| clamp.hold = hold);
                 if law == Rod::Coupled {
                     scene.filament.rod.law = RodLaw::CouplingEnergy;
                 }
             }
-            Resolved::Mean => scene.filament.monomers = Monomers::default(),
-            Resolved::Ellipsoids(bonds) => {
+            FilamentResolution::Mean => scene.filament.monomers = Monomers::default(),
+            FilamentResolution::Ellipsoids(bonds) => {
                 let monomers = &mut scene.filament.monomers;
                 monomers.seed = self.seed;
                 monomers.lateral_bonds = bonds;
@@ -155,7 +161,7 @@ impl Case {
             }
         }
         for clamp in scene.clamps.iter_mut().rev().take(self.sliding) {
-            clamp.slides = Slides::AlongAxis;
+            clamp.slides = FreeTranslation::AlongAxis;
         }
         if self.is_reversed {
             let linkers = scene.linkers.iter_mut();
@@ -166,10 +172,13 @@ impl Case {
     }
 
     fn solve(&self) -> Result<Halves, String> {
-        let mut solved = Solved::new(&self.scene()?)?;
+        let mut solved = SolvedScene::new(&self.scene()?)?;
         let loads = solved.assembly.system.loads().clone();
         let assembly = &solved.assembly;
-        let clamp = assembly.clamps.iter().find(|c| c.slides == Slides::Nowhere);
+        let clamp = assembly
+            .clamps
+            .iter()
+            .find(|c| c.slides == FreeTranslation::Nowhere);
         let tension = clamp.map_or(0.0, |c| -c.reaction(solved.state(), &loads).force_pn.z);
         let energy = solved.energy(|part| matches!(part, Part::Linker(_)));
         let stiffness = assembly.scene.linkers[0].stiffness_pn_per_nm;
@@ -256,7 +265,7 @@ fn rows(draft: &mut Draft<'_>, results: &[Halves]) {
                 (n, resolved) => format!(
                     "mean over {n} ({}both directions), sd {:.4}, standard error {:.4}, range {:.4} to {:.4}",
                     match resolved {
-                        Resolved::Ellipsoids(_) => "samplings, ",
+                        FilamentResolution::Ellipsoids(_) => "samplings, ",
                         _ => "",
                     },
                     s.sd,
@@ -367,5 +376,5 @@ fn view(draft: &mut Draft<'_>, results: &[Halves]) -> Result<(), String> {
             ))
         });
     let caption = "Equilibria with the linker that turns the middle.";
-    draft.view("fig7", Attitude::LYING, shown, caption)
+    draft.view("fig7", Attitude::HORIZONTAL, shown, caption)
 }

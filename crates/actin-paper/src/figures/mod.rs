@@ -28,7 +28,7 @@ pub use crate::palette::Palette;
 pub(crate) use centre_line::CentreLine;
 pub(crate) use page::unexplained;
 
-use crate::Tell;
+use crate::ProgressSink;
 use actin_draw::report::{self, Artefact, Row};
 use cache::{Cache, CachedArtefact, Reason};
 use draft::Draft;
@@ -161,7 +161,7 @@ const EXPERIMENTS: [Experiment; 16] = [
 ///
 /// # Errors
 /// An artefact is unknown, a scene cannot be solved, or a file cannot be written.
-pub fn reproduce(options: &Options, tell: Tell<'_>) -> Result<Vec<Row>, String> {
+pub fn reproduce(options: &Options, tell: ProgressSink<'_>) -> Result<Vec<Row>, String> {
     let known: Vec<&str> = EXPERIMENTS.iter().map(|e| e.id).collect();
     let is_known = |id: &&String| known.contains(&id.as_str());
     if let Some(unknown) = options.ids.iter().find(|id| !is_known(id)) {
@@ -197,7 +197,7 @@ fn on_threads<T: Send>(
 fn artefacts(
     experiments: &[Experiment],
     options: &Options,
-    tell: Tell<'_>,
+    tell: ProgressSink<'_>,
 ) -> Result<Vec<Artefact>, String> {
     fs::create_dir_all(&options.out).map_err(|e| format!("{}: {e}", options.out.display()))?;
     let cache = Cache::new(&options.out, cache::fingerprint(&options.choices())?)?;
@@ -214,7 +214,7 @@ fn artefact(
     &Experiment { id, title, run }: &Experiment,
     cache: &Cache<'_>,
     options: &Options,
-    tell: Tell<'_>,
+    tell: ProgressSink<'_>,
 ) -> Result<(CachedArtefact, Option<Reason>), String> {
     let found = if options.fresh {
         Err(Reason::Requested)

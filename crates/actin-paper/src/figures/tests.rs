@@ -6,7 +6,7 @@ use std::collections::BTreeSet;
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
-const SILENT: Tell<'static> = &|_| ();
+const SILENT: ProgressSink<'static> = &|_| ();
 
 static FOLDERS: AtomicUsize = AtomicUsize::new(0);
 

@@ -1,8 +1,8 @@
 //! Figure 9: fits of twisting rigidity and length as functions of twist.
 
-use super::draft::{Draft, Measured};
+use super::draft::{Draft, MeasuredRow};
 use super::tables;
-use crate::fit::{Beside, TwistData, TwistFits, draw, rms};
+use crate::fit::{TwistData, TwistFits, UnfittedData, draw, rms};
 use actin_cosserat::{PolynomialStretch, TanhTwist};
 use actin_draw::report::{Origin, Picture, Row};
 
@@ -14,7 +14,7 @@ pub(super) fn figure9(draft: &mut Draft<'_>) -> Result<(), String> {
     let data = TwistData::from_paper(false)?;
     let fits = TwistFits::new(&data)?;
     let [drawn, mean] = tables::monomers(draft)?;
-    let beside = [(&drawn, true), (&mean, false)].map(|(data, dots)| Beside { data, dots });
+    let beside = [(&drawn, true), (&mean, false)].map(|(data, dots)| UnfittedData { data, dots });
     let pictures = draw(&data, &fits, &beside, draft.out)?.into_iter();
     draft.pictures = pictures
         .map(|(file, caption)| Picture { file, caption })
@@ -69,8 +69,8 @@ fn parameters(draft: &mut Draft<'_>, fits: &TwistFits) {
         let note = "numbered from 1 in the paper; tolerance: effect of the rounding of its rows";
         let row = Row::measured(draft.id, format!("p/{i}"), "nm^i", ours, note);
         draft.compared(
-            row.against(paper, fits.rounding_error(i))
-                .of(Origin::Derived),
+            row.with_paper_value(paper, fits.rounding_error(i))
+                .with_origin(Origin::Derived),
         );
     }
     for (&ours, i) in fits.without_offset.parameters.iter().zip(1..) {
@@ -84,9 +84,9 @@ fn parameters(draft: &mut Draft<'_>, fits: &TwistFits) {
         let row = Row::measured(draft.id, format!("lambda/{i}"), unit, ours, note);
         let row = Row {
             standard_error: fit.precision.standard_error(i - 1),
-            ..row.beside(paper, Origin::Derived)
+            ..row.with_reference(paper, Origin::Derived)
         };
-        draft.rows.push(Measured { row, sd: 0.0 });
+        draft.rows.push(MeasuredRow { row, sd: 0.0 });
     }
 }
 

@@ -1,8 +1,8 @@
 //! Fits of bending and shear: bending rigidity against curvature, twist and shear strain.
 
 use super::column::Column;
-use super::found::{Fault, Found};
 use super::measured::{BendData, Point};
+use super::parameter_fit::{Fault, ParameterFit};
 use super::search::{LawFit, SHEARED, TWISTED, stiffened};
 use crate::measure::{Specimen, bend_by_tip_force, shear_by_force};
 use actin_cosserat::{CubicShear, Stiffening, StretchLaw};
@@ -23,9 +23,9 @@ const MOVE: f64 = 1e-3;
 pub(crate) struct BendFits {
     pub bend: LawFit<Stiffening>,
     /// Cubic shear rigidity (pN) and the shear strain at half the rise.
-    pub shear: Found,
+    pub shear: ParameterFit,
     /// Twist at half the rise (rad/nm).
-    pub twist: Found,
+    pub twist: ParameterFit,
     /// Bending law with all fitted scales.
     pub law: Stiffening,
     pub cubic_pn: f64,
@@ -65,7 +65,7 @@ impl BendFits {
     /// Parameters that are undetermined or at a bound.
     pub(super) fn faults(&self) -> Vec<Fault> {
         let searches = [&self.twist, &self.shear].into_iter();
-        let faults = searches.flat_map(Found::faults);
+        let faults = searches.flat_map(ParameterFit::faults);
         faults.chain(self.bend.basis.faults()).collect()
     }
 
@@ -104,7 +104,7 @@ fn column(points: &[Point]) -> Column {
 }
 
 /// Fits the twist at half the rise.
-fn fit_twist(data: &BendData, law: Stiffening) -> Result<Found, String> {
+fn fit_twist(data: &BendData, law: Stiffening) -> Result<ParameterFit, String> {
     let x: Vec<f64> = data
         .twisted
         .iter()
@@ -125,9 +125,9 @@ fn fit_twist(data: &BendData, law: Stiffening) -> Result<Found, String> {
         .iter()
         .fold(0.0, |most: f64, row| row[0].abs().max(most));
     let bounds = vec![(5e-3 * range, 50.0 * range)];
-    let starts = Starts::at(&[0.15 * range]).and_drawn(10, 1);
+    let starts = Starts::at(&[0.15 * range]).and_random(10, 1);
     let data = relative(&x, 2, &y).map_err(|e| format!("{}: {e}", TWISTED.what))?;
-    Found::search(&TWISTED, &model, &data, bounds, &starts)
+    ParameterFit::search(&TWISTED, &model, &data, bounds, &starts)
 }
 
 /// Tips (`true`) and guided ends (`false`).
@@ -137,7 +137,7 @@ fn beams(data: &BendData) -> impl Iterator<Item = (bool, Point)> + '_ {
 }
 
 /// Fits cubic shear and the shear scale of the bending law to deflections under the same loads.
-fn fit_shear(data: &BendData, law: Stiffening) -> Result<Found, String> {
+fn fit_shear(data: &BendData, law: Stiffening) -> Result<ParameterFit, String> {
     let all: Vec<(bool, Point)> = beams(data).collect();
     let x: Vec<f64> = (0..all.len()).map(|i| i as f64).collect();
     let y: Vec<f64> = all.iter().map(|(_, p)| p.mean).collect();
@@ -173,12 +173,12 @@ fn fit_shear(data: &BendData, law: Stiffening) -> Result<Found, String> {
     };
     let method = LevenbergMarquardt::new(options).map_err(|e| e.to_string())?;
     let starts = Starts::at(&[1e6, 1e-2]);
-    Found::search_by(method, &SHEARED, &model, &data, bounds, &starts)
+    ParameterFit::search_by(method, &SHEARED, &model, &data, bounds, &starts)
 }
 
 /// Deflection (nm) of a rod under the load of `point`; NaN without an equilibrium.
 fn shift(is_tip: bool, point: &Point, law: Stiffening, cubic_pn: f64) -> f64 {
-    let rod = RodModel::of_law(RodLaw::Laws(Box::new(laws(law, cubic_pn))));
+    let rod = RodModel::with_law(RodLaw::Laws(Box::new(laws(law, cubic_pn))));
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,

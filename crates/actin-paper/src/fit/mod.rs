@@ -4,9 +4,8 @@ mod bend;
 mod column;
 mod data;
 mod forms;
-mod found;
 mod measured;
-mod own;
+mod parameter_fit;
 mod pictures;
 mod print;
 mod search;
@@ -14,13 +13,14 @@ mod table;
 #[cfg(test)]
 mod tests;
 mod twist;
+mod user_table;
 mod write;
 
 pub(crate) use data::TwistData;
-pub(crate) use pictures::{Beside, draw};
+pub(crate) use pictures::{UnfittedData, draw};
 pub(crate) use twist::{TwistFits, rms};
 
-use crate::Tell;
+use crate::ProgressSink;
 use bend::BendFits;
 use measured::BendData;
 use std::path::{Path, PathBuf};
@@ -47,12 +47,12 @@ pub struct Options {
 /// # Errors
 /// Unreadable or unsuitable data, an undetermined parameter, or a parameter at a bound that is not
 /// allowed. No files are written on error.
-pub fn run(options: &Options, tell: Tell<'_>) -> Result<(), String> {
+pub fn run(options: &Options, tell: ProgressSink<'_>) -> Result<(), String> {
     let started = Instant::now();
     let out: &Path = &options.out;
     search::check_keys(&options.allow_bounds)?;
     match &options.data {
-        Some(path) => own::run(path, &options.allow_bounds, out, tell)?,
+        Some(path) => user_table::run(path, &options.allow_bounds, out, tell)?,
         None => tables(options, out, tell)?,
     }
     tell(format_args!(
@@ -64,7 +64,7 @@ pub fn run(options: &Options, tell: Tell<'_>) -> Result<(), String> {
 }
 
 /// Fits the paper's tables, or newly measured filaments.
-fn tables(options: &Options, out: &Path, tell: Tell<'_>) -> Result<(), String> {
+fn tables(options: &Options, out: &Path, tell: ProgressSink<'_>) -> Result<(), String> {
     let data = if options.measure {
         measured::twisted()?
     } else {
@@ -82,7 +82,7 @@ fn tables(options: &Options, out: &Path, tell: Tell<'_>) -> Result<(), String> {
         faults.extend(fits.faults());
         bend = Some((data, fits));
     }
-    found::accept(&faults, &options.allow_bounds)?;
+    parameter_fit::accept(&faults, &options.allow_bounds)?;
     write::create(out)?;
     if let Some((data, fits)) = &bend {
         write::bend_csv(data, fits, out)?;

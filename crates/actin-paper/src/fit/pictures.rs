@@ -30,7 +30,7 @@ const MEAN: usize = 4;
 const CURVE: i32 = 600;
 
 /// Data that are drawn but not fitted.
-pub(crate) struct Beside<'a> {
+pub(crate) struct UnfittedData<'a> {
     pub data: &'a TwistData,
     /// Draws dots instead of a line.
     pub dots: bool,
@@ -52,7 +52,7 @@ struct Panel<'a> {
 pub(crate) fn draw(
     data: &TwistData,
     fits: &TwistFits,
-    beside: &[Beside<'_>],
+    beside: &[UnfittedData<'_>],
     out: &Path,
 ) -> Result<Vec<(String, String)>, String> {
     let (tanh, sided) = (fits.tanh_law(&fits.tanh.fit), fits.sided.0);
@@ -96,7 +96,7 @@ impl Panel<'_> {
     fn draw(
         &self,
         data: &TwistData,
-        beside: &[Beside<'_>],
+        beside: &[UnfittedData<'_>],
         out: &Path,
     ) -> Result<(String, String), String> {
         let range = (self.column)(data).range();

@@ -3,24 +3,24 @@
 use super::bend::BendFits;
 use super::column::Column;
 use super::data::TwistData;
-use super::found::Found;
 use super::measured::BendData;
+use super::parameter_fit::ParameterFit;
 use super::search::Basis;
 use super::twist::{TwistFits, rms};
-use crate::Tell;
+use crate::ProgressSink;
 use actin_cosserat::{PolynomialStretch, TanhTwist};
 use actin_fit::{Goodness, LinearFit, Precision, Status};
 
 /// Relative difference of chi squared below which two starts found the same minimum.
 const SAME: f64 = 1e-6;
 
-pub(super) fn twist(tell: Tell<'_>, data: &TwistData, fits: &TwistFits) {
+pub(super) fn twist(tell: ProgressSink<'_>, data: &TwistData, fits: &TwistFits) {
     tell(format_args!("data: {}", data.source));
     length(tell, data, fits);
     rigidity(tell, data, fits);
 }
 
-fn length(tell: Tell<'_>, data: &TwistData, fits: &TwistFits) {
+fn length(tell: ProgressSink<'_>, data: &TwistData, fits: &TwistFits) {
     let xi = &data.length;
     tell(format_args!(
         "\nxi - 1 = sum p_i kappa^i, {} values",
@@ -46,7 +46,7 @@ fn length(tell: Tell<'_>, data: &TwistData, fits: &TwistFits) {
     ));
 }
 
-fn rigidity(tell: Tell<'_>, data: &TwistData, fits: &TwistFits) {
+fn rigidity(tell: ProgressSink<'_>, data: &TwistData, fits: &TwistFits) {
     let b3 = &data.rigidity;
 
     tell(format_args!(
@@ -63,7 +63,8 @@ fn rigidity(tell: Tell<'_>, data: &TwistData, fits: &TwistFits) {
     ));
     tell(format_args!("\nB3, published form, relative weights"));
     nonlinear(tell, &fits.tanh_relative, Some(&published.lambda));
-    let relative = |found: &Found| 100.0 * rms(b3, |k| fits.tanh_law(&found.fit).secant(k), true);
+    let relative =
+        |found: &ParameterFit| 100.0 * rms(b3, |k| fits.tanh_law(&found.fit).secant(k), true);
     tell(format_args!(
         "  rms {:.2} % relative (equal weights: {:.2} %)",
         relative(&fits.tanh_relative),
@@ -72,7 +73,7 @@ fn rigidity(tell: Tell<'_>, data: &TwistData, fits: &TwistFits) {
     saturating(tell, data, fits);
 }
 
-fn saturating(tell: Tell<'_>, data: &TwistData, fits: &TwistFits) {
+fn saturating(tell: ProgressSink<'_>, data: &TwistData, fits: &TwistFits) {
     let b3 = &data.rigidity;
     tell(format_args!(
         "\nB3 = rest + rise k^2/(k^2 + slow |k| + half^2), relative weights"
@@ -96,7 +97,7 @@ pub(super) fn largest(column: &Column, law: impl Fn(f64) -> f64, relative: bool)
     differences.fold(0.0, f64::max)
 }
 
-pub(super) fn bend(tell: Tell<'_>, data: &BendData, fits: &BendFits) {
+pub(super) fn bend(tell: ProgressSink<'_>, data: &BendData, fits: &BendFits) {
     tell(format_args!(
         "\nB = rest + rise q/(1 + q), q = k^2/k0^2, {} values",
         data.bend.len()
@@ -131,7 +132,7 @@ pub(super) fn bend(tell: Tell<'_>, data: &BendData, fits: &BendFits) {
     }
 }
 
-fn polynomial(tell: Tell<'_>, fit: &LinearFit, published: &[f64]) {
+fn polynomial(tell: ProgressSink<'_>, fit: &LinearFit, published: &[f64]) {
     let first = 7 - published.len();
     for (j, (value, theirs)) in fit.parameters.iter().zip(published).enumerate() {
         let error = standard_error(&fit.precision, j);
@@ -152,7 +153,7 @@ fn standard_error(precision: &Precision, j: usize) -> String {
         .map_or_else(|| "   -   ".into(), |e| format!("{e:7.1e}"))
 }
 
-pub(super) fn basis(tell: Tell<'_>, basis: &Basis) {
+pub(super) fn basis(tell: ProgressSink<'_>, basis: &Basis) {
     match basis {
         Basis::Full(found) => nonlinear(tell, found, None),
         Basis::Simple { note, names, fit } => {
@@ -166,7 +167,7 @@ pub(super) fn basis(tell: Tell<'_>, basis: &Basis) {
 }
 
 /// Prints chi squared of values with standard errors.
-pub(super) fn chi_squared(tell: Tell<'_>, goodness: &Goodness) {
+pub(super) fn chi_squared(tell: ProgressSink<'_>, goodness: &Goodness) {
     let freedom = goodness.degrees_of_freedom;
     tell(format_args!(
         "  chi^2 = {:.4} for {freedom} degrees of freedom; errors follow the given standard errors",
@@ -174,7 +175,7 @@ pub(super) fn chi_squared(tell: Tell<'_>, goodness: &Goodness) {
     ));
 }
 
-pub(super) fn nonlinear(tell: Tell<'_>, found: &Found, published: Option<&[f64]>) {
+pub(super) fn nonlinear(tell: ProgressSink<'_>, found: &ParameterFit, published: Option<&[f64]>) {
     let (fit, parameters) = (&found.fit, found.form.parameters);
     for (j, ((key, unit), value)) in parameters.iter().zip(&fit.parameters).enumerate() {
         let error = standard_error(&fit.precision, j);

@@ -3,7 +3,7 @@
 
 use super::column::{Column, Weight};
 use super::forms::{Rooted, Sided, Stiffened, Stretched};
-use super::found::{Fault, Form, Found};
+use super::parameter_fit::{Fault, Form, ParameterFit};
 use actin_cosserat::{RootedStretch, SidedTwist, Stiffening, StretchLaw};
 use actin_fit::{Data, FitError, Goodness, LinearFit, Mat, Noise, Starts, fit_linear};
 
@@ -90,7 +90,7 @@ pub(crate) struct LawFit<L> {
 #[derive(Clone, Debug)]
 pub(crate) enum Basis {
     /// Full form.
-    Full(Found),
+    Full(ParameterFit),
     /// Form with two parameters fewer that fits the data as well.
     Simple {
         /// Reason for the simpler form.
@@ -118,7 +118,7 @@ impl Basis {
 }
 
 /// Fits B3 against twist with a rise on each side; needs three values on each side.
-pub(super) fn sided(column: &Column) -> Result<(SidedTwist, Found), String> {
+pub(super) fn sided(column: &Column) -> Result<(SidedTwist, ParameterFit), String> {
     for (side, sign) in [("under", -1.0), ("over", 1.0)] {
         let count = column.on_side(sign);
         if count < FEWEST {
@@ -148,9 +148,9 @@ pub(super) fn sided(column: &Column) -> Result<(SidedTwist, Found), String> {
         scale,
         scale,
     ];
-    let starts = Starts::at(&start).and_drawn(STARTS.0, STARTS.1);
+    let starts = Starts::at(&start).and_random(STARTS.0, STARTS.1);
     let form = Sided { range };
-    let found = Found::search(&SIDED, &form, &data, bounds, &starts)?;
+    let found = ParameterFit::search(&SIDED, &form, &data, bounds, &starts)?;
     Ok((form.law(&found.fit.parameters), found))
 }
 
@@ -171,8 +171,8 @@ pub(super) fn rooted(column: &Column) -> Result<LawFit<RootedStretch>, String> {
             range / 7.0,
             0.0,
         ];
-        let starts = Starts::at(&start).and_drawn(STARTS.0, STARTS.1);
-        Found::search(&ROOTED, &Rooted { range }, &data, bounds, &starts)
+        let starts = Starts::at(&start).and_random(STARTS.0, STARTS.1);
+        ParameterFit::search(&ROOTED, &Rooted { range }, &data, bounds, &starts)
     };
     if let Some(found) = unless_simple(&data, &straight, full)? {
         let law = Rooted { range }.law(&found.fit.parameters);
@@ -210,8 +210,8 @@ pub(super) fn stiffened(column: &Column) -> Result<LawFit<Stiffening>, String> {
         ];
         let rest = column.at_rest();
         let start = [rest, (most - rest).max(0.05 * most), 0.2 * range];
-        let starts = Starts::at(&start).and_drawn(STARTS.0, STARTS.1);
-        Found::search(&STIFFENED, &Stiffened { range }, &data, bounds, &starts)
+        let starts = Starts::at(&start).and_random(STARTS.0, STARTS.1);
+        ParameterFit::search(&STIFFENED, &Stiffened { range }, &data, bounds, &starts)
     };
     let chosen = match unless_simple(&data, &constant, full)? {
         Some(found) => LawFit {
@@ -249,8 +249,8 @@ pub(super) fn stretched(column: &Column) -> Result<LawFit<StretchLaw>, String> {
         let most = column.largest();
         let sides = (1e-2 * rigidity, 1e2 * rigidity);
         let bounds = vec![sides, sides, (1e-3 * most, 2.0 * most)];
-        let starts = Starts::at(&[rigidity, rigidity, 0.1 * most]).and_drawn(STARTS.0, STARTS.1);
-        Found::search(&STRETCHED, &Stretched, &data, bounds, &starts)
+        let starts = Starts::at(&[rigidity, rigidity, 0.1 * most]).and_random(STARTS.0, STARTS.1);
+        ParameterFit::search(&STRETCHED, &Stretched, &data, bounds, &starts)
     };
     let has_sides = [-1.0, 1.0].map(|sign| column.on_side(sign) >= FEWEST) == [true; 2];
     let found = if has_sides {
@@ -310,8 +310,8 @@ fn simple(form: &Form, fit: Result<LinearFit, FitError>) -> Result<LinearFit, St
 fn unless_simple(
     data: &Data,
     simple: &LinearFit,
-    full: impl FnOnce() -> Result<Found, String>,
-) -> Result<Option<Found>, String> {
+    full: impl FnOnce() -> Result<ParameterFit, String>,
+) -> Result<Option<ParameterFit>, String> {
     let observations = data.observations();
     let scaled = observations.values().iter().zip(observations.deviations());
     let size: f64 = scaled.map(|(y, s)| (y / s).powi(2)).sum();

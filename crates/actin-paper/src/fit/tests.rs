@@ -2,9 +2,9 @@
 
 use super::column::Column;
 use super::forms::{Rooted, Sided, Stiffened, Stretched};
-use super::own::OwnFits;
 use super::search::{Basis, LawFit, rooted, sided, stiffened, stretched};
 use super::table::Table;
+use super::user_table::UserTableFits;
 use super::{Options, run};
 use crate::measure::{Specimen, bend_by_couples, stretch_by_force, twist};
 use crate::run::run_to_end;
@@ -265,7 +265,7 @@ fn undetermined_parameters_are_refused() {
         column.push(0.01 * f64::from(2 * (i % 2) - 1), 1e3 + f64::from(i));
     }
     let faults = sided(&column).unwrap().1.faults();
-    let message = super::found::accept(&faults, &[]).unwrap_err();
+    let message = super::parameter_fit::accept(&faults, &[]).unwrap_err();
     assert!(
         message.contains("the data do not determine b3."),
         "{message}"
@@ -299,7 +299,7 @@ fn a_scene_reads_the_written_law() {
     run_to_end(&mut assembly).unwrap();
 
     let table = Table::from_csv(&file).unwrap();
-    let fits = OwnFits::new(&table).unwrap();
+    let fits = UserTableFits::new(&table).unwrap();
     let expected = |name: &str, x: f64| {
         let curves = fits.curves(&table);
         let curve = curves.iter().find(|curve| curve.name == name).unwrap();

@@ -3,7 +3,7 @@
 use super::column::{Column, Weight};
 use super::data::TwistData;
 use super::forms::Tanh;
-use super::found::{Fault, Found};
+use super::parameter_fit::{Fault, ParameterFit};
 use super::search::{LawFit, STARTS, TANH, rooted, sided};
 use actin_cosserat::{PolynomialStretch, RootedStretch, SidedTwist, TanhTwist};
 use actin_fit::{Data, Fit, LinearFit, Polynomial, Starts};
@@ -33,11 +33,11 @@ pub(crate) struct TwistFits {
     /// `xi - 1` with two slopes.
     pub rooted: LawFit<RootedStretch>,
     /// Published form of B3 with equal weights.
-    pub tanh: Found,
+    pub tanh: ParameterFit,
     /// Published form of B3 with relative weights.
-    pub tanh_relative: Found,
+    pub tanh_relative: ParameterFit,
     /// Separate saturation in both senses of twist, with relative weights.
-    pub sided: (SidedTwist, Found),
+    pub sided: (SidedTwist, ParameterFit),
     /// Root mean square residual of the published `xi`, with and without its offset.
     pub published_xi_rms: [f64; 2],
     /// Root mean square residual of the published B3 (pN nm^2), and relative.
@@ -55,9 +55,9 @@ impl TwistFits {
         let relative = rigidity.observed(Weight::Relative).map_err(of_b3)?;
         let published = TanhTwist::published();
         let tanh = |data: &Data, extra: &[f64]| {
-            let starts = Starts::at(extra).and_drawn(STARTS.0, STARTS.1);
+            let starts = Starts::at(extra).and_random(STARTS.0, STARTS.1);
             let limits = wide(published);
-            Found::search(
+            ParameterFit::search(
                 &TANH,
                 &Tanh { limits },
                 data,
@@ -89,7 +89,7 @@ impl TwistFits {
     /// Parameters that are undetermined or at a bound.
     pub(super) fn faults(&self) -> Vec<Fault> {
         let searches = [&self.tanh, &self.sided.1].into_iter();
-        let faults = searches.flat_map(Found::faults);
+        let faults = searches.flat_map(ParameterFit::faults);
         faults.chain(self.rooted.basis.faults()).collect()
     }
 

@@ -2,9 +2,9 @@
 
 use super::case::{Case, Group};
 use super::ends::of_mean_filament;
-use super::filament::Made;
+use super::filament::FilamentModel;
 use super::solve::scene;
-use crate::Tell;
+use crate::ProgressSink;
 use crate::measure::follow;
 use crate::statistics::sample;
 use actin_draw::report::save;
@@ -32,7 +32,7 @@ struct Excess {
 }
 
 /// Writes `extrapolation.csv`; with `write` also into the folder of the committed table.
-pub(super) fn run(out: &Path, write: bool, tell: Tell<'_>) -> Result<(), String> {
+pub(super) fn run(out: &Path, write: bool, tell: ProgressSink<'_>) -> Result<(), String> {
     let all = RISES.par_iter().map(|&rises| excesses(out, rises));
     let all = all.collect::<Result<Vec<_>, String>>()?;
     let table = table(all.into_iter().flatten().collect());
@@ -49,7 +49,7 @@ fn excesses(out: &Path, rises: f64) -> Result<Vec<Excess>, String> {
     let name = format!("{rises} rises, beyond");
     let case = Case::forces(Group::Beside, name, rises, (None, 0.0, &FORCES_PN));
     let monomers = of_mean_filament(out, &case, AZIMUTHS)?;
-    let (scene, _) = scene(&case, &Made::coarse(&RodLaw::Homogenised));
+    let (scene, _) = scene(&case, &FilamentModel::coarse(&RodLaw::Homogenised));
     let ends = follow(&scene).map_err(|e| e.to_string())?;
     if let Some(ended) = ends.ended {
         return Err(ended.to_string());

@@ -2,7 +2,7 @@
 //! before the first result.
 
 use super::filament::RISE_NM;
-use actin_sim::Slides;
+use actin_sim::FreeTranslation;
 
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Case {
@@ -23,7 +23,7 @@ pub(super) enum Loading {
     /// Compared: displacement of the far end (nm) of a cantilever, displacement over force (nm/pN)
     /// if the end slides freely, secant stretching rigidity (pN) if it slides along the axis.
     Forces {
-        far_end: Option<Slides>,
+        far_end: Option<FreeTranslation>,
         turn_deg: f64,
         tension_pn: f64,
         forces_pn: Vec<f64>,
@@ -116,7 +116,7 @@ impl Case {
         group: Group,
         name: String,
         rises: f64,
-        (far_end, tension_pn, forces_pn): (Option<Slides>, f64, &[f64]),
+        (far_end, tension_pn, forces_pn): (Option<FreeTranslation>, f64, &[f64]),
     ) -> Self {
         let loading = Loading::Forces {
             far_end,
@@ -130,7 +130,7 @@ impl Case {
     /// Both ends held against rotation; the far end slides freely.
     pub(super) fn guided(group: Group, rises: f64, tension_pn: f64) -> Self {
         let name = format!("guided {:.0} nm, tension {tension_pn} pN", rises * RISE_NM);
-        let loads = (Some(Slides::Freely), tension_pn, &SMALL_PN[..]);
+        let loads = (Some(FreeTranslation::Freely), tension_pn, &SMALL_PN[..]);
         Self::forces(group, name, rises, loads)
     }
 
@@ -141,7 +141,7 @@ impl Case {
         rises: f64,
         (turned, forces_pn): (f64, &[f64]),
     ) -> Self {
-        let loads = (Some(Slides::AlongAxis), 0.0, forces_pn);
+        let loads = (Some(FreeTranslation::AlongAxis), 0.0, forces_pn);
         let mut case = Self::forces(group, name, rises, loads);
         if let Loading::Forces { turn_deg, .. } = &mut case.loading {
             *turn_deg = turned;
@@ -170,7 +170,7 @@ impl Case {
                 ..
             } => match far_end {
                 None => *tension_pn < 10.0,
-                Some(Slides::AlongAxis) => *turn_deg == 0.0,
+                Some(FreeTranslation::AlongAxis) => *turn_deg == 0.0,
                 Some(_) => (32.5..33.5).contains(&self.rises),
             },
         }
@@ -181,7 +181,9 @@ impl Case {
     pub(super) fn azimuths_deg(&self, quick: bool) -> [Vec<f64>; 2] {
         let counts = match &self.loading {
             Loading::Twisted { .. } => [1, 1],
-            Loading::Forces { far_end, .. } if *far_end == Some(Slides::AlongAxis) => [1, 1],
+            Loading::Forces { far_end, .. } if *far_end == Some(FreeTranslation::AlongAxis) => {
+                [1, 1]
+            }
             Loading::Forces { .. } => [6, 4],
             Loading::Linked { .. } => [6, 2],
             Loading::Buckled { .. } => [3, 1],

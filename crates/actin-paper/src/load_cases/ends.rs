@@ -2,13 +2,13 @@
 //! `ends.md`.
 
 use super::case::{Case, Group, Loading, azimuths_deg};
-use super::filament::Made;
-use super::solve::{Found, solve};
-use super::{Law, kept};
-use crate::Tell;
+use super::filament::FilamentModel;
+use super::solve::{CaseSolution, solve};
+use super::{Law, cached};
+use crate::ProgressSink;
 use crate::statistics::sample;
 use actin_draw::report::save;
-use actin_sim::{RodLaw, Slides};
+use actin_sim::{FreeTranslation, RodLaw};
 use rayon::prelude::*;
 use std::fmt::Write as _;
 use std::path::Path;
@@ -21,7 +21,7 @@ const HALVED: [f64; 4] = [11.0, 15.0, 22.0, 33.0];
 const HALVED_PULL_PN: [f64; 2] = [0.0, 10.0];
 
 /// Measures all laws and writes `ends.md`.
-pub(super) fn run(out: &Path, laws: &[Law], tell: Tell<'_>) -> Result<(), String> {
+pub(super) fn run(out: &Path, laws: &[Law], tell: ProgressSink<'_>) -> Result<(), String> {
     let mut text = String::from("# Ends\n");
     for (name, law) in laws {
         _ = writeln!(text, "\n## {name}\n\n{}", spans(out, law)?);
@@ -63,7 +63,7 @@ fn spans(out: &Path, law: &RodLaw) -> Result<String, String> {
     let columns = SPANS.par_iter().map(|&rises| {
         let errors = cases(rises).into_iter().map(|(load, case)| {
             let monomers = of_mean_filament(out, &case, AZIMUTHS)?;
-            let rod = solve(&case, &Made::fine(law))?;
+            let rod = solve(&case, &FilamentModel::fine(law))?;
             let names = rod.values.iter().map(|(name, _)| name);
             let names = names.filter(|name| !name.starts_with("dL/L"));
             let cell = |name: &String| {
@@ -107,13 +107,13 @@ fn halves(out: &Path, law: &RodLaw) -> Result<String, String> {
         let case = Case::guided(Group::Beside, rises, tension);
         let nm = case.length_nm();
         let monomers = of_mean_filament(out, &case, AZIMUTHS)?;
-        let whole = solve(&case, &Made::fine(law))?;
+        let whole = solve(&case, &FilamentModel::fine(law))?;
         let half = azimuths_deg(AZIMUTHS).into_iter().map(|azimuth_deg| {
             let rods = vec![[0.0, 0.5 * nm]];
-            let made = Made::mean(azimuth_deg).with_rods(law, rods);
+            let made = FilamentModel::mean(azimuth_deg).with_rods(law, rods);
             solve(&case, &made.with_short_segments())
         });
-        let half = half.collect::<Result<Vec<Found>, String>>()?;
+        let half = half.collect::<Result<Vec<CaseSolution>, String>>()?;
         for (name, whole) in &whole.values {
             let (exact, _) = mean_of(&monomers, name);
             let (half, _) = mean_of(&half, name);
@@ -132,7 +132,7 @@ fn halves(out: &Path, law: &RodLaw) -> Result<String, String> {
 }
 
 /// Mean of a quantity, and its range over its mean.
-fn mean_of(found: &[Found], name: &str) -> (f64, f64) {
+fn mean_of(found: &[CaseSolution], name: &str) -> (f64, f64) {
     let s = sample(found.iter().filter_map(|found| found.value(name)));
     (s.mean, s.spread().abs())
 }
@@ -142,13 +142,19 @@ pub(super) fn of_mean_filament(
     out: &Path,
     case: &Case,
     azimuths: u32,
-) -> Result<Vec<Found>, String> {
+) -> Result<Vec<CaseSolution>, String> {
     let is_across = match &case.loading {
-        Loading::Forces { far_end, .. } => *far_end != Some(Slides::AlongAxis),
+        Loading::Forces { far_end, .. } => *far_end != Some(FreeTranslation::AlongAxis),
         _ => false,
     };
     let azimuths = azimuths_deg(if is_across { azimuths } else { 1 });
-    let mean =
-        |azimuth_deg: f64| kept(Some(&super::folder(out)?), case, &Made::mean(azimuth_deg))?.0;
+    let mean = |azimuth_deg: f64| {
+        cached(
+            Some(&super::folder(out)?),
+            case,
+            &FilamentModel::mean(azimuth_deg),
+        )?
+        .0
+    };
     azimuths.into_iter().map(mean).collect()
 }

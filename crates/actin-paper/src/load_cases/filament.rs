@@ -12,7 +12,7 @@ const SEGMENT_NM: f64 = 10.0;
 const FINE_NM: f64 = 2.5;
 
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Made {
+pub(super) struct FilamentModel {
     pub name: String,
     monomers: Monomers,
     /// Arc lengths (nm) of the rod sections; monomers fill the rest.
@@ -21,7 +21,7 @@ pub(super) struct Made {
     segment_nm: f64,
 }
 
-impl Made {
+impl FilamentModel {
     fn new(name: String, monomers: Monomers) -> Self {
         Self {
             name,
@@ -42,10 +42,10 @@ impl Made {
     }
 
     /// Monomers with sampled bonds.
-    pub(super) fn drawn(seed: u64, azimuth_deg: f64) -> Self {
+    pub(super) fn with_sampled_bonds(seed: u64, azimuth_deg: f64) -> Self {
         let monomers = Monomers {
             azimuth_deg,
-            ..Monomers::drawn(DRAWN, seed)
+            ..Monomers::with_sampled_bonds(DRAWN, seed)
         };
         Self::new(format!("drawn-{seed}-{azimuth_deg}"), monomers)
     }
@@ -60,9 +60,9 @@ impl Made {
     }
 
     /// Rod for comparison with sampled bonds.
-    pub(super) fn of_drawn(law: &RodLaw) -> Self {
+    pub(super) fn rod_of_sampled_bonds(law: &RodLaw) -> Self {
         Self {
-            monomers: Monomers::drawn(DRAWN, 0),
+            monomers: Monomers::with_sampled_bonds(DRAWN, 0),
             ..Self::coarse(law)
         }
     }
@@ -79,7 +79,7 @@ impl Made {
         Self {
             name: format!("rod at {rods:?}"),
             rods,
-            rod: RodModel::of_law(law.clone()),
+            rod: RodModel::with_law(law.clone()),
             ..self
         }
     }
@@ -154,14 +154,20 @@ mod tests {
 
     #[test]
     fn sections_match_the_composition() {
-        let spans = |made: &Made| -> Vec<(f64, f64)> {
+        let spans = |made: &FilamentModel| -> Vec<(f64, f64)> {
             let sections = made.filament(100.0).sections;
             sections.iter().map(Section::span_nm).collect()
         };
         let rods = vec![[0.0, 20.0], [80.0, 100.0]];
-        let mixed = Made::mean(0.0).with_rods(&RodLaw::Constant, rods);
+        let mixed = FilamentModel::mean(0.0).with_rods(&RodLaw::Constant, rods);
         assert_eq!(spans(&mixed), [(0.0, 20.0), (20.0, 80.0), (80.0, 100.0)]);
-        assert_eq!(spans(&Made::coarse(&RodLaw::Constant)), [(0.0, 100.0)]);
-        assert_eq!(spans(&Made::drawn(1, 0.0)), [(0.0, 100.0)]);
+        assert_eq!(
+            spans(&FilamentModel::coarse(&RodLaw::Constant)),
+            [(0.0, 100.0)]
+        );
+        assert_eq!(
+            spans(&FilamentModel::with_sampled_bonds(1, 0.0)),
+            [(0.0, 100.0)]
+        );
     }
 }

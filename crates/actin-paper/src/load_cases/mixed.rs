@@ -1,9 +1,9 @@
 //! Spread of results over resolutions, for rods joined to the mean filament.
 
 use super::case::{Case, Group};
-use super::filament::{Made, RISE_NM};
+use super::filament::{FilamentModel, RISE_NM};
 use super::row::Row;
-use super::solve::{Found, solve};
+use super::solve::{CaseSolution, solve};
 use crate::statistics::sample;
 use actin_sim::RodLaw;
 use rayon::prelude::*;
@@ -52,15 +52,20 @@ impl Set {
         let lengths: Vec<f64> = self.lengths_nm.into_iter().step_by(step).collect();
         let solved = lengths.par_iter().map(|&nm| {
             let stretches = (self.stretches)(nm, whole);
-            let mixed = Made::mean(0.0).with_rods(law, stretches);
+            let mixed = FilamentModel::mean(0.0).with_rods(law, stretches);
             (nm, solve(&self.case, &mixed))
         });
-        let solved: Vec<(f64, Result<Found, String>)> = solved.collect();
+        let solved: Vec<(f64, Result<CaseSolution, String>)> = solved.collect();
         let row = |&quantity: &&str| self.row(law_name, quantity, &solved);
         self.quantities.iter().map(row).collect()
     }
 
-    fn row(&self, law: &str, quantity: &str, solved: &[(f64, Result<Found, String>)]) -> Row {
+    fn row(
+        &self,
+        law: &str,
+        quantity: &str,
+        solved: &[(f64, Result<CaseSolution, String>)],
+    ) -> Row {
         let (mut values, mut note) = (Vec::new(), format!("{quantity} by nm of rod:"));
         let mut failures = String::new();
         for (nm, found) in solved {

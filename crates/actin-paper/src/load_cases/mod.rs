@@ -4,27 +4,27 @@
 
 mod beyond;
 mod case;
-mod compared;
 mod ends;
 mod filament;
 mod mixed;
 mod picture;
+mod quantities;
 mod row;
 mod solve;
 mod thermal;
 mod write;
 
-pub(crate) use compared::compared;
+pub(crate) use quantities::compared;
 
-use crate::Tell;
+use crate::ProgressSink;
 use actin_draw::report::write_atomically;
 use actin_sim::{Monomers as Model, RodLaw};
 use case::Case;
-use filament::Made;
+use filament::FilamentModel;
 use rayon::prelude::*;
 use row::{Monomers, Rods, Row};
 use serde::{Deserialize, Serialize};
-use solve::{Found, solve};
+use solve::{CaseSolution, solve};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -64,7 +64,7 @@ type Law = (String, RodLaw);
 ///
 /// # Errors
 /// An unknown law, or a file that cannot be written.
-pub fn run(options: &Options, tell: Tell<'_>) -> Result<(), String> {
+pub fn run(options: &Options, tell: ProgressSink<'_>) -> Result<(), String> {
     let named = |name: &String| Ok((name.clone(), filament::law(name)?));
     let laws: Vec<Law> = options
         .laws
@@ -98,7 +98,7 @@ pub fn run(options: &Options, tell: Tell<'_>) -> Result<(), String> {
 
 /// Extent of the computation for a law.
 #[derive(Clone, Copy)]
-struct Effort {
+struct CaseExtent {
     quick: bool,
     /// Computes only segments of 10 nm against the mean filament, without trajectories in a quick
     /// run.
@@ -106,7 +106,12 @@ struct Effort {
 }
 
 /// The rows of all cases under all laws, in the order of the table.
-fn measured(out: &Path, laws: &[Law], quick: bool, tell: Tell<'_>) -> Result<Vec<Row>, String> {
+fn measured(
+    out: &Path,
+    laws: &[Law],
+    quick: bool,
+    tell: ProgressSink<'_>,
+) -> Result<Vec<Row>, String> {
     let cases = case::all(quick);
     let clock = Instant::now();
     let timed = |name: &str, since: Instant| {
@@ -121,7 +126,7 @@ fn measured(out: &Path, laws: &[Law], quick: bool, tell: Tell<'_>) -> Result<Vec
         }
     })?;
     timed("monomers", clock);
-    let effort = Effort {
+    let effort = CaseExtent {
         quick,
         only_coarse: false,
     };
@@ -143,20 +148,22 @@ fn of_law(
     (name, law): &Law,
     cases: &[Case],
     monomers: &[Monomers],
-    Effort { quick, only_coarse }: Effort,
+    CaseExtent { quick, only_coarse }: CaseExtent,
 ) -> Vec<Row> {
     let rods = |case: &Case| -> Rods {
-        let coarse = solve(case, &Made::coarse(law));
+        let coarse = solve(case, &FilamentModel::coarse(law));
         if only_coarse {
             let missing = || Err("not computed".to_owned());
             return [coarse, missing(), missing()];
         }
         // Only these laws depend on the bonds.
         let of_drawn = match law {
-            RodLaw::Homogenised | RodLaw::HomogenisedAthermal => solve(case, &Made::of_drawn(law)),
+            RodLaw::Homogenised | RodLaw::HomogenisedAthermal => {
+                solve(case, &FilamentModel::rod_of_sampled_bonds(law))
+            }
             _ => coarse.clone(),
         };
-        [coarse, solve(case, &Made::fine(law)), of_drawn]
+        [coarse, solve(case, &FilamentModel::fine(law)), of_drawn]
     };
     let rods: Vec<Rods> = cases.par_iter().map(rods).collect();
     let mut rows = Vec::new();
@@ -183,9 +190,9 @@ fn monomers(
         let filaments = filaments(case, samplings, quick).into_iter();
         filaments.map(move |made| (i, made))
     });
-    let jobs: Vec<(usize, Made)> = jobs.collect();
+    let jobs: Vec<(usize, FilamentModel)> = jobs.collect();
     let solved = jobs.par_iter().map(|(i, made)| {
-        let (outcome, was_there) = kept(folder, &cases[*i], made)?;
+        let (outcome, was_there) = cached(folder, &cases[*i], made)?;
         let new_error = outcome.as_ref().err().filter(|_| !was_there);
         done(new_error.map(String::as_str));
         Ok(outcome)
@@ -205,14 +212,18 @@ fn monomers(
 
 /// The mean filament at its azimuths, and samplings at theirs, rotated by an offset for each
 /// sampling.
-fn filaments(case: &Case, samplings: u64, quick: bool) -> Vec<Made> {
+fn filaments(case: &Case, samplings: u64, quick: bool) -> Vec<FilamentModel> {
     let [mean, drawn] = case.azimuths_deg(quick);
     let drawn = (0..samplings).flat_map(|seed| {
         let turned = seed as f64 * 360.0 / samplings as f64;
         let azimuths = drawn.clone().into_iter();
-        azimuths.map(move |azimuth| Made::drawn(seed, (azimuth + turned) % 360.0))
+        azimuths
+            .map(move |azimuth| FilamentModel::with_sampled_bonds(seed, (azimuth + turned) % 360.0))
     });
-    mean.into_iter().map(Made::mean).chain(drawn).collect()
+    mean.into_iter()
+        .map(FilamentModel::mean)
+        .chain(drawn)
+        .collect()
 }
 
 /// Folder of the cached equilibria of monomers.
@@ -227,18 +238,18 @@ const VERSION: u32 = 3;
 
 /// Cached equilibrium, or the error of a filament without one.
 #[derive(Deserialize, Serialize)]
-struct Kept {
+struct CachedSolution {
     key: String,
-    outcome: Result<Found, String>,
+    outcome: Result<CaseSolution, String>,
 }
 
 /// Returns the equilibria of monomers from the cache, or computes them, and whether they were
 /// cached. Without a folder they are computed.
-fn kept(
+fn cached(
     folder: Option<&Path>,
     case: &Case,
-    made: &Made,
-) -> Result<(Result<Found, String>, bool), String> {
+    made: &FilamentModel,
+) -> Result<(Result<CaseSolution, String>, bool), String> {
     let Some(folder) = folder else {
         return Ok((solve(case, made), false));
     };
@@ -248,15 +259,15 @@ fn kept(
     );
     let path = folder.join(format!("{}-{}.json", case.file(), made.name));
     let text = fs::read_to_string(&path).ok();
-    let there = text.and_then(|text| serde_json::from_str::<Kept>(&text).ok());
+    let there = text.and_then(|text| serde_json::from_str::<CachedSolution>(&text).ok());
     if let Some(there) = there.filter(|there| there.key == key) {
         return Ok((there.outcome, true));
     }
     let outcome = solve(case, made);
-    let kept = Kept { key, outcome };
-    let text = serde_json::to_string(&kept).map_err(|e| e.to_string())?;
+    let cached = CachedSolution { key, outcome };
+    let text = serde_json::to_string(&cached).map_err(|e| e.to_string())?;
     write_atomically(&path, &text)?;
-    Ok((kept.outcome, false))
+    Ok((cached.outcome, false))
 }
 
 #[cfg(test)]
@@ -268,16 +279,16 @@ mod tests {
     fn cached_outcomes_are_bit_identical() {
         let folder = tempfile::tempdir().unwrap();
         let mut case = Case::guided(Group::Beside, 9.0, 5.0);
-        let made = Made::mean(0.0);
-        let (first, was_there) = kept(Some(folder.path()), &case, &made).unwrap();
+        let made = FilamentModel::mean(0.0);
+        let (first, was_there) = cached(Some(folder.path()), &case, &made).unwrap();
         assert!(!was_there && first.as_ref().unwrap().values.len() == 2);
-        let (again, was_there) = kept(Some(folder.path()), &case, &made).unwrap();
+        let (again, was_there) = cached(Some(folder.path()), &case, &made).unwrap();
         assert!(was_there);
         assert_eq!(again, first);
         if let case::Loading::Forces { forces_pn, .. } = &mut case.loading {
             forces_pn.truncate(1);
         }
-        let (other, was_there) = kept(Some(folder.path()), &case, &made).unwrap();
+        let (other, was_there) = cached(Some(folder.path()), &case, &made).unwrap();
         assert!(!was_there);
         assert_eq!(other.unwrap().values, first.unwrap().values[..1]);
     }

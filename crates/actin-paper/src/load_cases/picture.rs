@@ -38,13 +38,13 @@ pub(super) fn draw(out: &Path, rows: &[Row]) -> Result<(), String> {
 
 /// Distinct values in order of occurrence.
 pub(super) fn distinct<T: PartialEq>(all: impl Iterator<Item = T>) -> Vec<T> {
-    let mut kept = Vec::new();
+    let mut cached = Vec::new();
     for one in all {
-        if !kept.contains(&one) {
-            kept.push(one);
+        if !cached.contains(&one) {
+            cached.push(one);
         }
     }
-    kept
+    cached
 }
 
 /// Position in the table and logarithm; `None` without an error.

@@ -1,8 +1,8 @@
 //! Comparison of one law with monomers in one quantity of one case.
 
 use super::case::{Bound, Group};
-use super::solve::Found;
-use crate::measure::Sampled;
+use super::solve::CaseSolution;
+use crate::measure::SampleStatistics;
 
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Row {
@@ -11,9 +11,9 @@ pub(super) struct Row {
     pub quantity: String,
     pub law: String,
     /// Mean filament, over azimuths.
-    pub mean: Option<Sampled>,
+    pub mean: Option<SampleStatistics>,
     /// Filaments with sampled bonds, over samplings and azimuths.
-    pub drawn: Option<Sampled>,
+    pub drawn: Option<SampleStatistics>,
     /// Rods with segments of 10 nm, with segments of 2.5 nm, and with segments of 10 nm for sampled
     /// bonds.
     pub rod: Option<f64>,
@@ -33,16 +33,16 @@ pub(super) struct Row {
 
 #[derive(Clone, Debug, Default)]
 pub(super) struct Monomers {
-    pub mean: Vec<Found>,
+    pub mean: Vec<CaseSolution>,
     /// Filaments with sampled bonds.
-    pub drawn: Vec<Found>,
+    pub drawn: Vec<CaseSolution>,
     /// Filaments without an equilibrium.
     pub failures: Vec<String>,
 }
 
 /// Rods with segments of 10 nm, with segments of 2.5 nm, and with segments of 10 nm for sampled
 /// bonds.
-pub(super) type Rods = [Result<Found, String>; 3];
+pub(super) type Rods = [Result<CaseSolution, String>; 3];
 
 /// Difference of writhe (turns) that distinguishes two equilibria.
 const OTHER_STATE: f64 = 0.1;
@@ -113,18 +113,18 @@ pub(super) fn rows(
 }
 
 fn value_row(row: Row, monomers: &Monomers, rods: &Rods) -> Row {
-    let sampled = |found: &[Found]| {
+    let sampled = |found: &[CaseSolution]| {
         let values: Vec<f64> = found
             .iter()
             .filter_map(|f| f.value(&row.quantity))
             .collect();
-        (!values.is_empty()).then(|| Sampled::of(values))
+        (!values.is_empty()).then(|| SampleStatistics::from_values(values))
     };
     let [rod, fine, rod_of_drawn] = rods
         .each_ref()
         .map(|rod| rod.as_ref().ok()?.value(&row.quantity));
     let (mean, drawn) = (sampled(&monomers.mean), sampled(&monomers.drawn));
-    let error = |rod: Option<f64>, of: Option<Sampled>| {
+    let error = |rod: Option<f64>, of: Option<SampleStatistics>| {
         rod.zip(of).map(|(rod, of)| (rod - of.mean) / of.mean.abs())
     };
     Row {
@@ -148,11 +148,11 @@ fn shape_row(row: Row, monomers: &Monomers, rods: &Rods) -> Row {
     let mean_of = |distances: Vec<f64>| {
         (!distances.is_empty()).then(|| distances.iter().sum::<f64>() / distances.len() as f64)
     };
-    let between = |a: &Found, b: &Found| {
+    let between = |a: &CaseSolution, b: &CaseSolution| {
         let lines = a.line.as_ref().zip(b.line.as_ref());
         lines.map(|(a, b)| a.farthest_from(b).0)
     };
-    let to = |rod: &Result<Found, String>, others: &[Found]| {
+    let to = |rod: &Result<CaseSolution, String>, others: &[CaseSolution]| {
         let rod = rod.as_ref().ok()?;
         mean_of(
             others
@@ -178,7 +178,7 @@ fn note(monomers: &Monomers, rods: &Rods) -> String {
     let mut all = Vec::new();
     let filaments = || monomers.mean.iter().chain(&monomers.drawn);
     let total = filaments().count();
-    let mut count = |what: &str, is: &dyn Fn(&Found) -> bool| {
+    let mut count = |what: &str, is: &dyn Fn(&CaseSolution) -> bool| {
         let number = filaments().filter(|found| is(found)).count();
         if number > 0 {
             all.push(format!("{number} of {total} filaments of monomers {what}"));
@@ -195,7 +195,7 @@ fn note(monomers: &Monomers, rods: &Rods) -> String {
     }
     match &rods[0] {
         Ok(rod) => {
-            let is_other = |found: &&Found| {
+            let is_other = |found: &&CaseSolution| {
                 let both = found.writhe.zip(rod.writhe);
                 both.is_some_and(|(a, b)| (a - b).abs() > OTHER_STATE)
             };
@@ -217,10 +217,10 @@ fn note(monomers: &Monomers, rods: &Rods) -> String {
 mod tests {
     use super::*;
 
-    fn found(tip: f64) -> Found {
-        Found {
+    fn found(tip: f64) -> CaseSolution {
+        CaseSolution {
             values: vec![("tip".to_owned(), tip)],
-            ..Found::default()
+            ..CaseSolution::default()
         }
     }
 

@@ -1,14 +1,15 @@
 //! Solution of a load case for one filament: scene, certified equilibria, and compared quantities.
 
 use super::case::{Case, Loading, TURNED_NM};
-use super::filament::Made;
+use super::filament::FilamentModel;
 use crate::figures::CentreLine;
 use crate::measure::{Evidence, Specimen, far_end_shift, follow, reaction, twist};
-use crate::run::{Solved, clamp, free, scenario};
+use crate::run::{SolvedScene, clamp, free, scenario};
 use actin_mechanics::{State, Vector3};
 use actin_sim::shape::Ribbon;
 use actin_sim::{
-    Assembly, End, Equilibrium, Hold, Load, Pace, Part, Scene, Setting, Slides, Stage, Task,
+    Assembly, End, Equilibrium, FreeTranslation, Hold, Load, Part, Scene, Setting, Stage, Task,
+    TimeCourse,
 };
 use serde::{Deserialize, Serialize};
 
@@ -25,7 +26,7 @@ const PUSHED_NM: f64 = 7.5;
 
 /// Results of a filament under the loads of a case.
 #[derive(Clone, Debug, Default, Deserialize, PartialEq, Serialize)]
-pub(super) struct Found {
+pub(super) struct CaseSolution {
     /// Compared quantities by name.
     pub values: Vec<(String, f64)>,
     /// Centre line, if shapes are compared.
@@ -40,7 +41,7 @@ pub(super) struct Found {
     pub unreached: Vec<String>,
 }
 
-impl Found {
+impl CaseSolution {
     pub(super) fn value(&self, name: &str) -> Option<f64> {
         let found = self.values.iter().find(|(own, _)| own == name);
         found.map(|(_, value)| *value)
@@ -56,7 +57,7 @@ impl Found {
 ///
 /// # Errors
 /// An invalid scene, a scene without an equilibrium, or a value that is not finite.
-pub(super) fn solve(case: &Case, made: &Made) -> Result<Found, String> {
+pub(super) fn solve(case: &Case, made: &FilamentModel) -> Result<CaseSolution, String> {
     let found = match &case.loading {
         Loading::Linked { figure } => linked(*figure, made),
         Loading::Buckled { turn_deg } => buckled(case.length_nm(), *turn_deg, made),
@@ -85,12 +86,12 @@ fn stage(set: impl Into<Vec<Setting>>) -> Stage {
     Stage {
         set: set.into(),
         duration_ns: None,
-        pace: Pace::Smooth,
+        pace: TimeCourse::Smooth,
     }
 }
 
 /// Settings of a path that tries each stage in one step.
-fn solver(made: &Made) -> Equilibrium {
+fn solver(made: &FilamentModel) -> Equilibrium {
     let mut solver = Equilibrium {
         largest_step: 1.0,
         accept_jumps: true,
@@ -103,7 +104,7 @@ fn solver(made: &Made) -> Equilibrium {
 }
 
 /// The scene of a case of forces, and the number of stages before those of the forces.
-pub(super) fn scene(case: &Case, made: &Made) -> (Scene, usize) {
+pub(super) fn scene(case: &Case, made: &FilamentModel) -> (Scene, usize) {
     let Loading::Forces {
         far_end,
         turn_deg,
@@ -120,7 +121,7 @@ pub(super) fn scene(case: &Case, made: &Made) -> (Scene, usize) {
         before.push(turn(End::End, turn_deg));
     }
     // Unit forces on the end; the last one is scaled to each value.
-    let is_along = *far_end == Some(Slides::AlongAxis);
+    let is_along = *far_end == Some(FreeTranslation::AlongAxis);
     let mut directions = vec![if is_along { ALONG } else { ACROSS }];
     if *tension_pn != 0.0 {
         directions.insert(0, ALONG);
@@ -130,7 +131,7 @@ pub(super) fn scene(case: &Case, made: &Made) -> (Scene, usize) {
     let count = before.len();
     let forces = forces_pn.iter().map(|&force| factor(last, force));
     let path = before.into_iter().chain(forces);
-    let mut clamps = vec![clamp(End::Start, Slides::Nowhere)];
+    let mut clamps = vec![clamp(End::Start, FreeTranslation::Nowhere)];
     clamps.extend(far_end.map(|slides| clamp(End::End, slides)));
     let load = |force_pn| Load::EndForce {
         filament: 0,
@@ -150,9 +151,9 @@ pub(super) fn scene(case: &Case, made: &Made) -> (Scene, usize) {
 /// A filament loaded step by step, with a value at each step.
 fn loaded(
     case: &Case,
-    (far_end, forces_pn): (Option<Slides>, &[f64]),
-    made: &Made,
-) -> Result<Found, String> {
+    (far_end, forces_pn): (Option<FreeTranslation>, &[f64]),
+    made: &FilamentModel,
+) -> Result<CaseSolution, String> {
     let (scene, before) = scene(case, made);
     let ends = follow(&scene).map_err(|e| e.to_string())?;
     let assembly = &ends.assembly;
@@ -168,7 +169,7 @@ fn loaded(
             .get(before - 1)
             .map_or(Vector3::repeat(f64::NAN), |stop| place(&stop.state)),
     };
-    let mut found = Found::default();
+    let mut found = CaseSolution::default();
     for stop in &ends.stops {
         found.count(&stop.evidence);
     }
@@ -177,7 +178,9 @@ fn loaded(
         let moved = place(&stop.state) - start;
         found.values.push(match far_end {
             None => (format!("tip at {force} pN (nm)"), moved.x),
-            Some(Slides::AlongAxis) => (format!("S3 at {force} pN (pN)"), force * length / moved.z),
+            Some(FreeTranslation::AlongAxis) => {
+                (format!("S3 at {force} pN (pN)"), force * length / moved.z)
+            }
             Some(_) => (format!("nm/pN at {force} pN"), moved.x / force),
         });
     }
@@ -186,7 +189,11 @@ fn loaded(
 }
 
 /// Twist with the protocol of Tables 3 and 5.
-fn twisted(length_nm: f64, turns_deg: &[f64], made: &Made) -> Result<Found, String> {
+fn twisted(
+    length_nm: f64,
+    turns_deg: &[f64],
+    made: &FilamentModel,
+) -> Result<CaseSolution, String> {
     let specimen = Specimen {
         solver: solver(made),
         ..Specimen::new(made.filament(length_nm))
@@ -196,7 +203,7 @@ fn twisted(length_nm: f64, turns_deg: &[f64], made: &Made) -> Result<Found, Stri
         .map(|turn| turn * length_nm / TURNED_NM)
         .collect();
     let curve = twist(&specimen, &turns).map_err(|e| e.to_string())?;
-    let mut found = Found::default();
+    let mut found = CaseSolution::default();
     for point in &curve.points {
         let name = point.turn_deg * TURNED_NM / length_nm;
         let value = |what: &str, unit: &str| format!("{what} at {name:+.0} deg{unit}");
@@ -215,7 +222,7 @@ fn twisted(length_nm: f64, turns_deg: &[f64], made: &Made) -> Result<Found, Stri
 }
 
 /// A free filament on linkers: the equilibrium of lowest energy from several initial rotations.
-fn linked(figure: u32, made: &Made) -> Result<Found, String> {
+fn linked(figure: u32, made: &FilamentModel) -> Result<CaseSolution, String> {
     let mut scene = scenario(&format!("figure-{figure}/linkers.ron"))?;
     let length = scene.filament.sections.last().map(|s| s.span_nm().1);
     scene.filament = made.filament(length.ok_or("a filament without sections")?);
@@ -224,20 +231,20 @@ fn linked(figure: u32, made: &Made) -> Result<Found, String> {
         accept_jumps: false,
         ..solver(made)
     });
-    let mut lowest: Option<(f64, Found)> = None;
+    let mut lowest: Option<(f64, CaseSolution)> = None;
     for start in STARTS_DEG {
         let mut assembly = Assembly::build(&scene).map_err(|e| e.to_string())?;
         assembly.roll(start.to_radians());
-        let solved = Solved::run(assembly)?;
+        let solved = SolvedScene::run(assembly)?;
         let energy = solved.last().potential_pn_nm();
         if lowest.as_ref().is_some_and(|(low, _)| energy >= *low) {
             continue;
         }
-        let found = Found {
+        let found = CaseSolution {
             values: vec![("energy (pN nm)".to_owned(), energy)],
-            line: Some(CentreLine::of(&solved.assembly, solved.state())),
+            line: Some(CentreLine::new(&solved.assembly, solved.state())),
             doubtful: usize::from(solved.doubtful() != Some([0, 0])),
-            ..Found::default()
+            ..CaseSolution::default()
         };
         lowest = Some((energy, found));
     }
@@ -247,7 +254,7 @@ fn linked(figure: u32, made: &Made) -> Result<Found, String> {
 }
 
 /// A filament whose ends are turned and pushed in, in both orders; the equilibrium of lower energy.
-fn buckled(length_nm: f64, turn_deg: f64, made: &Made) -> Result<Found, String> {
+fn buckled(length_nm: f64, turn_deg: f64, made: &FilamentModel) -> Result<CaseSolution, String> {
     let mut scene = scenario("figure-8/rod-140.ron")?;
     scene.filament = made.filament(length_nm);
     if let (Task::Equilibrium(task), true) = (&mut scene.task, made.is_rod()) {
@@ -269,7 +276,7 @@ fn buckled(length_nm: f64, turn_deg: f64, made: &Made) -> Result<Found, String> 
         stage([pushed(End::Start, PUSHED_NM), pushed(End::End, -PUSHED_NM)]),
     ];
     let mut failures = Vec::new();
-    let mut lowest: Option<(f64, Found)> = None;
+    let mut lowest: Option<(f64, CaseSolution)> = None;
     for order in [[0, 1], [1, 0]] {
         scene.path = order.map(|k| stages[k].clone()).into();
         match buckled_along(&scene, turn_deg) {
@@ -279,14 +286,14 @@ fn buckled(length_nm: f64, turn_deg: f64, made: &Made) -> Result<Found, String> 
         }
     }
     let (_, found) = lowest.ok_or_else(|| failures.join("; "))?;
-    Ok(Found {
+    Ok(CaseSolution {
         unreached: failures,
         ..found
     })
 }
 
 /// Energy and shape at the end of one path.
-fn buckled_along(scene: &Scene, turn_deg: f64) -> Result<(f64, Found), String> {
+fn buckled_along(scene: &Scene, turn_deg: f64) -> Result<(f64, CaseSolution), String> {
     let mut ends = follow(scene).map_err(|e| e.to_string())?;
     if let Some(ended) = ends.ended {
         return Err(ended.to_string());
@@ -303,10 +310,10 @@ fn buckled_along(scene: &Scene, turn_deg: f64) -> Result<(f64, Found), String> {
         ("couple (pN nm)", end.torque_pn_nm.z * turn_deg.signum()),
         ("thrust (pN)", -end.force_pn.z),
     ];
-    let mut found = Found {
+    let mut found = CaseSolution {
         values: values.map(|(name, value)| (name.to_owned(), value)).into(),
         writhe: ribbon.writhe(),
-        ..Found::default()
+        ..CaseSolution::default()
     };
     found.count(&stop.evidence);
     Ok((energy, found))
@@ -328,7 +335,7 @@ mod tests {
     /// A case of tension 0 has no axial load. A tension of 5 pN scales a unit load by 5.
     #[test]
     fn the_axial_load_equals_the_tension_of_the_case() {
-        let made = Made::coarse(&RodLaw::Constant);
+        let made = FilamentModel::coarse(&RodLaw::Constant);
         for (tension, along) in [(0.0, 0.0), (5.0, 5.0)] {
             let (scene, _) = scene(&Case::guided(Group::Guided, 22.0, tension), &made);
             scene.validate().unwrap();

@@ -2,9 +2,11 @@
 //! (`docs/measured/heat.md`).
 
 use super::case::Group;
-use super::filament::Made;
+use super::filament::FilamentModel;
 use super::row::Row;
-use crate::measure::{ROOM_PN_NM, Sampled, Turns, far_lengths, turns_in_bath};
+use crate::measure::{
+    ROOM_PN_NM, RotationCorrelations, SampleStatistics, far_lengths, turns_in_bath,
+};
 use actin_integrate::PEFRL;
 use actin_sim::RodLaw;
 use rayon::prelude::*;
@@ -27,14 +29,14 @@ const MONOMERS: [(&str, [f64; 2], [f64; 2]); 2] = [
 pub(super) fn rows(name: &str, law: &RodLaw, quick: bool) -> Vec<Row> {
     let replicas = if quick { QUICK_REPLICAS } else { REPLICAS };
     let replica = |k: u64| {
-        let filament = Made::coarse(law).filament(LENGTH_NM);
+        let filament = FilamentModel::coarse(law).filament(LENGTH_NM);
         turns_in_bath(filament, (&PEFRL, SHARE), k)
     };
     let all = (0..replicas).into_par_iter().map(replica);
-    let measured = all.collect::<Result<Vec<Turns>, String>>();
+    let measured = all.collect::<Result<Vec<RotationCorrelations>, String>>();
     let measured = measured.map(|turns| measure(&turns));
     let row = |(i, (quantity, mean, drawn)): (usize, (&str, [f64; 2], [f64; 2]))| {
-        let known = |[mean, error]: [f64; 2]| Sampled {
+        let known = |[mean, error]: [f64; 2]| SampleStatistics {
             mean,
             error,
             deviation: f64::NAN,
@@ -63,7 +65,7 @@ pub(super) fn rows(name: &str, law: &RodLaw, quick: bool) -> Vec<Row> {
 }
 
 /// Persistence length (um) and twisting rigidity (pN nm^2) with their standard errors.
-fn measure(turns: &[Turns]) -> [(f64, f64); 2] {
+fn measure(turns: &[RotationCorrelations]) -> [(f64, f64); 2] {
     let apart_nm = LENGTH_NM / turns[0].cosine.len() as f64;
     let [length, twist] = far_lengths(turns, apart_nm);
     let scaled = |(value, error): (f64, f64), by: f64| (by * value, by * error);

@@ -3,7 +3,7 @@
 use super::case::Bound;
 use super::picture::distinct;
 use super::row::Row;
-use crate::measure::Sampled;
+use crate::measure::SampleStatistics;
 use actin_draw::report::{save, write_csv};
 use std::fmt::Write as _;
 use std::path::Path;
@@ -47,7 +47,7 @@ fn number(value: Option<f64>) -> String {
     finite.map_or(String::new(), |v| format!("{v:.6e}"))
 }
 
-fn count(sampled: Option<Sampled>) -> String {
+fn count(sampled: Option<SampleStatistics>) -> String {
     sampled.map_or(0, |s| s.count).to_string()
 }
 

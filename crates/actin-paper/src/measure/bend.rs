@@ -1,7 +1,7 @@
 //! Bending by a transverse force at the free tip.
 
 use super::elastica::rigidity_ratio;
-use super::follow::{Evidence, Stop};
+use super::follow::{Evidence, PathPoint};
 use super::stretch::factors;
 use super::sweep::{Curve, across, sweep};
 use super::{MeasureError, Specimen};
@@ -52,7 +52,12 @@ pub fn bend_by_tip_force(
     })
 }
 
-fn read(assembly: &Assembly, force_pn: f64, direction: &Vector3, stop: &Stop) -> TipForcePoint {
+fn read(
+    assembly: &Assembly,
+    force_pn: f64,
+    direction: &Vector3,
+    stop: &PathPoint,
+) -> TipForcePoint {
     let length = assembly.length_nm();
     let tip = |state| assembly.tip_nm(state, End::End);
     let deflection = (tip(&stop.state) - tip(&assembly.rest)).dot(direction);

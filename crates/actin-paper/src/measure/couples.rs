@@ -1,11 +1,11 @@
 //! Bending by end couples: both ends are held in orientation, the far end is free of force.
 
-use super::follow::{Evidence, Stop};
+use super::follow::{Evidence, PathPoint};
 use super::sweep::{Curve, across, reaction, sweep};
 use super::{MeasureError, Specimen};
 use actin_mechanics::Vector3;
 use actin_sim::Assembly;
-use actin_sim::{End, Scene, Setting, Slides, Stage};
+use actin_sim::{End, FreeTranslation, Scene, Setting, Stage};
 
 /// A filament bent by end couples.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -58,13 +58,18 @@ fn turns(specimen: &Specimen, axis: &Vector3, turns_rad: &[f64]) -> Scene {
             turn_deg: (axis * turn.to_degrees()).into(),
         }],
         duration_ns: None,
-        pace: actin_sim::Pace::Smooth,
+        pace: actin_sim::TimeCourse::Smooth,
     };
     let path = turns_rad.iter().map(stage).collect();
-    specimen.scene("Bending by couples", Some(Slides::Freely), Vec::new(), path)
+    specimen.scene(
+        "Bending by couples",
+        Some(FreeTranslation::Freely),
+        Vec::new(),
+        path,
+    )
 }
 
-fn read(assembly: &Assembly, curvature: f64, axis: &Vector3, stop: &Stop) -> CouplePoint {
+fn read(assembly: &Assembly, curvature: f64, axis: &Vector3, stop: &PathPoint) -> CouplePoint {
     let torque_at = |end| reaction(assembly, &stop.state, end).torque_pn_nm;
     let far = torque_at(End::End);
     let couple = far.dot(axis);

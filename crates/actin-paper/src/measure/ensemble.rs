@@ -6,7 +6,7 @@ use rayon::prelude::*;
 
 /// Mean and scatter of a quantity over specimens.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Sampled {
+pub struct SampleStatistics {
     /// Arithmetic mean; NaN without values.
     pub mean: f64,
     /// Standard deviation of a single value, `sqrt(sum (x - mean)^2 / (n - 1))`; NaN for fewer than
@@ -18,15 +18,15 @@ pub struct Sampled {
     pub count: usize,
 }
 
-impl Sampled {
+impl SampleStatistics {
     /// Computes mean and scatter of `values`.
     ///
     /// ```
-    /// let sampled = actin_paper::measure::Sampled::of([1.0, 3.0]);
+    /// let sampled = actin_paper::measure::SampleStatistics::from_values([1.0, 3.0]);
     /// assert_eq!((sampled.mean, sampled.count), (2.0, 2));
     /// assert!((sampled.deviation - 2.0_f64.sqrt()).abs() < 1e-15 && sampled.error == 1.0);
     /// ```
-    pub fn of(values: impl IntoIterator<Item = f64>) -> Self {
+    pub fn from_values(values: impl IntoIterator<Item = f64>) -> Self {
         let values: Vec<f64> = values.into_iter().collect();
         let n = values.len() as f64;
         let mean = values.iter().sum::<f64>() / n;
@@ -91,12 +91,17 @@ pub fn sampled_by<P>(
     curves: &[Curve<P>],
     prescribed: impl Fn(&P) -> f64,
     measured: impl Fn(&P) -> f64,
-) -> Vec<(f64, Sampled)> {
+) -> Vec<(f64, SampleStatistics)> {
     let points = curves.iter().flat_map(|curve| &curve.points);
     let mut pairs: Vec<(f64, f64)> = points.map(|p| (prescribed(p), measured(p))).collect();
     pairs.sort_by(|a, b| a.0.total_cmp(&b.0));
     pairs
         .chunk_by(|a, b| (b.0 - a.0).abs() <= 1e-9 * a.0.abs())
-        .map(|same| (same[0].0, Sampled::of(same.iter().map(|pair| pair.1))))
+        .map(|same| {
+            (
+                same[0].0,
+                SampleStatistics::from_values(same.iter().map(|pair| pair.1)),
+            )
+        })
         .collect()
 }

@@ -37,20 +37,20 @@ impl Evidence {
     }
 }
 
-pub(crate) struct Stop {
+pub(crate) struct PathPoint {
     pub(crate) state: State,
     pub(crate) evidence: Evidence,
 }
 
 /// Equilibria at the ends of the stages, and the reason for an early end.
-pub(crate) struct Course {
+pub(crate) struct EquilibriumPath {
     pub(crate) assembly: Assembly,
-    pub(crate) stops: Vec<Stop>,
+    pub(crate) stops: Vec<PathPoint>,
     pub(crate) ended: Option<Box<PathFailure>>,
 }
 
 /// Follows the path of `scene` from stage to stage.
-pub(crate) fn follow(scene: &Scene) -> Result<Course, MeasureError> {
+pub(crate) fn follow(scene: &Scene) -> Result<EquilibriumPath, MeasureError> {
     scene.validate()?;
     let assembly = Assembly::build(scene)?;
     let Task::Equilibrium(settings) = &scene.task else {
@@ -63,7 +63,7 @@ pub(crate) fn follow(scene: &Scene) -> Result<Course, MeasureError> {
     let mut ended = None;
     for stage in 0..assembly.drive.stages() {
         match advance(&assembly, &path, &mut newton, &mut state, stage) {
-            Ok(evidence) => stops.push(Stop {
+            Ok(evidence) => stops.push(PathPoint {
                 state: state.clone(),
                 evidence,
             }),
@@ -73,7 +73,7 @@ pub(crate) fn follow(scene: &Scene) -> Result<Course, MeasureError> {
             }
         }
     }
-    Ok(Course {
+    Ok(EquilibriumPath {
         assembly,
         stops,
         ended,

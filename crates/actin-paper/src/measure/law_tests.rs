@@ -4,7 +4,7 @@ use super::*;
 use actin_sim::{Monomers, RodLaw, RodModel};
 
 fn rod() -> Specimen {
-    Specimen::rod(75.0, Some(48), RodModel::of_law(RodLaw::Constant))
+    Specimen::rod(75.0, Some(48), RodModel::with_law(RodLaw::Constant))
 }
 
 fn monomers() -> Specimen {
@@ -105,7 +105,7 @@ fn samplings_come_in_the_order_of_their_seeds() {
     let seeds = [7, 2, 5];
     let measure = |s: &Specimen| stretch_by_force(s, &[10.0, -5.0]);
     let mut drawn = monomers();
-    drawn.filament.monomers = Monomers::drawn(64, 0);
+    drawn.filament.monomers = Monomers::with_sampled_bonds(64, 0);
     let curves = over_samplings(&drawn, &seeds, measure).unwrap();
     for (curve, &seed) in curves.iter().zip(&seeds) {
         let mut alone = drawn.clone();
@@ -131,10 +131,10 @@ fn samplings_come_in_the_order_of_their_seeds() {
 /// The scatter of one value is unknown, not zero: zero would give an infinite weight in a fit.
 #[test]
 fn one_value_has_no_scatter() {
-    let one = Sampled::of([2.0]);
+    let one = SampleStatistics::from_values([2.0]);
     assert!((one.mean - 2.0).abs() < f64::EPSILON);
     assert!(one.deviation.is_nan() && one.error.is_nan());
-    assert!(Sampled::of([]).mean.is_nan());
+    assert!(SampleStatistics::from_values([]).mean.is_nan());
 }
 
 #[test]

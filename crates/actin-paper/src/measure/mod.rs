@@ -19,7 +19,7 @@
 //! | [`free_turn_under_tension`] | the same | turn until no couple is left | turn, `dL / L` |
 //! | [`shear_by_force`] | both ends in orientation, the far one slides freely | transverse force | `F / gamma` |
 //!
-//! [`Turns`] averages the relative rotations of cross-sections of a filament in a heat bath.
+//! [`RotationCorrelations`] averages the relative rotations of cross-sections of a filament in a heat bath.
 //!
 //! The length `L` is the distance of the clamped points, or of the inner held monomers.
 //!
@@ -27,7 +27,7 @@
 //! use actin_paper::measure::{Specimen, twist};
 //! use actin_sim::{RodLaw, RodModel};
 //! // The rod of Table 4 has B3 = 1.3e4 pN nm^2 at every angle.
-//! let rod = Specimen::rod(75.0, None, RodModel::of_law(RodLaw::Constant));
+//! let rod = Specimen::rod(75.0, None, RodModel::with_law(RodLaw::Constant));
 //! let curve = twist(&rod, &[-90.0, 180.0]).unwrap();
 //! assert!((curve.points[0].rigidity_pn_nm2 / 1.3e4 - 1.0).abs() < 1e-9);
 //! assert!((curve.points[1].torque_pn_nm - 1.3e4 * 3.14159265 / 75.0).abs() < 1e-4);
@@ -39,12 +39,12 @@ mod elastica;
 mod ensemble;
 mod error;
 mod follow;
+mod rotations;
 mod shear;
 mod specimen;
 mod stretch;
 mod sweep;
 mod tension;
-mod turns;
 mod twist;
 mod twisted;
 
@@ -52,18 +52,18 @@ pub use actin_equilibrium::{Certificate, Stability};
 pub use bend::{TipForcePoint, bend_by_tip_force};
 pub use couples::{CouplePoint, bend_by_couples};
 pub use elastica::elastica_deflection;
-pub use ensemble::{Sampled, over_samplings, over_samplings_and_azimuths, sampled_by};
+pub use ensemble::{SampleStatistics, over_samplings, over_samplings_and_azimuths, sampled_by};
 pub use error::MeasureError;
 pub use follow::Evidence;
 pub(crate) use follow::follow;
+pub(crate) use rotations::{ROOM_PN_NM, far_lengths, turns_in_bath};
+pub use rotations::{RotationCorrelations, jackknife, steps_in};
 pub use shear::{ShearPoint, shear_by_force};
 pub use specimen::Specimen;
 pub use stretch::{StretchPoint, stretch_by_force, stretch_by_shift};
-pub use sweep::{Curve, Unreached};
+pub use sweep::{Curve, MissingEquilibrium};
 pub(crate) use sweep::{far_end_shift, reaction};
 pub use tension::{PulledTwistPoint, free_turn_under_tension, twist_under_tension};
-pub(crate) use turns::{ROOM_PN_NM, far_lengths, turns_in_bath};
-pub use turns::{Turns, jackknife, steps_in};
 pub use twist::{TwistPoint, twist, twist_in_order};
 pub use twisted::{HelixPoint, PulledBendPoint, bend_twisted, bend_under_tension};
 

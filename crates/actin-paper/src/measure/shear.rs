@@ -1,12 +1,12 @@
 //! Shear: the far end is pushed across the axis with its orientation held.
 
-use super::follow::{Evidence, Stop};
+use super::follow::{Evidence, PathPoint};
 use super::stretch::factors;
 use super::sweep::{Curve, across, far_end_shift, sweep};
 use super::{MeasureError, Specimen};
 use actin_mechanics::Vector3;
 use actin_sim::Assembly;
-use actin_sim::{End, Load, Slides};
+use actin_sim::{End, FreeTranslation, Load};
 
 /// A filament sheared by a transverse force with parallel ends.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -51,14 +51,14 @@ pub fn shear_by_force(
             force_pn: direction.into(),
         };
         let path = factors(forces);
-        specimen.scene("Shear", Some(Slides::Freely), vec![unit], path)
+        specimen.scene("Shear", Some(FreeTranslation::Freely), vec![unit], path)
     };
     sweep("force_pn", forces_pn, scene, |assembly, force, stop| {
         read(assembly, force, &direction, stop)
     })
 }
 
-fn read(assembly: &Assembly, force_pn: f64, direction: &Vector3, stop: &Stop) -> ShearPoint {
+fn read(assembly: &Assembly, force_pn: f64, direction: &Vector3, stop: &PathPoint) -> ShearPoint {
     let shift = far_end_shift(assembly, &stop.state).dot(direction);
     let shear = shift / assembly.length_nm();
     ShearPoint {

@@ -2,8 +2,8 @@
 
 use crate::run::free;
 use actin_sim::{
-    Clamp, End, Equilibrium, Filament, Hold, Load, Monomers, RodModel, Scene, Section, Slides,
-    Stage, Task,
+    Clamp, End, Equilibrium, Filament, FreeTranslation, Hold, Load, Monomers, RodModel, Scene,
+    Section, Stage, Task,
 };
 
 /// A filament with its clamps and the solver of its equilibria.
@@ -42,16 +42,16 @@ impl Specimen {
             to_nm: length_nm,
             altered: None,
         };
-        Self::of_one_section(section, monomers, RodModel::default())
+        Self::from_section(section, monomers, RodModel::default())
     }
 
     /// A rod, by default with segments of about 10 nm.
     pub fn rod(length_nm: f64, segments: Option<usize>, rod: RodModel) -> Self {
         let section = Section::rod(0.0, length_nm, segments);
-        Self::of_one_section(section, Monomers::default(), rod)
+        Self::from_section(section, Monomers::default(), rod)
     }
 
-    fn of_one_section(section: Section, monomers: Monomers, rod: RodModel) -> Self {
+    fn from_section(section: Section, monomers: Monomers, rod: RodModel) -> Self {
         Self::new(Filament {
             monomers,
             rod,
@@ -63,11 +63,11 @@ impl Specimen {
     pub(super) fn scene(
         &self,
         title: &str,
-        far_end: Option<Slides>,
+        far_end: Option<FreeTranslation>,
         loads: Vec<Load>,
         path: Vec<Stage>,
     ) -> Scene {
-        let mut clamps = vec![self.clamp(End::Start, Slides::Nowhere)];
+        let mut clamps = vec![self.clamp(End::Start, FreeTranslation::Nowhere)];
         clamps.extend(far_end.map(|slides| self.clamp(End::End, slides)));
         Scene {
             clamps,
@@ -78,7 +78,7 @@ impl Specimen {
         }
     }
 
-    fn clamp(&self, end: End, slides: Slides) -> Clamp {
+    fn clamp(&self, end: End, slides: FreeTranslation) -> Clamp {
         let sections = &self.filament.sections;
         let section = match end {
             End::Start => sections.first(),

@@ -1,10 +1,10 @@
 //! Stretch at blocked turn, by a force or a displacement.
 
-use super::follow::{Evidence, Stop};
+use super::follow::{Evidence, PathPoint};
 use super::sweep::{Curve, far_end_shift, reaction, sweep};
 use super::{MeasureError, Specimen};
 use actin_sim::Assembly;
-use actin_sim::{End, Load, Scene, Setting, Slides, Stage};
+use actin_sim::{End, FreeTranslation, Load, Scene, Setting, Stage};
 
 /// A filament under axial force with its ends held against rotation.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -41,7 +41,7 @@ pub fn stretch_by_force(
         let path = factors(forces);
         specimen.scene(
             "Stretch by force",
-            Some(Slides::AlongAxis),
+            Some(FreeTranslation::AlongAxis),
             vec![unit],
             path,
         )
@@ -79,7 +79,7 @@ pub(super) fn factors(factors: &[f64]) -> Vec<Stage> {
     let stage = |&factor: &f64| Stage {
         set: vec![Setting::LoadFactor { load: 0, factor }],
         duration_ns: None,
-        pace: actin_sim::Pace::Smooth,
+        pace: actin_sim::TimeCourse::Smooth,
     };
     factors.iter().map(stage).collect()
 }
@@ -92,13 +92,18 @@ fn shifts(specimen: &Specimen, shifts_nm: &[f64]) -> Scene {
             shift_nm: [0.0, 0.0, shift],
         }],
         duration_ns: None,
-        pace: actin_sim::Pace::Smooth,
+        pace: actin_sim::TimeCourse::Smooth,
     };
     let path = shifts_nm.iter().map(stage).collect();
-    specimen.scene("Stretch by shift", Some(Slides::Nowhere), Vec::new(), path)
+    specimen.scene(
+        "Stretch by shift",
+        Some(FreeTranslation::Nowhere),
+        Vec::new(),
+        path,
+    )
 }
 
-fn read(assembly: &Assembly, force_pn: f64, stop: &Stop) -> StretchPoint {
+fn read(assembly: &Assembly, force_pn: f64, stop: &PathPoint) -> StretchPoint {
     let strain = far_end_shift(assembly, &stop.state).z / assembly.length_nm();
     StretchPoint {
         force_pn,

@@ -1,7 +1,7 @@
 //! Curves over values of both signs, with one path from rest for each sign.
 
 use super::MeasureError;
-use super::follow::{Stop, follow};
+use super::follow::{PathPoint, follow};
 use actin_mechanics::{Loads, State, Vector3};
 use actin_sim::{Assembly, Reaction};
 use actin_sim::{End, Scene};
@@ -14,12 +14,12 @@ pub struct Curve<P> {
     /// Measured points.
     pub points: Vec<P>,
     /// Values without an equilibrium.
-    pub unreached: Vec<Unreached>,
+    pub unreached: Vec<MissingEquilibrium>,
 }
 
 /// A value without an equilibrium.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Unreached {
+pub struct MissingEquilibrium {
     /// The value, in the unit of the protocol.
     pub value: f64,
     /// Reason for the end of the path.
@@ -33,7 +33,7 @@ pub(super) fn sweep<P>(
     name: &'static str,
     values: &[f64],
     scene: impl Fn(&[f64]) -> Scene,
-    read: impl Fn(&Assembly, f64, &Stop) -> P,
+    read: impl Fn(&Assembly, f64, &PathPoint) -> P,
 ) -> Result<Curve<P>, MeasureError> {
     check(name, values)?;
     let sorted = |positive: bool| {
@@ -68,7 +68,7 @@ pub(super) fn in_order<P>(
     name: &'static str,
     values: &[f64],
     scene: impl Fn(&[f64]) -> Scene,
-    read: impl Fn(&Assembly, f64, &Stop) -> P,
+    read: impl Fn(&Assembly, f64, &PathPoint) -> P,
 ) -> Result<Curve<P>, MeasureError> {
     check(name, values)?;
     leg(values, &scene, &read)
@@ -77,7 +77,7 @@ pub(super) fn in_order<P>(
 fn leg<P>(
     values: &[f64],
     scene: &impl Fn(&[f64]) -> Scene,
-    read: &impl Fn(&Assembly, f64, &Stop) -> P,
+    read: &impl Fn(&Assembly, f64, &PathPoint) -> P,
 ) -> Result<Curve<P>, MeasureError> {
     let course = follow(&scene(values))?;
     let stops = values.iter().zip(&course.stops);
@@ -89,7 +89,7 @@ fn leg<P>(
             .map(|(&value, stop)| read(&course.assembly, value, stop))
             .collect(),
         unreached: missing
-            .map(|&value| Unreached {
+            .map(|&value| MissingEquilibrium {
                 value,
                 reason: reason.clone().unwrap_or_default(),
             })

@@ -1,9 +1,9 @@
 //! Twist under axial force: torques at held turns, and the equilibrium turn of a free end.
 
-use super::sweep::{Curve, Unreached, check, check_finite, in_order, sweep};
+use super::sweep::{Curve, MissingEquilibrium, check, check_finite, in_order, sweep};
 use super::twist::{self, TwistPoint};
 use super::{MeasureError, Specimen};
-use actin_sim::{End, Load, Scene, Setting, Slides, Stage};
+use actin_sim::{End, FreeTranslation, Load, Scene, Setting, Stage};
 
 /// Tolerance on the torque at a free end, relative to the torque at turn 0.
 const COUPLE_LEFT: f64 = 1e-4;
@@ -93,7 +93,7 @@ fn free_turn(specimen: &Specimen, force_pn: f64) -> Result<Curve<PulledTwistPoin
     // A torque that jumps across zero has several equilibria and no root.
     let reason = format!("a torque of {left} pN nm remains at {turn} deg after {TRIALS} trials");
     let value = force_pn;
-    curve.unreached.push(Unreached { value, reason });
+    curve.unreached.push(MissingEquilibrium { value, reason });
     Ok(curve)
 }
 
@@ -181,7 +181,7 @@ fn pulled(specimen: &Specimen, controls: &[(f64, f64)]) -> Scene {
                 },
             ],
             duration_ns: None,
-            pace: actin_sim::Pace::Smooth,
+            pace: actin_sim::TimeCourse::Smooth,
         }
     };
     let unit = Load::EndForce {
@@ -192,7 +192,7 @@ fn pulled(specimen: &Specimen, controls: &[(f64, f64)]) -> Scene {
     let path = controls.iter().map(stage).collect();
     specimen.scene(
         "Twist under tension",
-        Some(Slides::AlongAxis),
+        Some(FreeTranslation::AlongAxis),
         vec![unit],
         path,
     )

@@ -7,7 +7,7 @@ use crate::run::run_to_end;
 use actin_sim::{
     Assembly, Filament, ForceLaw, Hold, Monomers, RodLaw, RodModel, Scene, Section, Summary,
 };
-use actin_sim::{End, Load, Setting, Slides, Stage};
+use actin_sim::{End, FreeTranslation, Load, Setting, Stage};
 use std::f64::consts::PI;
 
 /// Rise and distance from the axis (nm), turn (rad) of the default monomers.
@@ -20,13 +20,13 @@ fn rod(length_nm: f64, segments: usize) -> Specimen {
     Specimen::rod(
         length_nm,
         Some(segments),
-        RodModel::of_law(RodLaw::Constant),
+        RodModel::with_law(RodLaw::Constant),
     )
 }
 
 /// A filament with this number of rises and 160 bonds per interface.
 fn monomers(rises: f64, seed: u64) -> Specimen {
-    let monomers = Monomers::drawn(160, seed);
+    let monomers = Monomers::with_sampled_bonds(160, seed);
     Specimen::ellipsoids(rises * monomers.rise_nm, monomers)
 }
 
@@ -89,7 +89,7 @@ fn a_rod_that_is_soft_in_shear_shows_its_shearing_rigidity() {
             shear_pn: [50.0, 50.0, 3.4e4],
             bend_pn_nm2: [3.9e4, 3.9e4, 1.3e4],
         },
-        ..RodModel::of_law(RodLaw::Constant)
+        ..RodModel::with_law(RodLaw::Constant)
     };
     let curve = shear_by_force(&Specimen::rod(80.0, Some(64), model), &[0.01], 20.0).unwrap();
     let point = &curve.points[0];
@@ -168,14 +168,14 @@ fn pulling_and_turning_are_reciprocal() {
                 },
             ],
             duration_ns: None,
-            pace: actin_sim::Pace::Smooth,
+            pace: actin_sim::TimeCourse::Smooth,
         }];
         let unit = Load::EndForce {
             filament: 0,
             end: End::End,
             force_pn: [0.0, 0.0, 1.0],
         };
-        let scene = specimen.scene("", Some(Slides::AlongAxis), vec![unit], path);
+        let scene = specimen.scene("", Some(FreeTranslation::AlongAxis), vec![unit], path);
         let course = follow(&scene).unwrap();
         let state = &course.stops[0].state;
         let couple = reaction(&course.assembly, state, End::End).torque_pn_nm.z;
@@ -203,7 +203,7 @@ fn mixed_filaments_are_measured_like_any_other() {
         altered: None,
     };
     let mixed = Specimen::new(Filament {
-        rod: RodModel::of_law(RodLaw::Constant),
+        rod: RodModel::with_law(RodLaw::Constant),
         ..Filament::new(vec![monomers, Section::rod(40.0, 80.0, Some(4))])
     });
     let whole = Specimen::ellipsoids(80.0, Monomers::default());
@@ -311,7 +311,7 @@ fn values_and_models_that_cannot_be_measured_are_refused() {
 fn rods_without_a_potential_are_refused() {
     let model = RodModel {
         force_law: ForceLaw::PaperBalance,
-        ..RodModel::of_law(RodLaw::Constant)
+        ..RodModel::with_law(RodLaw::Constant)
     };
     let refused = twist(&Specimen::rod(40.0, Some(4), model), &[10.0]);
     assert!(
@@ -345,8 +345,8 @@ fn twelve_quadrature_bonds_equal_thousands_of_sampled_bonds() {
         Specimen::ellipsoids(27.0 * monomers.rise_nm, monomers)
     };
     let all = [
-        specimen(Monomers::weighted(12)),
-        specimen(Monomers::drawn(4096, 1)),
+        specimen(Monomers::with_quadrature_bonds(12)),
+        specimen(Monomers::with_sampled_bonds(4096, 1)),
     ];
     let compare = |what: &str, measured: [Vec<f64>; 2], tolerance: f64| {
         for (weighted, drawn) in measured[0].iter().zip(&measured[1]) {
@@ -381,7 +381,7 @@ fn twelve_quadrature_bonds_equal_thousands_of_sampled_bonds() {
 /// Quadrature bonds have no samplings: a seed other than 0 is an error.
 #[test]
 fn weighted_bonds_have_no_samplings() {
-    let monomers = Monomers::weighted(12);
+    let monomers = Monomers::with_quadrature_bonds(12);
     let specimen = Specimen::ellipsoids(9.0 * monomers.rise_nm, monomers);
     let measured = over_samplings(&specimen, &[0, 1], |s| stretch_by_force(s, &[10.0]));
     let message = measured.unwrap_err().to_string();

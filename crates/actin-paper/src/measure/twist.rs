@@ -1,10 +1,10 @@
 //! Twist: torque and change of length at held angles.
 
-use super::follow::{Evidence, Stop};
+use super::follow::{Evidence, PathPoint};
 use super::sweep::{Curve, far_end_shift, in_order, reaction, sweep};
 use super::{MeasureError, Specimen};
 use actin_sim::Assembly;
-use actin_sim::{End, Scene, Setting, Slides, Stage};
+use actin_sim::{End, FreeTranslation, Scene, Setting, Stage};
 
 /// A filament held at an angle of twist with free length.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -65,14 +65,14 @@ fn scene(specimen: &Specimen, turns_deg: &[f64]) -> Scene {
                 turn_deg,
             }],
             duration_ns: None,
-            pace: actin_sim::Pace::Smooth,
+            pace: actin_sim::TimeCourse::Smooth,
         }
     };
     let path = turns_deg.iter().map(stage).collect();
-    specimen.scene("Twist", Some(Slides::AlongAxis), Vec::new(), path)
+    specimen.scene("Twist", Some(FreeTranslation::AlongAxis), Vec::new(), path)
 }
 
-pub(super) fn read(assembly: &Assembly, turn_deg: f64, stop: &Stop) -> TwistPoint {
+pub(super) fn read(assembly: &Assembly, turn_deg: f64, stop: &PathPoint) -> TwistPoint {
     let length = assembly.length_nm();
     let torque_at = |end| reaction(assembly, &stop.state, end).torque_pn_nm.z;
     let curvature = turn_deg.to_radians() / length;

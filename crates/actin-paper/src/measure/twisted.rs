@@ -1,11 +1,11 @@
 //! Bending by couples of a filament under twist or axial force.
 
-use super::follow::{Evidence, Stop};
+use super::follow::{Evidence, PathPoint};
 use super::sweep::{Curve, across, check, check_finite, reaction, sweep};
 use super::{MeasureError, Specimen};
 use actin_mechanics::{UnitQuaternion, Vector3, rotation};
 use actin_sim::Assembly;
-use actin_sim::{End, Load, Scene, Setting, Slides, Stage};
+use actin_sim::{End, FreeTranslation, Load, Scene, Setting, Stage};
 use std::f64::consts::TAU;
 
 /// A filament twisted and bent by a uniform couple: a helix.
@@ -58,9 +58,9 @@ pub fn bend_twisted(
             .collect();
         helix(specimen, &turns)
     };
-    let read = |assembly: &Assembly, tilt: f64, stop: &Stop| {
+    let read = |assembly: &Assembly, tilt: f64, stop: &PathPoint| {
         let far = reaction(assembly, &stop.state, End::End).torque_pn_nm;
-        let solved = Helix::of(far, tilt * length, length, axis, twist.z);
+        let solved = Helix::new(far, tilt * length, length, axis, twist.z);
         HelixPoint {
             twist_rad_per_nm,
             tilt_rad_per_nm: tilt,
@@ -84,7 +84,7 @@ struct Helix {
 
 impl Helix {
     /// Computes the helix from the couple, and the tilt and turn (rad) of the far end.
-    fn of(couple: Vector3, tilt: f64, length: f64, axis: Vector3, turn: f64) -> Self {
+    fn new(couple: Vector3, tilt: f64, length: f64, axis: Vector3, turn: f64) -> Self {
         let sine = couple.xy().norm() / couple.norm();
         let angle = 2.0 * ((0.5 * tilt.abs()).sin() / sine).asin();
         let rigidity = length * couple.norm() / angle;
@@ -124,12 +124,12 @@ fn helix(specimen: &Specimen, turns: &[Vector3]) -> Scene {
             turn_deg: turn.map(f64::to_degrees).into(),
         }],
         duration_ns: None,
-        pace: actin_sim::Pace::Smooth,
+        pace: actin_sim::TimeCourse::Smooth,
     };
     let path = turns.iter().map(stage).collect();
     specimen.scene(
         "Bending of a twisted filament",
-        Some(Slides::Freely),
+        Some(FreeTranslation::Freely),
         Vec::new(),
         path,
     )
@@ -178,7 +178,7 @@ pub fn bend_under_tension(
             .collect();
         opposed(specimen, force_pn, &halves)
     };
-    let read = |assembly: &Assembly, curvature: f64, stop: &Stop| {
+    let read = |assembly: &Assembly, curvature: f64, stop: &PathPoint| {
         let couple = reaction(assembly, &stop.state, End::End)
             .torque_pn_nm
             .dot(&axis);
@@ -227,7 +227,7 @@ fn opposed(specimen: &Specimen, force_pn: f64, halves: &[Vector3]) -> Scene {
             turn(End::End, half),
         ],
         duration_ns: None,
-        pace: actin_sim::Pace::Smooth,
+        pace: actin_sim::TimeCourse::Smooth,
     };
     let unit = Load::EndForce {
         filament: 0,
@@ -237,7 +237,7 @@ fn opposed(specimen: &Specimen, force_pn: f64, halves: &[Vector3]) -> Scene {
     let path = halves.iter().map(stage).collect();
     specimen.scene(
         "Bending under tension",
-        Some(Slides::Freely),
+        Some(FreeTranslation::Freely),
         vec![unit],
         path,
     )

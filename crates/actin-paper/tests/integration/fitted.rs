@@ -1,7 +1,9 @@
 //! The law `Fitted` compared with filaments of monomers at other lengths, azimuths and turns than
 //! its fit.
 
-use actin_paper::measure::{Curve, Sampled, Specimen, bend_by_tip_force, sampled_by, twist};
+use actin_paper::measure::{
+    Curve, SampleStatistics, Specimen, bend_by_tip_force, sampled_by, twist,
+};
 use actin_sim::{Filament, JunctionModel, JunctionWeight, Monomers, RodLaw, RodModel, Section};
 
 const AZIMUTHS_DEG: [f64; 4] = [45.0, 135.0, 225.0, 315.0];
@@ -21,7 +23,7 @@ fn cantilevers_of_rod_and_monomers_bend_alike() {
     let curves: Vec<Curve<_>> = AZIMUTHS_DEG.into_iter().map(at).collect();
     let measured = sampled_by(&curves, |p| p.force_pn, |p| p.deflection_nm);
     let of = |law| {
-        let specimen = Specimen::rod(curves[0].length_nm, None, RodModel::of_law(law));
+        let specimen = Specimen::rod(curves[0].length_nm, None, RodModel::with_law(law));
         bend_by_tip_force(&specimen, &forces, 0.0).unwrap()
     };
     let (fitted, constant) = (of(RodLaw::Fitted), of(RodLaw::Constant));
@@ -49,7 +51,7 @@ fn rod_and_monomers_twist_and_shorten_alike() {
     ];
     let filament = Specimen::ellipsoids(rises(27.0), Monomers::default());
     let monomers = twist(&filament, &turns).unwrap();
-    let specimen = Specimen::rod(monomers.length_nm, None, RodModel::of_law(RodLaw::Fitted));
+    let specimen = Specimen::rod(monomers.length_nm, None, RodModel::with_law(RodLaw::Fitted));
     let fitted = twist(&specimen, &turns).unwrap();
     for (rod, filament) in fitted.points.iter().zip(&monomers.points) {
         let stiffer = rod.rigidity_pn_nm2 / filament.rigidity_pn_nm2 - 1.0;
@@ -77,7 +79,7 @@ fn tip(rod_nm: f64, force: f64, law: &RodLaw, weight: JunctionWeight) -> f64 {
         Section::rod(boundary, 160.0, None),
     ];
     let specimen = Specimen::new(Filament {
-        rod: RodModel::of_law(law.clone()),
+        rod: RodModel::with_law(law.clone()),
         junction: JunctionModel {
             weight,
             ..JunctionModel::default()
@@ -95,7 +97,7 @@ fn spread(force: f64, law: &RodLaw, weight: JunctionWeight) -> f64 {
         .collect();
     let low = tips.iter().copied().fold(f64::INFINITY, f64::min);
     let high = tips.iter().copied().fold(0.0, f64::max);
-    let spread = (high - low) / Sampled::of(tips.iter().copied()).mean;
+    let spread = (high - low) / SampleStatistics::from_values(tips.iter().copied()).mean;
     println!(
         "{force} pN, {law:?}, {weight:?}: {tips:.2?}, spread {:.1} %",
         100.0 * spread

@@ -1,7 +1,7 @@
 //! Rods and mixed filaments under twist with free length, simulated from scenes.
 
 use actin_mechanics::{Loads, State, rotation};
-use actin_paper::measure::{Sampled, Specimen, twist};
+use actin_paper::measure::{SampleStatistics, Specimen, twist};
 use actin_sim::{
     Assembly, BodyKind, Outcome, Plan, Resolution, RodLaw, RodModel, Scene, Trajectory,
     rod_constants,
@@ -45,7 +45,7 @@ fn a_twisted_rod_has_the_torque_and_length_of_its_law() {
         (RodLaw::Fitted, fitted),
     ];
     for (law, formula) in laws {
-        let rod = RodModel::of_law(law);
+        let rod = RodModel::with_law(law);
         let mut specimen = Specimen::rod(75.0, None, rod);
         (specimen.solver.force_pn, specimen.solver.torque_pn_nm) = (1e-9, 1e-9);
         let turns = [-190.0, -90.0, -30.0, 30.0, 90.0, 190.0];
@@ -273,7 +273,7 @@ fn a_mixed_filament_has_one_torque_through_its_junctions() {
                 let [shared, full] = ["Shared", "Full"].map(|weight| {
                     let scene = scene(sections, law, weight, &[angle]);
                     let (couple, all) = crossings(&scene, law, &resolved);
-                    let mean = |of: fn(&Crossing) -> f64| Sampled::of(all.iter().map(of));
+                    let mean = |of: fn(&Crossing) -> f64| SampleStatistics::from_values(all.iter().map(of));
                     let missing = mean(|c| c.missing);
                     println!(
                         "| {name} | {law} | {weight} | {angle:+} | {:.1} | {:.5} | {:.5} | {:+.2} |",

@@ -12,16 +12,16 @@ mod spans;
 mod strand;
 
 use super::{
-    Assembly, Clamped, Drive, FilamentSpan, FrameInfo, Kinetics, Part, PointInfo, Repelled, Rod,
-    SectionSpan, Term, imperfection, ledger,
+    Assembly, Clamped, Drive, FilamentSpan, FrameInfo, Kinetics, Part, PointInfo, RepulsionModel,
+    Rod, SectionSpan, Term, energy_balance, imperfection,
 };
 use crate::follow;
 use crate::observe::{EnergyNames, Observers};
-use crate::scene::{End, Filament, HeldEnds, Load, Scene, SceneProblem, Section};
+use crate::scene::{ClampedEnds, End, Filament, Load, Scene, SceneProblem, Section};
 use crate::trade;
 use actin_coupling::Linker;
 use actin_mechanics::{ControlId, Interaction, State, System};
-pub(crate) use sampled::Sampled;
+pub(crate) use sampled::InterfaceSampling;
 use sampled::Sampling;
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -67,7 +67,7 @@ impl Assembly {
             });
         }
         if let Some(following) = scene.filament.sections.following() {
-            let cells = follow::Cells::of(scene, following)?;
+            let cells = follow::Cells::new(scene, following)?;
             let rod = vec![false; cells.count()];
             let mut built = Self::build(&cells.scene(scene, &rod))?;
             let sections = &mut built.scene.filament.sections;
@@ -114,7 +114,7 @@ struct Builder<'a> {
     scene: &'a Scene,
     /// Estimated memory.
     bytes: f64,
-    held: HeldEnds,
+    held: ClampedEnds,
     strands: Vec<Strand<'a>>,
     filaments: Vec<FilamentSpan>,
     stock: SceneParts,
@@ -122,13 +122,13 @@ struct Builder<'a> {
     loads: Vec<ControlId>,
     linkers: Vec<Linker>,
     kinetics: Option<Kinetics>,
-    repelled: Option<Repelled>,
-    sampled: Vec<Sampled>,
+    repelled: Option<RepulsionModel>,
+    sampled: Vec<InterfaceSampling>,
 }
 
 impl<'a> Builder<'a> {
     fn new(scene: &'a Scene) -> Result<Self, SceneProblem> {
-        let held = HeldEnds::of(scene);
+        let held = ClampedEnds::new(scene);
         let in_bath = scene.thermal().is_some();
         let mut first_section = 0;
         let mut couples = couples_nm(scene);
@@ -171,7 +171,7 @@ impl<'a> Builder<'a> {
         }
         for (i, strand) in self.strands.iter().enumerate() {
             let first = self.stock.terms.len();
-            let chains = match Sampling::of(&scene.task) {
+            let chains = match Sampling::from_task(&scene.task) {
                 Some(sampling) => strand.sample(sampling).map(|(chains, sampled)| {
                     self.sampled.extend(sampled);
                     chains
@@ -202,7 +202,7 @@ impl<'a> Builder<'a> {
             &self.stock.state,
         );
         drive.place(&mut self.stock.state, 0.0);
-        let ledger = ledger::of_motion(&scene.task, &mut self.stock.state);
+        let energy_balance = energy_balance::of_motion(&scene.task, &mut self.stock.state);
         let mut stock = self.stock;
         let rest = stock.state.clone();
         stock.displace(&scene, &self.filaments);
@@ -223,7 +223,7 @@ impl<'a> Builder<'a> {
             loads: self.loads,
             linkers: self.linkers,
             kinetics: self.kinetics.map(Arc::new),
-            ledger,
+            energy_balance,
             repelled: self.repelled,
             sampled: self.sampled,
             spans,
@@ -231,7 +231,7 @@ impl<'a> Builder<'a> {
             chosen: None,
             build_s: 0.0,
         };
-        assembly.observers = Observers::new(&assembly.scene, &EnergyNames::of(&assembly));
+        assembly.observers = Observers::new(&assembly.scene, &EnergyNames::new(&assembly));
         assembly
     }
 

@@ -2,7 +2,7 @@
 
 use super::Clamped;
 use crate::scene::path::{self, Values};
-use crate::scene::{HeldEnds, Scene, Setting, Slides, swept};
+use crate::scene::{ClampedEnds, FreeTranslation, Scene, Setting, left_jacobian_product};
 use actin_coupling::Linker;
 use actin_mechanics::{ControlId, State, UnitQuaternion, Vector3, rotation};
 use std::ops::{Add, Mul, Sub};
@@ -26,7 +26,7 @@ struct HeldEnd {
     points: Vec<(usize, Vector3)>,
     frames: Vec<(usize, UnitQuaternion)>,
     about: Vector3,
-    slides: Slides,
+    slides: FreeTranslation,
     axis: Vector3,
     /// Displacements (nm).
     shift: Option<Values<Vector3>>,
@@ -37,7 +37,7 @@ struct HeldEnd {
 impl Drive {
     pub(super) fn new(
         scene: &Scene,
-        (held, clamps): (&HeldEnds, &[Clamped]),
+        (held, clamps): (&ClampedEnds, &[Clamped]),
         (loads, linkers): (&[ControlId], &[Linker]),
         rest: &State,
     ) -> Self {
@@ -175,10 +175,10 @@ fn those_set<C, T>(
         .collect()
 }
 
-type Moved = (Option<Values<Vector3>>, Option<Values<Vector3>>);
+type PrescribedMotion = (Option<Values<Vector3>>, Option<Values<Vector3>>);
 
 impl HeldEnd {
-    fn new(clamp: &Clamped, (shift, turn): Moved, rest: &State) -> Self {
+    fn new(clamp: &Clamped, (shift, turn): PrescribedMotion, rest: &State) -> Self {
         let point = |&i: &usize| (i, rest.points.position.get(i));
         let frame = |&i: &usize| (i, rest.frames.orientation.get(i));
         Self {
@@ -224,13 +224,13 @@ impl HeldEnd {
     /// Replaces the sliding components of `prescribed` by those of `present`.
     fn unless_sliding(&self, prescribed: Vector3, present: Vector3) -> Vector3 {
         match self.slides {
-            Slides::Nowhere => prescribed,
-            Slides::AlongAxis => {
+            FreeTranslation::Nowhere => prescribed,
+            FreeTranslation::AlongAxis => {
                 let axis = self.axis;
                 // This order leaves components across a lab axis exactly unchanged.
                 prescribed - axis * axis.dot(&prescribed) + axis * axis.dot(&present)
             }
-            Slides::Freely => present,
+            FreeTranslation::Freely => present,
         }
     }
 }
@@ -241,7 +241,7 @@ fn angular_velocity(theta: Vector3, rate: Vector3) -> Vector3 {
         return rate;
     }
     // `J_l^-1` has poles beyond a full turn, so `J_l` is evaluated directly.
-    swept(theta, rate)
+    left_jacobian_product(theta, rate)
 }
 
 #[cfg(test)]

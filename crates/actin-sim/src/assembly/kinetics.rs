@@ -82,7 +82,7 @@ pub(crate) type Log = Arc<Mutex<Vec<LinkerEvent>>>;
 
 /// Process that applies the linker events of a run to its system and logs them.
 #[derive(Debug)]
-pub(crate) struct Happenings {
+pub(crate) struct LinkerEventProcess {
     kinetics: Arc<Kinetics>,
     log: Log,
 }
@@ -132,8 +132,8 @@ impl Kinetics {
     }
 
     /// Creates the event process of a run. New events are appended to `log`.
-    pub(crate) fn happenings(self: &Arc<Self>, log: &Log) -> Happenings {
-        Happenings {
+    pub(crate) fn happenings(self: &Arc<Self>, log: &Log) -> LinkerEventProcess {
+        LinkerEventProcess {
             kinetics: Arc::clone(self),
             log: Arc::clone(log),
         }
@@ -180,7 +180,7 @@ impl Kinetics {
     }
 }
 
-impl StepEnd for Happenings {
+impl StepEnd for LinkerEventProcess {
     fn end_step(&self, state: &mut State, step: u64, h: f64) -> bool {
         let mut log = self.log.lock().unwrap_or_else(PoisonError::into_inner);
         // A repeated step, made to find the cause of a failure, replaces its earlier events.

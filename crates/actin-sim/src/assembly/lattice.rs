@@ -5,10 +5,10 @@
 //! middle between monomers 0 and 1. This choice depends on the clamps alone, so that a change of
 //! resolution moves no monomer.
 
-use crate::scene::{End, Filament, HeldEnds, MOST_COUNTED, Scene, SceneProblem, Section};
+use crate::scene::{ClampedEnds, End, Filament, MAX_EXACT_INTEGER, Scene, SceneProblem, Section};
 
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Resolved {
+pub(super) struct ResolvedSection {
     /// Arc length of the start (nm).
     pub from_nm: f64,
     /// Arc length of the end (nm).
@@ -17,7 +17,7 @@ pub(super) struct Resolved {
     pub monomers: Option<(i64, i64)>,
 }
 
-impl Resolved {
+impl ResolvedSection {
     pub(super) fn length_nm(&self) -> f64 {
         self.to_nm - self.from_nm
     }
@@ -32,7 +32,7 @@ pub(super) struct Lattice {
 }
 
 impl Lattice {
-    pub(super) fn of(filament: &Filament, [start, _]: [bool; 2]) -> Self {
+    pub(super) fn new(filament: &Filament, [start, _]: [bool; 2]) -> Self {
         let rise_nm = filament.monomers.rise_nm;
         let origin_nm = if start { 0.0 } else { -0.5 * rise_nm };
         Self { origin_nm, rise_nm }
@@ -64,8 +64,8 @@ impl Lattice {
 pub(super) fn resolve(
     filament: &Filament,
     is_held: [bool; 2],
-) -> Result<Vec<Resolved>, SceneProblem> {
-    let lattice = Lattice::of(filament, is_held);
+) -> Result<Vec<ResolvedSection>, SceneProblem> {
+    let lattice = Lattice::new(filament, is_held);
     let sections = &filament.sections;
     let last = sections.len() - 1;
     (0..sections.len())
@@ -88,7 +88,7 @@ pub(super) fn resolve(
 
 /// Length (nm) of filament 0 made of monomers that is nearest to `length_nm`.
 fn whole_length_nm(scene: &Scene, length_nm: f64) -> Result<f64, SceneProblem> {
-    let held = HeldEnds::of(scene);
+    let held = ClampedEnds::new(scene);
     let is_held = [End::Start, End::End].map(|end| held.clamp_at(0, end).is_some());
     let mut filament = scene.filament.clone();
     filament.sections = vec![Section::Ellipsoids {
@@ -110,9 +110,9 @@ pub(crate) fn cells_nm(
     cell_nm: f64,
 ) -> Result<Vec<f64>, SceneProblem> {
     let length_nm = whole_length_nm(scene, length_nm)?;
-    let held = HeldEnds::of(scene);
+    let held = ClampedEnds::new(scene);
     let is_held = [End::Start, End::End].map(|end| held.clamp_at(0, end).is_some());
-    let lattice = Lattice::of(&scene.filament, is_held);
+    let lattice = Lattice::new(&scene.filament, is_held);
     let monomers = (cell_nm / lattice.rise_nm).round();
     let cells = (length_nm / (monomers * lattice.rise_nm)).round().max(1.0);
     let half = 0.5 * lattice.rise_nm;
@@ -131,12 +131,12 @@ fn check_reach(filament: &Filament, lattice: &Lattice, i: usize) -> Result<(), S
     let (_, to_nm) = sections[i].span_nm();
     let has_monomers = matches!(sections[i], Section::Ellipsoids { .. });
     let reach = to_nm / lattice.rise_nm;
-    if reach > MOST_COUNTED && (has_monomers || sections.len() > 1) {
+    if reach > MAX_EXACT_INTEGER && (has_monomers || sections.len() > 1) {
         return Err(SceneProblem::new(
             format!("filament.sections[{i}].to_nm"),
             format!("{to_nm:?}"),
             format!(
-                "{reach:.2e} monomers reach this far: beyond {MOST_COUNTED:.1e} lattice indices are not \
+                "{reach:.2e} monomers reach this far: beyond {MAX_EXACT_INTEGER:.1e} lattice indices are not \
                  exact"
             ),
         ));
@@ -149,7 +149,7 @@ fn monomers(
     [start_held, end_held]: [bool; 2],
     (i, last): (usize, usize),
     span: (f64, f64),
-) -> Resolved {
+) -> ResolvedSection {
     let half = 0.5 * lattice.rise_nm;
     let (first, from_nm) = match (i == 0, start_held) {
         (true, true) => (-1, 0.0),
@@ -173,7 +173,7 @@ fn monomers(
             (end, lattice.s_nm(end) + half)
         }
     };
-    Resolved {
+    ResolvedSection {
         from_nm,
         to_nm,
         monomers: Some((first, end)),
@@ -181,17 +181,21 @@ fn monomers(
 }
 
 /// Rod of a section. `keeps` selects the ends that stay as written; other ends move to monomers.
-fn rod(lattice: &Lattice, keeps: [bool; 2], span: (f64, f64)) -> Resolved {
+fn rod(lattice: &Lattice, keeps: [bool; 2], span: (f64, f64)) -> ResolvedSection {
     let half = 0.5 * lattice.rise_nm;
     let boundary = |s_nm: f64| lattice.s_nm(lattice.last_before(s_nm)) + half;
-    Resolved {
+    ResolvedSection {
         from_nm: if keeps[0] { span.0 } else { boundary(span.0) },
         to_nm: if keeps[1] { span.1 } else { boundary(span.1) },
         monomers: None,
     }
 }
 
-fn check(i: usize, section: &Section, resolved: Resolved) -> Result<Resolved, SceneProblem> {
+fn check(
+    i: usize,
+    section: &Section,
+    resolved: ResolvedSection,
+) -> Result<ResolvedSection, SceneProblem> {
     let key = format!("filament.sections[{i}].to_nm");
     let (_, to_nm) = section.span_nm();
     if let Some((first, last)) = resolved.monomers

@@ -2,7 +2,7 @@
 
 use super::{Ranges, TwistWatch};
 use crate::scene::{
-    AlteredRod, Filament, ForceLaw, Material, Monomers, RodLaw, RodLaws, RodModel, SceneProblem,
+    Filament, ForceLaw, Material, Monomers, RodChanges, RodLaw, RodLaws, RodModel, SceneProblem,
     Section, fitted_laws,
 };
 use actin_cosserat::{
@@ -58,7 +58,7 @@ impl Law {
     }
 
     /// Applies factors of rigidities and a rest shape.
-    fn altered(self, altered: &AlteredRod, key: &str) -> Result<Self, SceneProblem> {
+    fn altered(self, altered: &RodChanges, key: &str) -> Result<Self, SceneProblem> {
         let softened = self.material.softened(&altered.factors()).map_err(|_| {
             let rule =
                 "this law has no separate rigidities: remove the factors, or write law: Constant";
@@ -99,12 +99,12 @@ impl Law {
     }
 
     pub(super) fn of_strains(&self) -> (RodMaterial, SegmentLaw) {
-        let coupled = SegmentLaw::of(&self.material, self.twist_stretch);
+        let coupled = SegmentLaw::from_material(&self.material, self.twist_stretch);
         (self.material, coupled.unwrap_or_default())
     }
 
     pub(super) fn ranges(&self) -> Ranges {
-        Ranges::of(&self.material, self.twist_stretch.as_ref())
+        Ranges::new(&self.material, self.twist_stretch.as_ref())
     }
 
     /// Returns the monitor of twist stability; `None` if no axial force can destabilise the twist,
@@ -120,7 +120,7 @@ impl Law {
         if self.twist_stretch.is_none() && self.material.potential().is_none() {
             return None;
         }
-        let law = SegmentLaw::of(&self.material, self.twist_stretch)?;
+        let law = SegmentLaw::from_material(&self.material, self.twist_stretch)?;
         Some(TwistWatch {
             law,
             material: self.material,
@@ -140,7 +140,7 @@ impl Law {
 
     /// Returns `true` if the strains are coupled to the curvature.
     pub(super) fn is_extended(&self) -> bool {
-        SegmentLaw::of(&self.material, self.twist_stretch).is_some()
+        SegmentLaw::from_material(&self.material, self.twist_stretch).is_some()
     }
 
     pub(super) fn interaction(
@@ -153,7 +153,7 @@ impl Law {
         match self.balance {
             ForceLaw::EnergyGradient => {
                 let rod = EnergyGradient::new(own, material);
-                match SegmentLaw::of(&material, self.twist_stretch) {
+                match SegmentLaw::from_material(&material, self.twist_stretch) {
                     Some(law) => Box::new(rod.with_extension(law, curvature())),
                     None => Box::new(rod),
                 }
@@ -256,8 +256,8 @@ pub(crate) fn potential(
 ) -> Result<&'static Homogenised, f64> {
     match (law, bath) {
         (RodLaw::HomogenisedAthermal, _) | (RodLaw::Homogenised, None) => {
-            let bonds = monomers.drawn_bonds();
-            Ok(bonds.map_or_else(Homogenised::mean_filament, Homogenised::drawn_filament))
+            let bonds = monomers.sampled_bonds();
+            Ok(bonds.map_or_else(Homogenised::mean_filament, Homogenised::sampled_filament))
         }
         (_, None) => Ok(Homogenised::mean_filament_at_298_k()),
         (_, Some(segment_nm)) => Homogenised::heated_rod(segment_nm).map_err(|error| error.value),

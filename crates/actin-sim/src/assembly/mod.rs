@@ -6,9 +6,10 @@
 
 mod bonded;
 mod build;
-mod built;
+mod built_axis;
 mod describe;
 mod drive;
+mod energy_balance;
 mod extrapolation;
 mod friction;
 mod hinge;
@@ -16,27 +17,26 @@ mod imperfection;
 mod kinetics;
 mod lattice;
 mod law;
-mod ledger;
 mod model_limits;
 mod models;
 mod parts;
 mod ramp;
 mod range;
 mod reaction;
-mod repelled;
+mod repulsion;
 mod several_states;
 mod slip;
 mod unstable_twist;
 
 pub use bonded::JunctionBond;
-pub(crate) use build::Sampled;
+pub(crate) use build::InterfaceSampling;
 pub use drive::Drive;
+pub use energy_balance::EnergyExchange;
 pub use extrapolation::MeasuredError;
 pub(crate) use kinetics::{COARSEST, Kinetics, Log};
 pub use kinetics::{LinkerEvent, LinkerEventKind};
 pub(crate) use lattice::cells_nm;
 pub(crate) use law::{TOO_SHORT, potential};
-pub use ledger::EnergyExchange;
 pub use model_limits::ModelLimitExceeded;
 pub(crate) use model_limits::worst as worst_of;
 pub(crate) use models::ellipsoids;
@@ -48,15 +48,15 @@ pub(crate) use ramp::{Ramp, StageTimes};
 pub use range::{Fluctuations, LawExtrapolation};
 pub(crate) use range::{RangeWatch, Ranges};
 pub use reaction::{Clamped, Reaction};
-pub(crate) use repelled::Repelled;
+pub(crate) use repulsion::RepulsionModel;
 pub use unstable_twist::UnstableTwist;
 pub(crate) use unstable_twist::{TwistRecords, TwistWatch};
 
 use crate::observe::Observers;
-use crate::scene::{End, HeldEnds, Monomers, Scene};
-use crate::trade::Chosen;
+use crate::scene::{ClampedEnds, End, Monomers, Scene};
+use crate::trade::SectionChoice;
 use actin_coupling::Linker;
-use actin_mechanics::{ControlId, Ledger, State, System, UnitQuaternion, Vector3};
+use actin_mechanics::{ControlId, EnergyBalance, State, System, UnitQuaternion, Vector3};
 use nalgebra::Unit;
 use std::ops::Range;
 use std::sync::Arc;
@@ -81,13 +81,13 @@ pub struct Assembly {
     pub(crate) rods: Vec<Rod>,
     /// Clamped ends.
     pub clamps: Vec<Clamped>,
-    pub(crate) held: HeldEnds,
+    pub(crate) held: ClampedEnds,
     pub(crate) loads: Vec<ControlId>,
     /// Linkers in the order of the scene; stepping linkers at their first place.
     pub linkers: Vec<Linker>,
     pub(crate) kinetics: Option<Arc<Kinetics>>,
-    pub(crate) ledger: Option<Ledger>,
-    pub(crate) repelled: Option<Repelled>,
+    pub(crate) energy_balance: Option<EnergyBalance>,
+    pub(crate) repelled: Option<RepulsionModel>,
     /// Arc length interval (nm) of each element of each term; empty for loads and linkers.
     pub(crate) spans: Vec<Vec<[f64; 2]>>,
     pub(crate) observers: Observers,
@@ -95,9 +95,9 @@ pub struct Assembly {
     pub drive: Drive,
     /// State as built: unloaded, at rest and without imperfections.
     pub rest: State,
-    pub(crate) sampled: Vec<Sampled>,
+    pub(crate) sampled: Vec<InterfaceSampling>,
     /// Choice of automatic sections, if the scene has any.
-    pub chosen: Option<Chosen>,
+    pub chosen: Option<SectionChoice>,
     pub(crate) build_s: f64,
     /// Estimated memory of the task without its records (bytes).
     pub(crate) bytes: f64,

@@ -85,7 +85,7 @@ impl fmt::Display for ModelLimitExceeded {
     }
 }
 
-type Furthest = (f64, f64);
+type LargestExcess = (f64, f64);
 
 impl Assembly {
     /// Returns the model limits that `state` exceeds, at most one entry per section and quantity.
@@ -152,7 +152,7 @@ impl Assembly {
         found: &mut Vec<ModelLimitExceeded>,
         section: usize,
         (quantity, limit): (&str, f64),
-        (s_nm, value): Furthest,
+        (s_nm, value): LargestExcess,
     ) {
         if value > limit {
             let filament = self.filament_of_section(section);
@@ -167,7 +167,7 @@ impl Assembly {
         }
     }
 
-    fn largest_strain_of(&self, rod: &Rod, state: &State) -> Furthest {
+    fn largest_strain_of(&self, rod: &Rod, state: &State) -> LargestExcess {
         let segments = rod.layout.points().zip(rod.layout.frames());
         let strains = segments.map(|(point, frame)| {
             let strain = self.strain(state, [point, point + 1], frame);
@@ -188,7 +188,12 @@ impl Assembly {
 
     /// Largest root-mean-square change of bond length, obtained from the energy `S/2 <change^2>` of
     /// each interface.
-    fn largest_change_of_bonds(&self, i: usize, monomers: &Monomers, state: &State) -> Furthest {
+    fn largest_change_of_bonds(
+        &self,
+        i: usize,
+        monomers: &Monomers,
+        state: &State,
+    ) -> LargestExcess {
         let term = self.terms.iter().position(|t| t.part == Part::Section(i));
         let term = term.expect("every section has a term");
         let bonds = &self.system.interactions()[term];
@@ -217,7 +222,7 @@ impl Assembly {
         section: &SectionSpan,
         monomers: &Monomers,
         state: &State,
-    ) -> Furthest {
+    ) -> LargestExcess {
         let first_frame = section.frames.start;
         let (first, count) = (section.points.start, section.points.len());
         let semi_axes = Vector3::from(monomers.semi_axes_nm);
@@ -257,7 +262,7 @@ pub(crate) fn worst(
     worst
 }
 
-fn largest(values: impl Iterator<Item = Furthest>) -> Furthest {
+fn largest(values: impl Iterator<Item = LargestExcess>) -> LargestExcess {
     values
         .max_by(|a, b| a.1.total_cmp(&b.1))
         .unwrap_or_default()

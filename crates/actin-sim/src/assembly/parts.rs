@@ -1,6 +1,6 @@
 //! Descriptions of bodies, sections and terms, for output and pictures.
 
-use super::built::Built;
+use super::built_axis::BuiltAxis;
 use super::{Ranges, TwistWatch};
 use crate::scene::End;
 use actin_cosserat::{JoinedElement, RodLayout, RodMaterial, SegmentLaw};
@@ -107,7 +107,7 @@ pub struct FilamentSpan {
     pub origin_nm: Vector3,
     /// Rotation from lab +z to the filament or to its curve.
     pub rotation: UnitQuaternion,
-    pub(crate) shape: Option<Built>,
+    pub(crate) shape: Option<BuiltAxis>,
 }
 
 impl FilamentSpan {
@@ -133,7 +133,7 @@ impl FilamentSpan {
 
     /// Transforms a position (nm, lab frame) to the frame in which the filament starts at the
     /// origin along +z.
-    pub fn seen_along_z(&self, place: Vector3) -> Vector3 {
+    pub fn to_filament_frame(&self, place: Vector3) -> Vector3 {
         let relative = place - self.origin_nm;
         self.rotation.inverse_transform_vector(&relative)
     }

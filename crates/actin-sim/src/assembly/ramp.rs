@@ -2,7 +2,7 @@
 
 use super::{Assembly, Drive, Part};
 use crate::At;
-use crate::scene::{Factor, Pace, smooth};
+use crate::scene::{Factor, TimeCourse, smooth};
 use actin_mechanics::{ControlId, Interaction, State, Vector3};
 
 /// A [`Drive`] in time: stages follow one another with their durations. Controls are constant after
@@ -24,14 +24,14 @@ pub(crate) struct Ramp {
 const RATE_OVER: f64 = 1e-3;
 
 impl Ramp {
-    pub(crate) fn of(assembly: &Assembly) -> Option<Self> {
+    pub(crate) fn from_assembly(assembly: &Assembly) -> Option<Self> {
         let drive = assembly.drive.clone();
         let loads = assembly.scene.loads.iter().zip(&assembly.loads);
         let factors: Vec<_> = loads
             .filter(|(load, _)| !load.factor().is_constant())
             .map(|(load, &control)| (control, load.factor().clone(), drive.sets(control)))
             .collect();
-        let times = StageTimes::of(assembly);
+        let times = StageTimes::from_assembly(assembly);
         (!drive.is_still() || !factors.is_empty()).then_some(Self {
             drive,
             times,
@@ -71,13 +71,13 @@ fn controlled(assembly: &Assembly) -> Vec<usize> {
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct StageTimes {
     /// Start and duration of each stage (ns), and its pace.
-    stages: Vec<(f64, f64, Pace)>,
+    stages: Vec<(f64, f64, TimeCourse)>,
     /// End of the last stage (ns).
     end: f64,
 }
 
 impl StageTimes {
-    fn new(durations: impl IntoIterator<Item = (f64, Pace)>) -> Self {
+    fn new(durations: impl IntoIterator<Item = (f64, TimeCourse)>) -> Self {
         let mut end = 0.0;
         let stages = durations.into_iter().map(|(duration, pace)| {
             let begin = end;
@@ -88,22 +88,23 @@ impl StageTimes {
         Self { stages, end }
     }
 
-    pub(crate) fn of(assembly: &Assembly) -> Self {
+    pub(crate) fn from_assembly(assembly: &Assembly) -> Self {
         let stages = assembly.scene.path.iter();
         Self::new(stages.filter_map(|stage| Some((stage.duration_ns?, stage.pace))))
     }
 
     /// Path parameter at `time` (ns) and its rate (1/ns).
     pub(crate) fn parameter(&self, time: f64) -> (f64, f64) {
-        let past = |&(begin, duration, _): &(f64, f64, Pace)| (time - begin) / duration >= 1.0;
+        let past =
+            |&(begin, duration, _): &(f64, f64, TimeCourse)| (time - begin) / duration >= 1.0;
         let stage = self.stages.partition_point(past);
         let Some(&(begin, duration, pace)) = self.stages.get(stage) else {
             return (stage as f64, 0.0);
         };
         let x = ((time - begin) / duration).max(0.0);
         let (share, rate) = match pace {
-            Pace::Smooth => (smooth(x), 30.0 * (x * (1.0 - x)).powi(2) / duration),
-            Pace::Steady => (x, 1.0 / duration),
+            TimeCourse::Smooth => (smooth(x), 30.0 * (x * (1.0 - x)).powi(2) / duration),
+            TimeCourse::Steady => (x, 1.0 / duration),
         };
         (stage as f64 + share, rate)
     }
@@ -157,7 +158,7 @@ impl Assembly {
     /// Returns the prescribed motion in time of loads, anchors and held ends; `None` if nothing
     /// moves.
     pub fn drive_in_time(&self) -> Option<Box<dyn actin_mechanics::Drive>> {
-        Ramp::of(self).map(|ramp| Box::new(ramp) as Box<dyn actin_mechanics::Drive>)
+        Ramp::from_assembly(self).map(|ramp| Box::new(ramp) as Box<dyn actin_mechanics::Drive>)
     }
 
     /// Sets load factors, anchors and held bodies to their values at a time or place of the path.
@@ -165,7 +166,7 @@ impl Assembly {
         match at {
             At::Path(parameter) => self.drive.place(state, parameter),
             At::Time(time_ns) => {
-                if let Some(ramp) = Ramp::of(self) {
+                if let Some(ramp) = Ramp::from_assembly(self) {
                     actin_mechanics::Drive::place(&ramp, state, time_ns);
                 }
             }
@@ -202,7 +203,7 @@ mod tests {
 
     #[test]
     fn ramps_are_smooth() {
-        let ramp = StageTimes::new([2.0, 0.5].map(|duration| (duration, Pace::Smooth)));
+        let ramp = StageTimes::new([2.0, 0.5].map(|duration| (duration, TimeCourse::Smooth)));
         assert_eq!(ramp.parameter(-1.0), (0.0, 0.0));
         assert!((ramp.parameter(1.0).0 - 0.5).abs() < 1e-15);
         assert_eq!(ramp.parameter(3.0), (2.0, 0.0));

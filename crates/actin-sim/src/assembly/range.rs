@@ -13,7 +13,7 @@ use std::fmt;
 ///
 /// In files, `value` and `range` of twist and curvature are `value_per_nm` and `range_per_nm`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(into = "Written", from = "Written")]
+#[serde(into = "LawExtrapolationFile", from = "LawExtrapolationFile")]
 pub struct LawExtrapolation {
     /// Index of the filament.
     pub filament: usize,
@@ -76,7 +76,7 @@ pub(super) fn percent(share: f64) -> String {
 }
 
 #[derive(Clone, Serialize, Deserialize)]
-struct Written {
+struct LawExtrapolationFile {
     #[serde(default)]
     filament: usize,
     section: usize,
@@ -96,7 +96,7 @@ struct Written {
     measured_error: Option<MeasuredError>,
 }
 
-impl From<LawExtrapolation> for Written {
+impl From<LawExtrapolation> for LawExtrapolationFile {
     fn from(beyond: LawExtrapolation) -> Self {
         let (value, range) = (Some(beyond.value), Some(beyond.range));
         let is_strain = beyond.is_strain();
@@ -117,8 +117,8 @@ impl From<LawExtrapolation> for Written {
     }
 }
 
-impl From<Written> for LawExtrapolation {
-    fn from(written: Written) -> Self {
+impl From<LawExtrapolationFile> for LawExtrapolation {
+    fn from(written: LawExtrapolationFile) -> Self {
         Self {
             filament: written.filament,
             section: written.section,
@@ -154,7 +154,7 @@ pub(crate) struct Ranges {
 }
 
 impl Ranges {
-    pub(super) fn of(material: &RodMaterial, length: Option<&TwistStretch>) -> Self {
+    pub(super) fn new(material: &RodMaterial, length: Option<&TwistStretch>) -> Self {
         if let Some(law) = material.potential() {
             return Self {
                 rest: material.rest_curvature(),
@@ -230,13 +230,17 @@ impl Assembly {
         for rod in &self.rods {
             for quantity in 0..QUANTITIES.len() {
                 let worst = self.tally(rod, quantity, state).worst;
-                found.extend(worst.map(|excess| self.told(excess, None)));
+                found.extend(worst.map(|excess| self.report_extrapolation(excess, None)));
             }
         }
         found
     }
 
-    fn told(&self, excess: Excess, fluctuations: Option<Fluctuations>) -> LawExtrapolation {
+    fn report_extrapolation(
+        &self,
+        excess: Excess,
+        fluctuations: Option<Fluctuations>,
+    ) -> LawExtrapolation {
         let filament = self.filament_of_section(excess.section);
         let section = excess.section - self.filaments[filament].sections.start;
         let quantity = QUANTITIES[excess.quantity].name;
@@ -367,12 +371,13 @@ pub(super) fn curvatures<'a>(
     let joined = rod.joined.iter().zip(ends);
     let joined = joined.flat_map(|(all, s)| {
         let each = all.iter();
-        each.map(move |e| (s, e.frames, e.element, e.lacking))
+        each.map(move |e| (s, e.frames, e.element, e.curvature_difference))
     });
-    own.chain(joined).map(|(s, frames, element, lacking)| {
-        let [first, second] = frames.map(|frame| state.frames.orientation.get(frame));
-        (s, element.curvature(first, second) + lacking)
-    })
+    own.chain(joined)
+        .map(|(s, frames, element, curvature_difference)| {
+            let [first, second] = frames.map(|frame| state.frames.orientation.get(frame));
+            (s, element.curvature(first, second) + curvature_difference)
+        })
 }
 
 /// Curvatures relative to the curvature at rest.
@@ -400,10 +405,10 @@ fn strains<'a>(rod: &'a Rod, state: &'a State) -> impl Iterator<Item = (f64, Vec
 }
 
 #[derive(Clone, Debug, Serialize, Deserialize)]
-pub(crate) struct RangeWatch(Found);
+pub(crate) struct RangeWatch(RangeRecord);
 
 #[derive(Clone, Debug, Serialize, Deserialize)]
-enum Found {
+enum RangeRecord {
     Worst(Worst),
     InBath(Box<InBath>),
 }
@@ -425,8 +430,8 @@ struct InBath {
 impl RangeWatch {
     pub(crate) fn new(assembly: &Assembly) -> Self {
         Self(match assembly.scene.thermal() {
-            None => Found::Worst(Worst::default()),
-            Some(_) => Found::InBath(Box::new(InBath {
+            None => RangeRecord::Worst(Worst::default()),
+            Some(_) => RangeRecord::InBath(Box::new(InBath {
                 states: 0,
                 tallies: QUANTITIES.map(|_| (Tally::default(), 0)),
             })),
@@ -435,18 +440,19 @@ impl RangeWatch {
 
     pub(crate) fn add(&mut self, assembly: &Assembly, state: &State) {
         match &mut self.0 {
-            Found::Worst(worst) => worst.add(assembly, state),
-            Found::InBath(all) => all.add(assembly, state),
+            RangeRecord::Worst(worst) => worst.add(assembly, state),
+            RangeRecord::InBath(all) => all.add(assembly, state),
         }
     }
 
     pub(crate) fn end(self, assembly: &Assembly) -> Vec<LawExtrapolation> {
         match self.0 {
-            Found::Worst(worst) => {
+            RangeRecord::Worst(worst) => {
                 let list = worst.list.into_iter();
-                list.map(|excess| assembly.told(excess, None)).collect()
+                list.map(|excess| assembly.report_extrapolation(excess, None))
+                    .collect()
             }
-            Found::InBath(all) => all.end(assembly),
+            RangeRecord::InBath(all) => all.end(assembly),
         }
     }
 }
@@ -490,7 +496,8 @@ impl InBath {
                 share_of_records: f64::from(states_beyond) / f64::from(self.states),
                 share_of_elements: all.beyond as f64 / all.elements as f64,
             });
-            all.worst.map(|worst| assembly.told(worst, fluctuations))
+            all.worst
+                .map(|worst| assembly.report_extrapolation(worst, fluctuations))
         });
         found.collect()
     }

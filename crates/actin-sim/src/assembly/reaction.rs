@@ -1,6 +1,6 @@
 //! Reaction force and torque at a clamp.
 
-use crate::scene::{End, Slides};
+use crate::scene::{End, FreeTranslation};
 use actin_mechanics::{Loads, State, UnitQuaternion, Vector3};
 
 /// Clamped end, its held bodies and the reference point of its torque.
@@ -17,7 +17,7 @@ pub struct Clamped {
     /// Clamped point on the axis as built (nm, lab frame).
     pub about_nm: Vector3,
     /// Sliding directions of the end.
-    pub slides: Slides,
+    pub slides: FreeTranslation,
     pub(super) axis: Vector3,
     /// Position of the first held point minus the clamped point, as built (nm, lab frame).
     pub(super) arm_nm: Vector3,

@@ -2,17 +2,17 @@
 //!
 //! Sweeps over keys and output to directories are in `actin-sweep`.
 
-mod crew;
 mod error;
+mod pool;
 mod sink;
 #[cfg(test)]
 mod tests;
 
 pub use error::EnsembleError;
 
-use crate::scene::Drawn;
+use crate::scene::RandomPart;
 use crate::{Assembly, Outcome, Plan, Scene, Sink, Status, Trajectory};
-use crew::Crew;
+use pool::ReplicaPool;
 use std::fmt;
 use std::num::NonZeroUsize;
 use std::sync::atomic::AtomicBool;
@@ -50,7 +50,7 @@ use std::sync::atomic::AtomicBool;
 pub struct Ensemble<'a> {
     scene: &'a Scene,
     seeds: Vec<u64>,
-    drawn: Vec<Drawn>,
+    drawn: Vec<RandomPart>,
     threads: Option<NonZeroUsize>,
     interrupted: Option<&'a AtomicBool>,
 }
@@ -78,7 +78,7 @@ impl<'a> Ensemble<'a> {
     /// If several replicas would be identical, because the scene has no random part.
     pub fn new(scene: &'a Scene, replicas: usize) -> Result<Self, EnsembleError> {
         let seeds = (1..).take(replicas).collect();
-        Self::of_seeds(scene, seeds, &Drawn::ALL)
+        Self::from_seeds(scene, seeds, &RandomPart::ALL)
     }
 
     /// Creates replicas with these seeds for the random parts in `drawn`; other seeds of the scene
@@ -88,7 +88,7 @@ impl<'a> Ensemble<'a> {
     /// If several replicas would be identical, because the scene has none of these random parts.
     ///
     /// ```
-    /// use actin_sim::{Drawn, Ensemble, Scene};
+    /// use actin_sim::{RandomPart, Ensemble, Scene};
     /// # let text = "Scene(
     /// #     filament: Filament(sections: [Ellipsoids(from_nm: 0.0, to_nm: 30.0)]),
     /// #     clamps: [Clamp(end: Start)],
@@ -96,14 +96,14 @@ impl<'a> Ensemble<'a> {
     /// # )";
     /// // Quadrature bonds are not sampled, and an equilibrium has no noise.
     /// let scene = Scene::from_ron(text)?;
-    /// let refused = Ensemble::of_seeds(&scene, vec![7, 8], &[Drawn::Bonds]);
+    /// let refused = Ensemble::from_seeds(&scene, vec![7, 8], &[RandomPart::Bonds]);
     /// assert!(refused.is_err());
     /// # Ok::<(), actin_sim::SimError>(())
     /// ```
-    pub fn of_seeds(
+    pub fn from_seeds(
         scene: &'a Scene,
         seeds: Vec<u64>,
-        drawn: &[Drawn],
+        drawn: &[RandomPart],
     ) -> Result<Self, EnsembleError> {
         let ensemble = Self {
             scene,
@@ -160,7 +160,7 @@ impl<'a> Ensemble<'a> {
         sink: impl Fn(&Plan<'_>) -> S + Sync,
         observe: impl Fn(Replica<'_, S>) -> T + Sync,
     ) -> Result<Vec<T>, EnsembleError> {
-        let make = |index: usize, stop: &sink::Stop<'_>| {
+        let make = |index: usize, stop: &sink::ReplicaStop<'_>| {
             let seed = self.seeds[index];
             let assembly = Assembly::build(&self.reseeded(seed).0)?;
             let plan = Plan::new(&assembly)?;
@@ -177,7 +177,7 @@ impl<'a> Ensemble<'a> {
                 outcome,
             })))
         };
-        Crew::new(self, &make).work_all()
+        ReplicaPool::new(self, &make).work_all()
     }
 
     /// Returns the scene with a seed, and the number of its random parts with that seed.

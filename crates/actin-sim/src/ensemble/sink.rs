@@ -4,13 +4,13 @@ use crate::{Progress, Record, RecordSummary, RunPosition, Sink};
 use actin_mechanics::State;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
-pub(super) struct Stop<'a> {
+pub(super) struct ReplicaStop<'a> {
     pub(super) index: usize,
     pub(super) first_failed: &'a AtomicUsize,
     pub(super) interrupted: Option<&'a AtomicBool>,
 }
 
-impl Stop<'_> {
+impl ReplicaStop<'_> {
     /// Returns `true` if the ensemble is interrupted or an earlier replica has failed.
     pub(super) fn is_set(&self) -> bool {
         let is_interrupted = self.interrupted.is_some_and(|i| i.load(Ordering::Relaxed));
@@ -18,16 +18,16 @@ impl Stop<'_> {
     }
 
     pub(super) fn over<'s>(&'s self, sink: &'s mut dyn Sink) -> impl Sink + 's {
-        Stopped { stop: self, sink }
+        StoppableSink { stop: self, sink }
     }
 }
 
-struct Stopped<'a> {
-    stop: &'a Stop<'a>,
+struct StoppableSink<'a> {
+    stop: &'a ReplicaStop<'a>,
     sink: &'a mut dyn Sink,
 }
 
-impl Sink for Stopped<'_> {
+impl Sink for StoppableSink<'_> {
     fn record(&mut self, record: &Record) {
         self.sink.record(record);
     }

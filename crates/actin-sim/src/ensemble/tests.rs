@@ -51,7 +51,7 @@ fn results_equal_single_runs_on_any_number_of_threads() {
         assert_ne!(one[0].2, one[1].2);
         for (i, (index, seed, records)) in one.into_iter().enumerate() {
             assert_eq!((index, seed), (i, i as u64 + 1));
-            for what in Drawn::ALL {
+            for what in RandomPart::ALL {
                 scene.reseed(what, seed);
             }
             let assembly = Assembly::build(&scene).unwrap();
@@ -64,11 +64,12 @@ fn results_equal_single_runs_on_any_number_of_threads() {
 #[test]
 fn replicas_that_would_be_the_same_are_refused() {
     let mut scene = heated(0.1, "");
-    let seeds = |scene, drawn: &[Drawn]| Ensemble::of_seeds(scene, vec![3, 9], drawn).is_ok();
-    assert!(seeds(&scene, &[Drawn::Noise]));
-    assert!(!seeds(&scene, &[Drawn::Bonds]));
-    scene.reseed(Drawn::Noise, 9);
-    assert!(Ensemble::of_seeds(&scene, vec![3], &[]).is_ok());
+    let seeds =
+        |scene, drawn: &[RandomPart]| Ensemble::from_seeds(scene, vec![3, 9], drawn).is_ok();
+    assert!(seeds(&scene, &[RandomPart::Noise]));
+    assert!(!seeds(&scene, &[RandomPart::Bonds]));
+    scene.reseed(RandomPart::Noise, 9);
+    assert!(Ensemble::from_seeds(&scene, vec![3], &[]).is_ok());
     let none: Vec<u64> = Ensemble::new(&scene, 0).unwrap().run(|r| r.seed).unwrap();
     assert!(none.is_empty());
 }
@@ -84,7 +85,7 @@ fn the_first_replica_that_fails_is_named() {
             std::thread::yield_now();
         }
     };
-    let make = |index: usize, stop: &sink::Stop<'_>| match index {
+    let make = |index: usize, stop: &sink::ReplicaStop<'_>| match index {
         0 => {
             wait_for(&stopped);
             assert!(!stop.is_set());
@@ -101,7 +102,7 @@ fn the_first_replica_that_fails_is_named() {
         }
     };
     let ensemble = Ensemble::new(&scene, 9).unwrap().on_threads(threads(3));
-    let failed = Crew::new(&ensemble, &make).work_all();
+    let failed = ReplicaPool::new(&ensemble, &make).work_all();
     let error = SimError::from(failed.unwrap_err()).to_string();
     assert_eq!(error, "replica 1 (seed 2): task: fails");
 }
@@ -110,7 +111,8 @@ fn the_first_replica_that_fails_is_named() {
 fn a_replica_that_explodes_is_named() {
     let scene = heated(2.0, "time_step_ns: 0.02, allow_unstable_step: true,");
     for number in [1, 2, 3] {
-        let ensemble = Ensemble::of_seeds(&scene, vec![11, 12, 13, 14], &Drawn::ALL).unwrap();
+        let ensemble =
+            Ensemble::from_seeds(&scene, vec![11, 12, 13, 14], &RandomPart::ALL).unwrap();
         let failed = ensemble.on_threads(threads(number)).run(|r| r.index);
         let error = failed.unwrap_err().to_string();
         assert!(error.starts_with("replica 0 (seed 11): "), "{error}");

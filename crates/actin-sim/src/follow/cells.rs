@@ -1,7 +1,7 @@
 //! Cells of a filament, and the scene with some of them as monomers.
 
 use crate::assembly::{TOO_SHORT, cells_nm, potential};
-use crate::scene::{Filament, Following, Scene, SceneProblem, Section};
+use crate::scene::{AdaptiveResolution, Filament, Scene, SceneProblem, Section};
 use actin_cosserat::Homogenised;
 
 /// Tolerance (nm) for equal lengths of cells.
@@ -17,7 +17,7 @@ pub(crate) struct Cells {
 }
 
 impl Cells {
-    pub(crate) fn of(scene: &Scene, following: &Following) -> Result<Self, SceneProblem> {
+    pub(crate) fn new(scene: &Scene, following: &AdaptiveResolution) -> Result<Self, SceneProblem> {
         let cells = Self {
             boundaries_nm: cells_nm(scene, following.length_nm, following.cell_nm)?,
             segments: following.segments,

@@ -50,12 +50,12 @@ pub struct Stretch {
     /// The filament in its resolution, with explicit sections in its scene.
     pub assembly: Assembly,
     /// Start of the stretch.
-    pub beginning: Beginning,
+    pub beginning: StretchStart,
 }
 
 /// Start of a stretch. Together with the scene it allows a [`Follower`] to recreate the stretch.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Beginning {
+pub struct StretchStart {
     /// Index in the chain.
     pub index: usize,
     /// `true` for each cell of monomers.
@@ -81,12 +81,12 @@ pub struct CompletedStretch {
 
 /// All stretches of a motion in order.
 #[derive(Debug)]
-pub struct Followed {
+pub struct AdaptiveMotion {
     /// Stretches in order.
     pub stretches: Vec<CompletedStretch>,
 }
 
-impl Followed {
+impl AdaptiveMotion {
     /// Iterates over the switches between stretches in order.
     pub fn switches(&self) -> impl Iterator<Item = &Switch> {
         let stretches = self.stretches.iter();
@@ -100,12 +100,12 @@ pub enum StretchEnd {
     /// The motion ended or was interrupted.
     Over(Outcome),
     /// Cells are switched; with the next stretch and its start.
-    Switched(Outcome, Box<Next>),
+    Switched(Outcome, Box<NextStretch>),
 }
 
 /// Stretch after a switch.
 #[derive(Debug)]
-pub struct Next {
+pub struct NextStretch {
     /// The stretch.
     pub stretch: Stretch,
     /// Its initial state; its first record is the last one taken.
@@ -122,7 +122,7 @@ impl Follower {
             let rule = "must be Following(..)";
             return Err(SceneProblem::new("filament.sections", "", rule));
         };
-        let cells = Cells::of(scene, following)?;
+        let cells = Cells::new(scene, following)?;
         let criteria = following.monomers_where.iter();
         Ok(Self {
             scene: resolved(scene, &cells)?,
@@ -166,7 +166,7 @@ impl Follower {
     }
 
     fn stretch(&self, is_monomers: Vec<bool>) -> Result<Stretch, SceneProblem> {
-        self.again(Beginning {
+        self.again(StretchStart {
             index: 0,
             free_from: vec![0; is_monomers.len()],
             is_monomers,
@@ -179,7 +179,7 @@ impl Follower {
     ///
     /// # Errors
     /// If the number of cells differs, or as [`Assembly::build`].
-    pub fn again(&self, beginning: Beginning) -> Result<Stretch, SceneProblem> {
+    pub fn again(&self, beginning: StretchStart) -> Result<Stretch, SceneProblem> {
         let cells = self.cells.count();
         let known = [beginning.is_monomers.len(), beginning.free_from.len()];
         if known != [cells; 2] {
@@ -228,7 +228,7 @@ impl Follower {
         saved: Option<SavedRun>,
         sink: &mut dyn Sink,
     ) -> Result<StretchEnd, RunError> {
-        let mut watching = Watching {
+        let mut watching = SwitchInterrupt {
             sink,
             follower: self,
             stretch,
@@ -256,7 +256,7 @@ impl Follower {
         left: &Stretch,
         is_monomers: Vec<bool>,
         saved: &SavedRun,
-    ) -> Result<Next, SceneProblem> {
+    ) -> Result<NextStretch, SceneProblem> {
         let RunPosition::Motion(position) = &saved.position else {
             unreachable!("a motion stops at a position in time");
         };
@@ -264,7 +264,7 @@ impl Follower {
         let kinds = [&left.beginning.is_monomers, &is_monomers];
         let (to_monomers, to_rod) = (self.switched(kinds, true), self.switched(kinds, false));
         let spans_nm = [to_monomers.as_slice(), &to_rod].concat();
-        let mut stretch = self.again(Beginning {
+        let mut stretch = self.again(StretchStart {
             index: left.beginning.index + 1,
             free_from: self.free_from(left, &is_monomers, here.step),
             is_monomers,
@@ -286,7 +286,7 @@ impl Follower {
             ..switch
         });
         let saved = begun(&stretch.assembly, state, (saved, position));
-        Ok(Next { stretch, saved })
+        Ok(NextStretch { stretch, saved })
     }
 
     /// First step at which each cell may be switched again after a switch at `step`.
@@ -329,7 +329,7 @@ impl Follower {
     ///
     /// # Errors
     /// As [`advance`](Self::advance).
-    pub fn run(&self) -> Result<Followed, RunError> {
+    pub fn run(&self) -> Result<AdaptiveMotion, RunError> {
         let mut stretches = Vec::new();
         let (mut stretch, mut saved) = (self.begin()?, None);
         loop {
@@ -348,7 +348,7 @@ impl Follower {
             };
             let Some(next) = next else {
                 stretches.push(ran(stretch));
-                return Ok(Followed { stretches });
+                return Ok(AdaptiveMotion { stretches });
             };
             stretches.push(ran(stretch));
             (stretch, saved) = (next.stretch, Some(next.saved));
@@ -437,7 +437,7 @@ fn begun(
 }
 
 /// Sink that leaves a motion when cells should be switched.
-struct Watching<'a> {
+struct SwitchInterrupt<'a> {
     sink: &'a mut dyn Sink,
     follower: &'a Follower,
     stretch: &'a Stretch,
@@ -445,7 +445,7 @@ struct Watching<'a> {
     saved: Option<SavedRun>,
 }
 
-impl Sink for Watching<'_> {
+impl Sink for SwitchInterrupt<'_> {
     fn record(&mut self, record: &Record) {
         self.sink.record(record);
     }

@@ -1,7 +1,7 @@
 //! Criteria for the resolution of cells.
 
 use crate::Assembly;
-use crate::scene::Where;
+use crate::scene::RefinementCriterion;
 use crate::shape::axis::Axis;
 use crate::shape::{SectionLoad, SectionLoads, energy_per_length};
 use actin_mechanics::{State, rotation};
@@ -42,7 +42,7 @@ impl<'a> FilamentState<'a> {
 
     /// Returns the internal loads of the filament.
     pub fn loads(&self) -> &SectionLoads {
-        let loads = || SectionLoads::of(self.assembly, 0, self.state);
+        let loads = || SectionLoads::new(self.assembly, 0, self.state);
         self.loads.get_or_init(loads)
     }
 
@@ -54,7 +54,7 @@ impl<'a> FilamentState<'a> {
 
     /// Returns the cells in order; `is_monomers` is true for each resolved cell.
     pub fn cells(&self, is_monomers: &'a [bool]) -> impl Iterator<Item = Cell<'_>> {
-        let axis = Axis::of(self.assembly, self.state);
+        let axis = Axis::new(self.assembly, self.state);
         let spans = self.boundaries_nm.windows(2).enumerate();
         spans
             .zip(is_monomers)
@@ -152,11 +152,11 @@ pub enum ResolutionRequest {
 /// state.
 pub trait Criterion: Debug + Send + Sync {
     /// Returns the requested resolution of a cell.
-    fn wish(&self, cell: &Cell<'_>) -> ResolutionRequest;
+    fn request(&self, cell: &Cell<'_>) -> ResolutionRequest;
 }
 
-impl Criterion for Where {
-    fn wish(&self, cell: &Cell<'_>) -> ResolutionRequest {
+impl Criterion for RefinementCriterion {
+    fn request(&self, cell: &Cell<'_>) -> ResolutionRequest {
         let (_, [low, high]) = self.thresholds();
         let value = value(self, cell);
         let [is_needed, is_superfluous] = match self {
@@ -172,16 +172,16 @@ impl Criterion for Where {
 }
 
 /// The quantity that the thresholds of a criterion apply to.
-fn value(criterion: &Where, cell: &Cell<'_>) -> f64 {
+fn value(criterion: &RefinementCriterion, cell: &Cell<'_>) -> f64 {
     match *criterion {
-        Where::Curvature { .. } => cell.curvature_per_nm,
-        Where::Twist { .. } => cell.twist_per_nm.abs(),
-        Where::Extension { .. } => cell.extension.abs(),
-        Where::Force { .. } => cell.mean_load().force_pn.norm(),
-        Where::Couple { .. } => cell.mean_load().couple_pn_nm.norm(),
-        Where::Energy { .. } => cell.energy_per_length_pn(),
-        Where::LargestEnergy { .. } => cell.energy_over_largest(),
-        Where::Linker { linker, .. } => distance_nm(cell, linker),
+        RefinementCriterion::Curvature { .. } => cell.curvature_per_nm,
+        RefinementCriterion::Twist { .. } => cell.twist_per_nm.abs(),
+        RefinementCriterion::Extension { .. } => cell.extension.abs(),
+        RefinementCriterion::Force { .. } => cell.mean_load().force_pn.norm(),
+        RefinementCriterion::Couple { .. } => cell.mean_load().couple_pn_nm.norm(),
+        RefinementCriterion::Energy { .. } => cell.energy_per_length_pn(),
+        RefinementCriterion::LargestEnergy { .. } => cell.energy_over_largest(),
+        RefinementCriterion::Linker { linker, .. } => distance_nm(cell, linker),
     }
 }
 
@@ -201,7 +201,7 @@ fn distance_nm(cell: &Cell<'_>, linker: usize) -> f64 {
 
 /// Combines several criteria: monomers if any requests them, a rod if all request it.
 pub(super) fn wish_of(criteria: &[Box<dyn Criterion>], cell: &Cell<'_>) -> ResolutionRequest {
-    let wishes = criteria.iter().map(|criterion| criterion.wish(cell));
+    let wishes = criteria.iter().map(|criterion| criterion.request(cell));
     wishes.fold(ResolutionRequest::Rod, |so_far, wish| {
         match (so_far, wish) {
             (ResolutionRequest::Monomers, _) | (_, ResolutionRequest::Monomers) => {

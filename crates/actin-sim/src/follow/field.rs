@@ -44,7 +44,7 @@ struct Monomer {
 }
 
 impl Field {
-    pub(super) fn of(assembly: &Assembly, state: &State) -> Self {
+    pub(super) fn new(assembly: &Assembly, state: &State) -> Self {
         let monomers = monomers(assembly, state);
         let nodes = (0..assembly.points.len())
             .filter(|&i| assembly.points[i].kind == BodyKind::Node)
@@ -56,7 +56,7 @@ impl Field {
         let velocities = nodes.chain(of_monomers.clone().map(|m| (m.s_nm, m.velocity)));
         let turns = segments.chain(of_monomers.map(|m| (m.s_nm, m.angular_velocity)));
         Self {
-            axis: Axis::of(assembly, state),
+            axis: Axis::new(assembly, state),
             velocities: in_order(velocities.collect()),
             angular_velocities: in_order(turns.collect()),
             monomers,

@@ -28,6 +28,8 @@ mod settling;
 mod transfer;
 
 pub(crate) use cells::Cells;
-pub use chain::{Beginning, CompletedStretch, Followed, Follower, Next, Stretch, StretchEnd};
+pub use chain::{
+    AdaptiveMotion, CompletedStretch, Follower, NextStretch, Stretch, StretchEnd, StretchStart,
+};
 pub use criterion::{Cell, Criterion, FilamentState, ResolutionRequest};
 pub use transfer::Switch;

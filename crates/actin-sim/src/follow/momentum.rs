@@ -10,7 +10,7 @@ pub(super) struct Momentum {
 }
 
 impl Momentum {
-    pub(super) fn of(state: &State) -> Self {
+    pub(super) fn new(state: &State) -> Self {
         Self {
             linear: state.momentum(),
             angular: state.angular_momentum(),
@@ -56,7 +56,7 @@ impl Bodies {
     pub(super) fn give(&self, state: &mut State, wanted: Momentum) {
         // The second pass corrects the round-off of the first.
         for _ in 0..2 {
-            let now = Momentum::of(state);
+            let now = Momentum::new(state);
             let (mass, centre) = self.centre(state);
             let linear = wanted.linear - now.linear;
             let angular = wanted.angular - now.angular - centre.cross(&linear);

@@ -80,7 +80,7 @@ impl Transfer<'_> {
     /// Relaxes free bodies with inertia: under drag, or in the bath of the motion with that drag.
     fn settle(&self, system: &mut System, dynamics: &Dynamics) -> Result<(), Box<dyn Error>> {
         let step = dynamics.time_step_ns.unwrap_or(TIME_NS);
-        let run = Run::over(crate::run::composition_of(dynamics), step, TIME_NS)?;
+        let run = Run::from_duration(crate::run::composition_of(dynamics), step, TIME_NS)?;
         let drag = Drag::new(RATE_PER_NS, RATE_PER_NS)?;
         let run = match &dynamics.thermal {
             None => run.with_drag(drag),
@@ -110,7 +110,7 @@ impl Transfer<'_> {
         };
         let layout = Layout::new(system.state(), Some(&order(self.to)), Vec::new())?;
         let mut stepper = estimate.stepper((self.to, &own), system, layout)?;
-        let run = Run::over(&POSITION_VERLET, step, time)?;
+        let run = Run::from_duration(&POSITION_VERLET, step, time)?;
         run.execute_steps(&mut stepper, system, &mut [])?;
         Ok(())
     }

@@ -54,7 +54,7 @@ impl Transfer<'_> {
         self.to.place_controls(&mut state, At::Time(self.time_ns));
         let bodies = self.bodies(&state, |s_nm| self.is_switched(s_nm));
         let settled = self.settled(&state, &bodies, task)?;
-        let wanted = Momentum::of(old);
+        let wanted = Momentum::new(old);
         take_places(&settled, &mut state, &bodies);
         // Overdamped motion has no momenta to transfer.
         if let Task::Dynamics(dynamics) = task {
@@ -73,7 +73,7 @@ impl Transfer<'_> {
         let energy = |assembly: &Assembly, state: &State| {
             assembly.system.in_state(state.clone()).total_energy()
         };
-        let [before, after] = [old, new].map(Momentum::of);
+        let [before, after] = [old, new].map(Momentum::new);
         Switch {
             step: self.step,
             time_ns: self.time_ns,
@@ -110,10 +110,10 @@ impl Transfer<'_> {
 
     /// Copies the state of existing bodies and places new bodies on their cross-sections. New held
     /// bodies stay as built. Returns the new free bodies with their cross-sections.
-    fn place(&self, old: &State, state: &mut State) -> Made {
-        let field = Field::of(self.from, old);
-        let (known, keys) = (Places::of(self.from), Places::of(self.to));
-        let mut made = Made::default();
+    fn place(&self, old: &State, state: &mut State) -> TransferredBodies {
+        let field = Field::new(self.from, old);
+        let (known, keys) = (BodyPositions::new(self.from), BodyPositions::new(self.to));
+        let mut made = TransferredBodies::default();
         for (key, &i) in &keys.points {
             if let Some(&there) = known.points.get(key) {
                 state.points.position.set(i, old.points.position.get(there));
@@ -194,12 +194,12 @@ impl Transfer<'_> {
 }
 
 #[derive(Default)]
-struct Made {
+struct TransferredBodies {
     points: Vec<(usize, CrossSection)>,
     frames: Vec<(usize, CrossSection)>,
 }
 
-impl Made {
+impl TransferredBodies {
     fn move_along(&self, state: &mut State) {
         for (i, section) in &self.points {
             let arm = state.points.position.get(*i) - section.place;
@@ -220,13 +220,13 @@ impl Made {
 type Key = (u8, i64, usize);
 
 /// Bodies of filament 0 by place.
-struct Places {
+struct BodyPositions {
     points: BTreeMap<Key, usize>,
     frames: BTreeMap<Key, usize>,
 }
 
-impl Places {
-    fn of(assembly: &Assembly) -> Self {
+impl BodyPositions {
+    fn new(assembly: &Assembly) -> Self {
         let points = assembly.points.iter().map(|p| (p.kind, p.s_nm));
         let frames = assembly.frames.iter().map(|f| (f.kind, f.s_nm));
         Self {

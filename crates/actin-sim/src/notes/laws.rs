@@ -88,13 +88,13 @@ const OF_OTHERS: &str = "rods with the law Homogenised: the law was derived from
 
 fn drawn_bonds(rod: &RodModel, monomers: &Monomers, in_bath: bool) -> Option<String> {
     let bonds = monomers
-        .drawn_bonds()
+        .sampled_bonds()
         .filter(|_| rod.law.is_homogenised())?;
     let is_heated = match rod.law {
         RodLaw::Homogenised => in_bath,
         _ => rod.law == RodLaw::HomogenisedAt298K,
     };
-    let fewest = Homogenised::DRAWN_BONDS;
+    let fewest = Homogenised::SAMPLED_BONDS;
     if is_heated {
         Some(DRAWN_IN_BATH.to_owned())
     } else {

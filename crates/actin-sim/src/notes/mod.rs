@@ -8,9 +8,11 @@ pub(crate) mod codes;
 mod laws;
 mod mesh;
 
-use crate::assembly::{Rod, Sampled};
-use crate::scene::{Anchors, Following, Monomers, Observable, RodLaw, Scene, Task, unset_loads};
-use crate::trade::Chosen;
+use crate::assembly::{InterfaceSampling, Rod};
+use crate::scene::{
+    AdaptiveResolution, Anchors, Monomers, Observable, RodLaw, Scene, Task, unset_loads,
+};
+use crate::trade::SectionChoice;
 use crate::{Assembly, Outcome, Record, shape};
 use actin_ellipsoid::{Cubature, EllipsoidParameters, InterfaceKind, MomentCheck};
 use actin_mechanics::State;
@@ -81,7 +83,7 @@ const LEDGER_LEAST: f64 = 1e-3;
 
 impl Assembly {
     /// Note on rod cells with more segments than necessary, which limit the time step.
-    fn note_on_short_segments(&self, following: &Following) -> Option<String> {
+    fn note_on_short_segments(&self, following: &AdaptiveResolution) -> Option<String> {
         let segments = following.segments;
         let Task::Brownian(motion) = &self.scene.task else {
             return None;
@@ -98,7 +100,7 @@ impl Assembly {
 
     /// Returns the notes on this scene before its run.
     pub fn notes(&self) -> Vec<Note> {
-        let mut notes: Vec<Note> = self.chosen.iter().map(Chosen::note).collect();
+        let mut notes: Vec<Note> = self.chosen.iter().map(SectionChoice::note).collect();
         if let Some(following) = self.scene.filament.sections.following() {
             let note = "sections follow the motion: numbers of bodies, time step and cost apply to the rods at its start";
             notes.push(note.to_owned().into());
@@ -124,7 +126,7 @@ impl Assembly {
         }
         let untold = self.untold_lengths();
         notes.extend(warnings(codes::PERSISTENCE_LENGTH, untold));
-        notes.extend(self.sampled.iter().map(Sampled::note));
+        notes.extend(self.sampled.iter().map(InterfaceSampling::note));
         let mut unique = Vec::new();
         for note in notes {
             if !unique.contains(&note) {
@@ -142,7 +144,7 @@ impl Assembly {
             let Observable::TangentCorrelation { filament, .. } = *observable else {
                 return None;
             };
-            let reason = self.scene.bends_besides_heat(filament)?;
+            let reason = self.scene.nonthermal_bending_cause(filament)?;
             Some(format!(
                 "observe[{i}]: no persistence length of filament {filament} is computed: {reason}, so that its \
                  bending is not due to heat alone"
@@ -176,7 +178,7 @@ impl Assembly {
     }
 }
 
-impl Sampled {
+impl InterfaceSampling {
     fn note(&self) -> Note {
         let Self { monomers, error } = self;
         let is_unsure = *error > UNSURE;
@@ -216,8 +218,8 @@ impl Outcome {
         notes.extend(warnings(codes::MONOMER_STATES, states));
         let rates = assembly.note_on_rates(&last.state);
         notes.extend(warnings(codes::LINKER_RATES, rates));
-        let ledger = self.note_on_ledger(assembly, last);
-        notes.extend(warnings(codes::ENERGY_BALANCE, ledger));
+        let energy_balance = self.note_on_energy_balance(assembly, last);
+        notes.extend(warnings(codes::ENERGY_BALANCE, energy_balance));
         let is_motion = !matches!(assembly.scene.task, Task::Equilibrium(_));
         if is_motion && self.has_converged() && self.at_rest.is_none() {
             notes.push(Note::warning(
@@ -230,7 +232,7 @@ impl Outcome {
     }
 
     /// Warning on the energy balance of an athermal motion with conservative loads.
-    fn note_on_ledger(&self, assembly: &Assembly, last: &Record) -> Option<String> {
+    fn note_on_energy_balance(&self, assembly: &Assembly, last: &Record) -> Option<String> {
         let begun = self.begun_with_pn_nm?;
         let mut terms = assembly.system.interactions().iter();
         let is_known = assembly.scene.thermal().is_none()
@@ -310,7 +312,7 @@ fn few_bonds(monomers: &Monomers, kind: InterfaceKind) -> Option<String> {
         return None;
     }
     let parameters = EllipsoidParameters::from(monomers);
-    let found = Cubature::of(&parameters, kind).ok()?;
+    let found = Cubature::for_interface(&parameters, kind).ok()?;
     let MomentCheck { residual, .. } = found.certificate;
     (!found.certificate.meets_moments()).then(|| {
         format!(

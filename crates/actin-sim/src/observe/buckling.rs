@@ -1,6 +1,6 @@
 //! Size, asymmetry and planarity of a buckled filament.
 
-use super::{Observe, Past, View};
+use super::{Observe, StoredPositions, View};
 use crate::shape::{Buckle, equally_spaced};
 
 /// Buckling measures of a centre line resampled at equally spaced points.
@@ -25,10 +25,10 @@ impl Observe for Buckling {
         .into()
     }
 
-    fn observe(&self, view: &View<'_>, _past: &mut Past, row: &mut Vec<f64>) {
+    fn observe(&self, view: &View<'_>, _past: &mut StoredPositions, row: &mut Vec<f64>) {
         let line = equally_spaced(&view.ribbon(self.filament).points_nm, self.points);
         let axis = view.assembly.filaments[self.filament].axis();
-        let buckle = Buckle::of(&line, axis);
+        let buckle = Buckle::new(&line, axis);
         row.extend([
             buckle.contour_nm,
             buckle.mean_distance_nm,

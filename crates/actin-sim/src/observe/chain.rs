@@ -1,6 +1,6 @@
 //! Length, size and twist of the centre line.
 
-use super::{Observe, Past, View};
+use super::{Observe, StoredPositions, View};
 use crate::shape::Ribbon;
 use actin_mechanics::Vector3;
 
@@ -23,7 +23,7 @@ impl Observe for Contour {
         .into()
     }
 
-    fn observe(&self, view: &View<'_>, _past: &mut Past, row: &mut Vec<f64>) {
+    fn observe(&self, view: &View<'_>, _past: &mut StoredPositions, row: &mut Vec<f64>) {
         let ribbon = view.ribbon(self.filament);
         let edges = ribbon.points_nm.windows(2);
         row.extend([

@@ -1,6 +1,6 @@
 //! Squared displacement of a point.
 
-use super::{Checked, Observe, Past, View, chain};
+use super::{Checked, Observe, StoredPositions, View, chain};
 use crate::scene::Point;
 use crate::{Assembly, End, Estimate};
 use actin_mechanics::Vector3;
@@ -38,7 +38,7 @@ impl Observe for SquaredDisplacement {
         )]
     }
 
-    fn observe(&self, view: &View<'_>, past: &mut Past, row: &mut Vec<f64>) {
+    fn observe(&self, view: &View<'_>, past: &mut StoredPositions, row: &mut Vec<f64>) {
         let here = self.place(view);
         let Some(lag) = self.lag_ns else {
             let first = *past.first.get_or_insert(here.into());

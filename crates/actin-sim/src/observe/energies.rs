@@ -1,17 +1,17 @@
 //! Energies in total and of each section and junction.
 
-use super::{Observe, Past, View};
+use super::{Observe, StoredPositions, View};
 use crate::{Assembly, Part};
 
 /// Names of sections and junctions, and for each term the index of its name, if any.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Names {
+pub(crate) struct EnergyNames {
     names: Vec<String>,
     places: Vec<Option<usize>>,
 }
 
-impl Names {
-    pub(crate) fn of(assembly: &Assembly) -> Self {
+impl EnergyNames {
+    pub(crate) fn new(assembly: &Assembly) -> Self {
         let mut parts: Vec<Part> = Vec::new();
         let mut place = |part: Part| match part {
             Part::Load(_)
@@ -37,10 +37,10 @@ impl Names {
 
 /// Potential and kinetic energy, and energies of sections and junctions.
 #[derive(Debug)]
-pub(super) struct Energies(Names);
+pub(super) struct Energies(EnergyNames);
 
 impl Energies {
-    pub(super) fn new(names: Names) -> Self {
+    pub(super) fn new(names: EnergyNames) -> Self {
         Self(names)
     }
 }
@@ -53,7 +53,7 @@ impl Observe for Energies {
             .collect()
     }
 
-    fn observe(&self, view: &View<'_>, _past: &mut Past, row: &mut Vec<f64>) {
+    fn observe(&self, view: &View<'_>, _past: &mut StoredPositions, row: &mut Vec<f64>) {
         row.extend([view.energies_pn_nm.iter().sum(), view.kinetic_pn_nm]);
         let first = row.len();
         row.resize(first + self.0.names.len(), 0.0);

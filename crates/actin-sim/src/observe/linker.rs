@@ -1,6 +1,6 @@
 //! Forces and lengths of linkers.
 
-use super::{Observe, Past, View, vector};
+use super::{Observe, StoredPositions, View, vector};
 
 /// Force of a linker on the filament at its site, tension, and distance of its ends. The force is
 /// zero if unbound.
@@ -17,7 +17,7 @@ impl Observe for Linker {
         columns
     }
 
-    fn observe(&self, view: &View<'_>, _past: &mut Past, row: &mut Vec<f64>) {
+    fn observe(&self, view: &View<'_>, _past: &mut StoredPositions, row: &mut Vec<f64>) {
         let (linker, is_bound) = view.assembly.linker_in(self.linker, view.state);
         let written = &view.assembly.scene.linkers[self.linker];
         let holds = f64::from(u8::from(is_bound));

@@ -1,6 +1,6 @@
 //! Curvature, twist and strain at an arc length, from the centre line and its frames.
 
-use super::{Observe, Past, View, vector};
+use super::{Observe, StoredPositions, View, vector};
 use crate::shape::Ribbon;
 use actin_mechanics::Vector3;
 
@@ -33,7 +33,7 @@ impl Observe for Curvature {
             .into()
     }
 
-    fn observe(&self, view: &View<'_>, _past: &mut Past, row: &mut Vec<f64>) {
+    fn observe(&self, view: &View<'_>, _past: &mut StoredPositions, row: &mut Vec<f64>) {
         let ribbon = view.ribbon(self.filament);
         let kappa = between(&ribbon.s_nm, &ribbon.curvatures(), self.at_nm);
         row.extend([kappa.x, kappa.y, kappa.x.hypot(kappa.y)]);
@@ -46,7 +46,7 @@ impl Observe for Twist {
         vec![format!("{name}_rad_per_nm")]
     }
 
-    fn observe(&self, view: &View<'_>, _past: &mut Past, row: &mut Vec<f64>) {
+    fn observe(&self, view: &View<'_>, _past: &mut StoredPositions, row: &mut Vec<f64>) {
         let ribbon = view.ribbon(self.filament);
         row.push(between(&ribbon.s_nm, &ribbon.curvatures(), self.at_nm).z);
     }
@@ -57,7 +57,7 @@ impl Observe for Strain {
         vector(&name("strain", self.filament, self.at_nm), "")
     }
 
-    fn observe(&self, view: &View<'_>, _past: &mut Past, row: &mut Vec<f64>) {
+    fn observe(&self, view: &View<'_>, _past: &mut StoredPositions, row: &mut Vec<f64>) {
         let ribbon = view.ribbon(self.filament);
         let strain = between(&ribbon.frame_s_nm, &strains(ribbon), self.at_nm);
         row.extend(strain.iter());

@@ -5,22 +5,22 @@ use std::collections::VecDeque;
 
 /// State of all observers of a scene.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub(crate) struct Memory(Vec<Past>);
+pub(crate) struct Memory(Vec<StoredPositions>);
 
 /// Positions stored by one observer; empty for most.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub(super) struct Past {
+pub(super) struct StoredPositions {
     pub(super) first: Option<[f64; 3]>,
     /// Times (ns) and positions (nm) at later records, in order.
     pub(super) recent: VecDeque<(f64, [f64; 3])>,
 }
 
 impl Memory {
-    pub(super) fn of(observers: usize) -> Self {
-        Self(vec![Past::default(); observers])
+    pub(super) fn new(observers: usize) -> Self {
+        Self(vec![StoredPositions::default(); observers])
     }
 
-    pub(super) fn pasts(&mut self) -> impl Iterator<Item = &mut Past> {
+    pub(super) fn pasts(&mut self) -> impl Iterator<Item = &mut StoredPositions> {
         self.0.iter_mut()
     }
 

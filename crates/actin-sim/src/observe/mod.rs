@@ -28,7 +28,7 @@ pub(crate) use view::View;
 
 use crate::scene::{Observable, Scene, SceneProblem};
 use crate::{Assembly, Estimate};
-use memory::Past;
+use memory::StoredPositions;
 use std::fmt::Debug;
 
 /// Observer of some columns.
@@ -36,7 +36,7 @@ trait Observe: Debug + Send + Sync {
     fn columns(&self) -> Vec<String>;
 
     /// Appends the values of the columns, NaN if not yet defined. `past` is the observer's state.
-    fn observe(&self, view: &View<'_>, past: &mut Past, row: &mut Vec<f64>);
+    fn observe(&self, view: &View<'_>, past: &mut StoredPositions, row: &mut Vec<f64>);
 
     /// Length derived from the mean of a single column and its standard error. An unknown mean is
     /// NaN.
@@ -60,7 +60,7 @@ pub(crate) struct Observers {
 }
 
 impl Observers {
-    pub(crate) fn new(scene: &Scene, energies: &energies::Names) -> Self {
+    pub(crate) fn new(scene: &Scene, energies: &EnergyNames) -> Self {
         let list: Vec<_> = scene
             .observe
             .iter()
@@ -75,7 +75,7 @@ impl Observers {
     }
 
     pub(crate) fn memory(&self) -> Memory {
-        Memory::of(self.list.len())
+        Memory::new(self.list.len())
     }
 
     /// Values of all columns, NaN if not yet defined.
@@ -117,7 +117,7 @@ impl Observers {
     }
 }
 
-pub(crate) use energies::Names as EnergyNames;
+pub(crate) use energies::EnergyNames;
 
 fn build(one: Observable, scene: &Scene, energies: &EnergyNames) -> Box<dyn Observe> {
     match one {
@@ -147,7 +147,7 @@ fn build(one: Observable, scene: &Scene, energies: &EnergyNames) -> Box<dyn Obse
             Box::new(tangents::TangentCorrelation {
                 filament,
                 over_nm,
-                tells_length: scene.bends_besides_heat(filament).is_none(),
+                tells_length: scene.nonthermal_bending_cause(filament).is_none(),
             })
         }
     }

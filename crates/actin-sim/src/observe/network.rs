@@ -1,6 +1,6 @@
 //! Order, size, connections, linker forces and virial of all filaments.
 
-use super::{Observe, Past, View};
+use super::{Observe, StoredPositions, View};
 use crate::{Assembly, Part};
 use actin_mechanics::{Loads, Matrix3, Vector3};
 
@@ -41,14 +41,14 @@ impl Observe for Network {
         scalars.chain(virial).collect()
     }
 
-    fn observe(&self, view: &View<'_>, _past: &mut Past, row: &mut Vec<f64>) {
+    fn observe(&self, view: &View<'_>, _past: &mut StoredPositions, row: &mut Vec<f64>) {
         let Edges {
             order,
             mean,
             gyration_radius_nm,
-        } = Edges::of(view);
+        } = Edges::new(view);
         row.extend([order, mean, gyration_radius_nm]);
-        let linkers = Linkers::of(view);
+        let linkers = Linkers::new(view);
         row.extend([linkers.tensions.len() as f64]);
         let sizes = cluster_sizes(view.assembly.filaments.len(), &linkers.joined);
         let largest = sizes.iter().copied().max().unwrap_or_default();
@@ -69,7 +69,7 @@ struct Edges {
 }
 
 impl Edges {
-    fn of(view: &View<'_>) -> Self {
+    fn new(view: &View<'_>) -> Self {
         let (mut length, mut tangent, mut place) = (0.0, Vector3::zeros(), Vector3::zeros());
         let (mut tensor, mut square) = (Matrix3::zeros(), 0.0);
         for filament in 0..view.assembly.filaments.len() {
@@ -102,7 +102,7 @@ struct Linkers {
 }
 
 impl Linkers {
-    fn of(view: &View<'_>) -> Self {
+    fn new(view: &View<'_>) -> Self {
         let mut found = Self {
             tensions: Vec::new(),
             joined: Vec::new(),

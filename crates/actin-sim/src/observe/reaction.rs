@@ -1,6 +1,6 @@
 //! Reactions of clamps.
 
-use super::{Observe, Past, View, end_name, vector};
+use super::{Observe, StoredPositions, View, end_name, vector};
 use crate::End;
 
 /// Force and torque of a clamp on the filament, with the torque about the clamped point.
@@ -18,7 +18,7 @@ impl Observe for Reaction {
         force.into_iter().chain(torque).collect()
     }
 
-    fn observe(&self, view: &View<'_>, _past: &mut Past, row: &mut Vec<f64>) {
+    fn observe(&self, view: &View<'_>, _past: &mut StoredPositions, row: &mut Vec<f64>) {
         let clamp = view.assembly.clamp_at(self.filament, self.end);
         let clamp = clamp.expect("the rules of scenes refuse reactions of free ends");
         let reaction = clamp.reaction(view.state, view.loads());

@@ -1,6 +1,6 @@
 //! Tangent correlation and persistence length.
 
-use super::{Checked, DerivedLength, Observe, Past, View};
+use super::{Checked, DerivedLength, Observe, StoredPositions, View};
 use crate::shape::Ribbon;
 use crate::{Assembly, Estimate};
 use actin_mechanics::Vector3;
@@ -32,7 +32,7 @@ impl Observe for TangentCorrelation {
         vec![format!("tangent_correlation[{filament}]_over_{over_nm}nm")]
     }
 
-    fn observe(&self, view: &View<'_>, _past: &mut Past, row: &mut Vec<f64>) {
+    fn observe(&self, view: &View<'_>, _past: &mut StoredPositions, row: &mut Vec<f64>) {
         row.push(correlation(view.ribbon(self.filament), self.over_nm));
     }
 
@@ -50,7 +50,7 @@ impl Observe for TangentCorrelation {
     }
 
     fn check(&self, assembly: &Assembly, _estimate: Option<&Estimate>) -> Checked {
-        let s_nm = Ribbon::of(assembly, self.filament, &assembly.rest).frame_s_nm;
+        let s_nm = Ribbon::from_state(assembly, self.filament, &assembly.rest).frame_s_nm;
         let most = s_nm[s_nm.len() - 1] - s_nm[0];
         if most > 0.0 && self.over_nm <= most + SAME_PLACE_NM {
             return Ok(());

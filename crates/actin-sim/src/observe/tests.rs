@@ -87,8 +87,12 @@ fn observables_agree_with_the_summary() {
     ] {
         let found = value(&assembly, &record.observed, column);
         assert_eq!(found.to_bits(), expected.to_bits(), "{column}");
-        let told = summary.observables[column];
-        assert_eq!((told.last, told.mean), (Some(expected), None), "{column}");
+        let report_extrapolation = summary.observables[column];
+        assert_eq!(
+            (report_extrapolation.last, report_extrapolation.mean),
+            (Some(expected), None),
+            "{column}"
+        );
     }
 }
 

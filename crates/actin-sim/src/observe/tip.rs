@@ -1,6 +1,6 @@
 //! Ends of filaments and the vector between them.
 
-use super::{Observe, Past, View, vector};
+use super::{Observe, StoredPositions, View, vector};
 use crate::End;
 
 /// Position of an end.
@@ -19,7 +19,7 @@ impl Observe for Tip {
         vector(&format!("{name}[{}]", self.filament), "_nm")
     }
 
-    fn observe(&self, view: &View<'_>, _past: &mut Past, row: &mut Vec<f64>) {
+    fn observe(&self, view: &View<'_>, _past: &mut StoredPositions, row: &mut Vec<f64>) {
         let tip = view.assembly.tip_of(self.filament, view.state, self.end);
         row.extend(tip.iter());
     }
@@ -39,7 +39,7 @@ impl Observe for EndToEnd {
         columns
     }
 
-    fn observe(&self, view: &View<'_>, _past: &mut Past, row: &mut Vec<f64>) {
+    fn observe(&self, view: &View<'_>, _past: &mut StoredPositions, row: &mut Vec<f64>) {
         let at = |end| view.assembly.tip_of(self.filament, view.state, end);
         let reach = at(End::End) - at(End::Start);
         row.extend(reach.iter().copied().chain([reach.norm()]));

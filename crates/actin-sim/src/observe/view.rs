@@ -33,7 +33,7 @@ impl<'a> View<'a> {
     }
 
     pub(crate) fn ribbon(&self, filament: usize) -> &Ribbon {
-        let of = || Ribbon::of(self.assembly, filament, self.state);
+        let of = || Ribbon::from_state(self.assembly, filament, self.state);
         self.ribbons[filament].get_or_init(of)
     }
 

@@ -58,7 +58,7 @@ impl RunDirectory {
             refuse_in_use(&directory.path)?;
         }
         directory.earlier_run(overwrite)?;
-        let lock = RunLock::take(&directory.path)?;
+        let lock = RunLock::acquire(&directory.path)?;
         // Checked again: another run may have written files before the lock was taken.
         if let Some(earlier) = directory.earlier_run(overwrite)? {
             earlier.remove_files(&directory.path)?;
@@ -170,7 +170,7 @@ mod tests {
         fs::write(folder.path().join("notes.txt"), "mine").unwrap();
         assert!(matches!(refusal(), RunDirectoryError::NotEmpty { .. }));
         fs::remove_dir(folder.path().join(LOCK)).unwrap();
-        let lock = RunLock::take(folder.path()).unwrap();
+        let lock = RunLock::acquire(folder.path()).unwrap();
         for overwrite in [false, true] {
             let error = RunDirectory::create(folder.path(), overwrite).unwrap_err();
             assert!(matches!(error, RunDirectoryError::InUse { .. }), "{error}");

@@ -61,7 +61,7 @@ pub(super) fn pair() -> Assembly {
     beside.at_nm = [9.0, 0.0, 2.0];
     beside.direction = [0.2, 0.0, 1.0];
     beside.monomers.semi_axes_nm = [2.0, 2.0, 2.0];
-    scene.further.push(beside);
+    scene.other_filaments.push(beside);
     scene.linkers.push(Linker {
         filament: 1,
         to: Some(LinkerSite {

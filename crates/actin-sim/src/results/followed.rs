@@ -17,7 +17,7 @@ use super::manifest::Manifest;
 use super::names::{ENERGIES, MANIFEST, OBSERVABLES, PICTURES, STRETCHES, SUMMARY, SWITCHES};
 use super::{RunDirectoryError, Summary};
 use crate::assembly::worst_of;
-use crate::follow::Beginning;
+use crate::follow::StretchStart;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::fs;
@@ -61,12 +61,12 @@ pub struct FollowedDirectory {
 
 impl FollowedDirectory {
     /// Opens the directory at `path`, which is also a [`RunDirectory`].
-    pub fn at(path: impl Into<PathBuf>) -> Self {
+    pub fn new(path: impl Into<PathBuf>) -> Self {
         Self { path: path.into() }
     }
 
     /// Returns true if `path` contains a list of stretches.
-    pub fn is_at(path: &Path) -> bool {
+    pub fn exists_at(path: &Path) -> bool {
         path.join(STRETCHES).is_file()
     }
 
@@ -84,8 +84,8 @@ impl FollowedDirectory {
     ///
     /// # Errors
     /// The file is unreadable or not a list of stretches.
-    pub fn beginnings(&self) -> Result<Vec<Beginning>, RunDirectoryError> {
-        if !Self::is_at(&self.path) {
+    pub fn beginnings(&self) -> Result<Vec<StretchStart>, RunDirectoryError> {
+        if !Self::exists_at(&self.path) {
             return Ok(Vec::new());
         }
         let path = self.path.join(STRETCHES);
@@ -97,7 +97,7 @@ impl FollowedDirectory {
     ///
     /// # Errors
     /// A refusal of the file system.
-    pub fn note(&self, beginnings: &[Beginning]) -> Result<(), RunDirectoryError> {
+    pub fn note(&self, beginnings: &[StretchStart]) -> Result<(), RunDirectoryError> {
         self.replace(STRETCHES, |out| Ok(serde_json::to_writer(out, beginnings)?))
     }
 
@@ -126,7 +126,7 @@ impl FollowedDirectory {
     /// Files of a stretch are unreadable, or the file system refuses an operation.
     pub fn write(
         &self,
-        beginnings: &[Beginning],
+        beginnings: &[StretchStart],
         last: &Summary,
     ) -> Result<Summary, RunDirectoryError> {
         self.note(beginnings)?;
@@ -157,7 +157,7 @@ impl FollowedDirectory {
     /// Summary of the last stretch with the notes and the worst values of all stretches.
     fn with_remarks(
         &self,
-        beginnings: &[Beginning],
+        beginnings: &[StretchStart],
         last: &Summary,
     ) -> Result<Summary, RunDirectoryError> {
         let mut all = last.clone();
@@ -198,7 +198,7 @@ impl FollowedDirectory {
     fn join(
         &self,
         name: &str,
-        beginnings: &[Beginning],
+        beginnings: &[StretchStart],
         of: &dyn Fn(&csv::StringRecord) -> io::Result<Vec<usize>>,
     ) -> Result<Vec<[f64; 2]>, RunDirectoryError> {
         let mut spans = Vec::new();
@@ -274,7 +274,7 @@ fn column(header: &csv::StringRecord, name: &str) -> io::Result<usize> {
     place.ok_or_else(|| io::Error::other(format!("no column {name}")))
 }
 
-fn switches(beginnings: &[Beginning], out: &mut dyn Write) -> io::Result<()> {
+fn switches(beginnings: &[StretchStart], out: &mut dyn Write) -> io::Result<()> {
     let mut writer = csv::Writer::from_writer(out);
     writer.write_record([
         "time_ns",
@@ -304,7 +304,7 @@ fn switches(beginnings: &[Beginning], out: &mut dyn Write) -> io::Result<()> {
     writer.flush()
 }
 
-fn summarised(beginnings: &[Beginning], spans_ns: &[[f64; 2]]) -> FollowingSummary {
+fn summarised(beginnings: &[StretchStart], spans_ns: &[[f64; 2]]) -> FollowingSummary {
     let switches = || beginnings.iter().filter_map(|one| one.switch.as_ref());
     let end = spans_ns.last().map_or(0.0, |span| span[1]);
     let starts = beginnings.iter().map(|one| {

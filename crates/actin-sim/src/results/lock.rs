@@ -34,7 +34,7 @@ impl RunLock {
     /// # Errors
     /// Another run holds the lock, the file in place of the lock was not written by a run, or the
     /// file system refuses an operation.
-    pub fn take(directory: impl AsRef<Path>) -> Result<Self, RunDirectoryError> {
+    pub fn acquire(directory: impl AsRef<Path>) -> Result<Self, RunDirectoryError> {
         let directory = directory.as_ref();
         let path = directory.join(LOCK);
         let foreign = || RunDirectoryError::ForeignLock { path: path.clone() };
@@ -121,8 +121,8 @@ mod tests {
     #[test]
     fn a_directory_has_one_run_at_a_time() {
         let folder = tempfile::tempdir().unwrap();
-        let lock = RunLock::take(folder.path()).unwrap();
-        let error = RunLock::take(folder.path()).unwrap_err();
+        let lock = RunLock::acquire(folder.path()).unwrap();
+        let error = RunLock::acquire(folder.path()).unwrap_err();
         let message = error.to_string();
         let process = format!("process {}", std::process::id());
         assert!(matches!(error, RunDirectoryError::InUse { .. }), "{error}");
@@ -132,14 +132,14 @@ mod tests {
         );
         drop(lock);
         assert_eq!(fs::read(folder.path().join(LOCK)).unwrap(), b"");
-        assert!(RunLock::take(folder.path()).is_ok());
+        assert!(RunLock::acquire(folder.path()).is_ok());
     }
 
     #[test]
     fn lock_file_of_a_killed_run_is_reused() {
         let folder = tempfile::tempdir().unwrap();
         fs::write(folder.path().join(LOCK), "4194304999").unwrap();
-        let _lock = RunLock::take(folder.path()).unwrap();
+        let _lock = RunLock::acquire(folder.path()).unwrap();
         let signed = fs::read_to_string(folder.path().join(LOCK)).unwrap();
         assert_eq!(signed, std::process::id().to_string());
     }
@@ -151,13 +151,13 @@ mod tests {
         let path = folder.path().join(LOCK);
         for text in ["mine", "12 ", "-1", "123456789012345678901", "12\n"] {
             fs::write(&path, text).unwrap();
-            let error = RunLock::take(folder.path()).unwrap_err();
+            let error = RunLock::acquire(folder.path()).unwrap_err();
             assert!(matches!(error, RunDirectoryError::ForeignLock { .. }));
             assert!(error.to_string().contains(LOCK), "{error}");
             assert_eq!(fs::read_to_string(&path).unwrap(), text);
         }
         fs::write(&path, "").unwrap();
-        assert!(RunLock::take(folder.path()).is_ok());
+        assert!(RunLock::acquire(folder.path()).is_ok());
     }
 
     /// The target is neither written nor created, even if its contents look like a lock file.
@@ -172,7 +172,7 @@ mod tests {
             if let Some(text) = text {
                 fs::write(&target, text).unwrap();
             }
-            let error = RunLock::take(folder.path()).unwrap_err();
+            let error = RunLock::acquire(folder.path()).unwrap_err();
             assert!(matches!(error, RunDirectoryError::ForeignLock { .. }));
             assert_eq!(fs::read_to_string(&target).ok().as_deref(), text);
         }
@@ -187,7 +187,7 @@ mod tests {
         fs::write(&path, "4194304999").unwrap();
         refuse_in_use(folder.path()).unwrap();
         assert_eq!(fs::read_to_string(&path).unwrap(), "4194304999");
-        let _lock = RunLock::take(folder.path()).unwrap();
+        let _lock = RunLock::acquire(folder.path()).unwrap();
         let error = refuse_in_use(folder.path()).unwrap_err();
         assert!(matches!(
             error,
@@ -216,7 +216,7 @@ mod tests {
         let visit = || {
             for _ in 0..200 {
                 let lock = loop {
-                    match RunLock::take(folder.path()) {
+                    match RunLock::acquire(folder.path()) {
                         Ok(lock) => break lock,
                         Err(RunDirectoryError::InUse { .. }) => std::thread::yield_now(),
                         Err(error) => panic!("{error}"),

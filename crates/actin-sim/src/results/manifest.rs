@@ -134,10 +134,10 @@ impl Manifest {
             }
             _ => {}
         }
-        let is_own = |entry: &Found| entry.kind.is_file() && self.files.contains(&entry.name);
+        let is_own = |entry: &ResultFile| entry.kind.is_file() && self.files.contains(&entry.name);
         match found(folder)?.into_iter().find(|entry| !is_own(entry)) {
             None => Ok(()),
-            Some(Found { path, .. }) => Err(RunDirectoryError::NotOfARun { path }),
+            Some(ResultFile { path, .. }) => Err(RunDirectoryError::NotOfARun { path }),
         }
     }
 
@@ -186,14 +186,14 @@ fn checksum(path: &Path) -> Result<Option<u32>, RunDirectoryError> {
 }
 
 /// A file, link or folder with the name of a result.
-struct Found {
+struct ResultFile {
     /// Name in a manifest, without the suffix of incomplete files.
     name: String,
     path: PathBuf,
     kind: FileType,
 }
 
-fn found(folder: &Path) -> Result<Vec<Found>, RunDirectoryError> {
+fn found(folder: &Path) -> Result<Vec<ResultFile>, RunDirectoryError> {
     let mut all = found_in(folder, "")?;
     let pictures = folder.join(PICTURES);
     if fs::symlink_metadata(&pictures).is_ok_and(|data| data.is_dir()) {
@@ -202,7 +202,7 @@ fn found(folder: &Path) -> Result<Vec<Found>, RunDirectoryError> {
     Ok(all)
 }
 
-fn found_in(folder: &Path, prefix: &str) -> Result<Vec<Found>, RunDirectoryError> {
+fn found_in(folder: &Path, prefix: &str) -> Result<Vec<ResultFile>, RunDirectoryError> {
     let io = || RunDirectoryError::io(folder);
     let mut all = Vec::new();
     for entry in fs::read_dir(folder).map_err(io())? {
@@ -217,7 +217,7 @@ fn found_in(folder: &Path, prefix: &str) -> Result<Vec<Found>, RunDirectoryError
         // Some file systems ignore case.
         if is_of_runs(&name.to_ascii_lowercase()) {
             let kind = entry.file_type().map_err(io())?;
-            all.push(Found {
+            all.push(ResultFile {
                 name,
                 path: entry.path(),
                 kind,

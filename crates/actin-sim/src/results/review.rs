@@ -39,7 +39,7 @@ impl Review {
     ///
     /// # Errors
     /// Records that cannot be read or whose bodies, terms or columns do not match the assembly.
-    pub(super) fn of(
+    pub(super) fn new(
         assembly: &Assembly,
         records: &dyn Records,
         tables: &Tables<'_>,
@@ -53,7 +53,7 @@ impl Review {
             last = Some(record);
         }
         let last = last.map(Cow::into_owned);
-        let mut kinetic = LateKinetic::of(records.count());
+        let mut kinetic = LateKinetic::new(records.count());
         let mut averages = Averages::new(assembly);
         for (i, row) in records.rows().enumerate() {
             let row = row.map_err(RunDirectoryError::Unreadable)?;

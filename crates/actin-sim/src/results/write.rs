@@ -143,12 +143,12 @@ impl Summary {
     ///
     /// # Errors
     /// There is no record, or the records belong to another assembly.
-    pub fn of_run(
+    pub fn from_run(
         assembly: &Assembly,
         records: &dyn Records,
         outcome: &Outcome,
     ) -> Result<Self, RunDirectoryError> {
-        let review = Review::of(assembly, records, &Tables::new(assembly))?;
+        let review = Review::new(assembly, records, &Tables::new(assembly))?;
         let last = review.last.as_ref().ok_or(RunDirectoryError::NoRecord)?;
         Ok(reviewed(assembly, &review, (last, outcome)))
     }
@@ -173,7 +173,7 @@ impl<'a> Results<'a> {
     ) -> Result<Self, RunDirectoryError> {
         let assembly = plan.assembly();
         let tables = Tables::new(assembly);
-        let mut review = Review::of(assembly, records, &tables)?;
+        let mut review = Review::new(assembly, records, &tables)?;
         let last = review.last.take().ok_or(RunDirectoryError::NoRecord)?;
         let summary = reviewed(assembly, &review, (&last, outcome));
         summary.ensure_finite(SUMMARY)?;

@@ -1,7 +1,7 @@
 //! Upper bound of the kinetic energy of a motion, for the detection of divergence.
 
 use crate::Assembly;
-use crate::scene::{Load, Resultant, Slides, Task};
+use crate::scene::{FreeTranslation, Load, Resultant, Task};
 
 /// Safety factor for integrator errors near the stability limit and for nonconservative loads.
 const ROOM: f64 = 2.0;
@@ -24,7 +24,7 @@ pub(super) fn kinetic_limit(assembly: &Assembly, begun_with: f64) -> f64 {
     let scene = &assembly.scene;
     let is_fast = |filament: usize| {
         let mut clamps = assembly.clamps.iter();
-        clamps.any(|clamp| clamp.filament == filament && clamp.slides == Slides::Nowhere)
+        clamps.any(|clamp| clamp.filament == filament && clamp.slides == FreeTranslation::Nowhere)
     };
     let work_of = |load: &Load| match load.resultant(scene) {
         Resultant::Force(force) if stays(load) && is_fast(load.filament()) => {

@@ -50,7 +50,7 @@ pub struct RelaxationTimes {
 }
 
 impl RelaxationTimes {
-    fn of(relaxation: &mut Relaxation) -> Self {
+    fn new(relaxation: &mut Relaxation) -> Self {
         let highest = relaxation.highest_rate();
         let rates = relaxation.lowest_rates(SLOWEST);
         let (unresisted, resisted): (Vec<f64>, Vec<f64>) = rates
@@ -88,7 +88,7 @@ impl Plan<'_> {
             return Some(Err(SceneProblem::new("filament", "", rule)));
         }
         let relaxation = relaxation(self.assembly(), fluid);
-        Some(relaxation.map(|mut relaxation| RelaxationTimes::of(&mut relaxation)))
+        Some(relaxation.map(|mut relaxation| RelaxationTimes::new(&mut relaxation)))
     }
 }
 
@@ -101,7 +101,7 @@ fn relaxation(assembly: &Assembly, fluid: &Fluid) -> Result<Relaxation, ScenePro
 
 pub(super) fn estimate(assembly: &Assembly, task: &Task) -> Result<Estimate, SceneProblem> {
     assembly.check_slip()?;
-    let motion = task.as_motion();
+    let motion = task.to_dynamics();
     let of_midpoints = OF_FASTEST / relaxation(assembly, &task.drag)?.highest_rate();
     let is_stiff = of_midpoints.is_finite() && of_midpoints > 0.0;
     if !is_stiff && task.time_step_ns.is_none() {
@@ -114,7 +114,7 @@ pub(super) fn estimate(assembly: &Assembly, task: &Task) -> Result<Estimate, Sce
         Some(ns) => ns.max(of_midpoints),
     };
     let wanted = task.time_step_ns.unwrap_or(default);
-    let steps = Steps::of(&motion, wanted.min(motion.duration_ns))?;
+    let steps = Steps::new(&motion, wanted.min(motion.duration_ns))?;
     task.flow.check_step(steps.length_ns)?;
     check_records(assembly, &motion, &steps)?;
     assembly.check_rates(steps.length_ns)?;
@@ -178,7 +178,7 @@ impl Estimate {
             let held = held_off_axis(assembly);
             stepper.with_spinning_frames(system, |frame| !held[assembly.filament_of_frame(frame)])
         } else {
-            stepper.by_midpoints()
+            stepper.with_midpoint_steps()
         })
     }
 }
@@ -240,7 +240,7 @@ pub(super) fn run(
     sink: &mut dyn Sink,
 ) -> Result<(Outcome, Option<Failure>), SceneProblem> {
     let refused = |error: &dyn std::error::Error| SceneProblem::new("task", "", error.to_string());
-    let motion = task.as_motion();
+    let motion = task.to_dynamics();
     let mut system = assembly.system.in_state(assembly.system.state().clone());
     let mut recorder = Recorder::new(assembly, &motion, saved, clock, sink);
     // The order of unknowns follows the state as built, also for a resumed run.
@@ -255,8 +255,8 @@ pub(super) fn run(
         .stopping_from(recorder.drive(&mut system));
     let begun = recorder.is_whole().then(|| system.total_energy());
     recorder.let_happen(&mut system);
-    if let Some(ledger) = assembly.ledger {
-        system.keep_ledger(ledger);
+    if let Some(energy_balance) = assembly.energy_balance {
+        system.track_energy_balance(energy_balance);
     }
     let ending = recorder.execute_steps(&run, &mut stepper, &mut system);
     let ending = recorder.end(ending, &mut system);

@@ -112,7 +112,7 @@ fn estimate_at(
     if wanted > limit && !dynamics.allow_unstable_step {
         return Err(unstable(scheme, wanted, limit, frequency));
     }
-    let steps = Steps::of(dynamics, wanted)?;
+    let steps = Steps::new(dynamics, wanted)?;
     check_records(assembly, dynamics, &steps)?;
     assembly.check_rates(steps.length_ns)?;
     Ok(Estimate {
@@ -204,12 +204,12 @@ fn with_constant_rods(assembly: &Assembly) -> Result<Option<Assembly>, SceneProb
     let mut scene = assembly.scene.clone();
     let mut changes = false;
     for filament in scene.filaments_mut() {
-        let is_soft = filament.rod_models().any(|rod| rod.law.shears_softly());
+        let is_soft = filament.rod_models().any(|rod| rod.law.has_soft_shear());
         changes |= is_soft;
         let sections = filament.sections.iter_mut();
         let of_sections = sections.filter_map(|s| s.altered_rod_mut()?.law.as_mut());
         let laws = of_sections.chain([&mut filament.rod.law]);
-        for law in laws.filter(|law| law.shears_softly()) {
+        for law in laws.filter(|law| law.has_soft_shear()) {
             *law = RodLaw::Constant;
         }
     }
@@ -233,8 +233,8 @@ pub(super) fn run(
     // Loads have their initial factors.
     let begun = recorder.is_whole().then(|| system.total_energy());
     recorder.let_happen(&mut system);
-    if let Some(ledger) = assembly.ledger {
-        system.keep_ledger(ledger);
+    if let Some(energy_balance) = assembly.energy_balance {
+        system.track_energy_balance(energy_balance);
     }
     let ending = match dynamics.drag.fluid() {
         None => recorder.execute(&run, &mut system),

@@ -278,7 +278,7 @@ impl<'a> Follower<'a> {
         state: &mut State,
     ) -> Result<Option<Box<PathFailure>>, SceneProblem> {
         state.set_motion(&self.position.motion);
-        newton.count_on(self.position.work);
+        newton.set_work(self.position.work);
         let result = if self.assembly.drive.is_still() {
             self.solve(newton, state)
         } else {

@@ -86,11 +86,11 @@ impl Hinge {
 #[derive(Clone, Debug)]
 pub(super) struct HingeWatch {
     hinges: Vec<Hinge>,
-    seen: Arc<Mutex<Seen>>,
+    seen: Arc<Mutex<HingeHistory>>,
 }
 
 #[derive(Debug, Default)]
-struct Seen {
+struct HingeHistory {
     last: Vec<UnitQuaternion>,
     /// First slip.
     slip: Option<HingeSlip>,
@@ -118,7 +118,7 @@ impl HingeWatch {
             return ramp.map(|ramp| Box::new(ramp) as Box<dyn Drive>);
         }
         let watch = self.clone();
-        Some(Box::new(Watched { ramp, watch }))
+        Some(Box::new(MonitoredDrive { ramp, watch }))
     }
 
     pub(super) fn slip(&self) -> Option<HingeSlip> {
@@ -139,12 +139,12 @@ impl HingeWatch {
 }
 
 #[derive(Debug)]
-struct Watched {
+struct MonitoredDrive {
     ramp: Option<Ramp>,
     watch: HingeWatch,
 }
 
-impl Drive for Watched {
+impl Drive for MonitoredDrive {
     fn place(&self, state: &mut State, time: f64) {
         if let Some(ramp) = &self.ramp {
             ramp.place(state, time);

@@ -34,7 +34,7 @@ pub(super) fn longest(assembly: &Assembly, task: &Task) -> Result<Option<f64>, S
     if assembly.scene.repulsion.is_some() || (has_bonds && !is_athermal) {
         return Ok(None);
     }
-    let motion = task.as_motion();
+    let motion = task.to_dynamics();
     let records = motion
         .record_every_ns
         .unwrap_or(motion.duration_ns / RECORDS);

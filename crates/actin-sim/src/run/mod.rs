@@ -3,12 +3,12 @@
 mod bound;
 mod brownian;
 mod dynamics;
-mod endless;
 mod equilibrium;
 mod hinge;
 mod long_steps;
 mod lost_load;
 mod outcome;
+mod periodic;
 mod plan;
 mod points;
 mod record_stream;

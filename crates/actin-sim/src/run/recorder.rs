@@ -84,7 +84,7 @@ impl<'a> Recorder<'a> {
             taken: RecordStream::new(assembly, recorded, sink),
             pushes,
             end_ns: dynamics.duration_ns,
-            rest_from_ns: Ramp::of(assembly).map_or(0.0, |ramp| ramp.duration()),
+            rest_from_ns: Ramp::from_assembly(assembly).map_or(0.0, |ramp| ramp.duration()),
             most_pushes: dynamics.leave_saddles,
             clock,
             judge: RestJudge::new(assembly, dynamics),
@@ -113,7 +113,7 @@ impl<'a> Recorder<'a> {
 
     /// Installs the path of the scene as the drive of `system` and returns its duration (ns).
     pub(super) fn drive(&self, system: &mut System) -> f64 {
-        if let Some(drive) = self.hinges.beside(Ramp::of(self.assembly)) {
+        if let Some(drive) = self.hinges.beside(Ramp::from_assembly(self.assembly)) {
             system.set_drive(drive);
         }
         self.rest_from_ns

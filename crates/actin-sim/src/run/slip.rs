@@ -6,7 +6,7 @@
 //! when the straight extensions of the ends overlap; these are ignored.
 
 use super::{At, Failure, HingeSlip, Record};
-use crate::scene::Slides;
+use crate::scene::FreeTranslation;
 use crate::shape::{Ribbon, WHOLE, turn_of_ends};
 use crate::{Assembly, End};
 use actin_mechanics::State;
@@ -83,11 +83,11 @@ impl TurnLoss {
 /// Monitor of filaments with held or hinged ends; a hinge counts as a joint.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub(super) struct LinkWatch {
-    held: Vec<Held>,
+    held: Vec<LinkRecord>,
 }
 
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
-struct Held {
+struct LinkRecord {
     filament: usize,
     /// Twist plus writhe minus the turn of the ends (turns), at the start or since an end last
     /// passed around the filament.
@@ -109,11 +109,13 @@ impl LinkWatch {
                 return None;
             };
             let turn = turn_of_ends(assembly, filament, At::Path(0.0))?;
-            let ribbon = Ribbon::of(assembly, filament, start);
-            Some(Held {
+            let ribbon = Ribbon::from_state(assembly, filament, start);
+            Some(LinkRecord {
                 filament,
                 offset_turns: ribbon.linking()? - turn,
-                is_loose: [one, other].iter().any(|c| c.slides == Slides::Freely),
+                is_loose: [one, other]
+                    .iter()
+                    .any(|c| c.slides == FreeTranslation::Freely),
                 was_forward: ribbon.is_forward(),
             })
         });
@@ -144,7 +146,7 @@ impl LinkWatch {
         self.held.iter_mut().find_map(|held| {
             let (link_turns, found_turns) = held.compare(assembly, state, at)?;
             let joints = [state, before.unwrap_or(state)]
-                .map(|state| Ribbon::of(assembly, held.filament, state).most_twisted());
+                .map(|state| Ribbon::from_state(assembly, held.filament, state).most_twisted());
             let is_second = joints[1].1.abs() > joints[0].1.abs();
             let (joint_s_nm, angle) = joints[usize::from(is_second)];
             Some(Slip {
@@ -159,11 +161,11 @@ impl LinkWatch {
     }
 }
 
-impl Held {
+impl LinkRecord {
     /// Turn of the ends and sum of twist and writhe (turns), if they indicate a slip.
     fn compare(&mut self, assembly: &Assembly, state: &State, at: At) -> Option<(f64, f64)> {
         let link_turns = turn_of_ends(assembly, self.filament, at)?;
-        let ribbon = Ribbon::of(assembly, self.filament, state);
+        let ribbon = Ribbon::from_state(assembly, self.filament, state);
         let is_forward = ribbon.is_forward();
         let may_go_round = self.is_loose && !(is_forward && self.was_forward);
         self.was_forward = is_forward;

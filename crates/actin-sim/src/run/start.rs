@@ -4,16 +4,16 @@
 //! sense, by about the square root of the torque, with energies that differ by less than 1 %. From
 //! the straight filament, rounding selects the sense at each place, and Newton's method moves the
 //! boundary between domains by a few monomers per step. The initial guess therefore twists the
-//! whole filament in the sense of lower potential energy of a periodic cell (`endless.rs`).
+//! whole filament in the sense of lower potential energy of a periodic cell (`periodic.rs`).
 //! Monomers are placed as in cells under the local force and torque.
 //!
 //! Local loads are computed on the straight filament. If they would bend it far, only a part of them
 //! is applied. If the sense of lower energy differs between loads (it reverses above about 20 pN
 //! nm), no initial guess is made.
 
-use super::endless::{PERIOD, PeriodicFilament};
+use super::periodic::{PERIOD, PeriodicFilament};
 use crate::assembly::Part;
-use crate::scene::{Anchors, End, Filament, Slides, Task};
+use crate::scene::{Anchors, End, Filament, FreeTranslation, Task};
 use crate::shape::axis::CrossSection;
 use crate::{Assembly, FilamentSpan};
 use actin_ellipsoid::{CellResponse, Displacements, SixVector};
@@ -60,7 +60,8 @@ pub fn near_equilibrium(assembly: &Assembly) -> Option<State> {
         return None;
     }
     let cantilevers = assembly.scene.filaments().enumerate();
-    let cantilevers = cantilevers.map(|(i, written)| Cantilever::of(assembly, i, written));
+    let cantilevers =
+        cantilevers.map(|(i, written)| Cantilever::from_filament(assembly, i, written));
     let cantilevers: Vec<_> = cantilevers.collect::<Option<_>>()?;
     let mut state = assembly.system.state().clone();
     for cantilever in &cantilevers {
@@ -83,14 +84,14 @@ struct Cantilever<'a> {
 }
 
 /// Cell of monomers at an arc length (nm): strain and displacements.
-struct Place {
+struct CellStrain {
     at: f64,
     strain: SixVector,
     displacements: Displacements,
 }
 
-impl Place {
-    fn of(at: f64, cell: &CellResponse) -> Self {
+impl CellStrain {
+    fn new(at: f64, cell: &CellResponse) -> Self {
         Self {
             at,
             strain: cell.strain,
@@ -99,10 +100,10 @@ impl Place {
     }
 }
 
-type Curve = Vec<Place>;
+type Curve = Vec<CellStrain>;
 
 impl<'a> Cantilever<'a> {
-    fn of(assembly: &'a Assembly, index: usize, written: &Filament) -> Option<Self> {
+    fn from_filament(assembly: &'a Assembly, index: usize, written: &Filament) -> Option<Self> {
         let span = &assembly.filaments[index];
         let [section] = assembly.sections_of(index) else {
             return None;
@@ -115,13 +116,13 @@ impl<'a> Cantilever<'a> {
             && !written.sections[0].is_altered();
         let clamp = assembly.clamp_at(index, End::Start)?;
         let is_open = assembly.clamp_at(index, End::End).is_none();
-        if !is_plain || !is_open || clamp.slides != Slides::Nowhere {
+        if !is_plain || !is_open || clamp.slides != FreeTranslation::Nowhere {
             return None;
         }
         Some(Self {
             assembly,
             span,
-            monomers: PeriodicFilament::of(&written.monomers).ok()?,
+            monomers: PeriodicFilament::new(&written.monomers).ok()?,
             rise_nm: written.monomers.rise_nm,
             length_nm: section.to_nm,
             sums: sums_from_free_end(assembly, span),
@@ -205,14 +206,14 @@ impl<'a> Cantilever<'a> {
         let mut section = (Vector3::zeros(), self.span.rotation);
         let load = |at: f64, axes| self.load(at, axes) * part;
         let mut here = self.on_side(&load(0.0, section.1), side)?;
-        let mut curve = vec![Place::of(0.0, &here)];
+        let mut curve = vec![CellStrain::new(0.0, &here)];
         let mut at = 0.0;
         while at < self.length_nm {
             let to = at + self.step(at, &here.strain);
-            let ahead = [at, to].map(|at| Place::of(at, &here));
+            let ahead = [at, to].map(|at| CellStrain::new(at, &here));
             let ahead = self.carry(section, [at, to], &ahead);
             let next = self.on_side(&load(to, ahead.1), &here)?;
-            curve.push(Place::of(to, &next));
+            curve.push(CellStrain::new(to, &next));
             section = self.carry(section, [at, to], &curve);
             (at, here) = (to, next);
         }
@@ -252,7 +253,7 @@ impl<'a> Cantilever<'a> {
     }
 
     /// Integrates the cross-section from one arc length to another.
-    fn carry(&self, from: CrossSection, [at, to]: [f64; 2], curve: &[Place]) -> CrossSection {
+    fn carry(&self, from: CrossSection, [at, to]: [f64; 2], curve: &[CellStrain]) -> CrossSection {
         let (mut place, mut axes) = from;
         let mut at = at;
         while at < to {
@@ -300,20 +301,20 @@ fn across(six: &SixVector) -> f64 {
     six[0].hypot(six[1])
 }
 
-fn about(curve: &[Place], at: f64) -> (&Place, &Place, f64) {
+fn about(curve: &[CellStrain], at: f64) -> (&CellStrain, &CellStrain, f64) {
     let after = curve.partition_point(|place| place.at < at);
     let after = after.clamp(1, curve.len() - 1);
     let (a, b) = (&curve[after - 1], &curve[after]);
     (a, b, ((at - a.at) / (b.at - a.at)).clamp(0.0, 1.0))
 }
 
-fn strain_at(curve: &[Place], at: f64) -> SixVector {
+fn strain_at(curve: &[CellStrain], at: f64) -> SixVector {
     let (a, b, t) = about(curve, at);
     a.strain * (1.0 - t) + b.strain * t
 }
 
 /// Displacement and rotation of a monomer of a cell (axes of its cross-section).
-fn motion_at(curve: &[Place], at: f64, monomer: usize) -> (Vector3, Vector3) {
+fn motion_at(curve: &[CellStrain], at: f64, monomer: usize) -> (Vector3, Vector3) {
     let (a, b, t) = about(curve, at);
     let [a, b] = [a, b].map(|place| place.displacements.fixed_rows::<6>(6 * monomer));
     let d = a * (1.0 - t) + b * t;

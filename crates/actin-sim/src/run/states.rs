@@ -3,7 +3,9 @@
 use super::record_stream::RecordStream;
 use super::{At, Record};
 use crate::Assembly;
-use actin_equilibrium::{Found, Iteration, Known, Newton, Search, SearchObserver, SolveError};
+use actin_equilibrium::{
+    Iteration, KnownEquilibrium, Newton, Search, SearchObserver, SearchResult, SolveError,
+};
 use actin_mechanics::State;
 use std::ops::ControlFlow;
 
@@ -55,7 +57,7 @@ pub(super) fn search(
     if !assembly.drive.is_still() {
         assembly.drive.place(&mut reference, at.value());
     }
-    let known = Known {
+    let known = KnownEquilibrium {
         state: &known,
         equilibrium: &equilibrium,
         reference: &reference,
@@ -65,11 +67,12 @@ pub(super) fn search(
         taken,
         at,
     };
-    let Found { states, lost } = match newton.search(&known, interactions, &search, &mut watch) {
-        Ok(found) => found,
-        Err(SolveError::Interrupted) => return Ok(None),
-        Err(error) => return Err(error),
-    };
+    let SearchResult { states, lost } =
+        match newton.search(&known, interactions, &search, &mut watch) {
+            Ok(found) => found,
+            Err(SolveError::Interrupted) => return Ok(None),
+            Err(error) => return Err(error),
+        };
     let states = states.into_iter().map(|one| StableState {
         record: super::equilibrium::record(&assembly.system, at.value(), &one.state),
         above_result_pn_nm: one.equilibrium.energy - energy,

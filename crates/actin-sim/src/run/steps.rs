@@ -42,7 +42,7 @@ impl Steps {
     ///
     /// # Errors
     /// If the number of steps exceeds 2^53.
-    pub(super) fn of(dynamics: &Dynamics, largest_ns: f64) -> Result<Self, SceneProblem> {
+    pub(super) fn new(dynamics: &Dynamics, largest_ns: f64) -> Result<Self, SceneProblem> {
         let duration = dynamics.duration_ns;
         let (count, between, record_every_ns) = match dynamics.record_every_ns {
             Some(every) if every < duration => recorded_every(duration, every, largest_ns),
@@ -153,7 +153,7 @@ impl Estimate {
 
     /// Ratio of the configurational temperature of the fastest mode to the bath temperature, due to
     /// the integrator.
-    pub fn warmth_of_the_fastest_mode(&self, dynamics: &Dynamics) -> f64 {
+    pub fn fastest_mode_temperature_ratio(&self, dynamics: &Dynamics) -> f64 {
         if dynamics.drag.fluid().is_some() {
             // Steps in a fluid are exact for linear modes.
             return 1.0;
@@ -292,7 +292,7 @@ mod tests {
     }
 
     fn steps(task: &str, largest: f64) -> (u64, u64, f64) {
-        let steps = Steps::of(&dynamics(task), largest).unwrap();
+        let steps = Steps::new(&dynamics(task), largest).unwrap();
         (steps.count, steps.between_records, steps.record_every_ns)
     }
 
@@ -315,7 +315,7 @@ mod tests {
     #[test]
     fn incommensurate_intervals_are_rounded_with_a_warning() {
         let task = dynamics("duration_ns: 0.777, record_every_ns: 0.1, time_step_ns: 0.003");
-        let steps = Steps::of(&task, 0.003).unwrap();
+        let steps = Steps::new(&task, 0.003).unwrap();
         assert_eq!((steps.count, steps.between_records), (265, 34));
         assert!((steps.record_every_ns - 0.777 / 265.0 * 34.0).abs() < 1e-12);
         let notes = texts(estimate(&steps).notes(&Task::Dynamics(task)));
@@ -345,7 +345,7 @@ mod tests {
 
     fn notes(task: &str) -> Vec<String> {
         let task = dynamics(task);
-        let steps = Steps::of(&task, task.time_step_ns.unwrap_or(0.003)).unwrap();
+        let steps = Steps::new(&task, task.time_step_ns.unwrap_or(0.003)).unwrap();
         texts(estimate(&steps).notes(&Task::Dynamics(task)))
     }
 
@@ -355,9 +355,10 @@ mod tests {
 
     #[test]
     fn deviations_from_the_request_give_warnings() {
-        let told = notes("duration_ns: 1.0, record_every_ns: 0.05, time_step_ns: 0.003");
+        let report_extrapolation =
+            notes("duration_ns: 1.0, record_every_ns: 0.05, time_step_ns: 0.003");
         assert_eq!(
-            told,
+            report_extrapolation,
             [
                 "task.time_step_ns = 0.003: steps of 2.941176e-3 ns are used, which divide the interval \
               of records and the duration evenly"
@@ -390,12 +391,12 @@ mod tests {
         ] {
             for largest in [0.0028, 0.00131, 0.9, 1e-6] {
                 let open = format!("duration_ns: {duration:?}, record_every_ns: {every:?}");
-                let first = Steps::of(&dynamics(&open), largest).unwrap();
+                let first = Steps::new(&dynamics(&open), largest).unwrap();
                 let resolved = format!(
                     "duration_ns: {duration:?}, record_every_ns: {:?}",
                     first.record_every_ns
                 );
-                let again = Steps::of(&dynamics(&resolved), first.length_ns).unwrap();
+                let again = Steps::new(&dynamics(&resolved), first.length_ns).unwrap();
                 assert_eq!(again, first, "{open}, {largest}");
             }
         }

@@ -45,7 +45,7 @@ pub fn newton(assembly: &Assembly, settings: &Settings) -> Result<Newton, SceneP
             let layout = layout.with_loose_beyond(order(assembly), reaches.fold(0.0, f64::max));
             let newton = Newton::new(layout, options);
             let mut newton = newton.map_err(|error| refused("task", &error))?;
-            newton.settle_order(&assembly.rest, assembly.system.interactions());
+            newton.determine_order(&assembly.rest, assembly.system.interactions());
             Ok(newton)
         }
     }

@@ -24,11 +24,11 @@ pub(crate) struct Axis {
 }
 
 impl Axis {
-    pub(crate) fn of(assembly: &Assembly, state: &State) -> Self {
-        Self::along(&Ribbon::new(assembly, state))
+    pub(crate) fn new(assembly: &Assembly, state: &State) -> Self {
+        Self::from_ribbon(&Ribbon::new(assembly, state))
     }
 
-    pub(crate) fn along(ribbon: &Ribbon) -> Self {
+    pub(crate) fn from_ribbon(ribbon: &Ribbon) -> Self {
         let frames = ribbon.frames.iter().copied();
         let inside = ribbon.frame_s_nm.iter().copied().zip(frames);
         let mut frames: Vec<_> = ribbon.ends[0]

@@ -42,7 +42,7 @@ impl Buckle {
     ///
     /// # Panics
     /// If there are fewer than three points.
-    pub(crate) fn of(points: &[Vector3], axis: Vector3) -> Self {
+    pub(crate) fn new(points: &[Vector3], axis: Vector3) -> Self {
         assert!(
             points.len() > 2,
             "a buckled curve needs at least three points"
@@ -189,7 +189,7 @@ mod tests {
                 radius * angle.sin(),
             ]
         });
-        let buckle = Buckle::of(&arc, Vector3::z());
+        let buckle = Buckle::new(&arc, Vector3::z());
         // Chords are shorter than arcs by (2 a / n)^2 / 24.
         assert!((buckle.contour_nm - 2.0 * radius * a).abs() < 1e-4);
         let distance = radius * (a.sin() / a - a.cos());
@@ -213,9 +213,9 @@ mod tests {
             });
             let between = turn * (n - 2) as f64 / (n - 1) as f64;
             let expected = hand * (PI - between).to_degrees();
-            let found = Buckle::of(&helix, Vector3::z()).supertwist_deg;
+            let found = Buckle::new(&helix, Vector3::z()).supertwist_deg;
             assert!((found - expected).abs() < 1e-6, "{found} {expected}");
-            let mirrored = Buckle::of(&helix, -Vector3::z()).supertwist_deg;
+            let mirrored = Buckle::new(&helix, -Vector3::z()).supertwist_deg;
             assert!((mirrored + expected).abs() < 1e-6, "{mirrored}");
         }
     }
@@ -229,7 +229,7 @@ mod tests {
             let angle = 2.0 * PI * turns * t;
             [radius * angle.cos(), radius * angle.sin(), height * t]
         });
-        let buckle = Buckle::of(&coil, Vector3::z());
+        let buckle = Buckle::new(&coil, Vector3::z());
         let (across, along) = (radius * radius / 2.0, height * height / 12.0);
         // Correlation of the sine with the axis: 6 / (2 pi turns)^2 of the smaller variance.
         let exact = across / (2.0 * across + along);
@@ -254,10 +254,10 @@ mod tests {
         for pair in spaced.windows(2) {
             assert!(((pair[1] - pair[0]).norm() - 1.0).abs() < 1e-9);
         }
-        let buckle = Buckle::of(&spaced, Vector3::z());
+        let buckle = Buckle::new(&spaced, Vector3::z());
         assert!((buckle.contour_nm - 100.0).abs() < 1e-9 && buckle.peak_asymmetry < 1e-9);
         assert!((buckle.mean_distance_nm - 30.0 * 50.0 / 101.0).abs() < 1e-9);
         let lopsided = [[0.0, 0.0, 0.0], [3.0, 0.0, 20.0], [0.0, 0.0, 80.0]].map(Vector3::from);
-        assert!((Buckle::of(&lopsided, Vector3::z()).peak_asymmetry - 0.25).abs() < 1e-12);
+        assert!((Buckle::new(&lopsided, Vector3::z()).peak_asymmetry - 0.25).abs() < 1e-12);
     }
 }

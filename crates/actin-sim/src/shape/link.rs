@@ -55,7 +55,7 @@ struct TurnedEnd {
 }
 
 impl TurnedEnd {
-    fn of(assembly: &Assembly, filament: usize, end: End, parameter: f64) -> Option<Self> {
+    fn at_end(assembly: &Assembly, filament: usize, end: End, parameter: f64) -> Option<Self> {
         let clamp = assembly.held.turned_at(filament, end)?;
         Some(Self {
             built: built_frame(assembly, filament, end)?,
@@ -85,7 +85,7 @@ impl TurnedEnd {
 /// right or larger angle, now or as built.
 pub(crate) fn turn_of_ends(assembly: &Assembly, filament: usize, at: At) -> Option<f64> {
     let parameter = path_parameter(assembly, at);
-    let held = |end| TurnedEnd::of(assembly, filament, end, parameter);
+    let held = |end| TurnedEnd::at_end(assembly, filament, end, parameter);
     let (start, end) = (held(End::Start)?, held(End::End)?);
     // Continued over whole turns for each end separately.
     let about = angle_about(end.turn, end.axis()) - angle_about(start.turn, start.axis());
@@ -122,7 +122,7 @@ pub(crate) fn link_is_unknown(
     {
         return false;
     }
-    let sum = |state| Ribbon::of(assembly, filament, state).linking();
+    let sum = |state| Ribbon::from_state(assembly, filament, state).linking();
     let change = sum(state).zip(sum(&assembly.rest));
     let Some(((now, built), turn)) = change.zip(turn_of_ends(assembly, filament, at)) else {
         return true;
@@ -145,6 +145,6 @@ fn angle_about(turn: Vector3, axis: Vector3) -> f64 {
 pub(crate) fn path_parameter(assembly: &Assembly, at: At) -> f64 {
     match at {
         At::Path(parameter) => parameter,
-        At::Time(time_ns) => StageTimes::of(assembly).parameter(time_ns).0,
+        At::Time(time_ns) => StageTimes::from_assembly(assembly).parameter(time_ns).0,
     }
 }

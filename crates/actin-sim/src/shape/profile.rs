@@ -42,7 +42,7 @@ pub fn profile(assembly: &Assembly, state: &State) -> Vec<ProfilePoint> {
 /// # Panics
 /// If the index is out of range.
 pub fn profile_of(assembly: &Assembly, filament: usize, state: &State) -> Vec<ProfilePoint> {
-    let ribbon = Ribbon::of(assembly, filament, state);
+    let ribbon = Ribbon::from_state(assembly, filament, state);
     let curvatures = ribbon.curvatures();
     let energies = energy_per_length(assembly, filament, state, &ribbon.cells());
     (0..ribbon.s_nm.len())

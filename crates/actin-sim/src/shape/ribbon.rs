@@ -55,14 +55,14 @@ pub struct Ribbon {
 impl Ribbon {
     /// Creates the ribbon of filament 0 in `state`.
     pub fn new(assembly: &Assembly, state: &State) -> Self {
-        Self::of(assembly, 0, state)
+        Self::from_state(assembly, 0, state)
     }
 
     /// Creates the ribbon of a filament.
     ///
     /// # Panics
     /// If the index is out of range.
-    pub(crate) fn of(assembly: &Assembly, filament: usize, state: &State) -> Self {
+    pub(crate) fn from_state(assembly: &Assembly, filament: usize, state: &State) -> Self {
         let mut ribbon = Self {
             s_nm: Vec::new(),
             points_nm: Vec::new(),
@@ -205,7 +205,7 @@ impl Ribbon {
 }
 
 fn distances(span: &FilamentSpan, points_nm: &[Vector3]) -> Vec<f64> {
-    let seen = points_nm.iter().map(|&p| span.seen_along_z(p));
+    let seen = points_nm.iter().map(|&p| span.to_filament_frame(p));
     seen.map(|p| p.x.hypot(p.y)).collect()
 }
 

@@ -39,7 +39,7 @@ impl SectionLoads {
     ///
     /// # Panics
     /// If the index is out of range.
-    pub(crate) fn of(assembly: &Assembly, filament: usize, state: &State) -> Self {
+    pub(crate) fn new(assembly: &Assembly, filament: usize, state: &State) -> Self {
         let placed = &assembly.filaments[filament];
         let mut loads = Loads::zeros(state);
         for interaction in &assembly.system.interactions()[placed.terms.clone()] {
@@ -66,7 +66,7 @@ impl SectionLoads {
             sum.moment += one.moment;
             (one.force, one.moment) = (sum.force, sum.moment);
         }
-        let axis = Axis::along(&Ribbon::of(assembly, filament, state));
+        let axis = Axis::from_ribbon(&Ribbon::from_state(assembly, filament, state));
         Self { resultants, axis }
     }
 
@@ -110,7 +110,7 @@ mod tests {
         let (trajectory, _) = Plan::new(&assembly).unwrap().run().unwrap();
         let state = &trajectory.records.last().unwrap().state;
         let tip = assembly.tip_nm(state, End::End);
-        (SectionLoads::of(&assembly, 0, state), tip)
+        (SectionLoads::new(&assembly, 0, state), tip)
     }
 
     #[test]

@@ -1,7 +1,9 @@
 //! Compared quantities: numbers and vectors of records, defined for every resolution.
 
 use crate::observe::View;
-use crate::scene::{End, Linker, Quantity, Resultant, Scene, SceneProblem, Setting, Slides};
+use crate::scene::{
+    End, FreeTranslation, Linker, Quantity, Resultant, Scene, SceneProblem, Setting,
+};
 use crate::shape::Ribbon;
 use crate::shape::axis::Axis;
 use crate::{Assembly, Record};
@@ -390,7 +392,7 @@ fn items_of(assembly: &Assembly, measure: &Measure) -> Vec<Item> {
             let free = starts.chain(ends);
             let free = free.filter(|(f, end, _)| {
                 let clamp = assembly.clamp_at(*f, *end);
-                clamp.is_none_or(|clamp| clamp.slides != Slides::Nowhere)
+                clamp.is_none_or(|clamp| clamp.slides != FreeTranslation::Nowhere)
             });
             free.map(|(f, end, name)| Item::new(of(name, f), "nm", Kind::Tip(f, end)))
                 .collect()
@@ -495,7 +497,7 @@ fn chords(length_nm: f64, at_nm: Option<f64>) -> Vec<f64> {
 
 /// Returns the angle between neighbouring chords divided by the chord length (rad/nm), at each inner point.
 fn turns(ribbon: &Ribbon, places: &[f64]) -> Vec<f64> {
-    let axis = Axis::along(ribbon);
+    let axis = Axis::from_ribbon(ribbon);
     let points: Vec<Vector3> = places.iter().map(|s| axis.at(*s).0).collect();
     let chords: Vec<Vector3> = points.windows(2).map(|pair| pair[1] - pair[0]).collect();
     let pairs = chords.windows(2);
@@ -510,7 +512,7 @@ fn turns(ribbon: &Ribbon, places: &[f64]) -> Vec<f64> {
 /// must be weak.
 fn free_axis(scene: &Scene) -> Option<Vector3> {
     let filament = &scene.filament;
-    let is_alone = scene.further.is_empty() && filament.shape.is_none();
+    let is_alone = scene.other_filaments.is_empty() && filament.shape.is_none();
     if !is_alone || scene.repulsion.is_some() {
         return None;
     }

@@ -5,7 +5,6 @@
 //! measured, not estimated, and hold for this scene only.
 
 mod branches;
-mod chosen;
 mod ladder;
 mod measure;
 mod model_error;
@@ -13,15 +12,16 @@ mod reference;
 mod resolution;
 mod run;
 mod sample;
+mod section_choice;
 mod study;
 mod table;
 
 pub use branches::OtherState;
-pub use chosen::Chosen;
-pub(crate) use chosen::choose;
 pub use measure::{Item, Measure};
 pub(crate) use model_error::model_error;
 pub use model_error::{ModelError, Scatter};
+pub use section_choice::SectionChoice;
+pub(crate) use section_choice::choose;
 /// Model error and scatter of a quantity, or the reason for their absence.
 pub(crate) type ModelErrorResult = Result<(ModelError, Scatter), SceneProblem>;
 pub(crate) use resolution::weighted;
@@ -65,17 +65,17 @@ impl Default for Options {
     missing_debug_implementations,
     reason = "functions have nothing to show"
 )]
-pub struct Watch<'a> {
+pub struct TradeCallbacks<'a> {
     /// Receives the name of each run before it starts.
-    pub says: &'a dyn Fn(&str),
+    pub report: &'a dyn Fn(&str),
     /// Returns true if the trade should end early with its results so far.
     pub is_interrupted: &'a dyn Fn() -> bool,
 }
 
-impl Watch<'_> {
+impl TradeCallbacks<'_> {
     /// Callbacks without effect.
-    pub const NOBODY: Watch<'static> = Watch {
-        says: &|_| {},
+    pub const NONE: TradeCallbacks<'static> = TradeCallbacks {
+        report: &|_| {},
         is_interrupted: &|| false,
     };
 }

@@ -6,7 +6,7 @@ use super::resolution::{FullResolution, every_monomer};
 use super::run::{Limits, TrialFailure};
 use super::sample::Sample;
 use super::study::{SETTLED, errors, with_records_of};
-use super::{Options, Reference, TradeError, Watch, worst};
+use super::{Options, Reference, TradeCallbacks, TradeError, worst};
 use crate::scene::{Scene, SceneProblem};
 use crate::{Assembly, Plan};
 
@@ -16,7 +16,7 @@ const LEAST_SHARE: f64 = 0.1;
 /// Scene of a trade with its compared quantities.
 pub(super) struct Setup<'a> {
     pub options: &'a Options,
-    pub watch: &'a Watch<'a>,
+    pub watch: &'a TradeCallbacks<'a>,
     /// The scene with every monomer.
     pub full: FullResolution,
     pub measurer: Measurer,
@@ -41,7 +41,7 @@ impl<'a> Setup<'a> {
     pub(super) fn new(
         scene: &Scene,
         options: &'a Options,
-        watch: &'a Watch<'a>,
+        watch: &'a TradeCallbacks<'a>,
     ) -> Result<Self, SceneProblem> {
         let (every, fixed) = every_monomer(scene);
         if let [Some(reason), ..] = fixed.as_slice()
@@ -160,13 +160,13 @@ impl<'a> Setup<'a> {
     }
 
     fn run(&self, name: &str, scene: &Scene) -> Result<Sample, TradeError> {
-        (self.watch.says)(name);
+        (self.watch.report)(name);
         let limits = Limits {
             budget: Some(self.options.budget),
             records: None,
             is_interrupted: self.watch.is_interrupted,
         };
-        Sample::of(scene, &self.measurer, limits).map_err(|failure| match failure {
+        Sample::new(scene, &self.measurer, limits).map_err(|failure| match failure {
             TrialFailure::Interrupted => TradeError::Interrupted,
             TrialFailure::Refused(problem) => TradeError::Refused(problem),
             TrialFailure::Failed(cause) => TradeError::ReferenceFails {

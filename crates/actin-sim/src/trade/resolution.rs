@@ -125,7 +125,7 @@ impl FullResolution {
             if fixed.is_none() && filament.sections.iter().any(Section::is_rod) {
                 filament.rod = RodModel {
                     rotary_inertia: rods.inertia,
-                    ..RodModel::of_law(rods.law.clone())
+                    ..RodModel::with_law(rods.law.clone())
                 };
             }
         }

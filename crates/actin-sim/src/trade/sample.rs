@@ -3,7 +3,7 @@
 use super::measure::{Measurer, Values};
 use super::run::{Limits, RunResult, TrialFailure, run, run_once};
 use crate::Counts;
-use crate::scene::{Drawn, Scene};
+use crate::scene::{RandomPart, Scene};
 
 pub(super) const SEEDS: u64 = 4;
 
@@ -22,7 +22,7 @@ pub(super) struct Sample {
 
 impl Sample {
     /// Runs a scene once or, in heat, with [`SEEDS`] seeds.
-    pub(super) fn of(
+    pub(super) fn new(
         scene: &Scene,
         measurer: &Measurer,
         limits: Limits<'_>,
@@ -51,7 +51,7 @@ impl Sample {
         let mut last = None;
         for seed in 1..=SEEDS {
             let mut seeded = scene.clone();
-            for drawn in Drawn::ALL {
+            for drawn in RandomPart::ALL {
                 seeded.reseed(drawn, seed);
             }
             let last_run = run_once(&seeded, limits)?;

@@ -6,7 +6,7 @@ use super::measure::{Measurer, Values};
 use super::reference::Setup;
 use super::run::{Limits, RunResult, TrialFailure};
 use super::sample::{SEEDS, Sample};
-use super::{Candidate, Options, Reference, Trade, TradeError, Watch, worst};
+use super::{Candidate, Options, Reference, Trade, TradeCallbacks, TradeError, worst};
 use crate::Counts;
 use crate::scene::{Anchors, Scene, SceneProblem, Setting, Task};
 use crate::shape::Ribbon;
@@ -28,14 +28,14 @@ const DRAWN: (usize, u64) = (64, 3);
 ///
 /// ```
 /// use actin_sim::Scene;
-/// use actin_sim::trade::{Options, Watch, trade};
+/// use actin_sim::trade::{Options, TradeCallbacks, trade};
 /// let scene = Scene::from_ron("Scene(
 ///     filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 108.0)]),
 ///     clamps: [Clamp(end: Start)],
 ///     loads: [EndForce(end: End, force_pn: (-2.0, 0.0, 0.0))],
 ///     task: Equilibrium(),
 /// )")?;
-/// let trade = trade(&scene, &Options::default(), &Watch::NOBODY)?;
+/// let trade = trade(&scene, &Options::default(), &TradeCallbacks::NONE)?;
 /// assert!(trade.candidates.len() >= 8);
 /// let best = trade.best.map(|best| trade.candidates[best].worst_error());
 /// assert!(best.is_none_or(|error| error <= 0.02));
@@ -45,7 +45,11 @@ const DRAWN: (usize, u64) = (64, 3);
 /// # Errors
 /// Invalid options, quantities without a counterpart in the scene, sections that follow a motion, a reference without a
 /// result, an interruption before the end of the reference. A later interruption returns the runs so far.
-pub fn trade(scene: &Scene, options: &Options, watch: &Watch<'_>) -> Result<Trade, TradeError> {
+pub fn trade(
+    scene: &Scene,
+    options: &Options,
+    watch: &TradeCallbacks<'_>,
+) -> Result<Trade, TradeError> {
     check(scene, options)?;
     let mut study = Study::begin(scene, options, watch)?;
     let steps = ladder::steps(&study.setup.full.scene, study.setup.default_ns);
@@ -112,7 +116,7 @@ impl<'a> Study<'a> {
     fn begin(
         scene: &Scene,
         options: &'a Options,
-        watch: &'a Watch<'a>,
+        watch: &'a TradeCallbacks<'a>,
     ) -> Result<Self, TradeError> {
         let mut setup = Setup::new(scene, options, watch)?;
         let found = setup.reference()?;
@@ -182,8 +186,8 @@ impl<'a> Study<'a> {
     }
 
     fn run(&self, what: &str, scene: &Scene) -> Result<Sample, TrialFailure> {
-        (self.setup.watch.says)(what);
-        let sample = Sample::of(scene, &self.setup.measurer, self.limits());
+        (self.setup.watch.report)(what);
+        let sample = Sample::new(scene, &self.setup.measurer, self.limits());
         if let Ok(sample) = &sample {
             self.spent_s.set(self.spent_s.get() + sample.wall_s);
         }
@@ -494,7 +498,7 @@ fn bends_most(result: &RunResult) -> Vec<Option<f64>> {
         return Vec::new();
     };
     let of = |filament: usize| {
-        let ribbon = Ribbon::of(&result.assembly, filament, &last.state);
+        let ribbon = Ribbon::from_state(&result.assembly, filament, &last.state);
         let sizes = ribbon.curvatures().into_iter().map(|c| c.x.hypot(c.y));
         let places = ribbon.s_nm.iter().copied().zip(sizes);
         let most = places.max_by(|a, b| a.1.total_cmp(&b.1))?;

@@ -1,7 +1,7 @@
 //! Speed-up of replicas on two threads over one.
 
 use super::cases::Replicated;
-use super::{Measured, median};
+use super::{Timings, median};
 use actin_sim::{Ensemble, Scene, SimError};
 use std::num::NonZeroUsize;
 use std::time::Instant;
@@ -15,7 +15,7 @@ const PAIRS: usize = 5;
 
 /// Measures the ratio of run times on one and on two threads. Runs alternate, so that other load on the machine
 /// affects both. The best value is the ratio of the shortest times, the median is taken over pairs.
-pub(super) fn measure(of: Replicated) -> Result<Measured, String> {
+pub(super) fn measure(of: Replicated) -> Result<Timings, String> {
     let load = load();
     let (mut least, mut ratios) = ([f64::INFINITY; 2], Vec::new());
     let started = Instant::now();
@@ -26,7 +26,7 @@ pub(super) fn measure(of: Replicated) -> Result<Measured, String> {
         ratios.push(one / two);
     }
     let pairs = ratios.len();
-    Ok(Measured {
+    Ok(Timings {
         best: least[0] / least[1],
         median: median(ratios),
         note: format!(

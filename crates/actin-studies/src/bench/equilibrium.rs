@@ -1,6 +1,6 @@
 //! Run times of equilibria of all-monomer filaments.
 
-use super::{Measured, median};
+use super::{Timings, median};
 use actin_sim::{Assembly, End, Plan, RunError, Scene, Task};
 use std::time::Instant;
 
@@ -14,14 +14,14 @@ const TIP_ERROR: f64 = 1e-3;
 const BUDGET_S: f64 = 2.0;
 const REPEATS: usize = 50;
 
-struct Solved {
+struct TimedSolution {
     assembly: Assembly,
     seconds: f64,
     residual: f64,
     iterations: u64,
 }
 
-pub(super) fn measure(length_nm: f64) -> Result<Measured, String> {
+pub(super) fn measure(length_nm: f64) -> Result<Timings, String> {
     let mut tolerance = RESIDUAL;
     let first = loop {
         match solve(length_nm, tolerance) {
@@ -42,20 +42,20 @@ pub(super) fn measure(length_nm: f64) -> Result<Measured, String> {
     let (iterations, residual) = (first.iterations, first.residual);
     let tip = tighter(first, tolerance)?;
     let note = format!("{iterations} iterations, residual {residual:.1e} pN{floor}; tip {tip}");
-    Ok(Measured {
+    Ok(Timings {
         best: times.iter().copied().fold(f64::INFINITY, f64::min),
         median: median(times),
         note,
     })
 }
 
-fn solve(length_nm: f64, tolerance: f64) -> Result<Solved, String> {
+fn solve(length_nm: f64, tolerance: f64) -> Result<TimedSolution, String> {
     let scene = Scene::from_ron(&scene(length_nm, tolerance)).map_err(|e| e.to_string())?;
     let assembly = Assembly::build(&scene).map_err(|error| error.to_string())?;
     solve_on(assembly).map_err(|error| error.to_string())
 }
 
-fn solve_on(mut assembly: Assembly) -> Result<Solved, RunError> {
+fn solve_on(mut assembly: Assembly) -> Result<TimedSolution, RunError> {
     let started = Instant::now();
     let (trajectory, report) = Plan::new(&assembly)?.run()?;
     let seconds = started.elapsed().as_secs_f64();
@@ -63,7 +63,7 @@ fn solve_on(mut assembly: Assembly) -> Result<Solved, RunError> {
     if let Some(last) = last {
         *assembly.system.state_mut() = last.state.clone();
     }
-    Ok(Solved {
+    Ok(TimedSolution {
         assembly,
         seconds,
         residual: last.map_or(f64::NAN, |record| record.residual_force_pn),
@@ -72,7 +72,7 @@ fn solve_on(mut assembly: Assembly) -> Result<Solved, RunError> {
 }
 
 /// Continues the solve to a tenth of the tolerance. Returns a text with the relative change of the tip displacement.
-fn tighter(solved: Solved, tolerance: f64) -> Result<String, String> {
+fn tighter(solved: TimedSolution, tolerance: f64) -> Result<String, String> {
     let before = displacement(&solved.assembly);
     let mut assembly = solved.assembly;
     if let Task::Equilibrium(task) = &mut assembly.scene.task {

@@ -25,7 +25,7 @@ pub(crate) struct Options {
     peers: bool,
 }
 
-struct Measured {
+struct Timings {
     /// Best of the repeats, least affected by other load on the machine.
     best: f64,
     /// Median of the repeats.
@@ -86,7 +86,7 @@ fn measure(options: &Options) -> Result<Vec<Entry>, String> {
     Ok(entries)
 }
 
-fn print_row(case: &Case, measured: &Measured) {
+fn print_row(case: &Case, measured: &Timings) {
     let ratio = case
         .target
         .map_or("-".to_owned(), |t| format!("{:.2}", measured.best / t));

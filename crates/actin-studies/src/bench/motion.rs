@@ -1,7 +1,7 @@
 //! Rates of time steps.
 
 use super::cases::{Filament, Motion};
-use super::{Measured, median};
+use super::{Timings, median};
 use actin_integrate::Run;
 use actin_sim::{Assembly, Integrator, Plan, Scene, Task};
 use std::time::Instant;
@@ -17,7 +17,7 @@ const SECONDS: f64 = 4.0;
 /// Rise of a monomer (nm).
 const RISE_NM: f64 = 71.2 / 26.0;
 
-pub(super) fn measure(motion: &Motion) -> Result<Measured, String> {
+pub(super) fn measure(motion: &Motion) -> Result<Timings, String> {
     let mut all = assemble(motion)?;
     let elements = elements(&all);
     let batch = match motion.filament {
@@ -44,7 +44,7 @@ pub(super) fn measure(motion: &Motion) -> Result<Measured, String> {
         let work = elements as f64 * steps as f64;
         rates.push(work / started.elapsed().as_secs_f64());
     }
-    Ok(Measured {
+    Ok(Timings {
         best: rates.iter().copied().fold(0.0, f64::max),
         median: median(rates),
         note: format!("{steps} steps of {:.2e} ns a batch", runs[0].step()),

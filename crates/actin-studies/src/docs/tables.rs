@@ -306,7 +306,7 @@ mod tests {
         let row =
             |quantity: &str, ours, note: &str| Row::measured("fig4", quantity, "nm", ours, note);
         let rows = [
-            row("tip/rod", 59.89, "").against(60.0, 1.0),
+            row("tip/rod", 59.89, "").with_paper_value(60.0, 1.0),
             row("tip/ellipsoids", 62.53, "mean of 8, sd 1.12; seeds 0 to 7"),
             row("tip/full/rod-20", 62.1, ""),
             row("tip/full/rod-40", 61.9, ""),

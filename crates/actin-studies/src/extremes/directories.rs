@@ -1,7 +1,7 @@
 //! Run directories with foreign files, and results that cannot be written: a message, and all files unchanged.
 
 use super::row::{Expected, Outcome, Row};
-use super::scenes::{Ran, run};
+use super::scenes::{CompletedRun, run};
 use actin_sim::{Plan, RunDirectory, RunDirectoryError};
 use std::collections::BTreeMap;
 use std::fs;
@@ -12,9 +12,9 @@ const SCENE: &str = "Scene(
     filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 30.0)], rod: RodModel(law: Constant)), clamps: [Clamp(end: Start)],
     loads: [EndForce(end: End, force_pn: (-2.0, 0.0, 0.0))], task: Equilibrium())";
 
-type Spoil = fn(&Path) -> io::Result<()>;
+type DamageFile = fn(&Path) -> io::Result<()>;
 
-const OVERWRITE_OBSTACLES: [(&str, Spoil); 7] = [
+const OVERWRITE_OBSTACLES: [(&str, DamageFile); 7] = [
     ("no manifest: a folder of somebody else", |folder| {
         fs::remove_file(folder.join("run/actin-run.json"))
     }),
@@ -62,12 +62,12 @@ fn not_tried(error: &str) -> Outcome {
     Outcome::Wrong(format!("not tried: {error}"))
 }
 
-struct Made {
+struct RunFixture {
     folder: tempfile::TempDir,
-    ran: Ran,
+    ran: CompletedRun,
 }
 
-impl Made {
+impl RunFixture {
     fn new() -> Result<Self, String> {
         let made = Self {
             folder: tempfile::tempdir().map_err(|e| e.to_string())?,
@@ -85,7 +85,7 @@ impl Made {
 
     fn write(&self, directory: &RunDirectory) -> Result<(), RunDirectoryError> {
         let plan = Plan::new(&self.ran.assembly).expect("the scene has run");
-        let Ran {
+        let CompletedRun {
             trajectory, report, ..
         } = &self.ran;
         directory.write(&plan, trajectory, report).map(drop)
@@ -97,8 +97,8 @@ impl Made {
     }
 }
 
-fn overwritten(spoil: Spoil) -> Result<Outcome, String> {
-    let made = Made::new()?;
+fn overwritten(spoil: DamageFile) -> Result<Outcome, String> {
+    let made = RunFixture::new()?;
     spoil(made.folder.path()).map_err(|e| e.to_string())?;
     let before = contents(made.folder.path())?;
     let taken = RunDirectory::create(made.run(), true);
@@ -111,7 +111,7 @@ fn overwritten(spoil: Spoil) -> Result<Outcome, String> {
 }
 
 fn refused_by_the_disk(name: &str) -> Result<Outcome, String> {
-    let made = Made::new()?;
+    let made = RunFixture::new()?;
     let before = contents(&made.run())?;
     let obstacle = made.run().join(name);
     fs::create_dir(&obstacle).map_err(|e| e.to_string())?;

@@ -79,7 +79,7 @@ pub(super) enum Verdict {
     /// Refused when read, built or estimated, with a position in the text.
     Refused(SceneError),
     Broke(String),
-    Ran,
+    CompletedRun,
     /// Valid, but too long to be run here.
     Accepted,
     /// Completed with a non-finite number, which is a defect.
@@ -118,7 +118,7 @@ fn finite(trajectory: &Trajectory) -> Verdict {
             return Verdict::NotFinite(format!("record {i}: {energies} pN nm, {residual} pN"));
         }
     }
-    Verdict::Ran
+    Verdict::CompletedRun
 }
 
 #[derive(Clone, Debug, PartialEq)]

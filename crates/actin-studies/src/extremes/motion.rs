@@ -2,7 +2,7 @@
 //! motion.
 
 use super::row::{CaseResult, Outcome, Row, correct, larger};
-use super::scenes::{Parts, Ran, free};
+use super::scenes::{CompletedRun, Parts, free};
 use super::steps::MODELS;
 use actin_integrate::{
     Bath, Drag, PEFRL, Run, advance, advance_in, largest_frequency, stable_step,
@@ -70,7 +70,7 @@ fn step(system: &System, share: f64) -> f64 {
 }
 
 fn steps(h: f64, time: f64) -> u64 {
-    let run = Run::over(&PEFRL, h, time).expect("steps and times are positive");
+    let run = Run::from_duration(&PEFRL, h, time).expect("steps and times are positive");
     run.steps()
 }
 
@@ -109,7 +109,7 @@ fn damped(
     duration: f64,
     rate: f64,
     keys: &str,
-) -> Result<Ran, Outcome> {
+) -> Result<CompletedRun, Outcome> {
     let task = format!(
         "Dynamics(duration_ns: {duration:?},
             drag: (translational_per_ns: {rate:?}, rotational_per_ns: {rate:?}), {keys})"

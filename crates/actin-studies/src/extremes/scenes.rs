@@ -77,7 +77,7 @@ impl Parts {
         build(&self.text())
     }
 
-    pub(super) fn run(&self) -> Result<Ran, Outcome> {
+    pub(super) fn run(&self) -> Result<CompletedRun, Outcome> {
         run(&self.text())
     }
 }
@@ -87,7 +87,7 @@ pub(super) fn free(sections: &str) -> Result<System, Outcome> {
 }
 
 #[derive(Debug)]
-pub(super) struct Ran {
+pub(super) struct CompletedRun {
     pub(super) assembly: Assembly,
     pub(super) report: actin_sim::Outcome,
     pub(super) trajectory: Trajectory,
@@ -98,7 +98,7 @@ pub(super) fn build(text: &str) -> Result<Assembly, Outcome> {
     Assembly::build(&scene).map_err(|problem| refused(&problem, text))
 }
 
-pub(super) fn run(text: &str) -> Result<Ran, Outcome> {
+pub(super) fn run(text: &str) -> Result<CompletedRun, Outcome> {
     let ran = run_to_saddle(text)?;
     if ran.report.status == Status::Failed {
         return Err(Outcome::Fails("the run ends on a saddle".to_owned()));
@@ -106,7 +106,7 @@ pub(super) fn run(text: &str) -> Result<Ran, Outcome> {
     Ok(ran)
 }
 
-pub(super) fn run_to_saddle(text: &str) -> Result<Ran, Outcome> {
+pub(super) fn run_to_saddle(text: &str) -> Result<CompletedRun, Outcome> {
     let mut assembly = build(text)?;
     let mut trajectory = Trajectory::default();
     let plan = Plan::new(&assembly).map_err(|problem| refused(&problem, text))?;
@@ -120,7 +120,7 @@ pub(super) fn run_to_saddle(text: &str) -> Result<Ran, Outcome> {
     };
     let last = trajectory.records.last().expect("a run has records");
     *assembly.system.state_mut() = last.state.clone();
-    Ok(Ran {
+    Ok(CompletedRun {
         assembly,
         report,
         trajectory,
@@ -131,7 +131,7 @@ fn refused(problem: &SceneProblem, text: &str) -> Outcome {
     Outcome::Refused(SceneError::locate(problem, text).to_string())
 }
 
-impl Ran {
+impl CompletedRun {
     /// Returns the reaction force (pN) and torque (pN nm) of a clamp.
     pub(super) fn reaction(&mut self, clamp: usize) -> (Vector3, Vector3) {
         let loads = self.assembly.system.loads().clone();

@@ -2,7 +2,7 @@
 //! joint.
 
 use super::row::{CaseResult, Expected, Outcome, Row, correct};
-use super::scenes::{Parts, Ran, run, run_to_saddle};
+use super::scenes::{CompletedRun, Parts, run, run_to_saddle};
 use actin_sim::Setting;
 use actin_sim::rod_constants::{TABLE_4_SHEAR, XI_COEFFICIENTS};
 use actin_sim::shape::Ribbon;
@@ -336,7 +336,7 @@ fn uniform(sections: &str, length: f64, degrees: f64, ns: Option<f64>) -> CaseRe
     correct("couple B3 phi / L", error, 1e-8)
 }
 
-fn couple(ran: &mut Ran, clamp: usize) -> f64 {
+fn couple(ran: &mut CompletedRun, clamp: usize) -> f64 {
     ran.reaction(clamp).1.z
 }
 

@@ -238,9 +238,9 @@ impl Conditions {
         let scale = normal.matrix.diagonal().map(|x| x.sqrt().max(1e-300));
         let mut found = start.unwrap_or_else(|| DVector::zeros(scale.len()));
         for _ in 0..NEWTON_STEPS {
-            let lacking = |(_, row): &(usize, &DVector<f64>)| row.dot(&found) < MARGIN;
+            let curvature_difference = |(_, row): &(usize, &DVector<f64>)| row.dot(&found) < MARGIN;
             let (mut matrix, mut right) = (normal.matrix.clone(), normal.right.clone());
-            for (k, row) in self.rows.iter().enumerate().filter(lacking) {
+            for (k, row) in self.rows.iter().enumerate().filter(curvature_difference) {
                 let strength = self.strength(k);
                 matrix.ger(strength, row, row, 1.0);
                 right.axpy(strength * MARGIN, row, 1.0);

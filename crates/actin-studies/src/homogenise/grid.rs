@@ -26,7 +26,7 @@ pub(super) fn compute(out: &Path, axes: &Axes) -> Result<Vec<Row>, String> {
         let (twist, extension) = (axes.twist[i], axes.extension[j]);
         let key = format!("version {VERSION}, {parameters:?}, {axes:?}, {twist}, {extension}");
         let path = folder.join(format!("slice-{i:02}-{j:02}.csv"));
-        rows::kept(&path, &key, Some(axes.points()), || {
+        rows::cached(&path, &key, Some(axes.points()), || {
             let (rows, branches) = slice(&cell, axes, twist, extension)?;
             println!(
                 "twist {twist} /nm, extension {extension}: {} points, {branches} with two minima",

@@ -67,7 +67,7 @@ struct Tangents {
 }
 
 impl Tangents {
-    fn of(law: &Homogenised, strain: &SixVector) -> Self {
+    fn new(law: &Homogenised, strain: &SixVector) -> Self {
         Self {
             all: law.tangent(strain),
             joint: law.joint_tangent(strain.fixed_rows::<3>(0).into()),
@@ -224,7 +224,7 @@ pub(super) fn run(out: &Path) -> Result<(), String> {
         Ok::<_, String>(law)
     };
     let all = strains(cell, thermal_energy());
-    let here: Vec<Tangents> = all.par_iter().map(|s| Tangents::of(cell, s)).collect();
+    let here: Vec<Tangents> = all.par_iter().map(|s| Tangents::new(cell, s)).collect();
     let plain: Vec<f64> = here.iter().map(|t| log_det(&t.all)).collect();
     let staggered: Vec<f64> = here.par_iter().map(Tangents::staggered).collect();
     let d = fitted("D", &all, &plain)?;
@@ -234,7 +234,7 @@ pub(super) fn run(out: &Path) -> Result<(), String> {
         .filter(|s| least(cell, s) > LEAST[1])
         .collect();
     let curved = |of: &(dyn Fn(&Tangents, &SixVector) -> f64 + Sync)| -> Vec<f64> {
-        let values = stiff.par_iter().map(|s| of(&Tangents::of(cell, s), s));
+        let values = stiff.par_iter().map(|s| of(&Tangents::new(cell, s), s));
         clipped(&values.collect::<Vec<_>>())
     };
     let of_d = |t: &Tangents, s: &SixVector| inverse(&t.all).component_mul(&d.tangent(s)).sum();
@@ -242,12 +242,12 @@ pub(super) fn run(out: &Path) -> Result<(), String> {
     let x_sc = fitted(
         "X_sc",
         &stiff,
-        &curved(&|t, s| t.trace(&Tangents::of(&d, s))),
+        &curved(&|t, s| t.trace(&Tangents::new(&d, s))),
     )?;
     let x_ss = fitted(
         "X_ss",
         &stiff,
-        &curved(&|t, s| t.trace(&Tangents::of(&d_s, s))),
+        &curved(&|t, s| t.trace(&Tangents::new(&d_s, s))),
     )?;
     println!("{table}");
     save(out, "mesh.md", &table)?;

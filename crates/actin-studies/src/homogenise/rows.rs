@@ -107,7 +107,7 @@ impl Row {
 }
 
 /// Reads the rows of a file with the same key and, if given, `count` rows. Otherwise computes and writes them.
-pub(super) fn kept(
+pub(super) fn cached(
     path: &Path,
     key: &str,
     count: Option<usize>,

@@ -5,7 +5,7 @@
 //! monomers and another number of monomers in a period.
 
 use actin_draw::report::save;
-use actin_paper::cells::{self, FREE, NONE, PERIOD, relax};
+use actin_paper::cells::{self, PERIOD, ZERO_LOAD, ZERO_STRAIN, relax};
 use actin_sim::ellipsoid::{
     Cell, CellResponse, Control, EllipsoidModel, EllipsoidParameters, Hold,
 };
@@ -43,8 +43,8 @@ pub(super) fn run(out: &Path) -> Result<(), String> {
         let plane = Cell::with_turn(&model, usize::from(*monomers), turn, Hold::Means);
         let plane = plane.map_err(|e| e.to_string())?;
         let bent = [
-            Bent::new(&helix, (twist, *tension))?,
-            Bent::new(&plane, (0.0, *tension))?,
+            BendingResponse::new(&helix, (twist, *tension))?,
+            BendingResponse::new(&plane, (0.0, *tension))?,
         ];
         let stiffer = bent[1].couple / bent[0].couple - 1.0;
         let mut row = format!("| {twist:.4} | {tension} | {:+.1} % |", 100.0 * stiffer);
@@ -70,21 +70,28 @@ pub(super) fn run(out: &Path) -> Result<(), String> {
     save(out, "states.md", &table)
 }
 
-struct Bent {
+struct BendingResponse {
     couple: f64,
     /// Difference of the torques about the axis between both directions (pN nm) at each increment, `None` for equal
     /// states.
     apart: Vec<Option<f64>>,
 }
 
-impl Bent {
+impl BendingResponse {
     fn new(cell: &Cell, (twist, tension): (f64, f64)) -> Result<Self, String> {
         let at = |bent: u32, twisted: u32, near: Option<&CellResponse>| {
             let bend = Control::Strain(STEP * f64::from(bent));
             let twist = Control::Strain(twist * f64::from(twisted) / f64::from(TWISTED));
             relax(
                 cell,
-                [bend, NONE, twist, FREE, FREE, Control::Load(tension)],
+                [
+                    bend,
+                    ZERO_STRAIN,
+                    twist,
+                    ZERO_LOAD,
+                    ZERO_LOAD,
+                    Control::Load(tension),
+                ],
                 near,
             )
         };

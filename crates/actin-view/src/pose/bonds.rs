@@ -24,7 +24,7 @@ pub struct Bonds(BTreeMap<i64, [Interface; 2]>);
 impl Bonds {
     /// Returns the lattice index of the first monomer of a section, the number of bonds of an interface, and the
     /// displayed bonds; `None` for a rod.
-    pub(crate) fn of(assembly: &Assembly, section: usize) -> Option<(i64, usize, Self)> {
+    pub(crate) fn from_section(assembly: &Assembly, section: usize) -> Option<(i64, usize, Self)> {
         let Resolution::Ellipsoids { first_index, .. } = assembly.sections[section].resolution
         else {
             return None;

@@ -69,7 +69,7 @@ pub(crate) const PLATE_NM: f64 = 6.0;
 
 impl Pose {
     /// Creates the pose of `state`.
-    pub fn of(assembly: &Assembly, state: &State) -> Self {
+    pub fn new(assembly: &Assembly, state: &State) -> Self {
         let junctions = assembly.junction_bonds();
         let linkers = assembly.linkers.iter();
         let filaments = assembly.filaments.iter();
@@ -145,7 +145,7 @@ impl Pose {
 fn strands(assembly: &Assembly, state: &State) -> Vec<Strand> {
     let sections = assembly.sections.iter().enumerate();
     let strand = |(i, section): (usize, &actin_sim::SectionSpan)| {
-        let (first, per_interface, own_bonds) = Bonds::of(assembly, i)?;
+        let (first, per_interface, own_bonds) = Bonds::from_section(assembly, i)?;
         let bodies = section.points.clone().zip(section.frames.clone());
         let body = |(point, frame): (usize, usize)| {
             let centre = state.points.position.get(point);

@@ -72,7 +72,7 @@ fn sections(assembly: &Assembly) -> (Vec<Value>, Vec<Value>, Vec<Bonds>) {
     for (i, section) in assembly.sections.iter().enumerate() {
         let filament = assembly.filament_of_section(i);
         let own = (&section.points, &section.frames);
-        let Some((first, per_interface, drawn)) = Bonds::of(assembly, i) else {
+        let Some((first, per_interface, drawn)) = Bonds::from_section(assembly, i) else {
             rods.push(json!({
                 "radius": bodies::rod_radius_nm(), "points": own.0, "frames": own.1, "filament": filament,
             }));

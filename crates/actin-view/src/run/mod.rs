@@ -87,11 +87,11 @@ impl Run {
     /// # Errors
     /// If the path is not a directory, or contains no valid scene.
     pub fn open(path: &Path, limits: Limits) -> Result<Self, ViewError> {
-        if FollowedDirectory::is_at(path) {
+        if FollowedDirectory::exists_at(path) {
             return Self::open_stretches(path, limits);
         }
         let assembly = assembly(path)?;
-        let mut source = Source::of(path, &assembly);
+        let mut source = Source::new(path, &assembly);
         let each = data::bytes_per_record(&assembly);
         let which = thin::evenly(source.at.len(), limits.bytes / each);
         let states = source.states(&assembly, &which);

@@ -23,7 +23,7 @@ impl Run {
     /// Returns a self-contained HTML page.
     pub fn page(&self, palette: Palette) -> String {
         let mut data = self.data();
-        data["attitude"] = serde_json::json!(Attitude::LYING);
+        data["attitude"] = serde_json::json!(Attitude::HORIZONTAL);
         let scripts = [SOLIDS, SPACE, BODIES, CURVES, PLAYER];
         let page = html! {
             (DOCTYPE)

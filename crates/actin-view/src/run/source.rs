@@ -27,7 +27,7 @@ enum States {
 }
 
 impl Source {
-    pub(super) fn of(path: &Path, assembly: &Assembly) -> Self {
+    pub(super) fn new(path: &Path, assembly: &Assembly) -> Self {
         let mut source = Self {
             summary: None,
             remarks: Vec::new(),

@@ -9,7 +9,7 @@ pub(in crate::fast) trait Bend: Copy + Debug {
     /// `true` if bending is coupled to the strain of segments.
     const COUPLES: bool;
 
-    fn of(bend: &BendLaw, in_segments: Option<&Stiffening>) -> Option<Self>;
+    fn from_law(bend: &BendLaw, in_segments: Option<&Stiffening>) -> Option<Self>;
 
     /// Torque (pN nm) at curvature `kappa` (rad/nm), plus the torque `twist` about d3. Reference:
     /// [`BendLaw::couple`].
@@ -33,7 +33,7 @@ pub(in crate::fast) struct ConstantBend([f64; 2]);
 impl Bend for ConstantBend {
     const COUPLES: bool = false;
 
-    fn of(bend: &BendLaw, in_segments: Option<&Stiffening>) -> Option<Self> {
+    fn from_law(bend: &BendLaw, in_segments: Option<&Stiffening>) -> Option<Self> {
         match (bend, in_segments) {
             (BendLaw::Constant(rigidities), None) => Some(Self(*rigidities)),
             _ => None,
@@ -78,7 +78,7 @@ pub(in crate::fast) struct WideStiffening {
 impl Bend for WideStiffening {
     const COUPLES: bool = true;
 
-    fn of(bend: &BendLaw, in_segments: Option<&Stiffening>) -> Option<Self> {
+    fn from_law(bend: &BendLaw, in_segments: Option<&Stiffening>) -> Option<Self> {
         match (bend, in_segments) {
             (BendLaw::Constant(rest), None) => Some(Self::constant(*rest)),
             (BendLaw::Stiffening(law), None) => Some(Self::new(law, 0.0)),

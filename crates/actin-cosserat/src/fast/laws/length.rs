@@ -7,7 +7,7 @@ use std::fmt::Debug;
 pub(in crate::fast) trait Length: Copy + Debug {
     const COUPLES: bool;
 
-    fn of(law: Option<&TwistStretch>) -> Option<Self>;
+    fn from_law(law: Option<&TwistStretch>) -> Option<Self>;
 
     /// `xi - 1` and its derivative at twist `k` (rad/nm). Reference: [`TwistStretch::jet`].
     fn extension<S: Simd>(&self, simd: S, k: S::f64s) -> [S::f64s; 2];
@@ -19,7 +19,7 @@ pub(in crate::fast) struct NaturalLength;
 impl Length for NaturalLength {
     const COUPLES: bool = false;
 
-    fn of(law: Option<&TwistStretch>) -> Option<Self> {
+    fn from_law(law: Option<&TwistStretch>) -> Option<Self> {
         law.is_none().then_some(Self)
     }
 
@@ -35,7 +35,7 @@ pub(in crate::fast) struct Polynomial(PolynomialStretch);
 impl Length for Polynomial {
     const COUPLES: bool = true;
 
-    fn of(law: Option<&TwistStretch>) -> Option<Self> {
+    fn from_law(law: Option<&TwistStretch>) -> Option<Self> {
         match law {
             Some(TwistStretch::Polynomial(law)) => Some(Self(*law)),
             Some(TwistStretch::Rooted(_)) => None,
@@ -68,7 +68,7 @@ pub(in crate::fast) struct Rooted(RootedStretch);
 impl Length for Rooted {
     const COUPLES: bool = true;
 
-    fn of(law: Option<&TwistStretch>) -> Option<Self> {
+    fn from_law(law: Option<&TwistStretch>) -> Option<Self> {
         match law {
             Some(TwistStretch::Rooted(law)) => Some(Self(*law)),
             Some(TwistStretch::Polynomial(_)) => None,

@@ -51,13 +51,13 @@ pub(super) struct Laws<A, B, T, X> {
 }
 
 impl<A: Shear, B: Bend, T: Twist, X: Length> Laws<A, B, T, X> {
-    pub(super) fn of(material: &RodMaterial, coupling: Option<&SegmentLaw>) -> Option<Self> {
+    pub(super) fn from_law(material: &RodMaterial, coupling: Option<&SegmentLaw>) -> Option<Self> {
         let laws = material.laws()?;
         Some(Self {
-            shear: A::of(laws.shear(), laws.stretch())?,
-            bend: B::of(laws.bend(), coupling.and_then(SegmentLaw::stiffening))?,
-            twist: T::of(laws.twist())?,
-            length: X::of(coupling.and_then(SegmentLaw::twist_stretch))?,
+            shear: A::from_law(laws.shear(), laws.stretch())?,
+            bend: B::from_law(laws.bend(), coupling.and_then(SegmentLaw::stiffening))?,
+            twist: T::from_law(laws.twist())?,
+            length: X::from_law(coupling.and_then(SegmentLaw::twist_stretch))?,
         })
     }
 }

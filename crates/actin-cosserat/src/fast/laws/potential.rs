@@ -134,7 +134,7 @@ struct Roots<S: Simd> {
     s: S::f64s,
 }
 
-struct Bent<S: Simd> {
+struct BendingTerms<S: Simd> {
     /// Bounded twist `t = k / sqrt(k^2 + k_0^2)` and `k_0^2 / (k^2 + k_0^2)^(3/2)`.
     twist: [S::f64s; 2],
     /// `1 / q`.
@@ -165,7 +165,12 @@ impl<S: Simd> Roots<S> {
     }
 
     #[inline(always)]
-    fn bent(&self, simd: S, [a, k]: [S::f64s; 2], [of_twist, of_qs]: [S::f64s; 2]) -> Bent<S> {
+    fn bent(
+        &self,
+        simd: S,
+        [a, k]: [S::f64s; 2],
+        [of_twist, of_qs]: [S::f64s; 2],
+    ) -> BendingTerms<S> {
         let ratio = simd.mul_f64s(simd.splat_f64s(TWIST_SIZE), of_twist);
         let fading = simd.mul_f64s(of_qs, self.s);
         let fading_twice = simd.mul_f64s(fading, fading);
@@ -173,7 +178,7 @@ impl<S: Simd> Roots<S> {
         // q / s, halved.
         let over_root = simd.mul_f64s(simd.mul_f64s(of_qs, self.q), self.q);
         let half = simd.mul_f64s(over_root, simd.splat_f64s(0.5));
-        Bent {
+        BendingTerms {
             twist: [
                 simd.mul_f64s(k, of_twist),
                 simd.mul_f64s(simd.mul_f64s(ratio, ratio), of_twist),
@@ -222,13 +227,13 @@ impl Law for Potential {
 
     #[inline(always)]
     fn segment<S: Simd>(&self, simd: S, sigma: Wide3<S>, kappa: Wide3<S>) -> [Wide3<S>; 2] {
-        let strained = Strained::new(simd, self, sigma, kappa);
+        let strained = StrainTerms::new(simd, self, sigma, kappa);
         strained.loads(simd, self, sigma, kappa)
     }
 }
 
-struct Strained<S: Simd> {
-    bent: Bent<S>,
+struct StrainTerms<S: Simd> {
+    bent: BendingTerms<S>,
     /// Derivative of the natural length with respect to twist.
     natural: S::f64s,
     /// `e`, `E` and the derivative of `E`.
@@ -241,7 +246,7 @@ struct Strained<S: Simd> {
     slack: [S::f64s; 2],
 }
 
-impl<S: Simd> Strained<S> {
+impl<S: Simd> StrainTerms<S> {
     #[inline(always)]
     fn new(simd: S, law: &Potential, sigma: Wide3<S>, kappa: Wide3<S>) -> Self {
         let [x, y, k] = kappa;
@@ -310,7 +315,7 @@ struct Slopes<S: Simd> {
     pushed: S::f64s,
 }
 
-impl<S: Simd> Strained<S> {
+impl<S: Simd> StrainTerms<S> {
     #[inline(always)]
     fn loads(&self, simd: S, law: &Potential, sigma: Wide3<S>, kappa: Wide3<S>) -> [Wide3<S>; 2] {
         let Slopes {

@@ -6,7 +6,7 @@ use actin_mechanics::wide::{self, Simd, Wide3};
 use std::fmt::Debug;
 
 pub(in crate::fast) trait Shear: Copy + Debug {
-    fn of(shear: &CubicShear, stretch: &StretchLaw) -> Option<Self>;
+    fn from_law(shear: &CubicShear, stretch: &StretchLaw) -> Option<Self>;
 
     /// Force (pN, body axes), and tension due to stretch beyond `natural`. Reference:
     /// `RodMaterial::shear_force_beyond`.
@@ -20,7 +20,7 @@ pub(in crate::fast) struct LinearShear {
 }
 
 impl Shear for LinearShear {
-    fn of(shear: &CubicShear, stretch: &StretchLaw) -> Option<Self> {
+    fn from_law(shear: &CubicShear, stretch: &StretchLaw) -> Option<Self> {
         let ([s1, s2], StretchLaw::Constant { rigidity: s3 }) = (shear.linear, stretch) else {
             return None;
         };
@@ -46,7 +46,7 @@ pub(in crate::fast) struct CubicAcross {
 }
 
 impl Shear for CubicAcross {
-    fn of(shear: &CubicShear, stretch: &StretchLaw) -> Option<Self> {
+    fn from_law(shear: &CubicShear, stretch: &StretchLaw) -> Option<Self> {
         let StretchLaw::Constant { rigidity: stretch } = *stretch else {
             return None;
         };

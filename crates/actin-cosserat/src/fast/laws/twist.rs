@@ -5,7 +5,7 @@ use actin_mechanics::wide::{self, Simd};
 use std::fmt::Debug;
 
 pub(in crate::fast) trait Twist: Copy + Debug {
-    fn of(law: &TwistLaw) -> Option<Self>;
+    fn from_law(law: &TwistLaw) -> Option<Self>;
 
     /// Torque (pN nm) at twist `k` (rad/nm). Reference: [`TwistLaw::couple`].
     fn couple<S: Simd>(&self, simd: S, k: S::f64s) -> S::f64s;
@@ -16,7 +16,7 @@ pub(in crate::fast) trait Twist: Copy + Debug {
 pub(in crate::fast) struct ConstantTwist(f64);
 
 impl Twist for ConstantTwist {
-    fn of(law: &TwistLaw) -> Option<Self> {
+    fn from_law(law: &TwistLaw) -> Option<Self> {
         match law {
             TwistLaw::Constant(b3) => Some(Self(*b3)),
             TwistLaw::Tanh(_) | TwistLaw::Sided(_) => None,
@@ -31,12 +31,12 @@ impl Twist for ConstantTwist {
 
 /// Linear extrapolation outside the range of a law.
 #[derive(Clone, Copy, Debug)]
-struct Beyond {
+struct LinearExtrapolation {
     range: f64,
     slopes: [f64; 2],
 }
 
-impl Beyond {
+impl LinearExtrapolation {
     fn nowhere(b3: f64) -> Self {
         Self {
             range: f64::MAX,
@@ -65,11 +65,11 @@ pub(in crate::fast) struct Tanh {
     mean: f64,
     /// Height, centre and inverse width of each step.
     steps: [[f64; 3]; 3],
-    beyond: Beyond,
+    beyond: LinearExtrapolation,
 }
 
 impl Twist for Tanh {
-    fn of(law: &TwistLaw) -> Option<Self> {
+    fn from_law(law: &TwistLaw) -> Option<Self> {
         match law {
             TwistLaw::Tanh(law) => Some(Self::new(law)),
             TwistLaw::Constant(b3) => Some(Self::constant(*b3)),
@@ -96,7 +96,7 @@ impl Tanh {
         Self {
             mean,
             steps: steps.map(|[height, centre, width]| [height, centre, width.recip()]),
-            beyond: Beyond {
+            beyond: LinearExtrapolation {
                 range: law.range,
                 slopes: [law.tangent(-law.range), law.tangent(law.range)],
             },
@@ -107,7 +107,7 @@ impl Tanh {
         Self {
             mean: b3,
             steps: [[0.0, 0.0, 1.0]; 3],
-            beyond: Beyond::nowhere(b3),
+            beyond: LinearExtrapolation::nowhere(b3),
         }
     }
 }
@@ -117,11 +117,11 @@ pub(in crate::fast) struct Sided {
     rest: f64,
     /// `rise`, `slow` and squared `half` of under-twist, then of over-twist.
     sides: [[f64; 3]; 2],
-    beyond: Beyond,
+    beyond: LinearExtrapolation,
 }
 
 impl Twist for Sided {
-    fn of(law: &TwistLaw) -> Option<Self> {
+    fn from_law(law: &TwistLaw) -> Option<Self> {
         match law {
             TwistLaw::Sided(law) => Some(Self::new(law)),
             TwistLaw::Constant(b3) => Some(Self::constant(*b3)),
@@ -151,7 +151,7 @@ impl Sided {
         Self {
             rest: law.rest,
             sides: [side(law.under), side(law.over)],
-            beyond: Beyond {
+            beyond: LinearExtrapolation {
                 range: law.range,
                 slopes: [law.tangent(-law.range), law.tangent(law.range)],
             },
@@ -162,7 +162,7 @@ impl Sided {
         Self {
             rest: b3,
             sides: [[0.0, 0.0, 1.0]; 2],
-            beyond: Beyond::nowhere(b3),
+            beyond: LinearExtrapolation::nowhere(b3),
         }
     }
 }

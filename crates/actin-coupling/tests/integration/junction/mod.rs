@@ -252,7 +252,7 @@ fn rotation_of_monomers_and_junction_frames_twists_the_rod_element() {
         for (monomer, energy) in filament.monomers.iter().zip(energies) {
             let height = filament.state.points.position.get(monomer.point).z.abs();
             let distance = 5.0 + 0.5 * height;
-            let expected = weight.of(attached) * 0.5 * 1.3e4 * turn * turn / distance;
+            let expected = weight.per_bond(attached) * 0.5 * 1.3e4 * turn * turn / distance;
             assert!((energy / expected - 1.0).abs() < 1e-12);
         }
         let loads = loads_of(&junction, &filament.state);
@@ -306,7 +306,7 @@ fn a_stretched_junction_pulls_together() {
         let loads = loads_of(&junction, &filament.state);
         let mut total = 0.0;
         for (monomer, length) in filament.monomers.iter().zip(lengths) {
-            let expected = weight.of(attached) * 3.4e4 * shift / length;
+            let expected = weight.per_bond(attached) * 3.4e4 * shift / length;
             let force = loads.force.get(monomer.point);
             assert!((force + Vector3::z() * (outward * expected)).norm() < 1e-9);
             total += expected;

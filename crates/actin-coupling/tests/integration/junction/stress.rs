@@ -28,7 +28,7 @@ fn stress_has_the_covariance_of_the_stiffness() {
 #[test]
 fn stress_beside_an_extended_rod_has_the_covariance_of_the_stiffness() {
     let material = RodMaterial::homogenised(Homogenised::mean_filament_at_298_k());
-    let law = SegmentLaw::of(&material, None).unwrap();
+    let law = SegmentLaw::from_material(&material, None).unwrap();
     for (side, weight, attached) in all() {
         let mut filament = filament(side, attached);
         let parts = JunctionParts {
@@ -45,7 +45,7 @@ fn stress_beside_an_extended_rod_has_the_covariance_of_the_stiffness() {
         let rod = EnergyGradient::new(filament.rod.clone(), material);
         let rod = rod.with_extension(law, curvature);
         stretch(&mut filament.state);
-        let junction = junction.beside_extended_rod();
+        let junction = junction.with_extended_rod();
         assert_fluctuates(&[&rod, &junction], &filament.state, 1e-10);
     }
 }

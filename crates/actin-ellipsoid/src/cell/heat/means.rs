@@ -7,7 +7,7 @@ use nalgebra::{DMatrix, DVector};
 
 /// Directions of the derivatives with respect to the strains, one per column.
 #[derive(Debug)]
-pub(super) struct Moves {
+pub(super) struct StrainDirections {
     pub(super) along: DMatrix<f64>,
     /// Reference state.
     pub(super) origin: DVector<f64>,
@@ -47,7 +47,7 @@ impl Sums {
         &mut self,
         place: &DVector<f64>,
         gradient: &DVector<f64>,
-        moves: &Moves,
+        moves: &StrainDirections,
         potential: &Potential<'_>,
     ) {
         let coordinates = potential.cell.coordinates();
@@ -67,7 +67,7 @@ impl Sums {
         self.turn += turns / potential.cell.monomers() as f64;
     }
 
-    pub(super) fn add_derivatives(&mut self, of: &Derivatives, moves: &Moves) {
+    pub(super) fn add_derivatives(&mut self, of: &Derivatives, moves: &StrainDirections) {
         let along = moves.along.tr_mul(&(&of.hessian * &moves.along));
         self.hessian += along.fixed_view::<STRAINS, STRAINS>(0, 0);
         self.energy += of.energy;

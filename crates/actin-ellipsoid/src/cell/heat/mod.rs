@@ -10,7 +10,7 @@ mod slopes;
 
 use super::{Cell, CellError, Control, Displacements, STRAINS, SixMatrix, SixVector};
 use chain::Chain;
-use means::{Moves, Sums, with_errors};
+use means::{StrainDirections, Sums, with_errors};
 use nalgebra::{DMatrix, DVector};
 use normal::Normal;
 use potential::Potential;
@@ -203,7 +203,12 @@ impl Cell {
         }
     }
 
-    fn moves(&self, potential: &Potential<'_>, chain: &Chain<'_>, hessian: &DMatrix<f64>) -> Moves {
+    fn moves(
+        &self,
+        potential: &Potential<'_>,
+        chain: &Chain<'_>,
+        hessian: &DMatrix<f64>,
+    ) -> StrainDirections {
         let mixed = hessian.columns(self.coordinates(), STRAINS).into_owned();
         let mut along = -chain.mobility(&mixed);
         for k in 0..STRAINS {
@@ -212,7 +217,7 @@ impl Cell {
         for &k in &potential.free {
             along.column_mut(k).fill(0.0);
         }
-        Moves {
+        StrainDirections {
             along,
             origin: chain.place.clone(),
         }

@@ -6,14 +6,14 @@ use super::super::{Cell, PER_MONOMER, SixVector};
 use actin_mechanics::{Matrix3, Vector3};
 use nalgebra::DVector;
 
-struct Placed {
+struct BodyTransform {
     centre: Vector3,
     turn: Matrix3,
     /// Left Jacobian: a change `dw` of the rotation vector rotates by `J dw`.
     jacobian: Matrix3,
 }
 
-impl Placed {
+impl BodyTransform {
     fn couple(&self, couple: Vector3) -> Vector3 {
         self.jacobian.tr_mul(&couple)
     }
@@ -59,7 +59,7 @@ impl Cell {
         let motions = [1.0, 2.0].map(|steps| Motion::new(&strain, steps * self.rise));
         let bends = [0, 1].map(|k| motions[k].shift_by_curvature());
         let shifts = [0, 1].map(|k| motions[k].shift());
-        let placed: Vec<Placed> = self.placed(place).collect();
+        let placed: Vec<BodyTransform> = self.placed(place).collect();
         gradient.fill(0.0);
         let mut energy = 0.0;
         for pair in &self.pairs {
@@ -91,10 +91,10 @@ impl Cell {
         energy
     }
 
-    fn placed<'a>(&'a self, place: &'a DVector<f64>) -> impl Iterator<Item = Placed> + 'a {
+    fn placed<'a>(&'a self, place: &'a DVector<f64>) -> impl Iterator<Item = BodyTransform> + 'a {
         self.offsets.iter().enumerate().map(|(i, offset)| {
             let (turn, jacobian) = turned(place.fixed_rows::<3>(PER_MONOMER * i + 3).into());
-            Placed {
+            BodyTransform {
                 centre: offset + place.fixed_rows::<3>(PER_MONOMER * i),
                 turn,
                 jacobian,

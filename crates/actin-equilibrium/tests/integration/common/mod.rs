@@ -12,7 +12,7 @@ use actin_mechanics::{Interaction, Point, Spring, Springs, State, UnitQuaternion
 
 /// `n` monomers along z, the first two held, with `bonds` sampled bonds per interface.
 pub(crate) fn filament(n: usize, bonds: usize, seed: u64) -> (State, Bonds) {
-    let model = EllipsoidModel::new(EllipsoidParameters::drawn(bonds, seed)).unwrap();
+    let model = EllipsoidModel::new(EllipsoidParameters::with_sampled_bonds(bonds, seed)).unwrap();
     let mut state = State::default();
     let monomers = model
         .build(&mut state, &Placement::default(), 0, n)

@@ -96,7 +96,7 @@ fn box_bod_from_drawn_starts() {
     let problem = problems.iter().find(|p| p.name == "BoxBOD").unwrap();
     let bounds = Bounds::new(&[(1.0, 1000.0), (0.01, 5.0)]).unwrap();
     let fit = LevenbergMarquardt::default()
-        .fit(problem, &problem.data(), &bounds, &Starts::drawn(8, 1))
+        .fit(problem, &problem.data(), &bounds, &Starts::random(8, 1))
         .unwrap();
     let met = agreement(problem, &fit);
     assert!(

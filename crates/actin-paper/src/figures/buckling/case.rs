@@ -3,7 +3,7 @@
 use super::{Figure, LENGTH_NM};
 use crate::figures::model::{Model, Resolution, monomers};
 use crate::run::scenario;
-use actin_sim::{Hold, Pace, Scene, Section, Setting, Stage, Task};
+use actin_sim::{Hold, Scene, Section, Setting, Stage, Task, TimeCourse};
 
 /// Length between the inner clamped monomers of a filament without rod (nm). It corresponds to rods of [`LENGTH_NM`]
 /// with clamped nodes and frames, because a clamped frame lies half a segment inside.
@@ -186,7 +186,7 @@ impl Case {
             Order::Together => vec![Stage {
                 duration_ns: stages.iter().map(|stage| stage.duration_ns).sum(),
                 set: stages.into_iter().flat_map(|stage| stage.set).collect(),
-                pace: Pace::Smooth,
+                pace: TimeCourse::Smooth,
             }],
         }
     }

@@ -16,7 +16,7 @@ use super::model::{Model, Resolution, Rods};
 use crate::statistics::{Sample, sample};
 use actin_sim::{ForceLaw, Hold, JunctionWeight};
 use case::{Case, Start};
-use solve::{Measured, Motion, Outcome};
+use solve::{BuckledState, Motion, Outcome};
 
 const LENGTH_NM: f64 = 300.0;
 /// Lengths of rod (nm) in the paper and with `--quick`. Each end has half of the rod.
@@ -289,14 +289,14 @@ impl Results {
     }
 
     /// Statistics of an observable over samplings; `None` without outcomes.
-    fn sample(&self, case: Case, of: fn(&Measured) -> f64) -> Option<Sample> {
+    fn sample(&self, case: Case, of: fn(&BuckledState) -> f64) -> Option<Sample> {
         let sample = sample(self.samplings(case).map(|o| of(&o.measured)));
         (sample.count > 0).then_some(sample)
     }
 }
 
 /// Name, unit and value of an observable that is independent of the plane of buckling.
-type Observable = (&'static str, &'static str, fn(&Measured) -> f64);
+type Observable = (&'static str, &'static str, fn(&BuckledState) -> f64);
 
 const OBSERVABLES: [Observable; 4] = [
     ("height", "nm", |m| m.height_nm),

@@ -191,7 +191,7 @@ fn view(plan: &Plan, draft: &mut Draft<'_>, results: &Results) -> Result<(), Str
     }
     let caption = "Equilibria of seed 0, each in its plane of buckling; the stripe along rods \
         is their first axis and shows the twist. The weak symmetry-breaking force is not shown.";
-    draft.view(plan.figure.id, Attitude::LYING, shown, caption)
+    draft.view(plan.figure.id, Attitude::HORIZONTAL, shown, caption)
 }
 
 /// Times of the states of the adaptive motion (ns): straight, bent, buckled, at rest.
@@ -216,12 +216,12 @@ pub(super) fn followed(draft: &mut Draft<'_>) -> Result<(), String> {
                 "Compressed by a fifth in 300 ns".into(),
                 format!("{time_ns} ns"),
                 1.0 - monomers as f64 / cells.len() as f64,
-                Pose::of(&ran.stretch.assembly, &record.state),
+                Pose::new(&ran.stretch.assembly, &record.state),
             ))
         });
         shown.push(found.ok_or_else(|| fail(&format!("no state at {time_ns} ns")))?);
     }
     let caption = "Motion with adaptive resolution (scenarios/following.ron): cells of the rod become \
         monomers where the curvature exceeds 0.008 per nm, and rod again below 0.005 per nm.";
-    draft.view("fig10_following", Attitude::LYING, shown, caption)
+    draft.view("fig10_following", Attitude::HORIZONTAL, shown, caption)
 }

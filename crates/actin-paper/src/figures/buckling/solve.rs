@@ -2,7 +2,7 @@
 
 use super::case::Case;
 use crate::figures::model::Model;
-use crate::run::Solved;
+use crate::run::SolvedScene;
 use actin_mechanics::State;
 use actin_sim::shape::Ribbon;
 use actin_sim::{
@@ -18,7 +18,7 @@ pub(super) const STOP: f64 = 1e-3;
 #[derive(Clone, Debug)]
 pub(super) struct Outcome {
     pub case: Case,
-    pub measured: Measured,
+    pub measured: BuckledState,
     /// Numbers of negative and of unresolved eigenvalues of the stiffness; `None` for a motion.
     pub doubtful: Option<[usize; 2]>,
     /// Newton steps and equilibria along the path.
@@ -27,7 +27,7 @@ pub(super) struct Outcome {
     pub time_ns: f64,
     pub force_evaluations: u64,
     /// Other stable states, if they were searched.
-    pub states: Option<Others>,
+    pub states: Option<OtherStates>,
     /// Residual force (pN) and torque (pN nm).
     pub residual: [f64; 2],
     /// Pose without the symmetry-breaking force.
@@ -35,7 +35,7 @@ pub(super) struct Outcome {
 }
 
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Others {
+pub(super) struct OtherStates {
     /// Number of states, including the outcome.
     pub count: usize,
     /// Number of random initial guesses.
@@ -45,7 +45,7 @@ pub(super) struct Others {
 }
 
 #[derive(Clone, Debug)]
-pub(super) struct Measured {
+pub(super) struct BuckledState {
     /// Largest distance of the centre line from the axis (nm).
     pub height_nm: f64,
     /// Torque about the axis on the far end, positive along its turn (pN nm).
@@ -72,7 +72,7 @@ pub(super) struct Motion {
     pub nearest: Outcome,
 }
 
-impl Measured {
+impl BuckledState {
     /// Absolute value of twist plus writhe minus link, zero by White's formula.
     pub(super) fn link_error(&self) -> f64 {
         (self.twist_turns + self.writhe - self.link_turns).abs()
@@ -91,7 +91,7 @@ impl Outcome {
 
 pub(super) fn outcome(case: &Case) -> Result<Outcome, String> {
     let found = match case.model.balance {
-        ForceLaw::EnergyGradient => case.scene().and_then(|scene| Solved::new(&scene)),
+        ForceLaw::EnergyGradient => case.scene().and_then(|scene| SolvedScene::new(&scene)),
         ForceLaw::PaperBalance => rest(case),
     };
     found
@@ -111,13 +111,13 @@ fn moved(case: &Case) -> Result<Motion, String> {
     let mut scene = case.scene()?;
     // Approximately critical damping of the slowest bending mode.
     scene.task = Task::Dynamics(damped(3000.0, [0.3, 0.3]));
-    let moved = Solved::new(&scene)?;
+    let moved = SolvedScene::new(&scene)?;
     scene.path.clear();
     scene.task = Task::Equilibrium(Equilibrium::default());
     let mut assembly = Assembly::build(&scene).map_err(|e| e.to_string())?;
     *assembly.system.state_mut() = moved.state().clone();
     Ok(Motion {
-        nearest: measured(case, Solved::run(assembly)?),
+        nearest: measured(case, SolvedScene::run(assembly)?),
         end: measured(case, moved),
     })
 }
@@ -126,7 +126,7 @@ fn moved(case: &Case) -> Result<Motion, String> {
 ///
 /// Such loads feed energy into rotations. With a rotational drag rate of 0.3 per ns, 10 of 32 filaments diverge and 4
 /// do not come to rest. Rotational drag has little effect on bending, because moments of inertia are small.
-fn rest(case: &Case) -> Result<Solved, String> {
+fn rest(case: &Case) -> Result<SolvedScene, String> {
     let with_energy = Model {
         balance: ForceLaw::EnergyGradient,
         ..case.model
@@ -135,7 +135,7 @@ fn rest(case: &Case) -> Result<Solved, String> {
         model: with_energy,
         ..*case
     };
-    let from = Solved::new(&from.scene()?)?;
+    let from = SolvedScene::new(&from.scene()?)?;
     let mut scene = case.scene()?;
     scene.path.clear();
     scene.task = Task::Dynamics(damped(1000.0, [1.0, 30.0]));
@@ -147,7 +147,7 @@ fn rest(case: &Case) -> Result<Solved, String> {
         start.add_control(0.0);
     }
     *assembly.system.state_mut() = start;
-    Solved::run(assembly)
+    SolvedScene::run(assembly)
 }
 
 /// Damped dynamics of at most `duration_ns`, with translational and rotational drag rates (1/ns).
@@ -170,23 +170,23 @@ fn damped(duration_ns: f64, [translational_per_ns, rotational_per_ns]: [f64; 2])
     }
 }
 
-fn measured(case: &Case, mut solved: Solved) -> Outcome {
+fn measured(case: &Case, mut solved: SolvedScene) -> Outcome {
     let found = solved.report.equilibrium.as_ref();
     Outcome {
         case: *case,
-        states: found.and_then(|f| f.states.as_ref()).map(Others::of),
+        states: found.and_then(|f| f.states.as_ref()).map(OtherStates::new),
         doubtful: solved.doubtful(),
         search: found.map(|f| (f.newton_iterations, f.points)),
         time_ns: solved.last().at.value(),
         force_evaluations: solved.report.force_evaluations,
         residual: solved.residual(),
         pose: solved.pose().without_linkers(),
-        measured: Measured::of(case, &mut solved),
+        measured: BuckledState::new(case, &mut solved),
     }
 }
 
-impl Others {
-    fn of(found: &StableStates) -> Self {
+impl OtherStates {
+    fn new(found: &StableStates) -> Self {
         let starts = found.states.iter().map(|state| state.starts);
         let lowest = found.states.first();
         Self {
@@ -197,8 +197,8 @@ impl Others {
     }
 }
 
-impl Measured {
-    fn of(case: &Case, solved: &mut Solved) -> Self {
+impl BuckledState {
+    fn new(case: &Case, solved: &mut SolvedScene) -> Self {
         let loads = solved.assembly.system.loads().clone();
         let (assembly, state) = (&solved.assembly, solved.state());
         let end = assembly.clamps.iter().find(|clamp| clamp.end == End::End);

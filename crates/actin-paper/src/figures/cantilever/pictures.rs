@@ -169,5 +169,5 @@ pub(super) fn view(draft: &mut Draft<'_>, outcomes: &[Outcome]) -> Result<(), St
     });
     let caption = "Final states of the damped motions: monomers with their semi-axes and \
         orientations, rod with a stripe along its first axis. The force acts at the tip.";
-    draft.view("fig4", Attitude::LYING, shown, caption)
+    draft.view("fig4", Attitude::HORIZONTAL, shown, caption)
 }

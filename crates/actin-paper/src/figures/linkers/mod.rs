@@ -135,7 +135,7 @@ fn solve_all(
     moving: bool,
 ) -> Result<Vec<Outcome>, String> {
     let outcomes = draft.solve(&cases(figure, draft.quick), |case| {
-        let outcome = Outcome::of(case, moving && (case.is_drawn() || case.is_drawn_mean()));
+        let outcome = Outcome::new(case, moving && (case.is_drawn() || case.is_drawn_mean()));
         outcome.map_err(|e| format!("{} {}: {e}", figure.id, case.resolution.name()))
     });
     outcomes.into_iter().collect()

@@ -87,7 +87,7 @@ fn view(figure: &Figure, draft: &mut Draft<'_>, chosen: &[&Outcome]) -> Result<(
     });
     let caption = "Certified equilibria with linkers and fixed anchors. The stripe along \
         the rod is its first axis.";
-    draft.view(figure.id, Attitude::LYING, shown, caption)
+    draft.view(figure.id, Attitude::HORIZONTAL, shown, caption)
 }
 
 impl Outcome {

@@ -22,7 +22,7 @@ type Pick = fn(&Spread) -> f64;
 
 impl Spread {
     /// Spread of one model and seed over the mixed resolutions, with the pure ones if `with_pure`.
-    fn over(outcomes: &[Outcome], model: Model, seed: u64, with_pure: bool) -> Self {
+    fn new(outcomes: &[Outcome], model: Model, seed: u64, with_pure: bool) -> Self {
         let own = outcomes
             .iter()
             .filter(|o| o.case.model == model && o.case.seed == seed);
@@ -44,7 +44,7 @@ impl Spread {
     fn over_seeds(outcomes: &[Outcome], model: Model) -> Vec<Self> {
         let seeds = 0..model.seeds(seeds(outcomes));
         seeds
-            .map(|seed| Self::over(outcomes, model, seed, false))
+            .map(|seed| Self::new(outcomes, model, seed, false))
             .collect()
     }
 
@@ -136,7 +136,7 @@ fn spreads(draft: &mut Draft<'_>, outcomes: &[Outcome], model: Model) {
 }
 
 fn with_pure(draft: &mut Draft<'_>, outcomes: &[Outcome]) {
-    let all = Spread::over(outcomes, STANDARD, 0, true);
+    let all = Spread::new(outcomes, STANDARD, 0, true);
     let note = format!("pure rod and pure monomers included; {}", all.energies());
     draft.row("energy_spread/with-pure", "", all.energy.spread(), note);
     let note = format!("between {}", all.farthest);

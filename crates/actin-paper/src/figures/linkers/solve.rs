@@ -2,7 +2,7 @@
 
 use super::Case;
 use crate::figures::centre_line::CentreLine;
-use crate::run::{Shape, Solved};
+use crate::run::{Shape, SolvedScene};
 use actin_mechanics::State;
 use actin_sim::{Assembly, Equilibrium, Part, Scene, Task};
 
@@ -56,7 +56,7 @@ pub(super) struct Outcome {
 }
 
 impl Outcome {
-    pub(super) fn of(case: &Case, moving: bool) -> Result<Self, String> {
+    pub(super) fn new(case: &Case, moving: bool) -> Result<Self, String> {
         let scene = case.scene()?;
         let starts = STARTS_DEG.iter();
         let found = starts.map(|turn| balance(&scene, &Start::Turned(*turn)));
@@ -101,11 +101,11 @@ fn balance(scene: &Scene, start: &Start<'_>) -> Result<Balance, String> {
         Start::Turned(degrees) => assembly.roll(degrees.to_radians()),
         Start::State(state) => *assembly.system.state_mut() = (*state).clone(),
     }
-    let solved = Solved::run(assembly).map_err(|error| format!("Newton: {error}"))?;
+    let solved = SolvedScene::run(assembly).map_err(|error| format!("Newton: {error}"))?;
     Ok(describe(&solved))
 }
 
-fn describe(solved: &Solved) -> Balance {
+fn describe(solved: &SolvedScene) -> Balance {
     let (assembly, state) = (&solved.assembly, solved.state());
     let known = solved.report.equilibrium.as_ref();
     let middle = assembly.linkers[1].site().frame();
@@ -119,7 +119,7 @@ fn describe(solved: &Solved) -> Balance {
         lowest: known.and_then(|e| e.lowest_eigenvalue),
         iterations: known.map_or(0, |e| e.newton_iterations),
         residual: solved.residual(),
-        centre_line: CentreLine::of(assembly, state),
+        centre_line: CentreLine::new(assembly, state),
         shape: solved.shape(),
         anchors: linkers().map(|l| l.end_position(state).into()).collect(),
         forces: linkers().map(|l| l.force(state).norm()).collect(),
@@ -128,9 +128,9 @@ fn describe(solved: &Solved) -> Balance {
 }
 
 fn motion(scene: &Scene) -> Result<Motion, String> {
-    let moved = Solved::new(scene).map_err(|error| format!("dynamics: {error}"))?;
+    let moved = SolvedScene::new(scene).map_err(|error| format!("dynamics: {error}"))?;
     let limit = balance(scene, &Start::State(moved.state()))?;
-    let end = CentreLine::of(&moved.assembly, moved.state());
+    let end = CentreLine::new(&moved.assembly, moved.state());
     let energies = moved.records.iter().map(|record| {
         let potential = record.potential_pn_nm();
         let total = potential + record.kinetic_pn_nm;

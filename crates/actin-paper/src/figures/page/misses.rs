@@ -1,7 +1,7 @@
 //! Failed comparisons with their reasons.
 
 use super::texts::{Reason, TEXTS};
-use actin_draw::page::{Explained, Misses};
+use actin_draw::page::{ExplainedMisses, Misses};
 use actin_draw::report::Row;
 
 const OPEN: &str = "The reason of the following misses is unknown. A quick run misses more than a full run, because \
@@ -13,7 +13,7 @@ pub(super) fn of<'a>(rows: impl Iterator<Item = &'a Row>) -> Misses<'a> {
         let chosen = missed.iter().copied().filter(|row| is_chosen(row));
         chosen.collect()
     };
-    let explained = TEXTS.reasons.iter().map(|reason| Explained {
+    let explained = TEXTS.reasons.iter().map(|reason| ExplainedMisses {
         artefact: &reason.artefact,
         title: &reason.title,
         text: &reason.text,
@@ -21,7 +21,7 @@ pub(super) fn of<'a>(rows: impl Iterator<Item = &'a Row>) -> Misses<'a> {
     });
     Misses {
         explained: explained.collect(),
-        open: chosen(&|row| Reason::of(row).is_none()),
+        open: chosen(&|row| Reason::from_row(row).is_none()),
         open_note: OPEN,
     }
 }
@@ -66,7 +66,8 @@ mod tests {
         let rows = report::read(&workspace_root().join("docs/report.json")).unwrap();
         let open = unexplained(&rows);
         assert!(open.is_empty(), "{}", open.join("\n"));
-        let miss = |quantity| Row::measured("fig1", quantity, "nm", 1.0, "").against(2.0, 0.5);
+        let miss =
+            |quantity| Row::measured("fig1", quantity, "nm", 1.0, "").with_paper_value(2.0, 0.5);
         let told = unexplained(&[miss("a"), miss("b")]);
         assert_eq!(told.len(), 2);
         assert_eq!(told[1], "fig1:b is missed and has 0 reasons");
@@ -76,13 +77,13 @@ mod tests {
     #[test]
     fn names_are_matched_completely() {
         let row = |artefact, quantity: &str| Row::measured(artefact, quantity, "", 0.0, "");
-        assert!(Reason::of(&row("table3", "b3/under/10")).is_some());
-        assert!(Reason::of(&row("table3", "b3/length-14/under/10")).is_none());
-        assert!(Reason::of(&row("table4", "s3")).is_some());
-        assert!(Reason::of(&row("table4", "s3_over_ea")).is_none());
-        assert!(Reason::of(&row("table5", "dl_over_l/under/100")).is_some());
-        assert!(Reason::of(&row("table4", "s1/secant/0.01")).is_none());
-        assert!(Reason::of(&row("fig8", "couple/over/180/rod")).is_none());
+        assert!(Reason::from_row(&row("table3", "b3/under/10")).is_some());
+        assert!(Reason::from_row(&row("table3", "b3/length-14/under/10")).is_none());
+        assert!(Reason::from_row(&row("table4", "s3")).is_some());
+        assert!(Reason::from_row(&row("table4", "s3_over_ea")).is_none());
+        assert!(Reason::from_row(&row("table5", "dl_over_l/under/100")).is_some());
+        assert!(Reason::from_row(&row("table4", "s1/secant/0.01")).is_none());
+        assert!(Reason::from_row(&row("fig8", "couple/over/180/rod")).is_none());
     }
 
     #[test]
@@ -93,7 +94,7 @@ mod tests {
             found.find(|row| row.quantity == quantity).unwrap()
         };
         let says = |artefact: &str, quantity: &str, text: &str| {
-            Reason::of(row(artefact, quantity))
+            Reason::from_row(row(artefact, quantity))
                 .unwrap()
                 .text
                 .contains(text)

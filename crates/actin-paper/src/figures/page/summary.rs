@@ -8,7 +8,7 @@ use actin_draw::report::{Artefact, Origin, Row};
 use maud::{Markup, html};
 
 fn all(artefacts: &[Artefact]) -> Verdicts {
-    artefacts.iter().map(|a| Verdicts::of(&a.rows)).sum()
+    artefacts.iter().map(|a| Verdicts::from_rows(&a.rows)).sum()
 }
 
 pub(super) fn head(artefacts: &[Artefact], quick: bool, version: &str) -> Markup {
@@ -141,7 +141,9 @@ fn sentences(artefacts: &[Artefact]) -> [(&'static str, &'static str, String); 3
 /// Numbers of misses by cause; empty without misses.
 fn causes(missed: &[&Row]) -> String {
     let count = |cause: Option<Cause>| {
-        let causes = missed.iter().map(|row| Reason::of(row).map(|r| r.cause));
+        let causes = missed
+            .iter()
+            .map(|row| Reason::from_row(row).map(|r| r.cause));
         causes.filter(|found| *found == cause).count()
     };
     let known = Cause::ALL.map(|cause| (count(Some(cause)), Some(cause)));
@@ -242,7 +244,7 @@ fn group(artefacts: &[Artefact], origin: Origin, title: &str) -> Markup {
 }
 
 fn line(title: &Markup, rows: &[Row], with_misses: bool) -> Markup {
-    let verdicts = Verdicts::of(rows);
+    let verdicts = Verdicts::from_rows(rows);
     let missed = rows
         .iter()
         .filter(|row| with_misses && row.pass == Some(false));

@@ -88,14 +88,14 @@ fn misses_are_counted_by_their_cause() {
     let rows = artefacts.iter().flat_map(|a| &a.rows);
     let missed: Vec<&Row> = rows.filter(|row| row.pass == Some(false)).collect();
     let words = causes(&missed);
-    let of_paper = |row: &&&Row| Reason::of(row).is_some_and(|r| r.cause == Cause::Paper);
+    let of_paper = |row: &&&Row| Reason::from_row(row).is_some_and(|r| r.cause == Cause::Paper);
     let begin = format!(
         "{} comparisons failed. In {} the paper contradicts itself; ",
         missed.len(),
         missed.iter().filter(of_paper).count()
     );
     assert!(words.starts_with(&begin), "{words}");
-    let unknown = Row::measured("fig1", "q", "nm", 1.0, "").against(2.0, 0.5);
+    let unknown = Row::measured("fig1", "q", "nm", 1.0, "").with_paper_value(2.0, 0.5);
     assert_eq!(
         causes(&[&unknown]),
         "1 comparison failed. 1 without known cause"
@@ -117,10 +117,12 @@ fn printed_numbers_come_first() {
         title: "",
         settings: String::new(),
         rows: vec![
-            row("link").against(1.0, 0.1).of(Origin::Theory),
-            row("b3/over/10").against(1.0, 0.1),
-            row("b3/over/20").against(2.0, 0.1),
-            row("b3/over/220").beside(2.0, Origin::Paper),
+            row("link")
+                .with_paper_value(1.0, 0.1)
+                .with_origin(Origin::Theory),
+            row("b3/over/10").with_paper_value(1.0, 0.1),
+            row("b3/over/20").with_paper_value(2.0, 0.1),
+            row("b3/over/220").with_reference(2.0, Origin::Paper),
         ],
         pictures: Vec::new(),
         views: Vec::new(),

@@ -91,7 +91,7 @@ impl Reason {
         row.artefact == self.artefact && self.quantities.iter().any(names)
     }
 
-    pub(super) fn of(row: &Row) -> Option<&'static Self> {
+    pub(super) fn from_row(row: &Row) -> Option<&'static Self> {
         TEXTS.reasons.iter().find(|reason| reason.covers(row))
     }
 }

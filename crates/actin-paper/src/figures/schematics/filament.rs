@@ -11,7 +11,7 @@ const PIECES: u32 = 24;
 const CLEAR_NM: f64 = 3.0;
 
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Drawn<'a> {
+pub(super) struct FilamentDrawing<'a> {
     pub assembly: &'a Assembly,
     pub state: &'a State,
     /// Drawn range of arc length (nm).
@@ -25,7 +25,7 @@ pub(super) struct BondItems {
     pub counts: [usize; 2],
 }
 
-impl<'a> Drawn<'a> {
+impl<'a> FilamentDrawing<'a> {
     /// Complete filaments in the current state of the system.
     pub(super) fn whole(assembly: &'a Assembly) -> Self {
         Self {
@@ -300,7 +300,7 @@ mod tests {
     #[test]
     fn all_filaments_are_drawn_at_their_positions() {
         let assembly = linked();
-        let drawn = Drawn::whole(&assembly);
+        let drawn = FilamentDrawing::whole(&assembly);
         let counts = assembly.counts();
         assert_eq!(drawn.monomers(1.0).len(), counts.monomers);
         assert_eq!(drawn.segments().len(), counts.segments);

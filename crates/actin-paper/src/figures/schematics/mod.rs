@@ -4,14 +4,14 @@ mod filament;
 mod style;
 
 use super::draft::{Draft, residuals};
-use crate::run::{Solved, scenario};
+use crate::run::{SolvedScene, scenario};
 use actin_draw::report::{Picture, save};
 use actin_draw::scene3d::{Item, Key, Label, Panel, Sheet, View};
 use actin_mechanics::Vector3;
 use actin_sim::shape::Ribbon;
 use actin_sim::{BodyKind, End, JunctionBond};
 use actin_view::{Attitude, Pose, bodies};
-use filament::Drawn;
+use filament::FilamentDrawing;
 use std::collections::BTreeSet;
 
 const CAPTION_1: &str = "Filament of 52 nm, clamped at the bottom, with a lateral tip force of 10 pN: (a) monomers, \
@@ -37,8 +37,8 @@ pub(super) fn figure1(draft: &mut Draft<'_>) -> Result<(), String> {
     let mut panels: Vec<Panel> = filaments
         .map(|((solved, title), k)| standing(solved, title, 8.0 + 230.0 * f64::from(k)))
         .collect();
-    let monomers = Drawn::whole(&solved[0].assembly);
-    let near = Drawn {
+    let monomers = FilamentDrawing::whole(&solved[0].assembly);
+    let near = FilamentDrawing {
         range_nm: [20.0, 33.0],
         ..monomers
     };
@@ -66,7 +66,7 @@ pub(super) fn figure1(draft: &mut Draft<'_>) -> Result<(), String> {
 const HELIX: &str = "of the helix through the centres of the bent filament, from root mean square distances to the \
     next two monomers; at rest 1.8 and 2.7385";
 
-fn bonds_of(drawn: &Drawn<'_>) -> Panel {
+fn bonds_of(drawn: &FilamentDrawing<'_>) -> Panel {
     Panel {
         title: "(d) bonds of (a)".into(),
         place: [708.0, 6.0, 324.0, 540.0],
@@ -81,7 +81,7 @@ fn bonds_of(drawn: &Drawn<'_>) -> Panel {
     }
 }
 
-fn bond_counts(draft: &mut Draft<'_>, drawn: [&Drawn<'_>; 2]) {
+fn bond_counts(draft: &mut Draft<'_>, drawn: [&FilamentDrawing<'_>; 2]) {
     for (drawn, panel) in drawn.into_iter().zip(["a", "d"]) {
         for (kind, count) in ["lateral", "longitudinal"]
             .into_iter()
@@ -98,8 +98,8 @@ fn bond_counts(draft: &mut Draft<'_>, drawn: [&Drawn<'_>; 2]) {
     }
 }
 
-fn standing(solved: &Solved, title: &str, left: f64) -> Panel {
-    let drawn = Drawn::whole(&solved.assembly);
+fn standing(solved: &SolvedScene, title: &str, left: f64) -> Panel {
+    let drawn = FilamentDrawing::whole(&solved.assembly);
     let nm_per_pn = 0.9;
     Panel {
         title: title.into(),
@@ -124,7 +124,7 @@ fn standing(solved: &Solved, title: &str, left: f64) -> Panel {
     }
 }
 
-fn forces(drawn: &Drawn<'_>, nm_per_pn: f64, offset: [f64; 2]) -> Vec<Label> {
+fn forces(drawn: &FilamentDrawing<'_>, nm_per_pn: f64, offset: [f64; 2]) -> Vec<Label> {
     let forces = bodies::forces(drawn.assembly, drawn.state).into_iter();
     let labels = forces.map(|(at, force)| Label {
         at: at + force * nm_per_pn,
@@ -144,7 +144,7 @@ fn forces(drawn: &Drawn<'_>, nm_per_pn: f64, offset: [f64; 2]) -> Vec<Label> {
 /// ```
 ///
 /// Squares are means over the monomers.
-fn radius_and_rise_nm(solved: &Solved) -> (f64, f64) {
+fn radius_and_rise_nm(solved: &SolvedScene) -> (f64, f64) {
     let points = solved.assembly.points.iter().enumerate();
     let monomers = points.filter(|(_, info)| info.kind == BodyKind::Monomer);
     let centres: Vec<Vector3> = monomers
@@ -200,7 +200,7 @@ pub(super) fn figure2(draft: &mut Draft<'_>) -> Result<(), String> {
     .into_iter()
     .map(|(title, place, view, range_nm)| joint(&solved[0], title, place, view, range_nm))
     .collect();
-    let drawn = Drawn::whole(&solved[0].assembly);
+    let drawn = FilamentDrawing::whole(&solved[0].assembly);
     panels[0].labels = bond_names(&drawn);
     bond_rows(draft, &drawn);
     let legend = [style::bodies(), vec![style::junction()], style::axes()];
@@ -213,15 +213,15 @@ pub(super) fn figure2(draft: &mut Draft<'_>) -> Result<(), String> {
 }
 
 fn joint(
-    solved: &Solved,
+    solved: &SolvedScene,
     title: &str,
     place: [f64; 4],
     (towards_viewer, up): (Vector3, Vector3),
     range_nm: [f64; 2],
 ) -> Panel {
-    let drawn = Drawn {
+    let drawn = FilamentDrawing {
         range_nm,
-        ..Drawn::whole(&solved.assembly)
+        ..FilamentDrawing::whole(&solved.assembly)
     };
     let frames: Vec<Item> = numbered_bonds(&drawn)
         .into_iter()
@@ -249,13 +249,13 @@ fn joint(
 }
 
 /// Bonds of the junction, numbered from the end of the rod.
-fn numbered_bonds(drawn: &Drawn<'_>) -> Vec<(usize, JunctionBond)> {
+fn numbered_bonds(drawn: &FilamentDrawing<'_>) -> Vec<(usize, JunctionBond)> {
     let bonds = drawn.assembly.junction_bonds();
     (1..=bonds.len()).rev().zip(bonds).collect()
 }
 
 /// Labels of monomer and frame of each bond, with offsets in pixels (right, down).
-fn bond_names(drawn: &Drawn<'_>) -> Vec<Label> {
+fn bond_names(drawn: &FilamentDrawing<'_>) -> Vec<Label> {
     let offsets = [
         [[-100.0, -120.0], [-20.0, -155.0]],
         [[-124.0, 120.0], [-20.0, 155.0]],
@@ -278,7 +278,7 @@ fn bond_names(drawn: &Drawn<'_>) -> Vec<Label> {
     labels
 }
 
-fn bond_rows(draft: &mut Draft<'_>, drawn: &Drawn<'_>) {
+fn bond_rows(draft: &mut Draft<'_>, drawn: &FilamentDrawing<'_>) {
     let rest = &drawn.assembly.rest;
     for (k, bond) in numbered_bonds(drawn) {
         let [length, rest_length] = [drawn.state, rest].map(|state| {
@@ -323,7 +323,7 @@ pub(super) fn figure3(draft: &mut Draft<'_>) -> Result<(), String> {
     )
 }
 
-fn example_panels(solved: &[Solved]) -> Vec<Panel> {
+fn example_panels(solved: &[SolvedScene]) -> Vec<Panel> {
     let (x, y, z) = (Vector3::x(), Vector3::y(), Vector3::z());
     let side = y + 0.3 * x + 0.2 * z;
     let panels = [
@@ -353,8 +353,8 @@ fn example_panels(solved: &[Solved]) -> Vec<Panel> {
     panels.collect()
 }
 
-fn example(solved: &Solved, title: &str, place: [f64; 4], towards_viewer: Vector3) -> Panel {
-    let drawn = Drawn::whole(&solved.assembly);
+fn example(solved: &SolvedScene, title: &str, place: [f64; 4], towards_viewer: Vector3) -> Panel {
+    let drawn = FilamentDrawing::whole(&solved.assembly);
     let nm_per_pn = 3.5;
     let mut items = [
         drawn.walls(8.0),
@@ -381,7 +381,7 @@ fn example(solved: &Solved, title: &str, place: [f64; 4], towards_viewer: Vector
     }
 }
 
-fn example_rows(draft: &mut Draft<'_>, solved: &[Solved]) -> Result<(), String> {
+fn example_rows(draft: &mut Draft<'_>, solved: &[SolvedScene]) -> Result<(), String> {
     let [cantilever, buckled, linked] = solved else {
         return Err("Figure 3 requires three scenes".into());
     };
@@ -411,10 +411,10 @@ fn example_rows(draft: &mut Draft<'_>, solved: &[Solved]) -> Result<(), String> 
     Ok(())
 }
 
-fn solve(draft: &Draft<'_>, names: &[&str]) -> Result<Vec<Solved>, String> {
+fn solve(draft: &Draft<'_>, names: &[&str]) -> Result<Vec<SolvedScene>, String> {
     let solved = draft.solve(names, |name| {
         let scene = scenario(&format!("{name}.ron"))?;
-        Solved::new(&scene).map_err(|e| format!("{name}.ron: {e}"))
+        SolvedScene::new(&scene).map_err(|e| format!("{name}.ron: {e}"))
     });
     solved.into_iter().collect()
 }
@@ -428,7 +428,7 @@ type Drawing<'a> = ([f64; 2], Vec<Panel>, &'a [Vec<(Key, String)>]);
 
 fn finish(
     draft: &mut Draft<'_>,
-    (names, solved): (&[&str], &[Solved]),
+    (names, solved): (&[&str], &[SolvedScene]),
     ([width, height], panels, legend): Drawing<'_>,
     caption: &str,
 ) -> Result<(), String> {
@@ -451,8 +451,8 @@ fn finish(
         .map(|(name, solved)| counted(draft, file_name(name), solved))
         .collect();
     let attitude = match draft.id {
-        "fig1" => Attitude::STANDING,
-        _ => Attitude::LYING,
+        "fig1" => Attitude::VERTICAL,
+        _ => Attitude::HORIZONTAL,
     };
     draft.settings = settings(names, solved);
     draft.view(
@@ -464,7 +464,7 @@ fn finish(
 }
 
 /// Adds rows of counts of bodies, and returns the state for the viewer.
-fn counted(draft: &mut Draft<'_>, name: &str, solved: &Solved) -> (String, String, f64, Pose) {
+fn counted(draft: &mut Draft<'_>, name: &str, solved: &SolvedScene) -> (String, String, f64, Pose) {
     let counts = solved.assembly.counts();
     for (quantity, number) in [
         ("monomers", counts.monomers),
@@ -481,7 +481,7 @@ fn counted(draft: &mut Draft<'_>, name: &str, solved: &Solved) -> (String, Strin
     ("all".to_owned(), name.to_owned(), share, solved.pose())
 }
 
-fn settings(names: &[&str], solved: &[Solved]) -> String {
+fn settings(names: &[&str], solved: &[SolvedScene]) -> String {
     let names: Vec<String> = names.iter().map(|name| format!("{name}.ron")).collect();
     let stable = solved
         .iter()
@@ -497,7 +497,7 @@ fn settings(names: &[&str], solved: &[Solved]) -> String {
          orientations, semi-axes and ends of bonds are from the state; the scale bar is valid at the middle of the \
          scene. Seed of the bonds: {}.",
         names.join(", "),
-        residuals(solved.iter().map(Solved::residual)),
+        residuals(solved.iter().map(SolvedScene::residual)),
         solved.len(),
         seeds.join(", "),
     )

@@ -1,6 +1,6 @@
 //! Colours and legends of the schematics.
 
-use crate::palette::{self, Things};
+use crate::palette::{self, BodyColours};
 use actin_draw::Colour;
 use actin_draw::scene3d::{Item, Key, Solid, Stroke};
 use actin_mechanics::Vector3;
@@ -10,16 +10,16 @@ pub(super) const ON_SURFACE_NM: f64 = 0.5;
 /// Depth offset of items inside a translucent body (nm).
 pub(super) const INSIDE_NM: f64 = 8.0;
 
-pub(super) fn of(thing: fn(&Things) -> [u8; 3]) -> Colour {
-    Colour(thing(palette::chosen().things()))
+pub(super) fn of(thing: fn(&BodyColours) -> [u8; 3]) -> Colour {
+    Colour(thing(palette::chosen().body_colours()))
 }
 
 pub(super) fn bond(kind: usize) -> Colour {
-    Colour(palette::chosen().things().bonds[kind])
+    Colour(palette::chosen().body_colours().bonds[kind])
 }
 
 pub(super) fn axis(k: usize) -> Colour {
-    Colour(palette::chosen().things().axes[k])
+    Colour(palette::chosen().body_colours().axes[k])
 }
 
 pub(super) fn monomer() -> Colour {

@@ -86,7 +86,7 @@ pub(super) struct Ensemble {
 
 /// Numbers of equilibria without certified stability or on another branch.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Doubts {
+pub(super) struct StabilityCounts {
     pub states: usize,
     pub saddles: usize,
     pub neutral: usize,
@@ -158,8 +158,8 @@ impl Ensemble {
         sample(points.iter().map(|(_, point)| value(point, table)))
     }
 
-    pub(super) fn doubts(&self, kind: Kind, entries: &[Entry]) -> Doubts {
-        let mut doubts = Doubts::default();
+    pub(super) fn doubts(&self, kind: Kind, entries: &[Entry]) -> StabilityCounts {
+        let mut doubts = StabilityCounts::default();
         for entry in entries {
             for (_, point) in self.points(kind, entry) {
                 doubts.add(&point);
@@ -188,7 +188,7 @@ impl Sampling {
     }
 }
 
-impl Doubts {
+impl StabilityCounts {
     fn add(&mut self, point: &TwistPoint) {
         self.states += 1;
         match point.evidence.stability() {

@@ -3,7 +3,7 @@
 use super::ensemble::Kind;
 use crate::figures::draft::Draft;
 use crate::figures::model::monomers as section;
-use crate::measure::{Turns, far_lengths, turns_in_bath};
+use crate::measure::{RotationCorrelations, far_lengths, turns_in_bath};
 use actin_integrate::POSITION_VERLET;
 use actin_sim::{Filament, Monomers, ellipsoid_constants as monomer};
 
@@ -50,7 +50,7 @@ fn persistence_length_um(draft: &Draft<'_>, monomers: &Monomers) -> Result<(f64,
         };
         turns_in_bath(filament, (&POSITION_VERLET, SHARE), replica)
     });
-    let all: Vec<Turns> = all.into_iter().collect::<Result<_, _>>()?;
+    let all: Vec<RotationCorrelations> = all.into_iter().collect::<Result<_, _>>()?;
     let [(length, error), _] = far_lengths(&all, monomers.rise_nm);
     Ok((1e-3 * length, 1e-3 * error))
 }

@@ -1,9 +1,9 @@
 //! Tables 3 and 5: entries of the paper compared with single filaments and ensembles.
 
-use super::ensemble::{Doubts, Ensemble, Kind, core, ensemble, turn_deg, value};
+use super::ensemble::{Ensemble, Kind, StabilityCounts, core, ensemble, turn_deg, value};
 use super::lengths;
 use crate::figures::charts::{dots, line};
-use crate::figures::draft::{Column, Draft, Measured, number};
+use crate::figures::draft::{Column, Draft, MeasuredRow, number};
 use crate::figures::expected::{Bound, DIFFERENCE};
 use crate::fit::TwistData;
 use crate::measure::TwistPoint;
@@ -19,7 +19,7 @@ const COMPARED_DEG: std::ops::RangeInclusive<f64> = 40.0..=200.0;
 const CAP: f64 = 3.5e-4;
 
 pub(in crate::figures) fn table3(draft: &mut Draft<'_>) -> Result<(), String> {
-    let twisted = Twisted::new(Table::Rigidity, draft)?;
+    let twisted = TwistTable::new(Table::Rigidity, draft)?;
     twisted.reproduce(draft)?;
     let reliable = twisted.entries.iter().filter(|e| e.is_reliable());
     let (over, under): (Vec<&Entry>, Vec<&Entry>) = reliable.partition(|e| e.direction() == "over");
@@ -43,7 +43,7 @@ pub(in crate::figures) fn table3(draft: &mut Draft<'_>) -> Result<(), String> {
 }
 
 pub(in crate::figures) fn table5(draft: &mut Draft<'_>) -> Result<(), String> {
-    Twisted::new(Table::LengthChange, draft)?.reproduce(draft)
+    TwistTable::new(Table::LengthChange, draft)?.reproduce(draft)
 }
 
 /// Twisting rigidity and change of length of our filaments at the reliable entries of the paper, for Figure 9: mean
@@ -67,7 +67,7 @@ pub(in crate::figures) fn monomers(draft: &Draft<'_>) -> Result<[TwistData; 2], 
     ])
 }
 
-struct Twisted {
+struct TwistTable {
     table: Table,
     column: &'static str,
     unit: &'static str,
@@ -75,7 +75,7 @@ struct Twisted {
     entries: Vec<Entry>,
 }
 
-impl Twisted {
+impl TwistTable {
     fn new(table: Table, draft: &Draft<'_>) -> Result<Self, String> {
         let (column, unit) = match table {
             Table::Rigidity => ("b3", "pN nm^2"),
@@ -153,7 +153,7 @@ impl Twisted {
             |note| Row::measured(draft.id, self.path("", entry), self.unit, sample.mean, note);
         if !entry.is_reliable() {
             let row = row(format!("{note}; the paper calls its value unreliable"));
-            draft.rows.push(Measured::beside(row, entry.value));
+            draft.rows.push(MeasuredRow::beside(row, entry.value));
             return;
         }
         let note = format!(
@@ -163,7 +163,7 @@ impl Twisted {
             short(along)
         );
         let tolerance = entry.rounding + along + DEVIATIONS * sample.sd;
-        let row = row(note).against(entry.value, tolerance);
+        let row = row(note).with_paper_value(entry.value, tolerance);
         draft.compared(row);
     }
 
@@ -191,7 +191,7 @@ impl Twisted {
             value(point, self.table),
             note,
         );
-        draft.rows.push(Measured::beside(row, entry.value));
+        draft.rows.push(MeasuredRow::beside(row, entry.value));
     }
 
     /// Row of the length that follows from the printed angles and twists.
@@ -216,11 +216,8 @@ impl Twisted {
 
     /// Row of the root mean square difference from the paper.
     fn rms_row(&self, draft: &mut Draft<'_>, kind: Kind) {
-        let compared = self
-            .entries
-            .iter()
-            .filter(|e| COMPARED_DEG.contains(&e.phi_deg));
-        let compared: Vec<Entry> = compared.copied().collect();
+        let is_compared = |e: &Entry| COMPARED_DEG.contains(&e.phi_deg);
+        let compared: Vec<Entry> = self.entries.iter().copied().filter(is_compared).collect();
         let differences = || {
             compared
                 .iter()
@@ -253,7 +250,9 @@ impl Twisted {
         };
         let mut row = Row::measured(draft.id, quantity, "", rms(differences()), note);
         if kind == Kind::DEFAULT {
-            row = row.against(0.0, DIFFERENCE * scale).of(Origin::Bound);
+            row = row
+                .with_paper_value(0.0, DIFFERENCE * scale)
+                .with_origin(Origin::Bound);
         }
         draft.compared(row);
     }
@@ -446,7 +445,7 @@ struct OfKind {
     kind: Kind,
     entry: Entry,
     sample: Sample,
-    doubts: Doubts,
+    doubts: StabilityCounts,
 }
 
 const KINDS: [Column<OfKind>; 14] = [

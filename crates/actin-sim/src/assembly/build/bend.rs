@@ -2,7 +2,7 @@
 
 use super::SceneParts;
 use super::strand::{Body, Strand};
-use crate::assembly::built::Built;
+use crate::assembly::built_axis::BuiltAxis;
 use crate::scene::{Curve, SceneProblem};
 use actin_cosserat::RodLayout;
 use actin_mechanics::{Vector3, rotation};
@@ -26,7 +26,7 @@ impl Strand<'_> {
             return Ok(());
         }
         let from: Vec<f64> = self.resolved.iter().map(|r| r.from_nm).collect();
-        let mut built = Built::new(Curve::of(self.filament, &from));
+        let mut built = BuiltAxis::new(Curve::new(self.filament, &from));
         self.turn_frames(frames, built.curve(), stock);
         for (i, body) in self.bodies.iter().enumerate() {
             let (from_nm, to_nm) = (self.resolved[i].from_nm, self.resolved[i].to_nm);

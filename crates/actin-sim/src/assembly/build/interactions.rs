@@ -119,7 +119,7 @@ impl Strand<'_> {
         let junction = Junction::new(&stock.state, parts);
         let junction = junction.map_err(|error| junction_problem(&error))?;
         Ok(if self.laws[rod].is_extended() {
-            junction.beside_extended_rod()
+            junction.with_extended_rod()
         } else {
             junction
         })

@@ -1,7 +1,7 @@
 //! Sites of linkers on monomers and rods.
 
 use super::{Body, Builder, Strand};
-use crate::assembly::lattice::Resolved;
+use crate::assembly::lattice::ResolvedSection;
 use crate::assembly::{Kinetics, Part};
 use crate::scene::{self, LinkerSite, SceneProblem};
 use actin_cosserat::RodLayout;
@@ -118,7 +118,7 @@ impl Builder<'_> {
         let s_nm = at.at_nm;
         // A boundary belongs to the section before it; places beyond the last monomer belong to the
         // last section.
-        let is_past = |r: &Resolved| r.to_nm < s_nm;
+        let is_past = |r: &ResolvedSection| r.to_nm < s_nm;
         let last = strand.resolved.len() - 1;
         let section = strand.resolved.partition_point(is_past).min(last);
         let azimuth = at.azimuth_deg.to_radians();

@@ -2,7 +2,7 @@
 
 use super::{Body, Builder, Strand};
 use crate::assembly::Part;
-use crate::assembly::repelled::{Repelled, Touching};
+use crate::assembly::repulsion::{RepulsionModel, SurfaceGap};
 use crate::scene::{Repulsion, SceneProblem, SphereSide};
 use actin_cosserat::RodLayout;
 use actin_coupling::repulsion::{
@@ -45,7 +45,7 @@ impl Builder<'_> {
             self.stock.push_term(Box::new(wall.clone()), part);
             walls.push((part, wall));
         }
-        let repelled = Repelled {
+        let repelled = RepulsionModel {
             capsules,
             contacts,
             walls,
@@ -59,7 +59,7 @@ impl Builder<'_> {
         Ok(())
     }
 
-    fn built_into(&self, touching: &Touching, radius: f64) -> SceneProblem {
+    fn built_into(&self, touching: &SurfaceGap, radius: f64) -> SceneProblem {
         let key = match touching.part {
             Part::Plane(i) => format!("repulsion.planes[{i}]"),
             Part::Sphere(i) => format!("repulsion.spheres[{i}]"),

@@ -39,7 +39,7 @@ const MOST_KEPT: usize = 50_000;
 
 /// Cache of sampled runs by all their parameters. Sampling is bitwise reproducible, so that results
 /// do not depend on the cache.
-static KEPT: Mutex<BTreeMap<String, (Vec<Link>, Sampled)>> = Mutex::new(BTreeMap::new());
+static KEPT: Mutex<BTreeMap<String, (Vec<Link>, InterfaceSampling)>> = Mutex::new(BTreeMap::new());
 
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Sampling {
@@ -48,7 +48,7 @@ pub(super) struct Sampling {
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Sampled {
+pub(crate) struct InterfaceSampling {
     pub(crate) monomers: usize,
     /// Relative standard error of the stiffness of one interface, averaged over all interfaces.
     pub(crate) error: f64,
@@ -56,7 +56,7 @@ pub(crate) struct Sampled {
 
 impl Sampling {
     /// Sampling of a task; `None` for tasks with bonds at interfaces.
-    pub(super) fn of(task: &Task) -> Option<Self> {
+    pub(super) fn from_task(task: &Task) -> Option<Self> {
         let Task::Brownian(task) = task else {
             return None;
         };
@@ -87,7 +87,7 @@ fn prolonged(links: &[Link], count: usize) -> Vec<Link> {
     all.copied().collect()
 }
 
-struct Alone {
+struct IsolatedStrand {
     monomers: Monomers,
     system: System,
     step: f64,
@@ -110,7 +110,7 @@ impl Strand<'_> {
     pub(super) fn sample(
         &self,
         sampling: Sampling,
-    ) -> Result<(Vec<Option<QuasiHarmonic>>, Vec<Sampled>), SceneProblem> {
+    ) -> Result<(Vec<Option<QuasiHarmonic>>, Vec<InterfaceSampling>), SceneProblem> {
         let mut chains: Vec<Option<QuasiHarmonic>> = vec![None; self.bodies.len()];
         let mut known = Vec::new();
         for sections in self.bonded_sections() {
@@ -138,7 +138,7 @@ impl Strand<'_> {
         &self,
         sections: Range<usize>,
         sampling: Sampling,
-    ) -> Result<(Vec<Link>, Sampled), SceneProblem> {
+    ) -> Result<(Vec<Link>, InterfaceSampling), SceneProblem> {
         let monomers = sections.clone().map(|i| self.monomers_of(i)).sum();
         let pieces = self.pieces(sections);
         let key = self.key(&pieces, sampling);
@@ -154,7 +154,7 @@ impl Strand<'_> {
             kept.insert(key.clone(), found);
         }
         let (links, sampled) = &kept[&key];
-        let sampled = Sampled {
+        let sampled = InterfaceSampling {
             monomers,
             ..*sampled
         };
@@ -202,7 +202,7 @@ impl Strand<'_> {
         }
     }
 
-    fn alone(&self, pieces: &[Piece]) -> Result<Alone, SceneProblem> {
+    fn alone(&self, pieces: &[Piece]) -> Result<IsolatedStrand, SceneProblem> {
         let refused = |error: &dyn std::error::Error| {
             SceneProblem::new("filament.sections", "", error.to_string())
         };
@@ -229,7 +229,7 @@ impl Strand<'_> {
         let system = System::new(state, bonds);
         let frequency = largest_frequency(&system).map_err(|error| refused(&error))?;
         let step = stable_step(&PEFRL, frequency, SHARE).map_err(|error| refused(&error))?;
-        Ok(Alone {
+        Ok(IsolatedStrand {
             monomers,
             system,
             step,
@@ -237,10 +237,13 @@ impl Strand<'_> {
     }
 }
 
-impl Alone {
-    fn sample(&self, sampling: Sampling) -> Result<(QuasiHarmonic, Sampled), SceneProblem> {
+impl IsolatedStrand {
+    fn sample(
+        &self,
+        sampling: Sampling,
+    ) -> Result<(QuasiHarmonic, InterfaceSampling), SceneProblem> {
         let parts = self.parts(sampling)?;
-        let mut all = Fluctuations::about(&self.monomers, self.system.state());
+        let mut all = Fluctuations::new(&self.monomers, self.system.state());
         for part in &parts {
             all.add_all(part);
         }
@@ -251,7 +254,7 @@ impl Alone {
         })?;
         let of_part = |part: &Fluctuations| part.distance_from(&chain, kt).powi(2);
         let variance = parts.iter().map(of_part).sum::<f64>() / (PARTS * (PARTS - 1)) as f64;
-        let sampled = Sampled {
+        let sampled = InterfaceSampling {
             monomers: self.monomers.count,
             error: variance.sqrt(),
         };
@@ -293,7 +296,7 @@ impl Alone {
         let bath = bath.map_err(|error| refused(&error))?;
         let (warm_up, apart) = (times(WARM_UP_NS, self.step), times(APART_NS, self.step));
         let states = times(sampling.duration_ns, PARTS as f64 * APART_NS);
-        let mut fluctuations = Fluctuations::about(&self.monomers, system.state());
+        let mut fluctuations = Fluctuations::new(&self.monomers, system.state());
         advance_in(&mut system, &PEFRL, self.step, warm_up, &bath, 0);
         for state in 0..states {
             let first = warm_up + state * apart;

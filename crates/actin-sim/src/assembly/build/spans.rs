@@ -14,7 +14,7 @@ impl Builder<'_> {
             let strand = &self.strands[past - 1];
             (strand, section - strand.first_section)
         };
-        let has_bonds = Sampling::of(&self.scene.task).is_none();
+        let has_bonds = Sampling::from_task(&self.scene.task).is_none();
         let of = |part: Part| match part {
             Part::Section(section) => {
                 let (strand, i) = strand_of(section);

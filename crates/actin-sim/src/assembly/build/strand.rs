@@ -2,11 +2,11 @@
 
 use super::SceneParts;
 use super::bend::check_angle;
-use crate::assembly::built::Built;
-use crate::assembly::lattice::{Lattice, Resolved, resolve};
+use crate::assembly::built_axis::BuiltAxis;
+use crate::assembly::lattice::{Lattice, ResolvedSection, resolve};
 use crate::assembly::{BodyKind, FilamentSpan, FrameInfo, PointInfo, Resolution, SectionSpan};
 use crate::assembly::{law, models};
-use crate::scene::{Clamp, End, Filament, Hinge, Hold, MOST_COUNTED, SceneProblem, Section};
+use crate::scene::{Clamp, End, Filament, Hinge, Hold, MAX_EXACT_INTEGER, SceneProblem, Section};
 use actin_cosserat::{CrossSection, EndShear, RodLayout, StraightRod, Walls};
 use actin_coupling::push_junction_frames;
 use actin_ellipsoid::{EllipsoidModel, Monomers, Placement};
@@ -33,8 +33,8 @@ pub(super) struct Strand<'a> {
     pub(super) first_section: usize,
     /// Position of arc length 0 and rotation from lab +z.
     pub(super) placement: Placement,
-    pub(super) built: Option<Built>,
-    pub(super) resolved: Vec<Resolved>,
+    pub(super) built: Option<BuiltAxis>,
+    pub(super) resolved: Vec<ResolvedSection>,
     /// Number of segments of each section; 0 for monomers.
     pub(super) segments: Vec<usize>,
     pub(super) lattice: Lattice,
@@ -79,7 +79,7 @@ impl<'a> Strand<'a> {
             built: None,
             resolved,
             segments,
-            lattice: Lattice::of(filament, is_held),
+            lattice: Lattice::new(filament, is_held),
             models: (filament.sections.iter())
                 .map(|section| models::ellipsoids(&section.monomers(monomers), index))
                 .collect::<Result<_, _>>()?,
@@ -329,7 +329,7 @@ impl<'a> Strand<'a> {
     }
 
     fn describe_rod(&self, i: usize, layout: &RodLayout, length: f64, stock: &mut SceneParts) {
-        let Resolved { from_nm, to_nm, .. } = self.resolved[i];
+        let ResolvedSection { from_nm, to_nm, .. } = self.resolved[i];
         let node = |k: usize| from_nm + k as f64 * length;
         // The node and cross-section shared with a preceding rod already exist.
         let goes_on = [i.checked_sub(1), Some(i)].map(|k| k.is_some_and(|k| self.is_joint(k)));
@@ -389,7 +389,7 @@ impl<'a> Strand<'a> {
     }
 
     fn is_joint(&self, i: usize) -> bool {
-        let is_rod = |r: &Resolved| r.monomers.is_none();
+        let is_rod = |r: &ResolvedSection| r.monomers.is_none();
         let rods = self.resolved[i..].iter().take(2).filter(|r| is_rod(r));
         rods.count() == 2
     }
@@ -448,7 +448,7 @@ pub(super) fn junction_problem(error: &actin_coupling::JunctionError) -> ScenePr
 }
 
 /// Number of segments of each section; 0 for monomers.
-fn segments(filament: &Filament, resolved: &[Resolved]) -> Result<Vec<usize>, SceneProblem> {
+fn segments(filament: &Filament, resolved: &[ResolvedSection]) -> Result<Vec<usize>, SceneProblem> {
     let sections = filament.sections.iter().zip(resolved).enumerate();
     let counts = sections.map(|(i, (section, place))| match section {
         Section::Rod { segments, .. } => segments_of_rod(i, *segments, place),
@@ -466,7 +466,7 @@ fn segments(filament: &Filament, resolved: &[Resolved]) -> Result<Vec<usize>, Sc
 fn segments_of_rod(
     i: usize,
     written: Option<usize>,
-    place: &Resolved,
+    place: &ResolvedSection,
 ) -> Result<usize, SceneProblem> {
     let (key, value, count) = if let Some(segments) = written {
         ("segments", segments.to_string(), segments as f64)
@@ -474,7 +474,7 @@ fn segments_of_rod(
         let count = (place.length_nm() / DEFAULT_SEGMENT_NM).round().max(1.0);
         ("to_nm", format!("{:?}", place.to_nm), count)
     };
-    if count <= MOST_COUNTED {
+    if count <= MAX_EXACT_INTEGER {
         return Ok(count as usize);
     }
     Err(SceneProblem::new(
@@ -487,7 +487,7 @@ fn segments_of_rod(
 /// Law of each section. `heated` contains the numbers of segments in a heat bath.
 fn laws(
     filament: &Filament,
-    resolved: &[Resolved],
+    resolved: &[ResolvedSection],
     heated: Option<&[usize]>,
 ) -> Result<Vec<law::Law>, SceneProblem> {
     let sections = filament.sections.iter().zip(resolved).enumerate();

@@ -199,7 +199,7 @@ fn events_belong_to_seed_step_and_linker() {
     of_many.retain(|e| e.linker < 3);
     assert_eq!(late, of_many);
     let mut scene = few.scene.clone();
-    assert_eq!(scene.reseed(crate::Drawn::Linkers, 6), 3);
+    assert_eq!(scene.reseed(crate::RandomPart::Linkers, 6), 3);
     let other = Assembly::build(&scene).unwrap();
     assert_ne!(late, events(&other, &mut other.rest.clone(), 500..700));
 }

@@ -50,7 +50,7 @@ impl Checkpoints {
         interrupted: Arc<AtomicBool>,
         warn: fn(&CheckpointError),
     ) -> Self {
-        let identity = Identity::of(plan);
+        let identity = Identity::new(plan);
         let records = directory.path.join(RECORDS);
         Self {
             path: directory.path.join(CHECKPOINT),

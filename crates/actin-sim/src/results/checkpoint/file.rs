@@ -47,7 +47,7 @@ pub(super) struct Contents<'a> {
 }
 
 impl Identity {
-    pub(super) fn of(plan: &Plan<'_>) -> Self {
+    pub(super) fn new(plan: &Plan<'_>) -> Self {
         let assembly = plan.assembly();
         Self {
             scene: plan.scene().to_ron(),

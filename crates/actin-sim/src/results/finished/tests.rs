@@ -53,8 +53,8 @@ fn states_survive_the_round_trip() {
             assert_eq!(state.frames.orientation, was.frames.orientation);
             assert_eq!(state.frames.angular_momentum, was.frames.angular_momentum);
             // The energy balance is not part of `states.npz`.
-            let ledger = finished.assembly().ledger;
-            let is_booked = |id| ledger.is_some_and(|all| id == all.work || id == all.heat);
+            let energy_balance = finished.assembly().energy_balance;
+            let is_booked = |id| energy_balance.is_some_and(|all| id == all.work || id == all.heat);
             for id in was.controls.ids().filter(|id| !is_booked(*id)) {
                 let (again, was) = (state.controls[id], was.controls[id]);
                 assert!((again - was).abs() < 1e-12, "{again} {was}");

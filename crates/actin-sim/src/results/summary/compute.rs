@@ -77,12 +77,12 @@ impl Summary {
             observables: Averages::of_one(assembly, last),
             smallest_gap_nm: assembly.smallest_gap_nm(&last.state),
             shape: first.shape,
-            residual: ResidualSummary::of(last),
+            residual: ResidualSummary::new(last),
             residual_floor: outcome.residual_floor().map(Into::into),
             thermal: ThermalSummary::new(assembly, &kinetic_of(last)),
             following: None,
             lowest_stiffness_eigenvalue: outcome.lowest_eigenvalue(),
-            states: StatesSummary::of(assembly, outcome),
+            states: StatesSummary::from_outcome(assembly, outcome),
             accuracy: AccuracySummary::new(assembly, outcome),
             work: WorkSummary::new(outcome),
             wall_s: outcome.wall_s,
@@ -94,7 +94,7 @@ impl Summary {
 }
 
 fn kinetic_of(record: &Record) -> LateKinetic {
-    let mut kinetic = LateKinetic::of(1);
+    let mut kinetic = LateKinetic::new(1);
     kinetic.add(record.kinetic_pn_nm);
     kinetic
 }
@@ -161,7 +161,7 @@ impl StabilitySummary {
 }
 
 impl ResidualSummary {
-    fn of(record: &Record) -> Self {
+    fn new(record: &Record) -> Self {
         Self {
             force_pn: record.residual_force_pn,
             torque_pn_nm: record.residual_torque_pn_nm,

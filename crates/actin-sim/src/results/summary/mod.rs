@@ -23,7 +23,7 @@ pub use thermal::ThermalSummary;
 
 use super::{FollowingSummary, RunDirectoryError, finite::ensure_finite};
 use crate::notes::Note;
-use crate::trade::{Chosen, ModelError, Scatter};
+use crate::trade::{ModelError, Scatter, SectionChoice};
 use crate::{
     Assembly, Counts, LawExtrapolation, ModelLimitExceeded, ObservableSummary, Outcome, SaddlePush,
     Status, UnstableTwist,
@@ -216,7 +216,7 @@ pub struct AccuracySummary {
     pub drawn_bonds: Option<Scatter>,
     /// Choice of automatic sections; key only if sections were chosen in this run.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub resolution: Option<Chosen>,
+    pub resolution: Option<SectionChoice>,
 }
 
 impl AccuracySummary {

@@ -26,7 +26,7 @@ impl ShapeSummary {
         filament: usize,
         (state, parameter): (&State, f64),
     ) -> Self {
-        let ribbon = Ribbon::of(assembly, filament, state);
+        let ribbon = Ribbon::from_state(assembly, filament, state);
         Self {
             twist_turns: ribbon.twist(),
             writhe: shape::writhe_of(assembly, filament, &ribbon),

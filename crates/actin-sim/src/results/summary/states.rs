@@ -32,7 +32,7 @@ pub struct StateSummary {
 }
 
 impl StatesSummary {
-    pub(super) fn of(assembly: &Assembly, outcome: &Outcome) -> Option<Self> {
+    pub(super) fn from_outcome(assembly: &Assembly, outcome: &Outcome) -> Option<Self> {
         let states = outcome.equilibrium.as_ref()?.states.as_ref()?;
         let one = |state: &StableState| StateSummary {
             above_result_pn_nm: state.above_result_pn_nm,

@@ -49,7 +49,7 @@ pub(in crate::results) struct LateKinetic {
 }
 
 impl LateKinetic {
-    pub(in crate::results) fn of(count: usize) -> Self {
+    pub(in crate::results) fn new(count: usize) -> Self {
         Self {
             early: count / 2,
             records: 0,
@@ -79,7 +79,7 @@ mod tests {
     fn the_temperature_is_that_of_the_second_half() {
         let cold = fixture::clamped_start();
         let records = fixture::trajectory(&cold).records;
-        assert_eq!(ThermalSummary::new(&cold, &LateKinetic::of(3)), None);
+        assert_eq!(ThermalSummary::new(&cold, &LateKinetic::new(3)), None);
         let text = cold.scene.to_ron();
         let mut scene = Scene::from_ron(&text).unwrap();
         let Task::Dynamics(dynamics) = &mut scene.task else {
@@ -95,7 +95,7 @@ mod tests {
         for (record, kinetic) in records.iter_mut().zip([5.0, 1.0, 3.0]) {
             record.kinetic_pn_nm = kinetic;
         }
-        let mut late = LateKinetic::of(3);
+        let mut late = LateKinetic::new(3);
         for record in &records {
             late.add(record.kinetic_pn_nm);
         }

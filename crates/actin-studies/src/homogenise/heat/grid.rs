@@ -17,9 +17,9 @@ const STREAMS: u64 = 1 << 20;
 const SLICES: u64 = 1 << 10;
 
 /// Curvature (rad/nm), shear, and angle between them (deg) of each point with bending and shear.
-type Bent<const N: usize> = [[f64; N]; 3];
+type BendingGrid<const N: usize> = [[f64; N]; 3];
 
-const BENT: Bent<12> = [
+const BENT: BendingGrid<12> = [
     [
         0.0, 5e-3, 0.01, 0.0, 0.0, 5e-3, 5e-3, 5e-3, 0.01, 5e-3, 0.01, 0.01,
     ],
@@ -31,12 +31,12 @@ const BENT: Bent<12> = [
     ],
 ];
 /// Strains due to thermal motion of short rod segments: in 10 nm, shear varies by 0.02 and stretch by 5e-3.
-const WIDE: Bent<8> = [
+const WIDE: BendingGrid<8> = [
     [0.0, 0.01, 0.0, 0.0, 0.0, 0.01, 0.01, 0.01],
     [0.0, 0.0, 0.015, 0.03, 0.05, 0.03, 0.03, 0.03],
     [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 90.0, 180.0],
 ];
-const QUICK: Bent<4> = [[0.0, 0.01, 0.0, 5e-3], [0.0, 0.0, 0.015, 7.5e-3], [0.0; 4]];
+const QUICK: BendingGrid<4> = [[0.0, 0.01, 0.0, 5e-3], [0.0, 0.0, 0.015, 7.5e-3], [0.0; 4]];
 
 #[derive(Clone, Debug, PartialEq)]
 struct HeatAxes {
@@ -49,7 +49,12 @@ struct HeatAxes {
 
 impl HeatAxes {
     /// Creates axes from positive twists, to which opposite twists and zero are added.
-    fn new<const N: usize>(half: &[f64], extension: &[f64], bent: &Bent<N>, quick: bool) -> Self {
+    fn new<const N: usize>(
+        half: &[f64],
+        extension: &[f64],
+        bent: &BendingGrid<N>,
+        quick: bool,
+    ) -> Self {
         let both = half.iter().flat_map(|x| [*x, -x]);
         Self {
             twist: [0.0].into_iter().chain(both).collect(),
@@ -113,7 +118,7 @@ fn slices(
     for (i, twist) in axes.twist.iter().enumerate() {
         let key = format!("version {VERSION}, {parameters:?}, kT {kt}, {axes:?}, {twist}");
         let first = STREAMS * (SLICES * set + i as u64 + 1);
-        let rows = rows::kept(&path(i), &key, Some(axes.points()), || {
+        let rows = rows::cached(&path(i), &key, Some(axes.points()), || {
             slice(cell, kt, axes, i, first)
         })?;
         all.extend(rows);

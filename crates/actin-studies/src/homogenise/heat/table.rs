@@ -3,7 +3,7 @@
 use super::heat;
 use super::natural::{Natural, natural, straight};
 use actin_draw::report::save;
-use actin_paper::cells::{self, FREE, NONE, PERIOD, relax};
+use actin_paper::cells::{self, PERIOD, ZERO_LOAD, ZERO_STRAIN, relax};
 use actin_sim::ellipsoid::{Cell, Control, EllipsoidParameters, HeatResponse, Hold, SixMatrix};
 use rayon::prelude::*;
 use std::fmt::Write as _;
@@ -35,7 +35,7 @@ pub(super) fn run(out: &Path, kt: f64, quick: bool) -> Result<(), String> {
     let sizes = if quick { vec![1] } else { vec![1, 2] };
     let samples = if quick { 4000 } else { 16_000 };
     let cells = sizes.par_iter().map(|&periods: &usize| {
-        let cell = cells::of(
+        let cell = cells::with_parameters(
             EllipsoidParameters::default(),
             periods * PERIOD,
             Hold::Means,
@@ -68,7 +68,7 @@ fn printed(sizes: &[usize], relaxed: &[Option<f64>], cells: &[Vec<Number>]) -> S
 fn numbers(cell: &Cell, kt: f64, samples: usize, stream: u64) -> Result<Vec<Number>, String> {
     let free = natural(cell, kt, None, stream)?;
     let held = || straight(cell, kt, &free, samples, stream + 100);
-    let moving = || cell.sample(&[FREE; 6], &heat(kt, samples, stream + 200), None);
+    let moving = || cell.sample(&[ZERO_LOAD; 6], &heat(kt, samples, stream + 200), None);
     let (held, moving) = rayon::join(held, moving);
     let (held, moving) = (held?, moving.map_err(|e| e.to_string())?);
     let mut all = of_tangent(&free, &held);
@@ -145,8 +145,8 @@ fn relaxed() -> Result<[Option<f64>; NAMES.len()], String> {
     let mut all = [None; NAMES.len()];
     (all[0], all[1]) = (Some(0.0), Some(0.0));
     for (row, k, value) in [(2, 0, 1e-3), (4, 2, 3e-3), (6, 3, 1e-3), (8, 5, 1e-3)] {
-        all[row] = Some(load(k, value, NONE)?);
-        all[row + 1] = Some(load(k, value, FREE)?);
+        all[row] = Some(load(k, value, ZERO_STRAIN)?);
+        all[row + 1] = Some(load(k, value, ZERO_LOAD)?);
     }
     Ok(all)
 }

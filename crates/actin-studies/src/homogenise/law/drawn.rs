@@ -35,20 +35,20 @@ pub(super) fn run(out: &Path, axes: &Axes, pure: &[&Row]) -> Result<(), String> 
         "version {VERSION}, {CELLS} cells, {EACH} a load, {:?}",
         form.natural()
     );
-    let kept = |name: &str, compute: &dyn Fn() -> Result<Vec<Row>, String>| {
-        rows::kept(&out.join(format!("drawn-{name}.csv")), &key, None, || {
+    let cached = |name: &str, compute: &dyn Fn() -> Result<Vec<Row>, String>| {
+        rows::cached(&out.join(format!("drawn-{name}.csv")), &key, None, || {
             let rows = compute()?;
             println!("{name}: {} drawn cells", rows.len());
             Ok(rows)
         })
     };
-    let loaded = kept("loaded", &|| {
+    let loaded = cached("loaded", &|| {
         Ok(loaded::rows((&cells, EACH), &form, 0, LOADED))
     })?;
-    let pure = kept("pure", &|| samples::again(&cells, pure))?;
-    let strained = kept("strained", &|| samples::strained(&cells, &form, &STRAINED))?;
-    let bent = kept("bent", &|| samples::strained(&cells, &form, &[BENT]))?;
-    let others = kept("others", &|| {
+    let pure = cached("pure", &|| samples::again(&cells, pure))?;
+    let strained = cached("strained", &|| samples::strained(&cells, &form, &STRAINED))?;
+    let bent = cached("bent", &|| samples::strained(&cells, &form, &[BENT]))?;
+    let others = cached("others", &|| {
         Ok(loaded::rows(
             (&self::cells(OTHERS)?, EACH),
             &form,
@@ -66,7 +66,9 @@ pub(super) fn run(out: &Path, axes: &Axes, pure: &[&Row]) -> Result<(), String> 
 
 fn cells(first: u64) -> Result<Vec<Cell>, String> {
     let seeds = (first..first + CELLS).into_par_iter();
-    seeds.map(|seed| cells::drawn(seed, 2 * PERIOD)).collect()
+    seeds
+        .map(|seed| cells::with_sampled_bonds(seed, 2 * PERIOD))
+        .collect()
 }
 
 fn form(cells: &[Cell], axes: &Axes) -> Result<HomogenisedForm, String> {

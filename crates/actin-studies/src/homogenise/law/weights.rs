@@ -162,6 +162,6 @@ fn entries(row: &Row) -> Vec<((usize, usize), f64)> {
         let beside = if i == j { 1.0 } else { BESIDE };
         beside / (TANGENT * (size(i) * size(j)).sqrt())
     };
-    let kept = upper().filter(|_| is_firm);
-    kept.map(|place| (place, weight(place))).collect()
+    let cached = upper().filter(|_| is_firm);
+    cached.map(|place| (place, weight(place))).collect()
 }

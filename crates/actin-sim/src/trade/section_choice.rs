@@ -23,7 +23,7 @@ const BONDS_PER_SEGMENT: f64 = 15.0;
 
 /// Chosen sections, with the reasons of the choice.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Chosen {
+pub struct SectionChoice {
     /// Wanted quantities, with the names of `actin trade`, and their largest relative errors.
     pub wanted: Vec<(String, f64)>,
     /// Limit of the number of monomers; `None` without a limit.
@@ -44,7 +44,7 @@ pub struct Chosen {
     pub wall_s: f64,
 }
 
-impl Chosen {
+impl SectionChoice {
     /// Returns the choice and its errors as a note, or as a warning if the wanted errors are not met.
     pub(crate) fn note(&self) -> Note {
         let wanted = self.wanted.iter();
@@ -95,9 +95,9 @@ impl Chosen {
 ///
 /// # Errors
 /// Scenes without a reference, wanted quantities without a counterpart in the scene, a reference without a result.
-pub(crate) fn choose(scene: &Scene) -> Result<(Scene, Chosen), SceneProblem> {
+pub(crate) fn choose(scene: &Scene) -> Result<(Scene, SectionChoice), SceneProblem> {
     let began = Instant::now();
-    let choice = Choice::of(scene)?;
+    let choice = Choice::new(scene)?;
     let is_equilibrium = matches!(scene.task, Task::Equilibrium(_));
     let (written, mut chosen) = if is_equilibrium && choice.most_monomers.is_none() {
         choice.every_monomer()?
@@ -118,7 +118,7 @@ struct Choice<'a> {
 }
 
 impl<'a> Choice<'a> {
-    fn of(scene: &'a Scene) -> Result<Self, SceneProblem> {
+    fn new(scene: &'a Scene) -> Result<Self, SceneProblem> {
         if scene.thermal().is_some() {
             let rule = "sections are chosen for motion without heat only: in heat, write sections and compare means over \
                         seeds with `actin trade`";
@@ -129,8 +129,8 @@ impl<'a> Choice<'a> {
             .map(|filament| filament.sections.adaptive())
             .collect();
         let adaptive: Vec<bool> = all.iter().map(Option::is_some).collect();
-        let wants = all.iter().flatten().flat_map(|one| one.wants());
-        let wanted = wants.map(|want| (want.quantity().into(), want.error()));
+        let targets = all.iter().flatten().flat_map(|one| one.targets());
+        let wanted = targets.map(|want| (want.quantity().into(), want.error()));
         let limits = all.iter().flatten().map(|one| one.monomers);
         Ok(Self {
             scene,
@@ -140,9 +140,9 @@ impl<'a> Choice<'a> {
         })
     }
 
-    fn chosen(&self, name: &str, monomers: usize) -> Chosen {
+    fn chosen(&self, name: &str, monomers: usize) -> SectionChoice {
         let wanted = self.wanted.iter();
-        Chosen {
+        SectionChoice {
             wanted: wanted
                 .map(|(measure, error)| (measure.to_string(), *error))
                 .collect(),
@@ -180,7 +180,7 @@ impl<'a> Choice<'a> {
         Measurer::new(assembly, &measures)
     }
 
-    fn every_monomer(&self) -> Result<(Scene, Chosen), SceneProblem> {
+    fn every_monomer(&self) -> Result<(Scene, SectionChoice), SceneProblem> {
         let (full, assembly) = self.full_resolution()?;
         self.measurer(&assembly)?;
         let monomers = assembly.counts().monomers;
@@ -206,7 +206,7 @@ impl<'a> Choice<'a> {
         scene
     }
 
-    fn by_trial(&self) -> Result<(Scene, Chosen), SceneProblem> {
+    fn by_trial(&self) -> Result<(Scene, SectionChoice), SceneProblem> {
         let (full, assembly) = self.full_resolution()?;
         let mut measurer = self.measurer(&assembly)?;
         let records = records_of(&assembly)?;

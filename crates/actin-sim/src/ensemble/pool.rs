@@ -1,13 +1,13 @@
 //! Worker threads that run replicas.
 
-use super::sink::Stop;
+use super::sink::ReplicaStop;
 use super::{Ensemble, EnsembleError};
 use crate::RunError;
 use std::num::NonZeroUsize;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-pub(super) struct Crew<'a, F, T> {
+pub(super) struct ReplicaPool<'a, F, T> {
     ensemble: &'a Ensemble<'a>,
     /// Runs a replica, unless interrupted.
     make: &'a F,
@@ -16,10 +16,10 @@ pub(super) struct Crew<'a, F, T> {
     /// First replica with an error. Later replicas are no longer needed; earlier ones may still
     /// fail.
     first_failed: AtomicUsize,
-    made: Mutex<Made<T>>,
+    made: Mutex<FinishedReplicas<T>>,
 }
 
-struct Made<T> {
+struct FinishedReplicas<T> {
     /// Observations of each replica.
     observed: Vec<Option<T>>,
     /// Number of completed replicas.
@@ -28,9 +28,9 @@ struct Made<T> {
     error: Option<(usize, RunError)>,
 }
 
-impl<'a, F, T: Send> Crew<'a, F, T>
+impl<'a, F, T: Send> ReplicaPool<'a, F, T>
 where
-    F: Fn(usize, &Stop<'_>) -> Result<Option<T>, RunError> + Sync,
+    F: Fn(usize, &ReplicaStop<'_>) -> Result<Option<T>, RunError> + Sync,
 {
     pub(super) fn new(ensemble: &'a Ensemble<'a>, make: &'a F) -> Self {
         let count = ensemble.seeds.len();
@@ -39,7 +39,7 @@ where
             make,
             next: AtomicUsize::new(0),
             first_failed: AtomicUsize::new(usize::MAX),
-            made: Mutex::new(Made {
+            made: Mutex::new(FinishedReplicas {
                 observed: (0..count).map(|_| None).collect(),
                 ended: 0,
                 error: None,
@@ -77,7 +77,7 @@ where
     fn work(&self) {
         loop {
             let index = self.next.fetch_add(1, Ordering::Relaxed);
-            let stop = Stop {
+            let stop = ReplicaStop {
                 index,
                 first_failed: &self.first_failed,
                 interrupted: self.ensemble.interrupted,
@@ -106,7 +106,7 @@ where
         }
     }
 
-    fn made(&self) -> MutexGuard<'_, Made<T>> {
+    fn made(&self) -> MutexGuard<'_, FinishedReplicas<T>> {
         self.made.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }

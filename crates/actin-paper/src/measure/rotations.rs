@@ -24,7 +24,7 @@ const SAMPLES: u32 = 400;
 
 /// Means over samples of one filament, indexed by the separation of frames.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Turns {
+pub struct RotationCorrelations {
     /// `<cos theta>`.
     pub cosine: Vec<f64>,
     /// `<phi>` (rad) of each pair of frames.
@@ -33,7 +33,7 @@ pub struct Turns {
     pub square_twist: Vec<f64>,
 }
 
-impl Turns {
+impl RotationCorrelations {
     /// Zero means for a filament with this number of frames.
     pub fn new(frames: usize) -> Self {
         Self {
@@ -81,7 +81,7 @@ impl Turns {
     }
 }
 
-fn mean(replicas: &[&Turns], value: impl Fn(&Turns) -> f64) -> f64 {
+fn mean(replicas: &[&RotationCorrelations], value: impl Fn(&RotationCorrelations) -> f64) -> f64 {
     let sum: f64 = replicas.iter().map(|turns| value(turns)).sum();
     sum / replicas.len() as f64
 }
@@ -92,7 +92,7 @@ pub(crate) fn turns_in_bath(
     filament: Filament,
     (scheme, share): (&Composition, f64),
     replica: u64,
-) -> Result<Turns, String> {
+) -> Result<RotationCorrelations, String> {
     let mut scene = free("Free filament in a heat bath", filament);
     scene.task = Task::Dynamics(heated(replica + 1));
     let mut assembly = Assembly::build(&scene).map_err(|e| e.to_string())?;
@@ -101,7 +101,7 @@ pub(crate) fn turns_in_bath(
     let drag = Drag::new(DRAG, DRAG).map_err(|e| e.to_string())?;
     let bath = Bath::new(drag, ROOM_PN_NM, replica + 1).map_err(|e| e.to_string())?;
     let (warm_up, apart) = (steps_in(WARM_UP_NS, step), steps_in(APART_NS, step));
-    let mut turns = Turns::new(assembly.rest.frames.len());
+    let mut turns = RotationCorrelations::new(assembly.rest.frames.len());
     advance_in(&mut assembly.system, scheme, step, warm_up, &bath, 0);
     for sample in 0..SAMPLES {
         let first = warm_up + u64::from(sample) * apart;
@@ -129,15 +129,18 @@ fn heated(seed: u64) -> Dynamics {
 /// Persistence length (nm) and twisting rigidity over kT (nm) with their standard errors. The
 /// slopes between 1/5 and 3/5 of the length exclude local fluctuations of single monomers. The
 /// distance between frames is `apart_nm`.
-pub(crate) fn far_lengths(all: &[Turns], apart_nm: f64) -> [(f64, f64); 2] {
+pub(crate) fn far_lengths(all: &[RotationCorrelations], apart_nm: f64) -> [(f64, f64); 2] {
     let count = all[0].cosine.len();
     let (from, to) = (count / 5, 3 * count / 5);
-    let slope = |value: &dyn Fn(&[&Turns], usize) -> f64| {
+    let slope = |value: &dyn Fn(&[&RotationCorrelations], usize) -> f64| {
         jackknife(all, |chosen| {
             (to - from) as f64 * apart_nm / (value(chosen, to) - value(chosen, from))
         })
     };
-    [slope(&Turns::tilt), slope(&Turns::twist_variance)]
+    [
+        slope(&RotationCorrelations::tilt),
+        slope(&RotationCorrelations::twist_variance),
+    ]
 }
 
 /// Number of steps of `h` in a duration, rounded up.
@@ -197,7 +200,7 @@ mod tests {
         };
         let rest = state([Vector3::zeros(); 3]);
         let (tilt, twist) = (Vector3::x() * 0.3, Vector3::z() * 0.4);
-        let mut turns = Turns::new(3);
+        let mut turns = RotationCorrelations::new(3);
         turns.add(&rest, &state([Vector3::zeros(), tilt, twist]), 1);
         assert!((turns.cosine[0] - 1.0).abs() < 1e-15 && turns.square_twist[0].abs() < 1e-15);
         // Separation 2: first and third only.
@@ -207,7 +210,7 @@ mod tests {
         assert!((turns.square_twist[2] - 0.16).abs() < 1e-15);
         // One sample: its variance is zero, although the pairs of separation 1 differ.
         for k in [1, 2] {
-            assert!(Turns::twist_variance(&[&turns], k).abs() < 1e-15);
+            assert!(RotationCorrelations::twist_variance(&[&turns], k).abs() < 1e-15);
         }
         // Separation 1: only the pair of the first two has tilt.
         let of_second = 2.0 * turns.cosine[1] - 0.3_f64.cos();

@@ -6,19 +6,19 @@ use crate::{ControlId, Drive, Interaction, Loads, State, Vectors, rotation};
 ///
 /// The energy of a trajectory minus work and heat is constant to the error of the integrator.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Ledger {
+pub struct EnergyBalance {
     /// Work done by driven bodies and controls (pN nm).
     pub work: ControlId,
     /// Heat added by noise minus heat removed by drag (pN nm).
     pub heat: ControlId,
 }
 
-impl Ledger {
+impl EnergyBalance {
     /// Adds the work of `drive` over a time `t` (ns) at the present positions, where `loads` act.
     ///
     /// To be called with each kick: the sum then has the order of the integrator, because this is
     /// the kick of the momentum conjugate to time.
-    pub(crate) fn book_work(
+    pub(crate) fn record_work(
         &self,
         state: &mut State,
         (drive, interactions): (&dyn Drive, &[Box<dyn Interaction>]),

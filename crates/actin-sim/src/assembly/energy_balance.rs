@@ -2,7 +2,7 @@
 
 use super::{Assembly, Ramp};
 use crate::scene::Task;
-use actin_mechanics::{Ledger, State};
+use actin_mechanics::{EnergyBalance, State};
 use serde::{Deserialize, Serialize};
 
 /// Energy (pN nm) received from the surroundings up to a record.
@@ -30,8 +30,8 @@ impl EnergyExchange {
 pub(crate) type Column = (&'static str, fn(&EnergyExchange) -> f64);
 
 /// Adds the energy balance of a motion to a state under construction; `None` for other tasks.
-pub(super) fn of_motion(task: &Task, state: &mut State) -> Option<Ledger> {
-    (!matches!(task, Task::Equilibrium(_))).then(|| Ledger {
+pub(super) fn of_motion(task: &Task, state: &mut State) -> Option<EnergyBalance> {
+    (!matches!(task, Task::Equilibrium(_))).then(|| EnergyBalance {
         work: state.add_control(0.0),
         heat: state.add_control(0.0),
     })
@@ -42,8 +42,8 @@ impl Assembly {
     ///
     /// States read from files do not contain it; read `energies.csv` instead.
     pub fn booked(&self, state: &State) -> EnergyExchange {
-        let [work_pn_nm, heat_pn_nm] = self.ledger.map_or([0.0; 2], |ledger| {
-            [ledger.work, ledger.heat].map(|control| state.controls[control])
+        let [work_pn_nm, heat_pn_nm] = self.energy_balance.map_or([0.0; 2], |energy_balance| {
+            [energy_balance.work, energy_balance.heat].map(|control| state.controls[control])
         });
         let events = self.kinetics.as_ref().map(|all| all.booked(state));
         EnergyExchange {
@@ -56,9 +56,12 @@ impl Assembly {
     /// Returns the columns of the exchanges that occur in this scene.
     pub(crate) fn booked_columns(&self) -> Vec<Column> {
         let (is_driven, has_drag) = match &self.scene.task {
-            Task::Dynamics(dynamics) => (Ramp::of(self).is_some(), dynamics.has_drag()),
+            Task::Dynamics(dynamics) => (Ramp::from_assembly(self).is_some(), dynamics.has_drag()),
             // Heat from noise is not recorded.
-            Task::Brownian(task) => (Ramp::of(self).is_some(), task.thermal().is_none()),
+            Task::Brownian(task) => (
+                Ramp::from_assembly(self).is_some(),
+                task.thermal().is_none(),
+            ),
             Task::Equilibrium(_) => (false, false),
         };
         let mut columns: Vec<Column> = Vec::new();

@@ -9,18 +9,18 @@ use actin_mechanics::{UnitQuaternion, Vector3};
 /// and have their rest length, so that the end of a rod deviates from the curve. Later sections are
 /// shifted with that end.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Built {
+pub(crate) struct BuiltAxis {
     curve: Curve,
-    sections: Vec<Shifted>,
+    sections: Vec<ShiftedSection>,
 }
 
 #[derive(Clone, Debug, PartialEq)]
-struct Shifted {
+struct ShiftedSection {
     span: [f64; 2],
     shifts: [Vector3; 2],
 }
 
-impl Built {
+impl BuiltAxis {
     pub(super) fn new(curve: Curve) -> Self {
         Self {
             curve,
@@ -38,7 +38,7 @@ impl Built {
 
     pub(super) fn push(&mut self, span: [f64; 2], shift: Vector3) {
         let shifts = [self.last_shift(), shift];
-        self.sections.push(Shifted { span, shifts });
+        self.sections.push(ShiftedSection { span, shifts });
     }
 
     pub(crate) fn at(&self, s_nm: f64) -> (Vector3, UnitQuaternion) {

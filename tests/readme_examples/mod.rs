@@ -107,7 +107,7 @@ fn parameters_and_laws_are_written_and_read_with_the_feature_serde() {
         );
     }
     comes_back(&EllipsoidParameters::default());
-    comes_back(&EllipsoidParameters::drawn(64, 3));
+    comes_back(&EllipsoidParameters::with_sampled_bonds(64, 3));
     comes_back(&Rigidities::table4());
     comes_back(&TwistLaw::Tanh(TanhTwist::published()));
     comes_back(&Stiffening {

@@ -21,7 +21,7 @@ pub(super) fn unknown_choice(found: &str, known: &[&'static str], kind: &str) ->
 }
 
 /// Known key or choice closest to an unknown one.
-pub(super) fn meant(found: &str, known: &[&'static str]) -> Option<String> {
+pub(super) fn suggestion(found: &str, known: &[&'static str]) -> Option<String> {
     if found.len() > LONGEST_KEY {
         return None;
     }
@@ -50,8 +50,8 @@ fn key_of_unit(known: &[&'static str], found: &str) -> Option<&'static str> {
         let rest = found.strip_prefix(stem);
         stem != **key && rest.is_some_and(|rest| rest.is_empty() || rest.starts_with('_'))
     };
-    let meant = known.iter().filter(is_meant);
-    meant.max_by_key(|key| key.len()).copied()
+    let suggestion = known.iter().filter(is_meant);
+    suggestion.max_by_key(|key| key.len()).copied()
 }
 
 fn stem(key: &str) -> &str {

@@ -11,7 +11,7 @@ pub(super) struct Form {
 }
 
 #[derive(Clone, Debug)]
-pub(crate) struct Found {
+pub(crate) struct ParameterFit {
     pub fit: Fit,
     pub(super) form: &'static Form,
     pub(super) bounds: Vec<(f64, f64)>,
@@ -26,7 +26,7 @@ pub(crate) struct Fault {
     is_bound: bool,
 }
 
-impl Found {
+impl ParameterFit {
     /// Searches within bounds with the default settings.
     pub(super) fn search(
         form: &'static Form,

@@ -3,13 +3,13 @@
 use super::case::{self, Bound, Group};
 use super::filament;
 use super::row::Row;
-use super::{Effort, monomers, of_law, picture};
+use super::{CaseExtent, monomers, of_law, picture};
 use actin_draw::report::{self, Origin};
 use std::path::Path;
 
 /// The load case, the quantity, and the result of the rod against the mean filament. For shapes the
 /// result is the distance of centre lines, for mixed filaments the spread.
-pub(crate) type Compared = (String, String, report::Row);
+pub(crate) type ComparedQuantity = (String, String, report::Row);
 
 /// Runs all load cases of a law with segments of 10 nm and draws `load-cases.svg`. A quick run
 /// omits trajectories, whose numbers depend on rounding. `done` is called after each filament of
@@ -19,17 +19,17 @@ pub(crate) fn compared(
     quick: bool,
     out: &Path,
     done: &(dyn Fn() + Sync),
-) -> Result<Vec<Compared>, String> {
+) -> Result<Vec<ComparedQuantity>, String> {
     let law = filament::law(name)?;
     let cases = case::all(quick);
     let monomers = monomers(None, &cases, quick, &|_| done())?;
-    let effort = Effort {
+    let effort = CaseExtent {
         quick,
         only_coarse: true,
     };
     let rows = of_law(&(name.to_owned(), law), &cases, &monomers, effort);
     picture::draw(out, &rows)?;
-    let mut all: Vec<Compared> = rows.iter().filter_map(of_row).collect();
+    let mut all: Vec<ComparedQuantity> = rows.iter().filter_map(of_row).collect();
     let unsolved = (rows.len() - all.len()) as f64;
     let note = "quantities of cases in which the rod has no equilibrium";
     let unsolved = judged(("", unsolved, note.to_owned()), Some((0.0, 0.0)));
@@ -40,13 +40,15 @@ pub(crate) fn compared(
 fn judged((unit, ours, note): (&'static str, f64, String), to: Option<(f64, f64)>) -> report::Row {
     let row = report::Row::measured("law", "", unit, ours, note);
     match to {
-        Some((expected, largest)) => row.against(expected, largest).of(Origin::Bound),
+        Some((expected, largest)) => row
+            .with_paper_value(expected, largest)
+            .with_origin(Origin::Bound),
         None => row,
     }
 }
 
 /// `None` without an equilibrium of the rod.
-fn of_row(row: &Row) -> Option<Compared> {
+fn of_row(row: &Row) -> Option<ComparedQuantity> {
     let mean = row.mean.map(|sampled| sampled.mean);
     let relative = |bound: f64| (row.rod, mean.map(|m| (m, bound * m.abs())));
     let (rod, to) = match row.bound {

@@ -1,13 +1,13 @@
 //! Fits of a user's table: one rod law for each group of columns.
 
 use super::column::Column;
-use super::found::{self, Fault, Found};
+use super::parameter_fit::{self, Fault, ParameterFit};
 use super::pictures::{self, LawCurve};
 use super::search::{LawFit, rooted, sided, stiffened, stretched};
 use super::table::Table;
 use super::twist::rms;
 use super::{print, write};
-use crate::Tell;
+use crate::ProgressSink;
 use actin_cosserat::{RootedStretch, SidedTwist, Stiffening, StretchLaw, TwistStretch};
 use actin_draw::report::write_csv;
 use actin_fit::{Goodness, Model};
@@ -15,8 +15,8 @@ use actin_sim::{BendLaw, RodLaws, TwistLaw};
 use std::path::Path;
 
 #[derive(Clone, Debug)]
-pub(super) struct OwnFits {
-    twist: Option<(SidedTwist, Found)>,
+pub(super) struct UserTableFits {
+    twist: Option<(SidedTwist, ParameterFit)>,
     length: Option<LawFit<RootedStretch>>,
     bend: Option<LawFit<Stiffening>>,
     stretch: Option<LawFit<StretchLaw>>,
@@ -27,12 +27,12 @@ pub(super) fn run(
     path: &Path,
     allowed: &[String],
     out: &Path,
-    tell: Tell<'_>,
+    tell: ProgressSink<'_>,
 ) -> Result<(), String> {
     let table = Table::from_csv(path)?;
-    let fits = OwnFits::new(&table)?;
+    let fits = UserTableFits::new(&table)?;
     fits.print(tell, &table);
-    found::accept(&fits.faults(), allowed)?;
+    parameter_fit::accept(&fits.faults(), allowed)?;
     write::create(out)?;
     write::law(&fits.laws(), "rod-law.ron", out)?;
     for curve in fits.curves(&table) {
@@ -56,7 +56,7 @@ fn fit<L>(
     (!column.is_empty()).then(|| fit(column)).transpose()
 }
 
-impl OwnFits {
+impl UserTableFits {
     pub(super) fn new(table: &Table) -> Result<Self, String> {
         Ok(Self {
             twist: fit(&table.rigidity, sided)?,
@@ -89,7 +89,7 @@ impl OwnFits {
         }
     }
 
-    fn print(&self, tell: Tell<'_>, table: &Table) {
+    fn print(&self, tell: ProgressSink<'_>, table: &Table) {
         tell(format_args!("data: {}", table.source));
         if let Some((law, found)) = &self.twist {
             let form = "B3 = rest + rise k^2/(k^2 + slow |k| + half^2)";
@@ -172,7 +172,7 @@ fn strain(law: StretchLaw, force: f64) -> f64 {
     }
 }
 
-fn head(tell: Tell<'_>, form: &str, column: &Column) {
+fn head(tell: ProgressSink<'_>, form: &str, column: &Column) {
     let weights = if column.is_known() {
         "weighted by their standard errors"
     } else {
@@ -182,7 +182,7 @@ fn head(tell: Tell<'_>, form: &str, column: &Column) {
 }
 
 /// Prints the deviations of a law from its data.
-fn quality(tell: Tell<'_>, column: &Column, goodness: &Goodness, law: impl Fn(f64) -> f64) {
+fn quality(tell: ProgressSink<'_>, column: &Column, goodness: &Goodness, law: impl Fn(f64) -> f64) {
     if column.is_known() {
         print::chi_squared(tell, goodness);
     }

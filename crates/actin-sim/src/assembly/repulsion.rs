@@ -7,7 +7,7 @@ use actin_integrate::FrequencyError;
 use actin_mechanics::{Interaction, State, System};
 
 #[derive(Clone, Debug)]
-pub(crate) struct Repelled {
+pub(crate) struct RepulsionModel {
     pub(super) capsules: Vec<Capsule>,
     pub(super) contacts: Option<Contacts>,
     pub(super) walls: Vec<(Part, WallContact)>,
@@ -15,7 +15,7 @@ pub(crate) struct Repelled {
 }
 
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Touching {
+pub(crate) struct SurfaceGap {
     pub(crate) part: Part,
     pub(crate) gap: Gap,
     /// Indices of both filaments; equal for a wall.
@@ -25,14 +25,14 @@ pub(crate) struct Touching {
     pub(crate) limit: f64,
 }
 
-impl Repelled {
+impl RepulsionModel {
     pub(crate) fn pairs(&self, state: &State) -> usize {
         let contacts = self.contacts.as_ref();
         contacts.map_or(0, |contacts| contacts.pairs(state))
     }
 
     /// Nearest pair of filament surfaces, and nearest surface to each wall, if within range.
-    pub(crate) fn touching(&self, state: &State) -> Vec<Touching> {
+    pub(crate) fn touching(&self, state: &State) -> Vec<SurfaceGap> {
         let between = self.contacts.iter().filter_map(|contacts| {
             let gap = contacts.closest(state)?;
             let depth = -gap.gap / (2.0 * self.radius_nm);
@@ -47,8 +47,8 @@ impl Repelled {
         between.chain(walls).collect()
     }
 
-    fn at(&self, part: Part, gap: Gap, (depth, limit): (f64, f64)) -> Touching {
-        Touching {
+    fn at(&self, part: Part, gap: Gap, (depth, limit): (f64, f64)) -> SurfaceGap {
+        SurfaceGap {
             part,
             gap,
             filaments: gap.capsules.map(|i| self.capsules[i].filament()),
@@ -68,7 +68,7 @@ impl Repelled {
     }
 }
 
-impl Touching {
+impl SurfaceGap {
     pub(crate) fn is_beyond(&self) -> bool {
         self.depth > self.limit
     }

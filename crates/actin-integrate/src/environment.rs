@@ -2,7 +2,7 @@ use crate::noise::{Half, Noise};
 use crate::{Bath, Drag, Stage};
 use actin_mechanics::{Split, Thermostat};
 
-pub(crate) trait Surroundings<S: Split + ?Sized> {
+pub(crate) trait Environment<S: Split + ?Sized> {
     fn before(&mut self, system: &mut S);
 
     fn after(&mut self, system: &mut S);
@@ -18,7 +18,7 @@ pub(crate) trait Surroundings<S: Split + ?Sized> {
             Stage::Kick => {
                 let (translation, rotation) = self.kicks();
                 system.kick(t * translation, t * rotation);
-                system.book_work(t);
+                system.record_work(t);
             }
         }
     }
@@ -33,9 +33,9 @@ pub(crate) trait Surroundings<S: Split + ?Sized> {
     }
 }
 
-pub(crate) struct Nothing;
+pub(crate) struct NoEnvironment;
 
-impl<S: Split + ?Sized> Surroundings<S> for Nothing {
+impl<S: Split + ?Sized> Environment<S> for NoEnvironment {
     fn before(&mut self, _: &mut S) {}
 
     fn after(&mut self, _: &mut S) {}
@@ -67,7 +67,7 @@ struct Halves {
 
 impl Halves {
     /// Halves of `drag` in steps of `h` (ns).
-    fn of(drag: &Drag, h: f64) -> Self {
+    fn new(drag: &Drag, h: f64) -> Self {
         let decay = drag.factors(0.5 * h);
         let b = drag.time_rescaling(h);
         Self {
@@ -79,15 +79,15 @@ impl Halves {
     }
 }
 
-pub(crate) struct Dragging {
+pub(crate) struct DragHalves {
     halves: Halves,
     whole: Factors,
 }
 
-impl Dragging {
-    pub(crate) fn over(drag: &Drag, h: f64) -> Self {
+impl DragHalves {
+    pub(crate) fn new(drag: &Drag, h: f64) -> Self {
         Self {
-            halves: Halves::of(drag, h),
+            halves: Halves::new(drag, h),
             whole: drag.factors(h),
         }
     }
@@ -98,7 +98,7 @@ impl Dragging {
 fn damp<S: Split + ?Sized>(system: &mut S, factors: Factors, scales: [Factors; 2]) {
     if let Some(before) = system.kinetic_energies() {
         let after = (before.0 * factors.0.powi(2), before.1 * factors.1.powi(2));
-        system.book_heat(energy(after, scales[1]) - energy(before, scales[0]));
+        system.record_heat(energy(after, scales[1]) - energy(before, scales[0]));
     }
     system.damp(factors.0, factors.1);
 }
@@ -109,7 +109,7 @@ fn energy(kinetic: (f64, f64), scale: Factors) -> f64 {
 
 const UNSCALED: Factors = (1.0, 1.0);
 
-impl<S: Split + ?Sized> Surroundings<S> for Dragging {
+impl<S: Split + ?Sized> Environment<S> for DragHalves {
     fn before(&mut self, system: &mut S) {
         damp(
             system,
@@ -143,9 +143,9 @@ pub(crate) struct Heating {
 
 impl Heating {
     /// Creates a bath in steps of `h` (ns) from the step with the number `step`.
-    pub(crate) fn over(bath: &Bath, h: f64, step: u64, bodies: (usize, usize)) -> Self {
+    pub(crate) fn new(bath: &Bath, h: f64, step: u64, bodies: (usize, usize)) -> Self {
         Self {
-            halves: Halves::of(bath.drag(), h),
+            halves: Halves::new(bath.drag(), h),
             spreads: bath.spreads(0.5 * h),
             noise: Noise::new(bath.seed(), bodies),
             step,
@@ -166,12 +166,12 @@ impl Heating {
         system.damp(factors.0, factors.1);
         system.add_thermal_impulses(&self.noise.points, &self.noise.frames);
         if let (Some(before), Some(after)) = (before, system.kinetic_energies()) {
-            system.book_heat(energy(after, scales[1]) - energy(before, scales[0]));
+            system.record_heat(energy(after, scales[1]) - energy(before, scales[0]));
         }
     }
 }
 
-impl<S: Thermostat + ?Sized> Surroundings<S> for Heating {
+impl<S: Thermostat + ?Sized> Environment<S> for Heating {
     fn before(&mut self, system: &mut S) {
         let Halves {
             before, rescaling, ..

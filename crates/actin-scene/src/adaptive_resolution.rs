@@ -13,11 +13,12 @@ const LEAST_MONOMERS: f64 = 8.0;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
-pub struct Following {
+#[serde(rename = "Following")]
+pub struct AdaptiveResolution {
     /// Length of the filament; positive. It is rounded to a whole number of monomers.
     pub length_nm: f64,
     /// Criteria for monomers; at least one.
-    pub monomers_where: Vec<Where>,
+    pub monomers_where: Vec<RefinementCriterion>,
     /// Length of a cell; at least 8 rises. It is rounded to a whole number of monomers.
     #[serde(default = "default_cell")]
     pub cell_nm: f64,
@@ -30,9 +31,9 @@ pub struct Following {
     pub least_ns: f64,
 }
 
-impl Following {
+impl AdaptiveResolution {
     /// Creates a filament of this length (nm) with these criteria and default cells and times.
-    pub fn new(length_nm: f64, monomers_where: Vec<Where>) -> Self {
+    pub fn new(length_nm: f64, monomers_where: Vec<RefinementCriterion>) -> Self {
         Self {
             length_nm,
             monomers_where,
@@ -61,7 +62,8 @@ fn default_least() -> f64 {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
-pub enum Where {
+#[serde(rename = "Where")]
+pub enum RefinementCriterion {
     /// Mean curvature of the cell.
     Curvature {
         /// A cell above this value is resolved.
@@ -122,7 +124,10 @@ pub enum Where {
     },
 }
 
-pub(super) fn check_following(scene: &Scene, following: &Following) -> Result<(), SceneProblem> {
+pub(super) fn check_following(
+    scene: &Scene,
+    following: &AdaptiveResolution,
+) -> Result<(), SceneProblem> {
     let key = |name: &str| format!("filament.sections.{name}");
     positive(&key("length_nm"), following.length_nm)?;
     positive(&key("cell_nm"), following.cell_nm)?;
@@ -154,14 +159,18 @@ pub(super) fn check_following(scene: &Scene, following: &Following) -> Result<()
     check_scene(scene)
 }
 
-fn check_where(scene: &Scene, key: &str, criterion: &Where) -> Result<(), SceneProblem> {
-    if let Where::Linker { linker, .. } = *criterion
+fn check_where(
+    scene: &Scene,
+    key: &str,
+    criterion: &RefinementCriterion,
+) -> Result<(), SceneProblem> {
+    if let RefinementCriterion::Linker { linker, .. } = *criterion
         && linker >= scene.linkers.len()
     {
         let rule = format!("the scene has {} linker(s)", scene.linkers.len());
         return Err(SceneProblem::new(format!("{key}.linker"), linker, rule));
     }
-    if let Where::LargestEnergy { above, .. } = *criterion
+    if let RefinementCriterion::LargestEnergy { above, .. } = *criterion
         && above > 1.0
     {
         let rule = "must be at most 1: energies are relative to the largest";
@@ -176,7 +185,7 @@ fn check_where(scene: &Scene, key: &str, criterion: &Where) -> Result<(), SceneP
     Err(SceneProblem::new(format!("{key}.{lower}"), show(low), rule))
 }
 
-impl Where {
+impl RefinementCriterion {
     /// Returns the keys of the lower and the upper threshold, and their values.
     pub fn thresholds(&self) -> ([&'static str; 2], [f64; 2]) {
         match *self {
@@ -216,7 +225,7 @@ fn check_scene(scene: &Scene) -> Result<(), SceneProblem> {
         let rule = format!("sections that follow a motion do not support {rule}");
         Err(SceneProblem::new(key, "", rule))
     };
-    if !scene.further.is_empty() {
+    if !scene.other_filaments.is_empty() {
         return refused("filaments", "several filaments");
     }
     let mut clamps = scene.clamps.iter();

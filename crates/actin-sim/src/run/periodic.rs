@@ -19,7 +19,7 @@ impl PeriodicFilament {
     ///
     /// # Errors
     /// A helix without a period of 13 monomers.
-    pub(super) fn of(monomers: &Monomers) -> Result<Self, SceneProblem> {
+    pub(super) fn new(monomers: &Monomers) -> Result<Self, SceneProblem> {
         let model = ellipsoids(&weighted(monomers), 0)?;
         let cell = Cell::new(&model, PERIOD, Hold::Means);
         let cell = cell.map_err(|error| {

@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, rename = "Scene")]
-pub(super) struct Written {
+pub(super) struct SceneFile {
     /// Title of the scene.
     #[serde(default)]
     title: String,
@@ -61,11 +61,11 @@ fn is_default<T: Default + PartialEq>(value: &T) -> bool {
     *value == T::default()
 }
 
-impl TryFrom<Written> for Scene {
+impl TryFrom<SceneFile> for Scene {
     type Error = SceneProblem;
 
     /// Collects the filaments of all keys, then the linkers.
-    fn try_from(written: Written) -> Result<Self, SceneProblem> {
+    fn try_from(written: SceneFile) -> Result<Self, SceneProblem> {
         let mut filaments = listed(
             written.filament,
             written.filaments,
@@ -89,7 +89,7 @@ impl TryFrom<Written> for Scene {
         Ok(Self {
             title: written.title,
             filament: resolved.next().ok_or_else(none)?,
-            further: resolved.collect(),
+            other_filaments: resolved.collect(),
             clamps: written.clamps,
             loads: written.loads,
             linkers,
@@ -124,12 +124,12 @@ fn listed(
     }
 }
 
-impl From<Scene> for Written {
+impl From<Scene> for SceneFile {
     fn from(scene: Scene) -> Self {
-        let (filament, filaments) = if scene.further.is_empty() {
+        let (filament, filaments) = if scene.other_filaments.is_empty() {
             (Some(scene.filament), None)
         } else {
-            let all = std::iter::once(scene.filament).chain(scene.further);
+            let all = std::iter::once(scene.filament).chain(scene.other_filaments);
             (None, Some(all.collect()))
         };
         Self {
