@@ -169,7 +169,7 @@ fn without_noise_the_energy_is_balanced() {
     );
     let open = energies.iter().map(|e| (e.1 - begun).abs());
     let open = open.fold(0.0, f64::max);
-    println!("ledger {open:.2e} of {fall:.1} pN nm");
+    println!("energy balance {open:.2e} of {fall:.1} pN nm");
     assert!(fall > 10.0 && open < 1e-3 * fall, "{open}");
 }
 

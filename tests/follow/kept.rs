@@ -97,7 +97,7 @@ fn the_energy_is_balanced() {
             .fold(0.0, |worst: f64, e| worst.max((e - all[0]).abs()));
         let last = run.stretches.last().unwrap().trajectory.records.last();
         println!(
-            "ledger {worst:.2e} of {largest:.1} pN nm, switches {booked:.2}, {:?}",
+            "energy balance {worst:.2e} of {largest:.1} pN nm, switches {booked:.2}, {:?}",
             last.unwrap().booked
         );
         assert!(worst < 1e-3 * largest, "{worst} of {largest}");

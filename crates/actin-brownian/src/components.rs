@@ -16,7 +16,7 @@ pub(crate) struct Components {
     pattern: u64,
 }
 
-/// Some of the components, and the parts of the matrix with these components.
+/// Selected components, and the parts of the matrix that belong to them.
 #[derive(Debug)]
 pub(crate) struct Subset {
     components: Vec<bool>,
@@ -85,7 +85,7 @@ impl Components {
         self.selected.components.len()
     }
 
-    /// Returns `true` if the components are those of the present pattern of the matrix.
+    /// Returns `true` if the components belong to the present pattern of the matrix.
     pub(crate) fn fit(&self, solver: &ImplicitSolver) -> bool {
         self.pattern == solver.patterns()
     }
@@ -95,7 +95,7 @@ impl Components {
         self.selected = self.subset(components);
     }
 
-    /// An interaction that couples no components at present is part of each subset.
+    /// Every subset includes the interactions that currently couple no components.
     fn subset(&self, components: Vec<bool>) -> Subset {
         let of_interactions = self.of_interactions.iter();
         let parts = of_interactions
@@ -118,7 +118,7 @@ impl Components {
         all
     }
 
-    /// Selected components that the interactions couple.
+    /// Selected components that are coupled by at least one of the interactions.
     pub(crate) fn coupled_by(&self, interactions: &[usize]) -> Subset {
         let mut components = vec![false; self.count()];
         for &k in interactions {

@@ -1,7 +1,8 @@
 use std::f64::consts::PI;
 use thiserror::Error;
 
-/// Smallest ratio of length to diameter. Below 2.2 the friction at the ends exceeds the total.
+/// Smallest ratio of length to diameter. Below a ratio of 2.2, the friction concentrated at the
+/// ends would exceed the total friction.
 const LEAST_RATIO: f64 = 3.0;
 
 /// Straight cylinder in a fluid, with its total friction distributed along its length.
@@ -23,12 +24,12 @@ const LEAST_RATIO: f64 = 3.0;
 /// pi eta L^3 / (3 (ln p - 0.662 + 0.917/p - 0.050/p^2))
 /// ```
 ///
-/// The fits along and across agree with numerical solutions to 1 % for `p` from 2 to 30 and have
-/// the correct limit. The friction about the axis is that of an infinite cylinder; the ends add 2 %
-/// at `p = 10` and 8 % at `p = 5`.
+/// The fits along and across the axis agree with numerical solutions to 1 % for `p` from 2 to 30,
+/// and have the correct limit for large `p`. The friction about the axis is exact for an infinite
+/// cylinder; the ends add 2 % at `p = 10` and 8 % at `p = 5`.
 ///
-/// For flexible cylinders the friction is local. Hydrodynamic interaction enters the logarithm
-/// only, and modes of shorter wavelength have slightly more friction.
+/// For flexible cylinders the friction is local. Hydrodynamic interaction enters only through the
+/// logarithm of the length. The friction of modes of shorter wavelength is therefore too small.
 ///
 /// ```
 /// use actin_brownian::Cylinder;

@@ -38,8 +38,9 @@ impl Flow {
         self.velocity + self.gradient * place
     }
 
-    /// Angular velocity (rad/ns, body axes) of a slender body along its third axis `t`: `t x G t`
-    /// across the axis and half of the vorticity about it.
+    /// Angular velocity (rad/ns, body axes) of a slender body with the direction `t` of its third
+    /// axis. Its component across the axis is `t x G t`, with the velocity gradient `G`. Its
+    /// component along the axis is half of the vorticity.
     pub(crate) fn turning(&self, q: UnitQuaternion) -> Vector3 {
         let g = &self.gradient;
         let curl = Vector3::new(

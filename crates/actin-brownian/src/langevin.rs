@@ -9,7 +9,7 @@ use actin_mechanics::{
 /// Separates this noise from other uses of the same seed.
 const PURPOSE: [u8; 8] = *b"langevin";
 
-/// Steps with inertia and friction, with or without thermal noise.
+/// Stepper of motion with inertia and friction, with or without thermal noise.
 ///
 /// A step of time `h` consists of a kick over `h/2`, a drift over `h/2`, friction, a drift and a
 /// kick. With the inertia `M` and the friction `Z` at half the step, friction and noise change the
@@ -19,9 +19,9 @@ const PURPOSE: [u8; 8] = *b"langevin";
 /// (M + h Z/2) v' = (M - h Z/2) v + sqrt(2 kT h) B xi,   B B^T = Z
 /// ```
 ///
-/// This preserves the Maxwell distribution. For constant `Z` and any `h Z/M` the following are
-/// exact: drift and velocity `F/Z` under a constant load, diffusion `kT/Z`, and mean energy `kT/2`
-/// of linear modes. Steps are stable below 2 over the largest frequency. Velocities alternate in
+/// This preserves the Maxwell distribution. For constant `Z` and any `h Z/M`, the velocity `F/Z`
+/// under a constant load `F`, the diffusion coefficient `kT/Z` and the mean energy `kT/2` of linear
+/// modes are exact. Steps are stable below 2 over the largest frequency. Velocities alternate in
 /// sign for `h Z/M > 2`.
 ///
 /// The noise is a function of the seed, the number of the step and the index of the dashpot.
@@ -39,8 +39,8 @@ pub struct Langevin {
 }
 
 impl Langevin {
-    /// Creates the steps of `system` for the unknowns of `layout`, with the thermal energy (pN nm)
-    /// and the seed of the noise. Zero thermal energy disables the noise.
+    /// Creates a stepper for the unknowns `layout` of `system`, with the thermal energy (pN nm) and
+    /// the seed of the noise. Zero thermal energy disables the noise.
     ///
     /// # Errors
     /// If the thermal energy is invalid.
@@ -153,7 +153,7 @@ impl SecondOrder for Resistance<'_> {
         for i in points {
             stiffness.push(Point(i), Point(i), of_mass(state.points.mass(i)));
         }
-        // The mass of a slider replaces that of its points.
+        // The mass of a slider replaces the masses of its points.
         for slider in state.sliders.iter() {
             let share = slider.mass / slider.points.len() as f64;
             for &i in &slider.points {

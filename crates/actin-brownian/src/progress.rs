@@ -1,22 +1,23 @@
 use crate::StepLimits;
 use actin_equilibrium::{ComponentStep, StepSize};
 
-/// Energy of the error of a component that is small compared with its thermal energy (kT).
+/// Largest accepted energy error of a component (kT).
 const ENOUGH: f64 = 1e-2;
 
-/// Initial iterations that may grow.
+/// Number of initial iterations that may grow without added friction.
 const FREE_ITERATIONS: usize = 2;
 
-/// Factor of the change of added friction.
+/// Factor by which added friction is increased or reduced.
 const DAMPING: f64 = 4.0;
 
 /// Largest added friction in units of the friction over the time step.
 const MOST_DAMPING: f64 = 64.0;
 
-/// Growth of the predicted decrease of energy above which friction is added.
+/// Friction is added if the predicted decrease of energy grows by more than this factor.
 const GROWTH: f64 = 1.1;
 
-/// Largest displacement of a solution in units of that of the first iteration.
+/// Largest accepted displacement of a solution, in units of the displacement of the first
+/// iteration.
 const FARTHEST: f64 = 3.0;
 
 /// Iterations of a step, for each component.
@@ -33,7 +34,7 @@ struct Component {
     last: ComponentStep,
     /// Added friction in units of the friction over the time step.
     damping: f64,
-    /// Whether the last two iterations had equal friction.
+    /// `true` if the last two iterations had equal friction.
     is_even: bool,
     is_solved: bool,
 }
@@ -75,8 +76,8 @@ impl Progress {
         }
     }
 
-    /// Returns `true` if a displacement (nm) from the start of the step is too long for the
-    /// solution on the branch of the linear one.
+    /// Returns `true` if a displacement (nm) from the start of the step is too long: the iterations
+    /// have then found a distant solution.
     pub(crate) fn is_far(&self, displacement: f64) -> bool {
         displacement > FARTHEST * self.first
     }

@@ -6,9 +6,9 @@
 //! ```
 //!
 //! `Z(q)` is the friction, `f(q)` are the loads, and `v` are the velocities of points (lab frame)
-//! and the angular velocities of frames (body axes). For these frictions the Boltzmann distribution
-//! is stationary with Stratonovich noise and without a drift term. Dashpots with an arm must be the
-//! only ones on their point, or share their frame with the others.
+//! and the angular velocities of frames (body axes). With these frictions and Stratonovich noise,
+//! the Boltzmann distribution is stationary without a drift term. A dashpot with an arm must be the
+//! only dashpot of its point, or have the same frame as the others.
 //!
 //! # Steps with random stress
 //! ```text
@@ -24,39 +24,41 @@
 //! x_1 = x_0 / (1 + z) + noise of variance (kT / k) (2 z + z^2) / (1 + z)^2
 //! ```
 //!
-//! The variance is `kT/k` for any step; `2 z` is due to friction and `z^2` due to stress. The slope
-//! of the correlation is too small by `z/2`. Stress acts on strains and does not rotate frames of
-//! rods about their own axes. Steps can be thousands of times longer than the relaxation of stretch
-//! and shear.
+//! The variance is `kT/k` for any step; `2 z` is due to friction and `z^2` due to stress. The decay
+//! rate of the correlation is too small by a factor of about `1 - z/2`. The random stress acts on
+//! strains only and does not spin rods about their axes. Steps can be thousands of times longer
+//! than the relaxation of stretch and shear.
 //!
-//! Means are exact for short steps, and for independent strains also for long steps. Otherwise
-//! their error is of first order. Interactions without random stress (loads, contacts) need steps
-//! that resolve their relaxation.
+//! Means are exact in the limit of short steps. In long steps they are exact for independent
+//! strains; otherwise their error is of first order in `h`. Interactions without random stress
+//! (loads, contacts) need steps that resolve their relaxation.
 //!
-//! The friction is taken at half the step and its noise at the start (Fixman). Other places would
-//! lose the drift due to stiff elements with shape-dependent mobility.
+//! The friction is evaluated at half the step and its noise at the start (Fixman). This choice
+//! includes the drift due to shape-dependent mobility of stiff elements.
 //!
 //! # Solution
-//! Newton's method uses the matrix `K + Z/h` with the contribution of the stresses. The first
+//! Newton's method uses the matrix `K + Z/h` plus the contribution of the stresses. The first
 //! iteration omits the geometric stiffness, and later ones omit it in components, such as
-//! filaments, whose matrix is not positive definite. A component whose iterations grow is given
-//! more friction. It is solved if its next iteration is predicted to change the energy by less than
-//! a hundredth of kT. If less than half of the components are not solved, only these are iterated
-//! and the others are held. A step ends with an iteration of all components.
+//! filaments, whose matrix is not positive definite. Friction is added to a component if its
+//! iterations grow. A component counts as solved if its next iteration is predicted to change the
+//! energy by less than a hundredth of kT. If at most half of the components are unsolved, only
+//! these are iterated and the others are held. A step ends with an iteration of all components.
 //!
 //! With linkers that are stiff compared with `Z/h`, the equations may have further solutions far
-//! from the start. A step that ends at more than three times the distance of its first iteration is
-//! halved.
+//! from the start. A step is halved if its displacement exceeds three times the displacement of its
+//! first iteration.
 //!
 //! Rods that are isotropic about their axes spin by a radian in steps of microseconds. Energies do
-//! not depend on the spin, so that the matrix couples spins only to spins
-//! ([`Brownian::with_spinning_frames`]). Coupled chains use conjugate gradients, preconditioned by
-//! the factors of the single chains, if that is cheaper than a factorisation of the whole.
+//! not depend on this spin, and the matrix does not couple it to other unknowns
+//! ([`Brownian::with_spinning_frames`]). Linked chains are solved by conjugate gradients if this is
+//! cheaper than a factorisation of the whole matrix. The preconditioner consists of the factors of
+//! the single chains.
 //!
 //! # Accuracy
-//! Mean of `1 - cos` of the angle between segments of free rods over its exact value, from 400,000
-//! steps
-//! (`cargo test --release -p actin-brownian --test integration long_waves:: -- --ignored --nocapture`):
+//! The table lists the mean of `1 - cos(angle)` between segments of free rods, relative to its
+//! exact value. The last two columns are for segments at a distance of one and ten segments. Each
+//! row is from 400,000 steps (`cargo test --release -p actin-brownian --test integration
+//! long_waves:: -- --ignored --nocapture`):
 //!
 //! | segments | step (ns) | one segment | ten segments |
 //! | --- | --- | --- | --- |
@@ -68,10 +70,10 @@
 //! | 12 of 100 nm | 4000 | 1.0012 +- 0.0012 | 0.9937 +- 0.0106 |
 //!
 //! # Steps without noise
-//! Richardson extrapolation, in body axes, of one implicit step `Z(q_1) d / h = f(q_1)` over `h`
-//! and two over `h/2`. The order is two. A mode with `z = k h / zeta` is multiplied by
-//! `2/(1 + z/2)^2 - 1/(1 + z)`, so that stiff modes relax in one step. A step that does not
-//! converge is halved.
+//! Richardson extrapolation, in body axes, from one implicit step over `h` and two implicit steps
+//! over `h/2`. An implicit step over `h` solves `Z(q_1) d / h = f(q_1)`. The order is two. A mode
+//! with `z = k h / zeta` is multiplied by `2/(1 + z/2)^2 - 1/(1 + z)`, so that stiff modes relax in
+//! one step. A step that does not converge is halved.
 //!
 //! # Midpoint steps
 //! The optional implicit midpoint rule with noise, in body axes: `d` are displacements and
@@ -82,8 +84,9 @@
 //! ```
 //!
 //! Linear modes have the variance `kT/k` at any step. Modes that relax faster than a step alternate
-//! in sign. The energy of stretch and shear of 40 nm is too large by 0.2 % in steps of 0.3 ns and
-//! by 8.6 % in steps of 1 ns. The first steps are fully implicit to damp initial imbalances.
+//! in sign. For segments of 40 nm, the energy of stretch and shear is 0.2 % too large in steps of
+//! 0.3 ns. In steps of 1 ns it is 8.6 % too large. The first steps are fully implicit to damp
+//! initial imbalances.
 //!
 //! # Source
 //! Implicit steps at the start: Rannacher, Numer. Math. 43 (1984) 309. Noise of the start: Fixman,
@@ -105,7 +108,7 @@ use thiserror::Error;
 /// Separates this noise from other uses of the same seed.
 const PURPOSE: [u8; 8] = *b"brownian";
 
-/// Fully implicit midpoint steps at the start.
+/// Number of fully implicit steps before midpoint steps.
 const DAMPED_STEPS: u64 = 4;
 
 /// Largest rotation (rad) of an iteration.
@@ -160,7 +163,7 @@ impl BrownianError {
     }
 }
 
-/// Overdamped steps of a system.
+/// Stepper of overdamped motion.
 ///
 /// The noise is a function of the seed, the number of the step and the index of the dashpot.
 #[derive(Debug)]
@@ -172,7 +175,7 @@ pub struct Brownian {
     solver: ImplicitSolver,
     noise: Noise,
     stresses: Stresses,
-    /// Whether the steps include random stress.
+    /// `true` if the steps include random stress.
     has_stress: bool,
     /// Frames with free spin about their own axes.
     axial: Vec<usize>,
@@ -194,7 +197,7 @@ pub struct Brownian {
 }
 
 impl Brownian {
-    /// Creates the steps of `system` for the unknowns of `layout`, with `friction` and the thermal
+    /// Creates a stepper for the unknowns `layout` of `system`, with `friction` and the thermal
     /// energy `kT` (pN nm). Zero thermal energy disables the noise. An unspecified order of
     /// unknowns is derived from the present state.
     ///
@@ -243,7 +246,7 @@ impl Brownian {
         })
     }
 
-    /// Selects midpoint steps, for elements with strongly nonlinear strains in thermal motion.
+    /// Selects midpoint steps, for elements whose energy is far from quadratic in thermal motion.
     #[must_use]
     pub fn with_midpoint_steps(self) -> Self {
         Self {
@@ -298,9 +301,9 @@ impl Brownian {
         }
     }
 
-    /// Returns `true` if heat is recorded, which is without noise only. With noise, modes that
-    /// relax within a step exchange about kT per step, and the error of a thousandth would dominate
-    /// the balance.
+    /// Returns `true` if heat is recorded. With noise it is not recorded: modes that relax within a
+    /// step exchange about kT per step, and a relative error of a thousandth would dominate the
+    /// energy balance.
     fn books_heat(&self, system: &System) -> bool {
         system.tracks_energy_balance() && self.thermal_energy == 0.0
     }
@@ -363,8 +366,8 @@ impl Brownian {
         self.step_stressed(system, (step, 2 * part + 1), 0.5 * h)
     }
 
-    /// Makes a step without noise, which is one of `parts` of the whole. It is halved if it does
-    /// not converge.
+    /// Makes a step without noise, one of `parts` equal parts of the whole step. A step that does
+    /// not converge is halved.
     fn step_without_noise(
         &mut self,
         system: &mut System,
@@ -480,8 +483,8 @@ impl Brownian {
     }
 }
 
-/// Rotation of frame `i` within a step (rad, body frame), up to a full turn. The sign of a
-/// continuous quaternion distinguishes a rotation from its complement.
+/// Rotation of frame `i` within a step (rad, body frame), of at most a full turn. Quaternions of a
+/// continuous motion do not change sign, so that angles above pi are resolved.
 fn turn(from: &State, to: &State, i: usize) -> Vector3 {
     let q = from.frames.orientation.get(i).inverse() * to.frames.orientation.get(i);
     if q.w >= 0.0 {

@@ -21,14 +21,14 @@ pub(crate) struct Stresses {
     of_interactions: Vec<Option<usize>>,
     /// Stresses at the start of the step.
     drawn: Vec<f64>,
-    /// Stresses in the axes of frames that have spun since.
+    /// Stresses at the start, in the current axes of spinning frames.
     turned: Vec<f64>,
     /// Stresses equal to the elastic stresses of the elements.
     balancing: Vec<f64>,
-    /// Whether the second derivatives of an interaction use balancing stresses. Only the positive
-    /// elastic stiffness then remains.
+    /// `true` if balancing stresses replace the random stress in the stiffness of an interaction.
+    /// They cancel its geometric stiffness, and only the positive elastic stiffness remains.
     is_balanced: Vec<bool>,
-    /// Whether the axial frames of an interaction spin freely.
+    /// `true` if the axial frames of an interaction spin freely.
     spins: Vec<bool>,
 }
 
@@ -113,9 +113,14 @@ impl Stresses {
         self.is_balanced.fill(is_balanced);
     }
 
-    /// Balances further interactions with the given components (ascending): first those without
-    /// axial frames, such as compressed springs, then all; finally all interactions. Returns the
-    /// interactions that were not balanced before.
+    /// Balances more interactions: the first of the following groups that is not balanced yet.
+    /// Returns the interactions of this group.
+    ///
+    /// - interactions of the components `worst` (ascending) without axial frames, such as
+    ///   compressed springs
+    /// - all interactions of these components
+    /// - interactions of all components without axial frames
+    /// - all interactions
     pub(crate) fn balance_more(
         &mut self,
         interactions: &Interactions,

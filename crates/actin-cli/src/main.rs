@@ -77,7 +77,7 @@ enum Command {
     },
     /// Compares error and run time of cheaper models of a scene with the all-monomer model.
     Trade(trade::TradeArguments),
-    /// Writes an HTML page with a 3D view of a run, its records and its curves, or the pictures of a film.
+    /// Writes an HTML page with a 3D view, the records and the curves of a run, or the pictures of a film.
     View(view::ViewArguments),
 }
 

@@ -31,7 +31,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     };
     let junction = Junction::new(&state, parts)?;
 
-    // Extension of 0.001 of the 2 nm; the rigidity is S3 = 3.4e4 pN.
+    // Extension by 0.001 nm over 2 nm; the rigidity is S3 = 3.4e4 pN.
     state
         .points
         .position

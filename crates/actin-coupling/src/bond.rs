@@ -18,8 +18,8 @@ pub(crate) struct Bond {
     pub(crate) shear: ShearElement,
     /// Bending elements between the first two and the last two frames.
     pub(crate) bending: [BendingElement; 2],
-    /// Materials of the bending elements. The rest curvature of the element at the rod is weighted
-    /// with its rod part.
+    /// Materials of the bending elements. The element at the rod has the rest curvature of the rod
+    /// times the fraction of its length inside the rod.
     pub(crate) materials: [RodMaterial; 2],
     /// Difference between the rest curvatures of the rod and of the element at the rod (rad/nm).
     pub(crate) curvature_difference: Vector3,

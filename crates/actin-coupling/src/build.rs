@@ -36,16 +36,22 @@ pub fn push_junction_frames(
 
 /// Length (nm) that limits the frequency of junction frames.
 ///
-/// A frame with bending rigidity `B` over a distance `D` and transverse inertia `i` per length of
-/// the rod has the frequency `sqrt(B / i) / D`: 870 rad/ns half a rise from its monomer, compared
-/// with 470 rad/ns of bonds. An inertia larger by `(l / D)^2` reduces it to `sqrt(B / i) / l`.
-/// Larger `l` increases the time step and the reflection of short waves.
+/// A junction frame at the distance `D` from its monomer has the frequency `sqrt(B / i) / D`. `B`
+/// is the bending rigidity and `i` the transverse inertia per length of the rod. At half a rise
+/// this is 870 rad/ns, above the highest frequency of the bonds (470 rad/ns). An inertia larger by
+/// `(l / D)^2` reduces it to `sqrt(B / i) / l`. Larger `l` increases the time step and the
+/// reflection of short waves.
 ///
-/// For 80 nm of monomers next to 80 nm of rod in 8 segments and `l` of 0 (off), 5.5, 6.1 and 7.5
-/// nm: the ratio of the time step limit to the limit of the rod is 0.57, 0.97, 0.98 and 0.99
-/// (`actin check`). The reflection of axial pulses is 3.1, 4.1, 4.2 and 4.3 % for a width of 20 nm,
-/// and 2.5, 2.6, 2.6 and 2.7 % for 40 nm (`cargo test --workspace --test integration waves::pulses
-/// -- --nocapture`).
+/// Table for 80 nm of monomers next to 80 nm of rod in 8 segments. The time step limit is relative
+/// to the limit of the rod (`actin check`). Axial pulses have widths of 20 and 40 nm (`cargo test
+/// --workspace --test integration waves::pulses -- --nocapture`).
+///
+/// | `l` (nm) | time step limit | reflection, 20 nm | reflection, 40 nm |
+/// | --- | --- | --- | --- |
+/// | 0 (off) | 0.57 | 3.1 % | 2.5 % |
+/// | 5.5 | 0.97 | 4.1 % | 2.6 % |
+/// | 6.1 | 0.98 | 4.2 % | 2.6 % |
+/// | 7.5 | 0.99 | 4.3 % | 2.7 % |
 const SWING_NM: f64 = 6.1;
 
 fn inertia(cross_section: &CrossSection, distance: f64) -> Inertia {

@@ -71,8 +71,8 @@ pub struct JunctionParts<'a> {
 /// rest state. For a rod before monomers `l = R - r`, and the rotations in both logarithms are
 /// inverted.
 ///
-/// The rest curvature of the rod counts for the rod part of `D_C` only. Loads are the negative
-/// gradient of `E`, so linear and angular momentum are conserved.
+/// The element of length `D_C` has the rest curvature of the rod times the fraction of `D_C` inside
+/// the rod. Loads are the negative gradient of `E`, so linear and angular momentum are conserved.
 ///
 /// # Source
 /// arXiv 2203.01284, Section 3, with signs and factors derived from this energy. The printed
@@ -92,9 +92,9 @@ impl Junction {
     /// Creates a junction that is at rest in `state`.
     ///
     /// # Errors
-    /// If there are not one or two monomers or the number of frames differs. Also if a monomer is
-    /// on the wrong side of the end of the rod, or a junction frame is not parallel to the end
-    /// segment.
+    /// If the number of monomers is not 1 or 2, or differs from the number of frames. Also if a
+    /// monomer is on the wrong side of the end of the rod, or a junction frame is not parallel to
+    /// the end segment.
     pub fn new(state: &State, parts: JunctionParts<'_>) -> Result<Self, JunctionError> {
         let JunctionParts {
             side,
@@ -128,8 +128,9 @@ impl Junction {
         })
     }
 
-    /// Adapts the [random stress](actin_mechanics::RandomStress) to a rod whose strain depends on
-    /// the curvature, with the [joined elements](Self::joined_elements) included.
+    /// Adapts the [random stress](actin_mechanics::RandomStress) to a rod whose law couples strain
+    /// and curvature. The curvature of the rod must include the [joined
+    /// elements](Self::joined_elements).
     #[must_use]
     pub fn with_extended_rod(self) -> Self {
         Self {
@@ -143,8 +144,8 @@ impl Junction {
         self.bonds.iter().map(Bond::junction)
     }
 
-    /// Bending elements between the end segment and the junction frames, for the mean curvature of
-    /// the end segment.
+    /// Bending elements between the end segment and the junction frames. The mean curvature of the
+    /// end segment includes them.
     pub fn joined_elements(&self) -> Vec<JoinedElement> {
         self.bonds.iter().map(Bond::joined).collect()
     }

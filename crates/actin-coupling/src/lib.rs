@@ -1,9 +1,9 @@
 //! Junctions between monomers and Cosserat rods, linkers, and repulsion of filaments.
 //!
 //! A [`Junction`] attaches the one or two monomers next to a rod to its end. Each bond shears,
-//! stretches, bends and twists like a piece of the rod, and has one massive junction frame.
-//! [`push_junction_frames`] adds these frames to the state, between the frames of the two sections.
-//! [`Junction::new`] creates the interaction when all bodies are in the state.
+//! stretches, bends and twists like a piece of the rod. It has one junction frame with its own
+//! inertia. [`push_junction_frames`] adds these frames to the state, between the frames of the two
+//! sections. [`Junction::new`] creates the interaction when all bodies are in the state.
 //!
 //! A [`Linker`] is a spring from a [`Site`] of a filament to an [`Anchor`] or another site. A
 //! [`SwitchedLinker`] can be released and bound at several places. A [`SiteForce`] applies a force

@@ -6,18 +6,18 @@
 //! -(|lhat| n . sigma + D_E m_E . kappa_E + D_C m_C . kappa_C)
 //! ```
 //!
-//! If strain and curvature of the rod are coupled, its stress includes half of the end segment
-//! beyond the last frame. The covariance of the torques on `kappa_C` of `b` bonds with weights `w`
-//! is then the tangent of bending times the positive matrix with
+//! If the law of the rod couples strain and curvature, the random stress of the rod covers also the
+//! half of the end segment beyond the last frame. The junction then excludes this half: for `b`
+//! bonds of weight `w` and a segment of length `L`, the covariance of `D_C m_C` is kT times the
+//! bending tangent times the positive matrix
 //!
 //! ```text
 //! w D_C on the diagonal, minus L / (2 b^2) in all entries
 //! ```
 //!
-//! for a segment of length `L`.
-//!
-//! The stress in excess of the elastic stress exerts torques about the frame axes as at rest. Their
-//! change with displacements would bend filaments further in long time steps.
+//! The difference between random and elastic stress exerts the torques about the frame axes of the
+//! rest state. Otherwise displacements would change these torques and bend filaments further in
+//! long time steps.
 
 use crate::Junction;
 use crate::bond::Bond;

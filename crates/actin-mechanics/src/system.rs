@@ -122,7 +122,7 @@ impl System {
     }
 
     /// Creates a system that shares the interactions of `self`, in another state of the same
-    /// bodies. It has no drive, no ledger and no events between steps.
+    /// bodies. It has no drive, no energy balance and no events between steps.
     ///
     /// # Panics
     /// See [`new`](Self::new).

@@ -172,7 +172,10 @@ fn check_table(
         return refused("time_ns", "[]".into(), "a table has at least one time");
     }
     if factors.len() != times.len() {
-        let rule = format!("must have as many values as time_ns: {}", times.len());
+        let rule = format!(
+            "must have as many values as time_ns, which has {}",
+            times.len()
+        );
         return refused("factor", format!("{} values", factors.len()), &rule);
     }
     match times.windows(2).position(|pair| pair[1] <= pair[0]) {

@@ -149,8 +149,8 @@ pub(super) fn check_rest(scene: &Scene, dynamics: &Dynamics) -> Result<(), Scene
         format!("loads[{i}] has the factor Sine, so the filament never comes to rest: omit {key}")
     } else {
         format!(
-            "the factor of loads[{i}] changes until {until:?} ns, and the filament cannot be at rest before: must be \
-             below duration_ns = {:?}, or omit {key}",
+            "the factor of loads[{i}] changes until {until:?} ns, so the filament cannot come to rest within \
+             duration_ns = {:?}: increase duration_ns, or omit {key}",
             dynamics.duration_ns
         )
     };

@@ -122,7 +122,7 @@ fn check_shift(
         _ => "shift the end across its axis, or write slides: Nowhere",
     };
     let rule = format!(
-        "has a component along which the end slides (clamps[{clamp}].slides = {slides:?}), where it has no effect: {remedy}"
+        "has no effect along directions in which the end slides (clamps[{clamp}].slides = {slides:?}): {remedy}"
     );
     let key = format!("{prefix}shift_nm");
     Err(SceneProblem::new(key, show(shift_nm), rule))

@@ -186,8 +186,8 @@ impl Group {
                 if ends(&self.couples, factors).all(|stages| self.balances(axis, factors, stages)) {
                     return Ok(());
                 }
-                "both ends are pinned, and no clamp resists this couple about the line between them: \
-                 add a hinge, or write another hold"
+                "both ends are pinned, and the filament rotates freely about the line between them under \
+                 this couple: add a hinge, or write another hold"
             }
             Turning::Freely | Turning::AboutPin(_) => {
                 "no clamp holds the orientation of this filament: under couples it has no stable \

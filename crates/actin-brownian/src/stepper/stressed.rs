@@ -9,7 +9,7 @@ use actin_mechanics::System;
 /// Initial iterations of all components.
 const FULL_ITERATIONS: usize = 2;
 
-/// Ratio of the number of all components to that of unsolved ones above which their neighbours are
+/// If at most one component in `FEW` is unsolved, the neighbours of unsolved components are
 /// iterated as well.
 const FEW: usize = 16;
 
@@ -53,8 +53,8 @@ impl Brownian {
         Err(self.failure(system, &self.progress.largest()))
     }
 
-    /// Returns `true` if the components have changed with the pattern of the matrix; the iterations
-    /// begin again.
+    /// Updates the components if the pattern of the matrix has changed, and restarts the
+    /// iterations. Returns `true` after an update.
     fn renew_components(&mut self, system: &System) -> bool {
         let has_changed = !self.components.fit(&self.solver);
         if has_changed {
@@ -71,8 +71,9 @@ impl Brownian {
         self.components.select(vec![true; count]);
     }
 
-    /// Selects the components that are not solved if they are less than half of all. Neighbours of
-    /// few ones are included, because solved components are not iterated for their motion.
+    /// Selects the unsolved components if they are at most half of all components. If they are few,
+    /// their neighbours are selected as well, because the motion of an unsolved component changes
+    /// the loads on its neighbours.
     fn select(&mut self) {
         let progress = &self.progress;
         let count = self.components.count();
@@ -121,8 +122,8 @@ impl Brownian {
     }
 
     /// Finds the step of an iteration, with the friction times `factor`. The geometric stiffness is
-    /// omitted in the first iteration and where the matrix is indefinite. Returns `false` if the
-    /// equations are not solved.
+    /// omitted in the first iteration, and for components with an indefinite matrix. Returns
+    /// `false` if the linear equations cannot be solved.
     fn find_step(&mut self, system: &System, factor: f64) -> bool {
         let (state, interactions) = (system.state(), system.interactions());
         let friction = self.friction.times(factor).in_axes_of(&self.middle);

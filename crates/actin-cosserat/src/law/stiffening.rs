@@ -79,7 +79,7 @@ mod effect {
     pub(super) fn read<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
         match Option::<f64>::deserialize(deserializer)? {
             Some(scale) if is_none(&scale) => Err(D::Error::custom(
-                "must be finite; omit the key for no effect",
+                "must be finite; omit the key to disable this effect",
             )),
             scale => Ok(scale.unwrap_or_else(none)),
         }

@@ -74,8 +74,8 @@ impl Capsule {
         })
     }
 
-    /// Excludes repulsion within a contour distance (nm), over which bonds or bending couple the
-    /// filament.
+    /// Sets the contour distance (nm) within which parts of the same filament do not repel each
+    /// other, because bonds or bending rigidity keep them apart.
     #[must_use]
     pub fn with_reach(self, reach: f64) -> Self {
         Self { reach, ..self }

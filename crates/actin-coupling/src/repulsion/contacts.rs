@@ -11,11 +11,11 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 const SKIN: f64 = 1.0;
 /// Distance from contact within which pairs are part of the stiffness, in radii.
 const MARGIN: f64 = 0.25;
-/// Ratio of axis distance to radius below which a step counts as a crossing: half the distance of
-/// the largest force.
+/// Ratio of axis distance to radius below which two axes count as crossing: half the distance at
+/// which the force is largest.
 const IMPASSABLE: f64 = Kernel::YIELD;
-/// Effective number of neighbours that press on a filament: half of six in a bundle act along one
-/// direction.
+/// Effective number of neighbours that press on a filament. A filament in a bundle has six
+/// neighbours, of which half act along one direction.
 const PRESSING: f64 = 3.0;
 
 /// Parameters of contacts.
@@ -31,7 +31,8 @@ pub struct ContactParameters {
 }
 
 /// Repulsion between capsules: term `repulsion`, one element per capsule with half the energy of
-/// each of its contacts. Parts of one filament interact beyond a contour distance.
+/// each of its contacts. Parts of the same filament interact if their contour distance exceeds a
+/// limit.
 ///
 /// ```text
 /// E = sum_ab w_a w_b e (1 - r_ab^2/D^2)^4,   e = 27 k / (32 pi)
@@ -141,13 +142,14 @@ impl Contacts {
         self.neighbours(state).pairs.len()
     }
 
-    /// Depth over the contact distance, two radii, at the largest force of perpendicular filaments.
+    /// Penetration depth at which the force of perpendicular filaments is largest, divided by the
+    /// contact distance of two radii.
     pub fn yield_depth() -> f64 {
         1.0 - Kernel::YIELD
     }
 
-    /// Upper bound of the contact stiffness of a filament per length (pN/nm^2), for neighbours on
-    /// all sides that move in the opposite direction.
+    /// Upper bound of the contact stiffness per length of a filament (pN/nm^2). The bound applies
+    /// to neighbours on all sides that move opposite to the filament.
     pub fn greatest_stiffness(&self) -> f64 {
         2.0 * PRESSING * self.kernel.greatest_parallel()
     }
@@ -229,7 +231,7 @@ impl Interaction for Contacts {
         Some(self)
     }
 
-    /// Two axes that come within a third of a radius pass through each other. If they are closer
+    /// Two axes count as crossing if their distance falls below a third of a radius. If it is below
     /// already, any further approach counts.
     fn passes_through(&self, from: &State, to: &State) -> Option<Coordinates> {
         let later: Vec<_> = self.capsules.iter().map(|c| c.ends(to)).collect();
@@ -241,8 +243,8 @@ impl Interaction for Contacts {
 }
 
 impl SecondOrder for Contacts {
-    /// The pattern contains all pairs with gaps below a quarter of a radius, so that it changes
-    /// only where blocks are zero.
+    /// Adds blocks for all pairs with gaps below a quarter of a radius. Blocks of pairs without
+    /// contact are zero, so that a new contact does not change the sparsity pattern.
     fn add_stiffness(&self, state: &State, stiffness: &mut Stiffness) {
         self.visit(state, self.reach.known, |[i, j], places| {
             let tangents = places.tangents(&self.kernel);
@@ -261,7 +263,8 @@ impl SecondOrder for Contacts {
     }
 }
 
-/// Index of the first end, body, and derivatives of the two ends.
+/// Index of the first end of a capsule, one of its bodies, and the derivatives of both ends with
+/// respect to this body.
 type Follows = (usize, (Coordinates, [Matrix3; 2]));
 
 /// Adds `J^T K J` for each pair of bodies once.

@@ -1,15 +1,15 @@
-//! Repulsion between filaments and with walls, without a contact criterion.
+//! Repulsion between filaments, and between filaments and walls.
 //!
 //! The axis of a filament is divided into [`Capsule`]s: segments of a rod, or the axial part of
 //! each monomer. Both resolutions thus have the same surface. [`Contacts`] repels capsules from
-//! each other, and [`WallContact`] repels capsules from a plane or a sphere. [`Tethers`] has the
-//! largest possible contact stiffness, as a bound for the time step.
+//! each other, and [`WallContact`] repels capsules from a plane or a sphere. [`Tethers`] have the
+//! largest possible contact stiffness, which gives a bound for the time step.
 //!
 //! # Integration along axes
-//! The smallest distance of two capsules has no second derivative for parallel capsules or nearest
-//! points at an end. The energy is therefore a sum over points of both axes, spaced by a third of a
-//! radius or less. It has the three continuous derivatives of the kernel, and is nearly independent
-//! of the division into capsules.
+//! The smallest distance of two capsules is not twice differentiable if they are parallel, or if a
+//! nearest point is at an end. The energy is therefore a sum over points of both axes, spaced by a
+//! third of a radius or less. Like the kernel, it has three continuous derivatives. It is nearly
+//! independent of the division into capsules.
 
 mod capsule;
 mod contacts;

@@ -5,14 +5,14 @@ use actin_mechanics::{State, Vector3};
 use rstar::primitives::{GeomWithData, Rectangle};
 use rstar::{AABB, RTree};
 
-/// Limit of coordinates (nm) for the detection of divergent motions.
+/// Largest coordinate (nm); a motion beyond it has diverged.
 const FARTHEST: f64 = 1e12;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Reach {
     /// Distance of axes (nm) within which the list is complete.
     pub(super) known: f64,
-    /// Additional distance (nm) that extends the validity of the list.
+    /// Additional distance (nm) of listed pairs, so that the list stays valid while bodies move.
     pub(super) skin: f64,
     /// Smallest contour distance (nm) of interacting parts of one filament.
     pub(super) apart: f64,
@@ -20,8 +20,8 @@ pub(super) struct Reach {
 
 /// Neighbour list and current axes.
 ///
-/// The list contains all pairs within `known`. Users select again by distance, so that results do
-/// not depend on the time of the last update.
+/// The list contains all pairs within `known`. It can contain more distant pairs. Callers check
+/// distances, so that results do not depend on the time of the last update.
 #[derive(Debug, Default)]
 pub(super) struct Neighbours {
     /// Pairs with ascending indices, sorted.
@@ -62,7 +62,8 @@ impl Neighbours {
         self.found_at.clone_from(&self.ends);
     }
 
-    /// First pair that comes within `least` (nm), or closer than now, on straight paths to `later`.
+    /// First pair whose distance falls below `least` (nm) on straight paths to `later`. If the
+    /// distance is below `least` already, any further approach counts.
     pub(super) fn first_passing(
         &self,
         capsules: &[Capsule],

@@ -3,7 +3,8 @@ use actin_mechanics::Vector3;
 
 pub(super) type Ends = [Vector3; 2];
 
-/// Lines that start within the limit must keep this fraction of their distance.
+/// Fraction of the initial distance below which lines that start within the limit count as
+/// crossing.
 const STAY: f64 = 0.99;
 const CLOSE: f64 = 1e-3;
 /// Maximum number of steps. Longer searches occur for lines that slide along each other.

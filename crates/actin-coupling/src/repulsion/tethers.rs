@@ -4,8 +4,15 @@ use actin_mechanics::{Interaction, Loads, State, Vector3};
 /// Springs from all points of the axes to their positions in a given state: term `repulsion`, one
 /// element.
 ///
-/// With the largest contact stiffness per length, the largest frequency of the tethered system
-/// bounds the contribution of contacts to the square of any frequency.
+/// Tethers with the largest contact stiffness per length bound the frequencies of a system with
+/// contacts:
+///
+/// ```text
+/// w^2 <= w_0^2 + w_t^2
+/// ```
+///
+/// `w` is the largest frequency with contacts, `w_0` without contacts, and `w_t` the largest
+/// frequency of tethers alone.
 #[derive(Clone, Debug)]
 pub struct Tethers {
     capsules: Vec<Capsule>,

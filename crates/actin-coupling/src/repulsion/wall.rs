@@ -114,12 +114,12 @@ impl WallContact {
         })
     }
 
-    /// Depth over the radius at which the axis is in the surface.
+    /// Penetration depth, divided by the radius, at which the axis lies in the surface of the wall.
     pub fn yield_depth() -> f64 {
         1.0
     }
 
-    /// Stiffness per length (pN/nm^2) at which the axis is in the surface.
+    /// Stiffness per length (pN/nm^2) if the axis lies in the surface of the wall.
     pub fn greatest_stiffness(&self) -> f64 {
         self.kernel.tangent(self.kernel.radius)
     }
@@ -269,8 +269,9 @@ impl Interaction for WallContact {
         Some(self)
     }
 
-    /// An axis that enters an excluded sphere can leave it on the other side. Other walls cannot be
-    /// crossed unnoticed.
+    /// Checks spheres with filaments outside only, because an axis can enter such a sphere and
+    /// leave it on the other side within one step. Other walls need no check, since the energy
+    /// grows with the penetration depth.
     fn passes_through(&self, from: &State, to: &State) -> Option<Coordinates> {
         let Wall::Sphere {
             centre,

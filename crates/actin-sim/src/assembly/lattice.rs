@@ -136,8 +136,8 @@ fn check_reach(filament: &Filament, lattice: &Lattice, i: usize) -> Result<(), S
             format!("filament.sections[{i}].to_nm"),
             format!("{to_nm:?}"),
             format!(
-                "{reach:.2e} monomers reach this far: beyond {MAX_EXACT_INTEGER:.1e} lattice indices are not \
-                 exact"
+                "the section ends at monomer {reach:.2e}: the index of a monomer must be at most \
+                 {MAX_EXACT_INTEGER:.1e}"
             ),
         ));
     }
@@ -214,7 +214,8 @@ fn check(
         return Err(SceneProblem::new(
             key,
             format!("{to_nm:?}"),
-            "the section is empty after its ends are moved to monomers: write a longer section",
+            "section ends are moved to positions between monomers, which leaves this section empty: \
+             write a longer section",
         ));
     }
     Ok(resolved)

@@ -40,8 +40,8 @@ impl Assembly {
                 let (whole, each) = (whole.to_degrees(), each.to_degrees());
                 let rule = format!(
                     "the ends of filament {filament} are turned by {whole:.0} deg against each \
-                     other, {each:.0} deg in a joint of two segments: a joint loses a turn at 180 deg; \
-                     use more segments"
+                     other, which is {each:.0} deg between neighbouring segments: at 180 deg a turn is \
+                     lost; use more segments"
                 );
                 return Err(SceneProblem::new(
                     self.key_of_turn(filament, stages - 1),
