@@ -2,7 +2,7 @@ use crate::Friction;
 use actin_equilibrium::{ImplicitSolver, Selection};
 use actin_mechanics::{Coordinates, Interaction, State, Stiffness};
 
-/// Components of coupled bodies, such as filaments, and those selected for an iteration.
+/// Components of coupled bodies, such as rods, and those selected for an iteration.
 #[derive(Debug)]
 pub(crate) struct Components {
     of_points: Vec<Option<usize>>,

@@ -39,12 +39,12 @@
 //! # Solution
 //! Newton's method uses the matrix `K + Z/h` plus the contribution of the stresses. The first
 //! iteration omits the geometric stiffness, and later ones omit it in components, such as
-//! filaments, whose matrix is not positive definite. Friction is added to a component if its
+//! rods, whose matrix is not positive definite. Friction is added to a component if its
 //! iterations grow. A component counts as solved if its next iteration is predicted to change the
 //! energy by less than a hundredth of kT. If at most half of the components are unsolved, only
 //! these are iterated and the others are held. A step ends with an iteration of all components.
 //!
-//! With linkers that are stiff compared with `Z/h`, the equations may have further solutions far
+//! With springs between components that are stiff compared with `Z/h`, the equations may have further solutions far
 //! from the start. A step is halved if its displacement exceeds three times the displacement of its
 //! first iteration.
 //!
@@ -62,12 +62,12 @@
 //!
 //! | segments | step (ns) | one segment | ten segments |
 //! | --- | --- | --- | --- |
-//! | 12 of 40 nm | 100 | 0.9995 +- 0.0012 | 0.9843 +- 0.0079 |
-//! | 12 of 40 nm | 300 | 0.9996 +- 0.0008 | 0.9952 +- 0.0049 |
-//! | 12 of 40 nm | 1000 | 0.9988 +- 0.0006 | 0.9946 +- 0.0033 |
-//! | 25 of 40 nm | 300 | 1.0018 +- 0.0015 | 0.9986 +- 0.0152 |
-//! | 25 of 40 nm | 1389 | 0.9993 +- 0.0009 | 0.9878 +- 0.0093 |
-//! | 12 of 100 nm | 4000 | 1.0012 +- 0.0012 | 0.9937 +- 0.0106 |
+//! | 12 of 40 nm | 100 | 0.9996 +- 0.0012 | 0.9847 +- 0.0080 |
+//! | 12 of 40 nm | 300 | 0.9997 +- 0.0008 | 0.9958 +- 0.0049 |
+//! | 12 of 40 nm | 1000 | 0.9988 +- 0.0006 | 0.9957 +- 0.0031 |
+//! | 25 of 40 nm | 300 | 1.0018 +- 0.0015 | 1.0004 +- 0.0153 |
+//! | 25 of 40 nm | 1389 | 0.9994 +- 0.0009 | 0.9882 +- 0.0091 |
+//! | 12 of 100 nm | 4000 | 1.0014 +- 0.0012 | 0.9947 +- 0.0094 |
 //!
 //! # Steps without noise
 //! Richardson extrapolation, in body axes, from one implicit step over `h` and two implicit steps
