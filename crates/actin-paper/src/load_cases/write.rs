@@ -74,16 +74,17 @@ fn score(rows: &[&Row], against: usize) -> [String; 2] {
 /// The page of the book.
 pub(super) fn page(rows: &[Row]) -> String {
     let text = "# Load cases\n\n\
-        Computed by `cargo xtask load-cases --write`: every case that a law of rods has to meet; `load-cases.csv` of its \
-        folder holds the numbers. Mean: against the mean filament, whose bonds are weighted, over azimuths. Drawn: against \
-        filaments of 64 drawn bonds, over samplings and azimuths. Errors of the rod (segments of 10 nm) are relative, those of a \
-        shape largest distances, those of mixed filaments spreads over resolutions. Worst: the largest error over its bound.\n";
+        Computed by `cargo xtask load-cases --write`, which writes all numbers to `load-cases.csv`. Each case compares a rod \
+        with segments of 10 nm with filaments of monomers. The mean filament has weighted bonds; its errors are means over \
+        azimuths. Filaments of 64 sampled bonds give means over samplings and azimuths. Errors are relative; for shapes the \
+        largest distance counts, for mixed filaments the spread over resolutions. The columns count errors within their \
+        bounds and give the largest ratio of error to bound.\n";
     text.to_owned() + &summary(rows)
 }
 
 /// Numbers of errors within their bounds, by case and law.
 pub(super) fn summary(rows: &[Row]) -> String {
-    let mut text = "\n| case | law | met, mean | worst | met, drawn | worst |\n\
+    let mut text = "\n| case | law | within bounds, mean filament | largest ratio | within bounds, sampled bonds | largest ratio |\n\
                     | --- | --- | ---: | ---: | ---: | ---: |\n"
         .to_owned();
     let judged = rows.iter().filter(|row| row.bound != Bound::Open);
