@@ -162,5 +162,8 @@ fn turns_count_about_the_tangent() {
     assert_eq!(turned(1790.0), "");
     let refused = turned(1810.0);
     assert!(refused.contains("turned by 1810 deg"), "{refused}");
-    assert!(refused.contains("181 deg in a joint"), "{refused}");
+    assert!(
+        refused.contains("181 deg between neighbouring segments"),
+        "{refused}"
+    );
 }

@@ -10,11 +10,12 @@ const FREE_ITERATIONS: usize = 2;
 /// Factor by which added friction is increased or reduced.
 const DAMPING: f64 = 4.0;
 
-/// Largest added friction in units of the friction over the time step.
+/// Least and largest added friction in units of the friction over the time step.
+const LEAST_DAMPING: f64 = 0.5;
 const MOST_DAMPING: f64 = 64.0;
 
 /// Friction is added if the predicted decrease of energy grows by more than this factor.
-const GROWTH: f64 = 1.1;
+const GROWTH: f64 = 2.0;
 
 /// Largest accepted displacement of a solution, in units of the displacement of the first
 /// iteration.
@@ -142,9 +143,13 @@ impl Component {
         let energy = ratio * (1.0 + before) * step.decrease.abs();
         let has_grown = energy > enough && step.decrease.abs() > GROWTH * self.last.decrease.abs();
         if self.is_even && iterations >= FREE_ITERATIONS && has_grown {
-            self.damping = (DAMPING * before).clamp(1.0, MOST_DAMPING);
+            self.damping = (DAMPING * before).clamp(LEAST_DAMPING, MOST_DAMPING);
         } else if self.is_even {
-            self.damping = if before > 1.0 { before / DAMPING } else { 0.0 };
+            self.damping = if before > LEAST_DAMPING {
+                before / DAMPING
+            } else {
+                0.0
+            };
         }
         self.is_even = self.damping.total_cmp(&before).is_eq();
         self.last = *step;
