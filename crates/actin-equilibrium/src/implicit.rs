@@ -52,7 +52,7 @@ enum Linear {
 }
 
 /// Relative tolerance; later iterations of the step correct the error.
-const TOLERANCE: f64 = 1e-2;
+const TOLERANCE: f64 = 1e-1;
 
 impl ImplicitSolver {
     /// Solver for the unknowns of `layout`.
