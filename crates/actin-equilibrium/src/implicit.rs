@@ -161,18 +161,14 @@ impl ImplicitSolver {
         match &mut self.linear {
             Linear::Unknown => unreachable!("the pattern is new at the first factorisation"),
             Linear::Gradients(gradients) => gradients.factorize(assembly, columns),
-            Linear::Direct(factor) => {
-                let upper = assembly.pattern().symbolic.as_ref();
-                let pivots = factor.factorize(upper, &assembly.values, &self.metric, 0.0);
-                pivots.is_positive()
-            }
+            Linear::Direct(factor) => is_positive(factor, assembly, &self.metric),
         }
     }
 
     /// Factorises again after changes of the chosen parts of the last matrix.
     ///
     /// # Panics
-    /// If the changed parts do not couple the same bodies.
+    /// If nothing has been factorised, or the changed parts do not couple the same bodies.
     pub fn refactorize_parts(
         &mut self,
         at: (&State, &Loads),
@@ -186,11 +182,12 @@ impl ImplicitSolver {
             .update_nodes(parts_of, &nodes, at, &self.layout);
         assert!(is_same, "changes of parts do not change the pattern");
         self.uncouple();
-        let Linear::Gradients(gradients) = &mut self.linear else {
-            return self.factorize_parts(at, parts, None);
-        };
         let columns = self.clusters.columns(&self.layout, changed.components);
-        gradients.refactorize(&self.assembly, &columns)
+        match &mut self.linear {
+            Linear::Unknown => panic!("no matrix has been factorised"),
+            Linear::Gradients(gradients) => gradients.refactorize(&self.assembly, &columns),
+            Linear::Direct(factor) => is_positive(factor, &self.assembly, &self.metric),
+        }
     }
 
     fn selected_nodes(&self, selection: Option<Selection<'_>>) -> Vec<bool> {
@@ -392,6 +389,13 @@ impl Linear {
             }
         }
     }
+}
+
+/// Factorises the assembled matrix; returns `true` if it is positive definite.
+fn is_positive(factor: &mut Factor, assembly: &Assembly, metric: &[f64]) -> bool {
+    let upper = assembly.pattern().symbolic.as_ref();
+    let pivots = factor.factorize(upper, &assembly.values, metric, 0.0);
+    pivots.is_positive()
 }
 
 fn go_on(start: &State, middle: &mut State, i: usize) {

@@ -155,7 +155,7 @@ impl Pattern {
         stiffness.blocks().len() == self.bodies.len() && self.fits_from(0, stiffness)
     }
 
-    /// The blocks couple the same bodies as those from `start` on.
+    /// The blocks couple the same bodies as the blocks of the pattern from index `start`.
     pub(crate) fn fits_from(&self, start: usize, stiffness: &Stiffness) -> bool {
         let blocks = stiffness.blocks().iter();
         self.bodies.get(start..).is_some_and(|bodies| {
