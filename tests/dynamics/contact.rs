@@ -3,8 +3,8 @@
 use super::record::scientific;
 use crate::common::{apart, build, ran, run_anyway};
 use actin_integrate::{Drag, PEFRL, POSITION_VERLET, advance};
-use actin_mechanics::{System, Vector3};
-use actin_sim::Plan;
+use actin_mechanics::{State, System, Vector3, segments};
+use actin_sim::{Assembly, Plan};
 
 const TASK: &str = "task: Dynamics(duration_ns: 1.0)";
 
@@ -166,6 +166,106 @@ fn passing_through_between_records_fails() {
     let (records, result) = run("1e4");
     assert_eq!(records, 2);
     result.unwrap();
+}
+
+/// Pairs of crossing filaments in water, 5 um apart. The upper one of each pair is pulled down by
+/// linkers at its ends, through the lower one.
+fn pressed_pairs(pairs: u32, anchor_nm: f64, task: &str) -> String {
+    let filament = |at: [f64; 3], direction: &str| {
+        let [x, y, z] = at;
+        format!(
+            "Filament(sections: [Rod(from_nm: 0.0, to_nm: 400.0, segments: 4)], rod: RodModel(law: Constant),
+                at_nm: ({x:?}, {y:?}, {z:?}), direction: {direction}),"
+        )
+    };
+    let linker = |filament: u32, s: f64, shift: f64| {
+        format!(
+            "Linker(filament: {filament}, at_nm: {s:?}, displaced_nm: (0.0, 0.0, {shift:?}), stiffness_pn_per_nm: 0.5),"
+        )
+    };
+    let place = |pair: u32| 5000.0 * f64::from(pair);
+    let filaments = (0..pairs).flat_map(|pair| {
+        [
+            filament([place(pair) - 200.0, 0.0, 0.0], "(1.0, 0.0, 0.0)"),
+            filament([place(pair), -200.0, 20.0], "(0.0, 1.0, 0.0)"),
+        ]
+    });
+    let filaments: String = filaments.collect();
+    let linkers = (0..2 * pairs).flat_map(|k| {
+        let shift = f64::from(k % 2) * (anchor_nm - 20.0);
+        [0.0, 400.0].map(|s| linker(k, s, shift))
+    });
+    let linkers: String = linkers.collect();
+    format!(
+        "Scene(filaments: [{filaments}], linkers: [{linkers}], repulsion: Repulsion(),
+            task: Brownian(temperature_k: 298.0, seed: 5, {task}))"
+    )
+}
+
+/// Signed distances (nm) of the pairs of [`pressed_pairs`]: positive if the upper filament is
+/// above.
+fn heights(assembly: &Assembly, state: &State) -> Vec<f64> {
+    let axis = |filament: usize| -> Vec<[Vector3; 2]> {
+        let x = &state.points.position;
+        let points = assembly.filaments[filament].points.clone();
+        let points: Vec<Vector3> = points.map(|i| x.get(i)).collect();
+        points.windows(2).map(|pair| [pair[0], pair[1]]).collect()
+    };
+    let height = |pair: usize| {
+        let (lower, upper) = (axis(2 * pair), axis(2 * pair + 1));
+        let both = lower
+            .iter()
+            .flat_map(|a| upper.iter().map(move |b| (*a, *b)));
+        let nearest = both.map(|(a, b)| (segments::nearest_points(a, b), a, b));
+        let (nearest, a, b) = nearest
+            .min_by(|one, other| one.0.squared.total_cmp(&other.0.squared))
+            .expect("filaments have segments");
+        let place = |[from, to]: [Vector3; 2], share: f64| from + (to - from) * share;
+        let apart = place(b, nearest.shares[1]) - place(a, nearest.shares[0]);
+        let sense = (a[1] - a[0]).cross(&(b[1] - b[0])).dot(&apart);
+        nearest.squared.sqrt().copysign(sense)
+    };
+    (0..assembly.filaments.len() / 2).map(height).collect()
+}
+
+/// Smallest height (nm) and mean height of all records of pressed pairs.
+fn pressed(pairs: u32, steps: u32, anchor_nm: f64) -> [f64; 2] {
+    let task = format!(
+        "duration_ms: {:?}, time_step_ns: 5000.0, record_every_ns: 5000.0",
+        5e-3 * f64::from(steps)
+    );
+    let (assembly, trajectory, _) = ran(&pressed_pairs(pairs, anchor_nm, &task));
+    let records = trajectory.records.iter();
+    let all: Vec<f64> = records
+        .flat_map(|record| heights(&assembly, &record.state))
+        .collect();
+    let mean = all.iter().sum::<f64>() / all.len() as f64;
+    [all.into_iter().fold(f64::INFINITY, f64::min), mean]
+}
+
+/// Linkers pull with up to 0.5 pN/nm x 65 nm = 33 pN, the largest force of repulsion is 2600 pN. In
+/// a step of 5 us segments diffuse by 12 nm, more than the contact distance of 7.4 nm.
+#[test]
+fn filaments_pressed_in_water_do_not_pass_through_each_other() {
+    for anchor_nm in [0.0, -60.0] {
+        let [least, mean] = pressed(5, 40, anchor_nm);
+        println!("anchors at {anchor_nm} nm: height at least {least:.2} nm, mean {mean:.2} nm");
+        assert!(least > 4.0 && mean > 7.0, "{least}");
+    }
+}
+
+/// A million steps of pairs of filaments.
+#[test]
+#[ignore = "takes minutes; run by hand with --ignored --nocapture"]
+fn filaments_pressed_for_long_do_not_pass_through_each_other() {
+    for anchor_nm in [0.0, -60.0] {
+        let mut least = f64::INFINITY;
+        for _ in 0..10 {
+            least = least.min(pressed(10, 5000, anchor_nm)[0]);
+        }
+        println!("anchors at {anchor_nm} nm: height at least {least:.2} nm");
+        assert!(least > 0.0, "{least}");
+    }
 }
 
 #[test]

@@ -102,7 +102,7 @@ impl Thermometer {
                 .expect("bonds have second derivatives");
             known.add_stiffness(state, &mut self.stiffness);
         }
-        let blocks = self.stiffness.blocks().iter().filter(|(a, b, _)| a == b);
+        let blocks = self.stiffness.all().filter(|(a, b, _)| a == b);
         let trace = blocks.map(|(a, _, block)| block.diagonal().dot(&inverse(*a)));
         (work, trace.sum())
     }

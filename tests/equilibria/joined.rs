@@ -214,7 +214,7 @@ fn the_order_of_elimination_changes_the_fill_only() {
     };
     let ordered = solve(Newton::new(layout().unwrap(), to(1e-10)).unwrap());
     let along = solve(newton(&assembly, 1e-10));
-    let least = solve(Newton::new(layout().unwrap().with_least_fill(), to(1e-10)).unwrap());
+    let least = solve(Newton::new(layout().unwrap().with_links(), to(1e-10)).unwrap());
     println!(
         "entries: {} one by one, {} along, {} least",
         ordered.1, along.1, least.1

@@ -7,6 +7,7 @@ use actin_mechanics::{Coordinates, Interaction, State, Stiffness};
 pub(crate) struct Components {
     of_points: Vec<Option<usize>>,
     of_frames: Vec<Option<usize>>,
+    /// Components of each interaction; empty for links that may change.
     of_interactions: Vec<Vec<usize>>,
     /// Dashpots of each component.
     pub(crate) dashpots: Vec<Vec<usize>>,
@@ -95,7 +96,7 @@ impl Components {
         self.selected = self.subset(components);
     }
 
-    /// Every subset includes the interactions that currently couple no components.
+    /// Every subset includes all links that may change.
     fn subset(&self, components: Vec<bool>) -> Subset {
         let of_interactions = self.of_interactions.iter();
         let parts = of_interactions
@@ -105,24 +106,15 @@ impl Components {
         Subset { components, parts }
     }
 
-    /// Adds the components that interact with the given ones.
-    pub(crate) fn with_neighbours(&self, components: &[bool]) -> Vec<bool> {
-        let mut all = components.to_vec();
-        for own in &self.of_interactions {
-            if own.iter().any(|&c| components[c]) {
-                for &c in own {
-                    all[c] = true;
-                }
-            }
-        }
-        all
-    }
-
     /// Selected components that are coupled by at least one of the interactions.
     pub(crate) fn coupled_by(&self, interactions: &[usize]) -> Subset {
         let mut components = vec![false; self.count()];
         for &k in interactions {
-            for &c in &self.of_interactions[k] {
+            let own = &self.of_interactions[k];
+            if own.is_empty() {
+                return self.subset(self.selected.components.clone());
+            }
+            for &c in own {
                 components[c] = self.selected.components[c];
             }
         }
@@ -151,19 +143,20 @@ impl Components {
         self.selected.parts[k]
     }
 
-    /// Returns `true` if interaction `k` couples one of the components (ascending).
+    /// Returns `true` if interaction `k` couples one of the components (ascending), or may do so.
     pub(crate) fn couples(&self, k: usize, components: &[usize]) -> bool {
-        let mut own = self.of_interactions[k].iter();
-        own.any(|c| components.binary_search(c).is_ok())
+        let own = &self.of_interactions[k];
+        own.is_empty() || own.iter().any(|c| components.binary_search(c).is_ok())
     }
 }
 
-/// Bodies that the stiffness of an interaction couples.
+/// Bodies that the stiffness of an interaction always couples.
 fn bodies(interaction: &dyn Interaction, state: &State) -> Vec<Coordinates> {
     let mut stiffness = Stiffness::default();
     if let Some(second_order) = interaction.second_order() {
         second_order.add_stiffness(state, &mut stiffness);
     }
+    // Linkers between fixed sites also have chain blocks, at their sites.
     let blocks = stiffness.blocks().iter();
     blocks.flat_map(|&(a, b, _)| [a, b]).collect()
 }

@@ -522,4 +522,8 @@ impl Stepper for Brownian {
         }
         Ok(())
     }
+
+    fn prevents_crossings(&self) -> bool {
+        self.thermal_energy > 0.0 && self.has_stress
+    }
 }

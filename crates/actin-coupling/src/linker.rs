@@ -189,13 +189,16 @@ impl Linker {
         stiffness: &mut Stiffness,
     ) {
         let slopes = self.slopes(state);
+        let of_site = self.site.slopes(state).count();
         for (k, &(a, slope_a)) in slopes.iter().enumerate() {
             stiffness.push(a, a, symmetric(slope_a.transpose() * spring * slope_a));
-            for &(b, slope_b) in &slopes[k + 1..] {
+            for (l, &(b, slope_b)) in slopes.iter().enumerate().skip(k + 1) {
                 let block = slope_a.transpose() * spring * slope_b;
                 if a == b {
                     // Both sites follow this body: block and transpose are on the diagonal.
                     stiffness.push(a, a, block + block.transpose());
+                } else if k < of_site && l >= of_site {
+                    stiffness.push_link(a, b, block);
                 } else {
                     stiffness.push(a, b, block);
                 }

@@ -121,14 +121,14 @@ impl RandomStress for SwitchedLinker {
     fn add_stress_stiffness(&self, state: &State, stresses: &[f64], stiffness: &mut Stiffness) {
         if self.is_bound(state) {
             let linker = self.linker(state);
-            linker.add_stress_stiffness(state, stresses, stiffness);
+            stiffness.extend_links(|links| linker.add_stress_stiffness(state, stresses, links));
         }
     }
 
     fn add_convexity(&self, state: &State, is_wanted: bool, stiffness: &mut Stiffness) {
         if self.is_bound(state) {
             let linker = self.linker(state);
-            linker.add_convexity(state, is_wanted, stiffness);
+            stiffness.extend_links(|links| linker.add_convexity(state, is_wanted, links));
         }
     }
 }
@@ -136,7 +136,7 @@ impl RandomStress for SwitchedLinker {
 impl SecondOrder for SwitchedLinker {
     fn add_stiffness(&self, state: &State, stiffness: &mut Stiffness) {
         if self.is_bound(state) {
-            self.linker(state).add_stiffness(state, stiffness);
+            stiffness.extend_links(|links| self.linker(state).add_stiffness(state, links));
         }
     }
 }

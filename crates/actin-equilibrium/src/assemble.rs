@@ -40,12 +40,25 @@ impl MatrixParts for Sum<'_> {
     }
 }
 
-/// Stiffness in the unknowns, upper triangle by columns.
+/// Entry of a link in the unknowns; the transposed entry is implied.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct LinkEntry {
+    unknowns: [usize; 2],
+    value: f64,
+}
+
+/// Stiffness in the unknowns, upper triangle by columns, and entries of links.
 #[derive(Debug, Default)]
 pub(crate) struct Assembly {
     blocks: Stiffness,
-    /// First block of each part, and the number of all blocks.
-    starts: Vec<usize>,
+    /// First block and first link of each part, and the numbers of all blocks and links.
+    starts: Vec<[usize; 2]>,
+    /// Entries outside of the pattern, for each part.
+    links: Vec<Vec<LinkEntry>>,
+    /// Chosen parts with such entries.
+    linked: Vec<usize>,
+    /// Parts of the present solve.
+    is_chosen: Vec<bool>,
     pattern: Option<Pattern>,
     pub(crate) values: Vec<f64>,
     ties: Ties,
@@ -91,20 +104,21 @@ impl Assembly {
         (state, loads): (&State, &Loads),
         layout: &mut Layout,
     ) -> bool {
+        self.choose(&vec![true; parts.count()]);
         self.blocks.clear();
         self.starts.clear();
         for k in 0..parts.count() {
-            self.starts.push(self.blocks.blocks().len());
+            self.starts.push(self.lengths());
             parts.add(k, state, &mut self.blocks);
         }
-        self.starts.push(self.blocks.blocks().len());
+        self.starts.push(self.lengths());
         let is_new = !self
             .pattern
             .as_ref()
             .is_some_and(|pattern| pattern.fits(&self.blocks));
         if is_new {
             self.pattern = Some(Pattern::new(&self.blocks, layout));
-            self.ties = Ties::new(self.blocks.blocks(), self.turn_length, layout);
+            self.ties = Ties::new(self.blocks.blocks(), self.turn_length);
             let (points, frames) = (state.points.len(), state.frames.len());
             self.chain = Chain::new(layout, &self.ties, points, frames);
             self.tie_places.clear();
@@ -116,9 +130,30 @@ impl Assembly {
             .as_ref()
             .expect("the pattern was created above");
         let mut target = Target::new(&mut self.values, pattern, layout);
-        target.add_all(state, &self.blocks, &pattern.places);
+        target.add_all(state, self.blocks.blocks(), &pattern.places);
+        if pattern.has_links {
+            target.add_all(state, self.blocks.links(), &pattern.link_places);
+        } else {
+            self.links.resize(parts.count(), Vec::new());
+            for (links, starts) in self.links.iter_mut().zip(self.starts.windows(2)) {
+                let blocks = &self.blocks.links()[starts[0][1]..starts[1][1]];
+                target.add_links(state, blocks, (pattern, links));
+            }
+        }
         target.add_turning_of_groups(state, loads);
+        self.find_linked();
         is_new
+    }
+
+    fn lengths(&self) -> [usize; 2] {
+        [self.blocks.blocks().len(), self.blocks.links().len()]
+    }
+
+    fn find_linked(&mut self) {
+        self.linked.clear();
+        let links = self.links.iter().zip(&self.is_chosen).enumerate();
+        let linked = links.filter(|(_, (links, is_chosen))| **is_chosen && !links.is_empty());
+        self.linked.extend(linked.map(|(k, _)| k));
     }
 
     /// Assembles the columns of the selected nodes from the chosen parts, which must be all parts
@@ -149,16 +184,43 @@ impl Assembly {
         for k in (0..parts.count()).filter(|&k| is_chosen[k]) {
             self.blocks.clear();
             parts.add(k, state, &mut self.blocks);
-            let places = self.starts[k]..self.starts[k + 1];
-            if self.blocks.blocks().len() != places.len()
-                || !pattern.fits_from(places.start, &self.blocks)
-            {
+            let (start, end) = (self.starts[k], self.starts[k + 1]);
+            let (blocks, links) = (self.blocks.blocks(), self.blocks.links());
+            if blocks.len() != end[0] - start[0] || !pattern.fits_from(start, &self.blocks) {
                 return false;
             }
-            target.add_all(state, &self.blocks, &pattern.places[places]);
+            target.add_all(state, blocks, &pattern.places[start[0]..]);
+            if !pattern.has_links {
+                target.add_links(state, links, (pattern, &mut self.links[k]));
+            } else if links.len() == end[1] - start[1] {
+                target.add_all(state, links, &pattern.link_places[start[1]..]);
+            } else {
+                return false;
+            }
         }
         target.add_turning_of_groups(state, loads);
+        self.find_linked();
         true
+    }
+
+    /// Chooses the parts of the next solve. Other parts must have no entries in its columns.
+    pub(crate) fn choose(&mut self, is_chosen: &[bool]) {
+        self.is_chosen.clear();
+        self.is_chosen.extend_from_slice(is_chosen);
+    }
+
+    /// Pairs of unknowns that are coupled outside of the pattern.
+    pub(crate) fn linked_unknowns(&self) -> impl Iterator<Item = [usize; 2]> + '_ {
+        self.links.iter().flatten().map(|entry| entry.unknowns)
+    }
+
+    /// Adds the product of the entries outside of the pattern and `v`.
+    pub(crate) fn add_product_of_links(&self, v: &[f64], product: &mut [f64]) {
+        for entry in self.linked.iter().flat_map(|&k| &self.links[k]) {
+            let [i, j] = entry.unknowns;
+            product[i] += entry.value * v[j];
+            product[j] += entry.value * v[i];
+        }
     }
 
     pub(crate) fn add_turning(&mut self, state: &State, loads: &Loads, layout: &Layout) {
@@ -170,7 +232,8 @@ impl Assembly {
             self.turning_places = pattern.places_of(&self.turning_blocks, layout);
         }
         let mut target = Target::onto(&mut self.values, pattern, layout);
-        target.add_all(state, &self.turning_blocks, &self.turning_places);
+        let blocks = self.turning_blocks.blocks();
+        target.add_all(state, blocks, &self.turning_places);
     }
 
     /// Softness of each tie (pN/nm): magnitude of the most negative stiffness between its points,
@@ -204,7 +267,7 @@ impl Assembly {
             self.tie_places = pattern.places_of(&self.tie_blocks, layout);
         }
         let mut target = Target::new(&mut self.tie_values, pattern, layout);
-        target.add_all(state, &self.tie_blocks, &self.tie_places);
+        target.add_all(state, self.tie_blocks.blocks(), &self.tie_places);
     }
 
     pub(crate) fn ties(&self) -> &Ties {
@@ -286,8 +349,15 @@ impl Assembly {
                 }
             }
         }
+        for link in self.linked.iter().flat_map(|&k| &self.links[k]) {
+            let ([i, j], value) = (link.unknowns, entry(link.value));
+            out[i] += value * v[j];
+            out[j] += value * v[i];
+        }
     }
 }
+
+type Block = (Coordinates, Coordinates, Matrix3);
 
 struct Target<'a> {
     values: &'a mut [f64],
@@ -315,11 +385,51 @@ impl<'a> Target<'a> {
         }
     }
 
-    fn add_all(&mut self, state: &State, blocks: &Stiffness, places: &[BlockPosition]) {
-        for (&(a, b, block), &place) in blocks.blocks().iter().zip(places) {
+    fn add_all(&mut self, state: &State, blocks: &[Block], places: &[BlockPosition]) {
+        for (&(a, b, block), &place) in blocks.iter().zip(places) {
             if self.has(place) {
                 self.add(state, a, b, &block, place);
             }
+        }
+    }
+
+    /// Adds the blocks that are in the pattern, and replaces `links` by the entries of the others.
+    fn add_links(
+        &mut self,
+        state: &State,
+        blocks: &[Block],
+        (pattern, links): (&Pattern, &mut Vec<LinkEntry>),
+    ) {
+        links.clear();
+        for &(a, b, block) in blocks {
+            match pattern.place_of((a, b), self.layout) {
+                Some(place) if self.has(place) => self.add(state, a, b, &block, place),
+                Some(_) => {}
+                None => self.push_entries(state, (a, b, block), links),
+            }
+        }
+    }
+
+    fn push_entries(&self, state: &State, (a, b, block): Block, links: &mut Vec<LinkEntry>) {
+        let range = |body| self.layout.unknowns_of(body).unwrap_or(0..0);
+        let (rows, columns) = (range(a), range(b));
+        let is_group = |body| {
+            let node = self.layout.node_of(body).map(|node| self.layout.node(node));
+            matches!(node, Some(Node::Group(_)))
+        };
+        let mut push = |value: &dyn Fn(usize, usize) -> f64| {
+            for (j, column) in columns.clone().enumerate() {
+                links.extend(rows.clone().enumerate().map(|(i, row)| LinkEntry {
+                    unknowns: [row, column],
+                    value: value(i, j),
+                }));
+            }
+        };
+        if is_group(a) || is_group(b) {
+            let block = self.in_unknowns(state, a, b, &block);
+            push(&|i, j| block[(i, j)]);
+        } else {
+            push(&|i, j| block[(i, j)]);
         }
     }
 

@@ -9,7 +9,7 @@ use crate::layout::{Layout, Node};
 use crate::motion::{ComponentStep, StepSize};
 use crate::outcome::SolveError;
 use actin_mechanics::{
-    Coordinates, Interaction, Loads, SecondOrder, State, UnitQuaternion, Vectors,
+    Approach, Coordinates, Interaction, Loads, SecondOrder, State, UnitQuaternion, Vectors,
 };
 
 /// Solver for the linear equations of implicit time steps.
@@ -50,6 +50,12 @@ enum Linear {
     Direct(Box<Factor>),
     Gradients(Box<Gradients>),
 }
+
+/// Largest number of shortenings of a step. The last ones hold the bodies that still collide.
+const SHORTENINGS: usize = 12;
+
+/// Fraction of the motion up to the accepted distance. The next check then finds no approach.
+const ACCEPTED: f64 = 0.95;
 
 /// Relative tolerance; later iterations of the step correct the error.
 const TOLERANCE: f64 = 1e-1;
@@ -147,6 +153,7 @@ impl ImplicitSolver {
         let nodes = self.selected_nodes(selection);
         let parts_of = (parts, chosen);
         let assembly = &mut self.assembly;
+        assembly.choose(chosen);
         let is_same = assembly.update_nodes(parts_of, &nodes, at, &self.layout);
         let is_new = !is_same && assembly.update_with(parts, at, &mut self.layout);
         if is_new {
@@ -205,7 +212,7 @@ impl ImplicitSolver {
         self.metric = vec![0.0; layout.unknowns()];
         self.clusters = Clusters::new(layout, assembly.ties(), assembly.chain());
         self.linear = if layout.has_gradients() {
-            Linear::Gradients(Box::new(Gradients::new(assembly, layout)))
+            Linear::Gradients(Box::new(Gradients::new(assembly)))
         } else {
             Linear::Direct(Box::new(Factor::new(&assembly.pattern().symbolic)))
         };
@@ -253,6 +260,17 @@ impl ImplicitSolver {
     /// Number of components: bodies that are coupled other than by links, such as filaments.
     pub fn components(&self) -> usize {
         self.clusters.len()
+    }
+
+    /// Pairs of components that are linked at present; with repetitions.
+    pub fn linked_components(&self) -> Vec<[usize; 2]> {
+        let of_nodes = self.clusters.of_nodes(&self.layout);
+        let mut of_unknowns = vec![0; self.layout.unknowns()];
+        for (k, (_, range)) in self.layout.nodes().enumerate() {
+            of_unknowns[range].fill(of_nodes[k]);
+        }
+        let pairs = self.assembly.linked_unknowns();
+        pairs.map(|pair| pair.map(|i| of_unknowns[i])).collect()
     }
 
     /// Components of bodies; `None` for held ones.
@@ -336,15 +354,30 @@ impl ImplicitSolver {
     ///
     /// In filaments that are free or held at one place, each body follows the motion of its
     /// predecessor, so strains are linear in the step. The step of a component is shortened to the
-    /// limits of displacement and rotation.
-    pub fn advance_along(&mut self, state: &mut State, limits: &StepSize) -> Vec<ComponentStep> {
+    /// limits of displacement and rotation. It is shortened further until `approaches` returns no
+    /// pairs for the motion between two states.
+    pub fn advance_along(
+        &mut self,
+        state: &mut State,
+        limits: &StepSize,
+        approaches: impl Fn(&State, &State) -> Vec<Approach>,
+    ) -> Vec<ComponentStep> {
         let mut from = self.from.take().unwrap_or_else(|| state.clone());
         from.copy_motion_from(state);
-        let states = (&from, state);
+        let mut shares = vec![1.0; self.clusters.len()];
         let (layout, step) = (&self.layout, &self.step);
-        let sizes = self
-            .clusters
-            .advance(layout, states, step, (&self.spins, limits));
+        let mut sizes = Vec::new();
+        for round in 0..=SHORTENINGS {
+            let limits = (&self.spins[..], limits, &shares[..]);
+            sizes = self.clusters.advance(layout, (&from, state), step, limits);
+            let approaches = approaches(&from, state);
+            if approaches.is_empty() {
+                break;
+            }
+            let is_last = round + 1 >= SHORTENINGS;
+            self.shorten(&approaches, is_last, &mut shares);
+            state.copy_motion_from(&from);
+        }
         self.from = Some(from);
         let work: Vec<f64> = self.loads.iter().zip(step).map(|(f, p)| f * p).collect();
         let work = self.clusters.sums(layout, &work);
@@ -355,6 +388,24 @@ impl ImplicitSolver {
                 decrease: 0.5 * work,
             })
             .collect()
+    }
+
+    /// Shortens the steps of components on collision course to the accepted fraction, or to zero.
+    fn shorten(&self, approaches: &[Approach], is_last: bool, shares: &mut [f64]) {
+        let of_nodes = self.clusters.of_nodes(&self.layout);
+        let mut factors = vec![1.0_f64; shares.len()];
+        for approach in approaches {
+            for body in approach.bodies {
+                if let Some(node) = self.layout.node_of(body) {
+                    let factor = &mut factors[of_nodes[node]];
+                    let share = if is_last { 0.0 } else { ACCEPTED };
+                    *factor = factor.min(share * approach.fraction);
+                }
+            }
+        }
+        for (share, factor) in shares.iter_mut().zip(factors) {
+            *share *= factor;
+        }
     }
 
     /// Repeats the motion of free bodies from `start` to `middle`: straight for points, same

@@ -2,7 +2,6 @@
 
 use crate::group::{Group, orthonormal};
 use actin_mechanics::{Coordinates, State, Vector3};
-use std::collections::BTreeSet;
 use std::ops::Range;
 use thiserror::Error;
 
@@ -105,10 +104,8 @@ pub struct Layout {
     order: Order,
     /// Index of each node in the prescribed order.
     sequence: Vec<usize>,
-    /// Coupled pairs of bodies that are not neighbours, ordered.
-    loose: BTreeSet<(Coordinates, Coordinates)>,
-    /// Position of each body, and the maximum distance of neighbours.
-    loose_beyond: Option<(BodyOrder, f64)>,
+    /// `true` if links may couple bodies.
+    has_links: bool,
     allows_gradients: bool,
     has_gradients: bool,
 }
@@ -164,8 +161,7 @@ impl Layout {
                 None => Order::Sought,
             },
             sequence: Vec::new(),
-            loose: BTreeSet::new(),
-            loose_beyond: None,
+            has_links: false,
             allows_gradients: false,
             has_gradients: false,
         };
@@ -174,32 +170,18 @@ impl Layout {
         Ok(layout)
     }
 
-    /// Allows minimum degree elimination if its factorisation costs less than in the given order,
-    /// for example for linked filaments. The choice depends on the couplings at the first solve.
-    /// Neighbours along a filament are determined by the given order in either case.
+    /// Allows links between chains, such as linkers and contacts. Unknowns are eliminated by minimum
+    /// degree if this costs less than the given order. The choice depends on the couplings at the
+    /// first solve. Neighbours along a filament are determined by the given order in either case.
+    ///
+    /// Links are not stiffened to regularise a step, and their relative motion is not limited as a
+    /// strain.
     #[must_use]
-    pub fn with_least_fill(mut self) -> Self {
+    pub fn with_links(mut self) -> Self {
+        self.has_links = true;
         if self.order == Order::Settled {
             self.order = Order::Compared;
         }
-        self
-    }
-
-    /// Marks pairs of bodies that are coupled but not neighbours. Their coupling is not stiffened
-    /// to regularise a step, and their relative motion is not limited as a strain.
-    #[must_use]
-    pub fn with_loose(mut self, pairs: impl IntoIterator<Item = [Coordinates; 2]>) -> Self {
-        let pairs = pairs.into_iter().map(|[a, b]| (a.min(b), a.max(b)));
-        self.loose.extend(pairs);
-        self
-    }
-
-    /// Marks all pairs farther apart than `reach` in the given order, as
-    /// [`with_loose`](Self::with_loose) does. Contacts are an example of pairs that may become
-    /// coupled.
-    #[must_use]
-    pub fn with_loose_beyond(mut self, order: BodyOrder, reach: f64) -> Self {
-        self.loose_beyond = Some((order, reach));
         self
     }
 
@@ -221,22 +203,11 @@ impl Layout {
     }
 
     pub(crate) fn allows_gradients(&self) -> bool {
-        self.allows_gradients && self.order == Order::Compared && self.has_loose()
+        self.allows_gradients && self.order == Order::Compared
     }
 
-    pub(crate) fn has_loose(&self) -> bool {
-        self.loose_beyond.is_some() || !self.loose.is_empty()
-    }
-
-    pub(crate) fn is_loose(&self, a: Coordinates, b: Coordinates) -> bool {
-        let are_apart = self.loose_beyond.as_ref().is_some_and(|(order, reach)| {
-            let place = |body| match body {
-                Coordinates::Point(i) => order.points[i],
-                Coordinates::Frame(i) => order.frames[i],
-            };
-            (place(a) - place(b)).abs() > *reach
-        });
-        are_apart || self.loose.contains(&(a.min(b), a.max(b)))
+    pub(crate) fn has_links(&self) -> bool {
+        self.has_links
     }
 
     /// Number of unknowns.

@@ -51,7 +51,7 @@ pub(crate) fn is_loaded(interactions: &[Box<dyn Interaction>], state: &State) ->
         if let Some(second_order) = interaction.second_order() {
             second_order.add_stiffness(state, &mut stiffness);
         }
-        if !stiffness.blocks().is_empty() {
+        if stiffness.all().next().is_some() {
             return false;
         }
         loads.clear();

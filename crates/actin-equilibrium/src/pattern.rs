@@ -7,7 +7,6 @@ use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::sparse::linalg::amd;
 use faer::sparse::linalg::cholesky::simplicial;
 use faer::sparse::{SymbolicSparseColMat, SymbolicSparseColMatRef};
-use std::ops::Range;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum BlockPosition {
@@ -43,72 +42,49 @@ pub(crate) enum BlockPosition {
 pub(crate) struct Pattern {
     pub(crate) symbolic: SymbolicSparseColMat<usize>,
     pub(crate) places: Vec<BlockPosition>,
+    /// Position of each block of a link, if `has_links`.
+    pub(crate) link_places: Vec<BlockPosition>,
+    /// `true` if the pattern includes the links.
+    pub(crate) has_links: bool,
     /// First diagonal row within the columns of each node.
     pub(crate) diagonal: Vec<usize>,
-    bodies: Vec<(Coordinates, Coordinates)>,
+    bodies: Vec<Pair>,
+    link_bodies: Vec<Pair>,
     neighbours: Vec<Vec<usize>>,
     starts: Vec<Vec<usize>>,
 }
 
-/// Sparse matrix without loose couplings.
-#[derive(Debug)]
-pub(crate) struct Chains {
-    /// Upper triangle.
-    pub(crate) symbolic: SymbolicSparseColMat<usize>,
-    /// Index of each entry in the full pattern.
-    pub(crate) places: Vec<usize>,
-    /// Other entries of the full pattern.
-    pub(crate) links: Links,
-}
-
-/// Entries that couple chains, by columns.
-#[derive(Debug)]
-pub(crate) struct Links {
-    starts: Vec<usize>,
-    /// Row, and index in the full pattern.
-    links: Vec<(usize, usize)>,
-}
-
-impl Links {
-    /// Adds the product with `v`, which is zero outside of the columns; only these entries of the
-    /// product are valid.
-    pub(crate) fn add_product(
-        &self,
-        values: &[f64],
-        columns: &[Range<usize>],
-        v: &[f64],
-        product: &mut [f64],
-    ) {
-        for column in columns.iter().cloned().flatten() {
-            let mut sum = 0.0;
-            for &(row, place) in &self.links[self.starts[column]..self.starts[column + 1]] {
-                let value = values[place];
-                product[row] += value * v[column];
-                sum += value * v[row];
-            }
-            product[column] += sum;
-        }
-    }
-}
-
 impl Pattern {
-    /// Fixes the order of the nodes of `layout`.
+    /// Fixes the order of the nodes of `layout`. Links are included unless the equations are solved
+    /// by conjugate gradients.
     pub(crate) fn new(stiffness: &Stiffness, layout: &mut Layout) -> Self {
-        let blocks = stiffness.blocks();
-        let mut neighbours = neighbours(blocks, layout);
+        let chains = neighbours(stiffness.blocks().iter(), layout);
+        let mut neighbours = neighbours(stiffness.all(), layout);
         if layout.order() != Order::Settled {
-            neighbours = settle(neighbours, blocks, layout);
+            neighbours = settle((neighbours, &chains), stiffness, layout);
         }
+        let links = if layout.has_gradients() {
+            neighbours = chains;
+            &[]
+        } else {
+            stiffness.links()
+        };
         let starts: Vec<Vec<usize>> = neighbours
             .iter()
             .map(|rows| running_sum(rows.iter().map(|&row| layout.range(row).len())))
             .collect();
         let symbolic = upper_triangle(&neighbours, layout);
+        let sparsity = (neighbours.as_slice(), starts.as_slice());
+        let places = |blocks| places(blocks, layout, sparsity, symbolic.col_ptr());
+        let bodies = |blocks: &[Block]| blocks.iter().map(|&(a, b, _)| (a, b)).collect();
         Self {
-            places: places(blocks, layout, (&neighbours, &starts), symbolic.col_ptr()),
-            symbolic,
+            places: places(stiffness.blocks()),
+            link_places: places(links),
             diagonal: starts.iter().map(|s| s[s.len() - 1]).collect(),
-            bodies: blocks.iter().map(|&(a, b, _)| (a, b)).collect(),
+            bodies: bodies(stiffness.blocks()),
+            link_bodies: bodies(links),
+            has_links: !layout.has_gradients(),
+            symbolic,
             neighbours,
             starts,
         }
@@ -124,51 +100,42 @@ impl Pattern {
         )
     }
 
-    /// Upper triangle without loose couplings, with indices in the full pattern, and the loose
-    /// entries.
-    pub(crate) fn chains(&self, layout: &Layout) -> Chains {
-        let symbolic = upper_triangle(&without_loose(&self.neighbours, layout), layout);
-        let (mut places, mut links) = (Vec::new(), Vec::new());
-        let mut starts = vec![0];
-        for column in 0..symbolic.ncols() {
-            let own = symbolic.col_ptr()[column]..symbolic.col_ptr()[column + 1];
-            let own = &symbolic.row_idx()[own];
-            for place in self.symbolic.col_ptr()[column]..self.symbolic.col_ptr()[column + 1] {
-                let row = self.symbolic.row_idx()[place];
-                if own.binary_search(&row).is_ok() {
-                    places.push(place);
-                } else {
-                    links.push((row, place));
-                }
-            }
-            starts.push(links.len());
-        }
-        Chains {
-            symbolic,
-            places,
-            links: Links { starts, links },
-        }
+    /// Position of a block; `None` if the pattern has no such entries.
+    pub(crate) fn place_of(&self, (a, b): Pair, layout: &Layout) -> Option<BlockPosition> {
+        let sparsity = (self.neighbours.as_slice(), self.starts.as_slice());
+        place(a, b, layout, sparsity, self.symbolic.col_ptr())
     }
 
-    /// The blocks couple the same bodies in the same order.
+    /// Returns `true` if the blocks couple the same bodies in the same order.
     pub(crate) fn fits(&self, stiffness: &Stiffness) -> bool {
-        stiffness.blocks().len() == self.bodies.len() && self.fits_from(0, stiffness)
+        let has_same_links = !self.has_links || stiffness.links().len() == self.link_bodies.len();
+        stiffness.blocks().len() == self.bodies.len()
+            && has_same_links
+            && self.fits_from([0, 0], stiffness)
     }
 
-    /// The blocks couple the same bodies as the blocks of the pattern from index `start`.
-    pub(crate) fn fits_from(&self, start: usize, stiffness: &Stiffness) -> bool {
-        let blocks = stiffness.blocks().iter();
-        self.bodies.get(start..).is_some_and(|bodies| {
-            blocks.len() <= bodies.len()
-                && blocks.zip(bodies).all(|(&(a, b, _), &pair)| (a, b) == pair)
-        })
+    /// Returns `true` if the blocks couple the same bodies as the blocks of the pattern from the
+    /// indices `start` of chains and links.
+    pub(crate) fn fits_from(&self, start: [usize; 2], stiffness: &Stiffness) -> bool {
+        couple(stiffness.blocks(), self.bodies.get(start[0]..))
+            && (!self.has_links || couple(stiffness.links(), self.link_bodies.get(start[1]..)))
     }
+}
+
+type Pair = (Coordinates, Coordinates);
+
+/// Returns `true` if blocks couple the first of the given pairs.
+fn couple(blocks: &[Block], pairs: Option<&[Pair]>) -> bool {
+    pairs.is_some_and(|pairs| {
+        let mut both = blocks.iter().zip(pairs);
+        blocks.len() <= pairs.len() && both.all(|(&(a, b, _), &pair)| (a, b) == pair)
+    })
 }
 
 type Block = (Coordinates, Coordinates, Matrix3);
 
 /// Sorted earlier nodes coupled to each node.
-fn neighbours(blocks: &[Block], layout: &Layout) -> Vec<Vec<usize>> {
+fn neighbours<'a>(blocks: impl Iterator<Item = &'a Block>, layout: &Layout) -> Vec<Vec<usize>> {
     let mut neighbours = vec![Vec::new(); layout.len()];
     for &(a, b, _) in blocks {
         if let (Some(a), Some(b)) = (layout.node_of(a), layout.node_of(b))
@@ -187,45 +154,38 @@ fn neighbours(blocks: &[Block], layout: &Layout) -> Vec<Vec<usize>> {
 /// Typical number of iterations of conjugate gradients.
 const ITERATIONS: usize = 20;
 
-fn without_loose(neighbours: &[Vec<usize>], layout: &Layout) -> Vec<Vec<usize>> {
-    let body = |node| match layout.node(node) {
-        Node::Point(i) => Some(Coordinates::Point(i)),
-        Node::Frame(i) => Some(Coordinates::Frame(i)),
-        Node::Group(_) => None,
-    };
-    let is_kept = |a: usize, b: usize| match (body(a), body(b)) {
-        (Some(a), Some(b)) => !layout.is_loose(a, b),
-        _ => true,
-    };
-    let columns = neighbours.iter().enumerate();
-    columns
-        .map(|(column, rows)| {
-            let rows = rows.iter().copied();
-            rows.filter(|&row| is_kept(row, column)).collect()
-        })
-        .collect()
-}
-
-fn prefers_gradients(neighbours: &[Vec<usize>], layout: &Layout, direct: usize) -> bool {
-    let whole = upper_triangle(neighbours, layout);
-    let chains = upper_triangle(&without_loose(neighbours, layout), layout);
+/// Returns `true` if conjugate gradients with the factors of the chains cost less than a
+/// factorisation of the whole matrix, which requires `direct` operations.
+fn prefers_gradients(
+    whole: &[Vec<usize>],
+    chains: &[Vec<usize>],
+    layout: &Layout,
+    direct: usize,
+) -> bool {
+    let whole = upper_triangle(whole, layout);
+    let chains = upper_triangle(chains, layout);
     let entries = whole.row_idx().len() + chains.row_idx().len();
     let iterative = factor_operations(chains.as_ref()) + 2 * ITERATIONS * entries;
-    iterative < 3 * direct
+    // Without links at present, the direct method would fail later.
+    iterative < 3 * direct || whole.row_idx().len() == chains.row_idx().len()
 }
 
 /// Fixes the order; returns the couplings in the new order.
-fn settle(present: Vec<Vec<usize>>, blocks: &[Block], layout: &mut Layout) -> Vec<Vec<usize>> {
+fn settle(
+    (present, chains): (Vec<Vec<usize>>, &[Vec<usize>]),
+    stiffness: &Stiffness,
+    layout: &mut Layout,
+) -> Vec<Vec<usize>> {
     let mut sought = layout.clone();
     sought.reorder(&minimum_degree(&present));
-    let reordered = neighbours(blocks, &sought);
+    let reordered = neighbours(stiffness.all(), &sought);
     let cost = |neighbours: &[Vec<usize>], layout: &Layout| {
         factor_operations(upper_triangle(neighbours, layout).as_ref())
     };
     if layout.order() == Order::Compared {
         let costs = [cost(&present, layout), cost(&reordered, &sought)];
         let least = costs[0].min(costs[1]);
-        if layout.allows_gradients() && prefers_gradients(&present, layout, least) {
+        if layout.allows_gradients() && prefers_gradients(&present, chains, layout, least) {
             layout.choose_gradients();
             return present;
         }
@@ -265,10 +225,10 @@ fn places(
     sparsity: Sparsity<'_>,
     columns: &[usize],
 ) -> Vec<BlockPosition> {
-    blocks
-        .iter()
-        .map(|&(a, b, _)| place(a, b, layout, sparsity, columns))
-        .collect()
+    let place = |&(a, b, _): &Block| {
+        place(a, b, layout, sparsity, columns).expect("the pattern was made from the same blocks")
+    };
+    blocks.iter().map(place).collect()
 }
 
 fn place(
@@ -277,9 +237,9 @@ fn place(
     layout: &Layout,
     (neighbours, starts): Sparsity<'_>,
     columns: &[usize],
-) -> BlockPosition {
+) -> Option<BlockPosition> {
     let (Some(first), Some(second)) = (layout.node_of(a), layout.node_of(b)) else {
-        return BlockPosition::Outside;
+        return Some(BlockPosition::Outside);
     };
     let (row, column) = (first.min(second), first.max(second));
     let start = layout.range(column).start;
@@ -287,32 +247,30 @@ fn place(
     let is_group = |node| matches!(layout.node(node), Node::Group(_));
     if first == second {
         let local = starts[column][starts[column].len() - 1];
-        return if is_group(first) {
+        return Some(if is_group(first) {
             let twice = a != b;
             BlockPosition::Diagonal { node: first, twice }
         } else {
             let at = values(local);
             BlockPosition::Body { node: first, at }
-        };
+        });
     }
-    let at = neighbours[column]
-        .binary_search(&row)
-        .expect("the pattern was made from the same blocks");
+    let at = neighbours[column].binary_search(&row).ok()?;
     let (local, transposed) = (starts[column][at], first > second);
     if is_group(row) || is_group(column) {
-        return BlockPosition::Above {
+        return Some(BlockPosition::Above {
             row,
             column,
             local,
             transposed,
-        };
+        });
     }
     let at = values(local);
-    BlockPosition::Bodies {
+    Some(BlockPosition::Bodies {
         column,
         at,
         transposed,
-    }
+    })
 }
 
 fn upper_triangle(neighbours: &[Vec<usize>], layout: &Layout) -> SymbolicSparseColMat<usize> {

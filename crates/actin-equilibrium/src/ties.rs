@@ -31,18 +31,13 @@ pub(crate) struct Ties {
 }
 
 impl Ties {
-    /// Ties of bodies that share a block and are not loose in the layout.
-    pub(crate) fn new(
-        blocks: &[(Coordinates, Coordinates, Matrix3)],
-        turn_length: f64,
-        layout: &Layout,
-    ) -> Self {
+    /// Ties of bodies that share a block.
+    pub(crate) fn new(blocks: &[(Coordinates, Coordinates, Matrix3)], turn_length: f64) -> Self {
         use Coordinates::{Frame, Point};
         let mut points = BTreeSet::new();
         let mut frames = BTreeSet::new();
         let mut seen = BTreeSet::new();
-        let tied = blocks.iter().filter(|(a, b, _)| !layout.is_loose(*a, *b));
-        for &(a, b, _) in tied {
+        for &(a, b, _) in blocks {
             match (a, b) {
                 (Point(i), Point(j)) if i != j => points.insert((i.min(j), i.max(j))),
                 (Frame(i), Frame(j)) if i != j => frames.insert((i.min(j), i.max(j))),

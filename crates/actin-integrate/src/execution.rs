@@ -172,6 +172,10 @@ impl<'a, 'o> Execution<'a, 'o> {
     }
 
     fn passed(&self) -> Option<(Body, &'static str)> {
+        let mut stepper = self.stepper.iter();
+        if stepper.any(|stepper| stepper.prevents_crossings()) {
+            return None;
+        }
         let (before, here) = (&self.sound.1, self.system.state());
         let mut all = self.system.interactions().iter();
         all.find_map(|interaction| {

@@ -14,6 +14,12 @@ pub trait Stepper {
     /// # Errors
     /// If the step fails. The state is then invalid.
     fn step(&mut self, system: &mut System, step: u64, h: f64) -> Result<(), StepFailure>;
+
+    /// Returns `true` if steps never move bodies through each other that an interaction separates.
+    /// Runs then do not check for it. The default is `false`.
+    fn prevents_crossings(&self) -> bool {
+        false
+    }
 }
 
 /// Failure of a step.

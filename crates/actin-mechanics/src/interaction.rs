@@ -3,6 +3,15 @@
 use crate::{Coordinates, Loads, RandomStress, SecondOrder, State};
 use std::fmt::Debug;
 
+/// Two bodies on collision course; equal for a body and a wall.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Approach {
+    /// The bodies.
+    pub bodies: [Coordinates; 2],
+    /// Fraction of the path up to the accepted distance, from 0 to 1.
+    pub fraction: f64,
+}
+
 /// A term of the model: elements of one kind, such as springs, joints or loads.
 ///
 /// All variables are in the state. If [`is_conservative`](Interaction::is_conservative) is `true`,
@@ -55,6 +64,14 @@ pub trait Interaction: Debug + Send + Sync {
     /// steps, and runs stop.
     fn passes_through(&self, _from: &State, _to: &State) -> Option<Coordinates> {
         None
+    }
+
+    /// Pairs of bodies that approach too much on the straight path between two states.
+    ///
+    /// Methods with long steps shorten the motion of these bodies to the accepted fraction, so that
+    /// they meet instead of passing through each other. The default is no pair.
+    fn approaches(&self, _from: &State, _to: &State) -> Vec<Approach> {
+        Vec::new()
     }
 
     /// Sum of the energies of all elements.

@@ -16,12 +16,16 @@ pub enum Coordinates {
 /// For coordinates `u` and `v` of two bodies, the block `(a, b)` is `d^2 E / du_a dv_b` at
 /// `u = v = 0`. Each pair of different bodies is listed once; the transposed block is implied.
 ///
-/// An interaction pushes the same pairs in the same order at every state, so that an assembler can
-/// store the positions of blocks. A change of pairs, as for contacts, costs a new analysis.
+/// Blocks of a chain, such as a rod, are pushed for the same pairs in the same order at every
+/// state, so that an assembler can store their positions. Links couple other pairs, and these may
+/// change: linkers between filaments, contacts.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Stiffness {
-    blocks: Vec<(Coordinates, Coordinates, Matrix3)>,
+    blocks: Vec<Block>,
+    links: Vec<Block>,
 }
+
+type Block = (Coordinates, Coordinates, Matrix3);
 
 impl Stiffness {
     /// Adds a block. For `a == b` the block must be symmetric.
@@ -30,14 +34,38 @@ impl Stiffness {
         self.blocks.push((a, b, block));
     }
 
-    /// All blocks in the order of insertion.
+    /// Adds a block of a link. For `a == b` the block must be symmetric.
+    #[inline]
+    pub fn push_link(&mut self, a: Coordinates, b: Coordinates, block: Matrix3) {
+        self.links.push((a, b, block));
+    }
+
+    /// Adds all blocks that `add` pushes as links.
+    pub fn extend_links(&mut self, add: impl FnOnce(&mut Self)) {
+        let start = self.blocks.len();
+        add(self);
+        self.links.extend(self.blocks.drain(start..));
+    }
+
+    /// Blocks of chains in the order of insertion.
     pub fn blocks(&self) -> &[(Coordinates, Coordinates, Matrix3)] {
         &self.blocks
+    }
+
+    /// Blocks of links in the order of insertion.
+    pub fn links(&self) -> &[(Coordinates, Coordinates, Matrix3)] {
+        &self.links
+    }
+
+    /// All blocks: first those of chains, then those of links.
+    pub fn all(&self) -> impl Iterator<Item = &(Coordinates, Coordinates, Matrix3)> {
+        self.blocks.iter().chain(&self.links)
     }
 
     /// Removes all blocks and keeps the allocated memory.
     pub fn clear(&mut self) {
         self.blocks.clear();
+        self.links.clear();
     }
 }
 

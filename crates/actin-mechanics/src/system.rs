@@ -193,6 +193,13 @@ impl System {
         &mut self.state
     }
 
+    /// Mutable access to the present state as [`state_mut`](Self::state_mut), with the interactions.
+    pub fn state_mut_and_interactions(&mut self) -> (&mut State, &[Box<dyn Interaction>]) {
+        self.loads_are_current = false;
+        self.changed_outside = true;
+        (&mut self.state, &self.interactions)
+    }
+
     /// Returns `true` if the loads belong to the present positions.
     pub fn loads_are_current(&self) -> bool {
         self.loads_are_current

@@ -2,13 +2,22 @@
 
 use super::rules::{all_finite, direction, non_negative, positive, show};
 use super::{Filament, SceneProblem, Section};
-use actin_mechanics::Vector3;
+use actin_mechanics::{Vector3, segments};
 use rand::{Rng, RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
 
 const MOST_FILAMENTS: usize = 100_000;
+
+/// Largest number of trials to place a filament.
+const MOST_TRIALS: usize = 1000;
+
+/// Largest deflection of straight filaments, relative to their length.
+const STRAIGHT: f64 = 1e-9;
+
+/// Number of sides of the polygon for the axis of a curved filament.
+const PARTS: u32 = 100;
 
 /// Placement of many filaments. The arranged filaments follow the listed ones, in the order of the arrangements.
 ///
@@ -44,6 +53,10 @@ pub(crate) enum Arrangement {
         /// By default all filaments have the length of `filament`.
         #[serde(default)]
         lengths_nm: Option<[f64; 2]>,
+        /// Smallest distance of the axis from those of all preceding filaments; at least 0. By default the contact
+        /// distance if filaments repel each other, otherwise 0.
+        #[serde(default)]
+        apart_nm: Option<f64>,
         /// Seed of places, directions and lengths.
         seed: u64,
     },
@@ -100,11 +113,17 @@ impl Arrangement {
         }
     }
 
-    /// Returns the filaments of arrangement `k` of a scene.
+    /// Returns the filaments of arrangement `k` of a scene with the `preceding` filaments and the given contact
+    /// distance of axes (nm).
     ///
     /// # Errors
-    /// If a number breaks its rule.
-    pub(super) fn filaments(&self, k: usize) -> Result<Vec<Filament>, SceneProblem> {
+    /// If a number breaks its rule, or if there is no room for a filament.
+    pub(super) fn filaments(
+        &self,
+        k: usize,
+        preceding: &[Filament],
+        contact: f64,
+    ) -> Result<Vec<Filament>, SceneProblem> {
         self.check(k)?;
         Ok(match self {
             Self::Copies {
@@ -113,15 +132,23 @@ impl Arrangement {
                 shift_nm,
             } => copies(filament, *count, Vector3::from(*shift_nm)),
             Self::Random {
-                filament,
                 count,
                 seed,
+                apart_nm,
                 ..
             } => {
                 let mut random = ChaCha8Rng::seed_from_u64(*seed);
-                (0..*count)
-                    .map(|_| self.random(filament.clone(), &mut random))
-                    .collect()
+                let apart = apart_nm.unwrap_or(contact);
+                let mut axes: Vec<_> = preceding.iter().map(FilamentAxis::new).collect();
+                let mut place = |_| self.place(&mut axes, apart, &mut random);
+                let placed: Option<Vec<Filament>> = (0..*count).map(&mut place).collect();
+                return placed.ok_or_else(|| {
+                    let rule = format!(
+                        "found no room for {count} filaments at this distance in {MOST_TRIALS} trials per filament: \
+                         increase box_nm or reduce count or apart_nm"
+                    );
+                    SceneProblem::new(format!("arrangements[{k}].apart_nm"), show(apart), rule)
+                });
             }
             Self::Bundle { filament, seed, .. } => {
                 self.bundle(filament, ChaCha8Rng::seed_from_u64(*seed))
@@ -145,8 +172,10 @@ impl Arrangement {
                 box_nm,
                 centre_nm,
                 lengths_nm,
+                apart_nm,
                 ..
             } => {
+                non_negative(&key("apart_nm"), apart_nm.unwrap_or(0.0))?;
                 box_nm
                     .iter()
                     .try_for_each(|edge| non_negative(&key("box_nm"), *edge))?;
@@ -164,6 +193,24 @@ impl Arrangement {
                 non_negative(&key("stagger_nm"), *stagger_nm)
             }
         }
+    }
+
+    /// Returns a random filament at a distance from the given axes and adds its axis, or `None` after too many trials.
+    fn place(
+        &self,
+        axes: &mut Vec<FilamentAxis>,
+        apart: f64,
+        random: &mut ChaCha8Rng,
+    ) -> Option<Filament> {
+        let mut trials = (0..MOST_TRIALS).map(|_| {
+            let filament = self.random(self.filament().clone(), random);
+            let axis = FilamentAxis::new(&filament);
+            (filament, axis)
+        });
+        let is_free = |axis: &FilamentAxis| axes.iter().all(|other| axis.is_apart(other, apart));
+        let (filament, axis) = trials.find(|(_, axis)| apart <= 0.0 || is_free(axis))?;
+        axes.push(axis);
+        Some(filament)
     }
 
     fn random(&self, mut filament: Filament, random: &mut ChaCha8Rng) -> Filament {
@@ -215,6 +262,46 @@ impl Arrangement {
             one
         };
         hexagonal(*count).into_iter().map(place).collect()
+    }
+}
+
+/// Axis of a filament as built: a polygon and a sphere around it.
+struct FilamentAxis {
+    corners: Vec<Vector3>,
+    centre: Vector3,
+    radius: f64,
+}
+
+impl FilamentAxis {
+    fn new(filament: &Filament) -> Self {
+        let length = filament.length_nm();
+        let ends = filament.places_at(&[0.0, 0.5 * length, length]);
+        let is_straight = ((ends[0] + ends[2]) * 0.5 - ends[1]).norm() < STRAIGHT * length;
+        let corners = if is_straight {
+            vec![ends[0], ends[2]]
+        } else {
+            let places = (0..=PARTS).map(|i| length * f64::from(i) / f64::from(PARTS));
+            filament.places_at(&places.collect::<Vec<_>>())
+        };
+        let distances = corners.iter().map(|corner| (corner - ends[1]).norm());
+        Self {
+            radius: distances.fold(0.0, f64::max),
+            centre: ends[1],
+            corners,
+        }
+    }
+
+    fn is_apart(&self, other: &Self, distance: f64) -> bool {
+        let least = (self.centre - other.centre).norm() - self.radius - other.radius;
+        let sides = |axis: &Self| -> Vec<[Vector3; 2]> {
+            let pairs = axis.corners.windows(2);
+            pairs.map(|pair| [pair[0], pair[1]]).collect()
+        };
+        least >= distance
+            || sides(self).into_iter().all(|a| {
+                let mut others = sides(other).into_iter();
+                others.all(|b| segments::nearest_points(a, b).squared >= distance * distance)
+            })
     }
 }
 

@@ -216,6 +216,7 @@ impl LinkersBetween {
 mod tests {
     use super::*;
     use crate::Scene;
+    use actin_mechanics::segments;
     use std::collections::HashSet;
 
     const NETWORK: &str = "Scene(
@@ -318,6 +319,39 @@ mod tests {
             let refused = Scene::from_ron(&text).expect_err(wrong).to_string();
             assert!(refused.contains(key), "{refused}");
         }
+    }
+
+    #[test]
+    fn random_filaments_that_repel_each_other_are_apart() {
+        let text = |more: &str, edge: &str| {
+            format!(
+                "Scene(
+                    arrangements: [Random(
+                        filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 300.0)]),
+                        count: 60, box_nm: ({edge}, {edge}, {edge}), seed: 3{more},
+                    )],
+                    repulsion: Repulsion(),
+                    task: Brownian(duration_ms: 0.001, temperature_k: 298.0, seed: 1),
+                )"
+            )
+        };
+        let closest = |more: &str| {
+            let scene = Scene::from_ron(&text(more, "300.0")).expect("the scene is valid");
+            let axes: Vec<[Vector3; 2]> = scene
+                .filaments()
+                .map(|one| [one.place_at(0.0), one.place_at(300.0)])
+                .collect();
+            let pairs = (0..60).flat_map(|j| (0..j).map(move |i| (i, j)));
+            let squares = pairs.map(|(i, j)| segments::nearest_points(axes[i], axes[j]).squared);
+            squares.fold(f64::INFINITY, f64::min).sqrt()
+        };
+        assert!(closest(", apart_nm: 0.0") < 7.4);
+        assert!(closest("") >= 7.4 && closest("") < 12.0);
+        assert!(closest(", apart_nm: 12.0") >= 12.0);
+        let refused = Scene::from_ron(&text(", apart_nm: 400.0", "10.0"))
+            .expect_err("no room")
+            .to_string();
+        assert!(refused.contains("arrangements[0].apart_nm"), "{refused}");
     }
 
     #[test]

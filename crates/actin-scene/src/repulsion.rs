@@ -87,6 +87,15 @@ impl Repulsion {
         !(self.planes.is_empty() && self.spheres.is_empty())
     }
 
+    /// Distance (nm) of axes below which filaments repel each other, or 0.
+    pub(super) fn contact_nm(&self) -> f64 {
+        if self.filaments {
+            2.0 * self.radius_nm
+        } else {
+            0.0
+        }
+    }
+
     fn check(&self, note: &mut impl FnMut(Result<(), SceneProblem>)) {
         if !self.filaments && !self.has_walls() {
             let rule = "repulsion has no effect: write planes or spheres, or omit this key";

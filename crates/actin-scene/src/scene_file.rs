@@ -75,7 +75,12 @@ impl TryFrom<SceneFile> for Scene {
             let mut one = arrangement.filament().clone();
             one.monomers.resolve();
             check_filament(&one, &format!("arrangements[{k}].filament"))?;
-            filaments.extend(arrangement.filaments(k)?);
+            let contact = written
+                .repulsion
+                .as_ref()
+                .map_or(0.0, Repulsion::contact_nm);
+            let arranged = arrangement.filaments(k, &filaments, contact)?;
+            filaments.extend(arranged);
         }
         let mut linkers = written.linkers;
         for (k, set) in written.linker_sets.iter().enumerate() {

@@ -29,7 +29,7 @@ fn main() {
             let state = assembly.system.state();
             let layout = |apart| Layout::new(state, Some(&order(&assembly, apart)), Vec::new());
             let layout = |apart| layout(apart).expect("one number for each body");
-            let layouts = [layout(1e3), layout(0.0), layout(1e3).with_least_fill()];
+            let layouts = [layout(1e3), layout(0.0), layout(1e3).with_links()];
             let unknowns = layouts[0].unknowns();
             let costs = layouts.map(|layout| cost(&assembly, &layout));
             let shown = costs.map(|(entries, ms)| format!("{entries:8} {ms:8.2}"));

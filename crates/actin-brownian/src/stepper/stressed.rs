@@ -3,6 +3,7 @@
 use super::{Brownian, LARGEST_TURN, spin};
 use crate::components::{Components, Subset};
 use crate::stress::StepMatrix;
+use actin_equilibrium::{ComponentStep, StepSize};
 use actin_integrate::StepFailure;
 use actin_mechanics::System;
 
@@ -34,7 +35,7 @@ impl Brownian {
                 continue;
             }
             let limits = self.progress.limits(LARGEST_TURN);
-            let steps = self.solver.advance_along(system.state_mut(), &limits);
+            let steps = self.advance(system, &limits);
             let components = &self.components;
             let is_selected = |c| components.has_component(c);
             let kt = self.thermal_energy;
@@ -51,6 +52,17 @@ impl Brownian {
             return Ok(());
         }
         Err(self.failure(system, &self.progress.largest()))
+    }
+
+    /// Moves the bodies by the step of an iteration. Bodies that repel each other meet, but do not
+    /// pass through each other.
+    fn advance(&mut self, system: &mut System, limits: &StepSize) -> Vec<ComponentStep> {
+        let (state, interactions) = system.state_mut_and_interactions();
+        self.solver.advance_along(state, limits, |from, to| {
+            let all = interactions.iter();
+            all.flat_map(|interaction| interaction.approaches(from, to))
+                .collect()
+        })
     }
 
     /// Updates the components if the pattern of the matrix has changed, and restarts the
@@ -85,7 +97,11 @@ impl Brownian {
         if !is_part {
             selected.fill(true);
         } else if FEW * open <= count {
-            selected = self.components.with_neighbours(&selected);
+            let open = selected.clone();
+            for [a, b] in self.solver.linked_components() {
+                selected[a] |= open[b];
+                selected[b] |= open[a];
+            }
         }
         self.components.select(selected);
     }

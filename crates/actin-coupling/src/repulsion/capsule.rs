@@ -121,6 +121,10 @@ impl Capsule {
         }
     }
 
+    pub(super) fn has_no_frame(&self) -> bool {
+        matches!(self.axis, Axis::Points(_))
+    }
+
     pub(super) fn body(&self) -> Coordinates {
         match self.axis {
             Axis::Points([first, _]) => Coordinates::Point(first),

@@ -1,9 +1,12 @@
 use super::capsule::{Capsule, RepulsionError, Row, positive};
-use super::distance;
-use super::kernel::Kernel;
+use super::kernel::{Kernel, Tangent};
 use super::neighbours::{Neighbours, Reach};
 use super::pair::Pair;
-use actin_mechanics::{Coordinates, Interaction, Loads, Matrix3, SecondOrder, State, Stiffness};
+use super::passing::{self, Limit};
+use actin_mechanics::{
+    Approach, Coordinates, Interaction, Loads, Matrix3, RandomStress, SecondOrder, State,
+    Stiffness, Vector3, segments,
+};
 use std::f64::consts::PI;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
@@ -14,6 +17,11 @@ const MARGIN: f64 = 0.25;
 /// Ratio of axis distance to radius below which two axes count as crossing: half the distance at
 /// which the force is largest.
 const IMPASSABLE: f64 = Kernel::YIELD;
+/// Fraction of the initial distance that pairs within this limit keep.
+const IMPASSABLE_KEPT: f64 = 0.99;
+/// Fraction of the contact distance, or of a smaller initial distance, up to which filaments
+/// approach in one iteration. Their repulsion is then moderate.
+const MEETING: f64 = 0.95;
 /// Effective number of neighbours that press on a filament. A filament in a bundle has six
 /// neighbours, of which half act along one direction.
 const PRESSING: f64 = 3.0;
@@ -159,7 +167,7 @@ impl Contacts {
         let mut least: Option<Gap> = None;
         let known = self.neighbours(state);
         for &[i, j] in &known.pairs {
-            let nearest = distance::between(known.ends[i], known.ends[j]);
+            let nearest = segments::nearest_points(known.ends[i], known.ends[j]);
             let gap = nearest.squared.sqrt() - 2.0 * self.radius;
             let is_least = least.is_none_or(|least| gap < least.gap);
             if gap <= MARGIN * self.radius && is_least {
@@ -186,14 +194,43 @@ impl Contacts {
         neighbours
     }
 
+    /// Pairs that approach up to a limit on straight paths, with the fraction of the path; at most
+    /// `most` pairs.
+    fn approaching(
+        &self,
+        from: &State,
+        to: &State,
+        limit: Limit,
+        most: usize,
+    ) -> Vec<([usize; 2], f64)> {
+        let later: Vec<_> = self.capsules.iter().map(|c| c.ends(to)).collect();
+        let mut known = self.neighbours(from);
+        let reach = (&self.reach, limit.least);
+        let pairs = known.meeting_on_the_way(&self.capsules, &later, reach);
+        let approach = |&[i, j]: &[usize; 2]| {
+            let ends = [i, j].map(|k| self.capsules[k].ends(from));
+            let fraction = passing::reaches(limit, ends, [later[i], later[j]])?;
+            Some(([i, j], fraction))
+        };
+        pairs.iter().filter_map(approach).take(most).collect()
+    }
+
+    fn push_tangents(&self, state: &State, stiffness: &mut Stiffness, tangent: Tangent) {
+        self.visit(state, self.reach.known, |[i, j], places| {
+            let tangents = places.tangents(&self.kernel, tangent);
+            let (a, b) = (&self.capsules[i], &self.capsules[j]);
+            let (of_a, of_b) = (a.slopes(state), b.slopes(state));
+            let bodies: [Follows; 4] = [(0, of_a[0]), (0, of_a[1]), (2, of_b[0]), (2, of_b[1])];
+            push_blocks(&bodies, &tangents, stiffness);
+        });
+    }
+
     fn visit(&self, state: &State, within: f64, mut visit: impl FnMut([usize; 2], &Pair)) {
         let known = self.neighbours(state);
-        for &[i, j] in &known.pairs {
+        for [i, j] in known.within(within) {
             let ends = [known.ends[i], known.ends[j]];
-            if distance::between(ends[0], ends[1]).squared < within * within {
-                let rows = [self.rows[i], self.rows[j]];
-                visit([i, j], &Pair { ends, rows });
-            }
+            let rows = [self.rows[i], self.rows[j]];
+            visit([i, j], &Pair { ends, rows });
         }
     }
 }
@@ -231,35 +268,78 @@ impl Interaction for Contacts {
         Some(self)
     }
 
+    fn random_stress(&self) -> Option<&dyn RandomStress> {
+        Some(self)
+    }
+
     /// Two axes count as crossing if their distance falls below a third of a radius. If it is below
     /// already, any further approach counts.
     fn passes_through(&self, from: &State, to: &State) -> Option<Coordinates> {
-        let later: Vec<_> = self.capsules.iter().map(|c| c.ends(to)).collect();
-        let limits = (&self.reach, IMPASSABLE * self.radius);
-        let neighbours = self.neighbours(from);
-        let [i, _] = neighbours.first_passing(&self.capsules, &later, limits)?;
-        Some(self.capsules[i].body())
+        let limit = Limit {
+            least: IMPASSABLE * self.radius,
+            kept: IMPASSABLE_KEPT,
+        };
+        let first = self.approaching(from, to, limit, 1);
+        let ([i, _], _) = first.first()?;
+        Some(self.capsules[*i].body())
+    }
+
+    fn approaches(&self, from: &State, to: &State) -> Vec<Approach> {
+        let limit = Limit {
+            least: MEETING * self.kernel.reach,
+            kept: MEETING,
+        };
+        let approaching = self.approaching(from, to, limit, usize::MAX).into_iter();
+        approaching
+            .map(|(pair, fraction)| Approach {
+                bodies: pair.map(|i| self.capsules[i].body()),
+                fraction,
+            })
+            .collect()
     }
 }
 
 impl SecondOrder for Contacts {
-    /// Adds blocks for all pairs with gaps below a quarter of a radius. Blocks of pairs without
-    /// contact are zero, so that a new contact does not change the sparsity pattern.
+    /// Adds links for all pairs with gaps below a quarter of a radius. Blocks of pairs without
+    /// contact are zero, so that a new contact rarely changes the sparsity of the whole matrix.
     fn add_stiffness(&self, state: &State, stiffness: &mut Stiffness) {
-        self.visit(state, self.reach.known, |[i, j], places| {
-            let tangents = places.tangents(&self.kernel);
+        self.push_tangents(state, stiffness, Kernel::tangent);
+        if self.capsules.iter().all(Capsule::has_no_frame) {
+            return;
+        }
+        self.visit(state, self.reach.known, |pair, places| {
             let forces = places.forces(&self.kernel);
-            let (a, b) = (&self.capsules[i], &self.capsules[j]);
-            let (of_a, of_b) = (a.slopes(state), b.slopes(state));
-            let bodies: [Follows; 4] = [(0, of_a[0]), (0, of_a[1]), (2, of_b[0]), (2, of_b[1])];
-            push_blocks(&bodies, &tangents, stiffness);
-            for (capsule, forces) in [a, b].into_iter().zip(forces) {
-                let geometric = capsule.curvature_of_work(forces.map(|f| -f), state);
-                if let Some((frame, block)) = geometric {
-                    stiffness.push(frame, frame, block);
+            for (i, forces) in pair.into_iter().zip(forces) {
+                let work = forces.map(|f| -f);
+                if let Some((frame, block)) = self.capsules[i].curvature_of_work(work, state) {
+                    stiffness.push_link(frame, frame, block);
                 }
             }
         });
+    }
+}
+
+/// Contacts have no random stress. Only their convexity is used.
+impl RandomStress for Contacts {
+    fn components(&self) -> usize {
+        0
+    }
+
+    fn draw(&self, _state: &State, _thermal_energy: f64, _stresses: &mut [f64]) {}
+
+    fn balance(&self, _state: &State, _stresses: &mut [f64]) {}
+
+    fn add_stress_loads(&self, _state: &State, _stresses: &[f64], _loads: &mut Loads) {}
+
+    fn add_stress_stiffness(&self, _state: &State, _stresses: &[f64], _stiffness: &mut Stiffness) {}
+
+    fn add_convexity(&self, state: &State, is_wanted: bool, stiffness: &mut Stiffness) {
+        let tangent = if is_wanted {
+            Kernel::negative_tangent
+        } else {
+            |_: &Kernel, _: f64, _: Vector3| Matrix3::zeros()
+        };
+        self.push_tangents(state, stiffness, tangent);
     }
 }
 
@@ -280,7 +360,7 @@ fn push_blocks(bodies: &[Follows; 4], tangents: &[[Matrix3; 4]; 4], stiffness: &
             if a == b {
                 block = 0.5 * (block + block.transpose());
             }
-            stiffness.push(a, b, block);
+            stiffness.push_link(a, b, block);
         }
     }
 }

@@ -65,7 +65,21 @@ impl Kernel {
         let outer = d * d.transpose() * (6.0 / (self.reach * self.reach));
         (outer - Matrix3::from_diagonal_element(depth)) * scale
     }
+
+    /// Negative part of the [`tangent`](Self::tangent) with opposite sign: across `d`, and also
+    /// along `d` below 0.38 of the contact distance.
+    pub(super) fn negative_tangent(&self, depth: f64, d: Vector3) -> Matrix3 {
+        let scale = 8.0 * self.strength / (self.reach * self.reach) * depth * depth;
+        let squared = d.norm_squared();
+        let along = depth - 6.0 * squared / (self.reach * self.reach);
+        let axis = d * d.transpose() / squared.max(f64::MIN_POSITIVE);
+        let across = Matrix3::identity() - axis;
+        (across * depth + axis * along.max(0.0)) * scale
+    }
 }
+
+/// Tangent of a kernel at a depth and a distance vector.
+pub(super) type Tangent = fn(&Kernel, f64, Vector3) -> Matrix3;
 
 /// Energy per length of a point of an axis with penetration depth `p`: `k p^4 / (24 R^3)`.
 ///
@@ -100,5 +114,35 @@ impl WallKernel {
     #[inline]
     pub(super) fn tangent(&self, depth: f64) -> f64 {
         self.stiffness * depth.powi(2) / (2.0 * self.radius.powi(3))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// At a distance of 1 nm the tangent is negative in all directions, at 5 nm across the
+    /// distance.
+    #[test]
+    fn the_negative_part_makes_the_tangent_convex() {
+        let kernel = Kernel::new(1000.0, 7.0);
+        for (distance, negative) in [(1.0, 3), (5.0, 2)] {
+            let d = Vector3::new(0.6, 0.0, 0.8) * distance;
+            let depth = kernel.depth(d);
+            let tangent = kernel.tangent(depth, d);
+            let part = kernel.negative_tangent(depth, d);
+            let values = tangent.symmetric_eigenvalues();
+            assert_eq!(
+                values.iter().filter(|value| **value < 0.0).count(),
+                negative
+            );
+            let sum = tangent.iter().zip(part.iter());
+            let sum = Matrix3::from_iterator(sum.map(|(a, b)| a + b));
+            let values = sum.symmetric_eigenvalues();
+            let rounding = 1e-14 * tangent.amax();
+            assert!(values.iter().all(|value| *value >= -rounding), "{values}");
+            let along = d.dot(&(tangent * d)).max(0.0);
+            assert!((d.dot(&(sum * d)) - along).abs() < 1e-12 * tangent.amax() * d.norm_squared());
+        }
     }
 }

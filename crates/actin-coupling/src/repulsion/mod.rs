@@ -13,7 +13,6 @@
 
 mod capsule;
 mod contacts;
-mod distance;
 mod kernel;
 mod neighbours;
 mod pair;

@@ -1,18 +1,26 @@
 use super::Capsule;
-use super::distance;
-use super::passing::comes_within;
-use actin_mechanics::{State, Vector3};
+use actin_mechanics::{State, Vector3, segments};
 use rstar::primitives::{GeomWithData, Rectangle};
 use rstar::{AABB, RTree};
 
 /// Largest coordinate (nm); a motion beyond it has diverged.
 const FARTHEST: f64 = 1e12;
 
+/// A list that is used less often than this before it must be renewed is made longer.
+const FEW_USES: u32 = 16;
+/// A list that is used more often than this is made shorter.
+const MANY_USES: u32 = 256;
+/// Factor of these changes.
+const CHANGE: f64 = 1.5;
+/// Largest skin in units of the smallest one. Longer motions are searched directly.
+const THICKEST: f64 = 32.0;
+
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Reach {
     /// Distance of axes (nm) within which the list is complete.
     pub(super) known: f64,
-    /// Additional distance (nm) of listed pairs, so that the list stays valid while bodies move.
+    /// Smallest additional distance (nm) of listed pairs, so that the list stays valid while bodies
+    /// move.
     pub(super) skin: f64,
     /// Smallest contour distance (nm) of interacting parts of one filament.
     pub(super) apart: f64,
@@ -21,77 +29,128 @@ pub(super) struct Reach {
 /// Neighbour list and current axes.
 ///
 /// The list contains all pairs within `known`. It can contain more distant pairs. Callers check
-/// distances, so that results do not depend on the time of the last update.
+/// distances, so that results do not depend on the time of the last update. The skin adapts to the
+/// motion between uses.
 #[derive(Debug, Default)]
 pub(super) struct Neighbours {
     /// Pairs with ascending indices, sorted.
     pub(super) pairs: Vec<[usize; 2]>,
+    /// Current squared distance of each pair (nm^2).
+    squares: Vec<f64>,
+    /// Capsules that have moved since the last use.
+    moved: Vec<bool>,
     /// Current ends of all axes (nm, lab frame).
     pub(super) ends: Vec<[Vector3; 2]>,
     found_at: Vec<[Vector3; 2]>,
+    skin: f64,
+    /// Number of uses of the list.
+    uses: u32,
 }
 
 impl Neighbours {
-    /// Updates the axes, and the list if a capsule has moved by more than half the skin.
+    /// Updates the axes and distances, and the list if a capsule has moved by more than half the
+    /// skin.
     pub(super) fn update(&mut self, capsules: &[Capsule], state: &State, reach: &Reach) {
-        self.ends.clear();
-        let ends = capsules.iter().map(|capsule| capsule.ends(state));
-        self.ends.extend(ends);
+        let is_listed = self.ends.len() == capsules.len();
+        if !is_listed {
+            self.ends = capsules.iter().map(|capsule| capsule.ends(state)).collect();
+            return self.find(capsules, reach, 0.0);
+        }
+        self.moved.clear();
+        for (capsule, ends) in capsules.iter().zip(&mut self.ends) {
+            let now = capsule.ends(state);
+            self.moved.push(*ends != now);
+            *ends = now;
+        }
         // Two capsules can approach each other at twice this distance.
-        let limit = 0.5 * reach.skin;
-        let is_near = |([a, b], [c, d]): (&[Vector3; 2], &[Vector3; 2])| {
-            let limit2 = limit * limit;
-            (a - c).norm_squared() <= limit2 && (b - d).norm_squared() <= limit2
-        };
-        let lasts = self.found_at.len() == self.ends.len()
-            && self.ends.iter().zip(&self.found_at).all(is_near);
-        if !lasts {
-            self.find(capsules, reach);
+        if 2.0 * farthest(&self.found_at, &self.ends) > self.skin {
+            let factor = match self.uses {
+                uses if uses < FEW_USES => CHANGE,
+                uses if uses > MANY_USES => 1.0 / CHANGE,
+                _ => 1.0,
+            };
+            return self.find(capsules, reach, factor * self.skin);
+        }
+        if self.moved.iter().any(|moved| *moved) {
+            self.uses = self.uses.saturating_add(1);
+            for (&[i, j], square) in self.pairs.iter().zip(&mut self.squares) {
+                if self.moved[i] || self.moved[j] {
+                    *square = segments::nearest_points(self.ends[i], self.ends[j]).squared;
+                }
+            }
         }
     }
 
-    fn find(&mut self, capsules: &[Capsule], reach: &Reach) {
-        let cutoff = reach.known + reach.skin;
+    /// Pairs within a distance (nm) of at most `known`.
+    pub(super) fn within(&self, distance: f64) -> impl Iterator<Item = [usize; 2]> {
+        let pairs = self.pairs.iter().zip(&self.squares);
+        let near = pairs.filter(move |(_, square)| **square < distance * distance);
+        near.map(|(pair, _)| *pair)
+    }
+
+    fn find(&mut self, capsules: &[Capsule], reach: &Reach, skin: f64) {
+        self.skin = skin.clamp(reach.skin, THICKEST * reach.skin);
+        self.uses = 0;
+        let cutoff = reach.known + self.skin;
         let boxes: Vec<_> = self.ends.iter().map(Bounds::new).collect();
         self.pairs.clear();
+        self.squares.clear();
         for [i, j] in meeting(&boxes, capsules, reach.apart, cutoff) {
-            if distance::between(self.ends[i], self.ends[j]).squared < cutoff * cutoff {
+            let nearest = segments::nearest_points(self.ends[i], self.ends[j]);
+            if nearest.squared < cutoff * cutoff {
                 self.pairs.push([i, j]);
+                self.squares.push(nearest.squared);
             }
         }
         self.found_at.clone_from(&self.ends);
     }
 
-    /// First pair whose distance falls below `least` (nm) on straight paths to `later`. If the
-    /// distance is below `least` already, any further approach counts.
-    pub(super) fn first_passing(
-        &self,
+    /// Pairs that may come within `least` (nm) on straight paths to `later`.
+    pub(super) fn meeting_on_the_way(
+        &mut self,
         capsules: &[Capsule],
         later: &[[Vector3; 2]],
         (reach, least): (&Reach, f64),
-    ) -> Option<[usize; 2]> {
-        let ways = || self.ends.iter().zip(later);
-        let farthest = ways()
-            .flat_map(|([a, b], [c, d])| [(a - c).norm_squared(), (b - d).norm_squared()])
-            .fold(0.0, f64::max)
-            .sqrt();
-        let passes = |&[i, j]: &[usize; 2]| {
-            comes_within(
-                least,
-                [i, j].map(|k| self.ends[k]),
-                [i, j].map(|k| later[k]),
-            )
-        };
-        // All possible pairs are in the list.
-        if 2.0 * farthest + least <= reach.known {
-            return self.pairs.iter().copied().find(passes);
+    ) -> Vec<[usize; 2]> {
+        let needed = 2.0 * farthest(&self.ends, later) + least - reach.known;
+        if needed > THICKEST * reach.skin {
+            let ways = self.ends.iter().zip(later);
+            let boxes: Vec<_> = ways
+                .map(|way| Bounds::new(way.0).with(&Bounds::new(way.1)))
+                .collect();
+            return meeting(&boxes, capsules, reach.apart, least);
         }
-        let boxes: Vec<_> = ways()
-            .map(|way| Bounds::new(way.0).with(&Bounds::new(way.1)))
+        if needed > self.skin - 2.0 * farthest(&self.found_at, &self.ends) {
+            self.find(capsules, reach, CHANGE * needed);
+        }
+        let ways = self.ends.iter().zip(later);
+        let lengths: Vec<f64> = ways
+            .map(|([a, b], [c, d])| (a - c).norm().max((b - d).norm()))
             .collect();
-        let mut pairs = meeting(&boxes, capsules, reach.apart, least).into_iter();
-        pairs.find(passes)
+        let pairs = self.pairs.iter().zip(&self.squares);
+        let may_meet = |pair: [usize; 2], square: f64| {
+            let path: f64 = pair.iter().map(|i| lengths[*i]).sum();
+            path > 0.0 && square < (path + least).powi(2)
+        };
+        let meeting = pairs.filter(|(pair, square)| may_meet(**pair, **square));
+        meeting.map(|(pair, _)| *pair).collect()
     }
+}
+
+/// Largest displacement of an end (nm); infinite if not finite.
+fn farthest(from: &[[Vector3; 2]], to: &[[Vector3; 2]]) -> f64 {
+    let moved = |([a, b], [c, d]): (&[Vector3; 2], &[Vector3; 2])| {
+        let squares = [(a - c).norm_squared(), (b - d).norm_squared()];
+        squares.map(|square| {
+            if square.is_finite() {
+                square
+            } else {
+                f64::INFINITY
+            }
+        })
+    };
+    let squares = from.iter().zip(to).flat_map(moved);
+    squares.fold(0.0, f64::max).sqrt()
 }
 
 #[derive(Clone, Copy, Debug)]

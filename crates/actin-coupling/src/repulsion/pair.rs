@@ -1,5 +1,5 @@
 use super::capsule::Row;
-use super::kernel::Kernel;
+use super::kernel::{Kernel, Tangent};
 use actin_mechanics::{Matrix3, Vector3};
 
 #[derive(Clone, Copy, Debug)]
@@ -76,10 +76,12 @@ impl Pair {
         forces
     }
 
-    pub(super) fn tangents(&self, kernel: &Kernel) -> [[Matrix3; 4]; 4] {
+    /// Second derivatives with respect to the four ends, from the tangents of all points in
+    /// contact (pN/nm).
+    pub(super) fn tangents(&self, kernel: &Kernel, tangent: Tangent) -> [[Matrix3; 4]; 4] {
         let mut blocks = [[Matrix3::zeros(); 4]; 4];
         self.touches(kernel, |t| {
-            let tangent = kernel.tangent(t.depth, t.d) * t.weight;
+            let tangent = tangent(kernel, t.depth, t.d) * t.weight;
             let [a, b] = t.shares;
             let factors = [a - 1.0, -a, 1.0 - b, b];
             for (row, f) in blocks.iter_mut().zip(factors) {

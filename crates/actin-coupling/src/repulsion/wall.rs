@@ -1,14 +1,19 @@
 use super::capsule::{Capsule, RepulsionError, Row, positive};
 use super::contacts::Gap;
-use super::distance;
 use super::kernel::WallKernel;
-use super::passing::comes_within;
+use super::passing::{self, Limit};
 use actin_mechanics::{
-    Coordinates, Interaction, Loads, Matrix3, SecondOrder, State, Stiffness, Vector3,
+    Approach, Coordinates, Interaction, Loads, Matrix3, SecondOrder, State, Stiffness, Vector3,
+    segments,
 };
 
 /// Distance from contact within which capsules are part of the stiffness, in radii.
 const MARGIN: f64 = 0.25;
+
+/// Distance of an axis from a sphere up to which filaments approach in one iteration, in radii.
+const MEETING: f64 = 0.8;
+/// Fraction of the initial distance from the centre that closer filaments keep.
+const KEPT: f64 = 0.99;
 
 /// Surface that confines filaments to one side.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -155,7 +160,7 @@ impl WallContact {
                 radius,
                 side: Side::Outside,
             } => {
-                let (share, squared) = distance::to_point(ends, centre);
+                let (share, squared) = segments::nearest_to_point(ends, centre);
                 (share, squared.sqrt() - radius)
             }
             _ => least_of_ends(),
@@ -239,6 +244,39 @@ impl WallContact {
     }
 }
 
+impl WallContact {
+    /// Bodies that approach a sphere from outside to a distance (nm) on straight paths, with the
+    /// fraction of the path. Other walls need no check, since the energy grows with the penetration
+    /// depth. In a sphere, an axis can enter and leave on the other side within one step.
+    fn approaching(
+        &self,
+        from: &State,
+        to: &State,
+        distance: f64,
+    ) -> impl Iterator<Item = (Coordinates, f64)> {
+        let outside = match self.wall {
+            Wall::Sphere {
+                centre,
+                radius,
+                side: Side::Outside,
+            } => Some((centre, radius)),
+            _ => None,
+        };
+        outside.into_iter().flat_map(move |(centre, radius)| {
+            let limit = Limit {
+                least: radius + distance,
+                kept: KEPT,
+            };
+            let approach = move |capsule: &Capsule| {
+                let ways = [from, to].map(|state| [capsule.ends(state), [centre; 2]]);
+                let fraction = passing::reaches(limit, ways[0], ways[1])?;
+                Some((capsule.body(), fraction))
+            };
+            self.capsules.iter().filter_map(approach)
+        })
+    }
+}
+
 impl Interaction for WallContact {
     fn term(&self) -> &'static str {
         "repulsion"
@@ -269,24 +307,19 @@ impl Interaction for WallContact {
         Some(self)
     }
 
-    /// Checks spheres with filaments outside only, because an axis can enter such a sphere and
-    /// leave it on the other side within one step. Other walls need no check, since the energy
-    /// grows with the penetration depth.
     fn passes_through(&self, from: &State, to: &State) -> Option<Coordinates> {
-        let Wall::Sphere {
-            centre,
-            radius,
-            side: Side::Outside,
-        } = self.wall
-        else {
-            return None;
-        };
-        let still = [centre; 2];
-        let passes = |capsule: &&Capsule| {
-            let ways = [from, to].map(|state| [capsule.ends(state), still]);
-            comes_within(radius, ways[0], ways[1])
-        };
-        self.capsules.iter().find(passes).map(Capsule::body)
+        let mut approaching = self.approaching(from, to, 0.0);
+        approaching.next().map(|(body, _)| body)
+    }
+
+    fn approaches(&self, from: &State, to: &State) -> Vec<Approach> {
+        let approaching = self.approaching(from, to, MEETING * self.kernel.radius);
+        approaching
+            .map(|(body, fraction)| Approach {
+                bodies: [body; 2],
+                fraction,
+            })
+            .collect()
     }
 }
 
@@ -307,12 +340,12 @@ impl SecondOrder for WallContact {
                     if a == b {
                         block = 0.5 * (block + block.transpose());
                     }
-                    stiffness.push(*a, *b, block);
+                    stiffness.push_link(*a, *b, block);
                 }
             }
             let work = self.forces(i, ends).map(|f| -f);
             if let Some((frame, block)) = capsule.curvature_of_work(work, state) {
-                stiffness.push(frame, frame, block);
+                stiffness.push_link(frame, frame, block);
             }
         }
     }

@@ -121,14 +121,14 @@ impl Clusters {
     }
 
     /// Moves the bodies of `to`, a copy of `from`, and returns the unlimited extent of the step of
-    /// each cluster. The step of a cluster is shortened to the limits. Free clusters keep their
-    /// mean displacement. Spins about third axes are applied last.
+    /// each cluster. The step of a cluster is shortened to the limits, and then to a share. Free
+    /// clusters keep their mean displacement. Spins about third axes are applied last.
     pub(crate) fn advance(
         &self,
         layout: &Layout,
         (from, to): (&State, &mut State),
         step: &[f64],
-        (spins, limits): (&[bool], &StepSize),
+        (spins, limits, shares): (&[bool], &StepSize, &[f64]),
     ) -> Vec<StepSize> {
         if step.iter().any(|value| !value.is_finite()) {
             return vec![StepSize::INFINITE; self.0.len()];
@@ -141,7 +141,7 @@ impl Clusters {
         let velocities = layout.velocities(from, &tilts);
         let mut scales = vec![1.0; from.frames.len()];
         let mut sizes = Vec::with_capacity(self.0.len());
-        for cluster in &self.0 {
+        for (cluster, share) in self.0.iter().zip(shares) {
             if cluster.is_still(layout, step) {
                 sizes.push(StepSize::default());
                 continue;
@@ -149,7 +149,8 @@ impl Clusters {
             let own = layout.extent_of(&cluster.nodes, &tilts);
             let scale = (limits.rotation / own.rotation)
                 .min(limits.displacement / own.displacement)
-                .min(1.0);
+                .min(1.0)
+                * share;
             layout.apply_to(&cluster.nodes, to, &tilts, scale);
             cluster.carry(from, &velocities, scale, to);
             for &i in &cluster.frames {

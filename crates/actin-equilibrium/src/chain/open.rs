@@ -83,12 +83,11 @@ impl Components {
     }
 }
 
-/// Returns `true` if each component is held at one place at most and no bodies are coupled without
-/// a tie.
+/// Returns `true` if each component is held at one place at most and no links are possible.
 pub(crate) fn is_open(layout: &Layout, ties: &Ties) -> bool {
     let is_held_once =
         |components: &mut Components| components.holds().values().all(|&places| places == 1);
-    !layout.has_loose() && is_held_once(&mut Components::new(layout, ties))
+    !layout.has_links() && is_held_once(&mut Components::new(layout, ties))
 }
 
 #[cfg(test)]

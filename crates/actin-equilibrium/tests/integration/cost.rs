@@ -13,7 +13,7 @@ type Order = fn(&Rod, &State) -> Layout;
 
 const GIVEN: Order = Rod::layout;
 const FOUND: Order = |_, state| Layout::free(state);
-const CHEAPER: Order = |rod, state| rod.layout(state).with_least_fill();
+const CHEAPER: Order = |rod, state| rod.layout(state).with_links();
 
 fn work(segments: usize, order: Order) -> actin_equilibrium::SolverWork {
     let rod = Rod {

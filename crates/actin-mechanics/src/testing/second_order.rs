@@ -71,7 +71,7 @@ pub(super) fn dense(stiffness: &Stiffness, state: &State) -> DMatrix<f64> {
     };
     let n = 3 * (state.points.len() + state.frames.len());
     let mut matrix = DMatrix::zeros(n, n);
-    for &(a, b, block) in stiffness.blocks() {
+    for &(a, b, block) in stiffness.all() {
         let mut place = matrix.fixed_view_mut::<3, 3>(first(a), first(b));
         place += block;
         if a != b {
@@ -97,14 +97,14 @@ fn assert_same_pairs(interaction: &dyn Interaction, state: &State) {
     let mut moved = state.clone();
     perturb(&mut moved, &mut Xorshift::new(77), 0.1, 0.1);
     let elsewhere = stiffness_of(interaction, &moved);
-    let pairs = |s: &Stiffness| s.blocks().iter().map(|b| (b.0, b.1)).collect::<Vec<_>>();
+    let pairs = |s: &Stiffness| s.all().map(|b| (b.0, b.1)).collect::<Vec<_>>();
     assert_eq!(pairs(&here), pairs(&elsewhere), "pairs at another state");
 }
 
 /// Asserts that diagonal blocks are symmetric.
 fn assert_diagonal(interaction: &dyn Interaction, state: &State, relative: f64) {
     let here = stiffness_of(interaction, state);
-    for (a, _, block) in here.blocks().iter().filter(|(a, b, _)| a == b) {
+    for (a, _, block) in here.all().filter(|(a, b, _)| a == b) {
         let asymmetry = (block - block.transpose()).amax();
         assert!(
             asymmetry <= relative * block.amax(),

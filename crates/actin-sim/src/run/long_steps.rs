@@ -31,7 +31,8 @@ const RECORDS: f64 = 100.0;
 pub(super) fn longest(assembly: &Assembly, task: &Task) -> Result<Option<f64>, SceneProblem> {
     let is_athermal = task.temperature_k == 0.0;
     let has_bonds = assembly.counts().bonds > 0;
-    if assembly.scene.repulsion.is_some() || (has_bonds && !is_athermal) {
+    let has_contacts = assembly.scene.repulsion.is_some();
+    if (has_contacts && is_athermal) || (has_bonds && !is_athermal) {
         return Ok(None);
     }
     let motion = task.to_dynamics();

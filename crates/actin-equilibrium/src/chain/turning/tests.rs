@@ -175,7 +175,7 @@ fn a_chain_held_at_one_end_is_open() {
     for held in [true, false] {
         let (mut state, terms, mut layout) = chain(held);
         assert!(seen(&mut layout, &state, &terms));
-        let mut across = layout.clone().with_loose([[Point(0), Point(6)]]);
+        let mut across = layout.clone().with_links();
         assert!(!seen(&mut across, &state, &terms));
         state.points.hold(6);
         let mut other_end = Layout::new(&state, None, Vec::new()).unwrap();

@@ -1,14 +1,18 @@
-use actin_mechanics::Vector3;
+//! Distances of line segments.
 
-/// Squared distance and relative positions of the nearest points.
+use crate::Vector3;
+
+/// Nearest points of two line segments.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Nearest {
-    pub(super) squared: f64,
-    pub(super) shares: [f64; 2],
+pub struct NearestPoints {
+    /// Squared distance.
+    pub squared: f64,
+    /// Relative positions along the segments, from 0 to 1.
+    pub shares: [f64; 2],
 }
 
 /// Relative position of the point of a line segment nearest to `x`, and the squared distance.
-pub(super) fn to_point([start, end]: [Vector3; 2], x: Vector3) -> (f64, f64) {
+pub fn nearest_to_point([start, end]: [Vector3; 2], x: Vector3) -> (f64, f64) {
     let along = end - start;
     let length2 = along.norm_squared();
     let share = if length2 > 0.0 {
@@ -29,22 +33,22 @@ pub(super) fn to_point([start, end]: [Vector3; 2], x: Vector3) -> (f64, f64) {
 /// These are the relative positions of the feet, with `a = u.u`, `b = u.v`, `c = v.v`, `d = u.w`
 /// and `e = v.w` for the direction vectors `u`, `v` and the vector `w` from the second to the first
 /// start.
-pub(super) fn between(first: [Vector3; 2], second: [Vector3; 2]) -> Nearest {
-    let mut nearest = Nearest {
+pub fn nearest_points(first: [Vector3; 2], second: [Vector3; 2]) -> NearestPoints {
+    let mut nearest = NearestPoints {
         squared: f64::INFINITY,
         shares: [0.0; 2],
     };
     let mut offer = |squared: f64, shares: [f64; 2]| {
         if squared < nearest.squared {
-            nearest = Nearest { squared, shares };
+            nearest = NearestPoints { squared, shares };
         }
     };
     for (share, x) in [0.0, 1.0].into_iter().zip(first) {
-        let (other, squared) = to_point(second, x);
+        let (other, squared) = nearest_to_point(second, x);
         offer(squared, [share, other]);
     }
     for (share, x) in [0.0, 1.0].into_iter().zip(second) {
-        let (other, squared) = to_point(first, x);
+        let (other, squared) = nearest_to_point(first, x);
         offer(squared, [other, share]);
     }
     let (u, v, w) = (
@@ -79,7 +83,7 @@ mod tests {
     /// distances.
     #[test]
     fn nearest_places_are_the_nearest() {
-        let mut noise = actin_mechanics::Xorshift::new(3);
+        let mut noise = crate::Xorshift::new(3);
         let mut random = || Vector3::from_fn(|_, _| noise.sample());
         let (x, y, z) = (Vector3::x(), Vector3::y(), Vector3::z());
         let mut all = vec![
@@ -91,7 +95,7 @@ mod tests {
         ];
         all.extend((0..300).map(|_| [random(), random(), random(), random()]));
         for [a, b, c, d] in all {
-            let nearest = between([a, b], [c, d]);
+            let nearest = nearest_points([a, b], [c, d]);
             let least = sampled([a, b], [c, d]);
             let spacing = ((b - a).norm() + (d - c).norm()) / 400.0;
             assert!(nearest.squared <= least * (1.0 + 1e-14));
