@@ -1,7 +1,8 @@
 //! `actin export`: conversion of a finished run to a file format of another program.
 
 use crate::failure::Failure;
-use actin_export::{ExportError, FinishedRun, Format};
+use actin_export::{ExportError, Format};
+use actin_rundir::FinishedRun;
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
 

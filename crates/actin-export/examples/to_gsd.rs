@@ -1,7 +1,8 @@
 //! Runs a scene and exports its states to GSD.
 
-use actin_export::sim::{Assembly, Plan, RunDirectory, Scene, SimError};
-use actin_export::{FinishedRun, Format, export};
+use actin_export::rundir::{FinishedRun, RunDirectory};
+use actin_export::sim::{Assembly, Plan, Scene, SimError};
+use actin_export::{Format, export};
 
 const SCENE: &str = "Scene(
     filament: Filament(sections: [Ellipsoids(from_nm: 0.0, to_nm: 20.0), Rod(from_nm: 20.0, to_nm: 60.0)]),

@@ -1,6 +1,6 @@
 //! Errors of exports.
 
-use actin_sim::{FinishedRunError, RunDirectoryError};
+use actin_rundir::{FinishedRunError, RunDirectoryError};
 use std::io;
 use std::path::{Path, PathBuf};
 use thiserror::Error;

@@ -1,7 +1,7 @@
 //! Size of the simulation box.
 
 use crate::{ExportError, Particles};
-use actin_sim::FinishedRun;
+use actin_rundir::FinishedRun;
 
 /// Smallest edge of the box (nm), for runs in a plane or along a line.
 const LEAST_NM: f64 = 10.0;

@@ -1,7 +1,7 @@
 //! Output files and their formats.
 
 use crate::{ExportError, simularium_meshes, write_gsd, write_simularium};
-use actin_sim::{FinishedRun, replace_file};
+use actin_rundir::{FinishedRun, replace_file};
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};

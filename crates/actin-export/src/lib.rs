@@ -14,8 +14,9 @@ mod gsd;
 mod particles;
 mod simularium;
 
+pub use actin_rundir as rundir;
+use actin_rundir::FinishedRun;
 pub use actin_sim as sim;
-pub use actin_sim::{FinishedRun, FinishedRunError};
 pub use error::ExportError;
 pub use file::{Format, export};
 pub(crate) use gsd::write_gsd;
