@@ -93,7 +93,7 @@ pub(crate) fn parsed(picture: &[u8]) -> Box<PolyDataPiece> {
     piece
 }
 
-/// Three records of random states near rest. All numbers differ, except those of fixed bodies.
+/// Three records of random states near rest. All numbers of free bodies differ.
 pub(crate) fn trajectory(assembly: &Assembly) -> Trajectory {
     let mut noise = Xorshift::new(7);
     let records = [0.0, 0.1, 1.0 / 3.0].map(|time_ns| {

@@ -1,8 +1,8 @@
 //! Files of a run: a directory of common formats that is written, read and resumed.
 //!
 //! A [`RunDirectory`] receives the results of a run. [`Checkpoints`] is the sink of a run that can
-//! be resumed. A [`FinishedRun`] reads the states of a directory, [`StoredStates`] those of a known
-//! assembly. A [`FollowedDirectory`] holds a motion with switches of cells.
+//! be resumed. A [`FinishedRun`] rebuilds the scene of a directory and reads its states; [`StoredStates`] are
+//! read for a known assembly. A [`FollowedDirectory`] holds a motion with switches of cells.
 //!
 //! | file | contents | opens with |
 //! |---|---|---|

@@ -34,7 +34,7 @@ impl<'a> Review<'a> {
     /// Validates the records, with their states if they are stored.
     ///
     /// # Errors
-    /// There are no records, or records that cannot be read or do not match the assembly.
+    /// The records are empty or unreadable, or do not match the assembly.
     pub(crate) fn new(
         assembly: &'a Assembly,
         records: &dyn Records,

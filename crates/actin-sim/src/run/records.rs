@@ -69,7 +69,7 @@ impl Record {
         self.energies_pn_nm.iter().sum()
     }
 
-    /// Refuses record `i` if its bodies are not those of `assembly`.
+    /// Checks that record `i` has the numbers of bodies of `assembly`.
     ///
     /// # Errors
     /// The numbers of points or frames differ.
@@ -113,7 +113,7 @@ pub struct Row {
 }
 
 impl Row {
-    /// Refuses row `i` if its columns are not those of `assembly`.
+    /// Checks that row `i` has the columns of `assembly`.
     ///
     /// # Errors
     /// The numbers of energies or observed quantities differ.
@@ -161,7 +161,7 @@ pub enum RecordsError {
     /// A record cannot be read back.
     #[error("a record cannot be read back: {0}")]
     Unreadable(io::Error),
-    /// There are no records.
+    /// Empty records.
     #[error("the trajectory holds no record: a run directory requires at least one")]
     Empty,
     /// A record does not belong to the assembly.

@@ -74,7 +74,7 @@ pub enum RunPosition {
 }
 
 impl RunPosition {
-    /// Returns `true` if the bodies and controls are those of `state`.
+    /// Returns `true` if the numbers of bodies and controls equal the numbers in `state`.
     pub fn fits(&self, state: &State) -> bool {
         match self {
             Self::Motion(position) => {

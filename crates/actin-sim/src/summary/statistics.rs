@@ -27,7 +27,7 @@ impl<'a> RecordStatistics<'a> {
     /// Adds the next record.
     ///
     /// # Errors
-    /// The columns of the record are not those of the assembly.
+    /// The record has other columns than the assembly.
     pub fn add(&mut self, row: &Row) -> Result<(), RecordsError> {
         row.ensure_fits(self.records, self.assembly)?;
         self.records += 1;
@@ -61,7 +61,7 @@ impl Summary {
     /// Creates the summary of a whole run, with means and worst cases over all records.
     ///
     /// # Errors
-    /// There is no record, a record cannot be read, or the records belong to another assembly.
+    /// The records are empty or unreadable, or belong to another assembly.
     pub fn from_run(
         assembly: &Assembly,
         records: &dyn Records,
