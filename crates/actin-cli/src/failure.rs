@@ -37,6 +37,7 @@ impl From<RunDirectoryError> for Failure {
     fn from(error: RunDirectoryError) -> Self {
         match error {
             RunDirectoryError::NotFinite { .. } => Self::Numerical(error.to_string()),
+            RunDirectoryError::Export { .. } => Self::Unwritten(error.to_string()),
             _ => Self::Input(error.to_string()),
         }
     }

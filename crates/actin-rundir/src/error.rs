@@ -1,7 +1,7 @@
 //! Errors of run directories.
 
-use crate::names::MANIFEST;
-use actin_sim::RecordsError;
+use crate::names::{MANIFEST, SCENE, STATES};
+use actin_sim::{RecordsError, SceneError, SceneProblem};
 use std::io;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
@@ -120,6 +120,57 @@ pub enum RunDirectoryError {
         path: PathBuf,
         /// Difference.
         reason: String,
+    },
+    /// The directory has no scene.
+    #[error("{} is not a run directory: it has no {SCENE}", .path.display())]
+    NotARun {
+        /// The directory.
+        path: PathBuf,
+    },
+    /// The directory has no states.
+    #[error(
+        "{} has no {STATES}: its run has not ended, or its scene has `output: (states: false)`",
+        .path.display()
+    )]
+    NoStates {
+        /// The directory.
+        path: PathBuf,
+    },
+    /// The scene in the directory is invalid.
+    #[error("{}:{error}", .path.display())]
+    Scene {
+        /// The file.
+        path: PathBuf,
+        /// Error of the scene.
+        error: SceneError,
+    },
+    /// The scene in the directory cannot be built.
+    #[error("{}: {problem}", .path.display())]
+    Problem {
+        /// The file.
+        path: PathBuf,
+        /// Reason.
+        problem: SceneProblem,
+    },
+    /// The file of an export exists.
+    #[error("{} exists: name another file, or allow overwriting", .path.display())]
+    Exists {
+        /// The file.
+        path: PathBuf,
+    },
+    /// The file of an export is a directory.
+    #[error("{} is a directory: name a file", .path.display())]
+    IsDirectory {
+        /// The directory.
+        path: PathBuf,
+    },
+    /// The file of an export cannot be written.
+    #[error("{}: {source}", .path.display())]
+    Export {
+        /// The file.
+        path: PathBuf,
+        /// Error of the file system.
+        source: io::Error,
     },
     /// A value is not finite.
     #[error("{file}: {quantity}{} is {value}: only finite numbers are written", place(.index))]

@@ -1,8 +1,4 @@
-//! Finished runs: the rebuilt scene and its [stored states](super::StoredStates).
-
-mod error;
-
-pub use error::FinishedRunError;
+//! Finished runs: the rebuilt scene and its [stored states](StoredStates).
 
 use crate::names::SCENE;
 use crate::{RunDirectory, RunDirectoryError, StateIter, StoredStates};
@@ -24,16 +20,16 @@ impl FinishedRun {
     /// # Errors
     /// The directory has no scene or no states, this version refuses the scene, or the states are
     /// damaged or do not belong to the scene.
-    pub fn open(path: impl AsRef<Path>) -> Result<Self, FinishedRunError> {
+    pub fn open(path: impl AsRef<Path>) -> Result<Self, RunDirectoryError> {
         let path = path.as_ref().to_owned();
         let scene = read_scene(&path)?;
-        let assembly = Assembly::build(&scene).map_err(|problem| FinishedRunError::Problem {
+        let assembly = Assembly::build(&scene).map_err(|problem| RunDirectoryError::Problem {
             path: path.join(SCENE),
             problem,
         })?;
         let stored = RunDirectory::existing(&path).stored_states(&assembly)?;
         match stored {
-            None => Err(FinishedRunError::NoStates { path }),
+            None => Err(RunDirectoryError::NoStates { path }),
             Some(stored) => Ok(Self { assembly, stored }),
         }
     }
@@ -62,13 +58,13 @@ impl FinishedRun {
     }
 }
 
-fn read_scene(path: &Path) -> Result<Scene, FinishedRunError> {
+fn read_scene(path: &Path) -> Result<Scene, RunDirectoryError> {
     let file = path.join(SCENE);
     if !file.exists() {
-        return Err(FinishedRunError::NotARun { path: path.into() });
+        return Err(RunDirectoryError::NotARun { path: path.into() });
     }
-    let bytes = fs::read(&file).map_err(FinishedRunError::io(&file))?;
-    let refused = |error| FinishedRunError::Scene { path: file, error };
+    let bytes = fs::read(&file).map_err(RunDirectoryError::io(&file))?;
+    let refused = |error| RunDirectoryError::Scene { path: file, error };
     let text = Scene::text(bytes);
     text.and_then(|text| Scene::from_ron(&text))
         .map_err(refused)

@@ -5,7 +5,6 @@ use actin_sim::{
     Assembly, At, EnergyExchange, Linker, LinkerSite, Outcome, Record, Scene, Status, Trajectory,
 };
 use std::path::Path;
-use vtkio::model::{DataSet, Piece, PolyDataPiece, Vtk};
 
 /// Monomers at a clamped start, followed by a rod. The title needs XML escapes.
 const CLAMPED_START: &str = r#"Scene(
@@ -80,17 +79,6 @@ pub(crate) fn names(folder: &Path) -> Vec<String> {
         .collect();
     names.sort();
     names
-}
-
-/// Parses a picture with vtkio, which is independent of the writer.
-pub(crate) fn parsed(picture: &[u8]) -> Box<PolyDataPiece> {
-    let DataSet::PolyData { mut pieces, .. } = Vtk::parse_xml(picture).unwrap().data else {
-        panic!("not PolyData");
-    };
-    let Piece::Inline(piece) = pieces.remove(0) else {
-        panic!("not inline");
-    };
-    piece
 }
 
 /// Three records of random states near rest. All numbers of free bodies differ.

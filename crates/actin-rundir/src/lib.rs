@@ -35,6 +35,7 @@ mod directory;
 mod energies;
 mod error;
 mod events;
+mod export;
 mod finished;
 mod finite;
 #[cfg(test)]
@@ -48,16 +49,17 @@ mod review;
 mod staged;
 mod states;
 mod stretches;
-mod vtk;
 mod write;
 
+pub use actin_export::Format;
 pub use actin_sim as sim;
 pub use atomic::replace_file;
 pub use checkpoint::{CheckpointError, Checkpoints, Damage};
 pub use difference::{Difference, first_difference};
 pub use directory::RunDirectory;
 pub use error::RunDirectoryError;
-pub use finished::{FinishedRun, FinishedRunError};
+pub use export::{default_export_path, export};
+pub use finished::FinishedRun;
 pub use lock::RunLock;
 pub use states::{StateIter, StoredStates};
 pub use stretches::FollowedDirectory;

@@ -9,8 +9,8 @@ use crate::names::{
 };
 use crate::review::{Review, Tables};
 use crate::staged::Staged;
-use crate::vtk::{self, Drawing, write_collection};
 use crate::{RunDirectoryError, atomic, events, profile};
+use actin_export::{PARAVIEW_SCRIPT, VtkPictures, write_collection};
 use actin_sim::shape::{self, ProfilePoint};
 use actin_sim::{
     Assembly, At, LinkerEvent, Outcome, Plan, Record, Records, RecordsError, Scene, Status,
@@ -194,7 +194,7 @@ impl<'a> Results<'a> {
         if output.vtk {
             self.stage_pictures(staged)?;
             staged.file(COLLECTION, |out| self.write_collection(out))?;
-            staged.file(MACRO, |out| out.write_all(vtk::MACRO.as_bytes()))?;
+            staged.file(MACRO, |out| out.write_all(PARAVIEW_SCRIPT.as_bytes()))?;
         }
         staged.file(SUMMARY, |out| {
             serde_json::to_writer_pretty(&mut *out, &self.summary)?;
@@ -205,11 +205,10 @@ impl<'a> Results<'a> {
     fn stage_pictures(&self, staged: &mut Staged<'_>) -> Result<(), RunDirectoryError> {
         let folder = staged.folder.join(PICTURES);
         fs::create_dir_all(&folder).map_err(RunDirectoryError::io(&folder))?;
-        let drawing = Drawing::new(self.assembly);
+        let pictures = VtkPictures::new(self.assembly);
         for record in self.records.iter() {
             let record = record.map_err(RecordsError::Unreadable)?;
-            let picture = drawing.picture(record.at.value(), &record.state);
-            staged.picture(|out| picture.write(out))?;
+            staged.picture(|out| pictures.write(record.at, &record.state, out))?;
         }
         Ok(())
     }

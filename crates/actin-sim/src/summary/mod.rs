@@ -233,40 +233,15 @@ impl AccuracySummary {
 impl Summary {
     /// Numbers by key, for checks that they are finite: `tip_nm[0]`, `filaments[0].elastic_pn_nm`.
     pub fn numbers(&self) -> Vec<(String, f64)> {
-        let optional = [
-            ("time_ns", self.time_ns),
-            ("path", self.path),
-            ("time_step_ns", self.time_step_ns),
-            ("smallest_gap_nm", self.smallest_gap_nm),
-            (
-                "largest_frequency_rad_per_ns",
-                self.largest_frequency_rad_per_ns,
-            ),
-            (
-                "lowest_stiffness_eigenvalue",
-                self.lowest_stiffness_eigenvalue,
-            ),
-            (
-                "thermal.kinetic_temperature_k",
-                self.thermal.and_then(|one| one.kinetic_temperature_k),
-            ),
-        ];
-        let always = [
-            ("wall_s", self.wall_s),
-            ("residual.force_pn", self.residual.force_pn),
-            ("residual.torque_pn_nm", self.residual.torque_pn_nm),
-        ];
-        let known = optional.into_iter().filter_map(|(k, v)| Some((k, v?)));
-        let scalars = always.into_iter().chain(known);
-        let mut all: Vec<_> = scalars.map(|(k, v)| (k.to_owned(), v)).collect();
+        let scalars = self.scalars().into_iter();
+        let known = scalars.filter_map(|(key, value)| Some((key.to_owned(), value?)));
+        let mut all: Vec<_> = known.collect();
         all.extend(self.energy_pn_nm.numbers());
         let observed = self.observables.iter();
         all.extend(observed.flat_map(|(name, one)| one.numbers(name)));
         all.extend(self.pushes.iter().enumerate().flat_map(pushes::numbers));
-        all.extend(end_numbers(
-            [self.tip_nm, self.tip_displacement_nm],
-            &self.end_reactions,
-        ));
+        let tip = [self.tip_nm, self.tip_displacement_nm];
+        all.extend(end_numbers(tip, &self.end_reactions));
         all.extend(below("shape", self.shape.numbers()));
         for (i, filament) in self.filaments.iter().enumerate() {
             all.extend(below(&format!("filaments[{i}]"), filament.numbers()));
@@ -275,6 +250,24 @@ impl Summary {
             all.extend(below(&format!("linkers[{i}]"), linker.numbers()));
         }
         all
+    }
+
+    fn scalars(&self) -> [(&'static str, Option<f64>); 10] {
+        let temperature = self.thermal.and_then(|one| one.kinetic_temperature_k);
+        let eigenvalue = self.lowest_stiffness_eigenvalue;
+        let frequency = self.largest_frequency_rad_per_ns;
+        [
+            ("wall_s", Some(self.wall_s)),
+            ("residual.force_pn", Some(self.residual.force_pn)),
+            ("residual.torque_pn_nm", Some(self.residual.torque_pn_nm)),
+            ("time_ns", self.time_ns),
+            ("path", self.path),
+            ("time_step_ns", self.time_step_ns),
+            ("smallest_gap_nm", self.smallest_gap_nm),
+            ("largest_frequency_rad_per_ns", frequency),
+            ("lowest_stiffness_eigenvalue", eigenvalue),
+            ("thermal.kinetic_temperature_k", temperature),
+        ]
     }
 }
 

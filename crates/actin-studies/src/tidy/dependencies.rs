@@ -48,19 +48,13 @@ const ALLOWED: [(&str, &[&str]); 20] = [
             "actin-view",
         ],
     ),
-    ("actin-rundir", &["actin-sim"]),
+    ("actin-export", &["actin-sim"]),
+    ("actin-rundir", &["actin-sim", "actin-export"]),
     ("actin-view", &["actin-sim", "actin-rundir", "actin-draw"]),
     ("actin-sweep", &["actin-sim", "actin-rundir"]),
-    ("actin-export", &["actin-sim", "actin-rundir"]),
     (
         "actin-cli",
-        &[
-            "actin-sim",
-            "actin-rundir",
-            "actin-sweep",
-            "actin-export",
-            "actin-view",
-        ],
+        &["actin-sim", "actin-rundir", "actin-sweep", "actin-view"],
     ),
     (
         "actin-python",

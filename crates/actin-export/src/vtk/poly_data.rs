@@ -164,7 +164,7 @@ pub(super) fn to_i64(index: usize) -> i64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::fixture::parsed;
+    use crate::vtk::fixture::parsed;
     use std::fmt::Debug;
     use vtkio::model::{Attribute, IOBuffer, PolyDataPiece, VertexNumbers};
 

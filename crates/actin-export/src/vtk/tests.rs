@@ -1,17 +1,16 @@
 //! Tests of pictures, parsed with vtkio.
 
 use super::*;
-use crate::fixture;
 use actin_sim::mechanics::Matrix3;
 use vtkio::model::{Attribute, IOBuffer, PolyDataPiece, VertexNumbers};
 
 fn drawn() -> (Assembly, State, Box<PolyDataPiece>) {
-    let assembly = fixture::clamped_start();
-    let record = fixture::trajectory(&assembly).records.remove(1);
-    let picture = Drawing::new(&assembly).picture(record.at.value(), &record.state);
+    let assembly = fixture::mixed();
+    let state = fixture::state(&assembly);
     let mut bytes = Vec::new();
-    picture.write(&mut bytes).unwrap();
-    (assembly, record.state, fixture::parsed(&bytes))
+    let pictures = VtkPictures::new(&assembly);
+    pictures.write(At::Time(0.1), &state, &mut bytes).unwrap();
+    (assembly, state, fixture::parsed(&bytes))
 }
 
 fn data<'a>(piece: &'a PolyDataPiece, name: &str) -> &'a IOBuffer {
@@ -130,7 +129,7 @@ fn only_monomers_have_semi_axes() {
 #[test]
 fn filaments_are_separate() {
     let assembly = fixture::pair();
-    let drawing = Drawing::new(&assembly);
+    let drawing = VtkPictures::new(&assembly);
     let first = assembly.filaments[0].points.end;
     for line in drawing.lines() {
         assert!(line.end <= first || line.start >= first);

@@ -2,22 +2,23 @@
 //!
 //! In `ParaView`, "3D Glyphs" of a sphere of radius 1 show monomers as ellipsoids, with orientation
 //! mode Quaternion, orientation array `orientation` and scale array `semi_axes_nm` (by vector
-//! components). Tubes show rods. [`MACRO`] sets up both. The field array `kind_names` contains the
+//! components). Tubes show rods. [`PARAVIEW_SCRIPT`] sets up both. The field array `kind_names` contains the
 //! names of the codes of `kind`.
 
 mod poly_data;
 mod xml;
 
 use actin_sim::mechanics::{State, UnitQuaternion, Vector3};
-use actin_sim::{Assembly, BodyKind};
+use actin_sim::{Assembly, At, BodyKind};
 use poly_data::{Array, PolyData, Values};
 use std::io::{self, Write};
 
 /// Python script that shows a run in `ParaView`.
-pub(super) const MACRO: &str = include_str!("open_in_paraview.py");
+pub const PARAVIEW_SCRIPT: &str = include_str!("open_in_paraview.py");
 
+/// Writer of the states of an assembly as `.vtp` files.
 #[derive(Debug)]
-pub(super) struct Drawing<'a> {
+pub struct VtkPictures<'a> {
     assembly: &'a Assembly,
     /// Section index of each point, counted over all filaments.
     section: Vec<Option<usize>>,
@@ -25,8 +26,9 @@ pub(super) struct Drawing<'a> {
     frame: Vec<Option<usize>>,
 }
 
-impl<'a> Drawing<'a> {
-    pub(super) fn new(assembly: &'a Assembly) -> Self {
+impl<'a> VtkPictures<'a> {
+    /// Creates the writer for states of `assembly`.
+    pub fn new(assembly: &'a Assembly) -> Self {
         let mut section = vec![None; assembly.points.len()];
         for (index, span) in assembly.sections.iter().enumerate() {
             section[span.points.clone()].fill(Some(index));
@@ -40,7 +42,11 @@ impl<'a> Drawing<'a> {
         }
     }
 
-    pub(super) fn picture(&self, time_ns: f64, state: &State) -> Picture {
+    /// Writes a state at a time (ns) or path parameter.
+    ///
+    /// # Errors
+    /// If `out` returns an error.
+    pub fn write(&self, at: At, state: &State, out: &mut impl Write) -> io::Result<()> {
         let turns: Vec<UnitQuaternion> = self
             .frame
             .iter()
@@ -51,14 +57,15 @@ impl<'a> Drawing<'a> {
             })
             .collect();
         let arrays = self.fixed_arrays().into_iter().chain(frame_arrays(&turns));
-        Picture(PolyData {
-            time: time_ns,
+        let picture = PolyData {
+            time: at.value(),
             texts: vec![("kind_names", BodyKind::ALL.map(BodyKind::name).into())],
             points: flat(state.points.position.iter()),
             arrays: arrays.collect(),
             vertices: self.vertices(),
             lines: self.lines(),
-        })
+        };
+        picture.write(out)
     }
 
     fn fixed_arrays(&self) -> [Array; 5] {
@@ -124,16 +131,6 @@ impl<'a> Drawing<'a> {
     }
 }
 
-#[derive(Debug)]
-pub(super) struct Picture(PolyData);
-
-impl Picture {
-    /// Writes the picture as a `.vtp` file.
-    pub(super) fn write(&self, out: &mut impl Write) -> io::Result<()> {
-        self.0.write(out)
-    }
-}
-
 /// Orientations as quaternions (w, x, y, z; body to lab) and as body axes in the lab frame.
 fn frame_arrays(turns: &[UnitQuaternion]) -> [Array; 4] {
     let quaternions = turns.iter().flat_map(|q| [q.w, q.i, q.j, q.k]).collect();
@@ -158,8 +155,11 @@ fn flat(vectors: impl Iterator<Item = Vector3>) -> Vec<f64> {
     vectors.flat_map(|v| [v.x, v.y, v.z]).collect()
 }
 
-/// Writes the collection file from the times (ns) and relative paths of `pictures`.
-pub(super) fn write_collection(
+/// Writes the collection file (`.pvd`) from the times (ns) and relative paths of `pictures`.
+///
+/// # Errors
+/// If a time cannot be read, or `out` returns an error.
+pub fn write_collection(
     title: &str,
     pictures: impl Iterator<Item = io::Result<(f64, String)>>,
     out: &mut impl Write,
@@ -180,5 +180,7 @@ pub(super) fn write_collection(
     out.write_all(b"</Collection>\n</VTKFile>\n")
 }
 
+#[cfg(test)]
+mod fixture;
 #[cfg(test)]
 mod tests;
