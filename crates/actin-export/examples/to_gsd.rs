@@ -20,7 +20,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     Format::Gsd.write(&assembly, &trajectory, "bent", &mut File::create(&path)?)?;
     let size = std::fs::metadata(&path)?.len();
     println!("{} records in {}", trajectory.records.len(), path.display());
-    // Two records of 13 particles with 44 bytes each, and the fixed data.
+    // 13 particles with 44 bytes in each record, and the fixed data.
     assert!(size > 1000 && size < 10_000, "{size}");
     std::fs::remove_file(path)?;
     Ok(())

@@ -34,7 +34,7 @@ impl RunDirectory {
     ///   of a result, or a text (`scene.ron`, a table) was changed after the run.
     /// - The file system refuses an operation.
     ///
-    /// Nothing has been removed then, unless the file system refuses a removal.
+    /// Files are removed after all checks.
     pub fn create(path: impl AsRef<Path>, overwrite: bool) -> Result<Self, RunDirectoryError> {
         Self::create_locked(path, overwrite).map(|(directory, _)| directory)
     }

@@ -42,9 +42,12 @@ impl RunDirectory {
     /// new files are complete and on the disk.
     ///
     /// # Errors
-    /// There is no record, the records belong to another assembly, a value is not finite, an
-    /// unlisted file has the name of a result, or the file system refuses an operation. The old
-    /// results then stay, unless the file system refuses to rename complete files.
+    /// - The records are empty or unreadable, or belong to another assembly.
+    /// - A value is not finite.
+    /// - An unlisted file has the name of a result.
+    /// - The file system refuses an operation.
+    ///
+    /// The old results then stay, unless the file system refuses to rename complete files.
     pub fn write(
         &self,
         plan: &Plan<'_>,

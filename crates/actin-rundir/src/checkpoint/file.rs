@@ -136,7 +136,7 @@ fn with_header(mut file: Vec<u8>) -> Vec<u8> {
 
 /// Reads the contents after validating the header.
 ///
-/// Nothing is allocated for files of another type, version or length.
+/// Files of another type, version or length are refused before memory is allocated.
 fn read_body(path: &Path) -> Result<Vec<u8>, Damage> {
     let mut file = open(path)?;
     let found = file.metadata()?.len();
