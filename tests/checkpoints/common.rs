@@ -1,8 +1,8 @@
 //! Small scenes of every kind, and a sink that interrupts a run.
 
+use actin_rundir::{CheckpointError, Checkpoints, RunDirectory};
 use actin_sim::{
-    Assembly, CheckpointError, Checkpoints, Outcome, Plan, Record, RecordSummary, RunDirectory,
-    RunPosition, Scene, Sink, Trajectory,
+    Assembly, Outcome, Plan, Record, RecordSummary, RunPosition, Scene, Sink, Trajectory,
 };
 use std::collections::BTreeMap;
 use std::fs;

@@ -1,7 +1,8 @@
 //! Damaged checkpoints are refused with a message and without a panic.
 
 use super::common::{Choice, advance, build, checkpoints};
-use actin_sim::{CheckpointError, Damage, Plan, RunDirectory, Scene, Status};
+use actin_rundir::{CheckpointError, Damage, RunDirectory};
+use actin_sim::{Plan, Scene, Status};
 use std::fs;
 use tempfile::TempDir;
 

@@ -1,7 +1,8 @@
 //! Write errors: the last checkpoint stays, the run continues, and the next attempt succeeds.
 
 use super::common::{Choice, advance, build, checkpoints};
-use actin_sim::{Plan, RunDirectory, RunPosition, Sink};
+use actin_rundir::RunDirectory;
+use actin_sim::{Plan, RunPosition, Sink};
 use std::fs;
 
 const CHOICE: Choice = Choice {

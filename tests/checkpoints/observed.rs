@@ -2,7 +2,8 @@
 //! of runs with states.
 
 use super::common::{Leaving, build, checkpoints, files};
-use actin_sim::{Plan, Records, RunDirectory, Scene, Status};
+use actin_rundir::RunDirectory;
+use actin_sim::{Plan, Records, Scene, Status};
 use std::fs;
 use std::path::Path;
 

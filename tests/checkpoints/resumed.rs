@@ -1,7 +1,8 @@
 //! Resumed runs give the results of uninterrupted runs.
 
 use super::common::{Choice, IN_TIME, advance, files};
-use actin_sim::{Outcome, Plan, Record, RunDirectory, Scene, Status, Trajectory};
+use actin_rundir::RunDirectory;
+use actin_sim::{Outcome, Plan, Record, Scene, Status, Trajectory};
 use proptest::prelude::*;
 
 fn timeless(report: &Outcome) -> String {

@@ -1,10 +1,9 @@
 //! Observed quantities in a heat bath against statistical mechanics, within their standard errors.
 
 use crate::common::build;
+use actin_rundir::RunDirectory;
 use actin_sim::statistics::BlockAverages;
-use actin_sim::{
-    Assembly, BOLTZMANN_PN_NM_PER_K, MeanSummary, Plan, Record, RunDirectory, Summary,
-};
+use actin_sim::{Assembly, BOLTZMANN_PN_NM_PER_K, MeanSummary, Plan, Record, Summary};
 
 /// Tolerance of a mean in standard errors.
 const ERRORS: f64 = 4.5;

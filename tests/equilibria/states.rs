@@ -1,7 +1,8 @@
 //! Search for other stable states: correctness and reproducibility.
 
 use super::common::{build, solved};
-use actin_sim::{Assembly, Equilibrium, Outcome, RunDirectory, StableStates, Trajectory};
+use actin_rundir::RunDirectory;
+use actin_sim::{Assembly, Equilibrium, Outcome, StableStates, Trajectory};
 
 fn buckled(states: usize) -> String {
     format!(

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The crates that can be used alone.
-const LIBRARIES: [&str; 12] = [
+const LIBRARIES: [&str; 13] = [
     "actin-mechanics",
     "actin-ellipsoid",
     "actin-cosserat",
@@ -15,6 +15,7 @@ const LIBRARIES: [&str; 12] = [
     "actin-fit",
     "actin-scene",
     "actin-sim",
+    "actin-rundir",
     "actin-sweep",
     "actin-export",
 ];

@@ -2,7 +2,8 @@
 
 use super::common::{Settled, free_bodies, settle};
 use actin_mechanics::{Loads, Vector3};
-use actin_sim::{End, RunDirectory};
+use actin_rundir::RunDirectory;
+use actin_sim::End;
 use std::collections::BTreeMap;
 
 const FORCE: [f64; 3] = [3.0, -1.0, 4.0];

@@ -1,7 +1,7 @@
 //! `actin export`: conversion of a finished run to a file format of another program.
 
 use crate::failure::Failure;
-use actin_export::{ExportError, FinishedRun, Format};
+use actin_rundir::{FinishedRun, Format, default_export_path};
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
 
@@ -44,23 +44,14 @@ impl Target {
 
 pub(crate) fn export(arguments: &ExportArguments) -> Result<(), Failure> {
     let format = arguments.to.format();
-    let run = FinishedRun::open(&arguments.run).map_err(ExportError::from)?;
-    let by_default = || format.default_path(&arguments.run);
+    let run = FinishedRun::open(&arguments.run)?;
+    let by_default = || default_export_path(&arguments.run, format);
     let out = arguments.out.clone().unwrap_or_else(by_default);
-    let files = actin_export::export(&run, format, &out, arguments.overwrite)?;
+    let files = actin_rundir::export(&run, format, &out, arguments.overwrite)?;
     let files: Vec<String> = files
         .iter()
         .map(|file| file.display().to_string())
         .collect();
     println!("{} records written to {}", run.count(), files.join(", "));
     Ok(())
-}
-
-impl From<ExportError> for Failure {
-    fn from(error: ExportError) -> Self {
-        match error {
-            ExportError::Io { .. } | ExportError::Output(_) => Self::Unwritten(error.to_string()),
-            _ => Self::Input(error.to_string()),
-        }
-    }
 }

@@ -1,10 +1,8 @@
 //! Failures of the program and their exit codes.
 
 use crate::{SceneArguments, excerpt};
-use actin_sim::{
-    Assembly, CheckpointError, Note, Plan, RandomPart, RunDirectoryError, Scene, SceneError,
-    SceneText,
-};
+use actin_rundir::{CheckpointError, RunDirectoryError};
+use actin_sim::{Assembly, Note, Plan, RandomPart, Scene, SceneError, SceneText};
 use std::fmt;
 use std::io::Read as _;
 use std::path::Path;
@@ -39,6 +37,7 @@ impl From<RunDirectoryError> for Failure {
     fn from(error: RunDirectoryError) -> Self {
         match error {
             RunDirectoryError::NotFinite { .. } => Self::Numerical(error.to_string()),
+            RunDirectoryError::Export { .. } => Self::Unwritten(error.to_string()),
             _ => Self::Input(error.to_string()),
         }
     }

@@ -4,11 +4,9 @@ use crate::RunArguments;
 use crate::failure::{BuiltScene, Failure};
 use crate::report::print;
 use crate::run::{RunSink, by_default, checkpoints, refuse_own_scene};
+use actin_rundir::{Checkpoints, FollowedDirectory, RunDirectory, RunLock};
 use actin_sim::follow::{Follower, Stretch, StretchEnd, StretchStart};
-use actin_sim::{
-    Checkpoints, FollowedDirectory, Outcome, Plan, RunDirectory, RunError, RunLock, SavedRun, Sink,
-    Status, Summary,
-};
+use actin_sim::{Outcome, Plan, RunError, SavedRun, Sink, Status, Summary};
 use std::path::Path;
 
 struct Chain<'a> {

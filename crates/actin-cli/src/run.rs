@@ -6,10 +6,10 @@ use crate::progress::Progress;
 use crate::report::{in_words, print, print_remarks};
 use crate::signals;
 use crate::{RunArguments, SceneArguments};
+use actin_rundir::{Checkpoints, FollowedDirectory, RunDirectory, RunDirectoryError, RunLock};
 use actin_sim::{
-    Checkpoints, FailedRun, Failure as Broken, FollowedDirectory, Outcome, Plan, Record,
-    RecordSummary, Records, RunDirectory, RunDirectoryError, RunError, RunLock, RunPosition,
-    SavedRun, Sink, Status,
+    FailedRun, Failure as Broken, Outcome, Plan, Record, RecordSummary, Records, RecordsError,
+    RunError, RunPosition, SavedRun, Sink, Status,
 };
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -195,7 +195,7 @@ fn unwritten(
         return Failure::from(error);
     }
     let message = format!("the run has ended, but its results could not be written: {error}");
-    if let RunDirectoryError::Unreadable(_) = error {
+    if let RunDirectoryError::Records(RecordsError::Unreadable(_)) = error {
         return Failure::Unwritten(format!("{message}; run it again with --overwrite"));
     }
     Failure::Unwritten(if directory.has_checkpoint() {

@@ -2,7 +2,8 @@
 
 use crate::failure::{self, Failure};
 use crate::{seconds, signals};
-use actin_sim::{RunDirectoryError, SceneText};
+use actin_rundir::RunDirectoryError;
+use actin_sim::{RecordsError, SceneText};
 use actin_sweep::{
     Design, Progress, Settings, SweepCost, SweepDirectory, SweepError, SweepOutcome, ValidatedSweep,
 };
@@ -244,9 +245,10 @@ impl From<SweepError> for Failure {
                 Self::Input(message)
             }
             SweepError::Io { .. }
-            | SweepError::Run(RunDirectoryError::Io { .. } | RunDirectoryError::Unreadable(_)) => {
-                Self::Unwritten(message)
-            }
+            | SweepError::Run(
+                RunDirectoryError::Io { .. }
+                | RunDirectoryError::Records(RecordsError::Unreadable(_)),
+            ) => Self::Unwritten(message),
             _ => Self::Input(message),
         }
     }

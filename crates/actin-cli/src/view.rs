@@ -119,7 +119,7 @@ fn page(arguments: &ViewArguments, run: &Run) -> Result<(), Failure> {
     let page = run.page(Palette::default());
     let unfinished = out.with_extension("html.unfinished");
     let written =
-        actin_sim::replace_file(&out, &unfinished, |file| file.write_all(page.as_bytes()));
+        actin_rundir::replace_file(&out, &unfinished, |file| file.write_all(page.as_bytes()));
     written.map_err(|error| Failure::Unwritten(format!("{}: {error}", out.display())))?;
     let (shown, all) = run.shown();
     println!(

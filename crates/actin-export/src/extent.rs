@@ -1,7 +1,7 @@
 //! Size of the simulation box.
 
-use crate::{ExportError, Particles};
-use actin_sim::FinishedRun;
+use crate::{Particles, RecordedStates};
+use std::io;
 
 /// Smallest edge of the box (nm), for runs in a plane or along a line.
 const LEAST_NM: f64 = 10.0;
@@ -14,14 +14,14 @@ const LEAST_NM: f64 = 10.0;
 /// # Errors
 /// If the states cannot be read.
 pub(crate) fn edges_nm(
-    run: &FinishedRun,
+    states: &dyn RecordedStates,
     particles: &Particles<'_>,
-) -> Result<[f64; 3], ExportError> {
+) -> io::Result<[f64; 3]> {
     let radii = particles.species.iter().map(|s| s.shape.radius_nm());
     let radius = radii.fold(0.0, f64::max);
     let mut farthest = [0.0_f64; 3];
-    for state in run.states()? {
-        for place in particles.places(&state?) {
+    for state in states.states() {
+        for place in particles.places(&*state?) {
             for (most, x) in farthest.iter_mut().zip(place.iter()) {
                 *most = most.max(x.abs());
             }

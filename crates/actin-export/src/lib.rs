@@ -1,23 +1,23 @@
-//! Export of runs of actin filaments to files of other programs.
+//! Runs of actin filaments in the formats of other programs: GSD, Simularium and VTK.
 //!
-//! [`export`] writes a [`FinishedRun`] to a file in a [`Format`]. Positions are stored in single precision, and the
-//! run directory is not changed.
+//! A [`Format`] writes all [`RecordedStates`] of a run to one file, in single precision. [`VtkPictures`] writes one
+//! file for each state, in double precision.
 
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
 struct Readme;
 
-mod error;
 mod extent;
-mod file;
+mod format;
 mod gsd;
 mod particles;
 mod simularium;
+mod states;
+mod vtk;
 
 pub use actin_sim as sim;
-pub use actin_sim::{FinishedRun, FinishedRunError};
-pub use error::ExportError;
-pub use file::{Format, export};
-pub(crate) use gsd::write_gsd;
-pub(crate) use particles::{BondKind, Particles, Shape};
-pub(crate) use simularium::{simularium_meshes, write_simularium};
+pub use format::Format;
+pub use states::{RecordedStates, StateStream};
+pub use vtk::{PARAVIEW_SCRIPT, VtkPictures, write_collection};
+
+use particles::{BondKind, Particles, Shape};

@@ -1,7 +1,8 @@
 //! Conversion of Rust errors to the exceptions of `actin/errors.py`.
 
 use actin_integrate::RunFailure;
-use actin_sim::{RunDirectoryError, SceneError, SceneProblem, SceneText};
+use actin_rundir::RunDirectoryError;
+use actin_sim::{SceneError, SceneProblem, SceneText};
 use pyo3::exceptions::{PyOSError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};

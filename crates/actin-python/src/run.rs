@@ -4,10 +4,10 @@ use crate::errors;
 use crate::records::{RecordArrays, bodies};
 use crate::scene::Scene;
 use crate::watch::{Watch, callback, finish};
+use actin_rundir::{CheckpointError, Checkpoints, RunDirectory, RunLock};
 use actin_sim::{
-    Assembly, CheckpointError, Checkpoints, FailedRun, Failure, Outcome, Plan, Progress, Record,
-    RecordSummary, Records, RunDirectory, RunError, RunLock, RunPosition, SavedRun, Sink, Status,
-    Summary, Trajectory,
+    Assembly, FailedRun, Failure, Outcome, Plan, Progress, Record, RecordSummary, Records,
+    RunError, RunPosition, SavedRun, Sink, Status, Summary, Trajectory,
 };
 use pyo3::exceptions::{PyRuntimeWarning, PyValueError};
 use pyo3::prelude::*;
@@ -143,7 +143,7 @@ impl Job<'_> {
     ) -> PyResult<Py<PyAny>> {
         let of_run = || Summary::from_run(self.assembly, records, outcome);
         let summary = summary.map_or_else(of_run, Ok);
-        let summary = summary.map_err(|error| errors::directory(&error))?;
+        let summary = summary.map_err(|error| errors::directory(&error.into()))?;
         let summary = serde_json::to_string(&summary).map_err(errors::value)?;
         let summary = py.import("json")?.call_method1("loads", (summary,))?;
         let scene = Scene {

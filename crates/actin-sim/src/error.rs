@@ -1,11 +1,9 @@
 //! Common error type of scenes and runs.
 
-use crate::{
-    CheckpointError, EnsembleError, RunDirectoryError, RunError, SceneError, SceneProblem,
-};
+use crate::{EnsembleError, RunError, SceneError, SceneProblem};
 use thiserror::Error;
 
-/// Error of reading, building, running or writing a scene, for use with `?`.
+/// Error of reading, building or running a scene, for use with `?`.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum SimError {
@@ -21,10 +19,4 @@ pub enum SimError {
     /// An ensemble was refused, or a replica failed.
     #[error(transparent)]
     Ensemble(#[from] EnsembleError),
-    /// A run directory was refused, or cannot be written or read.
-    #[error(transparent)]
-    Directory(#[from] RunDirectoryError),
-    /// A checkpoint cannot be written or read.
-    #[error(transparent)]
-    Checkpoint(#[from] CheckpointError),
 }

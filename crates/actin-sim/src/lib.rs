@@ -2,7 +2,7 @@
 //!
 //! A [`Scene`] describes filaments, clamps, loads, linkers and the task. [`Assembly::build`]
 //! creates its bodies and interactions. A [`Plan`] selects the time step and runs it into a
-//! [`Sink`]: memory or a [`RunDirectory`]. The [`Outcome`] holds the status and cost. An
+//! [`Sink`]: memory, or the run directory of `actin-rundir`. The [`Outcome`] holds the status and cost. An
 //! [`Ensemble`] runs replicas of a scene in parallel. This is the only crate that depends on all
 //! models; the models do not depend on each other.
 //!
@@ -22,10 +22,10 @@ pub mod follow;
 mod memory;
 mod notes;
 mod observe;
-mod results;
 mod run;
 pub mod shape;
 pub mod statistics;
+mod summary;
 pub mod trade;
 
 // Crates whose types are in the API of this one.
@@ -55,25 +55,25 @@ pub use actin_scene::{
 };
 pub use actin_scene::{ParseReport, read_all, read_ron, to_ron};
 pub use assembly::{
-    Assembly, BodyKind, Clamped, Counts, Drive, EnergyExchange, FilamentSpan, Fluctuations,
-    FrameInfo, JunctionBond, LawExtrapolation, LinkerEvent, LinkerEventKind, MeasuredError,
-    ModelLimitExceeded, Part, PointInfo, Reaction, Resolution, SectionSpan, Term, UnstableTwist,
+    Assembly, BodyKind, Clamped, Counts, Drive, EnergyColumn, EnergyExchange, FilamentSpan,
+    Fluctuations, FrameInfo, JunctionBond, LawExtrapolation, LinkerEvent, LinkerEventKind,
+    MeasuredError, ModelLimitExceeded, Part, PointInfo, Reaction, Resolution, SectionSpan, Term,
+    UnstableTwist,
 };
 pub use cost::{Cost, Timing};
 pub use ensemble::{Ensemble, EnsembleError, Replica};
 pub use error::SimError;
 pub use notes::Note;
 pub use observe::{DerivedLength, MeanSummary, ObservableSummary};
-pub use results::{
-    AccuracySummary, CheckpointError, Checkpoints, Damage, Difference, EndReaction, EndReactions,
-    EnergySummary, FilamentSummary, FinishedRun, FinishedRunError, FollowedDirectory,
-    FollowingSummary, LinkerSummary, ResidualSummary, RunDirectory, RunDirectoryError, RunLock,
-    ShapeSummary, StabilitySummary, StateIter, StateSummary, StatesSummary, StoredStates, Summary,
-    ThermalSummary, WorkSummary, first_difference, replace_file,
-};
 pub use run::{
-    At, EquilibriumReport, Estimate, FailedRun, Failure, HingeSlip, LongestStep, MotionPosition,
-    Outcome, PathPosition, Plan, Progress, Record, RecordSummary, Records, RelaxationTimes,
-    ResolutionSwitch, Row, RunError, RunPosition, SaddlePush, SavedRun, Sink, Slip, SolveReport,
-    StableState, StableStates, Status, Trajectory, composition, near_equilibrium, solver,
+    At, EnergyTotals, EquilibriumReport, Estimate, FailedRun, Failure, HingeSlip, LongestStep,
+    MotionPosition, Outcome, PathPosition, Plan, Progress, Record, RecordIter, RecordSummary,
+    Records, RecordsError, RelaxationTimes, ResolutionSwitch, Row, RowIter, RunError, RunPosition,
+    RunStatistics, SaddlePush, SavedRun, Sink, Slip, SolveReport, StableState, StableStates,
+    Status, Trajectory, composition, near_equilibrium, solver,
+};
+pub use summary::{
+    AccuracySummary, EndReaction, EndReactions, EnergySummary, FilamentSummary, FollowingSummary,
+    LinkerSummary, RecordStatistics, ResidualSummary, ShapeSummary, StabilitySummary, StateSummary,
+    StatesSummary, Summary, ThermalSummary, WorkSummary,
 };

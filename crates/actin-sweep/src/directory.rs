@@ -9,7 +9,7 @@
 
 use crate::files::{self, MANIFEST, PARAMETERS, SCENE, SWEEP};
 use crate::{SweepError, ValidatedSweep};
-use actin_sim::{Difference, RunLock, first_difference};
+use actin_rundir::{Difference, RunLock, first_difference};
 use std::fs;
 use std::path::{Path, PathBuf};
 

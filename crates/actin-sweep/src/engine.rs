@@ -3,7 +3,7 @@
 use crate::run::{State, make, summary};
 use crate::table::{Row, Table};
 use crate::{SweepDirectory, SweepError, ValidatedSweep};
-use actin_sim::{CheckpointError, RunDirectory};
+use actin_rundir::{CheckpointError, RunDirectory};
 use std::num::NonZeroUsize;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};

@@ -1,6 +1,7 @@
 //! Errors of sweeps. A failed run is a row of the table, not an error.
 
-use actin_sim::{CheckpointError, RunDirectoryError, SceneError};
+use actin_rundir::{CheckpointError, RunDirectoryError};
+use actin_sim::SceneError;
 use std::io;
 use std::path::{Path, PathBuf};
 use thiserror::Error;

@@ -1,7 +1,7 @@
 //! File names of a sweep directory, and atomic writing.
 
 use crate::SweepError;
-use actin_sim::replace_file;
+use actin_rundir::replace_file;
 use std::fs;
 use std::io::Write;
 use std::path::Path;

@@ -2,10 +2,8 @@
 
 use crate::design::Run;
 use crate::{Settings, SweepDirectory, SweepError, ValidatedSweep};
-use actin_sim::{
-    Assembly, CheckpointError, Checkpoints, Outcome, Plan, RunDirectory, RunDirectoryError,
-    RunError, RunLock, SavedRun, SceneText, Status,
-};
+use actin_rundir::{CheckpointError, Checkpoints, RunDirectory, RunDirectoryError, RunLock};
+use actin_sim::{Assembly, Outcome, Plan, RecordsError, RunError, SavedRun, SceneText, Status};
 use serde_json::Value;
 use std::path::Path;
 use std::sync::Arc;
@@ -117,7 +115,7 @@ fn write(
 ) -> Result<State, SweepError> {
     match kept.write(plan, checkpoints, outcome) {
         Ok(_) => {}
-        Err(RunDirectoryError::NoRecord) => {
+        Err(RunDirectoryError::Records(RecordsError::Empty)) => {
             kept.write_failure(&plan.scene().title, &outcome.failure)?;
         }
         Err(error @ RunDirectoryError::NotFinite { .. }) => {

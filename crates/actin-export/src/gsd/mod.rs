@@ -20,9 +20,9 @@
 
 mod layer;
 
-use crate::{BondKind, ExportError, FinishedRun, Particles, Shape, extent};
+use crate::{BondKind, Particles, RecordedStates, Shape, extent};
 use actin_sim::mechanics::{State, Vector3};
-use actin_sim::{At, Task};
+use actin_sim::{Assembly, At, Task};
 use layer::{Chunk, Header, Writer};
 use std::io::{self, Seek, Write};
 
@@ -37,28 +37,28 @@ const HEADER: Header = Header {
 /// # Errors
 /// If the states cannot be read, or `out` returns an error.
 pub(crate) fn write_gsd(
-    run: &FinishedRun,
+    particles: &Particles<'_>,
+    states: &dyn RecordedStates,
     out: &mut (impl Write + Seek),
-) -> Result<(), ExportError> {
-    let particles = Particles::new(run.assembly());
-    let edges = extent::edges_nm(run, &particles)?;
+) -> io::Result<()> {
+    let edges = extent::edges_nm(states, particles)?;
     let mut writer = Writer::new(out, &HEADER)?;
-    for (i, state) in run.states()?.enumerate() {
+    for (i, (state, at)) in states.states().zip(states.at()).enumerate() {
         let state = state?;
         if i == 0 {
-            write_fixed(&mut writer, &particles, edges)?;
+            write_fixed(&mut writer, particles, edges)?;
         }
-        let step = step(run, i);
+        let step = step(particles.assembly(), i, at);
         writer.write("configuration/step", &Chunk::U64(vec![step]), 1)?;
-        write_moving(&mut writer, &particles, &state)?;
-        let (name, at) = match run.at()[i] {
+        write_moving(&mut writer, particles, &state)?;
+        let (name, at) = match at {
             At::Time(time) => ("log/time_ns", time),
             At::Path(path) => ("log/path", path),
         };
         writer.write(name, &Chunk::F64(vec![at]), 1)?;
         writer.end_frame();
     }
-    Ok(writer.finish(&HEADER)?)
+    writer.finish(&HEADER)
 }
 
 /// Returns the number of time steps before record `i`, or `i` for a run without time steps.
@@ -67,13 +67,13 @@ pub(crate) fn write_gsd(
     clippy::cast_sign_loss,
     reason = "times and steps are positive, and runs have fewer than 2^53 steps"
 )]
-fn step(run: &FinishedRun, i: usize) -> u64 {
-    let time_step_ns = match &run.assembly().scene.task {
+fn step(assembly: &Assembly, i: usize, at: At) -> u64 {
+    let time_step_ns = match &assembly.scene.task {
         Task::Dynamics(task) => task.time_step_ns,
         Task::Brownian(task) => task.time_step_ns,
         Task::Equilibrium(_) => None,
     };
-    match (run.at()[i], time_step_ns) {
+    match (at, time_step_ns) {
         (At::Time(time_ns), Some(length_ns)) => (time_ns / length_ns).round() as u64,
         _ => i as u64,
     }

@@ -12,19 +12,18 @@ mod angles;
 mod mesh;
 
 use crate::particles::{LINKER_RADIUS_NM, rod_radius_nm, runs};
-use crate::{ExportError, FinishedRun, Particles, Shape, extent};
+use crate::{Particles, RecordedStates, Shape, extent};
 use actin_sim::mechanics::{State, Vector3};
 use actin_sim::{At, BodyKind};
 use serde_json::json;
-use std::io::Write;
+use std::io::{self, Write};
 
 /// Visualisation types of agents.
 const WITH_GEOMETRY: f32 = 1000.0;
 const FIBRE: f32 = 1001.0;
 
-/// Returns the meshes of the ellipsoids of a run: file names that begin with `prefix`, and contents.
-pub(crate) fn simularium_meshes(run: &FinishedRun, prefix: &str) -> Vec<(String, String)> {
-    let particles = Particles::new(run.assembly());
+/// Returns the meshes of the ellipsoids: file names that begin with `prefix`, and contents.
+pub(crate) fn simularium_meshes(particles: &Particles<'_>, prefix: &str) -> Vec<(String, String)> {
     let meshes = particles.species.iter().filter_map(|s| match s.shape {
         Shape::Ellipsoid(semi_axes) => {
             let largest = s.shape.radius_nm();
@@ -45,38 +44,40 @@ fn mesh_name(prefix: &str, species: &str) -> String {
 /// # Errors
 /// If the states cannot be read, or `out` returns an error.
 pub(crate) fn write_simularium(
-    run: &FinishedRun,
+    particles: Particles<'_>,
+    states: &dyn RecordedStates,
     prefix: &str,
     out: &mut impl Write,
-) -> Result<(), ExportError> {
-    let agents = Agents::new(run, prefix);
-    let edges = extent::edges_nm(run, &agents.particles)?;
+) -> io::Result<()> {
+    let agents = Agents::new(particles, prefix);
+    let edges = extent::edges_nm(states, &agents.particles)?;
+    let at = states.at();
     // The viewer has no periodic images: half of the box is sufficient.
-    let info = info(run, &agents, edges.map(|edge| 0.5 * edge));
+    let info = info(&at, &agents, edges.map(|edge| 0.5 * edge));
     write!(out, "{{\"trajectoryInfo\":{info},\"spatialData\":")?;
-    let count = run.count();
+    let count = at.len();
     write!(
         out,
         "{{\"version\":1,\"msgType\":1,\"bundleStart\":0,\"bundleSize\":{count},\"bundleData\":["
     )?;
-    for (i, state) in run.states()?.enumerate() {
-        let data = agents.frame(&state?);
-        let frame = json!({ "frameNumber": i, "time": run.at()[i].value(), "data": data });
+    for (i, state) in states.states().enumerate() {
+        let data = agents.frame(&*state?);
+        let frame = json!({ "frameNumber": i, "time": at[i].value(), "data": data });
         let comma = if i == 0 { "" } else { "," };
         write!(out, "{comma}\n{frame}")?;
     }
     writeln!(out, "\n]}},\"plotData\":{{\"version\":1,\"data\":[]}}}}")?;
-    Ok(out.flush()?)
+    out.flush()
 }
 
-fn info(run: &FinishedRun, agents: &Agents<'_>, size: [f64; 3]) -> serde_json::Value {
-    let step = match run.at() {
+fn info(at: &[At], agents: &Agents<'_>, size: [f64; 3]) -> serde_json::Value {
+    let step = match at {
         [first, second, ..] => second.value() - first.value(),
         _ => 0.0,
     };
-    let unit = match run.at()[0] {
-        At::Time(_) => "ns",
-        At::Path(_) => "stages",
+    let unit = match at {
+        [At::Path(_), ..] => "stages",
+        _ => "ns",
     };
     let [x, y, z] = size;
     let far = size.into_iter().fold(0.0, f64::max);
@@ -89,7 +90,7 @@ fn info(run: &FinishedRun, agents: &Agents<'_>, size: [f64; 3]) -> serde_json::V
         "version": 3,
         "timeUnits": { "magnitude": 1.0, "name": unit },
         "timeStepSize": step,
-        "totalSteps": run.count(),
+        "totalSteps": at.len(),
         "spatialUnits": { "magnitude": 1.0, "name": "nm" },
         "size": place(x, y, z),
         // Side view, with the undeformed filament upright.
@@ -100,7 +101,7 @@ fn info(run: &FinishedRun, agents: &Agents<'_>, size: [f64; 3]) -> serde_json::V
             "fovDegrees": 75.0,
         },
         "typeMapping": types,
-        "trajectoryTitle": run.assembly().scene.title,
+        "trajectoryTitle": agents.particles.assembly().scene.title,
     })
 }
 
@@ -113,8 +114,7 @@ struct Agents<'a> {
 }
 
 impl<'a> Agents<'a> {
-    fn new(run: &'a FinishedRun, prefix: &str) -> Self {
-        let particles = Particles::new(run.assembly());
+    fn new(particles: Particles<'a>, prefix: &str) -> Self {
         let drawn = |name: &str, display: &str, url: String| json!({ "name": name, "geometry": { "displayType": display, "url": url, "color": "" } });
         let species = particles.species.iter().map(|s| match s.shape {
             Shape::Ellipsoid(_) => drawn(&s.name, "OBJ", mesh_name(prefix, &s.name)),

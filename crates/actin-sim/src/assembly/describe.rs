@@ -44,7 +44,7 @@ impl Assembly {
 
     /// Returns the name of a part in files: `section_0`, or `filament_1_section_0` for filaments
     /// after the first.
-    pub(crate) fn name_of(&self, part: Part) -> String {
+    pub fn name_of(&self, part: Part) -> String {
         let within = |section: usize| {
             let filament = self.filament_of_section(section);
             let i = section - self.filaments[filament].sections.start;

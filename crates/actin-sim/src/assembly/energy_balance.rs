@@ -27,7 +27,8 @@ impl EnergyExchange {
     }
 }
 
-pub(crate) type Column = (&'static str, fn(&EnergyExchange) -> f64);
+/// Name of a column of `energies.csv` and its value.
+pub type EnergyColumn = (&'static str, fn(&EnergyExchange) -> f64);
 
 /// Adds the energy balance of a motion to a state under construction; `None` for other tasks.
 pub(super) fn of_motion(task: &Task, state: &mut State) -> Option<EnergyBalance> {
@@ -54,7 +55,7 @@ impl Assembly {
     }
 
     /// Returns the columns of the exchanges that occur in this scene.
-    pub(crate) fn booked_columns(&self) -> Vec<Column> {
+    pub fn booked_columns(&self) -> Vec<EnergyColumn> {
         let (is_driven, has_drag) = match &self.scene.task {
             Task::Dynamics(dynamics) => (Ramp::from_assembly(self).is_some(), dynamics.has_drag()),
             // Heat from noise is not recorded.
@@ -64,7 +65,7 @@ impl Assembly {
             ),
             Task::Equilibrium(_) => (false, false),
         };
-        let mut columns: Vec<Column> = Vec::new();
+        let mut columns: Vec<EnergyColumn> = Vec::new();
         if is_driven {
             columns.push(("work_pn_nm", |booked| booked.work_pn_nm));
         }

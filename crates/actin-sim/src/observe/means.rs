@@ -47,7 +47,7 @@ pub struct DerivedLength {
 }
 
 impl ObservableSummary {
-    pub(crate) fn scalars(&self, name: &str) -> Vec<(String, f64)> {
+    pub(crate) fn numbers(&self, name: &str) -> Vec<(String, f64)> {
         let mean = self.mean.unwrap_or_default();
         let derived = mean.derived.unwrap_or_default();
         [

@@ -2,7 +2,7 @@
 //!
 //! [`Observers`] holds the observers of a scene; each implements the trait [`Observe`]. A [`View`]
 //! is their input, and [`Memory`] their state between records. The options of a scene are in
-//! `scene/observable.rs`; files are written by `results`.
+//! `scene/observable.rs`.
 //!
 //! A new quantity needs a variant of [`Observable`] with its rules, an observer with its columns,
 //! and a line in `build`.

@@ -29,11 +29,11 @@ pub use equilibrium::EquilibriumReport;
 pub use hinge::HingeSlip;
 pub use outcome::{FailedRun, Failure, Outcome, RunError, Status};
 pub use plan::Plan;
-pub use record_stream::RecordSummary;
-pub(crate) use record_stream::RunStatistics;
+pub use record_stream::{RecordSummary, RunStatistics};
 pub(crate) use recorder::record;
-pub use records::{At, Record, Records, Row, Trajectory};
-pub(crate) use records::{RecordIter, RowIter};
+pub use records::{
+    At, EnergyTotals, Record, RecordIter, Records, RecordsError, Row, RowIter, Trajectory,
+};
 pub use rest::SaddlePush;
 pub use sink::{
     MotionPosition, PathPosition, Progress, ResolutionSwitch, RunPosition, SavedRun, Sink,

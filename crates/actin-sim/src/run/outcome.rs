@@ -72,7 +72,8 @@ pub struct Outcome {
 }
 
 impl Outcome {
-    pub(crate) fn new(status: Status, wall_s: f64) -> Self {
+    /// Creates the outcome of a run without steps.
+    pub fn new(status: Status, wall_s: f64) -> Self {
         Self {
             status,
             steps: 0,

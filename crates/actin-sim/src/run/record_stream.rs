@@ -12,14 +12,17 @@ use serde::{Deserialize, Serialize};
 /// Summary of the records of a run, including the last record.
 #[derive(Clone, Debug)]
 pub struct RecordSummary {
-    pub(crate) carried: RunStatistics,
-    pub(crate) last: Option<Record>,
+    /// Running statistics.
+    pub carried: RunStatistics,
+    /// Last record.
+    pub last: Option<Record>,
 }
 
 /// Running statistics of the records, stored in checkpoints.
 #[derive(Clone, Debug, Serialize, Deserialize)]
-pub(crate) struct RunStatistics {
-    pub(crate) count: usize,
+pub struct RunStatistics {
+    /// Number of records.
+    pub count: usize,
     links: LinkWatch,
     beyond_use: Vec<ModelLimitExceeded>,
     ranges: RangeWatch,
@@ -36,7 +39,7 @@ pub(super) struct StateWarnings {
 
 impl RecordSummary {
     /// Creates the summary of a run of `assembly` without records.
-    pub(crate) fn new(assembly: &Assembly) -> Self {
+    pub fn new(assembly: &Assembly) -> Self {
         let mut start = assembly.system.state().clone();
         // Without a path, the caller sets held ends.
         if !assembly.drive.is_still() {
@@ -72,7 +75,7 @@ impl RecordSummary {
     }
 
     /// Returns the number of records.
-    pub(crate) fn count(&self) -> usize {
+    pub fn count(&self) -> usize {
         self.carried.count
     }
 
@@ -92,7 +95,8 @@ impl RecordSummary {
 }
 
 impl RunStatistics {
-    pub(crate) fn fits(&self, other: &Self) -> bool {
+    /// Returns `true` if the statistics belong to the same observers and filaments.
+    pub fn fits(&self, other: &Self) -> bool {
         self.observed.fits(&other.observed)
             && self.links.fits(&other.links)
             && self.twist.fits(&other.twist)

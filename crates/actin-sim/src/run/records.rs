@@ -1,10 +1,11 @@
 //! Records in memory or read one by one from files.
 
-use crate::EnergyExchange;
+use crate::{Assembly, EnergyExchange, Part, Term};
 use actin_mechanics::State;
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 use std::io;
+use thiserror::Error;
 
 /// Time or path parameter of a record.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -68,8 +69,18 @@ impl Record {
         self.energies_pn_nm.iter().sum()
     }
 
+    /// Checks that record `i` has the numbers of bodies of `assembly`.
+    ///
+    /// # Errors
+    /// The numbers of points or frames differ.
+    pub fn ensure_fits(&self, i: usize, assembly: &Assembly) -> Result<(), RecordsError> {
+        let state = &self.state;
+        ensure_same(i, ("points", state.points.len()), assembly.points.len())?;
+        ensure_same(i, ("frames", state.frames.len()), assembly.frames.len())
+    }
+
     /// Returns the record without its state.
-    pub(crate) fn row(&self) -> Row {
+    pub fn row(&self) -> Row {
         Row {
             at: self.at,
             energies_pn_nm: self.energies_pn_nm.clone(),
@@ -101,10 +112,91 @@ pub struct Row {
     pub observed: Vec<f64>,
 }
 
+impl Row {
+    /// Checks that row `i` has the columns of `assembly`.
+    ///
+    /// # Errors
+    /// The numbers of energies or observed quantities differ.
+    pub fn ensure_fits(&self, i: usize, assembly: &Assembly) -> Result<(), RecordsError> {
+        let energies = ("energies", self.energies_pn_nm.len());
+        ensure_same(i, energies, assembly.terms.len())?;
+        let columns = assembly.observed().len();
+        ensure_same(i, ("observables", self.observed.len()), columns)
+    }
+}
+
+/// Sums of the energies of a record (pN nm).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct EnergyTotals {
+    /// Sum of potential and kinetic energy.
+    pub total: f64,
+    /// Energy of all interactions.
+    pub potential: f64,
+    /// Energy of all interactions except loads.
+    pub elastic: f64,
+    /// Kinetic energy.
+    pub kinetic: f64,
+}
+
+impl EnergyTotals {
+    /// Sums the energies of `terms`.
+    pub fn new(terms: &[Term], energies_pn_nm: &[f64], kinetic_pn_nm: f64) -> Self {
+        let potential: f64 = energies_pn_nm.iter().sum();
+        let of_load = |term: &Term| matches!(term.part, Part::Load(_));
+        let elastic = terms.iter().zip(energies_pn_nm);
+        let elastic = elastic.filter(|(term, _)| !of_load(term)).map(|(_, e)| e);
+        Self {
+            total: potential + kinetic_pn_nm,
+            potential,
+            elastic: elastic.sum(),
+            kinetic: kinetic_pn_nm,
+        }
+    }
+}
+
+/// Error of records that do not belong to an assembly or cannot be read.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum RecordsError {
+    /// A record cannot be read back.
+    #[error("a record cannot be read back: {0}")]
+    Unreadable(io::Error),
+    /// Empty records.
+    #[error("the trajectory holds no record: a run directory requires at least one")]
+    Empty,
+    /// A record does not belong to the assembly.
+    #[error("record {record} holds {found} {quantity} where the assembly has {expected}")]
+    Mismatch {
+        /// Index of the record.
+        record: usize,
+        /// Name of the counted quantity.
+        quantity: &'static str,
+        /// Number in the record.
+        found: usize,
+        /// Number in the assembly.
+        expected: usize,
+    },
+}
+
+fn ensure_same(
+    record: usize,
+    (quantity, found): (&'static str, usize),
+    expected: usize,
+) -> Result<(), RecordsError> {
+    if found == expected {
+        return Ok(());
+    }
+    Err(RecordsError::Mismatch {
+        record,
+        quantity,
+        found,
+        expected,
+    })
+}
+
 /// Records of a run, which can be iterated repeatedly.
 ///
-/// A [`Trajectory`] holds them in memory; [`Checkpoints`](crate::Checkpoints) read them one by one
-/// from a run directory.
+/// A [`Trajectory`] holds them in memory.
 pub trait Records {
     /// Number of records.
     fn count(&self) -> usize;
@@ -120,10 +212,10 @@ pub trait Records {
 }
 
 /// Iterator over records.
-pub(crate) type RecordIter<'a> = Box<dyn Iterator<Item = io::Result<Cow<'a, Record>>> + 'a>;
+pub type RecordIter<'a> = Box<dyn Iterator<Item = io::Result<Cow<'a, Record>>> + 'a>;
 
 /// Iterator over records without their states.
-pub(crate) type RowIter<'a> = Box<dyn Iterator<Item = io::Result<Row>> + 'a>;
+pub type RowIter<'a> = Box<dyn Iterator<Item = io::Result<Row>> + 'a>;
 
 /// Records in memory.
 #[derive(Clone, Debug, Default)]

@@ -1,4 +1,4 @@
-//! Output of a run: records, progress and checkpoints. Files are written by `results`.
+//! Output of a run: records, progress and checkpoints.
 
 use super::{At, Record, RecordSummary, SaddlePush, Trajectory};
 use crate::LinkerEvent;
@@ -8,8 +8,8 @@ use actin_mechanics::{Motion, Residual, State};
 use serde::{Deserialize, Serialize};
 use std::time::Instant;
 
-/// Receiver of the output of a run: memory ([`Trajectory`]), a run directory
-/// ([`Checkpoints`](crate::Checkpoints)), or a user type.
+/// Receiver of the output of a run: memory ([`Trajectory`]), a run directory (`Checkpoints` of
+/// `actin-rundir`), or a user type.
 ///
 /// Queries are made at every check of a motion (at least every hundred steps), at every Newton step
 /// and at every equilibrium of a path. They should be cheap.
@@ -74,7 +74,8 @@ pub enum RunPosition {
 }
 
 impl RunPosition {
-    pub(crate) fn fits(&self, state: &State) -> bool {
+    /// Returns `true` if the numbers of bodies and controls equal the numbers in `state`.
+    pub fn fits(&self, state: &State) -> bool {
         match self {
             Self::Motion(position) => {
                 let Checkpoint {

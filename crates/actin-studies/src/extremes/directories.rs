@@ -2,7 +2,8 @@
 
 use super::row::{Expected, Outcome, Row};
 use super::scenes::{CompletedRun, run};
-use actin_sim::{Plan, RunDirectory, RunDirectoryError};
+use actin_rundir::{RunDirectory, RunDirectoryError};
+use actin_sim::Plan;
 use std::collections::BTreeMap;
 use std::fs;
 use std::io;

@@ -4,7 +4,7 @@ use cargo_metadata::{DependencyKind, MetadataCommand};
 use std::path::Path;
 
 /// Each crate with the crates of the workspace that it may depend on.
-const ALLOWED: [(&str, &[&str]); 19] = [
+const ALLOWED: [(&str, &[&str]); 20] = [
     ("actin-mechanics", &[]),
     ("actin-ellipsoid", &["actin-mechanics"]),
     ("actin-cosserat", &["actin-mechanics"]),
@@ -48,12 +48,13 @@ const ALLOWED: [(&str, &[&str]); 19] = [
             "actin-view",
         ],
     ),
-    ("actin-view", &["actin-sim", "actin-draw"]),
-    ("actin-sweep", &["actin-sim"]),
     ("actin-export", &["actin-sim"]),
+    ("actin-rundir", &["actin-sim", "actin-export"]),
+    ("actin-view", &["actin-sim", "actin-rundir", "actin-draw"]),
+    ("actin-sweep", &["actin-sim", "actin-rundir"]),
     (
         "actin-cli",
-        &["actin-sim", "actin-sweep", "actin-export", "actin-view"],
+        &["actin-sim", "actin-rundir", "actin-sweep", "actin-view"],
     ),
     (
         "actin-python",
@@ -64,6 +65,7 @@ const ALLOWED: [(&str, &[&str]); 19] = [
             "actin-equilibrium",
             "actin-fit",
             "actin-sim",
+            "actin-rundir",
             "actin-sweep",
         ],
     ),
@@ -78,6 +80,7 @@ const ALLOWED: [(&str, &[&str]); 19] = [
             "actin-integrate",
             "actin-mechanics",
             "actin-paper",
+            "actin-rundir",
             "actin-sim",
             "actin-sweep",
             "actin-view",

@@ -12,8 +12,9 @@ mod thin;
 use curves::Curve;
 use source::Source;
 
+use actin_rundir::FollowedDirectory;
 use actin_sim::mechanics::State;
-use actin_sim::{Assembly, At, FollowedDirectory, Scene, Summary};
+use actin_sim::{Assembly, At, Scene, Summary};
 use std::fs;
 use std::path::{Path, PathBuf};
 use thiserror::Error;

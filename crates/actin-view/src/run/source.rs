@@ -1,10 +1,9 @@
 //! Records of a run, from its results or its checkpoint.
 
 use super::curves::{self, Curve};
+use actin_rundir::{Checkpoints, RunDirectory, StoredStates};
 use actin_sim::mechanics::State;
-use actin_sim::{
-    Assembly, At, Checkpoints, Plan, Records, Row, RunDirectory, Status, StoredStates, Summary,
-};
+use actin_sim::{Assembly, At, Plan, Records, Row, Status, Summary};
 use std::fs;
 use std::path::Path;
 use std::sync::Arc;

@@ -1,0 +1,208 @@
+//! Errors of run directories.
+
+use crate::names::{MANIFEST, SCENE, STATES};
+use actin_sim::{RecordsError, SceneError, SceneProblem};
+use std::io;
+use std::path::{Path, PathBuf};
+use thiserror::Error;
+
+/// Error of reading or writing a run directory.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum RunDirectoryError {
+    /// The directory is not empty.
+    #[error(
+        "{} exists and is not empty: results are never overwritten without request; \
+         name another directory, or request overwriting", .path.display()
+    )]
+    NotEmpty {
+        /// The directory.
+        path: PathBuf,
+    },
+    /// A directory to be overwritten has no manifest.
+    #[error(
+        "{} is not empty and has no {MANIFEST}, the list of the files that a run has written: nothing in it \
+         is removed; name another directory, or remove this one if it is to go", .path.display()
+    )]
+    NoManifest {
+        /// The directory.
+        path: PathBuf,
+    },
+    /// A file, folder or link that the run has not written has the name of a result.
+    #[error(
+        "{} was not written by the run whose files {MANIFEST} lists: it is left alone; move it, or name \
+         another directory", .path.display()
+    )]
+    NotOfARun {
+        /// The file, folder or link.
+        path: PathBuf,
+    },
+    /// A text of an earlier run was changed after that run wrote it.
+    #[error(
+        "{} has been changed since the run wrote it: it is left alone; move it, or name another directory",
+        .path.display()
+    )]
+    Changed {
+        /// The file.
+        path: PathBuf,
+    },
+    /// The manifest is invalid or has another version.
+    #[error(
+        "{} is not the list of a run's files that it should be: {reason}; nothing is removed; name another \
+         directory, or remove this one if it is to go", .path.display()
+    )]
+    Manifest {
+        /// The file.
+        path: PathBuf,
+        /// Reason.
+        reason: String,
+    },
+    /// The directory to be overwritten is a link.
+    #[error(
+        "{} is a link to {target}: nothing is removed through a link; name {target} itself", .path.display(),
+        target = .target.display()
+    )]
+    Link {
+        /// The link.
+        path: PathBuf,
+        /// Target of the link.
+        target: PathBuf,
+    },
+    /// The path is not a directory.
+    #[error("{} is not a directory: a run writes several files into one directory", .path.display())]
+    NotADirectory {
+        /// The path.
+        path: PathBuf,
+    },
+    /// Another run is using the directory.
+    #[error(
+        "{} is in use: another run{} is writing into it; wait for its end, or name another \
+         directory", .path.display(), by(*.process)
+    )]
+    InUse {
+        /// The directory.
+        path: PathBuf,
+        /// Process number of that run, if available.
+        process: Option<u32>,
+    },
+    /// The file in place of the lock was not written by a run.
+    #[error(
+        "{} has the name of the lock but was not written by a run: move it, or name another \
+         directory", .path.display()
+    )]
+    ForeignLock {
+        /// The file.
+        path: PathBuf,
+    },
+    /// The file system refused.
+    #[error("{}: {source}", .path.display())]
+    Io {
+        /// The file or directory.
+        path: PathBuf,
+        /// Error of the file system.
+        source: io::Error,
+    },
+    /// The records cannot be read back, or do not belong to the assembly.
+    #[error(transparent)]
+    Records(#[from] RecordsError),
+    /// A file of results is damaged.
+    #[error("{} is damaged: {reason}", .path.display())]
+    Damaged {
+        /// The file.
+        path: PathBuf,
+        /// Reason.
+        reason: String,
+    },
+    /// Results do not belong to the scene in the directory.
+    #[error("{} does not belong to the scene: {reason}", .path.display())]
+    OtherBodies {
+        /// The file.
+        path: PathBuf,
+        /// Difference.
+        reason: String,
+    },
+    /// The directory has no scene.
+    #[error("{} is not a run directory: it has no {SCENE}", .path.display())]
+    NotARun {
+        /// The directory.
+        path: PathBuf,
+    },
+    /// The directory has no states.
+    #[error(
+        "{} has no {STATES}: its run has not ended, or its scene has `output: (states: false)`",
+        .path.display()
+    )]
+    NoStates {
+        /// The directory.
+        path: PathBuf,
+    },
+    /// The scene in the directory is invalid.
+    #[error("{}:{error}", .path.display())]
+    Scene {
+        /// The file.
+        path: PathBuf,
+        /// Error of the scene.
+        error: SceneError,
+    },
+    /// The scene in the directory cannot be built.
+    #[error("{}: {problem}", .path.display())]
+    Problem {
+        /// The file.
+        path: PathBuf,
+        /// Reason.
+        problem: SceneProblem,
+    },
+    /// The file of an export exists.
+    #[error("{} exists: name another file, or allow overwriting", .path.display())]
+    Exists {
+        /// The file.
+        path: PathBuf,
+    },
+    /// The file of an export is a directory.
+    #[error("{} is a directory: name a file", .path.display())]
+    IsDirectory {
+        /// The directory.
+        path: PathBuf,
+    },
+    /// The file of an export cannot be written.
+    #[error("{}: {source}", .path.display())]
+    Export {
+        /// The file.
+        path: PathBuf,
+        /// Error of the file system.
+        source: io::Error,
+    },
+    /// A value is not finite.
+    #[error("{file}: {quantity}{} is {value}: only finite numbers are written", place(.index))]
+    NotFinite {
+        /// File to be written.
+        file: String,
+        /// Name of the quantity in that file.
+        quantity: String,
+        /// Index in the array of the quantity; empty for a scalar.
+        index: Vec<usize>,
+        /// The value.
+        value: f64,
+    },
+}
+
+impl RunDirectoryError {
+    pub(crate) fn io(path: &Path) -> impl FnOnce(io::Error) -> Self {
+        move |source| Self::Io {
+            path: path.to_owned(),
+            source,
+        }
+    }
+}
+
+fn by(process: Option<u32>) -> String {
+    process.map_or_else(String::new, |id| format!(" (process {id})"))
+}
+
+fn place(index: &[usize]) -> String {
+    if index.is_empty() {
+        String::new()
+    } else {
+        format!("{index:?}")
+    }
+}

@@ -1,0 +1,74 @@
+//! Finished runs: the rebuilt scene and its [stored states](StoredStates).
+
+use crate::names::SCENE;
+use crate::{RunDirectory, RunDirectoryError, StateIter, StoredStates};
+use actin_sim::{Assembly, At, Scene};
+use std::fs;
+use std::ops::Range;
+use std::path::Path;
+
+/// A finished run, opened to read its states.
+#[derive(Debug)]
+pub struct FinishedRun {
+    assembly: Assembly,
+    stored: StoredStates,
+}
+
+impl FinishedRun {
+    /// Opens a run directory and rebuilds its scene.
+    ///
+    /// # Errors
+    /// The directory has no scene or no states, this version refuses the scene, or the states are
+    /// damaged or do not belong to the scene.
+    pub fn open(path: impl AsRef<Path>) -> Result<Self, RunDirectoryError> {
+        let path = path.as_ref().to_owned();
+        let scene = read_scene(&path)?;
+        let assembly = Assembly::build(&scene).map_err(|problem| RunDirectoryError::Problem {
+            path: path.join(SCENE),
+            problem,
+        })?;
+        let stored = RunDirectory::existing(&path).stored_states(&assembly)?;
+        match stored {
+            None => Err(RunDirectoryError::NoStates { path }),
+            Some(stored) => Ok(Self { assembly, stored }),
+        }
+    }
+
+    /// Assembly of the scene.
+    pub fn assembly(&self) -> &Assembly {
+        &self.assembly
+    }
+
+    /// Number of records.
+    pub fn count(&self) -> usize {
+        self.at().len()
+    }
+
+    /// Time or path position of each record.
+    pub fn at(&self) -> &[At] {
+        self.stored.at()
+    }
+
+    /// Reads the states of all records in order.
+    ///
+    /// # Errors
+    /// An array is missing or has the wrong shape.
+    pub fn states(&self) -> Result<StateIter<'_, Range<usize>>, RunDirectoryError> {
+        self.stored.states(&self.assembly, 0..self.count())
+    }
+}
+
+fn read_scene(path: &Path) -> Result<Scene, RunDirectoryError> {
+    let file = path.join(SCENE);
+    if !file.exists() {
+        return Err(RunDirectoryError::NotARun { path: path.into() });
+    }
+    let bytes = fs::read(&file).map_err(RunDirectoryError::io(&file))?;
+    let refused = |error| RunDirectoryError::Scene { path: file, error };
+    let text = Scene::text(bytes);
+    text.and_then(|text| Scene::from_ron(&text))
+        .map_err(refused)
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,241 @@
+//! Directory of a motion with adaptive sections: a chain of run directories and their common files.
+//!
+//! | file | contents |
+//! |---|---|
+//! | `scene.ron`, `summary.json` | scene; last record, with switches under `following` |
+//! | `stretches/NNNN/` | run directory of each stretch between two switches, with explicit sections |
+//! | `stretches.json` | start of each stretch |
+//! | `switches.csv` | time, position and changes of energy and momentum of each switch |
+//! | `energies.csv`, `observables.csv` | tables of all stretches, concatenated |
+//!
+//! Each switch has two records at the same time, before and after it.
+
+use crate::directory::RunDirectory;
+use crate::lock::LOCK;
+use crate::manifest::Manifest;
+use crate::names::{ENERGIES, MANIFEST, OBSERVABLES, PICTURES, STRETCHES, SUMMARY, SWITCHES};
+use crate::{RunDirectoryError, atomic};
+use actin_sim::Summary;
+use actin_sim::follow::StretchStart;
+use std::fs;
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+const FOLDER: &str = "stretches";
+
+/// Columns of `energies.csv` that do not depend on the resolution.
+const COMMON: [&str; 7] = [
+    "time_ns",
+    "total_pn_nm",
+    "potential_pn_nm",
+    "elastic_pn_nm",
+    "kinetic_pn_nm",
+    "residual_force_pn",
+    "residual_torque_pn_nm",
+];
+
+/// Optional columns for energy supplied from outside.
+const BOOKED: [&str; 3] = ["work_pn_nm", "heat_pn_nm", "events_pn_nm"];
+
+/// Directory of a chain of stretches.
+#[derive(Clone, Debug)]
+pub struct FollowedDirectory {
+    path: PathBuf,
+}
+
+impl FollowedDirectory {
+    /// Opens the directory at `path`, which is also a [`RunDirectory`].
+    pub fn new(path: impl Into<PathBuf>) -> Self {
+        Self { path: path.into() }
+    }
+
+    /// Returns true if `path` contains a list of stretches.
+    pub fn exists_at(path: &Path) -> bool {
+        path.join(STRETCHES).is_file()
+    }
+
+    /// Path of the directory.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// Path of a stretch.
+    pub fn stretch(&self, index: usize) -> PathBuf {
+        self.path.join(FOLDER).join(format!("{index:04}"))
+    }
+
+    /// Returns the starts of all stretches; empty without stretches.
+    ///
+    /// # Errors
+    /// The file is unreadable or not a list of stretches.
+    pub fn beginnings(&self) -> Result<Vec<StretchStart>, RunDirectoryError> {
+        if !Self::exists_at(&self.path) {
+            return Ok(Vec::new());
+        }
+        let path = self.path.join(STRETCHES);
+        let read = fs::read_to_string(&path).and_then(|text| Ok(serde_json::from_str(&text)?));
+        read.map_err(RunDirectoryError::io(&path))
+    }
+
+    /// Writes the starts of all stretches.
+    ///
+    /// # Errors
+    /// A refusal of the file system.
+    pub fn note(&self, beginnings: &[StretchStart]) -> Result<(), RunDirectoryError> {
+        self.replace(STRETCHES, |out| Ok(serde_json::to_writer(out, beginnings)?))
+    }
+
+    /// Removes the run directories of stretch `first` and all later ones, in descending order.
+    ///
+    /// # Errors
+    /// A directory contains files that no run has written, or the file system refuses an operation.
+    pub fn remove_from(&self, first: usize) -> Result<(), RunDirectoryError> {
+        let folder = self.path.join(FOLDER);
+        let Ok(entries) = fs::read_dir(&folder) else {
+            return Ok(());
+        };
+        let names = entries.filter_map(|entry| entry.ok()?.file_name().into_string().ok());
+        let mut indices: Vec<usize> = names.filter_map(|name| name.parse().ok()).collect();
+        indices.sort_unstable_by(|a, b| b.cmp(a));
+        for index in indices.into_iter().filter(|&index| index >= first) {
+            remove_run(&self.stretch(index))?;
+        }
+        Ok(())
+    }
+
+    /// Writes the common files after all stretches were written; `last` is the summary of the last
+    /// stretch.
+    ///
+    /// # Errors
+    /// Files of a stretch are unreadable, or the file system refuses an operation.
+    pub fn write(
+        &self,
+        beginnings: &[StretchStart],
+        last: &Summary,
+    ) -> Result<Summary, RunDirectoryError> {
+        self.note(beginnings)?;
+        self.replace(SWITCHES, |out| switches(beginnings, out))?;
+        let end_ns = self.join(ENERGIES, beginnings, &|header| {
+            let common = COMMON.iter().map(|name| column(header, name));
+            let booked = BOOKED.iter().filter_map(|name| column(header, name).ok());
+            common.chain(booked.map(Ok)).collect()
+        })?;
+        let observed = self.stretch(0).join(OBSERVABLES);
+        if observed.exists() {
+            self.join(OBSERVABLES, beginnings, &|header| {
+                Ok((0..header.len()).collect())
+            })?;
+        }
+        let stretches = beginnings.iter().map(|one| self.stretch(one.index));
+        let stretches = stretches.map(|path| RunDirectory::existing(path).summary());
+        let stretches = stretches.collect::<Result<_, _>>()?;
+        let summary = Summary::from_stretches(beginnings, stretches, last, end_ns);
+        self.replace(SUMMARY, |out| {
+            Ok(serde_json::to_writer_pretty(out, &summary)?)
+        })?;
+        Ok(summary)
+    }
+
+    /// Concatenates a table of all stretches and appends the cumulative energy of the switches.
+    ///
+    /// `of` selects columns by the header. Returns the last time (ns).
+    fn join(
+        &self,
+        name: &str,
+        beginnings: &[StretchStart],
+        of: &dyn Fn(&csv::StringRecord) -> io::Result<Vec<usize>>,
+    ) -> Result<f64, RunDirectoryError> {
+        let mut end_ns = 0.0;
+        self.replace(name, |out| {
+            let mut writer = csv::Writer::from_writer(out);
+            for beginning in beginnings {
+                let path = self.stretch(beginning.index).join(name);
+                let mut reader = csv::Reader::from_path(path)?;
+                let header = reader.headers()?.clone();
+                let columns = of(&header)?;
+                let fields = |row: &csv::StringRecord| -> Vec<String> {
+                    columns.iter().map(|&i| row[i].to_owned()).collect()
+                };
+                if beginning.index == 0 {
+                    let mut names = fields(&header);
+                    names.push("switches_pn_nm".to_owned());
+                    writer.write_record(names)?;
+                }
+                for row in reader.records() {
+                    let row = row?;
+                    end_ns = row[0].parse().map_err(io::Error::other)?;
+                    let mut fields = fields(&row);
+                    fields.push(format!("{:?}", beginning.switches_pn_nm));
+                    writer.write_record(fields)?;
+                }
+            }
+            writer.flush()
+        })?;
+        Ok(end_ns)
+    }
+
+    fn replace(
+        &self,
+        name: &str,
+        write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+    ) -> Result<(), RunDirectoryError> {
+        let mut manifest = Manifest::read(&self.path)?.unwrap_or_else(Manifest::new);
+        manifest.ensure_own(&self.path)?;
+        manifest.add([name]);
+        manifest.write(&self.path)?;
+        let path = self.path.join(name);
+        let written = atomic::replace_durably(&path, |out| write(out));
+        written.map_err(RunDirectoryError::io(&path))
+    }
+}
+
+/// Removes a run directory with the files listed in its manifest.
+fn remove_run(path: &Path) -> Result<(), RunDirectoryError> {
+    let io = || RunDirectoryError::io(path);
+    let lock = RunDirectory::create_locked(path, true)?;
+    // Fails if the folder contains files of the user, which are detected below.
+    let _ = fs::remove_dir(path.join(PICTURES));
+    for entry in fs::read_dir(path).map_err(io())? {
+        let name = entry.map_err(io())?.file_name();
+        if name != MANIFEST && name != LOCK {
+            return Err(RunDirectoryError::NotEmpty { path: path.into() });
+        }
+    }
+    drop(lock);
+    fs::remove_dir_all(path).map_err(io())
+}
+
+fn column(header: &csv::StringRecord, name: &str) -> io::Result<usize> {
+    let place = header.iter().position(|column| column == name);
+    place.ok_or_else(|| io::Error::other(format!("no column {name}")))
+}
+
+fn switches(beginnings: &[StretchStart], out: &mut dyn Write) -> io::Result<()> {
+    let mut writer = csv::Writer::from_writer(out);
+    writer.write_record([
+        "time_ns",
+        "from_nm",
+        "to_nm",
+        "becomes",
+        "energy_pn_nm",
+        "momentum_change",
+        "angular_momentum_change",
+    ])?;
+    for switch in beginnings.iter().filter_map(|one| one.switch.as_ref()) {
+        let kinds = [("monomers", &switch.to_monomers), ("rod", &switch.to_rod)];
+        for (becomes, spans) in kinds {
+            for [from_nm, to_nm] in spans {
+                writer.write_record([
+                    format!("{:?}", switch.time_ns),
+                    format!("{from_nm:?}"),
+                    format!("{to_nm:?}"),
+                    becomes.to_owned(),
+                    format!("{:?}", switch.energy_pn_nm),
+                    format!("{:?}", switch.momentum_change),
+                    format!("{:?}", switch.angular_momentum_change),
+                ])?;
+            }
+        }
+    }
+    writer.flush()
+}

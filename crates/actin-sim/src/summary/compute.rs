@@ -1,0 +1,335 @@
+//! The numbers of a summary, from the last record of a run.
+
+use super::{
+    AccuracySummary, EndReactions, EnergySummary, FilamentSummary, LateKinetic, LinkerSummary,
+    ResidualSummary, ShapeSummary, StabilitySummary, StatesSummary, Summary, ThermalSummary,
+    WorkSummary,
+};
+use crate::observe::{Averages, View};
+use crate::{Assembly, At, End, EnergyExchange, Outcome, Record, Status, Task, shape};
+use actin_equilibrium::Certificate;
+use actin_mechanics::{Loads, Residual};
+
+impl Summary {
+    /// Creates the summary of an assembly as built, with the keys of a run's summary but without
+    /// results.
+    pub fn as_built(assembly: &Assembly) -> Self {
+        let at = match assembly.scene.task {
+            Task::Dynamics(_) | Task::Brownian(_) => At::Time(0.0),
+            Task::Equilibrium(_) => At::Path(0.0),
+        };
+        let mut record = Record {
+            at,
+            state: assembly.rest.clone(),
+            energies_pn_nm: vec![0.0; assembly.terms.len()],
+            kinetic_pn_nm: 0.0,
+            residual_force_pn: 0.0,
+            residual_torque_pn_nm: 0.0,
+            booked: EnergyExchange::default(),
+            observed: Vec::new(),
+        };
+        let energies = (record.energies_pn_nm.as_slice(), 0.0);
+        let view = View::new(assembly, (at, &record.state), energies);
+        let observers = &assembly.observers;
+        record.observed = observers.row(&view, &mut observers.memory());
+        Self::new(assembly, &record, &Outcome::new(Status::Interrupted, 0.0))
+    }
+
+    /// Creates the summary of a run of `assembly` that ended with the record `last`.
+    pub fn new(assembly: &Assembly, last: &Record, outcome: &Outcome) -> Self {
+        Self::without_derived_warnings(assembly, last, outcome).with_derived_warnings()
+    }
+
+    /// Creates the summary without the warnings that follow from other keys.
+    #[expect(clippy::too_many_lines, reason = "a line for each key")]
+    pub(super) fn without_derived_warnings(
+        assembly: &Assembly,
+        last: &Record,
+        outcome: &Outcome,
+    ) -> Self {
+        let of_plan = outcome.plan_notes.clone();
+        let notes = [assembly.notes(), of_plan, outcome.notes(assembly, last)].concat();
+        let filaments = FilamentSummary::all(assembly, last);
+        let first = &filaments[0];
+        Self {
+            scene: assembly.scene.title.clone(),
+            status: outcome.status,
+            failure: outcome.failure.clone(),
+            counts: assembly.counts(),
+            time_ns: last.at.time_ns(),
+            path: last.at.path(),
+            time_step_ns: outcome.time_step_ns,
+            largest_frequency_rad_per_ns: outcome.largest_frequency_rad_per_ns,
+            stability: outcome.certificate().map(StabilitySummary::new),
+            saddles_left: outcome.saddles_left,
+            pushes: outcome.pushes.clone(),
+            jumps: outcome.jumps,
+            energy_pn_nm: EnergySummary::new(assembly, last),
+            tip_nm: first.tip_nm,
+            tip_displacement_nm: first.tip_displacement_nm,
+            end_reactions: first.end_reactions,
+            notes: notes.iter().map(|note| note.message.clone()).collect(),
+            warnings: notes.into_iter().filter(|n| n.code.is_some()).collect(),
+            beyond_range: assembly.beyond_range_over([&last.state]),
+            unstable_twist: assembly.unstable_twist_over([&last.state]),
+            beyond_use: outcome.beyond_use.clone(),
+            linkers: LinkerSummary::all(assembly, &last.state),
+            observables: Averages::of_one(assembly, last),
+            smallest_gap_nm: assembly.smallest_gap_nm(&last.state),
+            shape: first.shape,
+            residual: ResidualSummary::new(last),
+            residual_floor: outcome.residual_floor().map(Into::into),
+            thermal: ThermalSummary::new(assembly, &kinetic_of(last)),
+            following: None,
+            lowest_stiffness_eigenvalue: outcome.lowest_eigenvalue(),
+            states: StatesSummary::from_outcome(assembly, outcome),
+            accuracy: AccuracySummary::new(assembly, outcome),
+            work: WorkSummary::new(outcome),
+            wall_s: outcome.wall_s,
+            version: env!("CARGO_PKG_VERSION").to_owned(),
+            seed: first.seed,
+            filaments,
+        }
+    }
+}
+
+fn kinetic_of(record: &Record) -> LateKinetic {
+    let mut kinetic = LateKinetic::new(1);
+    kinetic.add(record.kinetic_pn_nm);
+    kinetic
+}
+
+impl WorkSummary {
+    fn new(outcome: &Outcome) -> Self {
+        let equilibrium = outcome.equilibrium.as_ref();
+        Self {
+            steps: outcome.steps,
+            force_evaluations: outcome.force_evaluations,
+            newton_iterations: equilibrium.map_or(0, |e| e.newton_iterations),
+        }
+    }
+}
+
+impl FilamentSummary {
+    pub(super) fn all(assembly: &Assembly, last: &Record) -> Vec<Self> {
+        // Computed for the state of the record, which may differ from the current state of the
+        // system.
+        let mut loads = Loads::zeros(&last.state);
+        for interaction in assembly.system.interactions() {
+            interaction.add_loads(&last.state, &mut loads);
+        }
+        let here = (last, shape::path_parameter(assembly, last.at));
+        let filaments = 0..assembly.filaments.len();
+        filaments
+            .map(|filament| Self::new(assembly, filament, here, &loads))
+            .collect()
+    }
+
+    /// Creates the summary of a filament from the loads of the last record, at `parameter` of the
+    /// path.
+    fn new(
+        assembly: &Assembly,
+        filament: usize,
+        (last, parameter): (&Record, f64),
+        loads: &Loads,
+    ) -> Self {
+        let tip = reported_tip(assembly, filament);
+        let tip_nm = assembly.tip_of(filament, &last.state, tip);
+        let tip_at_rest_nm = assembly.tip_of(filament, &assembly.rest, tip);
+        let terms = assembly.filaments[filament].terms.clone();
+        Self {
+            counts: assembly.counts_of(filament),
+            tip_nm: tip_nm.into(),
+            tip_displacement_nm: (tip_nm - tip_at_rest_nm).into(),
+            end_reactions: EndReactions::new(assembly, filament, &last.state, loads),
+            elastic_pn_nm: last.energies_pn_nm[terms].iter().sum(),
+            shape: ShapeSummary::new(assembly, filament, (&last.state, parameter)),
+            seed: assembly.monomers_of(filament).seed,
+        }
+    }
+}
+
+impl StabilitySummary {
+    fn new(certificate: &Certificate) -> Self {
+        Self {
+            stable: certificate.negative == 0 && certificate.unresolved == 0,
+            negative_eigenvalues: certificate.negative,
+            unresolved_eigenvalues: certificate.unresolved,
+            resolution_pn_per_nm: certificate.resolution,
+        }
+    }
+}
+
+impl ResidualSummary {
+    fn new(record: &Record) -> Self {
+        Self {
+            force_pn: record.residual_force_pn,
+            torque_pn_nm: record.residual_torque_pn_nm,
+        }
+    }
+}
+
+impl From<Residual> for ResidualSummary {
+    fn from(residual: Residual) -> Self {
+        Self {
+            force_pn: residual.force,
+            torque_pn_nm: residual.torque,
+        }
+    }
+}
+
+/// End whose tip is reported: the last one, unless it is clamped and the first one is free.
+fn reported_tip(assembly: &Assembly, filament: usize) -> End {
+    let is_clamped = |end| assembly.clamp_at(filament, end).is_some();
+    if is_clamped(End::End) && !is_clamped(End::Start) {
+        End::Start
+    } else {
+        End::End
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::summary::fixture;
+    use actin_mechanics::Vector3;
+    use actin_mechanics::testing::resultant;
+
+    fn last_summary(assembly: &Assembly) -> (Record, Summary) {
+        let last = fixture::trajectory(assembly).records.pop().unwrap();
+        let summary = Summary::new(assembly, &last, &fixture::outcome());
+        (last, summary)
+    }
+
+    /// Internal forces cancel, so the reaction plus the end force equals the sum of forces on the
+    /// free points.
+    #[test]
+    fn reaction_balances_the_end_force_and_the_residual_forces() {
+        for assembly in [fixture::clamped_start(), fixture::clamped_end()] {
+            let (last, summary) = last_summary(&assembly);
+            let loads = fixture::loads(&assembly, &last.state);
+            let points = &last.state.points;
+            let free: Vector3 = (0..points.len())
+                .filter(|&i| points.is_free(i))
+                .map(|i| loads.force.get(i))
+                .sum();
+            let scale: f64 = loads.force.iter().map(|f| f.norm()).sum();
+            let reactions = summary.end_reactions;
+            let reaction = reactions.start.or(reactions.end).unwrap();
+            let end_force = Vector3::new(2.0, -1.0, 0.5);
+            let rest = Vector3::from(reaction.force_pn) + end_force - free;
+            // Round-off of forces that cancel.
+            assert!(rest.norm() <= 1e-12 * scale, "{rest} of {scale}");
+            assert!(Vector3::from(reaction.force_pn).norm() > 1e-3);
+        }
+    }
+
+    /// Torques balance about the clamped point, including couples.
+    #[test]
+    fn reaction_torque_is_about_the_clamped_point() {
+        let assembly = fixture::clamped_start();
+        let (mut last, summary) = last_summary(&assembly);
+        // The random state also moves the clamped bodies.
+        let about = assembly.clamps[0].point_nm(&last.state);
+        for i in 0..last.state.points.len() {
+            last.state.points.position.add(i, -about);
+        }
+        let mut loads = fixture::loads(&assembly, &last.state);
+        for &i in &assembly.clamps[0].points {
+            loads.force.set(i, Vector3::zeros());
+        }
+        for &i in &assembly.clamps[0].frames {
+            loads.torque.set(i, Vector3::zeros());
+        }
+        let (_, free) = resultant(&last.state, &loads);
+        let tip = assembly.tip_nm(&last.state, End::End);
+        let end_torque = tip.cross(&Vector3::new(2.0, -1.0, 0.5));
+        let reaction = summary.end_reactions.start.unwrap();
+        let rest = Vector3::from(reaction.torque_pn_nm) + end_torque - free;
+        let scale: f64 = (0..last.state.points.len())
+            .map(|i| last.state.points.position.get(i).norm() * loads.force.get(i).norm())
+            .sum();
+        // Round-off of torques that cancel.
+        assert!(rest.norm() <= 1e-12 * scale, "{rest} of {scale}");
+    }
+
+    /// The displacement of the clamped end would be zero.
+    #[test]
+    fn the_tip_is_the_free_end() {
+        let at_end = fixture::clamped_start();
+        let (last, summary) = last_summary(&at_end);
+        let tip = last.state.points.position.get(at_end.points.len() - 1);
+        assert_eq!(Vector3::from(summary.tip_nm), tip);
+        let built = at_end.rest.points.position.get(at_end.points.len() - 1);
+        let moved = Vector3::from(summary.tip_displacement_nm);
+        assert_eq!(moved, tip - built);
+
+        let at_start = fixture::clamped_end();
+        let (last, summary) = last_summary(&at_start);
+        let tip = last.state.points.position.get(0);
+        assert_eq!(Vector3::from(summary.tip_nm), tip);
+        assert!(summary.end_reactions.start.is_none() && summary.end_reactions.end.is_some());
+    }
+
+    /// The force is extension times stiffness and points from the site to the anchor.
+    #[test]
+    fn linkers_are_reported() {
+        let assembly = fixture::linked();
+        let (last, summary) = last_summary(&assembly);
+        let [linker] = &summary.linkers[..] else {
+            panic!("one linker, found {}", summary.linkers.len());
+        };
+        let reach = Vector3::from(linker.anchor_nm) - Vector3::from(linker.site_nm);
+        assert!((reach.norm() - 0.4 - linker.extension_nm).abs() < 1e-14);
+        let expected = reach.normalize() * (3.0 * linker.extension_nm);
+        assert!((Vector3::from(linker.force_pn) - expected).norm() < 1e-13);
+        let energy = summary.energy_pn_nm.terms["linker"];
+        assert!((energy - 1.5 * linker.extension_nm.powi(2)).abs() < 1e-13);
+        // The random state has moved the site and strained the rod.
+        let at_rest = assembly.linkers[0].site().position(&assembly.rest);
+        assert!((Vector3::from(linker.site_nm) - at_rest).norm() > 1e-3);
+        assert!(last.energies_pn_nm.len() == assembly.terms.len());
+    }
+
+    /// Energies of linkers belong to no filament. Top-level keys describe filament 0.
+    #[test]
+    fn filaments_are_reported_one_by_one() {
+        let assembly = fixture::pair();
+        let (last, summary) = last_summary(&assembly);
+        let [first, second] = &summary.filaments[..] else {
+            panic!("two filaments, found {}", summary.filaments.len());
+        };
+        let tip = last.state.points.position.get(assembly.points.len() - 1);
+        assert_eq!(Vector3::from(second.tip_nm), tip);
+        assert_eq!((summary.tip_nm, summary.shape), (first.tip_nm, first.shape));
+        assert!(first.end_reactions.start.is_some() && second.end_reactions.start.is_none());
+        let (all, one, other) = (summary.counts, first.counts, second.counts);
+        assert_eq!(all.monomers, one.monomers + other.monomers);
+        assert_eq!(all.bonds, one.bonds + other.bonds);
+        assert_eq!(all.segments, one.segments + other.segments);
+        assert_eq!(all.junctions, one.junctions + other.junctions);
+        assert_eq!(all.dofs, one.dofs + other.dofs);
+        let energy = &summary.energy_pn_nm;
+        let parts = first.elastic_pn_nm + second.elastic_pn_nm + energy.terms["linker"];
+        // Round-off of sums in different order.
+        assert!((parts / energy.elastic - 1.0).abs() < 1e-13);
+        let linker = &summary.linkers[0];
+        assert_eq!((linker.filament, linker.to_filament), (1, Some(0)));
+    }
+
+    #[test]
+    fn energies_are_those_of_the_last_record() {
+        let assembly = fixture::clamped_start();
+        let (last, summary) = last_summary(&assembly);
+        let energy = &summary.energy_pn_nm;
+        let potential: f64 = last.energies_pn_nm.iter().sum();
+        assert_eq!(energy.potential.to_bits(), potential.to_bits());
+        let total = potential + last.state.kinetic_energy();
+        assert_eq!(energy.total.to_bits(), total.to_bits());
+        let terms: f64 = energy.terms.values().sum();
+        let scale: f64 = energy.terms.values().map(|e| e.abs()).sum();
+        // Round-off of sums in different order.
+        assert!((terms - potential).abs() <= 1e-14 * scale);
+        assert!((energy.elastic + energy.terms["load"] - potential).abs() <= 1e-14 * scale);
+    }
+}

@@ -1,0 +1,83 @@
+//! Statistics over all records of a run for its summary.
+
+use super::{LateKinetic, Summary, ThermalSummary};
+use crate::observe::Averages;
+use crate::{Assembly, Outcome, Record, Records, RecordsError, Row};
+use std::fmt;
+
+/// Means and checks over the records of a run, added in order.
+pub struct RecordStatistics<'a> {
+    assembly: &'a Assembly,
+    records: usize,
+    kinetic: LateKinetic,
+    averages: Averages<'a>,
+}
+
+impl<'a> RecordStatistics<'a> {
+    /// Creates the statistics of a run of `assembly` with `count` records.
+    pub fn new(assembly: &'a Assembly, count: usize) -> Self {
+        Self {
+            assembly,
+            records: 0,
+            kinetic: LateKinetic::new(count),
+            averages: Averages::new(assembly),
+        }
+    }
+
+    /// Adds the next record.
+    ///
+    /// # Errors
+    /// The record has other columns than the assembly.
+    pub fn add(&mut self, row: &Row) -> Result<(), RecordsError> {
+        row.ensure_fits(self.records, self.assembly)?;
+        self.records += 1;
+        self.kinetic.add(row.kinetic_pn_nm);
+        self.averages.add(row.at.value(), &row.observed);
+        Ok(())
+    }
+
+    /// Returns the summary of the run, which ended with the record `last`.
+    pub fn summary(self, last: &Record, outcome: &Outcome) -> Summary {
+        Summary {
+            beyond_range: outcome.beyond_range.clone(),
+            unstable_twist: outcome.unstable_twist.clone(),
+            observables: self.averages.end(),
+            thermal: ThermalSummary::new(self.assembly, &self.kinetic),
+            ..Summary::without_derived_warnings(self.assembly, last, outcome)
+        }
+        .with_derived_warnings()
+    }
+}
+
+impl fmt::Debug for RecordStatistics<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("RecordStatistics")
+            .field("records", &self.records)
+            .finish_non_exhaustive()
+    }
+}
+
+impl Summary {
+    /// Creates the summary of a whole run, with means and worst cases over all records.
+    ///
+    /// # Errors
+    /// The records are empty or unreadable, or belong to another assembly.
+    pub fn from_run(
+        assembly: &Assembly,
+        records: &dyn Records,
+        outcome: &Outcome,
+    ) -> Result<Self, RecordsError> {
+        let mut last = None;
+        for (i, record) in records.iter().enumerate() {
+            let record = record.map_err(RecordsError::Unreadable)?;
+            record.ensure_fits(i, assembly)?;
+            last = Some(record);
+        }
+        let mut statistics = RecordStatistics::new(assembly, records.count());
+        for row in records.rows() {
+            statistics.add(&row.map_err(RecordsError::Unreadable)?)?;
+        }
+        let last = last.ok_or(RecordsError::Empty)?;
+        Ok(statistics.summary(&last, outcome))
+    }
+}

@@ -1,0 +1,107 @@
+//! Thermal motion in `summary.json`.
+
+use crate::Assembly;
+use crate::scene::{BOLTZMANN_PN_NM_PER_K, Task, Thermal};
+use serde::{Deserialize, Serialize};
+
+/// Prescribed and measured temperature.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ThermalSummary {
+    /// Temperature of the bath (K).
+    pub temperature_k: f64,
+    /// Seed of the noise.
+    pub seed: u64,
+    /// Temperature of the motion (K); `None` for overdamped motion.
+    ///
+    /// ```text
+    /// T = 2 K / (n k_B)
+    /// ```
+    ///
+    /// `K` is the kinetic energy of the `n` degrees of freedom, averaged over the second half of
+    /// the records, or that of the last record if only that is available. The standard deviation of
+    /// one record is `T sqrt(2/n)`.
+    pub kinetic_temperature_k: Option<f64>,
+}
+
+impl ThermalSummary {
+    pub(super) fn new(assembly: &Assembly, late: &LateKinetic) -> Option<Self> {
+        let Thermal {
+            temperature_k,
+            seed,
+        } = assembly.scene.thermal()?;
+        let has_inertia = matches!(assembly.scene.task, Task::Dynamics(_));
+        let degrees = (assembly.counts().dofs * late.records).max(1) as f64;
+        Some(Self {
+            temperature_k,
+            seed,
+            kinetic_temperature_k: has_inertia
+                .then_some(2.0 * late.sum_pn_nm / (degrees * BOLTZMANN_PN_NM_PER_K)),
+        })
+    }
+}
+
+/// Sum of the kinetic energy over the second half of the records.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct LateKinetic {
+    early: usize,
+    records: usize,
+    sum_pn_nm: f64,
+}
+
+impl LateKinetic {
+    pub(super) fn new(count: usize) -> Self {
+        Self {
+            early: count / 2,
+            records: 0,
+            sum_pn_nm: 0.0,
+        }
+    }
+
+    pub(super) fn add(&mut self, kinetic_pn_nm: f64) {
+        match self.early {
+            0 => {
+                self.records += 1;
+                self.sum_pn_nm += kinetic_pn_nm;
+            }
+            _ => self.early -= 1,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Scene;
+    use crate::summary::fixture;
+
+    /// The second half of 5, 1 and 3 pN nm has a mean of 2 pN nm.
+    #[test]
+    fn the_temperature_is_that_of_the_second_half() {
+        let cold = fixture::clamped_start();
+        let records = fixture::trajectory(&cold).records;
+        assert_eq!(ThermalSummary::new(&cold, &LateKinetic::new(3)), None);
+        let text = cold.scene.to_ron();
+        let mut scene = Scene::from_ron(&text).unwrap();
+        let Task::Dynamics(dynamics) = &mut scene.task else {
+            panic!("the fixture moves in time");
+        };
+        let thermal = Thermal {
+            temperature_k: 300.0,
+            seed: u64::MAX,
+        };
+        dynamics.thermal = Some(thermal);
+        let warm = Assembly::build(&scene).unwrap();
+        let mut records = vec![records[0].clone(); 3];
+        for (record, kinetic) in records.iter_mut().zip([5.0, 1.0, 3.0]) {
+            record.kinetic_pn_nm = kinetic;
+        }
+        let mut late = LateKinetic::new(3);
+        for record in &records {
+            late.add(record.kinetic_pn_nm);
+        }
+        let summary = ThermalSummary::new(&warm, &late).unwrap();
+        assert_eq!((summary.temperature_k, summary.seed), (300.0, u64::MAX));
+        let expected = 2.0 * 2.0 / (warm.counts().dofs as f64 * BOLTZMANN_PN_NM_PER_K);
+        assert!((summary.kinetic_temperature_k.unwrap() / expected - 1.0).abs() < 1e-14);
+    }
+}
