@@ -2,7 +2,7 @@
 
 use super::common::{Choice, IN_TIME, advance, files};
 use actin_rundir::RunDirectory;
-use actin_sim::{Outcome, Plan, Record, Scene, Status, Trajectory};
+use actin_sim::{LinkerEventKind, Outcome, Plan, Record, Scene, Status, Trajectory};
 use proptest::prelude::*;
 
 fn timeless(report: &Outcome) -> String {
@@ -262,4 +262,49 @@ fn overdamped_motions_resume_to_the_same_bits() {
         compare(&choice.brownian(), &[3, 2]);
         compare(&choice.in_water(), &[3, 2]);
     }
+}
+
+/// A motor pool and passive crosslinkers on filaments that repel each other, in water.
+#[test]
+fn crosslinkers_resume_to_the_same_bits() {
+    let text = "Scene(
+        arrangements: [Random(
+            filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 300.0, segments: 3)], rod: (law: Constant)),
+            count: 12, box_nm: (90.0, 90.0, 90.0), seed: 2,
+        )],
+        crosslinkers: [
+            Crosslinkers(count: 30, stiffness_pn_per_nm: 0.2, rest_length_nm: 10.0, attach_per_ns: 2e-5,
+                bind_per_ns: 4e-5, unbinds: Breaking(rate_per_ns: 5e-6, force_pn: 5.0), seed: 3),
+            Crosslinkers(count: 20, stiffness_pn_per_nm: 0.2, attach_per_ns: 2e-5, bind_per_ns: 1e-5,
+                unbinds: Breaking(rate_per_ns: 1e-6),
+                steps: Stepping(step_nm: 5.5, rate_per_ns: 5e-6, stall_pn: 4.0), seed: 4),
+        ],
+        repulsion: Repulsion(),
+        task: Brownian(duration_ms: 0.15, temperature_k: 298.0, seed: 7, time_step_ns: 2500.0,
+            record_every_ns: 15000.0),
+    )";
+    let scene = Scene::from_ron(text).unwrap();
+    let assembly = actin_sim::Assembly::build(&scene).unwrap();
+    let (trajectory, outcome) = Plan::new(&assembly).unwrap().run().unwrap();
+    let count = |kind| outcome.events.iter().filter(|e| e.what == kind).count();
+    for kind in [
+        LinkerEventKind::Attached,
+        LinkerEventKind::Detached,
+        LinkerEventKind::Formed,
+        LinkerEventKind::Broke,
+        LinkerEventKind::Stepped,
+    ] {
+        assert!(count(kind) > 0, "{kind}");
+    }
+    // Events restore the sites of each record.
+    for record in &trajectory.records {
+        let mut state = record.state.clone();
+        state.controls = assembly.rest.controls.clone();
+        assembly.restore_controls(&mut state, record.at, &outcome.events);
+        for i in 0..assembly.linkers.len() {
+            let ends = assembly.linker_ends(i, &state);
+            assert_eq!(ends, assembly.linker_ends(i, &record.state), "linker {i}");
+        }
+    }
+    compare(&scene, &[2, 5]);
 }

@@ -82,3 +82,57 @@ fn a_motor_pulls_until_it_stalls() {
     // 6 pN are 12 nm, where the rate is zero.
     assert!(bound && (at_nm - 42.0).abs() < 2.1, "{at_nm}");
 }
+
+/// Mean lifetime (us) of linkers in the middle of free filaments of 100 nm in water, from `filaments`
+/// linkers over 300 us in steps of 5 us. Without load it is 100 us.
+fn lifetime_in_heat(stiffness: f64, rest_length_nm: f64, filaments: u32, seed: u64) -> f64 {
+    let linker = |k: u32| {
+        format!(
+            "Linker(filament: {k}, at_nm: 50.0, displaced_nm: ({rest_length_nm:?}, 0.0, 0.0),
+                stiffness_pn_per_nm: {stiffness:?}, rest_length_nm: {rest_length_nm:?},
+                kinetics: Kinetics(seed: {seed}, breaks: Breaking(rate_per_ns: 1e-5, force_pn: 5.0))),"
+        )
+    };
+    let linkers: Vec<String> = (0..filaments).map(linker).collect();
+    let (_, _, outcome) = ran(&format!(
+        "Scene(
+            arrangements: [Copies(
+                filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 100.0, segments: 2)], rod: (law: Constant)),
+                count: {filaments}, shift_nm: (500.0, 0.0, 0.0),
+            )],
+            linkers: [{}],
+            task: Brownian(duration_ms: 0.3, temperature_k: 298.0, seed: {seed}, time_step_ns: 5000.0,
+                record_every_ns: 300000.0),
+        )",
+        linkers.concat()
+    ));
+    let broken = &outcome.events;
+    let bound: f64 = broken.iter().map(|event| event.time_ns).sum();
+    let bound = bound + 3e5 * (filaments as usize - broken.len()) as f64;
+    1e-3 * bound / broken.len() as f64
+}
+
+/// Thermal fluctuations of the force do not change lifetimes: 50 pN/nm have a standard deviation of 14
+/// pN, three times the force of the rate.
+#[test]
+fn thermal_forces_do_not_break_linkers() {
+    for (stiffness, rest_length_nm) in [(0.01, 0.0), (50.0, 0.0), (50.0, 10.0)] {
+        let mean = lifetime_in_heat(stiffness, rest_length_nm, 150, 3);
+        println!("{stiffness} pN/nm, rest length {rest_length_nm} nm: {mean:.1} us");
+        // About 140 events: 8.5 us.
+        assert!((mean - 100.0).abs() < 3.0 * 8.5, "{mean}");
+    }
+}
+
+#[test]
+#[ignore = "takes minutes; run by hand with --ignored --nocapture"]
+fn lifetimes_without_load_do_not_depend_on_stiffness() {
+    for rest_length_nm in [0.0, 10.0] {
+        for stiffness in [0.01, 0.1, 1.0, 10.0, 50.0] {
+            let means = (0..20).map(|seed| lifetime_in_heat(stiffness, rest_length_nm, 150, seed));
+            let mean = means.sum::<f64>() / 20.0;
+            println!("{stiffness} pN/nm, rest length {rest_length_nm} nm: {mean:.1} +- 1.9 us");
+            assert!((mean - 100.0).abs() < 5.0 + 2.0 * 1.9, "{mean}");
+        }
+    }
+}

@@ -1,14 +1,18 @@
 use crate::Friction;
 use actin_equilibrium::{ImplicitSolver, Selection};
-use actin_mechanics::{Coordinates, Interaction, State, Stiffness};
+use actin_mechanics::{Coordinates, Interaction, SecondOrder, State, Stiffness};
 
 /// Components of coupled bodies, such as rods, and those selected for an iteration.
 #[derive(Debug)]
 pub(crate) struct Components {
     of_points: Vec<Option<usize>>,
     of_frames: Vec<Option<usize>>,
-    /// Components of each interaction; empty for links that may change.
+    /// Components of each interaction; empty for couplings by distance.
     of_interactions: Vec<Vec<usize>>,
+    /// `true` for interactions that couple by distance.
+    are_everywhere: Vec<bool>,
+    /// Interactions whose couplings may change between steps.
+    switchable: Vec<usize>,
     /// Dashpots of each component.
     pub(crate) dashpots: Vec<Vec<usize>>,
     /// Rotational friction of each component.
@@ -44,17 +48,6 @@ impl Components {
         let count = solver.components();
         let of_points = solver.components_of((0..state.points.len()).map(Coordinates::Point));
         let of_frames = solver.components_of((0..state.frames.len()).map(Coordinates::Frame));
-        let of_body = |body| match body {
-            Coordinates::Point(i) => of_points[i],
-            Coordinates::Frame(i) => of_frames[i],
-        };
-        let of_interactions = interactions.iter().map(|interaction| {
-            let bodies = bodies(interaction.as_ref(), state).into_iter();
-            let mut components: Vec<_> = bodies.filter_map(of_body).collect();
-            components.sort_unstable();
-            components.dedup();
-            components
-        });
         let mut dashpots = vec![Vec::new(); count];
         for (k, dashpot) in friction.dashpots.iter().enumerate() {
             let mut of_bodies = dashpot.points().map(|(i, _)| of_points[i]);
@@ -68,8 +61,15 @@ impl Components {
                 turns[c].push(k);
             }
         }
-        Self {
-            of_interactions: of_interactions.collect(),
+        let is_switchable =
+            |k: &usize| blocks(interactions[*k].as_ref(), state).blocks().is_empty();
+        let mut components = Self {
+            of_interactions: vec![Vec::new(); interactions.len()],
+            are_everywhere: interactions
+                .iter()
+                .map(|interaction| couples_by_distance(interaction.as_ref()))
+                .collect(),
+            switchable: (0..interactions.len()).filter(is_switchable).collect(),
             selected: Subset {
                 parts: vec![true; interactions.len() + count],
                 components: vec![true; count],
@@ -79,7 +79,32 @@ impl Components {
             of_frames,
             dashpots,
             turns,
+        };
+        (0..interactions.len()).for_each(|k| components.find_couplings(k, interactions, state));
+        components
+    }
+
+    /// Finds the couplings of a step at its start.
+    pub(crate) fn begin_step(&mut self, interactions: &[Box<dyn Interaction>], state: &State) {
+        for i in 0..self.switchable.len() {
+            self.find_couplings(self.switchable[i], interactions, state);
         }
+    }
+
+    fn find_couplings(&mut self, k: usize, interactions: &[Box<dyn Interaction>], state: &State) {
+        let mut own = std::mem::take(&mut self.of_interactions[k]);
+        own.clear();
+        if !self.are_everywhere[k] {
+            let stiffness = blocks(interactions[k].as_ref(), state);
+            let bodies = stiffness.all().flat_map(|&(a, b, _)| [a, b]);
+            own.extend(bodies.filter_map(|body| match body {
+                Coordinates::Point(i) => self.of_points[i],
+                Coordinates::Frame(i) => self.of_frames[i],
+            }));
+            own.sort_unstable();
+            own.dedup();
+        }
+        self.of_interactions[k] = own;
     }
 
     pub(crate) fn count(&self) -> usize {
@@ -96,7 +121,7 @@ impl Components {
         self.selected = self.subset(components);
     }
 
-    /// Every subset includes all links that may change.
+    /// Every subset includes interactions without couplings at the start of the step.
     fn subset(&self, components: Vec<bool>) -> Subset {
         let of_interactions = self.of_interactions.iter();
         let parts = of_interactions
@@ -110,11 +135,10 @@ impl Components {
     pub(crate) fn coupled_by(&self, interactions: &[usize]) -> Subset {
         let mut components = vec![false; self.count()];
         for &k in interactions {
-            let own = &self.of_interactions[k];
-            if own.is_empty() {
+            if self.are_everywhere[k] {
                 return self.subset(self.selected.components.clone());
             }
-            for &c in own {
+            for &c in &self.of_interactions[k] {
                 components[c] = self.selected.components[c];
             }
         }
@@ -145,18 +169,20 @@ impl Components {
 
     /// Returns `true` if interaction `k` couples one of the components (ascending), or may do so.
     pub(crate) fn couples(&self, k: usize, components: &[usize]) -> bool {
-        let own = &self.of_interactions[k];
-        own.is_empty() || own.iter().any(|c| components.binary_search(c).is_ok())
+        let mut own = self.of_interactions[k].iter();
+        self.are_everywhere[k] || own.any(|c| components.binary_search(c).is_ok())
     }
 }
 
-/// Bodies that the stiffness of an interaction always couples.
-fn bodies(interaction: &dyn Interaction, state: &State) -> Vec<Coordinates> {
+pub(crate) fn couples_by_distance(interaction: &dyn Interaction) -> bool {
+    let second_order = interaction.second_order();
+    second_order.is_some_and(SecondOrder::couples_by_distance)
+}
+
+fn blocks(interaction: &dyn Interaction, state: &State) -> Stiffness {
     let mut stiffness = Stiffness::default();
     if let Some(second_order) = interaction.second_order() {
         second_order.add_stiffness(state, &mut stiffness);
     }
-    // Linkers between fixed sites also have chain blocks, at their sites.
-    let blocks = stiffness.blocks().iter();
-    blocks.flat_map(|&(a, b, _)| [a, b]).collect()
+    stiffness
 }

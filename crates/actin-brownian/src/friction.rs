@@ -93,6 +93,15 @@ pub(crate) struct Velocities {
     pub(crate) frames: Vectors,
 }
 
+impl Velocities {
+    pub(crate) fn zeros(state: &State) -> Self {
+        Self {
+            points: Vectors::zeros(state.points.len()),
+            frames: Vectors::zeros(state.frames.len()),
+        }
+    }
+}
+
 impl Friction {
     /// Adds the loads of the dashpots at selected frames.
     pub(crate) fn add_loads(

@@ -63,10 +63,7 @@ impl Langevin {
                 seed,
                 (friction.dashpots.len(), friction.turns.len()),
             ),
-            velocities: Velocities {
-                points: Vectors::zeros(state.points.len()),
-                frames: Vectors::zeros(state.frames.len()),
-            },
+            velocities: Velocities::zeros(state),
             friction,
             thermal_energy,
             solver,

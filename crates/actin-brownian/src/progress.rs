@@ -27,7 +27,7 @@ pub(crate) struct Progress {
     components: Vec<Component>,
     iterations: usize,
     /// Largest displacement of the first iteration (nm).
-    first: f64,
+    first: Option<f64>,
 }
 
 #[derive(Clone, Copy, Debug, Default)]
@@ -41,11 +41,11 @@ struct Component {
 }
 
 impl Progress {
-    pub(crate) fn begin(&mut self, components: usize) {
+    /// Begins iterations of a step, also after a change of the components within the step.
+    pub(crate) fn begin_iterations(&mut self, components: usize) {
         self.components.clear();
         self.components.resize(components, Component::default());
         self.iterations = 0;
-        self.first = f64::INFINITY;
     }
 
     pub(crate) fn iterations(&self) -> usize {
@@ -68,10 +68,7 @@ impl Progress {
     /// Limits of the next iteration.
     pub(crate) fn limits(&self, largest_turn: f64) -> StepSize {
         StepSize {
-            displacement: match self.iterations {
-                0 => f64::INFINITY,
-                _ => self.first,
-            },
+            displacement: self.first.unwrap_or(f64::INFINITY),
             rotation: largest_turn,
             strain: f64::INFINITY,
         }
@@ -80,7 +77,8 @@ impl Progress {
     /// Returns `true` if a displacement (nm) from the start of the step is too long: the iterations
     /// have then found a distant solution.
     pub(crate) fn is_far(&self, displacement: f64) -> bool {
-        displacement > FARTHEST * self.first
+        self.first
+            .is_some_and(|first| displacement > FARTHEST * first)
     }
 
     /// Largest step of the last iteration.
@@ -111,8 +109,9 @@ impl Progress {
                 component.record(step, self.iterations, limits, ENOUGH * thermal_energy);
             }
         }
-        if is_first && self.largest().displacement > 0.0 {
-            self.first = self.largest().displacement;
+        let largest = self.largest().displacement;
+        if self.first.is_none() && largest > 0.0 {
+            self.first = Some(largest);
         }
         self.iterations += 1;
         self.components.iter().all(|component| component.is_solved)

@@ -95,14 +95,14 @@
 
 mod stressed;
 
-use crate::components::Components;
+use crate::components::{Components, couples_by_distance};
 use crate::friction::Velocities;
 use crate::progress::Progress;
 use crate::stress::Stresses;
 use crate::{Flow, Friction};
 use actin_equilibrium::{ImplicitSolver, Layout, SolveError, StepSize};
 use actin_integrate::{Body, FailureKind, Noise, StepFailure, Stepper};
-use actin_mechanics::{Loads, Split, State, System, Thermostat, Vector3, Vectors, rotation};
+use actin_mechanics::{Loads, Split, State, System, Thermostat, Vector3, rotation};
 use thiserror::Error;
 
 /// Separates this noise from other uses of the same seed.
@@ -216,7 +216,14 @@ impl Brownian {
         let loads = Loads::zeros(state);
         let stresses = Stresses::new(system.interactions(), seed);
         let has_stress = thermal_energy > 0.0;
-        let mut solver = ImplicitSolver::new(layout.with_conjugate_gradients());
+        let mut interactions = system.interactions().iter();
+        let has_contacts =
+            interactions.any(|interaction| couples_by_distance(interaction.as_ref()));
+        let mut solver = ImplicitSolver::new(if has_contacts {
+            layout.with_changing_links()
+        } else {
+            layout.with_conjugate_gradients()
+        });
         solver.factorize((state, &loads), system.interactions(), &friction.times(1.0));
         let elements = (friction.dashpots.len(), friction.turns.len());
         Ok(Self {
@@ -227,10 +234,7 @@ impl Brownian {
             components: Components::new(&solver, system.interactions(), state, &friction),
             progress: Progress::default(),
             axial: Vec::new(),
-            velocities: Velocities {
-                points: Vectors::zeros(state.points.len()),
-                frames: Vectors::zeros(state.frames.len()),
-            },
+            velocities: Velocities::zeros(state),
             friction,
             flow: Flow::default(),
             thermal_energy,
@@ -356,6 +360,8 @@ impl Brownian {
         let solved = self.solve_stressed(system, h);
         if solved.is_ok() {
             self.book(system, h);
+            let (state, interactions) = system.state_mut_and_interactions();
+            self.stresses.record(interactions, state);
         }
         if solved.is_ok() || 2 * part >= PARTS {
             return solved;

@@ -164,6 +164,13 @@ impl Stresses {
         }
     }
 
+    /// Records the stresses of a completed step in the controls.
+    pub(crate) fn record(&self, interactions: &Interactions, state: &mut State) {
+        for (k, range) in &self.parts {
+            of(interactions, *k).record(&self.turned[range.clone()], state);
+        }
+    }
+
     pub(crate) fn add_loads(
         &self,
         interactions: &Interactions,

@@ -33,7 +33,7 @@ pub use junction::{AttachedMonomer, Junction, JunctionParts, JunctionSide, Junct
 pub use linker::{Anchor, Linker, LinkerEnd};
 pub use site::{RodPlace, Site};
 pub use site_force::{ForceKind, SiteForce};
-pub use switched::SwitchedLinker;
+pub use switched::{Hand, SwitchedLinker};
 
 /// Re-export of the crate of rods.
 pub use actin_cosserat as cosserat;

@@ -124,6 +124,16 @@ impl Linker {
         Ok(Self { site, end, spring })
     }
 
+    /// Creates a linker from valid parts.
+    pub(crate) fn with_spring(site: Site, end: LinkerEnd, spring: Hooke) -> Self {
+        Self { site, end, spring }
+    }
+
+    /// Stiffness and rest length.
+    pub fn spring(&self) -> &Hooke {
+        &self.spring
+    }
+
     /// First end.
     pub fn site(&self) -> &Site {
         &self.site

@@ -11,9 +11,11 @@ use actin_mechanics::{Coordinates, Loads, Matrix3, State, Vector3};
 /// `x_k` are points (nm, lab frame) with weights `w_k` that sum to 1, and `b` is an arm (nm, body
 /// frame) in the frame `Q`. A site on a monomer has one point. A site on a rod has the two nodes of
 /// a segment.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Site {
-    shares: Vec<(usize, f64)>,
+    shares: [(usize, f64); 2],
+    /// Number of points.
+    points: usize,
     frame: usize,
     arm: Vector3,
 }
@@ -55,7 +57,8 @@ impl Site {
             ensure(value.is_finite(), LinkerKey::Arm, value, "finite")?;
         }
         Ok(Self {
-            shares: vec![(point, 1.0)],
+            shares: [(point, 1.0), (point, 0.0)],
+            points: 1,
             frame,
             arm,
         })
@@ -97,7 +100,8 @@ impl Site {
         let node = layout.points().start + segment;
         let (sin, cos) = azimuth.sin_cos();
         Ok(Self {
-            shares: vec![(node, 1.0 - fraction), (node + 1, fraction)],
+            shares: [(node, 1.0 - fraction), (node + 1, fraction)],
+            points: 2,
             frame: layout.frames().start + segment,
             arm: Vector3::new(radius * cos, radius * sin, 0.0),
         })
@@ -105,7 +109,7 @@ impl Site {
 
     /// Points with their weights.
     pub fn shares(&self) -> &[(usize, f64)] {
-        &self.shares
+        &self.shares[..self.points]
     }
 
     /// Index of the frame.
@@ -122,7 +126,7 @@ impl Site {
     #[inline]
     pub fn position(&self, state: &State) -> Vector3 {
         let points = self
-            .shares
+            .shares()
             .iter()
             .map(|&(i, weight)| state.points.position.get(i) * weight);
         points.sum::<Vector3>() + state.frames.orientation.get(self.frame) * self.arm
@@ -132,7 +136,7 @@ impl Site {
     /// `b x Q^T F` on the frame.
     #[inline]
     pub(crate) fn add_force(&self, force: Vector3, state: &State, loads: &mut Loads) {
-        for &(i, weight) in &self.shares {
+        for &(i, weight) in self.shares() {
             loads.force.add(i, force * weight);
         }
         let q = state.frames.orientation.get(self.frame);
@@ -143,7 +147,7 @@ impl Site {
     pub(crate) fn slopes(&self, state: &State) -> impl Iterator<Item = (Coordinates, Matrix3)> {
         let q = state.frames.orientation.get(self.frame);
         let turn = -(q.to_rotation_matrix().matrix() * self.arm.cross_matrix());
-        self.shares
+        self.shares()
             .iter()
             .map(|&(i, w)| (Coordinates::Point(i), Matrix3::from_diagonal_element(w)))
             .chain([(Coordinates::Frame(self.frame), turn)])

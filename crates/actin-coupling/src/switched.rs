@@ -1,69 +1,153 @@
-use crate::Linker;
-use actin_mechanics::{ControlId, Interaction, Loads, RandomStress, SecondOrder, State, Stiffness};
+use crate::{Linker, LinkerEnd, Site};
+use actin_mechanics::{
+    ControlId, Hooke, Interaction, Loads, RandomStress, SecondOrder, State, Stiffness, Vector3,
+};
+use std::sync::Arc;
 
-/// Linker that can be released, and bound at one of several places: term `linker`, one element.
+/// End of a linker that can be released, and bound at one of several sites.
 ///
-/// Two controls of the state hold the current place and whether the linker is bound.
+/// Two controls of the state hold the index of the site and `1` if the hand is bound.
 #[derive(Clone, Debug)]
-pub struct SwitchedLinker {
-    places: Vec<Linker>,
+pub struct Hand {
+    sites: Arc<[Site]>,
+    site: ControlId,
     bound: ControlId,
-    place: ControlId,
 }
 
-impl SwitchedLinker {
-    /// Creates a linker at the first place and adds its controls to the state.
+/// Linker with one or two hands: term `linker`, one element. It exerts forces if all hands are
+/// bound.
+#[derive(Clone, Debug)]
+pub struct SwitchedLinker {
+    hand: Hand,
+    other: OtherEnd,
+    spring: Hooke,
+    /// Random force on the first end in the last step (pN, lab frame).
+    random: [ControlId; 3],
+}
+
+#[derive(Clone, Debug)]
+enum OtherEnd {
+    Fixed(LinkerEnd),
+    Hand(Hand),
+}
+
+impl Hand {
+    /// Creates a hand at the site `site` and adds its controls to the state.
     ///
     /// # Panics
-    /// If `places` is empty.
-    pub fn new(state: &mut State, places: Vec<Linker>, is_bound: bool) -> Self {
-        assert!(!places.is_empty(), "a linker needs at least one place");
+    /// If the site does not exist.
+    pub fn new(state: &mut State, sites: Arc<[Site]>, site: usize, is_bound: bool) -> Self {
+        assert!(site < sites.len(), "no site {site}");
         Self {
-            places,
+            sites,
             bound: state.add_control(f64::from(u8::from(is_bound))),
-            place: state.add_control(0.0),
+            site: state.add_control(site as f64),
         }
     }
 
-    /// Linkers of all places.
-    pub fn places(&self) -> &[Linker] {
-        &self.places
+    /// All sites of the hand.
+    pub fn sites(&self) -> &Arc<[Site]> {
+        &self.sites
     }
 
-    /// Returns `true` if the linker is bound.
+    /// Returns `true` if the hand is bound.
     pub fn is_bound(&self, state: &State) -> bool {
         state.controls[self.bound] > 0.0
     }
 
-    /// Index of the current place.
+    /// Index of the present site, or of the last one of a free hand.
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,
         reason = "an index that was set as one"
     )]
-    pub fn place(&self, state: &State) -> usize {
-        let place = state.controls[self.place] as usize;
-        place.min(self.places.len() - 1)
+    pub fn site(&self, state: &State) -> usize {
+        let site = state.controls[self.site] as usize;
+        site.min(self.sites.len() - 1)
     }
 
-    /// Linker at the current place, bound or not.
-    pub fn linker(&self, state: &State) -> &Linker {
-        &self.places[self.place(state)]
-    }
-
-    /// Releases the linker.
+    /// Releases the hand.
     pub fn release(&self, state: &mut State) {
         state.controls[self.bound] = 0.0;
     }
 
-    /// Binds the linker at a place.
+    /// Binds the hand at a site.
     ///
     /// # Panics
     /// If the index is out of range.
-    pub fn bind(&self, state: &mut State, place: usize) {
-        assert!(place < self.places.len(), "no place {place}");
+    pub fn bind(&self, state: &mut State, site: usize) {
+        assert!(site < self.sites.len(), "no site {site}");
         state.controls[self.bound] = 1.0;
-        state.controls[self.place] = place as f64;
+        state.controls[self.site] = site as f64;
+    }
+}
+
+impl SwitchedLinker {
+    /// Creates a linker from a hand to a fixed end, with the stiffness and rest length of `linker`,
+    /// and adds the controls of its random force to the state.
+    pub fn to_end(state: &mut State, hand: Hand, linker: &Linker) -> Self {
+        let other = OtherEnd::Fixed(linker.end().clone());
+        Self::new(state, hand, other, linker)
+    }
+
+    /// Creates a linker with two hands and the stiffness and rest length of `linker`, and adds the
+    /// controls of its random force to the state.
+    pub fn between_hands(state: &mut State, [hand, other]: [Hand; 2], linker: &Linker) -> Self {
+        Self::new(state, hand, OtherEnd::Hand(other), linker)
+    }
+
+    fn new(state: &mut State, hand: Hand, other: OtherEnd, linker: &Linker) -> Self {
+        Self {
+            hand,
+            other,
+            spring: *linker.spring(),
+            random: [0.0; 3].map(|zero| state.add_control(zero)),
+        }
+    }
+
+    /// Mean force on the first end in the last step (pN, lab frame): elastic minus random force.
+    ///
+    /// Linkers that relax within a step follow their random force. Only this difference is
+    /// transmitted to the filaments.
+    pub fn transmitted_force(&self, state: &State) -> Vector3 {
+        let random = Vector3::from(self.random.map(|control| state.controls[control]));
+        self.linker(state).force(state) - random
+    }
+
+    /// One or two hands.
+    pub fn hands(&self) -> impl Iterator<Item = &Hand> {
+        let other = match &self.other {
+            OtherEnd::Fixed(_) => None,
+            OtherEnd::Hand(hand) => Some(hand),
+        };
+        std::iter::once(&self.hand).chain(other)
+    }
+
+    /// Returns `true` if all hands are bound.
+    pub fn is_bound(&self, state: &State) -> bool {
+        self.hands().all(|hand| hand.is_bound(state))
+    }
+
+    /// Linker at the present sites, bound or not.
+    pub fn linker(&self, state: &State) -> Linker {
+        self.linker_at(
+            &self
+                .hands()
+                .map(|hand| hand.site(state))
+                .collect::<Vec<_>>(),
+        )
+    }
+
+    /// Linker at the given sites, one per hand.
+    ///
+    /// # Panics
+    /// If a site does not exist.
+    pub fn linker_at(&self, sites: &[usize]) -> Linker {
+        let end = match &self.other {
+            OtherEnd::Fixed(end) => end.clone(),
+            OtherEnd::Hand(hand) => LinkerEnd::Site(hand.sites[sites[1]]),
+        };
+        Linker::with_spring(self.hand.sites[sites[0]], end, self.spring)
     }
 }
 
@@ -101,20 +185,31 @@ impl Interaction for SwitchedLinker {
 
 impl RandomStress for SwitchedLinker {
     fn components(&self) -> usize {
-        self.places[0].components()
+        3
     }
 
     fn draw(&self, state: &State, thermal_energy: f64, stresses: &mut [f64]) {
-        self.linker(state).draw(state, thermal_energy, stresses);
+        if self.is_bound(state) {
+            self.linker(state).draw(state, thermal_energy, stresses);
+        }
     }
 
     fn balance(&self, state: &State, stresses: &mut [f64]) {
-        self.linker(state).balance(state, stresses);
+        if self.is_bound(state) {
+            self.linker(state).balance(state, stresses);
+        }
     }
 
     fn add_stress_loads(&self, state: &State, stresses: &[f64], loads: &mut Loads) {
         if self.is_bound(state) {
             self.linker(state).add_stress_loads(state, stresses, loads);
+        }
+    }
+
+    fn record(&self, stresses: &[f64], state: &mut State) {
+        let is_bound = self.is_bound(state);
+        for (control, stress) in self.random.into_iter().zip(stresses) {
+            state.controls[control] = if is_bound { *stress } else { 0.0 };
         }
     }
 

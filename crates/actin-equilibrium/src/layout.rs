@@ -106,8 +106,16 @@ pub struct Layout {
     sequence: Vec<usize>,
     /// `true` if links may couple bodies.
     has_links: bool,
-    allows_gradients: bool,
+    gradients: GradientUse,
     has_gradients: bool,
+}
+
+/// Use of conjugate gradients for steps of linked chains.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum GradientUse {
+    Never,
+    IfCheaper,
+    Always,
 }
 
 /// Source of the order of unknowns.
@@ -162,7 +170,7 @@ impl Layout {
             },
             sequence: Vec::new(),
             has_links: false,
-            allows_gradients: false,
+            gradients: GradientUse::Never,
             has_gradients: false,
         };
         layout.sequence = (0..layout.nodes.len()).collect();
@@ -189,7 +197,15 @@ impl Layout {
     /// less than a factorisation. The choice depends on the couplings at the first solve.
     #[must_use]
     pub fn with_conjugate_gradients(mut self) -> Self {
-        self.allows_gradients = true;
+        self.gradients = GradientUse::IfCheaper;
+        self
+    }
+
+    /// Selects conjugate gradients for steps in any case if there may be links, because links change
+    /// from one iteration to the next, as contacts do.
+    #[must_use]
+    pub fn with_changing_links(mut self) -> Self {
+        self.gradients = GradientUse::Always;
         self
     }
 
@@ -202,8 +218,13 @@ impl Layout {
         self.settle();
     }
 
-    pub(crate) fn allows_gradients(&self) -> bool {
-        self.allows_gradients && self.order == Order::Compared
+    /// Permitted use of conjugate gradients; none without links.
+    pub(crate) fn gradient_use(&self) -> GradientUse {
+        if self.has_links {
+            self.gradients
+        } else {
+            GradientUse::Never
+        }
     }
 
     pub(crate) fn has_links(&self) -> bool {

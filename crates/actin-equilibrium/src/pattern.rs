@@ -1,7 +1,7 @@
 //! Positions of stiffness blocks in a sparse symmetric matrix, stored as its upper triangle by
 //! columns with sorted rows.
 
-use crate::layout::{Layout, Node, Order};
+use crate::layout::{GradientUse, Layout, Node, Order};
 use actin_mechanics::{Coordinates, Matrix3, Stiffness};
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::sparse::linalg::amd;
@@ -185,7 +185,12 @@ fn settle(
     if layout.order() == Order::Compared {
         let costs = [cost(&present, layout), cost(&reordered, &sought)];
         let least = costs[0].min(costs[1]);
-        if layout.allows_gradients() && prefers_gradients(&present, chains, layout, least) {
+        let is_iterative = match layout.gradient_use() {
+            GradientUse::Never => false,
+            GradientUse::IfCheaper => prefers_gradients(&present, chains, layout, least),
+            GradientUse::Always => true,
+        };
+        if is_iterative {
             layout.choose_gradients();
             return present;
         }

@@ -44,6 +44,9 @@ pub trait RandomStress {
         turned.copy_from_slice(drawn);
     }
 
+    /// Records the stresses of a completed step in the controls of `state`. The default does nothing.
+    fn record(&self, _stresses: &[f64], _state: &mut State) {}
+
     /// Adds the second derivatives of the energy `-s . e(x)`.
     fn add_stress_stiffness(&self, state: &State, stresses: &[f64], stiffness: &mut Stiffness);
 

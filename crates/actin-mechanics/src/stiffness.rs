@@ -76,4 +76,10 @@ impl Stiffness {
 pub trait SecondOrder {
     /// Adds the second derivatives of the energy at `state`, including the geometric stiffness.
     fn add_stiffness(&self, state: &State, stiffness: &mut Stiffness);
+
+    /// Returns `true` if the coupled bodies depend on positions, as for contacts. Couplings of other
+    /// interactions change at most between steps. The default is `false`.
+    fn couples_by_distance(&self) -> bool {
+        false
+    }
 }

@@ -7,13 +7,15 @@ use actin_sim::{LinkerEvent, LinkerEventKind};
 use std::io::{self, Write};
 use std::path::Path;
 
-const COLUMNS: [&str; 6] = [
+const COLUMNS: [&str; 8] = [
     "time_ns",
     "linker",
     "what",
     "force_pn",
     "at_nm",
     "energy_pn_nm",
+    "hand",
+    "filament",
 ];
 
 pub(crate) fn ensure_all_finite(events: &[LinkerEvent]) -> Result<(), RunDirectoryError> {
@@ -38,6 +40,8 @@ pub(crate) fn write(events: &[LinkerEvent], out: &mut impl Write) -> io::Result<
             format!("{:?}", event.force_pn),
             format!("{:?}", event.at_nm),
             format!("{:?}", event.energy_pn_nm),
+            event.hand.to_string(),
+            event.filament.to_string(),
         ])?;
     }
     writer.flush()
@@ -59,21 +63,19 @@ pub(crate) fn read(path: &Path) -> Result<Vec<LinkerEvent>, RunDirectoryError> {
 }
 
 fn event(record: &csv::StringRecord) -> Option<LinkerEvent> {
-    let all = [
-        LinkerEventKind::Broke,
-        LinkerEventKind::Formed,
-        LinkerEventKind::Stepped,
-        LinkerEventKind::Left,
-    ];
     let kind = record.get(2)?;
     let number = |column: usize| record.get(column)?.parse().ok();
     Some(LinkerEvent {
         step: 0,
         time_ns: number(0)?,
         linker: record.get(1)?.parse().ok()?,
-        what: all.into_iter().find(|one| one.to_string() == kind)?,
+        what: LinkerEventKind::ALL
+            .into_iter()
+            .find(|one| one.to_string() == kind)?,
         force_pn: number(3)?,
         at_nm: number(4)?,
         energy_pn_nm: number(5)?,
+        hand: record.get(6)?.parse().ok()?,
+        filament: record.get(7)?.parse().ok()?,
     })
 }

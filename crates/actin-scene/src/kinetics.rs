@@ -1,17 +1,21 @@
 //! Rates of breaking, forming and stepping of linkers, and their validation.
 
-use super::rules::{positive, show};
+use super::rules::{non_negative, positive, show};
 use super::{Dynamics, Linker, Scene, SceneProblem, Task};
 use serde::{Deserialize, Serialize};
 
 const MOST_PLACES: f64 = 1e5;
+
+/// Default averaging time of forces, relative to the mean time between events.
+const AVERAGED: f64 = 0.1;
 
 /// Random breaking, forming and stepping of a linker: a dynamic cross-link or a motor. For `Dynamics` and
 /// `Brownian`.
 ///
 /// At the end of each time step `h` an event of rate `k` occurs with probability `1 - exp(-k h)`, at most one
 /// per linker. Zero-force rates times the step may be at most 0.1: the relative error of event times is `k
-/// h/2`. Below, `f` is the tension of the linker, or 0 in compression.
+/// h/2`. Below, `f` is the tension of the linker, or 0 in compression, averaged over `averaging_ns`. Thermal
+/// fluctuations that are faster do not change rates.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
@@ -30,6 +34,29 @@ pub struct Kinetics {
     /// Stepping of the site along the filament; by default the site is fixed.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub steps: Option<Stepping>,
+    /// Time constant of the exponential average of forces; at least 0. By default a tenth of the mean time between
+    /// events of a bound linker without force. With 0, rates depend on the force at the end of each step.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub averaging_ns: Option<f64>,
+    /// Binding of both ends to any site of any filament; by default only the first end can be released, and it
+    /// binds to `at_nm` or the places of its steps. Written by `crosslinkers`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub roams: Option<Roaming>,
+}
+
+/// Linker with two hands that bind to free sites on the axes of all filaments.
+///
+/// A free linker attaches one hand to a random site. The second hand binds to sites of other filaments within
+/// reach, at a rate per site of `k exp(-U/kT) g(f)` with the rate `k` of `forms`, the energy `U` of the linker
+/// and its factor `g` of `breaks`: together with the rate `g(f)` of release, detailed balance holds.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct Roaming {
+    /// Rate at which a free linker attaches one hand; positive.
+    pub attach_per_ns: f64,
+    /// Distance between neighbouring sites of a filament; positive. With `steps`, the length of a step.
+    pub site_spacing_nm: f64,
 }
 
 /// Breaking at the rate `k exp(f/F)` (Bell), plus the rate of a catch bond.
@@ -63,7 +90,7 @@ pub struct Catch {
 /// The rate is constant within reach, independent of the energy `U` of the linker. Detailed balance requires
 /// the ratio `exp(-U/kT)` of forming to breaking rates, which `breaks` does not satisfy. The steady state in a
 /// heat bath is therefore not thermal equilibrium, and events exchange energy with the filament
-/// (`events_pn_nm`).
+/// (`events_pn_nm`). Linkers with `roams` satisfy detailed balance.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
@@ -103,7 +130,8 @@ impl Kinetics {
         let catch = catch.map(|c| ("breaks.catch.rate_per_ns", c.rate_per_ns));
         let forms = self.forms.map(|f| ("forms.rate_per_ns", f.rate_per_ns));
         let steps = self.steps.map(|s| ("steps.rate_per_ns", s.rate_per_ns));
-        [breaks, catch, forms, steps]
+        let roams = self.roams.map(|r| ("roams.attach_per_ns", r.attach_per_ns));
+        [breaks, catch, forms, steps, roams]
             .into_iter()
             .flatten()
             .collect()
@@ -130,12 +158,48 @@ impl Kinetics {
             let rule = "has no events: write breaks, forms or steps, or omit kinetics";
             return Err(SceneProblem::new(key, "", rule));
         }
+        if let Some(averaging) = self.averaging_ns {
+            non_negative(&format!("{key}.averaging_ns"), averaging)?;
+        }
+        if let Some(roams) = &self.roams {
+            self.check_roaming(roams, key)?;
+        }
         if !self.bound && self.forms.is_none() {
             let rule =
                 "the linker is unbound at the start and never forms: write forms, or bound: true";
             return Err(SceneProblem::new(format!("{key}.bound"), false, rule));
         }
         Ok(())
+    }
+}
+
+impl Kinetics {
+    /// Averaging time of forces (ns).
+    pub fn averaging_time(&self) -> f64 {
+        let of_bound = self
+            .rates()
+            .into_iter()
+            .filter(|(name, _)| name.starts_with("breaks") || name.starts_with("steps"));
+        let rate: f64 = of_bound.map(|(_, rate)| rate).sum();
+        let default = if rate > 0.0 { AVERAGED / rate } else { 0.0 };
+        self.averaging_ns.unwrap_or(default)
+    }
+
+    fn check_roaming(&self, roams: &Roaming, key: &str) -> Result<(), SceneProblem> {
+        let name = format!("{key}.roams");
+        positive(&format!("{name}.site_spacing_nm"), roams.site_spacing_nm)?;
+        if self.breaks.is_none() || self.forms.is_none() {
+            let rule = "requires breaks and forms";
+            return Err(SceneProblem::new(name, "", rule));
+        }
+        match &self.steps {
+            Some(steps) if (steps.step_nm.abs() - roams.site_spacing_nm).abs() > 0.0 => {
+                let rule = format!("must be the length of a step, {:?}", steps.step_nm.abs());
+                let key = format!("{name}.site_spacing_nm");
+                Err(SceneProblem::new(key, show(roams.site_spacing_nm), rule))
+            }
+            _ => Ok(()),
+        }
     }
 }
 
@@ -180,7 +244,24 @@ pub(super) fn check(scene: &Scene, i: usize, linker: &Linker) -> Result<(), Scen
     }
     let filament = scene.filament_at(linker.filament);
     let length = filament.map_or(0.0, super::Filament::length_nm);
+    if kinetics.roams.is_some() {
+        check_pool(scene, linker, &key)?;
+    }
     kinetics.check(&key, length)
+}
+
+/// A roaming linker requires two ends on filaments and a heat bath.
+fn check_pool(scene: &Scene, linker: &Linker, key: &str) -> Result<(), SceneProblem> {
+    let key = format!("{key}.roams");
+    if linker.to.is_none() {
+        let rule = "requires a linker between two sites: write to";
+        return Err(SceneProblem::new(key, "", rule));
+    }
+    if scene.thermal_energy_pn_nm() <= 0.0 {
+        let rule = "the rate of binding depends on the temperature: write a positive temperature_k or thermal";
+        return Err(SceneProblem::new(key, "", rule));
+    }
+    Ok(())
 }
 
 /// Refuses `stop` and `leave_saddles` in scenes with random linker events.

@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 use std::collections::HashMap;
 
 /// Half the pitch of the long-pitch helix.
-const SITE_SPACING_NM: f64 = 36.0;
+pub(super) const SITE_SPACING_NM: f64 = 36.0;
 
 const MOST_SITES: f64 = 1e7;
 

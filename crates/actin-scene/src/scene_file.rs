@@ -2,8 +2,8 @@
 
 use super::validate::check_filament;
 use super::{
-    Arrangement, Clamp, Filament, Linker, LinkersBetween, Load, Observable, Output, Repulsion,
-    Scene, SceneProblem, Stage, Task,
+    Arrangement, Clamp, Crosslinkers, Filament, Linker, LinkersBetween, Load, Observable, Output,
+    Repulsion, Scene, SceneProblem, Stage, Task,
 };
 use serde::{Deserialize, Serialize};
 
@@ -36,6 +36,9 @@ pub(super) struct SceneFile {
     /// Random linkers between neighbouring filaments.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     linker_sets: Vec<LinkersBetween>,
+    /// Crosslinkers and motors that bind to filaments and unbind from them.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    crosslinkers: Vec<Crosslinkers>,
     /// Repulsion of filaments from each other and from walls; by default none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     repulsion: Option<Repulsion>,
@@ -82,10 +85,11 @@ impl TryFrom<SceneFile> for Scene {
             let arranged = arrangement.filaments(k, &filaments, contact)?;
             filaments.extend(arranged);
         }
-        let mut linkers = written.linkers;
-        for (k, set) in written.linker_sets.iter().enumerate() {
-            linkers.extend(set.linkers(k, &filaments)?);
-        }
+        let linkers = linkers(
+            written.linkers,
+            (&written.linker_sets, &written.crosslinkers),
+            &filaments,
+        )?;
         let mut resolved = filaments.into_iter().map(|mut filament| {
             filament.monomers.resolve();
             filament
@@ -106,6 +110,21 @@ impl TryFrom<SceneFile> for Scene {
             task: written.task,
         })
     }
+}
+
+/// Returns the listed linkers, those of the sets and those of the pools.
+fn linkers(
+    mut linkers: Vec<Linker>,
+    (sets, pools): (&[LinkersBetween], &[Crosslinkers]),
+    filaments: &[Filament],
+) -> Result<Vec<Linker>, SceneProblem> {
+    for (k, set) in sets.iter().enumerate() {
+        linkers.extend(set.linkers(k, filaments)?);
+    }
+    for (k, pool) in pools.iter().enumerate() {
+        linkers.extend(pool.linkers(k, filaments)?);
+    }
+    Ok(linkers)
 }
 
 /// Returns the filaments of the keys `filament` or `filaments`. Scenes with arrangements may omit both.
@@ -146,6 +165,7 @@ impl From<Scene> for SceneFile {
             loads: scene.loads,
             linkers: scene.linkers,
             linker_sets: Vec::new(),
+            crosslinkers: Vec::new(),
             repulsion: scene.repulsion,
             path: scene.path,
             observe: scene.observe,

@@ -2,6 +2,7 @@
 
 use super::{Brownian, LARGEST_TURN, spin};
 use crate::components::{Components, Subset};
+use crate::progress::Progress;
 use crate::stress::StepMatrix;
 use actin_equilibrium::{ComponentStep, StepSize};
 use actin_integrate::StepFailure;
@@ -25,6 +26,9 @@ impl Brownian {
         self.random.clear();
         self.friction
             .add_noise(&self.start, strength, noise, &mut self.random);
+        self.components
+            .begin_step(system.interactions(), system.state());
+        self.progress = Progress::default();
         self.begin_iterations();
         let mut is_solved = false;
         for _ in 0..self.limits.iterations {
@@ -79,7 +83,7 @@ impl Brownian {
 
     fn begin_iterations(&mut self) {
         let count = self.components.count();
-        self.progress.begin(count);
+        self.progress.begin_iterations(count);
         self.components.select(vec![true; count]);
     }
 

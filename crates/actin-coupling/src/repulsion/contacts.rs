@@ -317,6 +317,10 @@ impl SecondOrder for Contacts {
             }
         });
     }
+
+    fn couples_by_distance(&self) -> bool {
+        true
+    }
 }
 
 /// Contacts have no random stress. Only their convexity is used.

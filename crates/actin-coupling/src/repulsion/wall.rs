@@ -349,4 +349,8 @@ impl SecondOrder for WallContact {
             }
         }
     }
+
+    fn couples_by_distance(&self) -> bool {
+        true
+    }
 }

@@ -198,7 +198,7 @@ fn limits_are_defined() {
     let at = site.position(&scene.state);
     let make = |shift: Vector3, rest_length| {
         let end = LinkerEnd::Anchor(Anchor::fixed(at + shift));
-        Linker::new(site.clone(), end, 7.0, rest_length).unwrap()
+        Linker::new(site, end, 7.0, rest_length).unwrap()
     };
     let block = |linker: &Linker| {
         let point = 3 * scene.monomers[0].0;

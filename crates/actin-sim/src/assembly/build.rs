@@ -13,7 +13,7 @@ mod strand;
 
 use super::{
     Assembly, Clamped, Drive, FilamentSpan, FrameInfo, Kinetics, Part, PointInfo, RepulsionModel,
-    Rod, SectionSpan, Term, energy_balance, imperfection,
+    Rod, SectionSpan, SiteTable, Term, energy_balance, imperfection,
 };
 use crate::follow;
 use crate::observe::{EnergyNames, Observers};
@@ -23,7 +23,7 @@ use actin_coupling::Linker;
 use actin_mechanics::{ControlId, Interaction, State, System};
 pub(crate) use sampled::InterfaceSampling;
 use sampled::Sampling;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashMap};
 use std::sync::Arc;
 use std::time::Instant;
 use strand::{Body, Strand};
@@ -122,6 +122,8 @@ struct Builder<'a> {
     loads: Vec<ControlId>,
     linkers: Vec<Linker>,
     kinetics: Option<Kinetics>,
+    /// Tables of roaming linkers by the distance of sites and the direction of steps.
+    site_tables: HashMap<(u64, bool), SiteTable>,
     repelled: Option<RepulsionModel>,
     sampled: Vec<InterfaceSampling>,
 }
@@ -155,6 +157,7 @@ impl<'a> Builder<'a> {
             loads: Vec::new(),
             linkers: Vec::new(),
             kinetics: None,
+            site_tables: HashMap::new(),
             repelled: None,
             sampled: Vec::new(),
         })

@@ -1,12 +1,19 @@
 //! Linkers that break, form and step. Events occur at the ends of time steps and are logged.
 
+mod average;
+mod pool;
+
+use average::ForceAverage;
+use pool::Pool;
+
 use super::Assembly;
 use crate::scene::{Kinetics as Rates, SceneProblem};
-use actin_coupling::{Linker, SwitchedLinker};
-use actin_mechanics::{ControlId, Interaction, State, StepEnd};
+use actin_coupling::{Hand, Linker, Site, SwitchedLinker};
+use actin_mechanics::{ControlId, Interaction, State, StepEnd, Vector3};
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use serde::{Deserialize, Serialize};
+use std::borrow::Cow;
 use std::fmt;
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -28,6 +35,22 @@ pub enum LinkerEventKind {
     Stepped,
     /// The linker detached at the end of the filament.
     Left,
+    /// A hand of a free linker bound.
+    Attached,
+    /// The only bound hand of a linker let go.
+    Detached,
+}
+
+impl LinkerEventKind {
+    /// All kinds.
+    pub const ALL: [Self; 6] = [
+        Self::Broke,
+        Self::Formed,
+        Self::Stepped,
+        Self::Left,
+        Self::Attached,
+        Self::Detached,
+    ];
 }
 
 impl fmt::Display for LinkerEventKind {
@@ -37,6 +60,8 @@ impl fmt::Display for LinkerEventKind {
             Self::Formed => "formed",
             Self::Stepped => "stepped",
             Self::Left => "left",
+            Self::Attached => "attached",
+            Self::Detached => "detached",
         })
     }
 }
@@ -52,21 +77,52 @@ pub struct LinkerEvent {
     pub linker: usize,
     /// Kind of the event.
     pub what: LinkerEventKind,
-    /// Tension of the linker (pN) just before the event; for a formed linker, just after it.
+    /// Averaged tension of the linker (pN) before the event; for a formed linker, its tension.
     pub force_pn: f64,
     /// Arc length of the site (nm); after a step, arc length of the new place.
     pub at_nm: f64,
     /// Change of the energy (pN nm).
     pub energy_pn_nm: f64,
+    /// Index of the hand; 0 for linkers with a fixed second end.
+    pub hand: usize,
+    /// Index of the filament of the site.
+    pub filament: usize,
+}
+
+/// Sites of a hand with their filaments and arc lengths (nm), ordered along filaments in the direction
+/// of steps.
+#[derive(Clone, Debug)]
+pub(crate) struct SiteTable {
+    pub(crate) sites: Arc<[Site]>,
+    pub(crate) places: Arc<[(usize, f64)]>,
+}
+
+impl SiteTable {
+    /// Site that a step from `site` reaches, if the filament goes on.
+    fn next(&self, site: usize) -> Option<usize> {
+        let next = self.places.get(site + 1)?;
+        (next.0 == self.places[site].0).then_some(site + 1)
+    }
+
+    /// Site nearest to an arc length (nm) of a filament.
+    fn nearest(&self, filament: usize, at_nm: f64) -> usize {
+        let distance = |place: &(usize, f64)| (place.1 - at_nm).abs();
+        let own = self.places.iter().enumerate();
+        let own = own.filter(|(_, place)| place.0 == filament);
+        own.min_by(|a, b| distance(a.1).total_cmp(&distance(b.1)))
+            .map_or(0, |(site, _)| site)
+    }
 }
 
 #[derive(Clone, Debug)]
-struct Switching {
+pub(crate) struct Switching {
     index: usize,
     linker: SwitchedLinker,
     rates: Rates,
-    /// Arc lengths of its places (nm).
-    places_nm: Vec<f64>,
+    table: SiteTable,
+    /// Averages of the forces. The tension vector is the signed tension along x, or the force (lab frame)
+    /// of linkers without a rest length.
+    average: ForceAverage,
 }
 
 #[derive(Clone, Debug)]
@@ -76,6 +132,8 @@ pub(crate) struct Kinetics {
     booked: ControlId,
     /// Largest product of rate and step so far.
     coarsest: ControlId,
+    /// Thermal energy (pN nm).
+    thermal_energy: f64,
 }
 
 pub(crate) type Log = Arc<Mutex<Vec<LinkerEvent>>>;
@@ -88,33 +146,38 @@ pub(crate) struct LinkerEventProcess {
 }
 
 impl Kinetics {
-    pub(super) fn new(state: &mut State) -> Self {
+    pub(super) fn new(state: &mut State, thermal_energy: f64) -> Self {
         Self {
             all: Vec::new(),
             booked: state.add_control(0.0),
             coarsest: state.add_control(0.0),
+            thermal_energy,
         }
     }
 
     pub(super) fn push(
         &mut self,
         index: usize,
-        linker: SwitchedLinker,
+        (linker, table): (SwitchedLinker, SiteTable),
         rates: Rates,
-        places_nm: Vec<f64>,
+        state: &mut State,
     ) {
-        self.all.push(Switching {
+        let switching = Switching {
             index,
+            average: ForceAverage::new(state, rates.averaging_time()),
             linker,
             rates,
-            places_nm,
-        });
+            table,
+        };
+        let forces = switching.forces(state);
+        switching.average.add(state, f64::INFINITY, forces);
+        self.all.push(switching);
     }
 
-    /// Returns linker `index` and the arc lengths of its places (nm), if its state can change.
-    pub(crate) fn linker(&self, index: usize) -> Option<(&SwitchedLinker, &[f64])> {
-        let switching = self.all.iter().find(|s| s.index == index)?;
-        Some((&switching.linker, &switching.places_nm))
+    /// Returns linker `index`, if its state can change.
+    pub(crate) fn linker(&self, index: usize) -> Option<&Switching> {
+        let found = self.all.binary_search_by_key(&index, |s| s.index).ok()?;
+        Some(&self.all[found])
     }
 
     pub(crate) fn booked(&self, state: &State) -> f64 {
@@ -125,8 +188,9 @@ impl Kinetics {
     pub(crate) fn all_bound(&self, state: &State) -> State {
         let mut bound = state.clone();
         for switching in &self.all {
-            let place = switching.linker.place(state);
-            switching.linker.bind(&mut bound, place);
+            for hand in switching.linker.hands() {
+                hand.bind(&mut bound, hand.site(state));
+            }
         }
         bound
     }
@@ -148,31 +212,37 @@ impl Kinetics {
         mut note: impl FnMut(LinkerEvent),
     ) -> bool {
         let mut changed = false;
+        let mut pool = Pool::new(&self.all, state);
         for switching in &self.all {
-            let (happening, rate) = switching.drawn(state, step, h);
+            switching.add_to_average(state, h);
+            let (event, rate) = switching.drawn(state, (step, h), &mut pool, self.thermal_energy);
             let coarse = rate * h;
             if coarse > state.controls[self.coarsest] {
                 state.controls[self.coarsest] = coarse;
             }
-            let Some((what, place)) = happening else {
+            let Some(event) = event else {
                 continue;
             };
             let before = switching.linker.energy(state);
             let tension = switching.tension(state);
-            switching.change(state, what, place);
+            switching.apply(state, &event);
+            pool.apply(switching, &event);
             let energy_pn_nm = switching.linker.energy(state) - before;
             state.controls[self.booked] += energy_pn_nm;
+            let (filament, at_nm) = switching.table.places[event.site];
             note(LinkerEvent {
                 step,
                 time_ns: step as f64 * h,
                 linker: switching.index,
-                what,
-                force_pn: match what {
-                    LinkerEventKind::Formed => switching.tension(state),
+                what: event.what,
+                force_pn: match event.what {
+                    LinkerEventKind::Formed => switching.present_tension(state),
                     _ => tension,
                 },
-                at_nm: switching.places_nm[place],
+                at_nm,
                 energy_pn_nm,
+                hand: event.hand,
+                filament,
             });
             changed = true;
         }
@@ -192,99 +262,205 @@ impl StepEnd for LinkerEventProcess {
     }
 }
 
+/// Event of one hand.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct HandEvent {
+    what: LinkerEventKind,
+    hand: usize,
+    /// Site of the hand; after a step the new one.
+    site: usize,
+}
+
 impl Switching {
-    /// Samples the event at the end of a step. Returns its kind and the place of the site, and the
-    /// sum of all rates (1/ns).
-    fn drawn(&self, state: &State, step: u64, h: f64) -> (Option<(LinkerEventKind, usize)>, f64) {
-        let place = self.linker.place(state);
-        let happens = |rate: f64, draw: f64| draw < -(-rate * h).exp_m1();
-        if !self.linker.is_bound(state) {
-            let Some((nearest, rate)) = self.forming(state) else {
-                return (None, 0.0);
-            };
-            let [draw, _] = self.uniform(step);
-            return (
-                happens(rate, draw).then_some((LinkerEventKind::Formed, nearest)),
-                rate,
-            );
-        }
-        let breaking = self
-            .rates
-            .breaks
-            .map_or(0.0, |breaks| breaks.rate(self.tension(state)));
-        let stepping = self
-            .rates
-            .steps
-            .map_or(0.0, |steps| steps.rate(self.resistance(state, place)));
-        let rate = breaking + stepping;
-        let [draw, which] = self.uniform(step);
-        if !happens(rate, draw) {
+    pub(crate) fn linker(&self) -> &SwitchedLinker {
+        &self.linker
+    }
+
+    /// Filament and arc length (nm) of the present site of a hand.
+    pub(crate) fn place(&self, hand: usize, state: &State) -> (usize, f64) {
+        self.table.places[self.hand(hand).site(state)]
+    }
+
+    fn hand(&self, hand: usize) -> &Hand {
+        let mut hands = self.linker.hands();
+        hands.nth(hand).expect("the hand exists")
+    }
+
+    /// Applies an event that was read from a file.
+    pub(crate) fn restore(&self, state: &mut State, event: &LinkerEvent) {
+        self.apply(
+            state,
+            &HandEvent {
+                what: event.what,
+                hand: event.hand,
+                site: self.table.nearest(event.filament, event.at_nm),
+            },
+        );
+    }
+
+    /// Samples the event at the end of a step. Returns it and the sum of all rates (1/ns).
+    fn drawn(
+        &self,
+        state: &State,
+        (step, h): (u64, f64),
+        pool: &mut Pool,
+        thermal_energy: f64,
+    ) -> (Option<HandEvent>, f64) {
+        let choices = if self.rates.roams.is_some() {
+            self.choices_of_pool(state, step, pool, thermal_energy)
+        } else if self.linker.is_bound(state) {
+            self.choices_of_hand(0, state, pool)
+        } else {
+            self.forming(state).into_iter().collect()
+        };
+        let rate: f64 = choices.iter().map(|(_, rate)| rate).sum();
+        if choices.is_empty() {
             return (None, rate);
         }
-        // An infinite rate always breaks the linker.
-        let happening = if breaking.is_infinite() || which * rate < breaking {
-            Some((LinkerEventKind::Broke, place))
-        } else if place + 1 < self.places_nm.len() {
-            Some((LinkerEventKind::Stepped, place + 1))
-        } else {
-            let leaves = self.rates.steps.is_some_and(|steps| steps.leaves_at_end);
-            leaves.then_some((LinkerEventKind::Left, place))
-        };
-        (happening, rate)
+        let [draw, which] = self.uniform(PURPOSE, step);
+        if draw >= -(-rate * h).exp_m1() {
+            return (None, rate);
+        }
+        // An infinite rate always occurs.
+        let infinite = choices.iter().find(|(_, rate)| rate.is_infinite());
+        let mut left = which * rate;
+        let chosen = choices.iter().find(|(_, rate)| {
+            left -= rate;
+            left < 0.0
+        });
+        let chosen = infinite.or(chosen).or(choices.last());
+        (chosen.and_then(|(event, _)| *event), rate)
     }
 
-    /// Returns the place at which the linker can form and the rate (1/ns), if a place is within
-    /// reach.
-    fn forming(&self, state: &State) -> Option<(usize, f64)> {
+    /// Release and step of a bound hand with their rates (1/ns). A step beyond the end, or to an occupied
+    /// site, has no effect unless the hand leaves at the end.
+    fn choices_of_hand(
+        &self,
+        hand: usize,
+        state: &State,
+        pool: &Pool,
+    ) -> Vec<(Option<HandEvent>, f64)> {
+        let site = self.hand(hand).site(state);
+        let is_joined = self.linker.is_bound(state);
+        let event = |what, site| Some(HandEvent { what, hand, site });
+        let mut choices = Vec::new();
+        if let Some(breaks) = self.rates.breaks {
+            let (what, tension) = if is_joined {
+                (LinkerEventKind::Broke, self.tension(state))
+            } else {
+                (LinkerEventKind::Detached, 0.0)
+            };
+            choices.push((event(what, site), breaks.rate(tension)));
+        }
+        if let Some(steps) = self.rates.steps {
+            let resistance = if is_joined {
+                self.average.against(hand, state)
+            } else {
+                0.0
+            };
+            let step = match self.table.next(site) {
+                Some(next) if pool.is_occupied(self, next) => None,
+                Some(next) => event(LinkerEventKind::Stepped, next),
+                None if steps.leaves_at_end => event(LinkerEventKind::Left, site),
+                None => None,
+            };
+            choices.push((step, steps.rate(resistance)));
+        }
+        choices
+    }
+
+    /// Returns the site at which the first hand can bind and the rate (1/ns), if one is within reach.
+    fn forming(&self, state: &State) -> Option<(Option<HandEvent>, f64)> {
         let forms = self.rates.forms?;
-        let extensions = self
-            .linker
-            .places()
-            .iter()
-            .map(|one| one.extension(state).abs());
-        let by_size = |a: &(usize, f64), b: &(usize, f64)| a.1.total_cmp(&b.1);
-        let (nearest, extension) = extensions.enumerate().min_by(by_size)?;
-        (extension <= forms.reach_nm).then_some((nearest, forms.rate_per_ns))
+        let sites = 0..self.table.sites.len();
+        let extension = |site: usize| self.linker.linker_at(&[site]).extension(state).abs();
+        let extensions = sites.map(|site| (site, extension(site)));
+        let (site, extension) = extensions.min_by(|a, b| a.1.total_cmp(&b.1))?;
+        let event = HandEvent {
+            what: LinkerEventKind::Formed,
+            hand: 0,
+            site,
+        };
+        (extension <= forms.reach_nm).then_some((Some(event), forms.rate_per_ns))
     }
 
-    /// Tension at its place (pN), whether bound or not.
+    /// Averaged tension (pN).
     fn tension(&self, state: &State) -> f64 {
-        let linker = self.linker.linker(state);
-        if linker.extension(state) > 0.0 {
-            linker.force(state).norm()
-        } else {
+        let (average, tension) = self.average.tension(state);
+        if self.direction_of_linker(state).is_some() && average.x < 0.0 {
             0.0
+        } else {
+            tension
         }
     }
 
-    /// Force (pN) against a step from `place` along the line to the next place; at the end, along
-    /// the line from the previous place.
-    fn resistance(&self, state: &State, place: usize) -> f64 {
-        let places = self.linker.places();
-        let (from, to) = if place + 1 < places.len() {
-            (place, place + 1)
-        } else {
-            (place.saturating_sub(1), place)
-        };
-        let at = |k: usize| places[k].site().position(state);
-        let along = (at(to) - at(from)).try_normalize(0.0);
-        along.map_or(0.0, |along| -places[place].force(state).dot(&along))
+    /// Tension (pN) without averaging.
+    fn present_tension(&self, state: &State) -> f64 {
+        let linker = self.linker.linker(state);
+        (linker.spring().stiffness * linker.extension(state)).max(0.0)
     }
 
-    fn change(&self, state: &mut State, what: LinkerEventKind, place: usize) {
-        match what {
-            LinkerEventKind::Broke | LinkerEventKind::Left => self.linker.release(state),
-            LinkerEventKind::Formed | LinkerEventKind::Stepped => self.linker.bind(state, place),
+    /// Direction from the first to the second end, for linkers with a rest length.
+    fn direction_of_linker(&self, state: &State) -> Option<Vector3> {
+        let linker = self.linker.linker(state);
+        let d = linker.end_position(state) - linker.site().position(state);
+        (linker.spring().rest_length > 0.0).then(|| d.try_normalize(0.0).unwrap_or_default())
+    }
+
+    /// Tension as in the averages, and the forces against steps of the hands.
+    fn forces(&self, state: &State) -> (Vector3, [f64; 2]) {
+        let force = self.linker.transmitted_force(state);
+        let tension = match self.direction_of_linker(state) {
+            Some(direction) => Vector3::x() * force.dot(&direction),
+            None => force,
+        };
+        let mut resistances = [0.0; 2];
+        let hands = self.linker.hands().count();
+        for (hand, sign) in [1.0, -1.0].into_iter().enumerate().take(hands) {
+            resistances[hand] = -sign * force.dot(&self.direction(hand, state));
+        }
+        (tension, resistances)
+    }
+
+    /// Direction of the next step of a hand; at the end, of the last one.
+    fn direction(&self, hand: usize, state: &State) -> Vector3 {
+        let site = self.hand(hand).site(state);
+        let (from, to) = match self.table.next(site) {
+            Some(next) => (site, next),
+            None => (site.saturating_sub(1), site),
+        };
+        let at = |site: usize| self.table.sites[site].position(state);
+        (at(to) - at(from)).try_normalize(0.0).unwrap_or_default()
+    }
+
+    fn add_to_average(&self, state: &mut State, h: f64) {
+        if self.linker.is_bound(state) {
+            let forces = self.forces(state);
+            self.average.add(state, h, forces);
+        }
+    }
+
+    fn apply(&self, state: &mut State, event: &HandEvent) {
+        let hand = self.hand(event.hand);
+        match event.what {
+            LinkerEventKind::Broke | LinkerEventKind::Left | LinkerEventKind::Detached => {
+                hand.release(state);
+            }
+            LinkerEventKind::Formed | LinkerEventKind::Attached => {
+                hand.bind(state, event.site);
+                self.average.begin(state);
+            }
+            LinkerEventKind::Stepped => hand.bind(state, event.site),
         }
     }
 
     /// Returns two uniform numbers in [0, 1) for a step. They come from the `ChaCha8` stream of the
     /// step, in which each linker has separate words.
-    fn uniform(&self, step: u64) -> [f64; 2] {
+    fn uniform(&self, purpose: [u8; 8], step: u64) -> [f64; 2] {
         const SPACING: f64 = 1.0 / (1u64 << 53) as f64;
         let mut key = [0; 32];
         key[..8].copy_from_slice(&self.rates.seed.to_le_bytes());
-        key[8..16].copy_from_slice(&PURPOSE);
+        key[8..16].copy_from_slice(&purpose);
         let mut generator = ChaCha8Rng::from_seed(key);
         generator.set_stream(step);
         // Two numbers of two 32-bit words each.
@@ -294,22 +470,27 @@ impl Switching {
 }
 
 impl Assembly {
-    /// Returns linker `i` with its site in `state`, and whether it is bound.
-    pub(crate) fn linker_in<'a>(&'a self, i: usize, state: &State) -> (&'a Linker, bool) {
-        let switched = self
-            .kinetics
-            .as_ref()
-            .and_then(|kinetics| kinetics.linker(i));
-        switched.map_or((&self.linkers[i], true), |(switched, _)| {
-            (switched.linker(state), switched.is_bound(state))
-        })
+    /// Returns linker `i` with its sites in `state`, and whether it is bound.
+    pub(crate) fn linker_in(&self, i: usize, state: &State) -> (Cow<'_, Linker>, bool) {
+        match self.switching(i) {
+            None => (Cow::Borrowed(&self.linkers[i]), true),
+            Some(switching) => {
+                let linker = switching.linker();
+                (Cow::Owned(linker.linker(state)), linker.is_bound(state))
+            }
+        }
+    }
+
+    fn switching(&self, i: usize) -> Option<&Switching> {
+        self.kinetics.as_ref()?.linker(i)
     }
 
     /// Returns whether linker `i` is bound in `state` and the arc length of its site (nm); `None`
     /// for permanent linkers.
     pub fn switched(&self, i: usize, state: &State) -> Option<(bool, f64)> {
-        let (linker, places) = self.kinetics.as_ref()?.linker(i)?;
-        Some((linker.is_bound(state), places[linker.place(state)]))
+        let switching = self.switching(i)?;
+        let (_, at_nm) = switching.place(0, state);
+        Some((switching.linker().is_bound(state), at_nm))
     }
 
     /// Refuses rates of linkers that are too fast for a time step (ns).

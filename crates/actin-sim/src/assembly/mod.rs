@@ -34,7 +34,7 @@ pub(crate) use build::InterfaceSampling;
 pub use drive::Drive;
 pub use energy_balance::{EnergyColumn, EnergyExchange};
 pub use extrapolation::MeasuredError;
-pub(crate) use kinetics::{COARSEST, Kinetics, Log};
+pub(crate) use kinetics::{COARSEST, Kinetics, Log, SiteTable};
 pub use kinetics::{LinkerEvent, LinkerEventKind};
 pub(crate) use lattice::cells_nm;
 pub(crate) use law::{TOO_SHORT, potential};

@@ -1,6 +1,6 @@
 //! Linker events and controls of states that were read from files.
 
-use super::{Assembly, LinkerEvent, LinkerEventKind};
+use super::{Assembly, LinkerEvent};
 use crate::At;
 use actin_mechanics::State;
 
@@ -18,17 +18,8 @@ impl Assembly {
             return;
         };
         for event in events.iter().take_while(|event| event.time_ns <= time_ns) {
-            let Some((linker, places_nm)) = kinetics.linker(event.linker) else {
-                continue;
-            };
-            match event.what {
-                LinkerEventKind::Broke | LinkerEventKind::Left => linker.release(state),
-                LinkerEventKind::Formed | LinkerEventKind::Stepped => {
-                    let distance = |place: &usize| (places_nm[*place] - event.at_nm).abs();
-                    let nearest =
-                        (0..places_nm.len()).min_by(|a, b| distance(a).total_cmp(&distance(b)));
-                    linker.bind(state, nearest.unwrap_or(0));
-                }
+            if let Some(switching) = kinetics.linker(event.linker) {
+                switching.restore(state, event);
             }
         }
     }

@@ -38,7 +38,7 @@ impl LinkerSummary {
         linkers
             .map(|(i, written)| {
                 let (linker, _) = assembly.linker_in(i, state);
-                let summary = Self::new(written, linker, state);
+                let summary = Self::new(written, &linker, state);
                 match assembly.switched(i, state) {
                     None => summary,
                     Some((bound, at_nm)) => Self {

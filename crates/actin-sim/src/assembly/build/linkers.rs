@@ -2,13 +2,16 @@
 
 use super::{Body, Builder, Strand};
 use crate::assembly::lattice::ResolvedSection;
-use crate::assembly::{Kinetics, Part};
+use crate::assembly::{Kinetics, Part, SiteTable};
 use crate::scene::{self, LinkerSite, SceneProblem};
 use actin_cosserat::RodLayout;
-use actin_coupling::{Anchor, Linker, LinkerEnd, LinkerError, RodPlace, Site, SwitchedLinker};
+use actin_coupling::{
+    Anchor, Hand, Linker, LinkerEnd, LinkerError, RodPlace, Site, SwitchedLinker,
+};
 use actin_ellipsoid::Monomers;
 use actin_mechanics::{ControlId, Vector3};
 use std::collections::HashMap;
+use std::sync::Arc;
 
 /// Distance (nm) below which a site lies at a node, above the round-off of sums of lengths.
 const NODE_TOLERANCE_NM: f64 = 1e-9;
@@ -35,7 +38,7 @@ impl Builder<'_> {
         Ok(())
     }
 
-    /// Pushes linker `i`, whose state changes in time, with one copy of `built` per place.
+    /// Pushes linker `i`, whose state changes in time.
     fn push_switched(
         &mut self,
         (i, linker): (usize, &scene::Linker),
@@ -45,32 +48,87 @@ impl Builder<'_> {
     ) -> Result<(), SceneProblem> {
         let refused =
             |error: LinkerError| SceneProblem::new(format!("linkers[{i}]"), "", error.to_string());
-        let length = self.strands[linker.filament].filament.length_nm();
-        let places_nm = match &kinetics.steps {
-            None => vec![linker.at_nm],
-            Some(steps) => steps.places_nm(linker.at_nm, length),
+        let table = match (&kinetics.roams, &kinetics.steps) {
+            (Some(roams), steps) => {
+                let is_reversed = steps.is_some_and(|steps| steps.step_nm < 0.0);
+                self.sites_of_all(roams.site_spacing_nm, is_reversed, nodes)
+            }
+            (None, steps) => {
+                let length = self.strands[linker.filament].filament.length_nm();
+                let places = steps.as_ref().map_or_else(
+                    || vec![linker.at_nm],
+                    |steps| steps.places_nm(linker.at_nm, length),
+                );
+                let at = |at_nm: f64| LinkerSite {
+                    at_nm,
+                    ..linker.site()
+                };
+                self.table(places.into_iter().map(at), nodes)
+            }
         };
-        let at = |at_nm: f64, nodes: &mut Nodes| {
-            let place = LinkerSite {
-                at_nm,
-                ..linker.site()
-            };
-            let (stiffness, rest_length) = (linker.stiffness_pn_per_nm, linker.rest_length_nm);
-            Linker::new(
-                self.site(&place, nodes)?,
-                built.end().clone(),
-                stiffness,
-                rest_length,
-            )
-        };
-        let places = places_nm.iter().map(|&s| at(s, nodes));
-        let places = places.collect::<Result<Vec<_>, _>>().map_err(refused)?;
+        let table = table.map_err(refused)?;
         let state = &mut self.stock.state;
-        let switched = SwitchedLinker::new(state, places, kinetics.bound);
-        let all = self.kinetics.get_or_insert_with(|| Kinetics::new(state));
-        all.push(i, switched.clone(), kinetics, places_nm);
+        let hand = Hand::new(state, Arc::clone(&table.sites), 0, kinetics.bound);
+        let switched = if kinetics.roams.is_some() {
+            let other = Hand::new(state, Arc::clone(&table.sites), 0, kinetics.bound);
+            SwitchedLinker::between_hands(state, [hand, other], built)
+        } else {
+            SwitchedLinker::to_end(state, hand, built)
+        };
+        let thermal_energy = self.scene.thermal_energy_pn_nm();
+        let all = self
+            .kinetics
+            .get_or_insert_with(|| Kinetics::new(state, thermal_energy));
+        all.push(i, (switched.clone(), table), kinetics, state);
         self.stock.push_term(Box::new(switched), Part::Linker(i));
         Ok(())
+    }
+
+    fn table(
+        &self,
+        places: impl Iterator<Item = LinkerSite>,
+        nodes: &mut Nodes,
+    ) -> Result<SiteTable, LinkerError> {
+        let places: Vec<LinkerSite> = places.collect();
+        let sites = places.iter().map(|place| self.site(place, nodes));
+        Ok(SiteTable {
+            sites: sites.collect::<Result<_, _>>()?,
+            places: places.iter().map(|one| (one.filament, one.at_nm)).collect(),
+        })
+    }
+
+    /// Sites of all filaments at equal distances, in the direction of steps. Linkers with the same sites
+    /// share a table.
+    fn sites_of_all(
+        &mut self,
+        spacing_nm: f64,
+        is_reversed: bool,
+        nodes: &mut Nodes,
+    ) -> Result<SiteTable, LinkerError> {
+        let key = (spacing_nm.to_bits(), is_reversed);
+        if let Some(known) = self.site_tables.get(&key) {
+            return Ok(known.clone());
+        }
+        let of_filament = |(filament, strand): (usize, &Strand<'_>)| {
+            let length = strand.filament.length_nm();
+            let places = (0..).map(|i| (f64::from(i) + 0.5) * spacing_nm);
+            let mut places: Vec<f64> = places.take_while(|s| *s <= length).collect();
+            if is_reversed {
+                places.reverse();
+            }
+            let site = move |at_nm| LinkerSite {
+                filament,
+                at_nm,
+                radius_nm: 0.0,
+                azimuth_deg: 0.0,
+            };
+            places.into_iter().map(site)
+        };
+        let strands = self.strands.iter().enumerate();
+        let places: Vec<LinkerSite> = strands.flat_map(of_filament).collect();
+        let table = self.table(places.into_iter(), nodes)?;
+        self.site_tables.insert(key, table.clone());
+        Ok(table)
     }
 
     /// Linker `i` of a scene. `controls` move its anchor.

@@ -255,3 +255,48 @@ fn unbound_linkers_have_no_tension() {
         assert!(is_near, "{bound}: {observed:?}");
     }
 }
+
+/// A crosslinker on two fixed parallel filaments 12 nm apart, with three sites each, binds its second hand in
+/// detailed balance. States have the weights `(k_b/k_u) exp(-U/kT)` of both hands bound, for each ordered pair
+/// of sites, and 1 of one hand bound, for each hand and site.
+#[test]
+fn crosslinkers_bind_in_detailed_balance() {
+    for breaks in [
+        "Breaking(rate_per_ns: 0.02)",
+        "Breaking(rate_per_ns: 0.02, force_pn: 2.0)",
+    ] {
+        let text = format!(
+            "Scene(
+                filaments: [
+                    Filament(sections: [Rod(from_nm: 0.0, to_nm: 30.0)]),
+                    Filament(sections: [Rod(from_nm: 0.0, to_nm: 30.0)], at_nm: (12.0, 0.0, 4.0)),
+                ],
+                crosslinkers: [Crosslinkers(count: 1, stiffness_pn_per_nm: 0.2, rest_length_nm: 10.0,
+                    attach_per_ns: 0.05, bind_per_ns: 0.03, site_spacing_nm: 10.0, averaging_ns: 0.0,
+                    unbinds: {breaks}, seed: 8)],
+                task: Brownian(duration_ms: 1e-3, temperature_k: 298.0, seed: 1),
+            )"
+        );
+        let assembly = Assembly::build(&Scene::from_ron(&text).unwrap()).unwrap();
+        let mut state = assembly.rest.clone();
+        let kt = assembly.scene.thermal_energy_pn_nm();
+        let energy = |i: i32, j: i32| {
+            let along = 10.0 * f64::from(i - j) + 4.0;
+            0.1 * ((144.0 + along * along).sqrt() - 10.0).powi(2)
+        };
+        let pairs = (0..3).flat_map(|i| (0..3).map(move |j| (i, j)));
+        let both: f64 = pairs.map(|(i, j)| (-energy(i, j) / kt).exp()).sum();
+        let expected = 2.0 * both * (0.03 / 0.02) / 12.0;
+        let switching = &assembly.kinetics.as_ref().unwrap().all[0];
+        let mut counts = [0.0; 3];
+        for step in 1..200_000 {
+            events(&assembly, &mut state, step..step + 1);
+            let hands = switching.linker.hands();
+            counts[hands.filter(|hand| hand.is_bound(&state)).count()] += 1.0;
+        }
+        let ratio = counts[2] / counts[1];
+        println!("{breaks}: {ratio:.4}, {expected:.4} expected");
+        // The states decorrelate within about 30 steps, and events are up to half a step late.
+        assert!((ratio / expected - 1.0).abs() < 0.1, "{ratio}, {expected}");
+    }
+}

@@ -1,0 +1,215 @@
+//! Linkers that bind to any site of any filament.
+
+use super::{HandEvent, LinkerEventKind, Switching};
+use actin_mechanics::{Interaction, State, Vector3};
+use std::collections::{HashMap, HashSet};
+use std::sync::Arc;
+
+/// Separates the random choice of sites from other uses of the seed.
+const PURPOSE: [u8; 8] = *b"sites\0\0\0";
+
+/// Occupied sites of the roaming linkers during the events of a step, and a search for sites.
+pub(super) struct Pool {
+    /// Table, identified by its address, and site.
+    occupied: HashSet<(usize, usize)>,
+    grids: HashMap<usize, Grid>,
+}
+
+/// Sites by cubic cells.
+struct Grid {
+    cell: f64,
+    cells: HashMap<[i64; 3], Vec<usize>>,
+    positions: Vec<Vector3>,
+}
+
+fn table_of(switching: &Switching) -> usize {
+    Arc::as_ptr(&switching.table.sites).cast::<()>() as usize
+}
+
+impl Pool {
+    pub(super) fn new(all: &[Switching], state: &State) -> Self {
+        let roaming = all.iter().filter(|one| one.rates.roams.is_some());
+        let occupied = roaming.flat_map(|one| {
+            let hands = one.linker.hands().filter(|hand| hand.is_bound(state));
+            hands.map(|hand| (table_of(one), hand.site(state)))
+        });
+        Self {
+            occupied: occupied.collect(),
+            grids: HashMap::new(),
+        }
+    }
+
+    pub(super) fn is_occupied(&self, switching: &Switching, site: usize) -> bool {
+        self.occupied.contains(&(table_of(switching), site))
+    }
+
+    /// Updates the occupied sites. The hand of a step leaves the preceding site.
+    pub(super) fn apply(&mut self, switching: &Switching, event: &HandEvent) {
+        if switching.rates.roams.is_none() {
+            return;
+        }
+        let table = table_of(switching);
+        match event.what {
+            LinkerEventKind::Broke | LinkerEventKind::Left | LinkerEventKind::Detached => {
+                self.occupied.remove(&(table, event.site));
+            }
+            LinkerEventKind::Formed | LinkerEventKind::Attached => {
+                self.occupied.insert((table, event.site));
+            }
+            LinkerEventKind::Stepped => {
+                self.occupied.remove(&(table, event.site - 1));
+                self.occupied.insert((table, event.site));
+            }
+        }
+    }
+
+    /// Sites of a table within a distance (nm) of a position, ascending.
+    fn near(
+        &mut self,
+        switching: &Switching,
+        state: &State,
+        (at, within): (Vector3, f64),
+    ) -> Vec<usize> {
+        let grid = self.grids.entry(table_of(switching)).or_insert_with(|| {
+            let sites = switching.table.sites.iter();
+            Grid::new(sites.map(|site| site.position(state)).collect(), within)
+        });
+        grid.near(at, within)
+    }
+}
+
+impl Grid {
+    fn new(positions: Vec<Vector3>, cell: f64) -> Self {
+        let mut grid = Self {
+            cell,
+            cells: HashMap::new(),
+            positions,
+        };
+        for (i, position) in grid.positions.iter().enumerate() {
+            grid.cells
+                .entry(cell_of(position, cell))
+                .or_default()
+                .push(i);
+        }
+        grid
+    }
+
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "few cells: the distance is of the order of a cell"
+    )]
+    fn near(&self, at: Vector3, within: f64) -> Vec<usize> {
+        let reach = (within / self.cell).ceil() as i64;
+        let centre = cell_of(&at, self.cell);
+        let around = -reach..=reach;
+        let mut found = Vec::new();
+        for x in around.clone() {
+            for y in around.clone() {
+                for z in around.clone() {
+                    let cell = [centre[0] + x, centre[1] + y, centre[2] + z];
+                    let own = self.cells.get(&cell).into_iter().flatten();
+                    found.extend(own.filter(|&&i| (self.positions[i] - at).norm() <= within));
+                }
+            }
+        }
+        found.sort_unstable();
+        found
+    }
+}
+
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "saturates far outside of any filament"
+)]
+fn cell_of(position: &Vector3, cell: f64) -> [i64; 3] {
+    position.map(|x| (x / cell).floor() as i64).into()
+}
+
+impl Switching {
+    /// Events of a roaming linker with their rates (1/ns).
+    pub(super) fn choices_of_pool(
+        &self,
+        state: &State,
+        step: u64,
+        pool: &mut Pool,
+        thermal_energy: f64,
+    ) -> Vec<(Option<HandEvent>, f64)> {
+        let bound: Vec<usize> = (0..2)
+            .filter(|&hand| self.hand(hand).is_bound(state))
+            .collect();
+        match bound[..] {
+            [] => self.attaching(step, pool).into_iter().collect(),
+            [hand] => {
+                let mut choices = self.choices_of_hand(hand, state, pool);
+                choices.extend(self.binding(hand, state, pool, thermal_energy));
+                choices
+            }
+            _ => {
+                let hands = bound.into_iter();
+                hands
+                    .flat_map(|hand| self.choices_of_hand(hand, state, pool))
+                    .collect()
+            }
+        }
+    }
+
+    /// Attachment of one hand to a random site. Attempts at occupied sites fail.
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "a share of the number of sites"
+    )]
+    fn attaching(&self, step: u64, pool: &Pool) -> Option<(Option<HandEvent>, f64)> {
+        let roams = self.rates.roams?;
+        let [place, side] = self.uniform(PURPOSE, step);
+        let sites = self.table.sites.len();
+        let site = ((place * sites as f64) as usize).min(sites - 1);
+        let event = (!pool.is_occupied(self, site)).then_some(HandEvent {
+            what: LinkerEventKind::Attached,
+            hand: usize::from(side >= 0.5),
+            site,
+        });
+        Some((event, roams.attach_per_ns))
+    }
+
+    /// Binding of the free hand to sites of other filaments within reach.
+    fn binding(
+        &self,
+        bound: usize,
+        state: &State,
+        pool: &mut Pool,
+        thermal_energy: f64,
+    ) -> Vec<(Option<HandEvent>, f64)> {
+        let (Some(forms), Some(breaks)) = (self.rates.forms, self.rates.breaks) else {
+            return Vec::new();
+        };
+        let (hand, site) = (1 - bound, self.hand(bound).site(state));
+        let at = self.table.sites[site].position(state);
+        let rest_length = self.linker.linker(state).spring().rest_length;
+        let near = pool.near(self, state, (at, rest_length + forms.reach_nm));
+        let filament = self.table.places[site].0;
+        let is_free = |other: &usize| {
+            self.table.places[*other].0 != filament && !pool.is_occupied(self, *other)
+        };
+        let mut choices = Vec::new();
+        for other in near.into_iter().filter(is_free) {
+            let mut sites = [site; 2];
+            sites[hand] = other;
+            let linker = self.linker.linker_at(&sites);
+            let extension = linker.extension(state);
+            if extension.abs() > forms.reach_nm {
+                continue;
+            }
+            let tension = (linker.spring().stiffness * extension).max(0.0);
+            let factor = breaks.rate(tension) / breaks.rate(0.0);
+            let rate = forms.rate_per_ns * (-linker.energy(state) / thermal_energy).exp() * factor;
+            let event = HandEvent {
+                what: LinkerEventKind::Formed,
+                hand,
+                site: other,
+            };
+            choices.push((Some(event), rate));
+        }
+        choices
+    }
+}
