@@ -68,7 +68,21 @@ fn place([x, y, z]: [f64; 3]) -> String {
 }
 
 fn print_linkers(assembly: &Assembly) {
-    for (i, linker) in assembly.linkers.iter().enumerate() {
+    let roams = |i: usize| {
+        assembly.scene.linkers[i]
+            .kinetics
+            .is_some_and(|k| k.roams.is_some())
+    };
+    let roaming = (0..assembly.linkers.len()).filter(|&i| roams(i)).count();
+    if roaming > 0 {
+        println!("// {roaming} crosslinkers, initially free");
+    }
+    let fixed = assembly
+        .linkers
+        .iter()
+        .enumerate()
+        .filter(|(i, _)| !roams(*i));
+    for (i, linker) in fixed {
         let other = assembly.linked_to(i);
         println!(
             "// linker {i}: from {} nm on {} to {} nm{}",

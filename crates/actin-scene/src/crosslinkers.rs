@@ -19,7 +19,7 @@ const MOST: usize = 1_000_000;
 /// Pool of crosslinkers or motors. Each has two hands, which bind to sites on the axes of filaments. It exerts a
 /// force while both are bound to different filaments. Free crosslinkers are well mixed.
 ///
-/// The resolved scene lists each crosslinker as a linker with `kinetics`.
+/// In a scene in memory, each crosslinker is a linker with `kinetics`.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
@@ -90,6 +90,44 @@ impl Crosslinkers {
         Ok(vec![linker; self.count])
     }
 
+    /// Removes the crosslinkers at the end of `linkers` and returns their pools.
+    pub(super) fn from_linkers(linkers: &mut Vec<Linker>) -> Vec<Self> {
+        let mut pools: Vec<Self> = Vec::new();
+        let mut last: Option<Linker> = None;
+        while let Some(linker) = linkers.pop() {
+            match (Self::from_linker(&linker), pools.last_mut()) {
+                (None, _) => {
+                    linkers.push(linker);
+                    break;
+                }
+                (Some(_), Some(pool)) if last == Some(linker) => pool.count += 1,
+                (Some(pool), _) => pools.push(pool),
+            }
+            last = Some(linker);
+        }
+        pools.reverse();
+        pools
+    }
+
+    fn from_linker(linker: &Linker) -> Option<Self> {
+        let kinetics = linker.kinetics?;
+        let (roams, forms) = (kinetics.roams?, kinetics.forms?);
+        let spacing = Some(roams.site_spacing_nm);
+        Some(Self {
+            count: 1,
+            stiffness_pn_per_nm: linker.stiffness_pn_per_nm,
+            rest_length_nm: linker.rest_length_nm,
+            attach_per_ns: roams.attach_per_ns,
+            bind_per_ns: forms.rate_per_ns,
+            reach_nm: Some(forms.reach_nm),
+            unbinds: kinetics.breaks?,
+            steps: kinetics.steps,
+            site_spacing_nm: spacing.filter(|_| kinetics.steps.is_none()),
+            averaging_ns: kinetics.averaging_ns,
+            seed: kinetics.seed,
+        })
+    }
+
     fn check(&self, k: usize) -> Result<(), SceneProblem> {
         let key = |name: &str| format!("crosslinkers[{k}].{name}");
         if !(1..=MOST).contains(&self.count) {
@@ -126,6 +164,57 @@ impl Crosslinkers {
                 attach_per_ns: self.attach_per_ns,
                 site_spacing_nm: self.site_spacing_nm.unwrap_or(spacing),
             }),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::Scene;
+
+    const POOLS: &str = "Scene(
+            filaments: [
+                Filament(sections: [Rod(from_nm: 0.0, to_nm: 100.0)]),
+                Filament(sections: [Rod(from_nm: 0.0, to_nm: 100.0)], at_nm: (20.0, 0.0, 0.0)),
+            ],
+            linkers: [Linker(at_nm: 50.0, to: Site(filament: 1, at_nm: 50.0), stiffness_pn_per_nm: 1.0)],
+            crosslinkers: [
+                Crosslinkers(count: 30, stiffness_pn_per_nm: 0.2, attach_per_ns: 1e-5, bind_per_ns: 1e-5,
+                    unbinds: Breaking(rate_per_ns: 1e-6), seed: 2),
+                Crosslinkers(count: 3, stiffness_pn_per_nm: 0.5, attach_per_ns: 1e-5, bind_per_ns: 1e-5,
+                    unbinds: Breaking(rate_per_ns: 1e-6), averaging_ns: 0.0,
+                    steps: Stepping(step_nm: -5.5, rate_per_ns: 1e-6, stall_pn: 4.0), seed: 3),
+            ],
+            task: Brownian(duration_ms: 0.001, temperature_k: 298.0, seed: 1),
+        )";
+
+    #[test]
+    fn pools_survive_the_round_trip() {
+        let scene = Scene::from_ron(POOLS).expect("the scene is valid");
+        assert_eq!(scene.linkers.len(), 34);
+        let printed = scene.to_ron();
+        assert!(printed.contains("count: 30") && printed.contains("count: 3,"));
+        assert_eq!(Scene::from_ron(&printed).expect("it is valid"), scene);
+        for (right, wrong, key) in [
+            ("count: 30", "count: 0", "crosslinkers[0].count"),
+            (
+                "averaging_ns: 0.0",
+                "site_spacing_nm: 3.0",
+                "crosslinkers[1].site_spacing_nm",
+            ),
+            (
+                "averaging_ns: 0.0",
+                "averaging_ns: -1.0",
+                "kinetics.averaging_ns",
+            ),
+            (
+                "temperature_k: 298.0",
+                "temperature_k: 0.0",
+                "kinetics.roams",
+            ),
+        ] {
+            let refused = Scene::from_ron(&POOLS.replace(right, wrong)).expect_err(wrong);
+            assert!(refused.to_string().contains(key), "{refused}");
         }
     }
 }

@@ -156,6 +156,8 @@ impl From<Scene> for SceneFile {
             let all = std::iter::once(scene.filament).chain(scene.other_filaments);
             (None, Some(all.collect()))
         };
+        let mut linkers = scene.linkers;
+        let crosslinkers = Crosslinkers::from_linkers(&mut linkers);
         Self {
             title: scene.title,
             filament,
@@ -163,9 +165,9 @@ impl From<Scene> for SceneFile {
             arrangements: Vec::new(),
             clamps: scene.clamps,
             loads: scene.loads,
-            linkers: scene.linkers,
+            linkers,
             linker_sets: Vec::new(),
-            crosslinkers: Vec::new(),
+            crosslinkers,
             repulsion: scene.repulsion,
             path: scene.path,
             observe: scene.observe,

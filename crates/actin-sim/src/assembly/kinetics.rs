@@ -184,12 +184,18 @@ impl Kinetics {
         state.controls[self.booked]
     }
 
-    /// Returns the state with all linkers bound, which is the stiffest.
+    /// Returns the state with all linkers bound, which is the stiffest. Roaming linkers are distributed
+    /// over all sites.
     pub(crate) fn all_bound(&self, state: &State) -> State {
         let mut bound = state.clone();
         for switching in &self.all {
-            for hand in switching.linker.hands() {
-                hand.bind(&mut bound, hand.site(state));
+            let sites = switching.table.sites.len();
+            for (k, hand) in switching.linker.hands().enumerate() {
+                let site = match switching.rates.roams {
+                    Some(_) => (switching.index + k * sites / 2) % sites,
+                    None => hand.site(state),
+                };
+                hand.bind(&mut bound, site);
             }
         }
         bound
@@ -518,7 +524,7 @@ impl Assembly {
         let coarsest = last.controls[kinetics.coarsest];
         (coarsest > COARSEST).then(|| {
             format!(
-                "linker rates under force reached {coarsest:.2} per time step: events are delayed by up to half a step, \
+                "linker rates reached {coarsest:.2} per time step: events are delayed by up to half a step, \
                  and each linker has at most one event per step; use a shorter time_step_ns"
             )
         })
