@@ -86,7 +86,8 @@ struct SceneArguments {
     /// Scene file; `-` reads standard input.
     scene: PathBuf,
     /// Replaces or adds a key of the scene. KEY is a path with indices of lists and vectors in
-    /// brackets; VALUE is RON. Example: `loads[0].force_pn[2]=-4.0`.
+    /// brackets, `[*]` for all elements of a list; VALUE is RON. Example:
+    /// `loads[0].force_pn[2]=-4.0`.
     #[arg(long, value_name = "KEY=VALUE")]
     set: Vec<Override>,
     /// Sets all seeds of the scene: sampled bonds, thermal noise, imperfections, linker events.

@@ -23,10 +23,10 @@ const MOST_BYTES: usize = 2_000_000;
 /// Value for a key of a scene as text: `filament.rod.law=Constant`.
 ///
 /// The key is a path of keys and indices of lists and vectors, without names of choices (`task.duration_ns`).
-/// The value is RON.
+/// `[*]` stands for all elements of a list. The value is RON.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Override {
-    /// Path of the key, such as `loads[0].force_pn[2]`.
+    /// Path of the key, such as `loads[0].force_pn[2]` or `linkers[*].stiffness_pn_per_nm`.
     pub key: String,
     /// Value in RON.
     pub value: String,
@@ -58,7 +58,7 @@ fn is_path(key: &str) -> bool {
     key.split('.').all(|step| {
         let (word, mut indices) = step.split_at(step.find('[').unwrap_or(step.len()));
         while let Some((index, rest)) = indices.strip_prefix('[').and_then(|i| i.split_once(']')) {
-            if index.parse::<usize>().is_err() {
+            if index != "*" && index.parse::<usize>().is_err() {
                 return false;
             }
             indices = rest;
@@ -558,6 +558,33 @@ mod tests {
         assert_eq!(
             (one.key.as_str(), one.value.as_str()),
             ("a.b[0][1].c", "Some((x: \"=\"))")
+        );
+    }
+
+    #[test]
+    fn all_elements_of_a_list_are_set() {
+        let scene = with(SCENE, &["loads[*].force_pn[*]=4.0"]);
+        let rule = scene.unwrap_err().to_string();
+        assert!(
+            rule.contains("loads[0].force_pn must be a list with elements"),
+            "{rule}"
+        );
+        let two = SCENE.replace(
+            "force_pn: (1.0, 2.0, 3.0)),",
+            "force_pn: (1.0, 2.0, 3.0)), EndForce(end: End, force_pn: (0.0, 0.0, 1.0)),",
+        );
+        let scene = with(&two, &["loads[*].force_pn[2]=4.0"]).unwrap();
+        for load in &scene.loads {
+            let crate::Load::EndForce { force_pn, .. } = load else {
+                panic!("all loads are end forces: {load:?}")
+            };
+            assert!((force_pn[2] - 4.0).abs() < 1e-15);
+        }
+        let refused = with(SCENE, &["linkers[*].stiffness_pn_per_nm=1.0"]);
+        let rule = refused.unwrap_err().to_string();
+        assert!(
+            rule.contains("linkers must be a list with elements for [*]"),
+            "{rule}"
         );
     }
 }

@@ -101,6 +101,9 @@ impl From<Kind> for SceneValue {
     }
 }
 
+/// Index of all elements of a list in a path.
+const ALL: &str = "[*]";
+
 impl SceneValue {
     /// Creates a dictionary. A single key that begins with a capital letter is the name of a choice.
     pub fn keys(entries: Vec<(String, Self)>) -> Self {
@@ -243,7 +246,7 @@ impl SceneValue {
         indices
     }
 
-    /// Sets or adds a key. [`Override`](super::Override) describes paths.
+    /// Sets or adds a key, with `[*]` in all elements of a list. [`Override`](super::Override) describes paths.
     ///
     /// ```
     /// use actin_scene::{SceneKind::Whole, SceneValue};
@@ -253,12 +256,29 @@ impl SceneValue {
     /// scene.set("section.to_nm", Whole(80).into())?;
     /// assert_eq!(scene, all(Whole(80).into()));
     /// assert!(scene.set("section[3]", Whole(1).into()).is_err());
+    /// assert!(scene.set("section[*]", Whole(1).into()).is_err());
     /// # Ok::<(), actin_scene::SceneProblem>(())
     /// ```
     ///
     /// # Errors
-    /// If the path leads through a value without keys or beyond the end of a list.
+    /// If the path leads through a value without keys or beyond the end of a list, or if `[*]` does not follow a
+    /// list with elements.
     pub fn set(&mut self, path: &str, value: Self) -> Result<(), SceneProblem> {
+        let Some((list, rest)) = path.split_once(ALL) else {
+            return self.set_one(path, value);
+        };
+        let steps = self.resolved(list);
+        let indices = self.follow(&steps);
+        let found = self.at(&indices);
+        let count = found.children().len();
+        if indices.len() < steps.len() || !found.is_list() || count == 0 {
+            let rule = format!("{list} must be a list with elements for {ALL}");
+            return Err(SceneProblem::new(path, "", rule));
+        }
+        (0..count).try_for_each(|i| self.set(&format!("{list}[{i}]{rest}"), value.clone()))
+    }
+
+    fn set_one(&mut self, path: &str, value: Self) -> Result<(), SceneProblem> {
         let refused = |rule: String| SceneProblem::new(path, "", rule);
         let steps = self.resolved(path);
         let indices = self.follow(&steps);

@@ -182,15 +182,20 @@ fn check_twice(sweep: &Sweep) -> Checked {
     Ok(())
 }
 
-/// Returns whether a key equals `above` or lies below it; `filament` equals `filaments[0]`.
+/// Returns whether a key equals `above` or lies below it; `filament` equals `filaments[0]`, and `[*]` any index.
 fn is_within(key: &str, above: &str) -> bool {
     let own = |key: &str| match key.strip_prefix("filaments[0]") {
         Some(rest) => format!("filament{rest}"),
         None => key.to_owned(),
     };
     let (key, above) = (own(key), own(above));
-    let rest = key.strip_prefix(&above);
-    rest.is_some_and(|rest| rest.is_empty() || rest.starts_with(['.', '[']))
+    let mut steps = key.split(['.', '[']);
+    let is_index = |step: &str| step.ends_with(']');
+    above.split(['.', '[']).all(|above| {
+        steps.next().is_some_and(|step| {
+            step == above || ([step, above].contains(&"*]") && is_index(step) && is_index(above))
+        })
+    })
 }
 
 fn check_result(i: usize, name: &str, is_new: bool) -> Checked {

@@ -16,6 +16,23 @@ pub(super) enum Work {
         length_nm: f64,
     },
     Ensemble(Replicated),
+    Network(Network),
+}
+
+/// Random network of rods of 1 um with 10 segments in water, in steps of 4.5 us.
+#[derive(Clone, Copy)]
+pub(super) struct Network {
+    pub(super) filaments: usize,
+    pub(super) couplings: Couplings,
+}
+
+#[derive(Clone, Copy)]
+pub(super) enum Couplings {
+    /// 2.5 permanent linkers per filament.
+    Linkers,
+    LinkersAndContacts,
+    /// 2.5 crosslinkers per filament that bind and unbind.
+    Crosslinkers,
 }
 
 #[derive(Clone, Copy)]
@@ -88,6 +105,14 @@ const fn case(name: &'static str, work: Work, target: Option<f64>) -> Case {
     Case { name, work, target }
 }
 
+const fn network(name: &'static str, filaments: usize, couplings: Couplings) -> Case {
+    let network = Network {
+        filaments,
+        couplings,
+    };
+    case(name, Work::Network(network), None)
+}
+
 const fn ensemble(name: &'static str, of: Replicated) -> Case {
     case(name, Work::Ensemble(of), Some(1.9))
 }
@@ -96,7 +121,7 @@ const fn equilibrium(name: &'static str, length_nm: f64) -> Case {
     case(name, Work::Equilibrium { length_nm }, None)
 }
 
-pub(super) const CASES: [Case; 22] = [
+pub(super) const CASES: [Case; 27] = [
     case("rod-pv-16", rod(16, 1, VERLET), None),
     case("rod-pv-64", rod(64, 1, VERLET), Some(50e6)),
     case("rod-pv-256", rod(256, 1, VERLET), Some(50e6)),
@@ -127,6 +152,11 @@ pub(super) const CASES: [Case; 22] = [
     ensemble("ensemble-ellipsoid-160nm", Replicated::Monomers),
     ensemble("ensemble-mixed-160nm", Replicated::Mixed),
     ensemble("ensemble-equilibria-160nm", Replicated::Equilibria),
+    network("network-20", 20, Couplings::Linkers),
+    network("network-100", 100, Couplings::Linkers),
+    network("network-500", 500, Couplings::Linkers),
+    network("network-100-repulsion", 100, Couplings::LinkersAndContacts),
+    network("network-100-crosslinkers", 100, Couplings::Crosslinkers),
 ];
 
 impl Case {
@@ -143,6 +173,7 @@ impl Case {
             Work::Motion(_) => "bonds/s",
             Work::Equilibrium { .. } => "s",
             Work::Ensemble(_) => "times one thread",
+            Work::Network(_) => "s per ms",
         }
     }
 }

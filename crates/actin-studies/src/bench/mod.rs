@@ -1,12 +1,13 @@
 //! `cargo xtask bench`: rates of fixed cases in a release build, with targets and rates of other programs.
 //!
 //! Cases use the public interface: a scene is assembled, and its system is stepped or solved. All but ensembles run
-//! on one thread, without linkers, drag or observers.
+//! on one thread. Motions have no linkers, drag or observers.
 
 mod cases;
 mod ensemble;
 mod equilibrium;
 mod motion;
+mod network;
 mod peers;
 
 use anyhow::{Error, Result};
@@ -38,7 +39,7 @@ struct Entry {
     case: &'static str,
     /// Best of the repeats, in `unit`.
     rate: f64,
-    /// Elements per second, seconds, or speed-up over one thread.
+    /// Elements per second, seconds, seconds per simulated ms, or speed-up over one thread.
     unit: &'static str,
 }
 
@@ -72,6 +73,7 @@ fn measure(options: &Options) -> Result<Vec<Entry>, String> {
             Work::Motion(motion) => motion::measure(&motion),
             Work::Equilibrium { length_nm } => equilibrium::measure(length_nm),
             Work::Ensemble(of) => ensemble::measure(of),
+            Work::Network(network) => network::measure(network),
         }
         .map_err(|error| format!("{}: {error}", case.name))?;
         if !options.json {
@@ -93,11 +95,11 @@ fn print_row(case: &Case, measured: &Timings) {
     let scaled = |value: f64| match case.work {
         Work::Motion(_) => format!("{:.1}", 1e-6 * value),
         Work::Equilibrium { .. } => format!("{value:.4}"),
-        Work::Ensemble(_) => format!("{value:.2}"),
+        Work::Ensemble(_) | Work::Network(_) => format!("{value:.2}"),
     };
     let million = match case.work {
         Work::Motion(_) => "1e6 ",
-        Work::Equilibrium { .. } | Work::Ensemble(_) => "",
+        Work::Equilibrium { .. } | Work::Ensemble(_) | Work::Network(_) => "",
     };
     println!(
         "{ratio:>13}  {:30} {:>10} {:>10} {:>10}  {million}{}; {}",
