@@ -102,7 +102,7 @@ use crate::stress::Stresses;
 use crate::{Flow, Friction};
 use actin_equilibrium::{ImplicitSolver, Layout, SolveError, StepSize};
 use actin_integrate::{Body, FailureKind, Noise, StepFailure, Stepper};
-use actin_mechanics::{Loads, Split, State, System, Thermostat, Vector3, rotation};
+use actin_mechanics::{Coordinates, Loads, Split, State, System, Thermostat, Vector3, rotation};
 use thiserror::Error;
 
 /// Separates this noise from other uses of the same seed.
@@ -357,7 +357,9 @@ impl Brownian {
             (self.thermal_energy, stream),
         );
         system.drift(h);
-        let solved = self.solve_stressed(system, h);
+        let solved = self
+            .check_driven(system)
+            .and_then(|()| self.solve_stressed(system, h));
         if solved.is_ok() {
             self.book(system, h);
             let (state, interactions) = system.state_mut_and_interactions();
@@ -370,6 +372,22 @@ impl Brownian {
         system.state_mut().copy_motion_from(&start);
         self.step_stressed(system, (step, 2 * part), 0.5 * h)?;
         self.step_stressed(system, (step, 2 * part + 1), 0.5 * h)
+    }
+
+    /// Fails if driven bodies move through others at once.
+    fn check_driven(&self, system: &System) -> Result<(), StepFailure> {
+        let state = system.state();
+        let mut interactions = system.interactions().iter();
+        match interactions.find_map(|one| one.passes_through(&self.start, state)) {
+            None => Ok(()),
+            Some(body) => Err(StepFailure {
+                problem: FailureKind::PassesThrough,
+                body: match body {
+                    Coordinates::Point(i) => Body::Point(i),
+                    Coordinates::Frame(i) => Body::Frame(i),
+                },
+            }),
+        }
     }
 
     /// Makes a step without noise, one of `parts` equal parts of the whole step. A step that does

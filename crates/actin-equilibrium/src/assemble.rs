@@ -413,23 +413,12 @@ impl<'a> Target<'a> {
     fn push_entries(&self, state: &State, (a, b, block): Block, links: &mut Vec<LinkEntry>) {
         let range = |body| self.layout.unknowns_of(body).unwrap_or(0..0);
         let (rows, columns) = (range(a), range(b));
-        let is_group = |body| {
-            let node = self.layout.node_of(body).map(|node| self.layout.node(node));
-            matches!(node, Some(Node::Group(_)))
-        };
-        let mut push = |value: &dyn Fn(usize, usize) -> f64| {
-            for (j, column) in columns.clone().enumerate() {
-                links.extend(rows.clone().enumerate().map(|(i, row)| LinkEntry {
-                    unknowns: [row, column],
-                    value: value(i, j),
-                }));
-            }
-        };
-        if is_group(a) || is_group(b) {
-            let block = self.in_unknowns(state, a, b, &block);
-            push(&|i, j| block[(i, j)]);
-        } else {
-            push(&|i, j| block[(i, j)]);
+        let block = self.in_unknowns(state, a, b, &block);
+        for (j, column) in columns.enumerate() {
+            links.extend(rows.clone().enumerate().map(|(i, row)| LinkEntry {
+                unknowns: [row, column],
+                value: block[(i, j)],
+            }));
         }
     }
 
@@ -523,9 +512,17 @@ impl<'a> Target<'a> {
         b: Coordinates,
         block: &Matrix3,
     ) -> Matrix6<f64> {
+        if [a, b].into_iter().all(|body| self.is_single(body)) {
+            return block.fixed_resize(0.0);
+        }
         let a = self.derivative(state, a);
         let b = self.derivative(state, b);
         a.transpose() * (block * b)
+    }
+
+    fn is_single(&self, body: Coordinates) -> bool {
+        let node = self.layout.node_of(body).map(|node| self.layout.node(node));
+        !matches!(node, Some(Node::Group(_)))
     }
 
     /// Zero padded.

@@ -18,7 +18,7 @@ pub enum Coordinates {
 ///
 /// Blocks of a chain, such as a rod, are pushed for the same pairs in the same order at every
 /// state, so that an assembler can store their positions. Links couple other pairs, and these may
-/// change: linkers between filaments, contacts.
+/// change: springs between chains, contacts.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Stiffness {
     blocks: Vec<Block>,

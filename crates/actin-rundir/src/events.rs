@@ -75,7 +75,10 @@ fn event(record: &csv::StringRecord) -> Option<LinkerEvent> {
         force_pn: number(3)?,
         at_nm: number(4)?,
         energy_pn_nm: number(5)?,
-        hand: record.get(6)?.parse().ok()?,
-        filament: record.get(7)?.parse().ok()?,
+        // Files of earlier versions lack the last two columns.
+        hand: record.get(6).map_or(Some(0), |hand| hand.parse().ok())?,
+        filament: record
+            .get(7)
+            .map_or(Some(0), |filament| filament.parse().ok())?,
     })
 }

@@ -13,7 +13,7 @@ const MOST_FILAMENTS: usize = 100_000;
 /// Largest number of trials to place a filament.
 const MOST_TRIALS: usize = 1000;
 
-/// Largest deflection of straight filaments, relative to their length.
+/// Largest difference between length and distance of the ends of straight filaments, relative to the length.
 const STRAIGHT: f64 = 1e-9;
 
 /// Number of sides of the polygon for the axis of a curved filament.
@@ -276,7 +276,7 @@ impl FilamentAxis {
     fn new(filament: &Filament) -> Self {
         let length = filament.length_nm();
         let ends = filament.places_at(&[0.0, 0.5 * length, length]);
-        let is_straight = ((ends[0] + ends[2]) * 0.5 - ends[1]).norm() < STRAIGHT * length;
+        let is_straight = (ends[0] - ends[2]).norm() > (1.0 - STRAIGHT) * length;
         let corners = if is_straight {
             vec![ends[0], ends[2]]
         } else {

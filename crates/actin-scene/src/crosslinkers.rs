@@ -1,6 +1,6 @@
 //! Crosslinkers and motors that bind to filaments and unbind from them.
 
-use super::linkers_between::SITE_SPACING_NM;
+use super::linkers_between::{MOST_SITES, SITE_SPACING_NM};
 use super::rules::{non_negative, positive};
 use super::{
     Breaking, Filament, Forming, Kinetics, Linker, LinkerSite, Roaming, SceneProblem, Stepping,
@@ -17,7 +17,8 @@ const KT_PN_NM: f64 = 4.114;
 const MOST: usize = 1_000_000;
 
 /// Pool of crosslinkers or motors. Each has two hands, which bind to sites on the axes of filaments. It exerts a
-/// force while both are bound to different filaments. Free crosslinkers are well mixed.
+/// force while both are bound to different filaments. Free crosslinkers are well mixed. A site holds one hand of the
+/// pools with the same distance and direction of sites.
 ///
 /// In a scene in memory, each crosslinker is a linker with `kinetics`.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -34,7 +35,7 @@ pub(crate) struct Crosslinkers {
     /// Rate at which a free crosslinker binds one hand to a random free site of all filaments; positive.
     pub attach_per_ns: f64,
     /// Rate at which the second hand binds to each free site of another filament within reach, without extension;
-    /// positive. The rate decreases with the energy of the linker, see `Forming`.
+    /// positive. The rate decreases with the energy of the linker, see `Roaming`.
     pub bind_per_ns: f64,
     /// Largest difference between the length at binding and the rest length; positive. By default the energy of the
     /// linker is 10 kT there.
@@ -67,7 +68,7 @@ impl Crosslinkers {
         k: usize,
         filaments: &[Filament],
     ) -> Result<Vec<Linker>, SceneProblem> {
-        self.check(k)?;
+        self.check(k, filaments)?;
         let length = filaments.first().map_or(0.0, Filament::length_nm);
         let site = LinkerSite {
             filament: 0,
@@ -75,19 +76,23 @@ impl Crosslinkers {
             radius_nm: 0.0,
             azimuth_deg: 0.0,
         };
-        let linker = Linker {
+        Ok(vec![self.linker(Some(site)); self.count])
+    }
+
+    /// A free crosslinker of the pool.
+    fn linker(&self, to: Option<LinkerSite>) -> Linker {
+        Linker {
             filament: 0,
             at_nm: 0.0,
             radius_nm: 0.0,
             azimuth_deg: 0.0,
-            to: Some(site),
+            to,
             anchor_nm: None,
             displaced_nm: None,
             stiffness_pn_per_nm: self.stiffness_pn_per_nm,
             rest_length_nm: self.rest_length_nm,
             kinetics: Some(self.kinetics()),
-        };
-        Ok(vec![linker; self.count])
+        }
     }
 
     /// Removes the crosslinkers at the end of `linkers` and returns their pools.
@@ -95,7 +100,10 @@ impl Crosslinkers {
         let mut pools: Vec<Self> = Vec::new();
         let mut last: Option<Linker> = None;
         while let Some(linker) = linkers.pop() {
-            match (Self::from_linker(&linker), pools.last_mut()) {
+            match (
+                Self::from_linker(&linker).filter(|pool| pool.linker(linker.to) == linker),
+                pools.last_mut(),
+            ) {
                 (None, _) => {
                     linkers.push(linker);
                     break;
@@ -128,7 +136,15 @@ impl Crosslinkers {
         })
     }
 
-    fn check(&self, k: usize) -> Result<(), SceneProblem> {
+    /// Distance between neighbouring sites (nm).
+    fn spacing(&self) -> f64 {
+        let default = self
+            .steps
+            .map_or(SITE_SPACING_NM, |steps| steps.step_nm.abs());
+        self.site_spacing_nm.unwrap_or(default)
+    }
+
+    fn check(&self, k: usize, filaments: &[Filament]) -> Result<(), SceneProblem> {
         let key = |name: &str| format!("crosslinkers[{k}].{name}");
         if !(1..=MOST).contains(&self.count) {
             let rule = format!("must be from 1 to {MOST}");
@@ -138,6 +154,25 @@ impl Crosslinkers {
         non_negative(&key("rest_length_nm"), self.rest_length_nm)?;
         positive(&key("attach_per_ns"), self.attach_per_ns)?;
         positive(&key("bind_per_ns"), self.bind_per_ns)?;
+        if let Some(reach) = self.reach_nm {
+            positive(&key("reach_nm"), reach)?;
+        }
+        if filaments.len() < 2 {
+            let rule = "crosslinkers bind to different filaments: a scene has at least two";
+            return Err(SceneProblem::new(format!("crosslinkers[{k}]"), "", rule));
+        }
+        let spacing = self.spacing();
+        let sites = filaments
+            .iter()
+            .map(|one| (one.length_nm() / spacing + 0.5).floor());
+        let sites: f64 = sites.sum();
+        if !(1.0..=MOST_SITES).contains(&sites) {
+            let rule = format!(
+                "sites {spacing:?} nm apart, the first at half this distance, give {sites} sites: must be from 1 to \
+                 {MOST_SITES:.0}; change site_spacing_nm or the length of steps"
+            );
+            return Err(SceneProblem::new(key("site_spacing_nm"), spacing, rule));
+        }
         if let (Some(spacing), Some(_)) = (self.site_spacing_nm, self.steps) {
             let rule = "the steps set the distance of sites: omit this key or steps";
             return Err(SceneProblem::new(key("site_spacing_nm"), spacing, rule));
@@ -147,9 +182,6 @@ impl Crosslinkers {
 
     fn kinetics(&self) -> Kinetics {
         let reach = (2.0 * REACH_KT * KT_PN_NM / self.stiffness_pn_per_nm).sqrt();
-        let spacing = self
-            .steps
-            .map_or(SITE_SPACING_NM, |steps| steps.step_nm.abs());
         Kinetics {
             seed: self.seed,
             bound: false,
@@ -162,7 +194,7 @@ impl Crosslinkers {
             averaging_ns: self.averaging_ns,
             roams: Some(Roaming {
                 attach_per_ns: self.attach_per_ns,
-                site_spacing_nm: self.site_spacing_nm.unwrap_or(spacing),
+                site_spacing_nm: self.spacing(),
             }),
         }
     }

@@ -38,17 +38,18 @@ pub struct Kinetics {
     /// events of a bound linker without force. With 0, rates depend on the force at the end of each step.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub averaging_ns: Option<f64>,
-    /// Binding of both ends to any site of any filament; by default only the first end can be released, and it
-    /// binds to `at_nm` or the places of its steps. Written by `crosslinkers`.
+    /// Binding of both ends to any site of any filament. By default only the first end can be released. Written by
+    /// `crosslinkers`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub roams: Option<Roaming>,
 }
 
 /// Linker with two hands that bind to free sites on the axes of all filaments.
 ///
-/// A free linker attaches one hand to a random site. The second hand binds to sites of other filaments within
-/// reach, at a rate per site of `k exp(-U/kT) g(f)` with the rate `k` of `forms`, the energy `U` of the linker
-/// and its factor `g` of `breaks`: together with the rate `g(f)` of release, detailed balance holds.
+/// A free linker attaches one hand to a random site. The second hand binds to sites of other filaments within reach.
+/// The rate per site is `k exp(-U/kT)` with the rate `k` of `forms` and the energy `U` of the linker. Without mean load,
+/// detailed balance holds. With `averaging_ns: 0`, binding has the factor of `breaks` at the present tension, and
+/// detailed balance holds under any load. `at_nm` and `to` do not apply.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
@@ -90,7 +91,7 @@ pub struct Catch {
 /// The rate is constant within reach, independent of the energy `U` of the linker. Detailed balance requires
 /// the ratio `exp(-U/kT)` of forming to breaking rates, which `breaks` does not satisfy. The steady state in a
 /// heat bath is therefore not thermal equilibrium, and events exchange energy with the filament
-/// (`events_pn_nm`). Linkers with `roams` satisfy detailed balance.
+/// (`events_pn_nm`). `Roaming` has a rate that depends on the energy.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
@@ -188,6 +189,10 @@ impl Kinetics {
     fn check_roaming(&self, roams: &Roaming, key: &str) -> Result<(), SceneProblem> {
         let name = format!("{key}.roams");
         positive(&format!("{name}.site_spacing_nm"), roams.site_spacing_nm)?;
+        if self.bound {
+            let rule = "linkers that roam are free at the start: write bound: false";
+            return Err(SceneProblem::new(format!("{key}.bound"), true, rule));
+        }
         if self.breaks.is_none() || self.forms.is_none() {
             let rule = "requires breaks and forms";
             return Err(SceneProblem::new(name, "", rule));

@@ -11,7 +11,7 @@ use std::collections::HashMap;
 /// Half the pitch of the long-pitch helix.
 pub(super) const SITE_SPACING_NM: f64 = 36.0;
 
-const MOST_SITES: f64 = 1e7;
+pub(super) const MOST_SITES: f64 = 1e7;
 
 /// Linkers between random pairs of sites of different filaments. Sites lie on the axes at equal distances; each site
 /// has at most one linker. The linkers follow the listed linkers.

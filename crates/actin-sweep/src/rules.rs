@@ -184,9 +184,9 @@ fn check_twice(sweep: &Sweep) -> Checked {
 
 /// Returns whether a key equals `above` or lies below it; `filament` equals `filaments[0]`, and `[*]` any index.
 fn is_within(key: &str, above: &str) -> bool {
-    let own = |key: &str| match key.strip_prefix("filaments[0]") {
-        Some(rest) => format!("filament{rest}"),
-        None => key.to_owned(),
+    let own = |key: &str| match key.strip_prefix("filament") {
+        Some(rest) if rest.is_empty() || rest.starts_with('.') => format!("filaments[0]{rest}"),
+        _ => key.to_owned(),
     };
     let (key, above) = (own(key), own(above));
     let mut steps = key.split(['.', '[']);

@@ -15,6 +15,7 @@ use rand_chacha::ChaCha8Rng;
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 use std::fmt;
+use std::ops::Range;
 use std::sync::{Arc, Mutex, PoisonError};
 
 /// Separates this random stream from other uses of the seed.
@@ -104,13 +105,19 @@ impl SiteTable {
         (next.0 == self.places[site].0).then_some(site + 1)
     }
 
+    /// Sites of a filament.
+    fn of_filament(&self, filament: usize) -> Range<usize> {
+        let first = self.places.partition_point(|place| place.0 < filament);
+        let past = self.places.partition_point(|place| place.0 <= filament);
+        first..past
+    }
+
     /// Site nearest to an arc length (nm) of a filament.
     fn nearest(&self, filament: usize, at_nm: f64) -> usize {
-        let distance = |place: &(usize, f64)| (place.1 - at_nm).abs();
-        let own = self.places.iter().enumerate();
-        let own = own.filter(|(_, place)| place.0 == filament);
-        own.min_by(|a, b| distance(a.1).total_cmp(&distance(b.1)))
-            .map_or(0, |(site, _)| site)
+        let distance = |site: &usize| (self.places[*site].1 - at_nm).abs();
+        let own = self.of_filament(filament);
+        own.min_by(|a, b| distance(a).total_cmp(&distance(b)))
+            .unwrap_or(0)
     }
 }
 
@@ -294,12 +301,16 @@ impl Switching {
 
     /// Applies an event that was read from a file.
     pub(crate) fn restore(&self, state: &mut State, event: &LinkerEvent) {
+        let filament = match self.rates.roams {
+            Some(_) => event.filament,
+            None => self.table.places[0].0,
+        };
         self.apply(
             state,
             &HandEvent {
                 what: event.what,
                 hand: event.hand,
-                site: self.table.nearest(event.filament, event.at_nm),
+                site: self.table.nearest(filament, event.at_nm),
             },
         );
     }
@@ -390,8 +401,11 @@ impl Switching {
         (extension <= forms.reach_nm).then_some((Some(event), forms.rate_per_ns))
     }
 
-    /// Averaged tension (pN).
+    /// Averaged tension (pN); zero unless bound.
     fn tension(&self, state: &State) -> f64 {
+        if !self.linker.is_bound(state) {
+            return 0.0;
+        }
         let (average, tension) = self.average.tension(state);
         if self.direction_of_linker(state).is_some() && average.x < 0.0 {
             0.0
@@ -431,9 +445,10 @@ impl Switching {
     /// Direction of the next step of a hand; at the end, of the last one.
     fn direction(&self, hand: usize, state: &State) -> Vector3 {
         let site = self.hand(hand).site(state);
+        let own = self.table.of_filament(self.table.places[site].0);
         let (from, to) = match self.table.next(site) {
             Some(next) => (site, next),
-            None => (site.saturating_sub(1), site),
+            None => (site.saturating_sub(1).max(own.start), site),
         };
         let at = |site: usize| self.table.sites[site].position(state);
         (at(to) - at(from)).try_normalize(0.0).unwrap_or_default()
@@ -489,6 +504,21 @@ impl Assembly {
 
     fn switching(&self, i: usize) -> Option<&Switching> {
         self.kinetics.as_ref()?.linker(i)
+    }
+
+    /// Filaments that linker `i` joins in `state`; the second is `None` for an anchor.
+    ///
+    /// # Panics
+    /// If the index is out of range.
+    pub fn linked_filaments(&self, i: usize, state: &State) -> (usize, Option<usize>) {
+        let written = &self.scene.linkers[i];
+        match self.switching(i).filter(|one| one.rates.roams.is_some()) {
+            None => (written.filament, written.to.map(|site| site.filament)),
+            Some(roaming) => {
+                let [first, second] = [0, 1].map(|hand| roaming.place(hand, state).0);
+                (first, Some(second))
+            }
+        }
     }
 
     /// Returns whether linker `i` is bound in `state` and the arc length of its site (nm); `None`

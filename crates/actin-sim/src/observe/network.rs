@@ -112,8 +112,8 @@ impl Linkers {
             if is_bound {
                 let extension = linker.extension(view.state);
                 found.tensions.push(written.stiffness_pn_per_nm * extension);
-                let to = written.to.map(|site| [written.filament, site.filament]);
-                found.joined.extend(to);
+                let (filament, other) = view.assembly.linked_filaments(i, view.state);
+                found.joined.extend(other.map(|other| [filament, other]));
             }
         }
         found
@@ -198,6 +198,29 @@ mod tests {
         observe: [Network],
         task: Brownian(duration_ms: 0.001, temperature_k: 298.0, seed: 1),
     )";
+
+    /// Bound crosslinkers join the filaments of their hands.
+    #[test]
+    fn crosslinkers_form_clusters() {
+        let text = "Scene(
+            filaments: [
+                Filament(sections: [Rod(from_nm: 0.0, to_nm: 100.0)]),
+                Filament(sections: [Rod(from_nm: 0.0, to_nm: 100.0)], at_nm: (500.0, 0.0, 0.0)),
+                Filament(sections: [Rod(from_nm: 0.0, to_nm: 100.0)], at_nm: (512.0, 0.0, 0.0)),
+            ],
+            crosslinkers: [Crosslinkers(count: 3, stiffness_pn_per_nm: 0.2, rest_length_nm: 10.0,
+                attach_per_ns: 1e-4, bind_per_ns: 1e-4, unbinds: Breaking(rate_per_ns: 1e-7), seed: 8)],
+            clamps: [Clamp(end: Start), Clamp(filament: 1, end: Start), Clamp(filament: 2, end: Start)],
+            observe: [Network],
+            task: Brownian(duration_ms: 0.1, temperature_k: 298.0, time_step_ns: 500.0, seed: 1),
+        )";
+        let assembly = build(text);
+        let (trajectory, _) = crate::Plan::new(&assembly).unwrap().run().unwrap();
+        let last = &trajectory.records.last().unwrap().state;
+        let observed = observe(&assembly, last);
+        assert!(value(&assembly, &observed, "network_bound_linkers") > 0.0);
+        assert!((value(&assembly, &observed, "network_clusters") - 2.0).abs() < 1e-12);
+    }
 
     /// A bundle has order parameter 1, the polarity of its directions, and linkers with known tensions.
     #[test]

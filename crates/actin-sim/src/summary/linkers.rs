@@ -1,7 +1,7 @@
 //! Linkers in `summary.json`.
 
 use super::components;
-use crate::{Assembly, scene};
+use crate::Assembly;
 use actin_coupling::Linker;
 use actin_mechanics::State;
 use serde::{Deserialize, Serialize};
@@ -33,12 +33,11 @@ pub struct LinkerSummary {
 
 impl LinkerSummary {
     pub(super) fn all(assembly: &Assembly, state: &State) -> Vec<Self> {
-        let written = &assembly.scene.linkers;
-        let linkers = written.iter().enumerate();
-        linkers
-            .map(|(i, written)| {
+        (0..assembly.linkers.len())
+            .map(|i| {
                 let (linker, _) = assembly.linker_in(i, state);
-                let summary = Self::new(written, &linker, state);
+                let filaments = assembly.linked_filaments(i, state);
+                let summary = Self::new(filaments, &linker, state);
                 match assembly.switched(i, state) {
                     None => summary,
                     Some((bound, at_nm)) => Self {
@@ -52,10 +51,14 @@ impl LinkerSummary {
             .collect()
     }
 
-    fn new(written: &scene::Linker, linker: &Linker, state: &State) -> Self {
+    fn new(
+        (filament, to_filament): (usize, Option<usize>),
+        linker: &Linker,
+        state: &State,
+    ) -> Self {
         Self {
-            filament: written.filament,
-            to_filament: written.to.map(|site| site.filament),
+            filament,
+            to_filament,
             site_nm: linker.site().position(state).into(),
             anchor_nm: linker.end_position(state).into(),
             force_pn: linker.force(state).into(),

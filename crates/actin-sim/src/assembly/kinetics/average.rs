@@ -19,6 +19,9 @@ pub(super) struct ForceAverage {
     sums: [ControlId; 8],
 }
 
+/// Sum of squared weights above which an average has one force, whose fluctuation is unknown.
+const SINGLE: f64 = 1.0 - 1e-6;
+
 const SQUARE: usize = 5;
 const WEIGHT: usize = 6;
 const WEIGHT_SQUARE: usize = 7;
@@ -29,6 +32,11 @@ impl ForceAverage {
             time,
             sums: [0.0; 8].map(|zero| state.add_control(zero)),
         }
+    }
+
+    /// Returns `true` if the averages are the forces of the last step.
+    pub(super) fn is_instantaneous(&self) -> bool {
+        self.time <= 0.0
     }
 
     /// Begins new averages, for a linker that has just formed.
@@ -73,7 +81,7 @@ impl ForceAverage {
         let squared = average.norm_squared();
         let correlation = sum(WEIGHT_SQUARE) / (weight * weight);
         let variance = (sum(SQUARE) / weight - squared).max(0.0);
-        let fluctuation = if self.time > 0.0 && variance > 0.0 {
+        let fluctuation = if correlation < SINGLE {
             correlation / (1.0 - correlation) * variance
         } else {
             0.0
@@ -111,9 +119,11 @@ mod tests {
             assert!(plain > mean * mean + 1.0);
             assert!(squares < mean * mean + 0.8 && squares > mean * mean - 0.3);
             average.begin(&mut state);
-            average.add(&mut state, 1.0, (Vector3::x() * 2.0, [0.5, 0.0]));
-            let (vector, tension) = average.tension(&state);
-            assert!((vector.x - 2.0).abs() < 1e-12 && (tension - 2.0).abs() < 1e-12);
+            for _ in 0..2 {
+                average.add(&mut state, 1.0, (Vector3::x() * 2.3, [0.5, 0.0]));
+                let (vector, tension) = average.tension(&state);
+                assert!((vector.x - 2.3).abs() < 1e-7 && (tension - 2.3).abs() < 1e-7);
+            }
             assert!((average.against(0, &state) - 0.5).abs() < 1e-12);
         }
     }

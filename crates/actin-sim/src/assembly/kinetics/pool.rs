@@ -12,7 +12,8 @@ const PURPOSE: [u8; 8] = *b"sites\0\0\0";
 pub(super) struct Pool {
     /// Table, identified by its address, and site.
     occupied: HashSet<(usize, usize)>,
-    grids: HashMap<usize, Grid>,
+    /// By table and search distance.
+    grids: HashMap<(usize, u64), Grid>,
 }
 
 /// Sites by cubic cells.
@@ -70,11 +71,12 @@ impl Pool {
         state: &State,
         (at, within): (Vector3, f64),
     ) -> Vec<usize> {
-        let grid = self.grids.entry(table_of(switching)).or_insert_with(|| {
+        let key = (table_of(switching), within.to_bits());
+        let grid = self.grids.entry(key).or_insert_with(|| {
             let sites = switching.table.sites.iter();
             Grid::new(sites.map(|site| site.position(state)).collect(), within)
         });
-        grid.near(at, within)
+        grid.near(at)
     }
 }
 
@@ -94,21 +96,17 @@ impl Grid {
         grid
     }
 
-    #[expect(
-        clippy::cast_possible_truncation,
-        reason = "few cells: the distance is of the order of a cell"
-    )]
-    fn near(&self, at: Vector3, within: f64) -> Vec<usize> {
-        let reach = (within / self.cell).ceil() as i64;
+    /// Sites within the edge of a cell.
+    fn near(&self, at: Vector3) -> Vec<usize> {
         let centre = cell_of(&at, self.cell);
-        let around = -reach..=reach;
+        let around = -1..=1;
         let mut found = Vec::new();
         for x in around.clone() {
             for y in around.clone() {
                 for z in around.clone() {
                     let cell = [centre[0] + x, centre[1] + y, centre[2] + z];
                     let own = self.cells.get(&cell).into_iter().flatten();
-                    found.extend(own.filter(|&&i| (self.positions[i] - at).norm() <= within));
+                    found.extend(own.filter(|&&i| (self.positions[i] - at).norm() <= self.cell));
                 }
             }
         }
@@ -200,9 +198,17 @@ impl Switching {
             if extension.abs() > forms.reach_nm {
                 continue;
             }
-            let tension = (linker.spring().stiffness * extension).max(0.0);
-            let factor = breaks.rate(tension) / breaks.rate(0.0);
+            // The averaged force of a linker that forms is zero. The present force is a fluctuation.
+            let factor = if self.average.is_instantaneous() {
+                let tension = (linker.spring().stiffness * extension).max(0.0);
+                breaks.rate(tension) / breaks.rate(0.0)
+            } else {
+                1.0
+            };
             let rate = forms.rate_per_ns * (-linker.energy(state) / thermal_energy).exp() * factor;
+            if rate.is_nan() {
+                continue;
+            }
             let event = HandEvent {
                 what: LinkerEventKind::Formed,
                 hand,
