@@ -34,9 +34,9 @@ def test_arrays_are_read_only_and_not_copied(motion):
     assert run.position_nm is run.position_nm
     with pytest.raises(ValueError, match="read-only"):
         run.position_nm[0, 0, 0] = 1.0
-    # A view of the Rust buffer with permuted axes.
+    # A view of the Rust buffer.
     assert run.position_nm.base is not None and not run.position_nm.flags.owndata
-    assert run.position_nm.strides == (25 * 3 * 8, 8, 25 * 8)
+    assert run.position_nm.strides == (25 * 3 * 8, 3 * 8, 8)
     assert run.position_nm.shape == run.velocity_nm_per_ns.shape == run.centre_line_nm.shape == (11, 25, 3)
     assert run.quaternion.shape == (11, 26, 4) and run.angular_momentum.shape == (11, 26, 3)
     assert run.s_nm.shape == run.kind.shape == run.filament.shape == (25,)

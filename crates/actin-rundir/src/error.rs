@@ -1,5 +1,6 @@
 //! Errors of run directories.
 
+use crate::CheckpointError;
 use crate::names::{MANIFEST, SCENE, STATES};
 use actin_sim::{RecordsError, SceneError, SceneProblem};
 use std::io;
@@ -105,6 +106,9 @@ pub enum RunDirectoryError {
     /// The records cannot be read back, or do not belong to the assembly.
     #[error(transparent)]
     Records(#[from] RecordsError),
+    /// The checkpoint cannot be read, or belongs to another run.
+    #[error(transparent)]
+    Checkpoint(#[from] CheckpointError),
     /// A file of results is damaged.
     #[error("{} is damaged: {reason}", .path.display())]
     Damaged {
@@ -187,11 +191,32 @@ pub enum RunDirectoryError {
 }
 
 impl RunDirectoryError {
+    /// Adds a path to an error of the file system. Other errors inside of `io::Error` are returned
+    /// unchanged.
     pub(crate) fn io(path: &Path) -> impl FnOnce(io::Error) -> Self {
-        move |source| Self::Io {
-            path: path.to_owned(),
-            source,
+        let path = path.to_owned();
+        move |error| match error.downcast() {
+            Ok(error) => error,
+            Err(source) => Self::Io { path, source },
         }
+    }
+
+    /// Refuses a value that is not finite, for writing as `quantity` of `file`.
+    pub(crate) fn ensure_finite(
+        file: &str,
+        quantity: &str,
+        index: &[usize],
+        value: f64,
+    ) -> io::Result<()> {
+        if value.is_finite() {
+            return Ok(());
+        }
+        Err(io::Error::other(Self::NotFinite {
+            file: file.to_owned(),
+            quantity: quantity.to_owned(),
+            index: index.to_owned(),
+            value,
+        }))
     }
 }
 

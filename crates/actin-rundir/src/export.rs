@@ -77,11 +77,8 @@ fn write(
     unfinished.push(format!(".{}.part", std::process::id()));
     let written = replace_file(path, Path::new(&unfinished), fill);
     // Errors of the run are returned unchanged, errors of the file with its path.
-    written.map_err(|error| match error.downcast::<RunDirectoryError>() {
-        Ok(error) => error,
-        Err(source) => RunDirectoryError::Export {
-            path: path.to_owned(),
-            source,
-        },
+    written.map_err(|error| match RunDirectoryError::io(path)(error) {
+        RunDirectoryError::Io { path, source } => RunDirectoryError::Export { path, source },
+        error => error,
     })
 }

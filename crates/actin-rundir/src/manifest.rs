@@ -47,6 +47,13 @@ impl Manifest {
         }
     }
 
+    /// Reads the manifest in `folder` or creates one, and refuses foreign files.
+    pub(crate) fn own(folder: &Path) -> Result<Self, RunDirectoryError> {
+        let manifest = Self::read(folder)?.unwrap_or_else(Self::new);
+        manifest.ensure_own(folder)?;
+        Ok(manifest)
+    }
+
     /// Creates a manifest of all files in `folder` that have names of results.
     pub(crate) fn of_all_in(folder: &Path) -> Result<Self, RunDirectoryError> {
         let mut manifest = Self::new();

@@ -10,11 +10,11 @@
 //!
 //! Each switch has two records at the same time, before and after it.
 
+use crate::RunDirectoryError;
 use crate::directory::RunDirectory;
 use crate::lock::LOCK;
-use crate::manifest::Manifest;
 use crate::names::{ENERGIES, MANIFEST, OBSERVABLES, PICTURES, STRETCHES, SUMMARY, SWITCHES};
-use crate::{RunDirectoryError, atomic};
+use crate::write::{read_json, write_json};
 use actin_sim::Summary;
 use actin_sim::follow::StretchStart;
 use std::fs;
@@ -40,13 +40,15 @@ const BOOKED: [&str; 3] = ["work_pn_nm", "heat_pn_nm", "events_pn_nm"];
 /// Directory of a chain of stretches.
 #[derive(Clone, Debug)]
 pub struct FollowedDirectory {
-    path: PathBuf,
+    directory: RunDirectory,
 }
 
 impl FollowedDirectory {
     /// Opens the directory at `path`, which is also a [`RunDirectory`].
     pub fn new(path: impl Into<PathBuf>) -> Self {
-        Self { path: path.into() }
+        Self {
+            directory: RunDirectory::existing(path),
+        }
     }
 
     /// Returns true if `path` contains a list of stretches.
@@ -56,12 +58,12 @@ impl FollowedDirectory {
 
     /// Path of the directory.
     pub fn path(&self) -> &Path {
-        &self.path
+        self.directory.path()
     }
 
     /// Path of a stretch.
     pub fn stretch(&self, index: usize) -> PathBuf {
-        self.path.join(FOLDER).join(format!("{index:04}"))
+        self.path().join(FOLDER).join(format!("{index:04}"))
     }
 
     /// Returns the starts of all stretches; empty without stretches.
@@ -69,12 +71,10 @@ impl FollowedDirectory {
     /// # Errors
     /// The file is unreadable or not a list of stretches.
     pub fn beginnings(&self) -> Result<Vec<StretchStart>, RunDirectoryError> {
-        if !Self::exists_at(&self.path) {
+        if !Self::exists_at(self.path()) {
             return Ok(Vec::new());
         }
-        let path = self.path.join(STRETCHES);
-        let read = fs::read_to_string(&path).and_then(|text| Ok(serde_json::from_str(&text)?));
-        read.map_err(RunDirectoryError::io(&path))
+        read_json(&self.path().join(STRETCHES))
     }
 
     /// Writes the starts of all stretches.
@@ -82,7 +82,8 @@ impl FollowedDirectory {
     /// # Errors
     /// A refusal of the file system.
     pub fn note(&self, beginnings: &[StretchStart]) -> Result<(), RunDirectoryError> {
-        self.replace(STRETCHES, |out| Ok(serde_json::to_writer(out, beginnings)?))
+        self.directory
+            .replace(STRETCHES, |out| write_json(&beginnings, out))
     }
 
     /// Removes the run directories of stretch `first` and all later ones, in descending order.
@@ -90,7 +91,7 @@ impl FollowedDirectory {
     /// # Errors
     /// A directory contains files that no run has written, or the file system refuses an operation.
     pub fn remove_from(&self, first: usize) -> Result<(), RunDirectoryError> {
-        let folder = self.path.join(FOLDER);
+        let folder = self.path().join(FOLDER);
         let Ok(entries) = fs::read_dir(&folder) else {
             return Ok(());
         };
@@ -114,7 +115,8 @@ impl FollowedDirectory {
         last: &Summary,
     ) -> Result<Summary, RunDirectoryError> {
         self.note(beginnings)?;
-        self.replace(SWITCHES, |out| switches(beginnings, out))?;
+        self.directory
+            .replace(SWITCHES, |out| switches(beginnings, out))?;
         let end_ns = self.join(ENERGIES, beginnings, &|header| {
             let common = COMMON.iter().map(|name| column(header, name));
             let booked = BOOKED.iter().filter_map(|name| column(header, name).ok());
@@ -130,9 +132,8 @@ impl FollowedDirectory {
         let stretches = stretches.map(|path| RunDirectory::existing(path).summary());
         let stretches = stretches.collect::<Result<_, _>>()?;
         let summary = Summary::from_stretches(beginnings, stretches, last, end_ns);
-        self.replace(SUMMARY, |out| {
-            Ok(serde_json::to_writer_pretty(out, &summary)?)
-        })?;
+        let directory = &self.directory;
+        directory.replace(SUMMARY, |out| write_json(&summary, out))?;
         Ok(summary)
     }
 
@@ -146,7 +147,7 @@ impl FollowedDirectory {
         of: &dyn Fn(&csv::StringRecord) -> io::Result<Vec<usize>>,
     ) -> Result<f64, RunDirectoryError> {
         let mut end_ns = 0.0;
-        self.replace(name, |out| {
+        self.directory.replace(name, |out| {
             let mut writer = csv::Writer::from_writer(out);
             for beginning in beginnings {
                 let path = self.stretch(beginning.index).join(name);
@@ -172,20 +173,6 @@ impl FollowedDirectory {
             writer.flush()
         })?;
         Ok(end_ns)
-    }
-
-    fn replace(
-        &self,
-        name: &str,
-        write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
-    ) -> Result<(), RunDirectoryError> {
-        let mut manifest = Manifest::read(&self.path)?.unwrap_or_else(Manifest::new);
-        manifest.ensure_own(&self.path)?;
-        manifest.add([name]);
-        manifest.write(&self.path)?;
-        let path = self.path.join(name);
-        let written = atomic::replace_durably(&path, |out| write(out));
-        written.map_err(RunDirectoryError::io(&path))
     }
 }
 

@@ -7,11 +7,11 @@ use super::{CheckpointError, Damage};
 use crate::RunDirectoryError;
 use crate::atomic::replace_durably;
 use crate::directory::RunDirectory;
+use crate::lock::RunLock;
 use crate::manifest::remove_if_there;
-use crate::names::{CHECKPOINT, RECORDS, SCENE, SUMMARY};
+use crate::names::{CHECKPOINT, RECORDS, SCENE};
 use actin_sim::{
-    Plan, Record, RecordIter, RecordSummary, Records, RowIter, RunPosition, SavedRun, Sink, Status,
-    Summary,
+    Plan, Record, RecordIter, RecordSummary, Records, RunPosition, SavedRun, Sink, Status,
 };
 use std::borrow::Cow;
 use std::fs;
@@ -21,6 +21,31 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
+/// Treatment of an existing run directory.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Existing {
+    /// A directory that is not empty is refused.
+    Refuse,
+    /// An earlier run is replaced.
+    Overwrite,
+    /// An interrupted run is continued.
+    Resume,
+}
+
+/// Run directory after [`Checkpoints::open`].
+#[derive(Debug)]
+pub enum OpenedRun {
+    /// The run begins or continues.
+    Begun {
+        /// Position of an interrupted run; `None` for a new run.
+        saved: Option<Box<SavedRun>>,
+        /// Lock, to be held until the end of the run.
+        lock: RunLock,
+    },
+    /// The run to be resumed is finished.
+    Finished(Status),
+}
+
 /// Sink of a run directory, which writes records and checkpoints.
 ///
 /// Checkpoints are written at an interval of time, on interruption and at the end of the run.
@@ -28,13 +53,12 @@ use std::time::{Duration, Instant};
 /// stays and writing is repeated after the interval.
 #[derive(Debug)]
 pub struct Checkpoints {
-    path: PathBuf,
+    directory: RunDirectory,
     identity: Identity,
     log: RecordLog,
     every: Duration,
     last: Instant,
     interrupted: Arc<AtomicBool>,
-    written: u64,
     warn: fn(&CheckpointError),
     last_failed: bool,
 }
@@ -54,16 +78,58 @@ impl Checkpoints {
         let identity = Identity::new(plan);
         let records = directory.path.join(RECORDS);
         Self {
-            path: directory.path.join(CHECKPOINT),
+            directory: directory.clone(),
             log: RecordLog::new(records, Tally::default(), &identity.form, None),
             identity,
             every,
             last: Instant::now(),
             interrupted,
-            written: 0,
             warn,
             last_failed: false,
         }
+    }
+
+    /// Opens the directory of a run and locks it. A new run begins with its scene.
+    ///
+    /// # Errors
+    /// The directory or its checkpoint is refused; see [`RunDirectory::create`] and
+    /// [`resume`](Self::resume).
+    pub fn open(
+        &mut self,
+        plan: &Plan<'_>,
+        existing: Existing,
+    ) -> Result<OpenedRun, RunDirectoryError> {
+        let directory = self.directory.clone();
+        let is_resumed = || existing == Existing::Resume && directory.has_checkpoint();
+        let ended = || match existing {
+            Existing::Resume if !directory.has_checkpoint() => directory.ending(plan),
+            _ => Ok(None),
+        };
+        // Checked before locking: a finished run is not written to.
+        if let Some(status) = ended()? {
+            return Ok(OpenedRun::Finished(status));
+        }
+        let lock = if is_resumed() {
+            RunLock::acquire(directory.path())?
+        } else {
+            // A run that was killed before its first checkpoint or results is replaced.
+            let is_left = existing == Existing::Resume && directory.is_unfinished();
+            let overwrite = existing == Existing::Overwrite || is_left;
+            RunDirectory::create_locked(directory.path(), overwrite)?.1
+        };
+        // Another run may have ended before the lock was taken.
+        if let Some(status) = ended()? {
+            return Ok(OpenedRun::Finished(status));
+        }
+        let saved = if is_resumed() {
+            let saved = self.resume(plan)?;
+            directory.reopen()?;
+            Some(Box::new(saved))
+        } else {
+            directory.write_scene(plan.scene())?;
+            None
+        };
+        Ok(OpenedRun::Begun { saved, lock })
     }
 
     /// Reads the checkpoint of an interrupted run, for [`resume_into`](Plan::resume_into).
@@ -71,17 +137,17 @@ impl Checkpoints {
     /// # Errors
     /// The checkpoint or its records are missing or damaged, or belong to another scene or version.
     pub fn resume(&mut self, plan: &Plan<'_>) -> Result<SavedRun, CheckpointError> {
-        let damaged = |damage: Damage| damage.of(&self.path);
-        let contents = self.identity.read(&self.path).map_err(damaged)?;
+        let path = self.directory.path.join(CHECKPOINT);
+        let damaged = |damage: Damage| damage.of(&path);
+        let contents = self.identity.read(&path).map_err(damaged)?;
         let (records, form) = (contents.records, &self.identity.form);
         let none = RecordSummary::new(plan.assembly());
         let saved = contents.saved(&none, form).map_err(damaged)?;
-        let path = self.path.with_file_name(RECORDS);
+        let path = self.directory.path.join(RECORDS);
         self.log = RecordLog::new(path.clone(), records, form, saved.recorded.last.as_ref());
         // Reports unreadable records before the run continues.
-        for stored in self.log.read().map_err(|damage| damage.of(&path))? {
-            stored.map_err(|damage| damage.of(&path))?;
-        }
+        let mut records = self.log.read().map_err(|damage| damage.of(&path))?;
+        records.try_for_each(|record| record.map(drop).map_err(|damage| damage.of(&path)))?;
         Ok(saved)
     }
 
@@ -96,7 +162,7 @@ impl Checkpoints {
         recorded: &RecordSummary,
         wall_s: f64,
     ) -> Result<(), CheckpointError> {
-        let log = self.path.with_file_name(RECORDS);
+        let [path, log] = [CHECKPOINT, RECORDS].map(|name| self.directory.path.join(name));
         let synced = self.log.sync(recorded.count());
         let records = synced.map_err(|error| Damage::from(error).of(&log))?;
         let bytes = self.identity.encode(&Contents {
@@ -106,8 +172,8 @@ impl Checkpoints {
             carried: Cow::Borrowed(&recorded.carried),
             last: recorded.last.as_ref().map(|last| Stored::new(last, true)),
         });
-        let replaced = replace_durably(&self.path, |out| out.write_all(&bytes));
-        replaced.map_err(|error| Damage::from(error).of(&self.path))
+        let replaced = replace_durably(&path, |out| out.write_all(&bytes));
+        replaced.map_err(|error| Damage::from(error).of(&path))
     }
 }
 
@@ -127,9 +193,8 @@ impl Sink for Checkpoints {
     fn checkpoint(&mut self, position: &RunPosition, recorded: &RecordSummary, wall_s: f64) {
         let outcome = self.write(position, recorded, wall_s);
         self.last_failed = outcome.is_err();
-        match outcome {
-            Ok(()) => self.written += 1,
-            Err(error) => (self.warn)(&error),
+        if let Err(error) = outcome {
+            (self.warn)(&error);
         }
         self.last = Instant::now();
     }
@@ -143,10 +208,6 @@ impl Records for Checkpoints {
 
     fn iter(&self) -> RecordIter<'_> {
         self.log.iter()
-    }
-
-    fn rows(&self) -> RowIter<'_> {
-        self.log.rows()
     }
 }
 
@@ -165,18 +226,14 @@ impl RunDirectory {
     ///
     /// # Errors
     /// The results belong to another scene.
-    pub fn ending(&self, plan: &Plan<'_>) -> Result<Option<Status>, CheckpointError> {
-        let read = |name| fs::read_to_string(self.path.join(name)).ok();
-        let (Some(summary), Some(scene)) = (read(SUMMARY), read(SCENE)) else {
-            return Ok(None);
-        };
-        let Ok(summary) = serde_json::from_str::<Summary>(&summary) else {
+    pub fn ending(&self, plan: &Plan<'_>) -> Result<Option<Status>, RunDirectoryError> {
+        let path = self.path.join(SCENE);
+        let (Ok(summary), Ok(scene)) = (self.summary(), fs::read_to_string(&path)) else {
             return Ok(None);
         };
         if summary.status == Status::Interrupted {
             return Ok(None);
         }
-        let path = self.path.join(SCENE);
         same_scene(&scene, &plan.scene().to_ron()).map_err(|damage| damage.of(&path))?;
         Ok(Some(summary.status))
     }

@@ -5,7 +5,7 @@ use super::log::{Tally, compare, open};
 use super::stored::{Form, Stored};
 use super::wire::{decode, decode_all, encode};
 use crate::difference::{Difference, first_difference};
-use actin_sim::{Plan, RecordSummary, RunPosition, RunStatistics, SavedRun, Task};
+use actin_sim::{Plan, RecordSummary, RunPosition, RunStatistics, SavedRun, StoredRecord, Task};
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 use std::io::Read;
@@ -114,7 +114,8 @@ impl Contents<'_> {
             let what = "the numbers of records, bodies or columns differ from the run";
             return Err(Damage::Contents(what.into()));
         }
-        let last = self.last.and_then(|last| last.into_record(form));
+        let last = self.last.map(|last| last.into_record(form));
+        let last = last.and_then(StoredRecord::into_record);
         Ok(SavedRun {
             position: self.position.into_owned(),
             recorded: RecordSummary { carried, last },

@@ -3,7 +3,8 @@
 use super::Damage;
 use super::stored::{Form, Stored};
 use super::wire::encode;
-use actin_sim::{Record, RecordIter, Records, RowIter};
+use actin_sim::mechanics::State;
+use actin_sim::{Record, RecordIter, Records, StoredRecord};
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 use std::fs::{File, OpenOptions};
@@ -31,7 +32,8 @@ pub(super) struct Tally {
 pub(super) struct RecordLog {
     path: PathBuf,
     form: Form,
-    last: Option<Record>,
+    /// State of the last record, if the file has no states.
+    last: Option<State>,
     /// Bytes of a record and its checksum.
     length: usize,
     file: Option<File>,
@@ -50,7 +52,7 @@ impl RecordLog {
         Self {
             path,
             form: form.clone(),
-            last: last.filter(|_| !form.has_states).cloned(),
+            last: last.filter(|_| !form.has_states).map(|r| r.state.clone()),
             length: Stored::length(form) + CHECKSUM,
             file: None,
             written: tally,
@@ -66,7 +68,7 @@ impl RecordLog {
         let stored = Stored::new(record, self.form.has_states);
         self.buffer = encode(&stored, std::mem::take(&mut self.buffer));
         if !self.form.has_states {
-            self.last = Some(record.clone());
+            self.last = Some(record.state.clone());
         }
         let checksum = follow(self.taken.checksum, &self.buffer[start..]);
         self.buffer.extend(checksum.to_le_bytes());
@@ -128,23 +130,13 @@ impl RecordLog {
         Ok(Tally { count, checksum })
     }
 
+    /// Length of the file in bytes.
     fn end(&self) -> u64 {
-        HEADER + self.written.count as u64 * self.length as u64
+        let records = (self.written.count as u64).saturating_mul(self.length as u64);
+        records.saturating_add(HEADER)
     }
 
-    fn checked_end(&self) -> Option<u64> {
-        let records = (self.written.count as u64).checked_mul(self.length as u64)?;
-        records.checked_add(HEADER)
-    }
-
-    fn stored(&self) -> Box<dyn Iterator<Item = io::Result<Stored<'static>>> + '_> {
-        let refused = |damage: Damage| io::Error::other(damage.of(&self.path));
-        match self.read() {
-            Ok(reading) => Box::new(reading.map(move |stored| stored.map_err(refused))),
-            Err(damage) => Box::new(std::iter::once(Err(refused(damage)))),
-        }
-    }
-
+    /// Begins to read all records.
     pub(super) fn read(&self) -> Result<Reading<'_>, Damage> {
         let file: Box<dyn Read> = match self.written.count {
             0 => Box::new(io::empty()),
@@ -160,10 +152,7 @@ impl RecordLog {
     }
 
     fn read_file(&self) -> Result<impl Read + use<>, Damage> {
-        let Some(expected) = self.checked_end() else {
-            let count = self.written.count;
-            return Err(Damage::Contents(format!("{count} records")));
-        };
+        let expected = self.end();
         let file = open(&self.path)?;
         let found = file.metadata()?.len();
         if found < expected {
@@ -187,15 +176,11 @@ impl Records for RecordLog {
     }
 
     fn iter(&self) -> RecordIter<'_> {
-        if !self.form.has_states {
-            return Box::new(self.last.iter().map(|record| Ok(Cow::Borrowed(record))));
+        let refused = |damage: Damage| io::Error::other(damage.of(&self.path));
+        match self.read() {
+            Ok(reading) => Box::new(reading.map(move |record| record.map_err(refused))),
+            Err(damage) => Box::new(std::iter::once(Err(refused(damage)))),
         }
-        let whole = |stored: Stored<'_>| stored.into_record(&self.form).map(Cow::Owned);
-        Box::new(self.stored().filter_map(move |r| r.map(whole).transpose()))
-    }
-
-    fn rows(&self) -> RowIter<'_> {
-        Box::new(self.stored().map(|stored| stored.map(Stored::into_row)))
     }
 }
 
@@ -207,8 +192,8 @@ pub(super) struct Reading<'a> {
     has_ended: bool,
 }
 
-impl Reading<'_> {
-    fn next_record(&mut self) -> Result<Option<Stored<'static>>, Damage> {
+impl<'a> Reading<'a> {
+    fn next_record(&mut self) -> Result<Option<StoredRecord<'a>>, Damage> {
         let Self { log, tally, .. } = self;
         if tally.count == log.taken.count {
             let part = "all records (possibly of another checkpoint)".into();
@@ -221,12 +206,17 @@ impl Reading<'_> {
         let written = u32::from_le_bytes(written);
         compare(format!("record {}", tally.count), tally.checksum, written)?;
         tally.count += 1;
-        Stored::read(body, &log.form).map(Some)
+        let mut record = Stored::read(body, &log.form)?.into_record(&log.form);
+        if tally.count == log.taken.count {
+            let last = log.last.as_ref();
+            record.state = record.state.or(last.map(Cow::Borrowed));
+        }
+        Ok(Some(record))
     }
 }
 
-impl Iterator for Reading<'_> {
-    type Item = Result<Stored<'static>, Damage>;
+impl<'a> Iterator for Reading<'a> {
+    type Item = Result<StoredRecord<'a>, Damage>;
 
     fn next(&mut self) -> Option<Self::Item> {
         if self.has_ended {
@@ -379,8 +369,9 @@ mod tests {
         // state.
         let expected = 9 + 6 * 8 + 8 * log.form.terms + 3;
         assert_eq!(log.length, expected + CHECKSUM);
-        let rows: Vec<Row> = log.rows().map(Result::unwrap).collect();
-        let expected: Vec<Row> = records.iter().map(Record::row).collect();
+        let rows = log.iter().map(|record| record.unwrap().row.into_owned());
+        let rows: Vec<Row> = rows.collect();
+        let expected: Vec<Row> = records.iter().map(|record| record.row.clone()).collect();
         assert_eq!((rows, log.count()), (expected, 3));
         let kept = Trajectory::read(&log).unwrap().records;
         assert_eq!((kept.len(), &kept[0].state), (1, &records[2].state));

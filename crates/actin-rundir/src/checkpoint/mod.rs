@@ -37,5 +37,5 @@ mod log;
 mod stored;
 mod wire;
 
-pub use checkpoints::Checkpoints;
+pub use checkpoints::{Checkpoints, Existing, OpenedRun};
 pub use error::{CheckpointError, Damage};

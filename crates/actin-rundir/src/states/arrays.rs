@@ -46,9 +46,9 @@ impl Arrays {
         };
         let array = open().map_err(|error| refused(error.to_string()))?;
         let found = array.shape().to_vec();
-        let shape = shape.iter().map(|&n| n as u64);
+        let of_record = shape.iter().map(|&n| n as u64);
         let records = records.map_or_else(|| found.first().copied().unwrap_or(0), |n| n as u64);
-        let expected: Vec<u64> = std::iter::once(records).chain(shape).collect();
+        let expected: Vec<u64> = std::iter::once(records).chain(of_record).collect();
         if found != expected || array.order() != Order::C {
             return Err(RunDirectoryError::OtherBodies {
                 path: self.path.clone(),
@@ -63,6 +63,7 @@ impl Arrays {
         Ok(Array {
             path: self.path.clone(),
             name: name.to_owned(),
+            width: shape.iter().product(),
             values,
         })
     }
@@ -91,11 +92,13 @@ fn damaged(path: &Path, reason: String) -> RunDirectoryError {
 pub(crate) struct Array {
     path: PathBuf,
     name: String,
+    /// Number of values in a record.
+    width: usize,
     values: npyz::NpyReader<f64, Take<BufReader<File>>>,
 }
 
 impl Array {
-    pub(crate) fn next(&mut self) -> Result<f64, RunDirectoryError> {
+    fn next(&mut self) -> Result<f64, RunDirectoryError> {
         match self.values.next() {
             Some(Ok(value)) if value.is_finite() => Ok(value),
             Some(Ok(value)) => Err(self.damaged(&format!("holds {value}"))),
@@ -104,8 +107,12 @@ impl Array {
         }
     }
 
-    pub(crate) fn skip(&mut self, count: usize) -> Result<(), RunDirectoryError> {
-        (0..count).try_for_each(|_| self.next().map(drop))
+    /// Reads the values of the next record after `skipped` records.
+    pub(crate) fn record(&mut self, skipped: usize) -> Result<Vec<f64>, RunDirectoryError> {
+        for _ in 0..skipped * self.width {
+            self.next()?;
+        }
+        (0..self.width).map(|_| self.next()).collect()
     }
 
     pub(crate) fn damaged(&self, reason: &str) -> RunDirectoryError {
