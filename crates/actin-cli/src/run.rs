@@ -124,7 +124,7 @@ fn finished(out: &Path, status: Status) -> Result<(), Failure> {
 
 /// Converts an error of the directory. If it holds a checkpoint, the message suggests `--resume`.
 fn hint(out: &Path, error: RunDirectoryError) -> Failure {
-    let is_resumable = matches!(error, RunDirectoryError::NotEmpty { .. })
+    let is_resumable = matches!(error, RunDirectoryError::NotEmpty(_))
         && RunDirectory::existing(out).has_checkpoint();
     match Failure::from(error) {
         Failure::Input(message) if is_resumable => {

@@ -14,39 +14,27 @@ pub enum RunDirectoryError {
     /// The directory is not empty.
     #[error(
         "{} exists and is not empty: results are never overwritten without request; \
-         name another directory, or request overwriting", .path.display()
+         name another directory, or request overwriting", .0.display()
     )]
-    NotEmpty {
-        /// The directory.
-        path: PathBuf,
-    },
+    NotEmpty(PathBuf),
     /// A directory to be overwritten has no manifest.
     #[error(
         "{} is not empty and has no {MANIFEST}, the list of the files that a run has written: nothing in it \
-         is removed; name another directory, or remove this one if it is to go", .path.display()
+         is removed; name another directory, or remove this one if it is to go", .0.display()
     )]
-    NoManifest {
-        /// The directory.
-        path: PathBuf,
-    },
+    NoManifest(PathBuf),
     /// A file, folder or link that the run has not written has the name of a result.
     #[error(
         "{} was not written by the run whose files {MANIFEST} lists: it is left alone; move it, or name \
-         another directory", .path.display()
+         another directory", .0.display()
     )]
-    NotOfARun {
-        /// The file, folder or link.
-        path: PathBuf,
-    },
+    NotOfARun(PathBuf),
     /// A text of an earlier run was changed after that run wrote it.
     #[error(
         "{} has been changed since the run wrote it: it is left alone; move it, or name another directory",
-        .path.display()
+        .0.display()
     )]
-    Changed {
-        /// The file.
-        path: PathBuf,
-    },
+    Changed(PathBuf),
     /// The manifest is invalid or has another version.
     #[error(
         "{} is not the list of a run's files that it should be: {reason}; nothing is removed; name another \
@@ -70,11 +58,8 @@ pub enum RunDirectoryError {
         target: PathBuf,
     },
     /// The path is not a directory.
-    #[error("{} is not a directory: a run writes several files into one directory", .path.display())]
-    NotADirectory {
-        /// The path.
-        path: PathBuf,
-    },
+    #[error("{} is not a directory: a run writes several files into one directory", .0.display())]
+    NotADirectory(PathBuf),
     /// Another run is using the directory.
     #[error(
         "{} is in use: another run{} is writing into it; wait for its end, or name another \
@@ -89,12 +74,9 @@ pub enum RunDirectoryError {
     /// The file in place of the lock was not written by a run.
     #[error(
         "{} has the name of the lock but was not written by a run: move it, or name another \
-         directory", .path.display()
+         directory", .0.display()
     )]
-    ForeignLock {
-        /// The file.
-        path: PathBuf,
-    },
+    ForeignLock(PathBuf),
     /// The file system refused.
     #[error("{}: {source}", .path.display())]
     Io {
@@ -126,20 +108,14 @@ pub enum RunDirectoryError {
         reason: String,
     },
     /// The directory has no scene.
-    #[error("{} is not a run directory: it has no {SCENE}", .path.display())]
-    NotARun {
-        /// The directory.
-        path: PathBuf,
-    },
+    #[error("{} is not a run directory: it has no {SCENE}", .0.display())]
+    NotARun(PathBuf),
     /// The directory has no states.
     #[error(
         "{} has no {STATES}: its run has not ended, or its scene has `output: (states: false)`",
-        .path.display()
+        .0.display()
     )]
-    NoStates {
-        /// The directory.
-        path: PathBuf,
-    },
+    NoStates(PathBuf),
     /// The scene in the directory is invalid.
     #[error("{}:{error}", .path.display())]
     Scene {
@@ -157,17 +133,11 @@ pub enum RunDirectoryError {
         problem: SceneProblem,
     },
     /// The file of an export exists.
-    #[error("{} exists: name another file, or allow overwriting", .path.display())]
-    Exists {
-        /// The file.
-        path: PathBuf,
-    },
+    #[error("{} exists: name another file, or allow overwriting", .0.display())]
+    Exists(PathBuf),
     /// The file of an export is a directory.
-    #[error("{} is a directory: name a file", .path.display())]
-    IsDirectory {
-        /// The directory.
-        path: PathBuf,
-    },
+    #[error("{} is a directory: name a file", .0.display())]
+    IsDirectory(PathBuf),
     /// The file of an export cannot be written.
     #[error("{}: {source}", .path.display())]
     Export {

@@ -61,10 +61,10 @@ impl RecordedStates for FinishedRun {
 
 fn ensure_free(path: &Path, overwrite: bool) -> Result<(), RunDirectoryError> {
     if path.is_dir() {
-        return Err(RunDirectoryError::IsDirectory { path: path.into() });
+        return Err(RunDirectoryError::IsDirectory(path.into()));
     }
     if !overwrite && fs::symlink_metadata(path).is_ok() {
-        return Err(RunDirectoryError::Exists { path: path.into() });
+        return Err(RunDirectoryError::Exists(path.into()));
     }
     Ok(())
 }

@@ -29,7 +29,7 @@ impl FinishedRun {
         })?;
         let stored = RunDirectory::existing(&path).stored_states(&assembly)?;
         match stored {
-            None => Err(RunDirectoryError::NoStates { path }),
+            None => Err(RunDirectoryError::NoStates(path)),
             Some(stored) => Ok(Self { assembly, stored }),
         }
     }
@@ -61,7 +61,7 @@ impl FinishedRun {
 fn read_scene(path: &Path) -> Result<Scene, RunDirectoryError> {
     let file = path.join(SCENE);
     if !file.exists() {
-        return Err(RunDirectoryError::NotARun { path: path.into() });
+        return Err(RunDirectoryError::NotARun(path.into()));
     }
     let bytes = fs::read(&file).map_err(RunDirectoryError::io(&file))?;
     let refused = |error| RunDirectoryError::Scene { path: file, error };

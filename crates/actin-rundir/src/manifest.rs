@@ -137,14 +137,14 @@ impl Manifest {
         let pictures = folder.join(PICTURES);
         match fs::symlink_metadata(&pictures) {
             Ok(data) if !data.is_dir() => {
-                return Err(RunDirectoryError::NotOfARun { path: pictures });
+                return Err(RunDirectoryError::NotOfARun(pictures));
             }
             _ => {}
         }
         let is_own = |entry: &ResultFile| entry.kind.is_file() && self.files.contains(&entry.name);
         match found(folder)?.into_iter().find(|entry| !is_own(entry)) {
             None => Ok(()),
-            Some(ResultFile { path, .. }) => Err(RunDirectoryError::NotOfARun { path }),
+            Some(ResultFile { path, .. }) => Err(RunDirectoryError::NotOfARun(path)),
         }
     }
 
@@ -156,7 +156,7 @@ impl Manifest {
         for (name, known) in scene.into_iter().chain(others) {
             let path = folder.join(name);
             if checksum(&path)?.is_some_and(|sum| !known.contains(&sum)) {
-                return Err(RunDirectoryError::Changed { path });
+                return Err(RunDirectoryError::Changed(path));
             }
         }
         Ok(())

@@ -185,7 +185,7 @@ fn remove_run(path: &Path) -> Result<(), RunDirectoryError> {
     for entry in fs::read_dir(path).map_err(io())? {
         let name = entry.map_err(io())?.file_name();
         if name != MANIFEST && name != LOCK {
-            return Err(RunDirectoryError::NotEmpty { path: path.into() });
+            return Err(RunDirectoryError::NotEmpty(path.into()));
         }
     }
     drop(lock);

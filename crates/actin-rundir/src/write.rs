@@ -312,10 +312,7 @@ mod tests {
         directory.write_scene(&assembly.scene).unwrap();
         fs::write(folder.path().join(SCENE), "mine").unwrap();
         let error = RunDirectory::create(folder.path(), true).unwrap_err();
-        assert!(
-            matches!(error, RunDirectoryError::Changed { .. }),
-            "{error}"
-        );
+        assert!(matches!(error, RunDirectoryError::Changed(_)), "{error}");
         assert_eq!(fs::read(folder.path().join(SCENE)).unwrap(), b"mine");
     }
 

@@ -25,11 +25,8 @@ pub enum Damage {
     #[error("{0}")]
     Io(#[from] io::Error),
     /// The file has another format.
-    #[error("not a checkpoint: it does not begin with {expected:?}")]
-    OtherFile {
-        /// Expected beginning of the file.
-        expected: &'static str,
-    },
+    #[error("not a checkpoint: it does not begin with {0:?}")]
+    OtherFile(&'static str),
     /// The version of the format is not supported.
     #[error("format version {found}: this program reads version {known}")]
     Format {

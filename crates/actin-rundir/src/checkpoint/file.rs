@@ -148,9 +148,7 @@ fn read_body(path: &Path) -> Result<Vec<u8>, Damage> {
     };
     file.read_exact(&mut header).map_err(short)?;
     if &header[..8] != MAGIC {
-        return Err(Damage::OtherFile {
-            expected: "ACTINCKP",
-        });
+        return Err(Damage::OtherFile("ACTINCKP"));
     }
     let of_header = crc32fast::hash(&header[..24]);
     compare("its header".into(), of_header, word(&header, 24))?;

@@ -162,9 +162,7 @@ impl RecordLog {
         let mut magic = [0; 8];
         file.read_exact(&mut magic)?;
         if &magic != MAGIC {
-            return Err(Damage::OtherFile {
-                expected: "ACTINREC",
-            });
+            return Err(Damage::OtherFile("ACTINREC"));
         }
         Ok(file.take(expected - HEADER))
     }
