@@ -67,7 +67,7 @@ fn run_plan(arguments: &RunArguments, opened: &BuiltScene, plan: &Plan<'_>) -> R
         return Err(task.interrupted(&checkpoints, &outcome));
     }
     let written = directory.write(plan, &checkpoints, &outcome);
-    let removed = written.and_then(|summary| directory.remove_checkpoint().map(|()| summary));
+    let removed = written.and_then(|summary| checkpoints.finish(outcome.status).map(|()| summary));
     let summary = removed.map_err(|error| unwritten(arguments, &directory, error))?;
     print(&summary, &opened.notes(plan), &out);
     Ok(())

@@ -204,7 +204,8 @@ struct Target {
 /// Runs a scene in memory, or in the run directory `out`.
 ///
 /// - `overwrite`: replaces an earlier run.
-/// - `resume`: continues an interrupted run, with bitwise identical results.
+/// - `resume`: continues an interrupted run, or extends a completed motion to a longer duration; the results are
+///   bitwise identical to those of a single run.
 /// - `progress`: `True` shows a bar (the default on a terminal), `False` shows nothing; a function is called
 ///   with a `Progress`.
 ///
@@ -275,15 +276,15 @@ fn into_directory(py: Python<'_>, job: &Job<'_>, target: &Target) -> PyResult<Py
         return Ok(load.call1((&target.path,))?.unbind());
     };
     let ended = job.advance(py, saved.map(|saved| *saved), &mut checkpoints)?;
-    let is_interrupted = ended.outcome.status == Status::Interrupted;
+    let status = ended.outcome.status;
     let mut summary = None;
     if checkpoints.count() > 0 {
         let written = py.detach(|| directory.write(job.plan, &checkpoints, &ended.outcome));
         summary = Some(written.map_err(refused)?);
     }
     let concluded = job.conclude(py, ended, &checkpoints, summary);
-    if !is_interrupted {
-        directory.remove_checkpoint().map_err(refused)?;
+    if status != Status::Interrupted {
+        checkpoints.finish(status).map_err(refused)?;
     }
     concluded
 }

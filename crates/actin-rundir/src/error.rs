@@ -2,7 +2,7 @@
 
 use crate::CheckpointError;
 use crate::names::{MANIFEST, SCENE, STATES};
-use actin_sim::{RecordsError, SceneError, SceneProblem};
+use actin_sim::{RecordsError, SceneError, SceneProblem, Summary};
 use std::io;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
@@ -98,6 +98,17 @@ pub enum RunDirectoryError {
         path: PathBuf,
         /// Reason.
         reason: String,
+    },
+    /// The directory was written by a newer program.
+    #[error(
+        "{} has the format version {found}: this program reads versions up to {}, use a newer one",
+        .path.display(), Summary::FORMAT
+    )]
+    NewerFormat {
+        /// The summary of the run.
+        path: PathBuf,
+        /// Version of the format.
+        found: u32,
     },
     /// Results do not belong to the scene in the directory.
     #[error("{} does not belong to the scene: {reason}", .path.display())]

@@ -17,6 +17,7 @@
 //! | `summary.json` | numbers of the last record | any program |
 //! | `records.bin` | records of an unfinished run | `actin run --resume` |
 //! | `checkpoint.bin` | position of an unfinished run | `actin run --resume` |
+//! | `end.bin`, `end_rows.bin` | end of a completed motion and rows of its records | `actin run --resume` with a longer duration |
 //! | `actin-run.json` | manifest: names of the files that may be replaced or removed | any program |
 //! | `.actin-run.lock` | process number during a run, otherwise empty | any program |
 //!

@@ -13,8 +13,8 @@ use actin_sim::{
     Assembly, At, Outcome, Plan, Record, RecordStatistics, Records, RecordsError, Scene, Status,
     StoredRecord, Summary, Trajectory,
 };
-use serde::Serialize;
 use serde::de::DeserializeOwned;
+use serde::{Deserialize, Serialize};
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
 use std::path::Path;
@@ -78,17 +78,32 @@ impl RunDirectory {
     /// # Errors
     /// An unlisted file has the name of a result, or the file system refuses an operation.
     pub fn write_failure(&self, title: &str, why: &str) -> Result<(), RunDirectoryError> {
-        let summary =
-            serde_json::json!({ "scene": title, "status": Status::Failed, "failure": why });
+        let summary = serde_json::json!({ "scene": title, "status": Status::Failed, "failure": why, "format": Summary::FORMAT });
         self.replace(SUMMARY, |out| write_json(&summary, out))
     }
 
     /// Reads the summary of the run in this directory.
     ///
     /// # Errors
-    /// The file is missing, unreadable or not a summary.
+    /// The file is missing, unreadable or not a summary, or the directory has a newer format.
     pub fn summary(&self) -> Result<Summary, RunDirectoryError> {
+        self.ensure_known_format()?;
         read_json(&self.path.join(SUMMARY))
+    }
+
+    /// Refuses a directory with a newer format.
+    pub(crate) fn ensure_known_format(&self) -> Result<(), RunDirectoryError> {
+        #[derive(Deserialize)]
+        struct Head {
+            format: Option<u32>,
+        }
+        let path = self.path.join(SUMMARY);
+        match read_json(&path) {
+            Ok(Head {
+                format: Some(found),
+            }) if found > Summary::FORMAT => Err(RunDirectoryError::NewerFormat { path, found }),
+            _ => Ok(()),
+        }
     }
 
     /// Lists a file in the manifest and replaces it durably.

@@ -1,6 +1,7 @@
 //! Checkpoints of a run in its directory.
 
-use super::file::{Contents, Identity, same_scene};
+use super::extension::Ending;
+use super::file::{Contents, Identity};
 use super::log::{RecordLog, Tally};
 use super::stored::Stored;
 use super::{CheckpointError, Damage};
@@ -9,12 +10,11 @@ use crate::atomic::replace_durably;
 use crate::directory::RunDirectory;
 use crate::lock::RunLock;
 use crate::manifest::remove_if_there;
-use crate::names::{CHECKPOINT, RECORDS, SCENE};
+use crate::names::{CHECKPOINT, RECORDS};
 use actin_sim::{
     Plan, Record, RecordIter, RecordSummary, Records, RunPosition, SavedRun, Sink, Status,
 };
 use std::borrow::Cow;
-use std::fs;
 use std::io::Write;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -28,7 +28,8 @@ pub enum Existing {
     Refuse,
     /// An earlier run is replaced.
     Overwrite,
-    /// An interrupted run is continued.
+    /// An interrupted run is continued. A completed motion is extended if the scene differs in a
+    /// longer duration only.
     Resume,
 }
 
@@ -53,9 +54,9 @@ pub enum OpenedRun {
 /// stays and writing is repeated after the interval.
 #[derive(Debug)]
 pub struct Checkpoints {
-    directory: RunDirectory,
-    identity: Identity,
-    log: RecordLog,
+    pub(super) directory: RunDirectory,
+    pub(super) identity: Identity,
+    pub(super) log: RecordLog,
     every: Duration,
     last: Instant,
     interrupted: Arc<AtomicBool>,
@@ -106,10 +107,11 @@ impl Checkpoints {
             _ => Ok(None),
         };
         // Checked before locking: a finished run is not written to.
-        if let Some(status) = ended()? {
+        let before = ended()?;
+        if let Some(Ending::Same(status)) = before {
             return Ok(OpenedRun::Finished(status));
         }
-        let lock = if is_resumed() {
+        let lock = if is_resumed() || before.is_some() {
             RunLock::acquire(directory.path())?
         } else {
             // A run that was killed before its first checkpoint or results is replaced.
@@ -118,8 +120,10 @@ impl Checkpoints {
             RunDirectory::create_locked(directory.path(), overwrite)?.1
         };
         // Another run may have ended before the lock was taken.
-        if let Some(status) = ended()? {
-            return Ok(OpenedRun::Finished(status));
+        match ended()? {
+            Some(Ending::Same(status)) => return Ok(OpenedRun::Finished(status)),
+            Some(Ending::Shorter(scene)) => self.extend(plan, scene)?,
+            None => {}
         }
         let saved = if is_resumed() {
             let saved = self.resume(plan)?;
@@ -156,6 +160,18 @@ impl Checkpoints {
         self.last_failed
     }
 
+    /// Removes the checkpoint after the results were [written](RunDirectory::write) to the disk.
+    /// The end of a completed motion is kept for an extension.
+    ///
+    /// # Errors
+    /// A refusal of the file system.
+    pub fn finish(&self, status: Status) -> Result<(), RunDirectoryError> {
+        if status == Status::Completed && !self.last_failed {
+            self.keep_end()?;
+        }
+        self.directory.remove_checkpoint()
+    }
+
     fn write(
         &mut self,
         position: &RunPosition,
@@ -165,12 +181,13 @@ impl Checkpoints {
         let [path, log] = [CHECKPOINT, RECORDS].map(|name| self.directory.path.join(name));
         let synced = self.log.sync(recorded.count());
         let records = synced.map_err(|error| Damage::from(error).of(&log))?;
+        let last = recorded.last.as_ref();
         let bytes = self.identity.encode(&Contents {
             wall_s,
             records,
             position: Cow::Borrowed(position),
             carried: Cow::Borrowed(&recorded.carried),
-            last: recorded.last.as_ref().map(|last| Stored::new(last, true)),
+            last: last.map(|last| Stored::new(&last.row, Some(&last.state))),
         });
         let replaced = replace_durably(&path, |out| out.write_all(&bytes));
         replaced.map_err(|error| Damage::from(error).of(&path))
@@ -179,7 +196,7 @@ impl Checkpoints {
 
 impl Sink for Checkpoints {
     fn record(&mut self, record: &Record) {
-        self.log.push(record);
+        self.log.push(record.as_stored());
     }
 
     fn is_interrupted(&mut self) -> bool {
@@ -220,22 +237,6 @@ impl RunDirectory {
     /// Returns true if the directory contains a checkpoint.
     pub fn has_checkpoint(&self) -> bool {
         self.path.join(CHECKPOINT).exists()
-    }
-
-    /// Returns the status of a finished run of this plan; `None` without results.
-    ///
-    /// # Errors
-    /// The results belong to another scene.
-    pub fn ending(&self, plan: &Plan<'_>) -> Result<Option<Status>, RunDirectoryError> {
-        let path = self.path.join(SCENE);
-        let (Ok(summary), Ok(scene)) = (self.summary(), fs::read_to_string(&path)) else {
-            return Ok(None);
-        };
-        if summary.status == Status::Interrupted {
-            return Ok(None);
-        }
-        same_scene(&scene, &plan.scene().to_ron()).map_err(|damage| damage.of(&path))?;
-        Ok(Some(summary.status))
     }
 
     /// Removes the checkpoint after the results were [written](RunDirectory::write) to the disk.

@@ -76,6 +76,9 @@ pub enum Damage {
         /// Line of the given scene.
         given: String,
     },
+    /// A completed motion cannot be extended.
+    #[error("the run cannot be extended: {0}")]
+    Extension(String),
     /// The contents are inconsistent although the checksum is correct.
     #[error("inconsistent contents: {0}")]
     Contents(String),

@@ -22,10 +22,10 @@ const PROGRAM: &str = env!("CARGO_PKG_VERSION");
 /// Scene and record layout of a checkpoint.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Identity {
-    scene: String,
+    pub(super) scene: String,
     pub(super) form: Form,
     /// True for motions in time, false for equilibria.
-    is_motion: bool,
+    pub(super) is_motion: bool,
 }
 
 /// Beginning of the contents. It is decoded first, since the rest depends on the program version.

@@ -63,12 +63,13 @@ impl RecordLog {
     }
 
     /// Adds a record. Write errors are reported by [`sync`](Self::sync).
-    pub(super) fn push(&mut self, record: &Record) {
+    pub(super) fn push(&mut self, record: StoredRecord<'_>) {
         let start = self.buffer.len();
-        let stored = Stored::new(record, self.form.has_states);
+        let state = record.state.as_deref().filter(|_| self.form.has_states);
+        let stored = Stored::new(&record.row, state);
         self.buffer = encode(&stored, std::mem::take(&mut self.buffer));
         if !self.form.has_states {
-            self.last = Some(record.state.clone());
+            self.last = record.state.map(Cow::into_owned);
         }
         let checksum = follow(self.taken.checksum, &self.buffer[start..]);
         self.buffer.extend(checksum.to_le_bytes());
@@ -305,7 +306,7 @@ mod tests {
         let (_folder, mut log, records) = log();
         let count = 3 * BUFFER.div_ceil(log.length) + 2;
         for i in 0..count {
-            log.push(&records[i % 3]);
+            log.push(records[i % 3].as_stored());
             assert!(log.buffer.len() < BUFFER + log.length);
             let written = fs::metadata(&log.path).map_or(HEADER, |data| data.len());
             let all = written + log.buffer.len() as u64;
@@ -324,7 +325,7 @@ mod tests {
         let (_folder, mut log, records) = log();
         let tallies = [0, 1, 2].map(|count| {
             let tally = log.sync(count).unwrap();
-            log.push(&records[count]);
+            log.push(records[count].as_stored());
             tally
         });
         for (count, tally) in tallies.into_iter().enumerate() {
@@ -333,7 +334,7 @@ mod tests {
         let mut again = RecordLog::new(log.path.clone(), tallies[2], &log.form, None);
         assert_eq!(Trajectory::read(&again).unwrap().records.len(), 2);
         // The first write after resuming truncates the file to these records.
-        again.push(&records[2]);
+        again.push(records[2].as_stored());
         again.sync(3).unwrap();
         assert_eq!(Trajectory::read(&again).unwrap().records.len(), 3);
         let length = fs::metadata(&again.path).unwrap().len();
@@ -345,7 +346,7 @@ mod tests {
         let (_folder, mut log, records) = log();
         fs::create_dir(&log.path).unwrap();
         for record in &records {
-            log.push(record);
+            log.push(record.as_stored());
         }
         assert!(log.sync(3).is_err());
         assert_eq!(Trajectory::read(&log).unwrap().records.len(), 3);
@@ -360,7 +361,7 @@ mod tests {
     fn without_states_records_are_rows() {
         let (_folder, mut log, records) = log_of(false);
         for record in &records {
-            log.push(record);
+            log.push(record.as_stored());
         }
         log.sync(3).unwrap();
         // Tagged time, six numbers, energies of the terms, two list lengths and a flag without

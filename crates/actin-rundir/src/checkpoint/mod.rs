@@ -32,6 +32,7 @@
 
 mod checkpoints;
 mod error;
+mod extension;
 mod file;
 mod log;
 mod stored;

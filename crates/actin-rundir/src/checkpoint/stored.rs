@@ -3,7 +3,7 @@
 use super::Damage;
 use super::wire::{decode_all, encode};
 use actin_sim::mechanics::{Motion, State};
-use actin_sim::{At, EnergyExchange, Record, Row, StoredRecord};
+use actin_sim::{At, EnergyExchange, Row, StoredRecord};
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 
@@ -28,10 +28,10 @@ pub(super) struct Stored<'a> {
 }
 
 impl<'a> Stored<'a> {
-    pub(super) fn new(record: &'a Record, has_state: bool) -> Self {
+    pub(super) fn new(row: &'a Row, state: Option<&State>) -> Self {
         Self {
-            row: Cow::Borrowed(&record.row),
-            motion: has_state.then(|| record.state.motion()),
+            row: Cow::Borrowed(row),
+            motion: state.map(State::motion),
         }
     }
 

@@ -32,6 +32,7 @@ impl RunDirectory {
         &self,
         assembly: &Assembly,
     ) -> Result<Option<StoredStates>, RunDirectoryError> {
+        self.ensure_known_format()?;
         let path = self.path.join(STATES);
         if !path.exists() {
             return Ok(None);

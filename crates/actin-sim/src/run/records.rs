@@ -60,6 +60,14 @@ impl Deref for Record {
 }
 
 impl Record {
+    /// Borrows the record with its state.
+    pub fn as_stored(&self) -> StoredRecord<'_> {
+        StoredRecord {
+            row: Cow::Borrowed(&self.row),
+            state: Some(Cow::Borrowed(&self.state)),
+        }
+    }
+
     /// Evaluates energies and residuals of a state, without observed quantities.
     pub fn new(system: &System, at: At, state: State) -> Self {
         let mut loads = Loads::zeros(&state);
@@ -248,11 +256,6 @@ impl Records for Trajectory {
     }
 
     fn iter(&self) -> RecordIter<'_> {
-        Box::new(self.records.iter().map(|record| {
-            Ok(StoredRecord {
-                row: Cow::Borrowed(&record.row),
-                state: Some(Cow::Borrowed(&record.state)),
-            })
-        }))
+        Box::new(self.records.iter().map(|record| Ok(record.as_stored())))
     }
 }

@@ -88,6 +88,7 @@ impl Summary {
             work: WorkSummary::new(outcome),
             wall_s: outcome.wall_s,
             version: env!("CARGO_PKG_VERSION").to_owned(),
+            format: Self::FORMAT,
             seed: first.seed,
             filaments,
         }
