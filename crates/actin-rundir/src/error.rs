@@ -38,14 +38,9 @@ pub enum RunDirectoryError {
     /// The manifest is invalid or has another version.
     #[error(
         "{} is not the list of a run's files that it should be: {reason}; nothing is removed; name another \
-         directory, or remove this one if it is to go", .path.display()
+         directory, or remove this one if it is to go", .0.display(), reason = .1
     )]
-    Manifest {
-        /// The file.
-        path: PathBuf,
-        /// Reason.
-        reason: String,
-    },
+    Manifest(PathBuf, String),
     /// The directory to be overwritten is a link.
     #[error(
         "{} is a link to {target}: nothing is removed through a link; name {target} itself", .path.display(),
@@ -92,13 +87,8 @@ pub enum RunDirectoryError {
     #[error(transparent)]
     Checkpoint(#[from] CheckpointError),
     /// A file of results is damaged.
-    #[error("{} is damaged: {reason}", .path.display())]
-    Damaged {
-        /// The file.
-        path: PathBuf,
-        /// Reason.
-        reason: String,
-    },
+    #[error("{} is damaged: {reason}", .0.display(), reason = .1)]
+    Damaged(PathBuf, String),
     /// The directory was written by a newer program.
     #[error(
         "{} has the format version {found}: this program reads versions up to {}, use a newer one",
@@ -111,13 +101,8 @@ pub enum RunDirectoryError {
         found: u32,
     },
     /// Results do not belong to the scene in the directory.
-    #[error("{} does not belong to the scene: {reason}", .path.display())]
-    OtherBodies {
-        /// The file.
-        path: PathBuf,
-        /// Difference.
-        reason: String,
-    },
+    #[error("{} does not belong to the scene: {reason}", .0.display(), reason = .1)]
+    OtherBodies(PathBuf, String),
     /// The directory has no scene.
     #[error("{} is not a run directory: it has no {SCENE}", .0.display())]
     NotARun(PathBuf),
@@ -128,21 +113,11 @@ pub enum RunDirectoryError {
     )]
     NoStates(PathBuf),
     /// The scene in the directory is invalid.
-    #[error("{}:{error}", .path.display())]
-    Scene {
-        /// The file.
-        path: PathBuf,
-        /// Error of the scene.
-        error: SceneError,
-    },
+    #[error("{}:{reason}", .0.display(), reason = .1)]
+    Scene(PathBuf, SceneError),
     /// The scene in the directory cannot be built.
-    #[error("{}: {problem}", .path.display())]
-    Problem {
-        /// The file.
-        path: PathBuf,
-        /// Reason.
-        problem: SceneProblem,
-    },
+    #[error("{}: {reason}", .0.display(), reason = .1)]
+    Problem(PathBuf, SceneProblem),
     /// The file of an export exists.
     #[error("{} exists: name another file, or allow overwriting", .0.display())]
     Exists(PathBuf),
@@ -180,6 +155,11 @@ impl RunDirectoryError {
             Ok(error) => error,
             Err(source) => Self::Io { path, source },
         }
+    }
+
+    /// Error of a damaged file of results.
+    pub(crate) fn damaged(path: &Path, reason: impl ToString) -> Self {
+        Self::Damaged(path.to_owned(), reason.to_string())
     }
 
     /// Refuses a value that is not finite, for writing as `quantity` of `file`.

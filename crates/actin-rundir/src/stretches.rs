@@ -23,8 +23,9 @@ use std::path::{Path, PathBuf};
 
 const FOLDER: &str = "stretches";
 
-/// Columns of `energies.csv` that do not depend on the resolution.
-const COMMON: [&str; 7] = [
+/// Columns of `energies.csv` that do not depend on the resolution. The last three are written only
+/// if energy is supplied from outside.
+const COMMON: [&str; 10] = [
     "time_ns",
     "total_pn_nm",
     "potential_pn_nm",
@@ -32,10 +33,10 @@ const COMMON: [&str; 7] = [
     "kinetic_pn_nm",
     "residual_force_pn",
     "residual_torque_pn_nm",
+    "work_pn_nm",
+    "heat_pn_nm",
+    "events_pn_nm",
 ];
-
-/// Optional columns for energy supplied from outside.
-const BOOKED: [&str; 3] = ["work_pn_nm", "heat_pn_nm", "events_pn_nm"];
 
 /// Directory of a chain of stretches.
 #[derive(Clone, Debug)]
@@ -117,16 +118,9 @@ impl FollowedDirectory {
         self.note(beginnings)?;
         self.directory
             .replace(SWITCHES, |out| switches(beginnings, out))?;
-        let end_ns = self.join(ENERGIES, beginnings, &|header| {
-            let common = COMMON.iter().map(|name| column(header, name));
-            let booked = BOOKED.iter().filter_map(|name| column(header, name).ok());
-            common.chain(booked.map(Ok)).collect()
-        })?;
-        let observed = self.stretch(0).join(OBSERVABLES);
-        if observed.exists() {
-            self.join(OBSERVABLES, beginnings, &|header| {
-                Ok((0..header.len()).collect())
-            })?;
+        let end_ns = self.join(ENERGIES, beginnings, |column| COMMON.contains(&column))?;
+        if self.stretch(0).join(OBSERVABLES).exists() {
+            self.join(OBSERVABLES, beginnings, |_| true)?;
         }
         let stretches = beginnings.iter().map(|one| self.stretch(one.index));
         let stretches = stretches.map(|path| RunDirectory::existing(path).summary());
@@ -139,12 +133,12 @@ impl FollowedDirectory {
 
     /// Concatenates a table of all stretches and appends the cumulative energy of the switches.
     ///
-    /// `of` selects columns by the header. Returns the last time (ns).
+    /// `is_kept` selects columns by name. Returns the last time (ns).
     fn join(
         &self,
         name: &str,
         beginnings: &[StretchStart],
-        of: &dyn Fn(&csv::StringRecord) -> io::Result<Vec<usize>>,
+        is_kept: fn(&str) -> bool,
     ) -> Result<f64, RunDirectoryError> {
         let mut end_ns = 0.0;
         self.directory.replace(name, |out| {
@@ -153,9 +147,9 @@ impl FollowedDirectory {
                 let path = self.stretch(beginning.index).join(name);
                 let mut reader = csv::Reader::from_path(path)?;
                 let header = reader.headers()?.clone();
-                let columns = of(&header)?;
                 let fields = |row: &csv::StringRecord| -> Vec<String> {
-                    columns.iter().map(|&i| row[i].to_owned()).collect()
+                    let kept = header.iter().zip(row).filter(|(name, _)| is_kept(name));
+                    kept.map(|(_, field)| field.to_owned()).collect()
                 };
                 if beginning.index == 0 {
                     let mut names = fields(&header);
@@ -190,11 +184,6 @@ fn remove_run(path: &Path) -> Result<(), RunDirectoryError> {
     }
     drop(lock);
     fs::remove_dir_all(path).map_err(io())
-}
-
-fn column(header: &csv::StringRecord, name: &str) -> io::Result<usize> {
-    let place = header.iter().position(|column| column == name);
-    place.ok_or_else(|| io::Error::other(format!("no column {name}")))
 }
 
 fn switches(beginnings: &[StretchStart], out: &mut dyn Write) -> io::Result<()> {

@@ -127,10 +127,7 @@ pub(crate) fn write_json(value: &impl Serialize, out: &mut impl Write) -> io::Re
 
 pub(crate) fn read_json<T: DeserializeOwned>(path: &Path) -> Result<T, RunDirectoryError> {
     let text = fs::read_to_string(path).map_err(RunDirectoryError::io(path))?;
-    serde_json::from_str(&text).map_err(|error| RunDirectoryError::Damaged {
-        path: path.to_owned(),
-        reason: error.to_string(),
-    })
+    serde_json::from_str(&text).map_err(|error| RunDirectoryError::damaged(path, error))
 }
 
 struct Results<'a> {

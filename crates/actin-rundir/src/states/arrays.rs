@@ -17,7 +17,7 @@ impl Arrays {
     pub(crate) fn open(path: PathBuf) -> Result<Self, RunDirectoryError> {
         let file = File::open(&path).map_err(RunDirectoryError::io(&path))?;
         let archive = ZipArchive::new(BufReader::new(file))
-            .map_err(|error| damaged(&path, error.to_string()))?;
+            .map_err(|error| RunDirectoryError::damaged(&path, error))?;
         let archive = std::cell::RefCell::new(archive);
         Ok(Self { path, archive })
     }
@@ -37,7 +37,8 @@ impl Arrays {
         records: Option<usize>,
         shape: &[usize],
     ) -> Result<Array, RunDirectoryError> {
-        let refused = |reason: String| damaged(&self.path, format!("{name}: {reason}"));
+        let refused =
+            |reason: String| RunDirectoryError::damaged(&self.path, format!("{name}: {reason}"));
         let (start, size) = self.place(name)?;
         let open = || -> std::io::Result<_> {
             let mut file = File::open(&self.path)?;
@@ -50,12 +51,9 @@ impl Arrays {
         let records = records.map_or_else(|| found.first().copied().unwrap_or(0), |n| n as u64);
         let expected: Vec<u64> = std::iter::once(records).chain(of_record).collect();
         if found != expected || array.order() != Order::C {
-            return Err(RunDirectoryError::OtherBodies {
-                path: self.path.clone(),
-                reason: format!(
-                    "{name} has the shape {found:?}, but the scene requires {expected:?}"
-                ),
-            });
+            let reason =
+                format!("{name} has the shape {found:?}, but the scene requires {expected:?}");
+            return Err(RunDirectoryError::OtherBodies(self.path.clone(), reason));
         }
         let values = array
             .data::<f64>()
@@ -69,7 +67,8 @@ impl Arrays {
     }
 
     fn place(&self, name: &str) -> Result<(u64, u64), RunDirectoryError> {
-        let refused = |reason: String| damaged(&self.path, format!("{name}: {reason}"));
+        let refused =
+            |reason: String| RunDirectoryError::damaged(&self.path, format!("{name}: {reason}"));
         let mut archive = self.archive.borrow_mut();
         let entry = archive.by_name(&format!("{name}.npy"));
         let entry = entry.map_err(|error| refused(error.to_string()))?;
@@ -79,13 +78,6 @@ impl Arrays {
                 "is compressed, but arrays of a run are not".to_owned(),
             )),
         }
-    }
-}
-
-fn damaged(path: &Path, reason: String) -> RunDirectoryError {
-    RunDirectoryError::Damaged {
-        path: path.to_owned(),
-        reason,
     }
 }
 
@@ -116,7 +108,7 @@ impl Array {
     }
 
     pub(crate) fn damaged(&self, reason: &str) -> RunDirectoryError {
-        damaged(&self.path, format!("{}: {reason}", self.name))
+        RunDirectoryError::damaged(&self.path, format!("{}: {reason}", self.name))
     }
 
     pub(crate) fn read_all(mut self) -> Result<Vec<f64>, RunDirectoryError> {

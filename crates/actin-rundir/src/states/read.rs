@@ -99,10 +99,9 @@ impl StoredStates {
         let own = assembly.points.iter().map(|point| point.s_nm);
         let differ = |(read, own): (f64, f64)| (read - own).abs() > SAME_PLACE_NM;
         if places.into_iter().zip(own).any(differ) {
-            return Err(RunDirectoryError::OtherBodies {
-                path: self.arrays.path().to_owned(),
-                reason: format!("s_nm does not match {SCENE}, which was changed after the run"),
-            });
+            let reason = format!("s_nm does not match {SCENE}, which was changed after the run");
+            let path = self.arrays.path().to_owned();
+            return Err(RunDirectoryError::OtherBodies(path, reason));
         }
         Ok(())
     }
