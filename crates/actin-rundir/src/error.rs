@@ -3,6 +3,7 @@
 use crate::CheckpointError;
 use crate::names::{MANIFEST, SCENE, STATES};
 use actin_sim::{RecordsError, SceneError, SceneProblem, Summary};
+use std::fmt::Display;
 use std::io;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
@@ -158,7 +159,7 @@ impl RunDirectoryError {
     }
 
     /// Error of a damaged file of results.
-    pub(crate) fn damaged(path: &Path, reason: impl ToString) -> Self {
+    pub(crate) fn damaged(path: &Path, reason: &dyn Display) -> Self {
         Self::Damaged(path.to_owned(), reason.to_string())
     }
 

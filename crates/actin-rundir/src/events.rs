@@ -37,13 +37,13 @@ pub(crate) fn write(events: &[LinkerEvent], out: &mut impl Write) -> io::Result<
 
 /// Reads the events; their step numbers are not stored and are zero.
 pub(crate) fn read(path: &Path) -> Result<Vec<LinkerEvent>, RunDirectoryError> {
-    let refused = |error: csv::Error| RunDirectoryError::damaged(path, error);
+    let refused = |error: csv::Error| RunDirectoryError::damaged(path, &error);
     let mut reader = csv::Reader::from_path(path).map_err(refused)?;
     let rows = reader.records().enumerate();
     rows.map(|(row, record)| {
         let reason = || format!("row {} is not an event", row + 1);
         let event = event(&record.map_err(refused)?);
-        event.ok_or_else(|| RunDirectoryError::damaged(path, reason()))
+        event.ok_or_else(|| RunDirectoryError::damaged(path, &reason()))
     })
     .collect()
 }

@@ -25,9 +25,10 @@ pub(crate) fn write(assembly: &Assembly, state: &State, out: &mut impl Write) ->
         let points = shape::profile_of(assembly, filament, state).into_iter();
         points.map(move |point| {
             let [x, y, z] = point.position_nm.into();
-            let section = match point.is_ellipsoids {
-                true => "ellipsoids",
-                false => "rod",
+            let section = if point.is_ellipsoids {
+                "ellipsoids"
+            } else {
+                "rod"
             };
             let numbers = [
                 point.s_nm,

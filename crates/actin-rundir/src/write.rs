@@ -127,7 +127,7 @@ pub(crate) fn write_json(value: &impl Serialize, out: &mut impl Write) -> io::Re
 
 pub(crate) fn read_json<T: DeserializeOwned>(path: &Path) -> Result<T, RunDirectoryError> {
     let text = fs::read_to_string(path).map_err(RunDirectoryError::io(path))?;
-    serde_json::from_str(&text).map_err(|error| RunDirectoryError::damaged(path, error))
+    serde_json::from_str(&text).map_err(|error| RunDirectoryError::damaged(path, &error))
 }
 
 struct Results<'a> {
@@ -214,10 +214,8 @@ impl<'a> Results<'a> {
             OBSERVABLES => observables::write(assembly, records, out),
             STATES => states::write(assembly, records, out),
             OTHER_STATES => {
-                let others = self.others.iter();
-                others
-                    .map(|others| states::write(assembly, others, out))
-                    .collect()
+                let mut others = self.others.iter();
+                others.try_for_each(|others| states::write(assembly, others, out))
             }
             PROFILE => profile::write(assembly, &self.last.state, out),
             EVENTS => events::write(&self.outcome.events, out),

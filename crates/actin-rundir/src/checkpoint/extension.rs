@@ -118,9 +118,10 @@ impl Checkpoints {
         };
         check(plan, &contents).map_err(refused)?;
         let rows = rows(folder, contents.records, &identity);
-        let stored = match self.identity.form.has_states {
-            true => self.directory.stored_states(plan.assembly())?,
-            false => None,
+        let stored = if self.identity.form.has_states {
+            self.directory.stored_states(plan.assembly())?
+        } else {
+            None
         };
         let count = rows.count();
         let states = stored.as_ref().map(|s| s.states(plan.assembly(), 0..count));

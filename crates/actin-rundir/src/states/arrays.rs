@@ -17,7 +17,7 @@ impl Arrays {
     pub(crate) fn open(path: PathBuf) -> Result<Self, RunDirectoryError> {
         let file = File::open(&path).map_err(RunDirectoryError::io(&path))?;
         let archive = ZipArchive::new(BufReader::new(file))
-            .map_err(|error| RunDirectoryError::damaged(&path, error))?;
+            .map_err(|error| RunDirectoryError::damaged(&path, &error))?;
         let archive = std::cell::RefCell::new(archive);
         Ok(Self { path, archive })
     }
@@ -38,7 +38,7 @@ impl Arrays {
         shape: &[usize],
     ) -> Result<Array, RunDirectoryError> {
         let refused =
-            |reason: String| RunDirectoryError::damaged(&self.path, format!("{name}: {reason}"));
+            |reason: String| RunDirectoryError::damaged(&self.path, &format!("{name}: {reason}"));
         let (start, size) = self.place(name)?;
         let open = || -> std::io::Result<_> {
             let mut file = File::open(&self.path)?;
@@ -68,7 +68,7 @@ impl Arrays {
 
     fn place(&self, name: &str) -> Result<(u64, u64), RunDirectoryError> {
         let refused =
-            |reason: String| RunDirectoryError::damaged(&self.path, format!("{name}: {reason}"));
+            |reason: String| RunDirectoryError::damaged(&self.path, &format!("{name}: {reason}"));
         let mut archive = self.archive.borrow_mut();
         let entry = archive.by_name(&format!("{name}.npy"));
         let entry = entry.map_err(|error| refused(error.to_string()))?;
@@ -108,7 +108,7 @@ impl Array {
     }
 
     pub(crate) fn damaged(&self, reason: &str) -> RunDirectoryError {
-        RunDirectoryError::damaged(&self.path, format!("{}: {reason}", self.name))
+        RunDirectoryError::damaged(&self.path, &format!("{}: {reason}", self.name))
     }
 
     pub(crate) fn read_all(mut self) -> Result<Vec<f64>, RunDirectoryError> {

@@ -112,9 +112,10 @@ impl StateArray {
 
     /// Returns the numbers of bodies and components.
     pub fn shape(&self, assembly: &Assembly) -> [usize; 2] {
-        let bodies = match self.is_of_frames {
-            true => assembly.frames.len(),
-            false => assembly.points.len(),
+        let bodies = if self.is_of_frames {
+            assembly.frames.len()
+        } else {
+            assembly.points.len()
         };
         [bodies, self.components]
     }
