@@ -96,7 +96,7 @@ fn extended_motions_equal_longer_ones() {
     }
 }
 
-/// A finished run stays as it is, and the reason names what differs.
+/// The files of the finished run stay unchanged, and the error names the difference.
 #[test]
 fn other_runs_are_not_extended() {
     let task = |duration: &str, more: &str| {

@@ -128,6 +128,22 @@ def test_an_interrupted_run_is_resumed_to_the_same_bits(scene, tmp_path):
     assert np.array_equal(resumed.position_nm, whole.position_nm)
 
 
+def test_a_completed_motion_is_extended_to_the_same_bits(scene, tmp_path):
+    def motion(duration_ns: float) -> actin.Scene:
+        return scene.set("task", {"Dynamics": {"duration_ns": duration_ns, "record_every_ns": 0.5}})
+
+    out = tmp_path / "run"
+    actin.run(motion(1.0), out)
+    extended = actin.run(motion(2.0), out, resume=True)
+    assert np.array_equal(extended.position_nm, actin.run(motion(2.0)).position_nm)
+    with pytest.raises(ValueError, match="belongs to another scene"):
+        actin.run(motion(1.0), out, resume=True)
+    summary = out / "summary.json"
+    summary.write_text(summary.read_text().replace('"format": 1', '"format": 2'))
+    with pytest.raises(ValueError, match="format version 2"):
+        actin.load(out)
+
+
 def test_other_threads_run_during_a_run(scene):
     """The interpreter lock is released."""
     ticks = []
