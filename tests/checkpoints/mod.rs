@@ -4,5 +4,6 @@ mod common;
 mod cost;
 mod damaged;
 mod disk;
+mod extended;
 mod observed;
 mod resumed;

@@ -286,7 +286,7 @@ fn linked_rods_have_their_energy_in_long_steps() {
     );
     let (_, records) = run(&text);
     let records = &records[records.len() / 10..];
-    let sum: f64 = records.iter().map(Record::potential_pn_nm).sum();
+    let sum: f64 = records.iter().map(|record| record.potential_pn_nm()).sum();
     let kt = 1.380_649e-2 * 298.0;
     let expected = 0.5 * kt * (32 * RODS - 6) as f64;
     let share = sum / records.len() as f64 / expected;

@@ -175,7 +175,7 @@ fn energy_errors_give_a_warning() {
         let assembly = Assembly::build(&scene).unwrap();
         let (trajectory, outcome) = Plan::new(&assembly).unwrap().run().unwrap();
         let mut last = trajectory.records.last().unwrap().clone();
-        last.kinetic_pn_nm += share * last.booked.work_pn_nm;
+        last.row.kinetic_pn_nm += share * last.booked.work_pn_nm;
         let mut notes = Summary::new(&assembly, &last, &outcome).notes.into_iter();
         notes.find(|note| note.starts_with("the final energy differs by"))
     };

@@ -83,16 +83,8 @@ fn a_filament_lies_on_a_plane_at_the_depth_of_its_weight() {
             2e-2
         };
         assert!((gap / -depth - 1.0).abs() < bound, "{gap}");
-        let last = actin_sim::Record {
-            at: actin_sim::At::Path(1.0),
-            state: state.clone(),
-            energies_pn_nm: assembly.system.energies(),
-            kinetic_pn_nm: 0.0,
-            residual_force_pn: 0.0,
-            residual_torque_pn_nm: 0.0,
-            booked: actin_sim::EnergyExchange::default(),
-            observed: Vec::new(),
-        };
+        let at = actin_sim::At::Path(1.0);
+        let last = actin_sim::Record::new(&assembly.system, at, state.clone());
         let summary = Summary::new(&assembly, &last, &outcome);
         assert_eq!(summary.smallest_gap_nm, Some(gap));
     }

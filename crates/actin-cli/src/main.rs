@@ -116,7 +116,8 @@ struct RunArguments {
     #[arg(long)]
     overwrite: bool,
     /// Continues from the checkpoint in that directory. The results are bitwise identical to an uninterrupted
-    /// run. Without a checkpoint the run starts from the beginning.
+    /// run. Without a checkpoint the run starts from the beginning. A completed motion is extended if the scene
+    /// differs in a longer duration only.
     #[arg(long, conflicts_with = "overwrite")]
     resume: bool,
     /// Wall-clock time between checkpoints.

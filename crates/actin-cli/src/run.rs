@@ -6,7 +6,9 @@ use crate::progress::Progress;
 use crate::report::{in_words, print, print_remarks};
 use crate::signals;
 use crate::{RunArguments, SceneArguments};
-use actin_rundir::{Checkpoints, FollowedDirectory, RunDirectory, RunDirectoryError, RunLock};
+use actin_rundir::{
+    Checkpoints, Existing, FollowedDirectory, OpenedRun, RunDirectory, RunDirectoryError,
+};
 use actin_sim::{
     FailedRun, Failure as Broken, Outcome, Plan, Record, RecordSummary, Records, RecordsError,
     RunError, RunPosition, SavedRun, Sink, Status,
@@ -38,16 +40,21 @@ fn run_plan(arguments: &RunArguments, opened: &BuiltScene, plan: &Plan<'_>) -> R
     let out = out.unwrap_or_else(|| by_default(&arguments.source));
     let directory = RunDirectory::existing(&out);
     let mut checkpoints = checkpoints(arguments, plan, &directory)?;
-    // Checked before locking: no lock is needed if nothing will be written.
-    if arguments.resume && is_finished(plan, &directory)? {
-        return Ok(());
+    refuse_own_scene(arguments, &out)?;
+    if arguments.overwrite && FollowedDirectory::exists_at(&out) {
+        // An earlier run with time-dependent resolution.
+        FollowedDirectory::new(&out).remove_from(0)?;
     }
-    // Held until the end of the run.
-    let _lock = claim(arguments, &out)?;
-    let saved = match begin(arguments, plan, &directory, &mut checkpoints)? {
-        Beginning::New => None,
-        Beginning::SavedRun(saved) => Some(*saved),
-        Beginning::Finished => return Ok(()),
+    let existing = match (arguments.overwrite, arguments.resume) {
+        (_, true) => Existing::Resume,
+        (true, false) => Existing::Overwrite,
+        (false, false) => Existing::Refuse,
+    };
+    let opened_run = checkpoints.open(plan, existing);
+    // The lock is held until the end of the run.
+    let (saved, _lock) = match opened_run.map_err(|error| hint(&out, error))? {
+        OpenedRun::Begun { saved, lock } => (saved, lock),
+        OpenedRun::Finished(status) => return finished(&out, status),
     };
     let task = Task {
         arguments,
@@ -55,12 +62,12 @@ fn run_plan(arguments: &RunArguments, opened: &BuiltScene, plan: &Plan<'_>) -> R
         plan,
         directory: &directory,
     };
-    let outcome = task.advance(saved, &mut checkpoints)?;
+    let outcome = task.advance(saved.map(|saved| *saved), &mut checkpoints)?;
     if outcome.status == Status::Interrupted {
         return Err(task.interrupted(&checkpoints, &outcome));
     }
     let written = directory.write(plan, &checkpoints, &outcome);
-    let removed = written.and_then(|summary| directory.remove_checkpoint().map(|()| summary));
+    let removed = written.and_then(|summary| checkpoints.finish(outcome.status).map(|()| summary));
     let summary = removed.map_err(|error| unwritten(arguments, &directory, error))?;
     print(&summary, &opened.notes(plan), &out);
     Ok(())
@@ -84,56 +91,6 @@ pub(crate) fn refuse_own_scene(arguments: &RunArguments, out: &Path) -> Result<(
     Ok(())
 }
 
-fn claim(arguments: &RunArguments, out: &Path) -> Result<Option<RunLock>, Failure> {
-    refuse_own_scene(arguments, out)?;
-    if arguments.overwrite && FollowedDirectory::exists_at(out) {
-        // An earlier run with time-dependent resolution.
-        FollowedDirectory::new(out).remove_from(0)?;
-    }
-    if !arguments.resume {
-        let claimed = RunDirectory::create_locked(out, arguments.overwrite);
-        let (_, lock) = claimed.map_err(|error| hint(out, error))?;
-        return Ok(Some(lock));
-    }
-    if RunDirectory::existing(out).has_checkpoint() {
-        return Ok(Some(RunLock::acquire(out)?));
-    }
-    // Nothing to resume. A run that was killed before its first checkpoint or results is replaced.
-    let is_left = RunDirectory::existing(out).is_unfinished();
-    let (_, lock) = RunDirectory::create_locked(out, is_left)?;
-    Ok(Some(lock))
-}
-
-enum Beginning {
-    New,
-    SavedRun(Box<SavedRun>),
-    /// The run is finished; a message has been printed.
-    Finished,
-}
-
-fn begin(
-    arguments: &RunArguments,
-    plan: &Plan<'_>,
-    directory: &RunDirectory,
-    checkpoints: &mut Checkpoints,
-) -> Result<Beginning, Failure> {
-    if !arguments.resume {
-        directory.write_scene(plan.scene())?;
-        return Ok(Beginning::New);
-    }
-    // Checked again under the lock.
-    if is_finished(plan, directory)? {
-        return Ok(Beginning::Finished);
-    }
-    if !directory.has_checkpoint() {
-        directory.write_scene(plan.scene())?;
-        return Ok(Beginning::New);
-    }
-    let saved = checkpoints.resume(plan)?;
-    directory.reopen()?;
-    Ok(Beginning::SavedRun(Box::new(saved)))
-}
-
 pub(crate) fn checkpoints(
     arguments: &RunArguments,
     plan: &Plan<'_>,
@@ -150,15 +107,9 @@ pub(crate) fn checkpoints(
     ))
 }
 
-/// Returns whether the run is finished and has no checkpoint; if so, prints a message.
-fn is_finished(plan: &Plan<'_>, directory: &RunDirectory) -> Result<bool, Failure> {
-    if directory.has_checkpoint() {
-        return Ok(false);
-    }
-    let Some(status) = directory.ending(plan)? else {
-        return Ok(false);
-    };
-    let place = directory.path().display();
+/// Reports a finished run; a failed one is an error.
+fn finished(out: &Path, status: Status) -> Result<(), Failure> {
+    let place = out.display();
     if status == Status::Failed {
         let message =
             format!("{place} holds a failed run, which cannot be resumed: use --overwrite");
@@ -168,18 +119,15 @@ fn is_finished(plan: &Plan<'_>, directory: &RunDirectory) -> Result<bool, Failur
         "{place} is finished ({}): nothing to resume",
         in_words(status)
     );
-    Ok(true)
+    Ok(())
 }
 
 /// Converts an error of the directory. If it holds a checkpoint, the message suggests `--resume`.
 fn hint(out: &Path, error: RunDirectoryError) -> Failure {
-    let is_free = !matches!(
-        error,
-        RunDirectoryError::InUse { .. } | RunDirectoryError::ForeignLock { .. }
-    );
-    let failure = Failure::from(error);
-    match failure {
-        Failure::Input(message) if is_free && RunDirectory::existing(out).has_checkpoint() => {
+    let is_resumable = matches!(error, RunDirectoryError::NotEmpty(_))
+        && RunDirectory::existing(out).has_checkpoint();
+    match Failure::from(error) {
+        Failure::Input(message) if is_resumable => {
             Failure::Input(format!("{message}; --resume continues from its checkpoint"))
         }
         failure => failure,

@@ -11,8 +11,6 @@ use pyo3::prelude::*;
 pub(crate) struct Block {
     pub(crate) values: Vec<f64>,
     pub(crate) shape: Vec<usize>,
-    /// Permutation of the axes in Python, if any.
-    pub(crate) axes: Option<Vec<usize>>,
 }
 
 impl Block {
@@ -20,19 +18,15 @@ impl Block {
         Self {
             values,
             shape: shape.to_vec(),
-            axes: None,
         }
     }
 
     /// Converts to a read-only array without copying.
     pub(crate) fn into_python(self, py: Python<'_>) -> PyResult<Py<PyAny>> {
         let array = PyArray1::from_vec(py, self.values).reshape(self.shape)?;
-        let seen = match self.axes {
-            None => array.into_any(),
-            Some(axes) => array.call_method1("transpose", (axes,))?,
-        };
-        seen.getattr("flags")?.setattr("writeable", false)?;
-        Ok(seen.unbind())
+        let array = array.into_any();
+        array.getattr("flags")?.setattr("writeable", false)?;
+        Ok(array.unbind())
     }
 }
 

@@ -111,7 +111,10 @@ fn of_text(py: Python<'_>, text: &SceneText, mistake: &SceneError, message: &str
 
 /// Converts an error of a run directory.
 pub(crate) fn directory(error: &RunDirectoryError) -> PyErr {
-    PyOSError::new_err(error.to_string())
+    match error {
+        RunDirectoryError::Checkpoint(error) => value(error),
+        error => PyOSError::new_err(error.to_string()),
+    }
 }
 
 pub(crate) fn value(error: impl std::fmt::Display) -> PyErr {

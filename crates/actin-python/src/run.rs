@@ -1,10 +1,10 @@
 //! Runs of scenes in memory or in a run directory.
 
 use crate::errors;
-use crate::records::{RecordArrays, bodies};
+use crate::records::{arrays, bodies};
 use crate::scene::Scene;
 use crate::watch::{Watch, callback, finish};
-use actin_rundir::{CheckpointError, Checkpoints, RunDirectory, RunLock};
+use actin_rundir::{CheckpointError, Checkpoints, Existing, OpenedRun, RunDirectory};
 use actin_sim::{
     Assembly, FailedRun, Failure, Outcome, Plan, Progress, Record, RecordSummary, Records,
     RunError, RunPosition, SavedRun, Sink, Status, Summary, Trajectory,
@@ -150,7 +150,7 @@ impl Job<'_> {
             inner: self.plan.scene().clone(),
             text: None,
         };
-        let arrays = RecordArrays::new(self.assembly, records)?.into_python(py, self.assembly)?;
+        let arrays = arrays(py, self.assembly, records)?;
         let arguments = PyDict::new(py);
         arguments.set_item("scene", scene)?;
         arguments.set_item("summary", summary)?;
@@ -197,15 +197,15 @@ fn failed(py: Python<'_>, failure: &Failure, run: Option<Py<PyAny>>) -> PyErr {
 #[derive(Debug)]
 struct Target {
     path: PathBuf,
-    overwrite: bool,
-    resume: bool,
+    existing: Existing,
     every: Duration,
 }
 
 /// Runs a scene in memory, or in the run directory `out`.
 ///
 /// - `overwrite`: replaces an earlier run.
-/// - `resume`: continues an interrupted run, with bitwise identical results.
+/// - `resume`: continues an interrupted run, or extends a completed motion to a longer duration; the results are
+///   bitwise identical to those of a single run.
 /// - `progress`: `True` shows a bar (the default on a terminal), `False` shows nothing; a function is called
 ///   with a `Progress`.
 ///
@@ -224,11 +224,15 @@ pub(crate) fn run(
 ) -> PyResult<Py<PyAny>> {
     let scene = scene.get();
     let every = Duration::try_from_secs_f64(checkpoint_every_s).map_err(errors::value)?;
-    if overwrite && resume {
-        return Err(PyValueError::new_err(
-            "resume and overwrite exclude each other",
-        ));
-    }
+    let existing = match (overwrite, resume) {
+        (false, false) => Existing::Refuse,
+        (true, false) => Existing::Overwrite,
+        (false, true) => Existing::Resume,
+        (true, true) => {
+            let message = "resume and overwrite exclude each other";
+            return Err(PyValueError::new_err(message));
+        }
+    };
     let assembly = scene.build(py)?;
     let plan = py.detach(|| Plan::new(&assembly));
     let plan = plan.map_err(|problem| scene.refuse(py, &problem))?;
@@ -249,8 +253,7 @@ pub(crate) fn run(
             &job,
             &Target {
                 path,
-                overwrite,
-                resume,
+                existing,
                 every,
             },
         ),
@@ -260,12 +263,6 @@ pub(crate) fn run(
 fn into_directory(py: Python<'_>, job: &Job<'_>, target: &Target) -> PyResult<Py<PyAny>> {
     let refused = |error| errors::directory(&error);
     let directory = RunDirectory::existing(&target.path);
-    let is_kept = directory.has_checkpoint();
-    let has_ended = || directory.ending(job.plan).map_err(errors::value);
-    if target.resume && !is_kept && has_ended()?.is_some() {
-        let load = py.import("actin.results")?.getattr("load")?;
-        return Ok(load.call1((&target.path,))?.unbind());
-    }
     let mut checkpoints = Checkpoints::new(
         &directory,
         job.plan,
@@ -273,39 +270,23 @@ fn into_directory(py: Python<'_>, job: &Job<'_>, target: &Target) -> PyResult<Py
         Arc::new(AtomicBool::new(false)),
         warn,
     );
-    let (saved, _lock) = begin(&directory, job, &mut checkpoints, target)?;
-    let ended = job.advance(py, saved, &mut checkpoints)?;
-    let is_interrupted = ended.outcome.status == Status::Interrupted;
+    let opened = checkpoints.open(job.plan, target.existing);
+    let OpenedRun::Begun { saved, lock: _lock } = opened.map_err(refused)? else {
+        let load = py.import("actin.results")?.getattr("load")?;
+        return Ok(load.call1((&target.path,))?.unbind());
+    };
+    let ended = job.advance(py, saved.map(|saved| *saved), &mut checkpoints)?;
+    let status = ended.outcome.status;
     let mut summary = None;
     if checkpoints.count() > 0 {
         let written = py.detach(|| directory.write(job.plan, &checkpoints, &ended.outcome));
         summary = Some(written.map_err(refused)?);
     }
     let concluded = job.conclude(py, ended, &checkpoints, summary);
-    if !is_interrupted {
-        directory.remove_checkpoint().map_err(refused)?;
+    if status != Status::Interrupted {
+        checkpoints.finish(status).map_err(refused)?;
     }
     concluded
-}
-
-/// Opens the directory of a run and returns its saved state and its lock.
-fn begin(
-    directory: &RunDirectory,
-    job: &Job<'_>,
-    checkpoints: &mut Checkpoints,
-    target: &Target,
-) -> PyResult<(Option<SavedRun>, RunLock)> {
-    let refused = |error| errors::directory(&error);
-    if target.resume && directory.has_checkpoint() {
-        let lock = RunLock::acquire(&target.path).map_err(refused)?;
-        let saved = checkpoints.resume(job.plan).map_err(errors::value)?;
-        directory.reopen().map_err(refused)?;
-        return Ok((Some(saved), lock));
-    }
-    let over = target.overwrite || (target.resume && directory.is_unfinished());
-    let (_, lock) = RunDirectory::create_locked(&target.path, over).map_err(refused)?;
-    directory.write_scene(job.plan.scene()).map_err(refused)?;
-    Ok((None, lock))
 }
 
 /// Issues a Python warning for a checkpoint that could not be written.

@@ -34,9 +34,9 @@ def test_arrays_are_read_only_and_not_copied(motion):
     assert run.position_nm is run.position_nm
     with pytest.raises(ValueError, match="read-only"):
         run.position_nm[0, 0, 0] = 1.0
-    # A view of the Rust buffer with permuted axes.
+    # A view of the Rust buffer.
     assert run.position_nm.base is not None and not run.position_nm.flags.owndata
-    assert run.position_nm.strides == (25 * 3 * 8, 8, 25 * 8)
+    assert run.position_nm.strides == (25 * 3 * 8, 3 * 8, 8)
     assert run.position_nm.shape == run.velocity_nm_per_ns.shape == run.centre_line_nm.shape == (11, 25, 3)
     assert run.quaternion.shape == (11, 26, 4) and run.angular_momentum.shape == (11, 26, 3)
     assert run.s_nm.shape == run.kind.shape == run.filament.shape == (25,)
@@ -126,6 +126,22 @@ def test_an_interrupted_run_is_resumed_to_the_same_bits(scene, tmp_path):
     resumed = actin.run(motion, out, resume=True)
     assert resumed.status == "completed"
     assert np.array_equal(resumed.position_nm, whole.position_nm)
+
+
+def test_a_completed_motion_is_extended_to_the_same_bits(scene, tmp_path):
+    def motion(duration_ns: float) -> actin.Scene:
+        return scene.set("task", {"Dynamics": {"duration_ns": duration_ns, "record_every_ns": 0.5}})
+
+    out = tmp_path / "run"
+    actin.run(motion(1.0), out)
+    extended = actin.run(motion(2.0), out, resume=True)
+    assert np.array_equal(extended.position_nm, actin.run(motion(2.0)).position_nm)
+    with pytest.raises(ValueError, match="belongs to another scene"):
+        actin.run(motion(1.0), out, resume=True)
+    summary = out / "summary.json"
+    summary.write_text(summary.read_text().replace('"format": 1', '"format": 2'))
+    with pytest.raises(ValueError, match="format version 2"):
+        actin.load(out)
 
 
 def test_other_threads_run_during_a_run(scene):

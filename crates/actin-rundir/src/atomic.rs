@@ -1,9 +1,9 @@
 //! Atomic replacement of files: written under a temporary name, renamed when complete.
 
+use crate::RunDirectoryError;
 use std::fs::{self, File};
 use std::io::{self, BufWriter};
 use std::path::{Path, PathBuf};
-use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Suffix of incomplete files.
 pub(crate) const UNFINISHED: &str = ".part";
@@ -17,33 +17,28 @@ pub(crate) fn unfinished(path: &Path) -> PathBuf {
     name.into()
 }
 
-/// Writes a file under its temporary name and removes it on failure.
-pub(crate) fn stage(
+/// Writes a new file and removes it on failure.
+pub(crate) fn write_new(
     path: &Path,
     fill: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>,
 ) -> io::Result<()> {
-    stage_as(&unfinished(path), fill)
-}
-
-fn stage_as(
-    unfinished: &Path,
-    fill: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>,
-) -> io::Result<()> {
-    let written = create(unfinished).and_then(|file| {
+    let written = create(path).and_then(|file| {
         let mut out = BufWriter::new(file);
         fill(&mut out)?;
         out.into_inner().map(drop).map_err(io::Error::from)
     });
     if written.is_err() {
         // The first error is the relevant one.
-        let _ = fs::remove_file(unfinished);
+        let _ = fs::remove_file(path);
     }
     written
 }
 
-/// Renames a staged file to its final name. An existing link there is replaced, not followed.
-pub(crate) fn publish(path: &Path) -> io::Result<()> {
-    fs::rename(unfinished(path), path)
+/// Renames a file, also in place of a link, and removes it on failure.
+fn rename(unfinished: &Path, path: &Path) -> io::Result<()> {
+    fs::rename(unfinished, path).inspect_err(|_| {
+        let _ = fs::remove_file(unfinished);
+    })
 }
 
 /// Replaces `path` by a complete file; on failure the old file stays.
@@ -51,8 +46,8 @@ pub(crate) fn replace(
     path: &Path,
     fill: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>,
 ) -> io::Result<()> {
-    stage(path, fill)?;
-    publish_or_remove(&unfinished(path), path)
+    write_new(&unfinished(path), fill)?;
+    rename(&unfinished(path), path)
 }
 
 /// Replaces `path` like [`replace`], durably: the file and its name are on the disk at return.
@@ -75,23 +70,17 @@ pub fn replace_file(
     unfinished: &Path,
     fill: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>,
 ) -> io::Result<()> {
-    stage_as(unfinished, |out| {
+    write_new(unfinished, |out| {
         fill(out)?;
         io::Write::flush(out)?;
         out.get_ref().sync_all()
     })?;
-    publish_or_remove(unfinished, path)?;
+    rename(unfinished, path)?;
     // The parent of a bare file name is empty and means the working directory.
     let folder = path
         .parent()
         .filter(|folder| !folder.as_os_str().is_empty());
     sync(folder.unwrap_or(Path::new(".")))
-}
-
-fn publish_or_remove(unfinished: &Path, path: &Path) -> io::Result<()> {
-    fs::rename(unfinished, path).inspect_err(|_| {
-        let _ = fs::remove_file(unfinished);
-    })
 }
 
 /// Creates a new file in place of one left by a killed run, without following links.
@@ -112,25 +101,17 @@ pub(crate) fn sync(path: &Path) -> io::Result<()> {
     }
 }
 
-/// Waits until `count` files are on the disk. An error names the first file that fails.
-pub(crate) fn sync_all(
-    count: usize,
-    path: impl Fn(usize) -> PathBuf + Sync,
-) -> Result<(), (PathBuf, io::Error)> {
-    let next = AtomicUsize::new(0);
-    let work = || {
-        loop {
-            let i = next.fetch_add(1, Ordering::Relaxed);
-            if i >= count {
-                return Ok(());
-            }
-            let path = path(i);
-            sync(&path).map_err(|error| (path, error))?;
-        }
+/// Waits until all files are on the disk. An error names a file that fails.
+pub(crate) fn sync_all(paths: &[PathBuf]) -> Result<(), RunDirectoryError> {
+    let sync_each = |paths: &[PathBuf]| {
+        let mut paths = paths.iter();
+        paths.try_for_each(|path| sync(path).map_err(RunDirectoryError::io(path)))
     };
+    let share = paths.len().div_ceil(SYNCED_AT_ONCE).max(1);
     std::thread::scope(|scope| {
-        let threads: Vec<_> = (0..SYNCED_AT_ONCE.min(count))
-            .map(|_| scope.spawn(work))
+        let shares = paths.chunks(share);
+        let threads: Vec<_> = shares
+            .map(|paths| scope.spawn(move || sync_each(paths)))
             .collect();
         let mut done = threads.into_iter().map(std::thread::ScopedJoinHandle::join);
         done.try_for_each(|outcome| outcome.expect("waiting for the disk does not panic"))
@@ -189,10 +170,10 @@ mod tests {
         for path in &paths {
             fs::write(path, "x").unwrap();
         }
-        let sync_first = |count| sync_all(count, |i| paths[i].clone());
-        assert!(sync_first(paths.len()).is_ok() && sync_first(0).is_ok());
+        assert!(sync_all(&paths).is_ok() && sync_all(&[]).is_ok());
         fs::remove_file(&paths[13]).unwrap();
-        let (path, error) = sync_first(paths.len()).unwrap_err();
-        assert_eq!((&path, error.kind()), (&paths[13], io::ErrorKind::NotFound));
+        let error = sync_all(&paths).unwrap_err().to_string();
+        let missing = paths[13].display().to_string();
+        assert!(error.starts_with(&missing), "{error}");
     }
 }

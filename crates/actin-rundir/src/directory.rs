@@ -49,7 +49,7 @@ impl RunDirectory {
     ) -> Result<(Self, RunLock), RunDirectoryError> {
         let path = path.as_ref().to_owned();
         if fs::symlink_metadata(&path).is_ok() && !path.is_dir() {
-            return Err(RunDirectoryError::NotADirectory { path });
+            return Err(RunDirectoryError::NotADirectory(path));
         }
         fs::create_dir_all(&path).map_err(RunDirectoryError::io(&path))?;
         let directory = Self { path };
@@ -110,11 +110,11 @@ impl RunDirectory {
             return manifest.map(|_| None);
         }
         if !overwrite {
-            return Err(RunDirectoryError::NotEmpty { path: path.clone() });
+            return Err(RunDirectoryError::NotEmpty(path.clone()));
         }
         refuse_link(path)?;
         let Some(manifest) = manifest? else {
-            return Err(RunDirectoryError::NoManifest { path: path.clone() });
+            return Err(RunDirectoryError::NoManifest(path.clone()));
         };
         manifest.ensure_own(path)?;
         manifest.ensure_unchanged(path)?;
@@ -166,9 +166,9 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         fs::create_dir(folder.path().join(LOCK)).unwrap();
         let refusal = || RunDirectory::create(folder.path(), false).unwrap_err();
-        assert!(matches!(refusal(), RunDirectoryError::ForeignLock { .. }));
+        assert!(matches!(refusal(), RunDirectoryError::ForeignLock(_)));
         fs::write(folder.path().join("notes.txt"), "mine").unwrap();
-        assert!(matches!(refusal(), RunDirectoryError::NotEmpty { .. }));
+        assert!(matches!(refusal(), RunDirectoryError::NotEmpty(_)));
         fs::remove_dir(folder.path().join(LOCK)).unwrap();
         let lock = RunLock::acquire(folder.path()).unwrap();
         for overwrite in [false, true] {
@@ -176,7 +176,7 @@ mod tests {
             assert!(matches!(error, RunDirectoryError::InUse { .. }), "{error}");
         }
         drop(lock);
-        assert!(matches!(refusal(), RunDirectoryError::NotEmpty { .. }));
+        assert!(matches!(refusal(), RunDirectoryError::NotEmpty(_)));
         assert_eq!(names(folder.path()), [LOCK, "notes.txt"]);
     }
 
@@ -187,7 +187,7 @@ mod tests {
         fs::write(&path, "text").unwrap();
         for overwrite in [false, true] {
             let error = RunDirectory::create(&path, overwrite).unwrap_err();
-            assert!(matches!(error, RunDirectoryError::NotADirectory { .. }));
+            assert!(matches!(error, RunDirectoryError::NotADirectory(_)));
         }
         assert_eq!(fs::read(&path).unwrap(), b"text");
     }
@@ -225,7 +225,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         earlier_run(folder.path());
         let error = RunDirectory::create(folder.path(), false).unwrap_err();
-        assert!(matches!(error, RunDirectoryError::NotEmpty { .. }));
+        assert!(matches!(error, RunDirectoryError::NotEmpty(_)));
         assert!(error.to_string().contains("never overwritten"), "{error}");
         RunDirectory::create(folder.path(), true).unwrap();
         let left = [LOCK, MANIFEST, "notes.txt", PICTURES];
@@ -304,7 +304,7 @@ mod tests {
         fs::remove_file(&link).unwrap();
         symlink("nowhere", &link).unwrap();
         let error = RunDirectory::create(&link, true).unwrap_err();
-        assert!(matches!(error, RunDirectoryError::NotADirectory { .. }));
+        assert!(matches!(error, RunDirectoryError::NotADirectory(_)));
     }
 
     /// An old run without a manifest gets one.

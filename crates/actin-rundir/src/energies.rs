@@ -1,9 +1,9 @@
 //! `energies.csv`: energies and residuals of every record, by term and by part.
 
-use crate::finite::ensure_finite_in;
+use crate::clock;
 use crate::names::ENERGIES;
-use crate::{RunDirectoryError, clock};
-use actin_sim::{Assembly, EnergyExchange, EnergyTotals, Part, Records, Row, Term};
+use crate::table::{self, Cell};
+use actin_sim::{Assembly, EnergyTotals, Records, StoredRecord, Term};
 use std::collections::HashMap;
 use std::hash::Hash;
 use std::io::{self, Write};
@@ -21,96 +21,54 @@ fn places<T: Eq + Hash + Copy>(terms: &[Term], of: impl Fn(&Term) -> T) -> (Vec<
     (values, places)
 }
 
-#[derive(Debug)]
-pub(crate) struct EnergyTable<'a> {
-    terms: &'a [Term],
-    header: Vec<String>,
-    /// Column of the name and of the part of each term; columns of parts follow those of names.
-    places: [Vec<usize>; 2],
-    sums: usize,
-    booked: Vec<fn(&EnergyExchange) -> f64>,
-}
-
-impl<'a> EnergyTable<'a> {
-    pub(crate) fn new(assembly: &'a Assembly) -> Self {
-        let terms = &assembly.terms;
-        let (names, by_name) = places(terms, |term| term.name);
-        let (parts, by_part) = places(terms, |term| term.part);
-        let behind = by_part.into_iter().map(|place| names.len() + place);
-        Self {
-            terms,
-            header: header(assembly, &names, &parts),
-            sums: names.len() + parts.len(),
-            places: [by_name, behind.collect()],
-            booked: assembly
-                .booked_columns()
-                .into_iter()
-                .map(|(_, of)| of)
-                .collect(),
-        }
-    }
-
-    fn row(&self, record: &Row) -> Vec<f64> {
-        // Adding to -0.0 preserves the sign of a term of -0.0.
-        let mut sums = vec![-0.0; self.sums];
-        for places in &self.places {
-            for (energy, &place) in record.energies_pn_nm.iter().zip(places) {
-                sums[place] += energy;
-            }
-        }
-        let mut row = row(self.terms, record, sums);
-        row.extend(self.booked.iter().map(|of| of(&record.booked)));
-        row
-    }
-
-    pub(crate) fn ensure_finite(&self, i: usize, record: &Row) -> Result<(), RunDirectoryError> {
-        let mut columns = self.header.iter().zip(self.row(record));
-        columns.try_for_each(|(name, value)| ensure_finite_in((ENERGIES, name), i, &[], [value]))
-    }
-
-    /// Writes the table of `records`. Numbers have enough digits for an exact round trip.
-    pub(crate) fn write(&self, records: &dyn Records, out: &mut impl Write) -> io::Result<()> {
-        let mut writer = csv::Writer::from_writer(out);
-        writer.write_record(&self.header)?;
-        for record in records.rows() {
-            let row = self.row(&record?);
-            writer.write_record(row.iter().map(|value| format!("{value:?}")))?;
-        }
-        writer.flush()
-    }
-}
-
-fn header(assembly: &Assembly, names: &[&str], parts: &[Part]) -> Vec<String> {
-    let energies = ["total", "potential", "elastic", "kinetic"]
-        .into_iter()
-        .map(str::to_owned)
-        .chain(names.iter().map(ToString::to_string))
-        .chain(parts.iter().map(|part| assembly.name_of(*part)))
-        .map(|name| format!("{name}_pn_nm"));
-    let residuals = ["residual_force_pn", "residual_torque_pn_nm"].map(str::to_owned);
+/// Writes the table of `records`.
+pub(crate) fn write(
+    assembly: &Assembly,
+    records: &dyn Records,
+    out: &mut impl Write,
+) -> io::Result<()> {
+    let terms = &assembly.terms;
+    let (names, by_name) = places(terms, |term| term.name);
+    let (parts, by_part) = places(terms, |term| term.part);
     // Energy supplied from outside; the total minus these columns is constant.
-    let booked = assembly.booked_columns().into_iter();
-    let booked = booked.map(|(name, _)| name.to_owned());
-    std::iter::once(clock(assembly).to_owned())
-        .chain(energies)
-        .chain(residuals)
-        .chain(booked)
-        .collect()
+    let (supplied, of_supplied): (Vec<_>, Vec<_>) = assembly.booked_columns().into_iter().unzip();
+    let row = |record: io::Result<StoredRecord<'_>>| -> io::Result<_> {
+        let row = record?.row;
+        let energies = &row.energies_pn_nm;
+        let totals = EnergyTotals::new(terms, energies, row.kinetic_pn_nm);
+        let mut numbers = vec![
+            row.at.value(),
+            totals.total,
+            totals.potential,
+            totals.elastic,
+            totals.kinetic,
+        ];
+        numbers.extend(sums(energies, &by_name, names.len()));
+        numbers.extend(sums(energies, &by_part, parts.len()));
+        numbers.extend([row.residual_force_pn, row.residual_torque_pn_nm]);
+        numbers.extend(of_supplied.iter().map(|of| of(&row.booked)));
+        Ok(numbers.into_iter().map(Cell::Number))
+    };
+    let energies = ["total", "potential", "elastic", "kinetic"].map(str::to_owned);
+    let energies = energies
+        .into_iter()
+        .chain(names.iter().map(ToString::to_string))
+        .chain(parts.iter().map(|part| assembly.name_of(*part)));
+    let mut columns = vec![clock(assembly).to_owned()];
+    columns.extend(energies.map(|name| format!("{name}_pn_nm")));
+    columns.extend(["residual_force_pn", "residual_torque_pn_nm"].map(str::to_owned));
+    columns.extend(supplied.into_iter().map(str::to_owned));
+    table::write(ENERGIES, &columns, records.iter().map(row), out)
 }
 
-fn row(terms: &[Term], record: &Row, sums: Vec<f64>) -> Vec<f64> {
-    let totals = EnergyTotals::new(terms, &record.energies_pn_nm, record.kinetic_pn_nm);
-    [
-        record.at.value(),
-        totals.total,
-        totals.potential,
-        totals.elastic,
-        totals.kinetic,
-    ]
-    .into_iter()
-    .chain(sums)
-    .chain([record.residual_force_pn, record.residual_torque_pn_nm])
-    .collect()
+/// Sums of the energies that have the same place.
+fn sums(energies: &[f64], places: &[usize], count: usize) -> Vec<f64> {
+    // Adding to -0.0 preserves the sign of a term of -0.0.
+    let mut sums = vec![-0.0; count];
+    for (energy, &place) in energies.iter().zip(places) {
+        sums[place] += energy;
+    }
+    sums
 }
 
 #[cfg(test)]
@@ -120,9 +78,7 @@ mod tests {
 
     fn table_of(assembly: &Assembly, records: &dyn Records) -> (Vec<String>, Vec<Vec<f64>>) {
         let mut bytes = Vec::new();
-        EnergyTable::new(assembly)
-            .write(records, &mut bytes)
-            .unwrap();
+        write(assembly, records, &mut bytes).unwrap();
         let mut reader = csv::Reader::from_reader(bytes.as_slice());
         let header = reader
             .headers()

@@ -1,7 +1,9 @@
 //! Errors of run directories.
 
+use crate::CheckpointError;
 use crate::names::{MANIFEST, SCENE, STATES};
-use actin_sim::{RecordsError, SceneError, SceneProblem};
+use actin_sim::{RecordsError, SceneError, SceneProblem, Summary};
+use std::fmt::Display;
 use std::io;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
@@ -13,50 +15,33 @@ pub enum RunDirectoryError {
     /// The directory is not empty.
     #[error(
         "{} exists and is not empty: results are never overwritten without request; \
-         name another directory, or request overwriting", .path.display()
+         name another directory, or request overwriting", .0.display()
     )]
-    NotEmpty {
-        /// The directory.
-        path: PathBuf,
-    },
+    NotEmpty(PathBuf),
     /// A directory to be overwritten has no manifest.
     #[error(
         "{} is not empty and has no {MANIFEST}, the list of the files that a run has written: nothing in it \
-         is removed; name another directory, or remove this one if it is to go", .path.display()
+         is removed; name another directory, or remove this one if it is to go", .0.display()
     )]
-    NoManifest {
-        /// The directory.
-        path: PathBuf,
-    },
+    NoManifest(PathBuf),
     /// A file, folder or link that the run has not written has the name of a result.
     #[error(
         "{} was not written by the run whose files {MANIFEST} lists: it is left alone; move it, or name \
-         another directory", .path.display()
+         another directory", .0.display()
     )]
-    NotOfARun {
-        /// The file, folder or link.
-        path: PathBuf,
-    },
+    NotOfARun(PathBuf),
     /// A text of an earlier run was changed after that run wrote it.
     #[error(
         "{} has been changed since the run wrote it: it is left alone; move it, or name another directory",
-        .path.display()
+        .0.display()
     )]
-    Changed {
-        /// The file.
-        path: PathBuf,
-    },
+    Changed(PathBuf),
     /// The manifest is invalid or has another version.
     #[error(
         "{} is not the list of a run's files that it should be: {reason}; nothing is removed; name another \
-         directory, or remove this one if it is to go", .path.display()
+         directory, or remove this one if it is to go", .0.display(), reason = .1
     )]
-    Manifest {
-        /// The file.
-        path: PathBuf,
-        /// Reason.
-        reason: String,
-    },
+    Manifest(PathBuf, String),
     /// The directory to be overwritten is a link.
     #[error(
         "{} is a link to {target}: nothing is removed through a link; name {target} itself", .path.display(),
@@ -69,11 +54,8 @@ pub enum RunDirectoryError {
         target: PathBuf,
     },
     /// The path is not a directory.
-    #[error("{} is not a directory: a run writes several files into one directory", .path.display())]
-    NotADirectory {
-        /// The path.
-        path: PathBuf,
-    },
+    #[error("{} is not a directory: a run writes several files into one directory", .0.display())]
+    NotADirectory(PathBuf),
     /// Another run is using the directory.
     #[error(
         "{} is in use: another run{} is writing into it; wait for its end, or name another \
@@ -88,12 +70,9 @@ pub enum RunDirectoryError {
     /// The file in place of the lock was not written by a run.
     #[error(
         "{} has the name of the lock but was not written by a run: move it, or name another \
-         directory", .path.display()
+         directory", .0.display()
     )]
-    ForeignLock {
-        /// The file.
-        path: PathBuf,
-    },
+    ForeignLock(PathBuf),
     /// The file system refused.
     #[error("{}: {source}", .path.display())]
     Io {
@@ -105,65 +84,47 @@ pub enum RunDirectoryError {
     /// The records cannot be read back, or do not belong to the assembly.
     #[error(transparent)]
     Records(#[from] RecordsError),
+    /// The checkpoint cannot be read, or belongs to another run.
+    #[error(transparent)]
+    Checkpoint(#[from] CheckpointError),
     /// A file of results is damaged.
-    #[error("{} is damaged: {reason}", .path.display())]
-    Damaged {
-        /// The file.
+    #[error("{} is damaged: {reason}", .0.display(), reason = .1)]
+    Damaged(PathBuf, String),
+    /// The directory was written by a newer program.
+    #[error(
+        "{} has the format version {found}: this program reads versions up to {}, use a newer one",
+        .path.display(), Summary::FORMAT
+    )]
+    NewerFormat {
+        /// The summary of the run.
         path: PathBuf,
-        /// Reason.
-        reason: String,
+        /// Version of the format.
+        found: u32,
     },
     /// Results do not belong to the scene in the directory.
-    #[error("{} does not belong to the scene: {reason}", .path.display())]
-    OtherBodies {
-        /// The file.
-        path: PathBuf,
-        /// Difference.
-        reason: String,
-    },
+    #[error("{} does not belong to the scene: {reason}", .0.display(), reason = .1)]
+    OtherBodies(PathBuf, String),
     /// The directory has no scene.
-    #[error("{} is not a run directory: it has no {SCENE}", .path.display())]
-    NotARun {
-        /// The directory.
-        path: PathBuf,
-    },
+    #[error("{} is not a run directory: it has no {SCENE}", .0.display())]
+    NotARun(PathBuf),
     /// The directory has no states.
     #[error(
         "{} has no {STATES}: its run has not ended, or its scene has `output: (states: false)`",
-        .path.display()
+        .0.display()
     )]
-    NoStates {
-        /// The directory.
-        path: PathBuf,
-    },
+    NoStates(PathBuf),
     /// The scene in the directory is invalid.
-    #[error("{}:{error}", .path.display())]
-    Scene {
-        /// The file.
-        path: PathBuf,
-        /// Error of the scene.
-        error: SceneError,
-    },
+    #[error("{}:{reason}", .0.display(), reason = .1)]
+    Scene(PathBuf, SceneError),
     /// The scene in the directory cannot be built.
-    #[error("{}: {problem}", .path.display())]
-    Problem {
-        /// The file.
-        path: PathBuf,
-        /// Reason.
-        problem: SceneProblem,
-    },
+    #[error("{}: {reason}", .0.display(), reason = .1)]
+    Problem(PathBuf, SceneProblem),
     /// The file of an export exists.
-    #[error("{} exists: name another file, or allow overwriting", .path.display())]
-    Exists {
-        /// The file.
-        path: PathBuf,
-    },
+    #[error("{} exists: name another file, or allow overwriting", .0.display())]
+    Exists(PathBuf),
     /// The file of an export is a directory.
-    #[error("{} is a directory: name a file", .path.display())]
-    IsDirectory {
-        /// The directory.
-        path: PathBuf,
-    },
+    #[error("{} is a directory: name a file", .0.display())]
+    IsDirectory(PathBuf),
     /// The file of an export cannot be written.
     #[error("{}: {source}", .path.display())]
     Export {
@@ -187,11 +148,37 @@ pub enum RunDirectoryError {
 }
 
 impl RunDirectoryError {
+    /// Adds a path to an error of the file system. Other errors inside of `io::Error` are returned
+    /// unchanged.
     pub(crate) fn io(path: &Path) -> impl FnOnce(io::Error) -> Self {
-        move |source| Self::Io {
-            path: path.to_owned(),
-            source,
+        let path = path.to_owned();
+        move |error| match error.downcast() {
+            Ok(error) => error,
+            Err(source) => Self::Io { path, source },
         }
+    }
+
+    /// Error of a damaged file of results.
+    pub(crate) fn damaged(path: &Path, reason: &dyn Display) -> Self {
+        Self::Damaged(path.to_owned(), reason.to_string())
+    }
+
+    /// Refuses a value that is not finite, for writing as `quantity` of `file`.
+    pub(crate) fn ensure_finite(
+        file: &str,
+        quantity: &str,
+        index: &[usize],
+        value: f64,
+    ) -> io::Result<()> {
+        if value.is_finite() {
+            return Ok(());
+        }
+        Err(io::Error::other(Self::NotFinite {
+            file: file.to_owned(),
+            quantity: quantity.to_owned(),
+            index: index.to_owned(),
+            value,
+        }))
     }
 }
 

@@ -1,8 +1,8 @@
 //! `events.csv`: linker events, one row per event.
 
 use crate::RunDirectoryError;
-use crate::finite::ensure_finite;
 use crate::names::EVENTS;
+use crate::table::{self, Cell};
 use actin_sim::{LinkerEvent, LinkerEventKind};
 use std::io::{self, Write};
 use std::path::Path;
@@ -18,46 +18,32 @@ const COLUMNS: [&str; 8] = [
     "filament",
 ];
 
-pub(crate) fn ensure_all_finite(events: &[LinkerEvent]) -> Result<(), RunDirectoryError> {
-    let numbers = |e: &LinkerEvent| [e.time_ns, e.force_pn, e.at_nm, e.energy_pn_nm];
-    let names = ["time_ns", "force_pn", "at_nm", "energy_pn_nm"];
-    for (column, name) in names.into_iter().enumerate() {
-        let values = events.iter().map(|event| numbers(event)[column]);
-        ensure_finite(EVENTS, name, &[events.len()], values)?;
-    }
-    Ok(())
-}
-
-/// Writes a header and one row per event. Numbers have enough digits for an exact round trip.
+/// Writes one row per event.
 pub(crate) fn write(events: &[LinkerEvent], out: &mut impl Write) -> io::Result<()> {
-    let mut writer = csv::Writer::from_writer(out);
-    writer.write_record(COLUMNS)?;
-    for event in events {
-        writer.write_record([
-            format!("{:?}", event.time_ns),
-            event.linker.to_string(),
-            event.what.to_string(),
-            format!("{:?}", event.force_pn),
-            format!("{:?}", event.at_nm),
-            format!("{:?}", event.energy_pn_nm),
-            event.hand.to_string(),
-            event.filament.to_string(),
-        ])?;
-    }
-    writer.flush()
+    let rows = events.iter().map(|event| {
+        Ok([
+            Cell::Number(event.time_ns),
+            Cell::Text(event.linker.to_string()),
+            Cell::Text(event.what.to_string()),
+            Cell::Number(event.force_pn),
+            Cell::Number(event.at_nm),
+            Cell::Number(event.energy_pn_nm),
+            Cell::Text(event.hand.to_string()),
+            Cell::Text(event.filament.to_string()),
+        ])
+    });
+    table::write(EVENTS, &COLUMNS.map(str::to_owned), rows, out)
 }
 
 /// Reads the events; their step numbers are not stored and are zero.
 pub(crate) fn read(path: &Path) -> Result<Vec<LinkerEvent>, RunDirectoryError> {
-    let refused = |reason: String| RunDirectoryError::Damaged {
-        path: path.to_owned(),
-        reason,
-    };
-    let mut reader = csv::Reader::from_path(path).map_err(|error| refused(error.to_string()))?;
+    let refused = |error: csv::Error| RunDirectoryError::damaged(path, &error);
+    let mut reader = csv::Reader::from_path(path).map_err(refused)?;
     let rows = reader.records().enumerate();
     rows.map(|(row, record)| {
-        let record = record.map_err(|error| refused(error.to_string()))?;
-        event(&record).ok_or_else(|| refused(format!("row {} is not an event", row + 1)))
+        let reason = || format!("row {} is not an event", row + 1);
+        let event = event(&record.map_err(refused)?);
+        event.ok_or_else(|| RunDirectoryError::damaged(path, &reason()))
     })
     .collect()
 }

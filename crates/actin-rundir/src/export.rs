@@ -61,10 +61,10 @@ impl RecordedStates for FinishedRun {
 
 fn ensure_free(path: &Path, overwrite: bool) -> Result<(), RunDirectoryError> {
     if path.is_dir() {
-        return Err(RunDirectoryError::IsDirectory { path: path.into() });
+        return Err(RunDirectoryError::IsDirectory(path.into()));
     }
     if !overwrite && fs::symlink_metadata(path).is_ok() {
-        return Err(RunDirectoryError::Exists { path: path.into() });
+        return Err(RunDirectoryError::Exists(path.into()));
     }
     Ok(())
 }
@@ -77,11 +77,8 @@ fn write(
     unfinished.push(format!(".{}.part", std::process::id()));
     let written = replace_file(path, Path::new(&unfinished), fill);
     // Errors of the run are returned unchanged, errors of the file with its path.
-    written.map_err(|error| match error.downcast::<RunDirectoryError>() {
-        Ok(error) => error,
-        Err(source) => RunDirectoryError::Export {
-            path: path.to_owned(),
-            source,
-        },
+    written.map_err(|error| match RunDirectoryError::io(path)(error) {
+        RunDirectoryError::Io { path, source } => RunDirectoryError::Export { path, source },
+        error => error,
     })
 }

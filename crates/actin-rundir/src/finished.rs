@@ -23,13 +23,11 @@ impl FinishedRun {
     pub fn open(path: impl AsRef<Path>) -> Result<Self, RunDirectoryError> {
         let path = path.as_ref().to_owned();
         let scene = read_scene(&path)?;
-        let assembly = Assembly::build(&scene).map_err(|problem| RunDirectoryError::Problem {
-            path: path.join(SCENE),
-            problem,
-        })?;
+        let assembly = Assembly::build(&scene)
+            .map_err(|problem| RunDirectoryError::Problem(path.join(SCENE), problem))?;
         let stored = RunDirectory::existing(&path).stored_states(&assembly)?;
         match stored {
-            None => Err(RunDirectoryError::NoStates { path }),
+            None => Err(RunDirectoryError::NoStates(path)),
             Some(stored) => Ok(Self { assembly, stored }),
         }
     }
@@ -61,10 +59,10 @@ impl FinishedRun {
 fn read_scene(path: &Path) -> Result<Scene, RunDirectoryError> {
     let file = path.join(SCENE);
     if !file.exists() {
-        return Err(RunDirectoryError::NotARun { path: path.into() });
+        return Err(RunDirectoryError::NotARun(path.into()));
     }
     let bytes = fs::read(&file).map_err(RunDirectoryError::io(&file))?;
-    let refused = |error| RunDirectoryError::Scene { path: file, error };
+    let refused = |error| RunDirectoryError::Scene(file, error);
     let text = Scene::text(bytes);
     text.and_then(|text| Scene::from_ron(&text))
         .map_err(refused)

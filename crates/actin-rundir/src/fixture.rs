@@ -1,75 +1,55 @@
 //! Small mixed filaments and synthetic runs for tests.
 
-use actin_sim::mechanics::{Loads, State, Xorshift, perturb, randomise_velocities};
-use actin_sim::{
-    Assembly, At, EnergyExchange, Linker, LinkerSite, Outcome, Record, Scene, Status, Trajectory,
-};
+use actin_sim::mechanics::{Xorshift, perturb, randomise_velocities};
+use actin_sim::{Assembly, At, Outcome, Record, Scene, Status, Trajectory};
 use std::path::Path;
 
-/// Monomers at a clamped start, followed by a rod. The title needs XML escapes.
-const CLAMPED_START: &str = r#"Scene(
-    title: "A tip <force> & \"two\" models",
-    filament: Filament(sections: [
-        Ellipsoids(from_nm: 0.0, to_nm: 12.0),
-        Rod(from_nm: 12.0, to_nm: 42.0, segments: 3),
-    ], monomers: Monomers(anchors: Independent, seed: 18446744073709551615)),
-    clamps: [Clamp(end: Start)],
-    loads: [EndForce(end: End, force_pn: (2.0, -1.0, 0.5))],
-    task: Dynamics(duration_ns: 1.0),
-)"#;
-
-fn build(text: &str) -> Assembly {
-    let scene = Scene::from_ron(text).unwrap();
-    Assembly::build(&scene).unwrap()
+/// Monomers at a clamped start, followed by a rod, with more keys of the scene. The title needs XML
+/// escapes.
+fn build(more: &str) -> Assembly {
+    let text = format!(
+        r#"Scene(
+            title: "A tip <force> & \"two\" models",
+            clamps: [Clamp(end: Start)],
+            loads: [EndForce(end: End, force_pn: (2.0, -1.0, 0.5))],
+            task: Dynamics(duration_ns: 1.0),
+            {more}
+        )"#
+    );
+    Assembly::build(&Scene::from_ron(&text).unwrap()).unwrap()
 }
 
+const FILAMENT: &str = "sections: [
+    Ellipsoids(from_nm: 0.0, to_nm: 12.0),
+    Rod(from_nm: 12.0, to_nm: 42.0, segments: 3),
+]";
+const MONOMERS: &str = "anchors: Independent, seed: 18446744073709551615";
+
 pub(crate) fn clamped_start() -> Assembly {
-    build(CLAMPED_START)
+    build(&format!(
+        "filament: Filament({FILAMENT}, monomers: Monomers({MONOMERS}))"
+    ))
 }
 
 pub(crate) fn linked() -> Assembly {
-    let mut scene = Scene::from_ron(CLAMPED_START).unwrap();
-    scene.linkers.push(Linker {
-        filament: 0,
-        to: None,
-        at_nm: 25.0,
-        radius_nm: 1.8,
-        azimuth_deg: 30.0,
-        anchor_nm: None,
-        displaced_nm: Some([1.0, 0.5, -0.3]),
-        stiffness_pn_per_nm: 3.0,
-        rest_length_nm: 0.4,
-        kinetics: None,
-    });
-    Assembly::build(&scene).unwrap()
+    build(&format!(
+        "filament: Filament({FILAMENT}, monomers: Monomers({MONOMERS})),
+         linkers: [Linker(at_nm: 25.0, radius_nm: 1.8, azimuth_deg: 30.0, displaced_nm: (1.0, 0.5, -0.3),
+            stiffness_pn_per_nm: 3.0, rest_length_nm: 0.4)]"
+    ))
 }
 
 /// Builds the filament of [`clamped_start`] and a second mixed one, joined by a linker.
 pub(crate) fn pair() -> Assembly {
-    let mut scene = Scene::from_ron(CLAMPED_START).unwrap();
-    let mut beside = scene.filament.clone();
-    beside.at_nm = [9.0, 0.0, 2.0];
-    beside.direction = [0.2, 0.0, 1.0];
-    beside.monomers.semi_axes_nm = [2.0, 2.0, 2.0];
-    scene.other_filaments.push(beside);
-    scene.linkers.push(Linker {
-        filament: 1,
-        to: Some(LinkerSite {
-            filament: 0,
-            at_nm: 25.0,
-            radius_nm: 1.8,
-            azimuth_deg: 30.0,
-        }),
-        at_nm: 8.0,
-        radius_nm: 1.8,
-        azimuth_deg: 0.0,
-        anchor_nm: None,
-        displaced_nm: None,
-        stiffness_pn_per_nm: 3.0,
-        rest_length_nm: 0.4,
-        kinetics: None,
-    });
-    Assembly::build(&scene).unwrap()
+    build(&format!(
+        "filaments: [
+            Filament({FILAMENT}, monomers: Monomers({MONOMERS})),
+            Filament({FILAMENT}, monomers: Monomers({MONOMERS}, semi_axes_nm: (2.0, 2.0, 2.0)),
+                at_nm: (9.0, 0.0, 2.0), direction: (0.2, 0.0, 1.0)),
+         ],
+         linkers: [Linker(filament: 1, to: Site(filament: 0, at_nm: 25.0, radius_nm: 1.8, azimuth_deg: 30.0),
+            at_nm: 8.0, radius_nm: 1.8, stiffness_pn_per_nm: 3.0, rest_length_nm: 0.4)]"
+    ))
 }
 
 pub(crate) fn names(folder: &Path) -> Vec<String> {
@@ -88,34 +68,11 @@ pub(crate) fn trajectory(assembly: &Assembly) -> Trajectory {
         let mut state = assembly.rest.clone();
         perturb(&mut state, &mut noise, 0.1, 0.05);
         randomise_velocities(&mut state, &mut noise, 2.0, 1.5);
-        record(assembly, time_ns, state)
+        Record::new(&assembly.system, At::Time(time_ns), state)
     });
     Trajectory {
         records: records.into(),
     }
-}
-
-fn record(assembly: &Assembly, time_ns: f64, state: State) -> Record {
-    let residual = loads(assembly, &state).residual(&state);
-    let interactions = assembly.system.interactions();
-    Record {
-        at: At::Time(time_ns),
-        energies_pn_nm: interactions.iter().map(|i| i.energy(&state)).collect(),
-        kinetic_pn_nm: state.kinetic_energy(),
-        residual_force_pn: residual.force,
-        residual_torque_pn_nm: residual.torque,
-        booked: EnergyExchange::default(),
-        observed: Vec::new(),
-        state,
-    }
-}
-
-fn loads(assembly: &Assembly, state: &State) -> Loads {
-    let mut loads = Loads::zeros(state);
-    for interaction in assembly.system.interactions() {
-        interaction.add_loads(state, &mut loads);
-    }
-    loads
 }
 
 pub(crate) fn outcome() -> Outcome {

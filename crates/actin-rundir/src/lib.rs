@@ -17,12 +17,12 @@
 //! | `summary.json` | numbers of the last record | any program |
 //! | `records.bin` | records of an unfinished run | `actin run --resume` |
 //! | `checkpoint.bin` | position of an unfinished run | `actin run --resume` |
+//! | `end.bin`, `end_rows.bin` | end of a completed motion and rows of its records | `actin run --resume` with a longer duration |
 //! | `actin-run.json` | manifest: names of the files that may be replaced or removed | any program |
 //! | `.actin-run.lock` | process number during a run, otherwise empty | any program |
 //!
 //! Records are read from `records.bin` one at a time, once for each array and file, so memory use
-//! does not grow with their number. Values that are not finite are refused before anything is
-//! written.
+//! does not grow with their number. Results with values that are not finite are refused.
 
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
@@ -37,7 +37,6 @@ mod error;
 mod events;
 mod export;
 mod finished;
-mod finite;
 #[cfg(test)]
 mod fixture;
 mod lock;
@@ -45,23 +44,23 @@ mod manifest;
 mod names;
 mod observables;
 mod profile;
-mod review;
 mod staged;
 mod states;
 mod stretches;
+mod table;
 mod write;
 
 pub use actin_export::Format;
 pub use actin_sim as sim;
 pub use atomic::replace_file;
-pub use checkpoint::{CheckpointError, Checkpoints, Damage};
+pub use checkpoint::{CheckpointError, Checkpoints, Damage, Existing, OpenedRun};
 pub use difference::{Difference, first_difference};
 pub use directory::RunDirectory;
 pub use error::RunDirectoryError;
 pub use export::{default_export_path, export};
 pub use finished::FinishedRun;
 pub use lock::RunLock;
-pub use states::{StateIter, StoredStates};
+pub use states::{StateArray, StateIter, StoredStates};
 pub use stretches::FollowedDirectory;
 
 use actin_sim::{Assembly, Task};

@@ -37,7 +37,7 @@ impl RunLock {
     pub fn acquire(directory: impl AsRef<Path>) -> Result<Self, RunDirectoryError> {
         let directory = directory.as_ref();
         let path = directory.join(LOCK);
-        let foreign = || RunDirectoryError::ForeignLock { path: path.clone() };
+        let foreign = || RunDirectoryError::ForeignLock(path.clone());
         if fs::symlink_metadata(&path).is_ok_and(|data| !data.is_file()) {
             return Err(foreign());
         }
@@ -152,7 +152,7 @@ mod tests {
         for text in ["mine", "12 ", "-1", "123456789012345678901", "12\n"] {
             fs::write(&path, text).unwrap();
             let error = RunLock::acquire(folder.path()).unwrap_err();
-            assert!(matches!(error, RunDirectoryError::ForeignLock { .. }));
+            assert!(matches!(error, RunDirectoryError::ForeignLock(_)));
             assert!(error.to_string().contains(LOCK), "{error}");
             assert_eq!(fs::read_to_string(&path).unwrap(), text);
         }
@@ -173,7 +173,7 @@ mod tests {
                 fs::write(&target, text).unwrap();
             }
             let error = RunLock::acquire(folder.path()).unwrap_err();
-            assert!(matches!(error, RunDirectoryError::ForeignLock { .. }));
+            assert!(matches!(error, RunDirectoryError::ForeignLock(_)));
             assert_eq!(fs::read_to_string(&target).ok().as_deref(), text);
         }
     }

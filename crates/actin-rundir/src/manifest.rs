@@ -6,10 +6,11 @@
 use crate::RunDirectoryError;
 use crate::atomic::{self, UNFINISHED};
 use crate::names::{FILES, MANIFEST, PICTURES, SCENE, SUMMARY, picture_index};
+use crate::write::write_json;
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs::{self, FileType};
-use std::io::{self, Read, Write};
+use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
 const FORMAT: &str = "actin run directory";
@@ -47,6 +48,13 @@ impl Manifest {
         }
     }
 
+    /// Reads the manifest in `folder` or creates one, and refuses foreign files.
+    pub(crate) fn own(folder: &Path) -> Result<Self, RunDirectoryError> {
+        let manifest = Self::read(folder)?.unwrap_or_else(Self::new);
+        manifest.ensure_own(folder)?;
+        Ok(manifest)
+    }
+
     /// Creates a manifest of all files in `folder` that have names of results.
     pub(crate) fn of_all_in(folder: &Path) -> Result<Self, RunDirectoryError> {
         let mut manifest = Self::new();
@@ -61,10 +69,7 @@ impl Manifest {
     /// writes.
     pub(crate) fn read(folder: &Path) -> Result<Option<Self>, RunDirectoryError> {
         let path = folder.join(MANIFEST);
-        let refused = |reason: String| RunDirectoryError::Manifest {
-            path: path.clone(),
-            reason,
-        };
+        let refused = |reason| RunDirectoryError::Manifest(path.clone(), reason);
         match fs::symlink_metadata(&path) {
             Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(None),
             Err(error) => return Err(RunDirectoryError::io(&path)(error)),
@@ -96,10 +101,7 @@ impl Manifest {
 
     pub(crate) fn write(&self, folder: &Path) -> Result<(), RunDirectoryError> {
         let path = folder.join(MANIFEST);
-        let written = atomic::replace(&path, |out| {
-            serde_json::to_writer_pretty(&mut *out, self)?;
-            writeln!(out)
-        });
+        let written = atomic::replace(&path, |out| write_json(self, out));
         written.map_err(RunDirectoryError::io(&path))
     }
 
@@ -128,16 +130,13 @@ impl Manifest {
     /// Refuses a folder with unlisted or irregular files under names of results.
     pub(crate) fn ensure_own(&self, folder: &Path) -> Result<(), RunDirectoryError> {
         let pictures = folder.join(PICTURES);
-        match fs::symlink_metadata(&pictures) {
-            Ok(data) if !data.is_dir() => {
-                return Err(RunDirectoryError::NotOfARun { path: pictures });
-            }
-            _ => {}
+        if fs::symlink_metadata(&pictures).is_ok_and(|data| !data.is_dir()) {
+            return Err(RunDirectoryError::NotOfARun(pictures));
         }
         let is_own = |entry: &ResultFile| entry.kind.is_file() && self.files.contains(&entry.name);
         match found(folder)?.into_iter().find(|entry| !is_own(entry)) {
             None => Ok(()),
-            Some(ResultFile { path, .. }) => Err(RunDirectoryError::NotOfARun { path }),
+            Some(ResultFile { path, .. }) => Err(RunDirectoryError::NotOfARun(path)),
         }
     }
 
@@ -149,7 +148,7 @@ impl Manifest {
         for (name, known) in scene.into_iter().chain(others) {
             let path = folder.join(name);
             if checksum(&path)?.is_some_and(|sum| !known.contains(&sum)) {
-                return Err(RunDirectoryError::Changed { path });
+                return Err(RunDirectoryError::Changed(path));
             }
         }
         Ok(())
@@ -194,34 +193,23 @@ struct ResultFile {
 }
 
 fn found(folder: &Path) -> Result<Vec<ResultFile>, RunDirectoryError> {
-    let mut all = found_in(folder, "")?;
     let pictures = folder.join(PICTURES);
-    if fs::symlink_metadata(&pictures).is_ok_and(|data| data.is_dir()) {
-        all.extend(found_in(&pictures, PICTURES)?);
-    }
-    Ok(all)
-}
-
-fn found_in(folder: &Path, prefix: &str) -> Result<Vec<ResultFile>, RunDirectoryError> {
-    let io = || RunDirectoryError::io(folder);
+    let has_pictures = fs::symlink_metadata(&pictures).is_ok_and(|data| data.is_dir());
+    let folders = [(folder, String::new()), (&pictures, format!("{PICTURES}/"))];
     let mut all = Vec::new();
-    for entry in fs::read_dir(folder).map_err(io())? {
-        let entry = entry.map_err(io())?;
-        let name = entry.file_name();
-        let Some(name) = name.to_str() else { continue };
-        let name = name.strip_suffix(UNFINISHED).unwrap_or(name);
-        let name = match prefix {
-            "" => name.to_owned(),
-            prefix => format!("{prefix}/{name}"),
-        };
-        // Some file systems ignore case.
-        if is_of_runs(&name.to_ascii_lowercase()) {
-            let kind = entry.file_type().map_err(io())?;
-            all.push(ResultFile {
-                name,
-                path: entry.path(),
-                kind,
-            });
+    for (folder, prefix) in folders.iter().take(1 + usize::from(has_pictures)) {
+        let io = || RunDirectoryError::io(folder);
+        for entry in fs::read_dir(folder).map_err(io())? {
+            let entry = entry.map_err(io())?;
+            let name = entry.file_name();
+            let Some(name) = name.to_str() else { continue };
+            let name = name.strip_suffix(UNFINISHED).unwrap_or(name);
+            let name = format!("{prefix}{name}");
+            // Some file systems ignore case.
+            if is_of_runs(&name.to_ascii_lowercase()) {
+                let (path, kind) = (entry.path(), entry.file_type().map_err(io())?);
+                all.push(ResultFile { name, path, kind });
+            }
         }
     }
     Ok(all)

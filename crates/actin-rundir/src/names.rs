@@ -12,6 +12,8 @@ pub(crate) const COLLECTION: &str = "run.pvd";
 pub(crate) const MACRO: &str = "open_in_paraview.py";
 pub(crate) const CHECKPOINT: &str = "checkpoint.bin";
 pub(crate) const RECORDS: &str = "records.bin";
+pub(crate) const END: &str = "end.bin";
+pub(crate) const END_ROWS: &str = "end_rows.bin";
 pub(crate) const STRETCHES: &str = "stretches.json";
 pub(crate) const SWITCHES: &str = "switches.csv";
 pub(crate) const PICTURES: &str = "vtk";
@@ -20,7 +22,7 @@ pub(crate) const PICTURES: &str = "vtk";
 pub(crate) const MANIFEST: &str = "actin-run.json";
 
 /// Files of a run except pictures, manifest and lock.
-pub(crate) const FILES: [&str; 14] = [
+pub(crate) const FILES: [&str; 16] = [
     SCENE,
     SUMMARY,
     ENERGIES,
@@ -33,6 +35,8 @@ pub(crate) const FILES: [&str; 14] = [
     MACRO,
     CHECKPOINT,
     RECORDS,
+    END,
+    END_ROWS,
     STRETCHES,
     SWITCHES,
 ];

@@ -10,11 +10,11 @@
 //!
 //! Each switch has two records at the same time, before and after it.
 
+use crate::RunDirectoryError;
 use crate::directory::RunDirectory;
 use crate::lock::LOCK;
-use crate::manifest::Manifest;
 use crate::names::{ENERGIES, MANIFEST, OBSERVABLES, PICTURES, STRETCHES, SUMMARY, SWITCHES};
-use crate::{RunDirectoryError, atomic};
+use crate::write::{read_json, write_json};
 use actin_sim::Summary;
 use actin_sim::follow::StretchStart;
 use std::fs;
@@ -23,8 +23,9 @@ use std::path::{Path, PathBuf};
 
 const FOLDER: &str = "stretches";
 
-/// Columns of `energies.csv` that do not depend on the resolution.
-const COMMON: [&str; 7] = [
+/// Columns of `energies.csv` that do not depend on the resolution. The last three are written only
+/// if energy is supplied from outside.
+const COMMON: [&str; 10] = [
     "time_ns",
     "total_pn_nm",
     "potential_pn_nm",
@@ -32,21 +33,23 @@ const COMMON: [&str; 7] = [
     "kinetic_pn_nm",
     "residual_force_pn",
     "residual_torque_pn_nm",
+    "work_pn_nm",
+    "heat_pn_nm",
+    "events_pn_nm",
 ];
-
-/// Optional columns for energy supplied from outside.
-const BOOKED: [&str; 3] = ["work_pn_nm", "heat_pn_nm", "events_pn_nm"];
 
 /// Directory of a chain of stretches.
 #[derive(Clone, Debug)]
 pub struct FollowedDirectory {
-    path: PathBuf,
+    directory: RunDirectory,
 }
 
 impl FollowedDirectory {
     /// Opens the directory at `path`, which is also a [`RunDirectory`].
     pub fn new(path: impl Into<PathBuf>) -> Self {
-        Self { path: path.into() }
+        Self {
+            directory: RunDirectory::existing(path),
+        }
     }
 
     /// Returns true if `path` contains a list of stretches.
@@ -56,12 +59,12 @@ impl FollowedDirectory {
 
     /// Path of the directory.
     pub fn path(&self) -> &Path {
-        &self.path
+        self.directory.path()
     }
 
     /// Path of a stretch.
     pub fn stretch(&self, index: usize) -> PathBuf {
-        self.path.join(FOLDER).join(format!("{index:04}"))
+        self.path().join(FOLDER).join(format!("{index:04}"))
     }
 
     /// Returns the starts of all stretches; empty without stretches.
@@ -69,12 +72,10 @@ impl FollowedDirectory {
     /// # Errors
     /// The file is unreadable or not a list of stretches.
     pub fn beginnings(&self) -> Result<Vec<StretchStart>, RunDirectoryError> {
-        if !Self::exists_at(&self.path) {
+        if !Self::exists_at(self.path()) {
             return Ok(Vec::new());
         }
-        let path = self.path.join(STRETCHES);
-        let read = fs::read_to_string(&path).and_then(|text| Ok(serde_json::from_str(&text)?));
-        read.map_err(RunDirectoryError::io(&path))
+        read_json(&self.path().join(STRETCHES))
     }
 
     /// Writes the starts of all stretches.
@@ -82,7 +83,8 @@ impl FollowedDirectory {
     /// # Errors
     /// A refusal of the file system.
     pub fn note(&self, beginnings: &[StretchStart]) -> Result<(), RunDirectoryError> {
-        self.replace(STRETCHES, |out| Ok(serde_json::to_writer(out, beginnings)?))
+        self.directory
+            .replace(STRETCHES, |out| write_json(&beginnings, out))
     }
 
     /// Removes the run directories of stretch `first` and all later ones, in descending order.
@@ -90,7 +92,7 @@ impl FollowedDirectory {
     /// # Errors
     /// A directory contains files that no run has written, or the file system refuses an operation.
     pub fn remove_from(&self, first: usize) -> Result<(), RunDirectoryError> {
-        let folder = self.path.join(FOLDER);
+        let folder = self.path().join(FOLDER);
         let Ok(entries) = fs::read_dir(&folder) else {
             return Ok(());
         };
@@ -114,47 +116,40 @@ impl FollowedDirectory {
         last: &Summary,
     ) -> Result<Summary, RunDirectoryError> {
         self.note(beginnings)?;
-        self.replace(SWITCHES, |out| switches(beginnings, out))?;
-        let end_ns = self.join(ENERGIES, beginnings, &|header| {
-            let common = COMMON.iter().map(|name| column(header, name));
-            let booked = BOOKED.iter().filter_map(|name| column(header, name).ok());
-            common.chain(booked.map(Ok)).collect()
-        })?;
-        let observed = self.stretch(0).join(OBSERVABLES);
-        if observed.exists() {
-            self.join(OBSERVABLES, beginnings, &|header| {
-                Ok((0..header.len()).collect())
-            })?;
+        self.directory
+            .replace(SWITCHES, |out| switches(beginnings, out))?;
+        let end_ns = self.join(ENERGIES, beginnings, |column| COMMON.contains(&column))?;
+        if self.stretch(0).join(OBSERVABLES).exists() {
+            self.join(OBSERVABLES, beginnings, |_| true)?;
         }
         let stretches = beginnings.iter().map(|one| self.stretch(one.index));
         let stretches = stretches.map(|path| RunDirectory::existing(path).summary());
         let stretches = stretches.collect::<Result<_, _>>()?;
         let summary = Summary::from_stretches(beginnings, stretches, last, end_ns);
-        self.replace(SUMMARY, |out| {
-            Ok(serde_json::to_writer_pretty(out, &summary)?)
-        })?;
+        let directory = &self.directory;
+        directory.replace(SUMMARY, |out| write_json(&summary, out))?;
         Ok(summary)
     }
 
     /// Concatenates a table of all stretches and appends the cumulative energy of the switches.
     ///
-    /// `of` selects columns by the header. Returns the last time (ns).
+    /// `is_kept` selects columns by name. Returns the last time (ns).
     fn join(
         &self,
         name: &str,
         beginnings: &[StretchStart],
-        of: &dyn Fn(&csv::StringRecord) -> io::Result<Vec<usize>>,
+        is_kept: fn(&str) -> bool,
     ) -> Result<f64, RunDirectoryError> {
         let mut end_ns = 0.0;
-        self.replace(name, |out| {
+        self.directory.replace(name, |out| {
             let mut writer = csv::Writer::from_writer(out);
             for beginning in beginnings {
                 let path = self.stretch(beginning.index).join(name);
                 let mut reader = csv::Reader::from_path(path)?;
                 let header = reader.headers()?.clone();
-                let columns = of(&header)?;
                 let fields = |row: &csv::StringRecord| -> Vec<String> {
-                    columns.iter().map(|&i| row[i].to_owned()).collect()
+                    let kept = header.iter().zip(row).filter(|(name, _)| is_kept(name));
+                    kept.map(|(_, field)| field.to_owned()).collect()
                 };
                 if beginning.index == 0 {
                     let mut names = fields(&header);
@@ -173,20 +168,6 @@ impl FollowedDirectory {
         })?;
         Ok(end_ns)
     }
-
-    fn replace(
-        &self,
-        name: &str,
-        write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
-    ) -> Result<(), RunDirectoryError> {
-        let mut manifest = Manifest::read(&self.path)?.unwrap_or_else(Manifest::new);
-        manifest.ensure_own(&self.path)?;
-        manifest.add([name]);
-        manifest.write(&self.path)?;
-        let path = self.path.join(name);
-        let written = atomic::replace_durably(&path, |out| write(out));
-        written.map_err(RunDirectoryError::io(&path))
-    }
 }
 
 /// Removes a run directory with the files listed in its manifest.
@@ -198,16 +179,11 @@ fn remove_run(path: &Path) -> Result<(), RunDirectoryError> {
     for entry in fs::read_dir(path).map_err(io())? {
         let name = entry.map_err(io())?.file_name();
         if name != MANIFEST && name != LOCK {
-            return Err(RunDirectoryError::NotEmpty { path: path.into() });
+            return Err(RunDirectoryError::NotEmpty(path.into()));
         }
     }
     drop(lock);
     fs::remove_dir_all(path).map_err(io())
-}
-
-fn column(header: &csv::StringRecord, name: &str) -> io::Result<usize> {
-    let place = header.iter().position(|column| column == name);
-    place.ok_or_else(|| io::Error::other(format!("no column {name}")))
 }
 
 fn switches(beginnings: &[StretchStart], out: &mut dyn Write) -> io::Result<()> {

@@ -1,23 +1,23 @@
 //! Writing of results: validation, staging and publication.
 
 use crate::directory::RunDirectory;
-use crate::finite::ensure_finite;
 use crate::manifest::Manifest;
 use crate::names::{
     COLLECTION, ENERGIES, EVENTS, MACRO, OBSERVABLES, OTHER_STATES, PICTURES, PROFILE, SCENE,
     STATES, SUMMARY, picture_name,
 };
-use crate::review::{Review, Tables};
 use crate::staged::Staged;
-use crate::{RunDirectoryError, atomic, events, profile};
+use crate::{RunDirectoryError, atomic, energies, events, observables, profile, states};
 use actin_export::{PARAVIEW_SCRIPT, VtkPictures, write_collection};
-use actin_sim::shape::{self, ProfilePoint};
 use actin_sim::{
-    Assembly, At, LinkerEvent, Outcome, Plan, Record, Records, RecordsError, Scene, Status,
-    Summary, Trajectory,
+    Assembly, At, Outcome, Plan, Record, RecordStatistics, Records, RecordsError, Scene, Status,
+    StoredRecord, Summary, Trajectory,
 };
-use std::fs;
-use std::io::{self, Write};
+use serde::de::DeserializeOwned;
+use serde::{Deserialize, Serialize};
+use std::fs::{self, File};
+use std::io::{self, BufWriter, Write};
+use std::path::Path;
 
 impl RunDirectory {
     /// Writes the resolved scene before the run starts.
@@ -25,21 +25,18 @@ impl RunDirectory {
     /// # Errors
     /// A refusal of the file system.
     pub fn write_scene(&self, scene: &Scene) -> Result<(), RunDirectoryError> {
-        let (path, text) = (self.path.join(SCENE), scene.to_ron());
+        let text = scene.to_ron();
         // The checksum comes first, so that edits after a kill are detected.
-        let mut manifest = Manifest::read(&self.path)?.unwrap_or_else(Manifest::new);
-        manifest.add([SCENE]);
+        let mut manifest = Manifest::own(&self.path)?;
         manifest.note_scene(&text);
         manifest.write(&self.path)?;
-        let written = atomic::replace(&path, |out| out.write_all(text.as_bytes()));
-        written.map_err(RunDirectoryError::io(&path))
+        self.replace(SCENE, |out| out.write_all(text.as_bytes()))
     }
 
     /// Writes all results of a run and returns its summary.
     ///
-    /// The records are read one at a time, in several passes. Everything except the pictures is
-    /// validated before writing starts. Files of an earlier part of the run are replaced after all
-    /// new files are complete and on the disk.
+    /// The records are read one at a time, once for each file and array. Files of an earlier part of
+    /// the run are replaced after all new files are complete and on the disk.
     ///
     /// # Errors
     /// - The records are empty or unreadable, or belong to another assembly.
@@ -55,10 +52,23 @@ impl RunDirectory {
         outcome: &Outcome,
     ) -> Result<Summary, RunDirectoryError> {
         let results = Results::new(plan, records, outcome)?;
-        self.announce(&results)?;
+        let mut manifest = Manifest::own(&self.path)?;
+        manifest.note_scene(&results.scene);
+        manifest.add(results.files());
+        if results.assembly.scene.output.vtk {
+            manifest.add((0..records.count()).map(picture_name));
+        }
+        manifest.write(&self.path)?;
         let mut staged = Staged::new(&self.path);
-        results.stage(&mut staged)?;
-        staged.publish()?;
+        for name in results.files() {
+            if name == COLLECTION {
+                let folder = self.path.join(PICTURES);
+                fs::create_dir_all(&folder).map_err(RunDirectoryError::io(&folder))?;
+                results.stage_pictures(&mut staged)?;
+            }
+            staged.file(name, |out| results.write(name, out))?;
+        }
+        staged.publish(manifest)?;
         Ok(results.summary)
     }
 
@@ -68,63 +78,65 @@ impl RunDirectory {
     /// # Errors
     /// An unlisted file has the name of a result, or the file system refuses an operation.
     pub fn write_failure(&self, title: &str, why: &str) -> Result<(), RunDirectoryError> {
-        let mut manifest = Manifest::read(&self.path)?.unwrap_or_else(Manifest::new);
-        manifest.ensure_own(&self.path)?;
-        manifest.add([SUMMARY]);
-        manifest.write(&self.path)?;
-        let path = self.path.join(SUMMARY);
-        let summary =
-            serde_json::json!({ "scene": title, "status": Status::Failed, "failure": why });
-        let written = atomic::replace_durably(&path, |out| {
-            serde_json::to_writer_pretty(&mut *out, &summary)?;
-            writeln!(out)
-        });
-        written.map_err(RunDirectoryError::io(&path))
+        let summary = serde_json::json!({ "scene": title, "status": Status::Failed, "failure": why, "format": Summary::FORMAT });
+        self.replace(SUMMARY, |out| write_json(&summary, out))
     }
 
     /// Reads the summary of the run in this directory.
     ///
     /// # Errors
-    /// The file is missing, unreadable or not a summary.
+    /// The file is missing, unreadable or not a summary, or the directory has a newer format.
     pub fn summary(&self) -> Result<Summary, RunDirectoryError> {
-        let path = self.path.join(SUMMARY);
-        let read = fs::read_to_string(&path);
-        let summary = read.and_then(|text| Ok(serde_json::from_str(&text)?));
-        summary.map_err(RunDirectoryError::io(&path))
+        self.ensure_known_format()?;
+        read_json(&self.path.join(SUMMARY))
     }
 
-    /// Lists the results in the manifest, after checking that unlisted files have other names.
-    fn announce(&self, results: &Results<'_>) -> Result<(), RunDirectoryError> {
-        let mut manifest = Manifest::read(&self.path)?.unwrap_or_else(Manifest::new);
-        manifest.ensure_own(&self.path)?;
-        manifest.note_scene(&results.scene);
-        manifest.add([SCENE, ENERGIES, PROFILE, SUMMARY]);
-        let output = results.assembly.scene.output;
-        if !results.tables.observables.is_empty() {
-            manifest.add([OBSERVABLES]);
+    /// Refuses a directory with a newer format.
+    pub(crate) fn ensure_known_format(&self) -> Result<(), RunDirectoryError> {
+        #[derive(Deserialize)]
+        struct Head {
+            format: Option<u32>,
         }
-        if output.states {
-            manifest.add([STATES]);
+        let path = self.path.join(SUMMARY);
+        match read_json(&path) {
+            Ok(Head {
+                format: Some(found),
+            }) if found > Summary::FORMAT => Err(RunDirectoryError::NewerFormat { path, found }),
+            _ => Ok(()),
         }
-        manifest.add(results.others.as_ref().map(|_| OTHER_STATES));
-        if output.vtk {
-            manifest.add([COLLECTION, MACRO]);
-            manifest.add((0..results.records.count()).map(picture_name));
-        }
-        manifest.add(results.events.as_ref().map(|_| EVENTS));
-        manifest.write(&self.path)
     }
+
+    /// Lists a file in the manifest and replaces it durably.
+    pub(crate) fn replace(
+        &self,
+        name: &str,
+        fill: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>,
+    ) -> Result<(), RunDirectoryError> {
+        let mut manifest = Manifest::own(&self.path)?;
+        manifest.add([name]);
+        manifest.write(&self.path)?;
+        let path = self.path.join(name);
+        atomic::replace_durably(&path, fill).map_err(RunDirectoryError::io(&path))
+    }
+}
+
+pub(crate) fn write_json(value: &impl Serialize, out: &mut impl Write) -> io::Result<()> {
+    serde_json::to_writer_pretty(&mut *out, value)?;
+    writeln!(out)
+}
+
+pub(crate) fn read_json<T: DeserializeOwned>(path: &Path) -> Result<T, RunDirectoryError> {
+    let text = fs::read_to_string(path).map_err(RunDirectoryError::io(path))?;
+    serde_json::from_str(&text).map_err(|error| RunDirectoryError::damaged(path, &error))
 }
 
 struct Results<'a> {
     assembly: &'a Assembly,
     records: &'a dyn Records,
+    outcome: &'a Outcome,
     scene: String,
-    tables: Tables<'a>,
-    along: Vec<Vec<ProfilePoint>>,
     summary: Summary,
-    /// `None` if the scene has no linker kinetics.
-    events: Option<Vec<LinkerEvent>>,
+    last: Record,
     /// Stable states of a search; `None` without a search.
     others: Option<Trajectory>,
 }
@@ -133,9 +145,10 @@ struct Results<'a> {
 fn others(outcome: &Outcome) -> Option<Trajectory> {
     let states = outcome.equilibrium.as_ref()?.states.as_ref()?;
     let states = states.states.iter().enumerate();
-    let records = states.map(|(i, state)| Record {
-        at: At::Path(i as f64),
-        ..state.record.clone()
+    let records = states.map(|(i, state)| {
+        let mut record = state.record.clone();
+        record.row.at = At::Path(i as f64);
+        record
     });
     Some(Trajectory {
         records: records.collect(),
@@ -146,82 +159,91 @@ impl<'a> Results<'a> {
     fn new(
         plan: &Plan<'a>,
         records: &'a dyn Records,
-        outcome: &Outcome,
+        outcome: &'a Outcome,
     ) -> Result<Self, RunDirectoryError> {
         let assembly = plan.assembly();
-        let tables = Tables::new(assembly);
-        let review = Review::new(assembly, records, &tables)?;
-        let last = review.last;
-        let summary = review.statistics.summary(&last, outcome);
-        for (key, value) in summary.numbers() {
-            ensure_finite(SUMMARY, &key, &[], [value])?;
+        let mut statistics = RecordStatistics::new(assembly, records.count());
+        let mut last = None;
+        for record in records.iter() {
+            let record = record.map_err(RecordsError::Unreadable)?;
+            statistics.add(&record)?;
+            last = Some(record);
         }
-        review.are_finite?;
-        let filaments = 0..assembly.filaments.len();
-        let along: Vec<_> = filaments
-            .map(|filament| shape::profile_of(assembly, filament, &last.state))
-            .collect();
-        profile::ensure_all_finite(&along, PROFILE)?;
-        events::ensure_all_finite(&outcome.events)?;
+        let last = last.and_then(StoredRecord::into_record);
+        let last = last.ok_or(RecordsError::Empty)?;
+        let summary = statistics.summary(&last, outcome);
+        for (key, value) in summary.numbers() {
+            let checked = RunDirectoryError::ensure_finite(SUMMARY, &key, &[], value);
+            checked.map_err(RunDirectoryError::io(Path::new(SUMMARY)))?;
+        }
         Ok(Self {
             assembly,
             records,
+            outcome,
             scene: plan.scene().to_ron(),
-            tables,
-            along,
             summary,
-            events: assembly.has_events().then(|| outcome.events.clone()),
+            last,
             others: others(outcome),
         })
     }
 
-    fn stage(&self, staged: &mut Staged<'_>) -> Result<(), RunDirectoryError> {
-        staged.file(SCENE, |out| out.write_all(self.scene.as_bytes()))?;
-        let (tables, output) = (&self.tables, self.assembly.scene.output);
-        staged.file(ENERGIES, |out| tables.energies.write(self.records, out))?;
-        if !tables.observables.is_empty() {
-            staged.file(OBSERVABLES, |out| {
-                tables.observables.write(self.records, out)
-            })?;
+    /// Names of the files in the order of writing, without pictures.
+    fn files(&self) -> impl Iterator<Item = &'static str> + use<> {
+        let output = self.assembly.scene.output;
+        let files = [
+            (SCENE, true),
+            (ENERGIES, true),
+            (OBSERVABLES, !self.assembly.observed().is_empty()),
+            (STATES, output.states),
+            (OTHER_STATES, self.others.is_some()),
+            (PROFILE, true),
+            (EVENTS, self.assembly.has_events()),
+            (COLLECTION, output.vtk),
+            (MACRO, output.vtk),
+            (SUMMARY, true),
+        ];
+        let wanted = files.into_iter().filter(|(_, is_wanted)| *is_wanted);
+        wanted.map(|(name, _)| name)
+    }
+
+    fn write(&self, name: &str, out: &mut BufWriter<File>) -> io::Result<()> {
+        let (assembly, records) = (self.assembly, self.records);
+        match name {
+            SCENE => out.write_all(self.scene.as_bytes()),
+            ENERGIES => energies::write(assembly, records, out),
+            OBSERVABLES => observables::write(assembly, records, out),
+            STATES => states::write(assembly, records, out),
+            OTHER_STATES => {
+                let mut others = self.others.iter();
+                others.try_for_each(|others| states::write(assembly, others, out))
+            }
+            PROFILE => profile::write(assembly, &self.last.state, out),
+            EVENTS => events::write(&self.outcome.events, out),
+            COLLECTION => self.write_collection(out),
+            MACRO => out.write_all(PARAVIEW_SCRIPT.as_bytes()),
+            SUMMARY => write_json(&self.summary, out),
+            _ => unreachable!("{name} is not a result"),
         }
-        if output.states {
-            staged.file(STATES, |out| tables.states.write(self.records, out))?;
-        }
-        if let Some(others) = &self.others {
-            staged.file(OTHER_STATES, |out| tables.states.write(others, out))?;
-        }
-        staged.file(PROFILE, |out| profile::write(&self.along, out))?;
-        if let Some(happened) = &self.events {
-            staged.file(EVENTS, |out| events::write(happened, out))?;
-        }
-        if output.vtk {
-            self.stage_pictures(staged)?;
-            staged.file(COLLECTION, |out| self.write_collection(out))?;
-            staged.file(MACRO, |out| out.write_all(PARAVIEW_SCRIPT.as_bytes()))?;
-        }
-        staged.file(SUMMARY, |out| {
-            serde_json::to_writer_pretty(&mut *out, &self.summary)?;
-            writeln!(out)
-        })
     }
 
     fn stage_pictures(&self, staged: &mut Staged<'_>) -> Result<(), RunDirectoryError> {
-        let folder = staged.folder.join(PICTURES);
-        fs::create_dir_all(&folder).map_err(RunDirectoryError::io(&folder))?;
         let pictures = VtkPictures::new(self.assembly);
-        for record in self.records.iter() {
+        for (i, record) in self.records.iter().enumerate() {
             let record = record.map_err(RecordsError::Unreadable)?;
-            staged.picture(|out| pictures.write(record.at, &record.state, out))?;
+            if let Some(state) = &record.state {
+                let picture = |out: &mut _| pictures.write(record.row.at, state, out);
+                staged.file(picture_name(i), picture)?;
+            }
         }
         Ok(())
     }
 
     fn write_collection(&self, out: &mut impl Write) -> io::Result<()> {
-        let times = self
-            .records
-            .iter()
-            .map(|r| r.map(|record| record.at.value()));
-        let pictures = times.enumerate().map(|(i, t)| Ok((t?, picture_name(i))));
+        let times = self.records.iter();
+        let times = times.map(|record| record.map(|record| record.row.at.value()));
+        let pictures = times
+            .enumerate()
+            .map(|(i, time)| Ok((time?, picture_name(i))));
         write_collection(&self.assembly.scene.title, pictures, out)
     }
 }
@@ -300,10 +322,7 @@ mod tests {
         directory.write_scene(&assembly.scene).unwrap();
         fs::write(folder.path().join(SCENE), "mine").unwrap();
         let error = RunDirectory::create(folder.path(), true).unwrap_err();
-        assert!(
-            matches!(error, RunDirectoryError::Changed { .. }),
-            "{error}"
-        );
+        assert!(matches!(error, RunDirectoryError::Changed(_)), "{error}");
         assert_eq!(fs::read(folder.path().join(SCENE)).unwrap(), b"mine");
     }
 
@@ -413,10 +432,9 @@ mod tests {
         }
         let assembly = fixture::clamped_start();
         let trajectory = fixture::trajectory(&assembly);
-        let tables = Tables::new(&assembly);
         let written = |room| {
             let mut full = Full(io::Cursor::default(), room);
-            let written = tables.states.write(&trajectory, &mut full);
+            let written = states::write(&assembly, &trajectory, &mut full);
             written.map(|()| full.0.into_inner().len() as u64)
         };
         let whole = written(u64::MAX).unwrap();
@@ -443,7 +461,7 @@ mod tests {
     }
 
     #[test]
-    fn values_that_are_not_finite_are_refused_before_writing() {
+    fn values_that_are_not_finite_are_refused() {
         let assembly = fixture::clamped_start();
         let spoil: [(&str, Spoil); 4] = [
             ("states.npz: position_nm[1, 4, 2] is", |s| {
@@ -465,13 +483,13 @@ mod tests {
             assert_refused(&assembly, &trajectory, message);
         }
         let mut trajectory = fixture::trajectory(&assembly);
-        trajectory.records[1].residual_force_pn = f64::NAN;
+        trajectory.records[1].row.residual_force_pn = f64::NAN;
         assert_refused(
             &assembly,
             &trajectory,
             "energies.csv: residual_force_pn[1] is NaN",
         );
-        trajectory.records[2].at = At::Time(f64::INFINITY);
+        trajectory.records[2].row.at = At::Time(f64::INFINITY);
         assert_refused(&assembly, &trajectory, "summary.json: time_ns is inf");
     }
 
@@ -484,7 +502,7 @@ mod tests {
             "the trajectory holds no record",
         );
         let mut trajectory = fixture::trajectory(&assembly);
-        trajectory.records[1].energies_pn_nm.pop();
+        trajectory.records[1].row.energies_pn_nm.pop();
         let terms = assembly.terms.len();
         let message = format!(
             "record 1 holds {} energies where the assembly has {terms}",

@@ -68,9 +68,9 @@ pub use observe::{DerivedLength, MeanSummary, ObservableSummary};
 pub use run::{
     At, EnergyTotals, EquilibriumReport, Estimate, FailedRun, Failure, HingeSlip, LongestStep,
     MotionPosition, Outcome, PathPosition, Plan, Progress, Record, RecordIter, RecordSummary,
-    Records, RecordsError, RelaxationTimes, ResolutionSwitch, Row, RowIter, RunError, RunPosition,
+    Records, RecordsError, RelaxationTimes, ResolutionSwitch, Row, RunError, RunPosition,
     RunStatistics, SaddlePush, SavedRun, Sink, Slip, SolveReport, StableState, StableStates,
-    Status, Trajectory, composition, near_equilibrium, solver,
+    Status, StoredRecord, Trajectory, composition, near_equilibrium, solver,
 };
 pub use summary::{
     AccuracySummary, EndReaction, EndReactions, EnergySummary, FilamentSummary, FollowingSummary,

@@ -1,6 +1,6 @@
 //! Errors of sweeps. A failed run is a row of the table, not an error.
 
-use actin_rundir::{CheckpointError, RunDirectoryError};
+use actin_rundir::RunDirectoryError;
 use actin_sim::SceneError;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -71,9 +71,6 @@ pub enum SweepError {
     /// The directory of a run is not usable, or its results could not be written.
     #[error(transparent)]
     Run(#[from] RunDirectoryError),
-    /// A checkpoint belongs to another scene.
-    #[error(transparent)]
-    Checkpoint(#[from] CheckpointError),
 }
 
 fn lines(file: &Path, mistakes: &[SceneError]) -> String {

@@ -2,8 +2,10 @@
 
 use crate::design::Run;
 use crate::{Settings, SweepDirectory, SweepError, ValidatedSweep};
-use actin_rundir::{CheckpointError, Checkpoints, RunDirectory, RunDirectoryError, RunLock};
-use actin_sim::{Assembly, Outcome, Plan, RecordsError, RunError, SavedRun, SceneText, Status};
+use actin_rundir::{
+    CheckpointError, Checkpoints, Existing, OpenedRun, RunDirectory, RunDirectoryError,
+};
+use actin_sim::{Assembly, Outcome, Plan, RecordsError, RunError, SceneText, Status};
 use serde_json::Value;
 use std::path::Path;
 use std::sync::Arc;
@@ -66,10 +68,13 @@ fn make_planned(
         Arc::clone(&settings.interrupted),
         settings.warn,
     );
-    let (saved, _lock) = begin(&kept, plan, &mut checkpoints, settings.warn)?;
+    let opened = open(&kept, plan, &mut checkpoints, settings.warn)?;
+    let OpenedRun::Begun { saved, lock: _lock } = opened else {
+        return Ok(State::Finished);
+    };
     let outcome = match saved {
         None => plan.run_into(&mut checkpoints),
-        Some(saved) => plan.resume_into(saved, &mut checkpoints),
+        Some(saved) => plan.resume_into(*saved, &mut checkpoints),
     };
     match outcome {
         Ok(outcome) if outcome.status == Status::Interrupted => Ok(State::Interrupted),
@@ -84,26 +89,20 @@ fn make_planned(
     }
 }
 
-/// Opens the directory of a run and returns its saved state and its lock.
-fn begin(
+/// Opens the directory of a run. A checkpoint that cannot be read is replaced with a warning.
+fn open(
     kept: &RunDirectory,
     plan: &Plan<'_>,
     checkpoints: &mut Checkpoints,
     warn: fn(&CheckpointError),
-) -> Result<(Option<SavedRun>, RunLock), SweepError> {
+) -> Result<OpenedRun, RunDirectoryError> {
     if kept.has_checkpoint() {
-        let lock = RunLock::acquire(kept.path())?;
-        match checkpoints.resume(plan) {
-            Ok(saved) => {
-                kept.reopen()?;
-                return Ok((Some(saved), lock));
-            }
-            Err(error) => warn(&error),
+        match checkpoints.open(plan, Existing::Resume) {
+            Err(RunDirectoryError::Checkpoint(error)) => warn(&error),
+            opened => return opened,
         }
     }
-    let (_, lock) = RunDirectory::create_locked(kept.path(), true)?;
-    kept.write_scene(plan.scene())?;
-    Ok((None, lock))
+    checkpoints.open(plan, Existing::Overwrite)
 }
 
 /// Writes the results of a run. A non-finite result is a failure of the run.

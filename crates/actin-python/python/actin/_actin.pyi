@@ -285,7 +285,8 @@ def run(
     """Runs a scene in memory, or in the run directory `out`.
 
     - `overwrite`: replaces an earlier run.
-    - `resume`: continues an interrupted run, with bitwise identical results.
+    - `resume`: continues an interrupted run, or extends a completed motion to a longer duration; the results are
+      bitwise identical to those of a single run.
     - `progress`: `True` shows a bar (the default on a terminal), `False` shows nothing; a function is called
       with a `Progress`.
 

@@ -373,13 +373,20 @@ def emit_warnings(found: Run | Trade) -> None:
         warnings.warn(f"{each['message']} [{each['code']}]", RunWarning, stacklevel=level)
 
 
+_FORMAT = 1
+"""Newest known format of run directories."""
+
+
 def load(path: str | os.PathLike[str]) -> Run:
     """Reads a run directory.
 
-    Energies are named after the columns of `energies.csv`. Raises `OSError` if a file is missing.
+    Energies are named after the columns of `energies.csv`. Raises `OSError` if a file is missing and `ValueError` for
+    a newer format.
     """
     folder = Path(path)
     summary = json.loads((folder / "summary.json").read_text())
+    if summary.get("format", 1) > _FORMAT:
+        raise ValueError(f"{folder} has the format version {summary['format']}: this version of actin reads up to {_FORMAT}")
     scene = Scene.from_file(folder / "scene.ron")
     arrays: dict[str, Array] = {}
     bodies: dict[str, Any] = {}

@@ -25,11 +25,8 @@ pub enum Damage {
     #[error("{0}")]
     Io(#[from] io::Error),
     /// The file has another format.
-    #[error("not a checkpoint: it does not begin with {expected:?}")]
-    OtherFile {
-        /// Expected beginning of the file.
-        expected: &'static str,
-    },
+    #[error("not a checkpoint: it does not begin with {0:?}")]
+    OtherFile(&'static str),
     /// The version of the format is not supported.
     #[error("format version {found}: this program reads version {known}")]
     Format {
@@ -79,6 +76,9 @@ pub enum Damage {
         /// Line of the given scene.
         given: String,
     },
+    /// A completed motion cannot be extended.
+    #[error("the run cannot be extended: {0}")]
+    Extension(String),
     /// The contents are inconsistent although the checksum is correct.
     #[error("inconsistent contents: {0}")]
     Contents(String),

@@ -5,7 +5,7 @@ use super::log::{Tally, compare, open};
 use super::stored::{Form, Stored};
 use super::wire::{decode, decode_all, encode};
 use crate::difference::{Difference, first_difference};
-use actin_sim::{Plan, RecordSummary, RunPosition, RunStatistics, SavedRun, Task};
+use actin_sim::{Plan, RecordSummary, RunPosition, RunStatistics, SavedRun, StoredRecord, Task};
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 use std::io::Read;
@@ -22,10 +22,10 @@ const PROGRAM: &str = env!("CARGO_PKG_VERSION");
 /// Scene and record layout of a checkpoint.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Identity {
-    scene: String,
+    pub(super) scene: String,
     pub(super) form: Form,
     /// True for motions in time, false for equilibria.
-    is_motion: bool,
+    pub(super) is_motion: bool,
 }
 
 /// Beginning of the contents. It is decoded first, since the rest depends on the program version.
@@ -114,7 +114,8 @@ impl Contents<'_> {
             let what = "the numbers of records, bodies or columns differ from the run";
             return Err(Damage::Contents(what.into()));
         }
-        let last = self.last.and_then(|last| last.into_record(form));
+        let last = self.last.map(|last| last.into_record(form));
+        let last = last.and_then(StoredRecord::into_record);
         Ok(SavedRun {
             position: self.position.into_owned(),
             recorded: RecordSummary { carried, last },
@@ -147,9 +148,7 @@ fn read_body(path: &Path) -> Result<Vec<u8>, Damage> {
     };
     file.read_exact(&mut header).map_err(short)?;
     if &header[..8] != MAGIC {
-        return Err(Damage::OtherFile {
-            expected: "ACTINCKP",
-        });
+        return Err(Damage::OtherFile("ACTINCKP"));
     }
     let of_header = crc32fast::hash(&header[..24]);
     compare("its header".into(), of_header, word(&header, 24))?;

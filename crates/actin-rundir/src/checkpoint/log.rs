@@ -3,7 +3,8 @@
 use super::Damage;
 use super::stored::{Form, Stored};
 use super::wire::encode;
-use actin_sim::{Record, RecordIter, Records, RowIter};
+use actin_sim::mechanics::State;
+use actin_sim::{Record, RecordIter, Records, StoredRecord};
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 use std::fs::{File, OpenOptions};
@@ -31,7 +32,8 @@ pub(super) struct Tally {
 pub(super) struct RecordLog {
     path: PathBuf,
     form: Form,
-    last: Option<Record>,
+    /// State of the last record, if the file has no states.
+    last: Option<State>,
     /// Bytes of a record and its checksum.
     length: usize,
     file: Option<File>,
@@ -50,7 +52,7 @@ impl RecordLog {
         Self {
             path,
             form: form.clone(),
-            last: last.filter(|_| !form.has_states).cloned(),
+            last: last.filter(|_| !form.has_states).map(|r| r.state.clone()),
             length: Stored::length(form) + CHECKSUM,
             file: None,
             written: tally,
@@ -61,12 +63,13 @@ impl RecordLog {
     }
 
     /// Adds a record. Write errors are reported by [`sync`](Self::sync).
-    pub(super) fn push(&mut self, record: &Record) {
+    pub(super) fn push(&mut self, record: StoredRecord<'_>) {
         let start = self.buffer.len();
-        let stored = Stored::new(record, self.form.has_states);
+        let state = record.state.as_deref().filter(|_| self.form.has_states);
+        let stored = Stored::new(&record.row, state);
         self.buffer = encode(&stored, std::mem::take(&mut self.buffer));
         if !self.form.has_states {
-            self.last = Some(record.clone());
+            self.last = record.state.map(Cow::into_owned);
         }
         let checksum = follow(self.taken.checksum, &self.buffer[start..]);
         self.buffer.extend(checksum.to_le_bytes());
@@ -128,23 +131,13 @@ impl RecordLog {
         Ok(Tally { count, checksum })
     }
 
+    /// Length of the file in bytes.
     fn end(&self) -> u64 {
-        HEADER + self.written.count as u64 * self.length as u64
+        let records = (self.written.count as u64).saturating_mul(self.length as u64);
+        records.saturating_add(HEADER)
     }
 
-    fn checked_end(&self) -> Option<u64> {
-        let records = (self.written.count as u64).checked_mul(self.length as u64)?;
-        records.checked_add(HEADER)
-    }
-
-    fn stored(&self) -> Box<dyn Iterator<Item = io::Result<Stored<'static>>> + '_> {
-        let refused = |damage: Damage| io::Error::other(damage.of(&self.path));
-        match self.read() {
-            Ok(reading) => Box::new(reading.map(move |stored| stored.map_err(refused))),
-            Err(damage) => Box::new(std::iter::once(Err(refused(damage)))),
-        }
-    }
-
+    /// Begins to read all records.
     pub(super) fn read(&self) -> Result<Reading<'_>, Damage> {
         let file: Box<dyn Read> = match self.written.count {
             0 => Box::new(io::empty()),
@@ -160,10 +153,7 @@ impl RecordLog {
     }
 
     fn read_file(&self) -> Result<impl Read + use<>, Damage> {
-        let Some(expected) = self.checked_end() else {
-            let count = self.written.count;
-            return Err(Damage::Contents(format!("{count} records")));
-        };
+        let expected = self.end();
         let file = open(&self.path)?;
         let found = file.metadata()?.len();
         if found < expected {
@@ -173,9 +163,7 @@ impl RecordLog {
         let mut magic = [0; 8];
         file.read_exact(&mut magic)?;
         if &magic != MAGIC {
-            return Err(Damage::OtherFile {
-                expected: "ACTINREC",
-            });
+            return Err(Damage::OtherFile("ACTINREC"));
         }
         Ok(file.take(expected - HEADER))
     }
@@ -187,15 +175,11 @@ impl Records for RecordLog {
     }
 
     fn iter(&self) -> RecordIter<'_> {
-        if !self.form.has_states {
-            return Box::new(self.last.iter().map(|record| Ok(Cow::Borrowed(record))));
+        let refused = |damage: Damage| io::Error::other(damage.of(&self.path));
+        match self.read() {
+            Ok(reading) => Box::new(reading.map(move |record| record.map_err(refused))),
+            Err(damage) => Box::new(std::iter::once(Err(refused(damage)))),
         }
-        let whole = |stored: Stored<'_>| stored.into_record(&self.form).map(Cow::Owned);
-        Box::new(self.stored().filter_map(move |r| r.map(whole).transpose()))
-    }
-
-    fn rows(&self) -> RowIter<'_> {
-        Box::new(self.stored().map(|stored| stored.map(Stored::into_row)))
     }
 }
 
@@ -207,8 +191,8 @@ pub(super) struct Reading<'a> {
     has_ended: bool,
 }
 
-impl Reading<'_> {
-    fn next_record(&mut self) -> Result<Option<Stored<'static>>, Damage> {
+impl<'a> Reading<'a> {
+    fn next_record(&mut self) -> Result<Option<StoredRecord<'a>>, Damage> {
         let Self { log, tally, .. } = self;
         if tally.count == log.taken.count {
             let part = "all records (possibly of another checkpoint)".into();
@@ -221,12 +205,17 @@ impl Reading<'_> {
         let written = u32::from_le_bytes(written);
         compare(format!("record {}", tally.count), tally.checksum, written)?;
         tally.count += 1;
-        Stored::read(body, &log.form).map(Some)
+        let mut record = Stored::read(body, &log.form)?.into_record(&log.form);
+        if tally.count == log.taken.count {
+            let last = log.last.as_ref();
+            record.state = record.state.or(last.map(Cow::Borrowed));
+        }
+        Ok(Some(record))
     }
 }
 
-impl Iterator for Reading<'_> {
-    type Item = Result<Stored<'static>, Damage>;
+impl<'a> Iterator for Reading<'a> {
+    type Item = Result<StoredRecord<'a>, Damage>;
 
     fn next(&mut self) -> Option<Self::Item> {
         if self.has_ended {
@@ -317,7 +306,7 @@ mod tests {
         let (_folder, mut log, records) = log();
         let count = 3 * BUFFER.div_ceil(log.length) + 2;
         for i in 0..count {
-            log.push(&records[i % 3]);
+            log.push(records[i % 3].as_stored());
             assert!(log.buffer.len() < BUFFER + log.length);
             let written = fs::metadata(&log.path).map_or(HEADER, |data| data.len());
             let all = written + log.buffer.len() as u64;
@@ -336,7 +325,7 @@ mod tests {
         let (_folder, mut log, records) = log();
         let tallies = [0, 1, 2].map(|count| {
             let tally = log.sync(count).unwrap();
-            log.push(&records[count]);
+            log.push(records[count].as_stored());
             tally
         });
         for (count, tally) in tallies.into_iter().enumerate() {
@@ -345,7 +334,7 @@ mod tests {
         let mut again = RecordLog::new(log.path.clone(), tallies[2], &log.form, None);
         assert_eq!(Trajectory::read(&again).unwrap().records.len(), 2);
         // The first write after resuming truncates the file to these records.
-        again.push(&records[2]);
+        again.push(records[2].as_stored());
         again.sync(3).unwrap();
         assert_eq!(Trajectory::read(&again).unwrap().records.len(), 3);
         let length = fs::metadata(&again.path).unwrap().len();
@@ -357,7 +346,7 @@ mod tests {
         let (_folder, mut log, records) = log();
         fs::create_dir(&log.path).unwrap();
         for record in &records {
-            log.push(record);
+            log.push(record.as_stored());
         }
         assert!(log.sync(3).is_err());
         assert_eq!(Trajectory::read(&log).unwrap().records.len(), 3);
@@ -372,15 +361,16 @@ mod tests {
     fn without_states_records_are_rows() {
         let (_folder, mut log, records) = log_of(false);
         for record in &records {
-            log.push(record);
+            log.push(record.as_stored());
         }
         log.sync(3).unwrap();
         // Tagged time, six numbers, energies of the terms, two list lengths and a flag without
         // state.
         let expected = 9 + 6 * 8 + 8 * log.form.terms + 3;
         assert_eq!(log.length, expected + CHECKSUM);
-        let rows: Vec<Row> = log.rows().map(Result::unwrap).collect();
-        let expected: Vec<Row> = records.iter().map(Record::row).collect();
+        let rows = log.iter().map(|record| record.unwrap().row.into_owned());
+        let rows: Vec<Row> = rows.collect();
+        let expected: Vec<Row> = records.iter().map(|record| record.row.clone()).collect();
         assert_eq!((rows, log.count()), (expected, 3));
         let kept = Trajectory::read(&log).unwrap().records;
         assert_eq!((kept.len(), &kept[0].state), (1, &records[2].state));

@@ -32,10 +32,11 @@
 
 mod checkpoints;
 mod error;
+mod extension;
 mod file;
 mod log;
 mod stored;
 mod wire;
 
-pub use checkpoints::Checkpoints;
+pub use checkpoints::{Checkpoints, Existing, OpenedRun};
 pub use error::{CheckpointError, Damage};

@@ -123,6 +123,18 @@ fn damaged_or_unfinished_runs_are_refused() {
 }
 
 #[test]
+fn newer_formats_are_refused() {
+    let message = refusal(|folder| {
+        let path = folder.join("summary.json");
+        let text = fs::read_to_string(&path).unwrap();
+        assert!(text.contains("\"format\": 1"), "{text}");
+        fs::write(path, text.replace("\"format\": 1", "\"format\": 2")).unwrap();
+    });
+    let expected = "summary.json has the format version 2: this program reads versions up to 1";
+    assert!(message.contains(expected), "{message}");
+}
+
+#[test]
 fn truncated_file_is_an_error() {
     let message = refusal(|folder| {
         let bytes = fs::read(folder.join(STATES)).unwrap();

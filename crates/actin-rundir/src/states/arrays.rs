@@ -17,7 +17,7 @@ impl Arrays {
     pub(crate) fn open(path: PathBuf) -> Result<Self, RunDirectoryError> {
         let file = File::open(&path).map_err(RunDirectoryError::io(&path))?;
         let archive = ZipArchive::new(BufReader::new(file))
-            .map_err(|error| damaged(&path, error.to_string()))?;
+            .map_err(|error| RunDirectoryError::damaged(&path, &error))?;
         let archive = std::cell::RefCell::new(archive);
         Ok(Self { path, archive })
     }
@@ -37,7 +37,8 @@ impl Arrays {
         records: Option<usize>,
         shape: &[usize],
     ) -> Result<Array, RunDirectoryError> {
-        let refused = |reason: String| damaged(&self.path, format!("{name}: {reason}"));
+        let refused =
+            |reason: String| RunDirectoryError::damaged(&self.path, &format!("{name}: {reason}"));
         let (start, size) = self.place(name)?;
         let open = || -> std::io::Result<_> {
             let mut file = File::open(&self.path)?;
@@ -46,16 +47,13 @@ impl Arrays {
         };
         let array = open().map_err(|error| refused(error.to_string()))?;
         let found = array.shape().to_vec();
-        let shape = shape.iter().map(|&n| n as u64);
+        let of_record = shape.iter().map(|&n| n as u64);
         let records = records.map_or_else(|| found.first().copied().unwrap_or(0), |n| n as u64);
-        let expected: Vec<u64> = std::iter::once(records).chain(shape).collect();
+        let expected: Vec<u64> = std::iter::once(records).chain(of_record).collect();
         if found != expected || array.order() != Order::C {
-            return Err(RunDirectoryError::OtherBodies {
-                path: self.path.clone(),
-                reason: format!(
-                    "{name} has the shape {found:?}, but the scene requires {expected:?}"
-                ),
-            });
+            let reason =
+                format!("{name} has the shape {found:?}, but the scene requires {expected:?}");
+            return Err(RunDirectoryError::OtherBodies(self.path.clone(), reason));
         }
         let values = array
             .data::<f64>()
@@ -63,12 +61,14 @@ impl Arrays {
         Ok(Array {
             path: self.path.clone(),
             name: name.to_owned(),
+            width: shape.iter().product(),
             values,
         })
     }
 
     fn place(&self, name: &str) -> Result<(u64, u64), RunDirectoryError> {
-        let refused = |reason: String| damaged(&self.path, format!("{name}: {reason}"));
+        let refused =
+            |reason: String| RunDirectoryError::damaged(&self.path, &format!("{name}: {reason}"));
         let mut archive = self.archive.borrow_mut();
         let entry = archive.by_name(&format!("{name}.npy"));
         let entry = entry.map_err(|error| refused(error.to_string()))?;
@@ -81,21 +81,16 @@ impl Arrays {
     }
 }
 
-fn damaged(path: &Path, reason: String) -> RunDirectoryError {
-    RunDirectoryError::Damaged {
-        path: path.to_owned(),
-        reason,
-    }
-}
-
 pub(crate) struct Array {
     path: PathBuf,
     name: String,
+    /// Number of values in a record.
+    width: usize,
     values: npyz::NpyReader<f64, Take<BufReader<File>>>,
 }
 
 impl Array {
-    pub(crate) fn next(&mut self) -> Result<f64, RunDirectoryError> {
+    fn next(&mut self) -> Result<f64, RunDirectoryError> {
         match self.values.next() {
             Some(Ok(value)) if value.is_finite() => Ok(value),
             Some(Ok(value)) => Err(self.damaged(&format!("holds {value}"))),
@@ -104,12 +99,16 @@ impl Array {
         }
     }
 
-    pub(crate) fn skip(&mut self, count: usize) -> Result<(), RunDirectoryError> {
-        (0..count).try_for_each(|_| self.next().map(drop))
+    /// Reads the values of the next record after `skipped` records.
+    pub(crate) fn record(&mut self, skipped: usize) -> Result<Vec<f64>, RunDirectoryError> {
+        for _ in 0..skipped * self.width {
+            self.next()?;
+        }
+        (0..self.width).map(|_| self.next()).collect()
     }
 
     pub(crate) fn damaged(&self, reason: &str) -> RunDirectoryError {
-        damaged(&self.path, format!("{}: {reason}", self.name))
+        RunDirectoryError::damaged(&self.path, &format!("{}: {reason}", self.name))
     }
 
     pub(crate) fn read_all(mut self) -> Result<Vec<f64>, RunDirectoryError> {

@@ -19,4 +19,5 @@ mod read;
 mod write;
 
 pub use read::{StateIter, StoredStates};
-pub(crate) use write::States;
+pub use write::StateArray;
+pub(crate) use write::write;

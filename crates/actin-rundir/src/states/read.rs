@@ -4,9 +4,10 @@
 //! follow from the scene and the time or path, bound linkers from `events.csv`.
 
 use super::arrays::{Array, Arrays};
+use super::write::{ANGULAR_MOMENTUM, POSITION, QUATERNION, StateArray, VELOCITY};
 use crate::names::{EVENTS, SCENE, STATES};
 use crate::{RunDirectory, RunDirectoryError, clock, events};
-use actin_sim::mechanics::{Quaternions, State, Vectors};
+use actin_sim::mechanics::{State, Vector3, Vectors};
 use actin_sim::{Assembly, At, LinkerEvent};
 
 /// Maximum deviation of the norm of a quaternion from 1.
@@ -31,6 +32,7 @@ impl RunDirectory {
         &self,
         assembly: &Assembly,
     ) -> Result<Option<StoredStates>, RunDirectoryError> {
+        self.ensure_known_format()?;
         let path = self.path.join(STATES);
         if !path.exists() {
             return Ok(None);
@@ -74,20 +76,20 @@ impl StoredStates {
     where
         I: IntoIterator<Item = usize>,
     {
-        let (points, frames) = (assembly.points.len(), assembly.frames.len());
-        let array = |name, shape: &[usize]| {
-            let records = Some(self.at.len());
-            self.arrays.open_array(name, records, shape)
+        let records = Some(self.at.len());
+        let array = |array: StateArray| {
+            self.arrays
+                .open_array(array.name, records, &array.shape(assembly))
         };
         Ok(StateIter {
             stored: self,
             assembly,
             which: which.into_iter(),
             next: 0,
-            position: array("position_nm", &[points, 3])?,
-            velocity: array("velocity_nm_per_ns", &[points, 3])?,
-            quaternion: array("quaternion", &[frames, 4])?,
-            angular_momentum: array("angular_momentum", &[frames, 3])?,
+            position: array(POSITION)?,
+            velocity: array(VELOCITY)?,
+            quaternion: array(QUATERNION)?,
+            angular_momentum: array(ANGULAR_MOMENTUM)?,
         })
     }
 
@@ -97,10 +99,9 @@ impl StoredStates {
         let own = assembly.points.iter().map(|point| point.s_nm);
         let differ = |(read, own): (f64, f64)| (read - own).abs() > SAME_PLACE_NM;
         if places.into_iter().zip(own).any(differ) {
-            return Err(RunDirectoryError::OtherBodies {
-                path: self.arrays.path().to_owned(),
-                reason: format!("s_nm does not match {SCENE}, which was changed after the run"),
-            });
+            let reason = format!("s_nm does not match {SCENE}, which was changed after the run");
+            let path = self.arrays.path().to_owned();
+            return Err(RunDirectoryError::OtherBodies(path, reason));
         }
         Ok(())
     }
@@ -123,28 +124,27 @@ impl<I> StateIter<'_, I> {
     /// Reads the state of a record at or after the current position.
     fn read(&mut self, record: usize) -> Result<State, RunDirectoryError> {
         let mut state = self.assembly.rest.clone();
-        self.skip(record - self.next)?;
-        self.next = record + 1;
+        let skipped = record - std::mem::replace(&mut self.next, record + 1);
         let at = self.stored.at[record];
         let events = &self.stored.events;
         self.assembly.restore_controls(&mut state, at, events);
         if let At::Time(time_ns) = at {
             state.time = time_ns;
         }
-        fill(&mut state.points.position, &mut self.position)?;
-        fill(&mut state.points.velocity, &mut self.velocity)?;
-        turn(&mut state.frames.orientation, &mut self.quaternion)?;
-        let angular_momentum = &mut state.frames.angular_momentum;
-        fill(angular_momentum, &mut self.angular_momentum)?;
+        state.points.position = vectors(&self.position.record(skipped)?);
+        state.points.velocity = vectors(&self.velocity.record(skipped)?);
+        state.frames.angular_momentum = vectors(&self.angular_momentum.record(skipped)?);
+        let quaternions = self.quaternion.record(skipped)?;
+        let turns = &mut state.frames.orientation;
+        for (i, q) in quaternions.chunks_exact(4).enumerate() {
+            let norm = q.iter().map(|c| c * c).sum::<f64>().sqrt();
+            if (norm - 1.0).abs() > UNIT {
+                let reason = format!("a quaternion has the norm {norm} instead of 1");
+                return Err(self.quaternion.damaged(&reason));
+            }
+            (turns.w[i], turns.x[i], turns.y[i], turns.z[i]) = (q[0], q[1], q[2], q[3]);
+        }
         Ok(state)
-    }
-
-    fn skip(&mut self, records: usize) -> Result<(), RunDirectoryError> {
-        let (points, frames) = (self.assembly.points.len(), self.assembly.frames.len());
-        self.position.skip(3 * points * records)?;
-        self.velocity.skip(3 * points * records)?;
-        self.quaternion.skip(4 * frames * records)?;
-        self.angular_momentum.skip(3 * frames * records)
     }
 }
 
@@ -164,23 +164,9 @@ impl<I: Iterator<Item = usize>> Iterator for StateIter<'_, I> {
     }
 }
 
-fn fill(vectors: &mut Vectors, array: &mut Array) -> Result<(), RunDirectoryError> {
-    for i in 0..vectors.len() {
-        (vectors.x[i], vectors.y[i], vectors.z[i]) = (array.next()?, array.next()?, array.next()?);
-    }
-    Ok(())
-}
-
-fn turn(turns: &mut Quaternions, array: &mut Array) -> Result<(), RunDirectoryError> {
-    for i in 0..turns.len() {
-        let [w, x, y, z] = [array.next()?, array.next()?, array.next()?, array.next()?];
-        let length = (w * w + x * x + y * y + z * z).sqrt();
-        if (length - 1.0).abs() > UNIT {
-            return Err(array.damaged(&format!("a quaternion has the norm {length} instead of 1")));
-        }
-        (turns.w[i], turns.x[i], turns.y[i], turns.z[i]) = (w, x, y, z);
-    }
-    Ok(())
+fn vectors(components: &[f64]) -> Vectors {
+    let vectors = components.chunks_exact(3);
+    vectors.map(|v| Vector3::new(v[0], v[1], v[2])).collect()
 }
 
 #[cfg(test)]

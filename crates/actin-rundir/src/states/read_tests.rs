@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::fixture;
-use crate::states::States;
+use crate::states::write;
 use actin_sim::Trajectory;
 use std::fs::File;
 
@@ -10,7 +10,7 @@ fn written(assembly: &Assembly) -> (tempfile::TempDir, Trajectory) {
     let folder = tempfile::tempdir().unwrap();
     let trajectory = fixture::trajectory(assembly);
     let mut file = File::create(folder.path().join(STATES)).unwrap();
-    States::new(assembly).write(&trajectory, &mut file).unwrap();
+    write(assembly, &trajectory, &mut file).unwrap();
     (folder, trajectory)
 }
 

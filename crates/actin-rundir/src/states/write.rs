@@ -1,10 +1,9 @@
 //! Writing of `states.npz`.
 
-use crate::finite::ensure_finite_in;
 use crate::names::STATES;
 use crate::{RunDirectoryError, clock};
-use actin_sim::mechanics::State;
-use actin_sim::{Assembly, BodyKind, FilamentSpan, Record, Records};
+use actin_sim::mechanics::{State, Vector3};
+use actin_sim::{Assembly, BodyKind, Records};
 use npyz::{NpyWriter, WriterBuilder};
 use std::io::{self, Seek, SeekFrom, Write};
 use zip::write::SimpleFileOptions;
@@ -19,188 +18,173 @@ struct Silent<W> {
     has_failed: bool,
 }
 
-impl<W: Write + Seek> Silent<W> {
-    fn new(out: W) -> Self {
-        Self {
-            out,
-            place: 0,
-            has_failed: false,
+impl<W> Silent<W> {
+    /// Applies an operation; `discarded` is its result after an error.
+    fn apply<T>(
+        &mut self,
+        discarded: T,
+        operation: impl FnOnce(&mut W) -> io::Result<T>,
+    ) -> io::Result<T> {
+        if self.has_failed {
+            return Ok(discarded);
         }
-    }
-
-    fn check<T>(&mut self, done: io::Result<T>) -> io::Result<T> {
-        self.has_failed |= done.is_err();
+        let done = operation(&mut self.out);
+        self.has_failed = done.is_err();
         done
     }
 }
 
-impl<W: Write + Seek> Write for Silent<W> {
+impl<W: Write> Write for Silent<W> {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        let written = if self.has_failed {
-            bytes.len()
-        } else {
-            let written = self.out.write(bytes);
-            self.check(written)?
-        };
+        let written = self.apply(bytes.len(), |out| out.write(bytes))?;
         self.place += written as u64;
         Ok(written)
     }
 
     fn flush(&mut self) -> io::Result<()> {
-        if self.has_failed {
-            return Ok(());
-        }
-        let flushed = self.out.flush();
-        self.check(flushed)
+        self.apply((), W::flush)
     }
 }
 
-impl<W: Write + Seek> Seek for Silent<W> {
+impl<W: Seek> Seek for Silent<W> {
     fn seek(&mut self, to: SeekFrom) -> io::Result<u64> {
-        self.place = match (self.has_failed, to) {
-            (false, to) => {
-                let sought = self.out.seek(to);
-                self.check(sought)?
-            }
-            (true, SeekFrom::Start(place)) => place,
-            (true, SeekFrom::Current(by) | SeekFrom::End(by)) => {
-                self.place.saturating_add_signed(by)
-            }
+        let discarded = match to {
+            SeekFrom::Start(place) => place,
+            SeekFrom::Current(by) | SeekFrom::End(by) => self.place.saturating_add_signed(by),
         };
+        self.place = self.apply(discarded, |out| out.seek(to))?;
         Ok(self.place)
     }
 }
 
-/// One component of a state vector, for all bodies.
-type Component = fn(&State) -> &[f64];
-
-struct Field {
-    name: &'static str,
-    bodies: usize,
-    components: &'static [Component],
+/// An array of `states.npz` with values of every point or every frame in a record.
+#[derive(Clone, Copy, Debug)]
+pub struct StateArray {
+    /// Name.
+    pub name: &'static str,
+    is_of_frames: bool,
+    components: usize,
+    values: fn(&Assembly, &State) -> Vec<f64>,
 }
 
-impl Field {
-    /// Values in one state, with the component index fastest.
-    fn values<'a>(&'a self, state: &'a State) -> impl Iterator<Item = f64> + 'a {
-        let bodies = 0..self.bodies;
-        bodies.flat_map(move |i| self.components.iter().map(move |c| c(state)[i]))
-    }
-}
+pub(super) const POSITION: StateArray = StateArray::new("position_nm", false, 3, |_, s| {
+    flat(s.points.position.iter())
+});
+pub(super) const VELOCITY: StateArray = StateArray::new("velocity_nm_per_ns", false, 3, |_, s| {
+    flat(s.points.velocity.iter())
+});
+pub(super) const QUATERNION: StateArray = StateArray::new("quaternion", true, 4, |_, s| {
+    let turns = s.frames.orientation.iter();
+    turns.flat_map(|q| [q.w, q.i, q.j, q.k]).collect()
+});
+pub(super) const ANGULAR_MOMENTUM: StateArray =
+    StateArray::new("angular_momentum", true, 3, |_, s| {
+        flat(s.frames.angular_momentum.iter())
+    });
+const CENTRE_LINE: StateArray = StateArray::new("centre_line_nm", false, 3, |assembly, s| {
+    let points = 0..assembly.points.len();
+    flat(points.map(|i| assembly.centre_line_nm(s, i)))
+});
 
-pub(crate) struct States<'a> {
-    assembly: &'a Assembly,
-}
+impl StateArray {
+    /// All arrays in the order of the file.
+    pub const ALL: [Self; 5] = [
+        POSITION,
+        VELOCITY,
+        QUATERNION,
+        ANGULAR_MOMENTUM,
+        CENTRE_LINE,
+    ];
 
-impl<'a> States<'a> {
-    pub(crate) fn new(assembly: &'a Assembly) -> Self {
-        Self { assembly }
-    }
-
-    fn fields(&self) -> [Field; 4] {
-        let points = self.assembly.points.len();
-        let frames = self.assembly.frames.len();
-        let field = |name, bodies, components| Field {
+    const fn new(
+        name: &'static str,
+        is_of_frames: bool,
+        components: usize,
+        values: fn(&Assembly, &State) -> Vec<f64>,
+    ) -> Self {
+        Self {
             name,
-            bodies,
+            is_of_frames,
             components,
+            values,
+        }
+    }
+
+    /// Returns the numbers of bodies and components.
+    pub fn shape(&self, assembly: &Assembly) -> [usize; 2] {
+        let bodies = if self.is_of_frames {
+            assembly.frames.len()
+        } else {
+            assembly.points.len()
         };
-        [
-            field("position_nm", points, &POSITION),
-            field("velocity_nm_per_ns", points, &VELOCITY),
-            field("quaternion", frames, &QUATERNION),
-            field("angular_momentum", frames, &ANGULAR_MOMENTUM),
-        ]
+        [bodies, self.components]
     }
 
-    /// Points on the centre line (nm, lab frame).
-    fn centre_line(&self, state: &State) -> Vec<f64> {
-        let points = 0..self.assembly.points.len();
-        let places = points.map(|i| self.assembly.centre_line_nm(state, i));
-        places
-            .flat_map(|place| [place.x, place.y, place.z])
-            .collect()
+    /// Returns the values in a state, with the component index fastest.
+    pub fn values(&self, assembly: &Assembly, state: &State) -> Vec<f64> {
+        (self.values)(assembly, state)
     }
+}
 
-    fn columns(&self) -> [(&'static str, Vec<f64>); 2] {
-        let Assembly { points, frames, .. } = self.assembly;
-        [
-            ("s_nm", points.iter().map(|p| p.s_nm).collect()),
-            ("frame_s_nm", frames.iter().map(|f| f.s_nm).collect()),
-        ]
-    }
+fn flat(vectors: impl Iterator<Item = Vector3>) -> Vec<f64> {
+    vectors.flat_map(|v| [v.x, v.y, v.z]).collect()
+}
 
-    fn kinds(&self) -> [(&'static str, Vec<u8>); 2] {
-        let Assembly { points, frames, .. } = self.assembly;
-        [
-            ("kind", points.iter().map(|p| p.kind as u8).collect()),
-            ("frame_kind", frames.iter().map(|f| f.kind as u8).collect()),
-        ]
-    }
+/// Writes `records` with their states, with one pass over them for each array.
+pub(crate) fn write(
+    assembly: &Assembly,
+    records: &dyn Records,
+    out: &mut (impl Write + Seek),
+) -> io::Result<()> {
+    let mut archive = ZipWriter::new(Silent {
+        out,
+        place: 0,
+        has_failed: false,
+    });
+    write_arrays(assembly, records, &mut archive)?;
+    archive.finish().map(drop).map_err(io::Error::from)
+}
 
-    fn filaments(&self) -> [(&'static str, Vec<u64>); 2] {
-        let spans = &self.assembly.filaments;
-        let indices = |count_of: fn(&FilamentSpan) -> usize| {
-            let counts = spans.iter().map(count_of).enumerate();
-            counts
-                .flat_map(|(i, count)| vec![i as u64; count])
-                .collect()
-        };
-        [
-            ("filament", indices(|span| span.points.len())),
-            ("frame_filament", indices(|span| span.frames.len())),
-        ]
-    }
-
-    pub(crate) fn ensure_finite(&self, i: usize, record: &Record) -> Result<(), RunDirectoryError> {
-        let of = |name| (STATES, name);
-        ensure_finite_in(of(clock(self.assembly)), i, &[], [record.at.value()])?;
-        for field in self.fields() {
-            let shape = [field.bodies, field.components.len()];
-            ensure_finite_in(of(field.name), i, &shape, field.values(&record.state))?;
+fn write_arrays<W: Write + Seek>(
+    assembly: &Assembly,
+    records: &dyn Records,
+    archive: &mut ZipWriter<W>,
+) -> io::Result<()> {
+    let Assembly { points, frames, .. } = assembly;
+    let times = records.iter().map(|record| Ok(record?.row.at.value()));
+    let times = times.collect::<io::Result<Vec<f64>>>()?;
+    write_array(archive, clock(assembly), times)?;
+    write_array(archive, "s_nm", points.iter().map(|p| p.s_nm).collect())?;
+    write_array(
+        archive,
+        "frame_s_nm",
+        frames.iter().map(|f| f.s_nm).collect(),
+    )?;
+    let kinds = points.iter().map(|p| p.kind as u8);
+    write_array(archive, "kind", kinds.collect())?;
+    let kinds = frames.iter().map(|f| f.kind as u8);
+    write_array(archive, "frame_kind", kinds.collect())?;
+    let of_points = (0..points.len()).map(|i| assembly.filament_of_point(i) as u64);
+    let of_frames = (0..frames.len()).map(|i| assembly.filament_of_frame(i) as u64);
+    write_array(archive, "filament", of_points.collect())?;
+    write_array(archive, "frame_filament", of_frames.collect())?;
+    write_texts(archive, "kind_names", &BodyKind::ALL.map(BodyKind::name))?;
+    for array in StateArray::ALL {
+        let [bodies, components] = array.shape(assembly);
+        let shape = [records.count(), bodies, components];
+        let mut writer = begin_array(archive, array.name, &shape)?;
+        for (i, record) in records.iter().enumerate() {
+            let state = record?.state;
+            let values = state.iter().flat_map(|state| array.values(assembly, state));
+            for (k, value) in values.enumerate() {
+                let index = [i, k / components, k % components];
+                RunDirectoryError::ensure_finite(STATES, array.name, &index, value)?;
+                writer.push(&value)?;
+            }
         }
-        Ok(())
+        writer.finish()?;
     }
-
-    /// Writes the archive, with one pass over `records` for each array.
-    pub(crate) fn write(
-        &self,
-        records: &dyn Records,
-        out: &mut (impl Write + Seek),
-    ) -> io::Result<()> {
-        let mut archive = ZipWriter::new(Silent::new(out));
-        self.write_arrays(records, &mut archive)?;
-        archive.finish().map(drop).map_err(io::Error::from)
-    }
-
-    fn write_arrays<W: Write + Seek>(
-        &self,
-        records: &dyn Records,
-        archive: &mut ZipWriter<W>,
-    ) -> io::Result<()> {
-        let time = |record: &Record| [record.at.value()];
-        let count = records.count();
-        write_records(archive, clock(self.assembly), &[count], records, time)?;
-        for (name, values) in self.columns() {
-            write_array(archive, name, values)?;
-        }
-        for (name, values) in self.kinds() {
-            write_array(archive, name, values)?;
-        }
-        for (name, values) in self.filaments() {
-            write_array(archive, name, values)?;
-        }
-        write_texts(archive, "kind_names", &BodyKind::ALL.map(BodyKind::name))?;
-        let line = |record: &Record| self.centre_line(&record.state);
-        let shape = [count, self.assembly.points.len(), 3];
-        write_records(archive, "centre_line_nm", &shape, records, line)?;
-        for field in self.fields() {
-            let shape = [count, field.bodies, field.components.len()];
-            let values = |record: &Record| field.values(&record.state).collect::<Vec<_>>();
-            write_records(archive, field.name, &shape, records, values)?;
-        }
-        Ok(())
-    }
+    Ok(())
 }
 
 fn write_array<W: Write + Seek, T: npyz::AutoSerialize>(
@@ -233,20 +217,6 @@ fn write_texts<W: Write + Seek>(
     writer.finish()
 }
 
-fn write_records<W: Write + Seek, V: IntoIterator<Item = f64>>(
-    archive: &mut ZipWriter<W>,
-    name: &str,
-    shape: &[usize],
-    records: &dyn Records,
-    of: impl Fn(&Record) -> V,
-) -> io::Result<()> {
-    let mut writer = begin_array(archive, name, shape)?;
-    for record in records.iter() {
-        writer.extend(of(&*record?))?;
-    }
-    writer.finish()
-}
-
 /// Begins an uncompressed array that may exceed 4 GiB. Trajectories compress by about 4 % only. The
 /// fixed modification time keeps files of equal runs identical.
 fn begin_array<'a, W: Write + Seek, T: npyz::AutoSerialize>(
@@ -268,31 +238,6 @@ fn begin_entry<W: Write + Seek>(archive: &mut ZipWriter<W>, name: &str) -> io::R
     Ok(archive.start_file(format!("{name}.npy"), options)?)
 }
 
-const POSITION: [Component; 3] = [
-    |s| &s.points.position.x,
-    |s| &s.points.position.y,
-    |s| &s.points.position.z,
-];
-
-const VELOCITY: [Component; 3] = [
-    |s| &s.points.velocity.x,
-    |s| &s.points.velocity.y,
-    |s| &s.points.velocity.z,
-];
-
-const QUATERNION: [Component; 4] = [
-    |s| &s.frames.orientation.w,
-    |s| &s.frames.orientation.x,
-    |s| &s.frames.orientation.y,
-    |s| &s.frames.orientation.z,
-];
-
-const ANGULAR_MOMENTUM: [Component; 3] = [
-    |s| &s.frames.angular_momentum.x,
-    |s| &s.frames.angular_momentum.y,
-    |s| &s.frames.angular_momentum.z,
-];
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -306,7 +251,7 @@ mod tests {
 
     fn archive(assembly: &Assembly, trajectory: &Trajectory) -> ZipArchive<Cursor<Vec<u8>>> {
         let mut file = Cursor::new(Vec::new());
-        States::new(assembly).write(trajectory, &mut file).unwrap();
+        write(assembly, trajectory, &mut file).unwrap();
         ZipArchive::new(file).unwrap()
     }
 

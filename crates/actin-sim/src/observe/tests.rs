@@ -1,7 +1,7 @@
 //! Observed quantities against theory, summaries and profiles of the same state.
 
 use super::View;
-use crate::{Assembly, At, End, EnergyExchange, Plan, Record, Scene, Summary};
+use crate::{Assembly, At, End, Plan, Record, Scene, Summary};
 use actin_mechanics::{State, Vector3, Xorshift, perturb, rotation};
 
 pub(super) fn build(text: &str) -> Assembly {
@@ -50,17 +50,9 @@ const ALL: &str = "Scene(
 fn recorded(assembly: &Assembly) -> (Record, Summary) {
     let mut state = assembly.rest.clone();
     perturb(&mut state, &mut Xorshift::new(5), 0.05, 0.02);
-    let interactions = assembly.system.interactions();
-    let record = Record {
-        at: At::Time(0.0),
-        energies_pn_nm: interactions.iter().map(|i| i.energy(&state)).collect(),
-        kinetic_pn_nm: 0.25,
-        residual_force_pn: 0.0,
-        residual_torque_pn_nm: 0.0,
-        booked: EnergyExchange::default(),
-        observed: observe(assembly, &state),
-        state,
-    };
+    let mut record = Record::new(&assembly.system, At::Time(0.0), state);
+    record.row.kinetic_pn_nm = 0.25;
+    record.row.observed = observe(assembly, &record.state);
     let outcome = crate::Outcome::new(crate::Status::Completed, 0.0);
     let summary = Summary::new(assembly, &record, &outcome);
     (record, summary)

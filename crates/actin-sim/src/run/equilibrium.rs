@@ -8,14 +8,14 @@ use super::start::near_equilibrium;
 use super::states::{StableStates, search};
 use super::unknowns::newton;
 use super::{At, Failure, Outcome, Progress, Record, RecordSummary, RunPosition, Status};
+use crate::Assembly;
 use crate::scene::{Equilibrium as Settings, Load, SceneProblem};
 use crate::trade::{ModelErrorResult, model_error};
-use crate::{Assembly, EnergyExchange};
 use actin_equilibrium::{
     Certificate, Convergence, Equilibrium, Iteration, Jumps, Newton, NewtonFailure, Path,
     PathError, PathFailure, PathObserver, PathOptions, PathPoint, Saddles, SolverWork,
 };
-use actin_mechanics::{Loads, Residual, State, System};
+use actin_mechanics::{Residual, State, System};
 use std::ops::ControlFlow;
 
 /// Certificate, cost and accuracy of an equilibrium.
@@ -445,25 +445,9 @@ impl PathObserver for Follower<'_> {
 }
 
 pub(super) fn record(system: &System, u: f64, state: &State) -> Record {
-    let mut loads = Loads::zeros(state);
-    for interaction in system.interactions() {
-        interaction.add_loads(state, &mut loads);
-    }
-    let residual = loads.residual(state);
-    Record {
-        at: At::Path(u),
-        energies_pn_nm: system
-            .interactions()
-            .iter()
-            .map(|i| i.energy(state))
-            .collect(),
-        kinetic_pn_nm: 0.0,
-        residual_force_pn: residual.force,
-        residual_torque_pn_nm: residual.torque,
-        booked: EnergyExchange::default(),
-        observed: Vec::new(),
-        state: state.clone(),
-    }
+    let mut record = Record::new(system, At::Path(u), state.clone());
+    record.row.kinetic_pn_nm = 0.0;
+    record
 }
 
 fn lowest_eigenvalue(

@@ -32,7 +32,7 @@ pub use plan::Plan;
 pub use record_stream::{RecordSummary, RunStatistics};
 pub(crate) use recorder::record;
 pub use records::{
-    At, EnergyTotals, Record, RecordIter, Records, RecordsError, Row, RowIter, Trajectory,
+    At, EnergyTotals, Record, RecordIter, Records, RecordsError, Row, StoredRecord, Trajectory,
 };
 pub use rest::SaddlePush;
 pub use sink::{

@@ -83,8 +83,9 @@ impl RecordSummary {
         let all = &mut self.carried;
         let energies = (record.energies_pn_nm.as_slice(), record.kinetic_pn_nm);
         let view = View::new(assembly, (record.at, &record.state), energies);
-        record.booked = assembly.booked(&record.state);
-        record.observed = assembly.observers.row(&view, &mut all.observed);
+        let observed = assembly.observers.row(&view, &mut all.observed);
+        record.row.booked = assembly.booked(&record.state);
+        record.row.observed = observed;
         let beyond = assembly.beyond_use(&record.state);
         all.beyond_use = worst_of(all.beyond_use.drain(..).chain(beyond).collect::<Vec<_>>());
         all.ranges.add(assembly, &record.state);

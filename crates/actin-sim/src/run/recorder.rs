@@ -5,7 +5,7 @@ use super::record_stream::RecordStream;
 use super::rest::{RestJudge, SaddlePush, is_saddle};
 use super::sink::{Clock, MotionPosition, ResolutionSwitch, SavedRun};
 use super::slip::TurnLoss;
-use super::{At, Progress, Record, RecordSummary, RunPosition, Sink};
+use super::{At, Progress, Record, RecordSummary, Row, RunPosition, Sink};
 use crate::assembly::{Log, Ramp};
 use crate::scene::{Dynamics, Task};
 use crate::{Assembly, EnergyExchange, LinkerEvent};
@@ -331,14 +331,17 @@ fn progress(moment: &mut Moment<'_>, end_ns: f64) -> Progress {
 
 pub(crate) fn record(moment: &mut Moment<'_>) -> Record {
     let residual = moment.residual();
-    Record {
+    let row = Row {
         at: At::Time(moment.time),
-        state: moment.state().clone(),
-        energies_pn_nm: moment.energies(),
         kinetic_pn_nm: moment.kinetic_energy(),
         residual_force_pn: residual.force,
         residual_torque_pn_nm: residual.torque,
         booked: EnergyExchange::default(),
+        energies_pn_nm: moment.energies(),
         observed: Vec::new(),
+    };
+    Record {
+        row,
+        state: moment.state().clone(),
     }
 }

@@ -1,10 +1,11 @@
 //! Records in memory or read one by one from files.
 
 use crate::{Assembly, EnergyExchange, Part, Term};
-use actin_mechanics::State;
+use actin_mechanics::{Loads, State, System};
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 use std::io;
+use std::ops::Deref;
 use thiserror::Error;
 
 /// Time or path parameter of a record.
@@ -41,15 +42,58 @@ impl At {
     }
 }
 
-/// Recorded state with energies, residuals and observed quantities.
+/// Recorded state and its numbers, which are fields of the record through [`Deref`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct Record {
-    /// Time or path parameter.
-    pub at: At,
+    /// Time, energies, residuals and observed quantities.
+    pub row: Row,
     /// State of all bodies.
     pub state: State,
-    /// Energy of each term of the assembly in order (pN nm).
-    pub energies_pn_nm: Vec<f64>,
+}
+
+impl Deref for Record {
+    type Target = Row;
+
+    fn deref(&self) -> &Row {
+        &self.row
+    }
+}
+
+impl Record {
+    /// Borrows the record with its state.
+    pub fn as_stored(&self) -> StoredRecord<'_> {
+        StoredRecord {
+            row: Cow::Borrowed(&self.row),
+            state: Some(Cow::Borrowed(&self.state)),
+        }
+    }
+
+    /// Evaluates energies and residuals of a state, without observed quantities.
+    pub fn new(system: &System, at: At, state: State) -> Self {
+        let mut loads = Loads::zeros(&state);
+        for interaction in system.interactions() {
+            interaction.add_loads(&state, &mut loads);
+        }
+        let residual = loads.residual(&state);
+        let interactions = system.interactions().iter();
+        let row = Row {
+            at,
+            kinetic_pn_nm: state.kinetic_energy(),
+            residual_force_pn: residual.force,
+            residual_torque_pn_nm: residual.torque,
+            booked: EnergyExchange::default(),
+            energies_pn_nm: interactions.map(|i| i.energy(&state)).collect(),
+            observed: Vec::new(),
+        };
+        Self { row, state }
+    }
+}
+
+/// Numbers of a record: a row of the tables of a run.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Row {
+    /// Time or path parameter.
+    pub at: At,
     /// Kinetic energy of the free bodies (pN nm).
     pub kinetic_pn_nm: f64,
     /// Largest force on a free point (pN).
@@ -58,70 +102,17 @@ pub struct Record {
     pub residual_torque_pn_nm: f64,
     /// Energy received from the surroundings so far.
     pub booked: EnergyExchange,
+    /// Energy of each term of the assembly in order (pN nm).
+    pub energies_pn_nm: Vec<f64>,
     /// Observed quantities in the order of the columns of `observables.csv`; NaN if not yet
     /// defined.
     pub observed: Vec<f64>,
 }
 
-impl Record {
+impl Row {
     /// Sum of the energies of all terms (pN nm).
     pub fn potential_pn_nm(&self) -> f64 {
         self.energies_pn_nm.iter().sum()
-    }
-
-    /// Checks that record `i` has the numbers of bodies of `assembly`.
-    ///
-    /// # Errors
-    /// The numbers of points or frames differ.
-    pub fn ensure_fits(&self, i: usize, assembly: &Assembly) -> Result<(), RecordsError> {
-        let state = &self.state;
-        ensure_same(i, ("points", state.points.len()), assembly.points.len())?;
-        ensure_same(i, ("frames", state.frames.len()), assembly.frames.len())
-    }
-
-    /// Returns the record without its state.
-    pub fn row(&self) -> Row {
-        Row {
-            at: self.at,
-            energies_pn_nm: self.energies_pn_nm.clone(),
-            kinetic_pn_nm: self.kinetic_pn_nm,
-            residual_force_pn: self.residual_force_pn,
-            residual_torque_pn_nm: self.residual_torque_pn_nm,
-            booked: self.booked,
-            observed: self.observed.clone(),
-        }
-    }
-}
-
-/// Record without its state; see [`Record`].
-#[derive(Clone, Debug, PartialEq)]
-pub struct Row {
-    /// Time or path parameter.
-    pub at: At,
-    /// Energy of each term of the assembly in order (pN nm).
-    pub energies_pn_nm: Vec<f64>,
-    /// Kinetic energy of the free bodies (pN nm).
-    pub kinetic_pn_nm: f64,
-    /// Largest force on a free point (pN).
-    pub residual_force_pn: f64,
-    /// Largest torque on a free frame (pN nm).
-    pub residual_torque_pn_nm: f64,
-    /// Energy received from the surroundings so far.
-    pub booked: EnergyExchange,
-    /// Observed quantities.
-    pub observed: Vec<f64>,
-}
-
-impl Row {
-    /// Checks that row `i` has the columns of `assembly`.
-    ///
-    /// # Errors
-    /// The numbers of energies or observed quantities differ.
-    pub fn ensure_fits(&self, i: usize, assembly: &Assembly) -> Result<(), RecordsError> {
-        let energies = ("energies", self.energies_pn_nm.len());
-        ensure_same(i, energies, assembly.terms.len())?;
-        let columns = assembly.observed().len();
-        ensure_same(i, ("observables", self.observed.len()), columns)
     }
 }
 
@@ -178,22 +169,6 @@ pub enum RecordsError {
     },
 }
 
-fn ensure_same(
-    record: usize,
-    (quantity, found): (&'static str, usize),
-    expected: usize,
-) -> Result<(), RecordsError> {
-    if found == expected {
-        return Ok(());
-    }
-    Err(RecordsError::Mismatch {
-        record,
-        quantity,
-        found,
-        expected,
-    })
-}
-
 /// Records of a run, which can be iterated repeatedly.
 ///
 /// A [`Trajectory`] holds them in memory.
@@ -201,21 +176,58 @@ pub trait Records {
     /// Number of records.
     fn count(&self) -> usize;
 
-    /// Iterates over records with states: all, or only the last if the scene's `output` needs no
-    /// states. A read error ends the iteration.
+    /// Iterates over all records. A read error ends the iteration.
     fn iter(&self) -> RecordIter<'_>;
+}
 
-    /// Iterates over all records without their states.
-    fn rows(&self) -> RowIter<'_> {
-        Box::new(self.iter().map(|record| record.map(|record| record.row())))
+/// Record of a run whose state may not be stored.
+#[derive(Clone, Debug, PartialEq)]
+pub struct StoredRecord<'a> {
+    /// Numbers of the record.
+    pub row: Cow<'a, Row>,
+    /// State; `None` for all records but the last if the scene's `output` needs no states.
+    pub state: Option<Cow<'a, State>>,
+}
+
+impl StoredRecord<'_> {
+    /// Checks that record `i` has the bodies and columns of `assembly`.
+    ///
+    /// # Errors
+    /// The numbers of points, frames, energies or observed quantities differ.
+    pub fn ensure_fits(&self, i: usize, assembly: &Assembly) -> Result<(), RecordsError> {
+        let bodies = self.state.iter().flat_map(|state| {
+            [
+                ("points", state.points.len(), assembly.points.len()),
+                ("frames", state.frames.len(), assembly.frames.len()),
+            ]
+        });
+        let (energies, observed) = (self.row.energies_pn_nm.len(), self.row.observed.len());
+        let columns = [
+            ("energies", energies, assembly.terms.len()),
+            ("observables", observed, assembly.observed().len()),
+        ];
+        let mut counts = bodies.chain(columns);
+        match counts.find(|(_, found, expected)| found != expected) {
+            None => Ok(()),
+            Some((quantity, found, expected)) => Err(RecordsError::Mismatch {
+                record: i,
+                quantity,
+                found,
+                expected,
+            }),
+        }
+    }
+
+    /// Returns the record with its state, if it is stored.
+    pub fn into_record(self) -> Option<Record> {
+        let state = self.state?.into_owned();
+        let row = self.row.into_owned();
+        Some(Record { row, state })
     }
 }
 
 /// Iterator over records.
-pub type RecordIter<'a> = Box<dyn Iterator<Item = io::Result<Cow<'a, Record>>> + 'a>;
-
-/// Iterator over records without their states.
-pub type RowIter<'a> = Box<dyn Iterator<Item = io::Result<Row>> + 'a>;
+pub type RecordIter<'a> = Box<dyn Iterator<Item = io::Result<StoredRecord<'a>>> + 'a>;
 
 /// Records in memory.
 #[derive(Clone, Debug, Default)]
@@ -225,14 +237,16 @@ pub struct Trajectory {
 }
 
 impl Trajectory {
-    /// Reads all of `records` into memory.
+    /// Reads all records with states into memory.
     ///
     /// # Errors
     /// If a record cannot be read.
     pub fn read(records: &dyn Records) -> io::Result<Self> {
-        let all = records.iter().map(|record| record.map(Cow::into_owned));
-        let records = all.collect::<io::Result<_>>()?;
-        Ok(Self { records })
+        let all = records.iter().map(|record| Ok(record?.into_record()));
+        let records = all.filter_map(io::Result::transpose);
+        Ok(Self {
+            records: records.collect::<io::Result<_>>()?,
+        })
     }
 }
 
@@ -242,6 +256,6 @@ impl Records for Trajectory {
     }
 
     fn iter(&self) -> RecordIter<'_> {
-        Box::new(self.records.iter().map(|record| Ok(Cow::Borrowed(record))))
+        Box::new(self.records.iter().map(|record| Ok(record.as_stored())))
     }
 }

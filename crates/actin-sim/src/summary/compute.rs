@@ -6,7 +6,7 @@ use super::{
     WorkSummary,
 };
 use crate::observe::{Averages, View};
-use crate::{Assembly, At, End, EnergyExchange, Outcome, Record, Status, Task, shape};
+use crate::{Assembly, At, End, EnergyExchange, Outcome, Record, Row, Status, Task, shape};
 use actin_equilibrium::Certificate;
 use actin_mechanics::{Loads, Residual};
 
@@ -18,20 +18,21 @@ impl Summary {
             Task::Dynamics(_) | Task::Brownian(_) => At::Time(0.0),
             Task::Equilibrium(_) => At::Path(0.0),
         };
-        let mut record = Record {
+        let state = assembly.rest.clone();
+        let observers = &assembly.observers;
+        let energies_pn_nm = vec![0.0; assembly.terms.len()];
+        let view = View::new(assembly, (at, &state), (&energies_pn_nm, 0.0));
+        let observed = observers.row(&view, &mut observers.memory());
+        let row = Row {
             at,
-            state: assembly.rest.clone(),
-            energies_pn_nm: vec![0.0; assembly.terms.len()],
             kinetic_pn_nm: 0.0,
             residual_force_pn: 0.0,
             residual_torque_pn_nm: 0.0,
             booked: EnergyExchange::default(),
-            observed: Vec::new(),
+            energies_pn_nm,
+            observed,
         };
-        let energies = (record.energies_pn_nm.as_slice(), 0.0);
-        let view = View::new(assembly, (at, &record.state), energies);
-        let observers = &assembly.observers;
-        record.observed = observers.row(&view, &mut observers.memory());
+        let record = Record { row, state };
         Self::new(assembly, &record, &Outcome::new(Status::Interrupted, 0.0))
     }
 
@@ -87,6 +88,7 @@ impl Summary {
             work: WorkSummary::new(outcome),
             wall_s: outcome.wall_s,
             version: env!("CARGO_PKG_VERSION").to_owned(),
+            format: Self::FORMAT,
             seed: first.seed,
             filaments,
         }

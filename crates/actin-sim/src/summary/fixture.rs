@@ -1,8 +1,6 @@
 //! Small mixed filaments and synthetic runs for tests of summaries.
 
-use crate::{
-    Assembly, At, EnergyExchange, Linker, LinkerSite, Outcome, Record, Scene, Status, Trajectory,
-};
+use crate::{Assembly, At, Linker, LinkerSite, Outcome, Record, Scene, Status, Trajectory};
 use actin_mechanics::{Loads, State};
 use actin_mechanics::{Xorshift, perturb, randomise_velocities};
 
@@ -99,18 +97,7 @@ pub(super) fn trajectory(assembly: &Assembly) -> Trajectory {
 }
 
 pub(super) fn record(assembly: &Assembly, time_ns: f64, state: State) -> Record {
-    let residual = loads(assembly, &state).residual(&state);
-    let interactions = assembly.system.interactions();
-    Record {
-        at: At::Time(time_ns),
-        energies_pn_nm: interactions.iter().map(|i| i.energy(&state)).collect(),
-        kinetic_pn_nm: state.kinetic_energy(),
-        residual_force_pn: residual.force,
-        residual_torque_pn_nm: residual.torque,
-        booked: EnergyExchange::default(),
-        observed: Vec::new(),
-        state,
-    }
+    Record::new(&assembly.system, At::Time(time_ns), state)
 }
 
 pub(super) fn loads(assembly: &Assembly, state: &State) -> Loads {

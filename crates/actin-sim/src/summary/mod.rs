@@ -139,8 +139,15 @@ pub struct Summary {
     pub wall_s: f64,
     /// Version of this crate.
     pub version: String,
+    /// Version of the format of a run directory; 1 if the key is missing.
+    #[serde(default = "first_format")]
+    pub format: u32,
     /// Seed of the bond anchors of filament 0.
     pub seed: u64,
+}
+
+fn first_format() -> u32 {
+    1
 }
 
 /// Final results of one filament.
@@ -231,6 +238,10 @@ impl AccuracySummary {
 }
 
 impl Summary {
+    /// Current version of the format of a run directory; increase it if old programs would misread
+    /// a file.
+    pub const FORMAT: u32 = 1;
+
     /// Numbers by key, for checks that they are finite: `tip_nm[0]`, `filaments[0].elastic_pn_nm`.
     pub fn numbers(&self) -> Vec<(String, f64)> {
         let scalars = self.scalars().into_iter();

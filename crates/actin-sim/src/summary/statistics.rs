@@ -2,7 +2,7 @@
 
 use super::{LateKinetic, Summary, ThermalSummary};
 use crate::observe::Averages;
-use crate::{Assembly, Outcome, Record, Records, RecordsError, Row};
+use crate::{Assembly, Outcome, Record, Records, RecordsError, StoredRecord};
 use std::fmt;
 
 /// Means and checks over the records of a run, added in order.
@@ -27,9 +27,10 @@ impl<'a> RecordStatistics<'a> {
     /// Adds the next record.
     ///
     /// # Errors
-    /// The record has other columns than the assembly.
-    pub fn add(&mut self, row: &Row) -> Result<(), RecordsError> {
-        row.ensure_fits(self.records, self.assembly)?;
+    /// The record has other bodies or columns than the assembly.
+    pub fn add(&mut self, record: &StoredRecord<'_>) -> Result<(), RecordsError> {
+        record.ensure_fits(self.records, self.assembly)?;
+        let row = &record.row;
         self.records += 1;
         self.kinetic.add(row.kinetic_pn_nm);
         self.averages.add(row.at.value(), &row.observed);
@@ -67,16 +68,14 @@ impl Summary {
         records: &dyn Records,
         outcome: &Outcome,
     ) -> Result<Self, RecordsError> {
+        let mut statistics = RecordStatistics::new(assembly, records.count());
         let mut last = None;
-        for (i, record) in records.iter().enumerate() {
+        for record in records.iter() {
             let record = record.map_err(RecordsError::Unreadable)?;
-            record.ensure_fits(i, assembly)?;
+            statistics.add(&record)?;
             last = Some(record);
         }
-        let mut statistics = RecordStatistics::new(assembly, records.count());
-        for row in records.rows() {
-            statistics.add(&row.map_err(RecordsError::Unreadable)?)?;
-        }
+        let last = last.and_then(StoredRecord::into_record);
         let last = last.ok_or(RecordsError::Empty)?;
         Ok(statistics.summary(&last, outcome))
     }

@@ -61,6 +61,7 @@ const KEYS: &[&str] = &[
     "/work/newton_iterations",
     "/wall_s",
     "/version",
+    "/format",
     "/seed",
     "/time_ns",
     "/time_step_ns",

@@ -93,7 +93,7 @@ mod tests {
         let warm = Assembly::build(&scene).unwrap();
         let mut records = vec![records[0].clone(); 3];
         for (record, kinetic) in records.iter_mut().zip([5.0, 1.0, 3.0]) {
-            record.kinetic_pn_nm = kinetic;
+            record.row.kinetic_pn_nm = kinetic;
         }
         let mut late = LateKinetic::new(3);
         for record in &records {

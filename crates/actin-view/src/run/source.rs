@@ -1,10 +1,10 @@
 //! Records of a run, from its results or its checkpoint.
 
 use super::curves::{self, Curve};
-use actin_rundir::{Checkpoints, RunDirectory, StoredStates};
+use actin_rundir::{Checkpoints, RunDirectory, RunDirectoryError, StoredStates};
 use actin_sim::mechanics::State;
 use actin_sim::{Assembly, At, Plan, Records, Row, Status, Summary};
-use std::fs;
+use std::io::ErrorKind::NotFound;
 use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
@@ -34,8 +34,8 @@ impl Source {
             at: Vec::new(),
             states: States::None,
         };
-        source.read_summary(path);
         let directory = RunDirectory::existing(path);
+        source.read_summary(&directory);
         if source.summary.is_none() && directory.has_checkpoint() {
             source.read_checkpoint(&directory, assembly);
         } else {
@@ -44,14 +44,8 @@ impl Source {
         source
     }
 
-    fn read_summary(&mut self, path: &Path) {
-        let path = path.join("summary.json");
-        let text = match fs::read_to_string(&path) {
-            Ok(text) => text,
-            Err(error) if error.kind() == std::io::ErrorKind::NotFound => return,
-            Err(error) => return self.remark(format!("summary.json cannot be read: {error}.")),
-        };
-        match serde_json::from_str::<Summary>(&text) {
+    fn read_summary(&mut self, directory: &RunDirectory) {
+        match directory.summary() {
             Ok(summary) => {
                 if summary.status == Status::Interrupted {
                     self.remark(
@@ -63,7 +57,8 @@ impl Source {
                 }
                 self.summary = Some(summary);
             }
-            Err(error) => self.remark(format!("summary.json is damaged: {error}.")),
+            Err(RunDirectoryError::Io { source, .. }) if source.kind() == NotFound => {}
+            Err(error) => self.remark(format!("{error}.")),
         }
     }
 
@@ -169,19 +164,19 @@ fn checkpointed(directory: &RunDirectory, assembly: &Assembly) -> Result<Checkpo
     let never = Arc::new(AtomicBool::new(false));
     let mut sink = Checkpoints::new(directory, &plan, Duration::MAX, never, |_| {});
     sink.resume(&plan).map_err(|error| error.to_string())?;
-    let (mut at, mut states) = (Vec::new(), Vec::new());
+    let (mut rows, mut at, mut states) = (Vec::new(), Vec::new(), Vec::new());
     for record in sink.iter() {
         let record = record.map_err(|error| error.to_string())?;
-        at.push(record.at);
-        states.push(record.state.clone());
+        if let Some(state) = record.state {
+            at.push(record.row.at);
+            states.push(state.into_owned());
+        }
+        rows.push(record.row.into_owned());
     }
-    let rows: Result<Vec<Row>, _> = sink.rows().collect();
-    let rows = rows.map_err(|error| error.to_string())?;
     Ok((at, states, curves_of(assembly, &rows)))
 }
 
 fn curves_of(assembly: &Assembly, rows: &[Row]) -> Vec<Curve> {
-    let potential = |row: &Row| row.energies_pn_nm.iter().sum::<f64>();
     let mut names: Vec<String> = [
         "at",
         "total_pn_nm",
@@ -196,8 +191,8 @@ fn curves_of(assembly: &Assembly, rows: &[Row]) -> Vec<Curve> {
     let numbers = |row: &Row| {
         let first = [
             row.at.value(),
-            potential(row) + row.kinetic_pn_nm,
-            potential(row),
+            row.potential_pn_nm() + row.kinetic_pn_nm,
+            row.potential_pn_nm(),
             row.kinetic_pn_nm,
             row.residual_force_pn,
             row.residual_torque_pn_nm,
