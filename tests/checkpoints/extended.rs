@@ -32,6 +32,9 @@ fn run(folder: &Path, text: &str) -> Result<Option<u64>, RunDirectoryError> {
 const MIXED: &str =
     "Ellipsoids(from_nm: 0.0, to_nm: 12.0), Rod(from_nm: 12.0, to_nm: 42.0, segments: 3)";
 const ROD: &str = "Rod(from_nm: 0.0, to_nm: 100.0, segments: 8)";
+/// A linker that breaks and binds several times.
+const EVENTS: &str = "linkers: [Linker(at_nm: 30.0, radius_nm: 1.8, displaced_nm: (1.0, 0.0, 0.0), stiffness_pn_per_nm: 3.0,
+    kinetics: Kinetics(seed: 1, breaks: Breaking(rate_per_ns: 20.0, force_pn: 10.0), forms: Forming(rate_per_ns: 20.0, reach_nm: 5.0)))],";
 /// Records without states.
 const ROWS: &str = "output: (states: false, vtk: false),";
 
@@ -65,7 +68,7 @@ fn brownian(more: &str) -> [String; 2] {
     })
 }
 
-fn motions() -> [[String; 2]; 6] {
+fn motions() -> [[String; 2]; 7] {
     let drag = "drag: (translational_per_ns: 0.5, rotational_per_ns: 0.5)";
     let thermal = "thermal: (temperature_k: 298.0, seed: 3)";
     let path = "path: [Stage(set: [LoadFactor(load: 0, factor: 0.5)], duration_ns: 0.2)],";
@@ -74,6 +77,7 @@ fn motions() -> [[String; 2]; 6] {
         dynamics(&format!("{drag}, {thermal}"), ""),
         dynamics(&format!("drag: Water(), {thermal}"), ROWS),
         dynamics("", ROWS),
+        dynamics(&format!("{drag}, {thermal}"), EVENTS),
         brownian(""),
         brownian(ROWS),
     ]
