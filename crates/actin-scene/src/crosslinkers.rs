@@ -154,6 +154,7 @@ impl Crosslinkers {
         non_negative(&key("rest_length_nm"), self.rest_length_nm)?;
         positive(&key("attach_per_ns"), self.attach_per_ns)?;
         positive(&key("bind_per_ns"), self.bind_per_ns)?;
+        self.check_kinetics(k, filaments)?;
         if let Some(reach) = self.reach_nm {
             positive(&key("reach_nm"), reach)?;
         }
@@ -176,6 +177,23 @@ impl Crosslinkers {
         if let (Some(spacing), Some(_)) = (self.site_spacing_nm, self.steps) {
             let rule = "the steps set the distance of sites: omit this key or steps";
             return Err(SceneProblem::new(key("site_spacing_nm"), spacing, rule));
+        }
+        Ok(())
+    }
+
+    fn check_kinetics(&self, k: usize, filaments: &[Filament]) -> Result<(), SceneProblem> {
+        let key = |name: &str| format!("crosslinkers[{k}].{name}");
+        self.unbinds.check(&key("unbinds"))?;
+        if let Some(steps) = &self.steps {
+            let longest = filaments
+                .iter()
+                .map(Filament::length_nm)
+                .fold(0.0, f64::max);
+            positive(&key("steps.rate_per_ns"), steps.rate_per_ns)?;
+            steps.check(&key("steps"), longest)?;
+        }
+        if let Some(averaging) = self.averaging_ns {
+            non_negative(&key("averaging_ns"), averaging)?;
         }
         Ok(())
     }
@@ -237,7 +255,7 @@ mod tests {
             (
                 "averaging_ns: 0.0",
                 "averaging_ns: -1.0",
-                "kinetics.averaging_ns",
+                "crosslinkers[1].averaging_ns",
             ),
             (
                 "temperature_k: 298.0",

@@ -142,11 +142,8 @@ impl Kinetics {
         for (name, rate) in self.rates() {
             positive(&format!("{key}.{name}"), rate)?;
         }
-        if let Some(force) = self.breaks.and_then(|b| b.force_pn) {
-            positive(&format!("{key}.breaks.force_pn"), force)?;
-        }
-        if let Some(catch) = self.breaks.and_then(|b| b.catch) {
-            positive(&format!("{key}.breaks.catch.force_pn"), catch.force_pn)?;
+        if let Some(breaks) = &self.breaks {
+            breaks.check(&format!("{key}.breaks"))?;
         }
         if let Some(forms) = &self.forms {
             positive(&format!("{key}.forms.reach_nm"), forms.reach_nm)?;
@@ -208,8 +205,22 @@ impl Kinetics {
     }
 }
 
+impl Breaking {
+    pub(super) fn check(&self, key: &str) -> Result<(), SceneProblem> {
+        positive(&format!("{key}.rate_per_ns"), self.rate_per_ns)?;
+        if let Some(force) = self.force_pn {
+            positive(&format!("{key}.force_pn"), force)?;
+        }
+        let Some(catch) = &self.catch else {
+            return Ok(());
+        };
+        positive(&format!("{key}.catch.rate_per_ns"), catch.rate_per_ns)?;
+        positive(&format!("{key}.catch.force_pn"), catch.force_pn)
+    }
+}
+
 impl Stepping {
-    fn check(&self, key: &str, length: f64) -> Result<(), SceneProblem> {
+    pub(super) fn check(&self, key: &str, length: f64) -> Result<(), SceneProblem> {
         positive(&format!("{key}.stall_pn"), self.stall_pn)?;
         let step = self.step_nm;
         let places = length / step.abs();
@@ -262,7 +273,14 @@ fn check_pool(scene: &Scene, linker: &Linker, key: &str) -> Result<(), SceneProb
         let rule = "requires a linker between two sites: write to";
         return Err(SceneProblem::new(key, "", rule));
     }
-    if scene.thermal_energy_pn_nm() <= 0.0 {
+    let roams = |linker: &Linker| {
+        linker
+            .kinetics
+            .is_some_and(|kinetics| kinetics.roams.is_some())
+    };
+    let first = scene.linkers.iter().find(|linker| roams(linker));
+    let is_first = first.is_some_and(|first| std::ptr::eq(first, linker));
+    if is_first && scene.thermal_energy_pn_nm() <= 0.0 {
         let rule = "the rate of binding depends on the temperature: write a positive temperature_k or thermal";
         return Err(SceneProblem::new(key, "", rule));
     }
