@@ -57,7 +57,7 @@ impl Stiffness {
         &self.links
     }
 
-    /// All blocks: first those of chains, then those of links.
+    /// Blocks of chains, followed by the blocks of links.
     pub fn all(&self) -> impl Iterator<Item = &(Coordinates, Coordinates, Matrix3)> {
         self.blocks.iter().chain(&self.links)
     }

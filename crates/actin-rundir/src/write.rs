@@ -10,8 +10,7 @@ use crate::staged::Staged;
 use crate::{RunDirectoryError, atomic, energies, events, observables, profile, states};
 use actin_export::{PARAVIEW_SCRIPT, VtkPictures, write_collection};
 use actin_sim::{
-    Assembly, At, Outcome, Plan, Record, RecordStatistics, Records, RecordsError, Scene, Status,
-    StoredRecord, Summary, Trajectory,
+    Assembly, At, Outcome, Plan, Record, Records, RecordsError, Scene, Status, Summary, Trajectory,
 };
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
@@ -162,16 +161,7 @@ impl<'a> Results<'a> {
         outcome: &'a Outcome,
     ) -> Result<Self, RunDirectoryError> {
         let assembly = plan.assembly();
-        let mut statistics = RecordStatistics::new(assembly, records.count());
-        let mut last = None;
-        for record in records.iter() {
-            let record = record.map_err(RecordsError::Unreadable)?;
-            statistics.add(&record)?;
-            last = Some(record);
-        }
-        let last = last.and_then(StoredRecord::into_record);
-        let last = last.ok_or(RecordsError::Empty)?;
-        let summary = statistics.summary(&last, outcome);
+        let (summary, last) = Summary::with_last_record(assembly, records, outcome)?;
         for (key, value) in summary.numbers() {
             let checked = RunDirectoryError::ensure_finite(SUMMARY, &key, &[], value);
             checked.map_err(RunDirectoryError::io(Path::new(SUMMARY)))?;

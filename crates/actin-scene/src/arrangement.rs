@@ -53,8 +53,8 @@ pub(crate) enum Arrangement {
         /// By default all filaments have the length of `filament`.
         #[serde(default)]
         lengths_nm: Option<[f64; 2]>,
-        /// Smallest distance of the axis from those of all preceding filaments; at least 0. By default the contact
-        /// distance if filaments repel each other, otherwise 0.
+        /// Smallest distance to the axes of all preceding filaments; at least 0. By default the contact distance if
+        /// filaments repel each other, otherwise 0.
         #[serde(default)]
         apart_nm: Option<f64>,
         /// Seed of places, directions and lengths.
@@ -117,7 +117,7 @@ impl Arrangement {
     /// distance of axes (nm).
     ///
     /// # Errors
-    /// If a number breaks its rule, or if there is no room for a filament.
+    /// If a number is out of its range, or a filament finds no place.
     pub(super) fn filaments(
         &self,
         k: usize,

@@ -114,9 +114,7 @@ impl LinkersBetween {
 
     fn sites(&self, filaments: &[Filament]) -> Vec<Site> {
         let of_filament = |(filament, one): (usize, &Filament)| {
-            let length = one.length_nm();
-            let places = (0..).map(|i| (f64::from(i) + 0.5) * self.site_spacing_nm);
-            let places: Vec<f64> = places.take_while(|s| *s <= length).collect();
+            let places = one.sites_nm(self.site_spacing_nm);
             let site = |(at_nm, place)| Site {
                 filament,
                 at_nm,

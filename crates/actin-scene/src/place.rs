@@ -58,6 +58,13 @@ impl Filament {
         self.places_at(&[s_nm])[0]
     }
 
+    /// Returns the arc lengths (nm) of sites at equal distances (nm); the first one is half a distance from the start.
+    pub fn sites_nm(&self, spacing: f64) -> Vec<f64> {
+        let length = self.length_nm();
+        let places = (0..).map(|i| (f64::from(i) + 0.5) * spacing);
+        places.take_while(|s| *s <= length).collect()
+    }
+
     /// Returns the reference positions (lab frame, nm) of the axis at arc lengths (nm).
     pub(crate) fn places_at(&self, s_nm: &[f64]) -> Vec<Vector3> {
         let (at, turn) = (Vector3::from(self.at_nm), self.rotation());

@@ -112,7 +112,7 @@ impl TryFrom<SceneFile> for Scene {
     }
 }
 
-/// Returns the listed linkers, those of the sets and those of the pools.
+/// Returns the listed linkers, followed by the linkers of sets and pools.
 fn linkers(
     mut linkers: Vec<Linker>,
     (sets, pools): (&[LinkersBetween], &[Crosslinkers]),

@@ -74,6 +74,6 @@ pub use run::{
 };
 pub use summary::{
     AccuracySummary, EndReaction, EndReactions, EnergySummary, FilamentSummary, FollowingSummary,
-    LinkerSummary, RecordStatistics, ResidualSummary, ShapeSummary, StabilitySummary, StateSummary,
-    StatesSummary, Summary, ThermalSummary, WorkSummary,
+    LinkerSummary, ResidualSummary, ShapeSummary, StabilitySummary, StateSummary, StatesSummary,
+    Summary, ThermalSummary, WorkSummary,
 };

@@ -36,8 +36,8 @@ pub struct Sweep {
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, rename = "Set")]
 pub struct Value {
-    /// Path of the key, with indices of lists and vectors in brackets: `loads[0].force_pn[2]`. `[*]` stands for all
-    /// elements of a list.
+    /// Path of the key, with indices of lists and vectors in brackets: `loads[0].force_pn[2]`. The index `*` selects
+    /// all elements of a list.
     pub key: String,
     /// Value in RON, as in a scene.
     pub value: Ron,

@@ -245,8 +245,8 @@ impl WallContact {
 }
 
 impl WallContact {
-    /// Bodies that approach a sphere from outside to a distance (nm) on straight paths, with the
-    /// fraction of the path. Other walls need no check, since the energy grows with the penetration
+    /// Bodies outside of a sphere whose straight paths lead within a distance (nm) of it, with the
+    /// fraction of the path up to there. Other walls need no check, since the energy grows with the penetration
     /// depth. In a sphere, an axis can enter and leave on the other side within one step.
     fn approaching(
         &self,

@@ -99,7 +99,7 @@ pub(crate) struct SiteTable {
 }
 
 impl SiteTable {
-    /// Site that a step from `site` reaches, if the filament goes on.
+    /// Next site in the direction of steps; `None` at the end of the filament.
     fn next(&self, site: usize) -> Option<usize> {
         let next = self.places.get(site + 1)?;
         (next.0 == self.places[site].0).then_some(site + 1)

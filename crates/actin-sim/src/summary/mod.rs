@@ -19,7 +19,6 @@ pub use linkers::LinkerSummary;
 pub use reactions::{EndReaction, EndReactions};
 pub use shape::ShapeSummary;
 pub use states::{StateSummary, StatesSummary};
-pub use statistics::RecordStatistics;
 pub use thermal::ThermalSummary;
 
 use crate::notes::Note;

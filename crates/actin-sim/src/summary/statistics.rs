@@ -3,10 +3,9 @@
 use super::{LateKinetic, Summary, ThermalSummary};
 use crate::observe::Averages;
 use crate::{Assembly, Outcome, Record, Records, RecordsError, StoredRecord};
-use std::fmt;
 
 /// Means and checks over the records of a run, added in order.
-pub struct RecordStatistics<'a> {
+struct RecordStatistics<'a> {
     assembly: &'a Assembly,
     records: usize,
     kinetic: LateKinetic,
@@ -15,7 +14,7 @@ pub struct RecordStatistics<'a> {
 
 impl<'a> RecordStatistics<'a> {
     /// Creates the statistics of a run of `assembly` with `count` records.
-    pub fn new(assembly: &'a Assembly, count: usize) -> Self {
+    fn new(assembly: &'a Assembly, count: usize) -> Self {
         Self {
             assembly,
             records: 0,
@@ -28,7 +27,7 @@ impl<'a> RecordStatistics<'a> {
     ///
     /// # Errors
     /// The record has other bodies or columns than the assembly.
-    pub fn add(&mut self, record: &StoredRecord<'_>) -> Result<(), RecordsError> {
+    fn add(&mut self, record: &StoredRecord<'_>) -> Result<(), RecordsError> {
         record.ensure_fits(self.records, self.assembly)?;
         let row = &record.row;
         self.records += 1;
@@ -38,7 +37,7 @@ impl<'a> RecordStatistics<'a> {
     }
 
     /// Returns the summary of the run, which ended with the record `last`.
-    pub fn summary(self, last: &Record, outcome: &Outcome) -> Summary {
+    fn summary(self, last: &Record, outcome: &Outcome) -> Summary {
         Summary {
             beyond_range: outcome.beyond_range.clone(),
             unstable_twist: outcome.unstable_twist.clone(),
@@ -47,14 +46,6 @@ impl<'a> RecordStatistics<'a> {
             ..Summary::without_derived_warnings(self.assembly, last, outcome)
         }
         .with_derived_warnings()
-    }
-}
-
-impl fmt::Debug for RecordStatistics<'_> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("RecordStatistics")
-            .field("records", &self.records)
-            .finish_non_exhaustive()
     }
 }
 
@@ -68,6 +59,19 @@ impl Summary {
         records: &dyn Records,
         outcome: &Outcome,
     ) -> Result<Self, RecordsError> {
+        let (summary, _) = Self::with_last_record(assembly, records, outcome)?;
+        Ok(summary)
+    }
+
+    /// Summary of a run and its last record.
+    ///
+    /// # Errors
+    /// As [`from_run`](Self::from_run).
+    pub fn with_last_record(
+        assembly: &Assembly,
+        records: &dyn Records,
+        outcome: &Outcome,
+    ) -> Result<(Self, Record), RecordsError> {
         let mut statistics = RecordStatistics::new(assembly, records.count());
         let mut last = None;
         for record in records.iter() {
@@ -77,6 +81,6 @@ impl Summary {
         }
         let last = last.and_then(StoredRecord::into_record);
         let last = last.ok_or(RecordsError::Empty)?;
-        Ok(statistics.summary(&last, outcome))
+        Ok((statistics.summary(&last, outcome), last))
     }
 }

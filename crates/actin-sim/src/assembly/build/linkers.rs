@@ -110,9 +110,7 @@ impl Builder<'_> {
             return Ok(known.clone());
         }
         let of_filament = |(filament, strand): (usize, &Strand<'_>)| {
-            let length = strand.filament.length_nm();
-            let places = (0..).map(|i| (f64::from(i) + 0.5) * spacing_nm);
-            let mut places: Vec<f64> = places.take_while(|s| *s <= length).collect();
+            let mut places = strand.filament.sites_nm(spacing_nm);
             if is_reversed {
                 places.reverse();
             }
