@@ -1,4 +1,4 @@
-use actin_mechanics::{Matrix3, UnitQuaternion, Vector3};
+use actin_mechanics::{ControlId, Matrix3, State, UnitQuaternion, Vector3};
 
 /// Linear flow `u(x) = velocity + gradient x` (lab frame).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -7,6 +7,8 @@ pub struct Flow {
     pub velocity: Vector3,
     /// Velocity gradient, `du_i/dx_j` (1/ns).
     pub gradient: Matrix3,
+    /// Control with prescribed values, and velocity gradient per rate of change of this control.
+    pub driven: Option<(ControlId, Matrix3)>,
 }
 
 impl Flow {
@@ -30,6 +32,22 @@ impl Flow {
         Self {
             velocity: Vector3::zeros(),
             gradient: along * across.transpose() * rate,
+            driven: None,
+        }
+    }
+
+    /// Flow during the motion between two states, with the mean rate of change of the control.
+    pub(crate) fn between(&self, from: &State, to: &State) -> Self {
+        let passed = to.time - from.time;
+        match self.driven {
+            Some((control, gradient)) if passed > 0.0 => {
+                let change = to.controls[control] - from.controls[control];
+                Self {
+                    gradient: self.gradient + gradient * (change / passed),
+                    ..*self
+                }
+            }
+            _ => *self,
         }
     }
 

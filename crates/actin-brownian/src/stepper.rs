@@ -487,12 +487,13 @@ impl Brownian {
     /// velocity is taken at the fraction `way` of the displacement.
     fn find_velocities(&mut self, state: &State, h: f64, way: f64) {
         let (start, velocities) = (&self.start, &mut self.velocities);
-        let flows = self.flow != Flow::default();
+        let flow = self.flow.between(start, state);
+        let flows = flow != Flow::default();
         let components = &self.components;
         for i in (0..state.points.len()).filter(|&i| components.has_point(i)) {
             let from = start.points.position.get(i);
             let moved = state.points.position.get(i) - from;
-            let fluid = self.flow.velocity_at(from + moved * way);
+            let fluid = flow.velocity_at(from + moved * way);
             velocities.points.set(i, moved / h - fluid);
         }
         for i in (0..state.frames.len()).filter(|&i| components.has_frame(i)) {
@@ -500,7 +501,7 @@ impl Brownian {
             let mut velocity = turned / h;
             if flows {
                 let q = start.frames.orientation.get(i) * rotation::exp(turned * way);
-                velocity -= self.flow.turning(q);
+                velocity -= flow.turning(q);
             }
             velocities.frames.set(i, velocity);
         }

@@ -30,7 +30,7 @@ mod switched;
 pub use build::push_junction_frames;
 pub use error::{JunctionError, LinkerError, LinkerKey};
 pub use junction::{AttachedMonomer, Junction, JunctionParts, JunctionSide, JunctionWeight};
-pub use linker::{Anchor, Linker, LinkerEnd};
+pub use linker::{Anchor, Linker, LinkerEnd, PeriodicImage};
 pub use site::{RodPlace, Site};
 pub use site_force::{ForceKind, SiteForce};
 pub use switched::{Hand, SwitchedLinker};

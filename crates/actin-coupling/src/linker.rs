@@ -50,6 +50,24 @@ pub enum LinkerEnd {
     Site(Site),
 }
 
+/// Displacement from a site to its periodic image (nm, lab frame): `rest + strained c` with the value `c` of a control.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PeriodicImage {
+    /// Displacement without strain.
+    pub rest: Vector3,
+    /// Displacement by a strain with factor 1.
+    pub strained: Vector3,
+    /// Factor of the strain.
+    pub factor: ControlId,
+}
+
+impl PeriodicImage {
+    /// Current displacement (nm, lab frame).
+    pub fn displacement(&self, state: &State) -> Vector3 {
+        self.rest + self.strained * state.controls[self.factor]
+    }
+}
+
 /// Hookean spring between a site and an anchor or another site: term `linker`, one element.
 ///
 /// ```text
@@ -71,6 +89,7 @@ pub struct Linker {
     site: Site,
     end: LinkerEnd,
     spring: Hooke,
+    image: Option<PeriodicImage>,
 }
 
 impl Linker {
@@ -121,12 +140,33 @@ impl Linker {
             stiffness,
             rest_length,
         };
-        Ok(Self { site, end, spring })
+        Ok(Self {
+            site,
+            end,
+            spring,
+            image: None,
+        })
+    }
+
+    /// Joins the linker to a periodic image of its second end.
+    #[must_use]
+    pub fn with_image(self, image: Option<PeriodicImage>) -> Self {
+        Self { image, ..self }
+    }
+
+    /// Periodic image of the second end, or `None` for the end itself.
+    pub fn image(&self) -> Option<&PeriodicImage> {
+        self.image.as_ref()
     }
 
     /// Creates a linker from valid parts.
     pub(crate) fn with_spring(site: Site, end: LinkerEnd, spring: Hooke) -> Self {
-        Self { site, end, spring }
+        Self {
+            site,
+            end,
+            spring,
+            image: None,
+        }
     }
 
     /// Stiffness and rest length.
@@ -152,12 +192,14 @@ impl Linker {
         }
     }
 
-    /// Position of the second end (nm, lab frame).
+    /// Position of the second end or of its image (nm, lab frame).
     pub fn end_position(&self, state: &State) -> Vector3 {
-        match &self.end {
+        let image = self.image.map(|image| image.displacement(state));
+        let end = match &self.end {
             LinkerEnd::Anchor(anchor) => anchor.position(state),
             LinkerEnd::Site(site) => site.position(state),
-        }
+        };
+        end + image.unwrap_or_default()
     }
 
     /// Length minus rest length (nm).

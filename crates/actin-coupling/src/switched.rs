@@ -1,4 +1,4 @@
-use crate::{Linker, LinkerEnd, Site};
+use crate::{Linker, LinkerEnd, PeriodicImage, Site};
 use actin_mechanics::{
     ControlId, Hooke, Interaction, Loads, RandomStress, SecondOrder, State, Stiffness, Vector3,
 };
@@ -27,7 +27,7 @@ pub struct SwitchedLinker {
 
 #[derive(Clone, Debug)]
 enum OtherEnd {
-    Fixed(LinkerEnd),
+    Fixed(LinkerEnd, Option<PeriodicImage>),
     Hand(Hand),
 }
 
@@ -86,7 +86,7 @@ impl SwitchedLinker {
     /// Creates a linker from a hand to a fixed end, with the stiffness and rest length of `linker`,
     /// and adds the controls of its random force to the state.
     pub fn to_end(state: &mut State, hand: Hand, linker: &Linker) -> Self {
-        let other = OtherEnd::Fixed(linker.end().clone());
+        let other = OtherEnd::Fixed(linker.end().clone(), linker.image().copied());
         Self::new(state, hand, other, linker)
     }
 
@@ -117,7 +117,7 @@ impl SwitchedLinker {
     /// One or two hands.
     pub fn hands(&self) -> impl Iterator<Item = &Hand> {
         let other = match &self.other {
-            OtherEnd::Fixed(_) => None,
+            OtherEnd::Fixed(..) => None,
             OtherEnd::Hand(hand) => Some(hand),
         };
         std::iter::once(&self.hand).chain(other)
@@ -143,11 +143,11 @@ impl SwitchedLinker {
     /// # Panics
     /// If a site does not exist.
     pub fn linker_at(&self, sites: &[usize]) -> Linker {
-        let end = match &self.other {
-            OtherEnd::Fixed(end) => end.clone(),
-            OtherEnd::Hand(hand) => LinkerEnd::Site(hand.sites[sites[1]]),
+        let (end, image) = match &self.other {
+            OtherEnd::Fixed(end, image) => (end.clone(), *image),
+            OtherEnd::Hand(hand) => (LinkerEnd::Site(hand.sites[sites[1]]), None),
         };
-        Linker::with_spring(self.hand.sites[sites[0]], end, self.spring)
+        Linker::with_spring(self.hand.sites[sites[0]], end, self.spring).with_image(image)
     }
 }
 

@@ -26,6 +26,7 @@ pub(crate) fn free(title: &str, filament: Filament) -> Scene {
         loads: Vec::new(),
         linkers: Vec::new(),
         repulsion: None,
+        periodic: None,
         path: Vec::new(),
         observe: Vec::new(),
         burn_in_ns: None,

@@ -88,6 +88,7 @@ impl Crosslinkers {
             azimuth_deg: 0.0,
             to,
             anchor_nm: None,
+            image: [0; 3],
             displaced_nm: None,
             stiffness_pn_per_nm: self.stiffness_pn_per_nm,
             rest_length_nm: self.rest_length_nm,

@@ -31,6 +31,7 @@ mod model;
 mod observable;
 mod parse;
 pub mod path;
+mod periodic;
 mod place;
 mod position;
 mod print;
@@ -83,6 +84,7 @@ pub use model::{
     Anchors, ForceLaw, JunctionModel, JunctionWeight, Material, Monomers, RodModel, RotaryInertia,
 };
 pub use observable::{Observable, Output, Point};
+pub use periodic::PeriodicBox;
 pub use place::ClampedEnds;
 pub use problem::{SceneError, SceneProblem};
 pub use read::{ParseReport, read_all, read_ron, to_ron};

@@ -29,6 +29,9 @@ pub struct Linker {
     /// Position of the anchor (lab frame); finite.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub anchor_nm: Option<[f64; 3]>,
+    /// Periodic image of the second site: its position is shifted by this number of edges of the periodic box.
+    #[serde(default, skip_serializing_if = "is_origin")]
+    pub image: [i32; 3],
     /// Displacement of the anchor from the site in the filament as built (lab frame); finite, and not zero if the
     /// rest length is positive.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -59,6 +62,10 @@ pub struct LinkerSite {
     /// Azimuth in the filament as built; finite.
     #[serde(default)]
     pub azimuth_deg: f64,
+}
+
+fn is_origin(image: &[i32; 3]) -> bool {
+    *image == [0; 3]
 }
 
 impl Linker {
@@ -108,7 +115,7 @@ pub(super) fn check(scene: &Scene, i: usize, linker: &Linker) -> Result<(), Scen
     check_one_end(i, linker)?;
     if let Some(other) = &linker.to {
         check_site(scene, &key("to"), other)?;
-        if other.is_at(&linker.site()) {
+        if other.is_at(&linker.site()) && linker.image == [0; 3] {
             let rule = "is the site of the first end: write another site";
             return Err(SceneProblem::new(key("to"), "", rule));
         }

@@ -1,7 +1,7 @@
 //! Random linkers between neighbouring filaments.
 
 use super::rules::{non_negative, positive};
-use super::{Filament, Kinetics, Linker, LinkerSite, SceneProblem};
+use super::{Filament, Kinetics, Linker, LinkerSite, PeriodicBox, SceneProblem};
 use actin_mechanics::Vector3;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -32,6 +32,10 @@ pub(crate) struct LinkersBetween {
     /// start.
     #[serde(default = "site_spacing")]
     pub site_spacing_nm: f64,
+    /// Distance of sites from the axis; at least 0. With a distance, each site has the azimuth of the nearest monomer:
+    /// sites follow the helix.
+    #[serde(default)]
+    pub radius_nm: f64,
     /// Stiffness; positive.
     pub stiffness_pn_per_nm: f64,
     /// Rest length; at least 0. By default the distance between the two sites as built: linkers are initially free of
@@ -49,13 +53,22 @@ fn site_spacing() -> f64 {
     SITE_SPACING_NM
 }
 
+#[derive(Clone, Copy)]
 struct Site {
     filament: usize,
     at_nm: f64,
+    azimuth_deg: f64,
     place: Vector3,
 }
 
-type Pair = (usize, usize, f64);
+/// Sites of a linker.
+#[derive(Clone, Copy)]
+struct Pair {
+    sites: [usize; 2],
+    /// Periodic image of the second site.
+    image: [i32; 3],
+    distance: f64,
+}
 
 impl LinkersBetween {
     /// Returns the linkers of set `k` of a scene with these filaments.
@@ -66,10 +79,11 @@ impl LinkersBetween {
         &self,
         k: usize,
         filaments: &[Filament],
+        periodic: Option<&PeriodicBox>,
     ) -> Result<Vec<Linker>, SceneProblem> {
-        self.check(k, filaments)?;
+        self.check(k, filaments, periodic)?;
         let sites = self.sites(filaments);
-        let mut pairs = self.pairs(&sites);
+        let mut pairs = self.pairs(&sites, periodic);
         let reachable = pairs.len();
         let chosen = self.choose(&mut pairs, (sites.len(), filaments.len()));
         chosen.map_err(|(found, wanted)| {
@@ -89,11 +103,18 @@ impl LinkersBetween {
             .collect())
     }
 
-    fn check(&self, k: usize, filaments: &[Filament]) -> Result<(), SceneProblem> {
+    fn check(
+        &self,
+        k: usize,
+        filaments: &[Filament],
+        periodic: Option<&PeriodicBox>,
+    ) -> Result<(), SceneProblem> {
         let key = |name: &str| format!("linker_sets[{k}].{name}");
         positive(&key("per_filament"), self.per_filament)?;
         positive(&key("reach_nm"), self.reach_nm)?;
         non_negative(&key("least_reach_nm"), self.least_reach_nm)?;
+        non_negative(&key("radius_nm"), self.radius_nm)?;
+        check_reach(&key("reach_nm"), self.reach_nm, periodic)?;
         positive(&key("site_spacing_nm"), self.site_spacing_nm)?;
         positive(&key("stiffness_pn_per_nm"), self.stiffness_pn_per_nm)?;
         if let Some(length) = self.rest_length_nm {
@@ -115,40 +136,78 @@ impl LinkersBetween {
     fn sites(&self, filaments: &[Filament]) -> Vec<Site> {
         let of_filament = |(filament, one): (usize, &Filament)| {
             let places = one.sites_nm(self.site_spacing_nm);
-            let site = |(at_nm, place)| Site {
+            let azimuth = |s: &f64| self.azimuth_deg(one, *s);
+            let azimuths: Vec<f64> = places.iter().map(azimuth).collect();
+            let axes = one.axes_at(&places);
+            let arm = |azimuth: f64| {
+                let (sine, cosine) = azimuth.to_radians().sin_cos();
+                Vector3::new(cosine, sine, 0.0) * self.radius_nm
+            };
+            let site = |((at_nm, azimuth_deg), (place, turn)): ((f64, f64), (Vector3, _))| Site {
                 filament,
                 at_nm,
-                place,
+                azimuth_deg,
+                place: place + turn * arm(azimuth_deg),
             };
-            let built = one.places_at(&places);
-            places.into_iter().zip(built).map(site).collect::<Vec<_>>()
+            let all = places.into_iter().zip(azimuths).zip(axes);
+            all.map(site).collect::<Vec<_>>()
         };
         filaments.iter().enumerate().flat_map(of_filament).collect()
     }
 
-    /// Finds pairs within reach with a grid of cubic cells.
-    fn pairs(&self, sites: &[Site]) -> Vec<Pair> {
+    /// Azimuth of the nearest monomer, from -180 to 180; 0 for sites on the axis.
+    fn azimuth_deg(&self, filament: &Filament, s_nm: f64) -> f64 {
+        if self.radius_nm <= 0.0 {
+            return 0.0;
+        }
+        let helix = &filament.monomers;
+        let index = (s_nm / helix.rise_nm).round();
+        let azimuth = helix.azimuth_deg + index * helix.turn_deg;
+        azimuth - 360.0 * (azimuth / 360.0).round()
+    }
+
+    /// Finds pairs within reach with a grid of cubic cells. A site has images in a periodic box.
+    fn pairs(&self, sites: &[Site], periodic: Option<&PeriodicBox>) -> Vec<Pair> {
         #[expect(
             clippy::cast_possible_truncation,
             reason = "saturates far outside of any filament"
         )]
         let cell = |place: &Vector3| place.map(|x| (x / self.reach_nm).floor() as i64);
+        let wrap = |place: Vector3| periodic.map_or(([0; 3], place), |one| one.wrap(place));
+        let images = periodic.map_or(1, |_| 27);
         let mut cells: HashMap<[i64; 3], Vec<usize>> = HashMap::new();
         let mut pairs = Vec::new();
+        let wrapped: Vec<_> = sites.iter().map(|site| wrap(site.place)).collect();
         for (i, site) in sites.iter().enumerate() {
-            let centre = cell(&site.place);
-            for step in 0..27 {
-                let neighbour = [step % 3, step / 3 % 3, step / 9];
-                let neighbour = std::array::from_fn(|k| centre[k] + neighbour[k] - 1);
-                for &j in cells.get(&neighbour).into_iter().flatten() {
-                    let distance = (site.place - sites[j].place).norm();
-                    let is_near = distance <= self.reach_nm && distance >= self.least_reach_nm;
-                    if is_near && sites[j].filament != site.filament {
-                        pairs.push((j, i, distance));
+            let (home, place) = wrapped[i];
+            for shift in (0..images).map(|k| if images == 1 { [0; 3] } else { neighbour(k) }) {
+                let place = place + periodic.map_or_else(Vector3::zeros, |one| one.shift(shift));
+                let is_outside =
+                    |(x, edge): (&f64, f64)| *x < -self.reach_nm || *x > edge + self.reach_nm;
+                let edges = periodic.map(|one| one.size_nm).into_iter().flatten();
+                if place.iter().zip(edges).any(is_outside) {
+                    continue;
+                }
+                let centre = cell(&place);
+                for step in (0..27).map(neighbour) {
+                    let around = std::array::from_fn(|k| centre[k] + i64::from(step[k]));
+                    for &j in cells.get(&around).into_iter().flatten() {
+                        let distance = (place - wrapped[j].1).norm();
+                        let is_near = distance <= self.reach_nm && distance >= self.least_reach_nm;
+                        if is_near && sites[j].filament != site.filament {
+                            pairs.push(Pair {
+                                sites: [j, i],
+                                image: std::array::from_fn(|k| {
+                                    shift[k] - home[k] + wrapped[j].0[k]
+                                }),
+                                distance,
+                            });
+                        }
                     }
                 }
             }
-            cells.entry(centre.into()).or_default().push(i);
+            let own = cell(&wrapped[i].1);
+            cells.entry(own.into()).or_default().push(i);
         }
         pairs
     }
@@ -173,7 +232,7 @@ impl LinkersBetween {
         while chosen < wanted && next < pairs.len() {
             let drawn = random.random_range(next..pairs.len());
             pairs.swap(next, drawn);
-            let (i, j, _) = pairs[next];
+            let [i, j] = pairs[next].sites;
             if is_free[i] && is_free[j] {
                 (is_free[i], is_free[j]) = (false, false);
                 pairs.swap(chosen, next);
@@ -182,38 +241,55 @@ impl LinkersBetween {
             next += 1;
         }
         pairs.truncate(chosen);
-        pairs.sort_by_key(|(i, j, _)| (*i, *j));
+        pairs.sort_by_key(|pair| (pair.sites, pair.image));
         if chosen < wanted {
             return Err((chosen, wanted));
         }
         Ok(())
     }
 
-    fn linker(&self, sites: &[Site], (i, j, distance): Pair) -> Linker {
+    fn linker(&self, sites: &[Site], pair: Pair) -> Linker {
+        let [site, other] = pair.sites.map(|i| sites[i]);
         Linker {
-            filament: sites[i].filament,
-            at_nm: sites[i].at_nm,
-            radius_nm: 0.0,
-            azimuth_deg: 0.0,
+            filament: site.filament,
+            at_nm: site.at_nm,
+            radius_nm: self.radius_nm,
+            azimuth_deg: site.azimuth_deg,
             to: Some(LinkerSite {
-                filament: sites[j].filament,
-                at_nm: sites[j].at_nm,
-                radius_nm: 0.0,
-                azimuth_deg: 0.0,
+                filament: other.filament,
+                at_nm: other.at_nm,
+                radius_nm: self.radius_nm,
+                azimuth_deg: other.azimuth_deg,
             }),
             anchor_nm: None,
+            image: pair.image,
             displaced_nm: None,
             stiffness_pn_per_nm: self.stiffness_pn_per_nm,
-            rest_length_nm: self.rest_length_nm.unwrap_or(distance),
+            rest_length_nm: self.rest_length_nm.unwrap_or(pair.distance),
             kinetics: self.kinetics,
         }
     }
 }
 
+/// One of the 27 cells around a cell, itself included.
+fn neighbour(step: i32) -> [i32; 3] {
+    [step % 3 - 1, step / 3 % 3 - 1, step / 9 - 1]
+}
+
+fn check_reach(key: &str, reach: f64, periodic: Option<&PeriodicBox>) -> Result<(), SceneProblem> {
+    let edges = periodic.iter().flat_map(|one| one.size_nm);
+    let shortest = edges.fold(f64::INFINITY, f64::min);
+    if reach <= shortest {
+        return Ok(());
+    }
+    let rule = format!("must be at most the shortest edge of the periodic box, {shortest:?}");
+    Err(SceneProblem::new(key, reach, rule))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Scene;
+    use crate::{Factor, Scene};
     use actin_mechanics::segments;
     use std::collections::HashSet;
 
@@ -266,22 +342,40 @@ mod tests {
             site_spacing_nm: 50.0,
             stiffness_pn_per_nm: 1.0,
             rest_length_nm: None,
+            radius_nm: 4.0,
             kinetics: None,
             seed: 1,
         };
         let sites = set.sites(&filaments);
         assert_eq!(sites.len(), 40 * 20);
-        let found: HashSet<(usize, usize)> =
-            set.pairs(&sites).iter().map(|(i, j, _)| (*i, *j)).collect();
-        let all = (0..sites.len()).flat_map(|j| (0..j).map(move |i| (i, j)));
-        let direct: HashSet<(usize, usize)> = all
-            .filter(|(i, j)| {
-                let distance = (sites[*i].place - sites[*j].place).norm();
-                (10.0..=80.0).contains(&distance) && sites[*i].filament != sites[*j].filament
-            })
-            .collect();
-        assert!(direct.len() > 100);
-        assert_eq!(found, direct);
+        let periodic = PeriodicBox {
+            size_nm: [1400.0, 1500.0, 1600.0],
+            strain: 0.0,
+            factor: Factor::Constant,
+        };
+        for periodic in [None, Some(&periodic)] {
+            let pairs = set.pairs(&sites, periodic).into_iter();
+            let found: HashSet<_> = pairs.map(|pair| (pair.sites, pair.image)).collect();
+            let all = (0..sites.len()).flat_map(|j| (0..j).map(move |i| [i, j]));
+            let images = -2..=2;
+            let images =
+                images.flat_map(|x| (-2..=2).flat_map(move |y| (-2..=2).map(move |z| [x, y, z])));
+            let images: Vec<[i32; 3]> = match periodic {
+                None => vec![[0; 3]],
+                Some(_) => images.collect(),
+            };
+            let direct: HashSet<_> = all
+                .filter(|[i, j]| sites[*i].filament != sites[*j].filament)
+                .flat_map(|pair| images.iter().map(move |image| (pair, *image)))
+                .filter(|([i, j], image)| {
+                    let shift = periodic.map_or_else(Vector3::zeros, |one| one.shift(*image));
+                    let distance = (sites[*j].place + shift - sites[*i].place).norm();
+                    (10.0..=80.0).contains(&distance)
+                })
+                .collect();
+            assert!(direct.len() > 100);
+            assert_eq!(found, direct);
+        }
     }
 
     #[test]

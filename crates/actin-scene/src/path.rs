@@ -58,6 +58,15 @@ pub fn load_factors(path: &[Stage], count: usize) -> Vec<Option<Values<f64>>> {
     })
 }
 
+/// Returns the factor of the strain of the periodic box, or `None` if no stage sets it.
+pub fn strain_factor(path: &[Stage]) -> Option<Values<f64>> {
+    let mut all = values(path, 1, |setting| match *setting {
+        Setting::Shear { factor } => Some((0, factor)),
+        _ => None,
+    });
+    all.pop().flatten()
+}
+
 /// Factor of a load that no stage sets.
 pub const UNSET: f64 = 1.0;
 

@@ -67,9 +67,20 @@ impl Filament {
 
     /// Returns the reference positions (lab frame, nm) of the axis at arc lengths (nm).
     pub(crate) fn places_at(&self, s_nm: &[f64]) -> Vec<Vector3> {
+        let axes = self.axes_at(s_nm).into_iter();
+        axes.map(|(place, _)| place).collect()
+    }
+
+    /// Returns the reference positions (lab frame, nm) of the axis at arc lengths (nm), and the rotations from lab +z to
+    /// the axis there.
+    pub(crate) fn axes_at(&self, s_nm: &[f64]) -> Vec<(Vector3, UnitQuaternion)> {
         let (at, turn) = (Vector3::from(self.at_nm), self.rotation());
         let curve = Curve::new(self, &self.boundaries());
-        s_nm.iter().map(|s| at + turn * curve.at(*s).0).collect()
+        let axis = |s: &f64| {
+            let (place, own) = curve.at(*s);
+            (at + turn * place, turn * own)
+        };
+        s_nm.iter().map(axis).collect()
     }
 
     /// Returns the rod models of the sections, without rigidity factors and rest curvature.

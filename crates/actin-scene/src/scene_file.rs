@@ -3,7 +3,7 @@
 use super::validate::check_filament;
 use super::{
     Arrangement, Clamp, Crosslinkers, Filament, Linker, LinkersBetween, Load, Observable, Output,
-    Repulsion, Scene, SceneProblem, Stage, Task,
+    PeriodicBox, Repulsion, Scene, SceneProblem, Stage, Task,
 };
 use serde::{Deserialize, Serialize};
 
@@ -42,6 +42,9 @@ pub(super) struct SceneFile {
     /// Repulsion of filaments from each other and from walls; by default none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     repulsion: Option<Repulsion>,
+    /// Periodic box and its shear; by default space is not periodic.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    periodic: Option<PeriodicBox>,
     /// Stages that change load factors and move clamped ends and anchors. Shifts, turns and the factors of
     /// loads that a stage sets start at zero. All other loads act in full.
     #[serde(default)]
@@ -88,7 +91,7 @@ impl TryFrom<SceneFile> for Scene {
         let linkers = linkers(
             written.linkers,
             (&written.linker_sets, &written.crosslinkers),
-            &filaments,
+            (&filaments, written.periodic.as_ref()),
         )?;
         let mut resolved = filaments.into_iter().map(|mut filament| {
             filament.monomers.resolve();
@@ -103,6 +106,7 @@ impl TryFrom<SceneFile> for Scene {
             loads: written.loads,
             linkers,
             repulsion: written.repulsion,
+            periodic: written.periodic,
             path: written.path,
             observe: written.observe,
             burn_in_ns: written.burn_in_ns,
@@ -116,10 +120,10 @@ impl TryFrom<SceneFile> for Scene {
 fn linkers(
     mut linkers: Vec<Linker>,
     (sets, pools): (&[LinkersBetween], &[Crosslinkers]),
-    filaments: &[Filament],
+    (filaments, periodic): (&[Filament], Option<&PeriodicBox>),
 ) -> Result<Vec<Linker>, SceneProblem> {
     for (k, set) in sets.iter().enumerate() {
-        linkers.extend(set.linkers(k, filaments)?);
+        linkers.extend(set.linkers(k, filaments, periodic)?);
     }
     for (k, pool) in pools.iter().enumerate() {
         linkers.extend(pool.linkers(k, filaments)?);
@@ -169,6 +173,7 @@ impl From<Scene> for SceneFile {
             linker_sets: Vec::new(),
             crosslinkers,
             repulsion: scene.repulsion,
+            periodic: scene.periodic,
             path: scene.path,
             observe: scene.observe,
             burn_in_ns: scene.burn_in_ns,

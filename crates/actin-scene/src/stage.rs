@@ -30,6 +30,13 @@ pub(super) fn check(
                 }
                 all_finite(&key("shift_nm"), shift_nm)?;
             }
+            Setting::Shear { factor } => {
+                finite(&key("factor"), factor)?;
+                if scene.periodic.as_ref().is_none_or(|one| one.strain == 0.0) {
+                    let rule = "requires a strain of the periodic box: write periodic with strain";
+                    return Err(SceneProblem::new(key("factor"), factor, rule));
+                }
+            }
             Setting::Shift {
                 filament,
                 end,

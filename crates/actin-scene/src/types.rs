@@ -2,8 +2,8 @@
 
 use super::model::{JunctionModel, Monomers, RodModel};
 use super::{
-    Brownian, DragModel, Imperfection, Linker, Load, Observable, Output, Quantity, Repulsion,
-    Sections, Shape, Thermal, scene_file::SceneFile,
+    Brownian, DragModel, Imperfection, Linker, Load, Observable, Output, PeriodicBox, Quantity,
+    Repulsion, Sections, Shape, Thermal, scene_file::SceneFile,
 };
 use serde::{Deserialize, Serialize};
 
@@ -28,6 +28,8 @@ pub struct Scene {
     pub linkers: Vec<Linker>,
     /// Repulsion of filaments from each other and from walls.
     pub repulsion: Option<Repulsion>,
+    /// Periodic box and its shear.
+    pub periodic: Option<PeriodicBox>,
     /// Stages that change load factors and move clamped ends and anchors.
     pub path: Vec<Stage>,
     /// Quantities computed for every record.
@@ -106,6 +108,11 @@ pub enum Setting {
         /// about other axes tilt the end. In `Dynamics` and `Brownian` an end that slides `AlongAxis` may turn
         /// only about its axis, and an end that slides `Freely` may not turn.
         turn_deg: [f64; 3],
+    },
+    /// Factor of the strain of the periodic box.
+    Shear {
+        /// Factor at the end of the stage; finite.
+        factor: f64,
     },
     /// Displacement of the anchor of a linker from its position as built.
     Anchor {

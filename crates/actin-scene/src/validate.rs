@@ -8,8 +8,8 @@ use super::support::{check_support, check_swings};
 use super::{
     Adaptive, Anchors, Clamp, ClampedEnds, Dynamics, End, Equilibrium, Filament, FreeTranslation,
     Hold, Monomers, Quantity, Resultant, Scene, SceneProblem, StopTolerances, Task, brownian, drag,
-    imperfection, kinetics, linker, load_rules, magnitude, observable, repulsion, saddles,
-    section_rules, shape, stage, thermal,
+    imperfection, kinetics, linker, load_rules, magnitude, observable, periodic, repulsion,
+    saddles, section_rules, shape, stage, thermal,
 };
 use actin_ellipsoid::{MAX_POINTS, MIN_POINTS};
 
@@ -54,6 +54,7 @@ pub(super) fn problems(scene: &Scene, most: usize) -> Vec<SceneProblem> {
         note(linker::check(scene, i, linker));
     }
     repulsion::check(scene, &mut note);
+    periodic::check(scene, &mut note);
     for (i, stage) in scene.path.iter().enumerate() {
         note(stage::check(scene, &held, (i, stage)));
     }

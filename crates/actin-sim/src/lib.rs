@@ -47,11 +47,11 @@ pub use actin_scene::{
     Equilibrium, Factor, Filament, Flow, Fluid, Force, ForceLaw, ForcePerLength, Forming,
     FreeTranslation, Hinge, Hold, Imperfection, Integrator, Interfaces, JunctionModel,
     JunctionWeight, Kinetics, Linker, LinkerSite, Load, Material, MonomerChanges, Monomers,
-    Observable, Output, Override, Plane, Point, Quantity, RandomPart, RefinementCriterion,
-    Repulsion, Roaming, RodChanges, RodLaw, RodLaws, RodModel, RotaryInertia, Scene, SceneError,
-    SceneKind, SceneProblem, SceneText, SceneValue, Section, Sections, Setting, Shape, ShearLaw,
-    Sphere, SphereSide, Stage, Stepping, StopTolerances, StretchLaw, Target, Task, Thermal,
-    TimeCourse, TwistLaw, TwistRise, TwistStretchLaw, Water,
+    Observable, Output, Override, PeriodicBox, Plane, Point, Quantity, RandomPart,
+    RefinementCriterion, Repulsion, Roaming, RodChanges, RodLaw, RodLaws, RodModel, RotaryInertia,
+    Scene, SceneError, SceneKind, SceneProblem, SceneText, SceneValue, Section, Sections, Setting,
+    Shape, ShearLaw, Sphere, SphereSide, Stage, Stepping, StopTolerances, StretchLaw, Target, Task,
+    Thermal, TimeCourse, TwistLaw, TwistRise, TwistStretchLaw, Water,
 };
 pub use actin_scene::{ParseReport, read_all, read_ron, to_ron};
 pub use assembly::{

@@ -1,5 +1,7 @@
 use actin_cosserat::{RodLayout, StraightRod};
-use actin_coupling::{Anchor, Linker, LinkerEnd, LinkerError, LinkerKey, RodPlace, Site};
+use actin_coupling::{
+    Anchor, Linker, LinkerEnd, LinkerError, LinkerKey, PeriodicImage, RodPlace, Site,
+};
 use actin_mechanics::testing::{
     assert_fluctuates, assert_is_balanced, assert_is_gradient, assert_is_invariant,
     assert_is_stiffness, loads_of, resultant, stiffness_matrix,
@@ -103,6 +105,24 @@ fn stiffness_is_the_derivative_of_the_loads() {
                 assert_fluctuates(&[&linker], &scene.state, 1e-12);
             }
         }
+    }
+}
+
+#[test]
+fn loads_and_stiffness_of_linkers_to_periodic_images() {
+    let mut scene = scene(&mut Xorshift::new(14));
+    let image = PeriodicImage {
+        rest: Vector3::new(-3.0, 0.0, 5.0),
+        strained: Vector3::new(20.0, 0.0, 0.0),
+        factor: scene.state.add_control(0.2),
+    };
+    for linker in all(&scene, 2.5) {
+        let direct = linker.end_position(&scene.state);
+        let linker = linker.with_image(Some(image));
+        let shift = linker.end_position(&scene.state) - direct;
+        assert!((shift - Vector3::new(1.0, 0.0, 5.0)).norm() < 1e-14);
+        assert_is_gradient(&linker, &scene.state, 0.01, 1e-9);
+        assert_is_stiffness(&linker, &scene.state, 0.01, 1e-9);
     }
 }
 

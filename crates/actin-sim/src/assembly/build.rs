@@ -120,6 +120,8 @@ struct Builder<'a> {
     stock: SceneParts,
     clamps: Vec<Clamped>,
     loads: Vec<ControlId>,
+    /// Factor of the strain of a periodic box.
+    strain: Option<ControlId>,
     linkers: Vec<Linker>,
     kinetics: Option<Kinetics>,
     /// Tables of roaming linkers by the distance of sites and the direction of steps.
@@ -155,6 +157,7 @@ impl<'a> Builder<'a> {
             stock: SceneParts::default(),
             clamps: Vec::new(),
             loads: Vec::new(),
+            strain: None,
             linkers: Vec::new(),
             kinetics: None,
             site_tables: HashMap::new(),
@@ -201,7 +204,7 @@ impl<'a> Builder<'a> {
         let drive = Drive::new(
             &scene,
             (&self.held, &self.clamps),
-            (&self.loads, &self.linkers),
+            (&self.loads, self.strain, &self.linkers),
             &self.stock.state,
         );
         drive.place(&mut self.stock.state, 0.0);
@@ -224,6 +227,7 @@ impl<'a> Builder<'a> {
             clamps: self.clamps,
             held: self.held,
             loads: self.loads,
+            strain: self.strain,
             linkers: self.linkers,
             kinetics: self.kinetics.map(Arc::new),
             energy_balance,

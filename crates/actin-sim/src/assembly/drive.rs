@@ -13,6 +13,7 @@ use std::ops::{Add, Mul, Sub};
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Drive {
     stages: usize,
+    /// Factors of loads and of the strain of the periodic box.
     loads: Vec<(ControlId, Values<f64>)>,
     /// Displacements of anchors, by component.
     anchors: Vec<([ControlId; 3], Values<Vector3>)>,
@@ -38,7 +39,7 @@ impl Drive {
     pub(super) fn new(
         scene: &Scene,
         (held, clamps): (&ClampedEnds, &[Clamped]),
-        (loads, linkers): (&[ControlId], &[Linker]),
+        (loads, strain, linkers): (&[ControlId], Option<ControlId>, &[Linker]),
         rest: &State,
     ) -> Self {
         let path = &scene.path;
@@ -71,8 +72,10 @@ impl Drive {
         Self {
             stages: path.len(),
             loads: those_set(
-                loads.iter().copied().map(Some),
-                path::load_factors(path, loads.len()),
+                loads.iter().copied().map(Some).chain([strain]),
+                path::load_factors(path, loads.len())
+                    .into_iter()
+                    .chain([path::strain_factor(path)]),
             ),
             anchors: those_set(
                 linkers.iter().map(Linker::anchor_controls),
@@ -168,7 +171,7 @@ impl Drive {
 
 fn those_set<C, T>(
     controls: impl Iterator<Item = Option<C>>,
-    values: Vec<Option<Values<T>>>,
+    values: impl IntoIterator<Item = Option<Values<T>>>,
 ) -> Vec<(C, Values<T>)> {
     let all = controls.zip(values);
     all.filter_map(|(control, values)| control.zip(values))

@@ -84,6 +84,8 @@ pub struct Assembly {
     pub clamps: Vec<Clamped>,
     pub(crate) held: ClampedEnds,
     pub(crate) loads: Vec<ControlId>,
+    /// Factor of the strain of a periodic box.
+    pub(crate) strain: Option<ControlId>,
     /// Linkers in the order of the scene; stepping linkers at their first place.
     pub linkers: Vec<Linker>,
     pub(crate) kinetics: Option<Arc<Kinetics>>,

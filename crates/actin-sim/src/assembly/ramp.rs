@@ -14,7 +14,7 @@ use actin_mechanics::{ControlId, Interaction, State, Vector3};
 pub(crate) struct Ramp {
     drive: Drive,
     times: StageTimes,
-    /// Time-dependent load factors, and whether the path also sets each factor.
+    /// Time-dependent factors of loads and of the strain, and whether the path also sets each factor.
     factors: Vec<(ControlId, Factor, bool)>,
     /// Indices of the interactions with time-dependent controls.
     controlled: Vec<usize>,
@@ -27,9 +27,13 @@ impl Ramp {
     pub(crate) fn from_assembly(assembly: &Assembly) -> Option<Self> {
         let drive = assembly.drive.clone();
         let loads = assembly.scene.loads.iter().zip(&assembly.loads);
-        let factors: Vec<_> = loads
-            .filter(|(load, _)| !load.factor().is_constant())
-            .map(|(load, &control)| (control, load.factor().clone(), drive.sets(control)))
+        let of_loads = loads.map(|(load, &control)| (control, load.factor()));
+        let periodic = assembly.scene.periodic.as_ref();
+        let of_strain = assembly.strain.zip(periodic.map(|one| &one.factor));
+        let factors: Vec<_> = of_loads
+            .chain(of_strain)
+            .filter(|(_, factor)| !factor.is_constant())
+            .map(|(control, factor)| (control, factor.clone(), drive.sets(control)))
             .collect();
         let times = StageTimes::from_assembly(assembly);
         (!drive.is_still() || !factors.is_empty()).then_some(Self {
@@ -57,8 +61,12 @@ fn controlled(assembly: &Assembly) -> Vec<usize> {
             !is_constant || assembly.drive.sets(assembly.loads[i])
         }
         Part::Linker(i) => {
-            let anchor = assembly.linkers[i].anchor_controls();
-            anchor.is_some_and(|controls| assembly.drive.moves(controls))
+            let linker = &assembly.linkers[i];
+            let anchor = linker.anchor_controls();
+            let is_strained = linker
+                .image()
+                .is_some_and(|image| image.strained != Vector3::zeros());
+            is_strained || anchor.is_some_and(|controls| assembly.drive.moves(controls))
         }
         _ => false,
     };

@@ -133,7 +133,7 @@ fn build(one: Observable, scene: &Scene, energies: &EnergyNames) -> Box<dyn Obse
             Box::new(buckling::Buckling { filament, points })
         }
         Observable::Energies => Box::new(energies::Energies::new(energies.clone())),
-        Observable::Network => Box::new(network::Network),
+        Observable::Network => Box::new(network::Network::new(scene)),
         Observable::SquaredDisplacement {
             filament,
             of,

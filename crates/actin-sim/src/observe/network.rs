@@ -1,8 +1,10 @@
 //! Order, size, connections, linker forces and virial of all filaments.
 
-use super::{Observe, StoredPositions, View};
-use crate::{Assembly, Part};
+use super::{Checked, Observe, StoredPositions, View};
+use crate::scene::{Factor, PeriodicBox, Scene, Setting};
+use crate::{Assembly, Estimate, Part};
 use actin_mechanics::{Loads, Matrix3, Vector3};
+use std::f64::consts::TAU;
 
 /// Components of symmetric tensors, in the order of their columns.
 const COMPONENTS: [(&str, usize, usize); 6] = [
@@ -13,6 +15,9 @@ const COMPONENTS: [(&str, usize, usize); 6] = [
     ("xz", 0, 2),
     ("yz", 1, 2),
 ];
+
+/// Index of the shear component of a periodic box.
+const XZ: usize = 4;
 
 /// Columns before those of the virial.
 const SCALARS: [&str; 10] = [
@@ -28,9 +33,97 @@ const SCALARS: [&str; 10] = [
     "linker_tension_largest_pn",
 ];
 
+/// Columns of the moduli of an oscillating periodic box.
+const MODULI: [&str; 2] = ["network_storage_modulus_pa", "network_loss_modulus_pa"];
+
+/// Pressure of 1 pN/nm^2 (Pa).
+const PA: f64 = 1e6;
+
+/// Fewest records per period for moduli.
+const FEWEST: f64 = 4.0;
+
+/// Relative tolerance of multiples of times.
+const SAME: f64 = 1e-6;
+
 /// Properties of a network of filaments.
 #[derive(Debug)]
-pub(super) struct Network;
+pub(super) struct Network {
+    /// Volume of the periodic box (nm^3).
+    volume: Option<f64>,
+    oscillation: Option<Oscillation>,
+}
+
+/// Strain `amplitude sin(2 pi time / period + phase)`, without its mean.
+#[derive(Debug)]
+struct Oscillation {
+    amplitude: f64,
+    period_ns: f64,
+    phase: f64,
+    /// Time of the first record of means, which is not counted (ns).
+    from_ns: f64,
+}
+
+impl Oscillation {
+    fn new(scene: &Scene) -> Option<Self> {
+        let periodic = scene.periodic.as_ref()?;
+        let is_sheared = |setting: &Setting| matches!(setting, Setting::Shear { .. });
+        let mut settings = scene.path.iter().flat_map(|stage| &stage.set);
+        match periodic.factor {
+            Factor::Sine {
+                period_ns,
+                phase_deg,
+                amplitude,
+                ..
+            } if !settings.any(is_sheared) => Some(Self {
+                amplitude: amplitude * periodic.strain,
+                period_ns,
+                phase: phase_deg.to_radians(),
+                from_ns: scene.burn_in().unwrap_or_default(),
+            }),
+            _ => None,
+        }
+    }
+
+    /// Terms whose means over whole periods are the storage and loss modulus, for a stress at a time (ns): `2 stress
+    /// sin(phase) / amplitude` and `2 stress cos(phase) / amplitude`. NaN before the means.
+    fn moduli(&self, stress: f64, time: f64) -> [f64; 2] {
+        if time <= self.from_ns {
+            return [f64::NAN; 2];
+        }
+        let (sine, cosine) = (TAU * time / self.period_ns + self.phase).sin_cos();
+        [sine, cosine].map(|part| 2.0 * stress * part / self.amplitude)
+    }
+
+    /// Requires records at equal distances over whole periods, whose means are free of other harmonics.
+    fn check(&self, estimate: &Estimate) -> Checked {
+        let every = estimate.record_every_ns;
+        let duration = estimate.time_step_ns * estimate.steps as f64;
+        let is_multiple =
+            |of: f64, one: f64| (of / one - (of / one).round()).abs() <= SAME * of / one;
+        let after = duration - self.from_ns;
+        let is_sampled = self.period_ns >= FEWEST * every * (1.0 - SAME)
+            && is_multiple(self.period_ns, every)
+            && is_multiple(self.from_ns, every);
+        if is_sampled && after > 0.0 && is_multiple(after, self.period_ns) {
+            return Ok(());
+        }
+        let rule = format!(
+            "the period of the strain must be a multiple of the time between records, {every:?} ns, at least {FEWEST} \
+             times as long, and the time after burn_in_ns, {after:?} ns, a multiple of the period"
+        );
+        Err((MODULI[0], self.period_ns, rule))
+    }
+}
+
+impl Network {
+    pub(super) fn new(scene: &Scene) -> Self {
+        let periodic = scene.periodic.as_ref();
+        Self {
+            volume: periodic.map(PeriodicBox::volume),
+            oscillation: Oscillation::new(scene),
+        }
+    }
+}
 
 impl Observe for Network {
     fn columns(&self) -> Vec<String> {
@@ -38,7 +131,18 @@ impl Observe for Network {
         let virial = COMPONENTS
             .iter()
             .map(|(name, ..)| format!("network_virial_{name}_pn_nm"));
-        scalars.chain(virial).collect()
+        let names = COMPONENTS.iter().filter(|_| self.volume.is_some());
+        let stress = names.map(|(name, ..)| format!("network_stress_{name}_pa"));
+        let moduli = MODULI.iter().filter(|_| self.oscillation.is_some());
+        let moduli = moduli.map(|name| (*name).to_owned());
+        scalars.chain(virial).chain(stress).chain(moduli).collect()
+    }
+
+    fn check(&self, _assembly: &Assembly, estimate: Option<&Estimate>) -> Checked {
+        match (&self.oscillation, estimate) {
+            (Some(oscillation), Some(estimate)) => oscillation.check(estimate),
+            _ => Ok(()),
+        }
     }
 
     fn observe(&self, view: &View<'_>, _past: &mut StoredPositions, row: &mut Vec<f64>) {
@@ -55,7 +159,15 @@ impl Observe for Network {
         row.extend([sizes.len() as f64, largest as f64]);
         row.extend(statistics(&linkers.tensions));
         let virial = virial(view);
-        row.extend(COMPONENTS.map(|(_, i, j)| 0.5 * (virial[(i, j)] + virial[(j, i)])));
+        let virial = COMPONENTS.map(|(_, i, j)| 0.5 * (virial[(i, j)] + virial[(j, i)]));
+        row.extend(virial);
+        if let Some(volume) = self.volume {
+            let stress = virial.map(|one| one / volume * PA);
+            row.extend(stress);
+            if let Some(oscillation) = &self.oscillation {
+                row.extend(oscillation.moduli(stress[XZ], view.state.time));
+            }
+        }
     }
 }
 
@@ -155,6 +267,7 @@ fn statistics(tensions: &[f64]) -> [f64; 4] {
 }
 
 /// Returns `-sum r f^T` over all points with the forces `f` of filaments, linkers between sites and contacts (pN nm).
+/// Linkers to periodic images add the displacement of the image times their force.
 ///
 /// These forces add up to zero, so that the tensor does not depend on the origin. Its symmetric part is the derivative of
 /// their energy with respect to a uniform strain of all points at fixed orientations.
@@ -167,8 +280,17 @@ fn virial(view: &View<'_>) -> Matrix3 {
         }
     }
     let points = 0..view.assembly.points.len();
-    points.fold(Matrix3::zeros(), |sum, i| {
+    let of_points = points.fold(Matrix3::zeros(), |sum, i| {
         sum - view.state.points.position.get(i) * loads.force.get(i).transpose()
+    });
+    (0..view.assembly.linkers.len()).fold(of_points, |sum, i| {
+        let (linker, is_bound) = view.assembly.linker_in(i, view.state);
+        match linker.image().filter(|_| is_bound) {
+            Some(image) => {
+                sum + image.displacement(view.state) * linker.force(view.state).transpose()
+            }
+            None => sum,
+        }
     })
 }
 
@@ -268,6 +390,93 @@ mod tests {
             let virial = value(&assembly, &row, &format!("network_virial_{name}_pn_nm"));
             assert!((slope - virial).abs() < 1e-4, "{name}: {slope} {virial}");
         }
+    }
+
+    const SHEARED: &str = "Scene(
+        arrangements: [Random(
+            filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 200.0, segments: 5)], rod: (law: Constant)),
+            count: 8, box_nm: (150.0, 150.0, 150.0), seed: 1,
+        )],
+        linker_sets: [LinkersBetween(
+            per_filament: 7.0, reach_nm: 60.0, site_spacing_nm: 9.0, stiffness_pn_per_nm: 3.0, radius_nm: 4.0, seed: 1,
+        )],
+        periodic: PeriodicBox(size_nm: (150.0, 150.0, 150.0), strain: 0.05),
+        path: [Stage(set: [Shear(factor: 0.99)]), Stage(set: [Shear(factor: 1.0)]), Stage(set: [Shear(factor: 1.01)])],
+        observe: [Network],
+        task: Equilibrium(),
+    )";
+
+    /// The shear stress times the volume is the derivative of the energy of equilibria with respect to the strain.
+    #[test]
+    fn the_shear_stress_is_a_derivative_of_the_energy() {
+        let assembly = build(SHEARED);
+        assert!(
+            assembly
+                .linkers
+                .iter()
+                .any(|linker| linker.image().is_some())
+        );
+        let (trajectory, _) = crate::Plan::new(&assembly).unwrap().run().unwrap();
+        let records = &trajectory.records;
+        let record = |path: f64| {
+            let mut all = records.iter();
+            let found = all.find(|record| (record.at.value() - path).abs() < 1e-9);
+            found.expect("a stage ends here")
+        };
+        let energy = |path: f64| record(path).row.potential_pn_nm();
+        let slope = (energy(3.0) - energy(1.0)) / (0.02 * 0.05);
+        let row = &record(2.0).row.observed;
+        let virial = value(&assembly, row, "network_virial_xz_pn_nm");
+        let stress = value(&assembly, row, "network_stress_xz_pa");
+        // Truncation: strains differ by 1 %.
+        assert!((slope / virial - 1.0).abs() < 1e-3 && stress > 0.0);
+        assert!((stress * 150.0_f64.powi(3) / (virial * 1e6) - 1.0).abs() < 1e-12);
+    }
+
+    /// Two rods across the plane of shear, joined by symmetric linkers to images, are a Maxwell element: `G' = G x^2 / (1
+    /// + x^2)`, `G'' = G x / (1 + x^2)` with the frequency `x` in units of the relaxation rate, `G = k h^2 / V` and the
+    /// distance `h` of the joined sites along z.
+    #[test]
+    fn moduli_of_a_maxwell_element() {
+        let text = "Scene(
+            filaments: [
+                Filament(sections: [Rod(from_nm: 0.0, to_nm: 40.0, segments: 2)], rod: (law: Constant),
+                    direction: (0.0, 1.0, 0.0), at_nm: (0.0, 0.0, 40.0)),
+                Filament(sections: [Rod(from_nm: 0.0, to_nm: 40.0, segments: 2)], rod: (law: Constant),
+                    direction: (0.0, 1.0, 0.0), at_nm: (-30.0, 0.0, 0.0)),
+            ],
+            linkers: [
+                Linker(at_nm: 20.0, to: Site(filament: 1, at_nm: 20.0), image: (0, 0, 1), stiffness_pn_per_nm: 0.02,
+                    rest_length_nm: 50.0),
+                Linker(at_nm: 20.0, to: Site(filament: 1, at_nm: 20.0), image: (1, 0, 1), stiffness_pn_per_nm: 0.02,
+                    rest_length_nm: 50.0),
+            ],
+            periodic: PeriodicBox(size_nm: (60.0, 100.0, 80.0), strain: 0.01, factor: Sine(period_ns: 40000.0)),
+            observe: [Network],
+            task: Brownian(
+                duration_ms: 0.4, temperature_k: 0.0, time_step_ns: 100.0, record_every_ns: 2000.0,
+                drag: Water(viscosity_mpa_s: 1.0),
+            ),
+        )";
+        let assembly = build(text);
+        let (trajectory, _) = crate::Plan::new(&assembly).unwrap().run().unwrap();
+        let records = &trajectory.records;
+        let mean = |column: &str| {
+            let periods = &records[records.len() - 40..];
+            let values = periods
+                .iter()
+                .map(|one| value(&assembly, &one.row.observed, column));
+            values.sum::<f64>() / 40.0
+        };
+        let [storage, loss] = super::MODULI.map(mean);
+        // Two linkers at slopes of 3 : 4, k = 2 * 0.02 * 0.36 pN/nm, h = 40 nm.
+        let plateau = 2.0 * 0.02 * 0.36 * 40.0_f64.powi(2) / (60.0 * 100.0 * 80.0) * 1e6;
+        let frequency = storage / loss;
+        println!("{storage} {loss} Pa, plateau {plateau} Pa, relative frequency {frequency}");
+        assert!((0.2..5.0).contains(&frequency));
+        // The linkers turn by 0.02 rad. Rods bend by 0.1 % of their displacement.
+        let expected = plateau * frequency.powi(2) / (1.0 + frequency.powi(2));
+        assert!((storage / expected - 1.0).abs() < 3e-3, "{expected}");
     }
 
     #[test]

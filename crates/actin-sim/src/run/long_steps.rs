@@ -124,7 +124,14 @@ fn of_changes(assembly: &Assembly) -> Vec<f64> {
     let loads = scene
         .loads
         .iter()
-        .filter_map(|load| load.factor().shortest());
+        .filter_map(|load| load.factor().shortest())
+        .chain(
+            assembly
+                .scene
+                .periodic
+                .iter()
+                .filter_map(|one| one.factor.shortest()),
+        );
     stages.chain(loads).collect()
 }
 

@@ -523,7 +523,7 @@ fn free_axis(scene: &Scene) -> Option<Vector3> {
     });
     let settings = scene.path.iter().flat_map(|stage| &stage.set);
     let moves = settings.filter_map(|setting| match *setting {
-        Setting::LoadFactor { .. } => None,
+        Setting::LoadFactor { .. } | Setting::Shear { .. } => None,
         Setting::Shift { shift_nm: v, .. }
         | Setting::Turn { turn_deg: v, .. }
         | Setting::Anchor { shift_nm: v, .. } => Some(v.into()),

@@ -514,7 +514,7 @@ fn at_load(scene: &Scene, share: f64) -> Option<Scene> {
     let settings = scene.path.iter_mut().flat_map(|stage| &mut stage.set);
     for setting in settings {
         let vector = match setting {
-            Setting::LoadFactor { .. } => continue,
+            Setting::LoadFactor { .. } | Setting::Shear { .. } => continue,
             Setting::Shift { shift_nm: v, .. }
             | Setting::Turn { turn_deg: v, .. }
             | Setting::Anchor { shift_nm: v, .. } => v,

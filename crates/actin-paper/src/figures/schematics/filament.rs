@@ -215,7 +215,9 @@ impl<'a> FilamentDrawing<'a> {
                     turn_deg,
                 } => self.turn(*filament, *end, (*turn_deg).into(), radius_nm),
                 // Loads and anchors are drawn in their final state.
-                Setting::LoadFactor { .. } | Setting::Anchor { .. } => Vec::new(),
+                Setting::LoadFactor { .. } | Setting::Shear { .. } | Setting::Anchor { .. } => {
+                    Vec::new()
+                }
             })
             .collect()
     }

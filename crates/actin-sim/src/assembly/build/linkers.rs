@@ -3,10 +3,10 @@
 use super::{Body, Builder, Strand};
 use crate::assembly::lattice::ResolvedSection;
 use crate::assembly::{Kinetics, Part, SiteTable};
-use crate::scene::{self, LinkerSite, SceneProblem};
+use crate::scene::{self, LinkerSite, SceneProblem, path};
 use actin_cosserat::RodLayout;
 use actin_coupling::{
-    Anchor, Hand, Linker, LinkerEnd, LinkerError, RodPlace, Site, SwitchedLinker,
+    Anchor, Hand, Linker, LinkerEnd, LinkerError, PeriodicImage, RodPlace, Site, SwitchedLinker,
 };
 use actin_ellipsoid::Monomers;
 use actin_mechanics::{ControlId, Vector3};
@@ -22,6 +22,8 @@ const SHUT_NM: f64 = 1e-9;
 impl Builder<'_> {
     pub(super) fn push_linkers(&mut self) -> Result<(), SceneProblem> {
         let mut nodes = Nodes::default();
+        let is_periodic = self.scene.periodic.is_some();
+        self.strain = is_periodic.then(|| self.stock.state.add_control(path::UNSET));
         for (i, linker) in self.scene.linkers.iter().enumerate() {
             let state = &mut self.stock.state;
             let has_anchor = linker.to.is_none();
@@ -151,6 +153,7 @@ impl Builder<'_> {
         };
         let (stiffness, rest_length) = (linker.stiffness_pn_per_nm, linker.rest_length_nm);
         let built = Linker::new(site, end, stiffness, rest_length).map_err(refused)?;
+        let built = built.with_image(self.image(linker.image));
         let length = built.extension(&self.stock.state) + rest_length;
         if rest_length > 0.0 && length < SHUT_NM {
             let value = linker.anchor();
@@ -161,6 +164,15 @@ impl Builder<'_> {
             ));
         }
         Ok(built)
+    }
+
+    fn image(&self, image: [i32; 3]) -> Option<PeriodicImage> {
+        let periodic = self.scene.periodic.as_ref().filter(|_| image != [0; 3])?;
+        Some(PeriodicImage {
+            rest: periodic.shift(image),
+            strained: periodic.shear(image),
+            factor: self.strain?,
+        })
     }
 
     fn anchor(&self, linker: &scene::Linker, site: &Site) -> Vector3 {

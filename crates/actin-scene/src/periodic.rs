@@ -1,0 +1,191 @@
+//! Periodic box, its shear and their validation.
+
+use super::rules::{finite, positive, show};
+use super::{Factor, Linker, Scene, SceneProblem, Task};
+use actin_mechanics::Vector3;
+use serde::{Deserialize, Serialize};
+
+/// Box that is repeated along x, y and z. Only linkers act across its faces: filaments are continuous, and a linker
+/// has the `image` of its second end.
+///
+/// A shear strain displaces the images along x in proportion to their distance along z, and so does the fluid of
+/// `Brownian`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct PeriodicBox {
+    /// Edges along x, y and z; positive.
+    pub size_nm: [f64; 3],
+    /// Shear strain `dx/dz`; finite, at most 1. Scenes are built without strain.
+    #[serde(default)]
+    pub strain: f64,
+    /// Factor of the strain in time. `Shear` of a path sets another factor; both are multiplied.
+    #[serde(default)]
+    pub factor: Factor,
+}
+
+/// Largest magnitude of the strain.
+const MOST_STRAIN: f64 = 1.0;
+
+impl PeriodicBox {
+    /// Returns the displacement (nm) of an image, without strain.
+    pub fn shift(&self, image: [i32; 3]) -> Vector3 {
+        Vector3::from_fn(|k, _| f64::from(image[k]) * self.size_nm[k])
+    }
+
+    /// Returns the displacement (nm) of an image by the strain with factor 1.
+    pub fn shear(&self, image: [i32; 3]) -> Vector3 {
+        Vector3::x() * (self.strain * self.shift(image).z)
+    }
+
+    /// Returns the volume (nm^3).
+    pub fn volume(&self) -> f64 {
+        self.size_nm.iter().product()
+    }
+
+    /// Returns the image in which a position (nm) lies, and the position in the box without strain, from 0 to
+    /// `size_nm`.
+    pub(crate) fn wrap(&self, place: Vector3) -> ([i32; 3], Vector3) {
+        #[expect(
+            clippy::cast_possible_truncation,
+            reason = "saturates far outside of any filament"
+        )]
+        let image = std::array::from_fn(|k| (place[k] / self.size_nm[k]).floor() as i32);
+        (image, place - self.shift(image))
+    }
+}
+
+/// Checks the box and what it excludes.
+pub(super) fn check(scene: &Scene, note: &mut impl FnMut(Result<(), SceneProblem>)) {
+    for (i, linker) in scene.linkers.iter().enumerate() {
+        note(check_image(scene, i, linker));
+    }
+    let Some(periodic) = &scene.periodic else {
+        return;
+    };
+    for edge in periodic.size_nm {
+        note(positive("periodic.size_nm", edge));
+    }
+    note(check_strain(scene, periodic));
+    note(check_excluded(scene));
+}
+
+fn check_strain(scene: &Scene, periodic: &PeriodicBox) -> Result<(), SceneProblem> {
+    let (key, strain) = ("periodic.strain", periodic.strain);
+    finite(key, strain)?;
+    periodic.factor.check("periodic.factor")?;
+    if strain.abs() > MOST_STRAIN {
+        let rule = format!("must be at most {MOST_STRAIN} in magnitude");
+        return Err(SceneProblem::new(key, show(strain), rule));
+    }
+    match &scene.task {
+        Task::Dynamics(_) if strain != 0.0 => {
+            let rule = "has no effect on the fluid in Dynamics: use Brownian or Equilibrium";
+            Err(SceneProblem::new(key, show(strain), rule))
+        }
+        Task::Equilibrium(_) if !periodic.factor.is_constant() => {
+            let rule = "changes in time: use Brownian, or Shear(factor: ..) in a path";
+            Err(SceneProblem::new("periodic.factor", "", rule))
+        }
+        _ => Ok(()),
+    }
+}
+
+fn check_excluded(scene: &Scene) -> Result<(), SceneProblem> {
+    if scene.repulsion.is_some() {
+        let rule = "does not act between images of filaments: omit it, or omit periodic";
+        return Err(SceneProblem::new("repulsion", "", rule));
+    }
+    let roams = |linker: &Linker| linker.kinetics.is_some_and(|k| k.roams.is_some());
+    if scene.linkers.iter().any(roams) {
+        let rule = "bind only within the box: omit periodic, or use linker_sets";
+        return Err(SceneProblem::new("crosslinkers", "", rule));
+    }
+    Ok(())
+}
+
+fn check_image(scene: &Scene, i: usize, linker: &Linker) -> Result<(), SceneProblem> {
+    if linker.image == [0; 3] {
+        return Ok(());
+    }
+    let refused = |rule: &str| {
+        let value = format!("{:?}", linker.image);
+        Err(SceneProblem::new(
+            format!("linkers[{i}].image"),
+            value,
+            rule,
+        ))
+    };
+    match (&scene.periodic, &linker.to) {
+        (None, _) => refused("requires a periodic box: write periodic, or omit this key"),
+        (_, None) => refused("requires a site at the second end: write to, or omit this key"),
+        _ => Ok(()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::Scene;
+
+    const SHEARED: &str = "Scene(
+        filaments: [
+            Filament(sections: [Rod(from_nm: 0.0, to_nm: 100.0)]),
+            Filament(sections: [Rod(from_nm: 0.0, to_nm: 100.0)], at_nm: (20.0, 0.0, 0.0)),
+        ],
+        linkers: [Linker(at_nm: 90.0, to: Site(filament: 1, at_nm: 5.0), image: (0, 0, 1), stiffness_pn_per_nm: 1.0)],
+        periodic: PeriodicBox(size_nm: (50.0, 50.0, 90.0), strain: 0.1),
+        path: [Stage(set: [Shear(factor: 1.0)])],
+        task: Equilibrium(),
+    )";
+
+    #[test]
+    fn a_periodic_scene_survives_the_round_trip() {
+        let scene = Scene::from_ron(SHEARED).expect("the scene is valid");
+        let printed = scene.to_ron();
+        assert_eq!(Scene::from_ron(&printed).expect("it is valid"), scene);
+        let periodic = scene.periodic.expect("the scene is periodic");
+        assert!((periodic.shear([3, -1, 2]).x - 18.0).abs() < 1e-12);
+        let (image, place) = periodic.wrap([-1.0, 120.0, 90.0].into());
+        assert_eq!(image, [-1, 2, 1]);
+        assert!((place.x - 49.0).abs() < 1e-12 && (place.y - 20.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn mistakes_of_periodic_scenes_are_refused() {
+        for (right, wrong, key) in [
+            ("90.0), strain", "-90.0), strain", "periodic.size_nm"),
+            ("strain: 0.1", "strain: 2.0", "periodic.strain"),
+            ("strain: 0.1", "", "path[0].set[0].factor"),
+            (
+                "(size_nm: (50.0, 50.0, 90.0), strain: 0.1)",
+                "(size_nm: (50.0, 50.0, 90.0), strain: 0.1, \
+              factor: Sine(period_ns: 1.0))",
+                "periodic.factor",
+            ),
+            (
+                "task: Equilibrium()",
+                "task: Dynamics(duration_ns: 1.0)",
+                "periodic.strain",
+            ),
+            ("path:", "repulsion: Repulsion(), path:", "repulsion"),
+            (
+                "to: Site(filament: 1, at_nm: 5.0)",
+                "anchor_nm: (0.0, 0.0, 9.0)",
+                "linkers[0].image",
+            ),
+        ] {
+            let refused = Scene::from_ron(&SHEARED.replace(right, wrong)).expect_err(wrong);
+            assert!(refused.to_string().contains(key), "{wrong}: {refused}");
+        }
+        let open = SHEARED.replace(
+            "periodic: PeriodicBox(size_nm: (50.0, 50.0, 90.0), strain: 0.1),",
+            "",
+        );
+        let open = open.replace("path: [Stage(set: [Shear(factor: 1.0)])],", "");
+        let refused = Scene::from_ron(&open).expect_err("no box");
+        assert!(
+            refused.to_string().contains("linkers[0].image"),
+            "{refused}"
+        );
+    }
+}
