@@ -61,14 +61,14 @@ fn noise_depends_on_the_seed() {
 }
 
 /// A free filament moves with the flow. The tangent of its angle in a shear flow is rate times
-/// time.
+/// time; in a sheared periodic box it is the strain.
 #[test]
 fn free_filaments_follow_a_flow() {
     for sections in SECTIONS {
-        let moved = |flow: &str| {
+        let moved_in = |flow: &str, scene: &str| {
             let (assembly, records) = run(&format!(
                 "Scene(
-                    filament: Filament(sections: [{sections}], rod: RodModel(law: Constant)),
+                    filament: Filament(sections: [{sections}], rod: RodModel(law: Constant)), {scene}
                     task: Brownian(duration_ms: 1e-3, temperature_k: 0.0, time_step_ns: 1.0, flow: {flow}),
                 )"
             ));
@@ -78,6 +78,7 @@ fn free_filaments_follow_a_flow() {
             let [first, last] = [0, records.len() - 1].map(|k| ends(&records[k]));
             (last[0] - first[0], last[1] - last[0])
         };
+        let moved = |flow: &str| moved_in(flow, "");
         let (drift, _) = moved("Stream(velocity_um_per_s: (2e3, -1e3, 5e2))");
         assert!(
             (drift - Vector3::new(2.0, -1.0, 0.5)).norm() < 1e-6,
@@ -85,9 +86,17 @@ fn free_filaments_follow_a_flow() {
         );
         let (_, along) =
             moved("Shear(rate_per_s: 5e5, along: (9.0, 0.0, 0.0), across: (0.0, 0.0, 1e-9))");
-        let tangent = along.x / along.z;
-        println!("{sections}: {tangent}");
-        assert!((tangent / 0.5 - 1.0).abs() < 0.01, "{tangent}");
+        let (_, with_box) = moved_in(
+            "AtRest",
+            "periodic: PeriodicBox(
+                size_nm: (100.0, 100.0, 100.0), strain: 0.5, factor: Ramp(duration_ns: 800.0),
+            ),",
+        );
+        for along in [along, with_box] {
+            let tangent = along.x / along.z;
+            println!("{sections}: {tangent}");
+            assert!((tangent / 0.5 - 1.0).abs() < 0.01, "{tangent}");
+        }
     }
 }
 

@@ -1,5 +1,5 @@
 use crate::site::{Site, ensure};
-use crate::{LinkerError, LinkerKey};
+use crate::{LinkerError, LinkerKey, PeriodicImage};
 use actin_mechanics::{
     ControlId, Coordinates, Hooke, Interaction, Loads, Matrix3, RandomStress, SecondOrder, State,
     Stiffness, Vector3,
@@ -48,24 +48,6 @@ pub enum LinkerEnd {
     Anchor(Anchor),
     /// Site of the same or another filament.
     Site(Site),
-}
-
-/// Displacement from a site to its periodic image (nm, lab frame): `rest + strained c` with the value `c` of a control.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct PeriodicImage {
-    /// Displacement without strain.
-    pub rest: Vector3,
-    /// Displacement by a strain with factor 1.
-    pub strained: Vector3,
-    /// Factor of the strain.
-    pub factor: ControlId,
-}
-
-impl PeriodicImage {
-    /// Current displacement (nm, lab frame).
-    pub fn displacement(&self, state: &State) -> Vector3 {
-        self.rest + self.strained * state.controls[self.factor]
-    }
 }
 
 /// Hookean spring between a site and an anchor or another site: term `linker`, one element.
@@ -194,12 +176,25 @@ impl Linker {
 
     /// Position of the second end or of its image (nm, lab frame).
     pub fn end_position(&self, state: &State) -> Vector3 {
-        let image = self.image.map(|image| image.displacement(state));
         let end = match &self.end {
             LinkerEnd::Anchor(anchor) => anchor.position(state),
             LinkerEnd::Site(site) => site.position(state),
         };
-        end + image.unwrap_or_default()
+        end + self.image_displacement(end, state)
+    }
+
+    /// Displacement of the image of the second end from this end (nm, lab frame); zero without periodic images.
+    pub fn periodic_displacement(&self, state: &State) -> Vector3 {
+        match &self.end {
+            LinkerEnd::Site(site) => self.image_displacement(site.position(state), state),
+            LinkerEnd::Anchor(_) => Vector3::zeros(),
+        }
+    }
+
+    fn image_displacement(&self, end: Vector3, state: &State) -> Vector3 {
+        self.image.map_or_else(Vector3::zeros, |image| {
+            image.displacement(end - self.site.position(state), state)
+        })
     }
 
     /// Length minus rest length (nm).

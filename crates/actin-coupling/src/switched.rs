@@ -21,13 +21,14 @@ pub struct SwitchedLinker {
     hand: Hand,
     other: OtherEnd,
     spring: Hooke,
+    image: Option<PeriodicImage>,
     /// Random force on the first end in the last step (pN, lab frame).
     random: [ControlId; 3],
 }
 
 #[derive(Clone, Debug)]
 enum OtherEnd {
-    Fixed(LinkerEnd, Option<PeriodicImage>),
+    Fixed(LinkerEnd),
     Hand(Hand),
 }
 
@@ -83,14 +84,14 @@ impl Hand {
 }
 
 impl SwitchedLinker {
-    /// Creates a linker from a hand to a fixed end, with the stiffness and rest length of `linker`,
+    /// Creates a linker from a hand to a fixed end, with the spring and the image of `linker`,
     /// and adds the controls of its random force to the state.
     pub fn to_end(state: &mut State, hand: Hand, linker: &Linker) -> Self {
-        let other = OtherEnd::Fixed(linker.end().clone(), linker.image().copied());
+        let other = OtherEnd::Fixed(linker.end().clone());
         Self::new(state, hand, other, linker)
     }
 
-    /// Creates a linker with two hands and the stiffness and rest length of `linker`, and adds the
+    /// Creates a linker with two hands and the spring and the image of `linker`, and adds the
     /// controls of its random force to the state.
     pub fn between_hands(state: &mut State, [hand, other]: [Hand; 2], linker: &Linker) -> Self {
         Self::new(state, hand, OtherEnd::Hand(other), linker)
@@ -101,6 +102,7 @@ impl SwitchedLinker {
             hand,
             other,
             spring: *linker.spring(),
+            image: linker.image().copied(),
             random: [0.0; 3].map(|zero| state.add_control(zero)),
         }
     }
@@ -117,7 +119,7 @@ impl SwitchedLinker {
     /// One or two hands.
     pub fn hands(&self) -> impl Iterator<Item = &Hand> {
         let other = match &self.other {
-            OtherEnd::Fixed(..) => None,
+            OtherEnd::Fixed(_) => None,
             OtherEnd::Hand(hand) => Some(hand),
         };
         std::iter::once(&self.hand).chain(other)
@@ -143,11 +145,11 @@ impl SwitchedLinker {
     /// # Panics
     /// If a site does not exist.
     pub fn linker_at(&self, sites: &[usize]) -> Linker {
-        let (end, image) = match &self.other {
-            OtherEnd::Fixed(end, image) => (end.clone(), *image),
-            OtherEnd::Hand(hand) => (LinkerEnd::Site(hand.sites[sites[1]]), None),
+        let end = match &self.other {
+            OtherEnd::Fixed(end) => end.clone(),
+            OtherEnd::Hand(hand) => LinkerEnd::Site(hand.sites[sites[1]]),
         };
-        Linker::with_spring(self.hand.sites[sites[0]], end, self.spring).with_image(image)
+        Linker::with_spring(self.hand.sites[sites[0]], end, self.spring).with_image(self.image)
     }
 }
 

@@ -33,11 +33,6 @@ impl PeriodicBox {
         Vector3::from_fn(|k, _| f64::from(image[k]) * self.size_nm[k])
     }
 
-    /// Returns the displacement (nm) of an image by the strain with factor 1.
-    pub fn shear(&self, image: [i32; 3]) -> Vector3 {
-        Vector3::x() * (self.strain * self.shift(image).z)
-    }
-
     /// Returns the volume (nm^3).
     pub fn volume(&self) -> f64 {
         self.size_nm.iter().product()
@@ -68,6 +63,7 @@ pub(super) fn check(scene: &Scene, note: &mut impl FnMut(Result<(), SceneProblem
     }
     note(check_strain(scene, periodic));
     note(check_excluded(scene));
+    note(check_reach(scene, periodic));
 }
 
 fn check_strain(scene: &Scene, periodic: &PeriodicBox) -> Result<(), SceneProblem> {
@@ -96,12 +92,28 @@ fn check_excluded(scene: &Scene) -> Result<(), SceneProblem> {
         let rule = "does not act between images of filaments: omit it, or omit periodic";
         return Err(SceneProblem::new("repulsion", "", rule));
     }
-    let roams = |linker: &Linker| linker.kinetics.is_some_and(|k| k.roams.is_some());
-    if scene.linkers.iter().any(roams) {
-        let rule = "bind only within the box: omit periodic, or use linker_sets";
-        return Err(SceneProblem::new("crosslinkers", "", rule));
-    }
     Ok(())
+}
+
+/// Requires that the nearest image of a site is the only one within reach of a crosslinker.
+fn check_reach(scene: &Scene, periodic: &PeriodicBox) -> Result<(), SceneProblem> {
+    let reach = |linker: &Linker| {
+        let forms = linker.kinetics.filter(|k| k.roams.is_some())?.forms?;
+        Some(linker.rest_length_nm + forms.reach_nm)
+    };
+    let longest = scene.linkers.iter().filter_map(reach).fold(0.0, f64::max);
+    let shortest = periodic
+        .size_nm
+        .iter()
+        .copied()
+        .fold(f64::INFINITY, f64::min);
+    if 4.0 * longest <= shortest {
+        return Ok(());
+    }
+    let rule = format!(
+        "must be at least four times the reach of crosslinkers, {longest:?} nm, which bind to nearest images"
+    );
+    Err(SceneProblem::new("periodic.size_nm", shortest, rule))
 }
 
 fn check_image(scene: &Scene, i: usize, linker: &Linker) -> Result<(), SceneProblem> {
@@ -144,7 +156,7 @@ mod tests {
         let printed = scene.to_ron();
         assert_eq!(Scene::from_ron(&printed).expect("it is valid"), scene);
         let periodic = scene.periodic.expect("the scene is periodic");
-        assert!((periodic.shear([3, -1, 2]).x - 18.0).abs() < 1e-12);
+        assert!((periodic.shift([3, -1, 2]).z - 180.0).abs() < 1e-12);
         let (image, place) = periodic.wrap([-1.0, 120.0, 90.0].into());
         assert_eq!(image, [-1, 2, 1]);
         assert!((place.x - 49.0).abs() < 1e-12 && (place.y - 20.0).abs() < 1e-12);

@@ -13,7 +13,7 @@ struct Study {
     set: &'static [&'static str],
 }
 
-const STUDIES: [Study; 7] = [
+const STUDIES: [Study; 8] = [
     Study {
         name: "flicker",
         shorter: &[("duration_ms: 1000.0", "duration_ms: 8.0")],
@@ -108,6 +108,21 @@ const STUDIES: [Study; 7] = [
         ],
         points: 48,
         set: &["task.duration_ns=1.0", "task.record_every_ns=0.1"],
+    },
+    Study {
+        name: "network-shear",
+        shorter: &[
+            ("count: 75", "count: 12"),
+            ("(700.0, 700.0, 700.0)", "(400.0, 400.0, 400.0)"),
+            (
+                "(700.0, 700.0, 700.0), strain",
+                "(400.0, 400.0, 400.0), strain",
+            ),
+            ("values: [14.0, 10.0, 8.0, 7.0]", "values: [8.0]"),
+            ("[[1, 1], [2, 2], [3, 3]]", "[[1, 1]]"),
+        ],
+        points: 4,
+        set: &["periodic.strain=0.001"],
     },
     Study {
         name: "bundle",

@@ -1,6 +1,6 @@
 use actin_cosserat::{RodLayout, StraightRod};
 use actin_coupling::{
-    Anchor, Linker, LinkerEnd, LinkerError, LinkerKey, PeriodicImage, RodPlace, Site,
+    Anchor, Linker, LinkerEnd, LinkerError, LinkerKey, PeriodicCell, PeriodicImage, RodPlace, Site,
 };
 use actin_mechanics::testing::{
     assert_fluctuates, assert_is_balanced, assert_is_gradient, assert_is_invariant,
@@ -111,18 +111,47 @@ fn stiffness_is_the_derivative_of_the_loads() {
 #[test]
 fn loads_and_stiffness_of_linkers_to_periodic_images() {
     let mut scene = scene(&mut Xorshift::new(14));
-    let image = PeriodicImage {
-        rest: Vector3::new(-3.0, 0.0, 5.0),
-        strained: Vector3::new(20.0, 0.0, 0.0),
-        factor: scene.state.add_control(0.2),
+    let cell = PeriodicCell {
+        size: Vector3::new(30.0, 40.0, 50.0),
+        strain: 0.4,
+        factor: scene.state.add_control(0.5),
     };
     for linker in all(&scene, 2.5) {
         let direct = linker.end_position(&scene.state);
-        let linker = linker.with_image(Some(image));
-        let shift = linker.end_position(&scene.state) - direct;
-        assert!((shift - Vector3::new(1.0, 0.0, 5.0)).norm() < 1e-14);
-        assert_is_gradient(&linker, &scene.state, 0.01, 1e-9);
-        assert_is_stiffness(&linker, &scene.state, 0.01, 1e-9);
+        for index in [Some([-1, 0, 1]), None] {
+            let linker = linker
+                .clone()
+                .with_image(Some(PeriodicImage { cell, index }));
+            let shift = linker.end_position(&scene.state) - direct;
+            if index.is_some() {
+                assert!((shift - Vector3::new(-20.0, 0.0, 50.0)).norm() < 1e-13);
+            }
+            // h = 0.01 nm and rad, forces up to 400 pN.
+            assert_is_gradient(&linker, &scene.state, 0.01, 1e-9);
+            assert_is_stiffness(&linker, &scene.state, 0.01, 1e-9);
+        }
+    }
+}
+
+/// The nearest image is the nearest one of 125 images.
+#[test]
+fn nearest_images() {
+    let mut state = State::default();
+    let cell = PeriodicCell {
+        size: Vector3::new(30.0, 40.0, 50.0),
+        strain: -0.6,
+        factor: state.add_control(0.5),
+    };
+    let mut noise = Xorshift::new(15);
+    for _ in 0..100 {
+        let short = noise.vector() * 4.0;
+        let index = noise.vector().map(|x| (2.0 * x).round());
+        let unstrained = index.component_mul(&cell.size);
+        let d = short + unstrained + Vector3::x() * (-0.3 * unstrained.z);
+        assert!((d + cell.to_nearest(d, &state) - short).norm() < 1e-12);
+        let wrapped = cell.wrap(d, &state);
+        assert!((cell.wrap(short, &state) - wrapped).norm() < 1e-12);
+        assert!((0.0..=40.0).contains(&wrapped.y) && (0.0..=50.0).contains(&wrapped.z));
     }
 }
 

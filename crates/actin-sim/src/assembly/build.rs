@@ -19,7 +19,7 @@ use crate::follow;
 use crate::observe::{EnergyNames, Observers};
 use crate::scene::{ClampedEnds, End, Filament, Load, Scene, SceneProblem, Section};
 use crate::trade;
-use actin_coupling::Linker;
+use actin_coupling::{Linker, PeriodicCell};
 use actin_mechanics::{ControlId, Interaction, State, System};
 pub(crate) use sampled::InterfaceSampling;
 use sampled::Sampling;
@@ -120,8 +120,7 @@ struct Builder<'a> {
     stock: SceneParts,
     clamps: Vec<Clamped>,
     loads: Vec<ControlId>,
-    /// Factor of the strain of a periodic box.
-    strain: Option<ControlId>,
+    cell: Option<PeriodicCell>,
     linkers: Vec<Linker>,
     kinetics: Option<Kinetics>,
     /// Tables of roaming linkers by the distance of sites and the direction of steps.
@@ -157,7 +156,7 @@ impl<'a> Builder<'a> {
             stock: SceneParts::default(),
             clamps: Vec::new(),
             loads: Vec::new(),
-            strain: None,
+            cell: None,
             linkers: Vec::new(),
             kinetics: None,
             site_tables: HashMap::new(),
@@ -204,7 +203,11 @@ impl<'a> Builder<'a> {
         let drive = Drive::new(
             &scene,
             (&self.held, &self.clamps),
-            (&self.loads, self.strain, &self.linkers),
+            (
+                &self.loads,
+                self.cell.map(|cell| cell.factor),
+                &self.linkers,
+            ),
             &self.stock.state,
         );
         drive.place(&mut self.stock.state, 0.0);
@@ -227,7 +230,7 @@ impl<'a> Builder<'a> {
             clamps: self.clamps,
             held: self.held,
             loads: self.loads,
-            strain: self.strain,
+            cell: self.cell,
             linkers: self.linkers,
             kinetics: self.kinetics.map(Arc::new),
             energy_balance,

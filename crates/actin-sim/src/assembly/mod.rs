@@ -56,7 +56,7 @@ pub(crate) use unstable_twist::{TwistRecords, TwistWatch};
 use crate::observe::Observers;
 use crate::scene::{ClampedEnds, End, Monomers, Scene};
 use crate::trade::SectionChoice;
-use actin_coupling::Linker;
+use actin_coupling::{Linker, PeriodicCell};
 use actin_mechanics::{ControlId, EnergyBalance, State, System, UnitQuaternion, Vector3};
 use nalgebra::Unit;
 use std::ops::Range;
@@ -84,8 +84,8 @@ pub struct Assembly {
     pub clamps: Vec<Clamped>,
     pub(crate) held: ClampedEnds,
     pub(crate) loads: Vec<ControlId>,
-    /// Factor of the strain of a periodic box.
-    pub(crate) strain: Option<ControlId>,
+    /// Periodic box.
+    pub(crate) cell: Option<PeriodicCell>,
     /// Linkers in the order of the scene; stepping linkers at their first place.
     pub linkers: Vec<Linker>,
     pub(crate) kinetics: Option<Arc<Kinetics>>,

@@ -29,7 +29,8 @@ impl Ramp {
         let loads = assembly.scene.loads.iter().zip(&assembly.loads);
         let of_loads = loads.map(|(load, &control)| (control, load.factor()));
         let periodic = assembly.scene.periodic.as_ref();
-        let of_strain = assembly.strain.zip(periodic.map(|one| &one.factor));
+        let strain = assembly.cell.map(|cell| cell.factor);
+        let of_strain = strain.zip(periodic.map(|one| &one.factor));
         let factors: Vec<_> = of_loads
             .chain(of_strain)
             .filter(|(_, factor)| !factor.is_constant())
@@ -63,9 +64,7 @@ fn controlled(assembly: &Assembly) -> Vec<usize> {
         Part::Linker(i) => {
             let linker = &assembly.linkers[i];
             let anchor = linker.anchor_controls();
-            let is_strained = linker
-                .image()
-                .is_some_and(|image| image.strained != Vector3::zeros());
+            let is_strained = linker.image().is_some_and(|image| image.cell.strain != 0.0);
             is_strained || anchor.is_some_and(|controls| assembly.drive.moves(controls))
         }
         _ => false,

@@ -285,12 +285,8 @@ fn virial(view: &View<'_>) -> Matrix3 {
     });
     (0..view.assembly.linkers.len()).fold(of_points, |sum, i| {
         let (linker, is_bound) = view.assembly.linker_in(i, view.state);
-        match linker.image().filter(|_| is_bound) {
-            Some(image) => {
-                sum + image.displacement(view.state) * linker.force(view.state).transpose()
-            }
-            None => sum,
-        }
+        let image = linker.periodic_displacement(view.state);
+        sum + image * linker.force(view.state).transpose() * f64::from(u8::from(is_bound))
     })
 }
 
@@ -342,6 +338,29 @@ mod tests {
         let observed = observe(&assembly, last);
         assert!(value(&assembly, &observed, "network_bound_linkers") > 0.0);
         assert!((value(&assembly, &observed, "network_clusters") - 2.0).abs() < 1e-12);
+    }
+
+    /// Crosslinkers bind across a face of a periodic box, to sites 20 nm away.
+    #[test]
+    fn crosslinkers_bind_to_nearest_images() {
+        let text = "Scene(
+            filaments: [
+                Filament(sections: [Rod(from_nm: 0.0, to_nm: 100.0)]),
+                Filament(sections: [Rod(from_nm: 0.0, to_nm: 100.0)], at_nm: (180.0, 0.0, 400.0)),
+            ],
+            crosslinkers: [Crosslinkers(count: 3, stiffness_pn_per_nm: 0.2, rest_length_nm: 20.0, reach_nm: 20.0,
+                attach_per_ns: 1e-4, bind_per_ns: 1e-4, unbinds: Breaking(rate_per_ns: 1e-7), seed: 8)],
+            periodic: PeriodicBox(size_nm: (200.0, 200.0, 200.0)),
+            clamps: [Clamp(end: Start), Clamp(filament: 1, end: Start)],
+            observe: [Network],
+            task: Brownian(duration_ms: 0.1, temperature_k: 298.0, time_step_ns: 500.0, seed: 1),
+        )";
+        let assembly = build(text);
+        let (trajectory, _) = crate::Plan::new(&assembly).unwrap().run().unwrap();
+        let row = &trajectory.records.last().unwrap().row.observed;
+        assert!(value(&assembly, row, "network_bound_linkers") > 0.0);
+        // 0.2 pN/nm times at most the reach and thermal motion.
+        assert!(value(&assembly, row, "network_linker_tension_largest_pn") < 8.0);
     }
 
     /// A bundle has order parameter 1, the polarity of its directions, and linkers with known tensions.

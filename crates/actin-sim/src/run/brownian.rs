@@ -6,7 +6,7 @@ use super::sink::{Clock, SavedRun, Sink};
 use super::steps::{LongestStep, Steps};
 use super::unknowns::layout;
 use super::{Estimate, Failure, Outcome, Plan, Status, long_steps};
-use crate::scene::{Brownian as Task, Flow, Fluid, PeriodicBox, SceneProblem, Task as AnyTask};
+use crate::scene::{Brownian as Task, Flow, Fluid, SceneProblem, Task as AnyTask};
 use crate::{Assembly, SectionSpan};
 use actin_brownian::{Brownian, Layout, Relaxation};
 use actin_coupling::LinkerEnd;
@@ -245,13 +245,12 @@ pub(super) fn run(
     let mut recorder = Recorder::new(assembly, &motion, saved, clock, sink);
     // The order of unknowns follows the state as built, also for a resumed run.
     let mut stepper = estimate.stepper((assembly, task), &system, layout(assembly)?)?;
-    let driven = assembly.strain.zip(assembly.scene.periodic.as_ref());
-    let per_factor = |(control, periodic): (_, &PeriodicBox)| {
-        let gradient = Vector3::x() * Vector3::z().transpose() * periodic.strain;
-        (control, gradient)
-    };
+    let driven = assembly.cell.map(|cell| {
+        let gradient = Vector3::x() * Vector3::z().transpose() * cell.strain;
+        (cell.factor, gradient)
+    });
     stepper = stepper.in_flow(actin_brownian::Flow {
-        driven: driven.map(per_factor),
+        driven,
         ..physical_flow(&task.flow)
     });
     // The method is not looked at: the stepper makes the steps.

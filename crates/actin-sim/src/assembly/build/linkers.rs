@@ -6,7 +6,8 @@ use crate::assembly::{Kinetics, Part, SiteTable};
 use crate::scene::{self, LinkerSite, SceneProblem, path};
 use actin_cosserat::RodLayout;
 use actin_coupling::{
-    Anchor, Hand, Linker, LinkerEnd, LinkerError, PeriodicImage, RodPlace, Site, SwitchedLinker,
+    Anchor, Hand, Linker, LinkerEnd, LinkerError, PeriodicCell, PeriodicImage, RodPlace, Site,
+    SwitchedLinker,
 };
 use actin_ellipsoid::Monomers;
 use actin_mechanics::{ControlId, Vector3};
@@ -22,8 +23,12 @@ const SHUT_NM: f64 = 1e-9;
 impl Builder<'_> {
     pub(super) fn push_linkers(&mut self) -> Result<(), SceneProblem> {
         let mut nodes = Nodes::default();
-        let is_periodic = self.scene.periodic.is_some();
-        self.strain = is_periodic.then(|| self.stock.state.add_control(path::UNSET));
+        let periodic = self.scene.periodic.as_ref();
+        self.cell = periodic.map(|periodic| PeriodicCell {
+            size: periodic.size_nm.into(),
+            strain: periodic.strain,
+            factor: self.stock.state.add_control(path::UNSET),
+        });
         for (i, linker) in self.scene.linkers.iter().enumerate() {
             let state = &mut self.stock.state;
             let has_anchor = linker.to.is_none();
@@ -153,7 +158,7 @@ impl Builder<'_> {
         };
         let (stiffness, rest_length) = (linker.stiffness_pn_per_nm, linker.rest_length_nm);
         let built = Linker::new(site, end, stiffness, rest_length).map_err(refused)?;
-        let built = built.with_image(self.image(linker.image));
+        let built = built.with_image(self.image(linker));
         let length = built.extension(&self.stock.state) + rest_length;
         if rest_length > 0.0 && length < SHUT_NM {
             let value = linker.anchor();
@@ -166,12 +171,14 @@ impl Builder<'_> {
         Ok(built)
     }
 
-    fn image(&self, image: [i32; 3]) -> Option<PeriodicImage> {
-        let periodic = self.scene.periodic.as_ref().filter(|_| image != [0; 3])?;
+    /// Image of the second end: as written, or the nearest one for hands that roam.
+    fn image(&self, linker: &scene::Linker) -> Option<PeriodicImage> {
+        let roams = linker
+            .kinetics
+            .is_some_and(|kinetics| kinetics.roams.is_some());
         Some(PeriodicImage {
-            rest: periodic.shift(image),
-            strained: periodic.shear(image),
-            factor: self.strain?,
+            cell: self.cell.filter(|_| roams || linker.image != [0; 3])?,
+            index: (!roams).then_some(linker.image),
         })
     }
 

@@ -1,6 +1,7 @@
 //! Linkers that bind to any site of any filament.
 
 use super::{HandEvent, LinkerEventKind, Switching};
+use actin_coupling::PeriodicCell;
 use actin_mechanics::{Interaction, State, Vector3};
 use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
@@ -74,10 +75,29 @@ impl Pool {
         let key = (table_of(switching), within.to_bits());
         let grid = self.grids.entry(key).or_insert_with(|| {
             let sites = switching.table.sites.iter();
-            Grid::new(sites.map(|site| site.position(state)).collect(), within)
+            let cell = linker_cell(switching, state);
+            let wrap = |place| cell.map_or(place, |cell| cell.wrap(place, state));
+            Grid::new(
+                sites.map(|site| wrap(site.position(state))).collect(),
+                within,
+            )
         });
-        grid.near(at)
+        let Some(cell) = linker_cell(switching, state) else {
+            return grid.near(at);
+        };
+        let home = cell.wrap(at, state);
+        let images = (0..27).map(|k| [k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1]);
+        let near = images.flat_map(|index| grid.near(home + cell.displacement(index, state)));
+        let mut found: Vec<usize> = near.collect();
+        found.sort_unstable();
+        found
     }
+}
+
+/// Periodic box of a linker.
+fn linker_cell(switching: &Switching, state: &State) -> Option<PeriodicCell> {
+    let linker = switching.linker.linker(state);
+    linker.image().map(|image| image.cell)
 }
 
 impl Grid {
