@@ -8,25 +8,23 @@ import numpy as np
 import study
 
 STRAIN = 0.005
-LINKERS, RADIUS = "linker_sets[0].per_filament", "linker_sets[0].radius_nm"
-MATERIAL, STRESS = "arrangements[0].filament.rod.material", "observables.network_stress_xz_pa.last"
-AXIS = "sites on the axis"
-KINDS = {13.0: "twist 0.001 C", 1.3e4: "twist C", 1.3e7: "twist 1000 C", 0.0: AXIS}
+LINKERS, MATERIAL = "linker_sets[0].per_filament", "arrangements[0].filament.rod.material"
+STRESS = "observables.network_stress_xz_pa.last"
+KINDS = {13.0: "0.001 C", 1.3e4: "C = 1.3e4 pN nm²", 1.3e7: "1000 C"}
 
 
-def kind(row):
-    if row[RADIUS] == 0.0:
-        return 0.0
+def twist(row):
+    """Twisting rigidity (pN nm^2)."""
     bend = row[MATERIAL].split("bend_pn_nm2:")[1]
     return study.vector(bend.replace("))", ")").strip())[2]
 
 
 def read(sweep):
-    """Shear moduli (Pa) of all seeds, by kind and linkers per filament."""
+    """Shear moduli (Pa) of all seeds, by twisting rigidity and linkers per filament."""
     found = {}
     for row in study.rows(sweep):
         if row[STRESS] is not None:
-            found.setdefault((kind(row), row[LINKERS]), []).append(row[STRESS] / STRAIN)
+            found.setdefault((twist(row), row[LINKERS]), []).append(row[STRESS] / STRAIN)
     return found
 
 
@@ -39,7 +37,7 @@ def main():
         known = [count for count in linkers if (key, count) in found]
         moduli = np.array([np.mean(found[key, count]) for count in known])
         spread = [[min(found[key, count]) for count in known], [max(found[key, count]) for count in known]]
-        shifted = np.array(known) * 1.01 ** (place - 1.5)
+        shifted = np.array(known) * 1.01 ** (place - 1)
         panel.errorbar(shifted, moduli, abs(np.array(spread) - moduli), fmt="o-", capsize=2, label=label)
     panel.set_yscale("log")
     panel.set_xlabel("linkers per filament")

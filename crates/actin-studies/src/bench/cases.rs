@@ -19,12 +19,16 @@ pub(super) enum Work {
     Network(Network),
 }
 
-/// Random network of rods of 1 um with 10 segments in water, in steps of 4.5 us.
+/// Random network of rods of 1 um with 10 segments in water.
 #[derive(Clone, Copy)]
 pub(super) struct Network {
     pub(super) filaments: usize,
     pub(super) couplings: Couplings,
+    pub(super) step_ns: f64,
 }
+
+/// Usual step of networks (ns), below the default of 4941 ns.
+const NETWORK_STEP_NS: f64 = 4500.0;
 
 #[derive(Clone, Copy)]
 pub(super) enum Couplings {
@@ -106,9 +110,19 @@ const fn case(name: &'static str, work: Work, target: Option<f64>) -> Case {
 }
 
 const fn network(name: &'static str, filaments: usize, couplings: Couplings) -> Case {
+    network_by_steps(name, filaments, couplings, NETWORK_STEP_NS)
+}
+
+const fn network_by_steps(
+    name: &'static str,
+    filaments: usize,
+    couplings: Couplings,
+    step_ns: f64,
+) -> Case {
     let network = Network {
         filaments,
         couplings,
+        step_ns,
     };
     case(name, Work::Network(network), None)
 }
@@ -121,7 +135,7 @@ const fn equilibrium(name: &'static str, length_nm: f64) -> Case {
     case(name, Work::Equilibrium { length_nm }, None)
 }
 
-pub(super) const CASES: [Case; 27] = [
+pub(super) const CASES: [Case; 29] = [
     case("rod-pv-16", rod(16, 1, VERLET), None),
     case("rod-pv-64", rod(64, 1, VERLET), Some(50e6)),
     case("rod-pv-256", rod(256, 1, VERLET), Some(50e6)),
@@ -155,6 +169,8 @@ pub(super) const CASES: [Case; 27] = [
     network("network-20", 20, Couplings::Linkers),
     network("network-100", 100, Couplings::Linkers),
     network("network-500", 500, Couplings::Linkers),
+    network("network-2000", 2000, Couplings::Linkers),
+    network_by_steps("network-500-1us", 500, Couplings::Linkers, 1000.0),
     network("network-100-repulsion", 100, Couplings::LinkersAndContacts),
     network("network-100-crosslinkers", 100, Couplings::Crosslinkers),
 ];

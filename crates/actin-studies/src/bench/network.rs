@@ -6,7 +6,6 @@ use actin_sim::{Assembly, Plan, Scene, SimError};
 use std::collections::BTreeMap;
 use std::time::Instant;
 
-const STEP_NS: f64 = 4500.0;
 /// Numbers of steps; the difference of their times excludes the set-up.
 const STEPS: [u32; 2] = [5, 25];
 const REPEATS: usize = 3;
@@ -21,7 +20,7 @@ pub(super) fn measure(network: Network) -> Result<Timings, String> {
         let [short, long] = STEPS.map(|steps| run(network, steps));
         let (short, _) = short.map_err(|error| error.to_string())?;
         let (long, energies) = long.map_err(|error| error.to_string())?;
-        let simulated_ms = 1e-6 * STEP_NS * f64::from(STEPS[1] - STEPS[0]);
+        let simulated_ms = 1e-6 * network.step_ns * f64::from(STEPS[1] - STEPS[0]);
         times.push((long - short) / simulated_ms);
         note = energies
             .iter()
@@ -59,7 +58,7 @@ pub(super) fn run(
 }
 
 fn scene(network: Network, steps: u32) -> String {
-    let filaments = network.filaments;
+    let (filaments, step) = (network.filaments, network.step_ns);
     let edge = EDGE_NM * (filaments as f64 / 500.0).cbrt();
     let linkers = "linker_sets: [LinkersBetween(per_filament: 2.5, reach_nm: 100.0, stiffness_pn_per_nm: 0.2, seed: 2)],";
     let couplings = match network.couplings {
@@ -78,10 +77,10 @@ fn scene(network: Network, steps: u32) -> String {
                 count: {filaments}, box_nm: ({edge:?}, {edge:?}, {edge:?}), apart_nm: 7.4, seed: 1,
             )],
             {couplings}
-            task: Brownian(duration_ms: {:?}, temperature_k: 298.0, time_step_ns: {STEP_NS:?},
+            task: Brownian(duration_ms: {:?}, temperature_k: 298.0, time_step_ns: {step:?},
                 record_every_ns: {:?}, seed: 7),
         )",
-        1e-6 * STEP_NS * f64::from(steps),
-        STEP_NS * f64::from(steps)
+        1e-6 * step * f64::from(steps),
+        step * f64::from(steps)
     )
 }
