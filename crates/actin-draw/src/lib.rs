@@ -7,7 +7,7 @@
 //! - [`page`] combines pictures, rows and text in a self-contained HTML file.
 //! - [`space`] contains scripts of interactive 3D views.
 //! - [`browser`](fn@browser) finds the browser that prints and tests pages.
-//! - [`Ramp`] and [`lines`] are colours that are distinguishable on white paper.
+//! - [`Ramp`] and [`OKABE_ITO`] are colours that are distinguishable on white paper, also for the colour-blind.
 //!
 //! This crate is independent of actin: shapes, numbers and texts are provided by the caller.
 
@@ -29,6 +29,6 @@ pub mod space;
 pub use browser::browser;
 pub use colour::Colour;
 pub use nalgebra;
-pub use palette::{Ramp, lines};
+pub use palette::{OKABE_ITO, Ramp};
 pub use plot::{Chart, Series};
 pub use scatter::{Scatter, ScatterPoint};

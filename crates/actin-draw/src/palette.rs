@@ -6,28 +6,19 @@ use crate::Colour;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Ramp(&'static [[u8; 3]]);
 
-/// Sets of colours (red, green, blue) for unordered lines.
-pub mod lines {
-    /// Five hues of similar lightness: red, orange, green, blue, purple.
-    pub const HUES: [[u8; 3]; 5] = [
-        [190, 25, 35],
-        [235, 150, 20],
-        [60, 150, 90],
-        [30, 70, 180],
-        [140, 70, 160],
-    ];
-    /// Colours for colour-blind readers: vermilion, orange, bluish green, blue, reddish purple.
-    ///
-    /// # Source
-    /// M. Okabe and K. Ito, Color Universal Design (2008).
-    pub const OKABE_ITO: [[u8; 3]; 5] = [
-        [213, 94, 0],
-        [230, 159, 0],
-        [0, 158, 115],
-        [0, 114, 178],
-        [204, 121, 167],
-    ];
-}
+/// Colours (red, green, blue) of unordered lines, safe for the colour-blind: vermilion, orange, bluish green, blue,
+/// reddish purple, sky blue.
+///
+/// # Source
+/// M. Okabe and K. Ito, Color Universal Design (2008).
+pub const OKABE_ITO: [[u8; 3]; 6] = [
+    [213, 94, 0],
+    [230, 159, 0],
+    [0, 158, 115],
+    [0, 114, 178],
+    [204, 121, 167],
+    [86, 180, 233],
+];
 
 impl Ramp {
     /// Red through yellow to blue, dark enough to be visible on white.
@@ -50,6 +41,17 @@ impl Ramp {
         [39, 127, 142],
         [54, 92, 141],
         [70, 51, 126],
+    ]);
+    /// Blue through grey to red, for signed values.
+    ///
+    /// # Source
+    /// K. Moreland, Diverging Color Maps for Scientific Visualization (2009), with a darker grey, visible on white.
+    pub const BLUE_GREY_RED: Self = Self(&[
+        [59, 76, 192],
+        [120, 150, 235],
+        [190, 190, 190],
+        [235, 140, 110],
+        [180, 4, 38],
     ]);
 
     /// Returns the colours at equal steps.
@@ -80,7 +82,7 @@ mod tests {
     use super::*;
     use crate::page::{DARK_CARD, on_dark};
 
-    const BOTH: [Ramp; 2] = [Ramp::RED_YELLOW_BLUE, Ramp::VIRIDIS];
+    const ALL: [Ramp; 3] = [Ramp::RED_YELLOW_BLUE, Ramp::VIRIDIS, Ramp::BLUE_GREY_RED];
 
     #[test]
     fn the_ends_are_the_stops() {
@@ -103,7 +105,7 @@ mod tests {
     /// All colours are visible on white, with a contrast of at least 1.5.
     #[test]
     fn every_colour_is_seen_on_white() {
-        for ramp in BOTH {
+        for ramp in ALL {
             for k in 0..=40 {
                 let contrast = ramp.at(f64::from(k) / 40.0).contrast(Colour([255; 3]));
                 assert!(contrast > 1.5, "{ramp:?} {k}");
@@ -117,7 +119,7 @@ mod tests {
     /// W3C, Web Content Accessibility Guidelines 2.1, success criterion 1.4.11.
     #[test]
     fn every_stop_is_seen_on_the_dark_card() {
-        for ramp in BOTH {
+        for ramp in ALL {
             for &stop in ramp.stops() {
                 let contrast = Colour(on_dark(stop)).contrast(Colour(DARK_CARD));
                 assert!(contrast > 3.0, "{ramp:?} {stop:?}: {contrast}");

@@ -1,6 +1,6 @@
 //! Colours of all pictures and of the viewer. A run has one palette.
 
-use actin_draw::Colour;
+use actin_draw::{Colour, OKABE_ITO};
 use std::sync::OnceLock;
 
 pub(crate) use actin_view::BodyColours;
@@ -29,6 +29,5 @@ pub(crate) fn resolution(share: f64) -> Colour {
 
 /// Colour of curve number `k` in charts without resolutions.
 pub(crate) fn line(k: usize) -> Colour {
-    let lines = chosen().lines();
-    Colour(lines[k % lines.len()])
+    Colour(OKABE_ITO[k % OKABE_ITO.len()])
 }

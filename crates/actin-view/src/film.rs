@@ -24,8 +24,8 @@ const MARGIN_NM: f64 = 7.0;
 /// Height of the strip with scale bar and clock (pixels).
 const FOOT: f64 = 44.0;
 const LETTERS: f64 = 15.0;
-/// Length of force arrows (pixels).
-const ARROW: f64 = 56.0;
+/// Length of the arrow of the strongest force (pixels); others are shorter, down to a third.
+const ARROW: f64 = 64.0;
 const PAPER: [u8; 3] = [255; 3];
 const INK: [u8; 3] = [20; 3];
 
@@ -70,7 +70,7 @@ impl Film {
     pub fn write(&self, run: &Run, folder: &Path, told: &(dyn Fn(usize) + Sync)) -> io::Result<()> {
         fs::create_dir_all(folder)?;
         let (count, next, ready) = (self.count(run), AtomicUsize::new(0), AtomicUsize::new(0));
-        let camera = self.camera(run);
+        let view = (self.camera(run), strongest(run));
         let work = || {
             loop {
                 let k = next.fetch_add(1, Ordering::Relaxed);
@@ -79,7 +79,7 @@ impl Film {
                 }
                 let path = folder.join(format!("{:05}.png", k + 1));
                 let mut out = BufWriter::new(File::create(path)?);
-                self.picture(run, (k, count), camera).write_png(&mut out)?;
+                self.picture(run, (k, count), view).write_png(&mut out)?;
                 out.flush()?;
                 told(ready.fetch_add(1, Ordering::Relaxed) + 1);
             }
@@ -108,7 +108,12 @@ impl Film {
         )
     }
 
-    fn picture(&self, run: &Run, (k, count): (usize, usize), camera: Camera) -> Picture {
+    fn picture(
+        &self,
+        run: &Run,
+        (k, count): (usize, usize),
+        (camera, strongest): (Camera, f64),
+    ) -> Picture {
         let share = |most: usize| {
             if count < 2 {
                 most
@@ -125,6 +130,7 @@ impl Film {
             state: &run.states[record],
             palette: self.palette,
             things: self.palette.body_colours(),
+            strongest,
         };
         scene.paint();
         let mut picture = scene.canvas.finish(PAPER);
@@ -191,6 +197,8 @@ struct Scene<'a> {
     state: &'a State,
     palette: Palette,
     things: &'a BodyColours,
+    /// Largest force of all records (pN).
+    strongest: f64,
 }
 
 impl Scene<'_> {
@@ -273,7 +281,8 @@ impl Scene<'_> {
     fn arrow(&mut self, at: Vector3, force: Vector3) {
         let per_nm = self.canvas.per_nm();
         let along = force.normalize();
-        let tip = at + along * (ARROW / per_nm);
+        let share = (force.norm() / self.strongest).max(1.0 / 3.0);
+        let tip = at + along * (share * ARROW / per_nm);
         let aside = self.canvas.towards_viewer().cross(&along);
         let aside = aside.try_normalize(1e-6).unwrap_or_default();
         let head = |side: f64| tip - (along * 11.0 - aside * (side * 6.0)) / per_nm;
@@ -284,6 +293,13 @@ impl Scene<'_> {
         self.canvas
             .line(&head, width, self.things.force, 4.0 * THROUGH_NM);
     }
+}
+
+/// Returns the largest force of all records (pN).
+fn strongest(run: &Run) -> f64 {
+    let records = run.states.iter().enumerate();
+    let forces = records.flat_map(|(k, state)| bodies::forces(run.assembly_of(k), state));
+    forces.map(|(_, force)| force.norm()).fold(0.0, f64::max)
 }
 
 /// Returns the largest of 1, 2, 5, 10, ... up to `most`.

@@ -1,7 +1,7 @@
 //! Colours of views and pictures.
 
 use actin_draw::page::on_dark;
-use actin_draw::{Ramp, lines};
+use actin_draw::{OKABE_ITO, Ramp};
 use serde::Serialize;
 
 /// A set of colours.
@@ -67,7 +67,7 @@ const DISTINCT_FROM_RED_AND_BLUE: BodyColours = BodyColours {
 ///
 /// # Source
 /// M. Okabe and K. Ito, Color Universal Design (2008): vermilion, reddish purple, sky blue, blue, orange, yellow.
-const OKABE_ITO: BodyColours = BodyColours {
+const BODIES_OKABE_ITO: BodyColours = BodyColours {
     bonds: [[204, 121, 167], [0, 114, 178]],
     axes: [[213, 94, 0], [86, 180, 233], [0, 0, 0]],
     junction: [240, 228, 66],
@@ -107,15 +107,7 @@ impl Palette {
     pub fn body_colours(self) -> &'static BodyColours {
         match self {
             Self::Paper => &DISTINCT_FROM_RED_AND_BLUE,
-            Self::ColourBlind => &OKABE_ITO,
-        }
-    }
-
-    /// Returns the colours of unordered lines.
-    pub fn lines(self) -> &'static [[u8; 3]; 5] {
-        match self {
-            Self::Paper => &lines::HUES,
-            Self::ColourBlind => &lines::OKABE_ITO,
+            Self::ColourBlind => &BODIES_OKABE_ITO,
         }
     }
 
@@ -126,7 +118,9 @@ impl Palette {
             serde_json::json!({
                 "stops": stops(self.ramp()),
                 "things": self.body_colours().map(shade),
-                "lines": self.lines().map(shade),
+                "lines": OKABE_ITO.map(shade),
+                "rising": stops(Ramp::VIRIDIS).into_iter().rev().collect::<Vec<_>>(),
+                "signed": stops(Ramp::BLUE_GREY_RED),
             })
         };
         serde_json::json!({ "light": colours(|c| c), "dark": colours(on_dark) }).to_string()

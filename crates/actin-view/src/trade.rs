@@ -1,6 +1,6 @@
 //! Figure of a trade: error versus run time.
 
-use crate::draw::{Colour, Scatter, ScatterPoint, lines::OKABE_ITO};
+use crate::draw::{Colour, OKABE_ITO, Scatter, ScatterPoint};
 use actin_sim::trade::{Candidate, Trade};
 use std::path::Path;
 

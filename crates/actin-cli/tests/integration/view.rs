@@ -110,14 +110,49 @@ fn assert_works(found: &Value, width: u32) {
         assert!(count(&found[act]) > 1000, "{width}, {act}: {found}");
     }
     assert_eq!(found["after_reset"], 0, "{width}: {found}");
+    assert_eq!(found["after_selection"], 0, "{width}: {found}");
+    assert_eq!(found["small"], 0, "{width}: {found}");
+    assert_selects(&found["selection"]);
     let tints = found["tints"].as_array().unwrap();
     assert!(tints.len() >= 3, "{found}");
-    assert!(tints.iter().all(|tint| count(&tint[1]) > 500), "{found}");
+    // Tension changes the colour of a single thin linker only.
+    let least = |tint: &Value| {
+        if tint[0] == "by tension of linkers" {
+            100
+        } else {
+            500
+        }
+    };
+    assert!(
+        tints.iter().all(|tint| count(&tint[1]) > least(tint)),
+        "{found}"
+    );
     assert!(count(&found["legend"]) >= 2 && count(&found["charts"]) >= 1);
     let records = count(&found["records"]);
     if records > 1 {
         assert_plays(found, records);
     }
+}
+
+/// A body below the pointer is described with its fields, a click follows it, and a picture is saved.
+fn assert_selects(found: &Value) {
+    let described: Vec<&str> = found["described"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|line| line.as_str().unwrap())
+        .collect();
+    assert!(described[0].contains(" at s = "), "{found}");
+    assert!(
+        described.iter().any(|line| line.starts_with("curvature: ")),
+        "{found}"
+    );
+    let name = found["name"].as_str().unwrap();
+    assert!(name.contains(described[0]), "{found}");
+    assert!(count(&found["moved"]) > 1000, "{found}");
+    let (file, bytes) = found["saved"].as_str().unwrap().rsplit_once(' ').unwrap();
+    assert!(file.ends_with(".png"), "{found}");
+    assert!(bytes.parse::<u32>().unwrap() > 5000, "{found}");
 }
 
 fn assert_plays(found: &Value, records: u64) {

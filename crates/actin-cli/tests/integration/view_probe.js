@@ -39,8 +39,38 @@
     const before = canvas.dataset.drawn;
     act();
     for (let i = 0; i < 100 && canvas.dataset.drawn === before; i += 1) await wait(20);
+    return rested(canvas);
+  }
+
+  // Waits for the picture with all effects, and returns its pixels.
+  async function rested(canvas) {
     await wait(60);
+    for (let i = 0; i < 100 && canvas.dataset.quality !== 'full'; i += 1) await wait(20);
     return data(canvas);
+  }
+
+  // Points at bodies until one is described, clicks on it, and saves a picture.
+  async function pointed(canvas) {
+    const box = canvas.getBoundingClientRect(), tip = query('#tip');
+    const send = (type, x, y) => canvas.dispatchEvent(new PointerEvent(type, {
+      bubbles: true, pointerId: 5, clientX: box.left + x, clientY: box.top + y }));
+    const isBody = () => !tip.hidden && tip.textContent.includes(' at s = ');
+    let at = null;
+    for (let x = 20; x < box.width - 20 && !at; x += 9) {
+      for (let y = 20; y < box.height - 40 && !at; y += 9) {
+        send('pointermove', x, y);
+        if (isBody()) at = [x, y];
+      }
+    }
+    const described = [...tip.children].map((line) => line.textContent);
+    const followed = await after(canvas, () => {
+      send('pointerdown', ...at);
+      send('pointerup', ...at);
+    });
+    const name = query('#followed').textContent;
+    query('#picture').click();
+    for (let i = 0; i < 100 && !document.body.dataset.saved; i += 1) await wait(20);
+    return { described, name, followed, saved: document.body.dataset.saved };
   }
 
   const cursors = () => [...document.querySelectorAll('.chart .cursor')].map((c) => c.getAttribute('transform'));
@@ -54,8 +84,7 @@
   async function verdict() {
     const canvas = query('#space');
     for (let i = 0; i < 200 && !canvas.dataset.drawn; i += 1) await wait(20);
-    await wait(200);
-    const last = data(canvas), at_last = cursors(), slider = query('#slider');
+    const last = await rested(canvas), at_last = cursors(), slider = query('#slider');
     const found = { painted: painted(last), size: [canvas.width, canvas.height], records: Number(slider.max) + 1 };
     if (found.records > 1) {
       const first = await slide(canvas, 0);
@@ -68,9 +97,8 @@
         seen.add(document.body.dataset.record);
         await wait(16);
       }
-      await wait(200);
       Object.assign(found, {
-        played: seen.size, ended: document.body.dataset.record, after_play: differing(last, data(canvas)),
+        played: seen.size, ended: document.body.dataset.record, after_play: differing(last, await rested(canvas)),
         clock: query('#clock').textContent });
       const chart = query('.chart.picks'), box = chart.getBoundingClientRect();
       const pick = (type) => chart.dispatchEvent(new PointerEvent(type, {
@@ -96,6 +124,13 @@
     found.zoomed = differing(along, zoomed);
     const reset = await after(canvas, () => query('#reset').click());
     found.after_reset = differing(last, reset);
+    const { followed, ...selection } = await pointed(canvas);
+    found.selection = { ...selection, moved: differing(last, followed) };
+    const unselected = await after(canvas, () => query('#reset').click());
+    found.after_selection = differing(last, unselected);
+    found.small = [...document.querySelectorAll('body *')].filter((element) => element.childElementCount === 0
+      && element.textContent.trim() !== '' && element.getClientRects().length > 0
+      && parseFloat(getComputedStyle(element).fontSize) < 9).length;
     const reach = [...document.querySelectorAll('body *')].filter((element) => {
       const { right } = element.getBoundingClientRect();
       return right > window.innerWidth + 1 && !element.closest('svg');

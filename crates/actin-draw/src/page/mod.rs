@@ -284,7 +284,8 @@ fn picture(
     let there = there
         .into_iter()
         .filter(|(file, _)| folder.join(file).exists());
-    let class = if width > WIDE * height { "wide" } else { "" };
+    let is_wide = width > WIDE * height || width > COLUMN;
+    let class = if is_wide { "wide" } else { "" };
     Ok(html! {
         figure class=(class) {
             div class="scroll" tabindex="0" {
@@ -302,6 +303,9 @@ fn picture(
 
 /// Pictures with a larger ratio of width to height have the full width of the page.
 const WIDE: f64 = 2.4;
+/// Pictures with a larger width (pixels) have the full width of the page, so that letters of 14 pixels are larger than
+/// 9.
+const COLUMN: f64 = 960.0;
 
 /// Returns width and height of an SVG picture in pixels, from its attributes.
 pub fn size(svg: &str) -> Option<[f64; 2]> {

@@ -13,6 +13,8 @@ const Solids = (() => {
   // p 3, q 3, cut at p 3, cut at q 3, quaternion 4, rotations 2, radius, smallest width (pixels), depth offset,
   // colours at p and q, fractions of white in stripe and seams.
   const TUBE = 24;
+  // p 3, q 3, corner, radius, smallest width (pixels), colour; four vertices a strip.
+  const STRIP = 10;
 
   const CAMERA = `
     uniform mat3 rows; // right, up, towards the viewer
@@ -54,23 +56,27 @@ const Solids = (() => {
       gl_Position = place(c.xy + at);
     }`;
 
-  // A depth offset reduces alpha, by which the last shader excludes the fragment from shading.
   // Directional light from the upper left in front, plus ambient light.
   const LIGHT = `
     uniform float reach;
     out vec4 pixel;
     const vec3 light = normalize(vec3(-0.45, 0.6, 0.75));
     const vec3 half_ = normalize(light + vec3(0.0, 0.0, 1.0));
-    void shade(vec3 n, vec3 colour, float z, float nearer) {
-      float lit = max(0.0, dot(n, light)), shine = pow(max(0.0, dot(n, half_)), 40.0);
+    vec3 shine(vec3 n, vec3 colour) {
+      float lit = max(0.0, dot(n, light)), glint = pow(max(0.0, dot(n, half_)), 40.0);
       vec3 sky = mix(vec3(0.50, 0.47, 0.45), vec3(0.60, 0.61, 0.64), 0.5 + 0.5 * n.y);
-      pixel = vec4(colour * (sky + 0.52 * lit) + 0.16 * shine, nearer > 0.0 ? 0.8 : 1.0);
+      return colour * (sky + 0.52 * lit) + 0.16 * glint;
+    }`;
+  // A depth offset reduces alpha, by which the last shader excludes the fragment from occlusion.
+  const SHADE = `
+    void shade(vec3 n, vec3 colour, float z, float nearer) {
+      pixel = vec4(shine(n, colour), nearer > 0.0 ? 0.8 : 1.0);
       gl_FragDepth = 0.5 - 0.5 * (z + nearer) / reach;
     }`;
 
   const BALL_FRAGMENT = `#version 300 es
     precision highp float;
-    ${LIGHT}
+    ${LIGHT}${SHADE}
     in vec2 at;
     flat in vec3 diagonal, mixed, colour;
     flat in vec2 depth;
@@ -124,7 +130,7 @@ const Solids = (() => {
 
   const TUBE_FRAGMENT = `#version 300 es
     precision highp float;
-    ${LIGHT}
+    ${LIGHT}${SHADE}
     in vec2 at;
     flat in vec3 along, first, second, cut0, cut1, colour0, colour1;
     flat in vec4 shape;
@@ -151,6 +157,42 @@ const Solids = (() => {
         if (edge < shape.w) colour *= look.y;
       }
       shade(n, colour, shape.y + z, shape.z);
+    }`;
+
+  // A thin tube seen from afar: a rectangle with the shading of a tube. All strips are one draw call without instances,
+  // each of which takes 20 us in a software renderer.
+  const STRIP_VERTEX = `#version 300 es
+    ${CAMERA}
+    layout(location = 0) in vec3 p;
+    layout(location = 1) in vec3 q;
+    layout(location = 2) in vec3 how;
+    layout(location = 3) in uint paint;
+    out float offset;
+    flat out vec3 side, front;
+    out vec3 colour;
+    void main() {
+      vec3 a = see(p), b = see(q), along = normalize(b - a + vec3(0.0, 0.0, 1e-6));
+      int corner = int(how.x);
+      float r = max(how.y, 0.5 * how.z * ratio / perNm), across = length(along.xy);
+      vec2 d = across > 1e-6 ? along.xy / across : vec2(1.0, 0.0);
+      float right = float(corner >> 1) * 2.0 - 1.0, end = float(corner & 1) * 2.0 - 1.0;
+      vec3 c = end < 0.0 ? a : b;
+      side = vec3(-d.y, d.x, 0.0);
+      front = normalize(vec3(0.0, 0.0, 1.0) - along * along.z + vec3(0.0, 0.0, 1e-6));
+      offset = right;
+      colour = rgb(paint);
+      gl_Position = place(c.xy + 0.5 * r * end * d + r * right * side.xy);
+      gl_Position.z = -c.z / reach; // depth of the axis, without a write per fragment
+    }`;
+  const STRIP_FRAGMENT = `#version 300 es
+    precision highp float;
+    ${LIGHT}
+    in float offset;
+    flat in vec3 side, front;
+    in vec3 colour;
+    void main() {
+      float up = sqrt(max(0.0, 1.0 - offset * offset));
+      pixel = vec4(shine(offset * side + up * front, colour), 1.0);
     }`;
 
   // Postprocessing: ambient occlusion, outlines, haze.
@@ -238,11 +280,12 @@ const Solids = (() => {
     constructor() {
       this.balls = new List(BALL);
       this.tubes = new List(TUBE);
+      this.strips = new List(STRIP);
       this.isNew = true;
     }
 
     clear() {
-      this.balls.count = this.tubes.count = 0;
+      this.balls.count = this.tubes.count = this.strips.count = 0;
       this.isNew = true;
     }
 
@@ -268,6 +311,19 @@ const Solids = (() => {
       f[at + 18] = r; f[at + 19] = least; f[at + 20] = nearer;
       integers[at + 21] = packed(colourP); integers[at + 22] = packed(colourQ);
       integers[at + 23] = packed([255 * stripe, 255 * seam, 0]);
+    }
+
+    // A thin tube between two places, for small scales.
+    strip(p, q, r, least, colourP, colourQ) {
+      for (let corner = 0; corner < 4; corner++) {
+        const at = this.strips.next(), { floats: f, integers } = this.strips;
+        for (let k = 0; k < 3; k++) {
+          f[at + k] = p[k];
+          f[at + 3 + k] = q[k];
+        }
+        f[at + 6] = corner; f[at + 7] = r; f[at + 8] = least;
+        integers[at + 9] = packed(corner & 1 ? colourQ : colourP);
+      }
     }
 
     // A round polyline with a smallest width in pixels.
@@ -327,6 +383,8 @@ const Solids = (() => {
   const BALL_LAYOUT = [[3, 0], [4, 3], [3, 7], [2, 10], [1, 12, true]];
   const TUBE_LAYOUT = [[3, 0], [3, 3], [3, 6], [3, 9], [4, 12], [2, 16], [3, 18], [3, 21, true]];
 
+  const STRIP_LAYOUT = [[3, 0], [3, 3], [3, 6], [1, 9, true]];
+
   let gl = null, programs = null, target = null, generation = 0;
 
   function program(vertex, fragment) {
@@ -356,6 +414,7 @@ const Solids = (() => {
     programs = {
       ball: program(BALL_VERTEX, BALL_FRAGMENT),
       tube: program(TUBE_VERTEX, TUBE_FRAGMENT),
+      strip: program(STRIP_VERTEX, STRIP_FRAGMENT),
       last: program(LAST_VERTEX, LAST_FRAGMENT),
     };
     gl.disable(gl.BLEND);
@@ -400,7 +459,7 @@ const Solids = (() => {
   }
 
   // Creates the vertex buffer of a list.
-  function uploaded(list, layout, isNew) {
+  function uploaded(list, layout, isNew, divisor) {
     if (list.generation !== generation) {
       list.generation = generation;
       list.array = gl.createVertexArray();
@@ -411,7 +470,7 @@ const Solids = (() => {
         gl.enableVertexAttribArray(k);
         if (isInteger) gl.vertexAttribIPointer(k, count, gl.UNSIGNED_INT, 4 * list.words, 4 * offset);
         else gl.vertexAttribPointer(k, count, gl.FLOAT, false, 4 * list.words, 4 * offset);
-        gl.vertexAttribDivisor(k, 1);
+        gl.vertexAttribDivisor(k, divisor);
       });
       isNew = true;
     }
@@ -420,6 +479,18 @@ const Solids = (() => {
       gl.bindBuffer(gl.ARRAY_BUFFER, list.buffer);
       gl.bufferData(gl.ARRAY_BUFFER, list.floats.subarray(0, list.words * list.count), gl.DYNAMIC_DRAW);
     }
+  }
+
+  // Draws strips, as two triangles each.
+  function drawStrips(list) {
+    const count = list.count / 4;
+    if (!list.corners || list.corners.length < 6 * count || list.cornersOf !== generation) {
+      list.corners = Uint32Array.from({ length: 12 * count }, (_, i) => 4 * Math.floor(i / 6) + [0, 1, 2, 2, 1, 3][i % 6]);
+      list.cornersOf = generation;
+      gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, gl.createBuffer());
+      gl.bufferData(gl.ELEMENT_ARRAY_BUFFER, list.corners, gl.STATIC_DRAW);
+    }
+    gl.drawElements(gl.TRIANGLES, 6 * count, gl.UNSIGNED_INT, 0);
   }
 
   function use({ made, uniforms }, camera) {
@@ -432,26 +503,8 @@ const Solids = (() => {
     }
   }
 
-  // Draws batches to the canvas of `context`. The camera has the fields rows, target, size, middle, near and far, in pixels
-  // and nm.
-  function draw(context, batches, camera) {
-    if (!gl || gl.isContextLost()) return;
-    const [w, h] = camera.size;
-    room(w, h);
-    gl.bindFramebuffer(gl.FRAMEBUFFER, target.frame);
-    gl.viewport(0, 0, w, h);
-    gl.enable(gl.DEPTH_TEST);
-    gl.clearColor(0, 0, 0, 0);
-    gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
-    for (const batch of batches) {
-      for (const [list, layout, kind] of [[batch.balls, BALL_LAYOUT, 'ball'], [batch.tubes, TUBE_LAYOUT, 'tube']]) {
-        if (list.count === 0) continue;
-        use(programs[kind], camera);
-        uploaded(list, layout, batch.isNew);
-        gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, list.count);
-      }
-      batch.isNew = false;
-    }
+  // Copies the picture to the canvas of the context, with occlusion, outlines and haze.
+  function finish(camera) {
     gl.bindFramebuffer(gl.FRAMEBUFFER, null);
     gl.disable(gl.DEPTH_TEST);
     gl.bindVertexArray(null);
@@ -461,6 +514,35 @@ const Solids = (() => {
     gl.bindTexture(gl.TEXTURE_2D, target.colours);
     use(programs.last, camera);
     gl.drawArrays(gl.TRIANGLES, 0, 3);
+  }
+
+  // Draws a batch to the canvas of `context`, and returns when the picture is complete. The camera has the fields rows,
+  // target, size, middle and near, in pixels and nm, and effort: 0 for a quick picture without effects.
+  function draw(context, batch, camera) {
+    if (!gl || gl.isContextLost()) return;
+    const [w, h] = camera.size;
+    room(w, h);
+    gl.bindFramebuffer(gl.FRAMEBUFFER, target.frame);
+    gl.viewport(0, 0, w, h);
+    gl.enable(gl.DEPTH_TEST);
+    gl.clearColor(0, 0, 0, 0);
+    gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
+    for (const [list, layout, kind] of [[batch.balls, BALL_LAYOUT, 'ball'], [batch.tubes, TUBE_LAYOUT, 'tube'],
+      [batch.strips, STRIP_LAYOUT, 'strip']]) {
+      if (list.count === 0) continue;
+      use(programs[kind], camera);
+      uploaded(list, layout, batch.isNew, kind === 'strip' ? 0 : 1);
+      if (kind === 'strip') drawStrips(list);
+      else gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, list.count);
+    }
+    batch.isNew = false;
+    if (camera.effort > 0) finish(camera);
+    else {
+      gl.bindFramebuffer(gl.DRAW_FRAMEBUFFER, null);
+      gl.blitFramebuffer(0, 0, w, h, 0, 0, w, h, gl.COLOR_BUFFER_BIT, gl.NEAREST);
+      gl.bindFramebuffer(gl.FRAMEBUFFER, null);
+    }
+    gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4)); // waits
     context.drawImage(gl.canvas, 0, target.h - h, w, h, 0, 0, w, h);
   }
 

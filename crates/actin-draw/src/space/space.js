@@ -1,12 +1,14 @@
-// An interactive view of solids: camera, mouse, touch and keys, scale bar and axes. Callers fill its batches, and solids.js
-// draws them.
+// An interactive view of solids: camera, mouse, touch and keys, scale bar and axes. Callers fill its batch, and solids.js
+// draws it.
 //
-// space.batch      always drawn
-// space.fine       drawn when magnified
-// space.far        drawn when small
+// space.show(fill) sets the function that fills a batch; it is called with the batch and the level of detail ('far',
+//                  'near', 'fine')
 // space.frame()    sets the initial camera
-// space.arrows     arrows on top: [x, y, z, fx, fy, fz, text]
+// space.centreOn() moves the centre of rotation and of the picture to a place
+// space.arrows     arrows on top: [x, y, z, fx, fy, fz, text, fraction of the longest arrow]
 // space.labels     texts on top: [x, y, z, text]
+// space.marks      places with a ring: [x, y, z]
+// space.picked     called with the pixel of a click
 // space.draw()     requests drawing in the next frame
 
 const Space = (() => {
@@ -14,7 +16,9 @@ const Space = (() => {
 
   const STEP = Math.PI / 36; // rotation by an arrow key (rad)
   const FINE = 2.5; // scale above which details are drawn (pixels per nm)
-  const FAR = 0.8; // scale below which the far batch is drawn (pixels per nm)
+  const FAR = 0.5; // scale below which bodies are drawn as strips (pixels per nm)
+  const SLOW = 40; // time of a slow picture (ms)
+  const ARROW = 64; // length of the longest arrow (pixels)
   const HAZE = 0.45; // fraction of the background visible through the farthest body
   const DARK = window.matchMedia('(prefers-color-scheme: dark)');
   const { unit, dot } = Solids;
@@ -44,14 +48,15 @@ const Space = (() => {
       this.canvas = canvas;
       this.context = canvas.getContext('2d');
       this.batch = new Solids.Batch();
-      this.fine = new Solids.Batch();
-      this.far = new Solids.Batch();
+      this.fill = () => {};
       this.arrows = [];
       this.labels = [];
+      this.marks = [];
       this.ownsWheel = ownsWheel;
       this.foot = foot; // height of the scale bar area (pixels)
       this.ink = () => [20, 20, 20];
       this.drawn = () => {};
+      this.picked = () => {};
       this.pointers = new Map();
       this.rows = attitude({ towards: [0, 1, 0], up: [1, 0, 0] });
       this.isThere = Solids.isThere(() => this.draw());
@@ -87,11 +92,19 @@ const Space = (() => {
       }
       const middle = low.map((v, k) => (v + high[k]) / 2);
       this.target = [0, 1, 2].map((k) => rows.reduce((sum, row, i) => sum + row[k] * middle[i], 0));
+      this.middleOfAll = this.target;
       this.half = low.map((v, k) => margin + (high[k] - v) / 2);
       this.reach = Math.hypot(...this.half);
     }
 
+    // Moves the centre to a place (nm).
+    centreOn(place) {
+      this.target = [...place];
+      this.draw();
+    }
+
     reset() {
+      this.target = this.middleOfAll;
       this.rows = attitude(this.home);
       this.zoom = 1;
       this.shift = [0, 0];
@@ -140,9 +153,12 @@ const Space = (() => {
       canvas.addEventListener('pointerdown', (event) => {
         if (event.isTrusted) canvas.setPointerCapture(event.pointerId);
         pointers.set(event.pointerId, event);
+        this.pressed = [event.clientX, event.clientY];
       });
       const release = (event) => {
         pointers.delete(event.pointerId);
+        const moved = Math.hypot(event.clientX - this.pressed[0], event.clientY - this.pressed[1]);
+        if (event.type === 'pointerup' && moved < 4) this.picked(this.at(event));
         this.draw();
       };
       canvas.addEventListener('pointerup', release);
@@ -214,37 +230,49 @@ const Space = (() => {
       });
     }
 
-    // Returns whether details are large enough to be visible.
-    get isFine() {
-      return this.zoom * this.fit() >= FINE;
+    show(fill) {
+      Object.assign(this, { fill, filled: '' });
+      this.draw();
     }
 
-    render() {
+    // Level of detail at the current scale.
+    get level() {
+      const perNm = this.zoom * this.fit();
+      return perNm >= FINE ? 'fine' : perNm < FAR ? 'far' : 'near';
+    }
+
+    // Draws now. A slow view is drawn quickly first, and supersampled with all effects when it rests.
+    render(isFinal = false) {
       const { canvas, context } = this;
       const [w, h] = [canvas.clientWidth, canvas.clientHeight];
       if (w === 0 || h === 0) return;
-      const began = performance.now();
-      // Supersampled when still; at normal resolution while a slow view is moved.
-      const ratio = this.slow && (this.pointers.size > 0 || this.isMoving) ? 1 : 2;
+      clearTimeout(this.later);
+      const began = performance.now(), isQuick = this.slow && !isFinal, ratio = isQuick ? 1 : 2;
       if (canvas.width !== w * ratio || canvas.height !== h * ratio) {
         [canvas.width, canvas.height] = [w * ratio, h * ratio];
       }
       this.perNm = this.zoom * this.fit();
       this.centre = this.middle(this.shift);
-      const deep = this.reach + 20, [x, y] = this.centre;
+      if (this.filled !== this.level) {
+        this.filled = this.level;
+        this.batch.clear();
+        this.fill(this.batch, this.filled);
+      }
+      const deep = 2 * this.reach + 20, [x, y] = this.centre; // the target may be at an end
       context.clearRect(0, 0, canvas.width, canvas.height);
-      const batches = [this.batch, ...(this.isFine ? [this.fine] : []), ...(this.perNm < FAR ? [this.far] : [])];
-      Solids.draw(context, batches, {
+      Solids.draw(context, this.batch, {
         rows: this.rows, target: this.target, size: [canvas.width, canvas.height],
-        middle: [ratio * x, canvas.height - ratio * y], perNm: ratio * this.perNm, ratio,
-        reach: deep + 20, near: [this.reach, -this.reach], haze: HAZE, edges: DARK.matches ? 0.8 : 1,
+        middle: [ratio * x, canvas.height - ratio * y], perNm: ratio * this.perNm, ratio, effort: isQuick ? 0 : 1,
+        reach: deep, near: [this.reach, -this.reach], haze: HAZE, edges: DARK.matches ? 0.8 : 1,
       });
       context.setTransform(ratio, 0, 0, ratio, 0, 0);
       this.overlay(w, h);
       context.setTransform(1, 0, 0, 1, 0, 0);
       this.drawn();
-      this.slow = performance.now() - began > 25;
+      if (!isFinal) this.slow = performance.now() - began > (isQuick ? SLOW / 10 : SLOW);
       canvas.dataset.drawn = String(Number(canvas.dataset.drawn || 0) + 1);
+      canvas.dataset.quality = isQuick ? 'quick' : 'full';
+      if (isQuick && !this.isMoving && this.pointers.size === 0) this.later = setTimeout(() => this.render(true), 250);
     }
 
     // Draws arrows, scale bar and axes on top of the solids.
@@ -254,8 +282,14 @@ const Space = (() => {
         strokeStyle: ink, fillStyle: ink, lineWidth: 2, lineCap: 'round', lineJoin: 'round',
         font: '13px system-ui, sans-serif', textBaseline: 'middle', textAlign: 'center',
       });
-      for (const one of this.labels) this.label(one);
+      this.taken = [];
       for (const one of this.arrows) this.arrow(one, w);
+      for (const one of this.labels) this.label(one);
+      for (const place of this.marks) {
+        context.beginPath();
+        context.arc(...this.pixel(this.see(...place)), 9, 0, 2 * Math.PI);
+        context.stroke();
+      }
       context.lineWidth = 2;
       const length = niceLength(130 / this.perNm), bar = length * this.perNm, y = h - 14;
       this.path([[14, y - 4], [14, y], [14 + bar, y], [14 + bar, y - 4]]);
@@ -274,14 +308,22 @@ const Space = (() => {
       });
     }
 
-    // Draws an arrow of fixed length with its text.
-    arrow([x, y, z, fx, fy, fz, text, colour], w) {
+    // Reserves space for a text; false if it would cover another.
+    takes(left, top, width) {
+      const isApart = ([l, t, wide]) => left > l + wide + 4 || left + width + 4 < l || Math.abs(top - t) > 14;
+      if (!this.taken.every(isApart)) return false;
+      this.taken.push([left, top, width]);
+      return true;
+    }
+
+    // Draws an arrow with its text. Short arrows have a third of the full length.
+    arrow([x, y, z, fx, fy, fz, text, share = 1], w) {
       const { context } = this, size = Math.hypot(fx, fy, fz), at = this.pixel(this.see(x, y, z));
       const seen = this.rows.map((row) => dot(row, [fx, fy, fz]) / size);
-      const tip = [at[0] + 52 * seen[0], at[1] - 52 * seen[1]];
+      const length = ARROW * Math.max(1 / 3, share);
+      const tip = [at[0] + length * seen[0], at[1] - length * seen[1]];
       context.lineWidth = 3;
       context.save();
-      if (colour) context.strokeStyle = context.fillStyle = `rgb(${colour.map(Math.round).join(',')})`;
       this.path([at, tip]);
       const across = Math.hypot(seen[0], seen[1]);
       if (across > 0.1) {
@@ -291,7 +333,8 @@ const Space = (() => {
       }
       const half = context.measureText(text).width / 2 + 6;
       const inside = Math.min(w - half, Math.max(half, tip[0] + 30 * seen[0]));
-      context.fillText(text, inside, tip[1] + 4 - 16 * seen[1]);
+      const top = tip[1] + 4 - 16 * seen[1];
+      if (this.takes(inside - half, top, 2 * half)) context.fillText(text, inside, top);
       context.restore();
     }
 
@@ -303,8 +346,10 @@ const Space = (() => {
         font: '12px system-ui, sans-serif', textAlign: 'left', lineWidth: 3,
         strokeStyle: getComputedStyle(this.canvas).backgroundColor,
       });
-      context.strokeText(text, left + 6, top);
-      context.fillText(text, left + 6, top);
+      if (this.takes(left + 6, top, context.measureText(text).width)) {
+        context.strokeText(text, left + 6, top);
+        context.fillText(text, left + 6, top);
+      }
       context.restore();
     }
 

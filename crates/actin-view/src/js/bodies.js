@@ -13,8 +13,8 @@ const Bodies = (() => {
   const THROUGH = 8; // depth offset of parts visible through bodies (nm)
   const ON_SURFACE = 1.2; // depth offset of parts between bodies (nm)
   const AXIS = 5; // length of the axes of segments (nm)
-  const LABELLED = 30; // largest number of linkers with labels
   const DARK = window.matchMedia('(prefers-color-scheme: dark)');
+  const LABELLED = 12; // number of labelled linkers, those with the largest tension
   const { axesOf } = Solids;
 
   // ---- colours
@@ -62,56 +62,79 @@ const Bodies = (() => {
 
   const at = (places, i) => places.subarray(3 * i, 3 * i + 3);
 
-  // Adds a pose to a view. `tintOf(part, i)` returns the colour of monomer or node i of a strand or rod; `bonds` are the
-  // bonds of the file; `has` selects the visible parts.
-  function put(space, from, { bonds = [], tintOf = null, has = () => true } = {}) {
-    const palette = colours(), { batch, fine, far } = space;
-    for (const one of [batch, fine, far]) one.clear();
-    for (const strand of from.strands) putStrand(space, strand, { palette, bonds, tintOf, has });
-    for (const rod of from.rods) putRod(space, rod, { palette, tintOf, has });
+  // Shows a pose. `tintOf(part, i)` returns the colour of monomer or node i of a strand or rod, `pullOf(pN)` of a linker;
+  // `bonds` are the bonds of the file.
+  function put(space, from, { bonds = [], tintOf = null, pullOf = null, strongest = 0 } = {}) {
+    space.show((batch, level) => {
+      const palette = colours(), drawing = { batch, palette, bonds, tintOf, isFine: level === 'fine' };
+      const linker = (ends) => (pullOf && ends.length > 6 ? pullOf(ends[6]) : palette.linker);
+      if (level === 'far') putStrips(drawing, from, linker);
+      else putBodies(drawing, from, linker);
+      for (const anchor of from.anchors) batch.ball(anchor, 1.3, palette.anchor, THROUGH, 3);
+      for (const c of from.clamps) {
+        const corners = [0, 3, 6, 9, 0].map((i) => [c[i], c[i + 1], c[i + 2]]);
+        batch.line(corners, 0.5, palette.clamp);
+      }
+    });
+    const size = (f) => Math.hypot(f[3], f[4], f[5]), most = strongest || Math.max(...from.forces.map(size));
+    space.ink = () => colours().ink;
+    space.arrows = from.forces.map((f) => [...f.slice(0, 6), `${force(size(f))} pN`, size(f) / most]);
+    space.labels = pulls(from.linkers);
+  }
+
+  // Centre lines and linkers at small scales.
+  function putStrips({ batch, palette, tintOf }, from, linker) {
+    const tint = (part, i, otherwise) => (tintOf ? tintOf(part, i) : otherwise);
+    for (const strand of from.strands) {
+      const { places } = strand, count = places.length / 3;
+      let before = null;
+      for (let i = 0; i + 1 < count; i++) {
+        const middle = [0, 1, 2].map((k) => (places[3 * i + k] + places[3 * i + 3 + k]) / 2);
+        if (before) batch.strip(before, middle, 3.5, 2.6, tint(strand, i - 1, palette.monomer), tint(strand, i, palette.monomer));
+        before = middle;
+      }
+    }
+    for (const rod of from.rods) {
+      const count = rod.nodes.length / 3;
+      for (let i = 0; i + 1 < count; i++) {
+        batch.strip(at(rod.nodes, i), at(rod.nodes, i + 1), rod.radius, 2.4, tint(rod, i, palette.rod), tint(rod, i + 1, palette.rod));
+      }
+    }
+    for (const ends of from.linkers) {
+      batch.strip(ends.slice(0, 3), ends.slice(3, 6), 0.5, 1.8, linker(ends), linker(ends));
+    }
+  }
+
+  function putBodies(drawing, from, linker) {
+    const { batch, palette } = drawing;
+    for (const strand of from.strands) putStrand(drawing, strand);
+    for (const rod of from.rods) putRod(drawing, rod);
     for (const bond of from.junctions) {
       const ends = [bond.slice(0, 3), bond.slice(3, 6)];
       batch.line(ends, 0.55, palette.edge, THROUGH, 3.2);
       batch.line(ends, 0.32, palette.junction, THROUGH + 0.5, 1.8);
     }
-    if (has('linkers')) {
-      for (const ends of from.linkers) {
-        batch.line([ends.slice(0, 3), ends.slice(3, 6)], 0.3, palette.linker, THROUGH, 1.8);
-        for (const k of [0, 3]) batch.ball(ends.slice(k, k + 3), 0.7, palette.linker, THROUGH, 2);
-      }
-      for (const anchor of from.anchors) batch.ball(anchor, 1.3, palette.anchor, THROUGH, 3);
+    for (const ends of from.linkers) {
+      const colour = linker(ends);
+      batch.line([ends.slice(0, 3), ends.slice(3, 6)], 0.3, colour, THROUGH, 1.8);
+      for (const k of [0, 3]) batch.ball(ends.slice(k, k + 3), 0.7, colour, THROUGH, 2);
     }
-    for (const c of from.clamps) {
-      const corners = [0, 3, 6, 9, 0].map((i) => [c[i], c[i + 1], c[i + 2]]);
-      batch.line(corners, 0.5, palette.clamp);
-    }
-    space.ink = () => colours().ink;
-    space.arrows = has('forces') ? from.forces.map((f) => [...f.slice(0, 6), `${force(Math.hypot(f[3], f[4], f[5]))} pN`]) : [];
-    space.labels = has('linkers') ? pulls(from.linkers) : [];
-    space.draw();
   }
 
   // Tension of each linker, at its middle.
   function pulls(linkers) {
-    if (linkers.length > LABELLED) return [];
     const middle = (ends) => [0, 1, 2].map((k) => (ends[k] + ends[k + 3]) / 2);
-    return linkers.filter((ends) => ends.length > 6).map((ends) => [...middle(ends), `${force(ends[6])} pN`]);
+    const known = linkers.filter((ends) => ends.length > 6).sort((a, b) => Math.abs(b[6]) - Math.abs(a[6]));
+    return known.slice(0, LABELLED).map((ends) => [...middle(ends), `${force(ends[6])} pN`]);
   }
 
-  // Monomers. When magnified, their bonds, stored in 0.01 nm in the body frames; when small, a connecting line.
-  function putStrand({ batch, fine, far }, strand, { palette, bonds, tintOf, has }) {
-    const { places, turns, lengths, first } = strand, count = places.length / 3, line = [];
+  // Monomers; when magnified, their bonds, stored in 0.01 nm in the body frames.
+  function putStrand({ batch, palette, bonds, tintOf, isFine }, strand) {
+    const { places, turns, lengths, first } = strand, count = places.length / 3;
     const colourOf = (i) => (tintOf ? tintOf(strand, i) : i % 2 ? palette.other : palette.monomer);
     for (let i = 0; i < count; i++) batch.ellipsoid(places, 3 * i, turns, 4 * i, lengths, colourOf(i));
-    for (let i = 0; i + 1 < count; i++) {
-      line.push([0, 1, 2].map((k) => (places[3 * i + k] + places[3 * i + 3 + k]) / 2));
-      if (i > 0) {
-        const [p, q] = line.slice(-2), u = Solids.unit([q[0] - p[0], q[1] - p[1], q[2] - p[2]]);
-        far.piece(p, q, u, u, [1, 0, 0, 0], [0, 0], [1.5, 2.6, 0], [colourOf(i), colourOf(i + 1)], [0, 1]);
-      }
-    }
     const set = bonds[strand.bonds];
-    if (!set || !has('bonds')) return;
+    if (!set || !isFine) return;
     const frames = Array.from({ length: count }, (_, i) => axesOf(turns, 4 * i));
     const place = (i, a) => [0, 1, 2].map((k) => places[3 * i + k] + 0.01
       * (a[0] * frames[i][0][k] + a[1] * frames[i][1][k] + a[2] * frames[i][2][k]));
@@ -120,24 +143,24 @@ const Bodies = (() => {
         const upper = i + 1 + kind;
         for (let k = 0; k < ends.length && upper < count; k += 6) {
           const both = [place(i, ends.slice(k, k + 3)), place(upper, ends.slice(k + 3, k + 6))];
-          fine.line(both, 0.06, palette.bonds[kind], ON_SURFACE, 1.2);
+          batch.line(both, 0.06, palette.bonds[kind], ON_SURFACE, 1.2);
         }
       });
     }
   }
 
   // A rod with a stripe, its centre line and nodes; when magnified, the axes of its segments.
-  function putRod({ batch, fine }, rod, { palette, tintOf, has }) {
+  function putRod({ batch, palette, tintOf, isFine }, rod) {
     const { nodes, frames, radius } = rod, count = nodes.length / 3;
     const colourAt = (i) => (tintOf ? tintOf(rod, i) : palette.rod);
     batch.rod(nodes, frames, radius, colourAt, [0.7, 0.55], 2.4);
-    if (!has('frames')) return;
+    if (!isFine) return;
     for (let i = 0; i < count; i++) {
-      fine.ball(at(nodes, i), 0.45, palette.node, THROUGH - 0.5, 1.8);
+      batch.ball(at(nodes, i), 0.45, palette.node, THROUGH - 0.5, 1.8);
       if (i + 1 === count) continue;
       const middle = [0, 1, 2].map((k) => (nodes[3 * i + k] + nodes[3 * i + 3 + k]) / 2);
-      fine.line([at(nodes, i), at(nodes, i + 1)], 0.15, palette.line, THROUGH - 1);
-      axesOf(frames, 4 * i).forEach((axis, k) => fine.line(
+      batch.line([at(nodes, i), at(nodes, i + 1)], 0.15, palette.line, THROUGH - 1);
+      axesOf(frames, 4 * i).forEach((axis, k) => batch.line(
         [middle, middle.map((v, j) => v + AXIS * axis[j])], 0.18, palette.axes[k], THROUGH - 0.8, 2));
     }
   }
@@ -158,12 +181,13 @@ const Bodies = (() => {
   }
 
   // Legend entries of a pose; `sample` is the number of displayed bonds.
-  function legend(from, { isFine, sample = '', isTinted = false, filaments = null }) {
-    const palette = colours(), near = Number(isFine), hasBonds = near * Number(sample !== '');
+  function legend(from, { level, sample = '', isTinted = false, filaments = null }) {
+    const palette = colours(), near = Number(level === 'fine'), bodies = Number(level !== 'far');
+    const hasBonds = near * Number(sample !== '');
     const kinds = isTinted ? [] : [
-      [from.strands.length, 'monomers, every other one lighter', palette.monomer],
+      [from.strands.length, bodies ? 'monomers, every other one lighter' : 'monomers', palette.monomer],
       [from.rods.length, 'rod', palette.rod],
-      [from.rods.length, 'd1 on its surface, both sides', lighter(palette.rod, 0.7)],
+      [bodies * from.rods.length, 'd1 on its surface, both sides', lighter(palette.rod, 0.7)],
     ];
     return [
       ...(filaments || kinds),
@@ -172,10 +196,12 @@ const Bodies = (() => {
       [near * from.rods.length, 'its centre line', palette.line],
       [near * from.rods.length, 'nodes', palette.node],
       ...['d1', 'd2', 'd3'].map((name, k) => [near * from.rods.length, `${name} of segments`, palette.axes[k]]),
-      [from.junctions.length, 'bonds of the junction', palette.junction],
-      [from.linkers.length, from.linkers[0]?.length > 6 ? 'linkers, with their pull' : 'linkers', palette.linker],
+      [bodies * from.junctions.length, 'bonds of the junction', palette.junction],
+      [from.linkers.length, from.linkers.length > LABELLED && from.linkers[0].length > 6
+        ? `linkers, the ${LABELLED} largest tensions labelled` : 'linkers', palette.linker],
       [from.anchors.length, 'anchors', palette.anchor],
       [from.clamps.length, 'held ends', palette.clamp],
+      [from.forces.length, 'forces, in proportion down to a third', palette.ink],
       [(1 - near) * Number(from.rods.length > 0 || sample !== ''),
         'Bonds between monomers and axes of segments show from nearer.', null],
     ].filter(([count]) => count > 0).map(([, ...entry]) => entry);

@@ -4,7 +4,7 @@ const Curves = (() => {
   'use strict';
 
   const SVG = 'http://www.w3.org/2000/svg';
-  const [LEFT, RIGHT, TOP, BOTTOM] = [52, 14, 8, 22];
+  const [LEFT, RIGHT, TOP, BOTTOM] = [52, 14, 8, 38];
   // Suffixes of column names, and their units.
   const UNITS = [['_pn_nm', 'pN nm'], ['_rad_per_nm', 'rad/nm'], ['_nm_per_ns', 'nm/ns'], ['_pn', 'pN'],
     ['_nm2', 'nm²'], ['_nm', 'nm'], ['_rad', 'rad'], ['_deg', '°'], ['_turns', 'turns'], ['_k', 'K']];
@@ -22,10 +22,16 @@ const Curves = (() => {
     return element;
   }
 
+  // Formats a power of ten.
+  const ten = (power) => `10${[...String(Number(power))].map((c) => '⁻⁰¹²³⁴⁵⁶⁷⁸⁹'['-0123456789'.indexOf(c)]).join('')}`;
+
   // Formats a number with the digits needed to resolve `span`.
   function digits(x, span) {
     if (x === 0) return '0';
-    if (Math.abs(x) >= 1e5 || Math.abs(x) < 1e-3) return x.toExponential(1).replace('e', '·10^').replace('^+', '^');
+    if (Math.abs(x) >= 1e5 || Math.abs(x) < 1e-3) {
+      const [digits_, power] = x.toExponential(1).split('e');
+      return `${digits_}·${ten(power)}`;
+    }
     return String(Number(x.toFixed(Math.max(0, Math.min(6, 2 - Math.floor(Math.log10(span || 1)))))));
   }
 
@@ -40,7 +46,7 @@ const Curves = (() => {
 
   // A chart in `box`. Lines are { x, y, colour } with arrays of numbers; NaN marks missing values.
   class Chart {
-    constructor(box, { label, height = 132, choose = null }) {
+    constructor(box, { label, height = 148, choose = null }) {
       this.svg = make('svg', { class: 'chart', role: 'img', 'aria-label': label, height });
       Object.assign(this, { height, lines: [], at: null, isLog: false, across: '' });
       box.append(this.svg);
@@ -122,7 +128,7 @@ const Curves = (() => {
       this.svg.setAttribute('width', width);
       if (this.lines.length === 0 || !this.scales(width)) return;
       this.grid(width);
-      for (const { x, y, colour } of this.lines) {
+      for (const { x, y, colour, faded } of this.lines) {
         let path = '', isDown = false;
         for (let i = 0; i < x.length; i++) {
           if (!Number.isFinite(y[i])) {
@@ -132,7 +138,7 @@ const Curves = (() => {
           path += `${isDown ? 'L' : 'M'}${this.x(x[i]).toFixed(1)} ${this.y(y[i]).toFixed(1)}`;
           isDown = true;
         }
-        make('path', { d: path, class: 'curve', style: colour ? `stroke:${colour}` : '' }, this.svg);
+        make('path', { d: path, class: 'curve', style: colour ? `stroke:${colour}` : '', opacity: faded ? 0.25 : 1 }, this.svg);
       }
       this.cursor = make('g', { class: 'cursor', visibility: 'hidden' }, this.svg);
       make('line', { y1: TOP, y2: this.height - BOTTOM }, this.cursor);
@@ -148,15 +154,15 @@ const Curves = (() => {
       for (const tick of rows) {
         const y = this.y(this.isLog ? 10 ** tick : tick);
         make('line', { x1: LEFT, x2: width - RIGHT, y1: y, y2: y, class: 'grid' }, this.svg);
-        text(LEFT - 6, y + 4, this.isLog ? `10^${tick}` : digits(tick, top - bottom), 'end');
+        text(LEFT - 6, y + 4, this.isLog ? ten(tick) : digits(tick, top - bottom), 'end');
       }
-      const foot = this.height - 6;
+      const foot = this.height - 22;
       for (const tick of ticks(from, to, Math.max(2, Math.floor(width / 64)))) {
         const x = this.x(tick);
         make('line', { x1: x, x2: x, y1: this.height - BOTTOM, y2: this.height - BOTTOM + 4, class: 'grid' }, this.svg);
-        if (x < width - 54) text(x, foot, digits(tick, to - from), 'middle');
+        text(Math.min(x, width - 4), foot, digits(tick, to - from), x > width - 34 ? 'end' : 'middle');
       }
-      text(width - RIGHT, foot, this.across, 'end');
+      text(LEFT + (width - LEFT - RIGHT) / 2, this.height - 6, this.across, 'middle');
     }
   }
 

@@ -25,7 +25,7 @@
   const columns = run.curves.map((one) => (
     { ...Curves.named(one.name), at: floats(one.at), values: floats(one.values) }));
 
-  // Returns record t as a pose.
+  // Returns record t as a pose. Orientations are converted when they are read.
   function poseOf(t) {
     const at = (from, to) => places.subarray(3 * (run.points * t + from), 3 * (run.points * t + to));
     const turned = ({ start, end }) => Float32Array.from(
@@ -35,8 +35,10 @@
       (_, i) => [...all.subarray(each * (count * t + i), each * (count * t + i + 1))]);
     const held = many(linkers, run.anchored.length, 8);
     return {
-      strands: run.strands.map((s) => ({ ...s, places: at(s.points.start, s.points.end), turns: turned(s.frames) })),
-      rods: run.rods.map((r) => ({ ...r, nodes: at(r.points.start, r.points.end), frames: turned(r.frames) })),
+      strands: run.strands.map((s) => ({
+        ...s, places: at(s.points.start, s.points.end), get turns() { return turned(s.frames); } })),
+      rods: run.rods.map((r) => ({
+        ...r, nodes: at(r.points.start, r.points.end), get frames() { return turned(r.frames); } })),
       junctions: run.junctions.map(([a, b]) => [...point(a), ...point(b)]),
       linkers: held.filter((l) => l[6] > 0).map((l) => [...l.slice(0, 6), l[7]]),
       anchors: held.filter((l, i) => run.anchored[i]).map((l) => l.slice(3, 6)),
@@ -45,24 +47,63 @@
     };
   }
 
+  // ---- bodies
+
+  // Filament of a point.
+  const filamentOf = (i) => run.spans.findIndex(({ start, end }) => i >= start && i < end);
+  const pointAt = (i) => places.subarray(3 * (run.points * record + i), 3 * (run.points * record + i) + 3);
+  const valueOf = (field, i) => field.low + ((field.high - field.low) / 65535) * field.values[run.points * record + i];
+
+  // Body nearest to a pixel: { point } or { linker }, with its place and distance (pixels).
+  function nearest([x, y], most = 14) {
+    let best = { distance: most };
+    const near = (place, body, handicap) => {
+      const [px, py] = space.pixel(space.see(...place)), distance = Math.hypot(px - x, py - y) + handicap;
+      if (distance < best.distance) best = { distance, place: [...place], ...body };
+    };
+    for (let i = 0; i < run.points; i++) near(pointAt(i), { point: i }, 0);
+    for (const linker of pose.linkers) near([0, 1, 2].map((k) => (linker[k] + linker[k + 3]) / 2), { linker }, 4);
+    return best.place ? best : null;
+  }
+
+  // Name of a point, and lines with its fields.
+  function described(i) {
+    const kind = run.strands.some(({ points: { start, end } }) => i >= start && i < end) ? 'monomer' : 'node';
+    const name = `${run.filaments > 1 ? `filament ${filamentOf(i)}, ` : ''}${kind} at s = ${Bodies.short(arcs[i])} nm`;
+    return [name, ...fields.map((field) => `${field.name}: ${Bodies.short(valueOf(field, i))} ${field.unit}`)];
+  }
+
   // ---- colours and visible parts
 
   const space = new Space(query('#space'), { ownsWheel: true });
   const slider = query('#slider'), playing = query('#play'), paint = query('#paint'), clock = query('#clock');
-  let record = -1, pose = null, place = 0;
+  let record = -1, pose = null, place = 0, selected = null, entries = [], followedAt = 0;
 
   // Colour scale of a field.
-  const SIGNED = [[59, 76, 192], [141, 176, 254], [221, 221, 221], [244, 154, 123], [180, 4, 38]];
-  const RISING = [[68, 57, 131], [49, 104, 142], [33, 145, 140], [83, 197, 105], [253, 231, 37]];
-  const stops = (field) => (field.signed ? SIGNED : RISING);
+  const stops = (field) => (field.signed ? Bodies.shades().signed : Bodies.shades().rising);
+  // Many filaments have colours of a scale by their number, few have distinct colours.
+  const isMany = run.filaments > Bodies.shades().lines.length;
+  const ofFilament = (k) => (isMany ? Bodies.along(Bodies.shades().rising, k / (run.filaments - 1)) : Bodies.shades().lines[k]);
+  const BY_FILAMENT = { name: 'filament', unit: 'number', low: 0, high: run.filaments - 1 };
+  let tension = 0, strongest = 0;
+  for (let i = 7; i < linkers.length; i += 8) if (linkers[i - 1] > 0) tension = Math.max(tension, Math.abs(linkers[i]));
+  for (const f of run.forces.flat()) strongest = Math.max(strongest, Math.hypot(f[3], f[4], f[5]));
+  const TENSION = { name: 'tension of linkers', unit: 'pN', low: -tension, high: tension, signed: true };
+
+  // Scale of the selected colouring, if any.
+  function scale() {
+    const choice = paint.value;
+    if (choice === 'filament') return isMany ? BY_FILAMENT : undefined;
+    return choice === 'tension' ? TENSION : fields[Number(choice)];
+  }
 
   // Selected colouring.
   function tint() {
     const choice = paint.value;
-    if (choice === 'kind') return null;
+    if (choice === 'kind' || choice === 'tension') return null;
     if (choice === 'filament') {
-      const { lines } = Bodies.shades();
-      return (part) => lines[part.filament % lines.length];
+      const all = Array.from({ length: run.filaments }, (_, k) => ofFilament(k));
+      return (part) => all[part.filament];
     }
     const field = fields[Number(choice)], table = Array.from({ length: 256 },
       (_, k) => Bodies.along(stops(field), k / 255));
@@ -72,12 +113,13 @@
 
   function legend() {
     if (!pose) return;
-    const choice = paint.value, { lines } = Bodies.shades();
-    const filaments = choice === 'filament' ? Array.from({ length: run.filaments },
-      (_, i) => [1, `filament ${i}`, lines[i % lines.length]]) : null;
-    Bodies.explain(query('#legend'), Bodies.legend(pose, {
-      isFine: space.isFine, sample: Bodies.sample(pose, run.bonds), isTinted: choice !== 'kind', filaments }));
-    const bar = query('#bar'), field = fields[Number(choice)];
+    const choice = paint.value;
+    const filaments = choice === 'filament' && !isMany
+      ? Array.from({ length: run.filaments }, (_, i) => [1, `filament ${i}`, ofFilament(i)]) : null;
+    entries = Bodies.legend(pose, {
+      level: space.level, sample: Bodies.sample(pose, run.bonds), isTinted: !['kind', 'tension'].includes(choice), filaments });
+    Bodies.explain(query('#legend'), entries);
+    const bar = query('#bar'), field = scale();
     bar.hidden = !field;
     if (!field) return;
     const [low, middle, high] = bar.querySelectorAll('span');
@@ -88,7 +130,8 @@
   }
 
   function put() {
-    Bodies.put(space, pose, { bonds: run.bonds, tintOf: tint() });
+    const pullOf = paint.value === 'tension' ? (pN) => Bodies.along(stops(TENSION), 0.5 + pN / (2 * tension)) : null;
+    Bodies.put(space, pose, { bonds: run.bonds, tintOf: tint(), pullOf, strongest });
     legend();
   }
 
@@ -105,9 +148,109 @@
     clock.title = which;
     query('#record').textContent = last > 0 ? which : '';
     slider.setAttribute('aria-valuetext', `${clock.textContent}, ${which}`);
-    if (space.isThere) put();
-    charts.forEach((chart) => chart.follow());
+    if (space.isThere) {
+      put();
+      follow();
+    }
+    // During a slow playback, charts follow twice a second: their redrawing takes as long as the view.
+    const now = performance.now();
+    if (began === null || !space.slow || now - followedAt > 500) {
+      charts.forEach((chart) => chart.follow());
+      followedAt = now;
+    }
     document.body.dataset.record = String(record);
+  }
+
+  // ---- selection
+
+  // Keeps the selected body in the middle and marks it.
+  function follow() {
+    space.marks = selected === null ? [] : [[...pointAt(selected)]];
+    if (selected !== null) space.centreOn(pointAt(selected));
+    query('#followed').textContent = selected === null ? '' : `Following ${described(selected).join(' · ')} (Esc ends)`;
+  }
+
+  function select(body) {
+    selected = body && body.point !== undefined ? body.point : null;
+    if (selected !== null) space.shift = [0, 0];
+    follow();
+    space.draw();
+    charts.forEach((chart) => chart.follow());
+  }
+
+  function hover(event) {
+    const tip = query('#tip'), at = space.at(event), body = space.pointers.size === 0 && space.perNm ? nearest(at) : null;
+    tip.hidden = !body;
+    if (!body) return;
+    const lines = body.linker ? ['linker', `tension: ${Bodies.short(body.linker[6])} pN`] : described(body.point);
+    tip.replaceChildren(...lines.map((text) => Object.assign(document.createElement('div'), { textContent: text })));
+    const { clientWidth, offsetTop } = space.canvas;
+    tip.style.left = `${Math.max(0, Math.min(at[0] + 14, clientWidth - tip.offsetWidth - 4))}px`;
+    tip.style.top = `${offsetTop + at[1] + 14}px`;
+  }
+
+  // ---- pictures and films
+
+  // Copies the view with background, clock and legend.
+  function compose(copy) {
+    const { canvas } = space, context = copy.getContext('2d'), unit = copy.width / canvas.clientWidth;
+    context.setTransform(1, 0, 0, 1, 0, 0);
+    context.fillStyle = getComputedStyle(canvas).backgroundColor;
+    context.fillRect(0, 0, copy.width, copy.height);
+    context.drawImage(canvas, 0, 0, copy.width, copy.height);
+    context.setTransform(unit, 0, 0, unit, 0, 0);
+    Object.assign(context, { font: '13px system-ui, sans-serif', textBaseline: 'middle' });
+    const field = scale(), bar = field ? [[`${field.name}: ${Bodies.short(field.low)} to ${Bodies.short(field.high)} ${field.unit}`]] : [];
+    [[clock.textContent], ...bar, ...entries.filter(([, colour]) => colour)].forEach(([text, colour], i) => {
+      if (colour) {
+        context.fillStyle = Bodies.css(colour);
+        context.fillRect(14, 15 + 19 * i, 14, 11);
+      }
+      context.fillStyle = Bodies.css(space.ink());
+      context.fillText(text, colour ? 34 : 14, 21 + 19 * i);
+    });
+    if (!field) return;
+    stops(field).forEach((colour, k, all) => {
+      context.fillStyle = Bodies.css(colour);
+      context.fillRect(14 + (120 / all.length) * k, 48, 120 / all.length, 8);
+    });
+  }
+
+  function save(blob, name) {
+    const link = Object.assign(document.createElement('a'), { href: URL.createObjectURL(blob), download: name });
+    link.click();
+    document.body.dataset.saved = `${name} ${blob.size}`;
+    setTimeout(() => URL.revokeObjectURL(link.href), 60000);
+  }
+
+  const copyOf = ({ width, height }) => Object.assign(document.createElement('canvas'), { width, height });
+  const fileName = () => document.title.replace(/[^\w-]+/g, '-').slice(0, 60);
+
+  function savePicture() {
+    space.render(true);
+    const copy = copyOf(space.canvas);
+    compose(copy);
+    copy.toBlob((blob) => save(blob, `${fileName()}.png`));
+  }
+
+  let filming = null;
+
+  // Records the playback from the first record to the last as WebM.
+  function film() {
+    if (filming) {
+      pause();
+      return;
+    }
+    const copy = copyOf({ width: 2 * space.canvas.clientWidth, height: 2 * space.canvas.clientHeight }), chunks = [];
+    const recorder = new MediaRecorder(copy.captureStream(30), { mimeType: 'video/webm', videoBitsPerSecond: 1.2e7 });
+    recorder.addEventListener('dataavailable', ({ data }) => chunks.push(data));
+    recorder.addEventListener('stop', () => save(new Blob(chunks, { type: 'video/webm' }), `${fileName()}.webm`));
+    show(0);
+    filming = { copy, recorder };
+    query('#film').setAttribute('aria-pressed', 'true');
+    compose(copy);
+    recorder.start();
+    play();
   }
 
   // ---- playback
@@ -150,6 +293,11 @@
     playing.setAttribute('aria-pressed', 'false');
     playing.setAttribute('aria-label', 'Play');
     space.draw();
+    charts.forEach((chart) => chart.follow());
+    if (!filming) return;
+    filming.recorder.stop();
+    filming = null;
+    query('#film').setAttribute('aria-pressed', 'false');
   }
 
   const toggle = () => (began === null ? play() : pause());
@@ -171,7 +319,7 @@
       this.value = document.createElement('output');
       head.append(menu, this.value);
       box.append(head);
-      this.choices = choices;
+      Object.assign(this, { box, choices });
       this.menu = menu;
       this.chart = new Curves.Chart(box, { label, choose });
       menu.addEventListener('change', () => this.change());
@@ -182,6 +330,8 @@
     }
   }
 
+  const MOST_LINES = 40; // largest number of filaments with a curve
+
   // Curve of a number over time.
   class InTime extends Panel {
     change() {
@@ -189,7 +339,7 @@
       const isLog = name.includes('residual') && positive.length > 2
         && positive.length > 0.8 * values.length && Math.max(...positive) > 300 * Math.min(...positive);
       const y = isLog ? values.map((v) => (v > 0 ? v : NaN)) : values;
-      this.chart.show([{ x: at, y }], { isLog, across: run.unit ? 'ns' : 'path' });
+      this.chart.show([{ x: at, y }], { isLog, across: run.unit ? 'time (ns)' : 'path parameter' });
       this.follow();
     }
 
@@ -210,14 +360,30 @@
     }
 
     follow() {
-      const field = this.choice, { lines } = Bodies.shades(), base = run.points * record;
-      const step_ = (field.high - field.low) / 65535;
-      const all = run.spans.map(({ start, end }, k) => ({
-        x: arcs.subarray(start, end),
-        y: Float32Array.from(field.values.subarray(base + start, base + end), (v) => field.low + step_ * v),
-        colour: run.spans.length > 1 ? Bodies.css(lines[k % lines.length]) : '',
+      const field = this.choice, base = run.points * record, count = run.filaments;
+      const step_ = (field.high - field.low) / 65535, chosen = selected === null || count === 1 ? -1 : filamentOf(selected);
+      const which = Array.from({ length: Math.min(MOST_LINES, count) }, (_, i) => Math.floor((i * count) / Math.min(MOST_LINES, count)));
+      if (chosen >= 0) which.push(chosen);
+      const all = which.map((k) => ({
+        x: arcs.subarray(run.spans[k].start, run.spans[k].end),
+        y: Float32Array.from(
+          field.values.subarray(base + run.spans[k].start, base + run.spans[k].end), (v) => field.low + step_ * v),
+        colour: count > 1 ? Bodies.css(ofFilament(k)) : '', faded: chosen >= 0 && k !== chosen,
       }));
-      this.chart.show(all, { range: [field.low, field.high], across: 's (nm)' });
+      this.chart.show(all, { range: [field.low, field.high], across: 'arc length s (nm)' });
+      this.value.textContent = chosen >= 0 ? `filament ${chosen}` : count > MOST_LINES ? `${MOST_LINES} of ${count} filaments` : '';
+      if (count > 1) this.explain();
+    }
+
+    // Legend of the filaments.
+    explain() {
+      if (!this.key) {
+        this.key = Object.assign(document.createElement('ul'), { className: 'legend key' });
+        this.box.append(this.key);
+      }
+      const some = isMany ? [0, 0.25, 0.5, 0.75, 1].map((share) => Math.round(share * (run.filaments - 1)))
+        : Array.from({ length: run.filaments }, (_, k) => k);
+      Bodies.explain(this.key, some.map((k) => [`${k === some[0] ? 'filament ' : ''}${k}`, ofFilament(k)]));
     }
   }
 
@@ -248,7 +414,7 @@
   // ---- controls
 
   paint.append(...[...(run.filaments > 1 ? [new Option('by filament', 'filament')] : []),
-    ...fields.map(({ name }, i) => new Option(`by ${name}`, i))]);
+    ...fields.map(({ name }, i) => new Option(`by ${name}`, i)), ...(tension > 0 ? [new Option('by tension of linkers', 'tension')] : [])]);
   paint.addEventListener('change', put);
   slider.max = String(last);
   slider.addEventListener('input', () => {
@@ -256,18 +422,24 @@
     show(Number(slider.value));
   });
   playing.addEventListener('click', toggle);
+  query('#picture').addEventListener('click', savePicture);
+  query('#film').addEventListener('click', film);
+  query('#film').hidden = last === 0 || !window.MediaRecorder;
   query('#back').addEventListener('click', () => step(-1));
   query('#forth').addEventListener('click', () => step(1));
   query('#speed').addEventListener('change', (event) => { speed = Number(event.target.value); });
   query('#smaller').addEventListener('click', () => space.zoomBy(1 / 1.3));
   query('#larger').addEventListener('click', () => space.zoomBy(1.3));
-  query('#reset').addEventListener('click', () => space.reset());
+  query('#reset').addEventListener('click', () => {
+    select(null);
+    space.reset();
+  });
   for (const [name, towards, up] of [['x', [1, 0, 0], [0, 1, 0]], ['y', [0, 1, 0], [1, 0, 0]], ['z', [0, 0, 1], [0, 1, 0]]]) {
     query(`#along-${name}`).addEventListener('click', () => space.along(towards, up));
   }
   document.addEventListener('keydown', (event) => {
     if (event.target.closest('select, input, button, summary') || event.ctrlKey || event.metaKey || event.altKey) return;
-    const act = { ' ': toggle, ',': () => step(-1), '.': () => step(1) }[event.key];
+    const act = { ' ': toggle, ',': () => step(-1), '.': () => step(1), Escape: () => select(null) }[event.key];
     if (!act) return;
     event.preventDefault();
     act();
@@ -277,7 +449,16 @@
   // ---- start at the last record, with all records in view
 
   if (space.isThere) {
-    space.drawn = legend;
+    space.drawn = () => {
+      legend();
+      if (filming) compose(filming.copy);
+    };
+    space.picked = (at) => select(nearest(at));
+    space.canvas.addEventListener('pointermove', hover);
+    space.canvas.addEventListener('pointerleave', () => { query('#tip').hidden = true; });
+    const top = () => document.documentElement.style.setProperty('--above', `${query('.stage').offsetTop}px`);
+    window.addEventListener('resize', top);
+    top();
     const some = [...new Set([0, 0.25, 0.5, 0.75, 1].map((share) => Math.round(share * last)))];
     const all = some.map((t) => Bodies.places(poseOf(t)));
     const seen = new Float32Array(all.reduce((sum, one) => sum + one.length, 0));

@@ -78,11 +78,12 @@
       this.pose = Bodies.pose(this.state);
       Bodies.put(this.space, this.pose, { bonds: this.data.bonds });
       if (!this.isCompared) return;
-      const { batch, fine, far } = this.space;
-      for (const one of [batch, fine, far]) one.clear();
-      for (const state of this.members) {
-        for (const line of state.lines) batch.line(line, 0.5, Bodies.resolution(state.share), 0, 2.4);
-      }
+      this.space.labels = [];
+      this.space.show((batch) => {
+        for (const state of this.members) {
+          for (const line of state.lines) batch.line(line, 0.5, Bodies.resolution(state.share), 0, 2.4);
+        }
+      });
     }
 
     // Legend of the selected state or of the compared states.
@@ -90,7 +91,7 @@
       const entries = this.isCompared
         ? this.members.map((s) => [s.name, Bodies.resolution(s.share)])
         : Bodies.legend(this.pose, {
-          isFine: this.space.isFine, sample: Bodies.sample(this.pose, this.data.bonds) });
+          level: this.space.level, sample: Bodies.sample(this.pose, this.data.bonds) });
       Bodies.explain(this.legend, entries);
     }
   }

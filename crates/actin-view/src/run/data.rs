@@ -11,13 +11,13 @@
 
 use super::{Curve, Run};
 use crate::pose::{Bonds, PLATE_NM, bodies, share};
-use actin_sim::mechanics::{State, Vector3};
-use actin_sim::{Assembly, At};
+use actin_sim::mechanics::{Loads, State, Vector3};
+use actin_sim::{Assembly, At, Part};
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use serde_json::{Value, json};
 
-const FIELDS: usize = 4;
+const FIELDS: usize = 6;
 /// Largest number of monomers with bonds on the page; each takes 500 bytes.
 const MOST_WITH_BONDS: usize = 1000;
 
@@ -149,11 +149,18 @@ fn fields(run: &Run) -> Vec<Value> {
         field("excess twist", "rad/µm", true),
         field("elastic energy per length", "pN", false),
         field("displacement from the first record", "nm", false),
+        field("force of loads, linkers and contacts", "pN", false),
+        field("force of contacts", "pN", false),
     ];
     for state in &run.states {
         let moved = moved(&run.assembly, &run.states[0], state);
-        for (i, moved) in local(&run.assembly, state).into_iter().zip(moved) {
-            for (field, value) in all.iter_mut().zip(i.into_iter().chain([moved])) {
+        let forces = external_forces(&run.assembly, state);
+        let local = local(&run.assembly, state).into_iter();
+        for ((local, moved), forces) in local.zip(moved).zip(forces) {
+            for (field, value) in all
+                .iter_mut()
+                .zip(local.into_iter().chain([moved]).chain(forces))
+            {
                 field.values.push(value);
             }
         }
@@ -180,6 +187,24 @@ fn local(assembly: &Assembly, state: &State) -> Vec<[f64; 3]> {
         }
     }
     all
+}
+
+/// Returns the norms of the force of loads, linkers and contacts, and of the force of contacts alone (pN), at each point.
+fn external_forces(assembly: &Assembly, state: &State) -> Vec<[f64; 2]> {
+    let (mut all, mut contacts) = (Loads::zeros(state), Loads::zeros(state));
+    for (term, interaction) in assembly.terms.iter().zip(assembly.system.interactions()) {
+        match term.part {
+            Part::Load(_) | Part::Linker(_) => interaction.add_loads(state, &mut all),
+            Part::Contacts | Part::Plane(_) | Part::Sphere(_) => {
+                interaction.add_loads(state, &mut all);
+                interaction.add_loads(state, &mut contacts);
+            }
+            Part::Section(_) | Part::Junction(_) | Part::Clamp(_) => {}
+        }
+    }
+    let both = all.force.iter().zip(contacts.force.iter());
+    both.map(|(all, contacts)| [all.norm(), contacts.norm()])
+        .collect()
 }
 
 fn moved<'a>(

@@ -116,7 +116,7 @@ impl Run {
                 "Drag to turn, " kbd { "Shift" } " and drag to move, wheel or two fingers to zoom, arrow keys, "
                 kbd { "0" } " to reset, " kbd { "x" } " " kbd { "y" } " " kbd { "z" } " to look along an axis, "
                 kbd { "Space" } " to play, " kbd { "," } " and " kbd { "." } " for single records. The projection is \
-                 orthographic. All force arrows have the same length. Linkers are labelled with their tension, negative in compression."
+                 orthographic. A click on a body follows it. Linkers are labelled with their tension, negative in compression."
             }
             p {
                 "Created by " code { "actin view " (self.path.display()) } ", version " (env!("CARGO_PKG_VERSION")) "."
@@ -189,17 +189,23 @@ fn stage() -> Markup {
                         }
                     }
                     span class="group" {
+                        button type="button" id="picture" aria-label="Save a picture" { "PNG" }
+                        button type="button" id="film" aria-label="Save the playback as a film" aria-pressed="false" { "Film" }
+                    }
+                    span class="group" {
                         button type="button" id="smaller" aria-label="Smaller" { "−" }
                         button type="button" id="larger" aria-label="Larger" { "+" }
                         button type="button" id="reset" { "Reset" }
                     }
                 }
                 canvas id="space" tabindex="0" role="img" aria-label="Three-dimensional view, turned with the arrow keys" {}
+                div id="tip" role="status" hidden {}
             }
             (transport())
             div class="below" {
                 div id="bar" hidden { i {} div { span {} span {} span {} } }
                 ul id="legend" class="legend" {}
+                span id="followed" {}
                 span id="record" {}
             }
         }
