@@ -47,11 +47,11 @@ impl Ramp {
     /// # Source
     /// K. Moreland, Diverging Color Maps for Scientific Visualization (2009), with a darker grey, visible on white.
     pub const BLUE_GREY_RED: Self = Self(&[
-        [59, 76, 192],
+        [30, 70, 180],
         [120, 150, 235],
         [190, 190, 190],
         [235, 140, 110],
-        [180, 4, 38],
+        [190, 25, 35],
     ]);
 
     /// Returns the colours at equal steps.
