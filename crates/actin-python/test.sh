@@ -11,7 +11,7 @@ most_bytes=6000000
 python="${PYTHON:-python3}"
 "$python" -c 'import sys; sys.exit(sys.version_info < (3, 10))'
 [ -x "$tools/bin/python" ] || "$python" -m venv "$tools"
-"$tools/bin/pip" install --quiet 'numpy>=1.24' pytest mypy nbclient ipykernel matplotlib cosseratbench
+"$tools/bin/pip" install --quiet 'numpy>=1.24' pytest mypy pyright nbclient ipykernel matplotlib pandas xarray scipy gsd cosseratbench
 echo "environment: $SECONDS s"
 
 SECONDS=0
@@ -20,7 +20,7 @@ if [ "${1:-}" = release ]; then
   rm -rf "$wheels"
   "$tools/bin/maturin" build --quiet --release --locked \
     --manifest-path crates/actin-python/Cargo.toml --interpreter "$tools/bin/python" --out "$wheels"
-  wheel=$(ls "$wheels"/actin-*-cp310-abi3-*.whl)
+  wheel=$(ls "$wheels"/actin_filaments-*-cp310-abi3-*.whl)
   bytes=$(wc -c < "$wheel")
   echo "wheel: $SECONDS s, $(basename "$wheel"), $bytes bytes"
   [ "$bytes" -lt "$most_bytes" ] || { echo "the wheel has more than $most_bytes bytes"; exit 1; }
@@ -30,11 +30,11 @@ else
   cargo build --quiet --workspace --lib --bins --tests --examples
   rm -rf "$site"
   version=$(cargo pkgid -p actin-python | sed 's/.*[@#]//')
-  mkdir -p "$site/actin-$version.dist-info"
-  cp -r crates/actin-python/python/actin "$site/"
-  cp target/debug/libactin_python.so "$site/actin/_actin.abi3.so"
-  printf 'Metadata-Version: 2.1\nName: actin\nVersion: %s\n' "$version" > "$site/actin-$version.dist-info/METADATA"
-  printf '[cosseratbench.solvers]\nactin = actin.cosseratbench:ActinSolver\n' > "$site/actin-$version.dist-info/entry_points.txt"
+  mkdir -p "$site/actin_filaments-$version.dist-info"
+  cp -r crates/actin-python/python/. "$site/"
+  cp target/debug/libactin_python.so "$site/actin_filaments/_actin.abi3.so"
+  printf 'Metadata-Version: 2.1\nName: actin-filaments\nVersion: %s\n' "$version" > "$site/actin_filaments-$version.dist-info/METADATA"
+  printf '[cosseratbench.solvers]\nactin = actin_filaments.cosseratbench:ActinSolver\n' > "$site/actin_filaments-$version.dist-info/entry_points.txt"
   export PYTHONPATH="$site"
 fi
 echo "library: $SECONDS s"
@@ -42,6 +42,7 @@ echo "library: $SECONDS s"
 SECONDS=0
 cd crates/actin-python
 "$tools/bin/python" -m pytest -q tests
-MYPYPATH=python "$tools/bin/python" -m mypy
-"$tools/bin/python" -m mypy.stubtest actin._actin --mypy-config-file pyproject.toml
+"$tools/bin/python" -m mypy
+"$tools/bin/pyright" --pythonpath "$tools/bin/python"
+"$tools/bin/python" -m mypy.stubtest actin_filaments._actin --mypy-config-file pyproject.toml
 echo "tests: $SECONDS s"
