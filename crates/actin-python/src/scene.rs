@@ -202,15 +202,21 @@ impl Scene {
         table.call_method1("text", (self.to_dict(py)?,))?.extract()
     }
 
-    fn _repr_html_(&self, py: Python<'_>) -> PyResult<String> {
-        let html = py.import("actin_filaments._scene")?;
-        let arguments = (self.__repr__(), self.to_dict(py)?, self.to_ron());
-        html.call_method1("html", arguments)?.extract()
+    fn _repr_html_(slf: &Bound<'_, Self>) -> PyResult<String> {
+        let html = slf.py().import("actin_filaments._scene")?;
+        html.call_method1("html", (slf,))?.extract()
+    }
+
+    /// Returns the HTML page of the initial state.
+    fn _page(&self, py: Python<'_>) -> PyResult<String> {
+        let run = py.detach(|| actin_view::Run::initial(&self.inner));
+        let run = run.map_err(|problem| self.refuse(py, &problem))?;
+        Ok(py.detach(|| run.page(actin_view::Palette::default())))
     }
 
     /// Returns the scene with other values: `scene.with_({"linkers[*].stiffness_pn_per_nm": 2.0}, title="stiff")`.
     ///
-    /// Keys are those of `set`; `[*]` stands for all elements of a list.
+    /// A key is a path as in `set`, or has `[*]` for all elements of a list.
     #[pyo3(signature = (changes = None, /, **keys))]
     fn with_(
         slf: &Bound<'_, Self>,

@@ -68,7 +68,7 @@ class Scene:
     def with_(self, changes: Mapping[str, Any] | None = None, /, **keys: Any) -> Scene:
         """Returns the scene with other values: `scene.with_({"linkers[*].stiffness_pn_per_nm": 2.0}, title="stiff")`.
 
-        Keys are those of `set`; `[*]` stands for all elements of a list.
+        A key is a path as in `set`, or has `[*]` for all elements of a list.
         """
     def view(self) -> Page:
         """Returns the initial state as an interactive page, which a notebook shows."""
@@ -90,6 +90,8 @@ class Scene:
     def __eq__(self, other: object, /) -> bool: ...
     def __ne__(self, other: object, /) -> bool: ...
     def _repr_html_(self) -> str: ...
+    def _page(self) -> str:
+        """Returns the HTML page of the initial state."""
 
 @final
 class Progress:

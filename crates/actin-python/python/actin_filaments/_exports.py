@@ -95,8 +95,11 @@ def folder(run: Run) -> Iterator[Path]:
     if "position_nm" not in run._arrays:
         raise ValueError("the run has no states: `output.states` of the scene is false")
     with tempfile.TemporaryDirectory(prefix="actin-run-") as temporary:
-        _write(run, Path(temporary))
-        yield Path(temporary)
+        # Pages without a title have the name of the folder.
+        directory = Path(temporary) / "run"
+        directory.mkdir()
+        _write(run, directory)
+        yield directory
 
 
 def _write(run: Run, directory: Path) -> None:

@@ -16,7 +16,7 @@ Array = NDArray[np.float64]
 
 
 class Frame:
-    """A record of a run: arrays of `n` points and `m` frames of reference, which are views of those of the run."""
+    """Record of a run: views of its arrays, for `n` points and `m` frames of reference."""
 
     run: Run
     """Run of the record."""

@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import os
-import tempfile
 from pathlib import Path
 
-from actin_filaments import _actin, _html
+from actin_filaments import _html
 from actin_filaments._actin import Scene
 
 
@@ -33,13 +32,6 @@ class Page:
         return f"Page({1e-6 * len(self.text):.1f} MB)"
 
 
-def of_text(ron: str) -> Page:
-    """Returns the page of the initial state of a scene."""
-    with tempfile.TemporaryDirectory(prefix="actin-page-") as folder:
-        (Path(folder) / "scene.ron").write_text(ron, encoding="utf-8")
-        return Page(_actin.page(folder))
-
-
 def of_scene(scene: Scene) -> Page:
-    """Returns the page of the initial state of a scene, with the default of each omitted key."""
-    return of_text(scene.to_ron())
+    """Returns the page of the initial state of a scene."""
+    return Page(scene._page())

@@ -75,9 +75,9 @@ def of_profile(run: Run, field: str, record: int, ax: Axes | None) -> Axes:
         ax = new_axes("Run.plot_profile", figsize=(7.0, 3.5))
     for number in np.unique(profile["filament"])[:20]:
         own = profile["filament"] == number
-        color = COLOURS[int(number) % len(COLOURS)]
+        color = COLOURS[len(ax.get_lines()) % len(COLOURS)]
         ax.plot(profile["s_nm"][own], profile[column][own], color=color, label=f"filament {number:.0f}")
-    if len(ax.get_lines()) > 1:
+    if profile["filament"][-1] > 0:
         ax.legend(fontsize="small")
     ax.set(xlabel="arc length (nm)", ylabel=label)
     return ax

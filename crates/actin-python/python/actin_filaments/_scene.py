@@ -11,7 +11,7 @@ from actin_filaments.errors import SceneError
 
 
 def with_(scene: Scene, changes: Mapping[str, Any] | None, keys: Mapping[str, Any] | None) -> Scene:
-    """Returns the scene with other values; `[*]` in a key stands for all elements of a list."""
+    """Returns the scene with other values; a key may have `[*]` for all elements of a list."""
     for key, value in [*(changes or {}).items(), *(keys or {}).items()]:
         for path in _paths(scene, key):
             scene = scene.set(path, value)
@@ -95,13 +95,10 @@ def text(keys: dict[str, Any]) -> str:
     return "\n".join(f"{name.ljust(width)}  {value}" for name, value in table)
 
 
-def html(title: str, keys: dict[str, Any], ron: str) -> str:
+def html(scene: Scene) -> str:
     """Returns picture, table and collapsed text of a scene. A scene that cannot be built has no picture."""
-    from actin_filaments import _page
-
     try:
-        picture = _page.of_text(ron).html(height=300)
-    except (SceneError, ValueError) as error:
+        picture = scene.view().html(height=560)
+    except SceneError as error:
         picture = _html.paragraph(f"no picture: {error}")
-    return picture + _html.table(title, rows(keys)) + _html.details("scene.ron", ron)
-
+    return picture + _html.table(repr(scene), rows(scene.to_dict())) + _html.details("scene.ron", scene.to_ron())

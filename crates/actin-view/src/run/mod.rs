@@ -14,7 +14,7 @@ use source::Source;
 
 use actin_rundir::FollowedDirectory;
 use actin_sim::mechanics::State;
-use actin_sim::{Assembly, At, Scene, Summary};
+use actin_sim::{Assembly, At, Scene, SceneProblem, Summary};
 use std::fs;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
@@ -83,6 +83,32 @@ pub struct Run {
 }
 
 impl Run {
+    /// Creates the run of a scene without records, whose page shows the initial shape.
+    ///
+    /// # Errors
+    /// If the scene cannot be built.
+    pub fn initial(scene: &Scene) -> Result<Self, SceneProblem> {
+        let assembly = Assembly::build(scene)?;
+        Ok(Self {
+            path: PathBuf::new(),
+            at: Vec::new(),
+            summary: None,
+            remarks: Vec::new(),
+            records: 0,
+            which: vec![0],
+            states: vec![assembly.rest.clone()],
+            curves: Vec::new(),
+            assembly,
+            later: Vec::new(),
+            of_later: Vec::new(),
+        })
+    }
+
+    /// Returns whether the run is a scene without a directory.
+    pub(crate) fn is_initial(&self) -> bool {
+        self.path.as_os_str().is_empty()
+    }
+
     /// Reads a run directory.
     ///
     /// # Errors
