@@ -91,10 +91,10 @@ impl Run {
         let assembly = Assembly::build(scene)?;
         Ok(Self {
             path: PathBuf::new(),
-            at: Vec::new(),
+            at: vec![At::Path(0.0)],
             summary: None,
             remarks: Vec::new(),
-            records: 0,
+            records: 1,
             which: vec![0],
             states: vec![assembly.rest.clone()],
             curves: Vec::new(),
@@ -136,7 +136,8 @@ impl Run {
             ));
         }
         let curves = curves::thinned(source.curves, limits.rows);
-        let at = which.iter().filter_map(|&i| source.at.get(i).copied());
+        let at_of = |&i: &usize| source.at.get(i).copied().unwrap_or(At::Path(0.0));
+        let at = which.iter().map(at_of);
         Ok(Self {
             path: path.to_owned(),
             at: at.collect(),
