@@ -32,6 +32,16 @@ pub(crate) fn execute(command: &mut Command) -> Result<()> {
     bail!("{command:?} failed")
 }
 
+/// Builds and checks the wheel of the Python package, below `target/wheels`.
+///
+/// # Errors
+/// If `crates/actin-python/test.sh` fails.
+pub(crate) fn wheel() -> Result<()> {
+    let mut command = Command::new("bash");
+    command.args(["crates/actin-python/test.sh", "wheel"]);
+    execute(command.current_dir(workspace_root()))
+}
+
 /// Runs a study of `actin-studies` in the release profile and returns its exit code.
 pub(crate) fn study(arguments: &[OsString]) -> ExitCode {
     let mut command = cargo(&[

@@ -27,6 +27,8 @@ struct Arguments {
 enum Task {
     /// Checks formatting, lints, documentation, benches and tidiness.
     Check,
+    /// Builds the wheel of the Python package and checks its size and its manylinux tag.
+    Wheel,
     /// Tests the program with random input, kills and equivalent scenes.
     Trials(trials::Options),
     /// Runs a study in the release profile.
@@ -37,6 +39,7 @@ enum Task {
 fn main() -> ExitCode {
     let outcome = match Arguments::parse().task {
         Task::Check => check::run(),
+        Task::Wheel => command::wheel(),
         Task::Trials(options) => trials::run(&options),
         Task::Study(arguments) => return command::study(&arguments),
     };

@@ -234,7 +234,9 @@ fn certificate(py: Python<'_>, found: &Equilibrium) -> PyResult<Py<PyAny>> {
     arguments.set_item("residual_force", found.residual.force)?;
     arguments.set_item("residual_torque", found.residual.torque)?;
     arguments.set_item("iterations", found.work.iterations)?;
-    let class = py.import("actin.results")?.getattr("Certificate")?;
+    let class = py
+        .import("actin_filaments.results")?
+        .getattr("Certificate")?;
     Ok(class.call((), Some(&arguments))?.unbind())
 }
 

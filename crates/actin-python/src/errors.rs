@@ -1,4 +1,4 @@
-//! Conversion of Rust errors to the exceptions of `actin/errors.py`.
+//! Conversion of Rust errors to the exceptions of `actin_filaments/errors.py`.
 
 use actin_integrate::RunFailure;
 use actin_rundir::RunDirectoryError;
@@ -7,7 +7,7 @@ use pyo3::exceptions::{PyOSError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 
-/// Creates an exception of `actin.errors` with attributes.
+/// Creates an exception of `actin_filaments.errors` with attributes.
 pub(crate) fn raise(
     py: Python<'_>,
     class: &str,
@@ -15,7 +15,7 @@ pub(crate) fn raise(
     attributes: &Bound<'_, PyDict>,
 ) -> PyErr {
     let made = py
-        .import("actin.errors")
+        .import("actin_filaments.errors")
         .and_then(|errors| errors.getattr(class))
         .and_then(|class| class.call1((message,)))
         .and_then(|error| {

@@ -307,6 +307,6 @@ fn report(
     arguments.set_item("condition", precision.condition)?;
     arguments.set_item("agreeing_starts", agreeing)?;
     arguments.set_item("starts", starts)?;
-    let class = py.import("actin.results")?.getattr("Fit")?;
+    let class = py.import("actin_filaments.results")?.getattr("Fit")?;
     Ok(class.call((), Some(&arguments))?.unbind())
 }

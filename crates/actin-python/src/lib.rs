@@ -1,9 +1,10 @@
-//! Native module of the Python package `actin`.
+//! Native module of the Python package `actin_filaments`.
 //!
-//! Exceptions, results and plots are Python modules in `python/actin`.
+//! Exceptions, results and plots are Python modules in `python/actin_filaments`.
 
 mod advance;
 mod arrays;
+mod directory;
 mod driven;
 mod errors;
 mod fit;
@@ -19,7 +20,7 @@ mod trade;
 mod value;
 mod watch;
 
-/// Native module of the package `actin`.
+/// Native module of the package `actin_filaments`.
 #[pyo3::pymodule]
 mod _actin {
     /// Rejects an invalid instruction set in the environment.
@@ -32,6 +33,8 @@ mod _actin {
     use pyo3::exceptions::PyImportError;
     use pyo3::prelude::*;
 
+    #[pymodule_export]
+    use crate::directory::{export, page, profile, scene_schema, unfinished};
     #[pymodule_export]
     use crate::fit::{fit, fit_linear};
     #[pymodule_export]

@@ -13,7 +13,7 @@ use pyo3::prelude::*;
 use std::sync::Arc;
 
 /// Indices of a rod's bodies in a `System`.
-#[pyclass(module = "actin", frozen)]
+#[pyclass(module = "actin_filaments", frozen)]
 #[derive(Debug)]
 pub(crate) struct Rod {
     pub(crate) layout: RodLayout,

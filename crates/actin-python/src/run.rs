@@ -125,7 +125,7 @@ impl Job<'_> {
         match failure {
             None => {
                 let run = run.ok_or_else(|| PyValueError::new_err("the run has no record"))?;
-                py.import("actin.results")?
+                py.import("actin_filaments.results")?
                     .call_method1("emit_warnings", (&run,))?;
                 Ok(run)
             }
@@ -156,7 +156,7 @@ impl Job<'_> {
         arguments.set_item("summary", summary)?;
         arguments.set_item("arrays", arrays)?;
         arguments.set_item("bodies", bodies(py, self.assembly)?)?;
-        let class = py.import("actin.results")?.getattr("Run")?;
+        let class = py.import("actin_filaments.results")?.getattr("Run")?;
         Ok(class.call((), Some(&arguments))?.unbind())
     }
 }
@@ -183,13 +183,33 @@ pub(crate) fn interrupted(
 /// Returns the exception of a failed run, with its records.
 fn failed(py: Python<'_>, failure: &Failure, run: Option<Py<PyAny>>) -> PyErr {
     let attributes = PyDict::new(py);
-    let mut set = attributes.set_item("run", run);
+    let set = attributes.set_item("run", run);
+    let mut set = set.and_then(|()| attributes.set_item("code", code(failure)));
     if let Failure::Diverged { failure, body } = failure {
         set = set.and_then(|()| errors::locate(&attributes, failure, body));
+    }
+    if let Failure::LoadBelowResidual(problem) | Failure::Saddle(problem) = failure {
+        set = set
+            .and_then(|()| attributes.set_item("key", &problem.key))
+            .and_then(|()| attributes.set_item("value", &problem.value));
     }
     match set {
         Ok(()) => errors::raise(py, "RunFailed", &failure.to_string(), &attributes),
         Err(error) => error,
+    }
+}
+
+/// Returns the code of a failure in exceptions.
+fn code(failure: &Failure) -> &'static str {
+    match failure {
+        Failure::PathEnded { .. } => "path-ended",
+        Failure::LoadBelowResidual(_) => "load-below-residual",
+        Failure::ModelLimitExceeded(_) => "model-limit",
+        Failure::Saddle(_) => "saddle",
+        Failure::TwistLost { .. } => "twist-lost",
+        Failure::HingeSlipped { .. } => "hinge-slipped",
+        Failure::Diverged { .. } => "diverged",
+        _ => "run-failed",
     }
 }
 
@@ -272,7 +292,7 @@ fn into_directory(py: Python<'_>, job: &Job<'_>, target: &Target) -> PyResult<Py
     );
     let opened = checkpoints.open(job.plan, target.existing);
     let OpenedRun::Begun { saved, lock: _lock } = opened.map_err(refused)? else {
-        let load = py.import("actin.results")?.getattr("load")?;
+        let load = py.import("actin_filaments.results")?.getattr("load")?;
         return Ok(load.call1((&target.path,))?.unbind());
     };
     let ended = job.advance(py, saved.map(|saved| *saved), &mut checkpoints)?;
@@ -286,7 +306,9 @@ fn into_directory(py: Python<'_>, job: &Job<'_>, target: &Target) -> PyResult<Py
     if status != Status::Interrupted {
         checkpoints.finish(status).map_err(refused)?;
     }
-    concluded
+    let run = concluded?;
+    run.setattr(py, "directory", &target.path)?;
+    Ok(run)
 }
 
 /// Issues a Python warning for a checkpoint that could not be written.

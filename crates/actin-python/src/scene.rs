@@ -14,7 +14,7 @@ use std::sync::Arc;
 /// Keys and rules are those of scene files. In dictionaries, a choice with keys is a dictionary with one entry
 /// (`{"Rod": {"from_nm": 0.0, "to_nm": 40.0}}`), and a choice without keys is a string (`"Start"`). Scenes are
 /// immutable: `set` and `reseed` return new scenes. Invalid scenes raise `SceneError`.
-#[pyclass(module = "actin", frozen, eq)]
+#[pyclass(module = "actin_filaments", frozen, eq)]
 #[derive(Debug)]
 pub(crate) struct Scene {
     pub(crate) inner: Inner,
@@ -44,6 +44,16 @@ impl Scene {
         let inner = inner.map_err(|error| errors::mistakes(py, &text, error))?;
         let text = Some(text);
         Ok(Self { inner, text })
+    }
+
+    /// Reads a scene file.
+    pub(crate) fn read(py: Python<'_>, path: &Path) -> PyResult<Self> {
+        // The kind of the error selects the Python exception.
+        let named =
+            |error: io::Error| io::Error::new(error.kind(), format!("{}: {error}", path.display()));
+        let bytes = std::fs::read(path).map_err(named)?;
+        let text = Inner::text(bytes).map_err(|error| errors::unread(py, &error))?;
+        Self::of_text(py, &text, path.parent())
     }
 
     /// Reports a problem that was found when the scene was built or run.
@@ -87,12 +97,7 @@ impl Scene {
     /// Reads a scene file.
     #[staticmethod]
     fn from_file(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
-        // The kind of the error selects the Python exception.
-        let named =
-            |error: io::Error| io::Error::new(error.kind(), format!("{}: {error}", path.display()));
-        let bytes = std::fs::read(&path).map_err(named)?;
-        let text = Inner::text(bytes).map_err(|error| errors::unread(py, &error))?;
-        Self::of_text(py, &text, path.parent())
+        Self::read(py, &path)
     }
 
     /// Returns the text of the scene, with all defaults.
@@ -138,23 +143,12 @@ impl Scene {
         let plan = py.detach(|| Plan::new(&assembly));
         let plan = plan.map_err(|problem| self.refuse(py, &problem))?;
         let found = PyDict::new(py);
-        let counts = assembly.counts();
-        let numbers = PyDict::new(py);
-        for (name, number) in [
-            ("monomers", counts.monomers),
-            ("bonds", counts.bonds),
-            ("segments", counts.segments),
-            ("junctions", counts.junctions),
-            ("dofs", counts.dofs),
-        ] {
-            numbers.set_item(name, number)?;
-        }
         let scene = Self {
             inner: plan.scene().clone(),
             text: None,
         };
         found.set_item("scene", scene)?;
-        found.set_item("counts", numbers)?;
+        found.set_item("counts", counts(py, &assembly)?)?;
         if let Some(estimate) = plan.estimate() {
             found.set_item("time_step_ns", estimate.time_step_ns)?;
             found.set_item("steps", estimate.steps)?;
@@ -203,14 +197,60 @@ impl Scene {
         )
     }
 
-    fn _repr_html_(&self, py: Python<'_>) -> PyResult<String> {
-        let html = py.import("actin._html")?;
-        html.call_method1("of_scene", (self.__repr__(), self.to_ron()))?
-            .extract()
+    fn __str__(&self, py: Python<'_>) -> PyResult<String> {
+        let table = py.import("actin_filaments._scene")?;
+        table.call_method1("text", (self.to_dict(py)?,))?.extract()
+    }
+
+    fn _repr_html_(slf: &Bound<'_, Self>) -> PyResult<String> {
+        let html = slf.py().import("actin_filaments._scene")?;
+        html.call_method1("html", (slf,))?.extract()
+    }
+
+    /// Returns the HTML page of the initial state.
+    fn _page(&self, py: Python<'_>) -> PyResult<String> {
+        let run = py.detach(|| actin_view::Run::initial(&self.inner));
+        let run = run.map_err(|problem| self.refuse(py, &problem))?;
+        Ok(py.detach(|| run.page(actin_view::Palette::default())))
+    }
+
+    /// Returns the scene with other values: `scene.with_({"linkers[*].stiffness_pn_per_nm": 2.0}, title="stiff")`.
+    ///
+    /// A key is a path as in `set`, or has `[*]` for all elements of a list.
+    #[pyo3(signature = (changes = None, /, **keys))]
+    fn with_(
+        slf: &Bound<'_, Self>,
+        changes: Option<&Bound<'_, PyAny>>,
+        keys: Option<&Bound<'_, PyDict>>,
+    ) -> PyResult<Py<PyAny>> {
+        let module = slf.py().import("actin_filaments._scene")?;
+        Ok(module.call_method1("with_", (slf, changes, keys))?.unbind())
+    }
+
+    /// Returns the initial state as an interactive page, which a notebook shows.
+    fn view(slf: &Bound<'_, Self>) -> PyResult<Py<PyAny>> {
+        let module = slf.py().import("actin_filaments._page")?;
+        Ok(module.call_method1("of_scene", (slf,))?.unbind())
     }
 
     fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, (String,))> {
         let read = py.get_type::<Self>().getattr("from_ron")?;
         Ok((read, (self.to_ron(),)))
     }
+}
+
+/// Returns the numbers of bodies and degrees of freedom by name.
+pub(crate) fn counts<'py>(py: Python<'py>, assembly: &Assembly) -> PyResult<Bound<'py, PyDict>> {
+    let counts = assembly.counts();
+    let numbers = PyDict::new(py);
+    for (name, number) in [
+        ("monomers", counts.monomers),
+        ("bonds", counts.bonds),
+        ("segments", counts.segments),
+        ("junctions", counts.junctions),
+        ("dofs", counts.dofs),
+    ] {
+        numbers.set_item(name, number)?;
+    }
+    Ok(numbers)
 }

@@ -77,7 +77,7 @@ impl Clock {
 /// Points have positions `[n, 3]` and velocities; frames have orientations `[m, 4]` (w, x, y, z; body to lab)
 /// and angular momenta (body frame). Any consistent units can be used; scenes use nm, pN and ns. Arrays are
 /// read-only copies: assign a whole array to change the state.
-#[pyclass(module = "actin")]
+#[pyclass(module = "actin_filaments")]
 #[derive(Debug)]
 pub(crate) struct System {
     pub(crate) mechanics: Mechanics,

@@ -68,7 +68,7 @@ pub(crate) fn trade(
     if error.is_some() {
         return Err(interrupted(py, error, ("trade", Some(found))));
     }
-    py.import("actin.results")?
+    py.import("actin_filaments.results")?
         .call_method1("emit_warnings", (&found,))?;
     Ok(found)
 }
@@ -118,7 +118,7 @@ fn to_python(py: Python<'_>, trade: &Trade) -> PyResult<Py<PyAny>> {
     arguments.set_item("left_out", &trade.left_out)?;
     arguments.set_item("scatter", scatter.transpose()?)?;
     arguments.set_item("wanted_error", trade.options.error)?;
-    let class = py.import("actin._trade")?.getattr("Trade")?;
+    let class = py.import("actin_filaments._trade")?.getattr("Trade")?;
     Ok(class.call((), Some(&arguments))?.unbind())
 }
 

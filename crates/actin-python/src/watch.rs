@@ -10,7 +10,7 @@ const SIGNALS: Duration = Duration::from_millis(50);
 const SHOWN: Duration = Duration::from_millis(100);
 
 /// Progress of a run.
-#[pyclass(module = "actin", frozen)]
+#[pyclass(module = "actin_filaments", frozen)]
 #[derive(Debug)]
 pub(crate) struct Progress {
     /// Completed fraction of the run, from 0 to 1.
@@ -138,7 +138,7 @@ fn signals() -> PyResult<()> {
 /// Returns the progress callback: a terminal bar for `None`, no callback for `False`.
 pub(crate) fn callback(py: Python<'_>, progress: Option<Py<PyAny>>) -> PyResult<Option<Py<PyAny>>> {
     let chosen = py
-        .import("actin._progress")?
+        .import("actin_filaments._progress")?
         .call_method1("callback", (progress,))?;
     Ok((!chosen.is_none()).then(|| chosen.unbind()))
 }
@@ -147,7 +147,7 @@ pub(crate) fn callback(py: Python<'_>, progress: Option<Py<PyAny>>) -> PyResult<
 pub(crate) fn finish(py: Python<'_>, progress: Option<&Py<PyAny>>) -> PyResult<()> {
     match progress {
         Some(progress) => py
-            .import("actin._progress")?
+            .import("actin_filaments._progress")?
             .call_method1("finish", (progress,))
             .map(drop),
         None => Ok(()),

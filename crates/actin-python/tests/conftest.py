@@ -6,7 +6,7 @@ import copy
 from pathlib import Path
 from typing import Any
 
-import actin
+import actin_filaments as af
 import pytest
 
 KEYS: dict[str, Any] = {
@@ -53,16 +53,16 @@ def text() -> str:
 
 
 @pytest.fixture
-def scene() -> actin.Scene:
-    return actin.Scene(**KEYS)
+def scene() -> af.Scene:
+    return af.Scene(**KEYS)
 
 
 @pytest.fixture
-def motion(scene: actin.Scene) -> actin.Scene:
+def motion(scene: af.Scene) -> af.Scene:
     return scene.set("task", {"Dynamics": {"duration_ns": 1.0, "record_every_ns": 0.1}})
 
 
 @pytest.fixture
-def long_motion(scene: actin.Scene) -> actin.Scene:
+def long_motion(scene: af.Scene) -> af.Scene:
     """A motion that takes minutes."""
     return scene.set("task", {"Dynamics": {"duration_ns": 1e5, "record_every_ns": 1.0}})

@@ -30,7 +30,7 @@ def test_the_notebook_runs(root, tmp_path):
     nbclient.NotebookClient(notebook, timeout=120, resources={"metadata": {"path": tmp_path}}).execute()
     outputs = [output for cell in notebook.cells for output in cell.get("outputs", [])]
     figures = [output for output in outputs if "image/png" in output.get("data", {})]
-    assert len(figures) == 4
+    assert len(figures) == 5
     # The stored notebook has no outputs that could be outdated.
     kept = nbformat.read(root / "docs/python.ipynb", as_version=4)
     assert not any(cell.get("outputs") for cell in kept.cells)

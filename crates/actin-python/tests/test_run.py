@@ -6,13 +6,13 @@ import threading
 import time
 import warnings
 
-import actin
+import actin_filaments as af
 import numpy as np
 import pytest
 
 
 def test_equilibrium_with_certificate(scene):
-    found = actin.equilibrium(scene, lowest_eigenvalue=True)
+    found = af.equilibrium(scene, lowest_eigenvalue=True)
     assert found.certificate.stable and found.certificate.negative_eigenvalues == 0
     assert found.certificate.residual_force < 1e-7 and found.certificate.iterations > 3
     assert found.lowest_eigenvalue > found.certificate.resolution
@@ -25,12 +25,12 @@ def test_equilibrium_with_certificate(scene):
 
 
 def test_a_motion_is_solved_for_its_equilibrium(scene, motion):
-    direct, instead = actin.equilibrium(scene), actin.equilibrium(motion)
+    direct, instead = af.equilibrium(scene), af.equilibrium(motion)
     assert np.array_equal(direct.position_nm, instead.position_nm)
 
 
 def test_arrays_are_read_only_and_not_copied(motion):
-    run = actin.run(motion)
+    run = af.run(motion)
     assert run.position_nm is run.position_nm
     with pytest.raises(ValueError, match="read-only"):
         run.position_nm[0, 0, 0] = 1.0
@@ -44,7 +44,7 @@ def test_arrays_are_read_only_and_not_copied(motion):
 
 
 def test_energy_of_a_motion_is_kept(motion):
-    run = actin.run(motion)
+    run = af.run(motion)
     total = sum(run.energies_pn_nm.values()) + run.kinetic_pn_nm
     assert run.kinetic_pn_nm.max() > 0.1
     assert np.abs(total - total[0]).max() < 1e-4 * run.kinetic_pn_nm.max()
@@ -54,7 +54,7 @@ def test_energy_of_a_motion_is_kept(motion):
 
 
 def test_observables_have_columns(motion):
-    run = actin.run(motion.set("observe", [{"Tip": {}}]))
+    run = af.run(motion.set("observe", [{"Tip": {}}]))
     assert list(run.observables) == ["tip[0]_x_nm", "tip[0]_y_nm", "tip[0]_z_nm"]
     last = [column[-1] for column in run.observables.values()]
     assert last == pytest.approx(run.tip_nm)
@@ -63,27 +63,27 @@ def test_observables_have_columns(motion):
 
 def test_a_directory_is_written_and_read_back(motion, tmp_path):
     out = tmp_path / "run"
-    run = actin.run(motion.set("observe", [{"Tip": {}}]), out)
-    back = actin.load(out)
+    run = af.run(motion.set("observe", [{"Tip": {}}]), out)
+    back = af.load(out)
     assert {"summary.json", "states.npz", "energies.csv", "scene.ron"} <= set(os.listdir(out))
     assert back.summary == run.summary and back.scene == run.scene
     for name in ("position_nm", "quaternion", "centre_line_nm", "time_ns", "kinetic_pn_nm", "frame_s_nm", "filament"):
         assert np.array_equal(getattr(back, name), getattr(run, name)), name
     assert back.observables.keys() == run.observables.keys()
     with pytest.raises(OSError, match="not empty"):
-        actin.run(motion, out)
-    again = actin.run(motion, out, overwrite=True)
+        af.run(motion, out)
+    again = af.run(motion, out, overwrite=True)
     assert np.array_equal(again.position_nm, run.position_nm)
-    finished = actin.run(motion, out, resume=True)
+    finished = af.run(motion, out, resume=True)
     assert np.array_equal(finished.position_nm, run.position_nm)
     with pytest.raises(OSError):
-        actin.load(tmp_path / "none")
+        af.load(tmp_path / "none")
 
 
 def test_a_failed_run_reports_its_location(motion):
     wild = motion.set("task.time_step_ns", 1.0).set("task.allow_unstable_step", True)
-    with pytest.raises(actin.RunFailed) as caught:
-        actin.run(wild)
+    with pytest.raises(af.RunFailed) as caught:
+        af.run(wild)
     error = caught.value
     assert error.step is not None and error.step > 0 and error.time_ns > 0.0
     assert "nm" in error.body and error.term in {"bonds", "rod", "junction"}
@@ -93,8 +93,8 @@ def test_a_failed_run_reports_its_location(motion):
 
 def test_a_problem_of_a_plan_has_its_line(text):
     spoilt = text.replace("Equilibrium()", "Dynamics(duration_ns: 1.0,\n        time_step_ns: 1.0)")
-    with pytest.raises(actin.SceneError, match="stability limit") as caught:
-        actin.run(actin.Scene.from_ron(spoilt))
+    with pytest.raises(af.SceneError, match="stability limit") as caught:
+        af.run(af.Scene.from_ron(spoilt))
     assert (caught.value.key, caught.value.line) == ("task.time_step_ns", 12)
 
 
@@ -105,8 +105,8 @@ def interrupt_soon(seconds: float) -> None:
 def test_ctrl_c_ends_a_run_that_keeps_its_records(long_motion, tmp_path):
     interrupt_soon(0.5)
     started = time.monotonic()
-    with pytest.raises(actin.Interrupted) as caught:
-        actin.run(long_motion)
+    with pytest.raises(af.Interrupted) as caught:
+        af.run(long_motion)
     assert time.monotonic() - started < 5.0
     assert isinstance(caught.value, KeyboardInterrupt)
     assert caught.value.run.status == "interrupted" and len(caught.value.run) > 1
@@ -115,33 +115,33 @@ def test_ctrl_c_ends_a_run_that_keeps_its_records(long_motion, tmp_path):
 def test_an_interrupted_run_is_resumed_to_the_same_bits(scene, tmp_path):
     task = {"Dynamics": {"duration_ns": 300.0, "record_every_ns": 25.0}}
     motion, out = scene.set("task", task), tmp_path / "run"
-    whole = actin.run(motion)
+    whole = af.run(motion)
 
-    def stop_half_way(progress: actin.Progress) -> None:
+    def stop_half_way(progress: af.Progress) -> None:
         if progress.share > 0.4:
             raise KeyboardInterrupt
 
-    with pytest.raises(actin.Interrupted):
-        actin.run(motion, out, progress=stop_half_way)
-    resumed = actin.run(motion, out, resume=True)
+    with pytest.raises(af.Interrupted):
+        af.run(motion, out, progress=stop_half_way)
+    resumed = af.run(motion, out, resume=True)
     assert resumed.status == "completed"
     assert np.array_equal(resumed.position_nm, whole.position_nm)
 
 
 def test_a_completed_motion_is_extended_to_the_same_bits(scene, tmp_path):
-    def motion(duration_ns: float) -> actin.Scene:
+    def motion(duration_ns: float) -> af.Scene:
         return scene.set("task", {"Dynamics": {"duration_ns": duration_ns, "record_every_ns": 0.5}})
 
     out = tmp_path / "run"
-    actin.run(motion(1.0), out)
-    extended = actin.run(motion(2.0), out, resume=True)
-    assert np.array_equal(extended.position_nm, actin.run(motion(2.0)).position_nm)
+    af.run(motion(1.0), out)
+    extended = af.run(motion(2.0), out, resume=True)
+    assert np.array_equal(extended.position_nm, af.run(motion(2.0)).position_nm)
     with pytest.raises(ValueError, match="belongs to another scene"):
-        actin.run(motion(1.0), out, resume=True)
+        af.run(motion(1.0), out, resume=True)
     summary = out / "summary.json"
     summary.write_text(summary.read_text().replace('"format": 1', '"format": 2'))
     with pytest.raises(ValueError, match="format version 2"):
-        actin.load(out)
+        af.load(out)
 
 
 def test_other_threads_run_during_a_run(scene):
@@ -157,7 +157,7 @@ def test_other_threads_run_during_a_run(scene):
     thread = threading.Thread(target=tick)
     thread.start()
     started = time.monotonic()
-    actin.run(scene.set("task", {"Dynamics": {"duration_ns": 100.0, "record_every_ns": 100.0}}))
+    af.run(scene.set("task", {"Dynamics": {"duration_ns": 100.0, "record_every_ns": 100.0}}))
     seconds = time.monotonic() - started
     ended.set()
     thread.join()
@@ -166,53 +166,82 @@ def test_other_threads_run_during_a_run(scene):
 
 def test_progress_is_reported_and_can_end_a_run(scene, long_motion):
     seen = []
-    actin.run(scene.set("task", {"Dynamics": {"duration_ns": 5.0, "record_every_ns": 0.01}}), progress=seen.append)
+    af.run(scene.set("task", {"Dynamics": {"duration_ns": 5.0, "record_every_ns": 0.01}}), progress=seen.append)
     assert seen[-1].share == 1.0 and seen[-1].unit == "ns" and seen[-1].end == 5.0
     assert all(a.share <= b.share for a, b in zip(seen, seen[1:]))
 
-    def refuse(progress: actin.Progress) -> None:
+    def refuse(progress: af.Progress) -> None:
         raise RuntimeError("enough")
 
     with pytest.raises(RuntimeError, match="enough"):
-        actin.run(long_motion, progress=refuse)
+        af.run(long_motion, progress=refuse)
     with pytest.raises(TypeError, match="progress must be"):
-        actin.run(scene, progress=3)
+        af.run(scene, progress=3)
 
 
 def test_the_bar_is_drawn_and_taken_away(motion, capsys):
-    actin.run(motion, progress=True)
+    af.run(motion, progress=True)
     shown = capsys.readouterr().err
     assert "100 %" in shown and "of 1 ns" in shown and shown.endswith("\r")
-    actin.run(motion)
+    af.run(motion)
     assert capsys.readouterr().err == ""
 
 
 def test_sweep(scene, tmp_path):
     forces = [-0.5, -1.0, -2.0]
-    table = actin.sweep(scene, {"loads[0].force_pn[0]": forces}, ["tip_displacement_nm[0]"], jobs=2)
+    table = af.sweep(scene, {"loads[0].force_pn[0]": forces}, ["tip_displacement_nm[0]"], jobs=2)
     assert len(table) == 3 and table.failed == 0
     assert np.array_equal(table["loads[0].force_pn[0]"], forces)
-    alone = actin.equilibrium(scene.set("loads[0].force_pn[0]", -1.0))
+    alone = af.equilibrium(scene.set("loads[0].force_pn[0]", -1.0))
     assert table["tip_displacement_nm[0]"][1] == pytest.approx(alone.tip_displacement_nm[0], rel=1e-12)
 
     together = {("loads[0].force_pn", "filament.rod.law"): [((0.0, -1.0, 0.0), "Constant"), ((0.0, -2.0, 0.0), "Fitted")]}
-    kept = actin.sweep(scene, together, ["tip_displacement_nm[1]"], out=tmp_path / "sweep")
+    kept = af.sweep(scene, together, ["tip_displacement_nm[1]"], out=tmp_path / "sweep")
     assert (tmp_path / "sweep" / "runs" / "1" / "summary.json").exists()
     assert kept["tip_displacement_nm[1]"][1] < kept["tip_displacement_nm[1]"][0] < 0.0
     with pytest.raises(ValueError, match="resume"):
-        actin.sweep(scene, together, ["tip_displacement_nm[1]"], out=tmp_path / "sweep")
-    actin.sweep(scene, together, ["tip_displacement_nm[1]"], out=tmp_path / "sweep", resume=True)
+        af.sweep(scene, together, ["tip_displacement_nm[1]"], out=tmp_path / "sweep")
+    af.sweep(scene, together, ["tip_displacement_nm[1]"], out=tmp_path / "sweep", resume=True)
 
 
 def test_sweeps_report_mistakes(scene):
-    with pytest.raises(actin.SceneError) as caught:
-        actin.sweep(scene, {"loads[0].forse_pn": [(0.0, 0.0, 1.0)]}, ["tip_nm[0]"])
+    with pytest.raises(af.SceneError) as caught:
+        af.sweep(scene, {"loads[0].forse_pn": [(0.0, 0.0, 1.0)]}, ["tip_nm[0]"])
     assert caught.value.key == "vary[0].rows[0][0]" and "force_pn" in caught.value.rule
-    with pytest.raises(actin.SceneError) as caught:
-        actin.sweep(scene, {}, ["tip_nm[7]"])
+    with pytest.raises(af.SceneError) as caught:
+        af.sweep(scene, {}, ["tip_nm[7]"])
     assert caught.value.key == "results[0]"
-    failing = actin.sweep(scene, {"loads[0].force_pn[0]": [-1.0, 1e9]}, ["tip_nm[0]"])
+    failing = af.sweep(scene, {"loads[0].force_pn[0]": [-1.0, 1e9]}, ["tip_nm[0]"])
     assert failing.failed == 1 and np.isnan(failing["tip_nm[0]"][1]) and failing["failure"][1]
+
+
+def test_a_sweep_is_a_mapping_from_values_to_runs(scene):
+    pytest.importorskip("pandas")
+    forces, laws = np.linspace(-2.0, -1.0, 2), ["Fitted", "Constant"]
+    table = af.sweep(scene, {"loads[0].force_pn[0]": forces, "filament.rod.law": laws}, ["energy_pn_nm.total"], jobs=2)
+    assert list(table) == [(-2.0, "Fitted"), (-2.0, "Constant"), (-1.0, "Fitted"), (-1.0, "Constant")]
+    run = table[forces[1], "Fitted"]
+    assert run.scene.to_dict()["loads"][0]["EndForce"]["force_pn"][0] == -1.0
+    alone = af.equilibrium(scene.set("loads[0].force_pn[0]", -1.0))
+    assert np.allclose(run.position_nm[-1], alone.position_nm, rtol=1e-12)
+    assert (-1.0, "Fitted") in table and (-3.0, "Fitted") not in table
+    with pytest.raises(KeyError, match="no run and no column"):
+        table[-3.0, "Fitted"]
+    frame = table.to_dataframe()
+    assert list(frame["filament.rod.law"]) == [law for _, law in table] and set(frame["status"]) == {"converged"}
+
+
+def test_a_latin_hypercube_fills_each_interval(scene):
+    pytest.importorskip("scipy")
+    bounds = {"loads[0].force_pn[0]": (-2.0, -1.0), "loads[0].force_pn[1]": (0.0, 1.0)}
+    drawn = af.latin_hypercube(bounds, 4, seed=3)
+    ((keys, rows),) = drawn.items()
+    assert keys == tuple(bounds)
+    for column, (low, high) in zip(np.transpose(rows), bounds.values()):
+        assert sorted(np.floor(4 * (column - low) / (high - low))) == [0, 1, 2, 3]
+    table = af.sweep(scene, drawn, ["tip_nm[1]"])
+    assert list(table) == rows and np.all(table["tip_nm[1]"] > 0.0)
+    assert table[rows[2]].tip_nm[1] == table["tip_nm[1]"][2]
 
 
 def test_ctrl_c_ends_a_sweep_that_can_be_resumed(scene, tmp_path):
@@ -221,31 +250,31 @@ def test_ctrl_c_ends_a_sweep_that_can_be_resumed(scene, tmp_path):
     interrupt_soon(0.2)
     started = time.monotonic()
     with pytest.raises(KeyboardInterrupt):
-        actin.sweep(scene.set("task", {"Dynamics": {"duration_ns": 1e5}}), vary, results, jobs=2)
+        af.sweep(scene.set("task", {"Dynamics": {"duration_ns": 1e5}}), vary, results, jobs=2)
     assert time.monotonic() - started < 10.0
 
-    def stop(progress: actin.Progress) -> None:
+    def stop(progress: af.Progress) -> None:
         if progress.at >= 1:
             raise KeyboardInterrupt
 
     out = tmp_path / "sweep"
     with pytest.raises(KeyboardInterrupt):
-        actin.sweep(scene.set("task", short), vary, results, jobs=1, out=out, progress=stop)
-    resumed = actin.sweep(scene.set("task", short), vary, results, jobs=1, out=out, resume=True)
-    whole = actin.sweep(scene.set("task", short), vary, results, jobs=2)
+        af.sweep(scene.set("task", short), vary, results, jobs=1, out=out, progress=stop)
+    resumed = af.sweep(scene.set("task", short), vary, results, jobs=1, out=out, resume=True)
+    whole = af.sweep(scene.set("task", short), vary, results, jobs=2)
     assert np.array_equal(resumed["tip_nm[0]"], whole["tip_nm[0]"])
 
 
 def test_representations(scene, motion):
-    found = actin.equilibrium(scene)
+    found = af.equilibrium(scene)
     assert repr(found).startswith("Equilibrium(stable, energy -")
     assert "certificate" in found._repr_html_() and "stable" in found._repr_html_()
-    assert repr(actin.run(motion)) == "Run(completed, 11 records, 16 monomers, 8 segments)"
+    assert repr(af.run(motion)) == "Run(completed, 11 records, 16 monomers, 8 segments)"
 
 
 def test_pyvista_gets_lines_and_ellipsoids(scene):
     pytest.importorskip("pyvista")
-    found = actin.equilibrium(scene)
+    found = af.equilibrium(scene)
     blocks = found.to_pyvista()
     assert blocks["rod"].n_points == 9 and blocks["rod"].n_cells == 1
     monomers = blocks["monomers"]
@@ -259,7 +288,7 @@ def test_warnings_are_reported_everywhere(tmp_path):
     """A twist of 0.0698 rad/nm exceeds the range of the rod law, 0.0472; half of it does not."""
 
     def turned(angle):
-        return actin.Scene(
+        return af.Scene(
             filament={"sections": [{"Rod": {"from_nm": 0.0, "to_nm": 75.0}}], "rod": {"law": "Fitted"}},
             clamps=[{"end": "Start"}, {"end": "End", "slides": "AlongAxis"}],
             path=[{"set": [{"Turn": {"end": "End", "turn_deg": [0.0, 0.0, angle]}}]}],
@@ -267,14 +296,14 @@ def test_warnings_are_reported_everywhere(tmp_path):
         )
 
     message = "twist 0.0698 rad/nm"
-    with pytest.warns(actin.RunWarning, match=rf"{message}.*\[law-range\]") as caught:
-        run = actin.run(turned(300.0), tmp_path / "run")
+    with pytest.warns(af.RunWarning, match=rf"{message}.*\[law-range\]") as caught:
+        run = af.run(turned(300.0), tmp_path / "run")
     assert caught[0].filename == __file__
     (found,) = (each["message"] for each in run.warnings if each["code"] == "law-range")
     assert found.startswith(message) and found in run.notes and found in run._repr_html_()
-    assert actin.load(tmp_path / "run").warnings == run.warnings
-    with pytest.warns(actin.RunWarning, match=message):
-        actin.equilibrium(turned(300.0))
+    assert af.load(tmp_path / "run").warnings == run.warnings
+    with pytest.warns(af.RunWarning, match=message):
+        af.equilibrium(turned(300.0))
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        assert actin.run(turned(150.0)).warnings == []
+        assert af.run(turned(150.0)).warnings == []

@@ -2,37 +2,37 @@
 
 import pickle
 
-import actin
+import actin_filaments as af
 import numpy as np
 import pytest
 
 
 def test_keywords_dictionary_and_text_are_one_scene(keys, text):
-    scene = actin.Scene(**keys)
-    assert scene == actin.Scene.from_dict(keys) == actin.Scene.from_ron(text)
-    assert actin.Scene.from_dict(scene.to_dict()) == scene
-    assert actin.Scene.from_ron(scene.to_ron()) == scene
+    scene = af.Scene(**keys)
+    assert scene == af.Scene.from_dict(keys) == af.Scene.from_ron(text)
+    assert af.Scene.from_dict(scene.to_dict()) == scene
+    assert af.Scene.from_ron(scene.to_ron()) == scene
     assert pickle.loads(pickle.dumps(scene)) == scene
     keys["loads"][0]["EndForce"]["force_pn"] = np.array([-2, 0, 0])
     keys["filament"]["sections"][1]["Rod"]["segments"] = np.int32(8)
-    assert actin.Scene(**keys) == scene
+    assert af.Scene(**keys) == scene
 
 
 def test_scenes_of_the_repository_are_read(root):
     files = [file for file in root.glob("scenarios/*.ron") if "Scene(" in file.read_text()]
     assert len(files) > 5
     for file in files:
-        scene = actin.Scene.from_file(file)
-        assert actin.Scene.from_dict(scene.to_dict(), folder=file.parent) == scene, file
+        scene = af.Scene.from_file(file)
+        assert af.Scene.from_dict(scene.to_dict(), folder=file.parent) == scene, file
 
 
 def test_files_of_points_are_looked_for_in_the_folder(keys, tmp_path):
     (tmp_path / "trace.csv").write_text("0,0,0\n0,10,80\n0,0,170\n")
     keys["filament"]["shape"] = {"Points": {"file": "trace.csv"}}
-    scene = actin.Scene.from_dict(keys, folder=tmp_path)
+    scene = af.Scene.from_dict(keys, folder=tmp_path)
     assert scene.to_dict()["filament"]["shape"]["Points"]["nm"][1] == [0.0, 10.0, 80.0]
-    with pytest.raises(actin.SceneError, match="cannot be read") as caught:
-        actin.Scene.from_dict(keys, folder=tmp_path / "elsewhere")
+    with pytest.raises(af.SceneError, match="cannot be read") as caught:
+        af.Scene.from_dict(keys, folder=tmp_path / "elsewhere")
     assert caught.value.key == "filament.shape.file"
 
 
@@ -49,8 +49,8 @@ def test_files_of_points_are_looked_for_in_the_folder(keys, tmp_path):
 def test_mistakes_of_a_text_name_key_line_and_column(text, old, new, key, meant):
     spoilt = text.replace(old, new)
     line = next(i for i, row in enumerate(spoilt.splitlines(), 1) if new in row)
-    with pytest.raises(actin.SceneError) as caught:
-        actin.Scene.from_ron(spoilt)
+    with pytest.raises(af.SceneError) as caught:
+        af.Scene.from_ron(spoilt)
     error = caught.value
     # A value without a key is reported at its parent.
     assert error.key.startswith(key)
@@ -61,16 +61,16 @@ def test_mistakes_of_a_text_name_key_line_and_column(text, old, new, key, meant)
 
 def test_files_that_cannot_be_read(tmp_path):
     with pytest.raises(FileNotFoundError, match="none.ron"):
-        actin.Scene.from_file(tmp_path / "none.ron")
+        af.Scene.from_file(tmp_path / "none.ron")
     (tmp_path / "latin.ron").write_bytes(b"Scene(\n    title: \"\xe9\")")
-    with pytest.raises(actin.SceneError, match="not UTF-8") as caught:
-        actin.Scene.from_file(tmp_path / "latin.ron")
+    with pytest.raises(af.SceneError, match="not UTF-8") as caught:
+        af.Scene.from_file(tmp_path / "latin.ron")
     assert (caught.value.line, caught.value.column) == (2, 13)
 
 
 def test_all_mistakes_of_a_text_are_reported(text):
-    with pytest.raises(actin.SceneError) as caught:
-        actin.Scene.from_ron(text.replace("segments", "segmens").replace("end: Start", "end: Begin"))
+    with pytest.raises(af.SceneError) as caught:
+        af.Scene.from_ron(text.replace("segments", "segmens").replace("end: Start", "end: Begin"))
     assert [mistake.line for mistake in caught.value.mistakes] == [5, 9]
 
 
@@ -88,7 +88,7 @@ def test_all_mistakes_of_a_text_are_reported(text):
     ],
 )
 def test_mistakes_of_a_dictionary_name_the_key(scene, path, value, key):
-    with pytest.raises(actin.SceneError) as caught:
+    with pytest.raises(af.SceneError) as caught:
         scene.set(path, value)
     assert caught.value.key == key
     assert caught.value.line is None and caught.value.rule
@@ -106,7 +106,7 @@ def test_objects_that_are_no_values_are_refused(scene):
     with pytest.raises(TypeError, match="a scene holds no"):
         scene.set("title", object())
     with pytest.raises(TypeError, match="keys of a scene are strings"):
-        actin.Scene.from_dict({1: 2})
+        af.Scene.from_dict({1: 2})
     with pytest.raises(TypeError):
         hash(scene)
 
@@ -115,8 +115,8 @@ def test_seeds(scene):
     independent = scene.set("filament.monomers.anchors", "Independent")
     assert independent.reseed(7).to_dict()["filament"]["monomers"]["seed"] == 7
     rod = {"sections": [{"Rod": {"from_nm": 0.0, "to_nm": 40.0}}]}
-    with pytest.raises(actin.SceneError, match="nothing random"):
-        actin.Scene(filament=rod, clamps=[{"end": "Start"}], task={"Equilibrium": {}}).reseed(7)
+    with pytest.raises(af.SceneError, match="nothing random"):
+        af.Scene(filament=rod, clamps=[{"end": "Start"}], task={"Equilibrium": {}}).reseed(7)
 
 
 def test_check_resolves_the_scene(scene, motion):

@@ -1,6 +1,6 @@
 """`System`: rods, points, fields, prescribed motion, steps and equilibria, with and without scenes."""
 
-import actin
+import actin_filaments as af
 import numpy as np
 import pytest
 
@@ -18,7 +18,7 @@ def rod(system, segments=32, length=160.0, **keys):
 
 def test_a_cantilever_agrees_with_beam_theory():
     """Euler-Bernoulli: F L^3 / (3 B); Timoshenko adds F L / S."""
-    system = actin.System()
+    system = af.System()
     beam = rod(system)
     system.add_force([beam.points[1] - 1], (0.0, 0.0, -0.001))
     found = system.equilibrium()
@@ -34,7 +34,7 @@ def test_a_cantilever_agrees_with_beam_theory():
 
 def test_twist_of_a_driven_end_reaches_the_other():
     """In a rod between two clamps, one of which is rotated, the twist is uniform."""
-    system = actin.System()
+    system = af.System()
     beam = rod(system, segments=8, length=80.0, end="Wall")
     behind = beam.points[1] - 1
     system.drive([0.0, 5.0], points=[behind], frames=[beam.end_wall], rotation=[(0, 0, 0), (0.5, 0, 0)])
@@ -50,7 +50,7 @@ def test_a_rod_that_is_placed_at_rest_stays():
     angle = np.linspace(0.0, np.pi / 2, 17)
     arc = 100.0 * np.stack([np.sin(angle), np.zeros(17), 1.0 - np.cos(angle)], axis=1)
     keys = dict(shear=(SHEAR, SHEAR, 3.4e4), bend=(BEND, BEND, TWIST), mass_per_length=0.026, area=38.5)
-    straight, placed = actin.System(), actin.System()
+    straight, placed = af.System(), af.System()
     straight.add_rod(arc, **keys)
     placed.add_rod(arc, rest_shape="placed", **keys)
     length = np.linalg.norm(np.diff(arc, axis=0), axis=1).sum()
@@ -62,7 +62,7 @@ def test_a_rod_that_is_placed_at_rest_stays():
 @pytest.mark.parametrize(("scheme", "order"), [("position-verlet", 2), ("pefrl", 4)])
 def test_integrators_have_their_order_on_a_field_of_python(scheme, order):
     def error(h):
-        system = actin.System()
+        system = af.System()
         system.add_points([(1.0, 0.0, 0.0)], 1.0)
         system.velocity = [(0.0, 0.8, 0.0)]
         system.add_field(lambda x: -x / np.linalg.norm(x) ** 3, lambda x: float(-1.0 / np.linalg.norm(x)))
@@ -77,12 +77,12 @@ def test_integrators_have_their_order_on_a_field_of_python(scheme, order):
 
 
 def test_a_field_that_raises_ends_the_steps():
-    system = actin.System()
+    system = af.System()
     system.add_points([(1.0, 0.0, 0.0)], 1.0)
     system.add_field(lambda x: 1 / 0)
     with pytest.raises(ZeroDivisionError):
         system.step(1000, h=0.1)
-    shapes = actin.System()
+    shapes = af.System()
     shapes.add_points(np.zeros((2, 3)), [1.0, 2.0])
     shapes.add_field(lambda x: np.zeros(3))
     with pytest.raises(ValueError, match="force of a field must have shape"):
@@ -90,7 +90,7 @@ def test_a_field_that_raises_ends_the_steps():
 
 
 def test_springs_weight_and_applied_loads():
-    system = actin.System()
+    system = af.System()
     first = system.add_points([(0, 0, 0), (0, 0, -1.0)], [1.0, 2.0])
     system.hold([first])
     system.add_springs([(0, 1)], stiffness=10.0, rest_length=1.0)
@@ -106,7 +106,7 @@ def test_springs_weight_and_applied_loads():
 
 
 def test_an_end_slides_under_its_load():
-    system = actin.System()
+    system = af.System()
     beam = rod(system, segments=8, length=80.0, end="Wall")
     tip = beam.points[1] - 1
     still = np.zeros((2, 3))
@@ -119,8 +119,8 @@ def test_an_end_slides_under_its_load():
 
 def test_a_scene_by_hand_moves_as_its_run_does(motion):
     """The same scheme, step and forces give the same positions up to round-off."""
-    run = actin.run(motion)
-    system = actin.System.from_scene(motion)
+    run = af.run(motion)
+    system = af.System.from_scene(motion)
     assert np.array_equal(system.position, run.position_nm[0])
     system.step(motion.check()["steps"])
     assert system.time == pytest.approx(1.0)
@@ -129,19 +129,19 @@ def test_a_scene_by_hand_moves_as_its_run_does(motion):
 
 
 def test_a_scene_by_hand_finds_its_equilibrium(scene):
-    system = actin.System.from_scene(scene)
+    system = af.System.from_scene(scene)
     assert system.equilibrium().stable
-    assert np.abs(system.position - actin.equilibrium(scene).position_nm).max() < 1e-6
+    assert np.abs(system.position - af.equilibrium(scene).position_nm).max() < 1e-6
     system.set_factor(0, 0.5)
     system.equilibrium()
-    half = actin.equilibrium(scene.set("loads[0].force_pn[0]", -1.0))
+    half = af.equilibrium(scene.set("loads[0].force_pn[0]", -1.0))
     assert np.abs(system.position - half.position_nm).max() < 1e-6
 
 
 def test_diverging_steps_report_their_location(motion):
-    system = actin.System.from_scene(motion)
+    system = af.System.from_scene(motion)
     before = system.position
-    with pytest.raises(actin.RunFailed) as caught:
+    with pytest.raises(af.RunFailed) as caught:
         system.step(1000, h=1.0)
     assert caught.value.step > 0 and "nm" in caught.value.body
     assert np.array_equal(system.position, before) and system.steps == 0
@@ -167,7 +167,7 @@ def test_diverging_steps_report_their_location(motion):
     ],
 )
 def test_invalid_arguments_are_refused(call, error, match):
-    system = actin.System()
+    system = af.System()
     system.add_points([(0.0, 0.0, 0.0)], 1.0)
     with pytest.raises(error, match=match):
         call(system)
@@ -175,7 +175,7 @@ def test_invalid_arguments_are_refused(call, error, match):
 
 def test_writing_into_a_snapshot_is_refused():
     """A write would have no effect."""
-    system = actin.System()
+    system = af.System()
     system.add_points(np.zeros((2, 3)), 1.0)
     for name in ("position", "velocity", "quaternion", "angular_momentum"):
         assert not getattr(system, name).flags.writeable
@@ -186,7 +186,7 @@ def test_writing_into_a_snapshot_is_refused():
 
 
 def test_quaternions_have_unit_length():
-    system = actin.System()
+    system = af.System()
     rod(system, segments=2, length=10.0)
     system.quaternion = system.quaternion
     with pytest.raises(ValueError, match="length 1"):
@@ -195,7 +195,7 @@ def test_quaternions_have_unit_length():
 
 def test_noise_has_its_temperature():
     """Equipartition: 3 k T / 2 for each point, within four standard errors of 500 points."""
-    system = actin.System()
+    system = af.System()
     system.add_points(np.zeros((500, 3)), 1.0)
     system.step(200, h=0.1, drag=(1.0, 1.0), thermal_energy=4.1, seed=3)
     expected = 1.5 * 500 * 4.1
@@ -204,14 +204,14 @@ def test_noise_has_its_temperature():
 
 def gas(seed=3, **keys):
     """Free points in a heat bath."""
-    system = actin.System()
+    system = af.System()
     system.add_points(np.zeros((500, 3)), 1.0)
     return system, dict(h=0.1, drag=(0.5, 0.5), thermal_energy=4.1, seed=seed) | keys
 
 
 def thread(**keys):
     """A vibrating rod without a heat bath."""
-    system = actin.System()
+    system = af.System()
     beam = rod(system, segments=8, length=80.0)
     system.add_force([beam.points[1] - 1], (0.0, 0.0, -2.0))
     return system, keys
@@ -257,7 +257,7 @@ def test_time_continues_when_the_step_changes():
         system.step(number, h=h)
     # Rounding of a few additions.
     assert system.time == pytest.approx(0.035, rel=1e-14) and system.steps == 23
-    with pytest.raises(actin.RunFailed) as caught:
+    with pytest.raises(af.RunFailed) as caught:
         system.step(1000, h=10.0)
     assert caught.value.time_ns == pytest.approx(0.035 + (caught.value.step - 23) * 10.0, rel=1e-12)
     assert system.time == pytest.approx(0.035, rel=1e-14)
@@ -280,7 +280,7 @@ def test_a_drive_begins_when_it_is_called():
 
 def test_the_default_step_follows_the_stiffness():
     """The frequency of two points with a spring is sqrt(2 k / m)."""
-    system = actin.System()
+    system = af.System()
     system.add_points([(0, 0, 0), (1.0, 0, 0)], 1.0)
     system.add_springs([(0, 1)], stiffness=10.0, rest_length=1.0)
     system.step(1)
@@ -319,8 +319,8 @@ FACTORS = [
 def test_a_scene_by_hand_follows_factors_in_time(motion, factor):
     force = {"end": "End", "force_pn": [-2.0, 0.0, 0.0], "factor": factor}
     scene = motion.set("loads", [{"Force": force}])
-    run = actin.run(scene)
-    system = actin.System.from_scene(scene)
+    run = af.run(scene)
+    system = af.System.from_scene(scene)
     system.step(scene.check()["steps"])
     assert np.abs(system.position - run.position_nm[-1]).max() < 1e-9
     with pytest.raises(ValueError, match="load 0 follows the time"):
@@ -330,8 +330,8 @@ def test_a_scene_by_hand_follows_factors_in_time(motion, factor):
 def test_a_scene_by_hand_follows_its_path(motion):
     shift = {"duration_ns": 0.6, "set": [{"Shift": {"end": "Start", "shift_nm": [0.0, 1.0, 0.0]}}]}
     scene = motion.set("path", [shift])
-    run = actin.run(scene)
-    system = actin.System.from_scene(scene)
+    run = af.run(scene)
+    system = af.System.from_scene(scene)
     system.step(scene.check()["steps"])
     assert np.abs(system.position - run.position_nm[-1]).max() < 1e-9
     assert np.ptp(system.position[:, 1]) > 0.1

@@ -1,20 +1,20 @@
 """Trades: table, best scene, picture, errors, interrupts."""
 
-import builtins
 import csv
 import os
 import signal
+import sys
 import threading
 import time
 
-import actin
+import actin_filaments as af
 import numpy as np
 import pytest
 
 
 @pytest.fixture(scope="module")
 def cantilever():
-    return actin.Scene(
+    return af.Scene(
         filament={"sections": [{"Rod": {"from_nm": 0.0, "to_nm": 81.0}}], "rod": {"law": "Fitted"}},
         clamps=[{"end": "Start"}],
         loads=[{"EndForce": {"end": "End", "force_pn": (-2.0, 0.0, 0.0)}}],
@@ -24,7 +24,7 @@ def cantilever():
 
 @pytest.fixture(scope="module")
 def trade(cantilever):
-    return actin.trade(cantilever, quantities=["tip", "energy"], error=0.05)
+    return af.trade(cantilever, quantities=["tip", "energy"], error=0.05)
 
 
 def test_the_table_has_one_row_for_each_candidate(trade):
@@ -41,10 +41,10 @@ def test_the_table_has_one_row_for_each_candidate(trade):
 
 
 def test_an_error_is_that_of_the_candidate_run_alone(trade):
-    exact = actin.run(trade.reference["scene"]).summary["tip_displacement_nm"]
+    exact = af.run(trade.reference["scene"]).summary["tip_displacement_nm"]
     ran = np.flatnonzero(trade.table["failure"] == "")
     coarse = ran[np.argmax(trade.table["tip error"][ran])]
-    alone = actin.run(trade.scenes[coarse]).summary["tip_displacement_nm"]
+    alone = af.run(trade.scenes[coarse]).summary["tip_displacement_nm"]
     error = np.linalg.norm(np.subtract(alone, exact)) / np.linalg.norm(exact)
     assert error > 1e-4
     # Both runs repeat the equilibria of the trade, which are solved to 1e-8 of the loads.
@@ -59,7 +59,7 @@ def test_the_best_scene_meets_the_error(trade):
         assert trade.best == trade.scenes[best[0]] and trade.best_name == trade.table["candidate"][best[0]]
     else:
         assert trade.best == trade.reference["scene"] and trade.best_name == trade.reference["name"]
-    assert actin.run(trade.best).status == "converged"
+    assert af.run(trade.best).status == "converged"
     assert trade.best_name in trade._repr_html_()
 
 
@@ -74,43 +74,36 @@ def test_the_plot_labels_every_candidate(trade):
 
 
 def test_the_plot_requires_matplotlib(trade, monkeypatch):
-    real = builtins.__import__
-
-    def without(name, *rest):
-        if name.startswith("matplotlib"):
-            raise ImportError(name)
-        return real(name, *rest)
-
-    monkeypatch.setattr(builtins, "__import__", without)
+    monkeypatch.setitem(sys.modules, "matplotlib.pyplot", None)
     with pytest.raises(ImportError, match="pip install matplotlib"):
         trade.plot()
 
 
 def test_mistakes_of_arguments_and_scenes_are_named(cantilever):
-    with pytest.raises(actin.SceneError, match="no tipp to compare") as caught:
-        actin.trade(cantilever, quantities=["tipp"])
+    with pytest.raises(af.SceneError, match="no tipp to compare") as caught:
+        af.trade(cantilever, quantities=["tipp"])
     assert (caught.value.key, caught.value.line) == ("quantity", None)
-    with pytest.raises(actin.SceneError, match="below 1"):
-        actin.trade(cantilever, error=2.0)
-    with pytest.raises(actin.SceneError, match="must be positive"):
-        actin.trade(cantilever, loads=[-0.5])
+    with pytest.raises(af.SceneError, match="below 1"):
+        af.trade(cantilever, error=2.0)
+    with pytest.raises(af.SceneError, match="must be positive"):
+        af.trade(cantilever, loads=[-0.5])
     with pytest.raises(ValueError):
-        actin.trade(cantilever, budget_s=-1.0)
+        af.trade(cantilever, budget_s=-1.0)
     with pytest.raises(TypeError):
-        actin.trade(cantilever, quantities="tip")
+        af.trade(cantilever, quantities="tip")
 
 
 def test_an_unsettled_reference_is_warned_about(cantilever):
     motion = cantilever.set("task", {"Dynamics": {"duration_ns": 0.2, "record_every_ns": 0.1}})
-    with pytest.warns(actin.RunWarning, match=r"third of the wanted error: .*tip.*\[unknown-error\]") as caught:
-        found = actin.trade(motion, error=1e-12, loads=[])
+    with pytest.warns(af.RunWarning, match=r"third of the wanted error: .*tip.*\[unknown-error\]") as caught:
+        found = af.trade(motion, error=1e-12, loads=[])
     assert caught[0].filename == __file__
     assert not found.reference["is_settled"] and found.reference["own_errors"]["tip"] > 0.0
     assert found.warnings[0]["code"] == "unknown-error" and found.best == found.reference["scene"]
 
 
 def test_progress_names_each_run_and_may_end_the_trade(cantilever, capsys):
-    actin.trade(cantilever, progress=True)
+    af.trade(cantilever, progress=True)
     shown = capsys.readouterr().err
     assert "every monomer" in shown and shown.endswith("\r")
     names = []
@@ -120,8 +113,8 @@ def test_progress_names_each_run_and_may_end_the_trade(cantilever, capsys):
         if len(names) == 6:
             raise KeyboardInterrupt
 
-    with pytest.raises(actin.Interrupted, match="trade was interrupted") as caught:
-        actin.trade(cantilever, progress=stop)
+    with pytest.raises(af.Interrupted, match="trade was interrupted") as caught:
+        af.trade(cantilever, progress=stop)
     assert names[0] == "every monomer" and len(names) == 6
     assert list(caught.value.trade.table["candidate"][:2]) == names[4:6] and caught.value.run is None
 
@@ -129,13 +122,13 @@ def test_progress_names_each_run_and_may_end_the_trade(cantilever, capsys):
         raise RuntimeError("enough")
 
     with pytest.raises(RuntimeError, match="enough"):
-        actin.trade(cantilever, progress=refuse)
+        af.trade(cantilever, progress=refuse)
 
 
 def test_ctrl_c_ends_a_trade(cantilever):
     long = cantilever.set("task", {"Dynamics": {"duration_ns": 1e5, "record_every_ns": 1.0}})
     threading.Timer(0.5, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
     started = time.monotonic()
-    with pytest.raises(actin.Interrupted) as caught:
-        actin.trade(long)
+    with pytest.raises(af.Interrupted) as caught:
+        af.trade(long)
     assert time.monotonic() - started < 5.0 and caught.value.trade is None

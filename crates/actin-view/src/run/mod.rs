@@ -14,7 +14,7 @@ use source::Source;
 
 use actin_rundir::FollowedDirectory;
 use actin_sim::mechanics::State;
-use actin_sim::{Assembly, At, Scene, Summary};
+use actin_sim::{Assembly, At, Scene, SceneProblem, Summary};
 use std::fs;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
@@ -83,6 +83,32 @@ pub struct Run {
 }
 
 impl Run {
+    /// Creates the run of a scene without records, whose page shows the initial shape.
+    ///
+    /// # Errors
+    /// If the scene cannot be built.
+    pub fn initial(scene: &Scene) -> Result<Self, SceneProblem> {
+        let assembly = Assembly::build(scene)?;
+        Ok(Self {
+            path: PathBuf::new(),
+            at: vec![At::Path(0.0)],
+            summary: None,
+            remarks: Vec::new(),
+            records: 1,
+            which: vec![0],
+            states: vec![assembly.rest.clone()],
+            curves: Vec::new(),
+            assembly,
+            later: Vec::new(),
+            of_later: Vec::new(),
+        })
+    }
+
+    /// Returns whether the run is a scene without a directory.
+    pub(crate) fn is_initial(&self) -> bool {
+        self.path.as_os_str().is_empty()
+    }
+
     /// Reads a run directory.
     ///
     /// # Errors
@@ -110,7 +136,8 @@ impl Run {
             ));
         }
         let curves = curves::thinned(source.curves, limits.rows);
-        let at = which.iter().filter_map(|&i| source.at.get(i).copied());
+        let at_of = |&i: &usize| source.at.get(i).copied().unwrap_or(At::Path(0.0));
+        let at = which.iter().map(at_of);
         Ok(Self {
             path: path.to_owned(),
             at: at.collect(),

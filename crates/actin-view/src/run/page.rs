@@ -59,6 +59,9 @@ impl Run {
         if !named.is_empty() {
             return named.to_owned();
         }
+        if self.is_initial() {
+            return "Initial shape".to_owned();
+        }
         let folder = self.path.file_name().unwrap_or(self.path.as_os_str());
         folder.to_string_lossy().into_owned()
     }
@@ -80,7 +83,7 @@ impl Run {
         ];
         html! {
             ul class="chips" {
-                (ending(self.summary.as_ref()))
+                @if !self.is_initial() { (ending(self.summary.as_ref())) }
                 @for words in counted.into_iter().flatten() { li { (words) } }
             }
         }

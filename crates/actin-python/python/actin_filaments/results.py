@@ -10,22 +10,28 @@ import json
 import os
 import sys
 import warnings
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, overload
 
 import numpy as np
 from numpy.typing import NDArray
 
-from actin import _html
-from actin._actin import Scene
-from actin.errors import RunWarning
+from actin_filaments import _actin, _exports, _html, _plots
+from actin_filaments._actin import Scene
+from actin_filaments._frame import Frame
+from actin_filaments._page import Page
+from actin_filaments.errors import RunWarning
 
 if TYPE_CHECKING:
+    import pandas
     import pyvista
+    import xarray
+    from matplotlib.axes import Axes
 
-    from actin._trade import Trade
+    from actin_filaments._trade import Trade
 
 Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
@@ -90,12 +96,17 @@ class Fit:
 
 
 class Run:
-    """Results of a run: arrays over `T` records, `n` points and `m` frames, and a summary."""
+    """Results of a run: arrays over `T` records, `n` points and `m` frames, and a summary.
+
+    A run is also the sequence of its records: `run[-1]`, `run[::10]`, `for frame in run`.
+    """
 
     scene: Scene
     """Resolved scene, with all defaults."""
     summary: dict[str, Any]
     """Contents of `summary.json`."""
+    directory: Path | None = None
+    """Run directory; `None` for a run in memory."""
 
     def __init__(
         self, *, scene: Scene, summary: dict[str, Any], arrays: dict[str, Array], bodies: dict[str, Any]
@@ -105,9 +116,14 @@ class Run:
         self._arrays = arrays
         self._bodies = bodies
 
+    @staticmethod
+    def open(path: str | os.PathLike[str]) -> Run:
+        """Reads a run directory; of an unfinished run, the records up to its checkpoint. See `load`."""
+        return load(path)
+
     @property
     def status(self) -> str:
-        """`converged`, `completed`, `interrupted` or `failed`."""
+        """`converged`, `completed`, `interrupted`, `failed`, or `unfinished` (a checkpoint without results)."""
         return self.summary["status"]
 
     @property
@@ -241,13 +257,74 @@ class Run:
     @property
     def tip_nm(self) -> Array:
         """Position of the tip of filament 0 in the last record."""
+        if self.status == "unfinished":
+            return self.centre_line_nm[-1, np.flatnonzero(self.filament == 0)[-1]]
         return np.array(self.summary["tip_nm"])
 
     def to_pyvista(self, record: int = -1) -> pyvista.MultiBlock:
         """Converts a record to PyVista blocks: `rod` (lines through nodes) and `monomers` (ellipsoids), if present."""
-        from actin._pyvista import of_record
+        from actin_filaments._pyvista import of_record
 
         return of_record(self, record)
+
+    def to_dataframe(self) -> pandas.DataFrame:
+        """Converts time or path, energies, residuals and observables to a table with one row for each record."""
+        return _exports.to_dataframe(self)
+
+    def to_xarray(self) -> xarray.Dataset:
+        """Converts all arrays to a data set with named dimensions and coordinates."""
+        return _exports.to_xarray(self)
+
+    def to_mdanalysis(self) -> Any:
+        """Converts to an MDAnalysis `Universe` with points as atoms and filaments as residues (angstrom, ps)."""
+        return _exports.to_mdanalysis(self)
+
+    def to_gsd(self, path: str | os.PathLike[str], *, overwrite: bool = False) -> list[Path]:
+        """Writes a GSD file for OVITO, HOOMD-blue or MDAnalysis. Returns the written files."""
+        return _exports.export(self, "gsd", path, overwrite)
+
+    def to_simularium(self, path: str | os.PathLike[str], *, overwrite: bool = False) -> list[Path]:
+        """Writes a file for the Simularium viewer, and its meshes next to it. Returns the written files."""
+        return _exports.export(self, "simularium", path, overwrite)
+
+    def to_vtk(self, folder: str | os.PathLike[str], *, overwrite: bool = False) -> list[Path]:
+        """Writes a `.vtp` file for each record and `run.pvd` for ParaView into a folder. Returns the written files."""
+        return _exports.export(self, "vtk", folder, overwrite)
+
+    def profile(self, record: int = -1) -> dict[str, Array]:
+        """Returns fields along all filaments: `filament`, `s_nm`, `curvature_rad_per_nm`, `twist_rad_per_nm` (relative to
+        the helix), `energy_per_length_pn`."""
+        with _exports.folder(self) as directory:
+            return _actin.profile(directory, self[record].index)
+
+    def plot(self, ax: Axes | None = None) -> Axes:
+        """Plots energies, and observables in further panels. Returns the axes of the energies.
+
+        With `ax`, plots only energies. Raises `ImportError` without Matplotlib.
+        """
+        return _plots.of_run(self, ax)
+
+    def plot_profile(self, field: str = "curvature", record: int = -1, ax: Axes | None = None) -> Axes:
+        """Plots `curvature`, `twist` or `energy` along the filaments, of the first 20 of them. Returns the axes."""
+        return _plots.of_profile(self, field, record, ax)
+
+    def view(self) -> Page:
+        """Returns the run as an interactive page, which a notebook shows."""
+        if self.directory is not None:
+            return Page(_actin.page(self.directory))
+        with _exports.folder(self) as directory:
+            return Page(_actin.page(directory))
+
+    @overload
+    def __getitem__(self, record: int) -> Frame: ...
+    @overload
+    def __getitem__(self, record: slice) -> list[Frame]: ...
+    def __getitem__(self, record: int | slice) -> Frame | list[Frame]:
+        chosen = range(len(self))[record]
+        return [Frame(self, index) for index in chosen] if isinstance(chosen, range) else Frame(self, chosen)
+
+    def __iter__(self) -> Iterator[Frame]:
+        return (Frame(self, index) for index in range(len(self)))
 
     def __len__(self) -> int:
         return len(self._arrays["at"])
@@ -269,7 +346,10 @@ def _vector(v: list[float]) -> str:
 
 def _rows(run: Run) -> list[tuple[str, str]]:
     """Rows of the HTML representation."""
-    summary, energy = run.summary, run.summary["energy_pn_nm"]
+    summary = run.summary
+    if run.status == "unfinished":
+        return [("scene", summary["scene"] or "untitled"), ("status", "unfinished: records up to the checkpoint")]
+    energy = summary["energy_pn_nm"]
     rows = [
         ("scene", summary["scene"] or "untitled"),
         ("tip displacement", f"{_vector(summary['tip_displacement_nm'])} nm"),
@@ -356,6 +436,14 @@ class Equilibrium:
         """Converts the state to PyVista, as in `Run.to_pyvista`."""
         return self.run.to_pyvista()
 
+    def plot_profile(self, field: str = "curvature", ax: Axes | None = None) -> Axes:
+        """Plots a field along the filaments, as in `Run.plot_profile`."""
+        return self.run.plot_profile(field, ax=ax)
+
+    def view(self) -> Page:
+        """Returns the run as an interactive page, which a notebook shows."""
+        return self.run.view()
+
     def __repr__(self) -> str:
         words = "stable" if self.certificate.stable else "not known to be stable"
         return f"Equilibrium({words}, energy {self.energy_pn_nm:.6g} pN nm)"
@@ -367,7 +455,7 @@ class Equilibrium:
 def emit_warnings(found: Run | Trade) -> None:
     """Emits the warnings of a run or a trade, with the location of the caller outside this package."""
     level, frame = 1, sys._getframe()
-    while frame.f_back is not None and frame.f_globals.get("__name__", "").partition(".")[0] == "actin":
+    while frame.f_back is not None and frame.f_globals.get("__name__", "").partition(".")[0] == "actin_filaments":
         level, frame = level + 1, frame.f_back
     for each in found.warnings:
         warnings.warn(f"{each['message']} [{each['code']}]", RunWarning, stacklevel=level)
@@ -381,12 +469,14 @@ def load(path: str | os.PathLike[str]) -> Run:
     """Reads a run directory.
 
     Energies are named after the columns of `energies.csv`. Raises `OSError` if a file is missing and `ValueError` for
-    a newer format.
+    a newer format. An unfinished run has the records up to its checkpoint and the status `unfinished`.
     """
     folder = Path(path)
+    if not (folder / "summary.json").exists() and (folder / "checkpoint.bin").exists():
+        return _unfinished(folder)
     summary = json.loads((folder / "summary.json").read_text())
     if summary.get("format", 1) > _FORMAT:
-        raise ValueError(f"{folder} has the format version {summary['format']}: this version of actin reads up to {_FORMAT}")
+        raise ValueError(f"{folder} has the format version {summary['format']}: this version of actin_filaments reads up to {_FORMAT}")
     scene = Scene.from_file(folder / "scene.ron")
     arrays: dict[str, Array] = {}
     bodies: dict[str, Any] = {}
@@ -412,7 +502,18 @@ def load(path: str | os.PathLike[str]) -> Run:
     arrays["observed"] = np.stack(list(observed.values()), axis=1) if observed else np.empty((len(clock), 0))
     for array in arrays.values():
         array.flags.writeable = False
-    return Run(scene=scene, summary=summary, arrays=arrays, bodies=bodies)
+    run = Run(scene=scene, summary=summary, arrays=arrays, bodies=bodies)
+    run.directory = folder
+    return run
+
+
+def _unfinished(folder: Path) -> Run:
+    found = _actin.unfinished(folder)
+    summary = {"scene": found["scene"].title, "status": "unfinished", "counts": found.pop("counts")}
+    summary |= {"stability": None, "notes": [], "warnings": []}
+    run = Run(summary=summary, **found)
+    run.directory = folder
+    return run
 
 
 def _table(path: Path) -> tuple[Array, dict[str, Array]]:

@@ -1,16 +1,36 @@
-"""Native module of the package `actin`."""
+"""Native module of the package `actin_filaments`."""
 
 import os
 from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
 from typing import Any, Literal, final
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
+from typing_extensions import Unpack
 
-from actin._trade import Trade
-from actin.results import Certificate, Fit, Run
+from actin_filaments._page import Page
+from actin_filaments._trade import Trade
+from actin_filaments.results import Certificate, Fit, Run
+from actin_filaments.scenes import SceneKeys
 
-__all__ = ["Progress", "Rod", "Scene", "System", "__version__", "carry_out", "fit", "fit_linear", "run", "trade"]
+__all__ = [
+    "Progress",
+    "Rod",
+    "Scene",
+    "System",
+    "__version__",
+    "carry_out",
+    "export",
+    "fit",
+    "fit_linear",
+    "page",
+    "profile",
+    "run",
+    "scene_schema",
+    "trade",
+    "unfinished",
+]
 
 __version__: str
 
@@ -28,7 +48,7 @@ class Scene:
     immutable: `set` and `reseed` return new scenes. Invalid scenes raise `SceneError`.
     """
 
-    def __new__(cls, **keys: Any) -> Scene:
+    def __new__(cls, **keys: Unpack[SceneKeys]) -> Scene:
         """Creates a scene from its keys: `Scene(filament={...}, clamps=[...], task={...})`."""
     @staticmethod
     def from_dict(keys: Mapping[str, Any], folder: _Path = ...) -> Scene:
@@ -45,6 +65,13 @@ class Scene:
         """Returns the keys of the scene, with defaults except omitted ones."""
     def set(self, key: str, value: Any) -> Scene:
         """Returns the scene with another value of a key: `scene.set("loads[0].force_pn[0]", -1.0)`."""
+    def with_(self, changes: Mapping[str, Any] | None = None, /, **keys: Any) -> Scene:
+        """Returns the scene with other values: `scene.with_({"linkers[*].stiffness_pn_per_nm": 2.0}, title="stiff")`.
+
+        A key is a path as in `set`, or has `[*]` for all elements of a list.
+        """
+    def view(self) -> Page:
+        """Returns the initial state as an interactive page, which a notebook shows."""
     def reseed(self, seed: int) -> Scene:
         """Returns the scene with all its seeds set."""
     def check(self) -> dict[str, Any]:
@@ -63,6 +90,8 @@ class Scene:
     def __eq__(self, other: object, /) -> bool: ...
     def __ne__(self, other: object, /) -> bool: ...
     def _repr_html_(self) -> str: ...
+    def _page(self) -> str:
+        """Returns the HTML page of the initial state."""
 
 @final
 class Progress:
@@ -318,6 +347,21 @@ def trade(
     Raises `SceneError`; `RunFailed` if the reference has no result; on Ctrl-C `Interrupted` with the `trade` so
     far.
     """
+
+def scene_schema() -> str:
+    """Returns the JSON schema of scenes."""
+
+def page(directory: _Path) -> str:
+    """Returns the HTML page of a run directory, which may be unfinished."""
+
+def export(directory: _Path, format: str, out: _Path, overwrite: bool) -> list[Path]:
+    """Exports a run directory to `gsd`, `simularium` or `vtk`, and returns the written files."""
+
+def profile(directory: _Path, record: int) -> dict[str, _Array]:
+    """Returns the fields along all filaments in a record, by name."""
+
+def unfinished(directory: _Path) -> dict[str, Any]:
+    """Returns the scene, the counts and the records of a run directory with a checkpoint and without results."""
 
 def carry_out(
     scene: Scene,

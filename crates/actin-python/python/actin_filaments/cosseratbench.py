@@ -14,9 +14,9 @@ from cosseratbench.scenario import End, EndCondition, Rod, Scenario
 from cosseratbench.solver import Capability, Diverged
 from cosseratbench.trajectory import Trajectory
 
-from actin import RunFailed, System, __version__
-from actin import Rod as Placed
-from actin._pyvista import rotations
+from actin_filaments import RunFailed, System, __version__
+from actin_filaments import Rod as Placed
+from actin_filaments._pyvista import rotations
 
 SHEAR_COEFFICIENT = 27.0 / 28.0
 """Timoshenko's shear coefficient of a circular cross-section, as in other solvers of the benchmark."""

@@ -1,13 +1,16 @@
-"""Progress bar on a terminal."""
+"""Progress bar on a terminal or in a notebook."""
 
 from __future__ import annotations
 
 import sys
 from collections.abc import Callable
+from html import escape
 from typing import TYPE_CHECKING, Any
 
+from actin_filaments._optional import required
+
 if TYPE_CHECKING:
-    from actin._actin import Progress
+    from actin_filaments._actin import Progress
 
 WIDTH = 32
 
@@ -43,12 +46,43 @@ class Bar:
             self.shown = 0
 
 
+class NotebookBar(Bar):
+    """The same line as an output of a notebook cell."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.handle: Any = None
+
+    def __call__(self, progress: Progress | str) -> None:
+        self.show(f"<pre>{escape(progress if isinstance(progress, str) else self.line(progress))}</pre>")
+
+    def show(self, html: str) -> None:
+        """Sets the output."""
+        notebook: Any = required("IPython.display", "The progress bar")
+        if self.handle is None:
+            self.handle = notebook.display(notebook.HTML(html), display_id=True)
+        else:
+            self.handle.update(notebook.HTML(html))
+
+    def finish(self) -> None:
+        """Empties the output."""
+        if self.handle is not None:
+            self.show("")
+            self.handle = None
+
+
+def is_notebook() -> bool:
+    """Returns whether an IPython kernel runs this process."""
+    shell = sys.modules["IPython"].get_ipython() if "IPython" in sys.modules else None
+    return type(shell).__name__ == "ZMQInteractiveShell"
+
+
 def callback(progress: Callable[[Any], object] | bool | None) -> Callable[[Any], object] | None:
-    """Returns the progress callback: a bar for `True`, and for `None` if standard error is a terminal."""
+    """Returns the progress callback: a bar for `True`, and for `None` in a notebook or on a terminal."""
     if progress is None:
-        progress = sys.stderr is not None and sys.stderr.isatty()
+        progress = is_notebook() or (sys.stderr is not None and sys.stderr.isatty())
     if progress is True:
-        return Bar()
+        return NotebookBar() if is_notebook() else Bar()
     if progress is False:
         return None
     if not callable(progress):

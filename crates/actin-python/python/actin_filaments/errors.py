@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from actin._trade import Trade
-    from actin.results import Run
+    from actin_filaments._trade import Trade
+    from actin_filaments.results import Run
 
 
 class RunWarning(UserWarning):
@@ -16,14 +16,18 @@ class RunWarning(UserWarning):
 class ActinError(Exception):
     """Base class of errors of this package."""
 
+    code: str = "error"
+    """Stable name of the kind of error, in the manner of `RunWarning`."""
+    key: str = ""
+    """Path of the key in the scene, as in `filament.sections[1].to_nm`; empty if none is to blame."""
+    value: str = ""
+    """Value of the key; empty for a structure or a missing value."""
+
 
 class SceneError(ActinError, ValueError):
     """The scene cannot be read, or a value violates a rule."""
 
-    key: str = ""
-    """Path of the key, as in `filament.sections[1].to_nm`."""
-    value: str = ""
-    """Value of the key; empty for a structure or a missing value."""
+    code = "invalid-scene"
     rule: str = ""
     """Violated rule."""
     line: int | None = None
@@ -37,8 +41,13 @@ class SceneError(ActinError, ValueError):
 
 
 class RunFailed(ActinError, ArithmeticError):
-    """A run or solve failed."""
+    """A run or solve failed.
 
+    `code`: `diverged`, `path-ended`, `saddle`, `load-below-residual`, `model-limit`, `twist-lost`, `hinge-slipped`, or
+    `run-failed`.
+    """
+
+    code = "run-failed"
     run: Run | None = None
     """Records before the failure; `None` without records."""
     step: int | None = None
@@ -54,6 +63,9 @@ class RunFailed(ActinError, ArithmeticError):
 class Interrupted(KeyboardInterrupt):
     """Ctrl-C during a run or a trade. A run directory contains a checkpoint."""
 
+    code = "interrupted"
+    key = ""
+    value = ""
     run: Run | None = None
     """Records so far; `None` without records."""
     trade: Trade | None = None

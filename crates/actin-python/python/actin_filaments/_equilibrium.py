@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
-from actin._actin import Progress, Scene, run
-from actin.results import Equilibrium
+from actin_filaments._actin import Progress, Scene, run
+from actin_filaments.results import Equilibrium
 
 
 def equilibrium(

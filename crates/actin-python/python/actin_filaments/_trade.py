@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from actin import _html
-from actin._actin import Scene
+from actin_filaments import _html, _plots
+from actin_filaments._actin import Scene
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -104,11 +104,7 @@ class Trade:
         are not shown. Raises `ImportError` without matplotlib.
         """
         if ax is None:
-            try:
-                from matplotlib import pyplot
-            except ImportError as missing:
-                raise ImportError("Trade.plot needs matplotlib: pip install matplotlib") from missing
-            _, ax = pyplot.subplots(figsize=(10.0, 5.0), layout="constrained")
+            ax = _plots.new_axes("Trade.plot", figsize=(10.0, 5.0))
         columns = (self.table[name].tolist() for name in ("wall_s", "error_at_all_loads", "candidate", "failure"))
         shown = [row for row in zip(*columns) if not row[3] and 0.0 < row[1] < np.inf]
         for number, (seconds, error, name, _) in enumerate(sorted(shown), 1):

@@ -9,7 +9,7 @@ import numpy as np
 if TYPE_CHECKING:
     import pyvista
 
-    from actin.results import Run
+    from actin_filaments.results import Run
 
 
 def rotations(quaternion: np.ndarray) -> np.ndarray:
