@@ -50,7 +50,7 @@ impl PeriodicBox {
     }
 }
 
-/// Checks the box and what it excludes.
+/// Checks the box and incompatible keys.
 pub(super) fn check(scene: &Scene, note: &mut impl FnMut(Result<(), SceneProblem>)) {
     for (i, linker) in scene.linkers.iter().enumerate() {
         note(check_image(scene, i, linker));

@@ -4,7 +4,7 @@ use super::files;
 use clap::CommandFactory;
 use std::path::Path;
 
-const TASKS: [&str; 2] = ["check", "trials"];
+const TASKS: [&str; 3] = ["check", "trials", "wheel"];
 
 /// Options and folders of programs: `tests/NAME/main.rs` or `tests/NAME.rs`, in the root and in each crate.
 const KINDS: [(&str, &str); 3] = [

@@ -40,12 +40,18 @@
     return count;
   };
 
+  // Waits for the picture with all effects, after the quick one of a slow view.
+  async function rested(canvas) {
+    for (let i = 0; i < 500 && canvas.dataset.quality !== 'full'; i += 1) await wait(20);
+    return pixels(canvas);
+  }
+
   // Performs an action on a view and waits until it is redrawn.
   async function redrawn(canvas, act) {
     const before = canvas.dataset.drawn;
     act();
     for (let i = 0; i < 100 && canvas.dataset.drawn === before; i += 1) await wait(20);
-    return pixels(canvas);
+    return rested(canvas);
   }
 
   function drag(canvas, x, y) {
@@ -60,7 +66,7 @@
   async function view(figure) {
     const canvas = figure.querySelector('canvas');
     for (let i = 0; i < 100 && !canvas.dataset.drawn; i += 1) await wait(20);
-    const first = pixels(canvas);
+    const first = await rested(canvas);
     const turned = await redrawn(canvas, () => drag(canvas, 60, 30));
     // Zooms about the middle, so that the bodies remain visible.
     const box = canvas.getBoundingClientRect();
