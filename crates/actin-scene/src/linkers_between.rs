@@ -1,5 +1,6 @@
 //! Random linkers between neighbouring filaments.
 
+use super::periodic::neighbours;
 use super::rules::{non_negative, positive};
 use super::{Filament, Kinetics, Linker, LinkerSite, PeriodicBox, SceneProblem};
 use actin_mechanics::Vector3;
@@ -173,41 +174,37 @@ impl LinkersBetween {
             reason = "saturates far outside of any filament"
         )]
         let cell = |place: &Vector3| place.map(|x| (x / self.reach_nm).floor() as i64);
-        let wrap = |place: Vector3| periodic.map_or(([0; 3], place), |one| one.wrap(place));
-        let images = periodic.map_or(1, |_| 27);
         let mut cells: HashMap<[i64; 3], Vec<usize>> = HashMap::new();
         let mut pairs = Vec::new();
-        let wrapped: Vec<_> = sites.iter().map(|site| wrap(site.place)).collect();
+        let wrap = |site: &Site| periodic.map_or(([0; 3], site.place), |one| one.wrap(site.place));
+        let wrapped: Vec<_> = sites.iter().map(wrap).collect();
         for (i, site) in sites.iter().enumerate() {
             let (home, place) = wrapped[i];
-            for shift in (0..images).map(|k| if images == 1 { [0; 3] } else { neighbour(k) }) {
-                let place = place + periodic.map_or_else(Vector3::zeros, |one| one.shift(shift));
-                let is_outside =
-                    |(x, edge): (&f64, f64)| *x < -self.reach_nm || *x > edge + self.reach_nm;
-                let edges = periodic.map(|one| one.size_nm).into_iter().flatten();
-                if place.iter().zip(edges).any(is_outside) {
-                    continue;
-                }
+            let images = periodic.map_or_else(
+                || vec![([0; 3], place)],
+                |one| one.images_within(place, self.reach_nm),
+            );
+            for (shift, place) in images {
                 let centre = cell(&place);
-                for step in (0..27).map(neighbour) {
-                    let around = std::array::from_fn(|k| centre[k] + i64::from(step[k]));
-                    for &j in cells.get(&around).into_iter().flatten() {
-                        let distance = (place - wrapped[j].1).norm();
-                        let is_near = distance <= self.reach_nm && distance >= self.least_reach_nm;
-                        if is_near && sites[j].filament != site.filament {
-                            pairs.push(Pair {
-                                sites: [j, i],
-                                image: std::array::from_fn(|k| {
-                                    shift[k] - home[k] + wrapped[j].0[k]
-                                }),
-                                distance,
-                            });
-                        }
+                let around = neighbours()
+                    .map(|step| centre.zip_map(&step.into(), |c, s: i32| c + i64::from(s)));
+                let near = around
+                    .iter()
+                    .filter_map(|cell| cells.get(&<[i64; 3]>::from(*cell)));
+                for &j in near.flatten() {
+                    let distance = (place - wrapped[j].1).norm();
+                    let is_near = distance <= self.reach_nm && distance >= self.least_reach_nm;
+                    if is_near && sites[j].filament != site.filament {
+                        let image = |k| shift[k] - home[k] + wrapped[j].0[k];
+                        pairs.push(Pair {
+                            sites: [j, i],
+                            image: std::array::from_fn(image),
+                            distance,
+                        });
                     }
                 }
             }
-            let own = cell(&wrapped[i].1);
-            cells.entry(own.into()).or_default().push(i);
+            cells.entry(cell(&place).into()).or_default().push(i);
         }
         pairs
     }
@@ -269,11 +266,6 @@ impl LinkersBetween {
             kinetics: self.kinetics,
         }
     }
-}
-
-/// One of the 27 cells around a cell, itself included.
-fn neighbour(step: i32) -> [i32; 3] {
-    [step % 3 - 1, step / 3 % 3 - 1, step / 9 - 1]
 }
 
 fn check_reach(key: &str, reach: f64, periodic: Option<&PeriodicBox>) -> Result<(), SceneProblem> {
@@ -356,26 +348,31 @@ mod tests {
         for periodic in [None, Some(&periodic)] {
             let pairs = set.pairs(&sites, periodic).into_iter();
             let found: HashSet<_> = pairs.map(|pair| (pair.sites, pair.image)).collect();
-            let all = (0..sites.len()).flat_map(|j| (0..j).map(move |i| [i, j]));
-            let images = -2..=2;
-            let images =
-                images.flat_map(|x| (-2..=2).flat_map(move |y| (-2..=2).map(move |z| [x, y, z])));
-            let images: Vec<[i32; 3]> = match periodic {
-                None => vec![[0; 3]],
-                Some(_) => images.collect(),
-            };
-            let direct: HashSet<_> = all
-                .filter(|[i, j]| sites[*i].filament != sites[*j].filament)
-                .flat_map(|pair| images.iter().map(move |image| (pair, *image)))
-                .filter(|([i, j], image)| {
-                    let shift = periodic.map_or_else(Vector3::zeros, |one| one.shift(*image));
-                    let distance = (sites[*j].place + shift - sites[*i].place).norm();
-                    (10.0..=80.0).contains(&distance)
-                })
-                .collect();
+            let direct = direct_search(&sites, periodic);
             assert!(direct.len() > 100);
             assert_eq!(found, direct);
         }
+    }
+
+    /// Pairs of sites at distances from 10 to 80 nm, with up to two images in each direction.
+    fn direct_search(
+        sites: &[Site],
+        periodic: Option<&PeriodicBox>,
+    ) -> HashSet<([usize; 2], [i32; 3])> {
+        let most = if periodic.is_some() { 2 } else { 0 };
+        let range = -most..=most;
+        let planes = range.flat_map(|x| (-most..=most).map(move |y| (x, y)));
+        let images = planes.flat_map(|(x, y)| (-most..=most).map(move |z| [x, y, z]));
+        let images: Vec<[i32; 3]> = images.collect();
+        let all = (0..sites.len()).flat_map(|j| (0..j).map(move |i| [i, j]));
+        all.filter(|[i, j]| sites[*i].filament != sites[*j].filament)
+            .flat_map(|pair| images.iter().map(move |image| (pair, *image)))
+            .filter(|([i, j], image)| {
+                let shift = periodic.map_or_else(Vector3::zeros, |one| one.shift(*image));
+                let distance = (sites[*j].place + shift - sites[*i].place).norm();
+                (10.0..=80.0).contains(&distance)
+            })
+            .collect()
     }
 
     #[test]

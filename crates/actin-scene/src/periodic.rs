@@ -24,6 +24,15 @@ pub struct PeriodicBox {
     pub factor: Factor,
 }
 
+/// Returns the indices of the origin of a cubic lattice and its 26 neighbours.
+pub(super) fn neighbours() -> [[i32; 3]; 27] {
+    let mut step = -1;
+    [(); 27].map(|()| {
+        step += 1;
+        [step % 3 - 1, step / 3 % 3 - 1, step / 9 - 1]
+    })
+}
+
 /// Largest magnitude of the strain.
 const MOST_STRAIN: f64 = 1.0;
 
@@ -48,6 +57,18 @@ impl PeriodicBox {
         let image = std::array::from_fn(|k| (place[k] / self.size_nm[k]).floor() as i32);
         (image, place - self.shift(image))
     }
+
+    /// Returns the images of a position in the box (nm) that lie in the box enlarged by `reach` on all sides.
+    pub(crate) fn images_within(&self, place: Vector3, reach: f64) -> Vec<([i32; 3], Vector3)> {
+        let images = neighbours().map(|image| (image, place + self.shift(image)));
+        let is_near = |place: &Vector3| {
+            (0..3).all(|k| (-reach..=self.size_nm[k] + reach).contains(&place[k]))
+        };
+        images
+            .into_iter()
+            .filter(|(_, place)| is_near(place))
+            .collect()
+    }
 }
 
 /// Checks the box and incompatible keys.
@@ -64,6 +85,16 @@ pub(super) fn check(scene: &Scene, note: &mut impl FnMut(Result<(), SceneProblem
     note(check_strain(scene, periodic));
     note(check_excluded(scene));
     note(check_reach(scene, periodic));
+}
+
+/// Checks the factor of the strain in a path.
+pub(super) fn check_factor(scene: &Scene, key: &str, factor: f64) -> Result<(), SceneProblem> {
+    finite(key, factor)?;
+    if scene.periodic.as_ref().is_some_and(|one| one.strain != 0.0) {
+        return Ok(());
+    }
+    let rule = "requires a strain of the periodic box: write periodic with strain";
+    Err(SceneProblem::new(key, factor, rule))
 }
 
 fn check_strain(scene: &Scene, periodic: &PeriodicBox) -> Result<(), SceneProblem> {

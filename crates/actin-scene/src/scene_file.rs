@@ -71,23 +71,13 @@ impl TryFrom<SceneFile> for Scene {
     type Error = SceneProblem;
 
     /// Collects the filaments of all keys, then the linkers.
-    fn try_from(written: SceneFile) -> Result<Self, SceneProblem> {
+    fn try_from(mut written: SceneFile) -> Result<Self, SceneProblem> {
         let mut filaments = listed(
-            written.filament,
-            written.filaments,
+            written.filament.take(),
+            written.filaments.take(),
             !written.arrangements.is_empty(),
         )?;
-        for (k, arrangement) in written.arrangements.iter().enumerate() {
-            let mut one = arrangement.filament().clone();
-            one.monomers.resolve();
-            check_filament(&one, &format!("arrangements[{k}].filament"))?;
-            let contact = written
-                .repulsion
-                .as_ref()
-                .map_or(0.0, Repulsion::contact_nm);
-            let arranged = arrangement.filaments(k, &filaments, contact)?;
-            filaments.extend(arranged);
-        }
+        arrange(&written, &mut filaments)?;
         let linkers = linkers(
             written.linkers,
             (&written.linker_sets, &written.crosslinkers),
@@ -114,6 +104,20 @@ impl TryFrom<SceneFile> for Scene {
             task: written.task,
         })
     }
+}
+
+/// Appends the arranged filaments.
+fn arrange(written: &SceneFile, filaments: &mut Vec<Filament>) -> Result<(), SceneProblem> {
+    let repulsion = written.repulsion.as_ref();
+    let contact = repulsion.map_or(0.0, Repulsion::contact_nm);
+    for (k, arrangement) in written.arrangements.iter().enumerate() {
+        let mut one = arrangement.filament().clone();
+        one.monomers.resolve();
+        check_filament(&one, &format!("arrangements[{k}].filament"))?;
+        let arranged = arrangement.filaments(k, filaments, contact)?;
+        filaments.extend(arranged);
+    }
+    Ok(())
 }
 
 /// Returns the listed linkers, followed by the linkers of sets and pools.

@@ -3,7 +3,9 @@
 use super::path::load_factors;
 use super::rules::{all_finite, finite, positive, show};
 use super::support::is_along;
-use super::{ClampedEnds, End, FreeTranslation, Hold, Scene, SceneProblem, Setting, Stage};
+use super::{
+    ClampedEnds, End, FreeTranslation, Hold, Scene, SceneProblem, Setting, Stage, periodic,
+};
 
 pub(super) fn check(
     scene: &Scene,
@@ -24,19 +26,10 @@ pub(super) fn check(
             }
             Setting::Anchor { linker, shift_nm } => {
                 exists("linker", linker, scene.linkers.len())?;
-                if scene.linkers[linker].to.is_some() {
-                    let rule = "this linker joins two sites and has no anchor: write a linker with an anchor";
-                    return Err(SceneProblem::new(key("linker"), linker, rule));
-                }
+                check_anchor(scene, &key("linker"), linker)?;
                 all_finite(&key("shift_nm"), shift_nm)?;
             }
-            Setting::Shear { factor } => {
-                finite(&key("factor"), factor)?;
-                if scene.periodic.as_ref().is_none_or(|one| one.strain == 0.0) {
-                    let rule = "requires a strain of the periodic box: write periodic with strain";
-                    return Err(SceneProblem::new(key("factor"), factor, rule));
-                }
-            }
+            Setting::Shear { factor } => periodic::check_factor(scene, &key("factor"), factor)?,
             Setting::Shift {
                 filament,
                 end,
@@ -56,6 +49,14 @@ pub(super) fn check(
         }
     }
     Ok(())
+}
+
+fn check_anchor(scene: &Scene, key: &str, linker: usize) -> Result<(), SceneProblem> {
+    if scene.linkers[linker].to.is_none() {
+        return Ok(());
+    }
+    let rule = "this linker joins two sites and has no anchor: write a linker with an anchor";
+    Err(SceneProblem::new(key, linker, rule))
 }
 
 /// Checks that a path that sets load factors sets the factors of all loads without a factor in time.

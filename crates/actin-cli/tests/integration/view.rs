@@ -7,6 +7,7 @@ use crate::common::{Workplace, assert_has};
 use chromium::{Mode, browser, count, probed};
 use serde_json::{Value, json};
 use std::fs;
+use std::path::Path;
 
 const PROBE: &str = include_str!("view_probe.js");
 /// Widths of a phone and a laptop (pixels).
@@ -151,7 +152,7 @@ fn assert_selects(found: &Value) {
     assert!(name.contains(described[0]), "{found}");
     assert!(count(&found["moved"]) > 1000, "{found}");
     let (file, bytes) = found["saved"].as_str().unwrap().rsplit_once(' ').unwrap();
-    assert!(file.ends_with(".png"), "{found}");
+    assert_eq!(Path::new(file).extension().unwrap(), "png", "{found}");
     assert!(bytes.parse::<u32>().unwrap() > 5000, "{found}");
 }
 

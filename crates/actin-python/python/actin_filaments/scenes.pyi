@@ -40,7 +40,7 @@ _RodLaw: TypeAlias = Literal["Homogenised", "HomogenisedAthermal", "HomogenisedA
 _RotaryInertia: TypeAlias = Literal["CrossSection", "RigidSegment"]
 _Section: TypeAlias = Ellipsoids | Rod | _Keys
 _Sections: TypeAlias = Adaptive | Following | _Keys | Sequence[_Section]
-_Setting: TypeAlias = LoadFactor | Shift | Turn | Anchor | _Keys
+_Setting: TypeAlias = LoadFactor | Shift | Turn | SettingShear | Anchor | _Keys
 _Shape: TypeAlias = Literal["AtRest"] | Arc | Helix | Points | _Keys
 _ShearLaw: TypeAlias = Cubic | _Keys
 _Slides: TypeAlias = Literal["Nowhere", "AlongAxis", "Freely"]
@@ -878,6 +878,7 @@ class Linker(Part):
     - `displaced_nm`: Displacement of the anchor from the site in the filament as built (lab frame); finite, and not zero if the
     rest length is positive.
     - `filament`: Index of the filament. Default: 0.
+    - `image`: Periodic image of the second site: its position is shifted by this number of edges of the periodic box.
     - `kinetics`: Rates of breaking, forming and stepping; by default the linker is permanent.
     - `radius_nm`: Distance of the site from the axis; at least 0. Default: 0.0.
     - `rest_length_nm`: Rest length; at least 0. Default: 0.0.
@@ -893,6 +894,7 @@ class Linker(Part):
         azimuth_deg: _Number = ...,
         displaced_nm: ArrayLike | None = ...,
         filament: _Whole = ...,
+        image: ArrayLike = ...,
         kinetics: Kinetics | _Keys | None = ...,
         radius_nm: _Number = ...,
         rest_length_nm: _Number = ...,
@@ -919,6 +921,8 @@ class LinkersBetween(Part):
     - `kinetics`: Rates of breaking, forming and stepping; by default linkers are permanent. Default: None.
     - `least_reach_nm`: Smallest distance between two linked sites as built; at least 0. Default: 0.0.
     - `per_filament`: Number of linkers divided by the number of filaments; positive.
+    - `radius_nm`: Distance of sites from the axis; at least 0. With a distance, each site has the azimuth of the nearest monomer:
+    sites follow the helix. Default: 0.0.
     - `reach_nm`: Largest distance between two linked sites as built; positive.
     - `rest_length_nm`: Rest length; at least 0. By default the distance between the two sites as built: linkers are initially free of
     force. Default: None.
@@ -936,6 +940,7 @@ class LinkersBetween(Part):
         stiffness_pn_per_nm: _Number,
         kinetics: Kinetics | _Keys | None = ...,
         least_reach_nm: _Number = ...,
+        radius_nm: _Number = ...,
         rest_length_nm: _Number | None = ...,
         site_spacing_nm: _Number = ...,
     ) -> None: ...
@@ -1016,6 +1021,25 @@ class Output(Part):
         *,
         states: _Flag = ...,
         vtk: _Flag = ...,
+    ) -> None: ...
+
+class PeriodicBox(Part):
+    """Box that is repeated along x, y and z. Only linkers act across its faces: filaments are continuous, and a linker
+    has the `image` of its second end.
+
+    A shear strain displaces the images along x in proportion to their distance along z, and so does the fluid of
+    `Brownian`.
+
+    - `factor`: Factor of the strain in time. `Shear` of a path sets another factor; both are multiplied. Default: 'Constant'.
+    - `size_nm`: Edges along x, y and z; positive.
+    - `strain`: Shear strain `dx/dz`; finite, at most 1. Scenes are built without strain. Default: 0.0.
+    """
+    def __init__(
+        self,
+        *,
+        size_nm: ArrayLike,
+        factor: _Factor = ...,
+        strain: _Number = ...,
     ) -> None: ...
 
 class Plane(Part):
@@ -1246,6 +1270,17 @@ class Rooted(Part):
         half_per_nm: _Number,
         range_per_nm: _Number,
         slope_nm: _Number,
+    ) -> None: ...
+
+class SettingShear(Part):
+    """Factor of the strain of the periodic box.
+
+    - `factor`: Factor at the end of the stage; finite.
+    """
+    def __init__(
+        self,
+        *,
+        factor: _Number,
     ) -> None: ...
 
 class Shear(Part):
@@ -1763,6 +1798,7 @@ class SceneKeys(TypedDict, total=False):
     observe: Sequence[_Observable]
     output: Output | _Keys
     path: Sequence[Stage | _Keys]
+    periodic: PeriodicBox | _Keys | None
     repulsion: Repulsion | _Keys | None
     task: _Task
     title: _Text

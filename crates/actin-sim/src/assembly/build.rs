@@ -200,16 +200,7 @@ impl<'a> Builder<'a> {
     fn finish(mut self) -> Assembly {
         let scene = self.resolved_scene();
         let spans = self.spans();
-        let drive = Drive::new(
-            &scene,
-            (&self.held, &self.clamps),
-            (
-                &self.loads,
-                self.cell.map(|cell| cell.factor),
-                &self.linkers,
-            ),
-            &self.stock.state,
-        );
+        let drive = self.drive(&scene);
         drive.place(&mut self.stock.state, 0.0);
         let energy_balance = energy_balance::of_motion(&scene.task, &mut self.stock.state);
         let mut stock = self.stock;
@@ -243,6 +234,16 @@ impl<'a> Builder<'a> {
         };
         assembly.observers = Observers::new(&assembly.scene, &EnergyNames::new(&assembly));
         assembly
+    }
+
+    fn drive(&self, scene: &Scene) -> Drive {
+        let strain = self.cell.map(|cell| cell.factor);
+        Drive::new(
+            scene,
+            (&self.held, &self.clamps),
+            (&self.loads, strain, &self.linkers),
+            &self.stock.state,
+        )
     }
 
     fn resolved_scene(&self) -> Scene {

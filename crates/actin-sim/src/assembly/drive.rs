@@ -2,7 +2,7 @@
 
 use super::Clamped;
 use crate::scene::path::{self, Values};
-use crate::scene::{ClampedEnds, FreeTranslation, Scene, Setting, left_jacobian_product};
+use crate::scene::{ClampedEnds, FreeTranslation, Scene, Setting, Stage, left_jacobian_product};
 use actin_coupling::Linker;
 use actin_mechanics::{ControlId, State, UnitQuaternion, Vector3, rotation};
 use std::ops::{Add, Mul, Sub};
@@ -71,12 +71,7 @@ impl Drive {
         let moved = clamps.iter().zip(shifts.into_iter().zip(turns));
         Self {
             stages: path.len(),
-            loads: those_set(
-                loads.iter().copied().map(Some).chain([strain]),
-                path::load_factors(path, loads.len())
-                    .into_iter()
-                    .chain([path::strain_factor(path)]),
-            ),
+            loads: factors(path, loads, strain),
             anchors: those_set(
                 linkers.iter().map(Linker::anchor_controls),
                 path::values(path, linkers.len(), anchor),
@@ -167,6 +162,17 @@ impl Drive {
         let slope = values.after((stage + 1).min(last)) - before;
         (before + slope * (u - stage as f64), slope)
     }
+}
+
+/// Factors of loads and of the strain of a periodic box that the path sets.
+fn factors(
+    path: &[Stage],
+    loads: &[ControlId],
+    strain: Option<ControlId>,
+) -> Vec<(ControlId, Values<f64>)> {
+    let of_loads = path::load_factors(path, loads.len()).into_iter();
+    let controls = loads.iter().copied().map(Some).chain([strain]);
+    those_set(controls, of_loads.chain([path::strain_factor(path)]))
 }
 
 fn those_set<C, T>(

@@ -452,9 +452,13 @@ mod tests {
         assert!((stress * 150.0_f64.powi(3) / (virial * 1e6) - 1.0).abs() < 1e-12);
     }
 
-    /// Two rods across the plane of shear, joined by symmetric linkers to images, are a Maxwell element: `G' = G x^2 / (1
-    /// + x^2)`, `G'' = G x / (1 + x^2)` with the frequency `x` in units of the relaxation rate, `G = k h^2 / V` and the
-    /// distance `h` of the joined sites along z.
+    /// Two rods across the plane of shear, joined by symmetric linkers to images, are a Maxwell element:
+    ///
+    /// ```text
+    /// G' = G x^2 / (1 + x^2),   G'' = G x / (1 + x^2),   G = k h^2 / V
+    /// ```
+    ///
+    /// `x` is the frequency in units of the relaxation rate, and `h` the distance of the joined sites along z.
     #[test]
     fn moduli_of_a_maxwell_element() {
         let text = "Scene(
