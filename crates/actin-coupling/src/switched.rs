@@ -125,6 +125,11 @@ impl SwitchedLinker {
         std::iter::once(&self.hand).chain(other)
     }
 
+    /// Periodic image of the second end, or `None` for the end itself.
+    pub fn image(&self) -> Option<&PeriodicImage> {
+        self.image.as_ref()
+    }
+
     /// Returns `true` if all hands are bound.
     pub fn is_bound(&self, state: &State) -> bool {
         self.hands().all(|hand| hand.is_bound(state))

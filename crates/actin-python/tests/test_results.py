@@ -110,6 +110,21 @@ def test_exports(run, scene, tmp_path):
         assert np.allclose(moved, run.position_nm[10] - run.position_nm[0], atol=1e-3)
 
 
+def test_files_of_switching_linkers_need_a_directory(tmp_path):
+    scene = af.Scene.from_ron(
+        """Scene(
+            filament: Filament(sections: [Rod(from_nm: 0.0, to_nm: 100.0)]),
+            clamps: [Clamp(end: Start)],
+            linkers: [Linker(at_nm: 50.0, displaced_nm: (1.0, 0.0, 0.0), stiffness_pn_per_nm: 1.0,
+                kinetics: Kinetics(seed: 1, breaks: Breaking(rate_per_ns: 1e-3)))],
+            task: Brownian(duration_ms: 0.001, temperature_k: 298.0, seed: 1),
+        )"""
+    )
+    with pytest.raises(ValueError, match="events of its linkers"):
+        af.run(scene).to_gsd(tmp_path / "run.gsd")
+    assert af.run(scene, out=tmp_path / "run").to_gsd(tmp_path / "run.gsd")
+
+
 def test_mdanalysis(run):
     pytest.importorskip("MDAnalysis")
     universe = run.to_mdanalysis()

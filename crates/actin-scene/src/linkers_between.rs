@@ -156,7 +156,7 @@ impl LinkersBetween {
         filaments.iter().enumerate().flat_map(of_filament).collect()
     }
 
-    /// Azimuth of the nearest monomer, from -180 to 180; 0 for sites on the axis.
+    /// Azimuth of the nearest monomer, at most 180 in magnitude. Sites on the axis have azimuth 0.
     fn azimuth_deg(&self, filament: &Filament, s_nm: f64) -> f64 {
         if self.radius_nm <= 0.0 {
             return 0.0;

@@ -1,7 +1,7 @@
 //! Periodic box, its shear and their validation.
 
 use super::rules::{finite, positive, show};
-use super::{Factor, Linker, Scene, SceneProblem, Task};
+use super::{Factor, Flow, Linker, Scene, SceneProblem, Task};
 use actin_mechanics::Vector3;
 use serde::{Deserialize, Serialize};
 
@@ -123,6 +123,12 @@ fn check_excluded(scene: &Scene) -> Result<(), SceneProblem> {
         let rule = "does not act between images of filaments: omit it, or omit periodic";
         return Err(SceneProblem::new("repulsion", "", rule));
     }
+    if let Task::Brownian(task) = &scene.task
+        && matches!(task.flow, Flow::Shear { .. })
+    {
+        let rule = "does not displace the images of a periodic box: write strain and factor of periodic instead";
+        return Err(SceneProblem::new("task.flow", "Shear", rule));
+    }
     Ok(())
 }
 
@@ -211,6 +217,11 @@ mod tests {
                 "periodic.strain",
             ),
             ("path:", "repulsion: Repulsion(), path:", "repulsion"),
+            (
+                "path: [Stage(set: [Shear(factor: 1.0)])],\n        task: Equilibrium()",
+                "task: Brownian(duration_ms: 1.0, temperature_k: 0.0, flow: Shear(rate_per_s: 1.0, along: (1.0, 0.0, 0.0), across: (0.0, 0.0, 1.0)))",
+                "task.flow",
+            ),
             (
                 "to: Site(filament: 1, at_nm: 5.0)",
                 "anchor_nm: (0.0, 0.0, 9.0)",

@@ -94,6 +94,9 @@ def folder(run: Run) -> Iterator[Path]:
         return
     if "position_nm" not in run._arrays:
         raise ValueError("the run has no states: `output.states` of the scene is false")
+    keys = run.scene.to_dict()
+    if keys.get("crosslinkers") or any(linker.get("kinetics") for linker in keys.get("linkers", [])):
+        raise ValueError("a run in memory does not keep the events of its linkers: write a directory with run(..., out=...)")
     with tempfile.TemporaryDirectory(prefix="actin-run-") as temporary:
         # Pages without a title have the name of the folder.
         directory = Path(temporary) / "run"

@@ -283,6 +283,9 @@ fn virial(view: &View<'_>) -> Matrix3 {
     let of_points = points.fold(Matrix3::zeros(), |sum, i| {
         sum - view.state.points.position.get(i) * loads.force.get(i).transpose()
     });
+    if view.assembly.cell.is_none() {
+        return of_points;
+    }
     (0..view.assembly.linkers.len()).fold(of_points, |sum, i| {
         let (linker, is_bound) = view.assembly.linker_in(i, view.state);
         let image = linker.periodic_displacement(view.state);

@@ -1,7 +1,6 @@
 //! Linkers that bind to any site of any filament.
 
 use super::{HandEvent, LinkerEventKind, Switching};
-use actin_coupling::PeriodicCell;
 use actin_mechanics::{Interaction, State, Vector3};
 use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
@@ -22,6 +21,8 @@ struct Grid {
     cell: f64,
     cells: HashMap<[i64; 3], Vec<usize>>,
     positions: Vec<Vector3>,
+    /// Smallest and largest coordinates of all sites.
+    bounds: [Vector3; 2],
 }
 
 fn table_of(switching: &Switching) -> usize {
@@ -72,17 +73,18 @@ impl Pool {
         state: &State,
         (at, within): (Vector3, f64),
     ) -> Vec<usize> {
+        let cell = switching.linker.image().map(|image| image.cell);
         let key = (table_of(switching), within.to_bits());
         let grid = self.grids.entry(key).or_insert_with(|| {
-            let sites = switching.table.sites.iter();
-            let cell = linker_cell(switching, state);
+            let sites = switching
+                .table
+                .sites
+                .iter()
+                .map(|site| site.position(state));
             let wrap = |place| cell.map_or(place, |cell| cell.wrap(place, state));
-            Grid::new(
-                sites.map(|site| wrap(site.position(state))).collect(),
-                within,
-            )
+            Grid::new(sites.map(wrap).collect(), within)
         });
-        let Some(cell) = linker_cell(switching, state) else {
+        let Some(cell) = cell else {
             return grid.near(at);
         };
         let home = cell.wrap(at, state);
@@ -94,16 +96,17 @@ impl Pool {
     }
 }
 
-/// Periodic box of a linker.
-fn linker_cell(switching: &Switching, state: &State) -> Option<PeriodicCell> {
-    let linker = switching.linker.linker(state);
-    linker.image().map(|image| image.cell)
-}
-
 impl Grid {
     fn new(positions: Vec<Vector3>, cell: f64) -> Self {
+        let infinite = Vector3::repeat(f64::INFINITY);
+        let bounds = positions
+            .iter()
+            .fold([infinite, -infinite], |[low, high], x| {
+                [low.inf(x), high.sup(x)]
+            });
         let mut grid = Self {
             cell,
+            bounds,
             cells: HashMap::new(),
             positions,
         };
@@ -118,6 +121,10 @@ impl Grid {
 
     /// Sites within the edge of a cell.
     fn near(&self, at: Vector3) -> Vec<usize> {
+        let [low, high] = self.bounds;
+        if (0..3).any(|k| at[k] < low[k] - self.cell || at[k] > high[k] + self.cell) {
+            return Vec::new();
+        }
         let centre = cell_of(&at, self.cell);
         let around = -1..=1;
         let mut found = Vec::new();
