@@ -259,8 +259,9 @@ impl Brownian {
         }
     }
 
-    /// Decouples the spin of rods that are isotropic about their axes from other unknowns. A rod
-    /// spins freely if all its frames are bare, that is, without bodies attached off their axes.
+    /// Decouples the spin of rods that are isotropic about their axes from their other motion in the
+    /// matrix of the steps. A rod spins freely if all its frames are bare, that is, without other
+    /// bodies attached off their axes. Springs at sites off the axis do not prevent spins.
     #[must_use]
     pub fn with_spinning_frames(
         mut self,
@@ -268,7 +269,7 @@ impl Brownian {
         is_bare: impl Fn(usize) -> bool,
     ) -> Self {
         self.axial = self.stresses.decouple_spins(system.interactions(), is_bare);
-        self.solver.decouple_spins(&self.axial);
+        self.solver.set_spinning_frames(&self.axial);
         self
     }
 

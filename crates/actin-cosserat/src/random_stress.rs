@@ -327,8 +327,8 @@ impl EnergyGradient {
             let mut blocks = element.stiffness_of(own - force, tangent, at);
             if is_turned {
                 let without = element.stiffness_of(own, tangent, at);
-                blocks.mixed.set_column(2, &without.mixed.column(2));
-                replace_axial(&mut blocks.frame, &without.frame);
+                blocks.mixed.fill_column(2, 0.0);
+                decouple_axial(&mut blocks.frame, &without.frame);
             }
             blocks.push([i, i + 1], frame, stiffness);
         }
@@ -355,19 +355,20 @@ impl EnergyGradient {
             let mut blocks = element.stiffness_of(own - couple, tangent, at);
             if is_turned {
                 let without = element.stiffness_of(own, tangent, at);
-                replace_axial(&mut blocks.first, &without.first);
-                replace_axial(&mut blocks.mixed, &without.mixed);
-                replace_axial(&mut blocks.second, &without.second);
+                decouple_axial(&mut blocks.first, &without.first);
+                decouple_axial(&mut blocks.mixed, &without.mixed);
+                decouple_axial(&mut blocks.second, &without.second);
             }
             blocks.push([a, a + 1], stiffness);
         }
     }
 }
 
-/// Replaces the third row and column.
-fn replace_axial(block: &mut Matrix3, other: &Matrix3) {
-    block.set_row(2, &other.row(2));
-    block.set_column(2, &other.column(2));
+/// Decouples axial rotations, whose stiffness is that of `without`.
+fn decouple_axial(block: &mut Matrix3, without: &Matrix3) {
+    block.fill_row(2, 0.0);
+    block.fill_column(2, 0.0);
+    block[(2, 2)] = without[(2, 2)];
 }
 
 #[cfg(test)]

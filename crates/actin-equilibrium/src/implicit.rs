@@ -11,7 +11,6 @@ use crate::outcome::SolveError;
 use actin_mechanics::{
     Approach, Coordinates, Interaction, Loads, SecondOrder, State, UnitQuaternion, Vectors,
 };
-use std::ops::Range;
 
 /// Solver for the linear equations of implicit time steps.
 ///
@@ -29,8 +28,6 @@ pub struct ImplicitSolver {
     clusters: Clusters,
     /// Frames that spin about their third axes.
     spins: Vec<bool>,
-    /// Matrix entries that couple spins to other unknowns.
-    uncoupled: Vec<usize>,
     from: Option<State>,
     /// Number of patterns so far.
     patterns: u64,
@@ -73,42 +70,18 @@ impl ImplicitSolver {
             loads: Vec::new(),
             clusters: Clusters::default(),
             spins: Vec::new(),
-            uncoupled: Vec::new(),
             from: None,
             patterns: 0,
         }
     }
 
-    /// Decouples the spins of these frames, which are rotations about their third axes, from all
-    /// unknowns except spins of other frames. [`advance_along`](Self::advance_along) applies spins
-    /// last.
-    ///
-    /// # Panics
-    /// If nothing has been factorised.
-    pub fn decouple_spins(&mut self, frames: &[usize]) {
+    /// Sets the frames whose rotations about their third axes are free spins:
+    /// [`advance_along`](Self::advance_along) applies them last and without limit.
+    pub fn set_spinning_frames(&mut self, frames: &[usize]) {
         let count = frames.iter().max().map_or(0, |most| most + 1);
         self.spins = vec![false; count];
         for &frame in frames {
             self.spins[frame] = true;
-        }
-        self.find_uncoupled();
-    }
-
-    fn find_uncoupled(&mut self) {
-        let mut is_spin = vec![false; self.layout.unknowns()];
-        for (node, range) in self.layout.nodes() {
-            if let Node::Frame(i) = node {
-                is_spin[range.start + 2] = self.spins.get(i).copied().unwrap_or(false);
-            }
-        }
-        let symbolic = &self.assembly.pattern().symbolic;
-        self.uncoupled.clear();
-        for column in 0..is_spin.len() {
-            for at in symbolic.col_ptr()[column]..symbolic.col_ptr()[column + 1] {
-                if is_spin[column] != is_spin[symbolic.row_idx()[at]] {
-                    self.uncoupled.push(at);
-                }
-            }
         }
     }
 
@@ -164,7 +137,6 @@ impl ImplicitSolver {
             Some(selection) if !is_new => self.clusters.columns(&self.layout, selection.components),
             _ => std::iter::once(0..self.layout.unknowns()).collect(),
         };
-        self.uncouple(&columns);
         let assembly = &self.assembly;
         match &mut self.linear {
             Linear::Unknown => unreachable!("the pattern is new at the first factorisation"),
@@ -190,7 +162,6 @@ impl ImplicitSolver {
             .update_nodes(parts_of, &nodes, at, &self.layout);
         assert!(is_same, "changes of parts do not change the pattern");
         let columns = self.clusters.columns(&self.layout, changed.components);
-        self.uncouple(&columns);
         match &mut self.linear {
             Linear::Unknown => panic!("no matrix has been factorised"),
             Linear::Gradients(gradients) => gradients.refactorize(&self.assembly, &columns),
@@ -208,7 +179,6 @@ impl ImplicitSolver {
 
     fn begin_pattern(&mut self) {
         self.patterns += 1;
-        self.find_uncoupled();
         let (layout, assembly) = (&self.layout, &self.assembly);
         self.metric = vec![0.0; layout.unknowns()];
         self.clusters = Clusters::new(layout, assembly.ties(), assembly.chain());
@@ -217,18 +187,6 @@ impl ImplicitSolver {
         } else {
             Linear::Direct(Box::new(Factor::new(&assembly.pattern().symbolic)))
         };
-    }
-
-    fn uncouple(&mut self, columns: &[Range<usize>]) {
-        let ends = self.assembly.pattern().symbolic.col_ptr().to_vec();
-        for columns in columns {
-            let entries = ends[columns.start]..ends[columns.end];
-            let first = self.uncoupled.partition_point(|&at| at < entries.start);
-            let own = self.uncoupled[first..].iter();
-            for &at in own.take_while(|&&at| at < entries.end) {
-                self.assembly.values[at] = 0.0;
-            }
-        }
     }
 
     /// Energy decrease of a step of each component for `loads` (pN nm), with the last factors of the

@@ -58,8 +58,9 @@ pub trait RandomStress: SecondOrder {
 pub struct StepStress<'a> {
     /// One number per component.
     pub values: &'a [f64],
-    /// `true` for stresses after [`turn_back`](RandomStress::turn_back) that do not act on axial
-    /// rotations: the derivatives are those of the loads.
+    /// `true` for stresses after [`turn_back`](RandomStress::turn_back), which do not act on axial
+    /// rotations: blocks couple these rotations with each other only, by the stiffness of the
+    /// elements.
     pub is_turned: bool,
     /// `true` for stresses that [`balance`](RandomStress::balance) the elements. The negative part
     /// of the strain stiffness is then omitted, so that the sum is positive semidefinite.

@@ -16,9 +16,9 @@ const KT_PN_NM: f64 = 4.114;
 
 const MOST: usize = 1_000_000;
 
-/// Pool of crosslinkers or motors. Each has two hands, which bind to sites on the axes of filaments. It exerts a
-/// force while both are bound to different filaments. Free crosslinkers are well mixed. A site holds one hand of the
-/// pools with the same distance and direction of sites.
+/// Pool of crosslinkers or motors. Each has two hands, which bind to sites of filaments. It exerts a force while both
+/// are bound to different filaments. Free crosslinkers are well mixed. A site holds one hand of the pools with the same
+/// sites.
 ///
 /// In a scene in memory, each crosslinker is a linker with `kinetics`.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -51,6 +51,10 @@ pub(crate) struct Crosslinkers {
     /// pitch of the long-pitch helix.
     #[serde(default)]
     pub site_spacing_nm: Option<f64>,
+    /// Distance of sites from the axis; at least 0. With a distance, each site has the azimuth of the nearest monomer:
+    /// sites follow the helix, and crosslinkers transmit torsion.
+    #[serde(default)]
+    pub radius_nm: f64,
     /// Averaging time of forces, see `Kinetics`.
     #[serde(default)]
     pub averaging_ns: Option<f64>,
@@ -73,7 +77,7 @@ impl Crosslinkers {
         let site = LinkerSite {
             filament: 0,
             at_nm: length,
-            radius_nm: 0.0,
+            radius_nm: self.radius_nm,
             azimuth_deg: 0.0,
         };
         Ok(vec![self.linker(Some(site)); self.count])
@@ -84,7 +88,7 @@ impl Crosslinkers {
         Linker {
             filament: 0,
             at_nm: 0.0,
-            radius_nm: 0.0,
+            radius_nm: self.radius_nm,
             azimuth_deg: 0.0,
             to,
             anchor_nm: None,
@@ -126,6 +130,7 @@ impl Crosslinkers {
             count: 1,
             stiffness_pn_per_nm: linker.stiffness_pn_per_nm,
             rest_length_nm: linker.rest_length_nm,
+            radius_nm: linker.radius_nm,
             attach_per_ns: roams.attach_per_ns,
             bind_per_ns: forms.rate_per_ns,
             reach_nm: Some(forms.reach_nm),
@@ -153,6 +158,7 @@ impl Crosslinkers {
         }
         positive(&key("stiffness_pn_per_nm"), self.stiffness_pn_per_nm)?;
         non_negative(&key("rest_length_nm"), self.rest_length_nm)?;
+        non_negative(&key("radius_nm"), self.radius_nm)?;
         positive(&key("attach_per_ns"), self.attach_per_ns)?;
         positive(&key("bind_per_ns"), self.bind_per_ns)?;
         self.check_kinetics(k, filaments)?;
@@ -233,7 +239,7 @@ mod tests {
                 Crosslinkers(count: 30, stiffness_pn_per_nm: 0.2, attach_per_ns: 1e-5, bind_per_ns: 1e-5,
                     unbinds: Breaking(rate_per_ns: 1e-6), seed: 2),
                 Crosslinkers(count: 3, stiffness_pn_per_nm: 0.5, attach_per_ns: 1e-5, bind_per_ns: 1e-5,
-                    unbinds: Breaking(rate_per_ns: 1e-6), averaging_ns: 0.0,
+                    unbinds: Breaking(rate_per_ns: 1e-6), averaging_ns: 0.0, radius_nm: 4.0,
                     steps: Stepping(step_nm: -5.5, rate_per_ns: 1e-6, stall_pn: 4.0), seed: 3),
             ],
             task: Brownian(duration_ms: 0.001, temperature_k: 298.0, seed: 1),
@@ -257,6 +263,11 @@ mod tests {
                 "averaging_ns: 0.0",
                 "averaging_ns: -1.0",
                 "crosslinkers[1].averaging_ns",
+            ),
+            (
+                "radius_nm: 4.0",
+                "radius_nm: -4.0",
+                "crosslinkers[1].radius_nm",
             ),
             (
                 "temperature_k: 298.0",

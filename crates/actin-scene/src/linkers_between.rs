@@ -137,7 +137,7 @@ impl LinkersBetween {
     fn sites(&self, filaments: &[Filament]) -> Vec<Site> {
         let of_filament = |(filament, one): (usize, &Filament)| {
             let places = one.sites_nm(self.site_spacing_nm);
-            let azimuth = |s: &f64| self.azimuth_deg(one, *s);
+            let azimuth = |s: &f64| one.azimuth_at_radius_deg(*s, self.radius_nm);
             let azimuths: Vec<f64> = places.iter().map(azimuth).collect();
             let axes = one.axes_at(&places);
             let arm = |azimuth: f64| {
@@ -154,17 +154,6 @@ impl LinkersBetween {
             all.map(site).collect::<Vec<_>>()
         };
         filaments.iter().enumerate().flat_map(of_filament).collect()
-    }
-
-    /// Azimuth of the nearest monomer, at most 180 in magnitude. Sites on the axis have azimuth 0.
-    fn azimuth_deg(&self, filament: &Filament, s_nm: f64) -> f64 {
-        if self.radius_nm <= 0.0 {
-            return 0.0;
-        }
-        let helix = &filament.monomers;
-        let index = (s_nm / helix.rise_nm).round();
-        let azimuth = helix.azimuth_deg + index * helix.turn_deg;
-        azimuth - 360.0 * (azimuth / 360.0).round()
     }
 
     /// Finds pairs within reach with a grid of cubic cells. A site has images in a periodic box.

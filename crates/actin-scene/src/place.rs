@@ -65,6 +65,18 @@ impl Filament {
         places.take_while(|s| *s <= length).collect()
     }
 
+    /// Returns the azimuth (degrees) of the monomer nearest to an arc length (nm), from -180 to 180. Sites on the axis,
+    /// with a radius of 0, have azimuth 0.
+    pub fn azimuth_at_radius_deg(&self, s_nm: f64, radius_nm: f64) -> f64 {
+        if radius_nm <= 0.0 {
+            return 0.0;
+        }
+        let helix = &self.monomers;
+        let index = (s_nm / helix.rise_nm).round();
+        let azimuth = helix.azimuth_deg + index * helix.turn_deg;
+        azimuth - 360.0 * (azimuth / 360.0).round()
+    }
+
     /// Returns the reference positions (lab frame, nm) of the axis at arc lengths (nm).
     pub(crate) fn places_at(&self, s_nm: &[f64]) -> Vec<Vector3> {
         let axes = self.axes_at(s_nm).into_iter();

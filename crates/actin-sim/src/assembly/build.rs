@@ -124,7 +124,7 @@ struct Builder<'a> {
     linkers: Vec<Linker>,
     kinetics: Option<Kinetics>,
     /// Tables of roaming linkers by the distance of sites and the direction of steps.
-    site_tables: HashMap<(u64, bool), SiteTable>,
+    site_tables: HashMap<(u64, bool, u64), SiteTable>,
     repelled: Option<RepulsionModel>,
     sampled: Vec<InterfaceSampling>,
 }

@@ -9,7 +9,6 @@ use super::{Estimate, Failure, Outcome, Plan, Status, long_steps};
 use crate::scene::{Brownian as Task, Flow, Fluid, SceneProblem, Task as AnyTask};
 use crate::{Assembly, SectionSpan};
 use actin_brownian::{Brownian, Layout, Relaxation};
-use actin_coupling::LinkerEnd;
 use actin_integrate::{POSITION_VERLET, Run, Split};
 use actin_mechanics::{System, Vector3};
 
@@ -183,8 +182,8 @@ impl Estimate {
     }
 }
 
-/// Returns for each filament whether other elements than one rod resist axial rotation of its
-/// frames: other sections, hinged walls, or linkers off the axis.
+/// Returns for each filament whether other elements than one rod are joined to its frames off the axis:
+/// other sections or hinged walls.
 fn held_off_axis(assembly: &Assembly) -> Vec<bool> {
     let sections = (0..assembly.filaments.len()).map(|filament| assembly.sections_of(filament));
     let mut held: Vec<bool> = sections
@@ -192,16 +191,6 @@ fn held_off_axis(assembly: &Assembly) -> Vec<bool> {
         .collect();
     for clamp in assembly.scene.clamps.iter().filter(|c| c.hinge.is_some()) {
         held[clamp.filament] = true;
-    }
-    let ends = assembly.linkers.iter().flat_map(|linker| {
-        let other = match linker.end() {
-            LinkerEnd::Site(site) => Some(site),
-            LinkerEnd::Anchor(_) => None,
-        };
-        [Some(linker.site()), other].into_iter().flatten()
-    });
-    for site in ends.filter(|site| site.arm() != Vector3::zeros()) {
-        held[assembly.filament_of_frame(site.frame())] = true;
     }
     held
 }

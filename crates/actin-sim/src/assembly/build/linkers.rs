@@ -58,7 +58,8 @@ impl Builder<'_> {
         let table = match (&kinetics.roams, &kinetics.steps) {
             (Some(roams), steps) => {
                 let is_reversed = steps.is_some_and(|steps| steps.step_nm < 0.0);
-                self.sites_of_all(roams.site_spacing_nm, is_reversed, nodes)
+                let spaced = (roams.site_spacing_nm, is_reversed);
+                self.sites_of_all(spaced, linker.radius_nm, nodes)
             }
             (None, steps) => {
                 let length = self.strands[linker.filament].filament.length_nm();
@@ -104,33 +105,31 @@ impl Builder<'_> {
         })
     }
 
-    /// Sites of all filaments at equal distances, in the direction of steps. Linkers with the same sites
-    /// share a table.
+    /// Sites of all filaments at equal distances, in the direction of steps, at a radius. Linkers with the
+    /// same sites share a table.
     fn sites_of_all(
         &mut self,
-        spacing_nm: f64,
-        is_reversed: bool,
+        (spacing_nm, is_reversed): (f64, bool),
+        radius_nm: f64,
         nodes: &mut Nodes,
     ) -> Result<SiteTable, LinkerError> {
-        let key = (spacing_nm.to_bits(), is_reversed);
+        let key = (spacing_nm.to_bits(), is_reversed, radius_nm.to_bits());
         if let Some(known) = self.site_tables.get(&key) {
             return Ok(known.clone());
         }
-        let of_filament = |(filament, strand): (usize, &Strand<'_>)| {
-            let mut places = strand.filament.sites_nm(spacing_nm);
+        let mut places = Vec::new();
+        for (filament, strand) in self.strands.iter().enumerate() {
+            let mut own = strand.filament.sites_nm(spacing_nm);
             if is_reversed {
-                places.reverse();
+                own.reverse();
             }
-            let site = move |at_nm| LinkerSite {
+            places.extend(own.into_iter().map(|at_nm| LinkerSite {
                 filament,
                 at_nm,
-                radius_nm: 0.0,
-                azimuth_deg: 0.0,
-            };
-            places.into_iter().map(site)
-        };
-        let strands = self.strands.iter().enumerate();
-        let places: Vec<LinkerSite> = strands.flat_map(of_filament).collect();
+                radius_nm,
+                azimuth_deg: strand.filament.azimuth_at_radius_deg(at_nm, radius_nm),
+            }));
+        }
         let table = self.table(places.into_iter(), nodes)?;
         self.site_tables.insert(key, table.clone());
         Ok(table)
