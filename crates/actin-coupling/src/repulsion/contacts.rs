@@ -5,7 +5,7 @@ use super::pair::Pair;
 use super::passing::{self, Limit};
 use actin_mechanics::{
     Approach, Coordinates, Interaction, Loads, Matrix3, RandomStress, SecondOrder, State,
-    Stiffness, Vector3, segments,
+    StepStress, Stiffness, segments,
 };
 use std::f64::consts::PI;
 use std::sync::{Mutex, MutexGuard, PoisonError};
@@ -215,13 +215,25 @@ impl Contacts {
         pairs.iter().filter_map(approach).take(most).collect()
     }
 
-    fn push_tangents(&self, state: &State, stiffness: &mut Stiffness, tangent: Tangent) {
+    fn push_stiffness(&self, state: &State, stiffness: &mut Stiffness, tangent: Tangent) {
         self.visit(state, self.reach.known, |[i, j], places| {
             let tangents = places.tangents(&self.kernel, tangent);
             let (a, b) = (&self.capsules[i], &self.capsules[j]);
             let (of_a, of_b) = (a.slopes(state), b.slopes(state));
             let bodies: [Follows; 4] = [(0, of_a[0]), (0, of_a[1]), (2, of_b[0]), (2, of_b[1])];
             push_blocks(&bodies, &tangents, stiffness);
+        });
+        if self.capsules.iter().all(Capsule::has_no_frame) {
+            return;
+        }
+        self.visit(state, self.reach.known, |pair, places| {
+            let forces = places.forces(&self.kernel);
+            for (i, forces) in pair.into_iter().zip(forces) {
+                let work = forces.map(|f| -f);
+                if let Some((frame, block)) = self.capsules[i].curvature_of_work(work, state) {
+                    stiffness.push_link(frame, frame, block);
+                }
+            }
         });
     }
 
@@ -303,19 +315,7 @@ impl SecondOrder for Contacts {
     /// Adds links for all pairs with gaps below a quarter of a radius. Blocks of pairs without
     /// contact are zero, so that a new contact rarely changes the sparsity of the whole matrix.
     fn add_stiffness(&self, state: &State, stiffness: &mut Stiffness) {
-        self.push_tangents(state, stiffness, Kernel::tangent);
-        if self.capsules.iter().all(Capsule::has_no_frame) {
-            return;
-        }
-        self.visit(state, self.reach.known, |pair, places| {
-            let forces = places.forces(&self.kernel);
-            for (i, forces) in pair.into_iter().zip(forces) {
-                let work = forces.map(|f| -f);
-                if let Some((frame, block)) = self.capsules[i].curvature_of_work(work, state) {
-                    stiffness.push_link(frame, frame, block);
-                }
-            }
-        });
+        self.push_stiffness(state, stiffness, Kernel::tangent);
     }
 
     fn couples_by_distance(&self) -> bool {
@@ -335,15 +335,18 @@ impl RandomStress for Contacts {
 
     fn add_stress_loads(&self, _state: &State, _stresses: &[f64], _loads: &mut Loads) {}
 
-    fn add_stress_stiffness(&self, _state: &State, _stresses: &[f64], _stiffness: &mut Stiffness) {}
-
-    fn add_convexity(&self, state: &State, is_wanted: bool, stiffness: &mut Stiffness) {
-        let tangent = if is_wanted {
-            Kernel::negative_tangent
+    fn add_stressed_stiffness(
+        &self,
+        state: &State,
+        stress: &StepStress<'_>,
+        stiffness: &mut Stiffness,
+    ) {
+        let tangent = if stress.is_balanced {
+            Kernel::convex_tangent
         } else {
-            |_: &Kernel, _: f64, _: Vector3| Matrix3::zeros()
+            Kernel::tangent
         };
-        self.push_tangents(state, stiffness, tangent);
+        self.push_stiffness(state, stiffness, tangent);
     }
 }
 
