@@ -26,6 +26,6 @@ pub mod scene3d;
 pub use browser::browser;
 pub use colour::{Colour, OKABE_ITO, Ramp};
 pub use nalgebra;
-pub use plot::{Chart, Series};
+pub use plot::{Chart, Mark, Series};
 pub use png::png;
 pub use scatter::{Scatter, ScatterPoint};

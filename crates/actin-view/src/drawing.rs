@@ -6,7 +6,7 @@ use actin_draw::scene3d::{Item, Matrix3, Solid, Stroke};
 use actin_sim::mechanics::{State, Vector3};
 use actin_sim::{Assembly, BodyKind};
 
-/// Depth offset of items inside or behind bodies that are drawn in front of them (nm).
+/// Depth offset of items inside bodies, which are drawn in front of them (nm).
 pub const INSIDE_NM: f64 = 8.0;
 
 /// A state of all filaments, or of a range of arc length.

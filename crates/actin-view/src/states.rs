@@ -45,7 +45,10 @@ pub fn write(
     if states.is_empty() {
         return Err(format!("{file}: no states to show"));
     }
-    if let Some(bad) = states.iter().find(|s| !s.pose.is_finite()) {
+    // Numbers that are not finite are written as null.
+    let is_finite =
+        |s: &&ViewState| serde_json::to_string(&s.pose).is_ok_and(|text| !text.contains("null"));
+    if let Some(bad) = states.iter().find(|s| !is_finite(s)) {
         return Err(format!("{file}: {} {} is not finite", bad.group, bad.name));
     }
     let (mut bonds, mut states) = (Vec::new(), states.to_vec());

@@ -104,7 +104,7 @@ impl Camera {
         ]
     }
 
-    /// Returns the depth behind the target relative to the largest one, from 0 to 1.
+    /// Returns the depth beyond the target, from 0 at the target to 1 at the largest distance.
     pub(super) fn remoteness(&self, point: Vector3) -> f64 {
         (-self.see(point).z / self.reach).clamp(0.0, 1.0)
     }

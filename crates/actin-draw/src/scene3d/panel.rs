@@ -36,14 +36,9 @@ const GREY: Colour = Colour([90, 90, 90]);
 impl Panel {
     /// Returns the area of the solids in a panel at `place`, with margins for labels: left, top, right, bottom.
     pub fn area([left, top, width, height]: [f64; 4], room: [f64; 4]) -> [f64; 4] {
-        let [room_left, room_top, room_right, room_bottom] = room;
-        let (above, below) = (TITLE + room_top, FOOT + room_bottom);
-        [
-            left + room_left,
-            top + above,
-            (width - room_left - room_right).max(LEAST * width),
-            (height - above - below).max(LEAST * height),
-        ]
+        let (x, across) = between(left, width, room[0], room[2]);
+        let (y, down) = between(top, height, TITLE + room[1], FOOT + room[3]);
+        [x, y, across, down]
     }
 
     pub(super) fn paint(&self, canvas: &mut Canvas) {
@@ -112,6 +107,15 @@ impl Panel {
             let [x, y] = at(beyond);
             canvas.text([x, y + 4.0], 12.0, Align::Middle, false, name);
         }
+    }
+}
+
+/// Returns start and length between margins, or the middle if the margins leave less than a fraction of the length.
+fn between(start: f64, length: f64, before: f64, after: f64) -> (f64, f64) {
+    let least = LEAST * length;
+    match length - before - after {
+        free if free < least => (start + 0.5 * (length - least), least),
+        free => (start + before, free),
     }
 }
 
