@@ -98,9 +98,7 @@ fn render(
         };
         if let Some(label) = &series.label {
             let mark = series.mark;
-            drawn
-                .label(label)
-                .legend(move |(x, y)| key(mark, colour, (x, y)));
+            drawn.label(label).legend(move |at| key(mark, colour, at));
         }
     }
     plane
@@ -110,8 +108,7 @@ fn render(
         .border_style(BLACK.mix(0.3))
         .label_font(("sans-serif", 14))
         .draw()?;
-    root.present()?;
-    Ok(())
+    Ok(root.present()?)
 }
 
 fn key<'a>(

@@ -5,7 +5,7 @@ use resvg::usvg::fontdb::Database;
 use resvg::usvg::{Options, Tree};
 use std::sync::{Arc, LazyLock};
 
-/// The letters of all pictures, so that they are equal on all machines: Latin and Greek of DejaVu Sans.
+/// The letters of all pictures, so that they are equal on all machines: Latin and Greek of `DejaVu` Sans.
 const FONT: &[u8] = include_bytes!("../font/DejaVuSans.ttf");
 
 static FONTS: LazyLock<Arc<Database>> = LazyLock::new(|| {

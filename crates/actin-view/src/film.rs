@@ -19,6 +19,8 @@ use std::thread;
 const MARGIN_NM: f64 = 7.0;
 /// Length of the arrow of the strongest force (pixels); others are shorter, down to a third.
 const ARROW: f64 = 64.0;
+/// Height of the axes above the scale bar (pixels).
+const AXES: f64 = 18.0;
 /// Smallest radius of bodies (pixels).
 const LEAST: f64 = 1.2;
 
@@ -98,7 +100,8 @@ impl Film {
         let places = states.flat_map(|state| state.points.position.iter());
         let balls = places.map(|place| (place, MARGIN_NM));
         let margin = if has_arrows { 0.5 * ARROW } else { 0.0 };
-        Camera::fitted(self.attitude, balls, Panel::area(self.place(), [margin; 4]))
+        let margins = [margin, margin, margin, margin.max(AXES)];
+        Camera::fitted(self.attitude, balls, Panel::area(self.place(), margins))
     }
 
     /// Returns the picture of a record; `strongest` is the largest force of all records (pN).
