@@ -2,7 +2,7 @@
 //!
 //! `cargo run -p actin-draw --example decay -- decay.svg`
 
-use actin_draw::{Chart, Colour, Ramp, Series};
+use actin_draw::{Chart, Colour, Mark, Ramp, Series};
 use std::path::PathBuf;
 
 fn main() -> Result<(), String> {
@@ -12,7 +12,7 @@ fn main() -> Result<(), String> {
         label: Some("exp(-t)".into()),
         colour: Ramp::VIRIDIS.at(1.0),
         points: times().map(|t| (t, (-t).exp())).collect(),
-        dots: false,
+        mark: Mark::Dashes,
     };
     let measured = Series {
         label: Some("measured".into()),
@@ -21,15 +21,13 @@ fn main() -> Result<(), String> {
             .step_by(5)
             .map(|t| (t, (-t).exp() + 0.01 * (7.0 * t).sin()))
             .collect(),
-        dots: true,
+        mark: Mark::Dots,
     };
-    let mut series = expected.dashed(false);
-    series.push(measured);
     let chart = Chart {
         title: "A decay",
         x_label: "time (ns)",
         y_label: "amplitude",
-        series,
+        series: vec![expected, measured],
         equal_axes: false,
     };
     chart.draw(&PathBuf::from(&path))?;

@@ -13,8 +13,19 @@ pub struct Series {
     pub colour: Colour,
     /// Points in data coordinates.
     pub points: Vec<(f64, f64)>,
-    /// True for dots instead of a line.
-    pub dots: bool,
+    /// Line, dashes or dots.
+    pub mark: Mark,
+}
+
+/// Style of a series.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Mark {
+    /// A line.
+    Line,
+    /// A dashed line, which leaves lines below it visible.
+    Dashes,
+    /// A dot at each point.
+    Dots,
 }
 
 /// A chart of lines and dots on linear axes. The legend is placed in the emptiest corner.
@@ -32,66 +43,8 @@ pub struct Chart<'a> {
     pub equal_axes: bool,
 }
 
-impl Series {
-    /// Splits the line into dashes, so that lines below it are visible. The first dash has the label. `equal_axes` must
-    /// agree with the chart.
-    pub fn dashed(self, equal_axes: bool) -> Vec<Self> {
-        let Self {
-            mut label, colour, ..
-        } = self;
-        let dashes = dashes(&self.points, equal_axes).into_iter();
-        let series = dashes.map(|points| Self {
-            label: label.take(),
-            colour,
-            points,
-            dots: false,
-        });
-        series.collect()
-    }
-}
-
-/// Length of a dash and of a gap, relative to the range of the line.
-const DASH: f64 = 0.018;
-
-fn dashes(points: &[(f64, f64)], equal_axes: bool) -> Vec<Vec<(f64, f64)>> {
-    let width = range(points.iter().map(|p| p.0));
-    let height = range(points.iter().map(|p| p.1));
-    let [width, height] = if equal_axes {
-        [width.max(height); 2]
-    } else {
-        [width, height]
-    };
-    let mut all: Vec<Vec<(f64, f64)>> = vec![points.iter().copied().take(1).collect()];
-    let (mut left, mut draws) = (DASH, true);
-    for pair in points.windows(2) {
-        let (from, to) = (pair[0], pair[1]);
-        let length = ((to.0 - from.0) / width).hypot((to.1 - from.1) / height);
-        let mut along = 0.0;
-        while along < length {
-            let step = f64::min(left, length - along);
-            along = if step < left { length } else { along + step };
-            left -= step;
-            let t = along / length;
-            let place = (from.0 + t * (to.0 - from.0), from.1 + t * (to.1 - from.1));
-            if let Some(dash) = all.last_mut().filter(|_| draws) {
-                dash.push(place);
-            }
-            if left <= 0.0 {
-                (left, draws) = (DASH, !draws);
-                all.extend(draws.then(|| vec![place]));
-            }
-        }
-    }
-    all
-}
-
-/// Returns the difference of the largest and the smallest value, or 1 if they are equal.
-fn range(values: impl Iterator<Item = f64> + Clone) -> f64 {
-    let high = values.clone().fold(f64::NEG_INFINITY, f64::max);
-    let range = high - values.fold(f64::INFINITY, f64::min);
-    if range > 0.0 { range } else { 1.0 }
-}
-
+/// Length of dashes and gaps in pixels.
+const DASH: u32 = 8;
 const SIZE: (u32, u32) = (900, 560);
 /// Size of the plot area in pixels, for equal scales.
 const PLANE: (f64, f64) = (800.0, 450.0);
@@ -134,18 +87,18 @@ fn render(
         .draw()?;
     for series in &chart.series {
         let colour = RGBColor::from(series.colour);
-        let drawn = if series.dots {
-            let dots = series.points.iter();
-            plane.draw_series(dots.map(|&p| Circle::new(p, 2, colour.filled())))?
-        } else {
-            let line = LineSeries::new(series.points.iter().copied(), colour.stroke_width(2));
-            plane.draw_series(line)?
+        let points = series.points.iter().copied();
+        let drawn = match series.mark {
+            Mark::Line => plane.draw_series(LineSeries::new(points, colour.stroke_width(2)))?,
+            Mark::Dashes => {
+                let style = colour.stroke_width(2);
+                plane.draw_series(DashedLineSeries::new(points, DASH, DASH, style))?
+            }
+            Mark::Dots => plane.draw_series(points.map(|p| Circle::new(p, 2, colour.filled())))?,
         };
         if let Some(label) = &series.label {
-            let dots = series.dots;
-            drawn
-                .label(label)
-                .legend(move |(x, y)| key(dots, colour, (x, y)));
+            let mark = series.mark;
+            drawn.label(label).legend(move |at| key(mark, colour, at));
         }
     }
     plane
@@ -155,16 +108,15 @@ fn render(
         .border_style(BLACK.mix(0.3))
         .label_font(("sans-serif", 14))
         .draw()?;
-    root.present()?;
-    Ok(())
+    Ok(root.present()?)
 }
 
 fn key<'a>(
-    dots: bool,
+    mark: Mark,
     colour: RGBColor,
     (x, y): (i32, i32),
 ) -> DynElement<'static, SVGBackend<'a>, (i32, i32)> {
-    if dots {
+    if mark == Mark::Dots {
         Circle::new((x + 11, y), 2, colour.filled()).into_dyn()
     } else {
         PathElement::new([(x, y), (x + 22, y)], colour.stroke_width(3)).into_dyn()
@@ -172,7 +124,7 @@ fn key<'a>(
 }
 
 fn along(series: &Series) -> Vec<(f64, f64)> {
-    if series.dots {
+    if series.mark == Mark::Dots {
         return series.points.clone();
     }
     let stretches = series.points.windows(2);
@@ -240,33 +192,4 @@ fn ranges(chart: &Chart<'_>) -> Option<(std::ops::Range<f64>, std::ops::Range<f6
 fn widen((low, high): (f64, f64), width: f64) -> (f64, f64) {
     let middle = 0.5 * (low + high);
     (middle - 0.5 * width, middle + 0.5 * width)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// The dashes cover half of a straight line, do not overlap, and one of them has the label.
-    #[test]
-    fn dashes_cover_half_of_a_line() {
-        for stretches in [1, 50] {
-            let place = |k: u32| (100.0 * f64::from(k) / f64::from(stretches), 7.0);
-            let line = Series {
-                label: Some("line".into()),
-                colour: Colour([0; 3]),
-                points: (0..=stretches).map(place).collect(),
-                dots: false,
-            };
-            let dashes = line.dashed(true);
-            let ends = |dash: &Series| (dash.points[0].0, dash.points[dash.points.len() - 1].0);
-            let drawn: f64 = dashes.iter().map(ends).map(|(from, to)| to - from).sum();
-            // Dashes and gaps are 1.8 long.
-            assert!((drawn - 50.0).abs() < 2.0, "{drawn}");
-            let follow = |pair: &[Series]| ends(&pair[0]).1 < ends(&pair[1]).0;
-            assert!(dashes.windows(2).all(follow));
-            let labels = dashes.iter().filter(|dash| dash.label.is_some());
-            assert_eq!(labels.count(), 1);
-            assert!(dashes[0].label.is_some());
-        }
-    }
 }

@@ -1,13 +1,13 @@
 //! Series of charts.
 
-use actin_draw::{Colour, Series};
+use actin_draw::{Colour, Mark, Series};
 
 pub(crate) fn line(label: impl Into<String>, colour: Colour, points: Vec<(f64, f64)>) -> Series {
     Series {
         label: Some(label.into()),
         colour,
         points,
-        dots: false,
+        mark: Mark::Line,
     }
 }
 
@@ -16,6 +16,6 @@ pub(crate) fn dots(colour: Colour, points: Vec<(f64, f64)>) -> Series {
         label: None,
         colour,
         points,
-        dots: true,
+        mark: Mark::Dots,
     }
 }

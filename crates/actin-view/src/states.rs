@@ -2,6 +2,7 @@
 //!
 //! Colours are not stored; the page applies its palette.
 
+use crate::Attitude;
 use crate::pose::{Bonds, Pose};
 use actin_draw::report::{View, save};
 use serde::Serialize;
@@ -19,28 +20,6 @@ pub struct ViewState {
     #[serde(flatten)]
     /// Visible bodies.
     pub pose: Pose,
-}
-
-/// View direction.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct Attitude {
-    /// Direction towards the viewer (lab frame).
-    pub towards: [f64; 3],
-    /// Upward direction (lab frame).
-    pub up: [f64; 3],
-}
-
-impl Attitude {
-    /// Lab z to the right, lab x upwards, seen slightly from above.
-    pub const HORIZONTAL: Self = Self {
-        towards: [0.35, 1.0, 0.15],
-        up: [1.0, 0.0, 0.0],
-    };
-    /// Lab z upwards.
-    pub const VERTICAL: Self = Self {
-        towards: [-0.35, -1.0, 0.25],
-        up: [0.0, 0.0, 1.0],
-    };
 }
 
 #[derive(Serialize)]
@@ -66,7 +45,10 @@ pub fn write(
     if states.is_empty() {
         return Err(format!("{file}: no states to show"));
     }
-    if let Some(bad) = states.iter().find(|s| !s.pose.is_finite()) {
+    // Numbers that are not finite are written as null.
+    let is_finite =
+        |s: &&ViewState| serde_json::to_string(&s.pose).is_ok_and(|text| !text.contains("null"));
+    if let Some(bad) = states.iter().find(|s| !is_finite(s)) {
         return Err(format!("{file}: {} {} is not finite", bad.group, bad.name));
     }
     let (mut bonds, mut states) = (Vec::new(), states.to_vec());

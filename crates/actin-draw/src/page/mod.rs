@@ -2,7 +2,7 @@
 //!
 //! A [`Page`] is filled in order and finished once. It begins with a contact sheet of the first picture of every
 //! artefact, which links to its section. SVG pictures follow the light or dark mode of the page ([`on_dark`]). States
-//! are JSON files for a script of the caller, which uses the scripts of [`space`]. A table at the end lists all
+//! are JSON files for a script of the caller, which uses the scripts [`SOLIDS`] and [`SPACE`]. A table at the end lists all
 //! verdicts, failed ones first, with their reasons.
 
 mod markdown;
@@ -16,7 +16,6 @@ pub use tables::{ExplainedMisses, Misses, breakable, significant};
 pub use verdicts::Verdicts;
 
 use crate::report::{Artefact, Picture, View};
-use crate::space;
 use maud::{DOCTYPE, PreEscaped, html};
 use shades::Shades;
 use std::fs;
@@ -24,6 +23,11 @@ use std::path::Path;
 
 /// Style sheet of pages.
 pub const STYLE: &str = include_str!("style.css");
+/// Script that draws ellipsoids and tubes with WebGL 2.
+pub const SOLIDS: &str = include_str!("solids.js");
+/// Script of an interactive view with camera, input, scale bar and axes, which requires [`SOLIDS`]. Scripts of the caller
+/// provide the solids.
+pub const SPACE: &str = include_str!("space.js");
 
 /// A page under construction.
 ///
@@ -74,8 +78,8 @@ impl<'a> Page<'a> {
             scripts: String::new(),
             shades: Shades::default(),
         };
-        page.script(space::SOLIDS);
-        page.script(space::SPACE);
+        page.script(SOLIDS);
+        page.script(SPACE);
         page
     }
 
@@ -177,7 +181,7 @@ impl<'a> Page<'a> {
         self.scripts.insert_str(0, &data.0);
     }
 
-    /// Adds a script after the scripts of [`space`].
+    /// Adds a script after [`SOLIDS`] and [`SPACE`].
     pub fn script(&mut self, text: &str) {
         let script = html! { script { (PreEscaped(text)) } };
         self.scripts.push_str(&script.0);

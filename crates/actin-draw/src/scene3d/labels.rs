@@ -1,7 +1,7 @@
 //! Labels at points of the scene, placed inside the panel without overlap.
 
 use super::Vector3;
-use super::frame::Frame;
+use super::camera::Camera;
 use super::svg::{Align, Canvas, Stroke, text_width};
 use crate::Colour;
 
@@ -23,11 +23,11 @@ const LEADER_COLOUR: Colour = Colour([120, 120, 120]);
 
 type Area = [f64; 4];
 
-pub(super) fn paint(labels: &[Label], frame: &Frame, canvas: &mut Canvas) {
+pub(super) fn paint(labels: &[Label], camera: &Camera, panel: Area, canvas: &mut Canvas) {
     let mut taken: Vec<Area> = Vec::new();
     for label in labels {
-        let named = frame.pixel(frame.camera.project(label.at));
-        let area = free_area(label, named, frame.area, &taken);
+        let named = camera.pixel(label.at);
+        let area = free_area(label, named, panel, &taken);
         taken.push(area);
         let [left, top, right, bottom] = area;
         if label.offset[0].hypot(label.offset[1]) > LEADER {

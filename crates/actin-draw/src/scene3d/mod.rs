@@ -1,19 +1,17 @@
-//! Perspective drawings of solids as SVG.
+//! Orthographic drawings of solids as SVG.
 //!
-//! A [`Sheet`] contains panels and a legend. A [`Panel`] contains solids and labels, and fits them into its area.
-//! Outlines are exact projections. Solids are drawn in the order of the distances of their centres (painter's
-//! algorithm).
+//! A [`Sheet`] contains panels and a legend. A [`Panel`] contains solids and labels, seen by a [`Camera`]. Outlines are
+//! exact projections. Solids are drawn in the order of the depths of their centres (painter's algorithm), and lighter
+//! with depth.
 
 mod camera;
-mod frame;
 mod labels;
-mod outline;
 mod panel;
 mod sheet;
 mod solid;
 mod svg;
 
-pub use camera::View;
+pub use camera::{Attitude, Camera};
 pub use labels::Label;
 pub use panel::Panel;
 pub use sheet::{Key, Sheet};

@@ -1,8 +1,7 @@
 //! A view of a scene, fitted into a rectangle and drawn back to front.
 
 use super::Vector3;
-use super::camera::{Camera, View};
-use super::frame::Frame;
+use super::camera::Camera;
 use super::labels::{self, LETTERS, Label};
 use super::solid::Item;
 use super::svg::{Align, Canvas, Stroke};
@@ -15,20 +14,18 @@ pub struct Panel {
     pub title: String,
     /// Left, top, width and height in pixels.
     pub place: [f64; 4],
-    /// View direction.
-    pub view: View,
+    /// Camera, fitted into [`Panel::area`].
+    pub camera: Camera,
     /// Solids, in any order.
     pub items: Vec<Item>,
     /// Texts at points of the scene.
     pub labels: Vec<Label>,
     /// Length of the scale bar (nm).
     pub bar_nm: f64,
-    /// Margins for labels in pixels: left, top, right, bottom.
-    pub room: [f64; 4],
 }
 
-/// Distance of the viewer relative to the extent of the scene, a compromise between depth and accurate lengths.
-const DISTANCE: f64 = 3.5;
+/// Smallest width and height of the area of solids, relative to the panel.
+const LEAST: f64 = 0.3;
 const TITLE: f64 = 26.0;
 const FOOT: f64 = 46.0;
 const AXIS: f64 = 24.0;
@@ -37,19 +34,29 @@ const SHORT: f64 = 0.38;
 const GREY: Colour = Colour([90, 90, 90]);
 
 impl Panel {
+    /// Returns the area of the solids in a panel at `place`, with margins for labels: left, top, right, bottom.
+    pub fn area([left, top, width, height]: [f64; 4], room: [f64; 4]) -> [f64; 4] {
+        let (x, across) = between(left, width, room[0], room[2]);
+        let (y, down) = between(top, height, TITLE + room[1], FOOT + room[3]);
+        [x, y, across, down]
+    }
+
     pub(super) fn paint(&self, canvas: &mut Canvas) {
-        let frame = self.frame();
-        let mut order: Vec<(f64, &Item)> = self
-            .items
-            .iter()
-            .map(|item| (item.depth(&frame.camera), item))
-            .collect();
-        order.sort_by(|a, b| b.0.total_cmp(&a.0));
+        let camera = &self.camera;
+        let mut order: Vec<(f64, &Item)> =
+            self.items.iter().map(|i| (i.depth(camera), i)).collect();
+        order.sort_by(|a, b| a.0.total_cmp(&b.0));
         for (_, item) in order {
-            item.solid.paint(item, &frame, canvas);
+            item.paint(camera, canvas);
         }
-        labels::paint(&self.labels, &frame, canvas);
-        let [left, top, ..] = self.place;
+        let [left, top, width, height] = self.place;
+        let area = [
+            left + 4.0,
+            top + TITLE,
+            left + width - 4.0,
+            top + height - FOOT,
+        ];
+        labels::paint(&self.labels, camera, area, canvas);
         canvas.text(
             [left + 8.0, top + 18.0],
             16.0,
@@ -57,54 +64,20 @@ impl Panel {
             true,
             &self.title,
         );
-        self.paint_bar(&frame, canvas);
-        self.paint_axes(&frame, canvas);
+        self.paint_bar(canvas);
+        self.paint_axes(canvas);
     }
 
-    fn frame(&self) -> Frame {
-        let middles: Vec<Vector3> = self.items.iter().map(|i| i.solid.middle()).collect();
-        let target = middles.iter().sum::<Vector3>() / middles.len().max(1) as f64;
-        let extent = middles
-            .iter()
-            .map(|p| (p - target).norm())
-            .fold(1.0, f64::max);
-        let distance = DISTANCE * 2.0 * extent;
-        let camera = Camera::new(&self.view, target, distance);
-        let places = || {
-            self.items
-                .iter()
-                .flat_map(|item| item.solid.extent(&camera))
-        };
-        let low = |k: usize| places().map(|p| p[k]).fold(f64::INFINITY, f64::min);
-        let high = |k: usize| places().map(|p| p[k]).fold(f64::NEG_INFINITY, f64::max);
-        let size = [0, 1].map(|k| (high(k) - low(k)).max(1e-9));
-        let [left, top, width, height] = self.place;
-        let [room_left, room_top, room_right, room_bottom] = self.room;
-        let (from, to) = (left + room_left, left + width - room_right);
-        let (upper, lower) = (top + TITLE + room_top, top + height - FOOT - room_bottom);
-        Frame {
-            camera,
-            scale: ((to - from) / size[0]).min((lower - upper) / size[1]),
-            picture: [0, 1].map(|k| 0.5 * (low(k) + high(k))),
-            middle: [0.5 * (from + to), 0.5 * (upper + lower)],
-            area: [
-                left + 4.0,
-                top + TITLE,
-                left + width - 4.0,
-                top + height - FOOT,
-            ],
-            distance,
-        }
-    }
-
-    /// Draws the scale bar, which applies to transverse lengths in the middle of the scene.
-    fn paint_bar(&self, frame: &Frame, canvas: &mut Canvas) {
-        let length = frame.scale * self.bar_nm / frame.distance;
+    fn paint_bar(&self, canvas: &mut Canvas) {
+        let length = self.camera.per_nm() * self.bar_nm;
         let [left, top, _, height] = self.place;
         let (from, y) = (left + 16.0, top + height - 14.0);
         let stroke = Stroke::solid(GREY, 3.0);
         canvas.line([[from, y], [from + length, y]], stroke, 1.0);
-        let text = format!("{} nm", self.bar_nm);
+        let text = match self.bar_nm {
+            length if length >= 1000.0 => format!("{} µm", length / 1000.0),
+            length => format!("{length} nm"),
+        };
         canvas.text(
             [from + 0.5 * length, y - 8.0],
             LETTERS,
@@ -114,7 +87,7 @@ impl Panel {
         );
     }
 
-    fn paint_axes(&self, frame: &Frame, canvas: &mut Canvas) {
+    fn paint_axes(&self, canvas: &mut Canvas) {
         let [left, top, width, height] = self.place;
         let origin = [left + width - 48.0, top + height - 32.0];
         let axes = [
@@ -123,7 +96,7 @@ impl Panel {
             (Vector3::z(), "z"),
         ];
         for (axis, name) in axes {
-            let seen = frame.camera.turn(axis);
+            let seen = self.camera.turn(axis);
             let across = seen.x.hypot(seen.y);
             if across < SHORT {
                 continue;
@@ -137,11 +110,19 @@ impl Panel {
     }
 }
 
+/// Returns start and length between margins, or the middle if the margins leave less than a fraction of the length.
+fn between(start: f64, length: f64, before: f64, after: f64) -> (f64, f64) {
+    let least = LEAST * length;
+    match length - before - after {
+        free if free < least => (start + 0.5 * (length - least), least),
+        free => (start + before, free),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene3d::Matrix3;
-    use crate::scene3d::Solid;
+    use crate::scene3d::{Attitude, Matrix3, Solid};
 
     fn ball(x: f64, colour: [u8; 3]) -> Item {
         let solid = Solid::Ellipsoid {
@@ -151,40 +132,31 @@ mod tests {
         Item::new(solid, Colour(colour))
     }
 
-    /// The nearer sphere is drawn last for any order of the list, and both are inside the panel.
+    /// The nearer sphere is drawn last for any order of the list, and the farther one is lighter.
     #[test]
     fn what_is_nearer_is_painted_later() {
         let (near, far) = (ball(5.0, [1, 0, 0]), ball(-5.0, [0, 0, 1]));
         for items in [vec![near.clone(), far.clone()], vec![far, near]] {
+            let place = [0.0, 0.0, 300.0, 200.0];
+            let attitude = Attitude {
+                towards: [1.0, 0.1, 0.0],
+                up: [0.0, 0.0, 1.0],
+            };
+            let balls = items.iter().flat_map(|item| item.solid.balls());
             let panel = Panel {
                 title: String::new(),
-                place: [0.0, 0.0, 300.0, 200.0],
-                view: View {
-                    towards_viewer: Vector3::new(1.0, 0.1, 0.0),
-                    up: Vector3::z(),
-                },
+                place,
+                camera: Camera::fitted(attitude, balls, Panel::area(place, [0.0; 4])),
                 items,
                 labels: Vec::new(),
                 bar_nm: 1.0,
-                room: [0.0; 4],
             };
             let mut canvas = Canvas::new("test", [300.0, 200.0]);
             panel.paint(&mut canvas);
             let text = canvas.finish();
-            let place = |name: &str| text.find(&format!("fill=\"url(#test-{name}")).unwrap();
-            assert!(place("010000") > place("000001"));
-            let frame = panel.frame();
-            for item in &panel.items {
-                for [x, y] in item
-                    .solid
-                    .extent(&frame.camera)
-                    .into_iter()
-                    .map(|p| frame.pixel(p))
-                {
-                    // Round-off of the fit, which touches two edges.
-                    assert!((-1e-9..=300.0 + 1e-9).contains(&x) && (-1e-9..=200.0).contains(&y));
-                }
-            }
+            let last = &text[text.rfind("<ellipse").unwrap()..];
+            assert!(last.contains("url(#test-010000"));
+            assert!(!text.contains("url(#test-000001"));
         }
     }
 }

@@ -44,8 +44,8 @@ impl Sheet {
     /// Returns the picture as SVG.
     pub fn svg(&self) -> String {
         let places = self.legend_places();
-        let rows = places.last().map_or(0.0, |[_, y]| y / ROW + 1.0);
-        let size = [self.width, self.height + rows * ROW + MARGIN];
+        let legend = places.last().map_or(0.0, |[_, y]| y + ROW + MARGIN);
+        let size = [self.width, self.height + legend];
         let mut canvas = Canvas::new(self.prefix, size);
         for panel in &self.panels {
             panel.paint(&mut canvas);

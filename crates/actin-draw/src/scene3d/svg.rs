@@ -1,7 +1,7 @@
 //! SVG output of plane shapes. Lengths are in pixels; y points down.
 
 use crate::Colour;
-use std::collections::BTreeSet;
+use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
 /// Style of a line.
@@ -38,22 +38,51 @@ pub(super) enum Align {
     Middle,
 }
 
+/// The rim of a cylinder in pixels along its axis: its centre, and the distances from the centre of its point across
+/// the axis and of its point on the axis.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Rim {
+    pub at: f64,
+    pub side: f64,
+    pub front: f64,
+}
+
+impl Rim {
+    /// Half the ellipse, to the point across the axis at `to`, by two Bezier curves through the point on the axis at
+    /// the side given by a sign.
+    fn arc(&self, sign: f64, to: f64) -> String {
+        /// Position of the control points of a quarter of a circle.
+        const K: f64 = 0.5523;
+        let Self { at, side, front } = *self;
+        let (side, front) = (side * to.signum(), front * sign);
+        let [x0, x1, x2] = [at - side + K * front, at + front - K * side, at + front];
+        let [x3, x4, x5] = [at + front + K * side, at + side + K * front, at + side];
+        let near = K * to;
+        format!(
+            "C{x0:.2} {:.2} {x1:.2} {:.2} {x2:.2} 0C{x3:.2} {near:.2} {x4:.2} {to:.2} {x5:.2} {to:.2}",
+            -to, -near
+        )
+    }
+}
+
 /// An SVG file under construction. Identifiers have a prefix, so that several files can be part of one page.
 #[derive(Debug)]
 pub(super) struct Canvas {
     prefix: String,
     size: [f64; 2],
     body: String,
-    /// Colours and angles (deg) of the gradients in use.
-    shadings: BTreeSet<(Colour, i16)>,
+    /// Gradients in use, by name.
+    shadings: BTreeMap<String, String>,
 }
 
-const BACKGROUND: &str = "#fcfcfa";
+const BACKGROUND: &str = "#ffffff";
 const INK: &str = "#222222";
 /// Angles of gradients are rounded to multiples of this (deg).
 const SHADING_STEP: f64 = 15.0;
 /// Position of the highlight relative to the radius of a sphere, right and down.
 const LIGHT: [f64; 2] = [-0.35, -0.45];
+/// Opacity of highlights on opaque bodies.
+const HIGHLIGHT: f64 = 0.5;
 
 impl Canvas {
     pub(super) fn new(prefix: &str, size: [f64; 2]) -> Self {
@@ -61,7 +90,7 @@ impl Canvas {
             prefix: prefix.to_owned(),
             size,
             body: String::new(),
-            shadings: BTreeSet::new(),
+            shadings: BTreeMap::new(),
         }
     }
 
@@ -72,30 +101,69 @@ impl Canvas {
         self.body.push('\n');
     }
 
+    /// Draws an ellipsoid with semi-axes a and b, and the angle of a (deg, clockwise from the horizontal).
     pub(super) fn ball(&mut self, [x, y]: [f64; 2], [a, b]: [f64; 2], angle: f64, paint: Paint) {
-        #[expect(
-            clippy::cast_possible_truncation,
-            reason = "a turn between -180 and 180 deg"
-        )]
-        let turn = ((angle / SHADING_STEP).round() * SHADING_STEP) as i16;
-        self.shadings.insert((paint.fill, turn));
-        let fill = self.shading_name(paint.fill, turn);
-        let edge = paint.fill.darker(0.45).hex();
+        let (fill, edge) = (self.shading(paint, angle, true), edge(paint, b));
         self.push(format_args!(
             "<ellipse cx=\"{x:.1}\" cy=\"{y:.1}\" rx=\"{a:.2}\" ry=\"{b:.2}\" \
-             transform=\"rotate({angle:.1} {x:.1} {y:.1})\" fill=\"url(#{fill})\" \
-             fill-opacity=\"{:.2}\" stroke=\"{edge}\" stroke-width=\"0.7\"/>",
-            paint.opacity
+             transform=\"rotate({angle:.1} {x:.1} {y:.1})\" {fill} {edge}/>"
         ));
     }
 
-    fn shading_name(&self, colour: Colour, turn: i16) -> String {
-        let [red, green, blue] = colour.0;
-        format!(
-            "{}-{red:02x}{green:02x}{blue:02x}-{}",
+    /// Draws a cylinder of radius r from a point in a direction (deg, clockwise from the horizontal), then its nearer
+    /// end.
+    pub(super) fn cylinder(
+        &mut self,
+        ([x, y], angle): ([f64; 2], f64),
+        r: f64,
+        rims: &[Rim; 2],
+        near: usize,
+        paint: Paint,
+    ) {
+        let (fill, edge) = (self.shading(paint, angle, false), edge(paint, r));
+        let [upper, lower] = [-r, r];
+        let from = rims[0].at - rims[0].side;
+        let far = rims[1].at + rims[1].side;
+        let body = [
+            rims[0].arc(-1.0, lower),
+            format!("L{far:.2} {lower:.2}"),
+            rims[1].arc(1.0, upper),
+        ]
+        .concat();
+        let rim = &rims[near];
+        let start = rim.at - rim.side;
+        let end = [rim.arc(1.0, lower), rim.arc(-1.0, upper)].concat();
+        let (lighter, opacity) = (paint.fill.lighter(0.35).hex(), paint.opacity);
+        self.push(format_args!(
+            "<g transform=\"translate({x:.1} {y:.1}) rotate({angle:.2})\" {edge}>\
+             <path d=\"M{from:.2} {upper:.2}{body}Z\" {fill}/>\
+             <path d=\"M{start:.2} {upper:.2}{end}Z\" fill=\"{lighter}\" fill-opacity=\"{opacity:.2}\"/></g>"
+        ));
+    }
+
+    /// Returns the attributes of a gradient whose highlight is independent of the rotation of the body.
+    fn shading(&mut self, paint: Paint, angle: f64, is_round: bool) -> String {
+        let (colour, opacity) = (paint.fill, paint.opacity);
+        let angle = (angle / SHADING_STEP).round() * SHADING_STEP;
+        let kind = if is_round { "r" } else { "l" };
+        let name = format!(
+            "{}-{}-{kind}{}",
             self.prefix,
-            turn + 360
-        )
+            &colour.hex()[1..],
+            angle + 360.0
+        );
+        let attributes = format!("fill=\"url(#{name})\" fill-opacity=\"{opacity:.2}\"");
+        let gradient = || {
+            if is_round {
+                round(&name, colour, angle)
+            } else {
+                straight(&name, colour, angle)
+            }
+        };
+        if !self.shadings.contains_key(&name) {
+            self.shadings.insert(name.clone(), gradient());
+        }
+        attributes
     }
 
     pub(super) fn dot(&mut self, [x, y]: [f64; 2], radius: f64, paint: Paint) {
@@ -107,17 +175,22 @@ impl Canvas {
         ));
     }
 
+    /// Draws a bright area without an edge.
+    pub(super) fn highlight(&mut self, corners: &[[f64; 2]], opacity: f64) {
+        let opacity = HIGHLIGHT * opacity;
+        let points = points(corners);
+        self.push(format_args!(
+            "<polygon points=\"{points}\" fill=\"#ffffff\" fill-opacity=\"{opacity:.2}\"/>"
+        ));
+    }
+
     pub(super) fn polygon(&mut self, corners: &[[f64; 2]], paint: Paint) {
-        let corners: Vec<String> = corners
-            .iter()
-            .map(|[x, y]| format!("{x:.1},{y:.1}"))
-            .collect();
+        let points = points(corners);
         let (fill, edge) = (paint.fill.hex(), paint.fill.darker(0.25).hex());
         self.push(format_args!(
-            "<polygon points=\"{}\" fill=\"{fill}\" fill-opacity=\"{opacity:.2}\" \
+            "<polygon points=\"{points}\" fill=\"{fill}\" fill-opacity=\"{opacity:.2}\" \
              stroke=\"{edge}\" stroke-opacity=\"{edge_opacity:.2}\" stroke-width=\"0.8\" \
              stroke-linejoin=\"round\"/>",
-            corners.join(" "),
             opacity = paint.opacity,
             edge_opacity = (paint.opacity + 0.2).min(1.0),
         ));
@@ -177,11 +250,7 @@ impl Canvas {
 
     pub(super) fn finish(self) -> String {
         let [width, height] = self.size;
-        let shadings: String = self
-            .shadings
-            .iter()
-            .map(|&(colour, turn)| shading(&self.shading_name(colour, turn), colour, turn))
-            .collect();
+        let shadings: String = self.shadings.into_values().collect();
         format!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width} {height}\" \
              width=\"{width}\" height=\"{height}\" font-family=\"sans-serif\">\n<defs>\n{shadings}\
@@ -201,17 +270,45 @@ pub(super) fn text_width(text: &str, size: f64) -> f64 {
     size * text.chars().map(width).sum::<f64>()
 }
 
-/// Returns a radial gradient whose highlight is independent of the rotation of the ellipse.
-fn shading(name: &str, colour: Colour, turn: i16) -> String {
-    let (sin, cos) = f64::from(turn).to_radians().sin_cos();
-    let x = 0.5 + 0.5 * (LIGHT[0] * cos + LIGHT[1] * sin);
-    let y = 0.5 + 0.5 * (LIGHT[1] * cos - LIGHT[0] * sin);
-    format!(
-        "<radialGradient id=\"{name}\" fx=\"{x:.3}\" fy=\"{y:.3}\"><stop offset=\"0\" \
-         stop-color=\"{}\"/><stop offset=\"0.5\" stop-color=\"{}\"/><stop offset=\"1\" \
-         stop-color=\"{}\"/></radialGradient>\n",
-        colour.lighter(0.65).hex(),
-        colour.lighter(0.12).hex(),
-        colour.darker(0.3).hex(),
-    )
+fn points(corners: &[[f64; 2]]) -> String {
+    let points = corners.iter().map(|[x, y]| format!("{x:.1},{y:.1}"));
+    points.collect::<Vec<_>>().join(" ")
+}
+
+/// Returns the attributes of the edge of a body, which is thinner for small bodies.
+fn edge(paint: Paint, radius: f64) -> String {
+    let (colour, width) = (paint.fill.darker(0.45).hex(), (0.2 * radius).min(0.7));
+    format!("stroke=\"{colour}\" stroke-width=\"{width:.2}\"")
+}
+
+/// Returns the position of the light relative to the radius of a body at an angle, along its axis and across.
+fn light(angle: f64) -> [f64; 2] {
+    let (sin, cos) = angle.to_radians().sin_cos();
+    [
+        LIGHT[0] * cos + LIGHT[1] * sin,
+        LIGHT[1] * cos - LIGHT[0] * sin,
+    ]
+    .map(|v| 0.5 + 0.5 * v)
+}
+
+fn stops(stops: [(f64, Colour); 3]) -> String {
+    let stops = stops.map(|(offset, colour)| {
+        let colour = colour.hex();
+        format!("<stop offset=\"{offset:.2}\" stop-color=\"{colour}\"/>")
+    });
+    stops.concat()
+}
+
+fn round(name: &str, colour: Colour, angle: f64) -> String {
+    let [x, y] = light(angle);
+    let [bright, dark] = [colour.lighter(0.65), colour.darker(0.3)];
+    let stops = stops([(0.0, bright), (0.5, colour.lighter(0.12)), (1.0, dark)]);
+    format!("<radialGradient id=\"{name}\" fx=\"{x:.3}\" fy=\"{y:.3}\">{stops}</radialGradient>\n")
+}
+
+fn straight(name: &str, colour: Colour, angle: f64) -> String {
+    let [_, y] = light(angle);
+    let side = |at: f64| (at, colour.darker(0.28 * ((at - y).abs() / 0.75).min(1.0)));
+    let stops = stops([side(0.0), (y, colour.lighter(0.42)), side(1.0)]);
+    format!("<linearGradient id=\"{name}\" x2=\"0\" y2=\"1\">{stops}</linearGradient>\n")
 }

@@ -5,7 +5,7 @@ pub(super) use crate::charts::{dots, line};
 use super::draft::Draft;
 use crate::palette;
 use crate::run::Shape;
-use actin_draw::{Chart, Colour, Series};
+use actin_draw::{Chart, Colour, Mark, Series};
 
 /// Invisible dot that extends the axes for the legend.
 pub(super) fn room(at: (f64, f64)) -> Series {
@@ -44,12 +44,10 @@ impl Filament {
         }
     }
 
-    pub(super) fn curve(&self, points: Vec<(f64, f64)>, equal_axes: bool) -> Vec<Series> {
-        let line = line(self.name.clone(), self.colour, points);
-        if self.is_dashed {
-            line.dashed(equal_axes)
-        } else {
-            vec![line]
+    pub(super) fn curve(&self, points: Vec<(f64, f64)>) -> Series {
+        Series {
+            mark: mark(self.is_dashed),
+            ..line(self.name.clone(), self.colour, points)
         }
     }
 }
@@ -69,9 +67,7 @@ pub(super) fn seen_from(side: &Side, filaments: &[Filament], others: Vec<Series>
     let project = |places: &[[f64; 3]]| places.iter().map(side.project).collect();
     let with_monomers = filaments.iter().filter(|f| !f.monomers.is_empty());
     let monomers = with_monomers.map(|f| dots(f.colour, project(&f.monomers)));
-    let lines = filaments
-        .iter()
-        .flat_map(|f| f.curve(project(&f.line), side.equal_axes));
+    let lines = filaments.iter().map(|f| f.curve(project(&f.line)));
     monomers.chain(lines).chain(others).collect()
 }
 
@@ -102,18 +98,19 @@ pub(super) struct Curve {
     pub points: Vec<(f64, f64)>,
 }
 
+fn mark(is_dashed: bool) -> Mark {
+    if is_dashed { Mark::Dashes } else { Mark::Line }
+}
+
 pub(super) fn against_rod(curves: Vec<Curve>) -> Vec<Series> {
     let curves = curves.into_iter().filter(|curve| !curve.points.is_empty());
     let series = curves.flat_map(|mut curve| {
         curve.points.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let line = line(curve.name, curve.colour, curve.points.clone());
-        let mut series = if curve.is_dashed {
-            line.dashed(false)
-        } else {
-            vec![line]
+        let line = Series {
+            mark: mark(curve.is_dashed),
+            ..line(curve.name, curve.colour, curve.points.clone())
         };
-        series.push(dots(curve.colour, curve.points));
-        series
+        [line, dots(curve.colour, curve.points)]
     });
     series.collect()
 }

@@ -8,7 +8,7 @@ use super::draft::{Column, Draft, number, residuals};
 use crate::palette;
 use crate::run::{SolvedScene, scenario};
 use crate::statistics::{largest, sample};
-use actin_draw::{Colour, Series};
+use actin_draw::{Colour, Mark, Series};
 use actin_sim::shape::{Ribbon, profile};
 use actin_sim::{Assembly, FreeTranslation, Hold, Monomers, Part, RodLaw, Scene};
 use actin_view::{Attitude, Pose};
@@ -337,8 +337,10 @@ fn picture(draft: &mut Draft<'_>, results: &[Halves]) -> Result<(), String> {
     let values = series.iter().flat_map(|s| s.points.iter().map(|p| p.1));
     let top = 1.4 * largest(values);
     series.push(room((0.0, top)));
-    let mean = curve("mean filament", palette::DATA, "mean-filament/ellipsoid");
-    series.extend(mean.dashed(false));
+    series.push(Series {
+        mark: Mark::Dashes,
+        ..curve("mean filament", palette::DATA, "mean-filament/ellipsoid")
+    });
     let caption = "Elastic energy per length; ellipsoids: mean over all samplings and both directions of the \
         pull. Dashed: the mean filament (quadrature bonds). C3 energy: coupling of stretch and twist in the \
         supplement of the paper.";

@@ -1,6 +1,6 @@
 //! Pictures for publications: SVG files of a report converted to PDF, with selectable text, and PNG.
 //!
-//! Chromium or Chrome converts the files. It is searched in the variable `CHROME` and on the path.
+//! Chromium or Chrome makes the PDF files. It is searched in the variable `CHROME` and on the path.
 
 use actin_draw::browser;
 use actin_draw::report::{Artefact, Picture};
@@ -10,7 +10,7 @@ use std::path::Path;
 use std::process::{Command, Stdio};
 
 /// Pixels of a PNG file per pixel of the SVG file. A picture of 900 pixels has 300 dpi at a width of 152 mm.
-const FINER: u32 = 2;
+const FINER: f32 = 2.0;
 
 /// Writes PDF and PNG files next to the pictures of all artefacts.
 ///
@@ -44,15 +44,9 @@ fn print(browser: &Path, path: &Path) -> Result<(), String> {
         format!("--print-to-pdf={}", pdf.display()),
         "--no-pdf-header-footer".into(),
     ];
-    let png = path.with_extension("png");
-    let to_png = [
-        format!("--screenshot={}", png.display()),
-        format!("--window-size={width},{height}"),
-        format!("--force-device-scale-factor={FINER}"),
-        "--hide-scrollbars".into(),
-    ];
-    run(browser, &to_pdf, &page, &pdf)?;
-    run(browser, &to_png, &page, &png)
+    let png = actin_draw::png(&svg, FINER).map_err(|e| at(&e))?;
+    fs::write(path.with_extension("png"), png).map_err(|e| at(&e))?;
+    run(browser, &to_pdf, &page, &pdf)
 }
 
 fn run(browser: &Path, arguments: &[String], page: &Path, file: &Path) -> Result<(), String> {

@@ -7,7 +7,7 @@ use crate::charts::line;
 use crate::palette;
 use crate::statistics::sample;
 use actin_cosserat::{PolynomialStretch, TanhTwist};
-use actin_draw::{Chart, Series};
+use actin_draw::{Chart, Mark, Series};
 use std::path::Path;
 
 pub(super) struct LawCurve<'a> {
@@ -119,7 +119,7 @@ impl Panel<'_> {
         let given = dots((self.column)(data), label, self.scale);
         let others = beside.iter().map(|other| Series {
             colour: palette::line(if other.dots { DRAWN } else { MEAN }),
-            dots: other.dots,
+            mark: if other.dots { Mark::Dots } else { Mark::Line },
             ..dots((self.column)(other.data), &other.data.source, self.scale)
         });
         let chart = Chart {
@@ -145,7 +145,7 @@ fn curve([from, to]: [f64; 2], law: impl Fn(f64) -> f64) -> Vec<(f64, f64)> {
 fn dots(column: &Column, label: &str, scale: f64) -> Series {
     let points = column.pairs().map(|(k, v)| (k, v * scale));
     Series {
-        dots: true,
+        mark: Mark::Dots,
         ..line(label, palette::DATA, points.collect())
     }
 }

@@ -4,7 +4,7 @@ use super::case::Bound;
 use super::row::Row;
 use crate::charts::line;
 use crate::palette;
-use actin_draw::{Chart, Series};
+use actin_draw::{Chart, Mark, Series};
 use std::path::Path;
 
 /// Smallest drawn ratio of error to bound.
@@ -22,7 +22,7 @@ pub(super) fn draw(out: &Path, rows: &[Row]) -> Result<(), String> {
         let own = judged.iter().filter(|row| row.law == *law);
         let points = own.filter_map(|row| point(row, &places)).collect();
         series.push(Series {
-            dots: true,
+            mark: Mark::Dots,
             ..line(*law, palette::line(k), points)
         });
     }

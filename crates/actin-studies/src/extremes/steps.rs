@@ -2,7 +2,7 @@
 
 use super::row::{CaseResult, Expected, Outcome, Row, bounded, correct, larger};
 use super::scenes::{Parts, free};
-use actin_draw::{Chart, Colour, Series};
+use actin_draw::{Chart, Colour, Mark, Series};
 use actin_integrate::{Composition, Drag, advance, largest_frequency, stable_step};
 use actin_mechanics::{System, Xorshift, randomise_velocities};
 use actin_sim::{Integrator, Plan};
@@ -194,7 +194,7 @@ fn series(label: &str, colour: [u8; 3], points: Vec<(f64, f64)>, dots: bool) -> 
         label: Some(label.to_owned()),
         colour: Colour(colour),
         points,
-        dots,
+        mark: if dots { Mark::Dots } else { Mark::Line },
     }
 }
 

@@ -79,10 +79,10 @@ impl Pose {
             rods: rods(assembly, state),
             junctions: junctions
                 .iter()
-                .map(|bond| pair(bodies::ends_of(bond, state)))
+                .map(|bond| flat(&bodies::ends_of(bond, state)))
                 .collect(),
             linkers: linkers
-                .map(|l| pair([l.site().position(state), l.end_position(state)]))
+                .map(|l| flat(&[l.site().position(state), l.end_position(state)]))
                 .collect(),
             anchors: bodies::anchors(assembly, state)
                 .into_iter()
@@ -90,12 +90,11 @@ impl Pose {
                 .collect(),
             clamps: bodies::plates(assembly, state, PLATE_NM)
                 .into_iter()
-                .map(plate)
+                .map(|corners| flat(&corners))
                 .collect(),
             forces: bodies::forces(assembly, state)
                 .into_iter()
-                .map(<_>::into)
-                .map(pair)
+                .map(|(at, force)| flat(&[at, force]))
                 .collect(),
             lines: filaments
                 .map(|filament| {
@@ -124,22 +123,6 @@ impl Pose {
             strand.bonds = bonds::keep(all, std::mem::take(&mut strand.own_bonds));
         }
     }
-
-    pub(crate) fn is_finite(&self) -> bool {
-        let (rods, strands) = (self.rods.iter(), self.strands.iter());
-        let bodies = strands.clone().flat_map(|s| s.monomers.iter().flatten());
-        let ends = [&self.junctions, &self.linkers, &self.forces];
-        bodies
-            .chain(strands.flat_map(|strand| &strand.semi_axes))
-            .chain([&self.rod_radius])
-            .chain(rods.clone().flat_map(|rod| rod.nodes.iter().flatten()))
-            .chain(rods.flat_map(|rod| rod.frames.iter().flatten()))
-            .chain(ends.into_iter().flatten().flatten())
-            .chain(self.anchors.iter().flatten())
-            .chain(self.clamps.iter().flatten())
-            .chain(self.lines.iter().flatten().flatten())
-            .all(|x| x.is_finite())
-    }
 }
 
 fn strands(assembly: &Assembly, state: &State) -> Vec<Strand> {
@@ -149,7 +132,8 @@ fn strands(assembly: &Assembly, state: &State) -> Vec<Strand> {
         let bodies = section.points.clone().zip(section.frames.clone());
         let body = |(point, frame): (usize, usize)| {
             let centre = state.points.position.get(point);
-            join(place(centre), quaternion(state, frame))
+            let ([x, y, z], [w, i, j, k]) = (place(centre), quaternion(state, frame));
+            [x, y, z, w, i, j, k]
         };
         let filament = assembly.filament_of_section(i);
         Some(Strand {
@@ -195,17 +179,7 @@ fn quaternion(state: &State, frame: usize) -> [f64; 4] {
     [q.w, q.i, q.j, q.k].map(|x| rounded(x, PER_UNIT))
 }
 
-fn join([x, y, z]: [f64; 3], [a, b, c, d]: [f64; 4]) -> [f64; 7] {
-    [x, y, z, a, b, c, d]
-}
-
-fn pair(ends: [Vector3; 2]) -> [f64; 6] {
-    let [[a, b, c], [d, e, f]] = ends.map(place);
-    [a, b, c, d, e, f]
-}
-
-fn plate(corners: [Vector3; 4]) -> [f64; 12] {
-    let [a, b, c, d] = corners;
-    let ([a, b, c, d, e, f], [g, h, i, j, k, l]) = (pair([a, b]), pair([c, d]));
-    [a, b, c, d, e, f, g, h, i, j, k, l]
+fn flat<const N: usize>(points: &[Vector3]) -> [f64; N] {
+    let mut numbers = points.iter().flat_map(|p| place(*p));
+    std::array::from_fn(|_| numbers.next().expect("three numbers a point"))
 }

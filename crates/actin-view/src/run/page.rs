@@ -2,8 +2,7 @@
 
 use super::Run;
 use crate::{Attitude, BODIES, Palette};
-use actin_draw::page::{STYLE, in_script};
-use actin_draw::space::{SOLIDS, SPACE};
+use actin_draw::page::{SOLIDS, SPACE, STYLE, in_script};
 use actin_sim::{Status, Summary};
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 

@@ -61,7 +61,7 @@ pub(super) fn panels(draft: &mut Draft<'_>, outcomes: &[Outcome]) -> Result<(), 
         views(draft, &file, (model.words, dashed), &filaments)?;
         if chosen[0].is_moved {
             let curves = filaments.iter().zip(&chosen);
-            let series = curves.flat_map(|(f, o)| f.curve(o.energy.clone(), false));
+            let series = curves.map(|(f, o)| f.curve(o.energy.clone()));
             draft.plot(
                 format!("{file}_energy.svg"),
                 &format!("Energy, {}", model.words),

@@ -131,12 +131,11 @@ fn energies(figure: &Figure, draft: &mut Draft<'_>, chosen: &[&Outcome]) -> Resu
         let late = points
             .skip_while(|p| p.1 > top)
             .take_while(|p| p.0 < DRAWN_NS);
-        let mut series = filament.curve(late.collect(), false);
+        let line = filament.curve(late.collect());
         let share = |k: usize| k as f64 / LIMIT_DOTS as f64;
         let limit =
             (LIMIT_DOTS / 2..=LIMIT_DOTS).map(|k| (DRAWN_NS * share(k), motion.limit.energy));
-        series.push(dots(filament.colour, limit.collect()));
-        series
+        [line, dots(filament.colour, limit.collect())]
     });
     let caption = format!(
         "Energy of filament and linkers, including kinetic energy, in damped dynamics (drag 0.3 per ns). It \

@@ -1,17 +1,17 @@
 //! Figures 1 to 3: the models, their junction and typical scenes, drawn from equilibria of scenes in `scenarios`.
 
-mod filament;
+mod annotations;
 mod style;
 
 use super::draft::{Draft, residuals};
+use crate::palette;
 use crate::run::{SolvedScene, scenario};
 use actin_draw::report::{Picture, save};
-use actin_draw::scene3d::{Item, Key, Label, Panel, Sheet, View};
+use actin_draw::scene3d::{Camera, Item, Key, Label, Panel, Sheet};
 use actin_mechanics::Vector3;
 use actin_sim::shape::Ribbon;
 use actin_sim::{BodyKind, End, JunctionBond};
-use actin_view::{Attitude, Pose, bodies};
-use filament::FilamentDrawing;
+use actin_view::{Attitude, Drawing, Pose, bodies};
 use std::collections::BTreeSet;
 
 const CAPTION_1: &str = "Filament of 52 nm, clamped at the bottom, with a lateral tip force of 10 pN: (a) monomers, \
@@ -37,8 +37,8 @@ pub(super) fn figure1(draft: &mut Draft<'_>) -> Result<(), String> {
     let mut panels: Vec<Panel> = filaments
         .map(|((solved, title), k)| standing(solved, title, 8.0 + 230.0 * f64::from(k)))
         .collect();
-    let monomers = FilamentDrawing::whole(&solved[0].assembly);
-    let near = FilamentDrawing {
+    let monomers = whole(&solved[0]);
+    let near = Drawing {
         range_nm: [20.0, 33.0],
         ..monomers
     };
@@ -66,26 +66,48 @@ pub(super) fn figure1(draft: &mut Draft<'_>) -> Result<(), String> {
 const HELIX: &str = "of the helix through the centres of the bent filament, from root mean square distances to the \
     next two monomers; at rest 1.8 and 2.7385";
 
-fn bonds_of(drawn: &FilamentDrawing<'_>) -> Panel {
+fn bonds_of(drawn: &Drawing<'_>) -> Panel {
+    let place = [708.0, 6.0, 324.0, 540.0];
+    let items = [drawn.monomers(0.3), annotations::bonds(drawn, 2.0).items].concat();
     Panel {
         title: "(d) bonds of (a)".into(),
-        place: [708.0, 6.0, 324.0, 540.0],
-        view: View {
-            towards_viewer: Vector3::new(0.3, -1.0, 0.1),
-            up: Vector3::z(),
-        },
-        items: [drawn.monomers(0.3), drawn.bonds(2.0).items].concat(),
+        place,
+        camera: camera(
+            (Vector3::new(0.3, -1.0, 0.1), Vector3::z()),
+            &items,
+            place,
+            [14.0, 8.0, 14.0, 8.0],
+        ),
+        items,
         labels: Vec::new(),
         bar_nm: 2.0,
-        room: [14.0, 8.0, 14.0, 8.0],
     }
 }
 
-fn bond_counts(draft: &mut Draft<'_>, drawn: [&FilamentDrawing<'_>; 2]) {
+fn whole(solved: &SolvedScene) -> Drawing<'_> {
+    Drawing::new(&solved.assembly, solved.state(), palette::chosen())
+}
+
+/// Camera that fits all items into a panel with margins, for directions towards the viewer and upwards.
+fn camera(
+    (towards, up): (Vector3, Vector3),
+    items: &[Item],
+    place: [f64; 4],
+    margins: [f64; 4],
+) -> Camera {
+    let attitude = Attitude {
+        towards: towards.into(),
+        up: up.into(),
+    };
+    let balls = items.iter().flat_map(|item| item.solid.balls());
+    Camera::fitted(attitude, balls, Panel::area(place, margins))
+}
+
+fn bond_counts(draft: &mut Draft<'_>, drawn: [&Drawing<'_>; 2]) {
     for (drawn, panel) in drawn.into_iter().zip(["a", "d"]) {
         for (kind, count) in ["lateral", "longitudinal"]
             .into_iter()
-            .zip(drawn.bonds(1.0).counts)
+            .zip(annotations::bonds(drawn, 1.0).counts)
         {
             let note = "lines in the picture, from anchor to anchor";
             draft.row(
@@ -99,32 +121,35 @@ fn bond_counts(draft: &mut Draft<'_>, drawn: [&FilamentDrawing<'_>; 2]) {
 }
 
 fn standing(solved: &SolvedScene, title: &str, left: f64) -> Panel {
-    let drawn = FilamentDrawing::whole(&solved.assembly);
+    let drawn = whole(solved);
     let nm_per_pn = 0.9;
+    let place = [left, 6.0, 230.0, 540.0];
+    let items = [
+        drawn.clamps(6.0),
+        drawn.monomers(0.8),
+        annotations::bonds(&drawn, 1.0).items,
+        annotations::rods(&drawn, 0.28),
+        annotations::segment_frames(&drawn, 4.6),
+        drawn.junction_bonds(3.0),
+        drawn.forces(3.0, |force| force * nm_per_pn),
+    ]
+    .concat();
     Panel {
         title: title.into(),
-        place: [left, 6.0, 230.0, 540.0],
-        view: View {
-            towards_viewer: Vector3::new(-0.35, -1.0, 0.25),
-            up: Vector3::z(),
-        },
-        items: [
-            drawn.walls(6.0),
-            drawn.monomers(0.8),
-            drawn.bonds(1.0).items,
-            drawn.rods(0.28),
-            drawn.segment_frames(4.6),
-            drawn.junction_bonds(3.0),
-            drawn.arrows(nm_per_pn),
-        ]
-        .concat(),
+        place,
+        camera: camera(
+            (Vector3::new(-0.35, -1.0, 0.25), Vector3::z()),
+            &items,
+            place,
+            [14.0, 18.0, 14.0, 8.0],
+        ),
+        items,
         labels: forces(&drawn, nm_per_pn, [0.0, -16.0]),
         bar_nm: 10.0,
-        room: [14.0, 18.0, 14.0, 8.0],
     }
 }
 
-fn forces(drawn: &FilamentDrawing<'_>, nm_per_pn: f64, offset: [f64; 2]) -> Vec<Label> {
+fn forces(drawn: &Drawing<'_>, nm_per_pn: f64, offset: [f64; 2]) -> Vec<Label> {
     let forces = bodies::forces(drawn.assembly, drawn.state).into_iter();
     let labels = forces.map(|(at, force)| Label {
         at: at + force * nm_per_pn,
@@ -200,7 +225,7 @@ pub(super) fn figure2(draft: &mut Draft<'_>) -> Result<(), String> {
     .into_iter()
     .map(|(title, place, view, range_nm)| joint(&solved[0], title, place, view, range_nm))
     .collect();
-    let drawn = FilamentDrawing::whole(&solved[0].assembly);
+    let drawn = whole(&solved[0]);
     panels[0].labels = bond_names(&drawn);
     bond_rows(draft, &drawn);
     let legend = [style::bodies(), vec![style::junction()], style::axes()];
@@ -216,46 +241,46 @@ fn joint(
     solved: &SolvedScene,
     title: &str,
     place: [f64; 4],
-    (towards_viewer, up): (Vector3, Vector3),
+    view: (Vector3, Vector3),
     range_nm: [f64; 2],
 ) -> Panel {
-    let drawn = FilamentDrawing {
+    let drawn = Drawing {
         range_nm,
-        ..FilamentDrawing::whole(&solved.assembly)
+        ..whole(solved)
     };
     let frames: Vec<Item> = numbered_bonds(&drawn)
         .into_iter()
         .flat_map(|(_, bond)| {
             let [monomer, node] = bodies::ends_of(&bond, drawn.state);
-            drawn.frame(bond.frame, 0.5 * (monomer + node), 3.0)
+            annotations::frame(&drawn, bond.frame, 0.5 * (monomer + node), 3.0)
         })
         .collect();
+    let items = [
+        drawn.monomers(0.4),
+        annotations::rods(&drawn, 0.22),
+        annotations::segment_frames(&drawn, 4.2),
+        drawn.junction_bonds(4.0),
+        frames,
+    ]
+    .concat();
     Panel {
         title: title.into(),
         place,
-        view: View { towards_viewer, up },
-        items: [
-            drawn.monomers(0.4),
-            drawn.rods(0.22),
-            drawn.segment_frames(4.2),
-            drawn.junction_bonds(4.0),
-            frames,
-        ]
-        .concat(),
+        camera: camera(view, &items, place, [20.0, 10.0, 20.0, 8.0]),
+        items,
         labels: Vec::new(),
         bar_nm: 5.0,
-        room: [20.0, 10.0, 20.0, 8.0],
     }
 }
 
 /// Bonds of the junction, numbered from the end of the rod.
-fn numbered_bonds(drawn: &FilamentDrawing<'_>) -> Vec<(usize, JunctionBond)> {
+fn numbered_bonds(drawn: &Drawing<'_>) -> Vec<(usize, JunctionBond)> {
     let bonds = drawn.assembly.junction_bonds();
     (1..=bonds.len()).rev().zip(bonds).collect()
 }
 
 /// Labels of monomer and frame of each bond, with offsets in pixels (right, down).
-fn bond_names(drawn: &FilamentDrawing<'_>) -> Vec<Label> {
+fn bond_names(drawn: &Drawing<'_>) -> Vec<Label> {
     let offsets = [
         [[-100.0, -120.0], [-20.0, -155.0]],
         [[-124.0, 120.0], [-20.0, 155.0]],
@@ -278,7 +303,7 @@ fn bond_names(drawn: &FilamentDrawing<'_>) -> Vec<Label> {
     labels
 }
 
-fn bond_rows(draft: &mut Draft<'_>, drawn: &FilamentDrawing<'_>) {
+fn bond_rows(draft: &mut Draft<'_>, drawn: &Drawing<'_>) {
     let rest = &drawn.assembly.rest;
     for (k, bond) in numbered_bonds(drawn) {
         let [length, rest_length] = [drawn.state, rest].map(|state| {
@@ -354,30 +379,31 @@ fn example_panels(solved: &[SolvedScene]) -> Vec<Panel> {
 }
 
 fn example(solved: &SolvedScene, title: &str, place: [f64; 4], towards_viewer: Vector3) -> Panel {
-    let drawn = FilamentDrawing::whole(&solved.assembly);
+    let drawn = whole(solved);
     let nm_per_pn = 3.5;
     let mut items = [
-        drawn.walls(8.0),
+        drawn.clamps(8.0),
         drawn.monomers(1.0),
-        drawn.rods(0.3),
-        drawn.arrows(nm_per_pn),
-        drawn.imposed(6.0),
+        annotations::rods(&drawn, 0.3),
+        drawn.forces(3.0, |force| force * nm_per_pn),
+        annotations::imposed(&drawn, 6.0),
     ]
     .concat();
     if solved.assembly.clamps.is_empty() {
-        items.extend(drawn.linkers());
+        items.extend(drawn.linkers(2.2, 6.0, true));
     }
     Panel {
         title: title.into(),
         place,
-        view: View {
-            towards_viewer,
-            up: Vector3::x(),
-        },
+        camera: camera(
+            (towards_viewer, Vector3::x()),
+            &items,
+            place,
+            [20.0, 8.0, 20.0, 26.0],
+        ),
         items,
         labels: forces(&drawn, 0.5 * nm_per_pn, [-14.0, 0.0]),
         bar_nm: 20.0,
-        room: [20.0, 8.0, 20.0, 26.0],
     }
 }
 
@@ -424,12 +450,12 @@ fn file_name(name: &str) -> &str {
 }
 
 /// Size (pixels), panels and legend of a picture.
-type Drawing<'a> = ([f64; 2], Vec<Panel>, &'a [Vec<(Key, String)>]);
+type Composition<'a> = ([f64; 2], Vec<Panel>, &'a [Vec<(Key, String)>]);
 
 fn finish(
     draft: &mut Draft<'_>,
     (names, solved): (&[&str], &[SolvedScene]),
-    ([width, height], panels, legend): Drawing<'_>,
+    ([width, height], panels, legend): Composition<'_>,
     caption: &str,
 ) -> Result<(), String> {
     let sheet = Sheet {
@@ -494,8 +520,8 @@ fn settings(names: &[&str], solved: &[SolvedScene]) -> String {
     let seeds: Vec<String> = seeds.iter().map(u64::to_string).collect();
     format!(
         "Scenes scenarios/: {}. Each is drawn in equilibrium: {}, {stable} of {} certified stable. Positions, \
-         orientations, semi-axes and ends of bonds are from the state; the scale bar is valid at the middle of the \
-         scene. Seed of the bonds: {}.",
+         orientations, semi-axes and ends of bonds are from the state; the projection is \
+         orthographic. Seed of the bonds: {}.",
         names.join(", "),
         residuals(solved.iter().map(SolvedScene::residual)),
         solved.len(),

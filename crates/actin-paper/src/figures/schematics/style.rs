@@ -2,14 +2,12 @@
 
 use crate::palette::{self, BodyColours};
 use actin_draw::Colour;
-use actin_draw::scene3d::{Item, Key, Solid, Stroke};
+use actin_draw::scene3d::{Item, Key, Stroke};
 use actin_mechanics::Vector3;
+use actin_view::INSIDE_NM;
 
 /// Depth offset of items on the surface of a monomer (nm).
 pub(super) const ON_SURFACE_NM: f64 = 0.5;
-/// Depth offset of items inside a translucent body (nm).
-pub(super) const INSIDE_NM: f64 = 8.0;
-
 pub(super) fn of(thing: fn(&BodyColours) -> [u8; 3]) -> Colour {
     Colour(thing(palette::chosen().body_colours()))
 }
@@ -36,8 +34,7 @@ fn force() -> Stroke {
 
 /// Arrow of a force or a displacement.
 pub(super) fn arrow(ends: [Vector3; 2]) -> Item {
-    let stroke = force();
-    Item::new(Solid::Arrow { ends, stroke }, stroke.colour).nearer(INSIDE_NM)
+    Item::arrow(ends, force()).nearer(INSIDE_NM)
 }
 
 fn entry(key: Key, text: &str) -> (Key, String) {

@@ -11,7 +11,7 @@ use crate::palette;
 use crate::published::{CURVATURE_ROUNDING, Entry, Table, entries};
 use crate::statistics::{Sample, rms, sample};
 use actin_draw::report::{DEVIATIONS, Origin, Row};
-use actin_draw::{Colour, Series};
+use actin_draw::{Colour, Mark, Series};
 use actin_sim::Anchors;
 
 const COMPARED_DEG: std::ops::RangeInclusive<f64> = 40.0..=200.0;
@@ -433,7 +433,7 @@ impl TwistTable {
             let upper = cap(high).into_iter().rev();
             let points = cap(low).into_iter().chain(upper).collect();
             Series {
-                dots: false,
+                mark: Mark::Line,
                 ..dots(colour, points)
             }
         };
