@@ -60,11 +60,12 @@ pub(crate) use rotations::{ROOM_PN_NM, far_lengths, turns_in_bath};
 pub use rotations::{RotationCorrelations, jackknife, steps_in};
 pub use shear::{ShearPoint, shear_by_force};
 pub use specimen::Specimen;
-pub use stretch::{StretchPoint, stretch_by_force, stretch_by_shift};
+pub(crate) use stretch::stretch_by_shift;
+pub use stretch::{StretchPoint, stretch_by_force};
 pub use sweep::{Curve, MissingEquilibrium};
 pub(crate) use sweep::{far_end_shift, reaction};
 pub use tension::{PulledTwistPoint, free_turn_under_tension, twist_under_tension};
-pub use twist::{TwistPoint, twist, twist_in_order};
+pub use twist::{TwistPoint, twist};
 pub use twisted::{HelixPoint, PulledBendPoint, bend_twisted, bend_under_tension};
 
 #[cfg(test)]
