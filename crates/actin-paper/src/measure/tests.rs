@@ -337,7 +337,7 @@ fn twelve_quadrature_bonds_equal_thousands_of_sampled_bonds() {
         Specimen::ellipsoids(27.0 * monomers.rise_nm, monomers)
     };
     let all = [
-        specimen(Monomers::with_quadrature_bonds(12)),
+        specimen(Monomers::default()),
         specimen(Monomers::with_sampled_bonds(4096, 1)),
     ];
     let compare = |what: &str, measured: [Vec<f64>; 2], tolerance: f64| {
@@ -373,7 +373,7 @@ fn twelve_quadrature_bonds_equal_thousands_of_sampled_bonds() {
 /// Quadrature bonds have no samplings: a seed other than 0 is an error.
 #[test]
 fn weighted_bonds_have_no_samplings() {
-    let monomers = Monomers::with_quadrature_bonds(12);
+    let monomers = Monomers::default();
     let specimen = Specimen::ellipsoids(9.0 * monomers.rise_nm, monomers);
     let measured = over_samplings(&specimen, &[0, 1], |s| stretch_by_force(s, &[10.0]));
     let message = measured.unwrap_err().to_string();
