@@ -1,5 +1,7 @@
 //! Constants of the rod model with their sources.
 
+use std::f64::consts::PI;
+
 /// Rigidities of shear (two) and stretch (pN). Source: arXiv 2203.01284, Table 4.
 pub const TABLE_4_SHEAR: [f64; 3] = [1.6e4, 1.6e4, 3.4e4];
 
@@ -15,6 +17,11 @@ pub const PRECEDING_PAPER_POISSON_RATIO: f64 = 0.4;
 
 /// Area of the cross-section (nm^2). Source: arXiv 2203.01284, Appendix B.
 pub const CROSS_SECTION_AREA: f64 = 38.5;
+
+/// Radius of a circular cross-section of area [`CROSS_SECTION_AREA`] (nm).
+pub fn cross_section_radius() -> f64 {
+    (CROSS_SECTION_AREA / PI).sqrt()
+}
 
 /// Mass per length (pN ns^2/nm^2): 42 kDa per rise of 71.2/26 nm, as for filaments of monomers.
 pub(crate) const LINEAR_DENSITY: f64 = 0.0697 / (71.2 / 26.0);
