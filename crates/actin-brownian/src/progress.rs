@@ -91,6 +91,17 @@ impl Progress {
         })
     }
 
+    /// Reopens solved components whose loads allow a further decrease of energy of more than a
+    /// hundredth of the thermal energy. Returns `true` if there are none.
+    pub(crate) fn reopen(&mut self, decreases: &[f64], thermal_energy: f64) -> bool {
+        let enough = ENOUGH * thermal_energy;
+        for (component, decrease) in self.components.iter_mut().zip(decreases) {
+            // Also for NaN.
+            component.is_solved &= decrease.abs() <= enough;
+        }
+        self.components.iter().all(|component| component.is_solved)
+    }
+
     /// Records an iteration. Returns `true` if the predicted next step of each component is within
     /// the limits, or changes the energy by less than a hundredth of the thermal energy.
     pub(crate) fn record(

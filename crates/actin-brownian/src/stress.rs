@@ -3,7 +3,7 @@ use crate::friction::ScaledFriction;
 use crate::progress::Progress;
 use actin_equilibrium::MatrixParts;
 use actin_integrate::Noise;
-use actin_mechanics::{Interaction, Loads, RandomStress, State, Stiffness};
+use actin_mechanics::{Interaction, Loads, RandomStress, State, StepStress, Stiffness};
 use std::ops::Range;
 
 /// Separates this noise from other uses of the same seed.
@@ -164,6 +164,21 @@ impl Stresses {
         }
     }
 
+    fn of_step(&self, part: usize) -> StepStress<'_> {
+        let (_, range) = &self.parts[part];
+        let is_balanced = self.is_balanced[part];
+        let all = if is_balanced {
+            &self.balancing
+        } else {
+            &self.turned
+        };
+        StepStress {
+            values: &all[range.clone()],
+            is_turned: self.spins[part],
+            is_balanced,
+        }
+    }
+
     /// Records the stresses of a completed step in the controls.
     pub(crate) fn record(&self, interactions: &Interactions, state: &mut State) {
         for (k, range) in &self.parts {
@@ -208,11 +223,11 @@ impl MatrixParts for StepMatrix<'_> {
         let Some(interaction) = self.interactions.get(k) else {
             return self.add_friction(k - self.interactions.len(), state, stiffness);
         };
-        if let Some(second_order) = interaction.second_order() {
-            second_order.add_stiffness(state, stiffness);
-        }
         if let Some(part) = self.stresses.of_interactions[k] {
-            self.add_stress(part, state, stiffness);
+            let stress = self.stresses.of_step(part);
+            of(self.interactions, k).add_stressed_stiffness(state, &stress, stiffness);
+        } else if let Some(second_order) = interaction.second_order() {
+            second_order.add_stiffness(state, stiffness);
         }
     }
 }
@@ -226,23 +241,5 @@ impl StepMatrix<'_> {
         for &k in &self.components.turns[component] {
             friction.add_turn(k, stiffness);
         }
-    }
-
-    fn add_stress(&self, part: usize, state: &State, stiffness: &mut Stiffness) {
-        let stresses = self.stresses;
-        let (k, range) = &stresses.parts[part];
-        let is_balanced = stresses.is_balanced[part];
-        let values = if is_balanced {
-            &stresses.balancing[range.clone()]
-        } else {
-            &stresses.turned[range.clone()]
-        };
-        let stress = of(self.interactions, *k);
-        if stresses.spins[part] {
-            stress.add_turned_stiffness(state, values, stiffness);
-        } else {
-            stress.add_stress_stiffness(state, values, stiffness);
-        }
-        stress.add_convexity(state, is_balanced, stiffness);
     }
 }

@@ -3,8 +3,8 @@
 use crate::layout::is_length;
 use crate::{BendingElement, RodError, RodLayout, RodMaterial, ShearElement};
 use actin_mechanics::{
-    Interaction, InternalCouple, InternalForce, Loads, RandomStress, SecondOrder, State, Stiffness,
-    UnitQuaternion, Vector3, correlate, rotation,
+    Interaction, InternalCouple, InternalForce, Loads, RandomStress, SecondOrder, State,
+    StepStress, Stiffness, UnitQuaternion, Vector3, correlate, rotation,
 };
 
 /// Stretch and shear between two points, in the axes of a frame.
@@ -299,8 +299,14 @@ impl RandomStress for RodElements {
         }
     }
 
-    fn add_stress_stiffness(&self, state: &State, stresses: &[f64], stiffness: &mut Stiffness) {
-        let (forces, couples) = self.internal(stresses);
+    fn add_stressed_stiffness(
+        &self,
+        state: &State,
+        stress: &StepStress<'_>,
+        stiffness: &mut Stiffness,
+    ) {
+        self.add_stiffness(state, stiffness);
+        let (forces, couples) = self.internal(stress.values);
         for force in &forces {
             force.add_stiffness(state, stiffness);
         }

@@ -20,8 +20,8 @@
 use crate::extended::{ExtendedSegments, SegmentJet, SegmentSurroundings};
 use crate::{BendingElement, EnergyGradient, RodLayout, RodMaterial, ShearElement};
 use actin_mechanics::{
-    InternalCouple, InternalForce, Loads, Matrix3, RandomStress, State, Stiffness, UnitQuaternion,
-    Vector3, correlate,
+    InternalCouple, InternalForce, Loads, Matrix3, RandomStress, SecondOrder, State, StepStress,
+    Stiffness, UnitQuaternion, Vector3, correlate,
 };
 use nalgebra::SMatrix;
 use std::ops::Range;
@@ -281,10 +281,21 @@ impl RandomStress for EnergyGradient {
             .for_each(|couple| couple.add_loads_without_spin(state, loads));
     }
 
-    fn add_stress_stiffness(&self, state: &State, stresses: &[f64], stiffness: &mut Stiffness) {
+    fn add_stressed_stiffness(
+        &self,
+        state: &State,
+        stress: &StepStress<'_>,
+        stiffness: &mut Stiffness,
+    ) {
+        if self.extended().is_none() {
+            let (forces, couples) = stress.values.split_at(VECTOR * self.layout().segments());
+            self.add_stressed_segments(state, (forces, stress.is_turned), stiffness);
+            return self.add_stressed_bending(state, (couples, stress.is_turned), stiffness);
+        }
+        self.add_stiffness(state, stiffness);
         let parts = Parts {
             rod: self,
-            stresses,
+            stresses: stress.values,
         };
         for force in parts.forces() {
             force.add_stiffness(state, stiffness);
@@ -293,19 +304,70 @@ impl RandomStress for EnergyGradient {
             couple.add_stiffness(state, stiffness);
         }
     }
+}
 
-    fn add_turned_stiffness(&self, state: &State, stresses: &[f64], stiffness: &mut Stiffness) {
-        let parts = Parts {
-            rod: self,
-            stresses,
-        };
-        for force in parts.forces() {
-            force.add_stiffness_without_spin(state, stiffness);
-        }
-        for couple in parts.couples() {
-            couple.add_stiffness_without_spin(state, stiffness);
+impl EnergyGradient {
+    /// Adds the stiffness of segments without extension. A stress acts as a force of opposite sign.
+    fn add_stressed_segments(
+        &self,
+        state: &State,
+        (forces, is_turned): (&[f64], bool),
+        stiffness: &mut Stiffness,
+    ) {
+        let (layout, material) = (self.layout(), self.material());
+        let forces = forces.chunks_exact(VECTOR).map(vector);
+        let lengths = layout.segment_lengths().iter();
+        let bodies = layout.points().zip(layout.frames());
+        for ((force, &length), (i, frame)) in forces.zip(lengths).zip(bodies) {
+            let l = state.points.position.get(i + 1) - state.points.position.get(i);
+            let at = (state.frames.orientation.get(frame), l);
+            let element = ShearElement::segment(length);
+            let sigma = element.strain(at.0, at.1);
+            let (own, tangent) = (material.shear_force(sigma), material.shear_tangent(sigma));
+            let mut blocks = element.stiffness_of(own - force, tangent, at);
+            if is_turned {
+                let without = element.stiffness_of(own, tangent, at);
+                blocks.mixed.set_column(2, &without.mixed.column(2));
+                replace_axial(&mut blocks.frame, &without.frame);
+            }
+            blocks.push([i, i + 1], frame, stiffness);
         }
     }
+
+    fn add_stressed_bending(
+        &self,
+        state: &State,
+        (couples, is_turned): (&[f64], bool),
+        stiffness: &mut Stiffness,
+    ) {
+        let (layout, material) = (self.layout(), self.material());
+        let couples = couples.chunks_exact(VECTOR).map(vector);
+        let distances = layout.voronoi_lengths().iter();
+        for ((couple, &rest_distance), a) in couples.zip(distances).zip(layout.bending_chain()) {
+            let orientation = &state.frames.orientation;
+            let at = (orientation.get(a), orientation.get(a + 1));
+            let element = BendingElement { rest_distance };
+            let kappa = element.curvature(at.0, at.1);
+            let (own, tangent) = (
+                material.bending_couple(kappa),
+                material.bending_tangent(kappa),
+            );
+            let mut blocks = element.stiffness_of(own - couple, tangent, at);
+            if is_turned {
+                let without = element.stiffness_of(own, tangent, at);
+                replace_axial(&mut blocks.first, &without.first);
+                replace_axial(&mut blocks.mixed, &without.mixed);
+                replace_axial(&mut blocks.second, &without.second);
+            }
+            blocks.push([a, a + 1], stiffness);
+        }
+    }
+}
+
+/// Replaces the third row and column.
+fn replace_axial(block: &mut Matrix3, other: &Matrix3) {
+    block.set_row(2, &other.row(2));
+    block.set_column(2, &other.column(2));
 }
 
 #[cfg(test)]

@@ -2,7 +2,7 @@ use crate::site::{Site, ensure};
 use crate::{LinkerError, LinkerKey, PeriodicImage};
 use actin_mechanics::{
     ControlId, Coordinates, Hooke, Interaction, Loads, Matrix3, RandomStress, SecondOrder, State,
-    Stiffness, Vector3,
+    StepStress, Stiffness, Vector3,
 };
 
 /// External point at one end of a linker.
@@ -252,8 +252,10 @@ impl Linker {
             }
         }
         let geometric = |site: &Site, g: Vector3, stiffness: &mut Stiffness| {
-            let frame = Coordinates::Frame(site.frame());
-            stiffness.push(frame, frame, site.curvature_of_work(g, state));
+            if site.has_arm() {
+                let frame = Coordinates::Frame(site.frame());
+                stiffness.push(frame, frame, site.curvature_of_work(g, state));
+            }
         };
         geometric(&self.site, -force, stiffness);
         if let LinkerEnd::Site(other) = &self.end {
@@ -306,12 +308,7 @@ impl RandomStress for Linker {
         let d = self.reach(state);
         let axis = d.try_normalize(0.0).unwrap_or_else(Vector3::x);
         let along = self.spring.stiffness;
-        let rest = self.spring.rest_length;
-        let across = if rest > 0.0 {
-            along * (1.0 - rest / d.norm()).max(0.0)
-        } else {
-            along
-        };
+        let across = self.spring.stiffness_across(d).max(0.0);
         for stress in stresses.as_chunks_mut::<3>().0 {
             let deviate = Vector3::from(*stress);
             let own = axis * axis.dot(&deviate);
@@ -328,26 +325,21 @@ impl RandomStress for Linker {
         self.add_force(-Vector3::from_column_slice(stresses), state, loads);
     }
 
-    fn add_stress_stiffness(&self, state: &State, stresses: &[f64], stiffness: &mut Stiffness) {
-        let force = -Vector3::from_column_slice(stresses);
-        self.push_stiffness((force, Matrix3::zeros()), state, stiffness);
-    }
-
-    fn add_convexity(&self, state: &State, is_wanted: bool, stiffness: &mut Stiffness) {
-        let curvature_difference = if is_wanted {
-            negative_part(self.spring.tangent(self.reach(state)))
+    fn add_stressed_stiffness(
+        &self,
+        state: &State,
+        stress: &StepStress<'_>,
+        stiffness: &mut Stiffness,
+    ) {
+        let d = self.reach(state);
+        let force = self.spring.force(d) - Vector3::from_column_slice(stress.values);
+        let tangent = if stress.is_balanced {
+            self.spring.convex_tangent(d)
         } else {
-            Matrix3::zeros()
+            self.spring.tangent(d)
         };
-        self.push_stiffness((Vector3::zeros(), curvature_difference), state, stiffness);
+        self.push_stiffness((force, tangent), state, stiffness);
     }
-}
-
-fn negative_part(m: Matrix3) -> Matrix3 {
-    let eigen = m.symmetric_eigen();
-    let sizes = eigen.eigenvalues.map(|value| (-value).max(0.0));
-    let vectors = eigen.eigenvectors;
-    vectors * Matrix3::from_diagonal(&sizes) * vectors.transpose()
 }
 
 fn symmetric(m: Matrix3) -> Matrix3 {

@@ -22,8 +22,8 @@
 use crate::Junction;
 use crate::bond::Bond;
 use actin_mechanics::{
-    InternalCouple, InternalForce, Loads, Matrix3, RandomStress, State, Stiffness, Vector3,
-    correlate,
+    InternalCouple, InternalForce, Loads, Matrix3, RandomStress, SecondOrder, State, StepStress,
+    Stiffness, Vector3, correlate,
 };
 
 /// Vectors per bond: force, torque at the monomer, torque at the rod.
@@ -185,8 +185,14 @@ impl RandomStress for Junction {
         }
     }
 
-    fn add_stress_stiffness(&self, state: &State, stresses: &[f64], stiffness: &mut Stiffness) {
-        for (bond, stress) in self.bonds.iter().zip(written(stresses)) {
+    fn add_stressed_stiffness(
+        &self,
+        state: &State,
+        stress: &StepStress<'_>,
+        stiffness: &mut Stiffness,
+    ) {
+        self.add_stiffness(state, stiffness);
+        for (bond, stress) in self.bonds.iter().zip(written(stress.values)) {
             let (force, couples) = bond.internal(stress);
             force.add_stiffness(state, stiffness);
             for couple in couples {

@@ -144,13 +144,22 @@ impl Site {
         loads.torque.add(self.frame, self.arm.cross(&body));
     }
 
+    /// Returns `true` if the site follows the rotation of its frame.
+    pub(crate) fn has_arm(&self) -> bool {
+        self.arm != Vector3::zeros()
+    }
+
+    /// Derivatives with respect to the points, and to the frame of a site with an arm.
     pub(crate) fn slopes(&self, state: &State) -> impl Iterator<Item = (Coordinates, Matrix3)> {
-        let q = state.frames.orientation.get(self.frame);
-        let turn = -(q.to_rotation_matrix().matrix() * self.arm.cross_matrix());
+        let of_frame = || {
+            let q = state.frames.orientation.get(self.frame);
+            let turn = -(q.to_rotation_matrix().matrix() * self.arm.cross_matrix());
+            (Coordinates::Frame(self.frame), turn)
+        };
         self.shares()
             .iter()
             .map(|&(i, w)| (Coordinates::Point(i), Matrix3::from_diagonal_element(w)))
-            .chain([(Coordinates::Frame(self.frame), turn)])
+            .chain(self.has_arm().then(of_frame))
     }
 
     /// [`curvature_of_work`] of a constant vector `g` (lab frame) at the site.

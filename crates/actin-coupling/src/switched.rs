@@ -1,6 +1,7 @@
 use crate::{Linker, LinkerEnd, PeriodicImage, Site};
 use actin_mechanics::{
-    ControlId, Hooke, Interaction, Loads, RandomStress, SecondOrder, State, Stiffness, Vector3,
+    ControlId, Hooke, Interaction, Loads, RandomStress, SecondOrder, State, StepStress, Stiffness,
+    Vector3,
 };
 use std::sync::Arc;
 
@@ -215,17 +216,15 @@ impl RandomStress for SwitchedLinker {
         }
     }
 
-    fn add_stress_stiffness(&self, state: &State, stresses: &[f64], stiffness: &mut Stiffness) {
+    fn add_stressed_stiffness(
+        &self,
+        state: &State,
+        stress: &StepStress<'_>,
+        stiffness: &mut Stiffness,
+    ) {
         if self.is_bound(state) {
             let linker = self.linker(state);
-            stiffness.extend_links(|links| linker.add_stress_stiffness(state, stresses, links));
-        }
-    }
-
-    fn add_convexity(&self, state: &State, is_wanted: bool, stiffness: &mut Stiffness) {
-        if self.is_bound(state) {
-            let linker = self.linker(state);
-            stiffness.extend_links(|links| linker.add_convexity(state, is_wanted, links));
+            stiffness.extend_links(|links| linker.add_stressed_stiffness(state, stress, links));
         }
     }
 }

@@ -3,6 +3,7 @@
 use crate::chain::Chain;
 use crate::group::Group;
 use crate::layout::{Layout, Node};
+use crate::links::{LinkBlock, Links};
 use crate::pattern::{BlockPosition, Pattern};
 use crate::ties::Ties;
 use actin_mechanics::{
@@ -40,22 +41,15 @@ impl MatrixParts for Sum<'_> {
     }
 }
 
-/// Entry of a link in the unknowns; the transposed entry is implied.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct LinkEntry {
-    unknowns: [usize; 2],
-    value: f64,
-}
-
 /// Stiffness in the unknowns, upper triangle by columns, and entries of links.
 #[derive(Debug, Default)]
 pub(crate) struct Assembly {
     blocks: Stiffness,
     /// First block and first link of each part, and the numbers of all blocks and links.
     starts: Vec<[usize; 2]>,
-    /// Entries outside of the pattern, for each part.
-    links: Vec<Vec<LinkEntry>>,
-    /// Chosen parts with such entries.
+    /// Links of each part.
+    links: Vec<Links>,
+    /// Chosen parts with such blocks.
     linked: Vec<usize>,
     /// Parts of the present solve.
     is_chosen: Vec<bool>,
@@ -123,6 +117,7 @@ impl Assembly {
             self.chain = Chain::new(layout, &self.ties, points, frames);
             self.tie_places.clear();
             self.turning_places.clear();
+            self.links.clear();
         }
         self.tie_lengths = self.ties.lengths(state);
         let pattern = self
@@ -134,7 +129,7 @@ impl Assembly {
         if pattern.has_links {
             target.add_all(state, self.blocks.links(), &pattern.link_places);
         } else {
-            self.links.resize(parts.count(), Vec::new());
+            self.links.resize(parts.count(), Links::default());
             for (links, starts) in self.links.iter_mut().zip(self.starts.windows(2)) {
                 let blocks = &self.blocks.links()[starts[0][1]..starts[1][1]];
                 target.add_links(state, blocks, (pattern, links));
@@ -152,7 +147,8 @@ impl Assembly {
     fn find_linked(&mut self) {
         self.linked.clear();
         let links = self.links.iter().zip(&self.is_chosen).enumerate();
-        let linked = links.filter(|(_, (links, is_chosen))| **is_chosen && !links.is_empty());
+        let linked =
+            links.filter(|(_, (links, is_chosen))| **is_chosen && !links.blocks.is_empty());
         self.linked.extend(linked.map(|(k, _)| k));
     }
 
@@ -209,17 +205,16 @@ impl Assembly {
         self.is_chosen.extend_from_slice(is_chosen);
     }
 
-    /// Pairs of unknowns that are coupled outside of the pattern.
-    pub(crate) fn linked_unknowns(&self) -> impl Iterator<Item = [usize; 2]> + '_ {
-        self.links.iter().flatten().map(|entry| entry.unknowns)
+    /// Pairs of nodes that are coupled outside of the pattern.
+    pub(crate) fn linked_nodes(&self) -> impl Iterator<Item = [usize; 2]> + '_ {
+        let links = self.links.iter().flat_map(|links| &links.blocks);
+        links.map(|block| block.nodes)
     }
 
-    /// Adds the product of the entries outside of the pattern and `v`.
+    /// Adds the product of the blocks outside of the pattern and `v`.
     pub(crate) fn add_product_of_links(&self, v: &[f64], product: &mut [f64]) {
-        for entry in self.linked.iter().flat_map(|&k| &self.links[k]) {
-            let [i, j] = entry.unknowns;
-            product[i] += entry.value * v[j];
-            product[j] += entry.value * v[i];
+        for block in self.linked.iter().flat_map(|&k| &self.links[k].blocks) {
+            block.add_product(v, product, |value| value);
         }
     }
 
@@ -349,15 +344,13 @@ impl Assembly {
                 }
             }
         }
-        for link in self.linked.iter().flat_map(|&k| &self.links[k]) {
-            let ([i, j], value) = (link.unknowns, entry(link.value));
-            out[i] += value * v[j];
-            out[j] += value * v[i];
+        for block in self.linked.iter().flat_map(|&k| &self.links[k].blocks) {
+            block.add_product(v, out, &entry);
         }
     }
 }
 
-type Block = (Coordinates, Coordinates, Matrix3);
+pub(crate) type Block = (Coordinates, Coordinates, Matrix3);
 
 struct Target<'a> {
     values: &'a mut [f64],
@@ -393,32 +386,32 @@ impl<'a> Target<'a> {
         }
     }
 
-    /// Adds the blocks that are in the pattern, and replaces `links` by the entries of the others.
+    /// Adds the blocks that are in the pattern, and replaces `links` by the others.
     fn add_links(
         &mut self,
         state: &State,
         blocks: &[Block],
-        (pattern, links): (&Pattern, &mut Vec<LinkEntry>),
+        (pattern, links): (&Pattern, &mut Links),
     ) {
-        links.clear();
-        for &(a, b, block) in blocks {
-            match pattern.place_of((a, b), self.layout) {
+        links.update_places(blocks, (pattern, self.layout));
+        links.blocks.clear();
+        for (&(a, b, block), &(_, _, place)) in blocks.iter().zip(&links.places) {
+            match place {
                 Some(place) if self.has(place) => self.add(state, a, b, &block, place),
                 Some(_) => {}
-                None => self.push_entries(state, (a, b, block), links),
+                None => self.push_block(state, (a, b, block), &mut links.blocks),
             }
         }
     }
 
-    fn push_entries(&self, state: &State, (a, b, block): Block, links: &mut Vec<LinkEntry>) {
-        let range = |body| self.layout.unknowns_of(body).unwrap_or(0..0);
-        let (rows, columns) = (range(a), range(b));
-        let block = self.in_unknowns(state, a, b, &block);
-        for (j, column) in columns.enumerate() {
-            links.extend(rows.clone().enumerate().map(|(i, row)| LinkEntry {
-                unknowns: [row, column],
-                value: block[(i, j)],
-            }));
+    fn push_block(&self, state: &State, (a, b, block): Block, links: &mut Vec<LinkBlock>) {
+        if let (Some(first), Some(second)) = (self.layout.node_of(a), self.layout.node_of(b)) {
+            links.push(LinkBlock {
+                nodes: [first, second],
+                rows: self.layout.range(first),
+                columns: self.layout.range(second),
+                values: self.in_unknowns(state, a, b, &block),
+            });
         }
     }
 

@@ -125,16 +125,11 @@ impl Factor {
         values: &[f64],
         (changed, all): (&[Range<usize>], &[Range<usize>]),
     ) -> Inertia {
-        self.shifted.resize(values.len(), 0.0);
         self.diagonal.resize(upper.ncols(), 0.0);
-        for columns in changed {
-            let entries = upper.col_ptr()[columns.start]..upper.col_ptr()[columns.end];
-            self.shifted[entries.clone()].copy_from_slice(&values[entries]);
-            for column in columns.clone() {
-                self.diagonal[column] = self.shifted[upper.col_ptr()[column + 1] - 1].abs();
-            }
+        for column in changed.iter().cloned().flatten() {
+            self.diagonal[column] = values[upper.col_ptr()[column + 1] - 1].abs();
         }
-        self.eliminate(upper, changed);
+        self.eliminate(upper, values, changed);
         self.inertia(all)
     }
 
@@ -167,16 +162,24 @@ impl Factor {
         self.diagonal
             .extend(ends.iter().map(|&end| self.shifted[end - 1].abs()));
         let all = 0..upper.ncols();
-        self.eliminate(upper, std::slice::from_ref(&all));
+        let shifted = std::mem::take(&mut self.shifted);
+        self.eliminate(upper, &shifted, std::slice::from_ref(&all));
+        self.shifted = shifted;
         self.inertia(&[all])
     }
 
-    fn eliminate(&mut self, upper: SymbolicSparseColMatRef<'_, usize>, ranges: &[Range<usize>]) {
+    /// Factorises `matrix`. Only columns of a band can be selected; else all are factorised.
+    fn eliminate(
+        &mut self,
+        upper: SymbolicSparseColMatRef<'_, usize>,
+        matrix: &[f64],
+        ranges: &[Range<usize>],
+    ) {
         let largest = self.largest_diagonal();
         let least = (f64::EPSILON * largest).max(f64::MIN_POSITIVE);
         self.least = least;
         if let Some(band) = &self.band {
-            band.place(upper, &self.shifted, &mut self.values, ranges);
+            band.place(upper, matrix, &mut self.values, ranges);
             let values = &mut self.values;
             wide::dispatch(Eliminate {
                 band,
@@ -185,12 +188,17 @@ impl Factor {
                 ranges,
             });
         } else {
-            self.eliminate_with_gaps(upper, least);
+            self.eliminate_with_gaps(upper, matrix, least);
         }
     }
 
     /// A non-finite pivot ends the elimination; the remaining pivots are doubtful.
-    fn eliminate_with_gaps(&mut self, upper: SymbolicSparseColMatRef<'_, usize>, least: f64) {
+    fn eliminate_with_gaps(
+        &mut self,
+        upper: SymbolicSparseColMatRef<'_, usize>,
+        matrix: &[f64],
+        least: f64,
+    ) {
         let regularization = LdltRegularization {
             dynamic_regularization_signs: None,
             dynamic_regularization_delta: least,
@@ -198,7 +206,7 @@ impl Factor {
         };
         let done = simplicial::factorize_simplicial_numeric_ldlt(
             &mut self.values,
-            SparseColMatRef::new(upper, &self.shifted),
+            SparseColMatRef::new(upper, matrix),
             regularization,
             &self.symbolic,
             MemStack::new(&mut self.memory),

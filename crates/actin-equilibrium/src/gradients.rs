@@ -59,6 +59,12 @@ impl Gradients {
         inertia.is_positive()
     }
 
+    /// Solves with the last factors of all chains, without links.
+    pub(crate) fn solve_chains(&mut self, b: &mut [f64]) {
+        let all = 0..b.len();
+        self.factor.solve_columns(b, std::slice::from_ref(&all));
+    }
+
     pub(crate) fn indefinite_columns(&self) -> Vec<usize> {
         self.factor.indefinite_columns(&self.columns).collect()
     }

@@ -11,6 +11,7 @@ use crate::outcome::SolveError;
 use actin_mechanics::{
     Approach, Coordinates, Interaction, Loads, SecondOrder, State, UnitQuaternion, Vectors,
 };
+use std::ops::Range;
 
 /// Solver for the linear equations of implicit time steps.
 ///
@@ -163,7 +164,7 @@ impl ImplicitSolver {
             Some(selection) if !is_new => self.clusters.columns(&self.layout, selection.components),
             _ => std::iter::once(0..self.layout.unknowns()).collect(),
         };
-        self.uncouple();
+        self.uncouple(&columns);
         let assembly = &self.assembly;
         match &mut self.linear {
             Linear::Unknown => unreachable!("the pattern is new at the first factorisation"),
@@ -188,8 +189,8 @@ impl ImplicitSolver {
             .assembly
             .update_nodes(parts_of, &nodes, at, &self.layout);
         assert!(is_same, "changes of parts do not change the pattern");
-        self.uncouple();
         let columns = self.clusters.columns(&self.layout, changed.components);
+        self.uncouple(&columns);
         match &mut self.linear {
             Linear::Unknown => panic!("no matrix has been factorised"),
             Linear::Gradients(gradients) => gradients.refactorize(&self.assembly, &columns),
@@ -201,7 +202,7 @@ impl ImplicitSolver {
         let Some(selection) = selection else {
             return vec![true; self.layout.len()];
         };
-        let of_nodes = self.clusters.of_nodes(&self.layout);
+        let of_nodes = self.clusters.of_nodes();
         of_nodes.iter().map(|&c| selection.components[c]).collect()
     }
 
@@ -218,10 +219,29 @@ impl ImplicitSolver {
         };
     }
 
-    fn uncouple(&mut self) {
-        for &at in &self.uncoupled {
-            self.assembly.values[at] = 0.0;
+    fn uncouple(&mut self, columns: &[Range<usize>]) {
+        let ends = self.assembly.pattern().symbolic.col_ptr().to_vec();
+        for columns in columns {
+            let entries = ends[columns.start]..ends[columns.end];
+            let first = self.uncoupled.partition_point(|&at| at < entries.start);
+            let own = self.uncoupled[first..].iter();
+            for &at in own.take_while(|&&at| at < entries.end) {
+                self.assembly.values[at] = 0.0;
+            }
         }
+    }
+
+    /// Energy decrease of a step of each component for `loads` (pN nm), with the last factors of the
+    /// components and without their links.
+    pub fn predicted_decreases(&mut self, state: &State, loads: &Loads) -> Vec<f64> {
+        let unknowns = self.layout.unknowns();
+        self.loads.resize(unknowns, 0.0);
+        self.layout.reduce(state, loads, &mut self.loads);
+        self.step.clone_from(&self.loads);
+        self.linear.precondition(&mut self.step);
+        let products = self.loads.iter().zip(&self.step);
+        let halves: Vec<f64> = products.map(|(f, p)| 0.5 * f * p).collect();
+        self.clusters.sums(&self.layout, &halves)
     }
 
     /// Components with negative or doubtful pivots in the last factorisation (ascending).
@@ -264,18 +284,14 @@ impl ImplicitSolver {
 
     /// Pairs of components that are linked at present; with repetitions.
     pub fn linked_components(&self) -> Vec<[usize; 2]> {
-        let of_nodes = self.clusters.of_nodes(&self.layout);
-        let mut of_unknowns = vec![0; self.layout.unknowns()];
-        for (k, (_, range)) in self.layout.nodes().enumerate() {
-            of_unknowns[range].fill(of_nodes[k]);
-        }
-        let pairs = self.assembly.linked_unknowns();
-        pairs.map(|pair| pair.map(|i| of_unknowns[i])).collect()
+        let of_nodes = self.clusters.of_nodes();
+        let pairs = self.assembly.linked_nodes();
+        pairs.map(|pair| pair.map(|k| of_nodes[k])).collect()
     }
 
     /// Components of bodies; `None` for held ones.
     pub fn components_of(&self, bodies: impl Iterator<Item = Coordinates>) -> Vec<Option<usize>> {
-        let of_nodes = self.clusters.of_nodes(&self.layout);
+        let of_nodes = self.clusters.of_nodes();
         let component = |body| self.layout.node_of(body).map(|k| of_nodes[k]);
         bodies.map(component).collect()
     }
@@ -392,7 +408,7 @@ impl ImplicitSolver {
 
     /// Shortens the steps of components on collision course to the accepted fraction, or to zero.
     fn shorten(&self, approaches: &[Approach], is_last: bool, shares: &mut [f64]) {
-        let of_nodes = self.clusters.of_nodes(&self.layout);
+        let of_nodes = self.clusters.of_nodes();
         let mut factors = vec![1.0_f64; shares.len()];
         for approach in approaches {
             for body in approach.bodies {
@@ -430,6 +446,14 @@ impl ImplicitSolver {
 }
 
 impl Linear {
+    fn precondition(&mut self, b: &mut [f64]) {
+        match self {
+            Self::Unknown => panic!("no matrix has been factorised"),
+            Self::Gradients(gradients) => gradients.solve_chains(b),
+            Self::Direct(factor) => factor.solve(b),
+        }
+    }
+
     fn solve(&mut self, assembly: &Assembly, b: &mut [f64]) -> bool {
         match self {
             Self::Unknown => panic!("no matrix has been factorised"),

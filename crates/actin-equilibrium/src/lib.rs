@@ -30,6 +30,7 @@ mod group;
 mod history;
 mod implicit;
 mod layout;
+mod links;
 mod load_scale;
 mod mode;
 mod motion;

@@ -56,15 +56,11 @@ impl InternalForce {
     /// Adds the second derivatives of the energy.
     pub fn add_stiffness(&self, state: &State, stiffness: &mut Stiffness) {
         let [mixed, turn] = self.blocks(state);
-        self.push(mixed, turn, stiffness);
-    }
-
-    /// Adds the derivatives of the loads of
-    /// [`add_loads_without_spin`](Self::add_loads_without_spin).
-    pub fn add_stiffness_without_spin(&self, state: &State, stiffness: &mut Stiffness) {
-        let [mut mixed, turn] = self.blocks(state);
-        mixed.set_column(2, &Vector3::zeros());
-        self.push(mixed, without_spin(turn), stiffness);
+        let [a, b] = self.points.map(Coordinates::Point);
+        let frame = Coordinates::Frame(self.frame);
+        stiffness.push(a, frame, -mixed);
+        stiffness.push(b, frame, mixed);
+        stiffness.push(frame, frame, turn);
     }
 
     /// Block of the second point and the frame, and block of the frame.
@@ -74,14 +70,6 @@ impl InternalForce {
         let half = 0.5 * n * y.transpose();
         let turn = Matrix3::from_diagonal_element(n.dot(&y)) - half - half.transpose();
         [axes * n.cross_matrix(), turn]
-    }
-
-    fn push(&self, mixed: Matrix3, turn: Matrix3, stiffness: &mut Stiffness) {
-        let [a, b] = self.points.map(Coordinates::Point);
-        let frame = Coordinates::Frame(self.frame);
-        stiffness.push(a, frame, -mixed);
-        stiffness.push(b, frame, mixed);
-        stiffness.push(frame, frame, turn);
     }
 }
 
@@ -125,13 +113,11 @@ impl InternalCouple {
     /// K_ab = R (-[J_r^-T m]x / 2 - K)
     /// ```
     pub fn add_stiffness(&self, state: &State, stiffness: &mut Stiffness) {
-        self.push(self.blocks(state), stiffness);
-    }
-
-    /// Adds the derivatives of the loads of
-    /// [`add_loads_without_spin`](Self::add_loads_without_spin).
-    pub fn add_stiffness_without_spin(&self, state: &State, stiffness: &mut Stiffness) {
-        self.push(self.blocks(state).map(without_spin), stiffness);
+        let [first, both, second] = self.blocks(state);
+        let [a, b] = self.frames.map(Coordinates::Frame);
+        stiffness.push(a, a, first);
+        stiffness.push(a, b, both);
+        stiffness.push(b, b, second);
     }
 
     /// Blocks `aa`, `ab` and `bb`.
@@ -147,19 +133,6 @@ impl InternalCouple {
         let both = r * (-0.5 * turned - second);
         [0.5 * (first + first.transpose()), both, second]
     }
-
-    fn push(&self, [first, both, second]: [Matrix3; 3], stiffness: &mut Stiffness) {
-        let [a, b] = self.frames.map(Coordinates::Frame);
-        stiffness.push(a, a, first);
-        stiffness.push(a, b, both);
-        stiffness.push(b, b, second);
-    }
-}
-
-fn without_spin(mut block: Matrix3) -> Matrix3 {
-    block.set_row(2, &Vector3::zeros().transpose());
-    block.set_column(2, &Vector3::zeros());
-    block
 }
 
 fn axes(state: &State, frame: usize) -> Matrix3 {

@@ -55,7 +55,7 @@ pub use motion::Motion;
 pub use points::{Point, Points};
 pub use quaternions::Quaternions;
 pub use random::{Xorshift, perturb, randomise_velocities};
-pub use random_stress::{RandomStress, correlate};
+pub use random_stress::{RandomStress, StepStress, correlate};
 pub use residual::Residual;
 pub use shared::Shared;
 pub use slider::Slider;

@@ -1,7 +1,7 @@
 //! Random stress of elements, which maintains thermal strain in time steps longer than the
 //! relaxation time of strains.
 
-use crate::{Loads, State, Stiffness};
+use crate::{Loads, SecondOrder, State, Stiffness};
 use nalgebra::{DMatrix, DVector, SMatrix};
 use std::ops::Range;
 
@@ -10,7 +10,7 @@ use std::ops::Range;
 /// Stresses have the covariance `kT C`, where `C` is the matrix of second derivatives of the energy
 /// with respect to strains. They shift rest strains by the thermal fluctuation. The slice of
 /// [`components`](RandomStress::components) numbers contains the stresses of all elements.
-pub trait RandomStress {
+pub trait RandomStress: SecondOrder {
     /// Total number of stress components of all elements.
     fn components(&self) -> usize;
 
@@ -28,10 +28,6 @@ pub trait RandomStress {
     /// friction would resist them.
     fn add_stress_loads(&self, state: &State, stresses: &[f64], loads: &mut Loads);
 
-    /// Adds the negative part of the strain stiffness with opposite sign if `is_wanted`, otherwise
-    /// zeros in the same blocks. The default adds no blocks.
-    fn add_convexity(&self, _state: &State, _is_wanted: bool, _stiffness: &mut Stiffness) {}
-
     /// Frames that are isotropic about their third axes: rotations about these axes change neither
     /// energies nor, after [`turn_back`](Self::turn_back), stresses. The default is an empty range.
     fn axial_frames(&self) -> Range<usize> {
@@ -47,14 +43,27 @@ pub trait RandomStress {
     /// Records the stresses of a completed step in the controls of `state`. The default does nothing.
     fn record(&self, _stresses: &[f64], _state: &mut State) {}
 
-    /// Adds the second derivatives of the energy `-s . e(x)`.
-    fn add_stress_stiffness(&self, state: &State, stresses: &[f64], stiffness: &mut Stiffness);
+    /// Adds the second derivatives of the energy of the elements and of the energy `-s . e(x)`, in
+    /// the same blocks for every stress.
+    fn add_stressed_stiffness(
+        &self,
+        state: &State,
+        stress: &StepStress<'_>,
+        stiffness: &mut Stiffness,
+    );
+}
 
-    /// Adds the derivatives of the loads of stresses after [`turn_back`](Self::turn_back), in the
-    /// same blocks. The default adds the second derivatives.
-    fn add_turned_stiffness(&self, state: &State, stresses: &[f64], stiffness: &mut Stiffness) {
-        self.add_stress_stiffness(state, stresses, stiffness);
-    }
+/// Stresses of an interaction in the matrix of a time step.
+#[derive(Clone, Copy, Debug)]
+pub struct StepStress<'a> {
+    /// One number per component.
+    pub values: &'a [f64],
+    /// `true` for stresses after [`turn_back`](RandomStress::turn_back) that do not act on axial
+    /// rotations: the derivatives are those of the loads.
+    pub is_turned: bool,
+    /// `true` for stresses that [`balance`](RandomStress::balance) the elements. The negative part
+    /// of the strain stiffness is then omitted, so that the sum is positive semidefinite.
+    pub is_balanced: bool,
 }
 
 /// Transforms independent deviates of mean 0 and variance 1 into deviates whose covariance is `c`

@@ -58,6 +58,34 @@ impl Hooke {
             None => -whole,
         }
     }
+
+    /// Eigenvalue `k (1 - L / |d|)` of the [`tangent`](Self::tangent) for directions across `d`;
+    /// negative infinity at `d = 0` with a rest length.
+    pub fn stiffness_across(&self, d: Vector3) -> f64 {
+        if self.rest_length == 0.0 {
+            self.stiffness
+        } else {
+            self.stiffness * (1.0 - self.rest_length / d.norm())
+        }
+    }
+
+    /// Positive part of the [`tangent`](Self::tangent).
+    ///
+    /// ```
+    /// use actin_mechanics::{Hooke, Vector3};
+    /// let spring = Hooke { stiffness: 2.0, rest_length: 4.0 };
+    /// let compressed = spring.convex_tangent(Vector3::x() * 3.0);
+    /// assert_eq!(compressed.diagonal(), Vector3::new(2.0, 0.0, 0.0));
+    /// ```
+    pub fn convex_tangent(&self, d: Vector3) -> Matrix3 {
+        if self.stiffness_across(d) >= 0.0 {
+            return self.tangent(d);
+        }
+        match d.try_normalize(SHUT) {
+            Some(n) => n * n.transpose() * self.stiffness,
+            None => Matrix3::zeros(),
+        }
+    }
 }
 
 /// A spring between two points. For a fixed anchor, use a [held](crate::Points::hold) point.

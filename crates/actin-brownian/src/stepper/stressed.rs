@@ -44,7 +44,7 @@ impl Brownian {
             let is_selected = |c| components.has_component(c);
             let kt = self.thermal_energy;
             is_solved = self.progress.record(&steps, is_selected, &self.limits, kt);
-            is_solved &= is_found && components.selection().is_none();
+            is_solved = is_solved && is_found && self.is_balanced(system, h);
             if is_solved {
                 break;
             }
@@ -56,6 +56,19 @@ impl Brownian {
             return Ok(());
         }
         Err(self.failure(system, &self.progress.largest()))
+    }
+
+    /// Returns `true` if the components that were held in the last iteration are still solved after
+    /// the motion of the others, and reopens the components that are not.
+    fn is_balanced(&mut self, system: &mut System, h: f64) -> bool {
+        if self.components.selection().is_none() {
+            return true;
+        }
+        self.components.select(vec![true; self.components.count()]);
+        self.find_residual(system, h);
+        let state = system.state();
+        let decreases = self.solver.predicted_decreases(state, &self.residual);
+        self.progress.reopen(&decreases, self.thermal_energy)
     }
 
     /// Moves the bodies by the step of an iteration. Bodies that repel each other meet, but do not

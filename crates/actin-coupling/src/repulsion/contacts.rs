@@ -4,8 +4,8 @@ use super::neighbours::{Neighbours, Reach};
 use super::pair::Pair;
 use super::passing::{self, Limit};
 use actin_mechanics::{
-    Approach, Coordinates, Interaction, Loads, Matrix3, RandomStress, SecondOrder, State,
-    Stiffness, Vector3, segments,
+    Approach, Coordinates, Interaction, Loads, RandomStress, SecondOrder, State, StepStress,
+    Stiffness, segments,
 };
 use std::f64::consts::PI;
 use std::sync::{Mutex, MutexGuard, PoisonError};
@@ -213,13 +213,22 @@ impl Contacts {
         pairs.iter().filter_map(approach).take(most).collect()
     }
 
-    fn push_tangents(&self, state: &State, stiffness: &mut Stiffness, tangent: Tangent) {
+    fn push_stiffness(&self, state: &State, stiffness: &mut Stiffness, tangent: Tangent) {
         self.visit(state, self.reach.known, |[i, j], places| {
             let tangents = places.tangents(&self.kernel, tangent);
             let (a, b) = (&self.capsules[i], &self.capsules[j]);
             let (of_a, of_b) = (a.slopes(state), b.slopes(state));
             let bodies: [Follows; 4] = [(0, of_a[0]), (0, of_a[1]), (2, of_b[0]), (2, of_b[1])];
             push_blocks(&bodies, &tangents, stiffness);
+        });
+        if self.capsules.iter().all(Capsule::has_no_frame) {
+            return;
+        }
+        self.visit(state, self.reach.known, |pair, places| {
+            let forces = places.forces(&self.kernel);
+            for (i, forces) in pair.into_iter().zip(forces) {
+                self.capsules[i].push_curvature(forces, state, stiffness);
+            }
         });
     }
 
@@ -301,16 +310,7 @@ impl SecondOrder for Contacts {
     /// Adds links for all pairs with gaps below a quarter of a radius. Blocks of pairs without
     /// contact are zero, so that a new contact rarely changes the sparsity of the whole matrix.
     fn add_stiffness(&self, state: &State, stiffness: &mut Stiffness) {
-        self.push_tangents(state, stiffness, Kernel::tangent);
-        if self.capsules.iter().all(Capsule::has_no_frame) {
-            return;
-        }
-        self.visit(state, self.reach.known, |pair, places| {
-            let forces = places.forces(&self.kernel);
-            for (i, forces) in pair.into_iter().zip(forces) {
-                self.capsules[i].push_curvature(forces, state, stiffness);
-            }
-        });
+        self.push_stiffness(state, stiffness, Kernel::tangent);
     }
 
     fn couples_by_distance(&self) -> bool {
@@ -330,14 +330,17 @@ impl RandomStress for Contacts {
 
     fn add_stress_loads(&self, _state: &State, _stresses: &[f64], _loads: &mut Loads) {}
 
-    fn add_stress_stiffness(&self, _state: &State, _stresses: &[f64], _stiffness: &mut Stiffness) {}
-
-    fn add_convexity(&self, state: &State, is_wanted: bool, stiffness: &mut Stiffness) {
-        let tangent = if is_wanted {
-            Kernel::negative_tangent
+    fn add_stressed_stiffness(
+        &self,
+        state: &State,
+        stress: &StepStress<'_>,
+        stiffness: &mut Stiffness,
+    ) {
+        let tangent = if stress.is_balanced {
+            Kernel::convex_tangent
         } else {
-            |_: &Kernel, _: f64, _: Vector3| Matrix3::zeros()
+            Kernel::tangent
         };
-        self.push_tangents(state, stiffness, tangent);
+        self.push_stiffness(state, stiffness, tangent);
     }
 }

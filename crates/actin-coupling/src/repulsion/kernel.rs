@@ -66,15 +66,14 @@ impl Kernel {
         (outer - Matrix3::from_diagonal_element(depth)) * scale
     }
 
-    /// Negative part of the [`tangent`](Self::tangent) with opposite sign: across `d`, and also
-    /// along `d` below 0.38 of the contact distance.
-    pub(super) fn negative_tangent(&self, depth: f64, d: Vector3) -> Matrix3 {
+    /// Positive part of the [`tangent`](Self::tangent): along `d` beyond 0.38 of the contact
+    /// distance.
+    pub(super) fn convex_tangent(&self, depth: f64, d: Vector3) -> Matrix3 {
         let scale = 8.0 * self.strength / (self.reach * self.reach) * depth * depth;
         let squared = d.norm_squared();
-        let along = depth - 6.0 * squared / (self.reach * self.reach);
+        let along = 6.0 * squared / (self.reach * self.reach) - depth;
         let axis = d * d.transpose() / squared.max(f64::MIN_POSITIVE);
-        let across = Matrix3::identity() - axis;
-        (across * depth + axis * along.max(0.0)) * scale
+        axis * (along.max(0.0) * scale)
     }
 }
 
@@ -124,25 +123,25 @@ mod tests {
     /// At a distance of 1 nm the tangent is negative in all directions, at 5 nm across the
     /// distance.
     #[test]
-    fn the_negative_part_makes_the_tangent_convex() {
+    fn the_convex_tangent_is_the_positive_part() {
         let kernel = Kernel::new(1000.0, 7.0);
         for (distance, negative) in [(1.0, 3), (5.0, 2)] {
             let d = Vector3::new(0.6, 0.0, 0.8) * distance;
             let depth = kernel.depth(d);
             let tangent = kernel.tangent(depth, d);
-            let part = kernel.negative_tangent(depth, d);
+            let convex = kernel.convex_tangent(depth, d);
             let values = tangent.symmetric_eigenvalues();
             assert_eq!(
                 values.iter().filter(|value| **value < 0.0).count(),
                 negative
             );
-            let sum = tangent.iter().zip(part.iter());
-            let sum = Matrix3::from_iterator(sum.map(|(a, b)| a + b));
-            let values = sum.symmetric_eigenvalues();
+            let values = convex.symmetric_eigenvalues();
             let rounding = 1e-14 * tangent.amax();
             assert!(values.iter().all(|value| *value >= -rounding), "{values}");
             let along = d.dot(&(tangent * d)).max(0.0);
-            assert!((d.dot(&(sum * d)) - along).abs() < 1e-12 * tangent.amax() * d.norm_squared());
+            assert!(
+                (d.dot(&(convex * d)) - along).abs() < 1e-12 * tangent.amax() * d.norm_squared()
+            );
         }
     }
 }

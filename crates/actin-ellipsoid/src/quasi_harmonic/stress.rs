@@ -7,7 +7,7 @@
 
 use super::QuasiHarmonic;
 use crate::SixVector;
-use actin_mechanics::{Loads, RandomStress, State, Stiffness, correlate};
+use actin_mechanics::{Loads, RandomStress, SecondOrder, State, StepStress, Stiffness, correlate};
 
 const SIX: usize = 6;
 
@@ -44,8 +44,14 @@ impl RandomStress for QuasiHarmonic {
             .for_each(|pull| pull.add_loads(state, loads));
     }
 
-    fn add_stress_stiffness(&self, state: &State, stresses: &[f64], stiffness: &mut Stiffness) {
-        let pulls = self.pulls(written(stresses));
+    fn add_stressed_stiffness(
+        &self,
+        state: &State,
+        stress: &StepStress<'_>,
+        stiffness: &mut Stiffness,
+    ) {
+        self.add_stiffness(state, stiffness);
+        let pulls = self.pulls(written(stress.values));
         pulls.for_each(|pull| pull.add_stiffness(state, stiffness));
     }
 }

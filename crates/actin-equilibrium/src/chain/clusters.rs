@@ -21,7 +21,11 @@ struct Cluster {
 }
 
 #[derive(Debug, Default)]
-pub(crate) struct Clusters(Vec<Cluster>);
+pub(crate) struct Clusters {
+    all: Vec<Cluster>,
+    /// Cluster of each node.
+    of_nodes: Vec<usize>,
+}
 
 impl Clusters {
     pub(crate) fn new(layout: &Layout, ties: &Ties, chain: &Chain) -> Self {
@@ -34,11 +38,7 @@ impl Clusters {
                 Node::Point(i) => Coordinates::Point(i),
                 Node::Frame(i) => Coordinates::Frame(i),
                 Node::Group(_) => {
-                    clusters.push(Cluster {
-                        nodes: vec![k],
-                        holds: 2,
-                        ..Cluster::default()
-                    });
+                    clusters.push(Cluster::of_group(k));
                     continue;
                 }
             };
@@ -63,7 +63,10 @@ impl Clusters {
                 cluster.links.push(link);
             }
         }
-        Self(clusters)
+        Self {
+            of_nodes: of_nodes(&clusters, layout),
+            all: clusters,
+        }
     }
 
     /// Clusters with one of the unknowns (ascending).
@@ -78,25 +81,23 @@ impl Clusters {
                     .is_some_and(|unknown| range.contains(unknown))
             })
         };
-        (0..self.0.len()).filter(|&c| has_one(&self.0[c])).collect()
+        (0..self.all.len())
+            .filter(|&c| has_one(&self.all[c]))
+            .collect()
     }
 
     pub(crate) fn len(&self) -> usize {
-        self.0.len()
+        self.all.len()
     }
 
     /// Cluster of each node.
-    pub(crate) fn of_nodes(&self, layout: &Layout) -> Vec<usize> {
-        let mut clusters = vec![0; layout.len()];
-        for (c, cluster) in self.0.iter().enumerate() {
-            cluster.nodes.iter().for_each(|&node| clusters[node] = c);
-        }
-        clusters
+    pub(crate) fn of_nodes(&self) -> &[usize] {
+        &self.of_nodes
     }
 
     /// Ranges of the unknowns of the selected clusters (ascending).
     pub(crate) fn columns(&self, layout: &Layout, is_selected: &[bool]) -> Vec<Range<usize>> {
-        let selected = self.0.iter().zip(is_selected).filter(|(_, is)| **is);
+        let selected = self.all.iter().zip(is_selected).filter(|(_, is)| **is);
         let mut ranges: Vec<_> = selected
             .flat_map(|(cluster, _)| cluster.nodes.iter().map(|&k| layout.range(k)))
             .collect();
@@ -117,7 +118,7 @@ impl Clusters {
             let nodes = cluster.nodes.iter();
             nodes.flat_map(|&k| &terms[layout.range(k)]).sum()
         };
-        self.0.iter().map(sum).collect()
+        self.all.iter().map(sum).collect()
     }
 
     /// Moves the bodies of `to`, a copy of `from`, and returns the unlimited extent of the step of
@@ -131,7 +132,7 @@ impl Clusters {
         (spins, limits, shares): (&[bool], &StepSize, &[f64]),
     ) -> Vec<StepSize> {
         if step.iter().any(|value| !value.is_finite()) {
-            return vec![StepSize::INFINITE; self.0.len()];
+            return vec![StepSize::INFINITE; self.all.len()];
         }
         let spinning = layout.spinning(spins);
         let mut tilts = step.to_vec();
@@ -140,8 +141,8 @@ impl Clusters {
         }
         let velocities = layout.velocities(from, &tilts);
         let mut scales = vec![1.0; from.frames.len()];
-        let mut sizes = Vec::with_capacity(self.0.len());
-        for (cluster, share) in self.0.iter().zip(shares) {
+        let mut sizes = Vec::with_capacity(self.all.len());
+        for (cluster, share) in self.all.iter().zip(shares) {
             if cluster.is_still(layout, step) {
                 sizes.push(StepSize::default());
                 continue;
@@ -168,6 +169,14 @@ impl Clusters {
     }
 }
 
+fn of_nodes(clusters: &[Cluster], layout: &Layout) -> Vec<usize> {
+    let mut of_nodes = vec![0; layout.len()];
+    for (c, cluster) in clusters.iter().enumerate() {
+        cluster.nodes.iter().for_each(|&node| of_nodes[node] = c);
+    }
+    of_nodes
+}
+
 impl Layout {
     /// Frames that may spin, with the index of their unknown.
     fn spinning(&self, spins: &[bool]) -> Vec<(usize, usize)> {
@@ -182,6 +191,14 @@ impl Layout {
 }
 
 impl Cluster {
+    fn of_group(node: usize) -> Self {
+        Self {
+            nodes: vec![node],
+            holds: 2,
+            ..Self::default()
+        }
+    }
+
     fn is_still(&self, layout: &Layout, step: &[f64]) -> bool {
         let mut own = self.nodes.iter().flat_map(|&k| &step[layout.range(k)]);
         own.all(|value| *value == 0.0)
