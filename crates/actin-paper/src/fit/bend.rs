@@ -127,8 +127,7 @@ fn fit_twist(data: &BendData, law: Stiffening) -> Result<ParameterFit, String> {
     let bounds = vec![(5e-3 * range, 50.0 * range)];
     let starts = Starts::at(&[0.15 * range]).and_random(10, 1);
     let data = relative(&x, 2, &y).map_err(|e| format!("{}: {e}", TWISTED.what))?;
-    let method = LevenbergMarquardt::default();
-    ParameterFit::search(method, &TWISTED, &model, &data, bounds, &starts)
+    ParameterFit::search(&TWISTED, &model, &data, bounds, &starts)
 }
 
 /// Tips (`true`) and guided ends (`false`).
@@ -174,7 +173,7 @@ fn fit_shear(data: &BendData, law: Stiffening) -> Result<ParameterFit, String> {
     };
     let method = LevenbergMarquardt::new(options).map_err(|e| e.to_string())?;
     let starts = Starts::at(&[1e6, 1e-2]);
-    ParameterFit::search(method, &SHEARED, &model, &data, bounds, &starts)
+    ParameterFit::search_by(method, &SHEARED, &model, &data, bounds, &starts)
 }
 
 /// Deflection (nm) of a rod under the load of `point`; NaN without an equilibrium.

@@ -27,8 +27,20 @@ pub(crate) struct Fault {
 }
 
 impl ParameterFit {
-    /// Searches within bounds with the settings of `method`.
+    /// Searches within bounds with the default settings.
     pub(super) fn search(
+        form: &'static Form,
+        model: &dyn Model,
+        data: &Data,
+        bounds: Vec<(f64, f64)>,
+        starts: &Starts,
+    ) -> Result<Self, String> {
+        let method = LevenbergMarquardt::default();
+        Self::search_by(method, form, model, data, bounds, starts)
+    }
+
+    /// Searches within bounds with the settings of `method`.
+    pub(super) fn search_by(
         method: LevenbergMarquardt,
         form: &'static Form,
         model: &dyn Model,

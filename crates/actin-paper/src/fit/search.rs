@@ -5,9 +5,7 @@ use super::column::{Column, Weight};
 use super::forms::{Rooted, Sided, Stiffened, Stretched};
 use super::parameter_fit::{Fault, Form, ParameterFit};
 use actin_cosserat::{RootedStretch, SidedTwist, Stiffening, StretchLaw};
-use actin_fit::{
-    Data, FitError, Goodness, LevenbergMarquardt, LinearFit, Mat, Noise, Starts, fit_linear,
-};
+use actin_fit::{Data, FitError, Goodness, LinearFit, Mat, Noise, Starts, fit_linear};
 
 pub(super) const TWISTED: Form = Form {
     what: "B against twist",
@@ -152,14 +150,7 @@ pub(super) fn sided(column: &Column) -> Result<(SidedTwist, ParameterFit), Strin
     ];
     let starts = Starts::at(&start).and_random(STARTS.0, STARTS.1);
     let form = Sided { range };
-    let found = ParameterFit::search(
-        LevenbergMarquardt::default(),
-        &SIDED,
-        &form,
-        &data,
-        bounds,
-        &starts,
-    )?;
+    let found = ParameterFit::search(&SIDED, &form, &data, bounds, &starts)?;
     Ok((form.law(&found.fit.parameters), found))
 }
 
@@ -181,14 +172,7 @@ pub(super) fn rooted(column: &Column) -> Result<LawFit<RootedStretch>, String> {
             0.0,
         ];
         let starts = Starts::at(&start).and_random(STARTS.0, STARTS.1);
-        ParameterFit::search(
-            LevenbergMarquardt::default(),
-            &ROOTED,
-            &Rooted { range },
-            &data,
-            bounds,
-            &starts,
-        )
+        ParameterFit::search(&ROOTED, &Rooted { range }, &data, bounds, &starts)
     };
     if let Some(found) = unless_simple(&data, &straight, full)? {
         let law = Rooted { range }.law(&found.fit.parameters);
@@ -227,14 +211,7 @@ pub(super) fn stiffened(column: &Column) -> Result<LawFit<Stiffening>, String> {
         let rest = column.at_rest();
         let start = [rest, (most - rest).max(0.05 * most), 0.2 * range];
         let starts = Starts::at(&start).and_random(STARTS.0, STARTS.1);
-        ParameterFit::search(
-            LevenbergMarquardt::default(),
-            &STIFFENED,
-            &Stiffened { range },
-            &data,
-            bounds,
-            &starts,
-        )
+        ParameterFit::search(&STIFFENED, &Stiffened { range }, &data, bounds, &starts)
     };
     let chosen = match unless_simple(&data, &constant, full)? {
         Some(found) => LawFit {
@@ -273,14 +250,7 @@ pub(super) fn stretched(column: &Column) -> Result<LawFit<StretchLaw>, String> {
         let sides = (1e-2 * rigidity, 1e2 * rigidity);
         let bounds = vec![sides, sides, (1e-3 * most, 2.0 * most)];
         let starts = Starts::at(&[rigidity, rigidity, 0.1 * most]).and_random(STARTS.0, STARTS.1);
-        ParameterFit::search(
-            LevenbergMarquardt::default(),
-            &STRETCHED,
-            &Stretched,
-            &data,
-            bounds,
-            &starts,
-        )
+        ParameterFit::search(&STRETCHED, &Stretched, &data, bounds, &starts)
     };
     let has_sides = [-1.0, 1.0].map(|sign| column.on_side(sign) >= FEWEST) == [true; 2];
     let found = if has_sides {

@@ -6,7 +6,7 @@ use super::forms::Tanh;
 use super::parameter_fit::{Fault, ParameterFit};
 use super::search::{LawFit, STARTS, TANH, rooted, sided};
 use actin_cosserat::{PolynomialStretch, RootedStretch, SidedTwist, TanhTwist};
-use actin_fit::{Data, Fit, LevenbergMarquardt, LinearFit, Polynomial, Starts};
+use actin_fit::{Data, Fit, LinearFit, Polynomial, Starts};
 
 const DEGREE: u8 = 6;
 /// Standard deviation of a number rounded to four decimals.
@@ -58,7 +58,6 @@ impl TwistFits {
             let starts = Starts::at(extra).and_random(STARTS.0, STARTS.1);
             let limits = wide(published);
             ParameterFit::search(
-                LevenbergMarquardt::default(),
                 &TANH,
                 &Tanh { limits },
                 data,
