@@ -58,7 +58,7 @@ pub fn stretch_by_force(
 ///
 /// # Source
 /// arXiv 2203.01284, Appendix B.
-pub(crate) fn stretch_by_shift(
+pub fn stretch_by_shift(
     specimen: &Specimen,
     strains: &[f64],
 ) -> Result<Curve<StretchPoint>, MeasureError> {
