@@ -74,7 +74,7 @@ fn a_run_directory_holds_other_states() {
     let states = summary.states.unwrap();
     let lowest = states.found.first().unwrap();
     assert_eq!(states.found.len(), found(&outcome).states.len());
-    assert!(states.result_above_lowest_pn_nm() >= 0.0 && lowest.filaments.len() == 1);
+    assert!(lowest.above_result_pn_nm <= 0.0 && lowest.filaments.len() == 1);
     assert!(folder.join("other_states.npz").metadata().unwrap().len() > 10_000);
     std::fs::remove_dir_all(&folder).unwrap();
 }

@@ -239,7 +239,7 @@ fn error_of_is_the_difference_from_every_monomer() {
     let (here, error, scatter) = of("[Rod(from_nm: 0.0, to_nm: 108.0)]");
     let (there, none, _) = of("[Ellipsoids(from_nm: 0.0, to_nm: 108.0)]");
     let size = apart(there, [0.0; 3]);
-    assert!((error.corrected() - size).abs() < 1e-6);
+    assert!((error.value + error.error - size).abs() < 1e-6);
     assert!((error.relative - apart(here, there) / size).abs() < 1e-6);
     assert!(none.relative < 1e-9 && scatter.deviation > 0.0);
 }

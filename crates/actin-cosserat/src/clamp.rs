@@ -31,24 +31,7 @@ pub struct HeldBodies {
     pub frames: Range<usize>,
 }
 
-impl HeldBodies {
-    /// Releases the bodies with zero velocity.
-    ///
-    /// ```
-    /// use actin_cosserat::{RodClamp, RodEnd, State, StraightRod};
-    /// let mut state = State::default();
-    /// let rod = StraightRod::uniform(2, 10.0);
-    /// let layout = rod.push_clamped(RodClamp::Wall, RodEnd::Start, &mut state)?;
-    /// assert!(!state.points.is_free(0));
-    /// RodClamp::Wall.held_bodies(&layout, RodEnd::Start)?.release(&mut state);
-    /// assert!(state.points.is_free(0) && state.frames.is_free(0));
-    /// # Ok::<(), actin_cosserat::RodError>(())
-    /// ```
-    pub fn release(&self, state: &mut State) {
-        self.points.clone().for_each(|i| state.points.release(i));
-        self.frames.clone().for_each(|i| state.frames.release(i));
-    }
-}
+impl HeldBodies {}
 
 impl RodClamp {
     /// Returns `true` if the rod needs a wall frame at the clamped end.

@@ -1,5 +1,7 @@
 //! Constants of the rod model with their sources.
 
+use std::f64::consts::PI;
+
 /// Rigidities of shear (two) and stretch (pN). Source: arXiv 2203.01284, Table 4.
 pub const TABLE_4_SHEAR: [f64; 3] = [1.6e4, 1.6e4, 3.4e4];
 
@@ -16,18 +18,23 @@ pub const PRECEDING_PAPER_POISSON_RATIO: f64 = 0.4;
 /// Area of the cross-section (nm^2). Source: arXiv 2203.01284, Appendix B.
 pub const CROSS_SECTION_AREA: f64 = 38.5;
 
+/// Radius of a circular cross-section of area [`CROSS_SECTION_AREA`] (nm).
+pub fn cross_section_radius() -> f64 {
+    (CROSS_SECTION_AREA / PI).sqrt()
+}
+
 /// Mass per length (pN ns^2/nm^2): 42 kDa per rise of 71.2/26 nm, as for filaments of monomers.
 pub(crate) const LINEAR_DENSITY: f64 = 0.0697 / (71.2 / 26.0);
 
 /// Limit of the twist rigidity in over-twist (pN nm^2). Source: arXiv 2203.01284, Appendix B.
-pub const B3_PLUS: f64 = 1.6e4;
+pub(crate) const B3_PLUS: f64 = 1.6e4;
 
 /// Limit of the twist rigidity in under-twist (pN nm^2). Source: arXiv 2203.01284, Appendix B.
-pub const B3_MINUS: f64 = 9.6e3;
+pub(crate) const B3_MINUS: f64 = 9.6e3;
 
 /// Parameters `lambda_1` to `lambda_7` of the twist rigidity (rad/nm; `lambda_3` dimensionless).
 /// Source: arXiv 2203.01284, Appendix B.
-pub const B3_LAMBDA: [f64; 7] = [
+pub(crate) const B3_LAMBDA: [f64; 7] = [
     1.5928e-2, 7.2455e-3, 4.5982, 1.0e-6, 1.8196e-2, 4.5935e-3, 1.7203e-2,
 ];
 

@@ -59,7 +59,7 @@ impl Rigidities {
     ///
     /// # Source
     /// arXiv 2203.01284, Table 2.
-    pub fn isotropic_cylinder(young_modulus: f64, poisson_ratio: f64, area: f64) -> Self {
+    pub(crate) fn isotropic_cylinder(young_modulus: f64, poisson_ratio: f64, area: f64) -> Self {
         let shear_modulus = young_modulus / (2.0 * (1.0 + poisson_ratio));
         let s1 = 4.0 / 3.0 * shear_modulus * area;
         let b1 = young_modulus * area * area / (4.0 * PI);

@@ -1,6 +1,6 @@
 use crate::{LinkerError, LinkerKey};
 use actin_cosserat::RodLayout;
-use actin_mechanics::{Coordinates, Loads, Matrix3, State, Vector3};
+use actin_mechanics::{Coordinates, Loads, Matrix3, State, UnitQuaternion, Vector3};
 
 /// Material point of a filament.
 ///
@@ -162,13 +162,17 @@ impl Site {
             .chain(self.has_arm().then(of_frame))
     }
 
-    /// Second derivative of the work `g . r` of a constant vector `g` (lab frame) with respect to
-    /// the rotation of the frame: `(c b^T + b c^T) / 2 - (c . b) 1` with `c = Q^T g`.
+    /// [`curvature_of_work`] of a constant vector `g` (lab frame) at the site.
     pub(crate) fn curvature_of_work(&self, g: Vector3, state: &State) -> Matrix3 {
-        let q = state.frames.orientation.get(self.frame);
-        let product = q.inverse_transform_vector(&g) * self.arm.transpose();
-        0.5 * (product + product.transpose()) - Matrix3::from_diagonal_element(product.trace())
+        curvature_of_work(state.frames.orientation.get(self.frame), g, self.arm)
     }
+}
+
+/// Second derivative of the work `g . Q b` of a constant vector `g` (lab frame) with respect to the
+/// rotation `Q` of a frame with the arm `b`: `(c b^T + b c^T) / 2 - (c . b) 1` with `c = Q^T g`.
+pub(crate) fn curvature_of_work(q: UnitQuaternion, g: Vector3, arm: Vector3) -> Matrix3 {
+    let product = q.inverse_transform_vector(&g) * arm.transpose();
+    0.5 * (product + product.transpose()) - Matrix3::from_diagonal_element(product.trace())
 }
 
 pub(crate) fn ensure(

@@ -47,11 +47,6 @@ impl Hand {
         }
     }
 
-    /// All sites of the hand.
-    pub fn sites(&self) -> &Arc<[Site]> {
-        &self.sites
-    }
-
     /// Returns `true` if the hand is bound.
     pub fn is_bound(&self, state: &State) -> bool {
         state.controls[self.bound] > 0.0

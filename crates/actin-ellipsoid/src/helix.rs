@@ -55,7 +55,7 @@ impl Helix {
     }
 
     /// Arc length of a monomer (nm); 0 for index 0.
-    pub fn arc_length(&self, index: i64) -> f64 {
+    pub(crate) fn arc_length(&self, index: i64) -> f64 {
         index as f64 * self.rise
     }
 
@@ -68,11 +68,6 @@ impl Helix {
     /// Orientation of a monomer, body to lab. Body axes are radial, tangential, axial.
     pub fn orientation(&self, index: i64) -> UnitQuaternion {
         about_axis(self.azimuth(index))
-    }
-
-    /// Point of the centre line at a monomer: `centre - radius * radial` (nm, lab frame).
-    pub fn centre_line_point(&self, centre: Vector3, orientation: UnitQuaternion) -> Vector3 {
-        centre - orientation * Vector3::new(self.radius, 0.0, 0.0)
     }
 
     /// Change of azimuth from the lower monomer of an interface to the middle (rad).
@@ -128,16 +123,6 @@ mod tests {
             assert!((q * Vector3::x() - radial).norm() < 1e-12);
             assert!((q * Vector3::z() - Vector3::z()).norm() < 1e-15);
             assert!((q * Vector3::y() - Vector3::z().cross(&radial)).norm() < 1e-12);
-        }
-    }
-
-    #[test]
-    fn centre_line_is_the_axis_at_rest() {
-        for index in [-1, 0, 7] {
-            let point =
-                helix().centre_line_point(helix().centre(index), helix().orientation(index));
-            let expected = Vector3::new(0.0, 0.0, helix().arc_length(index));
-            assert!((point - expected).norm() < 1e-14);
         }
     }
 

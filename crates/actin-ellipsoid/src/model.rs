@@ -48,11 +48,6 @@ impl EllipsoidModel {
         Helix::new(&self.parameters)
     }
 
-    /// Shape of one monomer.
-    pub fn ellipsoid(&self) -> Ellipsoid {
-        Ellipsoid::new(self.parameters.semi_axes)
-    }
-
     /// Appends `count` monomers at rest, starting with lattice index `first_index`, to a state.
     ///
     /// # Errors

@@ -51,16 +51,6 @@ pub enum LayoutError {
         /// Directions as given.
         directions: Vec<Vector3>,
     },
-    /// New directions of a group would change the number of unknowns.
-    #[error("the new directions of group {group} give {given} unknowns instead of {present}")]
-    Count {
-        /// Index of the group.
-        group: usize,
-        /// Current number of unknowns.
-        present: usize,
-        /// Number of unknowns with the new directions.
-        given: usize,
-    },
     /// The length of the order differs from the number of bodies.
     #[error("the order has {given} numbers for {bodies} {kind}")]
     OrderLength {
@@ -244,36 +234,6 @@ impl Layout {
     /// Unknowns of a body or its group; `None` if it does not move.
     pub fn unknowns_of(&self, body: Coordinates) -> Option<Range<usize>> {
         self.node_of(body).map(|node| self.range(node))
-    }
-
-    /// Replaces the directions of a group by the same number of new directions.
-    ///
-    /// # Errors
-    /// If the directions are linearly dependent or their number changes.
-    ///
-    /// # Panics
-    /// If the group does not exist.
-    pub fn redirect(
-        &mut self,
-        group: usize,
-        translations: Vec<Vector3>,
-        rotations: Vec<Vector3>,
-    ) -> Result<(), LayoutError> {
-        let changed = Group {
-            translations,
-            rotations,
-            ..self.groups[group].clone()
-        };
-        let (present, given) = (self.groups[group].unknowns(), changed.unknowns());
-        if present != given {
-            return Err(LayoutError::Count {
-                group,
-                present,
-                given,
-            });
-        }
-        self.groups[group] = orthonormalised(group, changed)?;
-        Ok(())
     }
 
     pub(crate) fn nodes(&self) -> impl Iterator<Item = (Node, Range<usize>)> + '_ {

@@ -1,14 +1,8 @@
 //! Bodies of a run as particles and bonds.
 
 use actin_sim::mechanics::{State, UnitQuaternion, Vector3};
-use actin_sim::{Assembly, BodyKind, rod_constants::CROSS_SECTION_AREA};
-use std::f64::consts::PI;
+use actin_sim::{Assembly, BodyKind, rod_constants::cross_section_radius};
 use std::ops::Range;
-
-/// Radius of a circular rod cross-section of the default area (nm).
-pub(crate) fn rod_radius_nm() -> f64 {
-    (CROSS_SECTION_AREA / PI).sqrt()
-}
 
 /// Radius of ends of linkers (nm), for display only.
 pub(crate) const LINKER_RADIUS_NM: f64 = 0.5;
@@ -153,7 +147,7 @@ impl<'a> Particles<'a> {
                 let semi_axes = self.assembly.monomers_of(filament).semi_axes_nm;
                 ("monomer", Shape::Ellipsoid(semi_axes))
             }
-            _ => ("node", Shape::Sphere(rod_radius_nm())),
+            _ => ("node", Shape::Sphere(cross_section_radius())),
         }
     }
 

@@ -32,10 +32,9 @@ const ROUND_OFF: f64 = 1e-13;
 ///
 /// The order holds if drift and kick are flows: `drift(a)` and `drift(b)` must equal
 /// `drift(a + b)`. For drifts that are only symmetric, compose steps of [`POSITION_VERLET`] with
-/// the [`SUZUKI_WEIGHT`].
+/// the kicks of [`SUZUKI`](crate::SUZUKI).
 ///
 /// [`POSITION_VERLET`]: crate::POSITION_VERLET
-/// [`SUZUKI_WEIGHT`]: crate::SUZUKI_WEIGHT
 ///
 /// ```
 /// use actin_integrate::Composition;

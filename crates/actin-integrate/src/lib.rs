@@ -52,8 +52,7 @@ pub use own_split::{SplitMoment, SplitOutcome};
 pub use own_step::{StepFailure, Stepper};
 pub use run::{DEFAULT_CHECK_EVERY, Run, RunSettingError};
 pub use schemes::{
-    FOREST_RUTH, PEFRL, POSITION_VERLET, SUZUKI, SUZUKI_WEIGHT, UnknownScheme, VEFRL,
-    VELOCITY_VERLET,
+    FOREST_RUTH, PEFRL, POSITION_VERLET, SUZUKI, UnknownScheme, VEFRL, VELOCITY_VERLET,
 };
 pub use step::{SAFETY, StepError, stable_step};
 pub use stepper::{advance, advance_in};

@@ -1,5 +1,5 @@
 use crate::{Checkpoint, Pause};
-use actin_mechanics::{Interaction, Residual, State, System};
+use actin_mechanics::{Residual, State, System};
 use std::ops::ControlFlow;
 
 /// Synchronised state of a run, with positions and momenta at the same time.
@@ -25,12 +25,7 @@ impl<'a> Moment<'a> {
         self.system.state()
     }
 
-    /// Interactions, in the order of [`energies`](Self::energies).
-    pub fn interactions(&self) -> &[Box<dyn Interaction>] {
-        self.system.interactions()
-    }
-
-    /// Energy of each interaction (pN nm).
+    /// Energy of each interaction, in the order of the system (pN nm).
     pub fn energies(&self) -> Vec<f64> {
         self.system.energies()
     }

@@ -88,7 +88,7 @@ const FOREST_RUTH_WEIGHT: f64 = 1.351_207_191_959_657_6;
 
 /// Duration of the four outer steps of Suzuki, 1 / (4 - 4^(1/3)); the middle one lasts one minus
 /// four times that.
-pub const SUZUKI_WEIGHT: f64 = 0.414_490_771_794_375_74;
+const SUZUKI_WEIGHT: f64 = 0.414_490_771_794_375_74;
 
 /// Symmetric table of the extended methods.
 const fn extended_forest_ruth(xi: f64, lambda: f64, chi: f64) -> [f64; 9] {

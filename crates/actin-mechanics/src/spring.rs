@@ -179,11 +179,6 @@ impl Springs {
         Ok(Self(springs))
     }
 
-    /// The springs, in the order of the elements.
-    pub fn springs(&self) -> &[Spring] {
-        &self.0
-    }
-
     fn stretched<'a>(
         &'a self,
         state: &'a State,

@@ -89,15 +89,6 @@ impl Vectors {
         self.z.copy_from_slice(&other.z);
     }
 
-    /// Multiplies every vector by `factor`.
-    pub fn scale(&mut self, factor: f64) {
-        for component in [&mut self.x, &mut self.y, &mut self.z] {
-            for c in component {
-                *c *= factor;
-            }
-        }
-    }
-
     /// Iterates over the vectors.
     pub fn iter(&self) -> impl ExactSizeIterator<Item = Vector3> + '_ {
         (0..self.len()).map(|i| self.get(i))

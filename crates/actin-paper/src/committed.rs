@@ -22,7 +22,7 @@ const AGREES_IN_STANDARD_ERRORS: f64 = 1e-3;
 const MOST_LISTED: usize = 20;
 
 /// Rows by artefact and quantity.
-pub type Report = BTreeMap<(String, String), Row>;
+pub(crate) type Report = BTreeMap<(String, String), Row>;
 
 /// Group of rows that rounding changes by more than [`AGREES`].
 #[derive(Debug, Deserialize)]

@@ -29,7 +29,7 @@ use std::fmt;
 use std::path::{Path, PathBuf};
 
 /// Receives the lines that a task prints while it runs.
-pub type ProgressSink<'a> = &'a (dyn Fn(fmt::Arguments<'_>) + Sync);
+pub(crate) type ProgressSink<'a> = &'a (dyn Fn(fmt::Arguments<'_>) + Sync);
 
 /// Root folder of the workspace.
 ///

@@ -93,7 +93,7 @@ impl RunDirectory {
     /// # Errors
     /// An unlisted file or link under the name of a result, a text that was changed after the run
     /// wrote it, or a refusal of the file system.
-    pub fn reopen(&self) -> Result<(), RunDirectoryError> {
+    pub(crate) fn reopen(&self) -> Result<(), RunDirectoryError> {
         let listed = Manifest::read(&self.path)?;
         let mut manifest = listed.map_or_else(|| Manifest::of_all_in(&self.path), Ok)?;
         manifest.add(BEFORE_RESULTS);

@@ -43,7 +43,7 @@ impl FinishedRun {
     }
 
     /// Time or path position of each record.
-    pub fn at(&self) -> &[At] {
+    pub(crate) fn at(&self) -> &[At] {
         self.stored.at()
     }
 

@@ -31,19 +31,6 @@ pub struct AdaptiveResolution {
     pub least_ns: f64,
 }
 
-impl AdaptiveResolution {
-    /// Creates a filament of this length (nm) with these criteria and default cells and times.
-    pub fn new(length_nm: f64, monomers_where: Vec<RefinementCriterion>) -> Self {
-        Self {
-            length_nm,
-            monomers_where,
-            cell_nm: default_cell(),
-            segments: default_segments(),
-            least_ns: default_least(),
-        }
-    }
-}
-
 /// Period of the helix: 13 monomers.
 fn default_cell() -> f64 {
     36.0

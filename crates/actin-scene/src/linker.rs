@@ -1,6 +1,6 @@
 //! Linkers and their validation.
 
-use super::rules::{finite, non_negative, positive};
+use super::rules::{finite, non_negative, positive, show};
 use super::{Kinetics, Scene, SceneProblem, kinetics};
 use serde::{Deserialize, Serialize};
 
@@ -166,8 +166,4 @@ fn check_site(scene: &Scene, key: &str, site: &LinkerSite) -> Result<(), ScenePr
     }
     non_negative(&format!("{key}.radius_nm"), site.radius_nm)?;
     finite(&format!("{key}.azimuth_deg"), site.azimuth_deg)
-}
-
-fn show(value: impl std::fmt::Debug) -> String {
-    format!("{value:?}")
 }

@@ -200,14 +200,6 @@ impl Monomers {
         (self.anchors == Anchors::Independent).then(|| 2 * a * b / (a + b))
     }
 
-    /// Creates default monomers with this number of quadrature bonds per interface.
-    pub fn with_quadrature_bonds(points: usize) -> Self {
-        Self {
-            anchors: Anchors::Cubature,
-            ..Self::with_sampled_bonds(points, 0)
-        }
-    }
-
     pub(super) fn resolve(&mut self) {
         let usual = self.anchors.usual_bonds();
         for bonds in [&mut self.lateral_bonds, &mut self.longitudinal_bonds] {
@@ -332,11 +324,7 @@ mod tests {
         assert_eq!(bonds("anchors: Cubature, longitudinal_bonds: 16"), (12, 16));
         assert_eq!(bonds(""), (12, 12));
         assert_eq!(monomers(""), Monomers::default());
-        assert_eq!(
-            monomers("anchors: Cubature"),
-            Monomers::with_quadrature_bonds(12)
-        );
-        assert_eq!(Monomers::default(), Monomers::with_quadrature_bonds(12));
+        assert_eq!(monomers("anchors: Cubature"), Monomers::default());
         let drawn = "anchors: Independent, lateral_bonds: 9, longitudinal_bonds: 9, seed: 4";
         assert_eq!(monomers(drawn), Monomers::with_sampled_bonds(9, 4));
     }

@@ -38,7 +38,7 @@ const MOST_STRAIN: f64 = 1.0;
 
 impl PeriodicBox {
     /// Returns the displacement (nm) of an image, without strain.
-    pub fn shift(&self, image: [i32; 3]) -> Vector3 {
+    pub(crate) fn shift(&self, image: [i32; 3]) -> Vector3 {
         Vector3::from_fn(|k, _| f64::from(image[k]) * self.size_nm[k])
     }
 

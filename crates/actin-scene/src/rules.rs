@@ -1,8 +1,7 @@
 //! Rules for numbers that several parts of a scene share.
 
 use super::{Filament, ForceLaw, SceneProblem, Section};
-use actin_cosserat::constants::CROSS_SECTION_AREA;
-use std::f64::consts::PI;
+use actin_cosserat::constants::cross_section_radius;
 use std::fmt::Debug;
 
 /// Value with all its digits.
@@ -66,18 +65,13 @@ pub(super) fn each_positive(key: &str, values: [f64; 3]) -> Result<(), SceneProb
     ))
 }
 
-/// Radius (nm) of the cross-section of a filament.
-pub(super) fn radius_nm() -> f64 {
-    (CROSS_SECTION_AREA / PI).sqrt()
-}
-
 /// Checks that the radius of curvature exceeds the radius of the filament. `curvature` is in 1/nm.
 pub(super) fn check_curvature(
     key: &str,
     value: String,
     curvature: f64,
 ) -> Result<(), SceneProblem> {
-    let radius = radius_nm();
+    let radius = cross_section_radius();
     if curvature * radius < 1.0 {
         return Ok(());
     }

@@ -1,8 +1,9 @@
 //! Initial shape of a filament and its validation.
 
 use super::curve::Curve;
-use super::rules::{check_curvature, finite, positive, radius_nm, show};
+use super::rules::{check_curvature, finite, positive, show};
 use super::{Filament, SceneProblem};
+use actin_cosserat::constants::cross_section_radius;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
 
@@ -109,7 +110,7 @@ fn check_helix(length: f64, radius: f64, pitch: f64) -> Result<(), SceneProblem>
     let squared = radius * radius + rise * rise;
     let (key, value) = ("filament.shape.radius_nm", show(radius));
     check_curvature(key, value, radius / squared)?;
-    let diameter = 2.0 * radius_nm();
+    let diameter = 2.0 * cross_section_radius();
     let distance = pitch.abs() * radius / squared.sqrt();
     if length >= TAU * squared.sqrt() && distance < diameter {
         let rule = format!(
@@ -169,7 +170,7 @@ fn check_curve(filament: &Filament, shape: &Shape, length: f64) -> Result<(), Sc
     let (s_nm, curvature) = curve.largest_curvature(length);
     let value = format!("curvature {curvature:.3} per nm at s = {s_nm:.1} nm");
     check_curvature(key, value, curvature)?;
-    let diameter = 2.0 * radius_nm();
+    let diameter = 2.0 * cross_section_radius();
     let [from, to] = [0.0, length].map(|s| curve.at(s).0);
     let gap = (to - from).norm();
     if gap < diameter && length > 2.0 * diameter {

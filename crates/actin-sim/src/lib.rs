@@ -55,10 +55,9 @@ pub use actin_scene::{
 };
 pub use actin_scene::{ParseReport, read_all, read_ron, to_ron};
 pub use assembly::{
-    Assembly, BodyKind, Clamped, Counts, Drive, EnergyColumn, EnergyExchange, FilamentSpan,
-    Fluctuations, FrameInfo, JunctionBond, LawExtrapolation, LinkerEvent, LinkerEventKind,
-    MeasuredError, ModelLimitExceeded, Part, PointInfo, Reaction, Resolution, SectionSpan, Term,
-    UnstableTwist,
+    Assembly, BodyKind, Clamped, Counts, Drive, EnergyExchange, FilamentSpan, Fluctuations,
+    FrameInfo, JunctionBond, LawExtrapolation, LinkerEvent, LinkerEventKind, MeasuredError,
+    ModelLimitExceeded, Part, PointInfo, Reaction, Resolution, SectionSpan, Term, UnstableTwist,
 };
 pub use cost::{Cost, Timing};
 pub use ensemble::{Ensemble, EnsembleError, Replica};

@@ -15,13 +15,6 @@ pub struct TwistStability {
     pub tangent: f64,
 }
 
-impl TwistStability {
-    /// Returns `true` if the tangent is positive.
-    pub fn is_stable(&self) -> bool {
-        self.tangent > 0.0
-    }
-}
-
 /// Stability of twist under an axial force `N`.
 ///
 /// ```text
@@ -66,25 +59,6 @@ impl SegmentLaw {
         };
         let [.., second] = self.extension(kappa.z);
         (second != 0.0).then(|| self.free_tangent(laws, sigma, kappa) / second)
-    }
-
-    /// Compression (pN) above which twist is unstable at strain `sigma` and mean curvature `kappa`.
-    ///
-    /// Returns zero if twist is unstable without force, and `None` if compression does not soften
-    /// twist.
-    pub fn critical_compression(
-        &self,
-        material: &RodMaterial,
-        sigma: Vector3,
-        kappa: Vector3,
-    ) -> Option<f64> {
-        let beyond = kappa - material.rest_curvature();
-        if let Kind::Potential(law) = material.kind() {
-            return law.critical_compression(sigma, beyond);
-        }
-        let [.., second] = self.extension(beyond.z);
-        let tension = self.critical_tension(material, sigma, kappa)?;
-        (second < 0.0).then(|| (-tension).max(0.0))
     }
 
     /// Axial force and tangent of twist at strain `sigma` and mean curvature `kappa`.
@@ -258,11 +232,11 @@ mod tests {
             for twist in [0.0, 2e-3, -4e-3] {
                 let kappa = Vector3::z() * twist;
                 let rest = Vector3::zeros();
-                let bound = law.critical_compression(material, rest, kappa).unwrap();
+                let bound = -law.critical_tension(material, rest, kappa).unwrap();
                 for (share, stable) in [(0.5, true), (0.999, true), (1.001, false), (3.0, false)] {
                     let sigma = strain_under(&parts, [0.0, 0.0, -share * bound], kappa);
                     let state = law.twist_stability(material, sigma, kappa);
-                    assert_eq!(state.is_stable(), stable, "{twist}, {share}");
+                    assert_eq!(state.tangent > 0.0, stable, "{twist}, {share}");
                     let critical = law.critical_tension(material, sigma, kappa).unwrap();
                     assert!((critical + bound).abs() < 1e-12 * bound);
                 }
@@ -278,9 +252,9 @@ mod tests {
         assert_eq!(law.critical_tension(&material, rest, beyond), None);
         let linear = TwistStretch::linear(9.35e3, 3.4e4);
         let law = SegmentLaw::from_material(&material, Some(linear)).unwrap();
-        assert_eq!(law.critical_compression(&material, rest, rest), None);
+        assert_eq!(law.critical_tension(&material, rest, rest), None);
         let pressed = law.twist_stability(&material, Vector3::z() * -0.01, rest);
-        assert!(pressed.is_stable() && pressed.tension < -300.0);
+        assert!(pressed.tangent > 0.0 && pressed.tension < -300.0);
     }
 
     #[test]
@@ -289,6 +263,5 @@ mod tests {
         let (rest, kappa) = (Vector3::zeros(), Vector3::z() * 0.04);
         let critical = law.critical_tension(&material, rest, kappa).unwrap();
         assert!(critical > 0.0);
-        assert_eq!(law.critical_compression(&material, rest, kappa), None);
     }
 }

@@ -64,15 +64,4 @@ impl Homogenised {
         }
         Some(at(inner)[0])
     }
-
-    /// Compression (pN) above which twist is unstable: zero if unstable without force, `None` if
-    /// compression does not soften twist.
-    pub(crate) fn critical_compression(&self, sigma: Vector3, kappa: Vector3) -> Option<f64> {
-        let free = Vector3::new(sigma.x, sigma.y, self.free_stretch(sigma, kappa));
-        if self.tension_and_twist_tangent(free, kappa)[1] <= 0.0 {
-            return Some(0.0);
-        }
-        let tension = self.critical_tension(sigma, kappa)?;
-        (tension < 0.0).then_some(-tension)
-    }
 }

@@ -43,7 +43,7 @@ impl BendLaw {
 
     /// Torque (pN nm) at curvature `kappa` (rad/nm).
     #[inline]
-    pub fn couple(&self, kappa: Vector3) -> Vector3 {
+    pub(crate) fn couple(&self, kappa: Vector3) -> Vector3 {
         match self {
             Self::Constant([b1, b2]) => Vector3::new(b1 * kappa.x, b2 * kappa.y, 0.0),
             Self::Stiffening(law) => law.couple(kappa),
@@ -52,7 +52,7 @@ impl BendLaw {
 
     /// Derivative of the torque (pN nm^2), symmetric.
     #[inline]
-    pub fn tangent(&self, kappa: Vector3) -> Matrix3 {
+    pub(crate) fn tangent(&self, kappa: Vector3) -> Matrix3 {
         match self {
             Self::Constant([b1, b2]) => Matrix3::from_diagonal(&Vector3::new(*b1, *b2, 0.0)),
             Self::Stiffening(law) => law.tangent(kappa),
@@ -61,7 +61,7 @@ impl BendLaw {
 
     /// Energy per length (pN).
     #[inline]
-    pub fn energy_density(&self, kappa: Vector3) -> f64 {
+    pub(crate) fn energy_density(&self, kappa: Vector3) -> f64 {
         match self {
             Self::Constant([b1, b2]) => 0.5 * (b1 * kappa.x * kappa.x + b2 * kappa.y * kappa.y),
             Self::Stiffening(law) => law.energy_density(kappa),

@@ -63,20 +63,20 @@ impl CubicShear {
 
     /// Force (pN) at shear strains `g`.
     #[inline]
-    pub fn force(&self, g: Pair) -> Pair {
+    pub(crate) fn force(&self, g: Pair) -> Pair {
         Pair::from(self.linear).component_mul(&g) + self.cubic * g.norm_squared() * g
     }
 
     /// Derivative of the force (pN), symmetric.
     #[inline]
-    pub fn tangent(&self, g: Pair) -> Matrix2<f64> {
+    pub(crate) fn tangent(&self, g: Pair) -> Matrix2<f64> {
         Matrix2::from_diagonal(&Pair::from(self.linear))
             + self.cubic * (2.0 * g * g.transpose() + Matrix2::identity() * g.norm_squared())
     }
 
     /// Energy per length (pN).
     #[inline]
-    pub fn energy_density(&self, g: Pair) -> f64 {
+    pub(crate) fn energy_density(&self, g: Pair) -> f64 {
         let squared = g.norm_squared();
         0.5 * g.dot(&Pair::from(self.linear).component_mul(&g))
             + 0.25 * self.cubic * squared * squared

@@ -105,7 +105,7 @@ impl StretchLaw {
 
     /// Energy per length (pN): integral of the force.
     #[inline]
-    pub fn energy_density(&self, e: f64) -> f64 {
+    pub(crate) fn energy_density(&self, e: f64) -> f64 {
         match *self {
             Self::Constant { rigidity: s3 } => 0.5 * s3 * e * e,
             Self::Sided {

@@ -54,7 +54,7 @@ impl TwistLaw {
 
     /// Torque (pN nm) at twist `k` (rad/nm).
     #[inline]
-    pub fn couple(&self, k: f64) -> f64 {
+    pub(crate) fn couple(&self, k: f64) -> f64 {
         match self {
             Self::Constant(b3) => b3 * k,
             Self::Tanh(law) => law.couple(k),
@@ -64,7 +64,7 @@ impl TwistLaw {
 
     /// Derivative of the torque (pN nm^2).
     #[inline]
-    pub fn tangent(&self, k: f64) -> f64 {
+    pub(crate) fn tangent(&self, k: f64) -> f64 {
         match self {
             Self::Constant(b3) => *b3,
             Self::Tanh(law) => law.tangent(k),
@@ -74,7 +74,7 @@ impl TwistLaw {
 
     /// Energy per length (pN).
     #[inline]
-    pub fn energy_density(&self, k: f64) -> f64 {
+    pub(crate) fn energy_density(&self, k: f64) -> f64 {
         match self {
             Self::Constant(b3) => 0.5 * b3 * k * k,
             Self::Tanh(law) => law.energy_density(k),

@@ -1,8 +1,12 @@
-use actin_mechanics::{Coordinates, Loads, Matrix3, State, Vector3};
+use crate::site::curvature_of_work;
+use actin_mechanics::{Coordinates, Loads, Matrix3, State, Stiffness, Vector3};
 use thiserror::Error;
 
 /// Largest distance of integration points relative to the radius.
 const SPACING: f64 = 1.0 / 3.0;
+
+/// Distance from contact within which capsules are part of the stiffness, in radii.
+pub(super) const MARGIN: f64 = 0.25;
 
 /// Bodies that define the ends of the axis of a capsule.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -169,24 +173,50 @@ impl Capsule {
         }
     }
 
-    /// Second derivative of the work `g0 . r0 + g1 . r1` of constant vectors at the ends with
-    /// respect to the rotation of the frame: `(c b^T + b c^T) / 2 - (c . b) 1` with `c = Q^T g`.
-    /// `None` without a frame.
-    pub(super) fn curvature_of_work(
+    /// Adds the second derivatives of the energy `-(f0 . r0 + f1 . r1)` of constant forces at the ends
+    /// with respect to the rotation of the frame, if there is one.
+    pub(super) fn push_curvature(
         &self,
-        g: [Vector3; 2],
+        forces: [Vector3; 2],
         state: &State,
-    ) -> Option<(Coordinates, Matrix3)> {
+        stiffness: &mut Stiffness,
+    ) {
         let Axis::Body { frame, arms, .. } = self.axis else {
-            return None;
+            return;
         };
         let q = state.frames.orientation.get(frame);
-        let of = |(arm, g): (Vector3, Vector3)| {
-            let product = q.inverse_transform_vector(&g) * arm.transpose();
-            0.5 * (product + product.transpose()) - Matrix3::from_diagonal_element(product.trace())
-        };
-        let block = arms.into_iter().zip(g).map(of).sum();
-        Some((Coordinates::Frame(frame), block))
+        let parts = arms.into_iter().zip(forces);
+        let block = parts
+            .map(|(arm, force)| curvature_of_work(q, -force, arm))
+            .sum();
+        let frame = Coordinates::Frame(frame);
+        stiffness.push_link(frame, frame, block);
+    }
+}
+
+/// Index of the first end of a capsule, one of its bodies, and the derivatives of both ends with
+/// respect to this body.
+pub(super) type Follows = (usize, (Coordinates, [Matrix3; 2]));
+
+/// Adds `J^T K J` for each pair of bodies once; `K` has a block for each pair of ends.
+pub(super) fn push_blocks<const N: usize>(
+    bodies: &[Follows],
+    tangents: &[[Matrix3; N]; N],
+    stiffness: &mut Stiffness,
+) {
+    for (k, &(first, (a, slopes_a))) in bodies.iter().enumerate() {
+        for &(second, (b, slopes_b)) in &bodies[k..] {
+            let mut block = Matrix3::zeros();
+            for (e, slope_a) in slopes_a.iter().enumerate() {
+                for (f, slope_b) in slopes_b.iter().enumerate() {
+                    block += slope_a.transpose() * tangents[first + e][second + f] * slope_b;
+                }
+            }
+            if a == b {
+                block = 0.5 * (block + block.transpose());
+            }
+            stiffness.push_link(a, b, block);
+        }
     }
 }
 

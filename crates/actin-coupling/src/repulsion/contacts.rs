@@ -1,19 +1,17 @@
-use super::capsule::{Capsule, RepulsionError, Row, positive};
+use super::capsule::{Capsule, Follows, MARGIN, RepulsionError, Row, positive, push_blocks};
 use super::kernel::{Kernel, Tangent};
 use super::neighbours::{Neighbours, Reach};
 use super::pair::Pair;
 use super::passing::{self, Limit};
 use actin_mechanics::{
-    Approach, Coordinates, Interaction, Loads, Matrix3, RandomStress, SecondOrder, State,
-    StepStress, Stiffness, segments,
+    Approach, Coordinates, Interaction, Loads, RandomStress, SecondOrder, State, StepStress,
+    Stiffness, segments,
 };
 use std::f64::consts::PI;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 /// Skin of the neighbour list, in radii.
 const SKIN: f64 = 1.0;
-/// Distance from contact within which pairs are part of the stiffness, in radii.
-const MARGIN: f64 = 0.25;
 /// Ratio of axis distance to radius below which two axes count as crossing: half the distance at
 /// which the force is largest.
 const IMPASSABLE: f64 = Kernel::YIELD;
@@ -229,10 +227,7 @@ impl Contacts {
         self.visit(state, self.reach.known, |pair, places| {
             let forces = places.forces(&self.kernel);
             for (i, forces) in pair.into_iter().zip(forces) {
-                let work = forces.map(|f| -f);
-                if let Some((frame, block)) = self.capsules[i].curvature_of_work(work, state) {
-                    stiffness.push_link(frame, frame, block);
-                }
+                self.capsules[i].push_curvature(forces, state, stiffness);
             }
         });
     }
@@ -347,27 +342,5 @@ impl RandomStress for Contacts {
             Kernel::tangent
         };
         self.push_stiffness(state, stiffness, tangent);
-    }
-}
-
-/// Index of the first end of a capsule, one of its bodies, and the derivatives of both ends with
-/// respect to this body.
-type Follows = (usize, (Coordinates, [Matrix3; 2]));
-
-/// Adds `J^T K J` for each pair of bodies once.
-fn push_blocks(bodies: &[Follows; 4], tangents: &[[Matrix3; 4]; 4], stiffness: &mut Stiffness) {
-    for (k, &(first, (a, slopes_a))) in bodies.iter().enumerate() {
-        for &(second, (b, slopes_b)) in &bodies[k..] {
-            let mut block = Matrix3::zeros();
-            for (e, slope_a) in slopes_a.iter().enumerate() {
-                for (f, slope_b) in slopes_b.iter().enumerate() {
-                    block += slope_a.transpose() * tangents[first + e][second + f] * slope_b;
-                }
-            }
-            if a == b {
-                block = 0.5 * (block + block.transpose());
-            }
-            stiffness.push_link(a, b, block);
-        }
     }
 }

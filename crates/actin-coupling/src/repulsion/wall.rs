@@ -1,4 +1,4 @@
-use super::capsule::{Capsule, RepulsionError, Row, positive};
+use super::capsule::{Capsule, MARGIN, RepulsionError, Row, positive, push_blocks};
 use super::contacts::Gap;
 use super::kernel::WallKernel;
 use super::passing::{self, Limit};
@@ -6,9 +6,6 @@ use actin_mechanics::{
     Approach, Coordinates, Interaction, Loads, Matrix3, SecondOrder, State, Stiffness, Vector3,
     segments,
 };
-
-/// Distance from contact within which capsules are part of the stiffness, in radii.
-const MARGIN: f64 = 0.25;
 
 /// Distance of an axis from a sphere up to which filaments approach in one iteration, in radii.
 const MEETING: f64 = 0.8;
@@ -328,25 +325,9 @@ impl SecondOrder for WallContact {
         for (i, ends) in self.near(state, MARGIN * self.kernel.radius) {
             let tangents = self.tangents(i, ends);
             let capsule = &self.capsules[i];
-            let bodies = capsule.slopes(state);
-            for (k, (a, slopes_a)) in bodies.iter().enumerate() {
-                for (b, slopes_b) in &bodies[k..] {
-                    let mut block = Matrix3::zeros();
-                    for (e, slope_a) in slopes_a.iter().enumerate() {
-                        for (f, slope_b) in slopes_b.iter().enumerate() {
-                            block += slope_a.transpose() * tangents[e][f] * slope_b;
-                        }
-                    }
-                    if a == b {
-                        block = 0.5 * (block + block.transpose());
-                    }
-                    stiffness.push_link(*a, *b, block);
-                }
-            }
-            let work = self.forces(i, ends).map(|f| -f);
-            if let Some((frame, block)) = capsule.curvature_of_work(work, state) {
-                stiffness.push_link(frame, frame, block);
-            }
+            let bodies = capsule.slopes(state).map(|slopes| (0, slopes));
+            push_blocks(&bodies, &tangents, stiffness);
+            capsule.push_curvature(self.forces(i, ends), state, stiffness);
         }
     }
 

@@ -173,7 +173,7 @@ fn bonds_lie_along_the_line_of_centres() {
 fn surfaces(model: &EllipsoidModel, kind: InterfaceKind, bond: &crate::Bond) -> [Vector3; 2] {
     let Neighbour { rotation, offset } = model.helix().neighbour(kind);
     let axis = offset.normalize();
-    let ellipsoid = model.ellipsoid();
+    let ellipsoid = crate::Ellipsoid::new(model.parameters().semi_axes);
     let [_, exit] = ellipsoid.line_intersections(bond.lower, axis).unwrap();
     let origin = rotation.tr_mul(&(bond.lower - offset));
     let towards = rotation.tr_mul(&axis);

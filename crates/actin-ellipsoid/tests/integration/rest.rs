@@ -98,11 +98,10 @@ fn placement_moves_the_centre_line() {
     let mut state = State::default();
     let monomers = model.build(&mut state, &placement, -2, 6).unwrap();
     for (k, index) in monomers.indices().enumerate() {
-        let point = model.helix().centre_line_point(
-            state.points.position.get(monomers.point(k)),
-            state.frames.orientation.get(monomers.frame(k)),
-        );
-        let along = Vector3::new(model.helix().arc_length(index), 0.0, 0.0);
+        let orientation = state.frames.orientation.get(monomers.frame(k));
+        let radial = orientation * Vector3::new(model.parameters().radius, 0.0, 0.0);
+        let point = state.points.position.get(monomers.point(k)) - radial;
+        let along = Vector3::new(index as f64 * model.parameters().rise, 0.0, 0.0);
         assert!((point - placement.translation - along).norm() < 1e-13);
     }
 }

@@ -11,9 +11,10 @@
 mod angles;
 mod mesh;
 
-use crate::particles::{LINKER_RADIUS_NM, rod_radius_nm, runs};
+use crate::particles::{LINKER_RADIUS_NM, runs};
 use crate::{Particles, RecordedStates, Shape, extent};
 use actin_sim::mechanics::{State, Vector3};
+use actin_sim::rod_constants::cross_section_radius;
 use actin_sim::{At, BodyKind};
 use serde_json::json;
 use std::io::{self, Write};
@@ -150,7 +151,7 @@ impl<'a> Agents<'a> {
                 }
             } else {
                 let nodes = points.map(|i| state.points.position.get(i));
-                buffer.push_fibre(self.rod, rod_radius_nm(), nodes);
+                buffer.push_fibre(self.rod, cross_section_radius(), nodes);
             }
         }
         for &i in &self.particles.linkers {

@@ -5,7 +5,7 @@ use actin_integrate::{
 };
 use actin_mechanics::testing::{push_frame, push_point};
 use actin_mechanics::{Interaction, Loads, Split, Springs, State, System, UnitQuaternion, Vector3};
-use common::{Torsion, chain, spinning_tops, springs};
+use common::{Torsion, chain, equal_springs, spinning_tops};
 use std::f64::consts::PI;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -36,7 +36,7 @@ fn chain_of_springs() {
 fn local_mode_in_a_long_chain() {
     let (n, k, m) = (3000, 2000.0, 0.07);
     let state = chain(n, k, m).state().clone();
-    let mut all = springs(&state, k, 1.0).springs().to_vec();
+    let mut all = equal_springs(&state, k, 1.0);
     all[n / 2].stiffness *= 1.5;
     let springs = Springs::new(&state, all).unwrap();
     let system = System::new(state, vec![Box::new(springs)]);

@@ -1,6 +1,6 @@
 use actin_integrate::{
-    Composition, Drag, FOREST_RUTH, PEFRL, POSITION_VERLET, SUZUKI, SUZUKI_WEIGHT, Stage, VEFRL,
-    VELOCITY_VERLET, advance,
+    Composition, Drag, FOREST_RUTH, PEFRL, POSITION_VERLET, SUZUKI, Stage, VEFRL, VELOCITY_VERLET,
+    advance,
 };
 use actin_mechanics::Split;
 
@@ -87,7 +87,7 @@ fn weights_cancel_the_cubic_error() {
     let forest_ruth = FOREST_RUTH.coefficients()[1];
     // Terms of size 5 cancel.
     assert!(cubic(forest_ruth, 2.0).abs() < 1e-14);
-    assert!(cubic(SUZUKI_WEIGHT, 4.0).abs() < 1e-15);
+    assert!(cubic(SUZUKI.coefficients()[1], 4.0).abs() < 1e-15);
 }
 
 #[test]
@@ -287,7 +287,7 @@ fn suzuki_weights_keep_the_order_for_symmetric_drifts() {
     };
     let by_table = order(|s, h| advance(s, &PEFRL, h, 1, &Drag::NONE));
     let by_weights = order(|s, h| {
-        let outer = SUZUKI_WEIGHT;
+        let outer = SUZUKI.coefficients()[1];
         for w in [outer, outer, 1.0 - 4.0 * outer, outer, outer] {
             advance(s, &POSITION_VERLET, w * h, 1, &Drag::NONE);
         }

@@ -27,7 +27,7 @@ pub struct Evidence {
 
 impl Evidence {
     /// Returns whether the equilibrium is stable, neutral within the resolution, or a saddle.
-    pub fn stability(&self) -> Stability {
+    pub(crate) fn stability(&self) -> Stability {
         self.certificate.stability()
     }
 

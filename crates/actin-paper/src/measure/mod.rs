@@ -64,7 +64,7 @@ pub use stretch::{StretchPoint, stretch_by_force, stretch_by_shift};
 pub use sweep::{Curve, MissingEquilibrium};
 pub(crate) use sweep::{far_end_shift, reaction};
 pub use tension::{PulledTwistPoint, free_turn_under_tension, twist_under_tension};
-pub use twist::{TwistPoint, twist, twist_in_order};
+pub use twist::{TwistPoint, twist};
 pub use twisted::{HelixPoint, PulledBendPoint, bend_twisted, bend_under_tension};
 
 #[cfg(test)]

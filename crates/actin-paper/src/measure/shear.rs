@@ -23,16 +23,6 @@ pub struct ShearPoint {
     pub evidence: Evidence,
 }
 
-impl ShearPoint {
-    /// Returns the secant shear rigidity (pN) after subtraction of the bending of a guided beam
-    /// with rigidity `bending_pn_nm2`: `F / (d / L - F L^2 / 12 B)`. Negative if the bending
-    /// deflection exceeds `d`.
-    pub fn rigidity_pn(&self, length_nm: f64, bending_pn_nm2: f64) -> f64 {
-        let bending = self.force_pn * length_nm.powi(2) / (12.0 * bending_pn_nm2);
-        self.force_pn / (self.shear - bending)
-    }
-}
-
 /// Pushes the far end with each transverse force (pN) at an azimuth about the axis (deg, from lab
 /// x). Its orientation is held and it slides freely.
 ///

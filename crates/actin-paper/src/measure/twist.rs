@@ -1,7 +1,7 @@
 //! Twist: torque and change of length at held angles.
 
 use super::follow::{Evidence, PathPoint};
-use super::sweep::{Curve, far_end_shift, in_order, reaction, sweep};
+use super::sweep::{Curve, far_end_shift, reaction, sweep};
 use super::{MeasureError, Specimen};
 use actin_sim::Assembly;
 use actin_sim::{End, FreeTranslation, Scene, Setting, Stage};
@@ -39,19 +39,6 @@ pub struct TwistPoint {
 pub fn twist(specimen: &Specimen, turns_deg: &[f64]) -> Result<Curve<TwistPoint>, MeasureError> {
     let scene = |turns: &[f64]| scene(specimen, turns);
     sweep("turn_deg", turns_deg, scene, read)
-}
-
-/// Turns the far end along one path, in the given order of the angles. A path out and back shows
-/// multiple equilibria at large twist.
-///
-/// # Errors
-/// See [`twist`].
-pub fn twist_in_order(
-    specimen: &Specimen,
-    turns_deg: &[f64],
-) -> Result<Curve<TwistPoint>, MeasureError> {
-    let scene = |turns: &[f64]| scene(specimen, turns);
-    in_order("turn_deg", turns_deg, scene, read)
 }
 
 fn scene(specimen: &Specimen, turns_deg: &[f64]) -> Scene {

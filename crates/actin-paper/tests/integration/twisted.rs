@@ -12,8 +12,9 @@ type Formula = fn(f64) -> (f64, f64);
 
 /// Published law.
 fn published(k: f64) -> (f64, f64) {
-    let (plus, minus) = (rod_constants::B3_PLUS, rod_constants::B3_MINUS);
-    let [l1, l2, l3, l4, l5, l6, l7] = rod_constants::B3_LAMBDA;
+    let law = actin_sim::cosserat::TanhTwist::published();
+    let (plus, minus) = (law.b_plus, law.b_minus);
+    let [l1, l2, l3, l4, l5, l6, l7] = law.lambda;
     let (mean, half) = (0.5 * (plus + minus), 0.5 * (plus - minus));
     let well = ((k - l4) / l5).tanh() - ((k + l6) / l7).tanh();
     let b3 = mean + half * ((k + l1) / l2).tanh() + l3 * mean * well;

@@ -28,7 +28,7 @@ impl EnergyExchange {
 }
 
 /// Name of a column of `energies.csv` and its value.
-pub type EnergyColumn = (&'static str, fn(&EnergyExchange) -> f64);
+pub(crate) type EnergyColumn = (&'static str, fn(&EnergyExchange) -> f64);
 
 /// Adds the energy balance of a motion to a state under construction; `None` for other tasks.
 pub(super) fn of_motion(task: &Task, state: &mut State) -> Option<EnergyBalance> {

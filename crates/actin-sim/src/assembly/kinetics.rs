@@ -510,7 +510,7 @@ impl Assembly {
     ///
     /// # Panics
     /// If the index is out of range.
-    pub fn linked_filaments(&self, i: usize, state: &State) -> (usize, Option<usize>) {
+    pub(crate) fn linked_filaments(&self, i: usize, state: &State) -> (usize, Option<usize>) {
         let written = &self.scene.linkers[i];
         match self.switching(i).filter(|one| one.rates.roams.is_some()) {
             None => (written.filament, written.to.map(|site| site.filament)),

@@ -32,7 +32,7 @@ mod unstable_twist;
 pub use bonded::JunctionBond;
 pub(crate) use build::InterfaceSampling;
 pub use drive::Drive;
-pub use energy_balance::{EnergyColumn, EnergyExchange};
+pub use energy_balance::EnergyExchange;
 pub use extrapolation::MeasuredError;
 pub(crate) use kinetics::{COARSEST, Kinetics, Log, SiteTable};
 pub use kinetics::{LinkerEvent, LinkerEventKind};

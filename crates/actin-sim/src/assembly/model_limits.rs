@@ -4,10 +4,9 @@
 use super::range::curvatures;
 use super::{Assembly, Part, Rod, SectionSpan};
 use crate::scene::Monomers;
-use actin_cosserat::constants::CROSS_SECTION_AREA;
+use actin_cosserat::constants::cross_section_radius;
 use actin_mechanics::{State, Vector3};
 use serde::{Deserialize, Serialize};
-use std::f64::consts::PI;
 use std::fmt;
 
 /// Limit of the relative strain of a segment or of a junction's bond.
@@ -95,7 +94,7 @@ impl Assembly {
     pub(crate) fn beyond_use(&self, state: &State) -> Vec<ModelLimitExceeded> {
         let mut found = Vec::new();
         for rod in &self.rods {
-            let radius = (CROSS_SECTION_AREA / PI).sqrt();
+            let radius = cross_section_radius();
             let from_nm = self.sections[rod.section].from_nm;
             let bends = curvatures(rod, state).map(|(s, kappa)| (from_nm + s, kappa.xy().norm()));
             let (s_nm, curvature) = bends.max_by(|a, b| a.1.total_cmp(&b.1)).unwrap_or_default();
@@ -404,7 +403,7 @@ mod tests {
             for beyond in found {
                 assert_eq!((beyond.section, beyond.quantity.as_str()), (0, "bend"));
                 let between = assembly.rods[0].layout.voronoi_lengths()[1];
-                let exact = angle / between * (38.5_f64 / PI).sqrt();
+                let exact = angle / between * (38.5_f64 / std::f64::consts::PI).sqrt();
                 assert!((beyond.value - exact).abs() < 1e-12, "{beyond}");
             }
         }

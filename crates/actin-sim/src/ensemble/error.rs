@@ -23,12 +23,4 @@ pub enum EnsembleError {
         /// Cause of the failure.
         error: RunError,
     },
-    /// The ensemble was interrupted.
-    #[error("interrupted when {ended} of {of} replicas had ended")]
-    Interrupted {
-        /// Number of completed replicas.
-        ended: usize,
-        /// Number of all replicas.
-        of: usize,
-    },
 }

@@ -11,11 +11,10 @@ mod tests;
 pub use error::EnsembleError;
 
 use crate::scene::RandomPart;
-use crate::{Assembly, Outcome, Plan, Scene, Sink, Status, Trajectory};
+use crate::{Assembly, Outcome, Plan, Scene, Status, Trajectory};
 use pool::ReplicaPool;
 use std::fmt;
 use std::num::NonZeroUsize;
-use std::sync::atomic::AtomicBool;
 
 /// Replicas of a scene with different seeds.
 ///
@@ -52,20 +51,19 @@ pub struct Ensemble<'a> {
     seeds: Vec<u64>,
     drawn: Vec<RandomPart>,
     threads: Option<NonZeroUsize>,
-    interrupted: Option<&'a AtomicBool>,
 }
 
 /// Replica at the end of its run.
 #[derive(Debug)]
-pub struct Replica<'a, S = Trajectory> {
+pub struct Replica<'a> {
     /// Index of the replica.
     pub index: usize,
     /// Seed of its scene.
     pub seed: u64,
     /// Plan of the run.
     pub plan: &'a Plan<'a>,
-    /// Sink with the records.
-    pub sink: S,
+    /// Records of the run.
+    pub sink: Trajectory,
     /// Outcome of the run.
     pub outcome: Outcome,
 }
@@ -109,7 +107,6 @@ impl<'a> Ensemble<'a> {
             scene,
             drawn: drawn.to_vec(),
             threads: None,
-            interrupted: None,
             seeds,
         };
         if ensemble.seeds.len() > 1 && ensemble.reseeded(1).1 == 0 {
@@ -127,46 +124,23 @@ impl<'a> Ensemble<'a> {
         }
     }
 
-    /// Sets a flag that interrupts all replicas.
-    #[must_use]
-    pub fn interrupted_by(self, flag: &'a AtomicBool) -> Self {
-        Self {
-            interrupted: Some(flag),
-            ..self
-        }
-    }
-
     /// Runs all replicas with records in memory. Calls `observe` at the end of each replica, on its
     /// thread, and returns the results in the order of the replicas.
     ///
     /// # Errors
     /// The first failed replica in this order, for any number of threads; later replicas are
-    /// stopped. An interrupted ensemble.
+    /// stopped.
     pub fn run<T: Send>(
         &self,
         observe: impl Fn(Replica<'_>) -> T + Sync,
-    ) -> Result<Vec<T>, EnsembleError> {
-        self.run_into(|_| Trajectory::default(), observe)
-    }
-
-    /// Runs all replicas with records in user-defined sinks, for example to reduce each record to a
-    /// few numbers.
-    ///
-    /// # Errors
-    /// As [`run`](Self::run). If a sink interrupts its run, the outcome of the replica has status
-    /// `Interrupted`.
-    pub(crate) fn run_into<S: Sink, T: Send>(
-        &self,
-        sink: impl Fn(&Plan<'_>) -> S + Sync,
-        observe: impl Fn(Replica<'_, S>) -> T + Sync,
     ) -> Result<Vec<T>, EnsembleError> {
         let make = |index: usize, stop: &sink::ReplicaStop<'_>| {
             let seed = self.seeds[index];
             let assembly = Assembly::build(&self.reseeded(seed).0)?;
             let plan = Plan::new(&assembly)?;
-            let mut sink = sink(&plan);
+            let mut sink = Trajectory::default();
             let outcome = plan.run_into(&mut stop.over(&mut sink))?;
-            if outcome.status == Status::Interrupted && stop.is_set() {
+            if outcome.status == Status::Interrupted {
                 return Ok(None);
             }
             Ok(Some(observe(Replica {

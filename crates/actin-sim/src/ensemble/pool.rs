@@ -9,7 +9,7 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 
 pub(super) struct ReplicaPool<'a, F, T> {
     ensemble: &'a Ensemble<'a>,
-    /// Runs a replica, unless interrupted.
+    /// Runs a replica, unless stopped.
     make: &'a F,
     /// Next replica.
     next: AtomicUsize,
@@ -22,8 +22,6 @@ pub(super) struct ReplicaPool<'a, F, T> {
 struct FinishedReplicas<T> {
     /// Observations of each replica.
     observed: Vec<Option<T>>,
-    /// Number of completed replicas.
-    ended: usize,
     /// First error in the order of the replicas.
     error: Option<(usize, RunError)>,
 }
@@ -41,14 +39,12 @@ where
             first_failed: AtomicUsize::new(usize::MAX),
             made: Mutex::new(FinishedReplicas {
                 observed: (0..count).map(|_| None).collect(),
-                ended: 0,
                 error: None,
             }),
         }
     }
 
     pub(super) fn work_all(self) -> Result<Vec<T>, EnsembleError> {
-        let of = self.ensemble.seeds.len();
         std::thread::scope(|scope| {
             for _ in 1..self.threads() {
                 scope.spawn(|| self.work());
@@ -61,9 +57,8 @@ where
             let seed = self.ensemble.seeds[index];
             return Err(EnsembleError::Replica { index, seed, error });
         }
-        let ended = made.ended;
         let all: Option<Vec<T>> = made.observed.into_iter().collect();
-        all.ok_or(EnsembleError::Interrupted { ended, of })
+        Ok(all.expect("only replicas after a failed one are stopped"))
     }
 
     /// Number of threads: the requested number or the number of cores, at most the number of
@@ -80,7 +75,6 @@ where
             let stop = ReplicaStop {
                 index,
                 first_failed: &self.first_failed,
-                interrupted: self.ensemble.interrupted,
             };
             if index >= self.ensemble.seeds.len() || stop.is_set() {
                 return;
@@ -94,9 +88,7 @@ where
     }
 
     fn keep(&self, index: usize, observed: T) {
-        let mut made = self.made();
-        made.observed[index] = Some(observed);
-        made.ended += 1;
+        self.made().observed[index] = Some(observed);
     }
 
     fn fail(&self, index: usize, error: RunError) {

@@ -129,24 +129,3 @@ fn a_replica_that_is_refused_is_named() {
     assert_eq!((index, seed), (0, 1));
     assert!(matches!(error, crate::RunError::Refused(_)), "{error}");
 }
-
-/// The flag must interrupt running replicas, which would take hours.
-#[test]
-fn an_ensemble_is_interrupted() {
-    struct Flagged<'a>(&'a AtomicBool);
-    impl Sink for Flagged<'_> {
-        fn record(&mut self, _: &Record) {
-            self.0.store(true, Ordering::Relaxed);
-        }
-    }
-    let scene = heated(1e6, "record_every_ns: 1000.0");
-    let flag = AtomicBool::new(false);
-    let ensemble = Ensemble::new(&scene, 3).unwrap();
-    let ensemble = ensemble.on_threads(threads(2)).interrupted_by(&flag);
-    let ended = ensemble.run_into(|_| Flagged(&flag), |r| r.index);
-    let (ended, of) = match ended {
-        Err(EnsembleError::Interrupted { ended, of }) => (ended, of),
-        other => panic!("{other:?}"),
-    };
-    assert_eq!((ended, of), (0, 3));
-}

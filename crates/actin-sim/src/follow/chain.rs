@@ -146,11 +146,6 @@ impl Follower {
         &self.scene
     }
 
-    /// Returns the arc length interval of each cell (nm).
-    pub fn cells_nm(&self) -> Vec<[f64; 2]> {
-        self.cells.spans_nm().collect()
-    }
-
     /// Returns the first stretch, resolved by the criteria in the initial state.
     ///
     /// # Errors

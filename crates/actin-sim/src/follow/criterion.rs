@@ -41,13 +41,13 @@ impl<'a> FilamentState<'a> {
     }
 
     /// Returns the internal loads of the filament.
-    pub fn loads(&self) -> &SectionLoads {
+    pub(crate) fn loads(&self) -> &SectionLoads {
         let loads = || SectionLoads::new(self.assembly, 0, self.state);
         self.loads.get_or_init(loads)
     }
 
     /// Returns the elastic energy per length of each cell (pN).
-    pub fn energies_per_length_pn(&self) -> &[f64] {
+    pub(crate) fn energies_per_length_pn(&self) -> &[f64] {
         let energies = || energy_per_length(self.assembly, 0, self.state, self.boundaries_nm);
         self.energies_per_length_pn.get_or_init(energies)
     }
@@ -123,7 +123,7 @@ impl Cell<'_> {
     }
 
     /// Returns the energy per length in units of the largest of all cells; 0 without energy.
-    pub fn energy_over_largest(&self) -> f64 {
+    pub(crate) fn energy_over_largest(&self) -> f64 {
         let energies = self.filament.energies_per_length_pn().iter().copied();
         let largest = energies.fold(0.0, f64::max);
         let length = self.span_nm[1] - self.span_nm[0];

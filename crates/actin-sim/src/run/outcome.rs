@@ -117,12 +117,12 @@ impl Outcome {
     }
 
     /// Residual at round-off of an equilibrium that did not reach its tolerance.
-    pub fn residual_floor(&self) -> Option<Residual> {
+    pub(crate) fn residual_floor(&self) -> Option<Residual> {
         self.equilibrium.as_ref()?.floor
     }
 
     /// Lowest nonzero eigenvalue of the stiffness at an equilibrium, if requested.
-    pub fn lowest_eigenvalue(&self) -> Option<f64> {
+    pub(crate) fn lowest_eigenvalue(&self) -> Option<f64> {
         self.equilibrium.as_ref()?.lowest_eigenvalue
     }
 

@@ -194,7 +194,7 @@ impl StoredRecord<'_> {
     ///
     /// # Errors
     /// The numbers of points, frames, energies or observed quantities differ.
-    pub fn ensure_fits(&self, i: usize, assembly: &Assembly) -> Result<(), RecordsError> {
+    pub(crate) fn ensure_fits(&self, i: usize, assembly: &Assembly) -> Result<(), RecordsError> {
         let bodies = self.state.iter().flat_map(|state| {
             [
                 ("points", state.points.len(), assembly.points.len()),

@@ -12,7 +12,7 @@ const LEAST_NM: f64 = 1e-6;
 
 /// Measures of a centre line that has buckled between its ends.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Buckle {
+pub(crate) struct Buckle {
     /// Length of the polyline (nm).
     pub contour_nm: f64,
     /// Mean distance of its points from the line through its ends (nm).

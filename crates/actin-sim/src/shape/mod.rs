@@ -15,7 +15,7 @@ mod section_loads;
 mod twist;
 mod writhe;
 
-pub use buckle::Buckle;
+pub(crate) use buckle::Buckle;
 pub(crate) use buckle::equally_spaced;
 pub use link::link;
 pub(crate) use link::{WHOLE, link_at, link_is_unknown, path_parameter, turn_of_ends};
@@ -23,7 +23,9 @@ pub(crate) use profile::energy_per_length;
 pub use profile::{ProfilePoint, profile, profile_of};
 pub use ribbon::Ribbon;
 pub(crate) use ribbon::{from_rest, writhe_of};
-pub use section_loads::{SectionLoad, SectionLoads};
-pub use twist::twist;
-pub use writhe::closed_writhe;
+pub use section_loads::SectionLoad;
+pub(crate) use section_loads::SectionLoads;
+pub(crate) use twist::twist;
+#[cfg(test)]
+pub(crate) use writhe::closed_writhe;
 pub(crate) use writhe::extended_writhe;

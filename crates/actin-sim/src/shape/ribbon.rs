@@ -133,7 +133,9 @@ impl Ribbon {
         })
     }
 
-    /// Twist in turns between the extensions; see [`twist`].
+    /// Twist in turns of the frames about the tangents, between the extensions.
+    ///
+    /// Shear does not count as twist, and `twist + writhe = link` holds exactly for the polyline.
     pub fn twist(&self) -> f64 {
         let (frames, tangents) = self.edges();
         twist(&frames, &tangents)

@@ -28,7 +28,7 @@ struct Resultant {
 /// the part before exerts. Sections and junctions are included, external loads and linkers act on the bodies. The same
 /// holds for monomers, rods and mixed filaments, in equilibrium and in motion.
 #[derive(Debug)]
-pub struct SectionLoads {
+pub(crate) struct SectionLoads {
     /// Bodies in order of descending arc length, each with the resultant of all bodies from the end up to it.
     resultants: Vec<Resultant>,
     axis: Axis,

@@ -10,15 +10,7 @@ use std::f64::consts::PI;
 /// compared after parallel transport between their tangents, and the angles, each within half a
 /// turn, are summed. Shear therefore does not count as twist, and `twist + writhe = link` holds
 /// exactly for the polyline.
-///
-/// ```
-/// use actin_mechanics::{Vector3, rotation};
-/// use actin_sim::shape::twist;
-/// let frames: Vec<_> = (0..5).map(|k| rotation::exp(Vector3::z() * (0.5 * f64::from(k)))).collect();
-/// let turns = twist(&frames, &[Vector3::z(); 5]);
-/// assert!((turns - 2.0 / std::f64::consts::TAU).abs() < 1e-15);
-/// ```
-pub fn twist(frames: &[UnitQuaternion], tangents: &[Vector3]) -> f64 {
+pub(crate) fn twist(frames: &[UnitQuaternion], tangents: &[Vector3]) -> f64 {
     angles(frames, tangents).iter().sum::<f64>() / (2.0 * PI)
 }
 

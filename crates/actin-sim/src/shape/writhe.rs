@@ -22,14 +22,8 @@ const SAME_WAY: f64 = 1e-5;
 ///
 /// Right-handed crossings are positive; a planar polygon has zero writhe. The cost is `n^2 / 2`
 /// solid angles.
-///
-/// ```
-/// use actin_mechanics::Vector3;
-/// use actin_sim::shape::closed_writhe;
-/// let square = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
-/// assert_eq!(closed_writhe(&square.map(|[x, y]| Vector3::new(x, y, 0.0))), 0.0);
-/// ```
-pub fn closed_writhe(points: &[Vector3]) -> f64 {
+#[cfg(test)]
+pub(crate) fn closed_writhe(points: &[Vector3]) -> f64 {
     let n = points.len();
     let edge = |i: usize| [points[i], points[(i + 1) % n]];
     let mut sum = 0.0;

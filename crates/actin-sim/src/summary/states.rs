@@ -47,7 +47,7 @@ impl StatesSummary {
     }
 
     /// Energy of the result above the lowest state (pN nm).
-    pub fn result_above_lowest_pn_nm(&self) -> f64 {
+    pub(super) fn result_above_lowest_pn_nm(&self) -> f64 {
         self.found
             .first()
             .map_or(0.0, |lowest| -lowest.above_result_pn_nm)

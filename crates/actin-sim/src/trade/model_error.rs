@@ -40,7 +40,7 @@ impl ModelError {
     }
 
     /// Returns the value with every monomer.
-    pub fn corrected(&self) -> f64 {
+    fn corrected(&self) -> f64 {
         self.value + self.error
     }
 }

@@ -8,12 +8,17 @@ use actin_mechanics::{
 use actin_mechanics::{Xorshift, perturb, randomise_velocities};
 
 pub(crate) fn springs(state: &State, stiffness: f64, rest_length: f64) -> Springs {
+    Springs::new(state, equal_springs(state, stiffness, rest_length)).unwrap()
+}
+
+/// Springs between consecutive points.
+pub(crate) fn equal_springs(state: &State, stiffness: f64, rest_length: f64) -> Vec<Spring> {
     let spring = |i| Spring {
         points: [i - 1, i],
         stiffness,
         rest_length,
     };
-    Springs::new(state, (1..state.points.len()).map(spring).collect()).unwrap()
+    (1..state.points.len()).map(spring).collect()
 }
 
 /// Bonds between anchors fixed in frames. Body `i` consists of point `i` and frame `i`.
