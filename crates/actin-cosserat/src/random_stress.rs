@@ -364,7 +364,7 @@ impl EnergyGradient {
     }
 }
 
-/// Decouples axial rotations, whose stiffness is that of `without`.
+/// Decouples axial rotations and takes their stiffness from `without`.
 fn decouple_axial(block: &mut Matrix3, without: &Matrix3) {
     block.fill_row(2, 0.0);
     block.fill_column(2, 0.0);

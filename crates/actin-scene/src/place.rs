@@ -65,7 +65,7 @@ impl Filament {
         places.take_while(|s| *s <= length).collect()
     }
 
-    /// Returns the azimuth (degrees) of the monomer nearest to an arc length (nm), from -180 to 180. Sites on the axis,
+    /// Returns the azimuth (-180 to 180 degrees) of the monomer at an arc length (nm). Sites on the axis,
     /// with a radius of 0, have azimuth 0.
     pub fn azimuth_at_radius_deg(&self, s_nm: f64, radius_nm: f64) -> f64 {
         if radius_nm <= 0.0 {

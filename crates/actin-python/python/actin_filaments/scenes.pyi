@@ -373,9 +373,9 @@ class CouplePerLength(Part):
     ) -> None: ...
 
 class Crosslinkers(Part):
-    """Pool of crosslinkers or motors. Each has two hands, which bind to sites on the axes of filaments. It exerts a
-    force while both are bound to different filaments. Free crosslinkers are well mixed. A site holds one hand of the
-    pools with the same distance and direction of sites.
+    """Pool of crosslinkers or motors. Each has two hands, which bind to sites of filaments. It exerts a force while both
+    are bound to different filaments. Free crosslinkers are well mixed. A site holds one hand of the pools with the same
+    sites.
 
     In a scene in memory, each crosslinker is a linker with `kinetics`.
 
@@ -384,6 +384,8 @@ class Crosslinkers(Part):
     - `bind_per_ns`: Rate at which the second hand binds to each free site of another filament within reach, without extension;
     positive. The rate decreases with the energy of the linker, see `Roaming`.
     - `count`: Number of crosslinkers; from 1 to a million.
+    - `radius_nm`: Distance of sites from the axis; at least 0. With a distance, each site has the azimuth of the nearest monomer:
+    sites follow the helix, and crosslinkers transmit torsion. Default: 0.0.
     - `reach_nm`: Largest difference between the length at binding and the rest length; positive. By default the energy of the
     linker is 10 kT there. Default: None.
     - `rest_length_nm`: Rest length; at least 0. Default: 0.0.
@@ -405,6 +407,7 @@ class Crosslinkers(Part):
         stiffness_pn_per_nm: _Number,
         unbinds: Breaking | _Keys,
         averaging_ns: _Number | None = ...,
+        radius_nm: _Number = ...,
         reach_nm: _Number | None = ...,
         rest_length_nm: _Number = ...,
         site_spacing_nm: _Number | None = ...,
