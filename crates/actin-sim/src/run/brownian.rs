@@ -86,14 +86,18 @@ impl Plan<'_> {
             );
             return Some(Err(SceneProblem::new("filament", "", rule)));
         }
-        let relaxation = relaxation(self.assembly(), fluid);
+        let relaxation = relaxation(self.assembly(), fluid, |layout| layout);
         Some(relaxation.map(|mut relaxation| RelaxationTimes::new(&mut relaxation)))
     }
 }
 
-fn relaxation(assembly: &Assembly, fluid: &Fluid) -> Result<Relaxation, SceneProblem> {
+fn relaxation(
+    assembly: &Assembly,
+    fluid: &Fluid,
+    with_method: impl Fn(Layout) -> Layout,
+) -> Result<Relaxation, SceneProblem> {
     let friction = assembly.friction(fluid)?;
-    let layout = layout(assembly)?;
+    let layout = with_method(layout(assembly)?);
     Relaxation::new(&assembly.system, layout, &friction)
         .map_err(|error| SceneProblem::new("task", "", error.to_string()))
 }
@@ -101,7 +105,9 @@ fn relaxation(assembly: &Assembly, fluid: &Fluid) -> Result<Relaxation, ScenePro
 pub(super) fn estimate(assembly: &Assembly, task: &Task) -> Result<Estimate, SceneProblem> {
     assembly.check_slip()?;
     let motion = task.to_dynamics();
-    let of_midpoints = OF_FASTEST / relaxation(assembly, &task.drag)?.highest_rate();
+    // The highest rate requires products with the stiffness, but no factors of linked filaments.
+    let mut relaxation = relaxation(assembly, &task.drag, Layout::with_conjugate_gradients)?;
+    let of_midpoints = OF_FASTEST / relaxation.highest_rate();
     let is_stiff = of_midpoints.is_finite() && of_midpoints > 0.0;
     if !is_stiff && task.time_step_ns.is_none() {
         let rule = "has no stiffness that could set a time step: write time_step_ns";
