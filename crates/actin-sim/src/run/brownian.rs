@@ -102,12 +102,15 @@ fn relaxation(
         .map_err(|error| SceneProblem::new("task", "", error.to_string()))
 }
 
+/// Highest rate of relaxation (1/ns), found without factors of the whole stiffness of linked filaments.
+fn highest_rate(assembly: &Assembly, fluid: &Fluid) -> Result<f64, SceneProblem> {
+    Ok(relaxation(assembly, fluid, Layout::with_conjugate_gradients)?.highest_rate())
+}
+
 pub(super) fn estimate(assembly: &Assembly, task: &Task) -> Result<Estimate, SceneProblem> {
     assembly.check_slip()?;
     let motion = task.to_dynamics();
-    // The highest rate requires products with the stiffness, but no factors of linked filaments.
-    let mut relaxation = relaxation(assembly, &task.drag, Layout::with_conjugate_gradients)?;
-    let of_midpoints = OF_FASTEST / relaxation.highest_rate();
+    let of_midpoints = OF_FASTEST / highest_rate(assembly, &task.drag)?;
     let is_stiff = of_midpoints.is_finite() && of_midpoints > 0.0;
     if !is_stiff && task.time_step_ns.is_none() {
         let rule = "has no stiffness that could set a time step: write time_step_ns";
